@@ -1,0 +1,90 @@
+//! A body: convex pieces, a tree over them, and whether they bound a solid.
+
+use crate::error::InputError;
+use crate::hierarchy::Hierarchy;
+use crate::piece::Pieces;
+use crate::tree::Tree;
+use glam::DVec3;
+
+/// What moves: convex pieces in the body's own frame, ready for queries; immutable, shareable.
+///
+/// ```
+/// use ccd_core::{glam::DVec3, Body, Pieces, Volume};
+/// let triangle = [DVec3::ZERO, DVec3::X, DVec3::Y];
+/// let pieces = Pieces::triangles(&triangle, &[[0, 1, 2]], &[0]).unwrap();
+/// let body = Body::new(pieces, Volume::Surface).unwrap();
+/// assert_eq!(body.pieces().len(), 1);
+/// ```
+#[derive(Clone, Debug)]
+pub struct Body {
+    pieces: Pieces,
+    tree: Tree,
+    volume: Volume,
+    shells: Vec<DVec3>,
+}
+
+/// Whether being inside of a body counts as touching it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Volume {
+    /// The triangles bound a solid: closed, outward normals. A body inside it overlaps it.
+    Solid,
+    /// Only the pieces themselves are there to be touched.
+    Surface,
+}
+
+impl Body {
+    /// A body over a hierarchy of the core's own, split at medians.
+    ///
+    /// # Errors
+    /// [`InputError::TooManyPieces`].
+    pub fn new(pieces: Pieces, volume: Volume) -> Result<Self, InputError> {
+        let hierarchy = Hierarchy::median_split(&pieces);
+        Body::with_hierarchy(&pieces, &hierarchy, volume)
+    }
+
+    /// A body over a given hierarchy. The body keeps the pieces in the hierarchy's order; features
+    /// are named by the numbers that the pieces carry.
+    ///
+    /// # Errors
+    /// [`InputError::BadHierarchy`] when it is not one over these pieces.
+    pub fn with_hierarchy(
+        pieces: &Pieces,
+        hierarchy: &Hierarchy,
+        volume: Volume,
+    ) -> Result<Self, InputError> {
+        let (tree, order) = Tree::build(pieces, hierarchy)?;
+        let pieces = pieces.reordered(&order);
+        Ok(Body {
+            shells: pieces.shells(),
+            pieces,
+            tree,
+            volume,
+        })
+    }
+
+    /// The pieces, in the order of the tree.
+    pub fn pieces(&self) -> &Pieces {
+        &self.pieces
+    }
+
+    /// Whether it is solid.
+    pub fn volume(&self) -> Volume {
+        self.volume
+    }
+
+    /// Bytes held, about.
+    pub fn bytes(&self) -> usize {
+        self.pieces.bytes() + self.tree.bytes()
+    }
+
+    /// The tree over the pieces.
+    pub(crate) fn tree(&self) -> &Tree {
+        &self.tree
+    }
+
+    /// One point of every connected part: inside another solid either all of a part is, or its
+    /// surface crosses the solid's.
+    pub(crate) fn shells(&self) -> &[DVec3] {
+        &self.shells
+    }
+}

@@ -1,0 +1,110 @@
+//! What can be wrong with an input; numerical trouble is an [`Outcome`](crate::Outcome) instead.
+
+use std::fmt;
+
+/// An input that no query can be posed with, naming the offending element.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum InputError {
+    /// A NaN or an infinity.
+    NotFinite {
+        /// Which quantity.
+        what: &'static str,
+    },
+    /// A quaternion of length zero names no orientation.
+    ZeroQuaternion,
+    /// A quantity lies outside of what it may be.
+    OutOfRange {
+        /// Which quantity.
+        what: &'static str,
+        /// What it was.
+        value: f64,
+        /// What it has to be, in words.
+        allowed: &'static str,
+    },
+    /// A body needs at least one piece.
+    NoPieces,
+    /// A piece needs at least one point.
+    EmptyPiece {
+        /// Its index.
+        piece: usize,
+    },
+    /// A point of a piece is NaN, infinite or beyond [`tolerance::MAX_COORDINATE`](crate::tolerance::MAX_COORDINATE).
+    BadPoint {
+        /// The piece's index.
+        piece: usize,
+        /// The point's index within the piece.
+        point: usize,
+    },
+    /// A rounding radius is negative, NaN or infinite.
+    BadRadius {
+        /// The piece's index.
+        piece: usize,
+    },
+    /// A face names a vertex that does not exist.
+    VertexOutOfRange {
+        /// The face's index.
+        face: usize,
+        /// The vertex it names.
+        vertex: u32,
+        /// How many there are.
+        vertices: usize,
+    },
+    /// A facet of a polytope names a corner that the polytope does not have.
+    FacetOutOfRange {
+        /// The piece's index.
+        piece: usize,
+        /// The facet's index within the piece.
+        facet: usize,
+    },
+    /// A hierarchy must hold every piece exactly once, below one root, without cycles.
+    BadHierarchy {
+        /// The piece or node at which that fails.
+        at: usize,
+    },
+    /// More pieces than an index can name.
+    TooManyPieces {
+        /// How many were given.
+        pieces: usize,
+    },
+}
+
+impl fmt::Display for InputError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NotFinite { what } => write!(f, "{what} is NaN or infinite"),
+            Self::ZeroQuaternion => write!(f, "a quaternion of length zero names no orientation"),
+            Self::OutOfRange {
+                what,
+                value,
+                allowed,
+            } => write!(f, "{what} is {value}, but must be {allowed}"),
+            Self::NoPieces => write!(f, "a body needs at least one piece"),
+            Self::EmptyPiece { piece } => write!(f, "piece {piece} has no points"),
+            Self::BadPoint { piece, point } => write!(
+                f,
+                "point {point} of piece {piece} is NaN, infinite or too large"
+            ),
+            Self::BadRadius { piece } => {
+                write!(f, "the radius of piece {piece} is negative, NaN or infinite")
+            }
+            Self::VertexOutOfRange {
+                face,
+                vertex,
+                vertices,
+            } => write!(
+                f,
+                "face {face} names vertex {vertex}, but there are {vertices}"
+            ),
+            Self::FacetOutOfRange { piece, facet } => {
+                write!(f, "facet {facet} of piece {piece} names a missing corner")
+            }
+            Self::BadHierarchy { at } => {
+                write!(f, "the hierarchy misses, repeats or loops at {at}")
+            }
+            Self::TooManyPieces { pieces } => write!(f, "{pieces} pieces are too many"),
+        }
+    }
+}
+
+impl std::error::Error for InputError {}

@@ -1,0 +1,40 @@
+//! What touches: vertices, edges and faces in the numbering of the mesh they came from.
+
+use std::fmt;
+
+/// A feature of a body, numbered from 0 as in the mesh that the body was made of.
+///
+/// Prints as `v7`, `e3-7`, `f12` or `p0`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Feature {
+    /// A vertex.
+    Vertex(u32),
+    /// The edge between two vertices, the smaller number first.
+    Edge(u32, u32),
+    /// A face.
+    Face(u32),
+    /// The inside of a piece, or a piece whose facets are not known.
+    Piece(u32),
+}
+
+impl Feature {
+    /// The edge between two vertices, or the vertex when both are the same one.
+    pub fn edge(v: u32, w: u32) -> Self {
+        if v == w {
+            Feature::Vertex(v)
+        } else {
+            Feature::Edge(v.min(w), v.max(w))
+        }
+    }
+}
+
+impl fmt::Display for Feature {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Feature::Vertex(v) => write!(f, "v{v}"),
+            Feature::Edge(v, w) => write!(f, "e{v}-{w}"),
+            Feature::Face(face) => write!(f, "f{face}"),
+            Feature::Piece(piece) => write!(f, "p{piece}"),
+        }
+    }
+}

@@ -1,0 +1,185 @@
+//! The contract between the engine and whatever measures the distance of two pieces.
+
+use crate::piece::Piece;
+use crate::pose::Frame;
+use glam::DVec3;
+
+/// A backend: finds how far two convex pieces are apart.
+///
+/// # Contract
+/// For pieces P and Q, given in frame A (Q through [`PiecePair::b_to_a`]), radii ignored:
+/// 1. The [`Claim::axis`] points from P to Q; the better it is, the closer the pieces'
+///    support along it comes to their distance. It need not be a unit vector, nor finite.
+/// 2. The [`Claim::a`] and [`Claim::b`] name points of P and Q as convex combinations of their
+///    points; the nearer they are to the closest pair, the better.
+/// 3. When the pieces intersect, both combinations name (nearly) the same point.
+/// 4. It ends, after a bounded number of steps, on every input; when it can't say, it
+///    [gives up](GiveUp).
+/// 5. A cache that belongs to another pair, or to none, changes the time it takes, not the answer's
+///    worth.
+///
+/// # Guarantee
+/// The engine believes nothing of this unseen: along any axis n, `min_Q n·y − max_P n·x` bounds the
+/// distance from below, and any two points of P and Q bound it from above, whatever the oracle did
+/// ([`Separation`](crate::Separation)). A poor claim makes a query slow or
+/// [unresolved](crate::Outcome::Unresolved), never late.
+pub trait DistanceOracle {
+    /// What a call leaves for the next one on the same pair; the default is a cold start.
+    type Cache: Clone + Default;
+
+    /// Claims how far the pair is apart.
+    ///
+    /// # Errors
+    /// A [`GiveUp`] says why the oracle has no answer; the caller may ask another one
+    /// ([`OrElse`]).
+    fn separation(
+        &mut self,
+        pair: &PiecePair<'_>,
+        cache: &mut Self::Cache,
+    ) -> Result<Claim, GiveUp>;
+
+    /// Asks `other` wherever this oracle gives up.
+    fn or_else<O: DistanceOracle>(self, other: O) -> OrElse<Self, O>
+    where
+        Self: Sized,
+    {
+        OrElse {
+            first: self,
+            second: other,
+            fallbacks: 0,
+        }
+    }
+}
+
+/// Two pieces, each in its own body's frame, and how those frames lie to each other.
+#[derive(Clone, Copy, Debug)]
+pub struct PiecePair<'a> {
+    /// A piece of body A; A's frame is where claims are made.
+    pub a: Piece<'a>,
+    /// A piece of body B, in B's frame.
+    pub b: Piece<'a>,
+    /// Maps B's coordinates to A's.
+    pub b_to_a: Frame,
+}
+
+/// What an oracle says of a pair, unchecked, in A's frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Claim {
+    /// Points from A's piece to B's piece; any length.
+    pub axis: DVec3,
+    /// The point of A's piece that is nearest to B's.
+    pub a: Combination,
+    /// The point of B's piece that is nearest to A's.
+    pub b: Combination,
+}
+
+/// A convex combination of up to four points of a piece.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Combination {
+    indices: [u32; 4],
+    weights: [f64; 4],
+    len: u8,
+}
+
+impl Combination {
+    /// The combination of no points, to which terms are [pushed](Combination::push).
+    pub const EMPTY: Combination = Combination {
+        indices: [0; 4],
+        weights: [0.0; 4],
+        len: 0,
+    };
+
+    /// One point alone.
+    pub fn point(index: u32) -> Self {
+        let mut out = Self::EMPTY;
+        out.push(index, 1.0);
+        out
+    }
+
+    /// `(1 − t)` of one point and `t` of another.
+    pub fn segment(indices: [u32; 2], t: f64) -> Self {
+        let mut out = Self::EMPTY;
+        out.push(indices[0], 1.0 - t);
+        out.push(indices[1], t);
+        out
+    }
+
+    /// Adds a term; weights that are not positive are dropped, equal indices are merged, terms
+    /// beyond four distinct indices are dropped.
+    pub fn push(&mut self, index: u32, weight: f64) {
+        // Written so that NaN is dropped.
+        if !(weight > 0.0 && weight.is_finite()) {
+            return;
+        }
+        let len = self.len as usize;
+        if let Some(k) = self.indices[..len].iter().position(|&i| i == index) {
+            self.weights[k] += weight;
+        } else if len < 4 {
+            self.indices[len] = index;
+            self.weights[len] = weight;
+            self.len += 1;
+        }
+    }
+
+    /// The indices of the points with a positive weight.
+    pub fn support(&self) -> &[u32] {
+        &self.indices[..self.len as usize]
+    }
+
+    /// The point that it names, or none when it is empty or names a point that `points` lacks.
+    ///
+    /// Weights are divided by their sum, so that the result lies in the hull up to rounding.
+    pub fn of(&self, points: &[DVec3]) -> Option<DVec3> {
+        let (mut sum, mut total) = (DVec3::ZERO, 0.0);
+        let first = *points.get(*self.support().first()? as usize)?;
+        for (&index, &weight) in self.support().iter().zip(&self.weights) {
+            // Relative to the first point: rounding stays that of the piece's size.
+            sum += weight * (*points.get(index as usize)? - first);
+            total += weight;
+        }
+        Some(first + sum / total)
+    }
+}
+
+/// Why an oracle has no answer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum GiveUp {
+    /// It is made for pieces of fewer points.
+    TooManyPoints,
+    /// It ran into its cap of steps.
+    StepCap,
+    /// It came back to where it had been.
+    Cycle,
+}
+
+/// Two oracles, the second asked wherever the first one gives up; made by
+/// [`DistanceOracle::or_else`].
+#[derive(Clone, Debug, Default)]
+pub struct OrElse<First, Second> {
+    first: First,
+    second: Second,
+    fallbacks: u64,
+}
+
+impl<First, Second> OrElse<First, Second> {
+    /// How often the second oracle was asked.
+    pub fn fallbacks(&self) -> u64 {
+        self.fallbacks
+    }
+}
+
+impl<First: DistanceOracle, Second: DistanceOracle> DistanceOracle for OrElse<First, Second> {
+    type Cache = (First::Cache, Second::Cache);
+
+    fn separation(
+        &mut self,
+        pair: &PiecePair<'_>,
+        cache: &mut Self::Cache,
+    ) -> Result<Claim, GiveUp> {
+        self.first.separation(pair, &mut cache.0).or_else(|_| {
+            self.fallbacks += 1;
+            self.second.separation(pair, &mut cache.1)
+        })
+    }
+}

@@ -1,0 +1,120 @@
+//! What a query answers.
+
+use crate::feature::Feature;
+use glam::DVec3;
+
+/// The answer to "when do they first touch?".
+///
+/// # Guarantee
+/// Whatever the time in it, nothing touched before that time, in floating point as well.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Outcome {
+    /// The bodies come within margin + tolerance at `time`, and never touched before.
+    Contact {
+        /// When, in the motions' unit of time.
+        time: f64,
+        /// How near they are then.
+        contact: Contact,
+    },
+    /// The bodies stay apart over the whole duration.
+    Free {
+        /// The gap, a lower bound of the distance at all times.
+        clearance: f64,
+    },
+    /// The bodies are within margin + tolerance at the start, without overlapping.
+    Touching {
+        /// How near they are at the start.
+        contact: Contact,
+    },
+    /// The bodies overlap at the start.
+    Overlapping {
+        /// How that is known.
+        overlap: Overlap,
+    },
+    /// A limit was reached before an answer was.
+    Unresolved {
+        /// The bodies do not touch before this time, certified.
+        safe_until: f64,
+        /// Which limit.
+        reason: Limit,
+    },
+}
+
+/// How an overlap at the start is known.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Overlap {
+    /// Two pieces intersect, and no axis separates them; the contact's witnesses lie in both.
+    Pieces(Contact),
+    /// This point of body A, in world coordinates, lies inside the solid body B.
+    AInsideB(DVec3),
+    /// This point of body B, in world coordinates, lies inside the solid body A.
+    BInsideA(DVec3),
+}
+
+/// Which limit ended a query early.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Limit {
+    /// The budget of node visits was spent.
+    Budget,
+    /// A pair's proof could not be prolonged: the next step is below the time's resolution.
+    Stalled,
+    /// The oracle gave up on a pair, and nobody else was there to ask.
+    OracleGaveUp,
+}
+
+/// A checked pair of nearest points, with the features that hold them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contact {
+    /// The separation in world coordinates at the time reported.
+    pub separation: Separation,
+    /// The feature of body A at its witness point.
+    pub feature_a: Feature,
+    /// The feature of body B at its witness point.
+    pub feature_b: Feature,
+    /// The piece of body A, as an index into [`Body::pieces`](crate::Body::pieces).
+    pub piece_a: u32,
+    /// The piece of body B.
+    pub piece_b: u32,
+}
+
+/// A checked claim: two pieces are no nearer than `lower` and no farther than `upper`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Separation {
+    /// A lower bound of the distance: the support gap along `normal`, less rounding. Negative when
+    /// no axis was found that separates the pieces.
+    pub lower: f64,
+    /// An upper bound of the distance: that of the witnesses, plus rounding.
+    pub upper: f64,
+    /// Unit vector from A to B along which `lower` was checked.
+    pub normal: DVec3,
+    /// The witness point on A.
+    pub witness_a: DVec3,
+    /// The witness point on B.
+    pub witness_b: DVec3,
+}
+
+/// What it took to answer.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Stats {
+    /// How many pairs of nodes were bounded or split, pairs of pieces included.
+    pub node_visits: u64,
+    /// How often the oracle was asked.
+    pub oracle_calls: u64,
+    /// How often the oracle gave up.
+    pub give_ups: u64,
+    /// The most pairs that waited at one time.
+    pub peak_front: u64,
+}
+
+/// An outcome with its accuracy and its cost.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Answer {
+    /// What happens.
+    pub outcome: Outcome,
+    /// The tolerance that was kept: the one asked for, or the least one that can be certified at the
+    /// coordinates of the scene, if that is larger.
+    pub tolerance: f64,
+    /// What it took.
+    pub stats: Stats,
+}

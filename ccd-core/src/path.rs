@@ -1,0 +1,2 @@
+//! A motion in a problem's own units.
+pub(crate) struct Path;

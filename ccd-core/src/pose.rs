@@ -1,0 +1,132 @@
+//! Rigid placements; with `tree` and `schedule` the only users of the vector library's types.
+
+use crate::error::InputError;
+use glam::{DMat3, DQuat, DVec3};
+
+/// A rigid placement of a body in the world: `x ↦ rotation · x + translation`.
+///
+/// ```
+/// use ccd_core::{glam::{DQuat, DVec3}, Pose};
+/// let pose = Pose::new(DVec3::X, DQuat::from_rotation_z(1.0)).unwrap();
+/// assert_eq!(pose.transform_point(DVec3::ZERO), DVec3::X);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pose {
+    translation: DVec3,
+    rotation: DQuat,
+}
+
+impl Pose {
+    /// The body's own frame is the world's.
+    pub const IDENTITY: Pose = Pose {
+        translation: DVec3::ZERO,
+        rotation: DQuat::IDENTITY,
+    };
+
+    /// A pose from its parts; the quaternion is normalised.
+    ///
+    /// # Errors
+    /// [`InputError::NotFinite`] for a NaN or infinite part, [`InputError::ZeroQuaternion`] when the
+    /// quaternion's length cannot be divided by.
+    pub fn new(translation: DVec3, rotation: DQuat) -> Result<Self, InputError> {
+        if !(translation.is_finite() && rotation.is_finite()) {
+            return Err(InputError::NotFinite { what: "pose" });
+        }
+        let length = rotation.length();
+        if !(length.is_normal() && length.recip().is_normal()) {
+            return Err(InputError::ZeroQuaternion);
+        }
+        Ok(Pose {
+            translation,
+            rotation: (rotation * length.recip()).normalize(),
+        })
+    }
+
+    /// From a quaternion that is a unit one already.
+    pub(crate) fn from_unit(translation: DVec3, rotation: DQuat) -> Self {
+        Pose {
+            translation,
+            rotation,
+        }
+    }
+
+    /// The same orientation as the world's, moved.
+    ///
+    /// # Errors
+    /// [`InputError::NotFinite`].
+    pub fn from_translation(translation: DVec3) -> Result<Self, InputError> {
+        Pose::new(translation, DQuat::IDENTITY)
+    }
+
+    /// Where the body's origin lies in the world.
+    pub fn translation(&self) -> DVec3 {
+        self.translation
+    }
+
+    /// The body's orientation, a unit quaternion.
+    pub fn rotation(&self) -> DQuat {
+        self.rotation
+    }
+
+    /// A point of the body, in world coordinates.
+    pub fn transform_point(&self, point: DVec3) -> DVec3 {
+        self.rotation * point + self.translation
+    }
+}
+
+/// A pose in the form that is cheapest to apply: a rotation matrix and an offset.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Frame {
+    /// Columns are the images of the axes.
+    pub rotation: DMat3,
+    /// The image of the origin.
+    pub translation: DVec3,
+}
+
+impl Frame {
+    /// Maps every point to itself.
+    pub const IDENTITY: Frame = Frame {
+        rotation: DMat3::IDENTITY,
+        translation: DVec3::ZERO,
+    };
+
+    /// `rotation · point + translation`.
+    #[inline]
+    pub fn point(&self, point: DVec3) -> DVec3 {
+        self.rotation * point + self.translation
+    }
+
+    /// `rotationᵀ · (point − translation)`: undoes [`Frame::point`].
+    #[inline]
+    pub fn inverse_point(&self, point: DVec3) -> DVec3 {
+        self.inverse_vector(point - self.translation)
+    }
+
+    /// `rotationᵀ · vector`.
+    #[inline]
+    pub fn inverse_vector(&self, vector: DVec3) -> DVec3 {
+        DVec3::new(
+            self.rotation.x_axis.dot(vector),
+            self.rotation.y_axis.dot(vector),
+            self.rotation.z_axis.dot(vector),
+        )
+    }
+
+    /// The frame that maps `other`'s coordinates into this one's: `self⁻¹ ∘ other`.
+    #[inline]
+    pub fn from_frame(&self, other: &Frame) -> Frame {
+        Frame {
+            rotation: self.rotation.transpose() * other.rotation,
+            translation: self.inverse_point(other.translation),
+        }
+    }
+}
+
+impl From<Pose> for Frame {
+    fn from(pose: Pose) -> Self {
+        Frame {
+            rotation: DMat3::from_quat(pose.rotation),
+            translation: pose.translation,
+        }
+    }
+}
