@@ -2,18 +2,22 @@
 #![doc = "WIP"]
 
 mod body;
+mod containment;
 mod error;
 mod feature;
 mod hierarchy;
 mod motion;
+pub mod motion_bound;
 mod oracle;
 mod outcome;
+mod overlap;
 mod path;
 mod piece;
 mod pose;
 mod primitive;
 mod problem;
 pub mod schedule;
+mod separation;
 pub mod tolerance;
 mod tree;
 

@@ -1,2 +1,90 @@
-//! A motion in a problem's own units.
-pub(crate) struct Path;
+//! A motion in a problem's own units: time runs from 0 to 1, and the origin is where both bodies
+//! are near, so that neither a far world nor a long duration costs digits.
+
+use crate::motion::Motion;
+use crate::pose::Frame;
+use glam::{DMat3, DVec3};
+
+/// `R(s) = cos(ω s) A + sin(ω s) B + C` about a centre at `start + s · velocity` `[FAST06 §4.1]`.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Path {
+    /// `A = R₀ − C`
+    cosine: DMat3,
+    /// `B = [u]× R₀`
+    sine: DMat3,
+    /// `C = u uᵀ R₀`
+    constant: DMat3,
+    /// The rotation's centre, in the body's frame.
+    pub(crate) centre: DVec3,
+    /// The centre's place at `s = 0`.
+    start: DVec3,
+    /// The centre's velocity, per unit of `s`.
+    pub(crate) velocity: DVec3,
+    /// The angular velocity along the world's axes, per unit of `s`.
+    pub(crate) spin: DVec3,
+    /// The same along the body's axes; it does not change.
+    pub(crate) spin_local: DVec3,
+    /// `|spin|`
+    pub(crate) rate: f64,
+}
+
+impl Path {
+    pub(crate) fn new(motion: &Motion, origin: DVec3, duration: f64) -> Self {
+        let start = Frame::from(motion.start());
+        let spin = motion.spin() * duration;
+        let rate = spin.length();
+        let unit = if rate > 0.0 { spin / rate } else { DVec3::ZERO };
+        let constant = outer(unit) * start.rotation;
+        let velocity = motion.velocity() * duration;
+        Path {
+            cosine: start.rotation - constant,
+            sine: cross_matrix(unit) * start.rotation,
+            constant,
+            centre: motion.centre(),
+            start: (start.translation - origin) + start.rotation * motion.centre(),
+            velocity,
+            spin,
+            spin_local: start.inverse_vector(spin),
+            rate,
+        }
+    }
+
+    /// Where the body is at `s`.
+    #[inline]
+    pub(crate) fn frame(&self, s: f64) -> Frame {
+        let rotation = if self.rate > 0.0 {
+            let (sin, cos) = (self.rate * s).sin_cos();
+            self.cosine * cos + self.sine * sin + self.constant
+        } else {
+            self.cosine + self.constant
+        };
+        Frame {
+            rotation,
+            translation: self.centre_at(s) - rotation * self.centre,
+        }
+    }
+
+    /// Where the centre of rotation is at `s`.
+    #[inline]
+    pub(crate) fn centre_at(&self, s: f64) -> DVec3 {
+        self.start + self.velocity * s
+    }
+
+    pub(crate) fn turns(&self) -> bool {
+        self.rate > 0.0
+    }
+}
+
+/// `u uᵀ`
+fn outer(u: DVec3) -> DMat3 {
+    DMat3::from_cols(u * u.x, u * u.y, u * u.z)
+}
+
+/// `[u]×`
+fn cross_matrix(u: DVec3) -> DMat3 {
+    DMat3::from_cols(
+        DVec3::new(0.0, u.z, -u.y),
+        DVec3::new(-u.z, 0.0, u.x),
+        DVec3::new(u.y, -u.x, 0.0),
+    )
+}

@@ -303,6 +303,12 @@ impl Pieces {
         [corners[0], corners[1], corners[2]]
     }
 
+    /// All points of consecutive pieces.
+    pub(crate) fn points_of(&self, pieces: std::ops::Range<usize>) -> &[DVec3] {
+        let start = self.point_range(pieces.start).start;
+        &self.points[start..self.point_ends[pieces.end - 1] as usize]
+    }
+
     /// The same pieces in another order: piece `k` of the result is piece `order[k]` of this.
     pub(crate) fn reordered(&self, order: &[u32]) -> Pieces {
         let mut out = Pieces {

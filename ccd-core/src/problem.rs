@@ -3,7 +3,9 @@
 use crate::body::Body;
 use crate::error::InputError;
 use crate::motion::Motion;
-use crate::tolerance;
+use crate::path::Path;
+use crate::tolerance::{self, MAX_COORDINATE, MAX_TURN};
+use glam::DVec3;
 
 /// How accurately to answer, and what to count as a contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,32 +53,139 @@ pub struct Moving<'a> {
     pub motion: Motion,
 }
 
-/// A well-posed query.
+/// A well-posed query over `[0, duration]`.
 #[derive(Clone, Debug)]
 pub struct Problem<'a> {
-    pub(crate) a: Moving<'a>,
-    pub(crate) b: Moving<'a>,
-    pub(crate) duration: f64,
+    pub(crate) a: Side<'a>,
+    pub(crate) b: Side<'a>,
+    duration: f64,
+    /// Subtracted from world coordinates, so that both bodies are near the origin.
+    origin: DVec3,
+    /// At least the least tolerance that can be certified.
     pub(crate) tolerance: f64,
     pub(crate) margin: f64,
     pub(crate) start: StartPolicy,
     pub(crate) budget: u64,
-    /// Bounds the rounding of any distance computed in f64, see [`tolerance::distance_rounding`].
+    /// Bounds the rounding of any distance computed in f64: [`tolerance::distance_rounding`].
     pub(crate) rounding: f64,
 }
 
+/// A body on its path in the problem's units.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Side<'a> {
+    pub(crate) body: &'a Body,
+    pub(crate) path: Path,
+}
+
 impl<'a> Problem<'a> {
-    /// Poses a query over `[0, duration]`.
+    /// Poses a query.
     ///
     /// # Errors
-    /// [`InputError::OutOfRange`] for a duration that is negative or a tolerance that is not
-    /// positive, [`InputError::NotFinite`].
+    /// [`InputError::OutOfRange`] for a duration or margin that is negative, a tolerance that is
+    /// not positive, or a motion whose extent exceeds [`MAX_COORDINATE`] or [`MAX_TURN`].
     pub fn new(
         a: Moving<'a>,
         b: Moving<'a>,
         duration: f64,
         config: &Config,
     ) -> Result<Self, InputError> {
-        Ok(Problem { a, b, duration, tolerance: config.tolerance, margin: config.margin, start: config.start, budget: config.budget, rounding: 0.0 })
+        let finite = 0.0..=f64::MAX;
+        check("duration", duration, finite.contains(&duration), "at least 0 and finite")?;
+        let tolerance = config.tolerance;
+        let allowed = tolerance > 0.0 && tolerance <= MAX_COORDINATE;
+        check("tolerance", tolerance, allowed, "positive and at most 1e15")?;
+        let allowed = (0.0..=MAX_COORDINATE).contains(&config.margin);
+        check("margin", config.margin, allowed, "at least 0 and at most 1e15")?;
+        let origin = b.motion.start().translation();
+        let side = |moving: Moving<'a>| Side {
+            body: moving.body,
+            path: Path::new(&moving.motion, origin, duration),
+        };
+        let (a, b) = (side(a), side(b));
+        for side in [&a, &b] {
+            side.check()?;
+        }
+        let rounding = tolerance::distance_rounding(
+            [a.span(), b.span()],
+            [a.path.rate, b.path.rate],
+            a.path.centre_at(0.0).distance(b.path.centre_at(0.0))
+                + a.path.velocity.length()
+                + b.path.velocity.length()
+                + config.margin,
+        );
+        Ok(Problem {
+            a,
+            b,
+            duration,
+            origin,
+            tolerance: tolerance.max(tolerance::least_tolerance(rounding)),
+            margin: config.margin,
+            start: config.start,
+            budget: config.budget,
+            rounding,
+        })
+    }
+
+    /// The tolerance that will be kept: the one asked for, or the least that can be certified in
+    /// f64 at the scene's coordinates.
+    pub fn tolerance(&self) -> f64 {
+        self.tolerance
+    }
+
+    /// The gap that clocks prove: half the tolerance beyond the margin, so that the first pair
+    /// whose clock runs out is within the tolerance.
+    pub(crate) fn gap(&self) -> f64 {
+        self.margin + 0.5 * self.tolerance
+    }
+
+    /// A clock as a time of the motions, rounded so that it is never late.
+    pub(crate) fn time(&self, s: f64) -> f64 {
+        if s >= 1.0 {
+            self.duration
+        } else {
+            (s * self.duration).next_down().max(0.0)
+        }
+    }
+
+    /// A point in the problem's coordinates, in the world's.
+    pub(crate) fn world(&self, point: DVec3) -> DVec3 {
+        point + self.origin
+    }
+}
+
+impl Side<'_> {
+    /// The largest coordinate of the body, and that of its centre, in the body's frame.
+    fn span(&self) -> f64 {
+        self.body.tree().span() + 2.0 * self.path.centre.length()
+    }
+
+    fn check(&self) -> Result<(), InputError> {
+        let travel = self.path.velocity.length() + self.path.centre_at(0.0).length();
+        check(
+            "travel",
+            travel,
+            travel <= MAX_COORDINATE,
+            "at most 1e15 from the other body",
+        )?;
+        let turn = self.path.rate;
+        check("turn", turn, turn <= MAX_TURN, "at most 1e6 radians")
+    }
+}
+
+/// `allowed` must have been computed so that NaN makes it false.
+fn check(
+    what: &'static str,
+    value: f64,
+    allowed: bool,
+    words: &'static str,
+) -> Result<(), InputError> {
+    if allowed {
+        Ok(())
+    } else {
+        Err(InputError::OutOfRange {
+            what,
+            value,
+            allowed: words,
+        })
     }
 }

@@ -1,4 +1,14 @@
 //! Every numeric tolerance of the engine: its unit, why it is what it is, what breaks without it.
+//!
+//! `u` stands for half a unit in the last place of 1: [`U64`] in f64, [`U32`] in f32. An operation
+//! rounds with a relative error of at most `u`. The counts below take every operation's error at
+//! its worst and add them up; the test suite samples each allowance against exact references.
+
+/// Relative rounding error of one operation in f64.
+pub const U64: f64 = f64::EPSILON / 2.0;
+
+/// Relative rounding error of one operation in f32.
+pub const U32: f32 = f32::EPSILON / 2.0;
 
 /// The tolerance of a query that names none, in the scene's unit of length `[FAST06 §6.2]`.
 pub const DEFAULT_TOLERANCE: f64 = 1e-3;
@@ -6,6 +16,89 @@ pub const DEFAULT_TOLERANCE: f64 = 1e-3;
 /// How many pairs of nodes a query may visit that names no budget: about a second's work.
 pub const DEFAULT_BUDGET: u64 = 1 << 23;
 
-/// The largest coordinate a body may have, in the scene's unit of length: squares of distances stay
-/// far from the overflow of `f32` (3.4e38).
+/// The largest coordinate, in the scene's unit of length: squares of distances stay far below the
+/// overflow of f32 (3.4e38).
 pub const MAX_COORDINATE: f64 = 1e15;
+
+/// The largest turn of one motion, in radians. Beyond it the rounding of the angle alone moves a
+/// point by 1e-10 of its arm.
+pub const MAX_TURN: f64 = 1e6;
+
+/// Bounds the error of any support gap or witness distance that is computed in f64.
+///
+/// A point `x` of a body is placed at `R(s)(x − c) + C(s)`:
+/// - an entry of `R` is `cos·A + sin·B + C` with entries of A, B, C right to `8u` (quaternion to
+///   matrix, one product with `u uᵀ` or `[u]×`), sine and cosine to `2u`, the angle `ω s` to `u ω`,
+///   and 4 roundings: `|δR| ≤ (14 + ω)u` per entry, at most `√3` times that on a unit vector;
+/// - the product with `x` and the sum add `4u` of `|x|`, the centre's place `3u` of its distance;
+/// - taking B into A's frame is another rotation (`4u` of the operands) and one more placement;
+/// - a support value `n·x` with a rounded unit axis adds `4u` of `|x|`, and so does a distance.
+///
+/// - heights of points along a fixed axis, of which only differences are used, add `16u` of `|x|`.
+///
+/// Per body that is at most `(2√3 (14 + ω) + 32) u ≤ (81 + 4ω) u` of its span, and `32u` of the
+/// way between the bodies. Without it a touching pair could be certified apart.
+pub fn distance_rounding(spans: [f64; 2], turns: [f64; 2], way: f64) -> f64 {
+    let body = |k: usize| (81.0 + 4.0 * turns[k]) * spans[k];
+    U64 * (body(0) + body(1) + 32.0 * way)
+}
+
+/// The least tolerance that can be certified when distances are off by up to `rounding`.
+///
+/// A pair is in contact when its upper bound is within the tolerance, and advances while its lower
+/// bound exceeds half of it. Between the two lie `2 × rounding` for the two bounds, which leaves
+/// `tolerance/2 − 2 × rounding` to advance by: twice the rounding, here.
+pub fn least_tolerance(rounding: f64) -> f64 {
+    8.0 * rounding
+}
+
+/// Relative allowance on the sum of the sizes in a support gap that is computed in f32.
+///
+/// In units of `u = 2⁻²⁴` times (distance of the nodes + their radii + the split group's radius):
+/// the transform's entries 1, products and sums 4, the box's axes and their rotation 9, the axis of
+/// projection 1, three dot products 3 each, sums 3: at most 40 of the operands that each
+/// applies to, and all of them together at most 64 of the sum. 4e-6 is 67 u.
+pub const SUPPORT_F32: f32 = 4e-6;
+
+/// Relative allowance on the largest speed in a rate of approach that is computed in f32.
+///
+/// Velocities, arms and spins are rounded once (1u each), crossed (3u), rotated with the box (9u)
+/// and projected (4u), so that a rate is off by at most 32u = 1.9e-6 of the largest speed.
+pub const RATE_F32: f32 = 2e-6;
+
+/// Factor on a free time that is computed in f32 from a gap and a rate that are safe already.
+///
+/// Square, product, sum, root, sum and quotient: at most 8u; 32u are taken.
+pub const CLOCK_F32: f32 = 1.0 - 32.0 * U32;
+
+/// Relative allowance on the bending of a path computed in f32: two lengths of vectors whose
+/// components are off by up to `8u` each.
+pub const BEND_F32: f32 = 1.0 + 64.0 * U32;
+
+/// Gaps below this are no gaps in f32, in the scene's unit of length: products of a gap with a rate
+/// or a bending may underflow below it.
+pub const LEAST_GAP_F32: f32 = 1e-18;
+
+/// Keeps a division by a path's bending finite when it does not bend, in units of length over time
+/// squared; it only ever makes a path bend more.
+pub const LEAST_BEND_F32: f32 = 1e-30;
+
+/// Relative allowance on speeds and free times computed in f64: the axis is off by 2u, the arm by 5u,
+/// products and sums add 7u; quotient and root of a free time come to less.
+pub const RATE_F64: f64 = 16.0 * U64;
+
+/// How often an axis is followed along the exact path of the pieces before the oracle is asked
+/// again. Each round is a Newton step that cannot overstep, so that few suffice.
+pub const AXIS_ROUNDS: usize = 4;
+
+/// The cap on Newton steps towards the first crossing of one track; each at least doubles the
+/// digits once it is near.
+pub const CROSSING_ROUNDS: usize = 64;
+
+/// The least growth of a free time, relative to what is there, that is worth another Newton step.
+pub const WORTHWHILE: f64 = 1.0 / 64.0;
+
+/// How far beyond its distance at the start, in units of the distance's rounding, a pair that began
+/// in contact may come before it counts as approaching. Four cover the rounding of both distances,
+/// and what a rate of zero picks up by rounding over the whole duration.
+pub const RESTING: f64 = 4.0;

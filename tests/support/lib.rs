@@ -1,1 +1,16 @@
-//! WIP
+//! What the property suite is made of: models by code, an independent referee, scenes with
+//! closed-form answers, and the machinery that runs one property over every backend, schedule and
+//! kind of piece.
+
+pub mod analytic;
+pub mod backends;
+pub mod case;
+pub mod checks;
+pub mod contract;
+pub mod corpus;
+pub mod liars;
+pub mod models;
+pub mod query;
+pub mod referee;
+pub mod strategies;
+pub mod tolerance;

@@ -1,5 +1,16 @@
 //! Schedules: the order in which the clocks of pairs are advanced.
 
+mod best_first;
+mod expand;
+mod lanes;
+mod naive;
+mod pair;
+mod queue;
+mod start;
+
+pub use best_first::BestFirst;
+pub use naive::Naive;
+
 use crate::oracle::DistanceOracle;
 use crate::outcome::Answer;
 use crate::problem::Problem;

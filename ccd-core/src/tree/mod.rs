@@ -1,15 +1,117 @@
-//! The wide tree over a body's pieces.
+//! The wide tree over a body's pieces: nodes with tight oriented boxes, children in groups of eight
+//! laid out for the vector units.
+
+mod build;
+mod fit;
+mod group;
+
+pub(crate) use group::{BoxGroup, LANES, Members, TriangleGroup, unit_normal, up};
 
 use crate::error::InputError;
 use crate::hierarchy::Hierarchy;
 use crate::piece::Pieces;
+use glam::{DVec3, Vec3};
 
-/// WIP
+/// An immutable tree in the body's frame. Node 0 is the root; ids beyond the nodes name triangles.
+///
+/// # Invariants
+/// A node's box and ball hold all its pieces, rounding radii included, in exact arithmetic on the
+/// stored numbers; every piece is below exactly one child of every group on its way from the root.
 #[derive(Clone, Debug)]
-pub(crate) struct Tree;
+pub(crate) struct Tree {
+    nodes: Vec<Node>,
+    boxes: Vec<BoxGroup>,
+    triangles: Vec<TriangleGroup>,
+    /// The largest distance of a point from the body's origin, rounding radii included.
+    span: f64,
+}
+
+/// A node, or a triangle beyond the nodes.
+pub(crate) type NodeId = u32;
+
+/// An oriented box and a ball about the same centre; both hold all pieces below.
+#[derive(Clone, Debug)]
+pub(crate) struct Node {
+    pub(crate) centre: DVec3,
+    /// Unit vectors; the last one is the box's thinnest direction.
+    pub(crate) axes: [Vec3; 3],
+    pub(crate) half: [f32; 3],
+    pub(crate) radius: f32,
+    pub(crate) below: Below,
+}
+
+/// What is below a node.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Below {
+    /// A group of nodes.
+    Boxes(u32),
+    /// A group of triangles.
+    Triangles(u32),
+    /// A single piece.
+    Piece(u32),
+}
+
+/// What a [`NodeId`] names.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Named<'a> {
+    Node(&'a Node),
+    /// A triangle, by the index of its piece.
+    Triangle(u32),
+}
+
 impl Tree {
-    pub(crate) fn build(_pieces: &Pieces, _hierarchy: &Hierarchy) -> Result<(Tree, Vec<u32>), InputError> {
-        Ok((Tree, (0.._pieces.len() as u32).collect()))
+    /// Builds the tree, and the order that the pieces must be brought into for it.
+    pub(crate) fn build(
+        pieces: &Pieces,
+        hierarchy: &Hierarchy,
+    ) -> Result<(Tree, Vec<u32>), InputError> {
+        build::build(pieces, hierarchy)
     }
-    pub(crate) fn bytes(&self) -> usize {0}
+
+    #[inline]
+    pub(crate) fn get(&self, id: NodeId) -> Named<'_> {
+        match self.nodes.get(id as usize) {
+            Some(node) => Named::Node(node),
+            None => Named::Triangle(id - self.nodes.len() as u32),
+        }
+    }
+
+    /// The piece that an id names, if it names a single one.
+    #[inline]
+    pub(crate) fn piece(&self, id: NodeId) -> Option<u32> {
+        match self.get(id) {
+            Named::Triangle(piece) => Some(piece),
+            Named::Node(node) => match node.below {
+                Below::Piece(piece) => Some(piece),
+                _ => None,
+            },
+        }
+    }
+
+    pub(crate) fn box_group(&self, index: u32) -> &BoxGroup {
+        &self.boxes[index as usize]
+    }
+
+    pub(crate) fn triangle_group(&self, index: u32) -> &TriangleGroup {
+        &self.triangles[index as usize]
+    }
+
+    /// The largest distance of a point from the body's origin.
+    pub(crate) fn span(&self) -> f64 {
+        self.span
+    }
+
+    /// Whether a point is within the root's ball; no piece reaches beyond it.
+    pub(crate) fn may_contain(&self, point: DVec3) -> bool {
+        let root = &self.nodes[0];
+        let way = point - root.centre;
+        let within = |k: usize| way.dot(root.axes[k].as_dvec3()).abs() <= f64::from(root.half[k]) * 1.001;
+        (0..3).all(within)
+    }
+
+    pub(crate) fn bytes(&self) -> usize {
+        size_of_val(self.nodes.as_slice())
+            + size_of_val(self.boxes.as_slice())
+            + size_of_val(self.triangles.as_slice())
+    }
 }

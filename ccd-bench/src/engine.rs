@@ -1,0 +1,117 @@
+//! The choice of schedule and oracle at run time.
+
+use ccd_core::schedule::{BestFirst, Naive};
+use ccd_core::{Answer, DistanceOracle, Problem, Schedule};
+use ccd_distance_gjk::{Auto, Gjk, GjkF32};
+use clap::ValueEnum;
+use std::fmt;
+
+/// A schedule with an oracle: what queries are answered by.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Method {
+    /// In which order pairs are looked at.
+    pub schedule: ScheduleKind,
+    /// Who measures the distance of two pieces.
+    pub oracle: OracleKind,
+}
+
+/// The schedules there are.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, ValueEnum)]
+pub enum ScheduleKind {
+    /// The pair whose proof expires first is looked at next.
+    #[default]
+    BestFirst,
+    /// All pairs of pieces, one step for all: slow, for comparison on small meshes.
+    Naive,
+}
+
+/// The oracles there are.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, ValueEnum)]
+pub enum OracleKind {
+    /// Closed forms for points, segments and triangles; pieces of more points (a box) go to gjk.
+    #[default]
+    Direct,
+    /// GJK in double precision, for any convex piece.
+    Gjk,
+    /// GJK that searches in single precision, checked in double.
+    GjkF32,
+}
+
+/// Answers queries one after another, keeping its memory in between.
+pub trait Solver: Send {
+    /// As [`Schedule::solve`].
+    fn solve(&mut self, problem: &Problem<'_>) -> Answer;
+}
+
+impl Method {
+    /// All combinations.
+    pub fn all() -> impl Iterator<Item = Method> {
+        ScheduleKind::value_variants().iter().flat_map(|&schedule| {
+            OracleKind::value_variants()
+                .iter()
+                .map(move |&oracle| Method { schedule, oracle })
+        })
+    }
+
+    /// A solver with memory of its own.
+    pub fn solver(self) -> Box<dyn Solver> {
+        match self.oracle {
+            OracleKind::Direct => self.with_oracle::<Auto>(),
+            OracleKind::Gjk => self.with_oracle::<Gjk>(),
+            OracleKind::GjkF32 => self.with_oracle::<GjkF32>(),
+        }
+    }
+
+    fn with_oracle<O>(self) -> Box<dyn Solver>
+    where
+        O: DistanceOracle + Default + Send + 'static,
+        O::Cache: Send,
+    {
+        let oracle = O::default();
+        match self.schedule {
+            ScheduleKind::BestFirst => Box::new(Pairing {
+                schedule: BestFirst::<O>::default(),
+                oracle,
+            }),
+            ScheduleKind::Naive => Box::new(Pairing {
+                schedule: Naive::<O>::default(),
+                oracle,
+            }),
+        }
+    }
+}
+
+struct Pairing<S, O> {
+    schedule: S,
+    oracle: O,
+}
+
+impl<O, S> Solver for Pairing<S, O>
+where
+    O: DistanceOracle + Send,
+    S: Schedule<O> + Send,
+{
+    fn solve(&mut self, problem: &Problem<'_>) -> Answer {
+        self.schedule.solve(problem, &mut self.oracle)
+    }
+}
+
+impl fmt::Display for ScheduleKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write_value(self, f)
+    }
+}
+
+impl fmt::Display for OracleKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write_value(self, f)
+    }
+}
+
+/// The name that the command line knows a value by.
+fn write_value(value: &impl ValueEnum, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+    match value.to_possible_value() {
+        Some(value) => f.pad(value.get_name()),
+        None => Ok(()),
+    }
+}

@@ -1,0 +1,148 @@
+//! The bodies of the scenes: made by code, or read from files of the same names.
+
+mod blob;
+mod board;
+mod grid;
+mod ring;
+mod sphere;
+#[cfg(test)]
+mod tests;
+mod torus_knot;
+
+pub use blob::{Blob, Lobe};
+pub use board::Board;
+pub use ring::Ring;
+pub use torus_knot::TorusKnot;
+
+use ccd_core::glam::DVec3;
+use ccd_decomp::{MeshError, TriangleMesh};
+use std::path::Path;
+
+/// A body of the scenes `[FAST06 §6.2]`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Model {
+    /// A torus knot of 216 triangles, small enough to look at all pairs.
+    Knot216,
+    /// A torus knot of 2,880 triangles.
+    Knot2880,
+    /// A torus knot of 11,520 triangles.
+    Knot11520,
+    /// A torus knot of 34,560 triangles.
+    Knot34560,
+    /// A ring of 10,000 triangles.
+    Ring,
+    /// A thin board of 12 triangles.
+    Board,
+    /// A stand-in of the bunny with 69,664 triangles.
+    Bunny70k,
+    /// A stand-in of the bunny with 26,000 triangles.
+    Bunny26k,
+    /// A stand-in of Santa with 37,888 triangles.
+    Santa,
+}
+
+/// A mesh, and whether it is the model itself or a stand-in made by code.
+#[derive(Clone, Debug)]
+pub struct LoadedModel {
+    /// The mesh.
+    pub mesh: TriangleMesh,
+    /// Where it comes from.
+    pub origin: Origin,
+}
+
+/// Where a mesh comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Origin {
+    /// A file.
+    File,
+    /// Made by code, and the same as in the file.
+    Code,
+    /// Made by code in place of a scanned model: as large, as many triangles, another shape.
+    StandIn,
+}
+
+impl Model {
+    /// All of them.
+    pub const ALL: [Model; 9] = [
+        Model::Knot216,
+        Model::Knot2880,
+        Model::Knot11520,
+        Model::Knot34560,
+        Model::Ring,
+        Model::Board,
+        Model::Bunny70k,
+        Model::Bunny26k,
+        Model::Santa,
+    ];
+
+    /// What its file is called, without the extension.
+    pub fn name(self) -> &'static str {
+        match self {
+            Model::Knot216 => "knot216",
+            Model::Knot2880 => "knot2880",
+            Model::Knot11520 => "knot11520",
+            Model::Knot34560 => "knot34560",
+            Model::Ring => "ring",
+            Model::Board => "board",
+            Model::Bunny70k => "bunny70k",
+            Model::Bunny26k => "bunny26k",
+            Model::Santa => "santa",
+        }
+    }
+
+    /// The mesh in `NAME.obj` of a directory where there is one, else the one made by code.
+    ///
+    /// # Errors
+    /// When there is a file that is no mesh.
+    pub fn load(self, directory: Option<&Path>) -> Result<LoadedModel, MeshError> {
+        let file = directory.map(|directory| directory.join(self.name()).with_extension("obj"));
+        if let Some(file) = file.filter(|file| file.exists()) {
+            return Ok(LoadedModel {
+                mesh: TriangleMesh::read(file)?,
+                origin: Origin::File,
+            });
+        }
+        let origin = match self {
+            Model::Bunny70k | Model::Bunny26k | Model::Santa => Origin::StandIn,
+            _ => Origin::Code,
+        };
+        let mesh = self.generate()?;
+        Ok(LoadedModel { mesh, origin })
+    }
+
+    /// The mesh made by code.
+    ///
+    /// # Errors
+    /// None, since every model is one that can be made.
+    pub fn generate(self) -> Result<TriangleMesh, MeshError> {
+        match self {
+            Model::Knot216 => knot(27, 4),
+            Model::Knot2880 => knot(120, 12),
+            Model::Knot11520 => knot(240, 24),
+            Model::Knot34560 => knot(480, 36),
+            Model::Ring => Ring {
+                segments: 250,
+                sides: 20,
+                radius: 0.8,
+                tube: 0.2,
+            }
+            .mesh(),
+            Model::Board => Board {
+                half_extents: DVec3::new(1.5, 1.5, 0.01),
+            }
+            .mesh(),
+            Model::Bunny70k => Blob::BUNNY.mesh(34_834),
+            Model::Bunny26k => Blob::BUNNY.mesh(13_002),
+            Model::Santa => Blob::SANTA.mesh(18_946),
+        }
+    }
+}
+
+fn knot(segments: usize, sides: usize) -> Result<TriangleMesh, MeshError> {
+    TorusKnot {
+        segments,
+        sides,
+        tube: 0.16,
+    }
+    .mesh()
+}

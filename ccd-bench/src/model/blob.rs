@@ -1,0 +1,129 @@
+//! Bumpy, non-convex bodies of any size: stand-ins for scanned models.
+
+use super::sphere::sphere;
+use ccd_core::glam::DVec3;
+use ccd_decomp::{MeshError, TriangleMesh};
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64;
+use std::f64::consts::TAU;
+
+/// A sphere pushed outwards by lobes and covered with ripples, scaled to bounding radius 1.
+///
+/// Every ray from the origin leaves it once, so that it never intersects itself.
+#[derive(Clone, Copy, Debug)]
+pub struct Blob {
+    /// The large features, on a core of radius 1.
+    pub lobes: &'static [Lobe],
+    /// How high the ripples are.
+    pub ripple: f64,
+    /// Draws the ripples.
+    pub seed: u64,
+}
+
+/// A feature that stands out of a [`Blob`].
+#[derive(Clone, Copy, Debug)]
+pub struct Lobe {
+    /// Where to; any length.
+    pub towards: [f64; 3],
+    /// How far it stands out of the core.
+    pub height: f64,
+    /// How slender it is: it is about `1/√sharpness` radians wide.
+    pub sharpness: f64,
+}
+
+const fn lobe(towards: [f64; 3], height: f64, sharpness: f64) -> Lobe {
+    Lobe {
+        towards,
+        height,
+        sharpness,
+    }
+}
+
+impl Blob {
+    /// Head, two ears, tail and paws: about as non-convex as the bunny.
+    pub const BUNNY: Blob = Blob {
+        lobes: &[
+            lobe([-0.7, 0.5, 0.0], 0.5, 6.0),
+            lobe([-0.25, 1.0, 0.3], 1.1, 40.0),
+            lobe([-0.25, 1.0, -0.3], 1.1, 40.0),
+            lobe([1.0, -0.3, 0.0], 0.3, 25.0),
+            lobe([-0.5, -0.8, 0.5], 0.4, 15.0),
+            lobe([-0.5, -0.8, -0.5], 0.4, 15.0),
+            lobe([0.6, -0.8, 0.0], 0.4, 8.0),
+        ],
+        ripple: 0.012,
+        seed: 70,
+    };
+
+    /// Hat, sack, arms and boots: about as non-convex as Santa.
+    pub const SANTA: Blob = Blob {
+        lobes: &[
+            lobe([0.0, 0.1, 1.0], 1.2, 20.0),
+            lobe([1.0, 0.2, 0.2], 0.9, 30.0),
+            lobe([-1.0, 0.2, 0.2], 0.9, 30.0),
+            lobe([0.0, -1.0, 0.5], 0.7, 5.0),
+            lobe([0.4, 0.1, -1.0], 0.8, 20.0),
+            lobe([-0.4, 0.1, -1.0], 0.8, 20.0),
+        ],
+        ripple: 0.015,
+        seed: 38,
+    };
+
+    /// Its closed mesh of that many vertices, at least 12, and `2 · vertices − 4` triangles.
+    ///
+    /// # Errors
+    /// When a number of parts is too small or too large for a mesh.
+    pub fn mesh(&self, vertices: usize) -> Result<TriangleMesh, MeshError> {
+        let (mut points, faces) = sphere(vertices);
+        let ripples = self.ripples();
+        for point in &mut points {
+            *point *= self.radius(*point, &ripples);
+        }
+        let bounding_radius = points.iter().map(|p| p.length()).fold(0.0, f64::max);
+        for point in &mut points {
+            *point /= bounding_radius;
+        }
+        TriangleMesh::new(points, &faces)
+    }
+
+    /// How far the surface is out in a direction: a sum of terms that are smooth over the sphere.
+    fn radius(&self, direction: DVec3, ripples: &[Ripple]) -> f64 {
+        let lobes: f64 = self
+            .lobes
+            .iter()
+            .map(|lobe| {
+                let towards = DVec3::from(lobe.towards).normalize();
+                lobe.height * (lobe.sharpness * (direction.dot(towards) - 1.0)).exp()
+            })
+            .sum();
+        let waves: f64 = ripples
+            .iter()
+            .map(|r| (r.wave.dot(direction) + r.phase).sin())
+            .sum();
+        1.0 + lobes + self.ripple * waves
+    }
+
+    fn ripples(&self) -> Vec<Ripple> {
+        let mut rng = Pcg64::seed_from_u64(self.seed);
+        (0..RIPPLES)
+            .map(|_| {
+                let [x, y, z, phase] = std::array::from_fn(|_| rng.random_range(-1.0..1.0));
+                Ripple {
+                    wave: SHORTEST_RIPPLE * DVec3::new(x, y, z),
+                    phase: TAU * phase,
+                }
+            })
+            .collect()
+    }
+}
+
+/// A plane wave through space, seen where it crosses the sphere.
+struct Ripple {
+    wave: DVec3,
+    phase: f64,
+}
+
+/// How many waves are laid over each other.
+const RIPPLES: usize = 24;
+/// The highest wave number along each axis, in radians per core radius.
+const SHORTEST_RIPPLE: f64 = 20.0;

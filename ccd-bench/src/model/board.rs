@@ -1,0 +1,40 @@
+//! A board: two triangles a side, the coarsest mesh there is.
+
+use ccd_core::glam::DVec3;
+use ccd_decomp::{MeshError, TriangleMesh};
+
+/// A box about the origin, as 12 triangles.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Board {
+    /// Half of its length along each axis.
+    pub half_extents: DVec3,
+}
+
+/// Corner `k` has a positive x, y, z where bit 2, 1, 0 of `k` is set; two triangles a side, along
+/// −x, +x, −y, +y, −z, +z.
+const FACES: [[u32; 3]; 12] = [
+    [0, 1, 3],
+    [0, 3, 2],
+    [4, 6, 7],
+    [4, 7, 5],
+    [0, 4, 5],
+    [0, 5, 1],
+    [2, 3, 7],
+    [2, 7, 6],
+    [0, 2, 6],
+    [0, 6, 4],
+    [1, 5, 7],
+    [1, 7, 3],
+];
+
+impl Board {
+    /// Its closed mesh.
+    ///
+    /// # Errors
+    /// When an extent is not finite or too large.
+    pub fn mesh(&self) -> Result<TriangleMesh, MeshError> {
+        let sign = |corner: u32, bit: u32| if corner >> bit & 1 == 1 { 1.0 } else { -1.0 };
+        let corner = |k| self.half_extents * DVec3::new(sign(k, 2), sign(k, 1), sign(k, 0));
+        TriangleMesh::new((0..8).map(corner).collect(), &FACES)
+    }
+}

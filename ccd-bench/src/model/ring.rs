@@ -1,0 +1,34 @@
+//! A ring: a torus, whose hole only exact methods can pass.
+
+use super::grid::closed_grid;
+use ccd_core::glam::DVec3;
+use ccd_decomp::{MeshError, TriangleMesh};
+use std::f64::consts::TAU;
+
+/// A torus about the z axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ring {
+    /// Tube cross-sections around the axis, at least 3.
+    pub segments: usize,
+    /// Corners of each, at least 3.
+    pub sides: usize,
+    /// From the axis to the middle of the tube.
+    pub radius: f64,
+    /// The tube's radius, below `radius`.
+    pub tube: f64,
+}
+
+impl Ring {
+    /// Its closed mesh of `2 · segments · sides` triangles.
+    ///
+    /// # Errors
+    /// When a number of parts is too small or too large for a mesh.
+    pub fn mesh(&self) -> Result<TriangleMesh, MeshError> {
+        closed_grid(self.segments, self.sides, |u, v| {
+            let (sin_u, cos_u) = (TAU * u).sin_cos();
+            let (sin_v, cos_v) = (TAU * v).sin_cos();
+            let outward = DVec3::new(cos_u, sin_u, 0.0);
+            (self.radius + self.tube * cos_v) * outward - self.tube * sin_v * DVec3::Z
+        })
+    }
+}

@@ -1,0 +1,91 @@
+//! A triangulated unit sphere with any number of vertices, evenly spread.
+
+use ccd_core::glam::DVec3;
+use std::f64::consts::{PI, TAU};
+
+/// The unit vectors of a sphere's vertices, and its `2 · vertices − 4` triangles, outward.
+///
+/// Circles of latitude at equal spacing hold as many vertices each as their length demands, and are
+/// joined by strips of triangles; that works from about 12 vertices on.
+pub(super) fn sphere(vertices: usize) -> (Vec<DVec3>, Vec<[u32; 3]>) {
+    let counts = ring_counts(vertices);
+    let mut points = vec![DVec3::Z];
+    let mut faces = Vec::with_capacity(2 * vertices);
+    let mut above = Ring { first: 0, count: 1 };
+    for (k, &count) in counts.iter().enumerate() {
+        let ring = Ring {
+            first: points.len() as u32,
+            count,
+        };
+        let (sin, cos) = (PI * (k + 1) as f64 / (counts.len() + 1) as f64).sin_cos();
+        points.extend((0..count).map(|i| {
+            let (y, x) = (TAU * i as f64 / count as f64).sin_cos();
+            DVec3::new(sin * x, sin * y, cos)
+        }));
+        join(above, ring, &mut faces);
+        above = ring;
+    }
+    let south = Ring {
+        first: points.len() as u32,
+        count: 1,
+    };
+    points.push(DVec3::NEG_Z);
+    join(above, south, &mut faces);
+    (points, faces)
+}
+
+/// A circle of latitude: consecutive vertices, eastward; a pole is a circle of one.
+#[derive(Clone, Copy)]
+struct Ring {
+    first: u32,
+    count: usize,
+}
+
+impl Ring {
+    fn vertex(&self, i: usize) -> u32 {
+        self.first + (i % self.count) as u32
+    }
+
+    /// Steps it takes to go round: a pole has no edge.
+    fn steps(&self) -> usize {
+        if self.count == 1 { 0 } else { self.count }
+    }
+}
+
+/// How many vertices each circle gets, poles left out.
+fn ring_counts(vertices: usize) -> Vec<usize> {
+    let between_poles = vertices.saturating_sub(2) as f64;
+    // Equilateral triangles of area 4π / (2 · vertices) have this height.
+    let height = (2.0 * PI * 3f64.sqrt() / vertices as f64).sqrt();
+    let rings = ((PI / height).round() as usize).max(2) - 1;
+    let length = |k: usize| (PI * (k + 1) as f64 / (rings + 1) as f64).sin();
+    let total: f64 = (0..rings).map(length).sum();
+    // Rounding the running sum makes the counts add up.
+    let (mut sum, mut used) = (0.0, 0);
+    (0..rings)
+        .map(|k| {
+            sum += length(k);
+            let upto = (between_poles * sum / total).round() as usize;
+            let count = upto - used;
+            used = upto;
+            count
+        })
+        .collect()
+}
+
+/// The strip of triangles between two circles, the northern one first: always the step whose middle
+/// comes first, which keeps the triangles well shaped.
+fn join(north: Ring, south: Ring, faces: &mut Vec<[u32; 3]>) {
+    let (n, s) = (north.steps(), south.steps());
+    let (mut i, mut j) = (0, 0);
+    while i < n || j < s {
+        // Middles (2i + 1)/2n and (2j + 1)/2s, compared without rounding.
+        if j == s || (i < n && (2 * i + 1) * s <= (2 * j + 1) * n) {
+            faces.push([north.vertex(i), south.vertex(j), north.vertex(i + 1)]);
+            i += 1;
+        } else {
+            faces.push([north.vertex(i), south.vertex(j), south.vertex(j + 1)]);
+            j += 1;
+        }
+    }
+}

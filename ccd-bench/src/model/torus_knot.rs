@@ -1,0 +1,52 @@
+//! Torus knots: long, thin, interlocked with themselves.
+
+use super::grid::closed_grid;
+use ccd_core::glam::DVec3;
+use ccd_decomp::{MeshError, TriangleMesh};
+use std::f64::consts::TAU;
+
+/// A tube around the (2, 3) torus knot, the trefoil.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TorusKnot {
+    /// Rings along the tube, at least 3.
+    pub segments: usize,
+    /// Corners of each ring, at least 3.
+    pub sides: usize,
+    /// The tube's radius, below the 0.33 at which it would touch itself in the middle.
+    pub tube: f64,
+}
+
+/// Turns around the torus' axis.
+const TURNS: f64 = 2.0;
+/// Turns around the torus' tube meanwhile.
+const WINDINGS: f64 = 3.0;
+/// The torus that the knot lies on: its radius, and that of its tube.
+const TORUS: (f64, f64) = (2.0 / 3.0, 1.0 / 3.0);
+
+impl TorusKnot {
+    /// Its closed mesh of `2 · segments · sides` triangles, centred on the torus' centre.
+    ///
+    /// # Errors
+    /// When a number of parts is too small or too large for a mesh.
+    pub fn mesh(&self) -> Result<TriangleMesh, MeshError> {
+        closed_grid(self.segments, self.sides, |u, v| {
+            let (on_curve, tangent, normal) = frame(TAU * u);
+            let (sin, cos) = (TAU * v).sin_cos();
+            on_curve + self.tube * (cos * normal + sin * tangent.cross(normal))
+        })
+    }
+}
+
+/// A point of the knot, the unit tangent there, and the unit normal of the torus that it lies on:
+/// perpendicular to the tangent, and back to itself after one period.
+fn frame(t: f64) -> (DVec3, DVec3, DVec3) {
+    let (sin_a, cos_a) = (TURNS * t).sin_cos();
+    let (sin_b, cos_b) = (WINDINGS * t).sin_cos();
+    let (radius, tube) = TORUS;
+    let outward = DVec3::new(cos_a, sin_a, 0.0);
+    let around = DVec3::new(-sin_a, cos_a, 0.0);
+    let normal = cos_b * outward + sin_b * DVec3::Z;
+    let velocity = TURNS * (radius + tube * cos_b) * around
+        + WINDINGS * tube * (cos_b * DVec3::Z - sin_b * outward);
+    (radius * outward + tube * normal, velocity.normalize(), normal)
+}

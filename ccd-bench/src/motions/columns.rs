@@ -1,0 +1,113 @@
+//! Which columns there are, and where a table has them.
+
+use super::error::TableError;
+use std::ops::Range;
+
+/// One of the two bodies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Side {
+    A,
+    B,
+}
+
+/// Quantities of a body, each a run of neighbouring columns.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Quantity {
+    Position,
+    Orientation,
+    EndPosition,
+    EndOrientation,
+    Velocity,
+    Spin,
+    Centre,
+}
+
+/// The columns of a body, without its letter, in the order of [`Quantity`].
+const OF_BODY: [&str; 23] = [
+    "px", "py", "pz", "qw", "qx", "qy", "qz", "end_px", "end_py", "end_pz", "end_qw", "end_qx",
+    "end_qy", "end_qz", "vx", "vy", "vz", "wx", "wy", "wz", "cx", "cy", "cz",
+];
+
+/// All columns in order: the id, A's, B's, the duration.
+pub(super) fn known() -> Vec<String> {
+    let of = |letter| OF_BODY.iter().map(move |name| format!("{letter}_{name}"));
+    std::iter::once("id".to_owned())
+        .chain(of('a'))
+        .chain(of('b'))
+        .chain(std::iter::once("duration".to_owned()))
+        .collect()
+}
+
+/// Where a table has its columns.
+#[derive(Debug)]
+pub(super) struct Columns {
+    names: Vec<String>,
+    /// For each known column the cell that holds it.
+    cells: Vec<Option<usize>>,
+    len: usize,
+}
+
+impl Columns {
+    pub(super) fn from_header(header: &csv::StringRecord) -> Result<Self, TableError> {
+        if header.iter().all(str::is_empty) {
+            return Err(TableError::Empty);
+        }
+        let names = known();
+        let mut cells = vec![None; names.len()];
+        for (cell, column) in header.iter().enumerate() {
+            let Some(slot) = names.iter().position(|name| name == column) else {
+                return Err(TableError::UnknownColumn {
+                    column: column.to_owned(),
+                    known: names,
+                });
+            };
+            if cells[slot].replace(cell).is_some() {
+                return Err(TableError::RepeatedColumn {
+                    column: column.to_owned(),
+                });
+            }
+        }
+        Ok(Columns {
+            names,
+            cells,
+            len: header.len(),
+        })
+    }
+
+    /// How many columns the table has.
+    pub(super) fn len(&self) -> usize {
+        self.len
+    }
+
+    pub(super) fn name(&self, slot: usize) -> &str {
+        &self.names[slot]
+    }
+
+    /// What a row says of a column; an empty cell says nothing.
+    pub(super) fn cell<'r>(&self, record: &'r csv::StringRecord, slot: usize) -> Option<&'r str> {
+        record.get(self.cells[slot]?).filter(|cell| !cell.is_empty())
+    }
+}
+
+/// The slot of the id.
+pub(super) const ID: usize = 0;
+/// The slot of the duration.
+pub(super) const DURATION: usize = 2 * OF_BODY.len() + 1;
+
+/// The slots of a quantity.
+pub(super) fn slots(side: Side, quantity: Quantity) -> Range<usize> {
+    let within = match quantity {
+        Quantity::Position => 0..3,
+        Quantity::Orientation => 3..7,
+        Quantity::EndPosition => 7..10,
+        Quantity::EndOrientation => 10..14,
+        Quantity::Velocity => 14..17,
+        Quantity::Spin => 17..20,
+        Quantity::Centre => 20..23,
+    };
+    let first = match side {
+        Side::A => 1,
+        Side::B => 1 + OF_BODY.len(),
+    };
+    first + within.start..first + within.end
+}

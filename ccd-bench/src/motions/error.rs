@@ -1,0 +1,143 @@
+//! What can be wrong with a table of motions.
+
+use super::Place;
+use ccd_core::InputError;
+use std::fmt;
+
+/// Why a table cannot be used at all.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum TableError {
+    /// It could not be read.
+    #[error("cannot be read: {0}")]
+    Unreadable(#[from] csv::Error),
+    /// A column that means nothing here; left alone it would be a motion silently not made.
+    #[error("header: unknown column `{column}`; known are {}", .known.join(" "))]
+    UnknownColumn {
+        /// Its name.
+        column: String,
+        /// The columns that there are.
+        known: Vec<String>,
+    },
+    /// A column that is there twice.
+    #[error("header: column `{column}` appears twice")]
+    RepeatedColumn {
+        /// Its name.
+        column: String,
+    },
+    /// Not even a header.
+    #[error("is empty: the first line has to name the columns")]
+    Empty,
+}
+
+/// A row that cannot be asked.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("row {} (line {}): {problem}", .place.row, .place.line)]
+pub struct RowError {
+    /// Which row.
+    pub place: Place,
+    /// What is wrong with it.
+    pub problem: RowProblem,
+}
+
+/// What is wrong with a row.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum RowProblem {
+    /// It is not text, or not CSV.
+    Unreadable(String),
+    /// It has more or fewer cells than the header.
+    WrongLength {
+        /// Its cells.
+        cells: usize,
+        /// The header's.
+        columns: usize,
+    },
+    /// A cell holds no finite number.
+    NotANumber {
+        /// Its column.
+        column: String,
+        /// What it holds.
+        value: String,
+    },
+    /// A column is given that says nothing without another one.
+    MissingColumn {
+        /// The one that is there.
+        given: String,
+        /// The one that is not.
+        missing: String,
+    },
+    /// A quaternion that names no orientation.
+    ZeroQuaternion {
+        /// Its four columns.
+        columns: Vec<String>,
+        /// Its four values.
+        value: [f64; 4],
+    },
+    /// Both ways of saying how a body moves.
+    EndPoseAndVelocity {
+        /// A column of the end pose.
+        end: String,
+        /// A column of a velocity.
+        velocity: String,
+    },
+    /// A duration that no motion can take.
+    BadDuration {
+        /// What it is.
+        value: f64,
+        /// What it would have to be.
+        allowed: &'static str,
+    },
+    /// The numbers are good, the query is not.
+    Input(InputError),
+}
+
+impl fmt::Display for RowProblem {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Unreadable(why) => write!(f, "cannot be read: {why}"),
+            Self::WrongLength { cells, columns } => {
+                write!(f, "has {cells} cells where the header names {columns} columns")
+            }
+            Self::NotANumber { column, value } => {
+                write!(f, "column {column}: `{value}` is not a finite number")
+            }
+            Self::MissingColumn { given, missing } => write!(
+                f,
+                "column {missing}: no value, but {given} has one and needs it"
+            ),
+            Self::ZeroQuaternion { columns, value } => write!(
+                f,
+                "columns {}: ({} {} {} {}) is a quaternion of length zero, it names no orientation",
+                columns.join(" "),
+                value[0],
+                value[1],
+                value[2],
+                value[3],
+            ),
+            Self::EndPoseAndVelocity { end, velocity } => write!(
+                f,
+                "columns {end} and {velocity}: give the end pose or the velocities, not both"
+            ),
+            Self::BadDuration { value, allowed } => {
+                write!(f, "column duration: {value} is not {allowed}")
+            }
+            Self::Input(error) => write!(f, "{error}"),
+        }
+    }
+}
+
+impl std::error::Error for RowProblem {}
+
+impl From<InputError> for RowProblem {
+    fn from(error: InputError) -> Self {
+        match error {
+            InputError::OutOfRange {
+                what: "duration",
+                value,
+                allowed,
+            } => Self::BadDuration { value, allowed },
+            other => Self::Input(other),
+        }
+    }
+}

@@ -1,0 +1,159 @@
+//! One row of the table, as the motions of two bodies.
+
+use super::columns::{Columns, DURATION, ID, Quantity, Side, slots};
+use super::error::RowProblem;
+use super::Query;
+use ccd_core::glam::{DQuat, DVec3};
+use ccd_core::{InputError, Motion, Pose};
+use std::ops::Range;
+
+/// What a row asks; `index` names a row that has no id.
+pub(super) fn query(
+    columns: &Columns,
+    record: &csv::StringRecord,
+    index: usize,
+) -> Result<Query, RowProblem> {
+    if record.len() != columns.len() {
+        return Err(RowProblem::WrongLength {
+            cells: record.len(),
+            columns: columns.len(),
+        });
+    }
+    let row = Row { columns, record };
+    let duration = row.number(DURATION)?.unwrap_or(1.0);
+    if duration < 0.0 {
+        return Err(RowProblem::BadDuration {
+            value: duration,
+            allowed: "at least 0",
+        });
+    }
+    Ok(Query {
+        id: columns
+            .cell(record, ID)
+            .map_or_else(|| index.to_string(), str::to_owned),
+        a: row.motion(Side::A, duration)?,
+        b: row.motion(Side::B, duration)?,
+        duration,
+    })
+}
+
+struct Row<'a> {
+    columns: &'a Columns,
+    record: &'a csv::StringRecord,
+}
+
+impl Row<'_> {
+    fn motion(&self, side: Side, duration: f64) -> Result<Motion, RowProblem> {
+        let position = self.vector(side, Quantity::Position)?;
+        let orientation = self.quaternion(side, Quantity::Orientation)?;
+        let start = Pose::new(
+            position.unwrap_or(DVec3::ZERO),
+            orientation.unwrap_or(DQuat::IDENTITY),
+        )?;
+        let velocity = self.vector(side, Quantity::Velocity)?;
+        let spin = self.vector(side, Quantity::Spin)?;
+        let centre = self.vector(side, Quantity::Centre)?.unwrap_or(DVec3::ZERO);
+        self.one_way_only(side)?;
+        let end_position = self.full_vector(side, Quantity::EndPosition)?;
+        let end_orientation = self.quaternion(side, Quantity::EndOrientation)?;
+        if end_position.is_none() && end_orientation.is_none() {
+            let (velocity, spin) = (velocity.unwrap_or_default(), spin.unwrap_or_default());
+            return Ok(Motion::about(start, velocity, spin, centre)?);
+        }
+        let end = Pose::new(
+            end_position.unwrap_or(start.translation()),
+            end_orientation.unwrap_or(start.rotation()),
+        )?;
+        Ok(Motion::between(start, end, centre, duration)?)
+    }
+
+    /// Refuses an end pose along with velocities: either would silently be ignored.
+    fn one_way_only(&self, side: Side) -> Result<(), RowProblem> {
+        let end = self.first_given(side, Quantity::EndPosition, Quantity::EndOrientation);
+        let velocity = self.first_given(side, Quantity::Velocity, Quantity::Spin);
+        match (end, velocity) {
+            (Some(end), Some(velocity)) => Err(RowProblem::EndPoseAndVelocity { end, velocity }),
+            _ => Ok(()),
+        }
+    }
+
+    fn first_given(&self, side: Side, first: Quantity, second: Quantity) -> Option<String> {
+        slots(side, first)
+            .chain(slots(side, second))
+            .find(|&slot| self.columns.cell(self.record, slot).is_some())
+            .map(|slot| self.columns.name(slot).to_owned())
+    }
+
+    /// A vector of which components may be left out; none when all are.
+    fn vector(&self, side: Side, quantity: Quantity) -> Result<Option<DVec3>, RowProblem> {
+        let parts = self.numbers::<3>(slots(side, quantity))?;
+        let given = parts.iter().any(Option::is_some);
+        Ok(given.then(|| DVec3::from(parts.map(Option::unwrap_or_default))))
+    }
+
+    /// A vector of which all components are given, or none: 0 is no natural place to end at.
+    fn full_vector(&self, side: Side, quantity: Quantity) -> Result<Option<DVec3>, RowProblem> {
+        let parts = self.all_or_none::<3>(slots(side, quantity))?;
+        Ok(parts.map(DVec3::from))
+    }
+
+    /// All four components or none; not normalised yet, but able to be.
+    fn quaternion(&self, side: Side, quantity: Quantity) -> Result<Option<DQuat>, RowProblem> {
+        let slots = slots(side, quantity);
+        let Some([w, x, y, z]) = self.all_or_none(slots.clone())? else {
+            return Ok(None);
+        };
+        let quaternion = DQuat::from_xyzw(x, y, z, w);
+        match Pose::new(DVec3::ZERO, quaternion) {
+            Ok(_) => Ok(Some(quaternion)),
+            Err(InputError::ZeroQuaternion) => Err(RowProblem::ZeroQuaternion {
+                columns: slots
+                    .map(|slot| self.columns.name(slot).to_owned())
+                    .collect(),
+                value: [w, x, y, z],
+            }),
+            Err(other) => Err(other.into()),
+        }
+    }
+
+    fn all_or_none<const N: usize>(
+        &self,
+        slots: Range<usize>,
+    ) -> Result<Option<[f64; N]>, RowProblem> {
+        let parts = self.numbers(slots.clone())?;
+        let Some(given) = parts.iter().position(Option::is_some) else {
+            return Ok(None);
+        };
+        if let Some(missing) = parts.iter().position(Option::is_none) {
+            return Err(RowProblem::MissingColumn {
+                given: self.columns.name(slots.start + given).to_owned(),
+                missing: self.columns.name(slots.start + missing).to_owned(),
+            });
+        }
+        Ok(Some(parts.map(Option::unwrap_or_default)))
+    }
+
+    fn numbers<const N: usize>(
+        &self,
+        slots: Range<usize>,
+    ) -> Result<[Option<f64>; N], RowProblem> {
+        let mut out = [None; N];
+        for (number, slot) in out.iter_mut().zip(slots) {
+            *number = self.number(slot)?;
+        }
+        Ok(out)
+    }
+
+    fn number(&self, slot: usize) -> Result<Option<f64>, RowProblem> {
+        let Some(cell) = self.columns.cell(self.record, slot) else {
+            return Ok(None);
+        };
+        match cell.parse::<f64>() {
+            Ok(value) if value.is_finite() => Ok(Some(value)),
+            _ => Err(RowProblem::NotANumber {
+                column: self.columns.name(slot).to_owned(),
+                value: cell.to_owned(),
+            }),
+        }
+    }
+}

@@ -1,0 +1,202 @@
+use super::*;
+use ccd_core::Pose;
+use ccd_core::glam::{DQuat, DVec3};
+
+fn read(text: &str) -> MotionTable {
+    MotionTable::read(text.as_bytes()).expect("a header that can be used")
+}
+
+fn only_query(text: &str) -> Query {
+    let table = read(text);
+    assert_eq!(table.errors, []);
+    assert_eq!(table.rows.len(), 1);
+    table.rows[0].1.clone()
+}
+
+fn only_problem(text: &str) -> RowProblem {
+    let table = read(text);
+    assert_eq!(table.rows, []);
+    assert_eq!(table.errors.len(), 1);
+    table.errors[0].problem.clone()
+}
+
+#[test]
+fn a_row_without_motion_is_at_rest_for_a_unit_of_time() {
+    let query = only_query("id\nnone\n");
+    assert_eq!(query.id, "none");
+    assert_eq!(query.a, Motion::still(Pose::IDENTITY));
+    assert_eq!(query.b, Motion::still(Pose::IDENTITY));
+    assert_eq!(query.duration, 1.0);
+}
+
+#[test]
+fn rows_without_id_go_by_their_index() {
+    let table = read("a_px\n1\n2\n");
+    let ids: Vec<&str> = table.rows.iter().map(|(_, q)| q.id.as_str()).collect();
+    assert_eq!(ids, ["0", "1"]);
+}
+
+#[test]
+fn columns_go_by_name_and_may_be_padded() {
+    let query = only_query("b_vz , id,a_py\n -2.5e0 , x , 3\n");
+    assert_eq!(query.a.start().translation(), 3.0 * DVec3::Y);
+    assert_eq!(query.b.velocity(), -2.5 * DVec3::Z);
+}
+
+#[test]
+fn every_column_reaches_its_quantity() {
+    let velocities = only_query(
+        "a_px,a_py,a_pz,a_vx,a_vy,a_vz,a_wx,a_wy,a_wz,a_cx,a_cy,a_cz,duration\n\
+         1,2,3,4,5,6,7,8,9,10,11,12,13\n",
+    );
+    assert_eq!(velocities.a.start().translation(), DVec3::new(1.0, 2.0, 3.0));
+    assert_eq!(velocities.a.velocity(), DVec3::new(4.0, 5.0, 6.0));
+    assert_eq!(velocities.a.spin(), DVec3::new(7.0, 8.0, 9.0));
+    assert_eq!(velocities.a.centre(), DVec3::new(10.0, 11.0, 12.0));
+    assert_eq!(velocities.duration, 13.0);
+
+    let poses = only_query(
+        "b_qw,b_qx,b_qy,b_qz,b_end_px,b_end_py,b_end_pz,b_end_qw,b_end_qx,b_end_qy,b_end_qz\n\
+         0,1,0,0,1,2,3,0,0,1,0\n",
+    );
+    let end = poses.b.pose(1.0);
+    assert_eq!(poses.b.start().rotation(), DQuat::from_xyzw(1.0, 0.0, 0.0, 0.0));
+    assert!(end.translation().distance(DVec3::new(1.0, 2.0, 3.0)) < 1e-14);
+    assert!(end.rotation().dot(DQuat::from_xyzw(0.0, 1.0, 0.0, 0.0)).abs() > 1.0 - 1e-14);
+}
+
+#[test]
+fn quaternions_are_normalised() {
+    let query = only_query("a_qw,a_qx,a_qy,a_qz\n0,0,0,-20\n");
+    assert_eq!(query.a.start().rotation(), DQuat::from_xyzw(0.0, 0.0, 0.0, -1.0));
+}
+
+#[test]
+fn an_end_position_alone_does_not_turn() {
+    let query = only_query("a_qw,a_qx,a_qy,a_qz,a_end_px,a_end_py,a_end_pz\n0,1,0,0,4,0,0\n");
+    assert_eq!(query.a.spin(), DVec3::ZERO);
+    assert_eq!(query.a.velocity(), 4.0 * DVec3::X);
+}
+
+#[test]
+fn an_end_orientation_alone_stays_in_place() {
+    let query = only_query("a_px,a_end_qw,a_end_qx,a_end_qy,a_end_qz\n7,0,1,0,0\n");
+    assert_eq!(query.a.velocity(), DVec3::ZERO);
+    assert!((query.a.spin().length() - std::f64::consts::PI).abs() < 1e-14);
+}
+
+#[test]
+fn an_end_pose_is_reached_at_the_end_of_the_duration() {
+    let query = only_query("a_end_px,a_end_py,a_end_pz,duration\n3,0,0,2\n");
+    assert_eq!(query.a.velocity(), 1.5 * DVec3::X);
+}
+
+#[test]
+fn empty_cells_say_nothing() {
+    let table = read("a_vx,a_end_px,a_end_py,a_end_pz\n1,,,\n,1,2,3\n");
+    assert_eq!(table.errors, []);
+    assert_eq!(table.rows[0].1.a.velocity(), DVec3::X);
+    assert_eq!(table.rows[1].1.a.velocity(), DVec3::new(1.0, 2.0, 3.0));
+}
+
+#[test]
+fn numbers_have_to_be_finite() {
+    for bad in ["abc", "NaN", "inf", "1,5", "1e999", "0x10"] {
+        let problem = only_problem(&format!("id,b_wz\n1,\"{bad}\"\n"));
+        let expected = RowProblem::NotANumber {
+            column: "b_wz".into(),
+            value: bad.into(),
+        };
+        assert_eq!(problem, expected);
+    }
+}
+
+#[test]
+fn a_quaternion_needs_all_four() {
+    let problem = only_problem("a_qw,a_qx,a_qy\n1,0,0\n");
+    let expected = RowProblem::MissingColumn {
+        given: "a_qw".into(),
+        missing: "a_qz".into(),
+    };
+    assert_eq!(problem, expected);
+}
+
+#[test]
+fn an_end_position_needs_all_three() {
+    assert!(matches!(
+        only_problem("b_end_py\n1\n"),
+        RowProblem::MissingColumn { missing, .. } if missing == "b_end_px"
+    ));
+}
+
+#[test]
+fn a_zero_quaternion_is_named() {
+    for zero in ["0,0,0,0", "0,-0,0,1e-320"] {
+        let problem = only_problem(&format!("b_end_qw,b_end_qx,b_end_qy,b_end_qz\n{zero}\n"));
+        assert!(
+            matches!(&problem, RowProblem::ZeroQuaternion { columns, .. } if columns[0] == "b_end_qw"),
+            "{zero}: {problem:?}"
+        );
+    }
+}
+
+#[test]
+fn end_pose_and_velocity_exclude_each_other() {
+    for (end, velocity) in [("end_qz", "wz"), ("end_px", "vx"), ("end_pz", "wx")] {
+        let problem = only_problem(&format!("b_{end},b_{velocity}\n1,1\n"));
+        let expected = RowProblem::EndPoseAndVelocity {
+            end: format!("b_{end}"),
+            velocity: format!("b_{velocity}"),
+        };
+        assert_eq!(problem, expected);
+    }
+    // Each body on its own may do it its own way, and the centre goes with both.
+    only_query("a_end_px,a_end_py,a_end_pz,a_cx,b_vx,b_cx\n1,0,0,1,1,1\n");
+}
+
+#[test]
+fn durations_have_to_be_possible() {
+    assert_eq!(
+        only_problem("duration\n-1\n"),
+        RowProblem::BadDuration {
+            value: -1.0,
+            allowed: "at least 0"
+        }
+    );
+    assert!(matches!(
+        only_problem("duration,a_end_px,a_end_py,a_end_pz\n0,1,1,1\n"),
+        RowProblem::BadDuration { .. }
+    ));
+    assert_eq!(only_query("duration,a_vx\n0,1\n").duration, 0.0);
+}
+
+#[test]
+fn rows_have_the_length_of_the_header() {
+    let table = read("id,a_px\n1\n2,0,3\n3,0\n");
+    assert_eq!(table.rows.len(), 1);
+    let places: Vec<(usize, u64)> = table.errors.iter().map(|e| (e.place.row, e.place.line)).collect();
+    assert_eq!(places, [(1, 2), (2, 3)]);
+}
+
+#[test]
+fn bytes_that_are_no_text_spoil_their_row_only() {
+    let table = MotionTable::read(&b"id,a_px\n\xff,1\ngood,1\n"[..]).unwrap();
+    assert_eq!(table.rows.len(), 1);
+    assert!(matches!(table.errors[0].problem, RowProblem::Unreadable(_)));
+}
+
+#[test]
+fn headers_are_held_to_what_is_known() {
+    let unknown = MotionTable::read("id,a_pw\n".as_bytes()).unwrap_err().to_string();
+    assert!(unknown.contains("`a_pw`") && unknown.contains("b_end_qz"), "{unknown}");
+    let twice = MotionTable::read("id,a_px,id\n".as_bytes()).unwrap_err();
+    assert!(matches!(twice, TableError::RepeatedColumn { column } if column == "id"));
+    let empty = MotionTable::read(&b""[..]).unwrap_err();
+    assert!(matches!(empty, TableError::Empty));
+    assert_eq!(read("id,a_px\n"), MotionTable::default());
+}
+
+#[test]
+fn a_byte_order_mark_is_no_column() {
+    assert_eq!(only_query("\u{feff}id\nx\n").id, "x");
+}

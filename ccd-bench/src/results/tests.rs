@@ -1,0 +1,107 @@
+use super::*;
+use ccd_core::{Feature, Limit, Separation, Stats};
+
+fn answer(outcome: Outcome) -> Answer {
+    Answer {
+        outcome,
+        tolerance: 1e-3,
+        stats: Stats {
+            node_visits: 17,
+            oracle_calls: 5,
+            ..Stats::default()
+        },
+    }
+}
+
+fn contact() -> Contact {
+    Contact {
+        separation: Separation {
+            lower: 0.1,
+            upper: 0.2,
+            normal: DVec3::new(0.0, -1.0, 0.0),
+            witness_a: DVec3::new(1.0, 1.0 / 3.0, 1e-300),
+            witness_b: DVec3::new(4.0, 5.0, 6.0),
+        },
+        feature_a: Feature::Edge(3, 7),
+        feature_b: Feature::Face(12),
+        piece_a: 0,
+        piece_b: 0,
+    }
+}
+
+/// The cells of a row as written, by column.
+fn written(outcome: Outcome) -> Vec<(&'static str, String)> {
+    let row = ResultRow::new("a,b", 2.5, &answer(outcome), 12.75);
+    let mut bytes = Vec::new();
+    write(&mut bytes, [&row]).unwrap();
+    let mut reader = csv::Reader::from_reader(&bytes[..]);
+    assert_eq!(reader.headers().unwrap(), &csv::StringRecord::from(COLUMNS.to_vec()));
+    let record = reader.records().next().unwrap().unwrap();
+    COLUMNS.into_iter().zip(record.iter().map(str::to_owned)).collect()
+}
+
+fn cell(row: &[(&str, String)], column: &str) -> String {
+    row.iter().find(|(name, _)| *name == column).unwrap().1.clone()
+}
+
+#[test]
+fn a_contact_fills_every_cell() {
+    let row = written(Outcome::Contact {
+        time: 0.1 + 0.2,
+        contact: contact(),
+    });
+    let values: Vec<&str> = row.iter().map(|(_, value)| value.as_str()).collect();
+    assert_eq!(values[..3], ["a,b", "contact", "0.30000000000000004"]);
+    assert_eq!(values[3..8], ["0.1", "0.2", "0.0", "-1.0", "0.0"]);
+    assert_eq!(values[8..14], ["1.0", "0.3333333333333333", "1e-300", "4.0", "5.0", "6.0"]);
+    assert_eq!(values[14..], ["e3-7", "f12", "17", "5", "12.75"]);
+}
+
+#[test]
+fn free_lasts_the_duration_with_its_clearance() {
+    let row = written(Outcome::Free { clearance: 0.25 });
+    assert_eq!(cell(&row, "status"), "free");
+    assert_eq!(cell(&row, "time"), "2.5");
+    assert_eq!(cell(&row, "distance_lower"), "0.25");
+    assert!(row[4..16].iter().all(|(_, value)| value.is_empty()), "{row:?}");
+}
+
+#[test]
+fn what_happens_at_the_start_happens_at_0() {
+    let touching = written(Outcome::Touching { contact: contact() });
+    assert_eq!((cell(&touching, "status"), cell(&touching, "time")), ("touching".into(), "0.0".into()));
+    assert_eq!(cell(&touching, "feature_a"), "e3-7");
+    let inside = written(Outcome::Overlapping {
+        overlap: Overlap::AInsideB(DVec3::new(1.0, 2.0, 3.0)),
+    });
+    assert_eq!((cell(&inside, "status"), cell(&inside, "time")), ("overlapping".into(), "0.0".into()));
+    assert_eq!(cell(&inside, "witness_a_z"), "3.0");
+    assert_eq!(cell(&inside, "normal_x"), "");
+}
+
+#[test]
+fn unresolved_is_safe_until_its_time() {
+    let row = written(Outcome::Unresolved {
+        safe_until: 0.75,
+        reason: Limit::Budget,
+    });
+    assert_eq!((cell(&row, "status"), cell(&row, "time")), ("unresolved".into(), "0.75".into()));
+    assert_eq!(cell(&row, "distance_lower"), "");
+}
+
+#[test]
+fn names_are_those_that_are_written() {
+    for status in Status::ALL {
+        let mut writer = csv::Writer::from_writer(Vec::new());
+        writer.serialize(status).unwrap();
+        let text = String::from_utf8(writer.into_inner().unwrap()).unwrap();
+        assert_eq!(text.trim(), status.name());
+    }
+}
+
+#[test]
+fn a_table_without_rows_has_its_header() {
+    let mut bytes = Vec::new();
+    write(&mut bytes, []).unwrap();
+    assert_eq!(String::from_utf8(bytes).unwrap().trim(), COLUMNS.join(","));
+}

@@ -1,0 +1,99 @@
+//! Bodies shot at resting ones.
+
+use crate::motions::Query;
+use ccd_core::glam::{DQuat, DVec3};
+use ccd_core::{InputError, Motion, Pose};
+use rand::{Rng, RngExt, SeedableRng};
+use rand_pcg::Pcg64;
+use std::f64::consts::{FRAC_PI_2, TAU};
+use std::ops::Range;
+
+/// Straight flights from somewhere around a resting body to the far side of it.
+#[derive(Clone, Debug)]
+pub struct Shots {
+    /// How many.
+    pub count: usize,
+    /// How many of them, the first ones, do not turn on their way.
+    pub translations: usize,
+    /// How far from the resting body's origin they start.
+    pub distance: Range<f64>,
+    /// How far off that origin they are aimed, at most.
+    pub aside: f64,
+    /// Draws them.
+    pub seed: u64,
+}
+
+impl Shots {
+    /// The motions, of duration 1; B rests at the origin.
+    ///
+    /// # Errors
+    /// When a distance is not finite.
+    pub fn queries(&self) -> Result<Vec<Query>, InputError> {
+        let mut rng = Pcg64::seed_from_u64(self.seed);
+        (0..self.count)
+            .map(|row| {
+                let from = rng.random_range(self.distance.clone()) * unit_vector(&mut rng);
+                let target = self.aside * in_unit_ball(&mut rng);
+                let start = Pose::new(from, orientation(&mut rng))?;
+                let turn = if row < self.translations {
+                    DQuat::IDENTITY
+                } else {
+                    let angle = rng.random_range(0.0..FRAC_PI_2);
+                    DQuat::from_axis_angle(unit_vector(&mut rng), angle)
+                };
+                let end = Pose::new(2.0 * target - from, turn * start.rotation())?;
+                at_rest(row, Motion::between(start, end, DVec3::ZERO, 1.0)?, DVec3::ZERO)
+            })
+            .collect()
+    }
+}
+
+/// A body falls from height 5 to −5, turning; a board lies across its way from high to low, and
+/// more or less aside.
+///
+/// # Errors
+/// None: all motions are finite.
+pub fn drops_past_board(count: usize, seed: u64) -> Result<Vec<Query>, InputError> {
+    let mut rng = Pcg64::seed_from_u64(seed);
+    (0..count)
+        .map(|row| {
+            let start = Pose::new(5.0 * DVec3::Z, orientation(&mut rng))?;
+            let end = Pose::new(-5.0 * DVec3::Z, orientation(&mut rng))?;
+            let height = 3.5 - 7.0 * row as f64 / count as f64;
+            let board = DVec3::new(rng.random_range(-2.6..2.6), 0.0, height);
+            at_rest(row, Motion::between(start, end, DVec3::ZERO, 1.0)?, board)
+        })
+        .collect()
+}
+
+fn at_rest(row: usize, a: Motion, b: DVec3) -> Result<Query, InputError> {
+    Ok(Query {
+        id: row.to_string(),
+        a,
+        b: Motion::still(Pose::from_translation(b)?),
+        duration: 1.0,
+    })
+}
+
+/// A point of the unit sphere, all alike likely.
+pub(super) fn unit_vector(rng: &mut impl Rng) -> DVec3 {
+    let z: f64 = rng.random_range(-1.0..1.0);
+    let (sin, cos) = rng.random_range(0.0..TAU).sin_cos();
+    let radius = (1.0 - z * z).sqrt();
+    DVec3::new(radius * cos, radius * sin, z)
+}
+
+/// A point of the unit ball, all alike likely.
+fn in_unit_ball(rng: &mut impl Rng) -> DVec3 {
+    let radius = rng.random_range(0.0f64..1.0).cbrt();
+    radius * unit_vector(rng)
+}
+
+/// A rotation, all alike likely: a point of the sphere in four dimensions.
+pub(super) fn orientation(rng: &mut impl Rng) -> DQuat {
+    let share: f64 = rng.random_range(0.0..1.0);
+    let (sin_a, cos_a) = rng.random_range(0.0..TAU).sin_cos();
+    let (sin_b, cos_b) = rng.random_range(0.0..TAU).sin_cos();
+    let (a, b) = ((1.0 - share).sqrt(), share.sqrt());
+    DQuat::from_xyzw(a * sin_a, a * cos_a, b * sin_b, b * cos_b)
+}

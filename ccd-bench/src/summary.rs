@@ -1,0 +1,102 @@
+//! What many answers come to.
+
+use crate::query::{Timed, median};
+use crate::results::Status;
+use std::fmt;
+
+/// Counts and times of many answers.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Summary {
+    /// How many of each status, in the order of [`Status::ALL`].
+    counts: [usize; Status::ALL.len()],
+    /// Median time of a query, in microseconds; NaN of none, as the two below.
+    pub median_micros: f64,
+    /// Mean time of a query, in microseconds.
+    pub mean_micros: f64,
+    /// The time that 95 of 100 queries stay within, in microseconds.
+    pub p95_micros: f64,
+    /// Pairs of nodes visited, all queries together.
+    pub node_visits: u64,
+    /// How often the oracle was asked, all queries together.
+    pub oracle_calls: u64,
+    /// The tolerance asked for.
+    asked: f64,
+    /// How many answers had to keep a larger tolerance.
+    pub raised: usize,
+    /// The largest tolerance kept.
+    pub largest_tolerance: f64,
+}
+
+impl Summary {
+    /// Sums up answers to queries with that tolerance.
+    pub fn new<'t>(answers: impl IntoIterator<Item = &'t Timed>, tolerance: f64) -> Self {
+        let mut summary = Summary {
+            counts: [0; Status::ALL.len()],
+            median_micros: f64::NAN,
+            mean_micros: f64::NAN,
+            p95_micros: f64::NAN,
+            node_visits: 0,
+            oracle_calls: 0,
+            asked: tolerance,
+            raised: 0,
+            largest_tolerance: tolerance,
+        };
+        let mut micros = Vec::new();
+        for timed in answers {
+            let answer = &timed.answer;
+            summary.counts[Status::from(&answer.outcome) as usize] += 1;
+            summary.node_visits += answer.stats.node_visits;
+            summary.oracle_calls += answer.stats.oracle_calls;
+            summary.raised += usize::from(answer.tolerance > tolerance);
+            summary.largest_tolerance = summary.largest_tolerance.max(answer.tolerance);
+            micros.push(timed.micros);
+        }
+        summary.median_micros = median(&mut micros);
+        summary.mean_micros = micros.iter().sum::<f64>() / micros.len() as f64;
+        // The median has sorted them.
+        let within = (0.95 * micros.len() as f64).ceil() as usize;
+        summary.p95_micros = within.checked_sub(1).map_or(f64::NAN, |k| micros[k]);
+        summary
+    }
+
+    /// How many there are of a status.
+    pub fn count(&self, status: Status) -> usize {
+        self.counts[status as usize]
+    }
+
+    /// How many there are.
+    pub fn rows(&self) -> usize {
+        self.counts.iter().sum()
+    }
+}
+
+impl fmt::Display for Summary {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let seen = Status::ALL.into_iter().filter(|&s| self.count(s) > 0);
+        let counts: Vec<String> = seen
+            .map(|s| format!("{} {}", self.count(s), s.name()))
+            .collect();
+        write!(f, "{} rows", self.rows())?;
+        if counts.is_empty() {
+            return Ok(());
+        }
+        write!(
+            f,
+            ": {}; median {:.1} µs, mean {:.1} µs; {} node visits, {} oracle calls",
+            counts.join(", "),
+            self.median_micros,
+            self.mean_micros,
+            self.node_visits,
+            self.oracle_calls
+        )?;
+        if self.raised > 0 {
+            write!(
+                f,
+                "\ntolerance {:e} cannot be certified at these coordinates: raised in {} rows, to \
+                 at most {:.2e}",
+                self.asked, self.raised, self.largest_tolerance
+            )?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,271 @@
+//! Every pair keeps its own clock; the pair whose proof expires first is looked at next.
+
+use super::expand::{Expansion, Which, expand};
+use super::pair::{Pair, Step};
+use super::queue::{Full, Queue, Rank};
+use super::start::Start;
+use super::Schedule;
+use crate::oracle::DistanceOracle;
+use crate::outcome::{Answer, Limit, Outcome, Stats};
+use crate::problem::Problem;
+use crate::tree::{LANES, NodeId};
+
+/// Best-first search by time, the default.
+///
+/// A pair of nodes carries the time until which it is proven apart. The pair of least clock is split
+/// at the pose of that time, and each of its children proven apart further, eight at once. The
+/// first pair of pieces found within the tolerance is the answer: every other pair is certified
+/// beyond its time. No pass over all pairs ever happens, and no distance is computed but between
+/// pieces.
+///
+/// Keep it between queries: it owns the queue's memory.
+#[derive(Debug)]
+pub struct BestFirst<O: DistanceOracle> {
+    queue: Queue<Item<O::Cache>>,
+}
+
+impl<O: DistanceOracle> Default for BestFirst<O> {
+    fn default() -> Self {
+        BestFirst {
+            queue: Queue::default(),
+        }
+    }
+}
+
+#[derive(Debug)]
+enum Item<C> {
+    Group(Group),
+    Pieces(Pair<C>),
+}
+
+/// Up to eight pairs that came of one split: the children of a node with one other node.
+#[derive(Debug)]
+struct Group {
+    /// For how long after `since` each pair is certified; infinite once it is done with.
+    free: [f32; LANES],
+    since: f64,
+    /// The children's body.
+    split: Which,
+    first: NodeId,
+    other: NodeId,
+    /// Which children are thicker than the other node and are to be split next.
+    thicker: u8,
+}
+
+/// What to do with the pair that was looked at.
+enum Found<C> {
+    /// Two pieces.
+    Pieces(Pair<C>),
+    /// Split the node of this body against the other's.
+    Split(Which, NodeId, NodeId),
+}
+
+impl<O: DistanceOracle> Schedule<O> for BestFirst<O> {
+    fn solve(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer {
+        self.queue.clear();
+        let mut stats = Stats::default();
+        let outcome = self.search(problem, oracle, &mut stats);
+        stats.peak_front = self.queue.peak();
+        Answer {
+            outcome,
+            tolerance: problem.tolerance,
+            stats,
+        }
+    }
+}
+
+impl<O: DistanceOracle> BestFirst<O> {
+    fn search(&mut self, problem: &Problem<'_>, oracle: &mut O, stats: &mut Stats) -> Outcome {
+        let mut start = Start::default();
+        let unresolved = |s: f64, reason| Outcome::Unresolved {
+            safe_until: problem.time(s),
+            reason,
+        };
+        if self.open_roots(problem).is_err() {
+            return unresolved(0.0, Limit::Budget);
+        }
+        while let Some((s, found)) = self.next(problem) {
+            if s > 0.0
+                && let Some(outcome) = start.end(problem)
+            {
+                return outcome;
+            }
+            stats.node_visits += 1;
+            if stats.node_visits > problem.budget {
+                return start.touching().unwrap_or(unresolved(s, Limit::Budget));
+            }
+            let pushed = match found {
+                Found::Split(split, node, other) => {
+                    let expansion = expand(problem, split, node, other, s);
+                    self.push_group(problem, expansion, split, other, s)
+                }
+                Found::Pieces(mut pair) => match pair.advance(problem, oracle, stats, s) {
+                    Step::FreeUntil(clock) => self.push_pair(clock, pair),
+                    Step::Contact(contact) if s > 0.0 => {
+                        let time = problem.time(s);
+                        return Outcome::Contact { time, contact };
+                    }
+                    Step::Contact(contact) => {
+                        start.touch(contact);
+                        Ok(())
+                    }
+                    Step::Overlap(contact) => return Start::overlapping(contact),
+                    Step::Stalled => return unresolved(s, Limit::Stalled),
+                    Step::GaveUp => return unresolved(s, Limit::OracleGaveUp),
+                },
+            };
+            if pushed.is_err() {
+                return unresolved(s, Limit::Budget);
+            }
+        }
+        start.end(problem).unwrap_or(Outcome::Free {
+            clearance: problem.gap(),
+        })
+    }
+
+    fn open_roots(&mut self, problem: &Problem<'_>) -> Result<(), Full> {
+        let item = match (problem.a.body.tree().piece(0), problem.b.body.tree().piece(0)) {
+            (Some(a), Some(b)) => return self.push_pair(0.0, Pair::new(a, b)),
+            (None, _) => Group::roots(Which::A),
+            (Some(_), None) => Group::roots(Which::B),
+        };
+        self.queue.push(0.0, Rank::Group, Item::Group(item))
+    }
+
+    /// Takes out the pair of least clock, and lets the rest of its group wait for theirs.
+    fn next(&mut self, problem: &Problem<'_>) -> Option<(f64, Found<O::Cache>)> {
+        let visit = self.queue.visit()?;
+        let s = visit.clock;
+        let found = match visit.item {
+            Item::Pieces(pair) => {
+                let found = Found::Pieces(pair.clone());
+                visit.remove();
+                found
+            }
+            Item::Group(group) => {
+                let lane = group.take_least();
+                let found = group.found(problem, lane);
+                match group.clock(group.least()) {
+                    clock if clock < 1.0 => visit.postpone(clock),
+                    _ => visit.remove(),
+                }
+                found
+            }
+        };
+        Some((s, found))
+    }
+
+    fn push_group(
+        &mut self,
+        problem: &Problem<'_>,
+        expansion: Expansion,
+        split: Which,
+        other: NodeId,
+        s: f64,
+    ) -> Result<(), Full> {
+        let group = Group::new(problem, &expansion, split, other, s);
+        let clock = group.clock(group.least());
+        if clock < 1.0 {
+            self.queue.push(clock, Rank::Group, Item::Group(group))?;
+        }
+        Ok(())
+    }
+
+    fn push_pair(&mut self, clock: f64, pair: Pair<O::Cache>) -> Result<(), Full> {
+        if clock < 1.0 {
+            self.queue.push(clock, Rank::PiecePair, Item::Pieces(pair))?;
+        }
+        Ok(())
+    }
+}
+
+impl Group {
+    /// The pair of both roots, of which the given body's is to be split.
+    fn roots(split: Which) -> Self {
+        let mut free = [f32::INFINITY; LANES];
+        free[0] = 0.0;
+        Group {
+            free,
+            since: 0.0,
+            split,
+            first: 0,
+            other: 0,
+            thicker: 1,
+        }
+    }
+
+    fn new(
+        problem: &Problem<'_>,
+        expansion: &Expansion,
+        split: Which,
+        other: NodeId,
+        s: f64,
+    ) -> Self {
+        let bounds = &expansion.bounds;
+        let other_is_piece = split.other().of(problem).body.tree().piece(other).is_some();
+        let mut thicker = 0;
+        let mut free = bounds.free;
+        for lane in 0..LANES {
+            let leaf = expansion.leaves >> lane & 1 == 1;
+            let thick = !leaf && (other_is_piece || bounds.thicker[lane] > 0.0);
+            thicker |= u8::from(thick) << lane;
+            if lane >= expansion.count as usize {
+                free[lane] = f32::INFINITY;
+            }
+        }
+        Group {
+            free,
+            since: s,
+            split,
+            first: expansion.first,
+            other,
+            thicker,
+        }
+    }
+
+    fn least(&self) -> usize {
+        let mut least = 0;
+        for lane in 1..LANES {
+            if self.free[lane] < self.free[least] {
+                least = lane;
+            }
+        }
+        least
+    }
+
+    /// Takes the lane of least clock out of the group.
+    fn take_least(&mut self) -> usize {
+        let lane = self.least();
+        self.free[lane] = f32::INFINITY;
+        lane
+    }
+
+    /// The clock of a lane, never later than what it is certified for.
+    fn clock(&self, lane: usize) -> f64 {
+        let free = f64::from(self.free[lane]);
+        if free > 0.0 {
+            // One step down undoes the rounding of the sum.
+            (self.since + free).next_down().max(self.since)
+        } else {
+            self.since
+        }
+    }
+
+    fn found<C: Default + Clone>(&self, problem: &Problem<'_>, lane: usize) -> Found<C> {
+        let child = self.first + lane as NodeId;
+        let (child_tree, other_tree) = (
+            self.split.of(problem).body.tree(),
+            self.split.other().of(problem).body.tree(),
+        );
+        if self.thicker >> lane & 1 == 1 {
+            return Found::Split(self.split, child, self.other);
+        }
+        match (child_tree.piece(child), other_tree.piece(self.other)) {
+            (Some(child), Some(other)) => Found::Pieces(match self.split {
+                Which::A => Pair::new(child, other),
+                Which::B => Pair::new(other, child),
+            }),
+            _ => Found::Split(self.split.other(), self.other, child),
+        }
+    }
+}

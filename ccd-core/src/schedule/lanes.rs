@@ -1,0 +1,397 @@
+//! Eight pairs of nodes at once: how far apart they are, and until when that is certain.
+//!
+//! Everything here is relative to the origin of the group that is split, in its body's frame, in
+//! f32, one array lane per child; loops over lanes are what the compiler turns into vector code.
+//! The error of every quantity is covered by the allowances of [`Closing`].
+
+use crate::tolerance::{BEND_F32, CLOCK_F32, LEAST_BEND_F32, LEAST_GAP_F32};
+use crate::tree::{BoxGroup, LANES, TriangleGroup};
+use glam::Vec3;
+
+/// What eight pairs come to.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Bounds {
+    /// For how long each pair is certainly farther apart than the gap that is to be kept.
+    pub(crate) free: [f32; LANES],
+    /// The separation beyond that gap.
+    pub(crate) apart: [f32; LANES],
+    /// How thick the child is along the axis, less how thick the other node is.
+    pub(crate) thicker: [f32; LANES],
+}
+
+/// The children of a group.
+pub(crate) trait Children {
+    fn centre(&self, lane: usize) -> Vec3;
+    /// A unit vector that is likely to separate the child from others, or zero.
+    fn normal(&self, lane: usize) -> Vec3;
+    /// No point of the child is farther from its centre.
+    fn radius(&self, lane: usize) -> f32;
+    /// `max n·(x − centre)` over the child's points.
+    fn reach(&self, lane: usize, n: Vec3) -> f32;
+}
+
+/// The node that all children of a group are paired with.
+pub(crate) trait Other {
+    fn centre(&self) -> Vec3;
+    fn normal(&self) -> Vec3;
+    fn radius(&self) -> f32;
+    /// `max n·(centre − y)` over the node's points: how far it comes towards −n.
+    fn reach(&self, n: Vec3) -> f32;
+}
+
+/// How a body turns: nothing to compute for one that does not.
+pub(crate) trait Turn: Copy {
+    /// The velocity, due to turning, of the point `x`.
+    fn velocity(&self, x: Vec3) -> Vec3;
+    /// `n × ω`
+    fn across(&self, n: Vec3) -> Vec3;
+    fn rate(&self) -> f32;
+    /// How far `x` is from the rotation's centre.
+    fn arm(&self, x: Vec3) -> f32;
+    const TURNS: bool;
+}
+
+/// A body that does not turn.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Straight;
+
+/// A body that does.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Turning {
+    pub(crate) spin: Vec3,
+    pub(crate) rate: f32,
+    /// A point on the axis of rotation.
+    pub(crate) centre: Vec3,
+}
+
+/// What all lanes share: the motion, and allowances for rounding.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Closing<S, O> {
+    /// Of the split side's centre less that of the other side's.
+    pub(crate) velocity: Vec3,
+    pub(crate) split: S,
+    pub(crate) other: O,
+    /// The gap that is to be kept, and what rounding may do to a gap.
+    pub(crate) slack: f32,
+    /// What rounding may do to a rate.
+    pub(crate) rate_slack: f32,
+}
+
+/// Bounds eight pairs.
+#[inline(always)]
+pub(crate) fn bound<C: Children, P: Other, S: Turn, O: Turn>(
+    children: &C,
+    other: &P,
+    closing: &Closing<S, O>,
+) -> Bounds {
+    let mut out = Bounds {
+        free: [0.0; LANES],
+        apart: [0.0; LANES],
+        thicker: [0.0; LANES],
+    };
+    let other_velocity = closing.other.velocity(other.centre());
+    // The slack covers what rounding takes off a speed.
+    let other_speed =
+        length(other_velocity) + closing.other.rate() * other.radius() + closing.rate_slack;
+    for lane in 0..LANES {
+        let centre = children.centre(lane);
+        let way = other.centre() - centre;
+        let axis = best_axis(children, other, lane, way);
+        let n = axis.n;
+        let apart = axis.gap - closing.slack;
+
+        let velocity = closing.split.velocity(centre);
+        let mut rate = dot(n, closing.velocity + velocity - other_velocity) + closing.rate_slack;
+        let mut bend = 0.0;
+        if S::TURNS {
+            let m = closing.split.across(n);
+            let speed = length(velocity)
+                + closing.split.rate() * children.radius(lane)
+                + closing.rate_slack;
+            rate += children.reach(lane, m);
+            bend += length(m) * speed;
+        }
+        if O::TURNS {
+            let m = closing.other.across(n);
+            rate += other.reach(m);
+            bend += length(m) * other_speed;
+        }
+        out.free[lane] = if S::TURNS || O::TURNS {
+            free_time(apart, rate, bend * BEND_F32 + LEAST_BEND_F32)
+        } else {
+            straight_free_time(apart, rate)
+        };
+        out.apart[lane] = apart;
+        out.thicker[lane] = axis.split_reach + 0.1 * children.radius(lane)
+            - (axis.other_reach + 0.1 * other.radius());
+    }
+    out
+}
+
+/// An axis, the gap along it, and how far either side reaches towards the other.
+#[derive(Clone, Copy)]
+struct Axis {
+    n: Vec3,
+    gap: f32,
+    split_reach: f32,
+    other_reach: f32,
+}
+
+/// The best of three axes: between the centres, and the two nodes' own normals.
+#[inline(always)]
+fn best_axis<C: Children, P: Other>(children: &C, other: &P, lane: usize, way: Vec3) -> Axis {
+    let along = |n: Vec3| {
+        let split_reach = children.reach(lane, n);
+        let other_reach = other.reach(n);
+        Axis {
+            n,
+            gap: dot(n, way) - split_reach - other_reach,
+            split_reach,
+            other_reach,
+        }
+    };
+    let towards = |n: Vec3| {
+        let sign = if dot(n, way) < 0.0 { -1.0 } else { 1.0 };
+        n * sign
+    };
+    // Homogeneous in n: a zero vector gives no gap, and any length a sound one.
+    let length = length(way);
+    let inverse = if length > 0.0 { 1.0 / length } else { 0.0 };
+    let best = better(
+        along(way * inverse),
+        along(towards(children.normal(lane))),
+    );
+    better(best, along(towards(other.normal())))
+}
+
+#[inline(always)]
+fn better(a: Axis, b: Axis) -> Axis {
+    let pick = b.gap > a.gap;
+    let choose = |x: f32, y: f32| if pick { y } else { x };
+    Axis {
+        n: Vec3::new(
+            choose(a.n.x, b.n.x),
+            choose(a.n.y, b.n.y),
+            choose(a.n.z, b.n.z),
+        ),
+        gap: choose(a.gap, b.gap),
+        split_reach: choose(a.split_reach, b.split_reach),
+        other_reach: choose(a.other_reach, b.other_reach),
+    }
+}
+
+/// The largest τ with `apart ≥ rate τ + bend τ²/2`; 0 for a pair that is not apart, also when it
+/// recedes, and for NaN.
+#[inline(always)]
+fn free_time(apart: f32, rate: f32, bend: f32) -> f32 {
+    let root = (rate * rate + 2.0 * bend * apart).sqrt();
+    let approaching = 2.0 * apart / (rate + root);
+    let receding = (root - rate) / bend;
+    let tau = if rate > 0.0 { approaching } else { receding };
+    if apart > LEAST_GAP_F32 && tau > 0.0 {
+        tau * CLOCK_F32
+    } else {
+        0.0
+    }
+}
+
+/// The same on a straight path.
+#[inline(always)]
+fn straight_free_time(apart: f32, rate: f32) -> f32 {
+    let tau = apart / rate;
+    let tau = if rate > 0.0 { tau } else { f32::INFINITY };
+    if apart > LEAST_GAP_F32 && tau > 0.0 {
+        tau * CLOCK_F32
+    } else {
+        0.0
+    }
+}
+
+#[inline(always)]
+fn fused(a: f32, b: f32, c: f32) -> f32 {
+    if cfg!(target_feature = "fma") {
+        a.mul_add(b, c)
+    } else {
+        a * b + c
+    }
+}
+
+#[inline(always)]
+pub(crate) fn dot(a: Vec3, b: Vec3) -> f32 {
+    fused(a.x, b.x, fused(a.y, b.y, a.z * b.z))
+}
+
+#[inline(always)]
+fn length(a: Vec3) -> f32 {
+    dot(a, a).sqrt()
+}
+
+#[inline(always)]
+fn cross(a: Vec3, b: Vec3) -> Vec3 {
+    Vec3::new(
+        fused(a.y, b.z, -(a.z * b.y)),
+        fused(a.z, b.x, -(a.x * b.z)),
+        fused(a.x, b.y, -(a.y * b.x)),
+    )
+}
+
+#[inline(always)]
+fn min(a: f32, b: f32) -> f32 {
+    if a < b { a } else { b }
+}
+
+#[inline(always)]
+fn max(a: f32, b: f32) -> f32 {
+    if a > b { a } else { b }
+}
+
+/// `min(Σ hₖ |n·uₖ|, R |n|)`
+#[inline(always)]
+fn box_reach(n: Vec3, axes: [Vec3; 3], half: [f32; 3], radius: f32) -> f32 {
+    let [x, y, z] = axes.map(|u| dot(n, u).abs());
+    let boxed = fused(half[0], x, fused(half[1], y, half[2] * z));
+    min(boxed, radius * length(n))
+}
+
+#[inline(always)]
+fn at(rows: &[[f32; LANES]; 3], lane: usize) -> Vec3 {
+    Vec3::new(rows[0][lane], rows[1][lane], rows[2][lane])
+}
+
+impl Children for BoxGroup {
+    #[inline(always)]
+    fn centre(&self, lane: usize) -> Vec3 {
+        at(&self.centre, lane)
+    }
+    #[inline(always)]
+    fn normal(&self, lane: usize) -> Vec3 {
+        at(&self.axes[2], lane)
+    }
+    #[inline(always)]
+    fn radius(&self, lane: usize) -> f32 {
+        self.radius[lane]
+    }
+    #[inline(always)]
+    fn reach(&self, lane: usize, n: Vec3) -> f32 {
+        let axes = [0, 1, 2].map(|k| at(&self.axes[k], lane));
+        let half = [0, 1, 2].map(|k| self.half[k][lane]);
+        box_reach(n, axes, half, self.radius[lane])
+    }
+}
+
+impl Children for TriangleGroup {
+    #[inline(always)]
+    fn centre(&self, lane: usize) -> Vec3 {
+        let [a, b, c] = [0, 1, 2].map(|k| at(&self.corners[k], lane));
+        (a + b + c) * (1.0 / 3.0)
+    }
+    #[inline(always)]
+    fn normal(&self, lane: usize) -> Vec3 {
+        at(&self.normal, lane)
+    }
+    #[inline(always)]
+    fn radius(&self, lane: usize) -> f32 {
+        self.radius[lane]
+    }
+    #[inline(always)]
+    fn reach(&self, lane: usize, n: Vec3) -> f32 {
+        let centre = self.centre(lane);
+        let [a, b, c] = [0, 1, 2].map(|k| dot(n, at(&self.corners[k], lane) - centre));
+        max(max(a, b), c)
+    }
+}
+
+/// A node's box and ball.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct OtherBox {
+    pub(crate) centre: Vec3,
+    pub(crate) axes: [Vec3; 3],
+    pub(crate) half: [f32; 3],
+    pub(crate) radius: f32,
+}
+
+impl Other for OtherBox {
+    #[inline(always)]
+    fn centre(&self) -> Vec3 {
+        self.centre
+    }
+    #[inline(always)]
+    fn normal(&self) -> Vec3 {
+        self.axes[2]
+    }
+    #[inline(always)]
+    fn radius(&self) -> f32 {
+        self.radius
+    }
+    #[inline(always)]
+    fn reach(&self, n: Vec3) -> f32 {
+        box_reach(n, self.axes, self.half, self.radius)
+    }
+}
+
+/// A triangle: its corners relative to its centre.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct OtherTriangle {
+    pub(crate) centre: Vec3,
+    pub(crate) corners: [Vec3; 3],
+    pub(crate) normal: Vec3,
+    pub(crate) radius: f32,
+}
+
+impl Other for OtherTriangle {
+    #[inline(always)]
+    fn centre(&self) -> Vec3 {
+        self.centre
+    }
+    #[inline(always)]
+    fn normal(&self) -> Vec3 {
+        self.normal
+    }
+    #[inline(always)]
+    fn radius(&self) -> f32 {
+        self.radius
+    }
+    #[inline(always)]
+    fn reach(&self, n: Vec3) -> f32 {
+        let [a, b, c] = self.corners.map(|corner| -dot(n, corner));
+        max(max(a, b), c)
+    }
+}
+
+impl Turn for Straight {
+    const TURNS: bool = false;
+    #[inline(always)]
+    fn velocity(&self, _: Vec3) -> Vec3 {
+        Vec3::ZERO
+    }
+    #[inline(always)]
+    fn across(&self, _: Vec3) -> Vec3 {
+        Vec3::ZERO
+    }
+    #[inline(always)]
+    fn rate(&self) -> f32 {
+        0.0
+    }
+    fn arm(&self, _: Vec3) -> f32 {
+        0.0
+    }
+}
+
+impl Turn for Turning {
+    const TURNS: bool = true;
+    #[inline(always)]
+    fn velocity(&self, x: Vec3) -> Vec3 {
+        cross(self.spin, x - self.centre)
+    }
+    #[inline(always)]
+    fn across(&self, n: Vec3) -> Vec3 {
+        cross(n, self.spin)
+    }
+    #[inline(always)]
+    fn rate(&self) -> f32 {
+        self.rate
+    }
+    fn arm(&self, x: Vec3) -> f32 {
+        length(x - self.centre)
+    }
+}

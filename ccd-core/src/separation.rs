@@ -1,0 +1,96 @@
+//! Checking what an oracle claims: nothing of it is believed unseen.
+
+use crate::oracle::{Claim, Combination, PiecePair};
+use glam::DVec3;
+
+/// A checked claim, in A's frame.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Checked {
+    /// What was claimed; its combinations name points that exist.
+    pub(crate) claim: Claim,
+    /// Bounds the distance from below, rounding deducted; negative when no axis separates.
+    pub(crate) lower: f64,
+    /// Bounds the distance from above, rounding added.
+    pub(crate) upper: f64,
+    /// The unit axis that `lower` was computed along.
+    pub(crate) axis: DVec3,
+    /// The distance of the witnesses before the pieces' radii are taken off.
+    pub(crate) core_distance: f64,
+    /// The points that `upper` was computed from, on the rounded surfaces.
+    pub(crate) witness_a: DVec3,
+    pub(crate) witness_b: DVec3,
+}
+
+/// Checks a claim with one support query per axis and one pair of points; `rounding` bounds the
+/// error of either.
+///
+/// # Guarantee
+/// `lower ≤ distance ≤ upper`, whatever was claimed.
+pub(crate) fn check(pair: &PiecePair<'_>, claim: &Claim, rounding: f64) -> Checked {
+    let (a, on_a) = named(claim.a, pair.a.points);
+    let (b, on_b) = named(claim.b, pair.b.points);
+    let on_b = pair.b_to_a.point(on_b);
+    let way = on_b - on_a;
+    let distance = way.length();
+    let radii = pair.a.radius + pair.b.radius;
+
+    let mut axis = unit(claim.axis);
+    let mut gap = support_gap(pair, axis, on_a);
+    // Written so that NaN asks for the second axis.
+    if !(gap > 0.5 * distance) {
+        let second = unit(way);
+        let second_gap = support_gap(pair, second, on_a);
+        if !(gap >= second_gap) {
+            (axis, gap) = (second, second_gap);
+        }
+    }
+    let outward = if distance > 0.0 { unit(way) } else { axis };
+    Checked {
+        claim: Claim { axis, a, b },
+        lower: gap - radii - rounding,
+        upper: (distance - radii).max(0.0) + rounding,
+        axis,
+        core_distance: distance,
+        witness_a: on_a + outward * pair.a.radius,
+        witness_b: on_b - outward * pair.b.radius,
+    }
+}
+
+/// `min_B n·y − max_A n·x` of the unrounded pieces, with heights measured from `from`.
+#[inline]
+pub(crate) fn support_gap(pair: &PiecePair<'_>, n: DVec3, from: DVec3) -> f64 {
+    let highest = pair
+        .a
+        .points
+        .iter()
+        .map(|&x| n.dot(x - from))
+        .fold(f64::NEG_INFINITY, f64::max);
+    let n_b = pair.b_to_a.inverse_vector(n);
+    let origin_b = n.dot(pair.b_to_a.translation - from);
+    let lowest = pair
+        .b
+        .points
+        .iter()
+        .map(|&y| n_b.dot(y))
+        .fold(f64::INFINITY, f64::min);
+    lowest + origin_b - highest
+}
+
+/// The point that a combination names; one that names none of the piece's is replaced.
+fn named(combination: Combination, points: &[DVec3]) -> (Combination, DVec3) {
+    match combination.of(points) {
+        Some(point) => (combination, point),
+        None => (Combination::point(0), points[0]),
+    }
+}
+
+/// The unit vector, or an arbitrary one where there is none: a support gap is a bound along any.
+fn unit(v: DVec3) -> DVec3 {
+    // Scaled first, so that neither tiny nor huge vectors lose their direction.
+    let scale = v.abs().max_element();
+    if scale > 0.0 && scale.is_finite() {
+        (v / scale).normalize()
+    } else {
+        DVec3::X
+    }
+}

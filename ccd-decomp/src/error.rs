@@ -1,0 +1,197 @@
+//! What can be wrong with a file, a mesh or the description of a body.
+
+use ccd_core::InputError;
+use ccd_core::tolerance::MAX_COORDINATE;
+use std::fmt;
+use std::io;
+use std::path::PathBuf;
+
+/// A mesh that could not be read: which file, and what is wrong with it where.
+#[derive(Debug, thiserror::Error)]
+#[error("{}{fault}", Prefix(.file))]
+pub struct MeshError {
+    /// The file, where the mesh came from one.
+    pub file: Option<PathBuf>,
+    /// What is wrong with it.
+    pub fault: MeshFault,
+}
+
+/// What is wrong with a mesh. Lines count from 1, faces and vertices from 0, both in the file's
+/// order.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum MeshFault {
+    /// The operating system would not give the bytes.
+    #[error("cannot be read: {0}")]
+    Unreadable(#[source] io::Error),
+    /// The file's name does not tell its format.
+    #[error("{extension:?} is not the extension of a mesh; use .obj, .stl, .ply or .off")]
+    UnknownExtension {
+        /// What follows the last dot; empty when there is none.
+        extension: String,
+    },
+    /// The format is known, but not this kind of it.
+    #[error("holds {what}, which is not supported; export it as {instead}")]
+    Unsupported {
+        /// What the file holds.
+        what: String,
+        /// What can be read instead.
+        instead: &'static str,
+    },
+    /// There is no vertex.
+    #[error("has no vertices; is it a mesh, and all of it?")]
+    NoVertices,
+    /// There is no face.
+    #[error("has no faces; export it as triangles or polygons, not as points or lines")]
+    NoFaces,
+    /// Something does not read as the format says.
+    #[error("{}{problem}; mend it or export the mesh again", Line(*.line))]
+    Syntax {
+        /// Where.
+        line: Option<usize>,
+        /// What was found, and what was expected.
+        problem: String,
+    },
+    /// The file ends before everything it announces is there.
+    #[error("ends before {missing} is complete; copy or export it again")]
+    Truncated {
+        /// What is missing.
+        missing: String,
+    },
+    /// A coordinate is NaN or infinite.
+    #[error("{}vertex {vertex} is NaN or infinite; give it finite coordinates", Line(*.line))]
+    NotFinite {
+        /// The vertex.
+        vertex: usize,
+        /// Where, in a text.
+        line: Option<usize>,
+    },
+    /// A coordinate is beyond what is computed with.
+    #[error("{}vertex {vertex} has a coordinate beyond ±{MAX_COORDINATE:e}; use a larger unit of length", Line(*.line))]
+    TooLarge {
+        /// The vertex.
+        vertex: usize,
+        /// Where, in a text.
+        line: Option<usize>,
+    },
+    /// A face names a vertex that does not exist.
+    #[error("{}face {face} names vertex {vertex}, but there are {vertices}, numbered from {base}", Line(*.line))]
+    NoSuchVertex {
+        /// The face.
+        face: usize,
+        /// Where, in a text.
+        line: Option<usize>,
+        /// The vertex as the file names it; a negative one of an OBJ counts back from the face.
+        vertex: i64,
+        /// How many vertices there are.
+        vertices: usize,
+        /// The number that the format gives to the first vertex.
+        base: u8,
+    },
+    /// A face has less than three corners.
+    #[error("{}face {face} has {corners} corners; remove it or give it three", Line(*.line))]
+    TooFewCorners {
+        /// The face.
+        face: usize,
+        /// Where, in a text.
+        line: Option<usize>,
+        /// How many it has.
+        corners: usize,
+    },
+    /// More than an index can name.
+    #[error("{count} {what} are too many; split the mesh into several")]
+    TooMany {
+        /// Vertices or faces.
+        what: &'static str,
+        /// How many there are.
+        count: usize,
+    },
+}
+
+impl MeshFault {
+    pub(crate) fn in_file(self, file: impl Into<PathBuf>) -> MeshError {
+        MeshError {
+            file: Some(file.into()),
+            fault: self,
+        }
+    }
+}
+
+impl From<MeshFault> for MeshError {
+    fn from(fault: MeshFault) -> Self {
+        MeshError { file: None, fault }
+    }
+}
+
+/// A text that describes no body.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SourceError {
+    /// Nothing was given.
+    #[error("no body given; {EXAMPLES}")]
+    Empty,
+    /// The word before the colon is none of the shapes.
+    #[error("there is no shape {shape:?}; {EXAMPLES}")]
+    UnknownShape {
+        /// The word.
+        shape: String,
+    },
+    /// A shape needs another number of lengths.
+    #[error("{shape:?} takes {expected} lengths, not {given}; {EXAMPLES}")]
+    WrongCount {
+        /// The shape.
+        shape: &'static str,
+        /// How many it takes.
+        expected: usize,
+        /// How many were given.
+        given: usize,
+    },
+    /// A length is not a finite number of at least 0.
+    #[error("{length:?} is not a length of {shape:?}: a finite number of at least 0; {EXAMPLES}")]
+    BadLength {
+        /// The shape.
+        shape: &'static str,
+        /// The text given for the length.
+        length: String,
+    },
+}
+
+const EXAMPLES: &str = "use box:1,2,3 (half extents), sphere:0.5 (radius), capsule:0.2,1 (radius, \
+                        half height) or a file such as part.obj";
+
+/// Why there is no body.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum BodyError {
+    /// The description reads as no body.
+    #[error(transparent)]
+    Source(#[from] SourceError),
+    /// The mesh cannot be read.
+    #[error(transparent)]
+    Mesh(#[from] MeshError),
+    /// The core does not take it.
+    #[error(transparent)]
+    Input(#[from] InputError),
+}
+
+struct Prefix<'a>(&'a Option<PathBuf>);
+
+impl fmt::Display for Prefix<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0 {
+            Some(file) => write!(f, "{}: ", file.display()),
+            None => Ok(()),
+        }
+    }
+}
+
+struct Line(Option<usize>);
+
+impl fmt::Display for Line {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0 {
+            Some(line) => write!(f, "line {line}: "),
+            None => Ok(()),
+        }
+    }
+}

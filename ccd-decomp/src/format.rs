@@ -1,0 +1,58 @@
+//! File formats: bytes to polygons and back, without touching a file.
+
+mod obj;
+mod off;
+mod ply;
+mod stl;
+
+use crate::error::MeshFault;
+use crate::mesh::Polygons;
+use std::path::Path;
+
+pub use obj::write_obj;
+
+/// A format that a mesh can be read from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Format {
+    /// Wavefront OBJ: statements `v` and `f`, in f64. Lines, points, curves, normals, texture
+    /// coordinates, colours, groups and materials are passed over.
+    Obj,
+    /// STL, binary or text, in f32. Corners at exactly the same point become one vertex, numbered in
+    /// the order they appear; the normals are passed over.
+    Stl,
+    /// PLY, binary or text: elements `vertex` and `face`; others are passed over.
+    Ply,
+    /// Object File Format, text, with or without normals and colours, which are passed over.
+    Off,
+}
+
+impl Format {
+    /// The format that a file's extension tells, in capitals or not.
+    ///
+    /// # Errors
+    /// [`MeshFault::UnknownExtension`].
+    pub fn from_path(path: impl AsRef<Path>) -> Result<Self, MeshFault> {
+        let extension = path.as_ref().extension().unwrap_or_default();
+        let extension = extension.to_string_lossy().to_ascii_lowercase();
+        match extension.as_str() {
+            "obj" => Ok(Format::Obj),
+            "stl" => Ok(Format::Stl),
+            "ply" => Ok(Format::Ply),
+            "off" => Ok(Format::Off),
+            _ => Err(MeshFault::UnknownExtension { extension }),
+        }
+    }
+
+    pub(crate) fn parse(self, bytes: &[u8]) -> Result<Polygons, MeshFault> {
+        match self {
+            Format::Obj => obj::parse(bytes),
+            Format::Stl => stl::parse(bytes),
+            Format::Ply => ply::parse(bytes),
+            Format::Off => off::parse(bytes),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,123 @@
+//! Bodies as they are named on a command line.
+
+use crate::body::{Detail, Prepared, body_from_mesh};
+use crate::error::{BodyError, SourceError};
+use crate::mesh::TriangleMesh;
+use ccd_core::Body;
+use ccd_core::glam::DVec3;
+use std::path::PathBuf;
+use std::str::FromStr;
+
+/// Where a body comes from. All lengths are finite and at least 0, in the scene's unit of length.
+///
+/// ```
+/// use ccd_decomp::BodySource;
+/// assert_eq!("sphere:0.5".parse(), Ok(BodySource::Sphere { radius: 0.5 }));
+/// assert_eq!("part.obj".parse(), Ok(BodySource::Mesh("part.obj".into())));
+/// let error = "ball:0.5".parse::<BodySource>().unwrap_err();
+/// assert!(error.to_string().contains("sphere:0.5"));
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub enum BodySource {
+    /// `box:hx,hy,hz`, see [`Body::cuboid`].
+    Box {
+        /// Half the length of each side.
+        half_extents: DVec3,
+    },
+    /// `sphere:r`, see [`Body::ball`].
+    Sphere {
+        /// Its radius.
+        radius: f64,
+    },
+    /// `capsule:r,h`, see [`Body::capsule`].
+    Capsule {
+        /// Its radius.
+        radius: f64,
+        /// Half the length of the segment along z that it surrounds.
+        half_height: f64,
+    },
+    /// Anything else: the path of a mesh file.
+    Mesh(PathBuf),
+}
+
+/// Reads the description of a body and makes it.
+///
+/// # Errors
+/// [`BodyError`], naming the file and element, or showing examples.
+pub fn parse_body(text: &str, detail: Detail) -> Result<Prepared, BodyError> {
+    text.parse::<BodySource>()?.load(detail)
+}
+
+impl BodySource {
+    /// Makes the body; a mesh is read from its file, other bodies have one detail only.
+    ///
+    /// # Errors
+    /// [`BodyError::Mesh`], [`BodyError::Input`].
+    pub fn load(&self, detail: Detail) -> Result<Prepared, BodyError> {
+        Ok(match *self {
+            BodySource::Box { half_extents } => Prepared::primitive(Body::cuboid(half_extents)?),
+            BodySource::Sphere { radius } => Prepared::primitive(Body::ball(radius)?),
+            BodySource::Capsule {
+                radius,
+                half_height,
+            } => Prepared::primitive(Body::capsule(radius, half_height)?),
+            BodySource::Mesh(ref path) => body_from_mesh(&TriangleMesh::read(path)?, detail)?,
+        })
+    }
+}
+
+impl FromStr for BodySource {
+    type Err = SourceError;
+
+    fn from_str(text: &str) -> Result<Self, SourceError> {
+        let text = text.trim();
+        if text.is_empty() {
+            return Err(SourceError::Empty);
+        }
+        match text.split_once(':') {
+            Some(("box", given)) => lengths("box", given).map(|sides: [f64; 3]| BodySource::Box {
+                half_extents: sides.into(),
+            }),
+            Some(("sphere", given)) => {
+                lengths("sphere", given).map(|[radius]| BodySource::Sphere { radius })
+            }
+            Some(("capsule", given)) => {
+                lengths("capsule", given).map(|[radius, half_height]| BodySource::Capsule {
+                    radius,
+                    half_height,
+                })
+            }
+            // A single letter is a drive.
+            Some((shape, _)) if shape.len() > 1 && shape.chars().all(char::is_alphanumeric) => {
+                Err(SourceError::UnknownShape {
+                    shape: shape.into(),
+                })
+            }
+            _ => Ok(BodySource::Mesh(text.into())),
+        }
+    }
+}
+
+fn lengths<const N: usize>(shape: &'static str, given: &str) -> Result<[f64; N], SourceError> {
+    let words: Vec<&str> = given.split(',').map(str::trim).collect();
+    let words: [&str; N] = words
+        .try_into()
+        .map_err(|words: Vec<_>| SourceError::WrongCount {
+            shape,
+            expected: N,
+            given: words.len(),
+        })?;
+    let mut lengths = [0.0; N];
+    for (length, word) in lengths.iter_mut().zip(words) {
+        *length = match word.parse::<f64>() {
+            Ok(value) if value >= 0.0 && value.is_finite() => value,
+            _ => {
+                return Err(SourceError::BadLength {
+                    shape,
+                    length: word.into(),
+                });
+            }
+        };
+    }
+    Ok(lengths)
+}

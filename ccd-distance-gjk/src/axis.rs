@@ -1,0 +1,167 @@
+//! Separating axes made of features, for pieces so near that their witnesses' difference is rounding.
+
+use crate::lanes::{Lanes3, reciprocal};
+use ccd_core::glam::DVec3;
+use wide::{CmpGt, Select, f64x4};
+
+/// The corners of a triangle, a segment or a point, the last one repeated.
+pub(crate) type Corners = [DVec3; 3];
+
+/// A unit vector and the support gap along it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Axis {
+    pub(crate) direction: DVec3,
+    pub(crate) gap: f64,
+}
+
+impl Axis {
+    /// No axis: worse than any other.
+    pub(crate) const NONE: Axis = Axis {
+        direction: DVec3::ZERO,
+        gap: f64::NEG_INFINITY,
+    };
+
+    /// The one with the larger gap, `self` if they are equal.
+    #[inline]
+    pub(crate) fn or_better(self, other: Axis) -> Axis {
+        if other.gap > self.gap { other } else { self }
+    }
+}
+
+/// The support gap `min_Q n·y − max_P n·x` of two triangles along `n`, not divided by its length.
+#[inline(always)]
+pub(crate) fn support_gap(p: &Corners, q: &Corners, n: DVec3) -> f64 {
+    let [a, b, c] = p.map(|x| n.dot(x));
+    let [d, e, f] = q.map(|y| n.dot(y));
+    d.min(e).min(f) - a.max(b).max(c)
+}
+
+/// The axes that may separate two triangles.
+///
+/// Nearest points differ by a vector `w` that is exact to rounding only, so that it may fall out of
+/// the cone of normals it belongs to. The borders of that cone are candidates too: where a vertex
+/// meets an edge, `w` made perpendicular to the edge; where edges meet, their cross product; where a
+/// face does, its normal; and for what lies in one plane, the normals of the edges within it.
+#[derive(Debug)]
+pub(crate) struct Candidates {
+    directions: [Lanes3; GROUPS],
+    /// Support gaps along unit vectors, −∞ for directions that are zero.
+    gaps: [f64x4; GROUPS],
+}
+
+const GROUPS: usize = 8;
+
+impl Candidates {
+    /// How many there are.
+    pub(crate) const COUNT: usize = 4 * GROUPS;
+
+    /// All axes of two triangles whose nearest points differ by about `w`.
+    pub(crate) fn new(p: &Corners, q: &Corners, w: DVec3) -> Self {
+        let (edges_p, edges_q) = (edges(p), edges(q));
+        let (normal_p, normal_q) = (normal(&edges_p), normal(&edges_q));
+        let lanes_q = with(edges_q, DVec3::ZERO);
+        // Nearly parallel edges leave a cross product that rounding tilts along them.
+        let cross = |e: DVec3| {
+            let e = Lanes3::splat(e);
+            let n = e.cross(lanes_q);
+            n.perpendicular_to(e).perpendicular_to(lanes_q)
+        };
+        let w = Lanes3::splat(w);
+        let mut out = Candidates {
+            directions: [
+                cross(edges_p[0]),
+                cross(edges_p[1]),
+                cross(edges_p[2]),
+                w.perpendicular_to(with(edges_p, DVec3::ZERO)),
+                w.perpendicular_to(lanes_q),
+                with(edges_p.map(|e| e.cross(normal_p)), normal_p),
+                with(edges_q.map(|e| e.cross(normal_q)), normal_q),
+                frame(&edges_p, &edges_q),
+            ],
+            gaps: [f64x4::ZERO; GROUPS],
+        };
+        for (n, gap) in out.directions.iter_mut().zip(&mut out.gaps) {
+            (*n, *gap) = oriented(p, q, *n);
+        }
+        out
+    }
+
+    /// The axis with the largest gap.
+    pub(crate) fn best(&self) -> Axis {
+        let gaps = self.gaps.map(f64x4::to_array);
+        let gap = |k: usize| gaps[k / 4][k % 4];
+        let best = (0..Self::COUNT).fold(0, |best, k| if gap(k) > gap(best) { k } else { best });
+        self.axis(best)
+    }
+
+    /// All axes, those with the largest gaps first.
+    pub(crate) fn ranked(&self) -> [Axis; Self::COUNT] {
+        let mut axes: [Axis; Self::COUNT] = std::array::from_fn(|k| self.axis(k));
+        axes.sort_by(|a, b| b.gap.total_cmp(&a.gap));
+        axes
+    }
+
+    fn axis(&self, k: usize) -> Axis {
+        let direction = self.directions[k / 4].lane(k % 4);
+        let gap = self.gaps[k / 4].to_array()[k % 4];
+        if gap > f64::NEG_INFINITY {
+            let direction = direction.normalize_or_zero();
+            Axis { direction, gap }
+        } else {
+            Axis::NONE
+        }
+    }
+}
+
+/// Turns each direction the way the larger gap lies, and states that gap along the unit vector.
+#[inline]
+fn oriented(p: &Corners, q: &Corners, n: Lanes3) -> (Lanes3, f64x4) {
+    let [a, b, c] = p.map(|x| n.dot(Lanes3::splat(x)));
+    let [d, e, f] = q.map(|y| n.dot(Lanes3::splat(y)));
+    let ahead = d.fast_min(e).fast_min(f) - a.fast_max(b).fast_max(c);
+    let behind = a.fast_min(b).fast_min(c) - d.fast_max(e).fast_max(f);
+    let flip = behind.simd_gt(ahead);
+    let length2 = n.dot(n);
+    let gap = ahead.fast_max(behind) * reciprocal(length2.sqrt());
+    let sign = flip.select(-f64x4::ONE, f64x4::ONE);
+    let turned = Lanes3 {
+        x: n.x * sign,
+        y: n.y * sign,
+        z: n.z * sign,
+    };
+    let none = f64x4::splat(f64::NEG_INFINITY);
+    (turned, length2.simd_gt(f64x4::ZERO).select(gap, none))
+}
+
+fn edges([a, b, c]: &Corners) -> [DVec3; 3] {
+    [b - a, c - b, a - c]
+}
+
+/// The normal of a triangle, made perpendicular to its longest edge: what rounding leaves for a
+/// needle is a turn about that edge, across the needle's width.
+fn normal(edges: &[DVec3; 3]) -> DVec3 {
+    let n = edges[0].cross(edges[1]);
+    let long = longest(edges);
+    match long.length_squared() {
+        square if square > 0.0 => n - n.dot(long) / square * long,
+        _ => n,
+    }
+}
+
+/// Along and across the longest edge of all: axes for segments on one line, and for points.
+fn frame(edges_p: &[DVec3; 3], edges_q: &[DVec3; 3]) -> Lanes3 {
+    let edge = longest(&[longest(edges_p), longest(edges_q)]);
+    let along = edge.try_normalize().unwrap_or(DVec3::X);
+    let (across, other) = along.any_orthonormal_pair();
+    with([along, across, other], DVec3::ZERO)
+}
+
+fn longest(edges: &[DVec3]) -> DVec3 {
+    edges.iter().fold(DVec3::ZERO, |best, &e| {
+        if e.length_squared() > best.length_squared() { e } else { best }
+    })
+}
+
+fn with([a, b, c]: [DVec3; 3], d: DVec3) -> Lanes3 {
+    Lanes3::new([a, b, c, d])
+}

@@ -1,0 +1,115 @@
+//! Closed form for points, segments and triangles.
+
+mod nearest;
+mod pierce;
+#[cfg(test)]
+mod tests;
+
+use crate::axis::{Candidates, Corners, support_gap};
+use crate::tolerance::{KEEP, SUSPECT};
+use ccd_core::glam::DVec3;
+use ccd_core::{Claim, Combination, DistanceOracle, GiveUp, Piece, PiecePair};
+use nearest::Nearest;
+
+/// The distance of two points, segments or triangles in closed form, degenerate ones included.
+///
+/// Edges against edges and corners against faces, all at once; whether the pieces intersect is
+/// asked only when the axis found does not separate them. Nothing is kept between calls.
+///
+/// # Guarantee
+/// Of separated pieces of size s, both moved near the origin, the witnesses are within about
+/// 1e-15 s of the nearest pair's distance, and the axis certifies at least half of it down to
+/// distances of about 1e-15 s. Needles thinner than 1e-7 s may lose up to their width.
+///
+/// # Errors
+/// [`GiveUp::TooManyPoints`] for pieces that do not have one, two or three points.
+///
+/// # Complexity
+/// Constant, without allocation.
+///
+/// ```
+/// use ccd_core::{DistanceOracle, Frame, Piece, PiecePair, glam::DVec3};
+/// use ccd_distance_gjk::Direct;
+/// let floor = [DVec3::ZERO, 4.0 * DVec3::X, 4.0 * DVec3::Y];
+/// let above = [DVec3::new(1.0, 1.0, 0.5)];
+/// let pair = PiecePair {
+///     a: Piece::from_points(&floor),
+///     b: Piece::from_points(&above),
+///     b_to_a: Frame::IDENTITY,
+/// };
+/// let claim = Direct::default().separation(&pair, &mut ()).unwrap();
+/// assert_eq!(claim.a.of(&floor), Some(DVec3::new(1.0, 1.0, 0.0)));
+/// ```
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Direct;
+
+impl DistanceOracle for Direct {
+    type Cache = ();
+
+    #[inline]
+    fn separation(&mut self, pair: &PiecePair<'_>, (): &mut ()) -> Result<Claim, GiveUp> {
+        let (p, q) = local(pair).ok_or(GiveUp::TooManyPoints)?;
+        let near = nearest::nearest(&p, &q);
+        let w = near.difference(&p, &q);
+        let separated = support_gap(&p, &q, w) >= KEEP * w.length_squared();
+        let (axis, near) = if separated && w.length_squared().is_normal() {
+            (w, near)
+        } else {
+            examine(&p, &q, near)
+        };
+        Ok(Claim {
+            axis,
+            a: combination(near.a, pair.a.points.len()),
+            b: combination(near.b, pair.b.points.len()),
+        })
+    }
+}
+
+/// For pieces that nearly touch, or intersect: the best axis of all, and a common point if there
+/// is one.
+#[cold]
+#[inline(never)]
+fn examine(p: &Corners, q: &Corners, near: Nearest) -> (DVec3, Nearest) {
+    let w = near.difference(p, q);
+    let best = Candidates::new(p, q, w).best();
+    if best.gap >= SUSPECT * w.length() && best.gap > 0.0 {
+        return (best.direction, near);
+    }
+    (best.direction, pierce::common_point(p, q, near))
+}
+
+/// Both pieces in A's axes, the origin in A's first point, so that rounding is that of the pieces'
+/// size wherever they lie.
+#[inline]
+fn local(pair: &PiecePair<'_>) -> Option<(Corners, Corners)> {
+    let (a, b) = (corners(&pair.a)?, corners(&pair.b)?);
+    let first = pair.b_to_a.point(b[0]) - a[0];
+    let turn = pair.b_to_a.rotation;
+    Some((
+        [DVec3::ZERO, a[1] - a[0], a[2] - a[0]],
+        [
+            first,
+            turn * (b[1] - b[0]) + first,
+            turn * (b[2] - b[0]) + first,
+        ],
+    ))
+}
+
+#[inline]
+fn corners(piece: &Piece<'_>) -> Option<Corners> {
+    match *piece.points {
+        [a] => Some([a; 3]),
+        [a, b] => Some([a, b, b]),
+        [a, b, c] => Some([a, b, c]),
+        _ => None,
+    }
+}
+
+#[inline]
+fn combination(weights: [f64; 3], points: usize) -> Combination {
+    let mut out = Combination::EMPTY;
+    for (k, weight) in weights.into_iter().enumerate() {
+        out.push(k.min(points - 1) as u32, weight);
+    }
+    out
+}

@@ -1,0 +1,55 @@
+//! A common point of two triangles, where an edge of one passes through the other.
+
+use super::nearest::{Nearest, at};
+use crate::axis::Corners;
+use ccd_core::glam::DVec3;
+
+/// The pair of points with the least distance among `near` and the six places where an edge's line
+/// meets the other triangle's plane.
+///
+/// Two triangles that intersect across each other share a segment, which ends where an edge of one
+/// meets the other; those in one plane have crossing edges or a corner inside, which `near` knows.
+/// Clamping to the edge and to the face replaces any test of what lies inside: a point that falls
+/// out by rounding is moved back by as much.
+pub(crate) fn common_point(p: &Corners, q: &Corners, near: Nearest) -> Nearest {
+    let through_p = pierces(q, p).map(|(b, a)| Nearest { a, b });
+    let through_q = pierces(p, q).map(|(a, b)| Nearest { a, b });
+    let square = |n: &Nearest| n.difference(p, q).length_squared();
+    through_p
+        .into_iter()
+        .chain(through_q)
+        .fold(near, |best, it| {
+            if square(&it) < square(&best) { it } else { best }
+        })
+}
+
+/// Where the edges of `of` meet the plane of `face`: weights of the edge's triangle and the face's.
+fn pierces(of: &Corners, face: &Corners) -> [([f64; 3], [f64; 3]); 3] {
+    let (e, f) = (face[1] - face[0], face[2] - face[0]);
+    let n = e.cross(f);
+    let heights = of.map(|x| n.dot(x - face[0]));
+    std::array::from_fn(|k| {
+        let (start, end) = (k, (k + 1) % 3);
+        let rise = heights[end] - heights[start];
+        let t = match -heights[start] / rise {
+            t if t > 0.0 => t.min(1.0),
+            _ => 0.0,
+        };
+        let mut edge = [0.0; 3];
+        edge[start] = 1.0 - t;
+        edge[end] = t;
+        (edge, foot(e, f, n, at(of, edge) - face[0]))
+    })
+}
+
+/// The weights of the corners of a face for the point of its plane below `x`, clamped to the face.
+fn foot(e: DVec3, f: DVec3, n: DVec3, x: DVec3) -> [f64; 3] {
+    let per = n.length_squared().recip();
+    let part = |weight: f64| match weight {
+        weight if weight > 0.0 => weight.min(1.0),
+        _ => 0.0,
+    };
+    let v = part(per * x.dot(f.cross(n)));
+    let w = part(per * x.dot(n.cross(e))).min(1.0 - v);
+    [1.0 - v - w, v, w]
+}

@@ -1,0 +1,98 @@
+//! GJK in f64.
+
+use super::minkowski::{Difference, Exact};
+use super::search::{Found, search};
+use super::sharpen;
+use super::simplex::Simplex;
+use super::start::Cache;
+use super::termination::Stop;
+use crate::tolerance::{KEEP, ROUND_CAP, SUSPECT};
+use ccd_core::glam::DVec3;
+use ccd_core::{Claim, Combination, DistanceOracle, GiveUp, PiecePair};
+
+/// The distance of two hulls of any number of points, by GJK in f64 `[GJK88]`.
+///
+/// # Guarantee
+/// Of separated pieces of size s, both moved near the origin, the witnesses are within about
+/// 1e-14 s of the nearest pair's distance, and where that is less than 1e-7 s the axis is made of
+/// the features that hold them. Ends after at most 256 steps with the best seen on the way; it never
+/// gives up on pieces that have points, and claims nothing of those that have none.
+///
+/// # Complexity
+/// About 3 to 10 steps, 1 to 2 from a warm [`Cache`], each of which looks at every point once;
+/// without allocation.
+///
+/// ```
+/// use ccd_core::{DistanceOracle, Frame, Piece, PiecePair, glam::DVec3};
+/// use ccd_distance_gjk::{Cache, Gjk};
+/// let tetrahedron = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
+/// let point = [DVec3::ONE];
+/// let pair = PiecePair {
+///     a: Piece::from_points(&tetrahedron),
+///     b: Piece::from_points(&point),
+///     b_to_a: Frame::IDENTITY,
+/// };
+/// let claim = Gjk::default().separation(&pair, &mut Cache::default()).unwrap();
+/// let foot = claim.a.of(&tetrahedron).unwrap();
+/// assert!(foot.distance(DVec3::ONE / 3.0) < 1e-15);
+/// ```
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Gjk;
+
+impl DistanceOracle for Gjk {
+    type Cache = Cache;
+
+    fn separation(&mut self, pair: &PiecePair<'_>, cache: &mut Cache) -> Result<Claim, GiveUp> {
+        let Some(exact) = Exact::new(pair) else {
+            return Ok(NOTHING);
+        };
+        let found = solve(&exact, cache.simplex(&exact));
+        *cache = Cache::of(&found);
+        Ok(claim(&found))
+    }
+}
+
+/// What is claimed of a pair with a piece that has no points.
+pub(crate) const NOTHING: Claim = Claim {
+    axis: DVec3::ZERO,
+    a: Combination::EMPTY,
+    b: Combination::EMPTY,
+};
+
+/// Searches, and goes on from the features' axis where the search's own one is not worth its
+/// distance: rounding had hidden a vertex from it.
+pub(crate) fn solve(exact: &Exact<'_>, mut simplex: Simplex<DVec3>) -> Found<DVec3> {
+    let mut found = Found::nothing();
+    for _ in 0..ROUND_CAP {
+        let stop = search(exact, simplex, &mut found);
+        let distance = found.square.sqrt();
+        if stop == Stop::Enclosed {
+            sharpen::to_faces(exact, &mut found);
+            break;
+        }
+        if found.gap >= KEEP * distance && found.gap > 0.0 {
+            break;
+        }
+        let Some(vertex) = sharpen::to_features(exact, &mut found) else {
+            break;
+        };
+        simplex = found.simplex;
+        if stop == Stop::Touching || found.gap >= SUSPECT * distance || !simplex.push(vertex) {
+            break;
+        }
+    }
+    found
+}
+
+/// Says what was found.
+pub(crate) fn claim(found: &Found<DVec3>) -> Claim {
+    let mut out = Claim {
+        axis: found.axis,
+        ..NOTHING
+    };
+    for (vertex, weight) in found.simplex.vertices().iter().zip(found.weights) {
+        out.a.push(vertex.a, weight);
+        out.b.push(vertex.b, weight);
+    }
+    out
+}

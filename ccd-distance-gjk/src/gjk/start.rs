@@ -1,0 +1,49 @@
+//! The first simplex: where the last call on the pair ended, or the vertex along an axis.
+
+use super::minkowski::Difference;
+use super::search::Found;
+use super::simplex::Simplex;
+use super::vector::Vector;
+use ccd_core::glam::DVec3;
+
+/// Where a search ended, for the next one on the same pair to start from.
+///
+/// Its vertices are looked up anew wherever the pieces are by then, so that what another pair left
+/// behind, or an index out of range, costs steps, not accuracy.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Cache {
+    axis: DVec3,
+    pairs: [[u32; 2]; 4],
+    len: u8,
+}
+
+impl Cache {
+    /// What to keep of a search.
+    pub(crate) fn of<V: Vector>(found: &Found<V>) -> Self {
+        let mut cache = Cache {
+            axis: found.axis.widen(),
+            ..Cache::default()
+        };
+        for (vertex, pair) in found.simplex.vertices().iter().zip(&mut cache.pairs) {
+            *pair = [vertex.a, vertex.b];
+            cache.len += 1;
+        }
+        cache
+    }
+
+    /// The simplex to start from, never empty.
+    pub(crate) fn simplex<D: Difference>(&self, difference: &D) -> Simplex<D::Vector> {
+        let mut simplex = Simplex::EMPTY;
+        for &[a, b] in self.pairs.iter().take(usize::from(self.len)) {
+            if let Some(vertex) = difference.vertex(a, b) {
+                simplex.push(vertex);
+            }
+        }
+        if simplex.vertices().is_empty() {
+            let axis = self.axis.try_normalize();
+            let direction = axis.map_or(difference.between(), D::Vector::round);
+            simplex.push(difference.support(direction));
+        }
+        simplex
+    }
+}

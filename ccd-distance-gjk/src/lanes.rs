@@ -1,0 +1,108 @@
+//! Four vectors at once, coordinate by coordinate.
+
+use ccd_core::glam::DVec3;
+use wide::f64x4;
+
+/// Four vectors.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Lanes3 {
+    pub(crate) x: f64x4,
+    pub(crate) y: f64x4,
+    pub(crate) z: f64x4,
+}
+
+impl Lanes3 {
+    /// The same vector four times.
+    #[inline(always)]
+    pub(crate) fn splat(v: DVec3) -> Self {
+        Lanes3 {
+            x: f64x4::splat(v.x),
+            y: f64x4::splat(v.y),
+            z: f64x4::splat(v.z),
+        }
+    }
+
+    /// Four vectors side by side.
+    #[inline(always)]
+    pub(crate) fn new(v: [DVec3; 4]) -> Self {
+        Lanes3 {
+            x: f64x4::new(v.map(|v| v.x)),
+            y: f64x4::new(v.map(|v| v.y)),
+            z: f64x4::new(v.map(|v| v.z)),
+        }
+    }
+
+    /// The vector in one lane.
+    pub(crate) fn lane(self, k: usize) -> DVec3 {
+        let at = |c: f64x4| c.to_array()[k];
+        DVec3::new(at(self.x), at(self.y), at(self.z))
+    }
+
+    /// `self − other`.
+    #[inline(always)]
+    pub(crate) fn minus(self, other: Self) -> Self {
+        Lanes3 {
+            x: self.x - other.x,
+            y: self.y - other.y,
+            z: self.z - other.z,
+        }
+    }
+
+    /// `self + t · direction`.
+    #[inline(always)]
+    pub(crate) fn along(self, t: f64x4, direction: Self) -> Self {
+        Lanes3 {
+            x: t.mul_add(direction.x, self.x),
+            y: t.mul_add(direction.y, self.y),
+            z: t.mul_add(direction.z, self.z),
+        }
+    }
+
+    /// `self − t · direction`.
+    #[inline(always)]
+    pub(crate) fn back(self, t: f64x4, direction: Self) -> Self {
+        Lanes3 {
+            x: t.mul_neg_add(direction.x, self.x),
+            y: t.mul_neg_add(direction.y, self.y),
+            z: t.mul_neg_add(direction.z, self.z),
+        }
+    }
+
+    /// Scalar products.
+    #[inline(always)]
+    pub(crate) fn dot(self, other: Self) -> f64x4 {
+        let yz = self.y.mul_add(other.y, self.z * other.z);
+        self.x.mul_add(other.x, yz)
+    }
+
+    /// Cross products.
+    #[inline(always)]
+    pub(crate) fn cross(self, other: Self) -> Self {
+        Lanes3 {
+            x: self.y.mul_sub(other.z, self.z * other.y),
+            y: self.z.mul_sub(other.x, self.x * other.z),
+            z: self.x.mul_sub(other.y, self.y * other.x),
+        }
+    }
+
+    /// The part of each vector that is perpendicular to `direction`; itself where that is zero.
+    #[inline(always)]
+    pub(crate) fn perpendicular_to(self, direction: Self) -> Self {
+        let t = self.dot(direction) * reciprocal(direction.dot(direction));
+        self.back(t, direction)
+    }
+}
+
+/// `1 / x`, or 0 where x is not positive: projections onto nothing stay where they are.
+#[inline(always)]
+pub(crate) fn reciprocal(x: f64x4) -> f64x4 {
+    use wide::{CmpGt, Select};
+    x.simd_gt(f64x4::ZERO)
+        .select(f64x4::ONE / x, f64x4::ZERO)
+}
+
+/// Clamps to [0, 1].
+#[inline(always)]
+pub(crate) fn clamp_unit(x: f64x4) -> f64x4 {
+    x.fast_max(f64x4::ZERO).fast_min(f64x4::ONE)
+}

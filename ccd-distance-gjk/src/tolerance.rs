@@ -1,0 +1,40 @@
+//! Every numeric tolerance of this crate: its unit, why it is what it is, what breaks without it.
+
+/// The share of the witnesses' distance that an axis has to certify to be claimed unexamined.
+///
+/// Witnesses of pieces of size s carry rounding of about u·s, so that their difference, of length d,
+/// is tilted by u·s/d, and loses u·s²/d of the support gap: a share u·(s/d)² of d. Above
+/// d = 1e-7 s that is less than 1/64 and the difference serves as the axis; below, the axis is
+/// made of the features instead. A larger share would examine axes that are good enough; without
+/// it, pieces closer than 1e-8 s appear to intersect.
+pub(crate) const KEEP: f64 = 63.0 / 64.0;
+
+/// The share of the witnesses' distance below which an axis shows that something is still to be
+/// found: pieces that intersect (closed form), or nearer features (GJK).
+///
+/// The nearest features' own axes keep [`KEEP`]; a half is far from it and from 0 alike.
+pub(crate) const SUSPECT: f64 = 0.5;
+
+/// How many steps a GJK search may take.
+///
+/// Hulls take 3 to 10 steps, finely tessellated spheres up to about 30; beyond, a search only
+/// shuffles rounding. The claim at the cap is as true as any other, only less sharp.
+pub(crate) const STEP_CAP: u32 = 64;
+
+/// How often a GJK search goes on from the features' axis after its own axis turned out too poor.
+pub(crate) const ROUND_CAP: u32 = 4;
+
+/// GJK stops when the support gap comes within this many units in the last place of the distance,
+/// relative to the distance.
+pub(crate) const CONVERGED_ULPS: f32 = 16.0;
+
+/// GJK calls the pieces touching when their distance is at most this many units in the last place
+/// of the coordinates' difference: a vertex b − a and a combination of four are rounded by about
+/// 2 units each.
+pub(crate) const TOUCHING_ULPS: f32 = 4.0;
+
+/// The rounding of a signed volume of a tetrahedron, in units in the last place of the product of
+/// its three edges' lengths: 3 for the cross product, 3 for the scalar product, 2 for the edges.
+/// A volume below it has no sign; without this a flat tetrahedron beside the origin may pass for
+/// one around it.
+pub(crate) const VOLUME_ULPS: f32 = 8.0;

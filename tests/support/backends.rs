@@ -1,0 +1,114 @@
+//! Runs one property over every backend, schedule, kind of piece and order of the bodies.
+
+use crate::models::Kind;
+use crate::query::{Bodies, Query};
+use ccd_core::schedule::{BestFirst, Naive};
+use ccd_core::{Answer, Config, DistanceOracle, Problem, Schedule};
+use ccd_distance_gjk::{Auto, Direct, Gjk, GjkF32};
+
+/// The schedules.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Order {
+    /// A queue of clocks.
+    BestFirst,
+    /// All pairs, one step for all.
+    Naive,
+}
+
+/// The oracles.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Oracle {
+    /// Closed forms, up to triangles.
+    Direct,
+    /// GJK in f64.
+    Gjk,
+    /// GJK that searches in f32.
+    GjkF32,
+    /// Closed forms, then GJK.
+    Auto,
+}
+
+/// A schedule with an oracle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Backend {
+    /// Which schedule.
+    pub order: Order,
+    /// Which oracle.
+    pub oracle: Oracle,
+}
+
+/// How an answer came about: print it when an assertion fails.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Setup {
+    /// Who answered.
+    pub backend: Backend,
+    /// Of what the bodies were built.
+    pub kinds: [Kind; 2],
+}
+
+/// More pairs of pieces than this are too many for the slow schedule.
+const NAIVE_PAIRS: usize = 400;
+
+impl Backend {
+    /// What a query gets by default.
+    pub const DEFAULT: Backend = Backend {
+        order: Order::BestFirst,
+        oracle: Oracle::Auto,
+    };
+
+    /// Every schedule with every oracle.
+    pub fn all() -> impl Iterator<Item = Backend> {
+        let oracles = [Oracle::Direct, Oracle::Gjk, Oracle::GjkF32, Oracle::Auto];
+        [Order::BestFirst, Order::Naive]
+            .into_iter()
+            .flat_map(move |order| oracles.map(|oracle| Backend { order, oracle }))
+    }
+
+    /// Whether it is made for such bodies, and answers within a test's patience.
+    pub fn suits(self, bodies: &Bodies) -> bool {
+        let few = bodies.pairs() <= NAIVE_PAIRS || self.order != Order::Naive;
+        let small = self.oracle != Oracle::Direct
+            || [bodies.a(), bodies.b()]
+                .iter()
+                .all(|body| body.pieces().iter().all(|piece| piece.points.len() <= 3));
+        few && small
+    }
+
+    /// Answers with a fresh schedule and a fresh oracle.
+    pub fn solve(self, problem: &Problem<'_>) -> Answer {
+        match self.oracle {
+            Oracle::Direct => self.solve_with(problem, &mut Direct::default()),
+            Oracle::Gjk => self.solve_with(problem, &mut Gjk::default()),
+            Oracle::GjkF32 => self.solve_with(problem, &mut GjkF32::default()),
+            Oracle::Auto => self.solve_with(problem, &mut Auto::default()),
+        }
+    }
+
+    /// Answers with its schedule and any oracle.
+    pub fn solve_with<O: DistanceOracle>(self, problem: &Problem<'_>, oracle: &mut O) -> Answer {
+        match self.order {
+            Order::BestFirst => BestFirst::<O>::default().solve(problem, oracle),
+            Order::Naive => Naive::<O>::default().solve(problem, oracle),
+        }
+    }
+}
+
+/// Calls `check` with the answer of every setup that suits the query.
+pub fn for_each_setup(query: &Query, config: &Config, mut check: impl FnMut(&Bodies, Setup, Answer)) {
+    for bodies in query.all_bodies() {
+        let problem = query.problem(&bodies, config);
+        for backend in Backend::all().filter(|backend| backend.suits(&bodies)) {
+            let setup = Setup {
+                backend,
+                kinds: bodies.kinds,
+            };
+            check(&bodies, setup, backend.solve(&problem));
+        }
+    }
+}
+
+/// The answer of the default backend about triangles.
+pub fn default_answer(query: &Query, config: &Config) -> Answer {
+    let bodies = query.triangles();
+    Backend::DEFAULT.solve(&query.problem(&bodies, config))
+}

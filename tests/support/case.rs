@@ -1,0 +1,181 @@
+//! A query as plain data: what generators yield, what the corpus stores, what failures print.
+
+use crate::models::{self, Mesh, Shape};
+use crate::query::{Actor, Query};
+use ccd_core::glam::{DQuat, DVec3};
+use ccd_core::{Config, Motion, Pose, StartPolicy};
+use serde::{Deserialize, Serialize};
+
+/// A query, what to ask, and why it is worth asking.
+#[derive(Clone, Debug, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Case {
+    /// What it goes by.
+    #[serde(default)]
+    pub name: String,
+    /// What went wrong, or could.
+    #[serde(default)]
+    pub why: String,
+    /// From time 0 to this.
+    pub duration: f64,
+    /// As [`Config::tolerance`].
+    #[serde(default = "default_tolerance")]
+    pub tolerance: f64,
+    /// As [`Config::margin`].
+    #[serde(default)]
+    pub margin: f64,
+    /// As [`Config::start`].
+    #[serde(default)]
+    pub start: Start,
+    /// Body A.
+    pub a: Part,
+    /// Body B.
+    pub b: Part,
+}
+
+/// As [`StartPolicy`].
+#[derive(Clone, Copy, Debug, Default, Deserialize, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Start {
+    /// As [`StartPolicy::Report`].
+    #[default]
+    Report,
+    /// As [`StartPolicy::Leave`].
+    Leave,
+}
+
+/// One body of a [`Case`].
+#[derive(Clone, Debug, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Part {
+    /// What moves.
+    pub shape: Model,
+    /// Every coordinate is multiplied by this.
+    #[serde(default = "one")]
+    pub scale: f64,
+    /// Where the body's origin is at the start.
+    #[serde(default)]
+    pub position: [f64; 3],
+    /// How it is turned at the start: a rotation vector, in radians.
+    #[serde(default)]
+    pub turned: [f64; 3],
+    /// Of the centre, per unit of time.
+    #[serde(default)]
+    pub velocity: [f64; 3],
+    /// In radians per unit of time.
+    #[serde(default)]
+    pub spin: [f64; 3],
+    /// What it turns about, in its own frame.
+    #[serde(default)]
+    pub centre: [f64; 3],
+}
+
+/// A shape by name and numbers.
+#[derive(Clone, Debug, Deserialize, Serialize)]
+#[serde(tag = "model", rename_all = "kebab-case")]
+#[allow(missing_docs)] // Named as the functions of `models` and their arguments.
+pub enum Model {
+    Cuboid { half: [f64; 3] },
+    Ellipsoid { radii: [f64; 3], levels: u32 },
+    LPrism,
+    UHook,
+    Torus { major: f64, minor: f64, rings: usize, sides: usize },
+    TorusKnot { rings: usize, sides: usize },
+    Soup { triangles: Vec<[[f64; 3]; 3]> },
+    Plate { cells: usize },
+    Needles { count: usize, width: f64 },
+}
+
+impl Case {
+    /// The query.
+    pub fn query(&self) -> Query {
+        Query {
+            a: self.a.actor(),
+            b: self.b.actor(),
+            duration: self.duration,
+        }
+    }
+
+    /// What to ask.
+    pub fn config(&self) -> Config {
+        Config {
+            tolerance: self.tolerance,
+            margin: self.margin,
+            start: match self.start {
+                Start::Report => StartPolicy::Report,
+                Start::Leave => StartPolicy::Leave,
+            },
+            ..Config::default()
+        }
+    }
+
+    /// As it goes into the corpus.
+    pub fn to_toml(&self) -> String {
+        toml::to_string(self).unwrap_or_else(|error| format!("# {error}\n{self:?}"))
+    }
+}
+
+impl Part {
+    /// A shape at rest at the origin.
+    pub fn new(shape: Model) -> Self {
+        Part {
+            shape,
+            scale: 1.0,
+            position: [0.0; 3],
+            turned: [0.0; 3],
+            velocity: [0.0; 3],
+            spin: [0.0; 3],
+            centre: [0.0; 3],
+        }
+    }
+
+    fn actor(&self) -> Actor {
+        let turned = DQuat::from_scaled_axis(self.turned.into());
+        let start = Pose::new(self.position.into(), turned).expect("a pose");
+        let motion = Motion::about(
+            start,
+            self.velocity.into(),
+            self.spin.into(),
+            self.centre.into(),
+        );
+        Actor {
+            shape: self.shape.shape().scaled(self.scale),
+            motion: motion.expect("finite velocities"),
+        }
+    }
+}
+
+impl Model {
+    fn shape(&self) -> Shape {
+        match self {
+            Model::Cuboid { half } => models::cuboid((*half).into()),
+            Model::Ellipsoid { radii, levels } => {
+                models::icosphere(1.0, *levels).stretched((*radii).into())
+            }
+            Model::LPrism => models::l_prism(),
+            Model::UHook => models::u_hook(0.2, 0.6, 0.8),
+            Model::Torus { major, minor, rings, sides } => {
+                models::torus(*major, *minor, *rings, *sides)
+            }
+            Model::TorusKnot { rings, sides } => models::torus_knot(*rings, *sides),
+            Model::Soup { triangles } => Shape::open(soup(triangles)),
+            Model::Plate { cells } => models::parallel_plate(*cells),
+            Model::Needles { count, width } => models::needles(*count, *width),
+        }
+    }
+}
+
+fn soup(triangles: &[[[f64; 3]; 3]]) -> Mesh {
+    Mesh {
+        vertices: triangles.iter().flatten().map(|&p| DVec3::from(p)).collect(),
+        faces: (0..triangles.len() as u32).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect(),
+    }
+}
+
+fn default_tolerance() -> f64 {
+    Config::default().tolerance
+}
+
+fn one() -> f64 {
+    1.0
+}

@@ -1,0 +1,98 @@
+//! Oracles that break their contract in every way: none of them may make an answer late.
+
+use ccd_core::glam::DVec3;
+use ccd_core::{Claim, Combination, DistanceOracle, GiveUp, PiecePair};
+
+/// How to lie.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Lie {
+    /// Any axis, any points.
+    Random,
+    /// An axis that is NaN.
+    NanAxis,
+    /// An axis of length zero, and no points.
+    Nothing,
+    /// An infinite axis.
+    Infinite,
+    /// Points that the pieces lack.
+    OutOfRange,
+    /// The axis from B to A.
+    Backwards,
+    /// Gives up, always.
+    GivesUp,
+}
+
+impl Lie {
+    /// Every way to lie.
+    pub const ALL: [Lie; 7] = [
+        Lie::Random,
+        Lie::NanAxis,
+        Lie::Nothing,
+        Lie::Infinite,
+        Lie::OutOfRange,
+        Lie::Backwards,
+        Lie::GivesUp,
+    ];
+}
+
+/// Lies in one way, the same each time it is made anew.
+#[derive(Clone, Debug)]
+pub struct Liar {
+    lie: Lie,
+    state: u64,
+}
+
+impl Liar {
+    /// One that lies so.
+    pub fn new(lie: Lie) -> Self {
+        Liar { lie, state: 1 }
+    }
+
+    /// A number from −1 to 1: a linear congruential generator's upper bits `[Knuth TAOCP 3.3.4]`.
+    fn number(&mut self) -> f64 {
+        self.state = self
+            .state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        (self.state >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    }
+
+    fn vector(&mut self) -> DVec3 {
+        DVec3::new(self.number(), self.number(), self.number())
+    }
+
+    fn index(&mut self, count: usize) -> u32 {
+        ((0.5 + 0.5 * self.number()) * count as f64) as u32 % count.max(1) as u32
+    }
+}
+
+impl DistanceOracle for Liar {
+    type Cache = ();
+
+    fn separation(&mut self, pair: &PiecePair<'_>, (): &mut ()) -> Result<Claim, GiveUp> {
+        let (count_a, count_b) = (pair.a.points.len(), pair.b.points.len());
+        let mut claim = Claim {
+            axis: self.vector(),
+            a: Combination::point(self.index(count_a)),
+            b: Combination::point(self.index(count_b)),
+        };
+        match self.lie {
+            Lie::Random => {}
+            Lie::NanAxis => claim.axis.y = f64::NAN,
+            Lie::Nothing => {
+                (claim.axis, claim.a, claim.b) =
+                    (DVec3::ZERO, Combination::EMPTY, Combination::EMPTY);
+            }
+            Lie::Infinite => claim.axis = DVec3::splat(f64::INFINITY),
+            Lie::OutOfRange => {
+                claim.a = Combination::point(count_a as u32 + 7);
+                claim.b = Combination::segment([u32::MAX, 0], 0.5);
+            }
+            Lie::Backwards => {
+                claim.axis = pair.a.points[0] - pair.b_to_a.point(pair.b.points[0]);
+            }
+            Lie::GivesUp => return Err(GiveUp::Cycle),
+        }
+        Ok(claim)
+    }
+}

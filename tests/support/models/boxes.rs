@@ -1,0 +1,169 @@
+//! Boxes, and what is made of boxes.
+
+use super::{Line, Mesh, Shape, grid_faces, icosphere};
+use ccd_core::glam::DVec3;
+use ccd_core::{Facet, Polytope, Volume};
+
+/// A box about the origin: 12 triangles, or one part of six quadrilaterals.
+///
+/// Corner `k` has a positive x, y, z where bit 0, 1, 2 of `k` is set.
+pub fn cuboid(half: DVec3) -> Shape {
+    let sign = |k: u32, bit: u32| if k >> bit & 1 == 1 { 1.0 } else { -1.0 };
+    let corner = |k| half * DVec3::new(sign(k, 0), sign(k, 1), sign(k, 2));
+    let points: Vec<DVec3> = (0..8).map(corner).collect();
+    let quads: [[u32; 4]; 6] = [
+        [0, 4, 6, 2],
+        [1, 3, 7, 5],
+        [0, 1, 5, 4],
+        [2, 6, 7, 3],
+        [0, 2, 3, 1],
+        [4, 5, 7, 6],
+    ];
+    let facet = |k: usize| Facet {
+        // Named by the first of the two triangles that it is made of.
+        id: 2 * k as u32,
+        corners: quads[k].to_vec(),
+    };
+    Shape {
+        mesh: Mesh {
+            vertices: points.clone(),
+            faces: quads.iter().flat_map(|q| [[q[0], q[1], q[2]], [q[0], q[2], q[3]]]).collect(),
+        },
+        parts: vec![Polytope {
+            points,
+            facets: (0..6).map(facet).collect(),
+            ..Polytope::default()
+        }],
+        volume: Volume::Solid,
+    }
+}
+
+/// A box by the coordinates of two opposite corners.
+fn between(lo: [f64; 3], hi: [f64; 3]) -> Shape {
+    let (lo, hi) = (DVec3::from(lo), DVec3::from(hi));
+    cuboid(0.5 * (hi - lo)).moved(0.5 * (lo + hi))
+}
+
+/// A rod of half length `length` along x, half width 0.3 along y, half thickness `width` along z.
+pub fn rod(length: f64, width: f64) -> Shape {
+    cuboid(DVec3::new(length, 0.3, width))
+}
+
+/// A thick wall whose near face, towards −x, lies at `x`.
+pub fn wall_at(x: f64) -> Shape {
+    between([x, -4.0, -4.0], [x + 1.0, 4.0, 4.0])
+}
+
+/// A triangular post along z, one edge at the polar coordinates `(radius, angle)`, facing the
+/// origin's side from which a rod turning counter-clockwise comes.
+pub fn post(radius: f64, angle: f64) -> Shape {
+    let edge = radius * DVec3::new(angle.cos(), angle.sin(), 0.0);
+    // Behind the edge as the rod sees it: the way the rod moves, spread by a quarter turn.
+    let along = DVec3::new(-angle.sin(), angle.cos(), 0.0);
+    let across = DVec3::new(angle.cos(), angle.sin(), 0.0);
+    let corners = [edge, edge + 0.4 * (along + across), edge + 0.4 * (along - across)];
+    let vertices = [-2.0, 2.0].iter().flat_map(|z| corners.map(|c| c + z * DVec3::Z));
+    Shape::convex(Mesh {
+        vertices: vertices.collect(),
+        faces: vec![
+            [0, 2, 1],
+            [3, 4, 5],
+            [0, 1, 4],
+            [0, 4, 3],
+            [1, 2, 5],
+            [1, 5, 4],
+            [2, 0, 3],
+            [2, 3, 5],
+        ],
+    })
+}
+
+/// A ball of radius 0.1 at the origin and an arm of half width `width` from there to `(0, −length, 0)`.
+pub fn mace(length: f64, width: f64) -> Shape {
+    let arm = between([-width, -length, -width], [width, 0.0, width]);
+    Shape::union([icosphere(0.1, 1), arm])
+}
+
+/// An L of two bars, 20 coplanar-rich triangles as one closed surface; two boxes as parts.
+pub fn l_prism() -> Shape {
+    let outline: [[f64; 2]; 6] =
+        [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 1.0], [1.0, 2.0], [0.0, 2.0]];
+    let vertices = [-0.5, 0.5]
+        .iter()
+        .flat_map(|&z| outline.map(|[x, y]| DVec3::new(x, y, z)))
+        .collect();
+    let cap = [[0, 1, 2], [0, 2, 3], [0, 3, 5], [3, 4, 5]];
+    let mut faces: Vec<[u32; 3]> = cap.iter().map(|&[a, b, c]| [a, c, b]).collect();
+    faces.extend(cap.iter().map(|t| t.map(|v| v + 6)));
+    for k in 0..6u32 {
+        let next = (k + 1) % 6;
+        faces.extend([[k, next, next + 6], [k, next + 6, k + 6]]);
+    }
+    Shape::closed(Mesh { vertices, faces })
+}
+
+/// A plate in the xy-plane with a square hole of half width `hole`: four boxes.
+pub fn frame_plate(hole: f64) -> Shape {
+    let (outer, z) = (hole + 1.0, 0.25);
+    Shape::union([
+        between([-outer, -outer, -z], [-hole, outer, z]),
+        between([hole, -outer, -z], [outer, outer, z]),
+        between([-hole, -outer, -z], [hole, -hole, z]),
+        between([-hole, hole, -z], [hole, outer, z]),
+    ])
+}
+
+/// Two halves of a wall at `x` in `[0, 0.5]`, leaving a slit `|z| < half_height`.
+pub fn slit_plate(half_height: f64) -> Shape {
+    Shape::union([
+        between([0.0, -3.0, half_height], [0.5, 3.0, half_height + 2.0]),
+        between([0.0, -3.0, -half_height - 2.0], [0.5, 3.0, -half_height]),
+    ])
+}
+
+/// A U open towards −z: a base along x, centred at the origin, and two legs `length` long.
+pub fn u_hook(bar: f64, gap: f64, length: f64) -> Shape {
+    let (half, inner) = (0.5 * bar, 0.5 * gap);
+    let outer = inner + bar;
+    Shape::union([
+        between([-outer, -half, -half], [outer, half, half]),
+        between([-outer, -half, -length], [-inner, half, -half]),
+        between([inner, -half, -length], [outer, half, -half]),
+    ])
+}
+
+/// A base in the xy-plane, its top at z = 0, and `teeth` teeth of height 1 and width 0.4, a unit
+/// apart along x.
+pub fn comb(teeth: usize) -> Shape {
+    let tooth = |k: usize| between([k as f64, -0.2, 0.0], [k as f64 + 0.4, 0.2, 1.0]);
+    let base = between([-1.0, -0.2, -0.3], [teeth as f64 + 1.0, 0.2, 0.0]);
+    Shape::union((0..teeth).map(tooth).chain([base]))
+}
+
+/// A square plate `[0, 1]²` at z = 0 of `2·cells²` triangles.
+pub fn parallel_plate(cells: usize) -> Shape {
+    let at = |k: usize| k as f64 / cells as f64;
+    let line = Line::Open(cells + 1);
+    Shape::open(Mesh {
+        vertices: (0..=cells)
+            .flat_map(|i| (0..=cells).map(move |j| DVec3::new(at(i), at(j), 0.0)))
+            .collect(),
+        faces: grid_faces(line, line),
+    })
+}
+
+/// Unit-sized triangles of height `width`, side by side over the unit cube's bottom, their tips
+/// down.
+pub fn needles(count: usize, width: f64) -> Shape {
+    let mut mesh = Mesh {
+        vertices: Vec::new(),
+        faces: Vec::new(),
+    };
+    for k in 0..count {
+        let foot = DVec3::new((k as f64 + 0.5) / count as f64, 0.5, 0.0);
+        let base = mesh.vertices.len() as u32;
+        mesh.vertices.extend([foot, foot + DVec3::Z, foot + DVec3::Z + width * DVec3::Y]);
+        mesh.faces.push([base, base + 1, base + 2]);
+    }
+    Shape::open(mesh)
+}

@@ -1,0 +1,236 @@
+//! Shapes by code: triangle meshes, and the convex parts they are made of where those are known.
+
+mod boxes;
+mod round;
+mod thread;
+
+pub use boxes::{
+    comb, cuboid, frame_plate, l_prism, mace, needles, parallel_plate, post, rod, slit_plate,
+    u_hook, wall_at,
+};
+pub use round::{icosphere, inradius, torus, torus_knot};
+pub use thread::{PITCH, nut, screw};
+
+use ccd_core::glam::{DQuat, DVec3};
+use ccd_core::{Body, Facet, Pieces, Polytope, Volume};
+
+/// A triangle mesh: what the referee looks at, and what the engine is given.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mesh {
+    /// In the body's own frame.
+    pub vertices: Vec<DVec3>,
+    /// Counter-clockwise seen from outside, where there is an outside.
+    pub faces: Vec<[u32; 3]>,
+}
+
+/// A shape in every form that the engine takes.
+#[derive(Clone, Debug)]
+pub struct Shape {
+    /// Its surface.
+    pub mesh: Mesh,
+    /// Convex parts whose union has that surface; empty where none are known.
+    pub parts: Vec<Polytope>,
+    /// Whether the mesh is closed and its inside counts.
+    pub volume: Volume,
+}
+
+/// The kind of pieces that a body is built of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// One piece per triangle.
+    Triangles,
+    /// One piece per convex part.
+    Parts,
+}
+
+impl Kind {
+    /// Every kind.
+    pub const ALL: [Kind; 2] = [Kind::Triangles, Kind::Parts];
+}
+
+impl Shape {
+    /// A closed mesh, of no known parts.
+    pub fn closed(mesh: Mesh) -> Self {
+        Shape {
+            mesh,
+            parts: Vec::new(),
+            volume: Volume::Solid,
+        }
+    }
+
+    /// A mesh without an inside.
+    pub fn open(mesh: Mesh) -> Self {
+        Shape {
+            volume: Volume::Surface,
+            ..Shape::closed(mesh)
+        }
+    }
+
+    /// A closed convex mesh: it is its own only part.
+    pub fn convex(mesh: Mesh) -> Self {
+        let facets = mesh.faces.iter().enumerate();
+        let part = Polytope {
+            points: mesh.vertices.clone(),
+            facets: facets
+                .map(|(id, face)| Facet {
+                    id: id as u32,
+                    corners: face.to_vec(),
+                })
+                .collect(),
+            ..Polytope::default()
+        };
+        Shape {
+            parts: vec![part],
+            ..Shape::closed(mesh)
+        }
+    }
+
+    /// The union of shapes, as a surface; vertices and faces are numbered on.
+    pub fn union(shapes: impl IntoIterator<Item = Shape>) -> Self {
+        let mut out = Shape::open(Mesh {
+            vertices: Vec::new(),
+            faces: Vec::new(),
+        });
+        let mut all_parts = true;
+        for shape in shapes {
+            let (vertex, face) = (out.mesh.vertices.len(), out.mesh.faces.len());
+            all_parts &= !shape.parts.is_empty();
+            out.parts.extend(shape.parts.into_iter().map(|mut part| {
+                part.vertex_ids = (0..part.points.len() as u32).map(|k| k + vertex as u32).collect();
+                part.facets.iter_mut().for_each(|facet| facet.id += face as u32);
+                part
+            }));
+            out.mesh.append(&shape.mesh);
+        }
+        if !all_parts {
+            out.parts.clear();
+        }
+        out
+    }
+
+    /// Turned, then moved, within the body's frame.
+    pub fn placed(mut self, rotation: DQuat, offset: DVec3) -> Self {
+        self.each_point(|p| rotation * p + offset);
+        self
+    }
+
+    /// Moved within the body's frame.
+    pub fn moved(self, offset: DVec3) -> Self {
+        self.placed(DQuat::IDENTITY, offset)
+    }
+
+    /// Every coordinate times a positive factor.
+    pub fn scaled(mut self, factor: f64) -> Self {
+        self.each_point(|p| factor * p);
+        self
+    }
+
+    /// Each coordinate times a positive factor of its own.
+    pub fn stretched(mut self, factors: DVec3) -> Self {
+        self.each_point(|p| factors * p);
+        self
+    }
+
+    /// Whether its mesh is closed and its inside counts.
+    pub fn is_solid(&self) -> bool {
+        self.volume == Volume::Solid
+    }
+
+    /// The kinds of pieces it can be built of.
+    pub fn kinds(&self) -> impl Iterator<Item = Kind> {
+        Kind::ALL.into_iter().filter(|&kind| self.pieces(kind) > 0)
+    }
+
+    /// How many pieces it then has.
+    pub fn pieces(&self, kind: Kind) -> usize {
+        match kind {
+            Kind::Triangles => self.mesh.faces.len(),
+            Kind::Parts => self.parts.len(),
+        }
+    }
+
+    /// The engine's body; parts are filled by themselves, so that only triangles can be hollow.
+    ///
+    /// # Panics
+    /// When the engine refuses the shape.
+    pub fn body(&self, kind: Kind) -> Body {
+        let (pieces, volume) = match kind {
+            Kind::Triangles => (self.mesh.pieces(), self.volume),
+            Kind::Parts => (Pieces::polytopes(&self.parts), Volume::Surface),
+        };
+        Body::new(pieces.expect("good pieces"), volume).expect("a good body")
+    }
+
+    fn each_point(&mut self, map: impl Fn(DVec3) -> DVec3) {
+        let parts = self.parts.iter_mut().flat_map(|part| &mut part.points);
+        for p in self.mesh.vertices.iter_mut().chain(parts) {
+            *p = map(*p);
+        }
+    }
+}
+
+impl Mesh {
+    /// Takes another mesh in; its vertices and faces are numbered on.
+    pub fn append(&mut self, other: &Mesh) {
+        let base = self.vertices.len() as u32;
+        self.vertices.extend_from_slice(&other.vertices);
+        self.faces.extend(other.faces.iter().map(|f| f.map(|v| v + base)));
+    }
+
+    /// The corners of a face.
+    pub fn triangle(&self, face: usize) -> [DVec3; 3] {
+        self.faces[face].map(|v| self.vertices[v as usize])
+    }
+
+    /// The largest distance of a vertex from a point.
+    pub fn radius_about(&self, centre: DVec3) -> f64 {
+        self.vertices.iter().map(|v| v.distance(centre)).fold(0.0, f64::max)
+    }
+
+    /// The same surface with every face seen from the other side.
+    pub fn flipped(mut self) -> Self {
+        self.faces.iter_mut().for_each(|f| f.swap(1, 2));
+        self
+    }
+
+    fn pieces(&self) -> Result<Pieces, ccd_core::InputError> {
+        let ids: Vec<u32> = (0..self.faces.len() as u32).collect();
+        Pieces::triangles(&self.vertices, &self.faces, &ids)
+    }
+}
+
+/// The faces of a grid of `rows × columns` vertices, row by row; a closed direction wraps around.
+/// Seen from where rows run to the right and columns upwards, faces are counter-clockwise.
+fn grid_faces(rows: Line, columns: Line) -> Vec<[u32; 3]> {
+    let vertex = |i: usize, j: usize| ((i % rows.count()) * columns.count() + j % columns.count()) as u32;
+    let mut faces = Vec::new();
+    for i in 0..rows.steps() {
+        for j in 0..columns.steps() {
+            let [a, b, c, d] =
+                [vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1), vertex(i, j + 1)];
+            faces.extend([[a, b, c], [a, c, d]]);
+        }
+    }
+    faces
+}
+
+/// One direction of a grid, by its number of vertices.
+#[derive(Clone, Copy)]
+enum Line {
+    Open(usize),
+    Closed(usize),
+}
+
+impl Line {
+    fn count(self) -> usize {
+        let (Line::Open(n) | Line::Closed(n)) = self;
+        n
+    }
+
+    fn steps(self) -> usize {
+        match self {
+            Line::Open(n) => n.saturating_sub(1),
+            Line::Closed(n) => n,
+        }
+    }
+}

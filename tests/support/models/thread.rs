@@ -1,0 +1,38 @@
+//! A screw and its nut.
+
+use super::{Line, Mesh, Shape, grid_faces};
+use ccd_core::glam::DVec3;
+use std::f64::consts::TAU;
+
+/// How far the thread climbs in one turn.
+pub const PITCH: f64 = 0.5;
+
+const SEGMENTS: usize = 24;
+const ROWS_PER_PITCH: usize = 6;
+
+/// The screw's surface about z: three pitches of a wavy thread of mean radius 1, depth 0.1.
+pub fn screw() -> Shape {
+    Shape::open(thread(3, 0.0))
+}
+
+/// The nut's inner surface, one pitch high, in the middle of the screw, everywhere `clearance`
+/// farther from the axis.
+pub fn nut(clearance: f64) -> Shape {
+    Shape::open(thread(1, clearance)).moved(PITCH * DVec3::Z)
+}
+
+/// A helical surface: turning it by an angle and lifting it by that part of the pitch maps it to
+/// itself, up to its facets.
+fn thread(pitches: usize, clearance: f64) -> Mesh {
+    let rows = pitches * ROWS_PER_PITCH + 1;
+    let vertex = |i: usize, j: usize| {
+        let turn = j as f64 / SEGMENTS as f64;
+        let z = PITCH * i as f64 / ROWS_PER_PITCH as f64;
+        let r = 1.0 + clearance + 0.1 * (TAU * (z / PITCH - turn)).cos();
+        DVec3::new(r * (TAU * turn).cos(), r * (TAU * turn).sin(), z)
+    };
+    Mesh {
+        vertices: (0..rows).flat_map(|i| (0..SEGMENTS).map(move |j| vertex(i, j))).collect(),
+        faces: grid_faces(Line::Open(rows), Line::Closed(SEGMENTS)),
+    }
+}

@@ -1,0 +1,181 @@
+//! A query in terms that both the engine and the referee understand.
+
+use crate::models::{Kind, Shape};
+use crate::tolerance::rounding;
+use ccd_core::glam::DVec3;
+use ccd_core::{Body, Config, Motion, Moving, Pose, Problem};
+
+/// A shape and how it moves.
+#[derive(Clone, Debug)]
+pub struct Actor {
+    /// What moves.
+    pub shape: Shape,
+    /// How.
+    pub motion: Motion,
+}
+
+/// Two actors over a duration.
+#[derive(Clone, Debug)]
+pub struct Query {
+    /// Body A.
+    pub a: Actor,
+    /// Body B.
+    pub b: Actor,
+    /// From time 0 to this.
+    pub duration: f64,
+}
+
+/// The engine's bodies of a query.
+pub struct Bodies {
+    a: Body,
+    b: Body,
+    /// What they were built of.
+    pub kinds: [Kind; 2],
+}
+
+impl Query {
+    /// The same with the bodies' roles exchanged.
+    pub fn swapped(&self) -> Query {
+        Query {
+            a: self.b.clone(),
+            b: self.a.clone(),
+            duration: self.duration,
+        }
+    }
+
+    /// The same seen from another frame.
+    pub fn seen_from(&self, frame: &Pose) -> Query {
+        Query {
+            a: self.a.seen_from(frame),
+            b: self.b.seen_from(frame),
+            duration: self.duration,
+        }
+    }
+
+    /// The same run backwards.
+    pub fn reversed(&self) -> Query {
+        Query {
+            a: self.a.reversed(self.duration),
+            b: self.b.reversed(self.duration),
+            duration: self.duration,
+        }
+    }
+
+    /// The rounding that any distance in this scene may suffer.
+    pub fn rounding(&self) -> f64 {
+        rounding(self.a.reach(self.duration) + self.b.reach(self.duration))
+    }
+
+    /// Every combination of kinds of pieces.
+    pub fn all_bodies(&self) -> Vec<Bodies> {
+        let pairs = |ka| self.b.shape.kinds().map(move |kb| [ka, kb]);
+        self.a.shape.kinds().flat_map(pairs).map(|kinds| self.bodies(kinds)).collect()
+    }
+
+    /// The bodies built of triangles.
+    pub fn triangles(&self) -> Bodies {
+        self.bodies([Kind::Triangles; 2])
+    }
+
+    /// The bodies built of given kinds of pieces.
+    pub fn bodies(&self, kinds: [Kind; 2]) -> Bodies {
+        Bodies {
+            a: self.a.shape.body(kinds[0]),
+            b: self.b.shape.body(kinds[1]),
+            kinds,
+        }
+    }
+
+    /// What is asked of the engine.
+    ///
+    /// # Panics
+    /// When the engine refuses it.
+    pub fn problem<'a>(&self, bodies: &'a Bodies, config: &Config) -> Problem<'a> {
+        let a = Moving {
+            body: &bodies.a,
+            motion: self.a.motion,
+        };
+        let b = Moving {
+            body: &bodies.b,
+            motion: self.b.motion,
+        };
+        Problem::new(a, b, self.duration, config).expect("a well-posed problem")
+    }
+}
+
+impl Bodies {
+    /// How many pairs of pieces there are.
+    pub fn pairs(&self) -> usize {
+        self.a.pieces().len() * self.b.pieces().len()
+    }
+
+    /// Body A.
+    pub fn a(&self) -> &Body {
+        &self.a
+    }
+
+    /// Body B.
+    pub fn b(&self) -> &Body {
+        &self.b
+    }
+}
+
+impl Actor {
+    /// A shape at rest.
+    pub fn still(shape: Shape, at: DVec3) -> Self {
+        Actor::moving(shape, at, DVec3::ZERO, DVec3::ZERO)
+    }
+
+    /// A shape that starts unturned at a place, with velocities.
+    ///
+    /// # Panics
+    /// When a number is not finite.
+    pub fn moving(shape: Shape, at: DVec3, velocity: DVec3, spin: DVec3) -> Self {
+        let start = Pose::from_translation(at).expect("a finite place");
+        Actor {
+            shape,
+            motion: Motion::new(start, velocity, spin).expect("finite velocities"),
+        }
+    }
+
+    /// An upper bound of all its points' coordinates, the angle that it turns by as a factor.
+    pub fn reach(&self, duration: f64) -> f64 {
+        let motion = &self.motion;
+        let points = self.shape.parts.iter().flat_map(|part| &part.points);
+        let radii = self.shape.parts.iter().map(|part| part.radius).fold(0.0, f64::max);
+        let radius = points
+            .chain(&self.shape.mesh.vertices)
+            .map(|p| p.distance(motion.centre()))
+            .fold(motion.centre().length(), f64::max);
+        let travel = duration * motion.velocity().length();
+        let turn = 1.0 + duration * motion.spin().length();
+        motion.start().translation().length() + travel + turn * (radius + radii)
+    }
+
+    fn seen_from(&self, frame: &Pose) -> Actor {
+        let motion = &self.motion;
+        let (start, turn) = (motion.start(), frame.rotation());
+        let place = frame.transform_point(start.translation());
+        let start = Pose::new(place, turn * start.rotation()).expect("a pose");
+        Actor {
+            shape: self.shape.clone(),
+            motion: Motion::about(
+                start,
+                turn * motion.velocity(),
+                turn * motion.spin(),
+                motion.centre(),
+            )
+            .expect("finite"),
+        }
+    }
+
+    fn reversed(&self, duration: f64) -> Actor {
+        let motion = &self.motion;
+        let end = motion.pose(duration);
+        Actor {
+            shape: self.shape.clone(),
+            motion: Motion::about(end, -motion.velocity(), -motion.spin(), motion.centre())
+                .expect("finite"),
+        }
+    }
+}

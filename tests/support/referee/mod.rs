@@ -1,0 +1,164 @@
+//! An independent judge of when two moving meshes first touch: slow and obvious.
+//!
+//! It shares no code with the engine: poses from the formula of the motion, distances by trying all
+//! pairs of vertices, edges and faces, times by undirected conservative advancement.
+
+mod place;
+mod triangles;
+
+pub use place::Placement;
+pub use triangles::{contains, point_segment, point_triangle};
+
+use crate::query::Query;
+use crate::tolerance::{CLOSE, KEPT};
+use ccd_core::glam::DVec3;
+use triangles::Posed;
+
+/// What the referee saw.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Verdict {
+    /// The surfaces are within the margin at the start.
+    Start,
+    /// Apart until `lo`, in contact at `hi`.
+    Hit {
+        /// Proven free until then.
+        lo: f64,
+        /// Seen in contact then.
+        hi: f64,
+    },
+    /// Apart until `lo`, when they are so near that it is hard to tell.
+    Near {
+        /// Proven free until then.
+        lo: f64,
+    },
+    /// Apart over the whole duration.
+    Free {
+        /// The least distance seen.
+        gap: f64,
+    },
+    /// The referee lost patience.
+    Undecided {
+        /// Proven free until then.
+        lo: f64,
+    },
+}
+
+/// Judges one query.
+pub struct Referee<'a> {
+    query: &'a Query,
+    places: [Placement; 2],
+    margin: f64,
+}
+
+/// Steps of advancement before the referee loses patience.
+const MAX_STEPS: u32 = 20_000;
+
+impl<'a> Referee<'a> {
+    /// Of contacts at a distance of 0.
+    pub fn new(query: &'a Query) -> Self {
+        Referee::with_margin(query, 0.0)
+    }
+
+    /// Of contacts at a distance of `margin`.
+    pub fn with_margin(query: &'a Query, margin: f64) -> Self {
+        Referee {
+            query,
+            places: Placement::pair(query),
+            margin,
+        }
+    }
+
+    /// The distance of the two surfaces at a time; 0 where they intersect.
+    pub fn gap(&self, time: f64) -> f64 {
+        let [a, b] = self.posed(time);
+        a.distance(&b)
+    }
+
+    /// Whether one closed solid holds the first vertex of the other at a time.
+    pub fn nested(&self, time: f64) -> bool {
+        let [a, b] = self.posed(time);
+        let solid = |k: usize| [&self.query.a, &self.query.b][k].shape.is_solid();
+        let inside = |outer: &Posed<'_>, inner: &Posed<'_>| {
+            inner.first_vertex().is_some_and(|p| contains(outer.mesh(), outer.points(), p))
+        };
+        (solid(1) && inside(&b, &a)) || (solid(0) && inside(&a, &b))
+    }
+
+    /// Whether a point in world coordinates lies inside of body A (0) or B (1) at the start.
+    pub fn holds(&self, body: usize, point: DVec3) -> bool {
+        let posed = &self.posed(0.0)[body];
+        contains(posed.mesh(), posed.points(), point - self.places[0].origin())
+    }
+
+    /// When the bodies first touch.
+    pub fn verdict(&self) -> Verdict {
+        let speed = self.speed();
+        let close = CLOSE * self.size();
+        let (mut time, mut least) = (0.0, f64::INFINITY);
+        for _ in 0..MAX_STEPS {
+            let gap = self.gap(time) - self.margin;
+            least = least.min(gap);
+            if gap <= close {
+                return self.settle(time, close / speed);
+            }
+            // The distance falls no faster than `speed`.
+            time += KEPT * gap / speed;
+            if !(time < self.query.duration) {
+                return Verdict::Free {
+                    gap: least + self.margin,
+                };
+            }
+        }
+        Verdict::Undecided { lo: time }
+    }
+
+    /// Bounds how fast the distance can change.
+    pub fn speed(&self) -> f64 {
+        let [a, b] = &self.places;
+        (b.velocity() - a.velocity()).length() + a.rim_speed() + b.rim_speed()
+    }
+
+    /// Looks for a contact soon after a time at which the bodies nearly touch.
+    fn settle(&self, lo: f64, first_step: f64) -> Verdict {
+        if lo == 0.0 && self.touches(0.0) {
+            return Verdict::Start;
+        }
+        let mut step = first_step;
+        while step <= 1e-2 * self.query.duration {
+            let hi = (lo + step).min(self.query.duration);
+            if self.touches(hi) {
+                return Verdict::Hit { lo, hi };
+            }
+            step *= 1.5;
+        }
+        Verdict::Near { lo }
+    }
+
+    fn touches(&self, time: f64) -> bool {
+        let gap = self.gap(time);
+        if self.margin > 0.0 { gap < self.margin } else { gap == 0.0 }
+    }
+
+    fn size(&self) -> f64 {
+        self.places.iter().map(Placement::radius).fold(0.0, f64::max)
+    }
+
+    fn posed(&self, time: f64) -> [Posed<'a>; 2] {
+        let place = |k: usize, actor: &'a crate::query::Actor| {
+            let mesh = &actor.shape.mesh;
+            Posed::new(mesh, mesh.vertices.iter().map(|&p| self.places[k].at(time, p)).collect())
+        };
+        [place(0, &self.query.a), place(1, &self.query.b)]
+    }
+}
+
+impl Verdict {
+    /// The time at which contact is certain, if any.
+    pub fn latest(self) -> Option<f64> {
+        match self {
+            Verdict::Start => Some(0.0),
+            Verdict::Hit { hi, .. } => Some(hi),
+            _ => None,
+        }
+    }
+}

@@ -1,0 +1,96 @@
+//! Where the points of a moving body are, straight from the definition of the motion.
+
+use crate::query::{Actor, Query};
+use ccd_core::glam::DVec3;
+
+/// `x(t) = R(t) R₀ (x − c) + d + v t`, relative to where body A's centre is at the start.
+///
+/// Offsets are subtracted before anything is rounded at their size, and A's velocity is taken off
+/// both bodies, so that far and fast scenes keep their digits.
+#[derive(Clone, Debug)]
+pub struct Placement {
+    start: [DVec3; 3],
+    centre: DVec3,
+    offset: DVec3,
+    velocity: DVec3,
+    spin: DVec3,
+    radius: f64,
+    origin: DVec3,
+}
+
+impl Placement {
+    /// Of both bodies of a query, A first.
+    pub fn pair(query: &Query) -> [Placement; 2] {
+        let (mut a, mut b) = (Placement::new(&query.a), Placement::new(&query.b));
+        let (pa, pb) = (query.a.motion.start().translation(), query.b.motion.start().translation());
+        b.offset = (pb - pa) + (b.offset - a.offset);
+        b.velocity -= a.velocity;
+        (a.origin, b.origin) = (pa + a.offset, pa + a.offset);
+        (a.offset, a.velocity) = (DVec3::ZERO, DVec3::ZERO);
+        [a, b]
+    }
+
+    fn new(actor: &Actor) -> Self {
+        let motion = &actor.motion;
+        let start = rotation(motion.start().rotation().to_array());
+        let centre = motion.centre();
+        Placement {
+            start,
+            centre,
+            offset: apply(start, centre),
+            velocity: motion.velocity(),
+            spin: motion.spin(),
+            radius: actor.shape.mesh.radius_about(centre),
+            origin: DVec3::ZERO,
+        }
+    }
+
+    /// Where a point of the body is.
+    pub fn at(&self, time: f64, point: DVec3) -> DVec3 {
+        let arm = apply(self.start, point - self.centre);
+        turned(arm, time * self.spin) + self.offset + time * self.velocity
+    }
+
+    /// What positions are relative to, in the world, at time 0.
+    pub fn origin(&self) -> DVec3 {
+        self.origin
+    }
+
+    /// Relative to body A's centre.
+    pub fn velocity(&self) -> DVec3 {
+        self.velocity
+    }
+
+    /// The fastest that turning moves any point.
+    pub fn rim_speed(&self) -> f64 {
+        self.spin.length() * self.radius
+    }
+
+    /// The farthest that a point is from the centre.
+    pub fn radius(&self) -> f64 {
+        self.radius
+    }
+}
+
+/// Rodrigues' formula.
+fn turned(p: DVec3, turn: DVec3) -> DVec3 {
+    let angle = turn.length();
+    if angle == 0.0 {
+        return p;
+    }
+    let n = turn / angle;
+    let half = (0.5 * angle).sin();
+    // 1 − cos written as 2 sin² of the half: small turns keep their digits.
+    p + angle.sin() * n.cross(p) + 2.0 * half * half * n.cross(n.cross(p))
+}
+
+/// The columns of the rotation that a unit quaternion `x y z w` stands for.
+fn rotation([x, y, z, w]: [f64; 4]) -> [DVec3; 3] {
+    let q = DVec3::new(x, y, z);
+    let column = |e: DVec3| e + 2.0 * q.cross(q.cross(e) + w * e);
+    [column(DVec3::X), column(DVec3::Y), column(DVec3::Z)]
+}
+
+fn apply(columns: [DVec3; 3], p: DVec3) -> DVec3 {
+    p.x * columns[0] + p.y * columns[1] + p.z * columns[2]
+}

@@ -1,0 +1,198 @@
+//! Distances of triangles by trying everything, with a box test in front.
+
+use crate::models::Mesh;
+use ccd_core::glam::DVec3;
+use std::f64::consts::PI;
+
+/// A mesh whose vertices have been moved to where they are at some time.
+pub struct Posed<'a> {
+    mesh: &'a Mesh,
+    points: Vec<DVec3>,
+    boxes: Vec<Bounds>,
+    group_boxes: Vec<Bounds>,
+}
+
+/// Faces that share a box in the coarser of two levels.
+const GROUP: usize = 8;
+
+impl<'a> Posed<'a> {
+    pub(super) fn new(mesh: &'a Mesh, points: Vec<DVec3>) -> Self {
+        let of_face = |face: &[u32; 3]| {
+            face.iter().fold(Bounds::EMPTY, |all, &v| all.with(points[v as usize]))
+        };
+        let boxes: Vec<Bounds> = mesh.faces.iter().map(of_face).collect();
+        let group = |some: &[Bounds]| some.iter().fold(Bounds::EMPTY, |all, b| all.union(*b));
+        Posed {
+            mesh,
+            group_boxes: boxes.chunks(GROUP).map(group).collect(),
+            boxes,
+            points,
+        }
+    }
+
+    pub(super) fn mesh(&self) -> &'a Mesh {
+        self.mesh
+    }
+
+    pub(super) fn points(&self) -> &[DVec3] {
+        &self.points
+    }
+
+    pub(super) fn first_vertex(&self) -> Option<DVec3> {
+        self.points.first().copied()
+    }
+
+    /// The least distance of any two faces; 0 where two intersect.
+    pub(super) fn distance(&self, other: &Posed<'_>) -> f64 {
+        let mut pairs: Vec<(f64, usize, usize)> = Vec::new();
+        for (i, a) in self.group_boxes.iter().enumerate() {
+            for (j, b) in other.group_boxes.iter().enumerate() {
+                pairs.push((a.distance_squared(b), i, j));
+            }
+        }
+        pairs.sort_unstable_by(|x, y| x.0.total_cmp(&y.0));
+        let mut best = f64::INFINITY;
+        for (bound, i, j) in pairs {
+            if bound > best || best == 0.0 {
+                break;
+            }
+            best = best.min(self.group_distance_squared(other, [i, j], best));
+        }
+        best.sqrt()
+    }
+
+    fn group_distance_squared(&self, other: &Posed<'_>, groups: [usize; 2], limit: f64) -> f64 {
+        let mut best = limit;
+        for i in members(groups[0], self.boxes.len()) {
+            for j in members(groups[1], other.boxes.len()) {
+                if self.boxes[i].distance_squared(&other.boxes[j]) <= best {
+                    best = best.min(distance_squared(self.triangle(i), other.triangle(j)));
+                }
+            }
+        }
+        best
+    }
+
+    fn triangle(&self, face: usize) -> [DVec3; 3] {
+        self.mesh.faces[face].map(|v| self.points[v as usize])
+    }
+}
+
+fn members(group: usize, count: usize) -> std::ops::Range<usize> {
+    group * GROUP..((group + 1) * GROUP).min(count)
+}
+
+/// The squared distance of two triangles: all vertices against the other's face, all edges against
+/// the other's edges; 0 when an edge pierces a face.
+fn distance_squared(a: [DVec3; 3], b: [DVec3; 3]) -> f64 {
+    let edges = |t: [DVec3; 3]| [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]];
+    let pierced = |e: &[DVec3; 2], t| pierces(*e, t);
+    if edges(a).iter().any(|e| pierced(e, b)) || edges(b).iter().any(|e| pierced(e, a)) {
+        return 0.0;
+    }
+    let mut best = f64::INFINITY;
+    for k in 0..3 {
+        best = best.min(point_triangle(a[k], b).distance_squared(a[k]));
+        best = best.min(point_triangle(b[k], a).distance_squared(b[k]));
+    }
+    for e in edges(a) {
+        for f in edges(b) {
+            best = best.min(edge_edge_squared(e, f));
+        }
+    }
+    best
+}
+
+/// Whether an edge passes through the inside of a triangle.
+fn pierces([p, q]: [DVec3; 2], [a, b, c]: [DVec3; 3]) -> bool {
+    let volume = |u: DVec3, v: DVec3, w: DVec3| (u - p).dot((v - p).cross(w - p));
+    let normal = (b - a).cross(c - a);
+    let (s, t) = (normal.dot(p - a), normal.dot(q - a));
+    if !(s * t < 0.0) {
+        return false;
+    }
+    let sides = [volume(q, a, b), volume(q, b, c), volume(q, c, a)];
+    sides.iter().all(|&v| v > 0.0) || sides.iter().all(|&v| v < 0.0)
+}
+
+/// The squared distance of two edges: their inner feet where both have one, else end points.
+fn edge_edge_squared(e: [DVec3; 2], f: [DVec3; 2]) -> f64 {
+    let mut best = f64::INFINITY;
+    for k in 0..2 {
+        best = best.min(point_segment(e[k], f).distance_squared(e[k]));
+        best = best.min(point_segment(f[k], e).distance_squared(f[k]));
+    }
+    let (u, v, w) = (e[1] - e[0], f[1] - f[0], e[0] - f[0]);
+    let (uu, uv, vv) = (u.dot(u), u.dot(v), v.dot(v));
+    let det = uu * vv - uv * uv;
+    if det > 0.0 {
+        let s = (uv * v.dot(w) - vv * u.dot(w)) / det;
+        let t = (uu * v.dot(w) - uv * u.dot(w)) / det;
+        if (0.0..=1.0).contains(&s) && (0.0..=1.0).contains(&t) {
+            best = best.min((e[0] + s * u).distance_squared(f[0] + t * v));
+        }
+    }
+    best
+}
+
+/// The nearest point of a segment.
+pub fn point_segment(p: DVec3, [a, b]: [DVec3; 2]) -> DVec3 {
+    let along = b - a;
+    let t = (p - a).dot(along) / along.length_squared();
+    // NaN for a segment of no length: either end will do.
+    if t > 0.0 { a + t.min(1.0) * along } else { a }
+}
+
+/// The nearest point of a triangle.
+pub fn point_triangle(p: DVec3, [a, b, c]: [DVec3; 3]) -> DVec3 {
+    let normal = (b - a).cross(c - a);
+    let left_of = |u: DVec3, v: DVec3| normal.dot((v - u).cross(p - u)) >= 0.0;
+    if normal.length_squared() > 0.0 && left_of(a, b) && left_of(b, c) && left_of(c, a) {
+        return p - normal * ((p - a).dot(normal) / normal.length_squared());
+    }
+    let on_edges = [[a, b], [b, c], [c, a]].map(|edge| point_segment(p, edge));
+    let nearer = |x: DVec3, y: DVec3| if y.distance(p) < x.distance(p) { y } else { x };
+    on_edges.into_iter().reduce(nearer).unwrap_or(a)
+}
+
+/// Whether a closed mesh winds around a point: the solid angles of its faces add up to more than
+/// half the sphere.
+pub fn contains(mesh: &Mesh, points: &[DVec3], p: DVec3) -> bool {
+    let angle = |face: &[u32; 3]| {
+        let [a, b, c] = face.map(|v| points[v as usize] - p);
+        let (la, lb, lc) = (a.length(), b.length(), c.length());
+        let denominator = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
+        2.0 * a.dot(b.cross(c)).atan2(denominator)
+    };
+    mesh.faces.iter().map(angle).sum::<f64>() > 2.0 * PI
+}
+
+/// A box along the axes.
+#[derive(Clone, Copy)]
+struct Bounds {
+    lo: DVec3,
+    hi: DVec3,
+}
+
+impl Bounds {
+    const EMPTY: Bounds = Bounds {
+        lo: DVec3::INFINITY,
+        hi: DVec3::NEG_INFINITY,
+    };
+
+    fn with(self, p: DVec3) -> Bounds {
+        Bounds {
+            lo: self.lo.min(p),
+            hi: self.hi.max(p),
+        }
+    }
+
+    fn union(self, other: Bounds) -> Bounds {
+        self.with(other.lo).with(other.hi)
+    }
+
+    fn distance_squared(&self, other: &Bounds) -> f64 {
+        let gap = (self.lo - other.hi).max(other.lo - self.hi).max(DVec3::ZERO);
+        gap.length_squared()
+    }
+}

@@ -1,0 +1,211 @@
+//! Random cases: shapes, poses, motions, aimed so that hits, misses and overlaps all occur.
+
+use crate::case::{Case, Model, Part, Start};
+use ccd_core::glam::{DQuat, DVec3};
+use proptest::prelude::*;
+use proptest::test_runner::{RngSeed, TestRunner};
+use std::f64::consts::{PI, TAU};
+
+/// A runner of `cases` cases, times `CCD_TEST_CASES` where that is set; always the same ones, unless
+/// `CCD_TEST_SEED` names another seed.
+pub fn runner(cases: u32) -> TestRunner {
+    TestRunner::new(ProptestConfig {
+        cases: cases * setting("CCD_TEST_CASES", 1),
+        rng_seed: RngSeed::Fixed(u64::from(setting("CCD_TEST_SEED", 0))),
+        failure_persistence: None,
+        max_shrink_iters: 2_000,
+        ..ProptestConfig::default()
+    })
+}
+
+fn setting(name: &str, default: u32) -> u32 {
+    std::env::var(name).ok().and_then(|text| text.parse().ok()).unwrap_or(default)
+}
+
+/// Runs a law over random cases; a failure prints the shrunk case as it goes into the corpus.
+///
+/// # Panics
+/// When the law fails for a case.
+pub fn check_cases(
+    cases: u32,
+    strategy: impl Strategy<Value = Case>,
+    law: impl Fn(&Case) -> Result<(), String>,
+) {
+    let result = runner(cases).run(&strategy, |case| {
+        law(&case).map_err(|why| TestCaseError::fail(format!("{why}\n{}", case.to_toml())))
+    });
+    if let Err(error) = result {
+        panic!("{error}");
+    }
+}
+
+/// Two small bodies aimed at each other, about a unit in size and a few units apart; either, both
+/// or none may move and turn, up to three turns.
+pub fn cases() -> impl Strategy<Value = Case> {
+    aimed(model(), model())
+}
+
+/// As [`cases`], of convex shapes only.
+pub fn convex_cases() -> impl Strategy<Value = Case> {
+    aimed(convex_model(), convex_model())
+}
+
+/// As [`cases`], far from the origin, and from very small to very large.
+pub fn remote_cases() -> impl Strategy<Value = Case> {
+    (cases(), -6.0..6.0f64, prop_oneof![Just(0.0), 1.0..6.0f64], direction()).prop_map(
+        |(mut case, scale, offset, towards)| {
+            let scale = 10.0f64.powf(scale);
+            case.tolerance *= scale;
+            // Offsets are relative to the size: that is what costs digits.
+            let offset = if offset > 0.0 { 10.0f64.powf(offset) } else { 0.0 };
+            for part in [&mut case.a, &mut case.b] {
+                part.scale *= scale;
+                let position = DVec3::from(part.position) + offset * towards;
+                part.position = (scale * position).into();
+                part.velocity = (scale * DVec3::from(part.velocity)).into();
+                part.centre = (scale * DVec3::from(part.centre)).into();
+            }
+            case
+        },
+    )
+}
+
+/// As [`cases`], so close together that many overlap at the start.
+pub fn crowded_cases() -> impl Strategy<Value = Case> {
+    (cases(), 0.0..0.4f64).prop_map(|(mut case, nearer)| {
+        case.b.position = (nearer * DVec3::from(case.b.position)).into();
+        case
+    })
+}
+
+fn aimed(
+    a: impl Strategy<Value = Model>,
+    b: impl Strategy<Value = Model>,
+) -> impl Strategy<Value = Case> {
+    let tolerance = prop_oneof![Just(1e-3), Just(1e-6)];
+    let aim = (direction(), 1.5..3.5f64, direction(), 0.0..1.2f64, 0.3..1.5f64);
+    (part(a), part(b), aim, tolerance, drift()).prop_map(|(a, mut b, aim, tolerance, drift)| {
+        let (towards, apart, side, miss, haste) = aim;
+        let place = apart * towards;
+        // From where B starts to a point that misses A's centre by up to `miss`.
+        let travel = haste * (miss * side - place);
+        b.position = place.into();
+        let mut case = Case {
+            name: String::new(),
+            why: String::new(),
+            duration: 1.0,
+            tolerance,
+            margin: 0.0,
+            start: Start::Report,
+            a,
+            b,
+        };
+        share(&mut case, travel, drift);
+        case
+    })
+}
+
+/// Gives the relative velocity to B, to A, or to both on top of a common drift.
+fn share(case: &mut Case, travel: DVec3, drift: Option<DVec3>) {
+    match drift {
+        None => case.b.velocity = travel.into(),
+        Some(drift) if drift.x > 0.0 => case.a.velocity = (-travel).into(),
+        Some(drift) => {
+            case.a.velocity = (10.0 * drift).into();
+            case.b.velocity = (10.0 * drift + travel).into();
+        }
+    }
+}
+
+fn drift() -> impl Strategy<Value = Option<DVec3>> {
+    prop_oneof![Just(None), direction().prop_map(Some)]
+}
+
+fn part(model: impl Strategy<Value = Model>) -> impl Strategy<Value = Part> {
+    (model, turn(PI), spin(), centre()).prop_map(|(shape, turned, spin, centre)| Part {
+        turned: turned.into(),
+        spin: spin.into(),
+        centre: centre.into(),
+        ..Part::new(shape)
+    })
+}
+
+/// None, a part of a turn, or up to three turns per unit of time.
+fn spin() -> impl Strategy<Value = DVec3> {
+    prop_oneof![
+        2 => Just(DVec3::ZERO),
+        3 => turn(PI),
+        1 => turn(3.0 * TAU),
+        1 => turn(1e-6),
+    ]
+}
+
+fn centre() -> impl Strategy<Value = DVec3> {
+    prop_oneof![2 => Just(DVec3::ZERO), 1 => turn(1.0)]
+}
+
+/// A vector of up to a length, in any direction.
+fn turn(most: f64) -> impl Strategy<Value = DVec3> {
+    (direction(), 0.0..=most).prop_map(|(n, length)| length * n)
+}
+
+/// A unit vector; the axes occur more often.
+pub fn direction() -> impl Strategy<Value = DVec3> {
+    let any = (-1.0..1.0f64, 0.0..TAU).prop_map(|(z, angle)| {
+        let r = (1.0 - z * z).sqrt();
+        DVec3::new(r * angle.cos(), r * angle.sin(), z)
+    });
+    prop_oneof![4 => any, 1 => prop::sample::select(&DVec3::AXES[..])]
+}
+
+/// A rotation.
+pub fn rotation() -> impl Strategy<Value = DQuat> {
+    turn(PI).prop_map(DQuat::from_scaled_axis)
+}
+
+/// A half extent between 0.05 and 1.
+fn half() -> impl Strategy<Value = f64> {
+    (-1.3..0.0f64).prop_map(|x| 10.0f64.powf(x))
+}
+
+/// A convex shape of at most about a unit.
+pub fn convex_model() -> impl Strategy<Value = Model> {
+    let extents = || [half(), half(), half()];
+    prop_oneof![
+        2 => extents().prop_map(|half| Model::Cuboid { half }),
+        1 => (extents(), 0..2u32).prop_map(|(radii, levels)| Model::Ellipsoid { radii, levels }),
+    ]
+}
+
+/// Any shape of at most about a unit, of at most about 100 triangles.
+pub fn model() -> impl Strategy<Value = Model> {
+    let ring = (4..9usize, 3..6usize, 0.05..0.3f64).prop_map(|(rings, sides, minor)| Model::Torus {
+        major: 0.6,
+        minor,
+        rings,
+        sides,
+    });
+    prop_oneof![
+        3 => convex_model(),
+        1 => ring,
+        1 => Just(Model::LPrism),
+        1 => Just(Model::UHook),
+        1 => prop::collection::vec(triangle(), 1..24).prop_map(|triangles| Model::Soup { triangles }),
+        1 => (1..12usize, -9.0..-1.0f64)
+            .prop_map(|(count, width)| Model::Needles { count, width: 10.0f64.powf(width) }),
+    ]
+}
+
+/// Small and large triangles, some of them degenerate to a segment or a point.
+fn triangle() -> impl Strategy<Value = [[f64; 3]; 3]> {
+    let point = || prop::array::uniform3(-0.7..0.7f64);
+    let size = prop_oneof![Just(0.05), Just(0.4), Just(1.0)];
+    (point(), point(), point(), size, 0..20u32).prop_map(|(a, b, c, size, which)| {
+        let near = |p: [f64; 3]| (DVec3::from(a) + size * DVec3::from(p)).into();
+        match which {
+            0 => [a, a, a],
+            1 => [a, near(b), a],
+            _ => [a, near(b), near(c)],
+        }
+    })
+}
