@@ -1,2 +1,7 @@
-//! WIP
-fn main(){}
+//! The `ccd` command.
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    ccd_bench::cli::main()
+}

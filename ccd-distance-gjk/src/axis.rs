@@ -2,7 +2,7 @@
 
 use crate::lanes::{Lanes3, reciprocal};
 use ccd_core::glam::DVec3;
-use wide::{CmpGt, Select, f64x4};
+use wide::f64x4;
 
 /// The corners of a triangle, a segment or a point, the last one repeated.
 pub(crate) type Corners = [DVec3; 3];
@@ -20,12 +20,6 @@ impl Axis {
         direction: DVec3::ZERO,
         gap: f64::NEG_INFINITY,
     };
-
-    /// The one with the larger gap, `self` if they are equal.
-    #[inline]
-    pub(crate) fn or_better(self, other: Axis) -> Axis {
-        if other.gap > self.gap { other } else { self }
-    }
 }
 
 /// The support gap `min_Q n·y − max_P n·x` of two triangles along `n`, not divided by its length.

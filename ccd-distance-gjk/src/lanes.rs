@@ -96,7 +96,6 @@ impl Lanes3 {
 /// `1 / x`, or 0 where x is not positive: projections onto nothing stay where they are.
 #[inline(always)]
 pub(crate) fn reciprocal(x: f64x4) -> f64x4 {
-    use wide::{CmpGt, Select};
     x.simd_gt(f64x4::ZERO)
         .select(f64x4::ONE / x, f64x4::ZERO)
 }

@@ -75,15 +75,22 @@ impl Pair {
         })
     }
 
-    /// The distance of the two hulls by brute force: the difference's hull by all of its faces.
+    /// The distance of the two hulls by brute force: the nearest two of all their triangles.
     ///
-    /// Exact up to rounding for hulls that are apart; 0 for hulls that meet.
+    /// Exact up to rounding for hulls that are apart: then, and only then, the line between the two
+    /// nearest points is an axis that separates the hulls. 0 for hulls that meet.
     pub fn distance(&self) -> f64 {
         let b = self.b_in_a();
-        let (a, b) = (simplices(&self.a), simplices(&b));
-        let pairs = a.iter().flat_map(|s| b.iter().map(move |t| (s, t)));
-        let outside = pairs.map(|(s, t)| simplex_distance(s, t)).fold(f64::INFINITY, f64::min);
-        outside.max(0.0)
+        let (all_a, all_b) = (simplices(&self.a), simplices(&b));
+        let mut best = DVec3::INFINITY;
+        for s in &all_a {
+            for t in &all_b {
+                simplex_distance(s, t, &mut best);
+            }
+        }
+        let most = self.a.iter().map(|p| p.dot(best)).fold(f64::NEG_INFINITY, f64::max);
+        let least = b.iter().map(|p| p.dot(best)).fold(f64::INFINITY, f64::min);
+        if least > most { best.length() } else { 0.0 }
     }
 }
 
@@ -104,20 +111,20 @@ fn simplices(points: &[DVec3]) -> Vec<Vec<DVec3>> {
     out
 }
 
-fn simplex_distance(s: &[DVec3], t: &[DVec3]) -> f64 {
-    let mut best = f64::INFINITY;
-    for p in s {
-        best = best.min(nearest(*p, t).distance(*p));
-    }
-    for p in t {
-        best = best.min(nearest(*p, s).distance(*p));
-    }
-    for (i, j) in edges(s) {
-        for (k, l) in edges(t) {
-            best = best.min(crossing([s[i], s[j]], [t[k], t[l]]));
+/// Keeps the shortest vector from `s` to `t` if it is shorter than the best so far.
+fn simplex_distance(s: &[DVec3], t: &[DVec3], best: &mut DVec3) {
+    let mut offer = |vector: DVec3| {
+        if vector.length_squared() < best.length_squared() {
+            *best = vector;
+        }
+    };
+    s.iter().for_each(|&p| offer(nearest(p, t) - p));
+    t.iter().for_each(|&p| offer(p - nearest(p, s)));
+    for &(i, j) in edges(s) {
+        for &(k, l) in edges(t) {
+            crossing([s[i], s[j]], [t[k], t[l]]).into_iter().for_each(&mut offer);
         }
     }
-    best
 }
 
 fn nearest(p: DVec3, simplex: &[DVec3]) -> DVec3 {
@@ -137,17 +144,14 @@ fn edges(simplex: &[DVec3]) -> &'static [(usize, usize)] {
     }
 }
 
-/// The distance of two lines where their feet lie inside of the segments, infinity elsewhere.
-fn crossing(e: [DVec3; 2], f: [DVec3; 2]) -> f64 {
+/// The shortest vector between two lines, where its ends lie inside of the segments.
+fn crossing(e: [DVec3; 2], f: [DVec3; 2]) -> Option<DVec3> {
     let (u, v, w) = (e[1] - e[0], f[1] - f[0], f[0] - e[0]);
     let n = u.cross(v);
+    let inside = |x: f64| (0.0..=n.length_squared()).contains(&x);
     let (s, t) = (w.cross(v).dot(n), w.cross(u).dot(n));
-    let inside = 0.0..=n.length_squared();
-    if n.length_squared() > 0.0 && inside.contains(&s) && inside.contains(&t) {
-        w.dot(n).abs() / n.length()
-    } else {
-        f64::INFINITY
-    }
+    (n.length_squared() > 0.0 && inside(s) && inside(t))
+        .then(|| n * (w.dot(n) / n.length_squared()))
 }
 
 /// The law of bounds: what is claimed, checked, encloses the true distance, and closely.

@@ -138,46 +138,64 @@ struct Axis {
 }
 
 /// The best of three axes: between the centres, and the two nodes' own normals.
+///
+/// Homogeneous in the axis: a zero vector gives no gap, and one of any length a sound gap.
 #[inline(always)]
 fn best_axis<C: Children, P: Other>(children: &C, other: &P, lane: usize, way: Vec3) -> Axis {
-    let along = |n: Vec3| {
-        let split_reach = children.reach(lane, n);
-        let other_reach = other.reach(n);
-        Axis {
-            n,
-            gap: dot(n, way) - split_reach - other_reach,
-            split_reach,
-            other_reach,
-        }
-    };
-    let towards = |n: Vec3| {
-        let sign = if dot(n, way) < 0.0 { -1.0 } else { 1.0 };
-        n * sign
-    };
-    // Homogeneous in n: a zero vector gives no gap, and any length a sound one.
     let length = length(way);
     let inverse = if length > 0.0 { 1.0 / length } else { 0.0 };
-    let best = better(
-        along(way * inverse),
-        along(towards(children.normal(lane))),
-    );
-    better(best, along(towards(other.normal())))
+    let between = along(children, other, lane, way, way * inverse);
+    let own = towards(children.normal(lane), way);
+    let others = towards(other.normal(), way);
+    better(
+        better(between, along(children, other, lane, way, own)),
+        along(children, other, lane, way, others),
+    )
+}
+
+#[inline(always)]
+fn along<C: Children, P: Other>(
+    children: &C,
+    other: &P,
+    lane: usize,
+    way: Vec3,
+    n: Vec3,
+) -> Axis {
+    let split_reach = children.reach(lane, n);
+    let other_reach = other.reach(n);
+    Axis {
+        n,
+        gap: dot(n, way) - split_reach - other_reach,
+        split_reach,
+        other_reach,
+    }
+}
+
+/// `n` or `−n`, whichever points along `way`.
+#[inline(always)]
+fn towards(n: Vec3, way: Vec3) -> Vec3 {
+    let sign = if dot(n, way) < 0.0 { -1.0 } else { 1.0 };
+    n * sign
 }
 
 #[inline(always)]
 fn better(a: Axis, b: Axis) -> Axis {
     let pick = b.gap > a.gap;
-    let choose = |x: f32, y: f32| if pick { y } else { x };
     Axis {
         n: Vec3::new(
-            choose(a.n.x, b.n.x),
-            choose(a.n.y, b.n.y),
-            choose(a.n.z, b.n.z),
+            choose(pick, b.n.x, a.n.x),
+            choose(pick, b.n.y, a.n.y),
+            choose(pick, b.n.z, a.n.z),
         ),
-        gap: choose(a.gap, b.gap),
-        split_reach: choose(a.split_reach, b.split_reach),
-        other_reach: choose(a.other_reach, b.other_reach),
+        gap: choose(pick, b.gap, a.gap),
+        split_reach: choose(pick, b.split_reach, a.split_reach),
+        other_reach: choose(pick, b.other_reach, a.other_reach),
     }
+}
+
+#[inline(always)]
+fn choose(first: bool, a: f32, b: f32) -> f32 {
+    if first { a } else { b }
 }
 
 /// The largest τ with `apart ≥ rate τ + bend τ²/2`; 0 for a pair that is not apart, also when it
@@ -248,8 +266,9 @@ fn max(a: f32, b: f32) -> f32 {
 /// `min(Σ hₖ |n·uₖ|, R |n|)`
 #[inline(always)]
 fn box_reach(n: Vec3, axes: [Vec3; 3], half: [f32; 3], radius: f32) -> f32 {
-    let [x, y, z] = axes.map(|u| dot(n, u).abs());
-    let boxed = fused(half[0], x, fused(half[1], y, half[2] * z));
+    let x = half[0] * dot(n, axes[0]).abs();
+    let xy = fused(half[1], dot(n, axes[1]).abs(), x);
+    let boxed = fused(half[2], dot(n, axes[2]).abs(), xy);
     min(boxed, radius * length(n))
 }
 
@@ -273,8 +292,12 @@ impl Children for BoxGroup {
     }
     #[inline(always)]
     fn reach(&self, lane: usize, n: Vec3) -> f32 {
-        let axes = [0, 1, 2].map(|k| at(&self.axes[k], lane));
-        let half = [0, 1, 2].map(|k| self.half[k][lane]);
+        let axes = [
+            at(&self.axes[0], lane),
+            at(&self.axes[1], lane),
+            at(&self.axes[2], lane),
+        ];
+        let half = [self.half[0][lane], self.half[1][lane], self.half[2][lane]];
         box_reach(n, axes, half, self.radius[lane])
     }
 }
@@ -282,8 +305,8 @@ impl Children for BoxGroup {
 impl Children for TriangleGroup {
     #[inline(always)]
     fn centre(&self, lane: usize) -> Vec3 {
-        let [a, b, c] = [0, 1, 2].map(|k| at(&self.corners[k], lane));
-        (a + b + c) * (1.0 / 3.0)
+        let sum = at(&self.corners[0], lane) + at(&self.corners[1], lane);
+        (sum + at(&self.corners[2], lane)) * (1.0 / 3.0)
     }
     #[inline(always)]
     fn normal(&self, lane: usize) -> Vec3 {
@@ -296,8 +319,10 @@ impl Children for TriangleGroup {
     #[inline(always)]
     fn reach(&self, lane: usize, n: Vec3) -> f32 {
         let centre = self.centre(lane);
-        let [a, b, c] = [0, 1, 2].map(|k| dot(n, at(&self.corners[k], lane) - centre));
-        max(max(a, b), c)
+        let a = dot(n, at(&self.corners[0], lane));
+        let b = dot(n, at(&self.corners[1], lane));
+        let c = dot(n, at(&self.corners[2], lane));
+        max(max(a, b), c) - dot(n, centre)
     }
 }
 
@@ -353,8 +378,10 @@ impl Other for OtherTriangle {
     }
     #[inline(always)]
     fn reach(&self, n: Vec3) -> f32 {
-        let [a, b, c] = self.corners.map(|corner| -dot(n, corner));
-        max(max(a, b), c)
+        let a = dot(n, self.corners[0]);
+        let b = dot(n, self.corners[1]);
+        let c = dot(n, self.corners[2]);
+        -min(min(a, b), c)
     }
 }
 

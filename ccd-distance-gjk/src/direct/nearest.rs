@@ -3,7 +3,7 @@
 use crate::axis::Corners;
 use crate::lanes::{Lanes3, clamp_unit, reciprocal};
 use ccd_core::glam::DVec3;
-use wide::{CmpGe, CmpGt, CmpLt, Select, f64x4};
+use wide::f64x4;
 
 /// A point of each triangle, by the weights of its corners.
 #[derive(Clone, Copy, Debug)]

@@ -1,0 +1,174 @@
+//! Scenes of pure translation, where the distance falls at a constant rate.
+
+use super::{Expect, Scene};
+use crate::models::{
+    comb, cuboid, icosphere, inradius, needles, parallel_plate, slit_plate, torus, u_hook,
+};
+use crate::query::Actor;
+use ccd_core::glam::{DQuat, DVec3};
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
+
+pub(super) fn scenes() -> Vec<Scene> {
+    let mut out = vec![falling_cube(), bullet(), hooks_closing(), hooks_parting(), linked_tori()];
+    out.extend(tilted_cubes());
+    out.extend([(0.3, 0.15), (0.12, 0.1)].map(|(c, phi)| plate_through_slit(c, phi)));
+    out.extend([4, 32].map(combs));
+    out.extend([1e-3, 1e-6, 1e-9].map(needles_on_slab));
+    out.push(parallel_plates());
+    out.push(spinning_icosphere());
+    out.extend([1e-6, 1e-9].map(|gap| sliding(gap, -DVec3::X)));
+    out
+}
+
+fn slab() -> Actor {
+    Actor::still(cuboid(DVec3::new(3.0, 3.0, 0.5)), -0.5 * DVec3::Z)
+}
+
+/// T1: face on face, coplanar.
+fn falling_cube() -> Scene {
+    let cube = cuboid(DVec3::splat(0.5));
+    let cube = Actor::moving(cube, 3.0 * DVec3::Z, -4.0 * DVec3::Z, DVec3::ZERO);
+    Scene::new("T1 falling cube", [cube, slab()], Expect::hit(|g| (2.5 - g) / 4.0))
+}
+
+/// T8: edge across edge, and corner on face.
+fn tilted_cubes() -> [Scene; 2] {
+    let cube = || cuboid(DVec3::splat(0.5));
+    let upper = cube().placed(DQuat::from_rotation_x(FRAC_PI_4), DVec3::ZERO);
+    let lower = cube().placed(DQuat::from_rotation_y(FRAC_PI_4), DVec3::ZERO);
+    let falls = |shape| Actor::moving(shape, 3.0 * DVec3::Z, -4.0 * DVec3::Z, DVec3::ZERO);
+    // Takes the diagonal to −z.
+    let down = DQuat::from_rotation_arc(DVec3::ONE.normalize(), -DVec3::Z);
+    let corner_down = cube().placed(down, DVec3::ZERO);
+    [
+        Scene::new(
+            "T8 edge on edge",
+            [falls(upper), Actor::still(lower, DVec3::ZERO)],
+            Expect::hit(|g| (3.0 - 2.0_f64.sqrt() - g) / 4.0),
+        ),
+        Scene::new(
+            "T8 corner on slab",
+            [falls(corner_down), slab()],
+            Expect::hit(|g| (3.0 - 3.0_f64.sqrt() / 2.0 - g) / 4.0),
+        ),
+    ]
+}
+
+/// T10: a flat cube slides over a slab at a small distance.
+pub fn sliding(gap: f64, velocity: DVec3) -> Scene {
+    let cube = cuboid(DVec3::splat(0.5));
+    let cube = Actor::moving(cube, (0.5 + gap) * DVec3::Z, velocity, DVec3::ZERO);
+    // Less the rounding of where the cube is: 0.5 + gap is a multiple of 2⁻⁵³.
+    let gap = (0.5 + gap) - 0.5;
+    Scene::new(format!("T10 sliding at {gap:.0e}"), [cube, slab()], Expect::Free { gap })
+}
+
+/// T13: a small fast cube against paper.
+fn bullet() -> Scene {
+    let bullet = cuboid(DVec3::splat(0.005));
+    let bullet = Actor::moving(bullet, DVec3::ZERO, 1000.0 * DVec3::X, DVec3::ZERO);
+    let paper = Actor::still(cuboid(DVec3::new(5e-7, 1.0, 1.0)), 400.0 * DVec3::X);
+    Scene::new("T13 bullet", [bullet, paper], Expect::hit(|g| (400.0 - 5e-7 - 0.005 - g) / 1000.0))
+}
+
+/// T15: crossed hooks, base in base; the lateral gaps are wider than any tolerance.
+fn hooks_closing() -> Scene {
+    Scene::new("T15 hooks closing", hooks(-DVec3::Z), Expect::hit(|g| 0.3 - g))
+}
+
+/// T15, the other way: the slack grows. Leg beside leg is what stays nearest.
+fn hooks_parting() -> Scene {
+    // A leg's inner face is at 0.3, the other's base beside it reaches to 0.1.
+    Scene::new("T15 hooks parting", hooks(DVec3::Z), Expect::Free { gap: 0.2 })
+}
+
+fn hooks(velocity: DVec3) -> [Actor; 2] {
+    let (bar, gap, length) = (0.2, 0.6, 0.55);
+    let crossed = DQuat::from_rotation_z(FRAC_PI_2) * DQuat::from_rotation_x(PI);
+    let upper = u_hook(bar, gap, length);
+    let lower = u_hook(bar, gap, length).placed(crossed, DVec3::ZERO);
+    [
+        Actor::moving(upper, 0.5 * DVec3::Z, velocity, DVec3::ZERO),
+        Actor::still(lower, DVec3::ZERO),
+    ]
+}
+
+/// T16: a tilted plate through a slit, free if its shadow is lower than the slit.
+fn plate_through_slit(half_height: f64, phi: f64) -> Scene {
+    let tilted = DQuat::from_rotation_y(-phi);
+    let plate = cuboid(DVec3::new(1.0, 1.0, 0.1)).placed(tilted, DVec3::ZERO);
+    let corner = |x: f64, z: f64| tilted * DVec3::new(x, 0.0, z);
+    let (top, bottom) = (corner(1.0, 0.1), corner(1.0, -0.1));
+    let speed = 5.0;
+    let plate = Actor::moving(plate, -2.0 * DVec3::X, speed * DVec3::X, DVec3::ZERO);
+    let expect = if top.z < half_height {
+        Expect::Free {
+            gap: half_height - top.z,
+        }
+    } else {
+        // The slit's upper edge meets the front face, at the edge's height.
+        let part = (half_height - bottom.z) / (top.z - bottom.z);
+        let front = bottom.x + part * (top.x - bottom.x);
+        Expect::hit(move |g| (2.0 - front - g / phi.cos()) / speed)
+    };
+    let slit = Actor::still(slit_plate(half_height), DVec3::ZERO);
+    Scene::new(format!("T16 slit {half_height}"), [plate, slit], expect)
+}
+
+/// T17: vertex on vertex of two linked rings, each on the other's hollow side.
+fn linked_tori() -> Scene {
+    let (major, minor, rings, sides) = (1.0, 0.25, 24, 8);
+    let flat = torus(major, minor, rings, sides);
+    // In the xz-plane, its first section on −x.
+    let upright = DQuat::from_rotation_x(FRAC_PI_2) * DQuat::from_rotation_z(PI);
+    let upright = torus(major, minor, rings, sides).placed(upright, DVec3::ZERO);
+    let upright = Actor::moving(upright, major * DVec3::X, DVec3::X, DVec3::ZERO);
+    // Around each vertex the other's ring is a concave edge: it is nearer by the cosine of the turn
+    // from section to section, once for either ring.
+    let nearer = (PI / rings as f64).cos().powi(2);
+    let expect = Expect::Hit {
+        earliest: Box::new(move |g| major - 2.0 * minor - g / nearer),
+        latest: major - 2.0 * minor,
+    };
+    Scene::new("T17 linked tori", [Actor::still(flat, DVec3::ZERO), upright], expect)
+}
+
+/// T19: comb into comb, until the tips reach the other's base.
+fn combs(teeth: usize) -> Scene {
+    let (apart, speed) = (0.5, 1.0);
+    let flipped = comb(teeth).placed(DQuat::from_rotation_x(PI), DVec3::new(0.5, 0.0, 1.0 + apart));
+    let upper = Actor::moving(flipped, DVec3::ZERO, -speed * DVec3::Z, DVec3::ZERO);
+    let lower = Actor::still(comb(teeth), DVec3::ZERO);
+    Scene::new(
+        format!("T19 combs of {teeth}"),
+        [upper, lower],
+        Expect::hit(move |g| (apart - g) / speed),
+    )
+}
+
+/// T21: needles come down tip first.
+fn needles_on_slab(width: f64) -> Scene {
+    let fall = Actor::moving(needles(9, width), 0.75 * DVec3::Z, -DVec3::Z, DVec3::ZERO);
+    Scene::new(format!("T21 needles of {width:.0e}"), [fall, slab()], Expect::hit(|g| 0.75 - g))
+}
+
+/// Two equal plates, every pair of triangles touching at once.
+fn parallel_plates() -> Scene {
+    let falling = Actor::moving(parallel_plate(16), 0.5 * DVec3::Z, -DVec3::Z, DVec3::ZERO);
+    let lying = Actor::still(parallel_plate(16), DVec3::ZERO);
+    Scene::new("plates", [falling, lying], Expect::hit(|g| 0.5 - g))
+}
+
+/// T22: a faceted ball, between the balls inside and around it.
+fn spinning_icosphere() -> Scene {
+    let (radius, height, speed) = (0.5, 2.0, 2.0);
+    let ball = icosphere(radius, 2);
+    let inner = inradius(&ball.mesh);
+    let spin = DVec3::new(1.0, 2.0, 3.0);
+    let ball = Actor::moving(ball, height * DVec3::Z, -speed * DVec3::Z, spin);
+    let expect = Expect::Hit {
+        earliest: Box::new(move |g| (height - radius - g) / speed),
+        latest: (height - inner) / speed,
+    };
+    Scene::new("T22 spinning icosphere", [ball, slab()], expect)
+}

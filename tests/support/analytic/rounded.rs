@@ -1,0 +1,83 @@
+//! Scenes of rounded pieces: balls, capsules, rounded boxes. They have no mesh.
+
+use super::{Expect, Scene};
+use crate::models::{Mesh, Shape, cuboid};
+use crate::query::Actor;
+use ccd_core::glam::DVec3;
+use ccd_core::{Polytope, Volume};
+use std::f64::consts::PI;
+
+pub(super) fn scenes() -> Vec<Scene> {
+    vec![balls_passing(), balls_head_on(), ball_on_slab(), capsule_on_wall(), rounded_box()]
+}
+
+/// A convex part with a rounding radius.
+fn rounded(points: Vec<DVec3>, radius: f64) -> Shape {
+    Shape {
+        mesh: Mesh {
+            vertices: Vec::new(),
+            faces: Vec::new(),
+        },
+        parts: vec![Polytope {
+            points,
+            radius,
+            ..Polytope::default()
+        }],
+        volume: Volume::Solid,
+    }
+}
+
+fn ball(radius: f64) -> Shape {
+    rounded(vec![DVec3::ZERO], radius)
+}
+
+fn wall() -> Actor {
+    Actor::still(without_mesh(cuboid(DVec3::new(0.5, 4.0, 4.0))), 2.0 * DVec3::X)
+}
+
+fn without_mesh(mut shape: Shape) -> Shape {
+    shape.mesh.faces.clear();
+    shape
+}
+
+/// Two balls pass each other at a distance.
+fn balls_passing() -> Scene {
+    let moving = Actor::moving(ball(0.5), DVec3::new(-2.0, 1.1, 0.0), 4.0 * DVec3::X, PI * DVec3::Z);
+    let still = Actor::still(ball(0.5), DVec3::ZERO);
+    // The least distance, as its centre passes at 1.1.
+    Scene::new("balls passing", [moving, still], Expect::Free { gap: 1.1 - 1.0 })
+}
+
+/// Two balls meet off centre, both moving.
+fn balls_head_on() -> Scene {
+    let left = Actor::moving(ball(0.5), DVec3::new(-2.0, 0.6, 0.0), 2.0 * DVec3::X, DVec3::ZERO);
+    let right = Actor::moving(ball(0.5), 2.0 * DVec3::X, -2.0 * DVec3::X, 9.0 * DVec3::Y);
+    let time = |g: f64| (4.0 - ((1.0 + g).powi(2) - 0.36).sqrt()) / 4.0;
+    Scene::new("balls head-on", [left, right], Expect::hit(time))
+}
+
+/// A spinning ball falls onto a box.
+fn ball_on_slab() -> Scene {
+    let falling = Actor::moving(ball(0.5), DVec3::ZERO, 2.0 * DVec3::X, 30.0 * DVec3::ONE);
+    Scene::new("ball on wall", [falling, wall()], Expect::hit(|g| (1.0 - g) / 2.0))
+}
+
+/// A capsule turns its end into a wall.
+fn capsule_on_wall() -> Scene {
+    let capsule = rounded(vec![-2.0 * DVec3::Z, 2.0 * DVec3::Z], 0.25);
+    let turning = Actor::moving(capsule, DVec3::ZERO, DVec3::ZERO, PI * DVec3::Y);
+    Scene::new(
+        "capsule on wall",
+        [turning, wall()],
+        Expect::hit(|g| ((1.5 - 0.25 - g) / 2.0_f64).asin() / PI),
+    )
+}
+
+/// A box with a rounding radius falls corner first.
+fn rounded_box() -> Scene {
+    let mut shape = without_mesh(cuboid(DVec3::splat(0.25)));
+    shape.parts[0].radius = 0.125;
+    let flying = Actor::moving(shape, -DVec3::X, 4.0 * DVec3::X, DVec3::ZERO);
+    let time = |g: f64| (1.0 + 1.5 - 0.25 - 0.125 - g) / 4.0;
+    Scene::new("rounded box", [flying, wall()], Expect::hit(time))
+}

@@ -1,0 +1,177 @@
+//! Scenes of one or two bodies turning about a fixed axis.
+
+use super::{Expect, Scene};
+use crate::models::{cuboid, frame_plate, mace, post, rod, wall_at};
+use crate::query::Actor;
+use ccd_core::glam::{DQuat, DVec3};
+use ccd_core::{Motion, Pose};
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
+
+/// A rod's half length and half thickness, and how far its corners reach.
+const LENGTH: f64 = 2.0;
+const WIDTH: f64 = 0.05;
+
+fn reach() -> f64 {
+    LENGTH.hypot(WIDTH)
+}
+
+pub(super) fn scenes() -> Vec<Scene> {
+    let mut out = vec![rod_on_slab(), rod_on_post(), swinging_mace(), peg_in_hole(), two_rods()];
+    out.extend([1.0, 1.9, 2.0, 7.5].map(|turns| upright_rod("T4", turns, 1.25)));
+    out.push(pre_rotated_rod());
+    for depth in [1e-3, 1e-6] {
+        out.push(upright_rod("T5", 1.0, reach() * (1.0 - depth)));
+        out.push(grazing_miss(depth));
+    }
+    out.extend([10, 17, 23].map(|power| far_rod(f64::from(1u32 << power))));
+    out.extend([1e-6, 1e6].map(scaled_rod));
+    out.push(rigidly_turning_pair());
+    out
+}
+
+/// When the rod's corner, turning at `speed`, first comes to `height` from the plane through the
+/// axis.
+fn corner_time(height: f64, speed: f64) -> f64 {
+    ((height / reach()).asin() - WIDTH.atan2(LENGTH)) / speed
+}
+
+/// T2: a rod's end comes down on a slab.
+fn rod_on_slab() -> Scene {
+    let height = 1.2;
+    let spinning = Actor::moving(rod(LENGTH, WIDTH), height * DVec3::Z, DVec3::ZERO, PI * DVec3::Y);
+    let slab = Actor::still(cuboid(DVec3::new(4.0, 4.0, 0.5)), -0.5 * DVec3::Z);
+    Scene::new("T2 rod on slab", [spinning, slab], Expect::hit(move |g| corner_time(height - g, PI)))
+}
+
+/// T4: an upright rod turns by half turns towards a wall.
+fn upright_rod(name: &str, half_turns: f64, wall: f64) -> Scene {
+    let speed = half_turns * PI;
+    Scene::new(
+        format!("{name} rod by {half_turns} half turns, wall at {wall:.7}"),
+        upright(speed, wall, Pose::IDENTITY),
+        Expect::hit(move |g| corner_time(wall - g, speed)),
+    )
+}
+
+fn upright(speed: f64, wall: f64, place: Pose) -> [Actor; 2] {
+    let shape = cuboid(DVec3::new(WIDTH, 0.3, LENGTH));
+    let motion = Motion::new(place, DVec3::ZERO, place.rotation() * (speed * DVec3::Y));
+    let still = Motion::still(place);
+    [
+        Actor {
+            shape,
+            motion: motion.expect("finite"),
+        },
+        Actor {
+            shape: wall_at(wall),
+            motion: still,
+        },
+    ]
+}
+
+/// T3: the same scene, the rod's frame turned against the world's at the start.
+fn pre_rotated_rod() -> Scene {
+    let [rod, wall] = upright(PI, 1.25, Pose::IDENTITY);
+    let turn = DQuat::from_rotation_z(FRAC_PI_2);
+    let start = Pose::new(DVec3::ZERO, turn.conjugate()).expect("a pose");
+    let rod = Actor {
+        shape: rod.shape.placed(turn, DVec3::ZERO),
+        motion: Motion::new(start, DVec3::ZERO, PI * DVec3::Y).expect("finite"),
+    };
+    Scene::new("T3 pre-rotated rod", [rod, wall], Expect::hit(|g| corner_time(1.25 - g, PI)))
+}
+
+/// T6: the rod's corner passes the wall at a small distance.
+fn grazing_miss(depth: f64) -> Scene {
+    let gap = reach() * depth;
+    Scene::new(
+        format!("T6 grazing miss {depth:.0e}"),
+        upright(PI, reach() + gap, Pose::IDENTITY),
+        Expect::Free { gap },
+    )
+}
+
+/// T7: side edge on post edge, parallel.
+fn rod_on_post() -> Scene {
+    let (radius, angle, speed, width) = (1.3, 1.0, 1.5, 0.1);
+    let shape = cuboid(DVec3::new(LENGTH, width, 0.1));
+    let spinning = Actor::moving(shape, DVec3::ZERO, DVec3::ZERO, speed * DVec3::Z);
+    let post = Actor::still(post(radius, angle), DVec3::ZERO);
+    let time = move |g: f64| (angle - ((width + g) / radius).asin()) / speed;
+    Scene::new("T7 rod on post", [spinning, post], Expect::hit(time))
+}
+
+/// T9: a heavy head at the centre, a long arm whose end reaches the wall: no bound that looks at
+/// the present pose alone sees it come.
+fn swinging_mace() -> Scene {
+    let (length, width, speed) = (2.0, 0.02, 3.0);
+    let reach: f64 = length.hypot(width);
+    let swinging = Actor::moving(mace(length, width), DVec3::ZERO, DVec3::ZERO, speed * DVec3::Z);
+    let wall = Actor::still(
+        wall_at(1.0).placed(DQuat::from_rotation_z(FRAC_PI_2), DVec3::ZERO),
+        DVec3::ZERO,
+    );
+    let time = move |g: f64| (length.atan2(width) + ((1.0 - g) / reach).asin()) / speed;
+    Scene::new("T9 mace", [swinging, wall], Expect::hit(time))
+}
+
+/// T12: a square peg turns in a square hole: four contacts at once.
+fn peg_in_hole() -> Scene {
+    let (peg, hole) = (1.0, 1.2);
+    let turning = Actor::moving(
+        cuboid(DVec3::new(peg, peg, 0.5)),
+        DVec3::ZERO,
+        DVec3::ZERO,
+        DVec3::Z,
+    );
+    let plate = Actor::still(frame_plate(hole), DVec3::ZERO);
+    let time = move |g: f64| ((hole - g) / (peg * 2.0_f64.sqrt())).asin() - FRAC_PI_4;
+    Scene::new("T12 peg in hole", [turning, plate], Expect::hit(time))
+}
+
+/// T14: two upright rods turn towards each other, as mirror images.
+fn two_rods() -> Scene {
+    let (apart, speed) = (3.0, 2.0);
+    let upright = || cuboid(DVec3::new(WIDTH, 0.3, LENGTH));
+    let left = Actor::moving(upright(), DVec3::ZERO, DVec3::ZERO, speed * DVec3::Y);
+    let right = Actor::moving(upright(), apart * DVec3::X, DVec3::ZERO, -speed * DVec3::Y);
+    let time = move |g: f64| corner_time(0.5 * (apart - g), speed);
+    Scene::new("T14 two rods", [left, right], Expect::hit(time))
+}
+
+/// T20: T4 far away; the offsets are powers of two, so that the scene itself is not rounded.
+fn far_rod(offset: f64) -> Scene {
+    let place = Pose::from_translation(DVec3::new(offset, -offset, offset)).expect("finite");
+    Scene::new(
+        format!("T20 rod at {offset}"),
+        upright(PI, 1.25, place),
+        Expect::hit(|g| corner_time(1.25 - g, PI)),
+    )
+}
+
+/// T20: T4 very small and very large.
+fn scaled_rod(scale: f64) -> Scene {
+    let [mut rod, mut wall] = upright(PI, 1.25, Pose::IDENTITY);
+    rod.shape = rod.shape.scaled(scale);
+    wall.shape = wall.shape.scaled(scale);
+    Scene::new(
+        format!("T20 rod times {scale:.0e}"),
+        [rod, wall],
+        Expect::hit(move |g| corner_time(1.25 - g / scale, PI)),
+    )
+}
+
+/// Both bodies on one turntable, at rest to each other, a unit apart: free, however fast it turns.
+fn rigidly_turning_pair() -> Scene {
+    let cube = || cuboid(DVec3::splat(0.5));
+    let on_table = |x: f64| {
+        let start = Pose::from_translation(x * DVec3::X).expect("finite");
+        let about_origin = -x * DVec3::X;
+        Actor {
+            shape: cube(),
+            motion: Motion::about(start, DVec3::ZERO, 40.0 * DVec3::Z, about_origin)
+                .expect("finite"),
+        }
+    };
+    Scene::new("turntable", [on_table(-1.0), on_table(1.0)], Expect::Free { gap: 1.0 })
+}

@@ -1,0 +1,139 @@
+//! Scenes that translate and turn at once, or are odd in some other way.
+
+use super::{Expect, Scene};
+use crate::models::{Mesh, PITCH, Shape, cuboid, nut, screw};
+use crate::query::Actor;
+use ccd_core::glam::{DQuat, DVec3};
+use ccd_core::{Motion, Pose};
+use std::f64::consts::{PI, TAU};
+
+pub(super) fn scenes() -> Vec<Scene> {
+    let mut out = vec![
+        screw_in_nut("T18 screw, right pitch", PITCH),
+        screw_in_nut("T18 screw, wrong pitch", 0.5 * PITCH),
+        dirty_cube(),
+        two_shells(),
+        cuboids_in_the_distance(),
+        deep_overlap(),
+        nested("T24 nested solids", Shape::closed, Expect::Overlap),
+        nested("T24 nested surfaces", Shape::open, Expect::Free { gap: 1.5 }),
+        resting(),
+    ];
+    out.extend([0.0, 1e-12, PI].map(slow_turn));
+    out
+}
+
+/// T18: three turns of a screw in its nut, climbing by `pitch` a turn.
+fn screw_in_nut(name: &str, pitch: f64) -> Scene {
+    let turning = Actor::moving(
+        screw(),
+        -0.1 * DVec3::Z,
+        3.0 * pitch * DVec3::Z,
+        3.0 * TAU * DVec3::Z,
+    );
+    // Turned ahead by as much as the screw is too low.
+    let turned = DQuat::from_rotation_z(0.1 / PITCH * TAU);
+    let still = Actor::still(nut(0.1).placed(turned.conjugate(), DVec3::ZERO), DVec3::ZERO);
+    Scene::new(name, [turning, still], Expect::Unknown)
+}
+
+/// T21: T1 with faces of no area, repeated faces, and the rest seen from inside.
+fn dirty_cube() -> Scene {
+    let mut mesh: Mesh = cuboid(DVec3::splat(0.5)).mesh.flipped();
+    let clean = mesh.faces.clone();
+    mesh.faces.extend(clean.iter().map(|f| [f[0], f[0], f[1]]));
+    mesh.faces.extend(clean.iter().map(|f| [f[2]; 3]));
+    mesh.faces.extend(clean);
+    let cube = Actor::moving(Shape::open(mesh), 3.0 * DVec3::Z, -4.0 * DVec3::Z, DVec3::ZERO);
+    let slab = Actor::still(cuboid(DVec3::new(3.0, 3.0, 0.5)), -0.5 * DVec3::Z);
+    Scene::new("T21 dirty cube", [cube, slab], Expect::hit(|g| (2.5 - g) / 4.0))
+}
+
+/// T21: two cubes that share an edge, open below: no manifold.
+fn two_shells() -> Scene {
+    let half = DVec3::splat(0.5);
+    let mut both = Shape::union([
+        cuboid(half).moved(DVec3::new(-0.5, -0.5, 0.0)),
+        cuboid(half).moved(DVec3::new(0.5, 0.5, 0.0)),
+    ]);
+    let level = |f: &[u32; 3], mesh: &Mesh| f.iter().all(|&v| mesh.vertices[v as usize].z < 0.0);
+    let mesh = both.mesh.clone();
+    both.mesh.faces.retain(|f| !level(f, &mesh));
+    both.parts.clear();
+    let falling = Actor::moving(both, 3.0 * DVec3::Z, -4.0 * DVec3::Z, DVec3::ZERO);
+    let slab = Actor::still(cuboid(DVec3::new(3.0, 3.0, 0.5)), -0.5 * DVec3::Z);
+    Scene::new("T21 two shells", [falling, slab], Expect::hit(|g| (2.5 - g) / 4.0))
+}
+
+/// T26: cuboids at coordinates of some thousands, one flying and turning about a point of its own;
+/// the numbers of a bug report to parry (its issue 317).
+fn cuboids_in_the_distance() -> Scene {
+    let flying = Motion::about(
+        Pose::new(
+            DVec3::new(6458.7905, -209.1331, 1014.52124),
+            DQuat::from_xyzw(5.335_995_4e-20, 9.459_897e-20, -0.840_350_15, -0.542_044),
+        )
+        .expect("a pose"),
+        DVec3::new(588.2583, -553.06335, 471.54688),
+        DVec3::new(0.0, 0.0, -1.770_823),
+        DVec3::new(99.97085, -2.288_818_4e-5, -35.0),
+    );
+    let still = Pose::new(
+        DVec3::new(6079.4917, -849.3108, 853.8756),
+        DQuat::from_xyzw(0.002_524_775, -0.000_262_104_35, -0.001_206_448_5, 0.999_996_07),
+    );
+    let flying = Actor {
+        shape: cuboid(DVec3::new(235.0, 105.0, 110.0)),
+        motion: flying.expect("finite"),
+    };
+    let still = Actor {
+        shape: cuboid(DVec3::new(650.0, 330.0, 275.0)),
+        motion: Motion::still(still.expect("a pose")),
+    };
+    Scene::new("T26 cuboids in the distance", [flying, still], Expect::Unknown)
+}
+
+/// T24: two cubes, one in the other's face.
+fn deep_overlap() -> Scene {
+    let cube = || cuboid(DVec3::splat(0.5));
+    let leaving = Actor::moving(cube(), 0.7 * DVec3::X, DVec3::X, DVec3::Z);
+    Scene::new("T24 overlap", [leaving, Actor::still(cube(), DVec3::ZERO)], Expect::Overlap)
+}
+
+/// T24: a small cube in a big one, surfaces apart.
+fn nested(name: &str, shape: fn(Mesh) -> Shape, expect: Expect) -> Scene {
+    let small = Actor::moving(
+        shape(cuboid(DVec3::splat(0.5)).mesh),
+        DVec3::ZERO,
+        DVec3::ZERO,
+        1e-3 * DVec3::Z,
+    );
+    // Turned by 1e-3, the small cube's edges come 2.5e-7 nearer than 1.5.
+    let gap = match expect {
+        Expect::Free { gap } => Expect::Free {
+            gap: gap + 0.5 - 0.5 * 2.0_f64.sqrt() * (PI / 4.0 - 1e-3).cos(),
+        },
+        other => other,
+    };
+    let big = Actor::still(shape(cuboid(DVec3::splat(2.0)).mesh), DVec3::ZERO);
+    Scene::new(name, [small, big], gap)
+}
+
+/// T25: nothing moves.
+fn resting() -> Scene {
+    let cube = || cuboid(DVec3::splat(0.5));
+    let bodies = [Actor::still(cube(), DVec3::ZERO), Actor::still(cube(), 2.0 * DVec3::X)];
+    Scene::new("T25 at rest", bodies, Expect::Free { gap: 1.0 })
+}
+
+/// T25: a cube falls while it turns about the vertical by nothing, next to nothing, or exactly π.
+fn slow_turn(angle: f64) -> Scene {
+    let cube = cuboid(DVec3::splat(0.5));
+    let cube = Actor::moving(cube, 3.0 * DVec3::Z, -4.0 * DVec3::Z, angle * DVec3::Z);
+    let slab = Actor::still(cuboid(DVec3::new(3.0, 3.0, 0.5)), -0.5 * DVec3::Z);
+    Scene::new(
+        format!("T25 falling, turning by {angle:.2e}"),
+        [cube, slab],
+        Expect::hit(|g| (2.5 - g) / 4.0),
+    )
+}
