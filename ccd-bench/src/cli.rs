@@ -4,9 +4,9 @@ mod query;
 
 use crate::demo::{DemoError, DemoOptions, demo};
 use crate::engine::{OracleKind, ScheduleKind};
-use anyhow::{Context, Result, ensure};
+use anyhow::{Result, ensure};
+use ccd_core::StartPolicy;
 use ccd_core::tolerance::{DEFAULT_BUDGET, DEFAULT_TOLERANCE};
-use ccd_core::{StartPolicy, tolerance};
 use ccd_decomp::Detail;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::io::{self, Write};
@@ -203,8 +203,51 @@ fn run_demo(args: DemoArgs) -> Result<Verdict> {
         models: args.models,
     };
     demo(&options, &mut io::stdout().lock()).map_err(|error| match error {
-        DemoError::Output(source) => stdout_failed(source).into(),
+        DemoError::Output(source) => CannotWrite {
+            place: "the table".to_owned(),
+            source,
+        }
+        .into(),
         other => anyhow::Error::from(other),
     })?;
     Ok(Verdict::AllAnswered)
+}
+
+/// Tells the user; that nobody can be told is no reason to fail.
+fn complain(message: &str) {
+    let _ = writeln!(io::stderr(), "ccd: {message}");
+}
+
+fn positive(text: &str) -> Result<f64, String> {
+    number(text)
+        .filter(|value| *value > 0.0)
+        .ok_or_else(|| "give a positive number, such as 1e-3".to_owned())
+}
+
+fn not_negative(text: &str) -> Result<f64, String> {
+    number(text)
+        .filter(|value| *value >= 0.0)
+        .ok_or_else(|| "give a number of at least 0, such as 0.01".to_owned())
+}
+
+fn number(text: &str) -> Option<f64> {
+    text.parse::<f64>().ok().filter(|value| value.is_finite())
+}
+
+impl From<PiecesArg> for Detail {
+    fn from(pieces: PiecesArg) -> Self {
+        match pieces {
+            PiecesArg::Auto => Detail::Auto,
+            PiecesArg::Triangles => Detail::Triangles,
+        }
+    }
+}
+
+impl From<StartArg> for StartPolicy {
+    fn from(start: StartArg) -> Self {
+        match start {
+            StartArg::Report => StartPolicy::Report,
+            StartArg::Leave => StartPolicy::Leave,
+        }
+    }
 }

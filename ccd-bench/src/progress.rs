@@ -20,24 +20,22 @@ pub struct Progress {
 const PATIENCE: Duration = Duration::from_secs(1);
 
 impl Progress {
-    /// Counts without showing anything.
-    pub fn hidden() -> Self {
-        Progress {
-            total: 0,
-            done: AtomicU64::new(0),
-            started: Instant::now(),
-            shown: false,
-            bar: OnceLock::new(),
-        }
-    }
-
     /// Counts to `total`, starting now.
     pub fn new(total: usize) -> Self {
         Progress {
             total: total as u64,
+            done: AtomicU64::new(0),
+            started: Instant::now(),
             shown: std::io::stderr().is_terminal(),
-            ..Progress::hidden()
+            bar: OnceLock::new(),
         }
+    }
+
+    /// Counts without showing anything.
+    pub fn hidden() -> Self {
+        let mut progress = Progress::new(0);
+        progress.shown = false;
+        progress
     }
 
     /// One more step is done.

@@ -4,7 +4,7 @@ use crate::engine::{Method, Solver};
 use crate::motions::Query;
 use crate::progress::Progress;
 use ccd_core::{Answer, Body, Config, InputError, Moving, Problem};
-use rayon::prelude::*;
+use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 use std::num::NonZeroUsize;
 use std::time::Instant;
 

@@ -70,6 +70,12 @@ impl Path {
         self.start + self.velocity * s
     }
 
+    /// How fast the point of the body that is at `x` moves.
+    #[inline]
+    pub(crate) fn velocity_at(&self, x: DVec3, s: f64) -> DVec3 {
+        self.velocity + self.spin.cross(x - self.centre_at(s))
+    }
+
     pub(crate) fn turns(&self) -> bool {
         self.rate > 0.0
     }

@@ -1,6 +1,144 @@
-//! WIP
-use ccd_core::{Hierarchy, InputError, Pieces};
-/// WIP
+//! Hierarchies over pieces, agglomerated by `obvhs`.
+
+use crate::tolerance::{AGGLOMERATED_PIECES, REINSERTED_SHARE, SEARCH_DEPTH};
+use ccd_core::glam::{DVec3, Vec3A};
+use ccd_core::{Hierarchy, HierarchyNode, InputError, Pieces};
+use obvhs::Boundable;
+use obvhs::aabb::Aabb;
+use obvhs::bvh2::Bvh2;
+use obvhs::bvh2::node::Bvh2Node;
+use obvhs::bvh2::reinsertion::ReinsertionOptimizer;
+use obvhs::ploc::{PlocBuilder, PlocSearchDistance, SortPrecision};
+
+/// Builds a hierarchy over pieces: split at medians into clusters, these agglomerated, and the worst
+/// subtrees put where they fit best.
+///
+/// Agglomeration alone ([PLOC]) makes the best trees, but on pieces that all have one centre, such as
+/// nested or equal ones, it merges a single pair per pass: quadratic time, and a chain. Clusters bound
+/// both.
+///
+/// # Guarantee
+/// The same pieces give the same hierarchy. Every piece appears once; no input panics.
+///
+/// # Errors
+/// [`InputError::TooManyPieces`].
+///
+/// # Complexity
+/// O(n log n) in the number of pieces.
 pub fn build_hierarchy(pieces: &Pieces) -> Result<Hierarchy, InputError> {
-    Ok(Hierarchy::median_split(pieces))
+    if pieces.len() >= u32::MAX as usize / 2 {
+        return Err(InputError::TooManyPieces {
+            pieces: pieces.len(),
+        });
+    }
+    let boxes = unit_boxes(pieces);
+    let mut tree = split(&boxes);
+    ReinsertionOptimizer::default().run(&mut tree, REINSERTED_SHARE, None);
+    let node = |node: &Bvh2Node| match node.is_leaf() {
+        true => HierarchyNode::Leaf(node.first_index),
+        false => HierarchyNode::Inner(node.first_index, node.first_index + 1),
+    };
+    Hierarchy::new(tree.nodes.iter().map(node).collect(), pieces.len())
 }
+
+struct Box3(Aabb);
+
+impl Boundable for Box3 {
+    fn aabb(&self) -> Aabb {
+        self.0
+    }
+}
+
+/// The boxes of all pieces in single precision, moved and scaled so that the whole fills a unit: far
+/// from the origin, or tiny, single precision would not tell them apart.
+fn unit_boxes(pieces: &Pieces) -> Vec<Box3> {
+    let bounds = |points: &[DVec3], radius: f64| {
+        let empty = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        let fold = |(lo, hi): (DVec3, DVec3), &p: &DVec3| (lo.min(p), hi.max(p));
+        let (lo, hi) = points.iter().fold(empty, fold);
+        (lo - radius, hi + radius)
+    };
+    let (lo, hi) = bounds(pieces.points(), 0.0);
+    let length = (hi - lo).max_element();
+    let scale = if length > 0.0 { length.recip() } else { 1.0 };
+    let unit = |p: DVec3| -> Vec3A { ((p - lo) * scale).as_vec3a() };
+    pieces
+        .iter()
+        .map(|piece| {
+            let (lo, hi) = bounds(piece.points, piece.radius);
+            Box3(Aabb::new(unit(lo), unit(hi)))
+        })
+        .collect()
+}
+
+/// Splits at medians of the centres down to clusters, and agglomerates these.
+fn split(boxes: &[Box3]) -> Bvh2 {
+    let centre = |piece: u32| boxes[piece as usize].0.center();
+    let mut order: Vec<u32> = (0..boxes.len() as u32).collect();
+    let mut nodes = vec![Bvh2Node::default()];
+    let mut inner = Vec::new();
+    let mut stack = vec![(0usize, 0usize, boxes.len())];
+    while let Some((node, start, end)) = stack.pop() {
+        let range = &mut order[start..end];
+        if range.len() <= AGGLOMERATED_PIECES {
+            agglomerate(boxes, range, &mut nodes, node);
+            continue;
+        }
+        let mut spread = Aabb::empty();
+        for &piece in range.iter() {
+            spread.extend(centre(piece));
+        }
+        let axis = spread.largest_axis();
+        let half = range.len() / 2;
+        range.select_nth_unstable_by(half, |&a, &b| {
+            let order = centre(a)[axis].total_cmp(&centre(b)[axis]);
+            order.then(a.cmp(&b))
+        });
+        let left = nodes.len();
+        nodes.extend([Bvh2Node::default(); 2]);
+        nodes[node].first_index = left as u32;
+        inner.push(node);
+        stack.extend([(left, start, start + half), (left + 1, start + half, end)]);
+    }
+    for &node in inner.iter().rev() {
+        let left = nodes[node].first_index as usize;
+        let union = nodes[left].aabb().union(nodes[left + 1].aabb());
+        nodes[node].set_aabb(union);
+    }
+    Bvh2 {
+        nodes,
+        primitive_indices: (0..boxes.len() as u32).collect(),
+        children_are_ordered_after_parents: true,
+        ..Bvh2::default()
+    }
+}
+
+/// Puts the tree over some pieces at a node, its other nodes at the end.
+fn agglomerate(boxes: &[Box3], pieces: &[u32], nodes: &mut Vec<Bvh2Node>, root: usize) {
+    let members: Vec<Box3> = pieces
+        .iter()
+        .map(|&piece| Box3(boxes[piece as usize].0))
+        .collect();
+    let tree = PlocBuilder::with_capacity(members.len()).build(
+        PlocSearchDistance::Low,
+        &members,
+        (0..members.len() as u32).collect(),
+        SortPrecision::U64,
+        SEARCH_DEPTH,
+    );
+    // Node k > 0 of the small tree becomes node k + offset of the large one.
+    let offset = nodes.len() as u32 - 1;
+    let moved = |node: &Bvh2Node| {
+        let mut node = *node;
+        node.first_index = match node.is_leaf() {
+            true => pieces[tree.primitive_indices[node.first_index as usize] as usize],
+            false => node.first_index + offset,
+        };
+        node
+    };
+    nodes[root] = moved(&tree.nodes[0]);
+    nodes.extend(tree.nodes[1..].iter().map(moved));
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,216 @@
+//! The laws of [`laws`] over every backend and every family of [`scene`].
+
+mod laws;
+mod scene;
+mod twin;
+
+use crate::{Auto, Direct, Gjk, GjkF32};
+use ccd_core::DistanceOracle;
+use rstest::rstest;
+use scene::{Meeting, Pcg64, Scene, SeedableRng};
+
+const CASES: u64 = 3000;
+
+/// Runs a law over scenes drawn from seeds 0, 1, …
+fn over(draw: impl Fn(&mut Pcg64) -> Scene, law: impl Fn(&Scene)) {
+    for seed in 0..CASES {
+        law(&draw(&mut Pcg64::seed_from_u64(seed)));
+    }
+}
+
+/// Stamps the laws out for one backend.
+macro_rules! obeys {
+    ($backend:ident, $oracle:ty) => {
+        mod $backend {
+            use super::*;
+
+            #[test]
+            fn random_triangles() {
+                random::<$oracle>(3, 3);
+            }
+
+            #[test]
+            fn intersecting_triangles() {
+                over(
+                    |rng| scene::intersecting(rng, 3, 3),
+                    laws::names_a_common_point::<$oracle>,
+                );
+            }
+
+            #[rstest]
+            fn near_contact(
+                #[values(
+                    Meeting::CornerFace,
+                    Meeting::CrossedEdges,
+                    Meeting::ParallelFaces,
+                    Meeting::CornerEdge,
+                    Meeting::CornerCorner
+                )]
+                meeting: Meeting,
+                #[values(1e-3, 1e-6, 1e-9, 1e-11)] gap: f64,
+            ) {
+                super::near_contact::<$oracle>(meeting, gap);
+            }
+
+            #[test]
+            fn touching() {
+                over(scene::touching, laws::separates_touching::<$oracle>);
+            }
+
+            #[test]
+            fn degenerate() {
+                super::degenerate::<$oracle>();
+            }
+
+            #[test]
+            fn far_from_the_origin() {
+                super::far_from_the_origin::<$oracle>();
+            }
+
+            #[test]
+            fn any_scale() {
+                super::any_scale::<$oracle>();
+            }
+
+            #[test]
+            fn history() {
+                super::history::<$oracle>(3);
+            }
+        }
+    };
+}
+
+obeys!(direct, Direct);
+obeys!(gjk, Gjk);
+obeys!(gjk_f32, GjkF32);
+obeys!(auto, Auto);
+
+#[rstest]
+fn hulls_of_few_points(#[values(1, 2, 3, 4, 5, 6)] a: usize, #[values(4, 5, 6)] b: usize) {
+    random::<Gjk>(a, b);
+    random::<GjkF32>(a, b);
+    random::<Auto>(a, b);
+}
+
+#[rstest]
+fn intersecting_hulls(#[values(4, 7, 30)] a: usize, #[values(4, 30)] b: usize) {
+    let draw = |rng: &mut Pcg64| scene::intersecting(rng, a, b);
+    over(draw, laws::names_a_common_point::<Gjk>);
+    over(draw, laws::names_a_common_point::<GjkF32>);
+}
+
+#[rstest]
+fn stacked_boxes(#[values(1e-3, 1e-6, 1e-9, 1e-11)] gap: f64) {
+    let draw = |rng: &mut Pcg64| scene::stacked_boxes(rng, gap);
+    over(draw, |scene| is_apart_by::<Gjk>(scene, gap, 1e-9));
+    over(draw, |scene| is_apart_by::<GjkF32>(scene, gap, 1e-9));
+}
+
+#[rstest]
+fn balls_of_many_points(#[values(50, 500)] count: usize, #[values(1e-2, 1.0)] gap: f64) {
+    for seed in 0..100 {
+        let scene = scene::balls(&mut Pcg64::seed_from_u64(seed), count, gap);
+        laws::certifies_separation::<Gjk>(&scene);
+        laws::certifies_separation::<GjkF32>(&scene);
+        laws::is_symmetric::<Gjk>(&scene);
+    }
+    history::<Gjk>(count);
+    history::<GjkF32>(count);
+}
+
+/// Random hulls: what is apart is certified, agrees with brute force and does not depend on the
+/// order; both outcomes are met often enough.
+fn random<O: DistanceOracle + Default>(a: usize, b: usize) {
+    let apart = std::cell::Cell::new(0);
+    let law = |scene: &Scene| {
+        laws::survives::<O>(scene);
+        laws::is_symmetric::<O>(scene);
+        let checked = laws::check(scene, &laws::cold::<O>(scene));
+        if checked.distance > 1e-12 * scene.size {
+            apart.set(apart.get() + 1);
+            laws::certifies_separation::<O>(scene);
+            laws::agrees_with_twin::<O>(scene);
+        }
+    };
+    over(|rng| scene::random(rng, a, b), law);
+    let share = f64::from(apart.get()) / CASES as f64;
+    assert!((0.3..=1.0).contains(&share), "{share} are apart");
+    // Points and solids intersect in hits; edges and points among themselves almost never do.
+    assert!(a + b < 5 || share < 0.97, "{share} are apart");
+}
+
+fn near_contact<O: DistanceOracle + Default>(meeting: Meeting, gap: f64) {
+    // Tilted faces are nearest at a corner, which may lie beside the other face.
+    let slack = match meeting {
+        Meeting::ParallelFaces => 1e-8,
+        _ => 0.0,
+    };
+    let law = |scene: &Scene| {
+        is_apart_by::<O>(scene, gap, slack);
+        laws::agrees_with_twin::<O>(scene);
+    };
+    over(|rng| scene::near_contact(rng, meeting, gap), law);
+}
+
+/// Certified, at the distance of `gap` or by up to `slack` more.
+fn is_apart_by<O: DistanceOracle + Default>(scene: &Scene, gap: f64, slack: f64) {
+    let checked = laws::certifies_separation::<O>(scene);
+    let range = gap - 1e-14..=gap + slack + 1e-14;
+    assert!(range.contains(&checked.distance), "{checked:?} of {scene:?}");
+}
+
+fn degenerate<O: DistanceOracle + Default>() {
+    let law = |scene: &Scene| {
+        laws::is_symmetric::<O>(scene);
+        laws::survives::<O>(scene);
+        if laws::check(scene, &laws::cold::<O>(scene)).distance > 1e-6 {
+            laws::certifies_separation::<O>(scene);
+            laws::agrees_with_twin::<O>(scene);
+        }
+    };
+    over(scene::degenerate, law);
+}
+
+/// Coordinates of 1e6 cost the rounding of where the pieces are, not that of what they are.
+fn far_from_the_origin<O: DistanceOracle + Default>() {
+    let draw = |rng: &mut Pcg64| scene::near_contact(rng, Meeting::CornerFace, 1e-6).reframed(rng, 1e6);
+    let law = |scene: &Scene| {
+        let checked = laws::check(scene, &laws::cold::<O>(scene));
+        assert!((checked.distance - 1e-6).abs() <= 2e-9, "{checked:?} of {scene:?}");
+        assert!(checked.gap >= 0.5 * checked.distance, "{checked:?} of {scene:?}");
+    };
+    over(draw, law);
+}
+
+fn any_scale<O: DistanceOracle + Default>() {
+    let draw = |rng: &mut Pcg64| {
+        let scale = scene::magnitude(rng, -12.0, 12.0);
+        let mut scene = scene::random(rng, 3, 3).scaled(scale);
+        // One of the pieces may be as good as a point, or as a half-space.
+        let other = scene::magnitude(rng, -12.0, 0.0);
+        if other < 1e-6 {
+            scene.b.iter_mut().for_each(|y| *y *= other);
+        }
+        scene
+    };
+    let law = |scene: &Scene| {
+        laws::survives::<O>(scene);
+        laws::is_symmetric::<O>(scene);
+    };
+    over(draw, law);
+}
+
+fn history<O: DistanceOracle + Default>(count: usize) {
+    let mut rng = Pcg64::seed_from_u64(7);
+    // Pieces of changing sizes, so that the caches' indices go out of range again and again.
+    let scenes: Vec<Scene> = (0..200)
+        .map(|k| match k % 4 {
+            0 => scene::random(&mut rng, count, count),
+            1 => scene::degenerate(&mut rng),
+            2 => scene::intersecting(&mut rng, count.max(3), 3.min(count)),
+            _ => scene::near_contact(&mut rng, Meeting::CrossedEdges, 1e-9),
+        })
+        .filter(|scene| count > 3 || scene.a.len().max(scene.b.len()) <= 3)
+        .collect();
+    laws::ignores_history::<O>(&scenes);
+}

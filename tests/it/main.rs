@@ -1,1 +1,23 @@
-//! WIP
+//! One property suite over every backend, schedule and kind of piece.
+//!
+//! `CCD_TEST_CASES` multiplies the number of random cases, `CCD_TEST_SEED` picks other ones,
+//! `CCD_TEST_SLOW` adds the scenes that take minutes.
+
+mod backends_agree;
+mod bad_inputs;
+mod equal_bits;
+mod generators;
+mod liars;
+mod limits;
+mod margin;
+mod models;
+mod monotone;
+mod motions;
+mod never_late;
+mod oracle_contract;
+mod referee;
+mod regressions;
+mod scenes;
+mod start;
+mod statuses;
+mod symmetries;

@@ -1,10 +1,10 @@
 //! What every answer owes, checked against the referee and against the bodies themselves.
 
-use crate::models::Kind;
-use crate::query::Query;
+use crate::models::{Kind, Mesh};
+use crate::query::{Actor, Bodies, Query};
 use crate::referee::{Placement, Referee, Verdict, point_segment, point_triangle};
 use ccd_core::glam::DVec3;
-use ccd_core::{Answer, Body, Config, Contact, Feature, Outcome, Overlap, Piece, Separation};
+use ccd_core::{Answer, Body, Config, Contact, Feature, Outcome, Overlap, Piece, Polytope, Separation};
 
 /// Holds answers to one query against what the referee saw of it.
 pub struct Judge<'a> {
@@ -17,7 +17,8 @@ pub struct Judge<'a> {
     samples: Vec<(f64, f64)>,
 }
 
-type Law = Result<(), String>;
+/// Holds, or says why not.
+pub type Law = Result<(), String>;
 
 macro_rules! law {
     ($holds:expr, $($why:tt)*) => {
@@ -52,37 +53,54 @@ impl<'a> Judge<'a> {
         self.nested
     }
 
-    /// Checks an answer under the start policy `Report`: never late, never false, tight, resolved.
+    /// Checks an answer under the start policy `Report`: never late, never false, tight, resolved,
+    /// its contact as claimed.
     ///
     /// # Errors
     /// Which law the answer breaks.
-    pub fn check(&self, answer: &Answer, bodies: [(&Body, Kind); 2]) -> Law {
-        let rounding = self.query.rounding();
+    pub fn check(&self, answer: &Answer, bodies: &Bodies) -> Law {
+        self.check_time(answer, 0.0)?;
+        let reach = self.config.margin + answer.tolerance + self.query.rounding();
+        match &answer.outcome {
+            Outcome::Contact { time, contact } => {
+                check_contact(self.query, *time, contact, bodies, reach)
+            }
+            Outcome::Touching { contact } => check_contact(self.query, 0.0, contact, bodies, reach),
+            Outcome::Overlapping { overlap } => self.check_overlap(overlap, bodies),
+            Outcome::Free { .. } => Ok(()),
+            Outcome::Unresolved { .. } => Err("unresolved".into()),
+        }
+    }
+
+    /// Checks what an answer says of the time alone, so that it may be the answer to this query in
+    /// another guise, one that rounds by `more` than this one.
+    ///
+    /// # Errors
+    /// Which law the answer breaks.
+    pub fn check_time(&self, answer: &Answer, more: f64) -> Law {
+        let rounding = self.query.rounding() + more;
         law!(answer.tolerance >= self.config.tolerance, "the tolerance was lowered");
         let reach = self.config.margin + answer.tolerance + rounding;
         match &answer.outcome {
-            Outcome::Contact { time, contact } => {
+            Outcome::Contact { time, .. } => {
                 self.never_late(*time)?;
                 let gap = self.referee.gap(*time);
                 law!(gap <= reach, "false: the distance at {time} is {gap}");
-                self.check_contact(*time, contact, bodies, reach)
             }
             Outcome::Free { clearance } => {
                 law!(self.verdict.latest().is_none(), "missed: {:?}", self.verdict);
                 law!(!self.nested, "missed: one body is inside of the other");
                 let less = self.samples.iter().find(|s| s.1 < clearance - rounding);
                 law!(less.is_none(), "the clearance {clearance} is less at {less:?}");
-                Ok(())
             }
-            Outcome::Touching { contact } => {
+            Outcome::Touching { .. } => {
                 let gap = self.referee.gap(0.0);
                 law!(gap <= reach, "false: the distance at the start is {gap}");
-                law!(contact.separation.upper <= reach, "touching from afar: {contact:?}");
-                self.check_contact(0.0, contact, bodies, reach)
             }
-            Outcome::Overlapping { overlap } => self.check_overlap(overlap, bodies),
-            Outcome::Unresolved { .. } => Err("unresolved".into()),
+            Outcome::Overlapping { .. } => {}
+            Outcome::Unresolved { safe_until, .. } => self.never_late(*safe_until)?,
         }
+        Ok(())
     }
 
     /// Checks that a time is not past a contact that the referee is sure of.
@@ -100,14 +118,15 @@ impl<'a> Judge<'a> {
         Ok(())
     }
 
-    fn check_overlap(&self, overlap: &Overlap, bodies: [(&Body, Kind); 2]) -> Law {
+    fn check_overlap(&self, overlap: &Overlap, bodies: &Bodies) -> Law {
         match overlap {
             Overlap::Pieces(contact) => {
                 let gap = self.referee.gap(0.0);
-                let rounding = self.query.rounding();
-                let filled = bodies.iter().any(|(_, kind)| *kind == Kind::Parts);
-                law!(gap <= rounding || filled, "false: no overlap at distance {gap}");
-                self.check_contact(0.0, contact, bodies, f64::INFINITY)
+                let filled = bodies.kinds.contains(&Kind::Parts);
+                law!(gap <= self.query.rounding() || filled, "false: overlap at distance {gap}");
+                let both = [contact.separation.witness_a, contact.separation.witness_b];
+                law!(both[0].distance(both[1]) <= self.query.rounding(), "not in both: {both:?}");
+                check_contact(self.query, 0.0, contact, bodies, f64::INFINITY)
             }
             Overlap::AInsideB(p) => {
                 law!(self.referee.holds(1, *p), "{p} is not inside of B");
@@ -119,54 +138,82 @@ impl<'a> Judge<'a> {
             }
         }
     }
+}
 
-    /// Checks witnesses, normal, bounds and features of a contact.
-    ///
-    /// # Errors
-    /// Which of them is wrong.
-    pub fn check_contact(
-        &self,
-        time: f64,
-        contact: &Contact,
-        bodies: [(&Body, Kind); 2],
-        reach: f64,
-    ) -> Law {
-        let rounding = self.query.rounding();
-        let places = Placement::pair(self.query);
-        let separation = &contact.separation;
-        let Separation { lower, upper, normal, witness_a, witness_b } = separation;
-        law!((normal.length() - 1.0).abs() <= 1e-12, "no unit normal: {normal}");
-        law!(lower <= upper, "lower {lower} > upper {upper}");
-        law!(*upper <= reach, "upper {upper} > {reach}");
-        let distance = witness_a.distance(*witness_b);
-        law!(distance <= upper + rounding, "the witnesses are {distance} apart, not {upper}");
-        law!(distance >= lower - rounding, "the witnesses are {distance} apart, not {lower}");
-        let mut ends = [f64::NEG_INFINITY, f64::INFINITY];
-        for (k, (body, kind)) in bodies.into_iter().enumerate() {
-            let piece = [contact.piece_a, contact.piece_b][k] as usize;
-            law!(piece < body.pieces().len(), "there is no piece {piece}");
-            let piece = body.pieces().get(piece);
-            // As A's centre moves in the world, so does everything that is relative to it.
-            let drift = places[0].origin() + time * self.query.a.motion.velocity();
-            let place = |p: DVec3| places[k].at(time, p) + drift;
-            let along = piece.points.iter().map(|&p| place(p).dot(*normal));
-            ends[k] = match k {
-                0 => along.fold(f64::NEG_INFINITY, f64::max) + piece.radius,
-                _ => along.fold(f64::INFINITY, f64::min) - piece.radius,
-            };
-            let witness = [*witness_a, *witness_b][k];
-            let off = distance_to_piece(witness, &piece, place);
-            law!(off <= rounding, "witness {k} is {off} off its piece");
-            let feature = [contact.feature_a, contact.feature_b][k];
-            let shape = [&self.query.a.shape, &self.query.b.shape][k];
-            let off = match kind {
-                Kind::Triangles => distance_to_mesh_feature(witness, feature, &shape.mesh, place)?,
-                Kind::Parts => distance_to_part_feature(witness, feature, &shape.parts, place)?,
-            };
-            law!(off <= rounding, "witness {k} is {off} off its feature {feature}");
-        }
-        let gap = ends[1] - ends[0];
-        law!(gap >= lower - rounding, "lower {lower}, but the gap along the normal is {gap}");
+/// Checks witnesses, normal, bounds and features of a contact.
+///
+/// # Errors
+/// Which of them is wrong.
+pub fn check_contact(
+    query: &Query,
+    time: f64,
+    contact: &Contact,
+    bodies: &Bodies,
+    reach: f64,
+) -> Law {
+    let rounding = query.rounding();
+    let Separation { lower, upper, normal, witness_a, witness_b } = contact.separation;
+    law!((normal.length() - 1.0).abs() <= 1e-12, "no unit normal: {normal}");
+    law!(lower <= upper, "lower {lower} > upper {upper}");
+    law!(upper <= reach, "upper {upper} > {reach}");
+    let distance = witness_a.distance(witness_b);
+    law!(distance <= upper + rounding, "the witnesses are {distance} apart, not {upper}");
+    law!(distance >= lower - rounding, "the witnesses are {distance} apart, not {lower}");
+    let places = Placement::pair(query);
+    // Placements are relative to A's centre, witnesses are not.
+    let drift = places[0].origin() + time * query.a.motion.velocity();
+    let side_a = Side {
+        actor: &query.a,
+        body: bodies.a(),
+        kind: bodies.kinds[0],
+        piece: contact.piece_a,
+        place: &|p| places[0].at(time, p) + drift,
+    };
+    let side_b = Side {
+        actor: &query.b,
+        body: bodies.b(),
+        kind: bodies.kinds[1],
+        piece: contact.piece_b,
+        place: &|p| places[1].at(time, p) + drift,
+    };
+    side_a.check_witness(witness_a, contact.feature_a, rounding).map_err(|e| format!("A: {e}"))?;
+    side_b.check_witness(witness_b, contact.feature_b, rounding).map_err(|e| format!("B: {e}"))?;
+    let gap = -side_a.support(normal)? - side_b.support(-normal)?;
+    law!(gap >= lower - rounding, "lower {lower}, but the gap along the normal is {gap}");
+    Ok(())
+}
+
+/// One body's side of a contact.
+struct Side<'a> {
+    actor: &'a Actor,
+    body: &'a Body,
+    kind: Kind,
+    piece: u32,
+    place: &'a dyn Fn(DVec3) -> DVec3,
+}
+
+impl Side<'_> {
+    fn piece(&self) -> Result<Piece<'_>, String> {
+        law!((self.piece as usize) < self.body.pieces().len(), "there is no piece {}", self.piece);
+        Ok(self.body.pieces().get(self.piece as usize))
+    }
+
+    /// The farthest that the touched piece reaches along an axis.
+    fn support(&self, axis: DVec3) -> Result<f64, String> {
+        let piece = self.piece()?;
+        let along = piece.points.iter().map(|&p| (self.place)(p).dot(axis));
+        Ok(along.fold(f64::NEG_INFINITY, f64::max) + piece.radius)
+    }
+
+    fn check_witness(&self, witness: DVec3, feature: Feature, rounding: f64) -> Law {
+        let off = distance_to_piece(witness, &self.piece()?, self.place);
+        law!(off <= rounding, "the witness is {off} off its piece");
+        let shape = &self.actor.shape;
+        let off = match self.kind {
+            Kind::Triangles => distance_to_mesh_feature(witness, feature, &shape.mesh, self.place)?,
+            Kind::Parts => distance_to_part_feature(witness, feature, &shape.parts, self.place)?,
+        };
+        law!(off <= rounding, "the witness is {off} off its feature {feature}");
         Ok(())
     }
 }
@@ -198,7 +245,7 @@ fn distance_to_piece(p: DVec3, piece: &Piece<'_>, place: impl Fn(DVec3) -> DVec3
 fn distance_to_mesh_feature(
     p: DVec3,
     feature: Feature,
-    mesh: &crate::models::Mesh,
+    mesh: &Mesh,
     place: impl Fn(DVec3) -> DVec3,
 ) -> Result<f64, String> {
     let vertex = |v: u32| mesh.vertices.get(v as usize).map(|&q| place(q));
@@ -207,12 +254,12 @@ fn distance_to_mesh_feature(
         Feature::Vertex(v) => Ok(vertex(v).ok_or_else(bad)?.distance(p)),
         Feature::Edge(v, w) => {
             let side = |f: &[u32; 3]| f.contains(&v) && f.contains(&w);
-            law_edge(mesh.faces.iter().any(side), feature)?;
+            law!(mesh.faces.iter().any(side), "the mesh has no {feature}");
             let ends = [vertex(v).ok_or_else(bad)?, vertex(w).ok_or_else(bad)?];
             Ok(point_segment(p, ends).distance(p))
         }
         Feature::Face(f) => {
-            law_edge((f as usize) < mesh.faces.len(), feature)?;
+            law!((f as usize) < mesh.faces.len(), "the mesh has no {feature}");
             let corners = mesh.triangle(f as usize).map(place);
             Ok(point_triangle(p, corners).distance(p))
         }
@@ -220,15 +267,10 @@ fn distance_to_mesh_feature(
     }
 }
 
-fn law_edge(holds: bool, feature: Feature) -> Law {
-    law!(holds, "the mesh has no {feature}");
-    Ok(())
-}
-
 fn distance_to_part_feature(
     p: DVec3,
     feature: Feature,
-    parts: &[ccd_core::Polytope],
+    parts: &[Polytope],
     place: impl Fn(DVec3) -> DVec3,
 ) -> Result<f64, String> {
     let mut nearest = f64::INFINITY;

@@ -29,7 +29,7 @@ const WORDS: [usize; 3] = [0, 3, 4];
 /// One line per scene and method.
 pub(super) fn table(measured: &[(&Scene, Vec<Measurement>)]) -> Table {
     let mut table = Table::new();
-    table.load_preset(UTF8_FULL_CONDENSED).set_header(HEADER);
+    table.load_style(UTF8_FULL_CONDENSED).set_header(HEADER);
     for (index, column) in table.column_iter_mut().enumerate() {
         if !WORDS.contains(&index) {
             column.set_cell_alignment(CellAlignment::Right);

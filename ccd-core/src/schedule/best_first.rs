@@ -42,7 +42,7 @@ enum Item<C> {
 #[derive(Debug)]
 struct Group {
     /// For how long after `since` each pair is certified; infinite once it is done with.
-    free: [f32; LANES],
+    free: FreeTimes,
     since: f64,
     /// The children's body.
     split: Which,
@@ -50,14 +50,17 @@ struct Group {
     other: NodeId,
     /// Which children are thicker than the other node and are to be split next.
     thicker: u8,
+    /// Which children are better looked at again than split.
+    aloof: u8,
+    parent: NodeId,
 }
 
 /// What to do with the pair that was looked at.
 enum Found<C> {
     /// Two pieces.
     Pieces(Pair<C>),
-    /// Split the node of this body against the other's.
-    Split(Which, NodeId, NodeId),
+    /// Split the node of this body against the other's; of the children only those in the mask.
+    Split(Which, NodeId, NodeId, u8),
 }
 
 impl<O: DistanceOracle> Schedule<O> for BestFirst<O> {
@@ -95,9 +98,9 @@ impl<O: DistanceOracle> BestFirst<O> {
                 return start.touching().unwrap_or(unresolved(s, Limit::Budget));
             }
             let pushed = match found {
-                Found::Split(split, node, other) => {
+                Found::Split(split, node, other, mask) => {
                     let expansion = expand(problem, split, node, other, s);
-                    self.push_group(problem, expansion, split, other, s)
+                    self.push_group(problem, expansion, split, node, other, s, mask)
                 }
                 Found::Pieces(mut pair) => match pair.advance(problem, oracle, stats, s) {
                     Step::FreeUntil(clock) => self.push_pair(clock, pair),
@@ -143,10 +146,11 @@ impl<O: DistanceOracle> BestFirst<O> {
                 found
             }
             Item::Group(group) => {
-                let lane = group.take_least();
+                let (lane, _) = group.least();
+                group.free.end(lane);
                 let found = group.found(problem, lane);
-                match group.clock(group.least()) {
-                    clock if clock < 1.0 => visit.postpone(clock),
+                match group.least() {
+                    (_, clock) if clock < 1.0 => visit.postpone(clock),
                     _ => visit.remove(),
                 }
                 found
@@ -160,11 +164,13 @@ impl<O: DistanceOracle> BestFirst<O> {
         problem: &Problem<'_>,
         expansion: Expansion,
         split: Which,
+        node: NodeId,
         other: NodeId,
         s: f64,
+        mask: u8,
     ) -> Result<(), Full> {
-        let group = Group::new(problem, &expansion, split, other, s);
-        let clock = group.clock(group.least());
+        let group = Group::new(problem, &expansion, split, node, other, s, mask);
+        let (_, clock) = group.least();
         if clock < 1.0 {
             self.queue.push(clock, Rank::Group, Item::Group(group))?;
         }
@@ -179,18 +185,47 @@ impl<O: DistanceOracle> BestFirst<O> {
     }
 }
 
+/// The free times of eight pairs, rounded down to bits that end in the pair's lane: bits of numbers
+/// that are not negative order as the numbers do, so that the least of them tells its lane too.
+#[derive(Clone, Copy, Debug)]
+struct FreeTimes([u32; LANES]);
+
+const LANE_BITS: u32 = LANES as u32 - 1;
+
+impl FreeTimes {
+    /// Lanes from `count` on are done with.
+    fn new(free: &[f32; LANES], count: u32, mask: u8) -> Self {
+        let mut bits = [0; LANES];
+        for (lane, bits) in bits.iter_mut().enumerate() {
+            let used = (lane as u32) < count && mask >> lane & 1 == 1;
+            let time = if used { free[lane] } else { f32::INFINITY };
+            *bits = time.to_bits() & !LANE_BITS | lane as u32;
+        }
+        FreeTimes(bits)
+    }
+
+    fn least(&self) -> (usize, f32) {
+        let least = self.0.iter().fold(u32::MAX, |least, &bits| least.min(bits));
+        let lane = least & LANE_BITS;
+        (lane as usize, f32::from_bits(least & !LANE_BITS))
+    }
+
+    fn end(&mut self, lane: usize) {
+        self.0[lane] = f32::INFINITY.to_bits() | lane as u32;
+    }
+}
+
 impl Group {
     /// The pair of both roots, of which the given body's is to be split.
     fn roots(split: Which) -> Self {
-        let mut free = [f32::INFINITY; LANES];
-        free[0] = 0.0;
         Group {
-            free,
+            free: FreeTimes::new(&[0.0; LANES], 1, 1),
             since: 0.0,
             split,
             first: 0,
             other: 0,
             thicker: 1,
+            aloof: 0, parent: 0,
         }
     }
 
@@ -198,23 +233,26 @@ impl Group {
         problem: &Problem<'_>,
         expansion: &Expansion,
         split: Which,
+        parent: NodeId,
         other: NodeId,
         s: f64,
+        mask: u8,
     ) -> Self {
         let bounds = &expansion.bounds;
         let other_is_piece = split.other().of(problem).body.tree().piece(other).is_some();
         let mut thicker = 0;
-        let mut free = bounds.free;
+        let mut aloof = 0;
         for lane in 0..LANES {
-            let leaf = expansion.leaves >> lane & 1 == 1;
-            let thick = !leaf && (other_is_piece || bounds.thicker[lane] > 0.0);
-            thicker |= u8::from(thick) << lane;
-            if lane >= expansion.count as usize {
-                free[lane] = f32::INFINITY;
-            }
+            thicker |= u8::from(bounds.thicker[lane] > 0.0) << lane;
+            aloof |= u8::from(bounds.aloof[lane] > 0.0) << lane;
         }
+        if other_is_piece {
+            thicker = u8::MAX;
+        }
+        thicker &= !expansion.leaves;
         Group {
-            free,
+            free: FreeTimes::new(&bounds.free, expansion.count, mask),
+            parent, aloof,
             since: s,
             split,
             first: expansion.first,
@@ -223,32 +261,16 @@ impl Group {
         }
     }
 
-    fn least(&self) -> usize {
-        let mut least = 0;
-        for lane in 1..LANES {
-            if self.free[lane] < self.free[least] {
-                least = lane;
-            }
-        }
-        least
-    }
-
-    /// Takes the lane of least clock out of the group.
-    fn take_least(&mut self) -> usize {
-        let lane = self.least();
-        self.free[lane] = f32::INFINITY;
-        lane
-    }
-
-    /// The clock of a lane, never later than what it is certified for.
-    fn clock(&self, lane: usize) -> f64 {
-        let free = f64::from(self.free[lane]);
-        if free > 0.0 {
+    /// The least clock among the pairs, never later than what is certified, and its lane.
+    fn least(&self) -> (usize, f64) {
+        let (lane, free) = self.free.least();
+        let clock = if free > 0.0 {
             // One step down undoes the rounding of the sum.
-            (self.since + free).next_down().max(self.since)
+            (self.since + f64::from(free)).next_down().max(self.since)
         } else {
             self.since
-        }
+        };
+        (lane, clock)
     }
 
     fn found<C: Default + Clone>(&self, problem: &Problem<'_>, lane: usize) -> Found<C> {
@@ -257,15 +279,18 @@ impl Group {
             self.split.of(problem).body.tree(),
             self.split.other().of(problem).body.tree(),
         );
+        if self.aloof >> lane & 1 == 1 {
+            return Found::Split(self.split, self.parent, self.other, 1 << lane);
+        }
         if self.thicker >> lane & 1 == 1 {
-            return Found::Split(self.split, child, self.other);
+            return Found::Split(self.split, child, self.other, u8::MAX);
         }
         match (child_tree.piece(child), other_tree.piece(self.other)) {
             (Some(child), Some(other)) => Found::Pieces(match self.split {
                 Which::A => Pair::new(child, other),
                 Which::B => Pair::new(other, child),
             }),
-            _ => Found::Split(self.split.other(), self.other, child),
+            _ => Found::Split(self.split.other(), self.other, child, u8::MAX),
         }
     }
 }

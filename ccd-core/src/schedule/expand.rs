@@ -114,6 +114,7 @@ fn against<C: Children>(
         velocity,
         spin: near_frame.inverse_vector(far.path.spin),
         view: &view,
+        horizon: (1.0 - s) as f32,
     };
     match far.body.tree().get(other) {
         Named::Node(node) => shared.bound(group, &view.node(node)),
@@ -161,6 +162,7 @@ struct Shared<'a> {
     /// The far body's, along the near body's axes.
     spin: DVec3,
     view: &'a View,
+    horizon: f32,
 }
 
 impl Shared<'_> {
@@ -215,6 +217,7 @@ impl Shared<'_> {
                 velocity,
                 split,
                 other: far,
+                horizon: self.horizon,
                 slack: (up(kept) + SUPPORT_F32 * size).next_up(),
                 rate_slack: RATE_F32 * speed,
             },

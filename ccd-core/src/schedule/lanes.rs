@@ -13,8 +13,9 @@ use glam::Vec3;
 pub(crate) struct Bounds {
     /// For how long each pair is certainly farther apart than the gap that is to be kept.
     pub(crate) free: [f32; LANES],
-    /// The separation beyond that gap.
-    pub(crate) apart: [f32; LANES],
+    /// Positive when a pair is so far apart, for its size and its turn until then, that looking at it
+    /// again is worth more than splitting it.
+    pub(crate) aloof: [f32; LANES],
     /// How thick the child is along the axis, less how thick the other node is.
     pub(crate) thicker: [f32; LANES],
 }
@@ -71,6 +72,8 @@ pub(crate) struct Closing<S, O> {
     pub(crate) velocity: Vec3,
     pub(crate) split: S,
     pub(crate) other: O,
+    /// How much time is left.
+    pub(crate) horizon: f32,
     /// The gap that is to be kept, and what rounding may do to a gap.
     pub(crate) slack: f32,
     /// What rounding may do to a rate.
@@ -86,7 +89,7 @@ pub(crate) fn bound<C: Children, P: Other, S: Turn, O: Turn>(
 ) -> Bounds {
     let mut out = Bounds {
         free: [0.0; LANES],
-        apart: [0.0; LANES],
+        aloof: [0.0; LANES],
         thicker: [0.0; LANES],
     };
     let other_velocity = closing.other.velocity(other.centre());
@@ -96,36 +99,77 @@ pub(crate) fn bound<C: Children, P: Other, S: Turn, O: Turn>(
     for lane in 0..LANES {
         let centre = children.centre(lane);
         let way = other.centre() - centre;
-        let axis = best_axis(children, other, lane, way);
-        let n = axis.n;
-        let apart = axis.gap - closing.slack;
-
-        let velocity = closing.split.velocity(centre);
-        let mut rate = dot(n, closing.velocity + velocity - other_velocity) + closing.rate_slack;
-        let mut bend = 0.0;
-        if S::TURNS {
-            let m = closing.split.across(n);
-            let speed = length(velocity)
+        let turning = closing.split.velocity(centre);
+        let velocity = closing.velocity + turning - other_velocity;
+        let shared = Pairing {
+            children,
+            other,
+            closing,
+            lane,
+            way,
+            velocity,
+            speed: length(turning)
                 + closing.split.rate() * children.radius(lane)
-                + closing.rate_slack;
-            rate += children.reach(lane, m);
-            bend += length(m) * speed;
-        }
-        if O::TURNS {
-            let m = closing.other.across(n);
-            rate += other.reach(m);
-            bend += length(m) * other_speed;
-        }
-        out.free[lane] = if S::TURNS || O::TURNS {
-            free_time(apart, rate, bend * BEND_F32 + LEAST_BEND_F32)
-        } else {
-            straight_free_time(apart, rate)
+                + closing.rate_slack,
+            other_speed,
         };
-        out.apart[lane] = apart;
+        let axis = best_axis(children, other, lane, way);
+        let free = free_along(&shared, axis);
+        // Where the centres pass each other, their way then separates them for longest.
+        let square = dot(velocity, velocity);
+        let closest = dot(way, velocity) / max(square, f32::MIN_POSITIVE);
+        let closest = max(min(closest, closing.horizon), 0.0);
+        let passing = way - velocity * closest;
+        let length = length(passing);
+        let inverse = if length > 0.0 { 1.0 / length } else { 0.0 };
+        let passing = free_along(
+            &shared,
+            along(children, other, lane, way, passing * inverse),
+        );
+        out.free[lane] = max(free, passing);
+        out.aloof[lane] = axis.gap - closing.slack - 0.5 * (children.radius(lane) + other.radius());
         out.thicker[lane] = axis.split_reach + 0.1 * children.radius(lane)
             - (axis.other_reach + 0.1 * other.radius());
     }
     out
+}
+
+/// One child and the other node.
+struct Pairing<'a, C, P, S, O> {
+    children: &'a C,
+    other: &'a P,
+    closing: &'a Closing<S, O>,
+    lane: usize,
+    way: Vec3,
+    velocity: Vec3,
+    speed: f32,
+    other_speed: f32,
+}
+
+#[inline(always)]
+fn free_along<C: Children, P: Other, S: Turn, O: Turn>(
+    pair: &Pairing<'_, C, P, S, O>,
+    axis: Axis,
+) -> f32 {
+    let n = axis.n;
+    let apart = axis.gap - pair.closing.slack;
+    let mut rate = dot(n, pair.velocity) + pair.closing.rate_slack;
+    let mut bend = 0.0;
+    if S::TURNS {
+        let m = pair.closing.split.across(n);
+        rate += pair.children.reach(pair.lane, m);
+        bend += length(m) * pair.speed;
+    }
+    if O::TURNS {
+        let m = pair.closing.other.across(n);
+        rate += pair.other.reach(m);
+        bend += length(m) * pair.other_speed;
+    }
+    if S::TURNS || O::TURNS {
+        free_time(apart, rate, bend * BEND_F32 + LEAST_BEND_F32)
+    } else {
+        straight_free_time(apart, rate)
+    }
 }
 
 /// An axis, the gap along it, and how far either side reaches towards the other.

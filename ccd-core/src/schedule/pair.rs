@@ -92,8 +92,7 @@ impl<C: Default + Clone> Pair<C> {
             Goal::LetGo { tolerance } => problem.margin + 0.5 * tolerance,
             Goal::Resting { floor } => floor,
         };
-        let normal = frames[0].rotation * checked.axis;
-        let free = free_time(problem, &pieces, &frames, normal, checked.lower - kept, 1.0 - s);
+        let free = self.free_time(problem, &pieces, &frames, &checked, kept, 1.0 - s);
         match free {
             None => Step::FreeUntil(f64::INFINITY),
             Some(tau) if (s + tau).next_down() > s => Step::FreeUntil((s + tau).next_down()),
@@ -131,6 +130,33 @@ impl<C: Default + Clone> Pair<C> {
         })
     }
 
+    /// Along the axis of the claim, or along the one on which the witnesses pass each other.
+    fn free_time(
+        &self,
+        problem: &Problem<'_>,
+        pieces: &PiecePair<'_>,
+        frames: &[Frame; 2],
+        checked: &Checked,
+        kept: f64,
+        horizon: f64,
+    ) -> Option<f64> {
+        let to_world = frames[0].rotation;
+        let normal = to_world * checked.axis;
+        let direct = free_time(problem, pieces, frames, normal, checked.lower - kept, horizon)?;
+        let ends = [checked.witness_a, checked.witness_b].map(|w| frames[0].point(w));
+        let way = ends[1] - ends[0];
+        let velocity = problem.a.path.velocity_at(ends[0], horizon_start(horizon))
+            - problem.b.path.velocity_at(ends[1], horizon_start(horizon));
+        let closest = (way.dot(velocity) / velocity.length_squared()).clamp(0.0, horizon);
+        let passing = way - velocity * closest;
+        let Some(passing) = passing.try_normalize() else { return Some(direct) };
+        let local = frames[0].inverse_vector(passing);
+        let gap = separation::support_gap(pieces, local, checked.witness_a)
+            - pieces.a.radius - pieces.b.radius - problem.rounding;
+        if !(gap > kept) { return Some(direct) }
+        free_time(problem, pieces, frames, passing, gap - kept, horizon).map(|t| t.max(direct))
+    }
+
     fn placed<'p>(&self, problem: &Problem<'p>, frames: &[Frame; 2]) -> PiecePair<'p> {
         PiecePair {
             a: problem.a.body.pieces().get(self.a as usize),
@@ -139,6 +165,8 @@ impl<C: Default + Clone> Pair<C> {
         }
     }
 }
+
+fn horizon_start(h: f64) -> f64 { 1.0 - h }
 
 /// Asks the oracle and checks what it says.
 fn ask<O: DistanceOracle>(

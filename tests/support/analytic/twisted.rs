@@ -23,17 +23,20 @@ pub(super) fn scenes() -> Vec<Scene> {
     out
 }
 
+/// How far below the nut's bottom the screw starts, less a pitch.
+const LOW: f64 = 1.05;
+
 /// T18: three turns of a screw in its nut, climbing by `pitch` a turn.
 fn screw_in_nut(name: &str, pitch: f64) -> Scene {
     let turning = Actor::moving(
         screw(),
-        -0.1 * DVec3::Z,
+        -LOW * DVec3::Z,
         3.0 * pitch * DVec3::Z,
         3.0 * TAU * DVec3::Z,
     );
-    // Turned ahead by as much as the screw is too low.
-    let turned = DQuat::from_rotation_z(0.1 / PITCH * TAU);
-    let still = Actor::still(nut(0.1).placed(turned.conjugate(), DVec3::ZERO), DVec3::ZERO);
+    // Turned ahead by as much as the screw starts too low.
+    let turned = DQuat::from_rotation_z(LOW / PITCH * TAU);
+    let still = Actor::still(nut(0.1).placed(turned, DVec3::ZERO), DVec3::ZERO);
     Scene::new(name, [turning, still], Expect::Unknown)
 }
 

@@ -10,12 +10,12 @@ pub const PITCH: f64 = 0.5;
 const SEGMENTS: usize = 24;
 const ROWS_PER_PITCH: usize = 6;
 
-/// The screw's surface about z: three pitches of a wavy thread of mean radius 1, depth 0.1.
+/// The screw's surface about z: four pitches of a wavy thread of mean radius 1, depth 0.1.
 pub fn screw() -> Shape {
-    Shape::open(thread(3, 0.0))
+    Shape::open(thread(4, 0.0))
 }
 
-/// The nut's inner surface, one pitch high, in the middle of the screw, everywhere `clearance`
+/// The nut's inner surface, one pitch high, its bottom a pitch above the origin, everywhere `clearance`
 /// farther from the axis.
 pub fn nut(clearance: f64) -> Shape {
     Shape::open(thread(1, clearance)).moved(PITCH * DVec3::Z)

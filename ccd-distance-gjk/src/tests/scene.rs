@@ -1,0 +1,242 @@
+//! Pairs of pieces of every kind that has ever upset a distance routine, with what is known of them.
+
+use ccd_core::glam::{DQuat, DVec3};
+use ccd_core::{Frame, Piece, PiecePair, Pose};
+use rand::RngExt;
+pub(super) use rand::SeedableRng;
+pub(super) use rand_pcg::Pcg64;
+
+/// A pair, in the form that owns its points.
+#[derive(Clone, Debug)]
+pub(super) struct Scene {
+    pub(super) a: Vec<DVec3>,
+    pub(super) b: Vec<DVec3>,
+    pub(super) b_to_a: Frame,
+    /// How large the pieces and their distance are, together.
+    pub(super) size: f64,
+}
+
+impl Scene {
+    /// From points in A's frame.
+    fn new(a: Vec<DVec3>, b: Vec<DVec3>) -> Self {
+        let reach = |x: DVec3| a.iter().chain(&b).map(|y| y.distance(x)).fold(0.0, f64::max);
+        let size = reach(a[0]).max(f64::MIN_POSITIVE);
+        Scene { a, b, b_to_a: Frame::IDENTITY, size }
+    }
+
+    pub(super) fn pair(&self) -> PiecePair<'_> {
+        PiecePair {
+            a: Piece::from_points(&self.a),
+            b: Piece::from_points(&self.b),
+            b_to_a: self.b_to_a,
+        }
+    }
+
+    /// B's points in A's frame, told from A's first point, without the rounding of far coordinates.
+    pub(super) fn local(&self) -> (Vec<DVec3>, Vec<DVec3>) {
+        let between = self.b_to_a.point(self.b[0]) - self.a[0];
+        let local = |y: &DVec3| self.b_to_a.rotation * (*y - self.b[0]) + between;
+        let a = self.a.iter().map(|x| *x - self.a[0]).collect();
+        (a, self.b.iter().map(local).collect())
+    }
+
+    /// The same pair with A and B exchanged.
+    pub(super) fn swapped(&self) -> Scene {
+        Scene {
+            a: self.b.clone(),
+            b: self.a.clone(),
+            b_to_a: self.b_to_a.from_frame(&Frame::IDENTITY),
+            size: self.size,
+        }
+    }
+
+    /// The same pair, both bodies' coordinates scaled.
+    pub(super) fn scaled(mut self, scale: f64) -> Scene {
+        for point in self.a.iter_mut().chain(&mut self.b) {
+            *point *= scale;
+        }
+        self.b_to_a.translation *= scale;
+        self.size *= scale;
+        self
+    }
+
+    /// The same pair seen from other frames, each body from its own, whose origins are `far` away.
+    /// The points move by the rounding of that.
+    pub(super) fn reframed(self, rng: &mut Pcg64, far: f64) -> Scene {
+        let [to_a, to_b]: [Frame; 2] = std::array::from_fn(|_| pose(rng, far).into());
+        Scene {
+            a: self.a.iter().map(|&x| to_a.point(x)).collect(),
+            b: self.b.iter().map(|&y| to_b.point(y)).collect(),
+            b_to_a: to_b_then(&to_a, &to_b),
+            size: self.size,
+        }
+    }
+}
+
+/// Undoes `to_b`, then applies `to_a`.
+fn to_b_then(to_a: &Frame, to_b: &Frame) -> Frame {
+    let rotation = to_a.rotation * to_b.rotation.transpose();
+    Frame { rotation, translation: to_a.translation - rotation * to_b.translation }
+}
+
+pub(super) fn pose(rng: &mut Pcg64, far: f64) -> Pose {
+    let turn = DQuat::from_scaled_axis(3.0 * vector(rng));
+    Pose::new(far * vector(rng), turn).expect("finite and of length one")
+}
+
+/// In the cube of side two about the origin.
+pub(super) fn vector(rng: &mut Pcg64) -> DVec3 {
+    DVec3::from_array(std::array::from_fn(|_| rng.random_range(-1.0..1.0)))
+}
+
+pub(super) fn points(rng: &mut Pcg64, count: usize) -> Vec<DVec3> {
+    (0..count).map(|_| vector(rng)).collect()
+}
+
+/// Between two powers of ten, every order of magnitude as likely.
+pub(super) fn magnitude(rng: &mut Pcg64, low: f64, high: f64) -> f64 {
+    10f64.powf(rng.random_range(low..high))
+}
+
+/// Hulls of so many random points at a random distance: apart, or intersecting, as it comes.
+pub(super) fn random(rng: &mut Pcg64, a: usize, b: usize) -> Scene {
+    let offset = rng.random_range(0.0..2.5) * vector(rng).normalize();
+    let b = points(rng, b).iter().map(|y| *y + offset).collect();
+    Scene::new(points(rng, a), b).reframed(rng, 1.0)
+}
+
+/// Random hulls moved so that inner points of them coincide.
+pub(super) fn intersecting(rng: &mut Pcg64, a: usize, b: usize) -> Scene {
+    let (a, b) = (points(rng, a), points(rng, b));
+    let inner = |rng: &mut Pcg64, points: &[DVec3]| {
+        let weights: Vec<f64> = points.iter().map(|_| rng.random_range(0.1..1.0)).collect();
+        let sum: DVec3 = points.iter().zip(&weights).map(|(x, w)| *w * *x).sum();
+        sum / weights.iter().sum::<f64>()
+    };
+    let shift = inner(rng, &a) - inner(rng, &b);
+    let b = b.iter().map(|y| *y + shift).collect();
+    Scene::new(a, b).reframed(rng, 1.0)
+}
+
+/// What is nearest to what in [`near_contact`].
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Meeting {
+    CornerFace,
+    CrossedEdges,
+    ParallelFaces,
+    CornerEdge,
+    CornerCorner,
+}
+
+/// Triangles at the distance `gap` along z, whose other corners rise or fall at slopes of any
+/// magnitude down to 1e-12.
+pub(super) fn near_contact(rng: &mut Pcg64, meeting: Meeting, gap: f64) -> Scene {
+    let slope = |rng: &mut Pcg64| magnitude(rng, -12.0, 0.0);
+    let flat = |rng: &mut Pcg64| {
+        let v = vector(rng);
+        DVec3::new(v.x, v.y, 0.0)
+    };
+    let rising = |rng: &mut Pcg64| flat(rng) + (gap + slope(rng)) * DVec3::Z;
+    let falling = |rng: &mut Pcg64| flat(rng) - slope(rng) * DVec3::Z;
+    let up = gap * DVec3::Z;
+    // A triangle in the plane z = 0 about the origin, and a segment through it.
+    let about = |rng: &mut Pcg64| {
+        let turn = DQuat::from_rotation_z(rng.random_range(0.0..7.0));
+        [0.0, 2.1, 4.2].map(|angle: f64| {
+            rng.random_range(0.2..1.0) * (turn * DVec3::new(angle.cos(), angle.sin(), 0.0))
+        })
+    };
+    let through = |direction: DVec3| [-0.7 * direction, 0.6 * direction];
+    let (a, b) = match meeting {
+        Meeting::CornerFace => (about(rng).to_vec(), vec![up, rising(rng), rising(rng)]),
+        Meeting::CrossedEdges => {
+            let angle = magnitude(rng, -12.0, 0.0);
+            let [p, q] = through(DVec3::X);
+            let [r, s] = through(DVec3::new(angle.cos(), angle.sin(), 0.0)).map(|x| x + up);
+            (vec![p, q, falling(rng)], vec![r, s, rising(rng)])
+        }
+        Meeting::ParallelFaces => {
+            let tilt = DQuat::from_scaled_axis(magnitude(rng, -16.0, -9.0) * vector(rng));
+            let b = about(rng).map(|y| tilt * y);
+            // Lifted until its lowest corner is up at the gap.
+            let low = b.iter().map(|y| y.z).fold(f64::INFINITY, f64::min);
+            (about(rng).to_vec(), b.map(|y| y + up - low * DVec3::Z).to_vec())
+        }
+        Meeting::CornerEdge => {
+            let [p, q] = through(flat(rng).normalize());
+            (vec![p, q, falling(rng)], vec![up, rising(rng), rising(rng)])
+        }
+        Meeting::CornerCorner => (
+            vec![DVec3::ZERO, falling(rng), falling(rng)],
+            vec![up, rising(rng), rising(rng)],
+        ),
+    };
+    Scene::new(a, b).reframed(rng, 1.0)
+}
+
+/// Triangles that share a corner, an edge, or a plane, and nothing else.
+pub(super) fn touching(rng: &mut Pcg64) -> Scene {
+    let flat = |x: f64, y: f64| DVec3::new(x, y, 0.0);
+    let up = rng.random_range(0.1..1.0) * DVec3::Z;
+    let base = vec![flat(0.0, 0.0), flat(1.0, 0.0), flat(0.0, 1.0)];
+    let beside = flat(rng.random_range(-0.5..1.5), rng.random_range(-1.0..-0.1));
+    let b = match rng.random_range(0..6) {
+        // A corner on the inside, on an edge, on a corner.
+        0 => vec![flat(0.3, 0.3), beside + up, flat(0.1, 0.2) + up],
+        1 => vec![flat(0.5, 0.0), beside + up, beside + 2.0 * up + DVec3::X],
+        2 => vec![flat(1.0, 0.0), beside + up, flat(2.0, 0.5) + up],
+        // A whole edge, across and within the plane.
+        3 => vec![flat(0.0, 0.0), flat(1.0, 0.0), beside + up],
+        4 => vec![flat(0.0, 0.0), flat(1.0, 0.0), beside],
+        // Overlapping within the plane.
+        _ => vec![flat(0.2, 0.2), flat(0.9, 0.7), beside],
+    };
+    Scene::new(base, b)
+}
+
+/// Points, segments and triangles that are less than they seem: coinciding corners, corners on one
+/// line, needles.
+pub(super) fn degenerate(rng: &mut Pcg64) -> Scene {
+    let offset = rng.random_range(0.5..3.0) * vector(rng).normalize();
+    let piece = |rng: &mut Pcg64| -> Vec<DVec3> {
+        let (p, q) = (vector(rng), vector(rng));
+        let between = p.lerp(q, rng.random_range(0.0..1.0));
+        match rng.random_range(0..8) {
+            0 => vec![p],
+            1 => vec![p, q],
+            2 => vec![p, p],
+            3 => vec![p, p, p],
+            4 => vec![p, q, q],
+            5 => vec![p, q, between],
+            6 => vec![p, q, between + 1e-9 * vector(rng)],
+            _ => vec![p, q, q + 1e-9 * vector(rng)],
+        }
+    };
+    let b = piece(rng).iter().map(|y| *y + offset).collect();
+    Scene::new(piece(rng), b).reframed(rng, 1.0)
+}
+
+/// Boxes whose faces are parallel up to a tilt below rounding's reach, at the distance `gap`.
+pub(super) fn stacked_boxes(rng: &mut Pcg64, gap: f64) -> Scene {
+    let cuboid = |half: DVec3| -> Vec<DVec3> {
+        let sign = |k: usize, bit: usize| if k >> bit & 1 == 1 { 1.0 } else { -1.0 };
+        (0..8).map(|k| half * DVec3::new(sign(k, 0), sign(k, 1), sign(k, 2))).collect()
+    };
+    let turn = DQuat::from_rotation_z(rng.random_range(0.0..7.0));
+    let tilt = DQuat::from_rotation_x(magnitude(rng, -16.0, -10.0));
+    let b: Vec<DVec3> = cuboid(DVec3::new(0.4, 0.7, 0.5)).iter().map(|y| tilt * turn * *y).collect();
+    let low = b.iter().map(|y| y.z).fold(f64::INFINITY, f64::min);
+    let lift = DVec3::new(rng.random_range(-0.9..0.9), 0.3, 1.0 + gap - low);
+    let b = b.iter().map(|y| *y + lift).collect();
+    Scene::new(cuboid(DVec3::ONE), b).reframed(rng, 1.0)
+}
+
+/// Hulls of points on spheres, at the distance of about `gap`.
+pub(super) fn balls(rng: &mut Pcg64, count: usize, gap: f64) -> Scene {
+    let ball = |rng: &mut Pcg64| -> Vec<DVec3> {
+        (0..count).map(|_| vector(rng).normalize_or(DVec3::X)).collect()
+    };
+    let (a, offset) = (ball(rng), (2.0 + gap) * vector(rng).normalize());
+    let b = ball(rng).iter().map(|y| *y + offset).collect();
+    Scene::new(a, b).reframed(rng, 1.0)
+}

@@ -1,0 +1,60 @@
+//! The slow, obvious way: every point, edge and triangle that the points of a piece span.
+
+use ccd_core::glam::DVec3;
+
+/// The distance of two hulls of few points that do not intersect.
+pub(super) fn distance(a: &[DVec3], b: &[DVec3]) -> f64 {
+    let mut best = f64::INFINITY;
+    for &y in b {
+        best = best.min(from_point(y, a));
+    }
+    for &x in a {
+        best = best.min(from_point(x, b));
+    }
+    for [p, q] in edges(a) {
+        for [r, s] in edges(b) {
+            best = best.min(crossing(p, q, r, s).unwrap_or(best));
+        }
+    }
+    best
+}
+
+/// From a point to the nearest of the points, edges and triangles.
+fn from_point(x: DVec3, points: &[DVec3]) -> f64 {
+    let corners = points.iter().map(|p| p.distance(x));
+    let feet = edges(points).into_iter().filter_map(|[p, q]| {
+        let d = q - p;
+        let t = (x - p).dot(d) / d.length_squared();
+        (t > 0.0 && t < 1.0).then(|| (p + t * d).distance(x))
+    });
+    let faces = edges(points).into_iter().flat_map(|[p, q]| {
+        points.iter().filter_map(move |&r| above(x, p, q, r))
+    });
+    corners.chain(feet).chain(faces).fold(f64::INFINITY, f64::min)
+}
+
+/// The height of `x` above the inside of a triangle.
+fn above(x: DVec3, p: DVec3, q: DVec3, r: DVec3) -> Option<f64> {
+    let n = (q - p).cross(r - p);
+    let foot = x - (x - p).dot(n) / n.length_squared() * n;
+    let inside = [[p, q], [q, r], [r, p]]
+        .iter()
+        .all(|[s, t]| (t - s).cross(foot - s).dot(n) > 0.0);
+    inside.then(|| foot.distance(x))
+}
+
+/// The distance of two lines, where the common perpendicular meets both segments inside.
+fn crossing(p: DVec3, q: DVec3, r: DVec3, s: DVec3) -> Option<f64> {
+    let (d, e, w) = (q - p, s - r, r - p);
+    let n = d.cross(e);
+    let along_first = w.cross(e).dot(n) / n.length_squared();
+    let along_second = w.cross(d).dot(n) / n.length_squared();
+    let inside = |t: f64| t > 0.0 && t < 1.0;
+    (inside(along_first) && inside(along_second))
+        .then(|| (p + along_first * d).distance(r + along_second * e))
+}
+
+fn edges(points: &[DVec3]) -> Vec<[DVec3; 2]> {
+    let later = |k: usize| points[k + 1..].iter().map(move |&q| [points[k], q]);
+    (0..points.len()).flat_map(later).collect()
+}

@@ -1,0 +1,29 @@
+//! Whatever backend, schedule and kind of piece: the same answer, within the tolerance.
+
+use ccd_core::Outcome;
+use ccd_tests::backends::for_each_setup;
+use ccd_tests::referee::{Referee, Verdict};
+use ccd_tests::strategies::{cases, check_cases};
+
+#[test]
+fn all_setups_say_the_same_unless_it_is_within_the_tolerance() {
+    check_cases(80, cases(), |case| {
+        let query = case.query();
+        // As soon as the distance is the tolerance, contact is right; until it is 0, free is.
+        let first = Referee::with_margin(&query, case.tolerance).verdict();
+        let last = Referee::new(&query).verdict();
+        let mut seen = Vec::new();
+        for_each_setup(&query, &case.config(), |_, setup, answer| {
+            seen.push((setup, answer.outcome));
+        });
+        let clear = matches!(last, Verdict::Hit { .. }) || matches!(first, Verdict::Free { .. });
+        let same = |x: &Outcome, y: &Outcome| std::mem::discriminant(x) == std::mem::discriminant(y);
+        let differs = seen.iter().find(|s| !same(&s.1, &seen[0].1));
+        match differs {
+            Some(other) if clear && !matches!(first, Verdict::Start) => {
+                Err(format!("{:?}\nbut {other:?}", seen[0]))
+            }
+            _ => Ok(()),
+        }
+    });
+}

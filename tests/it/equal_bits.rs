@@ -1,0 +1,68 @@
+//! The same call gives the same bits, from a fresh schedule as from a used one.
+
+use ccd_core::schedule::{BestFirst, Naive};
+use ccd_core::{DistanceOracle, Schedule};
+use ccd_distance_gjk::{Auto, Direct, Gjk, GjkF32};
+use ccd_tests::backends::for_each_setup;
+use ccd_tests::case::Case;
+use ccd_tests::strategies::{cases, check_cases, runner};
+use proptest::strategy::{Strategy, ValueTree};
+
+#[test]
+fn every_setup_repeats_itself() {
+    check_cases(40, cases(), |case| {
+        let (query, config) = (case.query(), case.config());
+        let mut first = Vec::new();
+        for_each_setup(&query, &config, |_, _, answer| first.push(format!("{answer:?}")));
+        let mut first = first.into_iter();
+        let mut law = Ok(());
+        for_each_setup(&query, &config, |_, setup, answer| {
+            let (once, again) = (first.next(), format!("{answer:?}"));
+            if once.as_ref() != Some(&again) {
+                law = Err(format!("{setup:?}\n{once:?}\n{again}"));
+            }
+        });
+        law
+    });
+}
+
+/// Every oracle, kept with its schedule from query to query, against fresh ones.
+macro_rules! used_as_fresh {
+    ($($test:ident: $schedule:ident, $oracle:ty;)*) => {$(
+        #[test]
+        fn $test() {
+            used_as_fresh::<$oracle, $schedule<$oracle>>();
+        }
+    )*};
+}
+
+used_as_fresh! {
+    used_best_first_direct: BestFirst, Direct;
+    used_best_first_gjk: BestFirst, Gjk;
+    used_best_first_gjk_f32: BestFirst, GjkF32;
+    used_best_first_auto: BestFirst, Auto;
+    used_naive_direct: Naive, Direct;
+    used_naive_auto: Naive, Auto;
+}
+
+fn used_as_fresh<O: DistanceOracle + Default, S: Schedule<O> + Default>() {
+    let (mut schedule, mut oracle) = (S::default(), O::default());
+    for case in sample(24) {
+        let query = case.query();
+        let bodies = query.triangles();
+        if bodies.pairs() > 1_000 {
+            continue;
+        }
+        let problem = query.problem(&bodies, &case.config());
+        let used = schedule.solve(&problem, &mut oracle);
+        let fresh = S::default().solve(&problem, &mut O::default());
+        let (used, fresh) = (format!("{used:?}"), format!("{fresh:?}"));
+        assert_eq!(used, fresh, "{}", case.to_toml());
+    }
+}
+
+fn sample(count: u32) -> Vec<Case> {
+    let mut runner = runner(count);
+    let strategy = cases();
+    (0..count).map(|_| strategy.new_tree(&mut runner).expect("a case").current()).collect()
+}

@@ -1,0 +1,65 @@
+//! Random cases are worth running: each kind of outcome has its share of them.
+
+use ccd_tests::case::Case;
+use ccd_tests::checks::Judge;
+use ccd_tests::referee::Verdict;
+use ccd_tests::strategies::{cases, convex_cases, crowded_cases, remote_cases, runner};
+use proptest::strategy::{Strategy, ValueTree};
+
+#[test]
+fn cases_hit_and_miss() {
+    let shares = Shares::of(&cases());
+    assert!(shares.hits >= 60 && shares.misses >= 50, "{shares:?}");
+    assert!(shares.undecided <= 2, "{shares:?}");
+}
+
+#[test]
+fn convex_cases_hit_and_miss() {
+    let shares = Shares::of(&convex_cases());
+    assert!(shares.hits >= 60 && shares.misses >= 50, "{shares:?}");
+}
+
+#[test]
+fn crowded_cases_overlap() {
+    let shares = Shares::of(&crowded_cases());
+    assert!(shares.starts >= 50 && shares.nested >= 2 && shares.hits >= 20, "{shares:?}");
+}
+
+#[test]
+fn remote_cases_hit_and_miss() {
+    let shares = Shares::of(&remote_cases());
+    assert!(shares.hits >= 60 && shares.misses >= 50, "{shares:?}");
+}
+
+/// How many of 200 cases end how.
+#[derive(Debug, Default)]
+struct Shares {
+    hits: u32,
+    misses: u32,
+    starts: u32,
+    nested: u32,
+    near: u32,
+    undecided: u32,
+}
+
+impl Shares {
+    fn of(strategy: &impl Strategy<Value = Case>) -> Shares {
+        let mut shares = Shares::default();
+        let mut runner = runner(1);
+        for _ in 0..200 {
+            let case = strategy.new_tree(&mut runner).expect("a case").current();
+            let query = case.query();
+            let judge = Judge::new(&query, &case.config());
+            let share = match judge.verdict() {
+                _ if judge.nested() => &mut shares.nested,
+                Verdict::Start => &mut shares.starts,
+                Verdict::Hit { .. } => &mut shares.hits,
+                Verdict::Free { .. } => &mut shares.misses,
+                Verdict::Near { .. } => &mut shares.near,
+                Verdict::Undecided { .. } => &mut shares.undecided,
+            };
+            *share += 1;
+        }
+        shares
+    }
+}

@@ -1,0 +1,59 @@
+//! The models are what they are called: closed where they should be, convex parts within.
+
+use ccd_core::glam::DVec3;
+use ccd_tests::models::{Mesh, Shape, cuboid, icosphere, l_prism, post, torus, torus_knot};
+use std::collections::HashMap;
+
+fn closed_models() -> Vec<(&'static str, Shape)> {
+    vec![
+        ("cuboid", cuboid(DVec3::new(1.0, 2.0, 3.0))),
+        ("icosphere", icosphere(1.0, 2)),
+        ("L-prism", l_prism()),
+        ("post", post(1.3, 1.0)),
+        ("torus", torus(1.0, 0.25, 24, 8)),
+        ("torus knot", torus_knot(48, 6)),
+    ]
+}
+
+#[test]
+fn every_edge_of_a_closed_model_has_two_faces_that_run_along_it_either_way() {
+    for (name, shape) in closed_models() {
+        let mut edges: HashMap<(u32, u32), i32> = HashMap::new();
+        for face in &shape.mesh.faces {
+            for k in 0..3 {
+                let (v, w) = (face[k], face[(k + 1) % 3]);
+                *edges.entry((v.min(w), v.max(w))).or_default() += if v < w { 1 } else { 10 };
+            }
+        }
+        assert!(edges.values().all(|&count| count == 11), "{name} is not closed");
+    }
+}
+
+#[test]
+fn closed_models_are_not_inside_out() {
+    let volume = |mesh: &Mesh| -> f64 {
+        let of_face = |face| {
+            let [a, b, c] = mesh.triangle(face);
+            a.dot(b.cross(c)) / 6.0
+        };
+        (0..mesh.faces.len()).map(of_face).sum()
+    };
+    for (name, shape) in closed_models() {
+        assert!(volume(&shape.mesh) > 0.0, "{name}: {}", volume(&shape.mesh));
+    }
+    assert!((volume(&l_prism().mesh) - 3.0).abs() < 1e-12);
+}
+
+#[test]
+fn parts_have_their_points_behind_their_facets() {
+    for (name, shape) in closed_models() {
+        for part in &shape.parts {
+            for facet in &part.facets {
+                let corner = |k: usize| part.points[facet.corners[k] as usize];
+                let normal = (corner(1) - corner(0)).cross(corner(2) - corner(0));
+                let height = |p: &DVec3| normal.dot(*p - corner(0));
+                assert!(part.points.iter().all(|p| height(p) <= 1e-12), "{name}: {facet:?}");
+            }
+        }
+    }
+}

@@ -1,0 +1,37 @@
+//! A smaller tolerance answers later, or not at all.
+
+use ccd_core::{Answer, Config, Outcome};
+use ccd_tests::backends::default_answer;
+use ccd_tests::strategies::{cases, check_cases};
+
+#[test]
+fn a_smaller_tolerance_is_never_earlier() {
+    check_cases(120, cases(), |case| {
+        let query = case.query();
+        let mut last: Option<(f64, Answer)> = None;
+        for tolerance in [1e-1, 1e-3, 1e-5, 1e-7] {
+            let config = Config {
+                tolerance,
+                ..case.config()
+            };
+            let answer = default_answer(&query, &config);
+            let time = contact_time(&answer)?;
+            if let Some((before, coarse)) = last.replace((time, answer))
+                && time < before
+            {
+                return Err(format!("{time} < {before}\n{coarse:?}\n{answer:?}"));
+            }
+        }
+        Ok(())
+    });
+}
+
+/// When a contact is reported; never, for free.
+fn contact_time(answer: &Answer) -> Result<f64, String> {
+    match answer.outcome {
+        Outcome::Contact { time, .. } => Ok(time),
+        Outcome::Free { .. } => Ok(f64::INFINITY),
+        Outcome::Touching { .. } | Outcome::Overlapping { .. } => Ok(0.0),
+        Outcome::Unresolved { .. } => Err(format!("{answer:?}")),
+    }
+}

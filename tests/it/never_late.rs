@@ -1,0 +1,51 @@
+//! Never late, never false, tight: random cases against the independent referee.
+
+use ccd_tests::backends::{Backend, for_each_setup};
+use ccd_tests::case::Case;
+use ccd_tests::checks::{Judge, Law};
+use ccd_tests::strategies::{cases, check_cases, convex_cases, crowded_cases, remote_cases};
+
+#[test]
+fn triangles_of_any_shape() {
+    check_cases(250, cases(), |case| {
+        let query = case.query();
+        let judge = Judge::new(&query, &case.config());
+        let bodies = query.triangles();
+        let answer = Backend::DEFAULT.solve(&query.problem(&bodies, &case.config()));
+        judge.check(&answer, &bodies)
+    });
+}
+
+#[test]
+fn every_setup_of_any_shape() {
+    check_cases(60, cases(), every_setup);
+}
+
+#[test]
+fn every_setup_of_convex_shapes() {
+    check_cases(60, convex_cases(), every_setup);
+}
+
+#[test]
+fn every_setup_near_and_overlapping() {
+    check_cases(60, crowded_cases(), every_setup);
+}
+
+#[test]
+fn every_setup_far_away_tiny_and_huge() {
+    check_cases(60, remote_cases(), every_setup);
+}
+
+fn every_setup(case: &Case) -> Law {
+    let query = case.query();
+    let judge = Judge::new(&query, &case.config());
+    let mut law = Ok(());
+    for_each_setup(&query, &case.config(), |bodies, setup, answer| {
+        if law.is_ok() {
+            law = judge
+                .check(&answer, bodies)
+                .map_err(|why| format!("{why}\n{setup:?}\n{answer:?}"));
+        }
+    });
+    law
+}

@@ -1,0 +1,78 @@
+//! The referee itself, against closed forms: it is the yardstick of everything else.
+
+use ccd_tests::analytic::{Expect, scenes};
+use ccd_tests::models::{Mesh, cuboid};
+use ccd_tests::query::{Actor, Query};
+use ccd_tests::referee::{Referee, Verdict, contains};
+use ccd_core::glam::DVec3;
+
+#[test]
+fn it_brackets_every_closed_form() {
+    let meshed = |scene: &ccd_tests::analytic::Scene| !scene.query.a.shape.mesh.faces.is_empty();
+    for scene in scenes().iter().filter(|scene| meshed(scene)) {
+        let referee = Referee::new(&scene.query);
+        let verdict = referee.verdict();
+        let name = &scene.name;
+        match (&scene.expect, verdict) {
+            (Expect::Hit { earliest, latest }, Verdict::Hit { lo, hi }) => {
+                assert!(lo <= latest + 1e-12, "{name}: {lo} > {latest}");
+                assert!(hi >= earliest(0.0) - 1e-12, "{name}: {hi} < {}", earliest(0.0));
+                assert!(hi - lo <= 1e-4, "{name}: {lo} to {hi}");
+            }
+            (Expect::Free { gap }, Verdict::Free { gap: seen }) => {
+                assert!(seen >= gap - scene.query.rounding(), "{name}: {seen} < {gap}");
+            }
+            // Within the referee's own resolution of touching.
+            (Expect::Free { gap }, Verdict::Near { .. }) => assert!(*gap <= 2e-9, "{name}"),
+            // Grazes in so short a time that it is not seen to intersect.
+            (Expect::Hit { latest, .. }, Verdict::Near { lo }) => {
+                assert!(lo <= latest + 1e-12, "{name}: {lo} > {latest}");
+            }
+            (Expect::Overlap, Verdict::Start) | (Expect::Unknown, _) => {}
+            (Expect::Overlap, _) => assert!(referee.nested(0.0), "{name}: {verdict:?}"),
+            (_, verdict) => panic!("{name}: {verdict:?}"),
+        }
+    }
+}
+
+#[test]
+fn the_screw_turns_freely_by_its_own_pitch_only() {
+    for scene in scenes().iter().filter(|scene| scene.name.starts_with("T18")) {
+        let verdict = Referee::new(&scene.query).verdict();
+        let free = matches!(verdict, Verdict::Free { .. });
+        assert_eq!(free, scene.name.contains("right"), "{}: {verdict:?}", scene.name);
+    }
+}
+
+#[test]
+fn the_cuboids_in_the_distance_collide() {
+    let scene = scenes().into_iter().find(|scene| scene.name.starts_with("T26")).expect("T26");
+    let verdict = Referee::new(&scene.query).verdict();
+    assert!(matches!(verdict, Verdict::Hit { .. }), "{verdict:?}");
+}
+
+#[test]
+fn distances_of_boxes() {
+    let gap = |offset: DVec3| {
+        let query = Query {
+            a: Actor::still(cuboid(DVec3::splat(0.5)), DVec3::ZERO),
+            b: Actor::still(cuboid(DVec3::splat(0.5)), offset),
+            duration: 1.0,
+        };
+        Referee::new(&query).gap(0.0)
+    };
+    let close = |x: f64, y: f64| assert!((x - y).abs() < 1e-14, "{x} is not {y}");
+    close(gap(3.0 * DVec3::X), 2.0);
+    close(gap(DVec3::new(2.0, 2.0, 0.3)), 2.0_f64.sqrt());
+    close(gap(DVec3::splat(2.0)), 3.0_f64.sqrt());
+    close(gap(DVec3::new(0.7, 0.1, 0.2)), 0.0);
+}
+
+#[test]
+fn winding_tells_inside_from_outside() {
+    let Mesh { vertices, .. } = cuboid(DVec3::ONE).mesh;
+    let mesh = cuboid(DVec3::ONE).mesh;
+    for (p, inside) in [(DVec3::ZERO, true), (0.99 * DVec3::ONE, true), (1.01 * DVec3::X, false)] {
+        assert_eq!(contains(&mesh, &vertices, p), inside, "{p}");
+    }
+}

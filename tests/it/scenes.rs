@@ -1,0 +1,127 @@
+//! Every scene with a closed-form answer, over every setup and tolerance, in both orders.
+
+use ccd_core::{Answer, Config, Outcome};
+use ccd_tests::analytic::{Expect, Scene, scenes_named};
+use ccd_tests::backends::{Setup, for_each_setup};
+use ccd_tests::checks::{Judge, Law, check_contact};
+use ccd_tests::query::Bodies;
+use ccd_tests::tolerance::CLOSED_FORM;
+
+/// One test per group of scenes, by the beginning of their names.
+macro_rules! groups {
+    ($($test:ident: $prefix:literal,)*) => {$(
+        #[test]
+        fn $test() {
+            check_group($prefix);
+        }
+    )*};
+}
+
+groups! {
+    t01_falling_cube: "T1 ",
+    t02_rod_on_slab: "T2 ",
+    t03_pre_rotated_rod: "T3 ",
+    t04_rod_by_any_turn: "T4 ",
+    t05_grazing_hit: "T5 ",
+    t06_grazing_miss: "T6 ",
+    t07_parallel_edges: "T7 ",
+    t08_edge_on_edge: "T8 ",
+    t09_mace: "T9 ",
+    t10_sliding: "T10 ",
+    t12_peg_in_hole: "T12 ",
+    t13_bullet: "T13 ",
+    t14_two_rods: "T14 ",
+    t15_hooks: "T15 ",
+    t16_slit: "T16 ",
+    t17_linked_tori: "T17 ",
+    t18_screw: "T18 ",
+    t19_combs: "T19 ",
+    t20_far_and_scaled: "T20 ",
+    t21_degenerate: "T21 ",
+    t22_icosphere: "T22 ",
+    t24_overlap: "T24 ",
+    t25_hardly_moving: "T25 ",
+    t26_coordinates_of_thousands: "T26 ",
+    plates: "plates",
+    turntable: "turntable",
+    balls: "ball",
+    capsule: "capsule",
+    rounded_box: "rounded",
+}
+
+fn check_group(prefix: &str) {
+    let scenes = scenes_named(prefix);
+    assert!(!scenes.is_empty(), "no scene is called {prefix}");
+    for scene in &scenes {
+        for tolerance in [1e-3, 1e-6, 1e-9] {
+            check_scene(scene, tolerance);
+        }
+    }
+}
+
+fn check_scene(scene: &Scene, tolerance: f64) {
+    let size = scene.query.a.reach(0.0).min(1.0);
+    let config = Config {
+        // A scene that is smaller than a unit gets a tolerance that is, too.
+        tolerance: tolerance * size,
+        ..Config::default()
+    };
+    let swapped = Scene {
+        name: format!("{}, swapped", scene.name),
+        query: scene.query.swapped(),
+        expect: Expect::Unknown,
+    };
+    for (scene, expect) in [(scene, &scene.expect), (&swapped, &scene.expect)] {
+        let judge = Judge::new(&scene.query, &config);
+        for_each_setup(&scene.query, &config, |bodies, setup, answer| {
+            if let Err(why) = check_answer(&judge, scene, expect, (bodies, &answer)) {
+                fail(scene, setup, &answer, &why);
+            }
+        });
+    }
+}
+
+fn fail(scene: &Scene, setup: Setup, answer: &Answer, why: &str) -> ! {
+    let (a, b) = (&scene.query.a.motion, &scene.query.b.motion);
+    panic!("{}: {why}\n{setup:?}\n{answer:?}\n{a:?}\n{b:?}", scene.name);
+}
+
+fn check_answer(
+    judge: &Judge<'_>,
+    scene: &Scene,
+    expect: &Expect,
+    (bodies, answer): (&Bodies, &Answer),
+) -> Law {
+    let meshed = !scene.query.a.shape.mesh.faces.is_empty();
+    if meshed {
+        judge.check(answer, bodies)?;
+    } else if let Outcome::Contact { time, contact } = &answer.outcome {
+        let reach = answer.tolerance + scene.query.rounding();
+        check_contact(&scene.query, *time, contact, bodies, reach)?;
+    }
+    let (duration, rounding) = (scene.query.duration, scene.query.rounding());
+    match (expect, &answer.outcome) {
+        (Expect::Hit { earliest, latest }, Outcome::Contact { time, .. }) => {
+            if *time > latest + CLOSED_FORM * duration {
+                return Err(format!("late: {time} > {latest}"));
+            }
+            let earliest = earliest(answer.tolerance + rounding) - CLOSED_FORM * duration;
+            if *time < earliest {
+                return Err(format!("loose: {time} < {earliest}"));
+            }
+        }
+        (Expect::Free { gap }, Outcome::Free { clearance }) => {
+            if *clearance > gap + rounding {
+                return Err(format!("a clearance of {clearance} at a distance of {gap}"));
+            }
+        }
+        // Nearer than the tolerance is as good as touching.
+        (Expect::Free { gap }, Outcome::Contact { .. } | Outcome::Touching { .. })
+            if *gap <= answer.tolerance + rounding => {}
+        (Expect::Overlap, Outcome::Overlapping { .. }) | (Expect::Unknown, _) => {}
+        (Expect::Hit { latest, .. }, _) => return Err(format!("there is a hit at {latest}")),
+        (Expect::Free { gap }, _) => return Err(format!("the bodies stay {gap} apart")),
+        (Expect::Overlap, _) => return Err("the bodies overlap".into()),
+    }
+    Ok(())
+}

@@ -1,0 +1,60 @@
+//! What must not matter: the order of the bodies, the frame they are seen from, the arrow of time.
+
+use ccd_core::glam::DVec3;
+use ccd_core::{Outcome, Pose};
+use ccd_tests::backends::default_answer;
+use ccd_tests::checks::Judge;
+use ccd_tests::strategies::{cases, check_cases, direction, rotation};
+use ccd_tests::strategies::runner;
+use proptest::prelude::*;
+
+#[test]
+fn bodies_may_be_swapped() {
+    check_cases(120, cases(), |case| {
+        let query = case.query();
+        let judge = Judge::new(&query, &case.config());
+        let (here, there) = (
+            default_answer(&query, &case.config()),
+            default_answer(&query.swapped(), &case.config()),
+        );
+        judge.check_time(&here, 0.0)?;
+        judge.check_time(&there, 0.0).map_err(|why| format!("swapped: {why}\n{there:?}"))
+    });
+}
+
+#[test]
+fn both_may_be_seen_from_any_frame() {
+    let frames = (cases(), direction(), -1.0..6.0f64, rotation());
+    let law = |(case, towards, far, rotation): (ccd_tests::case::Case, DVec3, f64, _)| {
+        let query = case.query();
+        let frame = Pose::new(10.0f64.powf(far) * towards, rotation).expect("a pose");
+        let moved = query.seen_from(&frame);
+        let judge = Judge::new(&query, &case.config());
+        let answer = default_answer(&moved, &case.config());
+        judge
+            .check_time(&answer, moved.rounding())
+            .map_err(|why| TestCaseError::fail(format!("{why}\n{answer:?}\n{}", case.to_toml())))
+    };
+    if let Err(error) = runner(120).run(&frames, law) {
+        panic!("{error}");
+    }
+}
+
+#[test]
+fn free_run_backwards_is_free() {
+    check_cases(150, cases(), |case| {
+        let query = case.query();
+        let forwards = default_answer(&query, &case.config());
+        if !matches!(forwards.outcome, Outcome::Free { .. }) {
+            return Ok(());
+        }
+        let reversed = query.reversed();
+        let backwards = default_answer(&reversed, &case.config());
+        // A contact is right only where the bodies are within the tolerance of each other.
+        Judge::new(&reversed, &case.config()).check_time(&backwards, query.rounding())?;
+        match backwards.outcome {
+            Outcome::Free { .. } | Outcome::Contact { .. } | Outcome::Touching { .. } => Ok(()),
+            other => Err(format!("free forwards, but {other:?} backwards")),
+        }
+    });
+}
