@@ -173,7 +173,10 @@ struct CannotWrite {
 
 /// Runs the command that the process was started with.
 pub fn main() -> ExitCode {
-    let outcome = match Cli::parse().command.unwrap_or_else(|| Command::Demo(DemoArgs::default())) {
+    let outcome = match Cli::parse()
+        .command
+        .unwrap_or_else(|| Command::Demo(DemoArgs::default()))
+    {
         Command::Demo(args) => run_demo(args),
         Command::Query(args) => query::run(&args),
     };

@@ -115,7 +115,10 @@ fn measure(scene: &Scene, progress: &Progress) -> Result<Vec<Measurement>, DemoE
     let mut reference: Option<Vec<Timed>> = None;
     let mut measurements = Vec::new();
     for method in methods(scene) {
-        progress.say(&format!("{}: {} {}", scene.name, method.schedule, method.oracle));
+        progress.say(&format!(
+            "{}: {} {}",
+            scene.name, method.schedule, method.oracle
+        ));
         let settings = Settings {
             method,
             ..Settings::default()

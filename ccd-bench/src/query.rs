@@ -71,7 +71,10 @@ pub fn run<'q>(
     let solver = || settings.method.solver();
     if settings.threads == NonZeroUsize::MIN {
         let mut solver = solver();
-        return Ok(queries.iter().map(|query| answer(&mut solver, query)).collect());
+        return Ok(queries
+            .iter()
+            .map(|query| answer(&mut solver, query))
+            .collect());
     }
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(settings.threads.get())

@@ -102,8 +102,8 @@ impl Models {
         let loaded = model
             .load(self.directory.as_deref())
             .map_err(|error| failed(error.into()))?;
-        let prepared = body_from_mesh(&loaded.mesh, Detail::Auto)
-            .map_err(|error| failed(error.into()))?;
+        let prepared =
+            body_from_mesh(&loaded.mesh, Detail::Auto).map_err(|error| failed(error.into()))?;
         let body = SceneBody {
             body: Arc::new(prepared.body),
             triangles: loaded.mesh.faces().len(),
@@ -146,7 +146,7 @@ fn bunnies(models: &mut Models) -> Result<Scene, SceneError> {
         count: 250,
         translations: 100,
         distance: 2.6..3.2,
-        aside: 1.2,
+        aside: 1.6,
         seed: 2,
     };
     Ok(Scene {
@@ -164,7 +164,7 @@ fn knots(models: &mut Models, model: Model) -> Result<Scene, SceneError> {
         count: 250,
         translations: 100,
         distance: 3.0..3.8,
-        aside: 1.3,
+        aside: 2.3,
         seed: 3,
     };
     Ok(Scene {
@@ -185,12 +185,7 @@ fn falling_rings(models: &mut Models) -> Result<Scene, SceneError> {
     falling(models, Model::Ring, "falling rings", 5)
 }
 
-fn falling(
-    models: &mut Models,
-    model: Model,
-    name: &str,
-    seed: u64,
-) -> Result<Scene, SceneError> {
+fn falling(models: &mut Models, model: Model, name: &str, seed: u64) -> Result<Scene, SceneError> {
     let body = models.body(model)?;
     let fall = Fall {
         drops: 8,

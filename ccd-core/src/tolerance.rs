@@ -102,3 +102,12 @@ pub const WORTHWHILE: f64 = 1.0 / 64.0;
 /// in contact may come before it counts as approaching. Four cover the rounding of both distances,
 /// and what a rate of zero picks up by rounding over the whole duration.
 pub const RESTING: f64 = 4.0;
+
+/// How far apart two nodes have to be, in units of their radii, for a second look at them to be
+/// worth more than a split. Measured: 0.5 serves meshes on meshes as well as meshes on a thin board;
+/// less makes large nodes creep past each other, more splits what only passes.
+pub const LOOK_AGAIN: f32 = 0.5;
+
+/// How much of a node's radius counts as thickness along any axis when the thicker one of two nodes
+/// is chosen to be split: flat nodes that are seen edge-on are to be split as well.
+pub const THICKNESS: f32 = 0.1;

@@ -52,22 +52,25 @@ impl Boundable for Box3 {
 /// The boxes of all pieces in single precision, moved and scaled so that the whole fills a unit: far
 /// from the origin, or tiny, single precision would not tell them apart.
 fn unit_boxes(pieces: &Pieces) -> Vec<Box3> {
-    let bounds = |points: &[DVec3], radius: f64| {
-        let empty = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-        let fold = |(lo, hi): (DVec3, DVec3), &p: &DVec3| (lo.min(p), hi.max(p));
-        let (lo, hi) = points.iter().fold(empty, fold);
-        (lo - radius, hi + radius)
-    };
-    let (lo, hi) = bounds(pieces.points(), 0.0);
-    let length = (hi - lo).max_element();
-    let scale = if length > 0.0 { length.recip() } else { 1.0 };
-    let unit = |p: DVec3| -> Vec3A { ((p - lo) * scale).as_vec3a() };
-    pieces
+    let empty = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    let include = |(lo, hi): (DVec3, DVec3), p: DVec3| (lo.min(p), hi.max(p));
+    let bounds = |points: &[DVec3]| points.iter().copied().fold(empty, include);
+    let boxes: Vec<(DVec3, DVec3)> = pieces
         .iter()
         .map(|piece| {
-            let (lo, hi) = bounds(piece.points, piece.radius);
-            Box3(Aabb::new(unit(lo), unit(hi)))
+            let (lo, hi) = bounds(piece.points);
+            (lo - piece.radius, hi + piece.radius)
         })
+        .collect();
+    let (lo, hi) = boxes
+        .iter()
+        .fold(empty, |all, &(lo, hi)| include(include(all, lo), hi));
+    // Too short a length has no reciprocal.
+    let scale = Some((hi - lo).max_element().recip()).filter(|s| s.is_finite());
+    let unit = |p: DVec3| -> Vec3A { ((p - lo) * scale.unwrap_or(1.0)).as_vec3a() };
+    boxes
+        .iter()
+        .map(|&(lo, hi)| Box3(Aabb::new(unit(lo), unit(hi))))
         .collect()
 }
 

@@ -97,7 +97,11 @@ pub(crate) fn collapsed_faces(faces: &[[u32; 3]], positions: &[u32]) -> Vec<bool
         covered.extend(pairs.map(|(v, w)| (v.min(w), v.max(w))));
         covered.len() > before
     };
-    for face in faces.iter().map(welded).filter(|&face| !has_collapsed(face)) {
+    for face in faces
+        .iter()
+        .map(welded)
+        .filter(|&face| !has_collapsed(face))
+    {
         cover(face);
     }
     // Segments before points, so that a point at the end of a kept segment is covered, whichever of

@@ -4,7 +4,7 @@
 ///
 /// Unit: pieces. Larger: better trees by a few percent, but pieces with one common centre take time
 /// that grows with it.
-pub(crate) const AGGLOMERATED_PIECES: usize = 1024;
+pub(crate) const AGGLOMERATED_PIECES: usize = 256;
 
 /// After so many passes of agglomeration a node looks for its neighbour farther than one place away.
 ///
@@ -14,4 +14,4 @@ pub(crate) const SEARCH_DEPTH: usize = 2;
 /// The share of the nodes, the largest first, that are tried at a better place in the tree.
 ///
 /// Unit: one. Larger: better trees by a percent for every doubling, but slower to build.
-pub(crate) const REINSERTED_SHARE: f32 = 0.05;
+pub(crate) const REINSERTED_SHARE: f32 = 0.02;

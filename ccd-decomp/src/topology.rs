@@ -106,7 +106,9 @@ fn edge_uses(mesh: &TriangleMesh) -> impl Iterator<Item = (Edge, usize, usize)> 
     let mut at = 0;
     std::iter::from_fn(move || {
         let &(v, w) = uses.get(at)?;
-        let same = uses[at..].iter().take_while(|u| u.0 == v && u.1 >> 1 == w >> 1);
+        let same = uses[at..]
+            .iter()
+            .take_while(|u| u.0 == v && u.1 >> 1 == w >> 1);
         let (mut forward, mut backward) = (0, 0);
         for (_, w) in same {
             match w & 1 {

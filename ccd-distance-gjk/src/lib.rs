@@ -1,5 +1,4 @@
 //! WIP
-mod axis;
 mod direct;
 mod gjk;
 mod lanes;

@@ -135,8 +135,8 @@ fn random<O: DistanceOracle + Default>(a: usize, b: usize) {
     over(|rng| scene::random(rng, a, b), law);
     let share = f64::from(apart.get()) / CASES as f64;
     assert!((0.3..=1.0).contains(&share), "{share} are apart");
-    // Points and solids intersect in hits; edges and points among themselves almost never do.
-    assert!(a + b < 5 || share < 0.97, "{share} are apart");
+    // A point or an edge hardly ever hits.
+    assert!(a < 3 || share < 0.97, "{share} are apart");
 }
 
 fn near_contact<O: DistanceOracle + Default>(meeting: Meeting, gap: f64) {

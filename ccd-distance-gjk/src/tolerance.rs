@@ -38,3 +38,8 @@ pub(crate) const TOUCHING_ULPS: f32 = 4.0;
 /// A volume below it has no sign; without this a flat tetrahedron beside the origin may pass for
 /// one around it.
 pub(crate) const VOLUME_ULPS: f32 = 8.0;
+
+/// How many vertices of the difference are weighed against each other when an axis is made of
+/// features: three hold the nearest point, the others are those that an axis tried before ran into.
+/// Corners of meshes join 3 to 10 edges.
+pub(crate) const SHARPEN_CAP: usize = 12;

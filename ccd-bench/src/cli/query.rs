@@ -103,7 +103,8 @@ impl Pair {
         let source_b = source(&args.b).context("--b")?;
         let detail = Detail::from(args.pieces);
         let load = |option: &str, source: &BodySource, text: &str| -> Result<Body> {
-            let Prepared { body, report } = source.load(detail).with_context(|| option.to_owned())?;
+            let Prepared { body, report } =
+                source.load(detail).with_context(|| option.to_owned())?;
             if !args.quiet {
                 let _ = writeln!(io::stderr(), "{option} {text}: {report}");
             }

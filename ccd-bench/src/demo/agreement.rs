@@ -29,7 +29,9 @@ fn agree(query: &Query, one: &Answer, other: &Answer) -> bool {
         (Some(one), Some(other)) => {
             let apart = (one.time - other.time).abs();
             // Written so that NaN disagrees.
-            apart <= crossing_time(query, &one, tolerance).max(crossing_time(query, &other, tolerance))
+            apart
+                <= crossing_time(query, &one, tolerance)
+                    .max(crossing_time(query, &other, tolerance))
         }
         (Some(_), None) => grazes(&other.outcome, tolerance),
         (None, Some(_)) => grazes(&one.outcome, tolerance),

@@ -52,13 +52,21 @@ fn cells(scene: &Scene, measurement: &Measurement) -> [String; HEADER.len()] {
     let others = [Status::Touching, Status::Overlapping, Status::Unresolved];
     [
         scene.name.clone(),
-        format!("{} × {}", triangles(scene.a.triangles), triangles(scene.b.triangles)),
+        format!(
+            "{} × {}",
+            triangles(scene.a.triangles),
+            triangles(scene.b.triangles)
+        ),
         summary.rows().to_string(),
         measurement.method.schedule.to_string(),
         measurement.method.oracle.to_string(),
         summary.count(Status::Contact).to_string(),
         summary.count(Status::Free).to_string(),
-        others.map(|s| summary.count(s)).iter().sum::<usize>().to_string(),
+        others
+            .map(|s| summary.count(s))
+            .iter()
+            .sum::<usize>()
+            .to_string(),
         format!("{:.1}", summary.median_micros),
         format!("{:.1}", summary.mean_micros),
         format!("{:.1}", summary.p95_micros),
@@ -88,7 +96,11 @@ pub(super) fn write_notes(
     measured: &[(&Scene, Vec<Measurement>)],
     output: &mut dyn io::Write,
 ) -> io::Result<()> {
-    let stands_in = |scene: &Scene| [&scene.a, &scene.b].iter().any(|b| b.origin == Origin::StandIn);
+    let stands_in = |scene: &Scene| {
+        [&scene.a, &scene.b]
+            .iter()
+            .any(|b| b.origin == Origin::StandIn)
+    };
     let all = measured.iter().flat_map(|(_, measurements)| measurements);
     let contradictions: usize = all.filter_map(|m| m.disagreements).sum();
     writeln!(

@@ -4,9 +4,8 @@ use std::collections::HashSet;
 /// Six times the volume that a mesh encloses, if it is closed.
 fn volume(mesh: &TriangleMesh) -> f64 {
     let v = mesh.vertices();
-    let tetrahedron = |[a, b, c]: &[u32; 3]| {
-        v[*a as usize].dot(v[*b as usize].cross(v[*c as usize])) / 6.0
-    };
+    let tetrahedron =
+        |[a, b, c]: &[u32; 3]| v[*a as usize].dot(v[*b as usize].cross(v[*c as usize])) / 6.0;
     mesh.faces().iter().map(tetrahedron).sum()
 }
 
@@ -24,7 +23,10 @@ fn assert_closed(mesh: &TriangleMesh, name: &str) {
 }
 
 fn bounding_radius(mesh: &TriangleMesh) -> f64 {
-    mesh.vertices().iter().map(|p| p.length()).fold(0.0, f64::max)
+    mesh.vertices()
+        .iter()
+        .map(|p| p.length())
+        .fold(0.0, f64::max)
 }
 
 #[test]
@@ -44,7 +46,12 @@ fn triangle_counts_are_those_of_the_paper() {
     for (model, triangles) in expected {
         let mesh = model.generate().unwrap();
         assert_eq!(mesh.faces().len(), triangles, "{}", model.name());
-        assert!(mesh.repairs().is_empty(), "{}: {}", model.name(), mesh.repairs());
+        assert!(
+            mesh.repairs().is_empty(),
+            "{}: {}",
+            model.name(),
+            mesh.repairs()
+        );
     }
 }
 
@@ -129,7 +136,11 @@ fn blobs_are_neither_convex_nor_larger_than_1() {
             })
             .count();
         // A convex body has no vertex in front of a face.
-        assert!(2 * inwards > mesh.faces().len(), "{}: {inwards}", model.name());
+        assert!(
+            2 * inwards > mesh.faces().len(),
+            "{}: {inwards}",
+            model.name()
+        );
     }
 }
 

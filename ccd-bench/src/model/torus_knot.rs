@@ -48,5 +48,9 @@ fn frame(t: f64) -> (DVec3, DVec3, DVec3) {
     let normal = cos_b * outward + sin_b * DVec3::Z;
     let velocity = TURNS * (radius + tube * cos_b) * around
         + WINDINGS * tube * (cos_b * DVec3::Z - sin_b * outward);
-    (radius * outward + tube * normal, velocity.normalize(), normal)
+    (
+        radius * outward + tube * normal,
+        velocity.normalize(),
+        normal,
+    )
 }

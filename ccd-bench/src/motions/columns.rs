@@ -85,7 +85,9 @@ impl Columns {
 
     /// What a row says of a column; an empty cell says nothing.
     pub(super) fn cell<'r>(&self, record: &'r csv::StringRecord, slot: usize) -> Option<&'r str> {
-        record.get(self.cells[slot]?).filter(|cell| !cell.is_empty())
+        record
+            .get(self.cells[slot]?)
+            .filter(|cell| !cell.is_empty())
     }
 }
 

@@ -97,7 +97,10 @@ impl fmt::Display for RowProblem {
         match self {
             Self::Unreadable(why) => write!(f, "cannot be read: {why}"),
             Self::WrongLength { cells, columns } => {
-                write!(f, "has {cells} cells where the header names {columns} columns")
+                write!(
+                    f,
+                    "has {cells} cells where the header names {columns} columns"
+                )
             }
             Self::NotANumber { column, value } => {
                 write!(f, "column {column}: `{value}` is not a finite number")

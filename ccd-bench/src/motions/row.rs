@@ -1,8 +1,8 @@
 //! One row of the table, as the motions of two bodies.
 
+use super::Query;
 use super::columns::{Columns, DURATION, ID, Quantity, Side, slots};
 use super::error::RowProblem;
-use super::Query;
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{InputError, Motion, Pose};
 use std::ops::Range;
@@ -133,10 +133,7 @@ impl Row<'_> {
         Ok(Some(parts.map(Option::unwrap_or_default)))
     }
 
-    fn numbers<const N: usize>(
-        &self,
-        slots: Range<usize>,
-    ) -> Result<[Option<f64>; N], RowProblem> {
+    fn numbers<const N: usize>(&self, slots: Range<usize>) -> Result<[Option<f64>; N], RowProblem> {
         let mut out = [None; N];
         for (number, slot) in out.iter_mut().zip(slots) {
             *number = self.number(slot)?;

@@ -49,7 +49,10 @@ fn every_column_reaches_its_quantity() {
         "a_px,a_py,a_pz,a_vx,a_vy,a_vz,a_wx,a_wy,a_wz,a_cx,a_cy,a_cz,duration\n\
          1,2,3,4,5,6,7,8,9,10,11,12,13\n",
     );
-    assert_eq!(velocities.a.start().translation(), DVec3::new(1.0, 2.0, 3.0));
+    assert_eq!(
+        velocities.a.start().translation(),
+        DVec3::new(1.0, 2.0, 3.0)
+    );
     assert_eq!(velocities.a.velocity(), DVec3::new(4.0, 5.0, 6.0));
     assert_eq!(velocities.a.spin(), DVec3::new(7.0, 8.0, 9.0));
     assert_eq!(velocities.a.centre(), DVec3::new(10.0, 11.0, 12.0));
@@ -60,15 +63,26 @@ fn every_column_reaches_its_quantity() {
          0,1,0,0,1,2,3,0,0,1,0\n",
     );
     let end = poses.b.pose(1.0);
-    assert_eq!(poses.b.start().rotation(), DQuat::from_xyzw(1.0, 0.0, 0.0, 0.0));
+    assert_eq!(
+        poses.b.start().rotation(),
+        DQuat::from_xyzw(1.0, 0.0, 0.0, 0.0)
+    );
     assert!(end.translation().distance(DVec3::new(1.0, 2.0, 3.0)) < 1e-14);
-    assert!(end.rotation().dot(DQuat::from_xyzw(0.0, 1.0, 0.0, 0.0)).abs() > 1.0 - 1e-14);
+    assert!(
+        end.rotation()
+            .dot(DQuat::from_xyzw(0.0, 1.0, 0.0, 0.0))
+            .abs()
+            > 1.0 - 1e-14
+    );
 }
 
 #[test]
 fn quaternions_are_normalised() {
     let query = only_query("a_qw,a_qx,a_qy,a_qz\n0,0,0,-20\n");
-    assert_eq!(query.a.start().rotation(), DQuat::from_xyzw(0.0, 0.0, 0.0, -1.0));
+    assert_eq!(
+        query.a.start().rotation(),
+        DQuat::from_xyzw(0.0, 0.0, -1.0, 0.0)
+    );
 }
 
 #[test]
@@ -174,7 +188,11 @@ fn durations_have_to_be_possible() {
 fn rows_have_the_length_of_the_header() {
     let table = read("id,a_px\n1\n2,0,3\n3,0\n");
     assert_eq!(table.rows.len(), 1);
-    let places: Vec<(usize, u64)> = table.errors.iter().map(|e| (e.place.row, e.place.line)).collect();
+    let places: Vec<(usize, u64)> = table
+        .errors
+        .iter()
+        .map(|e| (e.place.row, e.place.line))
+        .collect();
     assert_eq!(places, [(1, 2), (2, 3)]);
 }
 
@@ -187,8 +205,13 @@ fn bytes_that_are_no_text_spoil_their_row_only() {
 
 #[test]
 fn headers_are_held_to_what_is_known() {
-    let unknown = MotionTable::read("id,a_pw\n".as_bytes()).unwrap_err().to_string();
-    assert!(unknown.contains("`a_pw`") && unknown.contains("b_end_qz"), "{unknown}");
+    let unknown = MotionTable::read("id,a_pw\n".as_bytes())
+        .unwrap_err()
+        .to_string();
+    assert!(
+        unknown.contains("`a_pw`") && unknown.contains("b_end_qz"),
+        "{unknown}"
+    );
     let twice = MotionTable::read("id,a_px,id\n".as_bytes()).unwrap_err();
     assert!(matches!(twice, TableError::RepeatedColumn { column } if column == "id"));
     let empty = MotionTable::read(&b""[..]).unwrap_err();

@@ -35,13 +35,23 @@ fn written(outcome: Outcome) -> Vec<(&'static str, String)> {
     let mut bytes = Vec::new();
     write(&mut bytes, [&row]).unwrap();
     let mut reader = csv::Reader::from_reader(&bytes[..]);
-    assert_eq!(reader.headers().unwrap(), &csv::StringRecord::from(COLUMNS.to_vec()));
+    assert_eq!(
+        reader.headers().unwrap(),
+        &csv::StringRecord::from(COLUMNS.to_vec())
+    );
     let record = reader.records().next().unwrap().unwrap();
-    COLUMNS.into_iter().zip(record.iter().map(str::to_owned)).collect()
+    COLUMNS
+        .into_iter()
+        .zip(record.iter().map(str::to_owned))
+        .collect()
 }
 
 fn cell(row: &[(&str, String)], column: &str) -> String {
-    row.iter().find(|(name, _)| *name == column).unwrap().1.clone()
+    row.iter()
+        .find(|(name, _)| *name == column)
+        .unwrap()
+        .1
+        .clone()
 }
 
 #[test]
@@ -53,7 +63,10 @@ fn a_contact_fills_every_cell() {
     let values: Vec<&str> = row.iter().map(|(_, value)| value.as_str()).collect();
     assert_eq!(values[..3], ["a,b", "contact", "0.30000000000000004"]);
     assert_eq!(values[3..8], ["0.1", "0.2", "0.0", "-1.0", "0.0"]);
-    assert_eq!(values[8..14], ["1.0", "0.3333333333333333", "1e-300", "4.0", "5.0", "6.0"]);
+    assert_eq!(
+        values[8..14],
+        ["1.0", "0.3333333333333333", "1e-300", "4.0", "5.0", "6.0"]
+    );
     assert_eq!(values[14..], ["e3-7", "f12", "17", "5", "12.75"]);
 }
 
@@ -63,18 +76,27 @@ fn free_lasts_the_duration_with_its_clearance() {
     assert_eq!(cell(&row, "status"), "free");
     assert_eq!(cell(&row, "time"), "2.5");
     assert_eq!(cell(&row, "distance_lower"), "0.25");
-    assert!(row[4..16].iter().all(|(_, value)| value.is_empty()), "{row:?}");
+    assert!(
+        row[4..16].iter().all(|(_, value)| value.is_empty()),
+        "{row:?}"
+    );
 }
 
 #[test]
 fn what_happens_at_the_start_happens_at_0() {
     let touching = written(Outcome::Touching { contact: contact() });
-    assert_eq!((cell(&touching, "status"), cell(&touching, "time")), ("touching".into(), "0.0".into()));
+    assert_eq!(
+        (cell(&touching, "status"), cell(&touching, "time")),
+        ("touching".into(), "0.0".into())
+    );
     assert_eq!(cell(&touching, "feature_a"), "e3-7");
     let inside = written(Outcome::Overlapping {
         overlap: Overlap::AInsideB(DVec3::new(1.0, 2.0, 3.0)),
     });
-    assert_eq!((cell(&inside, "status"), cell(&inside, "time")), ("overlapping".into(), "0.0".into()));
+    assert_eq!(
+        (cell(&inside, "status"), cell(&inside, "time")),
+        ("overlapping".into(), "0.0".into())
+    );
     assert_eq!(cell(&inside, "witness_a_z"), "3.0");
     assert_eq!(cell(&inside, "normal_x"), "");
 }
@@ -85,7 +107,10 @@ fn unresolved_is_safe_until_its_time() {
         safe_until: 0.75,
         reason: Limit::Budget,
     });
-    assert_eq!((cell(&row, "status"), cell(&row, "time")), ("unresolved".into(), "0.75".into()));
+    assert_eq!(
+        (cell(&row, "status"), cell(&row, "time")),
+        ("unresolved".into(), "0.75".into())
+    );
     assert_eq!(cell(&row, "distance_lower"), "");
 }
 

@@ -42,7 +42,11 @@ impl Shots {
                     DQuat::from_axis_angle(unit_vector(&mut rng), angle)
                 };
                 let end = Pose::new(2.0 * target - from, turn * start.rotation())?;
-                at_rest(row, Motion::between(start, end, DVec3::ZERO, 1.0)?, DVec3::ZERO)
+                at_rest(
+                    row,
+                    Motion::between(start, end, DVec3::ZERO, 1.0)?,
+                    DVec3::ZERO,
+                )
             })
             .collect()
     }

@@ -38,9 +38,15 @@ fn the_first_shots_do_not_turn_and_the_others_do() {
 #[test]
 fn scenes_are_the_same_every_time_and_differ_by_seed() {
     assert_eq!(shots().queries().unwrap(), shots().queries().unwrap());
-    let other = Shots { seed: 10, ..shots() };
+    let other = Shots {
+        seed: 10,
+        ..shots()
+    };
     assert_ne!(shots().queries().unwrap(), other.queries().unwrap());
-    assert_eq!(drops_past_board(9, 1).unwrap(), drops_past_board(9, 1).unwrap());
+    assert_eq!(
+        drops_past_board(9, 1).unwrap(),
+        drops_past_board(9, 1).unwrap()
+    );
 }
 
 #[test]

@@ -146,11 +146,10 @@ impl<O: DistanceOracle> BestFirst<O> {
                 found
             }
             Item::Group(group) => {
-                let (lane, _) = group.least();
-                group.free.end(lane);
+                let lane = group.free.take_least();
                 let found = group.found(problem, lane);
-                match group.least() {
-                    (_, clock) if clock < 1.0 => visit.postpone(clock),
+                match group.clock() {
+                    clock if clock < 1.0 => visit.postpone(clock),
                     _ => visit.remove(),
                 }
                 found
@@ -170,7 +169,7 @@ impl<O: DistanceOracle> BestFirst<O> {
         mask: u8,
     ) -> Result<(), Full> {
         let group = Group::new(problem, &expansion, split, node, other, s, mask);
-        let (_, clock) = group.least();
+        let clock = group.clock();
         if clock < 1.0 {
             self.queue.push(clock, Rank::Group, Item::Group(group))?;
         }
@@ -204,14 +203,22 @@ impl FreeTimes {
         FreeTimes(bits)
     }
 
-    fn least(&self) -> (usize, f32) {
-        let least = self.0.iter().fold(u32::MAX, |least, &bits| least.min(bits));
-        let lane = least & LANE_BITS;
-        (lane as usize, f32::from_bits(least & !LANE_BITS))
+    /// The least of the times, with its lane in its last bits.
+    #[inline]
+    fn least(&self) -> u32 {
+        self.0.iter().fold(u32::MAX, |least, &bits| least.min(bits))
     }
 
-    fn end(&mut self, lane: usize) {
-        self.0[lane] = f32::INFINITY.to_bits() | lane as u32;
+    /// Ends the pair of least time; which one it was.
+    #[inline]
+    fn take_least(&mut self) -> usize {
+        let least = self.least();
+        // All lanes are written at once: the next look at them need not wait for a single one.
+        self.0 = self.0.map(|bits| match bits == least {
+            true => f32::INFINITY.to_bits() | LANE_BITS,
+            false => bits,
+        });
+        (least & LANE_BITS) as usize
     }
 }
 
@@ -261,16 +268,16 @@ impl Group {
         }
     }
 
-    /// The least clock among the pairs, never later than what is certified, and its lane.
-    fn least(&self) -> (usize, f64) {
-        let (lane, free) = self.free.least();
-        let clock = if free > 0.0 {
+    /// The least clock among the pairs, never later than what is certified.
+    #[inline]
+    fn clock(&self) -> f64 {
+        let free = f32::from_bits(self.free.least() & !LANE_BITS);
+        if free > 0.0 {
             // One step down undoes the rounding of the sum.
             (self.since + f64::from(free)).next_down().max(self.since)
         } else {
             self.since
-        };
-        (lane, clock)
+        }
     }
 
     fn found<C: Default + Clone>(&self, problem: &Problem<'_>, lane: usize) -> Found<C> {

@@ -1,0 +1,107 @@
+use crate::{
+    BodyError, BodySource, Detail, Format, MeshFault, SourceError, TriangleMesh, body_from_mesh,
+    parse_body,
+};
+use ccd_core::Volume;
+use ccd_core::glam::dvec3;
+use rstest::rstest;
+
+const TETRAHEDRON: &str =
+    "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
+
+fn report(file: &str) -> String {
+    let mesh = TriangleMesh::from_reader(Format::Obj, file.as_bytes()).unwrap();
+    let prepared = body_from_mesh(&mesh, Detail::Auto).unwrap();
+    assert_eq!(prepared.body.pieces().len(), prepared.report.pieces);
+    assert_eq!(prepared.body.volume(), prepared.report.volume);
+    prepared.report.to_string()
+}
+
+#[test]
+fn a_closed_mesh_is_solid() {
+    assert_eq!(report(TETRAHEDRON), "4 pieces, solid");
+}
+
+#[test]
+fn a_closed_mesh_inside_out_is_solid_and_says_so() {
+    let file = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 2 3 1\nf 4 2 1\nf 4 3 2\nf 4 1 3\n";
+    assert_eq!(report(file), "4 pieces, solid (closed, inside out)");
+}
+
+#[test]
+fn an_open_mesh_is_a_surface_and_says_why() {
+    let file = TETRAHEDRON.replace("f 3 1 4", "f 2 2 3");
+    assert_eq!(
+        report(&file),
+        "3 pieces, surface only (open; edges with one face: 3 (e0-2, e0-3, e2-3)); \
+         collapsed faces dropped: 1 (3)"
+    );
+}
+
+#[test]
+fn features_carry_the_numbers_of_the_file() {
+    let file = "v 9 9 9\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 2 2 3\nf 2 3 4\n";
+    let mesh = TriangleMesh::from_reader(Format::Obj, file.as_bytes()).unwrap();
+    let body = body_from_mesh(&mesh, Detail::Triangles).unwrap().body;
+    let feature = |support: &[u32]| body.pieces().feature(0, support).to_string();
+    assert_eq!(feature(&[0]), "v1");
+    assert_eq!(feature(&[1, 2]), "e2-3");
+    assert_eq!(feature(&[0, 1, 2]), "f1");
+}
+
+#[rstest]
+#[case("box:1,2,3", BodySource::Box { half_extents: dvec3(1.0, 2.0, 3.0) })]
+#[case(" sphere:0.5 ", BodySource::Sphere { radius: 0.5 })]
+#[case("capsule: 1e-1 , 2", BodySource::Capsule { radius: 0.1, half_height: 2.0 })]
+#[case("dir/part.stl", BodySource::Mesh("dir/part.stl".into()))]
+#[case(r"C:\part.stl", BodySource::Mesh(r"C:\part.stl".into()))]
+#[case("./box:1.obj", BodySource::Mesh("./box:1.obj".into()))]
+fn descriptions_of_bodies(#[case] text: &str, #[case] expected: BodySource) {
+    assert_eq!(text.parse(), Ok(expected));
+}
+
+#[rstest]
+#[case("", SourceError::Empty)]
+#[case("ball:1", SourceError::UnknownShape { shape: "ball".into() })]
+#[case("box:1,2", SourceError::WrongCount { shape: "box", expected: 3, given: 2 })]
+#[case("sphere:", SourceError::BadLength { shape: "sphere", length: String::new() })]
+#[case("sphere:-1", SourceError::BadLength { shape: "sphere", length: "-1".into() })]
+#[case("capsule:1,nan", SourceError::BadLength { shape: "capsule", length: "nan".into() })]
+#[case("box:1,2,inf", SourceError::BadLength { shape: "box", length: "inf".into() })]
+fn bad_descriptions_show_examples(#[case] text: &str, #[case] expected: SourceError) {
+    let error = text.parse::<BodySource>().unwrap_err();
+    assert!(error.to_string().contains("box:1,2,3"), "{error}");
+    assert_eq!(error, expected);
+}
+
+#[test]
+fn primitives_are_single_solid_pieces() {
+    for text in ["box:1,2,3", "sphere:0.5", "capsule:0.2,1", "box:1,1,0"] {
+        let prepared = parse_body(text, Detail::Auto).unwrap();
+        assert_eq!(prepared.report.to_string(), "1 piece, solid", "{text}");
+        assert_eq!(prepared.body.volume(), Volume::Solid);
+    }
+}
+
+#[test]
+fn what_is_wrong_reaches_the_caller_typed() {
+    assert!(matches!(
+        parse_body("cone:1", Detail::Auto),
+        Err(BodyError::Source(SourceError::UnknownShape { .. }))
+    ));
+    assert!(matches!(
+        parse_body("sphere:1e300", Detail::Auto),
+        Err(BodyError::Input(_))
+    ));
+    match parse_body("no/such/file.ply", Detail::Auto) {
+        Err(BodyError::Mesh(error)) => {
+            assert!(matches!(error.fault, MeshFault::Unreadable(_)));
+            assert!(
+                error
+                    .to_string()
+                    .starts_with("no/such/file.ply: cannot be read")
+            );
+        }
+        other => panic!("{other:?}"),
+    }
+}

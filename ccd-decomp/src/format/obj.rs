@@ -43,10 +43,12 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Polygons, MeshFault> {
     };
     // The library leaves the list out when all polygons, the first included, are triangles.
     let mut end = 0;
-    polygons.ends.extend((0..polygons.face_lines.len()).map(|k| {
-        end += mesh.face_arities.get(k + 1).map_or(3, |&n| n as usize);
-        end
-    }));
+    polygons
+        .ends
+        .extend((0..polygons.face_lines.len()).map(|k| {
+            end += mesh.face_arities.get(k + 1).map_or(3, |&n| n as usize);
+            end
+        }));
     Ok(polygons)
 }
 

@@ -83,9 +83,8 @@ struct Line<'a> {
 
 impl<'a> Lines<'a> {
     fn need(&mut self, missing: impl Fn() -> String) -> Result<Line<'a>, MeshFault> {
-        self.next().ok_or_else(|| MeshFault::Truncated {
-            missing: missing(),
-        })
+        self.next()
+            .ok_or_else(|| MeshFault::Truncated { missing: missing() })
     }
 }
 

@@ -92,7 +92,11 @@ fn parse_text(text: &str) -> Result<Polygons, MeshFault> {
                 let _ = writeln!(one_solid, "{lower}");
             }
         }
-        last = if first == "endsolid" { "endsolid\n" } else { "" };
+        last = if first == "endsolid" {
+            "endsolid\n"
+        } else {
+            ""
+        };
     }
     one_solid.push_str(last);
     let facets = facet_lines.len();

@@ -1,0 +1,106 @@
+use crate::{MeshFault, TriangleMesh};
+use ccd_core::glam::{DVec3, dvec3};
+
+/// The corners of a unit square, its first corner once more, and a point on its first side.
+fn points() -> Vec<DVec3> {
+    vec![
+        dvec3(0.0, 0.0, 0.0),
+        dvec3(1.0, 0.0, 0.0),
+        dvec3(1.0, 1.0, 0.0),
+        dvec3(0.0, 1.0, 0.0),
+        dvec3(-0.0, 0.0, 0.0),
+        dvec3(0.5, 0.0, 0.0),
+    ]
+}
+
+fn mesh(faces: &[[u32; 3]]) -> TriangleMesh {
+    TriangleMesh::new(points(), faces).unwrap()
+}
+
+#[test]
+fn duplicates_are_merged_in_any_rotation_and_whichever_vertex_names_a_point() {
+    let mesh = mesh(&[[0, 1, 2], [0, 2, 3], [1, 2, 0], [2, 4, 1]]);
+    assert_eq!(mesh.faces(), [[0, 1, 2], [0, 2, 3]]);
+    assert_eq!(mesh.repairs().duplicates.count(), 2);
+    assert_eq!(mesh.repairs().duplicates.first(), [2, 3]);
+}
+
+#[test]
+fn faces_back_to_back_are_both_kept() {
+    let mesh = mesh(&[[0, 1, 2], [0, 2, 1]]);
+    assert_eq!(mesh.faces().len(), 2);
+    assert!(mesh.repairs().duplicates.is_empty());
+}
+
+#[test]
+fn a_collapsed_face_is_dropped_where_it_lies_on_an_edge() {
+    // A side, a side named by the twin of its corner, and a corner.
+    let mesh = mesh(&[[0, 0, 1], [0, 1, 2], [4, 1, 1], [2, 2, 2]]);
+    assert_eq!(mesh.faces(), [[0, 1, 2]]);
+    assert_eq!(mesh.face_ids(), [1]);
+    assert_eq!(mesh.repairs().collapsed.first(), [0, 2, 3]);
+}
+
+#[test]
+fn a_collapsed_face_is_kept_where_nothing_else_holds_it() {
+    // A diagonal away from every edge, the same again, a point of it, and a point on its own.
+    let kept = mesh(&[[3, 3, 3], [0, 1, 5], [1, 3, 3], [3, 1, 1], [2, 2, 2]]);
+    assert_eq!(kept.face_ids(), [1, 2, 4]);
+    assert_eq!(kept.repairs().collapsed.first(), [0, 3]);
+    assert_eq!(kept.repairs().zero_area.count(), 3);
+    assert_eq!(mesh(&[[0, 4, 0]]).faces(), [[0, 4, 0]]);
+}
+
+#[test]
+fn a_face_without_area_is_kept_and_reported() {
+    let mesh = mesh(&[[0, 5, 1], [0, 1, 2]]);
+    assert_eq!(mesh.faces().len(), 2);
+    assert_eq!(mesh.repairs().zero_area.first(), [0]);
+    assert_eq!(mesh.repairs().unreferenced.first(), [3, 4]);
+}
+
+#[test]
+fn a_concave_polygon_is_covered_and_reported() {
+    let file = "v 0 0 0\nv 4 0 0\nv 1 1 0\nv 0 4 0\nv 3 0 1\nf 2 3 4 1\nf 3 4 1 2\n";
+    let mesh = TriangleMesh::from_reader(crate::Format::Obj, file.as_bytes()).unwrap();
+    // From corner 4,0 one triangle of the fan lies the other way round; from the notch none does.
+    assert_eq!(mesh.repairs().polygons.first(), [0, 1]);
+    assert_eq!(mesh.repairs().overhanging.first(), [0]);
+}
+
+#[test]
+fn what_names_nothing_or_is_not_finite_is_refused() {
+    let fault = |points: Vec<DVec3>, faces: &[[u32; 3]]| {
+        TriangleMesh::new(points, faces).unwrap_err().fault
+    };
+    assert!(matches!(fault(vec![], &[]), MeshFault::NoVertices));
+    assert!(matches!(fault(points(), &[]), MeshFault::NoFaces));
+    let mut bad = points();
+    bad[5].z = f64::NAN;
+    let error = fault(bad.clone(), &[[0, 1, 2]]);
+    assert!(
+        matches!(
+            error,
+            MeshFault::NotFinite {
+                vertex: 5,
+                line: None
+            }
+        ),
+        "{error}"
+    );
+    bad[5].z = -1.1e15;
+    let error = fault(bad, &[[0, 1, 2]]);
+    assert!(
+        matches!(
+            error,
+            MeshFault::TooLarge {
+                vertex: 5,
+                line: None
+            }
+        ),
+        "{error}"
+    );
+    let error = fault(points(), &[[0, 1, 2], [0, 1, u32::MAX]]);
+    let expected = "face 1 names vertex 4294967295, but there are 6, numbered from 0";
+    assert_eq!(error.to_string(), expected);
+}

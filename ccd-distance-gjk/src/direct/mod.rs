@@ -1,15 +1,16 @@
 //! Closed form for points, segments and triangles.
 
-mod nearest;
+mod axis;
+pub(crate) mod nearest;
 mod pierce;
 #[cfg(test)]
 mod tests;
 
-use crate::axis::{Candidates, Corners, support_gap};
 use crate::tolerance::{KEEP, SUSPECT};
 use ccd_core::glam::DVec3;
 use ccd_core::{Claim, Combination, DistanceOracle, GiveUp, Piece, PiecePair};
-use nearest::Nearest;
+use axis::{Candidates, support_gap};
+use nearest::{Corners, Nearest};
 
 /// The distance of two points, segments or triangles in closed form, degenerate ones included.
 ///

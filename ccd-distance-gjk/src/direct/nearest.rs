@@ -1,9 +1,11 @@
 //! Nearest points of two triangles that do not intersect: edge against edge, corner against face.
 
-use crate::axis::Corners;
 use crate::lanes::{Lanes3, clamp_unit, reciprocal};
 use ccd_core::glam::DVec3;
 use wide::f64x4;
+
+/// The corners of a triangle, a segment or a point, the last one repeated.
+pub(crate) type Corners = [DVec3; 3];
 
 /// A point of each triangle, by the weights of its corners.
 #[derive(Clone, Copy, Debug)]

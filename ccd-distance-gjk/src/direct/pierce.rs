@@ -1,7 +1,6 @@
 //! A common point of two triangles, where an edge of one passes through the other.
 
-use super::nearest::{Nearest, at};
-use crate::axis::Corners;
+use super::nearest::{Corners, Nearest, at};
 use ccd_core::glam::DVec3;
 
 /// The pair of points with the least distance among `near` and the six places where an edge's line

@@ -2,6 +2,7 @@
 
 mod minkowski;
 mod oracle;
+mod refine;
 mod search;
 mod segment;
 mod sharpen;

@@ -1,6 +1,7 @@
 //! GJK in f64.
 
-use super::minkowski::{Difference, Exact};
+use super::minkowski::Exact;
+use super::refine;
 use super::search::{Found, search};
 use super::sharpen;
 use super::simplex::Simplex;
@@ -65,19 +66,21 @@ pub(crate) fn solve(exact: &Exact<'_>, mut simplex: Simplex<DVec3>) -> Found<DVe
     let mut found = Found::nothing();
     for _ in 0..ROUND_CAP {
         let stop = search(exact, simplex, &mut found);
-        let distance = found.square.sqrt();
+        eprintln!("stop {stop:?}");
         if stop == Stop::Enclosed {
             sharpen::to_faces(exact, &mut found);
             break;
         }
-        if found.gap >= KEEP * distance && found.gap > 0.0 {
+        if stop != Stop::Converged {
+            refine::witnesses(exact, &mut found);
+        }
+        if found.gap > 0.0 && found.gap >= KEEP * found.square.sqrt() {
             break;
         }
-        let Some(vertex) = sharpen::to_features(exact, &mut found) else {
-            break;
-        };
+        let beyond = sharpen::to_features(exact, &mut found);
         simplex = found.simplex;
-        if stop == Stop::Touching || found.gap >= SUSPECT * distance || !simplex.push(vertex) {
+        let suspect = !(found.gap >= SUSPECT * found.square.sqrt());
+        if !(suspect && beyond.is_some_and(|vertex| simplex.push(vertex))) {
             break;
         }
     }

@@ -59,6 +59,7 @@ pub(crate) fn search<D: Difference>(
             return Stop::Stalled;
         };
         let square = foot.point.square();
+        eprintln!("foot d={:?} w={:?} v={:?}", num_traits::ToPrimitive::to_f64(&square.sqrt()), foot.weights.map(|w| num_traits::ToPrimitive::to_f64(&w).unwrap()), simplex.vertices().iter().map(|v|(v.a,v.b)).collect::<Vec<_>>());
         // Written so that NaN stops it.
         if !(square < found.square) {
             return Stop::Stalled;
@@ -73,6 +74,7 @@ pub(crate) fn search<D: Difference>(
             return Stop::Touching;
         }
         let (vertex, gap) = found.probe(difference, direction);
+        eprintln!("  vertex {:?} gap {:?}", (vertex.a,vertex.b), num_traits::ToPrimitive::to_f64(&gap));
         if converged(&foot, &simplex, gap) {
             return Stop::Converged;
         }

@@ -32,18 +32,44 @@ pub(crate) fn foot<V: Vector>(a: V, b: V, c: V) -> Foot<V> {
     best.unwrap_or(Foot::corner(a, 0))
 }
 
+/// The foot inside of the face, by the areas opposite of each corner.
 fn face<V: Vector>(corners: [V; 3], n: V, areas: [V::Scalar; 3]) -> Foot<V> {
+    let square = |k: usize| (corners[(k + 1) % 3] - corners[k]).square();
+    let start = (1..3).fold(0, |best, k| if square(k) > square(best) { k } else { best });
+    let end = (start + 1) % 3;
+    let (edge, length2) = (corners[end] - corners[start], square(start));
+    // In a needle rounding turns normal and areas. Along the longest edge that is made good; across
+    // it the needle has no width to err by.
+    let n = n - edge * (n.dot(edge) / length2);
     let total = areas[0] + areas[1] + areas[2];
-    let [u, v, w] = areas.map(|area| area / total);
-    let point = corners[0] * u + corners[1] * v + corners[2] * w;
-    let height = corners[0].dot(n) / n.square();
+    let mut weights = areas.map(|area| area / total);
+    let back = combined(corners, weights).dot(edge) / length2;
+    // No farther than to the edges.
+    let back = back.max(-weights[start]).min(weights[end]);
+    weights[start] = weights[start] + back;
+    weights[end] = weights[end] - back;
+    let point = combined(corners, weights);
     Foot {
-        weights: [u, v, w, V::Scalar::zero()],
+        weights: [weights[0], weights[1], weights[2], V::Scalar::zero()],
         point,
-        // The face's normal, on the side of the origin that the face lies on.
-        direction: Some(match height {
-            height if height < V::Scalar::zero() => -n,
-            _ => n,
-        }),
+        direction: Some(straighter(corners, n, point, length2)),
     }
+}
+
+/// The normal, on the face's side of the origin, or the foot: whichever rounding turns less. The one
+/// is turned by rounding over its height relative to the longest edge, the other over its length
+/// relative to the corners'.
+fn straighter<V: Vector>(corners: [V; 3], n: V, point: V, length2: V::Scalar) -> V {
+    let reach = corners.iter().map(|c| c.square()).fold(V::Scalar::zero(), Float::max);
+    if point.square() * length2 * length2 > n.square() * reach {
+        point
+    } else if corners[0].dot(n) < V::Scalar::zero() {
+        -n
+    } else {
+        n
+    }
+}
+
+fn combined<V: Vector>(corners: [V; 3], [u, v, w]: [V::Scalar; 3]) -> V {
+    corners[0] * u + corners[1] * v + corners[2] * w
 }

@@ -66,7 +66,7 @@ impl Scene {
         let [to_a, to_b]: [Frame; 2] = std::array::from_fn(|_| pose(rng, far).into());
         Scene {
             a: self.a.iter().map(|&x| to_a.point(x)).collect(),
-            b: self.b.iter().map(|&y| to_b.point(y)).collect(),
+            b: self.b.iter().map(|&y| to_b.point(self.b_to_a.point(y))).collect(),
             b_to_a: to_b_then(&to_a, &to_b),
             size: self.size,
         }

@@ -104,7 +104,7 @@ fn rod_on_post() -> Scene {
 /// T9: a heavy head at the centre, a long arm whose end reaches the wall: no bound that looks at
 /// the present pose alone sees it come.
 fn swinging_mace() -> Scene {
-    let (length, width, speed) = (2.0, 0.02, 3.0);
+    let (length, width, speed) = (2.0_f64, 0.02, 3.0);
     let reach: f64 = length.hypot(width);
     let swinging = Actor::moving(mace(length, width), DVec3::ZERO, DVec3::ZERO, speed * DVec3::Z);
     let wall = Actor::still(

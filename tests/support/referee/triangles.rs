@@ -5,7 +5,7 @@ use ccd_core::glam::DVec3;
 use std::f64::consts::PI;
 
 /// A mesh whose vertices have been moved to where they are at some time.
-pub struct Posed<'a> {
+pub(super) struct Posed<'a> {
     mesh: &'a Mesh,
     points: Vec<DVec3>,
     boxes: Vec<Bounds>,

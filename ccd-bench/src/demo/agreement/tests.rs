@@ -66,7 +66,12 @@ fn contacts_agree_within_the_time_it_takes_to_cross_the_tolerance() {
 fn a_contact_agrees_with_free_only_when_that_grazes() {
     assert!(agrees(head_on(0.5), Outcome::Free { clearance: 0.009 }));
     assert!(!agrees(head_on(0.5), Outcome::Free { clearance: 0.011 }));
-    assert!(!agrees(head_on(0.5), Outcome::Free { clearance: f64::NAN }));
+    assert!(!agrees(
+        head_on(0.5),
+        Outcome::Free {
+            clearance: f64::NAN
+        }
+    ));
 }
 
 #[test]

@@ -1,11 +1,9 @@
 //! Separating axes made of features, for pieces so near that their witnesses' difference is rounding.
 
+use super::nearest::Corners;
 use crate::lanes::{Lanes3, reciprocal};
 use ccd_core::glam::DVec3;
 use wide::f64x4;
-
-/// The corners of a triangle, a segment or a point, the last one repeated.
-pub(crate) type Corners = [DVec3; 3];
 
 /// A unit vector and the support gap along it.
 #[derive(Clone, Copy, Debug)]
@@ -46,9 +44,6 @@ pub(crate) struct Candidates {
 const GROUPS: usize = 8;
 
 impl Candidates {
-    /// How many there are.
-    pub(crate) const COUNT: usize = 4 * GROUPS;
-
     /// All axes of two triangles whose nearest points differ by about `w`.
     pub(crate) fn new(p: &Corners, q: &Corners, w: DVec3) -> Self {
         let (edges_p, edges_q) = (edges(p), edges(q));
@@ -84,15 +79,8 @@ impl Candidates {
     pub(crate) fn best(&self) -> Axis {
         let gaps = self.gaps.map(f64x4::to_array);
         let gap = |k: usize| gaps[k / 4][k % 4];
-        let best = (0..Self::COUNT).fold(0, |best, k| if gap(k) > gap(best) { k } else { best });
+        let best = (0..4 * GROUPS).fold(0, |best, k| if gap(k) > gap(best) { k } else { best });
         self.axis(best)
-    }
-
-    /// All axes, those with the largest gaps first.
-    pub(crate) fn ranked(&self) -> [Axis; Self::COUNT] {
-        let mut axes: [Axis; Self::COUNT] = std::array::from_fn(|k| self.axis(k));
-        axes.sort_by(|a, b| b.gap.total_cmp(&a.gap));
-        axes
     }
 
     fn axis(&self, k: usize) -> Axis {

@@ -1,0 +1,471 @@
+//! The `ccd` command as its users run it.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+
+/// A cube falling at speed 4 onto a slab whose top is 2.5 below its underside.
+const FALLING_CUBE: [&str; 4] = ["--a", "box:.5,.5,.5", "--b", "box:9,9,1"];
+const DROP: &str = "id,a_pz,a_vz\ndrop,4,-4\n";
+const DROP_TIME: f64 = 2.5 / 4.0;
+
+const TETRAHEDRON: &str =
+    "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
+
+#[test]
+fn a_box_falls_onto_a_box() {
+    let run = Run::query(&FALLING_CUBE).stdin(DROP);
+    let rows = run.succeeds();
+    assert_eq!(rows.len(), 1);
+    let row = &rows[0];
+    assert_eq!((row.text("id"), row.text("status")), ("drop", "contact"));
+    row.assert_in_time(DROP_TIME, 4.0);
+    assert!(row.number("distance_upper") <= 1e-3);
+    assert!(row.number("distance_lower") <= row.number("distance_upper"));
+    assert!(row.number("normal_z") < -0.999);
+    assert!(
+        (row.number("witness_b_z") - 1.0).abs() < 1e-12,
+        "the slab's top"
+    );
+    assert!(row.number("iterations") >= 1.0 && row.number("micros") > 0.0);
+}
+
+#[test]
+fn every_schedule_and_oracle_gives_the_answer() {
+    for schedule in ["best-first", "naive"] {
+        for oracle in ["direct", "gjk", "gjk-f32"] {
+            let options = [
+                "--schedule",
+                schedule,
+                "--oracle",
+                oracle,
+                "--tolerance",
+                "1e-6",
+            ];
+            let rows = Run::query(&FALLING_CUBE)
+                .args(&options)
+                .stdin(DROP)
+                .succeeds();
+            assert_eq!(rows[0].text("status"), "contact", "{schedule} {oracle}");
+            let late = rows[0].number("time") - DROP_TIME;
+            assert!(
+                (-1e-6..=1e-12).contains(&late),
+                "{schedule} {oracle}: {late}"
+            );
+        }
+    }
+}
+
+#[test]
+fn every_status_is_told() {
+    let motions = "id,a_pz,a_vz,duration\n\
+                   free,4,-4,0.25\ncontact,4,-4,\ntouching,1.5005,-4,\noverlapping,1,0,\n";
+    let rows = Run::query(&FALLING_CUBE).stdin(motions).succeeds();
+    for row in &rows {
+        assert_eq!(row.text("id"), row.text("status"));
+    }
+    assert_eq!(rows.len(), 4);
+    assert_eq!(rows[0].number("time"), 0.25);
+    assert!(rows[0].number("distance_lower") > 0.0);
+    assert_eq!(rows[0].text("normal_x"), "");
+    assert_eq!(rows[2].number("time"), 0.0);
+}
+
+#[test]
+fn an_unresolved_row_is_a_result() {
+    let scene = Scene::new("unresolved");
+    let mesh = scene.file("tetrahedron.obj", TETRAHEDRON);
+    let mesh = mesh.to_str().unwrap();
+    let motions = "a_px,a_vx,a_wz\n5,-5,9\n";
+    let rows = Run::query(&["--a", mesh, "--b", mesh, "--budget", "1"])
+        .stdin(motions)
+        .succeeds();
+    assert_eq!(rows[0].text("status"), "unresolved");
+    assert!((0.0..0.9).contains(&rows[0].number("time")));
+}
+
+#[test]
+fn margin_is_kept_and_leave_lets_go() {
+    let with_margin = Run::query(&FALLING_CUBE)
+        .args(&["--margin", "0.5"])
+        .stdin(DROP)
+        .succeeds();
+    with_margin[0].assert_in_time(2.0 / 4.0, 4.0);
+    let parting = "a_pz,a_vz\n1.5,1\n";
+    let reported = Run::query(&FALLING_CUBE).stdin(parting).succeeds();
+    assert_eq!(reported[0].text("status"), "touching");
+    let left = Run::query(&FALLING_CUBE)
+        .args(&["--start", "leave"])
+        .stdin(parting)
+        .succeeds();
+    assert_eq!(left[0].text("status"), "free");
+}
+
+#[test]
+fn files_are_read_and_written() {
+    let scene = Scene::new("files");
+    let motions = scene.file("motions.csv", DROP);
+    let results = scene.directory.join("results.csv");
+    let mesh = scene.file("tetrahedron.obj", TETRAHEDRON);
+    let run = Run::bare(&["query", "--a", mesh.to_str().unwrap(), "--b", "sphere:0.5"])
+        .args(&[
+            "--motions",
+            motions.to_str().unwrap(),
+            "--out",
+            results.to_str().unwrap(),
+        ])
+        .stdin("");
+    let output = run.output();
+    assert!(output.status.success(), "{}", stderr(&output));
+    assert_eq!(output.stdout, b"");
+    let rows = parse(&std::fs::read(&results).unwrap());
+    assert_eq!(rows[0].text("status"), "contact");
+    // From z = 4 its base comes down to the ball's top at 0.5.
+    rows[0].assert_in_time(3.5 / 4.0, 4.0);
+    assert_eq!(rows[0].text("feature_b"), "v0");
+}
+
+#[test]
+fn the_same_file_twice_is_loaded_once() {
+    let scene = Scene::new("once");
+    let mesh = scene.file("tetrahedron.obj", TETRAHEDRON);
+    let other_name = scene.directory.join(".").join("tetrahedron.obj");
+    let bodies = [
+        "--a",
+        mesh.to_str().unwrap(),
+        "--b",
+        other_name.to_str().unwrap(),
+    ];
+    let output = Run::query(&bodies).stdin("a_px,a_vx\n3,-3\n").output();
+    assert!(output.status.success());
+    assert_eq!(stderr(&output).matches("4 pieces, solid").count(), 1);
+}
+
+#[test]
+fn bad_rows_are_told_and_good_ones_kept() {
+    let motions = "id,a_pz,a_vz,b_qw,b_qx,b_qy,b_qz,b_end_px,b_end_py,b_end_pz,b_wx,duration\n\
+                   good,4,-4,,,,,,,,,\n\
+                   text,4,abc,,,,,,,,,\n\
+                   partial,4,-4,1,0,0,,,,,,\n\
+                   zero,4,-4,0,0,0,0,,,,,\n\
+                   both,4,-4,,,,,1,1,1,0,\n\
+                   infinite,inf,-4,,,,,,,,,\n\
+                   backwards,4,-4,,,,,,,,,-1\n\
+                   short,4\n\
+                   also good,4,-4,,,,,,,,,\n";
+    let output = Run::query(&FALLING_CUBE).stdin(motions).output();
+    assert_eq!(output.status.code(), Some(2));
+    let ids: Vec<String> = parse(&output.stdout)
+        .iter()
+        .map(|r| r.text("id").to_owned())
+        .collect();
+    assert_eq!(ids, ["good", "also good"]);
+    let told = stderr(&output);
+    for expected in [
+        "standard input, row 2 (line 3): column a_vz: `abc`",
+        "row 3 (line 4): column b_qz: no value, but b_qw",
+        "row 4 (line 5): columns b_qw b_qx b_qy b_qz: (0 0 0 0)",
+        "row 5 (line 6): columns b_end_px and b_wx",
+        "row 6 (line 7): column a_pz: `inf`",
+        "row 7 (line 8): column duration: -1",
+        "row 8 (line 9): has 2 cells where the header names 12",
+    ] {
+        assert!(told.contains(expected), "{expected:?} is not in\n{told}");
+    }
+    assert_eq!(told.matches("ccd: ").count(), 7);
+}
+
+#[test]
+fn unknown_columns_are_told_with_the_known_ones() {
+    let output = Run::query(&FALLING_CUBE).stdin("id,a_pw\n1,2\n").output();
+    assert_eq!(output.status.code(), Some(2));
+    assert_eq!(output.stdout, b"");
+    let told = stderr(&output);
+    assert!(
+        told.contains("standard input: header: unknown column `a_pw`"),
+        "{told}"
+    );
+    assert!(
+        told.contains("a_end_qw") && told.contains("duration"),
+        "{told}"
+    );
+}
+
+#[test]
+fn bad_bodies_and_files_are_told_by_name() {
+    let scene = Scene::new("bad");
+    let broken = scene.file("broken.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n");
+    let broken = broken.to_str().unwrap();
+    for (bodies, expected) in [
+        (
+            ["--a", "missing.obj", "--b", "sphere:1"],
+            "--a: missing.obj",
+        ),
+        (
+            ["--a", "sphere:1", "--b", broken],
+            "broken.obj: line 4: face 0 names vertex 9",
+        ),
+        (["--a", "ball:1", "--b", "sphere:1"], "sphere:0.5"),
+        (["--a", "sphere:-1", "--b", "sphere:1"], "\"-1\""),
+    ] {
+        let output = Run::query(&bodies).stdin(DROP).output();
+        assert_eq!(output.status.code(), Some(2), "{bodies:?}");
+        assert!(
+            stderr(&output).contains(expected),
+            "{expected:?}: {}",
+            stderr(&output)
+        );
+    }
+    let no_motions = Run::bare(&["query", "--a", "sphere:1", "--b", "sphere:1"])
+        .args(&["--motions", "nowhere.csv"])
+        .stdin("")
+        .output();
+    assert_eq!(no_motions.status.code(), Some(2));
+    assert!(stderr(&no_motions).contains("nowhere.csv"));
+}
+
+#[test]
+fn bad_options_are_refused() {
+    for options in [
+        ["--tolerance", "0"],
+        ["--tolerance", "NaN"],
+        ["--margin", "-1"],
+        ["--threads", "0"],
+        ["--repeat", "0"],
+        ["--budget", "0"],
+        ["--oracle", "vmarch"],
+        ["--schedule", "fast"],
+        ["--pieces", "hull"],
+    ] {
+        let output = Run::query(&FALLING_CUBE)
+            .args(&options)
+            .stdin(DROP)
+            .output();
+        assert_eq!(output.status.code(), Some(2), "{options:?}");
+        assert!(stderr(&output).contains(options[1]), "{}", stderr(&output));
+    }
+}
+
+#[test]
+fn results_that_cannot_be_written_are_another_failure() {
+    let options = ["--out", "/no/such/directory/results.csv"];
+    let output = Run::query(&FALLING_CUBE)
+        .args(&options)
+        .stdin(DROP)
+        .output();
+    assert_eq!(output.status.code(), Some(1));
+    assert!(stderr(&output).contains("results.csv"));
+}
+
+#[test]
+fn threads_and_repetitions_change_no_bit() {
+    let scene = Scene::new("threads");
+    let mesh = scene.file("tetrahedron.obj", TETRAHEDRON);
+    let bodies = ["--a", mesh.to_str().unwrap(), "--b", "capsule:0.2,0.7"];
+    let mut motions = "a_px,a_py,a_vx,a_wx,a_wy,b_wz\n".to_owned();
+    for k in 0..64 {
+        let k = f64::from(k);
+        motions += &format!("3,{},-6,{k},2,{}\n", 0.06 * k - 1.9, 0.1 * k);
+    }
+    let answers = |options: &[&str]| -> Vec<Vec<String>> {
+        let rows = Run::query(&bodies).args(options).stdin(&motions).succeeds();
+        rows.into_iter().map(Row::without_micros).collect()
+    };
+    let one = answers(&[]);
+    assert_eq!(one.len(), 64);
+    let contacts = one.iter().filter(|row| row[1] == "contact").count();
+    assert!((10..60).contains(&contacts), "{contacts} of 64 hit");
+    assert_eq!(one, answers(&["--threads", "2"]));
+    assert_eq!(one, answers(&["--repeat", "3"]));
+}
+
+#[test]
+fn raised_tolerances_are_told() {
+    let far = "a_px,b_px,a_pz,a_vz\n1e9,1e9,4,-4\n";
+    let output = Run::query(&FALLING_CUBE)
+        .args(&["--tolerance", "1e-12"])
+        .stdin(far)
+        .output();
+    assert!(output.status.success());
+    assert!(
+        stderr(&output).contains("tolerance 1e-12 cannot be certified"),
+        "{}",
+        stderr(&output)
+    );
+}
+
+#[test]
+fn the_summary_counts_and_quiet_is_quiet() {
+    let loud = Run::query(&FALLING_CUBE).stdin(DROP).output();
+    assert!(
+        stderr(&loud).contains("1 rows: 1 contact; median"),
+        "{}",
+        stderr(&loud)
+    );
+    let quiet = Run::query(&FALLING_CUBE)
+        .args(&["--quiet"])
+        .stdin(DROP)
+        .output();
+    assert_eq!(stderr(&quiet), "");
+    assert!(quiet.status.success());
+}
+
+#[test]
+fn a_table_without_rows_has_a_header_for_an_answer() {
+    let output = Run::query(&FALLING_CUBE).stdin("id\n").output();
+    assert!(output.status.success());
+    let header = String::from_utf8(output.stdout).unwrap();
+    assert!(
+        header.starts_with("id,status,time,distance_lower,"),
+        "{header}"
+    );
+}
+
+#[test]
+fn help_shows_examples() {
+    for args in [&["--help"][..], &["query", "--help"], &["query", "-h"]] {
+        let output = Run::bare(args).stdin("").output();
+        assert!(output.status.success());
+        assert!(
+            String::from_utf8(output.stdout)
+                .unwrap()
+                .contains("ccd query --a"),
+            "{args:?}"
+        );
+    }
+}
+
+#[test]
+fn the_demo_needs_a_directory_that_exists() {
+    let output = Run::bare(&["demo", "--models", "no/such/models"])
+        .stdin("")
+        .output();
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("no/such/models"));
+}
+
+/// One call of the command.
+struct Run {
+    args: Vec<String>,
+    stdin: String,
+}
+
+impl Run {
+    fn bare(args: &[&str]) -> Self {
+        let run = Run {
+            args: Vec::new(),
+            stdin: String::new(),
+        };
+        run.args(args)
+    }
+
+    /// A query whose motions come from standard input.
+    fn query(bodies: &[&str]) -> Self {
+        Run::bare(&["query", "--motions", "-"]).args(bodies)
+    }
+
+    fn args(mut self, args: &[&str]) -> Self {
+        self.args.extend(args.iter().map(|&arg| arg.to_owned()));
+        self
+    }
+
+    fn stdin(mut self, text: &str) -> Self {
+        self.stdin = text.to_owned();
+        self
+    }
+
+    fn output(&self) -> Output {
+        let mut child = Command::new(env!("CARGO_BIN_EXE_ccd"))
+            .args(&self.args)
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        // A command that fails early does not read its input.
+        let _ = child.stdin.take().unwrap().write_all(self.stdin.as_bytes());
+        child.wait_with_output().unwrap()
+    }
+
+    fn succeeds(&self) -> Vec<Row> {
+        let output = self.output();
+        assert!(
+            output.status.success(),
+            "{:?}: {}",
+            self.args,
+            stderr(&output)
+        );
+        parse(&output.stdout)
+    }
+}
+
+/// One row of results, cells by column.
+struct Row(Vec<(String, String)>);
+
+impl Row {
+    fn text(&self, column: &str) -> &str {
+        let cell = self.0.iter().find(|(name, _)| name == column);
+        &cell.unwrap_or_else(|| panic!("no column {column}")).1
+    }
+
+    fn number(&self, column: &str) -> f64 {
+        let text = self.text(column);
+        text.parse()
+            .unwrap_or_else(|_| panic!("{column}: {text:?}"))
+    }
+
+    /// Never late, and early by no more than it takes to cross the tolerance.
+    fn assert_in_time(&self, exact: f64, closing_speed: f64) {
+        let early = exact - self.number("time");
+        assert!(
+            (-1e-12..=1e-3 / closing_speed).contains(&early),
+            "{early} early"
+        );
+    }
+
+    fn without_micros(self) -> Vec<String> {
+        let cells = self.0.into_iter().filter(|(name, _)| name != "micros");
+        cells.map(|(_, value)| value).collect()
+    }
+}
+
+fn parse(table: &[u8]) -> Vec<Row> {
+    let mut reader = csv::Reader::from_reader(table);
+    let names: Vec<String> = reader
+        .headers()
+        .unwrap()
+        .iter()
+        .map(str::to_owned)
+        .collect();
+    let row = |record: csv::StringRecord| {
+        let cells = record.iter().map(str::to_owned);
+        Row(names.iter().cloned().zip(cells).collect())
+    };
+    reader
+        .records()
+        .map(|record| row(record.unwrap()))
+        .collect()
+}
+
+fn stderr(output: &Output) -> String {
+    String::from_utf8(output.stderr.clone()).unwrap()
+}
+
+/// A directory for one test's files.
+struct Scene {
+    directory: PathBuf,
+}
+
+impl Scene {
+    fn new(name: &str) -> Self {
+        let directory = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+        std::fs::create_dir_all(&directory).unwrap();
+        Scene { directory }
+    }
+
+    fn file(&self, name: &str, text: &str) -> PathBuf {
+        let path = self.directory.join(name);
+        std::fs::write(&path, text).unwrap();
+        path
+    }
+}

@@ -1,0 +1,105 @@
+//! Nearer witnesses than the search's, in closed form.
+
+use super::minkowski::{Difference, Exact};
+use super::search::Found;
+use super::simplex::Simplex;
+use crate::direct::nearest::{Corners, nearest};
+use ccd_core::glam::DVec3;
+
+/// Where the last simplex spans no more than a triangle on either side, its nearest points in
+/// closed form, if they are nearer: rounding that stalls a search on nearly parallel edges does not
+/// reach them.
+pub(crate) fn witnesses(exact: &Exact<'_>, found: &mut Found<DVec3>) {
+    let vertices = found.simplex.vertices();
+    let p = Points::new(vertices.iter().map(|v| (v.a, exact.point_a(v.a))));
+    let q = Points::new(vertices.iter().map(|v| (v.b, exact.point_b(v.b))));
+    let (Some(p), Some(q)) = (p, q) else {
+        return;
+    };
+    let near = nearest(&p.corners, &q.corners);
+    let square = near.difference(&p.corners, &q.corners).length_squared();
+    if square < found.square {
+        let shares = Couple::new(near.a, near.b);
+        found.square = square;
+        (found.simplex, found.weights) = coupled(exact, &p, &q, shares);
+    }
+}
+
+/// Up to three points of a piece, the last one repeated.
+struct Points {
+    corners: Corners,
+    indices: [u32; 3],
+}
+
+impl Points {
+    /// The different ones among the given points.
+    fn new(points: impl Iterator<Item = (u32, Option<DVec3>)>) -> Option<Self> {
+        let mut out = Points {
+            corners: [DVec3::ZERO; 3],
+            indices: [0; 3],
+        };
+        let mut len = 0;
+        for (index, point) in points {
+            if len < 3 && !out.indices[..len].contains(&index) {
+                out.indices[len..].fill(index);
+                out.corners[len..].fill(point?);
+                len += 1;
+            }
+        }
+        (len > 0).then_some(out)
+    }
+}
+
+/// Vertices of the difference, and weights, whose combination is that of the points on either side.
+fn coupled(
+    exact: &Exact<'_>,
+    p: &Points,
+    q: &Points,
+    couple: Couple,
+) -> (Simplex<DVec3>, [f64; 4]) {
+    let (mut simplex, mut weights) = (Simplex::EMPTY, [0.0; 4]);
+    for (i, j, weight) in couple {
+        let vertex = exact.vertex(p.indices[i], q.indices[j]);
+        if vertex.is_some_and(|vertex| simplex.push(vertex)) {
+            weights[simplex.vertices().len() - 1] = weight;
+        }
+    }
+    (simplex, weights)
+}
+
+/// Pairs the weights of two sides off against each other, in order: of `m` and `n` positive ones
+/// that makes at most `m + n − 1` pairs, three for corner and face and for edge and edge.
+struct Couple {
+    a: [f64; 3],
+    b: [f64; 3],
+    at: (usize, usize),
+}
+
+impl Couple {
+    fn new(a: [f64; 3], b: [f64; 3]) -> Self {
+        Couple { a, b, at: (0, 0) }
+    }
+}
+
+impl Iterator for Couple {
+    type Item = (usize, usize, f64);
+
+    fn next(&mut self) -> Option<Self::Item> {
+        let (i, j) = self.at;
+        if i >= 3 || j >= 3 {
+            return None;
+        }
+        let share = self.a[i].min(self.b[j]);
+        self.a[i] -= share;
+        self.b[j] -= share;
+        // Both advance when both are used up.
+        self.at = (
+            i + usize::from(self.a[i] <= self.b[j]),
+            j + usize::from(self.b[j] <= self.a[i]),
+        );
+        match share {
+            share if share > 0.0 => Some((i, j, share)),
+            _ => self.next(),
+        }
+    }
+}

@@ -1,0 +1,54 @@
+//! A margin is a distance kept: contact is where the distance comes down to it.
+
+use ccd_core::glam::DVec3;
+use ccd_core::{Config, Outcome};
+use ccd_tests::backends::for_each_setup;
+use ccd_tests::checks::Judge;
+use ccd_tests::models::cuboid;
+use ccd_tests::query::{Actor, Query};
+use ccd_tests::strategies::{cases, check_cases};
+
+#[test]
+fn random_cases_keep_any_margin() {
+    for margin in [1e-2, 0.3, 2.0] {
+        check_cases(30, cases(), |case| {
+            let query = case.query();
+            let config = Config {
+                margin,
+                ..case.config()
+            };
+            let judge = Judge::new(&query, &config);
+            let mut law = Ok(());
+            for_each_setup(&query, &config, |bodies, setup, answer| {
+                if let Err(why) = judge.check(&answer, bodies) {
+                    law = Err(format!("margin {margin}: {why}\n{setup:?}\n{answer:?}"));
+                }
+            });
+            law
+        });
+    }
+}
+
+#[test]
+fn a_falling_cube_stops_at_the_margin() {
+    let query = Query {
+        a: Actor::moving(cuboid(DVec3::splat(0.5)), 3.0 * DVec3::Z, -4.0 * DVec3::Z, DVec3::ZERO),
+        b: Actor::still(cuboid(DVec3::splat(0.5)), DVec3::ZERO),
+        duration: 1.0,
+    };
+    for margin in [0.0, 1e-3, 0.25, 1.5] {
+        let config = Config {
+            margin,
+            tolerance: 1e-6,
+            ..Config::default()
+        };
+        for_each_setup(&query, &config, |_, setup, answer| {
+            let Outcome::Contact { time, contact } = answer.outcome else {
+                panic!("{setup:?}\n{answer:?}");
+            };
+            let (earliest, latest) = ((2.0 - margin - 1e-6) / 4.0, (2.0 - margin) / 4.0);
+            assert!((earliest - 1e-12..=latest).contains(&time), "{setup:?}\n{answer:?}");
+            assert!(contact.separation.lower >= margin - 1e-12, "{setup:?}\n{answer:?}");
+        });
+    }
+}

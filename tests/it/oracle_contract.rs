@@ -1,0 +1,124 @@
+//! The contract of oracles, over every oracle and every size of piece.
+
+use ccd_core::DistanceOracle;
+use ccd_core::glam::{DQuat, DVec3};
+use ccd_distance_gjk::{Auto, Direct, Gjk, GjkF32};
+use ccd_tests::contract::{Pair, bounds_law, cache_law, ends_law};
+use ccd_tests::strategies::{direction, rotation, runner};
+use proptest::prelude::*;
+use std::f64::consts::FRAC_PI_4;
+
+/// Runs the contract over an oracle and the sizes of piece that it is made for.
+macro_rules! contract {
+    ($($name:ident: $oracle:ty, $sizes:expr;)*) => {$(
+        mod $name {
+            use super::*;
+
+            #[test]
+            fn claims_enclose_the_distance() {
+                enclose::<$oracle>(&$sizes);
+            }
+
+            #[test]
+            fn stale_caches_change_nothing() {
+                stale::<$oracle>(&$sizes);
+            }
+
+            #[test]
+            fn degenerate_input_ends() {
+                degenerate::<$oracle>(&$sizes);
+            }
+
+            #[test]
+            fn nearly_parallel_boxes() {
+                parallel::<$oracle>(&$sizes);
+            }
+        }
+    )*};
+}
+
+contract! {
+    direct: Direct, [1, 2, 3];
+    gjk: Gjk, [1, 2, 3, 8, 20];
+    gjk_f32: GjkF32, [1, 2, 3, 8, 20];
+    auto: Auto, [1, 2, 3, 8, 20];
+}
+
+/// How far a claim may be from the distance, as a part of the pair's size: a tenth of the least
+/// tolerance that the engine is tested with.
+const SLACK: f64 = 1e-10;
+
+fn points(sizes: &'static [usize]) -> impl Strategy<Value = Vec<DVec3>> {
+    let coordinates = || [-1.0..1.0f64, -1.0..1.0, -1.0..1.0];
+    // From cubes to needles and plates.
+    let stretch = [-2.0..0.0f64, -2.0..0.0, -2.0..0.0];
+    let size = prop::sample::select(sizes);
+    let all = size.prop_flat_map(move |n| prop::collection::vec(coordinates(), n));
+    (all, stretch).prop_map(|(all, stretch)| {
+        let stretch = DVec3::from(stretch.map(|x| 10.0f64.powf(x)));
+        all.into_iter().map(|p| stretch * DVec3::from(p)).collect()
+    })
+}
+
+fn pairs(sizes: &'static [usize]) -> impl Strategy<Value = (Pair, f64)> {
+    let apart = prop_oneof![0.0..4.0f64, 1.0..2.0f64, Just(50.0)];
+    let scale = prop_oneof![3 => Just(1.0), 1 => Just(1e-3), 1 => Just(1e3)];
+    (points(sizes), points(sizes), rotation(), direction(), apart, scale).prop_map(
+        |(a, b, rotation, towards, apart, scale)| {
+            let scaled = |points: Vec<DVec3>| points.iter().map(|p| scale * p).collect();
+            let pair = Pair::new(scaled(a), scaled(b), rotation, scale * apart * towards);
+            (pair, SLACK * scale * (1.0 + apart))
+        },
+    )
+}
+
+fn enclose<O: DistanceOracle + Default>(sizes: &'static [usize]) {
+    runner(400)
+        .run(&pairs(sizes), |(pair, slack)| {
+            bounds_law(&mut O::default(), &pair, slack).map_err(TestCaseError::fail)
+        })
+        .unwrap_or_else(|error| panic!("{error}"));
+}
+
+fn stale<O: DistanceOracle + Default>(sizes: &'static [usize]) {
+    runner(200)
+        .run(&(pairs(sizes), pairs(sizes)), |((first, _), (second, slack))| {
+            cache_law(&mut O::default(), [&first, &second], slack).map_err(TestCaseError::fail)
+        })
+        .unwrap_or_else(|error| panic!("{error}"));
+}
+
+fn degenerate<O: DistanceOracle + Default>(sizes: &'static [usize]) {
+    let odd = [0.0, -0.0, 1.0, 1e-300, 1e15, -1e15, f64::MIN_POSITIVE];
+    let point = || prop::array::uniform3(prop::sample::select(odd.to_vec())).prop_map(DVec3::from);
+    let size = || prop::sample::select(sizes);
+    let all = move || size().prop_flat_map(move |n| prop::collection::vec(point(), n));
+    runner(400)
+        .run(&(all(), all(), point()), |(a, b, offset)| {
+            let same = Pair::new(a.clone(), a.clone(), DQuat::IDENTITY, DVec3::ZERO);
+            ends_law(&mut O::default(), &same);
+            ends_law(&mut O::default(), &Pair::new(a, b, DQuat::IDENTITY, offset));
+            Ok(())
+        })
+        .unwrap_or_else(|error| panic!("{error}"));
+}
+
+/// T23: turned from parallel by less and less, face over face, until the nearest features change.
+fn parallel<O: DistanceOracle + Default>(sizes: &'static [usize]) {
+    let count = *sizes.iter().filter(|&&n| n <= 8).max().expect("a size");
+    let corner = |k: usize| {
+        let sign = |bit: usize| if k >> bit & 1 == 1 { 0.5 } else { -0.5 };
+        DVec3::new(sign(0), sign(1), sign(2))
+    };
+    let shape: Vec<DVec3> = (0..count).map(corner).collect();
+    let inputs = (direction(), -16.0..0.0f64, -9.0..1.0f64, any::<bool>());
+    runner(400)
+        .run(&inputs, |(axis, turn, apart, diagonal)| {
+            let turn = DQuat::from_axis_angle(axis, 10.0f64.powf(turn));
+            let base = if diagonal { DQuat::from_rotation_x(FRAC_PI_4) } else { DQuat::IDENTITY };
+            let offset = DVec3::new(0.1, 0.2, 2.0 + 10.0f64.powf(apart));
+            let pair = Pair::new(shape.clone(), shape.clone(), turn * base, offset);
+            bounds_law(&mut O::default(), &pair, 10.0 * SLACK).map_err(TestCaseError::fail)
+        })
+        .unwrap_or_else(|error| panic!("{error}"));
+}

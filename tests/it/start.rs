@@ -1,0 +1,119 @@
+//! What becomes of a contact at the start: reported, or let go for as long as it does not close.
+
+use ccd_core::glam::DVec3;
+use ccd_core::{Config, Outcome, StartPolicy};
+use ccd_tests::analytic::sliding;
+use ccd_tests::backends::for_each_setup;
+use ccd_tests::models::cuboid;
+use ccd_tests::query::{Actor, Query};
+use ccd_tests::strategies::{cases, check_cases};
+use ccd_tests::checks::Judge;
+
+fn leave(tolerance: f64) -> Config {
+    Config {
+        start: StartPolicy::Leave,
+        ..report(tolerance)
+    }
+}
+
+fn report(tolerance: f64) -> Config {
+    Config {
+        tolerance,
+        ..Config::default()
+    }
+}
+
+/// Calls `check` with every setup's outcome, of the query and of the query with bodies swapped.
+fn outcomes(query: &Query, config: &Config, check: impl Fn(Outcome) -> bool) {
+    for query in [query.clone(), query.swapped()] {
+        for_each_setup(&query, config, |_, setup, answer| {
+            assert!(check(answer.outcome), "{config:?}\n{setup:?}\n{answer:?}");
+        });
+    }
+}
+
+fn is_free(outcome: Outcome) -> bool {
+    matches!(outcome, Outcome::Free { .. })
+}
+
+fn is_touching(outcome: Outcome) -> bool {
+    matches!(outcome, Outcome::Touching { .. })
+}
+
+/// T10.
+#[test]
+fn sliding_along_at_less_than_the_tolerance_is_left_alone() {
+    for gap in [1e-6, 1e-9, 0.0] {
+        let query = sliding(gap, -DVec3::X).query;
+        outcomes(&query, &report(1e-3), is_touching);
+        outcomes(&query, &leave(1e-3), is_free);
+    }
+    outcomes(&sliding(1e-6, -DVec3::X).query, &report(1e-8), is_free);
+    outcomes(&sliding(1e-6, -DVec3::X).query, &leave(1e-8), is_free);
+}
+
+/// T11.
+#[test]
+fn touching_and_parting_is_free() {
+    for gap in [1e-6, 0.0] {
+        outcomes(&sliding(gap, DVec3::Z).query, &leave(1e-3), is_free);
+        outcomes(&sliding(gap, DVec3::new(2.0, 0.0, 1.0)).query, &leave(1e-3), is_free);
+        outcomes(&sliding(gap, DVec3::Z).query, &report(1e-3), is_touching);
+    }
+}
+
+/// T11.
+#[test]
+fn touching_and_approaching_is_a_contact_at_once() {
+    for gap in [1e-6, 0.0] {
+        let query = sliding(gap, -DVec3::Z).query;
+        outcomes(&query, &report(1e-3), is_touching);
+        outcomes(&query, &leave(1e-3), |outcome| match outcome {
+            Outcome::Contact { time, .. } => (0.0..=gap).contains(&time),
+            Outcome::Touching { .. } => true,
+            _ => false,
+        });
+    }
+}
+
+#[test]
+fn what_is_left_alone_may_come_back() {
+    // Slides off to the side, against a post a unit away.
+    let post = cuboid(DVec3::new(0.1, 1.0, 1.0)).moved(DVec3::new(-1.6, 0.0, 0.5));
+    let slab = cuboid(DVec3::new(3.0, 3.0, 0.5)).moved(-0.5 * DVec3::Z);
+    let query = Query {
+        a: Actor::moving(cuboid(DVec3::splat(0.5)), 0.5 * DVec3::Z, -2.0 * DVec3::X, DVec3::ZERO),
+        b: Actor::still(ccd_tests::models::Shape::union([slab, post]), DVec3::ZERO),
+        duration: 1.0,
+    };
+    outcomes(&query, &leave(1e-3), |outcome| match outcome {
+        Outcome::Contact { time, .. } => (0.4995..=0.5).contains(&time),
+        _ => false,
+    });
+}
+
+#[test]
+fn where_nothing_touches_at_the_start_both_policies_say_the_same() {
+    check_cases(60, cases(), |case| {
+        let query = case.query();
+        let config = Config {
+            start: StartPolicy::Leave,
+            ..case.config()
+        };
+        let judge = Judge::new(&query, &config);
+        let mut law = Ok(());
+        for_each_setup(&query, &case.config(), |bodies, setup, reported| {
+            let problem = query.problem(bodies, &config);
+            let left = setup.backend.solve(&problem);
+            let at_start =
+                matches!(reported.outcome, Outcome::Touching { .. } | Outcome::Overlapping { .. });
+            if at_start {
+                return;
+            }
+            if let Err(why) = judge.check(&left, bodies) {
+                law = Err(format!("{why}\n{setup:?}\n{reported:?}\n{left:?}"));
+            }
+        });
+        law
+    });
+}
