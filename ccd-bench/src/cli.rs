@@ -69,10 +69,10 @@ struct QueryArgs {
     #[arg(long, value_enum, default_value_t)]
     pieces: PiecesArg,
     /// Report a contact at a distance of at most margin + tolerance, in the scene's unit of length
-    #[arg(long, value_name = "LENGTH", default_value_t = DEFAULT_TOLERANCE, value_parser = positive)]
+    #[arg(long, value_name = "LENGTH", default_value_t = DEFAULT_TOLERANCE, value_parser = positive, allow_hyphen_values = true)]
     tolerance: f64,
     /// The distance to keep; 0 reports touching
-    #[arg(long, value_name = "LENGTH", default_value_t = 0.0, value_parser = not_negative)]
+    #[arg(long, value_name = "LENGTH", default_value_t = 0.0, value_parser = not_negative, allow_hyphen_values = true)]
     margin: f64,
     /// What becomes of bodies in contact at the start
     #[arg(long, value_enum, default_value_t)]
@@ -119,9 +119,9 @@ Table of motions: columns by name, in any order; all may be left out, and so may
   duration                  default 1
 
 Table of results:
-  status    contact      in contact at `time`, never before
-            free         apart for the whole duration; distance_lower is their clearance
-            touching     within the tolerance at the start
+  status    contact      within margin + tolerance at `time`, certainly not touching before
+            free         apart for the whole duration, by distance_lower at all times
+            touching     within margin + tolerance at the start
             overlapping  intersecting at the start, or one solid inside the other
             unresolved   a limit was reached: certainly no contact before `time`, nothing known after
   time      certified: no contact before it; 0 to duration

@@ -1,19 +1,15 @@
 //! Progress on the terminal, for work that takes a while.
 
-use indicatif::{ProgressBar, ProgressStyle};
-use std::io::IsTerminal;
-use std::sync::OnceLock;
-use std::sync::atomic::{AtomicU64, Ordering};
-use std::time::{Duration, Instant};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::sync::Once;
+use std::time::Duration;
 
 /// Counts steps; shows a bar on stderr once that has taken a second, if stderr is a terminal.
 #[derive(Debug)]
 pub struct Progress {
-    total: u64,
-    done: AtomicU64,
-    started: Instant,
-    shown: bool,
-    bar: OnceLock<ProgressBar>,
+    bar: ProgressBar,
+    /// Done when the bar is shown, or when it never shall be.
+    decided: Once,
 }
 
 /// Work that is done within this shows no bar.
@@ -22,50 +18,40 @@ const PATIENCE: Duration = Duration::from_secs(1);
 impl Progress {
     /// Counts to `total`, starting now.
     pub fn new(total: usize) -> Self {
+        let style = ProgressStyle::with_template("{bar:30} {pos}/{len} {wide_msg}")
+            .unwrap_or_else(|_| ProgressStyle::default_bar());
+        let hidden = ProgressDrawTarget::hidden();
         Progress {
-            total: total as u64,
-            done: AtomicU64::new(0),
-            started: Instant::now(),
-            shown: std::io::stderr().is_terminal(),
-            bar: OnceLock::new(),
+            bar: ProgressBar::with_draw_target(Some(total as u64), hidden).with_style(style),
+            decided: Once::new(),
         }
     }
 
-    /// Counts without showing anything.
+    /// Counts without ever showing anything.
     pub fn hidden() -> Self {
-        let mut progress = Progress::new(0);
-        progress.shown = false;
+        let progress = Progress::new(0);
+        progress.decided.call_once(|| ());
         progress
     }
 
     /// One more step is done.
     pub fn step(&self) {
-        let done = self.done.fetch_add(1, Ordering::Relaxed) + 1;
-        if self.shown && self.started.elapsed() > PATIENCE {
-            self.bar.get_or_init(|| bar(self.total)).set_position(done);
+        if !self.decided.is_completed() && self.bar.elapsed() > PATIENCE {
+            // Draws nothing where stderr is no terminal.
+            self.decided
+                .call_once(|| self.bar.set_draw_target(ProgressDrawTarget::stderr()));
         }
+        self.bar.inc(1);
     }
 
     /// Says what is being done.
     pub fn say(&self, message: &str) {
-        if self.shown && self.started.elapsed() > PATIENCE {
-            self.bar
-                .get_or_init(|| bar(self.total))
-                .set_message(message.to_owned());
-        }
+        self.bar.set_message(message.to_owned());
     }
 }
 
 impl Drop for Progress {
     fn drop(&mut self) {
-        if let Some(bar) = self.bar.get() {
-            bar.finish_and_clear();
-        }
+        self.bar.finish_and_clear();
     }
-}
-
-fn bar(total: u64) -> ProgressBar {
-    let style = ProgressStyle::with_template("{bar:40} {pos}/{len} {msg} (about {eta} left)")
-        .unwrap_or_else(|_| ProgressStyle::default_bar());
-    ProgressBar::new(total).with_style(style)
 }

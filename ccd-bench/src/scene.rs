@@ -188,8 +188,9 @@ fn falling_rings(models: &mut Models) -> Result<Scene, SceneError> {
 fn falling(models: &mut Models, model: Model, name: &str, seed: u64) -> Result<Scene, SceneError> {
     let body = models.body(model)?;
     let fall = Fall {
-        drops: 8,
+        drops: 24,
         height: 2.4,
+        reach: 2.0,
         aside: 0.8,
         spin: 6.0,
         seed,

@@ -1,5 +1,8 @@
 //! What many answers come to.
 
+#[cfg(test)]
+mod tests;
+
 use crate::query::{Timed, median};
 use crate::results::Status;
 use std::fmt;

@@ -228,6 +228,7 @@ fn bad_bodies_and_files_are_told_by_name() {
 fn bad_options_are_refused() {
     for options in [
         ["--tolerance", "0"],
+        ["--tolerance", "-1e-3"],
         ["--tolerance", "NaN"],
         ["--margin", "-1"],
         ["--threads", "0"],

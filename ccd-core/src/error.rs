@@ -86,7 +86,10 @@ impl fmt::Display for InputError {
                 "point {point} of piece {piece} is NaN, infinite or too large"
             ),
             Self::BadRadius { piece } => {
-                write!(f, "the radius of piece {piece} is negative, NaN or infinite")
+                write!(
+                    f,
+                    "the radius of piece {piece} is negative, NaN or infinite"
+                )
             }
             Self::VertexOutOfRange {
                 face,

@@ -124,7 +124,11 @@ impl Motion {
 
 /// The rotation vector of a unit quaternion, of length at most π.
 fn shortest_turn(rotation: DQuat) -> DVec3 {
-    let rotation = if rotation.w < 0.0 { -rotation } else { rotation };
+    let rotation = if rotation.w < 0.0 {
+        -rotation
+    } else {
+        rotation
+    };
     let axis = rotation.xyz();
     let sine = axis.length();
     if sine > 0.0 {

@@ -27,7 +27,9 @@ pub(crate) fn intersects(pair: &PiecePair<'_>, checked: &Checked, rounding: f64)
         .iter()
         .flat_map(|e| edges_b.iter().map(move |f| e.cross(*f)));
     let in_plane = |normals: &[DVec3], edges: &[DVec3]| -> Vec<DVec3> {
-        let pairs = normals.iter().flat_map(|n| edges.iter().map(move |e| n.cross(*e)));
+        let pairs = normals
+            .iter()
+            .flat_map(|n| edges.iter().map(move |e| n.cross(*e)));
         pairs.collect()
     };
     let mut axes: Vec<DVec3> = crosses.collect();

@@ -61,7 +61,11 @@ impl<'a> Facets<'a> {
     pub fn iter(&self) -> impl Iterator<Item = &'a [u32]> {
         let facets = *self;
         (0..facets.ends.len()).map(move |k| {
-            let start = if k == 0 { facets.base } else { facets.ends[k - 1] };
+            let start = if k == 0 {
+                facets.base
+            } else {
+                facets.ends[k - 1]
+            };
             &facets.corners[start as usize..facets.ends[k] as usize]
         })
     }
@@ -351,12 +355,7 @@ impl Pieces {
         }
     }
 
-    fn polytope_feature(
-        &self,
-        piece: usize,
-        support: &[u32],
-        id: impl Fn(u32) -> u32,
-    ) -> Feature {
+    fn polytope_feature(&self, piece: usize, support: &[u32], id: impl Fn(u32) -> u32) -> Feature {
         let facets = self.facets(piece);
         if let [v, w] = support {
             let adjacent = |loop_: &[u32]| {

@@ -90,12 +90,22 @@ impl<'a> Problem<'a> {
         config: &Config,
     ) -> Result<Self, InputError> {
         let finite = 0.0..=f64::MAX;
-        check("duration", duration, finite.contains(&duration), "at least 0 and finite")?;
+        check(
+            "duration",
+            duration,
+            finite.contains(&duration),
+            "at least 0 and finite",
+        )?;
         let tolerance = config.tolerance;
         let allowed = tolerance > 0.0 && tolerance <= MAX_COORDINATE;
         check("tolerance", tolerance, allowed, "positive and at most 1e15")?;
         let allowed = (0.0..=MAX_COORDINATE).contains(&config.margin);
-        check("margin", config.margin, allowed, "at least 0 and at most 1e15")?;
+        check(
+            "margin",
+            config.margin,
+            allowed,
+            "at least 0 and at most 1e15",
+        )?;
         let origin = b.motion.start().translation();
         let side = |moving: Moving<'a>| Side {
             body: moving.body,

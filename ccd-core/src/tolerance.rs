@@ -14,7 +14,7 @@ pub const U32: f32 = f32::EPSILON / 2.0;
 pub const DEFAULT_TOLERANCE: f64 = 1e-3;
 
 /// How many pairs of nodes a query may visit that names no budget: about a second's work.
-pub const DEFAULT_BUDGET: u64 = 1 << 23;
+pub const DEFAULT_BUDGET: u64 = 1 << 22;
 
 /// The largest coordinate, in the scene's unit of length: squares of distances stay far below the
 /// overflow of f32 (3.4e38).
@@ -111,3 +111,15 @@ pub const LOOK_AGAIN: f32 = 0.5;
 /// How much of a node's radius counts as thickness along any axis when the thicker one of two nodes
 /// is chosen to be split: flat nodes that are seen edge-on are to be split as well.
 pub const THICKNESS: f32 = 0.1;
+
+/// The longest time for which a plane that turns with a body is followed at once, in units of the
+/// duration; its bound has to assume how far things get in that time.
+pub const ATTACHED_TIME: f32 = 1.0 / 16.0;
+
+/// From which ratio of the nodes' radii on a plane that turns with the larger one is tried.
+pub const MUCH_LARGER: f32 = 3.0;
+
+/// How much of a large turning node has to sweep past a small one, in units of the large one's
+/// radius, while a plane that turns with it keeps them apart, for a second look to be worth more
+/// than a split.
+pub const SWEPT: f32 = 1.0 / 32.0;

@@ -109,6 +109,15 @@ pub enum MeshFault {
 }
 
 impl MeshFault {
+    /// A syntax error; what it quotes of the file is cut to a length that fits a message.
+    pub(crate) fn syntax(line: Option<usize>, mut problem: String) -> Self {
+        if let Some((end, _)) = problem.char_indices().nth(QUOTED) {
+            problem.truncate(end);
+            problem.push('…');
+        }
+        MeshFault::Syntax { line, problem }
+    }
+
     pub(crate) fn in_file(self, file: impl Into<PathBuf>) -> MeshError {
         MeshError {
             file: Some(file.into()),
@@ -116,6 +125,9 @@ impl MeshFault {
         }
     }
 }
+
+/// Characters that a message about syntax may have.
+const QUOTED: usize = 200;
 
 impl From<MeshFault> for MeshError {
     fn from(fault: MeshFault) -> Self {

@@ -45,11 +45,13 @@ impl Format {
     }
 
     pub(crate) fn parse(self, bytes: &[u8]) -> Result<Polygons, MeshFault> {
+        // Some editors put a byte order mark before a text; the first keyword would be lost in it.
+        let unmarked = bytes.strip_prefix("\u{feff}".as_bytes()).unwrap_or(bytes);
         match self {
-            Format::Obj => obj::parse(bytes),
+            Format::Obj => obj::parse(unmarked),
             Format::Stl => stl::parse(bytes),
-            Format::Ply => ply::parse(bytes),
-            Format::Off => off::parse(bytes),
+            Format::Ply => ply::parse(unmarked),
+            Format::Off => off::parse(unmarked),
         }
     }
 }

@@ -13,7 +13,7 @@ use obvhs::ploc::{PlocBuilder, PlocSearchDistance, SortPrecision};
 /// Builds a hierarchy over pieces: split at medians into clusters, these agglomerated, and the worst
 /// subtrees put where they fit best.
 ///
-/// Agglomeration alone ([PLOC]) makes the best trees, but on pieces that all have one centre, such as
+/// Agglomeration alone (`[PLOC18]`) makes the best trees, but on pieces that all have one centre, such as
 /// nested or equal ones, it merges a single pair per pass: quadratic time, and a chain. Clusters bound
 /// both.
 ///
@@ -41,9 +41,9 @@ pub fn build_hierarchy(pieces: &Pieces) -> Result<Hierarchy, InputError> {
     Hierarchy::new(tree.nodes.iter().map(node).collect(), pieces.len())
 }
 
-struct Box3(Aabb);
+struct PieceBox(Aabb);
 
-impl Boundable for Box3 {
+impl Boundable for PieceBox {
     fn aabb(&self) -> Aabb {
         self.0
     }
@@ -51,7 +51,7 @@ impl Boundable for Box3 {
 
 /// The boxes of all pieces in single precision, moved and scaled so that the whole fills a unit: far
 /// from the origin, or tiny, single precision would not tell them apart.
-fn unit_boxes(pieces: &Pieces) -> Vec<Box3> {
+fn unit_boxes(pieces: &Pieces) -> Vec<PieceBox> {
     let empty = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     let include = |(lo, hi): (DVec3, DVec3), p: DVec3| (lo.min(p), hi.max(p));
     let bounds = |points: &[DVec3]| points.iter().copied().fold(empty, include);
@@ -70,12 +70,12 @@ fn unit_boxes(pieces: &Pieces) -> Vec<Box3> {
     let unit = |p: DVec3| -> Vec3A { ((p - lo) * scale.unwrap_or(1.0)).as_vec3a() };
     boxes
         .iter()
-        .map(|&(lo, hi)| Box3(Aabb::new(unit(lo), unit(hi))))
+        .map(|&(lo, hi)| PieceBox(Aabb::new(unit(lo), unit(hi))))
         .collect()
 }
 
 /// Splits at medians of the centres down to clusters, and agglomerates these.
-fn split(boxes: &[Box3]) -> Bvh2 {
+fn split(boxes: &[PieceBox]) -> Bvh2 {
     let centre = |piece: u32| boxes[piece as usize].0.center();
     let mut order: Vec<u32> = (0..boxes.len() as u32).collect();
     let mut nodes = vec![Bvh2Node::default()];
@@ -117,10 +117,10 @@ fn split(boxes: &[Box3]) -> Bvh2 {
 }
 
 /// Puts the tree over some pieces at a node, its other nodes at the end.
-fn agglomerate(boxes: &[Box3], pieces: &[u32], nodes: &mut Vec<Bvh2Node>, root: usize) {
-    let members: Vec<Box3> = pieces
+fn agglomerate(boxes: &[PieceBox], pieces: &[u32], nodes: &mut Vec<Bvh2Node>, root: usize) {
+    let members: Vec<PieceBox> = pieces
         .iter()
-        .map(|&piece| Box3(boxes[piece as usize].0))
+        .map(|&piece| PieceBox(boxes[piece as usize].0))
         .collect();
     let tree = PlocBuilder::with_capacity(members.len()).build(
         PlocSearchDistance::Low,
@@ -139,8 +139,9 @@ fn agglomerate(boxes: &[Box3], pieces: &[u32], nodes: &mut Vec<Bvh2Node>, root: 
         };
         node
     };
-    nodes[root] = moved(&tree.nodes[0]);
-    nodes.extend(tree.nodes[1..].iter().map(moved));
+    let mut all = tree.nodes.iter().map(moved);
+    nodes[root] = all.next().unwrap_or_default();
+    nodes.extend(all);
 }
 
 #[cfg(test)]

@@ -28,6 +28,10 @@ pub(crate) const ROUND_CAP: u32 = 4;
 /// relative to the distance.
 pub(crate) const CONVERGED_ULPS: f32 = 16.0;
 
+/// A stalled GJK search is taken up again unless the support gap is within this many units in the
+/// last place of the distance (1e-12 of it): less would spend steps on digits that nobody sees.
+pub(crate) const SETTLED_ULPS: f32 = 4096.0;
+
 /// GJK calls the pieces touching when their distance is at most this many units in the last place
 /// of the coordinates' difference: a vertex b − a and a combination of four are rounded by about
 /// 2 units each.

@@ -17,7 +17,8 @@ fn all_setups_say_the_same_unless_it_is_within_the_tolerance() {
             seen.push((setup, answer.outcome));
         });
         let clear = matches!(last, Verdict::Hit { .. }) || matches!(first, Verdict::Free { .. });
-        let same = |x: &Outcome, y: &Outcome| std::mem::discriminant(x) == std::mem::discriminant(y);
+        let same =
+            |x: &Outcome, y: &Outcome| std::mem::discriminant(x) == std::mem::discriminant(y);
         let differs = seen.iter().find(|s| !same(&s.1, &seen[0].1));
         match differs {
             Some(other) if clear && !matches!(first, Verdict::Start) => {

@@ -20,7 +20,10 @@ fn poses_and_motions_are_finite() {
     for bad in BAD {
         let v = DVec3::new(0.0, bad, 0.0);
         let not_finite = |result: Result<(), InputError>| {
-            assert!(matches!(result, Err(InputError::NotFinite { .. })), "{result:?}");
+            assert!(
+                matches!(result, Err(InputError::NotFinite { .. })),
+                "{result:?}"
+            );
         };
         not_finite(Pose::from_translation(v).map(drop));
         not_finite(Pose::new(DVec3::ZERO, DQuat::from_xyzw(0.0, 0.0, bad, 1.0)).map(drop));
@@ -50,21 +53,47 @@ fn durations_tolerances_and_margins_have_their_range() {
     let good = Config::default();
     let refused = |duration: f64, config: Config| {
         let error = Problem::new(still, still, duration, &config).expect_err("bad input");
-        let typed =
-            matches!(error, InputError::OutOfRange { .. } | InputError::NotFinite { .. });
+        let typed = matches!(
+            error,
+            InputError::OutOfRange { .. } | InputError::NotFinite { .. }
+        );
         assert!(typed, "{duration} {config:?}: {error:?}");
         assert!(!error.to_string().is_empty());
     };
     for bad in [-1.0, -1e-300].into_iter().chain(BAD) {
         refused(bad, good);
-        refused(1.0, Config { tolerance: bad, ..good });
-        refused(1.0, Config { margin: bad, ..good });
+        refused(
+            1.0,
+            Config {
+                tolerance: bad,
+                ..good
+            },
+        );
+        refused(
+            1.0,
+            Config {
+                margin: bad,
+                ..good
+            },
+        );
     }
-    refused(1.0, Config { tolerance: 0.0, ..good });
+    refused(
+        1.0,
+        Config {
+            tolerance: 0.0,
+            ..good
+        },
+    );
     assert!(Problem::new(still, still, 0.0, &good).is_ok());
     for duration in [0.0, -1.0].into_iter().chain(BAD) {
         let motion = Motion::between(Pose::IDENTITY, Pose::IDENTITY, DVec3::ZERO, duration);
-        assert!(matches!(motion, Err(InputError::OutOfRange { what: "duration", .. })));
+        assert!(matches!(
+            motion,
+            Err(InputError::OutOfRange {
+                what: "duration",
+                ..
+            })
+        ));
     }
 }
 
@@ -72,7 +101,10 @@ fn durations_tolerances_and_margins_have_their_range() {
 fn velocities_that_overflow_are_refused() {
     let end = Pose::from_translation(1e300 * DVec3::X).expect("finite");
     let motion = Motion::between(Pose::IDENTITY, end, DVec3::ZERO, 1e-100);
-    assert!(matches!(motion, Err(InputError::NotFinite { .. })), "{motion:?}");
+    assert!(
+        matches!(motion, Err(InputError::NotFinite { .. })),
+        "{motion:?}"
+    );
 }
 
 #[test]
@@ -109,7 +141,10 @@ fn pieces_name_their_bad_element() {
         vertices: 3,
     };
     assert_eq!(missing, Err(expected));
-    for bad in [2.0 * MAX_COORDINATE, -2.0 * MAX_COORDINATE].into_iter().chain(BAD) {
+    for bad in [2.0 * MAX_COORDINATE, -2.0 * MAX_COORDINATE]
+        .into_iter()
+        .chain(BAD)
+    {
         let mut broken = triangle;
         broken[2].z = bad;
         let result = Pieces::triangles(&broken, &[[0, 0, 1], [0, 1, 2]], &[0, 1]).map(drop);
@@ -125,16 +160,28 @@ fn polytopes_name_their_bad_element() {
     };
     let second = |bad: Polytope| Pieces::polytopes(&[good.clone(), bad]).map(drop);
     assert_eq!(Pieces::polytopes(&[]).map(drop), Err(InputError::NoPieces));
-    assert_eq!(second(Polytope::default()), Err(InputError::EmptyPiece { piece: 1 }));
+    assert_eq!(
+        second(Polytope::default()),
+        Err(InputError::EmptyPiece { piece: 1 })
+    );
     for radius in [-1.0, 2.0 * MAX_COORDINATE].into_iter().chain(BAD) {
-        let result = second(Polytope { radius, ..good.clone() });
+        let result = second(Polytope {
+            radius,
+            ..good.clone()
+        });
         assert_eq!(result, Err(InputError::BadRadius { piece: 1 }));
         assert!(Body::ball(radius).is_err() && Body::capsule(radius, 1.0).is_err());
     }
     for corners in [vec![0, 1], vec![], vec![0, 1, 3]] {
         let facets = vec![Facet { id: 0, corners }];
-        let result = second(Polytope { facets, ..good.clone() });
-        assert_eq!(result, Err(InputError::FacetOutOfRange { piece: 1, facet: 0 }));
+        let result = second(Polytope {
+            facets,
+            ..good.clone()
+        });
+        assert_eq!(
+            result,
+            Err(InputError::FacetOutOfRange { piece: 1, facet: 0 })
+        );
     }
     assert!(Body::cuboid(DVec3::new(1.0, f64::NAN, 1.0)).is_err());
 }
@@ -154,11 +201,17 @@ fn a_hierarchy_holds_every_piece_once() {
     ];
     for nodes in bad {
         let result = Hierarchy::new(nodes.clone(), 2).map(drop);
-        assert!(matches!(result, Err(InputError::BadHierarchy { .. })), "{nodes:?}: {result:?}");
+        assert!(
+            matches!(result, Err(InputError::BadHierarchy { .. })),
+            "{nodes:?}: {result:?}"
+        );
     }
     let other = Hierarchy::new(vec![Leaf(0)], 1).expect("a hierarchy of one");
     let triangle = [DVec3::ZERO, DVec3::X, DVec3::Y];
     let pieces = Pieces::triangles(&triangle, &[[0, 1, 2], [0, 2, 1]], &[0, 1]).expect("good");
     let body = Body::with_hierarchy(&pieces, &other, Volume::Surface).map(drop);
-    assert!(matches!(body, Err(InputError::BadHierarchy { .. })), "{body:?}");
+    assert!(
+        matches!(body, Err(InputError::BadHierarchy { .. })),
+        "{body:?}"
+    );
 }

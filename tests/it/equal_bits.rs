@@ -13,7 +13,9 @@ fn every_setup_repeats_itself() {
     check_cases(40, cases(), |case| {
         let (query, config) = (case.query(), case.config());
         let mut first = Vec::new();
-        for_each_setup(&query, &config, |_, _, answer| first.push(format!("{answer:?}")));
+        for_each_setup(&query, &config, |_, _, answer| {
+            first.push(format!("{answer:?}"))
+        });
         let mut first = first.into_iter();
         let mut law = Ok(());
         for_each_setup(&query, &config, |_, setup, answer| {
@@ -64,5 +66,7 @@ fn used_as_fresh<O: DistanceOracle + Default, S: Schedule<O> + Default>() {
 fn sample(count: u32) -> Vec<Case> {
     let mut runner = runner(count);
     let strategy = cases();
-    (0..count).map(|_| strategy.new_tree(&mut runner).expect("a case").current()).collect()
+    (0..count)
+        .map(|_| strategy.new_tree(&mut runner).expect("a case").current())
+        .collect()
 }

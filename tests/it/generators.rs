@@ -22,7 +22,10 @@ fn convex_cases_hit_and_miss() {
 #[test]
 fn crowded_cases_overlap() {
     let shares = Shares::of(&crowded_cases());
-    assert!(shares.starts >= 50 && shares.nested >= 2 && shares.hits >= 20, "{shares:?}");
+    assert!(
+        shares.starts >= 50 && shares.nested >= 2 && shares.hits >= 20,
+        "{shares:?}"
+    );
 }
 
 #[test]

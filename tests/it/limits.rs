@@ -20,7 +20,10 @@ fn a_small_budget_ends_in_a_certified_time() {
             };
             for_each_setup(&query, &config, |bodies, setup, answer| {
                 let this = match answer.outcome {
-                    Outcome::Unresolved { reason: Limit::Budget, .. } => {
+                    Outcome::Unresolved {
+                        reason: Limit::Budget,
+                        ..
+                    } => {
                         unresolved.set(unresolved.get() + 1);
                         judge.check_time(&answer, 0.0)
                     }
@@ -33,7 +36,11 @@ fn a_small_budget_ends_in_a_certified_time() {
         }
         law
     });
-    assert!(unresolved.get() > 100, "only {} runs ran out of budget", unresolved.get());
+    assert!(
+        unresolved.get() > 100,
+        "only {} runs ran out of budget",
+        unresolved.get()
+    );
 }
 
 #[test]

@@ -32,7 +32,12 @@ fn random_cases_keep_any_margin() {
 #[test]
 fn a_falling_cube_stops_at_the_margin() {
     let query = Query {
-        a: Actor::moving(cuboid(DVec3::splat(0.5)), 3.0 * DVec3::Z, -4.0 * DVec3::Z, DVec3::ZERO),
+        a: Actor::moving(
+            cuboid(DVec3::splat(0.5)),
+            3.0 * DVec3::Z,
+            -4.0 * DVec3::Z,
+            DVec3::ZERO,
+        ),
         b: Actor::still(cuboid(DVec3::splat(0.5)), DVec3::ZERO),
         duration: 1.0,
     };
@@ -47,8 +52,14 @@ fn a_falling_cube_stops_at_the_margin() {
                 panic!("{setup:?}\n{answer:?}");
             };
             let (earliest, latest) = ((2.0 - margin - 1e-6) / 4.0, (2.0 - margin) / 4.0);
-            assert!((earliest - 1e-12..=latest).contains(&time), "{setup:?}\n{answer:?}");
-            assert!(contact.separation.lower >= margin - 1e-12, "{setup:?}\n{answer:?}");
+            assert!(
+                (earliest - 1e-12..=latest).contains(&time),
+                "{setup:?}\n{answer:?}"
+            );
+            assert!(
+                contact.separation.lower >= margin - 1e-12,
+                "{setup:?}\n{answer:?}"
+            );
         });
     }
 }

@@ -25,7 +25,10 @@ fn every_edge_of_a_closed_model_has_two_faces_that_run_along_it_either_way() {
                 *edges.entry((v.min(w), v.max(w))).or_default() += if v < w { 1 } else { 10 };
             }
         }
-        assert!(edges.values().all(|&count| count == 11), "{name} is not closed");
+        assert!(
+            edges.values().all(|&count| count == 11),
+            "{name} is not closed"
+        );
     }
 }
 
@@ -52,7 +55,10 @@ fn parts_have_their_points_behind_their_facets() {
                 let corner = |k: usize| part.points[facet.corners[k] as usize];
                 let normal = (corner(1) - corner(0)).cross(corner(2) - corner(0));
                 let height = |p: &DVec3| normal.dot(*p - corner(0));
-                assert!(part.points.iter().all(|p| height(p) <= 1e-12), "{name}: {facet:?}");
+                assert!(
+                    part.points.iter().all(|p| height(p) <= 1e-12),
+                    "{name}: {facet:?}"
+                );
             }
         }
     }

@@ -17,7 +17,10 @@ fn pose() -> impl Strategy<Value = Pose> {
 fn apart(x: &Pose, y: &Pose, reach: f64) -> f64 {
     let corner = |pose: &Pose, n: DVec3| pose.transform_point(reach * n);
     let gap = |n: &DVec3| corner(x, *n).distance(corner(y, *n));
-    [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z].iter().map(gap).fold(0.0, f64::max)
+    [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z]
+        .iter()
+        .map(gap)
+        .fold(0.0, f64::max)
 }
 
 #[test]
@@ -37,7 +40,14 @@ fn between_two_poses_passes_through_both() {
 
 #[test]
 fn the_centre_moves_on_a_line_and_the_rest_around_it() {
-    let inputs = (pose(), direction(), direction(), direction(), 0.0..50.0f64, 0.0..1.0f64);
+    let inputs = (
+        pose(),
+        direction(),
+        direction(),
+        direction(),
+        0.0..50.0f64,
+        0.0..1.0f64,
+    );
     runner(2_000)
         .run(&inputs, |(start, velocity, axis, centre, turn, t)| {
             let motion = Motion::about(start, velocity, turn * axis, centre).expect("finite");
@@ -45,7 +55,8 @@ fn the_centre_moves_on_a_line_and_the_rest_around_it() {
             let size = 2.0 + start.translation().length();
             let line = start.transform_point(centre) + t * velocity;
             prop_assert!(pose.transform_point(centre).distance(line) <= 1e-13 * size);
-            let arm = |pose: &Pose| pose.transform_point(DVec3::ZERO) - pose.transform_point(centre);
+            let arm =
+                |pose: &Pose| pose.transform_point(DVec3::ZERO) - pose.transform_point(centre);
             let turned = DQuat::from_axis_angle(axis, turn * t) * arm(&start);
             prop_assert!(arm(&pose).distance(turned) <= 1e-12 * size);
             Ok(())
@@ -55,7 +66,14 @@ fn the_centre_moves_on_a_line_and_the_rest_around_it() {
 
 #[test]
 fn the_referee_moves_bodies_as_the_engine_does() {
-    let inputs = (pose(), pose(), direction(), direction(), 0.0..20.0f64, 0.0..1.0f64);
+    let inputs = (
+        pose(),
+        pose(),
+        direction(),
+        direction(),
+        0.0..20.0f64,
+        0.0..1.0f64,
+    );
     let cube = || cuboid(DVec3::splat(0.5));
     runner(1_000)
         .run(&inputs, |(start_a, start_b, axis, centre, turn, t)| {
@@ -72,8 +90,8 @@ fn the_referee_moves_bodies_as_the_engine_does() {
             let [a, b] = Placement::pair(&query);
             for corner in &query.a.shape.mesh.vertices {
                 let seen = b.at(t, *corner) - a.at(t, *corner);
-                let [x, y] = [&query.a, &query.b]
-                    .map(|actor| actor.motion.pose(t).transform_point(*corner));
+                let [x, y] =
+                    [&query.a, &query.b].map(|actor| actor.motion.pose(t).transform_point(*corner));
                 prop_assert!(seen.distance(y - x) <= query.rounding());
             }
             Ok(())
@@ -84,7 +102,9 @@ fn the_referee_moves_bodies_as_the_engine_does() {
 #[test]
 fn whole_turns_come_back_and_half_turns_do_not() {
     let at = |turn: f64| {
-        Motion::new(Pose::IDENTITY, DVec3::ZERO, turn * DVec3::Z).expect("finite").pose(1.0)
+        Motion::new(Pose::IDENTITY, DVec3::ZERO, turn * DVec3::Z)
+            .expect("finite")
+            .pose(1.0)
     };
     assert!(apart(&at(5.0 * TAU), &Pose::IDENTITY, 1.0) < 1e-13);
     assert!((at(3.0 * PI).transform_point(DVec3::X) + DVec3::X).length() < 1e-13);

@@ -63,13 +63,19 @@ fn points(sizes: &'static [usize]) -> impl Strategy<Value = Vec<DVec3>> {
 fn pairs(sizes: &'static [usize]) -> impl Strategy<Value = (Pair, f64)> {
     let apart = prop_oneof![0.0..4.0f64, 1.0..2.0f64, Just(50.0)];
     let scale = prop_oneof![3 => Just(1.0), 1 => Just(1e-3), 1 => Just(1e3)];
-    (points(sizes), points(sizes), rotation(), direction(), apart, scale).prop_map(
-        |(a, b, rotation, towards, apart, scale)| {
+    (
+        points(sizes),
+        points(sizes),
+        rotation(),
+        direction(),
+        apart,
+        scale,
+    )
+        .prop_map(|(a, b, rotation, towards, apart, scale)| {
             let scaled = |points: Vec<DVec3>| points.iter().map(|p| scale * p).collect();
             let pair = Pair::new(scaled(a), scaled(b), rotation, scale * apart * towards);
             (pair, SLACK * scale * (1.0 + apart))
-        },
-    )
+        })
 }
 
 fn enclose<O: DistanceOracle + Default>(sizes: &'static [usize]) {
@@ -82,9 +88,12 @@ fn enclose<O: DistanceOracle + Default>(sizes: &'static [usize]) {
 
 fn stale<O: DistanceOracle + Default>(sizes: &'static [usize]) {
     runner(200)
-        .run(&(pairs(sizes), pairs(sizes)), |((first, _), (second, slack))| {
-            cache_law(&mut O::default(), [&first, &second], slack).map_err(TestCaseError::fail)
-        })
+        .run(
+            &(pairs(sizes), pairs(sizes)),
+            |((first, _), (second, slack))| {
+                cache_law(&mut O::default(), [&first, &second], slack).map_err(TestCaseError::fail)
+            },
+        )
         .unwrap_or_else(|error| panic!("{error}"));
 }
 
@@ -115,7 +124,11 @@ fn parallel<O: DistanceOracle + Default>(sizes: &'static [usize]) {
     runner(400)
         .run(&inputs, |(axis, turn, apart, diagonal)| {
             let turn = DQuat::from_axis_angle(axis, 10.0f64.powf(turn));
-            let base = if diagonal { DQuat::from_rotation_x(FRAC_PI_4) } else { DQuat::IDENTITY };
+            let base = if diagonal {
+                DQuat::from_rotation_x(FRAC_PI_4)
+            } else {
+                DQuat::IDENTITY
+            };
             let offset = DVec3::new(0.1, 0.2, 2.0 + 10.0f64.powf(apart));
             let pair = Pair::new(shape.clone(), shape.clone(), turn * base, offset);
             bounds_law(&mut O::default(), &pair, 10.0 * SLACK).map_err(TestCaseError::fail)

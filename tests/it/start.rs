@@ -4,10 +4,10 @@ use ccd_core::glam::DVec3;
 use ccd_core::{Config, Outcome, StartPolicy};
 use ccd_tests::analytic::sliding;
 use ccd_tests::backends::for_each_setup;
+use ccd_tests::checks::Judge;
 use ccd_tests::models::cuboid;
 use ccd_tests::query::{Actor, Query};
 use ccd_tests::strategies::{cases, check_cases};
-use ccd_tests::checks::Judge;
 
 fn leave(tolerance: f64) -> Config {
     Config {
@@ -57,7 +57,11 @@ fn sliding_along_at_less_than_the_tolerance_is_left_alone() {
 fn touching_and_parting_is_free() {
     for gap in [1e-6, 0.0] {
         outcomes(&sliding(gap, DVec3::Z).query, &leave(1e-3), is_free);
-        outcomes(&sliding(gap, DVec3::new(2.0, 0.0, 1.0)).query, &leave(1e-3), is_free);
+        outcomes(
+            &sliding(gap, DVec3::new(2.0, 0.0, 1.0)).query,
+            &leave(1e-3),
+            is_free,
+        );
         outcomes(&sliding(gap, DVec3::Z).query, &report(1e-3), is_touching);
     }
 }
@@ -82,7 +86,12 @@ fn what_is_left_alone_may_come_back() {
     let post = cuboid(DVec3::new(0.1, 1.0, 1.0)).moved(DVec3::new(-1.6, 0.0, 0.5));
     let slab = cuboid(DVec3::new(3.0, 3.0, 0.5)).moved(-0.5 * DVec3::Z);
     let query = Query {
-        a: Actor::moving(cuboid(DVec3::splat(0.5)), 0.5 * DVec3::Z, -2.0 * DVec3::X, DVec3::ZERO),
+        a: Actor::moving(
+            cuboid(DVec3::splat(0.5)),
+            0.5 * DVec3::Z,
+            -2.0 * DVec3::X,
+            DVec3::ZERO,
+        ),
         b: Actor::still(ccd_tests::models::Shape::union([slab, post]), DVec3::ZERO),
         duration: 1.0,
     };
@@ -105,8 +114,10 @@ fn where_nothing_touches_at_the_start_both_policies_say_the_same() {
         for_each_setup(&query, &case.config(), |bodies, setup, reported| {
             let problem = query.problem(bodies, &config);
             let left = setup.backend.solve(&problem);
-            let at_start =
-                matches!(reported.outcome, Outcome::Touching { .. } | Outcome::Overlapping { .. });
+            let at_start = matches!(
+                reported.outcome,
+                Outcome::Touching { .. } | Outcome::Overlapping { .. }
+            );
             if at_start {
                 return;
             }

@@ -4,8 +4,8 @@ use ccd_core::glam::DVec3;
 use ccd_core::{Outcome, Pose};
 use ccd_tests::backends::default_answer;
 use ccd_tests::checks::Judge;
-use ccd_tests::strategies::{cases, check_cases, direction, rotation};
 use ccd_tests::strategies::runner;
+use ccd_tests::strategies::{cases, check_cases, direction, rotation};
 use proptest::prelude::*;
 
 #[test]
@@ -18,7 +18,9 @@ fn bodies_may_be_swapped() {
             default_answer(&query.swapped(), &case.config()),
         );
         judge.check_time(&here, 0.0)?;
-        judge.check_time(&there, 0.0).map_err(|why| format!("swapped: {why}\n{there:?}"))
+        judge
+            .check_time(&there, 0.0)
+            .map_err(|why| format!("swapped: {why}\n{there:?}"))
     });
 }
 

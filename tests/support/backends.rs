@@ -94,7 +94,11 @@ impl Backend {
 }
 
 /// Calls `check` with the answer of every setup that suits the query.
-pub fn for_each_setup(query: &Query, config: &Config, mut check: impl FnMut(&Bodies, Setup, Answer)) {
+pub fn for_each_setup(
+    query: &Query,
+    config: &Config,
+    mut check: impl FnMut(&Bodies, Setup, Answer),
+) {
     for bodies in query.all_bodies() {
         let problem = query.problem(&bodies, config);
         for backend in Backend::all().filter(|backend| backend.suits(&bodies)) {

@@ -75,15 +75,35 @@ pub struct Part {
 #[serde(tag = "model", rename_all = "kebab-case")]
 #[allow(missing_docs)] // Named as the functions of `models` and their arguments.
 pub enum Model {
-    Cuboid { half: [f64; 3] },
-    Ellipsoid { radii: [f64; 3], levels: u32 },
+    Cuboid {
+        half: [f64; 3],
+    },
+    Ellipsoid {
+        radii: [f64; 3],
+        levels: u32,
+    },
     LPrism,
     UHook,
-    Torus { major: f64, minor: f64, rings: usize, sides: usize },
-    TorusKnot { rings: usize, sides: usize },
-    Soup { triangles: Vec<[[f64; 3]; 3]> },
-    Plate { cells: usize },
-    Needles { count: usize, width: f64 },
+    Torus {
+        major: f64,
+        minor: f64,
+        rings: usize,
+        sides: usize,
+    },
+    TorusKnot {
+        rings: usize,
+        sides: usize,
+    },
+    Soup {
+        triangles: Vec<[[f64; 3]; 3]>,
+    },
+    Plate {
+        cells: usize,
+    },
+    Needles {
+        count: usize,
+        width: f64,
+    },
 }
 
 impl Case {
@@ -154,9 +174,12 @@ impl Model {
             }
             Model::LPrism => models::l_prism(),
             Model::UHook => models::u_hook(0.2, 0.6, 0.8),
-            Model::Torus { major, minor, rings, sides } => {
-                models::torus(*major, *minor, *rings, *sides)
-            }
+            Model::Torus {
+                major,
+                minor,
+                rings,
+                sides,
+            } => models::torus(*major, *minor, *rings, *sides),
             Model::TorusKnot { rings, sides } => models::torus_knot(*rings, *sides),
             Model::Soup { triangles } => Shape::open(soup(triangles)),
             Model::Plate { cells } => models::parallel_plate(*cells),
@@ -167,8 +190,14 @@ impl Model {
 
 fn soup(triangles: &[[[f64; 3]; 3]]) -> Mesh {
     Mesh {
-        vertices: triangles.iter().flatten().map(|&p| DVec3::from(p)).collect(),
-        faces: (0..triangles.len() as u32).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect(),
+        vertices: triangles
+            .iter()
+            .flatten()
+            .map(|&p| DVec3::from(p))
+            .collect(),
+        faces: (0..triangles.len() as u32)
+            .map(|k| [3 * k, 3 * k + 1, 3 * k + 2])
+            .collect(),
     }
 }
 

@@ -4,7 +4,9 @@ use crate::models::{Kind, Mesh};
 use crate::query::{Actor, Bodies, Query};
 use crate::referee::{Placement, Referee, Verdict, point_segment, point_triangle};
 use ccd_core::glam::DVec3;
-use ccd_core::{Answer, Body, Config, Contact, Feature, Outcome, Overlap, Piece, Polytope, Separation};
+use ccd_core::{
+    Answer, Body, Config, Contact, Feature, Outcome, Overlap, Piece, Polytope, Separation,
+};
 
 /// Holds answers to one query against what the referee saw of it.
 pub struct Judge<'a> {
@@ -79,7 +81,10 @@ impl<'a> Judge<'a> {
     /// Which law the answer breaks.
     pub fn check_time(&self, answer: &Answer, more: f64) -> Law {
         let rounding = self.query.rounding() + more;
-        law!(answer.tolerance >= self.config.tolerance, "the tolerance was lowered");
+        law!(
+            answer.tolerance >= self.config.tolerance,
+            "the tolerance was lowered"
+        );
         let reach = self.config.margin + answer.tolerance + rounding;
         match &answer.outcome {
             Outcome::Contact { time, .. } => {
@@ -88,10 +93,17 @@ impl<'a> Judge<'a> {
                 law!(gap <= reach, "false: the distance at {time} is {gap}");
             }
             Outcome::Free { clearance } => {
-                law!(self.verdict.latest().is_none(), "missed: {:?}", self.verdict);
+                law!(
+                    self.verdict.latest().is_none(),
+                    "missed: {:?}",
+                    self.verdict
+                );
                 law!(!self.nested, "missed: one body is inside of the other");
                 let less = self.samples.iter().find(|s| s.1 < clearance - rounding);
-                law!(less.is_none(), "the clearance {clearance} is less at {less:?}");
+                law!(
+                    less.is_none(),
+                    "the clearance {clearance} is less at {less:?}"
+                );
             }
             Outcome::Touching { .. } => {
                 let gap = self.referee.gap(0.0);
@@ -123,9 +135,15 @@ impl<'a> Judge<'a> {
             Overlap::Pieces(contact) => {
                 let gap = self.referee.gap(0.0);
                 let filled = bodies.kinds.contains(&Kind::Parts);
-                law!(gap <= self.query.rounding() || filled, "false: overlap at distance {gap}");
+                law!(
+                    gap <= self.query.rounding() || filled,
+                    "false: overlap at distance {gap}"
+                );
                 let both = [contact.separation.witness_a, contact.separation.witness_b];
-                law!(both[0].distance(both[1]) <= self.query.rounding(), "not in both: {both:?}");
+                law!(
+                    both[0].distance(both[1]) <= self.query.rounding(),
+                    "not in both: {both:?}"
+                );
                 check_contact(self.query, 0.0, contact, bodies, f64::INFINITY)
             }
             Overlap::AInsideB(p) => {
@@ -152,13 +170,28 @@ pub fn check_contact(
     reach: f64,
 ) -> Law {
     let rounding = query.rounding();
-    let Separation { lower, upper, normal, witness_a, witness_b } = contact.separation;
-    law!((normal.length() - 1.0).abs() <= 1e-12, "no unit normal: {normal}");
+    let Separation {
+        lower,
+        upper,
+        normal,
+        witness_a,
+        witness_b,
+    } = contact.separation;
+    law!(
+        (normal.length() - 1.0).abs() <= 1e-12,
+        "no unit normal: {normal}"
+    );
     law!(lower <= upper, "lower {lower} > upper {upper}");
     law!(upper <= reach, "upper {upper} > {reach}");
     let distance = witness_a.distance(witness_b);
-    law!(distance <= upper + rounding, "the witnesses are {distance} apart, not {upper}");
-    law!(distance >= lower - rounding, "the witnesses are {distance} apart, not {lower}");
+    law!(
+        distance <= upper + rounding,
+        "the witnesses are {distance} apart, not {upper}"
+    );
+    law!(
+        distance >= lower - rounding,
+        "the witnesses are {distance} apart, not {lower}"
+    );
     let places = Placement::pair(query);
     // Placements are relative to A's centre, witnesses are not.
     let drift = places[0].origin() + time * query.a.motion.velocity();
@@ -176,10 +209,17 @@ pub fn check_contact(
         piece: contact.piece_b,
         place: &|p| places[1].at(time, p) + drift,
     };
-    side_a.check_witness(witness_a, contact.feature_a, rounding).map_err(|e| format!("A: {e}"))?;
-    side_b.check_witness(witness_b, contact.feature_b, rounding).map_err(|e| format!("B: {e}"))?;
+    side_a
+        .check_witness(witness_a, contact.feature_a, rounding)
+        .map_err(|e| format!("A: {e}"))?;
+    side_b
+        .check_witness(witness_b, contact.feature_b, rounding)
+        .map_err(|e| format!("B: {e}"))?;
     let gap = -side_a.support(normal)? - side_b.support(-normal)?;
-    law!(gap >= lower - rounding, "lower {lower}, but the gap along the normal is {gap}");
+    law!(
+        gap >= lower - rounding,
+        "lower {lower}, but the gap along the normal is {gap}"
+    );
     Ok(())
 }
 
@@ -194,7 +234,11 @@ struct Side<'a> {
 
 impl Side<'_> {
     fn piece(&self) -> Result<Piece<'_>, String> {
-        law!((self.piece as usize) < self.body.pieces().len(), "there is no piece {}", self.piece);
+        law!(
+            (self.piece as usize) < self.body.pieces().len(),
+            "there is no piece {}",
+            self.piece
+        );
         Ok(self.body.pieces().get(self.piece as usize))
     }
 
@@ -213,7 +257,10 @@ impl Side<'_> {
             Kind::Triangles => distance_to_mesh_feature(witness, feature, &shape.mesh, self.place)?,
             Kind::Parts => distance_to_part_feature(witness, feature, &shape.parts, self.place)?,
         };
-        law!(off <= rounding, "the witness is {off} off its feature {feature}");
+        law!(
+            off <= rounding,
+            "the witness is {off} off its feature {feature}"
+        );
         Ok(())
     }
 }
@@ -235,7 +282,10 @@ fn distance_to_piece(p: DVec3, piece: &Piece<'_>, place: impl Fn(DVec3) -> DVec3
             if loops.iter().all(|l| height(l) <= 0.0) {
                 0.0
             } else {
-                loops.iter().map(|l| distance_to_polygon(p, l)).fold(f64::INFINITY, f64::min)
+                loops
+                    .iter()
+                    .map(|l| distance_to_polygon(p, l))
+                    .fold(f64::INFINITY, f64::min)
             }
         }
     };
@@ -284,7 +334,10 @@ fn distance_to_part_feature(
                 .zip(vertex(w))
                 .map(|(v, w)| point_segment(p, [v, w]).distance(p)),
             Feature::Face(f) => part.facets.iter().find(|facet| facet.id == f).map(|facet| {
-                let corners = facet.corners.iter().map(|&c| place(part.points[c as usize]));
+                let corners = facet
+                    .corners
+                    .iter()
+                    .map(|&c| place(part.points[c as usize]));
                 distance_to_polygon(p, &corners.collect::<Vec<_>>())
             }),
             // The inside: that the witness lies in the piece is checked elsewhere.
@@ -294,10 +347,16 @@ fn distance_to_part_feature(
             nearest = nearest.min(distance - part.radius);
         }
     }
-    if nearest == f64::INFINITY { Err(format!("no part has {feature}")) } else { Ok(nearest) }
+    if nearest == f64::INFINITY {
+        Err(format!("no part has {feature}"))
+    } else {
+        Ok(nearest)
+    }
 }
 
 fn distance_to_polygon(p: DVec3, corners: &[DVec3]) -> f64 {
-    let fan = (1..corners.len().saturating_sub(1)).map(|k| [corners[0], corners[k], corners[k + 1]]);
-    fan.map(|t| point_triangle(p, t).distance(p)).fold(f64::INFINITY, f64::min)
+    let fan =
+        (1..corners.len().saturating_sub(1)).map(|k| [corners[0], corners[k], corners[k + 1]]);
+    fan.map(|t| point_triangle(p, t).distance(p))
+        .fold(f64::INFINITY, f64::min)
 }

@@ -66,7 +66,11 @@ impl Pair {
         let point_b = claim.b.of(&b).ok_or("names no point of B")?;
         let n = claim.axis.try_normalize();
         let lower = n.map_or(f64::NEG_INFINITY, |n| {
-            let most = self.a.iter().map(|p| p.dot(n)).fold(f64::NEG_INFINITY, f64::max);
+            let most = self
+                .a
+                .iter()
+                .map(|p| p.dot(n))
+                .fold(f64::NEG_INFINITY, f64::max);
             b.iter().map(|p| p.dot(n)).fold(f64::INFINITY, f64::min) - most
         });
         Ok(Checked {
@@ -88,7 +92,11 @@ impl Pair {
                 simplex_distance(s, t, &mut best);
             }
         }
-        let most = self.a.iter().map(|p| p.dot(best)).fold(f64::NEG_INFINITY, f64::max);
+        let most = self
+            .a
+            .iter()
+            .map(|p| p.dot(best))
+            .fold(f64::NEG_INFINITY, f64::max);
         let least = b.iter().map(|p| p.dot(best)).fold(f64::INFINITY, f64::min);
         if least > most { best.length() } else { 0.0 }
     }
@@ -122,7 +130,9 @@ fn simplex_distance(s: &[DVec3], t: &[DVec3], best: &mut DVec3) {
     t.iter().for_each(|&p| offer(p - nearest(p, s)));
     for &(i, j) in edges(s) {
         for &(k, l) in edges(t) {
-            crossing([s[i], s[j]], [t[k], t[l]]).into_iter().for_each(&mut offer);
+            crossing([s[i], s[j]], [t[k], t[l]])
+                .into_iter()
+                .for_each(&mut offer);
         }
     }
 }
@@ -158,7 +168,11 @@ fn crossing(e: [DVec3; 2], f: [DVec3; 2]) -> Option<DVec3> {
 ///
 /// # Errors
 /// What the oracle got wrong.
-pub fn bounds_law<O: DistanceOracle>(oracle: &mut O, pair: &Pair, slack: f64) -> Result<(), String> {
+pub fn bounds_law<O: DistanceOracle>(
+    oracle: &mut O,
+    pair: &Pair,
+    slack: f64,
+) -> Result<(), String> {
     let claim = oracle
         .separation(&pair.as_pieces(), &mut O::Cache::default())
         .map_err(|give_up| format!("gave up: {give_up:?}"))?;
@@ -198,7 +212,9 @@ pub fn cache_law<O: DistanceOracle>(
     let distance = pair.distance();
     let off = |checked: Checked| (checked.upper - distance).max(distance - checked.lower);
     if distance > pair.rounding() && !(off(stale) <= off(fresh) + slack + pair.rounding()) {
-        return Err(format!("stale {stale:?}, fresh {fresh:?}, distance {distance}"));
+        return Err(format!(
+            "stale {stale:?}, fresh {fresh:?}, distance {distance}"
+        ));
     }
     Ok(())
 }

@@ -69,7 +69,12 @@ impl Query {
     /// Every combination of kinds of pieces.
     pub fn all_bodies(&self) -> Vec<Bodies> {
         let pairs = |ka| self.b.shape.kinds().map(move |kb| [ka, kb]);
-        self.a.shape.kinds().flat_map(pairs).map(|kinds| self.bodies(kinds)).collect()
+        self.a
+            .shape
+            .kinds()
+            .flat_map(pairs)
+            .map(|kinds| self.bodies(kinds))
+            .collect()
     }
 
     /// The bodies built of triangles.
@@ -142,7 +147,12 @@ impl Actor {
     pub fn reach(&self, duration: f64) -> f64 {
         let motion = &self.motion;
         let points = self.shape.parts.iter().flat_map(|part| &part.points);
-        let radii = self.shape.parts.iter().map(|part| part.radius).fold(0.0, f64::max);
+        let radii = self
+            .shape
+            .parts
+            .iter()
+            .map(|part| part.radius)
+            .fold(0.0, f64::max);
         let radius = points
             .chain(&self.shape.mesh.vertices)
             .map(|p| p.distance(motion.centre()))

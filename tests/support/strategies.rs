@@ -19,7 +19,10 @@ pub fn runner(cases: u32) -> TestRunner {
 }
 
 fn setting(name: &str, default: u32) -> u32 {
-    std::env::var(name).ok().and_then(|text| text.parse().ok()).unwrap_or(default)
+    std::env::var(name)
+        .ok()
+        .and_then(|text| text.parse().ok())
+        .unwrap_or(default)
 }
 
 /// Runs a law over random cases; a failure prints the shrunk case as it goes into the corpus.
@@ -52,12 +55,21 @@ pub fn convex_cases() -> impl Strategy<Value = Case> {
 
 /// As [`cases`], far from the origin, and from very small to very large.
 pub fn remote_cases() -> impl Strategy<Value = Case> {
-    (cases(), -6.0..6.0f64, prop_oneof![Just(0.0), 1.0..6.0f64], direction()).prop_map(
-        |(mut case, scale, offset, towards)| {
+    (
+        cases(),
+        -6.0..6.0f64,
+        prop_oneof![Just(0.0), 1.0..6.0f64],
+        direction(),
+    )
+        .prop_map(|(mut case, scale, offset, towards)| {
             let scale = 10.0f64.powf(scale);
             case.tolerance *= scale;
             // Offsets are relative to the size: that is what costs digits.
-            let offset = if offset > 0.0 { 10.0f64.powf(offset) } else { 0.0 };
+            let offset = if offset > 0.0 {
+                10.0f64.powf(offset)
+            } else {
+                0.0
+            };
             for part in [&mut case.a, &mut case.b] {
                 part.scale *= scale;
                 let position = DVec3::from(part.position) + offset * towards;
@@ -66,8 +78,7 @@ pub fn remote_cases() -> impl Strategy<Value = Case> {
                 part.centre = (scale * DVec3::from(part.centre)).into();
             }
             case
-        },
-    )
+        })
 }
 
 /// As [`cases`], so close together that many overlap at the start.
@@ -83,7 +94,13 @@ fn aimed(
     b: impl Strategy<Value = Model>,
 ) -> impl Strategy<Value = Case> {
     let tolerance = prop_oneof![Just(1e-3), Just(1e-6)];
-    let aim = (direction(), 1.5..3.5f64, direction(), 0.0..1.2f64, 0.3..1.5f64);
+    let aim = (
+        direction(),
+        1.5..3.5f64,
+        direction(),
+        0.0..1.2f64,
+        0.3..1.5f64,
+    );
     (part(a), part(b), aim, tolerance, drift()).prop_map(|(a, mut b, aim, tolerance, drift)| {
         let (towards, apart, side, miss, haste) = aim;
         let place = apart * towards;
@@ -179,12 +196,13 @@ pub fn convex_model() -> impl Strategy<Value = Model> {
 
 /// Any shape of at most about a unit, of at most about 100 triangles.
 pub fn model() -> impl Strategy<Value = Model> {
-    let ring = (4..9usize, 3..6usize, 0.05..0.3f64).prop_map(|(rings, sides, minor)| Model::Torus {
-        major: 0.6,
-        minor,
-        rings,
-        sides,
-    });
+    let ring =
+        (4..9usize, 3..6usize, 0.05..0.3f64).prop_map(|(rings, sides, minor)| Model::Torus {
+            major: 0.6,
+            minor,
+            rings,
+            sides,
+        });
     prop_oneof![
         3 => convex_model(),
         1 => ring,

@@ -4,11 +4,13 @@ use super::{MOST_PAIRS_FOR_NAIVE, Measurement};
 use crate::model::Origin;
 use crate::results::Status;
 use crate::scene::Scene;
-use comfy_table::presets::UTF8_FULL_CONDENSED;
+use ccd_core::tolerance::DEFAULT_TOLERANCE;
+use comfy_table::presets::UTF8_BORDERS_ONLY;
 use comfy_table::{CellAlignment, Table};
 use std::io;
+use std::sync::Arc;
 
-const HEADER: [&str; 13] = [
+const HEADER: [&str; 12] = [
     "scene",
     "triangles",
     "rows",
@@ -20,7 +22,6 @@ const HEADER: [&str; 13] = [
     "median µs",
     "mean µs",
     "p95 µs",
-    "visits/row",
     "disagree",
 ];
 /// Columns that read as words.
@@ -29,7 +30,7 @@ const WORDS: [usize; 3] = [0, 3, 4];
 /// One line per scene and method.
 pub(super) fn table(measured: &[(&Scene, Vec<Measurement>)]) -> Table {
     let mut table = Table::new();
-    table.load_style(UTF8_FULL_CONDENSED).set_header(HEADER);
+    table.load_style(UTF8_BORDERS_ONLY).set_header(HEADER);
     for (index, column) in table.column_iter_mut().enumerate() {
         if !WORDS.contains(&index) {
             column.set_cell_alignment(CellAlignment::Right);
@@ -52,11 +53,7 @@ fn cells(scene: &Scene, measurement: &Measurement) -> [String; HEADER.len()] {
     let others = [Status::Touching, Status::Overlapping, Status::Unresolved];
     [
         scene.name.clone(),
-        format!(
-            "{} × {}",
-            triangles(scene.a.triangles),
-            triangles(scene.b.triangles)
-        ),
+        triangles(scene),
         summary.rows().to_string(),
         measurement.method.schedule.to_string(),
         measurement.method.oracle.to_string(),
@@ -70,16 +67,24 @@ fn cells(scene: &Scene, measurement: &Measurement) -> [String; HEADER.len()] {
         format!("{:.1}", summary.median_micros),
         format!("{:.1}", summary.mean_micros),
         format!("{:.1}", summary.p95_micros),
-        (summary.node_visits / summary.rows().max(1) as u64).to_string(),
         match measurement.disagreements {
             Some(count) => count.to_string(),
-            None => "reference".to_owned(),
+            None => "-".to_owned(),
         },
     ]
 }
 
+/// Of both meshes, or of the one that both bodies share.
+fn triangles(scene: &Scene) -> String {
+    let (a, b) = (scene.a.triangles, scene.b.triangles);
+    match Arc::ptr_eq(&scene.a.body, &scene.b.body) {
+        true => grouped(a),
+        false => format!("{} × {}", grouped(a), grouped(b)),
+    }
+}
+
 /// A count with its thousands set apart.
-fn triangles(count: usize) -> String {
+fn grouped(count: usize) -> String {
     let digits = count.to_string();
     let mut out = String::new();
     for (k, digit) in digits.chars().enumerate() {
@@ -105,8 +110,9 @@ pub(super) fn write_notes(
     let contradictions: usize = all.filter_map(|m| m.disagreements).sum();
     writeln!(
         output,
-        "Each row is one query, answered once, on one thread; tolerance 1e-3. Methods that \
-         contradict the first one of their scene: {contradictions} rows."
+        "Each row is one query, answered once, on one thread; tolerance \
+         {DEFAULT_TOLERANCE:e}. Answers that contradict the first method's of their scene: \
+         {contradictions}."
     )?;
     writeln!(
         output,

@@ -45,9 +45,9 @@ fn frame(t: f64) -> (DVec3, DVec3, DVec3) {
     let (radius, tube) = TORUS;
     let outward = DVec3::new(cos_a, sin_a, 0.0);
     let around = DVec3::new(-sin_a, cos_a, 0.0);
-    let normal = cos_b * outward + sin_b * DVec3::Z;
+    let normal = cos_b * outward - sin_b * DVec3::Z;
     let velocity = TURNS * (radius + tube * cos_b) * around
-        + WINDINGS * tube * (cos_b * DVec3::Z - sin_b * outward);
+        - WINDINGS * tube * (sin_b * outward + cos_b * DVec3::Z);
     (
         radius * outward + tube * normal,
         velocity.normalize(),

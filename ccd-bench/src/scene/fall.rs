@@ -11,13 +11,16 @@ use rand_pcg::Pcg64;
 
 /// Free falls from rest, each cut into steps of constant velocity that end with the first contact.
 ///
-/// Unlike a shot, most of these queries are short, and most of them are free.
+/// Unlike shots, these queries are short, close, and most of them free. Steps during which the bodies
+/// are farther apart than their bounding balls are left out, as a broad phase would.
 #[derive(Clone, Debug)]
 pub struct Fall {
     /// How many falls.
     pub drops: usize,
     /// How far above the resting body they start.
     pub height: f64,
+    /// The sum of both bodies' bounding radii.
+    pub reach: f64,
     /// How far off the vertical through it, at most.
     pub aside: f64,
     /// The fastest they tumble, in radians per second.
@@ -45,6 +48,9 @@ impl Fall {
         let mut queries = Vec::new();
         for drop in 0..self.drops {
             for (step, a) in self.steps(&mut rng)?.into_iter().enumerate() {
+                if !self.is_near(&a) {
+                    continue;
+                }
                 let query = Query {
                     id: format!("{drop}.{step}"),
                     a,
@@ -59,6 +65,13 @@ impl Fall {
             }
         }
         Ok(queries)
+    }
+
+    /// Whether the bounding balls touch at either end of a step.
+    fn is_near(&self, a: &Motion) -> bool {
+        let ends = [a.start(), a.pose(STEP)];
+        ends.iter()
+            .any(|end| end.translation().length() <= self.reach)
     }
 
     /// One fall, past the resting body.

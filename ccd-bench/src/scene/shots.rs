@@ -5,7 +5,7 @@ use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{InputError, Motion, Pose};
 use rand::{Rng, RngExt, SeedableRng};
 use rand_pcg::Pcg64;
-use std::f64::consts::{FRAC_PI_2, TAU};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::ops::Range;
 
 /// Straight flights from somewhere around a resting body to the far side of it.
@@ -52,8 +52,9 @@ impl Shots {
     }
 }
 
-/// A body falls from height 5 to −5, turning; a board lies across its way from high to low, and
-/// more or less aside.
+/// A body of radius 1 falls from height 5 to −5, turning by 3/8 of a turn; a board that reaches 1.5
+/// to either side lies across its way, each time a little lower, or, one time in four, so far aside
+/// that the body hardly passes it.
 ///
 /// # Errors
 /// None: all motions are finite.
@@ -62,9 +63,14 @@ pub fn drops_past_board(count: usize, seed: u64) -> Result<Vec<Query>, InputErro
     (0..count)
         .map(|row| {
             let start = Pose::new(5.0 * DVec3::Z, orientation(&mut rng))?;
-            let end = Pose::new(-5.0 * DVec3::Z, orientation(&mut rng))?;
+            let turn = DQuat::from_axis_angle(unit_vector(&mut rng), 0.75 * PI);
+            let end = Pose::new(-5.0 * DVec3::Z, turn * start.rotation())?;
             let height = 3.5 - 7.0 * row as f64 / count as f64;
-            let board = DVec3::new(rng.random_range(-2.6..2.6), 0.0, height);
+            let aside = match row % 4 {
+                0 => rng.random_range(2.45..2.6),
+                _ => 0.0,
+            };
+            let board = DVec3::new(aside, 0.0, height);
             at_rest(row, Motion::between(start, end, DVec3::ZERO, 1.0)?, board)
         })
         .collect()

@@ -56,6 +56,7 @@ fn falls_are_continuous_and_end_with_their_first_contact() {
     let fall = Fall {
         drops: 6,
         height: 2.0,
+        reach: 1.0,
         aside: 0.6,
         spin: 3.0,
         seed: 1,
@@ -65,6 +66,10 @@ fn falls_are_continuous_and_end_with_their_first_contact() {
     let mut solver = crate::engine::Method::default().solver();
     let config = ccd_core::Config::default();
     let mut contacts = 0;
+    assert!(queries.iter().all(|query| {
+        let end = query.a.pose(query.duration).translation();
+        query.a.start().translation().length() <= 1.0 || end.length() <= 1.0
+    }));
     for pair in queries.windows(2) {
         let [now, next] = pair else { unreachable!() };
         let answer = crate::query::solve(bodies, now, &config, solver.as_mut()).unwrap();
@@ -75,10 +80,22 @@ fn falls_are_continuous_and_end_with_their_first_contact() {
             assert!(!goes_on || gap < 1e-12, "{} to {}", now.id, next.id);
         } else {
             contacts += 1;
+            assert!(matches!(answer.outcome, Outcome::Contact { .. }));
             assert!(!goes_on, "{} goes on after its contact", now.id);
         }
     }
     assert!(contacts >= 2, "some of the balls hit: {contacts}");
+}
+
+#[test]
+fn boards_lie_across_the_way_or_just_beside_it() {
+    let queries = drops_past_board(40, 1).unwrap();
+    let places = queries.iter().map(|query| query.b.start().translation());
+    let (beside, across): (Vec<DVec3>, Vec<DVec3>) = places.partition(|p| p.x != 0.0);
+    assert_eq!((beside.len(), across.len()), (10, 30));
+    // The board reaches 1.5 towards a body of radius 1.
+    assert!(beside.iter().all(|p| (2.4..2.6).contains(&p.x)));
+    assert!(across.windows(2).all(|pair| pair[0].z > pair[1].z));
 }
 
 #[test]

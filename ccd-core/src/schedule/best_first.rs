@@ -1,10 +1,10 @@
 //! Every pair keeps its own clock; the pair whose proof expires first is looked at next.
 
+use super::Schedule;
 use super::expand::{Expansion, Which, expand};
 use super::pair::{Pair, Step};
 use super::queue::{Full, Queue, Rank};
 use super::start::Start;
-use super::Schedule;
 use crate::oracle::DistanceOracle;
 use crate::outcome::{Answer, Limit, Outcome, Stats};
 use crate::problem::Problem;
@@ -127,9 +127,13 @@ impl<O: DistanceOracle> BestFirst<O> {
     }
 
     fn open_roots(&mut self, problem: &Problem<'_>) -> Result<(), Full> {
-        let item = match (problem.a.body.tree().piece(0), problem.b.body.tree().piece(0)) {
+        let item = match (
+            problem.a.body.tree().piece(0),
+            problem.b.body.tree().piece(0),
+        ) {
             (Some(a), Some(b)) => return self.push_pair(0.0, Pair::new(a, b)),
-            (None, _) => Group::roots(Which::A),
+            (None, None) => Group::roots(smaller(problem)),
+            (None, Some(_)) => Group::roots(Which::A),
             (Some(_), None) => Group::roots(Which::B),
         };
         self.queue.push(0.0, Rank::Group, Item::Group(item))
@@ -178,7 +182,8 @@ impl<O: DistanceOracle> BestFirst<O> {
 
     fn push_pair(&mut self, clock: f64, pair: Pair<O::Cache>) -> Result<(), Full> {
         if clock < 1.0 {
-            self.queue.push(clock, Rank::PiecePair, Item::Pieces(pair))?;
+            self.queue
+                .push(clock, Rank::PiecePair, Item::Pieces(pair))?;
         }
         Ok(())
     }
@@ -222,6 +227,15 @@ impl FreeTimes {
     }
 }
 
+/// The body whose root is smaller: a large one is best kept whole until it matters.
+fn smaller(problem: &Problem<'_>) -> Which {
+    let radius = |which: Which| which.of(problem).body.tree().radius();
+    match radius(Which::B) < radius(Which::A) {
+        true => Which::B,
+        false => Which::A,
+    }
+}
+
 impl Group {
     /// The pair of both roots, of which the given body's is to be split.
     fn roots(split: Which) -> Self {
@@ -232,7 +246,8 @@ impl Group {
             first: 0,
             other: 0,
             thicker: 1,
-            aloof: 0, parent: 0,
+            aloof: 0,
+            parent: 0,
         }
     }
 
@@ -259,7 +274,8 @@ impl Group {
         thicker &= !expansion.leaves;
         Group {
             free: FreeTimes::new(&bounds.free, expansion.count, mask),
-            parent, aloof,
+            parent,
+            aloof,
             since: s,
             split,
             first: expansion.first,

@@ -2,10 +2,10 @@
 //! clock.
 
 use super::lanes::{Bounds, Children, Closing, Other, OtherBox, OtherTriangle, Straight, Turn};
-use super::lanes::{Turning, bound};
+use super::lanes::{Larger, Turning, bound, bound_attached};
 use crate::pose::Frame;
 use crate::problem::{Problem, Side};
-use crate::tolerance::{RATE_F32, SUPPORT_F32};
+use crate::tolerance::{MUCH_LARGER, RATE_F32, SUPPORT_F32};
 use crate::tree::{Below, Members, Named, Node, NodeId, unit_normal, up};
 use glam::{DMat3, DVec3, Vec3};
 
@@ -210,18 +210,21 @@ impl Shared<'_> {
             + split.rate() * (reach + split.arm(Vec3::ZERO))
             + far.rate() * (other.radius() + far.arm(other.centre()));
         let kept = self.problem.gap() + self.problem.rounding;
-        bound(
-            group,
-            other,
-            &Closing {
-                velocity,
-                split,
-                other: far,
-                horizon: self.horizon,
-                slack: (up(kept) + SUPPORT_F32 * size).next_up(),
-                rate_slack: RATE_F32 * speed,
-            },
-        )
+        let closing = Closing {
+            velocity,
+            split,
+            other: far,
+            horizon: self.horizon,
+            slack: (up(kept) + SUPPORT_F32 * size).next_up(),
+            rate_slack: RATE_F32 * speed,
+        };
+        let mut bounds = bound(group, other, &closing);
+        if S::TURNS && reach > MUCH_LARGER * other.radius() {
+            bound_attached(group, other, &closing, Larger::Split, &mut bounds);
+        } else if O::TURNS && other.radius() > MUCH_LARGER * reach {
+            bound_attached(group, other, &closing, Larger::Other, &mut bounds);
+        }
+        bounds
     }
 }
 

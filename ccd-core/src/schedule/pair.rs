@@ -142,18 +142,31 @@ impl<C: Default + Clone> Pair<C> {
     ) -> Option<f64> {
         let to_world = frames[0].rotation;
         let normal = to_world * checked.axis;
-        let direct = free_time(problem, pieces, frames, normal, checked.lower - kept, horizon)?;
+        let direct = free_time(
+            problem,
+            pieces,
+            frames,
+            normal,
+            checked.lower - kept,
+            horizon,
+        )?;
         let ends = [checked.witness_a, checked.witness_b].map(|w| frames[0].point(w));
         let way = ends[1] - ends[0];
         let velocity = problem.a.path.velocity_at(ends[0], horizon_start(horizon))
             - problem.b.path.velocity_at(ends[1], horizon_start(horizon));
         let closest = (way.dot(velocity) / velocity.length_squared()).clamp(0.0, horizon);
         let passing = way - velocity * closest;
-        let Some(passing) = passing.try_normalize() else { return Some(direct) };
+        let Some(passing) = passing.try_normalize() else {
+            return Some(direct);
+        };
         let local = frames[0].inverse_vector(passing);
         let gap = separation::support_gap(pieces, local, checked.witness_a)
-            - pieces.a.radius - pieces.b.radius - problem.rounding;
-        if !(gap > kept) { return Some(direct) }
+            - pieces.a.radius
+            - pieces.b.radius
+            - problem.rounding;
+        if !(gap > kept) {
+            return Some(direct);
+        }
         free_time(problem, pieces, frames, passing, gap - kept, horizon).map(|t| t.max(direct))
     }
 
@@ -166,7 +179,9 @@ impl<C: Default + Clone> Pair<C> {
     }
 }
 
-fn horizon_start(h: f64) -> f64 { 1.0 - h }
+fn horizon_start(h: f64) -> f64 {
+    1.0 - h
+}
 
 /// Asks the oracle and checks what it says.
 fn ask<O: DistanceOracle>(
@@ -226,7 +241,11 @@ fn free_time(
     // Heights are measured such that the nearest two points are `slack` apart.
     let (top, bottom) = (a.extreme(f64::max), b.extreme(f64::min));
     let rounding = RATE_F64 * (a.speed + b.speed);
-    let rounds = if a.straight() && b.straight() { 1 } else { AXIS_ROUNDS };
+    let rounds = if a.straight() && b.straight() {
+        1
+    } else {
+        AXIS_ROUNDS
+    };
     first_crossing(horizon, rounds, |tau| {
         let angles = [a.angle(tau), b.angle(tau)];
         let gap = |above: Point, below: Point| Gap {

@@ -69,7 +69,8 @@ impl<T> Queue<T> {
             None => return Err(Full),
         };
         self.serial = self.serial.wrapping_add(1);
-        self.heap.push(Reverse(key(clock, rank, self.serial, index)));
+        self.heap
+            .push(Reverse(key(clock, rank, self.serial, index)));
         self.peak = self.peak.max(self.heap.len());
         Ok(())
     }

@@ -124,7 +124,11 @@ pub(crate) fn unit_normal(corners: [DVec3; 3]) -> Vec3 {
 /// The nearest f32 that is not below.
 pub(crate) fn up(x: f64) -> f32 {
     let near = x as f32;
-    if f64::from(near) < x { near.next_up() } else { near }
+    if f64::from(near) < x {
+        near.next_up()
+    } else {
+        near
+    }
 }
 
 fn set(rows: &mut Rows3, lane: usize, v: Vec3) {

@@ -101,11 +101,17 @@ impl Tree {
         self.span
     }
 
+    /// The radius of the root's ball.
+    pub(crate) fn radius(&self) -> f32 {
+        self.nodes[0].radius
+    }
+
     /// Whether a point is within the root's ball; no piece reaches beyond it.
     pub(crate) fn may_contain(&self, point: DVec3) -> bool {
         let root = &self.nodes[0];
         let way = point - root.centre;
-        let within = |k: usize| way.dot(root.axes[k].as_dvec3()).abs() <= f64::from(root.half[k]) * 1.001;
+        let within =
+            |k: usize| way.dot(root.axes[k].as_dvec3()).abs() <= f64::from(root.half[k]) * 1.001;
         (0..3).all(within)
     }
 

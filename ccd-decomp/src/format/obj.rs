@@ -113,13 +113,11 @@ impl Statements {
         // Statements of both kinds are in the order of their lines.
         let mut lines = [self.vertex_lines.as_slice(), &self.face_lines].concat();
         lines.sort_unstable();
-        MeshFault::Syntax {
-            line: lines.get(statement).copied(),
-            problem: match self.text.lines().nth(statement) {
-                Some(text) => format!("{error} in {text:?}"),
-                None => error.to_string(),
-            },
-        }
+        let problem = match self.text.lines().nth(statement) {
+            Some(text) => format!("{error} in {text:?}"),
+            None => error.to_string(),
+        };
+        MeshFault::syntax(lines.get(statement).copied(), problem)
     }
 
     /// Finds the first corner that names no vertex; the library only says that there is one.

@@ -117,9 +117,6 @@ impl Line<'_> {
     }
 
     fn problem(&self, problem: &str) -> MeshFault {
-        MeshFault::Syntax {
-            line: Some(self.number),
-            problem: problem.into(),
-        }
+        MeshFault::syntax(Some(self.number), problem.into())
     }
 }

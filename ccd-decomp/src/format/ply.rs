@@ -76,10 +76,8 @@ fn check_counts(header: &Header, bytes: usize) -> Result<(), MeshFault> {
         let wanted = if element == "vertex" { names.len() } else { 1 };
         if names.iter().filter(has).count() != wanted {
             let names = names.join(if wanted == 1 { " or " } else { ", " });
-            return Err(MeshFault::Syntax {
-                line: None,
-                problem: format!("element {element:?} lacks the property {names}"),
-            });
+            let problem = format!("element {element:?} lacks the property {names}");
+            return Err(MeshFault::syntax(None, problem));
         }
     }
     Ok(())
@@ -96,10 +94,10 @@ fn fault(error: &ParseError, encoding: Encoding) -> MeshFault {
         ErrorKind::UnexpectedEof => MeshFault::Truncated {
             missing: format!("what its header announces ({problem})"),
         },
-        _ => MeshFault::Syntax {
-            line: error.line().filter(|_| encoding == Encoding::Ascii),
-            problem,
-        },
+        _ => {
+            let line = error.line().filter(|_| encoding == Encoding::Ascii);
+            MeshFault::syntax(line, problem)
+        }
     }
 }
 

@@ -25,14 +25,14 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Polygons, MeshFault> {
     }
 }
 
-/// Many programs begin a binary file with `solid`, too, so that the length decides.
+/// Many programs begin a binary file with `solid`, too; only a text has no zero byte.
 fn is_binary(bytes: &[u8]) -> bool {
     let exact = announced(bytes).is_some_and(|facets| {
         (bytes.len() - HEADER_BYTES - COUNT_BYTES) as u64 == facets as u64 * FACET_BYTES as u64
     });
     let first = bytes.trim_ascii_start();
     let solid = first.len() >= 5 && first[..5].eq_ignore_ascii_case(b"solid");
-    exact || !solid
+    exact || !solid || bytes.contains(&0)
 }
 
 /// The number of facets that a binary file announces.
@@ -53,17 +53,13 @@ fn parse_binary(bytes: &[u8]) -> Result<Polygons, MeshFault> {
     }
     if room > facets as usize {
         let problem = format!("announces {facets} facets, but has room for {room}");
-        return Err(MeshFault::Syntax {
-            line: None,
-            problem,
-        });
+        return Err(MeshFault::syntax(None, problem));
     }
     // The header may say anything; a blank one keeps the library from taking the file for text.
     let mut blank = bytes.to_vec();
     blank[..HEADER_BYTES].fill(0);
-    collect(blank, |facet, error| MeshFault::Syntax {
-        line: None,
-        problem: format!("facet {facet}: {error}"),
+    collect(blank, |facet, error| {
+        MeshFault::syntax(None, format!("facet {facet}: {error}"))
     })
 }
 
@@ -109,10 +105,8 @@ fn parse_text(text: &str) -> Result<Polygons, MeshFault> {
             };
             return MeshFault::Truncated { missing };
         }
-        MeshFault::Syntax {
-            line: facet_lines.get(facet).copied(),
-            problem: format!("facet {facet}: {error}"),
-        }
+        let line = facet_lines.get(facet).copied();
+        MeshFault::syntax(line, format!("facet {facet}: {error}"))
     })?;
     polygons.face_lines = facet_lines;
     Ok(polygons)

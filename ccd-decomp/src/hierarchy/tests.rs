@@ -57,7 +57,7 @@ fn degenerate_pieces_make_no_long_chains() {
         &|k| corner(k).map(|p| p + far),
         &|k| corner(1e-310 * k),
         &|k| corner(1.0).map(|p| p + k * k * DVec3::Z),
-        &|k| corner(1.0).map(|p| (0.01 * k).exp2() * p),
+        &|k| corner(1.0).map(|p| (0.009 * k).exp2() * p),
         &|k| [DVec3::ZERO, DVec3::splat(1e15), dvec3(k, 0.0, -1e15)],
     ];
     for (k, shape) in shapes.iter().enumerate() {

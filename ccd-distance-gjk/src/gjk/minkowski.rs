@@ -3,7 +3,7 @@
 use super::simplex::Vertex;
 use super::vector::Vector;
 use ccd_core::PiecePair;
-use ccd_core::glam::{DVec3, Vec3A};
+use ccd_core::glam::DVec3;
 
 /// The difference of two hulls, in whatever precision and axes.
 pub(crate) trait Difference {
@@ -23,7 +23,7 @@ pub(crate) trait Difference {
 /// A pair in f64, in A's axes, each piece told from its own first point: rounding is that of the
 /// pieces' sizes and of their distance, wherever they lie.
 pub(crate) struct Exact<'a> {
-    pair: &'a PiecePair<'a>,
+    pub(crate) pair: &'a PiecePair<'a>,
     first_a: DVec3,
     first_b: DVec3,
     between: DVec3,
@@ -76,67 +76,6 @@ impl Difference for Exact<'_> {
     }
 
     fn between(&self) -> DVec3 {
-        self.between
-    }
-}
-
-/// A pair rounded to f32 after the same shift, and scaled to about one.
-pub(crate) struct Rounded<'a> {
-    pub(crate) a: &'a [Vec3A],
-    pub(crate) b: &'a [Vec3A],
-    pub(crate) between: Vec3A,
-}
-
-impl<'a> Rounded<'a> {
-    /// Rounds into the given buffers.
-    pub(crate) fn new(exact: &Exact<'_>, buffers: &'a mut [Vec<Vec3A>; 2]) -> Self {
-        let (pair, [a, b]) = (exact.pair, buffers);
-        let farthest = |points: &[DVec3], first: DVec3| {
-            let reach = |far: DVec3, p: &DVec3| far.max((*p - first).abs());
-            points.iter().fold(DVec3::ZERO, reach).max_element()
-        };
-        let size = farthest(pair.a.points, exact.first_a)
-            .max(farthest(pair.b.points, exact.first_b))
-            .max(exact.between.abs().max_element());
-        let scale = match size.recip() {
-            scale if scale.is_normal() => scale,
-            _ => 1.0,
-        };
-        let shrunk = |v: DVec3| (scale * v).as_vec3a();
-        a.clear();
-        a.extend(pair.a.points.iter().map(|&p| shrunk(p - exact.first_a)));
-        b.clear();
-        let turn = pair.b_to_a.rotation;
-        b.extend(pair.b.points.iter().map(|&p| shrunk(turn * (p - exact.first_b))));
-        Rounded {
-            a,
-            b,
-            between: shrunk(exact.between),
-        }
-    }
-}
-
-impl Difference for Rounded<'_> {
-    type Vector = Vec3A;
-
-    fn support(&self, direction: Vec3A) -> Vertex<Vec3A> {
-        let a = least(self.a, |p| -direction.dot(p));
-        let b = least(self.b, |p| direction.dot(p));
-        self.vertex(a, b).unwrap_or(Vertex {
-            point: self.between,
-            a: 0,
-            b: 0,
-        })
-    }
-
-    #[inline]
-    fn vertex(&self, a: u32, b: u32) -> Option<Vertex<Vec3A>> {
-        let (from, to) = (*self.a.get(a as usize)?, *self.b.get(b as usize)?);
-        let point = to - from + self.between;
-        Some(Vertex { point, a, b })
-    }
-
-    fn between(&self) -> Vec3A {
         self.between
     }
 }

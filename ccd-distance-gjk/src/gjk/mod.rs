@@ -1,8 +1,10 @@
 //! GJK: descends the Minkowski difference of two hulls towards the origin `[GJK88]`.
 
+mod fan;
 mod minkowski;
 mod oracle;
 mod refine;
+mod rounded;
 mod search;
 mod segment;
 mod sharpen;

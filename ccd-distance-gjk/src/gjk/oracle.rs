@@ -6,8 +6,8 @@ use super::search::{Found, search};
 use super::sharpen;
 use super::simplex::Simplex;
 use super::start::Cache;
-use super::termination::Stop;
-use crate::tolerance::{KEEP, ROUND_CAP, SUSPECT};
+use super::termination::{Stop, meets};
+use crate::tolerance::{KEEP, ROUND_CAP, SETTLED_ULPS};
 use ccd_core::glam::DVec3;
 use ccd_core::{Claim, Combination, DistanceOracle, GiveUp, PiecePair};
 
@@ -60,31 +60,36 @@ pub(crate) const NOTHING: Claim = Claim {
     b: Combination::EMPTY,
 };
 
-/// Searches, and goes on from the features' axis where the search's own one is not worth its
-/// distance: rounding had hidden a vertex from it.
+/// Searches, and where rounding stalls the search short of the distance that its axis certifies,
+/// goes on from the vertices that the features' axes run into.
 pub(crate) fn solve(exact: &Exact<'_>, mut simplex: Simplex<DVec3>) -> Found<DVec3> {
     let mut found = Found::nothing();
     for _ in 0..ROUND_CAP {
+        let before = found.square;
         let stop = search(exact, simplex, &mut found);
-        eprintln!("stop {stop:?}");
         if stop == Stop::Enclosed {
             sharpen::to_faces(exact, &mut found);
             break;
         }
-        if stop != Stop::Converged {
-            refine::witnesses(exact, &mut found);
-        }
-        if found.gap > 0.0 && found.gap >= KEEP * found.square.sqrt() {
+        if stop == Stop::Converged && found.gap >= KEEP * found.square.sqrt() {
             break;
         }
-        let beyond = sharpen::to_features(exact, &mut found);
-        simplex = found.simplex;
-        let suspect = !(found.gap >= SUSPECT * found.square.sqrt());
-        if !(suspect && beyond.is_some_and(|vertex| simplex.push(vertex))) {
+        refine::witnesses(exact, &mut found);
+        // Written so that NaN breaks.
+        if settled(&found) || !(found.square < before) {
+            break;
+        }
+        simplex = sharpen::to_features(exact, &mut found);
+        if settled(&found) {
             break;
         }
     }
     found
+}
+
+/// Whether the axis certifies the distance as well as rounding lets it.
+fn settled(found: &Found<DVec3>) -> bool {
+    found.gap > 0.0 && meets(found.gap, found.square, &found.simplex, SETTLED_ULPS)
 }
 
 /// Says what was found.

@@ -2,9 +2,9 @@
 
 use super::minkowski::Difference;
 use super::simplex::{Simplex, Vertex};
-use super::termination::{Stop, converged, touches};
+use super::termination::{Stop, meets, touches};
 use super::vector::Vector;
-use crate::tolerance::STEP_CAP;
+use crate::tolerance::{CONVERGED_ULPS, STEP_CAP};
 use num_traits::{Float, Zero};
 
 /// The best that is known of a pair.
@@ -59,7 +59,6 @@ pub(crate) fn search<D: Difference>(
             return Stop::Stalled;
         };
         let square = foot.point.square();
-        eprintln!("foot d={:?} w={:?} v={:?}", num_traits::ToPrimitive::to_f64(&square.sqrt()), foot.weights.map(|w| num_traits::ToPrimitive::to_f64(&w).unwrap()), simplex.vertices().iter().map(|v|(v.a,v.b)).collect::<Vec<_>>());
         // Written so that NaN stops it.
         if !(square < found.square) {
             return Stop::Stalled;
@@ -74,8 +73,7 @@ pub(crate) fn search<D: Difference>(
             return Stop::Touching;
         }
         let (vertex, gap) = found.probe(difference, direction);
-        eprintln!("  vertex {:?} gap {:?}", (vertex.a,vertex.b), num_traits::ToPrimitive::to_f64(&gap));
-        if converged(&foot, &simplex, gap) {
+        if meets(gap, square, &simplex, CONVERGED_ULPS) {
             return Stop::Converged;
         }
         simplex = reduced;

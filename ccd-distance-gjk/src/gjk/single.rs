@@ -1,10 +1,10 @@
 //! GJK that searches in f32 and finishes in f64.
 
-use super::minkowski::{Exact, Rounded};
+use super::minkowski::Exact;
 use super::oracle::{NOTHING, claim, solve};
+use super::rounded::Rounded;
 use super::search::{Found, search};
 use super::start::Cache;
-use ccd_core::glam::Vec3A;
 use ccd_core::{Claim, DistanceOracle, GiveUp, PiecePair};
 
 /// The distance of two hulls of any number of points, by GJK that searches in f32 and finishes in
@@ -18,10 +18,10 @@ use ccd_core::{Claim, DistanceOracle, GiveUp, PiecePair};
 ///
 /// # Complexity
 /// One pass over the points to round them, the search's steps in f32, then 1 to 3 in f64. Its
-/// buffers grow to the largest piece seen and stay.
+/// memory grows to that of the largest piece seen, and stays.
 #[derive(Clone, Debug, Default)]
 pub struct GjkF32 {
-    buffers: [Vec<Vec3A>; 2],
+    rounded: Rounded,
 }
 
 impl DistanceOracle for GjkF32 {
@@ -31,9 +31,9 @@ impl DistanceOracle for GjkF32 {
         let Some(exact) = Exact::new(pair) else {
             return Ok(NOTHING);
         };
-        let rounded = Rounded::new(&exact, &mut self.buffers);
+        self.rounded.set(&exact);
         let mut coarse = Found::nothing();
-        search(&rounded, cache.simplex(&rounded), &mut coarse);
+        search(&self.rounded, cache.simplex(&self.rounded), &mut coarse);
         let found = solve(&exact, Cache::of(&coarse).simplex(&exact));
         *cache = Cache::of(&found);
         Ok(claim(&found))

@@ -2,7 +2,7 @@
 
 use super::simplex::{Foot, Simplex};
 use super::vector::{Vector, ulps};
-use crate::tolerance::{CONVERGED_ULPS, TOUCHING_ULPS};
+use crate::tolerance::TOUCHING_ULPS;
 use num_traits::Float;
 
 /// Why a search stopped.
@@ -26,11 +26,17 @@ pub(crate) fn touches<V: Vector>(foot: &Foot<V>, simplex: &Simplex<V>) -> bool {
     foot.point.square() <= rounding * rounding * reach(simplex)
 }
 
-/// Whether a support gap has met the distance, up to rounding.
-pub(crate) fn converged<V: Vector>(foot: &Foot<V>, simplex: &Simplex<V>, gap: V::Scalar) -> bool {
-    let distance = foot.point.square().sqrt();
+/// Whether a support gap has met the distance of the nearest point, whose square is given, up to
+/// `share` units in the last place of it, and rounding.
+pub(crate) fn meets<V: Vector>(
+    gap: V::Scalar,
+    square: V::Scalar,
+    simplex: &Simplex<V>,
+    share: f32,
+) -> bool {
+    let distance = square.sqrt();
     let rounding = ulps::<V::Scalar>(TOUCHING_ULPS) * reach(simplex).sqrt();
-    distance - gap <= ulps::<V::Scalar>(CONVERGED_ULPS) * distance + rounding
+    distance - gap <= ulps::<V::Scalar>(share) * distance + rounding
 }
 
 /// The square of the largest vertex: what rounding is relative to.

@@ -9,7 +9,13 @@ use ccd_core::glam::{DQuat, DVec3};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
 pub(super) fn scenes() -> Vec<Scene> {
-    let mut out = vec![falling_cube(), bullet(), hooks_closing(), hooks_parting(), linked_tori()];
+    let mut out = vec![
+        falling_cube(),
+        bullet(),
+        hooks_closing(),
+        hooks_parting(),
+        linked_tori(),
+    ];
     out.extend(tilted_cubes());
     out.extend([(0.3, 0.15), (0.12, 0.1)].map(|(c, phi)| plate_through_slit(c, phi)));
     out.extend([4, 32].map(combs));
@@ -28,7 +34,11 @@ fn slab() -> Actor {
 fn falling_cube() -> Scene {
     let cube = cuboid(DVec3::splat(0.5));
     let cube = Actor::moving(cube, 3.0 * DVec3::Z, -4.0 * DVec3::Z, DVec3::ZERO);
-    Scene::new("T1 falling cube", [cube, slab()], Expect::hit(|g| (2.5 - g) / 4.0))
+    Scene::new(
+        "T1 falling cube",
+        [cube, slab()],
+        Expect::hit(|g| (2.5 - g) / 4.0),
+    )
 }
 
 /// T8: edge across edge, and corner on face.
@@ -60,7 +70,11 @@ pub fn sliding(gap: f64, velocity: DVec3) -> Scene {
     let cube = Actor::moving(cube, (0.5 + gap) * DVec3::Z, velocity, DVec3::ZERO);
     // Less the rounding of where the cube is: 0.5 + gap is a multiple of 2⁻⁵³.
     let gap = (0.5 + gap) - 0.5;
-    Scene::new(format!("T10 sliding at {gap:.0e}"), [cube, slab()], Expect::Free { gap })
+    Scene::new(
+        format!("T10 sliding at {gap:.0e}"),
+        [cube, slab()],
+        Expect::Free { gap },
+    )
 }
 
 /// T13: a small fast cube against paper.
@@ -68,18 +82,30 @@ fn bullet() -> Scene {
     let bullet = cuboid(DVec3::splat(0.005));
     let bullet = Actor::moving(bullet, DVec3::ZERO, 1000.0 * DVec3::X, DVec3::ZERO);
     let paper = Actor::still(cuboid(DVec3::new(5e-7, 1.0, 1.0)), 400.0 * DVec3::X);
-    Scene::new("T13 bullet", [bullet, paper], Expect::hit(|g| (400.0 - 5e-7 - 0.005 - g) / 1000.0))
+    Scene::new(
+        "T13 bullet",
+        [bullet, paper],
+        Expect::hit(|g| (400.0 - 5e-7 - 0.005 - g) / 1000.0),
+    )
 }
 
 /// T15: crossed hooks, base in base; the lateral gaps are wider than any tolerance.
 fn hooks_closing() -> Scene {
-    Scene::new("T15 hooks closing", hooks(-DVec3::Z), Expect::hit(|g| 0.3 - g))
+    Scene::new(
+        "T15 hooks closing",
+        hooks(-DVec3::Z),
+        Expect::hit(|g| 0.3 - g),
+    )
 }
 
 /// T15, the other way: the slack grows. Leg beside leg is what stays nearest.
 fn hooks_parting() -> Scene {
     // A leg's inner face is at 0.3, the other's base beside it reaches to 0.1.
-    Scene::new("T15 hooks parting", hooks(DVec3::Z), Expect::Free { gap: 0.2 })
+    Scene::new(
+        "T15 hooks parting",
+        hooks(DVec3::Z),
+        Expect::Free { gap: 0.2 },
+    )
 }
 
 fn hooks(velocity: DVec3) -> [Actor; 2] {
@@ -130,13 +156,20 @@ fn linked_tori() -> Scene {
         earliest: Box::new(move |g| major - 2.0 * minor - g / nearer),
         latest: major - 2.0 * minor,
     };
-    Scene::new("T17 linked tori", [Actor::still(flat, DVec3::ZERO), upright], expect)
+    Scene::new(
+        "T17 linked tori",
+        [Actor::still(flat, DVec3::ZERO), upright],
+        expect,
+    )
 }
 
 /// T19: comb into comb, until the tips reach the other's base.
 fn combs(teeth: usize) -> Scene {
     let (apart, speed) = (0.5, 1.0);
-    let flipped = comb(teeth).placed(DQuat::from_rotation_x(PI), DVec3::new(0.5, 0.0, 1.0 + apart));
+    let flipped = comb(teeth).placed(
+        DQuat::from_rotation_x(PI),
+        DVec3::new(0.5, 0.0, 1.0 + apart),
+    );
     let upper = Actor::moving(flipped, DVec3::ZERO, -speed * DVec3::Z, DVec3::ZERO);
     let lower = Actor::still(comb(teeth), DVec3::ZERO);
     Scene::new(
@@ -149,7 +182,11 @@ fn combs(teeth: usize) -> Scene {
 /// T21: needles come down tip first.
 fn needles_on_slab(width: f64) -> Scene {
     let fall = Actor::moving(needles(9, width), 0.75 * DVec3::Z, -DVec3::Z, DVec3::ZERO);
-    Scene::new(format!("T21 needles of {width:.0e}"), [fall, slab()], Expect::hit(|g| 0.75 - g))
+    Scene::new(
+        format!("T21 needles of {width:.0e}"),
+        [fall, slab()],
+        Expect::hit(|g| 0.75 - g),
+    )
 }
 
 /// Two equal plates, every pair of triangles touching at once.

@@ -44,15 +44,23 @@ pub type Distance = Box<dyn Fn(f64) -> f64 + Send + Sync>;
 
 /// Every scene.
 pub fn scenes() -> Vec<Scene> {
-    [linear::scenes(), turning::scenes(), twisted::scenes(), rounded::scenes()]
-        .into_iter()
-        .flatten()
-        .collect()
+    [
+        linear::scenes(),
+        turning::scenes(),
+        twisted::scenes(),
+        rounded::scenes(),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
 }
 
 /// The scenes whose name begins so.
 pub fn scenes_named(prefix: &str) -> Vec<Scene> {
-    scenes().into_iter().filter(|scene| scene.name.starts_with(prefix)).collect()
+    scenes()
+        .into_iter()
+        .filter(|scene| scene.name.starts_with(prefix))
+        .collect()
 }
 
 impl Scene {

@@ -8,7 +8,13 @@ use ccd_core::{Polytope, Volume};
 use std::f64::consts::PI;
 
 pub(super) fn scenes() -> Vec<Scene> {
-    vec![balls_passing(), balls_head_on(), ball_on_slab(), capsule_on_wall(), rounded_box()]
+    vec![
+        balls_passing(),
+        balls_head_on(),
+        ball_on_slab(),
+        capsule_on_wall(),
+        rounded_box(),
+    ]
 }
 
 /// A convex part with a rounding radius.
@@ -32,7 +38,10 @@ fn ball(radius: f64) -> Shape {
 }
 
 fn wall() -> Actor {
-    Actor::still(without_mesh(cuboid(DVec3::new(0.5, 4.0, 4.0))), 2.0 * DVec3::X)
+    Actor::still(
+        without_mesh(cuboid(DVec3::new(0.5, 4.0, 4.0))),
+        2.0 * DVec3::X,
+    )
 }
 
 fn without_mesh(mut shape: Shape) -> Shape {
@@ -42,15 +51,29 @@ fn without_mesh(mut shape: Shape) -> Shape {
 
 /// Two balls pass each other at a distance.
 fn balls_passing() -> Scene {
-    let moving = Actor::moving(ball(0.5), DVec3::new(-2.0, 1.1, 0.0), 4.0 * DVec3::X, PI * DVec3::Z);
+    let moving = Actor::moving(
+        ball(0.5),
+        DVec3::new(-2.0, 1.1, 0.0),
+        4.0 * DVec3::X,
+        PI * DVec3::Z,
+    );
     let still = Actor::still(ball(0.5), DVec3::ZERO);
     // The least distance, as its centre passes at 1.1.
-    Scene::new("balls passing", [moving, still], Expect::Free { gap: 1.1 - 1.0 })
+    Scene::new(
+        "balls passing",
+        [moving, still],
+        Expect::Free { gap: 1.1 - 1.0 },
+    )
 }
 
 /// Two balls meet off centre, both moving.
 fn balls_head_on() -> Scene {
-    let left = Actor::moving(ball(0.5), DVec3::new(-2.0, 0.6, 0.0), 2.0 * DVec3::X, DVec3::ZERO);
+    let left = Actor::moving(
+        ball(0.5),
+        DVec3::new(-2.0, 0.6, 0.0),
+        2.0 * DVec3::X,
+        DVec3::ZERO,
+    );
     let right = Actor::moving(ball(0.5), 2.0 * DVec3::X, -2.0 * DVec3::X, 9.0 * DVec3::Y);
     let time = |g: f64| (4.0 - ((1.0 + g).powi(2) - 0.36).sqrt()) / 4.0;
     Scene::new("balls head-on", [left, right], Expect::hit(time))
@@ -59,7 +82,11 @@ fn balls_head_on() -> Scene {
 /// A spinning ball falls onto a box.
 fn ball_on_slab() -> Scene {
     let falling = Actor::moving(ball(0.5), DVec3::ZERO, 2.0 * DVec3::X, 30.0 * DVec3::ONE);
-    Scene::new("ball on wall", [falling, wall()], Expect::hit(|g| (1.0 - g) / 2.0))
+    Scene::new(
+        "ball on wall",
+        [falling, wall()],
+        Expect::hit(|g| (1.0 - g) / 2.0),
+    )
 }
 
 /// A capsule turns its end into a wall.

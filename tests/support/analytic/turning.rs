@@ -16,7 +16,13 @@ fn reach() -> f64 {
 }
 
 pub(super) fn scenes() -> Vec<Scene> {
-    let mut out = vec![rod_on_slab(), rod_on_post(), swinging_mace(), peg_in_hole(), two_rods()];
+    let mut out = vec![
+        rod_on_slab(),
+        rod_on_post(),
+        swinging_mace(),
+        peg_in_hole(),
+        two_rods(),
+    ];
     out.extend([1.0, 1.9, 2.0, 7.5].map(|turns| upright_rod("T4", turns, 1.25)));
     out.push(pre_rotated_rod());
     for depth in [1e-3, 1e-6] {
@@ -38,9 +44,18 @@ fn corner_time(height: f64, speed: f64) -> f64 {
 /// T2: a rod's end comes down on a slab.
 fn rod_on_slab() -> Scene {
     let height = 1.2;
-    let spinning = Actor::moving(rod(LENGTH, WIDTH), height * DVec3::Z, DVec3::ZERO, PI * DVec3::Y);
+    let spinning = Actor::moving(
+        rod(LENGTH, WIDTH),
+        height * DVec3::Z,
+        DVec3::ZERO,
+        PI * DVec3::Y,
+    );
     let slab = Actor::still(cuboid(DVec3::new(4.0, 4.0, 0.5)), -0.5 * DVec3::Z);
-    Scene::new("T2 rod on slab", [spinning, slab], Expect::hit(move |g| corner_time(height - g, PI)))
+    Scene::new(
+        "T2 rod on slab",
+        [spinning, slab],
+        Expect::hit(move |g| corner_time(height - g, PI)),
+    )
 }
 
 /// T4: an upright rod turns by half turns towards a wall.
@@ -78,7 +93,11 @@ fn pre_rotated_rod() -> Scene {
         shape: rod.shape.placed(turn, DVec3::ZERO),
         motion: Motion::new(start, DVec3::ZERO, PI * DVec3::Y).expect("finite"),
     };
-    Scene::new("T3 pre-rotated rod", [rod, wall], Expect::hit(|g| corner_time(1.25 - g, PI)))
+    Scene::new(
+        "T3 pre-rotated rod",
+        [rod, wall],
+        Expect::hit(|g| corner_time(1.25 - g, PI)),
+    )
 }
 
 /// T6: the rod's corner passes the wall at a small distance.
@@ -106,7 +125,12 @@ fn rod_on_post() -> Scene {
 fn swinging_mace() -> Scene {
     let (length, width, speed) = (2.0_f64, 0.02, 3.0);
     let reach: f64 = length.hypot(width);
-    let swinging = Actor::moving(mace(length, width), DVec3::ZERO, DVec3::ZERO, speed * DVec3::Z);
+    let swinging = Actor::moving(
+        mace(length, width),
+        DVec3::ZERO,
+        DVec3::ZERO,
+        speed * DVec3::Z,
+    );
     let wall = Actor::still(
         wall_at(1.0).placed(DQuat::from_rotation_z(FRAC_PI_2), DVec3::ZERO),
         DVec3::ZERO,
@@ -173,5 +197,9 @@ fn rigidly_turning_pair() -> Scene {
                 .expect("finite"),
         }
     };
-    Scene::new("turntable", [on_table(-1.0), on_table(1.0)], Expect::Free { gap: 1.0 })
+    Scene::new(
+        "turntable",
+        [on_table(-1.0), on_table(1.0)],
+        Expect::Free { gap: 1.0 },
+    )
 }

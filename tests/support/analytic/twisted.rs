@@ -16,7 +16,11 @@ pub(super) fn scenes() -> Vec<Scene> {
         cuboids_in_the_distance(),
         deep_overlap(),
         nested("T24 nested solids", Shape::closed, Expect::Overlap),
-        nested("T24 nested surfaces", Shape::open, Expect::Free { gap: 1.5 }),
+        nested(
+            "T24 nested surfaces",
+            Shape::open,
+            Expect::Free { gap: 1.5 },
+        ),
         resting(),
     ];
     out.extend([0.0, 1e-12, PI].map(slow_turn));
@@ -47,9 +51,18 @@ fn dirty_cube() -> Scene {
     mesh.faces.extend(clean.iter().map(|f| [f[0], f[0], f[1]]));
     mesh.faces.extend(clean.iter().map(|f| [f[2]; 3]));
     mesh.faces.extend(clean);
-    let cube = Actor::moving(Shape::open(mesh), 3.0 * DVec3::Z, -4.0 * DVec3::Z, DVec3::ZERO);
+    let cube = Actor::moving(
+        Shape::open(mesh),
+        3.0 * DVec3::Z,
+        -4.0 * DVec3::Z,
+        DVec3::ZERO,
+    );
     let slab = Actor::still(cuboid(DVec3::new(3.0, 3.0, 0.5)), -0.5 * DVec3::Z);
-    Scene::new("T21 dirty cube", [cube, slab], Expect::hit(|g| (2.5 - g) / 4.0))
+    Scene::new(
+        "T21 dirty cube",
+        [cube, slab],
+        Expect::hit(|g| (2.5 - g) / 4.0),
+    )
 }
 
 /// T21: two cubes that share an edge, open below: no manifold.
@@ -65,7 +78,11 @@ fn two_shells() -> Scene {
     both.parts.clear();
     let falling = Actor::moving(both, 3.0 * DVec3::Z, -4.0 * DVec3::Z, DVec3::ZERO);
     let slab = Actor::still(cuboid(DVec3::new(3.0, 3.0, 0.5)), -0.5 * DVec3::Z);
-    Scene::new("T21 two shells", [falling, slab], Expect::hit(|g| (2.5 - g) / 4.0))
+    Scene::new(
+        "T21 two shells",
+        [falling, slab],
+        Expect::hit(|g| (2.5 - g) / 4.0),
+    )
 }
 
 /// T26: cuboids at coordinates of some thousands, one flying and turning about a point of its own;
@@ -83,7 +100,12 @@ fn cuboids_in_the_distance() -> Scene {
     );
     let still = Pose::new(
         DVec3::new(6079.4917, -849.3108, 853.8756),
-        DQuat::from_xyzw(0.002_524_775, -0.000_262_104_35, -0.001_206_448_5, 0.999_996_07),
+        DQuat::from_xyzw(
+            0.002_524_775,
+            -0.000_262_104_35,
+            -0.001_206_448_5,
+            0.999_996_07,
+        ),
     );
     let flying = Actor {
         shape: cuboid(DVec3::new(235.0, 105.0, 110.0)),
@@ -93,14 +115,22 @@ fn cuboids_in_the_distance() -> Scene {
         shape: cuboid(DVec3::new(650.0, 330.0, 275.0)),
         motion: Motion::still(still.expect("a pose")),
     };
-    Scene::new("T26 cuboids in the distance", [flying, still], Expect::Unknown)
+    Scene::new(
+        "T26 cuboids in the distance",
+        [flying, still],
+        Expect::Unknown,
+    )
 }
 
 /// T24: two cubes, one in the other's face.
 fn deep_overlap() -> Scene {
     let cube = || cuboid(DVec3::splat(0.5));
     let leaving = Actor::moving(cube(), 0.7 * DVec3::X, DVec3::X, DVec3::Z);
-    Scene::new("T24 overlap", [leaving, Actor::still(cube(), DVec3::ZERO)], Expect::Overlap)
+    Scene::new(
+        "T24 overlap",
+        [leaving, Actor::still(cube(), DVec3::ZERO)],
+        Expect::Overlap,
+    )
 }
 
 /// T24: a small cube in a big one, surfaces apart.
@@ -125,7 +155,10 @@ fn nested(name: &str, shape: fn(Mesh) -> Shape, expect: Expect) -> Scene {
 /// T25: nothing moves.
 fn resting() -> Scene {
     let cube = || cuboid(DVec3::splat(0.5));
-    let bodies = [Actor::still(cube(), DVec3::ZERO), Actor::still(cube(), 2.0 * DVec3::X)];
+    let bodies = [
+        Actor::still(cube(), DVec3::ZERO),
+        Actor::still(cube(), 2.0 * DVec3::X),
+    ];
     Scene::new("T25 at rest", bodies, Expect::Free { gap: 1.0 })
 }
 

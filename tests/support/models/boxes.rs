@@ -27,7 +27,10 @@ pub fn cuboid(half: DVec3) -> Shape {
     Shape {
         mesh: Mesh {
             vertices: points.clone(),
-            faces: quads.iter().flat_map(|q| [[q[0], q[1], q[2]], [q[0], q[2], q[3]]]).collect(),
+            faces: quads
+                .iter()
+                .flat_map(|q| [[q[0], q[1], q[2]], [q[0], q[2], q[3]]])
+                .collect(),
         },
         parts: vec![Polytope {
             points,
@@ -61,8 +64,14 @@ pub fn post(radius: f64, angle: f64) -> Shape {
     // Behind the edge as the rod sees it: the way the rod moves, spread by a quarter turn.
     let along = DVec3::new(-angle.sin(), angle.cos(), 0.0);
     let across = DVec3::new(angle.cos(), angle.sin(), 0.0);
-    let corners = [edge, edge + 0.4 * (along + across), edge + 0.4 * (along - across)];
-    let vertices = [-2.0, 2.0].iter().flat_map(|z| corners.map(|c| c + z * DVec3::Z));
+    let corners = [
+        edge,
+        edge + 0.4 * (along + across),
+        edge + 0.4 * (along - across),
+    ];
+    let vertices = [-2.0, 2.0]
+        .iter()
+        .flat_map(|z| corners.map(|c| c + z * DVec3::Z));
     Shape::convex(Mesh {
         vertices: vertices.collect(),
         faces: vec![
@@ -86,8 +95,14 @@ pub fn mace(length: f64, width: f64) -> Shape {
 
 /// An L of two bars, 20 coplanar-rich triangles as one closed surface; two boxes as parts.
 pub fn l_prism() -> Shape {
-    let outline: [[f64; 2]; 6] =
-        [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 1.0], [1.0, 2.0], [0.0, 2.0]];
+    let outline: [[f64; 2]; 6] = [
+        [0.0, 0.0],
+        [2.0, 0.0],
+        [2.0, 1.0],
+        [1.0, 1.0],
+        [1.0, 2.0],
+        [0.0, 2.0],
+    ];
     let vertices = [-0.5, 0.5]
         .iter()
         .flat_map(|&z| outline.map(|[x, y]| DVec3::new(x, y, z)))
@@ -162,7 +177,8 @@ pub fn needles(count: usize, width: f64) -> Shape {
     for k in 0..count {
         let foot = DVec3::new((k as f64 + 0.5) / count as f64, 0.5, 0.0);
         let base = mesh.vertices.len() as u32;
-        mesh.vertices.extend([foot, foot + DVec3::Z, foot + DVec3::Z + width * DVec3::Y]);
+        mesh.vertices
+            .extend([foot, foot + DVec3::Z, foot + DVec3::Z + width * DVec3::Y]);
         mesh.faces.push([base, base + 1, base + 2]);
     }
     Shape::open(mesh)

@@ -96,8 +96,12 @@ impl Shape {
             let (vertex, face) = (out.mesh.vertices.len(), out.mesh.faces.len());
             all_parts &= !shape.parts.is_empty();
             out.parts.extend(shape.parts.into_iter().map(|mut part| {
-                part.vertex_ids = (0..part.points.len() as u32).map(|k| k + vertex as u32).collect();
-                part.facets.iter_mut().for_each(|facet| facet.id += face as u32);
+                part.vertex_ids = (0..part.points.len() as u32)
+                    .map(|k| k + vertex as u32)
+                    .collect();
+                part.facets
+                    .iter_mut()
+                    .for_each(|facet| facet.id += face as u32);
                 part
             }));
             out.mesh.append(&shape.mesh);
@@ -174,7 +178,8 @@ impl Mesh {
     pub fn append(&mut self, other: &Mesh) {
         let base = self.vertices.len() as u32;
         self.vertices.extend_from_slice(&other.vertices);
-        self.faces.extend(other.faces.iter().map(|f| f.map(|v| v + base)));
+        self.faces
+            .extend(other.faces.iter().map(|f| f.map(|v| v + base)));
     }
 
     /// The corners of a face.
@@ -184,7 +189,10 @@ impl Mesh {
 
     /// The largest distance of a vertex from a point.
     pub fn radius_about(&self, centre: DVec3) -> f64 {
-        self.vertices.iter().map(|v| v.distance(centre)).fold(0.0, f64::max)
+        self.vertices
+            .iter()
+            .map(|v| v.distance(centre))
+            .fold(0.0, f64::max)
     }
 
     /// The same surface with every face seen from the other side.
@@ -202,12 +210,17 @@ impl Mesh {
 /// The faces of a grid of `rows × columns` vertices, row by row; a closed direction wraps around.
 /// Seen from where rows run to the right and columns upwards, faces are counter-clockwise.
 fn grid_faces(rows: Line, columns: Line) -> Vec<[u32; 3]> {
-    let vertex = |i: usize, j: usize| ((i % rows.count()) * columns.count() + j % columns.count()) as u32;
+    let vertex =
+        |i: usize, j: usize| ((i % rows.count()) * columns.count() + j % columns.count()) as u32;
     let mut faces = Vec::new();
     for i in 0..rows.steps() {
         for j in 0..columns.steps() {
-            let [a, b, c, d] =
-                [vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1), vertex(i, j + 1)];
+            let [a, b, c, d] = [
+                vertex(i, j),
+                vertex(i + 1, j),
+                vertex(i + 1, j + 1),
+                vertex(i, j + 1),
+            ];
             faces.extend([[a, b, c], [a, c, d]]);
         }
     }

@@ -19,9 +19,26 @@ pub fn icosphere(radius: f64, levels: u32) -> Shape {
         vertices.push(DVec3::new(x, 0.0, z));
     }
     let mut faces: Vec<[u32; 3]> = vec![
-        [0, 11, 5], [0, 5, 1], [0, 1, 7], [0, 7, 10], [0, 10, 11], [1, 5, 9], [5, 11, 4],
-        [11, 10, 2], [10, 7, 6], [7, 1, 8], [3, 9, 4], [3, 4, 2], [3, 2, 6], [3, 6, 8],
-        [3, 8, 9], [4, 9, 5], [2, 4, 11], [6, 2, 10], [8, 6, 7], [9, 8, 1],
+        [0, 11, 5],
+        [0, 5, 1],
+        [0, 1, 7],
+        [0, 7, 10],
+        [0, 10, 11],
+        [1, 5, 9],
+        [5, 11, 4],
+        [11, 10, 2],
+        [10, 7, 6],
+        [7, 1, 8],
+        [3, 9, 4],
+        [3, 4, 2],
+        [3, 2, 6],
+        [3, 6, 8],
+        [3, 8, 9],
+        [4, 9, 5],
+        [2, 4, 11],
+        [6, 2, 10],
+        [8, 6, 7],
+        [9, 8, 1],
     ];
     for _ in 0..levels {
         let mut middles = HashMap::new();
@@ -54,7 +71,9 @@ pub fn inradius(mesh: &Mesh) -> f64 {
         let [a, b, c] = mesh.triangle(face);
         (b - a).cross(c - a).normalize().dot(a)
     };
-    (0..mesh.faces.len()).map(distance).fold(f64::INFINITY, f64::min)
+    (0..mesh.faces.len())
+        .map(distance)
+        .fold(f64::INFINITY, f64::min)
 }
 
 /// A torus about z: `rings` tubes' sections on a circle of radius `major`, each of `sides` vertices
@@ -67,7 +86,9 @@ pub fn torus(major: f64, minor: f64, rings: usize, sides: usize) -> Shape {
         DVec3::new(r * u.cos(), r * u.sin(), minor * v.sin())
     };
     let mesh = Mesh {
-        vertices: (0..rings).flat_map(|i| (0..sides).map(move |j| vertex(i, j))).collect(),
+        vertices: (0..rings)
+            .flat_map(|i| (0..sides).map(move |j| vertex(i, j)))
+            .collect(),
         faces: grid_faces(Line::Closed(rings), Line::Closed(sides)),
     };
     Shape::closed(mesh.flipped())
@@ -77,7 +98,11 @@ pub fn torus(major: f64, minor: f64, rings: usize, sides: usize) -> Shape {
 pub fn torus_knot(rings: usize, sides: usize) -> Shape {
     let curve = |u: f64| {
         let r = 0.5 + 0.2 * (3.0 * u).cos();
-        DVec3::new(r * (2.0 * u).cos(), r * (2.0 * u).sin(), 0.2 * (3.0 * u).sin())
+        DVec3::new(
+            r * (2.0 * u).cos(),
+            r * (2.0 * u).sin(),
+            0.2 * (3.0 * u).sin(),
+        )
     };
     let mut vertices = Vec::new();
     for i in 0..rings {
@@ -91,5 +116,5 @@ pub fn torus_knot(rings: usize, sides: usize) -> Shape {
         }
     }
     let faces = grid_faces(Line::Closed(rings), Line::Closed(sides));
-    Shape::closed(Mesh { vertices, faces }.flipped())
+    Shape::closed(Mesh { vertices, faces })
 }

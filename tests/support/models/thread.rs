@@ -32,7 +32,9 @@ fn thread(pitches: usize, clearance: f64) -> Mesh {
         DVec3::new(r * (TAU * turn).cos(), r * (TAU * turn).sin(), z)
     };
     Mesh {
-        vertices: (0..rows).flat_map(|i| (0..SEGMENTS).map(move |j| vertex(i, j))).collect(),
+        vertices: (0..rows)
+            .flat_map(|i| (0..SEGMENTS).map(move |j| vertex(i, j)))
+            .collect(),
         faces: grid_faces(Line::Open(rows), Line::Closed(SEGMENTS)),
     }
 }

@@ -79,7 +79,9 @@ impl<'a> Referee<'a> {
         let [a, b] = self.posed(time);
         let solid = |k: usize| [&self.query.a, &self.query.b][k].shape.is_solid();
         let inside = |outer: &Posed<'_>, inner: &Posed<'_>| {
-            inner.first_vertex().is_some_and(|p| contains(outer.mesh(), outer.points(), p))
+            inner
+                .first_vertex()
+                .is_some_and(|p| contains(outer.mesh(), outer.points(), p))
         };
         (solid(1) && inside(&b, &a)) || (solid(0) && inside(&a, &b))
     }
@@ -87,7 +89,11 @@ impl<'a> Referee<'a> {
     /// Whether a point in world coordinates lies inside of body A (0) or B (1) at the start.
     pub fn holds(&self, body: usize, point: DVec3) -> bool {
         let posed = &self.posed(0.0)[body];
-        contains(posed.mesh(), posed.points(), point - self.places[0].origin())
+        contains(
+            posed.mesh(),
+            posed.points(),
+            point - self.places[0].origin(),
+        )
     }
 
     /// When the bodies first touch.
@@ -136,17 +142,30 @@ impl<'a> Referee<'a> {
 
     fn touches(&self, time: f64) -> bool {
         let gap = self.gap(time);
-        if self.margin > 0.0 { gap < self.margin } else { gap == 0.0 }
+        if self.margin > 0.0 {
+            gap < self.margin
+        } else {
+            gap == 0.0
+        }
     }
 
     fn size(&self) -> f64 {
-        self.places.iter().map(Placement::radius).fold(0.0, f64::max)
+        self.places
+            .iter()
+            .map(Placement::radius)
+            .fold(0.0, f64::max)
     }
 
     fn posed(&self, time: f64) -> [Posed<'a>; 2] {
         let place = |k: usize, actor: &'a crate::query::Actor| {
             let mesh = &actor.shape.mesh;
-            Posed::new(mesh, mesh.vertices.iter().map(|&p| self.places[k].at(time, p)).collect())
+            Posed::new(
+                mesh,
+                mesh.vertices
+                    .iter()
+                    .map(|&p| self.places[k].at(time, p))
+                    .collect(),
+            )
         };
         [place(0, &self.query.a), place(1, &self.query.b)]
     }

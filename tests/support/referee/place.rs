@@ -22,7 +22,10 @@ impl Placement {
     /// Of both bodies of a query, A first.
     pub fn pair(query: &Query) -> [Placement; 2] {
         let (mut a, mut b) = (Placement::new(&query.a), Placement::new(&query.b));
-        let (pa, pb) = (query.a.motion.start().translation(), query.b.motion.start().translation());
+        let (pa, pb) = (
+            query.a.motion.start().translation(),
+            query.b.motion.start().translation(),
+        );
         b.offset = (pb - pa) + (b.offset - a.offset);
         b.velocity -= a.velocity;
         (a.origin, b.origin) = (pa + a.offset, pa + a.offset);

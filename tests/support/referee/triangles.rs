@@ -18,7 +18,8 @@ const GROUP: usize = 8;
 impl<'a> Posed<'a> {
     pub(super) fn new(mesh: &'a Mesh, points: Vec<DVec3>) -> Self {
         let of_face = |face: &[u32; 3]| {
-            face.iter().fold(Bounds::EMPTY, |all, &v| all.with(points[v as usize]))
+            face.iter()
+                .fold(Bounds::EMPTY, |all, &v| all.with(points[v as usize]))
         };
         let boxes: Vec<Bounds> = mesh.faces.iter().map(of_face).collect();
         let group = |some: &[Bounds]| some.iter().fold(Bounds::EMPTY, |all, b| all.union(*b));
@@ -192,7 +193,9 @@ impl Bounds {
     }
 
     fn distance_squared(&self, other: &Bounds) -> f64 {
-        let gap = (self.lo - other.hi).max(other.lo - self.hi).max(DVec3::ZERO);
+        let gap = (self.lo - other.hi)
+            .max(other.lo - self.hi)
+            .max(DVec3::ZERO);
         gap.length_squared()
     }
 }

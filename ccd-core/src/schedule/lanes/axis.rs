@@ -17,7 +17,12 @@ pub(super) struct Axis {
 ///
 /// Homogeneous in the axis: a zero vector gives no gap, and one of any length a sound gap.
 #[inline(always)]
-pub(super) fn widest<C: Children, P: Other>(children: &C, other: &P, lane: usize, way: Vec3) -> Axis {
+pub(super) fn widest<C: Children, P: Other>(
+    children: &C,
+    other: &P,
+    lane: usize,
+    way: Vec3,
+) -> Axis {
     let between = along(children, other, lane, way, unit(way));
     let own = towards(children.normal(lane), way);
     let others = towards(other.normal(), way);
@@ -42,13 +47,7 @@ pub(super) fn passing<C: Children, P: Other>(
 }
 
 #[inline(always)]
-fn along<C: Children, P: Other>(
-    children: &C,
-    other: &P,
-    lane: usize,
-    way: Vec3,
-    n: Vec3,
-) -> Axis {
+fn along<C: Children, P: Other>(children: &C, other: &P, lane: usize, way: Vec3, n: Vec3) -> Axis {
     let split_reach = children.reach(lane, n);
     let other_reach = other.reach(n);
     Axis {

@@ -4,6 +4,7 @@
 //! f32, one array lane per child; loops over lanes are what the compiler turns into vector code.
 //! The rounding of every gap and rate is covered by the slacks of [`Closing`].
 
+mod attached;
 mod axis;
 mod clock;
 mod shape;
@@ -13,11 +14,11 @@ mod vector;
 pub(crate) use shape::{Children, Other, OtherBox, OtherTriangle};
 pub(crate) use turn::{Straight, Turn, Turning};
 
-use crate::tolerance::{BEND_F32, LEAST_BEND_F32, LOOK_AGAIN, THICKNESS};
+use crate::tolerance::{BEND_F32, LEAST_BEND_F32, LOOK_AGAIN, SWEPT, THICKNESS};
 use crate::tree::LANES;
 use axis::Axis;
 use glam::Vec3;
-use vector::{dot, length, max};
+use vector::{dot, length, max, min};
 
 /// What eight pairs come to.
 #[derive(Clone, Copy, Debug)]
@@ -79,6 +80,55 @@ pub(crate) fn bound<C: Children, P: Other, S: Turn, O: Turn>(
             - (widest.other_reach + THICKNESS * other.radius());
     }
     out
+}
+
+/// Bounds eight pairs along planes that turn with the body of the larger nodes, where those of
+/// [`bound`] do not last as long.
+#[inline(always)]
+pub(crate) fn bound_attached<C: Children, P: Other, S: Turn, O: Turn>(
+    children: &C,
+    other: &P,
+    closing: &Closing<S, O>,
+    larger: Larger,
+    out: &mut Bounds,
+) {
+    let pairing = Pairing::new(children, other, closing);
+    for lane in 0..LANES {
+        let pair = pairing.lane(lane);
+        let widest = axis::widest(children, other, lane, pair.way);
+        let (attached, spin, arm, size) = match larger {
+            Larger::Split => (
+                pairing.free_with_split(widest),
+                closing.split.rate(),
+                closing.split.arm(other.centre()),
+                children.radius(lane),
+            ),
+            Larger::Other => (
+                pairing.free_with_other(&pair, widest),
+                closing.other.rate(),
+                closing.other.arm(children.centre(lane)),
+                other.radius(),
+            ),
+        };
+        let free = out.free[lane];
+        let longer = attached - 2.0 * free;
+        let farther = attached * spin * arm - size * SWEPT;
+        out.aloof[lane] = max(out.aloof[lane], min(longer, farther));
+        out.free[lane] = max(free, attached);
+        // What the plane is attached to is better kept whole.
+        let keep = match larger {
+            Larger::Split => -1.0,
+            Larger::Other => 1.0,
+        };
+        out.thicker[lane] = vector::choose(attached > free, keep, out.thicker[lane]);
+    }
+}
+
+/// Which side's nodes are much larger than the other's.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Larger {
+    Split,
+    Other,
 }
 
 /// The children of a group, each with the other node.

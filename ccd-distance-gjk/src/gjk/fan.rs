@@ -1,0 +1,102 @@
+//! The axes that a few vertices of the Minkowski difference span.
+
+use super::search::Found;
+use super::simplex::{Simplex, Vertex};
+use crate::tolerance::SHARPEN_CAP;
+use ccd_core::glam::DVec3;
+
+/// Vertices of the difference, as seen from the one that weighs most in the nearest point.
+pub(crate) struct Fan {
+    /// The nearest point.
+    point: DVec3,
+    vertices: [Vertex<DVec3>; SHARPEN_CAP],
+    len: usize,
+}
+
+impl Fan {
+    /// The vertices that hold the nearest point; none without one.
+    pub(crate) fn new(found: &Found<DVec3>) -> Option<Self> {
+        let held = found.simplex.vertices();
+        let mut out = Fan {
+            point: DVec3::ZERO,
+            vertices: [*held.first()?; SHARPEN_CAP],
+            len: 0,
+        };
+        let mut heaviest = (0, f64::NEG_INFINITY);
+        for (vertex, weight) in held.iter().zip(found.weights) {
+            if weight > heaviest.1 {
+                heaviest = (out.len, weight);
+            }
+            out.point += weight * vertex.point;
+            out.push(*vertex);
+        }
+        out.vertices.swap(0, heaviest.0);
+        Some(out)
+    }
+
+    fn vertices(&self) -> &[Vertex<DVec3>] {
+        &self.vertices[..self.len]
+    }
+
+    /// Adds a vertex; `false` if it is there already, or there are too many.
+    pub(crate) fn push(&mut self, vertex: Vertex<DVec3>) -> bool {
+        let same = |v: &Vertex<DVec3>| v.point == vertex.point;
+        let room = self.len < SHARPEN_CAP && !self.vertices().iter().any(same);
+        if room {
+            self.vertices[self.len] = vertex;
+            self.len += 1;
+        }
+        room
+    }
+
+    /// The axis along which these vertices are farthest from the origin, and how far: the nearest
+    /// point, a known axis, or any, as they are or made perpendicular to an edge, or what is
+    /// perpendicular to two edges.
+    pub(crate) fn best(&self, known: DVec3) -> (DVec3, f64) {
+        let mut edges = [DVec3::ZERO; SHARPEN_CAP];
+        for (edge, vertex) in edges.iter_mut().zip(self.vertices()) {
+            *edge = (vertex.point - self.vertices[0].point).normalize_or_zero();
+        }
+        // The first vertex has no edge to itself.
+        let edges = &edges[1..self.len];
+        let any = match edges.first() {
+            Some(e) if e.is_normalized() => e.any_orthonormal_vector(),
+            _ => DVec3::X,
+        };
+        let bases = [self.point, known, any];
+        let mut best = (DVec3::ZERO, f64::NEG_INFINITY);
+        let mut consider = |axis: DVec3| {
+            let axis = axis.normalize_or_zero();
+            let heights = self.vertices().iter().map(|v| axis.dot(v.point));
+            let low = heights.fold(f64::INFINITY, f64::min);
+            if axis != DVec3::ZERO && low > best.1 {
+                best = (axis, low);
+            }
+        };
+        bases.into_iter().for_each(&mut consider);
+        for (k, &e) in edges.iter().enumerate() {
+            for base in bases {
+                consider(base - base.dot(e) * e);
+            }
+            for &f in &edges[..k] {
+                let n = e.cross(f);
+                // Nearly parallel edges leave a product that rounding tilts along them.
+                let n = n - n.dot(e) * e;
+                consider(n);
+                consider(-n);
+            }
+        }
+        best
+    }
+
+    /// The four vertices that are least along an axis.
+    pub(crate) fn least(mut self, axis: DVec3) -> Simplex<DVec3> {
+        let height = |v: &Vertex<DVec3>| axis.dot(v.point);
+        self.vertices[..self.len].sort_by(|v, w| height(v).total_cmp(&height(w)));
+        let mut out = Simplex::EMPTY;
+        for vertex in self.vertices().iter().take(4) {
+            out.push(*vertex);
+        }
+        out
+    }
+}
