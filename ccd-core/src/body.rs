@@ -2,9 +2,8 @@
 
 use crate::error::InputError;
 use crate::hierarchy::Hierarchy;
-use crate::piece::Pieces;
+use crate::piece::{Pieces, Shell};
 use crate::tree::Tree;
-use glam::DVec3;
 
 /// What moves: convex pieces in the body's own frame, ready for queries; immutable, shareable.
 ///
@@ -20,7 +19,7 @@ pub struct Body {
     pieces: Pieces,
     tree: Tree,
     volume: Volume,
-    shells: Vec<DVec3>,
+    shells: Vec<Shell>,
 }
 
 /// Whether being inside of a body counts as touching it.
@@ -82,9 +81,9 @@ impl Body {
         &self.tree
     }
 
-    /// One point of every connected part: inside another solid either all of a part is, or its
+    /// Some points of every connected part: inside another solid either all of a part is, or its
     /// surface crosses the solid's.
-    pub(crate) fn shells(&self) -> &[DVec3] {
+    pub(crate) fn shells(&self) -> &[Shell] {
         &self.shells
     }
 }

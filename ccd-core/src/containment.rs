@@ -4,22 +4,28 @@ use crate::body::{Body, Volume};
 use crate::outcome::Overlap;
 use crate::pose::Frame;
 use crate::problem::{Problem, Side};
+use crate::tolerance::WINDING;
 use glam::DVec3;
 use std::f64::consts::TAU;
 
 /// A point of one body that is inside the other one's solid at the start.
 ///
 /// To be asked when no two pieces intersect at the start: then a connected part of one body is
-/// inside the other as a whole, or not at all, and one point of it tells.
+/// inside the other as a whole, or not at all, and one point of it tells that is not itself on the
+/// other's surface.
 pub(crate) fn at_start(problem: &Problem<'_>) -> Option<Overlap> {
     let frames = [problem.a.path.frame(0.0), problem.b.path.frame(0.0)];
     let inside = |outer: &Side<'_>, outer_frame: &Frame, inner: &Side<'_>, inner_frame: &Frame| {
         if outer.body.volume() == Volume::Surface || !outer.body.pieces().all_triangles() {
             return None;
         }
-        let points = inner.body.shells().iter().map(|&p| inner_frame.point(p));
-        let mut inside = points.filter(|&p| contains(outer.body, outer_frame.inverse_point(p)));
-        inside.next().map(|p| problem.world(p))
+        inner.body.shells().iter().find_map(|shell| {
+            let mut points = shell.iter().map(|&p| inner_frame.point(p));
+            points
+                .find_map(|p| Some((p, contains(outer.body, outer_frame.inverse_point(p))?)))
+                .filter(|&(_, inside)| inside)
+                .map(|(p, _)| problem.world(p))
+        })
     };
     let [a, b] = &frames;
     inside(&problem.b, b, &problem.a, a)
@@ -29,15 +35,18 @@ pub(crate) fn at_start(problem: &Problem<'_>) -> Option<Overlap> {
 
 /// Whether the closed triangles of a body wind about a point in its frame: the sum of the solid
 /// angles that they are seen under is a multiple of a full sphere, and zero only outside.
-fn contains(body: &Body, point: DVec3) -> bool {
+///
+/// None when the point is on the surface, or too near to it to tell.
+fn contains(body: &Body, point: DVec3) -> Option<bool> {
     if !body.tree().may_contain(point) {
-        return false;
+        return Some(false);
     }
     let angle: f64 = (0..body.pieces().len())
         .map(|k| solid_angle(body.pieces().triangle(k), point))
         .sum();
-    // Full sphere 4π; anything beyond half of one is inside.
-    angle.abs() > TAU
+    let turns = angle / (2.0 * TAU);
+    let whole = turns.round();
+    ((turns - whole).abs() < WINDING).then_some(whole != 0.0)
 }
 
 /// The signed solid angle of a triangle seen from a point `[OOSTEROM83]`.

@@ -104,6 +104,9 @@ pub struct Pieces {
     shape: Shape,
 }
 
+/// The points of a connected part that are farthest along x, y, z, −x, −y, −z.
+pub(crate) type Shell = [DVec3; 6];
+
 #[derive(Clone, Debug)]
 enum Radii {
     Zero,
@@ -269,8 +272,8 @@ impl Pieces {
         size_of_val(self.points.as_slice()) + 4 * (self.vertex_ids.len() + 2 * self.len())
     }
 
-    /// One point of every connected part; pieces that share a vertex number are connected.
-    pub(crate) fn shells(&self) -> Vec<DVec3> {
+    /// The extreme points of every connected part; pieces that share a vertex number are connected.
+    pub(crate) fn shells(&self) -> Vec<Shell> {
         let highest = self.vertex_ids.iter().max().map_or(0, |&v| v as usize + 1);
         let mut parent: Vec<u32> = (0..highest as u32).collect();
         let find = |parent: &mut Vec<u32>, mut v: u32| {
@@ -288,23 +291,22 @@ impl Pieces {
                 parent[v as usize] = w;
             }
         }
-        let mut seen = vec![false; highest];
-        let mut shells = Vec::new();
+        let mut shell_of = vec![None; highest];
+        let mut shells: Vec<Shell> = Vec::new();
         for (&point, &v) in self.points.iter().zip(&self.vertex_ids) {
             let root = find(&mut parent, v) as usize;
-            if !seen[root] {
-                seen[root] = true;
-                shells.push(point);
+            let shell = *shell_of[root].get_or_insert_with(|| {
+                shells.push([point; 6]);
+                shells.len() - 1
+            });
+            for (side, extreme) in shells[shell].iter_mut().enumerate() {
+                let sign = if side < 3 { 1.0 } else { -1.0 };
+                if sign * (point[side % 3] - extreme[side % 3]) > 0.0 {
+                    *extreme = point;
+                }
             }
         }
         shells
-    }
-
-    /// The three corners of a piece of which [`Pieces::all_triangles`] holds.
-    #[inline]
-    pub(crate) fn triangle(&self, index: usize) -> [DVec3; 3] {
-        let corners = &self.points[3 * index..3 * index + 3];
-        [corners[0], corners[1], corners[2]]
     }
 
     /// All points of consecutive pieces.

@@ -98,13 +98,13 @@ impl<'a> Problem<'a> {
         )?;
         let tolerance = config.tolerance;
         let allowed = tolerance > 0.0 && tolerance <= MAX_COORDINATE;
-        check("tolerance", tolerance, allowed, "positive and at most 1e15")?;
+        check("tolerance", tolerance, allowed, "positive and at most 1e12")?;
         let allowed = (0.0..=MAX_COORDINATE).contains(&config.margin);
         check(
             "margin",
             config.margin,
             allowed,
-            "at least 0 and at most 1e15",
+            "at least 0 and at most 1e12",
         )?;
         let origin = b.motion.start().translation();
         let side = |moving: Moving<'a>| Side {
@@ -175,7 +175,7 @@ impl Side<'_> {
             "travel",
             travel,
             travel <= MAX_COORDINATE,
-            "at most 1e15 from the other body",
+            "at most 1e12 from the other body",
         )?;
         let turn = self.path.rate;
         check("turn", turn, turn <= MAX_TURN, "at most 1e6 radians")

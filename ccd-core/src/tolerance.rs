@@ -16,9 +16,9 @@ pub const DEFAULT_TOLERANCE: f64 = 1e-3;
 /// How many pairs of nodes a query may visit that names no budget: about a second's work.
 pub const DEFAULT_BUDGET: u64 = 1 << 22;
 
-/// The largest coordinate, in the scene's unit of length: squares of distances stay far below the
-/// overflow of f32 (3.4e38).
-pub const MAX_COORDINATE: f64 = 1e15;
+/// The largest coordinate, in the scene's unit of length: squares of distances, and of speeds after
+/// the [largest turn](MAX_TURN), stay below the overflow of f32 (3.4e38).
+pub const MAX_COORDINATE: f64 = 1e12;
 
 /// The largest turn of one motion, in radians. Beyond it the rounding of the angle alone moves a
 /// point by 1e-10 of its arm.
@@ -75,9 +75,13 @@ pub const CLOCK_F32: f32 = 1.0 - 32.0 * U32;
 /// components are off by up to `8u` each.
 pub const BEND_F32: f32 = 1.0 + 64.0 * U32;
 
-/// Gaps below this are no gaps in f32, in the scene's unit of length: products of a gap with a rate
-/// or a bending may underflow below it.
-pub const LEAST_GAP_F32: f32 = 1e-18;
+/// Absolute allowance on `|n × ω|`, in units of `|ω|`: both vectors are rounded (1u each) and
+/// crossed (3u), which is all there is when they are parallel.
+pub const ACROSS_F32: f32 = 8.0 * U32;
+
+/// Gaps below this are no gaps in f32, in the scene's unit of length. Above it, a bending whose
+/// product with the gap underflows (1.2e-38) takes less than 1e-8 of the gap in the whole duration.
+pub const LEAST_GAP_F32: f32 = 1e-15;
 
 /// Keeps a division by a path's bending finite when it does not bend, in units of length over time
 /// squared; it only ever makes a path bend more.
@@ -123,3 +127,7 @@ pub const MUCH_LARGER: f32 = 3.0;
 /// radius, while a plane that turns with it keeps them apart, for a second look to be worth more
 /// than a split.
 pub const SWEPT: f32 = 1.0 / 32.0;
+
+/// How near a winding number has to be to a whole one to be believed. A point on a face has one half,
+/// on an edge or a corner what is inside there; sums over a million triangles are right to 1e-9.
+pub const WINDING: f64 = 1e-3;

@@ -1,7 +1,7 @@
 //! The laws of [`laws`] over every backend and every family of [`scene`].
 
 mod laws;
-mod scene;
+pub(crate) mod scene;
 mod twin;
 
 use crate::{Auto, Direct, Gjk, GjkF32};

@@ -1,0 +1,81 @@
+//! Which features are named, what is refused, and the common point of what intersects inside.
+
+use super::Direct;
+use super::nearest::nearest;
+use super::pierce::common_point;
+use ccd_core::glam::DVec3;
+use ccd_core::{Claim, DistanceOracle, Frame, GiveUp, Piece, PiecePair};
+use rstest::rstest;
+
+const FLOOR: [DVec3; 3] = [DVec3::ZERO, DVec3::new(4.0, 0.0, 0.0), DVec3::new(0.0, 4.0, 0.0)];
+
+fn claim(a: &[DVec3], b: &[DVec3]) -> Result<Claim, GiveUp> {
+    let pair = PiecePair {
+        a: Piece::from_points(a),
+        b: Piece::from_points(b),
+        b_to_a: Frame::IDENTITY,
+    };
+    Direct.separation(&pair, &mut ())
+}
+
+fn v(x: f64, y: f64, z: f64) -> DVec3 {
+    DVec3::new(x, y, z)
+}
+
+/// The points named are those of the features, no more: what is a corner has weight one.
+#[rstest]
+#[case::corner_above_face([v(1.0, 1.0, 1.0), v(1.0, 2.0, 3.0), v(2.0, 1.0, 3.0)], &[0, 1, 2], &[0])]
+#[case::corner_beside_edge([v(1.0, -1.0, 0.0), v(1.0, -2.0, 1.0), v(2.0, -2.0, 1.0)], &[0, 1], &[0])]
+#[case::corner_beside_corner([v(6.0, -1.0, 1.0), v(7.0, -2.0, 1.0), v(7.0, -1.0, 2.0)], &[1], &[0])]
+#[case::crossed_edges([v(1.0, -1.0, -1.0), v(1.0, -1.0, 1.0), v(1.0, -4.0, 0.0)], &[0, 1], &[0, 1])]
+fn names_the_features(#[case] b: [DVec3; 3], #[case] of_a: &[u32], #[case] of_b: &[u32]) {
+    let claim = claim(&FLOOR, &b).expect("triangles");
+    let sorted = |support: &[u32]| {
+        let mut support = support.to_vec();
+        support.sort_unstable();
+        support
+    };
+    assert_eq!(sorted(claim.a.support()), of_a);
+    assert_eq!(sorted(claim.b.support()), of_b);
+}
+
+/// Indices are those of the piece, also where it has fewer than three points.
+#[test]
+fn segments_and_points_keep_their_indices() {
+    let segment = [v(1.0, 1.0, 2.0), v(1.0, 1.0, 1.0)];
+    let claim = claim(&segment, &[v(1.0, 1.0, 0.0)]).expect("a segment and a point");
+    assert_eq!((claim.a.support(), claim.b.support()), (&[1][..], &[0][..]));
+    assert_eq!(claim.axis, -DVec3::Z);
+}
+
+#[test]
+fn refuses_other_numbers_of_points() {
+    let four = [DVec3::ZERO; 4];
+    assert_eq!(claim(&four, &FLOOR), Err(GiveUp::TooManyPoints));
+    assert_eq!(claim(&FLOOR, &four), Err(GiveUp::TooManyPoints));
+    assert_eq!(claim(&FLOOR, &[]), Err(GiveUp::TooManyPoints));
+}
+
+/// Boundaries that are far apart, and yet the triangles intersect.
+#[test]
+fn finds_the_point_where_an_edge_passes_through() {
+    let spear = [v(1.0, 1.0, 5.0), v(1.0, 1.0, -5.0), v(1.1, 1.1, 5.0)];
+    let near = nearest(&FLOOR, &spear);
+    assert!(near.difference(&FLOOR, &spear).length() > 0.9);
+    let common = common_point(&FLOOR, &spear, near);
+    assert!(common.difference(&FLOOR, &spear).length() < 1e-15);
+    // From either side.
+    let near = nearest(&spear, &FLOOR);
+    let common = common_point(&spear, &FLOOR, near);
+    assert!(common.difference(&spear, &FLOOR).length() < 1e-15);
+}
+
+/// A point on the plane's far side, whose nearest boundary is elsewhere, is no intersection.
+#[test]
+fn does_not_pierce_beside_the_face() {
+    let spear = [v(9.0, 9.0, 5.0), v(9.0, 9.0, -5.0), v(9.1, 9.1, 5.0)];
+    let near = nearest(&FLOOR, &spear);
+    let before = near.difference(&FLOOR, &spear).length();
+    let after = common_point(&FLOOR, &spear, near).difference(&FLOOR, &spear).length();
+    assert!((after - before).abs() < 1e-14);
+}

@@ -74,12 +74,13 @@ pub(crate) fn solve(exact: &Exact<'_>, mut simplex: Simplex<DVec3>) -> Found<DVe
         if stop == Stop::Converged && found.gap >= KEEP * found.square.sqrt() {
             break;
         }
-        refine::witnesses(exact, &mut found);
+        refine::witnesses(exact, found.simplex, &mut found);
         // Written so that NaN breaks.
         if settled(&found) || !(found.square < before) {
             break;
         }
         simplex = sharpen::to_features(exact, &mut found);
+        refine::witnesses(exact, simplex, &mut found);
         if settled(&found) {
             break;
         }

@@ -6,11 +6,11 @@ use super::simplex::Simplex;
 use crate::direct::nearest::{Corners, nearest};
 use ccd_core::glam::DVec3;
 
-/// Where the last simplex spans no more than a triangle on either side, its nearest points in
-/// closed form, if they are nearer: rounding that stalls a search on nearly parallel edges does not
-/// reach them.
-pub(crate) fn witnesses(exact: &Exact<'_>, found: &mut Found<DVec3>) {
-    let vertices = found.simplex.vertices();
+/// The nearest points of what a simplex spans on either side, in closed form, if they are nearer:
+/// rounding that stalls a search on nearly parallel edges does not reach them. Of four points on one
+/// side the first three are looked at.
+pub(crate) fn witnesses(exact: &Exact<'_>, simplex: Simplex<DVec3>, found: &mut Found<DVec3>) {
+    let vertices = simplex.vertices();
     let p = Points::new(vertices.iter().map(|v| (v.a, exact.point_a(v.a))));
     let q = Points::new(vertices.iter().map(|v| (v.b, exact.point_b(v.b))));
     let (Some(p), Some(q)) = (p, q) else {
@@ -69,14 +69,14 @@ fn coupled(
 
 /// Pairs the weights of two sides off against each other, in order: of `m` and `n` positive ones
 /// that makes at most `m + n − 1` pairs, three for corner and face and for edge and edge.
-struct Couple {
+pub(crate) struct Couple {
     a: [f64; 3],
     b: [f64; 3],
     at: (usize, usize),
 }
 
 impl Couple {
-    fn new(a: [f64; 3], b: [f64; 3]) -> Self {
+    pub(crate) fn new(a: [f64; 3], b: [f64; 3]) -> Self {
         Couple { a, b, at: (0, 0) }
     }
 }

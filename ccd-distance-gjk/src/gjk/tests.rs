@@ -1,0 +1,166 @@
+//! Each sub-simplex alone, in both precisions; and the ways out of a stalled search.
+
+use super::fan::Fan;
+use super::minkowski::Exact;
+use super::oracle::solve;
+use super::refine::Couple;
+use super::search::{Found, search};
+use super::simplex::{Foot, Simplex, Vertex};
+use super::start::Cache;
+use super::termination::Stop;
+use super::vector::Vector;
+use super::{segment, tetrahedron, triangle};
+use crate::tests::scene::{self, Meeting, Pcg64, SeedableRng};
+use ccd_core::glam::{DVec3, Vec3A};
+use num_traits::{Float, One, Zero};
+use rand::RngExt;
+use rstest::rstest;
+
+/// Corners of every kind: at random, on one line, in one plane, needles, coinciding, near the origin.
+fn corners(rng: &mut Pcg64) -> [DVec3; 4] {
+    let [a, b, c, d]: [DVec3; 4] = std::array::from_fn(|_| scene::vector(rng));
+    let (s, t) = (rng.random_range(-0.5..1.5), rng.random_range(-0.5..1.5));
+    let thin = scene::magnitude(rng, -15.0, 0.0) * d;
+    let mut out = match rng.random_range(0..6) {
+        0 => [a, b, c, d],
+        1 => [a, b, c, a + s * (b - a) + t * (c - a) + thin],
+        2 => [a, b, a + s * (b - a) + thin, d],
+        3 => [a, b, a + s * (b - a), a + t * (b - a)],
+        4 => [a, a + thin, c, d],
+        _ => [a, a, b, b],
+    };
+    if rng.random_bool(0.5) {
+        // A point inside, or as good as, becomes the origin.
+        let inside = 0.3 * out[0] + 0.3 * out[1] + 0.2 * out[2] + 0.2 * out[3];
+        let off = scene::magnitude(rng, -17.0, 0.0) * scene::vector(rng);
+        out = out.map(|corner| corner - inside + off);
+    }
+    out
+}
+
+/// A foot is a convex combination, and no corner is nearer along it than it is itself: that makes it
+/// the nearest point.
+fn is_nearest<V: Vector>(corners: &[V], foot: &Foot<V>) {
+    let (zero, one) = (V::Scalar::zero(), V::Scalar::one());
+    let size = corners.iter().map(|c| c.square()).fold(zero, Float::max).sqrt();
+    let slack = <V::Scalar as From<f32>>::from(64.0) * V::Scalar::epsilon();
+    let sum = foot.weights.iter().fold(zero, |sum, &w| sum + w);
+    assert!(foot.weights.iter().all(|&w| w >= zero), "a negative weight");
+    assert!((sum - one).abs() <= slack, "weights do not add up");
+    let combined = corners
+        .iter()
+        .zip(foot.weights)
+        .fold(V::ZERO, |sum, (&c, w)| sum + c * w);
+    assert!((combined - foot.point).square().sqrt() <= slack * size, "not the combination");
+    let distance = foot.point.square().sqrt();
+    for corner in corners {
+        // The nearest point of the segment to this corner is not nearer by more than rounding.
+        let other = segment::foot(foot.point, *corner).point.square().sqrt();
+        assert!(distance - other <= slack * size, "a nearer point on the way to a corner");
+    }
+}
+
+fn feet_are_nearest<V: Vector>() {
+    let mut enclosed = 0;
+    for seed in 0..20_000 {
+        let corners = corners(&mut Pcg64::seed_from_u64(seed)).map(V::round);
+        let [a, b, c, d] = corners;
+        is_nearest(&corners[..2], &segment::foot(a, b));
+        is_nearest(&corners[..3], &triangle::foot(a, b, c));
+        let foot = tetrahedron::foot([a, b, c, d]);
+        enclosed += u32::from(foot.direction.is_none());
+        is_nearest(&corners, &foot);
+    }
+    assert!((500..10_000).contains(&enclosed), "{enclosed} enclose the origin");
+}
+
+#[test]
+fn feet_are_nearest_in_double_precision() {
+    feet_are_nearest::<DVec3>();
+}
+
+#[test]
+fn feet_are_nearest_in_single_precision() {
+    feet_are_nearest::<Vec3A>();
+}
+
+#[test]
+fn a_flat_tetrahedron_encloses_nothing() {
+    let flat = [DVec3::X, DVec3::Y, -DVec3::X, -DVec3::Y];
+    let foot = tetrahedron::foot(flat);
+    assert!(foot.direction.is_some() && foot.point.length() < 1e-15);
+}
+
+#[test]
+fn an_enclosing_tetrahedron_weighs_its_corners() {
+    let regular = [
+        DVec3::new(1.0, 1.0, 1.0),
+        DVec3::new(1.0, -1.0, -1.0),
+        DVec3::new(-1.0, 1.0, -1.0),
+        DVec3::new(-1.0, -1.0, 1.0),
+    ];
+    let foot = tetrahedron::foot(regular);
+    assert!(foot.direction.is_none());
+    assert_eq!(foot.weights, [0.25; 4]);
+}
+
+#[rstest]
+#[case([0.25, 0.75, 0.0], [0.0, 0.5, 0.5], 3)]
+#[case([1.0, 0.0, 0.0], [0.2, 0.3, 0.5], 3)]
+#[case([0.5, 0.0, 0.5], [0.5, 0.5, 0.0], 2)]
+#[case([0.0, 0.0, 1.0], [0.0, 1.0, 0.0], 1)]
+fn couples_keep_both_sides(#[case] a: [f64; 3], #[case] b: [f64; 3], #[case] pairs: usize) {
+    let couples: Vec<_> = Couple::new(a, b).collect();
+    assert_eq!(couples.len(), pairs);
+    let (mut left, mut right) = ([0.0; 3], [0.0; 3]);
+    for (i, j, weight) in couples {
+        left[i] += weight;
+        right[j] += weight;
+    }
+    assert_eq!((left, right), (a, b));
+}
+
+#[test]
+fn a_simplex_takes_no_pair_twice_and_no_fifth() {
+    let vertex = |a, b| Vertex { point: DVec3::X, a, b };
+    let mut simplex = Simplex::EMPTY;
+    assert!(simplex.push(vertex(0, 0)) && simplex.push(vertex(0, 1)));
+    assert!(!simplex.push(vertex(0, 1)));
+    assert!(simplex.push(vertex(1, 0)) && simplex.push(vertex(1, 1)));
+    assert!(!simplex.push(vertex(2, 2)));
+}
+
+/// Of a pyramid's apex above the origin, the axis that all edges allow is found edge by edge.
+#[test]
+fn a_fan_finds_the_axis_between_its_edges() {
+    let mut found = Found::nothing();
+    let vertex = |x: f64, y: f64, z: f64, a| Vertex { point: DVec3::new(x, y, z), a, b: 0 };
+    found.simplex.push(vertex(0.0, 0.0, 0.0, 0));
+    found.weights[0] = 1.0;
+    let mut fan = Fan::new(&found).expect("it has a vertex");
+    for (k, (x, y)) in [(1.0, 1.0), (-1.0, 1.0), (1.0, -1.0), (-1.0, -1.0)].into_iter().enumerate() {
+        assert!(fan.push(vertex(x, y, 1e-3, k as u32 + 1)));
+    }
+    // Every vertex lies above: with the axis z they would stand at 0, as with all axes they touch.
+    let (axis, low) = fan.best(DVec3::X);
+    assert!(low >= -1e-15 && axis.z > 0.99, "{axis} stands at {low}");
+}
+
+/// The search alone does stall on nearly parallel edges, and what follows it makes that good.
+#[test]
+fn stalled_searches_are_taken_up_again() {
+    let (mut stalled, mut short) = (0, 0);
+    for seed in 0..500 {
+        let scene = scene::near_contact(&mut Pcg64::seed_from_u64(seed), Meeting::CrossedEdges, 1e-9);
+        let pair = scene.pair();
+        let exact = Exact::new(&pair).expect("pieces with points");
+        let start = || Cache::default().simplex(&exact);
+        let mut alone = Found::nothing();
+        let stop = search(&exact, start(), &mut alone);
+        stalled += u32::from(stop == Stop::Stalled);
+        short += u32::from(alone.gap < 0.5 * alone.square.sqrt());
+        let found = solve(&exact, start());
+        assert!(found.gap >= 0.99 * found.square.sqrt(), "{found:?} of {scene:?}");
+    }
+    assert!(stalled > 50 && short > 50, "{stalled} stalled, {short} fell short");
+}

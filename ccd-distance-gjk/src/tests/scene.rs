@@ -3,17 +3,17 @@
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{Frame, Piece, PiecePair, Pose};
 use rand::RngExt;
-pub(super) use rand::SeedableRng;
-pub(super) use rand_pcg::Pcg64;
+pub(crate) use rand::SeedableRng;
+pub(crate) use rand_pcg::Pcg64;
 
 /// A pair, in the form that owns its points.
 #[derive(Clone, Debug)]
-pub(super) struct Scene {
-    pub(super) a: Vec<DVec3>,
-    pub(super) b: Vec<DVec3>,
-    pub(super) b_to_a: Frame,
+pub(crate) struct Scene {
+    pub(crate) a: Vec<DVec3>,
+    pub(crate) b: Vec<DVec3>,
+    pub(crate) b_to_a: Frame,
     /// How large the pieces and their distance are, together.
-    pub(super) size: f64,
+    pub(crate) size: f64,
 }
 
 impl Scene {
@@ -24,7 +24,7 @@ impl Scene {
         Scene { a, b, b_to_a: Frame::IDENTITY, size }
     }
 
-    pub(super) fn pair(&self) -> PiecePair<'_> {
+    pub(crate) fn pair(&self) -> PiecePair<'_> {
         PiecePair {
             a: Piece::from_points(&self.a),
             b: Piece::from_points(&self.b),
@@ -33,7 +33,7 @@ impl Scene {
     }
 
     /// B's points in A's frame, told from A's first point, without the rounding of far coordinates.
-    pub(super) fn local(&self) -> (Vec<DVec3>, Vec<DVec3>) {
+    pub(crate) fn local(&self) -> (Vec<DVec3>, Vec<DVec3>) {
         let between = self.b_to_a.point(self.b[0]) - self.a[0];
         let local = |y: &DVec3| self.b_to_a.rotation * (*y - self.b[0]) + between;
         let a = self.a.iter().map(|x| *x - self.a[0]).collect();
@@ -41,7 +41,7 @@ impl Scene {
     }
 
     /// The same pair with A and B exchanged.
-    pub(super) fn swapped(&self) -> Scene {
+    pub(crate) fn swapped(&self) -> Scene {
         Scene {
             a: self.b.clone(),
             b: self.a.clone(),
@@ -51,7 +51,7 @@ impl Scene {
     }
 
     /// The same pair, both bodies' coordinates scaled.
-    pub(super) fn scaled(mut self, scale: f64) -> Scene {
+    pub(crate) fn scaled(mut self, scale: f64) -> Scene {
         for point in self.a.iter_mut().chain(&mut self.b) {
             *point *= scale;
         }
@@ -62,7 +62,7 @@ impl Scene {
 
     /// The same pair seen from other frames, each body from its own, whose origins are `far` away.
     /// The points move by the rounding of that.
-    pub(super) fn reframed(self, rng: &mut Pcg64, far: f64) -> Scene {
+    pub(crate) fn reframed(self, rng: &mut Pcg64, far: f64) -> Scene {
         let [to_a, to_b]: [Frame; 2] = std::array::from_fn(|_| pose(rng, far).into());
         Scene {
             a: self.a.iter().map(|&x| to_a.point(x)).collect(),
@@ -79,34 +79,34 @@ fn to_b_then(to_a: &Frame, to_b: &Frame) -> Frame {
     Frame { rotation, translation: to_a.translation - rotation * to_b.translation }
 }
 
-pub(super) fn pose(rng: &mut Pcg64, far: f64) -> Pose {
+pub(crate) fn pose(rng: &mut Pcg64, far: f64) -> Pose {
     let turn = DQuat::from_scaled_axis(3.0 * vector(rng));
     Pose::new(far * vector(rng), turn).expect("finite and of length one")
 }
 
 /// In the cube of side two about the origin.
-pub(super) fn vector(rng: &mut Pcg64) -> DVec3 {
+pub(crate) fn vector(rng: &mut Pcg64) -> DVec3 {
     DVec3::from_array(std::array::from_fn(|_| rng.random_range(-1.0..1.0)))
 }
 
-pub(super) fn points(rng: &mut Pcg64, count: usize) -> Vec<DVec3> {
+pub(crate) fn points(rng: &mut Pcg64, count: usize) -> Vec<DVec3> {
     (0..count).map(|_| vector(rng)).collect()
 }
 
 /// Between two powers of ten, every order of magnitude as likely.
-pub(super) fn magnitude(rng: &mut Pcg64, low: f64, high: f64) -> f64 {
+pub(crate) fn magnitude(rng: &mut Pcg64, low: f64, high: f64) -> f64 {
     10f64.powf(rng.random_range(low..high))
 }
 
 /// Hulls of so many random points at a random distance: apart, or intersecting, as it comes.
-pub(super) fn random(rng: &mut Pcg64, a: usize, b: usize) -> Scene {
+pub(crate) fn random(rng: &mut Pcg64, a: usize, b: usize) -> Scene {
     let offset = rng.random_range(0.0..2.5) * vector(rng).normalize();
     let b = points(rng, b).iter().map(|y| *y + offset).collect();
     Scene::new(points(rng, a), b).reframed(rng, 1.0)
 }
 
 /// Random hulls moved so that inner points of them coincide.
-pub(super) fn intersecting(rng: &mut Pcg64, a: usize, b: usize) -> Scene {
+pub(crate) fn intersecting(rng: &mut Pcg64, a: usize, b: usize) -> Scene {
     let (a, b) = (points(rng, a), points(rng, b));
     let inner = |rng: &mut Pcg64, points: &[DVec3]| {
         let weights: Vec<f64> = points.iter().map(|_| rng.random_range(0.1..1.0)).collect();
@@ -120,7 +120,7 @@ pub(super) fn intersecting(rng: &mut Pcg64, a: usize, b: usize) -> Scene {
 
 /// What is nearest to what in [`near_contact`].
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Meeting {
+pub(crate) enum Meeting {
     CornerFace,
     CrossedEdges,
     ParallelFaces,
@@ -130,7 +130,7 @@ pub(super) enum Meeting {
 
 /// Triangles at the distance `gap` along z, whose other corners rise or fall at slopes of any
 /// magnitude down to 1e-12.
-pub(super) fn near_contact(rng: &mut Pcg64, meeting: Meeting, gap: f64) -> Scene {
+pub(crate) fn near_contact(rng: &mut Pcg64, meeting: Meeting, gap: f64) -> Scene {
     let slope = |rng: &mut Pcg64| magnitude(rng, -12.0, 0.0);
     let flat = |rng: &mut Pcg64| {
         let v = vector(rng);
@@ -175,7 +175,7 @@ pub(super) fn near_contact(rng: &mut Pcg64, meeting: Meeting, gap: f64) -> Scene
 }
 
 /// Triangles that share a corner, an edge, or a plane, and nothing else.
-pub(super) fn touching(rng: &mut Pcg64) -> Scene {
+pub(crate) fn touching(rng: &mut Pcg64) -> Scene {
     let flat = |x: f64, y: f64| DVec3::new(x, y, 0.0);
     let up = rng.random_range(0.1..1.0) * DVec3::Z;
     let base = vec![flat(0.0, 0.0), flat(1.0, 0.0), flat(0.0, 1.0)];
@@ -196,7 +196,7 @@ pub(super) fn touching(rng: &mut Pcg64) -> Scene {
 
 /// Points, segments and triangles that are less than they seem: coinciding corners, corners on one
 /// line, needles.
-pub(super) fn degenerate(rng: &mut Pcg64) -> Scene {
+pub(crate) fn degenerate(rng: &mut Pcg64) -> Scene {
     let offset = rng.random_range(0.5..3.0) * vector(rng).normalize();
     let piece = |rng: &mut Pcg64| -> Vec<DVec3> {
         let (p, q) = (vector(rng), vector(rng));
@@ -217,7 +217,7 @@ pub(super) fn degenerate(rng: &mut Pcg64) -> Scene {
 }
 
 /// Boxes whose faces are parallel up to a tilt below rounding's reach, at the distance `gap`.
-pub(super) fn stacked_boxes(rng: &mut Pcg64, gap: f64) -> Scene {
+pub(crate) fn stacked_boxes(rng: &mut Pcg64, gap: f64) -> Scene {
     let cuboid = |half: DVec3| -> Vec<DVec3> {
         let sign = |k: usize, bit: usize| if k >> bit & 1 == 1 { 1.0 } else { -1.0 };
         (0..8).map(|k| half * DVec3::new(sign(k, 0), sign(k, 1), sign(k, 2))).collect()
@@ -232,7 +232,7 @@ pub(super) fn stacked_boxes(rng: &mut Pcg64, gap: f64) -> Scene {
 }
 
 /// Hulls of points on spheres, at the distance of about `gap`.
-pub(super) fn balls(rng: &mut Pcg64, count: usize, gap: f64) -> Scene {
+pub(crate) fn balls(rng: &mut Pcg64, count: usize, gap: f64) -> Scene {
     let ball = |rng: &mut Pcg64| -> Vec<DVec3> {
         (0..count).map(|_| vector(rng).normalize_or(DVec3::X)).collect()
     };

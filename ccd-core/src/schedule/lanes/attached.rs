@@ -12,7 +12,7 @@ use super::axis::Axis;
 use super::shape::{Children, Other};
 use super::turn::Turn;
 use super::vector::{dot, length, min};
-use super::{Lane, Pairing, clock};
+use super::{Lane, Pairing, bending, clock};
 use crate::tolerance::{ATTACHED_TIME, BEND_F32, LEAST_BEND_F32, RATE_F32};
 
 /// The node that sweeps towards a plane attached to the other body.
@@ -38,7 +38,7 @@ impl<C: Children, P: Other, S: Turn, O: Turn> Pairing<'_, C, P, S, O> {
         let own = closing.other.across(axis.n);
         self.free_attached(
             axis,
-            length(across),
+            bending(across, closing.split.rate(), 1.0),
             closing.split.rate(),
             &Sweep {
                 rate: dot(axis.n, velocity) + other.reach(own - across),
@@ -59,7 +59,7 @@ impl<C: Children, P: Other, S: Turn, O: Turn> Pairing<'_, C, P, S, O> {
         let own = closing.split.across(axis.n);
         self.free_attached(
             axis,
-            length(across),
+            bending(across, closing.other.rate(), 1.0),
             closing.other.rate(),
             &Sweep {
                 rate: dot(axis.n, velocity) + children.reach(pair.lane, own - across),
@@ -82,7 +82,7 @@ impl<C: Children, P: Other, S: Turn, O: Turn> Pairing<'_, C, P, S, O> {
         let free = clock::free_time(
             axis.gap - closing.slack,
             sweep.rate + rate_slack,
-            bend * BEND_F32 + rate_slack * spin + LEAST_BEND_F32,
+            bend * BEND_F32 + LEAST_BEND_F32,
         );
         min(free, ATTACHED_TIME)
     }

@@ -10,7 +10,8 @@ pub(super) fn free_time(apart: f32, rate: f32, bend: f32) -> f32 {
     let approaching = 2.0 * apart / (rate + root);
     let receding = (root - rate) / bend;
     let tau = if rate > 0.0 { approaching } else { receding };
-    if apart > LEAST_GAP_F32 && tau > 0.0 {
+    // A root that overflowed says nothing.
+    if apart > LEAST_GAP_F32 && tau > 0.0 && root <= f32::MAX {
         tau * CLOCK_F32
     } else {
         0.0

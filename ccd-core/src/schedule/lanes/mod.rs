@@ -14,7 +14,7 @@ mod vector;
 pub(crate) use shape::{Children, Other, OtherBox, OtherTriangle};
 pub(crate) use turn::{Straight, Turn, Turning};
 
-use crate::tolerance::{BEND_F32, LEAST_BEND_F32, LOOK_AGAIN, SWEPT, THICKNESS};
+use crate::tolerance::{ACROSS_F32, BEND_F32, LEAST_BEND_F32, LOOK_AGAIN, SWEPT, THICKNESS};
 use crate::tree::LANES;
 use axis::Axis;
 use glam::Vec3;
@@ -194,12 +194,12 @@ impl<'a, C: Children, P: Other, S: Turn, O: Turn> Pairing<'a, C, P, S, O> {
         if S::TURNS {
             let m = closing.split.across(axis.n);
             rate += self.children.reach(pair.lane, m);
-            bend += length(m) * pair.speed * BEND_F32;
+            bend += bending(m, closing.split.rate(), pair.speed);
         }
         if O::TURNS {
             let m = closing.other.across(axis.n);
             rate += self.other.reach(m);
-            bend += length(m) * self.other_speed * BEND_F32;
+            bend += bending(m, closing.other.rate(), self.other_speed);
         }
         let apart = axis.gap - closing.slack;
         if S::TURNS || O::TURNS {
@@ -208,4 +208,11 @@ impl<'a, C: Children, P: Other, S: Turn, O: Turn> Pairing<'a, C, P, S, O> {
             clock::straight_free_time(apart, rate)
         }
     }
+}
+
+/// Bounds the bending along `n` of paths that turn at a rate of `|ω|`, at `speed` at most; `m` is
+/// `n × ω`.
+#[inline(always)]
+fn bending(m: Vec3, rate: f32, speed: f32) -> f32 {
+    (length(m) * BEND_F32 + ACROSS_F32 * rate) * speed
 }
