@@ -55,7 +55,7 @@ pub struct LoadedModel {
 pub enum Origin {
     /// A file.
     File,
-    /// Made by code, and the same as in the file.
+    /// Made by code: the same surface, triangles of the same size.
     Code,
     /// Made by code in place of a scanned model: as large, as many triangles, another shape.
     StandIn,

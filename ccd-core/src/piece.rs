@@ -309,6 +309,13 @@ impl Pieces {
         shells
     }
 
+    /// The three corners of a piece of which [`Pieces::all_triangles`] holds.
+    #[inline]
+    pub(crate) fn triangle(&self, index: usize) -> [DVec3; 3] {
+        let corners = &self.points[3 * index..3 * index + 3];
+        [corners[0], corners[1], corners[2]]
+    }
+
     /// All points of consecutive pieces.
     pub(crate) fn points_of(&self, pieces: std::ops::Range<usize>) -> &[DVec3] {
         let start = self.point_range(pieces.start).start;

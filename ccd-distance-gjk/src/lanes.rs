@@ -96,8 +96,7 @@ impl Lanes3 {
 /// `1 / x`, or 0 where x is not positive: projections onto nothing stay where they are.
 #[inline(always)]
 pub(crate) fn reciprocal(x: f64x4) -> f64x4 {
-    x.simd_gt(f64x4::ZERO)
-        .select(f64x4::ONE / x, f64x4::ZERO)
+    x.simd_gt(f64x4::ZERO).select(f64x4::ONE / x, f64x4::ZERO)
 }
 
 /// Clamps to [0, 1].

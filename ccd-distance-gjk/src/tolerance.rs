@@ -9,10 +9,8 @@
 /// it, pieces closer than 1e-8 s appear to intersect.
 pub(crate) const KEEP: f64 = 63.0 / 64.0;
 
-/// The share of the witnesses' distance below which an axis shows that something is still to be
-/// found: pieces that intersect (closed form), or nearer features (GJK).
-///
-/// The nearest features' own axes keep [`KEEP`]; a half is far from it and from 0 alike.
+/// The share of the witnesses' distance below which an axis shows that the pieces may intersect: the
+/// nearest features' own axes keep [`KEEP`]; a half is far from it and from 0 alike.
 pub(crate) const SUSPECT: f64 = 0.5;
 
 /// How many steps a GJK search may take.
@@ -47,3 +45,7 @@ pub(crate) const VOLUME_ULPS: f32 = 8.0;
 /// features: three hold the nearest point, the others are those that an axis tried before ran into.
 /// Corners of meshes join 3 to 10 edges.
 pub(crate) const SHARPEN_CAP: usize = 12;
+
+/// How often the weights of a point inside of a tetrahedron are corrected by what they miss it by.
+/// A tetrahedron that is flat by a factor f loses f·u; two rounds make good what f = 1e10 lost.
+pub(crate) const INSIDE_ROUNDS: u32 = 2;

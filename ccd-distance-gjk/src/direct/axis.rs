@@ -140,7 +140,11 @@ fn frame(edges_p: &[DVec3; 3], edges_q: &[DVec3; 3]) -> Lanes3 {
 
 fn longest(edges: &[DVec3]) -> DVec3 {
     edges.iter().fold(DVec3::ZERO, |best, &e| {
-        if e.length_squared() > best.length_squared() { e } else { best }
+        if e.length_squared() > best.length_squared() {
+            e
+        } else {
+            best
+        }
     })
 }
 

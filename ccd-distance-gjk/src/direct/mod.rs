@@ -7,9 +7,9 @@ mod pierce;
 mod tests;
 
 use crate::tolerance::{KEEP, SUSPECT};
+use axis::{Candidates, support_gap};
 use ccd_core::glam::DVec3;
 use ccd_core::{Claim, Combination, DistanceOracle, GiveUp, Piece, PiecePair};
-use axis::{Candidates, support_gap};
 use nearest::{Corners, Nearest};
 
 /// The distance of two points, segments or triangles in closed form, degenerate ones included.

@@ -18,7 +18,11 @@ pub(crate) fn common_point(p: &Corners, q: &Corners, near: Nearest) -> Nearest {
         .into_iter()
         .chain(through_q)
         .fold(near, |best, it| {
-            if square(&it) < square(&best) { it } else { best }
+            if square(&it) < square(&best) {
+                it
+            } else {
+                best
+            }
         })
 }
 

@@ -7,7 +7,11 @@ use ccd_core::glam::DVec3;
 use ccd_core::{Claim, DistanceOracle, Frame, GiveUp, Piece, PiecePair};
 use rstest::rstest;
 
-const FLOOR: [DVec3; 3] = [DVec3::ZERO, DVec3::new(4.0, 0.0, 0.0), DVec3::new(0.0, 4.0, 0.0)];
+const FLOOR: [DVec3; 3] = [
+    DVec3::ZERO,
+    DVec3::new(4.0, 0.0, 0.0),
+    DVec3::new(0.0, 4.0, 0.0),
+];
 
 fn claim(a: &[DVec3], b: &[DVec3]) -> Result<Claim, GiveUp> {
     let pair = PiecePair {
@@ -76,6 +80,8 @@ fn does_not_pierce_beside_the_face() {
     let spear = [v(9.0, 9.0, 5.0), v(9.0, 9.0, -5.0), v(9.1, 9.1, 5.0)];
     let near = nearest(&FLOOR, &spear);
     let before = near.difference(&FLOOR, &spear).length();
-    let after = common_point(&FLOOR, &spear, near).difference(&FLOOR, &spear).length();
+    let after = common_point(&FLOOR, &spear, near)
+        .difference(&FLOOR, &spear)
+        .length();
     assert!((after - before).abs() < 1e-14);
 }

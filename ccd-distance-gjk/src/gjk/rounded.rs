@@ -106,7 +106,9 @@ impl Points {
     fn get(&self, index: u32) -> Option<Vec3A> {
         let (block, lane) = (index as usize / LANES, index as usize % LANES);
         let coordinates = self.blocks.get(block).filter(|_| index < self.len)?;
-        Some(Vec3A::from_array(coordinates.map(|row| row.to_array()[lane])))
+        Some(Vec3A::from_array(
+            coordinates.map(|row| row.to_array()[lane]),
+        ))
     }
 
     /// The index of a least point along `direction`.

@@ -3,46 +3,90 @@
 use super::simplex::Foot;
 use super::triangle;
 use super::vector::{Vector, ulps};
-use crate::tolerance::VOLUME_ULPS;
-use num_traits::Zero;
+use crate::tolerance::{INSIDE_ROUNDS, TOUCHING_ULPS, VOLUME_ULPS};
+use num_traits::{Float, Zero};
 
 /// The foot of the origin on the tetrahedron, which may be flat.
 ///
 /// The origin is called inside only where it is certainly on the inner side of every face; else the
 /// nearest foot on the faces it may be outside of is returned.
 pub(crate) fn foot<V: Vector>(corners: [V; 4]) -> Foot<V> {
-    let mut weights = [V::Scalar::zero(); 4];
-    let mut best = None;
-    for (opposite, face) in FACES.iter().enumerate() {
-        let [a, b, c] = face.map(|k| corners[k]);
-        match share(a, b, c, corners[opposite]) {
-            Some(share) => weights[opposite] = share,
-            None => best = Some(triangle::foot(a, b, c).lifted(face).or_nearer(best)),
+    let heights = FACES
+        .map(|[apex, a, b, c]| Height::certain(corners[a], corners[b], corners[c], corners[apex]));
+    if let [Some(a), Some(b), Some(c), Some(d)] = heights {
+        if let Some(inside) = inside(corners, [a, b, c, d]) {
+            return inside;
         }
     }
-    best.unwrap_or_else(|| {
-        let total = weights.iter().fold(V::Scalar::zero(), |sum, &w| sum + w);
-        Foot {
-            weights: weights.map(|w| w / total),
-            point: V::ZERO,
-            direction: None,
+    let all = heights.iter().all(Option::is_some);
+    let mut best = None;
+    for (height, [_, a, b, c]) in heights.iter().zip(FACES) {
+        if all || height.is_none() {
+            let on_face = triangle::foot(corners[a], corners[b], corners[c]);
+            best = Some(on_face.lifted(&[a, b, c]).or_nearer(best));
         }
+    }
+    best.unwrap_or(Foot::corner(corners[0], 0))
+}
+
+/// Each corner with those of the face opposite of it.
+const FACES: [[usize; 4]; 4] = [[0, 1, 2, 3], [1, 0, 2, 3], [2, 0, 1, 3], [3, 0, 1, 2]];
+
+/// The weights that make up the origin, if rounding lets them.
+fn inside<V: Vector>(corners: [V; 4], heights: [Height<V>; 4]) -> Option<Foot<V>> {
+    let zero = V::Scalar::zero();
+    let combined = |weights: [V::Scalar; 4]| {
+        let terms = corners.iter().zip(weights);
+        terms.fold(V::ZERO, |sum, (&corner, weight)| sum + corner * weight)
+    };
+    let normalised = |weights: [V::Scalar; 4]| {
+        let weights = weights.map(|weight| weight.max(zero));
+        let total = weights.iter().fold(zero, |sum, &weight| sum + weight);
+        weights.map(|weight| weight / total)
+    };
+    let mut weights = normalised(heights.map(|height| height.of_origin / height.of_apex));
+    // Heights over a flat tetrahedron's faces are good to few digits; what the weights miss the
+    // origin by is known to all, and each round of making it good wins as many digits again.
+    for _ in 0..INSIDE_ROUNDS {
+        let missed = combined(weights);
+        let correction = heights.map(|height| height.normal.dot(missed) / height.of_apex);
+        weights = normalised(std::array::from_fn(|k| weights[k] - correction[k]));
+    }
+    let reach = corners.iter().map(|c| c.square()).fold(zero, Float::max);
+    let rounding = ulps::<V::Scalar>(TOUCHING_ULPS);
+    let hit = combined(weights).square() <= rounding * rounding * reach;
+    hit.then_some(Foot {
+        weights,
+        point: V::ZERO,
+        direction: None,
     })
 }
 
-/// The corners of the face opposite of each corner.
-const FACES: [[usize; 3]; 4] = [[1, 2, 3], [0, 2, 3], [0, 1, 3], [0, 1, 2]];
+/// How high the origin stands over a face, and the corner opposite of it: both times the length of
+/// the face's normal.
+#[derive(Clone, Copy)]
+struct Height<V: Vector> {
+    normal: V,
+    of_origin: V::Scalar,
+    of_apex: V::Scalar,
+}
 
-/// The origin's height above the face relative to that of `apex`, if certainly positive.
-fn share<V: Vector>(a: V, b: V, c: V, apex: V) -> Option<V::Scalar> {
-    let (ab, ac, up) = (b - a, c - a, apex - a);
-    let n = ab.cross(ac);
-    let (of_origin, of_apex) = (-a.dot(n), up.dot(n));
-    let rounding = ulps::<V::Scalar>(VOLUME_ULPS);
-    let unit = rounding * rounding * ab.square() * ac.square();
-    // Squares, to do without roots. Written so that NaN is on no side.
-    let certain = of_origin * of_apex > V::Scalar::zero()
-        && of_origin * of_origin > unit * a.square()
-        && of_apex * of_apex > unit * up.square();
-    certain.then(|| of_origin / of_apex)
+impl<V: Vector> Height<V> {
+    /// None unless both are certainly on the same side of the face.
+    fn certain(a: V, b: V, c: V, apex: V) -> Option<Self> {
+        let (ab, ac, up) = (b - a, c - a, apex - a);
+        let normal = ab.cross(ac);
+        let (of_origin, of_apex) = (-a.dot(normal), up.dot(normal));
+        let rounding = ulps::<V::Scalar>(VOLUME_ULPS);
+        let unit = rounding * rounding * ab.square() * ac.square();
+        // Squares, to do without roots. Written so that NaN is on no side.
+        let certain = of_origin * of_apex > V::Scalar::zero()
+            && of_origin * of_origin > unit * a.square()
+            && of_apex * of_apex > unit * up.square();
+        certain.then_some(Height {
+            normal,
+            of_origin,
+            of_apex,
+        })
+    }
 }

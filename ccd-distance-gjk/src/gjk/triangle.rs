@@ -60,7 +60,10 @@ fn face<V: Vector>(corners: [V; 3], n: V, areas: [V::Scalar; 3]) -> Foot<V> {
 /// is turned by rounding over its height relative to the longest edge, the other over its length
 /// relative to the corners'.
 fn straighter<V: Vector>(corners: [V; 3], n: V, point: V, length2: V::Scalar) -> V {
-    let reach = corners.iter().map(|c| c.square()).fold(V::Scalar::zero(), Float::max);
+    let reach = corners
+        .iter()
+        .map(|c| c.square())
+        .fold(V::Scalar::zero(), Float::max);
     if point.square() * length2 * length2 > n.square() * reach {
         point
     } else if corners[0].dot(n) < V::Scalar::zero() {

@@ -28,12 +28,17 @@ pub(super) fn ask<O: DistanceOracle>(o: &mut O, scene: &Scene, cache: &mut O::Ca
 pub(super) fn check(scene: &Scene, claim: &Claim) -> Checked {
     let (a, b) = scene.local();
     let place = |combination: &Combination, points: &[DVec3]| {
-        combination.of(points).unwrap_or_else(|| panic!("{claim:?} names no point of {scene:?}"))
+        combination
+            .of(points)
+            .unwrap_or_else(|| panic!("{claim:?} names no point of {scene:?}"))
     };
     let n = claim.axis.try_normalize();
     let n = n.unwrap_or_else(|| panic!("the axis of {claim:?} for {scene:?} is no direction"));
     let low = b.iter().map(|y| n.dot(*y)).fold(f64::INFINITY, f64::min);
-    let high = a.iter().map(|x| n.dot(*x)).fold(f64::NEG_INFINITY, f64::max);
+    let high = a
+        .iter()
+        .map(|x| n.dot(*x))
+        .fold(f64::NEG_INFINITY, f64::max);
     Checked {
         distance: place(&claim.a, &a).distance(place(&claim.b, &b)),
         gap: low - high,
@@ -45,10 +50,16 @@ pub(super) fn check(scene: &Scene, claim: &Claim) -> Checked {
 pub(super) fn certifies_separation<O: DistanceOracle + Default>(scene: &Scene) -> Checked {
     let checked = check(scene, &cold::<O>(scene));
     let Checked { distance, gap } = checked;
-    assert!(gap <= distance + 1e-14 * scene.size, "{checked:?} crosses in {scene:?}");
+    assert!(
+        gap <= distance + 1e-14 * scene.size,
+        "{checked:?} crosses in {scene:?}"
+    );
     assert!(gap >= 0.5 * distance, "{checked:?} of {scene:?}");
     if distance > 1e-3 * scene.size {
-        assert!(gap >= distance - 1e-12 * scene.size, "{checked:?} of {scene:?}");
+        assert!(
+            gap >= distance - 1e-12 * scene.size,
+            "{checked:?} of {scene:?}"
+        );
     }
     checked
 }
@@ -59,20 +70,32 @@ pub(super) fn agrees_with_twin<O: DistanceOracle + Default>(scene: &Scene) {
     let (a, b) = scene.local();
     let truth = twin::distance(&a, &b);
     let error = (checked.distance - truth).abs();
-    assert!(error <= 1e-13 * scene.size, "{checked:?}, not {truth:e}, of {scene:?}");
+    assert!(
+        error <= 1e-13 * scene.size,
+        "{checked:?}, not {truth:e}, of {scene:?}"
+    );
 }
 
 /// The combinations of pieces that intersect name the same point.
 pub(super) fn names_a_common_point<O: DistanceOracle + Default>(scene: &Scene) {
     let checked = check(scene, &cold::<O>(scene));
-    assert!(checked.distance <= 1e-12 * scene.size, "{checked:?} of {scene:?}");
+    assert!(
+        checked.distance <= 1e-12 * scene.size,
+        "{checked:?} of {scene:?}"
+    );
 }
 
 /// Of pieces that only just touch, the axis is one that does separate their insides.
 pub(super) fn separates_touching<O: DistanceOracle + Default>(scene: &Scene) {
     let checked = check(scene, &cold::<O>(scene));
-    assert!(checked.distance <= 1e-12 * scene.size, "{checked:?} of {scene:?}");
-    assert!(checked.gap >= -1e-14 * scene.size, "{checked:?} of {scene:?}");
+    assert!(
+        checked.distance <= 1e-12 * scene.size,
+        "{checked:?} of {scene:?}"
+    );
+    assert!(
+        checked.gap >= -1e-14 * scene.size,
+        "{checked:?} of {scene:?}"
+    );
 }
 
 /// Exchanging the pieces exchanges the answer.
@@ -81,7 +104,10 @@ pub(super) fn is_symmetric<O: DistanceOracle + Default>(scene: &Scene) {
     let swapped = scene.swapped();
     let other = check(&swapped, &cold::<O>(&swapped));
     let error = (one.distance - other.distance).abs();
-    assert!(error <= 1e-12 * scene.size, "{one:?} and {other:?} of {scene:?}");
+    assert!(
+        error <= 1e-12 * scene.size,
+        "{one:?} and {other:?} of {scene:?}"
+    );
 }
 
 /// Whatever a cache holds, the answer is worth as much; and an oracle that has been used before
@@ -97,9 +123,15 @@ pub(super) fn ignores_history<O: DistanceOracle + Default>(scenes: &[Scene]) {
         let fresh = check(scene, &fresh);
         for other in [check(scene, &warm), check(scene, &again)] {
             let error = (fresh.distance - other.distance).abs();
-            assert!(error <= 1e-12 * scene.size, "{fresh:?} and {other:?} of {scene:?}");
+            assert!(
+                error <= 1e-12 * scene.size,
+                "{fresh:?} and {other:?} of {scene:?}"
+            );
             let worth = fresh.gap.min(0.5 * fresh.distance) - 1e-12 * scene.size;
-            assert!(fresh.gap < 0.0 || other.gap >= worth, "{fresh:?}, {other:?} of {scene:?}");
+            assert!(
+                fresh.gap < 0.0 || other.gap >= worth,
+                "{fresh:?}, {other:?} of {scene:?}"
+            );
         }
     }
 }
@@ -108,5 +140,8 @@ pub(super) fn ignores_history<O: DistanceOracle + Default>(scenes: &[Scene]) {
 pub(super) fn survives<O: DistanceOracle + Default>(scene: &Scene) {
     let checked = check(scene, &cold::<O>(scene));
     let sound = checked.gap <= checked.distance + 1e-13 * scene.size;
-    assert!(sound && checked.distance.is_finite(), "{checked:?} of {scene:?}");
+    assert!(
+        sound && checked.distance.is_finite(),
+        "{checked:?} of {scene:?}"
+    );
 }

@@ -19,9 +19,19 @@ pub(crate) struct Scene {
 impl Scene {
     /// From points in A's frame.
     fn new(a: Vec<DVec3>, b: Vec<DVec3>) -> Self {
-        let reach = |x: DVec3| a.iter().chain(&b).map(|y| y.distance(x)).fold(0.0, f64::max);
+        let reach = |x: DVec3| {
+            a.iter()
+                .chain(&b)
+                .map(|y| y.distance(x))
+                .fold(0.0, f64::max)
+        };
         let size = reach(a[0]).max(f64::MIN_POSITIVE);
-        Scene { a, b, b_to_a: Frame::IDENTITY, size }
+        Scene {
+            a,
+            b,
+            b_to_a: Frame::IDENTITY,
+            size,
+        }
     }
 
     pub(crate) fn pair(&self) -> PiecePair<'_> {
@@ -66,7 +76,11 @@ impl Scene {
         let [to_a, to_b]: [Frame; 2] = std::array::from_fn(|_| pose(rng, far).into());
         Scene {
             a: self.a.iter().map(|&x| to_a.point(x)).collect(),
-            b: self.b.iter().map(|&y| to_b.point(self.b_to_a.point(y))).collect(),
+            b: self
+                .b
+                .iter()
+                .map(|&y| to_b.point(self.b_to_a.point(y)))
+                .collect(),
             b_to_a: to_b_then(&to_a, &to_b),
             size: self.size,
         }
@@ -76,7 +90,10 @@ impl Scene {
 /// Undoes `to_b`, then applies `to_a`.
 fn to_b_then(to_a: &Frame, to_b: &Frame) -> Frame {
     let rotation = to_a.rotation * to_b.rotation.transpose();
-    Frame { rotation, translation: to_a.translation - rotation * to_b.translation }
+    Frame {
+        rotation,
+        translation: to_a.translation - rotation * to_b.translation,
+    }
 }
 
 pub(crate) fn pose(rng: &mut Pcg64, far: f64) -> Pose {
@@ -160,7 +177,10 @@ pub(crate) fn near_contact(rng: &mut Pcg64, meeting: Meeting, gap: f64) -> Scene
             let b = about(rng).map(|y| tilt * y);
             // Lifted until its lowest corner is up at the gap.
             let low = b.iter().map(|y| y.z).fold(f64::INFINITY, f64::min);
-            (about(rng).to_vec(), b.map(|y| y + up - low * DVec3::Z).to_vec())
+            (
+                about(rng).to_vec(),
+                b.map(|y| y + up - low * DVec3::Z).to_vec(),
+            )
         }
         Meeting::CornerEdge => {
             let [p, q] = through(flat(rng).normalize());
@@ -220,11 +240,16 @@ pub(crate) fn degenerate(rng: &mut Pcg64) -> Scene {
 pub(crate) fn stacked_boxes(rng: &mut Pcg64, gap: f64) -> Scene {
     let cuboid = |half: DVec3| -> Vec<DVec3> {
         let sign = |k: usize, bit: usize| if k >> bit & 1 == 1 { 1.0 } else { -1.0 };
-        (0..8).map(|k| half * DVec3::new(sign(k, 0), sign(k, 1), sign(k, 2))).collect()
+        (0..8)
+            .map(|k| half * DVec3::new(sign(k, 0), sign(k, 1), sign(k, 2)))
+            .collect()
     };
     let turn = DQuat::from_rotation_z(rng.random_range(0.0..7.0));
     let tilt = DQuat::from_rotation_x(magnitude(rng, -16.0, -10.0));
-    let b: Vec<DVec3> = cuboid(DVec3::new(0.4, 0.7, 0.5)).iter().map(|y| tilt * turn * *y).collect();
+    let b: Vec<DVec3> = cuboid(DVec3::new(0.4, 0.7, 0.5))
+        .iter()
+        .map(|y| tilt * turn * *y)
+        .collect();
     let low = b.iter().map(|y| y.z).fold(f64::INFINITY, f64::min);
     let lift = DVec3::new(rng.random_range(-0.9..0.9), 0.3, 1.0 + gap - low);
     let b = b.iter().map(|y| *y + lift).collect();
@@ -234,7 +259,9 @@ pub(crate) fn stacked_boxes(rng: &mut Pcg64, gap: f64) -> Scene {
 /// Hulls of points on spheres, at the distance of about `gap`.
 pub(crate) fn balls(rng: &mut Pcg64, count: usize, gap: f64) -> Scene {
     let ball = |rng: &mut Pcg64| -> Vec<DVec3> {
-        (0..count).map(|_| vector(rng).normalize_or(DVec3::X)).collect()
+        (0..count)
+            .map(|_| vector(rng).normalize_or(DVec3::X))
+            .collect()
     };
     let (a, offset) = (ball(rng), (2.0 + gap) * vector(rng).normalize());
     let b = ball(rng).iter().map(|y| *y + offset).collect();

@@ -27,10 +27,13 @@ fn from_point(x: DVec3, points: &[DVec3]) -> f64 {
         let t = (x - p).dot(d) / d.length_squared();
         (t > 0.0 && t < 1.0).then(|| (p + t * d).distance(x))
     });
-    let faces = edges(points).into_iter().flat_map(|[p, q]| {
-        points.iter().filter_map(move |&r| above(x, p, q, r))
-    });
-    corners.chain(feet).chain(faces).fold(f64::INFINITY, f64::min)
+    let faces = edges(points)
+        .into_iter()
+        .flat_map(|[p, q]| points.iter().filter_map(move |&r| above(x, p, q, r)));
+    corners
+        .chain(feet)
+        .chain(faces)
+        .fold(f64::INFINITY, f64::min)
 }
 
 /// The height of `x` above the inside of a triangle.
