@@ -2,7 +2,8 @@
 
 use crate::error::InputError;
 use crate::hierarchy::Hierarchy;
-use crate::piece::{Pieces, Shell};
+use crate::pieces::Pieces;
+use crate::shell::{Shell, shells};
 use crate::tree::Tree;
 
 /// What moves: convex pieces in the body's own frame, ready for queries; immutable, shareable.
@@ -54,7 +55,7 @@ impl Body {
         let (tree, order) = Tree::build(pieces, hierarchy)?;
         let pieces = pieces.reordered(&order);
         Ok(Body {
-            shells: pieces.shells(),
+            shells: shells(&pieces),
             pieces,
             tree,
             volume,

@@ -1,7 +1,7 @@
 //! A binary hierarchy over pieces, as any BVH builder yields it.
 
 use crate::error::InputError;
-use crate::piece::Pieces;
+use crate::pieces::Pieces;
 use glam::DVec3;
 
 /// A binary tree whose leaves are the pieces of a body, each exactly once.

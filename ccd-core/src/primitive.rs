@@ -2,7 +2,8 @@
 
 use crate::body::{Body, Volume};
 use crate::error::InputError;
-use crate::piece::{Facet, Pieces, Polytope};
+use crate::piece::{Facet, Polytope};
+use crate::pieces::Pieces;
 use glam::DVec3;
 
 impl Body {

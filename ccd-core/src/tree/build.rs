@@ -4,7 +4,7 @@ use super::fit::{Cloud, fit};
 use super::{Below, BoxGroup, LANES, Node, Tree, TriangleGroup};
 use crate::error::InputError;
 use crate::hierarchy::{Hierarchy, HierarchyNode};
-use crate::piece::Pieces;
+use crate::pieces::Pieces;
 use glam::DVec3;
 
 /// Builds the tree, and the order that the pieces must be brought into for it.

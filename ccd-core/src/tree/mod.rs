@@ -9,7 +9,7 @@ pub(crate) use group::{BoxGroup, LANES, Members, TriangleGroup, unit_normal, up}
 
 use crate::error::InputError;
 use crate::hierarchy::Hierarchy;
-use crate::piece::Pieces;
+use crate::pieces::Pieces;
 use glam::{DVec3, Vec3};
 
 /// An immutable tree in the body's frame. Node 0 is the root; ids beyond the nodes name triangles.
