@@ -16,12 +16,15 @@ pub(crate) fn shells(pieces: &Pieces) -> Vec<Shell> {
             parts.join(k - 1, k);
         }
     }
-    let mut by_place: Vec<u32> = (0..points.len() as u32).collect();
-    let place = |k: u32| points[k as usize].to_array().map(f64::to_bits);
-    by_place.sort_unstable_by_key(|&k| place(k));
+    // Equal points are next to each other once sorted by a number that their place determines.
+    let place = |k: u32| points[k as usize].to_array().map(|x| (x + 0.0).to_bits());
+    let mut by_place: Vec<(u64, u32)> = (0..points.len() as u32)
+        .map(|k| (scatter(place(k)), k))
+        .collect();
+    by_place.sort_unstable();
     for pair in by_place.windows(2) {
-        if place(pair[0]) == place(pair[1]) {
-            parts.join(pair[0] as usize, pair[1] as usize);
+        if place(pair[0].1) == place(pair[1].1) {
+            parts.join(pair[0].1 as usize, pair[1].1 as usize);
         }
     }
     let mut shell_of = vec![None; points.len()];
@@ -39,6 +42,13 @@ pub(crate) fn shells(pieces: &Pieces) -> Vec<Shell> {
         }
     }
     shells
+}
+
+/// A number that few places share.
+fn scatter(place: [u64; 3]) -> u64 {
+    place.into_iter().fold(0, |mixed: u64, bits| {
+        (mixed.rotate_left(23) ^ bits).wrapping_mul(0x9e37_79b9_7f4a_7c15)
+    })
 }
 
 /// Sets that are joined: every element names another one of its set, the root itself.

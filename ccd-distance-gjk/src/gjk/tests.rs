@@ -65,7 +65,7 @@ fn is_nearest<V: Vector>(corners: &[V], foot: &Foot<V>) {
         let other = segment::foot(foot.point, *corner).point.square().sqrt();
         assert!(
             distance - other <= slack * size,
-            "a nearer point on the way to a corner"
+            "{distance:?}, not {other:?}: {foot:?} of {corners:?}"
         );
     }
 }

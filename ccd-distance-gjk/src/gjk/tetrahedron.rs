@@ -8,25 +8,22 @@ use num_traits::{Float, Zero};
 
 /// The foot of the origin on the tetrahedron, which may be flat.
 ///
-/// The origin is called inside only where it is certainly on the inner side of every face; else the
-/// nearest foot on the faces it may be outside of is returned.
+/// The origin is called inside only where it is certainly on the inner side of every face, and the
+/// corners do make it up; else all faces are looked at: those it seems to be inside of may hold the
+/// nearest point, if the tetrahedron is flat.
 pub(crate) fn foot<V: Vector>(corners: [V; 4]) -> Foot<V> {
     let heights = FACES
         .map(|[apex, a, b, c]| Height::certain(corners[a], corners[b], corners[c], corners[apex]));
-    if let [Some(a), Some(b), Some(c), Some(d)] = heights {
-        if let Some(inside) = inside(corners, [a, b, c, d]) {
-            return inside;
-        }
+    if let [Some(a), Some(b), Some(c), Some(d)] = heights
+        && let Some(inside) = inside(corners, [a, b, c, d])
+    {
+        return inside;
     }
-    let all = heights.iter().all(Option::is_some);
-    let mut best = None;
-    for (height, [_, a, b, c]) in heights.iter().zip(FACES) {
-        if all || height.is_none() {
-            let on_face = triangle::foot(corners[a], corners[b], corners[c]);
-            best = Some(on_face.lifted(&[a, b, c]).or_nearer(best));
-        }
-    }
-    best.unwrap_or(Foot::corner(corners[0], 0))
+    let feet = FACES.map(|[_, a, b, c]| {
+        triangle::foot(corners[a], corners[b], corners[c]).lifted(&[a, b, c])
+    });
+    let [first, others @ ..] = feet;
+    others.into_iter().fold(first, |best, foot| foot.or_nearer(Some(best)))
 }
 
 /// Each corner with those of the face opposite of it.

@@ -2,18 +2,20 @@
 
 use ccd_core::glam::{DVec3, Vec3A};
 use num_traits::Float;
+use std::fmt::Debug;
 use std::ops::{Add, Mul, Neg, Sub};
 
 /// A vector in three dimensions.
 pub(crate) trait Vector:
     Copy
+    + Debug
     + Add<Output = Self>
     + Sub<Output = Self>
     + Neg<Output = Self>
     + Mul<Self::Scalar, Output = Self>
 {
     /// Its coordinates' type.
-    type Scalar: Float + From<f32>;
+    type Scalar: Float + Debug + From<f32>;
 
     /// The zero vector.
     const ZERO: Self;
