@@ -20,6 +20,8 @@ mod problem;
 pub mod schedule;
 mod separation;
 mod shell;
+#[cfg(test)]
+mod tests;
 pub mod tolerance;
 mod tree;
 

@@ -4,7 +4,7 @@ use crate::body::Body;
 use crate::error::InputError;
 use crate::motion::Motion;
 use crate::path::Path;
-use crate::tolerance::{self, MAX_COORDINATE, MAX_TURN};
+use crate::tolerance::{self, MAX_COORDINATE, MAX_TURN, NODE_GAP};
 use glam::DVec3;
 
 /// How accurately to answer, and what to count as a contact.
@@ -142,10 +142,16 @@ impl<'a> Problem<'a> {
         self.tolerance
     }
 
-    /// The gap that clocks prove: half the tolerance beyond the margin, so that the first pair
-    /// whose clock runs out is within the tolerance.
+    /// The gap that the clocks of pairs of pieces prove: half the tolerance beyond the margin, so
+    /// that a pair whose clock runs out is well within the tolerance.
     pub(crate) fn gap(&self) -> f64 {
         self.margin + 0.5 * self.tolerance
+    }
+
+    /// The gap that the clocks of pairs of nodes prove: the same for all sizes of nodes, so that
+    /// clocks that run out at a common contact run out together, however large the nodes.
+    pub(crate) fn node_gap(&self) -> f64 {
+        self.margin + NODE_GAP * self.tolerance
     }
 
     /// A clock as a time of the motions, rounded so that it is never late.

@@ -52,13 +52,22 @@ pub fn least_tolerance(rounding: f64) -> f64 {
     8.0 * rounding
 }
 
-/// Relative allowance on the sum of the sizes in a support gap that is computed in f32.
+/// Allowance on a support gap computed in f32, relative to the other node's distance from the split
+/// group's origin.
 ///
-/// In units of `u = 2⁻²⁴` times (distance of the nodes + their radii + the split group's radius):
-/// the transform's entries 1, products and sums 4, the box's axes and their rotation 9, the axis of
-/// projection 1, three dot products 3 each, sums 3: at most 40 of the operands that each
-/// applies to, and all of them together at most 64 of the sum. 4e-6 is 67 u.
-pub const SUPPORT_F32: f32 = 4e-6;
+/// In units of `u = 2⁻²⁴`: the distance is rounded once (1), the child's centre subtracted (1),
+/// projected by three fused operations (3), and the reaches subtracted (2): 7u; 8u are taken.
+pub const WAY_F32: f32 = 8.0 * U32;
+
+/// Allowance on a support gap computed in f32, relative to the split group's radius and the other
+/// node's.
+///
+/// A box's half sizes are measured along axes rounded to f32, which are orthogonal to 2u (3.5u of
+/// its radius); three products with three half sizes, of which each is projected by three
+/// operations, add `√3 (3 + 3)u`; the other node's axes are rotated by a matrix rounded once, with
+/// five operations, which adds `√3 · 7u`. Together with the way to a child (6u): 20u of the split
+/// side, 28u of the other one; 32u are taken. Triangles come to less.
+pub const REACH_F32: f32 = 32.0 * U32;
 
 /// Relative allowance on the largest speed in a rate of approach that is computed in f32.
 ///
@@ -131,3 +140,14 @@ pub const SWEPT: f32 = 1.0 / 32.0;
 /// How near a winding number has to be to a whole one to be believed. A point on a face has one half,
 /// on an edge or a corner what is inside there; sums over a million triangles are right to 1e-9.
 pub const WINDING: f64 = 1e-3;
+
+/// The gap that a pair of nodes keeps beyond the margin, in units of the tolerance. Half of it is what
+/// must be kept; what is above takes up the rounding of nodes that are not too large, so that all of
+/// them stop at the same gap. With a slack that grows with the size of the nodes instead, two flat
+/// faces that meet would have all of their larger nodes split before a pair of pieces is seen.
+pub const NODE_GAP: f64 = 7.0 / 8.0;
+
+/// A gap of nodes that exceeds what is to be kept by no more than this is closed, in units of the
+/// tolerance: what rounding leaves of a gap at the end of a clock is not worth a clock of its own,
+/// and a pair that inherits its parent's clock is looked at before all others.
+pub const CLOSED_GAP: f64 = 1.0 / 16.0;

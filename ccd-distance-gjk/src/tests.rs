@@ -5,7 +5,8 @@ pub(crate) mod scene;
 mod twin;
 
 use crate::{Auto, Direct, Gjk, GjkF32};
-use ccd_core::DistanceOracle;
+use ccd_core::glam::{DMat3, DVec3};
+use ccd_core::{DistanceOracle, Frame, Piece, PiecePair};
 use rstest::rstest;
 use scene::{Meeting, Pcg64, Scene, SeedableRng};
 
@@ -198,7 +199,7 @@ fn far_from_the_origin<O: DistanceOracle + Default>() {
 
 fn any_scale<O: DistanceOracle + Default>() {
     let draw = |rng: &mut Pcg64| {
-        let scale = scene::magnitude(rng, -12.0, 12.0);
+        let scale = scene::magnitude(rng, -45.0, 15.0);
         let mut scene = scene::random(rng, 3, 3).scaled(scale);
         // One of the pieces may be as good as a point, or as a half-space.
         let other = scene::magnitude(rng, -12.0, 0.0);
@@ -212,6 +213,11 @@ fn any_scale<O: DistanceOracle + Default>() {
         laws::is_symmetric::<O>(scene);
     };
     over(draw, law);
+    let draw = |rng: &mut Pcg64| {
+        let scale = scene::magnitude(rng, -45.0, 15.0);
+        scene::intersecting(rng, 3, 3).scaled(scale)
+    };
+    over(draw, laws::names_a_common_point::<O>);
 }
 
 fn history<O: DistanceOracle + Default>(count: usize) {
@@ -227,4 +233,48 @@ fn history<O: DistanceOracle + Default>(count: usize) {
         .filter(|scene| count > 3 || scene.a.len().max(scene.b.len()) <= 3)
         .collect();
     laws::ignores_history::<O>(&scenes);
+}
+
+/// Frames that map nothing anywhere, and pieces without points, end like all others.
+#[test]
+fn nonsense_ends() {
+    fn law<O: DistanceOracle + Default>(pair: &PiecePair<'_>) {
+        let (mut oracle, mut cache) = (O::default(), O::Cache::default());
+        for _ in 0..3 {
+            if let Ok(claim) = oracle.separation(pair, &mut cache) {
+                assert!(
+                    claim
+                        .a
+                        .support()
+                        .iter()
+                        .all(|&k| (k as usize) < pair.a.points.len())
+                );
+                assert!(
+                    claim
+                        .b
+                        .support()
+                        .iter()
+                        .all(|&k| (k as usize) < pair.b.points.len())
+                );
+            }
+        }
+    }
+    let mut rng = Pcg64::seed_from_u64(3);
+    for count in [0, 1, 2, 3, 4, 20] {
+        let (a, b) = (scene::points(&mut rng, count), scene::points(&mut rng, 3));
+        for wrong in [0.0, f64::NAN, f64::INFINITY, 1e300] {
+            let b_to_a = Frame {
+                translation: DVec3::new(wrong, 0.0, -wrong),
+                rotation: wrong * DMat3::IDENTITY,
+            };
+            let (a, b) = (Piece::from_points(&a), Piece::from_points(&b));
+            for (a, b) in [(a, b), (b, a)] {
+                let pair = PiecePair { a, b, b_to_a };
+                law::<Direct>(&pair);
+                law::<Gjk>(&pair);
+                law::<GjkF32>(&pair);
+                law::<Auto>(&pair);
+            }
+        }
+    }
 }

@@ -5,7 +5,7 @@ use super::lanes::{Bounds, Children, Closing, Other, OtherBox, OtherTriangle, St
 use super::lanes::{Larger, Turning, bound, bound_attached};
 use crate::pose::Frame;
 use crate::problem::{Problem, Side};
-use crate::tolerance::{MUCH_LARGER, RATE_F32, SUPPORT_F32};
+use crate::tolerance::{CLOSED_GAP, LEAST_GAP_F32, MUCH_LARGER, RATE_F32, REACH_F32, WAY_F32};
 use crate::tree::{Below, Members, Named, Node, NodeId, unit_normal, up};
 use glam::{DMat3, DVec3, Vec3};
 
@@ -205,17 +205,20 @@ impl Shared<'_> {
         let velocity = self.velocity.as_vec3();
         let reach = self.members.reach;
         let [x, y, z] = other.centre().abs().to_array();
-        let size = x + y + z + other.radius() + reach;
+        let rounding = WAY_F32 * (x + y + z) + REACH_F32 * (other.radius() + reach);
         let speed = velocity.length()
             + split.rate() * (reach + split.arm(Vec3::ZERO))
             + far.rate() * (other.radius() + far.arm(other.centre()));
-        let kept = self.problem.gap() + self.problem.rounding;
+        let problem = self.problem;
+        let kept = up(problem.gap() + problem.rounding) + rounding;
+        let closed = (CLOSED_GAP * problem.tolerance) as f32;
         let closing = Closing {
             velocity,
             split,
             other: far,
             horizon: self.horizon,
-            slack: (up(kept) + SUPPORT_F32 * size).next_up(),
+            slack: kept.next_up().max(up(problem.node_gap())),
+            closed: closed.max(LEAST_GAP_F32),
             rate_slack: RATE_F32 * speed,
         };
         let mut bounds = bound(group, other, &closing);
@@ -235,3 +238,6 @@ fn columns(matrix: &DMat3) -> [Vec3; 3] {
         matrix.z_axis.as_vec3(),
     ]
 }
+
+#[cfg(test)]
+mod tests;

@@ -20,7 +20,8 @@ use nearest::{Corners, Nearest};
 /// # Guarantee
 /// Of separated pieces of size s, both moved near the origin, the witnesses are within about
 /// 1e-15 s of the nearest pair's distance, and the axis certifies at least half of it down to
-/// distances of about 1e-15 s. Needles thinner than 1e-7 s may lose up to their width.
+/// distances of about 1e-15 s. Needles thinner than 1e-7 s may lose up to their width
+/// when the distance is no larger than that.
 ///
 /// # Errors
 /// [`GiveUp::TooManyPoints`] for pieces that do not have one, two or three points.

@@ -23,7 +23,7 @@ impl Nearest {
 }
 
 /// The nearest points of the boundaries, and of corners and faces: those of the triangles, if they
-/// do not intersect `[ERICSON05 §5.1.9–10]`.
+/// do not intersect `[ERICSON05 §5.1]`.
 ///
 /// Every candidate is a pair of points of the triangles, however ill-conditioned; the least of
 /// their distances decides.

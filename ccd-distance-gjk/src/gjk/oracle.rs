@@ -16,7 +16,7 @@ use ccd_core::{Claim, Combination, DistanceOracle, GiveUp, PiecePair};
 /// # Guarantee
 /// Of separated pieces of size s, both moved near the origin, the witnesses are within about
 /// 1e-13 s of the nearest pair's distance, and where that is less than 1e-7 s the axis is made of
-/// the features that hold them. Ends after at most 256 steps with the best seen on the way; it never
+/// the features that hold them. Ends after at most about 300 steps with the best seen on the way; it never
 /// gives up on pieces that have points, and claims nothing of those that have none.
 ///
 /// # Complexity

@@ -48,7 +48,7 @@ impl<V: Vector> Found<V> {
 }
 
 /// Goes from `simplex` to the point of the difference that is nearest to the origin, step by step
-/// nearer `[GJK88 §4]`; `found` keeps the best, whatever stops it.
+/// nearer `[GJK88]`; `found` keeps the best, whatever stops it.
 pub(crate) fn search<D: Difference>(
     difference: &D,
     mut simplex: Simplex<D::Vector>,

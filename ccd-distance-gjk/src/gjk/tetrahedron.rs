@@ -19,11 +19,12 @@ pub(crate) fn foot<V: Vector>(corners: [V; 4]) -> Foot<V> {
     {
         return inside;
     }
-    let feet = FACES.map(|[_, a, b, c]| {
-        triangle::foot(corners[a], corners[b], corners[c]).lifted(&[a, b, c])
-    });
+    let feet = FACES
+        .map(|[_, a, b, c]| triangle::foot(corners[a], corners[b], corners[c]).lifted(&[a, b, c]));
     let [first, others @ ..] = feet;
-    others.into_iter().fold(first, |best, foot| foot.or_nearer(Some(best)))
+    others
+        .into_iter()
+        .fold(first, |best, foot| foot.or_nearer(Some(best)))
 }
 
 /// Each corner with those of the face opposite of it.

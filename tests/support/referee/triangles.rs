@@ -145,15 +145,25 @@ pub fn point_segment(p: DVec3, [a, b]: [DVec3; 2]) -> DVec3 {
 }
 
 /// The nearest point of a triangle.
+///
+/// Always a convex combination of its corners: of a needle, whose normal is mostly rounding, it may
+/// be a poor choice of point, but it is never a point outside.
 pub fn point_triangle(p: DVec3, [a, b, c]: [DVec3; 3]) -> DVec3 {
     let normal = (b - a).cross(c - a);
-    let left_of = |u: DVec3, v: DVec3| normal.dot((v - u).cross(p - u)) >= 0.0;
-    if normal.length_squared() > 0.0 && left_of(a, b) && left_of(b, c) && left_of(c, a) {
-        return p - normal * ((p - a).dot(normal) / normal.length_squared());
-    }
-    let on_edges = [[a, b], [b, c], [c, a]].map(|edge| point_segment(p, edge));
+    let weight = |u: DVec3, v: DVec3| normal.dot((v - u).cross(p - u));
+    let (wa, wb, wc) = (weight(b, c), weight(c, a), weight(a, b));
+    let sum = wa + wb + wc;
+    let inside = wa >= 0.0 && wb >= 0.0 && wc >= 0.0 && sum > 0.0;
+    let foot = if inside {
+        a + (wb / sum) * (b - a) + (wc / sum) * (c - a)
+    } else {
+        a
+    };
     let nearer = |x: DVec3, y: DVec3| if y.distance(p) < x.distance(p) { y } else { x };
-    on_edges.into_iter().reduce(nearer).unwrap_or(a)
+    [[a, b], [b, c], [c, a]]
+        .map(|edge| point_segment(p, edge))
+        .into_iter()
+        .fold(foot, nearer)
 }
 
 /// Whether a closed mesh winds around a point: the solid angles of its faces add up to more than

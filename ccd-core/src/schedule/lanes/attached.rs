@@ -81,6 +81,7 @@ impl<C: Children, P: Other, S: Turn, O: Turn> Pairing<'_, C, P, S, O> {
         let rate_slack = closing.rate_slack + RATE_F32 * spin * sweep.distance;
         let free = clock::free_time(
             axis.gap - closing.slack,
+            closing.closed,
             sweep.rate + rate_slack,
             bend * BEND_F32 + LEAST_BEND_F32,
         );

@@ -1,17 +1,17 @@
 //! For how long a gap stays open.
 
-use crate::tolerance::{CLOCK_F32, LEAST_GAP_F32};
+use crate::tolerance::CLOCK_F32;
 
-/// The largest τ with `apart ≥ rate τ + bend τ²/2`; 0 for a pair that is not apart, also when it
-/// recedes, and for NaN.
+/// The largest τ with `apart ≥ rate τ + bend τ²/2`; 0 for a pair that is not apart by more than
+/// `closed`, also when it recedes, and for NaN.
 #[inline(always)]
-pub(super) fn free_time(apart: f32, rate: f32, bend: f32) -> f32 {
+pub(super) fn free_time(apart: f32, closed: f32, rate: f32, bend: f32) -> f32 {
     let root = (rate * rate + 2.0 * bend * apart).sqrt();
     let approaching = 2.0 * apart / (rate + root);
     let receding = (root - rate) / bend;
     let tau = if rate > 0.0 { approaching } else { receding };
     // A root that overflowed says nothing.
-    if apart > LEAST_GAP_F32 && tau > 0.0 && root <= f32::MAX {
+    if apart > closed && tau > 0.0 && root <= f32::MAX {
         tau * CLOCK_F32
     } else {
         0.0
@@ -20,10 +20,10 @@ pub(super) fn free_time(apart: f32, rate: f32, bend: f32) -> f32 {
 
 /// The same on a straight path.
 #[inline(always)]
-pub(super) fn straight_free_time(apart: f32, rate: f32) -> f32 {
+pub(super) fn straight_free_time(apart: f32, closed: f32, rate: f32) -> f32 {
     let tau = apart / rate;
     let tau = if rate > 0.0 { tau } else { f32::INFINITY };
-    if apart > LEAST_GAP_F32 && tau > 0.0 {
+    if apart > closed && tau > 0.0 {
         tau * CLOCK_F32
     } else {
         0.0

@@ -43,6 +43,8 @@ pub(crate) struct Closing<S, O> {
     pub(crate) horizon: f32,
     /// The gap that is to be kept, and what rounding may do to a gap.
     pub(crate) slack: f32,
+    /// A gap beyond the slack that is no larger counts as none.
+    pub(crate) closed: f32,
     /// What rounding may do to a rate.
     pub(crate) rate_slack: f32,
 }
@@ -203,9 +205,9 @@ impl<'a, C: Children, P: Other, S: Turn, O: Turn> Pairing<'a, C, P, S, O> {
         }
         let apart = axis.gap - closing.slack;
         if S::TURNS || O::TURNS {
-            clock::free_time(apart, rate, bend)
+            clock::free_time(apart, closing.closed, rate, bend)
         } else {
-            clock::straight_free_time(apart, rate)
+            clock::straight_free_time(apart, closing.closed, rate)
         }
     }
 }

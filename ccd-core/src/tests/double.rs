@@ -1,0 +1,243 @@
+//! Arithmetic with twice the digits of f64: the reference that allowances for rounding are sampled
+//! against. A number is the unevaluated sum of two f64, right to about 1e-31.
+
+use crate::motion::Motion;
+use glam::{DQuat, DVec3};
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+/// `high + low`, with `|low|` at most half a unit in the last place of `high`.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Double {
+    high: f64,
+    low: f64,
+}
+
+impl Double {
+    pub(crate) const ZERO: Double = Double {
+        high: 0.0,
+        low: 0.0,
+    };
+
+    pub(crate) fn get(self) -> f64 {
+        self.high
+    }
+
+    pub(crate) fn min(self, other: Double) -> Double {
+        if (other - self).high < 0.0 {
+            other
+        } else {
+            self
+        }
+    }
+
+    pub(crate) fn max(self, other: Double) -> Double {
+        -(-self).min(-other)
+    }
+
+    pub(crate) fn sqrt(self) -> Double {
+        if self.high <= 0.0 {
+            return Double::ZERO;
+        }
+        // One Newton step doubles the digits of the f64 root.
+        let root = Double::from(self.high.sqrt());
+        (root + self / root) * Double::from(0.5)
+    }
+
+    /// Sine and cosine: Taylor's series of a small fraction of the angle, doubled again and again.
+    pub(crate) fn sin_cos(self) -> (Double, Double) {
+        let mut halvings = 0;
+        let mut angle = self;
+        while angle.high.abs() > 0.125 {
+            angle = angle * Double::from(0.5);
+            halvings += 1;
+        }
+        let square = angle * angle;
+        let (mut sin, mut versine) = (angle, Double::ZERO);
+        let (mut odd, mut even) = (angle, Double::from(1.0));
+        for k in 1..14 {
+            let n = f64::from(2 * k);
+            even = -(even * square) / Double::from((n - 1.0) * n);
+            odd = -(odd * square) / Double::from(n * (n + 1.0));
+            versine = versine + even;
+            sin = sin + odd;
+        }
+        // Doubled as cos − 1, which does not cancel while the angle is small.
+        for _ in 0..halvings {
+            let two = Double::from(2.0);
+            (sin, versine) = (
+                two * sin * (versine + Double::from(1.0)),
+                -(two * sin * sin),
+            );
+        }
+        (sin, versine + Double::from(1.0))
+    }
+}
+
+impl From<f64> for Double {
+    fn from(x: f64) -> Self {
+        Double { high: x, low: 0.0 }
+    }
+}
+
+/// The exact sum of two f64.
+fn two_sum(a: f64, b: f64) -> Double {
+    let high = a + b;
+    let part = high - a;
+    Double {
+        high,
+        low: (a - (high - part)) + (b - part),
+    }
+}
+
+impl Add for Double {
+    type Output = Double;
+    fn add(self, other: Double) -> Double {
+        let (high, low) = (two_sum(self.high, other.high), two_sum(self.low, other.low));
+        let sum = two_sum(high.high, high.low + low.high);
+        two_sum(sum.high, sum.low + low.low)
+    }
+}
+
+impl Neg for Double {
+    type Output = Double;
+    fn neg(self) -> Double {
+        Double {
+            high: -self.high,
+            low: -self.low,
+        }
+    }
+}
+
+impl Sub for Double {
+    type Output = Double;
+    fn sub(self, other: Double) -> Double {
+        self + -other
+    }
+}
+
+impl Mul for Double {
+    type Output = Double;
+    fn mul(self, other: Double) -> Double {
+        let high = self.high * other.high;
+        let rest = self.high.mul_add(other.high, -high);
+        two_sum(high, rest + (self.high * other.low + self.low * other.high))
+    }
+}
+
+impl Div for Double {
+    type Output = Double;
+    fn div(self, other: Double) -> Double {
+        let first = Double::from(self.high / other.high);
+        let rest = self - other * first;
+        let second = Double::from(rest.high / other.high);
+        let rest = rest - other * second;
+        first + second + Double::from(rest.high / other.high)
+    }
+}
+
+/// A vector of doubles.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Double3(pub(crate) [Double; 3]);
+
+impl From<DVec3> for Double3 {
+    fn from(v: DVec3) -> Self {
+        Double3(v.to_array().map(Double::from))
+    }
+}
+
+impl Double3 {
+    pub(crate) fn dot(self, other: Double3) -> Double {
+        let [x, y, z] = self.0;
+        let [u, v, w] = other.0;
+        x * u + y * v + z * w
+    }
+
+    pub(crate) fn cross(self, other: Double3) -> Double3 {
+        let [x, y, z] = self.0;
+        let [u, v, w] = other.0;
+        Double3([y * w - z * v, z * u - x * w, x * v - y * u])
+    }
+
+    pub(crate) fn scale(self, by: Double) -> Double3 {
+        Double3(self.0.map(|x| x * by))
+    }
+
+    pub(crate) fn length(self) -> Double {
+        self.dot(self).sqrt()
+    }
+
+    pub(crate) fn unit(self) -> Double3 {
+        let length = self.length();
+        Double3(self.0.map(|x| x / length))
+    }
+
+    pub(crate) fn get(self) -> DVec3 {
+        DVec3::from_array(self.0.map(Double::get))
+    }
+
+    /// Turned by the rotation that a quaternion names, of whatever length it is.
+    fn rotated(self, q: DQuat) -> Double3 {
+        let v = Double3::from(q.xyz());
+        let w = Double::from(q.w);
+        let square = v.dot(v) + w * w;
+        let twice = v.cross(self).scale(Double::from(2.0));
+        let moved = twice.scale(w) + v.cross(twice);
+        self + Double3(moved.0.map(|x| x / square))
+    }
+
+    /// Turned about a unit axis.
+    fn turned(self, axis: Double3, angle: Double) -> Double3 {
+        let (sin, cos) = angle.sin_cos();
+        let along = axis.scale(axis.dot(self));
+        along + (self - along).scale(cos) + axis.cross(self).scale(sin)
+    }
+}
+
+impl Add for Double3 {
+    type Output = Double3;
+    fn add(self, other: Double3) -> Double3 {
+        Double3(std::array::from_fn(|k| self.0[k] + other.0[k]))
+    }
+}
+
+impl Sub for Double3 {
+    type Output = Double3;
+    fn sub(self, other: Double3) -> Double3 {
+        Double3(std::array::from_fn(|k| self.0[k] - other.0[k]))
+    }
+}
+
+/// Where a motion takes a point of the body at `s · duration`, in the world: the formula of
+/// [`Motion`] term by term.
+pub(crate) fn place(motion: &Motion, duration: f64, s: f64, point: DVec3) -> Double3 {
+    let time = Double::from(duration) * Double::from(s);
+    let centre = Double3::from(motion.centre());
+    let mut arm = (Double3::from(point) - centre).rotated(motion.start().rotation());
+    if motion.spin() != DVec3::ZERO {
+        let spin = Double3::from(motion.spin());
+        arm = arm.turned(spin.unit(), spin.length() * time);
+    }
+    let start =
+        Double3::from(motion.start().translation()) + centre.rotated(motion.start().rotation());
+    start + Double3::from(motion.velocity()).scale(time) + arm
+}
+
+#[test]
+fn has_twice_the_digits() {
+    let third = Double::from(1.0) / Double::from(3.0);
+    let one = third + third + third;
+    assert!((one - Double::from(1.0)).get().abs() < 1e-31);
+    let root = Double::from(2.0).sqrt();
+    assert!((root * root - Double::from(2.0)).get().abs() < 1e-31);
+    // sin² + cos² = 1, and the double angle by another way, also after many turns.
+    for angle in [1e-9, 0.3, 2.0, -7.5, 1e3, 1e6] {
+        let (sin, cos) = Double::from(angle).sin_cos();
+        let scale = 1e-30 * angle.abs().max(1.0);
+        assert!((sin * sin + cos * cos - Double::from(1.0)).get().abs() < scale);
+        assert!((sin.get() - angle.sin()).abs() < 1e-15);
+        let (third_sin, _) = (Double::from(angle) / Double::from(3.0)).sin_cos();
+        let cubed = third_sin * third_sin * third_sin;
+        let triple = Double::from(3.0) * third_sin - Double::from(4.0) * cubed;
+        assert!((triple - sin).get().abs() < scale);
+    }
+}

@@ -1,0 +1,164 @@
+//! The nearest points of two triangles, the slow and obvious way: every edge with every edge, every
+//! corner with the other's plane, and whether an edge pierces the other triangle.
+
+use glam::DVec3;
+
+pub(crate) type Triangle = [DVec3; 3];
+
+/// A pair of points as weights of the corners, and their distance.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Nearest {
+    pub(crate) a: [f64; 3],
+    pub(crate) b: [f64; 3],
+    pub(crate) distance: f64,
+}
+
+/// The nearest pair of points; also for triangles that are segments or points.
+///
+/// Every candidate is a pair of points of the two triangles, so that rounding can only make the
+/// distance too large.
+pub(crate) fn nearest(a: &Triangle, b: &Triangle) -> Nearest {
+    let mut best = Nearest {
+        a: [1.0, 0.0, 0.0],
+        b: [1.0, 0.0, 0.0],
+        distance: f64::INFINITY,
+    };
+    let mut offer = |wa: [f64; 3], wb: [f64; 3]| {
+        let distance = (point(b, wb) - point(a, wa)).length();
+        if distance < best.distance {
+            best = Nearest {
+                a: wa,
+                b: wb,
+                distance,
+            };
+        }
+    };
+    for i in 0..3 {
+        for j in 0..3 {
+            let (s, t) = segments(a[i], a[(i + 1) % 3], b[j], b[(j + 1) % 3]);
+            offer(on_edge(i, s), on_edge(j, t));
+        }
+        if let Some(weights) = foot(b, a[i]) {
+            offer(corner(i), weights);
+        }
+        if let Some(weights) = foot(a, b[i]) {
+            offer(weights, corner(i));
+        }
+        if let Some((s, weights)) = pierce(b, a[i], a[(i + 1) % 3]) {
+            offer(on_edge(i, s), weights);
+        }
+        if let Some((s, weights)) = pierce(a, b[i], b[(i + 1) % 3]) {
+            offer(weights, on_edge(i, s));
+        }
+    }
+    best
+}
+
+pub(crate) fn point(t: &Triangle, weights: [f64; 3]) -> DVec3 {
+    // Relative to a corner: rounding stays that of the triangle's size.
+    t[0] + weights[1] * (t[1] - t[0]) + weights[2] * (t[2] - t[0])
+}
+
+fn corner(k: usize) -> [f64; 3] {
+    on_edge(k, 0.0)
+}
+
+fn on_edge(k: usize, t: f64) -> [f64; 3] {
+    let mut weights = [0.0; 3];
+    weights[k] = 1.0 - t;
+    weights[(k + 1) % 3] += t;
+    weights
+}
+
+/// Parameters of the nearest points of two segments.
+fn segments(p: DVec3, p_end: DVec3, q: DVec3, q_end: DVec3) -> (f64, f64) {
+    let (d, e, r) = (p_end - p, q_end - q, p - q);
+    let (dd, ee, de) = (d.dot(d), e.dot(e), d.dot(e));
+    let clamp = |x: f64| if x > 0.0 { x.min(1.0) } else { 0.0 };
+    let denominator = dd * ee - de * de;
+    let mut s = clamp((de * e.dot(r) - d.dot(r) * ee) / denominator);
+    let mut t = 0.0;
+    // Alternating projections mend what cancellation did to the first guess.
+    for _ in 0..3 {
+        t = clamp(e.dot(p + s * d - q) / ee);
+        s = clamp(d.dot(q + t * e - p) / dd);
+    }
+    (s, t)
+}
+
+/// The weights of a point's foot in the plane of a triangle, if it lies within the triangle.
+fn foot(t: &Triangle, from: DVec3) -> Option<[f64; 3]> {
+    let (u, v) = (t[1] - t[0], t[2] - t[0]);
+    let normal = u.cross(v);
+    let square = normal.length_squared();
+    let way = from - t[0];
+    let weights_u = way.cross(v).dot(normal) / square;
+    let weights_v = u.cross(way).dot(normal) / square;
+    inside(weights_u, weights_v)
+}
+
+/// Where a segment meets a triangle.
+fn pierce(t: &Triangle, p: DVec3, q: DVec3) -> Option<(f64, [f64; 3])> {
+    let normal = (t[1] - t[0]).cross(t[2] - t[0]);
+    let (from, to) = (normal.dot(p - t[0]), normal.dot(q - t[0]));
+    if !(from * to <= 0.0 && from != to) {
+        return None;
+    }
+    let s = (from / (from - to)).clamp(0.0, 1.0);
+    Some((s, foot(t, p + s * (q - p))?))
+}
+
+fn inside(u: f64, v: f64) -> Option<[f64; 3]> {
+    // Written so that NaN is outside.
+    (u >= 0.0 && v >= 0.0 && u + v <= 1.0).then_some([1.0 - u - v, u, v])
+}
+
+#[test]
+fn finds_corners_edges_faces_and_crossings() {
+    let flat = [DVec3::ZERO, DVec3::X, DVec3::Y];
+    let cases = [
+        (
+            [
+                DVec3::new(0.2, 0.2, 1.0),
+                DVec3::new(0.2, 0.2, 2.0),
+                DVec3::new(3.0, 3.0, 3.0),
+            ],
+            1.0,
+        ),
+        (
+            [
+                DVec3::new(-1.0, 0.0, 0.0),
+                DVec3::new(-2.0, 1.0, 0.0),
+                DVec3::new(-2.0, -1.0, 0.0),
+            ],
+            1.0,
+        ),
+        (
+            [
+                DVec3::new(0.5, -1.0, -1.0),
+                DVec3::new(0.5, -1.0, 1.0),
+                DVec3::new(0.5, -9.0, 0.0),
+            ],
+            1.0,
+        ),
+        (
+            [
+                DVec3::new(0.2, 0.2, -1.0),
+                DVec3::new(0.2, 0.2, 1.0),
+                DVec3::new(9.0, 9.0, 0.0),
+            ],
+            0.0,
+        ),
+        ([DVec3::new(2.0, 0.0, 0.0); 3], 1.0),
+    ];
+    for (other, distance) in cases {
+        assert!(
+            (nearest(&flat, &other).distance - distance).abs() < 1e-15,
+            "{other:?}"
+        );
+        assert!(
+            (nearest(&other, &flat).distance - distance).abs() < 1e-15,
+            "{other:?}"
+        );
+    }
+}

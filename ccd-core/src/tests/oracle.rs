@@ -1,0 +1,70 @@
+//! A slow oracle for pieces of up to three points, and one that lies.
+
+use super::nearest::{Triangle, nearest, point};
+use crate::oracle::{Claim, Combination, DistanceOracle, GiveUp, PiecePair};
+use crate::separation::support_gap;
+use glam::DVec3;
+
+/// Compares every feature with every other one; balls and capsules are their cores.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Exhaustive;
+
+impl DistanceOracle for Exhaustive {
+    type Cache = ();
+
+    fn separation(&mut self, pair: &PiecePair<'_>, _: &mut ()) -> Result<Claim, GiveUp> {
+        let (Some(a), Some(b)) = (corners(pair.a.points), corners(pair.b.points)) else {
+            return Err(GiveUp::TooManyPoints);
+        };
+        let b_in_a = b.map(|p| pair.b_to_a.point(p));
+        let found = nearest(&a, &b_in_a);
+        let way = point(&b_in_a, found.b) - point(&a, found.a);
+        Ok(Claim {
+            axis: widest(pair, way, &a, &b_in_a),
+            a: combination(found.a, pair.a.points.len()),
+            b: combination(found.b, pair.b.points.len()),
+        })
+    }
+}
+
+/// Of the way between the witnesses, the normals and the products of edges the axis of widest gap.
+fn widest(pair: &PiecePair<'_>, way: DVec3, a: &Triangle, b: &Triangle) -> DVec3 {
+    let edges = |t: &Triangle| [t[1] - t[0], t[2] - t[1], t[0] - t[2]];
+    let normal = |t: &Triangle| (t[1] - t[0]).cross(t[2] - t[0]);
+    let mut axes = vec![way, normal(a), normal(b)];
+    for e in edges(a) {
+        axes.extend(edges(b).map(|f| e.cross(f)));
+    }
+    let gap = |n: DVec3| support_gap(pair, n, a[0]);
+    let candidates = axes.iter().filter_map(|n| n.try_normalize());
+    candidates
+        .flat_map(|n| [n, -n])
+        .max_by(|m, n| gap(*m).total_cmp(&gap(*n)))
+        .unwrap_or(DVec3::X)
+}
+
+/// Up to three points as a triangle, the last one repeated.
+fn corners(points: &[DVec3]) -> Option<Triangle> {
+    let last = points.len().checked_sub(1)?;
+    (points.len() <= 3).then(|| std::array::from_fn(|k| points[k.min(last)]))
+}
+
+fn combination(weights: [f64; 3], points: usize) -> Combination {
+    let mut out = Combination::EMPTY;
+    for (k, weight) in weights.into_iter().enumerate() {
+        out.push(k.min(points - 1) as u32, weight);
+    }
+    out
+}
+
+/// Always claims the same.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Always(pub(crate) Result<Claim, GiveUp>);
+
+impl DistanceOracle for Always {
+    type Cache = ();
+
+    fn separation(&mut self, _: &PiecePair<'_>, _: &mut ()) -> Result<Claim, GiveUp> {
+        self.0
+    }
+}

@@ -1,0 +1,274 @@
+//! Random bodies and motions of every shape and size, the same for the same seed.
+
+use super::nearest::Triangle;
+use crate::body::{Body, Volume};
+use crate::motion::Motion;
+use crate::pieces::Pieces;
+use crate::pose::Pose;
+use crate::problem::{Config, Moving, Problem};
+use glam::{DQuat, DVec3};
+pub(crate) use rand::{RngExt, SeedableRng};
+pub(crate) use rand_pcg::Pcg64;
+
+/// What the triangles of a soup look like.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Look {
+    Plump,
+    /// Each 1e-7 times as wide as long.
+    Needles,
+    /// All in one plane, to within 1e-7 of their size.
+    Flat,
+    /// All along one line, to within 1e-7 of their size.
+    Stretched,
+    /// Sizes over six orders of magnitude.
+    Mixed,
+}
+
+impl Look {
+    pub(crate) const ALL: [Look; 5] = [
+        Look::Plump,
+        Look::Needles,
+        Look::Flat,
+        Look::Stretched,
+        Look::Mixed,
+    ];
+}
+
+pub(crate) fn rng(seed: u64) -> Pcg64 {
+    Pcg64::seed_from_u64(seed)
+}
+
+/// A power of ten.
+pub(crate) fn magnitude(rng: &mut Pcg64, low: f64, high: f64) -> f64 {
+    10f64.powf(rng.random_range(low..=high))
+}
+
+/// A unit vector.
+pub(crate) fn direction(rng: &mut Pcg64) -> DVec3 {
+    let cube =
+        |rng: &mut Pcg64| DVec3::from_array(std::array::from_fn(|_| rng.random_range(-1.0..1.0)));
+    let inside = (0..64)
+        .map(|_| cube(rng))
+        .find(|v| (0.01..1.0).contains(&v.length()));
+    inside.unwrap_or(DVec3::X).normalize()
+}
+
+/// A point within the ball of a radius.
+pub(crate) fn within(rng: &mut Pcg64, radius: f64) -> DVec3 {
+    direction(rng) * radius * rng.random_range(0.0..1.0f64).cbrt()
+}
+
+pub(crate) fn rotation(rng: &mut Pcg64) -> DQuat {
+    DQuat::from_axis_angle(direction(rng), rng.random_range(-3.1..3.1))
+}
+
+/// Triangles about the origin, none reaching much beyond `size`.
+pub(crate) fn soup(rng: &mut Pcg64, look: Look, count: usize, size: f64) -> Vec<Triangle> {
+    let frame = rotation(rng);
+    (0..count)
+        .map(|_| {
+            let centre = within(rng, size);
+            let edge = match look {
+                Look::Mixed => size * magnitude(rng, -6.0, 0.0),
+                _ => size * rng.random_range(0.05..1.0),
+            };
+            let mut corners = [0; 3].map(|_| centre + within(rng, edge));
+            if look == Look::Needles {
+                let tip = 0.5 * (corners[0] + corners[1]) + within(rng, 1e-7 * edge);
+                corners[2] = tip;
+            }
+            let squeeze = match look {
+                Look::Flat => DVec3::new(1.0, 1.0, 1e-7),
+                Look::Stretched => DVec3::new(1.0, 1e-7, 1e-7),
+                _ => DVec3::ONE,
+            };
+            corners.map(|p| frame * (p * squeeze))
+        })
+        .collect()
+}
+
+pub(crate) fn body(triangles: &[Triangle]) -> Body {
+    Body::new(pieces(triangles), Volume::Surface).unwrap()
+}
+
+pub(crate) fn pieces(triangles: &[Triangle]) -> Pieces {
+    let points: Vec<DVec3> = triangles.iter().flatten().copied().collect();
+    let faces: Vec<[u32; 3]> = (0..triangles.len() as u32)
+        .map(|k| [3 * k, 3 * k + 1, 3 * k + 2])
+        .collect();
+    let ids: Vec<u32> = (0..triangles.len() as u32).collect();
+    Pieces::triangles(&points, &faces, &ids).unwrap()
+}
+
+/// How a body moves about the clock at which it is where it was put.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Passage {
+    pub(crate) clock: f64,
+    pub(crate) rotation: DQuat,
+    /// Where the body's point `middle` is at that clock.
+    pub(crate) place: DVec3,
+    pub(crate) middle: DVec3,
+    /// Of the centre, over the whole duration.
+    pub(crate) velocity: DVec3,
+    pub(crate) spin: DVec3,
+    /// In the body's frame.
+    pub(crate) centre: DVec3,
+}
+
+impl Passage {
+    pub(crate) fn motion(&self) -> Motion {
+        let start = DQuat::from_scaled_axis(-self.clock * self.spin) * self.rotation;
+        let translation = self.place - self.rotation * self.middle;
+        let centre = self.rotation * self.centre + translation - self.clock * self.velocity;
+        let pose = Pose::new(centre - start * self.centre, start).unwrap();
+        Motion::about(pose, self.velocity, self.spin, self.centre).unwrap()
+    }
+}
+
+/// Two bodies that come near each other, duration 1.
+#[derive(Debug)]
+pub(crate) struct Scene {
+    pub(crate) bodies: [Body; 2],
+    pub(crate) motions: [Motion; 2],
+    pub(crate) config: Config,
+    /// When they are near each other.
+    pub(crate) clock: f64,
+    /// The sizes of the bodies.
+    pub(crate) sizes: [f64; 2],
+}
+
+impl Scene {
+    pub(crate) fn problem(&self) -> Problem<'_> {
+        let moving = |k: usize| Moving {
+            body: &self.bodies[k],
+            motion: self.motions[k],
+        };
+        Problem::new(moving(0), moving(1), 1.0, &self.config).unwrap()
+    }
+}
+
+/// What two bodies do when they are near each other.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Kind {
+    /// Anything: still, translating, turning, one or both, about any centre.
+    Any,
+    /// Overlapping, and moving apart without turning.
+    Receding,
+    /// Sliding past each other at a thousand sizes per duration, without turning.
+    Sliding,
+    /// A big turning body and a tiny one near it.
+    Rim,
+}
+
+/// A scene of up to `most` triangles per body.
+pub(crate) fn scene(rng: &mut Pcg64, kind: Kind, most: usize) -> Scene {
+    let size = magnitude(rng, -6.0, 6.0);
+    let ratio = match kind {
+        Kind::Rim => magnitude(rng, 1.0, 5.0),
+        _ if rng.random_bool(0.5) => 1.0,
+        _ => magnitude(rng, 0.0, 4.0),
+    };
+    let mut sizes = [size, (size / ratio).max(1e-6)];
+    if rng.random_bool(0.5) {
+        sizes.swap(0, 1);
+    }
+    let clock = rng.random_range(0.0..1.0);
+    let world = direction(rng) * offset(rng, size);
+    let way = direction(rng);
+    // How far apart the middles are when they are near: overlapping to well apart.
+    let near = match kind {
+        Kind::Receding => rng.random_range(0.0..0.3),
+        _ => rng.random_range(0.0..1.4),
+    } * (sizes[0] + sizes[1]);
+    let mut bodies = Vec::new();
+    let mut motions = Vec::new();
+    for (k, sign) in [(0, 0.0), (1, near)] {
+        let look = Look::ALL[rng.random_range(0..5)];
+        let count = magnitude(rng, 0.0, (most as f64).log10()) as usize;
+        let middle = direction(rng) * offset(rng, sizes[k]);
+        let triangles = soup(rng, look, count.max(1), sizes[k]);
+        let moved: Vec<Triangle> = triangles.iter().map(|t| t.map(|p| p + middle)).collect();
+        bodies.push(body(&moved));
+        let mut passage = Passage {
+            clock,
+            rotation: rotation(rng),
+            place: world + sign * way,
+            middle,
+            velocity: DVec3::ZERO,
+            spin: DVec3::ZERO,
+            centre: DVec3::ZERO,
+        };
+        set_moving(rng, kind, &mut passage, k, way, &sizes);
+        motions.push(passage.motion());
+    }
+    Scene {
+        bodies: bodies.try_into().unwrap(),
+        motions: motions.try_into().unwrap(),
+        config: Config {
+            tolerance: sizes[0].min(sizes[1]) * magnitude(rng, -6.0, -2.0),
+            ..Config::default()
+        },
+        clock,
+        sizes,
+    }
+}
+
+/// None, some, or up to a million sizes; never beyond 1e6 for small bodies.
+fn offset(rng: &mut Pcg64, size: f64) -> f64 {
+    match rng.random_range(0..4) {
+        0 | 1 => 0.0,
+        2 => size * magnitude(rng, 0.0, 3.0),
+        _ => magnitude(rng, 0.0, 6.0).max(size),
+    }
+}
+
+fn set_moving(
+    rng: &mut Pcg64,
+    kind: Kind,
+    passage: &mut Passage,
+    side: usize,
+    way: DVec3,
+    sizes: &[f64; 2],
+) {
+    let size = sizes[0].max(sizes[1]);
+    let large = sizes[side] == size;
+    match kind {
+        Kind::Receding => {
+            let sign = if side == 0 { -1.0 } else { 1.0 };
+            passage.velocity = (sign * way + within(rng, 0.3)) * size * magnitude(rng, -2.0, 2.0);
+        }
+        Kind::Sliding => {
+            if side == 1 {
+                let across = way.cross(direction(rng)).normalize();
+                passage.velocity = across * size * 1e3;
+            }
+        }
+        Kind::Rim => {
+            if large {
+                passage.spin = direction(rng) * rng.random_range(0.1..20.0);
+                passage.centre = passage.middle + within(rng, size);
+            } else if rng.random_bool(0.5) {
+                passage.velocity = within(rng, size);
+                passage.spin = within(rng, 20.0);
+                passage.centre = passage.middle;
+            }
+        }
+        Kind::Any => {
+            if rng.random_bool(0.7) {
+                passage.velocity = direction(rng) * size * magnitude(rng, -3.0, 1.5);
+            }
+            if rng.random_bool(0.7) {
+                let turns = magnitude(rng, -4.0, 6f64.log10());
+                passage.spin = direction(rng) * std::f64::consts::TAU * turns;
+                passage.centre = match rng.random_range(0..4) {
+                    0 => DVec3::ZERO,
+                    1 | 2 => passage.middle + within(rng, sizes[side]),
+                    _ => {
+                        let far = size * magnitude(rng, 0.0, 4.0);
+                        passage.middle + within(rng, far)
+                    }
+                };
+            }
+        }
+    }
+}
