@@ -141,10 +141,10 @@ pub const SWEPT: f32 = 1.0 / 32.0;
 /// on an edge or a corner what is inside there; sums over a million triangles are right to 1e-9.
 pub const WINDING: f64 = 1e-3;
 
-/// The gap that a pair of nodes keeps beyond the margin, in units of the tolerance. Half of it is what
-/// must be kept; what is above takes up the rounding of nodes that are not too large, so that all of
-/// them stop at the same gap. With a slack that grows with the size of the nodes instead, two flat
-/// faces that meet would have all of their larger nodes split before a pair of pieces is seen.
+/// The gap at which the clock of a pair of nodes stops, beyond the margin and in units of the
+/// tolerance. It takes up the rounding of nodes that are not too large, so that all of them stop at
+/// the same gap. With a slack that grows with the size of the nodes instead, two flat faces that meet
+/// would have all of their larger nodes split before a pair of pieces is seen.
 pub const NODE_GAP: f64 = 7.0 / 8.0;
 
 /// A gap of nodes that exceeds what is to be kept by no more than this is closed, in units of the

@@ -4,7 +4,7 @@ use ccd_core::glam::DVec3;
 use ccd_core::{Config, Outcome, StartPolicy};
 use ccd_tests::analytic::sliding;
 use ccd_tests::backends::for_each_setup;
-use ccd_tests::checks::Judge;
+use ccd_tests::checks::{Judge, check_contact};
 use ccd_tests::models::cuboid;
 use ccd_tests::query::{Actor, Query};
 use ccd_tests::strategies::{cases, check_cases};
@@ -40,16 +40,34 @@ fn is_touching(outcome: Outcome) -> bool {
     matches!(outcome, Outcome::Touching { .. })
 }
 
-/// T10.
+/// T10. The policy is about pairs of pieces: along the diagonal on which the slab's two triangles
+/// meet, no triangle comes upon another.
 #[test]
 fn sliding_along_at_less_than_the_tolerance_is_left_alone() {
     for gap in [1e-6, 1e-9, 0.0] {
-        let query = sliding(gap, -DVec3::X).query;
+        let query = sliding(gap, DVec3::new(1.0, 1.0, 0.0)).query;
         outcomes(&query, &report(1e-3), is_touching);
         outcomes(&query, &leave(1e-3), is_free);
     }
     outcomes(&sliding(1e-6, -DVec3::X).query, &report(1e-8), is_free);
     outcomes(&sliding(1e-6, -DVec3::X).query, &leave(1e-8), is_free);
+}
+
+/// T10.
+#[test]
+fn sliding_onto_another_piece_is_a_contact_within_the_tolerance_or_free() {
+    for gap in [1e-6, 1e-9, 0.0] {
+        let query = sliding(gap, -DVec3::X).query;
+        for_each_setup(&query, &leave(1e-3), |bodies, setup, answer| match answer.outcome {
+            Outcome::Free { .. } => {}
+            Outcome::Contact { time, contact } if bodies.pairs() > 1 => {
+                let reach = answer.tolerance + query.rounding();
+                let law = check_contact(&query, time, &contact, bodies, reach);
+                assert_eq!(law, Ok(()), "{setup:?}\n{answer:?}");
+            }
+            other => panic!("{setup:?}\n{other:?}"),
+        });
+    }
 }
 
 /// T11.

@@ -59,6 +59,14 @@ fn surfaces_that_cross_overlap() {
 }
 
 #[test]
+fn flush_boxes_overlap_or_touch() {
+    // No triangle crosses another: all that meets is flush.
+    outcomes(&query(cube(0.5), cube(0.5), 0.9 * DVec3::X), |outcome| {
+        matches!(outcome, Outcome::Overlapping { .. } | Outcome::Touching { .. })
+    });
+}
+
+#[test]
 fn equal_bodies_in_the_same_place_overlap_or_touch() {
     // Every face lies in its twin: triangles touch without crossing.
     outcomes(&query(cube(0.5), cube(0.5), DVec3::ZERO), |outcome| {

@@ -80,6 +80,7 @@ impl<O: DistanceOracle> Schedule<O> for BestFirst<O> {
 impl<O: DistanceOracle> BestFirst<O> {
     fn search(&mut self, problem: &Problem<'_>, oracle: &mut O, stats: &mut Stats) -> Outcome {
         let mut start = Start::default();
+        let mut clearance = problem.gap();
         let unresolved = |s: f64, reason| Outcome::Unresolved {
             safe_until: problem.time(s),
             reason,
@@ -100,6 +101,7 @@ impl<O: DistanceOracle> BestFirst<O> {
             let pushed = match found {
                 Found::Split(split, node, other, mask) => {
                     let expansion = expand(problem, split, node, other, s);
+                    clearance = clearance.min(f64::from(expansion.bounds.kept));
                     self.push_group(problem, expansion, split, node, other, s, mask)
                 }
                 Found::Pieces(mut pair) => match pair.advance(problem, oracle, stats, s) {
@@ -122,7 +124,7 @@ impl<O: DistanceOracle> BestFirst<O> {
             }
         }
         start.end(problem).unwrap_or(Outcome::Free {
-            clearance: problem.gap(),
+            clearance: clearance.max(problem.margin),
         })
     }
 

@@ -210,14 +210,18 @@ impl Shared<'_> {
             + split.rate() * (reach + split.arm(Vec3::ZERO))
             + far.rate() * (other.radius() + far.arm(other.centre()));
         let problem = self.problem;
-        let kept = up(problem.gap() + problem.rounding) + rounding;
+        let rounding = (rounding + up(problem.rounding)).next_up();
+        let slack = (up(problem.margin) + rounding)
+            .next_up()
+            .max(up(problem.node_gap()));
         let closed = (CLOSED_GAP * problem.tolerance) as f32;
         let closing = Closing {
             velocity,
             split,
             other: far,
             horizon: self.horizon,
-            slack: kept.next_up().max(up(problem.node_gap())),
+            slack,
+            kept: (slack - rounding).next_down(),
             closed: closed.max(LEAST_GAP_F32),
             rate_slack: RATE_F32 * speed,
         };

@@ -123,6 +123,11 @@ impl Passage {
         let pose = Pose::new(centre - start * self.centre, start).unwrap();
         Motion::about(pose, self.velocity, self.spin, self.centre).unwrap()
     }
+
+    /// The velocity of the body's middle at the clock.
+    fn velocity_of_middle(&self) -> DVec3 {
+        self.velocity + self.spin.cross(self.rotation * (self.middle - self.centre))
+    }
 }
 
 /// Two bodies that come near each other, duration 1.
@@ -133,6 +138,8 @@ pub(crate) struct Scene {
     pub(crate) config: Config,
     /// When they are near each other.
     pub(crate) clock: f64,
+    /// For about how long.
+    pub(crate) window: f64,
     /// The sizes of the bodies.
     pub(crate) sizes: [f64; 2],
 }
@@ -165,6 +172,7 @@ pub(crate) fn scene(rng: &mut Pcg64, kind: Kind, most: usize) -> Scene {
     let size = magnitude(rng, -6.0, 6.0);
     let ratio = match kind {
         Kind::Rim => magnitude(rng, 1.0, 5.0),
+        Kind::Receding => magnitude(rng, 0.0, 0.5),
         _ if rng.random_bool(0.5) => 1.0,
         _ => magnitude(rng, 0.0, 4.0),
     };
@@ -182,6 +190,7 @@ pub(crate) fn scene(rng: &mut Pcg64, kind: Kind, most: usize) -> Scene {
     } * (sizes[0] + sizes[1]);
     let mut bodies = Vec::new();
     let mut motions = Vec::new();
+    let mut velocities = [DVec3::ZERO; 2];
     for (k, sign) in [(0, 0.0), (1, near)] {
         let look = Look::ALL[rng.random_range(0..5)];
         let count = magnitude(rng, 0.0, (most as f64).log10()) as usize;
@@ -199,6 +208,7 @@ pub(crate) fn scene(rng: &mut Pcg64, kind: Kind, most: usize) -> Scene {
             centre: DVec3::ZERO,
         };
         set_moving(rng, kind, &mut passage, k, way, &sizes);
+        velocities[k] = passage.velocity_of_middle();
         motions.push(passage.motion());
     }
     Scene {
@@ -209,6 +219,7 @@ pub(crate) fn scene(rng: &mut Pcg64, kind: Kind, most: usize) -> Scene {
             ..Config::default()
         },
         clock,
+        window: (sizes[0] + sizes[1]) / (velocities[0].distance(velocities[1]) + size),
         sizes,
     }
 }

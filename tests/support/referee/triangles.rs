@@ -144,26 +144,35 @@ pub fn point_segment(p: DVec3, [a, b]: [DVec3; 2]) -> DVec3 {
     if t > 0.0 { a + t.min(1.0) * along } else { a }
 }
 
-/// The nearest point of a triangle.
-///
-/// Always a convex combination of its corners: of a needle, whose normal is mostly rounding, it may
-/// be a poor choice of point, but it is never a point outside.
-pub fn point_triangle(p: DVec3, [a, b, c]: [DVec3; 3]) -> DVec3 {
-    let normal = (b - a).cross(c - a);
-    let weight = |u: DVec3, v: DVec3| normal.dot((v - u).cross(p - u));
-    let (wa, wb, wc) = (weight(b, c), weight(c, a), weight(a, b));
-    let sum = wa + wb + wc;
-    let inside = wa >= 0.0 && wb >= 0.0 && wc >= 0.0 && sum > 0.0;
-    let foot = if inside {
-        a + (wb / sum) * (b - a) + (wc / sum) * (c - a)
-    } else {
-        a
-    };
+/// The nearest point of a triangle: the foot on its plane where that lies inside, else on an edge.
+pub fn point_triangle(p: DVec3, corners: [DVec3; 3]) -> DVec3 {
+    let [a, b, c] = longest_edge_first(corners);
+    // Along the longest edge and across it: of a needle, whose normal is mostly rounding, these two
+    // are right to the last digits that matter.
+    let length = b.distance(a);
+    let along = (b - a) / length;
+    let apex = (c - a).dot(along);
+    let height = (c - a - apex * along).length();
+    let across = (c - a - apex * along) / height;
+    let (x, y) = ((p - a).dot(along), (p - a).dot(across));
+    let (left, right) = (apex * y / height, length + (apex - length) * y / height);
+    // False for NaN, as of a triangle without an area.
+    let inside = y >= 0.0 && y <= height && x >= left && x <= right;
+    let foot = if inside { a + x * along + y * across } else { a };
     let nearer = |x: DVec3, y: DVec3| if y.distance(p) < x.distance(p) { y } else { x };
-    [[a, b], [b, c], [c, a]]
-        .map(|edge| point_segment(p, edge))
-        .into_iter()
-        .fold(foot, nearer)
+    let edges = [[a, b], [b, c], [c, a]];
+    edges.map(|edge| point_segment(p, edge)).into_iter().fold(foot, nearer)
+}
+
+fn longest_edge_first([a, b, c]: [DVec3; 3]) -> [DVec3; 3] {
+    let (ab, bc, ca) = (a.distance(b), b.distance(c), c.distance(a));
+    if ab >= bc && ab >= ca {
+        [a, b, c]
+    } else if bc >= ca {
+        [b, c, a]
+    } else {
+        [c, a, b]
+    }
 }
 
 /// Whether a closed mesh winds around a point: the solid angles of its faces add up to more than

@@ -52,11 +52,11 @@ fn free_times_hold_near_the_rim_of_a_turning_body() {
 fn overlapping_pairs_get_no_free_time_though_they_recede() {
     let tally = audit(Kind::Receding, 4, 20_000);
     assert!(4 * tally.none > tally.free, "{tally:?}");
-    assert!(tally.overlapping > 1_000, "{tally:?}");
+    assert!(tally.overlapping > 200, "{tally:?}");
 }
 
 fn shares_are_substantial(tally: &Tally) {
-    assert!(8 * tally.none > tally.free, "{tally:?}");
+    assert!(20 * tally.none > tally.free, "{tally:?}");
     assert!(8 * tally.free > tally.none, "{tally:?}");
     assert!(
         tally.by_role.iter().all(|&n| 4 * n > tally.free),
@@ -133,7 +133,7 @@ impl Audit<'_> {
 
     /// Near the clock at which the bodies are near each other, or anywhere.
     fn clock(&self, rng: &mut Pcg64) -> f64 {
-        let near = self.scene.clock + rng.random_range(-0.02..0.02) * rng.random_range(0.0..1.0f64);
+        let near = self.scene.clock + rng.random_range(-0.2..0.2) * self.scene.window;
         match rng.random_range(0..8) {
             0 => 0.0,
             1 | 2 => rng.random_range(0.0..1.0),

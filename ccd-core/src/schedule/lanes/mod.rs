@@ -30,6 +30,8 @@ pub(crate) struct Bounds {
     pub(crate) aloof: [f32; LANES],
     /// How thick the child is along the axis, less how thick the other node is.
     pub(crate) thicker: [f32; LANES],
+    /// The gap that the free times prove to be kept.
+    pub(crate) kept: f32,
 }
 
 /// What all lanes share: the motion, and allowances for rounding.
@@ -43,6 +45,8 @@ pub(crate) struct Closing<S, O> {
     pub(crate) horizon: f32,
     /// The gap that is to be kept, and what rounding may do to a gap.
     pub(crate) slack: f32,
+    /// The gap that is kept for certain: the slack less what rounding may do to it.
+    pub(crate) kept: f32,
     /// A gap beyond the slack that is no larger counts as none.
     pub(crate) closed: f32,
     /// What rounding may do to a rate.
@@ -63,6 +67,7 @@ pub(crate) fn bound<C: Children, P: Other, S: Turn, O: Turn>(
         free: [0.0; LANES],
         aloof: [0.0; LANES],
         thicker: [0.0; LANES],
+        kept: closing.kept,
     };
     let pairing = Pairing::new(children, other, closing);
     for lane in 0..LANES {
