@@ -4,9 +4,8 @@ use crate::body::{Body, Volume};
 use crate::outcome::Overlap;
 use crate::pose::Frame;
 use crate::problem::{Problem, Side};
-use crate::tolerance::WINDING;
+use crate::tree::crossings;
 use glam::DVec3;
-use std::f64::consts::TAU;
 
 /// A point of one body that is inside the other one's solid at the start.
 ///
@@ -33,27 +32,22 @@ pub(crate) fn at_start(problem: &Problem<'_>) -> Option<Overlap> {
         .or_else(|| inside(&problem.a, a, &problem.b, b).map(Overlap::BInsideA))
 }
 
-/// Whether the closed triangles of a body wind about a point in its frame: the sum of the solid
-/// angles that they are seen under is a multiple of a full sphere, and zero only outside.
-///
-/// None when the point is on the surface, or too near to it to tell.
+/// Directions of rays, in no special relation to anything: when one grazes an edge, the next one is
+/// tried.
+const RAYS: [DVec3; 4] = [
+    DVec3::new(0.5366, 0.3712, 0.7579),
+    DVec3::new(-0.6142, 0.7731, 0.1586),
+    DVec3::new(0.2237, -0.8423, 0.4905),
+    DVec3::new(-0.3921, -0.2844, -0.8748),
+];
+
+/// Whether the closed triangles of a body wind about a point in its frame; none when the point is on
+/// the surface, or too near to it to tell.
 fn contains(body: &Body, point: DVec3) -> Option<bool> {
     if !body.tree().may_contain(point) {
         return Some(false);
     }
-    let angle: f64 = (0..body.pieces().len())
-        .map(|k| solid_angle(body.pieces().triangle(k), point))
-        .sum();
-    let turns = angle / (2.0 * TAU);
-    let whole = turns.round();
-    ((turns - whole).abs() < WINDING).then_some(whole != 0.0)
-}
-
-/// The signed solid angle of a triangle seen from a point `[OOSTEROM83]`.
-fn solid_angle(triangle: [DVec3; 3], from: DVec3) -> f64 {
-    let [a, b, c] = triangle.map(|p| p - from);
-    let [la, lb, lc] = [a.length(), b.length(), c.length()];
-    let numerator = a.dot(b.cross(c));
-    let denominator = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
-    2.0 * numerator.atan2(denominator)
+    RAYS.iter()
+        .find_map(|&ray| crossings(body.tree(), body.pieces(), point, ray))
+        .map(|windings| windings != 0)
 }

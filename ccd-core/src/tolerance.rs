@@ -137,9 +137,13 @@ pub const MUCH_LARGER: f32 = 3.0;
 /// than a split.
 pub const SWEPT: f32 = 1.0 / 32.0;
 
-/// How near a winding number has to be to a whole one to be believed. A point on a face has one half,
-/// on an edge or a corner what is inside there; sums over a million triangles are right to 1e-9.
-pub const WINDING: f64 = 1e-3;
+/// A ray that passes an edge, or starts from a plane, at less than about this angle is not used to
+/// tell inside from outside: far above rounding (1e-15), far below the angles of a million triangles.
+pub const GRAZING: f64 = 1e-9;
+
+/// How much a node's box is widened to be met by a ray, relative to its radius: its axes are rounded
+/// to f32, and rays are not counted by the bit.
+pub const BOX_F64: f64 = 1e-5;
 
 /// The gap at which the clock of a pair of nodes stops, beyond the margin and in units of the
 /// tolerance. It takes up the rounding of nodes that are not too large, so that all of them stop at

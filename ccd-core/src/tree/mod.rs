@@ -4,12 +4,16 @@
 mod build;
 mod fit;
 mod group;
+mod ray;
 
 pub(crate) use group::{BoxGroup, LANES, Members, TriangleGroup, unit_normal, up};
+
+pub(crate) use ray::crossings;
 
 use crate::error::InputError;
 use crate::hierarchy::Hierarchy;
 use crate::pieces::Pieces;
+use crate::tolerance::BOX_F64;
 use glam::{DVec3, Vec3};
 
 /// An immutable tree in the body's frame. Node 0 is the root; ids beyond the nodes name triangles.
@@ -106,13 +110,14 @@ impl Tree {
         self.nodes[0].radius
     }
 
-    /// Whether a point is within the root's ball; no piece reaches beyond it.
+    /// Whether a point is within the root's box, or near it.
     pub(crate) fn may_contain(&self, point: DVec3) -> bool {
         let root = &self.nodes[0];
         let way = point - root.centre;
-        let within =
-            |k: usize| way.dot(root.axes[k].as_dvec3()).abs() <= f64::from(root.half[k]) * 1.001;
-        (0..3).all(within)
+        (0..3).all(|k| {
+            let half = f64::from(root.half[k]) + BOX_F64 * f64::from(root.radius);
+            way.dot(root.axes[k].as_dvec3()).abs() <= half
+        })
     }
 
     pub(crate) fn bytes(&self) -> usize {

@@ -1,0 +1,79 @@
+//! How often a ray passes out of the triangles of a body.
+
+use super::{Below, Node, Tree};
+use crate::pieces::Pieces;
+use crate::tolerance::{BOX_F64, GRAZING};
+use glam::DVec3;
+
+/// How often a ray leaves the triangles less how often it enters them, by their normals: the winding
+/// number of a closed mesh about the ray's start. None when the ray passes too near to an edge, or
+/// starts too near to a triangle, to tell.
+pub(crate) fn crossings(tree: &Tree, pieces: &Pieces, from: DVec3, along: DVec3) -> Option<i32> {
+    let mut total = 0;
+    let mut stack = vec![0u32];
+    while let Some(id) = stack.pop() {
+        let node = &tree.nodes[id as usize];
+        if !meets(node, from, along) {
+            continue;
+        }
+        match node.below {
+            Below::Boxes(group) => {
+                let members = &tree.boxes[group as usize].members;
+                stack.extend(members.first..members.first + members.count);
+            }
+            Below::Triangles(group) => {
+                let members = &tree.triangles[group as usize].members;
+                let first = members.first - tree.nodes.len() as u32;
+                for piece in first..first + members.count {
+                    total += crossing(pieces.triangle(piece as usize), from, along)?;
+                }
+            }
+            Below::Piece(_) => return None,
+        }
+    }
+    Some(total)
+}
+
+/// Whether a ray may meet a node's box.
+fn meets(node: &Node, from: DVec3, along: DVec3) -> bool {
+    let way = from - node.centre;
+    let (mut enter, mut leave) = (0.0f64, f64::INFINITY);
+    for (axis, half) in node.axes.iter().zip(node.half) {
+        let axis = axis.as_dvec3();
+        let half = f64::from(half) + BOX_F64 * f64::from(node.radius);
+        let (start, speed) = (axis.dot(way), axis.dot(along));
+        let (near, far) = ((-half - start) / speed, (half - start) / speed);
+        // A ray within a slab, parallel to it, gives an infinity on either side; NaN counts as met.
+        enter = enter.max(near.min(far));
+        leave = leave.min(near.max(far));
+    }
+    !(enter > leave)
+}
+
+/// 1 when the ray leaves through the triangle, −1 when it enters, 0 when it passes by.
+fn crossing(triangle: [DVec3; 3], from: DVec3, along: DVec3) -> Option<i32> {
+    let [a, b, c] = triangle.map(|p| p - from);
+    // Volumes of the ray with each edge: all of one sign where the line passes inside.
+    let sides = [(a, b), (b, c), (c, a)].map(|(p, q)| {
+        let volume = along.dot(p.cross(q));
+        let clear = volume.abs() > GRAZING * p.length() * q.length();
+        (volume, clear)
+    });
+    let positive = |&(volume, clear): &(f64, bool)| clear && volume > 0.0;
+    let negative = |&(volume, clear): &(f64, bool)| clear && volume < 0.0;
+    if sides.iter().any(positive) && sides.iter().any(negative) {
+        return Some(0);
+    }
+    let sign = match () {
+        () if sides.iter().all(positive) => 1.0,
+        () if sides.iter().all(negative) => -1.0,
+        () => return None,
+    };
+    let height = sign * a.dot((b - a).cross(c - a));
+    let scale = a.length() * (b - a).length() * (c - a).length();
+    match () {
+        () if height > GRAZING * scale => Some(sign as i32),
+        () if height < -GRAZING * scale => Some(0),
+        () => None,
+    }
+}
