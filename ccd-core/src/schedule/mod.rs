@@ -3,6 +3,7 @@
 mod best_first;
 mod expand;
 mod lanes;
+mod moment;
 mod naive;
 mod pair;
 mod queue;

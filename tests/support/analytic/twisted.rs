@@ -122,10 +122,11 @@ fn cuboids_in_the_distance() -> Scene {
     )
 }
 
-/// T24: two cubes, one in the other's face.
+/// T24: two cubes, a corner of either within the other.
 fn deep_overlap() -> Scene {
     let cube = || cuboid(DVec3::splat(0.5));
-    let leaving = Actor::moving(cube(), 0.7 * DVec3::X, DVec3::X, DVec3::Z);
+    let corner = DVec3::new(0.7, 0.1, 0.2);
+    let leaving = Actor::moving(cube(), corner, DVec3::X, DVec3::Z);
     Scene::new(
         "T24 overlap",
         [leaving, Actor::still(cube(), DVec3::ZERO)],

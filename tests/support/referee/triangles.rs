@@ -152,8 +152,10 @@ pub fn point_triangle(p: DVec3, corners: [DVec3; 3]) -> DVec3 {
     let length = b.distance(a);
     let along = (b - a) / length;
     let apex = (c - a).dot(along);
-    let height = (c - a - apex * along).length();
-    let across = (c - a - apex * along) / height;
+    // Made perpendicular twice: the first time leaves a rounding that a small height magnifies.
+    let across = (c - a - apex * along).normalize();
+    let across = (across - across.dot(along) * along).normalize();
+    let height = (c - a).dot(across);
     let (x, y) = ((p - a).dot(along), (p - a).dot(across));
     let (left, right) = (apex * y / height, length + (apex - length) * y / height);
     // False for NaN, as of a triangle without an area.
