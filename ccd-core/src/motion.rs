@@ -138,3 +138,6 @@ fn shortest_turn(rotation: DQuat) -> DVec3 {
         DVec3::ZERO
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -254,3 +254,6 @@ pub(crate) fn first_crossing(
     }
     Some(tau)
 }
+
+#[cfg(test)]
+mod tests;

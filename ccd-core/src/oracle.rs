@@ -170,7 +170,8 @@ impl<First, Second> OrElse<First, Second> {
 }
 
 impl<First: DistanceOracle, Second: DistanceOracle> DistanceOracle for OrElse<First, Second> {
-    type Cache = (First::Cache, Second::Cache);
+    /// The second oracle's is only made once it is asked: most pairs never need it.
+    type Cache = (First::Cache, Option<Box<Second::Cache>>);
 
     fn separation(
         &mut self,
@@ -179,7 +180,8 @@ impl<First: DistanceOracle, Second: DistanceOracle> DistanceOracle for OrElse<Fi
     ) -> Result<Claim, GiveUp> {
         self.first.separation(pair, &mut cache.0).or_else(|_| {
             self.fallbacks += 1;
-            self.second.separation(pair, &mut cache.1)
+            self.second
+                .separation(pair, cache.1.get_or_insert_default())
         })
     }
 }

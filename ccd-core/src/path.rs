@@ -94,3 +94,6 @@ fn cross_matrix(u: DVec3) -> DMat3 {
         DVec3::new(u.y, -u.x, 0.0),
     )
 }
+
+#[cfg(test)]
+mod tests;

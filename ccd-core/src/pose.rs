@@ -130,3 +130,6 @@ impl From<Pose> for Frame {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -75,6 +75,11 @@ pub const REACH_F32: f32 = 32.0 * U32;
 /// and projected (4u), so that a rate is off by at most 32u = 1.9e-6 of the largest speed.
 pub const RATE_F32: f32 = 2e-6;
 
+/// How much of the distances, from the split group's origin, of a node and of its body's centre of
+/// rotation counts as an arm when the largest speed is taken: the arm is the difference of the two
+/// places, which are rounded by 1u each and subtracted. Of the 33u of [`RATE_F32`] that is 4u.
+pub const PLACES_F32: f32 = 1.0 / 8.0;
+
 /// Factor on a free time that is computed in f32 from a gap and a rate that are safe already.
 ///
 /// Square, product, sum, root, sum and quotient: at most 8u; 32u are taken.
@@ -155,3 +160,6 @@ pub const NODE_GAP: f64 = 7.0 / 8.0;
 /// tolerance: what rounding leaves of a gap at the end of a clock is not worth a clock of its own,
 /// and a pair that inherits its parent's clock is looked at before all others.
 pub const CLOSED_GAP: f64 = 1.0 / 16.0;
+
+#[cfg(test)]
+mod tests;

@@ -53,26 +53,26 @@ fn check_group(prefix: &str) {
     let scenes = scenes_named(prefix);
     assert!(!scenes.is_empty(), "no scene is called {prefix}");
     for scene in &scenes {
-        for tolerance in [1e-3, 1e-6, 1e-9] {
-            check_scene(scene, tolerance);
-        }
+        check_scene(scene, &scene.expect);
+        let swapped = Scene {
+            name: format!("{}, swapped", scene.name),
+            query: scene.query.swapped(),
+            expect: Expect::Unknown,
+        };
+        check_scene(&swapped, &scene.expect);
     }
 }
 
-fn check_scene(scene: &Scene, tolerance: f64) {
+fn check_scene(scene: &Scene, expect: &Expect) {
+    // A scene that is smaller than a unit gets a tolerance that is, too.
     let size = scene.query.a.reach(0.0).min(1.0);
-    let config = Config {
-        // A scene that is smaller than a unit gets a tolerance that is, too.
-        tolerance: tolerance * size,
-        ..Config::default()
-    };
-    let swapped = Scene {
-        name: format!("{}, swapped", scene.name),
-        query: scene.query.swapped(),
-        expect: Expect::Unknown,
-    };
-    for (scene, expect) in [(scene, &scene.expect), (&swapped, &scene.expect)] {
-        let judge = Judge::new(&scene.query, &config);
+    let mut judge = Judge::new(&scene.query, &Config::default());
+    for tolerance in [1e-3, 1e-6, 1e-9].map(|tolerance| tolerance * size) {
+        judge = judge.with_tolerance(tolerance);
+        let config = Config {
+            tolerance,
+            ..Config::default()
+        };
         for_each_setup(&scene.query, &config, |bodies, setup, answer| {
             if let Err(why) = check_answer(&judge, scene, expect, (bodies, &answer)) {
                 fail(scene, setup, &answer, &why);

@@ -49,12 +49,12 @@ fn faces_edges_and_corners_that_meet_are_touching() {
 #[test]
 fn surfaces_that_cross_overlap() {
     for at in [
-        0.9 * DVec3::X,
+        DVec3::new(0.9, 0.2, 0.1),
         DVec3::new(0.5, 0.4, 0.3),
         DVec3::splat(0.99),
     ] {
         outcomes(&query(cube(0.5), cube(0.5), at), overlaps);
-        outcomes(&query(cube(0.5), icosphere(0.6, 1), at), overlaps);
+        outcomes(&query(cube(0.5), icosphere(1.0, 1), at), overlaps);
     }
 }
 
@@ -62,7 +62,10 @@ fn surfaces_that_cross_overlap() {
 fn flush_boxes_overlap_or_touch() {
     // No triangle crosses another: all that meets is flush.
     outcomes(&query(cube(0.5), cube(0.5), 0.9 * DVec3::X), |outcome| {
-        matches!(outcome, Outcome::Overlapping { .. } | Outcome::Touching { .. })
+        matches!(
+            outcome,
+            Outcome::Overlapping { .. } | Outcome::Touching { .. }
+        )
     });
 }
 

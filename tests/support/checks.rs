@@ -45,6 +45,15 @@ impl<'a> Judge<'a> {
         }
     }
 
+    /// The same judge of another tolerance; the referee need not look again.
+    pub fn with_tolerance(self, tolerance: f64) -> Self {
+        let config = Config {
+            tolerance,
+            ..self.config
+        };
+        Judge { config, ..self }
+    }
+
     /// What the referee saw.
     pub fn verdict(&self) -> Verdict {
         self.verdict

@@ -102,17 +102,26 @@ impl Pair {
     }
 }
 
-/// All triangles among a few points (or what there is, for fewer than three): they cover the hull's
-/// surface.
+/// All triangles among some points that have the rest on one side (or what there is, for fewer than
+/// three points): they cover the hull's surface.
 fn simplices(points: &[DVec3]) -> Vec<Vec<DVec3>> {
     if points.len() <= 3 {
         return vec![points.to_vec()];
     }
+    let size = points.iter().map(|p| p.length()).fold(0.0, f64::max);
+    // More triangles than needed do no harm: they lie inside of the hull.
+    let slack = rounding(size.powi(3));
     let mut out = Vec::new();
-    for i in 0..points.len() {
-        for j in i + 1..points.len() {
-            for k in j + 1..points.len() {
-                out.push(vec![points[i], points[j], points[k]]);
+    for (i, &a) in points.iter().enumerate() {
+        for (j, &b) in points.iter().enumerate().skip(i + 1) {
+            for &c in &points[j + 1..] {
+                let normal = (b - a).cross(c - a);
+                let heights = points.iter().map(|p| (*p - a).dot(normal));
+                let (least, most) =
+                    heights.fold((0.0, 0.0), |(lo, hi): (f64, f64), h| (lo.min(h), hi.max(h)));
+                if most <= slack || least >= -slack {
+                    out.push(vec![a, b, c]);
+                }
             }
         }
     }

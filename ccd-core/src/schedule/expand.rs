@@ -5,7 +5,9 @@ use super::lanes::{Bounds, Children, Closing, Other, OtherBox, OtherTriangle, St
 use super::lanes::{Larger, Turning, bound, bound_attached};
 use crate::pose::Frame;
 use crate::problem::{Problem, Side};
-use crate::tolerance::{CLOSED_GAP, LEAST_GAP_F32, MUCH_LARGER, RATE_F32, REACH_F32, WAY_F32};
+use crate::tolerance::{
+    CLOSED_GAP, LEAST_GAP_F32, MUCH_LARGER, PLACES_F32, RATE_F32, REACH_F32, WAY_F32,
+};
 use crate::tree::{Below, Members, Named, Node, NodeId, unit_normal, up};
 use glam::{DMat3, DVec3, Vec3};
 
@@ -206,9 +208,11 @@ impl Shared<'_> {
         let reach = self.members.reach;
         let [x, y, z] = other.centre().abs().to_array();
         let rounding = WAY_F32 * (x + y + z) + REACH_F32 * (other.radius() + reach);
+        // An arm is the difference of two places, each rounded where it is.
+        let places = other.centre().length() + far.arm(Vec3::ZERO);
         let speed = velocity.length()
             + split.rate() * (reach + split.arm(Vec3::ZERO))
-            + far.rate() * (other.radius() + far.arm(other.centre()));
+            + far.rate() * (other.radius() + far.arm(other.centre()) + PLACES_F32 * places);
         let problem = self.problem;
         let rounding = (rounding + up(problem.rounding)).next_up();
         let slack = (up(problem.margin) + rounding)

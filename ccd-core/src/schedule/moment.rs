@@ -96,46 +96,32 @@ impl<'p> Moment<'p> {
         let (problem, [frame_a, frame_b]) = (self.problem, &self.frames);
         let a = Heights::new(&problem.a, self.pieces.a.points, frame_a, normal);
         let b = Heights::new(&problem.b, self.pieces.b.points, frame_b, normal);
-        // Heights are measured such that the nearest two points are `slack` apart.
-        let (top, bottom) = (a.extreme(f64::max), b.extreme(f64::min));
         let rounding = RATE_F64 * (a.speed + b.speed);
         let rounds = match a.straight() && b.straight() {
             true => 1,
             false => AXIS_ROUNDS,
         };
-        first_crossing(self.horizon(), rounds, |tau| {
-            let gap = |above: Point, below: Point| Gap {
-                gap: slack + (above.height - bottom) - (below.height - top),
-                rate: below.rate - above.rate + rounding,
-                bend: (above.bend + below.bend) * (1.0 + RATE_F64),
-            };
-            least_free_time(&a, &b, tau, gap)
-        })
+        // Heights are measured such that the nearest two points are `slack` apart.
+        let gap = |above: Point, below: Point| Gap {
+            gap: slack + (above.height - b.least) - (below.height - a.greatest),
+            rate: below.rate - above.rate + rounding,
+            bend: (above.bend + below.bend) * (1.0 + RATE_F64),
+        };
+        match (a.few(), b.few()) {
+            (Some(below), Some(above)) => first_crossing(self.horizon(), rounds, |tau| {
+                let below = below.at(a.angle(tau), tau);
+                let above = above.at(b.angle(tau), tau);
+                let times = below
+                    .iter()
+                    .flat_map(|&x| above.iter().map(move |&y| gap(y, x).free_time()));
+                times.fold(f64::INFINITY, f64::min)
+            }),
+            _ => first_crossing(self.horizon(), rounds, |tau| {
+                gap(b.lowest(tau), a.highest(tau)).free_time()
+            }),
+        }
     }
 }
-
-/// The least free time over all pairs of points, or that of the two envelopes where there are many.
-fn least_free_time(
-    a: &Heights<'_>,
-    b: &Heights<'_>,
-    tau: f64,
-    gap: impl Fn(Point, Point) -> Gap,
-) -> f64 {
-    let (below, above) = (a.points(tau), b.points(tau));
-    if a.points.len() * b.points.len() <= PAIRWISE {
-        return below.fold(f64::INFINITY, |least, below| {
-            let times = above.clone().map(|above| gap(above, below).free_time());
-            times.fold(least, f64::min)
-        });
-    }
-    match (above.reduce(Point::lowest), below.reduce(Point::highest)) {
-        (Some(above), Some(below)) => gap(above, below).free_time(),
-        _ => 0.0,
-    }
-}
-
-/// Up to this many pairs of points are followed each on its own; above, the two envelopes are.
-const PAIRWISE: usize = 64;
 
 /// The points of a piece seen along an axis.
 struct Heights<'a> {
@@ -148,43 +134,44 @@ struct Heights<'a> {
     omega: f64,
     /// The fastest that any point moves, in any direction.
     speed: f64,
+    /// Of the points' heights.
+    least: f64,
+    greatest: f64,
 }
 
 /// One point's height, how fast it rises, and how much that may change.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 struct Point {
     height: f64,
     rate: f64,
     bend: f64,
 }
 
-impl Point {
-    /// Bounds both from above.
-    fn highest(self, other: Point) -> Point {
-        Point {
-            height: self.height.max(other.height),
-            rate: self.rate.max(other.rate),
-            bend: self.bend.max(other.bend),
-        }
-    }
+/// Pieces of up to this many points are followed pair of points by pair of points; of others the two
+/// envelopes are.
+const FEW: usize = 3;
 
-    /// Bounds both from below.
-    fn lowest(self, other: Point) -> Point {
-        Point {
-            height: self.height.min(other.height),
-            rate: self.rate.min(other.rate),
-            bend: self.bend.max(other.bend),
-        }
+/// The tracks of few points; unused ones repeat the last.
+struct Few([(Track, f64); FEW]);
+
+impl Few {
+    /// Where they are after `tau`.
+    #[inline]
+    fn at(&self, angle: Angle, tau: f64) -> [Point; FEW] {
+        self.0.map(|(track, bend)| Point {
+            height: track.height_at(tau, angle),
+            rate: track.rate_at(angle),
+            bend,
+        })
     }
 }
 
 impl<'a> Heights<'a> {
     fn new(side: &Side<'_>, points: &'a [DVec3], frame: &'a Frame, normal: DVec3) -> Self {
         let path = &side.path;
-        let unit = if path.turns() {
-            path.spin / path.rate
-        } else {
-            DVec3::ZERO
+        let unit = match path.turns() {
+            true => path.spin / path.rate,
+            false => DVec3::ZERO,
         };
         let mut heights = Heights {
             points,
@@ -194,11 +181,23 @@ impl<'a> Heights<'a> {
             along: AxisMotion::new(path.velocity, unit, path.rate, normal),
             omega: path.rate,
             speed: path.velocity.length(),
+            least: f64::INFINITY,
+            greatest: f64::NEG_INFINITY,
         };
-        if path.turns() {
-            let farthest = points.iter().map(|&x| (x - path.centre).length_squared());
-            heights.speed += path.rate * farthest.fold(0.0, f64::max).sqrt();
-        }
+        let (least, greatest, farthest) = heights.tracks().fold(
+            (f64::INFINITY, f64::NEG_INFINITY, 0.0f64),
+            |(least, greatest, farthest), (track, arm)| {
+                let height = track.height_at(0.0, Angle::ZERO);
+                let square = arm.length_squared();
+                (
+                    least.min(height),
+                    greatest.max(height),
+                    farthest.max(square),
+                )
+            },
+        );
+        (heights.least, heights.greatest) = (least, greatest);
+        heights.speed += path.rate * farthest.sqrt();
         heights
     }
 
@@ -207,33 +206,57 @@ impl<'a> Heights<'a> {
     }
 
     fn angle(&self, tau: f64) -> Angle {
-        if tau > 0.0 && !self.straight() {
-            Angle::new(self.omega * tau)
-        } else {
-            Angle::ZERO
+        match tau > 0.0 && !self.straight() {
+            true => Angle::new(self.omega * tau),
+            false => Angle::ZERO,
         }
     }
 
-    fn tracks(&self) -> impl Iterator<Item = Track> + Clone + '_ {
-        self.points.iter().map(|&x| {
-            let arm = self.frame.rotation * (x - self.centre);
-            self.along.track(self.normal.dot(arm), arm)
+    /// The points' tracks, and their arms from the centre.
+    fn tracks(&self) -> impl Iterator<Item = (Track, DVec3)> {
+        let (normal, along, centre) = (self.normal, self.along, self.centre);
+        let rotation = self.frame.rotation;
+        self.points.iter().map(move |&x| {
+            let arm = rotation * (x - centre);
+            (along.track(normal.dot(arm), arm), arm)
         })
     }
 
-    fn extreme(&self, pick: impl Fn(f64, f64) -> f64) -> f64 {
-        self.tracks()
-            .map(|track| track.height_at(0.0, Angle::ZERO))
-            .reduce(pick)
-            .unwrap_or(0.0)
+    fn few(&self) -> Option<Few> {
+        if self.points.len() > FEW {
+            return None;
+        }
+        let mut tracks = self.tracks().map(|(track, _)| (track, track.bend()));
+        let mut last = tracks.next()?;
+        let mut few = [last; FEW];
+        for slot in &mut few[1..] {
+            last = tracks.next().unwrap_or(last);
+            *slot = last;
+        }
+        Some(Few(few))
     }
 
-    fn points(&self, tau: f64) -> impl Iterator<Item = Point> + Clone + '_ {
+    /// Bounds all points from above.
+    fn highest(&self, tau: f64) -> Point {
+        self.envelope(tau, f64::NEG_INFINITY, f64::max)
+    }
+
+    /// Bounds all points from below.
+    fn lowest(&self, tau: f64) -> Point {
+        self.envelope(tau, f64::INFINITY, f64::min)
+    }
+
+    fn envelope(&self, tau: f64, from: f64, pick: impl Fn(f64, f64) -> f64) -> Point {
         let angle = self.angle(tau);
-        self.tracks().map(move |track| Point {
-            height: track.height_at(tau, angle),
-            rate: track.rate_at(angle),
-            bend: track.bend(),
+        let start = Point {
+            height: from,
+            rate: from,
+            bend: 0.0,
+        };
+        self.tracks().fold(start, |so_far, (track, _)| Point {
+            height: pick(so_far.height, track.height_at(tau, angle)),
+            rate: pick(so_far.rate, track.rate_at(angle)),
+            bend: so_far.bend.max(track.bend()),
         })
     }
 }

@@ -212,14 +212,21 @@ impl Sub for Double3 {
 pub(crate) fn place(motion: &Motion, duration: f64, s: f64, point: DVec3) -> Double3 {
     let time = Double::from(duration) * Double::from(s);
     let centre = Double3::from(motion.centre());
-    let mut arm = (Double3::from(point) - centre).rotated(motion.start().rotation());
-    if motion.spin() != DVec3::ZERO {
-        let spin = Double3::from(motion.spin());
-        arm = arm.turned(spin.unit(), spin.length() * time);
-    }
     let start =
         Double3::from(motion.start().translation()) + centre.rotated(motion.start().rotation());
+    let arm = turned(motion, duration, s, Double3::from(point) - centre);
     start + Double3::from(motion.velocity()).scale(time) + arm
+}
+
+/// Where a motion turns a vector of the body, in the world.
+pub(crate) fn turned(motion: &Motion, duration: f64, s: f64, vector: Double3) -> Double3 {
+    let time = Double::from(duration) * Double::from(s);
+    let vector = vector.rotated(motion.start().rotation());
+    if motion.spin() == DVec3::ZERO {
+        return vector;
+    }
+    let spin = Double3::from(motion.spin());
+    vector.turned(spin.unit(), spin.length() * time)
 }
 
 #[test]

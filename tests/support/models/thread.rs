@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 /// How far the thread climbs in one turn.
 pub const PITCH: f64 = 0.5;
 
-const SEGMENTS: usize = 24;
+const SEGMENTS: usize = 16;
 const ROWS_PER_PITCH: usize = 6;
 
 /// The screw's surface about z: four pitches of a wavy thread of mean radius 1, depth 0.1.

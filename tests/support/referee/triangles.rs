@@ -160,10 +160,17 @@ pub fn point_triangle(p: DVec3, corners: [DVec3; 3]) -> DVec3 {
     let (left, right) = (apex * y / height, length + (apex - length) * y / height);
     // False for NaN, as of a triangle without an area.
     let inside = y >= 0.0 && y <= height && x >= left && x <= right;
-    let foot = if inside { a + x * along + y * across } else { a };
+    let foot = if inside {
+        a + x * along + y * across
+    } else {
+        a
+    };
     let nearer = |x: DVec3, y: DVec3| if y.distance(p) < x.distance(p) { y } else { x };
     let edges = [[a, b], [b, c], [c, a]];
-    edges.map(|edge| point_segment(p, edge)).into_iter().fold(foot, nearer)
+    edges
+        .map(|edge| point_segment(p, edge))
+        .into_iter()
+        .fold(foot, nearer)
 }
 
 fn longest_edge_first([a, b, c]: [DVec3; 3]) -> [DVec3; 3] {

@@ -103,6 +103,8 @@ struct Lane {
     other: NodeId,
     from: f64,
     until: f64,
+    /// The gap that is promised until then.
+    kept: f64,
 }
 
 impl Audit<'_> {
@@ -164,16 +166,18 @@ impl Audit<'_> {
         let still = planes_that_stand_still(self.problem, split, node, other, s);
         for lane in 0..expansion.count {
             let free = expansion.bounds.free[lane as usize];
+            assert!(expansion.bounds.kept >= 0.0, "{:?}", self.name);
             assert!(free >= 0.0, "{:?}: {free}", self.name);
-            let lane_ = Lane {
+            let pair = Lane {
                 split,
                 child: expansion.first + lane,
                 other,
                 from: s,
                 until: (s + f64::from(free)).min(1.0),
+                kept: f64::from(expansion.bounds.kept),
             };
             if free > 0.0 {
-                self.verify(&lane_, tally);
+                self.verify(&pair, tally);
                 tally.free += 1;
                 tally.by_role[split as usize] += 1;
                 tally.attached += usize::from(free > 1.5 * still.free[lane as usize]);
@@ -185,7 +189,7 @@ impl Audit<'_> {
                 }
             } else {
                 tally.none += 1;
-                tally.overlapping += usize::from(self.overlap(&lane_));
+                tally.overlapping += usize::from(self.overlap(&pair));
             }
         }
     }
@@ -200,7 +204,7 @@ impl Audit<'_> {
     /// node, at every sampled time.
     fn verify(&self, lane: &Lane, tally: &mut Tally) {
         // The reference is right to within the rounding that the bounds leave room for.
-        let kept = self.problem.gap() - self.problem.rounding;
+        let kept = lane.kept - self.problem.rounding;
         let mut prover = Prover::default();
         for k in 0..SAMPLES {
             let share = k as f64 / (SAMPLES - 1) as f64;

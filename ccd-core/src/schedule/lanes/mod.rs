@@ -223,3 +223,6 @@ impl<'a, C: Children, P: Other, S: Turn, O: Turn> Pairing<'a, C, P, S, O> {
 fn bending(m: Vec3, rate: f32, speed: f32) -> f32 {
     (length(m) * BEND_F32 + ACROSS_F32 * rate) * speed
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,115 @@
+//! Motions pass through the poses they are made of.
+
+use super::Motion;
+use crate::error::InputError;
+use crate::pose::Pose;
+use crate::tests::scene::{RngExt, direction, magnitude, rng, rotation, within};
+use glam::{DQuat, DVec3};
+use std::f64::consts::PI;
+
+/// How far apart two poses take points of about unit size.
+fn apart(a: &Pose, b: &Pose) -> f64 {
+    let points = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
+    let off = points.map(|p| a.transform_point(p).distance(b.transform_point(p)));
+    off.into_iter().fold(0.0, f64::max)
+}
+
+#[test]
+fn between_passes_through_both_poses_and_never_turns_more_than_half() {
+    let mut rng = rng(1);
+    for _ in 0..2_000 {
+        let poses = [(); 2].map(|()| Pose::new(within(&mut rng, 9.0), rotation(&mut rng)).unwrap());
+        let centre = within(&mut rng, 3.0);
+        let duration = magnitude(&mut rng, -3.0, 3.0);
+        let motion = Motion::between(poses[0], poses[1], centre, duration).unwrap();
+        assert!(apart(&motion.pose(0.0), &poses[0]) < 1e-13);
+        assert!(apart(&motion.pose(duration), &poses[1]) < 1e-13);
+        assert!(motion.spin().length() * duration <= PI * (1.0 + 1e-15));
+        // The centre moves on a straight line.
+        let half = motion.pose(0.5 * duration).transform_point(centre);
+        let ends = poses.map(|pose| pose.transform_point(centre));
+        assert!(half.distance(0.5 * (ends[0] + ends[1])) < 1e-13);
+    }
+}
+
+#[test]
+fn half_turns_and_tiny_turns_keep_their_digits() {
+    let mut rng = rng(2);
+    for _ in 0..500 {
+        let (axis, start) = (direction(&mut rng), rotation(&mut rng));
+        for angle in [PI, PI - 1e-9, PI - 1e-3, 1e-3, 1e-8, 1e-15] {
+            let turn = DQuat::from_scaled_axis(axis * angle);
+            let poses = [start, turn * start].map(|q| Pose::new(DVec3::ZERO, q).unwrap());
+            let motion = Motion::between(poses[0], poses[1], DVec3::ZERO, 1.0).unwrap();
+            assert!(apart(&motion.pose(1.0), &poses[1]) < 1e-14, "{angle}");
+            // Of a unit quaternion's rounding, 2e-16, what is left is the turn.
+            assert!((motion.spin().length() - angle).abs() < 2e-15, "{angle}");
+        }
+        let pose = Pose::new(DVec3::ONE, start).unwrap();
+        let still = Motion::between(pose, pose, DVec3::X, 1.0).unwrap();
+        assert!(still.spin().length() < 1e-15);
+    }
+}
+
+#[test]
+fn any_number_of_turns_is_a_motion() {
+    let spin = 2.0 * PI * 6.0 * DVec3::Y;
+    let motion = Motion::about(Pose::IDENTITY, DVec3::X, spin, DVec3::Z).unwrap();
+    let end = Pose::from_translation(DVec3::X).unwrap();
+    assert!(apart(&motion.pose(1.0), &end) < 1e-13);
+    assert!(
+        apart(
+            &motion.pose(0.5),
+            &Pose::from_translation(0.5 * DVec3::X).unwrap()
+        ) < 1e-13
+    );
+    // A quarter of a turn later it faces another way.
+    assert!(apart(&motion.pose(1.0 / 24.0), &end) > 1.0);
+}
+
+#[test]
+fn a_body_at_rest_stays() {
+    let mut rng = rng(3);
+    let pose = Pose::new(within(&mut rng, 5.0), rotation(&mut rng)).unwrap();
+    let motion = Motion::still(pose);
+    for t in [0.0, 1.0, 1e9] {
+        assert_eq!(motion.pose(t), pose);
+    }
+}
+
+#[test]
+fn what_is_not_finite_is_refused() {
+    let mut rng = rng(4);
+    for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        let mut vector = within(&mut rng, 1.0);
+        vector[rng.random_range(0..3)] = bad;
+        let none = DVec3::ZERO;
+        for (velocity, spin, centre) in [
+            (vector, none, none),
+            (none, vector, none),
+            (none, none, vector),
+        ] {
+            let made = Motion::about(Pose::IDENTITY, velocity, spin, centre);
+            assert_eq!(made, Err(InputError::NotFinite { what: "motion" }));
+        }
+        let between = Motion::between(Pose::IDENTITY, Pose::IDENTITY, none, bad);
+        assert!(matches!(
+            between,
+            Err(InputError::OutOfRange {
+                what: "duration",
+                ..
+            })
+        ));
+    }
+    let zero = Motion::between(Pose::IDENTITY, Pose::IDENTITY, DVec3::ZERO, 0.0);
+    assert!(matches!(
+        zero,
+        Err(InputError::OutOfRange {
+            what: "duration",
+            ..
+        })
+    ));
+    let far = Pose::from_translation(DVec3::X).unwrap();
+    let overflow = Motion::between(Pose::IDENTITY, far, DVec3::ZERO, 1e-320);
+    assert_eq!(overflow, Err(InputError::NotFinite { what: "motion" }));
+}

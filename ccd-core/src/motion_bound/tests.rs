@@ -1,0 +1,217 @@
+//! Tracks against the formula they stand for, and the three bounds against sampled truth.
+
+use super::{Gap, Track, Velocities, published, sound};
+use crate::tests::scene::{Pcg64, RngExt, direction, magnitude, rng, within};
+use glam::{DQuat, DVec3};
+
+/// A random motion, axis and arm, all of about unit size.
+fn setting(rng: &mut Pcg64) -> (Velocities, DVec3, DVec3) {
+    let turn = match rng.random_range(0..5) {
+        0 => 0.0,
+        1 => magnitude(rng, -9.0, -1.0),
+        _ => magnitude(rng, -1.0, 1.6),
+    };
+    let fast = match rng.random_range(0..4) {
+        0 => 0.0,
+        _ => magnitude(rng, -3.0, 2.0),
+    };
+    let motion = Velocities {
+        linear: direction(rng) * fast,
+        spin: direction(rng) * turn,
+    };
+    (motion, direction(rng), within(rng, 1.0))
+}
+
+fn height(motion: &Velocities, n: DVec3, height: f64, arm: DVec3, tau: f64) -> f64 {
+    let turned = DQuat::from_scaled_axis(motion.spin * tau) * arm;
+    height + n.dot(motion.linear * tau + turned - arm)
+}
+
+#[test]
+fn a_track_is_the_height_of_a_turning_point() {
+    let mut rng = rng(1);
+    for _ in 0..10_000 {
+        let (motion, n, arm) = setting(&mut rng);
+        let track = Track::new(&motion, n, 0.3, arm);
+        let tau = rng.random_range(0.0..1.0);
+        let size = 2.0 + motion.linear.length() + motion.spin.length();
+        let off = track.at(tau) - height(&motion, n, 0.3, arm, tau);
+        assert!(off.abs() < 1e-14 * size, "{off:e} {motion:?}");
+    }
+}
+
+/// The highest point of a track over `[0, tau]`: dense samples, the best of them refined by golden
+/// sections.
+fn highest(track: &Track, turns: f64, tau: f64) -> f64 {
+    let samples = 64 + (64.0 * turns) as usize;
+    let at = |k: usize| tau * k as f64 / samples as f64;
+    let best = (0..=samples).max_by(|&i, &j| track.at(at(i)).total_cmp(&track.at(at(j))));
+    let best = best.unwrap();
+    let (mut low, mut high) = (at(best.saturating_sub(1)), at((best + 1).min(samples)));
+    for _ in 0..100 {
+        let (first, second) = (low + 0.382 * (high - low), low + 0.618 * (high - low));
+        if track.at(first) < track.at(second) {
+            low = first;
+        } else {
+            high = second;
+        }
+    }
+    track.at(0.5 * (low + high)).max(track.at(at(best)))
+}
+
+#[test]
+fn the_greatest_height_is_neither_below_nor_above_what_is_found() {
+    let mut rng = rng(2);
+    let mut inside = 0;
+    for _ in 0..4_000 {
+        let (motion, n, arm) = setting(&mut rng);
+        let track = Track::new(&motion, n, 0.0, arm);
+        let tau = rng.random_range(0.0..1.0);
+        let found = highest(&track, motion.spin.length() * tau, tau);
+        let bound = track.max_over(tau);
+        let size = 1.0 + motion.linear.length();
+        assert!(
+            bound >= found - 1e-13 * size,
+            "{bound} < {found}: {motion:?}"
+        );
+        assert!(
+            bound <= found + 1e-12 * size,
+            "{bound} > {found}: {motion:?}"
+        );
+        inside += usize::from(bound > track.at(0.0).max(track.at(tau)) + 1e-6);
+    }
+    assert!(inside > 1_000, "{inside} with a turning point inside");
+}
+
+#[test]
+fn the_first_crossing_is_never_late_and_near() {
+    let mut rng = rng(3);
+    let (mut crossings, mut near) = (0, 0);
+    for _ in 0..10_000 {
+        let (motion, n, arm) = setting(&mut rng);
+        let track = Track::new(&motion, n, 0.0, arm);
+        let limit = magnitude(&mut rng, -6.0, 0.3);
+        let samples = 64 + (64.0 * motion.spin.length()) as usize;
+        let at = |k: usize| k as f64 / samples as f64;
+        let truth = (1..=samples).find(|&k| track.at(at(k)) >= limit);
+        let found = track.first_crossing(limit, 1.0);
+        let until = found.unwrap_or(1.0);
+        let before = track.max_over(until);
+        let size = 1.0 + motion.linear.length() + motion.spin.length();
+        assert!(
+            before <= limit + 1e-14 * size,
+            "{before:e} > {limit:e}: {motion:?}"
+        );
+        let Some(k) = truth else { continue };
+        let found = found.expect("a crossing that samples find");
+        assert!(found <= at(k));
+        crossings += 1;
+        // What is left is not worth a round.
+        let (mut low, mut high) = (at(k - 1), at(k));
+        for _ in 0..100 {
+            let middle = 0.5 * (low + high);
+            if track.at(middle) < limit {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        near += usize::from(found >= low * (1.0 - 1e-1) || found >= at(k - 1));
+    }
+    assert!(crossings > 2_000, "{crossings}");
+    assert!(100 * near >= 95 * crossings, "{near} of {crossings}");
+}
+
+#[test]
+fn a_zero_gap_or_nan_gets_no_free_time() {
+    let free = |gap: f64, rate: f64, bend: f64| Gap { gap, rate, bend }.free_time();
+    for rate in [-1.0, 0.0, 1.0, f64::NAN] {
+        for bend in [0.0, 1.0, f64::NAN] {
+            for gap in [0.0, -0.0, -1.0, f64::NEG_INFINITY, f64::NAN] {
+                assert_eq!(free(gap, rate, bend), 0.0, "{gap} {rate} {bend}");
+            }
+        }
+    }
+    assert_eq!(free(1.0, -1.0, 0.0), f64::INFINITY);
+    assert_eq!(free(1.0, f64::NAN, 1.0), 0.0);
+    assert_eq!(free(1.0, 1.0, f64::NAN), 0.0);
+}
+
+#[test]
+fn free_times_use_up_the_gap_and_no_more() {
+    let mut rng = rng(4);
+    for _ in 0..10_000 {
+        let sign = [-1.0, 0.0, 1.0][rng.random_range(0..3)];
+        let gap = Gap {
+            gap: magnitude(&mut rng, -9.0, 3.0),
+            rate: sign * magnitude(&mut rng, -6.0, 6.0),
+            bend: magnitude(&mut rng, -6.0, 6.0),
+        };
+        let tau = gap.free_time();
+        let rest = gap.gap - gap.rate * tau - 0.5 * gap.bend * tau * tau;
+        let scale = gap.gap + (gap.rate * tau).abs() + gap.bend * tau * tau;
+        assert!(rest >= -1e-15 * scale, "{gap:?}: {rest:e}");
+        assert!(rest <= 1e-14 * scale, "{gap:?}: {rest:e}");
+    }
+}
+
+/// No point rises faster along `n` than [`sound`] says, at any time.
+#[test]
+fn the_sound_bound_holds_over_intervals() {
+    let mut rng = rng(6);
+    let mut beaten = 0;
+    for _ in 0..2_000 {
+        let (motion, n, _) = setting(&mut rng);
+        let arms: Vec<DVec3> = (0..8).map(|_| within(&mut rng, 1.0)).collect();
+        let axis = motion.spin.normalize_or_zero();
+        let reach = arms.iter().map(|r| r.reject_from_normalized(axis).length());
+        let bound = sound(&motion, n, reach.fold(0.0, f64::max));
+        let instant = published(&motion, n, arms.iter().copied());
+        assert!(instant <= bound.max(motion.linear.dot(n)) + 1e-12 * (1.0 + bound.abs()));
+        let mut fastest = f64::NEG_INFINITY;
+        for &arm in &arms {
+            for k in 1..=32 {
+                let tau = f64::from(k) / 32.0;
+                let rise = height(&motion, n, 0.0, arm, tau);
+                let slack = 1e-13 * (1.0 + motion.linear.length() + motion.spin.length());
+                assert!(rise <= bound * tau + slack, "{rise} > {bound} × {tau}");
+                fastest = fastest.max(rise / tau);
+            }
+        }
+        beaten += usize::from(fastest > instant + 1e-9);
+    }
+    // Random motions show that the published bound does not hold over an interval.
+    assert!(beaten > 100, "{beaten}");
+}
+
+/// An arm of 2 that hangs down and turns about its end towards a wall above: the published bound
+/// sees its tip move sideways, and lets it turn through the wall.
+#[test]
+fn the_published_bound_lets_the_mace_through_the_wall() {
+    let (length, width, wall) = (2.0, 0.02, 1.0);
+    let motion = Velocities {
+        linear: DVec3::ZERO,
+        spin: 3.0 * DVec3::Z,
+    };
+    let tips = [-width, width].map(|x| DVec3::new(x, -length, 0.0));
+    let ball = 0.1;
+    let gap = wall - ball;
+    // Fastest advance of the tips, and of the ball about the centre, which does not advance.
+    let allowed = gap / published(&motion, DVec3::Y, tips.into_iter());
+    let reach = tips[0].length();
+    let contact = (length.atan2(width) + (wall / reach).asin()) / 3.0;
+    assert!(allowed > 1.0, "a step of {allowed} passes the whole motion");
+    assert!(contact < 0.7);
+    let step = gap / sound(&motion, DVec3::Y, reach);
+    assert!(step < contact);
+    let tracks = tips.map(|tip| Track::new(&motion, DVec3::Y, tip.y, tip));
+    assert!(tracks.iter().all(|track| track.max_over(step) < wall));
+    let first = tracks
+        .iter()
+        .filter_map(|track| track.first_crossing(wall, 1.0));
+    let first = first.fold(f64::INFINITY, f64::min);
+    assert!(
+        first <= contact && first > 0.98 * contact,
+        "{first} of {contact}"
+    );
+}

@@ -1,0 +1,68 @@
+//! Poses and frames say the same, and refuse what is none.
+
+use super::{Frame, Pose};
+use crate::error::InputError;
+use crate::tests::scene::{rng, rotation, within};
+use glam::{DQuat, DVec3};
+
+#[test]
+fn quaternions_of_any_length_name_the_same_orientation() {
+    let mut rng = rng(1);
+    for _ in 0..100 {
+        let q = rotation(&mut rng);
+        let (point, at) = (within(&mut rng, 2.0), within(&mut rng, 2.0));
+        let unit = Pose::new(at, q).unwrap().transform_point(point);
+        for scale in [1e-150, 1e-3, 7.0, 1e150] {
+            let pose = Pose::new(at, q * scale).unwrap();
+            assert!((pose.rotation().length() - 1.0).abs() < 1e-15, "{scale:e}");
+            assert!(
+                pose.transform_point(point).distance(unit) < 1e-14,
+                "{scale:e}"
+            );
+        }
+    }
+}
+
+#[test]
+fn what_names_no_pose_is_refused() {
+    let zero = DQuat::from_xyzw(0.0, 0.0, 0.0, 0.0);
+    assert_eq!(
+        Pose::new(DVec3::ZERO, zero),
+        Err(InputError::ZeroQuaternion)
+    );
+    let tiny = DQuat::from_xyzw(0.0, 0.0, 0.0, 1e-320);
+    assert_eq!(
+        Pose::new(DVec3::ZERO, tiny),
+        Err(InputError::ZeroQuaternion)
+    );
+    let huge = DQuat::from_xyzw(0.0, f64::MAX, 0.0, f64::MAX);
+    assert_eq!(
+        Pose::new(DVec3::ZERO, huge),
+        Err(InputError::ZeroQuaternion)
+    );
+    let not_finite = Err(InputError::NotFinite { what: "pose" });
+    for bad in [f64::NAN, f64::INFINITY] {
+        assert_eq!(
+            Pose::from_translation(DVec3::new(0.0, bad, 0.0)),
+            not_finite
+        );
+        let q = DQuat::from_xyzw(bad, 0.0, 0.0, 1.0);
+        assert_eq!(Pose::new(DVec3::ZERO, q), not_finite);
+    }
+}
+
+#[test]
+fn frames_undo_and_combine() {
+    let mut rng = rng(2);
+    for _ in 0..200 {
+        let poses = [(); 2].map(|()| Pose::new(within(&mut rng, 3.0), rotation(&mut rng)).unwrap());
+        let [a, b] = poses.map(Frame::from);
+        let point = within(&mut rng, 3.0);
+        assert!(a.point(point).distance(poses[0].transform_point(point)) < 1e-14);
+        assert!(a.inverse_point(a.point(point)).distance(point) < 1e-14);
+        assert!(a.inverse_vector(a.rotation * point).distance(point) < 1e-14);
+        let b_to_a = a.from_frame(&b);
+        assert!(a.point(b_to_a.point(point)).distance(b.point(point)) < 1e-13);
+    }
+    assert_eq!(Frame::from(Pose::IDENTITY), Frame::IDENTITY);
+}

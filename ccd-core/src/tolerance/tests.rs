@@ -1,0 +1,158 @@
+//! The f64 allowances against arithmetic of twice the digits.
+
+use super::distance_rounding;
+use crate::motion::Motion;
+use crate::oracle::{Claim, Combination, PiecePair};
+use crate::pieces::Pieces;
+use crate::problem::{Config, Moving, Problem};
+use crate::separation;
+use crate::tests::double::{Double, Double3, place, turned};
+use crate::tests::scene::{
+    Look, Pcg64, RngExt, body, direction, magnitude, rng, rotation, soup, within,
+};
+use crate::{Body, Pose};
+use glam::DVec3;
+
+/// The largest errors found, as shares of the rounding that is allowed for.
+#[derive(Debug, Default)]
+struct Worst {
+    place: f64,
+    gap: f64,
+    distance: f64,
+    /// Of problems at a million units from the body's or the world's origin, and of many turns.
+    far: usize,
+    turns: usize,
+}
+
+#[test]
+fn rounding_of_places_gaps_and_distances_is_allowed_for() {
+    let mut rng = rng(5);
+    let mut worst = Worst::default();
+    for _ in 0..4_000 {
+        let count = rng.random_range(1..4);
+        let size = magnitude(&mut rng, -6.0, 6.0);
+        let bodies: [Body; 2] = std::array::from_fn(|_| far_body(&mut rng, count, size));
+        let far = match rng.random_range(0..3) {
+            0 => 0.0,
+            _ => magnitude(&mut rng, 0.0, 6.0),
+        };
+        let world = direction(&mut rng) * far;
+        let duration = magnitude(&mut rng, -3.0, 3.0);
+        let motions = [(); 2].map(|()| motion(&mut rng, world, size, duration));
+        worst.far += usize::from(far > 1e5 || bodies[0].tree().span() > 1e5);
+        worst.turns += usize::from(motions[0].spin().length() * duration > 100.0);
+        let moving = |k: usize| Moving {
+            body: &bodies[k],
+            motion: motions[k],
+        };
+        let problem = Problem::new(moving(0), moving(1), duration, &Config::default()).unwrap();
+        for _ in 0..4 {
+            let s = rng.random_range(0.0..1.0);
+            sample(&mut rng, &problem, &motions, duration, s, &mut worst);
+        }
+    }
+    assert!(worst.far > 500 && worst.turns > 500, "{worst:?}");
+    assert!(worst.place < 1.0, "{worst:?}");
+    assert!(worst.gap < 1.0, "{worst:?}");
+    assert!(worst.distance < 1.0, "{worst:?}");
+}
+
+fn far_body(rng: &mut Pcg64, count: usize, size: f64) -> Body {
+    let look = Look::ALL[rng.random_range(0..5)];
+    let offset = match rng.random_range(0..3) {
+        0 => 0.0,
+        _ => magnitude(rng, 0.0, 6.0),
+    };
+    let middle = direction(rng) * offset;
+    let triangles = soup(rng, look, count, size);
+    let moved: Vec<_> = triangles.iter().map(|t| t.map(|p| p + middle)).collect();
+    body(&moved)
+}
+
+fn motion(rng: &mut Pcg64, world: DVec3, size: f64, duration: f64) -> Motion {
+    let start = Pose::new(world + within(rng, size), rotation(rng)).unwrap();
+    let turn = match rng.random_range(0..4) {
+        0 => 0.0,
+        1 => magnitude(rng, -9.0, 0.0),
+        2 => magnitude(rng, 0.0, 2.0),
+        _ => magnitude(rng, 2.0, 6.0),
+    };
+    let travel = magnitude(rng, -3.0, 3.0) * size;
+    let off = magnitude(rng, -1.0, 3.0) * size;
+    Motion::about(
+        start,
+        direction(rng) * travel / duration,
+        direction(rng) * turn / duration * 0.999,
+        within(rng, off),
+    )
+    .unwrap()
+}
+
+/// Compares places, a support gap and a distance at one clock.
+fn sample(
+    rng: &mut Pcg64,
+    problem: &Problem<'_>,
+    motions: &[Motion; 2],
+    duration: f64,
+    s: f64,
+    worst: &mut Worst,
+) {
+    let sides = [&problem.a, &problem.b];
+    let frames = sides.map(|side| side.path.frame(s));
+    let origin = Double3::from(motions[1].start().translation());
+    let pieces = sides.map(|side| {
+        let all: &Pieces = side.body.pieces();
+        let last = all.len() - 1;
+        all.get(rng.random_range(0..=last))
+    });
+    let exact: [Vec<Double3>; 2] = std::array::from_fn(|k| {
+        let points = pieces[k].points.iter();
+        points
+            .map(|&p| place(&motions[k], duration, s, p) - origin)
+            .collect()
+    });
+    for k in 0..2 {
+        for (&p, &exact) in pieces[k].points.iter().zip(&exact[k]) {
+            let off = (Double3::from(frames[k].point(p)) - exact).length();
+            worst.place = worst.place.max(off.get() / problem.rounding);
+        }
+    }
+    let pair = PiecePair {
+        a: pieces[0],
+        b: pieces[1],
+        b_to_a: frames[0].from_frame(&frames[1]),
+    };
+    let [i, j] = [0, 1].map(|_| rng.random_range(0..3u32));
+    let claim = Claim {
+        axis: direction(rng),
+        a: Combination::point(i),
+        b: Combination::point(j),
+    };
+    let checked = separation::check(&pair, &claim, problem.rounding);
+    // The axis as it was checked, in the world; along a unit vector.
+    let axis = turned(&motions[0], duration, s, Double3::from(checked.axis)).unit();
+    let heights =
+        |points: &[Double3]| -> Vec<Double> { points.iter().map(|&p| axis.dot(p)).collect() };
+    let lowest = heights(&exact[1]).into_iter().reduce(Double::min).unwrap();
+    let highest = heights(&exact[0]).into_iter().reduce(Double::max).unwrap();
+    let gap = (lowest - highest).get();
+    let rounded = checked.lower + problem.rounding;
+    worst.gap = worst.gap.max((rounded - gap).abs() / problem.rounding);
+    let distance = (exact[1][j as usize] - exact[0][i as usize]).length();
+    let rounded = Double::from(checked.upper - problem.rounding);
+    let off = (rounded - distance).get().abs();
+    worst.distance = worst.distance.max(off / problem.rounding);
+}
+
+#[test]
+fn rounding_grows_with_spans_turns_and_the_way_between() {
+    let base = distance_rounding([1.0, 1.0], [0.0, 0.0], 1.0);
+    assert!(base > 0.0 && base < 1e-13);
+    for more in [
+        distance_rounding([2.0, 1.0], [0.0, 0.0], 1.0),
+        distance_rounding([1.0, 1.0], [0.0, 1.0], 1.0),
+        distance_rounding([1.0, 1.0], [0.0, 0.0], 2.0),
+    ] {
+        assert!(more > base);
+    }
+}
