@@ -96,3 +96,6 @@ pub(crate) fn bounds(points: impl Iterator<Item = DVec3>) -> (DVec3, DVec3) {
         (lo.min(p), hi.max(p))
     })
 }
+
+#[cfg(test)]
+mod tests;

@@ -7,7 +7,7 @@ use ccd_tests::strategies::{cases, check_cases};
 
 #[test]
 fn all_setups_say_the_same_unless_it_is_within_the_tolerance() {
-    check_cases(80, cases(), |case| {
+    check_cases(500, cases(), |case| {
         let query = case.query();
         // As soon as the distance is the tolerance, contact is right; until it is 0, free is.
         let first = Referee::with_margin(&query, case.tolerance).verdict();

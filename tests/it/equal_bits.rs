@@ -10,7 +10,7 @@ use proptest::strategy::{Strategy, ValueTree};
 
 #[test]
 fn every_setup_repeats_itself() {
-    check_cases(40, cases(), |case| {
+    check_cases(250, cases(), |case| {
         let (query, config) = (case.query(), case.config());
         let mut first = Vec::new();
         for_each_setup(&query, &config, |_, _, answer| {
@@ -49,7 +49,7 @@ used_as_fresh! {
 
 fn used_as_fresh<O: DistanceOracle + Default, S: Schedule<O> + Default>() {
     let (mut schedule, mut oracle) = (S::default(), O::default());
-    for case in sample(24) {
+    for case in sample(200) {
         let query = case.query();
         let bodies = query.triangles();
         if bodies.pairs() > 1_000 {

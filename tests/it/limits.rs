@@ -9,7 +9,7 @@ use std::cell::Cell;
 #[test]
 fn a_small_budget_ends_in_a_certified_time() {
     let unresolved = Cell::new(0);
-    check_cases(40, cases(), |case| {
+    check_cases(250, cases(), |case| {
         let query = case.query();
         let judge = Judge::new(&query, &case.config());
         let mut law = Ok(());
@@ -45,7 +45,7 @@ fn a_small_budget_ends_in_a_certified_time() {
 
 #[test]
 fn the_certified_time_grows_with_the_budget() {
-    check_cases(40, cases(), |case| {
+    check_cases(250, cases(), |case| {
         let query = case.query();
         let bodies = query.triangles();
         let mut last = 0.0;

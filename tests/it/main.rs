@@ -10,6 +10,7 @@ mod generators;
 mod liars;
 mod limits;
 mod margin;
+mod million;
 mod models;
 mod monotone;
 mod motions;

@@ -11,7 +11,7 @@ use ccd_tests::strategies::{cases, check_cases};
 #[test]
 fn random_cases_keep_any_margin() {
     for margin in [1e-2, 0.3, 2.0] {
-        check_cases(30, cases(), |case| {
+        check_cases(150, cases(), |case| {
             let query = case.query();
             let config = Config {
                 margin,

@@ -6,7 +6,7 @@ use ccd_tests::strategies::{cases, check_cases};
 
 #[test]
 fn a_smaller_tolerance_is_never_earlier() {
-    check_cases(120, cases(), |case| {
+    check_cases(1_000, cases(), |case| {
         let query = case.query();
         let mut last: Option<(f64, Answer)> = None;
         for tolerance in [1e-1, 1e-3, 1e-5, 1e-7] {

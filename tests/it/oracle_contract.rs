@@ -79,7 +79,7 @@ fn pairs(sizes: &'static [usize]) -> impl Strategy<Value = (Pair, f64)> {
 }
 
 fn enclose<O: DistanceOracle + Default>(sizes: &'static [usize]) {
-    runner(400)
+    runner(2_000)
         .run(&pairs(sizes), |(pair, slack)| {
             bounds_law(&mut O::default(), &pair, slack).map_err(TestCaseError::fail)
         })
@@ -87,7 +87,7 @@ fn enclose<O: DistanceOracle + Default>(sizes: &'static [usize]) {
 }
 
 fn stale<O: DistanceOracle + Default>(sizes: &'static [usize]) {
-    runner(200)
+    runner(1_000)
         .run(
             &(pairs(sizes), pairs(sizes)),
             |((first, _), (second, slack))| {
@@ -102,7 +102,7 @@ fn degenerate<O: DistanceOracle + Default>(sizes: &'static [usize]) {
     let point = || prop::array::uniform3(prop::sample::select(odd.to_vec())).prop_map(DVec3::from);
     let size = || prop::sample::select(sizes);
     let all = move || size().prop_flat_map(move |n| prop::collection::vec(point(), n));
-    runner(400)
+    runner(2_000)
         .run(&(all(), all(), point()), |(a, b, offset)| {
             let same = Pair::new(a.clone(), a.clone(), DQuat::IDENTITY, DVec3::ZERO);
             ends_law(&mut O::default(), &same);
@@ -121,7 +121,7 @@ fn parallel<O: DistanceOracle + Default>(sizes: &'static [usize]) {
     };
     let shape: Vec<DVec3> = (0..count).map(corner).collect();
     let inputs = (direction(), -16.0..0.0f64, -9.0..1.0f64, any::<bool>());
-    runner(400)
+    runner(2_000)
         .run(&inputs, |(axis, turn, apart, diagonal)| {
             let turn = DQuat::from_axis_angle(axis, 10.0f64.powf(turn));
             let base = if diagonal {

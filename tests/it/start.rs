@@ -126,7 +126,7 @@ fn what_is_left_alone_may_come_back() {
 
 #[test]
 fn where_nothing_touches_at_the_start_both_policies_say_the_same() {
-    check_cases(60, cases(), |case| {
+    check_cases(500, cases(), |case| {
         let query = case.query();
         let config = Config {
             start: StartPolicy::Leave,

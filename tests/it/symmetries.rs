@@ -10,7 +10,7 @@ use proptest::prelude::*;
 
 #[test]
 fn bodies_may_be_swapped() {
-    check_cases(120, cases(), |case| {
+    check_cases(1_000, cases(), |case| {
         let query = case.query();
         let judge = Judge::new(&query, &case.config());
         let (here, there) = (
@@ -37,14 +37,14 @@ fn both_may_be_seen_from_any_frame() {
             .check_time(&answer, moved.rounding())
             .map_err(|why| TestCaseError::fail(format!("{why}\n{answer:?}\n{}", case.to_toml())))
     };
-    if let Err(error) = runner(120).run(&frames, law) {
+    if let Err(error) = runner(1_000).run(&frames, law) {
         panic!("{error}");
     }
 }
 
 #[test]
 fn free_run_backwards_is_free() {
-    check_cases(150, cases(), |case| {
+    check_cases(1_000, cases(), |case| {
         let query = case.query();
         let forwards = default_answer(&query, &case.config());
         if !matches!(forwards.outcome, Outcome::Free { .. }) {

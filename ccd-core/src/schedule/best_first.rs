@@ -1,14 +1,14 @@
 //! Every pair keeps its own clock; the pair whose proof expires first is looked at next.
 
 use super::Schedule;
-use super::expand::{Expansion, Which, expand};
+use super::expand::{Split, Which, expand};
+use super::group::{Group, Next};
 use super::pair::{Pair, Step};
 use super::queue::{Full, Queue, Rank};
 use super::start::Start;
 use crate::oracle::DistanceOracle;
 use crate::outcome::{Answer, Limit, Outcome, Stats};
 use crate::problem::Problem;
-use crate::tree::{LANES, NodeId};
 
 /// Best-first search by time, the default.
 ///
@@ -38,29 +38,10 @@ enum Item<C> {
     Pieces(Pair<C>),
 }
 
-/// Up to eight pairs that came of one split: the children of a node with one other node.
-#[derive(Debug)]
-struct Group {
-    /// For how long after `since` each pair is certified; infinite once it is done with.
-    free: FreeTimes,
-    since: f64,
-    /// The children's body.
-    split: Which,
-    first: NodeId,
-    other: NodeId,
-    /// Which children are thicker than the other node and are to be split next.
-    thicker: u8,
-    /// Which children are better looked at again than split.
-    aloof: u8,
-    parent: NodeId,
-}
-
-/// What to do with the pair that was looked at.
+/// What to look at: a pair of pieces, or a pair of nodes of which one is split.
 enum Found<C> {
-    /// Two pieces.
     Pieces(Pair<C>),
-    /// Split the node of this body against the other's; of the children only those in the mask.
-    Split(Which, NodeId, NodeId, u8),
+    Split(Split),
 }
 
 impl<O: DistanceOracle> Schedule<O> for BestFirst<O> {
@@ -99,10 +80,10 @@ impl<O: DistanceOracle> BestFirst<O> {
                 return start.touching().unwrap_or(unresolved(s, Limit::Budget));
             }
             let pushed = match found {
-                Found::Split(split, node, other, mask) => {
-                    let expansion = expand(problem, split, node, other, s);
+                Found::Split(split) => {
+                    let expansion = expand(problem, &split, s);
                     clearance = clearance.min(f64::from(expansion.bounds.kept));
-                    self.push_group(problem, expansion, split, node, other, s, mask)
+                    self.push_group(Group::new(problem, &expansion, split, s))
                 }
                 Found::Pieces(mut pair) => match pair.advance(problem, oracle, stats, s) {
                     Step::FreeUntil(clock) => self.push_pair(clock, pair),
@@ -152,29 +133,21 @@ impl<O: DistanceOracle> BestFirst<O> {
                 found
             }
             Item::Group(group) => {
-                let lane = group.free.take_least();
-                let found = group.found(problem, lane);
+                let next = group.take_least(problem);
                 match group.clock() {
                     clock if clock < 1.0 => visit.postpone(clock),
                     _ => visit.remove(),
                 }
-                found
+                match next {
+                    Next::Ask(a, b) => Found::Pieces(Pair::new(a, b)),
+                    Next::Split(split) => Found::Split(split),
+                }
             }
         };
         Some((s, found))
     }
 
-    fn push_group(
-        &mut self,
-        problem: &Problem<'_>,
-        expansion: Expansion,
-        split: Which,
-        node: NodeId,
-        other: NodeId,
-        s: f64,
-        mask: u8,
-    ) -> Result<(), Full> {
-        let group = Group::new(problem, &expansion, split, node, other, s, mask);
+    fn push_group(&mut self, group: Group) -> Result<(), Full> {
         let clock = group.clock();
         if clock < 1.0 {
             self.queue.push(clock, Rank::Group, Item::Group(group))?;
@@ -191,131 +164,11 @@ impl<O: DistanceOracle> BestFirst<O> {
     }
 }
 
-/// The free times of eight pairs, rounded down to bits that end in the pair's lane: bits of numbers
-/// that are not negative order as the numbers do, so that the least of them tells its lane too.
-#[derive(Clone, Copy, Debug)]
-struct FreeTimes([u32; LANES]);
-
-const LANE_BITS: u32 = LANES as u32 - 1;
-
-impl FreeTimes {
-    /// Lanes from `count` on are done with.
-    fn new(free: &[f32; LANES], count: u32, mask: u8) -> Self {
-        let mut bits = [0; LANES];
-        for (lane, bits) in bits.iter_mut().enumerate() {
-            let used = (lane as u32) < count && mask >> lane & 1 == 1;
-            let time = if used { free[lane] } else { f32::INFINITY };
-            *bits = time.to_bits() & !LANE_BITS | lane as u32;
-        }
-        FreeTimes(bits)
-    }
-
-    /// The least of the times, with its lane in its last bits.
-    #[inline]
-    fn least(&self) -> u32 {
-        self.0.iter().fold(u32::MAX, |least, &bits| least.min(bits))
-    }
-
-    /// Ends the pair of least time; which one it was.
-    #[inline]
-    fn take_least(&mut self) -> usize {
-        let least = self.least();
-        // All lanes are written at once: the next look at them need not wait for a single one.
-        self.0 = self.0.map(|bits| match bits == least {
-            true => f32::INFINITY.to_bits() | LANE_BITS,
-            false => bits,
-        });
-        (least & LANE_BITS) as usize
-    }
-}
-
 /// The body whose root is smaller: a large one is best kept whole until it matters.
 fn smaller(problem: &Problem<'_>) -> Which {
     let radius = |which: Which| which.of(problem).body.tree().radius();
     match radius(Which::B) < radius(Which::A) {
         true => Which::B,
         false => Which::A,
-    }
-}
-
-impl Group {
-    /// The pair of both roots, of which the given body's is to be split.
-    fn roots(split: Which) -> Self {
-        Group {
-            free: FreeTimes::new(&[0.0; LANES], 1, 1),
-            since: 0.0,
-            split,
-            first: 0,
-            other: 0,
-            thicker: 1,
-            aloof: 0,
-            parent: 0,
-        }
-    }
-
-    fn new(
-        problem: &Problem<'_>,
-        expansion: &Expansion,
-        split: Which,
-        parent: NodeId,
-        other: NodeId,
-        s: f64,
-        mask: u8,
-    ) -> Self {
-        let bounds = &expansion.bounds;
-        let other_is_piece = split.other().of(problem).body.tree().piece(other).is_some();
-        let mut thicker = 0;
-        let mut aloof = 0;
-        for lane in 0..LANES {
-            thicker |= u8::from(bounds.thicker[lane] > 0.0) << lane;
-            aloof |= u8::from(bounds.aloof[lane] > 0.0) << lane;
-        }
-        if other_is_piece {
-            thicker = u8::MAX;
-        }
-        thicker &= !expansion.leaves;
-        Group {
-            free: FreeTimes::new(&bounds.free, expansion.count, mask),
-            parent,
-            aloof,
-            since: s,
-            split,
-            first: expansion.first,
-            other,
-            thicker,
-        }
-    }
-
-    /// The least clock among the pairs, never later than what is certified.
-    #[inline]
-    fn clock(&self) -> f64 {
-        let free = f32::from_bits(self.free.least() & !LANE_BITS);
-        if free > 0.0 {
-            // One step down undoes the rounding of the sum.
-            (self.since + f64::from(free)).next_down().max(self.since)
-        } else {
-            self.since
-        }
-    }
-
-    fn found<C: Default + Clone>(&self, problem: &Problem<'_>, lane: usize) -> Found<C> {
-        let child = self.first + lane as NodeId;
-        let (child_tree, other_tree) = (
-            self.split.of(problem).body.tree(),
-            self.split.other().of(problem).body.tree(),
-        );
-        if self.aloof >> lane & 1 == 1 {
-            return Found::Split(self.split, self.parent, self.other, 1 << lane);
-        }
-        if self.thicker >> lane & 1 == 1 {
-            return Found::Split(self.split, child, self.other, u8::MAX);
-        }
-        match (child_tree.piece(child), other_tree.piece(self.other)) {
-            (Some(child), Some(other)) => Found::Pieces(match self.split {
-                Which::A => Pair::new(child, other),
-                Which::B => Pair::new(other, child),
-            }),
-            _ => Found::Split(self.split.other(), self.other, child, u8::MAX),
-        }
     }
 }

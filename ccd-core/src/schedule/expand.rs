@@ -44,19 +44,37 @@ pub(crate) struct Expansion {
     pub(crate) leaves: u8,
 }
 
-/// Splits `node` of body `split` against `other` of the other body, at clock `s`.
+/// A node to be split, and the other body's node that its children are paired with.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Split {
+    /// Whose node is split.
+    pub(crate) body: Which,
+    pub(crate) node: NodeId,
+    pub(crate) other: NodeId,
+    /// Which of the children are wanted.
+    pub(crate) lanes: u8,
+}
+
+impl Split {
+    /// A split of which all children are wanted.
+    pub(crate) fn all(body: Which, node: NodeId, other: NodeId) -> Self {
+        Split {
+            body,
+            node,
+            other,
+            lanes: u8::MAX,
+        }
+    }
+}
+
+/// Splits a node at clock `s`.
 ///
 /// # Panics
-/// When `node` is a single piece.
-pub(crate) fn expand(
-    problem: &Problem<'_>,
-    split: Which,
-    node: NodeId,
-    other: NodeId,
-    s: f64,
-) -> Expansion {
-    let (near, far) = (split.of(problem), split.other().of(problem));
-    let Named::Node(node) = near.body.tree().get(node) else {
+/// When the node is a single piece.
+pub(crate) fn expand(problem: &Problem<'_>, split: &Split, s: f64) -> Expansion {
+    let (near, far) = (split.body.of(problem), split.body.other().of(problem));
+    let other = split.other;
+    let Named::Node(node) = near.body.tree().get(split.node) else {
         unreachable!("a triangle is a single piece");
     };
     let tree = near.body.tree();

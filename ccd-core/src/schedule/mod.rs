@@ -2,6 +2,7 @@
 
 mod best_first;
 mod expand;
+mod group;
 mod lanes;
 mod moment;
 mod naive;

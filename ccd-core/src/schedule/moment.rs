@@ -260,3 +260,6 @@ impl<'a> Heights<'a> {
         })
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -149,3 +149,6 @@ fn contact(moment: &Moment<'_>, [a, b]: [u32; 2], checked: &Checked) -> Contact 
         piece_b: b,
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -121,3 +121,6 @@ fn key(clock: f64, rank: Rank, serial: u32, index: u32) -> Key {
     // `max` also turns a negative zero into a zero, whose bits order first.
     u128::from(clock.max(0.0).to_bits()) << 64 | u128::from(low)
 }
+
+#[cfg(test)]
+mod tests;

@@ -171,10 +171,6 @@ impl Double3 {
         Double3(self.0.map(|x| x / length))
     }
 
-    pub(crate) fn get(self) -> DVec3 {
-        DVec3::from_array(self.0.map(Double::get))
-    }
-
     /// Turned by the rotation that a quaternion names, of whatever length it is.
     fn rotated(self, q: DQuat) -> Double3 {
         let v = Double3::from(q.xyz());
@@ -219,7 +215,7 @@ pub(crate) fn place(motion: &Motion, duration: f64, s: f64, point: DVec3) -> Dou
 }
 
 /// Where a motion turns a vector of the body, in the world.
-pub(crate) fn turned(motion: &Motion, duration: f64, s: f64, vector: Double3) -> Double3 {
+fn turned(motion: &Motion, duration: f64, s: f64, vector: Double3) -> Double3 {
     let time = Double::from(duration) * Double::from(s);
     let vector = vector.rotated(motion.start().rotation());
     if motion.spin() == DVec3::ZERO {

@@ -140,8 +140,6 @@ pub(crate) struct Scene {
     pub(crate) clock: f64,
     /// For about how long.
     pub(crate) window: f64,
-    /// The sizes of the bodies.
-    pub(crate) sizes: [f64; 2],
 }
 
 impl Scene {
@@ -220,7 +218,6 @@ pub(crate) fn scene(rng: &mut Pcg64, kind: Kind, most: usize) -> Scene {
         },
         clock,
         window: (sizes[0] + sizes[1]) / (velocities[0].distance(velocities[1]) + size),
-        sizes,
     }
 }
 

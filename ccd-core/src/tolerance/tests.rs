@@ -6,7 +6,7 @@ use crate::oracle::{Claim, Combination, PiecePair};
 use crate::pieces::Pieces;
 use crate::problem::{Config, Moving, Problem};
 use crate::separation;
-use crate::tests::double::{Double, Double3, place, turned};
+use crate::tests::double::{Double, Double3, place};
 use crate::tests::scene::{
     Look, Pcg64, RngExt, body, direction, magnitude, rng, rotation, soup, within,
 };
@@ -129,8 +129,12 @@ fn sample(
         b: Combination::point(j),
     };
     let checked = separation::check(&pair, &claim, problem.rounding);
-    // The axis as it was checked, in the world; along a unit vector.
-    let axis = turned(&motions[0], duration, s, Double3::from(checked.axis)).unit();
+    // A bound holds along any axis: the one it was computed along is where A's rounded frame takes
+    // what was claimed.
+    let along = |column: DVec3, by: f64| Double3::from(column).scale(Double::from(by));
+    let (turn, n) = (frames[0].rotation, checked.axis);
+    let axis = along(turn.x_axis, n.x) + along(turn.y_axis, n.y) + along(turn.z_axis, n.z);
+    let axis = axis.unit();
     let heights =
         |points: &[Double3]| -> Vec<Double> { points.iter().map(|&p| axis.dot(p)).collect() };
     let lowest = heights(&exact[1]).into_iter().reduce(Double::min).unwrap();

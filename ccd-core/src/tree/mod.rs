@@ -126,3 +126,6 @@ impl Tree {
             + size_of_val(self.triangles.as_slice())
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -164,7 +164,7 @@ fn linked_tori() -> Scene {
 }
 
 /// T19: comb into comb, until the tips reach the other's base.
-fn combs(teeth: usize) -> Scene {
+pub fn combs(teeth: usize) -> Scene {
     let (apart, speed) = (0.5, 1.0);
     let flipped = comb(teeth).placed(
         DQuat::from_rotation_x(PI),

@@ -5,7 +5,7 @@ mod rounded;
 mod turning;
 mod twisted;
 
-pub use linear::sliding;
+pub use linear::{combs, sliding};
 
 use crate::query::{Actor, Query};
 

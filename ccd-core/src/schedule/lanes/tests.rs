@@ -4,7 +4,7 @@ use super::axis::Axis;
 use super::*;
 use crate::tests::scene::{Pcg64, RngExt, direction, magnitude, rng, rotation, within};
 use crate::tolerance::{
-    ATTACHED_TIME, CLOCK_F32, LEAST_GAP_F32, MUCH_LARGER, RATE_F32, REACH_F32, WAY_F32,
+    ATTACHED_TIME, CLOCK_F32, LEAST_GAP_F32, MUCH_LARGER, PLACES_F32, RATE_F32, REACH_F32, WAY_F32,
 };
 use crate::tree::{Below, BoxGroup, Node, TriangleGroup, unit_normal, up};
 use glam::{DMat3, DQuat, DVec3};
@@ -53,8 +53,6 @@ struct Meeting<C, P> {
     allowed: f32,
     children: Vec<Solid>,
     far: Solid,
-    /// From the other node's centre to the one it turns about.
-    far_arm: DVec3,
     /// Of the children's centre of rotation relative to the other's.
     velocity: DVec3,
 }
@@ -165,26 +163,10 @@ impl<C: Children, P: Other> Meeting<C, P> {
             dot(axis.n, pair.velocity) + self.group.reach(pair.lane, m) + self.other.reach(o);
         let exact = n.dot(self.velocity) + child.fastest(n) + self.far.fastest(-n);
         let below = exact - f64::from(rate);
-        // The other node's arm is the difference of two rounded places. What that adds to a rate
-        // beyond its slack takes no point astray by more than twice the arm's error, at any time,
-        // which is left to the gap's slack.
-        let across = n.cross(self.far.spin).length();
-        let arm = closing.other.centre.as_dvec3() - self.other.centre().as_dvec3();
-        let rate_slack = f64::from(closing.rate_slack);
-        let excess = (below - rate_slack).max(0.0);
-        let off = match excess > 0.0 && across > 0.0 {
-            true => (arm - self.far_arm).length().min(excess / across),
-            false => 0.0,
-        };
-        let unexplained = below - across * off;
-        if off == 0.0 {
-            worst.rate = worst.rate.max(unexplained / rate_slack);
-        } else {
-            assert!(unexplained <= rate_slack * (1.0 + 1e-9), "{closing:?}");
-        }
+        worst.rate = worst.rate.max(below / f64::from(closing.rate_slack));
 
         let gap = -self.far.highest(-n, 0.0) - child.highest(n, 0.0);
-        let above = f64::from(axis.gap) - gap + 2.0 * off;
+        let above = f64::from(axis.gap) - gap;
         worst.support = worst.support.max(above / f64::from(self.allowed));
 
         for (turning, body) in [(closing.split, child), (closing.other, &self.far)] {
@@ -403,7 +385,7 @@ impl Setting {
             radius: node.radius,
         };
         let reach = group.members.reach;
-        self.meeting(group, boxed, reach, children, (self.far(other), self.place))
+        self.meeting(group, boxed, reach, children, self.far(other))
     }
 
     fn triangles(&self, rng: &mut Pcg64, other: &Shape) -> Meeting<TriangleGroup, OtherTriangle> {
@@ -425,7 +407,7 @@ impl Setting {
             radius: up(arms.map(DVec3::length).into_iter().fold(0.0, f64::max)).next_up(),
         };
         let reach = group.members.reach;
-        self.meeting(group, triangle, reach, children, (far, centre))
+        self.meeting(group, triangle, reach, children, far)
     }
 
     /// The allowances as an expansion makes them.
@@ -435,7 +417,7 @@ impl Setting {
         other: P,
         reach: f32,
         children: Vec<Solid>,
-        (far, centre): (Solid, DVec3),
+        far: Solid,
     ) -> Meeting<C, P> {
         let turning = |k: usize| Turning {
             spin: self.spins[k].as_vec3(),
@@ -446,9 +428,11 @@ impl Setting {
         let velocity = self.velocity.as_vec3();
         let [x, y, z] = other.centre().abs().to_array();
         let allowed = WAY_F32 * (x + y + z) + REACH_F32 * (other.radius() + reach);
+        let places = other.centre().length() + turning_far.arm(Vec3::ZERO);
+        let far_arm = turning_far.arm(other.centre()) + PLACES_F32 * places;
         let speed = velocity.length()
             + split.rate * (reach + split.arm(Vec3::ZERO))
-            + turning_far.rate * (other.radius() + turning_far.arm(other.centre()));
+            + turning_far.rate * (other.radius() + far_arm);
         let kept = 1e-3 * other.radius();
         Meeting {
             closing: Closing {
@@ -465,7 +449,6 @@ impl Setting {
             other,
             allowed,
             children,
-            far_arm: far.centre - centre,
             far,
             velocity: self.velocity,
         }

@@ -1,0 +1,122 @@
+//! The queue against a sorted list.
+
+use super::{Queue, Rank};
+use crate::tests::scene::{RngExt, rng};
+use proptest::prelude::*;
+
+/// Everything out, in order.
+fn drain(queue: &mut Queue<u32>) -> Vec<u32> {
+    let mut out = Vec::new();
+    while let Some(visit) = queue.visit() {
+        out.push(*visit.item);
+        visit.remove();
+    }
+    out
+}
+
+#[test]
+fn least_clock_first_then_piece_pairs_then_the_newest() {
+    let mut queue = Queue::default();
+    let pushed = [
+        (0.5, Rank::Group, 6),
+        (0.25, Rank::Group, 3),
+        (0.25, Rank::PiecePair, 1),
+        (0.25, Rank::Group, 2),
+        (0.25, Rank::PiecePair, 0),
+        (0.5, Rank::PiecePair, 5),
+        (0.5 - f64::EPSILON, Rank::Group, 4),
+    ];
+    for (clock, rank, item) in pushed {
+        queue.push(clock, rank, item).unwrap();
+    }
+    assert_eq!(drain(&mut queue), [0, 1, 2, 3, 4, 5, 6]);
+    assert_eq!(queue.peak(), 7);
+    assert!(queue.visit().is_none());
+}
+
+#[test]
+fn clocks_keep_all_their_bits() {
+    let mut queue = Queue::default();
+    let clocks = [-0.0, 0.0, 5e-324, 1e-300, 0.1, 0.1f64.next_up(), 1.0f64.next_down()];
+    for (item, &clock) in clocks.iter().enumerate().rev() {
+        queue.push(clock, Rank::Group, item as u32).unwrap();
+    }
+    for &clock in &clocks {
+        let visit = queue.visit().unwrap();
+        assert_eq!(visit.clock, clock);
+        visit.remove();
+    }
+}
+
+#[test]
+fn places_are_used_again() {
+    let mut queue = Queue::default();
+    for round in 0..100 {
+        for item in 0..10 {
+            queue.push(0.1, Rank::Group, item).unwrap();
+        }
+        let out = drain(&mut queue);
+        assert_eq!(out, (0..10).rev().collect::<Vec<_>>(), "round {round}");
+    }
+    assert_eq!(queue.items.len(), 10);
+    assert_eq!(queue.peak(), 10);
+    queue.clear();
+    assert_eq!(queue.peak(), 0);
+    assert!(queue.visit().is_none());
+}
+
+#[test]
+fn what_is_postponed_waits_in_its_place() {
+    let mut queue = Queue::default();
+    for (clock, item) in [(0.1, 0), (0.2, 1), (0.3, 2)] {
+        queue.push(clock, Rank::Group, item).unwrap();
+    }
+    let visit = queue.visit().unwrap();
+    *visit.item = 7;
+    visit.postpone(0.25);
+    // Dropping a visit leaves the item where it is.
+    assert_eq!(*queue.visit().unwrap().item, 1);
+    assert_eq!(drain(&mut queue), [1, 7, 2]);
+}
+
+proptest! {
+    #[test]
+    fn any_sequence_comes_out_as_a_sorted_list_would(seed in any::<u64>()) {
+        let mut rng = rng(seed);
+        let mut queue = Queue::default();
+        // Clock, rank, and age, newest first.
+        let mut list: Vec<(f64, u8, i32, u32)> = Vec::new();
+        let mut peak = 0;
+        for step in 0..300 {
+            // Few clocks, so that many are equal.
+            let clock = f64::from(rng.random_range(0..8)) / 8.0;
+            list.sort_by(|x, y| x.partial_cmp(y).unwrap());
+            match rng.random_range(0..4) {
+                0 | 1 => {
+                    let rank = [Rank::PiecePair, Rank::Group][rng.random_range(0..2)];
+                    queue.push(clock, rank, step as u32).unwrap();
+                    list.push((clock, rank as u8, -step, step as u32));
+                    peak = peak.max(list.len());
+                }
+                2 => match queue.visit() {
+                    Some(visit) => {
+                        let first = list.remove(0);
+                        prop_assert_eq!((visit.clock, *visit.item), (first.0, first.3));
+                        visit.remove();
+                    }
+                    None => prop_assert!(list.is_empty()),
+                },
+                _ => if let Some(visit) = queue.visit() {
+                    prop_assert_eq!(*visit.item, list[0].3);
+                    let later = visit.clock.max(clock);
+                    list[0].0 = later;
+                    visit.postpone(later);
+                },
+            }
+        }
+        list.sort_by(|x, y| x.partial_cmp(y).unwrap());
+        let rest: Vec<u32> = list.iter().map(|item| item.3).collect();
+        prop_assert_eq!(drain(&mut queue), rest);
+        prop_assert_eq!(queue.peak(), peak as u64);
+    }
+}

@@ -1,0 +1,74 @@
+//! Over a million pairs of pieces at once, and tens of millions that must not all be looked at.
+
+use ccd_core::glam::DVec3;
+use ccd_core::{Answer, Config, Outcome};
+use ccd_tests::analytic::{Expect, combs};
+use ccd_tests::backends::{Backend, Oracle, Order};
+use ccd_tests::models::parallel_plate;
+use ccd_tests::query::{Actor, Query};
+
+/// A plate of `2·cells²` triangles falls flat onto another, to touch at half time.
+fn falling_plate(cells: usize, backend: Backend, tolerance: f64) -> Answer {
+    let high = DVec3::new(0.3, 0.2, 0.5);
+    let query = Query {
+        a: Actor::moving(parallel_plate(cells), high, -DVec3::Z, DVec3::ZERO),
+        b: Actor::still(parallel_plate(cells), DVec3::ZERO),
+        duration: 1.0,
+    };
+    let config = Config {
+        tolerance,
+        budget: u64::MAX,
+        ..Config::default()
+    };
+    let bodies = query.triangles();
+    backend.solve(&query.problem(&bodies, &config))
+}
+
+fn check(answer: &Answer) {
+    let Outcome::Contact { time, .. } = answer.outcome else {
+        panic!("{answer:?}");
+    };
+    let earliest = 0.5 - answer.tolerance - 1e-12;
+    assert!((earliest..=0.5).contains(&time), "{answer:?}");
+}
+
+#[test]
+fn a_million_pairs_kept_at_once() {
+    let naive = Backend {
+        order: Order::Naive,
+        oracle: Oracle::Direct,
+    };
+    let answer = falling_plate(23, naive, 1e-3);
+    assert!(answer.stats.peak_front > 1_000_000, "{answer:?}");
+    check(&answer);
+}
+
+#[test]
+fn sixty_million_pairs_touching_at_once() {
+    for tolerance in [1e-3, 1e-6, 1e-9] {
+        check(&falling_plate(64, Backend::DEFAULT, tolerance));
+    }
+}
+
+/// T19; the queue holds teeth by the thousand.
+#[test]
+fn combs_of_many_teeth() {
+    let teeth = if std::env::var_os("CCD_TEST_SLOW").is_some() {
+        512
+    } else {
+        96
+    };
+    let scene = combs(teeth);
+    let Expect::Hit { earliest, latest } = &scene.expect else {
+        panic!("combs meet");
+    };
+    let bodies = scene.query.triangles();
+    let answer = Backend::DEFAULT.solve(&scene.query.problem(&bodies, &Config::default()));
+    let Outcome::Contact { time, .. } = answer.outcome else {
+        panic!("{answer:?}");
+    };
+    assert!(
+        (earliest(answer.tolerance) - 1e-12..=*latest).contains(&time),
+        "{answer:?}"
+    );
+}
