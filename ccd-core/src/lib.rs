@@ -1,11 +1,81 @@
-//! Certified continuous collision detection for rigid bodies.
-#![doc = "WIP"]
-
+//! Certified continuous collision detection for rigid bodies: two bodies move; when do they first
+//! touch, where, and with which features?
+//!
+//! A [`Body`] is a set of convex [pieces](Pieces) with a tree over them; a [`Motion`] carries it
+//! along; a [`Problem`] poses the query; a [`Schedule`] answers it with the help of a
+//! [`DistanceOracle`], the backend that measures the distance of two pieces. Backends, mesh files and
+//! commands live in crates of their own: this one knows no backend, no file, no IO.
+//!
+//! # Guarantee
+//! 1. **Never late.** For every time reported, no contact happens before it: for every mesh, motion
+//!    and backend, in floating point.
+//! 2. **Tight.** With [`Outcome::Contact`] the distance at that time is within margin + tolerance,
+//!    shown by two witness points.
+//! 3. **Always ends.** When a limit is reached, the outcome is [`Outcome::Unresolved`], and its time
+//!    is still a certified lower bound. Bad input is a typed [`InputError`].
+//! 4. **Checkable.** A backend is never believed: its claim is [checked](Separation) with one support
+//!    query. A wrong one makes a query slow or unresolved, never late.
+//! 5. **Same answer** whichever backend, schedule or order of the two bodies, within the tolerance;
+//!    the same call twice gives the same bits.
+//!
+//! # From the paper to the files
+//! | step | where |
+//! |---|---|
+//! | motion between two poses `[FAST06 §4.1]` | `motion.rs`, in a query's own units `path.rs` |
+//! | how far a body can advance along an axis `[FAST06 §4.2]` | [`motion_bound`], eight nodes at once `schedule/lanes/` |
+//! | hierarchy of bounding volumes `[FAST06 §5.1]` | `hierarchy.rs`, laid out for vector units `tree/` |
+//! | distance of two pieces, and its check | `oracle.rs`, `separation.rs` |
+//! | conservative advancement, all pairs `[FAST06 Alg. 1]` | `schedule/naive.rs` |
+//! | conservative advancement, best first | `schedule/best_first.rs` |
+//! | one pair of pieces at one moment | `schedule/pair.rs`, `schedule/moment.rs` |
+//! | contact at the start, one body inside the other | `schedule/start.rs`, `overlap.rs`, `containment.rs` |
+//! | every allowance for rounding | [`tolerance`] |
+//!
+//! # Example
+//! ```
+//! use ccd_core::{glam::DVec3, schedule::{BestFirst, Schedule}, *};
+//!
+//! /// The distance of two points, which is all that two balls need.
+//! #[derive(Default)]
+//! struct Points;
+//!
+//! impl DistanceOracle for Points {
+//!     type Cache = ();
+//!     fn separation(&mut self, pair: &PiecePair<'_>, _: &mut ()) -> Result<Claim, GiveUp> {
+//!         let ([a], [b]) = (pair.a.points, pair.b.points) else {
+//!             return Err(GiveUp::TooManyPoints);
+//!         };
+//!         Ok(Claim {
+//!             axis: pair.b_to_a.point(*b) - *a,
+//!             a: Combination::point(0),
+//!             b: Combination::point(0),
+//!         })
+//!     }
+//! }
+//!
+//! let ball = Body::ball(0.5)?;
+//! let start = Pose::from_translation(DVec3::new(-3.0, 0.0, 0.0))?;
+//! let problem = Problem::new(
+//!     Moving { body: &ball, motion: Motion::new(start, 4.0 * DVec3::X, DVec3::Z)? },
+//!     Moving { body: &ball, motion: Motion::still(Pose::IDENTITY) },
+//!     1.0,
+//!     &Config { tolerance: 1e-6, ..Config::default() },
+//! )?;
+//! let answer = BestFirst::default().solve(&problem, &mut Points);
+//! let Outcome::Contact { time, .. } = answer.outcome else { panic!("they meet") };
+//! assert!(time <= 0.5 && time > 0.5 - 1e-6);
+//! # Ok::<(), InputError>(())
+//! ```
+//!
+//! # Features
+//! - `nalgebra`: conversions between [`Pose`] and `nalgebra::Isometry3<f64>`.
 mod body;
 mod containment;
 mod error;
 mod feature;
 mod hierarchy;
+#[cfg(feature = "nalgebra")]
+mod interop;
 mod motion;
 pub mod motion_bound;
 mod oracle;

@@ -185,3 +185,6 @@ impl<First: DistanceOracle, Second: DistanceOracle> DistanceOracle for OrElse<Fi
         })
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -346,3 +346,6 @@ fn range(ends: &[u32], k: usize) -> std::ops::Range<usize> {
     let start = if k == 0 { 0 } else { ends[k - 1] };
     start as usize..ends[k] as usize
 }
+
+#[cfg(test)]
+mod tests;

@@ -94,3 +94,6 @@ fn unit(v: DVec3) -> DVec3 {
         DVec3::X
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -35,17 +35,30 @@ fn whatever_is_none_is_refused_where_it_fails() {
     assert_eq!(refused(&[Inner(0, 1), Leaf(0)], 1), 0);
     assert_eq!(refused(&[Inner(1, 2), Leaf(0), Leaf(1), Leaf(2)], 2), 3);
     assert_eq!(refused(&[Inner(1, 7), Leaf(0)], 1), 7);
-    assert_eq!(refused(&[Inner(1, u32::MAX), Leaf(0)], 1), u32::MAX as usize);
+    assert_eq!(
+        refused(&[Inner(1, u32::MAX), Leaf(0)], 1),
+        u32::MAX as usize
+    );
 }
 
 #[test]
 fn a_hierarchy_of_other_pieces_is_refused() {
     let mut rng = rng(1);
-    let of = |count| Hierarchy::median_split(&pieces(&soup(&mut crate::tests::scene::rng(2), Look::Plump, count, 1.0)));
+    let of = |count| {
+        Hierarchy::median_split(&pieces(&soup(
+            &mut crate::tests::scene::rng(2),
+            Look::Plump,
+            count,
+            1.0,
+        )))
+    };
     let pieces = pieces(&soup(&mut rng, Look::Plump, 5, 1.0));
     for count in [1, 4, 6, 40] {
         let made = Body::with_hierarchy(&pieces, &of(count), Volume::Surface);
-        assert!(matches!(made, Err(InputError::BadHierarchy { .. })), "{count}");
+        assert!(
+            matches!(made, Err(InputError::BadHierarchy { .. })),
+            "{count}"
+        );
     }
     assert!(Body::with_hierarchy(&pieces, &of(5), Volume::Surface).is_ok());
 }
@@ -61,7 +74,10 @@ fn the_median_split_is_a_tree_and_balanced() {
             assert_eq!(nodes.len(), 2 * count - 1);
             assert!(Hierarchy::new(nodes.clone(), count).is_ok());
             let depth = depth(&nodes, 0);
-            assert!(depth <= 1 + count.next_power_of_two().ilog2(), "{depth} for {count}");
+            assert!(
+                depth <= 1 + count.next_power_of_two().ilog2(),
+                "{depth} for {count}"
+            );
         }
     }
 }

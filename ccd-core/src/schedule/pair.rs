@@ -24,6 +24,8 @@ pub(crate) struct Pair<C> {
 enum Goal {
     /// In contact at the query's tolerance; half of it is proven kept.
     Apart,
+    /// The same for a pair that began in contact and has come apart since.
+    Parted,
     /// Began within the tolerance: in contact at half the gap it began with.
     LetGo { tolerance: f64 },
     /// Began in contact to within rounding: in contact once it cannot be proven above this.
@@ -73,17 +75,19 @@ impl<C: Default + Clone> Pair<C> {
             if s == 0.0 && overlap::intersects(&moment.pieces, &checked, problem.rounding) {
                 return Step::Overlap(contact());
             }
-            if self.goal == Goal::Apart {
-                match self.goal_of_start(problem, oracle, stats) {
+            match self.goal {
+                Goal::Apart => match self.goal_of_start(problem, oracle, stats) {
                     Some(goal) => self.goal = goal,
                     None => return Step::Contact(contact()),
-                }
+                },
+                Goal::Parted => return Step::Contact(contact()),
+                Goal::LetGo { .. } | Goal::Resting { .. } => {}
             }
-        } else if checked.lower > apart {
-            self.goal = Goal::Apart;
+        } else if checked.lower > apart && self.goal != Goal::Apart {
+            self.goal = Goal::Parted;
         }
         let kept = match self.goal {
-            Goal::Apart => problem.gap(),
+            Goal::Apart | Goal::Parted => problem.gap(),
             Goal::LetGo { tolerance } if checked.upper <= problem.margin + tolerance => {
                 return Step::Contact(contact());
             }

@@ -2,8 +2,8 @@
 
 use super::*;
 use crate::body::{Body, Volume};
-use crate::pieces::Pieces;
 use crate::piece::Polytope;
+use crate::pieces::Pieces;
 use crate::tests::nearest::Triangle;
 use crate::tests::scene::{Look, Pcg64, RngExt, body, direction, magnitude, rng, soup, within};
 use glam::DVec3;
@@ -24,9 +24,8 @@ fn check(body: &Body) -> usize {
 }
 
 fn farthest(pieces: &Pieces) -> f64 {
-    let reach = |p: crate::Piece<'_>| {
-        p.points.iter().map(|x| x.length()).fold(0.0, f64::max) + p.radius
-    };
+    let reach =
+        |p: crate::Piece<'_>| p.points.iter().map(|x| x.length()).fold(0.0, f64::max) + p.radius;
     pieces.iter().map(reach).fold(0.0, f64::max)
 }
 
@@ -99,9 +98,8 @@ fn check_node(node: &Node, pieces: &Pieces, below: &[u32]) {
 
 /// So does the row of a group, about the centre that is rounded there.
 fn check_row(group: &BoxGroup, lane: usize, pieces: &Pieces, below: &[u32]) {
-    let at = |rows: &[[f32; LANES]; 3]| {
-        DVec3::from_array([0, 1, 2].map(|k| f64::from(rows[k][lane])))
-    };
+    let at =
+        |rows: &[[f32; LANES]; 3]| DVec3::from_array([0, 1, 2].map(|k| f64::from(rows[k][lane])));
     let centre = group.members.origin + at(&group.centre);
     for &piece in below {
         let piece = pieces.get(piece as usize);

@@ -27,7 +27,7 @@ fn balls<R>(x: f64, speed: f64, config: &Config, then: impl FnOnce(&Problem<'_>)
 fn run(problem: &Problem<'_>) -> (f64, Step) {
     let mut pair = Pair::new(0, 0);
     let mut s = 0.0;
-    for _ in 0..64 {
+    for _ in 0..128 {
         match pair.advance(problem, &mut Exhaustive, &mut Stats::default(), s) {
             Step::FreeUntil(clock) if clock < 1.0 => {
                 assert!(clock > s);
@@ -36,7 +36,7 @@ fn run(problem: &Problem<'_>) -> (f64, Step) {
             step => return (s, step),
         }
     }
-    panic!("no end after 64 steps, at {s}");
+    panic!("no end after 128 steps, at {s}");
 }
 
 #[test]
@@ -94,7 +94,8 @@ fn what_touches_at_the_start_is_let_go_unless_it_approaches() {
     // Touching again after it came apart is a contact at the query's own tolerance.
     let (s, step) = returning(&config, run);
     assert!(matches!(step, Step::Contact(_)));
-    assert!(s > 0.9 && s <= 1.0, "{s}");
+    let exact = 1.0 - 2.0 * 0.2f64.atan2(0.9) / std::f64::consts::PI;
+    assert!(s > exact - 1e-3 && s <= exact + 1e-12, "{s}");
 }
 
 /// A bar that turns about z away from the one it touches, and back to it from the other side.
@@ -104,7 +105,7 @@ fn returning<R>(config: &Config, then: impl FnOnce(&Problem<'_>) -> R) -> R {
     let turn = std::f64::consts::TAU;
     let a = Moving {
         body: &bar,
-        // Both ends come around: half a turn is enough.
+        // Its other end comes around.
         motion: Motion::new(Pose::IDENTITY, DVec3::ZERO, 0.5 * turn * DVec3::Y).unwrap(),
     };
     let beside = Pose::from_translation(DVec3::new(-0.2, 0.0, 0.9)).unwrap();

@@ -37,7 +37,15 @@ fn least_clock_first_then_piece_pairs_then_the_newest() {
 #[test]
 fn clocks_keep_all_their_bits() {
     let mut queue = Queue::default();
-    let clocks = [-0.0, 0.0, 5e-324, 1e-300, 0.1, 0.1f64.next_up(), 1.0f64.next_down()];
+    let clocks = [
+        -0.0,
+        0.0,
+        5e-324,
+        1e-300,
+        0.1,
+        0.1f64.next_up(),
+        1.0f64.next_down(),
+    ];
     for (item, &clock) in clocks.iter().enumerate().rev() {
         queue.push(clock, Rank::Group, item as u32).unwrap();
     }

@@ -1,0 +1,86 @@
+//! Combinations, and oracles that are asked in turn.
+
+use super::*;
+use crate::tests::oracle::Always;
+use crate::tests::scene::{RngExt, rng, within};
+
+#[test]
+fn terms_are_merged_dropped_and_capped() {
+    let mut out = Combination::EMPTY;
+    for weight in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        out.push(0, weight);
+    }
+    assert_eq!(out, Combination::EMPTY);
+    assert!(out.support().is_empty());
+    for (index, weight) in [(4, 1.0), (7, 2.0), (4, 3.0), (0, 1.0), (1, 1.0), (9, 1.0)] {
+        out.push(index, weight);
+    }
+    // The fifth distinct index found no place.
+    assert_eq!(out.support(), [4, 7, 0, 1]);
+    assert_eq!(Combination::point(3).support(), [3]);
+    assert_eq!(Combination::segment([3, 5], 0.0).support(), [3]);
+    assert_eq!(Combination::segment([3, 5], 1.0).support(), [5]);
+    assert_eq!(Combination::segment([3, 3], 0.5).support(), [3]);
+}
+
+#[test]
+fn a_combination_names_a_point_of_the_hull() {
+    let mut rng = rng(1);
+    for _ in 0..1_000 {
+        let points = [(); 4].map(|()| within(&mut rng, 1e6));
+        let weights = [(); 4].map(|()| rng.random_range(1e-3..1.0));
+        let mut out = Combination::EMPTY;
+        for (k, weight) in weights.into_iter().enumerate() {
+            out.push(k as u32, weight);
+        }
+        let sum: f64 = weights.iter().sum();
+        let exact: DVec3 = points
+            .iter()
+            .zip(weights)
+            .map(|(&p, w)| p * (w / sum))
+            .sum();
+        assert!(out.of(&points).unwrap().distance(exact) < 1e-8);
+        let half = Combination::segment([0, 1], 0.5).of(&points).unwrap();
+        assert!(half.distance(points[0].midpoint(points[1])) < 1e-9);
+    }
+    let points = [DVec3::ONE];
+    assert_eq!(Combination::point(0).of(&points), Some(DVec3::ONE));
+    assert_eq!(Combination::point(1).of(&points), None);
+    assert_eq!(Combination::segment([0, 1], 0.5).of(&points), None);
+    assert_eq!(Combination::EMPTY.of(&points), None);
+}
+
+fn ask<O: DistanceOracle>(oracle: &mut O) -> Result<Claim, GiveUp> {
+    let points = [DVec3::ZERO];
+    let piece = Piece::from_points(&points);
+    let pair = PiecePair {
+        a: piece,
+        b: piece,
+        b_to_a: Frame::IDENTITY,
+    };
+    oracle.separation(&pair, &mut O::Cache::default())
+}
+
+#[test]
+fn the_second_oracle_is_asked_where_the_first_gives_up() {
+    let claim = |axis| Claim {
+        axis,
+        a: Combination::point(0),
+        b: Combination::point(0),
+    };
+    let (first, second) = (claim(DVec3::X), claim(DVec3::Y));
+    let mut sure = Always(Ok(first)).or_else(Always(Ok(second)));
+    assert_eq!(ask(&mut sure), Ok(first));
+    assert_eq!(sure.fallbacks(), 0);
+    let mut unsure = Always(Err(GiveUp::Cycle)).or_else(Always(Ok(second)));
+    assert_eq!(ask(&mut unsure), Ok(second));
+    assert_eq!(ask(&mut unsure), Ok(second));
+    assert_eq!(unsure.fallbacks(), 2);
+    let mut hopeless = Always(Err(GiveUp::Cycle)).or_else(Always(Err(GiveUp::StepCap)));
+    assert_eq!(ask(&mut hopeless), Err(GiveUp::StepCap));
+    // A chain of three.
+    let mut chain = Always(Err(GiveUp::Cycle))
+        .or_else(Always(Err(GiveUp::StepCap)))
+        .or_else(Always(Ok(first)));
+    assert_eq!(ask(&mut chain), Ok(first));
+}
