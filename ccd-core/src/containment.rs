@@ -51,3 +51,6 @@ fn contains(body: &Body, point: DVec3) -> Option<bool> {
         .find_map(|&ray| crossings(body.tree(), body.pieces(), point, ray))
         .map(|windings| windings != 0)
 }
+
+#[cfg(test)]
+mod tests;

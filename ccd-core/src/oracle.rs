@@ -2,6 +2,7 @@
 
 use crate::piece::Piece;
 use crate::pose::Frame;
+use crate::tolerance::WEIGHTS;
 use glam::DVec3;
 
 /// A backend: finds how far two convex pieces are apart.
@@ -104,11 +105,11 @@ impl Combination {
         out
     }
 
-    /// Adds a term; weights that are not positive are dropped, equal indices are merged, terms
-    /// beyond four distinct indices are dropped.
+    /// Adds a term; weights that are not positive, or outside of [`WEIGHTS`], are dropped, equal
+    /// indices are merged, terms beyond four distinct indices are dropped.
     pub fn push(&mut self, index: u32, weight: f64) {
-        // Written so that NaN is dropped.
-        if !(weight > 0.0 && weight.is_finite()) {
+        // NaN is in no range.
+        if !WEIGHTS.contains(&weight) {
             return;
         }
         let len = self.len as usize;

@@ -67,3 +67,6 @@ fn directions(piece: &Piece<'_>, turn: impl Fn(DVec3) -> DVec3) -> (Vec<DVec3>, 
     }
     (edges, normals)
 }
+
+#[cfg(test)]
+mod tests;

@@ -163,3 +163,7 @@ pub const CLOSED_GAP: f64 = 1.0 / 16.0;
 
 #[cfg(test)]
 mod tests;
+
+/// The weights that a convex combination may have before they are divided by their sum: no product
+/// of one with a coordinate, and no sum of four, overflows or underflows.
+pub const WEIGHTS: std::ops::RangeInclusive<f64> = 1e-100..=1e100;

@@ -116,7 +116,7 @@ impl<T> Visit<'_, T> {
 }
 
 fn key(clock: f64, rank: Rank, serial: u32, index: u32) -> Key {
-    let age = u64::from(!serial >> 1);
+    let age = u64::from(!serial & (u32::MAX >> 1));
     let low = (rank as u64) << 63 | age << 32 | u64::from(index);
     // `max` also turns a negative zero into a zero, whose bits order first.
     u128::from(clock.max(0.0).to_bits()) << 64 | u128::from(low)

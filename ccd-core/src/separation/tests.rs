@@ -13,8 +13,8 @@ const ROUNDING: f64 = 1e-13;
 /// A random pair of triangles, and its exact distance.
 fn couple(rng: &mut Pcg64) -> (Triangle, Triangle, Frame, f64) {
     let look = Look::ALL[rng.random_range(0..5)];
-    let pair = soup(rng, look, 2, 1.0);
-    let pose = Pose::new(within(rng, 2.0), rotation(rng)).unwrap();
+    let pair = soup(rng, look, 2, 0.7);
+    let pose = Pose::new(within(rng, 1.0), rotation(rng)).unwrap();
     let frame = Frame::from(pose);
     let distance = nearest(&pair[0], &pair[1].map(|p| frame.point(p))).distance;
     (pair[0], pair[1], frame, distance)
@@ -105,7 +105,7 @@ fn a_true_claim_is_tight() {
             across += 1;
         }
     }
-    assert!(apart > 5_000 && across > 100, "{apart} {across}");
+    assert!(apart > 5_000 && across > 40, "{apart} {across}");
 }
 
 /// Weights that overflow when they are summed must not make two distant pieces touch.
