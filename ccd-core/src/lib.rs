@@ -94,6 +94,7 @@ mod shell;
 mod tests;
 pub mod tolerance;
 mod tree;
+mod trig;
 
 pub use body::{Body, Volume};
 pub use error::InputError;

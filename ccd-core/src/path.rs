@@ -3,6 +3,7 @@
 
 use crate::motion::Motion;
 use crate::pose::Frame;
+use crate::trig::sin_cos;
 use glam::{DMat3, DVec3};
 
 /// `R(s) = cos(ω s) A + sin(ω s) B + C` about a centre at `start + s · velocity` `[FAST06 §4.1]`.
@@ -53,7 +54,7 @@ impl Path {
     #[inline]
     pub(crate) fn frame(&self, s: f64) -> Frame {
         let rotation = if self.rate > 0.0 {
-            let (sin, cos) = (self.rate * s).sin_cos();
+            let (sin, cos) = sin_cos(self.rate * s);
             self.cosine * cos + self.sine * sin + self.constant
         } else {
             self.cosine + self.constant

@@ -14,7 +14,7 @@ fn every_setup_repeats_itself() {
         let (query, config) = (case.query(), case.config());
         let mut first = Vec::new();
         for_each_setup(&query, &config, |_, _, answer| {
-            first.push(format!("{answer:?}"))
+            first.push(format!("{answer:?}"));
         });
         let mut first = first.into_iter();
         let mut law = Ok(());

@@ -77,8 +77,8 @@ impl Backend {
     /// Answers with a fresh schedule and a fresh oracle.
     pub fn solve(self, problem: &Problem<'_>) -> Answer {
         match self.oracle {
-            Oracle::Direct => self.solve_with(problem, &mut Direct::default()),
-            Oracle::Gjk => self.solve_with(problem, &mut Gjk::default()),
+            Oracle::Direct => self.solve_with(problem, &mut Direct),
+            Oracle::Gjk => self.solve_with(problem, &mut Gjk),
             Oracle::GjkF32 => self.solve_with(problem, &mut GjkF32::default()),
             Oracle::Auto => self.solve_with(problem, &mut Auto::default()),
         }

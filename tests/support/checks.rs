@@ -22,12 +22,14 @@ pub struct Judge<'a> {
 /// Holds, or says why not.
 pub type Law = Result<(), String>;
 
+/// Returns the reason unless the condition holds; comparisons with NaN do not.
 macro_rules! law {
-    ($holds:expr, $($why:tt)*) => {
-        if !$holds {
+    ($holds:expr, $($why:tt)*) => {{
+        let holds: bool = $holds;
+        if !holds {
             return Err(format!($($why)*));
         }
-    };
+    }};
 }
 
 impl<'a> Judge<'a> {
@@ -201,6 +203,8 @@ pub fn check_contact(
         distance >= lower - rounding,
         "the witnesses are {distance} apart, not {lower}"
     );
+    let along = (witness_b - witness_a).dot(normal);
+    law!(along >= lower - rounding, "the normal {normal} does not point from A to B");
     let places = Placement::pair(query);
     // Placements are relative to A's centre, witnesses are not.
     let drift = places[0].origin() + time * query.a.motion.velocity();

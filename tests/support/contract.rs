@@ -220,7 +220,8 @@ pub fn cache_law<O: DistanceOracle>(
     };
     let distance = pair.distance();
     let off = |checked: Checked| (checked.upper - distance).max(distance - checked.lower);
-    if distance > pair.rounding() && !(off(stale) <= off(fresh) + slack + pair.rounding()) {
+    let as_good = off(stale) <= off(fresh) + slack + pair.rounding();
+    if distance > pair.rounding() && !as_good {
         return Err(format!(
             "stale {stale:?}, fresh {fresh:?}, distance {distance}"
         ));

@@ -8,7 +8,7 @@ use crate::pose::{Frame, Pose};
 use crate::separation;
 use crate::tests::nearest::{Triangle, nearest};
 use crate::tests::oracle::Exhaustive;
-use crate::tests::scene::{Look, RngExt, rng, rotation, soup, within};
+use crate::tests::scene::{couple, rng, rotation, within};
 use glam::DVec3;
 
 const ROUNDING: f64 = 1e-13;
@@ -70,8 +70,7 @@ fn what_is_apart_never_intersects_and_what_crosses_deeply_does() {
     let mut rng = rng(1);
     let (mut crossing, mut apart) = (0, 0);
     for _ in 0..20_000 {
-        let look = Look::ALL[rng.random_range(0..5)];
-        let pair = soup(&mut rng, look, 2, 0.5);
+        let pair = couple(&mut rng);
         let found = nearest(&pair[0], &pair[1]).distance;
         let overlap = triangles(&pair[0], &pair[1]);
         if found > 1e-12 {

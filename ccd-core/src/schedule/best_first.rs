@@ -172,3 +172,6 @@ fn smaller(problem: &Problem<'_>) -> Which {
         false => Which::A,
     }
 }
+
+#[cfg(test)]
+mod tests;

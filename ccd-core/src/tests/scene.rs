@@ -87,6 +87,16 @@ pub(crate) fn soup(rng: &mut Pcg64, look: Look, count: usize, size: f64) -> Vec<
         .collect()
 }
 
+/// Two triangles of any look, or two plump ones that often cross.
+pub(crate) fn couple(rng: &mut Pcg64) -> [Triangle; 2] {
+    if rng.random_bool(0.5) {
+        return [(); 2].map(|()| [(); 3].map(|()| within(rng, 1.0)));
+    }
+    let look = Look::ALL[rng.random_range(0..5)];
+    let pair = soup(rng, look, 2, 0.5);
+    [pair[0], pair[1]]
+}
+
 pub(crate) fn body(triangles: &[Triangle]) -> Body {
     Body::new(pieces(triangles), Volume::Surface).unwrap()
 }

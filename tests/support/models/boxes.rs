@@ -93,7 +93,7 @@ pub fn mace(length: f64, width: f64) -> Shape {
     Shape::union([icosphere(0.1, 1), arm])
 }
 
-/// An L of two bars, 20 coplanar-rich triangles as one closed surface; two boxes as parts.
+/// An L of two bars: 20 triangles, many of them coplanar, as one closed surface.
 pub fn l_prism() -> Shape {
     let outline: [[f64; 2]; 6] = [
         [0.0, 0.0],

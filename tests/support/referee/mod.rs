@@ -109,7 +109,7 @@ impl<'a> Referee<'a> {
             }
             // The distance falls no faster than `speed`.
             time += KEPT * gap / speed;
-            if !(time < self.query.duration) {
+            if time >= self.query.duration {
                 return Verdict::Free {
                     gap: least + self.margin,
                 };

@@ -109,11 +109,8 @@ fn pierces([p, q]: [DVec3; 2], [a, b, c]: [DVec3; 3]) -> bool {
     let volume = |u: DVec3, v: DVec3, w: DVec3| (u - p).dot((v - p).cross(w - p));
     let normal = (b - a).cross(c - a);
     let (s, t) = (normal.dot(p - a), normal.dot(q - a));
-    if !(s * t < 0.0) {
-        return false;
-    }
     let sides = [volume(q, a, b), volume(q, b, c), volume(q, c, a)];
-    sides.iter().all(|&v| v > 0.0) || sides.iter().all(|&v| v < 0.0)
+    s * t < 0.0 && (sides.iter().all(|&v| v > 0.0) || sides.iter().all(|&v| v < 0.0))
 }
 
 /// The squared distance of two edges: their inner feet where both have one, else end points.

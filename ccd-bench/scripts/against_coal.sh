@@ -1,0 +1,32 @@
+#!/usr/bin/env bash
+# Times full queries, each row once and cold, against one static distance query of Coal on the same
+# rows, in one run on one core.
+#
+# usage: against_coal.sh SCENES PEER [OUT] [extra options of `ccd query` ...]
+#   SCENES   folder with meshes (*.obj) and motions (*.csv)
+#   PEER     a program that is called as `PEER a.obj b.obj motions.csv` and prints a column distance_us
+#   OUT      folder for the results, default a new one
+set -euo pipefail
+here=$(cd "$(dirname "$0")" && pwd)
+. "$here/pairs.sh"
+scenes=$1
+peer=$2
+out=${3:-$(mktemp -d)}
+shift $(($# < 3 ? $# : 3))
+ccd=${CCD:-$here/../../target/release/ccd}
+core=${CORE:-1}
+echo "pair,median_us,mean_us,coal_median_us,coal_mean_us,median_ratio,mean_ratio"
+while read -r name a b motions; do
+    files=("$scenes/$a.obj" "$scenes/$b.obj" "$scenes/$motions.csv")
+    taskset -c "$core" "$ccd" query --quiet --a "${files[0]}" --b "${files[1]}" \
+        --motions "${files[2]}" --tolerance 1e-3 --repeat 1 --out "$out/$name.csv" "$@"
+    taskset -c "$core" python3 "$peer" "${files[@]}" >"$out/$name-coal.csv"
+    python3 - "$name" "$out/$name.csv" "$out/$name-coal.csv" <<'PY'
+import csv, statistics, sys
+name, ours, coal = sys.argv[1:]
+read = lambda path, column: [float(row[column]) for row in csv.DictReader(open(path))]
+a, b = read(ours, "micros"), read(coal, "distance_us")
+m, n = statistics.median, statistics.mean
+print(f"{name},{m(a):.1f},{n(a):.1f},{m(b):.1f},{n(b):.1f},{m(a)/m(b):.3f},{n(a)/n(b):.3f}", flush=True)
+PY
+done <<<"$pairs"

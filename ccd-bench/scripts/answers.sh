@@ -1,0 +1,27 @@
+#!/usr/bin/env bash
+# Holds the answers of `ccd query` against certified brackets of the first contact, for every pair of
+# meshes, oracle and tolerance.
+#
+# usage: answers.sh SCENES VERDICT [OUT] [extra options of `ccd query` ...]
+#   SCENES   folder with meshes (*.obj), motions (*.csv) and brackets (truth_*.csv)
+#   VERDICT  a program that is called as `VERDICT truth.csv result.csv` and prints the counts
+#   OUT      folder for the results, default a new one
+set -euo pipefail
+here=$(cd "$(dirname "$0")" && pwd)
+. "$here/pairs.sh"
+scenes=$1
+verdict=$2
+out=${3:-$(mktemp -d)}
+shift $(($# < 3 ? $# : 3))
+ccd=${CCD:-$here/../../target/release/ccd}
+for tolerance in 1e-3 1e-6; do
+    for oracle in direct gjk gjk-f32; do
+        while read -r name a b motions; do
+            result=$out/$name-$oracle-$tolerance.csv
+            "$ccd" query --quiet --a "$scenes/$a.obj" --b "$scenes/$b.obj" \
+                --motions "$scenes/$motions.csv" --oracle "$oracle" --tolerance "$tolerance" \
+                --out "$result" "$@"
+            echo "$name $oracle $tolerance $(python3 "$verdict" "$scenes/truth_$name.csv" "$result")"
+        done <<<"$pairs"
+    done
+done
