@@ -13,6 +13,7 @@ scenes=$1
 peer=$2
 out=${3:-$(mktemp -d)}
 shift $(($# < 3 ? $# : 3))
+mkdir -p "$out"
 ccd=${CCD:-$here/../../target/release/ccd}
 core=${CORE:-1}
 echo "pair,median_us,mean_us,coal_median_us,coal_mean_us,median_ratio,mean_ratio"

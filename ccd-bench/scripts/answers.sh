@@ -13,6 +13,7 @@ scenes=$1
 verdict=$2
 out=${3:-$(mktemp -d)}
 shift $(($# < 3 ? $# : 3))
+mkdir -p "$out"
 ccd=${CCD:-$here/../../target/release/ccd}
 for tolerance in 1e-3 1e-6; do
     for oracle in direct gjk gjk-f32; do

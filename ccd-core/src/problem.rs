@@ -205,3 +205,6 @@ fn check(
         })
     }
 }
+
+#[cfg(test)]
+mod tests;

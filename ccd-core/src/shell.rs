@@ -69,3 +69,6 @@ impl Parts {
         self.0[a.max(b)] = a.min(b) as u32;
     }
 }
+
+#[cfg(test)]
+mod tests;

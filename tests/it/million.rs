@@ -2,9 +2,9 @@
 
 use ccd_core::glam::DVec3;
 use ccd_core::{Answer, Config, Outcome};
-use ccd_tests::analytic::{Expect, combs};
+use ccd_tests::analytic::{Expect, combs, screw_in_nut};
 use ccd_tests::backends::{Backend, Oracle, Order};
-use ccd_tests::models::parallel_plate;
+use ccd_tests::models::{PITCH, parallel_plate};
 use ccd_tests::query::{Actor, Query};
 
 /// A plate of `2·cells²` triangles falls flat onto another, to touch at half time.
@@ -53,11 +53,7 @@ fn sixty_million_pairs_touching_at_once() {
 /// T19; the queue holds teeth by the thousand.
 #[test]
 fn combs_of_many_teeth() {
-    let teeth = if std::env::var_os("CCD_TEST_SLOW").is_some() {
-        512
-    } else {
-        96
-    };
+    let teeth = if slow() { 512 } else { 96 };
     let scene = combs(teeth);
     let Expect::Hit { earliest, latest } = &scene.expect else {
         panic!("combs meet");
@@ -71,4 +67,22 @@ fn combs_of_many_teeth() {
         (earliest(answer.tolerance) - 1e-12..=*latest).contains(&time),
         "{answer:?}"
     );
+}
+
+/// T18; a fine thread in its nut, near everywhere and all the time: a million pairs wait at once.
+#[test]
+fn a_fine_screw() {
+    let scene = screw_in_nut("T18 fine screw", PITCH, if slow() { 4 } else { 2 });
+    let bodies = scene.query.triangles();
+    let config = Config {
+        budget: u64::MAX,
+        ..Config::default()
+    };
+    let answer = Backend::DEFAULT.solve(&scene.query.problem(&bodies, &config));
+    assert!(matches!(answer.outcome, Outcome::Free { .. }), "{answer:?}");
+    assert!(!slow() || answer.stats.peak_front > 1_000_000, "{answer:?}");
+}
+
+fn slow() -> bool {
+    std::env::var_os("CCD_TEST_SLOW").is_some()
 }

@@ -204,7 +204,10 @@ pub fn check_contact(
         "the witnesses are {distance} apart, not {lower}"
     );
     let along = (witness_b - witness_a).dot(normal);
-    law!(along >= lower - rounding, "the normal {normal} does not point from A to B");
+    law!(
+        along >= lower - rounding,
+        "the normal {normal} does not point from A to B"
+    );
     let places = Placement::pair(query);
     // Placements are relative to A's centre, witnesses are not.
     let drift = places[0].origin() + time * query.a.motion.velocity();

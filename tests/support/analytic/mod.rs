@@ -6,6 +6,7 @@ mod turning;
 mod twisted;
 
 pub use linear::{combs, sliding};
+pub use twisted::screw_in_nut;
 
 use crate::query::{Actor, Query};
 

@@ -9,8 +9,8 @@ use std::f64::consts::{PI, TAU};
 
 pub(super) fn scenes() -> Vec<Scene> {
     let mut out = vec![
-        screw_in_nut("T18 screw, right pitch", PITCH),
-        screw_in_nut("T18 screw, wrong pitch", 0.5 * PITCH),
+        screw_in_nut("T18 screw, right pitch", PITCH, 1),
+        screw_in_nut("T18 screw, wrong pitch", 0.5 * PITCH, 1),
         dirty_cube(),
         two_shells(),
         cuboids_in_the_distance(),
@@ -31,16 +31,16 @@ pub(super) fn scenes() -> Vec<Scene> {
 const LOW: f64 = 1.05;
 
 /// T18: three turns of a screw in its nut, climbing by `pitch` a turn.
-fn screw_in_nut(name: &str, pitch: f64) -> Scene {
+pub fn screw_in_nut(name: &str, pitch: f64, fineness: usize) -> Scene {
     let turning = Actor::moving(
-        screw(),
+        screw(fineness),
         -LOW * DVec3::Z,
         3.0 * pitch * DVec3::Z,
         3.0 * TAU * DVec3::Z,
     );
     // Turned ahead by as much as the screw starts too low.
     let turned = DQuat::from_rotation_z(LOW / PITCH * TAU);
-    let still = Actor::still(nut(0.1).placed(turned, DVec3::ZERO), DVec3::ZERO);
+    let still = Actor::still(nut(0.1, fineness).placed(turned, DVec3::ZERO), DVec3::ZERO);
     Scene::new(name, [turning, still], Expect::Unknown)
 }
 

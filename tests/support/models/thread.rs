@@ -7,34 +7,37 @@ use std::f64::consts::TAU;
 /// How far the thread climbs in one turn.
 pub const PITCH: f64 = 0.5;
 
+/// Around the axis, and along it for each pitch, of the coarsest thread.
 const SEGMENTS: usize = 16;
 const ROWS_PER_PITCH: usize = 6;
 
-/// The screw's surface about z: four pitches of a wavy thread of mean radius 1, depth 0.1.
-pub fn screw() -> Shape {
-    Shape::open(thread(4, 0.0))
+/// The screw's surface about z: four pitches of a wavy thread of mean radius 1, depth 0.1; its
+/// triangles grow in number as the square of `fineness`.
+pub fn screw(fineness: usize) -> Shape {
+    Shape::open(thread(4, 0.0, fineness))
 }
 
 /// The nut's inner surface, one pitch high, its bottom a pitch above the origin, everywhere `clearance`
 /// farther from the axis.
-pub fn nut(clearance: f64) -> Shape {
-    Shape::open(thread(1, clearance)).moved(PITCH * DVec3::Z)
+pub fn nut(clearance: f64, fineness: usize) -> Shape {
+    Shape::open(thread(1, clearance, fineness)).moved(PITCH * DVec3::Z)
 }
 
 /// A helical surface: turning it by an angle and lifting it by that part of the pitch maps it to
 /// itself, up to its facets.
-fn thread(pitches: usize, clearance: f64) -> Mesh {
-    let rows = pitches * ROWS_PER_PITCH + 1;
+fn thread(pitches: usize, clearance: f64, fineness: usize) -> Mesh {
+    let (segments, rows_per_pitch) = (SEGMENTS * fineness, ROWS_PER_PITCH * fineness);
+    let rows = pitches * rows_per_pitch + 1;
     let vertex = |i: usize, j: usize| {
-        let turn = j as f64 / SEGMENTS as f64;
-        let z = PITCH * i as f64 / ROWS_PER_PITCH as f64;
+        let turn = j as f64 / segments as f64;
+        let z = PITCH * i as f64 / rows_per_pitch as f64;
         let r = 1.0 + clearance + 0.1 * (TAU * (z / PITCH - turn)).cos();
         DVec3::new(r * (TAU * turn).cos(), r * (TAU * turn).sin(), z)
     };
     Mesh {
         vertices: (0..rows)
-            .flat_map(|i| (0..SEGMENTS).map(move |j| vertex(i, j)))
+            .flat_map(|i| (0..segments).map(move |j| vertex(i, j)))
             .collect(),
-        faces: grid_faces(Line::Open(rows), Line::Closed(SEGMENTS)),
+        faces: grid_faces(Line::Open(rows), Line::Closed(segments)),
     }
 }

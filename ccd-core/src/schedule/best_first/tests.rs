@@ -1,16 +1,19 @@
 //! Whole queries: against sampled truth, the naive twin, tiny budgets, and a million pairs at once.
 
 use super::*;
-use crate::body::Body;
+use crate::body::{Body, Volume};
+use crate::hierarchy::{Hierarchy, HierarchyNode};
 use crate::motion::Motion;
 use crate::oracle::{Claim, Combination, GiveUp};
+use crate::outcome::Contact;
 use crate::pose::Pose;
-use crate::problem::{Config, Moving, StartPolicy};
+use crate::problem::{Config, Moving, Side, StartPolicy};
 use crate::schedule::Naive;
 use crate::tests::nearest::{Triangle, nearest};
 use crate::tests::oracle::{Always, Exhaustive};
-use crate::tests::scene::{Kind, RngExt, Scene, body, direction, rng, scene, within};
+use crate::tests::scene::{Kind, Pcg64, RngExt, Scene, body, direction, pieces, rng, scene};
 use glam::DVec3;
+use rand::seq::SliceRandom;
 
 fn solve(problem: &Problem<'_>) -> Answer {
     BestFirst::default().solve(problem, &mut Exhaustive)
@@ -24,12 +27,14 @@ fn distance(problem: &Problem<'_>, s: f64) -> f64 {
         let placed = |k: usize| pieces.triangle(k).map(|p| frame.point(p));
         (0..pieces.len()).map(placed).collect::<Vec<Triangle>>()
     });
-    let pairs = a.iter().flat_map(|x| b.iter().map(move |y| nearest(x, y).distance));
+    let pairs = a
+        .iter()
+        .flat_map(|x| b.iter().map(move |y| nearest(x, y).distance));
     pairs.fold(f64::INFINITY, f64::min)
 }
 
 /// A scene that does not begin in contact.
-fn apart(rng: &mut crate::tests::scene::Pcg64) -> Scene {
+fn apart(rng: &mut Pcg64) -> Scene {
     loop {
         let kind = [Kind::Any, Kind::Sliding, Kind::Rim][rng.random_range(0..3)];
         let scene = scene(rng, kind, 12);
@@ -54,8 +59,11 @@ fn answers_hold_at_sampled_times_and_are_those_of_the_naive_twin() {
             (Outcome::Contact { time, contact }, Outcome::Contact { time: other, .. }) => {
                 hits += 1;
                 let near = distance(&problem, time);
-                assert!(near <= margin + tolerance + problem.rounding, "{number}: {near:e}");
-                assert!(contact.separation.lower <= near + problem.rounding);
+                assert!(
+                    near <= margin + tolerance + problem.rounding,
+                    "{number}: {near:e}"
+                );
+                holds(&problem, time, &contact);
                 // Both stop within the tolerance of one contact: neither long before the other.
                 let (first, last) = (time.min(other), time.max(other));
                 assert!(distance(&problem, first) <= margin + tolerance + problem.rounding);
@@ -70,10 +78,43 @@ fn answers_hold_at_sampled_times_and_are_those_of_the_naive_twin() {
         };
         for k in 0..64 {
             let found = distance(&problem, until * f64::from(k) / 64.0);
-            assert!(found >= least - problem.rounding, "{number}: {found:e} before {until}");
+            assert!(
+                found >= least - problem.rounding,
+                "{number}: {found:e} before {until}"
+            );
         }
     }
     assert!(hits > 200 && misses > 200, "{hits} {misses}");
+}
+
+/// The pieces named are as far apart as it says.
+fn holds(problem: &Problem<'_>, s: f64, contact: &Contact) {
+    let placed = |side: &Side<'_>, piece: u32| {
+        let frame = side.path.frame(s);
+        side.body
+            .pieces()
+            .triangle(piece as usize)
+            .map(|p| frame.point(p))
+    };
+    let (a, b) = (
+        placed(&problem.a, contact.piece_a),
+        placed(&problem.b, contact.piece_b),
+    );
+    let found = nearest(&a, &b).distance;
+    let separation = &contact.separation;
+    assert!(
+        separation.lower <= found + problem.rounding,
+        "{found:e} {contact:?}"
+    );
+    assert!(
+        separation.upper >= found - problem.rounding,
+        "{found:e} {contact:?}"
+    );
+    let way = separation.witness_b.distance(separation.witness_a);
+    // Witnesses are rounded once more where they are in the world.
+    let world = f64::EPSILON * (separation.witness_a.length() + separation.witness_b.length());
+    assert!(way <= separation.upper + problem.rounding + world);
+    assert!((separation.normal.length() - 1.0).abs() < 1e-15);
 }
 
 #[test]
@@ -98,12 +139,18 @@ fn budgets_end_a_query_with_a_time_that_is_safe_and_grows() {
                 panic!("{number}: {:?} for {budget} of {visits}", answer.outcome);
             };
             assert_eq!(reason, Limit::Budget);
-            assert!(safe_until >= last && safe_until <= contact, "{number}: {safe_until}");
+            assert!(
+                safe_until >= last && safe_until <= contact,
+                "{number}: {safe_until}"
+            );
             last = safe_until;
             ended += 1;
         }
         scene.config.budget = visits;
-        assert!(!matches!(solve(&scene.problem()).outcome, Outcome::Unresolved { .. }));
+        assert!(!matches!(
+            solve(&scene.problem()).outcome,
+            Outcome::Unresolved { .. }
+        ));
     }
     assert!(ended > 1_000, "{ended}");
 }
@@ -167,7 +214,11 @@ fn an_oracle_that_gives_up_or_lies_never_makes_an_answer_late() {
 #[test]
 fn touching_and_overlapping_at_the_start_are_told_and_let_go() {
     let flat = body(&[[DVec3::ZERO, DVec3::X, DVec3::Y]]);
-    let spike = body(&[[DVec3::ZERO, DVec3::new(-0.1, 0.0, 1.0), DVec3::new(0.1, 0.0, 1.0)]]);
+    let spike = body(&[[
+        DVec3::ZERO,
+        DVec3::new(-0.1, 0.0, 1.0),
+        DVec3::new(0.1, 0.0, 1.0),
+    ]]);
     let outcome = |height: f64, speed: f64, start: StartPolicy| {
         let at = Pose::from_translation(DVec3::new(0.3, 0.3, height)).unwrap();
         let moving = |body, motion| Moving { body, motion };
@@ -193,81 +244,85 @@ fn touching_and_overlapping_at_the_start_are_told_and_let_go() {
     }
     for start in [StartPolicy::Report, StartPolicy::Leave] {
         let inside = outcome(-0.5, 1.0, start);
-        let Outcome::Overlapping { overlap: crate::Overlap::Pieces(contact) } = inside else {
+        let Outcome::Overlapping {
+            overlap: crate::Overlap::Pieces(contact),
+        } = inside
+        else {
             panic!("{inside:?}");
         };
         assert!(contact.separation.lower < 0.0);
     }
 }
 
-/// Sticks through the unit ball, as triangles without area.
-fn sticks(rng: &mut crate::tests::scene::Pcg64, count: usize) -> Vec<Triangle> {
-    (0..count)
-        .map(|_| {
-            let (middle, way) = (within(rng, 0.5), direction(rng));
-            [middle - way, middle + way, middle + way]
-        })
-        .collect()
+/// Large level plates at equal steps of height, in a hierarchy that takes them at random: below
+/// every node there are plates of all heights, so that only plate by plate anything is apart.
+fn plates(rng: &mut Pcg64, count: usize, lowest: f64, step: f64) -> Body {
+    let plate = |k: usize| {
+        let height = (lowest + step * k as f64) * DVec3::Z;
+        [
+            DVec3::new(-1.0, -1.0, 0.0),
+            DVec3::new(1.0, -1.0, 0.0),
+            DVec3::new(0.0, 1.0, 0.0),
+        ]
+        .map(|p| p + height)
+    };
+    let mut order: Vec<u32> = (0..count as u32).collect();
+    order.shuffle(rng);
+    let mut nodes = vec![HierarchyNode::Leaf(0)];
+    let mut stack = vec![(0, &order[..])];
+    while let Some((at, range)) = stack.pop() {
+        if let [piece] = range {
+            nodes[at] = HierarchyNode::Leaf(*piece);
+            continue;
+        }
+        let left = nodes.len();
+        nodes.extend([HierarchyNode::Leaf(0); 2]);
+        nodes[at] = HierarchyNode::Inner(left as u32, left as u32 + 1);
+        let (first, second) = range.split_at(range.len() / 2);
+        stack.extend([(left, first), (left + 1, second)]);
+    }
+    let pieces = pieces(&(0..count).map(plate).collect::<Vec<_>>());
+    let hierarchy = Hierarchy::new(nodes, count).unwrap();
+    Body::with_hierarchy(&pieces, &hierarchy, Volume::Surface).unwrap()
 }
 
-/// A lower bound of the distance of two sticks: that of their lines.
-fn lines_apart(a: &Triangle, b: &Triangle) -> f64 {
-    let across = (a[1] - a[0]).cross(b[1] - b[0]);
-    across.dot(b[0] - a[0]).abs() / across.length()
-}
-
-/// Every stick of one body is near every one of the other: all nine million pairs have to be told
-/// apart at the start, and wait for their clocks.
+/// Each plate of one body is between two of the other: all ten million pairs have to be told apart
+/// at the start, and wait for their clocks.
 #[test]
 fn a_million_groups_of_pairs_wait_at_once() {
     const COUNT: usize = 3_200;
     let mut rng = rng(5);
-    let soups = [(); 2].map(|()| sticks(&mut rng, COUNT));
-    let bodies: [Body; 2] = [body(&soups[0]), body(&soups[1])];
-    let velocity = 1e-3 * direction(&mut rng);
-    let problem = |budget: u64, config: &mut Config| -> Answer {
-        *config = Config {
-            tolerance: 1e-9,
+    let step = 1.0 / COUNT as f64;
+    let bodies = [0.0, 0.5 * step].map(|lowest| plates(&mut rng, COUNT, lowest, step));
+    let answer = |budget: u64| {
+        let config = Config {
+            tolerance: 1e-5,
             budget,
             ..Config::default()
         };
-        let moving = |k: usize, motion| Moving {
+        let rising = Motion::new(Pose::IDENTITY, DVec3::Z, DVec3::ZERO).unwrap();
+        let motions = [rising, Motion::still(Pose::IDENTITY)];
+        let moving = |k: usize| Moving {
             body: &bodies[k],
-            motion,
+            motion: motions[k],
         };
-        let start = Motion::new(Pose::IDENTITY, velocity, DVec3::ZERO).unwrap();
-        let still = Motion::still(Pose::IDENTITY);
-        solve(&Problem::new(moving(0, start), moving(1, still), 1.0, config).unwrap())
+        solve(&Problem::new(moving(0), moving(1), 1.0, &config).unwrap())
     };
-    let mut config = Config::default();
-    let answer = problem(1 << 24, &mut config);
-    assert!(answer.stats.peak_front > 1 << 20, "{:?}", answer.stats);
-    let Outcome::Contact { time, contact } = answer.outcome else {
-        panic!("{answer:?}");
+    // Every plate meets the one above it at once.
+    let exact = 0.5 * step;
+    let all = answer(1 << 24);
+    assert!(all.stats.peak_front > 1 << 20, "{:?}", all.stats);
+    let Outcome::Contact { time, .. } = all.outcome else {
+        panic!("{all:?}");
     };
-    assert!(contact.separation.upper <= answer.tolerance);
-    assert!(time > 0.0);
-    // Of nine million pairs only those whose lines are near enough can meet before that time.
-    let speed = velocity.length();
-    let mut candidates = 0;
-    for a in &soups[0] {
-        for b in &soups[1] {
-            if lines_apart(a, b) > speed * time + answer.tolerance {
-                continue;
-            }
-            candidates += 1;
-            for k in 0..=32 {
-                // Up to shortly before the time told, when the pair found is about to touch.
-                let shift = velocity * time * (f64::from(k) / 32.0);
-                let found = nearest(&a.map(|p| p + shift), b).distance;
-                assert!(found > 1e-3 * answer.tolerance, "{found:e} apart, step {k} of 32");
-            }
-        }
-    }
-    assert!(candidates > 0);
+    assert!(
+        time <= exact && time >= exact - all.tolerance,
+        "{time} of {exact}"
+    );
     // Not enough visits for all: what is certified until then is no later.
-    let Outcome::Unresolved { safe_until, reason } = problem(1_000_000, &mut config).outcome else {
-        panic!("a million visits are not enough");
+    let some = answer(1_000_000);
+    let Outcome::Unresolved { safe_until, reason } = some.outcome else {
+        panic!("a million visits are not enough: {some:?}");
     };
     assert_eq!(reason, Limit::Budget);
     assert!(safe_until <= time);

@@ -1,0 +1,92 @@
+//! What makes a query, and in which units it is put.
+
+use super::*;
+use crate::pose::Pose;
+
+fn posed(motion: Motion, duration: f64, config: &Config) -> Result<f64, InputError> {
+    let ball = Body::ball(1.0).unwrap();
+    let moving = |motion| Moving {
+        body: &ball,
+        motion,
+    };
+    let still = Motion::still(Pose::IDENTITY);
+    Problem::new(moving(motion), moving(still), duration, config).map(|p| p.tolerance())
+}
+
+fn refused(result: Result<f64, InputError>) -> &'static str {
+    match result {
+        Err(InputError::OutOfRange { what, .. }) => what,
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn what_is_out_of_range_is_refused_by_name() {
+    let still = Motion::still(Pose::IDENTITY);
+    let config = Config::default();
+    for bad in [-1.0, f64::NAN, f64::INFINITY] {
+        assert_eq!(refused(posed(still, bad, &config)), "duration");
+        let margin = Config {
+            margin: bad,
+            ..config
+        };
+        assert_eq!(refused(posed(still, 1.0, &margin)), "margin");
+    }
+    for bad in [0.0, -1e-3, f64::NAN, f64::INFINITY] {
+        let tolerance = Config {
+            tolerance: bad,
+            ..config
+        };
+        assert_eq!(refused(posed(still, 1.0, &tolerance)), "tolerance");
+    }
+    let new = |velocity, spin| Motion::new(Pose::IDENTITY, velocity, spin).unwrap();
+    let fast = new(1e10 * DVec3::X, DVec3::ZERO);
+    assert!(posed(fast, 1.0, &config).is_ok());
+    assert_eq!(refused(posed(fast, 1e3, &config)), "travel");
+    assert_eq!(refused(posed(fast, f64::MAX, &config)), "travel");
+    let turning = new(DVec3::ZERO, 1e5 * DVec3::Y);
+    assert!(posed(turning, 1.0, &config).is_ok());
+    assert_eq!(refused(posed(turning, 11.0, &config)), "turn");
+    assert_eq!(refused(posed(turning, f64::MAX, &config)), "turn");
+    let far = Motion::still(Pose::from_translation(1.1e12 * DVec3::Z).unwrap());
+    assert_eq!(refused(posed(far, 1.0, &config)), "travel");
+}
+
+#[test]
+fn a_tolerance_that_cannot_be_certified_is_raised() {
+    let near = Motion::still(Pose::from_translation(3.0 * DVec3::X).unwrap());
+    let far = Motion::still(Pose::from_translation(3e9 * DVec3::X).unwrap());
+    let fine = Config {
+        tolerance: 1e-15,
+        ..Config::default()
+    };
+    let (low, high) = (
+        posed(near, 1.0, &fine).unwrap(),
+        posed(far, 1.0, &fine).unwrap(),
+    );
+    assert!(low > 1e-15 && low < 1e-12, "{low:e}");
+    assert!(high > 1e3 * low && high < 1e-3, "{high:e}");
+    assert_eq!(posed(near, 1.0, &Config::default()), Ok(1e-3));
+}
+
+#[test]
+fn clocks_are_times_that_are_never_late() {
+    let ball = Body::ball(1.0).unwrap();
+    let still = Moving {
+        body: &ball,
+        motion: Motion::still(Pose::IDENTITY),
+    };
+    for duration in [0.0, 1e-300, 0.1, 1.0, 7.0, 1e300] {
+        let problem = Problem::new(still, still, duration, &Config::default()).unwrap();
+        assert_eq!(problem.time(0.0), 0.0);
+        assert_eq!(problem.time(1.0), duration);
+        assert_eq!(problem.time(f64::INFINITY), duration);
+        let mut last = 0.0;
+        for k in 1..100 {
+            let s = f64::from(k) / 100.0;
+            let time = problem.time(s);
+            assert!(time >= last && time <= s * duration, "{s} of {duration:e}");
+            last = time;
+        }
+    }
+}
