@@ -107,7 +107,7 @@ pub const RATE_F64: f64 = 16.0 * U64;
 
 /// How often an axis is followed along the exact path of the pieces before the oracle is asked
 /// again. Each round is a Newton step that cannot overstep, so that few suffice.
-pub const AXIS_ROUNDS: usize = 4;
+pub const AXIS_ROUNDS: usize = 16;
 
 /// The cap on Newton steps towards the first crossing of one track; each at least doubles the
 /// digits once it is near.

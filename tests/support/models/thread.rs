@@ -17,8 +17,8 @@ pub fn screw(fineness: usize) -> Shape {
     Shape::open(thread(4, 0.0, fineness))
 }
 
-/// The nut's inner surface, one pitch high, its bottom a pitch above the origin, everywhere `clearance`
-/// farther from the axis.
+/// The nut's inner surface, one pitch high, its bottom a pitch above the origin, `clearance`
+/// farther from the axis everywhere.
 pub fn nut(clearance: f64, fineness: usize) -> Shape {
     Shape::open(thread(1, clearance, fineness)).moved(PITCH * DVec3::Z)
 }

@@ -49,7 +49,7 @@ fn apart(rng: &mut Pcg64) -> Scene {
 fn answers_hold_at_sampled_times_and_are_those_of_the_naive_twin() {
     let mut rng = rng(1);
     let (mut hits, mut misses) = (0, 0);
-    for number in 0..1_500 {
+    for number in 0..4_000 {
         let scene = apart(&mut rng);
         let problem = scene.problem();
         let (margin, tolerance) = (problem.margin, problem.tolerance());

@@ -68,7 +68,7 @@ fn pieces_stay_apart_for_as_long_as_the_better_axis_says() {
         let checked = moment.ask(&mut Exhaustive, &mut (), &mut stats).unwrap();
         assert_eq!(stats.oracle_calls, 1);
         let kept = problem.gap();
-        if !(checked.lower > kept) {
+        if checked.lower <= kept {
             continue;
         }
         let free = moment.free_time(&checked, kept);
