@@ -12,7 +12,7 @@ use crate::tree::Tree;
 /// use ccd_core::{glam::DVec3, Body, Pieces, Volume};
 /// let triangle = [DVec3::ZERO, DVec3::X, DVec3::Y];
 /// let pieces = Pieces::triangles(&triangle, &[[0, 1, 2]], &[0]).unwrap();
-/// let body = Body::new(pieces, Volume::Surface).unwrap();
+/// let body = Body::new(&pieces, Volume::Surface).unwrap();
 /// assert_eq!(body.pieces().len(), 1);
 /// ```
 #[derive(Clone, Debug)]
@@ -37,9 +37,9 @@ impl Body {
     ///
     /// # Errors
     /// [`InputError::TooManyPieces`].
-    pub fn new(pieces: Pieces, volume: Volume) -> Result<Self, InputError> {
-        let hierarchy = Hierarchy::median_split(&pieces);
-        Body::with_hierarchy(&pieces, &hierarchy, volume)
+    pub fn new(pieces: &Pieces, volume: Volume) -> Result<Self, InputError> {
+        let hierarchy = Hierarchy::median_split(pieces);
+        Body::with_hierarchy(pieces, &hierarchy, volume)
     }
 
     /// A body over a given hierarchy. The body keeps the pieces in the hierarchy's order; features

@@ -50,6 +50,13 @@ pub enum InputError {
         /// How many there are.
         vertices: usize,
     },
+    /// Every face needs a number.
+    FaceIds {
+        /// How many faces there are.
+        faces: usize,
+        /// How many numbers.
+        ids: usize,
+    },
     /// A facet of a polytope names a corner that the polytope does not have.
     FacetOutOfRange {
         /// The piece's index.
@@ -99,6 +106,9 @@ impl fmt::Display for InputError {
                 f,
                 "face {face} names vertex {vertex}, but there are {vertices}"
             ),
+            Self::FaceIds { faces, ids } => {
+                write!(f, "{faces} faces need as many numbers, not {ids}")
+            }
             Self::FacetOutOfRange { piece, facet } => {
                 write!(f, "facet {facet} of piece {piece} names a missing corner")
             }

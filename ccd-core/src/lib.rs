@@ -69,6 +69,15 @@
 //!
 //! # Features
 //! - `nalgebra`: conversions between [`Pose`] and `nalgebra::Isometry3<f64>`.
+//! - `avx512`: lets the crate be built with AVX-512, which rustc 1.95 miscompiles plain f64 code with;
+//!   for compilers that are known not to.
+
+#[cfg(all(target_feature = "avx512f", not(feature = "avx512")))]
+compile_error!(
+    "rustc 1.95 (LLVM 22.1.2) miscompiles plain f64 loops with AVX-512, and a certificate is worth \
+     nothing then: add `-C target-feature=-avx512f` to the rustflags, as .cargo/config.toml does \
+     here, or the feature `avx512` if your compiler is known to be free of it"
+);
 mod body;
 mod containment;
 mod error;

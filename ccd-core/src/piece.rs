@@ -68,7 +68,7 @@ impl<'a> Facets<'a> {
     }
 }
 
-/// A convex polytope as it is handed to [`Pieces::polytopes`].
+/// A convex polytope as it is handed to [`Pieces::polytopes`](crate::Pieces::polytopes).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Polytope {
     /// The points whose hull it is.

@@ -17,6 +17,9 @@ pub struct Pieces {
     shape: Shape,
 }
 
+/// Indices are kept in 32 bits, of which a quarter names points and the rest has room for nodes.
+const MAX_POINTS: usize = u32::MAX as usize / 4;
+
 #[derive(Clone, Debug)]
 enum Radii {
     Zero,
@@ -40,13 +43,24 @@ impl Pieces {
     /// One piece per triangle of a mesh or soup; `face_ids[k]` is the number `faces[k]` goes by.
     ///
     /// # Errors
-    /// [`InputError::VertexOutOfRange`], [`InputError::BadPoint`], [`InputError::NoPieces`].
+    /// [`InputError::VertexOutOfRange`], [`InputError::BadPoint`], [`InputError::NoPieces`],
+    /// [`InputError::FaceIds`], [`InputError::TooManyPieces`].
     pub fn triangles(
         vertices: &[DVec3],
         faces: &[[u32; 3]],
         face_ids: &[u32],
     ) -> Result<Self, InputError> {
-        assert_eq!(faces.len(), face_ids.len(), "a number for every face");
+        if faces.len() != face_ids.len() {
+            return Err(InputError::FaceIds {
+                faces: faces.len(),
+                ids: face_ids.len(),
+            });
+        }
+        if faces.len() >= MAX_POINTS / 3 {
+            return Err(InputError::TooManyPieces {
+                pieces: faces.len(),
+            });
+        }
         for (face, corners) in faces.iter().enumerate() {
             if let Some(&vertex) = corners.iter().find(|&&v| v as usize >= vertices.len()) {
                 return Err(InputError::VertexOutOfRange {
@@ -120,7 +134,7 @@ impl Pieces {
         if self.point_ends.is_empty() {
             return Err(InputError::NoPieces);
         }
-        if self.points.len() >= u32::MAX as usize / 4 {
+        if self.points.len() >= MAX_POINTS {
             return Err(InputError::TooManyPieces {
                 pieces: self.point_ends.len(),
             });

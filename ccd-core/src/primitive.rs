@@ -66,6 +66,6 @@ impl Body {
     /// # Errors
     /// As [`Pieces::polytopes`].
     pub fn polytope(polytope: Polytope) -> Result<Self, InputError> {
-        Body::new(Pieces::polytopes(&[polytope])?, Volume::Solid)
+        Body::new(&Pieces::polytopes(&[polytope])?, Volume::Solid)
     }
 }

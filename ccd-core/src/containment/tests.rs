@@ -12,7 +12,7 @@ use crate::tests::scene::{RngExt, magnitude, pieces, rng, rotation, within};
 use glam::DVec3;
 
 fn solid(triangles: &[Triangle]) -> Body {
-    Body::new(pieces(triangles), Volume::Solid).unwrap()
+    Body::new(&pieces(triangles), Volume::Solid).unwrap()
 }
 
 fn contained(a: &Body, b: &Body) -> Option<Overlap> {
@@ -120,11 +120,11 @@ fn only_one_of_many_parts_need_be_inside() {
 
 #[test]
 fn a_surface_contains_nothing() {
-    let surface = Body::new(pieces(&cube(1.0, 2)), Volume::Surface).unwrap();
+    let surface = Body::new(&pieces(&cube(1.0, 2)), Volume::Surface).unwrap();
     let small = solid(&cube(0.1, 1));
     assert_eq!(contained(&small, &surface), None);
     // But a surface may be inside of a solid.
-    let inner = Body::new(pieces(&cube(0.1, 2)), Volume::Surface).unwrap();
+    let inner = Body::new(&pieces(&cube(0.1, 2)), Volume::Surface).unwrap();
     let overlap = contained(&solid(&cube(1.0, 1)), &inner);
     assert!(matches!(overlap, Some(Overlap::BInsideA(_))));
 }

@@ -98,7 +98,7 @@ pub(crate) fn couple(rng: &mut Pcg64) -> [Triangle; 2] {
 }
 
 pub(crate) fn body(triangles: &[Triangle]) -> Body {
-    Body::new(pieces(triangles), Volume::Surface).unwrap()
+    Body::new(&pieces(triangles), Volume::Surface).unwrap()
 }
 
 pub(crate) fn pieces(triangles: &[Triangle]) -> Pieces {

@@ -139,8 +139,7 @@ fn rotate(m: &mut [[f64; 3]; 3], i: usize, j: usize, s: f64, c: f64) {
         let (x, y) = (row[i], row[j]);
         (row[i], row[j]) = (c * x - s * y, s * x + c * y);
     }
-    for k in 0..3 {
-        let (x, y) = (m[i][k], m[j][k]);
-        (m[i][k], m[j][k]) = (c * x - s * y, s * x + c * y);
-    }
+    let (row_i, row_j) = (m[i], m[j]);
+    m[i] = [0, 1, 2].map(|k| c * row_i[k] - s * row_j[k]);
+    m[j] = [0, 1, 2].map(|k| s * row_i[k] + c * row_j[k]);
 }

@@ -197,6 +197,6 @@ fn polytopes_balls_and_capsules_are_held_with_their_radii() {
             })
             .collect();
         let pieces = Pieces::polytopes(&polytopes).unwrap();
-        check(&Body::new(pieces, Volume::Surface).unwrap());
+        check(&Body::new(&pieces, Volume::Surface).unwrap());
     }
 }

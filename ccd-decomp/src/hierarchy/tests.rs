@@ -58,7 +58,7 @@ fn degenerate_pieces_make_no_long_chains() {
         &|k| corner(1e-310 * k),
         &|k| corner(1.0).map(|p| p + k * k * DVec3::Z),
         &|k| corner(1.0).map(|p| (0.009 * k).exp2() * p),
-        &|k| [DVec3::ZERO, DVec3::splat(1e15), dvec3(k, 0.0, -1e15)],
+        &|k| [DVec3::ZERO, DVec3::splat(1e12), dvec3(k, 0.0, -1e12)],
     ];
     for (k, shape) in shapes.iter().enumerate() {
         let deepest = check(&triangles(COUNT, shape));
@@ -71,7 +71,7 @@ fn rounded_pieces_count_with_their_radius() {
     let balls: Vec<Polytope> = (0..600)
         .map(|k| Polytope {
             points: vec![DVec3::ZERO],
-            radius: if k % 7 == 0 { 1e15 } else { f64::from(k) },
+            radius: if k % 7 == 0 { 1e12 } else { f64::from(k) },
             ..Polytope::default()
         })
         .collect();
@@ -98,7 +98,7 @@ fn neighbours_are_siblings() {
 proptest! {
     #[test]
     fn random_pieces_give_the_same_hierarchy_twice(
-        corners in prop::collection::vec(prop::array::uniform3(prop::array::uniform3(-1e15..1e15)), 1..700),
+        corners in prop::collection::vec(prop::array::uniform3(prop::array::uniform3(-1e12..1e12)), 1..700),
     ) {
         let pieces = triangles(corners.len() as u32, |k| corners[k as usize].map(DVec3::from));
         check(&pieces);

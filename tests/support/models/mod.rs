@@ -162,7 +162,7 @@ impl Shape {
             Kind::Triangles => (self.mesh.pieces(), self.volume),
             Kind::Parts => (Pieces::polytopes(&self.parts), Volume::Surface),
         };
-        Body::new(pieces.expect("good pieces"), volume).expect("a good body")
+        Body::new(&pieces.expect("good pieces"), volume).expect("a good body")
     }
 
     fn each_point(&mut self, map: impl Fn(DVec3) -> DVec3) {

@@ -24,7 +24,7 @@ use rstest::rstest;
 #[case::large(
     Format::Obj,
     "v 0 0 2e15\nf 1 1 1",
-    "line 1: vertex 0 has a coordinate beyond ±1e15"
+    "line 1: vertex 0 has a coordinate beyond ±1e12"
 )]
 #[case::zero_index(
     Format::Obj,
