@@ -112,8 +112,9 @@ pub struct Stats {
 pub struct Answer {
     /// What happens.
     pub outcome: Outcome,
-    /// The tolerance that was kept: the one asked for, or the least one that can be certified at the
-    /// coordinates of the scene, if that is larger.
+    /// The tolerance that was kept: the one asked for; or the least one that can be certified at the
+    /// coordinates of the scene, if that is larger; or a smaller one for bodies that were
+    /// [let go](crate::StartPolicy::Leave).
     pub tolerance: f64,
     /// What it took.
     pub stats: Stats,

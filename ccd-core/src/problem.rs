@@ -39,8 +39,13 @@ pub enum StartPolicy {
     /// It is the answer: [`Touching`](crate::Outcome::Touching).
     #[default]
     Report,
-    /// Pieces that are within the tolerance at the start are let go for as long as they do not
-    /// approach; the first contact beyond that is the answer.
+    /// Bodies that are within the tolerance at the start are let go for as long as they do not
+    /// approach: the answer is when they come within half the gap that they began with, which is the
+    /// tolerance from then on.
+    ///
+    /// Where that gap is no more than rounding, pieces that rest on each other are let go until they
+    /// approach; pieces that come to touch only later are a contact, also where one slides on flat
+    /// ground from one piece of it onto the next.
     Leave,
 }
 
@@ -152,6 +157,24 @@ impl<'a> Problem<'a> {
     /// clocks that run out at a common contact run out together, however large the nodes.
     pub(crate) fn node_gap(&self) -> f64 {
         self.margin + NODE_GAP * self.tolerance
+    }
+
+    /// The same, with a contact at the start for an answer.
+    pub(crate) fn reporting(&self) -> Self {
+        Problem {
+            start: StartPolicy::Report,
+            ..self.clone()
+        }
+    }
+
+    /// The same, with bodies let go that begin at a gap.
+    pub(crate) fn leaving(&self, gap: f64) -> Self {
+        let least = tolerance::least_tolerance(self.rounding);
+        Problem {
+            start: StartPolicy::Leave,
+            tolerance: (0.5 * gap).max(least).min(self.tolerance),
+            ..self.clone()
+        }
     }
 
     /// A clock as a time of the motions, rounded so that it is never late.

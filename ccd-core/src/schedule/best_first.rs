@@ -5,7 +5,7 @@ use super::expand::{Split, Which, expand};
 use super::group::{Group, Next};
 use super::pair::{Pair, Step};
 use super::queue::{Full, Queue, Rank};
-use super::start::Start;
+use super::start::{self, Start};
 use crate::oracle::DistanceOracle;
 use crate::outcome::{Answer, Limit, Outcome, Stats};
 use crate::problem::Problem;
@@ -46,13 +46,12 @@ enum Found<C> {
 
 impl<O: DistanceOracle> Schedule<O> for BestFirst<O> {
     fn solve(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer {
-        self.queue.clear();
         let mut stats = Stats::default();
-        let outcome = self.search(problem, oracle, &mut stats);
-        stats.peak_front = self.queue.peak();
+        let (outcome, tolerance) =
+            start::search(problem, |problem| self.search(problem, oracle, &mut stats));
         Answer {
             outcome,
-            tolerance: problem.tolerance,
+            tolerance,
             stats,
         }
     }
@@ -60,6 +59,18 @@ impl<O: DistanceOracle> Schedule<O> for BestFirst<O> {
 
 impl<O: DistanceOracle> BestFirst<O> {
     fn search(&mut self, problem: &Problem<'_>, oracle: &mut O, stats: &mut Stats) -> Outcome {
+        self.queue.clear();
+        let outcome = self.first_contact(problem, oracle, stats);
+        stats.peak_front = stats.peak_front.max(self.queue.peak());
+        outcome
+    }
+
+    fn first_contact(
+        &mut self,
+        problem: &Problem<'_>,
+        oracle: &mut O,
+        stats: &mut Stats,
+    ) -> Outcome {
         let mut start = Start::default();
         let mut clearance = problem.gap();
         let unresolved = |s: f64, reason| Outcome::Unresolved {

@@ -2,7 +2,7 @@
 
 use super::Schedule;
 use super::pair::{Pair, Step};
-use super::start::Start;
+use super::start::{self, Start};
 use crate::oracle::DistanceOracle;
 use crate::outcome::{Answer, Limit, Outcome, Stats};
 use crate::problem::Problem;
@@ -25,11 +25,12 @@ impl<O: DistanceOracle> Default for Naive<O> {
 impl<O: DistanceOracle> Schedule<O> for Naive<O> {
     fn solve(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer {
         let mut stats = Stats::default();
-        let outcome = self.search(problem, oracle, &mut stats);
+        let (outcome, tolerance) =
+            start::search(problem, |problem| self.search(problem, oracle, &mut stats));
         stats.peak_front = self.pairs.len() as u64;
         Answer {
             outcome,
-            tolerance: problem.tolerance,
+            tolerance,
             stats,
         }
     }

@@ -26,8 +26,6 @@ enum Goal {
     Apart,
     /// The same for a pair that began in contact and has come apart since.
     Parted,
-    /// Began within the tolerance: in contact at half the gap it began with.
-    LetGo { tolerance: f64 },
     /// Began in contact to within rounding: in contact once it cannot be proven above this.
     Resting { floor: f64 },
 }
@@ -81,17 +79,13 @@ impl<C: Default + Clone> Pair<C> {
                     None => return Step::Contact(contact()),
                 },
                 Goal::Parted => return Step::Contact(contact()),
-                Goal::LetGo { .. } | Goal::Resting { .. } => {}
+                Goal::Resting { .. } => {}
             }
         } else if checked.lower > apart && self.goal != Goal::Apart {
             self.goal = Goal::Parted;
         }
         let kept = match self.goal {
             Goal::Apart | Goal::Parted => problem.gap(),
-            Goal::LetGo { tolerance } if checked.upper <= problem.margin + tolerance => {
-                return Step::Contact(contact());
-            }
-            Goal::LetGo { tolerance } => problem.margin + 0.5 * tolerance,
             Goal::Resting { floor } => floor,
         };
         match moment.free_time(&checked, kept) {
@@ -119,15 +113,8 @@ impl<C: Default + Clone> Pair<C> {
         if !(start.upper <= problem.margin + problem.tolerance) {
             return None;
         }
-        let gap = start.lower - problem.margin;
-        Some(if gap > 2.0 * RESTING * problem.rounding {
-            Goal::LetGo {
-                tolerance: 0.5 * gap,
-            }
-        } else {
-            Goal::Resting {
-                floor: start.lower - RESTING * problem.rounding,
-            }
+        Some(Goal::Resting {
+            floor: start.lower - RESTING * problem.rounding,
         })
     }
 }

@@ -2,7 +2,28 @@
 
 use crate::containment;
 use crate::outcome::{Contact, Outcome, Overlap};
-use crate::problem::Problem;
+use crate::problem::{Problem, StartPolicy};
+
+/// Searches as the problem's policy for the start demands.
+///
+/// Bodies that begin in contact and are to be let go are searched again at half the gap that they
+/// began with: what parts or slides keeps more than that, what approaches does not. Where there is
+/// no gap to speak of, it is the pairs that rest on each other that are let go, each on its own.
+///
+/// Returns the tolerance that was kept, too.
+pub(crate) fn search(
+    problem: &Problem<'_>,
+    mut search: impl FnMut(&Problem<'_>) -> Outcome,
+) -> (Outcome, f64) {
+    let outcome = search(&problem.reporting());
+    match (problem.start, outcome) {
+        (StartPolicy::Leave, Outcome::Touching { contact }) => {
+            let problem = problem.leaving(contact.separation.lower - problem.margin);
+            (search(&problem), problem.tolerance)
+        }
+        _ => (outcome, problem.tolerance),
+    }
+}
 
 /// Collects what pairs of pieces are like at the start, until the first clock past it.
 #[derive(Debug, Default)]
@@ -12,9 +33,12 @@ pub(crate) struct Start {
 }
 
 impl Start {
-    /// A pair touches at the start; another one may overlap still.
+    /// A pair touches at the start; another one may be nearer, or overlap still.
     pub(crate) fn touch(&mut self, contact: Contact) {
-        self.touching.get_or_insert(contact);
+        let nearest = self.touching.get_or_insert(contact);
+        if contact.separation.lower < nearest.separation.lower {
+            *nearest = contact;
+        }
     }
 
     /// A pair overlaps.

@@ -231,11 +231,13 @@ fn touching_and_overlapping_at_the_start_are_told_and_let_go() {
         let problem = Problem::new(moving(&spike, motion), moving(&flat, still), 1.0, &config);
         solve(&problem.unwrap()).outcome
     };
-    for height in [0.0, 1e-4] {
+    for height in [0.0, 1e-8, 1e-4, 9e-4] {
         let report = outcome(height, 1.0, StartPolicy::Report);
         assert!(matches!(report, Outcome::Touching { .. }), "{report:?}");
         let parting = outcome(height, 1.0, StartPolicy::Leave);
         assert!(matches!(parting, Outcome::Free { .. }), "{parting:?}");
+        let resting = outcome(height, 0.0, StartPolicy::Leave);
+        assert!(matches!(resting, Outcome::Free { .. }), "{resting:?}");
         let approaching = outcome(height, -1.0, StartPolicy::Leave);
         let Outcome::Contact { time, .. } = approaching else {
             panic!("{approaching:?}");
