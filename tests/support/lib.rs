@@ -14,3 +14,8 @@ pub mod query;
 pub mod referee;
 pub mod strategies;
 pub mod tolerance;
+
+/// The code that the README shows.
+#[cfg(doctest)]
+#[doc = include_str!("../../README.md")]
+pub struct Readme;
