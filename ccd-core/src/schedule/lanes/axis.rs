@@ -13,7 +13,8 @@ pub(super) struct Axis {
     pub(super) other_reach: f32,
 }
 
-/// The best of three axes: between the centres, and the two nodes' own normals.
+/// The best of three axes: between the centres, or the edges of triangles, and the two nodes' own
+/// normals.
 ///
 /// Homogeneous in the axis: a zero vector gives no gap, and one of any length a sound gap.
 #[inline(always)]
@@ -23,7 +24,9 @@ pub(super) fn widest<C: Children, P: Other>(
     lane: usize,
     way: Vec3,
 ) -> Axis {
-    let between = along(children, other, lane, way, unit(way));
+    let ahead = other.near(children.centre(lane));
+    let between = unit(ahead - children.near(lane, ahead));
+    let between = along(children, other, lane, way, between);
     let own = towards(children.normal(lane), way);
     let others = towards(other.normal(), way);
     better(

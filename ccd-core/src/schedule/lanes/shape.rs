@@ -1,6 +1,6 @@
 //! The shapes of nodes, as seen from the group that is split.
 
-use super::vector::{dot, fused, length, max, min};
+use super::vector::{TINY, choose, dot, fused, length, max, min};
 use crate::tree::{BoxGroup, LANES, TriangleGroup};
 use glam::Vec3;
 
@@ -13,6 +13,8 @@ pub(crate) trait Children {
     fn radius(&self, lane: usize) -> f32;
     /// `max n·(x − centre)` over the child's points.
     fn reach(&self, lane: usize, n: Vec3) -> f32;
+    /// A point of the child to look from towards `to`.
+    fn near(&self, lane: usize, to: Vec3) -> Vec3;
 }
 
 /// The node that all children of a group are paired with.
@@ -24,6 +26,8 @@ pub(crate) trait Other {
     fn radius(&self) -> f32;
     /// `max n·(centre − y)` over the node's points: how far it comes towards −n.
     fn reach(&self, n: Vec3) -> f32;
+    /// A point of the node to look at from `from`.
+    fn near(&self, from: Vec3) -> Vec3;
 }
 
 /// `min(Σ hₖ |n·uₖ|, R |n|)`
@@ -54,6 +58,10 @@ impl Children for BoxGroup {
         self.radius[lane]
     }
     #[inline(always)]
+    fn near(&self, lane: usize, _: Vec3) -> Vec3 {
+        self.centre(lane)
+    }
+    #[inline(always)]
     fn reach(&self, lane: usize, n: Vec3) -> f32 {
         let axes = [
             at(&self.axes[0], lane),
@@ -78,6 +86,11 @@ impl Children for TriangleGroup {
     #[inline(always)]
     fn radius(&self, lane: usize) -> f32 {
         self.radius[lane]
+    }
+    #[inline(always)]
+    fn near(&self, lane: usize, to: Vec3) -> Vec3 {
+        let corner = |k: usize| at(&self.corners[k], lane);
+        nearest_of_edges(corner(0), corner(1), corner(2), to)
     }
     #[inline(always)]
     fn reach(&self, lane: usize, n: Vec3) -> f32 {
@@ -112,6 +125,10 @@ impl Other for OtherBox {
         self.radius
     }
     #[inline(always)]
+    fn near(&self, _: Vec3) -> Vec3 {
+        self.centre
+    }
+    #[inline(always)]
     fn reach(&self, n: Vec3) -> f32 {
         box_reach(n, self.axes, self.half, self.radius)
     }
@@ -140,10 +157,42 @@ impl Other for OtherTriangle {
         self.radius
     }
     #[inline(always)]
+    fn near(&self, from: Vec3) -> Vec3 {
+        let [a, b, c] = self.corners;
+        self.centre + nearest_of_edges(a, b, c, from - self.centre)
+    }
+    #[inline(always)]
     fn reach(&self, n: Vec3) -> f32 {
         let a = dot(n, self.corners[0]);
         let b = dot(n, self.corners[1]);
         let c = dot(n, self.corners[2]);
         -min(min(a, b), c)
     }
+}
+
+/// The point of a triangle's edges that is nearest to `to`. Where one inside is nearer, the triangle's
+/// normal is the better axis anyway.
+#[inline(always)]
+fn nearest_of_edges(a: Vec3, b: Vec3, c: Vec3, to: Vec3) -> Vec3 {
+    let (p, q, r) = (foot(a, b, to), foot(b, c, to), foot(c, a, to));
+    let first = nearer(p, q, to);
+    nearer(first, r, to)
+}
+
+/// The point of a segment that is nearest to `to`.
+#[inline(always)]
+fn foot(a: Vec3, b: Vec3, to: Vec3) -> Vec3 {
+    let edge = b - a;
+    let t = dot(to - a, edge) / max(dot(edge, edge), TINY);
+    a + edge * max(min(t, 1.0), 0.0)
+}
+
+#[inline(always)]
+fn nearer(p: Vec3, q: Vec3, to: Vec3) -> Vec3 {
+    let pick = dot(p - to, p - to) < dot(q - to, q - to);
+    Vec3::new(
+        choose(pick, p.x, q.x),
+        choose(pick, p.y, q.y),
+        choose(pick, p.z, q.z),
+    )
 }
