@@ -125,8 +125,13 @@ impl Other for OtherBox {
         self.radius
     }
     #[inline(always)]
-    fn near(&self, _: Vec3) -> Vec3 {
-        self.centre
+    fn near(&self, from: Vec3) -> Vec3 {
+        let way = from - self.centre;
+        let clamp = |k: usize| {
+            let along = dot(way, self.axes[k]);
+            self.axes[k] * max(min(along, self.half[k]), -self.half[k])
+        };
+        self.centre + clamp(0) + clamp(1) + clamp(2)
     }
     #[inline(always)]
     fn reach(&self, n: Vec3) -> f32 {
