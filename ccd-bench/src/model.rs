@@ -3,6 +3,7 @@
 mod blob;
 mod board;
 mod grid;
+mod plate;
 mod ring;
 mod sphere;
 #[cfg(test)]
@@ -11,6 +12,7 @@ mod torus_knot;
 
 pub use blob::{Blob, Lobe};
 pub use board::Board;
+pub use plate::Plate;
 pub use ring::Ring;
 pub use torus_knot::TorusKnot;
 

@@ -5,7 +5,24 @@ mod tests;
 
 use crate::query::{Timed, median};
 use crate::results::Status;
+use ccd_core::{Limit, Outcome};
 use std::fmt;
+
+/// What ends a query early, and what to do about it.
+const LIMITS: [(Limit, &str); 3] = [
+    (
+        Limit::Budget,
+        "the budget of node visits was spent; --budget raises it",
+    ),
+    (
+        Limit::Stalled,
+        "no step forward could be certified; a larger --tolerance may help",
+    ),
+    (
+        Limit::OracleGaveUp,
+        "the oracle gave up; another --oracle may not",
+    ),
+];
 
 /// Counts and times of many answers.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,6 +41,8 @@ pub struct Summary {
     pub oracle_calls: u64,
     /// The tolerance asked for.
     asked: f64,
+    /// How many answers were ended by each limit, in the order of [`LIMITS`].
+    limits: [usize; LIMITS.len()],
     /// How many answers had to keep a larger tolerance.
     pub raised: usize,
     /// The largest tolerance kept.
@@ -41,6 +60,7 @@ impl Summary {
             node_visits: 0,
             oracle_calls: 0,
             asked: tolerance,
+            limits: [0; LIMITS.len()],
             raised: 0,
             largest_tolerance: tolerance,
         };
@@ -48,6 +68,10 @@ impl Summary {
         for timed in answers {
             let answer = &timed.answer;
             summary.counts[Status::from(&answer.outcome) as usize] += 1;
+            if let Outcome::Unresolved { reason, .. } = answer.outcome {
+                let limit = LIMITS.iter().position(|&(limit, _)| limit == reason);
+                limit.into_iter().for_each(|k| summary.limits[k] += 1);
+            }
             summary.node_visits += answer.stats.node_visits;
             summary.oracle_calls += answer.stats.oracle_calls;
             summary.raised += usize::from(answer.tolerance > tolerance);
@@ -79,7 +103,8 @@ impl fmt::Display for Summary {
         let counts: Vec<String> = seen
             .map(|s| format!("{} {}", self.count(s), s.name()))
             .collect();
-        write!(f, "{} rows", self.rows())?;
+        let plural = if self.rows() == 1 { "" } else { "s" };
+        write!(f, "{} row{plural}", self.rows())?;
         if counts.is_empty() {
             return Ok(());
         }
@@ -92,6 +117,11 @@ impl fmt::Display for Summary {
             self.node_visits,
             self.oracle_calls
         )?;
+        for (count, (_, advice)) in self.limits.iter().zip(LIMITS) {
+            if *count > 0 {
+                write!(f, "\n{count} unresolved: {advice}")?;
+            }
+        }
         if self.raised > 0 {
             write!(
                 f,

@@ -299,7 +299,7 @@ fn raised_tolerances_are_told() {
 fn the_summary_counts_and_quiet_is_quiet() {
     let loud = Run::query(&FALLING_CUBE).stdin(DROP).output();
     assert!(
-        stderr(&loud).contains("1 rows: 1 contact; median"),
+        stderr(&loud).contains("1 row: 1 contact; median"),
         "{}",
         stderr(&loud)
     );
