@@ -167,13 +167,28 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// The same, with bodies let go that begin at a gap.
+    /// The same, with bodies let go that begin at a gap beyond the margin: what parts or slides keeps
+    /// more than half of it. Only where there is no gap to speak of, pairs of pieces are let go.
     pub(crate) fn leaving(&self, gap: f64) -> Self {
         let least = tolerance::least_tolerance(self.rounding);
+        let (tolerance, start) = match 0.5 * gap > least {
+            true => (0.5 * gap, StartPolicy::Report),
+            false => (least, StartPolicy::Leave),
+        };
         Problem {
-            start: StartPolicy::Leave,
-            tolerance: (0.5 * gap).max(least).min(self.tolerance),
+            start,
+            tolerance: tolerance.min(self.tolerance),
             ..self.clone()
+        }
+    }
+
+    /// The distance that is kept at all times by bodies that are found free, when no gap of nodes was
+    /// proven to less than `proven`.
+    pub(crate) fn clearance(&self, proven: f64) -> f64 {
+        match self.start {
+            StartPolicy::Report => self.gap().min(proven).max(self.margin),
+            // Pieces that rest on each other keep none.
+            StartPolicy::Leave => 0.0,
         }
     }
 

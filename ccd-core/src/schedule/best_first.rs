@@ -72,7 +72,7 @@ impl<O: DistanceOracle> BestFirst<O> {
         stats: &mut Stats,
     ) -> Outcome {
         let mut start = Start::default();
-        let mut clearance = problem.gap();
+        let mut proven = f64::INFINITY;
         let unresolved = |s: f64, reason| Outcome::Unresolved {
             safe_until: problem.time(s),
             reason,
@@ -93,7 +93,7 @@ impl<O: DistanceOracle> BestFirst<O> {
             let pushed = match found {
                 Found::Split(split) => {
                     let expansion = expand(problem, &split, s);
-                    clearance = clearance.min(f64::from(expansion.bounds.kept));
+                    proven = proven.min(f64::from(expansion.bounds.kept));
                     self.push_group(Group::new(problem, &expansion, split, s))
                 }
                 Found::Pieces(mut pair) => match pair.advance(problem, oracle, stats, s) {
@@ -116,7 +116,7 @@ impl<O: DistanceOracle> BestFirst<O> {
             }
         }
         start.end(problem).unwrap_or(Outcome::Free {
-            clearance: clearance.max(problem.margin),
+            clearance: problem.clearance(proven),
         })
     }
 

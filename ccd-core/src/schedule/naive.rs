@@ -77,7 +77,7 @@ impl<O: DistanceOracle> Naive<O> {
             s = next;
         }
         Outcome::Free {
-            clearance: problem.gap(),
+            clearance: problem.clearance(f64::INFINITY),
         }
     }
 }
