@@ -72,17 +72,16 @@ impl Split {
 /// # Panics
 /// When the node is a single piece.
 pub(crate) fn expand(problem: &Problem<'_>, split: &Split, s: f64) -> Expansion {
-    let (near, far) = (split.body.of(problem), split.body.other().of(problem));
-    let other = split.other;
-    let Named::Node(node) = near.body.tree().get(split.node) else {
+    let tree = split.body.of(problem).body.tree();
+    let Named::Node(node) = tree.get(split.node) else {
         unreachable!("a triangle is a single piece");
     };
-    let tree = near.body.tree();
+    let meeting = Meeting::new(problem, split, s);
     match node.below {
         Below::Boxes(group) => {
             let group = tree.box_group(group);
             Expansion {
-                bounds: against(problem, near, far, s, group, &group.members, other),
+                bounds: meeting.bound(group, &group.members),
                 first: group.members.first,
                 count: group.members.count,
                 leaves: group.leaves,
@@ -91,7 +90,7 @@ pub(crate) fn expand(problem: &Problem<'_>, split: &Split, s: f64) -> Expansion 
         Below::Triangles(group) => {
             let group = tree.triangle_group(group);
             Expansion {
-                bounds: against(problem, near, far, s, group, &group.members, other),
+                bounds: meeting.bound(group, &group.members),
                 first: group.members.first,
                 count: group.members.count,
                 leaves: u8::MAX,
@@ -101,51 +100,83 @@ pub(crate) fn expand(problem: &Problem<'_>, split: &Split, s: f64) -> Expansion 
     }
 }
 
-/// The far side as the split group sees it: its frame relative to the group's origin, in the split
-/// body's frame.
-struct View {
+/// The two bodies at a clock, along the axes of the one whose node is split.
+struct Meeting<'p> {
+    problem: &'p Problem<'p>,
+    near: &'p Side<'p>,
+    far: &'p Side<'p>,
+    /// The far body's node.
+    other: NodeId,
+    far_to_near: Frame,
+    /// Of the near centre less that of the far one.
+    velocity: DVec3,
+    /// The far body's.
+    spin: DVec3,
+    /// How much time is left.
+    horizon: f32,
+}
+
+impl<'p> Meeting<'p> {
+    fn new(problem: &'p Problem<'_>, split: &Split, s: f64) -> Self {
+        let (near, far) = (split.body.of(problem), split.body.other().of(problem));
+        let (near_frame, far_frame) = (near.path.frame(s), far.path.frame(s));
+        Meeting {
+            problem,
+            near,
+            far,
+            other: split.other,
+            far_to_near: near_frame.from_frame(&far_frame),
+            velocity: near_frame.inverse_vector(near.path.velocity - far.path.velocity),
+            spin: near_frame.inverse_vector(far.path.spin),
+            horizon: (1.0 - s) as f32,
+        }
+    }
+
+    /// Bounds a group of the near body against the far body's node.
+    fn bound<C: Children>(&self, group: &C, members: &Members) -> Bounds {
+        let mut far_to_near = self.far_to_near;
+        far_to_near.translation -= members.origin;
+        let view = View {
+            turn: columns(&far_to_near.rotation),
+            far_to_near,
+            meeting: self,
+            members,
+        };
+        match self.far.body.tree().get(self.other) {
+            Named::Node(node) => view.bound(group, &view.node(node)),
+            Named::Triangle(piece) => {
+                let corners = self.far.body.pieces().triangle(piece as usize);
+                view.bound(group, &view.triangle(corners))
+            }
+        }
+    }
+}
+
+/// The far body as a group sees it.
+struct View<'m> {
+    meeting: &'m Meeting<'m>,
+    members: &'m Members,
+    /// Relative to the group's origin.
     far_to_near: Frame,
     /// The same rotation in f32: columns.
     turn: [Vec3; 3],
 }
 
-fn against<C: Children>(
-    problem: &Problem<'_>,
-    near: &Side<'_>,
-    far: &Side<'_>,
-    s: f64,
-    group: &C,
-    members: &Members,
-    other: NodeId,
-) -> Bounds {
-    let (near_frame, far_frame) = (near.path.frame(s), far.path.frame(s));
-    let mut far_to_near = near_frame.from_frame(&far_frame);
-    far_to_near.translation -= members.origin;
-    let view = View {
-        turn: columns(&far_to_near.rotation),
-        far_to_near,
-    };
-    let velocity = near_frame.inverse_vector(near.path.velocity - far.path.velocity);
-    let shared = Shared {
-        problem,
-        near,
-        far,
-        members,
-        velocity,
-        spin: near_frame.inverse_vector(far.path.spin),
-        view: &view,
-        horizon: (1.0 - s) as f32,
-    };
-    match far.body.tree().get(other) {
-        Named::Node(node) => shared.bound(group, &view.node(node)),
-        Named::Triangle(piece) => {
-            let corners = far.body.pieces().triangle(piece as usize);
-            shared.bound(group, &view.triangle(corners))
+impl View<'_> {
+    fn bound<C: Children, P: Other>(&self, group: &C, other: &P) -> Bounds {
+        let near = || self.near_turning();
+        let far = || self.far_turning();
+        let Meeting {
+            near: n, far: f, ..
+        } = self.meeting;
+        match (n.path.turns(), f.path.turns()) {
+            (false, false) => self.turning(group, other, Straight, Straight),
+            (true, false) => self.turning(group, other, near(), Straight),
+            (false, true) => self.turning(group, other, Straight, far()),
+            (true, true) => self.turning(group, other, near(), far()),
         }
     }
-}
 
-impl View {
     fn node(&self, node: &Node) -> OtherBox {
         OtherBox {
             centre: self.far_to_near.point(node.centre).as_vec3(),
@@ -169,36 +200,9 @@ impl View {
             radius: up(farthest.into_iter().fold(0.0, f64::max).sqrt()).next_up(),
         }
     }
-}
-
-/// What a bound needs of the two bodies, whatever the shapes of their nodes.
-struct Shared<'a> {
-    problem: &'a Problem<'a>,
-    near: &'a Side<'a>,
-    far: &'a Side<'a>,
-    members: &'a Members,
-    /// Of the near centre less that of the far one, along the near body's axes.
-    velocity: DVec3,
-    /// The far body's, along the near body's axes.
-    spin: DVec3,
-    view: &'a View,
-    horizon: f32,
-}
-
-impl Shared<'_> {
-    fn bound<C: Children, P: Other>(&self, group: &C, other: &P) -> Bounds {
-        let near = || self.near_turning();
-        let far = || self.far_turning();
-        match (self.near.path.turns(), self.far.path.turns()) {
-            (false, false) => self.turning(group, other, Straight, Straight),
-            (true, false) => self.turning(group, other, near(), Straight),
-            (false, true) => self.turning(group, other, Straight, far()),
-            (true, true) => self.turning(group, other, near(), far()),
-        }
-    }
 
     fn near_turning(&self) -> Turning {
-        let path = &self.near.path;
+        let path = &self.meeting.near.path;
         Turning {
             spin: path.spin_local.as_vec3(),
             rate: up(path.rate),
@@ -207,11 +211,11 @@ impl Shared<'_> {
     }
 
     fn far_turning(&self) -> Turning {
-        let path = &self.far.path;
+        let path = &self.meeting.far.path;
         Turning {
-            spin: self.spin.as_vec3(),
+            spin: self.meeting.spin.as_vec3(),
             rate: up(path.rate),
-            centre: self.view.far_to_near.point(path.centre).as_vec3(),
+            centre: self.far_to_near.point(path.centre).as_vec3(),
         }
     }
 
@@ -222,7 +226,7 @@ impl Shared<'_> {
         split: S,
         far: O,
     ) -> Bounds {
-        let velocity = self.velocity.as_vec3();
+        let velocity = self.meeting.velocity.as_vec3();
         let reach = self.members.reach;
         let [x, y, z] = other.centre().abs().to_array();
         let rounding = WAY_F32 * (x + y + z) + REACH_F32 * (other.radius() + reach);
@@ -231,7 +235,7 @@ impl Shared<'_> {
         let speed = velocity.length()
             + split.rate() * (reach + split.arm(Vec3::ZERO))
             + far.rate() * (other.radius() + far.arm(other.centre()) + PLACES_F32 * places);
-        let problem = self.problem;
+        let problem = self.meeting.problem;
         let rounding = (rounding + up(problem.rounding)).next_up();
         let slack = (up(problem.margin) + rounding)
             .next_up()
@@ -241,7 +245,7 @@ impl Shared<'_> {
             velocity,
             split,
             other: far,
-            horizon: self.horizon,
+            horizon: self.meeting.horizon,
             slack,
             kept: (slack - rounding).next_down(),
             closed: closed.max(LEAST_GAP_F32),
