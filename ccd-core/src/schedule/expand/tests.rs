@@ -327,19 +327,19 @@ fn planes_that_stand_still(
     other: NodeId,
     s: f64,
 ) -> Bounds {
-    let (near, far) = (split.of(problem), split.other().of(problem));
-    let tree = near.body.tree();
-    let Named::Node(node) = tree.get(node) else {
+    let tree = split.of(problem).body.tree();
+    let Named::Node(below) = tree.get(node) else {
         panic!("a node to split");
     };
-    match node.below {
+    let meeting = Meeting::new(problem, &Split::all(split, node, other), s);
+    match below.below {
         Below::Boxes(group) => {
             let group = tree.box_group(group);
-            still_against(problem, [near, far], s, group, &group.members, other)
+            still(&meeting, group, &group.members)
         }
         Below::Triangles(group) => {
             let group = tree.triangle_group(group);
-            still_against(problem, [near, far], s, group, &group.members, other)
+            still(&meeting, group, &group.members)
         }
         Below::Piece(_) => panic!("a node to split"),
     }
@@ -347,15 +347,9 @@ fn planes_that_stand_still(
 
 /// Planes turn with much larger nodes only: a reach that is neither much larger nor much smaller than
 /// the other node's keeps them out.
-fn still_against<C: Children>(
-    problem: &Problem<'_>,
-    [near, far]: [&Side<'_>; 2],
-    s: f64,
-    group: &C,
-    members: &Members,
-    other: NodeId,
-) -> Bounds {
-    let radius = match far.body.tree().get(other) {
+fn still<C: Children>(meeting: &Meeting<'_>, group: &C, members: &Members) -> Bounds {
+    let far = meeting.far;
+    let radius = match far.body.tree().get(meeting.other) {
         Named::Node(node) => node.radius,
         Named::Triangle(piece) => {
             let [a, b, c] = far.body.pieces().triangle(piece as usize);
@@ -371,5 +365,5 @@ fn still_against<C: Children>(
         reach: members.reach.clamp(radius / much, radius * much),
         ..*members
     };
-    against(problem, near, far, s, group, &members, other)
+    meeting.bound(group, &members)
 }
