@@ -153,7 +153,7 @@ enum StartArg {
     /// It is the answer
     #[default]
     Report,
-    /// Pieces in contact are let go as long as they do not approach
+    /// Bodies in contact are let go as long as they do not approach
     Leave,
 }
 
