@@ -184,6 +184,7 @@ impl View<'_> {
                 .axes
                 .map(|u| self.turn[0] * u.x + self.turn[1] * u.y + self.turn[2] * u.z),
             half: node.half,
+            rounding: node.rounding,
             radius: node.radius,
         }
     }

@@ -64,12 +64,13 @@ impl Fitted {
             radius = radius.max(way.length_squared());
         }
         // Rounding in f64 is far below that of `up`, which one more step up covers.
-        let outward = |x: f64| up(x + cloud.radius).next_up();
+        let outward = |x: f64| up(x).next_up();
         Node {
             centre,
             axes,
             half: half.map(outward),
-            radius: outward(radius.sqrt()),
+            radius: outward(radius.sqrt() + cloud.radius),
+            rounding: up(cloud.radius),
             below,
         }
     }

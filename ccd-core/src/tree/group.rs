@@ -16,6 +16,7 @@ pub(crate) struct BoxGroup {
     pub(crate) centre: Rows3,
     pub(crate) axes: [Rows3; 3],
     pub(crate) half: Rows3,
+    pub(crate) rounding: [f32; LANES],
     pub(crate) radius: [f32; LANES],
     pub(crate) members: Members,
     /// Which lanes hold a single piece.
@@ -53,6 +54,7 @@ impl BoxGroup {
             centre: [[0.0; LANES]; 3],
             axes: [[[0.0; LANES]; 3]; 3],
             half: [[0.0; LANES]; 3],
+            rounding: [0.0; LANES],
             radius: [0.0; LANES],
             members: Members {
                 origin,
@@ -75,6 +77,7 @@ impl BoxGroup {
             for (row, half) in group.half.iter_mut().zip(node.half) {
                 row[lane] = (half + off).next_up();
             }
+            group.rounding[lane] = node.rounding;
             group.radius[lane] = (node.radius + off).next_up();
             let reach = up(way.length() + f64::from(node.radius));
             group.members.reach = group.members.reach.max(reach);

@@ -33,7 +33,8 @@ pub(crate) struct Tree {
 /// A node, or a triangle beyond the nodes.
 pub(crate) type NodeId = u32;
 
-/// An oriented box and a ball about the same centre; both hold all pieces below.
+/// An oriented box, grown by the pieces' rounding, and a ball about the same centre; both hold all
+/// pieces below.
 #[derive(Clone, Debug)]
 pub(crate) struct Node {
     pub(crate) centre: DVec3,
@@ -41,6 +42,8 @@ pub(crate) struct Node {
     pub(crate) axes: [Vec3; 3],
     pub(crate) half: [f32; 3],
     pub(crate) radius: f32,
+    /// The largest rounding radius of the pieces below, which the half sizes leave out.
+    pub(crate) rounding: f32,
     pub(crate) below: Below,
 }
 
@@ -61,6 +64,13 @@ pub(crate) enum Named<'a> {
     Node(&'a Node),
     /// A triangle, by the index of its piece.
     Triangle(u32),
+}
+
+impl Node {
+    /// How far the box reaches along one of its axes, and a little more: the axes are rounded.
+    fn reach_f64(&self, axis: usize) -> f64 {
+        f64::from(self.half[axis]) + f64::from(self.rounding) + BOX_F64 * f64::from(self.radius)
+    }
 }
 
 impl Tree {
@@ -114,10 +124,7 @@ impl Tree {
     pub(crate) fn may_contain(&self, point: DVec3) -> bool {
         let root = &self.nodes[0];
         let way = point - root.centre;
-        (0..3).all(|k| {
-            let half = f64::from(root.half[k]) + BOX_F64 * f64::from(root.radius);
-            way.dot(root.axes[k].as_dvec3()).abs() <= half
-        })
+        (0..3).all(|k| way.dot(root.axes[k].as_dvec3()).abs() <= root.reach_f64(k))
     }
 
     pub(crate) fn bytes(&self) -> usize {

@@ -2,7 +2,7 @@
 
 use super::{Below, Node, Tree};
 use crate::pieces::Pieces;
-use crate::tolerance::{BOX_F64, GRAZING};
+use crate::tolerance::GRAZING;
 use glam::DVec3;
 
 /// How often a ray leaves the triangles less how often it enters them, by their normals: the winding
@@ -38,9 +38,9 @@ pub(crate) fn crossings(tree: &Tree, pieces: &Pieces, from: DVec3, along: DVec3)
 fn meets(node: &Node, from: DVec3, along: DVec3) -> bool {
     let way = from - node.centre;
     let (mut enter, mut leave) = (0.0f64, f64::INFINITY);
-    for (axis, half) in node.axes.iter().zip(node.half) {
-        let axis = axis.as_dvec3();
-        let half = f64::from(half) + BOX_F64 * f64::from(node.radius);
+    for k in 0..3 {
+        let axis = node.axes[k].as_dvec3();
+        let half = node.reach_f64(k);
         let (start, speed) = (axis.dot(way), axis.dot(along));
         let (near, far) = ((-half - start) / speed, (half - start) / speed);
         // A ray within a slab, parallel to it, gives an infinity on either side; NaN counts as met.

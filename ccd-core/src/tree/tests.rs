@@ -88,9 +88,10 @@ fn check_node(node: &Node, pieces: &Pieces, below: &[u32]) {
             let way = point - node.centre;
             let slack = CHECK * (point.length() + node.centre.length());
             assert!(way.length() + piece.radius <= f64::from(node.radius) + slack);
-            for (axis, half) in node.axes.iter().zip(node.half) {
+            let half = node.half.map(|h| f64::from(h) + f64::from(node.rounding));
+            for (axis, half) in node.axes.iter().zip(half) {
                 let reach = way.dot(axis.as_dvec3()).abs() + piece.radius;
-                assert!(reach <= f64::from(half) + slack, "{reach:e} > {half:e}");
+                assert!(reach <= half + slack, "{reach:e} > {half:e}");
             }
         }
     }
@@ -109,7 +110,8 @@ fn check_row(group: &BoxGroup, lane: usize, pieces: &Pieces, below: &[u32]) {
             assert!(way.length() + piece.radius <= f64::from(group.radius[lane]) + slack);
             for k in 0..3 {
                 let reach = way.dot(at(&group.axes[k])).abs() + piece.radius;
-                assert!(reach <= f64::from(group.half[k][lane]) + slack);
+                let half = f64::from(group.half[k][lane]) + f64::from(group.rounding[lane]);
+                assert!(reach <= half + slack);
             }
             let from_origin = (point - group.members.origin).length() + piece.radius;
             assert!(from_origin <= f64::from(group.members.reach) + slack);

@@ -30,13 +30,14 @@ pub(crate) trait Other {
     fn near(&self, from: Vec3) -> Vec3;
 }
 
-/// `min(Σ hₖ |n·uₖ|, R |n|)`
+/// `min(Σ hₖ |n·uₖ| + r |n|, R |n|)`: of a box grown by its pieces' rounding r, and a ball.
 #[inline(always)]
-fn box_reach(n: Vec3, axes: [Vec3; 3], half: [f32; 3], radius: f32) -> f32 {
+fn box_reach(n: Vec3, axes: [Vec3; 3], half: [f32; 3], [rounding, radius]: [f32; 2]) -> f32 {
     let x = half[0] * dot(n, axes[0]).abs();
     let xy = fused(half[1], dot(n, axes[1]).abs(), x);
     let boxed = fused(half[2], dot(n, axes[2]).abs(), xy);
-    min(boxed, radius * length(n))
+    let length = length(n);
+    min(fused(rounding, length, boxed), radius * length)
 }
 
 #[inline(always)]
@@ -69,7 +70,7 @@ impl Children for BoxGroup {
             at(&self.axes[2], lane),
         ];
         let half = [self.half[0][lane], self.half[1][lane], self.half[2][lane]];
-        box_reach(n, axes, half, self.radius[lane])
+        box_reach(n, axes, half, [self.rounding[lane], self.radius[lane]])
     }
 }
 
@@ -108,6 +109,7 @@ pub(crate) struct OtherBox {
     pub(crate) centre: Vec3,
     pub(crate) axes: [Vec3; 3],
     pub(crate) half: [f32; 3],
+    pub(crate) rounding: f32,
     pub(crate) radius: f32,
 }
 
@@ -135,7 +137,7 @@ impl Other for OtherBox {
     }
     #[inline(always)]
     fn reach(&self, n: Vec3) -> f32 {
-        box_reach(n, self.axes, self.half, self.radius)
+        box_reach(n, self.axes, self.half, [self.rounding, self.radius])
     }
 }
 

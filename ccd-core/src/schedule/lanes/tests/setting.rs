@@ -44,6 +44,7 @@ impl Shape {
             centre,
             axes,
             half: axes.map(|u| farthest(&|way| way.dot(u.as_dvec3()).abs())),
+            rounding: 0.0,
             radius: farthest(&DVec3::length),
             below: Below::Boxes(0),
         };
@@ -149,6 +150,7 @@ impl Setting {
             centre: (self.turn * node.centre + self.place).as_vec3(),
             axes: node.axes.map(|u| x * u.x + y * u.y + z * u.z),
             half: node.half,
+            rounding: node.rounding,
             radius: node.radius,
         };
         let reach = group.members.reach;
