@@ -18,7 +18,7 @@ pub struct Config {
     /// What becomes of a contact at the start.
     pub start: StartPolicy,
     /// How many pairs of nodes may be visited before the query is left unresolved; each takes up to
-    /// about 150 bytes.
+    /// about 100 bytes.
     pub budget: u64,
 }
 

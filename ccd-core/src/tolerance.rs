@@ -13,7 +13,8 @@ pub const U32: f32 = f32::EPSILON / 2.0;
 /// The tolerance of a query that names none, in the scene's unit of length `[FAST06 §6.2]`.
 pub const DEFAULT_TOLERANCE: f64 = 1e-3;
 
-/// How many pairs of nodes a query may visit that names no budget: about a second's work.
+/// How many pairs of nodes a query may visit that names no budget: a few seconds' work, and less than
+/// half a gigabyte of pairs that wait.
 pub const DEFAULT_BUDGET: u64 = 1 << 22;
 
 /// The largest coordinate, in the scene's unit of length: squares of distances, and of speeds after
