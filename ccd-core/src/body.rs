@@ -5,6 +5,7 @@ use crate::hierarchy::Hierarchy;
 use crate::pieces::Pieces;
 use crate::shell::{Shell, shells};
 use crate::tree::Tree;
+use glam::DVec3;
 
 /// What moves: convex pieces in the body's own frame, ready for queries; immutable, shareable.
 ///
@@ -21,6 +22,15 @@ pub struct Body {
     tree: Tree,
     volume: Volume,
     shells: Vec<Shell>,
+    /// Which way the triangles of a solid are turned.
+    facing: Facing,
+}
+
+/// Which way the normals of a closed mesh point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Facing {
+    Outward,
+    Inward,
 }
 
 /// Whether being inside of a body counts as touching it.
@@ -56,6 +66,10 @@ impl Body {
         let pieces = pieces.reordered(&order);
         Ok(Body {
             shells: shells(&pieces),
+            facing: match pieces.all_triangles() && signed_volume(&pieces) < 0.0 {
+                true => Facing::Inward,
+                false => Facing::Outward,
+            },
             pieces,
             tree,
             volume,
@@ -77,6 +91,20 @@ impl Body {
         self.pieces.bytes() + self.tree.bytes()
     }
 
+    /// The unit normal of a piece that points out of the solid which the body's triangles bound; none
+    /// where there is no such thing.
+    pub(crate) fn outward_normal(&self, piece: u32) -> Option<DVec3> {
+        if self.volume == Volume::Surface || !self.pieces.all_triangles() {
+            return None;
+        }
+        let [a, b, c] = self.pieces.triangle(piece as usize);
+        let normal = (b - a).cross(c - a).try_normalize()?;
+        Some(match self.facing {
+            Facing::Outward => normal,
+            Facing::Inward => -normal,
+        })
+    }
+
     /// The tree over the pieces.
     pub(crate) fn tree(&self) -> &Tree {
         &self.tree
@@ -87,4 +115,12 @@ impl Body {
     pub(crate) fn shells(&self) -> &[Shell] {
         &self.shells
     }
+}
+
+/// Six times the volume that triangles bound, negative where their normals point inward.
+fn signed_volume(pieces: &Pieces) -> f64 {
+    (0..pieces.len())
+        .map(|k| pieces.triangle(k))
+        .map(|[a, b, c]| a.dot(b.cross(c)))
+        .sum()
 }

@@ -4,6 +4,7 @@ use crate::body::{Body, Volume};
 use crate::outcome::Overlap;
 use crate::pose::Frame;
 use crate::problem::{Problem, Side};
+use crate::tolerance::{BELOW_SURFACE, INSIDE_SAMPLES};
 use crate::tree::crossings;
 use glam::DVec3;
 
@@ -13,23 +14,81 @@ use glam::DVec3;
 /// inside the other as a whole, or not at all, and one point of it tells that is not itself on the
 /// other's surface.
 pub(crate) fn at_start(problem: &Problem<'_>) -> Option<Overlap> {
-    let frames = [problem.a.path.frame(0.0), problem.b.path.frame(0.0)];
-    let inside = |outer: &Side<'_>, outer_frame: &Frame, inner: &Side<'_>, inner_frame: &Frame| {
-        if outer.body.volume() == Volume::Surface || !outer.body.pieces().all_triangles() {
-            return None;
-        }
+    of_either(problem, |outer, inner| {
         inner.body.shells().iter().find_map(|shell| {
-            let mut points = shell.iter().map(|&p| inner_frame.point(p));
+            let mut points = shell.iter().map(|&p| inner.frame.point(p));
             points
-                .find_map(|p| Some((p, contains(outer.body, outer_frame.inverse_point(p))?)))
+                .find_map(|p| Some((p, outer.contains(p)?)))
                 .filter(|&(_, inside)| inside)
-                .map(|(p, _)| problem.world(p))
+                .map(|(p, _)| p)
         })
+    })
+}
+
+/// The same for bodies whose surfaces touch: a part of which every corner is on the other's surface
+/// may be inside all the same, so that points just below its surface are asked as well.
+pub(crate) fn of_touching(problem: &Problem<'_>) -> Option<Overlap> {
+    at_start(problem).or_else(|| {
+        of_either(problem, |outer, inner| {
+            let count = inner.body.pieces().len();
+            (0..count)
+                .step_by(count.div_ceil(INSIDE_SAMPLES))
+                .map(|piece| inner.frame.point(below_surface(inner.body, piece)))
+                .find(|&p| outer.contains(p) == Some(true))
+        })
+    })
+}
+
+/// A point of a piece, moved a little into the solid that it bounds.
+fn below_surface(body: &Body, piece: usize) -> DVec3 {
+    let points = body.pieces().get(piece).points;
+    let mean = points.iter().sum::<DVec3>() / points.len() as f64;
+    let size = points.iter().map(|p| p.distance(mean)).fold(0.0, f64::max);
+    match body.outward_normal(piece as u32) {
+        Some(normal) => mean - normal * (BELOW_SURFACE * size),
+        None => mean,
+    }
+}
+
+/// A body where it is at the start.
+struct Placed<'a> {
+    body: &'a Body,
+    frame: Frame,
+}
+
+impl Placed<'_> {
+    fn of<'a>(side: &Side<'a>) -> Placed<'a> {
+        Placed {
+            body: side.body,
+            frame: side.path.frame(0.0),
+        }
+    }
+
+    fn is_solid_of_triangles(&self) -> bool {
+        self.body.volume() == Volume::Solid && self.body.pieces().all_triangles()
+    }
+
+    fn contains(&self, point: DVec3) -> Option<bool> {
+        contains(self.body, self.frame.inverse_point(point))
+    }
+}
+
+/// Looks for a point of one body inside the other one's solid, both ways; the first argument is the
+/// outer body.
+fn of_either(
+    problem: &Problem<'_>,
+    point_inside: impl Fn(&Placed<'_>, &Placed<'_>) -> Option<DVec3>,
+) -> Option<Overlap> {
+    let (a, b) = (Placed::of(&problem.a), Placed::of(&problem.b));
+    let inside = |outer: &Placed<'_>, inner: &Placed<'_>| {
+        let point = outer
+            .is_solid_of_triangles()
+            .then(|| point_inside(outer, inner))?;
+        point.map(|p| problem.world(p))
     };
-    let [a, b] = &frames;
-    inside(&problem.b, b, &problem.a, a)
+    inside(&b, &a)
         .map(Overlap::AInsideB)
-        .or_else(|| inside(&problem.a, a, &problem.b, b).map(Overlap::BInsideA))
+        .or_else(|| inside(&a, &b).map(Overlap::BInsideA))
 }
 
 /// Directions of rays, in no special relation to anything: when one grazes an edge, the next one is

@@ -216,6 +216,8 @@ impl Gap {
     pub(crate) fn free_time(&self) -> f64 {
         let (gap, rate, bend) = (self.gap, self.rate, self.bend);
         let root = (rate * rate + 2.0 * bend * gap).sqrt();
+        // Where the squares underflow, the root is no less than the rate still; NaN stays NaN.
+        let root = if root < rate.abs() { rate.abs() } else { root };
         let tau = if rate > 0.0 {
             2.0 * gap / (rate + root)
         } else if bend > 0.0 {

@@ -4,14 +4,14 @@ use crate::body::Body;
 use crate::error::InputError;
 use crate::motion::Motion;
 use crate::path::Path;
-use crate::tolerance::{self, MAX_COORDINATE, MAX_TURN, NODE_GAP};
+use crate::tolerance::{self, LEAST_TOLERANCE, MAX_COORDINATE, MAX_TURN, NODE_GAP};
 use glam::DVec3;
 
 /// How accurately to answer, and what to count as a contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Config {
     /// A contact is reported at a distance of at most margin + tolerance. In the scene's unit of
-    /// length, positive.
+    /// length, at least [`LEAST_TOLERANCE`].
     pub tolerance: f64,
     /// The distance to keep; 0 reports touching. In the scene's unit of length.
     pub margin: f64,
@@ -102,8 +102,8 @@ impl<'a> Problem<'a> {
             "at least 0 and finite",
         )?;
         let tolerance = config.tolerance;
-        let allowed = tolerance > 0.0 && tolerance <= MAX_COORDINATE;
-        check("tolerance", tolerance, allowed, "positive and at most 1e12")?;
+        let allowed = (LEAST_TOLERANCE..=MAX_COORDINATE).contains(&tolerance);
+        check("tolerance", tolerance, allowed, "from 1e-100 to 1e12")?;
         let allowed = (0.0..=MAX_COORDINATE).contains(&config.margin);
         check(
             "margin",

@@ -17,6 +17,10 @@ pub const DEFAULT_TOLERANCE: f64 = 1e-3;
 /// half a gigabyte of pairs that wait.
 pub const DEFAULT_BUDGET: u64 = 1 << 22;
 
+/// The least tolerance that can be asked for, in the scene's unit of length: squares of distances
+/// that matter stay above the underflow of f64 (2.2e-308).
+pub const LEAST_TOLERANCE: f64 = 1e-100;
+
 /// The largest coordinate, in the scene's unit of length: squares of distances, and of speeds after
 /// the [largest turn](MAX_TURN), stay below the overflow of f32 (3.4e38).
 pub const MAX_COORDINATE: f64 = 1e12;
@@ -57,8 +61,9 @@ pub fn least_tolerance(rounding: f64) -> f64 {
 /// group's origin.
 ///
 /// In units of `u = 2⁻²⁴`: the distance is rounded once (1), the child's centre subtracted (1),
-/// projected by three fused operations (3), and the reaches subtracted (2): 7u; 8u are taken.
-pub const WAY_F32: f32 = 8.0 * U32;
+/// projected by three fused operations (3) onto an axis whose length is off by a root, a quotient and
+/// a product (4), and the reaches subtracted (2): 11u; 12u are taken.
+pub const WAY_F32: f32 = 12.0 * U32;
 
 /// Allowance on a support gap computed in f32, relative to the split group's radius and the other
 /// node's.
@@ -162,9 +167,21 @@ pub const NODE_GAP: f64 = 7.0 / 8.0;
 /// and a pair that inherits its parent's clock is looked at before all others.
 pub const CLOSED_GAP: f64 = 1.0 / 16.0;
 
-#[cfg(test)]
-mod tests;
-
 /// The weights that a convex combination may have before they are divided by their sum: no product
 /// of one with a coordinate, and no sum of four, overflows or underflows.
 pub const WEIGHTS: std::ops::RangeInclusive<f64> = 1e-100..=1e100;
+
+/// The most axes that are tried to tell an overlap at the start from a touch; of polytopes with more
+/// pairs of edges the oracle's word is taken. Each costs a support query.
+pub const MAX_AXES: usize = 4096;
+
+/// How many triangles of a body that touches a solid at the start are looked at to tell whether they
+/// lie inside of it.
+pub const INSIDE_SAMPLES: usize = 256;
+
+/// How far below a triangle a solid is looked for, in units of the triangle's size: far above what a
+/// ray needs to be clear of the surface, far below the size of what touches.
+pub const BELOW_SURFACE: f64 = 1e-6;
+
+#[cfg(test)]
+mod tests;

@@ -1,12 +1,14 @@
 //! What becomes of a contact at the start: reported, or let go for as long as it does not close.
 
 use ccd_core::glam::DVec3;
+use ccd_core::schedule::{BestFirst, Schedule};
 use ccd_core::tolerance::RESTING;
-use ccd_core::{Config, Outcome, StartPolicy};
+use ccd_core::{Claim, Config, DistanceOracle, GiveUp, Outcome, PiecePair, StartPolicy};
+use ccd_distance_gjk::Direct;
 use ccd_tests::analytic::sliding;
 use ccd_tests::backends::for_each_setup;
 use ccd_tests::checks::{Judge, check_contact};
-use ccd_tests::models::cuboid;
+use ccd_tests::models::{Mesh, Shape, cuboid};
 use ccd_tests::query::{Actor, Query};
 use ccd_tests::strategies::{cases, check_cases};
 
@@ -109,6 +111,79 @@ fn touching_and_approaching_is_a_contact_at_once() {
     }
 }
 
+/// Triangles in one plane are kept apart by it on either side; solids only on the outside.
+#[test]
+fn flush_solids_that_dive_into_each_other_are_in_contact_at_once() {
+    let cube = || cuboid(DVec3::splat(0.5));
+    for side in [DVec3::X, DVec3::Y, DVec3::Z] {
+        let dive = |velocity: DVec3| Query {
+            a: Actor::still(cube(), DVec3::ZERO),
+            b: Actor::moving(cube(), side, velocity, DVec3::ZERO),
+            duration: 1.0,
+        };
+        for velocity in [-side, -side + 0.5 * DVec3::new(side.y, side.z, side.x)] {
+            let query = dive(0.5 * velocity);
+            outcomes(&query, &leave(1e-3), |outcome| match outcome {
+                Outcome::Contact { time, .. } => time <= 1e-11,
+                _ => false,
+            });
+        }
+        // Away, they are free.
+        outcomes(&dive(0.5 * side), &leave(1e-3), is_free);
+    }
+}
+
+/// What a backend claims of a pair at the start is no licence to let it pass.
+#[test]
+fn a_liar_cannot_have_a_pair_let_go() {
+    let spike = Shape::open(Mesh {
+        vertices: vec![
+            DVec3::ZERO,
+            DVec3::new(0.1, 0.0, 1.0),
+            DVec3::new(0.0, 0.1, 1.0),
+        ],
+        faces: vec![[0, 1, 2]],
+    });
+    let floor = Shape::open(Mesh {
+        vertices: vec![
+            DVec3::new(-4.0, -4.0, 0.0),
+            DVec3::new(4.0, -4.0, 0.0),
+            DVec3::new(0.0, 4.0, 0.0),
+        ],
+        faces: vec![[0, 1, 2]],
+    });
+    let query = Query {
+        a: Actor::still(floor, DVec3::ZERO),
+        b: Actor::moving(spike, DVec3::ZERO, -DVec3::Z, DVec3::ZERO),
+        duration: 1.0,
+    };
+    let bodies = query.triangles();
+    let problem = query.problem(&bodies, &leave(1e-3));
+    for axis in [DVec3::X, DVec3::Y, -DVec3::Y, -DVec3::Z, DVec3::NAN] {
+        let answer = BestFirst::default().solve(&problem, &mut AxisLiar(axis, Direct::default()));
+        assert!(!is_free(answer.outcome), "{axis} {answer:?}");
+    }
+}
+
+/// The right points, along an axis of its own.
+struct AxisLiar(DVec3, Direct);
+
+impl DistanceOracle for AxisLiar {
+    type Cache = <Direct as DistanceOracle>::Cache;
+
+    fn separation(
+        &mut self,
+        pair: &PiecePair<'_>,
+        cache: &mut Self::Cache,
+    ) -> Result<Claim, GiveUp> {
+        let claim = self.1.separation(pair, cache)?;
+        Ok(Claim {
+            axis: self.0,
+            ..claim
+        })
+    }
+}
+
 #[test]
 fn what_is_left_alone_may_come_back() {
     // Slides off to the side, against a post a unit away.
@@ -121,7 +196,7 @@ fn what_is_left_alone_may_come_back() {
             -2.0 * DVec3::X,
             DVec3::ZERO,
         ),
-        b: Actor::still(ccd_tests::models::Shape::union([slab, post]), DVec3::ZERO),
+        b: Actor::still(Shape::union([slab, post]), DVec3::ZERO),
         duration: 1.0,
     };
     outcomes(&query, &leave(1e-3), |outcome| match outcome {

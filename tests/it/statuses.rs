@@ -2,8 +2,8 @@
 
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{Config, Outcome, Overlap};
-use ccd_tests::backends::for_each_setup;
-use ccd_tests::models::{Shape, cuboid, icosphere, torus};
+use ccd_tests::backends::{default_answer, for_each_setup};
+use ccd_tests::models::{Mesh, Shape, cuboid, icosphere, torus};
 use ccd_tests::query::{Actor, Query};
 
 fn query(a: Shape, b: Shape, at: DVec3) -> Query {
@@ -58,26 +58,103 @@ fn surfaces_that_cross_overlap() {
     }
 }
 
-#[test]
-fn flush_boxes_overlap_or_touch() {
-    // No triangle crosses another: all that meets is flush.
-    outcomes(&query(cube(0.5), cube(0.5), 0.9 * DVec3::X), |outcome| {
-        matches!(
-            outcome,
-            Outcome::Overlapping { .. } | Outcome::Touching { .. }
-        )
-    });
+fn overlaps_in_any_way(outcome: Outcome) -> bool {
+    matches!(outcome, Outcome::Overlapping { .. })
 }
 
+/// No triangle crosses another: all that meets is flush.
 #[test]
-fn equal_bodies_in_the_same_place_overlap_or_touch() {
-    // Every face lies in its twin: triangles touch without crossing.
-    outcomes(&query(cube(0.5), cube(0.5), DVec3::ZERO), |outcome| {
-        matches!(
-            outcome,
-            Outcome::Overlapping { .. } | Outcome::Touching { .. }
-        )
-    });
+fn flush_solids_overlap() {
+    let inscribed = octahedron(0.5);
+    for (b, at) in [
+        (cube(0.5), 0.9 * DVec3::X),
+        (cube(0.5), 0.5 * DVec3::X),
+        (cube(0.5), DVec3::ZERO),
+        (cube(0.25), 0.25 * DVec3::ONE),
+        (inscribed, DVec3::ZERO),
+    ] {
+        outcomes(&query(cube(0.5), b, at), overlaps_in_any_way);
+    }
+}
+
+/// An octahedron about the origin.
+fn octahedron(radius: f64) -> Shape {
+    let points: Vec<DVec3> = (0..6)
+        .map(|k| DVec3::AXES[k / 2] * if k % 2 == 0 { radius } else { -radius })
+        .collect();
+    let face = |k: u32| {
+        let [x, y, z] = [k & 1, 2 + (k >> 1 & 1), 4 + (k >> 2 & 1)];
+        // An odd number of negative corners turns the face round.
+        match (k.count_ones()) % 2 {
+            0 => [x, y, z],
+            _ => [x, z, y],
+        }
+    };
+    Shape::convex(Mesh {
+        vertices: points,
+        faces: (0..8).map(face).collect(),
+    })
+}
+
+/// Needles that cross at their middles: an oracle's common point is known no better than to 1e-12.
+#[test]
+fn needles_that_cross_overlap() {
+    let needle = |thickness: f64| {
+        let corner = |k: usize| {
+            let (sin, cos) = (2.0 * std::f64::consts::FRAC_PI_3 * k as f64).sin_cos();
+            DVec3::new(cos, thickness * sin, 0.0)
+        };
+        Shape::open(Mesh {
+            vertices: (0..3).map(corner).collect(),
+            faces: vec![[0, 1, 2]],
+        })
+    };
+    for thickness in [1e-2, 1e-3, 1e-4] {
+        for k in 0..50 {
+            let turn = DQuat::from_axis_angle(
+                DVec3::new(1.0, 0.3 * f64::from(k), 0.7).normalize(),
+                0.4 + 0.05 * f64::from(k),
+            );
+            let b = needle(thickness).placed(turn, DVec3::ZERO);
+            let query = query(needle(thickness), b, DVec3::ZERO);
+            // As triangles: as polytopes without facets the oracle's word is taken.
+            let config = Config {
+                tolerance: 1e-9,
+                ..Config::default()
+            };
+            let answer = default_answer(&query, &config);
+            assert!(overlaps(answer.outcome), "{thickness} {k} {answer:?}");
+        }
+    }
+}
+
+/// Bodies far smaller than the tolerance are looked at once, not again and again.
+#[test]
+fn bodies_far_smaller_than_the_tolerance_are_answered() {
+    for (size, tolerance) in [(3e-5, 1e-3), (1e-6, 1e-3), (1.0, 1e6)] {
+        let away = DVec3::new(0.9, 0.01, 0.02) * tolerance;
+        let near = Query {
+            a: Actor::still(octahedron(size), DVec3::ZERO),
+            b: Actor::still(octahedron(size), away),
+            duration: 1.0,
+        };
+        let head_on = Query {
+            b: Actor::moving(octahedron(size), 3.0 * away, -4.0 * away, DVec3::Z),
+            ..near.clone()
+        };
+        let config = Config {
+            tolerance,
+            ..Config::default()
+        };
+        for_each_setup(&near, &config, |_, setup, answer| {
+            let touching = matches!(answer.outcome, Outcome::Touching { .. });
+            assert!(touching, "{size} {setup:?}\n{answer:?}");
+        });
+        for_each_setup(&head_on, &config, |_, setup, answer| {
+            let contact = matches!(answer.outcome, Outcome::Contact { .. });
+            assert!(contact, "{size} {setup:?}\n{answer:?}");
+        });
+    }
 }
 
 #[test]

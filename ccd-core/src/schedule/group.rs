@@ -80,12 +80,14 @@ impl Group {
     /// Takes out the pair of least clock.
     #[inline]
     pub(crate) fn take_least(&mut self, problem: &Problem<'_>) -> Next {
+        let advanced = self.clock() > self.since;
         let lane = self.free.take_least();
         let Split {
             body, node, other, ..
         } = self.split;
         let child = self.first + lane as NodeId;
-        if self.aloof >> lane & 1 == 1 {
+        // A second look at the same moment would see the same.
+        if advanced && self.aloof >> lane & 1 == 1 {
             return Next::Split(Split {
                 lanes: 1 << lane,
                 ..Split::all(body, node, other)

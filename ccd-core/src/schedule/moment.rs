@@ -6,7 +6,7 @@ use crate::outcome::Stats;
 use crate::pose::Frame;
 use crate::problem::{Problem, Side};
 use crate::separation::{self, Checked};
-use crate::tolerance::{AXIS_ROUNDS, RATE_F64};
+use crate::tolerance::{AXIS_ROUNDS, RATE_F64, RESTING};
 use glam::DVec3;
 
 /// Two pieces where they are at a clock.
@@ -74,6 +74,38 @@ impl<'p> Moment<'p> {
         self.free_along(passing, slack).map(|free| free.max(direct))
     }
 
+    /// As [`Moment::free_time`] for two pieces, of these indices, that rest on each other.
+    ///
+    /// Triangles that lie in one plane are kept apart by it on either side, and may still be about to
+    /// pass into each other: where one of them bounds a solid, it is only kept apart on the outside.
+    pub(crate) fn resting_time(
+        &self,
+        checked: &Checked,
+        kept: f64,
+        [a, b]: [u32; 2],
+    ) -> Option<f64> {
+        let rounding = self.problem.rounding;
+        let slack = |axis| {
+            let radii = self.pieces.a.radius + self.pieces.b.radius;
+            separation::support_gap(&self.pieces, axis, checked.witness_a) - radii - rounding - kept
+        };
+        // Also when they have just passed the plane by what rounding makes of resting.
+        let in_one_plane = slack(-checked.axis) >= -RESTING * rounding;
+        if !in_one_plane {
+            return self.free_time(checked, kept);
+        }
+        let turn = self.pieces.b_to_a.rotation;
+        let out_of_a = self.problem.a.body.outward_normal(a);
+        let into_b = self.problem.b.body.outward_normal(b).map(|n| -(turn * n));
+        let along = |axis: DVec3| self.free_along(self.frames[0].rotation * axis, slack(axis));
+        match (out_of_a, into_b) {
+            // Solids on one side of the plane: their faces slide, and cannot meet.
+            (Some(n), Some(m)) if n.dot(m) < 0.0 => longer(along(n), along(m)),
+            (Some(n), _) | (None, Some(n)) => along(n),
+            (None, None) => self.free_time(checked, kept),
+        }
+    }
+
     /// The direction between the witnesses when they are nearest, should they go on as they do.
     fn passing(&self, checked: &Checked) -> Option<DVec3> {
         let [a, b] = [checked.witness_a, checked.witness_b].map(|w| self.frames[0].point(w));
@@ -121,6 +153,11 @@ impl<'p> Moment<'p> {
             }),
         }
     }
+}
+
+/// The longer of two free times, of which none is for good.
+fn longer(one: Option<f64>, other: Option<f64>) -> Option<f64> {
+    Some(one?.max(other?))
 }
 
 /// The points of a piece seen along an axis.

@@ -88,7 +88,11 @@ impl<C: Default + Clone> Pair<C> {
             Goal::Apart | Goal::Parted => problem.gap(),
             Goal::Resting { floor } => floor,
         };
-        match moment.free_time(&checked, kept) {
+        let free = match self.goal {
+            Goal::Resting { .. } => moment.resting_time(&checked, kept, ids),
+            Goal::Apart | Goal::Parted => moment.free_time(&checked, kept),
+        };
+        match free {
             None => Step::FreeUntil(f64::INFINITY),
             Some(tau) if (s + tau).next_down() > s => Step::FreeUntil((s + tau).next_down()),
             Some(_) if matches!(self.goal, Goal::Resting { .. }) => Step::Contact(contact()),
@@ -109,8 +113,10 @@ impl<C: Default + Clone> Pair<C> {
         }
         let moment = Moment::new(problem, self.a, self.b, 0.0);
         let start = moment.ask(oracle, &mut C::default(), stats)?;
-        // Written so that NaN is a contact.
-        if !(start.upper <= problem.margin + problem.tolerance) {
+        // Written so that NaN is a contact, and so is a pair that no axis was found to keep apart.
+        let resting = start.upper <= problem.margin + problem.tolerance
+            && start.lower >= -RESTING * problem.rounding;
+        if !resting {
             return None;
         }
         Some(Goal::Resting {

@@ -58,7 +58,12 @@ impl Start {
         if std::mem::replace(&mut self.over, true) {
             return None;
         }
-        match containment::at_start(problem) {
+        let touching = self.touching.is_some();
+        let inside = match touching {
+            true => containment::of_touching(problem),
+            false => containment::at_start(problem),
+        };
+        match inside {
             Some(overlap) => Some(Outcome::Overlapping { overlap }),
             None => self.touching(),
         }
