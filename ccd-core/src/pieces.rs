@@ -91,7 +91,7 @@ impl Pieces {
     ///
     /// # Errors
     /// [`InputError::EmptyPiece`], [`InputError::BadPoint`], [`InputError::BadRadius`],
-    /// [`InputError::FacetOutOfRange`], [`InputError::NoPieces`].
+    /// [`InputError::FacetOutOfRange`], [`InputError::NoPieces`], [`InputError::TooManyPieces`].
     pub fn polytopes(polytopes: &[Polytope]) -> Result<Self, InputError> {
         let (mut points, mut vertex_ids, mut point_ends) = (Vec::new(), Vec::new(), Vec::new());
         let (mut facet_ends, mut facet_ids) = (Vec::new(), Vec::new());

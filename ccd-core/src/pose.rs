@@ -1,4 +1,4 @@
-//! Rigid placements; with `tree` and `schedule` the only users of the vector library's types.
+//! Rigid placements.
 
 use crate::error::InputError;
 use glam::{DMat3, DQuat, DVec3};

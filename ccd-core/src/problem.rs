@@ -43,7 +43,7 @@ pub enum StartPolicy {
     /// approach: the answer is when they come within half the gap that they began with, which is the
     /// tolerance from then on.
     ///
-    /// Where that gap is no more than rounding, pieces that rest on each other are let go until they
+    /// Where that gap is no more than rounding, or the bodies begin inside the margin, pieces that rest on each other are let go until they
     /// approach; pieces that come to touch only later are a contact, also where one slides on flat
     /// ground from one piece of it onto the next.
     Leave,

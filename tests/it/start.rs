@@ -160,7 +160,7 @@ fn a_liar_cannot_have_a_pair_let_go() {
     let bodies = query.triangles();
     let problem = query.problem(&bodies, &leave(1e-3));
     for axis in [DVec3::X, DVec3::Y, -DVec3::Y, -DVec3::Z, DVec3::NAN] {
-        let answer = BestFirst::default().solve(&problem, &mut AxisLiar(axis, Direct::default()));
+        let answer = BestFirst::default().solve(&problem, &mut AxisLiar(axis, Direct));
         assert!(!is_free(answer.outcome), "{axis} {answer:?}");
     }
 }

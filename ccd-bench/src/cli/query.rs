@@ -7,7 +7,7 @@ use crate::progress::Progress;
 use crate::query::{Bodies, Settings, Timed, run as answer};
 use crate::results::{ResultRow, write};
 use crate::summary::Summary;
-use anyhow::{Context, Result, anyhow};
+use anyhow::{Context, Result, anyhow, bail};
 use ccd_core::{Body, Config, InputError};
 use ccd_decomp::{BodySource, Detail, Prepared};
 use std::fs::{self, File};
@@ -17,6 +17,9 @@ use std::path::Path;
 
 /// Answers all rows that can be; the others are told on standard error.
 pub(super) fn run(args: &QueryArgs) -> Result<Verdict> {
+    if !is_standard(&args.out) && same_file(&args.motions, &args.out) {
+        bail!("--out names the file of --motions, which it would overwrite; give it another");
+    }
     let pair = Pair::load(args)?;
     let table = read_motions(&args.motions)?;
     // Before the work, not after it, is when to learn that its results have nowhere to go.
@@ -129,12 +132,14 @@ impl Pair {
 
 fn same(a: &BodySource, b: &BodySource) -> bool {
     match (a, b) {
-        (BodySource::Mesh(a), BodySource::Mesh(b)) => {
-            let place = |path: &Path| fs::canonicalize(path).ok();
-            a == b || place(a).is_some_and(|a| Some(a) == place(b))
-        }
+        (BodySource::Mesh(a), BodySource::Mesh(b)) => same_file(a, b),
         _ => a == b,
     }
+}
+
+fn same_file(a: &Path, b: &Path) -> bool {
+    let place = |path: &Path| fs::canonicalize(path).ok();
+    a == b || place(a).is_some_and(|a| Some(a) == place(b))
 }
 
 fn read_motions(path: &Path) -> Result<MotionTable> {

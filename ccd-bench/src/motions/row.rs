@@ -20,7 +20,8 @@ pub(super) fn query(
         });
     }
     let row = Row { columns, record };
-    let duration = row.number(DURATION)?.unwrap_or(1.0);
+    // A negative zero is a zero.
+    let duration = row.number(DURATION)?.unwrap_or(1.0) + 0.0;
     if duration < 0.0 {
         return Err(RowProblem::BadDuration {
             value: duration,

@@ -296,6 +296,24 @@ fn raised_tolerances_are_told() {
 }
 
 #[test]
+fn results_never_overwrite_their_motions() {
+    let folder = std::env::temp_dir().join(format!("ccd-out-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let motions = folder.join("motions.csv");
+    std::fs::write(&motions, DROP).unwrap();
+    let name = motions.to_str().unwrap();
+    let output = std::process::Command::new(env!("CARGO_BIN_EXE_ccd"))
+        .args(["query", "--a", "box:1,1,1", "--b", "box:1,1,1"])
+        .args(["--motions", name, "--out", name])
+        .output()
+        .unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("overwrite"), "{}", stderr(&output));
+    assert_eq!(std::fs::read_to_string(&motions).unwrap(), DROP);
+    std::fs::remove_dir_all(&folder).unwrap();
+}
+
+#[test]
 fn the_summary_counts_and_quiet_is_quiet() {
     let loud = Run::query(&FALLING_CUBE).stdin(DROP).output();
     assert!(
