@@ -77,6 +77,14 @@ fn flush_solids_overlap() {
     }
 }
 
+/// Of polytopes with more pairs of edges than are tried as axes, the oracle's word is taken: trying all
+/// takes a thousand times as long.
+#[test]
+fn polytopes_of_many_facets_overlap() {
+    let ball = || icosphere(1.0, 3);
+    outcomes(&query(ball(), ball(), 0.5 * DVec3::X), overlaps);
+}
+
 /// An octahedron about the origin.
 fn octahedron(radius: f64) -> Shape {
     let points: Vec<DVec3> = (0..6)
