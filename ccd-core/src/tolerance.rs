@@ -144,9 +144,9 @@ pub const ATTACHED_TIME: f32 = 1.0 / 16.0;
 pub const MUCH_LARGER: f32 = 3.0;
 
 /// How much of a large turning node has to sweep past a small one, in units of the large one's
-/// radius, while a plane that turns with it keeps them apart, for a second look to be worth more
-/// than a split.
-pub const SWEPT: f32 = 1.0 / 32.0;
+/// radius, while it is certain to stay apart, for a second look to be worth more than a split: what
+/// is split off would be swept past all the same. Measured on discs and on soups of large triangles.
+pub const SWEPT: f32 = 1.0 / 128.0;
 
 /// A ray that passes an edge, or starts from a plane, at less than about this angle is not used to
 /// tell inside from outside: far above rounding (1e-15), far below the angles of a million triangles.

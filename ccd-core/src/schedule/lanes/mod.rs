@@ -18,7 +18,7 @@ use crate::tolerance::{ACROSS_F32, BEND_F32, LEAST_BEND_F32, LOOK_AGAIN, SWEPT, 
 use crate::tree::LANES;
 use axis::Axis;
 use glam::Vec3;
-use vector::{dot, length, max, min};
+use vector::{dot, length, max};
 
 /// What eight pairs come to.
 #[derive(Clone, Copy, Debug)]
@@ -117,17 +117,10 @@ pub(crate) fn bound_attached<C: Children, P: Other, S: Turn, O: Turn>(
                 other.radius(),
             ),
         };
-        let free = out.free[lane];
-        let longer = attached - 2.0 * free;
-        let farther = attached * spin * arm - size * SWEPT;
-        out.aloof[lane] = max(out.aloof[lane], min(longer, farther));
-        out.free[lane] = max(free, attached);
-        // What the plane is attached to is better kept whole.
-        let keep = match larger {
-            Larger::Split => -1.0,
-            Larger::Other => 1.0,
-        };
-        out.thicker[lane] = vector::choose(attached > free, keep, out.thicker[lane]);
+        let free = max(out.free[lane], attached);
+        let farther = free * spin * arm - size * SWEPT;
+        out.aloof[lane] = max(out.aloof[lane], farther);
+        out.free[lane] = free;
     }
 }
 
