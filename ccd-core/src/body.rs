@@ -62,8 +62,7 @@ impl Body {
         hierarchy: &Hierarchy,
         volume: Volume,
     ) -> Result<Self, InputError> {
-        let (tree, order) = Tree::build(pieces, hierarchy)?;
-        let pieces = pieces.reordered(&order);
+        let (tree, pieces) = Tree::build(pieces, hierarchy)?;
         Ok(Body {
             shells: shells(&pieces),
             facing: match pieces.all_triangles() && signed_volume(&pieces) < 0.0 {

@@ -7,14 +7,11 @@ use crate::hierarchy::{Hierarchy, HierarchyNode};
 use crate::pieces::Pieces;
 use glam::DVec3;
 
-/// Builds the tree, and the order that the pieces must be brought into for it.
+/// Builds the tree, and brings the pieces into its order.
 ///
 /// A binary node opens its largest descendants until there are eight; triangles stop at clusters of
 /// up to eight, other pieces at one.
-pub(crate) fn build(
-    pieces: &Pieces,
-    hierarchy: &Hierarchy,
-) -> Result<(Tree, Vec<u32>), InputError> {
+pub(crate) fn build(pieces: &Pieces, hierarchy: &Hierarchy) -> Result<(Tree, Pieces), InputError> {
     let ranges = Ranges::new(hierarchy, pieces.len())?;
     let pieces = pieces.reordered(&ranges.order);
     let mut builder = Builder {
@@ -47,7 +44,7 @@ pub(crate) fn build(
         boxes: builder.boxes,
         triangles: builder.triangles,
     };
-    Ok((tree, ranges.order))
+    Ok((tree, pieces))
 }
 
 /// Where the pieces below each node of a hierarchy stand when all are listed depth first.

@@ -74,11 +74,11 @@ impl Node {
 }
 
 impl Tree {
-    /// Builds the tree, and the order that the pieces must be brought into for it.
+    /// Builds the tree, and brings the pieces into its order.
     pub(crate) fn build(
         pieces: &Pieces,
         hierarchy: &Hierarchy,
-    ) -> Result<(Tree, Vec<u32>), InputError> {
+    ) -> Result<(Tree, Pieces), InputError> {
         build::build(pieces, hierarchy)
     }
 
