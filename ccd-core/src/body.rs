@@ -2,6 +2,7 @@
 
 use crate::error::InputError;
 use crate::hierarchy::Hierarchy;
+use crate::piece::Piece;
 use crate::pieces::Pieces;
 use crate::shell::{Shell, shells};
 use crate::tree::Tree;
@@ -22,7 +23,7 @@ pub struct Body {
     tree: Tree,
     volume: Volume,
     shells: Vec<Shell>,
-    /// Which way the triangles of a solid are turned.
+    /// Which way the faces of a solid are turned.
     facing: Facing,
 }
 
@@ -36,7 +37,8 @@ enum Facing {
 /// Whether being inside of a body counts as touching it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Volume {
-    /// The triangles bound a solid: closed, outward normals. A body inside it overlaps it.
+    /// The triangles, or the [mesh's triangles](crate::Piece::mesh_triangles) on the pieces, bound a solid:
+    /// together they are closed. A body inside it overlaps it. A single piece is solid by itself.
     Solid,
     /// Only the pieces themselves are there to be touched.
     Surface,
@@ -65,7 +67,7 @@ impl Body {
         let (tree, pieces) = Tree::build(pieces, hierarchy)?;
         Ok(Body {
             shells: shells(&pieces),
-            facing: match pieces.all_triangles() && signed_volume(&pieces) < 0.0 {
+            facing: match volume == Volume::Solid && signed_volume(&pieces) < 0.0 {
                 true => Facing::Inward,
                 false => Facing::Outward,
             },
@@ -90,18 +92,27 @@ impl Body {
         self.pieces.bytes() + self.tree.bytes()
     }
 
-    /// The unit normal of a piece that points out of the solid which the body's triangles bound; none
-    /// where there is no such thing.
+    /// The unit normal of a flat piece that points out of the solid which the body's faces bound;
+    /// none where there is no such thing.
     pub(crate) fn outward_normal(&self, piece: u32) -> Option<DVec3> {
-        if self.volume == Volume::Surface || !self.pieces.all_triangles() {
+        let piece = self.pieces.get(piece as usize);
+        if self.volume == Volume::Surface || !piece.is_flat() {
             return None;
         }
-        let [a, b, c] = self.pieces.triangle(piece as usize);
-        let normal = (b - a).cross(c - a).try_normalize()?;
+        let triangle = match *piece.points {
+            [a, b, c] if self.pieces.all_triangles() => [a, b, c],
+            _ => piece.mesh_triangles().next()?.1,
+        };
+        let normal = area_normal(triangle).try_normalize()?;
         Some(match self.facing {
             Facing::Outward => normal,
             Facing::Inward => -normal,
         })
+    }
+
+    /// Whether its faces bound a solid that its pieces need not fill.
+    pub(crate) fn may_be_hollow(&self) -> bool {
+        self.volume == Volume::Solid && (self.pieces.all_triangles() || self.pieces.len() > 1)
     }
 
     /// The tree over the pieces.
@@ -116,10 +127,17 @@ impl Body {
     }
 }
 
-/// Six times the volume that triangles bound, negative where their normals point inward.
+/// Six times the volume that the mesh's faces bound, negative where their normals point inward.
 fn signed_volume(pieces: &Pieces) -> f64 {
-    (0..pieces.len())
-        .map(|k| pieces.triangle(k))
-        .map(|[a, b, c]| a.dot(b.cross(c)))
-        .sum()
+    let cone = |triangle: [DVec3; 3]| area_normal(triangle).dot(triangle[0]);
+    let of_piece = |piece: Piece<'_>| -> f64 { piece.mesh_triangles().map(|(_, t)| cone(t)).sum() };
+    match pieces.all_triangles() {
+        true => (0..pieces.len()).map(|k| cone(pieces.triangle(k))).sum(),
+        false => pieces.iter().map(of_piece).sum(),
+    }
+}
+
+/// The normal of a triangle, twice its area long.
+fn area_normal([a, b, c]: [DVec3; 3]) -> DVec3 {
+    (b - a).cross(c - a)
 }

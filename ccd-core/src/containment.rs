@@ -1,6 +1,6 @@
 //! Whether one body lies inside the other where their surfaces are apart.
 
-use crate::body::{Body, Volume};
+use crate::body::Body;
 use crate::outcome::Overlap;
 use crate::pose::Frame;
 use crate::problem::{Problem, Side};
@@ -64,10 +64,6 @@ impl Placed<'_> {
         }
     }
 
-    fn is_solid_of_triangles(&self) -> bool {
-        self.body.volume() == Volume::Solid && self.body.pieces().all_triangles()
-    }
-
     fn contains(&self, point: DVec3) -> Option<bool> {
         contains(self.body, self.frame.inverse_point(point))
     }
@@ -82,7 +78,8 @@ fn of_either(
     let (a, b) = (Placed::of(&problem.a), Placed::of(&problem.b));
     let inside = |outer: &Placed<'_>, inner: &Placed<'_>| {
         let point = outer
-            .is_solid_of_triangles()
+            .body
+            .may_be_hollow()
             .then(|| point_inside(outer, inner))?;
         point.map(|p| problem.world(p))
     };
@@ -100,7 +97,7 @@ const RAYS: [DVec3; 4] = [
     DVec3::new(-0.3921, -0.2844, -0.8748),
 ];
 
-/// Whether the closed triangles of a body wind about a point in its frame; none when the point is on
+/// Whether the closed faces of a body wind about a point in its frame; none when the point is on
 /// the surface, or too near to it to tell.
 fn contains(body: &Body, point: DVec3) -> Option<bool> {
     if !body.tree().may_contain(point) {

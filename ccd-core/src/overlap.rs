@@ -39,11 +39,11 @@ pub(crate) fn intersects(pair: &PiecePair<'_>, checked: &Checked, rounding: f64)
     };
     let crosses =
         |p: &[DVec3], q: &[DVec3]| p.iter().any(|&e| q.iter().any(|&f| separates(e.cross(f))));
-    let flat = pair.a.points.len() <= 3 && pair.b.points.len() <= 3;
+    let flat = pair.a.is_flat() && pair.b.is_flat();
     let normals = a.normals.iter().chain(&b.normals);
     let separated = normals.copied().any(separates)
         || crosses(&a.edges, &b.edges)
-        // Triangles, lines and points: everything across a plane and an edge.
+        // Polygons, lines and points: everything across a plane and an edge.
         || flat && crosses(&a.normals, &a.edges)
         || flat && crosses(&b.normals, &b.edges)
         || flat && crosses(&a.normals, &b.edges)

@@ -24,24 +24,51 @@ impl<'a> Piece<'a> {
             facets: Facets::NONE,
         }
     }
+
+    /// The mesh's triangles that are on the piece, with the numbers of their faces; polygons are fans
+    /// about their first corner.
+    pub fn mesh_triangles(&self) -> impl Iterator<Item = (u32, [DVec3; 3])> {
+        let facets = self.facets.origins.iter().zip(self.facets.iter());
+        let fans = facets.flat_map(|(origin, corners)| {
+            let id = match origin {
+                Origin::Face(id) => Some(*id),
+                Origin::Faces | Origin::Virtual => None,
+            };
+            let points = self.points;
+            let at = move |k: usize| points[corners[k] as usize];
+            let fan = (1..corners.len() - 1).map(move |k| [at(0), at(k), at(k + 1)]);
+            id.into_iter().flat_map(move |id| fan.clone().map(move |t| (id, t)))
+        });
+        let faces = self.facets.faces.iter();
+        fans.chain(faces.map(|face| (face.id, face.corners)))
+    }
+
+    /// Whether it lies in a plane: a polytope of volume has more than two facets.
+    pub(crate) fn is_flat(&self) -> bool {
+        self.points.len() <= 3 || self.facets.len() == 2
+    }
 }
 
 /// The facets of a piece: convex polygons, each a loop of indices into the piece's points,
-/// counter-clockwise seen from outside.
+/// counter-clockwise seen from outside; and the mesh's faces that are on them.
 #[derive(Clone, Copy, Debug)]
 pub struct Facets<'a> {
+    pub(crate) origins: &'a [Origin],
     /// `ends[k]` is where the corners of facet `k` end in `corners`, counted from `base`.
     pub(crate) ends: &'a [u32],
     pub(crate) corners: &'a [u32],
     pub(crate) base: u32,
+    pub(crate) faces: &'a [Face],
 }
 
 impl<'a> Facets<'a> {
     /// No facets.
     pub const NONE: Facets<'static> = Facets {
+        origins: &[],
         ends: &[],
         corners: &[],
         base: 0,
+        faces: &[],
     };
 
     /// How many facets there are.
@@ -55,7 +82,7 @@ impl<'a> Facets<'a> {
     }
 
     /// The corner loops, facet by facet.
-    pub fn iter(&self) -> impl Iterator<Item = &'a [u32]> {
+    pub fn iter(&self) -> impl ExactSizeIterator<Item = &'a [u32]> + Clone + use<'a> {
         let facets = *self;
         (0..facets.ends.len()).map(move |k| {
             let start = if k == 0 {
@@ -66,6 +93,11 @@ impl<'a> Facets<'a> {
             &facets.corners[start as usize..facets.ends[k] as usize]
         })
     }
+
+    /// What each facet is of the mesh.
+    pub fn origins(&self) -> &'a [Origin] {
+        self.origins
+    }
 }
 
 /// A convex polytope as it is handed to [`Pieces::polytopes`](crate::Pieces::polytopes).
@@ -75,8 +107,10 @@ pub struct Polytope {
     pub points: Vec<DVec3>,
     /// The number each point goes by in the mesh it came from; empty numbers them from 0.
     pub vertex_ids: Vec<u32>,
-    /// The hull's facets, where known.
+    /// The hull's facets, where known: they tile its boundary; a flat polygon has two.
     pub facets: Vec<Facet>,
+    /// The mesh's faces that are on the hull's boundary and are not a facet by themselves.
+    pub faces: Vec<Face>,
     /// Rounding radius ≥ 0.
     pub radius: f64,
 }
@@ -84,8 +118,28 @@ pub struct Polytope {
 /// One facet of a [`Polytope`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Facet {
-    /// The number the facet goes by in the mesh it came from.
-    pub id: u32,
+    /// What it is of the mesh.
+    pub origin: Origin,
     /// Indices into the polytope's points, counter-clockwise seen from outside.
     pub corners: Vec<u32>,
+}
+
+/// What a facet is of the mesh that its polytope came from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Origin {
+    /// The face of that number.
+    Face(u32),
+    /// Several coplanar faces, listed in [`Polytope::faces`].
+    Faces,
+    /// No part of the mesh, or not as a whole: it closes the polytope.
+    Virtual,
+}
+
+/// A triangle of a mesh on the boundary of a [`Polytope`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Face {
+    /// The number it goes by in the mesh.
+    pub id: u32,
+    /// Counter-clockwise seen from outside; not necessarily points of the polytope.
+    pub corners: [DVec3; 3],
 }

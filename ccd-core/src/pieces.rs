@@ -2,7 +2,9 @@
 
 use crate::error::InputError;
 use crate::feature::Feature;
-use crate::piece::{Facets, Piece, Polytope};
+use crate::naming::{self, Name};
+use crate::oracle::Combination;
+use crate::piece::{Face, Facets, Origin, Piece, Polytope};
 use crate::tolerance::MAX_COORDINATE;
 use glam::DVec3;
 
@@ -30,13 +32,21 @@ enum Radii {
 enum Shape {
     /// Every piece is a triangle; the mesh's number of each.
     Triangles { face_ids: Vec<u32> },
-    Polytopes {
-        /// Where each piece's facets end in `corner_ends` and `facet_ids`.
-        facet_ends: Vec<u32>,
-        facet_ids: Vec<u32>,
-        corner_ends: Vec<u32>,
-        corners: Vec<u32>,
-    },
+    Polytopes(Box<Surfaces>),
+}
+
+/// The facets and mesh faces of all pieces.
+#[derive(Clone, Debug, Default)]
+struct Surfaces {
+    /// Where each piece's facets end in `corner_ends` and `origins`.
+    facet_ends: Vec<u32>,
+    origins: Vec<Origin>,
+    /// Where each facet's corners end.
+    corner_ends: Vec<u32>,
+    corners: Vec<u32>,
+    /// Where each piece's faces end.
+    face_ends: Vec<u32>,
+    faces: Vec<Face>,
 }
 
 impl Pieces {
@@ -94,8 +104,7 @@ impl Pieces {
     /// [`InputError::FacetOutOfRange`], [`InputError::NoPieces`], [`InputError::TooManyPieces`].
     pub fn polytopes(polytopes: &[Polytope]) -> Result<Self, InputError> {
         let (mut points, mut vertex_ids, mut point_ends) = (Vec::new(), Vec::new(), Vec::new());
-        let (mut facet_ends, mut facet_ids) = (Vec::new(), Vec::new());
-        let (mut corner_ends, mut corners) = (Vec::new(), Vec::new());
+        let mut surfaces = Surfaces::default();
         for (piece, polytope) in polytopes.iter().enumerate() {
             let count = polytope.points.len();
             points.extend_from_slice(&polytope.points);
@@ -105,27 +114,14 @@ impl Pieces {
                 vertex_ids.extend(0..count as u32);
             }
             point_ends.push(points.len() as u32);
-            for (facet, it) in polytope.facets.iter().enumerate() {
-                if it.corners.len() < 3 || it.corners.iter().any(|&c| c as usize >= count) {
-                    return Err(InputError::FacetOutOfRange { piece, facet });
-                }
-                corners.extend_from_slice(&it.corners);
-                corner_ends.push(corners.len() as u32);
-                facet_ids.push(it.id);
-            }
-            facet_ends.push(facet_ids.len() as u32);
+            surfaces.push(piece, polytope)?;
         }
         Pieces {
             points,
             vertex_ids,
             point_ends,
             radii: Radii::Each(polytopes.iter().map(|p| p.radius).collect()),
-            shape: Shape::Polytopes {
-                facet_ends,
-                facet_ids,
-                corner_ends,
-                corners,
-            },
+            shape: Shape::Polytopes(Box::new(surfaces)),
         }
         .checked()
     }
@@ -193,7 +189,13 @@ impl Pieces {
 
     /// Bytes held, about.
     pub(crate) fn bytes(&self) -> usize {
-        size_of_val(self.points.as_slice()) + 4 * (self.vertex_ids.len() + 2 * self.len())
+        let facets = match &self.shape {
+            Shape::Triangles { .. } => 0,
+            Shape::Polytopes(surfaces) => surfaces.bytes(),
+        };
+        size_of_val(self.points.as_slice())
+            + 4 * (self.vertex_ids.len() + 2 * self.len())
+            + facets
     }
 
     /// The three corners of a piece of which [`Pieces::all_triangles`] holds.
@@ -232,44 +234,24 @@ impl Pieces {
         out
     }
 
-    /// What the hull of some points of a piece is called in the mesh: the vertex, edge or face that
-    /// holds them all.
-    ///
-    /// `support` are indices into the piece's points, one to three of them distinct.
-    pub fn feature(&self, piece: usize, support: &[u32]) -> Feature {
+    /// What a point of a piece is called in the mesh: the vertex, edge or face that holds the corners
+    /// it is combined of, or the face that it lies on all the same; [`Feature::Piece`] inside.
+    pub fn feature(&self, piece: usize, point: &Combination) -> Feature {
         let id = |corner: u32| self.vertex_ids[self.point_range(piece).start + corner as usize];
-        match support {
+        match point.support() {
             [] => Feature::Piece(piece as u32),
             [v] => Feature::Vertex(id(*v)),
-            _ => match &self.shape {
+            support => match &self.shape {
                 Shape::Triangles { face_ids } => match support {
                     [v, w] => Feature::edge(id(*v), id(*w)),
                     _ => Feature::Face(face_ids[piece]),
                 },
-                Shape::Polytopes { .. } => self.polytope_feature(piece, support, id),
+                Shape::Polytopes(_) => match naming::of_polytope(&self.get(piece), point) {
+                    Name::Edge(v, w) => Feature::edge(id(v), id(w)),
+                    Name::Face(face) => Feature::Face(face),
+                    Name::Inside => Feature::Piece(piece as u32),
+                },
             },
-        }
-    }
-
-    fn polytope_feature(&self, piece: usize, support: &[u32], id: impl Fn(u32) -> u32) -> Feature {
-        let facets = self.facets(piece);
-        if let [v, w] = support {
-            let adjacent = |loop_: &[u32]| {
-                (0..loop_.len()).any(|k| {
-                    let pair = (loop_[k], loop_[(k + 1) % loop_.len()]);
-                    pair == (*v, *w) || pair == (*w, *v)
-                })
-            };
-            if facets.is_empty() || facets.iter().any(adjacent) {
-                return Feature::edge(id(*v), id(*w));
-            }
-        }
-        let holding = facets
-            .iter()
-            .position(|loop_| support.iter().all(|v| loop_.contains(v)));
-        match holding {
-            Some(facet) => Feature::Face(self.facet_id(piece, facet)),
-            None => Feature::Piece(piece as u32),
         }
     }
 
@@ -290,33 +272,7 @@ impl Pieces {
     fn facets(&self, piece: usize) -> Facets<'_> {
         match &self.shape {
             Shape::Triangles { .. } => Facets::NONE,
-            Shape::Polytopes {
-                facet_ends,
-                corner_ends,
-                corners,
-                ..
-            } => {
-                let facets = range(facet_ends, piece);
-                Facets {
-                    base: match facets.start {
-                        0 => 0,
-                        start => corner_ends[start - 1],
-                    },
-                    ends: &corner_ends[facets],
-                    corners,
-                }
-            }
-        }
-    }
-
-    fn facet_id(&self, piece: usize, facet: usize) -> u32 {
-        match &self.shape {
-            Shape::Triangles { face_ids } => face_ids[piece],
-            Shape::Polytopes {
-                facet_ends,
-                facet_ids,
-                ..
-            } => facet_ids[range(facet_ends, piece).start + facet],
+            Shape::Polytopes(surfaces) => surfaces.of(piece),
         }
     }
 }
@@ -327,30 +283,72 @@ impl Shape {
             Shape::Triangles { face_ids } => Shape::Triangles {
                 face_ids: order.iter().map(|&k| face_ids[k as usize]).collect(),
             },
-            Shape::Polytopes {
-                facet_ends,
-                facet_ids,
-                corner_ends,
-                corners,
-            } => {
-                let (mut ends, mut ids) = (Vec::new(), Vec::new());
-                let (mut out_corner_ends, mut out_corners) = (Vec::new(), Vec::new());
-                for &k in order {
-                    for facet in range(facet_ends, k as usize) {
-                        out_corners.extend_from_slice(&corners[range(corner_ends, facet)]);
-                        out_corner_ends.push(out_corners.len() as u32);
-                        ids.push(facet_ids[facet]);
-                    }
-                    ends.push(ids.len() as u32);
-                }
-                Shape::Polytopes {
-                    facet_ends: ends,
-                    facet_ids: ids,
-                    corner_ends: out_corner_ends,
-                    corners: out_corners,
-                }
-            }
+            Shape::Polytopes(surfaces) => Shape::Polytopes(Box::new(surfaces.reordered(order))),
         }
+    }
+}
+
+impl Surfaces {
+    fn push(&mut self, piece: usize, polytope: &Polytope) -> Result<(), InputError> {
+        let known = |corners: &[u32]| {
+            let exists = |&c: &u32| (c as usize) < polytope.points.len();
+            corners.len() >= 3 && corners.iter().all(exists)
+        };
+        let mut loops = polytope.facets.iter().map(|facet| &facet.corners[..]);
+        if let Some(facet) = loops.position(|corners| !known(corners)) {
+            return Err(InputError::FacetOutOfRange { piece, facet });
+        }
+        let finite = |face: &Face| face.corners.iter().all(|p| p.is_finite());
+        if let Some(face) = polytope.faces.iter().position(|face| !finite(face)) {
+            let facet = polytope.facets.len() + face;
+            return Err(InputError::FacetOutOfRange { piece, facet });
+        }
+        for facet in &polytope.facets {
+            self.corners.extend_from_slice(&facet.corners);
+            self.corner_ends.push(self.corners.len() as u32);
+            self.origins.push(facet.origin);
+        }
+        self.facet_ends.push(self.origins.len() as u32);
+        self.faces.extend_from_slice(&polytope.faces);
+        self.face_ends.push(self.faces.len() as u32);
+        Ok(())
+    }
+
+    #[inline]
+    fn of(&self, piece: usize) -> Facets<'_> {
+        let facets = range(&self.facet_ends, piece);
+        Facets {
+            base: match facets.start {
+                0 => 0,
+                start => self.corner_ends[start - 1],
+            },
+            origins: &self.origins[facets.clone()],
+            ends: &self.corner_ends[facets],
+            corners: &self.corners,
+            faces: &self.faces[range(&self.face_ends, piece)],
+        }
+    }
+
+    fn reordered(&self, order: &[u32]) -> Surfaces {
+        let mut out = Surfaces::default();
+        for &k in order {
+            let facets = self.of(k as usize);
+            for corners in facets.iter() {
+                out.corners.extend_from_slice(corners);
+                out.corner_ends.push(out.corners.len() as u32);
+            }
+            out.origins.extend_from_slice(facets.origins);
+            out.facet_ends.push(out.origins.len() as u32);
+            out.faces.extend_from_slice(facets.faces);
+            out.face_ends.push(out.faces.len() as u32);
+        }
+        out
+    }
+
+    fn bytes(&self) -> usize {
+        size_of_val(self.origins.as_slice())
+            + size_of_val(self.faces.as_slice())
+            + 4 * (2 * self.facet_ends.len() + self.corner_ends.len() + self.corners.len())
     }
 }
 

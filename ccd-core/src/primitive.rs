@@ -2,7 +2,7 @@
 
 use crate::body::{Body, Volume};
 use crate::error::InputError;
-use crate::piece::{Facet, Polytope};
+use crate::piece::{Facet, Origin, Polytope};
 use crate::pieces::Pieces;
 use glam::DVec3;
 
@@ -53,7 +53,7 @@ impl Body {
                 .iter()
                 .enumerate()
                 .map(|(id, corners)| Facet {
-                    id: id as u32,
+                    origin: Origin::Face(id as u32),
                     corners: corners.to_vec(),
                 })
                 .collect(),

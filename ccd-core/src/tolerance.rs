@@ -185,3 +185,8 @@ pub const BELOW_SURFACE: f64 = 1e-6;
 
 #[cfg(test)]
 mod tests;
+
+/// A witness lies on a facet when it is this near to it, in multiples of its piece's size; decides
+/// which name a contact gets, and nothing else. Witnesses are combinations of corners, right to a
+/// few [`U64`] of that size, times what a flat piece makes of them.
+pub const ON_FACET: f64 = 1e-9;

@@ -32,6 +32,7 @@ mod error;
 mod format;
 mod hierarchy;
 mod mesh;
+mod predicates;
 mod repair;
 mod source;
 mod tally;

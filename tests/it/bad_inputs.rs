@@ -5,8 +5,8 @@
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::tolerance::MAX_COORDINATE;
 use ccd_core::{
-    Body, Config, Facet, Hierarchy, HierarchyNode, InputError, Motion, Moving, Pieces, Polytope,
-    Pose, Problem, Volume,
+    Body, Config, Facet, Hierarchy, HierarchyNode, InputError, Motion, Moving, Origin, Pieces,
+    Polytope, Pose, Problem, Volume,
 };
 
 const BAD: [f64; 3] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
@@ -173,7 +173,10 @@ fn polytopes_name_their_bad_element() {
         assert!(Body::ball(radius).is_err() && Body::capsule(radius, 1.0).is_err());
     }
     for corners in [vec![0, 1], vec![], vec![0, 1, 3]] {
-        let facets = vec![Facet { id: 0, corners }];
+        let facets = vec![Facet {
+            origin: Origin::Face(0),
+            corners,
+        }];
         let result = second(Polytope {
             facets,
             ..good.clone()

@@ -6,6 +6,7 @@
 mod backends_agree;
 mod bad_inputs;
 mod equal_bits;
+mod exact;
 mod generators;
 mod liars;
 mod limits;

@@ -1,18 +1,12 @@
 //! The models are what they are called: closed where they should be, convex parts within.
 
 use ccd_core::glam::DVec3;
-use ccd_tests::models::{Mesh, Shape, cuboid, icosphere, l_prism, post, torus, torus_knot};
+use ccd_tests::models::{Mesh, Shape, convex_solids, gear, l_block, l_prism, solids};
 use std::collections::HashMap;
 
-fn closed_models() -> Vec<(&'static str, Shape)> {
-    vec![
-        ("cuboid", cuboid(DVec3::new(1.0, 2.0, 3.0))),
-        ("icosphere", icosphere(1.0, 2)),
-        ("L-prism", l_prism()),
-        ("post", post(1.3, 1.0)),
-        ("torus", torus(1.0, 0.25, 24, 8)),
-        ("torus knot", torus_knot(48, 6)),
-    ]
+fn closed_models() -> impl Iterator<Item = (String, Shape)> {
+    let all = solids().into_iter().chain(convex_solids());
+    all.map(|model| (model.name, model.shape))
 }
 
 #[test]
@@ -45,6 +39,7 @@ fn closed_models_are_not_inside_out() {
         assert!(volume(&shape.mesh) > 0.0, "{name}: {}", volume(&shape.mesh));
     }
     assert!((volume(&l_prism().mesh) - 3.0).abs() < 1e-12);
+    assert!((volume(&l_block(5).mesh) - 3.0).abs() < 1e-12);
 }
 
 #[test]
@@ -62,4 +57,12 @@ fn parts_have_their_points_behind_their_facets() {
             }
         }
     }
+}
+
+/// Vertices less edges plus faces is 2 less two for each hole through a solid of one shell.
+#[test]
+fn gears_have_a_bore_and_holes() {
+    let mesh = gear(5).mesh;
+    let characteristic = mesh.vertices.len() as i64 - mesh.faces.len() as i64 / 2;
+    assert_eq!(characteristic, 2 - 2 * 6);
 }

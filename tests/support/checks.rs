@@ -5,7 +5,7 @@ use crate::query::{Actor, Bodies, Query};
 use crate::referee::{Placement, Referee, Verdict, point_segment, point_triangle};
 use ccd_core::glam::DVec3;
 use ccd_core::{
-    Answer, Body, Config, Contact, Feature, Outcome, Overlap, Piece, Polytope, Separation,
+    Answer, Body, Config, Contact, Feature, Origin, Outcome, Overlap, Piece, Polytope, Separation,
 };
 
 /// Holds answers to one query against what the referee saw of it.
@@ -141,16 +141,26 @@ impl<'a> Judge<'a> {
         Ok(())
     }
 
+    /// Whether a point of a piece of body A (0) or B (1) is there by right although it is off the
+    /// mesh: in the solid. Parts are taken at their word, as they need not be closed together.
+    fn fills(&self, body: usize, point: DVec3, kind: Kind) -> bool {
+        match kind {
+            Kind::Triangles => true,
+            Kind::Parts => true,
+            Kind::Patches | Kind::Hull => self.referee.holds(body, point),
+        }
+    }
+
     fn check_overlap(&self, overlap: &Overlap, bodies: &Bodies) -> Law {
         match overlap {
             Overlap::Pieces(contact) => {
                 let gap = self.referee.gap(0.0);
-                let filled = bodies.kinds.contains(&Kind::Parts);
+                let both = [contact.separation.witness_a, contact.separation.witness_b];
+                let inside = (0..2).all(|k| self.fills(k, both[k], bodies.kinds[k]));
                 law!(
-                    gap <= self.query.rounding() || filled,
+                    gap <= self.query.rounding() || inside,
                     "false: overlap at distance {gap}"
                 );
-                let both = [contact.separation.witness_a, contact.separation.witness_b];
                 law!(
                     both[0].distance(both[1]) <= self.query.rounding(),
                     "not in both: {both:?}"
@@ -270,7 +280,9 @@ impl Side<'_> {
         law!(off <= rounding, "the witness is {off} off its piece");
         let shape = &self.actor.shape;
         let off = match self.kind {
-            Kind::Triangles => distance_to_mesh_feature(witness, feature, &shape.mesh, self.place)?,
+            Kind::Triangles | Kind::Patches | Kind::Hull => {
+                distance_to_mesh_feature(witness, feature, &shape.mesh, self.place)?
+            }
             Kind::Parts => distance_to_part_feature(witness, feature, &shape.parts, self.place)?,
         };
         law!(
@@ -294,8 +306,13 @@ fn distance_to_piece(p: DVec3, piece: &Piece<'_>, place: impl Fn(DVec3) -> DVec3
                 .iter()
                 .map(|corners| corners.iter().map(|&c| points[c as usize]).collect())
                 .collect();
-            let height = |l: &Vec<DVec3>| (l[1] - l[0]).cross(l[2] - l[0]).dot(p - l[0]);
-            if loops.iter().all(|l| height(l) <= 0.0) {
+            let normal = |l: &[DVec3]| -> DVec3 {
+                let fan = l.windows(2).skip(1);
+                fan.map(|e| (e[0] - l[0]).cross(e[1] - l[0])).sum()
+            };
+            let height = |l: &Vec<DVec3>| normal(l).dot(p - l[0]);
+            // A polygon has two facets, and no inside.
+            if loops.len() != 2 && loops.iter().all(|l| height(l) <= 0.0) {
                 0.0
             } else {
                 loops
@@ -349,12 +366,9 @@ fn distance_to_part_feature(
             Feature::Edge(v, w) => vertex(v)
                 .zip(vertex(w))
                 .map(|(v, w)| point_segment(p, [v, w]).distance(p)),
-            Feature::Face(f) => part.facets.iter().find(|facet| facet.id == f).map(|facet| {
-                let corners = facet
-                    .corners
-                    .iter()
-                    .map(|&c| place(part.points[c as usize]));
-                distance_to_polygon(p, &corners.collect::<Vec<_>>())
+            Feature::Face(f) => face_of(part, f).map(|corners| {
+                let corners: Vec<DVec3> = corners.into_iter().map(&place).collect();
+                distance_to_polygon(p, &corners)
             }),
             // The inside: that the witness lies in the piece is checked elsewhere.
             Feature::Piece(_) => Some(0.0),
@@ -368,6 +382,20 @@ fn distance_to_part_feature(
     } else {
         Ok(nearest)
     }
+}
+
+/// The corners of the face that a part has by a number.
+fn face_of(part: &Polytope, face: u32) -> Option<Vec<DVec3>> {
+    let mut facets = part.facets.iter();
+    let whole = facets.find(|facet| facet.origin == Origin::Face(face));
+    let corners = whole.map(|it| {
+        it.corners
+            .iter()
+            .map(|&c| part.points[c as usize])
+            .collect()
+    });
+    let triangle = || part.faces.iter().find(|it| it.id == face);
+    corners.or_else(|| triangle().map(|it| it.corners.to_vec()))
 }
 
 fn distance_to_polygon(p: DVec3, corners: &[DVec3]) -> f64 {

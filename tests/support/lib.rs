@@ -8,6 +8,7 @@ pub mod case;
 pub mod checks;
 pub mod contract;
 pub mod corpus;
+pub mod exact;
 pub mod liars;
 pub mod models;
 pub mod query;

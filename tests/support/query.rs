@@ -4,6 +4,7 @@ use crate::models::{Kind, Shape};
 use crate::tolerance::rounding;
 use ccd_core::glam::DVec3;
 use ccd_core::{Body, Config, Motion, Moving, Pose, Problem};
+use std::rc::Rc;
 
 /// A shape and how it moves.
 #[derive(Clone, Debug)]
@@ -27,8 +28,8 @@ pub struct Query {
 
 /// The engine's bodies of a query.
 pub struct Bodies {
-    a: Body,
-    b: Body,
+    a: Rc<Body>,
+    b: Rc<Body>,
     /// What they were built of.
     pub kinds: [Kind; 2],
 }
@@ -68,13 +69,14 @@ impl Query {
 
     /// Every combination of kinds of pieces.
     pub fn all_bodies(&self) -> Vec<Bodies> {
-        let pairs = |ka| self.b.shape.kinds().map(move |kb| [ka, kb]);
-        self.a
-            .shape
-            .kinds()
-            .flat_map(pairs)
-            .map(|kinds| self.bodies(kinds))
-            .collect()
+        let (all_a, all_b) = (self.a.bodies(), self.b.bodies());
+        let both = |(ka, a): &(Kind, Rc<Body>), (kb, b): &(Kind, Rc<Body>)| Bodies {
+            a: Rc::clone(a),
+            b: Rc::clone(b),
+            kinds: [*ka, *kb],
+        };
+        let with_a = |a| all_b.iter().map(move |b| both(a, b));
+        all_a.iter().flat_map(with_a).collect()
     }
 
     /// The bodies built of triangles.
@@ -85,8 +87,8 @@ impl Query {
     /// The bodies built of given kinds of pieces.
     pub fn bodies(&self, kinds: [Kind; 2]) -> Bodies {
         Bodies {
-            a: self.a.shape.body(kinds[0]),
-            b: self.b.shape.body(kinds[1]),
+            a: Rc::new(self.a.shape.body(kinds[0])),
+            b: Rc::new(self.b.shape.body(kinds[1])),
             kinds,
         }
     }
@@ -160,6 +162,12 @@ impl Actor {
         let travel = duration * motion.velocity().length();
         let turn = 1.0 + duration * motion.spin().length();
         motion.start().translation().length() + travel + turn * (radius + radii)
+    }
+
+    /// Its body of every kind of pieces.
+    fn bodies(&self) -> Vec<(Kind, Rc<Body>)> {
+        let built = |kind| (kind, Rc::new(self.shape.body(kind)));
+        self.shape.kinds().map(built).collect()
     }
 
     fn seen_from(&self, frame: &Pose) -> Actor {

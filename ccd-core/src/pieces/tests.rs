@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::body::Body;
-use crate::piece::Facet;
+use crate::piece::{Face, Facet};
 use crate::tests::scene::rng;
 use proptest::prelude::*;
 
@@ -73,7 +73,7 @@ fn polytopes_that_are_none_are_refused() {
     assert_eq!(refused(Polytope::default()), Some(empty));
     assert_eq!(Pieces::polytopes(&[]).err(), Some(InputError::NoPieces));
     for corners in [vec![0, 1], vec![0, 1, 4], vec![]] {
-        let facet = |corners: Vec<u32>| Facet { id: 0, corners };
+        let facet = |corners: Vec<u32>| Facet { origin: Origin::Face(0), corners };
         let polytope = Polytope {
             points: CORNERS.to_vec(),
             facets: vec![facet(vec![0, 1, 2]), facet(corners)],
@@ -87,25 +87,25 @@ fn polytopes_that_are_none_are_refused() {
 #[test]
 fn triangles_name_vertices_edges_and_faces_of_the_mesh() {
     let pieces = Pieces::triangles(&CORNERS, &[[0, 1, 2], [3, 2, 1]], &[10, 20]).unwrap();
-    assert_eq!(pieces.feature(0, &[2]), Feature::Vertex(2));
-    assert_eq!(pieces.feature(1, &[0]), Feature::Vertex(3));
-    assert_eq!(pieces.feature(1, &[2, 0]), Feature::Edge(1, 3));
-    assert_eq!(pieces.feature(1, &[0, 2, 1]), Feature::Face(20));
-    assert_eq!(pieces.feature(1, &[]), Feature::Piece(1));
+    assert_eq!(pieces.feature(0, &mean(&[2])), Feature::Vertex(2));
+    assert_eq!(pieces.feature(1, &mean(&[0])), Feature::Vertex(3));
+    assert_eq!(pieces.feature(1, &mean(&[2, 0])), Feature::Edge(1, 3));
+    assert_eq!(pieces.feature(1, &mean(&[0, 2, 1])), Feature::Face(20));
+    assert_eq!(pieces.feature(1, &mean(&[])), Feature::Piece(1));
 }
 
 #[test]
 fn boxes_name_corners_edges_and_facets() {
     let body = Body::cuboid(DVec3::ONE).unwrap();
     let pieces = body.pieces();
-    assert_eq!(pieces.feature(0, &[5]), Feature::Vertex(5));
+    assert_eq!(pieces.feature(0, &mean(&[5])), Feature::Vertex(5));
     // Corners 0 and 1 differ in x alone: an edge.
-    assert_eq!(pieces.feature(0, &[1, 0]), Feature::Edge(0, 1));
+    assert_eq!(pieces.feature(0, &mean(&[1, 0])), Feature::Edge(0, 1));
     // 0 and 3 lie across the face towards −z; 0 and 7 across the box.
-    assert_eq!(pieces.feature(0, &[0, 3]), Feature::Face(4));
-    assert_eq!(pieces.feature(0, &[0, 7]), Feature::Piece(0));
-    assert_eq!(pieces.feature(0, &[1, 3, 7]), Feature::Face(1));
-    assert_eq!(pieces.feature(0, &[0, 3, 5]), Feature::Piece(0));
+    assert_eq!(pieces.feature(0, &mean(&[0, 3])), Feature::Face(4));
+    assert_eq!(pieces.feature(0, &mean(&[0, 7])), Feature::Piece(0));
+    assert_eq!(pieces.feature(0, &mean(&[1, 3, 7])), Feature::Face(1));
+    assert_eq!(pieces.feature(0, &mean(&[0, 3, 5])), Feature::Piece(0));
     // Faces look outwards, as said.
     let piece = pieces.get(0);
     for (face, corners) in piece.facets.iter().enumerate() {
@@ -119,8 +119,8 @@ fn boxes_name_corners_edges_and_facets() {
 #[test]
 fn balls_and_capsules_name_their_points() {
     let capsule = Body::capsule(0.5, 1.0).unwrap();
-    assert_eq!(capsule.pieces().feature(0, &[1]), Feature::Vertex(1));
-    assert_eq!(capsule.pieces().feature(0, &[0, 1]), Feature::Edge(0, 1));
+    assert_eq!(capsule.pieces().feature(0, &mean(&[1])), Feature::Vertex(1));
+    assert_eq!(capsule.pieces().feature(0, &mean(&[0, 1])), Feature::Edge(0, 1));
     assert_eq!(capsule.pieces().get(0).radius, 0.5);
 }
 
@@ -134,8 +134,9 @@ proptest! {
                 points: (0..=k).map(|p| DVec3::splat((10 * k + p) as f64)).collect(),
                 vertex_ids: (0..=k as u32).map(|p| 100 * k as u32 + p).collect(),
                 facets: (2..k as u32)
-                    .map(|c| Facet { id: 1000 * k as u32 + c, corners: vec![0, c - 1, c] })
+                    .map(|c| Facet { origin: Origin::Face(1000 * k as u32 + c), corners: vec![0, c - 1, c] })
                     .collect(),
+                faces: Vec::new(),
                 radius: k as f64,
             })
             .collect();
@@ -149,10 +150,49 @@ proptest! {
             prop_assert_eq!(piece.radius, same.radius);
             let loops = |piece: Piece<'_>| piece.facets.iter().map(<[u32]>::to_vec).collect::<Vec<_>>();
             prop_assert_eq!(loops(piece), loops(same));
-            prop_assert_eq!(other.feature(k, &[0]), Feature::Vertex(100 * from));
+            prop_assert_eq!(other.feature(k, &mean(&[0])), Feature::Vertex(100 * from));
             if from > 2 {
-                prop_assert_eq!(other.feature(k, &[0, 1, 2]), Feature::Face(1000 * from + 2));
+                prop_assert_eq!(other.feature(k, &mean(&[0, 1, 2])), Feature::Face(1000 * from + 2));
             }
         }
     }
+}
+
+/// The mean of some corners.
+fn mean(corners: &[u32]) -> Combination {
+    let mut mean = Combination::EMPTY;
+    corners.iter().for_each(|&corner| mean.push(corner, 1.0));
+    mean
+}
+
+#[test]
+fn points_on_virtual_facets_within_a_face_are_named_by_it() {
+    // The bottom of a box is two triangles of the mesh; its other facets are virtual.
+    let sign = |k: u32, bit: u32| if k >> bit & 1 == 1 { 1.0 } else { -1.0 };
+    let corner = |k| DVec3::new(sign(k, 0), sign(k, 1), sign(k, 2));
+    let facet = |origin, corners: &[u32]| Facet { origin, corners: corners.to_vec() };
+    let polytope = Polytope {
+        points: (0..8).map(corner).collect(),
+        facets: vec![
+            facet(Origin::Faces, &[0, 2, 3, 1]),
+            facet(Origin::Virtual, &[4, 5, 7, 6]),
+        ],
+        faces: vec![
+            Face { id: 10, corners: [corner(0), corner(2), corner(3)] },
+            Face { id: 11, corners: [corner(0), corner(3), corner(1)] },
+        ],
+        ..Polytope::default()
+    };
+    let pieces = Pieces::polytopes(&[polytope]).unwrap();
+    let weighted = |terms: &[(u32, f64)]| {
+        let mut point = Combination::EMPTY;
+        terms.iter().for_each(|&(corner, weight)| point.push(corner, weight));
+        pieces.feature(0, &point)
+    };
+    assert_eq!(weighted(&[(1, 0.5), (2, 0.4)]), Feature::Face(11));
+    assert_eq!(weighted(&[(1, 0.4), (2, 0.5)]), Feature::Face(10));
+    assert_eq!(weighted(&[(0, 0.5), (1, 0.5)]), Feature::Face(11));
+    assert_eq!(weighted(&[(4, 0.5), (5, 0.5)]), Feature::Piece(0));
+    assert_eq!(weighted(&[(4, 0.5), (7, 0.5)]), Feature::Piece(0));
+    assert_eq!(weighted(&[(0, 0.5), (7, 0.5)]), Feature::Piece(0));
 }

@@ -1,7 +1,7 @@
 //! One pair of pieces: ask the oracle, check its claim, advance the pair's own clock.
 
 use super::moment::Moment;
-use crate::oracle::DistanceOracle;
+use crate::oracle::{Combination, DistanceOracle};
 use crate::outcome::{Contact, Separation, Stats};
 use crate::overlap;
 use crate::problem::{Problem, Side, StartPolicy};
@@ -129,8 +129,8 @@ impl<C: Default + Clone> Pair<C> {
 fn contact(moment: &Moment<'_>, [a, b]: [u32; 2], checked: &Checked) -> Contact {
     let (problem, a_to_world) = (moment.problem, &moment.frames[0]);
     let world = |x: DVec3| problem.world(a_to_world.point(x));
-    let feature = |side: &Side<'_>, piece: u32, support: &[u32]| {
-        side.body.pieces().feature(piece as usize, support)
+    let feature = |side: &Side<'_>, piece: u32, point: &Combination| {
+        side.body.pieces().feature(piece as usize, point)
     };
     Contact {
         separation: Separation {
@@ -140,8 +140,8 @@ fn contact(moment: &Moment<'_>, [a, b]: [u32; 2], checked: &Checked) -> Contact 
             witness_a: world(checked.witness_a),
             witness_b: world(checked.witness_b),
         },
-        feature_a: feature(&problem.a, a, checked.claim.a.support()),
-        feature_b: feature(&problem.b, b, checked.claim.b.support()),
+        feature_a: feature(&problem.a, a, &checked.claim.a),
+        feature_b: feature(&problem.b, b, &checked.claim.b),
         piece_a: a,
         piece_b: b,
     }

@@ -1,13 +1,15 @@
-//! How often a ray passes out of the triangles of a body.
+//! How often a ray passes out of the surface of a body.
 
 use super::{Below, Node, Tree};
 use crate::pieces::Pieces;
 use crate::tolerance::GRAZING;
 use glam::DVec3;
 
-/// How often a ray leaves the triangles less how often it enters them, by their normals: the winding
-/// number of a closed mesh about the ray's start. None when the ray passes too near to an edge, or
-/// starts too near to a triangle, to tell.
+/// How often a ray leaves the body's surface less how often it enters it, by the normals of its
+/// triangles: the winding number of a closed mesh about the ray's start. None when the ray passes too
+/// near to an edge, or starts too near to a triangle, to tell.
+///
+/// The surface of pieces that are no triangles is the mesh's faces on them.
 pub(crate) fn crossings(tree: &Tree, pieces: &Pieces, from: DVec3, along: DVec3) -> Option<i32> {
     let mut total = 0;
     let mut stack = vec![0u32];
@@ -28,7 +30,11 @@ pub(crate) fn crossings(tree: &Tree, pieces: &Pieces, from: DVec3, along: DVec3)
                     total += crossing(pieces.triangle(piece as usize), from, along)?;
                 }
             }
-            Below::Piece(_) => return None,
+            Below::Piece(piece) => {
+                for (_, triangle) in pieces.get(piece as usize).mesh_triangles() {
+                    total += crossing(triangle, from, along)?;
+                }
+            }
         }
     }
     Some(total)

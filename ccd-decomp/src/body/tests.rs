@@ -2,7 +2,7 @@ use crate::{
     BodyError, BodySource, Detail, Format, MeshFault, SourceError, TriangleMesh, body_from_mesh,
     parse_body,
 };
-use ccd_core::Volume;
+use ccd_core::{Combination, Volume};
 use ccd_core::glam::dvec3;
 use rstest::rstest;
 
@@ -43,7 +43,11 @@ fn features_carry_the_numbers_of_the_file() {
     let file = "v 9 9 9\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 2 2 3\nf 2 3 4\n";
     let mesh = TriangleMesh::from_reader(Format::Obj, file.as_bytes()).unwrap();
     let body = body_from_mesh(&mesh, Detail::Triangles).unwrap().body;
-    let feature = |support: &[u32]| body.pieces().feature(0, support).to_string();
+    let feature = |support: &[u32]| {
+        let mut point = Combination::EMPTY;
+        support.iter().for_each(|&corner| point.push(corner, 1.0));
+        body.pieces().feature(0, &point).to_string()
+    };
     assert_eq!(feature(&[0]), "v1");
     assert_eq!(feature(&[1, 2]), "e2-3");
     assert_eq!(feature(&[0, 1, 2]), "f1");

@@ -2,7 +2,7 @@
 
 use super::{Line, Mesh, Shape, grid_faces, icosphere};
 use ccd_core::glam::DVec3;
-use ccd_core::{Facet, Polytope, Volume};
+use ccd_core::{Face, Facet, Origin, Polytope, Volume};
 
 /// A box about the origin: 12 triangles, or one part of six quadrilaterals.
 ///
@@ -19,24 +19,27 @@ pub fn cuboid(half: DVec3) -> Shape {
         [0, 2, 3, 1],
         [4, 5, 7, 6],
     ];
-    let facet = |k: usize| Facet {
-        // Named by the first of the two triangles that it is made of.
-        id: 2 * k as u32,
-        corners: quads[k].to_vec(),
+    let facet = |quad: &[u32; 4]| Facet {
+        origin: Origin::Faces,
+        corners: quad.to_vec(),
+    };
+    let halves = |q: &[u32; 4]| [[q[0], q[1], q[2]], [q[0], q[2], q[3]]];
+    let faces: Vec<[u32; 3]> = quads.iter().flat_map(halves).collect();
+    let named = |(id, face): (u32, &[u32; 3])| Face {
+        id,
+        corners: face.map(|v| points[v as usize]),
     };
     Shape {
-        mesh: Mesh {
-            vertices: points.clone(),
-            faces: quads
-                .iter()
-                .flat_map(|q| [[q[0], q[1], q[2]], [q[0], q[2], q[3]]])
-                .collect(),
-        },
         parts: vec![Polytope {
-            points,
-            facets: (0..6).map(facet).collect(),
+            points: points.clone(),
+            facets: quads.iter().map(facet).collect(),
+            faces: (0..).zip(&faces).map(named).collect(),
             ..Polytope::default()
         }],
+        mesh: Mesh {
+            vertices: points,
+            faces,
+        },
         volume: Volume::Solid,
     }
 }

@@ -1,6 +1,9 @@
 //! Shapes by code: triangle meshes, and the convex parts they are made of where those are known.
 
 mod boxes;
+mod catalog;
+mod cells;
+mod lumps;
 mod round;
 mod thread;
 
@@ -8,11 +11,17 @@ pub use boxes::{
     comb, cuboid, frame_plate, l_prism, mace, needles, parallel_plate, post, rod, slit_plate,
     u_hook, wall_at,
 };
+pub use catalog::{Model, convex_solids, flat_solids, solids};
+pub use cells::{
+    divided_cube, gear, l_block, meshed_combs, perforated_plate, slotted_plate, terrain,
+};
+pub use lumps::{blob, both, boulder, dented_cube, hollow};
 pub use round::{icosphere, inradius, torus, torus_knot};
 pub use thread::{PITCH, nut, screw};
 
 use ccd_core::glam::{DQuat, DVec3};
-use ccd_core::{Body, Facet, Pieces, Polytope, Volume};
+use ccd_core::{Body, Facet, InputError, Origin, Pieces, Polytope, Volume};
+use ccd_decomp::{Detail, TriangleMesh, body_from_mesh};
 
 /// A triangle mesh: what the referee looks at, and what the engine is given.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,11 +50,20 @@ pub enum Kind {
     Triangles,
     /// One piece per convex part.
     Parts,
+    /// One piece per convex patch of the surface.
+    Patches,
+    /// One piece, the hull.
+    Hull,
 }
 
 impl Kind {
     /// Every kind.
-    pub const ALL: [Kind; 2] = [Kind::Triangles, Kind::Parts];
+    pub const ALL: [Kind; 4] = [Kind::Triangles, Kind::Parts, Kind::Patches, Kind::Hull];
+
+    /// Whether pieces may reach into the inside of the mesh.
+    pub fn is_filled(self) -> bool {
+        self != Kind::Triangles
+    }
 }
 
 impl Shape {
@@ -73,7 +91,7 @@ impl Shape {
             points: mesh.vertices.clone(),
             facets: facets
                 .map(|(id, face)| Facet {
-                    id: id as u32,
+                    origin: Origin::Face(id as u32),
                     corners: face.to_vec(),
                 })
                 .collect(),
@@ -99,9 +117,12 @@ impl Shape {
                 part.vertex_ids = (0..part.points.len() as u32)
                     .map(|k| k + vertex as u32)
                     .collect();
-                part.facets
-                    .iter_mut()
-                    .for_each(|facet| facet.id += face as u32);
+                part.faces.iter_mut().for_each(|it| it.id += face as u32);
+                for facet in &mut part.facets {
+                    if let Origin::Face(id) = &mut facet.origin {
+                        *id += face as u32;
+                    }
+                }
                 part
             }));
             out.mesh.append(&shape.mesh);
@@ -140,33 +161,45 @@ impl Shape {
         self.volume == Volume::Solid
     }
 
-    /// The kinds of pieces it can be built of.
-    pub fn kinds(&self) -> impl Iterator<Item = Kind> {
-        Kind::ALL.into_iter().filter(|&kind| self.pieces(kind) > 0)
+    /// Whether it is convex, and known to be.
+    pub fn is_convex(&self) -> bool {
+        matches!(&self.parts[..], [part] if part.radius == 0.0) && self.is_solid()
     }
 
-    /// How many pieces it then has.
-    pub fn pieces(&self, kind: Kind) -> usize {
+    /// The kinds of pieces it can be built of.
+    pub fn kinds(&self) -> impl Iterator<Item = Kind> {
+        Kind::ALL.into_iter().filter(|kind| match kind {
+            Kind::Triangles => !self.mesh.faces.is_empty(),
+            Kind::Parts => !self.parts.is_empty(),
+            Kind::Patches => false,
+            Kind::Hull => false,
+        })
+    }
+
+    /// The engine's body; parts are filled by themselves, so that only the other kinds can be hollow.
+    ///
+    /// # Panics
+    /// When the shape cannot be built so.
+    pub fn body(&self, kind: Kind) -> Body {
         match kind {
-            Kind::Triangles => self.mesh.faces.len(),
-            Kind::Parts => self.parts.len(),
+            Kind::Triangles => core_body(self.mesh.pieces(), self.volume),
+            Kind::Parts => core_body(Pieces::polytopes(&self.parts), Volume::Surface),
+            Kind::Patches => self.prepared(Detail::Auto),
+            Kind::Hull => self.prepared(Detail::Auto),
         }
     }
 
-    /// The engine's body; parts are filled by themselves, so that only triangles can be hollow.
-    ///
-    /// # Panics
-    /// When the engine refuses the shape.
-    pub fn body(&self, kind: Kind) -> Body {
-        let (pieces, volume) = match kind {
-            Kind::Triangles => (self.mesh.pieces(), self.volume),
-            Kind::Parts => (Pieces::polytopes(&self.parts), Volume::Surface),
-        };
-        Body::new(&pieces.expect("good pieces"), volume).expect("a good body")
+    fn prepared(&self, detail: Detail) -> Body {
+        let prepared = body_from_mesh(&self.mesh.for_decomposition(), detail);
+        prepared.expect("a closed mesh").body
     }
 
-    fn each_point(&mut self, map: impl Fn(DVec3) -> DVec3) {
-        let parts = self.parts.iter_mut().flat_map(|part| &mut part.points);
+    fn each_point<'a>(&'a mut self, map: impl Fn(DVec3) -> DVec3) {
+        let of_part = |part: &'a mut Polytope| {
+            let corners = part.faces.iter_mut().flat_map(|face| &mut face.corners);
+            part.points.iter_mut().chain(corners)
+        };
+        let parts = self.parts.iter_mut().flat_map(of_part);
         for p in self.mesh.vertices.iter_mut().chain(parts) {
             *p = map(*p);
         }
@@ -201,10 +234,22 @@ impl Mesh {
         self
     }
 
-    fn pieces(&self) -> Result<Pieces, ccd_core::InputError> {
+    /// The mesh as the preparation takes it.
+    ///
+    /// # Panics
+    /// When it has no faces, or a number that is not finite.
+    pub fn for_decomposition(&self) -> TriangleMesh {
+        TriangleMesh::new(self.vertices.clone(), &self.faces).expect("a mesh")
+    }
+
+    fn pieces(&self) -> Result<Pieces, InputError> {
         let ids: Vec<u32> = (0..self.faces.len() as u32).collect();
         Pieces::triangles(&self.vertices, &self.faces, &ids)
     }
+}
+
+fn core_body(pieces: Result<Pieces, InputError>, volume: Volume) -> Body {
+    Body::new(&pieces.expect("good pieces"), volume).expect("a good body")
 }
 
 /// The faces of a grid of `rows × columns` vertices, row by row; a closed direction wraps around.

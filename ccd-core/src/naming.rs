@@ -1,0 +1,68 @@
+//! Which feature of a mesh a point of a polytope lies on.
+
+use crate::oracle::Combination;
+use crate::piece::{Origin, Piece};
+use crate::tolerance::ON_FACET;
+use glam::DVec3;
+
+/// What a point of a polytope is, by the polytope's corners and the mesh's faces.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Name {
+    Edge(u32, u32),
+    Face(u32),
+    Inside,
+}
+
+/// Names a combination of at least two corners.
+///
+/// Corners that no facet of the mesh holds together may still name a point on the mesh: a virtual
+/// facet may lie within the surface, and so may a chord of two coplanar faces.
+pub(crate) fn of_polytope(piece: &Piece<'_>, point: &Combination) -> Name {
+    let (facets, support) = (piece.facets, point.support());
+    let faces = facets.origins().iter().zip(facets.iter());
+    let whole = faces.clone().filter_map(|(origin, corners)| match origin {
+        Origin::Face(id) => Some((*id, corners)),
+        Origin::Faces | Origin::Virtual => None,
+    });
+    if let [v, w] = *support {
+        let joins = |corners: &[u32]| {
+            let mut ends = (0..corners.len()).map(|k| (corners[k], corners[(k + 1) % corners.len()]));
+            ends.any(|ends| ends == (v, w) || ends == (w, v))
+        };
+        if faces.len() == 0 || whole.clone().any(|(_, corners)| joins(corners)) {
+            return Name::Edge(v, w);
+        }
+    }
+    let mut holding = whole.filter(|(_, corners)| support.iter().all(|v| corners.contains(v)));
+    match holding.next() {
+        Some((face, _)) => Name::Face(face),
+        None => point
+            .of(piece.points)
+            .and_then(|at| face_under(piece, at))
+            .map_or(Name::Inside, Name::Face),
+    }
+}
+
+/// The face of the mesh that a point lies on, but for rounding.
+fn face_under(piece: &Piece<'_>, point: DVec3) -> Option<u32> {
+    let way = |p: &DVec3| p.distance(point);
+    let size = piece.points.iter().map(way).fold(0.0, f64::max);
+    let off = piece
+        .mesh_triangles()
+        .map(|(id, triangle)| (distance_off(triangle, point), id));
+    let (off, face) = off.min_by(|a, b| a.0.total_cmp(&b.0))?;
+    (off <= ON_FACET * size).then_some(face)
+}
+
+/// How far a point is off a triangle's plane, or beyond one of its edges, whichever is more.
+fn distance_off([a, b, c]: [DVec3; 3], point: DVec3) -> f64 {
+    let Some(normal) = (b - a).cross(c - a).try_normalize() else {
+        return f64::INFINITY;
+    };
+    let beyond = |from: DVec3, to: DVec3| {
+        let outward = (to - from).cross(normal).normalize_or_zero();
+        outward.dot(point - from)
+    };
+    let height = normal.dot(point - a).abs();
+    height.max(beyond(a, b)).max(beyond(b, c)).max(beyond(c, a))
+}

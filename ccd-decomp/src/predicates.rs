@@ -1,0 +1,95 @@
+//! On which side of a plane or line does a point lie: exactly, by the crate `robust` `[SHE97]`.
+
+use ccd_core::glam::DVec3;
+use robust::{Coord, Coord3D, orient2d, orient3d};
+use std::cmp::Ordering;
+
+/// Coordinates nearer to 0 than this, 0 itself excepted, are too fine for exact predicates.
+///
+/// The last bit of a coordinate c is at least 2⁻⁵³ |c|, the error terms of a determinant are multiples
+/// of the product of three such bits, and that has to be a number: (2⁻⁵³ · 1e-90)³ > 2⁻¹⁰⁷⁴.
+pub const MIN_COORDINATE: f64 = 1e-90;
+
+/// The first point with a coordinate that is [too fine](MIN_COORDINATE) for the predicates to be exact.
+pub(crate) fn too_fine(points: &[DVec3]) -> Option<usize> {
+    let fine = |x: f64| x != 0.0 && x.abs() < MIN_COORDINATE;
+    points
+        .iter()
+        .position(|p| p.to_array().into_iter().any(fine))
+}
+
+/// Where a point lies of the plane through a triangle: `Greater` where the triangle is seen
+/// counter-clockwise from, `Less` behind, `Equal` in the plane, or when the triangle has no area.
+#[inline]
+pub(crate) fn side(triangle: [DVec3; 3], point: DVec3) -> Ordering {
+    let [a, b, c] = triangle.map(coord3);
+    // Shewchuk's determinant is positive below.
+    sign(-orient3d(a, b, c, coord3(point)))
+}
+
+/// The coordinate plane that a triangle is projected to, keeping an area, and how it then turns.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Projection {
+    drop: usize,
+    turned: bool,
+}
+
+impl Projection {
+    /// None for a triangle of no area.
+    pub(crate) fn of(triangle: [DVec3; 3]) -> Option<Self> {
+        (0..3).find_map(|drop| {
+            let [a, b, c] = triangle.map(|p| coord2(p, drop));
+            match sign(orient2d(a, b, c)) {
+                Ordering::Equal => None,
+                turn => Some(Projection {
+                    drop,
+                    turned: turn == Ordering::Less,
+                }),
+            }
+        })
+    }
+
+    /// Where a point of the triangle's plane lies of a line in it: `Greater` to the left, for one who
+    /// looks at the triangle's front and from `a` to `b`.
+    #[inline]
+    pub(crate) fn turn(self, a: DVec3, b: DVec3, point: DVec3) -> Ordering {
+        let [a, b, point] = [a, b, point].map(|p| coord2(p, self.drop));
+        match self.turned {
+            true => sign(orient2d(b, a, point)),
+            false => sign(orient2d(a, b, point)),
+        }
+    }
+}
+
+/// Whether a triangle has no area.
+pub(crate) fn is_degenerate(triangle: [DVec3; 3]) -> bool {
+    Projection::of(triangle).is_none()
+}
+
+#[inline]
+fn sign(determinant: f64) -> Ordering {
+    // Coordinates are finite and within bounds, so that the determinant is no NaN.
+    determinant.partial_cmp(&0.0).unwrap_or(Ordering::Equal)
+}
+
+#[inline]
+fn coord3(p: DVec3) -> Coord3D<f64> {
+    Coord3D {
+        x: p.x,
+        y: p.y,
+        z: p.z,
+    }
+}
+
+#[inline]
+fn coord2(p: DVec3, drop: usize) -> Coord<f64> {
+    let (x, y) = match drop {
+        0 => (p.y, p.z),
+        1 => (p.z, p.x),
+        _ => (p.x, p.y),
+    };
+    Coord { x, y }
+}
+
+#[cfg(test)]
+mod tests;

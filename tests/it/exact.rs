@@ -1,0 +1,196 @@
+//! The exact inside test itself: it is the yardstick of decompositions.
+
+use ccd_core::Polytope;
+use ccd_core::glam::DVec3;
+use ccd_tests::exact::{Blend, Effort, Place, Solid, samples, side_of, triangle_holds};
+use ccd_tests::models::{Mesh, convex_solids, cuboid, hollow, l_prism, solids};
+use ccd_tests::referee::contains;
+use ccd_tests::strategies::{direction, runner};
+use proptest::prelude::*;
+use std::cell::Cell;
+use std::cmp::Ordering;
+
+fn at(p: DVec3) -> Blend {
+    Blend::mean([p])
+}
+
+/// The mesh's vertices as one polytope, which reaches far out of a mesh that is not convex.
+fn hull(mesh: &Mesh) -> Polytope {
+    Polytope {
+        points: mesh.vertices.clone(),
+        ..Polytope::default()
+    }
+}
+
+#[test]
+fn points_of_faces_edges_and_vertices_are_on_the_surface() {
+    for model in solids() {
+        let mesh = &model.shape.mesh;
+        let solid = Solid::new(mesh);
+        for k in 0..mesh.faces.len() {
+            let [a, b, c] = mesh.triangle(k);
+            let some = [
+                at(a),
+                Blend::mean([a, b]),
+                Blend::mean([a, b, c]),
+                Blend::new([(1, a), (63, b)]),
+                Blend::new([(7, a), (20, b), (37, c)]),
+            ];
+            for p in some {
+                assert_eq!(solid.place(&p), Place::Surface, "{}: {p:?}", model.name);
+            }
+        }
+    }
+}
+
+/// A difference in the last place tells inside from outside.
+#[test]
+fn points_a_rounding_off_the_surface_are_not_on_it() {
+    let mesh = cuboid(DVec3::ONE).mesh;
+    let solid = Solid::new(&mesh);
+    for axis in DVec3::AXES {
+        // In the middle of a face, on its diagonal, beside that.
+        for beside in [DVec3::ZERO, DVec3::splat(0.3), DVec3::new(0.1, 0.2, 0.7)] {
+            let p = |x: f64| at(beside - axis * beside.dot(axis) + x * axis);
+            assert_eq!(solid.place(&p(1.0)), Place::Surface);
+            assert_eq!(solid.place(&p(1.0_f64.next_down())), Place::Inside(1));
+            assert_eq!(solid.place(&p(1.0_f64.next_up())), Place::Outside);
+        }
+    }
+}
+
+/// The mean of three has no last binary digit.
+#[test]
+fn thirds_are_exact() {
+    let [a, b, c] = [DVec3::ZERO, DVec3::X, DVec3::new(0.1, 1.0, 1.0)];
+    let mean = Blend::mean([a, b, c]);
+    assert_eq!(side_of([a, b, c], &mean), Ordering::Equal);
+    assert!(triangle_holds([a, b, c], &mean));
+    let lifted = [a, b, c.with_z(c.z.next_up())];
+    assert_eq!(side_of(lifted, &mean), Ordering::Less);
+    assert!(!triangle_holds(lifted, &mean));
+}
+
+#[test]
+fn triangles_without_an_area_hold_their_segment() {
+    let [a, b] = [DVec3::ZERO, DVec3::new(1.0, 2.0, 3.0)];
+    let flat = [a, b, 0.5 * b];
+    assert!(triangle_holds(flat, &Blend::new([(1, a), (2, b)])));
+    assert!(!triangle_holds(flat, &at(1.25 * b)));
+    assert!(!triangle_holds(flat, &at(0.25 * b + 1e-300 * DVec3::X)));
+}
+
+/// Rays go upwards from below edges and vertices on purpose: points on a grid that the mesh is on.
+#[test]
+fn rays_through_edges_and_vertices_count_once() {
+    let mesh = l_prism().mesh;
+    let solid = Solid::new(&mesh);
+    for x in -1..=9 {
+        for y in -1..=9 {
+            for z in -3..=3 {
+                let [x, y, z] = [x, y, z].map(|k| 0.25 * f64::from(k));
+                let within = |low: f64, v: f64, high: f64| match (low < v && v < high, v) {
+                    (true, _) => 2,
+                    (false, v) if v == low || v == high => 1,
+                    _ => 0,
+                };
+                // Two bars; on the surface of the union where inside of neither.
+                let bars = [
+                    within(0.0, x, 2.0).min(within(0.0, y, 1.0)),
+                    within(0.0, x, 1.0).min(within(0.0, y, 2.0)),
+                ];
+                // Where the bars meet, the one's side is in the other.
+                let flat = bars[0].max(bars[1]).min(within(-0.5, z, 0.5));
+                let expected = [Place::Outside, Place::Surface, Place::Inside(1)][flat];
+                let p = at(DVec3::new(x, y, z));
+                assert_eq!(solid.place(&p), expected, "{p:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn cavities_are_outside_and_windings_add_up() {
+    let (big, small) = (cuboid(DVec3::ONE), cuboid(DVec3::splat(0.5)));
+    let cavity = hollow(&big, &small).mesh;
+    let mut twice = big.mesh.clone();
+    twice.append(&small.mesh);
+    let flipped = big.mesh.clone().flipped();
+    for (mesh, p, place) in [
+        (&cavity, 0.1, Place::Outside),
+        (&cavity, 0.7, Place::Inside(1)),
+        (&cavity, 0.5, Place::Surface),
+        (&twice, 0.1, Place::Inside(2)),
+        (&twice, 0.7, Place::Inside(1)),
+        (&flipped, 0.7, Place::Inside(-1)),
+    ] {
+        assert_eq!(Solid::new(mesh).place(&at(DVec3::splat(p))), place, "{p}");
+    }
+}
+
+/// Two ways to wind, one by solid angles in floating point: they differ on the surface only.
+#[test]
+fn solid_angles_say_the_same() {
+    for model in solids().into_iter().chain(convex_solids()) {
+        let mesh = &model.shape.mesh;
+        let solid = Solid::new(mesh);
+        let (mut inside, mut outside) = (0, 0);
+        let effort = Effort {
+            per_facet: 0,
+            chords: 300,
+            blends: 300,
+        };
+        for p in samples(&hull(mesh), effort, 1) {
+            let near = p.rounded();
+            let by_angle = contains(mesh, &mesh.vertices, near);
+            match solid.place(&p) {
+                Place::Surface => continue,
+                Place::Inside(windings) => {
+                    inside += 1;
+                    assert!(by_angle && windings == 1, "{}: {p:?}", model.name);
+                }
+                Place::Outside => {
+                    outside += 1;
+                    assert!(!by_angle, "{}: {p:?}", model.name);
+                }
+            }
+        }
+        assert!(inside >= 20, "{}: {inside} inside", model.name);
+        let convex = model.shape.is_convex() || model.name == "divided cube";
+        assert!(convex == (outside == 0), "{}: {outside}", model.name);
+    }
+}
+
+/// Of a slanted face, rounded points on it are off it: some inside, some outside.
+#[test]
+fn rounded_points_of_a_face_are_told_by_its_plane() {
+    let inputs = (direction(), 1..64u32, 1..64u32);
+    let (inside, outside) = (Cell::new(0), Cell::new(0));
+    runner(500)
+        .run(&inputs, |(normal, u, v)| {
+            let tangent = normal.any_orthogonal_vector();
+            let other = normal.cross(tangent);
+            // A tetrahedron, its base seen from outside along any direction.
+            let [a, b, c] = [tangent, other, -tangent - other];
+            let mesh = Mesh {
+                vertices: vec![a, b, c, -normal],
+                faces: vec![[0, 1, 2], [0, 3, 1], [1, 3, 2], [2, 3, 0]],
+            };
+            let on = Blend::new([(u, a), (v, b), (32, c)]);
+            let rounded = at(on.rounded());
+            let (expected, count) = match side_of([a, b, c], &rounded) {
+                Ordering::Greater => (Place::Outside, &outside),
+                Ordering::Equal => return Ok(()),
+                Ordering::Less => (Place::Inside(1), &inside),
+            };
+            count.set(count.get() + 1);
+            prop_assert_eq!(Solid::new(&mesh).place(&on), Place::Surface);
+            prop_assert_eq!(Solid::new(&mesh).place(&rounded), expected);
+            Ok(())
+        })
+        .unwrap_or_else(|error| panic!("{error}"));
+    assert!(
+        inside.get() > 50 && outside.get() > 50,
+        "{inside:?} {outside:?}"
+    );
+}

@@ -1,0 +1,169 @@
+//! Where a point is of a closed mesh, without rounding: the judge of decompositions.
+//!
+//! It shares no code with what it judges.
+
+mod blend;
+mod number;
+mod predicates;
+mod samples;
+
+pub use blend::Blend;
+pub use samples::{Effort, samples};
+
+use crate::models::Mesh;
+use blend::Spot;
+use ccd_core::glam::{DVec2, DVec3};
+use predicates::{VIEWS, holds, side, turn};
+use std::cmp::Ordering;
+
+/// Where a point is of a closed mesh.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// The mesh does not wind about it.
+    Outside,
+    /// On a face.
+    Surface,
+    /// The mesh winds about it this many times; negative for a mesh that is inside out.
+    Inside(i32),
+}
+
+/// Tells where points are of one closed mesh.
+pub struct Solid<'a> {
+    mesh: &'a Mesh,
+    columns: Columns,
+}
+
+/// Whether a point is above (greater), below (less) or in the plane of a triangle that is
+/// counter-clockwise seen from above; exactly.
+pub fn side_of(triangle: [DVec3; 3], point: &Blend) -> Ordering {
+    side(triangle, &Spot::new(point))
+}
+
+/// Whether a closed triangle holds a point; exactly.
+pub fn triangle_holds(triangle: [DVec3; 3], point: &Blend) -> bool {
+    holds(triangle, &Spot::new(point))
+}
+
+impl<'a> Solid<'a> {
+    /// Of a mesh that is closed: every edge has as many faces that run along it one way as the other.
+    pub fn new(mesh: &'a Mesh) -> Self {
+        Solid {
+            mesh,
+            columns: Columns::new(mesh),
+        }
+    }
+
+    /// Where a point is: by the faces that a ray from it upwards crosses.
+    ///
+    /// The ray is moved by (ε, ε²) sideways, with ε smaller than any number, so that it meets no edge
+    /// and no upright face, and no case is special.
+    pub fn place(&self, point: &Blend) -> Place {
+        let p = Spot::new(point);
+        let mut windings = 0;
+        for &face in self.columns.faces_over(&p) {
+            let triangle = self.mesh.triangle(face as usize);
+            let top = triangle[0].z.max(triangle[1].z).max(triangle[2].z);
+            if top < p.near[2].lo || apart_from_above(triangle, &p) {
+                continue;
+            }
+            if holds(triangle, &p) {
+                return Place::Surface;
+            }
+            windings += crossing(triangle, &p);
+        }
+        match windings {
+            0 => Place::Outside,
+            _ => Place::Inside(windings),
+        }
+    }
+}
+
+/// Whether a point is certainly beside a triangle as seen from above.
+fn apart_from_above([a, b, c]: [DVec3; 3], p: &Spot<'_>) -> bool {
+    (0..2).any(|axis| {
+        let (lo, hi) = (
+            a[axis].min(b[axis]).min(c[axis]),
+            a[axis].max(b[axis]).max(c[axis]),
+        );
+        p.near[axis].hi < lo || p.near[axis].lo > hi
+    })
+}
+
+/// 1 where the moved ray upwards from a point leaves through a triangle, −1 where it enters, else 0;
+/// of a triangle that does not hold the point.
+fn crossing(triangle: [DVec3; 3], p: &Spot<'_>) -> i32 {
+    let [a, b, c] = triangle;
+    let turns = [[a, b], [b, c], [c, a]].map(|edge| match turn(VIEWS[0], edge, p) {
+        // Moving by (ε, ε²) changes (b − a) × (p − a) by ε (a − b).y + ε² (b − a).x.
+        Ordering::Equal => {
+            let [a, b] = edge;
+            ordered(a.y, b.y).then(ordered(b.x, a.x))
+        }
+        turn => turn,
+    });
+    // A triangle that is upright is a segment as seen from above: its turns are never all one.
+    if turns[0] == Ordering::Equal || turns[0] != turns[1] || turns[1] != turns[2] {
+        return 0;
+    }
+    let sign = |order: Ordering| order as i32;
+    match sign(side(triangle, p)) * sign(turns[0]) {
+        -1 => sign(turns[0]),
+        _ => 0,
+    }
+}
+
+/// The order of two finite numbers.
+fn ordered(x: f64, y: f64) -> Ordering {
+    x.partial_cmp(&y).expect("finite coordinates")
+}
+
+/// A mesh's faces by what lies over and under each cell of a grid in the xy-plane.
+struct Columns {
+    lo: DVec2,
+    cell: DVec2,
+    count: usize,
+    faces: Vec<Vec<u32>>,
+}
+
+impl Columns {
+    fn new(mesh: &Mesh) -> Self {
+        let points = mesh.vertices.iter().map(|p| p.truncate());
+        let (lo, hi) = points.fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(lo, hi), p| {
+            (lo.min(p), hi.max(p))
+        });
+        let count = mesh.faces.len().isqrt().max(1);
+        let mut columns = Columns {
+            lo,
+            cell: ((hi - lo) / count as f64).max(DVec2::splat(f64::MIN_POSITIVE)),
+            count,
+            faces: vec![Vec::new(); count * count],
+        };
+        // Far more than points are rounded by, so that a face is in the cell of every point over it.
+        let spare = 1e-3 * columns.cell;
+        for (k, _) in mesh.faces.iter().enumerate() {
+            let [a, b, c] = mesh.triangle(k).map(DVec3::truncate);
+            let (from, to) = (
+                columns.cell_of(a.min(b).min(c) - spare),
+                columns.cell_of(a.max(b).max(c) + spare),
+            );
+            for x in from[0]..=to[0] {
+                for y in from[1]..=to[1] {
+                    columns.faces[x * count + y].push(k as u32);
+                }
+            }
+        }
+        columns
+    }
+
+    fn cell_of(&self, p: DVec2) -> [usize; 2] {
+        let cell = (p - self.lo) / self.cell;
+        // Conversion cuts off below 0.
+        cell.to_array().map(|x| (x as usize).min(self.count - 1))
+    }
+
+    /// At least every face that a point could be over, under or on.
+    fn faces_over(&self, p: &Spot<'_>) -> &[u32] {
+        let [x, y] = self.cell_of(DVec2::new(p.near[0].lo, p.near[1].lo));
+        &self.faces[x * self.count + y]
+    }
+}

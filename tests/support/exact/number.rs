@@ -1,0 +1,156 @@
+//! Two kinds of number that predicates are evaluated in: intervals first, fractions where those
+//! cannot tell.
+
+use ccd_core::glam::DVec3;
+use dashu_ratio::Relaxed;
+use std::cmp::Ordering;
+
+/// What a predicate needs of its numbers.
+pub(super) trait Number: Sized {
+    /// Any finite number, as it is.
+    fn of(x: f64) -> Self;
+    fn plus(&self, other: &Self) -> Self;
+    fn minus(&self, other: &Self) -> Self;
+    fn times(&self, other: &Self) -> Self;
+    /// Divided by a number that is not 0.
+    fn over(&self, divisor: u32) -> Self;
+    /// On which side of 0 it is, if that is certain.
+    fn sign(&self) -> Option<Ordering>;
+
+    /// The coordinates of a point.
+    fn point(p: DVec3) -> [Self; 3] {
+        p.to_array().map(Self::of)
+    }
+}
+
+impl Number for Relaxed {
+    fn of(x: f64) -> Self {
+        Relaxed::try_from(x).expect("a finite coordinate")
+    }
+
+    fn plus(&self, other: &Self) -> Self {
+        self + other
+    }
+
+    fn minus(&self, other: &Self) -> Self {
+        self - other
+    }
+
+    fn times(&self, other: &Self) -> Self {
+        self * other
+    }
+
+    fn over(&self, divisor: u32) -> Self {
+        self / Relaxed::from(divisor)
+    }
+
+    fn sign(&self) -> Option<Ordering> {
+        Some(self.cmp(&Relaxed::ZERO))
+    }
+}
+
+/// A number known to lie between two others.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Interval {
+    pub(super) lo: f64,
+    pub(super) hi: f64,
+}
+
+impl Interval {
+    /// A result of rounding; the error is 0 only where nothing was rounded.
+    fn rounded(result: f64, error: f64) -> Self {
+        match error == 0.0 {
+            true => Interval {
+                lo: result,
+                hi: result,
+            },
+            false => Interval {
+                lo: result.next_down(),
+                hi: result.next_up(),
+            },
+        }
+    }
+
+    fn hull(all: impl IntoIterator<Item = Interval>) -> Self {
+        let empty = Interval {
+            lo: f64::INFINITY,
+            hi: f64::NEG_INFINITY,
+        };
+        all.into_iter().fold(empty, |hull, x| Interval {
+            lo: hull.lo.min(x.lo),
+            hi: hull.hi.max(x.hi),
+        })
+    }
+}
+
+impl Number for Interval {
+    fn of(x: f64) -> Self {
+        Interval { lo: x, hi: x }
+    }
+
+    fn plus(&self, other: &Self) -> Self {
+        Interval {
+            lo: sum(self.lo, other.lo).lo,
+            hi: sum(self.hi, other.hi).hi,
+        }
+    }
+
+    fn minus(&self, other: &Self) -> Self {
+        Interval {
+            lo: sum(self.lo, -other.hi).lo,
+            hi: sum(self.hi, -other.lo).hi,
+        }
+    }
+
+    fn times(&self, other: &Self) -> Self {
+        Interval::hull([
+            product(self.lo, other.lo),
+            product(self.lo, other.hi),
+            product(self.hi, other.lo),
+            product(self.hi, other.hi),
+        ])
+    }
+
+    fn over(&self, divisor: u32) -> Self {
+        Interval::hull([quotient(self.lo, divisor), quotient(self.hi, divisor)])
+    }
+
+    fn sign(&self) -> Option<Ordering> {
+        if self.lo > 0.0 {
+            Some(Ordering::Greater)
+        } else if self.hi < 0.0 {
+            Some(Ordering::Less)
+        } else if self.lo == 0.0 && self.hi == 0.0 {
+            Some(Ordering::Equal)
+        } else {
+            None
+        }
+    }
+}
+
+/// Knuth's error of a sum is exact.
+fn sum(x: f64, y: f64) -> Interval {
+    let sum = x + y;
+    let back = sum - x;
+    Interval::rounded(sum, (x - (sum - back)) + (y - back))
+}
+
+fn product(x: f64, y: f64) -> Interval {
+    let product = x * y;
+    Interval::rounded(product, residue(product, x.mul_add(y, -product)))
+}
+
+fn quotient(x: f64, y: u32) -> Interval {
+    let quotient = x / f64::from(y);
+    let error = quotient.mul_add(f64::from(y), -x);
+    Interval::rounded(quotient, residue(quotient, error))
+}
+
+/// The error of a product or quotient by a fused multiplication, which itself is lost where the
+/// result is so small that half its digits are subnormal.
+fn residue(result: f64, error: f64) -> f64 {
+    match result == 0.0 || result.abs() > 1e-200 {
+        true => error,
+        false => f64::NAN,
+    }
+}

@@ -1,0 +1,71 @@
+//! Points to ask about of a polytope's hull.
+
+use super::blend::Blend;
+use ccd_core::Polytope;
+use ccd_core::glam::DVec3;
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64;
+
+/// How many points to take at random.
+#[derive(Clone, Copy, Debug)]
+pub struct Effort {
+    /// Of each facet, besides its mean and its edges' middles.
+    pub per_facet: usize,
+    /// Of each polytope, between pairs of its points.
+    pub chords: usize,
+    /// Of each polytope, between four of its points.
+    pub blends: usize,
+}
+
+impl Effort {
+    /// For models of a few hundred faces.
+    pub const THOROUGH: Effort = Effort {
+        per_facet: 6,
+        chords: 24,
+        blends: 16,
+    };
+
+    /// For models of thousands of faces.
+    pub const QUICK: Effort = Effort {
+        per_facet: 1,
+        chords: 4,
+        blends: 4,
+    };
+}
+
+/// Weights add up to this, so that random points are as dyadic as the corners are.
+const WHOLE: u32 = 64;
+
+/// Points of a polytope's hull: means, middles, and random ones on facets, chords and inside; always
+/// the same for the same polytope and seed.
+pub fn samples(polytope: &Polytope, effort: Effort, seed: u64) -> Vec<Blend> {
+    let mut rng = Pcg64::seed_from_u64(seed);
+    let points = &polytope.points;
+    let mut out = vec![Blend::mean(points.iter().copied())];
+    for facet in &polytope.facets {
+        let corners: Vec<DVec3> = facet.corners.iter().map(|&c| points[c as usize]).collect();
+        out.push(Blend::mean(corners.iter().copied()));
+        for k in 0..corners.len() {
+            let next = corners[(k + 1) % corners.len()];
+            out.push(Blend::mean([corners[k], next]));
+        }
+        out.extend((0..effort.per_facet).map(|_| random(&mut rng, &corners, 3)));
+    }
+    out.extend((0..effort.chords).map(|_| random(&mut rng, points, 2)));
+    out.extend((0..effort.blends).map(|_| random(&mut rng, points, 4)));
+    out
+}
+
+/// A combination of some points, perhaps of one several times.
+fn random(rng: &mut Pcg64, points: &[DVec3], count: usize) -> Blend {
+    let mut rest = WHOLE;
+    let mut parts: Vec<(u32, DVec3)> = (1..count)
+        .map(|_| {
+            let weight = rng.random_range(0..=rest);
+            rest -= weight;
+            (weight, points[rng.random_range(0..points.len())])
+        })
+        .collect();
+    parts.push((rest, points[rng.random_range(0..points.len())]));
+    Blend::new(parts)
+}

@@ -1,0 +1,167 @@
+//! Solids of cells: sheets of four-sided cells, some of them cut out, made thick. Their tops and
+//! bottoms are large regions of coplanar triangles, rarely convex.
+
+use super::{Line, Mesh, Shape, lumps::dice};
+use ccd_core::glam::{DQuat, DVec2, DVec3};
+use rand::RngExt;
+use std::collections::HashMap;
+use std::f64::consts::TAU;
+
+/// A gear about z: a bore, a hole between each two spokes, and teeth twice as many as spokes.
+pub fn gear(spokes: usize) -> Shape {
+    let radii = [0.2, 0.35, 0.6, 0.8, 1.0];
+    let columns = 8 * spokes;
+    let at = |i: usize, j: usize| {
+        let angle = TAU * j as f64 / columns as f64;
+        radii[i] * DVec2::new(angle.cos(), angle.sin())
+    };
+    Sheet {
+        rows: Line::Open(radii.len()),
+        columns: Line::Closed(columns),
+        keeps: &|i, j| match i {
+            1 => j % 8 < 3,
+            3 => j % 4 < 2,
+            _ => true,
+        },
+    }
+    .thick(at, 0.15)
+}
+
+/// A plate of `n × m` square holes, each of its sides as long as the bridges between them.
+pub fn perforated_plate(n: usize, m: usize) -> Shape {
+    Sheet {
+        rows: Line::Open(2 * n + 2),
+        columns: Line::Open(2 * m + 2),
+        keeps: &|i, j| i % 2 == 0 || j % 2 == 0,
+    }
+    .thick(|i, j| 0.25 * DVec2::new(i as f64, j as f64), 0.125)
+}
+
+/// The L of [`l_prism`](super::l_prism) with the tops of its bars divided into `cells²` squares.
+pub fn l_block(cells: usize) -> Shape {
+    let unit = 1.0 / cells as f64;
+    Sheet {
+        rows: Line::Open(2 * cells + 1),
+        columns: Line::Open(2 * cells + 1),
+        keeps: &|i, j| i < cells || j < cells,
+    }
+    .thick(|i, j| unit * DVec2::new(i as f64, j as f64), 0.5)
+}
+
+/// One closed plate with a slit of some width through its middle.
+pub fn slotted_plate(width: f64) -> Shape {
+    let (x, y) = (
+        [-2.0, -1.5, 1.5, 2.0],
+        [-1.0, -0.5 * width, 0.5 * width, 1.0],
+    );
+    Sheet {
+        rows: Line::Open(4),
+        columns: Line::Open(4),
+        keeps: &|i, j| (i, j) != (1, 1),
+    }
+    .thick(|i, j| DVec2::new(x[i], y[j]), 0.25)
+}
+
+/// Two combs in one mesh, the teeth of either between those of the other.
+pub fn meshed_combs(teeth: usize) -> Shape {
+    let x = |i: usize| (i / 2) as f64 + if i % 2 == 1 { 0.4 } else { 0.0 };
+    let y = [0.0, 0.3, 1.3];
+    let comb = Sheet {
+        rows: Line::Open(2 * teeth),
+        columns: Line::Open(3),
+        keeps: &|i, j| j == 0 || i % 2 == 0,
+    }
+    .thick(|i, j| DVec2::new(x(i), y[j]), 0.2);
+    // Half a turn about z, which rounds nothing.
+    let turn = DQuat::from_xyzw(0.0, 0.0, 1.0, 0.0);
+    let other = comb
+        .clone()
+        .placed(turn, DVec3::new(x(2 * teeth - 1) + 0.5, 1.7, 0.0));
+    let mut mesh = comb.mesh;
+    mesh.append(&other.mesh);
+    Shape::closed(mesh)
+}
+
+/// A unit cube, its top and its bottom divided into `cells²` squares.
+pub fn divided_cube(cells: usize) -> Shape {
+    let unit = 1.0 / cells as f64;
+    Sheet {
+        rows: Line::Open(cells + 1),
+        columns: Line::Open(cells + 1),
+        keeps: &|_, _| true,
+    }
+    .thick(|i, j| unit * DVec2::new(i as f64, j as f64), 0.5)
+}
+
+/// A block under random heights, flat at its sides and at its bottom.
+pub fn terrain(cells: usize, seed: u64) -> Shape {
+    let mut dice = dice(seed);
+    let unit = 1.0 / cells as f64;
+    let mut heights: HashMap<(usize, usize), f64> = HashMap::new();
+    for i in 0..=cells {
+        for j in 0..=cells {
+            heights.insert((i, j), dice.random_range(0.2..0.5));
+        }
+    }
+    let at = |i: usize, j: usize, z: f64| DVec3::new(unit * i as f64, unit * j as f64, z);
+    Sheet {
+        rows: Line::Open(cells + 1),
+        columns: Line::Open(cells + 1),
+        keeps: &|_, _| true,
+    }
+    .between(|i, j| at(i, j, 0.0), |i, j| at(i, j, heights[&(i, j)]))
+}
+
+/// Which cells of a grid there are.
+struct Sheet<'a> {
+    rows: Line,
+    columns: Line,
+    keeps: &'a dyn Fn(usize, usize) -> bool,
+}
+
+impl Sheet<'_> {
+    /// The solid that reaches `half` to either side of a sheet in the xy-plane.
+    fn thick(&self, at: impl Fn(usize, usize) -> DVec2, half: f64) -> Shape {
+        self.between(|i, j| at(i, j).extend(-half), |i, j| at(i, j).extend(half))
+    }
+
+    /// The solid between two sheets; seen from above, rows run to the right and columns upwards.
+    fn between(
+        &self,
+        low: impl Fn(usize, usize) -> DVec3,
+        high: impl Fn(usize, usize) -> DVec3,
+    ) -> Shape {
+        let mut numbers = HashMap::new();
+        let mut vertices = Vec::new();
+        let mut top = Vec::new();
+        for i in 0..self.rows.steps() {
+            for j in (0..self.columns.steps()).filter(|&j| (self.keeps)(i, j)) {
+                let corners = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)];
+                // Above vertex k of the bottom is vertex k + 1.
+                let [a, b, c, d] = corners.map(|(i, j)| {
+                    let key = (i % self.rows.count(), j % self.columns.count());
+                    *numbers.entry(key).or_insert_with(|| {
+                        vertices.extend([low(key.0, key.1), high(key.0, key.1)]);
+                        vertices.len() as u32 - 1
+                    })
+                });
+                top.extend([[a, b, c], [a, c, d]]);
+            }
+        }
+        let mut faces: Vec<[u32; 3]> = top.iter().map(|&[a, b, c]| [a - 1, c - 1, b - 1]).collect();
+        for [v, w] in rims(&top) {
+            faces.extend([[v - 1, w - 1, w], [v - 1, w, v]]);
+        }
+        faces.extend(top);
+        Shape::closed(Mesh { vertices, faces })
+    }
+}
+
+/// The directed edges of some faces that no other face runs along the other way, in order.
+fn rims(faces: &[[u32; 3]]) -> Vec<[u32; 2]> {
+    let edges = |&[a, b, c]: &[u32; 3]| [[a, b], [b, c], [c, a]];
+    let all: Vec<[u32; 2]> = faces.iter().flat_map(edges).collect();
+    let set: std::collections::HashSet<[u32; 2]> = all.iter().copied().collect();
+    let is_rim = |[v, w]: &[u32; 2]| !set.contains(&[*w, *v]);
+    all.into_iter().filter(is_rim).collect()
+}

@@ -1,0 +1,64 @@
+//! Lumps: random and bumpy solids, dents, cavities.
+
+use super::{Mesh, Shape, cuboid, icosphere};
+use ccd_core::glam::DVec3;
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64;
+
+/// Random numbers, the same for the same seed.
+pub(super) fn dice(seed: u64) -> Pcg64 {
+    Pcg64::seed_from_u64(seed)
+}
+
+/// An icosahedron divided `levels` times, its vertices at random distances between `1 − roughness`
+/// and 1 from the origin.
+pub fn boulder(levels: u32, roughness: f64, seed: u64) -> Shape {
+    let mut dice = dice(seed);
+    star(levels, |_| 1.0 - roughness * dice.random_range(0.0..1.0))
+}
+
+/// A smooth lump with bumps and two ears.
+pub fn blob(levels: u32) -> Shape {
+    let ears = [DVec3::new(0.4, 0.2, 1.0), DVec3::new(-0.4, 0.2, 1.0)].map(DVec3::normalize);
+    star(levels, |n| {
+        let waves = (5.0 * n.x + 1.0).sin() * (4.0 * n.y).sin() * (6.0 * n.z + 2.0).cos();
+        let ear: f64 = ears.iter().map(|e| (40.0 * (n.dot(*e) - 1.0)).exp()).sum();
+        0.6 + 0.06 * waves + 0.4 * ear
+    })
+}
+
+/// A cube with a pyramid cut into its top: 14 triangles.
+pub fn dented_cube(half: f64, depth: f64) -> Shape {
+    let mut mesh = cuboid(DVec3::splat(half)).mesh;
+    let top = |face: &[u32; 3]| face.iter().all(|&v| v & 4 != 0);
+    mesh.faces.retain(|face| !top(face));
+    mesh.vertices.push((half - depth) * DVec3::Z);
+    mesh.faces
+        .extend([[4, 5, 8], [5, 7, 8], [7, 6, 8], [6, 4, 8]]);
+    Shape::closed(mesh)
+}
+
+/// A solid with a cavity: two shells, the inner one seen from within.
+pub fn hollow(outer: &Shape, inner: &Shape) -> Shape {
+    let mut mesh = outer.mesh.clone();
+    mesh.append(&inner.mesh.clone().flipped());
+    Shape::closed(mesh)
+}
+
+/// Two solids apart from each other, in one mesh.
+pub fn both(one: &Shape, other: &Shape) -> Shape {
+    let mut mesh = one.mesh.clone();
+    mesh.append(&other.mesh);
+    Shape::closed(mesh)
+}
+
+/// The vertices of a divided icosahedron moved to distances from the origin that their directions
+/// tell.
+fn star(levels: u32, mut radius: impl FnMut(DVec3) -> f64) -> Shape {
+    let Mesh {
+        mut vertices,
+        faces,
+    } = icosphere(1.0, levels).mesh;
+    vertices.iter_mut().for_each(|v| *v *= radius(*v));
+    Shape::closed(Mesh { vertices, faces })
+}
