@@ -104,8 +104,12 @@ fn scenes(options: &DemoOptions) -> Result<Vec<Scene>, SceneError> {
 /// The methods that a scene is small enough for, the one that others are held against first.
 fn methods(scene: &Scene) -> impl Iterator<Item = Method> {
     let all_pairs = scene.pairs() <= MOST_PAIRS_FOR_NAIVE;
+    let hull_trees = [&scene.a, &scene.b]
+        .iter()
+        .all(|b| b.body.hull_tree().is_some());
     Method::all().filter(move |method| match method.schedule {
         ScheduleKind::BestFirst => true,
+        ScheduleKind::HullFirst => hull_trees,
         ScheduleKind::Naive => all_pairs,
     })
 }

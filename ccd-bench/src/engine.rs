@@ -1,6 +1,6 @@
 //! The choice of schedule and oracle at run time.
 
-use ccd_core::schedule::{BestFirst, Naive};
+use ccd_core::schedule::{BestFirst, HullFirst, Naive};
 use ccd_core::{Answer, DistanceOracle, Problem, Schedule};
 use ccd_distance_gjk::{Auto, Gjk, GjkF32};
 use clap::ValueEnum;
@@ -21,8 +21,20 @@ pub enum ScheduleKind {
     /// The pair whose proof expires first is looked at next.
     #[default]
     BestFirst,
+    /// The same over trees of convex hulls, which are built for it: nodes are measured like pieces.
+    HullFirst,
     /// All pairs of pieces, one step for all: slow, for comparison on small meshes.
     Naive,
+}
+
+impl ScheduleKind {
+    /// Whether it is of use only for bodies with a [hull tree](ccd_core::Body::hull_tree).
+    pub fn uses_hull_trees(self) -> bool {
+        match self {
+            ScheduleKind::HullFirst => true,
+            ScheduleKind::BestFirst | ScheduleKind::Naive => false,
+        }
+    }
 }
 
 /// The oracles there are.
@@ -71,6 +83,10 @@ impl Method {
         match self.schedule {
             ScheduleKind::BestFirst => Box::new(Pairing {
                 schedule: BestFirst::<O>::default(),
+                oracle,
+            }),
+            ScheduleKind::HullFirst => Box::new(Pairing {
+                schedule: HullFirst::<O>::default(),
                 oracle,
             }),
             ScheduleKind::Naive => Box::new(Pairing {

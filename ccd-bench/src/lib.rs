@@ -18,3 +18,4 @@ pub mod query;
 pub mod results;
 pub mod scene;
 pub mod summary;
+mod text;

@@ -102,8 +102,7 @@ impl Models {
         let loaded = model
             .load(self.directory.as_deref())
             .map_err(|error| failed(error.into()))?;
-        let prepared =
-            body_from_mesh(&loaded.mesh, Detail::Auto).map_err(|error| failed(error.into()))?;
+        let prepared = body_from_mesh(&loaded.mesh, Detail::Auto).map_err(failed)?;
         let body = SceneBody {
             body: Arc::new(prepared.body),
             triangles: loaded.mesh.faces().len(),

@@ -1,11 +1,15 @@
 //! A body: convex pieces, a tree over them, and whether they bound a solid.
 
 use crate::error::InputError;
+use crate::feature::Feature;
 use crate::hierarchy::Hierarchy;
+use crate::hull_tree::{HullTree, HullTreeError};
+use crate::naming::face_under;
+use crate::oracle::Combination;
 use crate::piece::Piece;
 use crate::pieces::Pieces;
 use crate::shell::{Shell, shells};
-use crate::tree::Tree;
+use crate::tree::{Tree, pieces_at};
 use glam::DVec3;
 
 /// What moves: convex pieces in the body's own frame, ready for queries; immutable, shareable.
@@ -25,6 +29,8 @@ pub struct Body {
     shells: Vec<Shell>,
     /// Which way the faces of a solid are turned.
     facing: Facing,
+    /// Its leaves name the pieces in the order of the tree.
+    hull_tree: Option<HullTree>,
 }
 
 /// Which way the normals of a closed mesh point.
@@ -36,6 +42,7 @@ enum Facing {
 
 /// Whether being inside of a body counts as touching it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Volume {
     /// The triangles, or the [mesh's triangles](crate::Piece::mesh_triangles) on the pieces, bound a solid:
     /// together they are closed. A body inside it overlaps it. A single piece is solid by itself.
@@ -74,7 +81,18 @@ impl Body {
             pieces,
             tree,
             volume,
+            hull_tree: None,
         })
+    }
+
+    /// The same body with a hull tree over its pieces, for the schedules that use one.
+    ///
+    /// # Errors
+    /// [`HullFault::NotAPiece`](crate::HullFault::NotAPiece) unless its leaves are the body's pieces,
+    /// to the bit and in any order.
+    pub fn with_hull_tree(mut self, tree: HullTree) -> Result<Self, HullTreeError> {
+        self.hull_tree = Some(tree.renumbered(&self.pieces)?);
+        Ok(self)
     }
 
     /// The pieces, in the order of the tree.
@@ -87,9 +105,33 @@ impl Body {
         self.volume
     }
 
+    /// The hull tree over its pieces, if it was given one; its leaves name [`Body::pieces`].
+    pub fn hull_tree(&self) -> Option<&HullTree> {
+        self.hull_tree.as_ref()
+    }
+
     /// Bytes held, about.
     pub fn bytes(&self) -> usize {
-        self.pieces.bytes() + self.tree.bytes()
+        let hulls = self.hull_tree.as_ref().map_or(0, HullTree::bytes);
+        self.pieces.bytes() + self.tree.bytes() + hulls
+    }
+
+    /// What a point of a piece is called in the mesh.
+    ///
+    /// A virtual facet may lie within the surface, over faces that belong to other pieces: these are
+    /// asked where the piece has no name for the point.
+    pub(crate) fn feature(&self, piece: u32, point: &Combination) -> Feature {
+        let feature = self.pieces.feature(piece as usize, point);
+        let Feature::Piece(_) = feature else {
+            return feature;
+        };
+        let at = point.of(self.pieces.get(piece as usize).points);
+        at.and_then(|at| {
+            let there = pieces_at(&self.tree, at).into_iter();
+            let mut faces = there.map(|k| face_under(&self.pieces.get(k as usize), at));
+            faces.find_map(|face| face)
+        })
+        .map_or(feature, Feature::Face)
     }
 
     /// The unit normal of a flat piece that points out of the solid which the body's faces bound;
@@ -141,3 +183,6 @@ fn signed_volume(pieces: &Pieces) -> f64 {
 fn area_normal([a, b, c]: [DVec3; 3]) -> DVec3 {
     (b - a).cross(c - a)
 }
+
+#[cfg(test)]
+mod tests;

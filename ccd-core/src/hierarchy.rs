@@ -9,12 +9,18 @@ use glam::DVec3;
 /// It only says which pieces belong together; all bounds are computed from the pieces, so that a
 /// poor hierarchy makes a query slow, never wrong.
 #[derive(Clone, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(try_from = "Vec<HierarchyNode>", into = "Vec<HierarchyNode>")
+)]
 pub struct Hierarchy {
     nodes: Vec<HierarchyNode>,
 }
 
 /// A node of a [`Hierarchy`]; node 0 is the root.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum HierarchyNode {
     /// One piece, by its index.
     Leaf(u32),
@@ -87,6 +93,25 @@ impl Hierarchy {
     /// The nodes, the root first.
     pub fn nodes(&self) -> &[HierarchyNode] {
         &self.nodes
+    }
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<Vec<HierarchyNode>> for Hierarchy {
+    type Error = InputError;
+
+    /// Of stored nodes, which tell themselves how many pieces there are.
+    fn try_from(nodes: Vec<HierarchyNode>) -> Result<Self, InputError> {
+        let leaf = |node: &&HierarchyNode| matches!(node, HierarchyNode::Leaf(_));
+        let pieces = nodes.iter().filter(leaf).count();
+        Hierarchy::new(nodes, pieces)
+    }
+}
+
+#[cfg(feature = "serde")]
+impl From<Hierarchy> for Vec<HierarchyNode> {
+    fn from(hierarchy: Hierarchy) -> Self {
+        hierarchy.nodes
     }
 }
 

@@ -27,6 +27,8 @@
 //! | distance of two pieces, and its check | `oracle.rs`, `separation.rs` |
 //! | conservative advancement, all pairs `[FAST06 Alg. 1]` | `schedule/naive.rs` |
 //! | conservative advancement, best first | `schedule/best_first.rs` |
+//! | the same over hull trees `[FAST06 §3.3, §5.1]` | `hull_tree.rs`, `schedule/hull_first.rs` |
+//! | farthest corner along a direction `[FAST06 §4.2]` | `support.rs` |
 //! | one pair of pieces at one moment | `schedule/pair.rs`, `schedule/moment.rs` |
 //! | contact at the start, one body inside the other | `schedule/start.rs`, `overlap.rs`, `containment.rs` |
 //! | every allowance for rounding | [`tolerance`] |
@@ -69,6 +71,8 @@
 //!
 //! # Features
 //! - `nalgebra`: conversions between [`Pose`] and `nalgebra::Isometry3<f64>`.
+//! - `serde`: pieces, hierarchies and hull trees can be stored; what is read is checked as what is
+//!   made.
 //! - `avx512`: lets the crate be built with AVX-512, which rustc 1.95 miscompiles plain f64 code with;
 //!   for compilers that are known not to.
 
@@ -83,6 +87,7 @@ mod containment;
 mod error;
 mod feature;
 mod hierarchy;
+mod hull_tree;
 #[cfg(feature = "nalgebra")]
 mod interop;
 mod motion;
@@ -100,6 +105,7 @@ mod problem;
 pub mod schedule;
 mod separation;
 mod shell;
+mod support;
 #[cfg(test)]
 mod tests;
 pub mod tolerance;
@@ -111,6 +117,7 @@ pub use error::InputError;
 pub use feature::Feature;
 pub use glam;
 pub use hierarchy::{Hierarchy, HierarchyNode};
+pub use hull_tree::{FacetClass, Hull, HullFault, HullNode, HullTree, HullTreeError};
 pub use motion::Motion;
 pub use oracle::{Claim, Combination, DistanceOracle, GiveUp, OrElse, PiecePair};
 pub use outcome::{Answer, Contact, Limit, Outcome, Overlap, Separation, Stats};
@@ -119,3 +126,4 @@ pub use pieces::Pieces;
 pub use pose::{Frame, Pose};
 pub use problem::{Config, Moving, Problem, StartPolicy};
 pub use schedule::Schedule;
+pub use support::{DIRECTIONS, Support, SupportScan, SupportTable};

@@ -201,6 +201,45 @@ impl Angle {
     }
 }
 
+/// A vector that turns about an axis.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Spinning {
+    start: DVec3,
+    /// The vector less its part along the axis.
+    across: DVec3,
+    /// `u × v`
+    beside: DVec3,
+}
+
+impl Spinning {
+    /// `unit` is the direction of the axis, zero if there is none.
+    #[inline]
+    pub(crate) fn new(unit: DVec3, start: DVec3) -> Self {
+        Spinning {
+            start,
+            across: start - start.dot(unit) * unit,
+            beside: unit.cross(start),
+        }
+    }
+
+    #[inline]
+    pub(crate) fn at(&self, angle: Angle) -> DVec3 {
+        self.start + self.across * angle.versine + self.beside * angle.sin
+    }
+
+    /// Its derivative, per radian.
+    #[inline]
+    pub(crate) fn slope_at(&self, angle: Angle) -> DVec3 {
+        self.beside * angle.cos - self.across * angle.sin
+    }
+
+    /// The length of the derivative, which does not change.
+    #[inline]
+    pub(crate) fn slope(&self) -> f64 {
+        self.beside.length()
+    }
+}
+
 /// A gap that closes: at most by `rate τ + bend τ²/2` within `τ`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Gap {

@@ -44,14 +44,19 @@ pub(crate) fn of_polytope(piece: &Piece<'_>, point: &Combination) -> Name {
 }
 
 /// The face of the mesh that a point lies on, but for rounding.
-fn face_under(piece: &Piece<'_>, point: DVec3) -> Option<u32> {
+pub(crate) fn face_under(piece: &Piece<'_>, point: DVec3) -> Option<u32> {
     let way = |p: &DVec3| p.distance(point);
-    let size = piece.points.iter().map(way).fold(0.0, f64::max);
+    let reach = ON_FACET * piece.points.iter().map(way).fold(0.0, f64::max);
+    let near = |[a, b, c]: [DVec3; 3]| {
+        let (lo, hi) = (a.min(b).min(c) - reach, a.max(b).max(c) + reach);
+        lo.cmple(point).all() && point.cmple(hi).all()
+    };
     let off = piece
         .mesh_triangles()
+        .filter(|&(_, triangle)| near(triangle))
         .map(|(id, triangle)| (distance_off(triangle, point), id));
     let (off, face) = off.min_by(|a, b| a.0.total_cmp(&b.0))?;
-    (off <= ON_FACET * size).then_some(face)
+    (off <= reach).then_some(face)
 }
 
 /// How far a point is off a triangle's plane, or beyond one of its edges, whichever is more.

@@ -102,6 +102,7 @@ impl<'a> Facets<'a> {
 
 /// A convex polytope as it is handed to [`Pieces::polytopes`](crate::Pieces::polytopes).
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Polytope {
     /// The points whose hull it is.
     pub points: Vec<DVec3>,
@@ -117,6 +118,7 @@ pub struct Polytope {
 
 /// One facet of a [`Polytope`].
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Facet {
     /// What it is of the mesh.
     pub origin: Origin,
@@ -126,6 +128,7 @@ pub struct Facet {
 
 /// What a facet is of the mesh that its polytope came from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Origin {
     /// The face of that number.
     Face(u32),
@@ -137,6 +140,7 @@ pub enum Origin {
 
 /// A triangle of a mesh on the boundary of a [`Polytope`].
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Face {
     /// The number it goes by in the mesh.
     pub id: u32,

@@ -10,6 +10,8 @@ use glam::DVec3;
 
 /// The pieces of one body, flat in memory, with the numbers of the mesh they came from.
 #[derive(Clone, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "serial::Stored", into = "serial::Stored"))]
 pub struct Pieces {
     points: Vec<DVec3>,
     vertex_ids: Vec<u32>,
@@ -359,5 +361,8 @@ fn range(ends: &[u32], k: usize) -> std::ops::Range<usize> {
     start as usize..ends[k] as usize
 }
 
+#[cfg(feature = "serde")]
+mod serial;
 #[cfg(test)]
 mod tests;
+mod unpack;

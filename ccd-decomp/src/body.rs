@@ -1,21 +1,53 @@
 //! Meshes made into bodies.
 
+use crate::auto;
+use crate::convex::as_polytope;
+use crate::error::BodyError;
 use crate::hierarchy::build_hierarchy;
+use crate::hull_tree::build_hull_tree;
+use crate::manifold::Manifold;
 use crate::mesh::TriangleMesh;
 use crate::repair::Repairs;
+use crate::report::{PiecesKind, Report, Why};
+use crate::surface::{Decomposition, Order, Patch, decompose};
 use crate::topology::Topology;
-use ccd_core::{Body, InputError, Pieces, Volume};
-use std::fmt;
+use crate::vhacd::approximate;
+use ccd_core::{Body, Hierarchy, HullTree, Pieces, Polytope, Volume};
 
 /// Of what pieces a body is to be made.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Detail {
-    /// The fewest pieces that are exactly the mesh; today its triangles.
+    /// The least that is exact: one hull for a convex solid, else patches or triangles, whichever is
+    /// estimated to be faster for queries.
     #[default]
     Auto,
     /// One piece per triangle: exact for any mesh or soup.
     Triangles,
+    /// Convex patches of the surface: exact, for meshes that bound a solid.
+    Patches(Order),
+    /// The solid itself: exact, for convex ones.
+    Hull,
+    /// Hulls about its parts: covers any mesh, and sticks out of it.
+    Vhacd {
+        /// How many hulls at most.
+        hulls: u32,
+    },
+}
+
+/// A body before its tree is built: what is stored in a file.
+#[derive(Clone, Debug)]
+pub struct Model {
+    /// The convex pieces.
+    pub pieces: Pieces,
+    /// A hierarchy over them.
+    pub hierarchy: Hierarchy,
+    /// Whether being inside of it counts as touching it.
+    pub volume: Volume,
+    /// A tree of hulls over the pieces, for the schedules that use one.
+    pub hull_tree: Option<HullTree>,
+    /// What the pieces are, and why.
+    pub report: Report,
 }
 
 /// A body, and what it was made of.
@@ -27,49 +59,136 @@ pub struct Prepared {
     pub report: Report,
 }
 
-/// What a body was made of. Prints as one line for people.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Report {
-    /// How many pieces it has.
-    pub pieces: usize,
-    /// Whether being inside of it counts as touching it: when its mesh is closed.
-    pub volume: Volume,
-    /// How the faces meet, which says why it is solid or not; none for a box, sphere or capsule.
-    pub topology: Option<Topology>,
-    /// What was amiss with the mesh, and what became of it.
-    pub repairs: Repairs,
-}
-
-/// Makes a body of a mesh.
+/// Makes a body of a mesh: [`prepare`], and [`Model::body`].
 ///
 /// # Guarantee
-/// The pieces cover the mesh. The body is solid exactly when the mesh is closed and consistently
-/// oriented; one that is inside out counts as solid, too, and its report says so.
+/// As [`prepare`].
 ///
 /// # Errors
-/// [`InputError::TooManyPieces`].
-pub fn body_from_mesh(mesh: &TriangleMesh, detail: Detail) -> Result<Prepared, InputError> {
-    let pieces = match detail {
-        Detail::Auto | Detail::Triangles => {
-            Pieces::triangles(mesh.vertices(), mesh.faces(), mesh.face_ids())?
+/// As [`prepare`].
+pub fn body_from_mesh(mesh: &TriangleMesh, detail: Detail) -> Result<Prepared, BodyError> {
+    prepare(mesh, detail)?.into_prepared()
+}
+
+/// Makes the pieces of a mesh, and a hierarchy over them.
+///
+/// # Guarantee
+/// The pieces cover the mesh; but for [`Detail::Vhacd`] they touch nothing outside of the solid that it
+/// bounds. The body is solid exactly when the mesh is closed and consistently oriented; one that is
+/// inside out counts as solid, too, and its report says so. [`Detail::Auto`] and [`Detail::Triangles`]
+/// take any mesh.
+///
+/// # Errors
+/// [`BodyError::Decompose`] when the mesh does not bound the kind of solid that was asked for,
+/// [`BodyError::Vhacd`], [`BodyError::Input`] when there are too many pieces.
+pub fn prepare(mesh: &TriangleMesh, detail: Detail) -> Result<Model, BodyError> {
+    let (parts, why) = match detail {
+        Detail::Auto => auto::choose(mesh),
+        Detail::Triangles => (Parts::Triangles, Why::Asked),
+        Detail::Patches(order) => (Parts::Patches(decompose(mesh, order)?), Why::Asked),
+        Detail::Hull => {
+            let polytope = as_polytope(&Manifold::new(mesh)?)?;
+            (Parts::Hull(Box::new(polytope)), Why::Asked)
+        }
+        Detail::Vhacd { hulls } => {
+            let approximation = approximate(mesh, hulls)?;
+            let sticks_out = approximation.sticks_out;
+            (Parts::Vhacd(approximation.polytopes, sticks_out), Why::Asked)
         }
     };
-    let topology = Topology::of(mesh);
-    let volume = if topology.is_closed() {
-        Volume::Solid
-    } else {
-        Volume::Surface
-    };
-    let hierarchy = build_hierarchy(&pieces)?;
-    Ok(Prepared {
-        body: Body::with_hierarchy(&pieces, &hierarchy, volume)?,
-        report: Report {
-            pieces: pieces.len(),
+    parts.into_model(mesh, why)
+}
+
+/// What a mesh is made into.
+pub(crate) enum Parts {
+    Triangles,
+    Patches(Decomposition),
+    Hull(Box<Polytope>),
+    /// With how far the hulls stick out.
+    Vhacd(Vec<Polytope>, f64),
+}
+
+impl Parts {
+    fn into_model(self, mesh: &TriangleMesh, why: Why) -> Result<Model, BodyError> {
+        let topology = Topology::of(mesh);
+        let volume = match (&self, topology.is_closed()) {
+            // Hulls are filled by themselves.
+            (Parts::Vhacd(..), _) | (_, false) => Volume::Surface,
+            (_, true) => Volume::Solid,
+        };
+        let mut sticks_out = 0.0;
+        let mut virtual_faces = 0;
+        let (kind, pieces) = match self {
+            Parts::Triangles => (
+                PiecesKind::Triangles,
+                Pieces::triangles(mesh.vertices(), mesh.faces(), mesh.face_ids())?,
+            ),
+            Parts::Patches(Decomposition { patches }) => {
+                virtual_faces = patches.iter().map(Patch::virtual_facets).sum();
+                let polytopes: Vec<Polytope> = patches.into_iter().map(|p| p.polytope).collect();
+                (PiecesKind::Patches, Pieces::polytopes(&polytopes)?)
+            }
+            Parts::Hull(polytope) => (PiecesKind::Hull, Pieces::polytopes(&[*polytope])?),
+            Parts::Vhacd(polytopes, by) => {
+                sticks_out = by;
+                virtual_faces = polytopes.iter().map(|p| p.facets.len()).sum();
+                (PiecesKind::Vhacd, Pieces::polytopes(&polytopes)?)
+            }
+        };
+        let hierarchy = build_hierarchy(&pieces)?;
+        Ok(Model {
+            report: Report {
+                kind,
+                why,
+                triangles: mesh.faces().len(),
+                pieces: pieces.len(),
+                virtual_faces,
+                tree_nodes: hierarchy.nodes().len(),
+                sticks_out,
+                volume,
+                topology: Some(topology),
+                repairs: mesh.repairs().clone(),
+            },
+            pieces,
+            hierarchy,
             volume,
-            topology: Some(topology),
-            repairs: mesh.repairs().clone(),
-        },
-    })
+            hull_tree: None,
+        })
+    }
+}
+
+impl Model {
+    /// Builds the body. O(n log n) in the number of pieces.
+    ///
+    /// # Errors
+    /// [`BodyError::Input`], [`BodyError::HullTree`] when the parts do not belong together.
+    pub fn body(&self) -> Result<Body, BodyError> {
+        let body = Body::with_hierarchy(&self.pieces, &self.hierarchy, self.volume)?;
+        Ok(match &self.hull_tree {
+            Some(tree) => body.with_hull_tree(tree.clone())?,
+            None => body,
+        })
+    }
+
+    /// Adds a hull tree over its pieces.
+    ///
+    /// # Errors
+    /// [`BodyError::BuildHullTree`].
+    pub fn with_hull_tree(mut self) -> Result<Self, BodyError> {
+        self.hull_tree = Some(build_hull_tree(&self.pieces)?);
+        Ok(self)
+    }
+
+    /// Builds the body, and keeps of the rest only the report.
+    ///
+    /// # Errors
+    /// As [`Model::body`].
+    pub fn into_prepared(self) -> Result<Prepared, BodyError> {
+        Ok(Prepared {
+            body: self.body()?,
+            report: self.report,
+        })
+    }
 }
 
 impl Prepared {
@@ -77,32 +196,19 @@ impl Prepared {
     pub(crate) fn primitive(body: Body) -> Self {
         Prepared {
             report: Report {
+                kind: PiecesKind::Primitive,
+                why: Why::Asked,
+                triangles: 0,
                 pieces: body.pieces().len(),
+                virtual_faces: 0,
+                tree_nodes: 1,
+                sticks_out: 0.0,
                 volume: body.volume(),
                 topology: None,
                 repairs: Repairs::default(),
             },
             body,
         }
-    }
-}
-
-impl fmt::Display for Report {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let plural = if self.pieces == 1 { "" } else { "s" };
-        write!(f, "{} piece{plural}, ", self.pieces)?;
-        match self.volume {
-            Volume::Solid => write!(f, "solid")?,
-            Volume::Surface => write!(f, "surface only")?,
-        }
-        let plain = |t: &Topology| t.is_manifold() && t.signed_volume > 0.0;
-        if let Some(topology) = self.topology.as_ref().filter(|t| !plain(t)) {
-            write!(f, " ({topology})")?;
-        }
-        if !self.repairs.is_empty() {
-            write!(f, "; {}", self.repairs)?;
-        }
-        Ok(())
     }
 }
 

@@ -1,7 +1,15 @@
 //! What can be wrong with a file, a mesh or the description of a body.
 
-use ccd_core::InputError;
+use crate::predicates::MIN_COORDINATE;
+use crate::self_intersection::Crossing;
+use crate::store::StoreError;
+use crate::tally::Tally;
+use crate::topology::{Edge, Topology};
+use crate::hull_tree::BuildError;
+use crate::vhacd::VhacdError;
+use ccd_core::{HullTreeError, InputError};
 use ccd_core::tolerance::MAX_COORDINATE;
+use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::io;
 use std::path::PathBuf;
@@ -135,6 +143,58 @@ impl From<MeshFault> for MeshError {
     }
 }
 
+/// Why a mesh cannot be decomposed exactly: it does not bound a solid. Faces, edges and vertices by
+/// their numbers in the file.
+#[derive(Clone, Debug, PartialEq, thiserror::Error, Serialize, Deserialize)]
+#[non_exhaustive]
+pub enum DecomposeError {
+    /// Its edges do not have one face on either side.
+    #[error("{0}; close the mesh, or use triangles")]
+    NotManifold(Box<Topology>),
+    /// Faces without area have no inner side.
+    #[error("faces without area: {faces}; remove them, or use triangles")]
+    NoArea {
+        /// The faces.
+        faces: Tally<u32>,
+    },
+    /// Faces meet that share no vertex or edge there.
+    #[error("faces that intersect: {pairs}; mend them, or use triangles")]
+    SelfIntersecting {
+        /// The pairs of faces.
+        pairs: Tally<Crossing>,
+    },
+    /// The solid is in front of a face, not behind it.
+    #[error("the part with face {face} is inside out; turn its faces, or use triangles")]
+    InsideOut {
+        /// A face of the part.
+        face: u32,
+    },
+    /// A part's volume is too small to tell its inside.
+    #[error("the part with face {face} holds no volume to speak of; use triangles")]
+    NoVolume {
+        /// A face of the part.
+        face: u32,
+    },
+    /// It is not convex.
+    #[error("not convex at {edge}; use patches or triangles")]
+    NotConvex {
+        /// An edge at which the solid's angle is more than half a turn.
+        edge: Edge,
+    },
+    /// It is not convex, as it is not in one part.
+    #[error("{parts} parts, each of which may be convex; use patches or triangles")]
+    NotInOnePart {
+        /// How many parts.
+        parts: u32,
+    },
+    /// A coordinate is too near to 0 for exact computations.
+    #[error("vertex {vertex} has a coordinate nearer to 0 than {MIN_COORDINATE:e}; make it 0")]
+    TooFine {
+        /// The vertex.
+        vertex: usize,
+    },
+}
+
 /// A text that describes no body.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -181,12 +241,27 @@ pub enum BodyError {
     /// The mesh cannot be read.
     #[error(transparent)]
     Mesh(#[from] MeshError),
+    /// The stored body cannot be read.
+    #[error(transparent)]
+    Store(#[from] StoreError),
+    /// The mesh cannot be made into the pieces that were asked for.
+    #[error(transparent)]
+    Decompose(#[from] DecomposeError),
+    /// The mesh cannot be approximated.
+    #[error(transparent)]
+    Vhacd(#[from] VhacdError),
+    /// No hull tree can be built.
+    #[error(transparent)]
+    BuildHullTree(#[from] BuildError),
+    /// A hull tree does not belong to the pieces.
+    #[error(transparent)]
+    HullTree(#[from] HullTreeError),
     /// The core does not take it.
     #[error(transparent)]
     Input(#[from] InputError),
 }
 
-struct Prefix<'a>(&'a Option<PathBuf>);
+pub(crate) struct Prefix<'a>(pub(crate) &'a Option<PathBuf>);
 
 impl fmt::Display for Prefix<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

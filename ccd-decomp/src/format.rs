@@ -1,6 +1,7 @@
 //! File formats: bytes to polygons and back, without touching a file.
 
 mod obj;
+mod obj_pieces;
 mod off;
 mod ply;
 mod stl;
@@ -10,6 +11,7 @@ use crate::mesh::Polygons;
 use std::path::Path;
 
 pub use obj::write_obj;
+pub use obj_pieces::write_obj_pieces;
 
 /// A format that a mesh can be read from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

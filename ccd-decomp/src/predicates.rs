@@ -27,6 +27,16 @@ pub(crate) fn side(triangle: [DVec3; 3], point: DVec3) -> Ordering {
     sign(-orient3d(a, b, c, coord3(point)))
 }
 
+/// The same for points of a list, by their numbers: corners of the triangle are in its plane, which
+/// would take the predicate its longest computation to find.
+#[inline]
+pub(crate) fn side_of(points: &[DVec3], triangle: [u32; 3], point: u32) -> Ordering {
+    if triangle.contains(&point) {
+        return Ordering::Equal;
+    }
+    side(triangle.map(|v| points[v as usize]), points[point as usize])
+}
+
 /// The coordinate plane that a triangle is projected to, keeping an area, and how it then turns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Projection {

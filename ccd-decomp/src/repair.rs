@@ -1,6 +1,7 @@
 //! What a mesh holds that needs no face of its own, and what becomes of it.
 
 use crate::tally::Tally;
+use serde::{Deserialize, Serialize};
 use std::collections::HashSet;
 use std::fmt;
 
@@ -8,7 +9,7 @@ use std::fmt;
 ///
 /// # Guarantee
 /// No repair removes a point of the surface.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Repairs {
     /// Faces of more than three corners, cut into the fan about their first corner. Of a polygon
     /// that is not planar the fan is one of several surfaces its rim could mean.

@@ -1,8 +1,9 @@
 //! Bodies as they are named on a command line.
 
-use crate::body::{Detail, Prepared, body_from_mesh};
+use crate::body::{Detail, Model, Prepared, body_from_mesh};
 use crate::error::{BodyError, SourceError};
 use crate::mesh::TriangleMesh;
+use crate::store::STORED_EXTENSION;
 use ccd_core::Body;
 use ccd_core::glam::DVec3;
 use std::path::PathBuf;
@@ -14,6 +15,7 @@ use std::str::FromStr;
 /// use ccd_decomp::BodySource;
 /// assert_eq!("sphere:0.5".parse(), Ok(BodySource::Sphere { radius: 0.5 }));
 /// assert_eq!("part.obj".parse(), Ok(BodySource::Mesh("part.obj".into())));
+/// assert_eq!("part.ccd".parse(), Ok(BodySource::Stored("part.ccd".into())));
 /// let error = "ball:0.5".parse::<BodySource>().unwrap_err();
 /// assert!(error.to_string().contains("sphere:0.5"));
 /// ```
@@ -36,6 +38,8 @@ pub enum BodySource {
         /// Half the length of the segment along z that it surrounds.
         half_height: f64,
     },
+    /// The path of a file that ends in `.ccd`: a body that was [stored](crate::Model::save).
+    Stored(PathBuf),
     /// Anything else: the path of a mesh file.
     Mesh(PathBuf),
 }
@@ -49,10 +53,11 @@ pub fn parse_body(text: &str, detail: Detail) -> Result<Prepared, BodyError> {
 }
 
 impl BodySource {
-    /// Makes the body; a mesh is read from its file, other bodies have one detail only.
+    /// Makes the body; a mesh is read from its file, other bodies have one detail only, and a stored
+    /// one has that which it was prepared with.
     ///
     /// # Errors
-    /// [`BodyError::Mesh`], [`BodyError::Input`].
+    /// [`BodyError::Mesh`] and those of [`body_from_mesh`], [`BodyError::Store`], [`BodyError::Input`].
     pub fn load(&self, detail: Detail) -> Result<Prepared, BodyError> {
         Ok(match *self {
             BodySource::Box { half_extents } => Prepared::primitive(Body::cuboid(half_extents)?),
@@ -61,8 +66,19 @@ impl BodySource {
                 radius,
                 half_height,
             } => Prepared::primitive(Body::capsule(radius, half_height)?),
+            BodySource::Stored(ref path) => Model::load(path)?.into_prepared()?,
             BodySource::Mesh(ref path) => body_from_mesh(&TriangleMesh::read(path)?, detail)?,
         })
+    }
+}
+
+impl BodySource {
+    fn of_file(path: PathBuf) -> Self {
+        let extension = path.extension().unwrap_or_default();
+        match extension.eq_ignore_ascii_case(STORED_EXTENSION) {
+            true => BodySource::Stored(path),
+            false => BodySource::Mesh(path),
+        }
     }
 }
 
@@ -93,7 +109,7 @@ impl FromStr for BodySource {
                     shape: shape.into(),
                 })
             }
-            _ => Ok(BodySource::Mesh(text.into())),
+            _ => Ok(BodySource::of_file(text.into())),
         }
     }
 }

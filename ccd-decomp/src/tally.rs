@@ -1,9 +1,10 @@
 //! How many there are of something, and which came first.
 
+use serde::{Deserialize, Serialize};
 use std::fmt;
 
 /// How many elements something is true of, and the first of them.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Tally<T> {
     count: usize,
     first: Vec<T>,

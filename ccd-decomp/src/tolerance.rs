@@ -1,5 +1,8 @@
 //! Every number of this crate that is a choice rather than a consequence: its unit, and what it buys.
 
+use ccd_core::glam::DVec3;
+use ccd_core::tolerance::U64;
+
 /// Below this many pieces a hierarchy is agglomerated, above it is split at medians.
 ///
 /// Unit: pieces. Larger: better trees by a few percent, but pieces with one common centre take time
@@ -15,3 +18,134 @@ pub(crate) const SEARCH_DEPTH: usize = 2;
 ///
 /// Unit: one. Larger: better trees by a percent for every doubling, but slower to build.
 pub(crate) const REINSERTED_SHARE: f32 = 0.02;
+
+/// Rays that are tried from a shell of a mesh before it is given up to know what is around it.
+///
+/// Unit: rays. Each one grazes an edge only by accident.
+pub(crate) const RAY_TRIES: usize = 16;
+
+/// A patch grows no further beyond so many polygons.
+///
+/// Unit: polygons. Growing takes time that grows with their square, and an oracle takes time that
+/// grows with a piece's corners: queries on two knots of 11,520 triangles took a median of 127, 168,
+/// 163, 158, 255 µs with patches of up to 16, 32, 64, 128, 1024 polygons, which were 910, 492, 324,
+/// 292, 258.
+pub(crate) const PATCH_POLYGONS: usize = 48;
+
+/// Bounds the error of the height `n·x − n·a`, with `n = u × v`, of a point over a plane, when all
+/// three are rounded differences of points and no coordinate of `x` or `a` exceeds `reach`.
+///
+/// With `u` half a unit in the last place and `m` the product of the largest coordinates of `u` and
+/// `v`: a component of `n` is at most `2m` and off by `8u m`, which a height of two terms of three
+/// products sees with `2 · 3 · 8u m reach`; coordinates are off by `u reach` (`2 · 3 · 2u m reach`);
+/// two dot products and their difference round by `4u` of `2 · 3 · 2m reach`. That is 108u; 128u are
+/// taken, and what may underflow.
+pub(crate) fn height_rounding(sides: [DVec3; 2], reach: f64) -> f64 {
+    let [u, v] = sides.map(|side| side.abs().max_element());
+    128.0 * U64 * u * v * reach + f64::MIN_POSITIVE
+}
+
+/// The least share of its pieces that a node of a hull tree leaves to either child; otherwise it is
+/// split at the median.
+///
+/// Unit: one. At 1/8 a tree of n pieces is at most `log n / log (8/7)` deep: 104 for a million.
+pub(crate) const LEAST_SHARE: f64 = 1.0 / 8.0;
+
+/// The cap on the rounds in which the eigenvectors of a 3 × 3 matrix are found.
+///
+/// Unit: rounds. A handful suffice; without an answer a node is split along x.
+pub(crate) const EIGEN_ROUNDS: usize = 256;
+
+/// Bounds how far cutting a polygon at up to 32 planes moves any point of it, when no coordinate exceeds
+/// `farthest`; in its unit of length. A grid of 128 layers is halved at most 21 times.
+///
+/// With `u` half a unit in the last place and `m` the farthest coordinate: at each cut, the share of an
+/// edge is right to `3u`, which moves a point by `2√3 · 3u m`, the edge's direction and the product by
+/// `2√3 · u m` each, the sum by `√3 u m`: less than 20u; 32u are taken, 32 times. Cubes are widened by as
+/// much, so that what is cut off at one is left at the next.
+pub(crate) fn clip_rounding(farthest: f64) -> f64 {
+    1024.0 * U64 * farthest
+}
+
+/// Voxels along a mesh's longest side when it is to be approximated by so many hulls.
+///
+/// Finer ones place the cuts between the hulls better, at a cost of their cube. Measured on a knot, a
+/// ring and a bunny: 128 for 64 gains a tenth of the error and costs four times the time.
+pub(crate) fn voxel_resolution(hulls: u32) -> u32 {
+    if hulls <= 32 { 64 } else { 96 }
+}
+
+/// The coarsest grid that is of any use; unit: voxels.
+pub(crate) const LEAST_RESOLUTION: u32 = 8;
+
+/// How many pairs of a triangle and a voxel in its box may be looked at: a second's work.
+pub(crate) const VOXELS_TESTED: usize = 1 << 24;
+
+/// The least size of a voxel in units of what cutting at it may be off by.
+pub(crate) const COARSE_VOXELS: f64 = 1024.0;
+
+/// The share of the whole hull's volume by which a part's hull may exceed the part before it is split.
+/// Smaller: all hulls that are asked for are used on what is nearly convex as well.
+pub(crate) const CONCAVITY: f64 = 1e-6;
+
+/// What an uneven cut costs V-HACD, in shares of the concavity. Measured on a bunny with 128 hulls: they
+/// stick out by a quarter less than at the library's own 0.05; of a knot and a ring it makes no odds.
+pub(crate) const BALANCE: f64 = 0.5;
+
+/// How many parts to ask the library for per hull; the best are merged. Measured: one makes 32 hulls of a
+/// knot stick out by two thirds more, four hardly less.
+pub(crate) const PARTS_PER_HULL: u32 = 2;
+
+/// The most parts to ask the library for: merging takes time that grows with their cube.
+pub(crate) const MOST_PARTS: u32 = 512;
+
+/// Hulls that may stick out by more than this, in units of half the mesh's diagonal, are refused.
+pub(crate) const TOO_COARSE: f64 = 0.5;
+
+/// What a distance to the nearest triangle may be off by, in units of half the mesh's diagonal.
+/// Rounding comes to 1e-15 of well-shaped triangles, and to this of needles of an aspect of 1e6.
+pub(crate) const NEAREST_SLACK: f64 = 1e-9;
+
+/// A facet's plane is used when its sine at a corner is above this: its normal is then right to
+/// `4 U64 / 1e-6`, less than [`NEAREST_SLACK`].
+pub(crate) const WELL_SHAPED: f64 = 1e-6;
+
+/// How many boxes are looked at, at most, to bound how far hulls stick out: a second's work.
+pub(crate) const EXCESS_CELLS: usize = 200_000;
+
+/// The bound on how far hulls stick out is improved until it is within this ratio of what was found …
+pub(crate) const EXCESS_RATIO: f64 = 1.01;
+
+/// … or within this, in units of half the mesh's diagonal.
+pub(crate) const EXCESS_FLOOR: f64 = 1e-4;
+
+/// Up to so many triangles near a box are looked at to bound how far a part sticks out in it.
+pub(crate) const TRIANGLES_UNDER: usize = 64;
+
+/// What queries take over one kind of pieces.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PieceCost {
+    /// The median, against a body of many triangles, whatever the number of pieces. Unit: µs.
+    pub(crate) usual: f64,
+    /// For every piece of a plane that rests flat on another one. Unit: µs.
+    pub(crate) resting: f64,
+}
+
+/// Measured on a perforated plate (coarse and fine), an L-prism, a comb and a gear of 460 to 7,452
+/// triangles against a ring of 10,000: medians of 20, 21, 22, 18, 35 µs. Laid flat on themselves, to a
+/// tolerance of 1e-9, 1 to 5 µs for every triangle of the plane.
+pub(crate) const TRIANGLES: PieceCost = PieceCost {
+    usual: 23.0,
+    resting: 3.0,
+};
+
+/// The same: 28, 31, 69, 18, 46 µs, and 4 to 18 µs for every patch of the plane.
+pub(crate) const PATCHES: PieceCost = PieceCost {
+    usual: 38.0,
+    resting: 10.0,
+};
+
+/// In how many of all queries bodies are taken to rest flat on each other. Unit: one. A guess: the
+/// larger, the sooner patches are chosen; meshes without planes of more than a hundred triangles are
+/// triangles at any value up to 1/20.
+pub(crate) const FLAT_SHARE: f64 = 1.0 / 20.0;

@@ -3,10 +3,11 @@
 use crate::mesh::TriangleMesh;
 use crate::tally::Tally;
 use ccd_core::glam::DVec3;
+use serde::{Deserialize, Serialize};
 use std::fmt;
 
 /// How the faces of a mesh meet at their edges. Vertices at exactly the same point count as one.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Topology {
     /// Edges of one face only: the rims of holes.
     pub boundary: Tally<Edge>,
@@ -24,7 +25,7 @@ pub struct Topology {
 
 /// An edge by the numbers of its vertices, the smaller first; of several vertices at one point, the
 /// first.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct Edge(pub u32, pub u32);
 
 /// Where the faces of a closed mesh look, on the whole.

@@ -5,8 +5,10 @@
 
 mod backends_agree;
 mod bad_inputs;
+mod decomposition;
 mod equal_bits;
 mod exact;
+mod faulty_meshes;
 mod generators;
 mod liars;
 mod limits;
@@ -15,8 +17,10 @@ mod million;
 mod models;
 mod monotone;
 mod motions;
+mod names;
 mod never_late;
 mod oracle_contract;
+mod patch_liars;
 mod referee;
 mod regressions;
 mod scenes;

@@ -1,7 +1,7 @@
 //! The models are what they are called: closed where they should be, convex parts within.
 
 use ccd_core::glam::DVec3;
-use ccd_tests::models::{Mesh, Shape, convex_solids, gear, l_block, l_prism, solids};
+use ccd_tests::models::{Shape, convex_solids, gear, l_block, l_prism, solids};
 use std::collections::HashMap;
 
 fn closed_models() -> impl Iterator<Item = (String, Shape)> {
@@ -28,18 +28,12 @@ fn every_edge_of_a_closed_model_has_two_faces_that_run_along_it_either_way() {
 
 #[test]
 fn closed_models_are_not_inside_out() {
-    let volume = |mesh: &Mesh| -> f64 {
-        let of_face = |face| {
-            let [a, b, c] = mesh.triangle(face);
-            a.dot(b.cross(c)) / 6.0
-        };
-        (0..mesh.faces.len()).map(of_face).sum()
-    };
     for (name, shape) in closed_models() {
-        assert!(volume(&shape.mesh) > 0.0, "{name}: {}", volume(&shape.mesh));
+        let volume = shape.mesh.signed_volume();
+        assert!(volume > 0.0, "{name}: {volume}");
     }
-    assert!((volume(&l_prism().mesh) - 3.0).abs() < 1e-12);
-    assert!((volume(&l_block(5).mesh) - 3.0).abs() < 1e-12);
+    assert!((l_prism().mesh.signed_volume() - 3.0).abs() < 1e-12);
+    assert!((l_block(5).mesh.signed_volume() - 3.0).abs() < 1e-12);
 }
 
 #[test]

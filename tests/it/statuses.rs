@@ -3,8 +3,9 @@
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{Config, Outcome, Overlap};
 use ccd_tests::backends::{default_answer, for_each_setup};
-use ccd_tests::models::{Mesh, Shape, cuboid, icosphere, torus};
+use ccd_tests::models::{Kind, Mesh, Shape, both, boulder, cuboid, hollow, icosphere, torus};
 use ccd_tests::query::{Actor, Query};
+use std::cell::Cell;
 
 fn query(a: Shape, b: Shape, at: DVec3) -> Query {
     Query {
@@ -15,9 +16,29 @@ fn query(a: Shape, b: Shape, at: DVec3) -> Query {
 }
 
 fn outcomes(query: &Query, check: impl Fn(Outcome) -> bool) {
+    outcomes_by_kind(query, |_, outcome| check(outcome));
+}
+
+fn outcomes_by_kind(query: &Query, check: impl Fn([Kind; 2], Outcome) -> bool) {
     for_each_setup(query, &Config::default(), |_, setup, answer| {
-        assert!(check(answer.outcome), "{setup:?}\n{answer:?}");
+        assert!(check(setup.kinds, answer.outcome), "{setup:?}\n{answer:?}");
     });
+}
+
+/// Whether a body is told to be inside of the other; where pieces may fill the inside, they may also be
+/// told to overlap.
+fn nested(kinds: [Kind; 2], outcome: Outcome, check: impl Fn(Overlap) -> bool) -> bool {
+    match outcome {
+        Outcome::Overlapping {
+            overlap: Overlap::Pieces(_),
+        } => kinds.into_iter().any(Kind::is_filled),
+        Outcome::Overlapping { overlap } => check(overlap),
+        _ => false,
+    }
+}
+
+fn b_in_a(kinds: [Kind; 2], outcome: Outcome) -> bool {
+    nested(kinds, outcome, |o| matches!(o, Overlap::BInsideA(_)))
 }
 
 fn overlaps(outcome: Outcome) -> bool {
@@ -171,41 +192,26 @@ fn a_solid_inside_of_a_solid_overlaps() {
         || Shape::closed(cube(0.5).mesh),
         || Shape::closed(cube(2.0).mesh),
     );
-    outcomes(
-        &query(big(), small(), 0.3 * DVec3::ONE),
-        |outcome| match outcome {
-            Outcome::Overlapping {
-                overlap: Overlap::BInsideA(p),
-            } => p.abs().max_element() < 2.0,
+    let query_of = |a, b| query(a, b, 0.3 * DVec3::ONE);
+    outcomes_by_kind(&query_of(big(), small()), |kinds, outcome| {
+        nested(kinds, outcome, |overlap| match overlap {
+            Overlap::BInsideA(p) => p.abs().max_element() < 2.0,
             _ => false,
-        },
-    );
-    outcomes(
-        &query(small(), big(), 0.3 * DVec3::ONE),
-        |outcome| match outcome {
-            Outcome::Overlapping {
-                overlap: Overlap::AInsideB(p),
-            } => p.abs().max_element() <= 0.5,
+        })
+    });
+    outcomes_by_kind(&query_of(small(), big()), |kinds, outcome| {
+        nested(kinds, outcome, |overlap| match overlap {
+            Overlap::AInsideB(p) => p.abs().max_element() <= 0.5,
             _ => false,
-        },
-    );
+        })
+    });
 }
 
 #[test]
 fn a_surface_inside_of_a_solid_overlaps_but_not_in_a_surface() {
     let (small, big) = (Shape::open(cube(0.5).mesh), cube(2.0).mesh);
-    let inside = |o| {
-        matches!(
-            o,
-            Outcome::Overlapping {
-                overlap: Overlap::BInsideA(_)
-            }
-        )
-    };
-    outcomes(
-        &query(Shape::closed(big.clone()), small.clone(), DVec3::ZERO),
-        inside,
-    );
+    let in_solid = query(Shape::closed(big.clone()), small.clone(), DVec3::ZERO);
+    outcomes_by_kind(&in_solid, b_in_a);
     outcomes(&query(Shape::open(big), small, DVec3::ZERO), |o| {
         matches!(o, Outcome::Free { .. })
     });
@@ -217,38 +223,56 @@ fn the_hole_of_a_torus_is_outside() {
     let ball = |r| Shape::closed(icosphere(r, 1).mesh);
     let free = |o| matches!(o, Outcome::Free { .. });
     outcomes(&query(ring.clone(), ball(0.3), DVec3::ZERO), free);
-    let inside = |o| {
-        matches!(
-            o,
-            Outcome::Overlapping {
-                overlap: Overlap::BInsideA(_)
-            }
-        )
-    };
-    outcomes(&query(ring, ball(0.1), DVec3::X), inside);
+    outcomes_by_kind(&query(ring, ball(0.1), DVec3::X), b_in_a);
 }
 
 #[test]
 fn the_second_of_two_shells_is_found_inside() {
-    let two = Shape {
-        volume: ccd_core::Volume::Solid,
-        ..Shape::union([
-            Shape::closed(cube(0.2).mesh).moved(9.0 * DVec3::X),
-            Shape::closed(cube(0.2).mesh),
-        ])
-    };
-    let inside = |o| {
-        matches!(
-            o,
-            Outcome::Overlapping {
-                overlap: Overlap::BInsideA(_)
-            }
-        )
-    };
-    outcomes(
-        &query(Shape::closed(cube(1.0).mesh), two, DVec3::ZERO),
-        inside,
+    let two = both(&cube(0.2).moved(9.0 * DVec3::X), &cube(0.2));
+    let big = Shape::closed(cube(1.0).mesh);
+    outcomes_by_kind(&query(big, two, DVec3::ZERO), b_in_a);
+}
+
+/// Patches of a rough surface leave the middle of its solid empty.
+#[test]
+fn a_body_inside_of_a_solid_that_its_patches_do_not_fill_overlaps() {
+    let found = Cell::new(0);
+    for seed in 0..4 {
+        let rough = boulder(2, 0.4, seed);
+        let inside_out = Shape::closed(rough.mesh.clone().flipped());
+        for big in [rough, inside_out] {
+            let query = query(big, icosphere(0.05, 0), DVec3::ZERO);
+            outcomes_by_kind(&query, |kinds, outcome| {
+                let by_winding = b_in_a([Kind::Triangles; 2], outcome);
+                if by_winding && kinds == [Kind::Patches; 2] {
+                    found.set(found.get() + 1);
+                }
+                b_in_a(kinds, outcome)
+            });
+        }
+    }
+    assert!(found.get() > 0, "the patches fill every solid");
+}
+
+#[test]
+fn a_cavity_is_outside() {
+    let free = |o| matches!(o, Outcome::Free { .. });
+    let ball = || icosphere(1.0, 2);
+    for outer in [
+        hollow(&cube(1.0), &cube(0.5)),
+        hollow(&ball(), &icosphere(0.6, 2)),
+        hollow(&boulder(2, 0.2, 7), &boulder(1, 0.2, 8).scaled(0.7)),
+    ] {
+        for inner in [icosphere(0.1, 1), boulder(1, 0.5, 9).scaled(0.2)] {
+            outcomes(&query(outer.clone(), inner.clone(), DVec3::ZERO), free);
+        }
+    }
+    let wall = query(
+        hollow(&cube(1.0), &cube(0.5)),
+        icosphere(0.1, 1),
+        0.75 * DVec3::Y,
     );
+    outcomes_by_kind(&wall, b_in_a);
 }
 
 #[test]

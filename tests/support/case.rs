@@ -94,6 +94,26 @@ pub enum Model {
         rings: usize,
         sides: usize,
     },
+    DentedCube {
+        half: f64,
+        depth: f64,
+    },
+    HollowCube {
+        half: f64,
+        cavity: f64,
+    },
+    Boulder {
+        levels: u32,
+        roughness: f64,
+        seed: u32,
+    },
+    Pile {
+        size: usize,
+        seed: u32,
+    },
+    Gear {
+        spokes: usize,
+    },
     Soup {
         triangles: Vec<[[f64; 3]; 3]>,
     },
@@ -181,6 +201,21 @@ impl Model {
                 sides,
             } => models::torus(*major, *minor, *rings, *sides),
             Model::TorusKnot { rings, sides } => models::torus_knot(*rings, *sides),
+            Model::DentedCube { half, depth } => models::dented_cube(*half, *depth),
+            Model::HollowCube { half, cavity } => {
+                let cube = |half| models::cuboid(DVec3::splat(half));
+                models::hollow(&cube(*half), &cube(*cavity))
+            }
+            Model::Boulder {
+                levels,
+                roughness,
+                seed,
+            } => models::boulder(*levels, *roughness, u64::from(*seed)),
+            Model::Pile { size, seed } => {
+                let unit = 1.0 / *size as f64;
+                models::pile(*size, u64::from(*seed)).scaled(unit)
+            }
+            Model::Gear { spokes } => models::gear(*spokes),
             Model::Soup { triangles } => Shape::open(soup(triangles)),
             Model::Plate { cells } => models::parallel_plate(*cells),
             Model::Needles { count, width } => models::needles(*count, *width),

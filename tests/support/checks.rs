@@ -1,12 +1,13 @@
 //! What every answer owes, checked against the referee and against the bodies themselves.
 
-use crate::models::{Kind, Mesh};
-use crate::query::{Actor, Bodies, Query};
-use crate::referee::{Placement, Referee, Verdict, point_segment, point_triangle};
-use ccd_core::glam::DVec3;
-use ccd_core::{
-    Answer, Body, Config, Contact, Feature, Origin, Outcome, Overlap, Piece, Polytope, Separation,
+use crate::distances::{
+    distance_to_mesh, distance_to_mesh_feature, distance_to_part_feature, distance_to_piece,
 };
+use crate::models::Kind;
+use crate::query::{Actor, Bodies, Query};
+use crate::referee::{Placement, Referee, Verdict};
+use ccd_core::glam::DVec3;
+use ccd_core::{Answer, Body, Config, Contact, Feature, Outcome, Overlap, Piece, Separation};
 
 /// Holds answers to one query against what the referee saw of it.
 pub struct Judge<'a> {
@@ -141,14 +142,15 @@ impl<'a> Judge<'a> {
         Ok(())
     }
 
-    /// Whether a point of a piece of body A (0) or B (1) is there by right although it is off the
-    /// mesh: in the solid. Parts are taken at their word, as they need not be closed together.
+    /// Whether a point of a piece of body A (0) or B (1) at the start is there by right: in the solid, or
+    /// on the mesh. Parts are taken at their word, as they need not be closed together.
     fn fills(&self, body: usize, point: DVec3, kind: Kind) -> bool {
-        match kind {
-            Kind::Triangles => true,
-            Kind::Parts => true,
-            Kind::Patches | Kind::Hull => self.referee.holds(body, point),
-        }
+        let places = Placement::pair(self.query);
+        let place = |p| places[body].at(0.0, p) + places[0].origin();
+        let mesh = &[&self.query.a, &self.query.b][body].shape.mesh;
+        kind == Kind::Parts
+            || kind != Kind::Triangles && self.referee.holds(body, point)
+            || distance_to_mesh(point, mesh, place) <= self.query.rounding()
     }
 
     fn check_overlap(&self, overlap: &Overlap, bodies: &Bodies) -> Law {
@@ -156,9 +158,9 @@ impl<'a> Judge<'a> {
             Overlap::Pieces(contact) => {
                 let gap = self.referee.gap(0.0);
                 let both = [contact.separation.witness_a, contact.separation.witness_b];
-                let inside = (0..2).all(|k| self.fills(k, both[k], bodies.kinds[k]));
+                let inside = || (0..2).all(|k| self.fills(k, both[k], bodies.kinds[k]));
                 law!(
-                    gap <= self.query.rounding() || inside,
+                    gap <= self.query.rounding() || inside(),
                     "false: overlap at distance {gap}"
                 );
                 law!(
@@ -236,10 +238,10 @@ pub fn check_contact(
         place: &|p| places[1].at(time, p) + drift,
     };
     side_a
-        .check_witness(witness_a, contact.feature_a, rounding)
+        .check_witness(witness_a, contact.feature_a, [reach, rounding])
         .map_err(|e| format!("A: {e}"))?;
     side_b
-        .check_witness(witness_b, contact.feature_b, rounding)
+        .check_witness(witness_b, contact.feature_b, [reach, rounding])
         .map_err(|e| format!("B: {e}"))?;
     let gap = -side_a.support(normal)? - side_b.support(-normal)?;
     law!(
@@ -275,11 +277,20 @@ impl Side<'_> {
         Ok(along.fold(f64::NEG_INFINITY, f64::max) + piece.radius)
     }
 
-    fn check_witness(&self, witness: DVec3, feature: Feature, rounding: f64) -> Law {
+    fn check_witness(&self, witness: DVec3, feature: Feature, [reach, rounding]: [f64; 2]) -> Law {
         let off = distance_to_piece(witness, &self.piece()?, self.place);
         law!(off <= rounding, "the witness is {off} off its piece");
         let shape = &self.actor.shape;
         let off = match self.kind {
+            Kind::Patches | Kind::Hull if matches!(feature, Feature::Piece(_)) => {
+                // On a virtual facet: behind the surface, which is then nearer to the other body.
+                let off = distance_to_mesh(witness, &shape.mesh, self.place);
+                law!(
+                    off <= reach + rounding,
+                    "the surface is {off} from {feature}"
+                );
+                0.0
+            }
             Kind::Triangles | Kind::Patches | Kind::Hull => {
                 distance_to_mesh_feature(witness, feature, &shape.mesh, self.place)?
             }
@@ -291,116 +302,4 @@ impl Side<'_> {
         );
         Ok(())
     }
-}
-
-/// How far a point is from a piece; 0 inside.
-fn distance_to_piece(p: DVec3, piece: &Piece<'_>, place: impl Fn(DVec3) -> DVec3) -> f64 {
-    let points: Vec<DVec3> = piece.points.iter().map(|&q| place(q)).collect();
-    let core = match points[..] {
-        [a] => a.distance(p),
-        [a, b] => point_segment(p, [a, b]).distance(p),
-        [a, b, c] => point_triangle(p, [a, b, c]).distance(p),
-        _ => {
-            let loops: Vec<Vec<DVec3>> = piece
-                .facets
-                .iter()
-                .map(|corners| corners.iter().map(|&c| points[c as usize]).collect())
-                .collect();
-            let normal = |l: &[DVec3]| -> DVec3 {
-                let fan = l.windows(2).skip(1);
-                fan.map(|e| (e[0] - l[0]).cross(e[1] - l[0])).sum()
-            };
-            let height = |l: &Vec<DVec3>| normal(l).dot(p - l[0]);
-            // A polygon has two facets, and no inside.
-            if loops.len() != 2 && loops.iter().all(|l| height(l) <= 0.0) {
-                0.0
-            } else {
-                loops
-                    .iter()
-                    .map(|l| distance_to_polygon(p, l))
-                    .fold(f64::INFINITY, f64::min)
-            }
-        }
-    };
-    (core - piece.radius).max(0.0)
-}
-
-fn distance_to_mesh_feature(
-    p: DVec3,
-    feature: Feature,
-    mesh: &Mesh,
-    place: impl Fn(DVec3) -> DVec3,
-) -> Result<f64, String> {
-    let vertex = |v: u32| mesh.vertices.get(v as usize).map(|&q| place(q));
-    let bad = || format!("the mesh has no {feature}");
-    match feature {
-        Feature::Vertex(v) => Ok(vertex(v).ok_or_else(bad)?.distance(p)),
-        Feature::Edge(v, w) => {
-            let side = |f: &[u32; 3]| f.contains(&v) && f.contains(&w);
-            law!(mesh.faces.iter().any(side), "the mesh has no {feature}");
-            let ends = [vertex(v).ok_or_else(bad)?, vertex(w).ok_or_else(bad)?];
-            Ok(point_segment(p, ends).distance(p))
-        }
-        Feature::Face(f) => {
-            law!((f as usize) < mesh.faces.len(), "the mesh has no {feature}");
-            let corners = mesh.triangle(f as usize).map(place);
-            Ok(point_triangle(p, corners).distance(p))
-        }
-        Feature::Piece(_) => Err("a triangle's feature has a better name".into()),
-    }
-}
-
-fn distance_to_part_feature(
-    p: DVec3,
-    feature: Feature,
-    parts: &[Polytope],
-    place: impl Fn(DVec3) -> DVec3,
-) -> Result<f64, String> {
-    let mut nearest = f64::INFINITY;
-    for part in parts {
-        let id = |k: usize| part.vertex_ids.get(k).copied().unwrap_or(k as u32);
-        let named = |v: u32| (0..part.points.len()).find(|&k| id(k) == v);
-        let vertex = |v: u32| named(v).map(|k| place(part.points[k]));
-        let distance = match feature {
-            Feature::Vertex(v) => vertex(v).map(|q| q.distance(p)),
-            Feature::Edge(v, w) => vertex(v)
-                .zip(vertex(w))
-                .map(|(v, w)| point_segment(p, [v, w]).distance(p)),
-            Feature::Face(f) => face_of(part, f).map(|corners| {
-                let corners: Vec<DVec3> = corners.into_iter().map(&place).collect();
-                distance_to_polygon(p, &corners)
-            }),
-            // The inside: that the witness lies in the piece is checked elsewhere.
-            Feature::Piece(_) => Some(0.0),
-        };
-        if let Some(distance) = distance {
-            nearest = nearest.min(distance - part.radius);
-        }
-    }
-    if nearest == f64::INFINITY {
-        Err(format!("no part has {feature}"))
-    } else {
-        Ok(nearest)
-    }
-}
-
-/// The corners of the face that a part has by a number.
-fn face_of(part: &Polytope, face: u32) -> Option<Vec<DVec3>> {
-    let mut facets = part.facets.iter();
-    let whole = facets.find(|facet| facet.origin == Origin::Face(face));
-    let corners = whole.map(|it| {
-        it.corners
-            .iter()
-            .map(|&c| part.points[c as usize])
-            .collect()
-    });
-    let triangle = || part.faces.iter().find(|it| it.id == face);
-    corners.or_else(|| triangle().map(|it| it.corners.to_vec()))
-}
-
-fn distance_to_polygon(p: DVec3, corners: &[DVec3]) -> f64 {
-    let fan =
-        (1..corners.len().saturating_sub(1)).map(|k| [corners[0], corners[k], corners[k + 1]]);
-    fan.map(|t| point_triangle(p, t).distance(p))
-        .fold(f64::INFINITY, f64::min)
 }

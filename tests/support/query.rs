@@ -67,15 +67,21 @@ impl Query {
         rounding(self.a.reach(self.duration) + self.b.reach(self.duration))
     }
 
-    /// Every combination of kinds of pieces.
+    /// Combinations of kinds of pieces: each kind with itself and with triangles, and of the shapes'
+    /// other kinds those with the fewest pieces.
     pub fn all_bodies(&self) -> Vec<Bodies> {
         let (all_a, all_b) = (self.a.bodies(), self.b.bodies());
-        let both = |(ka, a): &(Kind, Rc<Body>), (kb, b): &(Kind, Rc<Body>)| Bodies {
-            a: Rc::clone(a),
-            b: Rc::clone(b),
-            kinds: [*ka, *kb],
+        let fewest = [&all_a, &all_b].map(|all| all.last().map(|it| it.0));
+        let both = |(ka, a): &(Kind, Rc<Body>), (kb, b): &(Kind, Rc<Body>)| {
+            let kinds = [*ka, *kb];
+            let plain = ka == kb || kinds.contains(&Kind::Triangles);
+            (plain || kinds.map(Some) == fewest).then(|| Bodies {
+                a: Rc::clone(a),
+                b: Rc::clone(b),
+                kinds,
+            })
         };
-        let with_a = |a| all_b.iter().map(move |b| both(a, b));
+        let with_a = |a| all_b.iter().filter_map(move |b| both(a, b));
         all_a.iter().flat_map(with_a).collect()
     }
 

@@ -208,9 +208,24 @@ pub fn model() -> impl Strategy<Value = Model> {
         1 => ring,
         1 => Just(Model::LPrism),
         1 => Just(Model::UHook),
+        3 => solid_model(),
         1 => prop::collection::vec(triangle(), 1..24).prop_map(|triangles| Model::Soup { triangles }),
         1 => (1..12usize, -9.0..-1.0f64)
             .prop_map(|(count, width)| Model::Needles { count, width: 10.0f64.powf(width) }),
+    ]
+}
+
+/// A solid that is not convex.
+fn solid_model() -> impl Strategy<Value = Model> {
+    prop_oneof![
+        1 => (0.2..0.6f64, 0.1..0.9f64)
+            .prop_map(|(half, deep)| Model::DentedCube { half, depth: 2.0 * half * deep }),
+        1 => (0.3..0.7f64, 0.3..0.9f64)
+            .prop_map(|(half, thin)| Model::HollowCube { half, cavity: half * thin }),
+        2 => (0..2u32, 0.0..0.6f64, any::<u32>()).prop_map(|(levels, roughness, seed)| {
+            Model::Boulder { levels, roughness, seed }
+        }),
+        1 => (1..4usize, any::<u32>()).prop_map(|(size, seed)| Model::Pile { size, seed }),
     ]
 }
 

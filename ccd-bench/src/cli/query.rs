@@ -1,16 +1,20 @@
 //! `ccd query`: two bodies and a table of motions in, a table of results out.
 
-use super::{CannotWrite, QueryArgs, Verdict, complain};
+mod args;
+
+pub(super) use args::QueryArgs;
+
+use super::{CannotWrite, Verdict, complain, same_file};
 use crate::engine::Method;
 use crate::motions::{MotionTable, Place, Query, RowError, RowProblem};
-use crate::progress::Progress;
+use crate::progress::{Progress, Spinner};
 use crate::query::{Bodies, Settings, Timed, run as answer};
 use crate::results::{ResultRow, write};
 use crate::summary::Summary;
 use anyhow::{Context, Result, anyhow, bail};
 use ccd_core::{Body, Config, InputError};
-use ccd_decomp::{BodySource, Detail, Prepared};
-use std::fs::{self, File};
+use ccd_decomp::{BodySource, Prepared, build_hull_tree};
+use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::num::NonZeroUsize;
 use std::path::Path;
@@ -104,10 +108,18 @@ impl Pair {
         let source = |text: &str| text.parse::<BodySource>();
         let source_a = source(&args.a).context("--a")?;
         let source_b = source(&args.b).context("--b")?;
-        let detail = Detail::from(args.pieces);
+        let detail = args.pieces.detail()?;
         let load = |option: &str, source: &BodySource, text: &str| -> Result<Body> {
-            let Prepared { body, report } =
+            let spinner = match args.quiet {
+                true => Spinner::hidden(),
+                false => Spinner::new(&format!("preparing {text}")),
+            };
+            let Prepared { mut body, report } =
                 source.load(detail).with_context(|| option.to_owned())?;
+            if args.schedule.uses_hull_trees() && body.hull_tree().is_none() {
+                body = grow_hull_tree(body).with_context(|| format!("{option} {text}"))?;
+            }
+            drop(spinner);
             if !args.quiet {
                 let _ = writeln!(io::stderr(), "{option} {text}: {report}");
             }
@@ -130,16 +142,17 @@ impl Pair {
     }
 }
 
-fn same(a: &BodySource, b: &BodySource) -> bool {
-    match (a, b) {
-        (BodySource::Mesh(a), BodySource::Mesh(b)) => same_file(a, b),
-        _ => a == b,
-    }
+fn grow_hull_tree(body: Body) -> Result<Body> {
+    let tree = build_hull_tree(body.pieces())?;
+    Ok(body.with_hull_tree(tree)?)
 }
 
-fn same_file(a: &Path, b: &Path) -> bool {
-    let place = |path: &Path| fs::canonicalize(path).ok();
-    a == b || place(a).is_some_and(|a| Some(a) == place(b))
+fn same(a: &BodySource, b: &BodySource) -> bool {
+    match (a, b) {
+        (BodySource::Mesh(a), BodySource::Mesh(b))
+        | (BodySource::Stored(a), BodySource::Stored(b)) => same_file(a, b),
+        _ => a == b,
+    }
 }
 
 fn read_motions(path: &Path) -> Result<MotionTable> {

@@ -4,6 +4,7 @@ use super::{MOST_PAIRS_FOR_NAIVE, Measurement};
 use crate::model::Origin;
 use crate::results::Status;
 use crate::scene::Scene;
+use crate::text::grouped;
 use ccd_core::tolerance::DEFAULT_TOLERANCE;
 use comfy_table::presets::UTF8_BORDERS_ONLY;
 use comfy_table::{CellAlignment, Table};
@@ -81,19 +82,6 @@ fn triangles(scene: &Scene) -> String {
         true => grouped(a),
         false => format!("{} × {}", grouped(a), grouped(b)),
     }
-}
-
-/// A count with its thousands set apart.
-fn grouped(count: usize) -> String {
-    let digits = count.to_string();
-    let mut out = String::new();
-    for (k, digit) in digits.chars().enumerate() {
-        if k > 0 && (digits.len() - k).is_multiple_of(3) {
-            out.push(',');
-        }
-        out.push(digit);
-    }
-    out
 }
 
 /// What the table does not show of itself.

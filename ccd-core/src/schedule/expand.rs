@@ -186,6 +186,7 @@ impl View<'_> {
             half: node.half,
             rounding: node.rounding,
             radius: node.radius,
+            piece: matches!(node.below, Below::Piece(_)),
         }
     }
 

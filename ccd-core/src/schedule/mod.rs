@@ -3,6 +3,7 @@
 mod best_first;
 mod expand;
 mod group;
+mod hull_first;
 mod lanes;
 mod moment;
 mod naive;
@@ -11,6 +12,7 @@ mod queue;
 mod start;
 
 pub use best_first::BestFirst;
+pub use hull_first::HullFirst;
 pub use naive::Naive;
 
 use crate::oracle::DistanceOracle;

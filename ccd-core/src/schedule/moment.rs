@@ -1,13 +1,18 @@
 //! Two pieces at one moment, and for how long an axis keeps them apart from then on.
 
+mod attached;
+
 use crate::motion_bound::{Angle, AxisMotion, Gap, Track, first_crossing};
 use crate::oracle::{DistanceOracle, PiecePair};
 use crate::outcome::Stats;
+use crate::piece::Piece;
 use crate::pose::Frame;
 use crate::problem::{Problem, Side};
 use crate::separation::{self, Checked};
-use crate::tolerance::{AXIS_ROUNDS, RATE_F64, RESTING};
+use crate::tolerance::{AXIS_ROUNDS, RATE_F64, RESTING, TURNED_SHARE};
+use attached::{Member, Sweep};
 use glam::DVec3;
+use std::iter;
 
 /// Two pieces where they are at a clock.
 pub(crate) struct Moment<'p> {
@@ -21,15 +26,18 @@ pub(crate) struct Moment<'p> {
 impl<'p> Moment<'p> {
     /// Piece `a` of A and piece `b` of B at a clock.
     pub(crate) fn new(problem: &'p Problem<'_>, a: u32, b: u32, clock: f64) -> Self {
+        let piece = |side: &Side<'p>, k: u32| side.body.pieces().get(k as usize);
+        Moment::of(problem, [piece(&problem.a, a), piece(&problem.b, b)], clock)
+    }
+
+    /// Any two convex hulls, of A and of B, at a clock.
+    pub(crate) fn of(problem: &'p Problem<'_>, [a, b]: [Piece<'p>; 2], clock: f64) -> Self {
         let frames = [problem.a.path.frame(clock), problem.b.path.frame(clock)];
+        let b_to_a = frames[0].from_frame(&frames[1]);
         Moment {
             problem,
             frames,
-            pieces: PiecePair {
-                a: problem.a.body.pieces().get(a as usize),
-                b: problem.b.body.pieces().get(b as usize),
-                b_to_a: frames[0].from_frame(&frames[1]),
-            },
+            pieces: PiecePair { a, b, b_to_a },
             clock,
         }
     }
@@ -56,22 +64,23 @@ impl<'p> Moment<'p> {
     }
 
     /// A time for which the pieces certainly stay farther apart than `kept`, or none when that is
-    /// for good: along the axis of the claim, or along the one on which the witnesses pass each
-    /// other.
+    /// for good: across the axis of the claim, or the one on which the witnesses pass each other,
+    /// by a plane that stands still or turns with one of the bodies.
     pub(crate) fn free_time(&self, checked: &Checked, kept: f64) -> Option<f64> {
-        let normal = self.frames[0].rotation * checked.axis;
-        let direct = self.free_along(normal, checked.lower - kept)?;
-        let Some(passing) = self.passing(checked) else {
-            return Some(direct);
+        let direct = Plane {
+            normal: self.frames[0].rotation * checked.axis,
+            slack: checked.lower - kept,
         };
-        let axis = self.frames[0].inverse_vector(passing);
-        let radii = self.pieces.a.radius + self.pieces.b.radius;
-        let gap = separation::support_gap(&self.pieces, axis, checked.witness_a) - radii;
-        let slack = gap - self.problem.rounding - kept;
-        if !(slack > 0.0) {
-            return Some(direct);
+        let passing = self.passing(checked, kept);
+        let mut free = self.free_along(direct.normal, direct.slack)?;
+        if let Some(passing) = &passing {
+            free = free.max(self.free_along(passing.normal, passing.slack)?);
         }
-        self.free_along(passing, slack).map(|free| free.max(direct))
+        let members = self.members();
+        for plane in iter::once(&direct).chain(&passing) {
+            free = free.max(self.free_attached(&members, plane, free)?);
+        }
+        Some(free)
     }
 
     /// As [`Moment::free_time`] for two pieces, of these indices, that rest on each other.
@@ -106,13 +115,45 @@ impl<'p> Moment<'p> {
         }
     }
 
-    /// The direction between the witnesses when they are nearest, should they go on as they do.
-    fn passing(&self, checked: &Checked) -> Option<DVec3> {
+    /// The plane across the way between the witnesses when they are nearest, should they go on as
+    /// they do; none when it does not keep the pieces apart now.
+    fn passing(&self, checked: &Checked, kept: f64) -> Option<Plane> {
         let [a, b] = [checked.witness_a, checked.witness_b].map(|w| self.frames[0].point(w));
         let velocity = self.problem.a.path.velocity_at(a, self.clock)
             - self.problem.b.path.velocity_at(b, self.clock);
         let nearest = (b - a).dot(velocity) / velocity.length_squared();
-        (b - a - velocity * nearest.clamp(0.0, self.horizon())).try_normalize()
+        let way = b - a - velocity * nearest.clamp(0.0, self.horizon());
+        let normal = way.try_normalize()?;
+        let axis = self.frames[0].inverse_vector(normal);
+        let radii = self.pieces.a.radius + self.pieces.b.radius;
+        let gap = separation::support_gap(&self.pieces, axis, checked.witness_a) - radii;
+        let slack = gap - self.problem.rounding - kept;
+        (slack > 0.0).then_some(Plane { normal, slack })
+    }
+
+    /// The same as [`Moment::free_along`] by planes that turn with one of the bodies, where it is its
+    /// turning that uses up the slack within `free`; 0 where it is not.
+    fn free_attached(&self, members: &[Member<'_>; 2], plane: &Plane, free: f64) -> Option<f64> {
+        let [a, b] = members;
+        let uses_up = |swing: f64| swing * free > TURNED_SHARE * plane.slack;
+        let mut longest = 0.0f64;
+        for (holder, other, normal) in [(a, b, plane.normal), (b, a, -plane.normal)] {
+            if uses_up(holder.swing) && uses_up(holder.swing_about(normal)) {
+                let sweep = Sweep::new(holder, other, normal, self.problem.rounding);
+                longest = longest.max(sweep.free_time(plane.slack, self.horizon())?);
+            }
+        }
+        Some(longest)
+    }
+
+    /// Both pieces, of A and of B.
+    fn members(&self) -> [Member<'_>; 2] {
+        let Problem { a, b, .. } = self.problem;
+        let [frame_a, frame_b] = &self.frames;
+        [
+            Member::new(a, frame_a, self.pieces.a.points),
+            Member::new(b, frame_b, self.pieces.b.points),
+        ]
     }
 
     fn horizon(&self) -> f64 {
@@ -155,6 +196,14 @@ impl<'p> Moment<'p> {
     }
 }
 
+/// A plane that keeps two pieces apart.
+struct Plane {
+    /// From A to B, in the problem's coordinates.
+    normal: DVec3,
+    /// By how much more than it must it keeps them apart now.
+    slack: f64,
+}
+
 /// The longer of two free times, of which none is for good.
 fn longer(one: Option<f64>, other: Option<f64>) -> Option<f64> {
     Some(one?.max(other?))
@@ -174,6 +223,7 @@ struct Heights<'a> {
     /// Of the points' heights.
     least: f64,
     greatest: f64,
+    few: Few,
 }
 
 /// One point's height, how fast it rises, and how much that may change.
@@ -188,7 +238,8 @@ struct Point {
 /// envelopes are.
 const FEW: usize = 3;
 
-/// The tracks of few points; unused ones repeat the last.
+/// The tracks of the first few points; unused ones repeat the last.
+#[derive(Clone, Copy, Debug)]
 struct Few([(Track, f64); FEW]);
 
 impl Few {
@@ -220,20 +271,20 @@ impl<'a> Heights<'a> {
             speed: path.velocity.length(),
             least: f64::INFINITY,
             greatest: f64::NEG_INFINITY,
+            few: Few([(Track::default(), 0.0); FEW]),
         };
-        let (least, greatest, farthest) = heights.tracks().fold(
-            (f64::INFINITY, f64::NEG_INFINITY, 0.0f64),
-            |(least, greatest, farthest), (track, arm)| {
-                let height = track.height_at(0.0, Angle::ZERO);
-                let square = arm.length_squared();
-                (
-                    least.min(height),
-                    greatest.max(height),
-                    farthest.max(square),
-                )
-            },
-        );
-        (heights.least, heights.greatest) = (least, greatest);
+        let (mut least, mut greatest, mut farthest) = (f64::INFINITY, f64::NEG_INFINITY, 0.0f64);
+        let mut few = heights.few;
+        for (k, (track, arm)) in heights.tracks().enumerate() {
+            let height = track.height_at(0.0, Angle::ZERO);
+            least = least.min(height);
+            greatest = greatest.max(height);
+            farthest = farthest.max(arm.length_squared());
+            if let Some(rest) = few.0.get_mut(k..) {
+                rest.fill((track, track.bend()));
+            }
+        }
+        (heights.least, heights.greatest, heights.few) = (least, greatest, few);
         heights.speed += path.rate * farthest.sqrt();
         heights
     }
@@ -259,18 +310,8 @@ impl<'a> Heights<'a> {
         })
     }
 
-    fn few(&self) -> Option<Few> {
-        if self.points.len() > FEW {
-            return None;
-        }
-        let mut tracks = self.tracks().map(|(track, _)| (track, track.bend()));
-        let mut last = tracks.next()?;
-        let mut few = [last; FEW];
-        for slot in &mut few[1..] {
-            last = tracks.next().unwrap_or(last);
-            *slot = last;
-        }
-        Some(Few(few))
+    fn few(&self) -> Option<&Few> {
+        (self.points.len() <= FEW).then_some(&self.few)
     }
 
     /// Bounds all points from above.

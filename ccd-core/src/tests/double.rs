@@ -182,7 +182,7 @@ impl Double3 {
     }
 
     /// Turned about a unit axis.
-    fn turned(self, axis: Double3, angle: Double) -> Double3 {
+    pub(crate) fn turned(self, axis: Double3, angle: Double) -> Double3 {
         let (sin, cos) = angle.sin_cos();
         let along = axis.scale(axis.dot(self));
         along + (self - along).scale(cos) + axis.cross(self).scale(sin)

@@ -4,10 +4,12 @@
 mod build;
 mod fit;
 mod group;
+mod place;
 mod ray;
 
 pub(crate) use group::{BoxGroup, LANES, Members, TriangleGroup, unit_normal, up};
 
+pub(crate) use place::pieces_at;
 pub(crate) use ray::crossings;
 
 use crate::error::InputError;
@@ -122,9 +124,7 @@ impl Tree {
 
     /// Whether a point is within the root's box, or near it.
     pub(crate) fn may_contain(&self, point: DVec3) -> bool {
-        let root = &self.nodes[0];
-        let way = point - root.centre;
-        (0..3).all(|k| way.dot(root.axes[k].as_dvec3()).abs() <= root.reach_f64(k))
+        place::holds(&self.nodes[0], point)
     }
 
     pub(crate) fn bytes(&self) -> usize {

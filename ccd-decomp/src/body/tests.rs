@@ -19,13 +19,13 @@ fn report(file: &str) -> String {
 
 #[test]
 fn a_closed_mesh_is_solid() {
-    assert_eq!(report(TETRAHEDRON), "4 pieces, solid");
+    assert_eq!(report(TETRAHEDRON), "1 convex hull, solid");
 }
 
 #[test]
 fn a_closed_mesh_inside_out_is_solid_and_says_so() {
     let file = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 2 3 1\nf 4 2 1\nf 4 3 2\nf 4 1 3\n";
-    assert_eq!(report(file), "4 pieces, solid (closed, inside out)");
+    assert_eq!(report(file), "1 convex hull, solid (closed, inside out)");
 }
 
 #[test]
@@ -33,8 +33,8 @@ fn an_open_mesh_is_a_surface_and_says_why() {
     let file = TETRAHEDRON.replace("f 3 1 4", "f 2 2 3");
     assert_eq!(
         report(&file),
-        "3 pieces, surface only (open; edges with one face: 3 (e0-2, e0-3, e2-3)); \
-         collapsed faces dropped: 1 (3)"
+        "3 triangles, surface only (open; edges with one face: 3 (e0-2, e0-3, e2-3); \
+         collapsed faces dropped: 1 (3))"
     );
 }
 
@@ -82,7 +82,7 @@ fn bad_descriptions_show_examples(#[case] text: &str, #[case] expected: SourceEr
 fn primitives_are_single_solid_pieces() {
     for text in ["box:1,2,3", "sphere:0.5", "capsule:0.2,1", "box:1,1,0"] {
         let prepared = parse_body(text, Detail::Auto).unwrap();
-        assert_eq!(prepared.report.to_string(), "1 piece, solid", "{text}");
+        assert_eq!(prepared.report.to_string(), "1 primitive, solid", "{text}");
         assert_eq!(prepared.body.volume(), Volume::Solid);
     }
 }

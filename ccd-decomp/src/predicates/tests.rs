@@ -14,19 +14,23 @@ proptest! {
         let height = (b - a).cross(c - a).dot(p - a);
         prop_assert_eq!(side(t, p), height.partial_cmp(&0.0).unwrap());
         prop_assert_eq!(is_degenerate(t), (b - a).cross(c - a) == DVec3::ZERO);
-        if let Some(projection) = Projection::of(t) {
-            prop_assert_eq!(projection.turn(a, b, c), Ordering::Greater);
-            prop_assert_eq!(projection.turn(b, a, c), Ordering::Less);
-            prop_assert_eq!(projection.turn(a, b, a + 3.0 * (b - a)), Ordering::Equal);
-            // A point of the plane, mirrored at the middle of the edge.
-            prop_assert_eq!(projection.turn(a, b, a + b - c), Ordering::Less);
+        if let Some(plane) = Projection::of(t) {
+            prop_assert_eq!(plane.turn(a, b, c), Ordering::Greater);
+            prop_assert_eq!(plane.turn(b, a, c), Ordering::Less);
+            prop_assert_eq!(plane.turn(a, b, a + 3.0 * (b - a)), Ordering::Equal);
+            // The far corner, mirrored at the middle of the edge.
+            prop_assert_eq!(plane.turn(a, b, a + b - c), Ordering::Less);
         }
     }
 }
 
 #[test]
 fn the_last_bit_decides() {
-    let triangle = [dvec3(0.1, 0.1, 0.1), dvec3(0.3, 0.1, 0.1), dvec3(0.1, 0.7, 0.1)];
+    let triangle = [
+        dvec3(0.1, 0.1, 0.1),
+        dvec3(0.3, 0.1, 0.1),
+        dvec3(0.1, 0.7, 0.1),
+    ];
     let above = f64::from_bits(0.1f64.to_bits() + 1);
     assert_eq!(side(triangle, dvec3(1e5, 1e5, 0.1)), Ordering::Equal);
     assert_eq!(side(triangle, dvec3(1e5, 1e5, above)), Ordering::Greater);

@@ -44,6 +44,28 @@ pub fn triangle_holds(triangle: [DVec3; 3], point: &Blend) -> bool {
     holds(triangle, &Spot::new(point))
 }
 
+/// Whether a triangle has no area; exactly.
+pub fn is_degenerate([a, b, c]: [DVec3; 3]) -> bool {
+    let point = Blend::mean([c]);
+    let spot = Spot::new(&point);
+    let in_line = |&view: &[usize; 2]| turn(view, [a, b], &spot) == Ordering::Equal;
+    VIEWS.iter().all(in_line)
+}
+
+/// Whether a loop of coplanar points is a convex polygon, seen from one side or the other; corners may
+/// be in line. Exactly.
+pub fn is_convex_polygon(corners: &[DVec3]) -> bool {
+    let spots: Vec<Blend> = corners.iter().map(|&p| Blend::mean([p])).collect();
+    VIEWS.iter().any(|&view| {
+        let mut turns = (0..corners.len()).flat_map(|k| {
+            let edge = [corners[k], corners[(k + 1) % corners.len()]];
+            spots.iter().map(move |p| turn(view, edge, &Spot::new(p)))
+        });
+        let first = turns.find(|&turn| turn != Ordering::Equal);
+        first.is_some_and(|first| !turns.any(|turn| turn == first.reverse()))
+    })
+}
+
 impl<'a> Solid<'a> {
     /// Of a mesh that is closed: every edge has as many faces that run along it one way as the other.
     pub fn new(mesh: &'a Mesh) -> Self {

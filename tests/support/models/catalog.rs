@@ -2,7 +2,7 @@
 
 use super::{
     Shape, blob, both, boulder, cuboid, dented_cube, divided_cube, gear, hollow, icosphere,
-    l_block, l_prism, meshed_combs, perforated_plate, post, slotted_plate, terrain, torus,
+    l_block, l_prism, meshed_combs, perforated_plate, pile, post, slotted_plate, terrain, torus,
     torus_knot,
 };
 use ccd_core::glam::{DQuat, DVec3};
@@ -62,6 +62,7 @@ pub fn flat_solids() -> Vec<Model> {
         Model::new("slit plate", slotted_plate(1e-3)),
         Model::new("hair's breadth plate", slotted_plate(1e-12)),
         Model::new("combs", meshed_combs(5)),
+        Model::new("pile of cubes", pile(4, 1)),
         Model::new("dented cube", dented_cube(0.5, 0.3)),
         Model::new("deeply dented cube", dented_cube(0.5, 1.0 - 1e-9)),
         Model::new(
@@ -101,7 +102,7 @@ pub fn convex_solids() -> Vec<Model> {
         Model::new("cuboid", cuboid(DVec3::new(0.01, 1.0, 3.0))),
         Model::new("post", post(1.3, 1.0)),
         Model::new("icosahedron", icosphere(1.0, 0)),
-        Model::new("ball", icosphere(1.0, 3)),
+        Model::new("ball", icosphere(1.0, 2)),
         Model::new("divided cube", divided_cube(5)),
     ]
 }

@@ -6,6 +6,7 @@ mod cells;
 mod lumps;
 mod round;
 mod thread;
+mod voxels;
 
 pub use boxes::{
     comb, cuboid, frame_plate, l_prism, mace, needles, parallel_plate, post, rod, slit_plate,
@@ -18,10 +19,11 @@ pub use cells::{
 pub use lumps::{blob, both, boulder, dented_cube, hollow};
 pub use round::{icosphere, inradius, torus, torus_knot};
 pub use thread::{PITCH, nut, screw};
+pub use voxels::pile;
 
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{Body, Facet, InputError, Origin, Pieces, Polytope, Volume};
-use ccd_decomp::{Detail, TriangleMesh, body_from_mesh};
+use ccd_decomp::{Detail, Order, TriangleMesh, body_from_mesh};
 
 /// A triangle mesh: what the referee looks at, and what the engine is given.
 #[derive(Clone, Debug, PartialEq)]
@@ -171,8 +173,8 @@ impl Shape {
         Kind::ALL.into_iter().filter(|kind| match kind {
             Kind::Triangles => !self.mesh.faces.is_empty(),
             Kind::Parts => !self.parts.is_empty(),
-            Kind::Patches => false,
-            Kind::Hull => false,
+            Kind::Patches => self.is_solid() && !self.mesh.faces.is_empty(),
+            Kind::Hull => self.is_convex() && !self.mesh.faces.is_empty(),
         })
     }
 
@@ -184,8 +186,8 @@ impl Shape {
         match kind {
             Kind::Triangles => core_body(self.mesh.pieces(), self.volume),
             Kind::Parts => core_body(Pieces::polytopes(&self.parts), Volume::Surface),
-            Kind::Patches => self.prepared(Detail::Auto),
-            Kind::Hull => self.prepared(Detail::Auto),
+            Kind::Patches => self.prepared(Detail::Patches(Order::Cresting)),
+            Kind::Hull => self.prepared(Detail::Hull),
         }
     }
 
@@ -226,6 +228,15 @@ impl Mesh {
             .iter()
             .map(|v| v.distance(centre))
             .fold(0.0, f64::max)
+    }
+
+    /// The volume within, negative where faces look inward.
+    pub fn signed_volume(&self) -> f64 {
+        let of_face = |face| {
+            let [a, b, c] = self.triangle(face);
+            a.dot(b.cross(c)) / 6.0
+        };
+        (0..self.faces.len()).map(of_face).sum()
     }
 
     /// The same surface with every face seen from the other side.

@@ -329,3 +329,41 @@ fn a_million_groups_of_pairs_wait_at_once() {
     assert_eq!(reason, Limit::Budget);
     assert!(safe_until <= time);
 }
+
+/// A triangle of size 200 turns about a line below a thousand small ones: what is kept apart from it
+/// by a plane that turns with it need not be split, and stays so for a while at once.
+#[test]
+fn a_large_piece_turns_past_many_small_ones_at_little_cost() {
+    let small = |k: u32| {
+        let (x, y) = (
+            f64::from(k % 32) / 32.0 - 0.5,
+            f64::from(k / 32) / 32.0 - 0.5,
+        );
+        let corner = DVec3::new(x, y, 0.6);
+        [corner, corner + 0.03 * DVec3::X, corner + 0.03 * DVec3::Y]
+    };
+    let field = body(&(0..1024).map(small).collect::<Vec<Triangle>>());
+    let corner = |x: f64, y: f64| DVec3::new(x, y, 0.0);
+    let large = body(&[[
+        corner(-200.0, -100.0),
+        corner(200.0, -100.0),
+        corner(0.0, 200.0),
+    ]]);
+    let spin = Motion::new(Pose::IDENTITY, DVec3::ZERO, 0.4 * DVec3::Y).unwrap();
+    let moving = |body, motion| Moving { body, motion };
+    let (large, field) = (
+        moving(&large, spin),
+        moving(&field, Motion::still(Pose::IDENTITY)),
+    );
+    for (a, b) in [(large, field), (field, large)] {
+        let problem = Problem::new(a, b, 1.0, &Config::default()).unwrap();
+        let answer = solve(&problem);
+        assert!(matches!(answer.outcome, Outcome::Free { .. }), "{answer:?}");
+        let Stats {
+            node_visits,
+            oracle_calls,
+            ..
+        } = answer.stats;
+        assert!(node_visits < 512 && oracle_calls < 10, "{answer:?}");
+    }
+}

@@ -103,25 +103,45 @@ pub(crate) fn bound_attached<C: Children, P: Other, S: Turn, O: Turn>(
     for lane in 0..LANES {
         let pair = pairing.lane(lane);
         let widest = axis::widest(children, other, lane, pair.way);
-        let (attached, spin, arm, size) = match larger {
-            Larger::Split => (
-                pairing.free_with_split(widest),
-                closing.split.rate(),
-                closing.split.arm(other.centre()),
-                children.radius(lane),
-            ),
-            Larger::Other => (
-                pairing.free_with_other(&pair, widest),
-                closing.other.rate(),
-                closing.other.arm(children.centre(lane)),
-                other.radius(),
-            ),
+        let past = match larger {
+            Larger::Split => Past {
+                attached: pairing.free_with_split(widest),
+                spin: closing.split.rate(),
+                arm: closing.split.arm(other.centre()),
+                large: children.radius(lane),
+                small: other.radius(),
+                whole: children.is_piece(lane),
+            },
+            Larger::Other => Past {
+                attached: pairing.free_with_other(&pair, widest),
+                spin: closing.other.rate(),
+                arm: closing.other.arm(children.centre(lane)),
+                large: other.radius(),
+                small: children.radius(lane),
+                whole: other.is_piece(),
+            },
         };
-        let free = max(out.free[lane], attached);
-        let farther = free * spin * arm - size * SWEPT;
-        out.aloof[lane] = max(out.aloof[lane], farther);
+        let free = max(out.free[lane], past.attached);
         out.free[lane] = free;
+        let swept = free * past.spin * past.arm - past.large * SWEPT;
+        let clear = widest.gap - closing.slack - LOOK_AGAIN * past.small;
+        let aloof = if past.whole { max(swept, clear) } else { swept };
+        out.aloof[lane] = max(out.aloof[lane], aloof);
     }
+}
+
+/// What is past a much larger node that turns.
+struct Past {
+    /// For how long a plane that turns with the large one keeps it apart.
+    attached: f32,
+    /// How fast the large one turns, and how far from its body's centre the small one is.
+    spin: f32,
+    arm: f32,
+    /// The radii.
+    large: f32,
+    small: f32,
+    /// The large one cannot be split, so that only the small one's size tells whether it is far.
+    whole: bool,
 }
 
 /// Which side's nodes are much larger than the other's.

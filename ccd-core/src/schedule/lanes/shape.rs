@@ -15,6 +15,8 @@ pub(crate) trait Children {
     fn reach(&self, lane: usize, n: Vec3) -> f32;
     /// A point of the child to look from towards `to`.
     fn near(&self, lane: usize, to: Vec3) -> Vec3;
+    /// Whether the child cannot be split.
+    fn is_piece(&self, lane: usize) -> bool;
 }
 
 /// The node that all children of a group are paired with.
@@ -28,6 +30,8 @@ pub(crate) trait Other {
     fn reach(&self, n: Vec3) -> f32;
     /// A point of the node to look at from `from`.
     fn near(&self, from: Vec3) -> Vec3;
+    /// Whether the node cannot be split.
+    fn is_piece(&self) -> bool;
 }
 
 /// `min(Σ hₖ |n·uₖ| + r |n|, R |n|)`: of a box grown by its pieces' rounding r, and a ball.
@@ -72,6 +76,10 @@ impl Children for BoxGroup {
         let half = [self.half[0][lane], self.half[1][lane], self.half[2][lane]];
         box_reach(n, axes, half, [self.rounding[lane], self.radius[lane]])
     }
+    #[inline(always)]
+    fn is_piece(&self, lane: usize) -> bool {
+        self.leaves >> lane & 1 == 1
+    }
 }
 
 impl Children for TriangleGroup {
@@ -101,6 +109,10 @@ impl Children for TriangleGroup {
         let c = dot(n, at(&self.corners[2], lane));
         max(max(a, b), c) - dot(n, centre)
     }
+    #[inline(always)]
+    fn is_piece(&self, _: usize) -> bool {
+        true
+    }
 }
 
 /// A node's box and ball.
@@ -111,6 +123,8 @@ pub(crate) struct OtherBox {
     pub(crate) half: [f32; 3],
     pub(crate) rounding: f32,
     pub(crate) radius: f32,
+    /// Whether it is that of a single piece.
+    pub(crate) piece: bool,
 }
 
 impl Other for OtherBox {
@@ -138,6 +152,10 @@ impl Other for OtherBox {
     #[inline(always)]
     fn reach(&self, n: Vec3) -> f32 {
         box_reach(n, self.axes, self.half, [self.rounding, self.radius])
+    }
+    #[inline(always)]
+    fn is_piece(&self) -> bool {
+        self.piece
     }
 }
 
@@ -174,6 +192,10 @@ impl Other for OtherTriangle {
         let b = dot(n, self.corners[1]);
         let c = dot(n, self.corners[2]);
         -min(min(a, b), c)
+    }
+    #[inline(always)]
+    fn is_piece(&self) -> bool {
+        true
     }
 }
 

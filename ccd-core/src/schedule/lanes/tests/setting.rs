@@ -152,6 +152,7 @@ impl Setting {
             half: node.half,
             rounding: node.rounding,
             radius: node.radius,
+            piece: false,
         };
         let reach = group.members.reach;
         self.meeting(group, boxed, reach, children, self.far(other))

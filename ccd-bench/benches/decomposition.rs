@@ -1,0 +1,67 @@
+//! How long meshes take to become bodies: the decomposition alone, and everything up to the first
+//! query.
+//!
+//! ```sh
+//! cargo bench -p ccd-bench --bench decomposition
+//! ```
+
+use ccd_bench::model::Model;
+use ccd_decomp::{Detail, Order, TriangleMesh, body_from_mesh, decompose};
+use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use std::hint::black_box;
+
+/// Torus knots, which differ in nothing but their size.
+const KNOTS: [Model; 3] = [Model::Knot2880, Model::Knot11520, Model::Knot34560];
+
+fn meshes() -> Vec<(&'static str, TriangleMesh)> {
+    KNOTS
+        .iter()
+        .map(|knot| {
+            (
+                knot.name(),
+                knot.generate().expect("every model can be made"),
+            )
+        })
+        .collect()
+}
+
+/// Surfaces in convex patches, in every order of growth.
+fn decompositions(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("decompose");
+    group.sample_size(10);
+    for (name, mesh) in meshes() {
+        group.throughput(Throughput::Elements(mesh.faces().len() as u64));
+        for (order, id) in [
+            (Order::Cresting, "cresting"),
+            (Order::BreadthFirst, "breadth-first"),
+            (Order::DepthFirst, "depth-first"),
+        ] {
+            group.bench_with_input(BenchmarkId::new(id, name), &mesh, |bencher, mesh| {
+                bencher.iter(|| decompose(black_box(mesh), order).expect("a knot bounds a solid"));
+            });
+        }
+    }
+    group.finish();
+}
+
+/// Meshes into bodies ready for queries.
+fn bodies(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("body");
+    group.sample_size(10);
+    for (name, mesh) in meshes() {
+        group.throughput(Throughput::Elements(mesh.faces().len() as u64));
+        for (detail, id) in [
+            (Detail::Triangles, "triangles"),
+            (Detail::Patches(Order::Cresting), "patches"),
+            (Detail::Auto, "auto"),
+        ] {
+            group.bench_with_input(BenchmarkId::new(id, name), &mesh, |bencher, mesh| {
+                bencher.iter(|| body_from_mesh(black_box(mesh), detail).expect("a knot is a body"));
+            });
+        }
+    }
+    group.finish();
+}
+
+criterion_group!(benches, decompositions, bodies);
+criterion_main!(benches);

@@ -1,0 +1,89 @@
+//! Extremal corners: looking at every corner against climbing, cold and warm, over the size of the
+//! piece; decides `ccd_core::tolerance::CLIMBED_POINTS`.
+//!
+//! `cargo bench -p ccd-bench --bench support`
+
+use ccd_core::glam::{DQuat, DVec3};
+use ccd_core::{HullTree, Pieces, Polytope, SupportScan, SupportTable};
+use ccd_decomp::build_hull_tree;
+use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64;
+use std::hint::black_box;
+
+/// How many directions a sample asks for.
+const LOOKS: usize = 256;
+
+fn support(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("support");
+    group.throughput(Throughput::Elements(LOOKS as u64));
+    let mut rng = Pcg64::seed_from_u64(7);
+    for corners in [8, 16, 32, 64, 96, 128, 192, 256, 512, 1024, 2048, 4096] {
+        let tree = ball(&mut rng, corners);
+        let piece = tree.hulls().get(0);
+        let scan = SupportScan::new(piece.points);
+        let table = SupportTable::new(&piece).expect("the hull of a ball has facets");
+        let cold: Vec<DVec3> = (0..LOOKS).map(|_| direction(&mut rng)).collect();
+        let warm = turning(&mut rng);
+        group.bench_with_input(BenchmarkId::new("scan", corners), &cold, |b, looks| {
+            b.iter(|| {
+                looks
+                    .iter()
+                    .fold(0, |sum, &n| sum ^ scan.extremal(black_box(n)))
+            });
+        });
+        group.bench_with_input(BenchmarkId::new("climb", corners), &cold, |b, looks| {
+            b.iter(|| {
+                looks
+                    .iter()
+                    .fold(0, |sum, &n| sum ^ table.extremal(black_box(n)))
+            });
+        });
+        group.bench_with_input(
+            BenchmarkId::new("climb-warm", corners),
+            &warm,
+            |b, looks| {
+                b.iter(|| {
+                    let last = table.extremal(looks[0]);
+                    let next = |last, &n: &DVec3| table.extremal_from(last, black_box(n));
+                    looks.iter().fold(last, next)
+                });
+            },
+        );
+    }
+    group.finish();
+}
+
+/// The hull of points spread at random over a sphere.
+fn ball(rng: &mut Pcg64, corners: usize) -> HullTree {
+    let points: Vec<DVec3> = (0..corners).map(|_| direction(rng)).collect();
+    let half = |points: &[DVec3]| Polytope {
+        points: points.to_vec(),
+        ..Polytope::default()
+    };
+    let (one, other) = points.split_at(corners / 2);
+    let pieces = Pieces::polytopes(&[half(one), half(other)]).expect("points of a sphere");
+    build_hull_tree(&pieces).expect("points of a sphere have a hull")
+}
+
+fn direction(rng: &mut Pcg64) -> DVec3 {
+    loop {
+        let cube = DVec3::from_array([(); 3].map(|()| rng.random_range(-1.0..1.0)));
+        if (0.01..1.0).contains(&cube.length_squared()) {
+            return cube.normalize();
+        }
+    }
+}
+
+/// Directions a hundredth of a radian apart, as a step of a query sees them.
+fn turning(rng: &mut Pcg64) -> Vec<DVec3> {
+    let turn = DQuat::from_scaled_axis(0.01 * direction(rng));
+    let first = direction(rng);
+    let next = |at: &DVec3| Some(turn * *at);
+    std::iter::successors(Some(first), next)
+        .take(LOOKS)
+        .collect()
+}
+
+criterion_group!(benches, support);
+criterion_main!(benches);

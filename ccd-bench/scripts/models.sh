@@ -1,0 +1,72 @@
+#!/usr/bin/env bash
+# What each model of the meshes costs and how true it is: for every pair of meshes and every model the
+# pieces, the time to prepare them, the memory, the median time of a query, and how far its times of
+# contact are from certified brackets. Prints a table in Markdown.
+#
+# usage: models.sh SCENES VERDICT [OUT] [extra options of `ccd query` ...]
+#   SCENES   folder with meshes (*.obj), motions (*.csv) and brackets (truth_*.csv)
+#   VERDICT  a program that is called as `VERDICT truth.csv result.csv` and prints the counts
+#   OUT      folder for the results, default a new one
+# environment: PAIRS="ring santa" takes these pairs only, CORE=1 is the core to run on, CCD=… the command
+set -euo pipefail
+here=$(cd "$(dirname "$0")" && pwd)
+. "$here/pairs.sh"
+scenes=$1
+verdict=$2
+out=${3:-$(mktemp -d)}
+shift $(($# < 3 ? $# : 3))
+mkdir -p "$out"
+ccd=${CCD:-$here/../../target/release/ccd}
+core=${CORE:-1}
+
+# Name, how `ccd decompose` makes it, how `ccd query` uses it.
+models="triangles|--pieces triangles|
+patches|--pieces patches|
+hull tree|--pieces patches --hull-tree|--schedule hull-first
+vhacd 32|--pieces vhacd --hulls 32|
+vhacd 128|--pieces vhacd --hulls 128|"
+
+echo "| scene | model | pieces | build, ms | memory, MB | query, median µs | error of the time, median | largest | rows: late, missed, false, unresolved |"
+echo "|---|---|---|---|---|---|---|---|---|"
+while read -r name a b motions; do
+    [[ " ${PAIRS:-$name} " == *" $name "* ]] || continue
+    bodies=("$a")
+    [ "$a" = "$b" ] || bodies+=("$b")
+    while IFS='|' read -r model make use; do
+        result=$out/$name-${model// /-}
+        : >"$result.json"
+        for body in "${bodies[@]}"; do
+            # Options are words apart.
+            # shellcheck disable=SC2086
+            taskset -c "$core" "$ccd" decompose "$scenes/$body.obj" $make --quiet --format json \
+                --out "$out/$body-${model// /-}.ccd" >>"$result.json"
+        done
+        # shellcheck disable=SC2086
+        taskset -c "$core" "$ccd" query --quiet --a "$out/$a-${model// /-}.ccd" \
+            --b "$out/$b-${model// /-}.ccd" --motions "$scenes/$motions.csv" $use \
+            --tolerance 1e-3 --out "$result.csv" "$@"
+        python3 "$verdict" "$scenes/truth_$name.csv" "$result.csv" >"$result.verdict"
+        python3 - "$name" "$model" "$result" "$scenes/truth_$name.csv" <<'PY'
+import csv, json, re, statistics, sys
+name, model, result, truth = sys.argv[1:]
+rows = lambda path: {row["id"]: row for row in csv.DictReader(open(path))}
+bodies = [json.loads(line) for line in open(result + ".json") if line.strip()]
+answers, truth = rows(result + ".csv"), rows(truth)
+
+def error(row, bracket):
+    """How far a time of contact is from the bracket, in units of time."""
+    time, lo, hi = float(row["time"]), float(bracket["lo"]), float(bracket["hi"])
+    return max(lo - time, time - hi, 0.0)
+
+hits = ("contact", "touching", "overlapping")
+errors = [error(row, truth[id]) for id, row in answers.items()
+          if row["status"] in hits and id in truth and truth[id]["status"] == "hit"]
+counts = dict(re.findall(r"'?(late|missed|false|unresolved)'?\s*[:=]\s*(\d+)", open(result + ".verdict").read()))
+micros = statistics.median(float(row["micros"]) for row in answers.values())
+total = lambda key: sum(body[key] for body in bodies)
+print(f"| {name} | {model} | {total('pieces'):,} | {total('build_ms'):,.0f} | {total('bytes') / 1e6:.1f} | {micros:.0f} "
+      f"| {statistics.median(errors):.1e} | {max(errors):.1e} | {len(answers)}: "
+      + ", ".join(counts.get(key, "?") for key in ("late", "missed", "false", "unresolved")) + " |", flush=True)
+PY
+    done <<<"$models"
+done <<<"$pairs"

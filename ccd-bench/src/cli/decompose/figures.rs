@@ -1,0 +1,99 @@
+//! What a mesh has become, in figures.
+
+use crate::text::grouped;
+use ccd_core::{Body, Volume};
+use ccd_decomp::Model;
+use serde::Serialize;
+use std::fmt;
+
+/// What a mesh has become. Prints as aligned lines for people.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub(super) struct Figures {
+    mesh: String,
+    pieces_kind: String,
+    why: String,
+    triangles: usize,
+    pieces: usize,
+    virtual_faces: usize,
+    tree_nodes: usize,
+    hulls: usize,
+    build_ms: f64,
+    bytes: usize,
+    exact: bool,
+    sticks_out: f64,
+    volume: &'static str,
+    remarks: String,
+}
+
+impl Figures {
+    pub(super) fn new(mesh: String, model: &Model, body: &Body, build_ms: f64) -> Self {
+        let report = &model.report;
+        Figures {
+            mesh,
+            pieces_kind: report.kind.to_string(),
+            why: report.why.to_string(),
+            triangles: report.triangles,
+            pieces: report.pieces,
+            virtual_faces: report.virtual_faces,
+            tree_nodes: report.tree_nodes,
+            hulls: model
+                .hull_tree
+                .as_ref()
+                .map_or(0, |tree| tree.hulls().len()),
+            build_ms,
+            bytes: body.bytes(),
+            exact: report.is_exact(),
+            sticks_out: report.sticks_out,
+            volume: match report.volume {
+                Volume::Solid => "solid",
+                Volume::Surface => "surface",
+            },
+            remarks: report.remarks(),
+        }
+    }
+}
+
+impl fmt::Display for Figures {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let line = |f: &mut fmt::Formatter<'_>, name: &str, what: &str| match what {
+            "" => Ok(()),
+            what => writeln!(f, "{name:<14}{what}"),
+        };
+        let triangles = grouped(self.triangles);
+        line(f, "mesh", &format!("{}: {triangles} triangles", self.mesh))?;
+        line(f, "remarks", &self.remarks)?;
+        line(f, "pieces", &self.pieces_text())?;
+        line(f, "why", &self.why)?;
+        line(f, "virtual faces", &grouped(self.virtual_faces))?;
+        line(f, "tree nodes", &self.tree_text())?;
+        line(f, "build", &format!("{:.1} ms", self.build_ms))?;
+        line(f, "memory", &format!("{:.1} MB", self.bytes as f64 / 1e6))?;
+        write!(f, "{:<14}{}", "error", self.error_text())
+    }
+}
+
+impl Figures {
+    fn pieces_text(&self) -> String {
+        let pieces = format!("{} {}", grouped(self.pieces), self.pieces_kind);
+        match self.exact {
+            true => format!("{pieces}, {}", self.volume),
+            // Every one of them is filled, whatever the mesh bounds.
+            false => pieces,
+        }
+    }
+
+    fn tree_text(&self) -> String {
+        let nodes = grouped(self.tree_nodes);
+        match self.hulls {
+            0 => nodes,
+            hulls => format!("{nodes}, {} hulls", grouped(hulls)),
+        }
+    }
+
+    fn error_text(&self) -> String {
+        match self.exact {
+            true => "none: the pieces are the mesh".to_owned(),
+            false => format!("the pieces stick out by at most {:.3e}", self.sticks_out),
+        }
+    }
+}

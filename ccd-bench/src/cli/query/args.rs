@@ -1,0 +1,134 @@
+//! What `ccd query` can be told.
+
+use crate::cli::pieces::PiecesArgs;
+use crate::engine::{OracleKind, ScheduleKind};
+use ccd_core::StartPolicy;
+use ccd_core::tolerance::{DEFAULT_BUDGET, DEFAULT_TOLERANCE};
+use clap::{Args, ValueEnum};
+use std::path::PathBuf;
+
+/// Answer a table of motions of two bodies
+#[derive(Debug, Args)]
+#[command(after_help = QUERY_AFTER_HELP, after_long_help = QUERY_AFTER_LONG_HELP)]
+pub(in crate::cli) struct QueryArgs {
+    /// Body A: a mesh (.obj .stl .ply .off), a prepared body (.ccd, see `ccd decompose`),
+    /// box:HX,HY,HZ (half extents), sphere:R or capsule:R,HALF_HEIGHT
+    #[arg(long, value_name = "BODY")]
+    pub(super) a: String,
+    /// Body B, as body A; the same file is loaded once
+    #[arg(long, value_name = "BODY")]
+    pub(super) b: String,
+    /// The table of motions, CSV; - reads standard input
+    #[arg(long, value_name = "CSV")]
+    pub(super) motions: PathBuf,
+    /// Who measures the distance of two pieces
+    #[arg(long, value_enum, default_value_t)]
+    pub(super) oracle: OracleKind,
+    /// In which order pairs of pieces are looked at
+    #[arg(long, value_enum, default_value_t)]
+    pub(super) schedule: ScheduleKind,
+    #[command(flatten)]
+    pub(super) pieces: PiecesArgs,
+    /// Report a contact at a distance of at most margin + tolerance, in the scene's unit of length
+    #[arg(long, value_name = "LENGTH", default_value_t = DEFAULT_TOLERANCE, value_parser = positive, allow_hyphen_values = true)]
+    pub(super) tolerance: f64,
+    /// The distance to keep; 0 reports touching
+    #[arg(long, value_name = "LENGTH", default_value_t = 0.0, value_parser = not_negative, allow_hyphen_values = true)]
+    pub(super) margin: f64,
+    /// What becomes of bodies in contact at the start
+    #[arg(long, value_enum, default_value_t)]
+    pub(super) start: StartArg,
+    /// Pairs of nodes to visit before a query is left unresolved
+    #[arg(long, value_name = "N", default_value_t = DEFAULT_BUDGET,
+          value_parser = clap::value_parser!(u64).range(1..))]
+    pub(super) budget: u64,
+    /// Threads to answer on; any number gives the same answers, one gives the truest times
+    #[arg(long, value_name = "N", default_value_t = 1,
+          value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub(super) threads: u16,
+    /// Answer each query so many times and report the median time
+    #[arg(long, value_name = "N", default_value_t = 1,
+          value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    pub(super) repeat: u32,
+    /// The table of results, CSV; - writes to standard output
+    #[arg(long, value_name = "CSV", default_value = "-")]
+    pub(super) out: PathBuf,
+    /// Say nothing on standard error but what is wrong
+    #[arg(long, short)]
+    pub(super) quiet: bool,
+}
+
+const QUERY_AFTER_HELP: &str = "\
+Examples:
+  ccd query --a knot.obj --b knot.obj --motions motions.csv --out results.csv
+  printf 'a_pz,a_vz\\n3,-4\\n' | ccd query --a box:.5,.5,.5 --b box:9,9,1 --motions -
+
+See `ccd query --help` for the columns of both tables and the exit code.";
+
+const QUERY_AFTER_LONG_HELP: &str = "\
+Table of motions: columns by name, in any order; all may be left out, and so may single cells.
+  id                        what the row is called; default: its number, from 0
+  a_px a_py a_pz            A's position at the start; default 0
+  a_qw a_qx a_qy a_qz       A's orientation at the start, normalised; default identity
+  then either the end pose, reached by the shortest turn
+  a_end_px a_end_py a_end_pz a_end_qw a_end_qx a_end_qy a_end_qz
+                            position or orientation left out: as at the start
+  or velocities in the world's frame, per unit of time, any number of turns
+  a_vx a_vy a_vz a_wx a_wy a_wz            default 0
+  a_cx a_cy a_cz            the point of A that moves straight, in A's frame; default its origin
+  b_px …                    the same for B
+  duration                  default 1
+
+Table of results:
+  status    contact      within margin + tolerance at `time`, certainly not touching before
+            free         apart for the whole duration, by distance_lower at all times
+            touching     within margin + tolerance at the start
+            overlapping  intersecting at the start, or one solid inside the other
+            unresolved   a limit was reached: certainly no contact before `time`, nothing known after
+  time      certified: no contact before it; 0 to duration
+  normal, witnesses         in the world's frame at `time`; the normal points from A to B
+  feature_a, feature_b      v7, e3-7, f12: vertex, edge, face as numbered in the mesh, from 0
+  iterations, oracle_calls  what the query took; micros: its time alone, in microseconds
+
+Exit code: 0 when every row has a result (unresolved is one), 2 on bad input: rows that are good are
+answered and written all the same, 1 when the results cannot be written.
+
+Examples:
+  ccd query --a knot.obj --b knot.obj --motions motions.csv --out results.csv
+  ccd query --a part.stl --b box:1,1,.1 --motions - --tolerance 1e-6 < motions.csv
+  printf 'a_pz,a_vz\\n3,-4\\n' | ccd query --a box:.5,.5,.5 --b box:9,9,1 --motions -";
+
+/// What becomes of a contact at the start.
+#[derive(Clone, Copy, Debug, Default, ValueEnum)]
+pub(super) enum StartArg {
+    /// It is the answer
+    #[default]
+    Report,
+    /// Bodies in contact are let go as long as they do not approach
+    Leave,
+}
+
+fn positive(text: &str) -> Result<f64, String> {
+    number(text)
+        .filter(|value| *value > 0.0)
+        .ok_or_else(|| "give a positive number, such as 1e-3".to_owned())
+}
+
+fn not_negative(text: &str) -> Result<f64, String> {
+    number(text)
+        .filter(|value| *value >= 0.0)
+        .ok_or_else(|| "give a number of at least 0, such as 0.01".to_owned())
+}
+
+fn number(text: &str) -> Option<f64> {
+    text.parse::<f64>().ok().filter(|value| value.is_finite())
+}
+
+impl From<StartArg> for StartPolicy {
+    fn from(start: StartArg) -> Self {
+        match start {
+            StartArg::Report => StartPolicy::Report,
+            StartArg::Leave => StartPolicy::Leave,
+        }
+    }
+}

@@ -1,0 +1,47 @@
+use super::*;
+use crate::piece::{Facet, Origin, Polytope};
+
+/// A box on a square, and the square of another piece under it, twice as large.
+fn box_on_a_square() -> Body {
+    let sign = |k: u32, bit: u32| if k >> bit & 1 == 1 { 1.0 } else { -1.0 };
+    let facet = |origin, corners: &[u32]| Facet {
+        origin,
+        corners: corners.to_vec(),
+    };
+    let box_of = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
+    let boxed = Polytope {
+        points: (0..8)
+            .map(|k| DVec3::new(sign(k, 0), sign(k, 1), sign(k, 2) + 1.0))
+            .collect(),
+        facets: box_of.iter().map(|f| facet(Origin::Virtual, f)).collect(),
+        ..Polytope::default()
+    };
+    let square = Polytope {
+        points: (0..4)
+            .map(|k| 2.0 * DVec3::new(sign(k, 0), sign(k, 1), 0.0))
+            .collect(),
+        facets: vec![
+            facet(Origin::Face(7), &[0, 2, 3, 1]),
+            facet(Origin::Virtual, &[0, 1, 3, 2]),
+        ],
+        ..Polytope::default()
+    };
+    let pieces = Pieces::polytopes(&[boxed, square]).unwrap();
+    Body::new(&pieces, Volume::Surface).unwrap()
+}
+
+#[test]
+fn a_virtual_facet_on_the_surface_takes_the_name_of_the_face_there() {
+    let body = box_on_a_square();
+    let boxed = (0..2).find(|&k| body.pieces().get(k).points.len() == 8).unwrap();
+    let mean = |corners: &[u32]| {
+        let mut mean = Combination::EMPTY;
+        corners.iter().for_each(|&corner| mean.push(corner, 1.0));
+        mean
+    };
+    let name = |corners: &[u32]| body.feature(boxed as u32, &mean(corners));
+    assert_eq!(name(&[0, 3]), Feature::Face(7));
+    assert_eq!(name(&[0, 1]), Feature::Face(7));
+    assert_eq!(name(&[4, 7]), Feature::Piece(boxed as u32));
+    assert_eq!(name(&[0, 7]), Feature::Piece(boxed as u32));
+}

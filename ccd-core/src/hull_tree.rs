@@ -1,0 +1,191 @@
+//! The convex hull tree: a hull at every node, the pieces at the leaves `[FAST06 §3.3]`.
+
+mod assemble;
+mod error;
+mod inherit;
+mod inside;
+mod renumber;
+#[cfg(feature = "serde")]
+mod serial;
+#[cfg(test)]
+mod tests;
+
+pub use error::{HullFault, HullTreeError};
+
+use crate::hierarchy::{Hierarchy, HierarchyNode};
+use crate::oracle::Combination;
+use crate::pieces::Pieces;
+use glam::DVec3;
+
+/// A binary tree over the pieces of a body with the convex hull of what is below at every node
+/// `[SWIFT01]`.
+///
+/// # Guarantee
+/// - A leaf's hull is its piece.
+/// - An inner hull is that of its children's points, exactly: each of its points is one of theirs,
+///   and each of theirs is inside of it. Both are checked when the tree is made, with exact
+///   arithmetic `[SHE97]`, so that the distance of two nodes never exceeds that of any two pieces
+///   below them.
+/// - Where the nearest features of two nodes are [not free](FacetClass::Free), their distance is that
+///   of the pieces below them.
+///
+/// A node is grown by the largest rounding radius of the pieces below.
+#[derive(Clone, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(try_from = "serial::Stored", into = "serial::Stored")
+)]
+pub struct HullTree {
+    hierarchy: Hierarchy,
+    /// One for every node of the hierarchy.
+    hulls: Pieces,
+    /// What the facets of all hulls are, in order.
+    classes: Vec<FacetClass>,
+    /// Where each hull's facets end.
+    class_ends: Vec<u32>,
+    /// Whether all pieces below a node have the node's rounding radius.
+    evenly_rounded: Vec<bool>,
+    /// Half the diagonal of each hull's box, rounding included.
+    sizes: Vec<f64>,
+}
+
+/// What a node is made of.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum HullNode {
+    /// One piece, by its index.
+    Leaf(u32),
+    /// Two nodes, by their indices, and the hull of both.
+    Inner([u32; 2], Hull),
+}
+
+/// A convex hull without any rounding.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Hull {
+    /// Its corners.
+    pub points: Vec<DVec3>,
+    /// Loops of indices into the points, counter-clockwise seen from outside: convex polygons, no
+    /// two of them coplanar, that close the hull. A flat polygon has two; a hull of one or two points
+    /// has none.
+    pub facets: Vec<Vec<u32>>,
+}
+
+/// What a part of a node's surface is of the pieces below; the better one comes first.
+///
+/// The nearest features of two nodes that are both not [`Free`](FacetClass::Free) belong to pieces:
+/// no pair of pieces below is nearer, or farther.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum FacetClass {
+    /// A part of the mesh.
+    Original,
+    /// A part of pieces that is not of the mesh: it closes a piece inside the solid.
+    Contained,
+    /// A bridge between pieces, with nothing behind it.
+    Free,
+}
+
+impl HullTree {
+    /// Makes a tree over pieces; node 0 is the root.
+    ///
+    /// # Errors
+    /// [`HullTreeError`] names the node, and what of the [guarantee](HullTree) fails there.
+    ///
+    /// # Complexity
+    /// Linear in all points and facets, and one exact predicate for each point that an inner hull
+    /// hides and each of the hull's facets.
+    pub fn new(pieces: &Pieces, nodes: &[HullNode]) -> Result<Self, HullTreeError> {
+        assemble::assemble(pieces, nodes)
+    }
+
+    /// The nodes, the root first; leaves name pieces.
+    pub fn hierarchy(&self) -> &Hierarchy {
+        &self.hierarchy
+    }
+
+    /// The hulls of all nodes, in their order: whatever works on pieces works on nodes. Features of an
+    /// inner hull have the names that they have in the mesh, as far as they are of it.
+    pub fn hulls(&self) -> &Pieces {
+        &self.hulls
+    }
+
+    /// What the facets of a node's hull are, in their order.
+    ///
+    /// # Panics
+    /// When there is no such node.
+    pub fn facet_classes(&self, node: u32) -> &[FacetClass] {
+        let start = match node {
+            0 => 0,
+            _ => self.class_ends[node as usize - 1],
+        };
+        &self.classes[start as usize..self.class_ends[node as usize] as usize]
+    }
+
+    /// What the feature is that holds a combination of a node's points: the best of the facets that
+    /// meet there `[SWIFT01]`.
+    ///
+    /// # Guarantee
+    /// Unless [`FacetClass::Free`], the combination lies on a piece below the node, or within one.
+    ///
+    /// # Panics
+    /// When there is no such node.
+    pub fn class_of(&self, node: u32, point: &Combination) -> FacetClass {
+        let at = node as usize;
+        let support = point.support();
+        if support.is_empty() || !self.evenly_rounded[at] {
+            return FacetClass::Free;
+        }
+        if support.len() == 1 {
+            return FacetClass::Original;
+        }
+        let facets = self.hulls.get(at).facets;
+        let holding = facets
+            .iter()
+            .zip(self.facet_classes(node))
+            .filter(|(corners, _)| support.iter().all(|v| corners.contains(v)));
+        let inside = match self.hierarchy.nodes()[at] {
+            HierarchyNode::Leaf(_) if facets.is_empty() => FacetClass::Original,
+            HierarchyNode::Leaf(_) => FacetClass::Contained,
+            HierarchyNode::Inner(..) => FacetClass::Free,
+        };
+        holding.map(|(_, &class)| class).min().unwrap_or(inside)
+    }
+
+    /// The nodes that the tree can be [made](HullTree::new) of again.
+    pub fn to_nodes(&self) -> Vec<HullNode> {
+        let inner = |at: usize, children: [u32; 2]| {
+            let hull = self.hulls.get(at);
+            let facets = hull.facets.iter().map(<[u32]>::to_vec).collect();
+            let points = hull.points.to_vec();
+            HullNode::Inner(children, Hull { points, facets })
+        };
+        let nodes = self.hierarchy.nodes().iter().enumerate();
+        nodes
+            .map(|(at, node)| match *node {
+                HierarchyNode::Leaf(piece) => HullNode::Leaf(piece),
+                HierarchyNode::Inner(left, right) => inner(at, [left, right]),
+            })
+            .collect()
+    }
+
+    /// Half the diagonal of a node's box, rounding included.
+    #[inline]
+    pub(crate) fn size(&self, node: u32) -> f64 {
+        self.sizes[node as usize]
+    }
+
+    /// Bytes held, about.
+    pub(crate) fn bytes(&self) -> usize {
+        self.hulls.bytes() + self.classes.len() + 25 * self.sizes.len()
+    }
+
+    /// The same tree with leaves that name the same pieces in another list.
+    ///
+    /// # Errors
+    /// [`HullFault::NotAPiece`] at a leaf that is none of them.
+    pub(crate) fn renumbered(self, pieces: &Pieces) -> Result<Self, HullTreeError> {
+        let hierarchy = renumber::renumber(&self, pieces)?;
+        Ok(HullTree { hierarchy, ..self })
+    }
+}

@@ -1,0 +1,105 @@
+//! Why nodes make no hull tree.
+
+use crate::error::InputError;
+use std::fmt;
+
+/// Why there is no hull tree, naming the offending node.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum HullTreeError {
+    /// The nodes are no hierarchy over the pieces, or are too many.
+    Input(InputError),
+    /// A node is not what it has to be.
+    Node {
+        /// Its index.
+        node: u32,
+        /// What is wrong with it.
+        fault: HullFault,
+    },
+}
+
+/// What can be wrong with a node.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum HullFault {
+    /// A corner of the hull is none of its children's points.
+    ForeignPoint {
+        /// The corner's index.
+        point: u32,
+    },
+    /// A facet has fewer than three corners, or names one that the hull does not have.
+    BadFacet {
+        /// The facet's index.
+        facet: u32,
+    },
+    /// An edge of a facet is not met by exactly one other facet the other way round.
+    Open {
+        /// The facet's index.
+        facet: u32,
+    },
+    /// A point of a child is outside of the hull, or the hull's facets do not show that it is inside.
+    ChildOutside {
+        /// The child, by its node's index.
+        child: u32,
+        /// The point's index in the child's hull.
+        point: u32,
+    },
+    /// A point has a coordinate so near to 0 that no exact predicate can tell its side.
+    TooFine {
+        /// The point's index.
+        point: u32,
+    },
+    /// The leaf is none of the pieces of the body that the tree was given to, or one of them that
+    /// another leaf is already.
+    NotAPiece,
+}
+
+impl HullFault {
+    pub(crate) fn at(self, node: usize) -> HullTreeError {
+        HullTreeError::Node {
+            node: node as u32,
+            fault: self,
+        }
+    }
+}
+
+impl From<InputError> for HullTreeError {
+    fn from(error: InputError) -> Self {
+        HullTreeError::Input(error)
+    }
+}
+
+impl fmt::Display for HullTreeError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Input(error) => error.fmt(f),
+            Self::Node { node, fault } => write!(f, "node {node} of the hull tree: {fault}"),
+        }
+    }
+}
+
+impl fmt::Display for HullFault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::ForeignPoint { point } => write!(f, "point {point} is none of its children's"),
+            Self::BadFacet { facet } => write!(f, "facet {facet} names a missing corner"),
+            Self::Open { facet } => write!(f, "facet {facet} has an edge that is open"),
+            Self::ChildOutside { child, point } => {
+                write!(f, "point {point} of its child {child} is outside")
+            }
+            Self::TooFine { point } => {
+                write!(f, "point {point} has a coordinate too near to 0")
+            }
+            Self::NotAPiece => write!(f, "it is a leaf, but none of the body's pieces"),
+        }
+    }
+}
+
+impl std::error::Error for HullTreeError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        match self {
+            Self::Input(error) => Some(error),
+            Self::Node { .. } => None,
+        }
+    }
+}

@@ -1,0 +1,61 @@
+//! The corner of a piece that is farthest along a direction `[FAST06 §4.2]`.
+
+mod directions;
+mod scan;
+mod table;
+#[cfg(test)]
+mod tests;
+
+pub use directions::DIRECTIONS;
+pub use scan::SupportScan;
+pub use table::SupportTable;
+
+use crate::piece::Piece;
+use crate::tolerance::CLIMBED_POINTS;
+use glam::DVec3;
+
+/// Finds extremal corners of one piece: all corners are looked at, eight at once, while they are few;
+/// from a start that a table of directions gives, an edge is climbed after the other where they are
+/// many.
+///
+/// It is not kept by [`Pieces`](crate::Pieces): whoever asks often makes one for each piece.
+///
+/// ```
+/// use ccd_core::{glam::DVec3, Piece, Support};
+/// let corners = [DVec3::ZERO, DVec3::X, DVec3::Y];
+/// let support = Support::new(&Piece::from_points(&corners));
+/// assert_eq!(support.extremal(DVec3::new(0.1, 1.0, 5.0)), 2);
+/// ```
+#[derive(Clone, Debug)]
+pub enum Support {
+    /// Looks at every corner.
+    Scan(SupportScan),
+    /// Climbs along edges.
+    Climb(Box<SupportTable>),
+}
+
+impl Support {
+    /// Prepares a piece, whose facets must be those of its hull where it has more than
+    /// [`CLIMBED_POINTS`] points; without facets, every point is looked at.
+    pub fn new(piece: &Piece<'_>) -> Self {
+        let climbed = piece.points.len() > CLIMBED_POINTS;
+        match climbed.then(|| SupportTable::new(piece)).flatten() {
+            Some(table) => Support::Climb(Box::new(table)),
+            None => Support::Scan(SupportScan::new(piece.points)),
+        }
+    }
+
+    /// The index of a point that is farthest along a direction of any length.
+    ///
+    /// # Guarantee
+    /// No point of the piece is farther by more than the rounding of two heights, which is
+    /// [`HEIGHT_F64`](crate::tolerance::HEIGHT_F64) of the direction's 1-norm and the largest
+    /// coordinate each. A direction that is not finite gives some point.
+    #[inline]
+    pub fn extremal(&self, direction: DVec3) -> u32 {
+        match self {
+            Support::Scan(scan) => scan.extremal(direction),
+            Support::Climb(table) => table.extremal(direction),
+        }
+    }
+}

@@ -1,0 +1,88 @@
+//! The least model that is exact for a mesh.
+
+use crate::body::Parts;
+use crate::convex::as_polytope;
+use crate::coplanar::Flats;
+use crate::error::DecomposeError;
+use crate::manifold::{Bend, Manifold};
+use crate::mesh::TriangleMesh;
+use crate::report::{Estimate, Why};
+use crate::surface::{Order, decompose_manifold};
+use crate::tolerance::{FLAT_SHARE, PATCHES, PieceCost, TRIANGLES};
+
+/// One hull where the solid is convex; else patches or triangles, whichever is estimated to be faster.
+///
+/// What takes long, looking for intersections and decomposing, is only done once it is known to be
+/// worth it.
+pub(crate) fn choose(mesh: &TriangleMesh) -> (Parts, Why) {
+    let manifold = match Manifold::unchecked(mesh) {
+        Ok(manifold) => manifold,
+        Err(error) => return only_triangles(error),
+    };
+    let convex = as_polytope(&manifold);
+    let estimate = Plane::largest(&manifold).estimate();
+    if convex.is_err() && !(estimate.patches < estimate.triangles) {
+        return (Parts::Triangles, Why::TrianglesFaster(estimate));
+    }
+    if let Err(error) = manifold.check() {
+        return only_triangles(error);
+    }
+    match convex {
+        Ok(polytope) => (Parts::Hull(Box::new(polytope)), Why::Convex),
+        Err(_) => {
+            let decomposition = decompose_manifold(&manifold, Order::default());
+            let why = Why::PatchesFaster(estimate);
+            (Parts::Patches(decomposition), why)
+        }
+    }
+}
+
+fn only_triangles(error: DecomposeError) -> (Parts, Why) {
+    (Parts::Triangles, Why::NothingElse(error))
+}
+
+/// A plane part of the surface.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+struct Plane {
+    triangles: usize,
+    /// Convex ones, with coplanar triangles merged: at least as many as there are patches in it.
+    polygons: usize,
+}
+
+impl Plane {
+    /// The one of most triangles.
+    fn largest(manifold: &Manifold<'_>) -> Plane {
+        let flats = Flats::new(manifold);
+        let mut seen = vec![false; flats.len()];
+        let mut largest = Plane::default();
+        let mut stack = Vec::new();
+        for seed in 0..flats.len() as u32 {
+            let mut plane = Plane::default();
+            stack.push(seed);
+            while let Some(flat) = stack.pop() {
+                if std::mem::replace(&mut seen[flat as usize], true) {
+                    continue;
+                }
+                let flat = flats.get(flat);
+                plane.triangles += flat.faces.len();
+                plane.polygons += 1;
+                let level = flat.rim.iter().filter(|&&h| manifold.bend(h) == Bend::Flat);
+                stack.extend(level.map(|&h| flats.of_face(manifold.twin(h) / 3)));
+            }
+            largest = largest.max(plane);
+        }
+        largest
+    }
+
+    /// What a query costs where the plane is what rests on another body in some of them.
+    fn estimate(self) -> Estimate {
+        let cost = |of: PieceCost, count: usize| of.usual + FLAT_SHARE * of.resting * count as f64;
+        Estimate {
+            triangles: cost(TRIANGLES, self.triangles),
+            patches: cost(PATCHES, self.polygons),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

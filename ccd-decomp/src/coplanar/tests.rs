@@ -1,0 +1,51 @@
+use super::*;
+use crate::mesh::TriangleMesh;
+use crate::test_meshes::{block, cubes, tetrahedron};
+use rstest::rstest;
+
+fn flats(mesh: &TriangleMesh) -> Flats {
+    Flats::new(&Manifold::new(mesh).unwrap())
+}
+
+#[rstest]
+#[case::one([1, 1, 1])]
+#[case::slab([5, 4, 1])]
+#[case::cube([4, 4, 4])]
+fn sides_of_a_block_are_one_polygon_each(#[case] size: [i32; 3]) {
+    let mesh = cubes(&block(size));
+    let flats = flats(&mesh);
+    assert_eq!(flats.len(), 6);
+    let faces: usize = (0..6).map(|k| flats.get(k).faces.len()).sum();
+    assert_eq!(faces, mesh.faces().len());
+    assert!((0..6).all(|k| flats.get(k).corners.len() == 4));
+}
+
+#[test]
+fn triangles_in_no_common_plane_stay_alone() {
+    assert_eq!(flats(&tetrahedron()).len(), 4);
+}
+
+#[test]
+fn polygons_are_convex_and_leave_nothing_out() {
+    // A plate with a hole: 8 cells about a missing one.
+    let cells: Vec<[i32; 3]> = block([3, 3, 1]).into_iter().filter(|c| *c != [1, 1, 0]).collect();
+    let mesh = cubes(&cells);
+    let manifold = Manifold::new(&mesh).unwrap();
+    let flats = Flats::new(&manifold);
+    let mut area = 0.0;
+    for k in 0..flats.len() as u32 {
+        let flat = flats.get(k);
+        let at = |i: usize| manifold.point(flat.corners[i % flat.corners.len()]);
+        let plane = Projection::of(manifold.triangle(flat.faces[0])).unwrap();
+        for i in 0..flat.corners.len() {
+            assert_eq!(plane.turn(at(i), at(i + 1), at(i + 2)), Ordering::Greater);
+        }
+        area += (1..flat.corners.len() - 1)
+            .map(|i| 0.5 * (at(i) - at(0)).cross(at(i + 1) - at(0)).length())
+            .sum::<f64>();
+        assert!(flat.faces.iter().all(|&f| flats.of_face(f) == k));
+    }
+    assert_eq!(area, 2.0 * 8.0 + 12.0 + 4.0);
+    // Four outer and four inner sides, and at least four polygons about the hole above and below.
+    assert!((16..=24).contains(&flats.len()), "{}", flats.len());
+}

@@ -1,0 +1,57 @@
+//! Pieces as Wavefront OBJ, to look at.
+
+use ccd_core::{Piece, Pieces};
+use std::io::{self, BufWriter, Write};
+
+/// Writes every piece as a group of its own, `g piece_0` and so on: its facets as polygons, or where
+/// none are known its triangle, its segment or its points.
+///
+/// Vertices read back to the same bits; those that pieces share are written once for each, and
+/// rounding radii are left out.
+///
+/// # Errors
+/// Those of the writer.
+pub fn write_obj_pieces(pieces: &Pieces, writer: impl Write) -> io::Result<()> {
+    let mut writer = BufWriter::new(writer);
+    let mut written = 0;
+    for (k, piece) in pieces.iter().enumerate() {
+        writeln!(writer, "g piece_{k}")?;
+        for v in piece.points {
+            writeln!(writer, "v {} {} {}", v.x, v.y, v.z)?;
+        }
+        write_elements(&piece, written + 1, &mut writer)?;
+        written += piece.points.len();
+    }
+    writer.flush()
+}
+
+/// What there is between the vertices of a piece, of which the first goes by the number `first`.
+fn write_elements(piece: &Piece<'_>, first: usize, writer: &mut impl Write) -> io::Result<()> {
+    let every = first..first + piece.points.len();
+    if !piece.facets.is_empty() {
+        for corners in piece.facets.iter() {
+            write_element("f", corners.iter().map(|&c| first + c as usize), writer)?;
+        }
+        return Ok(());
+    }
+    match piece.points.len() {
+        3 => write_element("f", every, writer),
+        2 => write_element("l", every, writer),
+        _ => write_element("p", every, writer),
+    }
+}
+
+fn write_element(
+    keyword: &str,
+    vertices: impl Iterator<Item = usize>,
+    writer: &mut impl Write,
+) -> io::Result<()> {
+    write!(writer, "{keyword}")?;
+    for vertex in vertices {
+        write!(writer, " {vertex}")?;
+    }
+    writeln!(writer)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,160 @@
+//! Convex hulls: a library's, proven afterwards by exact predicates, or else computed exactly.
+//!
+//! ```text
+//! points ─┬─ in one plane ─────────────► flat.rs ────────────────────────┐
+//!         └─ library.rs ─► proof.rs ─┬─ proven ─────────────────────────┼─► Hull
+//!                                    └─ refuted ─► exact.rs, proof.rs ──┘
+//! ```
+
+mod exact;
+mod flat;
+mod library;
+mod proof;
+mod span;
+
+use crate::predicates;
+use ccd_core::glam::DVec3;
+use ccd_core::tolerance::MAX_COORDINATE;
+use span::Span;
+use std::cmp::Ordering;
+
+/// The convex hull of points, by their indices.
+///
+/// # Guarantee
+/// In exact arithmetic on the points as they are stored: every point is inside or on the hull; the
+/// facets are whole, i.e. no two are in one plane (but for the two sides of a flat hull), and strictly
+/// convex; every edge is an edge of two of them, once in either direction, so that they tile the hull's
+/// boundary.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Hull {
+    /// The hull's corners in ascending order; of several points at one place, the first.
+    pub(crate) vertices: Vec<u32>,
+    /// Convex polygons, counter-clockwise seen from outside.
+    pub(crate) facets: Vec<Vec<u32>>,
+    /// How it was found.
+    pub(crate) way: Way,
+}
+
+/// How a hull was found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Way {
+    /// By the library, and proven.
+    Library,
+    /// The library's hull is not the hull, or there was none: computed exactly instead.
+    Exact,
+    /// All points are in one plane: a polygon, seen from either side.
+    Flat,
+}
+
+/// Why points have no hull with facets.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum HullError {
+    /// There is none.
+    #[error("a hull of no points")]
+    Empty,
+    /// All of them are at the place of the one named.
+    #[error("all points are at the place of point {0}")]
+    Single(u32),
+    /// All of them are on the segment between the two named.
+    #[error("all points are on a line, between points {0} and {1}")]
+    Collinear(u32, u32),
+    /// A coordinate is so near to 0 that predicates are not exact, not finite, or too large.
+    #[error("point {0} has a coordinate that is out of range for exact predicates")]
+    OutOfRange(u32),
+    /// Not even the hull that was computed exactly could be proven.
+    #[error("the hull of {0} points could not be proven")]
+    Unproven(usize),
+}
+
+/// The convex hull of points, of which several may be at one place.
+///
+/// # Errors
+/// See [`HullError`].
+///
+/// # Complexity
+/// O(n log n + n f) for n points and f facets, with a small constant at n f; at worst O(n f) exact
+/// predicates where the library fails.
+pub(crate) fn hull(points: &[DVec3]) -> Result<Hull, HullError> {
+    // Written so that NaN fails.
+    let good = |p: &DVec3| p.abs().max_element() <= MAX_COORDINATE && p.is_finite();
+    let out_of_range = points.iter().position(|p| !good(p));
+    if let Some(point) = out_of_range.or_else(|| predicates::too_fine(points)) {
+        return Err(HullError::OutOfRange(point as u32));
+    }
+    let cloud = Cloud::of(points);
+    let name = |k: usize| cloud.ids[k];
+    let found = match Span::of(&cloud.points) {
+        Span::Nothing => Err(HullError::Empty),
+        Span::Point(a) => Err(HullError::Single(name(a))),
+        Span::Line(a, b) => Err(HullError::Collinear(name(a), name(b))),
+        Span::Plane(triangle) => Ok((flat::facets(&cloud.points, triangle), Way::Flat)),
+        Span::Volume(simplex) => solid(&cloud.points, simplex),
+    };
+    found.map(|(facets, way)| cloud.named(facets, way))
+}
+
+/// The triangles of what is likely the hull of points at different places: nothing is proven, which
+/// makes it fast. None where the library fails.
+pub(crate) fn likely_triangles(points: &[DVec3]) -> Option<Vec<[u32; 3]>> {
+    library::triangles(points)
+}
+
+/// Facets, as loops of indices.
+type Loops = Vec<Vec<u32>>;
+
+fn solid(points: &[DVec3], simplex: [usize; 4]) -> Result<(Loops, Way), HullError> {
+    let mut likely = simplex.map(|k| k as u32).to_vec();
+    if let Some(triangles) = library::triangles(points) {
+        if let Ok(facets) = proof::prove(points, proof::loops(points, &triangles)) {
+            return Ok((facets, Way::Library));
+        }
+        likely.extend(triangles.iter().flatten());
+    }
+    match exact::facets(points, likely) {
+        Some(facets) => Ok((facets, Way::Exact)),
+        None => Err(HullError::Unproven(points.len())),
+    }
+}
+
+/// Points at different places, and the number of the first given point at each.
+struct Cloud {
+    points: Vec<DVec3>,
+    ids: Vec<u32>,
+}
+
+impl Cloud {
+    fn of(points: &[DVec3]) -> Self {
+        let at = |k: u32| points[k as usize];
+        let mut ids: Vec<u32> = (0..points.len() as u32).collect();
+        ids.sort_unstable_by(|&v, &w| lexicographic(at(v), at(w)).then(v.cmp(&w)));
+        ids.dedup_by(|w, v| at(*v) == at(*w));
+        ids.sort_unstable();
+        Cloud {
+            points: ids.iter().map(|&v| at(v)).collect(),
+            ids,
+        }
+    }
+
+    fn named(&self, mut facets: Loops, way: Way) -> Hull {
+        for corner in facets.iter_mut().flatten() {
+            *corner = self.ids[*corner as usize];
+        }
+        let mut vertices: Vec<u32> = facets.iter().flatten().copied().collect();
+        vertices.sort_unstable();
+        vertices.dedup();
+        Hull {
+            vertices,
+            facets,
+            way,
+        }
+    }
+}
+
+/// The order by x, then y, then z: of points in a plane or on a line, the order along some direction.
+fn lexicographic(p: DVec3, q: DVec3) -> Ordering {
+    let by = |x: f64, y: f64| x.partial_cmp(&y).unwrap_or(Ordering::Equal);
+    by(p.x, q.x).then(by(p.y, q.y)).then(by(p.z, q.z))
+}
+
+#[cfg(test)]
+mod tests;

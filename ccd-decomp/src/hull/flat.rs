@@ -1,0 +1,35 @@
+//! The hull of points in one plane, exactly.
+
+use super::{Loops, lexicographic};
+use crate::predicates::Projection;
+use ccd_core::glam::DVec3;
+use std::cmp::Ordering;
+
+/// The polygon around points that are all in the plane of a triangle of them, and its back: first the
+/// chain below, then the one above, each left-turning throughout (Andrew's monotone chain).
+pub(super) fn facets(points: &[DVec3], triangle: [usize; 3]) -> Loops {
+    let at = |k: u32| points[k as usize];
+    let Some(projection) = Projection::of(triangle.map(|k| points[k])) else {
+        return Loops::new();
+    };
+    let mut order: Vec<u32> = (0..points.len() as u32).collect();
+    order.sort_unstable_by(|&v, &w| lexicographic(at(v), at(w)));
+    let chain = |order: &mut dyn Iterator<Item = u32>| {
+        let mut chain: Vec<u32> = Vec::new();
+        for next in order {
+            while let [.., a, b] = chain[..]
+                && projection.turn(at(a), at(b), at(next)) != Ordering::Greater
+            {
+                chain.pop();
+            }
+            chain.push(next);
+        }
+        // Its end is where the other chain starts.
+        chain.pop();
+        chain
+    };
+    let mut front = chain(&mut order.iter().copied());
+    front.extend(chain(&mut order.iter().rev().copied()));
+    let back = front.iter().rev().copied().collect();
+    vec![front, back]
+}

@@ -1,0 +1,185 @@
+//! Are these polygons the facets of the hull of those points: exactly.
+
+use super::{Loops, lexicographic};
+use crate::polygons::polygons;
+use crate::predicates::{Projection, side};
+use crate::tolerance::height_rounding;
+use ccd_core::glam::DVec3;
+use std::cmp::Ordering;
+
+/// Why polygons are not proven to be the facets of the hull.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum Refutation {
+    /// The polygon of this index is not flat and strictly convex.
+    Bent(usize),
+    /// This edge does not have one polygon on either side, in different planes.
+    Edge(u32, u32),
+    /// These points are in front of a polygon, in ascending order.
+    Outside(Vec<u32>),
+}
+
+/// What is to be proven: the polygons that triangles form.
+pub(super) fn loops(points: &[DVec3], triangles: &[[u32; 3]]) -> Loops {
+    let polygons = polygons(points, triangles).into_iter();
+    polygons.map(|polygon| polygon.corners).collect()
+}
+
+/// The polygons, if they are the facets of the hull of the points.
+///
+/// No point is in front of a polygon, so that each is within a facet of the hull, the right way round.
+/// Beyond each of its edges the plane changes, so that the edge is on the facet's rim, and a convex
+/// polygon with all edges on the rim is the facet. As an edge is there once in either direction, no
+/// facet is there twice, and none is missing.
+///
+/// # Errors
+/// [`Refutation`].
+///
+/// # Complexity
+/// O(n f) for n points and f polygons, with a small constant.
+pub(super) fn prove(points: &[DVec3], polygons: Loops) -> Result<Loops, Refutation> {
+    if let Some(bent) = polygons.iter().position(|p| !is_convex(points, p)) {
+        return Err(Refutation::Bent(bent));
+    }
+    if let Some((v, w)) = unmatched_edge(points, &polygons) {
+        return Err(Refutation::Edge(v, w));
+    }
+    let outside = outside(points, &polygons);
+    match outside.is_empty() {
+        true => Ok(polygons),
+        false => Err(Refutation::Outside(outside)),
+    }
+}
+
+/// Whether a loop is flat, turns left at every corner, and goes around once.
+fn is_convex(points: &[DVec3], corners: &[u32]) -> bool {
+    let n = corners.len();
+    let at = |k: usize| points[corners[k % n] as usize];
+    if n < 3 {
+        return false;
+    }
+    let plane = plane(points, corners);
+    let Some(projection) = Projection::of(plane) else {
+        return false;
+    };
+    let flat = (3..n).all(|k| side(plane, at(k)) == Ordering::Equal);
+    let left = |k: usize| projection.turn(at(k), at(k + 1), at(k + 2)) == Ordering::Greater;
+    // Along any direction, a convex loop goes up once and down once.
+    let up = |k: usize| lexicographic(at(k), at(k + 1));
+    flat && (0..n).all(left) && (0..n).filter(|&k| up(k) != up(k + 1)).count() == 2
+}
+
+fn plane(points: &[DVec3], corners: &[u32]) -> [DVec3; 3] {
+    [corners[0], corners[1], corners[2]].map(|v| points[v as usize])
+}
+
+/// An edge that does not have one polygon on either side, in different planes. There is one if there
+/// are no polygons.
+fn unmatched_edge(points: &[DVec3], polygons: &Loops) -> Option<(u32, u32)> {
+    let mut edges: Vec<(u32, u32, usize)> = Vec::new();
+    for (k, corners) in polygons.iter().enumerate() {
+        let next = corners.iter().cycle().skip(1);
+        edges.extend(corners.iter().zip(next).map(|(&v, &w)| (v, w, k)));
+    }
+    edges.sort_unstable();
+    if edges.is_empty() {
+        return Some((0, 0));
+    }
+    let twice = edges
+        .windows(2)
+        .find(|e| (e[0].0, e[0].1) == (e[1].0, e[1].1));
+    let is_fold = |&(v, w, left): &(u32, u32, usize)| {
+        let twin = edges.binary_search_by_key(&(w, v), |e| (e.0, e.1));
+        twin.is_ok_and(|twin| {
+            let plane = plane(points, &polygons[left]);
+            let beyond = &polygons[edges[twin].2];
+            let off = |&v: &u32| side(plane, points[v as usize]) != Ordering::Equal;
+            beyond.iter().any(off)
+        })
+    };
+    let odd = twice
+        .map(|e| &e[0])
+        .or_else(|| edges.iter().find(|&e| !is_fold(e)));
+    odd.map(|&(v, w, _)| (v, w))
+}
+
+/// The points in front of any of the polygons.
+///
+/// Nearly all are told apart by their rounded heights, [`LANES`] at a time; exact predicates decide
+/// about the rest.
+fn outside(points: &[DVec3], polygons: &Loops) -> Vec<u32> {
+    let columns = Columns::of(points);
+    let mut outside = Vec::new();
+    for corners in polygons {
+        let plane = plane(points, corners);
+        columns.for_each_near(plane, |v| {
+            if side(plane, points[v as usize]) == Ordering::Greater {
+                outside.push(v);
+            }
+        });
+    }
+    outside.sort_unstable();
+    outside.dedup();
+    outside
+}
+
+/// How many points are looked at at once: a few vector registers full.
+const LANES: usize = 16;
+
+/// Points relative to the first one, by coordinate and [`LANES`] at a time.
+struct Columns {
+    base: DVec3,
+    blocks: Vec<[[f64; LANES]; 3]>,
+    count: usize,
+    /// The largest absolute coordinate.
+    reach: f64,
+}
+
+impl Columns {
+    fn of(points: &[DVec3]) -> Self {
+        let base = points.first().copied().unwrap_or(DVec3::ZERO);
+        let mut blocks = vec![[[0.0; LANES]; 3]; points.len().div_ceil(LANES)];
+        let mut reach = 0.0_f64;
+        for (k, &point) in points.iter().enumerate() {
+            let place = point - base;
+            reach = reach.max(place.abs().max_element());
+            for (axis, x) in place.to_array().into_iter().enumerate() {
+                blocks[k / LANES][axis][k % LANES] = x;
+            }
+        }
+        Columns {
+            base,
+            blocks,
+            count: points.len(),
+            reach,
+        }
+    }
+
+    /// The points that may be in front of a plane, and some that are not.
+    fn for_each_near(&self, plane: [DVec3; 3], mut visit: impl FnMut(u32)) {
+        let [a, b, c] = plane;
+        let (u, v) = (b - a, c - a);
+        let normal = u.cross(v);
+        let least = normal.dot(a - self.base) - height_rounding([u, v], self.reach);
+        let [x, y, z] = normal.to_array();
+        for (block, [xs, ys, zs]) in self.blocks.iter().enumerate() {
+            let mut heights = [0.0; LANES];
+            for (k, height) in heights.iter_mut().enumerate() {
+                *height = x * xs[k] + y * ys[k] + z * zs[k];
+            }
+            // Counted without branches; written so that NaN counts.
+            let near = heights
+                .iter()
+                .map(|&h| u32::from(!(h < least)))
+                .sum::<u32>();
+            if near == 0 {
+                continue;
+            }
+            let lanes = self.count.saturating_sub(block * LANES).min(LANES);
+            for (k, height) in heights[..lanes].iter().enumerate() {
+                if !(*height < least) {
+                    visit((block * LANES + k) as u32);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,59 @@
+//! How many dimensions do points span: exactly.
+
+use super::lexicographic;
+use crate::predicates::{is_degenerate, side};
+use ccd_core::glam::DVec3;
+use std::cmp::Ordering;
+
+/// What points span, with witnesses: indices of points that span as much.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Span {
+    Nothing,
+    Point(usize),
+    /// The two ends of the points on it.
+    Line(usize, usize),
+    Plane([usize; 3]),
+    /// The last one is in front of the triangle of the others.
+    Volume([usize; 4]),
+}
+
+impl Span {
+    /// What points at different places span. O(n).
+    pub(super) fn of(points: &[DVec3]) -> Self {
+        let at = |k: usize| points[k];
+        let by_order = |&v: &usize, &w: &usize| lexicographic(at(v), at(w));
+        let first = (0..points.len()).min_by(by_order);
+        let last = (0..points.len()).max_by(by_order);
+        let (Some(a), Some(b)) = (first, last) else {
+            return Span::Nothing;
+        };
+        if a == b {
+            return Span::Point(a);
+        }
+        // Points far off come first, as they make for larger simplices; any will do.
+        let off_line = |&k: &usize| (at(b) - at(a)).cross(at(k) - at(a)).length_squared();
+        let proper = |&k: &usize| !is_degenerate([at(a), at(b), at(k)]);
+        let Some(c) = farthest(points.len(), off_line, proper) else {
+            return Span::Line(a, b);
+        };
+        let normal = (at(b) - at(a)).cross(at(c) - at(a));
+        let height = |&k: &usize| normal.dot(at(k) - at(a)).abs();
+        let side_of = |k: usize| side([at(a), at(b), at(c)], at(k));
+        let proper = |&k: &usize| side_of(k) != Ordering::Equal;
+        match farthest(points.len(), height, proper) {
+            None => Span::Plane([a, b, c]),
+            Some(d) if side_of(d) == Ordering::Greater => Span::Volume([a, b, c, d]),
+            Some(d) => Span::Volume([a, c, b, d]),
+        }
+    }
+}
+
+/// The one that is farthest by a rounded measure if it is proper, else the first one that is.
+fn farthest(
+    count: usize,
+    measure: impl Fn(&usize) -> f64,
+    proper: impl Fn(&usize) -> bool,
+) -> Option<usize> {
+    let far = (0..count).max_by(|v, w| measure(v).total_cmp(&measure(w)));
+    far.filter(&proper).or_else(|| (0..count).find(&proper))
+}

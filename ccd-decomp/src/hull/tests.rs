@@ -1,0 +1,332 @@
+use super::*;
+use crate::predicates::{Projection, is_degenerate, side};
+use proptest::prelude::*;
+use rstest::rstest;
+use std::collections::BTreeSet;
+
+/// The corners and planes by looking at all triples: a triple spans a facet when no point is in front.
+struct Twin {
+    vertices: Vec<u32>,
+    /// The points on each facet, corners or not.
+    planes: BTreeSet<Vec<u32>>,
+}
+
+impl Twin {
+    fn of(points: &[DVec3]) -> Self {
+        let n = points.len();
+        let first_at = |k: usize| (0..n).find(|&l| points[l] == points[k]) == Some(k);
+        let distinct: Vec<usize> = (0..n).filter(|&k| first_at(k)).collect();
+        let mut planes = BTreeSet::new();
+        for &a in &distinct {
+            for &b in &distinct {
+                for &c in &distinct {
+                    let plane = [points[a], points[b], points[c]];
+                    let sides = || distinct.iter().map(|&k| side(plane, points[k]));
+                    if is_degenerate(plane) || sides().any(|s| s == Ordering::Greater) {
+                        continue;
+                    }
+                    let on = distinct.iter().zip(sides());
+                    let on = on.filter(|(_, s)| *s == Ordering::Equal);
+                    planes.insert(on.map(|(&k, _)| k as u32).collect::<Vec<u32>>());
+                }
+            }
+        }
+        let mut vertices: Vec<u32> = planes.iter().flatten().copied().collect();
+        vertices.sort_unstable();
+        vertices.dedup();
+        // A corner is on three planes; in a plane, it is in no triangle or segment of others.
+        vertices.retain(|&k| match planes.len() {
+            1 => !is_amid(points, &distinct, k as usize),
+            _ => planes.iter().filter(|plane| plane.contains(&k)).count() >= 3,
+        });
+        Twin { vertices, planes }
+    }
+}
+
+/// Whether a point is in the hull of others in the same plane.
+fn is_amid(points: &[DVec3], distinct: &[usize], k: usize) -> bool {
+    let others = || distinct.iter().filter(|&&l| l != k).map(|&l| points[l]);
+    let point = points[k];
+    let in_segment =
+        |a: DVec3, b: DVec3| is_degenerate([a, b, point]) && (a - point).dot(b - point) < 0.0;
+    let in_triangle = |a: DVec3, b: DVec3, c: DVec3| {
+        Projection::of([a, b, c]).is_some_and(|plane| {
+            let edges = [(a, b), (b, c), (c, a)];
+            edges
+                .iter()
+                .all(|&(v, w)| plane.turn(v, w, point) != Ordering::Less)
+        })
+    };
+    let amid = |a, b| in_segment(a, b) || others().any(|c| in_triangle(a, b, c));
+    others().any(|a| others().any(|b| amid(a, b)))
+}
+
+/// The promises of a hull, one by one, in exact arithmetic.
+fn assert_proper(points: &[DVec3], hull: &Hull) {
+    let at = |v: u32| points[v as usize];
+    let mut edges = BTreeSet::new();
+    for corners in &hull.facets {
+        assert!(corners.len() >= 3);
+        let plane = [at(corners[0]), at(corners[1]), at(corners[2])];
+        for &p in points {
+            assert_ne!(side(plane, p), Ordering::Greater, "{p} is outside");
+        }
+        for k in 0..corners.len() {
+            let [v, w, x] = [0, 1, 2].map(|l| corners[(k + l) % corners.len()]);
+            assert_eq!(side(plane, at(v)), Ordering::Equal);
+            assert!(!is_degenerate([at(v), at(w), at(x)]), "collinear corners");
+            assert!(edges.insert((v, w)), "edge {v}-{w} is there twice");
+        }
+    }
+    for &(v, w) in &edges {
+        assert!(edges.contains(&(w, v)), "edge {v}-{w} is open");
+    }
+    let corners: BTreeSet<u32> = hull.facets.iter().flatten().copied().collect();
+    assert_eq!(hull.vertices, corners.into_iter().collect::<Vec<_>>());
+    let (v, e, f) = (hull.vertices.len(), edges.len() / 2, hull.facets.len());
+    assert_eq!(v + f, e + 2, "Euler's formula");
+}
+
+fn proper(points: &[DVec3]) -> Hull {
+    let hull = hull(points).expect("a hull");
+    assert_proper(points, &hull);
+    assert_eq!(super::hull(points).as_ref(), Ok(&hull), "not deterministic");
+    hull
+}
+
+/// Pseudo-random numbers in -1..1 by a linear congruence.
+fn noise(seed: u64) -> impl FnMut() -> f64 {
+    let mut state = seed.wrapping_mul(2).wrapping_add(1);
+    move || {
+        state = state
+            .wrapping_mul(6364136223846793005)
+            .wrapping_add(1442695040888963407);
+        (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    }
+}
+
+fn cloud(count: usize, seed: u64) -> Vec<DVec3> {
+    let mut next = noise(seed);
+    (0..count)
+        .map(|_| DVec3::new(next(), next(), next()))
+        .collect()
+}
+
+fn ball(count: usize, seed: u64) -> Vec<DVec3> {
+    let inside = |p: &DVec3| (1e-2..1.0).contains(&p.length());
+    let points = cloud(4 * count, seed);
+    points
+        .into_iter()
+        .filter(inside)
+        .map(|p| p.normalize())
+        .take(count)
+        .collect()
+}
+
+fn grid(n: i32) -> Vec<DVec3> {
+    let points = (0..n * n * n).map(|k| [k % n, k / n % n, k / n / n].map(f64::from));
+    points.map(DVec3::from_array).collect()
+}
+
+fn shaken(points: Vec<DVec3>, amplitude: f64, seed: u64) -> Vec<DVec3> {
+    let mut next = noise(seed);
+    let mut shake = |p: DVec3| p + amplitude * DVec3::new(next(), next(), next());
+    points.into_iter().map(&mut shake).collect()
+}
+
+fn cylinder(around: usize, along: usize) -> Vec<DVec3> {
+    let angle = |k: usize| std::f64::consts::TAU * k as f64 / around as f64;
+    let point = |k: usize| {
+        let (sin, cos) = angle(k % around).sin_cos();
+        DVec3::new(cos, sin, (k / around) as f64)
+    };
+    (0..around * along).map(point).collect()
+}
+
+#[rstest]
+#[case::cloud(cloud(14, 1))]
+#[case::ball(ball(16, 2))]
+#[case::grid(grid(3))]
+#[case::cylinder(cylinder(8, 3))]
+#[case::shaken_grid(shaken(grid(3), 1e-16, 3))]
+#[case::flat_grid(grid(4)[..16].to_vec())]
+#[case::flat_cloud(cloud(12, 8).into_iter().map(|p| p.with_z(p.x)).collect())]
+#[case::needle(cloud(14, 4).into_iter().map(|p| p * DVec3::new(1e6, 1.0, 1e-6)).collect())]
+#[case::far_off(cloud(14, 5).into_iter().map(|p| p + DVec3::splat(1e7)).collect())]
+#[case::duplicates([cloud(9, 6), cloud(9, 6), cloud(9, 6)].concat())]
+#[case::nearly_flat(cloud(14, 7).into_iter().map(|p| p * DVec3::new(1.0, 1.0, 1e-15)).collect())]
+#[case::tetrahedron(vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z])]
+fn agrees_with_all_triples(#[case] points: Vec<DVec3>) {
+    let hull = proper(&points);
+    let twin = Twin::of(&points);
+    assert_eq!(hull.vertices, twin.vertices);
+    let facets = if hull.way == Way::Flat {
+        2 * twin.planes.len()
+    } else {
+        twin.planes.len()
+    };
+    assert_eq!(hull.facets.len(), facets);
+}
+
+#[rstest]
+#[case::cloud(cloud(20_000, 1), 100)]
+#[case::ball(ball(3000, 2), 3000)]
+#[case::grid(grid(12), 8)]
+#[case::cylinder(cylinder(100, 30), 200)]
+#[case::turned_grid(turned(grid(8)), 8)]
+fn large(#[case] points: Vec<DVec3>, #[case] least: usize) {
+    let hull = proper(&points);
+    assert!(hull.vertices.len() >= least, "{}", hull.vertices.len());
+}
+
+fn turned(points: Vec<DVec3>) -> Vec<DVec3> {
+    let turn = ccd_core::glam::DQuat::from_scaled_axis(DVec3::new(0.3, -0.5, 0.7));
+    points.into_iter().map(|p| turn * p).collect()
+}
+
+#[test]
+fn a_box_of_many_points_has_six_facets() {
+    let hull = proper(&grid(5));
+    assert_eq!(hull.facets.len(), 6);
+    assert!(hull.facets.iter().all(|f| f.len() == 4));
+    assert_eq!(hull.vertices.len(), 8);
+}
+
+#[test]
+fn a_plane_is_seen_from_both_sides() {
+    let points: Vec<DVec3> = grid(5)[..25].to_vec();
+    let hull = proper(&points);
+    assert_eq!(
+        (hull.way, hull.vertices.as_slice()),
+        (Way::Flat, &[0, 4, 20, 24][..])
+    );
+    let back: Vec<u32> = hull.facets[1].iter().rev().copied().collect();
+    assert_eq!(hull.facets[0], back);
+}
+
+#[test]
+fn the_library_serves_where_nothing_is_degenerate() {
+    for seed in 0..20 {
+        assert_eq!(proper(&cloud(200, seed)).way, Way::Library);
+    }
+}
+
+#[test]
+fn near_planes_are_settled_exactly() {
+    // Noise far below what the library tells apart.
+    let ways: Vec<Way> = (0..20)
+        .map(|seed| proper(&shaken(grid(4), 1e-15, seed)).way)
+        .collect();
+    assert!(ways.contains(&Way::Exact), "{ways:?}");
+}
+
+#[test]
+fn without_a_candidate_the_hull_is_exact() {
+    for points in [cloud(60, 1), grid(4), ball(80, 3), cylinder(7, 4)] {
+        let Span::Volume(simplex) = Span::of(&points) else {
+            panic!("points that span a volume");
+        };
+        let likely = simplex.map(|k| k as u32).to_vec();
+        let facets = exact::facets(&points, likely).expect("proven");
+        let cloud = Cloud::of(&points);
+        let hull = cloud.named(facets, Way::Exact);
+        assert_proper(&points, &hull);
+        assert_eq!(hull.vertices, proper(&points).vertices);
+    }
+}
+
+#[rstest]
+#[case(vec![], HullError::Empty)]
+#[case(vec![DVec3::X; 4], HullError::Single(0))]
+#[case(vec![DVec3::X, DVec3::ZERO, 2.0 * DVec3::X, DVec3::X], HullError::Collinear(1, 2))]
+#[case(vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::NAN], HullError::OutOfRange(3))]
+#[case(vec![DVec3::ZERO, DVec3::X, DVec3::splat(1e13)], HullError::OutOfRange(2))]
+#[case(vec![DVec3::ZERO, DVec3::splat(1e-100)], HullError::OutOfRange(1))]
+fn what_has_no_facets(#[case] points: Vec<DVec3>, #[case] error: HullError) {
+    assert_eq!(hull(&points), Err(error));
+}
+
+#[test]
+fn refuted() {
+    use proof::{Refutation, prove};
+    let points = [
+        DVec3::ZERO,
+        DVec3::X,
+        DVec3::Y,
+        DVec3::Z,
+        DVec3::splat(0.1),
+        DVec3::ONE,
+    ];
+    let tetrahedron = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
+    let facets = tetrahedron.map(Vec::from).to_vec();
+    assert!(prove(&points[..5], facets.clone()).is_ok());
+    let outside = Refutation::Outside(vec![5]);
+    assert_eq!(prove(&points, facets.clone()), Err(outside));
+    assert_eq!(
+        prove(&points, facets[1..].to_vec()),
+        Err(Refutation::Edge(0, 1))
+    );
+    let twice = [facets.clone(), facets.clone()].concat();
+    assert_eq!(prove(&points, twice), Err(Refutation::Edge(0, 1)));
+    assert_eq!(prove(&points, vec![vec![0, 1]]), Err(Refutation::Bent(0)));
+    assert_eq!(
+        prove(&points, vec![vec![0, 2, 1, 3]]),
+        Err(Refutation::Bent(0))
+    );
+    assert!(prove(&points, Vec::new()).is_err());
+    let split = [
+        DVec3::ZERO,
+        DVec3::X,
+        DVec3::X + DVec3::Y,
+        DVec3::Y,
+        DVec3::Z,
+    ];
+    let pyramid = [
+        [0, 2, 1],
+        [0, 3, 2],
+        [0, 1, 4],
+        [1, 2, 4],
+        [2, 3, 4],
+        [3, 0, 4],
+    ];
+    assert_eq!(
+        prove(&split, pyramid.map(Vec::from).to_vec()),
+        Err(Refutation::Edge(0, 2))
+    );
+    assert!(prove(&split, proof::loops(&split, &pyramid)).is_ok());
+    let inside_out = tetrahedron.map(|[a, b, c]| vec![a, c, b]).to_vec();
+    let all = Refutation::Outside(vec![0, 1, 2, 3]);
+    assert_eq!(prove(&points[..4], inside_out), Err(all));
+}
+
+proptest! {
+    /// Few different coordinates make many coplanar, collinear and equal points.
+    #[test]
+    fn coarse_points(points in prop::collection::vec(prop::array::uniform3(-2_i8..=2), 1..18)) {
+        let points: Vec<DVec3> = points.iter().map(|p| DVec3::from_array(p.map(f64::from))).collect();
+        match hull(&points) {
+            Ok(hull) => {
+                assert_proper(&points, &hull);
+                prop_assert_eq!(hull.vertices, Twin::of(&points).vertices);
+            }
+            Err(error) => prop_assert!(
+                matches!(error, HullError::Single(_) | HullError::Collinear(..)), "{}", error
+            ),
+        }
+    }
+
+    /// Points within a few units in the last place of a plane, a line or each other.
+    #[test]
+    fn hardly_apart(
+        points in prop::collection::vec(prop::array::uniform3(-1_i8..=1), 4..14),
+        scale in prop::sample::select(vec![1e-18, 1e-16, 3e-16, 1e-15, 1e-12]),
+        seed in 0_u64..1000,
+    ) {
+        let points = points.iter().map(|p| DVec3::from_array(p.map(f64::from))).collect();
+        let points = shaken(points, scale, seed);
+        if let Ok(hull) = hull(&points) {
+            assert_proper(&points, &hull);
+            prop_assert_eq!(hull.vertices, Twin::of(&points).vertices);
+        }
+    }
+}

@@ -1,0 +1,91 @@
+//! Where pieces are split in two.
+
+use crate::hull::hull;
+use crate::tolerance::{EIGEN_ROUNDS, LEAST_SHARE};
+use ccd_core::Pieces;
+use ccd_core::glam::DVec3;
+use nalgebra::{Matrix3, SymmetricEigen, Vector3};
+
+/// Pieces by their centres, the means of their points.
+pub(super) struct Splitter {
+    centres: Vec<DVec3>,
+}
+
+impl Splitter {
+    pub(super) fn new(pieces: &Pieces) -> Self {
+        let mean = |points: &[DVec3]| points.iter().sum::<DVec3>() / points.len() as f64;
+        Splitter {
+            centres: pieces.iter().map(|piece| mean(piece.points)).collect(),
+        }
+    }
+
+    /// Puts at least two pieces in an order in which those of one side come first, and says how many
+    /// these are.
+    pub(super) fn split(&self, pieces: &mut [u32]) -> usize {
+        let axis = self.longest(pieces);
+        let height = |piece: u32| axis.dot(self.centres[piece as usize]);
+        pieces.sort_unstable_by(|&a, &b| height(a).total_cmp(&height(b)).then(a.cmp(&b)));
+        let (first, last) = (pieces[0], pieces[pieces.len() - 1]);
+        let middle = 0.5 * (height(first) + height(last));
+        let below = pieces.partition_point(|&piece| height(piece) < middle);
+        let least = (LEAST_SHARE * pieces.len() as f64).max(1.0);
+        match (below.min(pieces.len() - below) as f64) < least {
+            true => pieces.len() / 2,
+            false => below,
+        }
+    }
+
+    /// The unit vector along which the surface of the hull of the centres is spread most.
+    fn longest(&self, pieces: &[u32]) -> DVec3 {
+        let centres: Vec<DVec3> = pieces.iter().map(|&k| self.centres[k as usize]).collect();
+        let mean = centres.iter().sum::<DVec3>() / centres.len() as f64;
+        let reach = |p: &DVec3| (*p - mean).abs().max_element();
+        let size = centres.iter().map(reach).fold(0.0, f64::max);
+        if !(size > 0.0) {
+            return DVec3::X;
+        }
+        // In units in which no product is too small.
+        let unit: Vec<DVec3> = centres.iter().map(|&p| (p - mean) / size).collect();
+        let spread = match hull(&unit) {
+            Ok(hull) => of_surface(&unit, &hull.facets),
+            Err(_) => of_points(&unit),
+        };
+        principal(spread).unwrap_or(DVec3::X)
+    }
+}
+
+/// The second moments of a surface about its centroid.
+fn of_surface(points: &[DVec3], facets: &[Vec<u32>]) -> Matrix3<f64> {
+    let (mut area, mut first, mut second) = (0.0, DVec3::ZERO, Matrix3::zeros());
+    for corners in facets {
+        let at = |k: usize| points[corners[k] as usize];
+        for k in 1..corners.len() - 1 {
+            let [p, q, r] = [at(0), at(k), at(k + 1)];
+            let weight = (q - p).cross(r - p).length();
+            let middle = (p + q + r) / 3.0;
+            area += weight;
+            first += weight * middle;
+            // A triangle's moments are those of its corners and three times its middle.
+            let corners = square(p) + square(q) + square(r) + 9.0 * square(middle);
+            second += weight / 12.0 * corners;
+        }
+    }
+    second - square(first / area) * area
+}
+
+fn of_points(points: &[DVec3]) -> Matrix3<f64> {
+    points.iter().map(|&p| square(p)).sum()
+}
+
+/// `p pᵀ`
+fn square(p: DVec3) -> Matrix3<f64> {
+    let p = Vector3::from(p.to_array());
+    p * p.transpose()
+}
+
+/// The unit eigenvector of the largest eigenvalue.
+fn principal(matrix: Matrix3<f64>) -> Option<DVec3> {
+    let eigen = SymmetricEigen::try_new(matrix, f64::EPSILON, EIGEN_ROUNDS)?;
+    let axis = eigen.eigenvectors.column(eigen.eigenvalues.imax());
+    DVec3::new(axis[0], axis[1], axis[2]).try_normalize()
+}

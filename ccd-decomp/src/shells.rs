@@ -1,0 +1,139 @@
+//! The connected parts of a closed surface, and whether the solid is on the inner side of each.
+
+use crate::error::DecomposeError;
+use crate::manifold::Manifold;
+use crate::predicates::side;
+use crate::tolerance::RAY_TRIES;
+use ccd_core::glam::DVec3;
+use ccd_core::tolerance::U64;
+use std::cmp::Ordering;
+
+/// Checks that the solid, which is where the winding number is not 0, is behind every face.
+///
+/// As faces only meet where they share an edge or vertex, it is enough to look at one point of every
+/// shell: its other faces see the same of the rest.
+pub(crate) fn check_orientation(manifold: &Manifold<'_>) -> Result<(), DecomposeError> {
+    let shell_of = shells(manifold);
+    let count = shell_of.iter().max().map_or(0, |&last| last as usize + 1);
+    let mut volumes = vec![Volume::default(); count];
+    let near = manifold.triangle(0)[0];
+    for (face, &shell) in shell_of.iter().enumerate() {
+        volumes[shell as usize].add(manifold.triangle(face as u32), near);
+    }
+    for (shell, volume) in volumes.iter().enumerate() {
+        let of_shell = |&f: &u32| shell_of[f as usize] as usize == shell;
+        let faces: Vec<u32> = (0..shell_of.len() as u32).filter(of_shell).collect();
+        let face = manifold.mesh().face_ids()[faces[0] as usize];
+        let Some(outward) = volume.is_positive() else {
+            return Err(DecomposeError::NoVolume { face });
+        };
+        let around = match count {
+            1 => Some(0),
+            _ => winding_of_others(manifold, &shell_of, &faces),
+        };
+        let Some(around) = around else {
+            return Err(DecomposeError::NoVolume { face });
+        };
+        // An outward shell adds 1 within it; behind the faces of an inward one is what surrounds it.
+        let behind = if outward { around + 1 } else { around };
+        if behind == 0 {
+            return Err(DecomposeError::InsideOut { face });
+        }
+    }
+    Ok(())
+}
+
+/// The number of the shell of every face; shells are connected over edges.
+pub(crate) fn shells(manifold: &Manifold<'_>) -> Vec<u32> {
+    const UNSEEN: u32 = u32::MAX;
+    let mut shell_of = vec![UNSEEN; manifold.faces().len()];
+    let mut count = 0;
+    let mut stack = Vec::new();
+    for seed in 0..shell_of.len() as u32 {
+        if shell_of[seed as usize] != UNSEEN {
+            continue;
+        }
+        shell_of[seed as usize] = count;
+        stack.push(seed);
+        while let Some(face) = stack.pop() {
+            for next in manifold.neighbours(face) {
+                if shell_of[next as usize] == UNSEEN {
+                    shell_of[next as usize] = count;
+                    stack.push(next);
+                }
+            }
+        }
+        count += 1;
+    }
+    shell_of
+}
+
+/// How often the other shells wind about the faces of one; none when all rays graze something.
+fn winding_of_others(manifold: &Manifold<'_>, shell_of: &[u32], faces: &[u32]) -> Option<i32> {
+    let shell = shell_of[faces[0] as usize];
+    let others: Vec<u32> = (0..shell_of.len() as u32)
+        .filter(|&f| shell_of[f as usize] != shell)
+        .collect();
+    let near = manifold.triangle(faces[0])[0];
+    let way = |p: &DVec3| p.distance(near);
+    let size = manifold.mesh().vertices().iter().map(way).fold(0.0, f64::max);
+    (0..RAY_TRIES).find_map(|k| {
+        // Shells may touch at a corner, so that it is another one each time.
+        let from = manifold.triangle(faces[k % faces.len()])[k % 3];
+        // Points on a spiral about the sphere, in no special relation to anything.
+        let share = k as f64 / RAY_TRIES as f64;
+        let (height, angle) = (0.9 - 1.7 * share, 2.399 * k as f64);
+        let across = (1.0 - height * height).sqrt();
+        let away = DVec3::new(across * angle.cos(), across * angle.sin(), height);
+        let to = from + 3.0 * size * away;
+        let of_face = |&f: &u32| crossing([from, to], manifold.triangle(f));
+        others.iter().map(of_face).sum()
+    })
+}
+
+/// 1 where a segment leaves through a triangle, −1 where it enters, 0 where it passes by; none when it
+/// meets the triangle's edge, or ends on it.
+fn crossing([from, to]: [DVec3; 2], triangle: [DVec3; 3]) -> Option<i32> {
+    let [a, b, c] = triangle;
+    let ends = [from, to].map(|p| side(triangle, p));
+    if ends[0] == ends[1] && ends[0] != Ordering::Equal {
+        return Some(0);
+    }
+    let turns = [(a, b), (b, c), (c, a)].map(|(v, w)| side([from, to, v], w));
+    if turns.contains(&Ordering::Less) && turns.contains(&Ordering::Greater) {
+        return Some(0);
+    }
+    match ends {
+        _ if turns.contains(&Ordering::Equal) => None,
+        [Ordering::Less, Ordering::Greater] => Some(1),
+        [Ordering::Greater, Ordering::Less] => Some(-1),
+        _ => None,
+    }
+}
+
+/// A sum of signed volumes, and of their sizes, which bounds its rounding.
+#[derive(Clone, Copy, Debug, Default)]
+struct Volume {
+    sum: f64,
+    size: f64,
+    terms: f64,
+}
+
+impl Volume {
+    fn add(&mut self, triangle: [DVec3; 3], near: DVec3) {
+        let [a, b, c] = triangle.map(|p| p - near);
+        self.sum += a.dot(b.cross(c));
+        self.size += a.length() * b.length() * c.length();
+        self.terms += 1.0;
+    }
+
+    /// None when rounding could have made the sign: a term is right to less than 16 units of its
+    /// size, and each addition to one unit of what is summed so far.
+    fn is_positive(&self) -> Option<bool> {
+        let rounding = (self.terms + 16.0) * U64 * self.size;
+        (self.sum.abs() > rounding).then_some(self.sum > 0.0)
+    }
+}
+
+#[cfg(test)]
+mod tests;

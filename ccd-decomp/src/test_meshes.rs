@@ -1,0 +1,81 @@
+//! Small closed meshes for tests, on whole numbers.
+
+use crate::mesh::TriangleMesh;
+use ccd_core::glam::{DVec3, dvec3};
+use std::collections::HashMap;
+
+/// The surface of a union of unit cubes, given by their lowest corners: two triangles for every square.
+pub(crate) fn cubes(cells: &[[i32; 3]]) -> TriangleMesh {
+    let filled = |c: [i32; 3]| cells.contains(&c);
+    let (mut numbers, mut vertices, mut faces) = (HashMap::new(), Vec::new(), Vec::new());
+    for &cell in cells {
+        for axis in 0..3 {
+            for up in [0, 1] {
+                let mut beyond = cell;
+                beyond[axis] += 2 * up - 1;
+                if filled(beyond) {
+                    continue;
+                }
+                let corners = [(0, 0), (1, 0), (1, 1), (0, 1)].map(|(s, t)| {
+                    let mut corner = cell;
+                    corner[axis] += up;
+                    corner[(axis + 1) % 3] += s;
+                    corner[(axis + 2) % 3] += t;
+                    *numbers.entry(corner).or_insert_with(|| {
+                        let [x, y, z] = corner.map(f64::from);
+                        vertices.push(dvec3(x, y, z));
+                        vertices.len() as u32 - 1
+                    })
+                });
+                let [a, b, c, d] = corners;
+                match up {
+                    1 => faces.extend([[a, b, c], [a, c, d]]),
+                    _ => faces.extend([[a, c, b], [a, d, c]]),
+                }
+            }
+        }
+    }
+    mesh(vertices, &faces)
+}
+
+/// All cells of a block.
+pub(crate) fn block([x, y, z]: [i32; 3]) -> Vec<[i32; 3]> {
+    let columns = (0..x).flat_map(move |i| (0..y).map(move |j| (i, j)));
+    columns.flat_map(|(i, j)| (0..z).map(move |k| [i, j, k])).collect()
+}
+
+/// A tetrahedron, its faces outward.
+pub(crate) fn tetrahedron() -> TriangleMesh {
+    mesh(
+        vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z],
+        &[[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]],
+    )
+}
+
+/// The meshes of several as one.
+pub(crate) fn joined(parts: &[&TriangleMesh]) -> TriangleMesh {
+    let (mut vertices, mut faces) = (Vec::new(), Vec::new());
+    for part in parts {
+        let base = vertices.len() as u32;
+        vertices.extend_from_slice(part.vertices());
+        faces.extend(part.faces().iter().map(|f| f.map(|v| v + base)));
+    }
+    mesh(vertices, &faces)
+}
+
+/// A mesh scaled, then moved; a negative scale turns it inside out.
+pub(crate) fn placed(part: &TriangleMesh, scale: f64, offset: DVec3) -> TriangleMesh {
+    let vertices = part.vertices().iter().map(|&p| scale * p + offset);
+    mesh(vertices.collect(), part.faces())
+}
+
+/// The same with every face seen from the other side.
+pub(crate) fn turned(part: &TriangleMesh) -> TriangleMesh {
+    let faces: Vec<[u32; 3]> = part.faces().iter().map(|&[a, b, c]| [a, c, b]).collect();
+    mesh(part.vertices().to_vec(), &faces)
+}
+
+/// A mesh of vertices and faces.
+pub(crate) fn mesh(vertices: Vec<DVec3>, faces: &[[u32; 3]]) -> TriangleMesh {
+    TriangleMesh::new(vertices, faces).unwrap()
+}

@@ -1,0 +1,177 @@
+//! A few convex hulls in place of a mesh: approximate, with errors that are certified on both sides.
+//!
+//! ```text
+//! mesh ─ voxels.rs ─ labels.rs (the library's V-HACD) ─ cover.rs ─ merge.rs ─► hulls ─ excess.rs ─► errors
+//! ```
+//!
+//! The library only says which voxel belongs to which part `[MAM16]`. Its hulls are not used, because
+//! they neither contain the mesh nor say by how much they miss it: each hull is made anew, of all that
+//! the solid has in the voxels of its part.
+
+mod cover;
+mod excess;
+mod labels;
+mod merge;
+mod solid;
+mod voxels;
+
+use crate::hull::{HullError, hull};
+use crate::mesh::TriangleMesh;
+use crate::tolerance;
+use ccd_core::glam::DVec3;
+use ccd_core::{Facet, Origin, Polytope};
+use solid::Solid;
+use voxels::Voxels;
+
+/// Hulls that together cover a solid, or a surface if the mesh is open.
+///
+/// # Guarantee
+/// With S for the solid (the points about which the mesh winds) and its surface, or for the surface
+/// alone if the mesh is open: every point of S is within `uncovered` of a hull's points, and within a
+/// polytope, whose radius that is. No point of a polytope is farther than `sticks_out` from S.
+#[derive(Clone, Debug)]
+pub(crate) struct Approximation {
+    /// At most as many as asked for. Their facets are no part of the mesh.
+    pub(crate) polytopes: Vec<Polytope>,
+    /// How far S sticks out of the hulls at most: the radius of every polytope, in the mesh's unit of
+    /// length. It is what rounding may have cost.
+    pub(crate) uncovered: f64,
+    /// How far the polytopes stick out of S at most, in the mesh's unit of length.
+    pub(crate) sticks_out: f64,
+}
+
+/// Why a mesh cannot be approximated.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum VhacdError {
+    /// No hulls were asked for.
+    #[error("a mesh cannot be approximated by no hulls")]
+    NoHulls,
+    /// A coordinate is so near to 0 that predicates are not exact.
+    #[error("vertex {vertex} has a coordinate that is too near to 0 for exact predicates")]
+    TooFine {
+        /// Its number in the mesh.
+        vertex: u32,
+    },
+    /// The library failed on the mesh's voxels.
+    #[error("V-HACD failed on this mesh")]
+    Library,
+    /// A part's hull could not be computed.
+    #[error("the hull of a part failed: {0}")]
+    Hull(HullError),
+    /// The hulls may stick out by so much that they say little.
+    #[error(
+        "the hulls may stick out by {sticks_out}, more than {limit}, a quarter of the diagonal"
+    )]
+    TooCoarse {
+        /// The certified bound.
+        sticks_out: f64,
+        /// What would be accepted, in the mesh's unit of length.
+        limit: f64,
+    },
+}
+
+/// Approximates a mesh by so many hulls or fewer; a mesh that no grid of voxels suits, because its
+/// triangles are large and many or its coordinates hardly differ, by one.
+///
+/// # Errors
+/// See [`VhacdError`].
+///
+/// # Complexity
+/// Parts: the library's, O(r³) in the resolution. Errors: a branch and bound of at most
+/// [`tolerance::EXCESS_CELLS`] cells, each with a search for the nearest triangle.
+pub(crate) fn approximate(mesh: &TriangleMesh, hulls: u32) -> Result<Approximation, VhacdError> {
+    if hulls == 0 {
+        return Err(VhacdError::NoHulls);
+    }
+    if let Some(vertex) = crate::predicates::too_fine(mesh.vertices()) {
+        return Err(VhacdError::TooFine {
+            vertex: vertex as u32,
+        });
+    }
+    let solid = Solid::of(mesh);
+    let parts = match Voxels::of(&solid, hulls) {
+        Some(voxels) if hulls > 1 => {
+            let labels = labels::labels(&solid, &voxels, hulls).ok_or(VhacdError::Library)?;
+            cover::points_by_part(&solid, &voxels, labels)
+        }
+        _ => vec![solid.corners().collect()],
+    };
+    let parts: Vec<Part> = parts
+        .into_iter()
+        .filter(|points| !points.is_empty())
+        .map(|points| Part::of(&points))
+        .collect::<Result<_, HullError>>()
+        .and_then(|parts| merge::down_to(parts, hulls as usize))
+        .map_err(VhacdError::Hull)?;
+    let uncovered = tolerance::clip_rounding(solid.farthest_coordinate());
+    let sticks_out = (excess::bound(&solid, &parts) + uncovered).next_up();
+    let limit = tolerance::TOO_COARSE * solid.reach() + 2.0 * uncovered;
+    // Written so that NaN fails.
+    if !(sticks_out <= limit) {
+        return Err(VhacdError::TooCoarse { sticks_out, limit });
+    }
+    Ok(Approximation {
+        polytopes: parts.into_iter().map(|p| p.polytope(uncovered)).collect(),
+        uncovered,
+        sticks_out,
+    })
+}
+
+/// A convex part: the corners of its hull, and the facets if they are not all in a line.
+struct Part {
+    corners: Vec<DVec3>,
+    facets: Vec<Vec<u32>>,
+}
+
+impl Part {
+    fn of(points: &[DVec3]) -> Result<Self, HullError> {
+        let at = |v: &u32| points[*v as usize];
+        let hull = match hull(points) {
+            Ok(hull) => hull,
+            Err(HullError::Single(v)) => return Ok(Part::thin(vec![at(&v)])),
+            Err(HullError::Collinear(v, w)) => return Ok(Part::thin(vec![at(&v), at(&w)])),
+            Err(error) => return Err(error),
+        };
+        let place = |v: &u32| hull.vertices.partition_point(|w| w < v) as u32;
+        Ok(Part {
+            corners: hull.vertices.iter().map(at).collect(),
+            facets: hull
+                .facets
+                .iter()
+                .map(|f| f.iter().map(place).collect())
+                .collect(),
+        })
+    }
+
+    fn thin(corners: Vec<DVec3>) -> Self {
+        Part {
+            corners,
+            facets: Vec::new(),
+        }
+    }
+
+    /// Its facets, fanned out.
+    fn triangles(&self) -> impl Iterator<Item = [u32; 3]> {
+        let fan = |f: &Vec<u32>| {
+            let fan: Vec<_> = f[1..].windows(2).map(|e| [f[0], e[0], e[1]]).collect();
+            fan
+        };
+        self.facets.iter().flat_map(fan)
+    }
+
+    fn polytope(self, radius: f64) -> Polytope {
+        let facet = |corners| Facet {
+            origin: Origin::Virtual,
+            corners,
+        };
+        Polytope {
+            points: self.corners,
+            facets: self.facets.into_iter().map(facet).collect(),
+            radius,
+            ..Polytope::default()
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,53 @@
+//! A part above a nearly flat piece of the surface.
+
+use super::super::solid::Solid;
+use super::super::voxels::cut_to_box;
+use super::body::Body;
+use crate::tolerance::TRIANGLES_UNDER;
+use ccd_core::glam::DVec3;
+
+/// A bound on the distance to the solid of a part's points in a box, from the surface about the box.
+///
+/// Let the box be grown to three times its size, and a height be measured along the surface's mean
+/// normal. What of the large box is below all of the surface in it is convex and has none of the
+/// surface, so that it is in the solid if one of its points is. A point of the small box comes there by
+/// sinking as much as it is higher, if that does not lead out of the large box. None where this says
+/// nothing.
+pub(super) fn excess(
+    solid: &Solid<'_>,
+    body: &Body<'_>,
+    centre: DVec3,
+    half: DVec3,
+) -> Option<f64> {
+    let bounds = [centre - 3.0 * half, centre + 3.0 * half];
+    let near = solid.triangles_in(bounds, TRIANGLES_UNDER)?;
+    let normals = near.iter().map(|[a, b, c]| (b - a).cross(c - a));
+    let up = (solid.orientation() * normals.sum::<DVec3>()).try_normalize()?;
+    let height = |p: DVec3| up.dot(p - centre);
+    let mut part = Vec::new();
+    let mut lowest = f64::INFINITY;
+    for triangle in near {
+        cut_to_box(&triangle, bounds, &mut part);
+        lowest = part.iter().copied().map(height).fold(lowest, f64::min);
+    }
+    lowest -= solid.slack();
+    let deepest = centre - 3.0 * half * up.signum();
+    if !(height(deepest) < lowest) || !solid.winds_about(deepest) {
+        return None;
+    }
+    let sinks = (highest(body, up, centre, half, solid.slack()) - lowest).max(0.0);
+    let stays = (sinks * up.abs()).cmple(2.0 * half).all();
+    stays.then_some(sinks + solid.slack())
+}
+
+/// A bound on the height of a part's points in a box: by each of the part's planes, of whose normal the
+/// upward direction is a multiple and a rest.
+fn highest(body: &Body<'_>, up: DVec3, centre: DVec3, half: DVec3, slack: f64) -> f64 {
+    let by_plane = |&(normal, height): &(DVec3, f64)| {
+        let multiple = up.dot(normal).max(0.0);
+        let rest = up - multiple * normal;
+        multiple * (height - normal.dot(centre) + slack) + rest.abs().dot(half)
+    };
+    let by_box = up.abs().dot(half);
+    body.planes.iter().map(by_plane).fold(by_box, f64::min)
+}

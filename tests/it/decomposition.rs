@@ -1,0 +1,204 @@
+//! Convex patches: exactly within the solid, exactly on its surface, or a typed error.
+
+use ccd_core::glam::{DQuat, DVec3};
+use ccd_decomp::{DecomposeError, Decomposition, Order, decompose};
+use ccd_tests::exact::{Effort, Solid};
+use ccd_tests::models::{
+    Mesh, Model, Shape, boulder, convex_solids, cuboid, dented_cube, flat_solids, hollow, pile,
+    solids, terrain, torus, torus_knot,
+};
+use ccd_tests::patches::{Claim, check_cover, check_inside, check_polytope};
+use ccd_tests::strategies::{rotation, runner};
+use proptest::prelude::*;
+use std::cell::Cell;
+
+const ORDERS: [Order; 3] = [Order::Cresting, Order::BreadthFirst, Order::DepthFirst];
+
+fn decomposed(shape: &Shape, order: Order) -> Result<Decomposition, DecomposeError> {
+    decompose(&shape.mesh.for_decomposition(), order)
+}
+
+fn claims(decomposition: &Decomposition) -> Vec<Claim<'_>> {
+    decomposition
+        .patches
+        .iter()
+        .map(|patch| Claim {
+            faces: &patch.faces,
+            polytope: &patch.polytope,
+        })
+        .collect()
+}
+
+/// Every law of a decomposition; says how many points were looked at.
+fn check(mesh: &Mesh, decomposition: &Decomposition, effort: Effort) -> Result<usize, String> {
+    let solid = Solid::new(mesh);
+    let claims = claims(decomposition);
+    check_cover(mesh, &claims)?;
+    let mut points = 0;
+    for (seed, claim) in (0..).zip(&claims) {
+        check_polytope(mesh, claim)?;
+        points += check_inside(&solid, claim, effort, seed)?;
+    }
+    Ok(points)
+}
+
+/// Of a model that has no faults, in every order.
+fn check_model(model: &Model, effort: Effort) {
+    for order in ORDERS {
+        let (name, mesh) = (&model.name, &model.shape.mesh);
+        let decomposition = decomposed(&model.shape, order)
+            .unwrap_or_else(|error| panic!("{name}, {order:?}: {error}"));
+        check(mesh, &decomposition, effort)
+            .unwrap_or_else(|why| panic!("{name}, {order:?}: {why}"));
+    }
+}
+
+#[test]
+fn patches_of_solids() {
+    for model in solids() {
+        check_model(&model, Effort::THOROUGH);
+    }
+}
+
+#[test]
+fn patches_of_solids_in_general_position() {
+    for model in solids() {
+        check_model(&model.turned(), Effort::THOROUGH);
+    }
+}
+
+#[test]
+fn patches_of_thousands_of_faces() {
+    let mut knots = vec![(120, 12), (240, 24)];
+    if std::env::var_os("CCD_TEST_SLOW").is_some() {
+        knots.push((480, 36));
+    }
+    for (rings, sides) in knots {
+        let name = format!("knot of {rings} rings");
+        let shape = torus_knot(rings, sides);
+        check_model(&Model { name, shape }, Effort::QUICK);
+    }
+}
+
+/// Where coordinates are rounded to a coarse grid much is coplanar, in line, or folded over.
+#[test]
+fn patches_of_random_solids() {
+    let shapes = prop_oneof![
+        3 => (0..3u32, 0.0..0.9f64, any::<u64>())
+            .prop_map(|(levels, roughness, seed)| boulder(levels, roughness, seed)),
+        1 => (1..8usize, any::<u64>()).prop_map(|(cells, seed)| terrain(cells, seed)),
+        2 => (1..6usize, any::<u64>()).prop_map(|(size, seed)| pile(size, seed)),
+        1 => (3..16usize, 3..10usize, 0.05..0.5f64)
+            .prop_map(|(rings, sides, minor)| torus(0.6, minor, rings, sides)),
+        1 => (0.0..1.0f64).prop_map(|depth| dented_cube(0.5, depth)),
+        1 => (0..2u32, any::<u64>(), 0.0..0.6f64).prop_map(|(levels, seed, size)| {
+            hollow(&boulder(levels, 0.3, seed), &cuboid(DVec3::splat(0.7 * size)))
+        }),
+    ];
+    let grid = prop_oneof![2 => Just(None), 1 => (2.0..40.0f64).prop_map(Some)];
+    let turn = prop_oneof![1 => Just(DQuat::IDENTITY), 1 => rotation()];
+    let order = prop::sample::select(&ORDERS[..]);
+    let (whole, faulty) = (Cell::new(0), Cell::new(0));
+    let law = |(shape, turn, grid, order): (Shape, DQuat, Option<f64>, Order)| {
+        let mut shape = shape.placed(turn, DVec3::ZERO);
+        if let Some(cells) = grid {
+            let snap = |p: &mut DVec3| *p = (cells * *p).round() / cells;
+            shape.mesh.vertices.iter_mut().for_each(snap);
+        }
+        // Faces that rounding has made a segment or a point of are dropped.
+        shape.mesh.faces = shape.mesh.for_decomposition().faces().to_vec();
+        match decomposed(&shape, order) {
+            Ok(it) => {
+                whole.set(whole.get() + 1);
+                let law = check(&shape.mesh, &it, Effort::THOROUGH);
+                law.map(drop).map_err(TestCaseError::fail)
+            }
+            Err(_) => {
+                faulty.set(faulty.get() + 1);
+                Ok(())
+            }
+        }
+    };
+    runner(300)
+        .run(&(shapes, turn, grid, order), law)
+        .unwrap_or_else(|error| panic!("{error}"));
+    assert!(
+        whole.get() > 200 && faulty.get() >= 5,
+        "{whole:?} {faulty:?}"
+    );
+}
+
+#[test]
+fn coplanar_triangles_go_together() {
+    for model in flat_solids() {
+        let faces = model.shape.mesh.faces.len();
+        // About a cavity every side is a patch of its own, and a dent has few triangles to begin with.
+        if model.name.ends_with(" cube") {
+            continue;
+        }
+        for order in ORDERS {
+            let patches = decomposed(&model.shape, order).expect(&model.name).patches;
+            let (name, count) = (&model.name, patches.len());
+            assert!(4 * count < faces, "{name}, {order:?}: {count} of {faces}");
+        }
+    }
+}
+
+#[test]
+fn a_convex_solid_is_one_patch() {
+    for model in convex_solids() {
+        check_model(&model, Effort::QUICK);
+        for order in ORDERS {
+            let patches = decomposed(&model.shape, order).expect(&model.name).patches;
+            assert_eq!(patches.len(), 1, "{}", model.name);
+        }
+    }
+}
+
+#[test]
+fn the_same_mesh_gives_the_same_patches() {
+    for model in solids() {
+        for order in ORDERS {
+            let once = decomposed(&model.shape, order).expect(&model.name);
+            let again = decomposed(&model.shape, order).expect(&model.name);
+            assert_eq!(faces(&once), faces(&again), "{}", model.name);
+            let same = |(x, y): (&Claim<'_>, &Claim<'_>)| x.polytope == y.polytope;
+            let polytopes = (claims(&once), claims(&again));
+            assert!(
+                polytopes.0.iter().zip(&polytopes.1).all(same),
+                "{}",
+                model.name
+            );
+        }
+    }
+}
+
+#[test]
+fn a_mesh_that_is_inside_out_gives_the_patches_of_its_twin() {
+    for model in solids() {
+        let flipped = Shape::closed(model.shape.mesh.clone().flipped());
+        for order in ORDERS {
+            let (here, there) = (
+                decomposed(&model.shape, order).expect(&model.name),
+                decomposed(&flipped, order).expect(&model.name),
+            );
+            assert_eq!(sorted(&here), sorted(&there), "{}, {order:?}", model.name);
+            check(&flipped.mesh, &there, Effort::QUICK)
+                .unwrap_or_else(|why| panic!("{}, {order:?}: {why}", model.name));
+        }
+    }
+}
+
+fn faces(decomposition: &Decomposition) -> Vec<&[u32]> {
+    claims(decomposition)
+        .iter()
+        .map(|claim| claim.faces)
+        .collect()
+}
+
+fn sorted(decomposition: &Decomposition) -> Vec<Vec<u32>> {
+    let mut all: Vec<Vec<u32>> = faces(decomposition).iter().map(|f| f.to_vec()).collect();
+    all.iter_mut().for_each(|faces| faces.sort_unstable());
+    all.sort_unstable();
+    all
+}

@@ -1,0 +1,38 @@
+//! Contacts of patches are named as contacts of the triangles that they are made of.
+
+use ccd_core::{Config, Feature, Outcome};
+use ccd_tests::backends::Backend;
+use ccd_tests::models::Kind;
+use ccd_tests::strategies::{cases, check_cases};
+use std::cell::Cell;
+
+/// Only behind the surface, on a virtual facet, there is nothing of the mesh to name.
+#[test]
+fn contacts_of_patches_name_the_mesh() {
+    let (named, unnamed) = (Cell::new(0), Cell::new(0));
+    check_cases(500, cases(), |case| {
+        let query = case.query();
+        let solid = |shape: &ccd_tests::models::Shape| shape.kinds().any(|k| k == Kind::Patches);
+        if !solid(&query.a.shape) || !solid(&query.b.shape) {
+            return Ok(());
+        }
+        let bodies = query.bodies([Kind::Patches; 2]);
+        let config = Config {
+            tolerance: 1e-6,
+            ..Config::default()
+        };
+        let answer = Backend::DEFAULT.solve(&query.problem(&bodies, &config));
+        if let Outcome::Contact { contact, .. } = answer.outcome {
+            for feature in [contact.feature_a, contact.feature_b] {
+                let count = match feature {
+                    Feature::Piece(_) => &unnamed,
+                    _ => &named,
+                };
+                count.set(count.get() + 1);
+            }
+        }
+        Ok(())
+    });
+    let (named, unnamed) = (named.get(), unnamed.get());
+    assert!(named > 100 && 20 * unnamed < named, "{named}, {unnamed}");
+}

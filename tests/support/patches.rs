@@ -1,0 +1,213 @@
+//! What a convex patch of a closed surface owes: its hull is in the solid, its faces are on its hull,
+//! and its names are right; all of it exactly.
+
+use crate::exact::{
+    Blend, Effort, Place, Solid, is_convex_polygon, is_degenerate, samples, side_of, triangle_holds,
+};
+use crate::models::Mesh;
+use ccd_core::glam::DVec3;
+use ccd_core::{Facet, Origin, Polytope};
+use std::cmp::Ordering;
+use std::collections::HashMap;
+
+/// Holds, or says why not.
+pub type Law = Result<(), String>;
+
+/// A convex patch: faces of a mesh, and the polytope that stands for them.
+#[derive(Clone, Debug)]
+pub struct Claim<'a> {
+    /// Of the mesh, by number.
+    pub faces: &'a [u32],
+    /// Their hull.
+    pub polytope: &'a Polytope,
+}
+
+/// Every face of a mesh is of exactly one patch.
+///
+/// # Errors
+/// Which face is not.
+pub fn check_cover(mesh: &Mesh, claims: &[Claim<'_>]) -> Law {
+    let mut count = vec![0; mesh.faces.len()];
+    for &face in claims.iter().flat_map(|claim| claim.faces) {
+        *count
+            .get_mut(face as usize)
+            .ok_or_else(|| format!("there is no face {face}"))? += 1;
+    }
+    match count.iter().position(|&n| n != 1) {
+        Some(face) => Err(format!("face {face} is of {} patches", count[face])),
+        None => Ok(()),
+    }
+}
+
+/// Points sampled of a patch's hull are inside the solid or on its surface; says how many there were.
+///
+/// # Errors
+/// Which point is outside.
+pub fn check_inside(
+    solid: &Solid<'_>,
+    claim: &Claim<'_>,
+    effort: Effort,
+    seed: u64,
+) -> Result<usize, String> {
+    let all = samples(claim.polytope, effort, seed);
+    match all.iter().find(|p| solid.place(p) == Place::Outside) {
+        Some(p) => Err(format!(
+            "{p:?} is outside, in the hull of {:?}",
+            claim.faces
+        )),
+        None => Ok(all.len()),
+    }
+}
+
+/// A patch's points, facets and faces are those of the mesh, and its hull's.
+///
+/// # Errors
+/// Which of them is not.
+pub fn check_polytope(mesh: &Mesh, claim: &Claim<'_>) -> Law {
+    check_points(mesh, claim.polytope)?;
+    check_hull(claim.polytope)?;
+    check_names(mesh, claim)
+}
+
+fn check_points(mesh: &Mesh, polytope: &Polytope) -> Law {
+    if polytope.points.len() != polytope.vertex_ids.len() || polytope.radius != 0.0 {
+        return Err("not as many numbers as points, or a radius".into());
+    }
+    for (k, (p, &id)) in polytope.points.iter().zip(&polytope.vertex_ids).enumerate() {
+        if mesh.vertices.get(id as usize) != Some(p) {
+            return Err(format!("{p} is not vertex {id}"));
+        }
+        if polytope.points[..k].contains(p) {
+            return Err(format!("{p} is there twice"));
+        }
+    }
+    Ok(())
+}
+
+/// Facets are convex polygons with every point behind them, that together are closed.
+fn check_hull(polytope: &Polytope) -> Law {
+    let points = &polytope.points;
+    let spots: Vec<Blend> = points.iter().map(|&p| Blend::mean([p])).collect();
+    let mut edges: HashMap<(u32, u32), i32> = HashMap::new();
+    for facet in &polytope.facets {
+        let corners = &facet.corners;
+        for k in 0..corners.len() {
+            let (v, w) = (corners[k], corners[(k + 1) % corners.len()]);
+            *edges.entry((v, w)).or_default() += 1;
+            *edges.entry((w, v)).or_default() -= 1;
+        }
+        let fan: Vec<[DVec3; 3]> = triangles(polytope, corners).collect();
+        let polygon: Vec<DVec3> = corners.iter().map(|&c| points[c as usize]).collect();
+        if fan.is_empty() || !is_convex_polygon(&polygon) {
+            return Err(format!("{facet:?} has no area, or is not convex"));
+        }
+        for triangle in fan {
+            let front = |p: &&Blend| side_of(triangle, p) == Ordering::Greater;
+            if let Some(p) = spots.iter().find(front) {
+                return Err(format!("{p:?} is in front of {facet:?}"));
+            }
+        }
+    }
+    match edges.iter().find(|edge| *edge.1 != 0) {
+        Some((edge, _)) => Err(format!("the facets are open at {edge:?}")),
+        None if polytope.facets.len() < 2 => Err("too few facets".into()),
+        None => Ok(()),
+    }
+}
+
+/// Triangles that make up a polygon, those without an area left out.
+fn triangles<'a>(
+    polytope: &'a Polytope,
+    corners: &'a [u32],
+) -> impl Iterator<Item = [DVec3; 3]> + 'a {
+    let at = |k: usize| polytope.points[corners[k] as usize];
+    let fan = (2..corners.len()).map(move |k| [at(0), at(k - 1), at(k)]);
+    fan.filter(|triangle| !is_degenerate(*triangle))
+}
+
+/// Every face of the patch is named once, by a facet that it is or that it lies on, seen from outside.
+fn check_names(mesh: &Mesh, claim: &Claim<'_>) -> Law {
+    let polytope = claim.polytope;
+    let mut named = Vec::new();
+    for facet in &polytope.facets {
+        if let Origin::Face(id) = facet.origin {
+            named.push(id);
+            let corners = facet.corners.iter().map(|&c| polytope.points[c as usize]);
+            if !is_loop(&corners.collect::<Vec<_>>(), outward(mesh, id)?) {
+                return Err(format!("{facet:?} is not face {id}"));
+            }
+        }
+    }
+    for it in &polytope.faces {
+        named.push(it.id);
+        if !is_loop(&it.corners, outward(mesh, it.id)?) {
+            return Err(format!("{it:?} is not face {}", it.id));
+        }
+        let holds = |corners: &[u32]| it.corners.iter().all(|&p| lies_on(polytope, corners, p));
+        let is_whole = |facet: &&Facet| matches!(facet.origin, Origin::Face(_));
+        let mut others = polytope.facets.iter().filter(|it| !is_whole(it));
+        if !others.any(|facet| holds(&facet.corners)) {
+            return Err(format!("{it:?} lies on no facet that is not a face"));
+        }
+    }
+    check_merged(polytope)?;
+    named.sort_unstable();
+    let mut faces = claim.faces.to_vec();
+    faces.sort_unstable();
+    match named == faces {
+        true => Ok(()),
+        false => Err(format!(
+            "the faces are {faces:?}, but named are {named:?}: {polytope:?}"
+        )),
+    }
+}
+
+/// A facet that consists of several faces has no point that is on none of them.
+fn check_merged(polytope: &Polytope) -> Law {
+    let merged = |facet: &&Facet| facet.origin == Origin::Faces;
+    for facet in polytope.facets.iter().filter(merged) {
+        let corners: Vec<DVec3> = facet
+            .corners
+            .iter()
+            .map(|&c| polytope.points[c as usize])
+            .collect();
+        // Between the middle and each edge, and nearer to each corner.
+        let inner = (0..2 * corners.len()).map(|k| {
+            let drawn = [k / 2, k.div_ceil(2)].map(|k| (5, corners[k % corners.len()]));
+            Blend::new(corners.iter().map(|&p| (1, p)).chain(drawn))
+        });
+        let on_face = |p: &Blend| {
+            let mut faces = polytope.faces.iter();
+            faces.any(|face| triangle_holds(face.corners, p))
+        };
+        if let Some(p) = inner.into_iter().find(|p| !on_face(p)) {
+            return Err(format!("{p:?} is on no face of {facet:?}"));
+        }
+    }
+    Ok(())
+}
+
+/// The corners of a face, counter-clockwise seen from outside.
+fn outward(mesh: &Mesh, id: u32) -> Result<[DVec3; 3], String> {
+    if id as usize >= mesh.faces.len() {
+        return Err(format!("there is no face {id}"));
+    }
+    let [a, b, c] = mesh.triangle(id as usize);
+    Ok(match mesh.signed_volume() < 0.0 {
+        true => [a, c, b],
+        false => [a, b, c],
+    })
+}
+
+/// Whether a loop is that of a triangle, wherever it begins.
+fn is_loop(corners: &[DVec3], [a, b, c]: [DVec3; 3]) -> bool {
+    [[a, b, c], [b, c, a], [c, a, b]]
+        .iter()
+        .any(|it| corners == it)
+}
+
+/// Whether a convex polygon holds a point.
+fn lies_on(polytope: &Polytope, corners: &[u32], p: DVec3) -> bool {
+    let spot = Blend::mean([p]);
+    triangles(polytope, corners).any(|triangle| triangle_holds(triangle, &spot))
+}
