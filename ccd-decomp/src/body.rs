@@ -11,7 +11,7 @@ use crate::repair::Repairs;
 use crate::report::{PiecesKind, Report, Why};
 use crate::surface::{Decomposition, Order, Patch, decompose};
 use crate::topology::Topology;
-use crate::vhacd::approximate;
+use crate::vhacd::{Approximation, approximate};
 use ccd_core::{Body, Hierarchy, HullTree, Pieces, Polytope, Volume};
 
 /// Of what pieces a body is to be made.
@@ -92,8 +92,7 @@ pub fn prepare(mesh: &TriangleMesh, detail: Detail) -> Result<Model, BodyError> 
         }
         Detail::Vhacd { hulls } => {
             let approximation = approximate(mesh, hulls)?;
-            let sticks_out = approximation.sticks_out;
-            (Parts::Vhacd(approximation.polytopes, sticks_out), Why::Asked)
+            (Parts::Vhacd(approximation), Why::Asked)
         }
     };
     parts.into_model(mesh, why)
@@ -104,8 +103,7 @@ pub(crate) enum Parts {
     Triangles,
     Patches(Decomposition),
     Hull(Box<Polytope>),
-    /// With how far the hulls stick out.
-    Vhacd(Vec<Polytope>, f64),
+    Vhacd(Approximation),
 }
 
 impl Parts {
@@ -113,10 +111,10 @@ impl Parts {
         let topology = Topology::of(mesh);
         let volume = match (&self, topology.is_closed()) {
             // Hulls are filled by themselves.
-            (Parts::Vhacd(..), _) | (_, false) => Volume::Surface,
+            (Parts::Vhacd(_), _) | (_, false) => Volume::Surface,
             (_, true) => Volume::Solid,
         };
-        let mut sticks_out = 0.0;
+        let (mut inflated_by, mut sticks_out) = (0.0, 0.0);
         let mut virtual_faces = 0;
         let (kind, pieces) = match self {
             Parts::Triangles => (
@@ -129,10 +127,12 @@ impl Parts {
                 (PiecesKind::Patches, Pieces::polytopes(&polytopes)?)
             }
             Parts::Hull(polytope) => (PiecesKind::Hull, Pieces::polytopes(&[*polytope])?),
-            Parts::Vhacd(polytopes, by) => {
-                sticks_out = by;
+            Parts::Vhacd(approximation) => {
+                inflated_by = approximation.uncovered;
+                sticks_out = approximation.sticks_out;
+                let polytopes = &approximation.polytopes;
                 virtual_faces = polytopes.iter().map(|p| p.facets.len()).sum();
-                (PiecesKind::Vhacd, Pieces::polytopes(&polytopes)?)
+                (PiecesKind::Vhacd, Pieces::polytopes(polytopes)?)
             }
         };
         let hierarchy = build_hierarchy(&pieces)?;
@@ -144,6 +144,7 @@ impl Parts {
                 pieces: pieces.len(),
                 virtual_faces,
                 tree_nodes: hierarchy.nodes().len(),
+                inflated_by,
                 sticks_out,
                 volume,
                 topology: Some(topology),
@@ -202,6 +203,7 @@ impl Prepared {
                 pieces: body.pieces().len(),
                 virtual_faces: 0,
                 tree_nodes: 1,
+                inflated_by: 0.0,
                 sticks_out: 0.0,
                 volume: body.volume(),
                 topology: None,

@@ -22,6 +22,12 @@ pub(crate) fn too_fine(points: &[DVec3]) -> Option<usize> {
 /// counter-clockwise from, `Less` behind, `Equal` in the plane, or when the triangle has no area.
 #[inline]
 pub(crate) fn side(triangle: [DVec3; 3], point: DVec3) -> Ordering {
+    let [p, q, r] = triangle;
+    let level = p.cmpeq(q) & p.cmpeq(r) & p.cmpeq(point);
+    if level.any() {
+        // In a plane across a coordinate axis, which would take the predicate its longest computation.
+        return Ordering::Equal;
+    }
     let [a, b, c] = triangle.map(coord3);
     // Shewchuk's determinant is positive below.
     sign(-orient3d(a, b, c, coord3(point)))

@@ -22,6 +22,9 @@ pub struct Report {
     pub virtual_faces: usize,
     /// How many nodes the hierarchy over the pieces has.
     pub tree_nodes: usize,
+    /// By how much the pieces were grown so that they certainly cover the mesh, in its unit of length; 0
+    /// for all exact kinds.
+    pub inflated_by: f64,
     /// How far the pieces reach beyond the solid at most, or beyond the surface of an open mesh, in the
     /// mesh's unit of length: contacts may be reported early by as much. 0 for all exact kinds.
     pub sticks_out: f64,

@@ -8,6 +8,7 @@ use crate::body::Model;
 use crate::error::Prefix;
 use crate::report::Report;
 use ccd_core::{Hierarchy, HullNode, HullTree, Pieces, Volume};
+use std::fmt;
 use std::fs::File;
 use std::io::{self, BufReader, Read, Write};
 use std::path::{Path, PathBuf};
@@ -128,21 +129,21 @@ impl Model {
     fn unpack(reader: impl Read) -> Result<Self, StoreFault> {
         let payload = frame::read(reader)?;
         let (stored, rest): (Stored, &[u8]) =
-            postcard::take_from_bytes(&payload).map_err(StoreFault::invalid)?;
+            postcard::take_from_bytes(&payload).map_err(|error| StoreFault::invalid(&error))?;
         if !rest.is_empty() {
-            return Err(StoreFault::invalid("there is more than a body"));
+            return Err(StoreFault::invalid(&"there is more than a body"));
         }
         let (pieces, hierarchy, volume, nodes, report) = stored;
         let tree = |nodes: Vec<HullNode>| HullTree::new(&pieces, &nodes);
         let hull_tree = nodes.map(tree).transpose();
         let model = Model {
-            hull_tree: hull_tree.map_err(StoreFault::invalid)?,
+            hull_tree: hull_tree.map_err(|error| StoreFault::invalid(&error))?,
             pieces,
             hierarchy,
             volume,
             report,
         };
-        model.check().map_err(StoreFault::invalid)?;
+        model.check().map_err(|error| StoreFault::invalid(&error))?;
         Ok(model)
     }
 
@@ -162,7 +163,7 @@ impl Model {
 }
 
 impl StoreFault {
-    fn invalid(problem: impl ToString) -> Self {
+    fn invalid(problem: &dyn fmt::Display) -> Self {
         StoreFault::Invalid {
             problem: problem.to_string(),
         }
