@@ -3,6 +3,7 @@
 use crate::error::InputError;
 use crate::feature::Feature;
 use crate::hierarchy::Hierarchy;
+#[cfg(feature = "hull-tree")]
 use crate::hull_tree::{HullTree, HullTreeError};
 use crate::naming::face_under;
 use crate::oracle::Combination;
@@ -30,6 +31,7 @@ pub struct Body {
     /// Which way the faces of a solid are turned.
     facing: Facing,
     /// Its leaves name the pieces in the order of the tree.
+    #[cfg(feature = "hull-tree")]
     hull_tree: Option<HullTree>,
 }
 
@@ -81,6 +83,7 @@ impl Body {
             pieces,
             tree,
             volume,
+            #[cfg(feature = "hull-tree")]
             hull_tree: None,
         })
     }
@@ -90,6 +93,7 @@ impl Body {
     /// # Errors
     /// [`HullFault::NotAPiece`](crate::HullFault::NotAPiece) unless its leaves are the body's pieces,
     /// to the bit and in any order.
+    #[cfg(feature = "hull-tree")]
     pub fn with_hull_tree(mut self, tree: HullTree) -> Result<Self, HullTreeError> {
         self.hull_tree = Some(tree.renumbered(&self.pieces)?);
         Ok(self)
@@ -106,13 +110,17 @@ impl Body {
     }
 
     /// The hull tree over its pieces, if it was given one; its leaves name [`Body::pieces`].
+    #[cfg(feature = "hull-tree")]
     pub fn hull_tree(&self) -> Option<&HullTree> {
         self.hull_tree.as_ref()
     }
 
     /// Bytes held, about.
     pub fn bytes(&self) -> usize {
+        #[cfg(feature = "hull-tree")]
         let hulls = self.hull_tree.as_ref().map_or(0, HullTree::bytes);
+        #[cfg(not(feature = "hull-tree"))]
+        let hulls = 0;
         self.pieces.bytes() + self.tree.bytes() + hulls
     }
 

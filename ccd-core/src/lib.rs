@@ -71,6 +71,7 @@
 //!
 //! # Features
 //! - `nalgebra`: conversions between [`Pose`] and `nalgebra::Isometry3<f64>`.
+//! - `hull-tree`: trees of convex hulls, checked by exact predicates, and the schedule over them.
 //! - `serde`: pieces, hierarchies and hull trees can be stored; what is read is checked as what is
 //!   made.
 //! - `avx512`: lets the crate be built with AVX-512, which rustc 1.95 miscompiles plain f64 code with;
@@ -87,6 +88,7 @@ mod containment;
 mod error;
 mod feature;
 mod hierarchy;
+#[cfg(feature = "hull-tree")]
 mod hull_tree;
 #[cfg(feature = "nalgebra")]
 mod interop;
@@ -117,6 +119,7 @@ pub use error::InputError;
 pub use feature::Feature;
 pub use glam;
 pub use hierarchy::{Hierarchy, HierarchyNode};
+#[cfg(feature = "hull-tree")]
 pub use hull_tree::{FacetClass, Hull, HullFault, HullNode, HullTree, HullTreeError};
 pub use motion::Motion;
 pub use oracle::{Claim, Combination, DistanceOracle, GiveUp, OrElse, PiecePair};

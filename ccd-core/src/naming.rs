@@ -26,7 +26,8 @@ pub(crate) fn of_polytope(piece: &Piece<'_>, point: &Combination) -> Name {
     });
     if let [v, w] = *support {
         let joins = |corners: &[u32]| {
-            let mut ends = (0..corners.len()).map(|k| (corners[k], corners[(k + 1) % corners.len()]));
+            let mut ends =
+                (0..corners.len()).map(|k| (corners[k], corners[(k + 1) % corners.len()]));
             ends.any(|ends| ends == (v, w) || ends == (w, v))
         };
         if faces.len() == 0 || whole.clone().any(|(_, corners)| joins(corners)) {

@@ -37,7 +37,8 @@ impl<'a> Piece<'a> {
             let points = self.points;
             let at = move |k: usize| points[corners[k] as usize];
             let fan = (1..corners.len() - 1).map(move |k| [at(0), at(k), at(k + 1)]);
-            id.into_iter().flat_map(move |id| fan.clone().map(move |t| (id, t)))
+            id.into_iter()
+                .flat_map(move |id| fan.clone().map(move |t| (id, t)))
         });
         let faces = self.facets.faces.iter();
         fans.chain(faces.map(|face| (face.id, face.corners)))

@@ -11,7 +11,10 @@ use glam::DVec3;
 /// The pieces of one body, flat in memory, with the numbers of the mesh they came from.
 #[derive(Clone, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "serial::Stored", into = "serial::Stored"))]
+#[cfg_attr(
+    feature = "serde",
+    serde(try_from = "serial::Stored", into = "serial::Stored")
+)]
 pub struct Pieces {
     points: Vec<DVec3>,
     vertex_ids: Vec<u32>,
@@ -33,7 +36,9 @@ enum Radii {
 #[derive(Clone, Debug)]
 enum Shape {
     /// Every piece is a triangle; the mesh's number of each.
-    Triangles { face_ids: Vec<u32> },
+    Triangles {
+        face_ids: Vec<u32>,
+    },
     Polytopes(Box<Surfaces>),
 }
 
@@ -195,9 +200,7 @@ impl Pieces {
             Shape::Triangles { .. } => 0,
             Shape::Polytopes(surfaces) => surfaces.bytes(),
         };
-        size_of_val(self.points.as_slice())
-            + 4 * (self.vertex_ids.len() + 2 * self.len())
-            + facets
+        size_of_val(self.points.as_slice()) + 4 * (self.vertex_ids.len() + 2 * self.len()) + facets
     }
 
     /// The three corners of a piece of which [`Pieces::all_triangles`] holds.

@@ -212,8 +212,8 @@ pub const BELOW_SURFACE: f64 = 1e-6;
 pub const HEIGHT_F64: f64 = 4.0 * U64;
 
 /// The share of the time left that a pair of nodes of two hull trees has to advance by to be looked
-/// at again rather than split, where their distance is not that of the pieces below. Measured on
-/// patches of knots, a ring and a bunny: an eighth, a half and never differ by less than a tenth.
+/// at again rather than split, where their distance is not that of the pieces below. On patches of
+/// knots, a ring and a bunny a half and never made no clear difference.
 pub const HULL_PROGRESS: f64 = 1.0 / 2.0;
 
 /// Up to this many points of a piece are all looked at for the farthest one; of more, edges are

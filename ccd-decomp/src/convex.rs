@@ -21,13 +21,19 @@ pub(crate) fn as_polytope(manifold: &Manifold<'_>) -> Result<Polytope, Decompose
         let edge = Edge(v.min(w), v.max(w));
         return Err(DecomposeError::NotConvex { edge });
     }
-    let parts = shells(manifold).into_iter().max().map_or(0, |last| last + 1);
+    let parts = shells(manifold)
+        .into_iter()
+        .max()
+        .map_or(0, |last| last + 1);
     if parts > 1 {
         return Err(DecomposeError::NotInOnePart { parts });
     }
     let points = manifold.mesh().vertices();
     let polygons = polygons(points, manifold.faces());
-    let mut corners: Vec<u32> = polygons.iter().flat_map(|p| p.corners.iter().copied()).collect();
+    let mut corners: Vec<u32> = polygons
+        .iter()
+        .flat_map(|p| p.corners.iter().copied())
+        .collect();
     corners.sort_unstable();
     corners.dedup();
     let mut polytope = Polytope::default();
@@ -36,10 +42,12 @@ pub(crate) fn as_polytope(manifold: &Manifold<'_>) -> Result<Polytope, Decompose
         let origin = match polygon.triangles[..] {
             [face] => Origin::Face(id(face)),
             _ => {
-                polytope.faces.extend(polygon.triangles.iter().map(|&face| Face {
-                    id: id(face),
-                    corners: manifold.triangle(face),
-                }));
+                polytope
+                    .faces
+                    .extend(polygon.triangles.iter().map(|&face| Face {
+                        id: id(face),
+                        corners: manifold.triangle(face),
+                    }));
                 Origin::Faces
             }
         };

@@ -172,7 +172,11 @@ impl<'a, 'm> Merger<'a, 'm> {
             for &face in &region.faces {
                 flat_of[face as usize] = flats.len() as u32;
             }
-            let starts: Vec<u32> = region.rim.iter().map(|&h| self.manifold.ends(h)[0]).collect();
+            let starts: Vec<u32> = region
+                .rim
+                .iter()
+                .map(|&h| self.manifold.ends(h)[0])
+                .collect();
             flats.push(Flat {
                 corners: strict_corners(&points, &starts, region.plane),
                 faces: region.faces,

@@ -1,14 +1,13 @@
 //! What can be wrong with a file, a mesh or the description of a body.
 
-use crate::predicates::MIN_COORDINATE;
+use crate::hull_tree::BuildError;
 use crate::self_intersection::Crossing;
 use crate::store::StoreError;
 use crate::tally::Tally;
 use crate::topology::{Edge, Topology};
-use crate::hull_tree::BuildError;
 use crate::vhacd::VhacdError;
+use ccd_core::tolerance::{LEAST_COORDINATE, MAX_COORDINATE};
 use ccd_core::{HullTreeError, InputError};
-use ccd_core::tolerance::MAX_COORDINATE;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::io;
@@ -188,7 +187,7 @@ pub enum DecomposeError {
         parts: u32,
     },
     /// A coordinate is too near to 0 for exact computations.
-    #[error("vertex {vertex} has a coordinate nearer to 0 than {MIN_COORDINATE:e}; make it 0")]
+    #[error("vertex {vertex} has a coordinate nearer to 0 than {LEAST_COORDINATE:e}; make it 0")]
     TooFine {
         /// The vertex.
         vertex: usize,

@@ -68,7 +68,8 @@ impl<'m> Manifold<'m> {
                 if turned { [a, c, b] } else { [a, b, c] }
             })
             .collect();
-        let boxes = TriangleBoxes::new(faces.iter().map(|f| f.map(|v| mesh.vertices()[v as usize])));
+        let boxes =
+            TriangleBoxes::new(faces.iter().map(|f| f.map(|v| mesh.vertices()[v as usize])));
         let manifold = Manifold {
             twins: twins(&faces),
             mesh,

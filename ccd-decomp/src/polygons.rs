@@ -24,7 +24,11 @@ pub(crate) fn polygons(points: &[DVec3], triangles: &[[u32; 3]]) -> Vec<Polygon>
     for (t, &number) in group_of.iter().enumerate() {
         let group = &mut groups[number as usize];
         group.triangles.push(t as u32);
-        let inner = |k: usize| surface.twins(t, k).any(|(twin, _)| group_of[twin] == number);
+        let inner = |k: usize| {
+            surface
+                .twins(t, k)
+                .any(|(twin, _)| group_of[twin] == number)
+        };
         let rim = (0..3).filter(|&k| !inner(k)).map(|k| surface.edge(t, k));
         group.rim.extend(rim);
     }
@@ -106,7 +110,9 @@ impl<'a> Surface<'a> {
     fn twins(&self, triangle: usize, k: usize) -> impl Iterator<Item = (usize, usize)> {
         let (a, b) = self.edge(triangle, k);
         let first = self.edges.partition_point(|e| (e.0, e.1) < (b, a));
-        let same = self.edges[first..].iter().take_while(move |e| (e.0, e.1) == (b, a));
+        let same = self.edges[first..]
+            .iter()
+            .take_while(move |e| (e.0, e.1) == (b, a));
         same.map(|e| (e.2 as usize, e.3 as usize))
     }
 

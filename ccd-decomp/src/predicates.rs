@@ -1,18 +1,13 @@
 //! On which side of a plane or line does a point lie: exactly, by the crate `robust` `[SHE97]`.
 
 use ccd_core::glam::DVec3;
+use ccd_core::tolerance::LEAST_COORDINATE;
 use robust::{Coord, Coord3D, orient2d, orient3d};
 use std::cmp::Ordering;
 
-/// Coordinates nearer to 0 than this, 0 itself excepted, are too fine for exact predicates.
-///
-/// The last bit of a coordinate c is at least 2⁻⁵³ |c|, the error terms of a determinant are multiples
-/// of the product of three such bits, and that has to be a number: (2⁻⁵³ · 1e-90)³ > 2⁻¹⁰⁷⁴.
-pub const MIN_COORDINATE: f64 = 1e-90;
-
-/// The first point with a coordinate that is [too fine](MIN_COORDINATE) for the predicates to be exact.
+/// The first point with a coordinate that is [too fine](LEAST_COORDINATE) for the predicates to be exact.
 pub(crate) fn too_fine(points: &[DVec3]) -> Option<usize> {
-    let fine = |x: f64| x != 0.0 && x.abs() < MIN_COORDINATE;
+    let fine = |x: f64| x != 0.0 && x.abs() < LEAST_COORDINATE;
     points
         .iter()
         .position(|p| p.to_array().into_iter().any(fine))

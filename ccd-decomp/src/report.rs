@@ -120,7 +120,10 @@ impl fmt::Display for Report {
         }
         if !self.is_exact() {
             let by = self.sticks_out;
-            write!(f, ", sticking out by up to {by:.3e}: contacts may be early by that")?;
+            write!(
+                f,
+                ", sticking out by up to {by:.3e}: contacts may be early by that"
+            )?;
         }
         match self.remarks() {
             remarks if remarks.is_empty() => Ok(()),
@@ -157,6 +160,9 @@ impl fmt::Display for Why {
 impl fmt::Display for Estimate {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (triangles, patches) = (self.triangles, self.patches);
-        write!(f, "{triangles:.0} µs over triangles, {patches:.0} µs over patches")
+        write!(
+            f,
+            "{triangles:.0} µs over triangles, {patches:.0} µs over patches"
+        )
     }
 }

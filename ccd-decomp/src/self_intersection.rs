@@ -4,8 +4,8 @@ use crate::manifold::Manifold;
 use crate::predicates::{Projection, side};
 use crate::triangle_boxes::Bounds;
 use ccd_core::glam::DVec3;
-use std::cmp::Ordering;
 use serde::{Deserialize, Serialize};
+use std::cmp::Ordering;
 use std::fmt;
 
 /// Two faces of a mesh, by their numbers, that meet elsewhere than in a shared vertex or edge.
@@ -55,9 +55,7 @@ fn cross(manifold: &Manifold<'_>, one: u32, other: u32) -> bool {
             !beyond(0)
                 && !beyond(1)
                 && (0..3).any(|k| {
-                    let edge = |which: usize| {
-                        [triangles[which][k], triangles[which][(k + 1) % 3]]
-                    };
+                    let edge = |which: usize| [triangles[which][k], triangles[which][(k + 1) % 3]];
                     meets(edge(0), triangles[1]) || meets(edge(1), triangles[0])
                 })
         }

@@ -76,7 +76,12 @@ fn winding_of_others(manifold: &Manifold<'_>, shell_of: &[u32], faces: &[u32]) -
         .collect();
     let near = manifold.triangle(faces[0])[0];
     let way = |p: &DVec3| p.distance(near);
-    let size = manifold.mesh().vertices().iter().map(way).fold(0.0, f64::max);
+    let size = manifold
+        .mesh()
+        .vertices()
+        .iter()
+        .map(way)
+        .fold(0.0, f64::max);
     (0..RAY_TRIES).find_map(|k| {
         // Shells may touch at a corner, so that it is another one each time.
         let from = manifold.triangle(faces[k % faces.len()])[k % 3];

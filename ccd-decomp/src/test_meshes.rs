@@ -41,7 +41,9 @@ pub(crate) fn cubes(cells: &[[i32; 3]]) -> TriangleMesh {
 /// All cells of a block.
 pub(crate) fn block([x, y, z]: [i32; 3]) -> Vec<[i32; 3]> {
     let columns = (0..x).flat_map(move |i| (0..y).map(move |j| (i, j)));
-    columns.flat_map(|(i, j)| (0..z).map(move |k| [i, j, k])).collect()
+    columns
+        .flat_map(|(i, j)| (0..z).map(move |k| [i, j, k]))
+        .collect()
 }
 
 /// A tetrahedron, its faces outward.

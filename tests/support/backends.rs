@@ -2,8 +2,8 @@
 
 use crate::models::Kind;
 use crate::query::{Bodies, Query};
-use ccd_core::schedule::{BestFirst, Naive};
-use ccd_core::{Answer, Config, DistanceOracle, Problem, Schedule};
+use ccd_core::schedule::{BestFirst, HullFirst, Naive};
+use ccd_core::{Answer, Body, Config, DistanceOracle, Problem, Schedule};
 use ccd_distance_gjk::{Auto, Direct, Gjk, GjkF32};
 
 /// The schedules.
@@ -11,6 +11,8 @@ use ccd_distance_gjk::{Auto, Direct, Gjk, GjkF32};
 pub enum Order {
     /// A queue of clocks.
     BestFirst,
+    /// The same over pairs of nodes of hull trees.
+    HullFirst,
     /// All pairs, one step for all.
     Naive,
 }
@@ -59,19 +61,24 @@ impl Backend {
     /// Every schedule with every oracle.
     pub fn all() -> impl Iterator<Item = Backend> {
         let oracles = [Oracle::Direct, Oracle::Gjk, Oracle::GjkF32, Oracle::Auto];
-        [Order::BestFirst, Order::Naive]
+        [Order::BestFirst, Order::HullFirst, Order::Naive]
             .into_iter()
             .flat_map(move |order| oracles.map(|oracle| Backend { order, oracle }))
     }
 
     /// Whether it is made for such bodies, and answers within a test's patience.
     pub fn suits(self, bodies: &Bodies) -> bool {
-        let few = bodies.pairs() <= NAIVE_PAIRS || self.order != Order::Naive;
+        let fit = match self.order {
+            Order::BestFirst => true,
+            // Without trees it is another schedule's answer.
+            Order::HullFirst => bodies.pairs() > 1 && [bodies.a(), bodies.b()].iter().all(has_tree),
+            Order::Naive => bodies.pairs() <= NAIVE_PAIRS,
+        };
         let small = self.oracle != Oracle::Direct
             || [bodies.a(), bodies.b()]
                 .iter()
                 .all(|body| body.pieces().iter().all(|piece| piece.points.len() <= 3));
-        few && small
+        fit && small
     }
 
     /// Answers with a fresh schedule and a fresh oracle.
@@ -88,9 +95,14 @@ impl Backend {
     pub fn solve_with<O: DistanceOracle>(self, problem: &Problem<'_>, oracle: &mut O) -> Answer {
         match self.order {
             Order::BestFirst => BestFirst::<O>::default().solve(problem, oracle),
+            Order::HullFirst => HullFirst::<O>::default().solve(problem, oracle),
             Order::Naive => Naive::<O>::default().solve(problem, oracle),
         }
     }
+}
+
+fn has_tree(body: &&Body) -> bool {
+    body.pieces().len() == 1 || body.hull_tree().is_some()
 }
 
 /// Calls `check` with the answer of every setup that suits the query.

@@ -8,7 +8,14 @@ fn box_on_a_square() -> Body {
         origin,
         corners: corners.to_vec(),
     };
-    let box_of = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
+    let box_of = [
+        [0, 4, 6, 2],
+        [1, 3, 7, 5],
+        [0, 1, 5, 4],
+        [2, 6, 7, 3],
+        [0, 2, 3, 1],
+        [4, 5, 7, 6],
+    ];
     let boxed = Polytope {
         points: (0..8)
             .map(|k| DVec3::new(sign(k, 0), sign(k, 1), sign(k, 2) + 1.0))
@@ -33,7 +40,9 @@ fn box_on_a_square() -> Body {
 #[test]
 fn a_virtual_facet_on_the_surface_takes_the_name_of_the_face_there() {
     let body = box_on_a_square();
-    let boxed = (0..2).find(|&k| body.pieces().get(k).points.len() == 8).unwrap();
+    let boxed = (0..2)
+        .find(|&k| body.pieces().get(k).points.len() == 8)
+        .unwrap();
     let mean = |corners: &[u32]| {
         let mut mean = Combination::EMPTY;
         corners.iter().for_each(|&corner| mean.push(corner, 1.0));

@@ -73,7 +73,10 @@ fn polytopes_that_are_none_are_refused() {
     assert_eq!(refused(Polytope::default()), Some(empty));
     assert_eq!(Pieces::polytopes(&[]).err(), Some(InputError::NoPieces));
     for corners in [vec![0, 1], vec![0, 1, 4], vec![]] {
-        let facet = |corners: Vec<u32>| Facet { origin: Origin::Face(0), corners };
+        let facet = |corners: Vec<u32>| Facet {
+            origin: Origin::Face(0),
+            corners,
+        };
         let polytope = Polytope {
             points: CORNERS.to_vec(),
             facets: vec![facet(vec![0, 1, 2]), facet(corners)],
@@ -120,7 +123,10 @@ fn boxes_name_corners_edges_and_facets() {
 fn balls_and_capsules_name_their_points() {
     let capsule = Body::capsule(0.5, 1.0).unwrap();
     assert_eq!(capsule.pieces().feature(0, &mean(&[1])), Feature::Vertex(1));
-    assert_eq!(capsule.pieces().feature(0, &mean(&[0, 1])), Feature::Edge(0, 1));
+    assert_eq!(
+        capsule.pieces().feature(0, &mean(&[0, 1])),
+        Feature::Edge(0, 1)
+    );
     assert_eq!(capsule.pieces().get(0).radius, 0.5);
 }
 
@@ -170,7 +176,10 @@ fn points_on_virtual_facets_within_a_face_are_named_by_it() {
     // The bottom of a box is two triangles of the mesh; its other facets are virtual.
     let sign = |k: u32, bit: u32| if k >> bit & 1 == 1 { 1.0 } else { -1.0 };
     let corner = |k| DVec3::new(sign(k, 0), sign(k, 1), sign(k, 2));
-    let facet = |origin, corners: &[u32]| Facet { origin, corners: corners.to_vec() };
+    let facet = |origin, corners: &[u32]| Facet {
+        origin,
+        corners: corners.to_vec(),
+    };
     let polytope = Polytope {
         points: (0..8).map(corner).collect(),
         facets: vec![
@@ -178,15 +187,23 @@ fn points_on_virtual_facets_within_a_face_are_named_by_it() {
             facet(Origin::Virtual, &[4, 5, 7, 6]),
         ],
         faces: vec![
-            Face { id: 10, corners: [corner(0), corner(2), corner(3)] },
-            Face { id: 11, corners: [corner(0), corner(3), corner(1)] },
+            Face {
+                id: 10,
+                corners: [corner(0), corner(2), corner(3)],
+            },
+            Face {
+                id: 11,
+                corners: [corner(0), corner(3), corner(1)],
+            },
         ],
         ..Polytope::default()
     };
     let pieces = Pieces::polytopes(&[polytope]).unwrap();
     let weighted = |terms: &[(u32, f64)]| {
         let mut point = Combination::EMPTY;
-        terms.iter().for_each(|&(corner, weight)| point.push(corner, weight));
+        terms
+            .iter()
+            .for_each(|&(corner, weight)| point.push(corner, weight));
         pieces.feature(0, &point)
     };
     assert_eq!(weighted(&[(1, 0.5), (2, 0.4)]), Feature::Face(11));

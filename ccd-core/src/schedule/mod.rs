@@ -3,6 +3,7 @@
 mod best_first;
 mod expand;
 mod group;
+#[cfg(feature = "hull-tree")]
 mod hull_first;
 mod lanes;
 mod moment;
@@ -12,6 +13,7 @@ mod queue;
 mod start;
 
 pub use best_first::BestFirst;
+#[cfg(feature = "hull-tree")]
 pub use hull_first::HullFirst;
 pub use naive::Naive;
 

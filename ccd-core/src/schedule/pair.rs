@@ -129,9 +129,8 @@ impl<C: Default + Clone> Pair<C> {
 fn contact(moment: &Moment<'_>, [a, b]: [u32; 2], checked: &Checked) -> Contact {
     let (problem, a_to_world) = (moment.problem, &moment.frames[0]);
     let world = |x: DVec3| problem.world(a_to_world.point(x));
-    let feature = |side: &Side<'_>, piece: u32, point: &Combination| {
-        side.body.feature(piece, point)
-    };
+    let feature =
+        |side: &Side<'_>, piece: u32, point: &Combination| side.body.feature(piece, point);
     Contact {
         separation: Separation {
             lower: checked.lower,

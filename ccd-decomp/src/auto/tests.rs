@@ -27,13 +27,20 @@ fn patches_have_to_be_worth_it() {
     let in_corner = |c: &[i32; 3]| c[0] >= 6 && c[2] >= 6;
     let cells = block([12, 12, 12]).into_iter().filter(|c| !in_corner(c));
     let fine = cubes(&cells.collect::<Vec<_>>());
-    assert!(matches!(why(&fine), Why::PatchesFaster(_)), "{}", why(&fine));
+    assert!(
+        matches!(why(&fine), Why::PatchesFaster(_)),
+        "{}",
+        why(&fine)
+    );
 }
 
 #[test]
 fn the_largest_plane_is_found_whole() {
     // The bottom of a step: 3 × 2 squares.
-    let cells: Vec<_> = block([3, 2, 2]).into_iter().filter(|c| *c != [2, 0, 1]).collect();
+    let cells: Vec<_> = block([3, 2, 2])
+        .into_iter()
+        .filter(|c| *c != [2, 0, 1])
+        .collect();
     let mesh = cubes(&cells);
     let plane = Plane::largest(&Manifold::new(&mesh).unwrap());
     assert_eq!(plane.triangles, 12);
@@ -44,7 +51,10 @@ fn the_largest_plane_is_found_whole() {
 fn what_bounds_no_solid_stays_triangles() {
     let one = tetrahedron();
     let pierced = joined(&[&one, &placed(&one, 1.0, DVec3::splat(0.2))]);
-    assert!(matches!(why(&pierced), Why::TrianglesFaster(_) | Why::NothingElse(_)));
+    assert!(matches!(
+        why(&pierced),
+        Why::TrianglesFaster(_) | Why::NothingElse(_)
+    ));
     let open = crate::test_meshes::mesh(one.vertices().to_vec(), &one.faces()[1..]);
     let Why::NothingElse(error) = why(&open) else {
         panic!("an open mesh bounds no solid");

@@ -2,8 +2,8 @@ use crate::{
     BodyError, BodySource, Detail, Format, MeshFault, SourceError, TriangleMesh, body_from_mesh,
     parse_body,
 };
-use ccd_core::{Combination, Volume};
 use ccd_core::glam::dvec3;
+use ccd_core::{Combination, Volume};
 use rstest::rstest;
 
 const TETRAHEDRON: &str =

@@ -38,5 +38,8 @@ fn what_is_not_convex_is_told_where() {
 
     let one = tetrahedron();
     let two = joined(&[&one, &placed(&one, 1.0, dvec3(5.0, 0.0, 0.0))]);
-    assert_eq!(polytope(&two), Err(DecomposeError::NotInOnePart { parts: 2 }));
+    assert_eq!(
+        polytope(&two),
+        Err(DecomposeError::NotInOnePart { parts: 2 })
+    );
 }

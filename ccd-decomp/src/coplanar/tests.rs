@@ -28,7 +28,10 @@ fn triangles_in_no_common_plane_stay_alone() {
 #[test]
 fn polygons_are_convex_and_leave_nothing_out() {
     // A plate with a hole: 8 cells about a missing one.
-    let cells: Vec<[i32; 3]> = block([3, 3, 1]).into_iter().filter(|c| *c != [1, 1, 0]).collect();
+    let cells: Vec<[i32; 3]> = block([3, 3, 1])
+        .into_iter()
+        .filter(|c| *c != [1, 1, 0])
+        .collect();
     let mesh = cubes(&cells);
     let manifold = Manifold::new(&mesh).unwrap();
     let flats = Flats::new(&manifold);

@@ -2,7 +2,9 @@ use super::*;
 use crate::test_meshes::{block, cubes, joined, mesh, placed, tetrahedron, turned};
 
 fn refusal(mesh: &TriangleMesh) -> String {
-    Manifold::new(mesh).err().map_or(String::new(), |e| e.to_string())
+    Manifold::new(mesh)
+        .err()
+        .map_or(String::new(), |e| e.to_string())
 }
 
 #[test]
@@ -42,12 +44,20 @@ fn a_mesh_that_is_inside_out_is_turned() {
 fn faults_name_the_elements() {
     let solid = tetrahedron();
     let open = mesh(solid.vertices().to_vec(), &solid.faces()[1..]);
-    assert!(refusal(&open).contains("edges with one face: 3 (e0-1"), "{}", refusal(&open));
+    assert!(
+        refusal(&open).contains("edges with one face: 3 (e0-1"),
+        "{}",
+        refusal(&open)
+    );
 
     let mut faces = solid.faces().to_vec();
     faces[3].swap(0, 1);
     let flipped = mesh(solid.vertices().to_vec(), &faces);
-    assert!(refusal(&flipped).contains("look opposite ways: 3 (e0-2"), "{}", refusal(&flipped));
+    assert!(
+        refusal(&flipped).contains("look opposite ways: 3 (e0-2"),
+        "{}",
+        refusal(&flipped)
+    );
 
     // Two tetrahedra along one edge.
     let other = mesh(
@@ -58,14 +68,33 @@ fn faults_name_the_elements() {
     assert!(refusal(&along_an_edge).contains("shared by closed parts: 1 (e0-1)"));
 
     let pierced = joined(&[&solid, &placed(&solid, 1.0, DVec3::splat(0.2))]);
-    assert!(refusal(&pierced).contains("faces that intersect: "), "{}", refusal(&pierced));
+    assert!(
+        refusal(&pierced).contains("faces that intersect: "),
+        "{}",
+        refusal(&pierced)
+    );
 
     let tiny = placed(&solid, 1e-95, DVec3::ZERO);
-    assert!(refusal(&tiny).contains("vertex 1 has a coordinate nearer to 0"), "{}", refusal(&tiny));
+    assert!(
+        refusal(&tiny).contains("vertex 1 has a coordinate nearer to 0"),
+        "{}",
+        refusal(&tiny)
+    );
 
     // A corner on the middle of an edge: one face without area.
     let vertices = vec![DVec3::ZERO, 2.0 * DVec3::X, DVec3::Y, DVec3::Z, DVec3::X];
-    let faces = [[0, 2, 1], [0, 1, 4], [0, 4, 3], [4, 1, 3], [1, 2, 3], [2, 0, 3]];
+    let faces = [
+        [0, 2, 1],
+        [0, 1, 4],
+        [0, 4, 3],
+        [4, 1, 3],
+        [1, 2, 3],
+        [2, 0, 3],
+    ];
     let needle = mesh(vertices, &faces);
-    assert!(refusal(&needle).contains("faces without area: 1 (1)"), "{}", refusal(&needle));
+    assert!(
+        refusal(&needle).contains("faces without area: 1 (1)"),
+        "{}",
+        refusal(&needle)
+    );
 }

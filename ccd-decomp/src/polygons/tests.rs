@@ -20,7 +20,9 @@ fn the_squares_of_a_box_are_polygons() {
 fn a_flat_surface_has_two_sides() {
     for corners in 3..8 {
         let angle = |k: u32| std::f64::consts::TAU * f64::from(k) / f64::from(corners);
-        let points: Vec<DVec3> = (0..corners).map(|k| dvec3(angle(k).cos(), angle(k).sin(), 0.0)).collect();
+        let points: Vec<DVec3> = (0..corners)
+            .map(|k| dvec3(angle(k).cos(), angle(k).sin(), 0.0))
+            .collect();
         let all: Vec<u32> = (0..corners).collect();
         let sides = polygons(&points, ExactHull::polygon(&all).facets());
         assert_eq!(sides.len(), 2);

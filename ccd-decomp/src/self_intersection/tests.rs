@@ -1,5 +1,5 @@
-use crate::manifold::Manifold;
 use crate::error::DecomposeError;
+use crate::manifold::Manifold;
 use crate::self_intersection::Crossing;
 use crate::test_meshes::{cubes, joined, mesh, placed, tetrahedron};
 use ccd_core::glam::{DVec3, dvec3};
@@ -58,11 +58,21 @@ fn a_fold_is_found() {
     ];
     let folded = mesh(vertices, &[[0, 1, 2], [0, 2, 3], [2, 1, 3], [1, 0, 3]]);
     let error = Manifold::new(&folded).err();
-    assert!(matches!(error, Some(DecomposeError::SelfIntersecting { .. })), "{error:?}");
+    assert!(
+        matches!(error, Some(DecomposeError::SelfIntersecting { .. })),
+        "{error:?}"
+    );
 }
 
 #[test]
 fn stairs_do_not_meet_themselves() {
-    let stairs = cubes(&[[0, 0, 0], [1, 0, 0], [2, 0, 0], [1, 0, 1], [2, 0, 1], [2, 0, 2]]);
+    let stairs = cubes(&[
+        [0, 0, 0],
+        [1, 0, 0],
+        [2, 0, 0],
+        [1, 0, 1],
+        [2, 0, 1],
+        [2, 0, 2],
+    ]);
     assert!(Manifold::new(&stairs).is_ok());
 }

@@ -24,7 +24,10 @@ impl Patch {
     pub(super) fn new(manifold: &Manifold<'_>, flats: &Flats, region: &Region) -> Self {
         let points = manifold.mesh().vertices();
         let members: Vec<&Flat> = region.flats().iter().map(|&f| flats.get(f)).collect();
-        let mut faces: Vec<u32> = members.iter().flat_map(|f| f.faces.iter().copied()).collect();
+        let mut faces: Vec<u32> = members
+            .iter()
+            .flat_map(|f| f.faces.iter().copied())
+            .collect();
         faces.sort_unstable();
         let mut polytope = Polytope::default();
         let loops = polygons(points, region.hull().facets());
@@ -79,13 +82,18 @@ impl Cover {
                 && plane.turn(own[0], own[1], own[2]) == Ordering::Greater
         };
         let members: Vec<&Flat> = members.iter().filter(within).copied().collect();
-        let faces: Vec<u32> = members.iter().flat_map(|f| f.faces.iter().copied()).collect();
+        let faces: Vec<u32> = members
+            .iter()
+            .flat_map(|f| f.faces.iter().copied())
+            .collect();
         // Faces that leave nothing out end at the outline only.
         let ours = |face: u32| members.iter().any(|f| f.faces.binary_search(&face).is_ok());
         let mut rims = members.iter().flat_map(|f| f.rim.iter().copied());
         let on_outline = |edge: u32| {
             let [a, b] = manifold.ends(edge).map(at);
-            corners.iter().all(|&p| plane.turn(a, b, p) != Ordering::Less)
+            corners
+                .iter()
+                .all(|&p| plane.turn(a, b, p) != Ordering::Less)
         };
         let whole = rims.all(|edge| ours(manifold.twin(edge) / 3) || on_outline(edge));
         let origin = match (&faces[..], whole) {

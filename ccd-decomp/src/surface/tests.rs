@@ -12,10 +12,16 @@ fn check(mesh: &TriangleMesh, decomposition: &Decomposition) {
     for patch in &decomposition.patches {
         patch.faces.iter().for_each(|&f| seen[f as usize] += 1);
         let polytope = &patch.polytope;
-        let whole = polytope.facets.iter().filter(|f| matches!(f.origin, Origin::Face(_)));
+        let whole = polytope
+            .facets
+            .iter()
+            .filter(|f| matches!(f.origin, Origin::Face(_)));
         assert_eq!(whole.count() + polytope.faces.len(), patch.faces.len());
         assert!(polytope.facets.len() >= 2);
-        let virtual_facets = polytope.facets.iter().filter(|f| f.origin == Origin::Virtual);
+        let virtual_facets = polytope
+            .facets
+            .iter()
+            .filter(|f| f.origin == Origin::Virtual);
         assert_eq!(virtual_facets.count(), patch.virtual_facets());
     }
     assert!(seen.iter().all(|&count| count == 1), "{seen:?}");
@@ -36,13 +42,20 @@ fn patches(mesh: &TriangleMesh) -> Vec<usize> {
 #[case::fine_block(cubes(&block([4, 3, 5])))]
 fn convex_solids_are_one_patch(#[case] mesh: TriangleMesh) {
     assert_eq!(patches(&mesh), [1, 1, 1]);
-    assert_eq!(decompose(&mesh, Order::Cresting).unwrap().patches[0].virtual_facets(), 0);
+    assert_eq!(
+        decompose(&mesh, Order::Cresting).unwrap().patches[0].virtual_facets(),
+        0
+    );
 }
 
 #[test]
 fn a_step_is_a_few_patches() {
     let step = cubes(&[[0, 0, 0], [1, 0, 0], [0, 0, 1]]);
-    assert!(patches(&step).iter().all(|&n| (2..=6).contains(&n)), "{:?}", patches(&step));
+    assert!(
+        patches(&step).iter().all(|&n| (2..=6).contains(&n)),
+        "{:?}",
+        patches(&step)
+    );
 }
 
 #[test]
@@ -68,7 +81,12 @@ fn the_same_mesh_gives_the_same_patches() {
     for order in ORDERS {
         let once = decompose(&mesh, order).unwrap();
         let twice = decompose(&mesh, order).unwrap();
-        let faces = |d: &Decomposition| d.patches.iter().map(|p| p.faces.clone()).collect::<Vec<_>>();
+        let faces = |d: &Decomposition| {
+            d.patches
+                .iter()
+                .map(|p| p.faces.clone())
+                .collect::<Vec<_>>()
+        };
         assert_eq!(faces(&once), faces(&twice));
     }
 }
@@ -88,10 +106,20 @@ fn patches_are_capped() {
         .flat_map(|k| {
             let next = (k + 1) % count;
             let wall = |lower: u32, upper: u32| {
-                [[lower + k, lower + next, upper + next], [lower + k, upper + next, upper + k]]
+                [
+                    [lower + k, lower + next, upper + next],
+                    [lower + k, upper + next, upper + k],
+                ]
             };
             let ([a, b], [c, d]) = (wall(count, 0), wall(2 * count, count));
-            [[k, next, apex], a, b, c, d, [2 * count + next, 2 * count + k, foot]]
+            [
+                [k, next, apex],
+                a,
+                b,
+                c,
+                d,
+                [2 * count + next, 2 * count + k, foot],
+            ]
         })
         .collect();
     let cone = crate::test_meshes::mesh(vertices, &faces);
@@ -101,6 +129,8 @@ fn patches_are_capped() {
     assert!(largest >= Some(PATCH_POLYGONS), "{largest:?}");
     let flank = |f: u32| f % 6 == 0;
     let of_flank = decomposition.patches.iter().filter(|p| flank(p.faces[0]));
-    let most = of_flank.map(|p| p.faces.iter().filter(|&&f| flank(f)).count()).max();
+    let most = of_flank
+        .map(|p| p.faces.iter().filter(|&&f| flank(f)).count())
+        .max();
     assert!(most <= Some(PATCH_POLYGONS), "{most:?}");
 }

@@ -23,7 +23,7 @@ pub use voxels::pile;
 
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{Body, Facet, InputError, Origin, Pieces, Polytope, Volume};
-use ccd_decomp::{Detail, Order, TriangleMesh, body_from_mesh};
+use ccd_decomp::{Detail, Order, TriangleMesh, prepare};
 
 /// A triangle mesh: what the referee looks at, and what the engine is given.
 #[derive(Clone, Debug, PartialEq)]
@@ -192,8 +192,9 @@ impl Shape {
     }
 
     fn prepared(&self, detail: Detail) -> Body {
-        let prepared = body_from_mesh(&self.mesh.for_decomposition(), detail);
-        prepared.expect("a closed mesh").body
+        let model = prepare(&self.mesh.for_decomposition(), detail).expect("a closed mesh");
+        let model = model.with_hull_tree().expect("a hull tree");
+        model.body().expect("a good body")
     }
 
     fn each_point<'a>(&'a mut self, map: impl Fn(DVec3) -> DVec3) {

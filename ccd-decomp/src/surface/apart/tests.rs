@@ -8,9 +8,12 @@ fn is_apart_by_any_plane(points: &[DVec3], hull: &ExactHull, triangle: [u32; 3])
     let all: Vec<u32> = hull.corners().iter().copied().chain(triangle).collect();
     let planes = all.iter().flat_map(|&a| {
         let all = &all;
-        all.iter().flat_map(move |&b| all.iter().map(move |&c| [a, b, c]))
+        all.iter()
+            .flat_map(move |&b| all.iter().map(move |&c| [a, b, c]))
     });
-    planes.into_iter().any(|plane| obstacle.separates(plane, triangle))
+    planes
+        .into_iter()
+        .any(|plane| obstacle.separates(plane, triangle))
 }
 
 fn coarse() -> impl Strategy<Value = DVec3> {
