@@ -258,6 +258,14 @@ pub enum BodyError {
     /// The core does not take it.
     #[error(transparent)]
     Input(#[from] InputError),
+    /// Any of these, of the mesh in a file.
+    #[error("{}: {error}", .file.display())]
+    InFile {
+        /// The file.
+        file: PathBuf,
+        /// What is wrong.
+        error: Box<BodyError>,
+    },
 }
 
 pub(crate) struct Prefix<'a>(pub(crate) &'a Option<PathBuf>);

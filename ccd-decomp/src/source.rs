@@ -67,7 +67,13 @@ impl BodySource {
                 half_height,
             } => Prepared::primitive(Body::capsule(radius, half_height)?),
             BodySource::Stored(ref path) => Model::load(path)?.into_prepared()?,
-            BodySource::Mesh(ref path) => body_from_mesh(&TriangleMesh::read(path)?, detail)?,
+            BodySource::Mesh(ref path) => {
+                let prepared = body_from_mesh(&TriangleMesh::read(path)?, detail);
+                prepared.map_err(|error| BodyError::InFile {
+                    file: path.clone(),
+                    error: Box::new(error),
+                })?
+            }
         })
     }
 }

@@ -109,3 +109,14 @@ fn what_is_wrong_reaches_the_caller_typed() {
         other => panic!("{other:?}"),
     }
 }
+
+#[test]
+fn a_mesh_that_is_not_what_was_asked_for_is_named_with_its_file() {
+    let file = std::env::temp_dir().join(format!("ccd-open-{}.obj", std::process::id()));
+    std::fs::write(&file, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").unwrap();
+    let source = file.display().to_string();
+    let error = parse_body(&source, Detail::Hull).unwrap_err().to_string();
+    std::fs::remove_file(&file).unwrap();
+    let expected = format!("{source}: open; edges with one face: 3 (e0-1, e0-2, e1-2)");
+    assert!(error.starts_with(&expected), "{error}");
+}

@@ -127,7 +127,7 @@ fn patches_are_capped() {
     check(&cone, &decomposition);
     let largest = decomposition.patches.iter().map(|p| p.faces.len()).max();
     assert!(largest >= Some(PATCH_POLYGONS), "{largest:?}");
-    let flank = |f: u32| f % 6 == 0;
+    let flank = |f: u32| f.is_multiple_of(6);
     let of_flank = decomposition.patches.iter().filter(|p| flank(p.faces[0]));
     let most = of_flank
         .map(|p| p.faces.iter().filter(|&&f| flank(f)).count())
