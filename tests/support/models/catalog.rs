@@ -103,6 +103,7 @@ pub fn convex_solids() -> Vec<Model> {
         Model::new("post", post(1.3, 1.0)),
         Model::new("icosahedron", icosphere(1.0, 0)),
         Model::new("ball", icosphere(1.0, 2)),
+        Model::new("fine ball", icosphere(1.0, 3)),
         Model::new("divided cube", divided_cube(5)),
     ]
 }
