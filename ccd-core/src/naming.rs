@@ -8,17 +8,24 @@ use glam::DVec3;
 /// What a point of a polytope is, by the polytope's corners and the mesh's faces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Name {
+    Vertex(u32),
     Edge(u32, u32),
     Face(u32),
-    Inside,
+    Nothing,
 }
 
-/// Names a combination of at least two corners.
+/// Names a combination of corners.
 ///
 /// Corners that no facet of the mesh holds together may still name a point on the mesh: a virtual
 /// facet may lie within the surface, and so may a chord of two coplanar faces.
 pub(crate) fn of_polytope(piece: &Piece<'_>, point: &Combination) -> Name {
     let (facets, support) = (piece.facets, point.support());
+    if !facets.is_empty() && piece.mesh_triangles().next().is_none() {
+        return Name::Nothing;
+    }
+    if let [v] = *support {
+        return Name::Vertex(v);
+    }
     let faces = facets.origins().iter().zip(facets.iter());
     let whole = faces.clone().filter_map(|(origin, corners)| match origin {
         Origin::Face(id) => Some((*id, corners)),
@@ -40,7 +47,7 @@ pub(crate) fn of_polytope(piece: &Piece<'_>, point: &Combination) -> Name {
         None => point
             .of(piece.points)
             .and_then(|at| face_under(piece, at))
-            .map_or(Name::Inside, Name::Face),
+            .map_or(Name::Nothing, Name::Face),
     }
 }
 

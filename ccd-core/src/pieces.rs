@@ -240,22 +240,20 @@ impl Pieces {
     }
 
     /// What a point of a piece is called in the mesh: the vertex, edge or face that holds the corners
-    /// it is combined of, or the face that it lies on all the same; [`Feature::Piece`] inside.
+    /// it is combined of, or the face that it lies on all the same; [`Feature::Piece`] inside, and
+    /// on a polytope of which all facets are virtual.
     pub fn feature(&self, piece: usize, point: &Combination) -> Feature {
         let id = |corner: u32| self.vertex_ids[self.point_range(piece).start + corner as usize];
-        match point.support() {
-            [] => Feature::Piece(piece as u32),
-            [v] => Feature::Vertex(id(*v)),
-            support => match &self.shape {
-                Shape::Triangles { face_ids } => match support {
-                    [v, w] => Feature::edge(id(*v), id(*w)),
-                    _ => Feature::Face(face_ids[piece]),
-                },
-                Shape::Polytopes(_) => match naming::of_polytope(&self.get(piece), point) {
-                    Name::Edge(v, w) => Feature::edge(id(v), id(w)),
-                    Name::Face(face) => Feature::Face(face),
-                    Name::Inside => Feature::Piece(piece as u32),
-                },
+        match (&self.shape, point.support()) {
+            (_, []) => Feature::Piece(piece as u32),
+            (Shape::Triangles { .. }, [v]) => Feature::Vertex(id(*v)),
+            (Shape::Triangles { .. }, [v, w]) => Feature::edge(id(*v), id(*w)),
+            (Shape::Triangles { face_ids }, _) => Feature::Face(face_ids[piece]),
+            (Shape::Polytopes(_), _) => match naming::of_polytope(&self.get(piece), point) {
+                Name::Vertex(v) => Feature::Vertex(id(v)),
+                Name::Edge(v, w) => Feature::edge(id(v), id(w)),
+                Name::Face(face) => Feature::Face(face),
+                Name::Nothing => Feature::Piece(piece as u32),
             },
         }
     }

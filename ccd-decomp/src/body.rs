@@ -109,10 +109,9 @@ pub(crate) enum Parts {
 impl Parts {
     fn into_model(self, mesh: &TriangleMesh, why: Why) -> Result<Model, BodyError> {
         let topology = Topology::of(mesh);
-        let volume = match (&self, topology.is_closed()) {
-            // Hulls are filled by themselves.
-            (Parts::Vhacd(_), _) | (_, false) => Volume::Surface,
-            (_, true) => Volume::Solid,
+        let volume = match topology.is_closed() {
+            true => Volume::Solid,
+            false => Volume::Surface,
         };
         let (mut inflated_by, mut sticks_out) = (0.0, 0.0);
         let mut virtual_faces = 0;

@@ -148,8 +148,11 @@ impl From<MeshFault> for MeshError {
 #[non_exhaustive]
 pub enum DecomposeError {
     /// Its edges do not have one face on either side.
-    #[error("{0}; close the mesh, or use triangles")]
-    NotManifold(Box<Topology>),
+    #[error("{topology}; {}, or use triangles", .topology.advice())]
+    NotManifold {
+        /// Which edges.
+        topology: Box<Topology>,
+    },
     /// Faces without area have no inner side.
     #[error("faces without area: {faces}; remove them, or use triangles")]
     NoArea {

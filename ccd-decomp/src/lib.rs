@@ -14,7 +14,7 @@
 //! | know what was wrong with a mesh | [`Repairs`], [`Topology`], [`MeshFault`] |
 //! | make a body of it | [`body_from_mesh`], [`Detail`], [`Report`] |
 //! | decompose its surface exactly | [`decompose`], [`Decomposition`] |
-//! | keep what was prepared | [`prepare`], [`Model`] |
+//! | store what was prepared, and load it | [`prepare`], [`Model::save`], [`Model::load`] |
 //! | take a body from a command line | [`parse_body`], [`BodySource`] |
 //! | build a hierarchy, or a tree of hulls, over pieces of any kind | [`build_hierarchy`], [`build_hull_tree`] |
 //!

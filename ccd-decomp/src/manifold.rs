@@ -57,7 +57,9 @@ impl<'m> Manifold<'m> {
         }
         let topology = Topology::of(mesh);
         if !topology.is_manifold() {
-            return Err(DecomposeError::NotManifold(Box::new(topology)));
+            return Err(DecomposeError::NotManifold {
+                topology: Box::new(topology),
+            });
         }
         let turned = topology.orientation() == Orientation::Inward;
         let faces: Vec<[u32; 3]> = mesh

@@ -67,8 +67,8 @@ pub enum Why {
     PatchesFaster(Estimate),
 }
 
-/// What a query is estimated to take over one kind of pieces or another, in microseconds on the machine
-/// that the estimate was measured on.
+/// What a query against a body of many triangles is estimated to take over one kind of pieces or
+/// another, in microseconds on the machine that the estimate was measured on: for comparing the two.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Estimate {
     /// Over triangles.
@@ -150,19 +150,20 @@ impl fmt::Display for Why {
             Why::Asked => write!(f, "asked for"),
             Why::Convex => write!(f, "the solid is convex"),
             Why::NothingElse(error) => write!(f, "only triangles are exact: {error}"),
-            Why::TrianglesFaster(estimate) | Why::PatchesFaster(estimate) => {
-                write!(f, "a query is estimated to take {estimate}")
+            Why::TrianglesFaster(Estimate { triangles, patches }) => {
+                let times = patches / triangles;
+                write!(
+                    f,
+                    "over patches a query is estimated to take {times:.1} times as long"
+                )
+            }
+            Why::PatchesFaster(Estimate { triangles, patches }) => {
+                let times = triangles / patches;
+                write!(
+                    f,
+                    "over triangles a query is estimated to take {times:.1} times as long"
+                )
             }
         }
-    }
-}
-
-impl fmt::Display for Estimate {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (triangles, patches) = (self.triangles, self.patches);
-        write!(
-            f,
-            "{triangles:.0} µs over triangles, {patches:.0} µs over patches"
-        )
     }
 }

@@ -9,7 +9,7 @@ use crate::error::Prefix;
 use crate::report::Report;
 use ccd_core::{Hierarchy, HullNode, HullTree, Pieces, Volume};
 use std::fmt;
-use std::fs::File;
+use std::fs::{self, File};
 use std::io::{self, BufReader, Read, Write};
 use std::path::{Path, PathBuf};
 
@@ -69,22 +69,29 @@ const PREPARE: &str = "prepare it again from its mesh: ccd decompose MESH --out 
 type Stored = (Pieces, Hierarchy, Volume, Option<Vec<HullNode>>, Report);
 
 impl Model {
-    /// Stores it in a file, which custom calls `NAME.ccd`.
+    /// Stores it in a file, by convention called `NAME.ccd`.
     ///
     /// # Errors
     /// [`StoreFault::Unwritable`].
     pub fn save(&self, path: impl AsRef<Path>) -> Result<(), StoreError> {
         let path = path.as_ref();
-        let file = File::create(path).map_err(StoreFault::Unwritable);
+        // A write that is cut short must not take the old file with it.
+        let part = path.with_extension(format!("{STORED_EXTENSION}.part"));
+        let file = File::create(&part).map_err(StoreFault::Unwritable);
         file.and_then(|file| self.store(file))
-            .map_err(|fault| fault.in_file(path))
+            .and_then(|()| fs::rename(&part, path).map_err(StoreFault::Unwritable))
+            .map_err(|fault| {
+                // It may not even be there.
+                let _ = fs::remove_file(&part);
+                fault.in_file(path)
+            })
     }
 
     /// Loads what [`Model::save`] has stored.
     ///
     /// # Guarantee
     /// Its body answers as the one that was stored does, bit by bit. No bytes panic: what is not as it
-    /// was written is an error, or still a valid body.
+    /// was written is an error, or, where even the checksum was forged, still a valid body.
     ///
     /// # Errors
     /// [`StoreError`], with the file's name.

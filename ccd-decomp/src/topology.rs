@@ -77,6 +77,17 @@ impl Topology {
         self.is_closed() && self.shared.is_empty()
     }
 
+    /// What would make it a manifold, for messages.
+    pub(crate) fn advice(&self) -> &'static str {
+        if !(self.boundary.is_empty() && self.branching.is_empty()) {
+            "close the mesh"
+        } else if !self.flipped.is_empty() {
+            "turn the faces that look the other way"
+        } else {
+            "take the parts for themselves"
+        }
+    }
+
     /// Where the faces look, by the sign of the volume.
     pub fn orientation(&self) -> Orientation {
         if self.signed_volume > 0.0 {
@@ -152,8 +163,11 @@ impl fmt::Display for Topology {
             (&self.branching, "unbalanced edges with more than two faces"),
             (&self.shared, "edges shared by closed parts"),
         ];
-        write!(f, "{}", if self.is_closed() { "closed" } else { "open" })?;
-        if self.is_closed() && self.orientation() == Orientation::Inward {
+        let torn = !(self.boundary.is_empty() && self.branching.is_empty());
+        write!(f, "{}", if torn { "open" } else { "closed" })?;
+        if !self.flipped.is_empty() {
+            write!(f, ", not all faces turned the same way")?;
+        } else if self.is_closed() && self.orientation() == Orientation::Inward {
             write!(f, ", inside out")?;
         }
         for (tally, what) in notes.iter().filter(|(tally, _)| !tally.is_empty()) {

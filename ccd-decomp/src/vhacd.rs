@@ -60,7 +60,8 @@ pub enum VhacdError {
     Hull(HullError),
     /// The hulls may stick out by so much that they say little.
     #[error(
-        "the hulls may stick out by {sticks_out}, more than {limit}, a quarter of the diagonal"
+        "the hulls may stick out by {sticks_out:.3e}, more than {limit:.3e}, a quarter of the \
+         diagonal; mend the mesh, or use triangles"
     )]
     TooCoarse {
         /// The certified bound.

@@ -14,7 +14,7 @@ fn error(mesh: &Mesh) -> DecomposeError {
 
 fn topology(mesh: &Mesh) -> Topology {
     match error(mesh) {
-        DecomposeError::NotManifold(topology) => *topology,
+        DecomposeError::NotManifold { topology } => *topology,
         other => panic!("{other:?}"),
     }
 }

@@ -117,6 +117,12 @@ pub(super) fn run(args: &DecomposeArgs) -> Result<Verdict> {
     {
         bail!("--out names the mesh, which it would overwrite; give it another file");
     }
+    if args.mesh.extension().is_some_and(|e| e == STORED_EXTENSION) {
+        bail!(
+            "{}: is prepared already; give the mesh it was made from",
+            args.mesh.display()
+        );
+    }
     let detail = args.detail()?;
     let mesh = TriangleMesh::read(&args.mesh)?;
     let spinner = match args.quiet {

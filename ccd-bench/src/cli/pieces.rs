@@ -7,7 +7,7 @@ use clap::{Args, ValueEnum};
 /// What a mesh is to be made into.
 #[derive(Debug, Args)]
 pub(super) struct PiecesArgs {
-    /// What pieces a mesh is made into
+    /// What pieces a mesh is made into; bodies stored as .ccd keep theirs
     #[arg(long, value_enum, default_value_t)]
     pieces: PiecesArg,
     /// How many hulls --pieces vhacd may make [default: 32]; more of them are closer to the mesh

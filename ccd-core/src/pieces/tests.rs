@@ -213,3 +213,23 @@ fn points_on_virtual_facets_within_a_face_are_named_by_it() {
     assert_eq!(weighted(&[(4, 0.5), (7, 0.5)]), Feature::Piece(0));
     assert_eq!(weighted(&[(0, 0.5), (7, 0.5)]), Feature::Piece(0));
 }
+
+/// Its corners are no vertices of the mesh.
+#[test]
+fn a_polytope_of_virtual_facets_has_no_names() {
+    let loops = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
+    let facets = loops.map(|corners| Facet {
+        origin: Origin::Virtual,
+        corners: corners.to_vec(),
+    });
+    let hull = Polytope {
+        points: CORNERS.to_vec(),
+        facets: facets.to_vec(),
+        ..Polytope::default()
+    };
+    let pieces = Pieces::polytopes(&[ball(1.0), hull]).unwrap();
+    for corners in [&[2][..], &[0, 1], &[0, 1, 2]] {
+        assert_eq!(pieces.feature(1, &mean(corners)), Feature::Piece(1));
+    }
+    assert_eq!(pieces.feature(0, &mean(&[0])), Feature::Vertex(0));
+}

@@ -40,7 +40,8 @@ impl Figures {
                 .hull_tree
                 .as_ref()
                 .map_or(0, |tree| tree.hulls().len()),
-            build_ms,
+            // To the microsecond: more digits say nothing.
+            build_ms: (build_ms * 1e3).round() / 1e3,
             bytes: body.bytes(),
             exact: report.is_exact(),
             sticks_out: report.sticks_out,
