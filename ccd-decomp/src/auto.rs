@@ -7,7 +7,7 @@ use crate::error::DecomposeError;
 use crate::manifold::{Bend, Manifold};
 use crate::mesh::TriangleMesh;
 use crate::report::{Estimate, Why};
-use crate::surface::{Order, decompose_manifold};
+use crate::surface::{Order, decompose_flats};
 use crate::tolerance::{FLAT_SHARE, PATCHES, PieceCost, TRIANGLES};
 
 /// One hull where the solid is convex; else patches or triangles, whichever is estimated to be faster.
@@ -20,7 +20,8 @@ pub(crate) fn choose(mesh: &TriangleMesh) -> (Parts, Why) {
         Err(error) => return only_triangles(error),
     };
     let convex = as_polytope(&manifold);
-    let estimate = Plane::largest(&manifold).estimate();
+    let flats = Flats::new(&manifold);
+    let estimate = Plane::largest(&manifold, &flats).estimate();
     if convex.is_err() && !(estimate.patches < estimate.triangles) {
         return (Parts::Triangles, Why::TrianglesFaster(estimate));
     }
@@ -30,7 +31,7 @@ pub(crate) fn choose(mesh: &TriangleMesh) -> (Parts, Why) {
     match convex {
         Ok(polytope) => (Parts::Hull(Box::new(polytope)), Why::Convex),
         Err(_) => {
-            let decomposition = decompose_manifold(&manifold, Order::default());
+            let decomposition = decompose_flats(&manifold, &flats, Order::default());
             let why = Why::PatchesFaster(estimate);
             (Parts::Patches(decomposition), why)
         }
@@ -51,8 +52,7 @@ struct Plane {
 
 impl Plane {
     /// The one of most triangles.
-    fn largest(manifold: &Manifold<'_>) -> Plane {
-        let flats = Flats::new(manifold);
+    fn largest(manifold: &Manifold<'_>, flats: &Flats) -> Plane {
         let mut seen = vec![false; flats.len()];
         let mut largest = Plane::default();
         let mut stack = Vec::new();

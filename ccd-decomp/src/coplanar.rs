@@ -3,7 +3,6 @@
 use crate::manifold::{Bend, HalfEdge, Manifold};
 use crate::polygons::strict_corners;
 use crate::predicates::Projection;
-use ccd_core::glam::DVec3;
 use std::cmp::Ordering;
 
 /// The faces of a mesh, in groups that each are a convex polygon.
@@ -14,7 +13,7 @@ pub(crate) struct Flats {
 }
 
 /// A convex polygon of a mesh's surface: faces in exactly one plane, without a hole between them.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Flat {
     /// Its faces, in ascending order.
     pub(crate) faces: Vec<u32>,
@@ -55,33 +54,26 @@ impl Flats {
     }
 }
 
+/// Regions that grow together. Two convex ones that do not overlap have a single stretch of edges in
+/// common, so that what the union looks like is told at its two ends.
 struct Merger<'a, 'm> {
     manifold: &'a Manifold<'m>,
-    /// By number; none once merged into another.
-    regions: Vec<Option<Region>>,
-    region_of: Vec<u32>,
-}
-
-struct Region {
-    faces: Vec<u32>,
-    rim: Vec<HalfEdge>,
-    plane: Projection,
+    /// The half-edges after and before each one on the rim of its region.
+    next: Vec<HalfEdge>,
+    previous: Vec<HalfEdge>,
+    regions: DisjointSets,
 }
 
 impl<'a, 'm> Merger<'a, 'm> {
     fn new(manifold: &'a Manifold<'m>) -> Self {
-        let count = manifold.faces().len() as u32;
-        let region = |face: u32| {
-            Some(Region {
-                faces: vec![face],
-                rim: vec![3 * face, 3 * face + 1, 3 * face + 2],
-                plane: Projection::of(manifold.triangle(face))?,
-            })
-        };
+        let faces = manifold.faces().len() as u32;
+        // Those of a face are numbered from a multiple of 3.
+        let turn = |step: u32| (0..3 * faces).map(move |h| h - h % 3 + (h + step) % 3);
         Merger {
             manifold,
-            regions: (0..count).map(region).collect(),
-            region_of: (0..count).collect(),
+            next: turn(1).collect(),
+            previous: turn(2).collect(),
+            regions: DisjointSets::new(faces as usize),
         }
     }
 
@@ -99,91 +91,108 @@ impl<'a, 'm> Merger<'a, 'm> {
         edges.into_iter().map(|(_, h)| h).collect()
     }
 
+    fn region(&mut self, half_edge: HalfEdge) -> u32 {
+        self.regions.root(half_edge / 3)
+    }
+
     /// Merges the regions on either side of an edge if the union is convex. Whether the edge is dealt
     /// with: its sides are one region now.
     fn merge_over(&mut self, edge: HalfEdge) -> bool {
-        let [one, other] = [edge, self.manifold.twin(edge)].map(|h| self.region_of[h as usize / 3]);
+        let [one, other] = [edge, self.manifold.twin(edge)].map(|h| self.region(h));
         if one == other {
             return true;
         }
-        let Some(rim) = self.union(one, other) else {
-            return false;
-        };
-        let [small, large] = match self.size(one) < self.size(other) {
-            true => [one, other],
-            false => [other, one],
-        };
-        let Some(merged) = self.regions[small as usize].take() else {
-            return false;
-        };
-        for &face in &merged.faces {
-            self.region_of[face as usize] = large;
+        // The stretch that both have in common, seen from the one.
+        let (mut first, mut last) = (edge, edge);
+        while self.region(self.manifold.twin(self.previous[first as usize])) == other {
+            first = self.previous[first as usize];
         }
-        if let Some(region) = &mut self.regions[large as usize] {
-            region.faces.extend(merged.faces);
-            region.rim = rim;
+        while self.region(self.manifold.twin(self.next[last as usize])) == other {
+            last = self.next[last as usize];
         }
+        let twin = |h: HalfEdge| self.manifold.twin(h);
+        let joints = [
+            (
+                self.previous[first as usize],
+                self.next[twin(first) as usize],
+            ),
+            (self.previous[twin(last) as usize], self.next[last as usize]),
+        ];
+        if !joints.iter().all(|&joint| self.turns_left(joint)) {
+            return false;
+        }
+        for (before, after) in joints {
+            self.next[before as usize] = after;
+            self.previous[after as usize] = before;
+        }
+        self.regions.join(one, other);
         true
     }
 
-    fn size(&self, region: u32) -> usize {
-        let region = self.regions[region as usize].as_ref();
-        region.map_or(0, |r| r.faces.len())
-    }
-
-    /// The rim of the union of two regions in one plane, if it is a convex polygon.
-    fn union(&self, one: u32, other: u32) -> Option<Vec<HalfEdge>> {
-        let (first, second) = (
-            self.regions[one as usize].as_ref()?,
-            self.regions[other as usize].as_ref()?,
-        );
-        let mut rim = self.open_rim(first, other)?;
-        let joint = rim.len();
-        rim.extend(self.open_rim(second, one)?);
-        let at = |v: u32| self.manifold.point(v);
-        let convex = |k: usize| {
-            let before = rim[(k + rim.len() - 1) % rim.len()];
-            let ([a, b], [_, c]) = (self.manifold.ends(before), self.manifold.ends(rim[k]));
-            first.plane.turn(at(a), at(b), at(c)) != Ordering::Less
+    /// Whether a rim goes straight on or to the left from one half-edge to the next.
+    fn turns_left(&self, (before, after): (HalfEdge, HalfEdge)) -> bool {
+        let Some(plane) = Projection::of(self.manifold.triangle(before / 3)) else {
+            return false;
         };
-        (convex(0) && convex(joint)).then_some(rim)
+        let ([a, b], [_, c]) = (self.manifold.ends(before), self.manifold.ends(after));
+        let [a, b, c] = [a, b, c].map(|v| self.manifold.point(v));
+        plane.turn(a, b, c) != Ordering::Less
     }
 
-    /// The part of a region's rim that is not shared with another region, if it is in one piece.
-    fn open_rim(&self, region: &Region, other: u32) -> Option<Vec<HalfEdge>> {
-        let rim = &region.rim;
-        let shared = |h: HalfEdge| self.region_of[self.manifold.twin(h) as usize / 3] == other;
-        let start = (0..rim.len()).find(|&k| {
-            let before = rim[(k + rim.len() - 1) % rim.len()];
-            shared(before) && !shared(rim[k])
-        })?;
-        let around = (0..rim.len()).map(|k| rim[(start + k) % rim.len()]);
-        let open: Vec<HalfEdge> = around.clone().take_while(|&h| !shared(h)).collect();
-        let rest = around.skip(open.len());
-        rest.clone().all(shared).then_some(open)
-    }
-
-    fn finish(self) -> Flats {
-        let points: Vec<DVec3> = self.manifold.mesh().vertices().to_vec();
-        let mut flat_of = vec![0; self.region_of.len()];
-        let mut flats = Vec::new();
-        for mut region in self.regions.into_iter().flatten() {
-            region.faces.sort_unstable();
-            for &face in &region.faces {
-                flat_of[face as usize] = flats.len() as u32;
+    fn finish(mut self) -> Flats {
+        const UNSEEN: u32 = u32::MAX;
+        let faces = self.manifold.faces().len() as u32;
+        let mut number_of = vec![UNSEEN; faces as usize];
+        let mut flat_of = vec![0; faces as usize];
+        let mut flats: Vec<Flat> = Vec::new();
+        for face in 0..faces {
+            let root = self.regions.root(face);
+            let number = &mut number_of[root as usize];
+            if *number == UNSEEN {
+                *number = flats.len() as u32;
+                flats.push(Flat::default());
             }
-            let starts: Vec<u32> = region
-                .rim
-                .iter()
-                .map(|&h| self.manifold.ends(h)[0])
-                .collect();
-            flats.push(Flat {
-                corners: strict_corners(&points, &starts, region.plane),
-                faces: region.faces,
-                rim: region.rim,
-            });
+            flat_of[face as usize] = *number;
+            flats[*number as usize].faces.push(face);
+        }
+        for (number, flat) in flats.iter_mut().enumerate() {
+            let outer =
+                |&h: &HalfEdge| flat_of[self.manifold.twin(h) as usize / 3] as usize != number;
+            let own = flat.faces.iter().flat_map(|&f| 3 * f..3 * f + 3);
+            let Some(start) = own.into_iter().find(outer) else {
+                continue;
+            };
+            let onward = |&h: &HalfEdge| Some(self.next[h as usize]).filter(|&h| h != start);
+            flat.rim = std::iter::successors(Some(start), onward).collect();
+            let plane = Projection::of(self.manifold.triangle(flat.faces[0]));
+            let starts: Vec<u32> = flat.rim.iter().map(|&h| self.manifold.ends(h)[0]).collect();
+            let points = self.manifold.mesh().vertices();
+            flat.corners = plane.map_or(starts.clone(), |p| strict_corners(points, &starts, p));
         }
         Flats { flats, flat_of }
+    }
+}
+
+/// Sets that are joined: every element names another one of its set, the root itself.
+struct DisjointSets(Vec<u32>);
+
+impl DisjointSets {
+    fn new(count: usize) -> Self {
+        DisjointSets((0..count as u32).collect())
+    }
+
+    fn root(&mut self, mut k: u32) -> u32 {
+        while self.0[k as usize] != k {
+            // Halving the way keeps later ones short.
+            self.0[k as usize] = self.0[self.0[k as usize] as usize];
+            k = self.0[k as usize];
+        }
+        k
+    }
+
+    fn join(&mut self, a: u32, b: u32) {
+        let (a, b) = (self.root(a), self.root(b));
+        self.0[a.max(b) as usize] = a.min(b);
     }
 }
 

@@ -177,6 +177,15 @@ pub enum DecomposeError {
         /// A face of the part.
         face: u32,
     },
+    /// Every corner that was looked at is one of another part, too, so that what surrounds the part
+    /// cannot be told.
+    #[error(
+        "the part with face {face} touches other parts at its corners; take the parts for themselves, or use triangles"
+    )]
+    Entangled {
+        /// A face of the part.
+        face: u32,
+    },
     /// It is not convex.
     #[error("not convex at {edge}; use patches or triangles")]
     NotConvex {

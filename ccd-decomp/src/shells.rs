@@ -4,6 +4,7 @@ use crate::error::DecomposeError;
 use crate::manifold::Manifold;
 use crate::predicates::side;
 use crate::tolerance::RAY_TRIES;
+use crate::triangle_boxes::Bounds;
 use ccd_core::glam::DVec3;
 use ccd_core::tolerance::U64;
 use std::cmp::Ordering;
@@ -20,19 +21,21 @@ pub(crate) fn check_orientation(manifold: &Manifold<'_>) -> Result<(), Decompose
     for (face, &shell) in shell_of.iter().enumerate() {
         volumes[shell as usize].add(manifold.triangle(face as u32), near);
     }
-    for (shell, volume) in volumes.iter().enumerate() {
-        let of_shell = |&f: &u32| shell_of[f as usize] as usize == shell;
-        let faces: Vec<u32> = (0..shell_of.len() as u32).filter(of_shell).collect();
+    let mut faces_of = vec![Vec::new(); count];
+    for (face, &shell) in shell_of.iter().enumerate() {
+        faces_of[shell as usize].push(face as u32);
+    }
+    for (faces, volume) in faces_of.iter().zip(&volumes) {
         let face = manifold.mesh().face_ids()[faces[0] as usize];
         let Some(outward) = volume.is_positive() else {
             return Err(DecomposeError::NoVolume { face });
         };
         let around = match count {
             1 => Some(0),
-            _ => winding_of_others(manifold, &shell_of, &faces),
+            _ => winding_of_others(manifold, &shell_of, faces),
         };
         let Some(around) = around else {
-            return Err(DecomposeError::NoVolume { face });
+            return Err(DecomposeError::Entangled { face });
         };
         // An outward shell adds 1 within it; behind the faces of an inward one is what surrounds it.
         let behind = if outward { around + 1 } else { around };
@@ -71,28 +74,24 @@ pub(crate) fn shells(manifold: &Manifold<'_>) -> Vec<u32> {
 /// How often the other shells wind about the faces of one; none when all rays graze something.
 fn winding_of_others(manifold: &Manifold<'_>, shell_of: &[u32], faces: &[u32]) -> Option<i32> {
     let shell = shell_of[faces[0] as usize];
-    let others: Vec<u32> = (0..shell_of.len() as u32)
-        .filter(|&f| shell_of[f as usize] != shell)
-        .collect();
     let near = manifold.triangle(faces[0])[0];
-    let way = |p: &DVec3| p.distance(near);
-    let size = manifold
-        .mesh()
-        .vertices()
-        .iter()
-        .map(way)
-        .fold(0.0, f64::max);
+    let size = manifold.boxes().reach(near);
     (0..RAY_TRIES).find_map(|k| {
         // Shells may touch at a corner, so that it is another one each time.
         let from = manifold.triangle(faces[k % faces.len()])[k % 3];
-        // Points on a spiral about the sphere, in no special relation to anything.
-        let share = k as f64 / RAY_TRIES as f64;
-        let (height, angle) = (0.9 - 1.7 * share, 2.399 * k as f64);
-        let across = (1.0 - height * height).sqrt();
-        let away = DVec3::new(across * angle.cos(), across * angle.sin(), height);
-        let to = from + 3.0 * size * away;
-        let of_face = |&f: &u32| crossing([from, to], manifold.triangle(f));
-        others.iter().map(of_face).sum()
+        // Nearly along an axis, so that few boxes meet the ray's, and in no special relation to any.
+        let (along, tilt) = (DVec3::AXES[k % 3], 1e-3 * (1.0 + 0.618 * k as f64));
+        let across = DVec3::new(0.7548, 0.5698, -0.3247) * tilt;
+        let to = from + 3.0 * size * (along + across);
+        let mut windings = Some(0);
+        manifold.boxes().all_meeting(Bounds::of([from, to]), |f| {
+            if shell_of[f as usize] != shell {
+                let crossing = crossing([from, to], manifold.triangle(f));
+                windings = windings.zip(crossing).map(|(sum, one)| sum + one);
+            }
+            windings.is_some()
+        });
+        windings
     })
 }
 

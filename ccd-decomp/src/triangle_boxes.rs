@@ -33,6 +33,16 @@ impl TriangleBoxes {
     }
 }
 
+impl TriangleBoxes {
+    /// At least the distance of a point from any of the triangles' points, about.
+    pub(crate) fn reach(&self, point: DVec3) -> f64 {
+        let all = self.bvh.root_aabb();
+        let vector = |v: Vector| DVec3::new(v.x, v.y, v.z);
+        let (lo, hi) = (vector(all.mins), vector(all.maxs));
+        (point - lo).abs().max((hi - point).abs()).length()
+    }
+}
+
 impl Bounds {
     /// The smallest box that holds some points.
     pub(crate) fn of(points: impl IntoIterator<Item = DVec3>) -> Self {

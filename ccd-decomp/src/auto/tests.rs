@@ -42,7 +42,8 @@ fn the_largest_plane_is_found_whole() {
         .filter(|c| *c != [2, 0, 1])
         .collect();
     let mesh = cubes(&cells);
-    let plane = Plane::largest(&Manifold::new(&mesh).unwrap());
+    let manifold = Manifold::new(&mesh).unwrap();
+    let plane = Plane::largest(&manifold, &Flats::new(&manifold));
     assert_eq!(plane.triangles, 12);
     assert_eq!(plane.polygons, 1);
 }

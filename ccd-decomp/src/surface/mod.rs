@@ -49,29 +49,33 @@ pub struct Decomposition {
 /// assert_eq!(decomposition.patches.len(), 1);
 /// ```
 pub fn decompose(mesh: &TriangleMesh, order: Order) -> Result<Decomposition, DecomposeError> {
-    Ok(decompose_manifold(&Manifold::new(mesh)?, order))
+    let manifold = Manifold::new(mesh)?;
+    Ok(decompose_flats(&manifold, &Flats::new(&manifold), order))
 }
 
-/// The same of a surface that is known to bound a solid.
-pub(crate) fn decompose_manifold(manifold: &Manifold<'_>, order: Order) -> Decomposition {
+/// The same of a surface that is known to bound a solid, and its polygons.
+pub(crate) fn decompose_flats(
+    manifold: &Manifold<'_>,
+    flats: &Flats,
+    order: Order,
+) -> Decomposition {
     if let Ok(polytope) = as_polytope(manifold) {
         let faces = (0..manifold.faces().len() as u32).collect();
         let patches = vec![Patch { faces, polytope }];
         return Decomposition { patches };
     }
-    let flats = Flats::new(manifold);
     let mut grower = Grower {
         manifold,
-        flats: &flats,
+        flats,
         order,
         taken: vec![false; flats.len()],
         tried: vec![u32::MAX; flats.len()],
     };
     let mut patches = Vec::new();
-    for seed in seeds(manifold, &flats, order) {
+    for seed in seeds(manifold, flats, order) {
         if !grower.taken[seed as usize] {
             let region = grower.grow(seed, patches.len() as u32);
-            patches.push(Patch::new(manifold, &flats, &region));
+            patches.push(Patch::new(manifold, flats, &region));
         }
     }
     Decomposition { patches }
