@@ -3,7 +3,8 @@
 use crate::manifold::{Bend, HalfEdge, Manifold};
 use crate::polygons::strict_corners;
 use crate::predicates::Projection;
-use std::cmp::Ordering;
+use crate::tolerance::{DIRECTIONS, LENGTHS};
+use std::cmp::{Ordering, Reverse};
 
 /// The faces of a mesh, in groups that each are a convex polygon.
 pub(crate) struct Flats {
@@ -77,18 +78,26 @@ impl<'a, 'm> Merger<'a, 'm> {
         }
     }
 
-    /// One half-edge of every edge within a plane, the longest first.
+    /// One half-edge of every edge within a plane: the longest first, and of those as long as each
+    /// other one direction after the other. The cells of a grid thus become rows before rows become
+    /// rectangles, in whichever order the mesh has them.
     fn flat_edges(&self) -> Vec<HalfEdge> {
         let manifold = self.manifold;
-        let mut edges: Vec<(f64, HalfEdge)> = (0..3 * manifold.faces().len() as u32)
+        let rank = |h: HalfEdge| {
+            let [a, b] = manifold.ends(h).map(|v| manifold.point(v));
+            let way = b - a;
+            let length = (way.length().log2() * LENGTHS).round() as i32;
+            let way = (way.normalize_or_zero() * DIRECTIONS)
+                .round()
+                .as_ivec3()
+                .to_array();
+            (Reverse(length), way.max(way.map(|x| -x)), h)
+        };
+        let mut edges: Vec<HalfEdge> = (0..3 * manifold.faces().len() as u32)
             .filter(|&h| h < manifold.twin(h) && manifold.bend(h) == Bend::Flat)
-            .map(|h| {
-                let [a, b] = manifold.ends(h).map(|v| manifold.point(v));
-                (a.distance(b), h)
-            })
             .collect();
-        edges.sort_by(|x, y| y.0.total_cmp(&x.0).then(x.1.cmp(&y.1)));
-        edges.into_iter().map(|(_, h)| h).collect()
+        edges.sort_by_cached_key(|&h| rank(h));
+        edges
     }
 
     fn region(&mut self, half_edge: HalfEdge) -> u32 {

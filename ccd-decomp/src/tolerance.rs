@@ -149,3 +149,10 @@ pub(crate) const PATCHES: PieceCost = PieceCost {
 /// larger, the sooner patches are chosen; meshes without planes of more than a hundred triangles are
 /// triangles at any value up to 1/20.
 pub(crate) const FLAT_SHARE: f64 = 1.0 / 20.0;
+
+/// Edges within a plane count as equally long when they are in one of so many classes for each doubling
+/// of the length: rounding must not tell the edges of a grid apart.
+pub(crate) const LENGTHS: f64 = 16.0;
+
+/// The same of directions: one unit of a direction's coordinates is in so many classes.
+pub(crate) const DIRECTIONS: f64 = 64.0;

@@ -52,3 +52,21 @@ fn polygons_are_convex_and_leave_nothing_out() {
     // Four outer and four inner sides, and at least four polygons about the hole above and below.
     assert!((16..=24).contains(&flats.len()), "{}", flats.len());
 }
+
+/// Whatever order the faces have: rows first, then rectangles.
+#[test]
+fn a_grid_with_a_hole_is_a_few_rectangles() {
+    let cells = block([9, 9, 1]).into_iter().filter(|c| *c != [4, 5, 0]);
+    let mesh = cubes(&cells.collect::<Vec<_>>());
+    for stride in [1, 7, 101] {
+        let count = mesh.faces().len();
+        let faces: Vec<[u32; 3]> = (0..count)
+            .map(|k| mesh.faces()[k * stride % count])
+            .collect();
+        assert!(count % 7 != 0 && count % 101 != 0, "all faces are taken");
+        let shuffled = crate::test_meshes::mesh(mesh.vertices().to_vec(), &faces);
+        let flats = flats(&shuffled);
+        // Four about the hole above and below, four sides outside and four within.
+        assert_eq!(flats.len(), 4 + 4 + 4 + 4, "{stride}");
+    }
+}
