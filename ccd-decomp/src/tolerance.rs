@@ -132,23 +132,23 @@ pub(crate) struct PieceCost {
 }
 
 /// Measured on a perforated plate (coarse and fine), an L-prism, a comb and a gear of 460 to 7,452
-/// triangles against a ring of 10,000: medians of 20, 21, 22, 18, 35 µs. Laid flat on themselves, to a
-/// tolerance of 1e-9, 1 to 5 µs for every triangle of the plane.
+/// triangles against a ring of 10,000: medians of 22, 23, 24, 20, 38 µs. Laid flat on themselves, to a
+/// tolerance of 1e-9, about 1 to 13 µs for every triangle of the plane.
 pub(crate) const TRIANGLES: PieceCost = PieceCost {
     usual: 23.0,
-    resting: 3.0,
+    resting: 5.0,
 };
 
-/// The same: 28, 31, 69, 18, 46 µs, and 4 to 18 µs for every patch of the plane.
+/// The same: 30, 33, 32, 18, 49 µs, and about 4 to 10 µs for every patch of the plane.
 pub(crate) const PATCHES: PieceCost = PieceCost {
-    usual: 38.0,
-    resting: 10.0,
+    usual: 32.0,
+    resting: 6.0,
 };
 
-/// In how many of all queries bodies are taken to rest flat on each other. Unit: one. A guess: the
-/// larger, the sooner patches are chosen; meshes without planes of more than a hundred triangles are
-/// triangles at any value up to 1/20.
-pub(crate) const FLAT_SHARE: f64 = 1.0 / 20.0;
+/// In how many of all queries bodies are taken to come to rest flat on each other, to a tolerance so
+/// small that all pieces of the plane are looked at. Unit: one. A guess: the larger, the sooner patches
+/// are chosen; at this value they are from about a hundred triangles in one plane on.
+pub(crate) const FLAT_SHARE: f64 = 1.0 / 50.0;
 
 /// Edges within a plane count as equally long when they are in one of so many classes for each doubling
 /// of the length: rounding must not tell the edges of a grid apart.
