@@ -4,7 +4,7 @@ use crate::auto;
 use crate::convex::as_polytope;
 use crate::error::BodyError;
 use crate::hierarchy::build_hierarchy;
-use crate::hull_tree::build_hull_tree;
+use crate::hull_tree::{Grown, grow};
 use crate::manifold::Manifold;
 use crate::mesh::TriangleMesh;
 use crate::repair::Repairs;
@@ -113,7 +113,7 @@ impl Parts {
             true => Volume::Solid,
             false => Volume::Surface,
         };
-        let (mut inflated_by, mut sticks_out) = (0.0, 0.0);
+        let (mut inflated_by, mut sticks_out, mut rebuilt_hulls) = (0.0, 0.0, 0);
         let mut virtual_faces = 0;
         let (kind, pieces) = match self {
             Parts::Triangles => (
@@ -128,6 +128,7 @@ impl Parts {
             Parts::Hull(polytope) => (PiecesKind::Hull, Pieces::polytopes(&[*polytope])?),
             Parts::Vhacd(approximation) => {
                 inflated_by = approximation.uncovered;
+                rebuilt_hulls = approximation.rebuilt;
                 sticks_out = approximation.sticks_out;
                 let polytopes = &approximation.polytopes;
                 virtual_faces = polytopes.iter().map(|p| p.facets.len()).sum();
@@ -145,6 +146,7 @@ impl Parts {
                 tree_nodes: hierarchy.nodes().len(),
                 inflated_by,
                 sticks_out,
+                rebuilt_hulls,
                 volume,
                 topology: Some(topology),
                 repairs: mesh.repairs().clone(),
@@ -175,7 +177,9 @@ impl Model {
     /// # Errors
     /// [`BodyError::BuildHullTree`].
     pub fn with_hull_tree(mut self) -> Result<Self, BodyError> {
-        self.hull_tree = Some(build_hull_tree(&self.pieces)?);
+        let Grown { tree, rebuilt } = grow(&self.pieces)?;
+        self.hull_tree = Some(tree);
+        self.report.rebuilt_hulls += rebuilt;
         Ok(self)
     }
 
@@ -204,6 +208,7 @@ impl Prepared {
                 tree_nodes: 1,
                 inflated_by: 0.0,
                 sticks_out: 0.0,
+                rebuilt_hulls: 0,
                 volume: body.volume(),
                 topology: None,
                 repairs: Repairs::default(),

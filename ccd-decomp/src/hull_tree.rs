@@ -2,7 +2,7 @@
 
 mod split;
 
-use crate::hull::{HullError, hull};
+use crate::hull::{HullError, Way, hull};
 use ccd_core::glam::DVec3;
 use ccd_core::{Hull, HullNode, HullTree, HullTreeError, InputError, Pieces};
 use split::Splitter;
@@ -23,19 +23,35 @@ use split::Splitter;
 /// O(n log² n) for n corners where few of them stay corners from level to level; at worst O(h n log n)
 /// for hulls of up to h facets.
 pub fn build_hull_tree(pieces: &Pieces) -> Result<HullTree, BuildError> {
+    Ok(grow(pieces)?.tree)
+}
+
+/// A hull tree, and how it came about.
+pub(crate) struct Grown {
+    pub(crate) tree: HullTree,
+    /// How many hulls the library got wrong, so that they were computed exactly.
+    pub(crate) rebuilt: usize,
+}
+
+/// As [`build_hull_tree`], with an account.
+pub(crate) fn grow(pieces: &Pieces) -> Result<Grown, BuildError> {
     if pieces.len() >= u32::MAX as usize / 2 {
         let pieces = pieces.len();
         return Err(HullTreeError::from(InputError::TooManyPieces { pieces }).into());
     }
     let mut nodes = split_all(pieces);
+    let mut rebuilt = 0;
     // Children come after their parents.
     for at in (0..nodes.len()).rev() {
         if let HullNode::Inner(children, _) = nodes[at] {
             let corners = children.map(|child| corners(&nodes[child as usize], pieces));
-            nodes[at] = HullNode::Inner(children, joint_hull(&corners.concat())?);
+            let (hull, way) = joint_hull(&corners.concat())?;
+            rebuilt += usize::from(way == Way::Exact);
+            nodes[at] = HullNode::Inner(children, hull);
         }
     }
-    Ok(HullTree::new(pieces, &nodes)?)
+    let tree = HullTree::new(pieces, &nodes)?;
+    Ok(Grown { tree, rebuilt })
 }
 
 /// Why pieces have no hull tree.
@@ -85,7 +101,7 @@ fn corners<'a>(node: &'a HullNode, pieces: &'a Pieces) -> &'a [DVec3] {
     }
 }
 
-fn joint_hull(points: &[DVec3]) -> Result<Hull, BuildError> {
+fn joint_hull(points: &[DVec3]) -> Result<(Hull, Way), BuildError> {
     let point = |k: u32| points[k as usize];
     let lower = |points| Hull {
         points,
@@ -98,15 +114,16 @@ fn joint_hull(points: &[DVec3]) -> Result<Hull, BuildError> {
                 number[v as usize] = k;
             }
             let facets = found.facets.iter();
-            Ok(Hull {
+            let hull = Hull {
                 points: found.vertices.iter().map(|&v| point(v)).collect(),
                 facets: facets
                     .map(|corners| corners.iter().map(|&v| number[v as usize]).collect())
                     .collect(),
-            })
+            };
+            Ok((hull, found.way))
         }
-        Err(HullError::Single(a)) => Ok(lower(vec![point(a)])),
-        Err(HullError::Collinear(a, b)) => Ok(lower(vec![point(a), point(b)])),
+        Err(HullError::Single(a)) => Ok((lower(vec![point(a)]), Way::Flat)),
+        Err(HullError::Collinear(a, b)) => Ok((lower(vec![point(a), point(b)]), Way::Flat)),
         Err(HullError::OutOfRange(a)) => Err(BuildError::OutOfRange(point(a))),
         Err(HullError::Empty | HullError::Unproven(_)) => Err(BuildError::Unproven {
             points: points.len(),

@@ -15,7 +15,7 @@ mod merge;
 mod solid;
 mod voxels;
 
-use crate::hull::{HullError, hull};
+use crate::hull::{HullError, Way, hull};
 use crate::mesh::TriangleMesh;
 use crate::tolerance;
 use ccd_core::glam::DVec3;
@@ -36,6 +36,8 @@ pub(crate) struct Approximation {
     /// How far S sticks out of the hulls at most: the radius of every polytope, in the mesh's unit of
     /// length. It is what rounding may have cost.
     pub(crate) uncovered: f64,
+    /// How many of them the library got wrong, so that they were computed exactly.
+    pub(crate) rebuilt: usize,
     /// How far the polytopes stick out of S at most, in the mesh's unit of length.
     pub(crate) sticks_out: f64,
 }
@@ -112,6 +114,7 @@ pub(crate) fn approximate(mesh: &TriangleMesh, hulls: u32) -> Result<Approximati
         return Err(VhacdError::TooCoarse { sticks_out, limit });
     }
     Ok(Approximation {
+        rebuilt: parts.iter().filter(|part| part.way == Way::Exact).count(),
         polytopes: parts.into_iter().map(|p| p.polytope(uncovered)).collect(),
         uncovered,
         sticks_out,
@@ -122,6 +125,7 @@ pub(crate) fn approximate(mesh: &TriangleMesh, hulls: u32) -> Result<Approximati
 struct Part {
     corners: Vec<DVec3>,
     facets: Vec<Vec<u32>>,
+    way: Way,
 }
 
 impl Part {
@@ -141,6 +145,7 @@ impl Part {
                 .iter()
                 .map(|f| f.iter().map(place).collect())
                 .collect(),
+            way: hull.way,
         })
     }
 
@@ -148,6 +153,7 @@ impl Part {
         Part {
             corners,
             facets: Vec::new(),
+            way: Way::Flat,
         }
     }
 

@@ -66,6 +66,8 @@ Printed, as aligned lines or with --format json as one object:
   exact          whether the pieces are the mesh, no more and no less
   sticks_out     how far they reach beyond it at most, in the mesh's unit of length: contacts of such
                  a body may be reported early by as much
+  inflated_by    by how much they were grown to be sure to cover the mesh
+  rebuilt_hulls  hulls that the hull library got wrong, computed exactly instead
   volume         solid, or surface where being inside is not to be in contact
   remarks        what was amiss with the mesh, if anything
 

@@ -1,6 +1,6 @@
 use crate::{
     BodyError, BodySource, Detail, Format, MeshFault, SourceError, TriangleMesh, body_from_mesh,
-    parse_body,
+    parse_body, prepare,
 };
 use ccd_core::glam::dvec3;
 use ccd_core::{Combination, Volume};
@@ -119,4 +119,23 @@ fn a_mesh_that_is_not_what_was_asked_for_is_named_with_its_file() {
     std::fs::remove_file(&file).unwrap();
     let expected = format!("{source}: open; edges with one face: 3 (e0-1, e0-2, e1-2)");
     assert!(error.starts_with(&expected), "{error}");
+}
+
+/// Four points of a plane, but for rounding: the library is not to be believed.
+#[test]
+fn hulls_that_the_library_gets_wrong_are_counted() {
+    use crate::test_meshes::{cubes, placed};
+    let step = cubes(&[[0, 0, 0], [1, 0, 0], [0, 0, 1]]);
+    let model = prepare(&step, Detail::Triangles).unwrap();
+    assert_eq!(model.report.rebuilt_hulls, 0);
+    // Turned such that planes are planes no more.
+    let vertices = placed(&step, 0.1, dvec3(0.3, 0.1, 0.7)).vertices().to_vec();
+    let tilt = ccd_core::glam::DQuat::from_axis_angle(dvec3(0.6, 0.0, 0.8), 0.4);
+    let turned: Vec<_> = vertices.iter().map(|&p| tilt * p).collect();
+    let turned = TriangleMesh::new(turned, step.faces()).unwrap();
+    let model = prepare(&turned, Detail::Triangles).unwrap();
+    let model = model.with_hull_tree().unwrap();
+    let inner = model.hull_tree.as_ref().unwrap().hulls().len() - model.pieces.len();
+    let rebuilt = model.report.rebuilt_hulls;
+    assert!(0 < rebuilt && rebuilt <= inner, "{rebuilt} of {inner}");
 }

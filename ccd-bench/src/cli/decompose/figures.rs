@@ -21,6 +21,8 @@ pub(super) struct Figures {
     bytes: usize,
     exact: bool,
     sticks_out: f64,
+    inflated_by: f64,
+    rebuilt_hulls: usize,
     volume: &'static str,
     remarks: String,
 }
@@ -45,6 +47,8 @@ impl Figures {
             bytes: body.bytes(),
             exact: report.is_exact(),
             sticks_out: report.sticks_out,
+            inflated_by: report.inflated_by,
+            rebuilt_hulls: report.rebuilt_hulls,
             volume: match report.volume {
                 Volume::Solid => "solid",
                 Volume::Surface => "surface",
@@ -67,6 +71,10 @@ impl fmt::Display for Figures {
         line(f, "why", &self.why)?;
         line(f, "virtual faces", &grouped(self.virtual_faces))?;
         line(f, "tree nodes", &self.tree_text())?;
+        match self.rebuilt_hulls {
+            0 => {}
+            rebuilt => line(f, "rebuilt hulls", &grouped(rebuilt))?,
+        }
         line(f, "build", &format!("{:.1} ms", self.build_ms))?;
         line(f, "memory", &format!("{:.1} MB", self.bytes as f64 / 1e6))?;
         write!(f, "{:<14}{}", "error", self.error_text())
