@@ -9,13 +9,14 @@ use crate::mesh::TriangleMesh;
 use crate::report::{Estimate, Why};
 use crate::surface::{Order, decompose_flats};
 use crate::tolerance::{FLAT_SHARE, PATCHES, PieceCost, TRIANGLES};
+use crate::topology::Topology;
 
 /// One hull where the solid is convex; else patches or triangles, whichever is estimated to be faster.
 ///
 /// What takes long, looking for intersections and decomposing, is only done once it is known to be
 /// worth it.
-pub(crate) fn choose(mesh: &TriangleMesh) -> (Parts, Why) {
-    let manifold = match Manifold::unchecked(mesh) {
+pub(crate) fn choose(mesh: &TriangleMesh, topology: &Topology) -> (Parts, Why) {
+    let manifold = match Manifold::unchecked(mesh, topology) {
         Ok(manifold) => manifold,
         Err(error) => return only_triangles(error),
     };

@@ -82,8 +82,9 @@ pub fn body_from_mesh(mesh: &TriangleMesh, detail: Detail) -> Result<Prepared, B
 /// [`BodyError::Decompose`] when the mesh does not bound the kind of solid that was asked for,
 /// [`BodyError::Vhacd`], [`BodyError::Input`] when there are too many pieces.
 pub fn prepare(mesh: &TriangleMesh, detail: Detail) -> Result<Model, BodyError> {
+    let topology = Topology::of(mesh);
     let (parts, why) = match detail {
-        Detail::Auto => auto::choose(mesh),
+        Detail::Auto => auto::choose(mesh, &topology),
         Detail::Triangles => (Parts::Triangles, Why::Asked),
         Detail::Patches(order) => (Parts::Patches(decompose(mesh, order)?), Why::Asked),
         Detail::Hull => {
@@ -95,7 +96,7 @@ pub fn prepare(mesh: &TriangleMesh, detail: Detail) -> Result<Model, BodyError> 
             (Parts::Vhacd(approximation), Why::Asked)
         }
     };
-    parts.into_model(mesh, why)
+    parts.into_model(mesh, topology, why)
 }
 
 /// What a mesh is made into.
@@ -107,8 +108,12 @@ pub(crate) enum Parts {
 }
 
 impl Parts {
-    fn into_model(self, mesh: &TriangleMesh, why: Why) -> Result<Model, BodyError> {
-        let topology = Topology::of(mesh);
+    fn into_model(
+        self,
+        mesh: &TriangleMesh,
+        topology: Topology,
+        why: Why,
+    ) -> Result<Model, BodyError> {
         let volume = match topology.is_closed() {
             true => Volume::Solid,
             false => Volume::Surface,

@@ -9,6 +9,7 @@ use crate::tally::Tally;
 use crate::topology::{Edge, Orientation, Topology};
 use crate::triangle_boxes::TriangleBoxes;
 use ccd_core::glam::DVec3;
+use std::cell::OnceCell;
 use std::cmp::Ordering;
 
 /// A closed 2-manifold of triangles: every half-edge has one twin that runs the other way.
@@ -22,7 +23,8 @@ pub(crate) struct Manifold<'m> {
     faces: Vec<[u32; 3]>,
     /// By half-edge.
     twins: Vec<u32>,
-    boxes: TriangleBoxes,
+    /// Made when they are first asked for.
+    boxes: OnceCell<TriangleBoxes>,
 }
 
 /// Half-edge `3 f + k` runs along face `f` from its corner `k` to the next.
@@ -44,21 +46,23 @@ impl<'m> Manifold<'m> {
     ///
     /// A mesh that is inside out as a whole is turned.
     pub(crate) fn new(mesh: &'m TriangleMesh) -> Result<Self, DecomposeError> {
-        let manifold = Manifold::unchecked(mesh)?;
+        let manifold = Manifold::unchecked(mesh, &Topology::of(mesh))?;
         manifold.check()?;
         Ok(manifold)
     }
 
     /// A manifold as far as its edges tell: triangles have an area, but may meet each other, and parts
     /// may be inside out. Takes a tenth of the time.
-    pub(crate) fn unchecked(mesh: &'m TriangleMesh) -> Result<Self, DecomposeError> {
+    pub(crate) fn unchecked(
+        mesh: &'m TriangleMesh,
+        topology: &Topology,
+    ) -> Result<Self, DecomposeError> {
         if let Some(vertex) = too_fine(mesh.vertices()) {
             return Err(DecomposeError::TooFine { vertex });
         }
-        let topology = Topology::of(mesh);
         if !topology.is_manifold() {
             return Err(DecomposeError::NotManifold {
-                topology: Box::new(topology),
+                topology: Box::new(topology.clone()),
             });
         }
         let turned = topology.orientation() == Orientation::Inward;
@@ -70,13 +74,11 @@ impl<'m> Manifold<'m> {
                 if turned { [a, c, b] } else { [a, b, c] }
             })
             .collect();
-        let boxes =
-            TriangleBoxes::new(faces.iter().map(|f| f.map(|v| mesh.vertices()[v as usize])));
         let manifold = Manifold {
             twins: twins(&faces),
             mesh,
             faces,
-            boxes,
+            boxes: OnceCell::new(),
         };
         let mut flat = Tally::default();
         let face_count = manifold.faces.len() as u32;
@@ -126,7 +128,10 @@ impl<'m> Manifold<'m> {
 
     /// The faces by where they are.
     pub(crate) fn boxes(&self) -> &TriangleBoxes {
-        &self.boxes
+        self.boxes.get_or_init(|| {
+            let faces = 0..self.faces.len() as u32;
+            TriangleBoxes::new(faces.map(|face| self.triangle(face)))
+        })
     }
 
     /// The half-edge that runs along the same edge the other way.

@@ -3,7 +3,7 @@ use crate::test_meshes::{block, cubes, joined, placed, tetrahedron};
 use ccd_core::glam::DVec3;
 
 fn why(mesh: &TriangleMesh) -> Why {
-    let (parts, why) = choose(mesh);
+    let (parts, why) = choose(mesh, &Topology::of(mesh));
     let fits = match why {
         Why::Convex => matches!(parts, Parts::Hull(_)),
         Why::PatchesFaster(_) => matches!(parts, Parts::Patches(_)),
