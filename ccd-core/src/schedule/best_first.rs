@@ -3,12 +3,13 @@
 use super::Schedule;
 use super::expand::{Split, Which, expand};
 use super::group::{Group, Next};
-use super::pair::{Pair, Step};
+use super::pair::Pair;
 use super::queue::{Full, Queue, Rank};
 use super::start::{self, Start};
 use crate::oracle::DistanceOracle;
 use crate::outcome::{Answer, Limit, Outcome, Stats};
 use crate::problem::Problem;
+use std::ops::ControlFlow;
 
 /// Best-first search by time, the default.
 ///
@@ -96,20 +97,14 @@ impl<O: DistanceOracle> BestFirst<O> {
                     proven = proven.min(f64::from(expansion.bounds.kept));
                     self.push_group(Group::new(problem, &expansion, split, s))
                 }
-                Found::Pieces(mut pair) => match pair.advance(problem, oracle, stats, s) {
-                    Step::FreeUntil(clock) => self.push_pair(clock, pair),
-                    Step::Contact(contact) if s > 0.0 => {
-                        let time = problem.time(s);
-                        return Outcome::Contact { time, contact };
+                Found::Pieces(mut pair) => {
+                    let step = pair.advance(problem, oracle, stats, s);
+                    match start.settle(problem, step, s) {
+                        ControlFlow::Continue(Some(clock)) => self.push_pair(clock, pair),
+                        ControlFlow::Continue(None) => Ok(()),
+                        ControlFlow::Break(outcome) => return outcome,
                     }
-                    Step::Contact(contact) => {
-                        start.touch(contact);
-                        Ok(())
-                    }
-                    Step::Overlap(contact) => return Start::overlapping(contact),
-                    Step::Stalled => return unresolved(s, Limit::Stalled),
-                    Step::GaveUp => return unresolved(s, Limit::OracleGaveUp),
-                },
+                }
             };
             if pushed.is_err() {
                 return unresolved(s, Limit::Budget);

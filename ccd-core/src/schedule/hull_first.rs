@@ -4,7 +4,7 @@ use super::Schedule;
 use super::best_first::BestFirst;
 use super::expand::Which;
 use super::moment::Moment;
-use super::pair::{Pair, Step};
+use super::pair::Pair;
 use super::queue::{Full, Queue, Rank};
 use super::start::{self, Start};
 use crate::body::Body;
@@ -16,6 +16,7 @@ use crate::piece::Piece;
 use crate::problem::Problem;
 use crate::separation::Checked;
 use crate::tolerance::HULL_PROGRESS;
+use std::ops::ControlFlow;
 
 /// Best-first search by time over [hull trees](HullTree): what the paper's trees can do when every
 /// pair keeps its own clock.
@@ -122,20 +123,16 @@ impl<C: Clone + Default> Search<'_, C> {
             }
             let pushed = match item {
                 Item::Nodes(nodes) => self.advance(oracle, nodes, s),
-                Item::Pieces(mut pair) => match pair.advance(problem, oracle, self.stats, s) {
-                    Step::FreeUntil(clock) => self.push_item(clock, Item::Pieces(pair)),
-                    Step::Contact(contact) if s > 0.0 => {
-                        let time = problem.time(s);
-                        return Outcome::Contact { time, contact };
+                Item::Pieces(mut pair) => {
+                    let step = pair.advance(problem, oracle, self.stats, s);
+                    match start.settle(problem, step, s) {
+                        ControlFlow::Continue(Some(clock)) => {
+                            self.push_item(clock, Item::Pieces(pair))
+                        }
+                        ControlFlow::Continue(None) => Ok(()),
+                        ControlFlow::Break(outcome) => return outcome,
                     }
-                    Step::Contact(contact) => {
-                        start.touch(contact);
-                        Ok(())
-                    }
-                    Step::Overlap(contact) => return Start::overlapping(contact),
-                    Step::Stalled => return unresolved(s, Limit::Stalled),
-                    Step::GaveUp => return unresolved(s, Limit::OracleGaveUp),
-                },
+                }
             };
             if pushed.is_err() {
                 return unresolved(s, Limit::Budget);

@@ -1,11 +1,12 @@
 //! All pairs of pieces, one common clock: Alg. 1 of the paper, the slow and obvious twin.
 
 use super::Schedule;
-use super::pair::{Pair, Step};
+use super::pair::Pair;
 use super::start::{self, Start};
 use crate::oracle::DistanceOracle;
 use crate::outcome::{Answer, Limit, Outcome, Stats};
 use crate::problem::Problem;
+use std::ops::ControlFlow;
 
 /// Advances all pairs of pieces together by the least of their free times `[FAST06 Alg. 1]`.
 ///
@@ -59,16 +60,11 @@ impl<O: DistanceOracle> Naive<O> {
             }
             let mut next = f64::INFINITY;
             for pair in &mut self.pairs {
-                match pair.advance(problem, oracle, stats, s) {
-                    Step::FreeUntil(clock) => next = next.min(clock),
-                    Step::Contact(contact) if s > 0.0 => {
-                        let time = problem.time(s);
-                        return Outcome::Contact { time, contact };
-                    }
-                    Step::Contact(contact) => start.touch(contact),
-                    Step::Overlap(contact) => return Start::overlapping(contact),
-                    Step::Stalled => return unresolved(s, Limit::Stalled),
-                    Step::GaveUp => return unresolved(s, Limit::OracleGaveUp),
+                let step = pair.advance(problem, oracle, stats, s);
+                match start.settle(problem, step, s) {
+                    ControlFlow::Continue(Some(clock)) => next = next.min(clock),
+                    ControlFlow::Continue(None) => {}
+                    ControlFlow::Break(outcome) => return outcome,
                 }
             }
             if let Some(outcome) = start.end(problem) {

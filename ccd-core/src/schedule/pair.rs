@@ -31,6 +31,7 @@ enum Goal {
 }
 
 /// What became of a pair at its clock.
+#[derive(Clone, Copy, Debug)]
 pub(crate) enum Step {
     /// Certified apart until this clock, which is past the present one; beyond 1 is forever.
     FreeUntil(f64),

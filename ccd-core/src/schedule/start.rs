@@ -1,8 +1,10 @@
 //! What is found at the start: touching, overlapping, or one inside the other.
 
+use super::pair::Step;
 use crate::containment;
-use crate::outcome::{Contact, Outcome, Overlap};
+use crate::outcome::{Contact, Limit, Outcome, Overlap};
 use crate::problem::{Problem, StartPolicy};
+use std::ops::ControlFlow;
 
 /// Searches as the problem's policy for the start demands.
 ///
@@ -34,15 +36,43 @@ pub(crate) struct Start {
 
 impl Start {
     /// A pair touches at the start; another one may be nearer, or overlap still.
-    pub(crate) fn touch(&mut self, contact: Contact) {
+    fn touch(&mut self, contact: Contact) {
         let nearest = self.touching.get_or_insert(contact);
         if contact.separation.lower < nearest.separation.lower {
             *nearest = contact;
         }
     }
 
+    /// What a pair of pieces at clock `s` has come to: the clock to wait for, none when it touches at
+    /// the start, or the answer.
+    pub(crate) fn settle(
+        &mut self,
+        problem: &Problem<'_>,
+        step: Step,
+        s: f64,
+    ) -> ControlFlow<Outcome, Option<f64>> {
+        let unresolved = |reason| Outcome::Unresolved {
+            safe_until: problem.time(s),
+            reason,
+        };
+        ControlFlow::Break(match step {
+            Step::FreeUntil(clock) => return ControlFlow::Continue(Some(clock)),
+            Step::Contact(contact) if s > 0.0 => {
+                let time = problem.time(s);
+                Outcome::Contact { time, contact }
+            }
+            Step::Contact(contact) => {
+                self.touch(contact);
+                return ControlFlow::Continue(None);
+            }
+            Step::Overlap(contact) => Start::overlapping(contact),
+            Step::Stalled => unresolved(Limit::Stalled),
+            Step::GaveUp => unresolved(Limit::OracleGaveUp),
+        })
+    }
+
     /// A pair overlaps.
-    pub(crate) fn overlapping(contact: Contact) -> Outcome {
+    fn overlapping(contact: Contact) -> Outcome {
         Outcome::Overlapping {
             overlap: Overlap::Pieces(contact),
         }
