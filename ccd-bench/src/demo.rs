@@ -109,7 +109,7 @@ fn methods(scene: &Scene) -> impl Iterator<Item = Method> {
         .all(|b| b.body.hull_tree().is_some());
     Method::all().filter(move |method| match method.schedule {
         ScheduleKind::BestFirst => true,
-        ScheduleKind::HullFirst => hull_trees,
+        ScheduleKind::HullFirst | ScheduleKind::Fast => hull_trees,
         ScheduleKind::Naive => all_pairs,
     })
 }

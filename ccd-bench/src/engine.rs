@@ -1,6 +1,7 @@
 //! The choice of schedule and oracle at run time.
 
-use ccd_core::schedule::{BestFirst, HullFirst, Naive};
+use ccd_core::motion_bound::Bound;
+use ccd_core::schedule::{BestFirst, Fast, HullFirst, Naive};
 use ccd_core::{Answer, DistanceOracle, Problem, Schedule};
 use ccd_distance_gjk::{Auto, Gjk, GjkF32};
 use clap::ValueEnum;
@@ -13,6 +14,8 @@ pub struct Method {
     pub schedule: ScheduleKind,
     /// Who measures the distance of two pieces.
     pub oracle: OracleKind,
+    /// For the schedules that [use one](ScheduleKind::uses_a_bound).
+    pub bound: BoundKind,
 }
 
 /// The schedules there are.
@@ -23,16 +26,45 @@ pub enum ScheduleKind {
     BestFirst,
     /// The same over trees of convex hulls, which are built for it: nodes are measured like pieces.
     HullFirst,
+    /// As published: one step for all pairs at which the distance query over hull trees stops.
+    Fast,
     /// All pairs of pieces, one step for all: slow, for comparison on small meshes.
     Naive,
+}
+
+/// How a schedule that takes one step for all bounds the bodies' advance over it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, ValueEnum)]
+pub enum BoundKind {
+    /// Holds however far they turn.
+    #[default]
+    Sound,
+    /// As the paper prints it: times may be late, and contacts missed.
+    Published,
+}
+
+impl From<BoundKind> for Bound {
+    fn from(kind: BoundKind) -> Self {
+        match kind {
+            BoundKind::Sound => Bound::Sound,
+            BoundKind::Published => Bound::Published,
+        }
+    }
 }
 
 impl ScheduleKind {
     /// Whether it is of use only for bodies with a [hull tree](ccd_core::Body::hull_tree).
     pub fn uses_hull_trees(self) -> bool {
         match self {
-            ScheduleKind::HullFirst => true,
+            ScheduleKind::HullFirst | ScheduleKind::Fast => true,
             ScheduleKind::BestFirst | ScheduleKind::Naive => false,
+        }
+    }
+
+    /// Whether it takes one step for all pairs, which a [bound](BoundKind) is chosen for.
+    pub fn uses_a_bound(self) -> bool {
+        match self {
+            ScheduleKind::Fast | ScheduleKind::Naive => true,
+            ScheduleKind::BestFirst | ScheduleKind::HullFirst => false,
         }
     }
 }
@@ -56,12 +88,16 @@ pub trait Solver: Send {
 }
 
 impl Method {
-    /// All combinations.
+    /// All combinations that are never late.
     pub fn all() -> impl Iterator<Item = Method> {
         ScheduleKind::value_variants().iter().flat_map(|&schedule| {
             OracleKind::value_variants()
                 .iter()
-                .map(move |&oracle| Method { schedule, oracle })
+                .map(move |&oracle| Method {
+                    schedule,
+                    oracle,
+                    bound: BoundKind::Sound,
+                })
         })
     }
 
@@ -89,8 +125,12 @@ impl Method {
                 schedule: HullFirst::<O>::default(),
                 oracle,
             }),
+            ScheduleKind::Fast => Box::new(Pairing {
+                schedule: Fast::<O>::new(self.bound.into()),
+                oracle,
+            }),
             ScheduleKind::Naive => Box::new(Pairing {
-                schedule: Naive::<O>::default(),
+                schedule: Naive::<O>::new(self.bound.into()),
                 oracle,
             }),
         }
@@ -113,6 +153,12 @@ where
 }
 
 impl fmt::Display for ScheduleKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write_value(self, f)
+    }
+}
+
+impl fmt::Display for BoundKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write_value(self, f)
     }

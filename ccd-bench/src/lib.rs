@@ -2,13 +2,14 @@
 //!
 //! | to … | see |
 //! |---|---|
-//! | read motions, write results | [`motions`], [`results`] |
+//! | read motions, write results and contacts | [`motions`], [`results`], [`contacts`] |
 //! | answer many queries, each timed alone | [`query`] |
 //! | choose schedule and oracle at run time | [`engine`] |
 //! | make the bodies and motions of the paper's scenes | [`model`], [`scene`] |
 //! | compare every method on every scene | [`demo`] |
 
 pub mod cli;
+pub mod contacts;
 pub mod demo;
 pub mod engine;
 pub mod model;

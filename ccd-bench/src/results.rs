@@ -4,7 +4,7 @@
 mod tests;
 
 use ccd_core::glam::DVec3;
-use ccd_core::{Answer, Contact, Outcome, Overlap};
+use ccd_core::{Answer, Contact, Outcome, Overlap, Stats};
 use serde::Serialize;
 use std::io;
 
@@ -31,6 +31,25 @@ pub const COLUMNS: [&str; 19] = [
     "micros",
 ];
 
+/// The columns that follow where counters are asked for, in order.
+pub const COUNTER_COLUMNS: [&str; 5] = [
+    "advancements",
+    "oracle_steps",
+    "cycles",
+    "fallbacks",
+    "front",
+];
+
+/// Which columns a table has.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Extent {
+    /// [`COLUMNS`].
+    #[default]
+    Results,
+    /// These, and [`COUNTER_COLUMNS`].
+    WithCounters,
+}
+
 /// One answer as the table holds it, in the order of [`COLUMNS`]; what does not apply is an empty
 /// cell.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -39,7 +58,7 @@ pub struct ResultRow {
     pub id: String,
     /// What happens.
     pub status: Status,
-    /// When: certified that nothing touches before. The duration when free.
+    /// When: certified that nothing touches before, unless by a bound that is not. The duration when free.
     pub time: f64,
     /// A lower bound of the distance at `time`; when free, at all times.
     pub distance_lower: Option<f64>,
@@ -61,6 +80,36 @@ pub struct ResultRow {
     pub oracle_calls: u64,
     /// How long that query alone took, in microseconds.
     pub micros: f64,
+    /// What else was counted.
+    #[serde(skip)]
+    pub counters: Counters,
+}
+
+/// What is counted beside the visits and the calls, in the order of [`COUNTER_COLUMNS`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Counters {
+    /// How often all pairs were advanced together.
+    pub advancements: u64,
+    /// Steps of the oracle's search; 0 of oracles that do not count them.
+    pub oracle_steps: u64,
+    /// How often the search came back to where it had been.
+    pub cycles: u64,
+    /// How often an oracle gave up and another one was asked.
+    pub fallbacks: u64,
+    /// The most pairs that waited at one time.
+    pub front: u64,
+}
+
+impl From<&Stats> for Counters {
+    fn from(stats: &Stats) -> Self {
+        Counters {
+            advancements: stats.advancements,
+            oracle_steps: stats.effort.steps,
+            cycles: stats.effort.cycles,
+            fallbacks: stats.effort.fallbacks,
+            front: stats.peak_front,
+        }
+    }
 }
 
 /// An [`Outcome`], without what goes with it.
@@ -140,6 +189,7 @@ impl ResultRow {
             iterations: answer.stats.node_visits,
             oracle_calls: answer.stats.oracle_calls,
             micros,
+            counters: Counters::from(&answer.stats),
         };
         match answer.outcome {
             Outcome::Contact { contact, .. }
@@ -184,14 +234,21 @@ impl ResultRow {
 /// When `output` cannot be written to.
 pub fn write<'r>(
     output: impl io::Write,
+    extent: Extent,
     rows: impl IntoIterator<Item = &'r ResultRow>,
 ) -> Result<(), csv::Error> {
     let mut writer = csv::WriterBuilder::new()
         .has_headers(false)
         .from_writer(output);
-    writer.write_record(COLUMNS)?;
+    match extent {
+        Extent::Results => writer.write_record(COLUMNS)?,
+        Extent::WithCounters => writer.write_record(COLUMNS.iter().chain(&COUNTER_COLUMNS))?,
+    }
     for row in rows {
-        writer.serialize(row)?;
+        match extent {
+            Extent::Results => writer.serialize(row)?,
+            Extent::WithCounters => writer.serialize((row, row.counters))?,
+        }
     }
     writer.flush()?;
     Ok(())

@@ -39,6 +39,10 @@ pub struct Summary {
     pub node_visits: u64,
     /// How often the oracle was asked, all queries together.
     pub oracle_calls: u64,
+    /// How often all pairs were advanced together, all queries together.
+    pub advancements: u64,
+    /// Steps of the oracle's search, all queries together.
+    pub oracle_steps: u64,
     /// The tolerance asked for.
     asked: f64,
     /// How many answers were ended by each limit, in the order of [`LIMITS`].
@@ -59,6 +63,8 @@ impl Summary {
             p95_micros: f64::NAN,
             node_visits: 0,
             oracle_calls: 0,
+            advancements: 0,
+            oracle_steps: 0,
             asked: tolerance,
             limits: [0; LIMITS.len()],
             raised: 0,
@@ -74,6 +80,8 @@ impl Summary {
             }
             summary.node_visits += answer.stats.node_visits;
             summary.oracle_calls += answer.stats.oracle_calls;
+            summary.advancements += answer.stats.advancements;
+            summary.oracle_steps += answer.stats.effort.steps;
             summary.raised += usize::from(answer.tolerance > tolerance);
             summary.largest_tolerance = summary.largest_tolerance.max(answer.tolerance);
             micros.push(timed.micros);
@@ -89,6 +97,19 @@ impl Summary {
     /// How many there are of a status.
     pub fn count(&self, status: Status) -> usize {
         self.counts[status as usize]
+    }
+
+    /// The means of what is counted, as one line; none of no rows.
+    pub fn means(&self) -> Option<String> {
+        let mean = |total: u64| total as f64 / self.rows() as f64;
+        (self.rows() > 0).then(|| {
+            format!(
+                "means: {:.1} advancements, {:.1} oracle calls, {:.1} oracle steps",
+                mean(self.advancements),
+                mean(self.oracle_calls),
+                mean(self.oracle_steps)
+            )
+        })
     }
 
     /// How many there are.

@@ -1,6 +1,7 @@
 //! The convex hull tree: a hull at every node, the pieces at the leaves `[FAST06 §3.3]`.
 
 mod assemble;
+mod convex;
 mod error;
 mod inherit;
 mod inside;
@@ -12,9 +13,13 @@ mod tests;
 
 pub use error::{HullFault, HullTreeError};
 
+use convex::Climbed;
+
 use crate::hierarchy::{Hierarchy, HierarchyNode};
 use crate::oracle::Combination;
+use crate::piece::Piece;
 use crate::pieces::Pieces;
+use crate::tolerance::CLIMBED_POINTS;
 use glam::DVec3;
 
 /// A binary tree over the pieces of a body with the convex hull of what is below at every node
@@ -48,6 +53,10 @@ pub struct HullTree {
     evenly_rounded: Vec<bool>,
     /// Half the diagonal of each hull's box, rounding included.
     sizes: Vec<f64>,
+    /// The facets that meet in each point of all hulls, counted within its hull, in order.
+    meeting: Vec<u32>,
+    /// Where each point's facets end.
+    meeting_ends: Vec<u32>,
 }
 
 /// What a node is made of.
@@ -139,17 +148,45 @@ impl HullTree {
         if support.len() == 1 {
             return FacetClass::Original;
         }
-        let facets = self.hulls.get(at).facets;
-        let holding = facets
-            .iter()
-            .zip(self.facet_classes(node))
-            .filter(|(corners, _)| support.iter().all(|v| corners.contains(v)));
         let inside = match self.hierarchy.nodes()[at] {
-            HierarchyNode::Leaf(_) if facets.is_empty() => FacetClass::Original,
+            HierarchyNode::Leaf(_) if self.facet_classes(node).is_empty() => FacetClass::Original,
             HierarchyNode::Leaf(_) => FacetClass::Contained,
             HierarchyNode::Inner(..) => FacetClass::Free,
         };
-        holding.map(|(_, &class)| class).min().unwrap_or(inside)
+        let (first, others) = (self.meeting(at, support[0]), &support[1..]);
+        let holding = first.iter().filter(|facet| {
+            let holds = |&v| self.meeting(at, v).contains(facet);
+            others.iter().all(holds)
+        });
+        let classes = self.facet_classes(node);
+        let class = |&facet: &u32| classes[facet as usize];
+        holding.map(class).min().unwrap_or(inside)
+    }
+
+    /// The facets of a node's hull that meet in one of its points; none when there is no such point.
+    fn meeting(&self, node: usize, point: u32) -> &[u32] {
+        let points = self.hulls.point_range(node);
+        let at = points.start + point as usize;
+        if !points.contains(&at) {
+            return &[];
+        }
+        let start = if at == 0 {
+            0
+        } else {
+            self.meeting_ends[at - 1]
+        };
+        &self.meeting[start as usize..self.meeting_ends[at] as usize]
+    }
+
+    /// A node's hull; where it has many points, these are found along a direction by climbing edges,
+    /// once these are proven to be those of the hull.
+    pub(crate) fn hull(&self, node: u32) -> Piece<'_> {
+        let mut hull = self.hulls.get(node as usize);
+        if hull.points.len() > CLIMBED_POINTS {
+            let climbed = hull.kept(|hull| Box::new(Climbed::new(hull)));
+            hull.support = climbed.and_then(|climbed| climbed.support());
+        }
+        hull
     }
 
     /// The nodes that the tree can be [made](HullTree::new) of again.
@@ -177,7 +214,8 @@ impl HullTree {
 
     /// Bytes held, about.
     pub(crate) fn bytes(&self) -> usize {
-        self.hulls.bytes() + self.classes.len() + 25 * self.sizes.len()
+        let meeting = 4 * (self.meeting.len() + self.meeting_ends.len());
+        self.hulls.bytes() + self.classes.len() + 25 * self.sizes.len() + meeting
     }
 
     /// The same tree with leaves that name the same pieces in another list.

@@ -30,6 +30,7 @@
 //! | the same over hull trees `[FAST06 §3.3, §5.1]` | `hull_tree.rs`, `schedule/hull_first.rs` |
 //! | farthest corner along a direction `[FAST06 §4.2]` | `support.rs` |
 //! | one pair of pieces at one moment | `schedule/pair.rs`, `schedule/moment.rs` |
+//! | features of all contacts at a time `[FAST06 §5.2]` | `contacts.rs` |
 //! | contact at the start, one body inside the other | `schedule/start.rs`, `overlap.rs`, `containment.rs` |
 //! | every allowance for rounding | [`tolerance`] |
 //!
@@ -80,10 +81,11 @@
 #[cfg(all(target_feature = "avx512f", not(feature = "avx512")))]
 compile_error!(
     "rustc 1.95 (LLVM 22.1.2) miscompiles plain f64 loops with AVX-512, and a certificate is worth \
-     nothing then: add `-C target-feature=-avx512f` to the rustflags, as .cargo/config.toml does \
-     here, or the feature `avx512` if your compiler is known to be free of it"
+     nothing then: add `-C target-cpu=x86-64-v3` to the rustflags, as .cargo/config.toml does here, or \
+     the feature `avx512` if your compiler is known to be free of it"
 );
 mod body;
+mod contacts;
 mod containment;
 mod error;
 mod feature;
@@ -106,6 +108,7 @@ mod primitive;
 mod problem;
 pub mod schedule;
 mod separation;
+mod shelf;
 mod shell;
 mod support;
 #[cfg(test)]
@@ -115,6 +118,7 @@ mod tree;
 mod trig;
 
 pub use body::{Body, Volume};
+pub use contacts::{ContactsError, FeaturePair};
 pub use error::InputError;
 pub use feature::Feature;
 pub use glam;
@@ -122,7 +126,7 @@ pub use hierarchy::{Hierarchy, HierarchyNode};
 #[cfg(feature = "hull-tree")]
 pub use hull_tree::{FacetClass, Hull, HullFault, HullNode, HullTree, HullTreeError};
 pub use motion::Motion;
-pub use oracle::{Claim, Combination, DistanceOracle, GiveUp, OrElse, PiecePair};
+pub use oracle::{Claim, Combination, DistanceOracle, Effort, GiveUp, OrElse, PiecePair};
 pub use outcome::{Answer, Contact, Limit, Outcome, Overlap, Separation, Stats};
 pub use piece::{Face, Facet, Facets, Origin, Piece, Polytope};
 pub use pieces::Pieces;

@@ -19,13 +19,24 @@ pub struct Velocities {
     pub spin: DVec3,
 }
 
-/// `v·n + maxᵢ (n×ω)·rᵢ`: the fastest advance along `n` at this very moment, over points at arms
-/// `rᵢ` from the centre `[FAST06 §4.2 Eq. 5]`, signed.
+/// Which bound of a body's advance along an axis a schedule divides distances by.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Bound {
+    /// [`published`], as it is printed. **Unsound**: times may be late, and contacts missed.
+    Published,
+    /// [`sound`].
+    #[default]
+    Sound,
+}
+
+/// `maxᵢ (n×ω)·rᵢ + |v·n|`: the fastest advance along `n` at this very moment, over the arms `rᵢ`
+/// from the centre, of which `farthest` tells the one that is farthest along a direction
+/// `[FAST06 §4.2 Eq. 5]`.
 ///
 /// **Unsound over a step**: the arms turn with the body. It is here to be compared with.
-pub fn published(motion: &Velocities, n: DVec3, arms: impl Iterator<Item = DVec3>) -> f64 {
+pub fn published(motion: &Velocities, n: DVec3, farthest: impl FnOnce(DVec3) -> DVec3) -> f64 {
     let c = n.cross(motion.spin);
-    arms.map(|r| c.dot(r)).fold(0.0, f64::max) + motion.linear.dot(n)
+    c.dot(farthest(c)).max(0.0) + motion.linear.dot(n).abs()
 }
 
 /// `v·n + |n×ω| ρ`: an upper bound of the rate of advance along `n` at any time, for points no

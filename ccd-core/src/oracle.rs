@@ -39,6 +39,11 @@ pub trait DistanceOracle {
         cache: &mut Self::Cache,
     ) -> Result<Claim, GiveUp>;
 
+    /// What it took so far, over all calls; an oracle that does not count says 0.
+    fn effort(&self) -> Effort {
+        Effort::default()
+    }
+
     /// Asks `other` wherever this oracle gives up.
     fn or_else<O: DistanceOracle>(self, other: O) -> OrElse<Self, O>
     where
@@ -142,12 +147,50 @@ impl Combination {
     }
 }
 
+/// What an oracle had to do, over many calls.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Effort {
+    /// Steps of its search: from features to neighbouring features, from simplex to simplex.
+    pub steps: u64,
+    /// How often it came back to where it had been.
+    pub cycles: u64,
+    /// How often it gave up and another oracle was asked.
+    pub fallbacks: u64,
+}
+
+impl std::ops::Add for Effort {
+    type Output = Effort;
+
+    fn add(self, other: Effort) -> Effort {
+        Effort {
+            steps: self.steps + other.steps,
+            cycles: self.cycles + other.cycles,
+            fallbacks: self.fallbacks + other.fallbacks,
+        }
+    }
+}
+
+impl std::ops::Sub for Effort {
+    type Output = Effort;
+
+    /// What was added since `earlier`.
+    fn sub(self, earlier: Effort) -> Effort {
+        Effort {
+            steps: self.steps - earlier.steps,
+            cycles: self.cycles - earlier.cycles,
+            fallbacks: self.fallbacks - earlier.fallbacks,
+        }
+    }
+}
+
 /// Why an oracle has no answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum GiveUp {
     /// It is made for pieces of fewer points.
     TooManyPoints,
+    /// It needs the facets of the pieces' hulls, and they are not known, or do not close a hull.
+    BadFacets,
     /// It ran into its cap of steps.
     StepCap,
     /// It came back to where it had been.
@@ -184,6 +227,14 @@ impl<First: DistanceOracle, Second: DistanceOracle> DistanceOracle for OrElse<Fi
             self.second
                 .separation(pair, cache.1.get_or_insert_default())
         })
+    }
+
+    fn effort(&self) -> Effort {
+        let own = Effort {
+            fallbacks: self.fallbacks,
+            ..Effort::default()
+        };
+        own + self.first.effort() + self.second.effort()
     }
 }
 

@@ -1,6 +1,7 @@
 //! What a query answers.
 
 use crate::feature::Feature;
+use crate::oracle::Effort;
 use glam::DVec3;
 
 /// The answer to "when do they first touch?".
@@ -105,6 +106,11 @@ pub struct Stats {
     pub give_ups: u64,
     /// The most pairs that waited at one time.
     pub peak_front: u64,
+    /// How often all pairs were advanced together: the steps of conservative advancement, the first
+    /// distance included. 0 for schedules under which every pair has a clock of its own.
+    pub advancements: u64,
+    /// What the oracle did for it.
+    pub effort: Effort,
 }
 
 /// An outcome with its accuracy and its cost.

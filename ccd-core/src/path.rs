@@ -2,6 +2,7 @@
 //! are near, so that neither a far world nor a long duration costs digits.
 
 use crate::motion::Motion;
+use crate::motion_bound::Velocities;
 use crate::pose::Frame;
 use crate::trig::sin_cos;
 use glam::{DMat3, DVec3};
@@ -75,6 +76,27 @@ impl Path {
     #[inline]
     pub(crate) fn velocity_at(&self, x: DVec3, s: f64) -> DVec3 {
         self.velocity + self.spin.cross(x - self.centre_at(s))
+    }
+
+    /// Per unit of `s`.
+    pub(crate) fn velocities(&self) -> Velocities {
+        Velocities {
+            linear: self.velocity,
+            spin: self.spin,
+        }
+    }
+
+    /// How far the farthest of some points of the body is from the axis of rotation, which does not
+    /// change; 0 where it does not turn.
+    pub(crate) fn reach(&self, points: &[DVec3]) -> f64 {
+        if !self.turns() {
+            return 0.0;
+        }
+        let unit = self.spin_local / self.rate;
+        let squares = points
+            .iter()
+            .map(|&x| unit.cross(x - self.centre).length_squared());
+        squares.fold(0.0, f64::max).sqrt()
     }
 
     pub(crate) fn turns(&self) -> bool {

@@ -1,6 +1,9 @@
 //! Convex pieces: what bodies are made of and what oracles measure between.
 
+use crate::shelf::Shelf;
+use crate::support::Support;
 use glam::DVec3;
+use std::any::Any;
 
 /// A convex piece: the hull of `points`, grown by `radius`, in its body's frame.
 ///
@@ -13,6 +16,18 @@ pub struct Piece<'a> {
     pub radius: f64,
     /// The facets of the hull, where known: empty for up to three points.
     pub facets: Facets<'a>,
+    /// Finds extremal points, where that is prepared, and proven to find the right ones.
+    pub(crate) support: Option<&'a Support>,
+    /// Where backends keep what they make of it.
+    pub(crate) place: Option<Place<'a>>,
+}
+
+/// Which of how many pieces one is.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Place<'a> {
+    pub(crate) shelf: &'a Shelf,
+    pub(crate) len: usize,
+    pub(crate) index: usize,
 }
 
 impl<'a> Piece<'a> {
@@ -22,7 +37,33 @@ impl<'a> Piece<'a> {
             points,
             radius: 0.0,
             facets: Facets::NONE,
+            support: None,
+            place: None,
         }
+    }
+
+    /// What a backend makes of the piece and keeps for the next time: made when it is first asked
+    /// for, dropped with the list that the piece is of. None for a piece that is of no list.
+    ///
+    /// Types are told apart, so that every backend has a type of its own, and one entry for each
+    /// piece, which costs memory for all pieces of the list from the first one on: box what is large.
+    ///
+    /// ```
+    /// use ccd_core::{glam::DVec3, Piece, Pieces};
+    /// struct Middle(DVec3);
+    /// let middle = |piece: &Piece| Middle(piece.points.iter().sum::<DVec3>() / 3.0);
+    /// let corners = [DVec3::ZERO, 3.0 * DVec3::X, 3.0 * DVec3::Y];
+    /// let list = Pieces::triangles(&corners, &[[0, 1, 2]], &[0]).unwrap();
+    /// let kept = list.get(0).kept(middle).unwrap();
+    /// assert_eq!(kept.0, DVec3::new(1.0, 1.0, 0.0));
+    /// assert!(std::ptr::eq(kept, list.get(0).kept(middle).unwrap()));
+    /// assert!(Piece::from_points(&corners).kept(middle).is_none());
+    /// ```
+    #[inline]
+    pub fn kept<T: Any + Send + Sync>(&self, make: impl FnOnce(&Self) -> T) -> Option<&'a T> {
+        let place = self.place?;
+        let entry = place.shelf.entry(place.len, place.index);
+        Some(entry.get_or_init(|| make(self)))
     }
 
     /// The mesh's triangles that are on the piece, with the numbers of their faces; polygons are fans
@@ -42,6 +83,20 @@ impl<'a> Piece<'a> {
         });
         let faces = self.facets.faces.iter();
         fans.chain(faces.map(|face| (face.id, face.corners)))
+    }
+
+    /// A point that is farthest along a direction.
+    pub(crate) fn farthest(&self, direction: DVec3) -> DVec3 {
+        if let Some(support) = self.support {
+            return self.points[support.extremal(direction) as usize];
+        }
+        let mut farthest = self.points[0];
+        for &point in self.points {
+            if direction.dot(point) > direction.dot(farthest) {
+                farthest = point;
+            }
+        }
+        farthest
     }
 
     /// Whether it lies in a plane: a polytope of volume has more than two facets.

@@ -4,7 +4,8 @@ use crate::error::InputError;
 use crate::feature::Feature;
 use crate::naming::{self, Name};
 use crate::oracle::Combination;
-use crate::piece::{Face, Facets, Origin, Piece, Polytope};
+use crate::piece::{Face, Facets, Origin, Piece, Place, Polytope};
+use crate::shelf::Shelf;
 use crate::tolerance::MAX_COORDINATE;
 use glam::DVec3;
 
@@ -22,6 +23,8 @@ pub struct Pieces {
     point_ends: Vec<u32>,
     radii: Radii,
     shape: Shape,
+    /// What backends keep of them.
+    shelf: Shelf,
 }
 
 /// Indices are kept in 32 bits, of which a quarter names points and the rest has room for nodes.
@@ -96,6 +99,7 @@ impl Pieces {
             shape: Shape::Triangles {
                 face_ids: face_ids.to_vec(),
             },
+            shelf: Shelf::default(),
         }
         .checked()
     }
@@ -129,6 +133,7 @@ impl Pieces {
             point_ends,
             radii: Radii::Each(polytopes.iter().map(|p| p.radius).collect()),
             shape: Shape::Polytopes(Box::new(surfaces)),
+            shelf: Shelf::default(),
         }
         .checked()
     }
@@ -181,6 +186,12 @@ impl Pieces {
             points: &self.points[self.point_range(index)],
             radius: self.radius(index),
             facets: self.facets(index),
+            support: None,
+            place: Some(Place {
+                shelf: &self.shelf,
+                len: self.len(),
+                index,
+            }),
         }
     }
 
@@ -229,6 +240,7 @@ impl Pieces {
                 }
             },
             shape: self.shape.reordered(order),
+            shelf: Shelf::default(),
         };
         for &k in order {
             let range = self.point_range(k as usize);

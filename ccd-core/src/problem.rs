@@ -4,6 +4,7 @@ use crate::body::Body;
 use crate::error::InputError;
 use crate::motion::Motion;
 use crate::path::Path;
+use crate::piece::Piece;
 use crate::tolerance::{self, LEAST_TOLERANCE, MAX_COORDINATE, MAX_TURN, NODE_GAP};
 use glam::DVec3;
 
@@ -145,6 +146,12 @@ impl<'a> Problem<'a> {
     /// f64 at the scene's coordinates.
     pub fn tolerance(&self) -> f64 {
         self.tolerance
+    }
+
+    /// A piece of A and one of B.
+    pub(crate) fn pieces(&self, [a, b]: [u32; 2]) -> [Piece<'a>; 2] {
+        let piece = |side: &Side<'a>, k: u32| side.body.pieces().get(k as usize);
+        [piece(&self.a, a), piece(&self.b, b)]
     }
 
     /// The gap that the clocks of pairs of pieces prove: half the tolerance beyond the margin, so

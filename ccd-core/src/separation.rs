@@ -59,20 +59,22 @@ pub(crate) fn check(pair: &PiecePair<'_>, claim: &Claim, rounding: f64) -> Check
 /// `min_B n·y − max_A n·x` of the unrounded pieces, with heights measured from `from`.
 #[inline]
 pub(crate) fn support_gap(pair: &PiecePair<'_>, n: DVec3, from: DVec3) -> f64 {
-    let highest = pair
-        .a
-        .points
-        .iter()
-        .map(|&x| n.dot(x - from))
-        .fold(f64::NEG_INFINITY, f64::max);
+    let highest = match pair.a.support {
+        Some(support) => n.dot(pair.a.points[support.extremal(n) as usize] - from),
+        None => {
+            let heights = pair.a.points.iter().map(|&x| n.dot(x - from));
+            heights.fold(f64::NEG_INFINITY, f64::max)
+        }
+    };
     let n_b = pair.b_to_a.inverse_vector(n);
     let origin_b = n.dot(pair.b_to_a.translation - from);
-    let lowest = pair
-        .b
-        .points
-        .iter()
-        .map(|&y| n_b.dot(y))
-        .fold(f64::INFINITY, f64::min);
+    let lowest = match pair.b.support {
+        Some(support) => n_b.dot(pair.b.points[support.extremal(-n_b) as usize]),
+        None => {
+            let heights = pair.b.points.iter().map(|&y| n_b.dot(y));
+            heights.fold(f64::INFINITY, f64::min)
+        }
+    };
     lowest + origin_b - highest
 }
 

@@ -45,12 +45,14 @@ pub const MAX_TURN: f64 = 1e6;
 /// - taking B into A's frame is another rotation (`4u` of the operands) and one more placement;
 /// - a support value `n·x` with a rounded unit axis adds `4u` of `|x|`, and so does a distance.
 ///
-/// - heights of points along a fixed axis, of which only differences are used, add `16u` of `|x|`.
+/// - heights of points along a fixed axis, of which only differences are used, add `16u` of `|x|`;
+/// - a support point that edges are climbed to may be lower than the farthest one by the rounding of
+///   two heights, `2 · 4u |n|₁ |x| ≤ 14u |x|` ([`HEIGHT_F64`]).
 ///
-/// Per body that is at most `(2√3 (14 + ω) + 32) u ≤ (81 + 4ω) u` of its span, and `32u` of the
+/// Per body that is at most `(2√3 (14 + ω) + 46) u ≤ (95 + 4ω) u` of its span, and `32u` of the
 /// way between the bodies. Without it a touching pair could be certified apart.
 pub fn distance_rounding(spans: [f64; 2], turns: [f64; 2], way: f64) -> f64 {
-    let body = |k: usize| (81.0 + 4.0 * turns[k]) * spans[k];
+    let body = |k: usize| (95.0 + 4.0 * turns[k]) * spans[k];
     U64 * (body(0) + body(1) + 32.0 * way)
 }
 
@@ -215,6 +217,11 @@ pub const HEIGHT_F64: f64 = 4.0 * U64;
 /// at again rather than split, where their distance is not that of the pieces below. On patches of
 /// knots, a ring and a bunny a half and never made no clear difference.
 pub const HULL_PROGRESS: f64 = 1.0 / 2.0;
+
+/// How much farther than the bodies two pairs of the front of a descent have to be for the pair that
+/// covers both to be tried in their place; and how much nearer the bodies have to have come for it to
+/// be tried again. What it saves is to measure both of them, what it costs is to measure one more.
+pub const JOIN_BEYOND: f64 = 2.0;
 
 /// Up to this many points of a piece are all looked at for the farthest one; of more, edges are
 /// climbed. Measured on hulls of random points of a sphere, in directions at random, by

@@ -5,6 +5,8 @@
 
 mod backends_agree;
 mod bad_inputs;
+mod compiler;
+mod contacts;
 mod decomposition;
 mod equal_bits;
 mod exact;
@@ -22,6 +24,7 @@ mod never_late;
 mod oracle_contract;
 mod patch_liars;
 mod referee;
+mod published_bound;
 mod regressions;
 mod scenes;
 mod start;

@@ -2,7 +2,7 @@
 
 use crate::models::Kind;
 use crate::query::{Bodies, Query};
-use ccd_core::schedule::{BestFirst, HullFirst, Naive};
+use ccd_core::schedule::{BestFirst, Fast, HullFirst, Naive};
 use ccd_core::{Answer, Body, Config, DistanceOracle, Problem, Schedule};
 use ccd_distance_gjk::{Auto, Direct, Gjk, GjkF32};
 
@@ -13,6 +13,8 @@ pub enum Order {
     BestFirst,
     /// The same over pairs of nodes of hull trees.
     HullFirst,
+    /// One step for all, over the front of a descent through hull trees.
+    Fast,
     /// All pairs, one step for all.
     Naive,
 }
@@ -61,7 +63,13 @@ impl Backend {
     /// Every schedule with every oracle.
     pub fn all() -> impl Iterator<Item = Backend> {
         let oracles = [Oracle::Direct, Oracle::Gjk, Oracle::GjkF32, Oracle::Auto];
-        [Order::BestFirst, Order::HullFirst, Order::Naive]
+        let orders = [
+            Order::BestFirst,
+            Order::HullFirst,
+            Order::Fast,
+            Order::Naive,
+        ];
+        orders
             .into_iter()
             .flat_map(move |order| oracles.map(|oracle| Backend { order, oracle }))
     }
@@ -71,7 +79,9 @@ impl Backend {
         let fit = match self.order {
             Order::BestFirst => true,
             // Without trees it is another schedule's answer.
-            Order::HullFirst => bodies.pairs() > 1 && [bodies.a(), bodies.b()].iter().all(has_tree),
+            Order::HullFirst | Order::Fast => {
+                bodies.pairs() > 1 && [bodies.a(), bodies.b()].iter().all(has_tree)
+            }
             Order::Naive => bodies.pairs() <= NAIVE_PAIRS,
         };
         let small = self.oracle != Oracle::Direct
@@ -95,6 +105,7 @@ impl Backend {
     pub fn solve_with<O: DistanceOracle>(self, problem: &Problem<'_>, oracle: &mut O) -> Answer {
         match self.order {
             Order::BestFirst => BestFirst::<O>::default().solve(problem, oracle),
+            Order::Fast => Fast::<O>::default().solve(problem, oracle),
             Order::HullFirst => HullFirst::<O>::default().solve(problem, oracle),
             Order::Naive => Naive::<O>::default().solve(problem, oracle),
         }

@@ -1,34 +1,42 @@
 //! `ccd query`: two bodies and a table of motions in, a table of results out.
 
 mod args;
+mod output;
 
 pub(super) use args::QueryArgs;
 
-use super::{CannotWrite, Verdict, complain, same_file};
-use crate::engine::Method;
+use super::{Verdict, complain, same_file};
+use crate::contacts::{self, ContactRow};
+use crate::engine::{BoundKind, Method};
 use crate::motions::{MotionTable, Place, Query, RowError, RowProblem};
 use crate::progress::{Progress, Spinner};
 use crate::query::{Bodies, Settings, Timed, run as answer};
-use crate::results::{ResultRow, write};
+use crate::results::{self, Extent, ResultRow};
 use crate::summary::Summary;
 use anyhow::{Context, Result, anyhow, bail};
 use ccd_core::{Body, Config, InputError};
 use ccd_decomp::{BodySource, Prepared, build_hull_tree};
+use output::{Output, is_standard, refuse_overwriting};
 use std::fs::File;
-use std::io::{self, BufWriter, Write};
+use std::io::{self, Write};
 use std::num::NonZeroUsize;
 use std::path::Path;
 
 /// Answers all rows that can be; the others are told on standard error.
 pub(super) fn run(args: &QueryArgs) -> Result<Verdict> {
-    if !is_standard(&args.out) && same_file(&args.motions, &args.out) {
-        bail!("--out names the file of --motions, which it would overwrite; give it another");
-    }
+    check(args)?;
     let pair = Pair::load(args)?;
     let table = read_motions(&args.motions)?;
     // Before the work, not after it, is when to learn that its results have nowhere to go.
     let out = Output::open(&args.out)?;
+    let contacts_out = args.contacts.as_deref();
+    let contacts_out = contacts_out
+        .map(|path| open_beside(path, args))
+        .transpose()?;
     let settings = settings(args);
+    if settings.method.bound == BoundKind::Published {
+        complain("--bound published: times are not certified, contacts may be late or missed");
+    }
     let queries: Vec<&Query> = table.rows.iter().map(|(_, query)| query).collect();
     let progress = if args.quiet {
         Progress::hidden()
@@ -39,18 +47,97 @@ pub(super) fn run(args: &QueryArgs) -> Result<Verdict> {
     drop(progress);
 
     let (good, errors) = sort_out(table, answers);
-    out.write(good.iter().map(|(row, _)| row))?;
+    let rows = good.iter().map(|answered| &answered.row);
+    out.write(|writer| results::write(writer, args.extent(), rows))?;
+    let mut complete = errors.is_empty();
+    if let Some(out) = contacts_out {
+        let (rows, told) = all_contacts(args, pair.bodies(), &settings.config, &good);
+        out.write(|writer| contacts::write(writer, &rows))?;
+        complete &= told == Told::All;
+    }
     for error in &errors {
         complain(&format!("{}, {error}", name(&args.motions)));
     }
     if !args.quiet {
-        let timed = good.iter().map(|(_, timed)| timed);
-        let _ = writeln!(io::stderr(), "{}", Summary::new(timed, args.tolerance));
+        summarise(args, &good);
     }
-    Ok(match errors.is_empty() {
+    Ok(match complete {
         true => Verdict::AllAnswered,
         false => Verdict::SomeRowsBad,
     })
+}
+
+/// Refuses what does not go together.
+fn check(args: &QueryArgs) -> Result<()> {
+    refuse_overwriting(("--motions", &args.motions), ("--out", &args.out))?;
+    if let Some(contacts) = &args.contacts {
+        refuse_overwriting(("--motions", &args.motions), ("--contacts", contacts))?;
+        if is_standard(contacts) && is_standard(&args.out) {
+            bail!("--contacts - and --out - are both standard output; give one of them a file");
+        }
+    }
+    if args.bound.is_some() && !args.schedule.uses_a_bound() {
+        bail!(
+            "--bound is for schedules that take one step for all; give it --schedule fast or naive"
+        );
+    }
+    Ok(())
+}
+
+/// Opens the table of contacts; that of results is there already, under whatever name.
+fn open_beside(contacts: &Path, args: &QueryArgs) -> Result<Output> {
+    refuse_overwriting(("--out", &args.out), ("--contacts", contacts))?;
+    Ok(Output::open(contacts)?)
+}
+
+/// Whether there is something that could not be told.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Told {
+    All,
+    Some,
+}
+
+/// The contacts of all rows; those of a row that cannot be listed are told on standard error.
+fn all_contacts(
+    args: &QueryArgs,
+    bodies: Bodies<'_>,
+    config: &Config,
+    good: &[Answered],
+) -> (Vec<ContactRow>, Told) {
+    let (mut all, mut told) = (Vec::new(), Told::All);
+    for Answered {
+        place,
+        query,
+        timed,
+        ..
+    } in good
+    {
+        match contacts::rows(bodies, query, config, &timed.answer.outcome) {
+            Ok(rows) => all.extend(rows),
+            Err(error) => {
+                let Place { row, line } = place;
+                let table = name(&args.motions);
+                complain(&format!(
+                    "{table}, row {row} (line {line}): contacts: {error}"
+                ));
+                told = Told::Some;
+            }
+        }
+    }
+    (all, told)
+}
+
+fn summarise(args: &QueryArgs, good: &[Answered]) {
+    let timed = good.iter().map(|answered| &answered.timed);
+    let summary = Summary::new(timed, args.tolerance);
+    let standing = match args.bound {
+        Some(BoundKind::Published) => "not certified: ",
+        Some(BoundKind::Sound) | None => "",
+    };
+    let _ = writeln!(io::stderr(), "{standing}{summary}");
+    if let (Extent::WithCounters, Some(means)) = (args.extent(), summary.means()) {
+        let _ = writeln!(io::stderr(), "{means}");
+    }
 }
 
 fn settings(args: &QueryArgs) -> Settings {
@@ -59,6 +146,7 @@ fn settings(args: &QueryArgs) -> Settings {
         method: Method {
             schedule: args.schedule,
             oracle: args.oracle,
+            bound: args.bound.unwrap_or_default(),
         },
         config: Config {
             tolerance: args.tolerance,
@@ -71,18 +159,28 @@ fn settings(args: &QueryArgs) -> Settings {
     }
 }
 
+/// A row of motions and what came of it.
+struct Answered {
+    place: Place,
+    query: Query,
+    timed: Timed,
+    row: ResultRow,
+}
+
 /// The results, and all bad rows in the order of the table.
 fn sort_out(
     table: MotionTable,
     answers: Vec<Result<Timed, InputError>>,
-) -> (Vec<(ResultRow, Timed)>, Vec<RowError>) {
+) -> (Vec<Answered>, Vec<RowError>) {
     let (mut good, mut errors) = (Vec::with_capacity(answers.len()), table.errors);
     for ((place, query), answer) in table.rows.into_iter().zip(answers) {
         match answer {
-            Ok(timed) => {
-                let row = ResultRow::new(&query.id, query.duration, &timed.answer, timed.micros);
-                good.push((row, timed));
-            }
+            Ok(timed) => good.push(Answered {
+                row: ResultRow::new(&query.id, query.duration, &timed.answer, timed.micros),
+                place,
+                query,
+                timed,
+            }),
             Err(error) => errors.push(row_error(place, error)),
         }
     }
@@ -165,49 +263,6 @@ fn read_motions(path: &Path) -> Result<MotionTable> {
         MotionTable::read(io::BufReader::new(file.with_context(|| name(path))?))
     };
     table.with_context(|| name(path))
-}
-
-/// Where the results go.
-struct Output {
-    name: String,
-    writer: Box<dyn Write>,
-}
-
-impl Output {
-    fn open(path: &Path) -> Result<Self, CannotWrite> {
-        let name = match is_standard(path) {
-            true => "standard output".to_owned(),
-            false => path.display().to_string(),
-        };
-        if is_standard(path) {
-            let writer = Box::new(io::stdout().lock());
-            return Ok(Output { name, writer });
-        }
-        match File::create(path) {
-            Ok(file) => Ok(Output {
-                name,
-                writer: Box::new(BufWriter::new(file)),
-            }),
-            Err(source) => Err(CannotWrite {
-                place: name,
-                source,
-            }),
-        }
-    }
-
-    fn write<'r>(self, rows: impl IntoIterator<Item = &'r ResultRow>) -> Result<(), CannotWrite> {
-        write(self.writer, rows).map_err(|error| CannotWrite {
-            place: self.name,
-            source: match error.into_kind() {
-                csv::ErrorKind::Io(error) => error,
-                other => io::Error::other(format!("{other:?}")),
-            },
-        })
-    }
-}
-
-fn is_standard(path: &Path) -> bool {
-    path.as_os_str() == "-"
 }
 
 fn name(path: &Path) -> String {

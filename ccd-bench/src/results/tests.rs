@@ -1,5 +1,5 @@
 use super::*;
-use ccd_core::{Feature, Limit, Separation, Stats};
+use ccd_core::{Effort, Feature, Limit, Separation};
 
 fn answer(outcome: Outcome) -> Answer {
     Answer {
@@ -33,7 +33,7 @@ fn contact() -> Contact {
 fn written(outcome: Outcome) -> Vec<(&'static str, String)> {
     let row = ResultRow::new("a,b", 2.5, &answer(outcome), 12.75);
     let mut bytes = Vec::new();
-    write(&mut bytes, [&row]).unwrap();
+    write(&mut bytes, Extent::Results, [&row]).unwrap();
     let mut reader = csv::Reader::from_reader(&bytes[..]);
     assert_eq!(
         reader.headers().unwrap(),
@@ -127,6 +127,38 @@ fn names_are_those_that_are_written() {
 #[test]
 fn a_table_without_rows_has_its_header() {
     let mut bytes = Vec::new();
-    write(&mut bytes, []).unwrap();
+    write(&mut bytes, Extent::Results, []).unwrap();
     assert_eq!(String::from_utf8(bytes).unwrap().trim(), COLUMNS.join(","));
+}
+
+/// By name and by place, after all that is there without them.
+#[test]
+fn counters_follow_the_other_columns() {
+    let answer = Answer {
+        stats: Stats {
+            peak_front: 11,
+            advancements: 12,
+            effort: Effort {
+                steps: 13,
+                cycles: 14,
+                fallbacks: 15,
+            },
+            ..Stats::default()
+        },
+        ..answer(Outcome::Free { clearance: 0.25 })
+    };
+    let row = ResultRow::new("a", 2.5, &answer, 12.75);
+    let text = |extent| {
+        let mut bytes = Vec::new();
+        write(&mut bytes, extent, [&row]).unwrap();
+        String::from_utf8(bytes).unwrap()
+    };
+    let (plain, counted) = (text(Extent::Results), text(Extent::WithCounters));
+    for (line, (with, more)) in plain.lines().zip(counted.lines().zip([
+        "advancements,oracle_steps,cycles,fallbacks,front",
+        "12,13,14,15,11",
+    ])) {
+        assert_eq!(format!("{line},{more}"), with);
+    }
+    assert_eq!((plain.lines().count(), counted.lines().count()), (2, 2));
 }

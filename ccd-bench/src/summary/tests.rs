@@ -1,5 +1,5 @@
 use super::*;
-use ccd_core::{Answer, Outcome, Stats};
+use ccd_core::{Answer, Effort, Outcome, Stats};
 
 fn timed(micros: f64, tolerance: f64) -> Timed {
     Timed {
@@ -9,6 +9,11 @@ fn timed(micros: f64, tolerance: f64) -> Timed {
             stats: Stats {
                 node_visits: 10,
                 oracle_calls: 2,
+                advancements: 3,
+                effort: Effort {
+                    steps: 7,
+                    ..Effort::default()
+                },
                 ..Stats::default()
             },
         },
@@ -51,6 +56,16 @@ fn raised_tolerances_are_counted() {
         text.contains("raised in 2 rows, to at most 4.00e-8"),
         "{text}"
     );
+}
+
+#[test]
+fn means_are_per_row() {
+    let answers = [timed(1.0, 1e-3), timed(2.0, 1e-3)];
+    assert_eq!(
+        Summary::new(&answers, 1e-3).means().as_deref(),
+        Some("means: 3.0 advancements, 2.0 oracle calls, 7.0 oracle steps")
+    );
+    assert_eq!(Summary::new([], 1e-3).means(), None);
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! The `ccd` command as its users run it.
 
 mod command;
+mod contacts;
 mod decompose;
 
 use command::{Row, Run, Scene, parse, stderr};

@@ -33,14 +33,38 @@ pub(super) fn assemble(pieces: &Pieces, nodes: &[HullNode]) -> Result<HullTree, 
         }));
         class_ends.push(classes.len() as u32);
     }
+    let (meeting, meeting_ends) = meeting(&done);
     Ok(HullTree {
         hierarchy,
+        meeting,
+        meeting_ends,
         classes,
         class_ends,
         evenly_rounded: done.iter().map(|node| node.evenly_rounded).collect(),
         sizes: done.iter().map(|node| node.size).collect(),
         hulls: Pieces::polytopes(&done.into_iter().map(|node| node.hull).collect::<Vec<_>>())?,
     })
+}
+
+/// The facets that meet in each point of all hulls, and where each point's end.
+fn meeting(nodes: &[Node]) -> (Vec<u32>, Vec<u32>) {
+    let (mut meeting, mut ends) = (Vec::new(), Vec::new());
+    for node in nodes {
+        let facets = (0u32..).zip(&node.hull.facets);
+        let of_facet = |(k, facet): (u32, &Facet)| -> Vec<(u32, u32)> {
+            facet.corners.iter().map(|&corner| (corner, k)).collect()
+        };
+        let mut pairs: Vec<(u32, u32)> = facets.flat_map(of_facet).collect();
+        pairs.sort_unstable();
+        let mut pairs = pairs.into_iter().peekable();
+        for point in 0..node.hull.points.len() as u32 {
+            while let Some((_, facet)) = pairs.next_if(|&(corner, _)| corner == point) {
+                meeting.push(facet);
+            }
+            ends.push(meeting.len() as u32);
+        }
+    }
+    (meeting, ends)
 }
 
 /// A node that is checked.

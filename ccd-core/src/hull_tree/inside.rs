@@ -132,7 +132,7 @@ fn in_polygon(corners: &[DVec3], point: DVec3) -> bool {
 
 /// Positive where a point is behind a triangle, that is, where the triangle is seen clockwise from;
 /// 0 in its plane. Only the sign is right.
-fn height_below(triangle: [DVec3; 3], point: DVec3) -> f64 {
+pub(super) fn height_below(triangle: [DVec3; 3], point: DVec3) -> f64 {
     let coord = |p: DVec3| Coord3D {
         x: p.x,
         y: p.y,

@@ -3,6 +3,7 @@
 use super::{Pieces, Radii, Shape};
 use crate::error::InputError;
 use crate::piece::Polytope;
+use crate::shelf::Shelf;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
@@ -64,6 +65,7 @@ impl TryFrom<Stored> for Pieces {
             point_ends: (1..=triangles).map(|k| 3 * k as u32).collect(),
             radii: Radii::Zero,
             shape: Shape::Triangles { face_ids },
+            shelf: Shelf::default(),
         }
         .checked()
     }

@@ -47,25 +47,16 @@ enum Found<C> {
 
 impl<O: DistanceOracle> Schedule<O> for BestFirst<O> {
     fn solve(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer {
-        let mut stats = Stats::default();
-        let (outcome, tolerance) =
-            start::search(problem, |problem| self.search(problem, oracle, &mut stats));
-        Answer {
-            outcome,
-            tolerance,
-            stats,
-        }
+        start::answer(problem, oracle, |problem, oracle, stats| {
+            self.queue.clear();
+            let outcome = self.first_contact(problem, oracle, stats);
+            stats.peak_front = stats.peak_front.max(self.queue.peak());
+            outcome
+        })
     }
 }
 
 impl<O: DistanceOracle> BestFirst<O> {
-    fn search(&mut self, problem: &Problem<'_>, oracle: &mut O, stats: &mut Stats) -> Outcome {
-        self.queue.clear();
-        let outcome = self.first_contact(problem, oracle, stats);
-        stats.peak_front = stats.peak_front.max(self.queue.peak());
-        outcome
-    }
-
     fn first_contact(
         &mut self,
         problem: &Problem<'_>,

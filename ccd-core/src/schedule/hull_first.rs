@@ -2,19 +2,14 @@
 
 use super::Schedule;
 use super::best_first::BestFirst;
-use super::expand::Which;
+use super::hulls::{Below, HullPair, Near};
 use super::moment::Moment;
 use super::pair::Pair;
 use super::queue::{Full, Queue, Rank};
 use super::start::{self, Start};
-use crate::body::Body;
-use crate::hierarchy::HierarchyNode;
-use crate::hull_tree::{FacetClass, HullTree};
-use crate::oracle::{Combination, DistanceOracle};
+use crate::oracle::DistanceOracle;
 use crate::outcome::{Answer, Limit, Outcome, Stats};
-use crate::piece::Piece;
 use crate::problem::Problem;
-use crate::separation::Checked;
 use crate::tolerance::HULL_PROGRESS;
 use std::ops::ControlFlow;
 
@@ -25,7 +20,7 @@ use std::ops::ControlFlow;
 /// the tolerance. But nodes are convex hulls, so that the oracle is asked about pairs of inner nodes,
 /// too, and a pair of nodes advances along the axis that the oracle claims, just as pieces do. A pair
 /// is split where it hardly advances; unless its nearest features both belong to pieces
-/// ([`FacetClass`]): then its distance is already that of the pieces below, and no split would make
+/// ([`FacetClass`](crate::FacetClass)): then its distance is already that of the pieces below, and no split would make
 /// it larger.
 ///
 /// Bodies of one piece need no tree. If another body has [none](Body::hull_tree), the query is
@@ -58,43 +53,33 @@ enum Item<C> {
 /// A pair of nodes of which at least one is an inner one.
 #[derive(Clone, Debug)]
 struct Nodes<C> {
-    a: u32,
-    b: u32,
+    pair: [u32; 2],
     /// What the oracle left for its next call.
     cache: C,
 }
 
 impl<O: DistanceOracle> Schedule<O> for HullFirst<O> {
     fn solve(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer {
-        let hulls = [problem.a.body, problem.b.body].map(Hulls::of);
-        let [Some(a), Some(b)] = hulls else {
+        let Some(hulls) = HullPair::of(problem) else {
             return self.without_trees.solve(problem, oracle);
         };
-        let mut stats = Stats::default();
-        let (outcome, tolerance) = start::search(problem, |problem| {
+        start::answer(problem, oracle, |problem, oracle, stats| {
             let mut search = Search {
                 problem,
-                a,
-                b,
+                hulls,
                 queue: &mut self.queue,
-                stats: &mut stats,
+                stats,
             };
             let outcome = search.first_contact(oracle);
             stats.peak_front = stats.peak_front.max(self.queue.peak());
             outcome
-        });
-        Answer {
-            outcome,
-            tolerance,
-            stats,
-        }
+        })
     }
 }
 
 struct Search<'p, C> {
     problem: &'p Problem<'p>,
-    a: Hulls<'p>,
-    b: Hulls<'p>,
+    hulls: HullPair<'p>,
     queue: &'p mut Queue<Item<C>>,
     stats: &'p mut Stats,
 }
@@ -152,23 +137,18 @@ impl<C: Clone + Default> Search<'_, C> {
         s: f64,
     ) -> Result<(), Full> {
         let problem = self.problem;
-        let hulls = [self.a.hull(nodes.a), self.b.hull(nodes.b)];
-        let moment = Moment::of(problem, hulls, s);
+        let moment = Moment::of(problem, self.hulls.hulls(nodes.pair), s);
         let Some(checked) = moment.ask(oracle, &mut nodes.cache, self.stats) else {
             // Smaller hulls may be easier.
-            return self.split(s, self.larger(&nodes), &nodes);
+            return self.split(s, Near::Bridges, &nodes);
         };
-        let near = self.near(&nodes, &checked);
-        let body = match near {
-            Near::Bridge(body) => body,
-            Near::Pieces | Near::Bridges => self.larger(&nodes),
-        };
+        let near = self.hulls.near(nodes.pair, &checked.claim);
         let contact = problem.margin + problem.tolerance;
         // What is in contact at the start is known there, or not at all.
         let reach = if s > 0.0 { problem.gap() } else { contact };
         // Written so that NaN splits.
         if !(checked.lower > reach) {
-            return self.split(s, body, &nodes);
+            return self.split(s, near, &nodes);
         }
         let Some(free) = moment.free_time(&checked, problem.gap()) else {
             return Ok(());
@@ -178,52 +158,25 @@ impl<C: Clone + Default> Search<'_, C> {
         let worthwhile = settled || free >= HULL_PROGRESS * (1.0 - s);
         match clock > s && worthwhile {
             true => self.push_item(clock, Item::Nodes(nodes)),
-            false => self.split(clock, body, &nodes),
+            false => self.split(clock, near, &nodes),
         }
     }
 
-    /// What the nearest features of two nodes belong to.
-    fn near(&self, nodes: &Nodes<C>, checked: &Checked) -> Near {
-        let a = self.a.is_bridge(nodes.a, &checked.claim.a);
-        let b = self.b.is_bridge(nodes.b, &checked.claim.b);
-        match (a, b) {
-            (false, false) => Near::Pieces,
-            (true, false) => Near::Bridge(Which::A),
-            (false, true) => Near::Bridge(Which::B),
-            (true, true) => Near::Bridges,
+    /// Lets the pairs below wait.
+    fn split(&mut self, clock: f64, near: Near, nodes: &Nodes<C>) -> Result<(), Full> {
+        match self.hulls.below(nodes.pair, near) {
+            Below::Pieces(_) => self.push(clock, nodes.pair),
+            Below::Pairs(pairs) => pairs
+                .into_iter()
+                .try_for_each(|pair| self.push(clock, pair)),
         }
     }
 
-    /// Whose node is larger.
-    fn larger(&self, nodes: &Nodes<C>) -> Which {
-        match self.b.size(nodes.b) > self.a.size(nodes.a) {
-            true => Which::B,
-            false => Which::A,
-        }
-    }
-
-    /// Lets the pairs below wait, of which one node is a child: of the given body's where it has any.
-    fn split(&mut self, clock: f64, body: Which, nodes: &Nodes<C>) -> Result<(), Full> {
-        use HierarchyNode::{Inner, Leaf};
-        let Nodes { a, b, .. } = *nodes;
-        let pairs = match (self.a.below(a), self.b.below(b), body) {
-            (Inner(left, right), Leaf(_), _) | (Inner(left, right), _, Which::A) => {
-                [[left, b], [right, b]]
-            }
-            (_, Inner(left, right), _) => [[a, left], [a, right]],
-            (Leaf(_), Leaf(_), _) => return self.push(clock, [a, b]),
-        };
-        pairs
-            .into_iter()
-            .try_for_each(|pair| self.push(clock, pair))
-    }
-
-    fn push(&mut self, clock: f64, [a, b]: [u32; 2]) -> Result<(), Full> {
-        let item = match (self.a.below(a), self.b.below(b)) {
-            (HierarchyNode::Leaf(a), HierarchyNode::Leaf(b)) => Item::Pieces(Pair::new(a, b)),
-            _ => Item::Nodes(Nodes {
-                a,
-                b,
+    fn push(&mut self, clock: f64, pair: [u32; 2]) -> Result<(), Full> {
+        let item = match self.hulls.below(pair, Near::Bridges) {
+            Below::Pieces([a, b]) => Item::Pieces(Pair::new(a, b)),
+            Below::Pairs(_) => Item::Nodes(Nodes {
+                pair,
                 cache: C::default(),
             }),
         };
@@ -248,63 +201,3 @@ impl<C: Clone + Default> Search<'_, C> {
         Some((clock, item))
     }
 }
-
-/// What the nearest features of two nodes belong to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Near {
-    /// Pieces, both.
-    Pieces,
-    /// A bridge on one of the bodies.
-    Bridge(Which),
-    /// Bridges, both.
-    Bridges,
-}
-
-/// The nodes of a body.
-#[derive(Clone, Copy, Debug)]
-enum Hulls<'a> {
-    Tree(&'a HullTree),
-    /// Of a body of one piece, which is its own tree.
-    Single(&'a Body),
-}
-
-impl<'a> Hulls<'a> {
-    fn of(body: &'a Body) -> Option<Self> {
-        match body.hull_tree() {
-            Some(tree) => Some(Hulls::Tree(tree)),
-            None if body.pieces().len() == 1 => Some(Hulls::Single(body)),
-            None => None,
-        }
-    }
-
-    fn hull(self, node: u32) -> Piece<'a> {
-        match self {
-            Hulls::Tree(tree) => tree.hulls().get(node as usize),
-            Hulls::Single(body) => body.pieces().get(node as usize),
-        }
-    }
-
-    fn below(self, node: u32) -> HierarchyNode {
-        match self {
-            Hulls::Tree(tree) => tree.hierarchy().nodes()[node as usize],
-            Hulls::Single(_) => HierarchyNode::Leaf(0),
-        }
-    }
-
-    fn is_bridge(self, node: u32, point: &Combination) -> bool {
-        match self {
-            Hulls::Tree(tree) => tree.class_of(node, point) == FacetClass::Free,
-            Hulls::Single(_) => false,
-        }
-    }
-
-    fn size(self, node: u32) -> f64 {
-        match self {
-            Hulls::Tree(tree) => tree.size(node),
-            Hulls::Single(_) => 0.0,
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests;

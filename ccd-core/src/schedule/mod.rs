@@ -2,17 +2,25 @@
 
 mod best_first;
 mod expand;
+#[cfg(feature = "hull-tree")]
+mod fast;
 mod group;
 #[cfg(feature = "hull-tree")]
 mod hull_first;
+#[cfg(feature = "hull-tree")]
+mod hulls;
 mod lanes;
 mod moment;
 mod naive;
+#[cfg(all(test, feature = "hull-tree"))]
+mod over_hulls;
 mod pair;
 mod queue;
 mod start;
 
 pub use best_first::BestFirst;
+#[cfg(feature = "hull-tree")]
+pub use fast::Fast;
 #[cfg(feature = "hull-tree")]
 pub use hull_first::HullFirst;
 pub use naive::Naive;

@@ -2,7 +2,7 @@
 
 mod attached;
 
-use crate::motion_bound::{Angle, AxisMotion, Gap, Track, first_crossing};
+use crate::motion_bound::{Angle, AxisMotion, Bound, Gap, Track, first_crossing, published, sound};
 use crate::oracle::{DistanceOracle, PiecePair};
 use crate::outcome::Stats;
 use crate::piece::Piece;
@@ -20,14 +20,13 @@ pub(crate) struct Moment<'p> {
     /// Of A and B, in the problem's coordinates.
     pub(crate) frames: [Frame; 2],
     pub(crate) pieces: PiecePair<'p>,
-    clock: f64,
+    pub(crate) clock: f64,
 }
 
 impl<'p> Moment<'p> {
     /// Piece `a` of A and piece `b` of B at a clock.
     pub(crate) fn new(problem: &'p Problem<'_>, a: u32, b: u32, clock: f64) -> Self {
-        let piece = |side: &Side<'p>, k: u32| side.body.pieces().get(k as usize);
-        Moment::of(problem, [piece(&problem.a, a), piece(&problem.b, b)], clock)
+        Moment::of(problem, problem.pieces([a, b]), clock)
     }
 
     /// Any two convex hulls, of A and of B, at a clock.
@@ -39,6 +38,18 @@ impl<'p> Moment<'p> {
             frames,
             pieces: PiecePair { a, b, b_to_a },
             clock,
+        }
+    }
+
+    /// Two other hulls at the same clock.
+    pub(crate) fn with(&self, [a, b]: [Piece<'p>; 2]) -> Self {
+        Moment {
+            pieces: PiecePair {
+                a,
+                b,
+                ..self.pieces
+            },
+            ..*self
         }
     }
 
@@ -81,6 +92,47 @@ impl<'p> Moment<'p> {
             free = free.max(self.free_attached(&members, plane, free)?);
         }
         Some(free)
+    }
+
+    /// As [`Moment::free_time`], across the axis of the claim alone, by a bound of how fast either body
+    /// advances along it `[FAST06 §4.2]`; `reaches` are those of the pieces' points from their body's
+    /// axis of rotation.
+    ///
+    /// # Guarantee
+    /// None at all with [`Bound::Published`].
+    pub(crate) fn directed_time(
+        &self,
+        checked: &Checked,
+        kept: f64,
+        bound: Bound,
+        reaches: [f64; 2],
+    ) -> Option<f64> {
+        let Problem { a, b, .. } = self.problem;
+        let normal = self.frames[0].rotation * checked.axis;
+        let sides = [
+            (a, normal, self.pieces.a, &self.frames[0], reaches[0]),
+            (b, -normal, self.pieces.b, &self.frames[1], reaches[1]),
+        ];
+        let (mut rate, mut speed) = (0.0, 0.0);
+        for (side, n, piece, frame, reach) in sides {
+            let motion = side.path.velocities();
+            rate += match bound {
+                Bound::Sound => sound(&motion, n, reach),
+                Bound::Published => published(&motion, n, |c| {
+                    let farthest = piece.farthest(frame.inverse_vector(c));
+                    frame.rotation * (farthest - side.path.centre)
+                }),
+            };
+            speed += motion.linear.length() + side.path.rate * reach;
+        }
+        let gap = Gap {
+            gap: checked.lower - kept,
+            rate: rate + RATE_F64 * speed,
+            bend: 0.0,
+        };
+        let free = gap.free_time();
+        // Written so that NaN is no time at all.
+        (!(free >= self.horizon())).then_some(free)
     }
 
     /// As [`Moment::free_time`] for two pieces, of these indices, that rest on each other.

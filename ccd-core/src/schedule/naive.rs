@@ -1,39 +1,52 @@
 //! All pairs of pieces, one common clock: Alg. 1 of the paper, the slow and obvious twin.
 
 use super::Schedule;
+use super::moment::Moment;
 use super::pair::Pair;
 use super::start::{self, Start};
+use crate::motion_bound::Bound;
 use crate::oracle::DistanceOracle;
 use crate::outcome::{Answer, Limit, Outcome, Stats};
-use crate::problem::Problem;
+use crate::problem::{Problem, Side};
 use std::ops::ControlFlow;
 
-/// Advances all pairs of pieces together by the least of their free times `[FAST06 Alg. 1]`.
+/// Advances all pairs of pieces together by the least of their free times `[FAST06 Alg. 1]`: the
+/// distance of each pair, divided by a [bound](Bound) of its rate of approach.
 ///
 /// Every step costs one distance for each pair of pieces: only for bodies of few pieces, and to
 /// check the other schedules by.
+///
+/// # Guarantee
+/// That of [`Schedule::solve`] with [`Bound::Sound`]; with [`Bound::Published`] times may be late.
 #[derive(Debug)]
 pub struct Naive<O: DistanceOracle> {
+    bound: Bound,
     pairs: Vec<Pair<O::Cache>>,
+}
+
+impl<O: DistanceOracle> Naive<O> {
+    /// A schedule that divides distances by a bound.
+    pub fn new(bound: Bound) -> Self {
+        Naive {
+            bound,
+            pairs: Vec::new(),
+        }
+    }
 }
 
 impl<O: DistanceOracle> Default for Naive<O> {
     fn default() -> Self {
-        Naive { pairs: Vec::new() }
+        Naive::new(Bound::default())
     }
 }
 
 impl<O: DistanceOracle> Schedule<O> for Naive<O> {
     fn solve(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer {
-        let mut stats = Stats::default();
-        let (outcome, tolerance) =
-            start::search(problem, |problem| self.search(problem, oracle, &mut stats));
-        stats.peak_front = self.pairs.len() as u64;
-        Answer {
-            outcome,
-            tolerance,
-            stats,
-        }
+        start::answer(problem, oracle, |problem, oracle, stats| {
+            let outcome = self.search(problem, oracle, stats);
+            stats.peak_front = self.pairs.len() as u64;
+            outcome
+        })
     }
 }
 
@@ -51,16 +64,22 @@ impl<O: DistanceOracle> Naive<O> {
         }
         let pairs = (0..a as u32).flat_map(|i| (0..b as u32).map(move |j| Pair::new(i, j)));
         self.pairs.extend(pairs);
+        let reaches = [&problem.a, &problem.b].map(reaches);
         let mut start = Start::default();
         let mut s = 0.0;
         while s < 1.0 {
+            stats.advancements += 1;
             stats.node_visits += all;
             if stats.node_visits > problem.budget {
                 return unresolved(s, Limit::Budget);
             }
             let mut next = f64::INFINITY;
             for pair in &mut self.pairs {
-                let step = pair.advance(problem, oracle, stats, s);
+                let moment = Moment::new(problem, pair.a, pair.b, s);
+                let reaches = [reaches[0][pair.a as usize], reaches[1][pair.b as usize]];
+                let step = pair.advance_by(&moment, oracle, stats, |moment, checked, kept| {
+                    moment.directed_time(checked, kept, self.bound, reaches)
+                });
                 match start.settle(problem, step, s) {
                     ControlFlow::Continue(Some(clock)) => next = next.min(clock),
                     ControlFlow::Continue(None) => {}
@@ -76,4 +95,10 @@ impl<O: DistanceOracle> Naive<O> {
             clearance: problem.clearance(f64::INFINITY),
         }
     }
+}
+
+/// How far each piece reaches from its body's axis of rotation.
+fn reaches(side: &Side<'_>) -> Vec<f64> {
+    let pieces = side.body.pieces().iter();
+    pieces.map(|piece| side.path.reach(piece.points)).collect()
 }

@@ -64,11 +64,26 @@ impl<C: Default + Clone> Pair<C> {
         s: f64,
     ) -> Step {
         let moment = Moment::new(problem, self.a, self.b, s);
+        self.advance_by(&moment, oracle, stats, |moment, checked, kept| {
+            moment.free_time(checked, kept)
+        })
+    }
+
+    /// The same, where the pair is at a moment, with another way to tell for how long it keeps a gap;
+    /// pairs that rest on each other are followed as ever.
+    pub(crate) fn advance_by<O: DistanceOracle<Cache = C>>(
+        &mut self,
+        moment: &Moment<'_>,
+        oracle: &mut O,
+        stats: &mut Stats,
+        free_time: impl FnOnce(&Moment<'_>, &Checked, f64) -> Option<f64>,
+    ) -> Step {
+        let (problem, s) = (moment.problem, moment.clock);
         let Some(checked) = moment.ask(oracle, &mut self.cache, stats) else {
             return Step::GaveUp;
         };
         let ids = [self.a, self.b];
-        let contact = || contact(&moment, ids, &checked);
+        let contact = || contact(moment, ids, &checked);
         let apart = problem.margin + problem.tolerance;
         if checked.upper <= apart {
             if s == 0.0 && overlap::intersects(&moment.pieces, &checked, problem.rounding) {
@@ -91,7 +106,7 @@ impl<C: Default + Clone> Pair<C> {
         };
         let free = match self.goal {
             Goal::Resting { .. } => moment.resting_time(&checked, kept, ids),
-            Goal::Apart | Goal::Parted => moment.free_time(&checked, kept),
+            Goal::Apart | Goal::Parted => free_time(moment, &checked, kept),
         };
         match free {
             None => Step::FreeUntil(f64::INFINITY),

@@ -2,7 +2,8 @@
 
 use super::pair::Step;
 use crate::containment;
-use crate::outcome::{Contact, Limit, Outcome, Overlap};
+use crate::oracle::DistanceOracle;
+use crate::outcome::{Answer, Contact, Limit, Outcome, Overlap, Stats};
 use crate::problem::{Problem, StartPolicy};
 use std::ops::ControlFlow;
 
@@ -12,18 +13,27 @@ use std::ops::ControlFlow;
 /// began with: what parts or slides keeps more than that, what approaches does not. Where there is
 /// no gap to speak of, it is the pairs that rest on each other that are let go, each on its own.
 ///
-/// Returns the tolerance that was kept, too.
-pub(crate) fn search(
+/// A search adds to the stats what it took.
+pub(crate) fn answer<O: DistanceOracle>(
     problem: &Problem<'_>,
-    mut search: impl FnMut(&Problem<'_>) -> Outcome,
-) -> (Outcome, f64) {
-    let outcome = search(&problem.reporting());
-    match (problem.start, outcome) {
+    oracle: &mut O,
+    mut search: impl FnMut(&Problem<'_>, &mut O, &mut Stats) -> Outcome,
+) -> Answer {
+    let before = oracle.effort();
+    let mut stats = Stats::default();
+    let outcome = search(&problem.reporting(), oracle, &mut stats);
+    let (outcome, tolerance) = match (problem.start, outcome) {
         (StartPolicy::Leave, Outcome::Touching { contact }) => {
             let problem = problem.leaving(contact.separation.lower - problem.margin);
-            (search(&problem), problem.tolerance)
+            (search(&problem, oracle, &mut stats), problem.tolerance)
         }
         _ => (outcome, problem.tolerance),
+    };
+    stats.effort = oracle.effort() - before;
+    Answer {
+        outcome,
+        tolerance,
+        stats,
     }
 }
 

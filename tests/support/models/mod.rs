@@ -23,7 +23,7 @@ pub use voxels::pile;
 
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{Body, Facet, InputError, Origin, Pieces, Polytope, Volume};
-use ccd_decomp::{Detail, Order, TriangleMesh, prepare};
+use ccd_decomp::{Detail, Order, TriangleMesh, build_hull_tree, prepare};
 
 /// A triangle mesh: what the referee looks at, and what the engine is given.
 #[derive(Clone, Debug, PartialEq)]
@@ -185,7 +185,11 @@ impl Shape {
     pub fn body(&self, kind: Kind) -> Body {
         match kind {
             Kind::Triangles => core_body(self.mesh.pieces(), self.volume),
-            Kind::Parts => core_body(Pieces::polytopes(&self.parts), Volume::Surface),
+            Kind::Parts => {
+                let body = core_body(Pieces::polytopes(&self.parts), Volume::Surface);
+                let tree = build_hull_tree(body.pieces()).expect("a hull tree");
+                body.with_hull_tree(tree).expect("its own hull tree")
+            }
             Kind::Patches => self.prepared(Detail::Patches(Order::Cresting)),
             Kind::Hull => self.prepared(Detail::Hull),
         }

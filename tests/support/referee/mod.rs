@@ -7,7 +7,9 @@ mod place;
 mod triangles;
 
 pub use place::Placement;
-pub use triangles::{contains, point_segment, point_triangle};
+pub use triangles::{
+    contains, edge_edge_squared, point_segment, point_triangle, triangles_squared,
+};
 
 use crate::query::Query;
 use crate::tolerance::{CLOSE, KEPT};

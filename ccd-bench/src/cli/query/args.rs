@@ -1,7 +1,8 @@
 //! What `ccd query` can be told.
 
 use crate::cli::pieces::PiecesArgs;
-use crate::engine::{OracleKind, ScheduleKind};
+use crate::engine::{BoundKind, OracleKind, ScheduleKind};
+use crate::results::Extent;
 use ccd_core::StartPolicy;
 use ccd_core::tolerance::{DEFAULT_BUDGET, DEFAULT_TOLERANCE};
 use clap::{Args, ValueEnum};
@@ -27,6 +28,9 @@ pub(in crate::cli) struct QueryArgs {
     /// In which order pairs of pieces are looked at
     #[arg(long, value_enum, default_value_t)]
     pub(super) schedule: ScheduleKind,
+    /// How far the bodies may advance in a step of --schedule fast or naive [default: sound]
+    #[arg(long, value_enum)]
+    pub(super) bound: Option<BoundKind>,
     #[command(flatten)]
     pub(super) pieces: PiecesArgs,
     /// Report a contact at a distance of at most margin + tolerance, in the scene's unit of length
@@ -53,9 +57,26 @@ pub(in crate::cli) struct QueryArgs {
     /// The table of results, CSV; - writes to standard output
     #[arg(long, value_name = "CSV", default_value = "-")]
     pub(super) out: PathBuf,
+    /// A table of all pairs of features in contact, CSV; - writes to standard output, when --out does
+    /// not
+    #[arg(long, value_name = "CSV")]
+    pub(super) contacts: Option<PathBuf>,
+    /// More columns for the table of results, and their means: what the query took besides visits
+    #[arg(long)]
+    pub(super) counters: bool,
     /// Say nothing on standard error but what is wrong
     #[arg(long, short)]
     pub(super) quiet: bool,
+}
+
+impl QueryArgs {
+    /// Which columns the table of results gets.
+    pub(super) fn extent(&self) -> Extent {
+        match self.counters {
+            true => Extent::WithCounters,
+            false => Extent::Results,
+        }
+    }
 }
 
 const QUERY_AFTER_HELP: &str = "\
@@ -89,13 +110,29 @@ Table of results:
   normal, witnesses         in the world's frame at `time`; the normal points from A to B
   feature_a, feature_b      v7, e3-7, f12: vertex, edge, face as numbered in the mesh, from 0
   iterations, oracle_calls  what the query took; micros: its time alone, in microseconds
+  with --counters also
+  advancements              how often all pairs were advanced together; 0 where each has its clock
+  oracle_steps, cycles      the oracle's: from feature to feature; back to where it had been
+  fallbacks                 how often it gave up and another one was asked
+  front                     the most pairs that waited at one time
+
+Table of contacts (--contacts): at the time of each row that ends in contact or touching, all pairs
+of features within margin + tolerance, nearest first. A pair is a vertex and a face that it has its
+foot in, or two edges that cross; or, where there is no such thing, vertex and edge, or vertices.
+  id, time                  as in the results
+  feature_a, feature_b, distance_lower, distance_upper, normal_x … witness_b_z
+                            as in the results, of the two features
+
+With --bound published no time is certified: contacts may be late, or missed.
 
 Exit code: 0 when every row has a result (unresolved is one), 2 on bad input: rows that are good are
-answered and written all the same, 1 when the results cannot be written.
+answered and written all the same; 2 also when a row has more contacts than --budget allows; 1 when
+the results or the contacts cannot be written.
 
 Examples:
   ccd query --a knot.obj --b knot.obj --motions motions.csv --out results.csv
   ccd query --a part.stl --b box:1,1,.1 --motions - --tolerance 1e-6 < motions.csv
+  ccd query --a part.stl --b part.stl --motions motions.csv --out results.csv --contacts contacts.csv
   printf 'a_pz,a_vz\\n3,-4\\n' | ccd query --a box:.5,.5,.5 --b box:9,9,1 --motions -";
 
 /// What becomes of a contact at the start.

@@ -1,15 +1,16 @@
-//! Chains of balls, whose hulls are capsules: against the best-first and the naive search.
+//! The schedules over hull trees, on chains of balls, whose hulls are capsules: against the
+//! best-first and the naive search.
 
-use super::*;
-use crate::body::Volume;
-use crate::hull_tree::{Hull, HullNode};
+use super::{BestFirst, Fast, HullFirst, Naive, Schedule};
+use crate::body::{Body, Volume};
+use crate::hull_tree::{Hull, HullNode, HullTree};
 use crate::motion::Motion;
-use crate::oracle::{Claim, GiveUp};
+use crate::oracle::{Claim, Combination, GiveUp};
+use crate::outcome::{Answer, Limit, Outcome};
 use crate::piece::Polytope;
 use crate::pieces::Pieces;
 use crate::pose::Pose;
-use crate::problem::{Config, Moving, StartPolicy};
-use crate::schedule::Naive;
+use crate::problem::{Config, Moving, Problem, StartPolicy};
 use crate::tests::oracle::{Always, Exhaustive};
 use crate::tests::scene::{Passage, Pcg64, RngExt, direction, magnitude, rng, rotation, within};
 use glam::DVec3;
@@ -110,8 +111,13 @@ impl Scene {
     }
 }
 
-fn solve(problem: &Problem<'_>) -> Answer {
-    HullFirst::default().solve(problem, &mut Exhaustive)
+/// The schedules in question.
+fn schedules() -> [Box<dyn Schedule<Exhaustive>>; 2] {
+    [Box::new(HullFirst::default()), Box::new(Fast::default())]
+}
+
+fn solve(problem: &Problem<'_>) -> [Answer; 2] {
+    schedules().map(|mut schedule| schedule.solve(problem, &mut Exhaustive))
 }
 
 /// The least distance of any two pieces at a clock.
@@ -168,18 +174,15 @@ fn answers_are_right_and_those_of_the_other_schedules() {
     for number in 0..2_000 {
         let scene = Scene::new(&mut rng);
         let problem = scene.problem();
-        let found = solve(&problem).outcome;
+        let found = solve(&problem).map(|answer| answer.outcome);
         let boxes = BestFirst::default().solve(&problem, &mut Exhaustive);
         let twin = Naive::default().solve(&problem, &mut Exhaustive);
-        let time = checked(&problem, &found);
-        // What is within the tolerance at the start is told by both that look at pieces there.
-        assert_eq!(
-            time <= 0.0,
-            checked(&problem, &twin.outcome) <= 0.0,
-            "{number}"
-        );
-        for other in [boxes.outcome, twin.outcome] {
-            let other = checked(&problem, &other);
+        let [time, fast] = found.map(|found| checked(&problem, &found));
+        // What is within the tolerance at the start is told by all that look at pieces there.
+        let twin = checked(&problem, &twin.outcome);
+        assert_eq!(time <= 0.0, twin <= 0.0, "{number}");
+        assert_eq!(fast <= 0.0, twin <= 0.0, "{number}");
+        for other in [fast, twin, checked(&problem, &boxes.outcome)] {
             let kind = |time: f64| (time < 0.0, time <= 0.0, time.is_finite());
             // Where they differ, the bodies graze each other: within the tolerance, but not within
             // half of it.
@@ -214,9 +217,10 @@ fn trees_spare_most_pairs_of_pieces() {
     };
     let config = Config::default();
     let problem = Problem::new(moving(0, motion), moving(1, still), 1.5, &config).unwrap();
-    let answer = solve(&problem);
-    assert!(matches!(answer.outcome, Outcome::Free { .. }), "{answer:?}");
-    assert!(answer.stats.oracle_calls < 100, "{:?}", answer.stats);
+    for answer in solve(&problem) {
+        assert!(matches!(answer.outcome, Outcome::Free { .. }), "{answer:?}");
+        assert!(answer.stats.oracle_calls < 100, "{:?}", answer.stats);
+    }
 }
 
 #[test]
@@ -224,26 +228,30 @@ fn budgets_end_a_query_with_a_time_that_is_safe() {
     let mut rng = rng(23);
     let mut ended = 0;
     for _ in 0..200 {
-        let mut scene = Scene::new(&mut rng);
-        let (answer, problem) = (solve(&scene.problem()), scene.problem());
-        let time = match answer.outcome {
-            Outcome::Contact { time, .. } => time,
-            Outcome::Free { .. } => problem.time(1.0),
-            _ => continue,
-        };
-        let mut last = 0.0;
-        for budget in 0..answer.stats.node_visits.min(40) {
-            scene.config.budget = budget;
-            let Outcome::Unresolved { safe_until, reason } = solve(&scene.problem()).outcome else {
-                panic!("an answer within {budget} visits");
+        let scene = Scene::new(&mut rng);
+        for mut schedule in schedules() {
+            let answer = schedule.solve(&scene.problem(), &mut Exhaustive);
+            let time = match answer.outcome {
+                Outcome::Contact { time, .. } => time,
+                Outcome::Free { .. } => scene.problem().time(1.0),
+                _ => continue,
             };
-            assert_eq!(reason, Limit::Budget);
-            assert!(safe_until >= last && safe_until <= time);
-            last = safe_until;
-            ended += 1;
+            let mut last = 0.0;
+            for budget in 0..answer.stats.node_visits.min(40) {
+                let mut problem = scene.problem();
+                problem.budget = budget;
+                let outcome = schedule.solve(&problem, &mut Exhaustive).outcome;
+                let Outcome::Unresolved { safe_until, reason } = outcome else {
+                    panic!("{outcome:?} within {budget} visits");
+                };
+                assert_eq!(reason, Limit::Budget);
+                assert!(safe_until >= last && safe_until <= time);
+                last = safe_until;
+                ended += 1;
+            }
         }
     }
-    assert!(ended > 1_000, "{ended}");
+    assert!(ended > 2_000, "{ended}");
 }
 
 #[test]
@@ -264,8 +272,12 @@ fn oracles_that_give_up_or_lie_never_make_it_late() {
             a: Combination::point(rng.random_range(0..3)),
             b: Combination::point(rng.random_range(0..3)),
         };
-        for oracle in [Always(Ok(lie)), Always(Err(GiveUp::Cycle))] {
-            let answer = HullFirst::default().solve(&problem, &mut { oracle });
+        let wrong = [Always(Ok(lie)), Always(Err(GiveUp::Cycle))];
+        let answers = wrong.into_iter().flat_map(|oracle| {
+            let hull_first = HullFirst::default().solve(&problem, &mut { oracle });
+            [hull_first, Fast::default().solve(&problem, &mut { oracle })]
+        });
+        for answer in answers {
             match answer.outcome {
                 Outcome::Unresolved {
                     safe_until: time, ..
@@ -283,13 +295,14 @@ fn oracles_that_give_up_or_lie_never_make_it_late() {
 #[test]
 fn the_same_query_gives_the_same_bits_whatever_came_before() {
     let mut rng = rng(25);
-    let mut kept = HullFirst::default();
+    let mut kept = schedules();
     for _ in 0..100 {
         let scene = Scene::new(&mut rng);
         let problem = scene.problem();
-        let fresh = solve(&problem);
-        assert_eq!(kept.solve(&problem, &mut Exhaustive), fresh);
-        assert_eq!(kept.solve(&problem, &mut Exhaustive), fresh);
+        for (kept, fresh) in kept.iter_mut().zip(solve(&problem)) {
+            assert_eq!(kept.solve(&problem, &mut Exhaustive), fresh);
+            assert_eq!(kept.solve(&problem, &mut Exhaustive), fresh);
+        }
     }
 }
 
@@ -320,7 +333,7 @@ fn bodies_without_trees_are_searched_by_their_boxes() {
     .unwrap();
     assert!(soup.hull_tree().is_none());
     let boxes = BestFirst::default().solve(&problem, &mut Exhaustive);
-    assert_eq!(solve(&problem), boxes);
+    assert_eq!(solve(&problem), [boxes; 2]);
     assert!(matches!(boxes.outcome, Outcome::Contact { .. }));
 }
 
@@ -355,15 +368,18 @@ fn what_touches_at_the_start_is_told_or_let_go() {
             start,
             ..Config::default()
         };
-        solve(&Problem::new(moving, still, 1.0, &config).unwrap()).outcome
+        solve(&Problem::new(moving, still, 1.0, &config).unwrap()).map(|answer| answer.outcome)
     };
-    let touching = outcome(1.0, StartPolicy::Report);
-    assert!(matches!(touching, Outcome::Touching { .. }), "{touching:?}");
-    let parting = outcome(1.0, StartPolicy::Leave);
-    assert!(matches!(parting, Outcome::Free { .. }), "{parting:?}");
-    let approaching = outcome(-1.0, StartPolicy::Leave);
-    let Outcome::Contact { time, .. } = approaching else {
-        panic!("{approaching:?}");
-    };
-    assert!(time <= 1e-5 + 1e-12);
+    for touching in outcome(1.0, StartPolicy::Report) {
+        assert!(matches!(touching, Outcome::Touching { .. }), "{touching:?}");
+    }
+    for parting in outcome(1.0, StartPolicy::Leave) {
+        assert!(matches!(parting, Outcome::Free { .. }), "{parting:?}");
+    }
+    for approaching in outcome(-1.0, StartPolicy::Leave) {
+        let Outcome::Contact { time, .. } = approaching else {
+            panic!("{approaching:?}");
+        };
+        assert!(time <= 1e-5 + 1e-12);
+    }
 }

@@ -1,0 +1,64 @@
+//! Where the tables of a query go.
+
+use crate::cli::{CannotWrite, same_file};
+use anyhow::{Result, bail};
+use std::fs::File;
+use std::io::{self, BufWriter, Write};
+use std::path::Path;
+
+/// A table that is to be written once the work is done.
+pub(super) struct Output {
+    name: String,
+    writer: Box<dyn Write>,
+}
+
+impl Output {
+    pub(super) fn open(path: &Path) -> Result<Self, CannotWrite> {
+        if is_standard(path) {
+            return Ok(Output {
+                name: "standard output".to_owned(),
+                writer: Box::new(io::stdout().lock()),
+            });
+        }
+        let name = path.display().to_string();
+        match File::create(path) {
+            Ok(file) => Ok(Output {
+                name,
+                writer: Box::new(BufWriter::new(file)),
+            }),
+            Err(source) => Err(CannotWrite {
+                place: name,
+                source,
+            }),
+        }
+    }
+
+    /// Writes the whole table.
+    pub(super) fn write(
+        self,
+        table: impl FnOnce(Box<dyn Write>) -> Result<(), csv::Error>,
+    ) -> Result<(), CannotWrite> {
+        table(self.writer).map_err(|error| CannotWrite {
+            place: self.name,
+            source: match error.into_kind() {
+                csv::ErrorKind::Io(error) => error,
+                other => io::Error::other(format!("{other:?}")),
+            },
+        })
+    }
+}
+
+/// Refuses to have two options name one file, of which the second one is written to.
+pub(super) fn refuse_overwriting(
+    (read, source): (&str, &Path),
+    (written, target): (&str, &Path),
+) -> Result<()> {
+    if !is_standard(target) && same_file(source, target) {
+        bail!("{written} names the file of {read}, which it would overwrite; give it another");
+    }
+    Ok(())
+}
+
+pub(super) fn is_standard(path: &Path) -> bool {
+    path.as_os_str() == "-"
+}

@@ -1,0 +1,64 @@
+use super::*;
+use ccd_core::{Feature, Limit};
+
+fn pair() -> FeaturePair {
+    FeaturePair {
+        feature_a: Feature::Vertex(3),
+        feature_b: Feature::Edge(4, 7),
+        piece_a: 0,
+        piece_b: 0,
+        separation: Separation {
+            lower: 0.1,
+            upper: 0.2,
+            normal: DVec3::new(0.0, -1.0, 0.0),
+            witness_a: DVec3::new(1.0, 1.0 / 3.0, 1e-300),
+            witness_b: DVec3::new(4.0, 5.0, 6.0),
+        },
+    }
+}
+
+fn written(rows: &[ContactRow]) -> Vec<String> {
+    let mut bytes = Vec::new();
+    write(&mut bytes, rows).unwrap();
+    let text = String::from_utf8(bytes).unwrap();
+    text.lines().map(str::to_owned).collect()
+}
+
+#[test]
+fn a_pair_fills_a_row_under_its_header() {
+    let rows = [ContactRow::new("a,b", 0.1 + 0.2, &pair())];
+    let lines = written(&rows);
+    assert_eq!(lines[0], COLUMNS.join(","));
+    assert_eq!(
+        lines[1],
+        "\"a,b\",0.30000000000000004,v3,e4-7,0.1,0.2,0.0,-1.0,0.0,\
+         1.0,0.3333333333333333,1e-300,4.0,5.0,6.0"
+    );
+    assert_eq!(lines.len(), 2);
+}
+
+#[test]
+fn a_table_without_rows_has_its_header() {
+    assert_eq!(written(&[]), [COLUMNS.join(",")]);
+}
+
+#[test]
+fn what_ends_without_a_contact_has_no_rows() {
+    let body = ccd_core::Body::ball(1.0).unwrap();
+    let bodies = Bodies { a: &body, b: &body };
+    let still = ccd_core::Motion::still(ccd_core::Pose::IDENTITY);
+    let query = Query {
+        id: String::new(),
+        a: still,
+        b: still,
+        duration: 1.0,
+    };
+    let unresolved = Outcome::Unresolved {
+        safe_until: 0.5,
+        reason: Limit::Budget,
+    };
+    for outcome in [Outcome::Free { clearance: 1.0 }, unresolved] {
+        let rows = rows(bodies, &query, &Config::default(), &outcome);
+        assert_eq!(rows, Ok(Vec::new()));
+    }
+}

@@ -1,0 +1,179 @@
+//! `--contacts`, `--counters`, and what is said of times that are not certified.
+
+use crate::command::{Row, Run, Scene, parse, stderr};
+use std::path::Path;
+
+/// A cube over a slab, above its face and above its side, and one that flies by.
+const CUBES: [&str; 4] = ["--a", "box:.5,.5,.5", "--b", "box:9,9,1"];
+const DROPS: &str = "id,a_px,a_pz,a_vz\nface,0,4,-4\nside,9,4,-4\nfree,0,4,4\n";
+
+fn contacts_of(run: Run, table: &Path) -> (Vec<Row>, Vec<Row>) {
+    let output = run.args(&["--contacts", table.to_str().unwrap()]).output();
+    assert!(output.status.success(), "{}", stderr(&output));
+    (parse(&output.stdout), parse(&std::fs::read(table).unwrap()))
+}
+
+#[test]
+fn every_contact_of_every_row_is_told() {
+    let scene = Scene::new("contacts");
+    let table = scene.directory.join("contacts.csv");
+    let (results, contacts) = contacts_of(Run::query(&CUBES).stdin(DROPS), &table);
+    let ids: Vec<&str> = contacts.iter().map(|row| row.text("id")).collect();
+    assert_eq!(ids, [["face"; 4], ["side"; 4]].concat());
+    for row in &contacts {
+        let result = results
+            .iter()
+            .find(|it| it.text("id") == row.text("id"))
+            .unwrap();
+        assert_eq!(row.text("time"), result.text("time"));
+        let (lower, upper) = (row.number("distance_lower"), row.number("distance_upper"));
+        assert!(lower <= upper && upper <= 1e-3, "{lower} {upper}");
+        assert!(row.number("normal_z") < -0.999);
+        assert!((row.number("witness_b_z") - 1.0).abs() < 1e-12);
+        let gap = row.number("witness_a_z") - row.number("witness_b_z");
+        assert!((lower..=upper).contains(&gap), "{gap}");
+    }
+    let names = |id: &str| -> Vec<String> {
+        let of_row = contacts.iter().filter(|row| row.text("id") == id);
+        let name = |row: &Row| format!("{} {}", row.text("feature_a"), row.text("feature_b"));
+        let mut names: Vec<String> = of_row.map(name).collect();
+        names.sort();
+        names
+    };
+    assert_eq!(names("face"), ["v0 f5", "v1 f5", "v2 f5", "v3 f5"]);
+    assert_eq!(names("side"), ["e0-1 e5-7", "e2-3 e5-7", "v0 f5", "v2 f5"]);
+}
+
+#[test]
+fn contacts_at_the_start_and_on_standard_output() {
+    let scene = Scene::new("contacts_at_the_start");
+    let results = scene.directory.join("results.csv");
+    let output = Run::query(&CUBES)
+        .args(&["--out", results.to_str().unwrap(), "--contacts", "-"])
+        .stdin("id,a_pz,a_vz\ntouching,1.5005,-4\noverlapping,1,0\n")
+        .output();
+    assert!(output.status.success(), "{}", stderr(&output));
+    let contacts = parse(&output.stdout);
+    assert_eq!(contacts.len(), 4);
+    for row in &contacts {
+        assert_eq!((row.text("id"), row.number("time")), ("touching", 0.0));
+    }
+    let statuses = parse(&std::fs::read(&results).unwrap());
+    assert_eq!(statuses[0].text("status"), "touching");
+}
+
+#[test]
+fn a_table_without_contacts_has_its_header() {
+    let scene = Scene::new("no_contacts");
+    let table = scene.directory.join("contacts.csv");
+    let (_, contacts) = contacts_of(Run::query(&CUBES).stdin("a_pz\n4\n"), &table);
+    assert!(contacts.is_empty());
+    let text = std::fs::read_to_string(&table).unwrap();
+    assert!(
+        text.starts_with("id,time,feature_a,feature_b,distance_lower,"),
+        "{text}"
+    );
+}
+
+#[test]
+fn contacts_overwrite_nothing() {
+    let scene = Scene::new("contacts_overwrite_nothing");
+    let motions = scene.file("motions.csv", DROPS);
+    let (motions, dot) = (motions.to_str().unwrap(), scene.directory.join("."));
+    let out = scene.directory.join("out.csv");
+    let same = dot.join("out.csv");
+    for (options, code, expected) in [
+        (vec!["--contacts", motions], 2, "--motions"),
+        (vec!["--contacts", "-"], 2, "--out -"),
+        (
+            vec![
+                "--out",
+                out.to_str().unwrap(),
+                "--contacts",
+                same.to_str().unwrap(),
+            ],
+            2,
+            "--out",
+        ),
+        (vec!["--contacts", "/no/such/directory/c.csv"], 1, "c.csv"),
+    ] {
+        let output = Run::bare(&["query", "--motions", motions])
+            .args(&CUBES)
+            .args(&options)
+            .output();
+        assert_eq!(output.status.code(), Some(code), "{options:?}");
+        let told = stderr(&output);
+        assert!(
+            told.contains(expected) && told.contains(options[0]) || code == 1,
+            "{told}"
+        );
+        assert!(told.contains(expected), "{told}");
+    }
+    assert_eq!(std::fs::read_to_string(motions).unwrap(), DROPS);
+}
+
+#[test]
+fn a_row_of_too_many_contacts_is_told() {
+    let scene = Scene::new("too_many_contacts");
+    let table = scene.directory.join("contacts.csv");
+    let output = Run::query(&CUBES)
+        .args(&["--budget", "3", "--contacts", table.to_str().unwrap()])
+        .stdin("id,a_pz,a_vz\nfirst,1.5005,-4\n")
+        .output();
+    assert_eq!(output.status.code(), Some(2));
+    assert_eq!(parse(&output.stdout)[0].text("status"), "touching");
+    let told = stderr(&output);
+    assert!(told.contains("row 1 (line 2): contacts: "), "{told}");
+    assert!(told.contains("--budget"), "{told}");
+}
+
+#[test]
+fn counters_are_more_columns_and_a_line_of_means() {
+    let plain = Run::query(&CUBES).stdin(DROPS).output();
+    assert!(!stderr(&plain).contains("means"));
+    let header = |output: &[u8]| {
+        let text = String::from_utf8(output.to_vec()).unwrap();
+        text.lines().next().unwrap().to_owned()
+    };
+    assert!(header(&plain.stdout).ends_with("iterations,oracle_calls,micros"));
+    for (schedule, steps) in [("best-first", false), ("naive", true)] {
+        let run = Run::query(&CUBES).args(&["--counters", "--schedule", schedule]);
+        let output = run.stdin(DROPS).output();
+        assert!(output.status.success(), "{}", stderr(&output));
+        assert_eq!(
+            header(&output.stdout),
+            header(&plain.stdout) + ",advancements,oracle_steps,cycles,fallbacks,front"
+        );
+        let rows = parse(&output.stdout);
+        for row in &rows {
+            assert_eq!(row.number("advancements") > 0.0, steps, "{schedule}");
+            assert!(row.number("front") >= 1.0);
+            assert!(row.number("cycles") >= 0.0 && row.number("oracle_steps") >= 0.0);
+        }
+        let total: f64 = rows.iter().map(|row| row.number("oracle_calls")).sum();
+        let mean = format!("{:.1} oracle calls", total / 3.0);
+        let told = stderr(&output);
+        assert!(told.contains("means: ") && told.contains(&mean), "{told}");
+    }
+}
+
+#[test]
+fn what_is_not_certified_is_told_so_once() {
+    let published = ["--schedule", "naive", "--bound", "published"];
+    let output = Run::query(&CUBES).args(&published).stdin(DROPS).output();
+    assert!(output.status.success());
+    let told = stderr(&output);
+    assert_eq!(told.matches("times are not certified").count(), 1, "{told}");
+    assert!(told.contains("\nnot certified: 3 rows"), "{told}");
+    for sound in [
+        &published[..2],
+        &["--schedule", "naive", "--bound", "sound"],
+    ] {
+        let output = Run::query(&CUBES).args(sound).stdin(DROPS).output();
+        assert!(
+            !stderr(&output).contains("not certified"),
+            "{}",
+            stderr(&output)
+        );
+    }
+}

@@ -1,0 +1,151 @@
+//! The features that are in contact at a time, all of them `[FAST06 §5.2]`.
+
+mod closest;
+mod manifold;
+mod measure;
+mod near;
+mod skin;
+#[cfg(test)]
+mod tests;
+
+use crate::feature::Feature;
+use crate::outcome::Separation;
+use crate::pose::Frame;
+use crate::problem::Problem;
+use manifold::Manifold;
+use near::near_faces;
+use skin::Skin;
+use std::fmt;
+
+/// A feature of A and one of B that are in contact, and how near they are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FeaturePair {
+    /// The feature of body A.
+    pub feature_a: Feature,
+    /// The feature of body B.
+    pub feature_b: Feature,
+    /// A piece of body A that has it, as an index into [`Body::pieces`](crate::Body::pieces).
+    pub piece_a: u32,
+    /// A piece of body B that has it.
+    pub piece_b: u32,
+    /// The separation of the two features, not of the pieces, in world coordinates.
+    pub separation: Separation,
+}
+
+/// Why there is no list of contacts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum ContactsError {
+    /// The time is NaN, or not within the duration.
+    NotInDuration {
+        /// What was asked for.
+        time: f64,
+        /// The problem's duration.
+        duration: f64,
+    },
+    /// More pairs are near than the problem's [budget](crate::Config::budget) allows: the bodies are
+    /// small for the margin and the tolerance, or one lies deep in the other.
+    TooMany {
+        /// The budget.
+        budget: u64,
+    },
+}
+
+impl Problem<'_> {
+    /// All features that are in contact at a time: what a physics engine calls the contact manifold
+    /// `[FAST06 §5.2]`.
+    ///
+    /// A pair is one of two things; nearest first, each pair once:
+    /// - a vertex and the part of a face that is nearest to it: mostly the inside of the face, with the
+    ///   vertex's foot, or else an edge or a vertex of it, unless a larger part that has these on its
+    ///   boundary makes a pair with the same vertex, being as near;
+    /// - two edges of which the nearest points are inside of both. Edges that are parallel but for
+    ///   rounding do not cross: their ends make the pairs.
+    ///
+    /// The edge between two triangles that share its vertices and lie in one plane, but for rounding,
+    /// is not of the shape: it crosses nothing, and a point on it is of the face of smaller number. So
+    /// a cube that lies flat on a slab has four pairs, however the faces are cut into triangles.
+    ///
+    /// Features have the names that outcomes have. What has no number of its own goes by the face or
+    /// the piece that it is on: a corner of a face that its patch has no point for, and all features
+    /// of approximate hulls. Such a pair of names may come more than once, for different places.
+    /// Virtual facets make no pairs on pieces that have faces of the mesh; of a piece of more than
+    /// three points whose facets are not known there are only the vertices.
+    ///
+    /// Distances take no side: of bodies that overlap at that time these are the features whose
+    /// boundaries are near each other.
+    ///
+    /// # Guarantee
+    /// No such pair is missed whose distance is within margin + tolerance, and
+    /// [`Separation::lower`] is within it for every pair. Lower and upper bound are of the two
+    /// features, rounding included. The same call gives the same bits.
+    ///
+    /// # Errors
+    /// [`ContactsError`].
+    ///
+    /// # Complexity
+    /// Near-linear in the pairs of triangles whose boxes are within margin + tolerance, and in the
+    /// faces of polytopes that are: a descent over both trees finds them.
+    ///
+    /// ```
+    /// use ccd_core::{glam::DVec3, Body, Config, Motion, Moving, Pose, Problem};
+    /// let (cube, slab) = (Body::cuboid(DVec3::splat(0.5))?, Body::cuboid(DVec3::new(2.0, 2.0, 1.0))?);
+    /// let place = Pose::from_translation(DVec3::new(0.3, 0.2, 1.5005))?;
+    /// let still = |body, pose| Moving { body, motion: Motion::still(pose) };
+    /// let (a, b) = (still(&cube, place), still(&slab, Pose::IDENTITY));
+    /// let problem = Problem::new(a, b, 1.0, &Config::default())?;
+    /// let contacts = problem.contacts_at(0.0)?;
+    /// let names = contacts.iter().map(|pair| format!("{} {}", pair.feature_a, pair.feature_b));
+    /// let mut names: Vec<String> = names.collect();
+    /// names.sort();
+    /// assert_eq!(names, ["v0 f5", "v1 f5", "v2 f5", "v3 f5"]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn contacts_at(&self, time: f64) -> Result<Vec<FeaturePair>, ContactsError> {
+        let duration = self.time(1.0);
+        // Written so that NaN is refused.
+        if !(0.0..=duration).contains(&time) {
+            return Err(ContactsError::NotInDuration { time, duration });
+        }
+        let clock = if duration > 0.0 { time / duration } else { 0.0 };
+        let frames = [self.a.path.frame(clock), self.b.path.frame(clock)];
+        let b_to_a = frames[0].from_frame(&frames[1]);
+        let mut skins = [
+            Skin::new(self.a.body, Frame::IDENTITY),
+            Skin::new(self.b.body, b_to_a),
+        ];
+        let budget = self.budget;
+        let too_many = ContactsError::TooMany { budget };
+        // Two measured distances may be off, either way: that of the boxes and that of the features.
+        let reach = self.margin + self.tolerance + 2.0 * self.rounding;
+        let near = near_faces(self, &mut skins, &b_to_a, reach).ok_or(too_many)?;
+        for skin in &mut skins {
+            skin.settle(self.rounding);
+        }
+        let [a, b] = &skins;
+        let mut manifold = Manifold::new(self, [a, b]);
+        for faces in near {
+            manifold.meet(faces);
+            if manifold.len() as u64 > budget {
+                return Err(too_many);
+            }
+        }
+        Ok(manifold.pairs(&frames[0]))
+    }
+}
+
+impl fmt::Display for ContactsError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NotInDuration { time, duration } => {
+                write!(f, "time is {time}, but must be from 0 to {duration}")
+            }
+            Self::TooMany { budget } => write!(
+                f,
+                "more pairs of features are near than a budget of {budget} allows"
+            ),
+        }
+    }
+}
+
+impl std::error::Error for ContactsError {}

@@ -1,0 +1,109 @@
+//! Nearest points in closed form: of a corner on a triangle, of two edges that cross
+//! `[ERICSON05 §5.1]`.
+
+use glam::DVec3;
+
+/// Which part of a triangle a point is on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Part {
+    Corner(usize),
+    /// From this corner to the next one.
+    Edge(usize),
+    Inside,
+}
+
+/// The nearest point of a triangle, and the least part of the triangle that is as near but for
+/// `rounding`; also of a triangle that is a segment or a point.
+///
+/// Whatever cancellation does to a weight, the point is one of the triangle, so that its distance is
+/// never too small.
+pub(super) fn on_triangle(from: DVec3, corners: [DVec3; 3], rounding: f64) -> (Part, DVec3) {
+    let next = |k: usize| corners[(k + 1) % 3];
+    let corner = |k| (Part::Corner(k), corners[k]);
+    let edge = |k| Some((Part::Edge(k), inner_foot(from, [corners[k], next(k)])?));
+    let inside = inside(from, corners).map(|foot| (Part::Inside, foot));
+    // The least part comes first: it is taken where a larger one is no nearer.
+    let parts = [
+        Some(corner(0)),
+        Some(corner(1)),
+        Some(corner(2)),
+        edge(0),
+        edge(1),
+        edge(2),
+        inside,
+    ];
+    let way = |&(_, at): &(Part, DVec3)| from.distance(at);
+    let mut best = corner(0);
+    for part in parts.into_iter().flatten() {
+        let nearer = match same_kind(part.0, best.0) {
+            true => way(&part) < way(&best),
+            false => way(&part) + rounding < way(&best),
+        };
+        if nearer {
+            best = part;
+        }
+    }
+    best
+}
+
+/// The nearest points of two edges where these are inside of both, and nearer than the end of either
+/// by more than `rounding`: edges that are parallel, or meet at an end, do not cross.
+pub(super) fn crossing(e: [DVec3; 2], f: [DVec3; 2], rounding: f64) -> Option<[DVec3; 2]> {
+    let (along_e, along_f, way) = (e[1] - e[0], f[1] - f[0], f[0] - e[0]);
+    let across = along_e.cross(along_f);
+    let start = way.cross(along_f).dot(across) / across.length_squared();
+    let inner = |p: DVec3, edge: [DVec3; 2]| inner_foot(p, edge);
+    // Two projections mend what cancellation did to the share; NaN is in no range.
+    if !(start > 0.0 && start < 1.0) {
+        return None;
+    }
+    let q = inner(e[0] + start * along_e, f)?;
+    let p = inner(q, e)?;
+    let q = inner(p, f)?;
+    let ends = [
+        e[0].distance(nearest_on(e[0], f)),
+        e[1].distance(nearest_on(e[1], f)),
+        f[0].distance(nearest_on(f[0], e)),
+        f[1].distance(nearest_on(f[1], e)),
+    ];
+    let nearest_end = ends.into_iter().fold(f64::INFINITY, f64::min);
+    (p.distance(q) + rounding < nearest_end).then_some([p, q])
+}
+
+fn same_kind(one: Part, other: Part) -> bool {
+    std::mem::discriminant(&one) == std::mem::discriminant(&other)
+}
+
+/// The foot of a point on a segment, where it is between the ends.
+fn inner_foot(from: DVec3, [a, b]: [DVec3; 2]) -> Option<DVec3> {
+    let along = b - a;
+    let share = (from - a).dot(along) / along.length_squared();
+    // False for NaN, as of a segment of no length.
+    (share > 0.0 && share < 1.0).then(|| a + share * along)
+}
+
+/// The nearest point of a segment.
+fn nearest_on(from: DVec3, edge: [DVec3; 2]) -> DVec3 {
+    let nearer_end = match from.distance_squared(edge[1]) < from.distance_squared(edge[0]) {
+        true => edge[1],
+        false => edge[0],
+    };
+    inner_foot(from, edge).unwrap_or(nearer_end)
+}
+
+/// The foot of a point in a triangle's plane, where it is inside of the triangle.
+fn inside(from: DVec3, [a, b, c]: [DVec3; 3]) -> Option<DVec3> {
+    let (u, v) = (b - a, c - a);
+    let normal = u.cross(v);
+    let square = normal.length_squared();
+    let weights = |way: DVec3| {
+        let of_u = way.cross(v).dot(normal) / square;
+        let of_v = u.cross(way).dot(normal) / square;
+        (of_u, of_v)
+    };
+    let (s, t) = weights(from - a);
+    // What is left of the way, projected once more, mends what cancellation did to the weights.
+    let (more_s, more_t) = weights(from - (a + s * u + t * v));
+    let (s, t) = (s + more_s, t + more_t);
+    (s > 0.0 && t > 0.0 && s + t < 1.0).then(|| a + s * u + t * v)
+}

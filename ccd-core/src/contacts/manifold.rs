@@ -1,0 +1,151 @@
+//! What is found in contact, and which of it is told.
+
+use super::FeaturePair;
+use super::closest::{Part, crossing, on_triangle};
+use super::measure::measure;
+use super::skin::{Skin, Spot, edge};
+use crate::pose::Frame;
+use crate::problem::Problem;
+use glam::DVec3;
+use std::collections::{HashMap, HashSet};
+
+/// All that is found in contact, by what it is of each body.
+pub(super) struct Manifold<'a> {
+    problem: &'a Problem<'a>,
+    skins: [&'a Skin<'a>; 2],
+    found: HashMap<[Spot; 2], Meeting>,
+}
+
+/// Two nearest points, in A's frame, and a face that each is on.
+#[derive(Clone, Copy)]
+pub(super) struct Meeting {
+    pub(super) points: [DVec3; 2],
+    pub(super) faces: [u32; 2],
+}
+
+impl Meeting {
+    fn distance(&self) -> f64 {
+        self.points[0].distance(self.points[1])
+    }
+}
+
+impl<'a> Manifold<'a> {
+    pub(super) fn new(problem: &'a Problem<'_>, skins: [&'a Skin<'a>; 2]) -> Self {
+        Manifold {
+            problem,
+            skins,
+            found: HashMap::new(),
+        }
+    }
+
+    /// How many pairs are found so far.
+    pub(super) fn len(&self) -> usize {
+        self.found.len()
+    }
+
+    /// Adds what two faces, of A and of B, have in contact.
+    pub(super) fn meet(&mut self, faces: [u32; 2]) {
+        let [a, b] = self.skins;
+        let rounding = self.problem.rounding;
+        for v in a.corners_of(faces[0]) {
+            let (part, foot) = on_triangle(a.at(v), b.triangle(faces[1]), rounding);
+            let spots = [Spot::Corner(v), spot(b, faces[1], part)];
+            self.offer(spots, [a.at(v), foot], faces);
+        }
+        for v in b.corners_of(faces[1]) {
+            let (part, foot) = on_triangle(b.at(v), a.triangle(faces[0]), rounding);
+            let spots = [spot(a, faces[0], part), Spot::Corner(v)];
+            self.offer(spots, [foot, b.at(v)], faces);
+        }
+        for e in a.edges_of(faces[0]) {
+            for f in b.edges_of(faces[1]) {
+                let ends = [e.map(|end| a.at(end)), f.map(|end| b.at(end))];
+                if let Some(points) = crossing(ends[0], ends[1], rounding) {
+                    self.offer([Spot::Edge(e), Spot::Edge(f)], points, faces);
+                }
+            }
+        }
+    }
+
+    /// Keeps a pair that is within reach, the nearest of several places.
+    fn offer(&mut self, spots: [Spot; 2], points: [DVec3; 2], faces: [u32; 2]) {
+        let radius = |k: usize| self.skins[k].face(faces[k]).radius;
+        let Problem {
+            margin,
+            tolerance,
+            rounding,
+            ..
+        } = self.problem;
+        let meeting = Meeting { points, faces };
+        let lower = meeting.distance() - radius(0) - radius(1) - rounding;
+        if lower <= margin + tolerance {
+            keep_nearest(&mut self.found, spots, meeting);
+        }
+    }
+
+    /// The pairs, nearest first; `a_to_world` is where A is, but for the problem's origin.
+    pub(super) fn pairs(&self, a_to_world: &Frame) -> Vec<FeaturePair> {
+        let covered = self.covered();
+        let mut told = HashMap::new();
+        for (mut spots, mut meeting) in sorted(&self.found) {
+            if covered.contains(&spots) {
+                continue;
+            }
+            for (k, skin) in self.skins.iter().enumerate() {
+                (spots[k], meeting.faces[k]) = skin.named(spots[k], meeting.faces[k]);
+            }
+            keep_nearest(&mut told, spots, meeting);
+        }
+        let mut pairs: Vec<FeaturePair> = sorted(&told)
+            .iter()
+            .map(|(spots, meeting)| measure(self.problem, self.skins, a_to_world, spots, meeting))
+            .collect();
+        pairs.sort_by(|one, other| {
+            let names = |pair: &FeaturePair| (pair.feature_a, pair.feature_b);
+            let upper = |pair: &FeaturePair| pair.separation.upper;
+            let nearer = upper(one).total_cmp(&upper(other));
+            nearer.then_with(|| names(one).cmp(&names(other)))
+        });
+        pairs
+    }
+
+    /// What is no pair by itself: a corner with a part of the boundary of a face or an edge that it
+    /// has its foot inside of, which is as near.
+    fn covered(&self) -> HashSet<[Spot; 2]> {
+        let [a, b] = self.skins;
+        let mut covered = HashSet::new();
+        for &[of_a, of_b] in self.found.keys() {
+            if let Spot::Corner(_) = of_a {
+                covered.extend(b.boundary(of_b).into_iter().map(|part| [of_a, part]));
+            }
+            if let Spot::Corner(_) = of_b {
+                covered.extend(a.boundary(of_a).into_iter().map(|part| [part, of_b]));
+            }
+        }
+        covered
+    }
+}
+
+/// The part of a face.
+fn spot(skin: &Skin<'_>, face: u32, part: Part) -> Spot {
+    let corners = skin.face(face).corners;
+    match part {
+        Part::Corner(k) => Spot::Corner(corners[k]),
+        Part::Edge(k) => Spot::Edge(edge(corners, k)),
+        Part::Inside => Spot::Face(face),
+    }
+}
+
+fn keep_nearest(pairs: &mut HashMap<[Spot; 2], Meeting>, spots: [Spot; 2], meeting: Meeting) {
+    let kept = pairs.entry(spots).or_insert(meeting);
+    if meeting.distance() < kept.distance() {
+        *kept = meeting;
+    }
+}
+
+/// In an order that does not depend on the map, which has none.
+fn sorted(pairs: &HashMap<[Spot; 2], Meeting>) -> Vec<([Spot; 2], Meeting)> {
+    let mut list: Vec<_> = pairs.iter().map(|(&spots, &it)| (spots, it)).collect();
+    list.sort_unstable_by_key(|&(spots, _)| spots);
+    list
+}

@@ -1,0 +1,96 @@
+//! How near two features are, checked as every separation is.
+
+use super::FeaturePair;
+use super::manifold::Meeting;
+use super::skin::{Skin, Spot};
+use crate::outcome::Separation;
+use crate::pose::Frame;
+use crate::problem::Problem;
+use glam::DVec3;
+
+/// Bounds the distance of two features of which the nearest points are known, in the world's
+/// coordinates; `a_to_world` is where A is, but for the problem's origin.
+///
+/// # Guarantee
+/// `lower ≤ distance ≤ upper`, wherever the points were found: the gap of the features' corners along
+/// any axis bounds their distance from below, any two points bound it from above.
+pub(super) fn measure(
+    problem: &Problem<'_>,
+    skins: [&Skin<'_>; 2],
+    a_to_world: &Frame,
+    spots: &[Spot; 2],
+    meeting: &Meeting,
+) -> FeaturePair {
+    let face = |k: usize| skins[k].face(meeting.faces[k]);
+    let points = [0, 1].map(|k| skins[k].points(spots[k], meeting.faces[k]));
+    let [a, b] = meeting.points;
+    let (distance, radii) = (a.distance(b), face(0).radius + face(1).radius);
+    let towards = match distance > problem.rounding {
+        true => b - a,
+        false => outward(skins, spots, meeting),
+    };
+    let mut normal = towards.try_normalize().unwrap_or(DVec3::X);
+    for across in across(&points).into_iter().flatten() {
+        let across = if across.dot(towards) < 0.0 {
+            -across
+        } else {
+            across
+        };
+        if gap(&points, across) > gap(&points, normal) {
+            normal = across;
+        }
+    }
+    let way = (b - a).try_normalize().unwrap_or(normal);
+    let world = |x: DVec3| problem.world(a_to_world.point(x));
+    let name = |k: usize| skins[k].name(spots[k], meeting.faces[k]);
+    FeaturePair {
+        feature_a: name(0),
+        feature_b: name(1),
+        piece_a: face(0).piece,
+        piece_b: face(1).piece,
+        separation: Separation {
+            lower: gap(&points, normal) - radii - problem.rounding,
+            upper: (distance - radii).max(0.0) + problem.rounding,
+            normal: (a_to_world.rotation * normal).normalize(),
+            witness_a: world(a + way * face(0).radius),
+            witness_b: world(b - way * face(1).radius),
+        },
+    }
+}
+
+/// `min_B n·y − max_A n·x`
+fn gap([a, b]: &[[DVec3; 3]; 2], n: DVec3) -> f64 {
+    let from = a[0];
+    let highest = a
+        .map(|x| n.dot(x - from))
+        .into_iter()
+        .fold(f64::NEG_INFINITY, f64::max);
+    let lowest = b
+        .map(|y| n.dot(y - from))
+        .into_iter()
+        .fold(f64::INFINITY, f64::min);
+    lowest - highest
+}
+
+/// The normals of features: of a face, of two edges that cross. Those of a face are right to the last
+/// digits where the way to its foot is mostly rounding.
+fn across([a, b]: &[[DVec3; 3]; 2]) -> [Option<DVec3>; 3] {
+    let along = |of: &[DVec3; 3]| of[1] - of[0];
+    let normal = |of: &[DVec3; 3]| along(of).cross(of[2] - of[0]).try_normalize();
+    [
+        normal(a),
+        normal(b),
+        along(a).cross(along(b)).try_normalize(),
+    ]
+}
+
+/// About where B is, seen from A, for features that touch: out of the one and into the other, or, of
+/// surfaces that have no outside, from the middle of one piece to that of the other.
+fn outward(skins: [&Skin<'_>; 2], spots: &[Spot; 2], meeting: &Meeting) -> DVec3 {
+    let out = |k: usize| skins[k].outward(spots[k], meeting.faces[k]);
+    let middle = |k: usize| skins[k].middle(skins[k].face(meeting.faces[k]).piece);
+    match out(0).normalize_or_zero() - out(1).normalize_or_zero() {
+        DVec3::ZERO => middle(1) - middle(0),
+        towards => towards,
+    }
+}

@@ -1,0 +1,244 @@
+//! The faces of two bodies that are near each other, found without a look at those that are not.
+
+use super::skin::Skin;
+use crate::pose::Frame;
+use crate::problem::{Problem, Side};
+use crate::tolerance::BOX_F64;
+use crate::tree::{Below, Named, NodeId, Tree};
+use glam::DVec3;
+
+/// All pairs of faces, of A and of B, that may be nearer than `reach`; none when that takes more than
+/// the problem's budget of pairs of nodes or of faces.
+pub(super) fn near_faces(
+    problem: &Problem<'_>,
+    skins: &mut [Skin<'_>; 2],
+    b_to_a: &Frame,
+    reach: f64,
+) -> Option<Vec<[u32; 2]>> {
+    let budget = problem.budget;
+    let near = near_pieces(problem, b_to_a, reach)?;
+    let mut found = Found {
+        pairs: Vec::new(),
+        budget,
+        reach,
+    };
+    for pieces in near {
+        let [a, b] = [0, 1].map(|k| skins[k].of_piece(pieces[k]));
+        let [skin_a, skin_b] = &*skins;
+        let boxes = |skin: &Skin<'_>, faces: std::ops::Range<u32>| -> Vec<Boxed> {
+            faces.map(|face| Boxed::new(skin, face)).collect()
+        };
+        found.among(&mut boxes(skin_a, a), &mut boxes(skin_b, b))?;
+    }
+    Some(found.pairs)
+}
+
+/// The pairs of pieces of which the nodes above may all be nearer than `reach`.
+fn near_pieces(problem: &Problem<'_>, b_to_a: &Frame, reach: f64) -> Option<Vec<[u32; 2]>> {
+    let (a, b) = (problem.a.body.tree(), problem.b.body.tree());
+    let (mut near, mut visits) = (Vec::new(), 0);
+    let mut stack: Vec<[NodeId; 2]> = vec![[0, 0]];
+    while let Some([at_a, at_b]) = stack.pop() {
+        visits += 1;
+        if visits > problem.budget {
+            return None;
+        }
+        let extents = [
+            Extent::new(&problem.a, at_a, &Frame::IDENTITY),
+            Extent::new(&problem.b, at_b, b_to_a),
+        ];
+        if apart(&extents, reach) {
+            continue;
+        }
+        match (a.piece(at_a), b.piece(at_b)) {
+            (Some(piece_a), Some(piece_b)) => near.push([piece_a, piece_b]),
+            (None, Some(_)) => stack.extend(below(a, at_a).map(|at| [at, at_b])),
+            (Some(_), None) => stack.extend(below(b, at_b).map(|at| [at_a, at])),
+            (None, None) if extents[0].radius >= extents[1].radius => {
+                stack.extend(below(a, at_a).map(|at| [at, at_b]));
+            }
+            (None, None) => stack.extend(below(b, at_b).map(|at| [at_a, at])),
+        }
+    }
+    Some(near)
+}
+
+/// The children of a node.
+fn below(tree: &Tree, at: NodeId) -> std::ops::Range<NodeId> {
+    let members = match tree.get(at) {
+        Named::Triangle(_) => return 0..0,
+        Named::Node(node) => match node.below {
+            Below::Boxes(group) => &tree.box_group(group).members,
+            Below::Triangles(group) => &tree.triangle_group(group).members,
+            Below::Piece(_) => return 0..0,
+        },
+    };
+    members.first..members.first + members.count
+}
+
+/// What a node takes up, in A's frame.
+struct Extent {
+    centre: DVec3,
+    radius: f64,
+    /// Directions along which it is thin.
+    axes: [DVec3; 3],
+    shape: Shape,
+}
+
+enum Shape {
+    /// By how far it reaches along each axis.
+    Box([f64; 3]),
+    Triangle([DVec3; 3]),
+}
+
+impl Extent {
+    fn new(side: &Side<'_>, at: NodeId, to_a: &Frame) -> Self {
+        match side.body.tree().get(at) {
+            Named::Node(node) => {
+                let radius = f64::from(node.radius);
+                // Axes rounded to f32 are no exact frame.
+                let more = f64::from(node.rounding) + BOX_F64 * radius;
+                Extent {
+                    centre: to_a.point(node.centre),
+                    radius,
+                    axes: node.axes.map(|axis| to_a.rotation * axis.as_dvec3()),
+                    shape: Shape::Box(node.half.map(|half| f64::from(half) + more)),
+                }
+            }
+            Named::Triangle(piece) => {
+                let corners = side.body.pieces().triangle(piece as usize);
+                let corners = corners.map(|corner| to_a.point(corner));
+                let centre = (corners[0] + corners[1] + corners[2]) / 3.0;
+                let arm = |corner: DVec3| corner.distance(centre);
+                let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+                Extent {
+                    centre,
+                    radius: corners.map(arm).into_iter().fold(0.0, f64::max),
+                    axes: [normal.normalize_or_zero(); 3],
+                    shape: Shape::Triangle(corners),
+                }
+            }
+        }
+    }
+
+    /// From where to where it reaches along a direction.
+    fn along(&self, n: DVec3) -> [f64; 2] {
+        match &self.shape {
+            Shape::Box(half) => {
+                let reach = |k: usize| half[k] * self.axes[k].dot(n).abs();
+                let (middle, reach) = (self.centre.dot(n), reach(0) + reach(1) + reach(2));
+                [middle - reach, middle + reach]
+            }
+            Shape::Triangle(corners) => {
+                let [a, b, c] = corners.map(|corner| corner.dot(n));
+                [a.min(b).min(c), a.max(b).max(c)]
+            }
+        }
+    }
+}
+
+/// Whether two nodes are certainly farther apart than `reach`: by their balls, or along the axes of
+/// either or the way between them. Written so that NaN is near.
+fn apart([a, b]: &[Extent; 2], reach: f64) -> bool {
+    let way = b.centre - a.centre;
+    let distance = way.length();
+    if distance > a.radius + b.radius + reach {
+        return true;
+    }
+    let separates = |n: DVec3| {
+        let ([low_a, high_a], [low_b, high_b]) = (a.along(n), b.along(n));
+        (low_b - high_a).max(low_a - high_b) > reach * n.length()
+    };
+    let mut axes = a.axes.iter().chain(&b.axes);
+    separates(way / distance) || axes.any(|&n| separates(n))
+}
+
+/// A face in a box along the axes of A's frame, rounding radius included.
+#[derive(Clone, Copy)]
+struct Boxed {
+    face: u32,
+    low: DVec3,
+    high: DVec3,
+}
+
+impl Boxed {
+    fn new(skin: &Skin<'_>, face: u32) -> Self {
+        let ([a, b, c], radius) = (skin.triangle(face), skin.face(face).radius);
+        Boxed {
+            face,
+            low: a.min(b).min(c) - radius,
+            high: a.max(b).max(c) + radius,
+        }
+    }
+
+    /// Around all of at least one.
+    fn around(all: &[Boxed]) -> Self {
+        all.iter().fold(all[0], |sum, one| Boxed {
+            low: sum.low.min(one.low),
+            high: sum.high.max(one.high),
+            ..sum
+        })
+    }
+
+    /// Whether they are certainly farther apart than `reach` along a coordinate.
+    fn apart(&self, other: &Boxed, reach: f64) -> bool {
+        let gap = (other.low - self.high).max(self.low - other.high);
+        gap.max_element() > reach
+    }
+
+    fn size(&self) -> DVec3 {
+        self.high - self.low
+    }
+}
+
+/// Up to so many pairs of faces are all looked at, rather than halved once more.
+const FEW: usize = 16;
+
+struct Found {
+    pairs: Vec<[u32; 2]>,
+    budget: u64,
+    reach: f64,
+}
+
+impl Found {
+    /// Adds the pairs of two lists of faces that are near; halves the list that takes up more room
+    /// until few are left. None when the budget is spent.
+    fn among(&mut self, a: &mut [Boxed], b: &mut [Boxed]) -> Option<()> {
+        if a.is_empty() || b.is_empty() {
+            return Some(());
+        }
+        let (around_a, around_b) = (Boxed::around(a), Boxed::around(b));
+        if around_a.apart(&around_b, self.reach) {
+            return Some(());
+        }
+        if a.len() * b.len() <= FEW {
+            return self.all(a, b);
+        }
+        let larger_a = around_a.size().max_element() >= around_b.size().max_element();
+        if b.len() == 1 || a.len() > 1 && larger_a {
+            let (left, right) = halves(a, around_a.size());
+            self.among(left, b)?;
+            self.among(right, b)
+        } else {
+            let (left, right) = halves(b, around_b.size());
+            self.among(a, left)?;
+            self.among(a, right)
+        }
+    }
+
+    fn all(&mut self, a: &[Boxed], b: &[Boxed]) -> Option<()> {
+        for one in a {
+            let near = b.iter().filter(|other| !one.apart(other, self.reach));
+            self.pairs.extend(near.map(|other| [one.face, other.face]));
+        }
+        (self.pairs.len() as u64 <= self.budget).then_some(())
+    }
+}
+
+/// Two halves of at least two faces, by their middles along the longest side.
+fn halves(faces: &mut [Boxed], size: DVec3) -> (&mut [Boxed], &mut [Boxed]) {
+    let (axis, half) = (size.max_position(), faces.len() / 2);
+    let middle = |face: &Boxed| face.low[axis] + face.high[axis];
+    faces.select_nth_unstable_by(half, |one, other| middle(one).total_cmp(&middle(other)));
+    faces.split_at_mut(half)
+}

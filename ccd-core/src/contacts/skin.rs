@@ -1,0 +1,308 @@
+//! The surface of one body near the other, as corners, edges and triangles with names.
+
+mod unpack;
+
+use crate::body::Body;
+use crate::feature::Feature;
+use crate::pose::Frame;
+use glam::DVec3;
+use std::collections::HashMap;
+use std::ops::Range;
+
+/// What has been unpacked of a body's surface, where it is at a time, in A's frame.
+pub(super) struct Skin<'a> {
+    body: &'a Body,
+    to_a: Frame,
+    corners: Vec<Corner>,
+    faces: Vec<Face>,
+    /// Where the faces of the pieces are that were asked for.
+    unpacked: HashMap<u32, Range<u32>>,
+    /// Corners by place and number.
+    known: HashMap<(Place, Option<u32>), u32>,
+    /// The edges within a plane, and the face to which a point on one belongs.
+    within: HashMap<[u32; 2], u32>,
+    /// Corners without a number, within a plane.
+    hidden: Vec<bool>,
+    /// The first triangle that goes by a face's number.
+    first_of: HashMap<Feature, u32>,
+    /// The sum of the normals around each corner.
+    outward: Vec<DVec3>,
+}
+
+/// A point of the surface that triangles share.
+struct Corner {
+    at: DVec3,
+    place: Place,
+    /// Its number in the mesh, where its piece has it.
+    id: Option<u32>,
+}
+
+/// A triangle of the surface; a segment or a point repeats its last corner.
+pub(super) struct Face {
+    pub(super) corners: [u32; 3],
+    pub(super) piece: u32,
+    pub(super) radius: f64,
+    name: Feature,
+}
+
+/// A corner, an edge or a face of the surface, whatever it is called.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub(super) enum Spot {
+    Corner(u32),
+    Edge([u32; 2]),
+    Face(u32),
+}
+
+/// A point in the body's frame, by its bits.
+type Place = [u64; 3];
+
+impl<'a> Skin<'a> {
+    /// Nothing yet of a body that lies so in A's frame.
+    pub(super) fn new(body: &'a Body, to_a: Frame) -> Self {
+        Skin {
+            body,
+            to_a,
+            corners: Vec::new(),
+            faces: Vec::new(),
+            unpacked: HashMap::new(),
+            known: HashMap::new(),
+            within: HashMap::new(),
+            hidden: Vec::new(),
+            first_of: HashMap::new(),
+            outward: Vec::new(),
+        }
+    }
+
+    /// The faces of a piece.
+    pub(super) fn of_piece(&mut self, piece: u32) -> Range<u32> {
+        if let Some(faces) = self.unpacked.get(&piece) {
+            return faces.clone();
+        }
+        let first = self.faces.len() as u32;
+        self.unpack(piece);
+        let faces = first..self.faces.len() as u32;
+        self.unpacked.insert(piece, faces.clone());
+        faces
+    }
+
+    /// To be called once all that is needed is unpacked: finds the edges and corners that are not of
+    /// the shape, but of how it is cut into triangles. Heights of up to `rounding` are none.
+    pub(super) fn settle(&mut self, rounding: f64) {
+        self.share_numbers();
+        self.add_normals();
+        let mut sides: HashMap<[u32; 2], Sides> = HashMap::new();
+        for (face, Face { corners, name, .. }) in (0u32..).zip(&self.faces) {
+            if let Feature::Face(_) = name {
+                self.first_of.entry(*name).or_insert(face);
+            }
+            for ends in edges(*corners) {
+                let sides = sides.entry(ends).or_default();
+                if let Some(side) = sides.faces.get_mut(sides.count) {
+                    *side = face;
+                }
+                sides.count += 1;
+            }
+        }
+        self.hidden = self.corners.iter().map(|c| c.id.is_none()).collect();
+        // Segments and points are within no plane.
+        let thin = |face: &&Face| edges(face.corners).count() < 3;
+        for corner in self.faces.iter().filter(thin).flat_map(|face| face.corners) {
+            self.hidden[corner as usize] = false;
+        }
+        for (ends, Sides { faces, count }) in sides {
+            if count == 2 && self.in_one_plane(ends, faces, rounding) {
+                let by_name = |&face: &u32| (self.face(face).name, face);
+                let face = faces.into_iter().min_by_key(by_name);
+                self.within.extend(face.map(|face| (ends, face)));
+            } else {
+                for end in ends {
+                    self.hidden[end as usize] = false;
+                }
+            }
+        }
+    }
+
+    pub(super) fn face(&self, face: u32) -> &Face {
+        &self.faces[face as usize]
+    }
+
+    pub(super) fn triangle(&self, face: u32) -> [DVec3; 3] {
+        self.face(face).corners.map(|corner| self.at(corner))
+    }
+
+    pub(super) fn at(&self, corner: u32) -> DVec3 {
+        self.corners[corner as usize].at
+    }
+
+    /// The points of a spot on a face, some more than once: it is their hull.
+    pub(super) fn points(&self, spot: Spot, face: u32) -> [DVec3; 3] {
+        match spot {
+            Spot::Corner(corner) => [self.at(corner); 3],
+            Spot::Edge([v, w]) => [v, w, w].map(|end| self.at(end)),
+            Spot::Face(_) => self.triangle(face),
+        }
+    }
+
+    /// About which way is out of the body at a spot of a face: the sum of the normals around; zero
+    /// where none is known.
+    pub(super) fn outward(&self, spot: Spot, face: u32) -> DVec3 {
+        let at = |corner: u32| self.outward[corner as usize];
+        match spot {
+            Spot::Corner(corner) => at(corner),
+            Spot::Edge([v, w]) => at(v) + at(w),
+            Spot::Face(_) => self.normal(face),
+        }
+    }
+
+    /// The unit normal of a face that points out of the body; zero where it is not known.
+    fn normal(&self, face: u32) -> DVec3 {
+        let piece = self.face(face).piece;
+        if let Some(normal) = self.body.outward_normal(piece) {
+            return self.to_a.rotation * normal;
+        }
+        let [a, b, c] = self.triangle(face);
+        let unknown = self.body.pieces().get(piece as usize).is_flat();
+        match unknown {
+            true => DVec3::ZERO,
+            false => (b - a).cross(c - a).normalize_or_zero(),
+        }
+    }
+
+    /// The middle of a piece's points.
+    pub(super) fn middle(&self, piece: u32) -> DVec3 {
+        let points = self.body.pieces().get(piece as usize).points;
+        self.to_a
+            .point(points.iter().sum::<DVec3>() / points.len() as f64)
+    }
+
+    /// The edges and corners on the boundary of a spot.
+    pub(super) fn boundary(&self, spot: Spot) -> Vec<Spot> {
+        match spot {
+            Spot::Corner(_) => Vec::new(),
+            Spot::Edge(ends) => ends.map(Spot::Corner).to_vec(),
+            Spot::Face(face) => {
+                let corners = self.face(face).corners;
+                let ends = corners.into_iter().map(Spot::Corner);
+                ends.chain(edges(corners).map(Spot::Edge)).collect()
+            }
+        }
+    }
+
+    /// What a spot on a face is told as, and on which face it is: what is within a plane is of a
+    /// face, and triangles that go by one number are one face.
+    pub(super) fn named(&self, spot: Spot, face: u32) -> (Spot, u32) {
+        let face = match spot {
+            Spot::Corner(corner) if self.hidden[corner as usize] => face,
+            Spot::Edge(ends) => match self.across(ends) {
+                Some(face) => face,
+                None => return (spot, face),
+            },
+            Spot::Face(face) => face,
+            Spot::Corner(_) => return (spot, face),
+        };
+        let first = self.first_of.get(&self.face(face).name);
+        (Spot::Face(first.copied().unwrap_or(face)), face)
+    }
+
+    /// What a spot on a face is called: one that has no number of its own goes by the face, or by the
+    /// piece.
+    pub(super) fn name(&self, spot: Spot, face: u32) -> Feature {
+        let id = |corner: u32| self.corners[corner as usize].id;
+        let own = match spot {
+            Spot::Corner(corner) => id(corner).map(Feature::Vertex),
+            Spot::Edge([v, w]) => id(v).zip(id(w)).map(|(v, w)| Feature::edge(v, w)),
+            Spot::Face(_) => None,
+        };
+        own.unwrap_or(self.face(face).name)
+    }
+
+    /// The corners of a face, each once, but for those within a plane that no number tells apart from
+    /// any other point of it.
+    pub(super) fn corners_of(&self, face: u32) -> impl Iterator<Item = u32> + use<'_> {
+        let corners = self.face(face).corners;
+        let first = (0..3).filter(move |&k| !corners[..k].contains(&corners[k]));
+        let shown = |corner: &u32| !self.hidden[*corner as usize];
+        first.map(move |k| corners[k]).filter(shown)
+    }
+
+    /// The edges of a face, but for those within a plane.
+    pub(super) fn edges_of(&self, face: u32) -> impl Iterator<Item = [u32; 2]> + use<'_> {
+        edges(self.face(face).corners).filter(|&ends| self.across(ends).is_none())
+    }
+
+    /// The face to which a point on an edge within a plane belongs; none of an edge of the shape.
+    pub(super) fn across(&self, ends: [u32; 2]) -> Option<u32> {
+        self.within.get(&ends).copied()
+    }
+
+    fn add_normals(&mut self) {
+        let mut outward = vec![DVec3::ZERO; self.corners.len()];
+        for face in 0..self.faces.len() as u32 {
+            let normal = self.normal(face);
+            for corner in self.face(face).corners {
+                outward[corner as usize] += normal;
+            }
+        }
+        self.outward = outward;
+    }
+
+    /// Corners whose piece has no number for them take the one that another piece has.
+    fn share_numbers(&mut self) {
+        let mut numbered: HashMap<Place, (u32, u32)> = HashMap::new();
+        for (k, corner) in (0u32..).zip(&self.corners) {
+            if let Some(id) = corner.id {
+                let least = numbered.entry(corner.place).or_insert((id, k));
+                *least = (*least).min((id, k));
+            }
+        }
+        for corner in self.faces.iter_mut().flat_map(|face| &mut face.corners) {
+            let Corner { place, id, .. } = &self.corners[*corner as usize];
+            if let (None, Some(&(_, other))) = (id, numbered.get(place)) {
+                *corner = other;
+            }
+        }
+    }
+
+    /// Whether two faces lie in one plane, on either side of the edge that they share: neither sticks
+    /// out of the other's plane, or they are cut from one facet.
+    fn in_one_plane(&self, ends: [u32; 2], faces: [u32; 2], rounding: f64) -> bool {
+        let [one, other] = faces.map(|face| self.face(face));
+        let named = matches!(one.name, Feature::Face(_));
+        if named && one.name == other.name && one.piece == other.piece {
+            return true;
+        }
+        let tips = faces.map(|face| {
+            let corners = self.face(face).corners;
+            corners.into_iter().find(|corner| !ends.contains(corner))
+        });
+        let ([Some(p), Some(q)], [a, b]) = (tips, ends.map(|end| self.at(end))) else {
+            return false;
+        };
+        let [p, q] = [p, q].map(|tip| self.at(tip) - a);
+        let normals = [p, q].map(|tip| (b - a).cross(tip).try_normalize());
+        let [Some(n), Some(m)] = normals else {
+            return false;
+        };
+        n.dot(q).abs().max(m.dot(p).abs()) <= rounding && n.dot(m) < 0.0
+    }
+}
+
+/// The first two faces at an edge, and how many there are.
+#[derive(Default)]
+struct Sides {
+    faces: [u32; 2],
+    count: usize,
+}
+
+/// The edges of a triangle, the smaller end first, each once: a segment has one, a point none.
+pub(super) fn edges(corners: [u32; 3]) -> impl Iterator<Item = [u32; 2]> {
+    let ends = move |k: usize| edge(corners, k);
+    let proper = move |&k: &usize| ends(k)[0] != ends(k)[1] && !(0..k).any(|j| ends(j) == ends(k));
+    (0..3).filter(proper).map(ends)
+}
+
+/// The edge of a triangle from one of its corners to the next.
+pub(super) fn edge(corners: [u32; 3], k: usize) -> [u32; 2] {
+    let (v, w) = (corners[k], corners[(k + 1) % 3]);
+    [v.min(w), v.max(w)]
+}

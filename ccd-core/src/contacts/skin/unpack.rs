@@ -1,0 +1,103 @@
+//! From a piece to triangles with names.
+
+use super::{Corner, Face, Place, Skin};
+use crate::feature::Feature;
+use crate::oracle::Combination;
+use crate::piece::Piece;
+use glam::DVec3;
+use std::collections::HashMap;
+
+/// A triangle's name and corners; corners have a number where the mesh has one.
+type Unpacked = (Feature, [(DVec3, Option<u32>); 3]);
+
+impl Skin<'_> {
+    /// Adds the faces of a piece that it does not have yet.
+    pub(super) fn unpack(&mut self, index: u32) {
+        let piece = self.body.pieces().get(index as usize);
+        for (name, corners) in self.triangles(index, &piece) {
+            let corners = corners.map(|(point, id)| self.corner(point, id));
+            self.faces.push(Face {
+                corners,
+                piece: index,
+                radius: piece.radius,
+                name,
+            });
+        }
+    }
+
+    /// The mesh's triangles on a piece; where there are none, those of its facets, or what it is the
+    /// hull of: up to three points, or more of them, each alone.
+    fn triangles(&self, index: u32, piece: &Piece<'_>) -> Vec<Unpacked> {
+        let at = |k: u32| (piece.points[k as usize], self.number(index, k));
+        let whole = |corners: [u32; 3]| {
+            let mut inside = Combination::EMPTY;
+            for corner in corners {
+                inside.push(corner, 1.0);
+            }
+            let name = self.body.pieces().feature(index as usize, &inside);
+            (name, corners.map(at))
+        };
+        let mesh: Vec<Unpacked> = self.on_the_mesh(index, piece);
+        if !mesh.is_empty() {
+            return mesh;
+        }
+        let fan = |corners: &[u32]| -> Vec<[u32; 3]> {
+            let inner = corners.windows(2).skip(1);
+            inner.map(|pair| [corners[0], pair[0], pair[1]]).collect()
+        };
+        let facets = piece.facets.iter().flat_map(fan);
+        let hull = match piece.points.len() as u32 {
+            _ if !piece.facets.is_empty() => facets.collect(),
+            1 => vec![[0, 0, 0]],
+            2 => vec![[0, 1, 1]],
+            3 => vec![[0, 1, 2]],
+            more => (0..more).map(|k| [k; 3]).collect(),
+        };
+        hull.into_iter().map(whole).collect()
+    }
+
+    /// The mesh's triangles on a polytope.
+    fn on_the_mesh(&self, index: u32, piece: &Piece<'_>) -> Vec<Unpacked> {
+        let mut triangles = piece.mesh_triangles().peekable();
+        if triangles.peek().is_none() {
+            return Vec::new();
+        }
+        // The first of several points at one place counts.
+        let numbers: HashMap<Place, Option<u32>> = (0..piece.points.len() as u32)
+            .rev()
+            .map(|k| (place(piece.points[k as usize]), self.number(index, k)))
+            .collect();
+        let number = |point: DVec3| numbers.get(&place(point)).copied().flatten();
+        let named = triangles.map(|(id, corners)| {
+            let corners = corners.map(|point| (point, number(point)));
+            (Feature::Face(id), corners)
+        });
+        named.collect()
+    }
+
+    /// The number of a point of a piece in the mesh.
+    fn number(&self, piece: u32, point: u32) -> Option<u32> {
+        let pieces = self.body.pieces();
+        match pieces.feature(piece as usize, &Combination::point(point)) {
+            Feature::Vertex(id) => Some(id),
+            _ => None,
+        }
+    }
+
+    fn corner(&mut self, point: DVec3, id: Option<u32>) -> u32 {
+        let place = place(point);
+        *self.known.entry((place, id)).or_insert_with(|| {
+            self.corners.push(Corner {
+                at: self.to_a.point(point),
+                place,
+                id,
+            });
+            self.corners.len() as u32 - 1
+        })
+    }
+}
+
+/// Both zeros are one place.
+fn place(point: DVec3) -> Place {
+    point.to_array().map(|x| (x + 0.0).to_bits())
+}

@@ -1,0 +1,340 @@
+use super::*;
+use crate::body::{Body, Volume};
+use crate::motion::Motion;
+use crate::pose::Pose;
+use crate::problem::{Config, Moving};
+use crate::tests::scene::{Look, Pcg64, RngExt, direction, magnitude, rng, rotation, soup, within};
+use glam::{DQuat, DVec3};
+use twin::Mesh;
+
+mod twin;
+
+/// Two bodies at rest, A where it is put, B at the origin.
+fn contacts(a: &Body, b: &Body, pose: Pose, tolerance: f64) -> Vec<FeaturePair> {
+    let config = Config {
+        tolerance,
+        ..Config::default()
+    };
+    still(a, b, pose, &config).contacts_at(0.25).unwrap()
+}
+
+fn still<'a>(a: &'a Body, b: &'a Body, pose: Pose, config: &Config) -> Problem<'a> {
+    let moving = |body, pose| Moving {
+        body,
+        motion: Motion::still(pose),
+    };
+    Problem::new(moving(a, pose), moving(b, Pose::IDENTITY), 1.0, config).unwrap()
+}
+
+fn at(x: f64, y: f64, z: f64) -> Pose {
+    Pose::from_translation(DVec3::new(x, y, z)).unwrap()
+}
+
+fn turned(pose: Pose, axis: DVec3, angle: f64) -> Pose {
+    Pose::new(pose.translation(), DQuat::from_axis_angle(axis, angle)).unwrap()
+}
+
+fn names(pairs: &[FeaturePair]) -> Vec<String> {
+    let name = |pair: &FeaturePair| format!("{} {}", pair.feature_a, pair.feature_b);
+    let mut names: Vec<String> = pairs.iter().map(name).collect();
+    names.sort();
+    names
+}
+
+/// How many pairs there are of vertices with faces, of edges, and of anything else.
+fn kinds(pairs: &[FeaturePair]) -> [usize; 3] {
+    let mut counts = [0; 3];
+    for pair in pairs {
+        counts[match (pair.feature_a, pair.feature_b) {
+            (Feature::Vertex(_), Feature::Face(_)) | (Feature::Face(_), Feature::Vertex(_)) => 0,
+            (Feature::Edge(..), Feature::Edge(..)) => 1,
+            _ => 2,
+        }] += 1;
+    }
+    counts
+}
+
+/// A cube, or slab, by 12 triangles that share 8 vertices, and as one piece.
+fn cuboids(half: DVec3) -> [Body; 2] {
+    let solid = Body::cuboid(half).unwrap();
+    [Mesh::cuboid(half).body(Volume::Solid), solid]
+}
+
+fn check_bounds(pairs: &[FeaturePair], distance: f64, normal: DVec3) {
+    for pair in pairs {
+        let Separation { lower, upper, .. } = pair.separation;
+        assert!(
+            lower <= distance && distance <= upper,
+            "{distance} {pair:?}"
+        );
+        assert!(upper - lower < 1e-12, "{pair:?}");
+        assert!(pair.separation.normal.distance(normal) < 1e-9, "{pair:?}");
+        let way = pair.separation.witness_b - pair.separation.witness_a;
+        assert!(way.distance(distance * normal) < 1e-12, "{pair:?}");
+    }
+}
+
+#[test]
+fn a_cube_flat_on_a_slab_has_its_four_corners_on_the_face() {
+    for cube in cuboids(DVec3::splat(0.5)) {
+        for slab in cuboids(DVec3::new(3.0, 3.0, 1.0)) {
+            // Over the diagonals of the slab's triangulation, and beside them; touching as well.
+            for (x, y) in [(0.0, 0.0), (0.3, 0.1), (0.25, -0.75)] {
+                for gap in [5e-4, 1e-6, 0.0] {
+                    let pairs = contacts(&cube, &slab, at(x, y, 1.5 + gap), 1e-3);
+                    assert_eq!(
+                        kinds(&pairs),
+                        [4, 0, 0],
+                        "{x} {y} {gap}: {:?}",
+                        names(&pairs)
+                    );
+                    check_bounds(&pairs, gap, -DVec3::Z);
+                    let vertices: Vec<u32> =
+                        pairs.iter().map(|pair| vertex(pair.feature_a)).collect();
+                    assert!((0..4).all(|v| vertices.contains(&v)), "{vertices:?}");
+                }
+            }
+        }
+    }
+}
+
+fn vertex(feature: Feature) -> u32 {
+    match feature {
+        Feature::Vertex(v) => v,
+        other => panic!("{other} is no vertex"),
+    }
+}
+
+#[test]
+fn a_cube_over_the_side_of_a_slab_has_two_corners_and_two_crossings() {
+    for cube in cuboids(DVec3::splat(0.5)) {
+        for slab in cuboids(DVec3::new(3.0, 3.0, 1.0)) {
+            let pairs = contacts(&cube, &slab, at(3.1, 0.2, 1.5005), 1e-3);
+            assert_eq!(kinds(&pairs), [2, 2, 0], "{:?}", names(&pairs));
+            check_bounds(&pairs, 5e-4, -DVec3::Z);
+        }
+    }
+}
+
+#[test]
+fn flush_squares_cross_along_their_outlines() {
+    let square = || cuboids(DVec3::new(1.0, 1.0, 0.2));
+    for (a, b) in square().into_iter().zip(square()) {
+        // A star has eight crossings, and a cross of two bars four.
+        let star = turned(at(0.0, 0.0, 0.4005), DVec3::Z, 0.6);
+        let pairs = contacts(&a, &b, star, 1e-3);
+        assert_eq!(kinds(&pairs), [0, 8, 0], "{:?}", names(&pairs));
+        check_bounds(&pairs, 5e-4, -DVec3::Z);
+    }
+    let bars = [DVec3::new(2.0, 0.5, 0.2), DVec3::new(0.5, 2.0, 0.2)];
+    let [a, b] = bars.map(|half| Mesh::cuboid(half).body(Volume::Solid));
+    let pairs = contacts(&a, &b, at(0.1, 0.0, 0.4), 1e-3);
+    assert_eq!(kinds(&pairs), [0, 4, 0], "{:?}", names(&pairs));
+    check_bounds(&pairs, 0.0, -DVec3::Z);
+}
+
+/// Equal faces that cover each other: corners on corners, and nothing that follows from them.
+#[test]
+fn equal_faces_meet_in_their_corners() {
+    for (a, b) in cuboids(DVec3::ONE).into_iter().zip(cuboids(DVec3::ONE)) {
+        let pairs = contacts(&a, &b, at(0.0, 0.0, 2.0005), 1e-3);
+        assert_eq!(names(&pairs), ["v0 v4", "v1 v5", "v2 v6", "v3 v7"]);
+        check_bounds(&pairs, 5e-4, -DVec3::Z);
+        // Shifted along one side: corners within edges.
+        let pairs = contacts(&a, &b, at(0.7, 0.0, 2.0005), 1e-3);
+        assert_eq!(names(&pairs), ["e0-1 v5", "e2-3 v7", "v0 e4-5", "v2 e6-7"]);
+        check_bounds(&pairs, 5e-4, -DVec3::Z);
+    }
+}
+
+#[test]
+fn balls_and_capsules_touch_with_their_surfaces() {
+    let slab = Body::cuboid(DVec3::new(3.0, 3.0, 1.0)).unwrap();
+    let ball = Body::ball(0.5).unwrap();
+    let pairs = contacts(&ball, &slab, at(0.3, 0.1, 1.5005), 1e-3);
+    assert_eq!(names(&pairs), ["v0 f5"]);
+    check_bounds(&pairs, 5e-4, -DVec3::Z);
+    let pairs = contacts(&ball, &Body::ball(0.7).unwrap(), at(0.0, 1.2005, 0.0), 1e-3);
+    assert_eq!(names(&pairs), ["v0 v0"]);
+    check_bounds(&pairs, 5e-4, -DVec3::Y);
+
+    let capsule = Body::capsule(0.25, 1.0).unwrap();
+    let lying = turned(at(0.0, 0.0, 1.2505), DVec3::X, std::f64::consts::FRAC_PI_2);
+    let pairs = contacts(&capsule, &slab, lying, 1e-3);
+    assert_eq!(names(&pairs), ["v0 f5", "v1 f5"]);
+    check_bounds(&pairs, 5e-4, -DVec3::Z);
+    // Across each other, and side by side.
+    let across = turned(at(0.5005, 0.0, 0.0), DVec3::X, 1.0);
+    let pairs = contacts(&capsule, &capsule, across, 1e-3);
+    assert_eq!(names(&pairs), ["e0-1 e0-1"]);
+    check_bounds(&pairs, 5e-4, -DVec3::X);
+    let pairs = contacts(&capsule, &capsule, at(0.5005, 0.0, 0.5), 1e-3);
+    assert_eq!(names(&pairs), ["e0-1 v1", "v0 e0-1"]);
+    check_bounds(&pairs, 5e-4, -DVec3::X);
+}
+
+/// Shapes whose numbers and places are at random, so that no pair is on the brink.
+#[test]
+fn no_pair_of_random_soups_is_missed() {
+    let rng = &mut rng(71);
+    let mut found = [0; 3];
+    for round in 0..600 {
+        let size = magnitude(rng, -3.0, 3.0);
+        let [look_a, look_b] = [0; 2].map(|_| Look::ALL[rng.random_range(0..5)]);
+        let tame = |look| {
+            if look == Look::Needles {
+                Look::Plump
+            } else {
+                look
+            }
+        };
+        let count = |rng: &mut Pcg64| rng.random_range(1..40);
+        let (count_a, count_b) = (count(rng), count(rng));
+        let a = Mesh::soup(soup(rng, tame(look_a), count_a, size));
+        let b = Mesh::soup(soup(rng, tame(look_b), count_b, size));
+        let place = within(rng, size);
+        let pose = Pose::new(place, rotation(rng)).unwrap();
+        let tolerance = size * magnitude(rng, -2.5, -0.5);
+        compare(&a, &b, pose, tolerance, &mut found, round);
+    }
+    assert!(found.iter().all(|&count| count > 300), "{found:?}");
+}
+
+/// Closed meshes that share vertices: faces on faces, edges on faces, edges across, corners on corners.
+#[test]
+fn no_pair_of_meshes_that_nearly_rest_is_missed() {
+    let rng = &mut rng(72);
+    let mut found = [0; 3];
+    for round in 0..400 {
+        let half = DVec3::from_array(std::array::from_fn(|_| rng.random_range(0.2..1.5)));
+        let rough = [0.0, 1e-3, 0.3][round % 3];
+        let (a, b) = (Mesh::cuboid(half), Mesh::terrain(rng, 8, 3.0, rough));
+        let lean = [0.0, 1e-6, 1e-4, 1e-2, 0.7][rng.random_range(0..5)];
+        let turn = DQuat::from_axis_angle(direction(rng), lean)
+            * DQuat::from_rotation_z(rng.random_range(0.0..3.0));
+        let lowest = a
+            .points
+            .iter()
+            .map(|&p| (turn * p).z)
+            .fold(f64::INFINITY, f64::min);
+        let place = DVec3::new(
+            rng.random_range(-1.0..1.0),
+            rng.random_range(-1.0..1.0),
+            5e-4 - lowest,
+        );
+        let tolerance = [1e-3, 1e-2, 0.1][rng.random_range(0..3)];
+        compare(
+            &a,
+            &b,
+            Pose::new(place, turn).unwrap(),
+            tolerance,
+            &mut found,
+            round,
+        );
+    }
+    assert!(found[0] > 1000 && found[1] > 1000, "{found:?}");
+}
+
+/// Holds the pairs against the twin's, names and distances, both ways round.
+fn compare(a: &Mesh, b: &Mesh, pose: Pose, tolerance: f64, found: &mut [usize; 3], round: usize) {
+    let (body_a, body_b) = (a.body(Volume::Surface), b.body(Volume::Surface));
+    let config = Config {
+        tolerance,
+        ..Config::default()
+    };
+    let problem = still(&body_a, &body_b, pose, &config);
+    let pairs = problem.contacts_at(0.0).unwrap();
+    let placed = a.placed(&pose);
+    let expected = twin::contacts(&placed, b, tolerance, problem.rounding);
+    let told: Vec<(String, f64)> = pairs
+        .iter()
+        .map(|pair| {
+            (
+                format!("{} {}", pair.feature_a, pair.feature_b),
+                pair.separation.upper,
+            )
+        })
+        .collect();
+    for (name, distance) in &expected.sure {
+        let same = told.iter().find(|(other, _)| other == name);
+        let Some((_, upper)) = same else {
+            panic!("round {round}: {name} at {distance} of {tolerance} is missed");
+        };
+        let off = upper - problem.rounding - distance;
+        assert!(
+            off.abs() <= 1e-9 * tolerance.max(*distance) + 4.0 * problem.rounding,
+            "{name} {off}"
+        );
+    }
+    for (name, distance) in &told {
+        assert!(
+            expected.sure.contains_key(name) || expected.doubtful.contains(name),
+            "round {round}: {name} at {distance} of {tolerance} is no pair"
+        );
+    }
+    assert!(pairs.is_sorted_by(|one, two| one.separation.upper <= two.separation.upper));
+    for pair in &pairs {
+        let Separation {
+            lower,
+            upper,
+            normal,
+            ..
+        } = pair.separation;
+        assert!(
+            lower <= upper && lower <= tolerance && (normal.length() - 1.0).abs() < 1e-12,
+            "{pair:?}"
+        );
+    }
+    for (count, more) in found.iter_mut().zip(kinds(&pairs)) {
+        *count += more;
+    }
+    let mut unique = names(&pairs);
+    unique.dedup();
+    assert_eq!(
+        unique.len(),
+        pairs.len(),
+        "round {round}: a pair is told twice"
+    );
+    assert_eq!(pairs, problem.contacts_at(0.0).unwrap());
+}
+
+/// Fine plates face to face: a million pairs of triangles, of which those near each other are looked at.
+#[test]
+fn fine_plates_face_to_face_are_no_trouble() {
+    let rng = &mut rng(73);
+    let plate = Mesh::terrain(rng, 60, 3.0, 0.0);
+    let body = plate.body(Volume::Surface);
+    // By half a cell: every vertex is over a face, but for those beyond the other plate.
+    let cell = 6.0 / 60.0;
+    let pairs = contacts(&body, &body, at(0.3 * cell, 0.2 * cell, 5e-4), 1e-3);
+    // Along two sides, 61 and 60 vertices of either plate hang over.
+    assert_eq!(kinds(&pairs)[0], 2 * 60 * 60);
+    assert_eq!(kinds(&pairs)[1], 2, "{:?}", &names(&pairs)[..8]);
+    assert_eq!(pairs.len(), 2 * 60 * 60 + 2);
+}
+
+#[test]
+fn times_beyond_the_duration_and_budgets_are_refused() {
+    let cube = Mesh::cuboid(DVec3::ONE).body(Volume::Solid);
+    let problem = still(&cube, &cube, at(0.0, 0.0, 2.0), &Config::default());
+    for time in [-1e-9, 1.0 + 1e-9, f64::NAN, f64::INFINITY] {
+        let refused = problem.contacts_at(time);
+        assert!(
+            matches!(refused, Err(ContactsError::NotInDuration { .. })),
+            "{time}"
+        );
+    }
+    assert_eq!(problem.contacts_at(0.0).unwrap().len(), 4);
+    assert_eq!(problem.contacts_at(1.0).unwrap().len(), 4);
+    for budget in 1..4 {
+        let config = Config {
+            budget,
+            ..Config::default()
+        };
+        let problem = still(&cube, &cube, at(0.0, 0.0, 2.0), &config);
+        assert_eq!(
+            problem.contacts_at(0.5),
+            Err(ContactsError::TooMany { budget })
+        );
+    }
+}

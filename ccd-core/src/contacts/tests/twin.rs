@@ -1,0 +1,283 @@
+//! All pairs of features, the slow and obvious way.
+
+use crate::body::{Body, Volume};
+use crate::feature::Feature;
+use crate::pieces::Pieces;
+use crate::pose::Pose;
+use crate::tests::nearest::{Triangle, nearest};
+use crate::tests::scene::{Pcg64, RngExt};
+use glam::DVec3;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Vertices, and triangles that share them.
+pub(super) struct Mesh {
+    pub(super) points: Vec<DVec3>,
+    faces: Vec<[u32; 3]>,
+}
+
+/// Pairs of names with their distance; and those that rounding decides about.
+pub(super) struct Expected {
+    pub(super) sure: BTreeMap<String, f64>,
+    pub(super) doubtful: BTreeSet<String>,
+}
+
+impl Mesh {
+    pub(super) fn soup(triangles: Vec<Triangle>) -> Self {
+        Mesh {
+            faces: (0..triangles.len() as u32)
+                .map(|k| [3 * k, 3 * k + 1, 3 * k + 2])
+                .collect(),
+            points: triangles.into_iter().flatten().collect(),
+        }
+    }
+
+    /// Corner `k` has a positive x, y, z where bit 0, 1, 2 of `k` is set.
+    pub(super) fn cuboid(half: DVec3) -> Self {
+        let sign = |k: u32, bit: u32| if k >> bit & 1 == 1 { 1.0 } else { -1.0 };
+        let quads = [
+            [0, 4, 6, 2],
+            [1, 3, 7, 5],
+            [0, 1, 5, 4],
+            [2, 6, 7, 3],
+            [0, 2, 3, 1],
+            [4, 5, 7, 6],
+        ];
+        Mesh {
+            points: (0..8)
+                .map(|k| half * DVec3::new(sign(k, 0), sign(k, 1), sign(k, 2)))
+                .collect(),
+            faces: quads
+                .iter()
+                .flat_map(|q| [[q[0], q[1], q[2]], [q[0], q[2], q[3]]])
+                .collect(),
+        }
+    }
+
+    /// A square about the origin, `cells × cells`, its heights from −`rough` to 0.
+    pub(super) fn terrain(rng: &mut Pcg64, cells: u32, half: f64, rough: f64) -> Self {
+        let place = |k: u32| half * (2.0 * f64::from(k) / f64::from(cells) - 1.0);
+        let vertex = |i: u32, j: u32| i * (cells + 1) + j;
+        let squares = (0..cells).flat_map(|i| (0..cells).map(move |j| (i, j)));
+        Mesh {
+            points: (0..=cells)
+                .flat_map(|i| (0..=cells).map(move |j| DVec3::new(place(i), place(j), 0.0)))
+                .map(|p| p - rough * rng.random_range(0.0..1.0) * DVec3::Z)
+                .collect(),
+            faces: squares
+                .flat_map(|(i, j)| {
+                    let [a, b, c, d] = [
+                        vertex(i, j),
+                        vertex(i + 1, j),
+                        vertex(i + 1, j + 1),
+                        vertex(i, j + 1),
+                    ];
+                    [[a, b, c], [a, c, d]]
+                })
+                .collect(),
+        }
+    }
+
+    pub(super) fn body(&self, volume: Volume) -> Body {
+        let ids: Vec<u32> = (0..self.faces.len() as u32).collect();
+        let pieces = Pieces::triangles(&self.points, &self.faces, &ids).unwrap();
+        Body::new(&pieces, volume).unwrap()
+    }
+
+    pub(super) fn placed(&self, pose: &Pose) -> Mesh {
+        Mesh {
+            points: self
+                .points
+                .iter()
+                .map(|&p| pose.transform_point(p))
+                .collect(),
+            faces: self.faces.clone(),
+        }
+    }
+
+    fn triangle(&self, face: usize) -> Triangle {
+        self.faces[face].map(|v| self.points[v as usize])
+    }
+
+    /// Each edge once, and the first of the two coplanar faces that it is between.
+    fn edges(&self, rounding: f64) -> Vec<([u32; 2], Option<u32>)> {
+        let mut sides: BTreeMap<[u32; 2], Vec<(u32, u32)>> = BTreeMap::new();
+        for (k, face) in (0u32..).zip(&self.faces) {
+            for i in 0..3 {
+                let (v, w, tip) = (face[i], face[(i + 1) % 3], face[(i + 2) % 3]);
+                sides
+                    .entry([v.min(w), v.max(w)])
+                    .or_default()
+                    .push((k, tip));
+            }
+        }
+        let at = |v: u32| self.points[v as usize];
+        let flat = |[v, w]: [u32; 2], sides: &[(u32, u32)]| match *sides {
+            [(first, p), (_, q)] => {
+                let along = at(w) - at(v);
+                let normal = along.cross(at(p) - at(v)).normalize();
+                let beyond = along.cross(at(q) - at(v)).dot(normal) < 0.0;
+                let level = normal.dot(at(q) - at(v)).abs() <= rounding;
+                (beyond && level).then_some(first)
+            }
+            _ => None,
+        };
+        let flat = |(ends, sides): ([u32; 2], Vec<_>)| (ends, flat(ends, &sides));
+        sides.into_iter().map(flat).collect()
+    }
+
+    /// Whether a feature is on the boundary of another one.
+    fn bounds(&self, part: Feature, of: Feature) -> bool {
+        match (part, of) {
+            (Feature::Vertex(v), Feature::Edge(a, b)) => v == a || v == b,
+            (Feature::Vertex(v), Feature::Face(face)) => self.faces[face as usize].contains(&v),
+            (Feature::Edge(v, w), Feature::Face(face)) => {
+                let corners = self.faces[face as usize];
+                corners.contains(&v) && corners.contains(&w)
+            }
+            _ => false,
+        }
+    }
+}
+
+/// Two features, by name.
+type Key = [Feature; 2];
+
+/// The pairs of two meshes within reach.
+pub(super) fn contacts(a: &Mesh, b: &Mesh, reach: f64, rounding: f64) -> Expected {
+    let mut offers = Offers {
+        reach,
+        rounding,
+        sure: BTreeMap::new(),
+        doubtful: BTreeSet::new(),
+    };
+    for (one, other, order) in [(a, b, [0, 1]), (b, a, [1, 0])] {
+        let used: BTreeSet<u32> = one.faces.iter().flatten().copied().collect();
+        for v in used {
+            for face in 0..other.faces.len() {
+                let pair = |part| order.map(|k| [Feature::Vertex(v), part][k]);
+                offers.corner(one.points[v as usize], other, face, pair);
+            }
+        }
+    }
+    let edges = |mesh: &Mesh| -> Vec<[u32; 2]> {
+        let all = mesh.edges(rounding).into_iter();
+        all.filter(|it| it.1.is_none()).map(|it| it.0).collect()
+    };
+    for e in edges(a) {
+        for f in edges(b) {
+            let ends = |mesh: &Mesh, ends: [u32; 2]| ends.map(|v| mesh.points[v as usize]);
+            let names = [e, f].map(|[v, w]| Feature::Edge(v, w));
+            offers.edges(ends(a, e), ends(b, f), names);
+        }
+    }
+    offers.told([a, b])
+}
+
+struct Offers {
+    reach: f64,
+    rounding: f64,
+    sure: BTreeMap<Key, f64>,
+    doubtful: BTreeSet<Key>,
+}
+
+impl Offers {
+    /// Whether a pair that far apart is in reach, as far as that can be said.
+    fn offer(&mut self, key: Key, distance: f64, clear: bool) {
+        if distance > self.reach + 4.0 * self.rounding {
+        } else if clear && distance <= self.reach {
+            let least = self.sure.entry(key).or_insert(distance);
+            *least = least.min(distance);
+        } else {
+            self.doubtful.insert(key);
+        }
+    }
+
+    /// A vertex, and the part of a face that is nearest to it: clear where no smaller part is as near.
+    fn corner(&mut self, v: DVec3, mesh: &Mesh, face: usize, pair: impl Fn(Feature) -> Key) {
+        let (triangle, ids) = (mesh.triangle(face), mesh.faces[face]);
+        let distance = nearest(&[v; 3], &triangle).distance;
+        let margin = 16.0 * self.rounding;
+        let as_near = |corners: Triangle| nearest(&[v; 3], &corners).distance <= distance + margin;
+        let corner = (0..3).find(|&k| as_near([triangle[k]; 3]));
+        let edge = (0..3).find(|&k| {
+            let next = triangle[(k + 1) % 3];
+            as_near([triangle[k], next, next])
+        });
+        let edge_name = |k: usize| Feature::edge(ids[k], ids[(k + 1) % 3]);
+        let part = match (corner, edge) {
+            (Some(k), _) => Feature::Vertex(ids[k]),
+            (None, Some(k)) => edge_name(k),
+            (None, None) => Feature::Face(face as u32),
+        };
+        // As near, and not merely nearly so.
+        let exact = |corners: Triangle| {
+            nearest(&[v; 3], &corners).distance <= distance + 0.25 * self.rounding
+        };
+        let clear = match part {
+            Feature::Vertex(_) => corner.is_some_and(|k| exact([triangle[k]; 3])),
+            Feature::Edge(..) => edge.is_some_and(|k| {
+                let next = triangle[(k + 1) % 3];
+                exact([triangle[k], next, next])
+            }),
+            _ => true,
+        };
+        self.offer(pair(part), distance, clear);
+        if !clear {
+            let all = (0..3).flat_map(|k| [Feature::Vertex(ids[k]), edge_name(k)]);
+            for part in all.chain([Feature::Face(face as u32)]) {
+                self.offer(pair(part), distance, false);
+            }
+        }
+    }
+
+    /// Two edges that cross: clear where both are nearer inside than at any end.
+    fn edges(&mut self, e: [DVec3; 2], f: [DVec3; 2], names: Key) {
+        let (d, along, way) = (e[1] - e[0], f[1] - f[0], f[0] - e[0]);
+        let across = d.cross(along);
+        let s = way.cross(along).dot(across) / across.length_squared();
+        let t = way.cross(d).dot(across) / across.length_squared();
+        if !(s > 0.0 && s < 1.0 && t > 0.0 && t < 1.0) {
+            return;
+        }
+        let distance = (e[0] + s * d).distance(f[0] + t * along);
+        let segment = |[p, q]: [DVec3; 2]| [p, q, q];
+        let end = |p: DVec3, edge| nearest(&[p; 3], &segment(edge)).distance;
+        let ends = [end(e[0], f), end(e[1], f), end(f[0], e), end(f[1], e)];
+        let nearest_end = ends.into_iter().fold(f64::INFINITY, f64::min);
+        let slanted = across.length() > 1e-4 * d.length() * along.length();
+        let clear = slanted && nearest_end > distance + 16.0 * self.rounding;
+        self.offer(names, distance, clear);
+    }
+
+    /// Leaves out what a larger part covers, and gives points on edges within planes to faces.
+    fn told(self, meshes: [&Mesh; 2]) -> Expected {
+        let larger = |key: &Key, other: &Key| {
+            (0..2).any(|k| {
+                let corner = matches!(key[1 - k], Feature::Vertex(_)) && key[1 - k] == other[1 - k];
+                corner && meshes[k].bounds(key[k], other[k])
+            })
+        };
+        let within = meshes.map(|mesh| -> BTreeMap<Feature, Feature> {
+            let edges = mesh.edges(self.rounding).into_iter();
+            let flat = edges.filter_map(|([v, w], face)| Some((Feature::Edge(v, w), face?)));
+            flat.map(|(edge, face)| (edge, Feature::Face(face)))
+                .collect()
+        });
+        let name = |key: &Key| {
+            let side = |k: usize| within[k].get(&key[k]).unwrap_or(&key[k]);
+            format!("{} {}", side(0), side(1))
+        };
+        let (mut sure, mut doubtful) = (BTreeMap::new(), BTreeSet::new());
+        for (key, &distance) in &self.sure {
+            if self.sure.keys().any(|other| larger(key, other)) {
+                continue;
+            }
+            match self.doubtful.iter().any(|other| larger(key, other)) {
+                true => drop(doubtful.insert(name(key))),
+                false => drop(sure.insert(name(key), distance)),
+            }
+        }
+        doubtful.extend(self.doubtful.iter().map(name));
+        Expected { sure, doubtful }
+    }
+}

@@ -1,0 +1,104 @@
+//! Whether facets are those of a convex polytope, exactly.
+
+use super::assemble::edges_of;
+use super::inside::height_below;
+use crate::piece::Piece;
+use crate::support::Support;
+use glam::DVec3;
+use std::collections::HashMap;
+
+/// A hull's extremal points, where its facets are proven to lead to them.
+#[derive(Debug)]
+pub(super) struct Climbed(Option<Support>);
+
+impl Climbed {
+    pub(super) fn new(hull: &Piece<'_>) -> Self {
+        Climbed(is_convex(hull).then(|| Support::new(hull)))
+    }
+
+    pub(super) fn support(&self) -> Option<&Support> {
+        self.0.as_ref()
+    }
+}
+
+/// Whether the facets close a convex polytope that has all points for corners.
+///
+/// # Guarantee
+/// Exact where it says so. The facets are seen as fans of triangles. A point behind all of them sees
+/// their surface spread over all directions, each covered equally often; once, if a single one is.
+/// Such a surface is that of a convex polytope when it bends inward at no edge `[MEHLHORN96]`; where
+/// the triangles of each facet are coplanar, its edges are those of the facets.
+fn is_convex(hull: &Piece<'_>) -> bool {
+    let mut on_facets = vec![false; hull.points.len()];
+    let mut triangles: Vec<[u32; 3]> = Vec::new();
+    for corners in hull.facets.iter() {
+        corners.iter().for_each(|&v| on_facets[v as usize] = true);
+        triangles.extend((1..corners.len() - 1).map(|k| [corners[0], corners[k], corners[k + 1]]));
+        if !is_plane(hull.points, corners) {
+            return false;
+        }
+    }
+    let place = |triangle: &[u32; 3]| triangle.map(|v| hull.points[v as usize]);
+    let middle = hull.points.iter().sum::<DVec3>() / hull.points.len() as f64;
+    let behind = |triangle: &[u32; 3]| height_below(place(triangle), middle) > 0.0;
+    on_facets.into_iter().all(|on| on)
+        && triangles.iter().all(behind)
+        && bends_outward(&triangles, place)
+        && covers_once(&triangles, place, middle)
+}
+
+/// Whether the corners lie in the plane of the first three.
+fn is_plane(points: &[DVec3], corners: &[u32]) -> bool {
+    let place = |&v: &u32| points[v as usize];
+    let first = [0, 1, 2].map(|k| place(&corners[k]));
+    let mut others = corners[3..].iter().map(place);
+    others.all(|p| height_below(first, p) == 0.0)
+}
+
+/// Whether across every edge the next triangle is not in front of a triangle.
+fn bends_outward(triangles: &[[u32; 3]], place: impl Fn(&[u32; 3]) -> [DVec3; 3]) -> bool {
+    let sides = |triangle: &[u32; 3]| -> Vec<(u32, u32)> { edges_of(triangle).collect() };
+    let mut across = HashMap::new();
+    for triangle in triangles {
+        across.extend(sides(triangle).into_iter().map(|side| (side, triangle)));
+    }
+    triangles.iter().all(|triangle| {
+        sides(triangle).into_iter().all(|(from, to)| {
+            let next = across.get(&(to, from));
+            next.is_some_and(|next| {
+                let corners = place(next).into_iter();
+                corners
+                    .map(|p| height_below(place(triangle), p))
+                    .all(|height| height >= 0.0)
+            })
+        })
+    })
+}
+
+/// Whether a direction from the middle, past all edges, meets one triangle.
+fn covers_once(
+    triangles: &[[u32; 3]],
+    place: impl Fn(&[u32; 3]) -> [DVec3; 3],
+    middle: DVec3,
+) -> bool {
+    let Some(first) = triangles.first() else {
+        return false;
+    };
+    let target = place(first).into_iter().sum::<DVec3>() / 3.0;
+    let mut met = 0;
+    for triangle in triangles {
+        let [a, b, c] = place(triangle);
+        let sides = [[a, b], [b, c], [c, a]];
+        let heights = sides.map(|[from, to]| height_below([middle, to, from], target));
+        if heights.into_iter().all(|height| height > 0.0) {
+            met += 1;
+        } else if !heights.into_iter().any(|height| height < 0.0) {
+            // Through an edge: it cannot be told how often.
+            return false;
+        }
+    }
+    met == 1
+}
+
+#[cfg(test)]
+mod tests;

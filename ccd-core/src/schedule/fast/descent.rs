@@ -1,0 +1,263 @@
+//! The distance of the bodies at one clock, and what it leaves of the front `[FAST06 Alg. 3]`.
+
+use super::super::hulls::{HullPair, Near};
+use super::super::moment::Moment;
+use super::super::pair::Step;
+use super::super::start::Start;
+use super::front::{Front, Item};
+use super::reach::Reaches;
+use crate::motion_bound::Bound;
+use crate::oracle::DistanceOracle;
+use crate::outcome::{Contact, Limit, Outcome, Stats};
+use crate::problem::{Problem, StartPolicy};
+use crate::tolerance::JOIN_BEYOND;
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
+use std::ops::ControlFlow;
+
+/// Computes distances, nearest pairs first, from the front that the last descent left.
+pub(super) struct Descent<'s, 'p, C> {
+    pub(super) problem: &'p Problem<'p>,
+    pub(super) hulls: HullPair<'p>,
+    pub(super) bound: Bound,
+    pub(super) front: &'s mut Front<C>,
+    pub(super) reaches: &'s mut Reaches,
+    pub(super) start: &'s mut Start,
+    pub(super) stats: &'s mut Stats,
+}
+
+/// What is known so far at a clock.
+struct Found {
+    /// Bounds the distance of the bodies from above.
+    distance: f64,
+    /// The nearest pair of pieces in contact.
+    contact: Option<Contact>,
+    /// Pairs that may have to be split, nearest first.
+    open: BinaryHeap<Open>,
+}
+
+/// A pair of the front with its distance.
+struct Open {
+    lower: f64,
+    at: u32,
+}
+
+impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
+    /// Looks at all pairs of the front at clock `s`, splits those that may hold the least distance,
+    /// joins those that don't any more, and returns until when all of them keep apart.
+    pub(super) fn step<O>(&mut self, oracle: &mut O, s: f64) -> ControlFlow<Outcome, f64>
+    where
+        O: DistanceOracle<Cache = C>,
+    {
+        let moment = Moment::of(self.problem, self.hulls.hulls([0, 0]), s);
+        let mut found = Found {
+            distance: f64::INFINITY,
+            contact: None,
+            open: BinaryHeap::new(),
+        };
+        let mut leaves = Vec::with_capacity(self.front.len());
+        self.front.leaves(&mut leaves);
+        for at in leaves {
+            self.look(oracle, &moment, at, &mut found)?;
+        }
+        while let Some(Open { lower, at }) = found.open.pop() {
+            // Written so that NaN is split.
+            if lower >= found.distance {
+                break;
+            }
+            let Some(first) = self.front.drop_below(self.hulls, at) else {
+                continue;
+            };
+            self.look(oracle, &moment, first, &mut found)?;
+            self.look(oracle, &moment, first + 1, &mut found)?;
+        }
+        if let Some(contact) = found.contact
+            && s > 0.0
+        {
+            let time = self.problem.time(s);
+            return ControlFlow::Break(Outcome::Contact { time, contact });
+        }
+        let next = self.next();
+        self.join(oracle, &moment, &mut found, next)?;
+        ControlFlow::Continue(next)
+    }
+
+    /// The least clock of the front.
+    fn next(&mut self) -> f64 {
+        let mut leaves = Vec::with_capacity(self.front.len());
+        self.front.leaves(&mut leaves);
+        let clocks = leaves.into_iter().map(|at| self.front.node(at).clock);
+        clocks.fold(f64::INFINITY, f64::min)
+    }
+
+    /// Measures a pair of the front.
+    fn look<O>(
+        &mut self,
+        oracle: &mut O,
+        moment: &Moment<'p>,
+        at: u32,
+        found: &mut Found,
+    ) -> ControlFlow<Outcome>
+    where
+        O: DistanceOracle<Cache = C>,
+    {
+        self.stats.node_visits += 1;
+        if self.stats.node_visits > self.problem.budget {
+            let unresolved = Outcome::Unresolved {
+                safe_until: self.problem.time(moment.clock),
+                reason: Limit::Budget,
+            };
+            return ControlFlow::Break(self.start.touching().unwrap_or(unresolved));
+        }
+        match self.front.node(at).item {
+            Item::Nodes(_) => {
+                self.look_at_nodes(oracle, moment, at, found);
+                ControlFlow::Continue(())
+            }
+            Item::Pieces(_) => self.look_at_pieces(oracle, moment, at, found),
+        }
+    }
+
+    fn look_at_nodes<O>(&mut self, oracle: &mut O, moment: &Moment<'p>, at: u32, found: &mut Found)
+    where
+        O: DistanceOracle<Cache = C>,
+    {
+        let (problem, s) = (self.problem, moment.clock);
+        let node = self.front.node(at);
+        let Item::Nodes(cache) = &mut node.item else {
+            return;
+        };
+        let moment = moment.with(self.hulls.hulls(node.pair));
+        let Some(checked) = moment.ask(oracle, cache, self.stats) else {
+            // Smaller hulls may be easier.
+            (node.lower, node.near, node.clock) = (f64::NEG_INFINITY, Near::Bridges, s);
+            found.open.push(Open::new(at, node.lower));
+            return;
+        };
+        let reaches = self.reaches.each(problem, node.pair, &moment);
+        let free = moment.directed_time(&checked, problem.gap(), self.bound, reaches);
+        node.lower = checked.lower;
+        node.near = self.hulls.near(node.pair, &checked.claim);
+        node.clock = free.map_or(f64::INFINITY, |free| (s + free).next_down());
+        let contact = problem.margin + problem.tolerance;
+        // What is in contact at the start is known there, or not at all.
+        let reach = if s > 0.0 { problem.gap() } else { contact };
+        // The distance is that of the pieces below, which are not in contact.
+        let settled = node.near == Near::Pieces && checked.upper > contact;
+        if settled && checked.lower > reach && node.clock > s {
+            found.distance = found.distance.min(checked.upper);
+        } else if !(checked.lower >= found.distance) {
+            found.open.push(Open::new(at, checked.lower));
+        }
+    }
+
+    fn look_at_pieces<O>(
+        &mut self,
+        oracle: &mut O,
+        moment: &Moment<'p>,
+        at: u32,
+        found: &mut Found,
+    ) -> ControlFlow<Outcome>
+    where
+        O: DistanceOracle<Cache = C>,
+    {
+        let (problem, bound, s) = (self.problem, self.bound, moment.clock);
+        let node = self.front.node(at);
+        let Item::Pieces(pair) = &mut node.item else {
+            return ControlFlow::Continue(());
+        };
+        let moment = moment.with(problem.pieces([pair.a, pair.b]));
+        let reaches = self.reaches.each(problem, node.pair, &moment);
+        // Pairs that rest on each other have no say in how near the bodies are.
+        node.lower = f64::NEG_INFINITY;
+        let step = pair.advance_by(&moment, oracle, self.stats, |moment, checked, kept| {
+            node.lower = checked.lower;
+            found.distance = found.distance.min(checked.upper);
+            moment.directed_time(checked, kept, bound, reaches)
+        });
+        if let Step::Contact(contact) = step {
+            found.touch(contact);
+            if s > 0.0 {
+                return ControlFlow::Continue(());
+            }
+        }
+        node.clock = self.start.settle(problem, step, s)?.unwrap_or(s);
+        ControlFlow::Continue(())
+    }
+
+    /// Joins pairs of the front that are far away by now, where that costs nothing: the pair that
+    /// covers both is as far as the bodies are, and apart until the next clock.
+    fn join<O>(
+        &mut self,
+        oracle: &mut O,
+        moment: &Moment<'p>,
+        found: &mut Found,
+        next: f64,
+    ) -> ControlFlow<Outcome>
+    where
+        O: DistanceOracle<Cache = C>,
+    {
+        // Pairs that were let go at the start are not to be forgotten.
+        if self.problem.start == StartPolicy::Leave {
+            return ControlFlow::Continue(());
+        }
+        let distance = found.distance;
+        let mut pairs = Vec::new();
+        self.front.above_leaves(&mut pairs);
+        for (at, first) in pairs {
+            let far = [first, first + 1]
+                .into_iter()
+                .all(|child| self.front.node(child).lower >= JOIN_BEYOND * distance);
+            if !far || self.front.node(at).join_below <= distance {
+                continue;
+            }
+            self.look(oracle, moment, at, found)?;
+            let node = self.front.node(at);
+            if node.lower >= distance && node.clock >= next {
+                self.front.raise(at);
+            } else {
+                node.join_below = distance / JOIN_BEYOND;
+            }
+        }
+        ControlFlow::Continue(())
+    }
+}
+
+impl Found {
+    fn touch(&mut self, contact: Contact) {
+        let separation = &contact.separation;
+        self.distance = self.distance.min(separation.upper);
+        let nearest = self.contact.get_or_insert(contact);
+        if separation.lower < nearest.separation.lower {
+            *nearest = contact;
+        }
+    }
+}
+
+impl Open {
+    fn new(at: u32, lower: f64) -> Self {
+        Open { lower, at }
+    }
+}
+
+/// The nearest pair is the greatest; of several, the one that came first.
+impl Ord for Open {
+    fn cmp(&self, other: &Self) -> Ordering {
+        let nearer = other.lower.total_cmp(&self.lower);
+        nearer.then(other.at.cmp(&self.at))
+    }
+}
+
+impl PartialOrd for Open {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl PartialEq for Open {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+
+impl Eq for Open {}

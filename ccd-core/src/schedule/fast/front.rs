@@ -1,0 +1,156 @@
+//! The bounding volume traversal tree, and its front `[FAST06 §5.1]`.
+
+use super::super::hulls::{Below, HullPair, Near};
+use super::super::pair::Pair;
+
+/// Pairs of nodes of two hull trees, from the pair of roots down to those at which a descent stopped.
+///
+/// Its leaves are the front: together they cover all pairs of pieces. Between two descents it is kept,
+/// and so are the caches of the oracle.
+#[derive(Debug)]
+pub(super) struct Front<C> {
+    /// The root is the first; pairs of children stand side by side.
+    nodes: Vec<Node<C>>,
+    /// Where pairs of children were that are gone.
+    vacant: Vec<u32>,
+    leaves: usize,
+}
+
+/// A pair of nodes.
+#[derive(Clone, Debug)]
+pub(super) struct Node<C> {
+    pub(super) pair: [u32; 2],
+    pub(super) item: Item<C>,
+    /// The first of its two children, unless it is in the front.
+    pub(super) children: Option<u32>,
+    /// Bounds its distance from below, when it was last looked at.
+    pub(super) lower: f64,
+    /// Apart until then, when it was last looked at.
+    pub(super) clock: f64,
+    /// What its nearest features belong to.
+    pub(super) near: Near,
+    /// It is worth another try to join its children while the distance of the bodies is below this.
+    pub(super) join_below: f64,
+}
+
+#[derive(Clone, Debug)]
+pub(super) enum Item<C> {
+    /// At least one is an inner node; what the oracle left.
+    Nodes(C),
+    /// Two leaves.
+    Pieces(Pair<C>),
+}
+
+impl<C> Default for Front<C> {
+    fn default() -> Self {
+        Front {
+            nodes: Vec::new(),
+            vacant: Vec::new(),
+            leaves: 0,
+        }
+    }
+}
+
+impl<C: Clone + Default> Front<C> {
+    /// Starts again with the pair of roots.
+    pub(super) fn plant(&mut self, hulls: HullPair<'_>) {
+        self.nodes.clear();
+        self.vacant.clear();
+        self.nodes.push(Node::new(hulls, [0, 0]));
+        self.leaves = 1;
+    }
+
+    /// How many pairs are in it.
+    pub(super) fn len(&self) -> usize {
+        self.leaves
+    }
+
+    pub(super) fn node(&mut self, at: u32) -> &mut Node<C> {
+        &mut self.nodes[at as usize]
+    }
+
+    /// The pairs of the front, in the order of the tree.
+    pub(super) fn leaves(&self, into: &mut Vec<u32>) {
+        into.clear();
+        self.walk(|at, node| {
+            if node.children.is_none() {
+                into.push(at);
+            }
+        });
+    }
+
+    /// The pairs both of whose children are in the front.
+    pub(super) fn above_leaves(&self, into: &mut Vec<(u32, u32)>) {
+        into.clear();
+        self.walk(|at, node| {
+            if let Some(first) = node.children
+                && [first, first + 1]
+                    .iter()
+                    .all(|&child| self.nodes[child as usize].children.is_none())
+            {
+                into.push((at, first));
+            }
+        });
+    }
+
+    /// Replaces a pair of the front by two that cover it, and returns the first of them; none where
+    /// it is of pieces.
+    pub(super) fn drop_below(&mut self, hulls: HullPair<'_>, at: u32) -> Option<u32> {
+        let node = &self.nodes[at as usize];
+        let Below::Pairs(pairs) = hulls.below(node.pair, node.near) else {
+            return None;
+        };
+        let children = pairs.map(|pair| Node::new(hulls, pair));
+        let first = match self.vacant.pop() {
+            Some(first) => {
+                for (child, at) in children.into_iter().zip(first as usize..) {
+                    self.nodes[at] = child;
+                }
+                first
+            }
+            None => {
+                self.nodes.extend(children);
+                self.nodes.len() as u32 - 2
+            }
+        };
+        self.nodes[at as usize].children = Some(first);
+        self.leaves += 1;
+        Some(first)
+    }
+
+    /// Replaces two pairs of the front by the one that covers them.
+    pub(super) fn raise(&mut self, at: u32) {
+        if let Some(first) = self.nodes[at as usize].children.take() {
+            self.vacant.push(first);
+            self.leaves -= 1;
+        }
+    }
+
+    fn walk(&self, mut visit: impl FnMut(u32, &Node<C>)) {
+        let mut stack = vec![0];
+        while let Some(at) = stack.pop() {
+            let node = &self.nodes[at as usize];
+            visit(at, node);
+            if let Some(first) = node.children {
+                stack.extend([first + 1, first]);
+            }
+        }
+    }
+}
+
+impl<C: Default + Clone> Node<C> {
+    fn new(hulls: HullPair<'_>, pair: [u32; 2]) -> Self {
+        Node {
+            pair,
+            item: match hulls.below(pair, Near::Bridges) {
+                Below::Pieces([a, b]) => Item::Pieces(Pair::new(a, b)),
+                Below::Pairs(_) => Item::Nodes(C::default()),
+            },
+            children: None,
+            lower: f64::NEG_INFINITY,
+            clock: 0.0,
+            near: Near::Bridges,
+            join_below: f64::INFINITY,
+        }
+    }
+}

@@ -1,0 +1,40 @@
+//! How far nodes reach from their body's axis of rotation, each computed once a query.
+
+use super::super::moment::Moment;
+use crate::problem::Problem;
+
+#[derive(Debug, Default)]
+pub(super) struct Reaches {
+    query: u64,
+    /// By body and node: the query that it was computed for, and what came out.
+    known: [Vec<(u64, f64)>; 2],
+}
+
+impl Reaches {
+    /// Begins another query.
+    pub(super) fn forget(&mut self) {
+        self.query += 1;
+    }
+
+    /// Of both nodes of a pair, whose hulls are those of a moment.
+    pub(super) fn each(
+        &mut self,
+        problem: &Problem<'_>,
+        pair: [u32; 2],
+        moment: &Moment<'_>,
+    ) -> [f64; 2] {
+        let paths = [&problem.a.path, &problem.b.path];
+        let points = [moment.pieces.a.points, moment.pieces.b.points];
+        [0, 1].map(|k| {
+            let (known, at) = (&mut self.known[k], pair[k] as usize);
+            if known.len() <= at {
+                known.resize(at + 1, (0, 0.0));
+            }
+            let (query, reach) = &mut known[at];
+            if *query != self.query {
+                (*query, *reach) = (self.query, paths[k].reach(points[k]));
+            }
+            *reach
+        })
+    }
+}

@@ -1,0 +1,200 @@
+//! All features in contact at the time of an answer.
+
+use ccd_core::glam::DVec3;
+use ccd_core::{Config, Feature, FeaturePair, Outcome, Problem};
+use ccd_tests::analytic::scenes_named;
+use ccd_tests::backends::Backend;
+use ccd_tests::checks::Law;
+use ccd_tests::models::Kind;
+use ccd_tests::query::{Actor, Bodies, Query};
+use ccd_tests::referee::{point_segment, point_triangle};
+use ccd_tests::strategies::{cases, check_cases, remote_cases};
+use std::cell::Cell;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// When and how near the bodies touch, if they do.
+fn touch(problem: &Problem<'_>) -> Option<(f64, f64)> {
+    match Backend::DEFAULT.solve(problem).outcome {
+        Outcome::Contact { time, contact } => Some((time, contact.separation.upper)),
+        Outcome::Touching { contact } => Some((0.0, contact.separation.upper)),
+        _ => None,
+    }
+}
+
+/// The contacts of a scene, for every kind of pieces.
+fn contacts_of(name: &str) -> Vec<([Kind; 2], Vec<FeaturePair>)> {
+    let scenes = scenes_named(name);
+    let query = &scenes[0].query;
+    let bodies = query.all_bodies();
+    let of_kind = |bodies: &Bodies| {
+        let problem = query.problem(bodies, &Config::default());
+        let (time, _) = touch(&problem).expect("a hit");
+        (bodies.kinds, problem.contacts_at(time).expect("contacts"))
+    };
+    bodies.iter().map(of_kind).collect()
+}
+
+/// Every upright edge of the peg, which goes through the plate, meets both rims of one of its walls.
+#[test]
+fn t12_a_peg_touches_four_walls_at_once() {
+    for (kinds, pairs) in contacts_of("T12 ") {
+        let mut rims: BTreeMap<Feature, BTreeSet<Feature>> = BTreeMap::new();
+        for pair in &pairs {
+            rims.entry(pair.feature_a)
+                .or_default()
+                .insert(pair.feature_b);
+        }
+        let upright = [(0, 4), (1, 5), (2, 6), (3, 7)].map(|(v, w)| Feature::Edge(v, w));
+        assert!(rims.keys().eq(&upright), "{kinds:?} {rims:?}");
+        assert!(
+            rims.values().all(|rims| rims.len() == 2),
+            "{kinds:?} {rims:?}"
+        );
+        assert_eq!(pairs.len(), 8, "{kinds:?}");
+        let spread = pairs[7].separation.upper - pairs[0].separation.upper;
+        assert!(spread < 1e-9, "four walls are as near: {spread}");
+        for pair in &pairs {
+            let at = pair.separation.witness_a;
+            assert!((at.z.abs() - 0.25).abs() < 1e-12, "{pair:?}");
+            // Each wall is an axis away from the middle.
+            let n = pair.separation.normal;
+            assert!(
+                n.abs().max_element() > 1.0 - 1e-12 && n.dot(at) > 0.0,
+                "{pair:?}"
+            );
+        }
+    }
+}
+
+/// Four corners of every tooth of either comb come down on the other's base.
+#[test]
+fn t19_all_tips_of_two_combs_touch() {
+    for (kinds, pairs) in contacts_of("T19 combs of 4") {
+        assert_eq!(pairs.len(), 2 * 4 * 4, "{kinds:?}: {pairs:?}");
+        let tip = |feature| matches!(feature, Feature::Vertex(_));
+        for pair in &pairs {
+            assert!(tip(pair.feature_a) != tip(pair.feature_b), "{pair:?}");
+            assert!(pair.separation.normal.z < -1.0 + 1e-9, "{pair:?}");
+        }
+    }
+}
+
+#[test]
+fn t1_a_cube_stands_on_its_corners() {
+    for (kinds, pairs) in contacts_of("T1 ") {
+        assert_eq!(pairs.len(), 4, "{kinds:?}: {pairs:?}");
+        for pair in &pairs {
+            let standing = matches!(
+                (pair.feature_a, pair.feature_b),
+                (Feature::Vertex(0..4), Feature::Face(_))
+            );
+            assert!(standing, "{kinds:?} {pair:?}");
+        }
+    }
+}
+
+/// Of two plates of 512 triangles that cover each other, vertices meet vertices.
+#[test]
+fn plates_meet_vertex_by_vertex() {
+    for (kinds, pairs) in contacts_of("plates") {
+        assert_eq!(pairs.len(), 17 * 17, "{kinds:?}");
+        for FeaturePair {
+            feature_a,
+            feature_b,
+            ..
+        } in pairs
+        {
+            assert!(matches!(feature_a, Feature::Vertex(_)) && feature_a == feature_b);
+        }
+    }
+}
+
+/// What touches is among the contacts, the same whatever the pieces, and each is as told.
+#[test]
+fn contacts_of_random_cases_hold() {
+    let (told, compared) = (Cell::new(0), Cell::new(0));
+    let law = |case: &ccd_tests::case::Case| -> Law {
+        let query = case.query();
+        let mut at = None;
+        let mut names: Option<BTreeSet<String>> = None;
+        for bodies in query.all_bodies() {
+            let problem = query.problem(&bodies, &case.config());
+            let Some((time, upper)) = at.map_or_else(|| touch(&problem), Some) else {
+                continue;
+            };
+            at.get_or_insert((time, upper));
+            let pairs = problem
+                .contacts_at(time)
+                .map_err(|error| error.to_string())?;
+            let apart = case.config().margin + problem.tolerance();
+            check_pairs(&query, &pairs, [time, upper, apart], bodies.kinds)?;
+            told.set(told.get() + pairs.len());
+            let own: BTreeSet<String> = pairs
+                .iter()
+                .map(|pair| format!("{} {}", pair.feature_a, pair.feature_b))
+                .collect();
+            if bodies.kinds.contains(&Kind::Parts) {
+                continue;
+            }
+            match &names {
+                None => names = Some(own),
+                Some(names) if *names == own => compared.set(compared.get() + 1),
+                Some(names) => return Err(format!("{:?}: {names:?}, {own:?}", bodies.kinds)),
+            }
+        }
+        Ok(())
+    };
+    check_cases(400, cases(), law);
+    check_cases(200, remote_cases(), law);
+    let (told, compared) = (told.get(), compared.get());
+    assert!(told > 1_000 && compared > 100, "{told} {compared}");
+}
+
+/// Holds every pair against the mesh, and the nearest against the contact that was reported.
+fn check_pairs(
+    query: &Query,
+    pairs: &[FeaturePair],
+    [time, upper, apart]: [f64; 3],
+    kinds: [Kind; 2],
+) -> Law {
+    let rounding = query.rounding();
+    let nearest = pairs
+        .first()
+        .ok_or_else(|| format!("{kinds:?}: no contact at {time}"))?;
+    if nearest.separation.upper > upper + rounding {
+        let nearest = nearest.separation.upper;
+        return Err(format!("{kinds:?}: the nearest is {nearest}, not {upper}"));
+    }
+    for pair in pairs {
+        let it = pair.separation;
+        let distance = it.witness_a.distance(it.witness_b);
+        let along = (it.witness_b - it.witness_a).dot(it.normal);
+        let good = it.lower <= apart
+            && it.lower <= along + rounding
+            && (it.lower - rounding..=it.upper + rounding).contains(&distance)
+            && (it.normal.length() - 1.0).abs() <= 1e-12;
+        let off_a = off(&query.a, time, pair.feature_a, it.witness_a);
+        let off_b = off(&query.b, time, pair.feature_b, it.witness_b);
+        let parts = kinds.contains(&Kind::Parts);
+        if !good || !parts && !(off_a.max(off_b) <= rounding) {
+            return Err(format!(
+                "{kinds:?}: {pair:?} at {time}: off by {off_a}, {off_b}"
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// How far a point is off a feature of the mesh at a time.
+fn off(actor: &Actor, time: f64, feature: Feature, point: DVec3) -> f64 {
+    let (pose, mesh) = (actor.motion.pose(time), &actor.shape.mesh);
+    let at = |v: u32| pose.transform_point(mesh.vertices[v as usize]);
+    match feature {
+        Feature::Vertex(v) => at(v).distance(point),
+        Feature::Edge(v, w) => point_segment(point, [at(v), at(w)]).distance(point),
+        Feature::Face(face) => {
+            point_triangle(point, mesh.faces[face as usize].map(at)).distance(point)
+        }
+        Feature::Piece(_) => f64::INFINITY,
+    }
+}

@@ -1,0 +1,107 @@
+//! The paper's own bound looks at one moment only: it is late where arms turn, and the sound one is not.
+
+use ccd_core::glam::{DQuat, DVec3};
+use ccd_core::motion_bound::Bound;
+use ccd_core::schedule::{Fast, Naive};
+use ccd_core::{Answer, Config, Motion, Outcome, Pose, Problem, Schedule};
+use ccd_distance_gjk::Gjk;
+use ccd_tests::analytic::{Expect, scenes_named};
+use ccd_tests::models::{Kind, cuboid};
+use ccd_tests::query::{Actor, Bodies, Query};
+use ccd_tests::referee::{Referee, Verdict};
+use rand::RngExt;
+use rand_pcg::Pcg64;
+
+/// The schedules that divide a distance by a bound, with one.
+fn schedules(bound: Bound) -> [Box<dyn Schedule<Gjk>>; 2] {
+    [Box::new(Fast::new(bound)), Box::new(Naive::new(bound))]
+}
+
+fn answers(problem: &Problem<'_>, bound: Bound) -> [Answer; 2] {
+    schedules(bound).map(|mut schedule| schedule.solve(problem, &mut Gjk))
+}
+
+/// By how much an answer comes after the contact, infinite where it misses that.
+fn lateness(answer: &Answer, contact: f64) -> f64 {
+    match answer.outcome {
+        Outcome::Contact { time, .. } => time - contact,
+        Outcome::Free { .. } => f64::INFINITY,
+        outcome => panic!("{outcome:?}"),
+    }
+}
+
+fn bodies(query: &Query) -> Bodies {
+    let kind = |actor: &Actor| {
+        let kinds: Vec<Kind> = actor.shape.kinds().collect();
+        *[Kind::Patches, Kind::Parts]
+            .iter()
+            .find(|kind| kinds.contains(kind))
+            .expect("convex pieces")
+    };
+    query.bodies([kind(&query.a), kind(&query.b)])
+}
+
+#[test]
+fn the_mace_passes_the_wall_that_the_sound_bound_stops_it_at() {
+    let scenes = scenes_named("T9 ");
+    let Expect::Hit { latest, .. } = scenes[0].expect else {
+        panic!("the mace meets the wall");
+    };
+    let bodies = bodies(&scenes[0].query);
+    let problem = scenes[0].query.problem(&bodies, &Config::default());
+    for answer in answers(&problem, Bound::Published) {
+        assert!(lateness(&answer, latest) > 0.1, "{answer:?}");
+    }
+    for answer in answers(&problem, Bound::Sound) {
+        let late = lateness(&answer, latest);
+        assert!((-1e-3..=1e-12).contains(&late), "{late}: {answer:?}");
+    }
+}
+
+/// A rod of 1 : 20 in any pose, at some distance, that flies at another one and turns as it does.
+fn rods(rng: &mut Pcg64) -> Query {
+    let mut vector = |size: f64| {
+        let mut coordinate = || rng.random_range(-size..size);
+        DVec3::new(coordinate(), coordinate(), coordinate())
+    };
+    let mut rod = |place: DVec3, velocity: DVec3, turns: f64| Actor {
+        shape: cuboid(DVec3::new(1.0, 0.05, 0.05)),
+        motion: Motion::new(
+            Pose::new(place, DQuat::from_scaled_axis(vector(3.0))).expect("a pose"),
+            velocity,
+            vector(1.0).normalize() * turns * std::f64::consts::TAU,
+        )
+        .expect("finite velocities"),
+    };
+    Query {
+        a: rod(DVec3::new(-2.5, 0.2, 0.1), 5.0 * DVec3::X, 3.0),
+        b: rod(DVec3::ZERO, DVec3::ZERO, 0.0),
+        duration: 1.0,
+    }
+}
+
+#[test]
+fn some_fast_rods_are_seen_late_by_the_published_bound_and_none_by_the_sound_one() {
+    let mut rng = Pcg64::new(9, 0);
+    let (mut hits, mut late) = (0, [0; 2]);
+    for _ in 0..600 {
+        let query = rods(&mut rng);
+        let Verdict::Hit { hi, .. } = Referee::new(&query).verdict() else {
+            continue;
+        };
+        hits += 1;
+        let bodies = bodies(&query);
+        let problem = query.problem(&bodies, &Config::default());
+        for answer in answers(&problem, Bound::Sound) {
+            assert!(lateness(&answer, hi) <= 1e-9, "{answer:?}: {query:?}");
+        }
+        for (late, answer) in late.iter_mut().zip(answers(&problem, Bound::Published)) {
+            *late += usize::from(lateness(&answer, hi) > 1e-4);
+        }
+    }
+    println!("{late:?} of {hits} contacts seen late");
+    assert!(
+        hits > 150 && late.iter().all(|&late| late > 0),
+        "{late:?} of {hits}"
+    );
+}
