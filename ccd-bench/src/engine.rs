@@ -2,8 +2,9 @@
 
 use ccd_core::motion_bound::Bound;
 use ccd_core::schedule::{BestFirst, Fast, HullFirst, Naive};
-use ccd_core::{Answer, DistanceOracle, Problem, Schedule};
+use ccd_core::{Answer, DistanceOracle, OrElse, Problem, Schedule};
 use ccd_distance_gjk::{Auto, Gjk, GjkF32};
+use ccd_distance_vmarch::Vmarch;
 use clap::ValueEnum;
 use std::fmt;
 
@@ -79,6 +80,8 @@ pub enum OracleKind {
     Gjk,
     /// GJK that searches in single precision, checked in double.
     GjkF32,
+    /// Voronoi marching, as published; where that gives up, gjk.
+    Vmarch,
 }
 
 /// Answers queries one after another, keeping its memory in between.
@@ -107,6 +110,7 @@ impl Method {
             OracleKind::Direct => self.with_oracle::<Auto>(),
             OracleKind::Gjk => self.with_oracle::<Gjk>(),
             OracleKind::GjkF32 => self.with_oracle::<GjkF32>(),
+            OracleKind::Vmarch => self.with_oracle::<OrElse<Vmarch, Gjk>>(),
         }
     }
 

@@ -35,11 +35,12 @@ pub(crate) fn check(pair: &PiecePair<'_>, claim: &Claim, rounding: f64) -> Check
     let radii = pair.a.radius + pair.b.radius;
 
     let mut axis = unit(claim.axis);
-    let mut gap = support_gap(pair, axis, on_a);
+    let near = [&a, &b].map(|claimed| claimed.support().first().copied());
+    let mut gap = support_gap_near(pair, axis, on_a, near);
     // Written so that NaN asks for the second axis.
     if !(gap > 0.5 * distance) {
         let second = unit(way);
-        let second_gap = support_gap(pair, second, on_a);
+        let second_gap = support_gap_near(pair, second, on_a, near);
         if !(gap >= second_gap) {
             (axis, gap) = (second, second_gap);
         }
@@ -59,8 +60,22 @@ pub(crate) fn check(pair: &PiecePair<'_>, claim: &Claim, rounding: f64) -> Check
 /// `min_B n·y − max_A n·x` of the unrounded pieces, with heights measured from `from`.
 #[inline]
 pub(crate) fn support_gap(pair: &PiecePair<'_>, n: DVec3, from: DVec3) -> f64 {
+    support_gap_near(pair, n, from, [None; 2])
+}
+
+/// The same; where edges are climbed, from corners that may be known to be about as far as any.
+#[inline]
+fn support_gap_near(
+    pair: &PiecePair<'_>,
+    n: DVec3,
+    from: DVec3,
+    near: [Option<u32>; 2],
+) -> f64 {
     let highest = match pair.a.support {
-        Some(support) => n.dot(pair.a.points[support.extremal(n) as usize] - from),
+        Some(support) => {
+            let farthest = support.extremal_near(near[0], n);
+            n.dot(pair.a.points[farthest as usize] - from)
+        }
         None => {
             let heights = pair.a.points.iter().map(|&x| n.dot(x - from));
             heights.fold(f64::NEG_INFINITY, f64::max)
@@ -69,7 +84,10 @@ pub(crate) fn support_gap(pair: &PiecePair<'_>, n: DVec3, from: DVec3) -> f64 {
     let n_b = pair.b_to_a.inverse_vector(n);
     let origin_b = n.dot(pair.b_to_a.translation - from);
     let lowest = match pair.b.support {
-        Some(support) => n_b.dot(pair.b.points[support.extremal(-n_b) as usize]),
+        Some(support) => {
+            let farthest = support.extremal_near(near[1], -n_b);
+            n_b.dot(pair.b.points[farthest as usize])
+        }
         None => {
             let heights = pair.b.points.iter().map(|&y| n_b.dot(y));
             heights.fold(f64::INFINITY, f64::min)

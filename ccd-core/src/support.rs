@@ -58,4 +58,13 @@ impl Support {
             Support::Climb(table) => table.extremal(direction),
         }
     }
+
+    /// The same, for a direction along which a corner may be known to be about as far.
+    #[inline]
+    pub(crate) fn extremal_near(&self, corner: Option<u32>, direction: DVec3) -> u32 {
+        match (self, corner) {
+            (Support::Climb(table), Some(corner)) => table.extremal_from(corner, direction),
+            _ => self.extremal(direction),
+        }
+    }
 }

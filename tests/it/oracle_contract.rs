@@ -1,8 +1,9 @@
 //! The contract of oracles, over every oracle and every size of piece.
 
-use ccd_core::DistanceOracle;
+use ccd_core::{DistanceOracle, OrElse};
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_distance_gjk::{Auto, Direct, Gjk, GjkF32};
+use ccd_distance_vmarch::Vmarch;
 use ccd_tests::contract::{Pair, bounds_law, cache_law, ends_law};
 use ccd_tests::strategies::{direction, rotation, runner};
 use proptest::prelude::*;
@@ -42,6 +43,8 @@ contract! {
     gjk: Gjk, [1, 2, 3, 8, 20];
     gjk_f32: GjkF32, [1, 2, 3, 8, 20];
     auto: Auto, [1, 2, 3, 8, 20];
+    // Pieces of more than three points come without facets here: all of these go to GJK.
+    vmarch: OrElse<Vmarch, Gjk>, [1, 2, 3, 8, 20];
 }
 
 /// How far a claim may be from the distance, as a part of the pair's size: a tenth of the least

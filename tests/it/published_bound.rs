@@ -99,7 +99,6 @@ fn some_fast_rods_are_seen_late_by_the_published_bound_and_none_by_the_sound_one
             *late += usize::from(lateness(&answer, hi) > 1e-4);
         }
     }
-    println!("{late:?} of {hits} contacts seen late");
     assert!(
         hits > 150 && late.iter().all(|&late| late > 0),
         "{late:?} of {hits}"

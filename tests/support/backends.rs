@@ -5,6 +5,7 @@ use crate::query::{Bodies, Query};
 use ccd_core::schedule::{BestFirst, Fast, HullFirst, Naive};
 use ccd_core::{Answer, Body, Config, DistanceOracle, Problem, Schedule};
 use ccd_distance_gjk::{Auto, Direct, Gjk, GjkF32};
+use ccd_distance_vmarch::Vmarch;
 
 /// The schedules.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,6 +31,8 @@ pub enum Oracle {
     GjkF32,
     /// Closed forms, then GJK.
     Auto,
+    /// Voronoi marching, then GJK.
+    Vmarch,
 }
 
 /// A schedule with an oracle.
@@ -62,7 +65,8 @@ impl Backend {
 
     /// Every schedule with every oracle.
     pub fn all() -> impl Iterator<Item = Backend> {
-        let oracles = [Oracle::Direct, Oracle::Gjk, Oracle::GjkF32, Oracle::Auto];
+        use Oracle::{Auto, Direct, Gjk, GjkF32, Vmarch};
+        let oracles = [Direct, Gjk, GjkF32, Auto, Vmarch];
         let orders = [
             Order::BestFirst,
             Order::HullFirst,
@@ -98,6 +102,7 @@ impl Backend {
             Oracle::Gjk => self.solve_with(problem, &mut Gjk),
             Oracle::GjkF32 => self.solve_with(problem, &mut GjkF32::default()),
             Oracle::Auto => self.solve_with(problem, &mut Auto::default()),
+            Oracle::Vmarch => self.solve_with(problem, &mut Vmarch::default().or_else(Gjk)),
         }
     }
 

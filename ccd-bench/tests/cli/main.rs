@@ -236,8 +236,9 @@ fn bad_options_are_refused() {
         ["--threads", "0"],
         ["--repeat", "0"],
         ["--budget", "0"],
-        ["--oracle", "vmarch"],
-        ["--schedule", "fast"],
+        ["--oracle", "lin-canny"],
+        ["--schedule", "fastest"],
+        ["--bound", "published"],
         ["--pieces", "hulls"],
     ] {
         let output = Run::query(&FALLING_CUBE)

@@ -39,16 +39,17 @@ fn near_pieces(problem: &Problem<'_>, b_to_a: &Frame, reach: f64) -> Option<Vec<
     let (mut near, mut visits) = (Vec::new(), 0);
     let mut stack: Vec<[NodeId; 2]> = vec![[0, 0]];
     while let Some([at_a, at_b]) = stack.pop() {
-        visits += 1;
-        if visits > problem.budget {
-            return None;
-        }
         let extents = [
             Extent::new(&problem.a, at_a, &Frame::IDENTITY),
             Extent::new(&problem.b, at_b, b_to_a),
         ];
         if apart(&extents, reach) {
             continue;
+        }
+        // As in a schedule, what counts is a pair that is split, or looked at, not what it is split into.
+        visits += 1;
+        if visits > problem.budget {
+            return None;
         }
         match (a.piece(at_a), b.piece(at_b)) {
             (Some(piece_a), Some(piece_b)) => near.push([piece_a, piece_b]),

@@ -207,7 +207,7 @@ impl<'a> Skin<'a> {
     /// What a spot on a face is called: one that has no number of its own goes by the face, or by the
     /// piece.
     pub(super) fn name(&self, spot: Spot, face: u32) -> Feature {
-        let id = |corner: u32| self.corners[corner as usize].id;
+        let id = |corner: u32| self.number_of(corner);
         let own = match spot {
             Spot::Corner(corner) => id(corner).map(Feature::Vertex),
             Spot::Edge([v, w]) => id(v).zip(id(w)).map(|(v, w)| Feature::edge(v, w)),

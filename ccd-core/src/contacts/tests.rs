@@ -1,6 +1,7 @@
 use super::*;
 use crate::body::{Body, Volume};
 use crate::motion::Motion;
+use crate::piece::{Facet, Origin, Polytope};
 use crate::pose::Pose;
 use crate::problem::{Config, Moving};
 use crate::tests::scene::{Look, Pcg64, RngExt, direction, magnitude, rng, rotation, soup, within};
@@ -171,6 +172,49 @@ fn balls_and_capsules_touch_with_their_surfaces() {
     let pairs = contacts(&capsule, &capsule, at(0.5005, 0.0, 0.5), 1e-3);
     assert_eq!(names(&pairs), ["e0-1 v1", "v0 e0-1"]);
     check_bounds(&pairs, 5e-4, -DVec3::X);
+}
+
+/// Approximate hulls name nothing of a mesh, and hulls of unknown facets only their corners.
+#[test]
+fn what_has_no_number_goes_by_its_piece() {
+    let slab = Body::cuboid(DVec3::new(3.0, 3.0, 1.0)).unwrap();
+    let cube = Mesh::cuboid(DVec3::splat(0.5));
+    let facet = |face: &[u32; 3]| Facet {
+        origin: Origin::Virtual,
+        corners: face.to_vec(),
+    };
+    let hull = Polytope {
+        points: cube.points.clone(),
+        facets: cube.faces.iter().map(facet).collect(),
+        ..Polytope::default()
+    };
+    let bare = Polytope {
+        facets: Vec::new(),
+        ..hull.clone()
+    };
+    for (polytope, name) in [(hull, "p0 f5"), (bare, "v")] {
+        let body = Body::polytope(polytope).unwrap();
+        let pairs = contacts(&body, &slab, at(0.3, 0.1, 1.5005), 1e-3);
+        assert_eq!(pairs.len(), 4, "{:?}", names(&pairs));
+        assert!(names(&pairs).iter().all(|it| it.starts_with(name)));
+        check_bounds(&pairs, 5e-4, -DVec3::Z);
+    }
+}
+
+/// What is kept apart by a margin is in contact at that distance.
+#[test]
+fn a_margin_is_reached_across() {
+    let cube = Mesh::cuboid(DVec3::splat(0.5)).body(Volume::Solid);
+    let config = Config {
+        margin: 0.25,
+        ..Config::default()
+    };
+    for (height, count) in [(0.2505, 4), (0.2515, 0)] {
+        let problem = still(&cube, &cube, at(0.0, 0.0, 1.0 + height), &config);
+        let pairs = problem.contacts_at(0.5).unwrap();
+        assert_eq!(pairs.len(), count, "{:?}", names(&pairs));
+        check_bounds(&pairs, height, -DVec3::Z);
+    }
 }
 
 /// Shapes whose numbers and places are at random, so that no pair is on the brink.

@@ -13,7 +13,7 @@ use crate::problem::Problem;
 use crate::tolerance::HULL_PROGRESS;
 use std::ops::ControlFlow;
 
-/// Best-first search by time over [hull trees](HullTree): what the paper's trees can do when every
+/// Best-first search by time over [hull trees](crate::HullTree): what the paper's trees can do when every
 /// pair keeps its own clock.
 ///
 /// As with [`BestFirst`], the pair of least clock is looked at next, until a pair of pieces is within
@@ -23,7 +23,7 @@ use std::ops::ControlFlow;
 /// ([`FacetClass`](crate::FacetClass)): then its distance is already that of the pieces below, and no split would make
 /// it larger.
 ///
-/// Bodies of one piece need no tree. If another body has [none](Body::hull_tree), the query is
+/// Bodies of one piece need no tree. If another body has [none](crate::Body::hull_tree), the query is
 /// answered by [`BestFirst`].
 ///
 /// # Guarantee

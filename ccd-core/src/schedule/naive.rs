@@ -74,8 +74,9 @@ impl<O: DistanceOracle> Naive<O> {
                 return unresolved(s, Limit::Budget);
             }
             let mut next = f64::INFINITY;
+            let moment = Moment::new(problem, 0, 0, s);
             for pair in &mut self.pairs {
-                let moment = Moment::new(problem, pair.a, pair.b, s);
+                let moment = moment.with(problem.pieces([pair.a, pair.b]));
                 let reaches = [reaches[0][pair.a as usize], reaches[1][pair.b as usize]];
                 let step = pair.advance_by(&moment, oracle, stats, |moment, checked, kept| {
                     moment.directed_time(checked, kept, self.bound, reaches)

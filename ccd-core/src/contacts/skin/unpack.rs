@@ -4,6 +4,7 @@ use super::{Corner, Face, Place, Skin};
 use crate::feature::Feature;
 use crate::oracle::Combination;
 use crate::piece::Piece;
+use crate::tree::pieces_at;
 use glam::DVec3;
 use std::collections::HashMap;
 
@@ -73,6 +74,22 @@ impl Skin<'_> {
             (Feature::Face(id), corners)
         });
         named.collect()
+    }
+
+    /// The number of a corner: its piece's own, or that of another piece which is there.
+    pub(super) fn number_of(&self, corner: u32) -> Option<u32> {
+        let Corner {
+            place: here, id, ..
+        } = &self.corners[corner as usize];
+        let there = || pieces_at(self.body.tree(), here.map(f64::from_bits).into());
+        id.or_else(|| {
+            let numbers = there().into_iter().filter_map(|piece| {
+                let points = self.body.pieces().get(piece as usize).points;
+                let point = points.iter().position(|&point| place(point) == *here)?;
+                self.number(piece, point as u32)
+            });
+            numbers.min()
+        })
     }
 
     /// The number of a point of a piece in the mesh.

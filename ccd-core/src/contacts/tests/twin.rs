@@ -12,7 +12,7 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Vertices, and triangles that share them.
 pub(super) struct Mesh {
     pub(super) points: Vec<DVec3>,
-    faces: Vec<[u32; 3]>,
+    pub(super) faces: Vec<[u32; 3]>,
 }
 
 /// Pairs of names with their distance; and those that rounding decides about.

@@ -1,0 +1,48 @@
+#!/usr/bin/env bash
+# Times the paper's own way (one step for all over hull trees of patches, Voronoi marching) against the
+# default schedule and against one static distance query of Coal, in one run on one core, with the mean
+# number of advancement steps.
+#
+# usage: as_published.sh SCENES PEER [OUT]
+#   SCENES   folder with meshes (*.obj) and motions (*.csv)
+#   PEER     a program that is called as `PEER a.obj b.obj motions.csv` and prints a column distance_us
+#   OUT      folder for the results, default a new one
+# environment: CCD=… is the command, CORE=… the core, REPEAT=… how often each row is answered, default 3:
+# its time is the median, so that what is prepared when a piece is first looked at is not in it
+set -euo pipefail
+here=$(cd "$(dirname "$0")" && pwd)
+. "$here/pairs.sh"
+scenes=$1
+peer=$2
+out=${3:-$(mktemp -d)}
+mkdir -p "$out"
+ccd=${CCD:-$here/../../target/release/ccd}
+core=${CORE:-1}
+methods="best-first --schedule best-first
+fast-vmarch --schedule fast --oracle vmarch --pieces patches
+fast-gjk --schedule fast --oracle gjk --pieces patches"
+echo "pair,method,median_us,mean_us,of_best_first,of_best_first_mean,of_coal,of_coal_mean,advancements,oracle_calls,oracle_steps"
+while read -r name a b motions; do
+    files=("$scenes/$a.obj" "$scenes/$b.obj" "$scenes/$motions.csv")
+    taskset -c "$core" python3 "$peer" "${files[@]}" >"$out/$name-coal.csv"
+    while read -r method options; do
+        # Options are words.
+        # shellcheck disable=SC2086
+        taskset -c "$core" "$ccd" query --quiet --a "${files[0]}" --b "${files[1]}" \
+            --motions "${files[2]}" --tolerance 1e-3 --repeat "${REPEAT:-3}" --counters \
+            --out "$out/$name-$method.csv" $options
+        python3 - "$name" "$method" "$out" <<'PY'
+import csv, statistics, sys
+name, method, out = sys.argv[1:]
+def read(what, column):
+    return [float(row[column]) for row in csv.DictReader(open(f"{out}/{name}-{what}.csv"))]
+def times(what, column="micros"):
+    values = read(what, column)
+    return statistics.median(values), statistics.mean(values)
+(m, n), (bm, bn), (cm, cn) = times(method), times("best-first"), times("coal", "distance_us")
+counts = [statistics.mean(read(method, c)) for c in ("advancements", "oracle_calls", "oracle_steps")]
+print(f"{name},{method},{m:.1f},{n:.1f},{m/bm:.2f},{n/bn:.2f},{m/cm:.3f},{n/cn:.3f},"
+      + ",".join(f"{c:.2f}" for c in counts), flush=True)
+PY
+    done <<<"$methods"
+done <<<"$pairs"
