@@ -65,12 +65,7 @@ pub(crate) fn support_gap(pair: &PiecePair<'_>, n: DVec3, from: DVec3) -> f64 {
 
 /// The same; where edges are climbed, from corners that may be known to be about as far as any.
 #[inline]
-fn support_gap_near(
-    pair: &PiecePair<'_>,
-    n: DVec3,
-    from: DVec3,
-    near: [Option<u32>; 2],
-) -> f64 {
+fn support_gap_near(pair: &PiecePair<'_>, n: DVec3, from: DVec3, near: [Option<u32>; 2]) -> f64 {
     let highest = match pair.a.support {
         Some(support) => {
             let farthest = support.extremal_near(near[0], n);

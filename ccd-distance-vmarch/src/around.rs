@@ -1,0 +1,141 @@
+//! All features around a tie: what rounding hid from the march, looked at pair by pair.
+
+use crate::edge_edge;
+use crate::feature::{Feature, Pair};
+use crate::place::{Placed, Places};
+use crate::polytope::NO_FACE;
+use crate::tolerance::AROUND;
+
+/// The nearest pair of features of the faces around a pair, if it is nearer than that by more than
+/// `rounding`.
+///
+/// What is convex has no distance that is least around one pair and not everywhere: where nothing
+/// around is nearer, nothing is. Unlike a march this does not ask in which direction the distance
+/// falls, which is rounding at a tie, but how large it is, which is not.
+pub(crate) fn nearer(places: &Places<'_>, pair: Pair, distance: f64) -> Option<Pair> {
+    let (a, b) = (Star::new(&places.a, pair.a), Star::new(&places.b, pair.b));
+    if a.edges.len() * b.edges.len() > AROUND {
+        return None;
+    }
+    let mut best = Best {
+        distance: distance - places.scale.rounding(),
+        pair: None,
+    };
+    for &e in &a.edges {
+        let one = places.a.line(e);
+        for &f in &b.edges {
+            let other = places.b.line(f);
+            let [s, t] = edge_edge::nearest(&one, &other).parameters;
+            let ends = (end_or_edge(&places.a, e, s), end_or_edge(&places.b, f, t));
+            best.offer(one.at(s).distance(other.at(t)), ends.0, ends.1);
+        }
+    }
+    for &v in &a.vertices {
+        let point = places.a.vertex(v);
+        for &f in &b.edges {
+            let line = places.b.line(f);
+            let t = line.nearest(point);
+            let end = end_or_edge(&places.b, f, t);
+            best.offer(line.at(t).distance(point), Feature::Vertex(v), end);
+        }
+        for &f in &b.faces {
+            let height = height(point, &places.b, f);
+            best.offer(height, Feature::Vertex(v), Feature::Face(f));
+        }
+    }
+    for &w in &b.vertices {
+        let point = places.b.vertex(w);
+        for &e in &a.edges {
+            let line = places.a.line(e);
+            let s = line.nearest(point);
+            let end = end_or_edge(&places.a, e, s);
+            best.offer(line.at(s).distance(point), end, Feature::Vertex(w));
+        }
+        for &f in &a.faces {
+            let height = height(point, &places.a, f);
+            best.offer(height, Feature::Face(f), Feature::Vertex(w));
+        }
+    }
+    best.pair
+}
+
+struct Best {
+    distance: f64,
+    pair: Option<Pair>,
+}
+
+impl Best {
+    fn offer(&mut self, distance: f64, a: Feature, b: Feature) {
+        if distance < self.distance {
+            self.distance = distance;
+            self.pair = Some(Pair { a, b });
+        }
+    }
+}
+
+/// The features of the faces that meet in a feature.
+struct Star {
+    vertices: Vec<u32>,
+    edges: Vec<u32>,
+    faces: Vec<u32>,
+}
+
+impl Star {
+    fn new<P: Placed>(polytope: &P, feature: Feature) -> Self {
+        let shape = polytope.shape();
+        let own: Vec<u32> = match feature {
+            Feature::Vertex(v) => shape.spokes_of(v).iter().map(|spoke| spoke.edge).collect(),
+            Feature::Edge(e) => vec![e],
+            Feature::Face(f) => shape.sides_of(f).iter().map(|side| side.edge).collect(),
+        };
+        let mut faces: Vec<u32> = match feature {
+            Feature::Face(f) => vec![f],
+            _ => own.iter().flat_map(|&e| shape.edge(e).faces).collect(),
+        };
+        faces.retain(|&f| f != NO_FACE);
+        let sides = faces.iter().flat_map(|&f| shape.sides_of(f));
+        let mut edges: Vec<u32> = sides.map(|side| side.edge).chain(own).collect();
+        let mut vertices: Vec<u32> = edges.iter().flat_map(|&e| shape.edge(e).ends).collect();
+        if let Feature::Vertex(v) = feature {
+            vertices.push(v);
+        }
+        for list in [&mut vertices, &mut edges, &mut faces] {
+            list.sort_unstable();
+            list.dedup();
+        }
+        Star {
+            vertices,
+            edges,
+            faces,
+        }
+    }
+}
+
+/// The end of an edge that a parameter is at, or the edge.
+fn end_or_edge<P: Placed>(polytope: &P, e: u32, parameter: f64) -> Feature {
+    let edge = polytope.shape().edge(e);
+    if !(parameter > 0.0) {
+        Feature::Vertex(edge.ends[0])
+    } else if !(parameter < edge.length) {
+        Feature::Vertex(edge.ends[1])
+    } else {
+        Feature::Edge(e)
+    }
+}
+
+/// How high a point is above a face, or nothing beside it and behind it.
+fn height<P: Placed>(point: ccd_core::glam::DVec3, polytope: &P, f: u32) -> f64 {
+    let mut height = f64::INFINITY;
+    let normal = polytope.vector(polytope.shape().face(f).normal);
+    for side in polytope.shape().sides_of(f) {
+        let from = point - polytope.point(side.start);
+        if !(polytope.vector(side.inward).dot(from) >= 0.0) {
+            return f64::INFINITY;
+        }
+        height = normal.dot(from);
+    }
+    if height >= 0.0 { height } else { f64::INFINITY }
+}
+
+#[cfg(test)]
+mod tests;

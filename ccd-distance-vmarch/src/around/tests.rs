@@ -1,0 +1,68 @@
+//! From features next to the nearest ones.
+
+use super::nearer;
+use crate::feature::{Feature, Pair};
+use crate::tests::setting::{cube, edge, face, moved, prepared, turned, vertex};
+use crate::tests::shape;
+use crate::witness::Witness;
+use ccd_core::glam::{DQuat, DVec3};
+
+#[test]
+fn what_is_nearest_has_nothing_nearer_around() {
+    let cube = cube();
+    let places = moved(&cube, &cube, DVec3::new(3.0, 3.0, 3.0));
+    let pair = Pair {
+        a: Feature::Vertex(vertex(&cube, DVec3::ONE)),
+        b: Feature::Vertex(vertex(&cube, -DVec3::ONE)),
+    };
+    let distance = Witness::of(&places, pair).distance();
+    assert_eq!(nearer(&places, pair, distance), None);
+}
+
+/// Two cubes almost face to face, tilted so that the corners at one end are nearer by less than their
+/// edges' directions show.
+#[test]
+fn slow_approaches_are_found() {
+    let (one, other) = (cube(), prepared(&shape::cuboid(DVec3::splat(0.9))));
+    let places = turned(
+        &one,
+        &other,
+        DQuat::from_rotation_y(1e-10),
+        (1.9 + 1e-6) * DVec3::Z,
+    );
+    // The far end of an edge that falls by 2e-10.
+    let high = Pair {
+        a: Feature::Face(face(&one, DVec3::Z)),
+        b: Feature::Vertex(vertex(&other, DVec3::new(-0.9, 0.9, -0.9))),
+    };
+    let low = Pair {
+        b: Feature::Vertex(vertex(&other, DVec3::new(0.9, 0.9, -0.9))),
+        ..high
+    };
+    let [far, near] = [high, low].map(|pair| Witness::of(&places, pair).distance());
+    assert!((far - near).abs() > 1e-10);
+    let (above, pair) = if far > near { (far, high) } else { (near, low) };
+    let found = nearer(&places, pair, above).expect("the other end is nearer");
+    let distance = Witness::of(&places, found).distance();
+    assert!((distance - far.min(near)).abs() < 1e-15, "{found:?}");
+}
+
+#[test]
+fn all_kinds_of_features_are_found() {
+    let cube = cube();
+    let top = Pair {
+        a: Feature::Edge(edge(&cube, DVec3::X + DVec3::Z)),
+        b: Feature::Vertex(vertex(&cube, DVec3::new(-1.0, -1.0, -1.0))),
+    };
+    let places = moved(&cube, &cube, DVec3::new(0.5, 0.5, 3.0));
+    let found = nearer(&places, top, 9.0).expect("the faces are nearer");
+    assert!((Witness::of(&places, found).distance() - 1.0).abs() < 1e-15);
+    let single = prepared(&shape::few(&[DVec3::ZERO]));
+    let places = moved(&cube, &single, DVec3::new(0.2, 0.1, 3.0));
+    let pair = Pair {
+        a: Feature::Edge(edge(&cube, DVec3::X + DVec3::Z)),
+        b: Feature::Vertex(0),
+    };
+    let found = nearer(&places, pair, 2.5).expect("the top is nearer");
+    assert_eq!(found.a, Feature::Face(face(&cube, DVec3::Z)));
+}

@@ -1,0 +1,146 @@
+//! What a stop at a tie is worth: the support gap along its axis against the distance.
+
+use crate::feature::{Feature, Pair};
+use crate::place::{Placed, Places};
+use crate::polytope::{NO_FACE, Polytope, unit};
+use crate::tolerance::{AXIS_EDGES, CERTIFIED, CERTIFIED_SHARE};
+use crate::witness::{Witness, across};
+use ccd_core::glam::DVec3;
+
+/// A unit vector and the support gap along it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Axis {
+    pub(crate) direction: DVec3,
+    pub(crate) gap: f64,
+}
+
+impl Axis {
+    /// A direction of any length.
+    pub(crate) fn along(places: &Places<'_>, direction: DVec3) -> Self {
+        let direction = unit(direction);
+        Axis {
+            direction,
+            gap: gap(places, direction),
+        }
+    }
+
+    /// Whether the distance is certified along it, to rounding.
+    ///
+    /// Written so that NaN is not.
+    pub(crate) fn certifies(&self, distance: f64, places: &Places<'_>) -> bool {
+        let slack = CERTIFIED * places.scale.size + CERTIFIED_SHARE * distance;
+        self.direction != DVec3::ZERO && distance - self.gap <= slack
+    }
+}
+
+/// The support gap `min_B n·y − max_A n·x` along a unit vector.
+pub(crate) fn gap(places: &Places<'_>, n: DVec3) -> f64 {
+    let highest = places.a.0.vertices.iter().map(|v| n.dot(v.point));
+    let own = places.b.own_vector(n);
+    let lowest = places.b.shape().vertices.iter().map(|v| own.dot(v.point));
+    lowest.fold(f64::INFINITY, f64::min) + n.dot(places.b.origin())
+        - highest.fold(f64::NEG_INFINITY, f64::max)
+}
+
+/// No less than the gap along a direction of any length: that between two corners, found by climbing
+/// where there are many.
+fn most(places: &Places<'_>, direction: DVec3) -> f64 {
+    let n = unit(direction);
+    let highest = places.a.0.vertex(places.a.0.extremal(n)).point;
+    let shape = places.b.shape();
+    let own = -places.b.own_vector(n);
+    let lowest = places.b.vertex(shape.extremal(own));
+    // The axis of no direction separates nothing.
+    let known = n != DVec3::ZERO;
+    if known {
+        n.dot(lowest - highest) + places.scale.rounding()
+    } else {
+        f64::NEG_INFINITY
+    }
+}
+
+/// The best axis for nearest features whose way is tied, or is rounding.
+///
+/// The directions along which features are the extremal ones make up a cone; a way that is rounded
+/// may fall out of it. Its borders are tried too: the normals of the faces around, the cross products
+/// of edges, the way across each edge; and for what lies in one plane or on one line, directions
+/// within.
+pub(crate) fn best_axis(places: &Places<'_>, pair: Pair, witness: &Witness) -> Axis {
+    let (distance, way) = (witness.distance(), witness.way());
+    let mut best = Axis::along(places, witness.axis);
+    if best.certifies(distance, places) {
+        return best;
+    }
+    let mut offer = |direction: DVec3| {
+        for direction in [direction, -direction] {
+            // Written so that NaN is no better.
+            if !(most(places, direction) > best.gap) {
+                continue;
+            }
+            let axis = Axis::along(places, direction);
+            if axis.gap > best.gap {
+                best = axis;
+            }
+        }
+    };
+    let around_a = Around::new(&places.a, pair.a, way);
+    let around_b = Around::new(&places.b, pair.b, way);
+    for around in [&around_a, &around_b] {
+        around.normals.iter().copied().for_each(&mut offer);
+        around.within.iter().copied().for_each(&mut offer);
+        for &edge in &around.edges {
+            offer(across(way, edge));
+            offer(edge);
+        }
+    }
+    for one in &around_a.edges {
+        for other in &around_b.edges {
+            offer(across(across(one.cross(*other), *one), *other));
+        }
+    }
+    best
+}
+
+/// Directions of what meets in a feature, in A's frame.
+struct Around {
+    edges: Vec<DVec3>,
+    normals: Vec<DVec3>,
+    /// Across an edge, in the plane of a face.
+    within: Vec<DVec3>,
+}
+
+impl Around {
+    fn new<P: Placed>(polytope: &P, feature: Feature, way: DVec3) -> Self {
+        let shape: &Polytope = polytope.shape();
+        let mut edges: Vec<u32> = match feature {
+            Feature::Vertex(v) => shape.spokes_of(v).iter().map(|spoke| spoke.edge).collect(),
+            Feature::Edge(e) => vec![e],
+            Feature::Face(_) => Vec::new(),
+        };
+        let slope = |e: u32| polytope.vector(shape.edge(e).along).dot(way).abs();
+        edges.sort_by(|&e, &f| slope(e).total_cmp(&slope(f)));
+        edges.truncate(AXIS_EDGES);
+        let mut faces: Vec<u32> = match feature {
+            Feature::Face(f) => vec![f],
+            _ => edges.iter().flat_map(|&e| shape.edge(e).faces).collect(),
+        };
+        faces.sort_unstable();
+        faces.dedup();
+        faces.retain(|&f| f != NO_FACE);
+        let within = edges.iter().flat_map(|&e| shape.edge(e).inward);
+        Around {
+            within: within.map(|inward| polytope.vector(inward)).collect(),
+            normals: faces
+                .iter()
+                .map(|&f| polytope.vector(shape.face(f).normal))
+                .collect(),
+            edges: edges
+                .iter()
+                .map(|&e| polytope.vector(shape.edge(e).along))
+                .collect(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

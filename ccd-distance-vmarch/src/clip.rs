@@ -1,0 +1,74 @@
+//! Edges cut by the planes of another feature `[VCLIP98 §3.2]`.
+
+use crate::place::{Line, Placed, clamped};
+
+/// What is left of an edge within the prism above and below a face.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Clipped {
+    /// From where to where.
+    pub(crate) from: Cut,
+    pub(crate) to: Cut,
+}
+
+/// An end of what is left.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Cut {
+    pub(crate) parameter: f64,
+    /// The edge of the face whose plane made the cut; none where the edge ends by itself.
+    pub(crate) by: Option<u32>,
+}
+
+/// Cuts an edge by the face-edge planes of a face; nothing may be left.
+#[inline]
+pub(crate) fn to_prism<Y: Placed>(
+    line: &Line,
+    end: ccd_core::glam::DVec3,
+    y: &Y,
+    face: u32,
+) -> Option<Clipped> {
+    let mut out = Clipped {
+        from: Cut {
+            parameter: 0.0,
+            by: None,
+        },
+        to: Cut {
+            parameter: line.length,
+            by: None,
+        },
+    };
+    for side in y.shape().sides_of(face) {
+        let (start, inward) = (y.point(side.start), y.vector(side.inward));
+        let at_start = (line.start - start).dot(inward);
+        let at_end = (end - start).dot(inward);
+        if at_start < 0.0 && at_end < 0.0 {
+            return None;
+        }
+        if (at_start < 0.0) == (at_end < 0.0) {
+            continue;
+        }
+        let parameter = clamped(line.length * (at_start / (at_start - at_end)), line.length);
+        let cut = Cut {
+            parameter,
+            by: Some(side.edge),
+        };
+        if at_start < 0.0 && parameter > out.from.parameter {
+            out.from = cut;
+        } else if at_end < 0.0 && parameter < out.to.parameter {
+            out.to = cut;
+        }
+    }
+    // Written so that NaN leaves nothing.
+    (out.from.parameter <= out.to.parameter).then_some(out)
+}
+
+/// The middle of what of a segment lies beside another one that is parallel to it, or the end that is
+/// nearest to it.
+#[inline]
+pub(crate) fn beside(one: &Line, other: &Line) -> f64 {
+    let start = one.nearest(other.start);
+    let end = one.nearest(other.at(other.length));
+    0.5 * (start + end)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,69 @@
+//! Lines over the top of a cube, and beside each other.
+
+use super::{beside, to_prism};
+use crate::place::{Line, Placed};
+use crate::tests::setting::{cube, edge, face, moved, needle};
+use ccd_core::glam::DVec3;
+use rstest::rstest;
+
+/// What of a needle is over the cube's top: parameters, and the middles of the edges that cut it.
+fn clipped(half: DVec3, at: DVec3) -> Option<[(f64, Option<u32>); 2]> {
+    let (cube, needle) = (cube(), needle(half));
+    let places = moved(&cube, &needle, at);
+    let line = places.b.line(0);
+    let end = places.b.vertex(1);
+    let clipped = to_prism(&line, end, &places.a, face(&cube, DVec3::Z))?;
+    Some([clipped.from, clipped.to].map(|cut| (cut.parameter, cut.by)))
+}
+
+#[test]
+fn what_is_within_is_left() {
+    let left = clipped(0.5 * DVec3::X, 3.0 * DVec3::Z);
+    assert_eq!(left, Some([(0.0, None), (1.0, None)]));
+}
+
+#[rstest]
+#[case(4.0 * DVec3::X, 3.0 * DVec3::Z, [3.0, 5.0], [-DVec3::X, DVec3::X])]
+#[case(4.0 * DVec3::Y, 3.0 * DVec3::Z, [3.0, 5.0], [-DVec3::Y, DVec3::Y])]
+#[case(-4.0 * DVec3::X, -3.0 * DVec3::Z, [3.0, 5.0], [DVec3::X, -DVec3::X])]
+fn what_is_longer_is_cut(
+    #[case] half: DVec3,
+    #[case] at: DVec3,
+    #[case] parameters: [f64; 2],
+    #[case] by: [DVec3; 2],
+) {
+    let by = by.map(|side| Some(edge(&cube(), side + DVec3::Z)));
+    let [from, to] = clipped(half, at).expect("some is left");
+    assert_eq!([from.0, to.0], parameters);
+    assert_eq!([from.1, to.1], by);
+}
+
+#[rstest]
+#[case(0.5 * DVec3::X, DVec3::new(2.0, 0.0, 3.0))]
+#[case(DVec3::new(1.0, -1.0, 0.0), DVec3::new(1.5, 1.5, 1.0))]
+#[case(DVec3::NAN, DVec3::ZERO)]
+fn of_what_is_beside_nothing_is_left(#[case] half: DVec3, #[case] at: DVec3) {
+    if half.is_finite() {
+        assert_eq!(clipped(half, at), None);
+    } else {
+        let cube = cube();
+        let places = moved(&cube, &cube, DVec3::NAN);
+        let top = face(&cube, DVec3::Z);
+        let left = to_prism(&places.b.line(0), DVec3::NAN, &places.a, top);
+        assert!(left.is_none_or(|left| left.from.by.is_none()));
+    }
+}
+
+#[rstest]
+#[case(0.0, 1.5)]
+#[case(1.0, 2.0)]
+#[case(5.0, 3.0)]
+#[case(-9.0, 0.0)]
+fn parallels_have_a_middle(#[case] shift: f64, #[case] middle: f64) {
+    let line = |start: f64, length: f64| Line {
+        start: start * DVec3::X,
+        along: DVec3::X,
+        length,
+    };
+    assert_eq!(beside(&line(0.0, 3.0), &line(shift, 3.0)), middle);
+}

@@ -1,0 +1,115 @@
+//! Needles around an edge of a cube, and nearest points of segments at every angle.
+
+use super::{nearest, next};
+use crate::feature::Certainty::{Sure, Tied};
+use crate::feature::{Feature, Next, Whose};
+use crate::place::Line;
+use crate::tests::setting::{cube, edge, face, moved, needle, vertex};
+use crate::tests::shape::{Pcg64, RngExt, SeedableRng, direction, magnitude};
+use ccd_core::glam::DVec3;
+use rstest::rstest;
+
+/// What is said of the cube's edge along x at y = z = 1 and a needle.
+fn of_needle(half: DVec3, at: DVec3) -> Next {
+    let (cube, needle) = (cube(), needle(half));
+    let places = moved(&cube, &needle, at);
+    let edge = edge(&cube, DVec3::new(0.0, 1.0, 1.0));
+    let there = next(&places.a, edge, &places.b, 0, places.scale);
+    let back = moved(&needle, &cube, -at);
+    let swapped = next(&back.a, 0, &back.b, edge, back.scale).swapped();
+    match (there, swapped) {
+        // The same point in two frames.
+        (Next::Behind(one, _), Next::Behind(other, _)) => assert_eq!(one, other),
+        _ => assert_eq!(there, swapped),
+    }
+    there
+}
+
+const ACROSS: DVec3 = DVec3::new(0.3, 2.0, -2.0);
+
+#[rstest]
+#[case(ACROSS, DVec3::new(0.0, 1.5, 1.5), Sure)]
+#[case(ACROSS, DVec3::new(0.7, 1.0 + 1e-9, 1.0 + 1e-9), Sure)]
+// Across and along one face.
+#[case(2.0 * DVec3::Y, DVec3::new(0.0, 1.0, 1.5), Tied)]
+// Parallel, on the bisector and above the border of a face.
+#[case(0.5 * DVec3::X, DVec3::new(0.2, 1.5, 1.5), Sure)]
+#[case(0.5 * DVec3::X, DVec3::new(0.2, 1.0, 1.5), Tied)]
+// Touching.
+#[case(ACROSS, DVec3::new(0.0, 1.0, 1.0), Tied)]
+fn stops_between_both_regions(
+    #[case] half: DVec3,
+    #[case] at: DVec3,
+    #[case] certainty: crate::feature::Certainty,
+) {
+    assert_eq!(of_needle(half, at), Next::Stop(certainty));
+}
+
+#[test]
+fn goes_on_to_ends() {
+    let cube = cube();
+    let (e, corner) = (
+        edge(&cube, DVec3::new(0.0, 1.0, 1.0)),
+        vertex(&cube, DVec3::ONE),
+    );
+    let beyond = of_needle(ACROSS, DVec3::new(2.0, 1.5, 1.5));
+    assert_eq!(beyond, Next::To(Feature::Vertex(corner), Feature::Edge(0)));
+    let above = of_needle(DVec3::new(0.0, 0.5, 0.5), DVec3::new(0.1, 1.8, 1.8));
+    assert_eq!(above, Next::To(Feature::Edge(e), Feature::Vertex(0)));
+    let both = of_needle(DVec3::new(0.5, 0.5, 0.5), DVec3::new(2.0, 2.0, 2.0));
+    assert_eq!(both, Next::To(Feature::Vertex(corner), Feature::Vertex(0)));
+}
+
+#[test]
+fn goes_on_to_the_face_on_whose_side_it_is() {
+    let above = of_needle(DVec3::new(0.3, 2.0, 1e-3), DVec3::new(0.0, 0.5, 1.5));
+    let face = face(&cube(), DVec3::Z);
+    assert_eq!(above, Next::To(Feature::Face(face), Feature::Edge(0)));
+}
+
+#[test]
+fn finds_what_is_below_both_faces() {
+    let Next::Behind(whose, behind) = of_needle(ACROSS, DVec3::new(0.0, 0.9, 0.9)) else {
+        panic!("it is within the cube");
+    };
+    assert_eq!((whose, behind.feature), (Whose::Y, Feature::Edge(0)));
+    assert!(behind.point.distance(DVec3::new(0.0, 0.9, 0.9)) < 1e-15);
+}
+
+/// No point of one segment, and no end of the other, is nearer than the nearest ones by more than
+/// rounding, from crossing ones to such as are parallel to the last bit.
+#[test]
+fn nearest_points_are_nearest_at_every_angle() {
+    let mut rng = Pcg64::seed_from_u64(5);
+    for _ in 0..20_000 {
+        let along = direction(&mut rng);
+        let tilt = magnitude(&mut rng, -17.0, 0.0);
+        let one = Line {
+            start: direction(&mut rng),
+            along,
+            length: magnitude(&mut rng, -6.0, 0.5),
+        };
+        let other = Line {
+            start: one.at(rng.random_range(-1.0..1.0))
+                + magnitude(&mut rng, -9.0, 0.0) * direction(&mut rng),
+            along: (along + tilt * direction(&mut rng)).normalize(),
+            length: magnitude(&mut rng, -6.0, 0.5),
+        };
+        let [s, t] = nearest(&one, &other).parameters;
+        let distance = one.at(s).distance(other.at(t));
+        // What alternating feet come to from there, and from every end.
+        let mut best = distance;
+        for start in [s, 0.0, one.length, 0.5 * one.length] {
+            let mut s = start;
+            for _ in 0..50 {
+                let t = other.nearest(one.at(s));
+                s = one.nearest(other.at(t));
+                best = best.min(one.at(s).distance(other.at(t)));
+            }
+        }
+        assert!(
+            distance <= best + 4e-15,
+            "{distance:e} {best:e} of {one:?} {other:?}"
+        );
+    }
+}

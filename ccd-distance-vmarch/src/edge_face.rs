@@ -1,0 +1,73 @@
+//! An edge against a face `[VCLIP98 §3.2]`: never a stop.
+
+use crate::clip::{self, Clipped};
+use crate::edge_edge;
+use crate::feature::{Behind, Feature, Next, Whose};
+use crate::penetration;
+use crate::place::{Line, Placed, Scale};
+
+/// What of the edge is above the face, within its prism, has a lowest point: on to the edge's end, or
+/// to the side of the face that bounds it there. Where nothing is, on to the nearest side.
+///
+/// An edge that has points on both sides of the plane goes through the face if exact signs say so
+/// ([`penetration`]); otherwise it passes by the nearest side, however close.
+#[inline]
+pub(crate) fn next<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32, scale: Scale) -> Next {
+    let line = x.line(e);
+    let ends = x.shape().edge(e).ends;
+    let end = x.vertex(ends[1]);
+    let Some(Clipped { from, to }) = clip::to_prism(&line, end, y, f) else {
+        return to_nearest_side(e, &line, y, f);
+    };
+    let normal = y.vector(y.shape().face(f).normal);
+    let Some(side) = y.shape().sides_of(f).first() else {
+        return to_nearest_side(e, &line, y, f);
+    };
+    // The product that tells how the corner's edges fall towards a face, to the bit.
+    let slope = line.along.dot(normal);
+    let base = normal.dot(line.start - y.point(side.start));
+    let rounding = scale.rounding();
+    let falls = slope < 0.0;
+    let (low, high) = if falls { (to, from) } else { (from, to) };
+    let height = |parameter: f64| base + slope * parameter;
+    if height(high.parameter) < -rounding {
+        return Next::Behind(
+            Whose::X,
+            Behind {
+                feature: Feature::Edge(e),
+                point: line.at(high.parameter),
+                face: f,
+            },
+        );
+    }
+    if height(low.parameter) < rounding {
+        if let Some(crossing) = penetration::pierced(x, e, y, f) {
+            return Next::Pierced(Whose::X, crossing);
+        }
+        if height(low.parameter) < -rounding {
+            return to_nearest_side(e, &line, y, f);
+        }
+    }
+    match low.by {
+        None => Next::To(Feature::Vertex(ends[usize::from(falls)]), Feature::Face(f)),
+        Some(edge) => Next::To(Feature::Edge(e), Feature::Edge(edge)),
+    }
+}
+
+/// On to the side of the face that is nearest to the edge.
+fn to_nearest_side<Y: Placed>(e: u32, line: &Line, y: &Y, f: u32) -> Next {
+    let sides = y.shape().sides_of(f);
+    let (mut least, mut nearest) = (f64::INFINITY, sides.first().map_or(0, |side| side.edge));
+    for side in sides {
+        let other = y.line(side.edge);
+        let [s, t] = edge_edge::nearest(line, &other).parameters;
+        let square = line.at(s).distance_squared(other.at(t));
+        if square < least {
+            (least, nearest) = (square, side.edge);
+        }
+    }
+    Next::To(Feature::Edge(e), Feature::Edge(nearest))
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,70 @@
+//! Needles over, through and beside the top of a cube.
+
+use super::next;
+use crate::feature::{Feature, Next, Whose};
+use crate::tests::setting::{cube, edge, face, moved, needle};
+use ccd_core::glam::DVec3;
+use rstest::rstest;
+
+/// What is said of a needle and the cube's top.
+fn of_needle(half: DVec3, at: DVec3) -> Next {
+    let (cube, needle) = (cube(), needle(half));
+    let places = moved(&cube, &needle, at);
+    let top = face(&cube, DVec3::Z);
+    let there = next(&places.b, 0, &places.a, top, places.scale);
+    let back = moved(&needle, &cube, -at);
+    let again = next(&back.a, 0, &back.b, top, back.scale);
+    match (there, again) {
+        (Next::Behind(..), Next::Behind(..)) | (Next::Pierced(..), Next::Pierced(..)) => {}
+        _ => assert_eq!(there, again),
+    }
+    there
+}
+
+#[rstest]
+#[case(DVec3::new(0.5, 0.0, 0.1), 0)]
+#[case(DVec3::new(0.5, 0.0, -0.1), 1)]
+#[case(DVec3::new(0.5, 0.0, 1e-300), 0)]
+fn goes_down_to_the_lower_end(#[case] half: DVec3, #[case] end: u32) {
+    let top = face(&cube(), DVec3::Z);
+    let said = of_needle(half, 2.0 * DVec3::Z);
+    assert_eq!(said, Next::To(Feature::Vertex(end), Feature::Face(top)));
+}
+
+#[rstest]
+#[case(DVec3::new(5.0, 0.0, 0.1), -DVec3::X)]
+#[case(DVec3::new(5.0, 0.0, -0.1), DVec3::X)]
+#[case(DVec3::new(0.1, -5.0, 0.1), DVec3::Y)]
+fn goes_down_to_the_side_that_cuts_it(#[case] half: DVec3, #[case] side: DVec3) {
+    let edge = edge(&cube(), side + DVec3::Z);
+    let said = of_needle(half, 2.0 * DVec3::Z);
+    assert_eq!(said, Next::To(Feature::Edge(0), Feature::Edge(edge)));
+}
+
+#[test]
+fn goes_on_to_the_nearest_side_from_beside() {
+    let edge = edge(&cube(), DVec3::X + DVec3::Z);
+    let said = of_needle(DVec3::new(0.0, 0.5, 0.5), DVec3::new(2.0, 0.3, 1.8));
+    assert_eq!(said, Next::To(Feature::Edge(0), Feature::Edge(edge)));
+}
+
+#[rstest]
+#[case(DVec3::new(0.1, 0.2, 1.0), DVec3::Z)]
+// One end on the face, to the bit.
+#[case(DVec3::new(0.0, 0.0, 0.5), DVec3::new(0.25, 0.25, 1.5))]
+fn finds_what_goes_through(#[case] half: DVec3, #[case] at: DVec3) {
+    let Next::Pierced(whose, crossing) = of_needle(half, at) else {
+        panic!("it goes through the top");
+    };
+    assert_eq!((whose, crossing.face), (Whose::X, face(&cube(), DVec3::Z)));
+}
+
+#[test]
+fn finds_what_is_behind() {
+    let Next::Behind(whose, behind) = of_needle(DVec3::new(0.5, 0.0, 0.1), DVec3::ZERO) else {
+        panic!("it is below the top");
+    };
+    assert_eq!((whose, behind.feature), (Whose::X, Feature::Edge(0)));
+    // The end that is higher.
+    assert!(behind.point.distance(DVec3::new(0.5, 0.0, 0.1)) < 1e-15);
+}

@@ -1,0 +1,53 @@
+//! Out of local minima: behind one face, but not behind all of them `[VCLIP98 §3.3]`.
+
+use crate::feature::{Behind, Crossing, Feature};
+use crate::penetration;
+use crate::place::{Placed, Scale};
+use ccd_core::glam::DVec3;
+
+/// Where to go from behind a face.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Escape {
+    /// The feature is before that face, farther than before any other one.
+    Face(Feature, u32),
+    /// It is behind all faces, and has a point of the other polytope.
+    Inside(Crossing),
+    /// It is behind all faces, or so near to them that rounding decides, and exact signs show no
+    /// common point.
+    Unclear,
+}
+
+/// Looks at all faces of Y for the one that a feature of X is farthest before of.
+pub(crate) fn escape<X: Placed, Y: Placed>(x: &X, behind: Behind, y: &Y, scale: Scale) -> Escape {
+    if let Some((face, height)) = farthest(behind.point, y)
+        && height > scale.rounding()
+        && face != behind.face
+    {
+        return Escape::Face(behind.feature, face);
+    }
+    let inside = match behind.feature {
+        Feature::Vertex(v) => penetration::contained(x, v, y),
+        Feature::Edge(e) => {
+            let mut faces = 0..y.shape().faces.len() as u32;
+            let through = faces.find_map(|f| penetration::pierced(x, e, y, f));
+            // An edge with an inner point and no way through the surface is inside as a whole.
+            through.or_else(|| penetration::contained(x, x.shape().edge(e).ends[0], y))
+        }
+        Feature::Face(_) => None,
+    };
+    inside.map_or(Escape::Unclear, Escape::Inside)
+}
+
+/// The face that a point is highest above, or least far below.
+fn farthest<Y: Placed>(point: DVec3, y: &Y) -> Option<(u32, f64)> {
+    let faces = 0..y.shape().faces.len() as u32;
+    let heights = faces.filter_map(|f| {
+        let start = y.shape().sides_of(f).first()?.start;
+        let normal = y.vector(y.shape().face(f).normal);
+        Some((f, normal.dot(point - y.point(start))))
+    });
+    heights.reduce(|best, here| if here.1 > best.1 { here } else { best })
+}
+
+#[cfg(test)]
+mod tests;

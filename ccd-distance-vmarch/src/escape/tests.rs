@@ -1,0 +1,79 @@
+//! Corners and needles behind a face of a cube.
+
+use super::{Escape, escape, farthest};
+use crate::feature::{Behind, Feature};
+use crate::place::Placed;
+use crate::tests::setting::{cube, face, moved, needle, point};
+use ccd_core::glam::DVec3;
+
+fn of_point(at: DVec3) -> Escape {
+    let (cube, point) = (cube(), point());
+    let places = moved(&cube, &point, at);
+    let behind = Behind {
+        feature: Feature::Vertex(0),
+        point: at,
+        face: face(&cube, DVec3::Z),
+    };
+    escape(&places.b, behind, &places.a, places.scale)
+}
+
+#[test]
+fn leads_to_the_face_it_is_highest_above() {
+    let below = face(&cube(), -DVec3::Z);
+    assert_eq!(
+        of_point(-3.0 * DVec3::Z),
+        Escape::Face(Feature::Vertex(0), below)
+    );
+    let beside = face(&cube(), DVec3::X);
+    let at = DVec3::new(5.0, 2.0, 0.0);
+    assert_eq!(of_point(at), Escape::Face(Feature::Vertex(0), beside));
+}
+
+#[test]
+fn proves_what_is_inside() {
+    assert!(matches!(
+        of_point(DVec3::new(0.2, 0.3, 0.4)),
+        Escape::Inside(_)
+    ));
+}
+
+#[test]
+fn leaves_open_what_exact_signs_do_not_show() {
+    // Beyond a face by less than rounding.
+    let at = DVec3::new(1.0 + f64::EPSILON, 0.3, 0.4);
+    assert_eq!(of_point(at), Escape::Unclear);
+}
+
+#[test]
+fn edges_go_through_or_are_inside() {
+    let (cube, short, long) = (cube(), needle(0.5 * DVec3::X), needle(3.0 * DVec3::X));
+    for needle in [&short, &long] {
+        let places = moved(&cube, needle, DVec3::ZERO);
+        let behind = Behind {
+            feature: Feature::Edge(0),
+            point: DVec3::ZERO,
+            face: face(&cube, DVec3::Z),
+        };
+        let found = escape(&places.b, behind, &places.a, places.scale);
+        let Escape::Inside(crossing) = found else {
+            panic!("{found:?}");
+        };
+        let corners = crossing
+            .on_edge
+            .vertices
+            .iter()
+            .zip(crossing.on_edge.weights);
+        let named: DVec3 = corners.map(|(&v, w)| w * places.b.vertex(v)).sum();
+        assert!(named.abs().max_element() <= 1.0 + 1e-15);
+    }
+}
+
+#[test]
+fn the_farthest_face_is_found() {
+    let cube = cube();
+    let places = moved(&cube, &cube, DVec3::ZERO);
+    for normal in [DVec3::X, -DVec3::Y, DVec3::Z] {
+        let found = farthest(5.0 * normal, &places.a);
+        assert_eq!(found, Some((face(&cube, normal), 4.0)));
+    }
+}

@@ -1,0 +1,102 @@
+//! From every pair of features to the nearest one; and states that come again.
+
+use super::{Brent, End, march};
+use crate::feature::{Feature, Pair};
+use crate::oracle::Counters;
+use crate::tests::setting::{cube, features, needle, point, prepared, turned};
+use crate::tests::shape;
+use crate::witness::Witness;
+use ccd_core::glam::{DQuat, DVec3};
+
+#[test]
+fn states_that_come_again_are_noticed() {
+    let state = |k: u32| Pair {
+        a: Feature::Vertex(k),
+        b: Feature::Edge(k),
+    };
+    for tail in 0..40 {
+        for length in 1..40 {
+            let mut brent = Brent::new(state(0));
+            // 0, 1, …, tail, …, tail + length − 1, tail, …
+            let at = |k: u32| {
+                if k < tail {
+                    k
+                } else {
+                    tail + (k - tail) % length
+                }
+            };
+            let noticed = (1..1000).find(|&k| brent.returned(state(at(k))));
+            let noticed = noticed.expect("it goes in a circle");
+            assert!(
+                noticed >= length && noticed <= 3 * (tail + length) + 2,
+                "{tail} {length}"
+            );
+        }
+    }
+    let mut brent = Brent::new(state(0));
+    assert!((1..1000).all(|k| !brent.returned(state(k))));
+}
+
+/// Wherever it begins, it ends at the same distance.
+#[test]
+fn every_start_leads_to_the_nearest_features() {
+    let shapes = [
+        cube(),
+        prepared(&shape::cuboid(DVec3::new(0.3, 0.8, 1.4)).triangulated()),
+        prepared(&shape::hull(&[DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z])),
+        prepared(&shape::prism(5)),
+        prepared(&shape::antiprism(4)),
+        prepared(&shape::polygon(5)),
+        prepared(&shape::few(&[DVec3::ZERO, DVec3::X, DVec3::Y])),
+        needle(DVec3::new(0.5, 0.3, 0.1)),
+        point(),
+    ];
+    let turns = [
+        DQuat::IDENTITY,
+        DQuat::from_rotation_x(1e-9),
+        DQuat::from_rotation_y(0.5 * std::f64::consts::PI),
+        DQuat::from_euler(ccd_core::glam::EulerRot::XYZ, 0.3, 0.9, -1.7),
+    ];
+    let ways = [
+        3.5 * DVec3::X,
+        DVec3::new(2.0, 2.0, 2.0),
+        DVec3::new(0.1, 0.2, -3.1),
+        DVec3::new(2.1, -1.0, 2.1),
+    ];
+    let (mut starts, mut others) = (0, 0);
+    for one in &shapes {
+        for other in &shapes {
+            for (turn, way) in turns
+                .iter()
+                .zip(ways)
+                .chain(turns.iter().zip(ways.into_iter().rev()))
+            {
+                let places = turned(one, other, *turn, way);
+                let mut least: Option<f64> = None;
+                for a in features(one) {
+                    for b in features(other) {
+                        let mut counters = Counters::default();
+                        let end = march(&places, Pair { a, b }, &mut counters);
+                        starts += 1;
+                        let End::Nearest(pair, _) = end else {
+                            // A claim is made of these by what comes after.
+                            others += 1;
+                            continue;
+                        };
+                        let distance = Witness::of(&places, pair).distance();
+                        let first = *least.get_or_insert(distance);
+                        assert!(
+                            (distance - first).abs() < 1e-14,
+                            "{pair:?}: {distance} {first}"
+                        );
+                    }
+                }
+                assert!(least.is_some());
+            }
+        }
+    }
+    assert!(
+        starts > 150_000 && others * 1000 < starts,
+        "{others} of {starts}"
+    );
+}

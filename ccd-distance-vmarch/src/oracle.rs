@@ -1,0 +1,125 @@
+//! The backend.
+
+use crate::feature::Certainty;
+use crate::march::{End, march};
+use crate::place::Places;
+use crate::polytope::Polytope;
+use crate::settle::settle;
+use crate::start::Cache;
+use crate::witness::Witness;
+use ccd_core::{Claim, DistanceOracle, Effort, GiveUp, Piece, PiecePair};
+
+/// The distance of two convex polytopes with known facets, by Voronoi marching
+/// `[LINCANNY91, VCLIP98]`.
+///
+/// A piece of a list ([`ccd_core::Pieces`]) is prepared when it is first asked about, and kept with
+/// the list; a loose one ([`Piece::from_points`]) is prepared for every call anew. Pieces of up to
+/// three points, and such as lie on one line, need no facets.
+///
+/// # Guarantee
+/// As the crate says; it gives up with [`GiveUp::BadFacets`] on pieces whose facets are
+/// missing, or are not those of something convex, and with [`GiveUp::Cycle`] or [`GiveUp::StepCap`]
+/// where rounding leads it in circles from several starts: never in a million pairs of parallel,
+/// coplanar, flat, needle-like and whole-numbered polytopes.
+///
+/// # Complexity
+/// From a warm [`Cache`] a step or two, each linear in the edges that meet in a corner, or around a
+/// face, without allocation; from a cold one, about the root of the number of features. A common
+/// point inside is looked for among all faces.
+///
+/// ```
+/// use ccd_core::{glam::DVec3, DistanceOracle, Facet, Frame, Origin, PiecePair, Pieces, Polytope};
+/// use ccd_distance_vmarch::{Cache, Vmarch};
+/// let corner = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
+/// let facet = |corners: [u32; 3]| Facet { origin: Origin::Virtual, corners: corners.to_vec() };
+/// let tetrahedron = Polytope {
+///     points: vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z],
+///     facets: corner.map(facet).to_vec(),
+///     ..Polytope::default()
+/// };
+/// let pieces = Pieces::polytopes(&[tetrahedron])?;
+/// let (mut oracle, mut cache) = (Vmarch::default(), Cache::default());
+/// for height in [3.0, 2.9] {
+///     let b_to_a = Frame { translation: height * DVec3::Z, ..Frame::IDENTITY };
+///     let pair = PiecePair { a: pieces.get(0), b: pieces.get(0), b_to_a };
+///     let claim = oracle.separation(&pair, &mut cache).unwrap();
+///     assert_eq!(claim.a.of(pair.a.points), Some(DVec3::Z));
+///     assert!(claim.axis.normalize().distance(DVec3::Z) < 1e-15);
+/// }
+/// // The second call found the nearest features where the first one had left them.
+/// let counters = oracle.counters();
+/// assert!(counters.calls == 2 && counters.steps < 8);
+/// # Ok::<(), ccd_core::InputError>(())
+/// ```
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Vmarch {
+    counters: Counters,
+}
+
+/// What an oracle met with, over all calls.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counters {
+    /// How often it was asked.
+    pub calls: u64,
+    /// Pairs of features that were tested.
+    pub steps: u64,
+    /// Pairs that came up again.
+    pub cycles: u64,
+    /// Features found behind a face, with all faces looked at for it.
+    pub local_minima: u64,
+    /// Marches taken up again from other features.
+    pub restarts: u64,
+    /// Common points, each proven by exact signs.
+    pub penetrations: u64,
+}
+
+impl Vmarch {
+    /// What it met with so far.
+    pub fn counters(&self) -> Counters {
+        self.counters
+    }
+}
+
+impl DistanceOracle for Vmarch {
+    type Cache = Cache;
+
+    #[inline]
+    fn separation(&mut self, pair: &PiecePair<'_>, cache: &mut Cache) -> Result<Claim, GiveUp> {
+        self.counters.calls += 1;
+        let (mut own_a, mut own_b) = (None, None);
+        let a = prepared(&pair.a, &mut own_a)?;
+        let b = prepared(&pair.b, &mut own_b)?;
+        let places = Places::new(a, b, &pair.b_to_a);
+        let end = march(&places, cache.start(&places), &mut self.counters);
+        if let End::Nearest(nearest, Certainty::Sure) = end {
+            cache.keep(nearest);
+            return Ok(Witness::of(&places, nearest).claim(&places));
+        }
+        let answer = settle(&places, end, &mut self.counters)?;
+        cache.keep(answer.pair);
+        Ok(answer.claim)
+    }
+
+    fn effort(&self) -> Effort {
+        Effort {
+            steps: self.counters.steps,
+            cycles: self.counters.cycles,
+            fallbacks: 0,
+        }
+    }
+}
+
+/// A prepared piece, or why it can't be.
+type Prepared = Box<Result<Polytope, GiveUp>>;
+
+/// What is kept of a piece; of a piece that is of no list, what is made of it now, and kept by the
+/// caller.
+#[inline]
+fn prepared<'p>(piece: &Piece<'p>, own: &'p mut Option<Prepared>) -> Result<&'p Polytope, GiveUp> {
+    let make = |piece: &Piece<'_>| -> Prepared { Box::new(Polytope::new(piece)) };
+    let prepared = match piece.kept(make) {
+        Some(kept) => kept,
+        None => own.insert(make(piece)),
+    };
+    prepared.as_ref().as_ref().map_err(|why| *why)
+}

@@ -1,0 +1,159 @@
+//! Common points, proven by exact signs before they are believed `[SHE97]`.
+
+use crate::feature::{Corners, Crossing};
+use crate::place::{Placed, Scale};
+use crate::tolerance::PIERCED_PAIRS;
+use crate::twofold::volume;
+use ccd_core::glam::DVec3;
+use robust::{Coord3D, orient3d};
+
+/// Where an edge goes through a face, or ends on it.
+///
+/// # Guarantee
+/// The signs are those of the placed points, whatever rounding placed them: some is given only if the
+/// edge and one of the triangles that the face's corners span do have a point in common.
+pub(crate) fn pierced<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32) -> Option<Crossing> {
+    let ends = x.shape().edge(e).ends;
+    let edge = ends.map(|v| x.vertex(v));
+    let sides = y.shape().sides_of(f);
+    for k in 1..sides.len().saturating_sub(1) {
+        let corners = [0, k, k + 1].map(|k| sides[k].vertex);
+        let triangle = corners.map(|w| y.vertex(w));
+        if passes(edge, triangle) {
+            let (along, inside) = weights(edge, triangle);
+            return Some(Crossing {
+                on_edge: Corners {
+                    vertices: ends,
+                    weights: along,
+                },
+                on_face: Corners {
+                    vertices: [corners[0], corners[1], corners[2], corners[2]],
+                    weights: [inside[0], inside[1], inside[2], 0.0],
+                },
+                face: f,
+            });
+        }
+    }
+    None
+}
+
+/// Whether a corner is inside of the other polytope: within a tetrahedron that one of its corners
+/// spans with a triangle of one of its faces.
+///
+/// # Guarantee
+/// As [`pierced`].
+pub(crate) fn contained<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y) -> Option<Crossing> {
+    let point = x.vertex(v);
+    let shape = y.shape();
+    if shape.faces.len() < 3 {
+        return None;
+    }
+    let apex = y.vertex(0);
+    for f in 0..shape.faces.len() as u32 {
+        let sides = shape.sides_of(f);
+        if sides.iter().any(|side| side.vertex == 0) {
+            continue;
+        }
+        for k in 1..sides.len() - 1 {
+            let corners = [0, k, k + 1].map(|k| sides[k].vertex);
+            let triangle = corners.map(|w| y.vertex(w));
+            if let Some(inside) = enclosed(point, apex, triangle) {
+                return Some(Crossing {
+                    on_edge: Corners {
+                        vertices: [v, v],
+                        weights: [1.0, 0.0],
+                    },
+                    on_face: Corners {
+                        vertices: [corners[0], corners[1], corners[2], 0],
+                        weights: inside,
+                    },
+                    face: f,
+                });
+            }
+        }
+    }
+    None
+}
+
+/// Looks for any edge of X that goes through a face of Y, of polytopes that are not too large for that,
+/// and for a corner of X inside Y.
+pub(crate) fn searched<X: Placed, Y: Placed>(x: &X, y: &Y, scale: Scale) -> Option<Crossing> {
+    let (edges, faces) = (x.shape().edges.len() as u32, y.shape().faces.len() as u32);
+    if edges as usize * faces as usize > PIERCED_PAIRS {
+        return None;
+    }
+    let through = (0..faces).find_map(|f| (0..edges).find_map(|e| straddled(x, e, y, f, scale)));
+    // If no edge goes through the surface, X is inside as a whole, or not at all.
+    through.or_else(|| contained(x, 0, y))
+}
+
+/// As [`pierced`], of edges that are not clearly on one side of the face's plane.
+fn straddled<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32, scale: Scale) -> Option<Crossing> {
+    let base = y.point(y.shape().sides_of(f).first()?.start);
+    let normal = y.vector(y.shape().face(f).normal);
+    let ends = x.shape().edge(e).ends;
+    let [start, end] = ends.map(|v| normal.dot(x.vertex(v) - base));
+    let clear = start.abs().min(end.abs()) > scale.rounding();
+    if clear && (start > 0.0) == (end > 0.0) {
+        return None;
+    }
+    pierced(x, e, y, f)
+}
+
+/// Whether a segment and a triangle that is not in one plane with it have a point in common.
+fn passes([start, end]: [DVec3; 2], triangle: [DVec3; 3]) -> bool {
+    let (first, last) = (side(triangle, start), side(triangle, end));
+    if first * last > 0.0 || (first == 0.0 && last == 0.0) {
+        return false;
+    }
+    let [a, b, c] = triangle;
+    let turns = [[a, b], [b, c], [c, a]].map(|[p, q]| side([start, p, q], end));
+    turns.iter().all(|&turn| turn >= 0.0) || turns.iter().all(|&turn| turn <= 0.0)
+}
+
+/// The weights of a segment's ends and of a triangle's corners in the point where they meet.
+fn weights([start, end]: [DVec3; 2], [a, b, c]: [DVec3; 3]) -> ([f64; 2], [f64; 3]) {
+    let (first, last) = (volume([a, b, c], start).abs(), volume([a, b, c], end).abs());
+    let parts = [[b, c], [c, a], [a, b]].map(|[p, q]| volume([start, p, q], end).abs());
+    let total = parts[0] + parts[1] + parts[2];
+    (
+        [last / (first + last), first / (first + last)],
+        parts.map(|part| part / total),
+    )
+}
+
+/// The weights of a triangle's corners and an apex behind it in a point of the tetrahedron.
+fn enclosed(point: DVec3, apex: DVec3, [a, b, c]: [DVec3; 3]) -> Option<[f64; 4]> {
+    // Every face of it, seen from outside.
+    let faces = [[apex, c, b], [apex, a, c], [apex, b, a], [a, b, c]];
+    let behind = faces.iter().all(|face| side(*face, point) <= 0.0);
+    let solid = side([a, b, c], apex) < 0.0;
+    if !(behind && solid) {
+        return None;
+    }
+    let parts = faces.map(|face| volume(face, point).abs());
+    let total = parts.iter().sum::<f64>();
+    Some(parts.map(|part| part / total))
+}
+
+/// Positive where the point sees the triangle counter-clockwise, negative behind it: exactly, unless
+/// coordinates are finer than [`LEAST_COORDINATE`](ccd_core::tolerance::LEAST_COORDINATE), by which
+/// points may be off then.
+#[inline]
+pub(crate) fn side([a, b, c]: [DVec3; 3], point: DVec3) -> f64 {
+    let level = a.cmpeq(b) & a.cmpeq(c) & a.cmpeq(point);
+    if level.any() {
+        // In a plane across a coordinate axis, which would take the predicate its longest computation.
+        return 0.0;
+    }
+    let coord = |p: DVec3| Coord3D {
+        x: p.x,
+        y: p.y,
+        z: p.z,
+    };
+    // Shewchuk's determinant is positive below.
+    -orient3d(coord(a), coord(b), coord(c), coord(point))
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,137 @@
+//! Common points of needles, tetrahedra and cubes, to the last bit.
+
+use super::{contained, enclosed, passes, pierced, searched, side, weights};
+use crate::place::Placed;
+use crate::tests::setting::{cube, edge, face, moved, needle, point};
+use crate::tests::shape::{Pcg64, SeedableRng, direction, magnitude, vector};
+use ccd_core::glam::DVec3;
+use rstest::rstest;
+
+const TRIANGLE: [DVec3; 3] = [DVec3::ZERO, DVec3::X, DVec3::Y];
+
+/// The next larger number than 0.25, and the next smaller one.
+const ABOVE: f64 = 0.25 + f64::EPSILON / 4.0;
+const BELOW: f64 = 0.25 - f64::EPSILON / 8.0;
+
+#[rstest]
+// Through the inside, a side, a corner.
+#[case(DVec3::new(0.25, 0.25, 1.0), DVec3::new(0.25, 0.25, -1.0), true)]
+#[case(DVec3::new(0.5, 0.5, 1.0), DVec3::new(0.5, 0.5, -1.0), true)]
+#[case(DVec3::new(0.0, 0.0, 1.0), DVec3::new(0.0, 0.0, -1.0), true)]
+// Ending on it, and ending one unit in the last place above.
+#[case(DVec3::new(0.25, 0.25, 1.0), DVec3::new(0.25, 0.25, 0.0), true)]
+#[case(DVec3::new(0.25, 0.25, 1.0), DVec3::new(0.25, 0.25, 1e-80), false)]
+// Past the side x + y = 1/2 + 1/2, by one unit in the last place to either side.
+#[case(DVec3::new(0.75, ABOVE, 1.0), DVec3::new(0.75, ABOVE, -1.0), false)]
+#[case(DVec3::new(0.75, BELOW, 1.0), DVec3::new(0.75, BELOW, -1.0), true)]
+// Beside it, and within its plane.
+#[case(DVec3::new(2.0, 0.25, 1.0), DVec3::new(2.0, 0.25, -1.0), false)]
+#[case(DVec3::new(-1.0, 0.25, 0.0), DVec3::new(2.0, 0.25, 0.0), false)]
+fn signs_decide_to_the_last_bit(#[case] start: DVec3, #[case] end: DVec3, #[case] meets: bool) {
+    for edge in [[start, end], [end, start]] {
+        for turn in 0..3 {
+            let mut triangle = TRIANGLE;
+            triangle.rotate_left(turn);
+            assert_eq!(passes(edge, triangle), meets);
+            triangle.swap(0, 1);
+            assert_eq!(passes(edge, triangle), meets);
+        }
+    }
+}
+
+/// Both combinations name one point, of slivers, too.
+#[test]
+fn both_sides_name_the_same_point() {
+    let mut rng = Pcg64::seed_from_u64(1);
+    let mut met = 0;
+    for _ in 0..20_000 {
+        let thin = magnitude(&mut rng, -9.0, 0.0);
+        let squeeze = DVec3::new(1.0, thin, 1.0);
+        let triangle = [(); 3].map(|()| squeeze * vector(&mut rng));
+        let middle = (triangle[0] + triangle[1] + triangle[2]) / 3.0;
+        let way = direction(&mut rng);
+        let edge = [middle - 0.7 * way, middle + 0.4 * way];
+        if !passes(edge, triangle) {
+            continue;
+        }
+        met += 1;
+        let (along, inside) = weights(edge, triangle);
+        let on_edge = along[0] * edge[0] + along[1] * edge[1];
+        let on_face = (0..3).map(|k| inside[k] * triangle[k]).sum::<DVec3>();
+        assert!(along.iter().chain(&inside).all(|w| (0.0..=1.0).contains(w)));
+        assert!(on_edge.distance(on_face) < 3e-15, "{edge:?} {triangle:?}");
+    }
+    assert!(met > 10_000, "only {met} met");
+}
+
+#[test]
+fn tetrahedra_enclose_to_the_last_bit() {
+    let apex = DVec3::new(0.0, 0.0, -1.0);
+    let weights = enclosed(DVec3::new(0.25, 0.25, -0.25), apex, TRIANGLE);
+    assert_eq!(weights, Some([0.25, 0.25, 0.25, 0.25]));
+    assert!(enclosed(DVec3::new(0.25, 0.25, 0.0), apex, TRIANGLE).is_some());
+    assert_eq!(
+        enclosed(DVec3::new(0.25, 0.25, 1e-80), apex, TRIANGLE),
+        None
+    );
+    assert_eq!(enclosed(DVec3::new(0.25, 0.25, -2.0), apex, TRIANGLE), None);
+    // A flat one encloses nothing.
+    assert_eq!(
+        enclosed(DVec3::new(0.25, 0.25, 0.0), DVec3::ZERO, TRIANGLE),
+        None
+    );
+}
+
+#[rstest]
+#[case(DVec3::ZERO, true)]
+#[case(DVec3::new(0.9, -0.3, 0.99), true)]
+#[case(DVec3::new(1.0, 0.5, 0.5), true)]
+#[case(DVec3::new(1.0 + f64::EPSILON, 0.5, 0.5), false)]
+fn corners_are_inside_or_not(#[case] at: DVec3, #[case] inside: bool) {
+    let (cube, point) = (cube(), point());
+    let places = moved(&cube, &point, at);
+    let found = contained(&places.b, 0, &places.a);
+    assert_eq!(found.is_some(), inside);
+    if let Some(found) = found {
+        let corners = found.on_face.vertices.iter().zip(found.on_face.weights);
+        let named: DVec3 = corners.map(|(&v, w)| w * places.a.vertex(v)).sum();
+        assert!(named.distance(at) < 1e-15);
+    }
+}
+
+#[test]
+fn faces_are_pierced_anywhere() {
+    let (cube, needle) = (cube(), needle(3.0 * DVec3::Z));
+    for (x, y) in [(0.0, 0.0), (0.9, -0.9), (-0.5, 0.5), (1.0, 1.0), (0.0, 1.0)] {
+        let places = moved(&cube, &needle, DVec3::new(x, y, 0.0));
+        for normal in [DVec3::Z, -DVec3::Z] {
+            let found = pierced(&places.b, 0, &places.a, face(&cube, normal));
+            assert!(found.is_some());
+        }
+        let beside = pierced(&places.b, 0, &places.a, face(&cube, DVec3::X));
+        assert!(beside.is_none());
+    }
+}
+
+#[rstest]
+#[case(1.5 * DVec3::ONE, true)]
+#[case(DVec3::ZERO, true)]
+#[case(DVec3::new(1.9, 0.0, 0.0), true)]
+#[case(DVec3::new(2.0 + 1e-15, 0.0, 0.0), false)]
+#[case(DVec3::new(9.0, 0.0, 0.0), false)]
+fn the_search_finds_what_there_is(#[case] at: DVec3, #[case] meets: bool) {
+    let (one, other) = (cube(), cube());
+    let places = moved(&one, &other, at);
+    let found = searched(&places.a, &places.b, places.scale)
+        .or_else(|| searched(&places.b, &places.a, places.scale));
+    assert_eq!(found.is_some(), meets);
+}
+
+#[test]
+fn sides_are_those_of_the_triangle() {
+    assert!(side(TRIANGLE, DVec3::Z) > 0.0);
+    assert!(side(TRIANGLE, DVec3::new(0.3, 0.3, -1e-80)) < 0.0);
+    assert_eq!(side(TRIANGLE, DVec3::new(7.0, -3.0, 0.0)), 0.0);
+    let e = edge(&cube(), DVec3::X + DVec3::Y);
+    assert_eq!(cube().edge(e).length, 2.0);
+}

@@ -1,0 +1,168 @@
+//! Two polytopes in one frame: A where it is, B taken there feature by feature.
+
+use crate::polytope::{Edge, Polytope};
+use crate::tolerance::PLACE;
+use ccd_core::Frame;
+use ccd_core::glam::{DMat3, DVec3};
+
+/// A polytope that is placed in the frame of A's polytope. A test of two features is written once, for
+/// any two of these.
+pub(crate) trait Placed {
+    fn shape(&self) -> &Polytope;
+    /// Places a point.
+    fn point(&self, local: DVec3) -> DVec3;
+    /// Turns a direction.
+    fn vector(&self, local: DVec3) -> DVec3;
+
+    /// A corner.
+    #[inline(always)]
+    fn vertex(&self, v: u32) -> DVec3 {
+        self.point(self.shape().vertex(v).point)
+    }
+
+    /// An edge.
+    #[inline(always)]
+    fn line(&self, e: u32) -> Line {
+        let edge = self.shape().edge(e);
+        Line {
+            start: self.point(edge.start),
+            along: self.vector(edge.along),
+            length: edge.length,
+        }
+    }
+
+    /// For the faces that meet in an edge, how far a way leads into either.
+    #[inline(always)]
+    fn inward(&self, edge: &Edge, way: DVec3) -> [f64; 2] {
+        edge.inward.map(|inward| self.vector(inward).dot(way))
+    }
+}
+
+/// Polytope A.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Here<'a>(pub(crate) &'a Polytope);
+
+/// Polytope B.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct There<'a> {
+    shape: &'a Polytope,
+    rotation: DMat3,
+    translation: DVec3,
+}
+
+/// Both, and how much their places are rounded.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Places<'a> {
+    pub(crate) a: Here<'a>,
+    pub(crate) b: There<'a>,
+    pub(crate) scale: Scale,
+}
+
+/// How large a pair of polytopes is, and what that makes of rounding.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Scale {
+    /// Both reaches and the way between the origins.
+    pub(crate) size: f64,
+}
+
+/// A placed edge.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Line {
+    pub(crate) start: DVec3,
+    pub(crate) along: DVec3,
+    pub(crate) length: f64,
+}
+
+impl<'a> Places<'a> {
+    pub(crate) fn new(a: &'a Polytope, b: &'a Polytope, b_to_a: &Frame) -> Self {
+        let translation = b_to_a.point(b.origin) - a.origin;
+        Places {
+            a: Here(a),
+            b: There {
+                shape: b,
+                rotation: b_to_a.rotation,
+                translation,
+            },
+            scale: Scale {
+                size: a.reach + b.reach + translation.length(),
+            },
+        }
+    }
+}
+
+impl There<'_> {
+    /// Where the origin is.
+    pub(crate) fn origin(&self) -> DVec3 {
+        self.translation
+    }
+
+    /// A direction of A's frame in its own.
+    pub(crate) fn own_vector(&self, vector: DVec3) -> DVec3 {
+        DVec3::new(
+            self.rotation.x_axis.dot(vector),
+            self.rotation.y_axis.dot(vector),
+            self.rotation.z_axis.dot(vector),
+        )
+    }
+}
+
+impl Scale {
+    /// How far a difference of two placed points may be off.
+    #[inline(always)]
+    pub(crate) fn rounding(self) -> f64 {
+        PLACE * self.size
+    }
+}
+
+impl Line {
+    #[inline(always)]
+    pub(crate) fn at(&self, parameter: f64) -> DVec3 {
+        self.start + self.along * parameter
+    }
+
+    /// The parameter of the point of it that is nearest to a point.
+    #[inline(always)]
+    pub(crate) fn nearest(&self, point: DVec3) -> f64 {
+        clamped((point - self.start).dot(self.along), self.length)
+    }
+}
+
+/// Between 0 and `length`; 0 for what is no number.
+#[inline(always)]
+pub(crate) fn clamped(parameter: f64, length: f64) -> f64 {
+    parameter.max(0.0).min(length)
+}
+
+impl Placed for Here<'_> {
+    #[inline(always)]
+    fn shape(&self) -> &Polytope {
+        self.0
+    }
+
+    #[inline(always)]
+    fn point(&self, local: DVec3) -> DVec3 {
+        local
+    }
+
+    #[inline(always)]
+    fn vector(&self, local: DVec3) -> DVec3 {
+        local
+    }
+}
+
+impl Placed for There<'_> {
+    #[inline(always)]
+    fn shape(&self) -> &Polytope {
+        self.shape
+    }
+
+    #[inline(always)]
+    fn point(&self, local: DVec3) -> DVec3 {
+        self.rotation * local + self.translation
+    }
+
+    #[inline(always)]
+    fn vector(&self, local: DVec3) -> DVec3 {
+        self.rotation * local
+    }
+}

@@ -1,0 +1,160 @@
+//! A convex polytope laid out for marching: corners, edges, faces, and the Voronoi planes between
+//! them `[VCLIP98 §3.1]`.
+
+mod assemble;
+mod build;
+mod convex;
+mod facets;
+mod merge;
+#[cfg(test)]
+mod tests;
+
+use crate::feature::Feature;
+pub(crate) use facets::unit;
+
+use crate::start::Starts;
+use ccd_core::glam::DVec3;
+
+/// A piece with the planes that bound the Voronoi regions of its features.
+///
+/// Coordinates are relative to [`Polytope::origin`], so that what is computed with them is rounded
+/// according to the piece's size, not its place. Every list is flat, and features are numbers.
+///
+/// # Guarantee
+/// - Coplanar facets are one face; corners within an edge, or within a face, are none.
+/// - A piece of one point is one corner without edges, one of two points an edge without faces, a
+///   flat one has two faces, front and back.
+/// - Otherwise the faces close a surface that is convex up to rounding, once around.
+///
+/// # Memory
+/// About 700 bytes for each corner of a polytope of triangles.
+#[derive(Clone, Debug)]
+pub(crate) struct Polytope {
+    /// Where the origin lies in the piece's own coordinates.
+    pub(crate) origin: DVec3,
+    /// The distance of the farthest corner from the origin.
+    pub(crate) reach: f64,
+    pub(crate) vertices: Vec<Vertex>,
+    pub(crate) spokes: Vec<Spoke>,
+    pub(crate) edges: Vec<Edge>,
+    pub(crate) faces: Vec<Face>,
+    pub(crate) sides: Vec<Side>,
+    /// Where to start from, in polytopes of many corners.
+    pub(crate) starts: Option<Box<Starts>>,
+}
+
+/// A corner.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Vertex {
+    pub(crate) point: DVec3,
+    /// Which of the piece's points it is.
+    pub(crate) number: u32,
+    first_spoke: u32,
+    end_spoke: u32,
+}
+
+/// An edge as its corner sees it: the normal of a vertex-edge plane.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Spoke {
+    /// Of length one, away from the corner.
+    pub(crate) along: DVec3,
+    pub(crate) edge: u32,
+    /// The corner at the other end.
+    pub(crate) to: u32,
+}
+
+/// An edge between two faces, or the only one of a piece of two points.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Edge {
+    pub(crate) start: DVec3,
+    /// Of length one, towards the end.
+    pub(crate) along: DVec3,
+    pub(crate) length: f64,
+    /// For each face that meets here the direction from the edge into the face, of length one: the
+    /// normal of the face-edge plane. Zero where there is no face.
+    pub(crate) inward: [DVec3; 2],
+    pub(crate) ends: [u32; 2],
+    /// [`NO_FACE`] where there is none.
+    pub(crate) faces: [u32; 2],
+}
+
+/// The number of the faces that an edge of a piece of two points lacks.
+pub(crate) const NO_FACE: u32 = u32::MAX;
+
+/// A convex polygon.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Face {
+    /// Outward, of length one.
+    pub(crate) normal: DVec3,
+    first_side: u32,
+    end_side: u32,
+}
+
+/// A side of a face, in the face's order, counter-clockwise seen from outside.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Side {
+    /// As [`Edge::inward`] for this face.
+    pub(crate) inward: DVec3,
+    /// As [`Edge::start`]: planes are told from the same point wherever they are used, so that a
+    /// point is on the same side for the edge and for the face, to the bit.
+    pub(crate) start: DVec3,
+    pub(crate) edge: u32,
+    /// The corner that the side starts from in the face's order.
+    pub(crate) vertex: u32,
+}
+
+impl Edge {
+    /// Whether the edge's region holds what leads so far into either face, clear of rounding.
+    #[inline(always)]
+    pub(crate) fn is_clear(&self, inward: [f64; 2], slack: f64) -> bool {
+        let alone = self.faces == [NO_FACE; 2];
+        alone || inward.iter().all(|&into| into < -slack)
+    }
+}
+
+impl Polytope {
+    #[inline]
+    pub(crate) fn vertex(&self, v: u32) -> &Vertex {
+        &self.vertices[v as usize]
+    }
+
+    #[inline]
+    pub(crate) fn edge(&self, e: u32) -> &Edge {
+        &self.edges[e as usize]
+    }
+
+    #[inline]
+    pub(crate) fn face(&self, f: u32) -> &Face {
+        &self.faces[f as usize]
+    }
+
+    /// The edges that meet in a corner.
+    #[inline]
+    pub(crate) fn spokes_of(&self, v: u32) -> &[Spoke] {
+        let vertex = self.vertex(v);
+        &self.spokes[vertex.first_spoke as usize..vertex.end_spoke as usize]
+    }
+
+    /// The sides of a face.
+    #[inline]
+    pub(crate) fn sides_of(&self, f: u32) -> &[Side] {
+        let face = self.face(f);
+        &self.sides[face.first_side as usize..face.end_side as usize]
+    }
+
+    /// Whether there is such a feature.
+    #[inline]
+    pub(crate) fn has(&self, feature: Feature) -> bool {
+        let (number, count) = match feature {
+            Feature::Vertex(v) => (v, self.vertices.len()),
+            Feature::Edge(e) => (e, self.edges.len()),
+            Feature::Face(f) => (f, self.faces.len()),
+        };
+        (number as usize) < count
+    }
+
+    /// How many features there are.
+    pub(crate) fn features(&self) -> usize {
+        self.vertices.len() + self.edges.len() + self.faces.len()
+    }
+}

@@ -1,0 +1,137 @@
+//! Flat lists from outlines.
+
+use super::facets::{Plane, turn, unit};
+use super::{Edge, Face, NO_FACE, Polytope, Side, Spoke, Vertex};
+use ccd_core::glam::DVec3;
+
+/// Lays a polytope out: the faces of a closed surface, or, where there are none, the edge between two
+/// points, or a point.
+pub(crate) fn assemble(points: &[DVec3], ends: &[u32], loops: &[Vec<u32>]) -> Polytope {
+    let mut numbers: Vec<u32> = loops.iter().flatten().copied().collect();
+    if numbers.is_empty() {
+        numbers.extend(ends);
+    }
+    numbers.sort_unstable();
+    numbers.dedup();
+    let origin = middle(points, &numbers);
+    let local = |number: u32| points[number as usize] - origin;
+    let corner = |number: u32| numbers.partition_point(|&other| other < number) as u32;
+    let loops: Vec<Vec<u32>> = loops
+        .iter()
+        .map(|outline| outline.iter().map(|&v| corner(v)).collect())
+        .collect();
+    let mut out = Polytope {
+        origin,
+        reach: numbers
+            .iter()
+            .map(|&v| local(v).length())
+            .fold(0.0, f64::max),
+        vertices: numbers
+            .iter()
+            .map(|&number| Vertex {
+                point: local(number),
+                number,
+                first_spoke: 0,
+                end_spoke: 0,
+            })
+            .collect(),
+        spokes: Vec::new(),
+        edges: Vec::new(),
+        faces: Vec::with_capacity(loops.len()),
+        sides: Vec::with_capacity(loops.iter().map(Vec::len).sum()),
+        starts: None,
+    };
+    for outline in &loops {
+        let named: Vec<u32> = outline.iter().map(|&v| numbers[v as usize]).collect();
+        out.faces.push(Face {
+            normal: Plane::of(points, &named).normal,
+            first_side: 0,
+            end_side: 0,
+        });
+    }
+    let edge = |v: u32, w: u32| Edge {
+        start: out.vertices[v as usize].point,
+        along: unit(points[numbers[w as usize] as usize] - points[numbers[v as usize] as usize]),
+        length: points[numbers[w as usize] as usize].distance(points[numbers[v as usize] as usize]),
+        inward: [DVec3::ZERO; 2],
+        ends: [v, w],
+        faces: [NO_FACE; 2],
+    };
+    out.edges = match numbers.len() {
+        2 if loops.is_empty() => vec![edge(0, 1)],
+        _ => edges_of(&loops).map(|(v, w)| edge(v, w)).collect(),
+    };
+    add_sides(&mut out, &loops);
+    add_spokes(&mut out);
+    out
+}
+
+/// The middle of some points' box: near all of them, and the same for the same points.
+fn middle(points: &[DVec3], numbers: &[u32]) -> DVec3 {
+    let used = numbers.iter().map(|&v| points[v as usize]);
+    let low = used.clone().reduce(DVec3::min).unwrap_or_default();
+    let high = used.reduce(DVec3::max).unwrap_or_default();
+    low + 0.5 * (high - low)
+}
+
+/// Every side once, from its lower corner to its higher one, in order.
+fn edges_of(loops: &[Vec<u32>]) -> impl Iterator<Item = (u32, u32)> {
+    let sides = loops.iter().flat_map(|outline| turn(outline));
+    let mut edges: Vec<(u32, u32)> = sides.filter(|(v, w)| v < w).collect();
+    edges.sort_unstable();
+    edges.into_iter()
+}
+
+fn add_sides(out: &mut Polytope, loops: &[Vec<u32>]) {
+    for (outline, face) in loops.iter().zip(0u32..) {
+        let first_side = out.sides.len() as u32;
+        for (v, w) in turn(outline) {
+            let key = (v.min(w), v.max(w));
+            let found = out
+                .edges
+                .binary_search_by_key(&key, |e| (e.ends[0], e.ends[1]));
+            // Every side has its twin, so that the edge is there.
+            let Ok(number) = found else { continue };
+            let normal = out.faces[face as usize].normal;
+            let edge = &mut out.edges[number];
+            let along = if v < w { edge.along } else { -edge.along };
+            let inward = unit(normal.cross(along));
+            let slot = usize::from(v > w);
+            edge.inward[slot] = inward;
+            edge.faces[slot] = face;
+            out.sides.push(Side {
+                inward,
+                start: edge.start,
+                edge: number as u32,
+                vertex: v,
+            });
+        }
+        let sides = &mut out.faces[face as usize];
+        (sides.first_side, sides.end_side) = (first_side, out.sides.len() as u32);
+    }
+}
+
+fn add_spokes(out: &mut Polytope) {
+    let mut spokes: Vec<(u32, Spoke)> = Vec::with_capacity(2 * out.edges.len());
+    for (edge, number) in out.edges.iter().zip(0..) {
+        let [start, end] = edge.ends;
+        let spoke = |along, to| Spoke {
+            along,
+            edge: number,
+            to,
+        };
+        spokes.push((start, spoke(edge.along, end)));
+        spokes.push((end, spoke(-edge.along, start)));
+    }
+    spokes.sort_by_key(|&(from, _)| from);
+    let mut at = 0;
+    for (vertex, number) in out.vertices.iter_mut().zip(0u32..) {
+        vertex.first_spoke = at;
+        at += spokes[at as usize..]
+            .iter()
+            .take_while(|(from, _)| *from == number)
+            .count() as u32;
+        vertex.end_spoke = at;
+    }
+    out.spokes = spokes.into_iter().map(|(_, spoke)| spoke).collect();
+}

@@ -1,0 +1,84 @@
+//! From a piece to a polytope.
+
+use super::facets::{Facets, off_line};
+use super::{Polytope, assemble, convex, merge};
+use crate::start::Starts;
+use crate::tolerance::{COPLANAR, TABLED};
+use ccd_core::glam::DVec3;
+use ccd_core::{GiveUp, Piece};
+
+impl Polytope {
+    /// Prepares a piece.
+    ///
+    /// # Errors
+    /// [`GiveUp::BadFacets`] for a piece that has no points, or points that are not finite; and for
+    /// one of more than three points, not all on a line, whose facets are missing, do not close a
+    /// surface, or are not those of something convex.
+    ///
+    /// # Complexity
+    /// n log n of the corners of all facets.
+    pub(crate) fn new(piece: &Piece<'_>) -> Result<Self, GiveUp> {
+        let points = piece.points;
+        let finite = points.iter().all(|p| p.is_finite());
+        if points.is_empty() || !finite || u32::try_from(points.len()).is_err() {
+            return Err(GiveUp::BadFacets);
+        }
+        let largest = points.iter().map(|p| p.abs().max_element());
+        let rounding = COPLANAR * largest.fold(0.0, f64::max);
+        let ends = match spread(points, rounding) {
+            Spread::Point => return Ok(Self::assembled(points, &[0], &[])),
+            Spread::Line(ends) => return Ok(Self::assembled(points, &ends, &[])),
+            Spread::Wide(ends) => ends,
+        };
+        let facets = match points.len() {
+            3 => Facets::of_triangle(points),
+            _ => Facets::new(points, piece.facets.iter()),
+        };
+        let facets = facets.ok_or(GiveUp::BadFacets)?;
+        // Of needles thinner than 1e-10, facets within rounding of one plane need not make up a
+        // convex polygon; they are faces of their own then.
+        let merged = [rounding, 0.0].into_iter().find_map(|coplanar| {
+            let loops = merge::merge(points, &facets, coplanar)?;
+            let polytope = Self::assembled(points, &ends, &loops);
+            convex::is_convex(points, &polytope, rounding).then_some(polytope)
+        });
+        merged.ok_or(GiveUp::BadFacets)
+    }
+
+    fn assembled(points: &[DVec3], ends: &[u32], loops: &[Vec<u32>]) -> Self {
+        let mut polytope = assemble::assemble(points, ends, loops);
+        if polytope.vertices.len() > TABLED {
+            polytope.starts = Some(Box::new(Starts::new(&polytope)));
+        }
+        polytope
+    }
+}
+
+/// What points extend to, by the numbers of points far from each other.
+enum Spread {
+    Point,
+    Line([u32; 2]),
+    Wide([u32; 2]),
+}
+
+/// Points within `rounding` of one point, or of one line, are a point or an edge.
+fn spread(points: &[DVec3], rounding: f64) -> Spread {
+    let farthest = |from: DVec3| {
+        let distances = points.iter().map(|p| p.distance(from)).zip(0..);
+        distances.fold(
+            (0.0, 0),
+            |best, here| if here.0 > best.0 { here } else { best },
+        )
+    };
+    let (_, one) = farthest(points[0]);
+    let (length, other) = farthest(points[one as usize]);
+    if !(length > rounding) {
+        return Spread::Point;
+    }
+    let ends = [one, other].map(|v| points[v as usize]);
+    if points.iter().all(|&p| off_line(p, ends) <= rounding) {
+        Spread::Line([one, other])
+    } else {
+        Spread::Wide([one, other])
+    }
+}

@@ -1,0 +1,173 @@
+//! Whether faces enclose something convex, once.
+
+use super::{NO_FACE, Polytope, Side};
+use crate::penetration::side;
+use crate::tolerance::{CONVEX, COPLANAR, LINES};
+use ccd_core::glam::DVec3;
+
+/// Whether a closed surface is that of a convex polytope, up to the rounding of its corners.
+///
+/// It is if it is in one, locally convex, and goes around once `[TIE28]`: polygons turn left at every
+/// corner, and once; across every edge the neighbour falls away; and a line from inside leaves through
+/// one face.
+pub(crate) fn is_convex(points: &[DVec3], polytope: &Polytope, rounding: f64) -> bool {
+    let edges = &polytope.edges;
+    if polytope.faces.len() < 2 || edges.iter().any(|edge| edge.faces.contains(&NO_FACE)) {
+        return false;
+    }
+    let rounding = rounding * (CONVEX / COPLANAR);
+    let check = Check::new(points, polytope, rounding);
+    let mut faces = 0..polytope.faces.len() as u32;
+    faces.clone().all(|f| check.is_polygon(f))
+        && faces.all(|f| check.falls_away(f))
+        && check.is_in_one()
+        && (polytope.faces.len() == 2 || check.goes_around_once())
+}
+
+struct Check<'a> {
+    points: &'a [DVec3],
+    polytope: &'a Polytope,
+    /// How far off each face's plane rounding may have put corners of the polytope.
+    slacks: Vec<f64>,
+    /// Where each edge is among the sides of either of its faces.
+    places: Vec<[usize; 2]>,
+}
+
+impl<'a> Check<'a> {
+    fn new(points: &'a [DVec3], polytope: &'a Polytope, rounding: f64) -> Self {
+        let mut places = vec![[0; 2]; polytope.edges.len()];
+        let mut slacks = Vec::with_capacity(polytope.faces.len());
+        for face in 0..polytope.faces.len() as u32 {
+            let sides = polytope.sides_of(face);
+            for (at, side) in sides.iter().enumerate() {
+                let slot = usize::from(polytope.edge(side.edge).faces[0] != face);
+                places[side.edge as usize][slot] = at;
+            }
+            let width = width(polytope, face).max(f64::MIN_POSITIVE);
+            slacks.push(rounding * (1.0 + polytope.reach / width));
+        }
+        Check {
+            points,
+            polytope,
+            slacks,
+            places,
+        }
+    }
+
+    /// Plane, and turning left all the way around, once.
+    fn is_polygon(&self, face: u32) -> bool {
+        let normal = self.polytope.face(face).normal;
+        let sides = self.polytope.sides_of(face);
+        if sides.len() < 3 || normal == DVec3::ZERO {
+            return false;
+        }
+        let slack = self.slacks[face as usize];
+        let at = |k: usize| self.corner(sides[k % sides.len()].vertex);
+        let first = at(0);
+        (0..sides.len()).all(|k| {
+            let (here, next, over) = (at(k), at(k + 1), at(k + 2));
+            let inward = normal.cross((next - here).normalize_or_zero());
+            // A fan from the first corner has no triangle turned over.
+            let fan = (here - first).cross(next - first).dot(normal);
+            let longest = (here - first).length().max((next - first).length());
+            normal.dot(here - first).abs() <= slack
+                && inward.dot(over - next) >= -slack
+                && fan >= -slack * longest
+        })
+    }
+
+    /// Behind a face lie the corners of its neighbours that are next to their common edges.
+    fn falls_away(&self, face: u32) -> bool {
+        let normal = self.polytope.face(face).normal;
+        self.polytope.sides_of(face).iter().all(|side| {
+            let edge = self.polytope.edge(side.edge);
+            let slot = usize::from(edge.faces[0] == face);
+            let other = edge.faces[slot];
+            let ring = self.polytope.sides_of(other);
+            let at = self.places[side.edge as usize][slot];
+            let start = self.corner(side.vertex);
+            let slack = self.slacks[face as usize].max(self.slacks[other as usize]);
+            [ring.len() - 1, 2].into_iter().all(|step| {
+                let corner = self.corner(ring[(at + step) % ring.len()].vertex);
+                normal.dot(corner - start) <= slack
+            })
+        })
+    }
+
+    /// Whether every face is reached from the first one, over edges.
+    fn is_in_one(&self) -> bool {
+        let mut reached = vec![false; self.polytope.faces.len()];
+        reached[0] = true;
+        let mut open = vec![0];
+        while let Some(face) = open.pop() {
+            for side in self.polytope.sides_of(face) {
+                for other in self.polytope.edge(side.edge).faces {
+                    if !std::mem::replace(&mut reached[other as usize], true) {
+                        open.push(other);
+                    }
+                }
+            }
+        }
+        reached.into_iter().all(|reached| reached)
+    }
+
+    /// Whether a line from the middle of all corners leaves through no more than one face, by exact
+    /// signs; lines that meet an edge are not asked.
+    fn goes_around_once(&self) -> bool {
+        let vertices = 0..self.polytope.vertices.len() as u32;
+        let middle =
+            vertices.clone().map(|v| self.corner(v)).sum::<DVec3>() / vertices.len() as f64;
+        let targets = (0..self.polytope.faces.len() as u32).map(|f| {
+            let sides = self.polytope.sides_of(f);
+            // Off the lines that regular shapes have through their middles.
+            let parts = [0.47, 0.33, 0.2].into_iter().zip(sides);
+            parts
+                .map(|(part, side)| part * self.corner(side.vertex))
+                .sum::<DVec3>()
+        });
+        let layers = targets
+            .take(LINES)
+            .find_map(|target| self.left_through(middle, target));
+        layers.is_none_or(|layers| layers <= 1)
+    }
+
+    /// How many faces the line from one point towards another one leaves through; none where it meets
+    /// the edge of one.
+    fn left_through(&self, from: DVec3, to: DVec3) -> Option<usize> {
+        let mut layers = 0;
+        for face in 0..self.polytope.faces.len() as u32 {
+            let sides = self.polytope.sides_of(face);
+            let at = |k: usize| self.corner(sides[k].vertex);
+            for k in 1..sides.len() - 1 {
+                let corners = [at(0), at(k), at(k + 1)];
+                let [a, b, c] = corners;
+                let turns = [[a, b], [b, c], [c, a]].map(|[p, q]| side([from, p, q], to));
+                if turns.iter().all(|&turn| turn > 0.0) {
+                    layers += 1;
+                } else if turns.iter().all(|&turn| turn >= 0.0) && side(corners, from) != 0.0 {
+                    return None;
+                }
+            }
+        }
+        Some(layers)
+    }
+
+    fn corner(&self, v: u32) -> DVec3 {
+        self.points[self.polytope.vertex(v).number as usize]
+    }
+}
+
+/// A face's area over how far it extends from its first corner: at least a quarter of its width.
+fn width(polytope: &Polytope, face: u32) -> f64 {
+    let sides = polytope.sides_of(face);
+    let first = polytope.vertex(sides[0].vertex).point;
+    let arm = |side: &Side| polytope.vertex(side.vertex).point - first;
+    let fan = sides
+        .windows(2)
+        .map(|two| 0.5 * arm(&two[0]).cross(arm(&two[1])).length());
+    let farthest = sides
+        .iter()
+        .map(|side| arm(side).length())
+        .fold(0.0, f64::max);
+    fan.sum::<f64>() / farthest
+}

@@ -1,0 +1,148 @@
+//! A piece's facets as they are given: welded, with their planes, and joined along their sides.
+
+use crate::twofold::TwofoldVector;
+use ccd_core::glam::DVec3;
+
+/// Polygons that close a surface: every side has its twin.
+#[derive(Debug)]
+pub(crate) struct Facets {
+    pub(crate) loops: Vec<Vec<u32>>,
+    pub(crate) planes: Vec<Plane>,
+    /// Of every facet the facets across its sides, in order.
+    pub(crate) across: Vec<Vec<u32>>,
+}
+
+/// The plane of a polygon.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Plane {
+    /// Outward, of length one; zero for a polygon without area.
+    pub(crate) normal: DVec3,
+    pub(crate) area: f64,
+    /// Its area over its longest side.
+    pub(crate) width: f64,
+}
+
+impl Facets {
+    /// Welds points that are equal, leaves out what that leaves of less than three corners, and joins
+    /// the rest; none where that is no closed surface.
+    pub(crate) fn new<'a>(
+        points: &[DVec3],
+        loops: impl Iterator<Item = &'a [u32]>,
+    ) -> Option<Self> {
+        let welded = welded(points);
+        let mut kept: Vec<Vec<u32>> = Vec::new();
+        for corners in loops {
+            let corners = corners.iter().map(|&v| welded.get(v as usize).copied());
+            let mut corners = corners.collect::<Option<Vec<u32>>>()?;
+            corners.dedup();
+            while corners.len() > 1 && corners.first() == corners.last() {
+                corners.pop();
+            }
+            if corners.len() >= 3 {
+                kept.push(corners);
+            }
+        }
+        Self::joined(points, kept)
+    }
+
+    /// The front and the back of a triangle.
+    pub(crate) fn of_triangle(points: &[DVec3]) -> Option<Self> {
+        Self::joined(points, vec![vec![0, 1, 2], vec![0, 2, 1]])
+    }
+
+    fn joined(points: &[DVec3], loops: Vec<Vec<u32>>) -> Option<Self> {
+        let mut sides: Vec<(u32, u32, u32)> = Vec::new();
+        for (corners, facet) in loops.iter().zip(0..) {
+            sides.extend(turn(corners).map(|(v, w)| (v, w, facet)));
+        }
+        sides.sort_unstable();
+        let twice = sides
+            .windows(2)
+            .any(|two| two[0].0 == two[1].0 && two[0].1 == two[1].1);
+        if sides.is_empty() || twice {
+            return None;
+        }
+        let holder = |v: u32, w: u32| {
+            let found = sides.binary_search_by_key(&(v, w), |side| (side.0, side.1));
+            found.ok().map(|at| sides[at].2)
+        };
+        let across = |corners: &Vec<u32>| turn(corners).map(|(v, w)| holder(w, v)).collect();
+        Some(Facets {
+            across: loops.iter().map(across).collect::<Option<Vec<_>>>()?,
+            planes: loops
+                .iter()
+                .map(|corners| Plane::of(points, corners))
+                .collect(),
+            loops,
+        })
+    }
+}
+
+impl Plane {
+    /// The plane whose normal is the polygon's vector of area, from exact differences of corners.
+    pub(crate) fn of(points: &[DVec3], corners: &[u32]) -> Self {
+        let at = |k: usize| points[corners[k] as usize];
+        let mut sum = TwofoldVector::default();
+        for k in 1..corners.len() - 1 {
+            let one = TwofoldVector::difference(at(k), at(0));
+            sum = sum + one.cross(TwofoldVector::difference(at(k + 1), at(0)));
+        }
+        let area = sum.value();
+        let normal = unit(area);
+        let sides = turn(corners).map(|(v, w)| points[v as usize].distance(points[w as usize]));
+        let (area, longest) = (0.5 * area.dot(normal), sides.fold(0.0, f64::max));
+        Plane {
+            normal,
+            area,
+            width: if longest > 0.0 { area / longest } else { 0.0 },
+        }
+    }
+}
+
+/// A loop's sides, as pairs of corners.
+pub(crate) fn turn(corners: &[u32]) -> impl Iterator<Item = (u32, u32)> {
+    let next = corners.iter().cycle().skip(1);
+    corners.iter().copied().zip(next.copied())
+}
+
+/// The unit vector, of any length that is not zero.
+pub(crate) fn unit(v: DVec3) -> DVec3 {
+    // Scaled first: areas of tiny polygons have squares that are no numbers.
+    let scale = v.abs().max_element();
+    if scale > 0.0 && scale.is_finite() {
+        (v / scale).normalize()
+    } else {
+        DVec3::ZERO
+    }
+}
+
+/// How far a point is off the line through two others; from the first one, if they are equal.
+pub(crate) fn off_line(p: DVec3, [start, end]: [DVec3; 2]) -> f64 {
+    let along = TwofoldVector::difference(end, start);
+    let area = TwofoldVector::difference(p, start).cross(along).value();
+    let length = along.value().length();
+    if length > 0.0 {
+        area.length() / length
+    } else {
+        p.distance(start)
+    }
+}
+
+/// For every point the first one in its place.
+fn welded(points: &[DVec3]) -> Vec<u32> {
+    // Zero is added so that -0 is 0.
+    let key = |v: u32| {
+        (points[v as usize] + DVec3::ZERO)
+            .to_array()
+            .map(f64::to_bits)
+    };
+    let mut order: Vec<u32> = (0..points.len() as u32).collect();
+    order.sort_unstable_by_key(|&v| (key(v), v));
+    let mut welded: Vec<u32> = (0..points.len() as u32).collect();
+    for two in order.windows(2) {
+        if key(two[0]) == key(two[1]) {
+            welded[two[1] as usize] = welded[two[0] as usize];
+        }
+    }
+    welded
+}

@@ -1,0 +1,128 @@
+//! Coplanar facets become one face.
+
+use super::facets::{Facets, off_line, turn};
+use ccd_core::glam::DVec3;
+
+/// The outlines of the faces that facets make up; none where one of them has more than one outline, or
+/// an outline of less than three corners.
+///
+/// A face grows from its largest facet over neighbours all of whose corners are within `rounding` of
+/// that facet's plane, so that it never drifts off it. Corners where only two faces meet are dropped,
+/// unless there are but two: of a flat polygon those that are within `rounding` of a side are.
+pub(crate) fn merge(points: &[DVec3], facets: &Facets, rounding: f64) -> Option<Vec<Vec<u32>>> {
+    let (faces, count) = grouped(points, facets, rounding);
+    let mut outlines = outlines(facets, &faces, count, points.len())?;
+    match count {
+        0 | 1 => return None,
+        2 => {
+            // Both sides of one outline.
+            let front = without_straight(points, &outlines[0], rounding);
+            outlines[1] = front.iter().rev().copied().collect();
+            outlines[0] = front;
+        }
+        _ => {
+            let mut meeting = vec![0u32; points.len()];
+            for &v in outlines.iter().flatten() {
+                meeting[v as usize] += 1;
+            }
+            for outline in &mut outlines {
+                outline.retain(|&v| meeting[v as usize] > 2);
+            }
+        }
+    }
+    let polygons = outlines.iter().all(|outline| outline.len() >= 3);
+    polygons.then_some(outlines)
+}
+
+/// Which face every facet is part of, and how many faces there are.
+fn grouped(points: &[DVec3], facets: &Facets, rounding: f64) -> (Vec<u32>, u32) {
+    const NONE: u32 = u32::MAX;
+    let mut order: Vec<u32> = (0..facets.loops.len() as u32).collect();
+    let area = |f: u32| facets.planes[f as usize].area;
+    order.sort_by(|&f, &g| area(g).total_cmp(&area(f)));
+    let mut faces = vec![NONE; order.len()];
+    let mut count = 0;
+    for seed in order {
+        if faces[seed as usize] != NONE {
+            continue;
+        }
+        faces[seed as usize] = count;
+        let normal = facets.planes[seed as usize].normal;
+        let base = points[facets.loops[seed as usize][0] as usize];
+        let joins = |facet: u32| {
+            let plane = &facets.planes[facet as usize];
+            // What is no wider than rounding has no direction of its own.
+            let alike = plane.normal.dot(normal) > 0.0 || !(plane.width > rounding);
+            let near = |&v: &u32| normal.dot(points[v as usize] - base).abs() <= rounding;
+            alike && facets.loops[facet as usize].iter().all(near)
+        };
+        let mut grown = vec![seed];
+        while let Some(facet) = grown.pop() {
+            for &other in &facets.across[facet as usize] {
+                if faces[other as usize] == NONE && joins(other) {
+                    faces[other as usize] = count;
+                    grown.push(other);
+                }
+            }
+        }
+        count += 1;
+    }
+    (faces, count)
+}
+
+/// The sides between different faces, chained to one loop for each face.
+fn outlines(facets: &Facets, faces: &[u32], count: u32, points: usize) -> Option<Vec<Vec<u32>>> {
+    const NONE: u32 = u32::MAX;
+    let mut members = vec![Vec::new(); count as usize];
+    for (facet, &face) in faces.iter().enumerate() {
+        members[face as usize].push(facet);
+    }
+    // The next corner of the outline that is being chained.
+    let mut next = vec![NONE; points];
+    let mut out = Vec::with_capacity(members.len());
+    for (face, members) in (0..).zip(&members) {
+        let sides = members.iter().flat_map(|&facet| {
+            let across = facets.across[facet].iter();
+            turn(&facets.loops[facet]).zip(across)
+        });
+        let outer = sides.filter(|&(_, &other)| faces[other as usize] != face);
+        let outer: Vec<(u32, u32)> = outer.map(|(side, _)| side).collect();
+        for &(v, w) in &outer {
+            if next[v as usize] != NONE {
+                return None;
+            }
+            next[v as usize] = w;
+        }
+        let mut outline = Vec::with_capacity(outer.len());
+        let mut at = outer.first()?.0;
+        while next[at as usize] != NONE {
+            outline.push(at);
+            at = std::mem::replace(&mut next[at as usize], NONE);
+        }
+        if outline.len() != outer.len() {
+            return None;
+        }
+        out.push(outline);
+    }
+    Some(out)
+}
+
+/// Leaves out corners within `rounding` of the line between those before and after them.
+fn without_straight(points: &[DVec3], outline: &[u32], rounding: f64) -> Vec<u32> {
+    let at = |v: u32| points[v as usize];
+    let mut kept: Vec<u32> = Vec::with_capacity(outline.len());
+    // From an extreme corner on, which certainly is one.
+    let far = |v: &&u32| at(**v).distance_squared(at(outline[0]));
+    let start = outline.iter().max_by(|v, w| far(v).total_cmp(&far(w)));
+    let first = outline.iter().position(|v| Some(v) == start).unwrap_or(0);
+    let turned = || outline.iter().cycle().skip(first).take(outline.len());
+    for (&v, &after) in turned().zip(outline.iter().cycle().skip(first + 1)) {
+        let straight = kept
+            .last()
+            .is_some_and(|&before| off_line(at(v), [at(before), at(after)]) <= rounding);
+        if !straight {
+            kept.push(v);
+        }
+    }
+    kept
+}

@@ -1,0 +1,157 @@
+//! From marches to an answer: ties are certified, cycles settled, marches taken up again.
+
+use crate::around;
+use crate::certificate::best_axis;
+use crate::feature::{Certainty, Next, Pair, Whose};
+use crate::march::{End, march, step};
+use crate::oracle::Counters;
+use crate::penetration;
+use crate::place::Places;
+use crate::start::extremal;
+use crate::tolerance::{CYCLE_LOOK, FAR, ROUNDS};
+use crate::witness::{self, Witness};
+use ccd_core::glam::DVec3;
+use ccd_core::{Claim, GiveUp};
+
+/// What is claimed, and the pair to start from the next time.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Answer {
+    pub(crate) pair: Pair,
+    pub(crate) claim: Claim,
+}
+
+/// From the end of a march that is not certain by itself to an answer that is certified, or proven.
+///
+/// # Errors
+/// [`GiveUp::Cycle`] or [`GiveUp::StepCap`] when, from several starts, none is.
+#[cold]
+#[inline(never)]
+pub(crate) fn settle(
+    places: &Places<'_>,
+    first: End,
+    counters: &mut Counters,
+) -> Result<Answer, GiveUp> {
+    let mut end = first;
+    let mut why = GiveUp::Cycle;
+    for _ in 0..ROUNDS {
+        let verdict = match end {
+            End::Nearest(pair, certainty) => weigh(places, pair, certainty),
+            End::Common(pair, whose, crossing) => {
+                counters.penetrations += 1;
+                let claim = witness::common(places, whose, &crossing);
+                Verdict::Settled(Answer { pair, claim })
+            }
+            End::Cycle(pair) => weigh_cycle(places, pair),
+            End::Unclear(pair) => match search(places, pair) {
+                Some(answer) => {
+                    counters.penetrations += 1;
+                    Verdict::Settled(answer)
+                }
+                None => weigh_cycle(places, pair),
+            },
+            End::Cap(pair) => {
+                why = GiveUp::StepCap;
+                weigh_cycle(places, pair)
+            }
+        };
+        let from = match verdict {
+            Verdict::Settled(answer) => return Ok(answer),
+            Verdict::Nearer(pair) => pair,
+            Verdict::Doubtful(axis) => {
+                counters.restarts += 1;
+                extremal(places, axis)
+            }
+        };
+        end = march(places, from, counters);
+    }
+    match search(places, extremal(places, places.b.origin())) {
+        Some(answer) => {
+            counters.penetrations += 1;
+            Ok(answer)
+        }
+        None => Err(why),
+    }
+}
+
+/// What an end is worth.
+enum Verdict {
+    Settled(Answer),
+    /// There is a pair around it that is nearer.
+    Nearer(Pair),
+    /// It is not certified; this is the best axis so far.
+    Doubtful(DVec3),
+}
+
+/// A stop, certified where it has to be.
+fn weigh(places: &Places<'_>, pair: Pair, certainty: Certainty) -> Verdict {
+    let witness = Witness::of(places, pair);
+    let distance = witness.distance();
+    let settled = |axis| {
+        let claim = Claim {
+            axis,
+            ..witness.claim(places)
+        };
+        Verdict::Settled(Answer { pair, claim })
+    };
+    if certainty == Certainty::Sure || distance >= FAR * places.scale.size {
+        return settled(witness.axis);
+    }
+    let axis = best_axis(places, pair, &witness);
+    if axis.certifies(distance, places) || distance <= places.scale.rounding() {
+        return settled(axis.direction);
+    }
+    match around::nearer(places, pair, distance) {
+        Some(nearer) => Verdict::Nearer(nearer),
+        // As near as it gets: what is left of doubt is the axis'.
+        None if axis.gap >= 0.5 * distance => settled(axis.direction),
+        None => Verdict::Doubtful(axis.direction),
+    }
+}
+
+/// The best pair of a cycle.
+fn weigh_cycle(places: &Places<'_>, start: Pair) -> Verdict {
+    let (mut pair, mut nearest) = (start, start);
+    let mut witness = Witness::of(places, start);
+    for _ in 0..CYCLE_LOOK {
+        match step(places, pair) {
+            Next::To(a, b) => pair = Pair { a, b },
+            _ => break,
+        }
+        let here = Witness::of(places, pair);
+        if here.distance() < witness.distance() {
+            (nearest, witness) = (pair, here);
+        }
+        if pair == start {
+            break;
+        }
+    }
+    let pair = nearest;
+    let axis = best_axis(places, pair, &witness);
+    let distance = witness.distance();
+    if axis.certifies(distance, places) {
+        let claim = Claim {
+            axis: axis.direction,
+            ..witness.claim(places)
+        };
+        return Verdict::Settled(Answer { pair, claim });
+    }
+    match around::nearer(places, pair, distance) {
+        Some(nearer) => Verdict::Nearer(nearer),
+        None => Verdict::Doubtful(axis.direction),
+    }
+}
+
+/// Looks for a common point among all edges and faces.
+fn search(places: &Places<'_>, pair: Pair) -> Option<Answer> {
+    let Places { a, b, scale } = places;
+    let of = |whose| move |crossing| (whose, crossing);
+    let found = penetration::searched(a, b, *scale).map(of(Whose::X));
+    let found = found.or_else(|| penetration::searched(b, a, *scale).map(of(Whose::Y)));
+    found.map(|(whose, crossing)| Answer {
+        pair,
+        claim: witness::common(places, whose, &crossing),
+    })
+}
+
+#[cfg(test)]
+mod tests;

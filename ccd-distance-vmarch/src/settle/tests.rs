@@ -1,0 +1,78 @@
+//! Every rescue, entered on purpose.
+
+use super::settle;
+use crate::feature::{Feature, Pair};
+use crate::march::End;
+use crate::oracle::Counters;
+use crate::place::{Placed, Places};
+use crate::tests::setting::{cube, features, moved, needle, point, prepared, turned};
+use crate::tests::shape;
+use ccd_core::GiveUp;
+use ccd_core::glam::{DQuat, DVec3};
+
+/// What every end at every pair is settled as has the same distance.
+fn settles(places: &Places<'_>, a: &shape::Shape, b: &shape::Shape, truth: f64) {
+    let place = |p: DVec3| places.b.point(p - places.b.shape().origin);
+    for one in features(places.a.0) {
+        for other in features(places.b.shape()) {
+            if matches!((one, other), (Feature::Face(_), Feature::Face(_))) {
+                continue;
+            }
+            let pair = Pair { a: one, b: other };
+            for end in [End::Cycle(pair), End::Cap(pair), End::Unclear(pair)] {
+                let mut counters = Counters::default();
+                let answer = settle(places, end, &mut counters);
+                let claim = answer
+                    .unwrap_or_else(|why| panic!("{why:?} from {end:?}"))
+                    .claim;
+                let on_a = claim.a.of(&a.points).expect("a point of A") - places.a.0.origin;
+                let on_b = place(claim.b.of(&b.points).expect("a point of B"));
+                let distance = on_a.distance(on_b);
+                assert!(
+                    (distance - truth).abs() < 1e-14,
+                    "{distance}, not {truth}, from {end:?}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn every_end_is_settled() {
+    let shapes = [shape::cuboid(DVec3::ONE), shape::antiprism(3)];
+    let truths = [
+        (DVec3::new(3.0, 0.0, 0.0), 1.0),
+        (DVec3::new(3.0, 4.0, 0.0), 5f64.sqrt()),
+    ];
+    let cube = prepared(&shapes[0]);
+    for (at, truth) in truths {
+        let places = moved(&cube, &cube, at);
+        settles(&places, &shapes[0], &shapes[0], truth);
+    }
+    // Intersecting: one point.
+    let other = prepared(&shapes[1]);
+    let places = turned(
+        &cube,
+        &other,
+        DQuat::from_rotation_x(0.4),
+        DVec3::new(1.2, 0.3, 0.1),
+    );
+    settles(&places, &shapes[0], &shapes[1], 0.0);
+}
+
+#[test]
+fn what_makes_no_sense_is_given_up() {
+    let (cube, needle, point) = (cube(), needle(DVec3::X), point());
+    for polytope in [&cube, &needle, &point] {
+        let places = moved(&cube, polytope, DVec3::NAN);
+        let pair = Pair {
+            a: Feature::Vertex(0),
+            b: Feature::Vertex(0),
+        };
+        let mut counters = Counters::default();
+        let cycle = settle(&places, End::Cycle(pair), &mut counters);
+        let cap = settle(&places, End::Cap(pair), &mut counters);
+        assert!(matches!(cycle.err(), None | Some(GiveUp::Cycle)));
+        assert!(matches!(cap.err(), None | Some(GiveUp::StepCap)));
+    }
+}

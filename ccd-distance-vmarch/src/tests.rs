@@ -1,0 +1,172 @@
+//! Pairs of every kind against brute force: cold, warm, and with caches of other pairs.
+//!
+//! What is found is printed: `CCD_TEST_SLOW=1 cargo test --release -p ccd-distance-vmarch agrees --
+//! --nocapture`.
+
+mod laws;
+pub(crate) mod scene;
+pub(crate) mod setting;
+pub(crate) mod shape;
+pub(crate) mod twin;
+
+use crate::{Cache, Vmarch};
+use ccd_core::glam::{DQuat, DVec3};
+use ccd_core::{Claim, DistanceOracle, Frame, GiveUp};
+use rstest::rstest;
+use scene::{Kind, Scene};
+use shape::{Pcg64, SeedableRng, direction, magnitude};
+use twin::Bare;
+
+/// How many scenes are drawn of each kind; `CCD_TEST_CASES` in the environment multiplies it,
+/// `CCD_TEST_SLOW` makes it a million claims over all kinds.
+fn cases() -> u64 {
+    let given = std::env::var("CCD_TEST_CASES").ok();
+    let times: u64 = given.and_then(|text| text.parse().ok()).unwrap_or(1);
+    match std::env::var_os("CCD_TEST_SLOW") {
+        Some(_) => 40_000 * times,
+        None => 600 * times,
+    }
+}
+
+/// What claims of one kind came to.
+#[derive(Debug, Default)]
+struct Tally {
+    claims: u64,
+    meeting: u64,
+    give_ups: u64,
+    /// The largest error of a distance, relative to it, where it is not less than a thousandth of the
+    /// coordinates.
+    relative: f64,
+    /// The largest error in units of the coordinates' rounding.
+    rounding: f64,
+    /// The same of what an axis falls short of the distance by.
+    short: f64,
+    /// The largest distance claimed of what intersects, in the same units.
+    meeting_distance: f64,
+}
+
+/// Relative rounding of one operation.
+const U: f64 = f64::EPSILON / 2.0;
+
+impl Tally {
+    fn add(&mut self, scene: &Scene<'_>, answer: Result<Claim, GiveUp>) {
+        let claim = match answer {
+            Ok(claim) => claim,
+            Err(_) => {
+                self.give_ups += 1;
+                return;
+            }
+        };
+        self.claims += 1;
+        let place = |p: DVec3| scene.b_to_a.point(p);
+        let on_a = claim.a.of(&scene.a.shape.points).expect("a point of A");
+        let on_b = claim
+            .b
+            .of(&scene.b.shape.points)
+            .map(place)
+            .expect("a point of B");
+        let distance = on_a.distance(on_b);
+        let unit = U * scene.reach();
+        if scene.gap == 0.0 {
+            self.meeting += 1;
+            self.meeting_distance = self.meeting_distance.max(distance / unit);
+            assert!(
+                distance <= 200.0 * unit,
+                "{distance:e}: {}",
+                told(scene, &claim)
+            );
+            return;
+        }
+        let a = Bare::new(&scene.a.shape, &Frame::IDENTITY);
+        let b = Bare::new(&scene.b.shape, &scene.b_to_a);
+        let truth = twin::distance(&a, &b);
+        let error = (distance - truth).abs();
+        let gap = twin::gap(&a, &b, claim.axis.normalize_or_zero());
+        let slack = 1e-12 * truth + 100.0 * unit;
+        self.rounding = self.rounding.max(error / unit);
+        self.short = self.short.max((truth - gap) / unit);
+        if truth > 1e-3 * scene.reach() {
+            self.relative = self.relative.max(error / truth);
+        }
+        assert!(
+            error <= slack,
+            "{distance:e}, not {truth:e}: {}",
+            told(scene, &claim)
+        );
+        assert!(
+            gap >= truth - slack,
+            "gap {gap:e} of {truth:e}: {}",
+            told(scene, &claim)
+        );
+    }
+}
+
+fn told(scene: &Scene<'_>, claim: &Claim) -> String {
+    let (a, b, frame) = (&scene.a.shape, &scene.b.shape, scene.b_to_a);
+    format!("{claim:?} of {a:?}, {b:?}, {frame:?}")
+}
+
+/// The next pose of a coherent sequence.
+fn moved(scene: &mut Scene<'_>, rng: &mut Pcg64) {
+    let step = magnitude(rng, -16.0, -2.0).min(0.01 * scene.gap);
+    scene.gap -= 8.0 * step;
+    let turn = DQuat::from_scaled_axis(step * direction(rng));
+    let about = scene.b_to_a.point(scene.b.shape.points[0]);
+    let frame = &mut scene.b_to_a;
+    frame.rotation = ccd_core::glam::DMat3::from_quat(turn) * frame.rotation;
+    frame.translation = about + turn * (frame.translation - about) + step * direction(rng);
+}
+
+#[rstest]
+#[allow(
+    clippy::print_stdout,
+    reason = "the figures of a long run are to be read"
+)]
+fn agrees_with_brute_force(
+    #[values(
+        Kind::Random,
+        Kind::NearParallel,
+        Kind::Coplanar,
+        Kind::Sliver,
+        Kind::Grid,
+        Kind::Plates,
+        Kind::Prisms,
+        Kind::Balls,
+        Kind::Few,
+        Kind::Flat
+    )]
+    kind: Kind,
+) {
+    let mut rng = Pcg64::seed_from_u64(kind as u64);
+    let pool = scene::pool(kind, &mut rng);
+    let (mut oracle, mut tally, mut foreign) =
+        (Vmarch::default(), Tally::default(), Cache::default());
+    // Those of a thousand corners take brute force a while.
+    let cases = if kind == Kind::Balls {
+        cases() / 10
+    } else {
+        cases()
+    };
+    for _ in 0..cases {
+        let mut scene = scene::draw(kind, &pool, &mut rng);
+        let mut cache = Cache::default();
+        tally.add(&scene, oracle.separation(&scene.pair(), &mut cache));
+        tally.add(&scene, oracle.separation(&scene.pair(), &mut foreign));
+        if scene.gap > 0.0 {
+            moved(&mut scene, &mut rng);
+            tally.add(&scene, oracle.separation(&scene.pair(), &mut cache));
+        }
+    }
+    report(kind, &tally, oracle);
+    assert!(tally.give_ups * 10_000 <= tally.claims, "{tally:?}");
+}
+
+#[allow(
+    clippy::print_stdout,
+    reason = "the figures of a long run are to be read"
+)]
+fn report(kind: Kind, tally: &Tally, oracle: Vmarch) {
+    let counters = oracle.counters();
+    let steps = counters.steps as f64 / counters.calls as f64;
+    println!("{kind:?}: {tally:?}, {steps:.2} steps, {counters:?}");
+}

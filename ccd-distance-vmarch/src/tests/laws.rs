@@ -1,0 +1,299 @@
+//! What holds of claims about pieces that touch, hold each other, spin, or make no sense.
+
+use super::scene::{self, Body, Kind, Scene};
+use super::shape::{self, Pcg64, SeedableRng, Shape, direction, magnitude};
+use super::twin::{self, Bare};
+use super::{Tally, cases};
+use crate::{Cache, Vmarch};
+use ccd_core::glam::{DMat3, DQuat, DVec3};
+use ccd_core::{DistanceOracle, Frame, GiveUp, Piece, PiecePair};
+use rstest::rstest;
+
+/// Of pieces that intersect by next to nothing, touch, or are apart by next to nothing, what is
+/// claimed is true to rounding.
+#[rstest]
+fn touching_is_told_to_rounding(
+    #[values(-1e-9, -1e-13, -1e-16, 0.0, 1e-16, 1e-13, 1e-9)] gap: f64,
+    #[values(
+        DVec3::new(0.0, 0.0, 1.0),
+        DVec3::new(0.3, -0.4, 1.0),
+        DVec3::new(2.0, 0.3, 1.0),
+        DVec3::new(2.0, 2.0, 1.0)
+    )]
+    at: DVec3,
+) {
+    let cube = Body::new(shape::cuboid(DVec3::ONE));
+    for pointed in [
+        shape::cuboid(DVec3::ONE),
+        shape::bipyramid(6),
+        shape::few(&[-DVec3::Z, DVec3::Z]),
+    ] {
+        let other = Body::new(pointed);
+        // Beside the top of the cube by as much as above it, where it overhangs.
+        let beside = DVec3::new((at.x - 1.0).max(0.0), (at.y - 1.0).max(0.0), 0.0) * gap;
+        let b_to_a = Frame {
+            translation: DVec3::new(at.x, at.y, 2.0 + gap) + beside,
+            ..Frame::IDENTITY
+        };
+        let scene = Scene {
+            a: &cube,
+            b: &other,
+            b_to_a,
+            gap: 1.0,
+        };
+        let claim = Vmarch::default().separation(&scene.pair(), &mut Cache::default());
+        let claim = claim.unwrap_or_else(|why| panic!("{why:?}"));
+        let on_a = claim.a.of(&cube.shape.points).expect("a point of A");
+        let on_b = b_to_a.point(claim.b.of(&other.shape.points).expect("a point of B"));
+        let (a, b) = (
+            Bare::new(&cube.shape, &Frame::IDENTITY),
+            Bare::new(&other.shape, &b_to_a),
+        );
+        let certified = twin::gap(&a, &b, claim.axis.normalize_or_zero());
+        let distance = on_a.distance(on_b);
+        assert!(
+            distance - certified.max(0.0) <= 2e-15,
+            "{distance:e} {certified:e} {gap:e}"
+        );
+        if gap <= 0.0 && at.x <= 1.0 {
+            assert!(
+                distance <= 2e-15 && certified <= 2e-15,
+                "{distance:e} {certified:e}"
+            );
+        }
+    }
+}
+
+/// A small one inside of a large one has a common point with it, though their surfaces are apart.
+#[test]
+fn what_is_inside_intersects() {
+    let (large, small) = (
+        shape::globe(9, 16),
+        shape::antiprism(5).mapped(|p| 0.05 * p),
+    );
+    let (large, small) = (Body::new(large), Body::new(small));
+    let mut rng = Pcg64::seed_from_u64(3);
+    let mut oracle = Vmarch::default();
+    for _ in 0..500 {
+        let b_to_a = Frame {
+            rotation: DMat3::from_quat(scene::rotation(&mut rng)),
+            translation: 0.8 * shape::vector(&mut rng).clamp_length_max(1.0),
+        };
+        let mut tally = Tally::default();
+        let inside = Scene {
+            a: &large,
+            b: &small,
+            b_to_a,
+            gap: 0.0,
+        };
+        tally.add(
+            &inside,
+            oracle.separation(&inside.pair(), &mut Cache::default()),
+        );
+        let frame = Frame {
+            rotation: b_to_a.rotation.transpose(),
+            translation: -(b_to_a.rotation.transpose() * b_to_a.translation),
+        };
+        let around = Scene {
+            a: &small,
+            b: &large,
+            b_to_a: frame,
+            gap: 0.0,
+        };
+        tally.add(
+            &around,
+            oracle.separation(&around.pair(), &mut Cache::default()),
+        );
+        assert_eq!((tally.meeting, tally.give_ups), (2, 0));
+    }
+    assert_eq!(oracle.counters().penetrations, 1000);
+}
+
+/// Frames that map nothing anywhere, and pieces that are nothing, end like all others.
+#[test]
+fn nonsense_ends() {
+    let shapes = [
+        shape::cuboid(DVec3::ONE),
+        shape::polygon(5),
+        shape::few(&[DVec3::ZERO]),
+        shape::few(&[DVec3::X, DVec3::Y]),
+        Shape {
+            loops: Vec::new(),
+            ..shape::cuboid(DVec3::ONE)
+        },
+    ];
+    let bodies = shapes.map(Body::new);
+    let (mut oracle, mut cache) = (Vmarch::default(), Cache::default());
+    for a in &bodies {
+        for b in &bodies {
+            for wrong in [0.0, f64::NAN, f64::INFINITY, 1e300, 1e-300] {
+                let b_to_a = Frame {
+                    translation: DVec3::new(wrong, 0.0, -wrong),
+                    rotation: wrong * DMat3::IDENTITY,
+                };
+                let scene = Scene {
+                    a,
+                    b,
+                    b_to_a,
+                    gap: 0.0,
+                };
+                for _ in 0..3 {
+                    if let Ok(claim) = oracle.separation(&scene.pair(), &mut cache) {
+                        let known = |named: &[u32], count: usize| {
+                            named.iter().all(|&k| (k as usize) < count)
+                        };
+                        assert!(known(claim.a.support(), a.shape.points.len()));
+                        assert!(known(claim.b.support(), b.shape.points.len()));
+                    }
+                }
+            }
+        }
+    }
+    let nothing = Piece::from_points(&[]);
+    let pair = PiecePair {
+        a: nothing,
+        b: nothing,
+        b_to_a: Frame::IDENTITY,
+    };
+    assert_eq!(oracle.separation(&pair, &mut cache), Err(GiveUp::BadFacets));
+}
+
+/// A ball of triangles that spins over a plate: many features are almost as near as each other.
+#[test]
+fn spinning_balls_are_as_near_as_their_lowest_corner() {
+    let (ball, plate) = (
+        shape::globe(19, 26),
+        shape::cuboid(DVec3::new(3.0, 3.0, 0.1)),
+    );
+    let (ball, plate) = (Body::new(ball), Body::new(plate));
+    let (mut oracle, mut cache) = (Vmarch::default(), Cache::default());
+    for k in 0..2_000 {
+        let turn = DQuat::from_scaled_axis(f64::from(k) * 0.01 * DVec3::new(0.6, 0.3, 0.2));
+        let b_to_a = Frame {
+            rotation: DMat3::from_quat(turn),
+            translation: DVec3::new(0.1, 0.2, 1.5),
+        };
+        let scene = Scene {
+            a: &plate,
+            b: &ball,
+            b_to_a,
+            gap: 0.1,
+        };
+        let claim = oracle
+            .separation(&scene.pair(), &mut cache)
+            .expect("no give-up");
+        let low = ball
+            .shape
+            .points
+            .iter()
+            .map(|p| b_to_a.point(*p).z)
+            .fold(f64::MAX, f64::min);
+        let on_a = claim.a.of(&plate.shape.points).expect("a point of A");
+        let on_b = b_to_a.point(claim.b.of(&ball.shape.points).expect("a point of B"));
+        assert!((on_a.distance(on_b) - (low - 0.1)).abs() < 1e-15);
+    }
+    let counters = oracle.counters();
+    assert!(counters.steps < 4 * counters.calls, "{counters:?}");
+}
+
+/// Cubes moved to and fro across the place where their nearest features change, halving the way
+/// each time, until it is the last bit that decides: V-Clip's own hardest test.
+#[test]
+fn changes_of_features_are_told_to_the_last_bit() {
+    let mut rng = Pcg64::seed_from_u64(8);
+    let cube = Body::new(shape::cuboid(DVec3::ONE));
+    let (mut oracle, mut tally) = (Vmarch::default(), Tally::default());
+    for _ in 0..cases() / 4 {
+        let tilt = DQuat::from_scaled_axis(magnitude(&mut rng, -12.0, 0.0) * direction(&mut rng));
+        let pose = |way: DVec3| Frame {
+            rotation: DMat3::from_quat(tilt),
+            translation: way,
+        };
+        let far = |rng: &mut Pcg64| 4.0 * direction(rng);
+        let (mut from, mut to) = (far(&mut rng), far(&mut rng));
+        let mut ask = |way: DVec3, cache: &mut Cache| {
+            let scene = Scene {
+                a: &cube,
+                b: &cube,
+                b_to_a: pose(way),
+                gap: 0.1,
+            };
+            let answer = oracle.separation(&scene.pair(), cache);
+            tally.add(&scene, answer);
+        };
+        let (mut at_from, mut at_to) = (Cache::default(), Cache::default());
+        ask(from, &mut at_from);
+        ask(to, &mut at_to);
+        for _ in 0..60 {
+            let middle = 0.5 * (from + to);
+            // Cubes of this size may meet halfway.
+            if at_from == at_to || middle.length() < 3.9 {
+                break;
+            }
+            let mut at_middle = at_from;
+            ask(middle, &mut at_middle);
+            if at_middle == at_from {
+                from = middle;
+            } else {
+                (to, at_to) = (middle, at_middle);
+            }
+        }
+    }
+    assert!(tally.claims > cases() && tally.give_ups == 0, "{tally:?}");
+}
+
+/// Powers of two scale everything, to the bit.
+#[test]
+fn size_does_not_matter() {
+    let mut rng = Pcg64::seed_from_u64(6);
+    for kind in [Kind::Random, Kind::Coplanar, Kind::Sliver, Kind::Flat] {
+        let pool = scene::pool(kind, &mut rng);
+        for _ in 0..300 {
+            let scene = scene::draw(kind, &pool, &mut rng);
+            let power = [-150, -40, 30][(magnitude(&mut rng, 0.0, 1.0) as usize) % 3];
+            let scale = 2f64.powi(power);
+            let [a, b] =
+                [scene.a, scene.b].map(|body| Body::new(body.shape.clone().mapped(|p| scale * p)));
+            let mut b_to_a = scene.b_to_a;
+            b_to_a.translation *= scale;
+            let scaled = Scene {
+                a: &a,
+                b: &b,
+                b_to_a,
+                gap: 0.0,
+            };
+            let [one, other] = [&scene, &scaled].map(|scene| {
+                let claim = Vmarch::default().separation(&scene.pair(), &mut Cache::default());
+                claim.unwrap_or_else(|why| panic!("{why:?}"))
+            });
+            assert_eq!((one.a, one.b), (other.a, other.b), "2^{power}");
+        }
+    }
+}
+
+/// Coordinates far from the origin bring the rounding they were given with, and no more.
+#[test]
+fn place_does_not_matter() {
+    let mut rng = Pcg64::seed_from_u64(7);
+    let pool = scene::pool(Kind::Random, &mut rng);
+    for _ in 0..500 {
+        let scene = scene::draw(Kind::Random, &pool, &mut rng);
+        let shift = 1e6 * shape::vector(&mut rng);
+        let [a, b] =
+            [scene.a, scene.b].map(|body| Body::new(body.shape.clone().mapped(|p| p + shift)));
+        let mut b_to_a = scene.b_to_a;
+        b_to_a.translation += shift - b_to_a.rotation * shift;
+        let far = Scene {
+            a: &a,
+            b: &b,
+            b_to_a,
+            gap: scene.gap,
+        };
+        let mut tally = Tally::default();
+        tally.add(
+            &far,
+            Vmarch::default().separation(&far.pair(), &mut Cache::default()),
+        );
+        assert_eq!(tally.give_ups, 0);
+    }
+}

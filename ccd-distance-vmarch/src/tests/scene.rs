@@ -1,0 +1,286 @@
+//! Pairs of polytopes of every kind that upsets Voronoi marching, with what is known of them.
+
+use super::shape::{self, Pcg64, RngExt, Shape, direction, magnitude, vector};
+use ccd_core::glam::{DMat3, DQuat, DVec3};
+use ccd_core::{Frame, PiecePair, Pieces};
+
+/// A shape with the list that its piece is of.
+pub(crate) struct Body {
+    pub(crate) shape: Shape,
+    pub(crate) pieces: Pieces,
+    /// A point well inside.
+    middle: DVec3,
+}
+
+impl Body {
+    pub(crate) fn new(shape: Shape) -> Self {
+        let middle = shape.points.iter().sum::<DVec3>() / shape.points.len() as f64;
+        Body {
+            pieces: shape.pieces(),
+            shape,
+            middle,
+        }
+    }
+}
+
+/// Kinds of pairs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Kind {
+    Random,
+    NearParallel,
+    Coplanar,
+    Sliver,
+    Grid,
+    Plates,
+    Prisms,
+    Balls,
+    Few,
+    Flat,
+}
+
+/// The bodies that a kind is drawn from.
+pub(crate) fn pool(kind: Kind, rng: &mut Pcg64) -> Vec<Body> {
+    let mut out: Vec<Shape> = Vec::new();
+    let hulls = |rng: &mut Pcg64, counts: &[usize]| -> Vec<Shape> {
+        counts
+            .iter()
+            .map(|&count| shape::random_hull(rng, count))
+            .collect()
+    };
+    match kind {
+        Kind::Random => {
+            out.extend(hulls(rng, &[4, 4, 5, 6, 8, 8, 10, 12, 16, 20, 20, 24]));
+        }
+        Kind::NearParallel | Kind::Coplanar => {
+            out.push(shape::cuboid(DVec3::ONE));
+            out.push(shape::cuboid(DVec3::new(0.4, 0.7, 1.1)).triangulated());
+            out.extend([3, 4, 5, 6, 8, 12].map(shape::prism));
+            out.extend([3, 4, 6].map(shape::antiprism));
+            out.extend([4, 6].map(shape::bipyramid));
+            out.extend((0..6).map(|_| shape::grid_hull(rng, 9)));
+        }
+        Kind::Sliver => {
+            for count in [4, 5, 6, 8, 12] {
+                for _ in 0..4 {
+                    let squeeze =
+                        DVec3::new(1.0, magnitude(rng, -8.0, 0.0), magnitude(rng, -8.0, 0.0));
+                    let hull = shape::random_hull(rng, count);
+                    let points: Vec<DVec3> = hull.points.iter().map(|p| *p * squeeze).collect();
+                    out.push(shape::hull(&points));
+                }
+            }
+            out.extend([6, 10, 20].map(shape::cyclic));
+        }
+        Kind::Grid => {
+            out.push(shape::cuboid(DVec3::ONE));
+            out.push(shape::cuboid(DVec3::new(1.0, 2.0, 3.0)));
+            for count in [5, 6, 8, 12, 16, 20] {
+                out.push(shape::grid_hull(rng, count));
+                out.push(shape::grid_hull(rng, count).triangulated());
+            }
+        }
+        Kind::Plates => {
+            for _ in 0..6 {
+                let thin = magnitude(rng, -9.0, -2.0);
+                out.push(shape::cuboid(DVec3::new(1.0, 0.7, thin)));
+                out.push(shape::prism(7).mapped(|p| p * DVec3::new(1.0, 1.0, thin)));
+                out.push(shape::cuboid(DVec3::new(1.0, thin, thin)));
+            }
+        }
+        Kind::Prisms => {
+            out.extend([3, 5, 8, 16, 40, 100].map(shape::prism));
+            out.extend([3, 7, 24].map(shape::antiprism));
+            out.extend([3, 9, 40].map(shape::bipyramid));
+        }
+        Kind::Balls => {
+            out.extend(
+                [(3, 5), (6, 9), (9, 16), (19, 26), (31, 32)].map(|(r, c)| shape::globe(r, c)),
+            );
+            out.push(shape::globe(9, 16).triangulated());
+            out.extend(hulls(rng, &[40]));
+        }
+        Kind::Few => {
+            for _ in 0..4 {
+                let [p, q, r] = std::array::from_fn(|_| vector(rng));
+                out.push(shape::few(&[p]));
+                out.push(shape::few(&[p, q]));
+                out.push(shape::few(&[p, q, r]));
+                out.push(shape::few(&[
+                    p,
+                    q,
+                    p.lerp(q, 0.3) + magnitude(rng, -9.0, -1.0) * r,
+                ]));
+            }
+            out.extend(hulls(rng, &[6, 10]));
+        }
+        Kind::Flat => {
+            out.extend([3, 4, 6, 12, 40].map(shape::polygon));
+            out.push(shape::polygon(8).triangulated());
+            out.push(shape::polygon(5).mapped(|p| p * DVec3::new(1.0, 1e-5, 1.0)));
+            out.extend(hulls(rng, &[8]));
+        }
+    }
+    // Every piece in a frame of its own.
+    let placed = out.into_iter().map(|shape| {
+        let whole = matches!(kind, Kind::Grid | Kind::Coplanar);
+        if whole || kind == Kind::Sliver {
+            return Body::new(shape);
+        }
+        let (turn, shift) = (rotation(rng), vector(rng));
+        Body::new(shape.mapped(|p| turn * p + shift))
+    });
+    placed.collect()
+}
+
+pub(crate) fn rotation(rng: &mut Pcg64) -> DQuat {
+    DQuat::from_axis_angle(direction(rng), rng.random_range(-3.1..3.1))
+}
+
+/// One of the rotations that take the axes to axes.
+fn quarter_turns(rng: &mut Pcg64) -> DMat3 {
+    let axes = [DVec3::X, DVec3::Y, DVec3::Z];
+    let k = rng.random_range(0..3);
+    let sign = |rng: &mut Pcg64| if rng.random_bool(0.5) { 1.0 } else { -1.0 };
+    let x = axes[k] * sign(rng);
+    let y = axes[(k + rng.random_range(1..3)) % 3] * sign(rng);
+    DMat3::from_cols(x, y, x.cross(y))
+}
+
+/// Two bodies and how they lie to each other.
+pub(crate) struct Scene<'a> {
+    pub(crate) a: &'a Body,
+    pub(crate) b: &'a Body,
+    pub(crate) b_to_a: Frame,
+    /// How far they are apart at least; 0 if they were placed to intersect.
+    pub(crate) gap: f64,
+}
+
+impl Scene<'_> {
+    pub(crate) fn pair(&self) -> PiecePair<'_> {
+        PiecePair {
+            a: self.a.pieces.get(0),
+            b: self.b.pieces.get(0),
+            b_to_a: self.b_to_a,
+        }
+    }
+
+    /// The largest coordinates, all together.
+    pub(crate) fn reach(&self) -> f64 {
+        let largest = |points: &[DVec3]| points.iter().map(|p| p.length()).fold(0.0, f64::max);
+        largest(&self.a.shape.points)
+            + largest(&self.b.shape.points)
+            + self.b_to_a.translation.length()
+    }
+}
+
+/// Draws a pair of a kind: how B is turned, along which direction it lies, and how far.
+pub(crate) fn draw<'a>(kind: Kind, pool: &'a [Body], rng: &mut Pcg64) -> Scene<'a> {
+    let (a, b) = (
+        &pool[rng.random_range(0..pool.len())],
+        &pool[rng.random_range(0..pool.len())],
+    );
+    let aligned = matches!(kind, Kind::NearParallel | Kind::Coplanar | Kind::Grid);
+    let mut rotation = match rng.random_range(0..4) {
+        0 if !aligned => DMat3::IDENTITY,
+        1 if !aligned => quarter_turns(rng),
+        _ if !aligned => DMat3::from_quat(rotation(rng)),
+        0 => DMat3::IDENTITY,
+        _ => quarter_turns(rng),
+    };
+    // Turned so that a face of B looks at a face of A, then off that by next to nothing.
+    if kind == Kind::NearParallel {
+        if let (Some(n), Some(m)) = (normal(a, rng), normal(b, rng)) {
+            let facing = DMat3::from_quat(DQuat::from_rotation_arc(m, -n));
+            rotation = if rng.random_bool(0.7) {
+                facing
+            } else {
+                rotation
+            };
+        }
+        let tilt = DQuat::from_scaled_axis(magnitude(rng, -16.0, -6.0) * direction(rng));
+        rotation = DMat3::from_quat(tilt) * rotation;
+    }
+    let meets = rng.random_bool(0.15)
+        && a.shape.points.len() > 3
+        && b.shape.points.len() > 3
+        && a.shape.loops.len() > 2
+        && b.shape.loops.len() > 2;
+    let (translation, gap) = if meets {
+        let inner = |body: &Body, rng: &mut Pcg64| {
+            let corner = body.shape.points[rng.random_range(0..body.shape.points.len())];
+            body.middle.lerp(corner, rng.random_range(0.0..0.9))
+        };
+        (inner(a, rng) - rotation * inner(b, rng), 0.0)
+    } else {
+        apart(kind, a, b, rotation, rng)
+    };
+    let b_to_a = Frame {
+        rotation,
+        translation,
+    };
+    Scene { a, b, b_to_a, gap }
+}
+
+/// Where B has to be to be apart from A along some direction, and how far it is then.
+fn apart(kind: Kind, a: &Body, b: &Body, rotation: DMat3, rng: &mut Pcg64) -> (DVec3, f64) {
+    let whole = kind == Kind::Grid;
+    let n = match rng.random_range(0..4) {
+        0 => direction(rng),
+        1 if aligned_axes(kind) => [DVec3::X, DVec3::Y, DVec3::Z][rng.random_range(0..3)],
+        2 => crossed(a, b, rotation, rng).unwrap_or(DVec3::Z),
+        _ => normal(a, rng).unwrap_or_else(|| direction(rng)),
+    };
+    let gap = match whole {
+        true => f64::from(rng.random_range(1i32..5)),
+        false => magnitude(rng, -6.0, 3.0),
+    };
+    let high = a
+        .shape
+        .points
+        .iter()
+        .map(|p| n.dot(*p))
+        .fold(f64::NEG_INFINITY, f64::max);
+    let low = b
+        .shape
+        .points
+        .iter()
+        .map(|p| n.dot(rotation * *p))
+        .fold(f64::INFINITY, f64::min);
+    let lateral = match rng.random_range(0..3) {
+        0 => DVec3::ZERO,
+        1 => vector(rng),
+        _ => 0.3 * vector(rng),
+    };
+    let lateral = if whole { lateral.round() } else { lateral };
+    let base = a.middle - rotation * b.middle + lateral;
+    let base = if whole { base.round() } else { base };
+    (base + n * (gap + high - low - n.dot(base)), gap)
+}
+
+fn aligned_axes(kind: Kind) -> bool {
+    matches!(kind, Kind::Grid | Kind::Coplanar | Kind::NearParallel)
+}
+
+fn normal(body: &Body, rng: &mut Pcg64) -> Option<DVec3> {
+    let shape = &body.shape;
+    if shape.loops.is_empty() {
+        return None;
+    }
+    let corners = &shape.loops[rng.random_range(0..shape.loops.len())];
+    let at = |k: usize| shape.points[corners[k] as usize];
+    (at(1) - at(0)).cross(at(2) - at(0)).try_normalize()
+}
+
+fn crossed(a: &Body, b: &Body, rotation: DMat3, rng: &mut Pcg64) -> Option<DVec3> {
+    let edge = |body: &Body, rng: &mut Pcg64| {
+        let edges = body.shape.edges();
+        if edges.is_empty() {
+            return None;
+        }
+        let [v, w] = edges[rng.random_range(0..edges.len())].map(|v| body.shape.points[v as usize]);
+        Some(w - v)
+    };
+    edge(a, rng)?
+        .cross(rotation * edge(b, rng)?)
+        .try_normalize()
+}

@@ -1,0 +1,69 @@
+//! Small polytopes at simple places, and their features by where they are.
+
+use super::shape::{self, Shape};
+use crate::feature::Feature;
+use crate::place::Places;
+use crate::polytope::Polytope;
+use ccd_core::Frame;
+use ccd_core::glam::{DMat3, DQuat, DVec3};
+
+pub(crate) fn prepared(shape: &Shape) -> Polytope {
+    let pieces = shape.pieces();
+    Polytope::new(&pieces.get(0)).expect("a convex polytope")
+}
+
+/// From −1 to 1 along every axis.
+pub(crate) fn cube() -> Polytope {
+    prepared(&shape::cuboid(DVec3::ONE))
+}
+
+pub(crate) fn point() -> Polytope {
+    prepared(&shape::few(&[DVec3::ZERO]))
+}
+
+/// One edge about the origin.
+pub(crate) fn needle(half: DVec3) -> Polytope {
+    prepared(&shape::few(&[-half, half]))
+}
+
+pub(crate) fn moved<'a>(a: &'a Polytope, b: &'a Polytope, by: DVec3) -> Places<'a> {
+    turned(a, b, DQuat::IDENTITY, by)
+}
+
+pub(crate) fn turned<'a>(a: &'a Polytope, b: &'a Polytope, by: DQuat, to: DVec3) -> Places<'a> {
+    let frame = Frame {
+        rotation: DMat3::from_quat(by),
+        translation: to,
+    };
+    Places::new(a, b, &frame)
+}
+
+/// The corner nearest to a point, in the polytope's own coordinates.
+pub(crate) fn vertex(polytope: &Polytope, at: DVec3) -> u32 {
+    nearest(polytope.vertices.iter().map(|v| v.point), at)
+}
+
+/// The edge whose middle is nearest to a point.
+pub(crate) fn edge(polytope: &Polytope, at: DVec3) -> u32 {
+    let middle = |e: &crate::polytope::Edge| e.start + 0.5 * e.length * e.along;
+    nearest(polytope.edges.iter().map(middle), at)
+}
+
+/// The face that looks most along a direction.
+pub(crate) fn face(polytope: &Polytope, along: DVec3) -> u32 {
+    nearest(polytope.faces.iter().map(|f| f.normal), along)
+}
+
+fn nearest(points: impl Iterator<Item = DVec3>, at: DVec3) -> u32 {
+    let distances = points.map(|p| p.distance(at)).zip(0..);
+    let least = distances.min_by(|one, other| one.0.total_cmp(&other.0));
+    least.expect("a feature").1
+}
+
+/// Every feature that a march may be at.
+pub(crate) fn features(polytope: &Polytope) -> Vec<Feature> {
+    let vertices = (0..polytope.vertices.len() as u32).map(Feature::Vertex);
+    let edges = (0..polytope.edges.len() as u32).map(Feature::Edge);
+    let faces = (0..polytope.faces.len() as u32).map(Feature::Face);
+    vertices.chain(edges).chain(faces).collect()
+}

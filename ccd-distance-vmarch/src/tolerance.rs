@@ -1,0 +1,85 @@
+//! Every numeric tolerance of this crate: its unit, why it is what it is, what breaks without it.
+//!
+//! `u` is half a unit in the last place of 1. Lengths are in the unit of the pieces' coordinates; a
+//! pair's *size* is the sum of both pieces' reaches about their own origins, and of the way between
+//! those origins.
+
+/// Half a unit in the last place of 1.
+const U: f64 = f64::EPSILON / 2.0;
+
+/// How far a difference of two placed points is off at most, in units of the pair's size.
+///
+/// A vertex is rounded once when it is taken relative to its polytope's origin (1u), placed by three
+/// products and three sums whose matrix is rounded (8u of its reach, per coordinate, √3 of that as a
+/// length), and subtracted (1u): below 16u. Points nearer than that are the same point. Without it
+/// the march would follow directions that are nothing but rounding.
+pub(crate) const PLACE: f64 = 16.0 * U;
+
+/// The rounding of a scalar product of two unit vectors of which one is placed: either is rounded when
+/// it is made (1u), one is turned (3u), and the product adds 3u. Without it a march would wander
+/// between the corners of a face that is parallel to the other one; more would stop at corners beside
+/// nearer ones, by that much of an edge's length.
+pub(crate) const LEVEL: f64 = 8.0 * U;
+
+/// The sine below which two edges count as parallel: their cross product is rounding then, and every
+/// point that they have beside each other is as near as any other one, to `PARALLEL` times the
+/// edges' length.
+pub(crate) const PARALLEL: f64 = 16.0 * U;
+
+/// From this share of the pair's size on, distances are so large that a tie between features need not
+/// be certified: what rounding, 16u of the size, tilts a direction of that length by costs no more
+/// than 64u of the size.
+pub(crate) const FAR: f64 = 1.0 / 4.0;
+
+/// How far the distance of the witnesses may exceed the gap along the axis for both to count as
+/// certified, in units of the pair's size: [`PLACE`] for the distance, and as much for the gap. More
+/// would let a tie pass that has something nearer around it; less would look around where there is
+/// nothing to be found.
+pub(crate) const CERTIFIED: f64 = 32.0 * U;
+
+/// The same in units of the distance, for pieces that are much farther apart than they are large.
+pub(crate) const CERTIFIED_SHARE: f64 = 32.0 * U;
+
+/// How far points may lie off a plane, or off a line, to count as lying in it, in units of the
+/// largest coordinate: corners are rounded by 1u each before anyone calls them coplanar, a plane
+/// through three of them passes the others by up to 4u beside it, and heights over it are rounded by
+/// up to 8u. Without it a triangulated square would have a diagonal, with Voronoi slabs of no width on
+/// both sides.
+pub(crate) const COPLANAR: f64 = 16.0 * U;
+
+/// How far a corner may stand above the plane of a facet that has it below, in units of the largest
+/// coordinate, times how much longer the piece is than the facet is wide: where corners have been
+/// rounded since the hull was made, a facet's normal turns by their rounding over its width.
+/// Without it no sliver would be accepted; more would let facets through that enclose nothing.
+pub(crate) const CONVEX: f64 = 64.0 * U;
+
+/// How many lines from inside a polytope are tried for one that meets no edge, to see that its faces
+/// go around once. A first one hardly ever does.
+pub(crate) const LINES: usize = 8;
+
+/// How many steps a march may take, for each feature of both polytopes. In exact arithmetic a march
+/// visits every pair at most once, and one per feature in practice; Lloyd's port of V-Clip stops at
+/// two.
+pub(crate) const STEPS_PER_FEATURE: usize = 4;
+
+/// How many pairs of a cycle are looked at for the best one. Cycles are two to six pairs long.
+pub(crate) const CYCLE_LOOK: usize = 64;
+
+/// How often a march is taken up again: after a cycle from the corners that are extremal along the
+/// best axis, after a stop at a tie from the nearest features all around it.
+pub(crate) const ROUNDS: usize = 8;
+
+/// Of this many edges of each polytope, those closest to a right angle to the way between the nearest
+/// points, axes are made when that way is rounding: five to ten meet in a common corner.
+pub(crate) const AXIS_EDGES: usize = 12;
+
+/// Pairs of an edge and a face that are looked at one by one for a common point before a search for
+/// one gives up: a millisecond's work.
+pub(crate) const PIERCED_PAIRS: usize = 1 << 17;
+
+/// Pairs of edges around a tie that are compared at most: what a corner of 30 edges has around it.
+pub(crate) const AROUND: usize = 1 << 13;
+
+/// From how many corners on a polytope has a table of starts; fewer are all looked at. A look takes
+/// one or two nanoseconds, a climb from the table's start about thirty.
+pub(crate) const TABLED: usize = 32;

@@ -1,0 +1,108 @@
+//! A corner against an edge `[VCLIP98 §3.2]`.
+
+use crate::feature::Certainty::{Sure, Tied};
+use crate::feature::{Feature, Next};
+use crate::place::{Line, Placed, Scale};
+use crate::tolerance::LEVEL;
+use ccd_core::glam::DVec3;
+
+/// The corner against the edge's two vertex-edge planes and two face-edge planes, and then the edge
+/// against the corner's vertex-edge planes.
+///
+/// V-Clip cuts the edge with those planes and asks at both ends of what remains in which direction
+/// the distance falls. It falls towards the corner's foot on the edge: the foot is within what
+/// remains just when it is on the inner side of every plane. So the planes are asked about the foot,
+/// which needs no quotient, and is right to rounding however flat an edge meets a plane.
+#[inline]
+pub(crate) fn next<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y, e: u32, scale: Scale) -> Next {
+    let corner = x.vertex(v);
+    let edge = y.shape().edge(e);
+    let line = y.line(e);
+    let from_start = corner - line.start;
+    let parameter = from_start.dot(line.along);
+    if parameter < 0.0 {
+        return Next::To(Feature::Vertex(v), Feature::Vertex(edge.ends[0]));
+    }
+    if (corner - y.vertex(edge.ends[1])).dot(line.along) > 0.0 {
+        return Next::To(Feature::Vertex(v), Feature::Vertex(edge.ends[1]));
+    }
+    let way = line.at(parameter) - corner;
+    let rounding = scale.rounding();
+    if way.length_squared() <= rounding * rounding {
+        return Next::Stop(Tied);
+    }
+    let inward = y.inward(edge, from_start);
+    if let Some(face) = side_faced(y, edge.faces, inward, from_start) {
+        return Next::To(Feature::Vertex(v), Feature::Face(face));
+    }
+    let bent = bent_towards(x, v, &line, way, scale);
+    if bent.by > 0.0 {
+        return Next::To(Feature::Edge(bent.edge), Feature::Edge(e));
+    }
+    let clear = edge.is_clear(inward, rounding) && !bent.tied;
+    Next::Stop(if clear { Sure } else { Tied })
+}
+
+/// The face of an edge on whose side a point lies, if any; of two, the one that it is higher above, or
+/// less far below.
+#[inline(always)]
+pub(crate) fn side_faced<Y: Placed>(
+    y: &Y,
+    faces: [u32; 2],
+    inward: [f64; 2],
+    from_edge: DVec3,
+) -> Option<u32> {
+    match inward.map(|into| into > 0.0) {
+        [false, false] => None,
+        [true, false] => Some(faces[0]),
+        [false, true] => Some(faces[1]),
+        [true, true] => {
+            let height = faces.map(|f| y.vector(y.shape().face(f).normal).dot(from_edge));
+            Some(faces[usize::from(height[1] > height[0])])
+        }
+    }
+}
+
+/// The edge of a corner along which another edge's line comes nearer.
+struct Bent {
+    edge: u32,
+    /// How much nearer, beyond rounding.
+    by: f64,
+    /// Whether some edge is neither clearly bent towards the line nor away from it.
+    tied: bool,
+}
+
+/// Of the corner's edges the one that leads nearest to the line, which `way` leads to.
+///
+/// A step along the corner's edge is answered by one along the line: what counts is the edge's part
+/// across the line. Of nearly parallel edges that is small, and so has to be what rounding is taken
+/// for; else their slow approach would be missed.
+#[inline(always)]
+fn bent_towards<X: Placed>(x: &X, v: u32, line: &Line, way: DVec3, scale: Scale) -> Bent {
+    let mut out = Bent {
+        edge: 0,
+        by: 0.0,
+        tied: false,
+    };
+    let rounding = scale.rounding();
+    for spoke in x.shape().spokes_of(v) {
+        let along = x.vector(spoke.along);
+        let slope = along.dot(way);
+        // Written so that NaN is a tie.
+        if slope < -rounding {
+            continue;
+        }
+        let across = slope - along.dot(line.along) * way.dot(line.along);
+        let sine = along.cross(line.along).length();
+        let slack = rounding * sine + LEVEL * way.length();
+        if across - slack > out.by {
+            out.edge = spoke.edge;
+            out.by = across - slack;
+        }
+        out.tied |= !(across < -slack);
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,79 @@
+//! Points, and edges that rise or fall from them, around an edge of a cube.
+
+use super::next;
+use crate::feature::Certainty::{Sure, Tied};
+use crate::feature::{Feature, Next};
+use crate::tests::setting::{cube, edge, face, moved, needle, point, turned, vertex};
+use ccd_core::glam::{DQuat, DVec3};
+use rstest::rstest;
+
+/// What is said of a point and the cube's edge along x at y = z = 1.
+fn of_point(at: DVec3) -> Next {
+    let (cube, point) = (cube(), point());
+    let places = moved(&cube, &point, at);
+    let edge = edge(&cube, DVec3::new(0.0, 1.0, 1.0));
+    let there = next(&places.b, 0, &places.a, edge, places.scale);
+    let back = moved(&point, &cube, -at);
+    assert_eq!(there, next(&back.a, 0, &back.b, edge, back.scale));
+    there
+}
+
+#[rstest]
+#[case(DVec3::new(0.5, 2.0, 2.0), Sure)]
+#[case(DVec3::new(-0.9, 1.1, 3.0), Sure)]
+// On a face-edge plane, on a vertex-edge plane, on both; on the edge.
+#[case(DVec3::new(0.0, 1.0, 2.0), Tied)]
+#[case(DVec3::new(1.0, 2.0, 2.0), Sure)]
+#[case(DVec3::new(1.0, 1.0, 2.0), Tied)]
+#[case(DVec3::new(0.3, 1.0, 1.0), Tied)]
+fn stops_in_the_edges_region(#[case] at: DVec3, #[case] certainty: crate::feature::Certainty) {
+    assert_eq!(of_point(at), Next::Stop(certainty));
+}
+
+#[rstest]
+#[case(DVec3::new(1.0 + f64::EPSILON, 2.0, 2.0), DVec3::ONE)]
+#[case(DVec3::new(-7.0, 2.0, 2.0), DVec3::new(-1.0, 1.0, 1.0))]
+fn goes_on_to_the_end_it_is_beyond(#[case] at: DVec3, #[case] corner: DVec3) {
+    let corner = vertex(&cube(), corner);
+    assert_eq!(
+        of_point(at),
+        Next::To(Feature::Vertex(0), Feature::Vertex(corner))
+    );
+}
+
+#[rstest]
+#[case(DVec3::new(0.0, 1.0 - f64::EPSILON, 2.0), DVec3::Z)]
+#[case(DVec3::new(0.0, -5.0, 2.0), DVec3::Z)]
+#[case(DVec3::new(0.0, 2.0, 0.0), DVec3::Y)]
+// Below both faces: on to the one it is less far below.
+#[case(DVec3::new(0.0, 0.9, 0.5), DVec3::Y)]
+#[case(DVec3::new(0.0, 0.5, 0.9), DVec3::Z)]
+fn goes_on_to_the_face_on_whose_side_it_is(#[case] at: DVec3, #[case] normal: DVec3) {
+    let face = face(&cube(), normal);
+    assert_eq!(
+        of_point(at),
+        Next::To(Feature::Vertex(0), Feature::Face(face))
+    );
+}
+
+/// The other edge's corner is nearest unless that edge falls towards the cube's, however slowly.
+#[rstest]
+#[case(-0.5, Some(true))]
+#[case(0.5, None)]
+#[case(-1e-9, Some(true))]
+#[case(1e-9, None)]
+#[case(-1e-13, Some(true))]
+#[case(1e-13, None)]
+fn goes_on_to_an_edge_that_falls(#[case] slope: f64, #[case] falls: Option<bool>) {
+    let (cube, needle) = (cube(), needle(0.4 * DVec3::X));
+    let turn = DQuat::from_rotation_y(-slope);
+    // The needle's first corner stands a millionth above the edge's bisector.
+    let up = DVec3::new(0.0, 1.0, 1.0) + 1e-6 * DVec3::new(0.0, 1.0, 1.0);
+    let places = turned(&cube, &needle, turn, up - turn * (-0.4 * DVec3::X));
+    let edge = edge(&cube, DVec3::new(0.0, 1.0, 1.0));
+    let said = next(&places.b, 0, &places.a, edge, places.scale);
+    match falls {
+        Some(_) => assert_eq!(said, Next::To(Feature::Edge(0), Feature::Edge(edge))),
+        None => assert_eq!(said, Next::Stop(Sure)),
+    }
+}

@@ -1,0 +1,59 @@
+//! A corner against a face `[VCLIP98 §3.2]`.
+
+use crate::feature::Certainty::{Sure, Tied};
+use crate::feature::{Behind, Feature, Next, Whose};
+use crate::place::{Placed, Scale};
+use crate::tolerance::LEVEL;
+
+/// The corner against all face-edge planes, on to the edge of the one it violates most; and above the
+/// face, each of the corner's edges against the face's plane, on to the one that falls towards it most
+/// steeply.
+///
+/// The nearest violated plane would not do: the edge it belongs to need not be nearer.
+#[inline]
+pub(crate) fn next<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y, f: u32, scale: Scale) -> Next {
+    let corner = x.vertex(v);
+    let (mut least, mut outside) = (0.0, None);
+    let mut height = 0.0;
+    let normal = y.vector(y.shape().face(f).normal);
+    for side in y.shape().sides_of(f) {
+        let from = corner - y.point(side.start);
+        let inside = y.vector(side.inward).dot(from);
+        if inside < least {
+            (least, outside) = (inside, Some(side.edge));
+        }
+        height = normal.dot(from);
+    }
+    if let Some(edge) = outside {
+        return Next::To(Feature::Vertex(v), Feature::Edge(edge));
+    }
+    let rounding = scale.rounding();
+    if height < -rounding {
+        return Next::Behind(
+            Whose::X,
+            Behind {
+                feature: Feature::Vertex(v),
+                point: corner,
+                face: f,
+            },
+        );
+    }
+    if height <= rounding {
+        return Next::Stop(Tied);
+    }
+    let (mut lowest, mut falling) = (-LEVEL, None);
+    for spoke in x.shape().spokes_of(v) {
+        let slope = x.vector(spoke.along).dot(normal);
+        if slope < lowest {
+            (lowest, falling) = (slope, Some(spoke.edge));
+        }
+    }
+    match falling {
+        Some(edge) => Next::To(Feature::Edge(edge), Feature::Face(f)),
+        // The face's normal is right to rounding, however near the corner is.
+        None => Next::Stop(Sure),
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,85 @@
+//! Corners above the top of a cube.
+
+use super::next;
+use crate::feature::Certainty::{Sure, Tied};
+use crate::feature::{Feature, Next, Whose};
+use crate::tests::setting::{cube, edge, face, moved, needle, point, turned};
+use ccd_core::glam::{DQuat, DVec3};
+use rstest::rstest;
+
+/// What is said of a point and the cube's top.
+fn of_point(at: DVec3) -> Next {
+    let (cube, point) = (cube(), point());
+    let places = moved(&cube, &point, at);
+    let top = face(&cube, DVec3::Z);
+    let there = next(&places.b, 0, &places.a, top, places.scale);
+    let back = moved(&point, &cube, -at);
+    let again = next(&back.a, 0, &back.b, top, back.scale);
+    match (there, again) {
+        (Next::Behind(..), Next::Behind(..)) => {}
+        _ => assert_eq!(there, again),
+    }
+    there
+}
+
+#[rstest]
+#[case(DVec3::new(0.0, 0.0, 2.0), Sure)]
+#[case(DVec3::new(0.5, -0.9, 1.0 + 1e-12), Sure)]
+#[case(DVec3::new(1.0, 1.0, 1.5), Sure)]
+#[case(DVec3::new(0.2, 0.3, 1.0), Tied)]
+#[case(DVec3::new(0.2, 0.3, 1.0 - f64::EPSILON), Tied)]
+fn stops_above(#[case] at: DVec3, #[case] certainty: crate::feature::Certainty) {
+    assert_eq!(of_point(at), Next::Stop(certainty));
+}
+
+#[rstest]
+#[case(DVec3::new(1.0 + f64::EPSILON, 0.0, 2.0), DVec3::new(1.0, 0.0, 1.0))]
+// Beyond two planes: on to the edge of the one violated most.
+#[case(DVec3::new(3.0, 2.0, 2.0), DVec3::new(1.0, 0.0, 1.0))]
+#[case(DVec3::new(-2.0, -3.0, 2.0), DVec3::new(0.0, -1.0, 1.0))]
+#[case(DVec3::new(0.0, 5.0, -9.0), DVec3::new(0.0, 1.0, 1.0))]
+fn goes_on_to_the_most_violated_plane(#[case] at: DVec3, #[case] middle: DVec3) {
+    let edge = edge(&cube(), middle);
+    assert_eq!(
+        of_point(at),
+        Next::To(Feature::Vertex(0), Feature::Edge(edge))
+    );
+}
+
+#[rstest]
+#[case(DVec3::new(0.0, 0.0, 0.9))]
+#[case(DVec3::new(0.0, 0.0, -7.0))]
+fn finds_what_is_behind(#[case] at: DVec3) {
+    let Next::Behind(whose, behind) = of_point(at) else {
+        panic!("it is below the top");
+    };
+    let top = face(&cube(), DVec3::Z);
+    assert_eq!(
+        (whose, behind.feature, behind.face),
+        (Whose::X, Feature::Vertex(0), top)
+    );
+}
+
+/// A corner above the face is nearest unless one of its edges falls, by more than rounding.
+#[rstest]
+#[case(-0.3, true)]
+#[case(-1e-14, true)]
+#[case(-1e-17, false)]
+#[case(0.0, false)]
+#[case(1e-14, false)]
+fn goes_on_along_an_edge_that_falls(#[case] slope: f64, #[case] falls: bool) {
+    let (cube, needle) = (cube(), needle(0.4 * DVec3::X));
+    let places = turned(
+        &cube,
+        &needle,
+        DQuat::from_rotation_y(-slope),
+        1.5 * DVec3::Z,
+    );
+    let top = face(&cube, DVec3::Z);
+    let said = next(&places.b, 0, &places.a, top, places.scale);
+    if falls {
+        assert_eq!(said, Next::To(Feature::Edge(0), Feature::Face(top)));
+    } else {
+        assert_eq!(said, Next::Stop(Sure));
+    }
+}

@@ -1,0 +1,57 @@
+//! A corner against a corner `[VCLIP98 §3.2]`.
+
+use crate::feature::Certainty::{Sure, Tied};
+use crate::feature::{Feature, Next};
+use crate::place::{Placed, Scale};
+use ccd_core::glam::DVec3;
+
+/// Each corner against the other's vertex-edge planes: on to the edge that leads nearest to the other
+/// corner.
+///
+/// No slack is needed: [`vertex_edge`](crate::vertex_edge) tells the same plane by the same product
+/// of the same numbers, so that no pair comes back from there.
+#[inline]
+pub(crate) fn next<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y, w: u32, scale: Scale) -> Next {
+    let way = y.vertex(w) - x.vertex(v);
+    let rounding = scale.rounding();
+    if way.length_squared() <= rounding * rounding {
+        return Next::Stop(Tied);
+    }
+    let from_x = steepest(x, v, way);
+    if from_x.slope > 0.0 {
+        return Next::To(Feature::Edge(from_x.edge), Feature::Vertex(w));
+    }
+    let from_y = steepest(y, w, -way);
+    if from_y.slope > 0.0 {
+        return Next::To(Feature::Vertex(v), Feature::Edge(from_y.edge));
+    }
+    let clear = from_x.slope < -rounding && from_y.slope < -rounding;
+    Next::Stop(if clear { Sure } else { Tied })
+}
+
+struct Steepest {
+    edge: u32,
+    slope: f64,
+}
+
+/// The edge of a corner that leads farthest along a way, for the same length of edge.
+#[inline(always)]
+fn steepest<P: Placed>(polytope: &P, v: u32, way: DVec3) -> Steepest {
+    let mut best = Steepest {
+        edge: 0,
+        slope: f64::NEG_INFINITY,
+    };
+    for spoke in polytope.shape().spokes_of(v) {
+        let slope = polytope.vector(spoke.along).dot(way);
+        if slope > best.slope {
+            best = Steepest {
+                edge: spoke.edge,
+                slope,
+            };
+        }
+    }
+    best
+}
+
+#[cfg(test)]
+mod tests;

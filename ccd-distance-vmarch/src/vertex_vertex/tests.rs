@@ -1,0 +1,49 @@
+//! Cubes and points around a corner.
+
+use super::next;
+use crate::feature::Certainty::{Sure, Tied};
+use crate::feature::{Feature, Next};
+use crate::tests::setting::{cube, edge, moved, point, vertex};
+use ccd_core::glam::DVec3;
+use rstest::rstest;
+
+/// What is said of the cube's corner at (1, 1, 1) and a point.
+fn of_point(at: DVec3) -> Next {
+    let (cube, point) = (cube(), point());
+    let places = moved(&cube, &point, at);
+    let corner = vertex(&cube, DVec3::ONE);
+    let there = next(&places.a, corner, &places.b, 0, places.scale);
+    // The other way around, it is the point's corner against the cube's.
+    let back = moved(&point, &cube, -at);
+    let swapped = next(&back.a, 0, &back.b, corner, back.scale).swapped();
+    assert_eq!(there, swapped);
+    there
+}
+
+#[rstest]
+#[case(DVec3::new(2.0, 2.0, 2.0), Sure)]
+#[case(DVec3::new(1.5, 9.0, 1.25), Sure)]
+// On one vertex-edge plane, on two, on all: ties stay.
+#[case(DVec3::new(1.0, 2.0, 2.0), Tied)]
+#[case(DVec3::new(1.0, 1.0, 2.0), Tied)]
+#[case(DVec3::new(1.0, 1.0, 1.0), Tied)]
+// Before the plane by rounding, and not by rounding.
+#[case(DVec3::new(1.0 + 1e-15, 2.0, 2.0), Tied)]
+#[case(DVec3::new(1.0 + 1e-12, 2.0, 2.0), Sure)]
+fn stops_in_the_corners_region(#[case] at: DVec3, #[case] certainty: crate::feature::Certainty) {
+    assert_eq!(of_point(at), Next::Stop(certainty));
+}
+
+#[rstest]
+#[case(DVec3::new(0.9, 2.0, 2.0), DVec3::new(0.0, 1.0, 1.0))]
+#[case(DVec3::new(1.0 - f64::EPSILON, 2.0, 2.0), DVec3::new(0.0, 1.0, 1.0))]
+// Of two planes the one violated more.
+#[case(DVec3::new(0.5, 0.9, 2.0), DVec3::new(0.0, 1.0, 1.0))]
+#[case(DVec3::new(0.9, 0.5, 2.0), DVec3::new(1.0, 0.0, 1.0))]
+fn goes_on_to_the_edge_behind_a_plane(#[case] at: DVec3, #[case] middle: DVec3) {
+    let edge = edge(&cube(), middle);
+    assert_eq!(
+        of_point(at),
+        Next::To(Feature::Edge(edge), Feature::Vertex(0))
+    );
+}

@@ -1,0 +1,243 @@
+//! What a stop means: the nearest points, clamped into their features, and the axis between them.
+
+use crate::edge_edge;
+use crate::feature::{Corners, Crossing, Feature, Pair, Whose};
+use crate::place::{Line, Placed, Places, Scale, clamped};
+use crate::polytope::Polytope;
+use ccd_core::glam::DVec3;
+use ccd_core::{Claim, Combination};
+
+/// A point of either polytope, and the direction from A's to B's as their features have it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Witness {
+    pub(crate) points: [DVec3; 2],
+    /// What corners they are combined of.
+    spots: [Corners<3>; 2],
+    /// Of any length.
+    pub(crate) axis: DVec3,
+}
+
+impl Witness {
+    /// Of a pair at which a march may stop; of an edge or face and a face, of which it never stops,
+    /// two of their corners.
+    #[inline]
+    pub(crate) fn of(places: &Places<'_>, pair: Pair) -> Self {
+        let Places { a, b, scale } = places;
+        match (pair.a, pair.b) {
+            (Feature::Vertex(v), Feature::Vertex(w)) => vertex_vertex(a, v, b, w),
+            (Feature::Vertex(v), Feature::Edge(e)) => vertex_edge(a, v, b, e),
+            (Feature::Edge(e), Feature::Vertex(v)) => vertex_edge(b, v, a, e).swapped(),
+            (Feature::Edge(e), Feature::Edge(f)) => edge_edge(a, e, b, f, *scale),
+            (Feature::Vertex(v), Feature::Face(f)) => vertex_face(a, v, b, f),
+            (Feature::Face(f), Feature::Vertex(v)) => vertex_face(b, v, a, f).swapped(),
+            (x, y) => vertex_vertex(a, first_corner(a.shape(), x), b, first_corner(b.shape(), y)),
+        }
+    }
+
+    pub(crate) fn way(&self) -> DVec3 {
+        self.points[1] - self.points[0]
+    }
+
+    pub(crate) fn distance(&self) -> f64 {
+        self.way().length()
+    }
+
+    #[inline]
+    pub(crate) fn claim(&self, places: &Places<'_>) -> Claim {
+        Claim {
+            axis: self.axis,
+            a: named(places.a.shape(), &self.spots[0]),
+            b: named(places.b.shape(), &self.spots[1]),
+        }
+    }
+
+    #[inline]
+    fn swapped(self) -> Self {
+        let ([x, y], [on_x, on_y]) = (self.points, self.spots);
+        Witness {
+            points: [y, x],
+            spots: [on_y, on_x],
+            axis: -self.axis,
+        }
+    }
+}
+
+/// The claim of a proven common point, along the normal of the face that shows it.
+pub(crate) fn common(places: &Places<'_>, whose: Whose, crossing: &Crossing) -> Claim {
+    let (a, b) = (&places.a, &places.b);
+    let on_edge = |shape| named(shape, &crossing.on_edge);
+    let on_face = |shape| named(shape, &crossing.on_face);
+    match whose {
+        Whose::X => Claim {
+            axis: -b.vector(b.shape().face(crossing.face).normal),
+            a: on_edge(a.shape()),
+            b: on_face(b.shape()),
+        },
+        Whose::Y => Claim {
+            axis: a.shape().face(crossing.face).normal,
+            a: on_face(a.shape()),
+            b: on_edge(b.shape()),
+        },
+    }
+}
+
+#[inline]
+fn vertex_vertex<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y, w: u32) -> Witness {
+    let points = [x.vertex(v), y.vertex(w)];
+    Witness {
+        points,
+        spots: [corner(v), corner(w)],
+        axis: points[1] - points[0],
+    }
+}
+
+#[inline]
+fn vertex_edge<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y, e: u32) -> Witness {
+    let (point, line) = (x.vertex(v), y.line(e));
+    let parameter = line.nearest(point);
+    let foot = line.at(parameter);
+    let way = foot - point;
+    Witness {
+        points: [point, foot],
+        spots: [corner(v), on_edge(y, e, parameter)],
+        axis: across(way, line.along),
+    }
+}
+
+#[inline]
+fn edge_edge<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32, scale: Scale) -> Witness {
+    let (one, other) = (x.line(e), y.line(f));
+    let near = edge_edge::nearest(&one, &other);
+    let [s, t] = near.parameters;
+    let points = [one.at(s), other.at(t)];
+    let way = points[1] - points[0];
+    // Rounding turns the cross product by its own over the sine, the way by the places' over the
+    // distance. What of that is along the edges, where it would cost their length, is taken off.
+    let sine = near.across.length();
+    let axis = if sine * scale.size > way.length() {
+        // Written so that NaN is no reason to turn.
+        let turned = if near.across.dot(way) < 0.0 {
+            -1.0
+        } else {
+            1.0
+        };
+        near.across * turned
+    } else {
+        way
+    };
+    let axis = across(across(axis, one.along), other.along);
+    Witness {
+        points,
+        spots: [on_edge(x, e, s), on_edge(y, f, t)],
+        axis,
+    }
+}
+
+#[inline]
+fn vertex_face<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y, f: u32) -> Witness {
+    let point = x.vertex(v);
+    let normal = y.vector(y.shape().face(f).normal);
+    let (foot, spot) = on_face(point, y, f, normal);
+    Witness {
+        points: [point, foot],
+        spots: [corner(v), spot],
+        axis: -normal,
+    }
+}
+
+/// What of a way is across a direction.
+#[inline]
+pub(crate) fn across(way: DVec3, along: DVec3) -> DVec3 {
+    way - along * way.dot(along)
+}
+
+#[inline]
+fn first_corner(shape: &Polytope, feature: Feature) -> u32 {
+    match feature {
+        Feature::Vertex(v) => v,
+        Feature::Edge(e) => shape.edge(e).ends[0],
+        Feature::Face(f) => shape.sides_of(f).first().map_or(0, |side| side.vertex),
+    }
+}
+
+/// Corners under the numbers that the piece's points have.
+#[inline]
+fn named<const N: usize>(shape: &Polytope, corners: &Corners<N>) -> Combination {
+    let mut out = Combination::EMPTY;
+    for (&v, &weight) in corners.vertices.iter().zip(&corners.weights) {
+        out.push(shape.vertex(v).number, weight);
+    }
+    out
+}
+
+#[inline]
+fn corner(v: u32) -> Corners<3> {
+    Corners {
+        vertices: [v; 3],
+        weights: [1.0, 0.0, 0.0],
+    }
+}
+
+#[inline]
+fn on_edge<P: Placed>(polytope: &P, e: u32, parameter: f64) -> Corners<3> {
+    let edge = polytope.shape().edge(e);
+    let [start, end] = edge.ends;
+    let share = parameter / edge.length;
+    Corners {
+        vertices: [start, end, end],
+        weights: [1.0 - share, share, 0.0],
+    }
+}
+
+/// The foot of a point on a face, clamped into one of the triangles of the fan about its first corner.
+#[inline]
+fn on_face<Y: Placed>(point: DVec3, y: &Y, f: u32, normal: DVec3) -> (DVec3, Corners<3>) {
+    let sides = y.shape().sides_of(f);
+    let at = |k: usize| y.vertex(sides[k].vertex);
+    let first = at(0);
+    let to_point = point - first;
+    // The fan's triangle on whose side of all diagonals before it the point is.
+    let left_of = |k: usize| normal.cross(at(k) - first).dot(to_point) >= 0.0;
+    let past = (2..sides.len().saturating_sub(1)).take_while(|&k| left_of(k));
+    let k = 1 + past.count();
+    let corners = [0, k, k + 1];
+    let triangle = [first, at(k), at(k + 1)];
+    let weights = foot(point, triangle, normal);
+    let [_, p, q] = triangle;
+    let spot = Corners {
+        vertices: corners.map(|k| sides[k].vertex),
+        weights,
+    };
+    (
+        first + weights[1] * (p - first) + weights[2] * (q - first),
+        spot,
+    )
+}
+
+/// The weights of a triangle's corners in the foot of a point that is above it.
+///
+/// They are taken across the longest side first, and along it so that they make good what that has
+/// left: of a needle, the one is as good as rounding lets it, and the other as the needle is wide.
+fn foot(point: DVec3, triangle: [DVec3; 3], normal: DVec3) -> [f64; 3] {
+    let square = |k: usize| triangle[(k + 1) % 3].distance_squared(triangle[k]);
+    let start = (1..3).fold(0, |best, k| if square(k) > square(best) { k } else { best });
+    let (end, apex) = ((start + 1) % 3, (start + 2) % 3);
+    let base = Line {
+        start: triangle[start],
+        along: triangle[end] - triangle[start],
+        length: square(start),
+    };
+    let upward = normal.cross(base.along);
+    let [to_point, to_apex] = [point, triangle[apex]].map(|p| p - base.start);
+    let of_apex = clamped(to_point.dot(upward) / to_apex.dot(upward), 1.0);
+    let along = (to_point - of_apex * to_apex).dot(base.along) / base.length;
+    let of_end = clamped(along, 1.0 - of_apex);
+    let mut weights = [0.0; 3];
+    weights[apex] = of_apex;
+    weights[end] = of_end;
+    weights[start] = 1.0 - of_apex - of_end;
+    weights
+}
+
+#[cfg(test)]
+mod tests;

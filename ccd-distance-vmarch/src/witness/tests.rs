@@ -1,0 +1,182 @@
+//! Nearest points on features, and what they are combined of.
+
+use super::{Witness, foot};
+use crate::feature::{Feature, Pair};
+use crate::tests::setting::{cube, edge, face, moved, needle, point, prepared, vertex};
+use crate::tests::shape::{self, Pcg64, RngExt, SeedableRng, magnitude, vector};
+use ccd_core::glam::DVec3;
+
+/// The witness of a pair, after its combinations were found to name its points.
+fn witness(
+    a: &shape::Shape,
+    b: &shape::Shape,
+    at: DVec3,
+    of: impl Fn(&crate::polytope::Polytope, &crate::polytope::Polytope) -> Pair,
+) -> Witness {
+    let (one, other) = (prepared(a), prepared(b));
+    let places = moved(&one, &other, at);
+    let witness = Witness::of(&places, of(&one, &other));
+    let claim = witness.claim(&places);
+    let on_a = claim.a.of(&a.points).expect("a point of A");
+    let on_b = claim.b.of(&b.points).expect("a point of B") + at;
+    // The witness is told from the middle of A.
+    assert!((on_a - one.origin).distance(witness.points[0]) < 1e-15);
+    assert!((on_b - one.origin).distance(witness.points[1]) < 1e-15);
+    witness
+}
+
+#[test]
+fn features_have_nearest_points() {
+    let cuboid = shape::cuboid(DVec3::ONE);
+    let at = DVec3::new(0.25, 3.0, 4.0);
+    let single = shape::few(&[DVec3::ZERO]);
+    let corner = witness(&cuboid, &single, at, |a, _| Pair {
+        a: Feature::Vertex(vertex(a, DVec3::ONE)),
+        b: Feature::Vertex(0),
+    });
+    assert_eq!(corner.axis, at - DVec3::ONE);
+    let side = witness(&cuboid, &single, at, |a, _| Pair {
+        a: Feature::Edge(edge(a, DVec3::Y + DVec3::Z)),
+        b: Feature::Vertex(0),
+    });
+    assert_eq!(side.way(), DVec3::new(0.0, 2.0, 3.0));
+    assert_eq!(side.axis, side.way());
+    let top = witness(&cuboid, &single, DVec3::new(0.25, -0.5, 4.0), |a, _| Pair {
+        a: Feature::Face(face(a, DVec3::Z)),
+        b: Feature::Vertex(0),
+    });
+    assert_eq!((top.way(), top.axis), (3.0 * DVec3::Z, DVec3::Z));
+    let back = witness(&single, &cuboid, DVec3::new(0.25, -0.5, -4.0), |_, b| {
+        Pair {
+            a: Feature::Vertex(0),
+            b: Feature::Face(face(b, DVec3::Z)),
+        }
+    });
+    assert_eq!((back.way(), back.axis), (-3.0 * DVec3::Z, -DVec3::Z));
+    let across = shape::few(&[-DVec3::Y, DVec3::Y]);
+    let crossed = witness(
+        &shape::few(&[-DVec3::X, DVec3::X]),
+        &across,
+        2.0 * DVec3::Z,
+        |_, _| Pair {
+            a: Feature::Edge(0),
+            b: Feature::Edge(0),
+        },
+    );
+    assert_eq!(
+        (crossed.way(), crossed.axis.normalize()),
+        (2.0 * DVec3::Z, DVec3::Z)
+    );
+}
+
+/// Of nearest points that are next to each other, the axis is that of the edges, not of rounding.
+#[test]
+fn axes_are_those_of_the_features() {
+    let (one, other) = (
+        needle(DVec3::new(0.3, 0.9, 0.1)),
+        needle(DVec3::new(-0.7, 0.2, 0.4)),
+    );
+    let normal = DVec3::new(0.3, 0.9, 0.1)
+        .cross(DVec3::new(-0.7, 0.2, 0.4))
+        .normalize();
+    for gap in [1e-3, 1e-9, 1e-15] {
+        for side in [normal, -normal] {
+            let places = moved(&one, &other, gap * side);
+            let pair = Pair {
+                a: Feature::Edge(0),
+                b: Feature::Edge(0),
+            };
+            let axis = Witness::of(&places, pair).axis.normalize();
+            assert!(axis.distance(side) < 1e-15, "{gap}: {axis} {side}");
+        }
+    }
+}
+
+#[test]
+fn what_is_never_a_stop_has_points_all_the_same() {
+    let (cube, point) = (cube(), point());
+    let places = moved(&cube, &cube, 4.0 * DVec3::X);
+    let pair = Pair {
+        a: Feature::Face(0),
+        b: Feature::Face(1),
+    };
+    assert!(Witness::of(&places, pair).distance() >= 2.0);
+    assert_eq!(point.reach, 0.0);
+}
+
+/// Feet on triangles of any shape are combined of the corners to rounding of their size.
+#[test]
+fn feet_are_right_on_needles() {
+    let mut rng = Pcg64::seed_from_u64(4);
+    for _ in 0..20_000 {
+        let thin = magnitude(&mut rng, -12.0, 0.0);
+        let corners = [(); 3].map(|()| {
+            let v = vector(&mut rng);
+            DVec3::new(v.x, thin * v.y, 0.0)
+        });
+        let area = (corners[1] - corners[0]).cross(corners[2] - corners[0]).z;
+        let triangle = if area > 0.0 {
+            corners
+        } else {
+            [corners[0], corners[2], corners[1]]
+        };
+        let (s, t): (f64, f64) = (rng.random_range(0.0..0.5), rng.random_range(0.0..0.5));
+        let below = triangle[0] + s * (triangle[1] - triangle[0]) + t * (triangle[2] - triangle[0]);
+        let weights = foot(
+            below + rng.random_range(0.0..2.0) * DVec3::Z,
+            triangle,
+            DVec3::Z,
+        );
+        let named: DVec3 = (0..3).map(|k| weights[k] * triangle[k]).sum();
+        assert!(
+            named.distance(below) < 2e-15,
+            "{triangle:?}: {named} {below}"
+        );
+        assert!(weights.iter().all(|w| (0.0..=1.0).contains(w)));
+    }
+}
+
+#[test]
+fn feet_beside_the_triangle_are_clamped_into_it() {
+    let triangle = [DVec3::ZERO, 2.0 * DVec3::X, DVec3::Y];
+    for (x, y) in [
+        (9.0, 9.0),
+        (-1.0, -1.0),
+        (5.0, -1.0),
+        (0.5, 7.0),
+        (f64::NAN, 0.0),
+    ] {
+        let weights = foot(DVec3::new(x, y, 1.0), triangle, DVec3::Z);
+        assert!(
+            weights.iter().all(|w| (0.0..=1.0).contains(w)),
+            "{weights:?}"
+        );
+        assert!((weights.iter().sum::<f64>() - 1.0).abs() < 1e-15);
+    }
+}
+
+/// Needles that cross at a small angle, close by: rounding of the axis along them would cost a
+/// hundred times what their places are rounded by.
+#[test]
+fn axes_certify_what_crosses_at_any_angle() {
+    let mut rng = Pcg64::seed_from_u64(9);
+    for _ in 0..5_000 {
+        let (angle, gap) = (
+            magnitude(&mut rng, -9.0, 0.0),
+            magnitude(&mut rng, -9.0, 0.0),
+        );
+        let way = shape::direction(&mut rng);
+        let normal = way.any_orthonormal_vector();
+        let other = ccd_core::glam::DQuat::from_axis_angle(normal, angle) * way;
+        let (one, other) = (needle(0.9 * way), needle(0.8 * other));
+        let places = moved(&one, &other, gap * normal + 0.1 * way);
+        let pair = Pair {
+            a: Feature::Edge(0),
+            b: Feature::Edge(0),
+        };
+        let witness = Witness::of(&places, pair);
+        let gap = crate::certificate::gap(&places, witness.axis.normalize());
+        let short = witness.distance() - gap;
+        assert!(short <= 2e-15, "{short:e} at {angle:e}, {gap:e}");
+    }
+}
