@@ -5,7 +5,7 @@ mod table;
 
 pub use agreement::disagreements;
 
-use crate::engine::{Method, ScheduleKind};
+use crate::engine::{Method, OracleKind, ScheduleKind};
 use crate::progress::Progress;
 use crate::query::{Settings, Timed, run};
 use crate::scene::{Models, SCENES, Scene, SceneError};
@@ -56,9 +56,9 @@ pub enum DemoError {
     Output(#[from] io::Error),
 }
 
-/// A schedule without a tree is only run where there are at most this many pairs of pieces; it
-/// looks at all of them in every step.
-const MOST_PAIRS_FOR_NAIVE: u64 = 100_000;
+/// A schedule without a tree is only run where pairs of pieces times queries come to at most this; it
+/// looks at all pairs in every step.
+const MOST_FOR_NAIVE: u64 = 2_000_000;
 
 /// Runs every method on every scene, one query after another on one thread, and writes the table.
 ///
@@ -101,15 +101,16 @@ fn scenes(options: &DemoOptions) -> Result<Vec<Scene>, SceneError> {
         .collect()
 }
 
-/// The methods that a scene is small enough for, the one that others are held against first.
+/// The methods that a scene is small enough for, the one that others are held against first. Large
+/// hulls, which closed forms are not for, are left to the oracles that are made for them.
 fn methods(scene: &Scene) -> impl Iterator<Item = Method> {
-    let all_pairs = scene.pairs() <= MOST_PAIRS_FOR_NAIVE;
-    let hull_trees = [&scene.a, &scene.b]
-        .iter()
-        .all(|b| b.body.hull_tree().is_some());
+    let all_pairs = scene.pairs() * scene.queries.len() as u64 <= MOST_FOR_NAIVE;
     Method::all().filter(move |method| match method.schedule {
         ScheduleKind::BestFirst => true,
-        ScheduleKind::HullFirst | ScheduleKind::Fast => hull_trees,
+        ScheduleKind::HullFirst | ScheduleKind::Fast => {
+            matches!(method.oracle, OracleKind::Gjk | OracleKind::Vmarch)
+                && scene.bodies_for(method.schedule).is_some()
+        }
         ScheduleKind::Naive => all_pairs,
     })
 }
@@ -127,7 +128,10 @@ fn measure(scene: &Scene, progress: &Progress) -> Result<Vec<Measurement>, DemoE
             method,
             ..Settings::default()
         };
-        let timed = run(scene.bodies(), &queries, &settings, progress)?
+        let bodies = scene
+            .bodies_for(method.schedule)
+            .unwrap_or_else(|| scene.bodies());
+        let timed = run(bodies, &queries, &settings, progress)?
             .into_iter()
             .collect::<Result<Vec<Timed>, InputError>>()
             .map_err(|source| DemoError::Query {

@@ -8,14 +8,15 @@ mod tests;
 pub use fall::Fall;
 pub use shots::{Shots, drops_past_board};
 
+use crate::engine::ScheduleKind;
 use crate::model::{Model, Origin};
 use crate::motions::Query;
 use crate::query::Bodies;
 use ccd_core::{Body, InputError};
-use ccd_decomp::{BodyError, Detail, body_from_mesh};
+use ccd_decomp::{BodyError, Detail, Order, TriangleMesh, body_from_mesh, prepare};
 use std::collections::HashMap;
 use std::path::PathBuf;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// Two bodies, and many motions of them.
 #[derive(Clone, Debug)]
@@ -39,6 +40,20 @@ pub struct SceneBody {
     pub triangles: usize,
     /// Where its mesh comes from.
     pub origin: Origin,
+    mesh: Arc<TriangleMesh>,
+    patches: Arc<OnceLock<Option<Body>>>,
+}
+
+impl SceneBody {
+    /// The same body as the paper has it, made when it is first asked for: patches of the surface
+    /// under a hull tree. None where the mesh bounds no solid.
+    pub fn patches(&self) -> Option<&Body> {
+        let make = || {
+            let patches = prepare(&self.mesh, Detail::Patches(Order::Cresting)).ok()?;
+            patches.with_hull_tree().ok()?.body().ok()
+        };
+        self.patches.get_or_init(make).as_ref()
+    }
 }
 
 /// Why a scene cannot be made.
@@ -71,6 +86,17 @@ impl Scene {
         Bodies {
             a: &self.a.body,
             b: &self.b.body,
+        }
+    }
+
+    /// Both bodies as a schedule wants them; none where they cannot be had so.
+    pub fn bodies_for(&self, schedule: ScheduleKind) -> Option<Bodies<'_>> {
+        match schedule.uses_hull_trees() {
+            true => Some(Bodies {
+                a: self.a.patches()?,
+                b: self.b.patches()?,
+            }),
+            false => Some(self.bodies()),
         }
     }
 
@@ -107,6 +133,8 @@ impl Models {
             body: Arc::new(prepared.body),
             triangles: loaded.mesh.faces().len(),
             origin: loaded.origin,
+            mesh: Arc::new(loaded.mesh),
+            patches: Arc::default(),
         };
         self.bodies.insert(model, body.clone());
         Ok(body)

@@ -25,49 +25,22 @@ pub(crate) fn next<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32, scale: Sc
         [None, Some(w)] => return Next::To(Feature::Edge(e), Feature::Vertex(w)),
         [None, None] => {}
     }
-    let way = other.at(near.parameters[1]) - one.at(near.parameters[0]);
-    let rounding = scale.rounding();
-    let distance = way.length();
-    if distance <= rounding {
+    let points = [one.at(near.parameters[0]), other.at(near.parameters[1])];
+    let way = points[1] - points[0];
+    if way.length() <= scale.rounding() {
         return Next::Stop(Tied);
     }
-    // The way as it is, or the direction across both edges: whichever rounding turns less.
-    let sine = near.across.length();
-    let (axis, slack) = if sine * scale.size > distance {
-        let turned = if near.across.dot(way) < 0.0 {
-            -1.0
-        } else {
-            1.0
-        };
-        (near.across * turned, LEVEL)
-    } else {
-        (way, rounding)
-    };
-    let slope_x = x.inward(edge_x, axis);
-    if let Some(side) = side_faced(x, edge_x, slope_x, slack, way) {
-        let behind = Behind {
-            feature: Feature::Edge(f),
-            point: other.at(near.parameters[1]),
-            face: side.face,
-        };
-        return match side.below {
-            Below::No => Next::To(Feature::Face(side.face), Feature::Edge(f)),
-            Below::Both => Next::Behind(Whose::Y, behind),
-        };
+    let facing = Facing::new(&near, way, scale);
+    let slope_x = x.inward(edge_x, facing.axis);
+    if let Some(side) = facing.side(x, edge_x, slope_x) {
+        return side.reached_by(Feature::Edge(f), points[1]);
     }
-    let slope_y = y.inward(edge_y, -axis);
-    if let Some(side) = side_faced(y, edge_y, slope_y, slack, -way) {
-        let behind = Behind {
-            feature: Feature::Edge(e),
-            point: one.at(near.parameters[0]),
-            face: side.face,
-        };
-        return match side.below {
-            Below::No => Next::To(Feature::Edge(e), Feature::Face(side.face)),
-            Below::Both => Next::Behind(Whose::X, behind),
-        };
+    let facing = facing.reversed();
+    let slope_y = y.inward(edge_y, facing.axis);
+    if let Some(side) = facing.side(y, edge_y, slope_y) {
+        return side.reached_by(Feature::Edge(e), points[0]).swapped();
     }
-    let clear = edge_x.is_clear(slope_x, slack) && edge_y.is_clear(slope_y, slack);
+    let clear = edge_x.is_clear(slope_x, facing.slack) && edge_y.is_clear(slope_y, facing.slack);
     Next::Stop(if clear { Sure } else { Tied })
 }
 
@@ -120,49 +93,92 @@ fn end_of(edge: &Edge, parameter: f64) -> Option<u32> {
     }
 }
 
-/// The face on whose side of an edge something lies.
-struct Side {
-    face: u32,
-    below: Below,
-}
-
-enum Below {
-    No,
-    /// Below the other face, too, and farther.
-    Both,
-}
-
-#[inline(always)]
-fn side_faced<P: Placed>(
-    p: &P,
-    edge: &Edge,
-    slopes: [f64; 2],
-    slack: f64,
+/// From one edge's nearest point to the other's.
+#[derive(Clone, Copy)]
+struct Facing {
     way: DVec3,
-) -> Option<Side> {
-    let face = match slopes.map(|slope| slope > slack) {
-        [false, false] => return None,
-        [true, false] => edge.faces[0],
-        [false, true] => edge.faces[1],
-        [true, true] => {
-            let height = edge
-                .faces
-                .map(|f| p.vector(p.shape().face(f).normal).dot(way));
-            let higher = usize::from(height[1] > height[0]);
-            return Some(Side {
-                face: edge.faces[higher],
-                below: if height[higher] > 0.0 {
-                    Below::No
-                } else {
-                    Below::Both
-                },
-            });
+    /// As it is, or the direction across both edges: whichever rounding turns less.
+    axis: DVec3,
+    /// What of a product with the axis is rounding.
+    slack: f64,
+}
+
+impl Facing {
+    #[inline(always)]
+    fn new(near: &Near, way: DVec3, scale: Scale) -> Self {
+        let across = near.across;
+        let turned = if across.dot(way) < 0.0 { -1.0 } else { 1.0 };
+        if across.length() * scale.size > way.length() {
+            Facing {
+                way,
+                axis: across * turned,
+                slack: LEVEL,
+            }
+        } else {
+            Facing {
+                way,
+                axis: way,
+                slack: scale.rounding(),
+            }
         }
-    };
-    Some(Side {
-        face,
-        below: Below::No,
-    })
+    }
+
+    #[inline(always)]
+    fn reversed(self) -> Self {
+        Facing {
+            way: -self.way,
+            axis: -self.axis,
+            ..self
+        }
+    }
+
+    /// The face of an edge on whose side the other point lies; of two, the one that it is higher
+    /// above, or less far below.
+    #[inline(always)]
+    fn side<P: Placed>(self, p: &P, edge: &Edge, slopes: [f64; 2]) -> Option<Side> {
+        let one = |face| Some(Side::Before(face));
+        match slopes.map(|slope| slope > self.slack) {
+            [false, false] => None,
+            [true, false] => one(edge.faces[0]),
+            [false, true] => one(edge.faces[1]),
+            [true, true] => {
+                let normal = |f| p.vector(p.shape().face(f).normal);
+                let height = edge.faces.map(|f| normal(f).dot(self.way));
+                let higher = usize::from(height[1] > height[0]);
+                let face = edge.faces[higher];
+                if height[higher] > 0.0 {
+                    one(face)
+                } else {
+                    Some(Side::Behind(face))
+                }
+            }
+        }
+    }
+}
+
+/// Where a point lies that is not in an edge's region.
+enum Side {
+    /// On the side of this face.
+    Before(u32),
+    /// Behind both faces that meet in the edge, less far behind this one.
+    Behind(u32),
+}
+
+impl Side {
+    /// X's face, and Y's feature that has the point.
+    fn reached_by(&self, feature: Feature, point: DVec3) -> Next {
+        match *self {
+            Side::Before(face) => Next::To(Feature::Face(face), feature),
+            Side::Behind(face) => Next::Behind(
+                Whose::Y,
+                Behind {
+                    feature,
+                    point,
+                    face,
+                },
+            ),
+        }
+    }
 }
 
 #[cfg(test)]

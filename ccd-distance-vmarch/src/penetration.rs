@@ -103,7 +103,8 @@ fn straddled<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32, scale: Scale) -
 /// Whether a segment and a triangle that is not in one plane with it have a point in common.
 fn passes([start, end]: [DVec3; 2], triangle: [DVec3; 3]) -> bool {
     let (first, last) = (side(triangle, start), side(triangle, end));
-    if first * last > 0.0 || (first == 0.0 && last == 0.0) {
+    let beside = (first > 0.0 && last > 0.0) || (first < 0.0 && last < 0.0);
+    if beside || (first == 0.0 && last == 0.0) {
         return false;
     }
     let [a, b, c] = triangle;

@@ -8,7 +8,7 @@ use crate::oracle::Counters;
 use crate::penetration;
 use crate::place::Places;
 use crate::start::extremal;
-use crate::tolerance::{CYCLE_LOOK, FAR, ROUNDS};
+use crate::tolerance::{CYCLE_LOOK, FAR, RESTARTS, ROUNDS};
 use crate::witness::{self, Witness};
 use ccd_core::glam::DVec3;
 use ccd_core::{Claim, GiveUp};
@@ -31,46 +31,26 @@ pub(crate) fn settle(
     first: End,
     counters: &mut Counters,
 ) -> Result<Answer, GiveUp> {
-    let mut end = first;
+    let (mut end, mut restarts) = (first, 0);
     let mut why = GiveUp::Cycle;
     for _ in 0..ROUNDS {
-        let verdict = match end {
-            End::Nearest(pair, certainty) => weigh(places, pair, certainty),
-            End::Common(pair, whose, crossing) => {
-                counters.penetrations += 1;
-                let claim = witness::common(places, whose, &crossing);
-                Verdict::Settled(Answer { pair, claim })
-            }
-            End::Cycle(pair) => weigh_cycle(places, pair),
-            End::Unclear(pair) => match search(places, pair) {
-                Some(answer) => {
-                    counters.penetrations += 1;
-                    Verdict::Settled(answer)
-                }
-                None => weigh_cycle(places, pair),
-            },
-            End::Cap(pair) => {
-                why = GiveUp::StepCap;
-                weigh_cycle(places, pair)
-            }
-        };
-        let from = match verdict {
+        if let End::Cap(_) = end {
+            why = GiveUp::StepCap;
+        }
+        let from = match judge(places, end, counters) {
             Verdict::Settled(answer) => return Ok(answer),
             Verdict::Nearer(pair) => pair,
+            Verdict::Doubtful(_) if restarts == RESTARTS => break,
             Verdict::Doubtful(axis) => {
                 counters.restarts += 1;
+                restarts += 1;
                 extremal(places, axis)
             }
         };
         end = march(places, from, counters);
     }
-    match search(places, extremal(places, places.b.origin())) {
-        Some(answer) => {
-            counters.penetrations += 1;
-            Ok(answer)
-        }
-        None => Err(why),
-    }
+    let found = search(places, extremal(places, places.b.origin()), counters);
+    found.ok_or(why)
 }
 
 /// What an end is worth.
@@ -80,6 +60,22 @@ enum Verdict {
     Nearer(Pair),
     /// It is not certified; this is the best axis so far.
     Doubtful(DVec3),
+}
+
+fn judge(places: &Places<'_>, end: End, counters: &mut Counters) -> Verdict {
+    match end {
+        End::Nearest(pair, certainty) => weigh(places, pair, certainty),
+        End::Common(pair, whose, crossing) => {
+            counters.penetrations += 1;
+            let claim = witness::common(places, whose, &crossing);
+            Verdict::Settled(Answer { pair, claim })
+        }
+        End::Unclear(pair) => match search(places, pair, counters) {
+            Some(answer) => Verdict::Settled(answer),
+            None => weigh_cycle(places, pair),
+        },
+        End::Cycle(pair) | End::Cap(pair) => weigh_cycle(places, pair),
+    }
 }
 
 /// A stop, certified where it has to be.
@@ -142,15 +138,15 @@ fn weigh_cycle(places: &Places<'_>, start: Pair) -> Verdict {
 }
 
 /// Looks for a common point among all edges and faces.
-fn search(places: &Places<'_>, pair: Pair) -> Option<Answer> {
+fn search(places: &Places<'_>, pair: Pair, counters: &mut Counters) -> Option<Answer> {
     let Places { a, b, scale } = places;
     let of = |whose| move |crossing| (whose, crossing);
     let found = penetration::searched(a, b, *scale).map(of(Whose::X));
     let found = found.or_else(|| penetration::searched(b, a, *scale).map(of(Whose::Y)));
-    found.map(|(whose, crossing)| Answer {
-        pair,
-        claim: witness::common(places, whose, &crossing),
-    })
+    let (whose, crossing) = found?;
+    counters.penetrations += 1;
+    let claim = witness::common(places, whose, &crossing);
+    Some(Answer { pair, claim })
 }
 
 #[cfg(test)]

@@ -32,10 +32,9 @@ pub(crate) const PARALLEL: f64 = 16.0 * U;
 pub(crate) const FAR: f64 = 1.0 / 4.0;
 
 /// How far the distance of the witnesses may exceed the gap along the axis for both to count as
-/// certified, in units of the pair's size: [`PLACE`] for the distance, and as much for the gap. More
-/// would let a tie pass that has something nearer around it; less would look around where there is
-/// nothing to be found.
-pub(crate) const CERTIFIED: f64 = 32.0 * U;
+/// certified, in units of the pair's size: [`PLACE`]. More would let a tie pass that has something
+/// nearer around it; less would look around where there is nothing to be found.
+pub(crate) const CERTIFIED: f64 = 16.0 * U;
 
 /// The same in units of the distance, for pieces that are much farther apart than they are large.
 pub(crate) const CERTIFIED_SHARE: f64 = 32.0 * U;
@@ -65,9 +64,13 @@ pub(crate) const STEPS_PER_FEATURE: usize = 4;
 /// How many pairs of a cycle are looked at for the best one. Cycles are two to six pairs long.
 pub(crate) const CYCLE_LOOK: usize = 64;
 
-/// How often a march is taken up again: after a cycle from the corners that are extremal along the
-/// best axis, after a stop at a tie from the nearest features all around it.
+/// How often a march is taken up again at a tie, from nearer features around it. Each time they are
+/// nearer by more than rounding; one or two were enough in a million pairs.
 pub(crate) const ROUNDS: usize = 8;
+
+/// How often a march is taken up again from the corners that are extremal along the best axis, after a
+/// cycle or the like, before it is given up.
+pub(crate) const RESTARTS: u32 = 2;
 
 /// Of this many edges of each polytope, those closest to a right angle to the way between the nearest
 /// points, axes are made when that way is rounding: five to ten meet in a common corner.

@@ -1,7 +1,7 @@
 //! The contract of oracles, over every oracle and every size of piece.
 
-use ccd_core::{DistanceOracle, OrElse};
 use ccd_core::glam::{DQuat, DVec3};
+use ccd_core::{DistanceOracle, OrElse};
 use ccd_distance_gjk::{Auto, Direct, Gjk, GjkF32};
 use ccd_distance_vmarch::Vmarch;
 use ccd_tests::contract::{Pair, bounds_law, cache_law, ends_law};

@@ -1,6 +1,6 @@
 //! The demo's table and what has to be said about it.
 
-use super::{MOST_PAIRS_FOR_NAIVE, Measurement};
+use super::{MOST_FOR_NAIVE, Measurement};
 use crate::model::Origin;
 use crate::results::Status;
 use crate::scene::Scene;
@@ -104,8 +104,9 @@ pub(super) fn write_notes(
     )?;
     writeln!(
         output,
-        "`naive` looks at every pair of pieces in every step: it is run only where there are at most \
-         {MOST_PAIRS_FOR_NAIVE} of them."
+        "`fast` and `hull-first` work on convex patches under hull trees, the others on what serves \
+         best. `naive` looks at every pair of pieces in every step: it is run only where pairs times \
+         rows are at most {MOST_FOR_NAIVE}."
     )?;
     if measured.iter().any(|(scene, _)| stands_in(scene)) {
         writeln!(

@@ -6,7 +6,7 @@ use super::twin::{self, Bare};
 use super::{Tally, cases};
 use crate::{Cache, Vmarch};
 use ccd_core::glam::{DMat3, DQuat, DVec3};
-use ccd_core::{DistanceOracle, Frame, GiveUp, Piece, PiecePair};
+use ccd_core::{Claim, Combination, DistanceOracle, Frame, GiveUp, Piece, PiecePair};
 use rstest::rstest;
 
 /// Of pieces that intersect by next to nothing, touch, or are apart by next to nothing, what is
@@ -295,5 +295,72 @@ fn place_does_not_matter() {
             Vmarch::default().separation(&far.pair(), &mut Cache::default()),
         );
         assert_eq!(tally.give_ups, 0);
+    }
+}
+
+/// What it cannot march over is another oracle's, and everything is counted.
+#[test]
+fn other_oracles_take_over_and_counts_are_kept() {
+    /// Claims the first points.
+    struct First;
+    impl DistanceOracle for First {
+        type Cache = ();
+        fn separation(&mut self, _: &PiecePair<'_>, (): &mut ()) -> Result<Claim, GiveUp> {
+            Ok(Claim {
+                axis: DVec3::X,
+                a: Combination::point(0),
+                b: Combination::point(0),
+            })
+        }
+    }
+    let cube = shape::cuboid(DVec3::ONE);
+    let bare = Shape {
+        loops: Vec::new(),
+        ..cube.clone()
+    };
+    let (cube, bare) = (Body::new(cube), Body::new(bare));
+    let scene = |b| Scene {
+        a: &cube,
+        b,
+        b_to_a: Frame {
+            translation: DVec3::new(3.0, 0.2, 0.1),
+            ..Frame::IDENTITY
+        },
+        gap: 1.0,
+    };
+    let (known, unknown) = (scene(&cube), scene(&bare));
+    let mut alone = Vmarch::default();
+    let refused = alone.separation(&unknown.pair(), &mut Cache::default());
+    assert_eq!(refused, Err(GiveUp::BadFacets));
+    let mut oracle = Vmarch::default().or_else(First);
+    let mut cache = Default::default();
+    for (scene, fallbacks) in [(&known, 0), (&unknown, 1), (&known, 1), (&unknown, 2)] {
+        assert!(oracle.separation(&scene.pair(), &mut cache).is_ok());
+        assert_eq!(oracle.fallbacks(), fallbacks);
+    }
+    assert!(oracle.effort().steps >= 2 && oracle.effort().fallbacks == 2);
+    let mut counted = Vmarch::default();
+    let mut cache = Cache::default();
+    for calls in 1..5 {
+        assert!(counted.separation(&known.pair(), &mut cache).is_ok());
+        assert_eq!(counted.counters().calls, calls);
+    }
+    assert_eq!(counted.effort().steps, counted.counters().steps);
+    // Once it knows where, it stays there.
+    let before = counted.counters().steps;
+    assert!(counted.separation(&known.pair(), &mut cache).is_ok());
+    assert_eq!(counted.counters().steps, before + 1);
+}
+
+/// The same call gives the same bits, whatever was asked before.
+#[test]
+fn answers_repeat() {
+    let mut rng = Pcg64::seed_from_u64(12);
+    let pool = scene::pool(Kind::Coplanar, &mut rng);
+    let mut used = Vmarch::default();
+    for _ in 0..500 {
+        let scene = scene::draw(Kind::Coplanar, &pool, &mut rng);
+        let fresh = Vmarch::default().separation(&scene.pair(), &mut Cache::default());
+        assert_eq!(used.separation(&scene.pair(), &mut Cache::default()), fresh);
     }
 }

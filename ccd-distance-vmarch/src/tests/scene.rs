@@ -40,96 +40,106 @@ pub(crate) enum Kind {
 
 /// The bodies that a kind is drawn from.
 pub(crate) fn pool(kind: Kind, rng: &mut Pcg64) -> Vec<Body> {
-    let mut out: Vec<Shape> = Vec::new();
-    let hulls = |rng: &mut Pcg64, counts: &[usize]| -> Vec<Shape> {
-        counts
-            .iter()
-            .map(|&count| shape::random_hull(rng, count))
-            .collect()
-    };
-    match kind {
-        Kind::Random => {
-            out.extend(hulls(rng, &[4, 4, 5, 6, 8, 8, 10, 12, 16, 20, 20, 24]));
-        }
-        Kind::NearParallel | Kind::Coplanar => {
-            out.push(shape::cuboid(DVec3::ONE));
-            out.push(shape::cuboid(DVec3::new(0.4, 0.7, 1.1)).triangulated());
-            out.extend([3, 4, 5, 6, 8, 12].map(shape::prism));
-            out.extend([3, 4, 6].map(shape::antiprism));
-            out.extend([4, 6].map(shape::bipyramid));
-            out.extend((0..6).map(|_| shape::grid_hull(rng, 9)));
-        }
-        Kind::Sliver => {
-            for count in [4, 5, 6, 8, 12] {
-                for _ in 0..4 {
-                    let squeeze =
-                        DVec3::new(1.0, magnitude(rng, -8.0, 0.0), magnitude(rng, -8.0, 0.0));
-                    let hull = shape::random_hull(rng, count);
-                    let points: Vec<DVec3> = hull.points.iter().map(|p| *p * squeeze).collect();
-                    out.push(shape::hull(&points));
-                }
-            }
-            out.extend([6, 10, 20].map(shape::cyclic));
-        }
-        Kind::Grid => {
-            out.push(shape::cuboid(DVec3::ONE));
-            out.push(shape::cuboid(DVec3::new(1.0, 2.0, 3.0)));
-            for count in [5, 6, 8, 12, 16, 20] {
-                out.push(shape::grid_hull(rng, count));
-                out.push(shape::grid_hull(rng, count).triangulated());
-            }
-        }
-        Kind::Plates => {
-            for _ in 0..6 {
-                let thin = magnitude(rng, -9.0, -2.0);
-                out.push(shape::cuboid(DVec3::new(1.0, 0.7, thin)));
-                out.push(shape::prism(7).mapped(|p| p * DVec3::new(1.0, 1.0, thin)));
-                out.push(shape::cuboid(DVec3::new(1.0, thin, thin)));
-            }
-        }
+    let shapes = match kind {
+        Kind::Random => hulls(rng, &[4, 4, 5, 6, 8, 8, 10, 12, 16, 20, 20, 24]),
+        Kind::NearParallel | Kind::Coplanar => with_faces(rng),
+        Kind::Sliver => slivers(rng),
+        Kind::Grid => on_a_grid(rng),
+        Kind::Plates => plates(rng),
         Kind::Prisms => {
-            out.extend([3, 5, 8, 16, 40, 100].map(shape::prism));
-            out.extend([3, 7, 24].map(shape::antiprism));
-            out.extend([3, 9, 40].map(shape::bipyramid));
+            let prisms = [3, 5, 8, 16, 40, 100].map(shape::prism).into_iter();
+            let antiprisms = [3, 7, 24].map(shape::antiprism);
+            let bipyramids = [3, 9, 40].map(shape::bipyramid);
+            prisms.chain(antiprisms).chain(bipyramids).collect()
         }
         Kind::Balls => {
-            out.extend(
-                [(3, 5), (6, 9), (9, 16), (19, 26), (31, 32)].map(|(r, c)| shape::globe(r, c)),
-            );
+            let sizes = [(3, 5), (6, 9), (9, 16), (19, 26), (31, 32)];
+            let mut out = sizes
+                .map(|(rings, count)| shape::globe(rings, count))
+                .to_vec();
             out.push(shape::globe(9, 16).triangulated());
             out.extend(hulls(rng, &[40]));
+            out
         }
-        Kind::Few => {
-            for _ in 0..4 {
-                let [p, q, r] = std::array::from_fn(|_| vector(rng));
-                out.push(shape::few(&[p]));
-                out.push(shape::few(&[p, q]));
-                out.push(shape::few(&[p, q, r]));
-                out.push(shape::few(&[
-                    p,
-                    q,
-                    p.lerp(q, 0.3) + magnitude(rng, -9.0, -1.0) * r,
-                ]));
-            }
-            out.extend(hulls(rng, &[6, 10]));
-        }
+        Kind::Few => of_few_points(rng),
         Kind::Flat => {
-            out.extend([3, 4, 6, 12, 40].map(shape::polygon));
+            let mut out = [3, 4, 6, 12, 40].map(shape::polygon).to_vec();
             out.push(shape::polygon(8).triangulated());
             out.push(shape::polygon(5).mapped(|p| p * DVec3::new(1.0, 1e-5, 1.0)));
             out.extend(hulls(rng, &[8]));
+            out
         }
-    }
-    // Every piece in a frame of its own.
-    let placed = out.into_iter().map(|shape| {
-        let whole = matches!(kind, Kind::Grid | Kind::Coplanar);
-        if whole || kind == Kind::Sliver {
-            return Body::new(shape);
-        }
+    };
+    // Most pieces in frames of their own; some lose what they are there for if they are turned.
+    let kept = matches!(kind, Kind::Grid | Kind::Coplanar | Kind::Sliver);
+    let placed = shapes.into_iter().map(|shape| {
         let (turn, shift) = (rotation(rng), vector(rng));
-        Body::new(shape.mapped(|p| turn * p + shift))
+        let placed = |p| if kept { p } else { turn * p + shift };
+        Body::new(shape.mapped(placed))
     });
     placed.collect()
+}
+
+fn hulls(rng: &mut Pcg64, counts: &[usize]) -> Vec<Shape> {
+    let hull = |&count: &usize| shape::random_hull(rng, count);
+    counts.iter().map(hull).collect()
+}
+
+fn with_faces(rng: &mut Pcg64) -> Vec<Shape> {
+    let mut out = vec![shape::cuboid(DVec3::ONE)];
+    out.push(shape::cuboid(DVec3::new(0.4, 0.7, 1.1)).triangulated());
+    out.extend([3, 4, 5, 6, 8, 12].map(shape::prism));
+    out.extend([3, 4, 6].map(shape::antiprism));
+    out.extend([4, 6].map(shape::bipyramid));
+    out.extend((0..6).map(|_| shape::grid_hull(rng, 9)));
+    out
+}
+
+fn slivers(rng: &mut Pcg64) -> Vec<Shape> {
+    let mut out = [6, 10, 20].map(shape::cyclic).to_vec();
+    for count in [4, 5, 6, 8, 12] {
+        for _ in 0..4 {
+            let mut thin = || magnitude(rng, -8.0, 0.0);
+            let squeeze = DVec3::new(1.0, thin(), thin());
+            let points: Vec<DVec3> = (0..count).map(|_| squeeze * direction(rng)).collect();
+            out.push(shape::hull(&points));
+        }
+    }
+    out
+}
+
+fn on_a_grid(rng: &mut Pcg64) -> Vec<Shape> {
+    let mut out = vec![shape::cuboid(DVec3::ONE)];
+    out.push(shape::cuboid(DVec3::new(1.0, 2.0, 3.0)));
+    for count in [5, 6, 8, 12, 16, 20] {
+        out.push(shape::grid_hull(rng, count));
+        out.push(shape::grid_hull(rng, count).triangulated());
+    }
+    out
+}
+
+fn plates(rng: &mut Pcg64) -> Vec<Shape> {
+    let mut out = Vec::new();
+    for _ in 0..6 {
+        let thin = magnitude(rng, -9.0, -2.0);
+        out.push(shape::cuboid(DVec3::new(1.0, 0.7, thin)));
+        out.push(shape::prism(7).mapped(|p| p * DVec3::new(1.0, 1.0, thin)));
+        out.push(shape::cuboid(DVec3::new(1.0, thin, thin)));
+    }
+    out
+}
+
+fn of_few_points(rng: &mut Pcg64) -> Vec<Shape> {
+    let mut out = hulls(rng, &[6, 10]);
+    for _ in 0..4 {
+        let [p, q, r] = std::array::from_fn(|_| vector(rng));
+        let beside = p.lerp(q, 0.3) + magnitude(rng, -9.0, -1.0) * r;
+        out.push(shape::few(&[p]));
+        out.push(shape::few(&[p, q]));
+        out.push(shape::few(&[p, q, r]));
+        out.push(shape::few(&[p, q, beside]));
+    }
+    out
 }
 
 pub(crate) fn rotation(rng: &mut Pcg64) -> DQuat {
