@@ -25,8 +25,8 @@
 //!
 //! # Guarantee
 //! Of pieces whose size and distance are together s:
-//! - Separated pieces: the witnesses' distance is the pieces' to 1e-14 s. The axis certifies it to
-//!   2e-14 s, however near they are: it is made of the features that hold the witnesses.
+//! - Separated pieces: the witnesses' distance is the pieces', and the axis certifies it, to 1e-14 s
+//!   either, however near they are: the axis is made of the features that hold the witnesses.
 //! - Intersecting pieces: both witnesses name the same point, to 1e-14 s, and exact signs prove that
 //!   the pieces, as they are placed, have one in common. Pieces that come within 2e-15 s of each
 //!   other may be said to touch instead: at the witnesses they do, to that distance.
@@ -34,7 +34,7 @@
 //! - Every input ends after a bounded number of steps, and the same input gives the same bits.
 //!
 //! The size s is that of the pieces, not of their coordinates: those only bring the rounding they were
-//! given with.
+//! given with. All that for sizes and distances from 1e-45 to 1e12.
 //!
 //! # States and transitions
 //! A state is a pair of features, V, E or F; every test is made in A's frame.

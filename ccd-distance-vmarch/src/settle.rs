@@ -81,60 +81,61 @@ fn judge(places: &Places<'_>, end: End, counters: &mut Counters) -> Verdict {
 /// A stop, certified where it has to be.
 fn weigh(places: &Places<'_>, pair: Pair, certainty: Certainty) -> Verdict {
     let witness = Witness::of(places, pair);
-    let distance = witness.distance();
-    let settled = |axis| {
-        let claim = Claim {
-            axis,
-            ..witness.claim(places)
-        };
-        Verdict::Settled(Answer { pair, claim })
-    };
-    if certainty == Certainty::Sure || distance >= FAR * places.scale.size {
-        return settled(witness.axis);
+    if certainty == Certainty::Sure || witness.distance() >= FAR * places.scale.size {
+        return settled(places, pair, &witness, witness.axis);
     }
-    let axis = best_axis(places, pair, &witness);
-    if axis.certifies(distance, places) || distance <= places.scale.rounding() {
-        return settled(axis.direction);
-    }
-    match around::nearer(places, pair, distance) {
-        Some(nearer) => Verdict::Nearer(nearer),
-        // As near as it gets: what is left of doubt is the axis'.
-        None if axis.gap >= 0.5 * distance => settled(axis.direction),
-        None => Verdict::Doubtful(axis.direction),
-    }
+    certify(places, pair)
 }
 
 /// The best pair of a cycle.
 fn weigh_cycle(places: &Places<'_>, start: Pair) -> Verdict {
     let (mut pair, mut nearest) = (start, start);
-    let mut witness = Witness::of(places, start);
+    let mut least = Witness::of(places, start).distance();
     for _ in 0..CYCLE_LOOK {
         match step(places, pair) {
             Next::To(a, b) => pair = Pair { a, b },
             _ => break,
         }
-        let here = Witness::of(places, pair);
-        if here.distance() < witness.distance() {
-            (nearest, witness) = (pair, here);
+        let distance = Witness::of(places, pair).distance();
+        if distance < least {
+            (nearest, least) = (pair, distance);
         }
         if pair == start {
             break;
         }
     }
-    let pair = nearest;
-    let axis = best_axis(places, pair, &witness);
-    let distance = witness.distance();
-    if axis.certifies(distance, places) {
-        let claim = Claim {
-            axis: axis.direction,
-            ..witness.claim(places)
-        };
-        return Verdict::Settled(Answer { pair, claim });
+    certify(places, nearest)
+}
+
+/// Certifies a pair, or one that is nearer around it: a march back from there might end at the same
+/// tie.
+fn certify(places: &Places<'_>, start: Pair) -> Verdict {
+    let mut pair = start;
+    for _ in 0..ROUNDS {
+        let witness = Witness::of(places, pair);
+        let distance = witness.distance();
+        let axis = best_axis(places, pair, &witness);
+        if axis.certifies(distance, places) || distance <= places.scale.rounding() {
+            return settled(places, pair, &witness, axis.direction);
+        }
+        match around::nearer(places, pair, distance) {
+            Some(nearer) => pair = nearer,
+            // As near as it gets: what is left of doubt is the axis'.
+            None if axis.gap >= 0.5 * distance => {
+                return settled(places, pair, &witness, axis.direction);
+            }
+            None => return Verdict::Doubtful(axis.direction),
+        }
     }
-    match around::nearer(places, pair, distance) {
-        Some(nearer) => Verdict::Nearer(nearer),
-        None => Verdict::Doubtful(axis.direction),
-    }
+    Verdict::Nearer(pair)
+}
+
+fn settled(places: &Places<'_>, pair: Pair, witness: &Witness, axis: DVec3) -> Verdict {
+    let claim = Claim {
+        axis,
+        ..witness.claim(places)
+    };
+    Verdict::Settled(Answer { pair, claim })
 }
 
 /// Looks for a common point among all edges and faces.

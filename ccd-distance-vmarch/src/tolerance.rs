@@ -64,8 +64,8 @@ pub(crate) const STEPS_PER_FEATURE: usize = 4;
 /// How many pairs of a cycle are looked at for the best one. Cycles are two to six pairs long.
 pub(crate) const CYCLE_LOOK: usize = 64;
 
-/// How often a march is taken up again at a tie, from nearer features around it. Each time they are
-/// nearer by more than rounding; one or two were enough in a million pairs.
+/// How often one goes on to nearer features around a tie before the march takes over again. Each time
+/// they are nearer by more than rounding; one or two were enough in a million pairs.
 pub(crate) const ROUNDS: usize = 8;
 
 /// How often a march is taken up again from the corners that are extremal along the best axis, after a

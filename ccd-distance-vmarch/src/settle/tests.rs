@@ -1,12 +1,14 @@
 //! Every rescue, entered on purpose.
 
 use super::settle;
-use crate::feature::{Feature, Pair};
+use crate::feature::{Certainty, Feature, Pair};
 use crate::march::End;
 use crate::oracle::Counters;
 use crate::place::{Placed, Places};
 use crate::tests::setting::{cube, features, moved, needle, point, prepared, turned};
 use crate::tests::shape;
+use crate::tolerance::FAR;
+use crate::witness::Witness;
 use ccd_core::GiveUp;
 use ccd_core::glam::{DQuat, DVec3};
 
@@ -19,7 +21,11 @@ fn settles(places: &Places<'_>, a: &shape::Shape, b: &shape::Shape, truth: f64) 
                 continue;
             }
             let pair = Pair { a: one, b: other };
-            for end in [End::Cycle(pair), End::Cap(pair), End::Unclear(pair)] {
+            // A stop is only looked into where rounding could hide something nearer.
+            let close = Witness::of(places, pair).distance() < FAR * places.scale.size;
+            let tie = close.then_some(End::Nearest(pair, Certainty::Tied));
+            let ends = [End::Cycle(pair), End::Cap(pair), End::Unclear(pair)];
+            for end in ends.into_iter().chain(tie) {
                 let mut counters = Counters::default();
                 let answer = settle(places, end, &mut counters);
                 let claim = answer

@@ -56,7 +56,7 @@ impl<C: Clone + Default> Front<C> {
     pub(super) fn plant(&mut self, hulls: HullPair<'_>) {
         self.nodes.clear();
         self.vacant.clear();
-        self.nodes.push(Node::new(hulls, [0, 0]));
+        self.nodes.push(Node::new(hulls, [0, 0], C::default()));
         self.leaves = 1;
     }
 
@@ -100,7 +100,12 @@ impl<C: Clone + Default> Front<C> {
         let Below::Pairs(pairs) = hulls.below(node.pair, node.near) else {
             return None;
         };
-        let children = pairs.map(|pair| Node::new(hulls, pair));
+        // Nearest points of what covers a pair are a good start for the pair.
+        let cache = match &node.item {
+            Item::Nodes(cache) => cache.clone(),
+            Item::Pieces(_) => C::default(),
+        };
+        let children = pairs.map(|pair| Node::new(hulls, pair, cache.clone()));
         let first = match self.vacant.pop() {
             Some(first) => {
                 for (child, at) in children.into_iter().zip(first as usize..) {
@@ -139,12 +144,12 @@ impl<C: Clone + Default> Front<C> {
 }
 
 impl<C: Default + Clone> Node<C> {
-    fn new(hulls: HullPair<'_>, pair: [u32; 2]) -> Self {
+    fn new(hulls: HullPair<'_>, pair: [u32; 2], cache: C) -> Self {
         Node {
             pair,
             item: match hulls.below(pair, Near::Bridges) {
-                Below::Pieces([a, b]) => Item::Pieces(Pair::new(a, b)),
-                Below::Pairs(_) => Item::Nodes(C::default()),
+                Below::Pieces(pieces) => Item::Pieces(Pair::seeded(pieces, cache)),
+                Below::Pairs(_) => Item::Nodes(cache),
             },
             children: None,
             lower: f64::NEG_INFINITY,
