@@ -15,12 +15,17 @@ pub(crate) struct Axis {
 }
 
 impl Axis {
-    /// A direction of any length.
+    /// A direction of any length; none at all separates nothing.
     pub(crate) fn along(places: &Places<'_>, direction: DVec3) -> Self {
         let direction = unit(direction);
+        let known = direction != DVec3::ZERO;
         Axis {
             direction,
-            gap: gap(places, direction),
+            gap: if known {
+                gap(places, direction)
+            } else {
+                f64::NEG_INFINITY
+            },
         }
     }
 

@@ -92,11 +92,12 @@ impl DistanceOracle for Vmarch {
         let places = Places::new(a, b, &pair.b_to_a);
         let end = march(&places, cache.start(&places), &mut self.counters);
         if let End::Nearest(nearest, Certainty::Sure) = end {
-            cache.keep(nearest);
-            return Ok(Witness::of(&places, nearest).claim(&places));
+            let claim = Witness::of(&places, nearest).claim(&places);
+            cache.keep(&places, nearest, claim.axis);
+            return Ok(claim);
         }
         let answer = settle(&places, end, &mut self.counters)?;
-        cache.keep(answer.pair);
+        cache.keep(&places, answer.pair, answer.claim.axis);
         Ok(answer.claim)
     }
 

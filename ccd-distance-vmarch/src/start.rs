@@ -6,28 +6,77 @@ use crate::place::{Placed, Places};
 use crate::polytope::Polytope;
 use ccd_core::glam::DVec3;
 
-/// Which features were nearest, for the next call on the same pair to start from.
+/// Which features were nearest, and along which axis, for the next call to start from.
 ///
-/// Whatever it holds, features of other polytopes or numbers that no feature has, it only decides
-/// where a march begins.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Cache(Option<Pair>);
+/// Features serve the polytope that they are of; for any other one, such as a part of that, the axis
+/// says where to start. Whatever a cache holds, it only decides where a march begins.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Cache(Option<Last>);
+
+/// How the last march ended.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Last {
+    pair: Pair,
+    /// Of A's polytope and B's.
+    names: [u64; 2],
+    axis: DVec3,
+}
 
 impl Cache {
-    /// Keeps a pair.
-    pub(crate) fn keep(&mut self, pair: Pair) {
-        self.0 = Some(pair);
+    /// Keeps a pair, with the axis from A to B.
+    #[inline]
+    pub(crate) fn keep(&mut self, places: &Places<'_>, pair: Pair, axis: DVec3) {
+        self.0 = Some(Last {
+            pair,
+            names: names(places),
+            axis,
+        });
     }
 
-    /// The pair to start from: the last one, or else the corners that are extremal along the way from
-    /// one middle to the other.
+    /// The pair to start from: the last one; or corners that are extremal along the last axis, or along
+    /// the way from one middle to the other where there is none.
     #[inline]
     pub(crate) fn start(self, places: &Places<'_>) -> Pair {
-        match self.0 {
-            Some(pair) if is_state(places, pair) => pair,
-            _ => extremal(places, places.b.origin()),
+        let Some(last) = self.0 else {
+            return extremal(places, places.b.origin());
+        };
+        let names = names(places);
+        if names == last.names && is_state(places, last.pair) {
+            return last.pair;
+        }
+        let corners = extremal(places, last.axis);
+        // What one polytope has kept is nearer than a corner.
+        let kept = Pair {
+            a: if names[0] == last.names[0] {
+                last.pair.a
+            } else {
+                corners.a
+            },
+            b: if names[1] == last.names[1] {
+                last.pair.b
+            } else {
+                corners.b
+            },
+        };
+        if is_state(places, kept) {
+            kept
+        } else {
+            corners
         }
     }
+}
+
+/// Numbers that hardly any two polytopes have in common.
+#[inline]
+fn names(places: &Places<'_>) -> [u64; 2] {
+    let name = |polytope: &Polytope| {
+        let DVec3 { x, y, z } = polytope.origin;
+        let coordinates = [polytope.reach, x, y, z].map(f64::to_bits);
+        coordinates
+            .into_iter()
+            .fold(0, |name: u64, bits| name.rotate_left(16) ^ bits)
+    };
+    [name(places.a.shape()), name(places.b.shape())]
 }
 
 /// Whether a march can begin there: never at two faces.

@@ -2,7 +2,7 @@
 
 use super::{Cache, SQUARES, Starts, extremal, middle_of, square_of};
 use crate::feature::{Feature, Pair};
-use crate::tests::setting::{cube, moved, prepared, vertex};
+use crate::tests::setting::{cube, face, moved, point, prepared, vertex};
 use crate::tests::shape::{self, Pcg64, SeedableRng, direction};
 use ccd_core::glam::DVec3;
 use rstest::rstest;
@@ -21,7 +21,36 @@ fn what_is_no_state_is_not_begun_with(#[case] a: Feature, #[case] b: Feature) {
         b: Feature::Vertex(vertex(&cube, -DVec3::ONE)),
     };
     assert_eq!(Cache::default().start(&places), corners);
-    assert_eq!(Cache(Some(Pair { a, b })).start(&places), corners);
+    let mut cache = Cache::default();
+    cache.keep(&places, Pair { a, b }, DVec3::ONE);
+    assert_eq!(cache.start(&places), corners);
+}
+
+/// What one polytope is no more, the other one may be still.
+#[test]
+fn a_part_is_begun_with_along_the_last_axis() {
+    let (cube, point) = (cube(), point());
+    let mut cache = Cache::default();
+    let [far, near] = [DVec3::new(9.0, 0.1, 0.2), DVec3::new(2.0, 0.1, 0.2)];
+    let pair = Pair {
+        a: Feature::Face(face(&cube, DVec3::X)),
+        b: Feature::Vertex(3),
+    };
+    cache.keep(&moved(&cube, &cube, far), pair, DVec3::X);
+    let to_point = cache.start(&moved(&cube, &point, near));
+    assert_eq!((to_point.a, to_point.b), (pair.a, Feature::Vertex(0)));
+    let from_point = cache.start(&moved(&point, &cube, near));
+    assert_eq!((from_point.a, from_point.b), (Feature::Vertex(0), pair.b));
+    let larger = prepared(&shape::cuboid(DVec3::splat(1.5)));
+    let start = cache.start(&moved(&larger, &larger, near));
+    let Pair {
+        a: Feature::Vertex(v),
+        b: Feature::Vertex(w),
+    } = start
+    else {
+        panic!("{start:?}");
+    };
+    assert!(larger.vertex(v).point.x > 0.0 && larger.vertex(w).point.x < 0.0);
 }
 
 #[test]
@@ -33,9 +62,9 @@ fn what_was_nearest_is_begun_with() {
         b: Feature::Vertex(2),
     };
     let mut cache = Cache::default();
-    cache.keep(pair);
+    cache.keep(&places, pair, DVec3::X);
     assert_eq!(cache.start(&places), pair);
-    assert!(size_of::<Cache>() <= 16);
+    assert!(size_of::<Cache>() <= 64);
 }
 
 #[test]
