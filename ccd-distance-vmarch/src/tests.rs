@@ -7,6 +7,7 @@ mod laws;
 pub(crate) mod scene;
 pub(crate) mod setting;
 pub(crate) mod shape;
+mod touching;
 pub(crate) mod twin;
 
 use crate::{Cache, Vmarch};
