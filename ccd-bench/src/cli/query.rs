@@ -76,9 +76,12 @@ fn check(args: &QueryArgs) -> Result<()> {
             bail!("--contacts - and --out - are both standard output; give one of them a file");
         }
     }
-    if args.bound.is_some() && !args.schedule.uses_a_bound() {
+    if let Some(bound) = args.bound
+        && !args.schedule.uses_a_bound()
+    {
         bail!(
-            "--bound is for schedules that take one step for all; give it --schedule fast or naive"
+            "--bound {bound} is for schedules that take one step for all; give it --schedule fast or \
+             naive"
         );
     }
     Ok(())
