@@ -265,6 +265,9 @@ impl Gap {
     #[inline]
     pub(crate) fn free_time(&self) -> f64 {
         let (gap, rate, bend) = (self.gap, self.rate, self.bend);
+        if rate.is_nan() {
+            return 0.0;
+        }
         let root = (rate * rate + 2.0 * bend * gap).sqrt();
         // Where the squares underflow, the root is no less than the rate still; NaN stays NaN.
         let root = if root < rate.abs() { rate.abs() } else { root };

@@ -45,6 +45,9 @@ impl<'a> Piece<'a> {
     /// What a backend makes of the piece and keeps for the next time: made when it is first asked
     /// for, dropped with the list that the piece is of. None for a piece that is of no list.
     ///
+    /// It belongs to the piece as the list has it, whatever has become of the public fields since.
+    /// `make` must not ask for the same type of the same piece: it would wait for itself.
+    ///
     /// Types are told apart, so that every backend has a type of its own, and one entry for each
     /// piece, which costs memory for all pieces of the list from the first one on: box what is large.
     ///

@@ -19,7 +19,7 @@ pub struct Config {
     /// What becomes of a contact at the start.
     pub start: StartPolicy,
     /// How many pairs of nodes may be visited before the query is left unresolved; each takes up to
-    /// about 100 bytes.
+    /// about 150 bytes.
     pub budget: u64,
 }
 
@@ -44,9 +44,9 @@ pub enum StartPolicy {
     /// approach: the answer is when they come within half the gap that they began with, which is the
     /// tolerance from then on.
     ///
-    /// Where that gap is no more than rounding, or the bodies begin inside the margin, pieces that rest on each other are let go until they
-    /// approach; pieces that come to touch only later are a contact, also where one slides on flat
-    /// ground from one piece of it onto the next.
+    /// Where that gap is no more than rounding, or the bodies begin inside the margin, pieces that rest
+    /// on each other are let go until they approach; pieces that come to touch only later are a
+    /// contact, also where one slides on flat ground from one piece of it onto the next.
     Leave,
 }
 

@@ -61,7 +61,7 @@
 //! | the loop, and Brent's detection of cycles | `march.rs` |
 //! | the five tests | as above; edges cut by planes: `clip.rs` |
 //! | out of local minima | `escape.rs` |
-//! | common points, by exact signs | `penetration.rs` |
+//! | common points, by exact signs | `penetration.rs`; of what only touches: `touching.rs` |
 //! | the nearest points, clamped into their features | `witness.rs` |
 //! | what to do at ties, in cycles, at the cap | `settle.rs`, with `certificate.rs` and `around.rs` |
 //! | the backend, its cache and its counters | `oracle.rs` |
@@ -98,6 +98,7 @@ mod start;
 #[cfg(test)]
 mod tests;
 mod tolerance;
+mod touching;
 mod twofold;
 mod vertex_edge;
 mod vertex_face;

@@ -9,7 +9,8 @@ use crate::penetration;
 use crate::place::Places;
 use crate::start::extremal;
 use crate::tolerance::{CYCLE_LOOK, FAR, RESTARTS, ROUNDS};
-use crate::witness::{self, Witness};
+use crate::touching;
+use crate::witness::Witness;
 use ccd_core::glam::DVec3;
 use ccd_core::{Claim, GiveUp};
 
@@ -67,7 +68,7 @@ fn judge(places: &Places<'_>, end: End, counters: &mut Counters) -> Verdict {
         End::Nearest(pair, certainty) => weigh(places, pair, certainty),
         End::Common(pair, whose, crossing) => {
             counters.penetrations += 1;
-            let claim = witness::common(places, whose, &crossing);
+            let claim = touching::common(places, whose, &crossing);
             Verdict::Settled(Answer { pair, claim })
         }
         End::Unclear(pair) => match search(places, pair, counters) {
@@ -146,7 +147,7 @@ fn search(places: &Places<'_>, pair: Pair, counters: &mut Counters) -> Option<An
     let found = found.or_else(|| penetration::searched(b, a, *scale).map(of(Whose::Y)));
     let (whose, crossing) = found?;
     counters.penetrations += 1;
-    let claim = witness::common(places, whose, &crossing);
+    let claim = touching::common(places, whose, &crossing);
     Some(Answer { pair, claim })
 }
 

@@ -5,7 +5,6 @@
 
 mod backends_agree;
 mod bad_inputs;
-mod compiler;
 mod contacts;
 mod decomposition;
 mod equal_bits;

@@ -24,22 +24,24 @@ impl Climbed {
 /// Whether the facets close a convex polytope that has all points for corners.
 ///
 /// # Guarantee
-/// Exact where it says so. The facets are seen as fans of triangles. A point behind all of them sees
-/// their surface spread over all directions, each covered equally often; once, if a single one is.
-/// Such a surface is that of a convex polytope when it bends inward at no edge `[MEHLHORN96]`; where
-/// the triangles of each facet are coplanar, its edges are those of the facets.
+/// Exact where it says so. The facets are seen as fans of triangles, no two of which have a side the
+/// same way round. A point behind all of them sees their surface spread over all directions, each
+/// covered equally often; once, if a single one is. Such a surface is that of a convex polytope when
+/// it bends inward at no edge `[MEHLHORN96]`. Where the triangles of each facet are coplanar and its
+/// outline turns one way only, the facet is a part of a face that is convex itself, so that from every
+/// corner of it an edge leads up along any direction that goes up from there in that face.
 fn is_convex(hull: &Piece<'_>) -> bool {
+    let middle = hull.points.iter().sum::<DVec3>() / hull.points.len() as f64;
     let mut on_facets = vec![false; hull.points.len()];
     let mut triangles: Vec<[u32; 3]> = Vec::new();
     for corners in hull.facets.iter() {
         corners.iter().for_each(|&v| on_facets[v as usize] = true);
         triangles.extend((1..corners.len() - 1).map(|k| [corners[0], corners[k], corners[k + 1]]));
-        if !is_plane(hull.points, corners) {
+        if !is_plane(hull.points, corners) || !turns_one_way(hull.points, corners, middle) {
             return false;
         }
     }
     let place = |triangle: &[u32; 3]| triangle.map(|v| hull.points[v as usize]);
-    let middle = hull.points.iter().sum::<DVec3>() / hull.points.len() as f64;
     let behind = |triangle: &[u32; 3]| height_below(place(triangle), middle) > 0.0;
     on_facets.into_iter().all(|on| on)
         && triangles.iter().all(behind)
@@ -55,12 +57,24 @@ fn is_plane(points: &[DVec3], corners: &[u32]) -> bool {
     others.all(|p| height_below(first, p) == 0.0)
 }
 
+/// Whether no corner of a facet is reflex, seen from a point behind it.
+fn turns_one_way(points: &[DVec3], corners: &[u32], middle: DVec3) -> bool {
+    let place = |k: usize| points[corners[k % corners.len()] as usize];
+    let mut turns =
+        (0..corners.len()).map(|k| height_below([place(k), place(k + 1), place(k + 2)], middle));
+    turns.all(|turn| turn >= 0.0)
+}
+
 /// Whether across every edge the next triangle is not in front of a triangle.
 fn bends_outward(triangles: &[[u32; 3]], place: impl Fn(&[u32; 3]) -> [DVec3; 3]) -> bool {
     let sides = |triangle: &[u32; 3]| -> Vec<(u32, u32)> { edges_of(triangle).collect() };
     let mut across = HashMap::new();
     for triangle in triangles {
-        across.extend(sides(triangle).into_iter().map(|side| (side, triangle)));
+        for side in sides(triangle) {
+            if across.insert(side, triangle).is_some() {
+                return false;
+            }
+        }
     }
     triangles.iter().all(|triangle| {
         sides(triangle).into_iter().all(|(from, to)| {

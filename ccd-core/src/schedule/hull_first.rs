@@ -20,8 +20,8 @@ use std::ops::ControlFlow;
 /// the tolerance. But nodes are convex hulls, so that the oracle is asked about pairs of inner nodes,
 /// too, and a pair of nodes advances along the axis that the oracle claims, just as pieces do. A pair
 /// is split where it hardly advances; unless its nearest features both belong to pieces
-/// ([`FacetClass`](crate::FacetClass)): then its distance is already that of the pieces below, and no split would make
-/// it larger.
+/// ([`FacetClass`](crate::FacetClass)): then its distance is already that of the pieces below, and no
+/// split would make it larger.
 ///
 /// Bodies of one piece need no tree. If another body has [none](crate::Body::hull_tree), the query is
 /// answered by [`BestFirst`].

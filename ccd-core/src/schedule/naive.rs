@@ -13,8 +13,9 @@ use std::ops::ControlFlow;
 /// Advances all pairs of pieces together by the least of their free times `[FAST06 Alg. 1]`: the
 /// distance of each pair, divided by a [bound](Bound) of its rate of approach.
 ///
-/// Every step costs one distance for each pair of pieces: only for bodies of few pieces, and to
-/// check the other schedules by.
+/// Every step costs one distance for each pair of pieces, and grazing passes, fast turning and bodies
+/// that are let go from flush contact cost many steps: only for bodies of few pieces, and to check the
+/// other schedules by.
 ///
 /// # Guarantee
 /// That of [`Schedule::solve`] with [`Bound::Sound`]; with [`Bound::Published`] times may be late.

@@ -47,16 +47,11 @@ pub(crate) enum Step {
 
 impl<C: Default + Clone> Pair<C> {
     pub(crate) fn new(a: u32, b: u32) -> Self {
-        Pair::seeded([a, b], C::default())
-    }
-
-    /// A pair of pieces with what the oracle left of another pair near by.
-    pub(crate) fn seeded([a, b]: [u32; 2], cache: C) -> Self {
         Pair {
             a,
             b,
             goal: Goal::Apart,
-            cache,
+            cache: C::default(),
         }
     }
 

@@ -7,9 +7,7 @@ mod place;
 mod triangles;
 
 pub use place::Placement;
-pub use triangles::{
-    contains, edge_edge_squared, point_segment, point_triangle, triangles_squared,
-};
+pub use triangles::{contains, point_segment, point_triangle};
 
 use crate::query::Query;
 use crate::tolerance::{CLOSE, KEPT};

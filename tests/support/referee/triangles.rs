@@ -67,7 +67,7 @@ impl<'a> Posed<'a> {
         for i in members(groups[0], self.boxes.len()) {
             for j in members(groups[1], other.boxes.len()) {
                 if self.boxes[i].distance_squared(&other.boxes[j]) <= best {
-                    best = best.min(triangles_squared(self.triangle(i), other.triangle(j)));
+                    best = best.min(distance_squared(self.triangle(i), other.triangle(j)));
                 }
             }
         }
@@ -85,7 +85,7 @@ fn members(group: usize, count: usize) -> std::ops::Range<usize> {
 
 /// The squared distance of two triangles: all vertices against the other's face, all edges against
 /// the other's edges; 0 when an edge pierces a face.
-pub fn triangles_squared(a: [DVec3; 3], b: [DVec3; 3]) -> f64 {
+fn distance_squared(a: [DVec3; 3], b: [DVec3; 3]) -> f64 {
     let edges = |t: [DVec3; 3]| [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]];
     let pierced = |e: &[DVec3; 2], t| pierces(*e, t);
     if edges(a).iter().any(|e| pierced(e, b)) || edges(b).iter().any(|e| pierced(e, a)) {
@@ -114,7 +114,7 @@ fn pierces([p, q]: [DVec3; 2], [a, b, c]: [DVec3; 3]) -> bool {
 }
 
 /// The squared distance of two edges: their inner feet where both have one, else end points.
-pub fn edge_edge_squared(e: [DVec3; 2], f: [DVec3; 2]) -> f64 {
+fn edge_edge_squared(e: [DVec3; 2], f: [DVec3; 2]) -> f64 {
     let mut best = f64::INFINITY;
     for k in 0..2 {
         best = best.min(point_segment(e[k], f).distance_squared(e[k]));

@@ -106,3 +106,55 @@ fn a_star_that_winds_twice_is_not() {
     assert!(check(1));
     assert!(!check(2));
 }
+
+/// A box whose lid is cut into an L and a square: flat, but climbing along the L's outline ends in its
+/// reflex corner.
+#[test]
+fn facets_that_are_not_convex_are_not() {
+    let [o, z] = [0.0, 1.0];
+    let mut points = vec![[o, o, o], [2.0, o, o], [2.0, 2.0, o], [o, 2.0, o]];
+    let lid = [
+        [o, o],
+        [2.0, o],
+        [2.0, 1.0],
+        [1.0, 1.0],
+        [1.0, 2.0],
+        [o, 2.0],
+        [2.0, 2.0],
+    ];
+    points.extend(lid.map(|[x, y]| [x, y, z]));
+    let sides: [&[u32]; 5] = [
+        &[3, 2, 1, 0],
+        &[0, 1, 5, 4],
+        &[1, 2, 10, 6, 5],
+        &[2, 3, 9, 8, 10],
+        &[3, 0, 4, 9],
+    ];
+    let with = |lid: &[&[u32]]| convex(&points, &[&sides, lid].concat());
+    assert!(!with(&[&[4, 5, 6, 7, 8, 9], &[7, 6, 10, 8]]));
+    assert!(with(&[&[4, 5, 6, 7], &[4, 7, 8, 9], &[7, 6, 10, 8]]));
+}
+
+/// A spindle with a second, lower roof over the same rim.
+#[test]
+fn surfaces_that_share_a_rim_are_not() {
+    let points = [
+        [1.0, 0.0, 0.0],
+        [0.0, 1.0, 0.0],
+        [-1.0, 0.0, 0.0],
+        [0.0, -1.0, 0.0],
+        [0.0, 0.0, 10.0],
+        [0.0, 0.0, -10.0],
+        [0.0, 0.0, 0.5],
+    ];
+    let roof = |apex: u32| (0..4).map(move |k| vec![k, (k + 1) % 4, apex]);
+    let floor = (0..4).map(|k| vec![(k + 1) % 4, k, 5]);
+    let spindle: Vec<Vec<u32>> = roof(4).chain(floor).collect();
+    let all: Vec<Vec<u32>> = spindle.iter().cloned().chain(roof(6)).collect();
+    let check = |points: &[[f64; 3]], facets: &[Vec<u32>]| {
+        let facets: Vec<&[u32]> = facets.iter().map(Vec::as_slice).collect();
+        convex(points, &facets)
+    };
+    assert!(check(&points[..6], &spindle));
+    assert!(!check(&points, &all));
+}

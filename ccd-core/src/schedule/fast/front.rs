@@ -14,6 +14,7 @@ pub(super) struct Front<C> {
     /// Where pairs of children were that are gone.
     vacant: Vec<u32>,
     leaves: usize,
+    peak: usize,
 }
 
 /// A pair of nodes.
@@ -47,6 +48,7 @@ impl<C> Default for Front<C> {
             nodes: Vec::new(),
             vacant: Vec::new(),
             leaves: 0,
+            peak: 0,
         }
     }
 }
@@ -57,12 +59,17 @@ impl<C: Clone + Default> Front<C> {
         self.nodes.clear();
         self.vacant.clear();
         self.nodes.push(Node::new(hulls, [0, 0], C::default()));
-        self.leaves = 1;
+        (self.leaves, self.peak) = (1, 1);
     }
 
     /// How many pairs are in it.
     pub(super) fn len(&self) -> usize {
         self.leaves
+    }
+
+    /// The most pairs that were in it at once.
+    pub(super) fn peak(&self) -> u64 {
+        self.peak as u64
     }
 
     pub(super) fn node(&mut self, at: u32) -> &mut Node<C> {
@@ -100,7 +107,8 @@ impl<C: Clone + Default> Front<C> {
         let Below::Pairs(pairs) = hulls.below(node.pair, node.near) else {
             return None;
         };
-        // Nearest points of what covers a pair are a good start for the pair.
+        // Nearest points of what covers a pair are a good start for the pair. Not for pieces: what a
+        // warm start makes of their axis when they touch decides what they are said to do.
         let cache = match &node.item {
             Item::Nodes(cache) => cache.clone(),
             Item::Pieces(_) => C::default(),
@@ -120,6 +128,7 @@ impl<C: Clone + Default> Front<C> {
         };
         self.nodes[at as usize].children = Some(first);
         self.leaves += 1;
+        self.peak = self.peak.max(self.leaves);
         Some(first)
     }
 
@@ -148,7 +157,7 @@ impl<C: Default + Clone> Node<C> {
         Node {
             pair,
             item: match hulls.below(pair, Near::Bridges) {
-                Below::Pieces(pieces) => Item::Pieces(Pair::seeded(pieces, cache)),
+                Below::Pieces([a, b]) => Item::Pieces(Pair::new(a, b)),
                 Below::Pairs(_) => Item::Nodes(cache),
             },
             children: None,

@@ -24,7 +24,9 @@ use std::ops::ControlFlow;
 /// pairs at which it stops, the *front*, cover all pairs of pieces. Each keeps apart for its distance
 /// divided by a [bound](Bound) of its rate of approach; all are advanced by the least of these times,
 /// and the distance is computed again, until it is within the tolerance. The next descent starts from
-/// the front that the last one left `[SWIFT01]`.
+/// the front that the last one left `[SWIFT01]`: the pieces that were nearest are in it, so that the
+/// distance is bounded before anything is split, and the nearest pair is always split first. Pairs that
+/// have become far are joined again.
 ///
 /// It is here to be compared with: [`BestFirst`] does away with the common step.
 ///
@@ -34,6 +36,11 @@ use std::ops::ControlFlow;
 /// # Guarantee
 /// That of [`Schedule::solve`] with [`Bound::Sound`]; with [`Bound::Published`] times may be late and
 /// contacts missed.
+///
+/// # Complexity
+/// The bodies come nearer by a share of their distance in every step, so that grazing passes and fast
+/// turning cost many steps, and bodies that are [let go](crate::StartPolicy::Leave) from flush contact
+/// and turn may cost the whole budget, where [`BestFirst`] follows the points' paths.
 #[derive(Debug)]
 pub struct Fast<O: DistanceOracle> {
     bound: Bound,
@@ -95,11 +102,12 @@ impl<O: DistanceOracle> Fast<O> {
                 start: &mut start,
                 stats,
             };
-            let next = match descent.step(oracle, s) {
+            let next = descent.step(oracle, s);
+            stats.peak_front = stats.peak_front.max(self.front.peak());
+            let next = match next {
                 ControlFlow::Continue(next) => next,
                 ControlFlow::Break(outcome) => return outcome,
             };
-            stats.peak_front = stats.peak_front.max(self.front.len() as u64);
             if let Some(outcome) = start.end(problem) {
                 return outcome;
             }

@@ -1,0 +1,84 @@
+//! What has a common point, but may have no inside in common: the axis that keeps it apart.
+
+use crate::certificate::{Axis, best_axis};
+use crate::feature::{Crossing, Feature, Pair, Whose};
+use crate::place::{Placed, Places, Scale};
+use crate::polytope::Polytope;
+use crate::witness::{self, Witness};
+use ccd_core::Claim;
+
+/// The claim of a proven common point.
+///
+/// Its axis is the normal of the face that shows it; or, where the point is on the border of what it
+/// was found in, that of the axes around which keeps the pieces apart best: they may only touch.
+pub(crate) fn common(places: &Places<'_>, whose: Whose, crossing: &Crossing) -> Claim {
+    let claim = witness::common(places, whose, crossing);
+    let Some(pair) = border(places, whose, crossing) else {
+        return claim;
+    };
+    let normal = Axis::along(places, claim.axis);
+    let best = best_axis(places, pair, &Witness::of(places, pair));
+    // Written so that NaN changes nothing.
+    if best.gap > normal.gap {
+        return Claim {
+            axis: best.direction,
+            ..claim
+        };
+    }
+    claim
+}
+
+/// The features that hold a common point, unless that shows that insides meet: where an edge goes
+/// through the inside of a face, and where a point is inside of a polytope.
+fn border(places: &Places<'_>, whose: Whose, crossing: &Crossing) -> Option<Pair> {
+    let Places { a, b, scale } = places;
+    let found = match whose {
+        Whose::X => features(a, b, crossing, *scale),
+        Whose::Y => features(b, a, crossing, *scale).map(|(x, y)| (y, x)),
+    };
+    found.map(|(a, b)| Pair { a, b })
+}
+
+fn features<X: Placed, Y: Placed>(
+    x: &X,
+    y: &Y,
+    crossing: &Crossing,
+    scale: Scale,
+) -> Option<(Feature, Feature)> {
+    let Crossing {
+        on_edge,
+        on_face,
+        face,
+    } = crossing;
+    let some = scale.rounding() / scale.size;
+    let [start, end] = on_edge.vertices;
+    let of_x = match on_edge.weights {
+        [_, last] if last <= some || start == end => Feature::Vertex(start),
+        [first, _] if first <= some => Feature::Vertex(end),
+        _ => joining(x.shape(), start, end)?,
+    };
+    let corners = on_face.vertices.iter().zip(on_face.weights);
+    let mut held = corners
+        .filter(|(_, weight)| *weight > some)
+        .map(|(&v, _)| v);
+    let of_y = match (held.next(), held.next(), held.next(), held.next()) {
+        (Some(v), None, ..) => Feature::Vertex(v),
+        (Some(v), Some(w), None, _) => joining(y.shape(), v, w).unwrap_or(Feature::Face(*face)),
+        (_, _, Some(_), None) => Feature::Face(*face),
+        _ => return None,
+    };
+    if let (Feature::Edge(e), Feature::Face(f)) = (of_x, of_y) {
+        let normal = y.vector(y.shape().face(f).normal);
+        let line = x.line(e);
+        let rise = normal.dot(line.along).abs() * line.length;
+        return (rise <= scale.rounding()).then_some((of_x, of_y));
+    }
+    Some((of_x, of_y))
+}
+
+/// The edge between two corners.
+fn joining(shape: &Polytope, v: u32, w: u32) -> Option<Feature> {
+    let mut spokes = shape.spokes_of(v).iter();
+    let spoke = spokes.find(|spoke| spoke.to == w)?;
+    Some(Feature::Edge(spoke.edge))
+}
