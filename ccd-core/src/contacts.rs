@@ -1,5 +1,6 @@
 //! The features that are in contact at a time, all of them `[FAST06 §5.2]`.
 
+mod boxes;
 mod closest;
 mod manifold;
 mod measure;
@@ -43,8 +44,9 @@ pub enum ContactsError {
         /// The problem's duration.
         duration: f64,
     },
-    /// More pairs are near than the problem's [budget](crate::Config::budget) allows: the bodies are
-    /// small for the margin and the tolerance, or one lies deep in the other.
+    /// More pairs are near, of nodes, of boxes of faces, or of features, than the problem's
+    /// [budget](crate::Config::budget) allows: the bodies are small for the margin and the tolerance,
+    /// or one lies deep in the other.
     TooMany {
         /// The budget.
         budget: u64,
@@ -63,8 +65,9 @@ impl Problem<'_> {
     ///   rounding do not cross: their ends make the pairs.
     ///
     /// The edge between two triangles that share its vertices and lie in one plane, but for rounding,
-    /// is not of the shape: it crosses nothing, and a point on it is of the face of smaller number. So
-    /// a cube that lies flat on a slab has four pairs, however the faces are cut into triangles.
+    /// is not of the shape: it crosses nothing, and a point on it is of the face of smaller number, in
+    /// a pair only where neither triangle comes nearer. So a cube that lies flat on a slab has four
+    /// pairs, however the faces are cut into triangles.
     ///
     /// Features have the names that outcomes have. What has no number of its own goes by the face or
     /// the piece that it is on: a corner of a face that its patch has no point for, and all features
@@ -84,8 +87,9 @@ impl Problem<'_> {
     /// [`ContactsError`].
     ///
     /// # Complexity
-    /// Near-linear in the pairs of triangles whose boxes are within margin + tolerance, and in the
-    /// faces of polytopes that are: a descent over both trees finds them.
+    /// Near-linear in the pairs of pieces and of faces whose boxes are within margin + tolerance, and in
+    /// all faces of these pieces: a descent over both bodies' trees finds the pieces, and one over
+    /// their faces, which are put in order once, the faces. The budget holds for either.
     ///
     /// ```
     /// use ccd_core::{glam::DVec3, Body, Config, Motion, Moving, Pose, Problem};

@@ -21,11 +21,17 @@ pub(super) struct Manifold<'a> {
 pub(super) struct Meeting {
     pub(super) points: [DVec3; 2],
     pub(super) faces: [u32; 2],
+    /// Both faces' rounding radii: faces that share an edge or a corner may have others.
+    radii: f64,
 }
 
 impl Meeting {
     fn distance(&self) -> f64 {
         self.points[0].distance(self.points[1])
+    }
+
+    fn gap(&self) -> f64 {
+        self.distance() - self.radii
     }
 }
 
@@ -76,9 +82,12 @@ impl<'a> Manifold<'a> {
             rounding,
             ..
         } = self.problem;
-        let meeting = Meeting { points, faces };
-        let lower = meeting.distance() - radius(0) - radius(1) - rounding;
-        if lower <= margin + tolerance {
+        let meeting = Meeting {
+            points,
+            faces,
+            radii: radius(0) + radius(1),
+        };
+        if meeting.gap() - rounding <= margin + tolerance {
             keep_nearest(&mut self.found, spots, meeting);
         }
     }
@@ -88,7 +97,7 @@ impl<'a> Manifold<'a> {
         let covered = self.covered();
         let mut told = HashMap::new();
         for (mut spots, mut meeting) in sorted(&self.found) {
-            if covered.contains(&spots) {
+            if covered.contains(&spots) || self.nearer_beside(spots, &meeting) {
                 continue;
             }
             for (k, skin) in self.skins.iter().enumerate() {
@@ -107,6 +116,20 @@ impl<'a> Manifold<'a> {
             nearer.then_with(|| names(one).cmp(&names(other)))
         });
         pairs
+    }
+
+    /// Whether a point on an edge or corner within a plane is nearest only on the triangle from which
+    /// it was found, while another one around comes nearer elsewhere. That it is a point of its own is
+    /// due to the cut; the nearer place makes a pair, or one that is nearer still.
+    fn nearer_beside(&self, spots: [Spot; 2], meeting: &Meeting) -> bool {
+        let rounding = self.problem.rounding;
+        (0..2).any(|k| {
+            let (skin, from) = (self.skins[k], meeting.points[1 - k]);
+            skin.sharing(spots[k]).iter().any(|&face| {
+                let (_, nearest) = on_triangle(from, skin.triangle(face), rounding);
+                from.distance(nearest) + rounding < meeting.distance()
+            })
+        })
     }
 
     /// What is no pair by itself: a corner with a part of the boundary of a face or an edge that it
@@ -138,7 +161,7 @@ fn spot(skin: &Skin<'_>, face: u32, part: Part) -> Spot {
 
 fn keep_nearest(pairs: &mut HashMap<[Spot; 2], Meeting>, spots: [Spot; 2], meeting: Meeting) {
     let kept = pairs.entry(spots).or_insert(meeting);
-    if meeting.distance() < kept.distance() {
+    if meeting.gap() < kept.gap() {
         *kept = meeting;
     }
 }

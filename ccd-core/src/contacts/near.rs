@@ -1,5 +1,7 @@
-//! The faces of two bodies that are near each other, found without a look at those that are not.
+//! The pieces of two bodies that are near each other, and their faces that are, found without a look
+//! at most that are not.
 
+use super::boxes::{FaceTrees, NearFaces};
 use super::skin::Skin;
 use crate::pose::Frame;
 use crate::problem::{Problem, Side};
@@ -8,29 +10,26 @@ use crate::tree::{Below, Named, NodeId, Tree};
 use glam::DVec3;
 
 /// All pairs of faces, of A and of B, that may be nearer than `reach`; none when that takes more than
-/// the problem's budget of pairs of nodes or of faces.
+/// the problem's budget of pairs of nodes, or of boxes of faces.
 pub(super) fn near_faces(
     problem: &Problem<'_>,
     skins: &mut [Skin<'_>; 2],
     b_to_a: &Frame,
     reach: f64,
 ) -> Option<Vec<[u32; 2]>> {
-    let budget = problem.budget;
-    let near = near_pieces(problem, b_to_a, reach)?;
-    let mut found = Found {
+    let mut trees = [FaceTrees::new(), FaceTrees::new()];
+    let mut near = NearFaces {
         pairs: Vec::new(),
-        budget,
+        budget: problem.budget,
         reach,
     };
-    for pieces in near {
-        let [a, b] = [0, 1].map(|k| skins[k].of_piece(pieces[k]));
-        let [skin_a, skin_b] = &*skins;
-        let boxes = |skin: &Skin<'_>, faces: std::ops::Range<u32>| -> Vec<Boxed> {
-            faces.map(|face| Boxed::new(skin, face)).collect()
-        };
-        found.among(&mut boxes(skin_a, a), &mut boxes(skin_b, b))?;
+    for pieces in near_pieces(problem, b_to_a, reach)? {
+        let [a, b] = [0, 1].map(|k| trees[k].root(&mut skins[k], pieces[k]));
+        if let (Some(a), Some(b)) = (a, b) {
+            near.among(&trees, [a, b])?;
+        }
     }
-    Some(found.pairs)
+    Some(near.pairs)
 }
 
 /// The pairs of pieces of which the nodes above may all be nearer than `reach`.
@@ -152,94 +151,4 @@ fn apart([a, b]: &[Extent; 2], reach: f64) -> bool {
     };
     let mut axes = a.axes.iter().chain(&b.axes);
     separates(way / distance) || axes.any(|&n| separates(n))
-}
-
-/// A face in a box along the axes of A's frame, rounding radius included.
-#[derive(Clone, Copy)]
-struct Boxed {
-    face: u32,
-    low: DVec3,
-    high: DVec3,
-}
-
-impl Boxed {
-    fn new(skin: &Skin<'_>, face: u32) -> Self {
-        let ([a, b, c], radius) = (skin.triangle(face), skin.face(face).radius);
-        Boxed {
-            face,
-            low: a.min(b).min(c) - radius,
-            high: a.max(b).max(c) + radius,
-        }
-    }
-
-    /// Around all of at least one.
-    fn around(all: &[Boxed]) -> Self {
-        all.iter().fold(all[0], |sum, one| Boxed {
-            low: sum.low.min(one.low),
-            high: sum.high.max(one.high),
-            ..sum
-        })
-    }
-
-    /// Whether they are certainly farther apart than `reach` along a coordinate.
-    fn apart(&self, other: &Boxed, reach: f64) -> bool {
-        let gap = (other.low - self.high).max(self.low - other.high);
-        gap.max_element() > reach
-    }
-
-    fn size(&self) -> DVec3 {
-        self.high - self.low
-    }
-}
-
-/// Up to so many pairs of faces are all looked at, rather than halved once more.
-const FEW: usize = 16;
-
-struct Found {
-    pairs: Vec<[u32; 2]>,
-    budget: u64,
-    reach: f64,
-}
-
-impl Found {
-    /// Adds the pairs of two lists of faces that are near; halves the list that takes up more room
-    /// until few are left. None when the budget is spent.
-    fn among(&mut self, a: &mut [Boxed], b: &mut [Boxed]) -> Option<()> {
-        if a.is_empty() || b.is_empty() {
-            return Some(());
-        }
-        let (around_a, around_b) = (Boxed::around(a), Boxed::around(b));
-        if around_a.apart(&around_b, self.reach) {
-            return Some(());
-        }
-        if a.len() * b.len() <= FEW {
-            return self.all(a, b);
-        }
-        let larger_a = around_a.size().max_element() >= around_b.size().max_element();
-        if b.len() == 1 || a.len() > 1 && larger_a {
-            let (left, right) = halves(a, around_a.size());
-            self.among(left, b)?;
-            self.among(right, b)
-        } else {
-            let (left, right) = halves(b, around_b.size());
-            self.among(a, left)?;
-            self.among(a, right)
-        }
-    }
-
-    fn all(&mut self, a: &[Boxed], b: &[Boxed]) -> Option<()> {
-        for one in a {
-            let near = b.iter().filter(|other| !one.apart(other, self.reach));
-            self.pairs.extend(near.map(|other| [one.face, other.face]));
-        }
-        (self.pairs.len() as u64 <= self.budget).then_some(())
-    }
-}
-
-/// Two halves of at least two faces, by their middles along the longest side.
-fn halves(faces: &mut [Boxed], size: DVec3) -> (&mut [Boxed], &mut [Boxed]) {
-    let (axis, half) = (size.max_position(), faces.len() / 2);
-    let middle = |face: &Boxed| face.low[axis] + face.high[axis];
-    faces.select_nth_unstable_by(half, |one, other| middle(one).total_cmp(&middle(other)));
-    faces.split_at_mut(half)
 }

@@ -15,14 +15,15 @@ pub(super) struct Skin<'a> {
     to_a: Frame,
     corners: Vec<Corner>,
     faces: Vec<Face>,
-    /// Where the faces of the pieces are that were asked for.
-    unpacked: HashMap<u32, Range<u32>>,
     /// Corners by place and number.
     known: HashMap<(Place, Option<u32>), u32>,
-    /// The edges within a plane, and the face to which a point on one belongs.
-    within: HashMap<[u32; 2], u32>,
+    /// The edges within a plane, and the faces on either side: first that to which a point on it
+    /// belongs.
+    within: HashMap<[u32; 2], [u32; 2]>,
     /// Corners without a number, within a plane.
     hidden: Vec<bool>,
+    /// The faces around each of these.
+    around: HashMap<u32, Vec<u32>>,
     /// The first triangle that goes by a face's number.
     first_of: HashMap<Feature, u32>,
     /// The sum of the normals around each corner.
@@ -64,25 +65,20 @@ impl<'a> Skin<'a> {
             to_a,
             corners: Vec::new(),
             faces: Vec::new(),
-            unpacked: HashMap::new(),
             known: HashMap::new(),
             within: HashMap::new(),
             hidden: Vec::new(),
+            around: HashMap::new(),
             first_of: HashMap::new(),
             outward: Vec::new(),
         }
     }
 
-    /// The faces of a piece.
+    /// The faces of a piece, to be asked for once.
     pub(super) fn of_piece(&mut self, piece: u32) -> Range<u32> {
-        if let Some(faces) = self.unpacked.get(&piece) {
-            return faces.clone();
-        }
         let first = self.faces.len() as u32;
         self.unpack(piece);
-        let faces = first..self.faces.len() as u32;
-        self.unpacked.insert(piece, faces.clone());
-        faces
+        first..self.faces.len() as u32
     }
 
     /// To be called once all that is needed is unpacked: finds the edges and corners that are not of
@@ -109,15 +105,19 @@ impl<'a> Skin<'a> {
         for corner in self.faces.iter().filter(thin).flat_map(|face| face.corners) {
             self.hidden[corner as usize] = false;
         }
-        for (ends, Sides { faces, count }) in sides {
+        for (ends, Sides { mut faces, count }) in sides {
             if count == 2 && self.in_one_plane(ends, faces, rounding) {
-                let by_name = |&face: &u32| (self.face(face).name, face);
-                let face = faces.into_iter().min_by_key(by_name);
-                self.within.extend(face.map(|face| (ends, face)));
+                faces.sort_by_key(|&face| (self.face(face).name, face));
+                self.within.insert(ends, faces);
             } else {
                 for end in ends {
                     self.hidden[end as usize] = false;
                 }
+            }
+        }
+        for (face, Face { corners, .. }) in (0u32..).zip(&self.faces) {
+            for &corner in corners.iter().filter(|&&k| self.hidden[k as usize]) {
+                self.around.entry(corner).or_default().push(face);
             }
         }
     }
@@ -188,6 +188,16 @@ impl<'a> Skin<'a> {
         }
     }
 
+    /// The faces that a spot is within, where it is within a plane: none of what is told as itself.
+    pub(super) fn sharing(&self, spot: Spot) -> &[u32] {
+        let faces = match spot {
+            Spot::Corner(corner) => self.around.get(&corner).map(Vec::as_slice),
+            Spot::Edge(ends) => self.within.get(&ends).map(<[u32; 2]>::as_slice),
+            Spot::Face(_) => None,
+        };
+        faces.unwrap_or_default()
+    }
+
     /// What a spot on a face is told as, and on which face it is: what is within a plane is of a
     /// face, and triangles that go by one number are one face.
     pub(super) fn named(&self, spot: Spot, face: u32) -> (Spot, u32) {
@@ -232,7 +242,7 @@ impl<'a> Skin<'a> {
 
     /// The face to which a point on an edge within a plane belongs; none of an edge of the shape.
     pub(super) fn across(&self, ends: [u32; 2]) -> Option<u32> {
-        self.within.get(&ends).copied()
+        self.within.get(&ends).map(|faces| faces[0])
     }
 
     fn add_normals(&mut self) {
@@ -267,6 +277,10 @@ impl<'a> Skin<'a> {
     /// out of the other's plane, or they are cut from one facet.
     fn in_one_plane(&self, ends: [u32; 2], faces: [u32; 2], rounding: f64) -> bool {
         let [one, other] = faces.map(|face| self.face(face));
+        // Their surfaces are as far from the plane as they are rounded.
+        if one.radius.to_bits() != other.radius.to_bits() {
+            return false;
+        }
         let named = matches!(one.name, Feature::Face(_));
         if named && one.name == other.name && one.piece == other.piece {
             return true;

@@ -8,6 +8,7 @@ use crate::tests::scene::{Look, Pcg64, RngExt, direction, magnitude, rng, rotati
 use glam::{DQuat, DVec3};
 use twin::Mesh;
 
+mod cuts;
 mod twin;
 
 /// Two bodies at rest, A where it is put, B at the origin.
@@ -328,6 +329,8 @@ fn compare(a: &Mesh, b: &Mesh, pose: Pose, tolerance: f64, found: &mut [usize; 3
             lower <= upper && lower <= tolerance && (normal.length() - 1.0).abs() < 1e-12,
             "{pair:?}"
         );
+        let loose = upper - lower > 1e-9 * tolerance + 16.0 * problem.rounding;
+        assert!(!loose, "round {round}: not the nearest points: {pair:?}");
     }
     for (count, more) in found.iter_mut().zip(kinds(&pairs)) {
         *count += more;

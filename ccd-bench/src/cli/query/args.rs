@@ -133,6 +133,8 @@ Examples:
   ccd query --a knot.obj --b knot.obj --motions motions.csv --out results.csv
   ccd query --a part.stl --b box:1,1,.1 --motions - --tolerance 1e-6 < motions.csv
   ccd query --a part.stl --b part.stl --motions motions.csv --out results.csv --contacts contacts.csv
+  ccd query --a part.stl --b part.stl --motions motions.csv --out results.csv \\
+      --schedule fast --oracle vmarch --pieces patches --counters    # the paper's own way
   printf 'a_pz,a_vz\\n3,-4\\n' | ccd query --a box:.5,.5,.5 --b box:9,9,1 --motions -";
 
 /// What becomes of a contact at the start.

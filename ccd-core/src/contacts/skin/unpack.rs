@@ -29,19 +29,24 @@ impl Skin<'_> {
     /// The mesh's triangles on a piece; where there are none, those of its facets, or what it is the
     /// hull of: up to three points, or more of them, each alone.
     fn triangles(&self, index: u32, piece: &Piece<'_>) -> Vec<Unpacked> {
-        let at = |k: u32| (piece.points[k as usize], self.number(index, k));
+        let mesh: Vec<Unpacked> = self.on_the_mesh(index, piece);
+        if !mesh.is_empty() {
+            return mesh;
+        }
         let whole = |corners: [u32; 3]| {
+            let point = |k: u32| piece.points[k as usize];
+            // Facets of which none is of the mesh name nothing, which takes a look at all to find out.
+            if !piece.facets.is_empty() {
+                let nameless = corners.map(|k| (point(k), None));
+                return (Feature::Piece(index), nameless);
+            }
             let mut inside = Combination::EMPTY;
             for corner in corners {
                 inside.push(corner, 1.0);
             }
             let name = self.body.pieces().feature(index as usize, &inside);
-            (name, corners.map(at))
+            (name, corners.map(|k| (point(k), self.number(index, k))))
         };
-        let mesh: Vec<Unpacked> = self.on_the_mesh(index, piece);
-        if !mesh.is_empty() {
-            return mesh;
-        }
         let fan = |corners: &[u32]| -> Vec<[u32; 3]> {
             let inner = corners.windows(2).skip(1);
             inner.map(|pair| [corners[0], pair[0], pair[1]]).collect()

@@ -98,8 +98,8 @@ impl Mesh {
         self.faces[face].map(|v| self.points[v as usize])
     }
 
-    /// Each edge once, and the first of the two coplanar faces that it is between.
-    fn edges(&self, rounding: f64) -> Vec<([u32; 2], Option<u32>)> {
+    /// Each edge once, and the two coplanar faces that it is between.
+    fn edges(&self, rounding: f64) -> Vec<([u32; 2], Option<[u32; 2]>)> {
         let mut sides: BTreeMap<[u32; 2], Vec<(u32, u32)>> = BTreeMap::new();
         for (k, face) in (0u32..).zip(&self.faces) {
             for i in 0..3 {
@@ -112,12 +112,12 @@ impl Mesh {
         }
         let at = |v: u32| self.points[v as usize];
         let flat = |[v, w]: [u32; 2], sides: &[(u32, u32)]| match *sides {
-            [(first, p), (_, q)] => {
+            [(first, p), (second, q)] => {
                 let along = at(w) - at(v);
                 let normal = along.cross(at(p) - at(v)).normalize();
                 let beyond = along.cross(at(q) - at(v)).dot(normal) < 0.0;
                 let level = normal.dot(at(q) - at(v)).abs() <= rounding;
-                (beyond && level).then_some(first)
+                (beyond && level).then_some([first, second])
             }
             _ => None,
         };
@@ -257,22 +257,45 @@ impl Offers {
                 corner && meshes[k].bounds(key[k], other[k])
             })
         };
-        let within = meshes.map(|mesh| -> BTreeMap<Feature, Feature> {
+        let within = meshes.map(|mesh| -> BTreeMap<Feature, [u32; 2]> {
             let edges = mesh.edges(self.rounding).into_iter();
-            let flat = edges.filter_map(|([v, w], face)| Some((Feature::Edge(v, w), face?)));
-            flat.map(|(edge, face)| (edge, Feature::Face(face)))
-                .collect()
+            let flat = edges.filter_map(|([v, w], faces)| Some((Feature::Edge(v, w), faces?)));
+            flat.collect()
         });
         let name = |key: &Key| {
-            let side = |k: usize| within[k].get(&key[k]).unwrap_or(&key[k]);
+            let side = |k: usize| match within[k].get(&key[k]) {
+                Some(faces) => Feature::Face(faces[0]),
+                None => key[k],
+            };
             format!("{} {}", side(0), side(1))
+        };
+        // How much nearer one of the faces beside an edge within a plane is than a point on it.
+        let nearer = |key: &Key, distance: f64| -> f64 {
+            let of_side = |k: usize| {
+                let Feature::Vertex(v) = key[1 - k] else {
+                    return 0.0;
+                };
+                let from = [meshes[1 - k].points[v as usize]; 3];
+                let faces = within[k].get(&key[k]).into_iter().flatten();
+                faces
+                    .map(|&face| {
+                        distance - nearest(&from, &meshes[k].triangle(face as usize)).distance
+                    })
+                    .fold(0.0, f64::max)
+            };
+            of_side(0).max(of_side(1))
         };
         let (mut sure, mut doubtful) = (BTreeMap::new(), BTreeSet::new());
         for (key, &distance) in &self.sure {
             if self.sure.keys().any(|other| larger(key, other)) {
                 continue;
             }
-            match self.doubtful.iter().any(|other| larger(key, other)) {
+            let nearer = nearer(key, distance);
+            if nearer > 16.0 * self.rounding {
+                continue;
+            }
+            let brink = nearer > 0.25 * self.rounding;
+            match brink || self.doubtful.iter().any(|other| larger(key, other)) {
                 true => drop(doubtful.insert(name(key))),
                 false => drop(sure.insert(name(key), distance)),
             }

@@ -1,0 +1,137 @@
+//! Faces in boxes under binary trees, one for each piece: which faces of two pieces are near.
+
+use super::skin::Skin;
+use glam::DVec3;
+use std::collections::HashMap;
+
+/// The trees over the faces of one body's pieces, each made when its piece is first asked for: a piece
+/// of many faces may be near many others, and is to be put in order once.
+pub(super) struct FaceTrees {
+    nodes: Vec<Boxed>,
+    roots: HashMap<u32, u32>,
+}
+
+/// Some faces in a box along the axes of A's frame, rounding radius included.
+#[derive(Clone, Copy)]
+struct Boxed {
+    low: DVec3,
+    high: DVec3,
+    below: Below,
+}
+
+#[derive(Clone, Copy)]
+enum Below {
+    Face(u32),
+    /// The next node, and this one.
+    Halves(u32),
+}
+
+/// The pairs of faces that are nearer than `reach`, as far as boxes can tell, and how many pairs of
+/// boxes may be looked at to find them.
+pub(super) struct NearFaces {
+    pub(super) pairs: Vec<[u32; 2]>,
+    pub(super) budget: u64,
+    pub(super) reach: f64,
+}
+
+impl NearFaces {
+    /// Adds the pairs under two roots. None when the budget is spent.
+    pub(super) fn among(&mut self, trees: &[FaceTrees; 2], roots: [u32; 2]) -> Option<()> {
+        let mut stack = vec![roots];
+        while let Some([at_a, at_b]) = stack.pop() {
+            let (a, b) = (trees[0].get(at_a), trees[1].get(at_b));
+            if a.apart(b, self.reach) {
+                continue;
+            }
+            self.budget = self.budget.checked_sub(1)?;
+            match (a.below, b.below) {
+                (Below::Face(face_a), Below::Face(face_b)) => self.pairs.push([face_a, face_b]),
+                (Below::Halves(right), Below::Face(_)) => {
+                    stack.extend([[right, at_b], [at_a + 1, at_b]]);
+                }
+                (Below::Halves(right), Below::Halves(_)) if a.size() >= b.size() => {
+                    stack.extend([[right, at_b], [at_a + 1, at_b]]);
+                }
+                (_, Below::Halves(right)) => stack.extend([[at_a, right], [at_a, at_b + 1]]),
+            }
+        }
+        Some(())
+    }
+}
+
+impl FaceTrees {
+    pub(super) fn new() -> Self {
+        FaceTrees {
+            nodes: Vec::new(),
+            roots: HashMap::new(),
+        }
+    }
+
+    /// The root over a piece's faces; none of a piece that has no faces.
+    pub(super) fn root(&mut self, skin: &mut Skin<'_>, piece: u32) -> Option<u32> {
+        if let Some(&root) = self.roots.get(&piece) {
+            return Some(root);
+        }
+        let faces = skin.of_piece(piece);
+        let mut boxes: Vec<Boxed> = faces.map(|face| Boxed::new(skin, face)).collect();
+        let root = self.add(&mut boxes)?;
+        self.roots.insert(piece, root);
+        Some(root)
+    }
+
+    fn get(&self, at: u32) -> &Boxed {
+        &self.nodes[at as usize]
+    }
+
+    /// Adds a node around some faces, and those below it: halves, so that it is no deeper than the
+    /// logarithm of their number.
+    fn add(&mut self, faces: &mut [Boxed]) -> Option<u32> {
+        let around = faces.iter().copied().reduce(Boxed::around)?;
+        let at = self.nodes.len();
+        self.nodes.push(around);
+        if faces.len() > 1 {
+            let (left, right) = halves(faces, around.high - around.low);
+            self.add(left)?;
+            self.nodes[at].below = Below::Halves(self.add(right)?);
+        }
+        Some(at as u32)
+    }
+}
+
+impl Boxed {
+    fn new(skin: &Skin<'_>, face: u32) -> Self {
+        let ([a, b, c], radius) = (skin.triangle(face), skin.face(face).radius);
+        Boxed {
+            low: a.min(b).min(c) - radius,
+            high: a.max(b).max(c) + radius,
+            below: Below::Face(face),
+        }
+    }
+
+    /// Around both; what is below is the first one's.
+    fn around(self, other: Boxed) -> Boxed {
+        Boxed {
+            low: self.low.min(other.low),
+            high: self.high.max(other.high),
+            below: self.below,
+        }
+    }
+
+    /// Whether they are certainly farther apart than `reach` along a coordinate.
+    fn apart(&self, other: &Boxed, reach: f64) -> bool {
+        let gap = (other.low - self.high).max(self.low - other.high);
+        gap.max_element() > reach
+    }
+
+    fn size(&self) -> f64 {
+        (self.high - self.low).max_element()
+    }
+}
+
+/// Two halves of at least two faces, by their middles along the longest side.
+fn halves(faces: &mut [Boxed], size: DVec3) -> (&mut [Boxed], &mut [Boxed]) {
+    let (axis, half) = (size.max_position(), faces.len() / 2);
+    let middle = |face: &Boxed| face.low[axis] + face.high[axis];
+    faces.select_nth_unstable_by(half, |one, other| middle(one).total_cmp(&middle(other)));
+    faces.split_at_mut(half)
+}
