@@ -3,13 +3,15 @@
 //!
 //! `cargo bench -p ccd-bench --bench oracles`
 
-use ccd_core::glam::{DQuat, DVec3};
-use ccd_core::{DistanceOracle, Frame, HullTree, PiecePair, Pieces, Polytope, Pose};
-use ccd_decomp::build_hull_tree;
+mod ball;
+
+use ball::{ball, direction};
+use ccd_core::glam::DQuat;
+use ccd_core::{DistanceOracle, Frame, HullTree, PiecePair, Pose};
 use ccd_distance_gjk::{Gjk, GjkF32};
 use ccd_distance_vmarch::Vmarch;
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use rand::{RngExt, SeedableRng};
+use rand::SeedableRng;
 use rand_pcg::Pcg64;
 use std::hint::black_box;
 
@@ -40,8 +42,8 @@ fn oracles(criterion: &mut Criterion) {
             b: ball(&mut rng, corners),
             poses: poses(&mut rng),
         };
+        agrees(&course);
         for (name, start) in [("warm", Start::Warm), ("cold", Start::Cold)] {
-            agrees(&course);
             let mut group = criterion.benchmark_group(name);
             group.throughput(Throughput::Elements(POSES as u64));
             let id = |oracle| BenchmarkId::new(oracle, corners);
@@ -109,27 +111,6 @@ fn poses(rng: &mut Pcg64) -> Vec<Frame> {
         pose.expect("a rotation").into()
     };
     (0..POSES).map(pose).collect()
-}
-
-/// The hull of points spread at random over a sphere.
-fn ball(rng: &mut Pcg64, corners: usize) -> HullTree {
-    let points: Vec<DVec3> = (0..corners).map(|_| direction(rng)).collect();
-    let half = |points: &[DVec3]| Polytope {
-        points: points.to_vec(),
-        ..Polytope::default()
-    };
-    let (one, other) = points.split_at(corners / 2);
-    let pieces = Pieces::polytopes(&[half(one), half(other)]).expect("points of a sphere");
-    build_hull_tree(&pieces).expect("points of a sphere have a hull")
-}
-
-fn direction(rng: &mut Pcg64) -> DVec3 {
-    loop {
-        let cube = DVec3::from_array([(); 3].map(|()| rng.random_range(-1.0..1.0)));
-        if (0.01..1.0).contains(&cube.length_squared()) {
-            return cube.normalize();
-        }
-    }
 }
 
 criterion_group!(benches, oracles);

@@ -3,11 +3,13 @@
 //!
 //! `cargo bench -p ccd-bench --bench support`
 
+mod ball;
+
+use ball::{ball, direction};
 use ccd_core::glam::{DQuat, DVec3};
-use ccd_core::{HullTree, Pieces, Polytope, SupportScan, SupportTable};
-use ccd_decomp::build_hull_tree;
+use ccd_core::{SupportScan, SupportTable};
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use rand::{RngExt, SeedableRng};
+use rand::SeedableRng;
 use rand_pcg::Pcg64;
 use std::hint::black_box;
 
@@ -52,27 +54,6 @@ fn support(criterion: &mut Criterion) {
         );
     }
     group.finish();
-}
-
-/// The hull of points spread at random over a sphere.
-fn ball(rng: &mut Pcg64, corners: usize) -> HullTree {
-    let points: Vec<DVec3> = (0..corners).map(|_| direction(rng)).collect();
-    let half = |points: &[DVec3]| Polytope {
-        points: points.to_vec(),
-        ..Polytope::default()
-    };
-    let (one, other) = points.split_at(corners / 2);
-    let pieces = Pieces::polytopes(&[half(one), half(other)]).expect("points of a sphere");
-    build_hull_tree(&pieces).expect("points of a sphere have a hull")
-}
-
-fn direction(rng: &mut Pcg64) -> DVec3 {
-    loop {
-        let cube = DVec3::from_array([(); 3].map(|()| rng.random_range(-1.0..1.0)));
-        if (0.01..1.0).contains(&cube.length_squared()) {
-            return cube.normalize();
-        }
-    }
 }
 
 /// Directions a hundredth of a radian apart, as a step of a query sees them.

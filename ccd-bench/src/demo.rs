@@ -7,7 +7,7 @@ pub use agreement::disagreements;
 
 use crate::engine::{Method, OracleKind, ScheduleKind};
 use crate::progress::Progress;
-use crate::query::{Settings, Timed, run};
+use crate::query::{Bodies, Settings, Timed, run};
 use crate::scene::{Models, SCENES, Scene, SceneError};
 use crate::summary::Summary;
 use ccd_core::InputError;
@@ -103,23 +103,24 @@ fn scenes(options: &DemoOptions) -> Result<Vec<Scene>, SceneError> {
 
 /// The methods that a scene is small enough for, the one that others are held against first. Large
 /// hulls, which closed forms are not for, are left to the oracles that are made for them.
-fn methods(scene: &Scene) -> impl Iterator<Item = Method> {
+fn methods(scene: &Scene) -> impl Iterator<Item = (Method, Bodies<'_>)> {
     let all_pairs = scene.pairs() * scene.queries.len() as u64 <= MOST_FOR_NAIVE;
-    Method::all().filter(move |method| match method.schedule {
+    let suits = move |method: &Method| match method.schedule {
         ScheduleKind::BestFirst => true,
         ScheduleKind::HullFirst | ScheduleKind::Fast => {
             matches!(method.oracle, OracleKind::Gjk | OracleKind::Vmarch)
-                && scene.bodies_for(method.schedule).is_some()
         }
         ScheduleKind::Naive => all_pairs,
-    })
+    };
+    let with_bodies = |method: Method| Some((method, scene.bodies_for(method.schedule)?));
+    Method::all().filter(suits).filter_map(with_bodies)
 }
 
 fn measure(scene: &Scene, progress: &Progress) -> Result<Vec<Measurement>, DemoError> {
     let queries: Vec<_> = scene.queries.iter().collect();
     let mut reference: Option<Vec<Timed>> = None;
     let mut measurements = Vec::new();
-    for method in methods(scene) {
+    for (method, bodies) in methods(scene) {
         progress.say(&format!(
             "{}: {} {}",
             scene.name, method.schedule, method.oracle
@@ -128,9 +129,6 @@ fn measure(scene: &Scene, progress: &Progress) -> Result<Vec<Measurement>, DemoE
             method,
             ..Settings::default()
         };
-        let bodies = scene
-            .bodies_for(method.schedule)
-            .unwrap_or_else(|| scene.bodies());
         let timed = run(bodies, &queries, &settings, progress)?
             .into_iter()
             .collect::<Result<Vec<Timed>, InputError>>()

@@ -36,8 +36,6 @@ pub struct Scene {
 pub struct SceneBody {
     /// The body.
     pub body: Arc<Body>,
-    /// How many triangles its mesh has.
-    pub triangles: usize,
     /// Where its mesh comes from.
     pub origin: Origin,
     mesh: Arc<TriangleMesh>,
@@ -45,6 +43,11 @@ pub struct SceneBody {
 }
 
 impl SceneBody {
+    /// How many triangles its mesh has.
+    pub fn triangles(&self) -> usize {
+        self.mesh.faces().len()
+    }
+
     /// The same body as the paper has it, made when it is first asked for: patches of the surface
     /// under a hull tree. None where the mesh bounds no solid.
     pub fn patches(&self) -> Option<&Body> {
@@ -131,7 +134,6 @@ impl Models {
         let prepared = body_from_mesh(&loaded.mesh, Detail::Auto).map_err(failed)?;
         let body = SceneBody {
             body: Arc::new(prepared.body),
-            triangles: loaded.mesh.faces().len(),
             origin: loaded.origin,
             mesh: Arc::new(loaded.mesh),
             patches: Arc::default(),

@@ -13,13 +13,12 @@ mod tests;
 
 pub use error::{HullFault, HullTreeError};
 
-use convex::Climbed;
-
 use crate::hierarchy::{Hierarchy, HierarchyNode};
 use crate::oracle::Combination;
 use crate::piece::Piece;
-use crate::pieces::Pieces;
+use crate::pieces::{Pieces, range};
 use crate::tolerance::CLIMBED_POINTS;
+use convex::Climbed;
 use glam::DVec3;
 
 /// A binary tree over the pieces of a body with the convex hull of what is below at every node
@@ -124,11 +123,7 @@ impl HullTree {
     /// # Panics
     /// When there is no such node.
     pub fn facet_classes(&self, node: u32) -> &[FacetClass] {
-        let start = match node {
-            0 => 0,
-            _ => self.class_ends[node as usize - 1],
-        };
-        &self.classes[start as usize..self.class_ends[node as usize] as usize]
+        &self.classes[range(&self.class_ends, node as usize)]
     }
 
     /// What the feature is that holds a combination of a node's points: the best of the facets that
@@ -170,12 +165,7 @@ impl HullTree {
         if !points.contains(&at) {
             return &[];
         }
-        let start = if at == 0 {
-            0
-        } else {
-            self.meeting_ends[at - 1]
-        };
-        &self.meeting[start as usize..self.meeting_ends[at] as usize]
+        &self.meeting[range(&self.meeting_ends, at)]
     }
 
     /// A node's hull; where it has many points, these are found along a direction by climbing edges,

@@ -77,7 +77,7 @@ fn cells(scene: &Scene, measurement: &Measurement) -> [String; HEADER.len()] {
 
 /// Of both meshes, or of the one that both bodies share.
 fn triangles(scene: &Scene) -> String {
-    let (a, b) = (scene.a.triangles, scene.b.triangles);
+    let (a, b) = (scene.a.triangles(), scene.b.triangles());
     match Arc::ptr_eq(&scene.a.body, &scene.b.body) {
         true => grouped(a),
         false => format!("{} × {}", grouped(a), grouped(b)),

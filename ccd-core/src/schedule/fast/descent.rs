@@ -55,9 +55,7 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
             contact: None,
             open: BinaryHeap::new(),
         };
-        let mut leaves = Vec::with_capacity(self.front.len());
-        self.front.leaves(&mut leaves);
-        for at in leaves {
+        for at in self.front.leaves() {
             self.look(oracle, &moment, at, &mut found)?;
         }
         while let Some(Open { lower, at }) = found.open.pop() {
@@ -77,17 +75,9 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
             let time = self.problem.time(s);
             return ControlFlow::Break(Outcome::Contact { time, contact });
         }
-        let next = self.next();
+        let next = self.front.clock();
         self.join(oracle, &moment, &mut found, next)?;
         ControlFlow::Continue(next)
-    }
-
-    /// The least clock of the front.
-    fn next(&mut self) -> f64 {
-        let mut leaves = Vec::with_capacity(self.front.len());
-        self.front.leaves(&mut leaves);
-        let clocks = leaves.into_iter().map(|at| self.front.node(at).clock);
-        clocks.fold(f64::INFINITY, f64::min)
     }
 
     /// Measures a pair of the front.
@@ -131,7 +121,8 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
         let Some(checked) = moment.ask(oracle, cache, self.stats) else {
             // Smaller hulls may be easier.
             (node.lower, node.near, node.clock) = (f64::NEG_INFINITY, Near::Bridges, s);
-            found.open.push(Open::new(at, node.lower));
+            let lower = node.lower;
+            found.open.push(Open { lower, at });
             return;
         };
         let reaches = self.reaches.each(problem, node.pair, &moment);
@@ -147,7 +138,8 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
         if settled && checked.lower > reach && node.clock > s {
             found.distance = found.distance.min(checked.upper);
         } else if !(checked.lower >= found.distance) {
-            found.open.push(Open::new(at, checked.lower));
+            let lower = checked.lower;
+            found.open.push(Open { lower, at });
         }
     }
 
@@ -202,9 +194,7 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
             return ControlFlow::Continue(());
         }
         let distance = found.distance;
-        let mut pairs = Vec::new();
-        self.front.above_leaves(&mut pairs);
-        for (at, first) in pairs {
+        for (at, first) in self.front.above_leaves() {
             let far = [first, first + 1]
                 .into_iter()
                 .all(|child| self.front.node(child).lower >= JOIN_BEYOND * distance);
@@ -231,12 +221,6 @@ impl Found {
         if separation.lower < nearest.separation.lower {
             *nearest = contact;
         }
-    }
-}
-
-impl Open {
-    fn new(at: u32, lower: f64) -> Self {
-        Open { lower, at }
     }
 }
 

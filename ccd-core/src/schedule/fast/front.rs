@@ -62,11 +62,6 @@ impl<C: Clone + Default> Front<C> {
         (self.leaves, self.peak) = (1, 1);
     }
 
-    /// How many pairs are in it.
-    pub(super) fn len(&self) -> usize {
-        self.leaves
-    }
-
     /// The most pairs that were in it at once.
     pub(super) fn peak(&self) -> u64 {
         self.peak as u64
@@ -77,27 +72,40 @@ impl<C: Clone + Default> Front<C> {
     }
 
     /// The pairs of the front, in the order of the tree.
-    pub(super) fn leaves(&self, into: &mut Vec<u32>) {
-        into.clear();
+    pub(super) fn leaves(&self) -> Vec<u32> {
+        let mut leaves = Vec::with_capacity(self.leaves);
         self.walk(|at, node| {
             if node.children.is_none() {
-                into.push(at);
+                leaves.push(at);
             }
         });
+        leaves
     }
 
-    /// The pairs both of whose children are in the front.
-    pub(super) fn above_leaves(&self, into: &mut Vec<(u32, u32)>) {
-        into.clear();
+    /// The least clock of the pairs in the front.
+    pub(super) fn clock(&self) -> f64 {
+        let mut least = f64::INFINITY;
+        self.walk(|_, node| {
+            if node.children.is_none() {
+                least = least.min(node.clock);
+            }
+        });
+        least
+    }
+
+    /// The pairs both of whose children are in the front, with the first of these.
+    pub(super) fn above_leaves(&self) -> Vec<(u32, u32)> {
+        let mut above = Vec::new();
         self.walk(|at, node| {
             if let Some(first) = node.children
                 && [first, first + 1]
                     .iter()
                     .all(|&child| self.nodes[child as usize].children.is_none())
             {
-                into.push((at, first));
+                above.push((at, first));
             }
         });
+        above
     }
 
     /// Replaces a pair of the front by two that cover it, and returns the first of them; none where

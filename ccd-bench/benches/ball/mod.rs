@@ -1,0 +1,29 @@
+//! Hulls of any number of corners.
+
+use ccd_core::glam::DVec3;
+use ccd_core::{HullTree, Pieces, Polytope};
+use ccd_decomp::build_hull_tree;
+use rand::RngExt;
+use rand_pcg::Pcg64;
+
+/// The hull of points spread at random over a sphere.
+pub(crate) fn ball(rng: &mut Pcg64, corners: usize) -> HullTree {
+    let points: Vec<DVec3> = (0..corners).map(|_| direction(rng)).collect();
+    let half = |points: &[DVec3]| Polytope {
+        points: points.to_vec(),
+        ..Polytope::default()
+    };
+    let (one, other) = points.split_at(corners / 2);
+    let pieces = Pieces::polytopes(&[half(one), half(other)]).expect("points of a sphere");
+    build_hull_tree(&pieces).expect("points of a sphere have a hull")
+}
+
+/// A unit vector, any as likely as any other.
+pub(crate) fn direction(rng: &mut Pcg64) -> DVec3 {
+    loop {
+        let cube = DVec3::from_array([(); 3].map(|()| rng.random_range(-1.0..1.0)));
+        if (0.01..1.0).contains(&cube.length_squared()) {
+            return cube.normalize();
+        }
+    }
+}
