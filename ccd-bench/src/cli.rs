@@ -1,18 +1,22 @@
 //! The command line: what can be said, and what the exit code says.
 
+mod chart;
 mod decompose;
+mod peer;
 mod pieces;
 mod query;
+mod truth;
 
-use crate::demo::{DemoError, DemoOptions, demo};
-use anyhow::{Result, ensure};
-use clap::{Args, Parser, Subcommand};
+use chart::{ChartArgs, CommonArgs};
+use clap::{Parser, Subcommand};
 use decompose::DecomposeArgs;
+use peer::PeerArgs;
 use query::QueryArgs;
 use std::fs;
 use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::ExitCode;
+use truth::TruthArgs;
 
 /// When do two moving bodies first touch, where, and with which features?
 #[derive(Debug, Parser)]
@@ -29,24 +33,23 @@ Examples:
   ccd
   ccd query --a knot.obj --b knot.obj --motions motions.csv --out results.csv
   ccd decompose knot.obj --pieces patches --out knot.ccd
+  ccd chart --scenes santa --tolerances 1e-3,1e-6
   ccd query --help";
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Compare all methods on the paper's five scenes, as a table (under a minute)
-    Demo(DemoArgs),
+    /// Compare all methods on the paper's five scenes: a table, charts, a page (under a minute)
+    Demo(CommonArgs),
+    /// Measure speed against accuracy: scenes, methods and tolerances of your choice
+    Chart(ChartArgs),
     /// Answer a table of motions of two bodies
     Query(Box<QueryArgs>),
     /// Prepare a mesh: count the pieces it becomes, write them, store the body
     Decompose(DecomposeArgs),
-}
-
-#[derive(Debug, Default, Args)]
-struct DemoArgs {
-    /// Use the meshes found here (bunny70k.obj, bunny26k.obj, santa.obj, knot2880.obj, …) in place
-    /// of the models made by code
-    #[arg(long, value_name = "DIR")]
-    models: Option<PathBuf>,
+    /// Bracket the exact first contacts of two meshes, to judge answers by
+    Truth(TruthArgs),
+    #[command(hide = true)]
+    Peer(PeerArgs),
 }
 
 /// What a run came to.
@@ -67,11 +70,14 @@ struct CannotWrite {
 pub fn main() -> ExitCode {
     let outcome = match Cli::parse()
         .command
-        .unwrap_or_else(|| Command::Demo(DemoArgs::default()))
+        .unwrap_or_else(|| Command::Demo(CommonArgs::default()))
     {
-        Command::Demo(args) => run_demo(args),
+        Command::Demo(args) => chart::run_demo(&args),
+        Command::Chart(args) => chart::run(&args),
         Command::Query(args) => query::run(&args),
         Command::Decompose(args) => decompose::run(&args),
+        Command::Truth(args) => truth::run(&args),
+        Command::Peer(args) => peer::run(&args),
     };
     match outcome {
         Ok(Verdict::AllAnswered) => ExitCode::SUCCESS,
@@ -85,28 +91,6 @@ pub fn main() -> ExitCode {
             }
         },
     }
-}
-
-fn run_demo(args: DemoArgs) -> Result<Verdict> {
-    if let Some(directory) = &args.models {
-        ensure!(
-            directory.is_dir(),
-            "{} is no directory; give --models one that holds meshes such as bunny70k.obj",
-            directory.display()
-        );
-    }
-    let options = DemoOptions {
-        models: args.models,
-    };
-    demo(&options, &mut io::stdout().lock()).map_err(|error| match error {
-        DemoError::Output(source) => CannotWrite {
-            place: "the table".to_owned(),
-            source,
-        }
-        .into(),
-        other => anyhow::Error::from(other),
-    })?;
-    Ok(Verdict::AllAnswered)
 }
 
 /// Tells the user; that nobody can be told is no reason to fail.

@@ -1,12 +1,14 @@
-//! The table of motions: CSV in, motions of two bodies out.
+//! The table of motions: CSV in, motions of two bodies out, and back.
 
 mod columns;
 mod error;
 mod row;
 #[cfg(test)]
 mod tests;
+mod write;
 
 pub use error::{RowError, RowProblem, TableError};
+pub use write::write;
 
 use ccd_core::Motion;
 use columns::Columns;

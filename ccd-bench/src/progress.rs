@@ -46,6 +46,11 @@ impl Progress {
         self.bar.inc(1);
     }
 
+    /// Lets a bar be drawn anew though no step is done.
+    pub fn tick(&self) {
+        self.bar.tick();
+    }
+
     /// Says what is being done.
     pub fn say(&self, message: &str) {
         self.bar.set_message(message.to_owned());

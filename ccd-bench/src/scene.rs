@@ -1,14 +1,13 @@
 //! The paper's five scenes `[FAST06 §6.2]`, and one small enough for the slowest method.
 
-mod fall;
+mod listing;
 mod shots;
 #[cfg(test)]
 mod tests;
 
-pub use fall::Fall;
+pub use listing::{Listing, listings};
 pub use shots::{Shots, drops_past_board};
 
-use crate::engine::ScheduleKind;
 use crate::model::{Model, Origin};
 use crate::motions::Query;
 use crate::query::Bodies;
@@ -23,6 +22,8 @@ use std::sync::{Arc, OnceLock};
 pub struct Scene {
     /// What it is called.
     pub name: String,
+    /// The figure of the paper that shows it.
+    pub figure: Option<u8>,
     /// Body A.
     pub a: SceneBody,
     /// Body B.
@@ -34,28 +35,68 @@ pub struct Scene {
 /// A body of a scene, shared with others.
 #[derive(Clone, Debug)]
 pub struct SceneBody {
-    /// The body.
+    /// The body, of the least pieces that are exact.
     pub body: Arc<Body>,
     /// Where its mesh comes from.
     pub origin: Origin,
     mesh: Arc<TriangleMesh>,
-    patches: Arc<OnceLock<Option<Body>>>,
+    others: Arc<Others>,
 }
 
+/// The same body of other pieces, each made when it is first asked for; none where it cannot be.
+#[derive(Debug, Default)]
+struct Others {
+    triangles: OnceLock<Option<Body>>,
+    patches: OnceLock<Option<Body>>,
+    hulls: OnceLock<Option<Body>>,
+}
+
+/// What pieces a body of a scene is made of.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Pieces {
+    /// The least that is exact.
+    #[default]
+    Least,
+    /// A piece per triangle.
+    Triangles,
+    /// Patches of the surface under a hull tree, as the paper has them.
+    Patches,
+    /// Hulls that stick out of it.
+    ApproximateHulls,
+}
+
+/// How many approximate hulls a body becomes at most.
+const HULLS: u32 = 32;
+
 impl SceneBody {
+    /// Its mesh.
+    pub fn mesh(&self) -> &TriangleMesh {
+        &self.mesh
+    }
+
     /// How many triangles its mesh has.
     pub fn triangles(&self) -> usize {
         self.mesh.faces().len()
     }
 
-    /// The same body as the paper has it, made when it is first asked for: patches of the surface
-    /// under a hull tree. None where the mesh bounds no solid.
-    pub fn patches(&self) -> Option<&Body> {
-        let make = || {
+    /// The same body made of such pieces, when it is first asked for; none where the mesh does not
+    /// allow them.
+    pub fn of(&self, pieces: Pieces) -> Option<&Body> {
+        let make = |detail| body_from_mesh(&self.mesh, detail).ok().map(|p| p.body);
+        let patches = || {
             let patches = prepare(&self.mesh, Detail::Patches(Order::Cresting)).ok()?;
             patches.with_hull_tree().ok()?.body().ok()
         };
-        self.patches.get_or_init(make).as_ref()
+        let others = &self.others;
+        match pieces {
+            Pieces::Least => return Some(&self.body),
+            Pieces::Triangles => others.triangles.get_or_init(|| make(Detail::Triangles)),
+            Pieces::Patches => others.patches.get_or_init(patches),
+            Pieces::ApproximateHulls => others
+                .hulls
+                .get_or_init(|| make(Detail::Vhacd { hulls: HULLS })),
+        }
+        .as_ref()
     }
 }
 
@@ -74,6 +115,14 @@ pub enum SceneError {
     /// A motion is none.
     #[error(transparent)]
     Input(#[from] InputError),
+    /// The data of the scenes is not as it has to be.
+    #[error("{what}: {problem}")]
+    Data {
+        /// Which part of it.
+        what: String,
+        /// Why.
+        problem: String,
+    },
 }
 
 /// Models made into bodies, each once.
@@ -92,15 +141,12 @@ impl Scene {
         }
     }
 
-    /// Both bodies as a schedule wants them; none where they cannot be had so.
-    pub fn bodies_for(&self, schedule: ScheduleKind) -> Option<Bodies<'_>> {
-        match schedule.uses_hull_trees() {
-            true => Some(Bodies {
-                a: self.a.patches()?,
-                b: self.b.patches()?,
-            }),
-            false => Some(self.bodies()),
-        }
+    /// Both bodies made of such pieces; none where they cannot be had so.
+    pub fn bodies_of(&self, pieces: Pieces) -> Option<Bodies<'_>> {
+        Some(Bodies {
+            a: self.a.of(pieces)?,
+            b: self.b.of(pieces)?,
+        })
     }
 
     /// How many pairs of pieces there are: what a schedule without a tree has to look at.
@@ -136,110 +182,9 @@ impl Models {
             body: Arc::new(prepared.body),
             origin: loaded.origin,
             mesh: Arc::new(loaded.mesh),
-            patches: Arc::default(),
+            others: Arc::default(),
         };
         self.bodies.insert(model, body.clone());
         Ok(body)
     }
-}
-
-/// A scene by what it takes to make it.
-type Recipe = fn(&mut Models) -> Result<Scene, SceneError>;
-
-/// All scenes, each made when it is called for.
-pub const SCENES: [Recipe; 8] = [
-    santa_and_board,
-    bunnies,
-    |models| knots(models, Model::Knot2880),
-    |models| knots(models, Model::Knot11520),
-    |models| knots(models, Model::Knot34560),
-    falling_bunnies,
-    falling_rings,
-    small_knots,
-];
-
-/// Scene 1: Santa tries to get past a board at many heights.
-fn santa_and_board(models: &mut Models) -> Result<Scene, SceneError> {
-    Ok(Scene {
-        name: "Santa and board".into(),
-        a: models.body(Model::Santa)?,
-        b: models.body(Model::Board)?,
-        queries: drops_past_board(100, 1)?,
-    })
-}
-
-/// Scene 2: a bunny is shot past or at a resting one.
-fn bunnies(models: &mut Models) -> Result<Scene, SceneError> {
-    let bunny = models.body(Model::Bunny70k)?;
-    let shots = Shots {
-        count: 250,
-        translations: 100,
-        distance: 2.6..3.2,
-        aside: 1.6,
-        seed: 2,
-    };
-    Ok(Scene {
-        name: "bunny and bunny".into(),
-        a: bunny.clone(),
-        b: bunny,
-        queries: shots.queries()?,
-    })
-}
-
-/// Scene 3: a torus knot is shot past, at or through a resting one.
-fn knots(models: &mut Models, model: Model) -> Result<Scene, SceneError> {
-    let knot = models.body(model)?;
-    let shots = Shots {
-        count: 250,
-        translations: 100,
-        distance: 3.0..3.8,
-        aside: 2.3,
-        seed: 3,
-    };
-    Ok(Scene {
-        name: "knot and knot".into(),
-        a: knot.clone(),
-        b: knot,
-        queries: shots.queries()?,
-    })
-}
-
-/// Scene 4: bunnies fall onto a resting one, tumbling, step by step until they touch it.
-fn falling_bunnies(models: &mut Models) -> Result<Scene, SceneError> {
-    falling(models, Model::Bunny26k, "falling bunnies", 4)
-}
-
-/// Scene 5: the same with rings.
-fn falling_rings(models: &mut Models) -> Result<Scene, SceneError> {
-    falling(models, Model::Ring, "falling rings", 5)
-}
-
-fn falling(models: &mut Models, model: Model, name: &str, seed: u64) -> Result<Scene, SceneError> {
-    let body = models.body(model)?;
-    let fall = Fall {
-        drops: 24,
-        height: 2.4,
-        reach: 2.0,
-        aside: 0.8,
-        spin: 6.0,
-        seed,
-    };
-    let bodies = Bodies {
-        a: &body.body,
-        b: &body.body,
-    };
-    Ok(Scene {
-        name: name.into(),
-        queries: fall.queries(bodies)?,
-        a: body.clone(),
-        b: body,
-    })
-}
-
-/// Not the paper's: scene 3 with so few triangles that all pairs of them can be looked at.
-fn small_knots(models: &mut Models) -> Result<Scene, SceneError> {
-    let mut scene = knots(models, Model::Knot216)?;
-    // Both kinds of motion, in the same proportion.
-    scene.queries = scene.queries.into_iter().step_by(10).collect();
-    Ok(scene)
 }

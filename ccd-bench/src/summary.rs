@@ -88,9 +88,7 @@ impl Summary {
         }
         summary.median_micros = median(&mut micros);
         summary.mean_micros = micros.iter().sum::<f64>() / micros.len() as f64;
-        // The median has sorted them.
-        let within = (0.95 * micros.len() as f64).ceil() as usize;
-        summary.p95_micros = within.checked_sub(1).map_or(f64::NAN, |k| micros[k]);
+        summary.p95_micros = percentile(&micros, 0.95);
         summary
     }
 
@@ -116,6 +114,12 @@ impl Summary {
     pub fn rows(&self) -> usize {
         self.counts.iter().sum()
     }
+}
+
+/// What such a share of values stays within, of values sorted from the least; NaN of none.
+pub fn percentile(sorted: &[f64], share: f64) -> f64 {
+    let within = (share * sorted.len() as f64).ceil() as usize;
+    within.checked_sub(1).map_or(f64::NAN, |k| sorted[k])
 }
 
 impl fmt::Display for Summary {

@@ -35,18 +35,13 @@ impl Shots {
                 let from = rng.random_range(self.distance.clone()) * unit_vector(&mut rng);
                 let target = self.aside * in_unit_ball(&mut rng);
                 let start = Pose::new(from, orientation(&mut rng))?;
-                let turn = if row < self.translations {
-                    DQuat::IDENTITY
+                let velocity = 2.0 * (target - from);
+                let spin = if row < self.translations {
+                    DVec3::ZERO
                 } else {
-                    let angle = rng.random_range(0.0..FRAC_PI_2);
-                    DQuat::from_axis_angle(unit_vector(&mut rng), angle)
+                    rng.random_range(0.0..FRAC_PI_2) * unit_vector(&mut rng)
                 };
-                let end = Pose::new(2.0 * target - from, turn * start.rotation())?;
-                at_rest(
-                    row,
-                    Motion::between(start, end, DVec3::ZERO, 1.0)?,
-                    DVec3::ZERO,
-                )
+                at_rest(row, Motion::new(start, velocity, spin)?, DVec3::ZERO)
             })
             .collect()
     }
@@ -63,15 +58,15 @@ pub fn drops_past_board(count: usize, seed: u64) -> Result<Vec<Query>, InputErro
     (0..count)
         .map(|row| {
             let start = Pose::new(5.0 * DVec3::Z, orientation(&mut rng))?;
-            let turn = DQuat::from_axis_angle(unit_vector(&mut rng), 0.75 * PI);
-            let end = Pose::new(-5.0 * DVec3::Z, turn * start.rotation())?;
+            let spin = 0.75 * PI * unit_vector(&mut rng);
+            let motion = Motion::new(start, -10.0 * DVec3::Z, spin)?;
             let height = 3.5 - 7.0 * row as f64 / count as f64;
             let aside = match row % 4 {
                 0 => rng.random_range(2.45..2.6),
                 _ => 0.0,
             };
             let board = DVec3::new(aside, 0.0, height);
-            at_rest(row, Motion::between(start, end, DVec3::ZERO, 1.0)?, board)
+            at_rest(row, motion, board)
         })
         .collect()
 }
@@ -86,7 +81,7 @@ fn at_rest(row: usize, a: Motion, b: DVec3) -> Result<Query, InputError> {
 }
 
 /// A point of the unit sphere, all alike likely.
-pub(super) fn unit_vector(rng: &mut impl Rng) -> DVec3 {
+fn unit_vector(rng: &mut impl Rng) -> DVec3 {
     let z: f64 = rng.random_range(-1.0..1.0);
     let (sin, cos) = rng.random_range(0.0..TAU).sin_cos();
     let radius = (1.0 - z * z).sqrt();
@@ -100,7 +95,7 @@ fn in_unit_ball(rng: &mut impl Rng) -> DVec3 {
 }
 
 /// A rotation, all alike likely: a point of the sphere in four dimensions.
-pub(super) fn orientation(rng: &mut impl Rng) -> DQuat {
+fn orientation(rng: &mut impl Rng) -> DQuat {
     let share: f64 = rng.random_range(0.0..1.0);
     let (sin_a, cos_a) = rng.random_range(0.0..TAU).sin_cos();
     let (sin_b, cos_b) = rng.random_range(0.0..TAU).sin_cos();

@@ -29,8 +29,7 @@ fn shots_pass_the_origin_within_their_distance_aside() {
 fn the_first_shots_do_not_turn_and_the_others_do() {
     let queries = shots().queries().unwrap();
     let (still, turning) = queries.split_at(80);
-    // The turn of equal poses is rounding.
-    assert!(still.iter().all(|q| q.a.spin().length() < 1e-12));
+    assert!(still.iter().all(|q| q.a.spin() == DVec3::ZERO));
     let real_turns = turning.iter().filter(|q| q.a.spin().length() > 1e-3);
     assert!(real_turns.count() > 110);
 }
@@ -47,44 +46,6 @@ fn scenes_are_the_same_every_time_and_differ_by_seed() {
         drops_past_board(9, 1).unwrap(),
         drops_past_board(9, 1).unwrap()
     );
-}
-
-#[test]
-fn falls_are_continuous_and_end_with_their_first_contact() {
-    let ball = Body::ball(0.5).unwrap();
-    let bodies = Bodies { a: &ball, b: &ball };
-    let fall = Fall {
-        drops: 6,
-        height: 2.0,
-        reach: 1.0,
-        aside: 0.6,
-        spin: 3.0,
-        seed: 1,
-    };
-    let queries = fall.queries(bodies).unwrap();
-    assert_eq!(queries, fall.queries(bodies).unwrap());
-    let mut solver = crate::engine::Method::default().solver();
-    let config = ccd_core::Config::default();
-    let mut contacts = 0;
-    assert!(queries.iter().all(|query| {
-        let end = query.a.pose(query.duration).translation();
-        query.a.start().translation().length() <= 1.0 || end.length() <= 1.0
-    }));
-    for pair in queries.windows(2) {
-        let [now, next] = pair else { unreachable!() };
-        let answer = crate::query::solve(bodies, now, &config, solver.as_mut()).unwrap();
-        let goes_on = next.id.split('.').next() == now.id.split('.').next();
-        if matches!(answer.outcome, Outcome::Free { .. }) {
-            let end = now.a.pose(now.duration).translation();
-            let gap = end.distance(next.a.start().translation());
-            assert!(!goes_on || gap < 1e-12, "{} to {}", now.id, next.id);
-        } else {
-            contacts += 1;
-            assert!(matches!(answer.outcome, Outcome::Contact { .. }));
-            assert!(!goes_on, "{} goes on after its contact", now.id);
-        }
-    }
-    assert!(contacts >= 2, "some of the balls hit: {contacts}");
 }
 
 #[test]
@@ -105,22 +66,4 @@ fn models_are_made_once() {
     let second = models.body(Model::Knot216).unwrap();
     assert!(Arc::ptr_eq(&first.body, &second.body));
     assert_eq!(first.triangles(), 216);
-}
-
-#[test]
-fn the_small_scene_has_translations_turns_hits_and_misses() {
-    let scene = small_knots(&mut Models::default()).unwrap();
-    assert_eq!(scene.queries.len(), 25);
-    assert_eq!(scene.pairs(), 216 * 216);
-    let mut solver = crate::engine::Method::default().solver();
-    let config = ccd_core::Config::default();
-    let hits = scene
-        .queries
-        .iter()
-        .map(|query| crate::query::solve(scene.bodies(), query, &config, solver.as_mut()).unwrap())
-        .filter(|answer| matches!(answer.outcome, Outcome::Contact { .. }))
-        .count();
-    assert!((8..25).contains(&hits), "{hits} of 25 hit");
-    let start = scene.queries[0].a.start().translation();
-    assert!(start.length() > 2.0 && start != DVec3::ZERO);
 }

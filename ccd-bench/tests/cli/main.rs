@@ -3,6 +3,8 @@
 mod command;
 mod contacts;
 mod decompose;
+mod peer;
+mod truth;
 
 use command::{Row, Run, Scene, parse, stderr};
 

@@ -1,0 +1,91 @@
+//! Whole queries: schedules and backends over scenes, the first rows of each, held against the truth
+//! before they are timed.
+//!
+//! ```sh
+//! cargo bench -p ccd-bench --bench advancement
+//! cargo bench -p ccd-bench --bench advancement -- santa
+//! ```
+
+use ccd_bench::contender::Contender;
+use ccd_bench::contest::{Allowance, Contest, Entrant, Ours, Truths};
+use ccd_bench::evaluation::USUAL_TOLERANCE;
+use ccd_bench::progress::Progress;
+use ccd_bench::scene::{Models, Pieces, listings};
+use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use std::path::Path;
+use std::time::Duration;
+
+/// How many rows of a scene, spread over it.
+const ROWS: usize = 32;
+/// Each mesh once.
+const SCENES: [&str; 7] = [
+    "santa",
+    "bunny turning",
+    "knot2880 turning",
+    "knot11520 turning",
+    "knot34560 turning",
+    "falling rings",
+    "knot216",
+];
+
+fn advancement(criterion: &mut Criterion) {
+    let mut models = Models::default();
+    let mut truths = Truths::read(Path::new("no file but those stored")).expect("stored truths");
+    let listings = listings().expect("the scenes' data");
+    for listing in listings
+        .iter()
+        .filter(|l| SCENES.contains(&l.name.as_str()))
+    {
+        let scene = listing.make(&mut models).expect("scenes made by code");
+        let contest = Contest::new(&scene).expect("motions with screws");
+        let rows = contest.order(ROWS);
+        let mut group = criterion.benchmark_group(format!("advancement/{}", scene.name));
+        group.throughput(Throughput::Elements(rows.len() as u64));
+        for entrant in Entrant::all() {
+            let Entrant::Ours(method, pieces @ (Pieces::Least | Pieces::Patches)) = entrant else {
+                continue;
+            };
+            truths.find(&contest, entrant.path(), &rows, &Progress::hidden());
+            // Nothing is timed that is wrong, or that cannot enter.
+            if !is_right(&contest, entrant, &truths) {
+                continue;
+            }
+            let bodies = scene.bodies_of(pieces).expect("it has just entered");
+            let mut contender = Ours::new(method, bodies, USUAL_TOLERANCE);
+            group.bench_function(BenchmarkId::from_parameter(entrant), |bencher| {
+                bencher.iter(|| {
+                    let steps = |&row: &usize| contender.answer(&scene.queries[row]).steps;
+                    rows.iter().map(steps).sum::<u64>()
+                });
+            });
+        }
+        group.finish();
+    }
+}
+
+/// False where it cannot enter.
+fn is_right(contest: &Contest<'_>, entrant: Entrant, truths: &Truths) -> bool {
+    let allowance = Allowance {
+        cell: Duration::MAX,
+        patience: Duration::MAX,
+        rows: ROWS,
+    };
+    let heard = contest
+        .hear(entrant, USUAL_TOLERANCE, &allowance, truths)
+        .expect("no peer is asked");
+    heard.is_some_and(|(cell, _)| {
+        let wrong = cell.late + cell.missed + cell.false_contacts + cell.early;
+        assert_eq!(wrong + cell.unresolved, 0, "{cell:?}");
+        true
+    })
+}
+
+fn settings() -> Criterion {
+    Criterion::default()
+        .sample_size(10)
+        .warm_up_time(Duration::from_millis(300))
+        .measurement_time(Duration::from_secs(1))
+}
+
+criterion_group!(name = benches; config = settings(); targets = advancement);
+criterion_main!(benches);

@@ -1,0 +1,175 @@
+//! Distances of two convex pieces: every backend, over what they are, how far apart they are, and how
+//! much they turn from call to call.
+//!
+//! ```sh
+//! cargo bench -p ccd-bench --bench distance
+//! cargo bench -p ccd-bench --bench distance -- 'ball-20/near'
+//! ```
+
+mod ball;
+
+use ball::{ball, direction};
+use ccd_core::glam::{DQuat, DVec3};
+use ccd_core::{Body, DistanceOracle, Frame, PiecePair, Pieces, Pose};
+use ccd_distance_gjk::{Direct, Gjk, GjkF32};
+use ccd_distance_vmarch::Vmarch;
+use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use rand::SeedableRng;
+use rand_pcg::Pcg64;
+use std::hint::black_box;
+use std::time::Duration;
+
+/// How many poses a sequence has.
+const POSES: usize = 256;
+
+/// Two pieces of one shape, and the poses they go through.
+struct Course {
+    a: Pieces,
+    b: Pieces,
+    poses: Vec<Frame>,
+    start: Start,
+}
+
+/// Where a call starts from.
+#[derive(Clone, Copy)]
+enum Start {
+    /// From what the call for the pose before left behind.
+    Warm,
+    /// From nothing.
+    Cold,
+}
+
+/// How poses follow each other: its name, radians from one to the next, where a call starts.
+const COHERENCE: [(&str, f64, Start); 3] = [
+    ("close", 0.01, Start::Warm),
+    ("apart", 0.3, Start::Warm),
+    ("cold", 0.01, Start::Cold),
+];
+
+/// How far the centres are apart beyond where they may touch, in radii.
+const SEPARATIONS: [(&str, f64); 3] = [("near", 1e-3), ("middle", 1.0), ("far", 20.0)];
+
+fn distances(criterion: &mut Criterion) {
+    let mut rng = Pcg64::seed_from_u64(7);
+    for (shape, a, b) in shapes(&mut rng) {
+        for (separation, clearance) in SEPARATIONS {
+            for (coherence, turn, start) in COHERENCE {
+                let course = Course {
+                    a: a.clone(),
+                    b: b.clone(),
+                    poses: poses(&mut rng, clearance, turn),
+                    start,
+                };
+                let mut group = criterion.benchmark_group(format!("distance/{shape}/{separation}"));
+                group.throughput(Throughput::Elements(POSES as u64));
+                let distances = course.distances::<Gjk>();
+                let id = |oracle| BenchmarkId::new(oracle, coherence);
+                // Nothing is timed that is wrong.
+                assert_alike(&distances, &course.distances::<Vmarch>());
+                group.bench_function(id("vmarch"), |b| b.iter(|| run::<Vmarch>(&course)));
+                group.bench_function(id("gjk"), |b| b.iter(|| run::<Gjk>(&course)));
+                assert_alike(&distances, &course.distances::<GjkF32>());
+                group.bench_function(id("gjk-f32"), |b| b.iter(|| run::<GjkF32>(&course)));
+                if a.all_triangles() {
+                    assert_alike(&distances, &course.distances::<Direct>());
+                    group.bench_function(id("direct"), |b| b.iter(|| run::<Direct>(&course)));
+                }
+                group.finish();
+            }
+        }
+    }
+}
+
+/// Pieces within the unit ball that reach its surface.
+fn shapes(rng: &mut Pcg64) -> Vec<(String, Pieces, Pieces)> {
+    let side = DVec3::splat(3f64.sqrt().recip());
+    let cube = Body::cuboid(side).expect("a box").pieces().clone();
+    let slab = DVec3::new(0.7, 0.7, 1e-3);
+    let slab = Body::cuboid(slab).expect("a box").pieces().clone();
+    let triangle = [
+        DVec3::X,
+        DVec3::new(-0.5, 0.8, 0.0),
+        DVec3::new(-0.5, -0.8, 0.1),
+    ];
+    let triangle = Pieces::triangles(&triangle, &[[0, 1, 2]]).expect("a triangle");
+    let mut shapes = vec![
+        ("triangle".to_owned(), triangle.clone(), triangle),
+        ("cube".to_owned(), cube.clone(), cube),
+        ("slab".to_owned(), slab.clone(), slab),
+    ];
+    for corners in [20, 100, 1000] {
+        let mut hull = || ball(rng, corners).hulls().clone();
+        shapes.push((format!("ball-{corners}"), hull(), hull()));
+    }
+    shapes
+}
+
+/// The axes of a whole sequence, added up, so that nothing is left out.
+fn run<O: DistanceOracle + Default>(course: &Course) -> f64 {
+    let mut oracle = O::default();
+    let mut cache = O::Cache::default();
+    let mut sum = 0.0;
+    for pose in &course.poses {
+        if let Start::Cold = course.start {
+            cache = O::Cache::default();
+        }
+        let claim = oracle.separation(black_box(&course.pair(*pose)), &mut cache);
+        sum += claim.map_or(0.0, |claim| claim.axis.x);
+    }
+    sum
+}
+
+impl Course {
+    fn pair(&self, b_to_a: Frame) -> PiecePair<'_> {
+        PiecePair {
+            a: self.a.get(0),
+            b: self.b.get(0),
+            b_to_a,
+        }
+    }
+
+    /// How far apart an oracle says they are in each pose.
+    fn distances<O: DistanceOracle + Default>(&self) -> Vec<f64> {
+        let (mut oracle, mut cache) = (O::default(), O::Cache::default());
+        let distance = |&pose: &Frame| {
+            let pair = self.pair(pose);
+            let claim = oracle.separation(&pair, &mut cache).expect("no give-up");
+            let on_a = claim.a.of(pair.a.points).expect("a point of A");
+            let on_b = claim.b.of(pair.b.points).expect("a point of B");
+            on_a.distance(pose.point(on_b))
+        };
+        self.poses.iter().map(distance).collect()
+    }
+}
+
+/// To what a backend that searches in single precision may be off its own optimum: the square of its
+/// rounding, times the largest distance here, and some.
+const ALIKE: f64 = 1e-9;
+
+fn assert_alike(one: &[f64], other: &[f64]) {
+    for (one, other) in one.iter().zip(other) {
+        assert!((one - other).abs() <= ALIKE, "{one} and {other}");
+    }
+}
+
+/// Turning on from pose to pose, the centres always as far apart.
+fn poses(rng: &mut Pcg64, clearance: f64, turn: f64) -> Vec<Frame> {
+    let (way, turn) = (direction(rng), turn * direction(rng));
+    let pose = |k: usize| {
+        let rotation = DQuat::from_scaled_axis(k as f64 * turn);
+        let pose = Pose::new((2.0 + clearance) * way, rotation);
+        pose.expect("a rotation").into()
+    };
+    (0..POSES).map(pose).collect()
+}
+
+/// Many small benchmarks rather than few exact ones.
+fn settings() -> Criterion {
+    Criterion::default()
+        .sample_size(10)
+        .warm_up_time(Duration::from_millis(200))
+        .measurement_time(Duration::from_millis(500))
+}
+
+criterion_group!(name = benches; config = settings(); targets = distances);
+criterion_main!(benches);

@@ -1,0 +1,46 @@
+//! Writes the motions of the scenes that are shots and drops, as stored in `scenes/`:
+//! `cargo run --example record_shots -- ccd-bench/scenes`.
+
+use ccd_bench::motions::{Query, write};
+use ccd_bench::scene::{Shots, drops_past_board};
+use std::fs::File;
+use std::path::Path;
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let folder = std::env::args()
+        .nth(1)
+        .ok_or("say which folder to write to")?;
+    let put = |name: &str, queries: &[Query]| {
+        write(File::create(Path::new(&folder).join(name))?, queries)
+    };
+    put("santa.csv", &drops_past_board(100, 1)?)?;
+    put("bunnies.csv", &bunnies().queries()?)?;
+    let knots = knots().queries()?;
+    put("knots.csv", &knots)?;
+    // Both kinds of motion, in the same proportion.
+    let few: Vec<Query> = knots.into_iter().step_by(10).collect();
+    put("small-knots.csv", &few)?;
+    Ok(())
+}
+
+/// A bunny is shot past or at a resting one.
+fn bunnies() -> Shots {
+    Shots {
+        count: 250,
+        translations: 100,
+        distance: 2.6..3.2,
+        aside: 1.6,
+        seed: 2,
+    }
+}
+
+/// A torus knot is shot past, at or through a resting one.
+fn knots() -> Shots {
+    Shots {
+        count: 250,
+        translations: 100,
+        distance: 3.0..3.8,
+        aside: 2.3,
+        seed: 3,
+    }
+}

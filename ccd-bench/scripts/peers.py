@@ -1,0 +1,364 @@
+#!/usr/bin/env python3
+"""Asks Coal and FCL, through their Python packages, what `ccd query` is asked.
+
+A scene is a folder in SCENES_DIR with `motions.csv` (the columns of `ccd query`) and the meshes `a.obj`
+and `b.obj` (without the second, A meets itself). Methods:
+
+  coal-distance  one static distance at the start: what any method pays at least once; its row has the
+                 status `static` and no time
+  coal-steps     a static collision test every so often, that no point moves farther than the tolerance
+                 between two; what is reported is the first test that collides, so that contacts are late
+                 by up to a step, and grazing ones missed. At most --cap tests: a motion longer than cap
+                 tolerances is tested that much more coarsely
+  fcl-ca         FCL's continuousCollide, conservative advancement
+  fcl-naive      FCL's continuousCollide, tests at equal intervals, as many as coal-steps would make
+
+FCL moves a body as `ccd` does (CCDM_LINEAR: its origin straight, turning about it at a constant rate, the
+shorter way), so that meshes are moved to have the centre of rotation for their origin, and motions are cut
+into stretches of less than half a turn. Of the other motions that it has, screws move otherwise and splines
+take no poses. Its meshes are BVHs of OBBRSS; the package makes no others, and offers neither its ray
+shooting (not implemented) nor its polynomial solver (which needs vertices of two frames, and leaves the
+meshes changed) for them. `toc_err` is a share of the stretch: the tolerance over the way that no point
+exceeds in it.
+
+Known of fcl-ca on meshes: boxes that fall flat onto each other are reported free (bounds of two motions are
+added with their signs, so that they cancel), times of turning ones come early, and `toc_err` changes none
+of it. Known of coal-steps and fcl-naive: nothing but their steps.
+
+Rows of OUT: scene,method,tolerance,id,micros,steps,status,time. `micros` is the calls' alone, with what
+Python adds to a call (about a microsecond); `steps` counts tests, or stretches of fcl-ca; `status` is
+contact, free, static, `cut off` (--patience exceeded) or died; `time` is in the motion's unit of time.
+"""
+import argparse
+import csv
+import math
+import multiprocessing
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+
+METHODS = ["coal-distance", "coal-steps", "fcl-ca", "fcl-naive"]
+EXAMPLE = """example:
+  scripts/peers.py scenes peers.csv --tolerance 1e-2 1e-3 --rows 20 --patience 10"""
+# Of a turn, what FCL is given at once: it turns the shorter way.
+LONGEST_TURN = 0.9 * math.pi
+# Seconds a worker may take to load its meshes.
+LOADING = 120
+
+
+def main():
+    parser = argparse.ArgumentParser(
+        description=__doc__, epilog=EXAMPLE, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("scenes", type=Path, metavar="SCENES_DIR")
+    parser.add_argument("out", type=Path, metavar="OUT.csv")
+    parser.add_argument("--tolerance", type=float, nargs="+", default=[1e-3], metavar="LENGTH")
+    parser.add_argument("--methods", nargs="+", choices=METHODS, default=METHODS)
+    parser.add_argument("--rows", type=int, help="of each scene, the first so many")
+    parser.add_argument("--cap", type=int, default=100_000, help="tests of a query, at most [100000]")
+    parser.add_argument("--patience", type=float, default=30, help="seconds a query may take [30]")
+    options = parser.parse_args()
+    if not all(t > 0 for t in options.tolerance) or options.cap < 1:
+        parser.error("tolerances and the cap are positive")
+    folders = sorted(path.parent for path in options.scenes.glob("*/motions.csv"))
+    if not folders:
+        parser.error(f"{options.scenes} holds no folder with a motions.csv")
+    with options.out.open("w", newline="") as file:
+        out = csv.writer(file)
+        out.writerow(["scene", "method", "tolerance", "id", "micros", "steps", "status", "time"])
+        for folder in folders:
+            for method in options.methods:
+                # The static query knows no tolerance.
+                tolerances = options.tolerance[:1] if method == "coal-distance" else options.tolerance
+                for tolerance in tolerances:
+                    run(folder, method, tolerance, options, out)
+                    file.flush()
+
+
+def run(folder, method, tolerance, options, out):
+    """All rows of a scene by one method; a query that hangs is cut off, and the worker started anew."""
+    rows = read_motions(folder / "motions.csv")[: options.rows]
+    worker = None
+    for row in rows:
+        if worker is None:
+            worker = Worker(folder, method)
+        answer = worker.ask((row, tolerance, options.cap), options.patience)
+        if answer is None or isinstance(answer, str):
+            worker.stop()
+            worker = None
+            answer = (options.patience * 1e6, 0, answer or "cut off", "")
+        micros, steps, status, when = answer
+        out.writerow([folder.name, method, tolerance, row["id"], f"{micros:.3f}", steps, status, when])
+    if worker is not None:
+        worker.stop()
+
+
+class Worker:
+    """A process with one method and its meshes loaded."""
+
+    def __init__(self, folder, method):
+        self.pipe, theirs = multiprocessing.Pipe()
+        self.process = multiprocessing.Process(target=work, args=(theirs, folder, method), daemon=True)
+        self.process.start()
+        theirs.close()
+        if not self.pipe.poll(LOADING) or self.receive() != "ready":
+            self.stop()
+            sys.exit(f"{folder}: {method} does not start")
+
+    def ask(self, question, patience):
+        """The answer; none in time, or `died`."""
+        try:
+            self.pipe.send(question)
+        except OSError:
+            return "died"
+        return self.receive() if self.pipe.poll(patience) else None
+
+    def receive(self):
+        try:
+            return self.pipe.recv()
+        except EOFError:
+            return "died"
+
+    def stop(self):
+        self.process.kill()
+        self.process.join()
+
+
+def work(pipe, folder, method):
+    a = folder / "a.obj"
+    b = folder / "b.obj"
+    ask = {
+        "coal-distance": Coal.distance,
+        "coal-steps": Coal.steps,
+        "fcl-ca": Fcl.advance,
+        "fcl-naive": Fcl.sample,
+    }[method]
+    library = Coal if method.startswith("coal") else Fcl
+    bodies = library(read_obj(a), read_obj(b if b.exists() else a))
+    pipe.send("ready")
+    while True:
+        row, tolerance, cap = pipe.recv()
+        pipe.send(ask(bodies, row, tolerance, cap))
+
+
+class Motion:
+    """A centre at constant velocity, the body turning about it at a constant rate."""
+
+    def __init__(self, row, letter, duration):
+        part = lambda names, default: vector(row, letter, names, default)
+        given = lambda names: any(row.get(f"{letter}_{name}") for name in names.split())
+        self.centre = part("cx cy cz", 0)
+        rotation = unit(part("qw qx qy qz", 0)) if given("qw qx qy qz") else np.array([1.0, 0, 0, 0])
+        position = part("px py pz", 0)
+        self.rotation = rotation
+        self.start = position + matrix(rotation) @ self.centre
+        self.velocity = part("vx vy vz", 0)
+        self.spin = part("wx wy wz", 0)
+        if given("end_px end_py end_pz end_qw end_qx end_qy end_qz"):
+            turned = given("end_qw end_qx end_qy end_qz")
+            end_rotation = unit(part("end_qw end_qx end_qy end_qz", 0)) if turned else rotation
+            end = part("end_px end_py end_pz", 0) if given("end_px end_py end_pz") else position
+            self.velocity = (end + matrix(end_rotation) @ self.centre - self.start) / duration
+            self.spin = shortest_turn(product(end_rotation, conjugate(rotation))) / duration
+
+    def at(self, when):
+        """Rotation and the place of the centre."""
+        return product(exponential(self.spin * when), self.rotation), self.start + when * self.velocity
+
+
+class Query:
+    """A row's motions, and how far any point moves towards the other body, at most."""
+
+    def __init__(self, row, reach):
+        self.duration = float(row.get("duration") or 1)
+        self.a, self.b = (Motion(row, letter, self.duration) for letter in "ab")
+        turning = sum(
+            np.linalg.norm(motion.spin) * radius(motion.centre)
+            for motion, radius in zip((self.a, self.b), reach)
+        )
+        self.way = (np.linalg.norm(self.a.velocity - self.b.velocity) + turning) * self.duration
+
+    def tests(self, tolerance, cap):
+        """How many steps of the tolerance there are."""
+        return int(min(max(math.ceil(self.way / tolerance), 1), cap))
+
+
+class Coal:
+    def __init__(self, a, b):
+        import coal
+
+        self.coal = coal
+        self.reach = [reach_of(vertices) for vertices, _ in (a, b)]
+        self.a, self.b = self.model(*a), self.model(*b)
+
+    def model(self, vertices, faces):
+        model = self.coal.BVHModelOBBRSS()
+        model.beginModel(len(faces), len(vertices))
+        points, triangles = self.coal.StdVec_Vec3s(), self.coal.StdVec_Triangle()
+        for vertex in vertices:
+            points.append(vertex)
+        for face in faces:
+            triangles.append(self.coal.Triangle(*(int(k) for k in face)))
+        model.addSubModel(points, triangles)
+        model.endModel()
+        return model
+
+    def pose(self, motion, when):
+        rotation, centre = motion.at(when)
+        turn = matrix(rotation)
+        return self.coal.Transform3s(turn, centre - turn @ motion.centre)
+
+    def distance(self, row, _tolerance, _cap):
+        query = Query(row, self.reach)
+        a, b = self.pose(query.a, 0), self.pose(query.b, 0)
+        request, result = self.coal.DistanceRequest(), self.coal.DistanceResult()
+        begin = time.perf_counter()
+        self.coal.distance(self.a, a, self.b, b, request, result)
+        return (time.perf_counter() - begin) * 1e6, 1, "static", ""
+
+    def steps(self, row, tolerance, cap):
+        query = Query(row, self.reach)
+        count = query.tests(tolerance, cap)
+        request, spent = self.coal.CollisionRequest(), 0.0
+        for k in range(count + 1):
+            when = query.duration * k / count
+            a, b = self.pose(query.a, when), self.pose(query.b, when)
+            result = self.coal.CollisionResult()
+            begin = time.perf_counter()
+            hit = self.coal.collide(self.a, a, self.b, b, request, result)
+            spent += time.perf_counter() - begin
+            if hit:
+                return spent * 1e6, k + 1, "contact", when
+        return spent * 1e6, count + 1, "free", ""
+
+
+class Fcl:
+    def __init__(self, a, b):
+        import fcl
+
+        self.fcl = fcl
+        self.meshes = [a, b]
+        self.reach = [reach_of(vertices) for vertices, _ in (a, b)]
+        self.models = {}
+
+    def model(self, k, centre):
+        """The mesh with the centre for its origin, made once for each centre."""
+        key = (k, *centre)
+        if key not in self.models:
+            vertices, faces = self.meshes[k]
+            model = self.fcl.BVHModel()
+            model.beginModel(len(vertices), len(faces))
+            model.addSubModel(vertices - centre, faces)
+            model.endModel()
+            self.models[key] = model
+        return self.models[key]
+
+    def advance(self, row, tolerance, cap):
+        return self.collide(row, tolerance, cap, self.fcl.CCDSolverType.CCDC_CONSERVATIVE_ADVANCEMENT)
+
+    def sample(self, row, tolerance, cap):
+        return self.collide(row, tolerance, cap, self.fcl.CCDSolverType.CCDC_NAIVE)
+
+    def collide(self, row, tolerance, cap, solver):
+        query = Query(row, self.reach)
+        motions = [query.a, query.b]
+        turn = max(np.linalg.norm(motion.spin) for motion in motions) * query.duration
+        stretches = max(1, math.ceil(turn / LONGEST_TURN))
+        tests = max(1, math.ceil(query.tests(tolerance, cap) / stretches))
+        request = self.fcl.ContinuousCollisionRequest(
+            num_max_iterations=tests,
+            toc_err=1.0 / tests,
+            ccd_motion_type=self.fcl.CCDMotionType.CCDM_LINEAR,
+            ccd_solver_type=solver,
+        )
+        advances = solver == self.fcl.CCDSolverType.CCDC_CONSERVATIVE_ADVANCEMENT
+        spent = 0.0
+        for k in range(stretches):
+            ends = [query.duration * (k + j) / stretches for j in (0, 1)]
+            first, last = ([self.fcl.Transform(*m.at(when)) for m in motions] for when in ends)
+            a, b = (
+                self.fcl.CollisionObject(self.model(j, motions[j].centre), first[j]) for j in (0, 1)
+            )
+            result = self.fcl.ContinuousCollisionResult()
+            begin = time.perf_counter()
+            self.fcl.continuousCollide(a, last[0], b, last[1], request, result)
+            spent += time.perf_counter() - begin
+            if result.is_collide:
+                when = ends[0] + result.time_of_contact * (ends[1] - ends[0])
+                steps = k + 1 if advances else round((k + result.time_of_contact) * tests) + 1
+                return spent * 1e6, steps, "contact", when
+        return spent * 1e6, stretches if advances else stretches * tests + 1, "free", ""
+
+
+def read_motions(path):
+    with path.open(newline="") as file:
+        rows = list(csv.DictReader(file, skipinitialspace=True))
+    for k, row in enumerate(rows):
+        row["id"] = row.get("id") or str(k)
+    return rows
+
+
+def read_obj(path):
+    vertices, faces = [], []
+    for line in path.open():
+        words = line.split()
+        if words[:1] == ["v"]:
+            vertices.append([float(word) for word in words[1:4]])
+        elif words[:1] == ["f"]:
+            corners = [int(word.split("/")[0]) for word in words[1:]]
+            corners = [k - 1 if k > 0 else len(vertices) + k for k in corners]
+            faces += [[corners[0], p, q] for p, q in zip(corners[1:], corners[2:])]
+    return np.array(vertices), np.array(faces)
+
+
+def reach_of(vertices):
+    """How far the body's points are from a centre, at most."""
+    low, high = vertices.min(axis=0), vertices.max(axis=0)
+    return lambda centre: np.linalg.norm(np.maximum(abs(low - centre), abs(high - centre)))
+
+
+def vector(row, letter, names, default):
+    return np.array([float(row.get(f"{letter}_{name}") or default) for name in names.split()])
+
+
+def unit(q):
+    return q / np.linalg.norm(q)
+
+
+def conjugate(q):
+    return q * [1, -1, -1, -1]
+
+
+def product(p, q):
+    return np.concatenate(
+        [[p[0] * q[0] - p[1:] @ q[1:]], p[0] * q[1:] + q[0] * p[1:] + np.cross(p[1:], q[1:])]
+    )
+
+
+def exponential(turn):
+    angle = np.linalg.norm(turn)
+    axis = turn / angle if angle > 0 else turn
+    return np.concatenate([[math.cos(angle / 2)], math.sin(angle / 2) * axis])
+
+
+def shortest_turn(q):
+    q = -q if q[0] < 0 else q
+    sine = np.linalg.norm(q[1:])
+    return q[1:] * (2 * math.atan2(sine, q[0]) / sine) if sine > 0 else np.zeros(3)
+
+
+def matrix(q):
+    w, x, y, z = q
+    return np.array(
+        [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+        ]
+    )
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,198 @@
+//! One pair of axes with data on it.
+
+use super::axis::Axis;
+use super::look::{Look, MARKER};
+use super::sheet::{DrawError, FRAME, Hand, Pen, RULE, Rect, Sheet, Spot, TEXT, Turn};
+use plotters::style::FontStyle;
+use plotters::style::text_anchor::{HPos, VPos};
+
+/// Between an axis and its numbers.
+const TICK_GAP: f64 = 5.0;
+/// From the left edge of a panel to the middle of its axis' label.
+const Y_LABEL: f64 = 44.0;
+/// From the lower edge of a panel to the middle of its axis' label.
+const X_LABEL: f64 = 32.0;
+/// What a panel needs to its left for numbers and label.
+pub(super) const LEFT_MARGIN: f64 = Y_LABEL + 10.0;
+/// What it needs below for both.
+pub(super) const BOTTOM_MARGIN: f64 = X_LABEL + 18.0;
+/// What it needs above for its title.
+pub(super) const TOP_MARGIN: f64 = 20.0;
+/// Height of the arrow on a value that is a lower bound.
+const ARROW: f64 = 12.0;
+
+/// Where, and along which axes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Panel<'a> {
+    pub(super) rect: Rect,
+    pub(super) title: &'a str,
+    pub(super) x: &'a Axis,
+    pub(super) y: &'a Axis,
+    /// Which of its axes say what they are: those that have no neighbour to say it.
+    pub(super) labelled: Labelled,
+}
+
+/// Which axes of a panel have numbers and a label.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Labelled {
+    pub(super) x: Label,
+    pub(super) y: Label,
+}
+
+/// Whether an axis has numbers and a label.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Label {
+    Written,
+    Left,
+}
+
+/// A value to draw.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Point {
+    pub(super) x: f64,
+    pub(super) y: f64,
+    pub(super) kind: Kind,
+}
+
+/// What a value stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// The quantity itself.
+    Measured,
+    /// No more than it, since measuring was cut off.
+    AtLeast,
+}
+
+impl Panel<'_> {
+    /// Frame, title, lines across and what the axes say.
+    pub(super) fn draw(&self, sheet: &Sheet<'_>) -> Result<(), DrawError> {
+        self.draw_x_axis(sheet)?;
+        self.draw_y_axis(sheet)?;
+        sheet.frame(self.rect, FRAME)?;
+        let hand = Hand {
+            weight: FontStyle::Bold,
+            ..Hand::default()
+        };
+        sheet.text(self.title, (self.rect.left, self.rect.top - 9.0), hand)
+    }
+
+    /// A line through values, with a marker on each.
+    pub(super) fn series(
+        &self,
+        sheet: &Sheet<'_>,
+        points: &[Point],
+        look: &Look,
+    ) -> Result<(), DrawError> {
+        let spots: Vec<_> = points.iter().filter_map(|p| self.spot(p.x, p.y)).collect();
+        if spots.len() > 1 {
+            sheet.line(&spots, look.pen(1.4))?;
+        }
+        self.markers(sheet, points, look)
+    }
+
+    /// The markers alone.
+    pub(super) fn markers(
+        &self,
+        sheet: &Sheet<'_>,
+        points: &[Point],
+        look: &Look,
+    ) -> Result<(), DrawError> {
+        for point in points {
+            let Some(spot) = self.spot(point.x, point.y) else {
+                continue;
+            };
+            mark(sheet, spot, point.kind, look)?;
+        }
+        Ok(())
+    }
+
+    /// Where a value is; none where it is NaN.
+    pub(super) fn spot(&self, x: f64, y: f64) -> Option<Spot> {
+        let across = self.rect.left + self.x.share(x)? * self.rect.width;
+        let down = self.rect.bottom() - self.y.share(y)? * self.rect.height;
+        Some((across, down))
+    }
+
+    fn draw_x_axis(&self, sheet: &Sheet<'_>) -> Result<(), DrawError> {
+        let (top, bottom) = (self.rect.top, self.rect.bottom());
+        let hand = Hand {
+            across: HPos::Center,
+            down: VPos::Top,
+            ..Hand::default()
+        };
+        for tick in self.x.ticks() {
+            let x = self.rect.left + tick.share * self.rect.width;
+            sheet.line(&[(x, top), (x, bottom)], Pen::solid(RULE, 1.0))?;
+            let written = tick
+                .text
+                .as_deref()
+                .filter(|_| self.labelled.x == Label::Written);
+            if let Some(text) = written {
+                sheet.text(text, (x, bottom + TICK_GAP), hand)?;
+            }
+        }
+        let middle = self.rect.left + 0.5 * self.rect.width;
+        let hand = Hand {
+            down: VPos::Center,
+            ..hand
+        };
+        match self.labelled.x {
+            Label::Written => sheet.text(self.x.label(), (middle, bottom + X_LABEL), hand),
+            Label::Left => Ok(()),
+        }
+    }
+
+    fn draw_y_axis(&self, sheet: &Sheet<'_>) -> Result<(), DrawError> {
+        let (left, right) = (self.rect.left, self.rect.right());
+        let hand = Hand {
+            across: HPos::Right,
+            ..Hand::default()
+        };
+        for tick in self.y.ticks() {
+            let y = self.rect.bottom() - tick.share * self.rect.height;
+            sheet.line(&[(left, y), (right, y)], Pen::solid(RULE, 1.0))?;
+            let written = tick
+                .text
+                .as_deref()
+                .filter(|_| self.labelled.y == Label::Written);
+            if let Some(text) = written {
+                sheet.text(text, (left - TICK_GAP, y), hand)?;
+            }
+        }
+        let middle = self.rect.top + 0.5 * self.rect.height;
+        let hand = Hand {
+            across: HPos::Center,
+            turn: Turn::Upwards,
+            ..hand
+        };
+        match self.labelled.y {
+            Label::Written => sheet.text(self.y.label(), (left - Y_LABEL, middle), hand),
+            Label::Left => Ok(()),
+        }
+    }
+}
+
+/// A marker, with an arrow upwards where the value is a lower bound.
+pub(super) fn mark(
+    sheet: &Sheet<'_>,
+    (x, y): Spot,
+    kind: Kind,
+    look: &Look,
+) -> Result<(), DrawError> {
+    if kind == Kind::AtLeast {
+        let tip = y - ARROW;
+        let pen = Pen::solid(look.colour, 1.3);
+        let head = [(x - 3.0, tip + 4.0), (x, tip), (x + 3.0, tip + 4.0)];
+        sheet.line(&[(x, y - MARKER), (x, tip)], pen)?;
+        sheet.line(&head, pen)?;
+    }
+    sheet.marker((x, y), look)
+}
+
+/// The hand that a panel's remarks are written in.
+pub(super) fn remark() -> Hand {
+    Hand {
+        size: TEXT - 1.0,
+        ..Hand::default()
+    }
+}

@@ -1,0 +1,204 @@
+//! `ccd chart` and `ccd demo`: what is to be measured, and what is to be made of it.
+
+use super::{CannotWrite, Verdict};
+use crate::contest::{Allowance, Entrant};
+use crate::evaluation::{Plan, USUAL_TOLERANCE};
+use crate::joined;
+use crate::peer::PeerKind;
+use crate::presentation::{Presentation, splice};
+use crate::scene::listings;
+use anyhow::{Context, Result, ensure};
+use clap::Args;
+use std::fmt::Display;
+use std::io::{self, Write};
+use std::path::PathBuf;
+use std::time::Duration;
+
+/// What to measure, and where to.
+#[derive(Debug, Args)]
+#[command(after_help = AFTER_HELP)]
+pub(super) struct ChartArgs {
+    /// Measure everything: every scene, method and row, at nine tolerances (about half an hour)
+    #[arg(long)]
+    full: bool,
+    #[command(flatten)]
+    common: CommonArgs,
+    /// Only these scenes
+    #[arg(long, value_name = "NAME", value_delimiter = ',')]
+    scenes: Vec<String>,
+    /// Only these methods
+    #[arg(long, value_name = "NAME", value_delimiter = ',')]
+    methods: Vec<String>,
+    /// Only these tolerances
+    #[arg(long, value_name = "LENGTH", value_delimiter = ',')]
+    tolerances: Vec<f64>,
+    /// Seconds for each method on each scene at each tolerance; then no further row is asked
+    #[arg(long, value_name = "SECONDS")]
+    cell: Option<f64>,
+    /// Seconds after which a peer is stopped in the middle of a row
+    #[arg(long, value_name = "SECONDS")]
+    patience: Option<f64>,
+    /// Rows of trials measured elsewhere: scene,method,tolerance,id,micros,steps,status,time
+    #[arg(long, value_name = "FILE.csv")]
+    join: Vec<PathBuf>,
+    /// Put the tables between the markers `<!-- ccd chart: NAME -->` and `<!-- end -->` of this file
+    #[arg(long, value_name = "FILE.md")]
+    splice: Vec<PathBuf>,
+    /// Write the meshes and motions of the scenes to this folder, for programs elsewhere, and measure
+    /// nothing
+    #[arg(long, value_name = "DIR")]
+    export: Option<PathBuf>,
+}
+
+/// What the demo can be told, too.
+#[derive(Clone, Debug, Default, Args)]
+pub(super) struct CommonArgs {
+    /// Use the meshes found here (bunny70k.obj, bunny26k.obj, santa.obj, knot2880.obj, …) in place
+    /// of the models made by code
+    #[arg(long, value_name = "DIR")]
+    models: Option<PathBuf>,
+    /// Where tables, charts and the page go; what is there already is not measured again
+    #[arg(long, value_name = "DIR", default_value = "target/ccd-report")]
+    out: PathBuf,
+}
+
+const AFTER_HELP: &str = "\
+Figures of the same program and settings are kept, so that an interrupted run goes on where it
+stopped. A name that is not known is answered with those that are.
+
+Examples:
+  ccd chart                                       a few rows of everything, in a minute
+  ccd chart --full --out full                     everything
+  ccd chart --scenes santa --tolerances 1e-3,1e-6
+  ccd chart --export scenes                       meshes and motions, for other programs";
+
+/// From coarse to fine, as shares of a body of size 1.
+const TOLERANCES: [f64; 9] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9];
+/// Where methods are compared at equal accuracy.
+const FEW_TOLERANCES: [f64; 2] = [USUAL_TOLERANCE, 1e-6];
+
+pub(super) fn run(args: &ChartArgs) -> Result<Verdict> {
+    let mut plan = plan(&args.common, args.full)?;
+    plan.listings = chosen(plan.listings, &args.scenes, "scene", |l| l.name.clone())?;
+    plan.entrants = chosen(plan.entrants, &args.methods, "method", Entrant::to_string)?;
+    if !args.tolerances.is_empty() {
+        for tolerance in &args.tolerances {
+            ensure!(
+                *tolerance > 0.0 && tolerance.is_finite(),
+                "--tolerances: {tolerance} is no positive length"
+            );
+        }
+        plan.tolerances.clone_from(&args.tolerances);
+    }
+    if let Some(seconds) = args.cell {
+        plan.allowance.cell = duration("--cell", seconds)?;
+    }
+    if let Some(seconds) = args.patience {
+        plan.peer_allowance.patience = duration("--patience", seconds)?;
+    }
+    match &args.export {
+        Some(folder) => {
+            joined::export(&plan.listings, plan.models, folder)?;
+            Ok(Verdict::AllAnswered)
+        }
+        None => measure(&plan, &args.join, &args.splice),
+    }
+}
+
+pub(super) fn run_demo(args: &CommonArgs) -> Result<Verdict> {
+    measure(&plan(args, false)?, &[], &[])
+}
+
+fn measure(plan: &Plan, join: &[PathBuf], readmes: &[PathBuf]) -> Result<Verdict> {
+    let mut evaluated = plan.run()?;
+    for file in join {
+        joined::join(&mut evaluated, file)
+            .with_context(|| format!("joining {}", file.display()))?;
+    }
+    let presentation = Presentation::new(&evaluated);
+    let page = presentation.write(&plan.folder)?;
+    for readme in readmes {
+        splice(readme, &presentation.comparisons)
+            .with_context(|| format!("splicing {}", readme.display()))?;
+    }
+    let mut out = io::stdout().lock();
+    let mut say = |text: &dyn Display| {
+        writeln!(out, "{text}").map_err(|source| CannotWrite {
+            place: "the tables".to_owned(),
+            source,
+        })
+    };
+    for table in &presentation.summary {
+        say(&format_args!("{}\n{}", table.title, table.for_terminal()))?;
+    }
+    say(&format_args!("The report: {}", page.display()))?;
+    Ok(Verdict::AllAnswered)
+}
+
+/// Everything, or a few rows of everything that takes no long.
+fn plan(common: &CommonArgs, full: bool) -> Result<Plan> {
+    if let Some(directory) = &common.models {
+        ensure!(
+            directory.is_dir(),
+            "{} is no directory; give --models one that holds meshes such as bunny70k.obj",
+            directory.display()
+        );
+    }
+    let millis = Duration::from_millis;
+    let (cell, patience, rows) = match full {
+        true => (millis(1000), millis(4000), usize::MAX),
+        false => (millis(40), millis(200), 40),
+    };
+    let tolerances: &[f64] = if full { &TOLERANCES } else { &FEW_TOLERANCES };
+    let entrants = Entrant::all().into_iter();
+    let entrants = entrants.filter(|entrant| full || takes_no_long(*entrant));
+    Ok(Plan {
+        listings: listings()?,
+        entrants: entrants.collect(),
+        tolerances: tolerances.to_vec(),
+        allowance: Allowance {
+            cell,
+            patience,
+            rows,
+        },
+        peer_allowance: Allowance {
+            cell: patience,
+            patience,
+            rows,
+        },
+        models: common.models.clone(),
+        folder: common.out.clone(),
+    })
+}
+
+/// Whether a few rows of an entrant are there at once: other processes take time to start.
+fn takes_no_long(entrant: Entrant) -> bool {
+    match entrant {
+        Entrant::Ours(..) | Entrant::Rival(_) => true,
+        Entrant::Peer(kind) => kind == PeerKind::ParryF64,
+    }
+}
+
+/// Those of the names asked for; all where none is.
+fn chosen<T>(
+    all: Vec<T>,
+    names: &[String],
+    what: &str,
+    name_of: impl Fn(&T) -> String,
+) -> Result<Vec<T>> {
+    let known: Vec<String> = all.iter().map(&name_of).collect();
+    for name in names {
+        ensure!(
+            known.contains(name),
+            "there is no {what} {name}; there are: {}",
+            known.join(", ")
+        );
+    }
+    let wanted = |item: &T| names.is_empty() || names.contains(&name_of(item));
+    Ok(all.into_iter().filter(wanted).collect())
+}
+
+fn duration(option: &str, seconds: f64) -> Result<Duration> {
+    Duration::try_from_secs_f64(seconds)
+        .with_context(|| format!("{option}: {seconds} is no time to wait"))
+}

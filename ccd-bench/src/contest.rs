@@ -1,0 +1,234 @@
+//! Entrants on scenes: each asked the same queries, timed, and judged by the referee.
+
+mod entrant;
+mod journal;
+mod seat;
+#[cfg(test)]
+mod tests;
+mod truths;
+mod verdict;
+
+pub use entrant::{Entrant, Ours, Path, RivalKind};
+pub use journal::{Journal, JournalError};
+pub use truths::{Truths, TruthsError};
+pub use verdict::{Judged, Verdict, judge};
+
+use crate::measured::{Cell, Trial};
+use crate::motions::Query;
+use crate::query::median;
+use crate::referee::{Referee, Surface, Truth};
+use crate::rival::screw;
+use crate::scene::Scene;
+use crate::summary::percentile;
+use ccd_core::InputError;
+use seat::{Answered, Seat, SeatError};
+use std::io;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+/// A scene with what it takes to judge answers on it.
+pub struct Contest<'s> {
+    scene: &'s Scene,
+    surfaces: [Arc<Surface>; 2],
+    given: Vec<Query>,
+    /// The same queries as screws.
+    screws: Vec<Query>,
+}
+
+/// How long anybody is listened to.
+#[derive(Clone, Copy, Debug)]
+pub struct Allowance {
+    /// For one entrant on one scene at one tolerance: no further query is asked after that.
+    pub cell: Duration,
+    /// For one query of a peer, which is stopped after that.
+    pub patience: Duration,
+    /// How many queries are asked at most.
+    pub rows: usize,
+}
+
+/// A query is answered up to so often, and its time is the median of all answers but the first, which
+/// finds caches cold and prepares what is prepared once,
+const REPEATS: usize = 4;
+/// unless that has taken so long already.
+const REPEATED_WITHIN: Duration = Duration::from_millis(40);
+/// A schedule without a tree is only run where pairs of pieces come to at most this; it looks at all
+/// pairs in every step.
+const MOST_PAIRS_FOR_NAIVE: u64 = 100_000;
+
+/// Why an entrant could not be heard.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum ContestError {
+    /// A query has no screw.
+    #[error(transparent)]
+    Input(#[from] InputError),
+    /// The truth cannot be had.
+    #[error(transparent)]
+    Truths(#[from] TruthsError),
+    /// A peer's process cannot be started.
+    #[error("{name} cannot be started: {source}")]
+    Peer {
+        /// The peer.
+        name: String,
+        /// Why.
+        source: io::Error,
+    },
+}
+
+impl<'s> Contest<'s> {
+    /// Opens a scene.
+    ///
+    /// # Errors
+    /// When a motion has no screw between its ends.
+    pub fn new(scene: &'s Scene) -> Result<Self, ContestError> {
+        let a = Arc::new(Surface::new(scene.a.mesh()));
+        let b = match Arc::ptr_eq(&scene.a.body, &scene.b.body) {
+            true => Arc::clone(&a),
+            false => Arc::new(Surface::new(scene.b.mesh())),
+        };
+        let screws: Result<Vec<Query>, InputError> = scene.queries.iter().map(screw).collect();
+        Ok(Contest {
+            scene,
+            surfaces: [a, b],
+            given: scene.queries.clone(),
+            screws: screws?,
+        })
+    }
+
+    /// The queries, along one path or the other.
+    pub fn queries(&self, path: Path) -> &[Query] {
+        match path {
+            Path::Given => &self.given,
+            Path::Screw => &self.screws,
+        }
+    }
+
+    /// Judges answers on this scene.
+    pub fn referee(&self) -> Referee<'_> {
+        Referee::new(&self.surfaces[0], &self.surfaces[1])
+    }
+
+    /// Which rows are asked when there are to be that many: spread evenly, in an order such that any
+    /// number of the first ones is spread, too.
+    pub fn order(&self, most: usize) -> Vec<usize> {
+        let count = self.given.len();
+        let stride = (1..=count)
+            .rev()
+            .find(|&stride| 1618 * stride <= 1000 * count && coprime(stride, count))
+            .unwrap_or(1);
+        let rows = (0..count).map(|k| k * stride % count.max(1));
+        rows.take(most).collect()
+    }
+
+    /// Asks an entrant; none where it cannot enter.
+    ///
+    /// # Errors
+    /// When the truth cannot be had, or a peer cannot be started.
+    pub fn hear(
+        &self,
+        entrant: Entrant,
+        tolerance: f64,
+        allowance: &Allowance,
+        truths: &Truths,
+    ) -> Result<Option<(Cell, Vec<Trial>)>, ContestError> {
+        let seat = Seat::take(entrant, self.scene, tolerance);
+        let mut seat = match seat {
+            Ok(seat) => seat,
+            Err(SeatError::Unfit) => return Ok(None),
+            Err(SeatError::Start(source)) => {
+                let name = entrant.to_string();
+                return Err(ContestError::Peer { name, source });
+            }
+        };
+        let truths = truths.of(self, entrant.path());
+        let start = Instant::now();
+        let mut heard: Vec<(usize, Trial)> = Vec::new();
+        for row in self.order(allowance.rows) {
+            if start.elapsed() > allowance.cell {
+                break;
+            }
+            let query = &self.queries(entrant.path())[row];
+            let answered = seat.ask(query, allowance.patience);
+            let judged = self.judged(query, truths(row), &answered, tolerance);
+            heard.push((
+                row,
+                Trial {
+                    scene: self.scene.name.clone(),
+                    method: entrant.to_string(),
+                    tolerance,
+                    id: query.id.clone(),
+                    micros: answered.micros(),
+                    steps: answered.steps(),
+                    verdict: judged.verdict.to_string(),
+                    error: judged.error.unwrap_or(f64::NAN),
+                },
+            ));
+        }
+        heard.sort_by_key(|(row, _)| *row);
+        let trials: Vec<Trial> = heard.into_iter().map(|(_, trial)| trial).collect();
+        Ok(Some((sum_up(&trials), trials)))
+    }
+
+    fn judged(&self, query: &Query, truth: Truth, answered: &Answered, tolerance: f64) -> Judged {
+        match answered {
+            Answered::InTime { reply, .. } => {
+                judge(&self.referee(), query, truth, reply.claim, tolerance)
+            }
+            Answered::CutOff { .. } => Judged {
+                verdict: Verdict::CutOff,
+                error: None,
+            },
+        }
+    }
+
+    /// The scene.
+    pub fn scene(&self) -> &'s Scene {
+        self.scene
+    }
+}
+
+/// What trials of one entrant on one scene come to; there is at least one.
+pub fn sum_up(trials: &[Trial]) -> Cell {
+    let count = |verdict: Verdict| {
+        let name = verdict.to_string();
+        trials.iter().filter(|t| t.verdict == name).count()
+    };
+    let mut micros: Vec<f64> = trials.iter().map(|t| t.micros).collect();
+    let errors: Vec<f64> = trials
+        .iter()
+        .map(|t| t.error)
+        .filter(|e| !e.is_nan())
+        .collect();
+    let rows = trials.len();
+    let first = trials.first();
+    let cut_off = count(Verdict::CutOff);
+    Cell {
+        scene: first.map_or_else(String::new, |t| t.scene.clone()),
+        method: first.map_or_else(String::new, |t| t.method.clone()),
+        tolerance: first.map_or(f64::NAN, |t| t.tolerance),
+        rows,
+        median_us: median(&mut micros),
+        mean_us: mean(&micros),
+        p95_us: percentile(&micros, 0.95),
+        late: count(Verdict::Late),
+        missed: count(Verdict::Missed),
+        false_contacts: count(Verdict::False),
+        unresolved: count(Verdict::Unresolved) + cut_off,
+        mean_error: mean(&errors),
+        max_error: errors.iter().copied().fold(f64::NAN, f64::max),
+        early: count(Verdict::Early),
+        cut_off,
+        mean_steps: trials.iter().map(|t| t.steps as f64).sum::<f64>() / rows as f64,
+    }
+}
+
+fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
+}
+
+fn coprime(a: usize, b: usize) -> bool {
+    match b {
+        0 => a == 1,
+        _ => coprime(b, a % b),
+    }
+}

@@ -1,0 +1,112 @@
+//! How a claim stands against the truth.
+
+use crate::contender::Claim;
+use crate::motions::Query;
+use crate::referee::{Referee, Truth};
+use std::fmt;
+
+/// What a claim is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Verdict {
+    /// As it has to be.
+    Right,
+    /// A contact after the exact first one.
+    Late,
+    /// Free, though there is a contact.
+    Missed,
+    /// A contact where there is none, the bodies being farther apart than the tolerance.
+    False,
+    /// A contact while the bodies are still farther apart than the tolerance.
+    Early,
+    /// Nothing but a time until which nothing touches.
+    Unresolved,
+    /// Stopped: it took longer than anybody would wait.
+    CutOff,
+    /// The truth is not known well enough.
+    Undecided,
+    /// It is no answer to the query, such as a single distance that others are compared with.
+    NotJudged,
+}
+
+/// A verdict, and by how much the time is off.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Judged {
+    /// The verdict.
+    pub verdict: Verdict,
+    /// How far the time of contact lies outside of the bracket of the true one, as a share of the
+    /// duration; none where there is no time, or no true one.
+    pub error: Option<f64>,
+}
+
+/// How much later than the end of the bracket a time may be before it counts as late, as a share of
+/// the duration: what the formulas of a motion differ by in f64, a thousand times over.
+const SLACK: f64 = 1e-9;
+
+/// How much more than its tolerance, as a share of it, a contender may round a distance to.
+const ROUNDING: f64 = 1e-6;
+
+/// Judges a claim made with a tolerance.
+pub fn judge(
+    referee: &Referee<'_>,
+    query: &Query,
+    truth: Truth,
+    claim: Claim,
+    tolerance: f64,
+) -> Judged {
+    let near = |time: f64| referee.distance(query, time).lower <= tolerance * (1.0 + ROUNDING);
+    let plain = |verdict| Judged {
+        verdict,
+        error: None,
+    };
+    let (lo, hi) = match truth {
+        Truth::Hit { lo, hi } => (lo, hi),
+        Truth::Start => (0.0, 0.0),
+        Truth::Free => {
+            return plain(match claim {
+                Claim::Contact { time } if near(time) => Verdict::Right,
+                Claim::Contact { .. } => Verdict::False,
+                Claim::Free => Verdict::Right,
+                Claim::Unresolved { .. } => Verdict::Unresolved,
+            });
+        }
+        Truth::Graze { .. } | Truth::Undecided { .. } => return plain(Verdict::Undecided),
+    };
+    let time = match claim {
+        Claim::Contact { time } => time,
+        Claim::Free => return plain(Verdict::Missed),
+        // Also a proof, which may be wrong.
+        Claim::Unresolved { safe_until } if safe_until > hi + SLACK * query.duration => {
+            return plain(Verdict::Late);
+        }
+        Claim::Unresolved { .. } => return plain(Verdict::Unresolved),
+    };
+    let off = (lo - time).max(time - hi).max(0.0) / query.duration;
+    // Written so that NaN is late.
+    let verdict = if !(time <= hi + SLACK * query.duration) {
+        Verdict::Late
+    } else if time < lo && !near(time) {
+        Verdict::Early
+    } else {
+        Verdict::Right
+    };
+    Judged {
+        verdict,
+        error: Some(off),
+    }
+}
+
+impl fmt::Display for Verdict {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            Verdict::Right => "right",
+            Verdict::Late => "late",
+            Verdict::Missed => "missed",
+            Verdict::False => "false",
+            Verdict::Early => "early",
+            Verdict::Unresolved => "unresolved",
+            Verdict::CutOff => "cut off",
+            Verdict::Undecided => "undecided",
+            Verdict::NotJudged => "not judged",
+        })
+    }
+}

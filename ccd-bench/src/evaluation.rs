@@ -1,0 +1,166 @@
+//! Entrants, scenes and tolerances: all combinations measured, one after another, into a journal.
+
+use crate::contest::{
+    Allowance, Contest, ContestError, Entrant, Journal, JournalError, Truths, TruthsError,
+};
+use crate::progress::Progress;
+use crate::scene::{Listing, Models, Scene, SceneError};
+use std::path::PathBuf;
+
+/// What to measure.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    /// On what.
+    pub listings: Vec<Listing>,
+    /// Whom.
+    pub entrants: Vec<Entrant>,
+    /// With which tolerances.
+    pub tolerances: Vec<f64>,
+    /// How long what runs in this process is listened to.
+    pub allowance: Allowance,
+    /// How long a peer is listened to.
+    pub peer_allowance: Allowance,
+    /// Where to look for mesh files in place of the models made by code.
+    pub models: Option<PathBuf>,
+    /// Where the figures go.
+    pub folder: PathBuf,
+}
+
+/// What was measured, and on what.
+pub struct Evaluated {
+    /// The scenes.
+    pub scenes: Vec<Scene>,
+    /// Cells and trials.
+    pub journal: Journal,
+    /// What they were held against.
+    pub truths: Truths,
+}
+
+/// Why an evaluation ended early.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum EvaluationError {
+    /// A scene cannot be made.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// An entrant cannot be heard.
+    #[error(transparent)]
+    Contest(#[from] ContestError),
+    /// The truth cannot be kept.
+    #[error(transparent)]
+    Truths(#[from] TruthsError),
+    /// Figures cannot be kept.
+    #[error(transparent)]
+    Journal(#[from] JournalError),
+}
+
+/// What has been found of the truth, in the folder of the figures.
+const TRUTHS: &str = "truth.csv";
+
+/// The tolerance of entrants that have none to be told.
+pub const USUAL_TOLERANCE: f64 = 1e-3;
+
+impl Plan {
+    /// Measures what the folder does not hold yet.
+    ///
+    /// # Errors
+    /// [`EvaluationError`]; what was measured before it is kept.
+    pub fn run(&self) -> Result<Evaluated, EvaluationError> {
+        let mut journal = Journal::open(&self.folder, &self.stamp())?;
+        let truths_file = self.folder.join(TRUTHS);
+        let mut truths = Truths::read(&truths_file)?;
+        let mut models = Models::new(self.models.clone());
+        let scenes = self.scenes(&mut models)?;
+        let cells: usize = self.entrants.iter().map(|&e| self.told(e).count()).sum();
+        let progress = Progress::new(scenes.len() * cells);
+        for scene in &scenes {
+            let contest = Contest::new(scene)?;
+            progress.say(&format!("{}: the truth", scene.name));
+            let rows = contest.order(self.allowance.rows);
+            for path in self.paths() {
+                if truths.find(&contest, path, &rows, &progress) > 0 {
+                    truths.write(&truths_file)?;
+                }
+            }
+            self.hear(&contest, &truths, &mut journal, &progress)?;
+        }
+        drop(progress);
+        Ok(Evaluated {
+            scenes,
+            journal,
+            truths,
+        })
+    }
+
+    fn hear(
+        &self,
+        contest: &Contest<'_>,
+        truths: &Truths,
+        journal: &mut Journal,
+        progress: &Progress,
+    ) -> Result<(), EvaluationError> {
+        let scene = &contest.scene().name;
+        for &entrant in &self.entrants {
+            let name = entrant.to_string();
+            let allowance = match entrant {
+                Entrant::Peer(_) => &self.peer_allowance,
+                Entrant::Ours(..) | Entrant::Rival(_) => &self.allowance,
+            };
+            for tolerance in self.told(entrant) {
+                progress.say(&format!("{scene}: {name}, {tolerance:e}"));
+                if !journal.has(scene, &name, tolerance)
+                    && let Some((cell, trials)) =
+                        contest.hear(entrant, tolerance, allowance, truths)?
+                {
+                    journal.add(cell, trials)?;
+                }
+                progress.step();
+            }
+        }
+        Ok(())
+    }
+
+    fn scenes(&self, models: &mut Models) -> Result<Vec<Scene>, SceneError> {
+        let progress = Progress::new(self.listings.len());
+        let make = |listing: &Listing| {
+            progress.say(&format!("making {}", listing.name));
+            let scene = listing.make(models);
+            progress.step();
+            scene
+        };
+        self.listings.iter().map(make).collect()
+    }
+
+    /// The tolerances that an entrant is told: all, or the usual one where it cannot be told any.
+    fn told(&self, entrant: Entrant) -> impl Iterator<Item = f64> {
+        self.tolerances
+            .iter()
+            .copied()
+            .filter(move |&tolerance| entrant.takes_tolerances() || tolerance == USUAL_TOLERANCE)
+    }
+
+    /// The paths that some entrant moves bodies along.
+    fn paths(&self) -> Vec<crate::contest::Path> {
+        let mut paths = Vec::new();
+        for path in self.entrants.iter().map(|entrant| entrant.path()) {
+            if !paths.contains(&path) {
+                paths.push(path);
+            }
+        }
+        paths
+    }
+
+    /// What figures depend on beside the cell that they stand in: this program, and the allowances.
+    fn stamp(&self) -> String {
+        let program = std::env::current_exe().and_then(std::fs::read);
+        let program = program.map_or(0, |bytes| crc32fast::hash(&bytes));
+        format!(
+            "program {program:08x}\nmodels {}\nentrants {:?}\npeers {:?}\n",
+            self.models
+                .as_ref()
+                .map_or("by code".into(), |folder| folder.display().to_string()),
+            self.allowance,
+            self.peer_allowance
+        )
+    }
+}

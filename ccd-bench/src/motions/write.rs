@@ -1,0 +1,63 @@
+//! The table of motions written: what [`read`](super::MotionTable::read) reads back.
+
+use super::Query;
+use super::columns::{DURATION, ID, Quantity, Side, known, slots};
+use ccd_core::Motion;
+use std::io;
+
+/// Writes queries as start poses and velocities, leaving out columns that have their default in every
+/// row; numbers read back to the same bits, orientations to rounding.
+///
+/// # Errors
+/// When `output` cannot be written to.
+pub fn write(output: impl io::Write, queries: &[Query]) -> Result<(), csv::Error> {
+    let names = known();
+    let defaults = cells(&Query {
+        id: String::new(),
+        a: Motion::still(ccd_core::Pose::IDENTITY),
+        b: Motion::still(ccd_core::Pose::IDENTITY),
+        duration: 1.0,
+    });
+    let rows: Vec<Vec<String>> = queries.iter().map(cells).collect();
+    // Parts of an orientation stand or fall together.
+    let said = |slot: usize| rows.iter().any(|row| row[slot] != defaults[slot]);
+    let orientation = |side| slots(side, Quantity::Orientation);
+    let kept: Vec<usize> = (0..names.len())
+        .filter(|&slot| {
+            let whole = [Side::A, Side::B]
+                .map(orientation)
+                .into_iter()
+                .find(|range| range.contains(&slot));
+            slot == ID || whole.map_or_else(|| said(slot), |mut range| range.any(said))
+        })
+        .collect();
+    let mut writer = csv::Writer::from_writer(output);
+    writer.write_record(kept.iter().map(|&slot| &names[slot]))?;
+    for row in &rows {
+        writer.write_record(kept.iter().map(|&slot| &row[slot]))?;
+    }
+    writer.flush()?;
+    Ok(())
+}
+
+/// A cell for every known column.
+fn cells(query: &Query) -> Vec<String> {
+    let mut cells = vec![String::new(); known().len()];
+    cells[ID].clone_from(&query.id);
+    cells[DURATION] = query.duration.to_string();
+    for (side, motion) in [(Side::A, &query.a), (Side::B, &query.b)] {
+        let rotation = motion.start().rotation();
+        let mut put = |quantity, values: &[f64]| {
+            for (slot, value) in slots(side, quantity).zip(values) {
+                cells[slot] = value.to_string();
+            }
+        };
+        put(Quantity::Position, &motion.start().translation().to_array());
+        let wxyz = [rotation.w, rotation.x, rotation.y, rotation.z];
+        put(Quantity::Orientation, &wxyz);
+        put(Quantity::Velocity, &motion.velocity().to_array());
+        put(Quantity::Spin, &motion.spin().to_array());
+        put(Quantity::Centre, &motion.centre().to_array());
+    }
+    cells
+}

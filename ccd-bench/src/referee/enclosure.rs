@@ -1,0 +1,203 @@
+//! Rotations, vectors and matrices known to within intervals.
+
+use ccd_core::glam::{DQuat, DVec3};
+use inari::{Interval, const_interval, interval};
+use std::ops::{Add, Mul, Neg, Sub};
+
+/// The real number that a float stands for; anything at all where it is not finite.
+pub(super) fn exact(x: f64) -> Interval {
+    interval!(x, x).unwrap_or(Interval::ENTIRE)
+}
+
+/// A vector, each coordinate within an interval.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Vector(pub(super) [Interval; 3]);
+
+/// A matrix by its rows, each entry within an interval.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Matrix(pub(super) [[Interval; 3]; 3]);
+
+const ZERO: Interval = const_interval!(0.0, 0.0);
+const ONE: Interval = const_interval!(1.0, 1.0);
+const TWO: Interval = const_interval!(2.0, 2.0);
+/// Where every sine and cosine lies.
+const UNIT: Interval = const_interval!(-1.0, 1.0);
+
+impl Vector {
+    pub(super) fn scaled(&self, by: Interval) -> Self {
+        Vector(self.0.map(|x| x * by))
+    }
+
+    pub(super) fn dot(&self, other: &Self) -> Interval {
+        let [x, y, z] = self.0;
+        let [u, v, w] = other.0;
+        x * u + y * v + z * w
+    }
+
+    pub(super) fn cross(&self, other: &Self) -> Self {
+        let [x, y, z] = self.0;
+        let [u, v, w] = other.0;
+        Vector([y * w - z * v, z * u - x * w, x * v - y * u])
+    }
+
+    /// The matrix that forms the cross product with this vector on its left.
+    pub(super) fn cross_matrix(&self) -> Matrix {
+        let [x, y, z] = self.0;
+        Matrix([[ZERO, -z, y], [z, ZERO, -x], [-y, x, ZERO]])
+    }
+}
+
+impl From<DVec3> for Vector {
+    fn from(v: DVec3) -> Self {
+        Vector(v.to_array().map(exact))
+    }
+}
+
+impl Matrix {
+    pub(super) fn transpose(&self) -> Self {
+        let m = &self.0;
+        Matrix([0, 1, 2].map(|i| [m[0][i], m[1][i], m[2][i]]))
+    }
+
+    /// The rotation of the direction that a quaternion has, be it a unit one or nearly.
+    pub(super) fn from_quaternion(q: DQuat) -> Self {
+        let [x, y, z, w] = q.to_array().map(exact);
+        let [xx, yy, zz, ww] = [x.sqr(), y.sqr(), z.sqr(), w.sqr()];
+        let [xy, yz, zx] = [TWO * x * y, TWO * y * z, TWO * z * x];
+        let [wx, wy, wz] = [TWO * w * x, TWO * w * y, TWO * w * z];
+        let rows = [
+            [ww + xx - yy - zz, xy - wz, zx + wy],
+            [xy + wz, ww - xx + yy - zz, yz - wx],
+            [zx - wy, yz + wx, ww - xx - yy + zz],
+        ];
+        let square = xx + yy + zz + ww;
+        Matrix(rows.map(|row| row.map(|entry| entry / square)))
+    }
+
+    /// The rotation that an angular velocity comes to within a time, any number of turns.
+    ///
+    /// With θ = |ω|t: R = cos θ I + (sin θ / |ω|) \[ω\]× + (2 sin²(θ/2) / |ω|²) ω ωᵀ.
+    pub(super) fn turn(spin: DVec3, time: f64) -> Self {
+        let omega = Vector::from(spin);
+        let square = omega.0[0].sqr() + omega.0[1].sqr() + omega.0[2].sqr();
+        let rate = square.sqrt();
+        let angle = rate * exact(time);
+        if !(square.inf() > FAINTEST_SPIN) {
+            // |R − I| ≤ θ, which is all there is to say where the squares underflow.
+            let off = UNIT * angle;
+            return Matrix([0, 1, 2].map(|i| [0, 1, 2].map(|j| delta(i, j) + off)));
+        }
+        let (sine, cosine) = sin_cos(angle);
+        let (half_sine, _) = sin_cos(angle / TWO);
+        let across = omega.scaled(sine / rate).cross_matrix();
+        let along = TWO * half_sine.sqr() / square;
+        Matrix([0, 1, 2].map(|i| {
+            [0, 1, 2]
+                .map(|j| delta(i, j) * cosine + across.0[i][j] + along * omega.0[i] * omega.0[j])
+        }))
+    }
+}
+
+/// Radians per unit of time, squared: well above where squares lose digits.
+const FAINTEST_SPIN: f64 = 1e-250;
+
+fn delta(i: usize, j: usize) -> Interval {
+    if i == j { ONE } else { ZERO }
+}
+
+impl Mul for &Matrix {
+    type Output = Matrix;
+
+    fn mul(self, other: &Matrix) -> Matrix {
+        let columns = other.transpose().0.map(Vector);
+        Matrix(
+            self.0
+                .map(|row| [0, 1, 2].map(|j| Vector(row).dot(&columns[j]))),
+        )
+    }
+}
+
+impl Mul<&Vector> for &Matrix {
+    type Output = Vector;
+
+    fn mul(self, v: &Vector) -> Vector {
+        Vector(self.0.map(|row| Vector(row).dot(v)))
+    }
+}
+
+impl Add for Vector {
+    type Output = Vector;
+
+    fn add(self, other: Vector) -> Vector {
+        Vector([0, 1, 2].map(|i| self.0[i] + other.0[i]))
+    }
+}
+
+impl Sub for Vector {
+    type Output = Vector;
+
+    fn sub(self, other: Vector) -> Vector {
+        Vector([0, 1, 2].map(|i| self.0[i] - other.0[i]))
+    }
+}
+
+impl Neg for Vector {
+    type Output = Vector;
+
+    fn neg(self) -> Vector {
+        Vector(self.0.map(|x| -x))
+    }
+}
+
+/// Enclosures of sine and cosine over an interval; tight for narrow ones.
+///
+/// x = kπ/2 + r by interval arithmetic, which holds for any k and keeps |r| below 0.79 for the k
+/// nearest. Then Taylor's polynomials about 0, with Lagrange's remainder |r|ⁿ⁺¹/(n+1)!: r²¹/21! of the
+/// sine, r²²/22! of the cosine, below 2e-22.
+pub(super) fn sin_cos(x: Interval) -> (Interval, Interval) {
+    let quarters = (x.mid() * std::f64::consts::FRAC_2_PI).round();
+    let rest = x - exact(quarters) * Interval::FRAC_PI_2;
+    // Also false of NaN: an empty or boundless interval.
+    if !(rest.mag() <= WIDEST_REST && quarters.abs() <= MOST_QUARTERS) {
+        return (UNIT, UNIT);
+    }
+    let (sine, cosine) = taylor(rest);
+    match quarters.rem_euclid(4.0) {
+        1.0 => (cosine, -sine),
+        2.0 => (-sine, -cosine),
+        3.0 => (-cosine, sine),
+        _ => (sine, cosine),
+    }
+}
+
+/// Radians beyond π/4; wider arguments are not worth a polynomial.
+const WIDEST_REST: f64 = 1.6;
+/// 2⁵⁰: multiples of π/2 up to here are exact integers, and so is their number modulo 4.
+const MOST_QUARTERS: f64 = 1_125_899_906_842_624.0;
+/// 21!, an odd number below 2⁵³ times 2¹⁸, hence exact.
+const FACTORIAL_21: Interval =
+    const_interval!(51_090_942_171_709_440_000.0, 51_090_942_171_709_440_000.0);
+const TWENTY_TWO: Interval = const_interval!(22.0, 22.0);
+
+fn taylor(r: Interval) -> (Interval, Interval) {
+    let square = r.sqr();
+    let (mut sine, mut cosine) = (ONE, ONE);
+    for k in (1..=10).rev() {
+        let n = f64::from(2 * k);
+        if k < 10 {
+            // 1 − r²/(2k(2k+1)) (…)
+            sine = ONE - square / exact(n * (n + 1.0)) * sine;
+        }
+        cosine = ONE - square / exact((n - 1.0) * n) * cosine;
+    }
+    let mut power = r.abs();
+    for _ in 0..10 {
+        power *= square;
+    }
+    let sine_rest = power / FACTORIAL_21;
+    let cosine_rest = sine_rest * r.abs() / TWENTY_TWO;
+    (
+        (r * sine + UNIT * sine_rest).intersection(UNIT),
+        (cosine + UNIT * cosine_rest).intersection(UNIT),
+    )
+}

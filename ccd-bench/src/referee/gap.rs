@@ -1,0 +1,79 @@
+//! How far two surfaces are apart at one time.
+
+use super::Bracket;
+use super::moment::{Moment, Span};
+use super::rounding::ROUNDED;
+use super::search::{Pair, Search};
+use super::triangle::{gap, nearest_or_common, normals};
+
+/// A bracket of the least distance between the surfaces at a time: the nearer part first, what is farther
+/// than the nearest points known is left out.
+pub(super) fn distance(mut search: Search<'_>, time: f64) -> Bracket {
+    let mut bracket = Bracket {
+        lower: f64::INFINITY,
+        upper: f64::INFINITY,
+    };
+    let Some(roots) = search.roots() else {
+        return bracket;
+    };
+    let moment = search.moment(Span {
+        start: time,
+        end: time,
+    });
+    let mut stack = vec![(f64::NEG_INFINITY, roots)];
+    while let Some((bound, pair)) = stack.pop() {
+        if bound >= bracket.upper {
+            continue;
+        }
+        if search.budget == 0 {
+            // What waits may be nearer by all that is known.
+            return Bracket {
+                lower: 0.0,
+                ..bracket
+            };
+        }
+        search.budget -= 1;
+        if let Some(split) = search.split(pair) {
+            let mut parts = split
+                .parts
+                .map(|part| (bound_of(&search, &moment, part), part));
+            // The last one is looked at first.
+            if parts[0].0 < parts[1].0 {
+                parts.swap(0, 1);
+            }
+            stack.extend(parts);
+        } else {
+            let found = of_triangles(&search, &moment, pair);
+            bracket.lower = bracket.lower.min(found.lower.max(bound));
+            bracket.upper = bracket.upper.min(found.upper);
+        }
+    }
+    // All that was left out is at least as far as `upper`.
+    bracket.lower = bracket.lower.min(bracket.upper).max(0.0);
+    bracket
+}
+
+fn bound_of(search: &Search<'_>, moment: &Moment, pair: Pair) -> f64 {
+    let [a, b] = search.nodes(pair);
+    moment.boxes_distance(a, b)
+}
+
+/// Any two points bound the distance from above, the gap along any direction does from below.
+fn of_triangles(search: &Search<'_>, moment: &Moment, pair: Pair) -> Bracket {
+    let Some([a, b]) = search.triangles(pair) else {
+        return Bracket {
+            lower: 0.0,
+            upper: f64::INFINITY,
+        };
+    };
+    let placed = moment.placed(a);
+    let (p, q) = nearest_or_common(&placed, b);
+    let directions = normals(&placed, b).chain([(p - q).normalize()]);
+    let gaps = directions
+        .filter(|n| n.is_finite())
+        .map(|n| gap(n, &placed, b));
+    Bracket {
+        lower: gaps.fold(0.0, f64::max) * (1.0 - ROUNDED) - moment.slack(),
+        upper: (p - q).length() + moment.slack(),
+    }
+}

@@ -1,0 +1,72 @@
+//! Proof that two triangles share a point at an instant.
+
+use super::enclosure::{Matrix, Vector};
+use super::moment::Enclosed;
+use super::surface::Triangle;
+use super::track::Track;
+use inari::{Interval, const_interval};
+
+/// Both bodies at an instant, in B's frame.
+pub(super) struct Instant {
+    rotation: Matrix,
+    offset: Vector,
+}
+
+impl Instant {
+    pub(super) fn new(a: &Track, b: &Track, time: f64) -> Self {
+        let (rotation, offset) = Enclosed::new(a, b, time).place;
+        Instant { rotation, offset }
+    }
+
+    /// Whether an edge of one triangle certainly passes through the inside of the other.
+    pub(super) fn certainly_meet(&self, a: &Triangle, b: &Triangle) -> bool {
+        let a = a.map(|p| &self.rotation * &Vector::from(p) + self.offset);
+        let b = b.map(Vector::from);
+        (0..3).any(|i| {
+            let next = (i + 1) % 3;
+            pierces([&a[i], &a[next]], &b) || pierces([&b[i], &b[next]], &a)
+        })
+    }
+}
+
+/// The ends lie on two sides of the triangle's plane, the line passes its edges on one and the same side:
+/// five signs, each certain.
+fn pierces([from, to]: [&Vector; 2], [a, b, c]: &[Vector; 3]) -> bool {
+    let normal = (*b - *a).cross(&(*c - *a));
+    let before = sign(normal.dot(&(*from - *a)));
+    if before == Sign::Unknown || sign(normal.dot(&(*to - *a))) != before.opposite() {
+        return false;
+    }
+    let along = *to - *from;
+    let passes = |p: &Vector, q: &Vector| sign(along.dot(&(*p - *from).cross(&(*q - *from))));
+    let side = passes(a, b);
+    side != Sign::Unknown && passes(b, c) == side && passes(c, a) == side
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Sign {
+    Negative,
+    Positive,
+    Unknown,
+}
+
+impl Sign {
+    fn opposite(self) -> Self {
+        match self {
+            Sign::Negative => Sign::Positive,
+            Sign::Positive => Sign::Negative,
+            Sign::Unknown => Sign::Unknown,
+        }
+    }
+}
+
+fn sign(x: Interval) -> Sign {
+    const ZERO: Interval = const_interval!(0.0, 0.0);
+    // An empty interval, which nothing finite makes, precedes everything.
+    match x {
+        x if x.is_empty() => Sign::Unknown,
+        x if ZERO.strict_precedes(x) => Sign::Positive,
+        x if x.strict_precedes(ZERO) => Sign::Negative,
+        _ => Sign::Unknown,
+    }
+}

@@ -1,0 +1,46 @@
+//! Tables written and read.
+
+use super::super::{Truth, TruthRow, read_truths, write_truths};
+
+const TABLE: &str = "id,status,lo,hi\n\
+                     a,hit,0.1,0.30000000000000004\n\
+                     b,free,2.0,2.0\n\
+                     c,initial,0.0,0.0\n\
+                     d,graze,0.5,2.0\n\
+                     e,undecided,0.25,2.0\n";
+
+const TRUTHS: [(&str, Truth); 5] = [
+    (
+        "a",
+        Truth::Hit {
+            lo: 0.1,
+            hi: 0.1 + 0.2,
+        },
+    ),
+    ("b", Truth::Free),
+    ("c", Truth::Start),
+    ("d", Truth::Graze { lo: 0.5 }),
+    ("e", Truth::Undecided { lo: 0.25 }),
+];
+
+#[test]
+fn what_is_written_is_read() {
+    let row = |&(id, truth): &(&str, Truth)| TruthRow::new(id.to_owned(), 2.0, truth);
+    let mut table = Vec::new();
+    write_truths(&mut table, TRUTHS.iter().map(row)).unwrap();
+    assert_eq!(String::from_utf8(table).unwrap(), TABLE);
+    let read = read_truths(TABLE.as_bytes()).unwrap();
+    let read: Vec<_> = read
+        .iter()
+        .map(|row| (row.id.as_str(), row.truth()))
+        .collect();
+    assert_eq!(read, TRUTHS);
+}
+
+#[test]
+fn rows_that_are_none_are_refused() {
+    for row in ["a,sure,0,1", "a,hit,x,1", "a,hit,0"] {
+        let table = format!("id,status,lo,hi\n{row}\n");
+        assert!(read_truths(table.as_bytes()).is_err(), "{row}");
+    }
+}

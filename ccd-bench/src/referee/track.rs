@@ -1,0 +1,72 @@
+//! Where a moving body is at an instant, to within intervals.
+
+use super::enclosure::{Matrix, Vector, exact};
+use super::rounding::{ROUNDED, ROUNDED_UP, larger};
+use super::surface::Surface;
+use ccd_core::Motion;
+use ccd_core::glam::{DMat3, DVec3};
+
+/// A body's motion: x(t) = c₀ + v t + R(ω t) R₀ (p − c).
+#[derive(Clone, Debug)]
+pub(super) struct Track {
+    /// c, in the body's frame.
+    pub(super) centre: Vector,
+    /// v.
+    pub(super) velocity: Vector,
+    /// ω.
+    pub(super) spin: Vector,
+    /// ω again.
+    turning: DVec3,
+    /// R₀.
+    orientation: Matrix,
+    /// c₀: where c is at the start.
+    from: Vector,
+    /// How far any point of the body is from c, at most.
+    pub(super) reach: f64,
+    /// |ω|²ρ: the acceleration of the point that is farthest from the axis, at most.
+    pub(super) acceleration: f64,
+}
+
+/// Where a body is: x = `centre` + `rotation` (p − c).
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Placement {
+    pub(super) rotation: Matrix,
+    pub(super) centre: Vector,
+}
+
+impl Track {
+    pub(super) fn new(motion: &Motion, surface: &Surface) -> Self {
+        let start = motion.start();
+        let orientation = Matrix::from_quaternion(start.rotation());
+        let centre = Vector::from(motion.centre());
+        let mut track = Track {
+            centre,
+            velocity: Vector::from(motion.velocity()),
+            spin: Vector::from(motion.spin()),
+            turning: motion.spin(),
+            from: Vector::from(start.translation()) + &orientation * &centre,
+            orientation,
+            reach: 0.0,
+            acceleration: 0.0,
+        };
+        // The axis stands still in the body's frame, at which the distance from it is convex: largest at a
+        // corner of the box about the body.
+        let axis = DMat3::from_quat(start.rotation()).transpose() * motion.spin();
+        let rate = motion.spin().length();
+        for corner in surface.corners() {
+            let arm = corner - motion.centre();
+            track.reach = larger(track.reach, arm.length() * ROUNDED_UP);
+            // The sum covers the rounding of the cross product, which is relative to its factors.
+            let speed = axis.cross(arm).length() + ROUNDED * rate * arm.length();
+            track.acceleration = larger(track.acceleration, rate * speed * ROUNDED_UP);
+        }
+        track
+    }
+
+    pub(super) fn at(&self, time: f64) -> Placement {
+        Placement {
+            rotation: &Matrix::turn(self.turning, time) * &self.orientation,
+            centre: self.from + self.velocity.scaled(exact(time)),
+        }
+    }
+}

@@ -1,0 +1,113 @@
+//! Two triangles: where they are nearest, and along what they are apart.
+
+use super::surface::Triangle;
+use ccd_core::glam::DVec3;
+
+/// How far two sets of corners are apart along a direction: negative where they are not.
+pub(super) fn gap(n: DVec3, a: &Triangle, b: &Triangle) -> f64 {
+    let [p, q, r] = a.map(|corner| n.dot(corner));
+    let [u, v, w] = b.map(|corner| n.dot(corner));
+    p.min(q).min(r) - u.max(v).max(w)
+}
+
+/// The unit normals of both triangles, and then those of all pairs of an edge of each, from `b` towards `a`:
+/// disjoint triangles that are not in one plane are apart along one of them. NaN where there is none.
+pub(super) fn normals(a: &Triangle, b: &Triangle) -> impl Iterator<Item = DVec3> {
+    let [edges_a, edges_b] = [a, b].map(|t| [t[1] - t[0], t[2] - t[1], t[0] - t[2]]);
+    let between = (a[0] + a[1] + a[2]) - (b[0] + b[1] + b[2]);
+    let faces = [edges_b[0].cross(edges_b[1]), edges_a[0].cross(edges_a[1])];
+    let crossed = (0..9).map(move |i| edges_a[i / 3].cross(edges_b[i % 3]));
+    faces.into_iter().chain(crossed).map(move |n| {
+        let n = n.normalize();
+        if n.dot(between) < 0.0 { -n } else { n }
+    })
+}
+
+/// A point of each of two triangles, nearest to each other as far as rounding can tell, whatever their
+/// shape: the same point where they intersect.
+pub(super) fn nearest(a: &Triangle, b: &Triangle) -> (DVec3, DVec3) {
+    let mut best = nearest_of_edges(a, b);
+    let mut consider = |p: DVec3, q: DVec3| {
+        if (p - q).length_squared() < (best.0 - best.1).length_squared() {
+            best = (p, q);
+        }
+    };
+    for i in 0..3 {
+        if let Some(q) = foot(a[i], b) {
+            consider(a[i], q);
+        }
+        if let Some(p) = foot(b[i], a) {
+            consider(p, b[i]);
+        }
+    }
+    best
+}
+
+/// As [`nearest`], looking at whether an edge pierces the other triangle, too.
+pub(super) fn nearest_or_common(a: &Triangle, b: &Triangle) -> (DVec3, DVec3) {
+    let mut best = nearest(a, b);
+    let mut consider = |p: DVec3, q: DVec3| {
+        if (p - q).length_squared() < (best.0 - best.1).length_squared() {
+            best = (p, q);
+        }
+    };
+    for i in 0..3 {
+        if let Some((p, q)) = crossing([a[i], a[(i + 1) % 3]], b) {
+            consider(p, q);
+        }
+        if let Some((q, p)) = crossing([b[i], b[(i + 1) % 3]], a) {
+            consider(p, q);
+        }
+    }
+    best
+}
+
+fn nearest_of_edges(a: &Triangle, b: &Triangle) -> (DVec3, DVec3) {
+    let mut best = (a[0], b[0]);
+    for i in 0..3 {
+        for j in 0..3 {
+            let (p, q) = nearest_of_segments([a[i], a[(i + 1) % 3]], [b[j], b[(j + 1) % 3]]);
+            if (p - q).length_squared() < (best.0 - best.1).length_squared() {
+                best = (p, q);
+            }
+        }
+    }
+    best
+}
+
+/// Minimises |p + s u − q − t v| over s and t in 0..1: of the lines first, then of one held at its end.
+fn nearest_of_segments([p, p_end]: [DVec3; 2], [q, q_end]: [DVec3; 2]) -> (DVec3, DVec3) {
+    let (u, v, r) = (p_end - p, q_end - q, p - q);
+    let (uu, vv, uv) = (u.length_squared(), v.length_squared(), u.dot(v));
+    let (ur, vr) = (u.dot(r), v.dot(r));
+    let share = |x: f64| if x.is_nan() { 0.0 } else { x.clamp(0.0, 1.0) };
+    let s = share((uv * vr - vv * ur) / (uu * vv - uv * uv));
+    // Each is the best for the other held; a second turn settles what a clamped first one leaves.
+    let t = share((uv * s + vr) / vv);
+    let s = share((uv * t - ur) / uu);
+    let t = share((uv * s + vr) / vv);
+    (p + s * u, q + t * v)
+}
+
+/// The foot of the perpendicular from a point onto a triangle, where it has one.
+fn foot(p: DVec3, [a, b, c]: &Triangle) -> Option<DVec3> {
+    let (u, v, r) = (b - a, c - a, p - a);
+    let n = u.cross(v);
+    let square = n.length_squared();
+    let beta = r.cross(v).dot(n) / square;
+    let gamma = u.cross(r).dot(n) / square;
+    (beta >= 0.0 && gamma >= 0.0 && beta + gamma <= 1.0).then(|| a + beta * u + gamma * v)
+}
+
+/// Where a segment crosses a triangle: the point on the segment, and that on the triangle.
+fn crossing([from, to]: [DVec3; 2], triangle: &Triangle) -> Option<(DVec3, DVec3)> {
+    let [a, b, c] = triangle;
+    let n = (b - a).cross(c - a);
+    let (start, end) = (n.dot(from - a), n.dot(to - a));
+    if start * end > 0.0 {
+        return None;
+    }
+    let s = start / (start - end);
+    let point = from + s.clamp(0.0, 1.0) * (to - from);
+    foot(point, triangle).map(|on| (point, on))
+}

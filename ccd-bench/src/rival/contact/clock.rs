@@ -1,0 +1,116 @@
+//! Halving time, and the enclosures of the motion over each interval that comes out of it.
+
+use super::relative::{Enclosure, Relative, Span};
+
+/// How often time is halved at most: intervals of 2⁻⁵² of the duration are what numbers resolve.
+pub(super) const MAX_LEVEL: usize = 52;
+
+/// An interval out of repeated halving, perhaps cut short at its end.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Slice {
+    pub(super) span: Span,
+    /// How often time was halved for it.
+    pub(super) level: usize,
+}
+
+/// Keeps the last enclosure of every level: the search stays within one interval for many pairs.
+#[derive(Clone, Debug)]
+pub(super) struct Clock {
+    relative: Relative,
+    resolution: f64,
+    most_halvings: u64,
+    places: Vec<Kept>,
+    rates: Vec<Kept>,
+    /// How often time was halved.
+    pub(super) halvings: u64,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Kept {
+    span: Span,
+    enclosure: Enclosure,
+}
+
+impl Slice {
+    /// All of the time until an end.
+    pub(super) fn whole(end: f64) -> Self {
+        Slice {
+            span: Span { start: 0.0, end },
+            level: 0,
+        }
+    }
+
+    /// The first half and the second.
+    pub(super) fn halves(self) -> [Slice; 2] {
+        let Span { start, end } = self.span;
+        let middle = self.span.middle();
+        [(start, middle), (middle, end)].map(|(start, end)| Slice {
+            span: Span { start, end },
+            level: self.level + 1,
+        })
+    }
+}
+
+impl Clock {
+    /// Of a motion, with the width and the number at which halving ends.
+    pub(super) fn new(relative: Relative, resolution: f64, most_halvings: u64) -> Self {
+        let nothing = Kept {
+            span: Span {
+                start: f64::NAN,
+                end: f64::NAN,
+            },
+            enclosure: relative.over(Span {
+                start: 0.0,
+                end: 0.0,
+            }),
+        };
+        Clock {
+            relative,
+            resolution,
+            most_halvings,
+            places: vec![nothing; MAX_LEVEL + 1],
+            rates: vec![nothing; MAX_LEVEL + 1],
+            halvings: 0,
+        }
+    }
+
+    /// The motion.
+    pub(super) fn relative(&self) -> &Relative {
+        &self.relative
+    }
+
+    /// The width at which halving ends.
+    pub(super) fn resolution(&self) -> f64 {
+        self.resolution
+    }
+
+    /// Whether an interval is not to be halved.
+    pub(super) fn is_short(&self, slice: Slice) -> bool {
+        !(slice.span.width() > self.resolution) || slice.level >= MAX_LEVEL
+    }
+
+    /// Whether time was halved as often as is allowed.
+    pub(super) fn is_spent(&self) -> bool {
+        self.halvings >= self.most_halvings
+    }
+
+    /// The enclosure of all placements over an interval.
+    pub(super) fn places(&mut self, slice: Slice) -> &Enclosure {
+        let kept = &mut self.places[slice.level];
+        if kept.span != slice.span {
+            kept.span = slice.span;
+            kept.enclosure = self.relative.over(slice.span);
+        }
+        &kept.enclosure
+    }
+
+    /// The enclosure of all rates of change over an interval.
+    pub(super) fn rates(&mut self, slice: Slice) -> &Enclosure {
+        let kept = &mut self.rates[slice.level];
+        if kept.span != slice.span {
+            kept.span = slice.span;
+            kept.enclosure = self.relative.rates_over(slice.span);
+        }
+        &kept.enclosure
+    }
+}

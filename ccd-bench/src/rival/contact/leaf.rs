@@ -1,0 +1,143 @@
+//! When two triangles first touch over an interval of time.
+
+use super::clock::{Clock, MAX_LEVEL, Slice};
+use super::elementary::{Open, Test, Triangles};
+use super::relative::Span;
+
+/// What is known of two triangles over an interval of time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Touch {
+    /// They touch, and not before.
+    At(f64),
+    /// They do not.
+    Never,
+    /// The work ran out.
+    Unknown,
+}
+
+/// The first root of all elementary tests: time is halved, the first half first, until every test is
+/// excluded, or its contact function is seen to rise or fall all the time, so that signs find its root, or
+/// the interval is as short as the resolution \[CONTACT02\].
+pub(super) fn first_touch(triangles: &Triangles, slice: Slice, clock: &mut Clock) -> Touch {
+    let mut first = Touch::Never;
+    // Of every level at most one second half waits, and both of the last.
+    let mut stack = [(slice, Open::ALL); MAX_LEVEL + 2];
+    let mut height = 1;
+    while let Some(below) = usize::checked_sub(height, 1) {
+        height = below;
+        let (mut slice, open) = stack[height];
+        if let Touch::At(time) = first {
+            slice.span.end = slice.span.end.min(time);
+        }
+        if !(slice.span.width() > 0.0 || first == Touch::Never) {
+            continue;
+        }
+        let open = triangles.open(open, clock.places(slice));
+        if open.is_empty() {
+            continue;
+        }
+        if clock.is_short(slice) {
+            first = Touch::At(slice.span.start);
+            continue;
+        }
+        let open = open.keep(|test| match root(triangles, test, slice, clock) {
+            Root::Several => true,
+            Root::None => false,
+            Root::At(time) => {
+                first = earlier(first, time);
+                false
+            }
+        });
+        if !open.is_empty() {
+            if clock.is_spent() {
+                return Touch::Unknown;
+            }
+            clock.halvings += 1;
+            let [early, late] = slice.halves();
+            stack[height] = (late, open);
+            stack[height + 1] = (early, open);
+            height += 2;
+        }
+    }
+    first
+}
+
+fn earlier(first: Touch, time: f64) -> Touch {
+    match first {
+        Touch::At(known) => Touch::At(known.min(time)),
+        Touch::Never | Touch::Unknown => Touch::At(time),
+    }
+}
+
+/// What is known of a contact function's roots where the features meet.
+enum Root {
+    None,
+    At(f64),
+    /// Any number.
+    Several,
+}
+
+/// The root of a function that rises or falls over all of the interval, where it is known to.
+fn root(triangles: &Triangles, test: Test, slice: Slice, clock: &mut Clock) -> Root {
+    let rates = *clock.rates(slice);
+    let rate = triangles.rate(test, clock.places(slice), &rates);
+    if !rate.excludes_zero() {
+        return Root::Several;
+    }
+    let Some(found) = bracket(triangles, test, slice.span, clock) else {
+        return Root::None;
+    };
+    // As wide as the resolution: features that meet at their borders do so up to rounding only.
+    let slack = 0.5 * (clock.resolution() - found.width()).max(0.0);
+    let around = Span {
+        start: found.start - slack,
+        end: found.end + slack,
+    };
+    let only = Open::ALL.keep(|other| other == test);
+    match triangles
+        .open(only, &clock.relative().over(around))
+        .is_empty()
+    {
+        true => Root::None,
+        false => Root::At(found.start),
+    }
+}
+
+/// How often a bracket is narrowed at most; halving every other time, 2·53 leave neighbouring numbers.
+const MAX_NARROWINGS: usize = 110;
+
+/// The root of a monotone function between two times, to within the resolution: false position, and
+/// halves where it leaves more than half.
+fn bracket(triangles: &Triangles, test: Test, span: Span, clock: &Clock) -> Option<Span> {
+    let value = |time: f64| triangles.value(test, &clock.relative().at(time));
+    let (mut span, mut ends) = (span, [value(span.start), value(span.end)]);
+    if ends[0] * ends[1] > 0.0 {
+        return None;
+    }
+    // A guess is put this far beyond the root, so that the far end of the bracket moves as well.
+    let beyond = 0.25 * clock.resolution();
+    let rising = ends[1] > ends[0];
+    let mut halve = false;
+    for _ in 0..MAX_NARROWINGS {
+        let width = span.width();
+        if !(width > clock.resolution()) {
+            break;
+        }
+        let guess = span.start + width * (ends[0] / (ends[0] - ends[1]));
+        let guess = match guess < span.middle() {
+            true => guess + beyond,
+            false => guess - beyond,
+        };
+        let inside = !halve && guess > span.start && guess < span.end;
+        let time = if inside { guess } else { span.middle() };
+        let there = value(time);
+        let before = if rising { there < 0.0 } else { there > 0.0 };
+        if before {
+            (span.start, ends[0]) = (time, there);
+        } else {
+            (span.end, ends[1]) = (time, there);
+        }
+        halve = !(span.width() <= 0.5 * width);
+    }
+    Some(span)
+}

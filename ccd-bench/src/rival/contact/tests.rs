@@ -1,0 +1,3 @@
+mod enclosures;
+mod meshes;
+mod scenes;

@@ -1,0 +1,72 @@
+//! Where a moving body is, by the formula of its motion.
+
+use ccd_core::Motion;
+use ccd_core::glam::{DMat3, DQuat, DVec3};
+
+/// A body's motion as the rivals see it: its centre moves straight, the body turns about it.
+#[derive(Clone, Copy, Debug)]
+pub struct Course {
+    /// The centre of rotation in the body's frame.
+    pub centre: DVec3,
+    /// Where the centre is at the start.
+    pub from: DVec3,
+    /// Its velocity.
+    pub velocity: DVec3,
+    /// The orientation at the start.
+    pub orientation: DMat3,
+    /// The unit axis that the body turns about; any one where it does not turn.
+    pub axis: DVec3,
+    /// Radians per unit of time.
+    pub rate: f64,
+}
+
+/// A placement: `x ↦ rotation x + translation`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Placement {
+    /// The rotation.
+    pub rotation: DMat3,
+    /// The translation.
+    pub translation: DVec3,
+}
+
+impl Course {
+    /// The same motion; its parameters are read, no formula is shared.
+    pub fn new(motion: &Motion) -> Self {
+        let orientation = DMat3::from_quat(motion.start().rotation());
+        let rate = motion.spin().length();
+        Course {
+            centre: motion.centre(),
+            from: motion.start().translation() + orientation * motion.centre(),
+            velocity: motion.velocity(),
+            orientation,
+            axis: motion.spin().try_normalize().unwrap_or(DVec3::Z),
+            rate,
+        }
+    }
+
+    /// Where the body is at a time.
+    pub fn at(&self, time: f64) -> Placement {
+        let turn = DMat3::from_quat(DQuat::from_axis_angle(self.axis, self.rate * time));
+        let rotation = turn * self.orientation;
+        Placement {
+            rotation,
+            translation: self.from + time * self.velocity - rotation * self.centre,
+        }
+    }
+}
+
+impl Placement {
+    /// A point of the body in the world.
+    pub fn apply(&self, point: DVec3) -> DVec3 {
+        self.rotation * point + self.translation
+    }
+
+    /// This placement as seen from the frame of another: `other⁻¹ ∘ self`.
+    pub fn seen_from(&self, other: &Placement) -> Placement {
+        let back = other.rotation.transpose();
+        Placement {
+            rotation: back * self.rotation,
+            translation: back * (self.translation - other.translation),
+        }
+    }
+}

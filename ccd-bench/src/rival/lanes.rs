@@ -1,0 +1,127 @@
+//! Four vectors at a time, and the shortest of many.
+
+use ccd_core::glam::DVec3;
+use wide::f64x4;
+
+/// Four vectors, by coordinates.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Vectors(pub(super) [f64x4; 3]);
+
+/// Of vectors that come four at a time, the shortest of each lane.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Shortest {
+    squared: f64x4,
+    vectors: Vectors,
+}
+
+impl Vectors {
+    /// Four vectors; the last one may repeat another.
+    #[inline(always)]
+    pub(super) fn new([a, b, c, d]: [DVec3; 4]) -> Self {
+        Vectors([
+            f64x4::new([a.x, b.x, c.x, d.x]),
+            f64x4::new([a.y, b.y, c.y, d.y]),
+            f64x4::new([a.z, b.z, c.z, d.z]),
+        ])
+    }
+
+    /// The same vector four times.
+    #[inline(always)]
+    pub(super) fn splat(v: DVec3) -> Self {
+        Vectors([f64x4::splat(v.x), f64x4::splat(v.y), f64x4::splat(v.z)])
+    }
+
+    /// `self + factors · direction`.
+    #[inline(always)]
+    pub(super) fn plus(self, factors: f64x4, direction: DVec3) -> Self {
+        self.plus_each(factors, Vectors::splat(direction))
+    }
+
+    /// `self + factors · directions`, lane by lane.
+    #[inline(always)]
+    pub(super) fn plus_each(self, factors: f64x4, Vectors(d): Vectors) -> Self {
+        let Vectors([x, y, z]) = self;
+        Vectors([
+            factors.mul_add(d[0], x),
+            factors.mul_add(d[1], y),
+            factors.mul_add(d[2], z),
+        ])
+    }
+
+    /// `self − other`, lane by lane.
+    #[inline(always)]
+    pub(super) fn minus(self, Vectors(o): Vectors) -> Self {
+        let Vectors([x, y, z]) = self;
+        Vectors([x - o[0], y - o[1], z - o[2]])
+    }
+
+    /// Inner products with one vector.
+    #[inline(always)]
+    pub(super) fn dot(self, v: DVec3) -> f64x4 {
+        self.dot_each(Vectors::splat(v))
+    }
+
+    /// Inner products, lane by lane.
+    #[inline(always)]
+    pub(super) fn dot_each(self, Vectors(o): Vectors) -> f64x4 {
+        let Vectors([x, y, z]) = self;
+        x.mul_add(o[0], y.mul_add(o[1], z * o[2]))
+    }
+
+    /// Cross products, lane by lane.
+    #[inline(always)]
+    pub(super) fn cross_each(self, Vectors(o): Vectors) -> Self {
+        let Vectors([x, y, z]) = self;
+        Vectors([
+            y.mul_sub(o[2], z * o[1]),
+            z.mul_sub(o[0], x * o[2]),
+            x.mul_sub(o[1], y * o[0]),
+        ])
+    }
+
+    /// One of the four.
+    pub(super) fn lane(self, k: usize) -> DVec3 {
+        let Vectors(v) = self;
+        DVec3::from_array(v.map(|lanes| lanes.to_array()[k]))
+    }
+}
+
+impl Shortest {
+    /// Of no vectors.
+    #[inline(always)]
+    pub(super) fn of_none() -> Self {
+        Shortest {
+            squared: f64x4::splat(f64::INFINITY),
+            vectors: Vectors::splat(DVec3::ZERO),
+        }
+    }
+
+    /// With four more; NaN is never shorter.
+    #[inline(always)]
+    pub(super) fn and(self, more: Vectors) -> Self {
+        let squared = more.dot_each(more);
+        let shorter = squared.simd_lt(self.squared);
+        let keep = |k: usize| shorter.select(more.0[k], self.vectors.0[k]);
+        Shortest {
+            squared: self.squared.fast_min(squared),
+            vectors: Vectors([keep(0), keep(1), keep(2)]),
+        }
+    }
+
+    /// The shortest of all, its squared length first.
+    #[inline(always)]
+    pub(super) fn of_all(self) -> (f64, DVec3) {
+        let (lane, squared) = least(self.squared);
+        (squared, self.vectors.lane(lane))
+    }
+}
+
+/// The least of four numbers and its lane.
+#[inline(always)]
+pub(super) fn least(numbers: f64x4) -> (usize, f64) {
+    let n = numbers.to_array();
+    let low = if n[1] < n[0] { 1 } else { 0 };
+    let high = if n[3] < n[2] { 3 } else { 2 };
+    let lane = if n[high] < n[low] { high } else { low };
+    (lane, n[lane])
+}

@@ -1,0 +1,163 @@
+//! A tree of oriented boxes over the triangles of a mesh.
+
+mod overlap;
+#[cfg(test)]
+mod tests;
+
+pub(super) use overlap::{Crossing, crossing};
+
+use super::principal_axes::principal_axes;
+use ccd_core::glam::{DMat3, DVec3};
+use ccd_decomp::TriangleMesh;
+
+/// A binary tree of boxes, each fitted to the spread of its triangles' corners \[OBBTREE96 §4\] and split
+/// at their mean.
+///
+/// Corners and boxes are given relative to [`ObbTree::origin`], the middle of the root's box, so that what
+/// turns about it moves little.
+#[derive(Clone, Debug)]
+pub(super) struct ObbTree {
+    /// In the mesh's frame.
+    pub(super) origin: DVec3,
+    /// How far from it corners are, at most.
+    radius: f64,
+    /// The root comes first.
+    nodes: Vec<Node>,
+    triangles: Vec<[DVec3; 3]>,
+}
+
+/// A box, and what is in it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Node {
+    pub(super) bounds: Obb,
+    pub(super) content: Content,
+}
+
+/// What a box holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Content {
+    /// Two nodes.
+    Nodes([u32; 2]),
+    /// One triangle.
+    Triangle(u32),
+}
+
+/// A box in any orientation.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Obb {
+    /// Its axes as columns, the longest first as long as the box is fitted well.
+    pub(super) axes: DMat3,
+    pub(super) centre: DVec3,
+    pub(super) half: DVec3,
+}
+
+impl ObbTree {
+    /// Fits a tree to a mesh; a leaf per triangle.
+    pub(super) fn new(mesh: &TriangleMesh) -> Self {
+        let corners = |face: &[u32; 3]| face.map(|v| mesh.vertices()[v as usize]);
+        let mut triangles: Vec<[DVec3; 3]> = mesh.faces().iter().map(corners).collect();
+        let origin = Obb::around(&triangles).1.centre;
+        for corner in triangles.iter_mut().flatten() {
+            *corner -= origin;
+        }
+        let lengths = triangles.iter().flatten().map(|corner| corner.length());
+        let mut tree = ObbTree {
+            origin,
+            radius: lengths.fold(0.0, f64::max),
+            nodes: Vec::with_capacity(2 * triangles.len()),
+            triangles,
+        };
+        tree.build();
+        tree
+    }
+
+    /// The node of a number.
+    #[inline]
+    pub(super) fn node(&self, index: u32) -> &Node {
+        &self.nodes[index as usize]
+    }
+
+    /// The corners of the triangle of a number.
+    #[inline]
+    pub(super) fn triangle(&self, index: u32) -> &[DVec3; 3] {
+        &self.triangles[index as usize]
+    }
+
+    /// How far a point of the mesh is from a point of its frame, at most.
+    pub(super) fn reach(&self, from: DVec3) -> f64 {
+        self.origin.distance(from) + self.radius
+    }
+
+    /// Splits from the root down; triangles end up in the order of the leaves.
+    fn build(&mut self) {
+        let mut open = vec![(0, 0..self.triangles.len())];
+        self.nodes.push(Node::placeholder());
+        while let Some((index, range)) = open.pop() {
+            let triangles = &mut self.triangles[range.clone()];
+            let (mean, bounds) = Obb::around(triangles);
+            let content = if range.len() == 1 {
+                Content::Triangle(range.start as u32)
+            } else {
+                let middle = range.start + split(triangles, mean, bounds.axes);
+                let left = self.nodes.len();
+                self.nodes.extend([Node::placeholder(); 2]);
+                open.push((left + 1, middle..range.end));
+                open.push((left, range.start..middle));
+                Content::Nodes([left as u32, left as u32 + 1])
+            };
+            self.nodes[index] = Node { bounds, content };
+        }
+    }
+}
+
+impl Node {
+    fn placeholder() -> Self {
+        Node {
+            bounds: Obb {
+                axes: DMat3::IDENTITY,
+                centre: DVec3::ZERO,
+                half: DVec3::ZERO,
+            },
+            content: Content::Triangle(0),
+        }
+    }
+}
+
+impl Obb {
+    /// The mean of the corners, and the box about them along their principal axes.
+    fn around(triangles: &[[DVec3; 3]]) -> (DVec3, Self) {
+        let points = triangles.iter().flatten().copied();
+        let (mean, axes) = principal_axes(points.clone());
+        let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        for point in points {
+            let along = axes.transpose_mul_vec3(point - mean);
+            low = low.min(along);
+            high = high.max(along);
+        }
+        let bounds = Obb {
+            axes,
+            centre: mean + axes * (0.5 * (low + high)),
+            half: 0.5 * (high - low),
+        };
+        (mean, bounds)
+    }
+}
+
+/// Orders triangles by the side of the mean on which their middles lie along the longest axis, or the next
+/// one where they all lie on one side, and by halves where nothing splits them; tells how many come first.
+fn split(triangles: &mut [[DVec3; 3]], mean: DVec3, axes: DMat3) -> usize {
+    for axis in [axes.x_axis, axes.y_axis, axes.z_axis] {
+        let before = |t: &[DVec3; 3]| (t[0] + t[1] + t[2] - 3.0 * mean).dot(axis) < 0.0;
+        let mut count = 0;
+        for k in 0..triangles.len() {
+            if before(&triangles[k]) {
+                triangles.swap(count, k);
+                count += 1;
+            }
+        }
+        if (1..triangles.len()).contains(&count) {
+            return count;
+        }
+    }
+    triangles.len() / 2
+}

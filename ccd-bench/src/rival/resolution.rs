@@ -1,0 +1,14 @@
+//! How long bodies take to move by a tolerance.
+
+use super::Course;
+use super::obb_tree::ObbTree;
+
+/// A time in which no point of one body moves by more than the tolerance as seen from any of the other:
+/// the tolerance over the relative speed of the centres and both bodies' turning at their farthest points.
+///
+/// Infinite for bodies at rest.
+pub(super) fn resolution(courses: &[Course; 2], trees: &[ObbTree; 2], tolerance: f64) -> f64 {
+    let straight = (courses[0].velocity - courses[1].velocity).length();
+    let turning = |k: usize| courses[k].rate * trees[k].reach(courses[k].centre);
+    tolerance / (straight + turning(0) + turning(1))
+}

@@ -1,0 +1,228 @@
+//! A tree of spheres swept over rectangles, above the triangles of a mesh.
+
+use super::principal_axes::principal_axes;
+use super::triangles_apart::{Nearest, Triangle, nearest};
+use super::{Placement, rectangles};
+use ccd_core::glam::{DVec2, DVec3};
+use ccd_decomp::TriangleMesh;
+
+mod fit;
+#[cfg(test)]
+mod tests;
+
+/// A tree over all triangles of a mesh, one to a leaf \[PQP99 §3\].
+///
+/// A node splits at the mean of its triangles' centres along its longest axis; as its authors leave
+/// open what becomes of a lopsided split, that is made one of two halves, so that no tree is deep.
+#[derive(Clone, Debug)]
+pub(super) struct SphereTree {
+    /// The root first, two children side by side.
+    nodes: Vec<Node>,
+    /// Where their rectangles are in the body.
+    frames: Vec<Placement>,
+    triangles: Vec<Triangle>,
+}
+
+/// All points within a radius of a rectangle.
+#[derive(Clone, Copy, Debug)]
+struct Node {
+    /// The rectangle's frame, as seen from its parent's.
+    place: Placement,
+    /// The rectangle's, along x and y.
+    lengths: DVec2,
+    radius: f64,
+    below: Below,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Below {
+    /// This node and the next one.
+    Children(u32),
+    Triangle(u32),
+}
+
+/// Two trees that are looked at together.
+#[derive(Clone, Debug)]
+pub(super) struct Trees {
+    pub(super) a: SphereTree,
+    pub(super) b: SphereTree,
+}
+
+/// A node of each tree.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Pair {
+    pub(super) a: u32,
+    pub(super) b: u32,
+    /// B's rectangle as seen from A's.
+    place: Placement,
+}
+
+/// What is below a pair of nodes.
+pub(super) enum Under {
+    /// The children of one of them, each with the other node.
+    Pairs([Pair; 2]),
+    /// Both nodes are leaves.
+    Triangles(Leaves),
+}
+
+/// A triangle of each tree.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Leaves {
+    a: u32,
+    b: u32,
+}
+
+/// How far two nodes are apart, at least.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Gap {
+    /// Zero where they overlap.
+    pub(super) distance: f64,
+    /// From A towards B in the frame of body A, a unit vector; zero where their rectangles meet.
+    pub(super) direction: DVec3,
+}
+
+impl SphereTree {
+    pub(super) fn new(mesh: &TriangleMesh) -> Self {
+        let corner = |&v: &u32| mesh.vertices()[v as usize];
+        let triangle = |[a, b, c]: &[u32; 3]| [corner(a), corner(b), corner(c)];
+        fit::tree(mesh.faces().iter().map(triangle).collect())
+    }
+
+    /// How far points of a node are from an axis in the body, at most.
+    ///
+    /// The farthest corner of the rectangle and the radius \[C2A09 §4\].
+    pub(super) fn lever(&self, node: u32, centre: DVec3, axis: DVec3) -> f64 {
+        let (node, frame) = (&self.nodes[node as usize], &self.frames[node as usize]);
+        let corner = (frame.translation - centre).cross(axis);
+        let x = node.lengths.x * frame.rotation.x_axis.cross(axis);
+        let y = node.lengths.y * frame.rotation.y_axis.cross(axis);
+        let farthest = [corner, corner + x, corner + y, corner + x + y]
+            .map(DVec3::length_squared)
+            .into_iter()
+            .fold(0.0, f64::max);
+        farthest.sqrt() + node.radius
+    }
+
+    /// How many nodes there are.
+    pub(super) fn len(&self) -> usize {
+        self.nodes.len()
+    }
+
+    /// All triangles' corners.
+    pub(super) fn points(&self) -> impl Iterator<Item = DVec3> + '_ {
+        self.triangles.iter().flatten().copied()
+    }
+}
+
+impl Node {
+    /// No two of its points are farther apart.
+    fn size(&self) -> f64 {
+        self.lengths.length() + 2.0 * self.radius
+    }
+}
+
+impl Trees {
+    /// Both roots, body B placed as seen from body A; none where a mesh has no triangles.
+    pub(super) fn roots(&self, place: &Placement) -> Option<Pair> {
+        let (a, b) = (self.a.frames.first()?, self.b.frames.first()?);
+        Some(Pair {
+            a: 0,
+            b: 0,
+            place: after(place, b).seen_from(a),
+        })
+    }
+
+    /// How far they are apart.
+    #[inline]
+    pub(super) fn distance(&self, pair: &Pair) -> f64 {
+        let (a, b) = (
+            &self.a.nodes[pair.a as usize],
+            &self.b.nodes[pair.b as usize],
+        );
+        let between = rectangles::between(a.lengths, b.lengths, &pair.place);
+        // NaN as zero.
+        f64::max(between.length() - (a.radius + b.radius), 0.0)
+    }
+
+    /// How far they are apart, and along which direction.
+    #[inline]
+    pub(super) fn gap(&self, pair: &Pair) -> Gap {
+        let (a, b) = (
+            &self.a.nodes[pair.a as usize],
+            &self.b.nodes[pair.b as usize],
+        );
+        let between = rectangles::between(a.lengths, b.lengths, &pair.place);
+        let length = between.length();
+        let distance = f64::max(length - (a.radius + b.radius), 0.0);
+        if !(distance > 0.0) {
+            return Gap {
+                distance: 0.0,
+                direction: DVec3::ZERO,
+            };
+        }
+        Gap {
+            distance,
+            direction: self.a.frames[pair.a as usize].rotation * (between / length),
+        }
+    }
+
+    /// By how much the distance of what is in the nodes may exceed that of the nodes.
+    pub(super) fn slack(&self, pair: &Pair) -> f64 {
+        self.a.nodes[pair.a as usize].size() + self.b.nodes[pair.b as usize].size()
+    }
+
+    /// The nearest points of two triangles in the frame of body A, body B placed as seen from there.
+    #[inline]
+    pub(super) fn nearest(&self, leaves: Leaves, place: &Placement) -> Nearest {
+        let moved = self.b.triangles[leaves.b as usize].map(|corner| place.apply(corner));
+        nearest(&self.a.triangles[leaves.a as usize], &moved)
+    }
+
+    /// The children of the larger node \[PQP99 §5\], or the triangles of two leaves.
+    #[inline]
+    pub(super) fn under(&self, pair: &Pair) -> Under {
+        let (a, b) = (
+            &self.a.nodes[pair.a as usize],
+            &self.b.nodes[pair.b as usize],
+        );
+        match (a.below, b.below) {
+            (Below::Triangle(a), Below::Triangle(b)) => Under::Triangles(Leaves { a, b }),
+            (Below::Children(first), Below::Triangle(_)) => self.split_a(pair, first),
+            (Below::Triangle(_), Below::Children(first)) => self.split_b(pair, first),
+            (Below::Children(first_a), Below::Children(first_b)) => {
+                if a.size() > b.size() {
+                    self.split_a(pair, first_a)
+                } else {
+                    self.split_b(pair, first_b)
+                }
+            }
+        }
+    }
+
+    #[inline]
+    fn split_a(&self, pair: &Pair, first: u32) -> Under {
+        Under::Pairs([first, first + 1].map(|a| Pair {
+            a,
+            b: pair.b,
+            place: pair.place.seen_from(&self.a.nodes[a as usize].place),
+        }))
+    }
+
+    #[inline]
+    fn split_b(&self, pair: &Pair, first: u32) -> Under {
+        Under::Pairs([first, first + 1].map(|b| Pair {
+            a: pair.a,
+            b,
+            place: after(&pair.place, &self.b.nodes[b as usize].place),
+        }))
+    }
+}
+
+/// `outer ∘ inner`.
+#[inline]
+fn after(outer: &Placement, inner: &Placement) -> Placement {
+    Placement {
+        rotation: outer.rotation * inner.rotation,
+        translation: outer.apply(inner.translation),
+    }
+}

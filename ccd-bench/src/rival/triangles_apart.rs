@@ -1,0 +1,225 @@
+//! The nearest points of two triangles.
+
+use super::lanes::{Vectors, least};
+use ccd_core::glam::DVec3;
+use wide::f64x4;
+
+#[cfg(test)]
+mod tests;
+
+/// A triangle, by its corners.
+pub(super) type Triangle = [DVec3; 3];
+
+/// A pair of nearest points, the same point twice where the triangles meet.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Nearest {
+    /// On triangle A.
+    pub(super) on_a: DVec3,
+    /// On triangle B.
+    pub(super) on_b: DVec3,
+}
+
+impl Nearest {
+    /// From A to B.
+    pub(super) fn between(&self) -> DVec3 {
+        self.on_b - self.on_a
+    }
+}
+
+/// Nearest points of two triangles in one frame.
+///
+/// # Guarantee
+/// Exact but for rounding; triangles without area are segments or points.
+///
+/// # Complexity
+/// Constant: the nearest of the nine pairs of edges and the six pairs of a corner and a face
+/// \[PQP99 §4\], the pairs with the three features of one triangle at a time.
+pub(super) fn nearest(a: &Triangle, b: &Triangle) -> Nearest {
+    let (face_a, face_b) = (Face::new(a), Face::new(b));
+    let (over_a, over_b) = (face_a.heights(b), face_b.heights(a));
+    // Nothing is above or below a needle's plane, which has no normal.
+    let cut = |face: &Face, heights| face.is_needle() || straddle(heights);
+    if cut(&face_a, over_a) && cut(&face_b, over_b) {
+        let meeting = pierced(&face_a, over_a, b).or_else(|| pierced(&face_b, over_b, a));
+        if let Some(point) = meeting {
+            return Nearest {
+                on_a: point,
+                on_b: point,
+            };
+        }
+    }
+    let (mut squared, mut best) = edges_apart(a, b);
+    if let Some((less, foot, k)) = face_a.least_height(over_a, b).filter(|f| f.0 < squared) {
+        squared = less;
+        best = Nearest {
+            on_a: foot,
+            on_b: b[k],
+        };
+    }
+    if let Some((_, foot, k)) = face_b.least_height(over_b, a).filter(|f| f.0 < squared) {
+        best = Nearest {
+            on_a: a[k],
+            on_b: foot,
+        };
+    }
+    best
+}
+
+/// The nearest points of the edges and their squared distance.
+#[inline(always)]
+fn edges_apart(a: &Triangle, b: &Triangle) -> (f64, Nearest) {
+    let (from_b, along_b) = (lanes(b), lanes(&edges(b)));
+    let long_b = along_b.dot_each(along_b);
+    let scale_b = reciprocal(long_b);
+    let edges_a = edges(a);
+    let (zero, one) = (f64x4::splat(0.0), f64x4::splat(1.0));
+    let mut squared = f64x4::splat(f64::INFINITY);
+    let [mut s_best, mut t_best, mut edge] = [zero; 3];
+    for (i, along) in edges_a.into_iter().enumerate() {
+        // The points are at s of A's edge and at t of B's edges.
+        let apart = from_b.minus(Vectors::splat(a[i]));
+        let long_a = f64x4::splat(along.length_squared());
+        let both = along_b.dot(along);
+        let (ahead_a, ahead_b) = (apart.dot(along), apart.dot_each(along_b));
+        // Through the sine, not 1 − cos²: edges that are all but parallel still cross somewhere.
+        let sine = Vectors::splat(along).cross_each(along_b);
+        let sine_squared = sine.dot_each(sine);
+        let s = apart.dot_each(along_b.cross_each(sine)) / sine_squared;
+        let skew = sine_squared.simd_gt(zero);
+        let s = skew.select(s.fast_clamp(zero, one), zero);
+        let t = (both.mul_sub(s, ahead_b) * scale_b).fast_clamp(zero, one);
+        let s = (both.mul_add(t, ahead_a) * reciprocal(long_a)).fast_clamp(zero, one);
+        let vectors = apart
+            .plus_each(t, along_b)
+            .minus(Vectors::splat(DVec3::ZERO).plus(s, along));
+        let found = vectors.dot_each(vectors);
+        let nearer = found.simd_lt(squared);
+        squared = squared.fast_min(found);
+        s_best = nearer.select(s, s_best);
+        t_best = nearer.select(t, t_best);
+        edge = nearer.select(f64x4::splat(i as f64), edge);
+    }
+    let (k, squared) = least(squared);
+    let (i, s, t) = (
+        edge.to_array()[k],
+        s_best.to_array()[k],
+        t_best.to_array()[k],
+    );
+    let (i, k) = (i as usize, k % 3);
+    let nearest = Nearest {
+        on_a: a[i] + s * edges_a[i],
+        on_b: b[k] + t * edges(b)[k],
+    };
+    (squared, nearest)
+}
+
+/// Of a triangle's height to its longest edge: below, its edges stand for it, since its normal is
+/// little but rounding.
+const NEEDLE: f64 = 1e-12;
+
+/// A triangle as seen from points off it.
+struct Face {
+    corners: Triangle,
+    /// No unit vector; zero of a needle.
+    normal: DVec3,
+    /// 1 / |normal|²; zero of a needle.
+    scale: f64,
+}
+
+impl Face {
+    #[inline(always)]
+    fn new(corners: &Triangle) -> Self {
+        let [u, v, w] = edges(corners);
+        let normal = u.cross(v);
+        let squared = normal.length_squared();
+        let longest = [u, v, w]
+            .map(DVec3::length_squared)
+            .iter()
+            .copied()
+            .fold(0.0, f64::max);
+        let solid = squared > (NEEDLE * longest) * (NEEDLE * longest);
+        Face {
+            corners: *corners,
+            normal: if solid { normal } else { DVec3::ZERO },
+            scale: if solid { 1.0 / squared } else { 0.0 },
+        }
+    }
+
+    fn is_needle(&self) -> bool {
+        !(self.scale > 0.0)
+    }
+
+    /// Of points above its plane, times |normal|; all zero of a needle.
+    #[inline(always)]
+    fn heights(&self, points: &Triangle) -> f64x4 {
+        lanes(points)
+            .minus(Vectors::splat(self.corners[0]))
+            .dot(self.normal)
+    }
+
+    /// Which points are above the triangle itself, as a mask.
+    #[inline(always)]
+    fn covers(&self, points: Vectors) -> f64x4 {
+        let [u, v, w] = edges(&self.corners).map(|edge| self.normal.cross(edge));
+        let [a, b, c] = self.corners;
+        let zero = f64x4::splat(0.0);
+        let inside = |corner, inward| {
+            points
+                .minus(Vectors::splat(corner))
+                .dot(inward)
+                .simd_ge(zero)
+        };
+        inside(a, u) & inside(b, v) & inside(c, w)
+    }
+
+    /// Of points above it, the lowest: its squared height, its foot and which one it is.
+    #[inline(always)]
+    fn least_height(&self, heights: f64x4, points: &Triangle) -> Option<(f64, DVec3, usize)> {
+        if self.is_needle() {
+            return None;
+        }
+        let squared = heights * heights * f64x4::splat(self.scale);
+        let far = f64x4::splat(f64::INFINITY);
+        let (k, squared) = least(self.covers(lanes(points)).select(squared, far));
+        let height = heights.to_array()[k];
+        let k = k % 3;
+        let foot = points[k] - height * self.scale * self.normal;
+        (squared < f64::INFINITY).then_some((squared, foot, k))
+    }
+}
+
+/// Where an edge of a triangle runs through a face, the heights of its corners above it given.
+fn pierced(face: &Face, heights: f64x4, corners: &Triangle) -> Option<DVec3> {
+    let [h, i, j, _] = heights.to_array();
+    let next = f64x4::new([i, j, h, i]);
+    let share = heights / (heights - next);
+    let points = lanes(corners).plus_each(share, lanes(&edges(corners)));
+    let crosses = (heights * next).simd_lt(f64x4::splat(0.0));
+    let hits = (crosses & face.covers(points)).to_bitmask();
+    (hits != 0).then(|| points.lane(hits.trailing_zeros() as usize))
+}
+
+/// Whether heights are above and below zero.
+#[inline(always)]
+fn straddle(heights: f64x4) -> bool {
+    let zero = f64x4::splat(0.0);
+    heights.simd_lt(zero).any() && heights.simd_gt(zero).any()
+}
+
+#[inline(always)]
+fn edges([a, b, c]: &Triangle) -> Triangle {
+    [*b - *a, *c - *b, *a - *c]
+}
+
+/// Three vectors, the first one twice.
+#[inline(always)]
+fn lanes([a, b, c]: &Triangle) -> Vectors {
+    Vectors::new([*a, *b, *c, *a])
+}
+
+/// Zero of zero: a point on an edge without length is its start.
+#[inline(always)]
+fn reciprocal(x: f64x4) -> f64x4 {
+    let zero = f64x4::splat(0.0);
+    x.simd_gt(zero).select(f64x4::splat(1.0) / x, zero)
+}

@@ -1,0 +1,46 @@
+//! Whether two triangles have a point in common.
+
+use ccd_core::glam::DVec3;
+
+/// Whether two triangles touch or cross, by the axes that separate two that do not: the normals, the cross
+/// products of edges, and, for triangles in one plane, the edges' normals in it.
+///
+/// Plain arithmetic: what is closer than rounding may be told either way. Degenerate triangles are the
+/// segments or points that they look like.
+pub(super) fn triangles_cross(a: &[DVec3; 3], b: &[DVec3; 3]) -> bool {
+    // From one corner, so that what lies far from the origin loses no digits.
+    let a = a.map(|p| p - b[0]);
+    let b = b.map(|p| p - b[0]);
+    let [edges_a, edges_b] = [edges(&a), edges(&b)];
+    let normal_a = edges_a[0].cross(edges_a[1]);
+    let normal_b = edges_b[0].cross(edges_b[1]);
+    let apart = |axis: DVec3| separates(axis, &a, &b);
+    if apart(normal_b) || apart(normal_a) {
+        return false;
+    }
+    if edges_a
+        .iter()
+        .any(|&p| edges_b.iter().any(|&q| apart(p.cross(q))))
+    {
+        return false;
+    }
+    let in_plane =
+        |edges: &[DVec3; 3], normal: DVec3| edges.iter().any(|&e| apart(normal.cross(e)));
+    !(in_plane(&edges_a, normal_a) || in_plane(&edges_b, normal_b))
+}
+
+fn edges(t: &[DVec3; 3]) -> [DVec3; 3] {
+    [t[1] - t[0], t[2] - t[1], t[0] - t[2]]
+}
+
+/// Whether all corners of one lie before all of the other along an axis.
+#[inline]
+fn separates(axis: DVec3, a: &[DVec3; 3], b: &[DVec3; 3]) -> bool {
+    let [a, b] = [a, b].map(|t| t.map(|p| p.dot(axis)));
+    let low = |x: [f64; 3]| x[0].min(x[1]).min(x[2]);
+    let high = |x: [f64; 3]| x[0].max(x[1]).max(x[2]);
+    low(a) > high(b) || low(b) > high(a)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,114 @@
+//! The scenes as data: which models, which rows of which motions.
+
+use super::{Models, Scene, SceneError};
+use crate::model::Model;
+use crate::motions::{MotionTable, Query};
+use serde::Deserialize;
+
+/// A scene before it is made.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Listing {
+    /// What the tables call it.
+    pub name: String,
+    /// The figure of the paper that shows it.
+    pub figure: Option<u8>,
+    a: String,
+    b: String,
+    motions: String,
+    rows: Option<Rows>,
+}
+
+/// Rows of a table, counted from 0.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Rows {
+    from: usize,
+    to: usize,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    scene: Vec<Listing>,
+}
+
+const SCENES: &str = include_str!("../../scenes/scenes.toml");
+const MOTIONS: [(&str, &str); 6] = [
+    ("santa.csv", include_str!("../../scenes/santa.csv")),
+    ("bunnies.csv", include_str!("../../scenes/bunnies.csv")),
+    ("knots.csv", include_str!("../../scenes/knots.csv")),
+    (
+        "falling-bunnies.csv",
+        include_str!("../../scenes/falling-bunnies.csv"),
+    ),
+    (
+        "falling-rings.csv",
+        include_str!("../../scenes/falling-rings.csv"),
+    ),
+    (
+        "small-knots.csv",
+        include_str!("../../scenes/small-knots.csv"),
+    ),
+];
+
+/// All scenes, in the order in which they are reported.
+///
+/// # Errors
+/// [`SceneError::Data`] when the data file is none.
+pub fn listings() -> Result<Vec<Listing>, SceneError> {
+    let file: File = toml::from_str(SCENES).map_err(|error| SceneError::Data {
+        what: "scenes.toml".to_owned(),
+        problem: error.to_string(),
+    })?;
+    Ok(file.scene)
+}
+
+impl Listing {
+    /// The scene itself.
+    ///
+    /// # Errors
+    /// When its data names what is not there, or a model's file is none that a body can be made of.
+    pub fn make(&self, models: &mut Models) -> Result<Scene, SceneError> {
+        Ok(Scene {
+            name: self.name.clone(),
+            figure: self.figure,
+            a: models.body(self.model(&self.a)?)?,
+            b: models.body(self.model(&self.b)?)?,
+            queries: self.queries()?,
+        })
+    }
+
+    fn model(&self, name: &str) -> Result<Model, SceneError> {
+        let found = Model::ALL.into_iter().find(|model| model.name() == name);
+        found.ok_or_else(|| self.unfit(format!("there is no model {name}")))
+    }
+
+    fn queries(&self) -> Result<Vec<Query>, SceneError> {
+        let unfit = |problem: String| self.unfit(format!("{}: {problem}", self.motions));
+        let text = MOTIONS
+            .iter()
+            .find_map(|(name, text)| (*name == self.motions).then_some(*text))
+            .ok_or_else(|| unfit("there is no such file".to_owned()))?;
+        let table = MotionTable::read(text.as_bytes()).map_err(|error| unfit(error.to_string()))?;
+        if let Some(error) = table.errors.first() {
+            return Err(unfit(error.to_string()));
+        }
+        let rows = self.rows.unwrap_or(Rows {
+            from: 0,
+            to: table.rows.len(),
+        });
+        let rows = table
+            .rows
+            .get(rows.from..rows.to)
+            .ok_or_else(|| unfit(format!("rows {} to {}", rows.from, rows.to)))?;
+        Ok(rows.iter().map(|(_, query)| query.clone()).collect())
+    }
+
+    fn unfit(&self, problem: String) -> SceneError {
+        SceneError::Data {
+            what: format!("scene {}", self.name),
+            problem,
+        }
+    }
+}

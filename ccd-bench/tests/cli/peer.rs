@@ -1,0 +1,100 @@
+//! Peers behind a guard: what hangs is cut off, what dies is started again.
+
+use ccd_bench::contender::Claim;
+use ccd_bench::model::Board;
+use ccd_bench::motions::Query;
+use ccd_bench::peer::{Asked, Guarded, PeerKind};
+use ccd_core::glam::DVec3;
+use ccd_core::{Motion, Pose};
+use ccd_decomp::TriangleMesh;
+use std::time::{Duration, Instant};
+
+/// What nothing here takes.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+fn cube() -> TriangleMesh {
+    let half_extents = DVec3::splat(0.5);
+    Board { half_extents }.mesh().unwrap()
+}
+
+/// One cube falls onto another, 2 below it, at speed 4.
+fn drop() -> Query {
+    let above = Pose::from_translation(3.0 * DVec3::Z).unwrap();
+    Query {
+        id: "drop".into(),
+        a: Motion::new(above, -4.0 * DVec3::Z, DVec3::ZERO).unwrap(),
+        b: Motion::still(Pose::IDENTITY),
+        duration: 1.0,
+    }
+}
+
+fn guarded(kind: PeerKind) -> Guarded {
+    let program = env!("CARGO_BIN_EXE_ccd").into();
+    Guarded::with_program(program, kind, [&cube(), &cube()]).unwrap()
+}
+
+fn assert_answered(asked: Asked) {
+    let Asked::Answered { reply, micros } = asked else {
+        panic!("{asked:?}");
+    };
+    let Claim::Contact { time } = reply.claim else {
+        panic!("{reply:?}");
+    };
+    assert!((-2.6e-4..=1e-6).contains(&(time - 0.5)), "{time}");
+    assert!(micros > 0.0);
+}
+
+#[test]
+fn every_peer_answers_behind_a_guard() {
+    for kind in PeerKind::ALL {
+        assert_answered(guarded(kind).ask(&drop(), PATIENCE).unwrap());
+    }
+}
+
+#[test]
+fn what_hangs_is_cut_off_and_asked_again() {
+    let mut hanging = guarded(PeerKind::Hanging);
+    let start = Instant::now();
+    for _ in 0..2 {
+        let asked = hanging.ask(&drop(), Duration::from_millis(50)).unwrap();
+        assert_eq!(asked, Asked::CutOff);
+    }
+    assert!(start.elapsed() < PATIENCE);
+}
+
+#[test]
+fn the_query_after_one_cut_off_is_answered() {
+    let mut peer = guarded(PeerKind::ParryF64);
+    assert_eq!(peer.ask(&drop(), Duration::ZERO).unwrap(), Asked::CutOff);
+    assert_answered(peer.ask(&drop(), PATIENCE).unwrap());
+    assert_answered(peer.ask(&drop(), PATIENCE).unwrap());
+}
+
+#[test]
+fn what_dies_is_told_and_started_again() {
+    let mut dying = guarded(PeerKind::Dying);
+    for _ in 0..2 {
+        assert_eq!(dying.ask(&drop(), PATIENCE).unwrap(), Asked::Died);
+    }
+}
+
+#[test]
+fn a_tolerance_is_passed_on() {
+    let mut peer = guarded(PeerKind::ParrySweepF64);
+    peer.restart_with(1e-6).unwrap();
+    let Asked::Answered { reply, .. } = peer.ask(&drop(), PATIENCE).unwrap() else {
+        panic!("no answer");
+    };
+    let Claim::Contact { time } = reply.claim else {
+        panic!("{reply:?}");
+    };
+    assert!((-2.6e-7..=1e-12).contains(&(time - 0.5)), "{time}");
+}
+
+#[test]
+fn a_program_that_is_none_does_not_start() {
+    let missing = "no/such/program".into();
+    let mut peer = Guarded::with_program(missing, PeerKind::ParryF64, [&cube(), &cube()]).unwrap();
+    assert!(peer.ask(&drop(), PATIENCE).is_err());
+    assert!(peer.restart_with(1e-3).is_err());
+}
