@@ -12,7 +12,6 @@ use ccd_bench::evaluation::USUAL_TOLERANCE;
 use ccd_bench::progress::Progress;
 use ccd_bench::scene::{Models, Pieces, listings};
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use std::path::Path;
 use std::time::Duration;
 
 /// How many rows of a scene, spread over it.
@@ -30,7 +29,7 @@ const SCENES: [&str; 7] = [
 
 fn advancement(criterion: &mut Criterion) {
     let mut models = Models::default();
-    let mut truths = Truths::read(Path::new("no file but those stored")).expect("stored truths");
+    let mut truths = Truths::default();
     let listings = listings().expect("the scenes' data");
     for listing in listings
         .iter()
@@ -70,10 +69,11 @@ fn is_right(contest: &Contest<'_>, entrant: Entrant, truths: &Truths) -> bool {
         patience: Duration::MAX,
         rows: ROWS,
     };
-    let heard = contest
-        .hear(entrant, USUAL_TOLERANCE, &allowance, truths)
+    let seat = contest
+        .seat(entrant, USUAL_TOLERANCE)
         .expect("no peer is asked");
-    heard.is_some_and(|(cell, _)| {
+    seat.is_some_and(|mut seat| {
+        let (cell, _) = contest.hear(&mut seat, &allowance, truths);
         let wrong = cell.late + cell.missed + cell.false_contacts + cell.early;
         assert_eq!(wrong + cell.unresolved, 0, "{cell:?}");
         true

@@ -31,7 +31,7 @@ use plotters::style::Color;
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
-/// The paper's tolerance `\[FAST06 §6.2\]`, that charts of one tolerance are drawn at.
+/// The paper's tolerance `[FAST06 §6.2]`, that charts of one tolerance are drawn at.
 pub const PAPER_TOLERANCE: f64 = 1e-3;
 
 /// What charts are drawn from.

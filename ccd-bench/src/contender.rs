@@ -8,6 +8,12 @@ pub trait Contender {
     fn answer(&mut self, query: &Query) -> Reply;
 }
 
+/// Can be told another tolerance, without being made anew.
+pub trait Adjustable: Contender {
+    /// From now on queries are answered with this tolerance, a length.
+    fn set_tolerance(&mut self, tolerance: f64);
+}
+
 /// What a contender says of one query.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reply {

@@ -10,6 +10,7 @@ mod verdict;
 
 pub use entrant::{Entrant, Ours, Path, RivalKind};
 pub use journal::{Journal, JournalError};
+pub use seat::Seat;
 pub use truths::{Truths, TruthsError};
 pub use verdict::{Judged, Verdict, judge};
 
@@ -21,7 +22,8 @@ use crate::rival::screw;
 use crate::scene::Scene;
 use crate::summary::percentile;
 use ccd_core::InputError;
-use seat::{Answered, Seat, SeatError};
+use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
+use seat::Answered;
 use std::io;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -62,9 +64,6 @@ pub enum ContestError {
     /// A query has no screw.
     #[error(transparent)]
     Input(#[from] InputError),
-    /// The truth cannot be had.
-    #[error(transparent)]
-    Truths(#[from] TruthsError),
     /// A peer's process cannot be started.
     #[error("{name} cannot be started: {source}")]
     Peer {
@@ -120,53 +119,63 @@ impl<'s> Contest<'s> {
         rows.take(most).collect()
     }
 
-    /// Asks an entrant; none where it cannot enter.
+    /// Gives an entrant a seat; none where it cannot enter.
     ///
     /// # Errors
-    /// When the truth cannot be had, or a peer cannot be started.
+    /// When a peer cannot be started.
+    pub fn seat(&self, entrant: Entrant, tolerance: f64) -> Result<Option<Seat<'s>>, ContestError> {
+        Seat::take(entrant, self.scene, tolerance).map_err(not_started(entrant))
+    }
+
+    /// Tells an entrant another tolerance.
+    ///
+    /// # Errors
+    /// When a peer cannot be started again.
+    pub fn adjust(&self, seat: &mut Seat<'_>, tolerance: f64) -> Result<(), ContestError> {
+        let failed = not_started(seat.entrant());
+        seat.set_tolerance(tolerance).map_err(failed)
+    }
+
+    /// Asks an entrant, and judges what it says.
     pub fn hear(
         &self,
-        entrant: Entrant,
-        tolerance: f64,
+        seat: &mut Seat<'_>,
         allowance: &Allowance,
         truths: &Truths,
-    ) -> Result<Option<(Cell, Vec<Trial>)>, ContestError> {
-        let seat = Seat::take(entrant, self.scene, tolerance);
-        let mut seat = match seat {
-            Ok(seat) => seat,
-            Err(SeatError::Unfit) => return Ok(None),
-            Err(SeatError::Start(source)) => {
-                let name = entrant.to_string();
-                return Err(ContestError::Peer { name, source });
-            }
-        };
-        let truths = truths.of(self, entrant.path());
+    ) -> (Cell, Vec<Trial>) {
+        let (entrant, tolerance) = (seat.entrant(), seat.tolerance());
+        let queries = self.queries(entrant.path());
+        let order = self.order(allowance.rows);
+        seat.rehearse(order.iter().map(|&row| &queries[row]), allowance.cell);
+        let mut asked: Vec<(usize, Answered)> = Vec::new();
         let start = Instant::now();
-        let mut heard: Vec<(usize, Trial)> = Vec::new();
-        for row in self.order(allowance.rows) {
+        for row in order {
+            asked.push((row, seat.ask(&queries[row], allowance.patience)));
             if start.elapsed() > allowance.cell {
                 break;
             }
-            let query = &self.queries(entrant.path())[row];
-            let answered = seat.ask(query, allowance.patience);
-            let judged = self.judged(query, truths(row), &answered, tolerance);
-            heard.push((
-                row,
+        }
+        asked.sort_by_key(|(row, _)| *row);
+        let truths = truths.of(self, entrant.path());
+        let method = entrant.to_string();
+        let trials: Vec<Trial> = asked
+            .par_iter()
+            .map(|(row, answered)| {
+                let query = &queries[*row];
+                let judged = self.judged(query, truths(*row), answered, tolerance);
                 Trial {
                     scene: self.scene.name.clone(),
-                    method: entrant.to_string(),
+                    method: method.clone(),
                     tolerance,
                     id: query.id.clone(),
                     micros: answered.micros(),
                     steps: answered.steps(),
                     verdict: judged.verdict.to_string(),
                     error: judged.error.unwrap_or(f64::NAN),
-                },
-            ));
-        }
-        heard.sort_by_key(|(row, _)| *row);
-        let trials: Vec<Trial> = heard.into_iter().map(|(_, trial)| trial).collect();
-        Ok(Some((sum_up(&trials), trials)))
+                }
+            })
+            .collect();
+        (sum_up(&trials), trials)
     }
 
     fn judged(&self, query: &Query, truth: Truth, answered: &Answered, tolerance: f64) -> Judged {
@@ -184,6 +193,13 @@ impl<'s> Contest<'s> {
     /// The scene.
     pub fn scene(&self) -> &'s Scene {
         self.scene
+    }
+}
+
+fn not_started(entrant: Entrant) -> impl Fn(io::Error) -> ContestError {
+    move |source| ContestError::Peer {
+        name: entrant.to_string(),
+        source,
     }
 }
 

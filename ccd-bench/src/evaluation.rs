@@ -4,8 +4,10 @@ use crate::contest::{
     Allowance, Contest, ContestError, Entrant, Journal, JournalError, Truths, TruthsError,
 };
 use crate::progress::Progress;
-use crate::scene::{Listing, Models, Scene, SceneError};
+use crate::scene::{Listing, Models, Pieces, Scene, SceneBody, SceneError};
+use rayon::iter::{IntoParallelIterator, ParallelIterator};
 use std::path::PathBuf;
+use std::sync::Arc;
 
 /// What to measure.
 #[derive(Clone, Debug)]
@@ -106,15 +108,20 @@ impl Plan {
                 Entrant::Peer(_) => &self.peer_allowance,
                 Entrant::Ours(..) | Entrant::Rival(_) => &self.allowance,
             };
+            let mut seat = None;
             for tolerance in self.told(entrant) {
-                progress.say(&format!("{scene}: {name}, {tolerance:e}"));
-                if !journal.has(scene, &name, tolerance)
-                    && let Some((cell, trials)) =
-                        contest.hear(entrant, tolerance, allowance, truths)?
-                {
-                    journal.add(cell, trials)?;
-                }
                 progress.step();
+                if journal.has(scene, &name, tolerance) {
+                    continue;
+                }
+                progress.say(&format!("{scene}: {name}, {tolerance:e}"));
+                match &mut seat {
+                    None => seat = contest.seat(entrant, tolerance)?,
+                    Some(seat) => contest.adjust(seat, tolerance)?,
+                }
+                let Some(seat) = &mut seat else { continue };
+                let (cell, trials) = contest.hear(seat, allowance, truths);
+                journal.add(cell, trials)?;
             }
         }
         Ok(())
@@ -128,7 +135,32 @@ impl Plan {
             progress.step();
             scene
         };
-        self.listings.iter().map(make).collect()
+        let scenes: Result<Vec<Scene>, SceneError> = self.listings.iter().map(make).collect();
+        let scenes = scenes?;
+        progress.say("making pieces");
+        self.make_pieces(&scenes);
+        Ok(scenes)
+    }
+
+    /// Makes all bodies of all pieces that some entrant wants, on all processors.
+    fn make_pieces(&self, scenes: &[Scene]) {
+        let mut wanted: Vec<(&SceneBody, Pieces)> = Vec::new();
+        for body in scenes.iter().flat_map(|scene| [&scene.a, &scene.b]) {
+            for &entrant in &self.entrants {
+                let Entrant::Ours(_, pieces) = entrant else {
+                    continue;
+                };
+                let same = |(b, p): &(&SceneBody, Pieces)| {
+                    *p == pieces && Arc::ptr_eq(&b.body, &body.body)
+                };
+                if !wanted.iter().any(same) {
+                    wanted.push((body, pieces));
+                }
+            }
+        }
+        wanted.into_par_iter().for_each(|(body, pieces)| {
+            body.of(pieces);
+        });
     }
 
     /// The tolerances that an entrant is told: all, or the usual one where it cannot be told any.

@@ -143,7 +143,9 @@ fn family(entrant: Entrant) -> Family {
     }
 }
 
-/// What moves in a scene, whatever its size: its name without the digits.
+/// What moves in a scene, and how, whatever its size and whether it turns.
 fn shape(scene: &Scene) -> String {
-    scene.name.chars().filter(|c| !c.is_ascii_digit()).collect()
+    let plain: String = scene.name.chars().filter(|c| !c.is_ascii_digit()).collect();
+    let plain = plain.trim_end_matches(" translating");
+    plain.trim_end_matches(" turning").to_owned()
 }

@@ -1,4 +1,4 @@
-//! The paper's figures, redrawn: every trial, above its time and below its steps `\[FAST06 §6.2\]`.
+//! The paper's figures, redrawn: every trial, above its time and below its steps `[FAST06 §6.2]`.
 
 use super::axis::{Axis, grouped};
 use super::grid::{HEAD, MARGIN, WIDTH, foot, foot_height, head};
@@ -27,6 +27,9 @@ struct Column<'a> {
     title: String,
     scenes: Vec<(&'a SceneFacts<'a>, usize)>,
 }
+
+/// A panel of a column: where, its title, its axes, and what it shows of a trial.
+type Row<'a> = (Rect, &'a str, &'a Axis, Label, fn(&Trial) -> f64);
 
 /// One trial of a method, at its place among all of its column.
 struct Numbered<'a> {
@@ -184,7 +187,7 @@ fn draw_column(
         true => Label::Left,
         false => Label::Written,
     };
-    let rows: [(Rect, &str, &Axis, Label, fn(&Trial) -> f64); 2] = [
+    let rows: [Row<'_>; 2] = [
         (upper, &column.title, time, Label::Left, milliseconds),
         (lower, "", steps, Label::Written, |t| t.steps as f64),
     ];

@@ -18,6 +18,8 @@ const ROW: f64 = 26.0;
 const GUTTER: f64 = 44.0;
 
 type Shown<'a> = (&'a MethodFacts<'a>, Look);
+/// What a panel shows of a cell.
+type Value = fn(&Cell) -> f64;
 
 /// Two panels side by side, a row for each scene, a marker for each model.
 pub(super) fn chart(charts: &Charts<'_>) -> Result<Option<Drawing>, ChartError> {
@@ -43,9 +45,9 @@ pub(super) fn chart(charts: &Charts<'_>) -> Result<Option<Drawing>, ChartError> 
     let Some(cost) = cost else {
         return Ok(None);
     };
-    let panels: Vec<(Axis, fn(&Cell) -> f64)> = [
-        Some((cost, (|cell| cell.median_us) as fn(&Cell) -> f64)),
-        error.map(|axis| (axis, (|cell: &Cell| cell.mean_error) as fn(&Cell) -> f64)),
+    let panels: Vec<(Axis, Value)> = [
+        Some((cost, (|cell| cell.median_us) as Value)),
+        error.map(|axis| (axis, (|cell: &Cell| cell.mean_error) as Value)),
     ]
     .into_iter()
     .flatten()
@@ -95,11 +97,7 @@ struct Rows<'a> {
 }
 
 impl Rows<'_> {
-    fn draw(
-        &self,
-        sheet: &Sheet<'_>,
-        panels: &[(Axis, fn(&Cell) -> f64)],
-    ) -> Result<(), DrawError> {
+    fn draw(&self, sheet: &Sheet<'_>, panels: &[(Axis, Value)]) -> Result<(), DrawError> {
         let names: Vec<_> = self
             .scenes
             .iter()
@@ -109,7 +107,7 @@ impl Rows<'_> {
             .iter()
             .map(|name| text_width(name, super::sheet::TEXT));
         let left = MARGIN + widest.fold(0.0, f64::max) + MARGIN;
-        let width = (WIDTH - MARGIN - left + GUTTER) / panels.len() as f64 - GUTTER;
+        let width = (WIDTH - 2.0 * MARGIN - left + GUTTER) / panels.len() as f64 - GUTTER;
         let rows = Axis::counting("", 0, 1);
         for (number, (x, value)) in panels.iter().enumerate() {
             let panel = Panel {
@@ -149,7 +147,7 @@ impl Rows<'_> {
         sheet: &Sheet<'_>,
         panel: &Panel<'_>,
         (scene, y): (&SceneFacts<'_>, f64),
-        value: fn(&Cell) -> f64,
+        value: Value,
     ) -> Result<(), DrawError> {
         let ends = [(panel.rect.left, y), (panel.rect.right(), y)];
         sheet.line(&ends, Pen::solid(RULE, 1.0))?;

@@ -1,6 +1,6 @@
 //! Everybody who competes, by name.
 
-use crate::contender::{Claim, Contender, Reply};
+use crate::contender::{Adjustable, Claim, Contender, Reply};
 use crate::engine::{BoundKind, Method, OracleKind, ScheduleKind, Solver};
 use crate::motions::Query;
 use crate::peer::PeerKind;
@@ -105,7 +105,7 @@ impl Entrant {
 
 impl RivalKind {
     /// Takes a seat at a scene.
-    pub fn enter(self, scene: &Scene, tolerance: f64) -> Box<dyn Contender> {
+    pub fn enter(self, scene: &Scene, tolerance: f64) -> Box<dyn Adjustable> {
         let (a, b) = (scene.a.mesh(), scene.b.mesh());
         match self {
             RivalKind::Contact => Box::new(Contact::new(a, b, tolerance)),
@@ -136,6 +136,12 @@ impl<'s> Ours<'s> {
                 ..Config::default()
             },
         }
+    }
+}
+
+impl Adjustable for Ours<'_> {
+    fn set_tolerance(&mut self, tolerance: f64) {
+        self.config.tolerance = tolerance;
     }
 }
 

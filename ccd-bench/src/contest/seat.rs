@@ -2,7 +2,7 @@
 
 use super::entrant::{Entrant, Ours};
 use super::{MOST_PAIRS_FOR_NAIVE, REPEATED_WITHIN, REPEATS};
-use crate::contender::{Contender, Reply};
+use crate::contender::{Adjustable, Reply};
 use crate::engine::ScheduleKind;
 use crate::motions::Query;
 use crate::peer::{Asked, Guarded};
@@ -11,18 +11,16 @@ use crate::scene::Scene;
 use std::io;
 use std::time::{Duration, Instant};
 
-/// An entrant that can be asked.
-pub(super) enum Seat<'s> {
-    Here(Box<dyn Contender + 's>),
-    Guarded(Box<Guarded>),
+/// An entrant that can be asked about one scene.
+pub struct Seat<'s> {
+    entrant: Entrant,
+    tolerance: f64,
+    place: Place<'s>,
 }
 
-/// Why there is no seat.
-pub(super) enum SeatError {
-    /// The scene is none for this entrant.
-    Unfit,
-    /// Its process cannot be started.
-    Start(io::Error),
+enum Place<'s> {
+    Here(Box<dyn Adjustable + 's>),
+    Guarded(Box<Guarded>),
 }
 
 /// What came of a question.
@@ -38,34 +36,78 @@ pub(super) enum Answered {
 }
 
 impl<'s> Seat<'s> {
+    /// None where the scene is none for this entrant.
     pub(super) fn take(
         entrant: Entrant,
         scene: &'s Scene,
         tolerance: f64,
-    ) -> Result<Self, SeatError> {
-        Ok(match entrant {
+    ) -> io::Result<Option<Self>> {
+        let place = match entrant {
             Entrant::Ours(method, pieces) => {
                 let too_many = scene.pairs() > MOST_PAIRS_FOR_NAIVE;
-                if method.schedule == ScheduleKind::Naive && too_many {
-                    return Err(SeatError::Unfit);
-                }
-                let bodies = scene.bodies_of(pieces).ok_or(SeatError::Unfit)?;
-                Seat::Here(Box::new(Ours::new(method, bodies, tolerance)))
+                let suits = method.schedule != ScheduleKind::Naive || !too_many;
+                let Some(bodies) = scene.bodies_of(pieces).filter(|_| suits) else {
+                    return Ok(None);
+                };
+                Place::Here(Box::new(Ours::new(method, bodies, tolerance)))
             }
-            Entrant::Rival(kind) => Seat::Here(kind.enter(scene, tolerance)),
+            Entrant::Rival(kind) => Place::Here(kind.enter(scene, tolerance)),
             Entrant::Peer(kind) => {
                 let (a, b) = (scene.a.mesh(), scene.b.mesh());
-                let guarded = Guarded::start(kind, a, b, tolerance).map_err(SeatError::Start)?;
-                Seat::Guarded(Box::new(guarded))
+                Place::Guarded(Box::new(Guarded::start(kind, a, b, tolerance)?))
             }
-        })
+        };
+        Ok(Some(Seat {
+            entrant,
+            tolerance,
+            place,
+        }))
+    }
+
+    /// Who sits here.
+    pub fn entrant(&self) -> Entrant {
+        self.entrant
+    }
+
+    /// With which tolerance it answers.
+    pub fn tolerance(&self) -> f64 {
+        self.tolerance
+    }
+
+    /// Tells it another tolerance.
+    ///
+    /// # Errors
+    /// When a peer's process does not start again.
+    pub fn set_tolerance(&mut self, tolerance: f64) -> io::Result<()> {
+        self.tolerance = tolerance;
+        match &mut self.place {
+            Place::Here(contender) => {
+                contender.set_tolerance(tolerance);
+                Ok(())
+            }
+            Place::Guarded(guarded) => guarded.restart_with(tolerance),
+        }
+    }
+
+    /// Lets a method that prepares what it meets first do so with some queries, for so long.
+    pub(super) fn rehearse<'q>(
+        &mut self,
+        queries: impl Iterator<Item = &'q Query>,
+        time: Duration,
+    ) {
+        let start = Instant::now();
+        if let (Place::Here(contender), Entrant::Ours(..)) = (&mut self.place, self.entrant) {
+            for query in queries.take_while(|_| start.elapsed() < time) {
+                contender.answer(query);
+            }
+        }
     }
 
     /// Asks one query.
     pub(super) fn ask(&mut self, query: &Query, patience: Duration) -> Answered {
-        match self {
-            Seat::Here(contender) => timed(contender.as_mut(), query),
-            Seat::Guarded(guarded) => {
+        match &mut self.place {
+            Place::Here(contender) => timed(contender.as_mut(), query),
+            Place::Guarded(guarded) => {
                 let start = Instant::now();
                 match guarded.ask(query, patience) {
                     Ok(Asked::Answered { reply, micros }) => Answered::InTime { reply, micros },
@@ -93,7 +135,7 @@ impl Answered {
     }
 }
 
-fn timed(contender: &mut dyn Contender, query: &Query) -> Answered {
+fn timed(contender: &mut dyn Adjustable, query: &Query) -> Answered {
     let mut micros = Vec::with_capacity(REPEATS);
     let first = Instant::now();
     loop {

@@ -112,10 +112,8 @@ fn this_project_is_right_on_the_small_scene_and_its_cell_says_so() {
     );
     assert_eq!(found, scene.queries.len());
     let entrant = Entrant::Ours(Method::default(), Pieces::Least);
-    let (cell, trials) = contest
-        .hear(entrant, 1e-6, &EVERYTHING, &truths)
-        .unwrap()
-        .unwrap();
+    let mut seat = contest.seat(entrant, 1e-6).unwrap().unwrap();
+    let (cell, trials) = contest.hear(&mut seat, &EVERYTHING, &truths);
     assert_eq!(cell.rows, scene.queries.len());
     assert_eq!(trials.len(), cell.rows);
     assert!(trials.iter().all(|t| t.verdict == "right"), "{trials:?}");

@@ -24,17 +24,13 @@ pub enum TruthsError {
     Table(#[from] csv::Error),
 }
 
-/// Those of the scenes made by code.
-const STORED: &str = include_str!("../../scenes/truth.csv");
-
 impl Truths {
-    /// Those that are stored with the scenes made by code, and those of a file, if there is one.
+    /// Those of a file, if there is one.
     ///
     /// # Errors
-    /// When one of the tables is none.
+    /// When it is no table of truths.
     pub fn read(file: &path::Path) -> Result<Self, TruthsError> {
         let mut truths = Truths::default();
-        truths.add(read_truths(STORED.as_bytes())?);
         if file.exists() {
             let file = File::open(file).map_err(csv::Error::from)?;
             truths.add(read_truths(file)?);

@@ -3,7 +3,7 @@
 use super::patience::Patience;
 use super::swept_spheres::{Gap, Leaves, Pair, SphereTree, Trees, Under};
 use super::{Course, Placement};
-use crate::contender::{Claim, Contender, Reply};
+use crate::contender::{Adjustable, Claim, Contender, Reply};
 use crate::motions::Query;
 use ccd_decomp::TriangleMesh;
 use closing::Closing;
@@ -92,6 +92,12 @@ impl C2a {
             patience: Patience::default(),
             pairs: Vec::new(),
         }
+    }
+}
+
+impl Adjustable for C2a {
+    fn set_tolerance(&mut self, tolerance: f64) {
+        self.tolerance = tolerance;
     }
 }
 

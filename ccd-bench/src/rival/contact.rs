@@ -12,7 +12,7 @@ use super::Course;
 use super::obb_tree::{Content, Crossing, ObbTree, crossing};
 use super::resolution::resolution;
 use super::screw::screw;
-use crate::contender::{Claim, Contender, Reply};
+use crate::contender::{Adjustable, Claim, Contender, Reply};
 use crate::motions::Query;
 use boxes::{Boxes, boxes};
 use ccd_decomp::TriangleMesh;
@@ -114,6 +114,12 @@ impl Contact {
             claim,
             steps: search.clock.halvings,
         }
+    }
+}
+
+impl Adjustable for Contact {
+    fn set_tolerance(&mut self, tolerance: f64) {
+        self.tolerance = tolerance;
     }
 }
 

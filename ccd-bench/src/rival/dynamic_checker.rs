@@ -3,7 +3,7 @@
 use super::Course;
 use super::patience::Patience;
 use super::swept_spheres::{Pair, SphereTree, Trees, Under};
-use crate::contender::{Claim, Contender, Reply};
+use crate::contender::{Adjustable, Claim, Contender, Reply};
 use crate::motions::Query;
 use ccd_core::glam::DVec3;
 use ccd_decomp::TriangleMesh;
@@ -98,6 +98,12 @@ impl DynamicChecker {
             segments: Vec::new(),
             pairs: Vec::new(),
         }
+    }
+}
+
+impl Adjustable for DynamicChecker {
+    fn set_tolerance(&mut self, tolerance: f64) {
+        self.tolerance = tolerance;
     }
 }
 

@@ -3,7 +3,7 @@
 use super::Course;
 use super::obb_tree::{Crossing, ObbTree, crossing};
 use super::resolution::resolution;
-use crate::contender::{Claim, Contender, Reply};
+use crate::contender::{Adjustable, Claim, Contender, Reply};
 use crate::motions::Query;
 use ccd_decomp::TriangleMesh;
 
@@ -40,6 +40,12 @@ impl Stepping {
         let placement = courses[0].at(time).seen_from(&courses[1].at(time));
         let [a, b] = &self.trees;
         crossing(a, b, &placement, &mut self.stack) == Crossing::Found
+    }
+}
+
+impl Adjustable for Stepping {
+    fn set_tolerance(&mut self, tolerance: f64) {
+        self.tolerance = tolerance;
     }
 }
 

@@ -91,6 +91,7 @@ impl Open {
     }
 
     /// Those left.
+    #[cfg(test)]
     pub(super) fn tests(self) -> impl Iterator<Item = Test> {
         let all = Test::ALL.into_iter().enumerate();
         all.filter(move |(k, _)| self.0 >> k & 1 == 1)
