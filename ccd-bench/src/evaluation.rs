@@ -63,6 +63,21 @@ const TRUTHS: &str = "truth.csv";
 pub const USUAL_TOLERANCE: f64 = 1e-3;
 
 impl Plan {
+    /// What the folder holds, whatever it was measured with; measures nothing.
+    ///
+    /// # Errors
+    /// [`EvaluationError`].
+    pub fn recall(&self) -> Result<Evaluated, EvaluationError> {
+        let mut models = Models::new(self.models.clone());
+        let make = |listing: &Listing| listing.make(&mut models);
+        let scenes: Result<Vec<Scene>, SceneError> = self.listings.iter().map(make).collect();
+        Ok(Evaluated {
+            scenes: scenes?,
+            journal: Journal::read(&self.folder),
+            truths: Truths::read(&self.folder.join(TRUTHS))?,
+        })
+    }
+
     /// Measures what the folder does not hold yet.
     ///
     /// # Errors

@@ -8,7 +8,7 @@ pub use readme::splice;
 use crate::chart::{Charts, Family, MethodFacts, SceneFacts};
 use crate::contest::Entrant;
 use crate::evaluation::{Evaluated, USUAL_TOLERANCE};
-use crate::scene::{Pieces, Scene};
+use crate::scene::Scene;
 use crate::tables::{self, TextTable};
 use anyhow::Result;
 use std::path::{Path, PathBuf};
@@ -135,9 +135,8 @@ fn families(names: &[&str]) -> Vec<(String, Family)> {
 
 fn family(entrant: Entrant) -> Family {
     match entrant {
-        Entrant::Ours(method, Pieces::Least) if !method.schedule.uses_hull_trees() => Family::Ours,
-        Entrant::Ours(method, Pieces::Patches) if method.schedule.uses_hull_trees() => Family::Ours,
-        Entrant::Ours(..) => Family::Model,
+        Entrant::Ours(..) if entrant.is_model() => Family::Model,
+        Entrant::Ours(..) => Family::Ours,
         Entrant::Rival(_) => Family::Rival,
         Entrant::Peer(_) => Family::Peer,
     }

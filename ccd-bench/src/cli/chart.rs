@@ -2,7 +2,7 @@
 
 use super::{CannotWrite, Verdict};
 use crate::contest::{Allowance, Entrant};
-use crate::evaluation::{Plan, USUAL_TOLERANCE};
+use crate::evaluation::{Evaluated, Plan, USUAL_TOLERANCE};
 use crate::joined;
 use crate::peer::PeerKind;
 use crate::presentation::{Presentation, splice};
@@ -15,7 +15,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 /// What to measure, and where to.
-#[derive(Debug, Args)]
+#[derive(Debug, Default, Args)]
 #[command(after_help = AFTER_HELP)]
 pub(super) struct ChartArgs {
     /// Measure everything: every scene, method and row, at nine tolerances (about half an hour)
@@ -44,6 +44,9 @@ pub(super) struct ChartArgs {
     /// Put the tables between the markers `<!-- ccd chart: NAME -->` and `<!-- end -->` of this file
     #[arg(long, value_name = "FILE.md")]
     splice: Vec<PathBuf>,
+    /// Draw what the folder holds, and measure nothing
+    #[arg(long, conflicts_with_all = ["full", "export"])]
+    redraw: bool,
     /// Write the meshes and motions of the scenes to this folder, for programs elsewhere, and measure
     /// nothing
     #[arg(long, value_name = "DIR")]
@@ -101,23 +104,25 @@ pub(super) fn run(args: &ChartArgs) -> Result<Verdict> {
             joined::export(&plan.listings, plan.models, folder)?;
             Ok(Verdict::AllAnswered)
         }
-        None => measure(&plan, &args.join, &args.splice),
+        None if args.redraw => present(&plan, plan.recall()?, args),
+        None => present(&plan, plan.run()?, args),
     }
 }
 
 pub(super) fn run_demo(args: &CommonArgs) -> Result<Verdict> {
-    measure(&plan(args, false)?, &[], &[])
+    let plan = plan(args, false)?;
+    present(&plan, plan.run()?, &ChartArgs::default())
 }
 
-fn measure(plan: &Plan, join: &[PathBuf], readmes: &[PathBuf]) -> Result<Verdict> {
-    let mut evaluated = plan.run()?;
-    for file in join {
+/// Tables, charts and the page.
+fn present(plan: &Plan, mut evaluated: Evaluated, args: &ChartArgs) -> Result<Verdict> {
+    for file in &args.join {
         joined::join(&mut evaluated, file)
             .with_context(|| format!("joining {}", file.display()))?;
     }
     let presentation = Presentation::new(&evaluated);
     let page = presentation.write(&plan.folder)?;
-    for readme in readmes {
+    for readme in &args.splice {
         splice(readme, &presentation.comparisons)
             .with_context(|| format!("splicing {}", readme.display()))?;
     }
@@ -146,7 +151,7 @@ fn plan(common: &CommonArgs, full: bool) -> Result<Plan> {
     }
     let millis = Duration::from_millis;
     let (cell, patience, rows) = match full {
-        true => (millis(1000), millis(4000), usize::MAX),
+        true => (millis(600), millis(4000), usize::MAX),
         false => (millis(40), millis(200), 40),
     };
     let tolerances: &[f64] = if full { &TOLERANCES } else { &FEW_TOLERANCES };
@@ -162,7 +167,7 @@ fn plan(common: &CommonArgs, full: bool) -> Result<Plan> {
             rows,
         },
         peer_allowance: Allowance {
-            cell: patience,
+            cell,
             patience,
             rows,
         },

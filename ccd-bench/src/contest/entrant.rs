@@ -84,21 +84,35 @@ impl Entrant {
         ours.into_iter().chain(rivals).chain(peers).collect()
     }
 
+    /// Whether it is measured at every tolerance: not where none changes its answers, nor for models of
+    /// the bodies that are compared with each other alone.
+    pub fn takes_tolerances(self) -> bool {
+        match self {
+            Entrant::Ours(..) => !self.is_model(),
+            Entrant::Rival(_) => true,
+            Entrant::Peer(kind) => kind.takes_tolerance(),
+        }
+    }
+
+    /// Whether it is the default method over pieces that it would not choose itself.
+    pub fn is_model(self) -> bool {
+        match self {
+            Entrant::Ours(method, pieces) => {
+                let own = match method.schedule.uses_hull_trees() {
+                    true => Pieces::Patches,
+                    false => Pieces::Least,
+                };
+                pieces != own
+            }
+            Entrant::Rival(_) | Entrant::Peer(_) => false,
+        }
+    }
+
     /// Which motion it moves the bodies along.
     pub fn path(self) -> Path {
         match self {
             Entrant::Rival(RivalKind::Contact) => Path::Screw,
             _ => Path::Given,
-        }
-    }
-}
-
-impl Entrant {
-    /// Whether a tolerance changes its answers.
-    pub fn takes_tolerances(self) -> bool {
-        match self {
-            Entrant::Ours(..) | Entrant::Rival(_) => true,
-            Entrant::Peer(kind) => kind.takes_tolerance(),
         }
     }
 }

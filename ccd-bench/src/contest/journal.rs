@@ -33,33 +33,49 @@ impl Journal {
     /// # Errors
     /// [`JournalError`] when the folder cannot be written to.
     pub fn open(folder: &Path, stamp: &str) -> Result<Self, JournalError> {
-        let at = |name: &str| folder.join(name);
-        let failed = |path: PathBuf| move |source| JournalError { path, source };
-        fs::create_dir_all(folder).map_err(|e| failed(folder.to_owned())(e.into()))?;
-        let same = fs::read_to_string(at(STAMP)).is_ok_and(|kept| kept == stamp);
-        // A file that was cut off while it was written is begun anew.
-        let (mut cells, mut trials): (Vec<Cell>, Vec<Trial>) = match same {
-            true => (
-                read(&at(CHART)).unwrap_or_default(),
-                read(&at(TRIALS)).unwrap_or_default(),
-            ),
-            false => Default::default(),
+        fs::create_dir_all(folder).map_err(|e| failed(folder)(e.into()))?;
+        let stamp_file = folder.join(STAMP);
+        let same = fs::read_to_string(&stamp_file).is_ok_and(|kept| kept == stamp);
+        let journal = match same {
+            true => Journal::read(folder),
+            false => Journal::empty(folder),
         };
+        fs::write(&stamp_file, stamp).map_err(|e| failed(&stamp_file)(e.into()))?;
+        for (name, written) in [
+            (CHART, write(&folder.join(CHART), &journal.cells)),
+            (TRIALS, write(&folder.join(TRIALS), &journal.trials)),
+        ] {
+            written.map_err(failed(&folder.join(name)))?;
+        }
+        Ok(journal)
+    }
+
+    /// What a folder holds, whatever it was measured with.
+    pub fn read(folder: &Path) -> Self {
+        // A file that was cut off while it was written is begun anew.
+        let mut cells: Vec<Cell> = read(&folder.join(CHART)).unwrap_or_default();
+        let mut trials: Vec<Trial> = read(&folder.join(TRIALS)).unwrap_or_default();
         // Trials are written before their cell, so that a cell stands for all of its trials.
         let counted = |cell: &Cell| trials.iter().filter(|t| is_of(t, cell)).count();
         cells.retain(|cell| counted(cell) == cell.rows);
         let done: HashSet<_> = cells.iter().map(key).collect();
         trials
             .retain(|t| done.contains(&(t.scene.clone(), t.method.clone(), t.tolerance.to_bits())));
-        fs::write(at(STAMP), stamp).map_err(|e| failed(at(STAMP))(e.into()))?;
-        write(&at(CHART), &cells).map_err(failed(at(CHART)))?;
-        write(&at(TRIALS), &trials).map_err(failed(at(TRIALS)))?;
-        Ok(Journal {
+        Journal {
             cells,
             trials,
             done,
             folder: folder.to_owned(),
-        })
+        }
+    }
+
+    fn empty(folder: &Path) -> Self {
+        Journal {
+            cells: Vec::new(),
+            trials: Vec::new(),
+            done: HashSet::new(),
+            folder: folder.to_owned(),
+        }
     }
 
     /// Whether a cell has been measured.
@@ -73,14 +89,9 @@ impl Journal {
     /// # Errors
     /// When they cannot be written.
     pub fn add(&mut self, cell: Cell, trials: Vec<Trial>) -> Result<(), JournalError> {
-        let append = |name: &str, add: &dyn Fn(&Path) -> Result<(), csv::Error>| {
-            let path = self.folder.join(name);
-            add(&path).map_err(|source| JournalError { path, source })
-        };
-        append(TRIALS, &|path| append_rows(path, &trials))?;
-        append(CHART, &|path| {
-            append_rows(path, std::slice::from_ref(&cell))
-        })?;
+        let (trials_file, chart_file) = (self.folder.join(TRIALS), self.folder.join(CHART));
+        append(&trials_file, &trials).map_err(failed(&trials_file))?;
+        append(&chart_file, std::slice::from_ref(&cell)).map_err(failed(&chart_file))?;
         self.done.insert(key(&cell));
         self.cells.push(cell);
         self.trials.extend(trials);
@@ -110,7 +121,15 @@ fn is_of(trial: &Trial, cell: &Cell) -> bool {
     (&trial.scene, &trial.method, trial.tolerance) == (&cell.scene, &cell.method, cell.tolerance)
 }
 
-fn append_rows<T: Serialize>(path: &Path, rows: &[T]) -> Result<(), csv::Error> {
+fn failed(path: &Path) -> impl Fn(csv::Error) -> JournalError {
+    let path = path.to_owned();
+    move |source| JournalError {
+        path: path.clone(),
+        source,
+    }
+}
+
+fn append<T: Serialize>(path: &Path, rows: &[T]) -> Result<(), csv::Error> {
     let file = OpenOptions::new().append(true).open(path)?;
     let mut writer = csv::WriterBuilder::new()
         .has_headers(file.metadata()?.len() == 0)
