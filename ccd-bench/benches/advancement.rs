@@ -68,12 +68,15 @@ fn is_right(contest: &Contest<'_>, entrant: Entrant, truths: &Truths) -> bool {
         cell: Duration::MAX,
         patience: Duration::MAX,
         rows: ROWS,
+        least_rows: ROWS,
+        rehearsal: Duration::MAX,
     };
     let seat = contest
         .seat(entrant, USUAL_TOLERANCE)
         .expect("no peer is asked");
     seat.is_some_and(|mut seat| {
-        let (cell, _) = contest.hear(&mut seat, &allowance, truths);
+        let heard = contest.hear(&mut seat, &allowance, truths);
+        let (cell, _) = heard.expect("no peer is asked").expect("all queries can be asked");
         let wrong = cell.late + cell.missed + cell.false_contacts + cell.early;
         assert_eq!(wrong + cell.unresolved, 0, "{cell:?}");
         true

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Keeps the figures of an evaluation: chart.csv as dated rows with machine and commit, in results/.
+# Keeps the figures of an evaluation: chart.csv as dated rows with machine and commit, in results/, and the
+# charts that the README shows, in charts/.
 #
 # usage: keep.sh [REPORT]
 #   REPORT   the folder that `ccd chart --out` wrote to, default target/ccd-report
@@ -14,4 +15,6 @@ git -C "$here" diff --quiet HEAD || commit="$commit+changes"
 out=$here/results/$day-$name-chart.csv
 awk -v head="date,machine,commit" -v row="$day,$machine,$commit" \
     '{ print (NR == 1 ? head : row) "," $0 }' "$report/chart.csv" >"$out"
+mkdir -p "$here/charts"
+cp "$report/pareto-small.svg" "$report/triangles.svg" "$here/charts/"
 echo "$out"

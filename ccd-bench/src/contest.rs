@@ -46,13 +46,12 @@ pub struct Allowance {
     pub patience: Duration,
     /// How many queries are asked at most.
     pub rows: usize,
+    /// How many queries are asked at least, however long they take.
+    pub least_rows: usize,
+    /// For a method that prepares what it meets first: only what it has met by then is asked.
+    pub rehearsal: Duration,
 }
 
-/// A query is answered up to so often, and its time is the median of all answers but the first, which
-/// finds caches cold and prepares what is prepared once,
-const REPEATS: usize = 4;
-/// unless that has taken so long already.
-const REPEATED_WITHIN: Duration = Duration::from_millis(40);
 /// A schedule without a tree is only run where pairs of pieces come to at most this; it looks at all
 /// pairs in every step.
 const MOST_PAIRS_FOR_NAIVE: u64 = 100_000;
@@ -115,7 +114,8 @@ impl<'s> Contest<'s> {
             .rev()
             .find(|&stride| 1618 * stride <= 1000 * count && coprime(stride, count))
             .unwrap_or(1);
-        let rows = (0..count).map(|k| k * stride % count.max(1));
+        // The first row of a scene may be of a kind of its own: the middle comes first.
+        let rows = (0..count).map(|k| (count / 2 + k * stride) % count.max(1));
         rows.take(most).collect()
     }
 
@@ -136,24 +136,35 @@ impl<'s> Contest<'s> {
         seat.set_tolerance(tolerance).map_err(failed)
     }
 
-    /// Asks an entrant, and judges what it says.
+    /// Asks an entrant, and judges what it says; none where it can be asked none of the queries.
+    ///
+    /// # Errors
+    /// When a peer that was stopped cannot be started again.
     pub fn hear(
         &self,
         seat: &mut Seat<'_>,
         allowance: &Allowance,
         truths: &Truths,
-    ) -> (Cell, Vec<Trial>) {
+    ) -> Result<Option<(Cell, Vec<Trial>)>, ContestError> {
         let (entrant, tolerance) = (seat.entrant(), seat.tolerance());
         let queries = self.queries(entrant.path());
         let order = self.order(allowance.rows);
-        seat.rehearse(order.iter().map(|&row| &queries[row]), allowance.cell);
+        let rehearsed = seat.rehearse(order.iter().map(|&r| &queries[r]), allowance.rehearsal);
         let mut asked: Vec<(usize, Answered)> = Vec::new();
         let start = Instant::now();
-        for row in order {
-            asked.push((row, seat.ask(&queries[row], allowance.patience)));
-            if start.elapsed() > allowance.cell {
+        for &row in &order[..rehearsed] {
+            let enough = asked.len() >= allowance.least_rows;
+            if start.elapsed() > allowance.cell && enough {
                 break;
             }
+            let answered = seat.ask(&queries[row], allowance.patience);
+            let answered = answered.map_err(not_started(entrant))?;
+            if !answered.is_refusal() {
+                asked.push((row, answered));
+            }
+        }
+        if asked.is_empty() {
+            return Ok(None);
         }
         asked.sort_by_key(|(row, _)| *row);
         let truths = truths.of(self, entrant.path());
@@ -167,6 +178,7 @@ impl<'s> Contest<'s> {
                     scene: self.scene.name.clone(),
                     method: method.clone(),
                     tolerance,
+                    row: *row,
                     id: query.id.clone(),
                     micros: answered.micros(),
                     steps: answered.steps(),
@@ -175,7 +187,7 @@ impl<'s> Contest<'s> {
                 }
             })
             .collect();
-        (sum_up(&trials), trials)
+        Ok(Some((sum_up(&trials), trials)))
     }
 
     fn judged(&self, query: &Query, truth: Truth, answered: &Answered, tolerance: f64) -> Judged {
@@ -183,10 +195,8 @@ impl<'s> Contest<'s> {
             Answered::InTime { reply, .. } => {
                 judge(&self.referee(), query, truth, reply.claim, tolerance)
             }
-            Answered::CutOff { .. } => Judged {
-                verdict: Verdict::CutOff,
-                error: None,
-            },
+            Answered::CutOff { .. } => Judged::plain(Verdict::CutOff),
+            Answered::Died => Judged::plain(Verdict::Died),
         }
     }
 
@@ -209,7 +219,9 @@ pub fn sum_up(trials: &[Trial]) -> Cell {
         let name = verdict.to_string();
         trials.iter().filter(|t| t.verdict == name).count()
     };
-    let mut micros: Vec<f64> = trials.iter().map(|t| t.micros).collect();
+    // Of what a peer died of there is no time.
+    let known = trials.iter().map(|t| t.micros).filter(|m| !m.is_nan());
+    let mut micros: Vec<f64> = known.collect();
     let errors: Vec<f64> = trials
         .iter()
         .map(|t| t.error)
@@ -217,7 +229,7 @@ pub fn sum_up(trials: &[Trial]) -> Cell {
         .collect();
     let rows = trials.len();
     let first = trials.first();
-    let cut_off = count(Verdict::CutOff);
+    let cut_off = count(Verdict::CutOff) + count(Verdict::Died);
     Cell {
         scene: first.map_or_else(String::new, |t| t.scene.clone()),
         method: first.map_or_else(String::new, |t| t.method.clone()),
@@ -234,6 +246,7 @@ pub fn sum_up(trials: &[Trial]) -> Cell {
         max_error: errors.iter().copied().fold(f64::NAN, f64::max),
         early: count(Verdict::Early),
         cut_off,
+        undecided: count(Verdict::Undecided),
         mean_steps: trials.iter().map(|t| t.steps as f64).sum::<f64>() / rows as f64,
     }
 }

@@ -83,7 +83,7 @@ impl Plan {
     /// # Errors
     /// [`EvaluationError`]; what was measured before it is kept.
     pub fn run(&self) -> Result<Evaluated, EvaluationError> {
-        let mut journal = Journal::open(&self.folder, &self.stamp())?;
+        let mut journal = Journal::open(&self.folder, &self.stamp(), &[TRUTHS])?;
         let truths_file = self.folder.join(TRUTHS);
         let mut truths = Truths::read(&truths_file)?;
         let mut models = Models::new(self.models.clone());
@@ -135,8 +135,9 @@ impl Plan {
                     Some(seat) => contest.adjust(seat, tolerance)?,
                 }
                 let Some(seat) = &mut seat else { continue };
-                let (cell, trials) = contest.hear(seat, allowance, truths);
-                journal.add(cell, trials)?;
+                if let Some((cell, trials)) = contest.hear(seat, allowance, truths)? {
+                    journal.add(cell, trials)?;
+                }
             }
         }
         Ok(())

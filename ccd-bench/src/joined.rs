@@ -1,12 +1,12 @@
 //! Scenes for programs elsewhere, and what those measured on them.
 
 use crate::contender::Claim;
-use crate::contest::{Contest, Judged, Path, Truths, Verdict, judge, sum_up};
+use crate::contest::{Contest, Entrant, Judged, Path, Truths, Verdict, judge, sum_up};
 use crate::evaluation::Evaluated;
 use crate::measured::{Trial, read};
 use crate::motions;
 use crate::scene::{Listing, Models, Scene};
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result, bail, ensure};
 use ccd_decomp::write_obj;
 use serde::Deserialize;
 use std::fs::{self, File};
@@ -14,8 +14,8 @@ use std::io::BufWriter;
 use std::path;
 
 /// A trial measured elsewhere.
-#[derive(Debug, Deserialize)]
-struct Foreign {
+#[derive(Clone, Debug, Deserialize)]
+pub struct Foreign {
     scene: String,
     method: String,
     tolerance: f64,
@@ -30,6 +30,7 @@ struct Foreign {
 enum Said {
     Claim(Claim),
     CutOff,
+    Died,
     /// That it measured something else, such as a single distance: there is nothing to judge.
     Nothing,
 }
@@ -60,28 +61,50 @@ pub fn export(
     Ok(())
 }
 
-/// Judges the trials of a file and adds them to what was measured here.
+/// Reads a table of trials measured elsewhere.
 ///
 /// # Errors
-/// When the file is no table of trials, or is about scenes or queries that there are not.
-pub fn join(evaluated: &mut Evaluated, file: &path::Path) -> Result<()> {
-    let mut foreign: Vec<Foreign> = read(file)?;
+/// When the file is none, or names a method of this program.
+pub fn read_trials(file: &path::Path) -> Result<Vec<Foreign>> {
+    let foreign: Vec<Foreign> = read(file)?;
+    let own: Vec<String> = Entrant::all().iter().map(ToString::to_string).collect();
+    for trial in &foreign {
+        ensure!(
+            !own.contains(&trial.method),
+            "{} is measured here; give it another name",
+            trial.method
+        );
+        said(trial)?;
+    }
+    Ok(foreign)
+}
+
+/// Judges trials and puts them in the place of what was known of their methods.
+///
+/// # Errors
+/// When they are about scenes or queries that there are not.
+pub fn join(evaluated: &mut Evaluated, mut foreign: Vec<Foreign>) -> Result<()> {
+    for trial in &foreign {
+        if evaluated
+            .journal
+            .cells()
+            .iter()
+            .any(|c| c.method == trial.method)
+        {
+            evaluated.journal.forget(&trial.method)?;
+        }
+    }
     while let Some(first) = foreign.first() {
         let key = (first.scene.clone(), first.method.clone(), first.tolerance);
         let (group, rest): (Vec<_>, Vec<_>) = foreign
             .into_iter()
             .partition(|f| (&f.scene, &f.method, f.tolerance) == (&key.0, &key.1, key.2));
         foreign = rest;
-        if evaluated.journal.has(&key.0, &key.1, key.2) {
-            continue;
-        }
         let Some(scene) = evaluated.scenes.iter().find(|s| s.name == key.0) else {
             bail!("there is no scene {}, or it was not measured here", key.0);
         };
         let trials = judged(scene, &group, &mut evaluated.truths)?;
-        if !trials.is_empty() {
-            evaluated.journal.add(sum_up(&trials), trials)?;
-        }
+        evaluated.journal.add(sum_up(&trials), trials)?;
     }
     Ok(())
 }
@@ -113,19 +136,15 @@ fn judged(scene: &Scene, group: &[Foreign], truths: &mut Truths) -> Result<Vec<T
                 claim,
                 foreign.tolerance,
             ),
-            Said::CutOff => Judged {
-                verdict: Verdict::CutOff,
-                error: None,
-            },
-            Said::Nothing => Judged {
-                verdict: Verdict::NotJudged,
-                error: None,
-            },
+            Said::CutOff => Judged::plain(Verdict::CutOff),
+            Said::Died => Judged::plain(Verdict::Died),
+            Said::Nothing => Judged::plain(Verdict::NotJudged),
         };
         trials.push(Trial {
             scene: scene.name.clone(),
             method: foreign.method.clone(),
             tolerance: foreign.tolerance,
+            row,
             id: foreign.id.clone(),
             micros: foreign.micros,
             steps: foreign.steps,
@@ -148,9 +167,10 @@ fn said(foreign: &Foreign) -> Result<Said> {
             safe_until: foreign.time.unwrap_or(0.0),
         }),
         "cut off" => Said::CutOff,
-        "distance" => Said::Nothing,
+        "died" => Said::Died,
+        "static" => Said::Nothing,
         other => {
-            bail!("status {other}: it has to be contact, free, unresolved, cut off or distance")
+            bail!("status {other}: it has to be contact, free, unresolved, cut off, died or static")
         }
     })
 }

@@ -38,8 +38,10 @@ pub struct Cell {
     pub max_error: f64,
     /// Contacts reported while the bodies are farther apart than the tolerance.
     pub early: usize,
-    /// Queries that took longer than anybody would wait, and were stopped.
+    /// Queries that took longer than anybody would wait, and were stopped, or that the peer died of.
     pub cut_off: usize,
+    /// Queries of which the truth is not known well enough to judge the answer.
+    pub undecided: usize,
     /// Steps in time of a query, as the method counts them.
     pub mean_steps: f64,
 }
@@ -53,6 +55,8 @@ pub struct Trial {
     pub method: String,
     /// As a length.
     pub tolerance: f64,
+    /// The query's place in its scene, from 0.
+    pub row: usize,
     /// The query's name.
     pub id: String,
     /// Of this query, in microseconds.

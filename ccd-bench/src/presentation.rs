@@ -54,7 +54,7 @@ impl<'e> Presentation<'e> {
             USUAL_TOLERANCE,
         );
         published.title += "; the paper reports 1.4 to 45.5 over CONTACT";
-        let safety = tables::safety(journal.cells());
+        let safety = tables::safety(journal.cells(), journal.trials());
         let usual = tables::at_tolerance(journal.cells(), USUAL_TOLERANCE);
         Presentation {
             evaluated,

@@ -5,10 +5,10 @@
 //!
 //! | rival | source |
 //! |---|---|
-//! | continuous OBB test, interval arithmetic, bisection | \[CONTACT02\] |
-//! | adaptive bisection by undirected bounds | \[DCC02\] |
-//! | controlled conservative advancement over swept spheres | \[C2A09\] |
-//! | a static test at every step | what is done without any of them |
+//! | [`Contact`]: continuous OBB test, interval arithmetic, bisection | \[CONTACT02\] |
+//! | [`DynamicChecker`]: adaptive bisection by undirected bounds | \[DCC02\] |
+//! | [`C2a`]: controlled conservative advancement over swept spheres | \[C2A09\] |
+//! | [`Stepping`]: a static test at every step | what is done without any of them |
 
 mod c2a;
 mod contact;

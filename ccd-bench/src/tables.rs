@@ -1,5 +1,8 @@
 //! What the measurements come to, as tables of words.
 
+#[cfg(test)]
+mod tests;
+
 use crate::contest::{Entrant, Verdict};
 use crate::measured::{Cell, Trial};
 use crate::query::median;
@@ -19,6 +22,9 @@ pub struct TextTable {
     /// Its rows.
     pub rows: Vec<Vec<String>>,
 }
+
+/// Of fewer rows than this, a median is told with their number.
+const FEW: usize = 10;
 
 /// What a table says where there is nothing to say.
 const NOTHING: &str = "–";
@@ -116,22 +122,28 @@ pub fn at_tolerance(cells: &[Cell], tolerance: f64) -> TextTable {
 }
 
 /// How often each method was late, missed a contact, or reported a false one, over all scenes and
-/// tolerances.
-pub fn safety(cells: &[Cell]) -> TextTable {
+/// tolerances; without those that answer no query.
+pub fn safety(cells: &[Cell], trials: &[Trial]) -> TextTable {
+    let not_judged = Verdict::NotJudged.to_string();
+    let answers = |method: &str| {
+        let judged = |t: &Trial| t.method == method && t.verdict != not_judged;
+        trials.iter().any(judged)
+    };
     let mut table = TextTable::new(
         "Answers held against the truth, all scenes and tolerances",
         &[
             "method",
-            "answers",
+            "queries",
             "late",
             "missed",
             "false",
             "early",
             "unresolved",
-            "cut off",
+            "of these cut off",
+            "undecided",
         ],
     );
-    for method in methods(cells) {
+    for method in methods(cells).into_iter().filter(|m| answers(m)) {
         let of = || cells.iter().filter(|cell| cell.method == method);
         let sum = |count: fn(&Cell) -> usize| of().map(count).sum::<usize>().to_string();
         table.rows.push(vec![
@@ -143,6 +155,7 @@ pub fn safety(cells: &[Cell]) -> TextTable {
             sum(|c| c.early),
             sum(|c| c.unresolved),
             sum(|c| c.cut_off),
+            sum(|c| c.undecided),
         ]);
     }
     table
@@ -182,7 +195,7 @@ pub fn ratios(trials: &[Trial], reference: &str, others: &[&str], tolerance: f64
 fn ratio(base: &HashMap<&str, &Trial>, other: &HashMap<&str, &Trial>) -> String {
     let (mut ours, mut theirs) = (Vec::new(), Vec::new());
     for (id, trial) in other {
-        if let Some(same) = base.get(id) {
+        if let Some(same) = base.get(id).filter(|_| !trial.micros.is_nan()) {
             ours.push(same.micros);
             theirs.push(trial.micros);
         }
@@ -195,15 +208,20 @@ fn ratio(base: &HashMap<&str, &Trial>, other: &HashMap<&str, &Trial>) -> String 
         let name = verdict.to_string();
         other.values().any(|trial| trial.verdict == name)
     };
-    let cut = if said(Verdict::CutOff) { "> " } else { "" };
+    let given_up = said(Verdict::CutOff) || said(Verdict::Unresolved);
+    let cut = if given_up { "> " } else { "" };
     let mark = match said(Verdict::Late) || said(Verdict::Missed) {
         true => " †",
         false => "",
     };
+    let rows = match ours.len() {
+        few @ ..FEW => format!(" ({few})"),
+        _ => String::new(),
+    };
     match ratio {
-        ..10.0 => format!("{cut}{ratio:.2}{mark}"),
-        10.0..100.0 => format!("{cut}{ratio:.1}{mark}"),
-        _ => format!("{cut}{ratio:.0}{mark}"),
+        ..10.0 => format!("{cut}{ratio:.2}{rows}{mark}"),
+        10.0..100.0 => format!("{cut}{ratio:.1}{rows}{mark}"),
+        _ => format!("{cut}{ratio:.0}{rows}{mark}"),
     }
 }
 

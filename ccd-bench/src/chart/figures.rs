@@ -108,11 +108,12 @@ fn columns<'a>(
 ) -> Vec<Column<'a>> {
     let mut columns: Vec<Column<'a>> = Vec::new();
     for scene in charts.scenes.iter().filter(|s| s.figure == Some(figure)) {
-        let most = shown
+        let last = shown
             .iter()
-            .map(|(method, _)| trials_of(charts, scene.name, method.name).count())
+            .flat_map(|(method, _)| trials_of(charts, scene.name, method.name))
+            .map(|trial| trial.row)
             .max();
-        let Some(count) = most.filter(|count| *count > 0) else {
+        let Some(count) = last.map(|row| row + 1) else {
             continue;
         };
         let title = format!("{}, {} triangles", scene.shape, grouped(scene.triangles));
@@ -145,9 +146,9 @@ fn numbered<'a>(
     let mut before = 0;
     let mut trials = Vec::new();
     for (scene, count) in &column.scenes {
-        let of_scene = trials_of(charts, scene.name, method.name).enumerate();
-        trials.extend(of_scene.map(|(index, trial)| Numbered {
-            number: (before + index) as f64 + 0.5,
+        let of_scene = trials_of(charts, scene.name, method.name);
+        trials.extend(of_scene.map(|trial| Numbered {
+            number: (before + trial.row) as f64 + 0.5,
             trial,
         }));
         before += count;

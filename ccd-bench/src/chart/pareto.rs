@@ -137,7 +137,7 @@ fn remarks(cells: &[(&Cell, Fill)]) -> Vec<String> {
     ];
     if cells.iter().any(|(cell, _)| kind(cell) == Kind::AtLeast) {
         remarks.push(
-            "Arrow up: half of the queries or more were cut off; the time is at least that."
+            "Arrow up: half of the queries or more were given up or cut off; the time is at least that."
                 .to_owned(),
         );
     }
@@ -204,9 +204,9 @@ fn draw_strip(
     Ok(())
 }
 
-/// Whether a cell's median is the time of queries that were cut off.
+/// Whether a cell's median is the time of queries that were given up or cut off.
 pub(super) fn kind(cell: &Cell) -> Kind {
-    match cell.rows > 0 && 2 * cell.cut_off >= cell.rows {
+    match cell.rows > 0 && 2 * cell.unresolved >= cell.rows {
         true => Kind::AtLeast,
         false => Kind::Measured,
     }

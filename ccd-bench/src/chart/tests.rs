@@ -61,6 +61,7 @@ fn cell(scene: &str, method: &str, tolerance: f64) -> Cell {
         max_error: tolerance,
         early: 0,
         cut_off: 0,
+        undecided: 0,
         mean_steps: 4.0,
     }
 }
@@ -88,6 +89,7 @@ fn trials() -> Vec<Trial> {
             scene: scene.clone(),
             method: method.clone(),
             tolerance: 1e-3,
+            row: number as usize,
             id: number.to_string(),
             micros: 10.0 + f64::from(number),
             steps: 3,
@@ -158,7 +160,7 @@ fn names_are_escaped_and_no_number_is_lost() {
     cells[1].median_us = f64::NAN;
     cells[2].mean_error = 0.0;
     cells[3].mean_steps = f64::INFINITY;
-    cells[4].cut_off = cells[4].rows;
+    cells[4].unresolved = cells[4].rows;
     for drawing in charts(&cells, &trials).drawings().unwrap() {
         for lost in ["NaN", "inf", "<peer>", "& co"] {
             assert!(!drawing.svg.contains(lost), "{lost} in {}", drawing.name);

@@ -1,6 +1,6 @@
 //! Time against the size of the mesh, at the paper's tolerance.
 
-use super::axis::{Axis, grouped};
+use super::axis::Axis;
 use super::grid::Grid;
 use super::legend::Legend;
 use super::panel::{Kind, Panel, Point, remark};
@@ -9,6 +9,9 @@ use super::{ChartError, Charts, Drawing, Family, MethodFacts, SceneFacts, failed
 use plotters::style::text_anchor::{HPos, VPos};
 
 const NAME: &str = "triangles";
+
+/// From which share of the axis on names may not reach beyond their place.
+const CROWDED: f64 = 0.75;
 
 /// Scenes of one shape and size, which make one point of a line.
 struct Size<'a> {
@@ -112,12 +115,16 @@ fn shapes<'a>(sizes: &[Size<'a>]) -> Vec<&'a str> {
     shapes
 }
 
-/// The geometric mean of the medians of a size's scenes; none where one of them was not measured.
+/// The geometric mean of the medians of a size's scenes; none where one of them was not measured, or
+/// half of its queries were given up or cut off.
 fn mean_cost(charts: &Charts<'_>, method: &MethodFacts<'_>, size: &Size<'_>) -> Option<f64> {
     let mut sum = 0.0;
     for scene in &size.scenes {
         let cells = charts.cells_of(scene, method.name);
         let cell = cells.iter().find(|cell| is_papers(cell.tolerance))?;
+        if 2 * cell.unresolved >= cell.rows {
+            return None;
+        }
         sum += cell.median_us.ln();
     }
     let mean = (sum / size.scenes.len() as f64).exp();
@@ -126,20 +133,24 @@ fn mean_cost(charts: &Charts<'_>, method: &MethodFacts<'_>, size: &Size<'_>) -> 
 
 /// Which body stands where, along the upper edge.
 fn name_sizes(sheet: &Sheet<'_>, panel: &Panel<'_>, sizes: &[Size<'_>]) -> Result<(), DrawError> {
-    let hand = Hand {
-        across: HPos::Center,
-        down: VPos::Center,
-        ..remark()
-    };
     for (number, size) in sizes.iter().enumerate() {
         let Some(share) = panel.x.share(size.triangles as f64) else {
             continue;
         };
+        let hand = Hand {
+            // Large meshes crowd on a logarithmic axis: their names end where they stand.
+            across: if share > CROWDED {
+                HPos::Right
+            } else {
+                HPos::Center
+            },
+            down: VPos::Center,
+            ..remark()
+        };
         let x = panel.rect.left + share * panel.rect.width;
         // Neighbours, which may be close, on two lines.
         let y = panel.rect.top - 21.0 + 13.0 * (number % 2) as f64;
-        let text = format!("{} {}", size.shape, grouped(size.triangles));
-        sheet.text(&text, (x, y), hand)?;
+        sheet.text(size.shape, (x, y), hand)?;
     }
     Ok(())
 }

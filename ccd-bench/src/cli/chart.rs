@@ -3,7 +3,7 @@
 use super::{CannotWrite, Verdict};
 use crate::contest::{Allowance, Entrant};
 use crate::evaluation::{Evaluated, Plan, USUAL_TOLERANCE};
-use crate::joined;
+use crate::joined::{self, Foreign};
 use crate::peer::PeerKind;
 use crate::presentation::{Presentation, splice};
 use crate::scene::listings;
@@ -15,7 +15,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 /// What to measure, and where to.
-#[derive(Debug, Default, Args)]
+#[derive(Debug, Args)]
 #[command(after_help = AFTER_HELP)]
 pub(super) struct ChartArgs {
     /// Measure everything: every scene, method and row, at nine tolerances (about half an hour)
@@ -54,15 +54,26 @@ pub(super) struct ChartArgs {
 }
 
 /// What the demo can be told, too.
-#[derive(Clone, Debug, Default, Args)]
+#[derive(Clone, Debug, Args)]
 pub(super) struct CommonArgs {
     /// Use the meshes found here (bunny70k.obj, bunny26k.obj, santa.obj, knot2880.obj, …) in place
     /// of the models made by code
     #[arg(long, value_name = "DIR")]
     models: Option<PathBuf>,
     /// Where tables, charts and the page go; what is there already is not measured again
-    #[arg(long, value_name = "DIR", default_value = "target/ccd-report")]
+    #[arg(long, value_name = "DIR", default_value = REPORT)]
     out: PathBuf,
+}
+
+const REPORT: &str = "target/ccd-report";
+
+impl Default for CommonArgs {
+    fn default() -> Self {
+        CommonArgs {
+            models: None,
+            out: REPORT.into(),
+        }
+    }
 }
 
 const AFTER_HELP: &str = "\
@@ -79,6 +90,41 @@ Examples:
 const TOLERANCES: [f64; 9] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9];
 /// Where methods are compared at equal accuracy.
 const FEW_TOLERANCES: [f64; 2] = [USUAL_TOLERANCE, 1e-6];
+
+/// What runs in this process, and what in one of its own: for everything in half an hour,
+const AT_LENGTH: (Allowance, Allowance) = (
+    Allowance {
+        cell: Duration::from_millis(600),
+        patience: Duration::from_secs(4),
+        rows: usize::MAX,
+        least_rows: 10,
+        rehearsal: Duration::from_secs(20),
+    },
+    Allowance {
+        cell: Duration::from_millis(600),
+        patience: Duration::from_secs(4),
+        rows: usize::MAX,
+        least_rows: 1,
+        rehearsal: Duration::ZERO,
+    },
+);
+/// and for a few rows of everything in a minute.
+const AT_A_GLANCE: (Allowance, Allowance) = (
+    Allowance {
+        cell: Duration::from_millis(40),
+        patience: Duration::from_millis(200),
+        rows: 40,
+        least_rows: 3,
+        rehearsal: Duration::from_millis(400),
+    },
+    Allowance {
+        cell: Duration::from_millis(40),
+        patience: Duration::from_millis(200),
+        rows: 40,
+        least_rows: 1,
+        rehearsal: Duration::ZERO,
+    },
+);
 
 pub(super) fn run(args: &ChartArgs) -> Result<Verdict> {
     let mut plan = plan(&args.common, args.full)?;
@@ -99,30 +145,39 @@ pub(super) fn run(args: &ChartArgs) -> Result<Verdict> {
     if let Some(seconds) = args.patience {
         plan.peer_allowance.patience = duration("--patience", seconds)?;
     }
-    match &args.export {
-        Some(folder) => {
-            joined::export(&plan.listings, plan.models, folder)?;
-            Ok(Verdict::AllAnswered)
-        }
-        None if args.redraw => present(&plan, plan.recall()?, args),
-        None => present(&plan, plan.run()?, args),
+    if let Some(folder) = &args.export {
+        joined::export(&plan.listings, plan.models, folder)?;
+        return Ok(Verdict::AllAnswered);
     }
+    // Before the work, not after it, is when to learn that a file is no table.
+    let mut foreign = Vec::new();
+    for file in &args.join {
+        let trials = joined::read_trials(file);
+        foreign.extend(trials.with_context(|| format!("joining {}", file.display()))?);
+    }
+    let evaluated = match args.redraw {
+        true => plan.recall()?,
+        false => plan.run()?,
+    };
+    present(&plan, evaluated, foreign, &args.splice)
 }
 
 pub(super) fn run_demo(args: &CommonArgs) -> Result<Verdict> {
     let plan = plan(args, false)?;
-    present(&plan, plan.run()?, &ChartArgs::default())
+    present(&plan, plan.run()?, Vec::new(), &[])
 }
 
 /// Tables, charts and the page.
-fn present(plan: &Plan, mut evaluated: Evaluated, args: &ChartArgs) -> Result<Verdict> {
-    for file in &args.join {
-        joined::join(&mut evaluated, file)
-            .with_context(|| format!("joining {}", file.display()))?;
-    }
+fn present(
+    plan: &Plan,
+    mut evaluated: Evaluated,
+    joined: Vec<Foreign>,
+    readmes: &[PathBuf],
+) -> Result<Verdict> {
+    joined::join(&mut evaluated, joined)?;
     let presentation = Presentation::new(&evaluated);
     let page = presentation.write(&plan.folder)?;
-    for readme in &args.splice {
+    for readme in readmes {
         splice(readme, &presentation.comparisons)
             .with_context(|| format!("splicing {}", readme.display()))?;
     }
@@ -149,11 +204,7 @@ fn plan(common: &CommonArgs, full: bool) -> Result<Plan> {
             directory.display()
         );
     }
-    let millis = Duration::from_millis;
-    let (cell, patience, rows) = match full {
-        true => (millis(600), millis(4000), usize::MAX),
-        false => (millis(40), millis(200), 40),
-    };
+    let (allowance, peer_allowance) = if full { AT_LENGTH } else { AT_A_GLANCE };
     let tolerances: &[f64] = if full { &TOLERANCES } else { &FEW_TOLERANCES };
     let entrants = Entrant::all().into_iter();
     let entrants = entrants.filter(|entrant| full || takes_no_long(*entrant));
@@ -161,16 +212,8 @@ fn plan(common: &CommonArgs, full: bool) -> Result<Plan> {
         listings: listings()?,
         entrants: entrants.collect(),
         tolerances: tolerances.to_vec(),
-        allowance: Allowance {
-            cell,
-            patience,
-            rows,
-        },
-        peer_allowance: Allowance {
-            cell,
-            patience,
-            rows,
-        },
+        allowance,
+        peer_allowance,
         models: common.models.clone(),
         folder: common.out.clone(),
     })

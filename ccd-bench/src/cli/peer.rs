@@ -6,7 +6,11 @@ use anyhow::{Context, Result};
 use ccd_decomp::TriangleMesh;
 use clap::Args;
 use std::io;
+#[cfg(unix)]
+use std::os::unix::process::parent_id;
 use std::path::{Path, PathBuf};
+#[cfg(unix)]
+use std::{thread, time::Duration};
 
 /// Answer queries with a peer library, line by line: motions and durations in, times out
 #[derive(Debug, Args)]
@@ -26,6 +30,7 @@ pub(super) struct PeerArgs {
 }
 
 pub(super) fn run(args: &PeerArgs) -> Result<Verdict> {
+    end_with_parent();
     let read = |path: &Path| TriangleMesh::read(path).with_context(|| path.display().to_string());
     let (a, b) = (read(&args.a)?, read(&args.b)?);
     let mut contender = args.kind.contender(&a, &b, args.tolerance)?;
@@ -42,3 +47,22 @@ pub(super) fn run(args: &PeerArgs) -> Result<Verdict> {
         .into()),
     }
 }
+
+/// How long this process may outlive the one that started it.
+#[cfg(unix)]
+const WITHOUT_PARENT: Duration = Duration::from_secs(1);
+
+/// Ends this process, in whatever call it is, once the one that started it is gone.
+#[cfg(unix)]
+fn end_with_parent() {
+    let parent = parent_id();
+    thread::spawn(move || {
+        while parent_id() == parent {
+            thread::sleep(WITHOUT_PARENT);
+        }
+        std::process::exit(1);
+    });
+}
+
+#[cfg(not(unix))]
+fn end_with_parent() {}

@@ -1,8 +1,9 @@
 //! What has been measured so far, on disk, so that an interrupted evaluation goes on where it stopped.
 
-use crate::measured::{Cell, Trial, read, write};
+use crate::measured::{Cell, Trial, write};
 use serde::Serialize;
-use std::collections::HashSet;
+use serde::de::DeserializeOwned;
+use std::collections::{HashMap, HashSet};
 use std::fs::{self, OpenOptions};
 use std::path::{Path, PathBuf};
 
@@ -27,53 +28,49 @@ const STAMP: &str = "measured-with.txt";
 const CHART: &str = "chart.csv";
 const TRIALS: &str = "trials.csv";
 
+/// A cell's scene, method and tolerance.
+type Key = (String, String, u64);
+
 impl Journal {
-    /// Opens the one in a folder, and keeps what it holds when that was measured with the same stamp.
+    /// Opens the one in a folder, and keeps what it holds when that was measured with the same stamp;
+    /// else that is moved aside, with what else there is of these names.
     ///
     /// # Errors
     /// [`JournalError`] when the folder cannot be written to.
-    pub fn open(folder: &Path, stamp: &str) -> Result<Self, JournalError> {
+    pub fn open(folder: &Path, stamp: &str, others: &[&str]) -> Result<Self, JournalError> {
         fs::create_dir_all(folder).map_err(|e| failed(folder)(e.into()))?;
         let stamp_file = folder.join(STAMP);
-        let same = fs::read_to_string(&stamp_file).is_ok_and(|kept| kept == stamp);
-        let journal = match same {
-            true => Journal::read(folder),
-            false => Journal::empty(folder),
-        };
-        fs::write(&stamp_file, stamp).map_err(|e| failed(&stamp_file)(e.into()))?;
-        for (name, written) in [
-            (CHART, write(&folder.join(CHART), &journal.cells)),
-            (TRIALS, write(&folder.join(TRIALS), &journal.trials)),
-        ] {
-            written.map_err(failed(&folder.join(name)))?;
+        if !fs::read_to_string(&stamp_file).is_ok_and(|kept| kept == stamp) {
+            for name in [CHART, TRIALS].iter().chain(others) {
+                let path = folder.join(name);
+                if path.exists() {
+                    let aside = folder.join(format!("{name}.old"));
+                    fs::rename(&path, aside).map_err(|e| failed(&path)(e.into()))?;
+                }
+            }
+            fs::write(&stamp_file, stamp).map_err(|e| failed(&stamp_file)(e.into()))?;
         }
+        let journal = Journal::read(folder);
+        journal.write()?;
         Ok(journal)
     }
 
     /// What a folder holds, whatever it was measured with.
     pub fn read(folder: &Path) -> Self {
-        // A file that was cut off while it was written is begun anew.
-        let mut cells: Vec<Cell> = read(&folder.join(CHART)).unwrap_or_default();
-        let mut trials: Vec<Trial> = read(&folder.join(TRIALS)).unwrap_or_default();
-        // Trials are written before their cell, so that a cell stands for all of its trials.
-        let counted = |cell: &Cell| trials.iter().filter(|t| is_of(t, cell)).count();
-        cells.retain(|cell| counted(cell) == cell.rows);
-        let done: HashSet<_> = cells.iter().map(key).collect();
-        trials
-            .retain(|t| done.contains(&(t.scene.clone(), t.method.clone(), t.tolerance.to_bits())));
+        let mut cells: Vec<Cell> = whole_rows(&folder.join(CHART));
+        let mut trials: Vec<Trial> = whole_rows(&folder.join(TRIALS));
+        // Trials are written before their cell, and a cell stands for all of its trials.
+        let mut counts: HashMap<Key, usize> = HashMap::new();
+        for trial in &trials {
+            *counts.entry(key_of(trial)).or_default() += 1;
+        }
+        cells.retain(|cell| counts.get(&key(cell)) == Some(&cell.rows));
+        let done: HashSet<Key> = cells.iter().map(key).collect();
+        trials.retain(|trial| done.contains(&key_of(trial)));
         Journal {
             cells,
             trials,
             done,
-            folder: folder.to_owned(),
-        }
-    }
-
-    fn empty(folder: &Path) -> Self {
-        Journal {
-            cells: Vec::new(),
-            trials: Vec::new(),
-            done: HashSet::new(),
             folder: folder.to_owned(),
         }
     }
@@ -98,6 +95,23 @@ impl Journal {
         Ok(())
     }
 
+    /// Forgets all of a method, on disk too.
+    ///
+    /// # Errors
+    /// When the files cannot be written.
+    pub fn forget(&mut self, method: &str) -> Result<(), JournalError> {
+        self.cells.retain(|cell| cell.method != method);
+        self.trials.retain(|trial| trial.method != method);
+        self.done = self.cells.iter().map(key).collect();
+        self.write()
+    }
+
+    fn write(&self) -> Result<(), JournalError> {
+        let (trials_file, chart_file) = (self.folder.join(TRIALS), self.folder.join(CHART));
+        write(&trials_file, &self.trials).map_err(failed(&trials_file))?;
+        write(&chart_file, &self.cells).map_err(failed(&chart_file))
+    }
+
     /// All cells so far, in the order in which they were measured.
     pub fn cells(&self) -> &[Cell] {
         &self.cells
@@ -109,16 +123,22 @@ impl Journal {
     }
 }
 
-fn key(cell: &Cell) -> (String, String, u64) {
-    (
-        cell.scene.clone(),
-        cell.method.clone(),
-        cell.tolerance.to_bits(),
-    )
+fn key(cell: &Cell) -> Key {
+    let tolerance = cell.tolerance.to_bits();
+    (cell.scene.clone(), cell.method.clone(), tolerance)
 }
 
-fn is_of(trial: &Trial, cell: &Cell) -> bool {
-    (&trial.scene, &trial.method, trial.tolerance) == (&cell.scene, &cell.method, cell.tolerance)
+fn key_of(trial: &Trial) -> Key {
+    let tolerance = trial.tolerance.to_bits();
+    (trial.scene.clone(), trial.method.clone(), tolerance)
+}
+
+/// The rows of a table up to the first that is none: one that was being written when the power went.
+fn whole_rows<T: DeserializeOwned>(path: &Path) -> Vec<T> {
+    let Ok(reader) = csv::Reader::from_path(path) else {
+        return Vec::new();
+    };
+    reader.into_deserialize().map_while(Result::ok).collect()
 }
 
 fn failed(path: &Path) -> impl Fn(csv::Error) -> JournalError {

@@ -1,12 +1,11 @@
 //! Where an entrant sits while it is asked: in this process, or in one of its own that can be stopped.
 
+use super::MOST_PAIRS_FOR_NAIVE;
 use super::entrant::{Entrant, Ours};
-use super::{MOST_PAIRS_FOR_NAIVE, REPEATED_WITHIN, REPEATS};
-use crate::contender::{Adjustable, Reply};
+use crate::contender::{Adjustable, Claim, Reply, TimedReply, timed};
 use crate::engine::ScheduleKind;
 use crate::motions::Query;
 use crate::peer::{Asked, Guarded};
-use crate::query::median;
 use crate::scene::Scene;
 use std::io;
 use std::time::{Duration, Instant};
@@ -29,10 +28,11 @@ pub(super) enum Answered {
         reply: Reply,
         micros: f64,
     },
-    /// Stopped, or dead, after that many microseconds.
+    /// Stopped after that.
     CutOff {
-        micros: f64,
+        patience: Duration,
     },
+    Died,
 }
 
 impl<'s> Seat<'s> {
@@ -89,63 +89,62 @@ impl<'s> Seat<'s> {
         }
     }
 
-    /// Lets a method that prepares what it meets first do so with some queries, for so long.
+    /// Lets a method that prepares what it meets do so with some queries, for so long; says with how many
+    /// it has.
     pub(super) fn rehearse<'q>(
         &mut self,
-        queries: impl Iterator<Item = &'q Query>,
+        queries: impl ExactSizeIterator<Item = &'q Query>,
         time: Duration,
-    ) {
+    ) -> usize {
         let start = Instant::now();
-        if let (Place::Here(contender), Entrant::Ours(..)) = (&mut self.place, self.entrant) {
-            for query in queries.take_while(|_| start.elapsed() < time) {
-                contender.answer(query);
+        match (&mut self.place, self.entrant) {
+            (Place::Here(contender), Entrant::Ours(method, _))
+                if method.schedule.uses_hull_trees() =>
+            {
+                let rehearsed = queries.take_while(|_| start.elapsed() < time);
+                rehearsed.map(|query| contender.answer(query)).count()
             }
+            _ => queries.len(),
         }
     }
 
     /// Asks one query.
-    pub(super) fn ask(&mut self, query: &Query, patience: Duration) -> Answered {
-        match &mut self.place {
-            Place::Here(contender) => timed(contender.as_mut(), query),
-            Place::Guarded(guarded) => {
-                let start = Instant::now();
-                match guarded.ask(query, patience) {
-                    Ok(Asked::Answered { reply, micros }) => Answered::InTime { reply, micros },
-                    Ok(Asked::CutOff | Asked::Died) | Err(_) => Answered::CutOff {
-                        micros: start.elapsed().as_secs_f64() * 1e6,
-                    },
-                }
+    ///
+    /// # Errors
+    /// When a peer's process does not start again.
+    pub(super) fn ask(&mut self, query: &Query, patience: Duration) -> io::Result<Answered> {
+        Ok(match &mut self.place {
+            Place::Here(contender) => {
+                let TimedReply { reply, micros } = timed(contender.as_mut(), query);
+                Answered::InTime { reply, micros }
             }
-        }
+            Place::Guarded(guarded) => match guarded.ask(query, patience)? {
+                Asked::Answered { reply, micros } => Answered::InTime { reply, micros },
+                Asked::CutOff => Answered::CutOff { patience },
+                Asked::Died => Answered::Died,
+            },
+        })
     }
 }
 
 impl Answered {
+    pub(super) fn is_refusal(&self) -> bool {
+        let refused = |reply: &Reply| reply.claim == Claim::Refused;
+        matches!(self, Answered::InTime { reply, .. } if refused(reply))
+    }
+
     pub(super) fn micros(&self) -> f64 {
         match *self {
-            Answered::InTime { micros, .. } | Answered::CutOff { micros } => micros,
+            Answered::InTime { micros, .. } => micros,
+            Answered::CutOff { patience } => patience.as_secs_f64() * 1e6,
+            Answered::Died => f64::NAN,
         }
     }
 
     pub(super) fn steps(&self) -> u64 {
         match self {
             Answered::InTime { reply, .. } => reply.steps,
-            Answered::CutOff { .. } => 0,
-        }
-    }
-}
-
-fn timed(contender: &mut dyn Adjustable, query: &Query) -> Answered {
-    let mut micros = Vec::with_capacity(REPEATS);
-    let first = Instant::now();
-    loop {
-        let start = Instant::now();
-        let reply = contender.answer(query);
-        micros.push(start.elapsed().as_secs_f64() * 1e6);
-        if first.elapsed() > REPEATED_WITHIN || micros.len() == REPEATS {
-            let warm = if micros.len() > 1 { 1 } else { 0 };
-            let micros = median(&mut micros[warm..]);
-            return Answered::InTime { reply, micros };
+            Answered::CutOff { .. } | Answered::Died => 0,
         }
     }
 }

@@ -50,7 +50,9 @@ const HIT: Truth = Truth::Hit {
 #[case::free(Truth::Free, Claim::Free, Verdict::Right, None)]
 #[case::near(Truth::Free, Claim::Contact { time: 0.37 }, Verdict::Right, None)]
 #[case::false_contact(Truth::Free, Claim::Contact { time: 0.2 }, Verdict::False, None)]
-#[case::start(Truth::Start, Claim::Contact { time: 0.0 }, Verdict::Right, Some(0.0))]
+#[case::start(Truth::Start, Claim::Contact { time: 0.0 }, Verdict::Undecided, None)]
+#[case::wide(Truth::Hit { lo: 0.3, hi: 0.4 }, Claim::Contact { time: 0.35 }, Verdict::Undecided, None)]
+#[case::just_late(HIT, Claim::Contact { time: 0.375 + 1e-11 }, Verdict::Late, Some(1e-11))]
 #[case::unknown(Truth::Graze { lo: 0.3 }, Claim::Free, Verdict::Undecided, None)]
 fn claims_are_judged(
     #[case] truth: Truth,
@@ -82,6 +84,8 @@ const EVERYTHING: Allowance = Allowance {
     cell: Duration::MAX,
     patience: Duration::MAX,
     rows: usize::MAX,
+    least_rows: 1,
+    rehearsal: Duration::MAX,
 };
 
 #[test]
@@ -113,7 +117,8 @@ fn this_project_is_right_on_the_small_scene_and_its_cell_says_so() {
     assert_eq!(found, scene.queries.len());
     let entrant = Entrant::Ours(Method::default(), Pieces::Least);
     let mut seat = contest.seat(entrant, 1e-6).unwrap().unwrap();
-    let (cell, trials) = contest.hear(&mut seat, &EVERYTHING, &truths);
+    let heard = contest.hear(&mut seat, &EVERYTHING, &truths).unwrap();
+    let (cell, trials) = heard.unwrap();
     assert_eq!(cell.rows, scene.queries.len());
     assert_eq!(trials.len(), cell.rows);
     assert!(trials.iter().all(|t| t.verdict == "right"), "{trials:?}");
@@ -160,6 +165,7 @@ fn an_interrupted_journal_goes_on_where_it_stopped() {
         scene: "santa".to_owned(),
         method: method.to_owned(),
         tolerance: 1e-3,
+        row: 0,
         id: id.to_owned(),
         micros: 2.5,
         steps: 3,
@@ -170,20 +176,26 @@ fn an_interrupted_journal_goes_on_where_it_stopped() {
         let trials = vec![trial(method, "0"), trial(method, "1")];
         journal.add(sum_up(&trials), trials).unwrap();
     };
-    let mut journal = Journal::open(&folder, "one").unwrap();
+    let mut journal = Journal::open(&folder, "one", &[]).unwrap();
     add(&mut journal, "C2A");
     add(&mut journal, "CONTACT");
     // The last trial is lost, as if the power had gone.
     let trials = std::fs::read_to_string(folder.join("trials.csv")).unwrap();
     let cut = trials.trim_end().rfind('\n').unwrap();
     std::fs::write(folder.join("trials.csv"), &trials[..=cut]).unwrap();
-    let mut journal = Journal::open(&folder, "one").unwrap();
+    let mut journal = Journal::open(&folder, "one", &[]).unwrap();
     assert!(journal.has("santa", "C2A", 1e-3));
     assert!(!journal.has("santa", "CONTACT", 1e-3));
     assert_eq!((journal.cells().len(), journal.trials().len()), (1, 2));
     add(&mut journal, "CONTACT");
-    let again = Journal::open(&folder, "one").unwrap();
+    let again = Journal::open(&folder, "one", &[]).unwrap();
     assert_eq!((again.cells().len(), again.trials().len()), (2, 4));
-    assert!(Journal::open(&folder, "other").unwrap().cells().is_empty());
+    let mut again = again;
+    again.forget("C2A").unwrap();
+    let again = Journal::open(&folder, "one", &[]).unwrap();
+    assert_eq!((again.cells().len(), again.trials().len()), (1, 2));
+    let other = Journal::open(&folder, "other", &[]).unwrap();
+    assert!(other.cells().is_empty());
+    assert!(folder.join("chart.csv.old").exists());
     std::fs::remove_dir_all(folder).unwrap();
 }

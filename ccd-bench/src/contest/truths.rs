@@ -6,7 +6,7 @@ use crate::referee::{Truth, TruthRow, read_truths, write_truths};
 use ccd_decomp::TriangleMesh;
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 use std::collections::BTreeMap;
-use std::fs::File;
+use std::fs::{self, File};
 use std::path;
 
 /// What is known of the first contacts of all scenes, by scene, meshes and motions, and row.
@@ -43,8 +43,11 @@ impl Truths {
     /// # Errors
     /// When the file cannot be written.
     pub fn write(&self, file: &path::Path) -> Result<(), TruthsError> {
-        let file = File::create(file).map_err(csv::Error::from)?;
-        Ok(write_truths(file, self.known.values().cloned())?)
+        // Under another name first: half a table would still be a table.
+        let part = file.with_extension("part");
+        let whole = File::create(&part).map_err(csv::Error::from)?;
+        write_truths(whole, self.known.values().cloned())?;
+        Ok(fs::rename(part, file).map_err(csv::Error::from)?)
     }
 
     /// Finds what is not known yet of some rows of a scene, on all processors; says how many it found.

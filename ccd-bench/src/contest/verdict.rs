@@ -22,6 +22,8 @@ pub enum Verdict {
     Unresolved,
     /// Stopped: it took longer than anybody would wait.
     CutOff,
+    /// The peer's process ended instead of answering.
+    Died,
     /// The truth is not known well enough.
     Undecided,
     /// It is no answer to the query, such as a single distance that others are compared with.
@@ -39,11 +41,25 @@ pub struct Judged {
 }
 
 /// How much later than the end of the bracket a time may be before it counts as late, as a share of
-/// the duration: what the formulas of a motion differ by in f64, a thousand times over.
-const SLACK: f64 = 1e-9;
+/// the duration: poses by two formulas of one motion differ by some 1e-15 of the coordinates, and the
+/// slowest of the scenes moves by a hundredth of these during its duration; ten times over.
+const SLACK: f64 = 1e-12;
+
+/// The widest bracket that is taken for a time, as a share of the duration.
+const WIDEST: f64 = 1e-9;
 
 /// How much more than its tolerance, as a share of it, a contender may round a distance to.
 const ROUNDING: f64 = 1e-6;
+
+impl Judged {
+    /// A verdict where there is no time to be off.
+    pub fn plain(verdict: Verdict) -> Self {
+        Judged {
+            verdict,
+            error: None,
+        }
+    }
+}
 
 /// Judges a claim made with a tolerance.
 pub fn judge(
@@ -54,22 +70,23 @@ pub fn judge(
     tolerance: f64,
 ) -> Judged {
     let near = |time: f64| referee.distance(query, time).lower <= tolerance * (1.0 + ROUNDING);
-    let plain = |verdict| Judged {
-        verdict,
-        error: None,
-    };
+    let plain = Judged::plain;
     let (lo, hi) = match truth {
+        Truth::Hit { lo, hi } if hi - lo > WIDEST * query.duration => {
+            return plain(Verdict::Undecided);
+        }
         Truth::Hit { lo, hi } => (lo, hi),
-        Truth::Start => (0.0, 0.0),
         Truth::Free => {
             return plain(match claim {
                 Claim::Contact { time } if near(time) => Verdict::Right,
                 Claim::Contact { .. } => Verdict::False,
                 Claim::Free => Verdict::Right,
-                Claim::Unresolved { .. } => Verdict::Unresolved,
+                Claim::Unresolved { .. } | Claim::Refused => Verdict::Unresolved,
             });
         }
-        Truth::Graze { .. } | Truth::Undecided { .. } => return plain(Verdict::Undecided),
+        Truth::Start | Truth::Graze { .. } | Truth::Undecided { .. } => {
+            return plain(Verdict::Undecided);
+        }
     };
     let time = match claim {
         Claim::Contact { time } => time,
@@ -78,7 +95,7 @@ pub fn judge(
         Claim::Unresolved { safe_until } if safe_until > hi + SLACK * query.duration => {
             return plain(Verdict::Late);
         }
-        Claim::Unresolved { .. } => return plain(Verdict::Unresolved),
+        Claim::Unresolved { .. } | Claim::Refused => return plain(Verdict::Unresolved),
     };
     let off = (lo - time).max(time - hi).max(0.0) / query.duration;
     // Written so that NaN is late.
@@ -105,6 +122,7 @@ impl fmt::Display for Verdict {
             Verdict::Early => "early",
             Verdict::Unresolved => "unresolved",
             Verdict::CutOff => "cut off",
+            Verdict::Died => "died",
             Verdict::Undecided => "undecided",
             Verdict::NotJudged => "not judged",
         })

@@ -1,8 +1,8 @@
 //! A peer in a process of its own, which is stopped when it takes too long.
 
 use super::PeerKind;
-use super::wire::{READY, TimedReply, format_query, parse_reply};
-use crate::contender::Reply;
+use super::wire::{READY, format_query, parse_reply};
+use crate::contender::{Reply, TimedReply};
 use crate::motions::Query;
 use ccd_decomp::{TriangleMesh, write_obj};
 use std::fs::{self, File};

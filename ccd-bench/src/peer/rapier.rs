@@ -61,7 +61,7 @@ impl SceneCast {
 impl Contender for SceneCast {
     fn answer(&mut self, query: &Query) -> Reply {
         if query.b.spin() != DVec3::ZERO {
-            let claim = Claim::Unresolved { safe_until: 0.0 };
+            let claim = Claim::Refused;
             return Reply { claim, steps: 0 };
         }
         self.place(query);

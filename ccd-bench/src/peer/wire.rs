@@ -1,23 +1,14 @@
 //! What is said between a guard and the process it guards: one line for each query, one for each reply.
 
-use crate::contender::{Claim, Contender, Reply};
+use crate::contender::{Claim, Contender, Reply, TimedReply, timed};
 use crate::motions::Query;
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{Motion, Pose};
 use std::io::{self, BufRead, Write};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// What the process says once it has its meshes.
 pub const READY: &str = "ready";
-
-/// A reply, and how long the peer took for it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TimedReply {
-    /// What it said.
-    pub reply: Reply,
-    /// The call of the peer alone, in microseconds.
-    pub micros: f64,
-}
 
 /// Answers queries as they are read, until there are no more.
 ///
@@ -35,10 +26,7 @@ pub fn serve(
         let Some(query) = parse_query(&line) else {
             return Err(io::Error::new(io::ErrorKind::InvalidData, line));
         };
-        let start = Instant::now();
-        let reply = contender.answer(&query);
-        let micros = start.elapsed().as_secs_f64() * 1e6;
-        writeln!(output, "{}", format_reply(&TimedReply { reply, micros }))?;
+        writeln!(output, "{}", format_reply(&timed(contender, &query)))?;
         output.flush()?;
     }
     Ok(())
@@ -97,6 +85,7 @@ pub fn format_reply(timed: &TimedReply) -> String {
         Claim::Contact { time } => (time, "contact"),
         Claim::Free => (0.0, "free"),
         Claim::Unresolved { safe_until } => (safe_until, "unresolved"),
+        Claim::Refused => (0.0, "refused"),
     };
     format!("{time},{status},{},{}", timed.reply.steps, timed.micros)
 }
@@ -109,6 +98,7 @@ pub fn parse_reply(line: &str) -> Option<TimedReply> {
         "contact" => Claim::Contact { time },
         "free" => Claim::Free,
         "unresolved" => Claim::Unresolved { safe_until: time },
+        "refused" => Claim::Refused,
         _ => return None,
     };
     let steps = cells.next()?.parse().ok()?;

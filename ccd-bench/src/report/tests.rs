@@ -50,6 +50,7 @@ fn cell() -> Cell {
         max_error: f64::NAN,
         early: 0,
         cut_off: 0,
+        undecided: 0,
         mean_steps: 4.0,
     }
 }

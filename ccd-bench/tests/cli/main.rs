@@ -1,5 +1,6 @@
 //! The `ccd` command as its users run it.
 
+mod chart;
 mod command;
 mod contacts;
 mod decompose;

@@ -81,7 +81,7 @@ impl Contender for Simulated {
     fn answer(&mut self, query: &Query) -> Reply {
         let turns = query.b.spin() != DVec3::ZERO;
         if turns || !(query.duration > 0.0) {
-            let claim = Claim::Unresolved { safe_until: 0.0 };
+            let claim = Claim::Refused;
             return Reply { claim, steps: 0 };
         }
         self.pose(query);

@@ -1,0 +1,121 @@
+//! `ccd chart`.
+
+use crate::command::{Run, Scene, parse, stderr};
+use std::fs;
+use std::path::Path;
+
+/// One scene, two methods, whatever fits into a tenth of a second.
+fn chart(folder: &Path) -> Run {
+    let options = [
+        "chart",
+        "--scenes",
+        "knot216",
+        "--methods",
+        "best-first direct,C2A",
+        "--tolerances",
+        "1e-2,1e-3",
+        "--cell",
+        "0.1",
+    ];
+    Run::bare(&options).args(&["--out", folder.to_str().unwrap()])
+}
+
+#[test]
+fn an_evaluation_writes_tables_charts_and_a_page_and_does_not_measure_twice() {
+    let scene = Scene::new("chart");
+    let folder = scene.directory.join("report");
+    let output = chart(&folder).output();
+    assert!(output.status.success(), "{}", stderr(&output));
+    let told = String::from_utf8(output.stdout).unwrap();
+    assert!(told.contains("best-first direct") && told.contains("The report: "));
+    let table = fs::read(folder.join("chart.csv")).unwrap();
+    let rows = parse(&table);
+    assert_eq!(rows.len(), 4);
+    for row in &rows {
+        assert_eq!(row.text("scene"), "knot216");
+        assert!(row.number("rows") >= 1.0 && row.number("median_us") > 0.0);
+        for fault in ["late", "missed", "false", "early", "unresolved"] {
+            assert_eq!(row.number(fault), 0.0, "{fault} of {}", row.text("method"));
+        }
+        assert!(row.number("mean_error") <= row.number("max_error"));
+    }
+    let trials = parse(&fs::read(folder.join("trials.csv")).unwrap());
+    let asked: f64 = rows.iter().map(|row| row.number("rows")).sum();
+    assert_eq!(trials.len() as f64, asked);
+    for file in ["pareto.svg", "tolerance.svg", "steps.svg", "index.html"] {
+        assert!(
+            fs::metadata(folder.join(file)).unwrap().len() > 1000,
+            "{file}"
+        );
+    }
+    assert!(chart(&folder).output().status.success());
+    assert_eq!(fs::read(folder.join("chart.csv")).unwrap(), table);
+}
+
+#[test]
+fn what_others_measured_is_judged_and_put_into_a_readme() {
+    let scene = Scene::new("chart-join");
+    let folder = scene.directory.join("report");
+    assert!(chart(&folder).output().status.success());
+    let rows = "scene,method,tolerance,id,micros,steps,status,time\n\
+                knot216,oracle of Delphi,1e-3,0,5,1,contact,0.999\n\
+                knot216,oracle of Delphi,1e-3,10,5,1,free,\n";
+    let foreign = scene.file("foreign.csv", rows);
+    let readme = scene.file(
+        "README.md",
+        "a\n<!-- ccd chart: safety -->\n<!-- end -->\nb\n",
+    );
+    let output = chart(&folder)
+        .args(&["--redraw", "--join", foreign.to_str().unwrap()])
+        .args(&["--splice", readme.to_str().unwrap()])
+        .output();
+    assert!(output.status.success(), "{}", stderr(&output));
+    let cells = parse(&fs::read(folder.join("chart.csv")).unwrap());
+    let joined = cells.last().unwrap();
+    assert_eq!(joined.text("method"), "oracle of Delphi");
+    let wrong = ["late", "missed", "false", "early"].map(|fault| joined.number(fault));
+    assert!(wrong.iter().sum::<f64>() >= 1.0, "{wrong:?}");
+    let readme = fs::read_to_string(readme).unwrap();
+    assert!(
+        readme.contains("| oracle of Delphi") && readme.ends_with("b\n"),
+        "{readme}"
+    );
+
+    let unknown = scene.file("unknown.csv", &rows.replace("knot216", "atlantis"));
+    let output = chart(&folder)
+        .args(&["--redraw", "--join", unknown.to_str().unwrap()])
+        .output();
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("atlantis"), "{}", stderr(&output));
+}
+
+#[test]
+fn scenes_are_exported_as_queries_read_them() {
+    let scene = Scene::new("chart-export");
+    let folder = scene.directory.join("scenes");
+    let options = ["chart", "--scenes", "knot216", "--export"];
+    let run = Run::bare(&options).args(&[folder.to_str().unwrap()]);
+    let output = run.output();
+    assert!(output.status.success(), "{}", stderr(&output));
+    let at = |name: &str| folder.join("knot216").join(name).display().to_string();
+    let (a, b, motions) = (at("a.obj"), at("b.obj"), at("motions.csv"));
+    let rows = Run::bare(&["query", "--a", &a, "--b", &b, "--motions", &motions]).succeeds();
+    assert_eq!(rows.len(), 25);
+    let hits = rows
+        .iter()
+        .filter(|r| r.text("status") == "contact")
+        .count();
+    assert!((8..25).contains(&hits), "{hits}");
+}
+
+#[test]
+fn names_that_are_not_known_are_answered_with_those_that_are() {
+    for (option, name) in [("--scenes", "knot216"), ("--methods", "C2A")] {
+        let output = Run::bare(&["chart", option, "atlantis"]).output();
+        assert_eq!(output.status.code(), Some(2));
+        let told = stderr(&output);
+        assert!(told.contains("atlantis") && told.contains(name), "{told}");
+    }
+    let output = Run::bare(&["chart", "--tolerances", "-1"]).output();
+    assert_eq!(output.status.code(), Some(2));
+}
