@@ -76,7 +76,9 @@ fn is_right(contest: &Contest<'_>, entrant: Entrant, truths: &Truths) -> bool {
         .expect("no peer is asked");
     seat.is_some_and(|mut seat| {
         let heard = contest.hear(&mut seat, &allowance, truths);
-        let (cell, _) = heard.expect("no peer is asked").expect("all queries can be asked");
+        let (cell, _) = heard
+            .expect("no peer is asked")
+            .expect("all queries can be asked");
         let wrong = cell.late + cell.missed + cell.false_contacts + cell.early;
         assert_eq!(wrong + cell.unresolved, 0, "{cell:?}");
         true

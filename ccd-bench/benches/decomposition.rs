@@ -36,12 +36,27 @@ fn decompositions(criterion: &mut Criterion) {
             (Order::BreadthFirst, "breadth-first"),
             (Order::DepthFirst, "depth-first"),
         ] {
+            assert_covered(&mesh, order);
             group.bench_with_input(BenchmarkId::new(id, name), &mesh, |bencher, mesh| {
                 bencher.iter(|| decompose(black_box(mesh), order).expect("a knot bounds a solid"));
             });
         }
     }
     group.finish();
+}
+
+/// Nothing is timed that is wrong: every triangle has to be in one patch.
+fn assert_covered(mesh: &TriangleMesh, order: Order) {
+    let patches = decompose(mesh, order)
+        .expect("a knot bounds a solid")
+        .patches;
+    let mut faces: Vec<u32> = patches
+        .iter()
+        .flat_map(|patch| &patch.faces)
+        .copied()
+        .collect();
+    faces.sort_unstable();
+    assert!(faces.iter().copied().eq(0..mesh.faces().len() as u32));
 }
 
 /// Meshes into bodies ready for queries.

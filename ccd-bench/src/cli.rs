@@ -2,6 +2,7 @@
 
 mod chart;
 mod decompose;
+mod files;
 mod peer;
 mod pieces;
 mod query;

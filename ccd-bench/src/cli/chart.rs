@@ -91,6 +91,15 @@ const TOLERANCES: [f64; 9] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e
 /// Where methods are compared at equal accuracy.
 const FEW_TOLERANCES: [f64; 2] = [USUAL_TOLERANCE, 1e-6];
 
+/// How much is measured.
+#[derive(Clone, Copy, PartialEq)]
+enum Extent {
+    /// A few rows of everything that takes no long.
+    Glance,
+    /// Everything.
+    Full,
+}
+
 /// What runs in this process, and what in one of its own: for everything in half an hour,
 const AT_LENGTH: (Allowance, Allowance) = (
     Allowance {
@@ -127,7 +136,11 @@ const AT_A_GLANCE: (Allowance, Allowance) = (
 );
 
 pub(super) fn run(args: &ChartArgs) -> Result<Verdict> {
-    let mut plan = plan(&args.common, args.full)?;
+    let extent = match args.full {
+        true => Extent::Full,
+        false => Extent::Glance,
+    };
+    let mut plan = plan(&args.common, extent)?;
     plan.listings = chosen(plan.listings, &args.scenes, "scene", |l| l.name.clone())?;
     plan.entrants = chosen(plan.entrants, &args.methods, "method", Entrant::to_string)?;
     if !args.tolerances.is_empty() {
@@ -163,7 +176,7 @@ pub(super) fn run(args: &ChartArgs) -> Result<Verdict> {
 }
 
 pub(super) fn run_demo(args: &CommonArgs) -> Result<Verdict> {
-    let plan = plan(args, false)?;
+    let plan = plan(args, Extent::Glance)?;
     present(&plan, plan.run()?, Vec::new(), &[])
 }
 
@@ -196,7 +209,7 @@ fn present(
 }
 
 /// Everything, or a few rows of everything that takes no long.
-fn plan(common: &CommonArgs, full: bool) -> Result<Plan> {
+fn plan(common: &CommonArgs, extent: Extent) -> Result<Plan> {
     if let Some(directory) = &common.models {
         ensure!(
             directory.is_dir(),
@@ -204,10 +217,16 @@ fn plan(common: &CommonArgs, full: bool) -> Result<Plan> {
             directory.display()
         );
     }
-    let (allowance, peer_allowance) = if full { AT_LENGTH } else { AT_A_GLANCE };
-    let tolerances: &[f64] = if full { &TOLERANCES } else { &FEW_TOLERANCES };
+    let (allowance, peer_allowance) = match extent {
+        Extent::Full => AT_LENGTH,
+        Extent::Glance => AT_A_GLANCE,
+    };
+    let tolerances: &[f64] = match extent {
+        Extent::Full => &TOLERANCES,
+        Extent::Glance => &FEW_TOLERANCES,
+    };
     let entrants = Entrant::all().into_iter();
-    let entrants = entrants.filter(|entrant| full || takes_no_long(*entrant));
+    let entrants = entrants.filter(|entrant| extent == Extent::Full || takes_no_long(*entrant));
     Ok(Plan {
         listings: listings()?,
         entrants: entrants.collect(),

@@ -1,10 +1,10 @@
 //! `ccd query`: two bodies and a table of motions in, a table of results out.
 
 mod args;
-mod output;
 
 pub(super) use args::QueryArgs;
 
+use super::files::{Output, input_name, is_standard, read_motions, refuse_overwriting};
 use super::{Verdict, complain, same_file};
 use crate::contacts::{self, ContactRow};
 use crate::engine::{BoundKind, Method};
@@ -13,11 +13,9 @@ use crate::progress::{Progress, Spinner};
 use crate::query::{Bodies, Settings, Timed, run as answer};
 use crate::results::{self, Extent, ResultRow};
 use crate::summary::Summary;
-use anyhow::{Context, Result, anyhow, bail};
+use anyhow::{Context, Result, bail};
 use ccd_core::{Body, Config, InputError};
 use ccd_decomp::{BodySource, Prepared, build_hull_tree};
-use output::{Output, is_standard, refuse_overwriting};
-use std::fs::File;
 use std::io::{self, Write};
 use std::num::NonZeroUsize;
 use std::path::Path;
@@ -56,7 +54,7 @@ pub(super) fn run(args: &QueryArgs) -> Result<Verdict> {
         complete &= told == Told::All;
     }
     for error in &errors {
-        complain(&format!("{}, {error}", name(&args.motions)));
+        complain(&format!("{}, {error}", input_name(&args.motions)));
     }
     if !args.quiet {
         summarise(args, &good);
@@ -119,7 +117,7 @@ fn all_contacts(
             Ok(rows) => all.extend(rows),
             Err(error) => {
                 let Place { row, line } = place;
-                let table = name(&args.motions);
+                let table = input_name(&args.motions);
                 complain(&format!(
                     "{table}, row {row} (line {line}): contacts: {error}"
                 ));
@@ -253,24 +251,5 @@ fn same(a: &BodySource, b: &BodySource) -> bool {
         (BodySource::Mesh(a), BodySource::Mesh(b))
         | (BodySource::Stored(a), BodySource::Stored(b)) => same_file(a, b),
         _ => a == b,
-    }
-}
-
-fn read_motions(path: &Path) -> Result<MotionTable> {
-    let table = if is_standard(path) {
-        MotionTable::read(io::stdin().lock())
-    } else {
-        let file = File::open(path).map_err(|error| {
-            anyhow!("{error}; give --motions a CSV file, or - for standard input")
-        });
-        MotionTable::read(io::BufReader::new(file.with_context(|| name(path))?))
-    };
-    table.with_context(|| name(path))
-}
-
-fn name(path: &Path) -> String {
-    match is_standard(path) {
-        true => "standard input".to_owned(),
-        false => path.display().to_string(),
     }
 }

@@ -1,15 +1,15 @@
 //! `ccd truth`: two meshes and a table of motions in, a table of brackets of the exact first contacts out.
 
-use super::{CannotWrite, Verdict, complain, same_file};
-use crate::motions::{MotionTable, Query};
+use super::files::{Output, input_name, read_motions, refuse_overwriting};
+use super::{Verdict, complain, same_file};
+use crate::motions::Query;
 use crate::progress::{Progress, Spinner};
 use crate::referee::{Referee, Surface, Truth, TruthRow, write_truths};
-use anyhow::{Context, Result, anyhow, bail};
+use anyhow::{Context, Result};
 use ccd_decomp::TriangleMesh;
 use clap::Args;
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
-use std::fs::File;
-use std::io::{self, BufWriter, Write};
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -67,22 +67,20 @@ Examples:
 
 /// Judges all rows that can be; the others are told on standard error.
 pub(super) fn run(args: &TruthArgs) -> Result<Verdict> {
-    if !is_standard(&args.out) && same_file(&args.motions, &args.out) {
-        bail!("--out names the file of --motions, which it would overwrite; give it another");
-    }
+    refuse_overwriting(("--motions", &args.motions), ("--out", &args.out))?;
     let (a, b) = load(args)?;
     let table = read_motions(&args.motions)?;
     // Before the work, not after it, is when to learn that its result has nowhere to go.
-    let out = open(&args.out)?;
+    let out = Output::open(&args.out)?;
     let queries: Vec<&Query> = table.rows.iter().map(|(_, query)| query).collect();
     let start = Instant::now();
     let truths = judge(args, Referee::new(&a, b.as_ref().unwrap_or(&a)), &queries)?;
     let seconds = start.elapsed().as_secs_f64();
     let rows = queries.into_iter().zip(&truths);
     let rows = rows.map(|(query, &truth)| TruthRow::new(query.id.clone(), query.duration, truth));
-    write_truths(out, rows).map_err(|error| cannot_write(&args.out, error))?;
+    out.write(|writer| write_truths(writer, rows))?;
     for error in &table.errors {
-        complain(&format!("{}, {error}", name(&args.motions)));
+        complain(&format!("{}, {error}", input_name(&args.motions)));
     }
     if !args.quiet {
         let _ = writeln!(io::stderr(), "{}, {seconds:.1} s", summary(&truths));
@@ -147,53 +145,4 @@ fn summary(truths: &[Truth]) -> String {
         count(|truth| matches!(truth, Truth::Undecided { .. })),
         truths.iter().map(width).fold(0.0, f64::max),
     )
-}
-
-fn read_motions(path: &Path) -> Result<MotionTable> {
-    let table = if is_standard(path) {
-        MotionTable::read(io::stdin().lock())
-    } else {
-        let file = File::open(path).map_err(|error| {
-            anyhow!("{error}; give --motions a CSV file, or - for standard input")
-        });
-        MotionTable::read(io::BufReader::new(file.with_context(|| name(path))?))
-    };
-    table.with_context(|| name(path))
-}
-
-fn open(path: &Path) -> Result<Box<dyn Write>, CannotWrite> {
-    if is_standard(path) {
-        return Ok(Box::new(io::stdout().lock()));
-    }
-    match File::create(path) {
-        Ok(file) => Ok(Box::new(BufWriter::new(file))),
-        Err(source) => Err(CannotWrite {
-            place: name(path),
-            source,
-        }),
-    }
-}
-
-fn cannot_write(path: &Path, error: csv::Error) -> CannotWrite {
-    CannotWrite {
-        place: match is_standard(path) {
-            true => "standard output".to_owned(),
-            false => name(path),
-        },
-        source: match error.into_kind() {
-            csv::ErrorKind::Io(error) => error,
-            other => io::Error::other(format!("{other:?}")),
-        },
-    }
-}
-
-fn is_standard(path: &Path) -> bool {
-    path.as_os_str() == "-"
-}
-
-fn name(path: &Path) -> String {
-    match is_standard(path) {
-        true => "standard input".to_owned(),
-        false => path.display().to_string(),
-    }
 }

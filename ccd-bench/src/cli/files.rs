@@ -1,7 +1,8 @@
-//! Where the tables of a query go.
+//! Tables in and out: files, or the standard streams.
 
-use crate::cli::{CannotWrite, same_file};
-use anyhow::{Result, bail};
+use super::{CannotWrite, same_file};
+use crate::motions::MotionTable;
+use anyhow::{Context, Result, anyhow, bail};
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
@@ -57,6 +58,27 @@ pub(super) fn refuse_overwriting(
         bail!("{written} names the file of {read}, which it would overwrite; give it another");
     }
     Ok(())
+}
+
+/// The table of motions, of which `--motions` names the file.
+pub(super) fn read_motions(path: &Path) -> Result<MotionTable> {
+    let table = if is_standard(path) {
+        MotionTable::read(io::stdin().lock())
+    } else {
+        let file = File::open(path).map_err(|error| {
+            anyhow!("{error}; give --motions a CSV file, or - for standard input")
+        });
+        MotionTable::read(io::BufReader::new(file.with_context(|| input_name(path))?))
+    };
+    table.with_context(|| input_name(path))
+}
+
+/// What messages call a file that is read.
+pub(super) fn input_name(path: &Path) -> String {
+    match is_standard(path) {
+        true => "standard input".to_owned(),
+        false => path.display().to_string(),
+    }
 }
 
 pub(super) fn is_standard(path: &Path) -> bool {
