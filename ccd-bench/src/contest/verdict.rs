@@ -108,7 +108,8 @@ pub fn judge(
     };
     Judged {
         verdict,
-        error: Some(off),
+        // Of a time that is none there is no error: `max` has passed over the NaN.
+        error: Some(off).filter(|_| !time.is_nan()),
     }
 }
 

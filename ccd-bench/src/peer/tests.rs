@@ -1,8 +1,8 @@
 //! Every peer on scenes of meshes with exact answers: what it gets right, and what it is known to get wrong.
 
 use super::PeerKind;
-use super::wire::{TimedReply, format_query, format_reply, parse_query, parse_reply};
-use crate::contender::{Claim, Reply};
+use super::wire::{format_query, format_reply, parse_query, parse_reply};
+use crate::contender::{Claim, Reply, TimedReply};
 use crate::model::Board;
 use crate::motions::Query;
 use ccd_core::glam::{DQuat, DVec3};
@@ -260,7 +260,7 @@ fn what_rapier_holds_still_does_not_turn() {
         let claim = exact.ask(kind).claim;
         assert_eq!(
             claim,
-            Claim::Unresolved { safe_until: 0.0 },
+            Claim::Refused,
             "{}",
             kind.name()
         );

@@ -64,6 +64,7 @@ fn with_page<T>(look: impl FnOnce(&Page<'_>) -> T) -> T {
         shots: vec![shot(&mesh, 0.2), shot(&mesh, 9.0)],
     }];
     let tables = [TextTable {
+        name: "usual".to_owned(),
         title: "A <table>".to_owned(),
         header: vec!["name & kind".to_owned()],
         rows: vec![vec!["{{style}}".to_owned()]],

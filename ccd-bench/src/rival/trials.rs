@@ -285,7 +285,7 @@ pub(super) fn assert_shots(tolerance: f64, rival: &mut impl Contender) {
                 free += 1;
                 query.duration
             }
-            Claim::Unresolved { safe_until } => panic!("{}: given up at {safe_until}", query.id),
+            claim => panic!("{}: {claim:?}", query.id),
         };
         let speed = a.velocity.length() + reach * a.rate;
         let mut time = 0.0;

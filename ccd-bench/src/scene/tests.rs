@@ -1,6 +1,6 @@
 use super::*;
 use ccd_core::glam::DVec3;
-use ccd_core::{Outcome, Pose};
+use ccd_core::Pose;
 
 fn shots() -> Shots {
     Shots {

@@ -90,14 +90,6 @@ impl Open {
         self.0 == 0
     }
 
-    /// Those left.
-    #[cfg(test)]
-    pub(super) fn tests(self) -> impl Iterator<Item = Test> {
-        let all = Test::ALL.into_iter().enumerate();
-        all.filter(move |(k, _)| self.0 >> k & 1 == 1)
-            .map(|(_, test)| test)
-    }
-
     /// Those of them that hold.
     pub(super) fn keep(self, mut holds: impl FnMut(Test) -> bool) -> Open {
         let (mut kept, mut left) = (0, self.0);

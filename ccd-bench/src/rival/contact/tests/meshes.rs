@@ -55,7 +55,7 @@ fn judge(queries: &[Query], tolerance: f64) -> usize {
                 hits += 1;
             }
             Claim::Free => assert_eq!(crossing, None, "missed"),
-            Claim::Unresolved { .. } => panic!("{reply:?}"),
+            Claim::Unresolved { .. } | Claim::Refused => panic!("{reply:?}"),
         }
     }
     hits

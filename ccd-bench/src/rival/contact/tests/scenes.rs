@@ -219,7 +219,7 @@ fn tolerances_that_are_none_are_never_late() {
         match ask(&cube, &slab, tolerance, &query) {
             Claim::Contact { time } => assert!(time <= 0.625 + 1e-12),
             Claim::Unresolved { safe_until } => assert!(safe_until <= 0.625 + 1e-12),
-            Claim::Free => panic!("a contact missed at tolerance {tolerance}"),
+            claim => panic!("{claim:?} at tolerance {tolerance}"),
         }
     }
 }
