@@ -161,8 +161,8 @@ pub fn safety(cells: &[Cell], trials: &[Trial]) -> TextTable {
     table
 }
 
-/// How many times longer others take than one method, scene by scene: the ratio of the medians over
-/// the queries that both were asked, and whether the other was late or missed a contact there.
+/// How many times longer others take than one method, scene by scene: the ratio of the medians (of the
+/// means) over the queries that both were asked, and whether the other was late or missed a contact there.
 pub fn ratios(trials: &[Trial], reference: &str, others: &[&str], tolerance: f64) -> TextTable {
     let mut header = vec!["scene"];
     header.extend(others);
@@ -203,25 +203,33 @@ fn ratio(base: &HashMap<&str, &Trial>, other: &HashMap<&str, &Trial>) -> String 
     if ours.is_empty() {
         return NOTHING.to_owned();
     }
-    let ratio = median(&mut theirs) / median(&mut ours);
+    let medians = median(&mut theirs) / median(&mut ours);
+    let means = theirs.iter().sum::<f64>() / ours.iter().sum::<f64>();
     let said = |verdict: Verdict| {
         let name = verdict.to_string();
         other.values().any(|trial| trial.verdict == name)
     };
-    let given_up = said(Verdict::CutOff) || said(Verdict::Unresolved);
-    let cut = if given_up { "> " } else { "" };
+    let given_up = match said(Verdict::CutOff) || said(Verdict::Unresolved) {
+        true => "> ",
+        false => "",
+    };
+    let rows = match ours.len() {
+        few @ ..FEW => format!(" [{few}]"),
+        _ => String::new(),
+    };
     let mark = match said(Verdict::Late) || said(Verdict::Missed) {
         true => " †",
         false => "",
     };
-    let rows = match ours.len() {
-        few @ ..FEW => format!(" ({few})"),
-        _ => String::new(),
-    };
-    match ratio {
-        ..10.0 => format!("{cut}{ratio:.2}{rows}{mark}"),
-        10.0..100.0 => format!("{cut}{ratio:.1}{rows}{mark}"),
-        _ => format!("{cut}{ratio:.0}{rows}{mark}"),
+    let (medians, means) = (three_digits(medians), three_digits(means));
+    format!("{given_up}{medians} ({means}){rows}{mark}")
+}
+
+fn three_digits(value: f64) -> String {
+    match value {
+        ..10.0 => format!("{value:.2}"),
+        10.0..100.0 => format!("{value:.1}"),
+        _ => format!("{value:.0}"),
     }
 }
 

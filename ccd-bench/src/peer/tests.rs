@@ -258,12 +258,7 @@ fn what_rapier_holds_still_does_not_turn() {
     exact.query.b = motion(DVec3::ZERO, DQuat::IDENTITY, DVec3::ZERO, DVec3::X);
     for kind in [PeerKind::RapierF64, PeerKind::RapierStepF64] {
         let claim = exact.ask(kind).claim;
-        assert_eq!(
-            claim,
-            Claim::Refused,
-            "{}",
-            kind.name()
-        );
+        assert_eq!(claim, Claim::Refused, "{}", kind.name());
     }
 }
 

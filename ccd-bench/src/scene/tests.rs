@@ -1,6 +1,6 @@
 use super::*;
-use ccd_core::glam::DVec3;
 use ccd_core::Pose;
+use ccd_core::glam::DVec3;
 
 fn shots() -> Shots {
     Shots {

@@ -40,7 +40,13 @@ fn ratios_are_of_the_rows_that_both_were_asked() {
     // Medians over rows 0 and 1: 45 over 15. The row that took 1000 was asked of one only.
     assert_eq!(
         table.rows,
-        [["santa", "3.00 (2)", "2.50 (1) †", "> 400000 (1)", "–"]]
+        [[
+            "santa",
+            "3.00 (3.00) [2]",
+            "2.50 (2.50) [1] †",
+            "> 400000 (400000) [1]",
+            "–"
+        ]]
     );
     assert!(
         ratios(&trials(), "best-first direct", &others, 1e-6)
