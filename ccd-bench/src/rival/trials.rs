@@ -1,5 +1,6 @@
 //! What the rivals' tests ask them: scenes with exact answers, and shots held against brute force.
 
+use super::patience::Patience;
 use super::triangles_apart::{Triangle, nearest};
 use super::{Course, Placement};
 use crate::contender::{Claim, Contender};
@@ -300,6 +301,34 @@ pub(super) fn assert_shots(tolerance: f64, rival: &mut impl Contender) {
         }
     }
     assert!(hits >= 20 && free >= 10, "{hits} hits, {free} free");
+}
+
+/// Asserts that a rival whose patience is short ends with a time, for either kind of patience.
+pub(super) fn assert_gives_up<C: Contender>(
+    rival: impl Fn(&TriangleMesh, &TriangleMesh) -> C,
+    give: impl Fn(&mut C, Patience),
+) {
+    let (a, b, query) = hovering();
+    let mut rival = rival(&a, &b);
+    assert_eq!(rival.answer(&query).claim, Claim::Free);
+    let short = [
+        Patience {
+            steps: 20,
+            ..Patience::default()
+        },
+        Patience {
+            pairs: 1_000,
+            ..Patience::default()
+        },
+    ];
+    for patience in short {
+        give(&mut rival, patience);
+        let Claim::Unresolved { safe_until } = rival.answer(&query).claim else {
+            panic!("{patience:?} was enough");
+        };
+        let within = 0.0 < safe_until && safe_until < query.duration;
+        assert!(within, "{safe_until}");
+    }
 }
 
 /// Two boxes that turn past each other, never touching, so close that it takes many steps to tell.

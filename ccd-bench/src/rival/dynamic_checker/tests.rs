@@ -1,7 +1,8 @@
 use super::DynamicChecker;
 use crate::contender::{Claim, Contender};
-use crate::rival::patience::Patience;
-use crate::rival::trials::{assert_exact_scenes, assert_shots, hovering, knot_216};
+use crate::rival::trials::{
+    assert_exact_scenes, assert_gives_up, assert_shots, hovering, knot_216,
+};
 use ccd_core::glam::DVec3;
 use ccd_core::{Motion, Pose};
 
@@ -22,28 +23,10 @@ fn shots_are_neither_missed_nor_late_nor_early() {
 
 #[test]
 fn work_without_end_is_given_up() {
-    let (a, b, query) = hovering();
-    let mut rival = DynamicChecker::new(&a, &b, 1e-6);
-    assert_eq!(rival.answer(&query).claim, Claim::Free);
-    for patience in [
-        Patience {
-            steps: 20,
-            ..Patience::default()
-        },
-        Patience {
-            pairs: 1_000,
-            ..Patience::default()
-        },
-    ] {
-        rival.patience = patience;
-        let Claim::Unresolved { safe_until } = rival.answer(&query).claim else {
-            panic!("{patience:?} was enough");
-        };
-        assert!(
-            0.0 < safe_until && safe_until < query.duration,
-            "{safe_until}"
-        );
-    }
+    assert_gives_up(
+        |a, b| DynamicChecker::new(a, b, 1e-6),
+        |rival, patience| rival.patience = patience,
+    );
 }
 
 #[test]
