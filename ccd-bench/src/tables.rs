@@ -161,8 +161,8 @@ pub fn safety(cells: &[Cell], trials: &[Trial]) -> TextTable {
     table
 }
 
-/// How many times longer others take than one method, scene by scene: the ratio of the medians (of the
-/// means) over the queries that both were asked, and whether the other was late or missed a contact there.
+/// How many times longer others take than one method, scene by scene: the median of the ratios query by
+/// query (the ratio of the total times) over the queries that both were asked, and whether the other was late or missed a contact there.
 pub fn ratios(trials: &[Trial], reference: &str, others: &[&str], tolerance: f64) -> TextTable {
     let mut header = vec!["scene"];
     header.extend(others);
@@ -193,18 +193,18 @@ pub fn ratios(trials: &[Trial], reference: &str, others: &[&str], tolerance: f64
 }
 
 fn ratio(base: &HashMap<&str, &Trial>, other: &HashMap<&str, &Trial>) -> String {
-    let (mut ours, mut theirs) = (Vec::new(), Vec::new());
+    let mut ratios = Vec::new();
+    let (mut ours, mut theirs) = (0.0, 0.0);
     for (id, trial) in other {
         if let Some(same) = base.get(id).filter(|_| !trial.micros.is_nan()) {
-            ours.push(same.micros);
-            theirs.push(trial.micros);
+            ratios.push(trial.micros / same.micros);
+            ours += same.micros;
+            theirs += trial.micros;
         }
     }
-    if ours.is_empty() {
+    if ratios.is_empty() {
         return NOTHING.to_owned();
     }
-    let medians = median(&mut theirs) / median(&mut ours);
-    let means = theirs.iter().sum::<f64>() / ours.iter().sum::<f64>();
     let said = |verdict: Verdict| {
         let name = verdict.to_string();
         other.values().any(|trial| trial.verdict == name)
@@ -213,7 +213,7 @@ fn ratio(base: &HashMap<&str, &Trial>, other: &HashMap<&str, &Trial>) -> String 
         true => "> ",
         false => "",
     };
-    let rows = match ours.len() {
+    let rows = match ratios.len() {
         few @ ..FEW => format!(" [{few}]"),
         _ => String::new(),
     };
@@ -221,8 +221,11 @@ fn ratio(base: &HashMap<&str, &Trial>, other: &HashMap<&str, &Trial>) -> String 
         true => " †",
         false => "",
     };
-    let (medians, means) = (three_digits(medians), three_digits(means));
-    format!("{given_up}{medians} ({means}){rows}{mark}")
+    let (typical, total) = (
+        three_digits(median(&mut ratios)),
+        three_digits(theirs / ours),
+    );
+    format!("{given_up}{typical} ({total}){rows}{mark}")
 }
 
 fn three_digits(value: f64) -> String {

@@ -112,3 +112,49 @@ impl Listing {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::HashSet;
+
+    #[test]
+    fn every_scene_names_what_there_is_and_tells_its_rows_apart() {
+        let listings = listings().unwrap();
+        let names: HashSet<&str> = listings.iter().map(|l| l.name.as_str()).collect();
+        assert_eq!(names.len(), listings.len());
+        for listing in &listings {
+            assert!(listing.model(&listing.a).is_ok() && listing.model(&listing.b).is_ok());
+            let queries = listing.queries().unwrap();
+            let ids: HashSet<&str> = queries.iter().map(|q| q.id.as_str()).collect();
+            assert_eq!(ids.len(), queries.len(), "{}", listing.name);
+            let turns = queries
+                .iter()
+                .filter(|q| q.a.spin().length() > 1e-3)
+                .count();
+            let share = match listing.name.ends_with("translating") {
+                true => 0..=0,
+                false => queries.len() / 3..=queries.len(),
+            };
+            assert!(share.contains(&turns), "{}: {turns} turn", listing.name);
+        }
+        let figures: HashSet<u8> = listings.iter().filter_map(|l| l.figure).collect();
+        assert_eq!(figures, HashSet::from([4, 5, 7, 8]));
+    }
+
+    #[test]
+    fn what_is_not_there_is_named() {
+        let mut listing = listings().unwrap().remove(0);
+        listing.rows = Some(Rows {
+            from: 0,
+            to: 10_000,
+        });
+        let told = listing.queries().unwrap_err().to_string();
+        assert!(told.contains("santa.csv: rows 0 to 10000"), "{told}");
+        listing.motions = "nowhere.csv".to_owned();
+        let told = listing.queries().unwrap_err().to_string();
+        assert!(told.contains("nowhere.csv"), "{told}");
+        let told = listing.model("unicorn").unwrap_err().to_string();
+        assert!(told.contains("unicorn"), "{told}");
+    }
+}
