@@ -9,6 +9,7 @@ use ccd_bench::model::Model;
 use ccd_decomp::{Detail, Order, TriangleMesh, body_from_mesh, decompose};
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use std::hint::black_box;
+use std::time::Duration;
 
 /// Torus knots, which differ in nothing but their size.
 const KNOTS: [Model; 3] = [Model::Knot2880, Model::Knot11520, Model::Knot34560];
@@ -78,5 +79,11 @@ fn bodies(criterion: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, decompositions, bodies);
+fn settings() -> Criterion {
+    Criterion::default()
+        .warm_up_time(Duration::from_millis(500))
+        .measurement_time(Duration::from_secs(2))
+}
+
+criterion_group!(name = benches; config = settings(); targets = decompositions, bodies);
 criterion_main!(benches);

@@ -12,6 +12,7 @@ use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_m
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
 use std::hint::black_box;
+use std::time::Duration;
 
 /// How many directions a sample asks for.
 const LOOKS: usize = 256;
@@ -66,5 +67,12 @@ fn turning(rng: &mut Pcg64) -> Vec<DVec3> {
         .collect()
 }
 
-criterion_group!(benches, support);
+fn settings() -> Criterion {
+    Criterion::default()
+        .sample_size(20)
+        .warm_up_time(Duration::from_millis(200))
+        .measurement_time(Duration::from_millis(500))
+}
+
+criterion_group!(name = benches; config = settings(); targets = support);
 criterion_main!(benches);
