@@ -12,7 +12,9 @@ use ccd_bench::engine::ScheduleKind;
 use ccd_bench::evaluation::USUAL_TOLERANCE;
 use ccd_bench::progress::Progress;
 use ccd_bench::scene::{Models, Pieces, listings};
-use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use criterion::{
+    BenchmarkId, Criterion, SamplingMode, Throughput, criterion_group, criterion_main,
+};
 use std::time::Duration;
 
 /// How many rows of a scene, spread over it.
@@ -43,6 +45,7 @@ fn advancement(criterion: &mut Criterion) {
         let rows = contest.order(ROWS);
         let mut group = criterion.benchmark_group(format!("advancement/{}", scene.name));
         group.throughput(Throughput::Elements(rows.len() as u64));
+        group.sampling_mode(SamplingMode::Flat);
         for entrant in Entrant::all() {
             let Entrant::Ours(method, pieces @ (Pieces::Least | Pieces::Patches)) = entrant else {
                 continue;
@@ -92,8 +95,12 @@ fn is_right(contest: &Contest<'_>, entrant: Entrant, truths: &Truths) -> bool {
     })
 }
 
+/// Enough for a median; the default takes longer than the calls.
+const RESAMPLES: usize = 2_000;
+
 fn settings() -> Criterion {
     Criterion::default()
+        .nresamples(RESAMPLES)
         .sample_size(10)
         .warm_up_time(Duration::from_millis(300))
         .measurement_time(Duration::from_secs(1))

@@ -7,7 +7,9 @@
 
 use ccd_bench::model::Model;
 use ccd_decomp::{Detail, Order, TriangleMesh, body_from_mesh, decompose};
-use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use criterion::{
+    BenchmarkId, Criterion, SamplingMode, Throughput, criterion_group, criterion_main,
+};
 use std::hint::black_box;
 use std::time::Duration;
 
@@ -29,7 +31,7 @@ fn meshes() -> Vec<(&'static str, TriangleMesh)> {
 /// Surfaces in convex patches, in every order of growth.
 fn decompositions(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("decompose");
-    group.sample_size(10);
+    group.sample_size(10).sampling_mode(SamplingMode::Flat);
     for (name, mesh) in meshes() {
         group.throughput(Throughput::Elements(mesh.faces().len() as u64));
         for (order, id) in [
@@ -63,7 +65,7 @@ fn assert_covered(mesh: &TriangleMesh, order: Order) {
 /// Meshes into bodies ready for queries.
 fn bodies(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("body");
-    group.sample_size(10);
+    group.sample_size(10).sampling_mode(SamplingMode::Flat);
     for (name, mesh) in meshes() {
         group.throughput(Throughput::Elements(mesh.faces().len() as u64));
         for (detail, id) in [
@@ -79,8 +81,12 @@ fn bodies(criterion: &mut Criterion) {
     group.finish();
 }
 
+/// Enough for a median; the default takes longer than the calls.
+const RESAMPLES: usize = 2_000;
+
 fn settings() -> Criterion {
     Criterion::default()
+        .nresamples(RESAMPLES)
         .warm_up_time(Duration::from_millis(500))
         .measurement_time(Duration::from_secs(2))
 }

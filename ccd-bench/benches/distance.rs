@@ -163,12 +163,15 @@ fn poses(rng: &mut Pcg64, clearance: f64, turn: f64) -> Vec<Frame> {
     (0..POSES).map(pose).collect()
 }
 
-/// Many small benchmarks rather than few exact ones.
+/// Enough for a median; the default takes longer than the calls.
+const RESAMPLES: usize = 2_000;
+
 fn settings() -> Criterion {
     Criterion::default()
+        .nresamples(RESAMPLES)
         .sample_size(10)
-        .warm_up_time(Duration::from_millis(200))
-        .measurement_time(Duration::from_millis(500))
+        .warm_up_time(Duration::from_millis(100))
+        .measurement_time(Duration::from_millis(300))
 }
 
 criterion_group!(name = benches; config = settings(); targets = distances);
