@@ -1,5 +1,6 @@
 //! Entrants, scenes and tolerances: all combinations measured, one after another, into a journal.
 
+use crate::chart::PAPER_TOLERANCE;
 use crate::contest::{
     Allowance, Contest, ContestError, Entrant, Journal, JournalError, Truths, TruthsError,
 };
@@ -60,7 +61,7 @@ pub enum EvaluationError {
 const TRUTHS: &str = "truth.csv";
 
 /// The tolerance of entrants that have none to be told.
-pub const USUAL_TOLERANCE: f64 = 1e-3;
+pub const USUAL_TOLERANCE: f64 = PAPER_TOLERANCE;
 
 impl Plan {
     /// What the folder holds, whatever it was measured with; measures nothing.

@@ -38,15 +38,16 @@ fn assert_contact(meshes: [&TriangleMesh; 2], query: &Query, exact: f64, speed: 
     }
 }
 
+/// From a height of 3 with speed 4 onto what has its top at 0.
+fn falling_flat() -> Query {
+    let down = -4.0 * DVec3::Z;
+    let a = moving(3.0 * DVec3::Z, DQuat::IDENTITY, down, DVec3::ZERO);
+    query(a, still(-0.5 * DVec3::Z))
+}
+
 #[test]
 fn a_cube_falls_flat_on_a_slab() {
-    let a = moving(
-        3.0 * DVec3::Z,
-        DQuat::IDENTITY,
-        -4.0 * DVec3::Z,
-        DVec3::ZERO,
-    );
-    let query = query(a, still(-0.5 * DVec3::Z));
+    let query = falling_flat();
     let meshes = [&cuboid(0.5, 0.5, 0.5), &cuboid(3.0, 3.0, 0.5)];
     assert_contact(meshes, &query, 0.625, 4.0);
 }
@@ -207,13 +208,7 @@ fn work_is_limited() {
 
 #[test]
 fn tolerances_that_are_none_are_never_late() {
-    let a = moving(
-        3.0 * DVec3::Z,
-        DQuat::IDENTITY,
-        -4.0 * DVec3::Z,
-        DVec3::ZERO,
-    );
-    let query = query(a, still(-0.5 * DVec3::Z));
+    let query = falling_flat();
     let (cube, slab) = (cuboid(0.5, 0.5, 0.5), cuboid(3.0, 3.0, 0.5));
     for tolerance in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         match ask(&cube, &slab, tolerance, &query) {
