@@ -98,6 +98,7 @@ mod motion;
 pub mod motion_bound;
 mod naming;
 mod oracle;
+pub mod order;
 mod outcome;
 mod overlap;
 mod path;
