@@ -8,6 +8,7 @@ mod tests;
 mod truths;
 mod verdict;
 
+use ccd_core::order::greater;
 pub use entrant::{Entrant, Ours, Path, RivalKind};
 pub use journal::{Journal, JournalError};
 pub use seat::Seat;
@@ -243,7 +244,7 @@ pub fn sum_up(trials: &[Trial]) -> Cell {
         false_contacts: count(Verdict::False),
         unresolved: count(Verdict::Unresolved) + cut_off,
         mean_error: mean(&errors),
-        max_error: errors.iter().copied().fold(f64::NAN, f64::max),
+        max_error: errors.iter().copied().reduce(greater).unwrap_or(f64::NAN),
         early: count(Verdict::Early),
         cut_off,
         undecided: count(Verdict::Undecided),

@@ -5,6 +5,7 @@ mod tests;
 
 use crate::query::{Timed, median};
 use crate::results::Status;
+use ccd_core::order::greater;
 use ccd_core::{Limit, Outcome};
 use std::fmt;
 
@@ -83,7 +84,7 @@ impl Summary {
             summary.advancements += answer.stats.advancements;
             summary.oracle_steps += answer.stats.effort.steps;
             summary.raised += usize::from(answer.tolerance > tolerance);
-            summary.largest_tolerance = summary.largest_tolerance.max(answer.tolerance);
+            summary.largest_tolerance = greater(summary.largest_tolerance, answer.tolerance);
             micros.push(timed.micros);
         }
         summary.median_micros = median(&mut micros);

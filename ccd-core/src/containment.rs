@@ -1,6 +1,7 @@
 //! Whether one body lies inside the other where their surfaces are apart.
 
 use crate::body::Body;
+use crate::order::greater;
 use crate::outcome::Overlap;
 use crate::pose::Frame;
 use crate::problem::{Problem, Side};
@@ -43,7 +44,7 @@ pub(crate) fn of_touching(problem: &Problem<'_>) -> Option<Overlap> {
 fn below_surface(body: &Body, piece: usize) -> DVec3 {
     let points = body.pieces().get(piece).points;
     let mean = points.iter().sum::<DVec3>() / points.len() as f64;
-    let size = points.iter().map(|p| p.distance(mean)).fold(0.0, f64::max);
+    let size = points.iter().map(|p| p.distance(mean)).fold(0.0, greater);
     match body.outward_normal(piece as u32) {
         Some(normal) => mean - normal * (BELOW_SURFACE * size),
         None => mean,

@@ -6,6 +6,7 @@
 //! - [`Track`]: the exact displacement of a point along an axis, linear plus a sinusoid, with its
 //!   maximum over an interval in closed form and its first crossing.
 
+use crate::order::greater;
 use crate::tolerance::{CROSSING_ROUNDS, RATE_F64, WORTHWHILE};
 use glam::DVec3;
 use std::f64::consts::TAU;
@@ -36,7 +37,7 @@ pub enum Bound {
 /// **Unsound over a step**: the arms turn with the body. It is here to be compared with.
 pub fn published(motion: &Velocities, n: DVec3, farthest: impl FnOnce(DVec3) -> DVec3) -> f64 {
     let c = n.cross(motion.spin);
-    c.dot(farthest(c)).max(0.0) + motion.linear.dot(n).abs()
+    greater(0.0, c.dot(farthest(c))) + motion.linear.dot(n).abs()
 }
 
 /// `v·n + |n×ω| ρ`: an upper bound of the rate of advance along `n` at any time, for points no
@@ -93,7 +94,7 @@ impl Track {
     /// # Guarantee
     /// No smaller than the height at any time of the interval, up to rounding.
     pub fn max_over(&self, tau: f64) -> f64 {
-        let ends = self.at(0.0).max(self.at(tau));
+        let ends = greater(self.at(0.0), self.at(tau));
         let amplitude = self.p.hypot(self.q);
         let speed = amplitude * self.omega;
         // Turning points: drift + ω(q cos θ − p sin θ) = 0, so sin(θ − φ) = drift / (ω ρ).
@@ -108,11 +109,11 @@ impl Track {
                 let first = theta.rem_euclid(TAU) / self.omega;
                 let period = TAU / self.omega;
                 // A drift makes the last turning point the highest, or the first one.
-                let last = first + ((tau - first) / period).floor().max(0.0) * period;
+                let last = first + greater(0.0, ((tau - first) / period).floor()) * period;
                 [first, last]
             })
             .filter(|t| (0.0..=tau).contains(t))
-            .fold(ends, |highest, t| highest.max(self.at(t)))
+            .fold(ends, |highest, t| greater(highest, self.at(t)))
     }
 
     /// The first time within `[0, horizon]` at which the height may reach `limit`, or a lower bound

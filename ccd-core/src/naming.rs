@@ -1,6 +1,7 @@
 //! Which feature of a mesh a point of a polytope lies on.
 
 use crate::oracle::Combination;
+use crate::order::greater;
 use crate::piece::{Origin, Piece};
 use crate::tolerance::ON_FACET;
 use glam::DVec3;
@@ -54,7 +55,7 @@ pub(crate) fn of_polytope(piece: &Piece<'_>, point: &Combination) -> Name {
 /// The face of the mesh that a point lies on, but for rounding.
 pub(crate) fn face_under(piece: &Piece<'_>, point: DVec3) -> Option<u32> {
     let way = |p: &DVec3| p.distance(point);
-    let reach = ON_FACET * piece.points.iter().map(way).fold(0.0, f64::max);
+    let reach = ON_FACET * piece.points.iter().map(way).fold(0.0, greater);
     let near = |[a, b, c]: [DVec3; 3]| {
         let (lo, hi) = (a.min(b).min(c) - reach, a.max(b).max(c) + reach);
         lo.cmple(point).all() && point.cmple(hi).all()
@@ -77,5 +78,8 @@ fn distance_off([a, b, c]: [DVec3; 3], point: DVec3) -> f64 {
         outward.dot(point - from)
     };
     let height = normal.dot(point - a).abs();
-    height.max(beyond(a, b)).max(beyond(b, c)).max(beyond(c, a))
+    greater(
+        greater(greater(height, beyond(a, b)), beyond(b, c)),
+        beyond(c, a),
+    )
 }

@@ -1,6 +1,7 @@
 //! Whether two pieces truly intersect: a penetration is confirmed before it is believed.
 
 use crate::oracle::PiecePair;
+use crate::order::lesser;
 use crate::piece::Piece;
 use crate::separation::{Checked, support_gap};
 use crate::tolerance::MAX_AXES;
@@ -73,7 +74,7 @@ fn pierces([p, q]: [DVec3; 2], triangle: [DVec3; 3], rounding: f64) -> bool {
         return false;
     };
     let (above, below) = (normal.dot(p - a), normal.dot(q - a));
-    if !(above * below < 0.0 && above.abs().min(below.abs()) > rounding) {
+    if !(above * below < 0.0 && lesser(above.abs(), below.abs()) > rounding) {
         return false;
     }
     let share = above / (above - below);

@@ -3,6 +3,7 @@
 
 use crate::motion::Motion;
 use crate::motion_bound::Velocities;
+use crate::order::greater;
 use crate::pose::Frame;
 use crate::trig::sin_cos;
 use glam::{DMat3, DVec3};
@@ -96,7 +97,7 @@ impl Path {
         let squares = points
             .iter()
             .map(|&x| unit.cross(x - self.centre).length_squared());
-        squares.fold(0.0, f64::max).sqrt()
+        squares.fold(0.0, greater).sqrt()
     }
 
     pub(crate) fn turns(&self) -> bool {

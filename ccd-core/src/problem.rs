@@ -3,6 +3,7 @@
 use crate::body::Body;
 use crate::error::InputError;
 use crate::motion::Motion;
+use crate::order::{greater, lesser};
 use crate::path::Path;
 use crate::piece::Piece;
 use crate::tolerance::{self, LEAST_TOLERANCE, MAX_COORDINATE, MAX_TURN, NODE_GAP};
@@ -134,7 +135,7 @@ impl<'a> Problem<'a> {
             b,
             duration,
             origin,
-            tolerance: tolerance.max(tolerance::least_tolerance(rounding)),
+            tolerance: greater(tolerance, tolerance::least_tolerance(rounding)),
             margin: config.margin,
             start: config.start,
             budget: config.budget,
@@ -184,7 +185,7 @@ impl<'a> Problem<'a> {
         };
         Problem {
             start,
-            tolerance: tolerance.min(self.tolerance),
+            tolerance: lesser(tolerance, self.tolerance),
             ..self.clone()
         }
     }
@@ -193,7 +194,7 @@ impl<'a> Problem<'a> {
     /// proven to less than `proven`.
     pub(crate) fn clearance(&self, proven: f64) -> f64 {
         match self.start {
-            StartPolicy::Report => self.gap().min(proven).max(self.margin),
+            StartPolicy::Report => greater(lesser(self.gap(), proven), self.margin),
             // Pieces that rest on each other keep none.
             StartPolicy::Leave => 0.0,
         }
@@ -204,7 +205,7 @@ impl<'a> Problem<'a> {
         if s >= 1.0 {
             self.duration
         } else {
-            (s * self.duration).next_down().max(0.0)
+            greater(0.0, (s * self.duration).next_down())
         }
     }
 

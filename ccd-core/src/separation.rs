@@ -1,6 +1,7 @@
 //! Checking what an oracle claims: nothing of it is believed unseen.
 
 use crate::oracle::{Claim, Combination, PiecePair};
+use crate::order::{greater, lesser};
 use glam::DVec3;
 
 /// A checked claim, in A's frame.
@@ -49,7 +50,7 @@ pub(crate) fn check(pair: &PiecePair<'_>, claim: &Claim, rounding: f64) -> Check
     Checked {
         claim: Claim { axis, a, b },
         lower: gap - radii - rounding,
-        upper: (distance - radii).max(0.0) + rounding,
+        upper: greater(0.0, distance - radii) + rounding,
         axis,
         core_distance: distance,
         witness_a: on_a + outward * pair.a.radius,
@@ -73,7 +74,7 @@ fn support_gap_near(pair: &PiecePair<'_>, n: DVec3, from: DVec3, near: [Option<u
         }
         None => {
             let heights = pair.a.points.iter().map(|&x| n.dot(x - from));
-            heights.fold(f64::NEG_INFINITY, f64::max)
+            heights.fold(f64::NEG_INFINITY, greater)
         }
     };
     let n_b = pair.b_to_a.inverse_vector(n);
@@ -85,7 +86,7 @@ fn support_gap_near(pair: &PiecePair<'_>, n: DVec3, from: DVec3, near: [Option<u
         }
         None => {
             let heights = pair.b.points.iter().map(|&y| n_b.dot(y));
-            heights.fold(f64::INFINITY, f64::min)
+            heights.fold(f64::INFINITY, lesser)
         }
     };
     lowest + origin_b - highest

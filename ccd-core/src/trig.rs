@@ -54,6 +54,7 @@ pub(crate) fn sin_cos(angle: f64) -> (f64, f64) {
 #[cfg(test)]
 mod tests {
     use super::sin_cos;
+    use crate::order::greater;
     use crate::tolerance::{MAX_TURN, U64};
 
     #[test]
@@ -64,7 +65,7 @@ mod tests {
             let angle = MAX_TURN.powf(f64::from(k) / 2e6 * 1.5 - 0.5);
             let (sin, cos) = sin_cos(angle);
             let (s, c) = angle.sin_cos();
-            worst = worst.max((sin - s).abs()).max((cos - c).abs());
+            worst = greater(greater(worst, (sin - s).abs()), (cos - c).abs());
         }
         // Either is off by half a unit in the last place at best.
         assert!(worst <= 2.0 * U64, "{}", worst / U64);

@@ -6,6 +6,7 @@ use crate::polytope::{NO_FACE, Polytope, unit};
 use crate::tolerance::{AXIS_EDGES, CERTIFIED, CERTIFIED_SHARE};
 use crate::witness::{Witness, across};
 use ccd_core::glam::DVec3;
+use ccd_core::order::{greater, lesser};
 
 /// A unit vector and the support gap along it.
 #[derive(Clone, Copy, Debug)]
@@ -43,8 +44,8 @@ pub(crate) fn gap(places: &Places<'_>, n: DVec3) -> f64 {
     let highest = places.a.0.vertices.iter().map(|v| n.dot(v.point));
     let own = places.b.own_vector(n);
     let lowest = places.b.shape().vertices.iter().map(|v| own.dot(v.point));
-    lowest.fold(f64::INFINITY, f64::min) + n.dot(places.b.origin())
-        - highest.fold(f64::NEG_INFINITY, f64::max)
+    lowest.fold(f64::INFINITY, lesser) + n.dot(places.b.origin())
+        - highest.fold(f64::NEG_INFINITY, greater)
 }
 
 /// No less than the gap along a direction of any length: that between two corners, found by climbing

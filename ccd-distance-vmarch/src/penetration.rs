@@ -5,6 +5,7 @@ use crate::place::{Placed, Scale};
 use crate::tolerance::PIERCED_PAIRS;
 use crate::twofold::volume;
 use ccd_core::glam::DVec3;
+use ccd_core::order::lesser;
 use robust::{Coord3D, orient3d};
 
 /// Where an edge goes through a face, or ends on it.
@@ -93,7 +94,7 @@ fn straddled<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32, scale: Scale) -
     let normal = y.vector(y.shape().face(f).normal);
     let ends = x.shape().edge(e).ends;
     let [start, end] = ends.map(|v| normal.dot(x.vertex(v) - base));
-    let clear = start.abs().min(end.abs()) > scale.rounding();
+    let clear = lesser(start.abs(), end.abs()) > scale.rounding();
     if clear && (start > 0.0) == (end > 0.0) {
         return None;
     }

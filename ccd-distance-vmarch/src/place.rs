@@ -4,6 +4,7 @@ use crate::polytope::{Edge, Polytope};
 use crate::tolerance::PLACE;
 use ccd_core::Frame;
 use ccd_core::glam::{DMat3, DVec3};
+use ccd_core::order::{greater, lesser};
 
 /// A polytope that is placed in the frame of A's polytope. A test of two features is written once, for
 /// any two of these.
@@ -130,7 +131,7 @@ impl Line {
 /// Between 0 and `length`; 0 for what is no number.
 #[inline(always)]
 pub(crate) fn clamped(parameter: f64, length: f64) -> f64 {
-    parameter.max(0.0).min(length)
+    lesser(greater(0.0, parameter), length)
 }
 
 impl Placed for Here<'_> {

@@ -12,6 +12,7 @@ pub(crate) mod twin;
 
 use crate::{Cache, Vmarch};
 use ccd_core::glam::{DQuat, DVec3};
+use ccd_core::order::{greater, lesser};
 use ccd_core::{Claim, DistanceOracle, Frame, GiveUp};
 use rstest::rstest;
 use scene::{Kind, Scene};
@@ -70,7 +71,7 @@ impl Tally {
         let unit = U * scene.reach();
         if scene.gap == 0.0 {
             self.meeting += 1;
-            self.meeting_distance = self.meeting_distance.max(distance / unit);
+            self.meeting_distance = greater(self.meeting_distance, distance / unit);
             assert!(
                 distance <= 200.0 * unit,
                 "{distance:e}: {}",
@@ -84,10 +85,10 @@ impl Tally {
         let error = (distance - truth).abs();
         let gap = twin::gap(&a, &b, claim.axis.normalize_or_zero());
         let slack = 1e-12 * truth + 100.0 * unit;
-        self.rounding = self.rounding.max(error / unit);
-        self.short = self.short.max((truth - gap) / unit);
+        self.rounding = greater(self.rounding, error / unit);
+        self.short = greater(self.short, (truth - gap) / unit);
         if truth > 1e-3 * scene.reach() {
-            self.relative = self.relative.max(error / truth);
+            self.relative = greater(self.relative, error / truth);
         }
         assert!(
             error <= slack,
@@ -109,7 +110,7 @@ fn told(scene: &Scene<'_>, claim: &Claim) -> String {
 
 /// The next pose of a coherent sequence.
 fn moved(scene: &mut Scene<'_>, rng: &mut Pcg64) {
-    let step = magnitude(rng, -16.0, -2.0).min(0.01 * scene.gap);
+    let step = lesser(magnitude(rng, -16.0, -2.0), 0.01 * scene.gap);
     scene.gap -= 8.0 * step;
     let turn = DQuat::from_scaled_axis(step * direction(rng));
     let about = scene.b_to_a.point(scene.b.shape.points[0]);

@@ -1,6 +1,7 @@
 //! All features in contact at the time of an answer.
 
 use ccd_core::glam::DVec3;
+use ccd_core::order::greater;
 use ccd_core::{Config, Feature, FeaturePair, Outcome, Problem};
 use ccd_tests::analytic::scenes_named;
 use ccd_tests::backends::Backend;
@@ -209,7 +210,7 @@ fn check_pairs(
         let off_a = off(&query.a, time, pair.feature_a, it.witness_a);
         let off_b = off(&query.b, time, pair.feature_b, it.witness_b);
         let parts = kinds.contains(&Kind::Parts);
-        if !good || !parts && !(off_a.max(off_b) <= rounding) {
+        if !good || !parts && !(greater(off_a, off_b) <= rounding) {
             return Err(format!(
                 "{kinds:?}: {pair:?} at {time}: off by {off_a}, {off_b}"
             ));

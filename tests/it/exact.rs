@@ -2,6 +2,7 @@
 
 use ccd_core::Polytope;
 use ccd_core::glam::DVec3;
+use ccd_core::order::{greater, lesser};
 use ccd_tests::exact::{Blend, Effort, Place, Solid, samples, side_of, triangle_holds};
 use ccd_tests::models::{Mesh, convex_solids, cuboid, hollow, l_prism, solids};
 use ccd_tests::referee::{contains, point_triangle};
@@ -99,11 +100,11 @@ fn rays_through_edges_and_vertices_count_once() {
                 };
                 // Two bars; on the surface of the union where inside of neither.
                 let bars = [
-                    within(0.0, x, 2.0).min(within(0.0, y, 1.0)),
-                    within(0.0, x, 1.0).min(within(0.0, y, 2.0)),
+                    lesser(within(0.0, x, 2.0), within(0.0, y, 1.0)),
+                    lesser(within(0.0, x, 1.0), within(0.0, y, 2.0)),
                 ];
                 // Where the bars meet, the one's side is in the other.
-                let flat = bars[0].max(bars[1]).min(within(-0.5, z, 0.5));
+                let flat = lesser(greater(bars[0], bars[1]), within(-0.5, z, 0.5));
                 let expected = [Place::Outside, Place::Surface, Place::Inside(1)][flat];
                 let p = at(DVec3::new(x, y, z));
                 assert_eq!(solid.place(&p), expected, "{p:?}");

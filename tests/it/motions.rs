@@ -1,6 +1,7 @@
 //! Motions go where they say: through both poses, any turn, about any centre.
 
 use ccd_core::glam::{DQuat, DVec3};
+use ccd_core::order::greater;
 use ccd_core::{Motion, Pose};
 use ccd_tests::models::cuboid;
 use ccd_tests::query::{Actor, Query};
@@ -20,7 +21,7 @@ fn apart(x: &Pose, y: &Pose, reach: f64) -> f64 {
     [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z]
         .iter()
         .map(gap)
-        .fold(0.0, f64::max)
+        .fold(0.0, greater)
 }
 
 #[test]

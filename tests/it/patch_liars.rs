@@ -1,6 +1,7 @@
 //! The laws of patches find wrong patches: each kind of lie is told by the law that it breaks.
 
 use ccd_core::glam::DVec3;
+use ccd_core::order::greater;
 use ccd_core::{Facet, Origin, Polytope};
 use ccd_tests::exact::{Effort, Solid};
 use ccd_tests::models::{Mesh, cuboid, l_prism, torus};
@@ -135,7 +136,7 @@ fn a_hull_across_the_inner_corner_of_an_l_is_found() {
         let all = || corners.iter().flatten();
         let in_bar = |wide: fn(&DVec3) -> f64| all().all(|p| wide(p) <= 1.0);
         // On or beyond the line from (2, 1) to (1, 2) there is nothing of the L but the line's ends.
-        let sum = |corner: &[DVec3; 3]| corner.iter().map(|p| p.x + p.y).fold(0.0, f64::max);
+        let sum = |corner: &[DVec3; 3]| corner.iter().map(|p| p.x + p.y).fold(0.0, greater);
         match in_bar(|p| p.x) || in_bar(|p| p.y) {
             true => Some(false),
             false if sum(&corners[0]) >= 3.0 && sum(&corners[1]) >= 3.0 => Some(true),

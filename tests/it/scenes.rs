@@ -1,5 +1,6 @@
 //! Every scene with a closed-form answer, over every setup and tolerance, in both orders.
 
+use ccd_core::order::lesser;
 use ccd_core::{Answer, Config, Outcome};
 use ccd_tests::analytic::{Expect, Scene, scenes_named};
 use ccd_tests::backends::{Setup, for_each_setup};
@@ -65,7 +66,7 @@ fn check_group(prefix: &str) {
 
 fn check_scene(scene: &Scene, expect: &Expect) {
     // A scene that is smaller than a unit gets a tolerance that is, too.
-    let size = scene.query.a.reach(0.0).min(1.0);
+    let size = lesser(1.0, scene.query.a.reach(0.0));
     let mut judge = Judge::new(&scene.query, &Config::default());
     for tolerance in [1e-3, 1e-6, 1e-9].map(|tolerance| tolerance * size) {
         judge = judge.with_tolerance(tolerance);

@@ -7,6 +7,7 @@ use crate::models::Kind;
 use crate::query::{Actor, Bodies, Query};
 use crate::referee::{Placement, Referee, Verdict};
 use ccd_core::glam::DVec3;
+use ccd_core::order::greater;
 use ccd_core::{Answer, Body, Config, Contact, Feature, Outcome, Overlap, Piece, Separation};
 
 /// Holds answers to one query against what the referee saw of it.
@@ -274,7 +275,7 @@ impl Side<'_> {
     fn support(&self, axis: DVec3) -> Result<f64, String> {
         let piece = self.piece()?;
         let along = piece.points.iter().map(|&p| (self.place)(p).dot(axis));
-        Ok(along.fold(f64::NEG_INFINITY, f64::max) + piece.radius)
+        Ok(along.fold(f64::NEG_INFINITY, greater) + piece.radius)
     }
 
     fn check_witness(&self, witness: DVec3, feature: Feature, [reach, rounding]: [f64; 2]) -> Law {

@@ -3,6 +3,7 @@
 use crate::referee::{point_segment, point_triangle};
 use crate::tolerance::rounding;
 use ccd_core::glam::{DMat3, DQuat, DVec3};
+use ccd_core::order::{greater, lesser};
 use ccd_core::{Claim, DistanceOracle, Frame, Piece, PiecePair};
 
 /// A pair of pieces, owned.
@@ -52,7 +53,7 @@ impl Pair {
 
     /// Bounds the rounding of a distance of this pair.
     pub fn rounding(&self) -> f64 {
-        let largest = |points: &[DVec3]| points.iter().map(|p| p.length()).fold(0.0, f64::max);
+        let largest = |points: &[DVec3]| points.iter().map(|p| p.length()).fold(0.0, greater);
         rounding(largest(&self.a) + largest(&self.b_in_a()) + largest(&self.b))
     }
 
@@ -70,8 +71,8 @@ impl Pair {
                 .a
                 .iter()
                 .map(|p| p.dot(n))
-                .fold(f64::NEG_INFINITY, f64::max);
-            b.iter().map(|p| p.dot(n)).fold(f64::INFINITY, f64::min) - most
+                .fold(f64::NEG_INFINITY, greater);
+            b.iter().map(|p| p.dot(n)).fold(f64::INFINITY, lesser) - most
         });
         Ok(Checked {
             lower,
@@ -96,8 +97,8 @@ impl Pair {
             .a
             .iter()
             .map(|p| p.dot(best))
-            .fold(f64::NEG_INFINITY, f64::max);
-        let least = b.iter().map(|p| p.dot(best)).fold(f64::INFINITY, f64::min);
+            .fold(f64::NEG_INFINITY, greater);
+        let least = b.iter().map(|p| p.dot(best)).fold(f64::INFINITY, lesser);
         if least > most { best.length() } else { 0.0 }
     }
 }
@@ -108,7 +109,7 @@ fn simplices(points: &[DVec3]) -> Vec<Vec<DVec3>> {
     if points.len() <= 3 {
         return vec![points.to_vec()];
     }
-    let size = points.iter().map(|p| p.length()).fold(0.0, f64::max);
+    let size = points.iter().map(|p| p.length()).fold(0.0, greater);
     // More triangles than needed do no harm: they lie inside of the hull.
     let slack = rounding(size.powi(3));
     let mut out = Vec::new();
@@ -117,8 +118,9 @@ fn simplices(points: &[DVec3]) -> Vec<Vec<DVec3>> {
             for &c in &points[j + 1..] {
                 let normal = (b - a).cross(c - a);
                 let heights = points.iter().map(|p| (*p - a).dot(normal));
-                let (least, most) =
-                    heights.fold((0.0, 0.0), |(lo, hi): (f64, f64), h| (lo.min(h), hi.max(h)));
+                let (least, most) = heights.fold((0.0, 0.0), |(lo, hi): (f64, f64), h| {
+                    (lesser(lo, h), greater(hi, h))
+                });
                 if most <= slack || least >= -slack {
                     out.push(vec![a, b, c]);
                 }
@@ -219,7 +221,7 @@ pub fn cache_law<O: DistanceOracle>(
         (stale, fresh) => return Err(format!("stale {stale:?}, fresh {fresh:?}")),
     };
     let distance = pair.distance();
-    let off = |checked: Checked| (checked.upper - distance).max(distance - checked.lower);
+    let off = |checked: Checked| greater(checked.upper - distance, distance - checked.lower);
     let as_good = off(stale) <= off(fresh) + slack + pair.rounding();
     if distance > pair.rounding() && !as_good {
         return Err(format!(

@@ -3,6 +3,7 @@
 use crate::models::Mesh;
 use crate::referee::{point_segment, point_triangle};
 use ccd_core::glam::DVec3;
+use ccd_core::order::{greater, lesser};
 use ccd_core::{Feature, Origin, Piece, Polytope};
 
 /// How far a point is from a piece; 0 inside.
@@ -34,11 +35,11 @@ pub(crate) fn distance_to_piece(
                 loops
                     .iter()
                     .map(|l| distance_to_polygon(p, l))
-                    .fold(f64::INFINITY, f64::min)
+                    .fold(f64::INFINITY, lesser)
             }
         }
     };
-    (core - piece.radius).max(0.0)
+    greater(0.0, core - piece.radius)
 }
 
 /// How far a point is from the surface.
@@ -47,7 +48,7 @@ pub(crate) fn distance_to_mesh(p: DVec3, mesh: &Mesh, place: impl Fn(DVec3) -> D
         let corners = mesh.triangle(k).map(&place);
         point_triangle(p, corners).distance(p)
     };
-    (0..mesh.faces.len()).map(off).fold(f64::INFINITY, f64::min)
+    (0..mesh.faces.len()).map(off).fold(f64::INFINITY, lesser)
 }
 
 pub(crate) fn distance_to_mesh_feature(
@@ -99,7 +100,7 @@ pub(crate) fn distance_to_part_feature(
             Feature::Piece(_) => Some(0.0),
         };
         if let Some(distance) = distance {
-            nearest = nearest.min(distance - part.radius);
+            nearest = lesser(nearest, distance - part.radius);
         }
     }
     if nearest == f64::INFINITY {
@@ -127,5 +128,5 @@ fn distance_to_polygon(p: DVec3, corners: &[DVec3]) -> f64 {
     let fan =
         (1..corners.len().saturating_sub(1)).map(|k| [corners[0], corners[k], corners[k + 1]]);
     fan.map(|t| point_triangle(p, t).distance(p))
-        .fold(f64::INFINITY, f64::min)
+        .fold(f64::INFINITY, lesser)
 }

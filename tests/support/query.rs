@@ -3,6 +3,7 @@
 use crate::models::{Kind, Shape};
 use crate::tolerance::rounding;
 use ccd_core::glam::DVec3;
+use ccd_core::order::greater;
 use ccd_core::{Body, Config, Motion, Moving, Pose, Problem};
 use std::rc::Rc;
 
@@ -160,11 +161,11 @@ impl Actor {
             .parts
             .iter()
             .map(|part| part.radius)
-            .fold(0.0, f64::max);
+            .fold(0.0, greater);
         let radius = points
             .chain(&self.shape.mesh.vertices)
             .map(|p| p.distance(motion.centre()))
-            .fold(motion.centre().length(), f64::max);
+            .fold(motion.centre().length(), greater);
         let travel = duration * motion.velocity().length();
         let turn = 1.0 + duration * motion.spin().length();
         motion.start().translation().length() + travel + turn * (radius + radii)

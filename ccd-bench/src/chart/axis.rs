@@ -1,5 +1,6 @@
 //! Axes: what is shown of a quantity, and where.
 
+use ccd_core::order::{greater, lesser};
 use std::fmt::Write;
 
 /// The decades an axis has a label for, at most.
@@ -162,7 +163,7 @@ fn extent(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
         .filter(|value| value.is_finite())
         .fold(None, |extent, value| match extent {
             None => Some((value, value)),
-            Some((low, high)) => Some((f64::min(low, value), f64::max(high, value))),
+            Some((low, high)) => Some((lesser(low, value), greater(high, value))),
         })
 }
 

@@ -4,6 +4,7 @@ use super::grid::{MARGIN, WIDTH};
 use super::look::{Fill, Look};
 use super::sheet::{DrawError, Hand, Sheet, Spot, TEXT, text_width};
 use super::{Family, MethodFacts};
+use ccd_core::order::greater;
 use plotters::style::FontStyle;
 
 /// Height of a line of the legend.
@@ -47,7 +48,7 @@ impl<'a> Legend<'a> {
             .iter()
             .flat_map(|(_, group)| group)
             .map(|(text, _)| text_width(text, TEXT))
-            .fold(0.0, f64::max);
+            .fold(0.0, greater);
         let column = widest + SAMPLE + 3.0 * GAP;
         // At least one, at most as many as anybody wants to read across.
         let columns = ((width - head_width(&groups)) / column).clamp(1.0, 6.0) as usize;
@@ -89,5 +90,5 @@ impl<'a> Legend<'a> {
 
 fn head_width(groups: &[(&'static str, Vec<(String, &Look)>)]) -> f64 {
     let widest = groups.iter().map(|(title, _)| text_width(title, TEXT));
-    widest.fold(0.0, f64::max) + 3.0 * GAP
+    widest.fold(0.0, greater) + 3.0 * GAP
 }

@@ -9,6 +9,7 @@ use super::pareto::kind;
 use super::sheet::{DrawError, Hand, Pen, RULE, Rect, Sheet, text_width};
 use super::{ChartError, Charts, Drawing, Family, MethodFacts, SceneFacts, failed, is_papers};
 use crate::measured::Cell;
+use ccd_core::order::greater;
 use plotters::style::text_anchor::HPos;
 
 const NAME: &str = "models";
@@ -106,7 +107,7 @@ impl Rows<'_> {
         let widest = names
             .iter()
             .map(|name| text_width(name, super::sheet::TEXT));
-        let left = MARGIN + widest.fold(0.0, f64::max) + MARGIN;
+        let left = MARGIN + widest.fold(0.0, greater) + MARGIN;
         let width = (WIDTH - 2.0 * MARGIN - left + GUTTER) / panels.len() as f64 - GUTTER;
         let rows = Axis::counting("", 0, 1);
         for (number, (x, value)) in panels.iter().enumerate() {

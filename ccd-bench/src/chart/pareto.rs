@@ -8,6 +8,7 @@ use super::panel::{Kind, Panel, Point, mark, remark};
 use super::sheet::{DrawError, FRAME, Hand, Rect, Sheet};
 use super::{ChartError, Charts, Drawing, Family, MethodFacts, SceneFacts, failed};
 use crate::measured::Cell;
+use ccd_core::order::greater;
 use plotters::style::Color;
 use plotters::style::text_anchor::HPos;
 
@@ -111,7 +112,7 @@ fn draw(
 fn axes(cells: &[(&Cell, Fill)]) -> Option<(Axis, Axis)> {
     let times = cells.iter().map(|(cell, _)| cell.median_us);
     let safe = cells.iter().filter(|(_, fill)| *fill == Fill::Solid);
-    let errors = safe.map(|(cell, _)| cell.mean_error.max(LEAST_ERROR));
+    let errors = safe.map(|(cell, _)| greater(LEAST_ERROR, cell.mean_error));
     // A plane with nothing on it is still one: the strip says what there is.
     let errors = errors.chain([LEAST_ERROR]);
     Some((
@@ -125,7 +126,7 @@ fn strip_width(shown: &[Shown<'_>]) -> f64 {
     let lanes = shown.iter().filter(|(_, look)| look.fill == Fill::Hollow);
     match lanes.count() {
         0 => 0.0,
-        lanes => STRIP_GAP + f64::max(LEAST_STRIP, LANE * (lanes as f64 + 1.0)),
+        lanes => STRIP_GAP + greater(LEAST_STRIP, LANE * (lanes as f64 + 1.0)),
     }
 }
 
@@ -156,7 +157,7 @@ fn draw_scene(
             .iter()
             .filter(|cell| !cell.mean_error.is_nan())
             .map(|cell| Point {
-                x: cell.mean_error.max(LEAST_ERROR),
+                x: greater(LEAST_ERROR, cell.mean_error),
                 y: cell.median_us,
                 kind: kind(cell),
             })

@@ -6,6 +6,7 @@ use crate::motions::Query;
 use crate::progress::{Progress, Spinner};
 use crate::referee::{Referee, Surface, Truth, TruthRow, write_truths};
 use anyhow::{Context, Result};
+use ccd_core::order::greater;
 use ccd_decomp::TriangleMesh;
 use clap::Args;
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
@@ -143,6 +144,6 @@ fn summary(truths: &[Truth]) -> String {
         count(|truth| matches!(truth, Truth::Start)),
         count(|truth| matches!(truth, Truth::Graze { .. })),
         count(|truth| matches!(truth, Truth::Undecided { .. })),
-        truths.iter().map(width).fold(0.0, f64::max),
+        truths.iter().map(width).fold(0.0, greater),
     )
 }

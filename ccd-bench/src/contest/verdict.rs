@@ -3,6 +3,7 @@
 use crate::contender::Claim;
 use crate::motions::Query;
 use crate::referee::{Referee, Truth};
+use ccd_core::order::greater;
 use std::fmt;
 
 /// What a claim is.
@@ -97,7 +98,7 @@ pub fn judge(
         }
         Claim::Unresolved { .. } | Claim::Refused => return plain(Verdict::Unresolved),
     };
-    let off = (lo - time).max(time - hi).max(0.0) / query.duration;
+    let off = greater(0.0, greater(lo - time, time - hi)) / query.duration;
     // Written so that NaN is late.
     let verdict = if !(time <= hi + SLACK * query.duration) {
         Verdict::Late

@@ -2,6 +2,7 @@
 
 use super::sphere::sphere;
 use ccd_core::glam::DVec3;
+use ccd_core::order::greater;
 use ccd_decomp::{MeshError, TriangleMesh};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
@@ -79,7 +80,7 @@ impl Blob {
         for point in &mut points {
             *point *= self.radius(*point, &ripples);
         }
-        let bounding_radius = points.iter().map(|p| p.length()).fold(0.0, f64::max);
+        let bounding_radius = points.iter().map(|p| p.length()).fold(0.0, greater);
         for point in &mut points {
             *point /= bounding_radius;
         }

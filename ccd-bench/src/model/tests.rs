@@ -1,4 +1,5 @@
 use super::*;
+use ccd_core::order::greater;
 use std::collections::HashSet;
 
 /// Six times the volume that a mesh encloses, if it is closed.
@@ -26,7 +27,7 @@ fn bounding_radius(mesh: &TriangleMesh) -> f64 {
     mesh.vertices()
         .iter()
         .map(|p| p.length())
-        .fold(0.0, f64::max)
+        .fold(0.0, greater)
 }
 
 #[test]

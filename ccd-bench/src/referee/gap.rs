@@ -5,6 +5,7 @@ use super::moment::{Moment, Span};
 use super::rounding::ROUNDED;
 use super::search::{Pair, Search};
 use super::triangle::{gap, nearest_or_common, normals};
+use ccd_core::order::{greater, lesser};
 
 /// A bracket of the least distance between the surfaces at a time: the nearer part first, what is farther
 /// than the nearest points known is left out.
@@ -44,12 +45,12 @@ pub(super) fn distance(mut search: Search<'_>, time: f64) -> Bracket {
             stack.extend(parts);
         } else {
             let found = of_triangles(&search, &moment, pair);
-            bracket.lower = bracket.lower.min(found.lower.max(bound));
-            bracket.upper = bracket.upper.min(found.upper);
+            bracket.lower = lesser(bracket.lower, greater(found.lower, bound));
+            bracket.upper = lesser(bracket.upper, found.upper);
         }
     }
     // All that was left out is at least as far as `upper`.
-    bracket.lower = bracket.lower.min(bracket.upper).max(0.0);
+    bracket.lower = greater(0.0, lesser(bracket.lower, bracket.upper));
     bracket
 }
 
@@ -73,7 +74,7 @@ fn of_triangles(search: &Search<'_>, moment: &Moment, pair: Pair) -> Bracket {
         .filter(|n| n.is_finite())
         .map(|n| gap(n, &placed, b));
     Bracket {
-        lower: gaps.fold(0.0, f64::max) * (1.0 - ROUNDED) - moment.slack(),
+        lower: gaps.fold(0.0, greater) * (1.0 - ROUNDED) - moment.slack(),
         upper: (p - q).length() + moment.slack(),
     }
 }

@@ -15,6 +15,7 @@ use super::rounding::{ROUNDED, ROUNDED_UP, UNIT_ROUNDOFF, larger};
 use super::surface::{Node, Triangle};
 use super::track::Track;
 use ccd_core::glam::{DMat3, DVec3};
+use ccd_core::order::greater;
 use inari::Interval;
 
 /// A stretch of time.
@@ -68,7 +69,7 @@ pub(super) enum Boxes {
 impl Moment {
     pub(super) fn new([a, b]: [&Track; 2], [size_a, size_b]: [f64; 2], span: Span) -> Self {
         let time = span.start.midpoint(span.end);
-        let half = (time - span.start).max(span.end - time) * ROUNDED_UP;
+        let half = greater(time - span.start, span.end - time) * ROUNDED_UP;
         let exactly = Enclosed::new(a, b, time);
         let place = Affine::new(&exactly.place, size_a);
         let rate_a = Affine::new(&exactly.rate_a, size_a);
@@ -134,7 +135,7 @@ impl Moment {
         let none = DVec3::ZERO;
         let gaps_b = self.along_b.gaps(apart, none, a, b).max(none);
         let gaps_a = self.along_a.gaps(self.back(apart), none, a, b).max(none);
-        let distance = gaps_b.length().max(gaps_a.length());
+        let distance = greater(gaps_b.length(), gaps_a.length());
         distance * (1.0 - ROUNDED) - 2.0 * self.slack
     }
 

@@ -8,6 +8,7 @@ use super::track::Track;
 use super::triangle::{gap, nearest, normals};
 use super::{Referee, Truth};
 use crate::motions::Query;
+use ccd_core::order::{greater, lesser};
 use std::ops::ControlFlow;
 use std::rc::Rc;
 
@@ -155,7 +156,7 @@ impl<'a> Search<'a> {
             match self.split(pair) {
                 Some(Split { size, parts }) if size > COARSE * travel => stack.extend(parts),
                 Some(_) => left.push(pair),
-                None if a.size.max(b.size) < SMALL * travel => left.push(pair),
+                None if greater(a.size, b.size) < SMALL * travel => left.push(pair),
                 None if self.triangles_apart(moment, pair) => {}
                 None => left.push(pair),
             }
@@ -170,7 +171,7 @@ impl<'a> Search<'a> {
         };
         let [start, end] = moment.ends(a, b);
         let apart = |n| {
-            let least = f64::min(gap(n, &start[0], &start[1]), gap(n, &end[0], &end[1]));
+            let least = lesser(gap(n, &start[0], &start[1]), gap(n, &end[0], &end[1]));
             // False of NaN as well: `min` drops one, so ask for the direction itself.
             n.is_finite() && least > moment.slack()
         };
@@ -189,7 +190,7 @@ impl<'a> Search<'a> {
     fn proof_after(&mut self, from: f64, roots: Pair, near: &[Pair], met: u32) -> Option<f64> {
         let mut step = SHORTEST * self.duration;
         for doubling in 0..=DOUBLINGS {
-            let time = (from + step).min(self.duration);
+            let time = lesser(from + step, self.duration);
             if self.certain_at(near, time) {
                 return Some(time);
             }
@@ -347,7 +348,7 @@ impl Doubt {
 impl Span {
     /// The part that is not over yet, if any.
     fn from(self, start: f64) -> Option<Self> {
-        let start = self.start.max(start);
+        let start = greater(self.start, start);
         (start < self.end).then_some(Span { start, ..self })
     }
 

@@ -2,12 +2,13 @@
 
 use super::surface::Triangle;
 use ccd_core::glam::DVec3;
+use ccd_core::order::{greater, lesser};
 
 /// How far two sets of corners are apart along a direction: negative where they are not.
 pub(super) fn gap(n: DVec3, a: &Triangle, b: &Triangle) -> f64 {
     let [p, q, r] = a.map(|corner| n.dot(corner));
     let [u, v, w] = b.map(|corner| n.dot(corner));
-    p.min(q).min(r) - u.max(v).max(w)
+    lesser(lesser(p, q), r) - greater(greater(u, v), w)
 }
 
 /// The unit normals of both triangles, and then those of all pairs of an edge of each, from `b` towards `a`:

@@ -5,6 +5,7 @@ use super::swept_spheres::{Gap, Leaves, Pair, SphereTree, Trees, Under};
 use super::{Course, Placement};
 use crate::contender::{Adjustable, Claim, Contender, Reply};
 use crate::motions::Query;
+use ccd_core::order::lesser;
 use ccd_decomp::TriangleMesh;
 use closing::Closing;
 
@@ -244,7 +245,7 @@ impl Candidate {
     /// Whether a pair need not be looked into; then its step counts.
     #[inline]
     fn may_stop(&self, found: &mut Found, look: &Look<'_>) -> bool {
-        if self.step >= f64::min(found.step, look.remaining) {
+        if self.step >= lesser(found.step, look.remaining) {
             return true;
         }
         let far = self.distance * (1.0 + look.excess) >= found.distance;

@@ -15,6 +15,7 @@ use super::screw::screw;
 use crate::contender::{Adjustable, Claim, Contender, Reply};
 use crate::motions::Query;
 use boxes::{Boxes, boxes};
+use ccd_core::order::{greater, lesser};
 use ccd_decomp::TriangleMesh;
 use clock::{Clock, Slice};
 use elementary::{Facet, Triangles};
@@ -161,7 +162,7 @@ impl Search<'_> {
             if !ahead && found.is_some() {
                 continue;
             }
-            pair.slice.span.end = pair.slice.span.end.min(self.end);
+            pair.slice.span.end = lesser(pair.slice.span.end, self.end);
             if self.clock.is_spent() {
                 self.stack.push(pair);
                 break;
@@ -180,7 +181,7 @@ impl Search<'_> {
         }
         let starts = self.stack.iter().map(|pair| pair.slice.span.start);
         Claim::Unresolved {
-            safe_until: starts.fold(self.end, f64::min),
+            safe_until: starts.fold(self.end, lesser),
         }
     }
 
@@ -194,7 +195,7 @@ impl Search<'_> {
             Boxes::Near { spread } => spread,
         };
         let size = [a, b].map(|node| node.bounds.half.max_element());
-        let wide = spread > SPREAD_TO_HALVE * f64::max(size[0], size[1]);
+        let wide = spread > SPREAD_TO_HALVE * greater(size[0], size[1]);
         if wide && !self.clock.is_short(slice) {
             self.clock.halvings += 1;
             let [early, late] = slice.halves();

@@ -6,6 +6,7 @@ use super::swept_spheres::{Pair, SphereTree, Trees, Under};
 use crate::contender::{Adjustable, Claim, Contender, Reply};
 use crate::motions::Query;
 use ccd_core::glam::DVec3;
+use ccd_core::order::{greater, lesser};
 use ccd_decomp::TriangleMesh;
 
 #[cfg(test)]
@@ -181,7 +182,7 @@ impl DynamicChecker {
                 LowerBound::GaveUp => Some(gave_up),
             };
         }
-        let wanted = Wanted::at_least(0.5 * path - f64::min(at_from, at_to));
+        let wanted = Wanted::at_least(0.5 * path - lesser(at_from, at_to));
         let at_middle = match self.bound(middle, wanted, task) {
             LowerBound::Apart(distance) => {
                 self.segments.push(Segment {
@@ -239,7 +240,7 @@ impl DynamicChecker {
                     if apart == 0.0 {
                         return LowerBound::Meet;
                     }
-                    least = least.min(apart);
+                    least = lesser(least, apart);
                 }
             }
         }
@@ -294,10 +295,7 @@ impl Reach {
         match self.0 {
             Some((last, reach)) if last == centre => reach,
             _ => {
-                let reach = tree
-                    .points()
-                    .map(|p| p.distance(centre))
-                    .fold(0.0, f64::max);
+                let reach = tree.points().map(|p| p.distance(centre)).fold(0.0, greater);
                 self.0 = Some((centre, reach));
                 reach
             }

@@ -4,6 +4,7 @@ mod overlap;
 #[cfg(test)]
 mod tests;
 
+use ccd_core::order::greater;
 pub(super) use overlap::{Crossing, crossing};
 
 use super::principal_axes::principal_axes;
@@ -63,7 +64,7 @@ impl ObbTree {
         let lengths = triangles.iter().flatten().map(|corner| corner.length());
         let mut tree = ObbTree {
             origin,
-            radius: lengths.fold(0.0, f64::max),
+            radius: lengths.fold(0.0, greater),
             nodes: Vec::with_capacity(2 * triangles.len()),
             triangles,
         };

@@ -1,6 +1,7 @@
 //! Axes that a set of triangles is thinnest and longest along.
 
 use ccd_core::glam::{DMat3, DVec3};
+use ccd_core::order::greater;
 use nalgebra::{Matrix3, SymmetricEigen};
 
 /// The mean of points and the principal axes of their spread as columns, the longest first, right-handed
@@ -9,7 +10,7 @@ pub(super) fn principal_axes(points: impl Iterator<Item = DVec3> + Clone) -> (DV
     let (sum, count) = points
         .clone()
         .fold((DVec3::ZERO, 0.0), |(sum, count), p| (sum + p, count + 1.0));
-    let mean = sum / f64::max(count, 1.0);
+    let mean = sum / greater(1.0, count);
     let mut spread = Matrix3::zeros();
     for point in points {
         let d = nalgebra::Vector3::from((point - mean).to_array());

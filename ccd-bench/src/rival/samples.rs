@@ -3,6 +3,7 @@
 use crate::model::Board;
 use crate::motions::Query;
 use ccd_core::glam::{DQuat, DVec3};
+use ccd_core::order::lesser;
 use ccd_core::{Motion, Pose};
 use ccd_decomp::TriangleMesh;
 use rand::{RngExt, SeedableRng};
@@ -73,9 +74,9 @@ pub(super) fn distance(a: &[DVec3; 3], b: &[DVec3; 3]) -> f64 {
     let edge = |t: &[DVec3; 3], k: usize| [t[k], t[(k + 1) % 3]];
     let mut least = f64::INFINITY;
     for i in 0..3 {
-        least = least.min(from_inside(a[i], b)).min(from_inside(b[i], a));
+        least = lesser(lesser(least, from_inside(a[i], b)), from_inside(b[i], a));
         for j in 0..3 {
-            least = least.min(edge_distance(edge(a, i), edge(b, j)));
+            least = lesser(least, edge_distance(edge(a, i), edge(b, j)));
         }
     }
     least
@@ -110,5 +111,5 @@ fn edge_distance([p, p2]: [DVec3; 2], [q, q2]: [DVec3; 2]) -> f64 {
         true => w.dot(c).abs() / c.length(),
         false => f64::INFINITY,
     };
-    ends.into_iter().fold(lines, f64::min)
+    ends.into_iter().fold(lines, lesser)
 }

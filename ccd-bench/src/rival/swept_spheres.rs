@@ -4,6 +4,7 @@ use super::principal_axes::principal_axes;
 use super::triangles_apart::{Nearest, Triangle, nearest};
 use super::{Placement, rectangles};
 use ccd_core::glam::{DVec2, DVec3};
+use ccd_core::order::greater;
 use ccd_decomp::TriangleMesh;
 
 mod fit;
@@ -99,7 +100,7 @@ impl SphereTree {
         let farthest = [corner, corner + x, corner + y, corner + x + y]
             .map(DVec3::length_squared)
             .into_iter()
-            .fold(0.0, f64::max);
+            .fold(0.0, greater);
         farthest.sqrt() + node.radius
     }
 
@@ -141,7 +142,7 @@ impl Trees {
         );
         let between = rectangles::between(a.lengths, b.lengths, &pair.place);
         // NaN as zero.
-        f64::max(between.length() - (a.radius + b.radius), 0.0)
+        greater(0.0, between.length() - (a.radius + b.radius))
     }
 
     /// How far they are apart, and along which direction.
@@ -153,7 +154,7 @@ impl Trees {
         );
         let between = rectangles::between(a.lengths, b.lengths, &pair.place);
         let length = between.length();
-        let distance = f64::max(length - (a.radius + b.radius), 0.0);
+        let distance = greater(0.0, length - (a.radius + b.radius));
         if !(distance > 0.0) {
             return Gap {
                 distance: 0.0,

@@ -8,6 +8,7 @@ use crate::model::Model;
 use crate::motions::Query;
 use crate::scene::Shots;
 use ccd_core::glam::{DMat3, DQuat, DVec3};
+use ccd_core::order::{greater, lesser};
 use ccd_core::{Motion, Pose};
 use ccd_decomp::TriangleMesh;
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_4, PI, SQRT_2};
@@ -216,9 +217,7 @@ impl BruteForce {
             let centre = (t[0] + t[1] + t[2]) / 3.0;
             (
                 centre,
-                t.map(|p| p.distance(centre))
-                    .into_iter()
-                    .fold(0.0, f64::max),
+                t.map(|p| p.distance(centre)).into_iter().fold(0.0, greater),
             )
         };
         BruteForce {
@@ -242,7 +241,7 @@ impl BruteForce {
         for (a, (p, r)) in self.triangles.iter().zip(&self.balls) {
             for (b, (q, s)) in moved.iter().zip(&balls) {
                 if p.distance(*q) - r - s < least {
-                    least = least.min(nearest(a, b).between().length());
+                    least = lesser(least, nearest(a, b).between().length());
                 }
             }
         }
@@ -266,7 +265,7 @@ pub(super) fn assert_shots(tolerance: f64, rival: &mut impl Contender) {
     let brute_force = BruteForce::new(&knot_216());
     // Knots turn about their origin.
     let corners = brute_force.triangles.iter().flatten();
-    let reach = corners.map(|p| p.length()).fold(0.0, f64::max);
+    let reach = corners.map(|p| p.length()).fold(0.0, greater);
     let (mut hits, mut free) = (0, 0);
     for query in shots.queries().unwrap() {
         let (a, b) = (Course::new(&query.a), Course::new(&query.b));
@@ -297,7 +296,7 @@ pub(super) fn assert_shots(tolerance: f64, rival: &mut impl Contender) {
                 "{}: touching at {time} before {until}",
                 query.id
             );
-            time += f64::max(distance / speed, SAMPLE * query.duration);
+            time += greater(distance / speed, SAMPLE * query.duration);
         }
     }
     assert!(hits >= 20 && free >= 10, "{hits} hits, {free} free");

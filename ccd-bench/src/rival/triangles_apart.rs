@@ -2,6 +2,7 @@
 
 use super::lanes::{Vectors, least};
 use ccd_core::glam::DVec3;
+use ccd_core::order::greater;
 use wide::f64x4;
 
 #[cfg(test)]
@@ -136,7 +137,7 @@ impl Face {
             .map(DVec3::length_squared)
             .iter()
             .copied()
-            .fold(0.0, f64::max);
+            .fold(0.0, greater);
         let solid = squared > (NEEDLE * longest) * (NEEDLE * longest);
         Face {
             corners: *corners,

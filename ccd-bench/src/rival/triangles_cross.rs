@@ -1,6 +1,7 @@
 //! Whether two triangles have a point in common.
 
 use ccd_core::glam::DVec3;
+use ccd_core::order::{greater, lesser};
 
 /// Whether two triangles touch or cross, by the axes that separate two that do not: the normals, the cross
 /// products of edges, and, for triangles in one plane, the edges' normals in it.
@@ -37,8 +38,8 @@ fn edges(t: &[DVec3; 3]) -> [DVec3; 3] {
 #[inline]
 fn separates(axis: DVec3, a: &[DVec3; 3], b: &[DVec3; 3]) -> bool {
     let [a, b] = [a, b].map(|t| t.map(|p| p.dot(axis)));
-    let low = |x: [f64; 3]| x[0].min(x[1]).min(x[2]);
-    let high = |x: [f64; 3]| x[0].max(x[1]).max(x[2]);
+    let low = |x: [f64; 3]| lesser(lesser(x[0], x[1]), x[2]);
+    let high = |x: [f64; 3]| greater(greater(x[0], x[1]), x[2]);
     low(a) > high(b) || low(b) > high(a)
 }
 

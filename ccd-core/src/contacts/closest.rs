@@ -1,6 +1,7 @@
 //! Nearest points in closed form: of a corner on a triangle, of two edges that cross
 //! `[ERICSON05 §5.1]`.
 
+use crate::order::lesser;
 use glam::DVec3;
 
 /// Which part of a triangle a point is on.
@@ -66,7 +67,7 @@ pub(super) fn crossing(e: [DVec3; 2], f: [DVec3; 2], rounding: f64) -> Option<[D
         f[0].distance(nearest_on(f[0], e)),
         f[1].distance(nearest_on(f[1], e)),
     ];
-    let nearest_end = ends.into_iter().fold(f64::INFINITY, f64::min);
+    let nearest_end = ends.into_iter().fold(f64::INFINITY, lesser);
     (p.distance(q) + rounding < nearest_end).then_some([p, q])
 }
 

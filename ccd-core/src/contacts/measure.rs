@@ -3,6 +3,7 @@
 use super::FeaturePair;
 use super::manifold::Meeting;
 use super::skin::{Skin, Spot};
+use crate::order::{greater, lesser};
 use crate::outcome::Separation;
 use crate::pose::Frame;
 use crate::problem::Problem;
@@ -50,7 +51,7 @@ pub(super) fn measure(
         piece_b: face(1).piece,
         separation: Separation {
             lower: gap(&points, normal) - radii - problem.rounding,
-            upper: (distance - radii).max(0.0) + problem.rounding,
+            upper: greater(0.0, distance - radii) + problem.rounding,
             normal: (a_to_world.rotation * normal).normalize(),
             witness_a: world(a + way * face(0).radius),
             witness_b: world(b - way * face(1).radius),
@@ -64,11 +65,11 @@ fn gap([a, b]: &[[DVec3; 3]; 2], n: DVec3) -> f64 {
     let highest = a
         .map(|x| n.dot(x - from))
         .into_iter()
-        .fold(f64::NEG_INFINITY, f64::max);
+        .fold(f64::NEG_INFINITY, greater);
     let lowest = b
         .map(|y| n.dot(y - from))
         .into_iter()
-        .fold(f64::INFINITY, f64::min);
+        .fold(f64::INFINITY, lesser);
     lowest - highest
 }
 

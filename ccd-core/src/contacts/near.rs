@@ -3,6 +3,7 @@
 
 use super::boxes::{FaceTrees, NearFaces};
 use super::skin::Skin;
+use crate::order::{greater, lesser};
 use crate::pose::Frame;
 use crate::problem::{Problem, Side};
 use crate::tolerance::BOX_F64;
@@ -113,7 +114,7 @@ impl Extent {
                 let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
                 Extent {
                     centre,
-                    radius: corners.map(arm).into_iter().fold(0.0, f64::max),
+                    radius: corners.map(arm).into_iter().fold(0.0, greater),
                     axes: [normal.normalize_or_zero(); 3],
                     shape: Shape::Triangle(corners),
                 }
@@ -131,7 +132,7 @@ impl Extent {
             }
             Shape::Triangle(corners) => {
                 let [a, b, c] = corners.map(|corner| corner.dot(n));
-                [a.min(b).min(c), a.max(b).max(c)]
+                [lesser(lesser(a, b), c), greater(greater(a, b), c)]
             }
         }
     }
@@ -147,7 +148,7 @@ fn apart([a, b]: &[Extent; 2], reach: f64) -> bool {
     }
     let separates = |n: DVec3| {
         let ([low_a, high_a], [low_b, high_b]) = (a.along(n), b.along(n));
-        (low_b - high_a).max(low_a - high_b) > reach * n.length()
+        greater(low_b - high_a, low_a - high_b) > reach * n.length()
     };
     let mut axes = a.axes.iter().chain(&b.axes);
     separates(way / distance) || axes.any(|&n| separates(n))

@@ -4,6 +4,7 @@ mod unpack;
 
 use crate::body::Body;
 use crate::feature::Feature;
+use crate::order::greater;
 use crate::pose::Frame;
 use glam::DVec3;
 use std::collections::HashMap;
@@ -297,7 +298,7 @@ impl<'a> Skin<'a> {
         let [Some(n), Some(m)] = normals else {
             return false;
         };
-        n.dot(q).abs().max(m.dot(p).abs()) <= rounding && n.dot(m) < 0.0
+        greater(n.dot(q).abs(), m.dot(p).abs()) <= rounding && n.dot(m) < 0.0
     }
 }
 

@@ -1,6 +1,7 @@
 use super::*;
 use crate::body::{Body, Volume};
 use crate::motion::Motion;
+use crate::order::{greater, lesser};
 use crate::piece::{Facet, Origin, Polytope};
 use crate::pose::Pose;
 use crate::problem::{Config, Moving};
@@ -261,7 +262,7 @@ fn no_pair_of_meshes_that_nearly_rest_is_missed() {
             .points
             .iter()
             .map(|&p| (turn * p).z)
-            .fold(f64::INFINITY, f64::min);
+            .fold(f64::INFINITY, lesser);
         let place = DVec3::new(
             rng.random_range(-1.0..1.0),
             rng.random_range(-1.0..1.0),
@@ -307,7 +308,7 @@ fn compare(a: &Mesh, b: &Mesh, pose: Pose, tolerance: f64, found: &mut [usize; 3
         };
         let off = upper - problem.rounding - distance;
         assert!(
-            off.abs() <= 1e-9 * tolerance.max(*distance) + 4.0 * problem.rounding,
+            off.abs() <= 1e-9 * greater(tolerance, *distance) + 4.0 * problem.rounding,
             "{name} {off}"
         );
     }

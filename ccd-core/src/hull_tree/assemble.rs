@@ -5,6 +5,7 @@ use super::inherit::{Child, Skin, inherit};
 use super::inside::{Container, too_fine};
 use super::{FacetClass, Hull, HullNode, HullTree};
 use crate::hierarchy::{Hierarchy, HierarchyNode, bounds};
+use crate::order::greater;
 use crate::piece::{Facet, Polytope};
 use crate::pieces::Pieces;
 use glam::DVec3;
@@ -114,7 +115,7 @@ impl Node {
             points: hull.points.clone(),
             facets: facets.map(facet).collect(),
             faces: skins.iter().flat_map(|skin| skin.faces.clone()).collect(),
-            radius: left.hull.radius.max(right.hull.radius),
+            radius: greater(left.hull.radius, right.hull.radius),
             vertex_ids: identity.vertex_ids,
         };
         Ok(Node {

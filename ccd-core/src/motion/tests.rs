@@ -2,6 +2,7 @@
 
 use super::Motion;
 use crate::error::InputError;
+use crate::order::greater;
 use crate::pose::Pose;
 use crate::tests::scene::{RngExt, direction, magnitude, rng, rotation, within};
 use glam::{DQuat, DVec3};
@@ -11,7 +12,7 @@ use std::f64::consts::PI;
 fn apart(a: &Pose, b: &Pose) -> f64 {
     let points = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
     let off = points.map(|p| a.transform_point(p).distance(b.transform_point(p)));
-    off.into_iter().fold(0.0, f64::max)
+    off.into_iter().fold(0.0, greater)
 }
 
 #[test]

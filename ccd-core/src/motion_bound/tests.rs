@@ -1,6 +1,7 @@
 //! Tracks against the formula they stand for, and the three bounds against sampled truth.
 
 use super::{Gap, Track, Velocities, published, sound};
+use crate::order::{greater, lesser};
 use crate::tests::scene::{Pcg64, RngExt, direction, magnitude, rng, within};
 use glam::{DQuat, DVec3};
 
@@ -56,7 +57,7 @@ fn highest(track: &Track, turns: f64, tau: f64) -> f64 {
             high = second;
         }
     }
-    track.at(0.5 * (low + high)).max(track.at(at(best)))
+    greater(track.at(0.5 * (low + high)), track.at(at(best)))
 }
 
 #[test]
@@ -78,7 +79,7 @@ fn the_greatest_height_is_neither_below_nor_above_what_is_found() {
             bound <= found + 1e-12 * size,
             "{bound} > {found}: {motion:?}"
         );
-        inside += usize::from(bound > track.at(0.0).max(track.at(tau)) + 1e-6);
+        inside += usize::from(bound > greater(track.at(0.0), track.at(tau)) + 1e-6);
     }
     assert!(inside > 500, "{inside} with a turning point inside");
 }
@@ -171,10 +172,10 @@ fn the_sound_bound_holds_over_intervals() {
         let arms: Vec<DVec3> = (0..8).map(|_| within(&mut rng, 1.0)).collect();
         let axis = motion.spin.normalize_or_zero();
         let reach = arms.iter().map(|r| r.reject_from_normalized(axis).length());
-        let bound = sound(&motion, n, reach.fold(0.0, f64::max));
+        let bound = sound(&motion, n, reach.fold(0.0, greater));
         let instant = published(&motion, n, |c| farthest(&arms, c));
         let turning = instant - motion.linear.dot(n).abs();
-        let most = (bound - motion.linear.dot(n)).max(0.0);
+        let most = greater(0.0, bound - motion.linear.dot(n));
         assert!(turning <= most + 1e-12 * (1.0 + bound.abs() + instant));
         let mut fastest = f64::NEG_INFINITY;
         for &arm in &arms {
@@ -183,7 +184,7 @@ fn the_sound_bound_holds_over_intervals() {
                 let rise = height(&motion, n, 0.0, arm, tau);
                 let slack = 1e-13 * (1.0 + motion.linear.length() + motion.spin.length());
                 assert!(rise <= bound * tau + slack, "{rise} > {bound} × {tau}");
-                fastest = fastest.max(rise / tau);
+                fastest = greater(fastest, rise / tau);
             }
         }
         beaten += usize::from(fastest > instant + 1e-9);
@@ -217,7 +218,7 @@ fn the_published_bound_lets_the_mace_through_the_wall() {
     let first = tracks
         .iter()
         .filter_map(|track| track.first_crossing(wall, 1.0));
-    let first = first.fold(f64::INFINITY, f64::min);
+    let first = first.fold(f64::INFINITY, lesser);
     assert!(
         first <= contact && first > 0.98 * contact,
         "{first} of {contact}"

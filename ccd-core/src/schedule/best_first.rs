@@ -7,6 +7,7 @@ use super::pair::Pair;
 use super::queue::{Full, Queue, Rank};
 use super::start::{self, Start};
 use crate::oracle::DistanceOracle;
+use crate::order::lesser;
 use crate::outcome::{Answer, Limit, Outcome, Stats};
 use crate::problem::Problem;
 use std::ops::ControlFlow;
@@ -85,7 +86,7 @@ impl<O: DistanceOracle> BestFirst<O> {
             let pushed = match found {
                 Found::Split(split) => {
                     let expansion = expand(problem, &split, s);
-                    proven = proven.min(f64::from(expansion.bounds.kept));
+                    proven = lesser(proven, f64::from(expansion.bounds.kept));
                     self.push_group(Group::new(problem, &expansion, split, s))
                 }
                 Found::Pieces(mut pair) => {

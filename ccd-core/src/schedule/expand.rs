@@ -3,6 +3,7 @@
 
 use super::lanes::{Bounds, Children, Closing, Other, OtherBox, OtherTriangle, Straight, Turn};
 use super::lanes::{Larger, Turning, bound, bound_attached};
+use crate::order::greater;
 use crate::pose::Frame;
 use crate::problem::{Problem, Side};
 use crate::tolerance::{
@@ -199,7 +200,7 @@ impl View<'_> {
             centre: centre.as_vec3(),
             corners: arms.map(DVec3::as_vec3),
             normal: unit_normal(corners),
-            radius: up(farthest.into_iter().fold(0.0, f64::max).sqrt()).next_up(),
+            radius: up(farthest.into_iter().fold(0.0, greater).sqrt()).next_up(),
         }
     }
 
@@ -239,9 +240,10 @@ impl View<'_> {
             + far.rate() * (other.radius() + far.arm(other.centre()) + PLACES_F32 * places);
         let problem = self.meeting.problem;
         let rounding = (rounding + up(problem.rounding)).next_up();
-        let slack = (up(problem.margin) + rounding)
-            .next_up()
-            .max(up(problem.node_gap()));
+        let slack = greater(
+            (up(problem.margin) + rounding).next_up(),
+            up(problem.node_gap()),
+        );
         let closed = (CLOSED_GAP * problem.tolerance) as f32;
         let closing = Closing {
             velocity,
@@ -250,7 +252,7 @@ impl View<'_> {
             horizon: self.meeting.horizon,
             slack,
             kept: (slack - rounding).next_down(),
-            closed: closed.max(LEAST_GAP_F32),
+            closed: greater(LEAST_GAP_F32, closed),
             rate_slack: RATE_F32 * speed,
         };
         let mut bounds = bound(group, other, &closing);

@@ -1,6 +1,7 @@
 //! Pairs that came of one split wait together, and are taken out one by one.
 
 use super::expand::{Expansion, Split, Which};
+use crate::order::greater;
 use crate::problem::Problem;
 use crate::tree::{LANES, NodeId};
 
@@ -71,7 +72,7 @@ impl Group {
         let free = self.free.least();
         if free > 0.0 {
             // One step down undoes the rounding of the sum.
-            (self.since + f64::from(free)).next_down().max(self.since)
+            greater(self.since, (self.since + f64::from(free)).next_down())
         } else {
             self.since
         }

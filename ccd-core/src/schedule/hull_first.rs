@@ -8,6 +8,7 @@ use super::pair::Pair;
 use super::queue::{Full, Queue, Rank};
 use super::start::{self, Start};
 use crate::oracle::DistanceOracle;
+use crate::order::greater;
 use crate::outcome::{Answer, Limit, Outcome, Stats};
 use crate::problem::Problem;
 use crate::tolerance::HULL_PROGRESS;
@@ -153,7 +154,7 @@ impl<C: Clone + Default> Search<'_, C> {
         let Some(free) = moment.free_time(&checked, problem.gap()) else {
             return Ok(());
         };
-        let clock = (s + free).next_down().max(s);
+        let clock = greater(s, (s + free).next_down());
         let settled = near == Near::Pieces && checked.upper > contact;
         let worthwhile = settled || free >= HULL_PROGRESS * (1.0 - s);
         match clock > s && worthwhile {

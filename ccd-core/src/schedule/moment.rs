@@ -4,6 +4,7 @@ mod attached;
 
 use crate::motion_bound::{Angle, AxisMotion, Bound, Gap, Track, first_crossing, published, sound};
 use crate::oracle::{DistanceOracle, PiecePair};
+use crate::order::{greater, lesser};
 use crate::outcome::Stats;
 use crate::piece::Piece;
 use crate::pose::Frame;
@@ -85,11 +86,11 @@ impl<'p> Moment<'p> {
         let passing = self.passing(checked, kept);
         let mut free = self.free_along(direct.normal, direct.slack)?;
         if let Some(passing) = &passing {
-            free = free.max(self.free_along(passing.normal, passing.slack)?);
+            free = greater(free, self.free_along(passing.normal, passing.slack)?);
         }
         let members = self.members();
         for plane in iter::once(&direct).chain(&passing) {
-            free = free.max(self.free_attached(&members, plane, free)?);
+            free = greater(self.free_attached(&members, plane, free)?, free);
         }
         Some(free)
     }
@@ -192,7 +193,7 @@ impl<'p> Moment<'p> {
         for (holder, other, normal) in [(a, b, plane.normal), (b, a, -plane.normal)] {
             if uses_up(holder.swing) && uses_up(holder.swing_about(normal)) {
                 let sweep = Sweep::new(holder, other, normal, self.problem.rounding);
-                longest = longest.max(sweep.free_time(plane.slack, self.horizon())?);
+                longest = greater(longest, sweep.free_time(plane.slack, self.horizon())?);
             }
         }
         Some(longest)
@@ -239,7 +240,7 @@ impl<'p> Moment<'p> {
                 let times = below
                     .iter()
                     .flat_map(|&x| above.iter().map(move |&y| gap(y, x).free_time()));
-                times.fold(f64::INFINITY, f64::min)
+                times.fold(f64::INFINITY, lesser)
             }),
             _ => first_crossing(self.horizon(), rounds, |tau| {
                 gap(b.lowest(tau), a.highest(tau)).free_time()
@@ -258,7 +259,7 @@ struct Plane {
 
 /// The longer of two free times, of which none is for good.
 fn longer(one: Option<f64>, other: Option<f64>) -> Option<f64> {
-    Some(one?.max(other?))
+    Some(greater(one?, other?))
 }
 
 /// The points of a piece seen along an axis.
@@ -329,9 +330,9 @@ impl<'a> Heights<'a> {
         let mut few = heights.few;
         for (k, (track, arm)) in heights.tracks().enumerate() {
             let height = track.height_at(0.0, Angle::ZERO);
-            least = least.min(height);
-            greatest = greatest.max(height);
-            farthest = farthest.max(arm.length_squared());
+            least = lesser(least, height);
+            greatest = greater(greatest, height);
+            farthest = greater(farthest, arm.length_squared());
             if let Some(rest) = few.0.get_mut(k..) {
                 rest.fill((track, track.bend()));
             }
@@ -368,12 +369,12 @@ impl<'a> Heights<'a> {
 
     /// Bounds all points from above.
     fn highest(&self, tau: f64) -> Point {
-        self.envelope(tau, f64::NEG_INFINITY, f64::max)
+        self.envelope(tau, f64::NEG_INFINITY, greater)
     }
 
     /// Bounds all points from below.
     fn lowest(&self, tau: f64) -> Point {
-        self.envelope(tau, f64::INFINITY, f64::min)
+        self.envelope(tau, f64::INFINITY, lesser)
     }
 
     fn envelope(&self, tau: f64, from: f64, pick: impl Fn(f64, f64) -> f64) -> Point {
@@ -386,7 +387,7 @@ impl<'a> Heights<'a> {
         self.tracks().fold(start, |so_far, (track, _)| Point {
             height: pick(so_far.height, track.height_at(tau, angle)),
             rate: pick(so_far.rate, track.rate_at(angle)),
-            bend: so_far.bend.max(track.bend()),
+            bend: greater(so_far.bend, track.bend()),
         })
     }
 }

@@ -6,6 +6,7 @@ use super::pair::Pair;
 use super::start::{self, Start};
 use crate::motion_bound::Bound;
 use crate::oracle::DistanceOracle;
+use crate::order::lesser;
 use crate::outcome::{Answer, Limit, Outcome, Stats};
 use crate::problem::{Problem, Side};
 use std::ops::ControlFlow;
@@ -83,7 +84,7 @@ impl<O: DistanceOracle> Naive<O> {
                     moment.directed_time(checked, kept, self.bound, reaches)
                 });
                 match start.settle(problem, step, s) {
-                    ControlFlow::Continue(Some(clock)) => next = next.min(clock),
+                    ControlFlow::Continue(Some(clock)) => next = lesser(next, clock),
                     ControlFlow::Continue(None) => {}
                     ControlFlow::Break(outcome) => return outcome,
                 }

@@ -6,6 +6,7 @@ use crate::body::{Body, Volume};
 use crate::hull_tree::{Hull, HullNode, HullTree};
 use crate::motion::Motion;
 use crate::oracle::{Claim, Combination, GiveUp};
+use crate::order::{greater, lesser};
 use crate::outcome::{Answer, Limit, Outcome};
 use crate::piece::Polytope;
 use crate::pieces::Pieces;
@@ -132,7 +133,7 @@ fn distance(problem: &Problem<'_>, s: f64) -> f64 {
     let pairs = a
         .iter()
         .flat_map(|(p, r)| b.iter().map(move |(q, s)| p.distance(*q) - r - s));
-    pairs.fold(f64::INFINITY, f64::min)
+    pairs.fold(f64::INFINITY, lesser)
 }
 
 /// Whether an answer is right at sampled times; when the contact is, or infinity.
@@ -187,7 +188,7 @@ fn answers_are_right_and_those_of_the_other_schedules() {
             // Where they differ, the bodies graze each other: within the tolerance, but not within
             // half of it.
             if kind(other) != kind(time) {
-                let near = distance(&problem, other.min(time).max(0.0));
+                let near = distance(&problem, greater(0.0, lesser(other, time)));
                 let grazed = near >= problem.gap() - problem.rounding;
                 assert!(grazed, "{number}: {time} {other} {near:e}");
             }

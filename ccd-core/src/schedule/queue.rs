@@ -1,5 +1,6 @@
 //! Pairs that wait for their clocks, least clock first.
 
+use crate::order::greater;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 use std::collections::binary_heap::PeekMut;
@@ -119,7 +120,7 @@ fn key(clock: f64, rank: Rank, serial: u32, index: u32) -> Key {
     let age = u64::from(!serial & (u32::MAX >> 1));
     let low = (rank as u64) << 63 | age << 32 | u64::from(index);
     // `max` also turns a negative zero into a zero, whose bits order first.
-    u128::from(clock.max(0.0).to_bits()) << 64 | u128::from(low)
+    u128::from(greater(0.0, clock).to_bits()) << 64 | u128::from(low)
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! All points looked at, several at once.
 
+use crate::order::greater;
 use glam::DVec3;
 
 /// How many points are looked at together: what two vectors of 256 bits hold.
@@ -46,7 +47,7 @@ impl SupportScan {
                 of[lane] = if higher { block } else { of[lane] };
             }
         }
-        let most = highest.into_iter().fold(f64::NEG_INFINITY, f64::max);
+        let most = highest.into_iter().fold(f64::NEG_INFINITY, greater);
         let index = |lane: usize| (of[lane] * LANES as u64) as u32 + lane as u32;
         let level = (0..LANES).filter(|&lane| highest[lane] == most);
         level.map(index).min().unwrap_or(0).min(self.last)

@@ -1,6 +1,7 @@
 //! A table of starts, and edges to climb along.
 
 use super::directions::{self, DIRECTIONS};
+use crate::order::greater;
 use crate::piece::Piece;
 use crate::tolerance::{HEIGHT_F64, PLATEAU_POINTS};
 use glam::DVec3;
@@ -38,7 +39,7 @@ impl SupportTable {
         let reach = |p: &DVec3| p.abs().max_element();
         let mut table = SupportTable {
             points: piece.points.to_vec(),
-            reach: piece.points.iter().map(reach).fold(0.0, f64::max),
+            reach: piece.points.iter().map(reach).fold(0.0, greater),
             ends: (0..piece.points.len()).map(end).collect(),
             neighbours: edges.iter().map(|&(_, to)| to).collect(),
             starts: [first; DIRECTIONS],

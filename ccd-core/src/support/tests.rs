@@ -2,6 +2,7 @@
 //! every corner.
 
 use super::*;
+use crate::order::greater;
 use crate::piece::{Facet, Origin, Polytope};
 use crate::pieces::Pieces;
 use crate::tests::scene::{RngExt, direction, magnitude, rng};
@@ -102,12 +103,12 @@ fn climbing_finds_what_looking_at_all_finds() {
         let table = SupportTable::new(&piece).unwrap();
         let scan = SupportScan::new(piece.points);
         let reach = piece.points.iter().map(|p| p.abs().max_element());
-        let reach = reach.fold(0.0, f64::max);
+        let reach = reach.fold(0.0, greater);
         for look in looks(2_000) {
             let height = |v: u32| look.dot(piece.points[v as usize]);
             let highest = (0..piece.points.len() as u32)
                 .map(height)
-                .fold(f64::NEG_INFINITY, f64::max);
+                .fold(f64::NEG_INFINITY, greater);
             let slack = 2.0 * HEIGHT_F64 * reach * look.abs().element_sum();
             let start = rng.random_range(0..piece.points.len() as u32);
             for found in [
@@ -136,7 +137,7 @@ fn scanning_takes_the_first_of_the_highest() {
         let scan = SupportScan::new(&points);
         for look in looks(40).into_iter().take(20) {
             let height = |p: &DVec3| look.dot(*p);
-            let highest = points.iter().map(height).fold(f64::NEG_INFINITY, f64::max);
+            let highest = points.iter().map(height).fold(f64::NEG_INFINITY, greater);
             let first = points.iter().position(|p| height(p) == highest);
             assert_eq!(Some(scan.extremal(look) as usize), first);
         }

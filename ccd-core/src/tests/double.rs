@@ -2,6 +2,7 @@
 //! against. A number is the unevaluated sum of two f64, right to about 1e-31.
 
 use crate::motion::Motion;
+use crate::order::greater;
 use glam::{DQuat, DVec3};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -235,7 +236,7 @@ fn has_twice_the_digits() {
     // sin² + cos² = 1, and the double angle by another way, also after many turns.
     for angle in [1e-9, 0.3, 2.0, -7.5, 1e3, 1e6] {
         let (sin, cos) = Double::from(angle).sin_cos();
-        let scale = 1e-30 * angle.abs().max(1.0);
+        let scale = 1e-30 * greater(1.0, angle.abs());
         assert!((sin * sin + cos * cos - Double::from(1.0)).get().abs() < scale);
         assert!((sin.get() - angle.sin()).abs() < 1e-15);
         let (third_sin, _) = (Double::from(angle) / Double::from(3.0)).sin_cos();

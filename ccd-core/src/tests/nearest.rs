@@ -1,6 +1,7 @@
 //! The nearest points of two triangles, the slow and obvious way: every edge with every edge, every
 //! corner with the other's plane, and whether an edge pierces the other triangle.
 
+use crate::order::lesser;
 use glam::DVec3;
 
 pub(crate) type Triangle = [DVec3; 3];
@@ -74,7 +75,7 @@ fn on_edge(k: usize, t: f64) -> [f64; 3] {
 fn segments(p: DVec3, p_end: DVec3, q: DVec3, q_end: DVec3) -> (f64, f64) {
     let (d, e, r) = (p_end - p, q_end - q, p - q);
     let (dd, ee, de) = (d.dot(d), e.dot(e), d.dot(e));
-    let clamp = |x: f64| if x > 0.0 { x.min(1.0) } else { 0.0 };
+    let clamp = |x: f64| if x > 0.0 { lesser(1.0, x) } else { 0.0 };
     let denominator = dd * ee - de * de;
     let mut s = clamp((de * e.dot(r) - d.dot(r) * ee) / denominator);
     let mut t = 0.0;

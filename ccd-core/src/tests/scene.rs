@@ -3,6 +3,7 @@
 use super::nearest::Triangle;
 use crate::body::{Body, Volume};
 use crate::motion::Motion;
+use crate::order::{greater, lesser};
 use crate::pieces::Pieces;
 use crate::pose::Pose;
 use crate::problem::{Config, Moving, Problem};
@@ -184,7 +185,7 @@ pub(crate) fn scene(rng: &mut Pcg64, kind: Kind, most: usize) -> Scene {
         _ if rng.random_bool(0.5) => 1.0,
         _ => magnitude(rng, 0.0, 4.0),
     };
-    let mut sizes = [size, (size / ratio).max(1e-6)];
+    let mut sizes = [size, greater(1e-6, size / ratio)];
     if rng.random_bool(0.5) {
         sizes.swap(0, 1);
     }
@@ -223,7 +224,7 @@ pub(crate) fn scene(rng: &mut Pcg64, kind: Kind, most: usize) -> Scene {
         bodies: bodies.try_into().unwrap(),
         motions: motions.try_into().unwrap(),
         config: Config {
-            tolerance: sizes[0].min(sizes[1]) * magnitude(rng, -6.0, -2.0),
+            tolerance: lesser(sizes[0], sizes[1]) * magnitude(rng, -6.0, -2.0),
             ..Config::default()
         },
         clock,
@@ -236,7 +237,7 @@ fn offset(rng: &mut Pcg64, size: f64) -> f64 {
     match rng.random_range(0..4) {
         0 | 1 => 0.0,
         2 => size * magnitude(rng, 0.0, 3.0),
-        _ => magnitude(rng, 0.0, 6.0).max(size),
+        _ => greater(magnitude(rng, 0.0, 6.0), size),
     }
 }
 
@@ -248,7 +249,7 @@ fn set_moving(
     way: DVec3,
     sizes: &[f64; 2],
 ) {
-    let size = sizes[0].max(sizes[1]);
+    let size = greater(sizes[0], sizes[1]);
     let large = sizes[side] == size;
     match kind {
         Kind::Receding => {

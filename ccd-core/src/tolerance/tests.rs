@@ -3,6 +3,7 @@
 use super::distance_rounding;
 use crate::motion::Motion;
 use crate::oracle::{Claim, Combination, PiecePair};
+use crate::order::greater;
 use crate::pieces::Pieces;
 use crate::problem::{Config, Moving, Problem};
 use crate::separation;
@@ -114,7 +115,7 @@ fn sample(
     for k in 0..2 {
         for (&p, &exact) in pieces[k].points.iter().zip(&exact[k]) {
             let off = (Double3::from(frames[k].point(p)) - exact).length();
-            worst.place = worst.place.max(off.get() / problem.rounding);
+            worst.place = greater(worst.place, off.get() / problem.rounding);
         }
     }
     let pair = PiecePair {
@@ -141,11 +142,11 @@ fn sample(
     let highest = heights(&exact[0]).into_iter().reduce(Double::max).unwrap();
     let gap = (lowest - highest).get();
     let rounded = checked.lower + problem.rounding;
-    worst.gap = worst.gap.max((rounded - gap).abs() / problem.rounding);
+    worst.gap = greater(worst.gap, (rounded - gap).abs() / problem.rounding);
     let distance = (exact[1][j as usize] - exact[0][i as usize]).length();
     let rounded = Double::from(checked.upper - problem.rounding);
     let off = (rounded - distance).get().abs();
-    worst.distance = worst.distance.max(off / problem.rounding);
+    worst.distance = greater(worst.distance, off / problem.rounding);
 }
 
 #[test]

@@ -4,6 +4,7 @@ use super::fit::{Cloud, fit};
 use super::{Below, BoxGroup, LANES, Node, Tree, TriangleGroup};
 use crate::error::InputError;
 use crate::hierarchy::{Hierarchy, HierarchyNode};
+use crate::order::greater;
 use crate::pieces::Pieces;
 use glam::DVec3;
 
@@ -35,11 +36,11 @@ pub(crate) fn build(pieces: &Pieces, hierarchy: &Hierarchy) -> Result<(Tree, Pie
     }
     let reach = |k: usize| {
         let piece = pieces.get(k);
-        let farthest = piece.points.iter().map(|p| p.length()).fold(0.0, f64::max);
+        let farthest = piece.points.iter().map(|p| p.length()).fold(0.0, greater);
         farthest + piece.radius
     };
     let tree = Tree {
-        span: (0..pieces.len()).map(reach).fold(0.0, f64::max),
+        span: (0..pieces.len()).map(reach).fold(0.0, greater),
         nodes: builder.nodes,
         boxes: builder.boxes,
         triangles: builder.triangles,
@@ -111,7 +112,7 @@ impl Builder<'_> {
         let radii = range.clone().map(|k| self.pieces.get(k).radius);
         let cloud = Cloud {
             points: self.pieces.points_of(range),
-            radius: radii.fold(0.0, f64::max),
+            radius: radii.fold(0.0, greater),
             triangles: self.pieces.all_triangles(),
         };
         let single = self.whole == 1 && self.ranges.len(at) == 1;

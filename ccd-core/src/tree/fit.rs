@@ -2,6 +2,7 @@
 
 use super::group::up;
 use super::{Below, Node};
+use crate::order::greater;
 use glam::{DMat3, DVec3, Vec3};
 
 /// What the pieces below a node look like to a fit.
@@ -59,9 +60,9 @@ impl Fitted {
         for &point in cloud.points {
             let way = point - centre;
             for (half, axis) in half.iter_mut().zip(axes) {
-                *half = half.max(way.dot(axis.as_dvec3()).abs());
+                *half = greater(*half, way.dot(axis.as_dvec3()).abs());
             }
-            radius = radius.max(way.length_squared());
+            radius = greater(radius, way.length_squared());
         }
         // Rounding in f64 is far below that of `up`, which one more step up covers.
         let outward = |x: f64| up(x).next_up();

@@ -1,6 +1,7 @@
 //! Children in groups of eight, one array per coordinate, so that eight are bounded at once.
 
 use super::Node;
+use crate::order::greater;
 use glam::{DVec3, Vec3};
 
 /// How many children a group holds.
@@ -80,7 +81,7 @@ impl BoxGroup {
             group.rounding[lane] = node.rounding;
             group.radius[lane] = (node.radius + off).next_up();
             let reach = up(way.length() + f64::from(node.radius));
-            group.members.reach = group.members.reach.max(reach);
+            group.members.reach = greater(group.members.reach, reach);
             if matches!(node.below, super::Below::Piece(_)) {
                 group.leaves |= 1 << lane;
             }
@@ -109,8 +110,8 @@ impl TriangleGroup {
             for (rows, corner) in group.corners.iter_mut().zip(corners) {
                 set(rows, lane, corner.as_vec3());
                 let reach = up(corner.length());
-                group.members.reach = group.members.reach.max(reach);
-                group.radius[lane] = group.radius[lane].max(up((corner - mean).length()));
+                group.members.reach = greater(group.members.reach, reach);
+                group.radius[lane] = greater(group.radius[lane], up((corner - mean).length()));
             }
             set(&mut group.normal, lane, unit_normal(corners));
         }

@@ -1,6 +1,7 @@
 //! How often a ray passes out of the surface of a body.
 
 use super::{Below, Node, Tree};
+use crate::order::{greater, lesser};
 use crate::pieces::Pieces;
 use crate::tolerance::GRAZING;
 use glam::DVec3;
@@ -50,8 +51,8 @@ fn meets(node: &Node, from: DVec3, along: DVec3) -> bool {
         let (start, speed) = (axis.dot(way), axis.dot(along));
         let (near, far) = ((-half - start) / speed, (half - start) / speed);
         // A ray within a slab, parallel to it, gives an infinity on either side; NaN counts as met.
-        enter = enter.max(near.min(far));
-        leave = leave.min(near.max(far));
+        enter = greater(enter, lesser(near, far));
+        leave = lesser(leave, greater(near, far));
     }
     !(enter > leave)
 }

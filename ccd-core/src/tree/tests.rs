@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::body::{Body, Volume};
+use crate::order::greater;
 use crate::piece::Polytope;
 use crate::pieces::Pieces;
 use crate::tests::nearest::Triangle;
@@ -25,8 +26,8 @@ fn check(body: &Body) -> usize {
 
 fn farthest(pieces: &Pieces) -> f64 {
     let reach =
-        |p: crate::Piece<'_>| p.points.iter().map(|x| x.length()).fold(0.0, f64::max) + p.radius;
-    pieces.iter().map(reach).fold(0.0, f64::max)
+        |p: crate::Piece<'_>| p.points.iter().map(|x| x.length()).fold(0.0, greater) + p.radius;
+    pieces.iter().map(reach).fold(0.0, greater)
 }
 
 /// Checks a node and all below it; the pieces below.

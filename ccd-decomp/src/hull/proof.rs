@@ -5,6 +5,7 @@ use crate::polygons::polygons;
 use crate::predicates::{Projection, side};
 use crate::tolerance::height_rounding;
 use ccd_core::glam::DVec3;
+use ccd_core::order::greater;
 use std::cmp::Ordering;
 
 /// Why polygons are not proven to be the facets of the hull.
@@ -141,7 +142,7 @@ impl Columns {
         let mut reach = 0.0_f64;
         for (k, &point) in points.iter().enumerate() {
             let place = point - base;
-            reach = reach.max(place.abs().max_element());
+            reach = greater(reach, place.abs().max_element());
             for (axis, x) in place.to_array().into_iter().enumerate() {
                 blocks[k / LANES][axis][k % LANES] = x;
             }

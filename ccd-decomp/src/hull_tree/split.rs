@@ -4,6 +4,7 @@ use crate::hull::hull;
 use crate::tolerance::{EIGEN_ROUNDS, LEAST_SHARE};
 use ccd_core::Pieces;
 use ccd_core::glam::DVec3;
+use ccd_core::order::greater;
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 
 /// Pieces by their centres, the means of their points.
@@ -28,7 +29,7 @@ impl Splitter {
         let (first, last) = (pieces[0], pieces[pieces.len() - 1]);
         let middle = 0.5 * (height(first) + height(last));
         let below = pieces.partition_point(|&piece| height(piece) < middle);
-        let least = (LEAST_SHARE * pieces.len() as f64).max(1.0);
+        let least = greater(1.0, LEAST_SHARE * pieces.len() as f64);
         match (below.min(pieces.len() - below) as f64) < least {
             true => pieces.len() / 2,
             false => below,
@@ -40,7 +41,7 @@ impl Splitter {
         let centres: Vec<DVec3> = pieces.iter().map(|&k| self.centres[k as usize]).collect();
         let mean = centres.iter().sum::<DVec3>() / centres.len() as f64;
         let reach = |p: &DVec3| (*p - mean).abs().max_element();
-        let size = centres.iter().map(reach).fold(0.0, f64::max);
+        let size = centres.iter().map(reach).fold(0.0, greater);
         if !(size > 0.0) {
             return DVec3::X;
         }

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::predicates::side;
+use ccd_core::order::greater;
 use ccd_core::{Combination, FacetClass, HierarchyNode, HullFault, Polytope};
 use proptest::prelude::*;
 use std::cmp::Ordering;
@@ -71,7 +72,7 @@ fn holds(hull: &ccd_core::Piece<'_>, point: DVec3, slack: f64) -> bool {
         let height = normal.dot(point - at(0));
         match hull.facets.len() {
             // A plate is bounded by its edges, too.
-            2 => outward.fold(height, f64::max),
+            2 => outward.fold(height, greater),
             _ => height,
         }
     });
@@ -81,7 +82,7 @@ fn holds(hull: &ccd_core::Piece<'_>, point: DVec3, slack: f64) -> bool {
             let share = (point - a).dot(b - a) / (b - a).length_squared();
             (a + share.clamp(0.0, 1.0) * (b - a)).distance(point) <= slack
         }
-        _ => beyond.fold(f64::NEG_INFINITY, f64::max) <= slack,
+        _ => beyond.fold(f64::NEG_INFINITY, greater) <= slack,
     }
 }
 

@@ -8,6 +8,7 @@ use super::solid::{Place, Solid};
 use crate::tolerance::{EXCESS_CELLS, EXCESS_FLOOR, EXCESS_RATIO};
 use body::{Body, Meets};
 use ccd_core::glam::DVec3;
+use ccd_core::order::{greater, lesser};
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
@@ -29,7 +30,7 @@ pub(super) fn bound(solid: &Solid<'_>, parts: &[Part]) -> f64 {
     let mut settled = 0.0_f64;
     for (k, body) in bodies.iter().enumerate() {
         match body.excess_by_depth(solid) {
-            Some(bound) if bound <= floor => settled = settled.max(bound),
+            Some(bound) if bound <= floor => settled = greater(settled, bound),
             _ => search.push(k, body.bounds),
         }
     }
@@ -37,14 +38,14 @@ pub(super) fn bound(solid: &Solid<'_>, parts: &[Part]) -> f64 {
         body.part.corners.iter().for_each(|&p| search.look_at(p));
     }
     for _ in 0..EXCESS_CELLS / 8 {
-        let target = (EXCESS_RATIO * search.found).max(search.found + floor);
+        let target = greater(EXCESS_RATIO * search.found, search.found + floor);
         match search.heap.peek() {
             Some(cell) if cell.bound > target => search.split(),
             _ => break,
         }
     }
     let open = search.heap.peek().map_or(0.0, |cell| cell.bound);
-    open.max(search.found).max(settled)
+    greater(greater(open, search.found), settled)
 }
 
 struct Search<'a> {
@@ -66,7 +67,7 @@ struct Cell {
 impl Search<'_> {
     fn look_at(&mut self, point: DVec3) {
         if let Place::Outside { distance } = self.solid.place(point) {
-            self.found = self.found.max(distance);
+            self.found = greater(self.found, distance);
         }
     }
 
@@ -102,7 +103,7 @@ impl Search<'_> {
             Place::Inside { depth } => reach - depth,
             Place::Outside { distance } => {
                 if within {
-                    self.found = self.found.max(distance);
+                    self.found = greater(self.found, distance);
                 }
                 distance + reach
             }
@@ -111,7 +112,7 @@ impl Search<'_> {
             return;
         }
         let under = under::excess(self.solid, &self.bodies[body], centre, half);
-        let bound = under.map_or(near, |bound| bound.min(near));
+        let bound = under.map_or(near, |bound| lesser(bound, near));
         if bound > self.found {
             self.heap.push(Cell {
                 bound,

@@ -5,6 +5,7 @@ use crate::predicates::side;
 use crate::tolerance::NEAREST_SLACK;
 use crate::topology::{Orientation, Topology};
 use ccd_core::glam::DVec3;
+use ccd_core::order::{greater, lesser};
 use parry3d_f64::bounding_volume::Aabb;
 use parry3d_f64::math::Vector;
 use parry3d_f64::query::PointQueryWithLocation;
@@ -115,7 +116,7 @@ impl<'a> Solid<'a> {
         let (found, reached) = self.nearest(point);
         match self.winds_about(point) {
             true => Place::Inside {
-                depth: (found.min(reached) - self.slack()).max(0.0),
+                depth: greater(0.0, lesser(found, reached) - self.slack()),
             },
             false => Place::Outside {
                 distance: reached + self.slack(),
@@ -159,7 +160,7 @@ impl<'a> Solid<'a> {
         };
         let above = Aabb::new(
             vector(point),
-            Vector::new(point.x, point.y, point.z.max(self.bounds[1].z)),
+            Vector::new(point.x, point.y, greater(point.z, self.bounds[1].z)),
         );
         let winding: i32 = search
             .bvh()

@@ -1,6 +1,7 @@
 use super::solid::Place;
 use super::*;
 use crate::predicates::side;
+use ccd_core::order::{greater, lesser};
 use rstest::rstest;
 use std::cmp::Ordering;
 use std::f64::consts::{PI, TAU};
@@ -140,14 +141,14 @@ fn distance(triangles: &[[DVec3; 3]], point: DVec3) -> f64 {
         let within = |a: DVec3, b: DVec3| (b - a).cross(point - a).dot(normal) >= 0.0;
         match within(a, b) && within(b, c) && within(c, a) {
             true => normal.dot(point - a).abs(),
-            false => to_segment(a, b).min(to_segment(b, c)).min(to_segment(c, a)),
+            false => lesser(lesser(to_segment(a, b), to_segment(b, c)), to_segment(c, a)),
         }
     };
     triangles
         .iter()
         .copied()
         .map(to_triangle)
-        .fold(f64::INFINITY, f64::min)
+        .fold(f64::INFINITY, lesser)
 }
 
 /// Whether a point is in a polytope, or no farther from it than that.
@@ -181,7 +182,7 @@ fn errors_bound_what_is_sampled(#[case] mesh: TriangleMesh, #[case] hulls: u32) 
         .vertices()
         .iter()
         .map(|p| p.abs().max_element())
-        .fold(0.0, f64::max);
+        .fold(0.0, greater);
     assert!(found.uncovered <= 1e-12 * size);
     let mut next = noise();
     let closed = crate::Topology::of(&mesh).is_closed();
@@ -204,7 +205,7 @@ fn errors_bound_what_is_sampled(#[case] mesh: TriangleMesh, #[case] hulls: u32) 
         let mixed: Vec<DVec3> = (0..60).map(|_| mix(&polytope.points, &mut next)).collect();
         for &point in polytope.points.iter().chain(&mixed) {
             if !(closed && is_seen_around(&mesh, point)) {
-                farthest = farthest.max(distance(&triangles(&mesh), point));
+                farthest = greater(farthest, distance(&triangles(&mesh), point));
             }
         }
     }

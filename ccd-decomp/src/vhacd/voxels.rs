@@ -3,6 +3,7 @@
 use super::solid::Solid;
 use crate::tolerance::{self, VOXELS_TESTED, voxel_resolution};
 use ccd_core::glam::DVec3;
+use ccd_core::order::{greater, lesser};
 use std::ops::RangeInclusive;
 
 /// Cubes between planes that are at exactly the stored coordinates, so that neighbours leave no gap.
@@ -113,8 +114,8 @@ impl Voxels {
         [0, 1, 2].map(|axis| {
             let place = |p: DVec3| (p[axis] - self.origin[axis]) / self.step + 0.5;
             let places = triangle.map(place);
-            let lo = places.iter().copied().fold(f64::INFINITY, f64::min) - 0.125;
-            let hi = places.iter().copied().fold(f64::NEG_INFINITY, f64::max) + 0.125;
+            let lo = places.iter().copied().fold(f64::INFINITY, lesser) - 0.125;
+            let hi = places.iter().copied().fold(f64::NEG_INFINITY, greater) + 0.125;
             // Conversions saturate.
             let last = counts[axis] - 1;
             (lo as usize).min(last)..=(hi as usize).min(last)

@@ -3,6 +3,7 @@
 use super::nearest::Corners;
 use crate::lanes::{Lanes3, reciprocal};
 use ccd_core::glam::DVec3;
+use ccd_core::order::{greater, lesser};
 use wide::f64x4;
 
 /// A unit vector and the support gap along it.
@@ -25,7 +26,7 @@ impl Axis {
 pub(crate) fn support_gap(p: &Corners, q: &Corners, n: DVec3) -> f64 {
     let [a, b, c] = p.map(|x| n.dot(x));
     let [d, e, f] = q.map(|y| n.dot(y));
-    d.min(e).min(f) - a.max(b).max(c)
+    lesser(lesser(d, e), f) - greater(greater(a, b), c)
 }
 
 /// The axes that may separate two triangles.

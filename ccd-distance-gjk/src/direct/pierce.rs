@@ -2,6 +2,7 @@
 
 use super::nearest::{Corners, Nearest, at};
 use ccd_core::glam::DVec3;
+use ccd_core::order::lesser;
 
 /// The pair of points with the least distance among `near` and the six places where an edge's line
 /// meets the other triangle's plane.
@@ -35,7 +36,7 @@ fn pierces(of: &Corners, face: &Corners) -> [([f64; 3], [f64; 3]); 3] {
         let (start, end) = (k, (k + 1) % 3);
         let rise = heights[end] - heights[start];
         let t = match -heights[start] / rise {
-            t if t > 0.0 => t.min(1.0),
+            t if t > 0.0 => lesser(1.0, t),
             _ => 0.0,
         };
         let mut edge = [0.0; 3];
@@ -49,10 +50,10 @@ fn pierces(of: &Corners, face: &Corners) -> [([f64; 3], [f64; 3]); 3] {
 fn foot(e: DVec3, f: DVec3, n: DVec3, x: DVec3) -> [f64; 3] {
     let per = n.length_squared().recip();
     let part = |weight: f64| match weight {
-        weight if weight > 0.0 => weight.min(1.0),
+        weight if weight > 0.0 => lesser(1.0, weight),
         _ => 0.0,
     };
     let v = part(per * x.dot(f.cross(n)));
-    let w = part(per * x.dot(n.cross(e))).min(1.0 - v);
+    let w = lesser(part(per * x.dot(n.cross(e))), 1.0 - v);
     [1.0 - v - w, v, w]
 }

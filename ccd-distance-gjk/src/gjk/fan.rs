@@ -4,6 +4,7 @@ use super::search::Found;
 use super::simplex::{Simplex, Vertex};
 use crate::tolerance::SHARPEN_CAP;
 use ccd_core::glam::DVec3;
+use ccd_core::order::lesser;
 
 /// Vertices of the difference, as seen from the one that weighs most in the nearest point.
 pub(crate) struct Fan {
@@ -68,7 +69,7 @@ impl Fan {
         let mut consider = |axis: DVec3| {
             let axis = axis.normalize_or_zero();
             let heights = self.vertices().iter().map(|v| axis.dot(v.point));
-            let low = heights.fold(f64::INFINITY, f64::min);
+            let low = heights.fold(f64::INFINITY, lesser);
             if axis != DVec3::ZERO && low > best.1 {
                 best = (axis, low);
             }

@@ -5,6 +5,7 @@ use super::search::Found;
 use super::simplex::Simplex;
 use crate::direct::nearest::{Corners, nearest};
 use ccd_core::glam::DVec3;
+use ccd_core::order::lesser;
 
 /// The nearest points of what a simplex spans on either side, in closed form, if they are nearer:
 /// rounding that stalls a search on nearly parallel edges does not reach them. Of four points on one
@@ -89,7 +90,7 @@ impl Iterator for Couple {
         if i >= 3 || j >= 3 {
             return None;
         }
-        let share = self.a[i].min(self.b[j]);
+        let share = lesser(self.a[i], self.b[j]);
         self.a[i] -= share;
         self.b[j] -= share;
         // Both advance when both are used up.

@@ -3,6 +3,7 @@
 use super::minkowski::{Difference, Exact};
 use super::simplex::Vertex;
 use ccd_core::glam::{DVec3, Mat3A, Vec3A};
+use ccd_core::order::greater;
 use wide::f32x8;
 
 /// A pair in f32, each piece in its own axes and told from its own first point; the difference's
@@ -24,8 +25,8 @@ impl Rounded {
         self.a.set(exact.pair.a.points);
         self.b.set(exact.pair.b.points);
         self.between = exact.between().as_vec3a();
-        let size = self.a.extent().max(self.b.extent());
-        self.scale = match size.max(self.between.abs().max_element()).recip() {
+        let size = greater(self.a.extent(), self.b.extent());
+        self.scale = match greater(size, self.between.abs().max_element()).recip() {
             scale if scale.is_normal() => scale,
             _ => 1.0,
         };
@@ -100,7 +101,7 @@ impl Points {
             far.fast_max(x.abs()).fast_max(y.abs()).fast_max(z.abs())
         };
         let far = self.blocks.iter().fold(f32x8::ZERO, far);
-        far.to_array().into_iter().fold(0.0, f32::max)
+        far.to_array().into_iter().fold(0.0, greater)
     }
 
     fn get(&self, index: u32) -> Option<Vec3A> {

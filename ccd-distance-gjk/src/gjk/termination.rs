@@ -3,6 +3,7 @@
 use super::simplex::{Foot, Simplex};
 use super::vector::{Vector, ulps};
 use crate::tolerance::TOUCHING_ULPS;
+use ccd_core::order::greater;
 use num_traits::Float;
 
 /// Why a search stopped.
@@ -42,5 +43,5 @@ pub(crate) fn meets<V: Vector>(
 /// The square of the largest vertex: what rounding is relative to.
 fn reach<V: Vector>(simplex: &Simplex<V>) -> V::Scalar {
     let squares = simplex.vertices().iter().map(|v| v.point.square());
-    squares.fold(V::Scalar::min_positive_value(), Float::max)
+    squares.fold(V::Scalar::min_positive_value(), greater)
 }

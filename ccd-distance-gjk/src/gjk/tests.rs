@@ -12,6 +12,7 @@ use super::vector::Vector;
 use super::{segment, tetrahedron, triangle};
 use crate::tests::scene::{self, Meeting, Pcg64, SeedableRng};
 use ccd_core::glam::{DVec3, Vec3A};
+use ccd_core::order::greater;
 use num_traits::{Float, One, Zero};
 use rand::RngExt;
 use rstest::rstest;
@@ -45,7 +46,7 @@ fn is_nearest<V: Vector>(corners: &[V], foot: &Foot<V>) {
     let size = corners
         .iter()
         .map(|c| c.square())
-        .fold(zero, Float::max)
+        .fold(zero, greater)
         .sqrt();
     let slack = <V::Scalar as From<f32>>::from(64.0) * V::Scalar::epsilon();
     let sum = foot.weights.iter().fold(zero, |sum, &w| sum + w);

@@ -4,7 +4,8 @@ use super::simplex::Foot;
 use super::triangle;
 use super::vector::{Vector, ulps};
 use crate::tolerance::{INSIDE_ROUNDS, TOUCHING_ULPS, VOLUME_ULPS};
-use num_traits::{Float, Zero};
+use ccd_core::order::greater;
+use num_traits::Zero;
 
 /// The foot of the origin on the tetrahedron, which may be flat.
 ///
@@ -38,7 +39,7 @@ fn inside<V: Vector>(corners: [V; 4], heights: [Height<V>; 4]) -> Option<Foot<V>
         terms.fold(V::ZERO, |sum, (&corner, weight)| sum + corner * weight)
     };
     let normalised = |weights: [V::Scalar; 4]| {
-        let weights = weights.map(|weight| weight.max(zero));
+        let weights = weights.map(|weight| greater(zero, weight));
         let total = weights.iter().fold(zero, |sum, &weight| sum + weight);
         weights.map(|weight| weight / total)
     };
@@ -50,7 +51,7 @@ fn inside<V: Vector>(corners: [V; 4], heights: [Height<V>; 4]) -> Option<Foot<V>
         let correction = heights.map(|height| height.normal.dot(missed) / height.of_apex);
         weights = normalised(std::array::from_fn(|k| weights[k] - correction[k]));
     }
-    let reach = corners.iter().map(|c| c.square()).fold(zero, Float::max);
+    let reach = corners.iter().map(|c| c.square()).fold(zero, greater);
     let rounding = ulps::<V::Scalar>(TOUCHING_ULPS);
     let hit = combined(weights).square() <= rounding * rounding * reach;
     hit.then_some(Foot {

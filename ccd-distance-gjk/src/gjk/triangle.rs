@@ -3,6 +3,7 @@
 use super::segment;
 use super::simplex::Foot;
 use super::vector::Vector;
+use ccd_core::order::{greater, lesser};
 use num_traits::{Float, Zero};
 
 /// The foot of the origin on the triangle `a`, `b`, `c`, which may be degenerate.
@@ -20,7 +21,7 @@ pub(crate) fn foot<V: Vector>(a: V, b: V, c: V) -> Foot<V> {
     let zero = V::Scalar::zero();
     let inside = areas.iter().all(|&area| area > zero);
     // sin² of the angle at `a` below which areas lose half of their digits.
-    let flat = n.square() <= V::Scalar::epsilon() * ab.square() * ac.square().max(bc.square());
+    let flat = n.square() <= V::Scalar::epsilon() * ab.square() * greater(ac.square(), bc.square());
     let mut best = inside.then(|| face(corners, n, areas));
     for (opposite, &area) in areas.iter().enumerate() {
         if flat || !inside && !(area > zero) {
@@ -45,7 +46,7 @@ fn face<V: Vector>(corners: [V; 3], n: V, areas: [V::Scalar; 3]) -> Foot<V> {
     let mut weights = areas.map(|area| area / total);
     let back = combined(corners, weights).dot(edge) / length2;
     // No farther than to the edges.
-    let back = back.max(-weights[start]).min(weights[end]);
+    let back = lesser(weights[end], greater(-weights[start], back));
     weights[start] = weights[start] + back;
     weights[end] = weights[end] - back;
     let point = combined(corners, weights);
@@ -63,7 +64,7 @@ fn straighter<V: Vector>(corners: [V; 3], n: V, point: V, length2: V::Scalar) ->
     let reach = corners
         .iter()
         .map(|c| c.square())
-        .fold(V::Scalar::zero(), Float::max);
+        .fold(V::Scalar::zero(), greater);
     if point.square() * length2 * length2 > n.square() * reach {
         point
     } else if corners[0].dot(n) < V::Scalar::zero() {

@@ -3,6 +3,7 @@
 use super::scene::Scene;
 use super::twin;
 use ccd_core::glam::DVec3;
+use ccd_core::order::{greater, lesser};
 use ccd_core::{Claim, Combination, DistanceOracle};
 
 /// A claim as anyone can check it: how far its witnesses are apart, and the support gap that its
@@ -34,11 +35,8 @@ pub(super) fn check(scene: &Scene, claim: &Claim) -> Checked {
     };
     let n = claim.axis.try_normalize();
     let n = n.unwrap_or_else(|| panic!("the axis of {claim:?} for {scene:?} is no direction"));
-    let low = b.iter().map(|y| n.dot(*y)).fold(f64::INFINITY, f64::min);
-    let high = a
-        .iter()
-        .map(|x| n.dot(*x))
-        .fold(f64::NEG_INFINITY, f64::max);
+    let low = b.iter().map(|y| n.dot(*y)).fold(f64::INFINITY, lesser);
+    let high = a.iter().map(|x| n.dot(*x)).fold(f64::NEG_INFINITY, greater);
     Checked {
         distance: place(&claim.a, &a).distance(place(&claim.b, &b)),
         gap: low - high,
@@ -127,7 +125,7 @@ pub(super) fn ignores_history<O: DistanceOracle + Default>(scenes: &[Scene]) {
                 error <= 1e-12 * scene.size,
                 "{fresh:?} and {other:?} of {scene:?}"
             );
-            let worth = fresh.gap.min(0.5 * fresh.distance) - 1e-12 * scene.size;
+            let worth = lesser(fresh.gap, 0.5 * fresh.distance) - 1e-12 * scene.size;
             assert!(
                 fresh.gap < 0.0 || other.gap >= worth,
                 "{fresh:?}, {other:?} of {scene:?}"

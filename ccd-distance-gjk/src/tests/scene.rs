@@ -1,6 +1,7 @@
 //! Pairs of pieces of every kind that has ever upset a distance routine, with what is known of them.
 
 use ccd_core::glam::{DQuat, DVec3};
+use ccd_core::order::{greater, lesser};
 use ccd_core::{Frame, Piece, PiecePair, Pose};
 use rand::RngExt;
 pub(crate) use rand::SeedableRng;
@@ -19,13 +20,8 @@ pub(crate) struct Scene {
 impl Scene {
     /// From points in A's frame.
     fn new(a: Vec<DVec3>, b: Vec<DVec3>) -> Self {
-        let reach = |x: DVec3| {
-            a.iter()
-                .chain(&b)
-                .map(|y| y.distance(x))
-                .fold(0.0, f64::max)
-        };
-        let size = reach(a[0]).max(f64::MIN_POSITIVE);
+        let reach = |x: DVec3| a.iter().chain(&b).map(|y| y.distance(x)).fold(0.0, greater);
+        let size = greater(f64::MIN_POSITIVE, reach(a[0]));
         Scene {
             a,
             b,
@@ -176,7 +172,7 @@ pub(crate) fn near_contact(rng: &mut Pcg64, meeting: Meeting, gap: f64) -> Scene
             let tilt = DQuat::from_scaled_axis(magnitude(rng, -16.0, -9.0) * vector(rng));
             let b = about(rng).map(|y| tilt * y);
             // Lifted until its lowest corner is up at the gap.
-            let low = b.iter().map(|y| y.z).fold(f64::INFINITY, f64::min);
+            let low = b.iter().map(|y| y.z).fold(f64::INFINITY, lesser);
             (
                 about(rng).to_vec(),
                 b.map(|y| y + up - low * DVec3::Z).to_vec(),
@@ -250,7 +246,7 @@ pub(crate) fn stacked_boxes(rng: &mut Pcg64, gap: f64) -> Scene {
         .iter()
         .map(|y| tilt * turn * *y)
         .collect();
-    let low = b.iter().map(|y| y.z).fold(f64::INFINITY, f64::min);
+    let low = b.iter().map(|y| y.z).fold(f64::INFINITY, lesser);
     let lift = DVec3::new(rng.random_range(-0.9..0.9), 0.3, 1.0 + gap - low);
     let b = b.iter().map(|y| *y + lift).collect();
     Scene::new(cuboid(DVec3::ONE), b).reframed(rng, 1.0)

@@ -1,19 +1,20 @@
 //! The slow, obvious way: every point, edge and triangle that the points of a piece span.
 
 use ccd_core::glam::DVec3;
+use ccd_core::order::lesser;
 
 /// The distance of two hulls of few points that do not intersect.
 pub(super) fn distance(a: &[DVec3], b: &[DVec3]) -> f64 {
     let mut best = f64::INFINITY;
     for &y in b {
-        best = best.min(from_point(y, a));
+        best = lesser(best, from_point(y, a));
     }
     for &x in a {
-        best = best.min(from_point(x, b));
+        best = lesser(best, from_point(x, b));
     }
     for [p, q] in edges(a) {
         for [r, s] in edges(b) {
-            best = best.min(crossing(p, q, r, s).unwrap_or(best));
+            best = lesser(best, crossing(p, q, r, s).unwrap_or(best));
         }
     }
     best
@@ -30,10 +31,7 @@ fn from_point(x: DVec3, points: &[DVec3]) -> f64 {
     let faces = edges(points)
         .into_iter()
         .flat_map(|[p, q]| points.iter().filter_map(move |&r| above(x, p, q, r)));
-    corners
-        .chain(feet)
-        .chain(faces)
-        .fold(f64::INFINITY, f64::min)
+    corners.chain(feet).chain(faces).fold(f64::INFINITY, lesser)
 }
 
 /// The height of `x` above the inside of a triangle.

@@ -7,6 +7,7 @@ use crate::place::Line;
 use crate::tests::setting::{cube, edge, face, moved, needle, vertex};
 use crate::tests::shape::{Pcg64, RngExt, SeedableRng, direction, magnitude};
 use ccd_core::glam::DVec3;
+use ccd_core::order::lesser;
 use rstest::rstest;
 
 /// What is said of the cube's edge along x at y = z = 1 and a needle.
@@ -104,7 +105,7 @@ fn nearest_points_are_nearest_at_every_angle() {
             for _ in 0..50 {
                 let t = other.nearest(one.at(s));
                 s = one.nearest(other.at(t));
-                best = best.min(one.at(s).distance(other.at(t)));
+                best = lesser(best, one.at(s).distance(other.at(t)));
             }
         }
         assert!(

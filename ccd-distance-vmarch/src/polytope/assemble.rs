@@ -3,6 +3,7 @@
 use super::facets::{Plane, turn, unit};
 use super::{Edge, Face, NO_FACE, Polytope, Side, Spoke, Vertex};
 use ccd_core::glam::DVec3;
+use ccd_core::order::greater;
 
 /// Lays a polytope out: the faces of a closed surface, or, where there are none, the edge between two
 /// points, or a point.
@@ -25,7 +26,7 @@ pub(crate) fn assemble(points: &[DVec3], ends: &[u32], loops: &[Vec<u32>]) -> Po
         reach: numbers
             .iter()
             .map(|&v| local(v).length())
-            .fold(0.0, f64::max),
+            .fold(0.0, greater),
         vertices: numbers
             .iter()
             .map(|&number| Vertex {

@@ -5,6 +5,7 @@ use super::{Polytope, assemble, convex, merge};
 use crate::start::Starts;
 use crate::tolerance::{COPLANAR, TABLED};
 use ccd_core::glam::DVec3;
+use ccd_core::order::greater;
 use ccd_core::{GiveUp, Piece};
 
 impl Polytope {
@@ -24,7 +25,7 @@ impl Polytope {
             return Err(GiveUp::BadFacets);
         }
         let largest = points.iter().map(|p| p.abs().max_element());
-        let rounding = COPLANAR * largest.fold(0.0, f64::max);
+        let rounding = COPLANAR * largest.fold(0.0, greater);
         let ends = match spread(points, rounding) {
             Spread::Point => return Ok(Self::assembled(points, &[0], &[])),
             Spread::Line(ends) => return Ok(Self::assembled(points, &ends, &[])),

@@ -4,6 +4,7 @@ use super::{NO_FACE, Polytope, Side};
 use crate::penetration::side;
 use crate::tolerance::{CONVEX, COPLANAR, LINES};
 use ccd_core::glam::DVec3;
+use ccd_core::order::greater;
 
 /// Whether a closed surface is that of a convex polytope, up to the rounding of its corners.
 ///
@@ -43,7 +44,7 @@ impl<'a> Check<'a> {
                 let slot = usize::from(polytope.edge(side.edge).faces[0] != face);
                 places[side.edge as usize][slot] = at;
             }
-            let width = width(polytope, face).max(f64::MIN_POSITIVE);
+            let width = greater(f64::MIN_POSITIVE, width(polytope, face));
             slacks.push(rounding * (1.0 + polytope.reach / width));
         }
         Check {
@@ -69,7 +70,7 @@ impl<'a> Check<'a> {
             let inward = normal.cross((next - here).normalize_or_zero());
             // A fan from the first corner has no triangle turned over.
             let fan = (here - first).cross(next - first).dot(normal);
-            let longest = (here - first).length().max((next - first).length());
+            let longest = greater((here - first).length(), (next - first).length());
             normal.dot(here - first).abs() <= slack
                 && inward.dot(over - next) >= -slack
                 && fan >= -slack * longest
@@ -86,7 +87,7 @@ impl<'a> Check<'a> {
             let ring = self.polytope.sides_of(other);
             let at = self.places[side.edge as usize][slot];
             let start = self.corner(side.vertex);
-            let slack = self.slacks[face as usize].max(self.slacks[other as usize]);
+            let slack = greater(self.slacks[face as usize], self.slacks[other as usize]);
             [ring.len() - 1, 2].into_iter().all(|step| {
                 let corner = self.corner(ring[(at + step) % ring.len()].vertex);
                 normal.dot(corner - start) <= slack
@@ -168,6 +169,6 @@ fn width(polytope: &Polytope, face: u32) -> f64 {
     let farthest = sides
         .iter()
         .map(|side| arm(side).length())
-        .fold(0.0, f64::max);
+        .fold(0.0, greater);
     fan.sum::<f64>() / farthest
 }

@@ -2,6 +2,7 @@
 
 use crate::twofold::TwofoldVector;
 use ccd_core::glam::DVec3;
+use ccd_core::order::greater;
 
 /// Polygons that close a surface: every side has its twin.
 #[derive(Debug)]
@@ -90,7 +91,7 @@ impl Plane {
         let area = sum.value();
         let normal = unit(area);
         let sides = turn(corners).map(|(v, w)| points[v as usize].distance(points[w as usize]));
-        let (area, longest) = (0.5 * area.dot(normal), sides.fold(0.0, f64::max));
+        let (area, longest) = (0.5 * area.dot(normal), sides.fold(0.0, greater));
         Plane {
             normal,
             area,

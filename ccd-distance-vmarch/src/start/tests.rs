@@ -5,6 +5,7 @@ use crate::feature::{Feature, Pair};
 use crate::tests::setting::{cube, face, moved, point, prepared, vertex};
 use crate::tests::shape::{self, Pcg64, SeedableRng, direction};
 use ccd_core::glam::DVec3;
+use ccd_core::order::greater;
 use rstest::rstest;
 
 #[rstest]
@@ -99,11 +100,7 @@ fn climbing_from_the_table_finds_the_extremal_corner() {
         for _ in 0..2_000 {
             let look = direction(&mut rng);
             let height = |v: &crate::polytope::Vertex| look.dot(v.point);
-            let highest = polytope
-                .vertices
-                .iter()
-                .map(height)
-                .fold(f64::MIN, f64::max);
+            let highest = polytope.vertices.iter().map(height).fold(f64::MIN, greater);
             let found = polytope.vertex(polytope.extremal(look));
             assert!(height(found) >= highest - 1e-15);
         }

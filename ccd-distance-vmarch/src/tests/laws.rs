@@ -6,6 +6,7 @@ use super::twin::{self, Bare};
 use super::{Tally, cases};
 use crate::{Cache, Vmarch};
 use ccd_core::glam::{DMat3, DQuat, DVec3};
+use ccd_core::order::{greater, lesser};
 use ccd_core::{Claim, Combination, DistanceOracle, Frame, GiveUp, Piece, PiecePair};
 use rstest::rstest;
 
@@ -30,7 +31,7 @@ fn touching_is_told_to_rounding(
     ] {
         let other = Body::new(pointed);
         // Beside the top of the cube by as much as above it, where it overhangs.
-        let beside = DVec3::new((at.x - 1.0).max(0.0), (at.y - 1.0).max(0.0), 0.0) * gap;
+        let beside = DVec3::new(greater(0.0, at.x - 1.0), greater(0.0, at.y - 1.0), 0.0) * gap;
         let b_to_a = Frame {
             translation: DVec3::new(at.x, at.y, 2.0 + gap) + beside,
             ..Frame::IDENTITY
@@ -52,7 +53,7 @@ fn touching_is_told_to_rounding(
         let certified = twin::gap(&a, &b, claim.axis.normalize_or_zero());
         let distance = on_a.distance(on_b);
         assert!(
-            distance - certified.max(0.0) <= 2e-15,
+            distance - greater(0.0, certified) <= 2e-15,
             "{distance:e} {certified:e} {gap:e}"
         );
         if gap <= 0.0 && at.x <= 1.0 {
@@ -187,7 +188,7 @@ fn spinning_balls_are_as_near_as_their_lowest_corner() {
             .points
             .iter()
             .map(|p| b_to_a.point(*p).z)
-            .fold(f64::MAX, f64::min);
+            .fold(f64::MAX, lesser);
         let on_a = claim.a.of(&plate.shape.points).expect("a point of A");
         let on_b = b_to_a.point(claim.b.of(&ball.shape.points).expect("a point of B"));
         assert!((on_a.distance(on_b) - (low - 0.1)).abs() < 1e-15);

@@ -2,6 +2,7 @@
 
 use super::shape::{self, Pcg64, RngExt, Shape, direction, magnitude, vector};
 use ccd_core::glam::{DMat3, DQuat, DVec3};
+use ccd_core::order::{greater, lesser};
 use ccd_core::{Frame, PiecePair, Pieces};
 
 /// A shape with the list that its piece is of.
@@ -176,7 +177,7 @@ impl Scene<'_> {
 
     /// The largest coordinates, all together.
     pub(crate) fn reach(&self) -> f64 {
-        let largest = |points: &[DVec3]| points.iter().map(|p| p.length()).fold(0.0, f64::max);
+        let largest = |points: &[DVec3]| points.iter().map(|p| p.length()).fold(0.0, greater);
         largest(&self.a.shape.points)
             + largest(&self.b.shape.points)
             + self.b_to_a.translation.length()
@@ -249,13 +250,13 @@ fn apart(kind: Kind, a: &Body, b: &Body, rotation: DMat3, rng: &mut Pcg64) -> (D
         .points
         .iter()
         .map(|p| n.dot(*p))
-        .fold(f64::NEG_INFINITY, f64::max);
+        .fold(f64::NEG_INFINITY, greater);
     let low = b
         .shape
         .points
         .iter()
         .map(|p| n.dot(rotation * *p))
-        .fold(f64::INFINITY, f64::min);
+        .fold(f64::INFINITY, lesser);
     let lateral = match rng.random_range(0..3) {
         0 => DVec3::ZERO,
         1 => vector(rng),

@@ -4,6 +4,7 @@ use super::shape::Shape;
 use crate::twofold::TwofoldVector;
 use ccd_core::Frame;
 use ccd_core::glam::DVec3;
+use ccd_core::order::{greater, lesser};
 
 /// A polytope in A's frame, without any structure but its lists.
 pub(crate) struct Bare {
@@ -64,7 +65,7 @@ impl Bare {
         self.points
             .iter()
             .map(|p| n.dot(*p))
-            .fold(f64::NEG_INFINITY, f64::max)
+            .fold(f64::NEG_INFINITY, greater)
     }
 }
 
@@ -82,16 +83,16 @@ pub(crate) fn distance(a: &Bare, b: &Bare) -> f64 {
     let mut best = f64::INFINITY;
     for &p in &a.points {
         for &q in &b.points {
-            best = best.min(p.distance(q));
+            best = lesser(best, p.distance(q));
         }
     }
     for (one, other) in [(a, b), (b, a)] {
         for &p in &one.points {
             for edge in &other.edges {
-                best = best.min(p.distance(foot(p, edge)));
+                best = lesser(best, p.distance(foot(p, edge)));
             }
             for face in &other.faces {
-                best = best.min(height(p, face));
+                best = lesser(best, height(p, face));
             }
         }
     }
@@ -100,7 +101,7 @@ pub(crate) fn distance(a: &Bare, b: &Bare) -> f64 {
             // Segments in balls that are farther apart than the best so far can be passed over.
             let reach = best + e.half + f.half;
             if e.middle.distance_squared(f.middle) <= reach * reach {
-                best = best.min(crossing(e, f));
+                best = lesser(best, crossing(e, f));
             }
         }
     }
@@ -111,7 +112,11 @@ fn foot(p: DVec3, edge: &Segment) -> DVec3 {
     let [a, b] = edge.ends;
     let along = b - a;
     let t = (p - a).dot(along) / along.length_squared();
-    if t > 0.0 { a + along * t.min(1.0) } else { a }
+    if t > 0.0 {
+        a + along * lesser(1.0, t)
+    } else {
+        a
+    }
 }
 
 /// The distance of a point from its foot on a polygon's plane, if that is inside of the polygon.
@@ -142,7 +147,7 @@ fn crossing(e: &Segment, f: &Segment) -> f64 {
     let n = d.cross(g);
     let t = w.cross(g).dot(n).value() / n.dot(n).value();
     // Parallel segments have no such place; their ends' feet are looked at anyway.
-    let t = if t > 0.0 { t.min(1.0) } else { 0.0 };
+    let t = if t > 0.0 { lesser(1.0, t) } else { 0.0 };
     let on_e = p + (q - p) * t;
     let on_f = foot(on_e, f);
     on_f.distance(foot(on_f, e))

@@ -8,6 +8,7 @@ mod predicates;
 mod samples;
 
 pub use blend::Blend;
+use ccd_core::order::{greater, lesser};
 pub use samples::{Effort, samples};
 
 use crate::models::Mesh;
@@ -84,7 +85,7 @@ impl<'a> Solid<'a> {
         let mut windings = 0;
         for &face in self.columns.faces_over(&p) {
             let triangle = self.mesh.triangle(face as usize);
-            let top = triangle[0].z.max(triangle[1].z).max(triangle[2].z);
+            let top = greater(greater(triangle[0].z, triangle[1].z), triangle[2].z);
             if top < p.near[2].lo || apart_from_above(triangle, &p) {
                 continue;
             }
@@ -104,8 +105,8 @@ impl<'a> Solid<'a> {
 fn apart_from_above([a, b, c]: [DVec3; 3], p: &Spot<'_>) -> bool {
     (0..2).any(|axis| {
         let (lo, hi) = (
-            a[axis].min(b[axis]).min(c[axis]),
-            a[axis].max(b[axis]).max(c[axis]),
+            lesser(lesser(a[axis], b[axis]), c[axis]),
+            greater(greater(a[axis], b[axis]), c[axis]),
         );
         p.near[axis].hi < lo || p.near[axis].lo > hi
     })

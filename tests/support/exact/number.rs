@@ -2,6 +2,7 @@
 //! cannot tell.
 
 use ccd_core::glam::DVec3;
+use ccd_core::order::{greater, lesser};
 use dashu_ratio::Relaxed;
 use std::cmp::Ordering;
 
@@ -77,8 +78,8 @@ impl Interval {
             hi: f64::NEG_INFINITY,
         };
         all.into_iter().fold(empty, |hull, x| Interval {
-            lo: hull.lo.min(x.lo),
-            hi: hull.hi.max(x.hi),
+            lo: lesser(hull.lo, x.lo),
+            hi: greater(hull.hi, x.hi),
         })
     }
 }

@@ -3,6 +3,7 @@
 use super::blend::Spot;
 use super::number::{Interval, Number};
 use ccd_core::glam::DVec3;
+use ccd_core::order::{greater, lesser};
 use std::cmp::Ordering;
 
 /// The pairs of coordinates that are left when one looks along z, x and y.
@@ -30,7 +31,8 @@ pub(super) fn holds(triangle: [DVec3; 3], p: &Spot<'_>) -> bool {
     let beyond = |axis: usize| {
         let [x, y, z] = [a[axis], b[axis], c[axis]];
         let within = |q: f64, order| compare(q, axis, p) == order;
-        within(x.min(y).min(z), Ordering::Greater) || within(x.max(y).max(z), Ordering::Less)
+        within(lesser(lesser(x, y), z), Ordering::Greater)
+            || within(greater(greater(x, y), z), Ordering::Less)
     };
     let out_of_view = |view: &[usize; 2]| {
         let turns = [[a, b], [b, c], [c, a]].map(|edge| turn(*view, edge, p));

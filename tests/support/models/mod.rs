@@ -13,6 +13,7 @@ pub use boxes::{
     u_hook, wall_at,
 };
 pub use catalog::{Model, convex_solids, flat_solids, solids};
+use ccd_core::order::greater;
 pub use cells::{
     divided_cube, gear, l_block, meshed_combs, perforated_plate, slotted_plate, terrain,
 };
@@ -232,7 +233,7 @@ impl Mesh {
         self.vertices
             .iter()
             .map(|v| v.distance(centre))
-            .fold(0.0, f64::max)
+            .fold(0.0, greater)
     }
 
     /// The volume within, negative where faces look inward.

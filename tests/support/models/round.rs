@@ -2,6 +2,7 @@
 
 use super::{Line, Mesh, Shape, grid_faces};
 use ccd_core::glam::DVec3;
+use ccd_core::order::lesser;
 use std::collections::HashMap;
 use std::f64::consts::TAU;
 
@@ -73,7 +74,7 @@ pub fn inradius(mesh: &Mesh) -> f64 {
     };
     (0..mesh.faces.len())
         .map(distance)
-        .fold(f64::INFINITY, f64::min)
+        .fold(f64::INFINITY, lesser)
 }
 
 /// A torus about z: `rings` tubes' sections on a circle of radius `major`, each of `sides` vertices

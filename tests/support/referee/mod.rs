@@ -6,6 +6,7 @@
 mod place;
 mod triangles;
 
+use ccd_core::order::{greater, lesser};
 pub use place::Placement;
 pub use triangles::{contains, point_segment, point_triangle};
 
@@ -103,7 +104,7 @@ impl<'a> Referee<'a> {
         let (mut time, mut least) = (0.0, f64::INFINITY);
         for _ in 0..MAX_STEPS {
             let gap = self.gap(time) - self.margin;
-            least = least.min(gap);
+            least = lesser(least, gap);
             if gap <= close {
                 return self.settle(time, close / speed);
             }
@@ -131,7 +132,7 @@ impl<'a> Referee<'a> {
         }
         let mut step = first_step;
         while step <= 1e-2 * self.query.duration {
-            let hi = (lo + step).min(self.query.duration);
+            let hi = lesser(lo + step, self.query.duration);
             if self.touches(hi) {
                 return Verdict::Hit { lo, hi };
             }
@@ -150,10 +151,7 @@ impl<'a> Referee<'a> {
     }
 
     fn size(&self) -> f64 {
-        self.places
-            .iter()
-            .map(Placement::radius)
-            .fold(0.0, f64::max)
+        self.places.iter().map(Placement::radius).fold(0.0, greater)
     }
 
     fn posed(&self, time: f64) -> [Posed<'a>; 2] {

@@ -2,6 +2,7 @@
 
 use crate::models::Mesh;
 use ccd_core::glam::DVec3;
+use ccd_core::order::lesser;
 use std::f64::consts::PI;
 
 /// A mesh whose vertices have been moved to where they are at some time.
@@ -57,7 +58,7 @@ impl<'a> Posed<'a> {
             if bound > best || best == 0.0 {
                 break;
             }
-            best = best.min(self.group_distance_squared(other, [i, j], best));
+            best = lesser(best, self.group_distance_squared(other, [i, j], best));
         }
         best.sqrt()
     }
@@ -67,7 +68,7 @@ impl<'a> Posed<'a> {
         for i in members(groups[0], self.boxes.len()) {
             for j in members(groups[1], other.boxes.len()) {
                 if self.boxes[i].distance_squared(&other.boxes[j]) <= best {
-                    best = best.min(distance_squared(self.triangle(i), other.triangle(j)));
+                    best = lesser(best, distance_squared(self.triangle(i), other.triangle(j)));
                 }
             }
         }
@@ -93,12 +94,12 @@ fn distance_squared(a: [DVec3; 3], b: [DVec3; 3]) -> f64 {
     }
     let mut best = f64::INFINITY;
     for k in 0..3 {
-        best = best.min(point_triangle(a[k], b).distance_squared(a[k]));
-        best = best.min(point_triangle(b[k], a).distance_squared(b[k]));
+        best = lesser(best, point_triangle(a[k], b).distance_squared(a[k]));
+        best = lesser(best, point_triangle(b[k], a).distance_squared(b[k]));
     }
     for e in edges(a) {
         for f in edges(b) {
-            best = best.min(edge_edge_squared(e, f));
+            best = lesser(best, edge_edge_squared(e, f));
         }
     }
     best
@@ -117,8 +118,8 @@ fn pierces([p, q]: [DVec3; 2], [a, b, c]: [DVec3; 3]) -> bool {
 fn edge_edge_squared(e: [DVec3; 2], f: [DVec3; 2]) -> f64 {
     let mut best = f64::INFINITY;
     for k in 0..2 {
-        best = best.min(point_segment(e[k], f).distance_squared(e[k]));
-        best = best.min(point_segment(f[k], e).distance_squared(f[k]));
+        best = lesser(best, point_segment(e[k], f).distance_squared(e[k]));
+        best = lesser(best, point_segment(f[k], e).distance_squared(f[k]));
     }
     let (u, v, w) = (e[1] - e[0], f[1] - f[0], e[0] - f[0]);
     let (uu, uv, vv) = (u.dot(u), u.dot(v), v.dot(v));
@@ -127,7 +128,7 @@ fn edge_edge_squared(e: [DVec3; 2], f: [DVec3; 2]) -> f64 {
         let s = (uv * v.dot(w) - vv * u.dot(w)) / det;
         let t = (uu * v.dot(w) - uv * u.dot(w)) / det;
         if (0.0..=1.0).contains(&s) && (0.0..=1.0).contains(&t) {
-            best = best.min((e[0] + s * u).distance_squared(f[0] + t * v));
+            best = lesser(best, (e[0] + s * u).distance_squared(f[0] + t * v));
         }
     }
     best
@@ -138,7 +139,11 @@ pub fn point_segment(p: DVec3, [a, b]: [DVec3; 2]) -> DVec3 {
     let along = b - a;
     let t = (p - a).dot(along) / along.length_squared();
     // NaN for a segment of no length: either end will do.
-    if t > 0.0 { a + t.min(1.0) * along } else { a }
+    if t > 0.0 {
+        a + lesser(1.0, t) * along
+    } else {
+        a
+    }
 }
 
 /// The nearest point of a triangle: the foot on its plane where that lies inside, else on an edge.

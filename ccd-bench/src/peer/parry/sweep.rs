@@ -30,6 +30,7 @@ use crate::motions::Query;
 use crate::peer::{PeerError, contact_at};
 use ccd_core::Motion;
 use ccd_core::glam::DVec3;
+use ccd_core::order::{greater, lesser};
 use ccd_decomp::TriangleMesh;
 use std::f64::consts::FRAC_PI_4;
 
@@ -73,8 +74,9 @@ impl SweptPairs {
             turn / self.turn_within(body.reach(motion))
         });
         let speed = (query.a.velocity() - query.b.velocity()).length();
-        let travel = speed * query.duration / (LONGEST_TRAVEL * self.a.radius.min(self.b.radius));
-        let count = turns.into_iter().fold(travel, f64::max).ceil().max(1.0);
+        let travel =
+            speed * query.duration / (LONGEST_TRAVEL * lesser(self.a.radius, self.b.radius));
+        let count = greater(1.0, turns.into_iter().fold(travel, greater).ceil());
         (count <= MOST_STRETCHES).then_some(count as u64)
     }
 
@@ -83,7 +85,7 @@ impl SweptPairs {
         // Of a turn θ the mix is off by 2 (atan(s tan(θ/4)) − s θ/4) for s of −1 to 1, which is at most
         // 4/(9 √3) (θ/4)³ to leading order; tan's next term adds less than a tenth up to π/4.
         let off = SHARE_OF_TURN * self.tolerance / (0.2567 * 1.1 * reach);
-        (4.0 * off.cbrt()).min(LARGEST_TURN)
+        lesser(LARGEST_TURN, 4.0 * off.cbrt())
     }
 
     /// When in a stretch triangles first meet, as a share of it.

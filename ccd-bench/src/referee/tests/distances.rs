@@ -4,6 +4,7 @@ use super::super::triangle::{nearest, nearest_or_common};
 use super::super::{Referee, Surface};
 use super::{query, random_motion, random_vector, soup};
 use ccd_core::glam::DVec3;
+use ccd_core::order::lesser;
 use rand::{Rng, RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 
@@ -32,7 +33,7 @@ fn the_tree_finds_the_nearest_of_all_pairs() {
             .flat_map(|a| b.iter().map(move |b| nearest_or_common(a, b)));
         let expected = pairs
             .map(|(p, q)| (p - q).length())
-            .fold(f64::INFINITY, f64::min);
+            .fold(f64::INFINITY, lesser);
         let found = Referee::new(&surfaces[0], &surfaces[1]).distance(&query, time);
         let off = 1e-13;
         assert!(
@@ -67,7 +68,7 @@ fn nearest_points_are_as_near_as_a_grid_finds() {
         let (p, q) = nearest_or_common(&a, &b);
         let found = (p - q).length();
         let grid = grid(&a, STEPS).flat_map(|p| grid(&b, STEPS).map(move |q| (p - q).length()));
-        let least = grid.fold(f64::INFINITY, f64::min);
+        let least = grid.fold(f64::INFINITY, lesser);
         // Each point has one of the grid within an edge over the steps.
         let spacing = 2.0 * 2.0 * f64::sqrt(3.0) / f64::from(STEPS) * 2.0;
         assert!(

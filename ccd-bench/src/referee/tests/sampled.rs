@@ -4,6 +4,7 @@ use super::super::{Referee, Surface, Truth};
 use super::{query, random_motion, random_vector, soup};
 use ccd_core::Motion;
 use ccd_core::glam::DVec3;
+use ccd_core::order::greater;
 use ccd_decomp::TriangleMesh;
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
@@ -40,7 +41,7 @@ fn brackets_agree_with_all_pairs_at_many_times() {
                     "{round}: {truth:?} {first:?}"
                 );
                 assert!(
-                    referee.distance(&query, (lo - 1e-6).max(0.0)).lower > 0.0,
+                    referee.distance(&query, greater(0.0, lo - 1e-6)).lower > 0.0,
                     "{round}"
                 );
                 assert!(referee.distance(&query, hi).upper < 1e-10, "{round}");

@@ -4,6 +4,7 @@ use super::relative::Enclosure;
 use crate::rival::Placement;
 use crate::rival::interval::{Interval, IntervalVec};
 use ccd_core::glam::DVec3;
+use ccd_core::order::{greater, lesser};
 
 /// A triangle with what the tests need of it.
 #[derive(Clone, Copy, Debug)]
@@ -205,7 +206,8 @@ impl Triangles {
             return false;
         }
         let (along, of_e, of_g) = (w.dot_point(g), e.dot_point(g), g.length_squared());
-        if along.low() > of_e.high().max(0.0) || along.high() < of_e.low().min(0.0) - of_g {
+        if along.low() > greater(0.0, of_e.high()) || along.high() < lesser(0.0, of_e.low()) - of_g
+        {
             return false;
         }
         let square = c.dot(c);

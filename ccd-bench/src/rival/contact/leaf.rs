@@ -3,6 +3,7 @@
 use super::clock::{Clock, MAX_LEVEL, Slice};
 use super::elementary::{Open, Test, Triangles};
 use super::relative::Span;
+use ccd_core::order::{greater, lesser};
 
 /// What is known of two triangles over an interval of time.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,7 +28,7 @@ pub(super) fn first_touch(triangles: &Triangles, slice: Slice, clock: &mut Clock
         height = below;
         let (mut slice, open) = stack[height];
         if let Touch::At(time) = first {
-            slice.span.end = slice.span.end.min(time);
+            slice.span.end = lesser(slice.span.end, time);
         }
         if !(slice.span.width() > 0.0 || first == Touch::Never) {
             continue;
@@ -64,7 +65,7 @@ pub(super) fn first_touch(triangles: &Triangles, slice: Slice, clock: &mut Clock
 
 fn earlier(first: Touch, time: f64) -> Touch {
     match first {
-        Touch::At(known) => Touch::At(known.min(time)),
+        Touch::At(known) => Touch::At(lesser(known, time)),
         Touch::Never | Touch::Unknown => Touch::At(time),
     }
 }
@@ -88,7 +89,7 @@ fn root(triangles: &Triangles, test: Test, slice: Slice, clock: &mut Clock) -> R
         return Root::None;
     };
     // As wide as the resolution: features that meet at their borders do so up to rounding only.
-    let slack = 0.5 * (clock.resolution() - found.width()).max(0.0);
+    let slack = 0.5 * greater(0.0, clock.resolution() - found.width());
     let around = Span {
         start: found.start - slack,
         end: found.end + slack,

@@ -1,5 +1,6 @@
 use super::*;
 use crate::rival::samples::Samples;
+use ccd_core::order::{greater, lesser};
 
 /// Room for rounding.
 const SLACK: f64 = 1e-12;
@@ -80,8 +81,8 @@ fn arcs_are_the_ranges_of_cosine_and_sine() {
         let (mut least, mut most) = (f64::INFINITY, 0.0);
         for angle in angles {
             assert!(has(arc.cos, angle.cos()) && angle.sin().abs() <= arc.sin + SLACK);
-            least = f64::min(least, angle.cos());
-            most = f64::max(most, angle.sin());
+            least = lesser(least, angle.cos());
+            most = greater(most, angle.sin());
         }
         assert!((arc.cos.low() - least).abs() < 1e-5 && (arc.sin - most).abs() < 1e-5);
         assert!((arc.cos.high() - 1.0).abs() < SLACK);

@@ -2,6 +2,7 @@ use super::between;
 use crate::rival::Placement;
 use crate::rival::triangles_apart::nearest;
 use ccd_core::glam::{DMat3, DQuat, DVec2, DVec3};
+use ccd_core::order::{greater, lesser};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use std::f64::consts::FRAC_PI_2;
@@ -52,7 +53,7 @@ fn by_triangles(a: DVec2, b: DVec2, place: &Placement) -> f64 {
     let mut least = f64::INFINITY;
     for half_a in halves(corners(a, &HERE)) {
         for half_b in halves(corners(b, place)) {
-            least = least.min(nearest(&half_a, &half_b).between().length());
+            least = lesser(least, nearest(&half_a, &half_b).between().length());
         }
     }
     least
@@ -114,11 +115,11 @@ fn the_vector_is_the_shortest() {
             let low = corners(b, &place)
                 .map(|p| n.dot(p))
                 .into_iter()
-                .fold(f64::INFINITY, f64::min);
+                .fold(f64::INFINITY, lesser);
             let high = corners(a, &HERE)
                 .map(|p| n.dot(p))
                 .into_iter()
-                .fold(f64::NEG_INFINITY, f64::max);
+                .fold(f64::NEG_INFINITY, greater);
             assert!(
                 low - high > distance - 1e-9,
                 "{distance} {} {a} {b} {place:?}",

@@ -1,6 +1,7 @@
 use super::*;
 use crate::rival::samples::{Samples, query, still};
 use ccd_core::Pose;
+use ccd_core::order::lesser;
 
 fn off(a: Pose, b: Pose, point: DVec3) -> f64 {
     a.transform_point(point).distance(b.transform_point(point))
@@ -18,7 +19,7 @@ fn screws_start_and_end_where_the_motion_does() {
         for (screw, motion) in [(screw.a, query.a), (screw.b, query.b)] {
             let point = samples.vector(1.0);
             let sine = (0.5 * motion.spin().length()).sin().abs();
-            let slack = 1e-12 / f64::min(1.0, 10.0 * sine);
+            let slack = 1e-12 / lesser(1.0, 10.0 * sine);
             assert!(off(screw.pose(0.0), motion.pose(0.0), point) <= slack);
             assert!(off(screw.pose(1.0), motion.pose(1.0), point) <= slack);
             assert!(screw.velocity().cross(screw.spin()).length() <= 1e-12 * screw.spin().length());

@@ -4,6 +4,7 @@ use super::{Below, Node, SphereTree, principal_axes};
 use crate::rival::Placement;
 use crate::rival::triangles_apart::Triangle;
 use ccd_core::glam::{DMat3, DVec2, DVec3};
+use ccd_core::order::greater;
 use std::ops::Range;
 
 /// Of a coordinate: by how much radii grow, so that no rounding, of this or of what is computed with
@@ -73,7 +74,7 @@ fn part(triangles: &mut [Triangle], range: Range<usize>, axis: DVec3) -> usize {
     let mean = part.iter().map(along).sum::<f64>() / count as f64;
     part.sort_unstable_by(|s, t| along(s).total_cmp(&along(t)));
     let below = part.partition_point(|t| along(t) < mean);
-    let few = f64::max(LOPSIDED * count as f64, 1.0) as usize;
+    let few = greater(1.0, LOPSIDED * count as f64) as usize;
     let below = if (few..=count - few).contains(&below) {
         below
     } else {
@@ -102,11 +103,11 @@ fn fit(triangles: &[Triangle]) -> (Placement, DVec2, f64) {
     points().for_each(|p| shape.reach_sides(p));
     shape.straighten();
     points().for_each(|p| shape.reach_corner(p));
-    let farthest = points().map(|p| shape.distance(p)).fold(radius, f64::max);
+    let farthest = points().map(|p| shape.distance(p)).fold(radius, greater);
     let extent = triangles
         .iter()
         .flatten()
-        .fold(0.0, |most, p| f64::max(most, p.abs().max_element()));
+        .fold(0.0, |most, p| greater(most, p.abs().max_element()));
     let frame = Placement {
         rotation: axes,
         translation: axes * shape.low.extend(middle),
@@ -126,7 +127,7 @@ impl Stadium {
     /// How far off a point's foot in the plane it can be reached from.
     fn reach(&self, point: DVec3) -> f64 {
         let up = point.z - self.middle;
-        (self.radius * self.radius - up * up).max(0.0).sqrt()
+        greater(0.0, self.radius * self.radius - up * up).sqrt()
     }
 
     /// Lets each side, as a line, reach a point.
@@ -157,7 +158,7 @@ impl Stadium {
             let along = 0.5 * (out.x + out.y);
             let aside = out - along;
             let reach = self.reach(point);
-            let spare = (reach * reach - aside.length_squared()).max(0.0);
+            let spare = greater(0.0, reach * reach - aside.length_squared());
             // The diagonal's direction is (1, 1) / √2.
             let push = along - (0.5 * spare).sqrt();
             if push > 0.0 {

@@ -2,6 +2,7 @@ use super::{Below, Pair, SphereTree, Trees, Under};
 use crate::model::Model;
 use crate::rival::Placement;
 use ccd_core::glam::{DMat3, DQuat, DVec3};
+use ccd_core::order::{greater, lesser};
 use ccd_decomp::TriangleMesh;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
@@ -44,7 +45,7 @@ fn nodes_hold_their_triangles_and_are_tight() {
             for point in below.iter().flat_map(|&t| tree.triangles[t as usize]) {
                 let local = inside.rotation.transpose() * (point - inside.translation);
                 let nearest = local.clamp(DVec3::ZERO, node.lengths.extend(0.0));
-                farthest = farthest.max(local.distance(nearest));
+                farthest = greater(farthest, local.distance(nearest));
             }
             assert!(
                 farthest <= node.radius,
@@ -101,7 +102,7 @@ fn no_node_is_farther_than_its_triangles_or_nearer_than_its_size() {
             for &i in &a {
                 for &j in &b {
                     let nearest = trees.nearest(super::Leaves { a: i, b: j }, &place);
-                    true_distance = true_distance.min(nearest.between().length());
+                    true_distance = lesser(true_distance, nearest.between().length());
                 }
             }
             let gap = trees.gap(&pair);
@@ -117,7 +118,7 @@ fn no_node_is_farther_than_its_triangles_or_nearer_than_its_size() {
                     along(&trees.b.triangles[j as usize].map(|corner| place.apply(corner)))
                 });
                 let parted =
-                    low.fold(f64::INFINITY, f64::min) - high.fold(f64::NEG_INFINITY, f64::max);
+                    low.fold(f64::INFINITY, lesser) - high.fold(f64::NEG_INFINITY, greater);
                 assert!(parted >= gap.distance - 1e-12, "{parted} {}", gap.distance);
                 apart += 1;
             }
@@ -142,7 +143,7 @@ fn levers_reach_all_points() {
             .iter()
             .flat_map(|&t| tree.triangles[t as usize])
             .map(|p| (p - centre).cross(axis).length())
-            .fold(0.0, f64::max);
+            .fold(0.0, greater);
         let lever = tree.lever(node, centre, axis);
         let size = tree.nodes[node as usize].size();
         assert!(

@@ -1,5 +1,6 @@
 use super::{Triangle, nearest};
 use ccd_core::glam::DVec3;
+use ccd_core::order::{greater, lesser};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 
@@ -36,7 +37,7 @@ fn sampled(point: DVec3, [a, b, c]: &Triangle, steps: u32) -> f64 {
                 f64::from(i) / f64::from(steps),
                 f64::from(j) / f64::from(steps),
             );
-            least = least.min(point.distance(*a + u * (*b - *a) + v * (*c - *a)));
+            least = lesser(least, point.distance(*a + u * (*b - *a) + v * (*c - *a)));
         }
     }
     least
@@ -57,14 +58,11 @@ fn the_points_are_nearest() {
         if distance > 1e-6 {
             // No plane could part them farther than they are apart, so this proves the distance.
             let n = found.between() / distance;
-            let low = b
-                .map(|p| n.dot(p))
-                .into_iter()
-                .fold(f64::INFINITY, f64::min);
+            let low = b.map(|p| n.dot(p)).into_iter().fold(f64::INFINITY, lesser);
             let high = a
                 .map(|p| n.dot(p))
                 .into_iter()
-                .fold(f64::NEG_INFINITY, f64::max);
+                .fold(f64::NEG_INFINITY, greater);
             assert!(
                 low - high > distance - 1e-9,
                 "{distance} {} {a:?} {b:?}",
@@ -96,7 +94,7 @@ fn samples_agree() {
                     f64::from(i) / f64::from(STEPS),
                     f64::from(j) / f64::from(STEPS),
                 );
-                least = least.min(sampled(p + u * (q - p) + v * (r - p), &b, STEPS));
+                least = lesser(least, sampled(p + u * (q - p) + v * (r - p), &b, STEPS));
             }
         }
         // Edges are at most √12 long, and some sample is within an edge's step of either point.

@@ -2,6 +2,7 @@
 
 use crate::body::{Body, Volume};
 use crate::feature::Feature;
+use crate::order::{greater, lesser};
 use crate::pieces::Pieces;
 use crate::pose::Pose;
 use crate::tests::nearest::{Triangle, nearest};
@@ -186,7 +187,7 @@ impl Offers {
         if distance > self.reach + 4.0 * self.rounding {
         } else if clear && distance <= self.reach {
             let least = self.sure.entry(key).or_insert(distance);
-            *least = least.min(distance);
+            *least = lesser(*least, distance);
         } else {
             self.doubtful.insert(key);
         }
@@ -243,7 +244,7 @@ impl Offers {
         let segment = |[p, q]: [DVec3; 2]| [p, q, q];
         let end = |p: DVec3, edge| nearest(&[p; 3], &segment(edge)).distance;
         let ends = [end(e[0], f), end(e[1], f), end(f[0], e), end(f[1], e)];
-        let nearest_end = ends.into_iter().fold(f64::INFINITY, f64::min);
+        let nearest_end = ends.into_iter().fold(f64::INFINITY, lesser);
         let slanted = across.length() > 1e-4 * d.length() * along.length();
         let clear = slanted && nearest_end > distance + 16.0 * self.rounding;
         self.offer(names, distance, clear);
@@ -281,9 +282,9 @@ impl Offers {
                     .map(|&face| {
                         distance - nearest(&from, &meshes[k].triangle(face as usize)).distance
                     })
-                    .fold(0.0, f64::max)
+                    .fold(0.0, greater)
             };
-            of_side(0).max(of_side(1))
+            greater(of_side(0), of_side(1))
         };
         let (mut sure, mut doubtful) = (BTreeMap::new(), BTreeSet::new());
         for (key, &distance) in &self.sure {

@@ -5,6 +5,7 @@ use crate::body::{Body, Volume};
 use crate::hierarchy::{Hierarchy, HierarchyNode};
 use crate::motion::Motion;
 use crate::oracle::{Claim, Combination, GiveUp};
+use crate::order::{greater, lesser};
 use crate::outcome::Contact;
 use crate::pose::Pose;
 use crate::problem::{Config, Moving, Side, StartPolicy};
@@ -30,7 +31,7 @@ fn distance(problem: &Problem<'_>, s: f64) -> f64 {
     let pairs = a
         .iter()
         .flat_map(|x| b.iter().map(move |y| nearest(x, y).distance));
-    pairs.fold(f64::INFINITY, f64::min)
+    pairs.fold(f64::INFINITY, lesser)
 }
 
 /// A scene that does not begin in contact.
@@ -65,7 +66,7 @@ fn answers_hold_at_sampled_times_and_are_those_of_the_naive_twin() {
                 );
                 holds(&problem, time, &contact);
                 // Both stop within the tolerance of one contact: neither long before the other.
-                let (first, last) = (time.min(other), time.max(other));
+                let (first, last) = (lesser(time, other), greater(time, other));
                 assert!(distance(&problem, first) <= margin + tolerance + problem.rounding);
                 assert!(distance(&problem, last) <= margin + tolerance + problem.rounding);
                 (time, margin)

@@ -1,6 +1,7 @@
 //! Every free time of every lane is checked against sampled truth, in f64, vertex by vertex.
 
 use super::*;
+use crate::order::{greater, lesser};
 use crate::tests::nearest::{Triangle, nearest};
 use crate::tests::scene::{Kind, Pcg64, RngExt, Scene, rng, scene};
 
@@ -171,7 +172,7 @@ impl Audit<'_> {
                 child: expansion.first + lane,
                 other,
                 from: s,
-                until: (s + f64::from(free)).min(1.0),
+                until: lesser(1.0, s + f64::from(free)),
                 kept: f64::from(expansion.bounds.kept),
             };
             if free > 0.0 {
@@ -228,7 +229,7 @@ impl Audit<'_> {
             for b in far {
                 let mut prover = Prover::default();
                 if !(enough > 0.0 && prover.separates(&[*a], &[*b], enough)) {
-                    least = least.min(nearest(a, b).distance);
+                    least = lesser(least, nearest(a, b).distance);
                 }
             }
         }
@@ -357,7 +358,7 @@ fn still<C: Children>(meeting: &Meeting<'_>, group: &C, members: &Members) -> Bo
             [a, b, c]
                 .map(|p| up(p.distance(mean)))
                 .into_iter()
-                .fold(0.0, f32::max)
+                .fold(0.0, greater)
         }
     };
     let much = 0.99 * MUCH_LARGER;

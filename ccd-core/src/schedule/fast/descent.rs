@@ -8,6 +8,7 @@ use super::front::{Front, Item};
 use super::reach::Reaches;
 use crate::motion_bound::Bound;
 use crate::oracle::DistanceOracle;
+use crate::order::lesser;
 use crate::outcome::{Contact, Limit, Outcome, Stats};
 use crate::problem::{Problem, StartPolicy};
 use crate::tolerance::JOIN_BEYOND;
@@ -136,7 +137,7 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
         // The distance is that of the pieces below, which are not in contact.
         let settled = node.near == Near::Pieces && checked.upper > contact;
         if settled && checked.lower > reach && node.clock > s {
-            found.distance = found.distance.min(checked.upper);
+            found.distance = lesser(found.distance, checked.upper);
         } else if !(checked.lower >= found.distance) {
             let lower = checked.lower;
             found.open.push(Open { lower, at });
@@ -164,7 +165,7 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
         node.lower = f64::NEG_INFINITY;
         let step = pair.advance_by(&moment, oracle, self.stats, |moment, checked, kept| {
             node.lower = checked.lower;
-            found.distance = found.distance.min(checked.upper);
+            found.distance = lesser(found.distance, checked.upper);
             moment.directed_time(checked, kept, bound, reaches)
         });
         if let Step::Contact(contact) = step {
@@ -216,7 +217,7 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
 impl Found {
     fn touch(&mut self, contact: Contact) {
         let separation = &contact.separation;
-        self.distance = self.distance.min(separation.upper);
+        self.distance = lesser(self.distance, separation.upper);
         let nearest = self.contact.get_or_insert(contact);
         if separation.lower < nearest.separation.lower {
             *nearest = contact;

@@ -2,6 +2,7 @@
 
 use super::super::hulls::{Below, HullPair, Near};
 use super::super::pair::Pair;
+use crate::order::lesser;
 
 /// Pairs of nodes of two hull trees, from the pair of roots down to those at which a descent stopped.
 ///
@@ -87,7 +88,7 @@ impl<C: Clone + Default> Front<C> {
         let mut least = f64::INFINITY;
         self.walk(|_, node| {
             if node.children.is_none() {
-                least = least.min(node.clock);
+                least = lesser(least, node.clock);
             }
         });
         least

@@ -4,6 +4,7 @@ mod setting;
 
 use super::axis::Axis;
 use super::*;
+use crate::order::{greater, lesser};
 use crate::tests::scene::{Pcg64, direction, rng};
 use crate::tolerance::{ATTACHED_TIME, CLOCK_F32, MUCH_LARGER};
 use glam::{DQuat, DVec3};
@@ -22,24 +23,24 @@ impl Solid {
     fn highest(&self, n: DVec3, tau: f64) -> f64 {
         let turn = DQuat::from_scaled_axis(self.spin * tau);
         let heights = self.points.iter().map(|&x| n.dot(turn * (x - self.centre)));
-        heights.fold(f64::NEG_INFINITY, f64::max) + n.dot(self.centre)
+        heights.fold(f64::NEG_INFINITY, greater) + n.dot(self.centre)
     }
 
     /// The fastest that a point rises along `n` now, due to turning.
     fn fastest(&self, n: DVec3) -> f64 {
         let m = n.cross(self.spin);
         let rates = self.points.iter().map(|&x| m.dot(x - self.centre));
-        rates.fold(f64::NEG_INFINITY, f64::max)
+        rates.fold(f64::NEG_INFINITY, greater)
     }
 
     /// The largest second derivative along `n` at any time.
     fn bend(&self, n: DVec3) -> f64 {
         let arm = |x: &DVec3| (self.spin.cross(*x - self.centre)).length();
-        n.cross(self.spin).length() * self.points.iter().map(arm).fold(0.0, f64::max)
+        n.cross(self.spin).length() * self.points.iter().map(arm).fold(0.0, greater)
     }
 
     fn far(&self) -> f64 {
-        let reach = self.points.iter().map(|x| x.length()).fold(0.0, f64::max);
+        let reach = self.points.iter().map(|x| x.length()).fold(0.0, greater);
         (reach + 2.0 * self.centre.length()) * (1.0 + self.spin.length())
     }
 }
@@ -119,7 +120,7 @@ impl<C: Children, P: Other> Meeting<C, P> {
         let pairing = Pairing::new(&self.group, &self.other, &self.closing);
         let reach = (0..LANES)
             .map(|k| self.group.centre(k).length() + self.group.radius(k))
-            .fold(0.0, f32::max);
+            .fold(0.0, greater);
         for lane in 0..LANES {
             let pair = pairing.lane(lane);
             let travel = pair.velocity * self.closing.horizon;
@@ -163,17 +164,17 @@ impl<C: Children, P: Other> Meeting<C, P> {
             dot(axis.n, pair.velocity) + self.group.reach(pair.lane, m) + self.other.reach(o);
         let exact = n.dot(self.velocity) + child.fastest(n) + self.far.fastest(-n);
         let below = exact - f64::from(rate);
-        worst.rate = worst.rate.max(below / f64::from(closing.rate_slack));
+        worst.rate = greater(worst.rate, below / f64::from(closing.rate_slack));
 
         let gap = -self.far.highest(-n, 0.0) - child.highest(n, 0.0);
         let above = f64::from(axis.gap) - gap;
-        worst.support = worst.support.max(above / f64::from(self.allowed));
+        worst.support = greater(worst.support, above / f64::from(self.allowed));
 
         for (turning, body) in [(closing.split, child), (closing.other, &self.far)] {
             let across = n.cross(body.spin).length();
             let below = across - f64::from(length(turning.across(axis.n)) * BEND_F32);
             let allowed = f64::from(ACROSS_F32 * turning.rate);
-            worst.across = worst.across.max(below / allowed);
+            worst.across = greater(worst.across, below / allowed);
         }
 
         let apart = axis.gap - closing.slack;
@@ -188,7 +189,7 @@ impl<C: Children, P: Other> Meeting<C, P> {
             };
             let factor = f64::from(CLOCK_F32);
             let above = free / factor / exact - 1.0;
-            worst.clock = worst.clock.max(above / (1.0 - factor));
+            worst.clock = greater(worst.clock, above / (1.0 - factor));
         }
     }
 
@@ -226,7 +227,7 @@ impl<C: Children, P: Other> Meeting<C, P> {
         }
         let kept = f64::from(self.closing.kept);
         let size = self.children[lane].far() + self.far.far() + self.velocity.length();
-        let until = f64::from(free).min(1.0);
+        let until = lesser(1.0, f64::from(free));
         for k in 0..=16 {
             let tau = until * f64::from(k) / 16.0;
             let found = gap(tau);
@@ -237,7 +238,7 @@ impl<C: Children, P: Other> Meeting<C, P> {
             );
         }
         let rest = (gap(until) - kept) / (gap(0.0) - kept);
-        worst.tightest = worst.tightest.min(rest);
+        worst.tightest = lesser(worst.tightest, rest);
         true
     }
 }

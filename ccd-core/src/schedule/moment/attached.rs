@@ -11,6 +11,7 @@
 //! `|f''| ≤ |ω×n|(|ω||u×D| + 2|V|) + |Δ|(|ω×n| + |ω_s|)|r|`, where `u` is the direction of `ω`.
 
 use crate::motion_bound::{Angle, Gap, Spinning, first_crossing};
+use crate::order::{greater, lesser};
 use crate::pose::Frame;
 use crate::problem::Side;
 use crate::tolerance::{ATTACHED_TIME, AXIS_ROUNDS, RATE_F64, attached_rounding};
@@ -136,7 +137,7 @@ impl<'p> Sweep<'p> {
                 gap.free_time()
             });
             // The bend holds for no longer.
-            free.fold(f64::from(ATTACHED_TIME), f64::min)
+            free.fold(f64::from(ATTACHED_TIME), lesser)
         })
     }
 
@@ -156,7 +157,7 @@ impl<'p> Sweep<'p> {
         let Turned { height, axis, .. } = self.turned(0.0);
         self.arms()
             .map(|arm| height + axis.dot(arm))
-            .fold(f64::INFINITY, f64::min)
+            .fold(f64::INFINITY, lesser)
     }
 
     /// From the point of reference to the points.
@@ -199,7 +200,7 @@ impl<'p> Sweep<'p> {
 /// How far the points are at most from one.
 fn farthest(points: &[DVec3], from: DVec3) -> f64 {
     let squares = points.iter().map(|p| p.distance_squared(from));
-    squares.fold(0.0, f64::max).sqrt()
+    squares.fold(0.0, greater).sqrt()
 }
 
 /// The direction of a spin, zero where there is none.

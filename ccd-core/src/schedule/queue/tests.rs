@@ -1,6 +1,7 @@
 //! The queue against a sorted list.
 
 use super::{Queue, Rank};
+use crate::order::greater;
 use crate::tests::scene::{RngExt, rng};
 use proptest::prelude::*;
 
@@ -116,7 +117,7 @@ proptest! {
                 },
                 _ => if let Some(visit) = queue.visit() {
                     prop_assert_eq!(*visit.item, list[0].3);
-                    let later = visit.clock.max(clock);
+                    let later = greater(visit.clock, clock);
                     list[0].0 = later;
                     visit.postpone(later);
                 },

@@ -4,6 +4,7 @@ use super::super::Part;
 use super::super::solid::Solid;
 use crate::tolerance::WELL_SHAPED;
 use ccd_core::glam::DVec3;
+use ccd_core::order::{greater, lesser};
 
 /// A part with the planes of its facets.
 pub(super) struct Body<'a> {
@@ -60,7 +61,7 @@ impl<'a> Body<'a> {
             if above > normal.abs().dot(half) + self.slack {
                 return Meets::No;
             }
-            highest = highest.max(above);
+            highest = greater(highest, above);
         }
         match highest <= 0.0 && !self.planes.is_empty() {
             true => Meets::Centre,
@@ -71,7 +72,7 @@ impl<'a> Body<'a> {
     /// How deep a point is below the planes.
     fn depth(&self, point: DVec3) -> f64 {
         let depth = |&(normal, height): &(DVec3, f64)| height - normal.dot(point);
-        self.planes.iter().map(depth).fold(f64::INFINITY, f64::min)
+        self.planes.iter().map(depth).fold(f64::INFINITY, lesser)
     }
 
     /// A bound for a part that hardly any of the surface reaches into: what is deeper than that has
@@ -89,18 +90,18 @@ impl<'a> Body<'a> {
         let reaches = |t: [DVec3; 3]| {
             let below = |&(normal, height): &(DVec3, f64)| {
                 let depths = t.map(|p| height - normal.dot(p));
-                depths.into_iter().fold(f64::NEG_INFINITY, f64::max)
+                depths.into_iter().fold(f64::NEG_INFINITY, greater)
             };
-            self.planes.iter().map(below).fold(f64::INFINITY, f64::min)
+            self.planes.iter().map(below).fold(f64::INFINITY, lesser)
         };
         let deepest = solid
             .triangles()
             .filter(near)
             .map(reaches)
-            .fold(0.0, f64::max);
+            .fold(0.0, greater);
         let share = (deepest + 2.0 * self.slack) / (self.depth(centre) - self.slack);
         let far = self.part.corners.iter().map(|p| p.distance(centre));
-        let reach = far.fold(0.0, f64::max) + self.slack;
+        let reach = far.fold(0.0, greater) + self.slack;
         ((0.0..1.0).contains(&share) && solid.winds_about(centre)).then_some(share * reach)
     }
 }

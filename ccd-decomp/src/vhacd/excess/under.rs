@@ -5,6 +5,7 @@ use super::super::voxels::cut_to_box;
 use super::body::Body;
 use crate::tolerance::TRIANGLES_UNDER;
 use ccd_core::glam::DVec3;
+use ccd_core::order::{greater, lesser};
 
 /// A bound on the distance to the solid of a part's points in a box, from the surface about the box.
 ///
@@ -28,14 +29,14 @@ pub(super) fn excess(
     let mut lowest = f64::INFINITY;
     for triangle in near {
         cut_to_box(&triangle, bounds, &mut part);
-        lowest = part.iter().copied().map(height).fold(lowest, f64::min);
+        lowest = part.iter().copied().map(height).fold(lowest, lesser);
     }
     lowest -= solid.slack();
     let deepest = centre - 3.0 * half * up.signum();
     if !(height(deepest) < lowest) || !solid.winds_about(deepest) {
         return None;
     }
-    let sinks = (highest(body, up, centre, half, solid.slack()) - lowest).max(0.0);
+    let sinks = greater(0.0, highest(body, up, centre, half, solid.slack()) - lowest);
     let stays = (sinks * up.abs()).cmple(2.0 * half).all();
     stays.then_some(sinks + solid.slack())
 }
@@ -44,10 +45,10 @@ pub(super) fn excess(
 /// upward direction is a multiple and a rest.
 fn highest(body: &Body<'_>, up: DVec3, centre: DVec3, half: DVec3, slack: f64) -> f64 {
     let by_plane = |&(normal, height): &(DVec3, f64)| {
-        let multiple = up.dot(normal).max(0.0);
+        let multiple = greater(0.0, up.dot(normal));
         let rest = up - multiple * normal;
         multiple * (height - normal.dot(centre) + slack) + rest.abs().dot(half)
     };
     let by_box = up.abs().dot(half);
-    body.planes.iter().map(by_plane).fold(by_box, f64::min)
+    body.planes.iter().map(by_plane).fold(by_box, lesser)
 }

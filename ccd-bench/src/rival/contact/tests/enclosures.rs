@@ -10,6 +10,7 @@ use crate::rival::samples::{Samples, distance};
 use crate::rival::triangles_cross::triangles_cross;
 use crate::rival::{Course, Placement};
 use ccd_core::glam::{DMat3, DVec3};
+use ccd_core::order::greater;
 
 fn relative(samples: &mut Samples, speed: f64, spin: f64) -> Relative {
     let query = samples.query(speed, spin);
@@ -24,7 +25,7 @@ fn outside(enclosure: &Enclosure, rotation: DMat3, offset: DVec3) -> f64 {
         (off - enclosure.rotation.radius.col(k)).max_element()
     };
     let off = (offset - enclosure.offset.middle).abs() - enclosure.offset.radius;
-    (0..3).map(column).fold(off.max_element(), f64::max)
+    (0..3).map(column).fold(off.max_element(), greater)
 }
 
 fn span(samples: &mut Samples) -> Span {

@@ -8,6 +8,7 @@ use crate::rival::screw;
 use crate::scene::Shots;
 use ccd_core::Motion;
 use ccd_core::glam::DVec3;
+use ccd_core::order::lesser;
 
 /// How many samples of a motion the truth is taken from.
 const SAMPLES: u32 = 1000;
@@ -34,7 +35,7 @@ fn gap(mesh: &TriangleMesh, at: &Placement) -> f64 {
     triangles()
         .map(|t| t.map(|p| at.apply(p)))
         .flat_map(|t| triangles().map(move |u| distance(&t, &u)))
-        .fold(f64::INFINITY, f64::min)
+        .fold(f64::INFINITY, lesser)
 }
 
 /// Holds answers against samples; tells how many queries hit.

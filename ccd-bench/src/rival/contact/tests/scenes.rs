@@ -3,6 +3,7 @@
 use super::super::*;
 use crate::rival::samples::{cuboid, moving, query, still};
 use ccd_core::glam::{DQuat, DVec3};
+use ccd_core::order::lesser;
 use std::f64::consts::{FRAC_PI_4, PI};
 
 /// The rod's half length and half width.
@@ -106,7 +107,7 @@ fn a_rod_turns_past_a_wall() {
     for (share, hits) in [(1.0 - 1e-3, true), (1.0 - 1e-6, true), (1.0 + 1e-3, false)] {
         let a = moving(DVec3::ZERO, DQuat::IDENTITY, DVec3::ZERO, PI * DVec3::Y);
         let query = query(a, still((radius * share + 0.5) * DVec3::X));
-        let exact = (share.min(1.0).asin() - WIDTH.atan2(LENGTH)) / PI;
+        let exact = (lesser(1.0, share).asin() - WIDTH.atan2(LENGTH)) / PI;
         match ask(&rod, &wall, 1e-7, &query) {
             Claim::Contact { time } => {
                 assert!(

@@ -2,6 +2,7 @@
 
 use super::super::{Closing, Other, OtherBox, OtherTriangle, Turn, Turning};
 use super::{Meeting, Solid};
+use crate::order::greater;
 use crate::tests::scene::{Pcg64, RngExt, direction, magnitude, rotation, within};
 use crate::tolerance::{LEAST_GAP_F32, PLACES_F32, RATE_F32, REACH_F32, WAY_F32};
 use crate::tree::{Below, BoxGroup, LANES, Node, TriangleGroup, unit_normal, up};
@@ -37,7 +38,7 @@ impl Shape {
             up(points
                 .iter()
                 .map(|&p| measure(p - centre))
-                .fold(0.0, f64::max))
+                .fold(0.0, greater))
             .next_up()
         };
         let node = Node {
@@ -178,7 +179,7 @@ impl Setting {
             centre: centre.as_vec3(),
             corners: arms.map(DVec3::as_vec3),
             normal: unit_normal([a, b, c]),
-            radius: up(arms.map(DVec3::length).into_iter().fold(0.0, f64::max)).next_up(),
+            radius: up(arms.map(DVec3::length).into_iter().fold(0.0, greater)).next_up(),
         };
         let reach = group.members.reach;
         self.meeting(group, triangle, reach, children, far)

@@ -4,6 +4,7 @@ use super::*;
 use crate::body::Body;
 use crate::motion::Motion;
 use crate::oracle::PiecePair;
+use crate::order::greater;
 use crate::piece::Polytope;
 use crate::pose::Pose;
 use crate::problem::{Config, Moving, Problem};
@@ -158,9 +159,9 @@ fn rounding_along_an_axis_that_turns_is_allowed_for() {
             let (start, end) = (exact(0.0), exact(tau));
             let off = Double::from(second.0) - Double::from(first.0) - (end.0 - start.0);
             let (allowed_height, fastest) = sweep.allowances();
-            height = height.max(off.get().abs() / allowed_height);
+            height = greater(height, off.get().abs() / allowed_height);
             let off = (Double::from(second.1) - end.1).get();
-            rate = rate.max(off.abs() / fastest);
+            rate = greater(rate, off.abs() / fastest);
         }
     }
     assert!(height < 1.0 && rate < 1.0, "{height} {rate}");
