@@ -10,10 +10,14 @@ use ccd_core::{Limit, Outcome};
 use std::fmt;
 
 /// What ends a query early, and what to do about it.
-const LIMITS: [(Limit, &str); 3] = [
+const LIMITS: [(Limit, &str); 4] = [
     (
         Limit::Budget,
-        "the budget of node visits was spent; --budget raises it",
+        "the budget was spent; --budget raises it",
+    ),
+    (
+        Limit::Deadline,
+        "the deadline was passed; --deadline gives more time",
     ),
     (
         Limit::Stalled,

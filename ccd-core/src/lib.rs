@@ -16,7 +16,7 @@
 //! 4. **Checkable.** A backend is never believed: its claim is [checked](Separation) with one support
 //!    query. A wrong one makes a query slow or unresolved, never late.
 //! 5. **Same answer** whichever backend, schedule or order of the two bodies, within the tolerance;
-//!    the same call twice gives the same bits.
+//!    the same call twice gives the same bits; except for what a [deadline](Config::deadline) ends.
 //!
 //! # From the paper to the files
 //! | step | where |
@@ -31,7 +31,7 @@
 //! | farthest corner along a direction `[FAST06 §4.2]` | `support.rs` |
 //! | one pair of pieces at one moment | `schedule/pair.rs`, `schedule/moment.rs` |
 //! | features of all contacts at a time `[FAST06 §5.2]` | `contacts.rs` |
-//! | contact at the start, one body inside the other | `schedule/start.rs`, `overlap.rs`, `containment.rs` |
+//! | contact at the start, one body inside the other | `schedule/nearest.rs`, `overlap.rs`, `containment.rs` |
 //! | every allowance for rounding | [`tolerance`] |
 //!
 //! # Example

@@ -68,6 +68,13 @@ pub struct PiecePair<'a> {
     pub b_to_a: Frame,
 }
 
+impl PiecePair<'_> {
+    /// How many points there are to look at.
+    pub(crate) fn points(&self) -> u64 {
+        self.a.points.len() as u64 + self.b.points.len() as u64
+    }
+}
+
 /// What an oracle says of a pair, unchecked, in A's frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Claim {

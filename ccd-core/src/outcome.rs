@@ -2,6 +2,7 @@
 
 use crate::feature::Feature;
 use crate::oracle::Effort;
+use crate::tolerance::LOOKS_PER_VISIT;
 use glam::DVec3;
 
 /// The answer to "when do they first touch?".
@@ -24,7 +25,7 @@ pub enum Outcome {
     },
     /// The bodies are within margin + tolerance at the start, without overlapping.
     Touching {
-        /// How near they are at the start.
+        /// How near they are at the start: `lower` and `upper` bound the distance of the bodies.
         contact: Contact,
     },
     /// The bodies overlap at the start.
@@ -56,8 +57,10 @@ pub enum Overlap {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Limit {
-    /// The budget of node visits was spent.
+    /// The [budget](crate::Config::budget) was spent.
     Budget,
+    /// The [deadline](crate::Config::deadline) was passed.
+    Deadline,
     /// A pair's proof could not be prolonged: the next step is below the time's resolution.
     Stalled,
     /// The oracle gave up on a pair, and nobody else was there to ask.
@@ -100,6 +103,9 @@ pub struct Separation {
 pub struct Stats {
     /// How many pairs of nodes were bounded or split, pairs of pieces included.
     pub node_visits: u64,
+    /// How often a point of a piece was looked at, about: in each step of an oracle's search, and
+    /// each time that a gap is followed.
+    pub point_looks: u64,
     /// How often the oracle was asked.
     pub oracle_calls: u64,
     /// How often the oracle gave up.
@@ -111,6 +117,15 @@ pub struct Stats {
     pub advancements: u64,
     /// What the oracle did for it.
     pub effort: Effort,
+}
+
+impl Stats {
+    /// What the [budget](crate::Config::budget) is spent on: visits, and as much again for every
+    /// [`LOOKS_PER_VISIT`] looks at points.
+    #[inline]
+    pub fn work(&self) -> u64 {
+        self.node_visits + self.point_looks / LOOKS_PER_VISIT
+    }
 }
 
 /// An outcome with its accuracy and its cost.

@@ -8,6 +8,7 @@ use crate::path::Path;
 use crate::piece::Piece;
 use crate::tolerance::{self, LEAST_TOLERANCE, MAX_COORDINATE, MAX_TURN, NODE_GAP};
 use glam::DVec3;
+use std::time::Duration;
 
 /// How accurately to answer, and what to count as a contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,9 +20,16 @@ pub struct Config {
     pub margin: f64,
     /// What becomes of a contact at the start.
     pub start: StartPolicy,
-    /// How many pairs of nodes may be visited before the query is left unresolved; each takes up to
+    /// How much [work](crate::Stats::work) may be done before the query is left unresolved: visits
+    /// of pairs of nodes, and what costs as much. Each takes about a microsecond or less, and up to
     /// about 150 bytes.
     pub budget: u64,
+    /// How long the query may take before it is left unresolved; none reads no clock.
+    ///
+    /// Looked at every few hundred visits, so that it is overstepped by less than a millisecond
+    /// where pieces are small; one call of an oracle is never interrupted. Whether it is reached
+    /// depends on the machine: answers that it ends differ from one call to the next.
+    pub deadline: Option<Duration>,
 }
 
 impl Default for Config {
@@ -31,6 +39,7 @@ impl Default for Config {
             margin: 0.0,
             start: StartPolicy::default(),
             budget: tolerance::DEFAULT_BUDGET,
+            deadline: None,
         }
     }
 }
@@ -73,6 +82,7 @@ pub struct Problem<'a> {
     pub(crate) margin: f64,
     pub(crate) start: StartPolicy,
     pub(crate) budget: u64,
+    pub(crate) deadline: Option<Duration>,
     /// Bounds the rounding of any distance computed in f64: [`tolerance::distance_rounding`].
     pub(crate) rounding: f64,
 }
@@ -139,6 +149,7 @@ impl<'a> Problem<'a> {
             margin: config.margin,
             start: config.start,
             budget: config.budget,
+            deadline: config.deadline,
             rounding,
         })
     }
@@ -153,6 +164,11 @@ impl<'a> Problem<'a> {
     pub(crate) fn pieces(&self, [a, b]: [u32; 2]) -> [Piece<'a>; 2] {
         let piece = |side: &Side<'a>, k: u32| side.body.pieces().get(k as usize);
         [piece(&self.a, a), piece(&self.b, b)]
+    }
+
+    /// The distance at which a pair is in contact.
+    pub(crate) fn contact_distance(&self) -> f64 {
+        self.margin + self.tolerance
     }
 
     /// The gap that the clocks of pairs of pieces prove: half the tolerance beyond the margin, so

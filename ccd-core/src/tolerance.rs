@@ -13,9 +13,26 @@ pub const U32: f32 = f32::EPSILON / 2.0;
 /// The tolerance of a query that names none, in the scene's unit of length `[FAST06 §6.2]`.
 pub const DEFAULT_TOLERANCE: f64 = 1e-3;
 
-/// How many pairs of nodes a query may visit that names no budget: a few seconds' work, and less than
-/// a gigabyte of pairs that wait (0.6 at worst, seen with the schedule `Fast`).
+/// How much [work](crate::Stats::work) a query may take that names no budget: a few seconds, and less
+/// than a gigabyte of pairs that wait (0.6 at worst, seen with the schedule `Fast`).
 pub const DEFAULT_BUDGET: u64 = 1 << 22;
+
+/// How many looks at points of pieces cost as much as a visit of a pair of nodes. A look is a
+/// projection onto an axis, or a track and its rate there.
+pub const LOOKS_PER_VISIT: u64 = 128;
+
+/// How often an oracle that does not count its steps is taken to look at every point of two pieces:
+/// searches take 3 to 10 steps.
+pub const USUAL_STEPS: u64 = 8;
+
+/// How much [work](crate::Stats::work) is done between two looks at the clock, where there is a
+/// deadline. A look takes about 25 ns.
+pub const WORK_BETWEEN_LOOKS: u64 = 256;
+
+/// How much nearer than the nearest pair of pieces, relative to its distance, another pair may be that
+/// is not looked at: bounds of nodes are rounded by this much and less ([`CLOCK_F32`]), and of the pairs
+/// that share a corner, or lie in two planes, one is enough.
+pub const NEAREST_SHARE: f64 = 1.0 / 65536.0;
 
 /// The least tolerance that can be asked for, in the scene's unit of length: squares of distances
 /// that matter stay above the underflow of f64 (2.2e-308).

@@ -154,6 +154,7 @@ fn settings(args: &QueryArgs) -> Settings {
             margin: args.margin,
             start: args.start.into(),
             budget: args.budget,
+            deadline: args.deadline,
         },
         repeat: at_least_one(args.repeat as usize),
         threads: at_least_one(usize::from(args.threads)),

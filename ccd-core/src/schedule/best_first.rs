@@ -1,14 +1,15 @@
 //! Every pair keeps its own clock; the pair whose proof expires first is looked at next.
 
 use super::Schedule;
-use super::expand::{Split, Which, expand};
+use super::expand::{Split, expand};
 use super::group::{Group, Next};
 use super::pair::Pair;
+use super::meter::Meter;
 use super::queue::{Full, Queue, Rank};
 use super::start::{self, Start};
 use crate::oracle::DistanceOracle;
 use crate::order::lesser;
-use crate::outcome::{Answer, Limit, Outcome, Stats};
+use crate::outcome::{Answer, Limit, Outcome};
 use crate::problem::Problem;
 use std::ops::ControlFlow;
 
@@ -48,9 +49,10 @@ enum Found<C> {
 
 impl<O: DistanceOracle> Schedule<O> for BestFirst<O> {
     fn solve(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer {
-        start::answer(problem, oracle, |problem, oracle, stats| {
+        start::answer(problem, oracle, |problem, oracle, meter| {
             self.queue.clear();
-            let outcome = self.first_contact(problem, oracle, stats);
+            let outcome = self.first_contact(problem, oracle, meter);
+            let stats = &mut meter.stats;
             stats.peak_front = stats.peak_front.max(self.queue.peak());
             outcome
         })
@@ -62,7 +64,7 @@ impl<O: DistanceOracle> BestFirst<O> {
         &mut self,
         problem: &Problem<'_>,
         oracle: &mut O,
-        stats: &mut Stats,
+        meter: &mut Meter,
     ) -> Outcome {
         let mut start = Start::default();
         let mut proven = f64::INFINITY;
@@ -79,9 +81,8 @@ impl<O: DistanceOracle> BestFirst<O> {
             {
                 return outcome;
             }
-            stats.node_visits += 1;
-            if stats.node_visits > problem.budget {
-                return start.touching().unwrap_or(unresolved(s, Limit::Budget));
+            if let Err(limit) = meter.visit() {
+                return unresolved(s, limit);
             }
             let pushed = match found {
                 Found::Split(split) => {
@@ -90,10 +91,9 @@ impl<O: DistanceOracle> BestFirst<O> {
                     self.push_group(Group::new(problem, &expansion, split, s))
                 }
                 Found::Pieces(mut pair) => {
-                    let step = pair.advance(problem, oracle, stats, s);
-                    match start.settle(problem, step, s) {
-                        ControlFlow::Continue(Some(clock)) => self.push_pair(clock, pair),
-                        ControlFlow::Continue(None) => Ok(()),
+                    let step = pair.advance(problem, oracle, meter, s);
+                    match start::settle(problem, oracle, meter, step, s) {
+                        ControlFlow::Continue(clock) => self.push_pair(clock, pair),
                         ControlFlow::Break(outcome) => return outcome,
                     }
                 }
@@ -108,16 +108,10 @@ impl<O: DistanceOracle> BestFirst<O> {
     }
 
     fn open_roots(&mut self, problem: &Problem<'_>) -> Result<(), Full> {
-        let item = match (
-            problem.a.body.tree().piece(0),
-            problem.b.body.tree().piece(0),
-        ) {
-            (Some(a), Some(b)) => return self.push_pair(0.0, Pair::new(a, b)),
-            (None, None) => Group::roots(smaller(problem)),
-            (None, Some(_)) => Group::roots(Which::A),
-            (Some(_), None) => Group::roots(Which::B),
-        };
-        self.queue.push(0.0, Rank::Group, Item::Group(item))
+        match Next::roots(problem) {
+            Next::Ask(a, b) => self.push_pair(0.0, Pair::new(a, b)),
+            Next::Split(split) => self.push_group(Group::roots(split.body)),
+        }
     }
 
     /// Takes out the pair of least clock, and lets the rest of its group wait for theirs.
@@ -159,15 +153,6 @@ impl<O: DistanceOracle> BestFirst<O> {
                 .push(clock, Rank::PiecePair, Item::Pieces(pair))?;
         }
         Ok(())
-    }
-}
-
-/// The body whose root is smaller: a large one is best kept whole until it matters.
-fn smaller(problem: &Problem<'_>) -> Which {
-    let radius = |which: Which| which.of(problem).body.tree().radius();
-    match radius(Which::B) < radius(Which::A) {
-        true => Which::B,
-        false => Which::A,
     }
 }
 

@@ -9,7 +9,7 @@ use crate::problem::{Problem, Side};
 use crate::tolerance::{
     CLOSED_GAP, LEAST_GAP_F32, MUCH_LARGER, PLACES_F32, RATE_F32, REACH_F32, WAY_F32,
 };
-use crate::tree::{Below, Members, Named, Node, NodeId, unit_normal, up};
+use crate::tree::{Below, LANES, Members, Named, Node, NodeId, unit_normal, up};
 use glam::{DMat3, DVec3, Vec3};
 
 /// Which body a node belongs to.
@@ -73,11 +73,27 @@ impl Split {
 /// # Panics
 /// When the node is a single piece.
 pub(crate) fn expand(problem: &Problem<'_>, split: &Split, s: f64) -> Expansion {
-    let tree = split.body.of(problem).body.tree();
+    split_node(&Meeting::new(problem, split, s), split)
+}
+
+/// Splits a node at the start, to measure: what stands for the time for which a pair keeps apart is a
+/// lower bound of its distance.
+///
+/// # Panics
+/// When the node is a single piece.
+pub(crate) fn measure(problem: &Problem<'_>, split: &Split) -> Expansion {
+    let meeting = Meeting {
+        pace: Pace::Unit,
+        ..Meeting::new(problem, split, 0.0)
+    };
+    split_node(&meeting, split)
+}
+
+fn split_node(meeting: &Meeting<'_>, split: &Split) -> Expansion {
+    let tree = meeting.near.body.tree();
     let Named::Node(node) = tree.get(split.node) else {
         unreachable!("a triangle is a single piece");
     };
-    let meeting = Meeting::new(problem, split, s);
     match node.below {
         Below::Boxes(group) => {
             let group = tree.box_group(group);
@@ -115,6 +131,16 @@ struct Meeting<'p> {
     spin: DVec3,
     /// How much time is left.
     horizon: f32,
+    pace: Pace,
+}
+
+/// How fast gaps close.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Pace {
+    /// As the bodies move.
+    Moving,
+    /// By one unit of length in one of time, along every axis: the time that takes is the distance.
+    Unit,
 }
 
 impl<'p> Meeting<'p> {
@@ -130,6 +156,7 @@ impl<'p> Meeting<'p> {
             velocity: near_frame.inverse_vector(near.path.velocity - far.path.velocity),
             spin: near_frame.inverse_vector(far.path.spin),
             horizon: (1.0 - s) as f32,
+            pace: Pace::Moving,
         }
     }
 
@@ -170,6 +197,9 @@ impl View<'_> {
         let Meeting {
             near: n, far: f, ..
         } = self.meeting;
+        if self.meeting.pace == Pace::Unit {
+            return self.distances(group, other);
+        }
         match (n.path.turns(), f.path.turns()) {
             (false, false) => self.turning(group, other, Straight, Straight),
             (true, false) => self.turning(group, other, near(), Straight),
@@ -231,15 +261,13 @@ impl View<'_> {
     ) -> Bounds {
         let velocity = self.meeting.velocity.as_vec3();
         let reach = self.members.reach;
-        let [x, y, z] = other.centre().abs().to_array();
-        let rounding = WAY_F32 * (x + y + z) + REACH_F32 * (other.radius() + reach);
         // An arm is the difference of two places, each rounded where it is.
         let places = other.centre().length() + far.arm(Vec3::ZERO);
         let speed = velocity.length()
             + split.rate() * (reach + split.arm(Vec3::ZERO))
             + far.rate() * (other.radius() + far.arm(other.centre()) + PLACES_F32 * places);
         let problem = self.meeting.problem;
-        let rounding = (rounding + up(problem.rounding)).next_up();
+        let rounding = self.rounding(other);
         let slack = greater(
             (up(problem.margin) + rounding).next_up(),
             up(problem.node_gap()),
@@ -262,6 +290,33 @@ impl View<'_> {
             bound_attached(group, other, &closing, Larger::Other, &mut bounds);
         }
         bounds
+    }
+
+    /// Lower bounds of distances: for how long pairs keep apart that close in at a rate of 1.
+    fn distances<C: Children, P: Other>(&self, group: &C, other: &P) -> Bounds {
+        let rounding = self.rounding(other);
+        let closing = Closing {
+            velocity: Vec3::ZERO,
+            split: Straight,
+            other: Straight,
+            horizon: 0.0,
+            slack: rounding,
+            kept: 0.0,
+            closed: 0.0,
+            rate_slack: 1.0,
+        };
+        Bounds {
+            // A second look would see the same.
+            aloof: [0.0; LANES],
+            ..bound(group, other, &closing)
+        }
+    }
+
+    /// What rounding may do to a gap.
+    fn rounding<P: Other>(&self, other: &P) -> f32 {
+        let [x, y, z] = other.centre().abs().to_array();
+        let rounding = WAY_F32 * (x + y + z) + REACH_F32 * (other.radius() + self.members.reach);
+        (rounding + up(self.meeting.problem.rounding)).next_up()
     }
 }
 

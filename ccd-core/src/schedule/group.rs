@@ -29,6 +29,21 @@ pub(crate) enum Next {
     Split(Split),
 }
 
+impl Next {
+    /// The pair of both roots: of two that can be split the smaller one is, as a large one is best kept
+    /// whole until it matters.
+    pub(crate) fn roots(problem: &Problem<'_>) -> Self {
+        let (a, b) = (problem.a.body.tree(), problem.b.body.tree());
+        let body = match (a.piece(0), b.piece(0)) {
+            (Some(a), Some(b)) => return Next::Ask(a, b),
+            (None, None) if !(b.radius() < a.radius()) => Which::A,
+            (None, Some(_)) => Which::A,
+            _ => Which::B,
+        };
+        Next::Split(Split::all(body, 0, 0))
+    }
+}
+
 impl Group {
     /// The pair of both roots, of which the given body's is to be split.
     pub(crate) fn roots(body: Which) -> Self {

@@ -3,13 +3,14 @@
 use super::Schedule;
 use super::best_first::BestFirst;
 use super::hulls::{Below, HullPair, Near};
+use super::meter::Meter;
 use super::moment::Moment;
 use super::pair::Pair;
 use super::queue::{Full, Queue, Rank};
 use super::start::{self, Start};
 use crate::oracle::DistanceOracle;
 use crate::order::greater;
-use crate::outcome::{Answer, Limit, Outcome, Stats};
+use crate::outcome::{Answer, Limit, Outcome};
 use crate::problem::Problem;
 use crate::tolerance::HULL_PROGRESS;
 use std::ops::ControlFlow;
@@ -64,14 +65,15 @@ impl<O: DistanceOracle> Schedule<O> for HullFirst<O> {
         let Some(hulls) = HullPair::of(problem) else {
             return self.without_trees.solve(problem, oracle);
         };
-        start::answer(problem, oracle, |problem, oracle, stats| {
+        start::answer(problem, oracle, |problem, oracle, meter| {
             let mut search = Search {
                 problem,
                 hulls,
                 queue: &mut self.queue,
-                stats,
+                meter,
             };
             let outcome = search.first_contact(oracle);
+            let stats = &mut meter.stats;
             stats.peak_front = stats.peak_front.max(self.queue.peak());
             outcome
         })
@@ -82,7 +84,7 @@ struct Search<'p, C> {
     problem: &'p Problem<'p>,
     hulls: HullPair<'p>,
     queue: &'p mut Queue<Item<C>>,
-    stats: &'p mut Stats,
+    meter: &'p mut Meter,
 }
 
 impl<C: Clone + Default> Search<'_, C> {
@@ -103,19 +105,15 @@ impl<C: Clone + Default> Search<'_, C> {
             {
                 return outcome;
             }
-            self.stats.node_visits += 1;
-            if self.stats.node_visits > problem.budget {
-                return start.touching().unwrap_or(unresolved(s, Limit::Budget));
+            if let Err(limit) = self.meter.visit() {
+                return unresolved(s, limit);
             }
             let pushed = match item {
                 Item::Nodes(nodes) => self.advance(oracle, nodes, s),
                 Item::Pieces(mut pair) => {
-                    let step = pair.advance(problem, oracle, self.stats, s);
-                    match start.settle(problem, step, s) {
-                        ControlFlow::Continue(Some(clock)) => {
-                            self.push_item(clock, Item::Pieces(pair))
-                        }
-                        ControlFlow::Continue(None) => Ok(()),
+                    let step = pair.advance(problem, oracle, self.meter, s);
+                    match start::settle(problem, oracle, self.meter, step, s) {
+                        ControlFlow::Continue(clock) => self.push_item(clock, Item::Pieces(pair)),
                         ControlFlow::Break(outcome) => return outcome,
                     }
                 }
@@ -139,19 +137,21 @@ impl<C: Clone + Default> Search<'_, C> {
     ) -> Result<(), Full> {
         let problem = self.problem;
         let moment = Moment::of(problem, self.hulls.hulls(nodes.pair), s);
-        let Some(checked) = moment.ask(oracle, &mut nodes.cache, self.stats) else {
+        let Some(checked) = moment.ask(oracle, &mut nodes.cache, self.meter) else {
             // Smaller hulls may be easier.
             return self.split(s, Near::Bridges, &nodes);
         };
         let near = self.hulls.near(nodes.pair, &checked.claim);
-        let contact = problem.margin + problem.tolerance;
+        let contact = problem.contact_distance();
         // What is in contact at the start is known there, or not at all.
         let reach = if s > 0.0 { problem.gap() } else { contact };
         // Written so that NaN splits.
         if !(checked.lower > reach) {
             return self.split(s, near, &nodes);
         }
-        let Some(free) = moment.free_time(&checked, problem.gap()) else {
+        let free = moment.free_time(&checked, problem.gap());
+        self.meter.stats.point_looks += moment.looks();
+        let Some(free) = free else {
             return Ok(());
         };
         let clock = greater(s, (s + free).next_down());

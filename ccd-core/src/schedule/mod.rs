@@ -10,8 +10,10 @@ mod hull_first;
 #[cfg(feature = "hull-tree")]
 mod hulls;
 mod lanes;
+mod meter;
 mod moment;
 mod naive;
+mod nearest;
 #[cfg(all(test, feature = "hull-tree"))]
 mod over_hulls;
 mod pair;
@@ -36,6 +38,7 @@ pub trait Schedule<O: DistanceOracle> {
     /// Answers a query.
     ///
     /// # Guarantee
-    /// [Never late](crate#guarantee); ends on every input; the same call gives the same bits.
+    /// [Never late](crate#guarantee); ends on every input; the same call gives the same bits, unless a
+    /// [deadline](crate::Config::deadline) ends it.
     fn solve(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer;
 }

@@ -5,14 +5,15 @@ mod attached;
 use crate::motion_bound::{Angle, AxisMotion, Bound, Gap, Track, first_crossing, published, sound};
 use crate::oracle::{DistanceOracle, PiecePair};
 use crate::order::{greater, lesser};
-use crate::outcome::Stats;
 use crate::piece::Piece;
 use crate::pose::Frame;
 use crate::problem::{Problem, Side};
 use crate::separation::{self, Checked};
-use crate::tolerance::{AXIS_ROUNDS, RATE_F64, RESTING, TURNED_SHARE};
+use crate::tolerance::{AXIS_ROUNDS, RATE_F64, RESTING, TURNED_SHARE, USUAL_STEPS};
+use super::meter::Meter;
 use attached::{Member, Sweep};
 use glam::DVec3;
+use std::cell::Cell;
 use std::iter;
 
 /// Two pieces where they are at a clock.
@@ -22,6 +23,8 @@ pub(crate) struct Moment<'p> {
     pub(crate) frames: [Frame; 2],
     pub(crate) pieces: PiecePair<'p>,
     pub(crate) clock: f64,
+    /// How often a gap was followed past a point.
+    looks: Cell<u64>,
 }
 
 impl<'p> Moment<'p> {
@@ -39,6 +42,7 @@ impl<'p> Moment<'p> {
             frames,
             pieces: PiecePair { a, b, b_to_a },
             clock,
+            looks: Cell::new(0),
         }
     }
 
@@ -50,6 +54,7 @@ impl<'p> Moment<'p> {
                 b,
                 ..self.pieces
             },
+            looks: Cell::new(0),
             ..*self
         }
     }
@@ -59,10 +64,17 @@ impl<'p> Moment<'p> {
         &self,
         oracle: &mut O,
         cache: &mut O::Cache,
-        stats: &mut Stats,
+        meter: &mut Meter,
     ) -> Option<Checked> {
+        let stats = &mut meter.stats;
         stats.oracle_calls += 1;
-        match oracle.separation(&self.pieces, cache) {
+        let before = oracle.effort().steps;
+        let claim = oracle.separation(&self.pieces, cache);
+        stats.point_looks += match oracle.effort().steps.saturating_sub(before) {
+            0 => USUAL_STEPS * self.pieces.points(),
+            steps => USUAL_STEPS * steps,
+        };
+        match claim {
             Ok(claim) => Some(separation::check(
                 &self.pieces,
                 &claim,
@@ -193,7 +205,9 @@ impl<'p> Moment<'p> {
         for (holder, other, normal) in [(a, b, plane.normal), (b, a, -plane.normal)] {
             if uses_up(holder.swing) && uses_up(holder.swing_about(normal)) {
                 let sweep = Sweep::new(holder, other, normal, self.problem.rounding);
-                longest = greater(longest, sweep.free_time(plane.slack, self.horizon())?);
+                let free = sweep.free_time(plane.slack, self.horizon());
+                self.look(sweep.looks.get());
+                longest = greater(longest, free?);
             }
         }
         Some(longest)
@@ -207,6 +221,15 @@ impl<'p> Moment<'p> {
             Member::new(a, frame_a, self.pieces.a.points),
             Member::new(b, frame_b, self.pieces.b.points),
         ]
+    }
+
+    /// How often a gap was followed past a point so far.
+    pub(crate) fn looks(&self) -> u64 {
+        self.looks.get()
+    }
+
+    fn look(&self, points: u64) {
+        self.looks.set(self.looks.get() + points);
     }
 
     fn horizon(&self) -> f64 {
@@ -233,8 +256,11 @@ impl<'p> Moment<'p> {
             rate: below.rate - above.rate + rounding,
             bend: (above.bend + below.bend) * (1.0 + RATE_F64),
         };
+        let points = self.pieces.points();
+        self.look(points);
         match (a.few(), b.few()) {
             (Some(below), Some(above)) => first_crossing(self.horizon(), rounds, |tau| {
+                self.look(points);
                 let below = below.at(a.angle(tau), tau);
                 let above = above.at(b.angle(tau), tau);
                 let times = below
@@ -243,6 +269,7 @@ impl<'p> Moment<'p> {
                 times.fold(f64::INFINITY, lesser)
             }),
             _ => first_crossing(self.horizon(), rounds, |tau| {
+                self.look(points);
                 gap(b.lowest(tau), a.highest(tau)).free_time()
             }),
         }

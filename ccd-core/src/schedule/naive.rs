@@ -1,13 +1,14 @@
 //! All pairs of pieces, one common clock: Alg. 1 of the paper, the slow and obvious twin.
 
 use super::Schedule;
+use super::meter::Meter;
 use super::moment::Moment;
 use super::pair::Pair;
 use super::start::{self, Start};
 use crate::motion_bound::Bound;
 use crate::oracle::DistanceOracle;
 use crate::order::lesser;
-use crate::outcome::{Answer, Limit, Outcome, Stats};
+use crate::outcome::{Answer, Limit, Outcome};
 use crate::problem::{Problem, Side};
 use std::ops::ControlFlow;
 
@@ -44,16 +45,16 @@ impl<O: DistanceOracle> Default for Naive<O> {
 
 impl<O: DistanceOracle> Schedule<O> for Naive<O> {
     fn solve(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer {
-        start::answer(problem, oracle, |problem, oracle, stats| {
-            let outcome = self.search(problem, oracle, stats);
-            stats.peak_front = self.pairs.len() as u64;
+        start::answer(problem, oracle, |problem, oracle, meter| {
+            let outcome = self.search(problem, oracle, meter);
+            meter.stats.peak_front = self.pairs.len() as u64;
             outcome
         })
     }
 }
 
 impl<O: DistanceOracle> Naive<O> {
-    fn search(&mut self, problem: &Problem<'_>, oracle: &mut O, stats: &mut Stats) -> Outcome {
+    fn search(&mut self, problem: &Problem<'_>, oracle: &mut O, meter: &mut Meter) -> Outcome {
         let (a, b) = (problem.a.body.pieces().len(), problem.b.body.pieces().len());
         let unresolved = |s: f64, reason| Outcome::Unresolved {
             safe_until: problem.time(s),
@@ -70,22 +71,20 @@ impl<O: DistanceOracle> Naive<O> {
         let mut start = Start::default();
         let mut s = 0.0;
         while s < 1.0 {
-            stats.advancements += 1;
-            stats.node_visits += all;
-            if stats.node_visits > problem.budget {
-                return unresolved(s, Limit::Budget);
-            }
+            meter.stats.advancements += 1;
             let mut next = f64::INFINITY;
             let moment = Moment::new(problem, 0, 0, s);
             for pair in &mut self.pairs {
+                if let Err(limit) = meter.visit() {
+                    return unresolved(s, limit);
+                }
                 let moment = moment.with(problem.pieces([pair.a, pair.b]));
                 let reaches = [reaches[0][pair.a as usize], reaches[1][pair.b as usize]];
-                let step = pair.advance_by(&moment, oracle, stats, |moment, checked, kept| {
+                let step = pair.advance_by(&moment, oracle, meter, |moment, checked, kept| {
                     moment.directed_time(checked, kept, self.bound, reaches)
                 });
-                match start.settle(problem, step, s) {
-                    ControlFlow::Continue(Some(clock)) => next = lesser(next, clock),
-                    ControlFlow::Continue(None) => {}
+                match start::settle(problem, oracle, meter, step, s) {
+                    ControlFlow::Continue(clock) => next = lesser(next, clock),
                     ControlFlow::Break(outcome) => return outcome,
                 }
             }

@@ -1,8 +1,9 @@
 //! One pair of pieces: ask the oracle, check its claim, advance the pair's own clock.
 
+use super::meter::Meter;
 use super::moment::Moment;
 use crate::oracle::{Combination, DistanceOracle};
-use crate::outcome::{Contact, Separation, Stats};
+use crate::outcome::{Contact, Separation};
 use crate::overlap;
 use crate::problem::{Problem, Side, StartPolicy};
 use crate::separation::Checked;
@@ -60,11 +61,11 @@ impl<C: Default + Clone> Pair<C> {
         &mut self,
         problem: &Problem<'_>,
         oracle: &mut O,
-        stats: &mut Stats,
+        meter: &mut Meter,
         s: f64,
     ) -> Step {
         let moment = Moment::new(problem, self.a, self.b, s);
-        self.advance_by(&moment, oracle, stats, |moment, checked, kept| {
+        self.advance_by(&moment, oracle, meter, |moment, checked, kept| {
             moment.free_time(checked, kept)
         })
     }
@@ -75,22 +76,22 @@ impl<C: Default + Clone> Pair<C> {
         &mut self,
         moment: &Moment<'_>,
         oracle: &mut O,
-        stats: &mut Stats,
+        meter: &mut Meter,
         free_time: impl FnOnce(&Moment<'_>, &Checked, f64) -> Option<f64>,
     ) -> Step {
         let (problem, s) = (moment.problem, moment.clock);
-        let Some(checked) = moment.ask(oracle, &mut self.cache, stats) else {
+        let Some(checked) = moment.ask(oracle, &mut self.cache, meter) else {
             return Step::GaveUp;
         };
         let ids = [self.a, self.b];
         let contact = || contact(moment, ids, &checked);
-        let apart = problem.margin + problem.tolerance;
+        let apart = problem.contact_distance();
         if checked.upper <= apart {
             if s == 0.0 && overlap::intersects(&moment.pieces, &checked, problem.rounding) {
                 return Step::Overlap(contact());
             }
             match self.goal {
-                Goal::Apart => match self.goal_of_start(problem, oracle, stats) {
+                Goal::Apart => match self.goal_of_start(problem, oracle, meter) {
                     Some(goal) => self.goal = goal,
                     None => return Step::Contact(contact()),
                 },
@@ -108,6 +109,7 @@ impl<C: Default + Clone> Pair<C> {
             Goal::Resting { .. } => moment.resting_time(&checked, kept, ids),
             Goal::Apart | Goal::Parted => free_time(moment, &checked, kept),
         };
+        meter.stats.point_looks += moment.looks();
         match free {
             None => Step::FreeUntil(f64::INFINITY),
             Some(tau) if (s + tau).next_down() > s => Step::FreeUntil((s + tau).next_down()),
@@ -122,15 +124,15 @@ impl<C: Default + Clone> Pair<C> {
         &self,
         problem: &Problem<'_>,
         oracle: &mut O,
-        stats: &mut Stats,
+        meter: &mut Meter,
     ) -> Option<Goal> {
         if problem.start == StartPolicy::Report {
             return None;
         }
         let moment = Moment::new(problem, self.a, self.b, 0.0);
-        let start = moment.ask(oracle, &mut C::default(), stats)?;
+        let start = moment.ask(oracle, &mut C::default(), meter)?;
         // Written so that NaN is a contact, and so is a pair that no axis was found to keep apart.
-        let resting = start.upper <= problem.margin + problem.tolerance
+        let resting = start.upper <= problem.contact_distance()
             && start.lower >= -RESTING * problem.rounding;
         if !resting {
             return None;
@@ -142,7 +144,7 @@ impl<C: Default + Clone> Pair<C> {
 }
 
 /// A checked pair in the world's coordinates, with its features.
-fn contact(moment: &Moment<'_>, [a, b]: [u32; 2], checked: &Checked) -> Contact {
+pub(super) fn contact(moment: &Moment<'_>, [a, b]: [u32; 2], checked: &Checked) -> Contact {
     let (problem, a_to_world) = (moment.problem, &moment.frames[0]);
     let world = |x: DVec3| problem.world(a_to_world.point(x));
     let feature =

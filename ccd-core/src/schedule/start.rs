@@ -1,5 +1,7 @@
 //! What is found at the start: touching, overlapping, or one inside the other.
 
+use super::meter::Meter;
+use super::nearest;
 use super::pair::Step;
 use crate::containment;
 use crate::oracle::DistanceOracle;
@@ -13,99 +15,80 @@ use std::ops::ControlFlow;
 /// began with: what parts or slides keeps more than that, what approaches does not. Where there is
 /// no gap to speak of, it is the pairs that rest on each other that are let go, each on its own.
 ///
-/// A search adds to the stats what it took.
+/// A search adds to the meter what it took.
 pub(crate) fn answer<O: DistanceOracle>(
     problem: &Problem<'_>,
     oracle: &mut O,
-    mut search: impl FnMut(&Problem<'_>, &mut O, &mut Stats) -> Outcome,
+    mut search: impl FnMut(&Problem<'_>, &mut O, &mut Meter) -> Outcome,
 ) -> Answer {
     let before = oracle.effort();
-    let mut stats = Stats::default();
-    let outcome = search(&problem.reporting(), oracle, &mut stats);
+    let mut meter = Meter::new(problem);
+    let outcome = search(&problem.reporting(), oracle, &mut meter);
     let (outcome, tolerance) = match (problem.start, outcome) {
         (StartPolicy::Leave, Outcome::Touching { contact }) => {
             let problem = problem.leaving(contact.separation.lower - problem.margin);
-            (search(&problem, oracle, &mut stats), problem.tolerance)
+            (search(&problem, oracle, &mut meter), problem.tolerance)
         }
         _ => (outcome, problem.tolerance),
     };
-    stats.effort = oracle.effort() - before;
     Answer {
         outcome,
         tolerance,
-        stats,
+        stats: Stats {
+            effort: oracle.effort() - before,
+            ..meter.stats
+        },
     }
 }
 
-/// Collects what pairs of pieces are like at the start, until the first clock past it.
+/// What a pair of pieces at clock `s` has come to: the clock to wait for, or the answer.
+///
+/// A pair that touches at the start is not the answer yet: another one may be nearer, or overlap.
+pub(crate) fn settle<O: DistanceOracle>(
+    problem: &Problem<'_>,
+    oracle: &mut O,
+    meter: &mut Meter,
+    step: Step,
+    s: f64,
+) -> ControlFlow<Outcome, f64> {
+    let unresolved = |reason| Outcome::Unresolved {
+        safe_until: problem.time(s),
+        reason,
+    };
+    ControlFlow::Break(match step {
+        Step::FreeUntil(clock) => return ControlFlow::Continue(clock),
+        Step::Contact(contact) if s > 0.0 => {
+            let time = problem.time(s);
+            Outcome::Contact { time, contact }
+        }
+        Step::Contact(contact) => nearest::touching(problem, oracle, meter, contact),
+        Step::Overlap(contact) => overlapping(contact),
+        Step::Stalled => unresolved(Limit::Stalled),
+        Step::GaveUp => unresolved(Limit::OracleGaveUp),
+    })
+}
+
+/// Two pieces overlap.
+pub(super) fn overlapping(contact: Contact) -> Outcome {
+    Outcome::Overlapping {
+        overlap: Overlap::Pieces(contact),
+    }
+}
+
+/// Whether the start is over.
 #[derive(Debug, Default)]
 pub(crate) struct Start {
-    touching: Option<Contact>,
     over: bool,
 }
 
 impl Start {
-    /// A pair touches at the start; another one may be nearer, or overlap still.
-    fn touch(&mut self, contact: Contact) {
-        let nearest = self.touching.get_or_insert(contact);
-        if contact.separation.lower < nearest.separation.lower {
-            *nearest = contact;
-        }
-    }
-
-    /// What a pair of pieces at clock `s` has come to: the clock to wait for, none when it touches at
-    /// the start, or the answer.
-    pub(crate) fn settle(
-        &mut self,
-        problem: &Problem<'_>,
-        step: Step,
-        s: f64,
-    ) -> ControlFlow<Outcome, Option<f64>> {
-        let unresolved = |reason| Outcome::Unresolved {
-            safe_until: problem.time(s),
-            reason,
-        };
-        ControlFlow::Break(match step {
-            Step::FreeUntil(clock) => return ControlFlow::Continue(Some(clock)),
-            Step::Contact(contact) if s > 0.0 => {
-                let time = problem.time(s);
-                Outcome::Contact { time, contact }
-            }
-            Step::Contact(contact) => {
-                self.touch(contact);
-                return ControlFlow::Continue(None);
-            }
-            Step::Overlap(contact) => Start::overlapping(contact),
-            Step::Stalled => unresolved(Limit::Stalled),
-            Step::GaveUp => unresolved(Limit::OracleGaveUp),
-        })
-    }
-
-    /// A pair overlaps.
-    fn overlapping(contact: Contact) -> Outcome {
-        Outcome::Overlapping {
-            overlap: Overlap::Pieces(contact),
-        }
-    }
-
-    /// The answer as far as it is known.
-    pub(crate) fn touching(&self) -> Option<Outcome> {
-        self.touching.map(|contact| Outcome::Touching { contact })
-    }
-
-    /// All pairs are past the start and none overlaps: the answer, if it lies there.
+    /// All pairs are past the start, and none is in contact there: the answer, if one body is inside
+    /// the other; asked once.
     pub(crate) fn end(&mut self, problem: &Problem<'_>) -> Option<Outcome> {
         if std::mem::replace(&mut self.over, true) {
             return None;
         }
-        let touching = self.touching.is_some();
-        let inside = match touching {
-            true => containment::of_touching(problem),
-            false => containment::at_start(problem),
-        };
-        match inside {
-            Some(overlap) => Some(Outcome::Overlapping { overlap }),
-            None => self.touching(),
-        }
+        let overlap = containment::at_start(problem)?;
+        Some(Outcome::Overlapping { overlap })
     }
 }

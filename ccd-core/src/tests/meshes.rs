@@ -1,7 +1,7 @@
 //! Closed meshes.
 
 use super::nearest::Triangle;
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 /// A cube from −half to half, outward normals, each face cut into `n × n` squares.
 pub(crate) fn cube(half: f64, n: usize) -> Vec<Triangle> {
@@ -28,6 +28,26 @@ pub(crate) fn cube(half: f64, n: usize) -> Vec<Triangle> {
         }
     }
     out
+}
+
+/// A torus about the z axis of radii 1 and 0.3, of `2 n m` triangles, outward normals.
+pub(crate) fn torus(n: usize, m: usize) -> Vec<Triangle> {
+    let at = |i: usize, j: usize| {
+        let (around, about) = (turn(i, n), turn(j, m));
+        let out = 1.0 + 0.3 * about.x;
+        DVec3::new(out * around.x, out * around.y, 0.3 * about.y)
+    };
+    let square = |i: usize, j: usize| {
+        let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+        [[a, b, c], [a, c, d]]
+    };
+    let squares = (0..n).flat_map(|i| (0..m).map(move |j| (i, j)));
+    squares.flat_map(|(i, j)| square(i, j)).collect()
+}
+
+/// The `k`th of `n` points of the unit circle.
+fn turn(k: usize, n: usize) -> DVec2 {
+    DVec2::from_angle(std::f64::consts::TAU * (k % n) as f64 / n as f64)
 }
 
 /// The same surface with its normals the other way.

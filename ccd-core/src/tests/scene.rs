@@ -1,6 +1,6 @@
 //! Random bodies and motions of every shape and size, the same for the same seed.
 
-use super::nearest::Triangle;
+use super::nearest::{Triangle, nearest};
 use crate::body::{Body, Volume};
 use crate::motion::Motion;
 use crate::order::{greater, lesser};
@@ -161,6 +161,20 @@ impl Scene {
         };
         Problem::new(moving(0), moving(1), 1.0, &self.config).unwrap()
     }
+}
+
+/// The least distance of any two triangles at a clock.
+pub(crate) fn distance(problem: &Problem<'_>, s: f64) -> f64 {
+    let [a, b] = [&problem.a, &problem.b].map(|side| {
+        let frame = side.path.frame(s);
+        let pieces = side.body.pieces();
+        let placed = |k: usize| pieces.triangle(k).map(|p| frame.point(p));
+        (0..pieces.len()).map(placed).collect::<Vec<Triangle>>()
+    });
+    let pairs = a
+        .iter()
+        .flat_map(|x| b.iter().map(move |y| nearest(x, y).distance));
+    pairs.fold(f64::INFINITY, lesser)
 }
 
 /// What two bodies do when they are near each other.

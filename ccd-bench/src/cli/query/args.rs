@@ -7,6 +7,7 @@ use ccd_core::StartPolicy;
 use ccd_core::tolerance::{DEFAULT_BUDGET, DEFAULT_TOLERANCE};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
+use std::time::Duration;
 
 /// Answer a table of motions of two bodies
 #[derive(Debug, Args)]
@@ -42,10 +43,14 @@ pub(in crate::cli) struct QueryArgs {
     /// What becomes of bodies in contact at the start
     #[arg(long, value_enum, default_value_t)]
     pub(super) start: StartArg,
-    /// Pairs of nodes to visit before a query is left unresolved
+    /// How much work may be done before a query is left unresolved: pairs of nodes visited, and what
+    /// costs as much; a million takes about a second
     #[arg(long, value_name = "N", default_value_t = DEFAULT_BUDGET,
           value_parser = clap::value_parser!(u64).range(1..))]
     pub(super) budget: u64,
+    /// How long a query may take, in seconds, before it is left unresolved
+    #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_hyphen_values = true)]
+    pub(super) deadline: Option<Duration>,
     /// Threads to answer on; any number gives the same answers, one gives the truest times
     #[arg(long, value_name = "N", default_value_t = 1,
           value_parser = clap::value_parser!(u16).range(1..=1024))]
@@ -105,7 +110,8 @@ Table of results:
             free         apart for the whole duration, by distance_lower at all times
             touching     within margin + tolerance at the start
             overlapping  intersecting at the start, or one solid inside the other
-            unresolved   a limit was reached: certainly no contact before `time`, nothing known after
+            unresolved   a limit was reached (--budget, --deadline, or what can be certified): certainly
+                         no contact before `time`, nothing known after
   time      certified: no contact before it; 0 to duration
   normal, witnesses         in the world's frame at `time`; the normal points from A to B
   feature_a, feature_b      v7, e3-7, f12: vertex, edge, face as numbered in the mesh, from 0
@@ -157,6 +163,12 @@ fn not_negative(text: &str) -> Result<f64, String> {
     number(text)
         .filter(|value| *value >= 0.0)
         .ok_or_else(|| "give a number of at least 0, such as 0.01".to_owned())
+}
+
+fn seconds(text: &str) -> Result<Duration, String> {
+    number(text)
+        .and_then(|value| Duration::try_from_secs_f64(value).ok())
+        .ok_or_else(|| "give a number of seconds of at least 0, such as 0.01".to_owned())
 }
 
 fn number(text: &str) -> Option<f64> {

@@ -6,32 +6,20 @@ use crate::hierarchy::{Hierarchy, HierarchyNode};
 use crate::motion::Motion;
 use crate::oracle::{Claim, Combination, GiveUp};
 use crate::order::{greater, lesser};
-use crate::outcome::Contact;
+use crate::outcome::{Contact, Stats};
 use crate::pose::Pose;
 use crate::problem::{Config, Moving, Side, StartPolicy};
 use crate::schedule::Naive;
 use crate::tests::nearest::{Triangle, nearest};
 use crate::tests::oracle::{Always, Exhaustive};
-use crate::tests::scene::{Kind, Pcg64, RngExt, Scene, body, direction, pieces, rng, scene};
+use crate::tests::scene::{
+    Kind, Pcg64, RngExt, Scene, body, direction, distance, pieces, rng, scene,
+};
 use glam::DVec3;
 use rand::seq::SliceRandom;
 
 fn solve(problem: &Problem<'_>) -> Answer {
     BestFirst::default().solve(problem, &mut Exhaustive)
-}
-
-/// The least distance of any two triangles at a clock.
-fn distance(problem: &Problem<'_>, s: f64) -> f64 {
-    let [a, b] = [&problem.a, &problem.b].map(|side| {
-        let frame = side.path.frame(s);
-        let pieces = side.body.pieces();
-        let placed = |k: usize| pieces.triangle(k).map(|p| frame.point(p));
-        (0..pieces.len()).map(placed).collect::<Vec<Triangle>>()
-    });
-    let pairs = a
-        .iter()
-        .flat_map(|x| b.iter().map(move |y| nearest(x, y).distance));
-    pairs.fold(f64::INFINITY, lesser)
 }
 
 /// A scene that does not begin in contact.
@@ -124,13 +112,13 @@ fn budgets_end_a_query_with_a_time_that_is_safe_and_grows() {
     let mut ended = 0;
     for number in 0..150 {
         let mut scene = apart(&mut rng);
-        let (contact, visits) = {
+        let (contact, visits, work) = {
             let answer = solve(&scene.problem());
             let time = match answer.outcome {
                 Outcome::Contact { time, .. } => time,
                 _ => 1.0,
             };
-            (time, answer.stats.node_visits)
+            (time, answer.stats.node_visits, answer.stats.work())
         };
         let mut last = 0.0;
         for budget in 0..visits.min(60) {
@@ -147,7 +135,7 @@ fn budgets_end_a_query_with_a_time_that_is_safe_and_grows() {
             last = safe_until;
             ended += 1;
         }
-        scene.config.budget = visits;
+        scene.config.budget = work;
         assert!(!matches!(
             solve(&scene.problem()).outcome,
             Outcome::Unresolved { .. }

@@ -1,15 +1,16 @@
 //! The distance of the bodies at one clock, and what it leaves of the front `[FAST06 Alg. 3]`.
 
 use super::super::hulls::{HullPair, Near};
+use super::super::meter::Meter;
 use super::super::moment::Moment;
 use super::super::pair::Step;
-use super::super::start::Start;
+use super::super::start;
 use super::front::{Front, Item};
 use super::reach::Reaches;
 use crate::motion_bound::Bound;
 use crate::oracle::DistanceOracle;
 use crate::order::lesser;
-use crate::outcome::{Contact, Limit, Outcome, Stats};
+use crate::outcome::{Contact, Outcome};
 use crate::problem::{Problem, StartPolicy};
 use crate::tolerance::JOIN_BEYOND;
 use std::cmp::Ordering;
@@ -23,8 +24,7 @@ pub(super) struct Descent<'s, 'p, C> {
     pub(super) bound: Bound,
     pub(super) front: &'s mut Front<C>,
     pub(super) reaches: &'s mut Reaches,
-    pub(super) start: &'s mut Start,
-    pub(super) stats: &'s mut Stats,
+    pub(super) meter: &'s mut Meter,
 }
 
 /// What is known so far at a clock.
@@ -70,9 +70,7 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
             self.look(oracle, &moment, first, &mut found)?;
             self.look(oracle, &moment, first + 1, &mut found)?;
         }
-        if let Some(contact) = found.contact
-            && s > 0.0
-        {
+        if let Some(contact) = found.contact {
             let time = self.problem.time(s);
             return ControlFlow::Break(Outcome::Contact { time, contact });
         }
@@ -92,13 +90,11 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
     where
         O: DistanceOracle<Cache = C>,
     {
-        self.stats.node_visits += 1;
-        if self.stats.node_visits > self.problem.budget {
-            let unresolved = Outcome::Unresolved {
+        if let Err(reason) = self.meter.visit() {
+            return ControlFlow::Break(Outcome::Unresolved {
                 safe_until: self.problem.time(moment.clock),
-                reason: Limit::Budget,
-            };
-            return ControlFlow::Break(self.start.touching().unwrap_or(unresolved));
+                reason,
+            });
         }
         match self.front.node(at).item {
             Item::Nodes(_) => {
@@ -119,7 +115,7 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
             return;
         };
         let moment = moment.with(self.hulls.hulls(node.pair));
-        let Some(checked) = moment.ask(oracle, cache, self.stats) else {
+        let Some(checked) = moment.ask(oracle, cache, self.meter) else {
             // Smaller hulls may be easier.
             (node.lower, node.near, node.clock) = (f64::NEG_INFINITY, Near::Bridges, s);
             let lower = node.lower;
@@ -131,7 +127,7 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
         node.lower = checked.lower;
         node.near = self.hulls.near(node.pair, &checked.claim);
         node.clock = free.map_or(f64::INFINITY, |free| (s + free).next_down());
-        let contact = problem.margin + problem.tolerance;
+        let contact = problem.contact_distance();
         // What is in contact at the start is known there, or not at all.
         let reach = if s > 0.0 { problem.gap() } else { contact };
         // The distance is that of the pieces below, which are not in contact.
@@ -163,18 +159,18 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
         let reaches = self.reaches.each(problem, node.pair, &moment);
         // Pairs that rest on each other have no say in how near the bodies are.
         node.lower = f64::NEG_INFINITY;
-        let step = pair.advance_by(&moment, oracle, self.stats, |moment, checked, kept| {
+        let step = pair.advance_by(&moment, oracle, self.meter, |moment, checked, kept| {
             node.lower = checked.lower;
             found.distance = lesser(found.distance, checked.upper);
             moment.directed_time(checked, kept, bound, reaches)
         });
-        if let Step::Contact(contact) = step {
+        if let Step::Contact(contact) = step
+            && s > 0.0
+        {
             found.touch(contact);
-            if s > 0.0 {
-                return ControlFlow::Continue(());
-            }
+            return ControlFlow::Continue(());
         }
-        node.clock = self.start.settle(problem, step, s)?.unwrap_or(s);
+        node.clock = start::settle(problem, oracle, self.meter, step, s)?;
         ControlFlow::Continue(())
     }
 

@@ -7,10 +7,11 @@ mod reach;
 use super::Schedule;
 use super::best_first::BestFirst;
 use super::hulls::HullPair;
+use super::meter::Meter;
 use super::start::{self, Start};
 use crate::motion_bound::Bound;
 use crate::oracle::DistanceOracle;
-use crate::outcome::{Answer, Limit, Outcome, Stats};
+use crate::outcome::{Answer, Limit, Outcome};
 use crate::problem::Problem;
 use descent::Descent;
 use front::Front;
@@ -73,8 +74,8 @@ impl<O: DistanceOracle> Schedule<O> for Fast<O> {
             return self.without_trees.solve(problem, oracle);
         };
         self.reaches.forget();
-        start::answer(problem, oracle, |problem, oracle, stats| {
-            self.advance(problem, hulls, oracle, stats)
+        start::answer(problem, oracle, |problem, oracle, meter| {
+            self.advance(problem, hulls, oracle, meter)
         })
     }
 }
@@ -86,23 +87,23 @@ impl<O: DistanceOracle> Fast<O> {
         problem: &Problem<'_>,
         hulls: HullPair<'_>,
         oracle: &mut O,
-        stats: &mut Stats,
+        meter: &mut Meter,
     ) -> Outcome {
         let mut start = Start::default();
         self.front.plant(hulls);
         let mut s = 0.0;
         while s < 1.0 {
-            stats.advancements += 1;
+            meter.stats.advancements += 1;
             let mut descent = Descent {
                 problem,
                 hulls,
                 bound: self.bound,
                 front: &mut self.front,
                 reaches: &mut self.reaches,
-                start: &mut start,
-                stats,
+                meter,
             };
             let next = descent.step(oracle, s);
+            let stats = &mut meter.stats;
             stats.peak_front = stats.peak_front.max(self.front.peak());
             let next = match next {
                 ControlFlow::Continue(next) => next,

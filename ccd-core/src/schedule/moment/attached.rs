@@ -16,6 +16,7 @@ use crate::pose::Frame;
 use crate::problem::Side;
 use crate::tolerance::{ATTACHED_TIME, AXIS_ROUNDS, RATE_F64, attached_rounding};
 use glam::DVec3;
+use std::cell::Cell;
 
 /// A piece of a body, and where the body is.
 pub(super) struct Member<'p> {
@@ -71,6 +72,8 @@ pub(super) struct Sweep<'p> {
     reach: f64,
     /// How far points are from their places by rounding, both bodies' together.
     misplaced: f64,
+    /// How often the plane was followed past a point.
+    pub(super) looks: Cell<u64>,
 }
 
 /// What the points' heights and rates after a while are made of: `height + axis·arm` and
@@ -117,6 +120,7 @@ impl<'p> Sweep<'p> {
             radius,
             reach: way.length() + velocity.length() + radius,
             misplaced: rounding,
+            looks: Cell::new(0),
         }
     }
 
@@ -126,6 +130,7 @@ impl<'p> Sweep<'p> {
         let (height, rate) = self.allowances();
         let apart = slack - height - self.least();
         first_crossing(horizon, AXIS_ROUNDS, |tau| {
+            self.looks.set(self.looks.get() + self.points.len() as u64);
             let turned = self.turned(tau);
             let bend = self.bend(tau);
             let free = self.arms().map(|arm| {

@@ -64,9 +64,9 @@ fn pieces_stay_apart_for_as_long_as_the_better_axis_says() {
         let problem = scene.problem();
         let clock = scene.clock * rng.random_range(0.9..1.0);
         let moment = Moment::new(&problem, 0, 0, clock);
-        let mut stats = Stats::default();
-        let checked = moment.ask(&mut Exhaustive, &mut (), &mut stats).unwrap();
-        assert_eq!(stats.oracle_calls, 1);
+        let mut meter = Meter::new(&problem);
+        let checked = moment.ask(&mut Exhaustive, &mut (), &mut meter).unwrap();
+        assert_eq!(meter.stats.oracle_calls, 1);
         let kept = problem.gap();
         if checked.lower <= kept {
             continue;

@@ -28,7 +28,7 @@ fn run(problem: &Problem<'_>) -> (f64, Step) {
     let mut pair = Pair::new(0, 0);
     let mut s = 0.0;
     for _ in 0..128 {
-        match pair.advance(problem, &mut Exhaustive, &mut Stats::default(), s) {
+        match pair.advance(problem, &mut Exhaustive, &mut Meter::new(problem), s) {
             Step::FreeUntil(clock) if clock < 1.0 => {
                 assert!(clock > s);
                 s = clock;
@@ -117,10 +117,11 @@ fn returning<R>(config: &Config, then: impl FnOnce(&Problem<'_>) -> R) -> R {
 
 #[test]
 fn an_oracle_that_gives_up_is_counted() {
-    let mut stats = Stats::default();
-    let step = balls(4.0, 4.0, &Config::default(), |problem| {
+    let (step, stats) = balls(4.0, 4.0, &Config::default(), |problem| {
         let mut oracle = Always(Err(GiveUp::StepCap));
-        Pair::new(0, 0).advance(problem, &mut oracle, &mut stats, 0.0)
+        let mut meter = Meter::new(problem);
+        let step = Pair::new(0, 0).advance(problem, &mut oracle, &mut meter, 0.0);
+        (step, meter.stats)
     });
     assert!(matches!(step, Step::GaveUp));
     assert_eq!((stats.oracle_calls, stats.give_ups), (1, 1));
@@ -143,7 +144,7 @@ fn a_lying_oracle_cannot_make_a_pair_late() {
             b: Combination::EMPTY,
         };
         let step = balls(4.0, 4.0, &Config::default(), |problem| {
-            Pair::new(0, 0).advance(problem, &mut Always(Ok(claim)), &mut Stats::default(), 0.0)
+            Pair::new(0, 0).advance(problem, &mut Always(Ok(claim)), &mut Meter::new(problem), 0.0)
         });
         // A pair of points has but one axis: the check finds it whatever was claimed.
         match step {

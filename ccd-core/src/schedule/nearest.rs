@@ -1,0 +1,179 @@
+//! How near bodies are that touch at the start: nearest pairs first.
+
+use super::expand::measure;
+use super::group::{Group, Next};
+use super::meter::Meter;
+use super::moment::Moment;
+use super::pair::contact;
+use super::queue::{Queue, Rank};
+use super::start::overlapping;
+use crate::containment;
+use crate::oracle::DistanceOracle;
+use crate::order::lesser;
+use crate::outcome::{Contact, Limit, Outcome, Separation};
+use crate::overlap;
+use crate::problem::Problem;
+use crate::tolerance::NEAREST_SHARE;
+
+/// The answer for bodies of which two pieces were seen in contact at the start: how near the bodies
+/// are, or that they overlap.
+///
+/// # Guarantee
+/// Touching bodies are no nearer than the contact's lower bound, and its pieces show the upper one.
+/// The same whichever pieces were `seen`, if the oracle is honest.
+///
+/// # Complexity
+/// One distance of the bodies, whatever the margin, and a look at every pair of pieces that may
+/// intersect.
+pub(super) fn touching<O: DistanceOracle>(
+    problem: &Problem<'_>,
+    oracle: &mut O,
+    meter: &mut Meter,
+    seen: Contact,
+) -> Outcome {
+    let mut search = Nearest {
+        problem,
+        waiting: Queue::default(),
+        nearest: None,
+        lower: f64::INFINITY,
+    };
+    if let Err(outcome) = search.run(oracle, meter) {
+        return outcome;
+    }
+    let contact = search.contact(seen);
+    // Only surfaces that may touch leave corners in doubt.
+    let inside = match contact.separation.lower > 0.0 {
+        true => containment::at_start(problem),
+        false => containment::of_touching(problem),
+    };
+    match inside {
+        Some(overlap) => Outcome::Overlapping { overlap },
+        None => Outcome::Touching { contact },
+    }
+}
+
+/// Splits the pair of nodes that may hold the nearest pieces, until no pair that waits can hold any
+/// that are nearer than those found.
+///
+/// What may intersect is bounded by no distance at all, and therefore comes before all others.
+struct Nearest<'p> {
+    problem: &'p Problem<'p>,
+    /// By lower bounds of their distance.
+    waiting: Queue<Group>,
+    /// The pieces of least upper bound.
+    nearest: Option<Contact>,
+    /// Bounds the distance of all pieces that were measured or given up.
+    lower: f64,
+}
+
+impl Nearest<'_> {
+    /// Finds the nearest pieces; fails with the answer when two overlap, or a limit is reached.
+    fn run<O: DistanceOracle>(&mut self, oracle: &mut O, meter: &mut Meter) -> Result<(), Outcome> {
+        let mut next = Some(Next::roots(self.problem));
+        while let Some(pair) = next {
+            meter.visit().map_err(unresolved)?;
+            match pair {
+                Next::Split(split) => {
+                    let expansion = measure(self.problem, &split);
+                    self.wait(Group::new(self.problem, &expansion, split, 0.0))?;
+                }
+                Next::Ask(a, b) => self.look([a, b], oracle, meter)?,
+            }
+            next = self.next();
+        }
+        Ok(())
+    }
+
+    fn wait(&mut self, group: Group) -> Result<(), Outcome> {
+        let distance = group.clock();
+        if !(distance < self.upper()) {
+            return Ok(());
+        }
+        let full = |_| unresolved(Limit::Budget);
+        self.waiting
+            .push(distance, Rank::Group, group)
+            .map_err(full)
+    }
+
+    /// The pair that may be the nearest; none when no pair can be nearer than what is found.
+    fn next(&mut self) -> Option<Next> {
+        let (upper, near_enough) = (self.upper(), self.near_enough());
+        let visit = self.waiting.visit()?;
+        // What has no distance may intersect.
+        if visit.clock > 0.0 && visit.clock >= near_enough {
+            self.lower = lesser(self.lower, visit.clock);
+            return None;
+        }
+        let next = visit.item.take_least(self.problem);
+        match visit.item.clock() {
+            distance if distance < upper => visit.postpone(distance),
+            _ => visit.remove(),
+        }
+        Some(next)
+    }
+
+    /// Measures two pieces.
+    fn look<O: DistanceOracle>(
+        &mut self,
+        ids: [u32; 2],
+        oracle: &mut O,
+        meter: &mut Meter,
+    ) -> Result<(), Outcome> {
+        let problem = self.problem;
+        let moment = Moment::new(problem, ids[0], ids[1], 0.0);
+        let checked = moment
+            .ask(oracle, &mut O::Cache::default(), meter)
+            .ok_or(unresolved(Limit::OracleGaveUp))?;
+        if overlap::intersects(&moment.pieces, &checked, problem.rounding) {
+            return Err(overlapping(contact(&moment, ids, &checked)));
+        }
+        self.lower = lesser(self.lower, checked.lower);
+        if checked.upper < self.upper() {
+            self.nearest = Some(contact(&moment, ids, &checked));
+        }
+        Ok(())
+    }
+
+    /// Bounds the distance of the bodies from above.
+    fn upper(&self) -> f64 {
+        let upper = |contact: Contact| contact.separation.upper;
+        self.nearest.map_or(f64::INFINITY, upper)
+    }
+
+    /// Pairs that are no nearer need not be looked at.
+    fn near_enough(&self) -> f64 {
+        let upper = self.upper();
+        match upper <= self.problem.contact_distance() {
+            true => upper * (1.0 - NEAREST_SHARE),
+            false => upper,
+        }
+    }
+
+    /// The nearest pieces, with a lower bound that holds for all.
+    fn contact(&self, seen: Contact) -> Contact {
+        let nearest = self.nearest.unwrap_or(seen);
+        // An oracle may take back what it said.
+        let contact = match nearest.separation.upper <= self.problem.contact_distance() {
+            true => nearest,
+            false => seen,
+        };
+        let lower = lesser(contact.separation.lower, self.lower);
+        Contact {
+            separation: Separation {
+                lower,
+                ..contact.separation
+            },
+            ..contact
+        }
+    }
+}
+
+fn unresolved(reason: Limit) -> Outcome {
+    Outcome::Unresolved {
+        safe_until: 0.0,
+        reason,
+    }
+}
+
+#[cfg(test)]
+mod tests;
