@@ -2,6 +2,7 @@
 
 use crate::feature::Feature;
 use crate::oracle::Effort;
+use crate::order::lesser;
 use crate::tolerance::LOOKS_PER_VISIT;
 use glam::DVec3;
 
@@ -15,7 +16,7 @@ pub enum Outcome {
     Contact {
         /// When, in the motions' unit of time.
         time: f64,
-        /// How near they are then.
+        /// How near they are then: `lower` and `upper` bound the distance of the bodies.
         contact: Contact,
     },
     /// The bodies stay apart over the whole duration.
@@ -80,6 +81,19 @@ pub struct Contact {
     pub piece_a: u32,
     /// The piece of body B.
     pub piece_b: u32,
+}
+
+impl Contact {
+    /// The same, where a part of the bodies is only known to be this far apart.
+    pub(crate) fn no_nearer_than(self, least: f64) -> Self {
+        Contact {
+            separation: Separation {
+                lower: lesser(self.separation.lower, least),
+                ..self.separation
+            },
+            ..self
+        }
+    }
 }
 
 /// A checked claim: two pieces are no nearer than `lower` and no farther than `upper`.

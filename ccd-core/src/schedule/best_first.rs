@@ -6,9 +6,8 @@ use super::group::{Group, Next};
 use super::pair::Pair;
 use super::meter::Meter;
 use super::queue::{Full, Queue, Rank};
-use super::start::{self, Start};
+use super::start::{self, Proven};
 use crate::oracle::DistanceOracle;
-use crate::order::lesser;
 use crate::outcome::{Answer, Limit, Outcome};
 use crate::problem::Problem;
 use std::ops::ControlFlow;
@@ -66,8 +65,7 @@ impl<O: DistanceOracle> BestFirst<O> {
         oracle: &mut O,
         meter: &mut Meter,
     ) -> Outcome {
-        let mut start = Start::default();
-        let mut proven = f64::INFINITY;
+        let mut proven = Proven::default();
         let unresolved = |s: f64, reason| Outcome::Unresolved {
             safe_until: problem.time(s),
             reason,
@@ -77,7 +75,7 @@ impl<O: DistanceOracle> BestFirst<O> {
         }
         while let Some((s, found)) = self.next(problem) {
             if s > 0.0
-                && let Some(outcome) = start.end(problem)
+                && let Some(outcome) = proven.past_start(problem)
             {
                 return outcome;
             }
@@ -87,12 +85,12 @@ impl<O: DistanceOracle> BestFirst<O> {
             let pushed = match found {
                 Found::Split(split) => {
                     let expansion = expand(problem, &split, s);
-                    proven = lesser(proven, f64::from(expansion.bounds.kept));
+                    proven.keep(f64::from(expansion.bounds.kept));
                     self.push_group(Group::new(problem, &expansion, split, s))
                 }
                 Found::Pieces(mut pair) => {
                     let step = pair.advance(problem, oracle, meter, s);
-                    match start::settle(problem, oracle, meter, step, s) {
+                    match proven.settle(problem, oracle, meter, step, s) {
                         ControlFlow::Continue(clock) => self.push_pair(clock, pair),
                         ControlFlow::Break(outcome) => return outcome,
                     }
@@ -102,9 +100,7 @@ impl<O: DistanceOracle> BestFirst<O> {
                 return unresolved(s, Limit::Budget);
             }
         }
-        start.end(problem).unwrap_or(Outcome::Free {
-            clearance: problem.clearance(proven),
-        })
+        proven.end(problem)
     }
 
     fn open_roots(&mut self, problem: &Problem<'_>) -> Result<(), Full> {

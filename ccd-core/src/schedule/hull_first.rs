@@ -7,7 +7,7 @@ use super::meter::Meter;
 use super::moment::Moment;
 use super::pair::Pair;
 use super::queue::{Full, Queue, Rank};
-use super::start::{self, Start};
+use super::start::{self, Proven};
 use crate::oracle::DistanceOracle;
 use crate::order::greater;
 use crate::outcome::{Answer, Limit, Outcome};
@@ -94,14 +94,14 @@ impl<C: Clone + Default> Search<'_, C> {
             safe_until: problem.time(s),
             reason,
         };
-        let mut start = Start::default();
+        let mut proven = Proven::default();
         self.queue.clear();
         if self.push(0.0, [0, 0]).is_err() {
             return unresolved(0.0, Limit::Budget);
         }
         while let Some((s, item)) = self.next() {
             if s > 0.0
-                && let Some(outcome) = start.end(problem)
+                && let Some(outcome) = proven.past_start(problem)
             {
                 return outcome;
             }
@@ -112,7 +112,7 @@ impl<C: Clone + Default> Search<'_, C> {
                 Item::Nodes(nodes) => self.advance(oracle, nodes, s),
                 Item::Pieces(mut pair) => {
                     let step = pair.advance(problem, oracle, self.meter, s);
-                    match start::settle(problem, oracle, self.meter, step, s) {
+                    match proven.settle(problem, oracle, self.meter, step, s) {
                         ControlFlow::Continue(clock) => self.push_item(clock, Item::Pieces(pair)),
                         ControlFlow::Break(outcome) => return outcome,
                     }
@@ -122,9 +122,7 @@ impl<C: Clone + Default> Search<'_, C> {
                 return unresolved(s, Limit::Budget);
             }
         }
-        start.end(problem).unwrap_or(Outcome::Free {
-            clearance: problem.clearance(f64::INFINITY),
-        })
+        proven.end(problem)
     }
 
     /// Looks at a pair of nodes at clock `s`, certifies it further, and lets it wait, or the pairs

@@ -4,7 +4,7 @@ use super::Schedule;
 use super::meter::Meter;
 use super::moment::Moment;
 use super::pair::Pair;
-use super::start::{self, Start};
+use super::start::{self, Proven};
 use crate::motion_bound::Bound;
 use crate::oracle::DistanceOracle;
 use crate::order::lesser;
@@ -68,7 +68,7 @@ impl<O: DistanceOracle> Naive<O> {
         let pairs = (0..a as u32).flat_map(|i| (0..b as u32).map(move |j| Pair::new(i, j)));
         self.pairs.extend(pairs);
         let reaches = [&problem.a, &problem.b].map(reaches);
-        let mut start = Start::default();
+        let mut proven = Proven::default();
         let mut s = 0.0;
         while s < 1.0 {
             meter.stats.advancements += 1;
@@ -83,19 +83,17 @@ impl<O: DistanceOracle> Naive<O> {
                 let step = pair.advance_by(&moment, oracle, meter, |moment, checked, kept| {
                     moment.directed_time(checked, kept, self.bound, reaches)
                 });
-                match start::settle(problem, oracle, meter, step, s) {
+                match proven.settle(problem, oracle, meter, step, s) {
                     ControlFlow::Continue(clock) => next = lesser(next, clock),
                     ControlFlow::Break(outcome) => return outcome,
                 }
             }
-            if let Some(outcome) = start.end(problem) {
+            if let Some(outcome) = proven.past_start(problem) {
                 return outcome;
             }
             s = next;
         }
-        Outcome::Free {
-            clearance: problem.clearance(f64::INFINITY),
-        }
+        proven.end(problem)
     }
 }
 

@@ -10,7 +10,7 @@ use super::start::overlapping;
 use crate::containment;
 use crate::oracle::DistanceOracle;
 use crate::order::lesser;
-use crate::outcome::{Contact, Limit, Outcome, Separation};
+use crate::outcome::{Contact, Limit, Outcome};
 use crate::overlap;
 use crate::problem::Problem;
 use crate::tolerance::NEAREST_SHARE;
@@ -157,14 +157,7 @@ impl Nearest<'_> {
             true => nearest,
             false => seen,
         };
-        let lower = lesser(contact.separation.lower, self.lower);
-        Contact {
-            separation: Separation {
-                lower,
-                ..contact.separation
-            },
-            ..contact
-        }
+        contact.no_nearer_than(self.lower)
     }
 }
 

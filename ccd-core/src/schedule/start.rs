@@ -5,6 +5,7 @@ use super::nearest;
 use super::pair::Step;
 use crate::containment;
 use crate::oracle::DistanceOracle;
+use crate::order::lesser;
 use crate::outcome::{Answer, Contact, Limit, Outcome, Overlap, Stats};
 use crate::problem::{Problem, StartPolicy};
 use std::ops::ControlFlow;
@@ -41,54 +42,85 @@ pub(crate) fn answer<O: DistanceOracle>(
     }
 }
 
-/// What a pair of pieces at clock `s` has come to: the clock to wait for, or the answer.
-///
-/// A pair that touches at the start is not the answer yet: another one may be nearer, or overlap.
-pub(crate) fn settle<O: DistanceOracle>(
-    problem: &Problem<'_>,
-    oracle: &mut O,
-    meter: &mut Meter,
-    step: Step,
-    s: f64,
-) -> ControlFlow<Outcome, f64> {
-    let unresolved = |reason| Outcome::Unresolved {
-        safe_until: problem.time(s),
-        reason,
-    };
-    ControlFlow::Break(match step {
-        Step::FreeUntil(clock) => return ControlFlow::Continue(clock),
-        Step::Contact(contact) if s > 0.0 => {
-            let time = problem.time(s);
-            Outcome::Contact { time, contact }
+/// What is proven of the bodies, whatever becomes of pairs that still wait.
+#[derive(Debug)]
+pub(crate) struct Proven {
+    /// At the start no pair of pieces is in contact, and no body inside the other.
+    apart_at_start: bool,
+    /// The least gap that pairs of nodes were proven to keep.
+    kept: f64,
+}
+
+impl Default for Proven {
+    fn default() -> Self {
+        Proven {
+            apart_at_start: false,
+            kept: f64::INFINITY,
         }
-        Step::Contact(contact) => nearest::touching(problem, oracle, meter, contact),
-        Step::Overlap(contact) => overlapping(contact),
-        Step::Stalled => unresolved(Limit::Stalled),
-        Step::GaveUp => unresolved(Limit::OracleGaveUp),
-    })
+    }
+}
+
+impl Proven {
+    /// Pairs of nodes keep a gap until their clocks.
+    pub(crate) fn keep(&mut self, gap: f64) {
+        self.kept = lesser(self.kept, gap);
+    }
+
+    /// What a pair of pieces at clock `s` has come to: the clock to wait for, or the answer.
+    ///
+    /// A pair that touches at the start is not the answer yet: another one may be nearer, or overlap.
+    pub(crate) fn settle<O: DistanceOracle>(
+        &self,
+        problem: &Problem<'_>,
+        oracle: &mut O,
+        meter: &mut Meter,
+        step: Step,
+        s: f64,
+    ) -> ControlFlow<Outcome, f64> {
+        let unresolved = |reason| Outcome::Unresolved {
+            safe_until: problem.time(s),
+            reason,
+        };
+        ControlFlow::Break(match step {
+            Step::FreeUntil(clock) => return ControlFlow::Continue(clock),
+            Step::Contact(contact) if s > 0.0 => self.contact(problem, contact, s),
+            Step::Contact(contact) => nearest::touching(problem, oracle, meter, contact),
+            Step::Overlap(contact) => overlapping(contact),
+            Step::Stalled => unresolved(Limit::Stalled),
+            Step::GaveUp => unresolved(Limit::OracleGaveUp),
+        })
+    }
+
+    /// A pair is in contact at clock `s`. Others may be nearer: they are known to keep what clocks
+    /// prove, and no more.
+    pub(crate) fn contact(&self, problem: &Problem<'_>, contact: Contact, s: f64) -> Outcome {
+        Outcome::Contact {
+            time: problem.time(s),
+            contact: contact.no_nearer_than(problem.clearance(self.kept)),
+        }
+    }
+
+    /// All pairs are past the start, and none was in contact there: the answer, if one body is inside
+    /// the other.
+    pub(crate) fn past_start(&mut self, problem: &Problem<'_>) -> Option<Outcome> {
+        if std::mem::replace(&mut self.apart_at_start, true) {
+            return None;
+        }
+        let overlap = containment::at_start(problem)?;
+        Some(Outcome::Overlapping { overlap })
+    }
+
+    /// All pairs are apart to the end.
+    pub(crate) fn end(&mut self, problem: &Problem<'_>) -> Outcome {
+        self.past_start(problem).unwrap_or(Outcome::Free {
+            clearance: problem.clearance(self.kept),
+        })
+    }
 }
 
 /// Two pieces overlap.
 pub(super) fn overlapping(contact: Contact) -> Outcome {
     Outcome::Overlapping {
         overlap: Overlap::Pieces(contact),
-    }
-}
-
-/// Whether the start is over.
-#[derive(Debug, Default)]
-pub(crate) struct Start {
-    over: bool,
-}
-
-impl Start {
-    /// All pairs are past the start, and none is in contact there: the answer, if one body is inside
-    /// the other; asked once.
-    pub(crate) fn end(&mut self, problem: &Problem<'_>) -> Option<Outcome> {
-        if std::mem::replace(&mut self.over, true) {
-            return None;
-        }
-        let overlap = containment::at_start(problem)?;
-        Some(Outcome::Overlapping { overlap })
     }
 }

@@ -4,7 +4,7 @@ use super::super::hulls::{HullPair, Near};
 use super::super::meter::Meter;
 use super::super::moment::Moment;
 use super::super::pair::Step;
-use super::super::start;
+use super::super::start::Proven;
 use super::front::{Front, Item};
 use super::reach::Reaches;
 use crate::motion_bound::Bound;
@@ -24,6 +24,7 @@ pub(super) struct Descent<'s, 'p, C> {
     pub(super) bound: Bound,
     pub(super) front: &'s mut Front<C>,
     pub(super) reaches: &'s mut Reaches,
+    pub(super) proven: &'s Proven,
     pub(super) meter: &'s mut Meter,
 }
 
@@ -71,8 +72,7 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
             self.look(oracle, &moment, first + 1, &mut found)?;
         }
         if let Some(contact) = found.contact {
-            let time = self.problem.time(s);
-            return ControlFlow::Break(Outcome::Contact { time, contact });
+            return ControlFlow::Break(self.proven.contact(self.problem, contact, s));
         }
         let next = self.front.clock();
         self.join(oracle, &moment, &mut found, next)?;
@@ -170,7 +170,7 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
             found.touch(contact);
             return ControlFlow::Continue(());
         }
-        node.clock = start::settle(problem, oracle, self.meter, step, s)?;
+        node.clock = self.proven.settle(problem, oracle, self.meter, step, s)?;
         ControlFlow::Continue(())
     }
 

@@ -8,7 +8,7 @@ use super::Schedule;
 use super::best_first::BestFirst;
 use super::hulls::HullPair;
 use super::meter::Meter;
-use super::start::{self, Start};
+use super::start::{self, Proven};
 use crate::motion_bound::Bound;
 use crate::oracle::DistanceOracle;
 use crate::outcome::{Answer, Limit, Outcome};
@@ -89,7 +89,7 @@ impl<O: DistanceOracle> Fast<O> {
         oracle: &mut O,
         meter: &mut Meter,
     ) -> Outcome {
-        let mut start = Start::default();
+        let mut proven = Proven::default();
         self.front.plant(hulls);
         let mut s = 0.0;
         while s < 1.0 {
@@ -100,6 +100,7 @@ impl<O: DistanceOracle> Fast<O> {
                 bound: self.bound,
                 front: &mut self.front,
                 reaches: &mut self.reaches,
+                proven: &proven,
                 meter,
             };
             let next = descent.step(oracle, s);
@@ -109,7 +110,7 @@ impl<O: DistanceOracle> Fast<O> {
                 ControlFlow::Continue(next) => next,
                 ControlFlow::Break(outcome) => return outcome,
             };
-            if let Some(outcome) = start.end(problem) {
+            if let Some(outcome) = proven.past_start(problem) {
                 return outcome;
             }
             if !(next > s) {
@@ -120,8 +121,6 @@ impl<O: DistanceOracle> Fast<O> {
             }
             s = next;
         }
-        Outcome::Free {
-            clearance: problem.clearance(f64::INFINITY),
-        }
+        proven.end(problem)
     }
 }
