@@ -11,10 +11,7 @@ use std::fmt;
 
 /// What ends a query early, and what to do about it.
 const LIMITS: [(Limit, &str); 4] = [
-    (
-        Limit::Budget,
-        "the budget was spent; --budget raises it",
-    ),
+    (Limit::Budget, "the budget was spent; --budget raises it"),
     (
         Limit::Deadline,
         "the deadline was passed; --deadline gives more time",

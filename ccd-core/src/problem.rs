@@ -56,7 +56,9 @@ pub enum StartPolicy {
     ///
     /// Where that gap is no more than rounding, or the bodies begin inside the margin, pieces that rest
     /// on each other are let go until they approach; pieces that come to touch only later are a
-    /// contact, also where one slides on flat ground from one piece of it onto the next.
+    /// contact, also where one slides on flat ground from one piece of it onto the next. That takes a
+    /// look at every pair of pieces that begins inside the margin: a margin as large as the bodies may
+    /// cost the whole budget.
     Leave,
 }
 

@@ -90,6 +90,26 @@ fn an_unresolved_row_is_a_result() {
 }
 
 #[test]
+fn a_deadline_leaves_a_row_unresolved_and_says_so() {
+    let output = Run::query(&FALLING_CUBE)
+        .args(&["--deadline", "0"])
+        .stdin(DROP)
+        .output();
+    assert!(output.status.success());
+    let told = stderr(&output);
+    assert!(
+        told.contains("1 unresolved") && told.contains("--deadline"),
+        "{told}"
+    );
+    // Enough time is none to speak of.
+    let rows = Run::query(&FALLING_CUBE)
+        .args(&["--deadline", "3600"])
+        .stdin(DROP)
+        .succeeds();
+    assert_eq!(rows[0].text("status"), "contact");
+}
+
+#[test]
 fn margin_is_kept_and_leave_lets_go() {
     let with_margin = Run::query(&FALLING_CUBE)
         .args(&["--margin", "0.5"])
@@ -239,6 +259,8 @@ fn bad_options_are_refused() {
         ["--threads", "0"],
         ["--repeat", "0"],
         ["--budget", "0"],
+        ["--deadline", "-1"],
+        ["--deadline", "1e30"],
         ["--oracle", "lin-canny"],
         ["--schedule", "fastest"],
         ["--bound", "published"],

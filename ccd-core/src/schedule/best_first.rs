@@ -3,8 +3,8 @@
 use super::Schedule;
 use super::expand::{Split, expand};
 use super::group::{Group, Next};
-use super::pair::Pair;
 use super::meter::Meter;
+use super::pair::Pair;
 use super::queue::{Full, Queue, Rank};
 use super::start::{self, Proven};
 use crate::oracle::DistanceOracle;

@@ -2,6 +2,7 @@
 
 mod attached;
 
+use super::meter::Meter;
 use crate::motion_bound::{Angle, AxisMotion, Bound, Gap, Track, first_crossing, published, sound};
 use crate::oracle::{DistanceOracle, PiecePair};
 use crate::order::{greater, lesser};
@@ -10,7 +11,6 @@ use crate::pose::Frame;
 use crate::problem::{Problem, Side};
 use crate::separation::{self, Checked};
 use crate::tolerance::{AXIS_ROUNDS, RATE_F64, RESTING, TURNED_SHARE, USUAL_STEPS};
-use super::meter::Meter;
 use attached::{Member, Sweep};
 use glam::DVec3;
 use std::cell::Cell;

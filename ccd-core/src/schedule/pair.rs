@@ -132,8 +132,8 @@ impl<C: Default + Clone> Pair<C> {
         let moment = Moment::new(problem, self.a, self.b, 0.0);
         let start = moment.ask(oracle, &mut C::default(), meter)?;
         // Written so that NaN is a contact, and so is a pair that no axis was found to keep apart.
-        let resting = start.upper <= problem.contact_distance()
-            && start.lower >= -RESTING * problem.rounding;
+        let resting =
+            start.upper <= problem.contact_distance() && start.lower >= -RESTING * problem.rounding;
         if !resting {
             return None;
         }

@@ -7,9 +7,9 @@ use crate::oracle::{Claim, Combination, GiveUp};
 use crate::outcome::{Answer, Limit, Outcome};
 use crate::pose::Pose;
 use crate::problem::{Config, Moving, Problem, StartPolicy};
+use crate::schedule::{BestFirst, Naive, Schedule};
 #[cfg(feature = "hull-tree")]
 use crate::schedule::{Fast, HullFirst};
-use crate::schedule::{BestFirst, Naive, Schedule};
 use crate::tests::meshes::torus;
 use crate::tests::oracle::{Always, Exhaustive};
 use crate::tests::scene::{Kind, Pcg64, RngExt, Scene, body, distance, magnitude, rng, scene};
@@ -150,9 +150,15 @@ fn all_schedules_say_the_same_of_a_start() {
             .into_iter()
             .map(|mut schedule| schedule.solve(&scene.problem(), &mut Exhaustive).outcome)
             .collect();
-        if answers.iter().any(|o| matches!(o, Outcome::Touching { .. })) {
+        if answers
+            .iter()
+            .any(|o| matches!(o, Outcome::Touching { .. }))
+        {
             touching += 1;
-            assert!(answers.iter().all(|o| *o == answers[0]), "{number}: {answers:?}");
+            assert!(
+                answers.iter().all(|o| *o == answers[0]),
+                "{number}: {answers:?}"
+            );
         }
     }
     assert!(touching > 100, "{touching}");

@@ -144,7 +144,12 @@ fn a_lying_oracle_cannot_make_a_pair_late() {
             b: Combination::EMPTY,
         };
         let step = balls(4.0, 4.0, &Config::default(), |problem| {
-            Pair::new(0, 0).advance(problem, &mut Always(Ok(claim)), &mut Meter::new(problem), 0.0)
+            Pair::new(0, 0).advance(
+                problem,
+                &mut Always(Ok(claim)),
+                &mut Meter::new(problem),
+                0.0,
+            )
         });
         // A pair of points has but one axis: the check finds it whatever was claimed.
         match step {
