@@ -11,6 +11,7 @@ use crate::piece::Piece;
 use crate::pieces::Pieces;
 use crate::shell::{Shell, shells};
 use crate::tree::{Tree, pieces_at};
+use crate::vector::normal;
 use glam::DVec3;
 
 /// What moves: convex pieces in the body's own frame, ready for queries; immutable, shareable.
@@ -153,7 +154,7 @@ impl Body {
             [a, b, c] if self.pieces.all_triangles() => [a, b, c],
             _ => piece.mesh_triangles().next()?.1,
         };
-        let normal = area_normal(triangle).try_normalize()?;
+        let normal = normal(triangle)?;
         Some(match self.facing {
             Facing::Outward => normal,
             Facing::Inward => -normal,

@@ -117,6 +117,7 @@ mod tests;
 pub mod tolerance;
 mod tree;
 mod trig;
+pub mod vector;
 
 pub use body::{Body, Volume};
 pub use contacts::{ContactsError, FeaturePair};

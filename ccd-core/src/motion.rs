@@ -2,7 +2,8 @@
 //! angular velocity.
 
 use crate::error::InputError;
-use crate::pose::Pose;
+use crate::pose::{Frame, Pose};
+use crate::vector::length;
 use glam::{DQuat, DVec3};
 
 /// A motion with constant linear velocity of a chosen centre and constant angular velocity, any
@@ -70,7 +71,11 @@ impl Motion {
     /// From the poses at `t = 0` and `t = duration` by the shortest turn, about `centre`, a point in
     /// the body's frame that moves on a straight line.
     ///
-    /// At exactly half a turn both ways are shortest; the one taken is that of the rotation's
+    /// Velocities are derived from the poses and rounded. A query over no more than `duration` allows for
+    /// that: what it certifies holds for the motion between the poses as given
+    /// ([`tolerance::distance_rounding`](crate::tolerance::distance_rounding)).
+    ///
+    /// At half a turn, but for rounding, both ways are shortest; the one taken is that of the rotation's
     /// quaternion as it comes out of the arithmetic.
     ///
     /// # Errors
@@ -89,7 +94,9 @@ impl Motion {
                 allowed: "positive and finite",
             });
         }
-        let travel = end.transform_point(centre) - start.transform_point(centre);
+        // Differences first: places far from the world's origin are no less exact than others.
+        let turned = Frame::from(end).rotation - Frame::from(start).rotation;
+        let travel = (end.translation() - start.translation()) + turned * centre;
         let turn = shortest_turn(end.rotation() * start.rotation().conjugate());
         Motion::about(start, travel / duration, turn / duration, centre)
     }
@@ -117,8 +124,12 @@ impl Motion {
     /// The pose at time `t`.
     pub fn pose(&self, t: f64) -> Pose {
         let rotation = DQuat::from_scaled_axis(t * self.spin) * self.start.rotation();
-        let centre = self.start.transform_point(self.centre) + t * self.velocity;
-        Pose::from_unit(centre - rotation * self.centre, rotation)
+        // What the centre moves by, less what the origin is turned about it by.
+        let turned = rotation * self.centre - self.start.rotation() * self.centre;
+        Pose::from_unit(
+            self.start.translation() + (t * self.velocity - turned),
+            rotation,
+        )
     }
 }
 
@@ -130,7 +141,7 @@ fn shortest_turn(rotation: DQuat) -> DVec3 {
         rotation
     };
     let axis = rotation.xyz();
-    let sine = axis.length();
+    let sine = length(axis);
     if sine > 0.0 {
         // atan2 keeps its digits at small angles, where acos loses them.
         axis * (2.0 * sine.atan2(rotation.w) / sine)

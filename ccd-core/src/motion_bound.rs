@@ -8,6 +8,7 @@
 
 use crate::order::greater;
 use crate::tolerance::{CROSSING_ROUNDS, RATE_F64, WORTHWHILE};
+use crate::vector::{length, unit};
 use glam::DVec3;
 use std::f64::consts::TAU;
 
@@ -46,7 +47,7 @@ pub fn published(motion: &Velocities, n: DVec3, farthest: impl FnOnce(DVec3) -> 
 /// # Guarantee
 /// Holds over any interval; exact arithmetic up to a few units in the last place.
 pub fn sound(motion: &Velocities, n: DVec3, reach: f64) -> f64 {
-    motion.linear.dot(n) + n.cross(motion.spin).length() * reach
+    motion.linear.dot(n) + length(n.cross(motion.spin)) * reach
 }
 
 /// The height of one moving point along a fixed axis:
@@ -75,13 +76,8 @@ impl Track {
     /// motion's centre.
     #[inline]
     pub fn new(motion: &Velocities, n: DVec3, height: f64, arm: DVec3) -> Self {
-        let omega = motion.spin.length();
-        let unit = if omega > 0.0 {
-            motion.spin / omega
-        } else {
-            DVec3::ZERO
-        };
-        AxisMotion::new(motion.linear, unit, omega, n).track(height, arm)
+        let axis = unit(motion.spin).unwrap_or(DVec3::ZERO);
+        AxisMotion::new(motion.linear, axis, length(motion.spin), n).track(height, arm)
     }
 
     /// The height after `tau`.

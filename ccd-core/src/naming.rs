@@ -4,6 +4,7 @@ use crate::oracle::Combination;
 use crate::order::greater;
 use crate::piece::{Origin, Piece};
 use crate::tolerance::ON_FACET;
+use crate::vector::{normal, unit};
 use glam::DVec3;
 
 /// What a point of a polytope is, by the polytope's corners and the mesh's faces.
@@ -70,11 +71,11 @@ pub(crate) fn face_under(piece: &Piece<'_>, point: DVec3) -> Option<u32> {
 
 /// How far a point is off a triangle's plane, or beyond one of its edges, whichever is more.
 fn distance_off([a, b, c]: [DVec3; 3], point: DVec3) -> f64 {
-    let Some(normal) = (b - a).cross(c - a).try_normalize() else {
+    let Some(normal) = normal([a, b, c]) else {
         return f64::INFINITY;
     };
     let beyond = |from: DVec3, to: DVec3| {
-        let outward = (to - from).cross(normal).normalize_or_zero();
+        let outward = unit((to - from).cross(normal)).unwrap_or(DVec3::ZERO);
         outward.dot(point - from)
     };
     let height = normal.dot(point - a).abs();

@@ -5,6 +5,7 @@ use crate::order::lesser;
 use crate::piece::Piece;
 use crate::separation::{Checked, support_gap};
 use crate::tolerance::MAX_AXES;
+use crate::vector::{across, normal, unit};
 use glam::DVec3;
 
 /// Whether the pieces intersect by more than rounding: an edge of one passes through the other, or
@@ -35,11 +36,12 @@ pub(crate) fn intersects(pair: &PiecePair<'_>, checked: &Checked, rounding: f64)
     }
     let separates = |n: DVec3| {
         let gap = |n| support_gap(pair, n, checked.witness_a);
-        n.try_normalize()
-            .is_some_and(|n| !(gap(n) < -rounding && gap(-n) < -rounding))
+        unit(n).is_some_and(|n| !(gap(n) < -rounding && gap(-n) < -rounding))
     };
-    let crosses =
-        |p: &[DVec3], q: &[DVec3]| p.iter().any(|&e| q.iter().any(|&f| separates(e.cross(f))));
+    let crosses = |p: &[DVec3], q: &[DVec3]| {
+        p.iter()
+            .any(|&e| q.iter().any(|&f| separates(across(e, f))))
+    };
     let flat = pair.a.is_flat() && pair.b.is_flat();
     let normals = a.normals.iter().chain(&b.normals);
     let separated = normals.copied().any(separates)
@@ -69,8 +71,8 @@ fn pierced(pair: &PiecePair<'_>, rounding: f64) -> bool {
 
 /// Whether an edge certainly passes through a triangle, coordinates being right to `rounding`.
 fn pierces([p, q]: [DVec3; 2], triangle: [DVec3; 3], rounding: f64) -> bool {
-    let [a, b, c] = triangle;
-    let Some(normal) = (b - a).cross(c - a).try_normalize() else {
+    let a = triangle[0];
+    let Some(normal) = normal(triangle) else {
         return false;
     };
     let (above, below) = (normal.dot(p - a), normal.dot(q - a));
@@ -83,7 +85,7 @@ fn pierces([p, q]: [DVec3; 2], triangle: [DVec3; 3], rounding: f64) -> bool {
     let spread = rounding * (1.0 + 2.0 * p.distance(q) / (above - below).abs());
     (0..3).all(|k| {
         let (from, to) = (triangle[k], triangle[(k + 1) % 3]);
-        let inward = normal.cross(to - from).try_normalize();
+        let inward = unit(normal.cross(to - from));
         inward.is_some_and(|inward| inward.dot(crossing - from) > spread)
     })
 }

@@ -6,6 +6,7 @@ use crate::motion_bound::Velocities;
 use crate::order::greater;
 use crate::pose::Frame;
 use crate::trig::sin_cos;
+use crate::vector::{length, unit};
 use glam::{DMat3, DVec3};
 
 /// `R(s) = cos(ω s) A + sin(ω s) B + C` about a centre at `start + s · velocity` `[FAST06 §4.1]`.
@@ -29,26 +30,28 @@ pub(crate) struct Path {
     pub(crate) spin_local: DVec3,
     /// `|spin|`
     pub(crate) rate: f64,
+    /// The direction of `spin`; zero where the body does not turn.
+    pub(crate) axis: DVec3,
 }
 
 impl Path {
     pub(crate) fn new(motion: &Motion, origin: DVec3, duration: f64) -> Self {
         let start = Frame::from(motion.start());
         let spin = motion.spin() * duration;
-        let rate = spin.length();
-        let unit = if rate > 0.0 { spin / rate } else { DVec3::ZERO };
-        let constant = outer(unit) * start.rotation;
+        let axis = unit(spin).unwrap_or(DVec3::ZERO);
+        let constant = outer(axis) * start.rotation;
         let velocity = motion.velocity() * duration;
         Path {
             cosine: start.rotation - constant,
-            sine: cross_matrix(unit) * start.rotation,
+            sine: cross_matrix(axis) * start.rotation,
             constant,
             centre: motion.centre(),
             start: (start.translation - origin) + start.rotation * motion.centre(),
             velocity,
             spin,
             spin_local: start.inverse_vector(spin),
-            rate,
+            rate: length(spin),
+            axis,
         }
     }
 
@@ -93,10 +96,10 @@ impl Path {
         if !self.turns() {
             return 0.0;
         }
-        let unit = self.spin_local / self.rate;
+        let axis = unit(self.spin_local).unwrap_or(DVec3::ZERO);
         let squares = points
             .iter()
-            .map(|&x| unit.cross(x - self.centre).length_squared());
+            .map(|&x| axis.cross(x - self.centre).length_squared());
         squares.fold(0.0, greater).sqrt()
     }
 

@@ -7,6 +7,7 @@ use crate::order::{greater, lesser};
 use crate::path::Path;
 use crate::piece::Piece;
 use crate::tolerance::{self, LEAST_TOLERANCE, MAX_COORDINATE, MAX_TURN, NODE_GAP};
+use crate::vector::{distance, length};
 use glam::DVec3;
 use std::time::Duration;
 
@@ -100,8 +101,10 @@ impl<'a> Problem<'a> {
     /// Poses a query.
     ///
     /// # Errors
-    /// [`InputError::OutOfRange`] for a duration or margin that is negative, a tolerance that is
-    /// not positive, or a motion whose extent exceeds [`MAX_COORDINATE`] or [`MAX_TURN`].
+    /// [`InputError::OutOfRange`] for a duration or margin that is negative, a tolerance that is not
+    /// positive, and what exceeds [`MAX_COORDINATE`] or [`MAX_TURN`]: tolerance and margin; of either
+    /// body a coordinate of the position at the start or of the centre, or the distance from B's position
+    /// to the centre and on along its travel; its turn.
     pub fn new(
         a: Moving<'a>,
         b: Moving<'a>,
@@ -130,6 +133,10 @@ impl<'a> Problem<'a> {
             body: moving.body,
             path: Path::new(&moving.motion, origin, duration),
         };
+        for moving in [&a, &b] {
+            check_coordinates("position", moving.motion.start().translation())?;
+            check_coordinates("centre", moving.motion.centre())?;
+        }
         let (a, b) = (side(a), side(b));
         for side in [&a, &b] {
             side.check()?;
@@ -137,9 +144,9 @@ impl<'a> Problem<'a> {
         let rounding = tolerance::distance_rounding(
             [a.span(), b.span()],
             [a.path.rate, b.path.rate],
-            a.path.centre_at(0.0).distance(b.path.centre_at(0.0))
-                + a.path.velocity.length()
-                + b.path.velocity.length()
+            distance(a.path.centre_at(0.0), b.path.centre_at(0.0))
+                + length(a.path.velocity)
+                + length(b.path.velocity)
                 + config.margin,
         );
         Ok(Problem {
@@ -236,11 +243,11 @@ impl<'a> Problem<'a> {
 impl Side<'_> {
     /// The largest coordinate of the body, and that of its centre, in the body's frame.
     fn span(&self) -> f64 {
-        self.body.tree().span() + 2.0 * self.path.centre.length()
+        self.body.tree().span() + 2.0 * length(self.path.centre)
     }
 
     fn check(&self) -> Result<(), InputError> {
-        let travel = self.path.velocity.length() + self.path.centre_at(0.0).length();
+        let travel = length(self.path.velocity) + length(self.path.centre_at(0.0));
         check(
             "travel",
             travel,
@@ -250,6 +257,22 @@ impl Side<'_> {
         let turn = self.path.rate;
         check("turn", turn, turn <= MAX_TURN, "at most 1e6 radians")
     }
+}
+
+/// Refuses a point with a coordinate that is too large.
+fn check_coordinates(what: &'static str, point: DVec3) -> Result<(), InputError> {
+    let largest = point
+        .to_array()
+        .map(f64::abs)
+        .into_iter()
+        .fold(0.0, greater);
+    let allowed = largest <= MAX_COORDINATE;
+    check(
+        what,
+        largest,
+        allowed,
+        "within 1e12 of 0 in every coordinate",
+    )
 }
 
 /// `allowed` must have been computed so that NaN makes it false.

@@ -2,6 +2,7 @@
 
 use crate::oracle::{Claim, Combination, PiecePair};
 use crate::order::{greater, lesser};
+use crate::vector::{length, unit};
 use glam::DVec3;
 
 /// A checked claim, in A's frame.
@@ -32,21 +33,25 @@ pub(crate) fn check(pair: &PiecePair<'_>, claim: &Claim, rounding: f64) -> Check
     let (b, on_b) = named(claim.b, pair.b.points);
     let on_b = pair.b_to_a.point(on_b);
     let way = on_b - on_a;
-    let distance = way.length();
+    let distance = length(way);
     let radii = pair.a.radius + pair.b.radius;
 
-    let mut axis = unit(claim.axis);
+    let mut axis = unit_or_any(claim.axis);
     let near = [&a, &b].map(|claimed| claimed.support().first().copied());
     let mut gap = support_gap_near(pair, axis, on_a, near);
     // Written so that NaN asks for the second axis.
     if !(gap > 0.5 * distance) {
-        let second = unit(way);
+        let second = unit_or_any(way);
         let second_gap = support_gap_near(pair, second, on_a, near);
         if !(gap >= second_gap) {
             (axis, gap) = (second, second_gap);
         }
     }
-    let outward = if distance > 0.0 { unit(way) } else { axis };
+    let outward = if distance > 0.0 {
+        unit_or_any(way)
+    } else {
+        axis
+    };
     Checked {
         claim: Claim { axis, a, b },
         lower: gap - radii - rounding,
@@ -101,14 +106,9 @@ fn named(combination: Combination, points: &[DVec3]) -> (Combination, DVec3) {
 }
 
 /// The unit vector, or an arbitrary one where there is none: a support gap is a bound along any.
-fn unit(v: DVec3) -> DVec3 {
-    // Scaled first, so that neither tiny nor huge vectors lose their direction.
-    let scale = v.abs().max_element();
-    if scale > 0.0 && scale.is_finite() {
-        (v / scale).normalize()
-    } else {
-        DVec3::X
-    }
+#[inline]
+fn unit_or_any(v: DVec3) -> DVec3 {
+    unit(v).unwrap_or(DVec3::X)
 }
 
 #[cfg(test)]

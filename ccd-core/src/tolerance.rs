@@ -38,8 +38,9 @@ pub const NEAREST_SHARE: f64 = 1.0 / 65536.0;
 /// that matter stay above the underflow of f64 (2.2e-308).
 pub const LEAST_TOLERANCE: f64 = 1e-100;
 
-/// The largest coordinate, in the scene's unit of length: squares of distances, and of speeds after
-/// the [largest turn](MAX_TURN), stay below the overflow of f32 (3.4e38).
+/// The largest coordinate of points, positions and centres, and the longest travel, margin and tolerance,
+/// in the scene's unit of length: squares of distances, and of speeds after the [largest turn](MAX_TURN),
+/// stay below the overflow of f32 (3.4e38).
 pub const MAX_COORDINATE: f64 = 1e12;
 
 /// Coordinates nearer to 0 than this, 0 itself excepted, are too fine for exact predicates.
@@ -48,30 +49,52 @@ pub const MAX_COORDINATE: f64 = 1e12;
 /// of the product of three such bits, and that has to be a number: (2⁻⁵³ · 1e-90)³ > 2⁻¹⁰⁷⁴.
 pub const LEAST_COORDINATE: f64 = 1e-90;
 
+/// Squares of lengths within this are right to a few `u`: a component whose own square underflows, below
+/// 2.2e-308, is no part of them.
+pub const SQUARES: std::ops::RangeInclusive<f64> = 1e-200..=1e200;
+
+/// What vectors outside of [`SQUARES`] are multiplied with, or divided by: 2⁷⁰⁰ = 5.3e210.
+///
+/// The least number, 4.9e-324, comes to 2.6e-113, whose square is right, and 1e-100 to 5.3e110; the
+/// greatest, 1.8e308, comes down to 3.4e97, and 1e100 to 1.9e-111.
+pub const SCALE: f64 = f64::from_bits((1023 + 700) << 52);
+
 /// The largest turn of one motion, in radians. Beyond it the rounding of the angle alone moves a
 /// point by 1e-10 of its arm.
 pub const MAX_TURN: f64 = 1e6;
 
-/// Bounds the error of any support gap or witness distance that is computed in f64.
+/// Bounds the error of any support gap or witness distance that is computed in f64, beside the exact one
+/// of the bodies as they were posed: points, poses, centres and velocities, or end poses, as given.
 ///
-/// A point `x` of a body is placed at `R(s)(x − c) + C(s)`:
-/// - an entry of `R` is `cos·A + sin·B + C` with entries of A, B, C right to `8u` (quaternion to
-///   matrix, one product with `u uᵀ` or `[u]×`), sine and cosine to `2u`, the angle `ω s` to `u ω`,
-///   and 4 roundings: `|δR| ≤ (14 + ω)u` per entry, at most `√3` times that on a unit vector;
-/// - the product with `x` and the sum add `4u` of `|x|`, the centre's place `3u` of its distance;
-/// - taking B into A's frame is another rotation (`4u` of the operands) and one more placement;
-/// - a support value `n·x` with a rounded unit axis adds `4u` of `|x|`, and so does a distance.
+/// In units of `u`; matrices by how far they take a unit vector from where it belongs. A point `x` of a
+/// body is placed at `R(s)(x − c) + C(s)`, with `R = cos·A + sin·B + C`:
+/// - the given quaternion is normalised to 2 in direction, which turns by 4, and to 4.5 in length, which
+///   scales by up to 18; its matrix is evaluated to 9;
+/// - the axis of rotation is right to 4.5, so that `C` is to 15 and `B` to 8, and their share in `R` to 31;
+///   sine and cosine add 3, the angle `ω s` adds `5ω`, the four operations of an entry 6;
+/// - `R x`, `R c` and the sums add 7 of `|x|` and of `|c|` each, and 6 of the centre's way;
+/// - into A's frame leads another rotation, which is off the inverse of A's by 67 at most, not counting
+///   what only turns A; its products and sums add 12, of the way and of both bodies;
+/// - a support value `n·x` with a rounded unit axis adds 4 of `|x|`, and so does a distance; heights along
+///   a fixed axis, of which only differences are used, add 16; a support point that edges are climbed to
+///   may be lower than the farthest one by two heights, `2 · 4 |n|₁ |x|`, which is 14 ([`HEIGHT_F64`]).
 ///
-/// - heights of points along a fixed axis, of which only differences are used, add `16u` of `|x|`;
-/// - a support point that edges are climbed to may be lower than the farthest one by the rounding of
-///   two heights, `2 · 4u |n|₁ |x| ≤ 14u |x|` ([`HEIGHT_F64`]).
+/// Velocities may have been derived from poses at both ends:
+/// - the travel `(T₁ − T₀) + (R₁ − R₀) c` adds 4 of itself, and 46 of `|c|`;
+/// - the turn adds 12 of a quaternion, which are 45 as an angle, and 9 of itself, which is at most π: 73.
 ///
-/// Per body that is at most `(2√3 (14 + ω) + 46) u ≤ (95 + 4ω) u` of its span, and `32u` of the
-/// way between the bodies. Without it a touching pair could be certified apart.
+/// That is at most `300 + 5ω` of a body's span, which counts `|c|` twice, and 96 of the way between the
+/// bodies. Coordinates are so small in the end that their squares underflow: a length is then off by 3e-162,
+/// rates squared may take that times 1e12, and 1e-130 is far above. Without all that a touching pair could
+/// be certified apart.
 pub fn distance_rounding(spans: [f64; 2], turns: [f64; 2], way: f64) -> f64 {
-    let body = |k: usize| (95.0 + 4.0 * turns[k]) * spans[k];
-    U64 * (body(0) + body(1) + 32.0 * way)
+    let body = |k: usize| (300.0 + 5.0 * turns[k]) * spans[k];
+    U64 * (body(0) + body(1) + 96.0 * way) + LEAST_ROUNDING
 }
+
+/// What lengths may be off by because squares underflow, in the scene's unit of length: see
+/// [`distance_rounding`].
+pub const LEAST_ROUNDING: f64 = 1e-130;
 
 /// The least tolerance that can be certified when distances are off by up to `rounding`.
 ///
@@ -123,6 +146,11 @@ pub const BEND_F32: f32 = 1.0 + 64.0 * U32;
 /// Absolute allowance on `|n × ω|`, in units of `|ω|`: both vectors are rounded (1u each) and
 /// crossed (3u), which is all there is when they are parallel.
 pub const ACROSS_F32: f32 = 8.0 * U32;
+
+/// Vectors shorter than this are no axes in f32. Above it squares that underflow, each by at most 7e-46,
+/// are less than `u` of their sum; below 1e-22 they would leave a vector that is off by a fifth. Nothing
+/// is lost: ways that are shorter lead across gaps below [`LEAST_GAP_F32`].
+pub const LEAST_AXIS_F32: f32 = 1e-18;
 
 /// Gaps below this are no gaps in f32, in the scene's unit of length. Above it, a bending whose
 /// product with the gap underflows (1.2e-38) takes less than 1e-8 of the gap in the whole duration.
@@ -194,6 +222,10 @@ pub const SWEPT: f32 = 1.0 / 128.0;
 /// A ray that passes an edge, or starts from a plane, at less than about this angle is not used to
 /// tell inside from outside: far above rounding (1e-15), far below the angles of a million triangles.
 pub const GRAZING: f64 = 1e-9;
+
+/// How far the columns of an orthonormal frame computed in f64 may be from unit length and right angles:
+/// twelve rotations of [`U64`] each come to less, and f32, to which a box's axes are rounded, is far above.
+pub const FRAME_F64: f64 = 1e-13;
 
 /// How much a node's box is widened to be met by a ray, relative to its radius: its axes are rounded
 /// to f32, and rays are not counted by the bit.

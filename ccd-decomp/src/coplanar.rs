@@ -4,6 +4,8 @@ use crate::manifold::{Bend, HalfEdge, Manifold};
 use crate::polygons::strict_corners;
 use crate::predicates::Projection;
 use crate::tolerance::{DIRECTIONS, LENGTHS};
+use ccd_core::glam::DVec3;
+use ccd_core::vector::{length, unit};
 use std::cmp::{Ordering, Reverse};
 
 /// The faces of a mesh, in groups that each are a convex polygon.
@@ -86,8 +88,8 @@ impl<'a, 'm> Merger<'a, 'm> {
         let rank = |h: HalfEdge| {
             let [a, b] = manifold.ends(h).map(|v| manifold.point(v));
             let way = b - a;
-            let length = (way.length().log2() * LENGTHS).round() as i32;
-            let way = (way.normalize_or_zero() * DIRECTIONS)
+            let length = (length(way).log2() * LENGTHS).round() as i32;
+            let way = (unit(way).unwrap_or(DVec3::ZERO) * DIRECTIONS)
                 .round()
                 .as_ivec3()
                 .to_array();

@@ -7,6 +7,7 @@ use crate::order::{greater, lesser};
 use crate::outcome::Separation;
 use crate::pose::Frame;
 use crate::problem::Problem;
+use crate::vector::{self, normal, unit};
 use glam::DVec3;
 
 /// Bounds the distance of two features of which the nearest points are known, in the world's
@@ -25,12 +26,12 @@ pub(super) fn measure(
     let face = |k: usize| skins[k].face(meeting.faces[k]);
     let points = [0, 1].map(|k| skins[k].points(spots[k], meeting.faces[k]));
     let [a, b] = meeting.points;
-    let (distance, radii) = (a.distance(b), face(0).radius + face(1).radius);
+    let (distance, radii) = (vector::distance(a, b), face(0).radius + face(1).radius);
     let towards = match distance > problem.rounding {
         true => b - a,
         false => outward(skins, spots, meeting),
     };
-    let mut normal = towards.try_normalize().unwrap_or(DVec3::X);
+    let mut normal = unit(towards).unwrap_or(DVec3::X);
     for across in across(&points).into_iter().flatten() {
         let across = if across.dot(towards) < 0.0 {
             -across
@@ -41,7 +42,7 @@ pub(super) fn measure(
             normal = across;
         }
     }
-    let way = (b - a).try_normalize().unwrap_or(normal);
+    let way = unit(b - a).unwrap_or(normal);
     let world = |x: DVec3| problem.world(a_to_world.point(x));
     let name = |k: usize| skins[k].name(spots[k], meeting.faces[k]);
     FeaturePair {
@@ -52,7 +53,7 @@ pub(super) fn measure(
         separation: Separation {
             lower: gap(&points, normal) - radii - problem.rounding,
             upper: greater(0.0, distance - radii) + problem.rounding,
-            normal: (a_to_world.rotation * normal).normalize(),
+            normal: unit(a_to_world.rotation * normal).unwrap_or(normal),
             witness_a: world(a + way * face(0).radius),
             witness_b: world(b - way * face(1).radius),
         },
@@ -77,20 +78,22 @@ fn gap([a, b]: &[[DVec3; 3]; 2], n: DVec3) -> f64 {
 /// digits where the way to its foot is mostly rounding.
 fn across([a, b]: &[[DVec3; 3]; 2]) -> [Option<DVec3>; 3] {
     let along = |of: &[DVec3; 3]| of[1] - of[0];
-    let normal = |of: &[DVec3; 3]| along(of).cross(of[2] - of[0]).try_normalize();
     [
-        normal(a),
-        normal(b),
-        along(a).cross(along(b)).try_normalize(),
+        normal(*a),
+        normal(*b),
+        unit(vector::across(along(a), along(b))),
     ]
 }
 
 /// About where B is, seen from A, for features that touch: out of the one and into the other, or, of
 /// surfaces that have no outside, from the middle of one piece to that of the other.
 fn outward(skins: [&Skin<'_>; 2], spots: &[Spot; 2], meeting: &Meeting) -> DVec3 {
-    let out = |k: usize| skins[k].outward(spots[k], meeting.faces[k]);
+    let out = |k: usize| {
+        let out = skins[k].outward(spots[k], meeting.faces[k]);
+        unit(out).unwrap_or(DVec3::ZERO)
+    };
     let middle = |k: usize| skins[k].middle(skins[k].face(meeting.faces[k]).piece);
-    match out(0).normalize_or_zero() - out(1).normalize_or_zero() {
+    match out(0) - out(1) {
         DVec3::ZERO => middle(1) - middle(0),
         towards => towards,
     }

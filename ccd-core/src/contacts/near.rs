@@ -8,6 +8,7 @@ use crate::pose::Frame;
 use crate::problem::{Problem, Side};
 use crate::tolerance::BOX_F64;
 use crate::tree::{Below, Named, NodeId, Tree};
+use crate::vector::{length, normal};
 use glam::DVec3;
 
 /// All pairs of faces, of A and of B, that may be nearer than `reach`; none when that takes more than
@@ -111,11 +112,10 @@ impl Extent {
                 let corners = corners.map(|corner| to_a.point(corner));
                 let centre = (corners[0] + corners[1] + corners[2]) / 3.0;
                 let arm = |corner: DVec3| corner.distance(centre);
-                let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
                 Extent {
                     centre,
                     radius: corners.map(arm).into_iter().fold(0.0, greater),
-                    axes: [normal.normalize_or_zero(); 3],
+                    axes: [normal(corners).unwrap_or(DVec3::ZERO); 3],
                     shape: Shape::Triangle(corners),
                 }
             }
@@ -142,13 +142,13 @@ impl Extent {
 /// either or the way between them. Written so that NaN is near.
 fn apart([a, b]: &[Extent; 2], reach: f64) -> bool {
     let way = b.centre - a.centre;
-    let distance = way.length();
+    let distance = length(way);
     if distance > a.radius + b.radius + reach {
         return true;
     }
     let separates = |n: DVec3| {
         let ([low_a, high_a], [low_b, high_b]) = (a.along(n), b.along(n));
-        greater(low_b - high_a, low_a - high_b) > reach * n.length()
+        greater(low_b - high_a, low_a - high_b) > reach * length(n)
     };
     let mut axes = a.axes.iter().chain(&b.axes);
     separates(way / distance) || axes.any(|&n| separates(n))

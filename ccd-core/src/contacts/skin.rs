@@ -6,6 +6,7 @@ use crate::body::Body;
 use crate::feature::Feature;
 use crate::order::greater;
 use crate::pose::Frame;
+use crate::vector::{across, normal, unit};
 use glam::DVec3;
 use std::collections::HashMap;
 use std::ops::Range;
@@ -165,7 +166,7 @@ impl<'a> Skin<'a> {
         let unknown = self.body.pieces().get(piece as usize).is_flat();
         match unknown {
             true => DVec3::ZERO,
-            false => (b - a).cross(c - a).normalize_or_zero(),
+            false => normal([a, b, c]).unwrap_or(DVec3::ZERO),
         }
     }
 
@@ -294,7 +295,7 @@ impl<'a> Skin<'a> {
             return false;
         };
         let [p, q] = [p, q].map(|tip| self.at(tip) - a);
-        let normals = [p, q].map(|tip| (b - a).cross(tip).try_normalize());
+        let normals = [p, q].map(|tip| unit(across(b - a, tip)));
         let [Some(n), Some(m)] = normals else {
             return false;
         };

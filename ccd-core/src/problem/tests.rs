@@ -48,8 +48,60 @@ fn what_is_out_of_range_is_refused_by_name() {
     assert!(posed(turning, 1.0, &config).is_ok());
     assert_eq!(refused(posed(turning, 11.0, &config)), "turn");
     assert_eq!(refused(posed(turning, f64::MAX, &config)), "turn");
-    let far = Motion::still(Pose::from_translation(1.1e12 * DVec3::Z).unwrap());
-    assert_eq!(refused(posed(far, 1.0, &config)), "travel");
+}
+
+#[test]
+fn coordinates_are_accepted_up_to_one_limit_and_refused_beyond() {
+    let config = Config::default();
+    let pose = |at: f64| Pose::from_translation(at * DVec3::Z).unwrap();
+    let refusal = |motion| refused(posed(motion, 1.0, &config));
+    let good = |motion| posed(motion, 1.0, &config).is_ok();
+    let about = |start, centre| Motion::about(start, DVec3::ZERO, DVec3::Y, centre).unwrap();
+    for sign in [1.0, -1.0] {
+        let (most, beyond) = (sign * MAX_COORDINATE, sign * 1e13);
+        assert!(good(Motion::still(pose(most))));
+        assert_eq!(refusal(Motion::still(pose(beyond))), "position");
+        assert!(good(about(Pose::IDENTITY, most * DVec3::X)));
+        assert_eq!(refusal(about(Pose::IDENTITY, beyond * DVec3::X)), "centre");
+        // Also where the two of them cancel.
+        let cancelled = about(pose(beyond), -beyond * DVec3::Z);
+        assert_eq!(refusal(cancelled), "position");
+        let between = |end| Motion::between(pose(0.0), pose(end), DVec3::ZERO, 1.0).unwrap();
+        assert!(good(between(most)));
+        assert_eq!(refusal(between(beyond)), "travel");
+    }
+    // Both in range, but too far apart.
+    let body = Body::ball(1.0).unwrap();
+    let still = |at: f64| Moving {
+        body: &body,
+        motion: Motion::still(pose(at)),
+    };
+    let apart = |at: f64| Problem::new(still(at), still(-at), 1.0, &config).map(|p| p.tolerance());
+    assert!(apart(0.5 * MAX_COORDINATE).is_ok());
+    assert_eq!(refused(apart(0.6 * MAX_COORDINATE)), "travel");
+    // Side by side they are as exact as anywhere, wherever that is.
+    let side_by_side = Problem::new(still(1e12), still(1e12 - 4.0), 1.0, &config).unwrap();
+    assert_eq!(side_by_side.tolerance(), config.tolerance);
+    for large in [MAX_COORDINATE, 1e13] {
+        let is_good = large <= MAX_COORDINATE;
+        let margin = Config {
+            margin: large,
+            ..config
+        };
+        assert_eq!(
+            posed(Motion::still(pose(3.0)), 1.0, &margin).is_ok(),
+            is_good
+        );
+        let tolerance = Config {
+            tolerance: large,
+            ..config
+        };
+        assert_eq!(
+            posed(Motion::still(pose(3.0)), 1.0, &tolerance).is_ok(),
+            is_good
+        );
+        assert_eq!(Body::ball(large).is_ok(), is_good);
+    }
 }
 
 #[test]

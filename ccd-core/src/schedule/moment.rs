@@ -11,6 +11,7 @@ use crate::pose::Frame;
 use crate::problem::{Problem, Side};
 use crate::separation::{self, Checked};
 use crate::tolerance::{AXIS_ROUNDS, RATE_F64, RESTING, TURNED_SHARE, USUAL_STEPS};
+use crate::vector::{length, unit};
 use attached::{Member, Sweep};
 use glam::DVec3;
 use std::cell::Cell;
@@ -136,7 +137,7 @@ impl<'p> Moment<'p> {
                     frame.rotation * (farthest - side.path.centre)
                 }),
             };
-            speed += motion.linear.length() + side.path.rate * reach;
+            speed += length(motion.linear) + side.path.rate * reach;
         }
         let gap = Gap {
             gap: checked.lower - kept,
@@ -188,7 +189,7 @@ impl<'p> Moment<'p> {
             - self.problem.b.path.velocity_at(b, self.clock);
         let nearest = (b - a).dot(velocity) / velocity.length_squared();
         let way = b - a - velocity * nearest.clamp(0.0, self.horizon());
-        let normal = way.try_normalize()?;
+        let normal = unit(way)?;
         let axis = self.frames[0].inverse_vector(normal);
         let radii = self.pieces.a.radius + self.pieces.b.radius;
         let gap = separation::support_gap(&self.pieces, axis, checked.witness_a) - radii;
@@ -337,16 +338,12 @@ impl Few {
 impl<'a> Heights<'a> {
     fn new(side: &Side<'_>, points: &'a [DVec3], frame: &'a Frame, normal: DVec3) -> Self {
         let path = &side.path;
-        let unit = match path.turns() {
-            true => path.spin / path.rate,
-            false => DVec3::ZERO,
-        };
         let mut heights = Heights {
             points,
             frame,
             centre: path.centre,
             normal,
-            along: AxisMotion::new(path.velocity, unit, path.rate, normal),
+            along: AxisMotion::new(path.velocity, path.axis, path.rate, normal),
             omega: path.rate,
             speed: path.velocity.length(),
             least: f64::INFINITY,

@@ -8,6 +8,7 @@ use crate::overlap;
 use crate::problem::{Problem, Side, StartPolicy};
 use crate::separation::Checked;
 use crate::tolerance::RESTING;
+use crate::vector::unit;
 use glam::DVec3;
 
 /// A pair of pieces that is being advanced.
@@ -153,7 +154,7 @@ pub(super) fn contact(moment: &Moment<'_>, [a, b]: [u32; 2], checked: &Checked) 
         separation: Separation {
             lower: checked.lower,
             upper: checked.upper,
-            normal: (a_to_world.rotation * checked.axis).normalize(),
+            normal: unit(a_to_world.rotation * checked.axis).unwrap_or(checked.axis),
             witness_a: world(checked.witness_a),
             witness_b: world(checked.witness_b),
         },

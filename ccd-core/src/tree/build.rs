@@ -6,6 +6,7 @@ use crate::error::InputError;
 use crate::hierarchy::{Hierarchy, HierarchyNode};
 use crate::order::greater;
 use crate::pieces::Pieces;
+use crate::vector::length;
 use glam::DVec3;
 
 /// Builds the tree, and brings the pieces into its order.
@@ -36,7 +37,7 @@ pub(crate) fn build(pieces: &Pieces, hierarchy: &Hierarchy) -> Result<(Tree, Pie
     }
     let reach = |k: usize| {
         let piece = pieces.get(k);
-        let farthest = piece.points.iter().map(|p| p.length()).fold(0.0, greater);
+        let farthest = piece.points.iter().map(|&p| length(p)).fold(0.0, greater);
         farthest + piece.radius
     };
     let tree = Tree {

@@ -3,6 +3,8 @@
 use super::group::up;
 use super::{Below, Node};
 use crate::order::greater;
+use crate::tolerance::FRAME_F64;
+use crate::vector::{length, unit};
 use glam::{DMat3, DVec3, Vec3};
 
 /// What the pieces below a node look like to a fit.
@@ -20,7 +22,8 @@ const TURNS: usize = 6;
 /// Fits the node that holds all points: of several frames the one whose box has the least surface.
 pub(crate) fn fit(cloud: &Cloud<'_>, below: Below) -> Node {
     let mut best = Fitted::along(DMat3::IDENTITY, cloud.points);
-    for frame in candidates(cloud) {
+    // What is dropped costs a box its tightness, what is kept out of true would make it too small.
+    for frame in candidates(cloud).into_iter().filter(is_frame) {
         let fitted = Fitted::along(frame, cloud.points);
         // Written so that a frame with NaN loses.
         if fitted.surface() < best.surface() {
@@ -28,6 +31,14 @@ pub(crate) fn fit(cloud: &Cloud<'_>, below: Below) -> Node {
         }
     }
     best.node(cloud, below)
+}
+
+/// Whether the columns are orthonormal but for rounding: along others no box holds its points.
+fn is_frame(frame: &DMat3) -> bool {
+    let off = frame.transpose() * *frame - DMat3::IDENTITY;
+    // Written so that NaN is none.
+    let within = |v: DVec3| v.abs().cmple(DVec3::splat(FRAME_F64)).all();
+    within(off.x_axis) && within(off.y_axis) && within(off.z_axis)
 }
 
 /// A frame, and the extent of the points along its axes.
@@ -85,14 +96,14 @@ fn candidates(cloud: &Cloud<'_>) -> Vec<DMat3> {
     if cloud.triangles {
         let by_area = || {
             cloud.points.chunks_exact(3).map(|t| {
-                let area = (t[1] - t[0]).cross(t[2] - t[0]).length();
+                let area = length((t[1] - t[0]).cross(t[2] - t[0]));
                 ((t[0] + t[1] + t[2]) / 3.0, area)
             })
         };
         frames.push(principal_axes(by_area));
         let normals = cloud.points.chunks_exact(3);
         let sum: DVec3 = normals.map(|t| (t[1] - t[0]).cross(t[2] - t[0])).sum();
-        if let Some(normal) = sum.try_normalize() {
+        if let Some(normal) = unit(sum) {
             let (x, y) = normal.any_orthonormal_pair();
             frames.extend((0..TURNS).map(|k| {
                 let angle = k as f64 / TURNS as f64 * std::f64::consts::FRAC_PI_2;

@@ -2,6 +2,7 @@
 
 use super::Node;
 use crate::order::greater;
+use crate::vector::{length, normal};
 use glam::{DVec3, Vec3};
 
 /// How many children a group holds.
@@ -70,7 +71,7 @@ impl BoxGroup {
             let way = node.centre - origin;
             let centre = way.as_vec3();
             // The rounded centre is off by this much: box and ball grow by it.
-            let off = up((way - centre.as_dvec3()).length());
+            let off = up(length(way - centre.as_dvec3()));
             set(&mut group.centre, lane, centre);
             for (rows, axis) in group.axes.iter_mut().zip(node.axes) {
                 set(rows, lane, axis);
@@ -80,7 +81,7 @@ impl BoxGroup {
             }
             group.rounding[lane] = node.rounding;
             group.radius[lane] = (node.radius + off).next_up();
-            let reach = up(way.length() + f64::from(node.radius));
+            let reach = up(length(way) + f64::from(node.radius));
             group.members.reach = greater(group.members.reach, reach);
             if matches!(node.below, super::Below::Piece(_)) {
                 group.leaves |= 1 << lane;
@@ -109,9 +110,9 @@ impl TriangleGroup {
             let mean = (corners[0] + corners[1] + corners[2]) / 3.0;
             for (rows, corner) in group.corners.iter_mut().zip(corners) {
                 set(rows, lane, corner.as_vec3());
-                let reach = up(corner.length());
+                let reach = up(length(corner));
                 group.members.reach = greater(group.members.reach, reach);
-                group.radius[lane] = greater(group.radius[lane], up((corner - mean).length()));
+                group.radius[lane] = greater(group.radius[lane], up(length(corner - mean)));
             }
             set(&mut group.normal, lane, unit_normal(corners));
         }
@@ -121,8 +122,7 @@ impl TriangleGroup {
 
 /// The unit normal of a triangle, or zero when it has none.
 pub(crate) fn unit_normal(corners: [DVec3; 3]) -> Vec3 {
-    let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-    normal.normalize_or_zero().as_vec3()
+    normal(corners).unwrap_or(DVec3::ZERO).as_vec3()
 }
 
 /// The nearest f32 that is not below.

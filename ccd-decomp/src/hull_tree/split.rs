@@ -5,6 +5,7 @@ use crate::tolerance::{EIGEN_ROUNDS, LEAST_SHARE};
 use ccd_core::Pieces;
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
+use ccd_core::vector::unit;
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 
 /// Pieces by their centres, the means of their points.
@@ -88,5 +89,5 @@ fn square(p: DVec3) -> Matrix3<f64> {
 fn principal(matrix: Matrix3<f64>) -> Option<DVec3> {
     let eigen = SymmetricEigen::try_new(matrix, f64::EPSILON, EIGEN_ROUNDS)?;
     let axis = eigen.eigenvectors.column(eigen.eigenvalues.imax());
-    DVec3::new(axis[0], axis[1], axis[2]).try_normalize()
+    unit(DVec3::new(axis[0], axis[1], axis[2]))
 }

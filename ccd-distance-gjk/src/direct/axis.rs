@@ -4,6 +4,7 @@ use super::nearest::Corners;
 use crate::lanes::{Lanes3, reciprocal};
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
+use ccd_core::vector::unit;
 use wide::f64x4;
 
 /// A unit vector and the support gap along it.
@@ -88,7 +89,7 @@ impl Candidates {
         let direction = self.directions[k / 4].lane(k % 4);
         let gap = self.gaps[k / 4].to_array()[k % 4];
         if gap > f64::NEG_INFINITY {
-            let direction = direction.normalize_or_zero();
+            let direction = unit(direction).unwrap_or(DVec3::ZERO);
             Axis { direction, gap }
         } else {
             Axis::NONE
@@ -134,7 +135,7 @@ fn normal(edges: &[DVec3; 3]) -> DVec3 {
 /// Along and across the longest edge of all: axes for segments on one line, and for points.
 fn frame(edges_p: &[DVec3; 3], edges_q: &[DVec3; 3]) -> Lanes3 {
     let edge = longest(&[longest(edges_p), longest(edges_q)]);
-    let along = edge.try_normalize().unwrap_or(DVec3::X);
+    let along = unit(edge).unwrap_or(DVec3::X);
     let (across, other) = along.any_orthonormal_pair();
     with([along, across, other], DVec3::ZERO)
 }

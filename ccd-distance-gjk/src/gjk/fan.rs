@@ -5,6 +5,7 @@ use super::simplex::{Simplex, Vertex};
 use crate::tolerance::SHARPEN_CAP;
 use ccd_core::glam::DVec3;
 use ccd_core::order::lesser;
+use ccd_core::vector::unit;
 
 /// Vertices of the difference, as seen from the one that weighs most in the nearest point.
 pub(crate) struct Fan {
@@ -56,18 +57,18 @@ impl Fan {
     pub(crate) fn best(&self, known: DVec3) -> (DVec3, f64) {
         let mut edges = [DVec3::ZERO; SHARPEN_CAP];
         for (edge, vertex) in edges.iter_mut().zip(self.vertices()) {
-            *edge = (vertex.point - self.vertices[0].point).normalize_or_zero();
+            *edge = unit(vertex.point - self.vertices[0].point).unwrap_or(DVec3::ZERO);
         }
         // The first vertex has no edge to itself.
         let edges = &edges[1..self.len];
         let any = match edges.first() {
-            Some(e) if e.is_normalized() => e.any_orthonormal_vector(),
+            Some(&e) if e != DVec3::ZERO => e.any_orthonormal_vector(),
             _ => DVec3::X,
         };
         let bases = [self.point, known, any];
         let mut best = (DVec3::ZERO, f64::NEG_INFINITY);
         let mut consider = |axis: DVec3| {
-            let axis = axis.normalize_or_zero();
+            let axis = unit(axis).unwrap_or(DVec3::ZERO);
             let heights = self.vertices().iter().map(|v| axis.dot(v.point));
             let low = heights.fold(f64::INFINITY, lesser);
             if axis != DVec3::ZERO && low > best.1 {

@@ -6,6 +6,7 @@ use super::search::Found;
 use super::simplex::{Simplex, Vertex};
 use crate::tolerance::SHARPEN_CAP;
 use ccd_core::glam::DVec3;
+use ccd_core::vector::unit;
 
 /// Looks for an axis that certifies the distance, among those that the difference's vertices near
 /// the origin span; returns the four vertices seen that are least along the best axis, the ones that
@@ -21,7 +22,7 @@ pub(crate) fn to_features(exact: &Exact<'_>, found: &mut Found<DVec3>) -> Simple
     };
     if found.axis == DVec3::ZERO {
         // They touched at once: any axis will do to run into the first vertices.
-        let axis = exact.between().try_normalize().unwrap_or(DVec3::X);
+        let axis = unit(exact.between()).unwrap_or(DVec3::X);
         fan.push(found.probe(exact, axis).0);
     }
     for _ in 0..SHARPEN_CAP {
@@ -47,7 +48,7 @@ pub(crate) fn to_faces(exact: &Exact<'_>, found: &mut Found<DVec3>) {
     for [a, b, c] in [[a, b, c], [a, b, d], [a, c, d], [b, c, d]] {
         let n = (b.point - a.point).cross(c.point - a.point);
         let inward = if n.dot(a.point) > 0.0 { -n } else { n };
-        if let Some(axis) = inward.try_normalize() {
+        if let Some(axis) = unit(inward) {
             found.probe(exact, axis);
         }
     }

@@ -5,6 +5,7 @@ use super::search::Found;
 use super::simplex::Simplex;
 use super::vector::Vector;
 use ccd_core::glam::DVec3;
+use ccd_core::vector::unit;
 
 /// Where a search ended, for the next one on the same pair to start from.
 ///
@@ -40,7 +41,7 @@ impl Cache {
             }
         }
         if simplex.vertices().is_empty() {
-            let axis = self.axis.try_normalize();
+            let axis = unit(self.axis);
             let direction = axis.map_or(difference.between(), D::Vector::round);
             simplex.push(difference.support(direction));
         }

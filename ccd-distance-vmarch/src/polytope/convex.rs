@@ -1,6 +1,6 @@
 //! Whether faces enclose something convex, once.
 
-use super::{NO_FACE, Polytope, Side};
+use super::{NO_FACE, Polytope, Side, unit};
 use crate::penetration::side;
 use crate::tolerance::{CONVEX, COPLANAR, LINES};
 use ccd_core::glam::DVec3;
@@ -67,7 +67,7 @@ impl<'a> Check<'a> {
         let first = at(0);
         (0..sides.len()).all(|k| {
             let (here, next, over) = (at(k), at(k + 1), at(k + 2));
-            let inward = normal.cross((next - here).normalize_or_zero());
+            let inward = normal.cross(unit(next - here));
             // A fan from the first corner has no triangle turned over.
             let fan = (here - first).cross(next - first).dot(normal);
             let longest = greater((here - first).length(), (next - first).length());

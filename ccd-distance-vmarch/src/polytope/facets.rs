@@ -3,6 +3,7 @@
 use crate::twofold::TwofoldVector;
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
+use ccd_core::vector;
 
 /// Polygons that close a surface: every side has its twin.
 #[derive(Debug)]
@@ -106,15 +107,9 @@ pub(crate) fn turn(corners: &[u32]) -> impl Iterator<Item = (u32, u32)> {
     corners.iter().copied().zip(next.copied())
 }
 
-/// The unit vector, of any length that is not zero.
+/// The unit vector, or zero where there is none.
 pub(crate) fn unit(v: DVec3) -> DVec3 {
-    // Scaled first: areas of tiny polygons have squares that are no numbers.
-    let scale = v.abs().max_element();
-    if scale > 0.0 && scale.is_finite() {
-        (v / scale).normalize()
-    } else {
-        DVec3::ZERO
-    }
+    vector::unit(v).unwrap_or(DVec3::ZERO)
 }
 
 /// How far a point is off the line through two others; from the first one, if they are equal.

@@ -1,5 +1,6 @@
 //! Arithmetic that vectorises: written out, branch-free, fused where the machine can.
 
+use crate::tolerance::LEAST_AXIS_F32;
 use glam::Vec3;
 
 /// The least normal number, to divide by instead of zero.
@@ -43,11 +44,15 @@ pub(super) fn max(a: f32, b: f32) -> f32 {
     if a > b { a } else { b }
 }
 
-/// The unit vector, or zero for a vector without length.
+/// The unit vector, or zero for a vector that is too short to have one in f32: along zero there is no gap.
 #[inline(always)]
 pub(super) fn unit(a: Vec3) -> Vec3 {
     let length = length(a);
-    a * if length > 0.0 { 1.0 / length } else { 0.0 }
+    a * if length > LEAST_AXIS_F32 {
+        1.0 / length
+    } else {
+        0.0
+    }
 }
 
 #[inline(always)]

@@ -95,7 +95,6 @@ impl<'p> Sweep<'p> {
         rounding: f64,
     ) -> Self {
         let (path, own) = (&holder.side.path, &other.side.path);
-        let unit = direction(path.spin, path.rate);
         // All points of a body that does not turn go straight: one of the piece's own is nearest.
         let reference = match own.turns() {
             true => own.centre,
@@ -105,13 +104,13 @@ impl<'p> Sweep<'p> {
         let velocity = own.velocity - path.velocity;
         let radius = farthest(other.points, reference);
         Sweep {
-            normal: Spinning::new(unit, normal),
-            unit,
+            normal: Spinning::new(path.axis, normal),
+            unit: path.axis,
             omega: path.rate,
             way,
             velocity,
             speed: velocity.length(),
-            own_unit: direction(own.spin, own.rate),
+            own_unit: own.axis,
             own_omega: own.rate,
             relative: path.spin - own.spin,
             points: other.points,
@@ -206,14 +205,6 @@ impl<'p> Sweep<'p> {
 fn farthest(points: &[DVec3], from: DVec3) -> f64 {
     let squares = points.iter().map(|p| p.distance_squared(from));
     squares.fold(0.0, greater).sqrt()
-}
-
-/// The direction of a spin, zero where there is none.
-fn direction(spin: DVec3, rate: f64) -> DVec3 {
-    match rate > 0.0 {
-        true => spin / rate,
-        false => DVec3::ZERO,
-    }
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@ use super::super::solid::Solid;
 use crate::tolerance::WELL_SHAPED;
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
+use ccd_core::vector::unit;
 
 /// A part with the planes of its facets.
 pub(super) struct Body<'a> {
@@ -40,7 +41,7 @@ impl<'a> Body<'a> {
             })?;
             let normal = u.cross(v);
             let good = normal.length() > WELL_SHAPED * u.length() * v.length();
-            let normal = normal.try_normalize().filter(|_| good)?;
+            let normal = unit(normal).filter(|_| good)?;
             Some((normal, normal.dot(at(0))))
         };
         Body {

@@ -6,6 +6,7 @@ use super::body::Body;
 use crate::tolerance::TRIANGLES_UNDER;
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
+use ccd_core::vector::unit;
 
 /// A bound on the distance to the solid of a part's points in a box, from the surface about the box.
 ///
@@ -23,7 +24,7 @@ pub(super) fn excess(
     let bounds = [centre - 3.0 * half, centre + 3.0 * half];
     let near = solid.triangles_in(bounds, TRIANGLES_UNDER)?;
     let normals = near.iter().map(|[a, b, c]| (b - a).cross(c - a));
-    let up = (solid.orientation() * normals.sum::<DVec3>()).try_normalize()?;
+    let up = unit(solid.orientation() * normals.sum::<DVec3>())?;
     let height = |p: DVec3| up.dot(p - centre);
     let mut part = Vec::new();
     let mut lowest = f64::INFINITY;

@@ -1,0 +1,112 @@
+//! Against arithmetic of twice the digits, over all sizes that numbers have.
+
+use super::{across, distance, length, normal, unit};
+use crate::tests::double::Double3;
+use crate::tests::scene::{Pcg64, RngExt, direction, rng};
+use crate::tolerance::U64;
+use glam::DVec3;
+
+/// A number of any size, down to the least.
+fn any(rng: &mut Pcg64) -> f64 {
+    let exponent = rng.random_range(-1074..1000);
+    let sign = if rng.random_range(0..2) == 0 {
+        1.0
+    } else {
+        -1.0
+    };
+    match rng.random_range(0..8) {
+        0 => 0.0,
+        _ => {
+            sign * rng.random_range(1.0..2.0)
+                * 2f64.powi(exponent / 2)
+                * 2f64.powi(exponent - exponent / 2)
+        }
+    }
+}
+
+/// A vector of any size, of components that are alike or not at all.
+fn vector(rng: &mut Pcg64) -> DVec3 {
+    match rng.random_range(0..2) {
+        0 => DVec3::new(any(rng), any(rng), any(rng)),
+        _ => direction(rng) * any(rng),
+    }
+}
+
+/// The same vector with its largest component near 1.
+fn near_one(v: DVec3) -> DVec3 {
+    let largest = v.abs().max_element();
+    let half = 2f64.powf((-0.5 * largest.log2()).round());
+    v * half * half
+}
+
+#[test]
+fn units_are_units_of_the_same_direction() {
+    let mut rng = rng(31);
+    let mut denormal = 0;
+    for _ in 0..200_000 {
+        let v = vector(&mut rng);
+        let Some(n) = unit(v) else {
+            assert_eq!(v, DVec3::ZERO);
+            continue;
+        };
+        denormal += usize::from(v.abs().max_element() < f64::MIN_POSITIVE);
+        let n = Double3::from(n);
+        assert!((n.length().get() - 1.0).abs() <= 4.0 * U64, "{v:?}");
+        let off = (n - Double3::from(near_one(v)).unit()).length().get();
+        assert!(off <= 4.0 * U64, "{v:?}: {off:e}");
+    }
+    assert!(denormal > 1_000, "{denormal}");
+    for none in [DVec3::ZERO, -DVec3::ZERO, DVec3::NAN, DVec3::INFINITY] {
+        assert_eq!(unit(none), None);
+    }
+    assert_eq!(unit(DVec3::new(f64::NAN, 1.0, 0.0)), None);
+    assert_eq!(unit(DVec3::splat(f64::from_bits(1))), unit(DVec3::ONE));
+    let huge = unit(DVec3::X * f64::MAX).unwrap();
+    assert!((huge.x - 1.0).abs() <= U64);
+}
+
+#[test]
+fn lengths_are_right() {
+    assert_eq!(length(DVec3::ZERO), 0.0);
+    assert!(length(DVec3::NAN).is_nan());
+    assert_eq!(length(DVec3::new(3e-320, 4e-320, 0.0)), 5e-320);
+    assert_eq!(length(DVec3::X * f64::MAX), f64::MAX);
+    assert_eq!(distance(DVec3::X * 1e-200, DVec3::X * -1e-200), 2e-200);
+    let mut rng = rng(32);
+    for _ in 0..100_000 {
+        let v = vector(&mut rng);
+        let largest = v.abs().max_element();
+        if largest == 0.0 {
+            continue;
+        }
+        // Scaled by halves: one power of two may be no number.
+        let half = 2f64.powf((-0.5 * largest.log2()).round());
+        let exact = Double3::from(v * half * half).length().get() / half / half;
+        let least = f64::from_bits(1);
+        assert!(
+            (length(v) - exact).abs() <= 4.0 * U64 * exact + least,
+            "{v:?}"
+        );
+    }
+}
+
+#[test]
+fn normals_are_those_of_triangles_of_any_size() {
+    let mut rng = rng(33);
+    for _ in 0..100_000 {
+        let (u, v) = (direction(&mut rng), direction(&mut rng));
+        if u.cross(v).length() < 0.1 {
+            continue;
+        }
+        let exponent = || [-1000, -540, -520, -300, 0, 300];
+        let [p, q] = [(); 2].map(|()| 2f64.powi(exponent()[rng.random_range(0..6)]));
+        let found = normal([DVec3::ZERO, u * p, v * q]).unwrap();
+        let exact = Double3::from(u).cross(Double3::from(v)).unit();
+        let off = (Double3::from(found) - exact).length().get();
+        assert!(off < 100.0 * U64, "{p:e} {q:e}: {off:e}");
+    }
+    // On one line, or in one point.
+    assert_eq!(normal([DVec3::ZERO, DVec3::X, 3.0 * DVec3::X]), None);
+    assert_eq!(normal([DVec3::X; 3]), None);
+    assert_eq!(across(DVec3::X * 1e-300, DVec3::X), DVec3::ZERO);
+}
