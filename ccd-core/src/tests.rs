@@ -1,6 +1,7 @@
 //! What the unit tests share: exact references, a slow oracle, random scenes.
 
 pub(crate) mod double;
+pub(crate) mod far_ends;
 pub(crate) mod meshes;
 pub(crate) mod nearest;
 pub(crate) mod oracle;

@@ -44,6 +44,14 @@ impl Double {
         (root + self / root) * Double::from(0.5)
     }
 
+    /// The angle whose sine and cosine are as these two, both at least 0.
+    pub(crate) fn atan2(self, cosine: Double) -> Double {
+        let angle = Double::from(self.high.atan2(cosine.high));
+        // One Newton step doubles the digits of the f64 angle.
+        let (sin, cos) = angle.sin_cos();
+        angle + (self * cos - cosine * sin) / (self * sin + cosine * cos)
+    }
+
     /// Sine and cosine: Taylor's series of a small fraction of the angle, doubled again and again.
     pub(crate) fn sin_cos(self) -> (Double, Double) {
         let mut halvings = 0;
@@ -226,6 +234,47 @@ fn turned(motion: &Motion, duration: f64, s: f64, vector: Double3) -> Double3 {
     vector.turned(spin.unit(), spin.length() * time)
 }
 
+/// Poses at both ends of a motion as they are given, the quaternions of any length.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Ends {
+    pub(crate) places: [DVec3; 2],
+    pub(crate) turned: [DQuat; 2],
+    /// Moves straight, in the body's frame.
+    pub(crate) centre: DVec3,
+}
+
+impl Ends {
+    /// Where the motion between them takes a point of the body, at a share of the duration.
+    pub(crate) fn place(&self, share: Double, point: DVec3) -> Double3 {
+        let centre = Double3::from(self.centre);
+        let [start, end] =
+            [0, 1].map(|k| Double3::from(self.places[k]) + centre.rotated(self.turned[k]));
+        let arm = (Double3::from(point) - centre).rotated(self.turned[0]);
+        let ([x, y, z], w) = self.turn();
+        let axis = Double3([x, y, z]);
+        let sine = axis.length();
+        let arm = match sine.high > 0.0 {
+            true => arm.turned(axis.unit(), Double::from(2.0) * sine.atan2(w) * share),
+            false => arm,
+        };
+        start + (end - start).scale(share) + arm
+    }
+
+    /// The quaternion from the one to the other, of whatever length, its real part not negative.
+    fn turn(&self) -> ([Double; 3], Double) {
+        let [from, to] = self.turned;
+        let [v, u] = [from.xyz(), to.xyz()].map(Double3::from);
+        let [a, b] = [from.w, to.w].map(Double::from);
+        // u w* of quaternions (b, u) and (a, −v)
+        let Double3(xyz) = u.scale(a) - v.scale(b) - u.cross(v);
+        let w = a * b + u.dot(v);
+        match w.high < 0.0 {
+            true => (xyz.map(|x| -x), -w),
+            false => (xyz, w),
+        }
+    }
+}
+
 #[test]
 fn has_twice_the_digits() {
     let third = Double::from(1.0) / Double::from(3.0);
@@ -239,6 +288,9 @@ fn has_twice_the_digits() {
         let scale = 1e-30 * greater(1.0, angle.abs());
         assert!((sin * sin + cos * cos - Double::from(1.0)).get().abs() < scale);
         assert!((sin.get() - angle.sin()).abs() < 1e-15);
+        let first = Double::from(angle.rem_euclid(1.5));
+        let (sine, cosine) = first.sin_cos();
+        assert!((sine.atan2(cosine) - first).get().abs() < 1e-30);
         let (third_sin, _) = (Double::from(angle) / Double::from(3.0)).sin_cos();
         let cubed = third_sin * third_sin * third_sin;
         let triple = Double::from(3.0) * third_sin - Double::from(4.0) * cubed;

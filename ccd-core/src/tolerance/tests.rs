@@ -8,6 +8,7 @@ use crate::pieces::Pieces;
 use crate::problem::{Config, Moving, Problem};
 use crate::separation;
 use crate::tests::double::{Double, Double3, place};
+use crate::tests::far_ends::{between, ends};
 use crate::tests::scene::{
     Look, Pcg64, RngExt, body, direction, magnitude, rng, rotation, soup, within,
 };
@@ -56,6 +57,37 @@ fn rounding_of_places_gaps_and_distances_is_allowed_for() {
     assert!(worst.place < 1.0, "{worst:?}");
     assert!(worst.gap < 1.0, "{worst:?}");
     assert!(worst.distance < 1.0, "{worst:?}");
+}
+
+/// What is derived from poses at both ends is allowed for as well, against the motion between the poses.
+#[test]
+fn rounding_of_motions_between_poses_is_allowed_for() {
+    let mut rng = rng(6);
+    let mut worst = 0.0f64;
+    for _ in 0..4_000 {
+        let world = direction(&mut rng) * magnitude(&mut rng, 0.0, 11.9);
+        let size = magnitude(&mut rng, -3.0, 3.0);
+        let duration = magnitude(&mut rng, -3.0, 3.0);
+        let bodies: [Body; 2] = std::array::from_fn(|_| far_body(&mut rng, 1, size));
+        let ends = [(); 2].map(|()| ends(&mut rng, world, size));
+        let motions = ends.map(|ends| between(&ends, duration));
+        let moving = |k: usize| Moving {
+            body: &bodies[k],
+            motion: motions[k],
+        };
+        let problem = Problem::new(moving(0), moving(1), duration, &Config::default()).unwrap();
+        let origin = Double3::from(ends[1].places[0]);
+        for k in 0..2 {
+            let s = rng.random_range(0.0..1.0);
+            let side = [&problem.a, &problem.b][k];
+            for &p in bodies[k].pieces().points() {
+                let exact = ends[k].place(Double::from(s), p) - origin;
+                let off = (Double3::from(side.path.frame(s).point(p)) - exact).length();
+                worst = worst.max(off.get() / problem.rounding);
+            }
+        }
+    }
+    assert!(worst < 1.0, "{worst}");
 }
 
 fn far_body(rng: &mut Pcg64, count: usize, size: f64) -> Body {

@@ -83,6 +83,10 @@ fn check_node(node: &Node, pieces: &Pieces, below: &[u32]) {
     for axis in node.axes {
         assert!((axis.as_dvec3().length() - 1.0).abs() < 4.0 * f64::from(f32::EPSILON));
     }
+    let [x, y, z] = node.axes.map(|axis| axis.as_dvec3());
+    for askew in [x.dot(y), y.dot(z), z.dot(x)] {
+        assert!(askew.abs() < 4.0 * f64::from(f32::EPSILON), "{node:?}");
+    }
     for &piece in below {
         let piece = pieces.get(piece as usize);
         for &point in piece.points {
@@ -134,6 +138,12 @@ fn check_triangle(group: &TriangleGroup, lane: usize, triangle: Triangle) {
         assert!((corner - mean).length() <= f64::from(group.radius[lane]) + slack);
         assert!(exact.length() <= f64::from(group.members.reach) + slack);
     }
+    let normal = DVec3::from_array(group.normal.map(|row| f64::from(row[lane])));
+    let off = (normal.length() - 1.0).abs();
+    assert!(
+        normal == DVec3::ZERO || off < f64::from(f32::EPSILON),
+        "{normal}"
+    );
 }
 
 fn random_soup(rng: &mut Pcg64, count: usize) -> Vec<Triangle> {
@@ -181,6 +191,31 @@ fn coordinates_up_to_the_largest_and_down_to_the_least() {
                 .collect();
             check(&body(&triangles));
         }
+    }
+}
+
+/// Below 1e-154 squares of components lose their digits, below 1e-162 they vanish.
+#[test]
+fn components_whose_squares_are_no_numbers() {
+    let mut rng = rng(4);
+    for _ in 0..3_000 {
+        let count = rng.random_range(1..30);
+        let tiny = magnitude(&mut rng, -170.0, -150.0);
+        let triangles: Vec<Triangle> = soup(&mut rng, Look::Plump, count, 1.0)
+            .iter()
+            .map(|t| {
+                let mut kept = |_| [1.0, tiny, 0.0][rng.random_range(0..3)];
+                let scale = [0, 1, 2].map(|_| DVec3::from_array([0, 1, 2].map(&mut kept)));
+                [0, 1, 2].map(|k| t[k] * scale[k])
+            })
+            .collect();
+        check(&body(&triangles));
+    }
+    // Frames that such normals gave: their lengths were off by up to a third.
+    for k in 0..2_000 {
+        let tiny = 1e-163 * 1.002f64.powi(k);
+        let across = DVec3::new(-tiny, tiny, 0.3 * tiny);
+        check(&body(&[[DVec3::ZERO, DVec3::new(1.0, 1.0, -2.0), across]]));
     }
 }
 

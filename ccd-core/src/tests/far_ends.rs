@@ -1,0 +1,124 @@
+//! Motions between poses far from the world's origin: answers hold for the motion that the poses say,
+//! not for the one that rounding makes of them.
+
+use super::double::{Double, Double3, Ends};
+use super::oracle::Exhaustive;
+use super::scene::{Pcg64, RngExt, direction, magnitude, rng, rotation, within};
+use crate::body::Body;
+use crate::motion::Motion;
+use crate::outcome::Outcome;
+use crate::pose::Pose;
+use crate::problem::{Config, Moving, Problem};
+use crate::schedule::{BestFirst, Naive, Schedule};
+use glam::DVec3;
+
+/// Poses at both ends about a place in the world, with quaternions of any length and at times the same.
+pub(crate) fn ends(rng: &mut Pcg64, world: DVec3, size: f64) -> Ends {
+    let at = |rng: &mut Pcg64| world + within(rng, size);
+    let start = rotation(rng) * magnitude(rng, -3.0, 3.0);
+    let end = match rng.random_range(0..3) {
+        0 => start,
+        1 => start * magnitude(rng, -1.0, 1.0),
+        _ => rotation(rng) * magnitude(rng, -3.0, 3.0),
+    };
+    let off = size * magnitude(rng, -3.0, 3.0);
+    Ends {
+        places: [at(rng), at(rng)],
+        turned: [start, end],
+        centre: [DVec3::ZERO, within(rng, off)][rng.random_range(0..2)],
+    }
+}
+
+/// The motion that the engine makes of them.
+pub(crate) fn between(ends: &Ends, duration: f64) -> Motion {
+    let [start, end] = [0, 1].map(|k| Pose::new(ends.places[k], ends.turned[k]).unwrap());
+    Motion::between(start, end, ends.centre, duration).unwrap()
+}
+
+/// Two balls, each off its body's origin.
+struct Scene {
+    ends: [Ends; 2],
+    centres: [DVec3; 2],
+    radii: f64,
+}
+
+impl Scene {
+    fn new(rng: &mut Pcg64) -> Self {
+        let world = direction(rng) * magnitude(rng, 3.0, 11.9);
+        Scene {
+            ends: [(); 2].map(|()| ends(rng, world, 1.0)),
+            centres: [(); 2].map(|()| within(rng, 0.5)),
+            radii: rng.random_range(0.1..0.4),
+        }
+    }
+
+    /// The exact distance at a share of the duration.
+    fn distance(&self, share: Double) -> Double {
+        let [a, b] = [0, 1].map(|k| self.ends[k].place(share, self.centres[k]));
+        let way: Double3 = b - a;
+        way.length() - Double::from(self.radii) - Double::from(self.radii)
+    }
+}
+
+#[test]
+fn answers_hold_for_the_motion_between_the_poses_as_given() {
+    let mut rng = rng(41);
+    let (mut hits, mut misses) = (0, 0);
+    for number in 0..2_000 {
+        let scene = Scene::new(&mut rng);
+        let bodies = scene.centres.map(|centre| {
+            let ball = crate::piece::Polytope {
+                points: vec![centre],
+                radius: scene.radii,
+                ..Default::default()
+            };
+            let pieces = crate::pieces::Pieces::polytopes(&[ball]).unwrap();
+            Body::new(&pieces, crate::body::Volume::Surface).unwrap()
+        });
+        let duration = magnitude(&mut rng, -2.0, 2.0);
+        let config = Config {
+            tolerance: 1e-12,
+            ..Config::default()
+        };
+        let moving = |k: usize| Moving {
+            body: &bodies[k],
+            motion: between(&scene.ends[k], duration),
+        };
+        let problem = Problem::new(moving(0), moving(1), duration, &config).unwrap();
+        for outcome in [
+            BestFirst::default()
+                .solve(&problem, &mut Exhaustive)
+                .outcome,
+            Naive::default().solve(&problem, &mut Exhaustive).outcome,
+        ] {
+            let (until, least) = match outcome {
+                Outcome::Contact { time, contact } => {
+                    hits += 1;
+                    let share = Double::from(time) / Double::from(duration);
+                    let exact = scene.distance(share);
+                    let (lower, upper) = (contact.separation.lower, contact.separation.upper);
+                    assert!(
+                        (exact - Double::from(lower)).get() >= 0.0,
+                        "{number}: {outcome:?}"
+                    );
+                    assert!(
+                        (Double::from(upper) - exact).get() >= 0.0,
+                        "{number}: {outcome:?}"
+                    );
+                    (share.get(), 0.0)
+                }
+                Outcome::Free { clearance } => {
+                    misses += 1;
+                    (1.0, clearance)
+                }
+                Outcome::Touching { .. } | Outcome::Overlapping { .. } => continue,
+                outcome => panic!("{number}: {outcome:?}"),
+            };
+            for k in 0..64 {
+                let found = scene.distance(Double::from(until * f64::from(k) / 64.0));
+                assert!(found.get() >= least, "{number}: {outcome:?}");
+            }
+        }
+    }
+    assert!(hits > 500 && misses > 500, "{hits} {misses}");
+}
