@@ -6,3 +6,4 @@ pub(crate) mod meshes;
 pub(crate) mod nearest;
 pub(crate) mod oracle;
 pub(crate) mod scene;
+mod tiny_components;

@@ -29,3 +29,4 @@ mod scenes;
 mod start;
 mod statuses;
 mod symmetries;
+mod units;

@@ -7,6 +7,7 @@ use crate::piece::Polytope;
 use crate::pieces::Pieces;
 use crate::tests::nearest::Triangle;
 use crate::tests::scene::{Look, Pcg64, RngExt, body, direction, magnitude, rng, soup, within};
+use crate::vector::length;
 use glam::DVec3;
 
 /// Boxes and balls hold the points to within the rounding of the f64 arithmetic that checks it.
@@ -26,7 +27,7 @@ fn check(body: &Body) -> usize {
 
 fn farthest(pieces: &Pieces) -> f64 {
     let reach =
-        |p: crate::Piece<'_>| p.points.iter().map(|x| x.length()).fold(0.0, greater) + p.radius;
+        |p: crate::Piece<'_>| p.points.iter().map(|&x| length(x)).fold(0.0, greater) + p.radius;
     pieces.iter().map(reach).fold(0.0, greater)
 }
 

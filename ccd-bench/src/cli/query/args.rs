@@ -104,6 +104,9 @@ Table of motions: columns by name, in any order; all may be left out, and so may
   a_cx a_cy a_cz            the point of A that moves straight, in A's frame; default its origin
   b_px …                    the same for B
   duration                  default 1
+  Coordinates of meshes, positions and centres: -1e12 to 1e12. Up to 1e12 also the distance from B's
+  position at the start to either centre and on along its travel, --tolerance and --margin; turns up to
+  1e6 radians. A row beyond that is refused.
 
 Table of results:
   status    contact      within margin + tolerance at `time`, certainly not touching before

@@ -1,0 +1,107 @@
+//! Needles whose widths have no square in f64: what comes along their normals keeps its margin.
+
+use super::nearest::nearest;
+use super::oracle::Exhaustive;
+use super::scene::{Pcg64, RngExt, body, direction, magnitude, rng, within};
+use crate::body::Body;
+use crate::motion::Motion;
+use crate::order::lesser;
+use crate::outcome::Outcome;
+use crate::pose::Pose;
+use crate::problem::{Config, Moving, Problem};
+use crate::schedule::{BestFirst, Schedule};
+use crate::vector::unit;
+use glam::DVec3;
+
+/// A vector of small whole numbers.
+fn whole(rng: &mut Pcg64) -> DVec3 {
+    let v = DVec3::from_array([(); 3].map(|()| f64::from(rng.random_range(-2..3))));
+    if v == DVec3::ZERO { DVec3::X } else { v }
+}
+
+/// Needles that share a corner, and the normal of the first one.
+fn needles(rng: &mut Pcg64) -> (Vec<[DVec3; 3]>, DVec3) {
+    let width = magnitude(rng, -162.0, -161.0);
+    let count = rng.random_range(1..4);
+    let needle = |rng: &mut Pcg64| {
+        let along = whole(rng);
+        [DVec3::ZERO, along, whole(rng).cross(along) * width]
+    };
+    let all: Vec<_> = (0..count).map(|_| needle(rng)).collect();
+    let normal = unit(all[0][1])
+        .zip(unit(all[0][2]))
+        .map(|(e, f)| e.cross(f));
+    (all, normal.unwrap_or(DVec3::Z))
+}
+
+fn distance(problem: &Problem<'_>, s: f64) -> f64 {
+    let place = |k: usize| {
+        let side = [&problem.a, &problem.b][k];
+        let frame = side.path.frame(s);
+        let pieces = side.body.pieces();
+        let placed = |k: usize| pieces.triangle(k).map(|p| frame.point(p));
+        (0..pieces.len()).map(placed).collect::<Vec<_>>()
+    };
+    let (a, b) = (place(0), place(1));
+    let pairs = a
+        .iter()
+        .flat_map(|x| b.iter().map(|y| nearest(x, y).distance));
+    pairs.fold(f64::INFINITY, lesser)
+}
+
+#[test]
+fn margins_are_kept_from_needles_of_widths_that_have_no_square() {
+    let mut rng = rng(51);
+    let (mut hits, mut misses, mut open) = (0, 0, 0);
+    for number in 0..4_000 {
+        let (needles, normal) = needles(&mut rng);
+        let size = magnitude(&mut rng, -2.0, -0.5);
+        let passer = [(); 3].map(|()| within(&mut rng, size));
+        let bodies: [Body; 2] = [body(&needles), body(&[passer])];
+        let goal = needles[0][1] * rng.random_range(0.0..1.0) + within(&mut rng, 0.1);
+        let way = [normal, direction(&mut rng)][rng.random_range(0..2)];
+        let start = Pose::from_translation(goal - way * rng.random_range(1.0..3.0)).unwrap();
+        let motion = Motion::new(start, way * rng.random_range(1.0..4.0), DVec3::ZERO).unwrap();
+        let config = Config {
+            tolerance: magnitude(&mut rng, -9.0, -3.0),
+            margin: magnitude(&mut rng, -1.0, 0.0),
+            ..Config::default()
+        };
+        let moving = |k: usize| Moving {
+            body: &bodies[k],
+            motion: [Motion::still(Pose::IDENTITY), motion][k],
+        };
+        let problem = Problem::new(moving(0), moving(1), 1.0, &config).unwrap();
+        let outcome = BestFirst::default()
+            .solve(&problem, &mut Exhaustive)
+            .outcome;
+        let (until, least) = match outcome {
+            Outcome::Contact { time, .. } => {
+                hits += 1;
+                (time, problem.margin)
+            }
+            Outcome::Free { clearance } => {
+                misses += 1;
+                (1.0, clearance)
+            }
+            // The slow oracle squares what it should not, and names poor axes.
+            Outcome::Unresolved { safe_until, .. } => {
+                open += 1;
+                (safe_until, problem.margin)
+            }
+            Outcome::Touching { .. } => continue,
+            outcome => panic!("{number}: {outcome:?}"),
+        };
+        for k in 0..=64 {
+            let found = distance(&problem, until * f64::from(k) / 64.0);
+            assert!(
+                found >= least - problem.rounding,
+                "{number}: {found} {outcome:?}"
+            );
+        }
+    }
+    assert!(
+        hits > 500 && misses > 500 && open < 400,
+        "{hits} {misses} {open}"
+    );
+}

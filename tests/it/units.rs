@@ -1,0 +1,60 @@
+//! Unit vectors come from `ccd_core::vector` alone: glam's are not of unit length where squares underflow,
+//! and nothing that is measured along them is proven.
+
+use std::path::{Path, PathBuf};
+
+/// Of files that may: where it is, and why what it normalises is no axis.
+const ELSEWHERE: [(&str, &str); 2] = [
+    ("ccd-core/src/pose.rs", "a quaternion, scaled first"),
+    ("ccd-core/src/interop.rs", "a quaternion of nalgebra"),
+];
+
+#[test]
+fn no_proof_leans_on_a_vector_normalised_elsewhere() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let mut files = Vec::new();
+    for member in [
+        "ccd-core",
+        "ccd-distance-gjk",
+        "ccd-distance-vmarch",
+        "ccd-decomp",
+    ] {
+        collect(&root.join(member).join("src"), &mut files);
+    }
+    assert!(files.len() > 100, "{}", files.len());
+    let mut allowed = 0;
+    for file in files {
+        let text = std::fs::read_to_string(&file).expect("a source file");
+        // Unit tests at the end of a file are no part of a proof.
+        let code = text.split("#[cfg(test)]").next().unwrap_or_default();
+        let normalises = |line: &&str| {
+            let line = line.trim_start();
+            !line.starts_with("//") && (line.contains("normalize") || line.contains("length_recip"))
+        };
+        if let Some(line) = code.lines().find(normalises) {
+            let elsewhere = ELSEWHERE.iter().any(|(path, _)| file.ends_with(path));
+            assert!(elsewhere, "{}: {line}", file.display());
+            allowed += 1;
+        }
+    }
+    assert_eq!(
+        allowed,
+        ELSEWHERE.len(),
+        "a file on the list needs it no more"
+    );
+}
+
+/// All source files in a folder but for tests.
+fn collect(folder: &Path, files: &mut Vec<PathBuf>) {
+    const TESTS: [&str; 3] = ["tests", "tests.rs", "over_hulls.rs"];
+    for entry in std::fs::read_dir(folder).expect("a folder") {
+        let path = entry.expect("an entry").path();
+        if TESTS.iter().any(|name| path.ends_with(name)) {
+            continue;
+        }
+        match path.is_dir() {
+            true => collect(&path, files),
+            false => files.extend((path.extension() == Some("rs".as_ref())).then_some(path)),
+        }
+    }
+}
