@@ -83,7 +83,7 @@ fn rounding_of_motions_between_poses_is_allowed_for() {
             for &p in bodies[k].pieces().points() {
                 let exact = ends[k].place(Double::from(s), p) - origin;
                 let off = (Double3::from(side.path.frame(s).point(p)) - exact).length();
-                worst = worst.max(off.get() / problem.rounding);
+                worst = greater(worst, off.get() / problem.rounding);
             }
         }
     }
