@@ -10,6 +10,7 @@ mod decomposition;
 mod equal_bits;
 mod exact;
 mod faulty_meshes;
+mod folds;
 mod generators;
 mod liars;
 mod limits;

@@ -1,0 +1,97 @@
+//! A fold with the least or the greatest of two numbers loses none, whatever the compiler makes of it.
+//!
+//! Some lose the last elements of a fold with `f64::min`: those that are left over when the loop is cut
+//! into vectors, where its length is known and small. These are two loops that were seen to, one over
+//! numbers in a row (AVX2 is enough), one over corners of edges (by gathers, with AVX-512).
+
+use ccd_core::glam::DVec3;
+use ccd_core::order::{greater, lesser};
+use std::hint::black_box;
+
+/// At every length up to 16 every element has its turn to be the one that is looked for.
+#[test]
+fn no_element_is_lost() {
+    macro_rules! at_lengths {
+        ($($n:literal)*) => {
+            [$(lost_of::<$n>(lost_in_a_row::<$n>), lost_of::<$n>(lost_among_edges::<$n>)),*].concat()
+        };
+    }
+    let lost = at_lengths![1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16];
+    assert!(lost.is_empty(), "lost, as (length, place): {lost:?}");
+}
+
+/// The places that are not found, each with the length.
+fn lost_of<const N: usize>(lost: impl Fn(usize) -> bool) -> Vec<(usize, usize)> {
+    (0..N).filter(|&at| lost(at)).map(|at| (N, at)).collect()
+}
+
+fn lost_in_a_row<const N: usize>(at: usize) -> bool {
+    let (mut low, mut high) = ([2.0; N], [1.0; N]);
+    (low[at], high[at]) = (1.0, 2.0);
+    let least = in_a_row(&black_box(low), f64::INFINITY, lesser);
+    let most = in_a_row(&black_box(high), f64::NEG_INFINITY, greater);
+    least != roots(1.0) || most != roots(2.0)
+}
+
+fn lost_among_edges<const N: usize>(at: usize) -> bool {
+    let edge = |height: f64| [DVec3::new(-1.0, height, 0.0), DVec3::new(1.0, height, 0.0)];
+    let (mut low, mut high) = ([edge(2.0); N], [edge(1.0); N]);
+    (low[at], high[at]) = (edge(1.0), edge(2.0));
+    let points = [DVec3::ZERO; 2];
+    let least = among_edges(black_box(points), &black_box(low), f64::INFINITY, lesser);
+    let most = among_edges(
+        black_box(points),
+        &black_box(high),
+        f64::NEG_INFINITY,
+        greater,
+    );
+    least != 1.0 || most != 4.0
+}
+
+#[inline(never)]
+fn in_a_row<const N: usize>(
+    numbers: &[f64; N],
+    start: f64,
+    better: impl Fn(f64, f64) -> f64,
+) -> f64 {
+    numbers
+        .iter()
+        .fold(start, |best, &x| better(best, roots(x)))
+}
+
+/// So long that the loop around it is not unrolled.
+#[inline(always)]
+fn roots(x: f64) -> f64 {
+    let root = |x: f64| x.sqrt().sqrt().sqrt().sqrt();
+    root(root(root(root(x))))
+}
+
+#[inline(never)]
+fn among_edges<const N: usize>(
+    points: [DVec3; 2],
+    edges: &[[DVec3; 2]; N],
+    start: f64,
+    better: impl Fn(f64, f64) -> f64,
+) -> f64 {
+    let mut best = start;
+    for &edge in edges {
+        let mut of_edge = start;
+        for point in points {
+            of_edge = better(of_edge, squared_distance(point, edge));
+        }
+        best = better(best, of_edge);
+    }
+    best
+}
+
+#[inline(always)]
+fn squared_distance(point: DVec3, [a, b]: [DVec3; 2]) -> f64 {
+    let along = b - a;
+    let share = (point - a).dot(along) / along.dot(along);
+    let foot = if share > 0.0 {
+        a + lesser(share, 1.0) * along
+    } else {
+        a
+    };
+    foot.distance_squared(point)
+}
