@@ -75,14 +75,14 @@
 //! - `hull-tree`: trees of convex hulls, checked by exact predicates, and the schedule over them.
 //! - `serde`: pieces, hierarchies and hull trees can be stored; what is read is checked as what is
 //!   made.
-//! - `avx512`: lets the crate be built with AVX-512, which rustc 1.95 miscompiles plain f64 code with;
-//!   for compilers that are known not to.
+//! - `avx512`: lets the crate be built with AVX-512 by a rustc that has LLVM 22 or older, which
+//!   miscompiles it; for one that is known not to. From LLVM 23 on it takes no feature.
 
-#[cfg(all(target_feature = "avx512f", not(feature = "avx512")))]
+#[cfg(all(target_feature = "avx512f", faulty_avx512, not(feature = "avx512")))]
 compile_error!(
-    "rustc 1.95 (LLVM 22.1.2) miscompiles plain f64 loops with AVX-512, and a certificate is worth \
-     nothing then: add `-C target-cpu=x86-64-v3` to the rustflags, as .cargo/config.toml does here, or \
-     the feature `avx512` if your compiler is known to be free of it"
+    "LLVM 22, which is behind this rustc, miscompiles AVX-512 (rust issue 158622), and a certificate is \
+     worth nothing then: add `-C target-cpu=x86-64-v3` to the rustflags, as .cargo/config.toml does here, \
+     or the feature `avx512` if your compiler is known to be free of it"
 );
 mod body;
 mod contacts;
