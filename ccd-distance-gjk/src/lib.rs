@@ -16,7 +16,8 @@
 //!   1e-7 s, and nearer than that, to their width. The axis certifies that
 //!   distance to 1e-12 s where it exceeds 1e-3 s, and at least half of it down to 1e-11 s: where the
 //!   witnesses' difference is mostly rounding, the axis is made of the features that hold them.
-//! - Intersecting pieces: both witnesses are the same point, to 1e-12 s.
+//! - Intersecting pieces: both witnesses are the same point, to 1e-12 s; of pieces pressed flat, down to
+//!   1e-12 of their size, to 1e-6 s.
 //! - Touching pieces: an axis along which their insides are apart, to 1e-14 s.
 //! - The size s is that of the pieces, not of their coordinates: those only bring the rounding they
 //!   were given with.

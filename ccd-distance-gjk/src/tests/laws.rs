@@ -74,11 +74,11 @@ pub(super) fn agrees_with_twin<O: DistanceOracle + Default>(scene: &Scene) {
     );
 }
 
-/// The combinations of pieces that intersect name the same point.
-pub(super) fn names_a_common_point<O: DistanceOracle + Default>(scene: &Scene) {
+/// The combinations of pieces that intersect name the same point, to a share of the size.
+pub(super) fn names_a_common_point<O: DistanceOracle + Default>(scene: &Scene, within: f64) {
     let checked = check(scene, &cold::<O>(scene));
     assert!(
-        checked.distance <= 1e-12 * scene.size,
+        checked.distance <= within * scene.size,
         "{checked:?} of {scene:?}"
     );
 }

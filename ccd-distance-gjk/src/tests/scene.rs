@@ -120,6 +120,19 @@ pub(crate) fn random(rng: &mut Pcg64, a: usize, b: usize) -> Scene {
 
 /// Random hulls moved so that inner points of them coincide.
 pub(crate) fn intersecting(rng: &mut Pcg64, a: usize, b: usize) -> Scene {
+    let (a, b) = crossing(rng, a, b);
+    Scene::new(a, b).reframed(rng, 1.0)
+}
+
+/// The same, pressed flat across one direction and perhaps another, down to 1e-12 of their size.
+pub(crate) fn pressed(rng: &mut Pcg64, a: usize, b: usize) -> Scene {
+    let (mut a, mut b) = crossing(rng, a, b);
+    let thin = DVec3::new(1.0, magnitude(rng, -12.0, 0.0), magnitude(rng, -12.0, 0.0));
+    a.iter_mut().chain(&mut b).for_each(|x| *x *= thin);
+    Scene::new(a, b).reframed(rng, 1.0)
+}
+
+fn crossing(rng: &mut Pcg64, a: usize, b: usize) -> (Vec<DVec3>, Vec<DVec3>) {
     let (a, b) = (points(rng, a), points(rng, b));
     let inner = |rng: &mut Pcg64, points: &[DVec3]| {
         let weights: Vec<f64> = points.iter().map(|_| rng.random_range(0.1..1.0)).collect();
@@ -128,7 +141,7 @@ pub(crate) fn intersecting(rng: &mut Pcg64, a: usize, b: usize) -> Scene {
     };
     let shift = inner(rng, &a) - inner(rng, &b);
     let b = b.iter().map(|y| *y + shift).collect();
-    Scene::new(a, b).reframed(rng, 1.0)
+    (a, b)
 }
 
 /// What is nearest to what in [`near_contact`].
