@@ -202,6 +202,8 @@ pub enum GiveUp {
     StepCap,
     /// It came back to where it had been.
     Cycle,
+    /// It could not certify what it found, from wherever it started.
+    Uncertified,
 }
 
 /// Two oracles, the second asked wherever the first one gives up; made by

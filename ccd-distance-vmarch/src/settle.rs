@@ -24,7 +24,8 @@ pub(crate) struct Answer {
 /// From the end of a march that is not certain by itself to an answer that is certified, or proven.
 ///
 /// # Errors
-/// [`GiveUp::Cycle`] or [`GiveUp::StepCap`] when, from several starts, none is.
+/// When, from several starts, none is: [`GiveUp::Cycle`] or [`GiveUp::StepCap`] where a march ended so,
+/// [`GiveUp::Uncertified`] where none did.
 #[cold]
 #[inline(never)]
 pub(crate) fn settle(
@@ -33,11 +34,13 @@ pub(crate) fn settle(
     counters: &mut Counters,
 ) -> Result<Answer, GiveUp> {
     let (mut end, mut restarts) = (first, 0);
-    let mut why = GiveUp::Cycle;
+    let mut why = GiveUp::Uncertified;
     for _ in 0..ROUNDS {
-        if let End::Cap(_) = end {
-            why = GiveUp::StepCap;
-        }
+        why = match end {
+            End::Cycle(_) => GiveUp::Cycle,
+            End::Cap(_) => GiveUp::StepCap,
+            End::Nearest(..) | End::Common(..) | End::Unclear(_) => why,
+        };
         let from = match judge(places, end, counters) {
             Verdict::Settled(answer) => return Ok(answer),
             Verdict::Nearer(pair) => pair,

@@ -80,5 +80,11 @@ fn what_makes_no_sense_is_given_up() {
         let cap = settle(&places, End::Cap(pair), &mut counters);
         assert!(matches!(cycle.err(), None | Some(GiveUp::Cycle)));
         assert!(matches!(cap.err(), None | Some(GiveUp::StepCap)));
+        // What is said to be a cycle has been counted as one.
+        for end in [End::Unclear(pair), End::Nearest(pair, Certainty::Tied)] {
+            let mut counters = Counters::default();
+            let why = settle(&places, end, &mut counters).err();
+            assert!(why != Some(GiveUp::Cycle) || counters.cycles > 0);
+        }
     }
 }
