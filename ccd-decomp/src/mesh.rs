@@ -2,6 +2,7 @@
 
 use crate::error::{MeshError, MeshFault};
 use crate::format::Format;
+use crate::predicates::is_without_area;
 use crate::repair::{Repairs, collapsed_faces, duplicate_faces};
 use ccd_core::glam::DVec3;
 use ccd_core::tolerance::MAX_COORDINATE;
@@ -104,7 +105,7 @@ impl TriangleMesh {
                 repairs.collapsed.add(id);
             } else {
                 let [a, b, c] = face.map(|v| polygons.vertices[v as usize]);
-                if (b - a).cross(c - a) == DVec3::ZERO {
+                if is_without_area([a, b, c]) {
                     repairs.zero_area.add(id);
                 }
                 faces.push(face);

@@ -1,6 +1,7 @@
 //! On which side of a plane or line does a point lie: exactly, by the crate `robust` `[SHE97]`.
 
 use ccd_core::glam::DVec3;
+use ccd_core::order::greater;
 use ccd_core::tolerance::LEAST_COORDINATE;
 use robust::{Coord, Coord3D, orient2d, orient3d};
 use std::cmp::Ordering;
@@ -75,6 +76,24 @@ impl Projection {
 /// Whether a triangle has no area.
 pub(crate) fn is_degenerate(triangle: [DVec3; 3]) -> bool {
     Projection::of(triangle).is_none()
+}
+
+/// The same for corners however fine: each axis is first scaled by a power of two until its largest
+/// coordinate is about 1, which changes nothing about it. Exact, unless coordinates along one axis
+/// differ by more than 1e90 times.
+pub(crate) fn is_without_area(triangle: [DVec3; 3]) -> bool {
+    let [a, b, c] = triangle.map(DVec3::abs);
+    let scale = DVec3::from_array(a.max(b).max(c).to_array().map(scale_to_one));
+    is_degenerate(triangle.map(|p| p * scale))
+}
+
+/// The power of two that takes a small number to about 1; 1 for any other number.
+fn scale_to_one(x: f64) -> f64 {
+    const EXPONENT: u64 = f64::INFINITY.to_bits();
+    match x > 0.0 && x < 1.0 {
+        true => greater(f64::MIN_POSITIVE, f64::from_bits(x.to_bits() & EXPONENT)).recip(),
+        false => 1.0,
+    }
 }
 
 #[inline]

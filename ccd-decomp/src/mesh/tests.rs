@@ -59,6 +59,25 @@ fn a_face_without_area_is_kept_and_reported() {
     assert_eq!(mesh.repairs().unreferenced.first(), [3, 4]);
 }
 
+/// Products of such coordinates underflow.
+#[test]
+fn the_finest_face_has_an_area() {
+    for unit in [1e-170, 1e-300, f64::MIN_POSITIVE, f64::from_bits(1)] {
+        let [x, y] = [DVec3::X, DVec3::Y].map(|axis| unit * axis);
+        let vertices = vec![DVec3::ZERO, x, y, 2.0 * x, x + y, 2.0 * (x + y), DVec3::X];
+        let faces = [
+            [0, 1, 2],
+            [0, 1, 3],
+            [0, 4, 5],
+            [1, 2, 4],
+            [0, 6, 2],
+            [0, 6, 1],
+        ];
+        let mesh = TriangleMesh::new(vertices, &faces).unwrap();
+        assert_eq!(mesh.repairs().zero_area.first(), [1, 2, 5], "{unit:e}");
+    }
+}
+
 #[test]
 fn a_concave_polygon_is_covered_and_reported() {
     let file = "v 0 0 0\nv 4 0 0\nv 1 1 0\nv 0 4 0\nv 3 0 1\nf 2 3 4 1\nf 3 4 1 2\n";
