@@ -70,8 +70,9 @@ impl Problem<'_> {
     /// pairs, however the faces are cut into triangles.
     ///
     /// Features have the names that outcomes have. What has no number of its own goes by the face or
-    /// the piece that it is on: a corner of a face that its patch has no point for, and all features
-    /// of approximate hulls. Such a pair of names may come more than once, for different places.
+    /// the piece that it is on: all features of approximate hulls, and what lies where the mesh has no
+    /// vertex. Such a pair of names may come more than once, for different places. The same mesh has
+    /// the same names in triangles, patches and hulls.
     /// Virtual facets make no pairs on pieces that have faces of the mesh; of a piece of more than
     /// three points whose facets are not known there are only the vertices.
     ///

@@ -203,6 +203,8 @@ pub enum Origin {
 pub struct Face {
     /// The number it goes by in the mesh.
     pub id: u32,
+    /// The numbers its corners go by in the mesh.
+    pub vertices: [u32; 3],
     /// Counter-clockwise seen from outside; not necessarily points of the polytope.
     pub corners: [DVec3; 3],
 }

@@ -123,7 +123,7 @@ impl Parts {
         let (kind, pieces) = match self {
             Parts::Triangles => (
                 PiecesKind::Triangles,
-                Pieces::triangles(mesh.vertices(), mesh.faces(), mesh.face_ids())?,
+                Pieces::triangles(mesh.vertices(), &mesh.welded_faces(), mesh.face_ids())?,
             ),
             Parts::Patches(Decomposition { patches }) => {
                 virtual_faces = patches.iter().map(Patch::virtual_facets).sum();

@@ -46,6 +46,7 @@ pub(crate) fn as_polytope(manifold: &Manifold<'_>) -> Result<Polytope, Decompose
                     .faces
                     .extend(polygon.triangles.iter().map(|&face| Face {
                         id: id(face),
+                        vertices: manifold.faces()[face as usize],
                         corners: manifold.triangle(face),
                     }));
                 Origin::Faces

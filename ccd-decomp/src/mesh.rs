@@ -142,6 +142,12 @@ impl TriangleMesh {
         &self.repairs
     }
 
+    /// The faces by the first vertex that lies where a corner does.
+    pub(crate) fn welded_faces(&self) -> Vec<[u32; 3]> {
+        let welded = |face: &[u32; 3]| face.map(|v| self.positions[v as usize]);
+        self.faces.iter().map(welded).collect()
+    }
+
     /// For every vertex the first one that lies at exactly the same point.
     pub(crate) fn positions(&self) -> &[u32] {
         &self.positions

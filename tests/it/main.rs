@@ -26,6 +26,7 @@ mod patch_liars;
 mod published_bound;
 mod referee;
 mod regressions;
+mod same_names;
 mod scenes;
 mod start;
 mod statuses;

@@ -90,6 +90,8 @@ pub(super) fn inherit(hull: &Hull, places: &[DVec3], children: [Child<'_>; 2]) -
 struct Part<'a> {
     corners: Vec<u32>,
     places: Vec<DVec3>,
+    /// The corners' numbers in the mesh.
+    vertices: Vec<u32>,
     skin: &'a Skin,
 }
 
@@ -99,6 +101,7 @@ impl Part<'_> {
             Origin::Face(id) => (1..self.places.len() - 1)
                 .map(|k| Face {
                     id,
+                    vertices: [0, k, k + 1].map(|k| self.vertices[k]),
                     corners: [0, k, k + 1].map(|k| self.places[k]),
                 })
                 .collect(),
@@ -119,6 +122,7 @@ impl<'a> Side<'a> {
         let part = |(corners, skin): (&[u32], &'a Skin)| Part {
             corners: corners.iter().map(|&v| child.ids[v as usize]).collect(),
             places: points_of(child.hull, corners),
+            vertices: corners.iter().map(|&v| vertex_of(child.hull, v)).collect(),
             skin,
         };
         let facets = child.hull.facets.iter().map(|facet| &facet.corners[..]);
@@ -153,6 +157,12 @@ fn lone_triangle(child: &Child<'_>) -> Option<Skin> {
         class: FacetClass::Original,
         faces: Vec::new(),
     })
+}
+
+/// The number of a point in the mesh.
+fn vertex_of(polytope: &Polytope, point: u32) -> u32 {
+    let known = polytope.vertex_ids.get(point as usize);
+    known.copied().unwrap_or(point)
 }
 
 fn points_of(polytope: &Polytope, corners: &[u32]) -> Vec<DVec3> {

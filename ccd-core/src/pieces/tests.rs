@@ -189,10 +189,12 @@ fn points_on_virtual_facets_within_a_face_are_named_by_it() {
         faces: vec![
             Face {
                 id: 10,
+                vertices: [0, 2, 3],
                 corners: [corner(0), corner(2), corner(3)],
             },
             Face {
                 id: 11,
+                vertices: [0, 3, 1],
                 corners: [corner(0), corner(3), corner(1)],
             },
         ],

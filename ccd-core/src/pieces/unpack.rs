@@ -23,6 +23,7 @@ impl Pieces {
                 Shape::Polytopes(_) => piece.facets.faces.to_vec(),
                 Shape::Triangles { face_ids } => vec![Face {
                     id: face_ids[index],
+                    vertices: [0, 1, 2].map(|k| self.vertex_ids(index)[k]),
                     corners: self.triangle(index),
                 }],
             },

@@ -40,6 +40,7 @@ impl Patch {
             if cover.origin == Origin::Faces || cover.origin == Origin::Virtual {
                 polytope.faces.extend(cover.faces.iter().map(|&face| Face {
                     id: manifold.mesh().face_ids()[face as usize],
+                    vertices: manifold.faces()[face as usize],
                     corners: manifold.triangle(face),
                 }));
             }

@@ -27,6 +27,7 @@ pub fn cuboid(half: DVec3) -> Shape {
     let faces: Vec<[u32; 3]> = quads.iter().flat_map(halves).collect();
     let named = |(id, face): (u32, &[u32; 3])| Face {
         id,
+        vertices: *face,
         corners: face.map(|v| points[v as usize]),
     };
     Shape {

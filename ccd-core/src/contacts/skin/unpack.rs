@@ -68,10 +68,14 @@ impl Skin<'_> {
         if triangles.peek().is_none() {
             return Vec::new();
         }
+        let faces = piece.facets.faces.iter();
+        let numbered = faces.flat_map(|face| face.corners.into_iter().zip(face.vertices.map(Some)));
+        let points = (0..piece.points.len() as u32).rev();
+        let own = points.map(|k| (piece.points[k as usize], self.number(index, k)));
         // The first of several points at one place counts.
-        let numbers: HashMap<Place, Option<u32>> = (0..piece.points.len() as u32)
-            .rev()
-            .map(|k| (place(piece.points[k as usize]), self.number(index, k)))
+        let numbers: HashMap<Place, Option<u32>> = numbered
+            .chain(own)
+            .map(|(point, number)| (place(point), number))
             .collect();
         let number = |point: DVec3| numbers.get(&place(point)).copied().flatten();
         let named = triangles.map(|(id, corners)| {

@@ -1,0 +1,79 @@
+//! What is in contact has the same names, whatever a mesh is made into.
+
+use ccd_core::glam::{DQuat, DVec2};
+use ccd_core::order::{greater, lesser};
+use ccd_core::{Config, Feature, Motion, Moving, Pose, Problem};
+use ccd_decomp::{Detail, Order, Prepared, TriangleMesh, body_from_mesh};
+use ccd_tests::models::{Mesh, divided_cube, l_block};
+
+/// A mesh of which no two faces share a vertex, as an STL file brings it.
+fn torn(mesh: &Mesh) -> Mesh {
+    let corners = mesh.faces.iter().flatten();
+    Mesh {
+        vertices: corners.map(|&v| mesh.vertices[v as usize]).collect(),
+        faces: (0..mesh.faces.len() as u32)
+            .map(|face| [0, 1, 2].map(|k| 3 * face + k))
+            .collect(),
+    }
+}
+
+/// A mesh in triangles and in patches.
+struct Body {
+    mesh: Mesh,
+    made: [Prepared; 2],
+}
+
+impl Body {
+    fn new(mesh: Mesh) -> Self {
+        let good = TriangleMesh::new(mesh.vertices.clone(), &mesh.faces).expect("a mesh");
+        let made = [Detail::Triangles, Detail::Patches(Order::default())]
+            .map(|detail| body_from_mesh(&good, detail).expect("a solid"));
+        Body { mesh, made }
+    }
+
+    fn heights(&self) -> impl Iterator<Item = f64> {
+        self.mesh.vertices.iter().map(|p| p.z)
+    }
+
+    /// A little above another one, shifted and turned about the upright axis.
+    fn resting_on(&self, other: &Body, shift: DVec2, turn: f64) -> Pose {
+        let top = other.heights().fold(f64::NEG_INFINITY, greater);
+        let bottom = self.heights().fold(f64::INFINITY, lesser);
+        let up = top - bottom + 5e-4;
+        Pose::new(shift.extend(up), DQuat::from_rotation_z(turn)).expect("finite")
+    }
+}
+
+/// The names of what is in contact, in order.
+fn names([a, b]: [&Prepared; 2], pose: Pose) -> Vec<[Feature; 2]> {
+    let still = |made, pose| Moving {
+        body: made,
+        motion: Motion::still(pose),
+    };
+    let (a, b) = (still(&a.body, pose), still(&b.body, Pose::IDENTITY));
+    let problem = Problem::new(a, b, 1.0, &Config::default()).expect("good input");
+    let pairs = problem.contacts_at(0.0).expect("contacts");
+    let mut names: Vec<_> = pairs.iter().map(|p| [p.feature_a, p.feature_b]).collect();
+    names.sort();
+    names
+}
+
+/// Vertices in the middle of an edge or a side, which no patch has for a corner, and vertices that
+/// lie on one another.
+#[test]
+fn triangles_and_patches_have_the_same_names() {
+    let shapes = [divided_cube(1), divided_cube(3), l_block(2)];
+    let meshes = shapes.iter().flat_map(|s| [s.mesh.clone(), torn(&s.mesh)]);
+    let all: Vec<Body> = meshes.map(Body::new).collect();
+    let mut found = 0;
+    for (a, b) in all.iter().flat_map(|a| all.iter().map(move |b| (a, b))) {
+        for (x, y, turn) in [(0.13, 0.07, 0.0), (0.2, 0.1, 0.25), (0.4, -0.3, 2.0)] {
+            let pose = a.resting_on(b, DVec2::new(x, y), turn);
+            let [of_triangles, of_patches] = [0, 1].map(|k| names([&a.made[k], &b.made[k]], pose));
+            assert_eq!(of_triangles, of_patches);
+            assert_eq!(of_triangles, names([&a.made[0], &b.made[1]], pose));
+            found += of_triangles.len();
+        }
+    }
+    assert!(found > 1000, "{found}");
+}
