@@ -5,7 +5,7 @@ use super::group::{Group, Next};
 use super::meter::Meter;
 use super::moment::Moment;
 use super::pair::contact;
-use super::queue::{Queue, Rank};
+use super::queue::{Full, Queue, Rank};
 use super::start::overlapping;
 use crate::containment;
 use crate::oracle::DistanceOracle;
@@ -14,6 +14,7 @@ use crate::outcome::{Contact, Limit, Outcome};
 use crate::overlap;
 use crate::problem::Problem;
 use crate::tolerance::NEAREST_SHARE;
+use std::ops::ControlFlow;
 
 /// The answer for bodies of which two pieces were seen in contact at the start: how near the bodies
 /// are, or that they overlap.
@@ -37,7 +38,7 @@ pub(super) fn touching<O: DistanceOracle>(
         nearest: None,
         lower: f64::INFINITY,
     };
-    if let Err(outcome) = search.run(oracle, meter) {
+    if let ControlFlow::Break(outcome) = search.run(oracle, meter) {
         return outcome;
     }
     let contact = search.contact(seen);
@@ -67,11 +68,17 @@ struct Nearest<'p> {
 }
 
 impl Nearest<'_> {
-    /// Finds the nearest pieces; fails with the answer when two overlap, or a limit is reached.
-    fn run<O: DistanceOracle>(&mut self, oracle: &mut O, meter: &mut Meter) -> Result<(), Outcome> {
+    /// Finds the nearest pieces; breaks with the answer when two overlap, or a limit is reached.
+    fn run<O: DistanceOracle>(
+        &mut self,
+        oracle: &mut O,
+        meter: &mut Meter,
+    ) -> ControlFlow<Outcome> {
         let mut next = Some(Next::roots(self.problem));
         while let Some(pair) = next {
-            meter.visit().map_err(unresolved)?;
+            if let Err(limit) = meter.visit() {
+                return unresolved(limit);
+            }
             match pair {
                 Next::Split(split) => {
                     let expansion = measure(self.problem, &split);
@@ -81,18 +88,18 @@ impl Nearest<'_> {
             }
             next = self.next();
         }
-        Ok(())
+        ControlFlow::Continue(())
     }
 
-    fn wait(&mut self, group: Group) -> Result<(), Outcome> {
+    fn wait(&mut self, group: Group) -> ControlFlow<Outcome> {
         let distance = group.clock();
         if !(distance < self.upper()) {
-            return Ok(());
+            return ControlFlow::Continue(());
         }
-        let full = |_| unresolved(Limit::Budget);
-        self.waiting
-            .push(distance, Rank::Group, group)
-            .map_err(full)
+        match self.waiting.push(distance, Rank::Group, group) {
+            Ok(()) => ControlFlow::Continue(()),
+            Err(Full) => unresolved(Limit::Budget),
+        }
     }
 
     /// The pair that may be the nearest; none when no pair can be nearer than what is found.
@@ -118,20 +125,20 @@ impl Nearest<'_> {
         ids: [u32; 2],
         oracle: &mut O,
         meter: &mut Meter,
-    ) -> Result<(), Outcome> {
+    ) -> ControlFlow<Outcome> {
         let problem = self.problem;
         let moment = Moment::new(problem, ids[0], ids[1], 0.0);
-        let checked = moment
-            .ask(oracle, &mut O::Cache::default(), meter)
-            .ok_or(unresolved(Limit::OracleGaveUp))?;
+        let Some(checked) = moment.ask(oracle, &mut O::Cache::default(), meter) else {
+            return unresolved(Limit::OracleGaveUp);
+        };
         if overlap::intersects(&moment.pieces, &checked, problem.rounding) {
-            return Err(overlapping(contact(&moment, ids, &checked)));
+            return ControlFlow::Break(overlapping(contact(&moment, ids, &checked)));
         }
         self.lower = lesser(self.lower, checked.lower);
         if checked.upper < self.upper() {
             self.nearest = Some(contact(&moment, ids, &checked));
         }
-        Ok(())
+        ControlFlow::Continue(())
     }
 
     /// Bounds the distance of the bodies from above.
@@ -161,11 +168,11 @@ impl Nearest<'_> {
     }
 }
 
-fn unresolved(reason: Limit) -> Outcome {
-    Outcome::Unresolved {
+fn unresolved(reason: Limit) -> ControlFlow<Outcome> {
+    ControlFlow::Break(Outcome::Unresolved {
         safe_until: 0.0,
         reason,
-    }
+    })
 }
 
 #[cfg(test)]

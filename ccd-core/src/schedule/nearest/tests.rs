@@ -4,6 +4,7 @@
 use crate::body::Body;
 use crate::motion::Motion;
 use crate::oracle::{Claim, Combination, GiveUp};
+use crate::order::lesser;
 use crate::outcome::{Answer, Limit, Outcome};
 use crate::pose::Pose;
 use crate::problem::{Config, Moving, Problem, StartPolicy};
@@ -33,9 +34,9 @@ fn solve(problem: &Problem<'_>) -> Answer {
     BestFirst::default().solve(problem, &mut Exhaustive)
 }
 
-/// Two tori of as many triangles, one at the origin, the other at `x`.
-fn tori<R>(triangles: Torus, x: f64, config: &Config, then: impl FnOnce(&Problem<'_>) -> R) -> R {
-    let torus = body(&torus(triangles.0, triangles.1));
+/// Two tori of as many cuts, one at the origin, the other at `x`.
+fn tori<R>(cuts: Cuts, x: f64, config: &Config, then: impl FnOnce(&Problem<'_>) -> R) -> R {
+    let torus = body(&torus(cuts.around, cuts.about));
     let moving = |x: f64| Moving {
         body: &torus,
         motion: Motion::still(Pose::from_translation(x * DVec3::X).unwrap()),
@@ -43,8 +44,22 @@ fn tori<R>(triangles: Torus, x: f64, config: &Config, then: impl FnOnce(&Problem
     then(&Problem::new(moving(x), moving(0.0), 1.0, config).unwrap())
 }
 
-/// How often a torus is cut around and about.
-struct Torus(usize, usize);
+/// How often a torus is cut around its axis, and about its tube.
+#[derive(Clone, Copy)]
+struct Cuts {
+    around: usize,
+    about: usize,
+}
+
+const FINE: Cuts = Cuts {
+    around: 64,
+    about: 32,
+};
+
+const COARSE: Cuts = Cuts {
+    around: 8,
+    about: 6,
+};
 
 /// A scene, the margin up to a hundred times its size; most begin within it.
 fn within_margin(rng: &mut Pcg64, most: usize) -> Scene {
@@ -54,7 +69,7 @@ fn within_margin(rng: &mut Pcg64, most: usize) -> Scene {
     let gap = distance(&scene.problem(), 0.0);
     scene.config.margin = match rng.random_bool(0.5) {
         true => gap * rng.random_range(1.0..1.5),
-        false => (size * magnitude(rng, -3.0, 2.0)).min(1e11),
+        false => lesser(size * magnitude(rng, -3.0, 2.0), 1e11),
     };
     scene
 }
@@ -67,7 +82,7 @@ fn a_start_within_the_margin_costs_one_distance_whatever_the_margin() {
             margin,
             ..Config::default()
         };
-        let answer = tori(Torus(64, 32), 3.0, &config, solve);
+        let answer = tori(FINE, 3.0, &config, solve);
         let Outcome::Touching { contact } = answer.outcome else {
             panic!("{margin}: {answer:?}");
         };
@@ -87,7 +102,7 @@ fn a_budget_that_ends_at_the_start_is_unresolved() {
             budget,
             ..Config::default()
         };
-        let answer = tori(Torus(64, 32), 1.5, &config, solve);
+        let answer = tori(FINE, 1.5, &config, solve);
         assert!(
             match answer.outcome {
                 Outcome::Overlapping { .. } => true,
@@ -174,7 +189,7 @@ fn a_deadline_ends_every_schedule_at_a_time_that_is_safe() {
             ..Config::default()
         };
         for mut schedule in schedules() {
-            let answer = tori(Torus(8, 6), 3.0, &config, |problem| {
+            let answer = tori(COARSE, 3.0, &config, |problem| {
                 schedule.solve(problem, &mut Exhaustive)
             });
             let Outcome::Unresolved { safe_until, reason } = answer.outcome else {
