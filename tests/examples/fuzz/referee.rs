@@ -41,7 +41,6 @@ struct Ball {
 /// Two bodies on their tracks.
 pub struct Scene {
     pub sides: [Side; 2],
-    pub duration: f64,
     /// The largest length that plays a part.
     pub scale: f64,
 }
@@ -99,7 +98,7 @@ impl Scene {
             + travel(&sides[1])
             + sides.iter().map(|s| s.reach * turn(s)).sum::<f64>()
             + case.config.margin;
-        Scene { sides, duration: case.duration, scale }
+        Scene { sides, scale }
     }
 
     /// What the referee's distances may be off by. Places in the world are right to 1e-31 of them.

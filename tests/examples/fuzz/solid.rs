@@ -79,8 +79,9 @@ fn crossings(
 /// A triangle of every connected part.
 pub fn shells(triangles: &[Triangle<Double>]) -> Vec<usize> {
     let mut group: Vec<usize> = (0..triangles.len()).collect();
+    // The least of the groups that have a corner at a place.
+    let mut at: HashMap<[u64; 3], usize> = HashMap::new();
     loop {
-        let mut at: HashMap<[u64; 3], usize> = HashMap::new();
         let mut changed = false;
         for (k, t) in triangles.iter().enumerate() {
             for p in t {

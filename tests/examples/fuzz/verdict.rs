@@ -139,7 +139,10 @@ impl<'a> Judge<'a> {
         let before = evidence.filter(|e| e.time < proven || proven == self.case.duration);
         let below_margin = |e: &Evidence| !(e.distance > 0.0) || e.distance < self.kept(margin);
         let early = before.filter(below_margin);
-        let known = |e: Evidence| format!("{e:?}, {:?}", answer.outcome);
+        let known = |e: Evidence| {
+            let Evidence { time, distance, depth } = e;
+            format!("at {time:e} {distance:e} apart, {depth:e} deep, {:?}", answer.outcome)
+        };
         let overlaps = self.start.overlaps;
         match answer.outcome {
             Outcome::Contact { .. } | Outcome::Free { .. } | Outcome::Touching { .. } if overlaps => {

@@ -40,7 +40,13 @@ pub(super) fn draw(draw: &mut Draw) -> Case {
             ([along[0], along[1], draw.within(0.1..2.0)], [0.0; 3], Expect::Free)
         }
         2 => ([along[0], along[1], 0.0], [0.0; 3], Expect::Nothing),
-        3 => ([along[0], along[1], -draw.log(1e-3..3.0)], [0.0; 3], Expect::Nothing),
+        3 => {
+            let down = draw.log(1e-3..3.0);
+            // By then all of the gap is gone.
+            let by = (1.001 * gap + 1e-6) / down;
+            let expect = if by < 1.0 { Expect::ContactBy(by) } else { Expect::Nothing };
+            ([along[0], along[1], -down], [0.0; 3], expect)
+        }
         _ => (along, times(draw.direction(), draw.log(1e-3..6.0)), Expect::Nothing),
     };
     let mut courses = [still(), Course::velocities(Place::at(at), velocity, spin)];
