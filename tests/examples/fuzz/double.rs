@@ -13,6 +13,7 @@ pub struct Double {
 }
 
 /// The sum, rounded, and what rounding took off.
+#[inline]
 fn two_sum(a: f64, b: f64) -> Double {
     let hi = a + b;
     let of_b = hi - a;
@@ -21,12 +22,14 @@ fn two_sum(a: f64, b: f64) -> Double {
 }
 
 /// The same where `a` is the larger one.
+#[inline]
 fn quick_two_sum(a: f64, b: f64) -> Double {
     let hi = a + b;
     Double { hi, lo: b - (hi - a) }
 }
 
 /// The product, rounded, and what rounding took off, unless that underflows.
+#[inline]
 fn two_prod(a: f64, b: f64) -> Double {
     let hi = a * b;
     Double { hi, lo: a.mul_add(b, -hi) }
@@ -78,14 +81,17 @@ static INVERSE_FACTORIALS: LazyLock<[Double; 28]> = LazyLock::new(|| {
 });
 
 impl Number for Double {
+    #[inline]
     fn of(x: f64) -> Self {
         Double::new(x)
     }
 
+    #[inline]
     fn rounded(self) -> f64 {
         self.hi
     }
 
+    #[inline]
     fn sqrt(self) -> Self {
         if !(self.hi > 0.0) {
             return Double::default();
@@ -98,6 +104,7 @@ impl Number for Double {
 impl Add for Double {
     type Output = Self;
 
+    #[inline]
     fn add(self, other: Self) -> Self {
         let (s, t) = (two_sum(self.hi, other.hi), two_sum(self.lo, other.lo));
         let s = quick_two_sum(s.hi, s.lo + t.hi);
@@ -108,6 +115,7 @@ impl Add for Double {
 impl Neg for Double {
     type Output = Self;
 
+    #[inline]
     fn neg(self) -> Self {
         Double { hi: -self.hi, lo: -self.lo }
     }
@@ -116,6 +124,7 @@ impl Neg for Double {
 impl Sub for Double {
     type Output = Self;
 
+    #[inline]
     fn sub(self, other: Self) -> Self {
         self + -other
     }
@@ -124,6 +133,7 @@ impl Sub for Double {
 impl Mul for Double {
     type Output = Self;
 
+    #[inline]
     fn mul(self, other: Self) -> Self {
         let p = two_prod(self.hi, other.hi);
         quick_two_sum(p.hi, p.lo + (self.hi * other.lo + self.lo * other.hi))
@@ -133,6 +143,7 @@ impl Mul for Double {
 impl Div for Double {
     type Output = Self;
 
+    #[inline]
     fn div(self, other: Self) -> Self {
         let first = self.hi / other.hi;
         let rest = self - other * Double::new(first);
@@ -143,6 +154,7 @@ impl Div for Double {
 }
 
 impl PartialOrd for Double {
+    #[inline]
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         match self.hi.partial_cmp(&other.hi)? {
             Ordering::Equal => self.lo.partial_cmp(&other.lo),

@@ -7,11 +7,13 @@ pub type Triangle<N> = [Vector<N>; 3];
 /// The distance of two triangles: that of the nearest of all pairs of points that could be nearest,
 /// so that it is never too small but by rounding; 0 where an edge of one passes through the other.
 pub fn distance<N: Number>(s: &Triangle<N>, t: &Triangle<N>) -> N {
-    if pierces(s, t) || pierces(t, s) {
+    let (edges_s, edges_t) = (Edge::all(s), Edge::all(t));
+    let (face_s, face_t) = (normal(s), normal(t));
+    if pierces(&edges_s, t, face_t) || pierces(&edges_t, s, face_s) {
         return N::of(0.0);
     }
-    let mut best = (s[0] - t[0]).dot(s[0] - t[0]);
     let mut way = s[0] - t[0];
+    let mut best = way.dot(way);
     let mut offer = |w: Vector<N>| {
         let square = w.dot(w);
         if square < best {
@@ -19,20 +21,46 @@ pub fn distance<N: Number>(s: &Triangle<N>, t: &Triangle<N>) -> N {
         }
     };
     for i in 0..3 {
-        let (p, p2) = (s[i], s[(i + 1) % 3]);
-        on_face(p, t).into_iter().for_each(&mut offer);
-        on_face(t[i], s).into_iter().for_each(&mut offer);
+        on_face(s[i], t, face_t).into_iter().for_each(&mut offer);
+        on_face(t[i], s, face_s).into_iter().for_each(&mut offer);
         for j in 0..3 {
-            let (q, q2) = (t[j], t[(j + 1) % 3]);
-            offer(p - q);
-            offer(to_segment(p, q, q2));
-            offer(to_segment(q, p, p2));
-            between_lines([p, p2], [q, q2]).into_iter().for_each(&mut offer);
+            offer(s[i] - t[j]);
+            offer(edges_t[j].from_point(s[i]));
+            offer(edges_s[i].from_point(t[j]));
+            between_lines(&edges_s[i], &edges_t[j]).into_iter().for_each(&mut offer);
         }
     }
     way.length()
 }
 
+/// A side of a triangle.
+struct Edge<N> {
+    from: Vector<N>,
+    way: Vector<N>,
+    /// The way, scaled so that its squares are numbers, and by how much it was.
+    along: Vector<N>,
+    scale: N,
+    square: N,
+}
+
+impl<N: Number> Edge<N> {
+    fn all(t: &Triangle<N>) -> [Self; 3] {
+        [0, 1, 2].map(|k| {
+            let (from, way) = (t[k], t[(k + 1) % 3] - t[k]);
+            let along = way.scaled();
+            let (scale, square) = (ratio(along, way), along.dot(along));
+            Edge { from, way, along, scale, square }
+        })
+    }
+
+    /// From a point to the nearest of the edge; of an edge without length NaN makes that its start.
+    fn from_point(&self, p: Vector<N>) -> Vector<N> {
+        let share = self.along.dot(p - self.from) / self.square * self.scale;
+        self.from + self.way * clamped(share) - p
+    }
+}
+
+#[inline]
 fn clamped<N: Number>(x: N) -> N {
     let (zero, one) = (N::of(0.0), N::of(1.0));
     // NaN goes to 0.
@@ -45,17 +73,6 @@ fn clamped<N: Number>(x: N) -> N {
     }
 }
 
-/// From a point to the nearest of a segment.
-fn to_segment<N: Number>(p: Vector<N>, q: Vector<N>, q2: Vector<N>) -> Vector<N> {
-    let size = (q2 - q).largest();
-    let along = (q2 - q).scaled();
-    if !(size > 0.0) {
-        return q - p;
-    }
-    let share = clamped(along.dot(p - q) / along.dot(along) * ratio(along, q2 - q));
-    q + (q2 - q) * share - p
-}
-
 /// By how much `long` is longer than `short`, both along the same line.
 fn ratio<N: Number>(long: Vector<N>, short: Vector<N>) -> N {
     let k = (0..3).fold(0, |k, i| match long.0[i].rounded().abs() > long.0[k].rounded().abs() {
@@ -65,26 +82,29 @@ fn ratio<N: Number>(long: Vector<N>, short: Vector<N>) -> N {
     long.0[k] / short.0[k]
 }
 
-/// From the nearest point of one line to that of another, where both are within the segments.
-fn between_lines<N: Number>([p, p2]: [Vector<N>; 2], [q, q2]: [Vector<N>; 2]) -> Option<Vector<N>> {
-    let (u, v) = ((p2 - p).scaled(), (q2 - q).scaled());
-    let n = u.cross(v);
+/// From the nearest point of one edge's line to that of another, where either is within its edge.
+fn between_lines<N: Number>(p: &Edge<N>, q: &Edge<N>) -> Option<Vector<N>> {
+    let n = p.along.cross(q.along);
     let square = n.dot(n);
     if !(square.rounded() > 0.0) {
         return None;
     }
-    let w = q - p;
-    let (x, y) = (w.cross(v).dot(n) / square, w.cross(u).dot(n) / square);
+    let w = q.from - p.from;
+    let x = w.cross(q.along).dot(n) / square * p.scale;
+    let y = w.cross(p.along).dot(n) / square * q.scale;
     let (zero, one) = (N::of(0.0), N::of(1.0));
-    let (x, y) = (x * ratio(u, p2 - p), y * ratio(v, q2 - q));
     let within = |x: N| x >= zero && x <= one;
     // Clamped all the same: rounding may have put the other one a little beyond its end.
-    (within(x) || within(y)).then(|| q + (q2 - q) * clamped(y) - (p + (p2 - p) * clamped(x)))
+    (within(x) || within(y)).then(|| w + q.way * clamped(y) - p.way * clamped(x))
 }
 
 /// From a point to a triangle's plane, where it lands within the triangle.
-fn on_face<N: Number>(p: Vector<N>, t: &Triangle<N>) -> Option<Vector<N>> {
-    let n = normal(t)?;
+fn on_face<N: Number>(
+    p: Vector<N>,
+    t: &Triangle<N>,
+    face: Option<Vector<N>>,
+) -> Option<Vector<N>> {
+    let n = face?;
     let down = n * n.dot(t[0] - p);
     within(p + down, t, n).then_some(down)
 }
@@ -104,16 +124,15 @@ pub fn normal<N: Number>(t: &Triangle<N>) -> Option<Vector<N>> {
     (n.largest() > 1e-30).then_some(n)?.unit()
 }
 
-/// Whether an edge of one triangle passes through the inside of the other.
-fn pierces<N: Number>(s: &Triangle<N>, t: &Triangle<N>) -> bool {
+/// Whether an edge passes through the inside of a triangle.
+fn pierces<N: Number>(edges: &[Edge<N>; 3], t: &Triangle<N>, face: Option<Vector<N>>) -> bool {
     let zero = N::of(0.0);
-    let Some(n) = normal(t) else { return false };
-    let heights = s.map(|p| n.dot(p - t[0]));
+    let Some(n) = face else { return false };
+    let heights = edges.each_ref().map(|edge| n.dot(edge.from - t[0]));
     (0..3).any(|k| {
-        let (p, q) = (s[k], s[(k + 1) % 3]);
         let (up, down) = (heights[k], heights[(k + 1) % 3]);
         let crosses = (up > zero && down < zero) || (up < zero && down > zero);
-        crosses && within(p + (q - p) * (up / (up - down)), t, n)
+        crosses && within(edges[k].from + edges[k].way * (up / (up - down)), t, n)
     })
 }
 

@@ -20,14 +20,17 @@ pub trait Number:
 }
 
 impl Number for f64 {
+    #[inline]
     fn of(x: f64) -> Self {
         x
     }
 
+    #[inline]
     fn rounded(self) -> f64 {
         self
     }
 
+    #[inline]
     fn sqrt(self) -> Self {
         f64::sqrt(self)
     }
@@ -37,23 +40,28 @@ impl Number for f64 {
 pub struct Vector<N>(pub [N; 3]);
 
 impl<N: Number> Vector<N> {
+    #[inline]
     pub fn of(v: [f64; 3]) -> Self {
         Vector(v.map(N::of))
     }
 
+    #[inline]
     pub fn rounded(self) -> Vector<f64> {
         Vector(self.0.map(N::rounded))
     }
 
+    #[inline]
     pub fn dot(self, o: Self) -> N {
         self.0[0] * o.0[0] + self.0[1] * o.0[1] + self.0[2] * o.0[2]
     }
 
+    #[inline]
     pub fn cross(self, o: Self) -> Self {
         let ([a, b, c], [x, y, z]) = (self.0, o.0);
         Vector([b * z - c * y, c * x - a * z, a * y - b * x])
     }
 
+    #[inline]
     pub fn length(self) -> N {
         let size = self.largest();
         if !(size > 1e-290) {
@@ -66,6 +74,7 @@ impl<N: Number> Vector<N> {
     }
 
     /// Scaled by a power of two to a largest component of about 1; zero stays zero.
+    #[inline]
     pub fn scaled(self) -> Self {
         let size = self.largest();
         match size > 0.0 && size.is_finite() {
@@ -80,6 +89,7 @@ impl<N: Number> Vector<N> {
     }
 
     /// Of length 1, or none.
+    #[inline]
     pub fn unit(self) -> Option<Self> {
         let v = self.scaled();
         let length = v.dot(v).sqrt();
@@ -87,21 +97,26 @@ impl<N: Number> Vector<N> {
     }
 
     /// The largest component's size, rounded.
+    #[inline]
     pub fn largest(self) -> f64 {
         self.0.iter().fold(0.0, |m, x| larger(m, x.rounded().abs()))
     }
 }
 
+/// The power of two at or below a normal number: its exponent alone.
+#[inline]
 fn power_of_two(size: f64) -> f64 {
-    2f64.powi(size.log2().floor() as i32)
+    f64::from_bits(size.to_bits() & 0x7ff0_0000_0000_0000)
 }
 
 /// The larger of two numbers.
+#[inline]
 pub fn larger(a: f64, b: f64) -> f64 {
     if b > a { b } else { a }
 }
 
 /// The smaller of two numbers.
+#[inline]
 pub fn smaller(a: f64, b: f64) -> f64 {
     if b < a { b } else { a }
 }
@@ -109,6 +124,7 @@ pub fn smaller(a: f64, b: f64) -> f64 {
 impl<N: Number> Add for Vector<N> {
     type Output = Self;
 
+    #[inline]
     fn add(self, o: Self) -> Self {
         Vector([self.0[0] + o.0[0], self.0[1] + o.0[1], self.0[2] + o.0[2]])
     }
@@ -117,6 +133,7 @@ impl<N: Number> Add for Vector<N> {
 impl<N: Number> Sub for Vector<N> {
     type Output = Self;
 
+    #[inline]
     fn sub(self, o: Self) -> Self {
         Vector([self.0[0] - o.0[0], self.0[1] - o.0[1], self.0[2] - o.0[2]])
     }
@@ -125,6 +142,7 @@ impl<N: Number> Sub for Vector<N> {
 impl<N: Number> Neg for Vector<N> {
     type Output = Self;
 
+    #[inline]
     fn neg(self) -> Self {
         Vector(self.0.map(|x| -x))
     }
@@ -133,6 +151,7 @@ impl<N: Number> Neg for Vector<N> {
 impl<N: Number> Mul<N> for Vector<N> {
     type Output = Self;
 
+    #[inline]
     fn mul(self, s: N) -> Self {
         Vector(self.0.map(|x| x * s))
     }
