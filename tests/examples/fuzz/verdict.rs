@@ -9,6 +9,10 @@ use crate::solid::{Where, beside, clearance, locate, shells};
 use crate::vector::{Number, Vector, larger, smaller};
 use ccd_core::{Answer, Contact, Outcome, Overlap, Piece, StartPolicy, Volume};
 
+/// What an axis at a small distance may be off by, of a scene's size: what is kept of a distance at the
+/// start is what it certifies.
+const AXIS: f64 = 1e-11;
+
 /// What may be wrong with an answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Fault {
@@ -115,9 +119,10 @@ impl<'a> Judge<'a> {
         let tolerance = given.iter().map(|g| g.answer.tolerance).fold(self.rounding, larger);
         let begun = self.start.distance <= margin + tolerance;
         match self.case.config.start {
-            // Bodies that are let go keep the distance that they have, but for rounding.
+            // Bodies that are let go keep the distance that they have, but for what the axis that
+            // certified it is off by.
             StartPolicy::Leave if begun && self.start.distance < margin + self.rounding => {
-                let kept = smaller(margin, self.start.distance) - self.rounding;
+                let kept = smaller(margin, self.start.distance) - self.rounding - AXIS * self.scene.scale;
                 Limit { threshold: larger(kept, 0.0), depth: self.rounding }
             }
             _ => {

@@ -6,8 +6,11 @@ use crate::draw::Draw;
 use crate::shapes;
 
 pub(super) fn draw(draw: &mut Draw) -> Case {
-    let many = draw.log(4.0..2000.0) as usize;
-    let few = (20_000 / many).clamp(4, 30) as f64;
+    let many = match draw.chance(0.05) {
+        true => draw.log(4.0..2000.0) as usize,
+        false => draw.log(4.0..60.0) as usize,
+    };
+    let few = (2000 / many).clamp(4, 30) as f64;
     let other = match draw.chance(0.5) {
         true => shapes::any(draw),
         false => {

@@ -32,9 +32,11 @@ pub(super) fn draw(draw: &mut Draw) -> Case {
 
 /// Triangles that are thin, each in its own way, in one plane or about one axis or anywhere.
 fn thin(draw: &mut Draw) -> Shape {
-    let width = match draw.chance(0.5) {
-        true => draw.log(1e-300..1e-140),
-        false => draw.log(1e-14..1e-1),
+    let width = match draw.count(0..4) {
+        0 => draw.log(1e-300..1e-140),
+        // Where squares are denormal.
+        1 => draw.log(1e-164..1e-152),
+        _ => draw.log(1e-14..1e-1),
     };
     let count = draw.count(1..9);
     let common = draw.chance(0.5).then(|| lattice(draw));
