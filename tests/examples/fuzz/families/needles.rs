@@ -1,7 +1,8 @@
 //! Needles and slivers, components down to denormal, faces of no area.
 
-use super::{pass, tolerance};
+use super::{pass, still, tolerance};
 use crate::case::{Case, Shape};
+use crate::course::Goal;
 use crate::draw::{Draw, plus, times};
 use crate::shapes;
 
@@ -13,32 +14,37 @@ pub(super) fn draw(draw: &mut Draw) -> Case {
     };
     let mut config = tolerance(draw);
     if draw.chance(0.4) {
-        config.margin = draw.log(1e-3..1.0);
+        config.margin = draw.log(1e-2..2.0);
     }
     let turn = if draw.chance(0.4) { 0.0 } else { draw.log(1e-3..6.0) };
     let shapes = if draw.chance(0.5) { [thin, other] } else { [other, thin] };
     let mut case = pass(draw, shapes, turn, config);
-    if draw.chance(0.5) {
-        // Along the axes, so that what is denormal is not rounded away.
+    if draw.chance(0.3) {
         for course in &mut case.courses {
             course.start.quaternion = [1.0, 0.0, 0.0, 0.0];
-            if turn == 0.0 {
-                course.start.position = course.start.position.map(|x| (4.0 * x).round() / 4.0);
-            }
         }
+    }
+    if draw.chance(0.3) {
+        // Straight at the other one, across a plane that holds needles.
+        let reach = case.shapes[0].radius() + case.shapes[1].radius() + config.margin;
+        let way = lattice(draw);
+        case.courses = [still(), still()];
+        case.courses[0].start.position = times(way, -1.5 * reach);
+        let linear = times(way, reach * draw.within(0.5..2.0));
+        case.courses[0].goal = Goal::Velocities { linear, spin: [0.0; 3] };
     }
     case
 }
 
 /// Triangles that are thin, each in its own way, in one plane or about one axis or anywhere.
 fn thin(draw: &mut Draw) -> Shape {
-    let width = match draw.count(0..4) {
+    let width = match draw.count(0..3) {
         0 => draw.log(1e-300..1e-140),
         // Where squares are denormal.
-        1 => draw.log(1e-164..1e-152),
+        1 => draw.log(1e-163..1e-160),
         _ => draw.log(1e-14..1e-1),
     };
-    let count = draw.count(1..9);
+    let count = draw.log(1.0..9.0) as usize;
     let common = draw.chance(0.5).then(|| lattice(draw));
     let about = draw.chance(0.5).then_some([0.0; 3]);
     let mut shape = Shape::default();
