@@ -93,8 +93,11 @@ fn run(family: Family, args: &Args) -> bool {
     let watch = Watch::start(family, args.seed);
     numbers.into_par_iter().for_each(|number| {
         let trial = trial::run(family, args.seed, number, &watch);
+        if args.only.is_some() {
+            bar.suspend(|| println!("{trial}"));
+        }
         if let Ok(mut tally) = tally.lock() {
-            for failure in tally.add(&trial, args.print) {
+            for failure in tally.add(number, &trial, args.print) {
                 let case = match args.shrink {
                     true => trial::shrunk(&trial.case, failure),
                     false => trial.case.clone(),

@@ -110,10 +110,13 @@ fn on_face<N: Number>(
 }
 
 fn within<N: Number>(x: Vector<N>, t: &Triangle<N>, n: Vector<N>) -> bool {
-    (0..3).all(|k| {
-        let (from, to) = (t[k], t[(k + 1) % 3]);
-        n.dot((to - from).scaled().cross(x - from)) >= N::of(0.0)
-    })
+    let ways = [0, 1, 2].map(|k| (t[(k + 1) % 3] - t[k]).scaled());
+    (0..3).all(|k| n.dot(ways[k].cross(x - t[k])) >= N::of(0.0))
+        // Beyond the ends of a needle rounding alone decides on which side of it a point is.
+        && ways.iter().all(|way| {
+            let heights = t.map(|corner| way.dot(corner - x));
+            heights.iter().any(|&h| h >= N::of(0.0)) && heights.iter().any(|&h| h <= N::of(0.0))
+        })
 }
 
 /// The unit normal; none where the triangle has no area that could be told from rounding.

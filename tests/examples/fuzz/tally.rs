@@ -15,6 +15,8 @@ pub struct Tally {
     statuses: BTreeMap<String, u64>,
     /// Of all answers.
     unresolved: BTreeMap<String, u64>,
+    /// The first query of every reason.
+    examples: BTreeMap<String, u64>,
     refused: BTreeMap<String, u64>,
     faults: BTreeMap<Fault, u64>,
     /// Queries of which the referee's search was not complete.
@@ -23,7 +25,7 @@ pub struct Tally {
 
 impl Tally {
     /// Counts a trial; those of its failures that are among the first of their kind are returned.
-    pub fn add<'t>(&mut self, trial: &'t Trial, print: usize) -> Vec<&'t Failure> {
+    pub fn add<'t>(&mut self, number: u64, trial: &'t Trial, print: usize) -> Vec<&'t Failure> {
         self.queries += 1;
         self.answers += trial.outcomes.len() as u64;
         self.sampled += u64::from(!trial.proven);
@@ -35,6 +37,7 @@ impl Tally {
         }
         for (outcome, (kind, method)) in trial.outcomes.iter().zip(&trial.asked) {
             if let Outcome::Unresolved { reason, .. } = outcome {
+                self.examples.entry(format!("{reason:?}")).or_insert(number);
                 let entry = format!("{reason:?} {kind} {method}");
                 *self.unresolved.entry(entry).or_default() += 1;
             }
@@ -89,6 +92,7 @@ impl fmt::Display for Tally {
             ("by the default", &self.statuses),
             ("asked", &self.by_method),
             ("unresolved", &self.unresolved),
+            ("of which --only", &self.examples),
             ("refused", &self.refused),
         ];
         for (name, map) in maps.into_iter().filter(|(_, map)| !map.is_empty()) {

@@ -7,6 +7,7 @@ use crate::families::Family;
 use crate::verdict::{Fault, Given, Judge};
 use ccd_core::{Config, Outcome};
 use std::collections::HashMap;
+use std::fmt;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::process;
 use std::sync::{Arc, Mutex};
@@ -35,6 +36,15 @@ pub struct Failure {
     pub by: (Kind, Method),
     pub text: String,
     pub others: String,
+}
+
+impl fmt::Display for Trial {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for ((kind, method), outcome) in self.asked.iter().zip(&self.outcomes) {
+            writeln!(f, "{kind} {method}: {outcome:?}")?;
+        }
+        f.write_str(&self.case.reproducer())
+    }
 }
 
 impl Failure {
