@@ -73,7 +73,8 @@ impl<'a> Judge<'a> {
     pub fn new(case: &'a Case, volumes: [Volume; 2], rounding: f64) -> Self {
         let scene = Scene::new(case);
         let distance = scene.distance(0.0);
-        let touching = distance <= scene.error();
+        // Nearer than this, inside and outside are a matter of rounding.
+        let touching = distance <= rounding;
         let deep = touching && scene.depth(0.0) > rounding;
         let placed = [scene.placed(0, 0.0), scene.placed(1, 0.0)];
         let inside = match touching {
@@ -276,7 +277,7 @@ impl<'a> Judge<'a> {
     fn overlap(&self, given: &Given<'_>, overlap: &Overlap) -> Faults {
         let text = || format!("distance {:e}, {:?}", self.start.distance, given.answer.outcome);
         let wrong = match *overlap {
-            Overlap::Pieces(contact) => self.start.distance > self.scene.error() && !self.start.may_contain
+            Overlap::Pieces(contact) => self.start.distance > self.rounding && !self.start.may_contain
                 || self.only_touch(given.bodies, &contact),
             Overlap::AInsideB(p) => !self.is_inside(p.to_array(), 1),
             Overlap::BInsideA(p) => !self.is_inside(p.to_array(), 0),
