@@ -1,0 +1,135 @@
+//! A query in plain numbers, and how it is written down.
+
+use crate::course::{Course, Goal, Place};
+use crate::nearest::Triangle;
+use crate::vector::Vector;
+use ccd_core::{Config, StartPolicy};
+use std::fmt::Write;
+
+#[derive(Clone, Debug)]
+pub struct Case {
+    pub shapes: [Shape; 2],
+    pub courses: [Course; 2],
+    pub duration: f64,
+    pub config: Config,
+    /// What the generator knows of the answer.
+    pub expect: Expect,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Expect {
+    Nothing,
+    /// They part, or stay as they are.
+    Free,
+    /// They come nearer than allowed, certainly before this time.
+    ContactBy(f64),
+}
+
+/// A mesh.
+#[derive(Clone, Debug, Default)]
+pub struct Shape {
+    pub vertices: Vec<[f64; 3]>,
+    pub faces: Vec<[u32; 3]>,
+    pub form: Form,
+}
+
+/// What is known of a mesh by the way it was made.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Form {
+    #[default]
+    Soup,
+    /// Closed, turned outward, without flaws: patches can be made of it.
+    Solid,
+    /// That, and convex.
+    Convex,
+    /// The hull of the vertices; the faces are its facets but for rounding.
+    Points,
+}
+
+impl Shape {
+    pub fn triangles(&self) -> Vec<Triangle<f64>> {
+        let corner = |v: u32| Vector(self.vertices[v as usize]);
+        self.faces.iter().map(|face| face.map(corner)).collect()
+    }
+
+    pub fn radius(&self) -> f64 {
+        let lengths = self.vertices.iter().map(|&v| Vector(v).length());
+        lengths.fold(0.0, crate::vector::larger)
+    }
+
+    /// The same, with every vertex changed.
+    pub fn map(mut self, change: impl Fn([f64; 3]) -> [f64; 3]) -> Self {
+        self.vertices.iter_mut().for_each(|v| *v = change(*v));
+        self
+    }
+
+    /// Both, as one mesh.
+    pub fn with(mut self, other: &Shape) -> Self {
+        let base = self.vertices.len() as u32;
+        self.vertices.extend(&other.vertices);
+        self.faces.extend(other.faces.iter().map(|f| f.map(|v| v + base)));
+        self.form = Form::Soup;
+        self
+    }
+
+    /// With all faces turned the other way.
+    pub fn flipped(mut self) -> Self {
+        self.faces.iter_mut().for_each(|f| f.swap(1, 2));
+        self.form = Form::Soup;
+        self
+    }
+
+    fn obj(&self) -> String {
+        let mut out = String::new();
+        for [x, y, z] in &self.vertices {
+            let _ = writeln!(out, "v {x:e} {y:e} {z:e}");
+        }
+        for [a, b, c] in &self.faces {
+            let _ = writeln!(out, "f {} {} {}", a + 1, b + 1, c + 1);
+        }
+        out
+    }
+}
+
+impl Case {
+    /// Files and a command line that ask the same.
+    pub fn reproducer(&self) -> String {
+        let mut header = vec!["id".to_owned(), "duration".to_owned()];
+        let mut row = vec!["0".to_owned(), format!("{:e}", self.duration)];
+        let mut put = |letter: char, names: &str, values: &[f64]| {
+            for (name, value) in names.split(' ').zip(values) {
+                header.push(format!("{letter}_{name}"));
+                row.push(format!("{value:e}"));
+            }
+        };
+        for (letter, course) in ['a', 'b'].into_iter().zip(&self.courses) {
+            let Place { position, quaternion } = course.start;
+            put(letter, "px py pz", &position);
+            put(letter, "qw qx qy qz", &quaternion);
+            put(letter, "cx cy cz", &course.centre);
+            match course.goal {
+                Goal::Velocities { linear, spin } => {
+                    put(letter, "vx vy vz", &linear);
+                    put(letter, "wx wy wz", &spin);
+                }
+                Goal::End(Place { position, quaternion }) => {
+                    put(letter, "end_px end_py end_pz", &position);
+                    put(letter, "end_qw end_qx end_qy end_qz", &quaternion);
+                }
+            }
+        }
+        let Config { tolerance, margin, budget, start, .. } = self.config;
+        let start = match start {
+            StartPolicy::Report => "report",
+            StartPolicy::Leave => "leave",
+        };
+        format!(
+            "--- a.obj\n{}--- b.obj\n{}--- m.csv\n{}\n{}\n--- ccd query --a a.obj --b b.obj --motions \
+             m.csv --tolerance {tolerance:e} --margin {margin:e} --budget {budget} --start {start}\n",
+            self.shapes[0].obj(),
+            self.shapes[1].obj(),
+            header.join(","),
+            row.join(","),
+        )
+    }
+}

@@ -1,0 +1,168 @@
+//! How a body moves, as it is asked for; and where that takes its points, in [`Double`].
+
+use crate::double::Double;
+use crate::vector::{Number, Vector};
+use ccd_core::glam::{DQuat, DVec3};
+use ccd_core::{InputError, Motion, Pose};
+
+/// A motion in the numbers that the engine is given.
+#[derive(Clone, Copy, Debug)]
+pub struct Course {
+    pub start: Place,
+    pub goal: Goal,
+    /// The point of the body that moves straight.
+    pub centre: [f64; 3],
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Place {
+    pub position: [f64; 3],
+    /// w, x, y, z; of any length.
+    pub quaternion: [f64; 4],
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Goal {
+    Velocities { linear: [f64; 3], spin: [f64; 3] },
+    End(Place),
+}
+
+impl Place {
+    pub fn at(position: [f64; 3]) -> Self {
+        Place { position, quaternion: [1.0, 0.0, 0.0, 0.0] }
+    }
+
+    fn pose(&self) -> Result<Pose, InputError> {
+        let [w, x, y, z] = self.quaternion;
+        Pose::new(self.position.into(), DQuat::from_xyzw(x, y, z, w))
+    }
+
+    /// The unit quaternion.
+    fn turn(&self) -> [Double; 4] {
+        let q = self.quaternion.map(Double::new);
+        let square = q.iter().fold(Double::default(), |sum, &x| sum + x * x);
+        q.map(|x| x / square.sqrt())
+    }
+
+    fn point(&self, x: Vector<Double>) -> Vector<Double> {
+        let [w, a, b, c] = self.turn();
+        let (u, two) = (Vector([a, b, c]), Double::new(2.0));
+        let across = u.cross(x) * two;
+        x + across * w + u.cross(across) + Vector::of(self.position)
+    }
+}
+
+impl Course {
+    pub fn velocities(start: Place, linear: [f64; 3], spin: [f64; 3]) -> Self {
+        Course { start, goal: Goal::Velocities { linear, spin }, centre: [0.0; 3] }
+    }
+
+    /// As the engine is told of it.
+    pub fn motion(&self, duration: f64) -> Result<Motion, InputError> {
+        let (start, centre) = (self.start.pose()?, DVec3::from(self.centre));
+        match self.goal {
+            Goal::Velocities { linear, spin } => {
+                Motion::about(start, linear.into(), spin.into(), centre)
+            }
+            Goal::End(end) => Motion::between(start, end.pose()?, centre, duration),
+        }
+    }
+
+    /// About how far it turns, in radians.
+    pub fn turn(&self, duration: f64) -> f64 {
+        match self.goal {
+            Goal::Velocities { spin, .. } => Vector(spin).length() * duration,
+            Goal::End(_) => std::f64::consts::PI,
+        }
+    }
+
+    /// The exact motion, over a duration: for end poses the centre's straight way between its places,
+    /// and the shortest turn between the unit quaternions.
+    pub fn track(&self, duration: f64) -> Track {
+        let centre = Vector::of(self.centre);
+        let start = self.start.point(centre);
+        let per_time = Double::new(1.0) / Double::new(duration);
+        let (velocity, axis, rate) = match self.goal {
+            Goal::Velocities { linear, spin } => {
+                let spin = Vector::of(spin);
+                let axis = spin.unit().unwrap_or(Vector::of([0.0; 3]));
+                (Vector::of(linear), axis, spin.length())
+            }
+            Goal::End(end) => {
+                let velocity = (end.point(centre) - start) * per_time;
+                let (axis, angle) = shortest_turn(self.start.turn(), end.turn());
+                (velocity, axis, angle * per_time)
+            }
+        };
+        let columns = [0, 1, 2].map(|k| {
+            let mut unit = [0.0; 3];
+            unit[k] = 1.0;
+            let place = Place { position: [0.0; 3], ..self.start };
+            place.point(Vector::of(unit))
+        });
+        Track { start, velocity, axis, rate, columns, centre }
+    }
+}
+
+/// The axis and the angle of `end · start⁻¹`.
+fn shortest_turn([w, x, y, z]: [Double; 4], end: [Double; 4]) -> (Vector<Double>, Double) {
+    let (u, v) = (Vector([x, y, z]), Vector([end[1], end[2], end[3]]));
+    let cos = end[0] * w + v.dot(u);
+    let sin = v * w - u * end[0] - v.cross(u);
+    let (cos, sin) = match cos < Double::default() {
+        true => (-cos, -sin),
+        false => (cos, sin),
+    };
+    let axis = sin.unit().unwrap_or(Vector::of([0.0; 3]));
+    (axis, Double::angle(sin.length(), cos) * Double::new(2.0))
+}
+
+/// A motion, exact but for the rounding of [`Double`].
+#[derive(Clone, Debug)]
+pub struct Track {
+    pub start: Vector<Double>,
+    pub velocity: Vector<Double>,
+    pub axis: Vector<Double>,
+    pub rate: Double,
+    /// The images of the body's axes at the start.
+    columns: [Vector<Double>; 3],
+    pub centre: Vector<Double>,
+}
+
+/// Where a body is at a time.
+#[derive(Clone, Copy, Debug)]
+pub struct Moment {
+    columns: [Vector<Double>; 3],
+    pub centre: Vector<Double>,
+}
+
+impl Track {
+    pub fn at(&self, t: f64) -> Moment {
+        let centre = self.start + self.velocity * Double::new(t);
+        let columns = match self.rate.rounded() > 0.0 {
+            true => {
+                let (sin, cos) = (self.rate * Double::new(t)).sin_cos();
+                let n = self.axis;
+                self.columns.map(|c| {
+                    let along = n * n.dot(c);
+                    (c - along) * cos + n.cross(c) * sin + along
+                })
+            }
+            false => self.columns,
+        };
+        Moment { columns, centre }
+    }
+
+    /// How fast a point at an arm from the centre moves; rounded.
+    pub fn velocity_of(&self, arm: Vector<f64>) -> Vector<f64> {
+        self.velocity.rounded() + self.axis.rounded().cross(arm) * self.rate.rounded()
+    }
+}
+
+impl Moment {
+    /// From the centre to a point that is at `x` from it in the body's frame.
+    pub fn arm(&self, x: Vector<Double>) -> Vector<Double> {
+        let [a, b, c] = x.0;
+        self.columns[0] * a + self.columns[1] * b + self.columns[2] * c
+    }
+}

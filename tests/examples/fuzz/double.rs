@@ -1,0 +1,164 @@
+//! Numbers of twice the digits of f64: the unevaluated sum of two [DEKKER71].
+
+use crate::vector::Number;
+use std::cmp::Ordering;
+use std::ops::{Add, Div, Mul, Neg, Sub};
+use std::sync::LazyLock;
+
+/// `hi + lo`, where `hi` is the sum rounded to f64: about 32 digits.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Double {
+    hi: f64,
+    lo: f64,
+}
+
+/// The sum, rounded, and what rounding took off.
+#[inline]
+fn two_sum(a: f64, b: f64) -> Double {
+    let hi = a + b;
+    let of_b = hi - a;
+    let lo = (a - (hi - of_b)) + (b - of_b);
+    Double { hi, lo }
+}
+
+/// The same where `a` is the larger one.
+#[inline]
+fn quick_two_sum(a: f64, b: f64) -> Double {
+    let hi = a + b;
+    Double { hi, lo: b - (hi - a) }
+}
+
+/// The product, rounded, and what rounding took off, unless that underflows.
+#[inline]
+fn two_prod(a: f64, b: f64) -> Double {
+    let hi = a * b;
+    Double { hi, lo: a.mul_add(b, -hi) }
+}
+
+impl Double {
+    pub const fn new(hi: f64) -> Self {
+        Double { hi, lo: 0.0 }
+    }
+
+    /// Sine and cosine: reduced by quarter turns, then their series.
+    pub fn sin_cos(self) -> (Double, Double) {
+        // π/2 in three parts.
+        const HALF_PI: [f64; 3] = [
+            std::f64::consts::FRAC_PI_2,
+            6.123_233_995_736_766e-17,
+            -1.497_384_904_859_17e-33,
+        ];
+        let quarters = (self.hi / HALF_PI[0]).round();
+        let r = HALF_PI.iter().fold(self, |r, &part| r - two_prod(quarters, part));
+        let square = r * r;
+        let series = |first: usize| {
+            let terms = (first..28).step_by(2).rev();
+            terms.fold(Double::default(), |sum, n| INVERSE_FACTORIALS[n] - sum * square)
+        };
+        let (sin, cos) = (r * series(1), series(0));
+        match quarters.rem_euclid(4.0) as u8 {
+            0 => (sin, cos),
+            1 => (cos, -sin),
+            2 => (-sin, -cos),
+            _ => (-cos, sin),
+        }
+    }
+
+    /// The angle of a point of the unit circle: that of f64, and one Newton step.
+    pub fn angle(sin: Double, cos: Double) -> Double {
+        let near = Double::new(sin.hi.atan2(cos.hi));
+        let (s, c) = near.sin_cos();
+        near + (sin * c - cos * s)
+    }
+}
+
+static INVERSE_FACTORIALS: LazyLock<[Double; 28]> = LazyLock::new(|| {
+    let mut all = [Double::new(1.0); 28];
+    for n in 1..28 {
+        all[n] = all[n - 1] / Double::new(n as f64);
+    }
+    all
+});
+
+impl Number for Double {
+    #[inline]
+    fn of(x: f64) -> Self {
+        Double::new(x)
+    }
+
+    #[inline]
+    fn rounded(self) -> f64 {
+        self.hi
+    }
+
+    #[inline]
+    fn sqrt(self) -> Self {
+        if !(self.hi > 0.0) {
+            return Double::default();
+        }
+        let near = Double::new(self.hi.sqrt());
+        near + (self - near * near) / (near + near)
+    }
+}
+
+impl Add for Double {
+    type Output = Self;
+
+    #[inline]
+    fn add(self, other: Self) -> Self {
+        let (s, t) = (two_sum(self.hi, other.hi), two_sum(self.lo, other.lo));
+        let s = quick_two_sum(s.hi, s.lo + t.hi);
+        quick_two_sum(s.hi, s.lo + t.lo)
+    }
+}
+
+impl Neg for Double {
+    type Output = Self;
+
+    #[inline]
+    fn neg(self) -> Self {
+        Double { hi: -self.hi, lo: -self.lo }
+    }
+}
+
+impl Sub for Double {
+    type Output = Self;
+
+    #[inline]
+    fn sub(self, other: Self) -> Self {
+        self + -other
+    }
+}
+
+impl Mul for Double {
+    type Output = Self;
+
+    #[inline]
+    fn mul(self, other: Self) -> Self {
+        let p = two_prod(self.hi, other.hi);
+        quick_two_sum(p.hi, p.lo + (self.hi * other.lo + self.lo * other.hi))
+    }
+}
+
+impl Div for Double {
+    type Output = Self;
+
+    #[inline]
+    fn div(self, other: Self) -> Self {
+        let first = self.hi / other.hi;
+        let rest = self - other * Double::new(first);
+        let second = rest.hi / other.hi;
+        let rest = rest - other * Double::new(second);
+        quick_two_sum(first, second) + Double::new(rest.hi / other.hi)
+    }
+}
+
+impl PartialOrd for Double {
+    #[inline]
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        match self.hi.partial_cmp(&other.hi)? {
+            Ordering::Equal => self.lo.partial_cmp(&other.lo),
+            order => Some(order),
+        }
+    }
+}

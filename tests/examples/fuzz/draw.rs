@@ -1,0 +1,72 @@
+//! Drawing at random.
+
+use crate::course::Place;
+use crate::vector::Vector;
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64;
+use std::ops::Range;
+
+pub struct Draw(Pcg64);
+
+impl Draw {
+    /// One stream for every query, so that each can be asked alone.
+    pub fn new(seed: u64, index: u64) -> Self {
+        Draw(Pcg64::seed_from_u64(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ index))
+    }
+
+    pub fn within(&mut self, range: Range<f64>) -> f64 {
+        range.start + (range.end - range.start) * self.0.random::<f64>()
+    }
+
+    pub fn log(&mut self, range: Range<f64>) -> f64 {
+        10f64.powf(self.within(range.start.log10()..range.end.log10()))
+    }
+
+    pub fn count(&mut self, range: Range<usize>) -> usize {
+        self.0.random_range(range)
+    }
+
+    pub fn chance(&mut self, share: f64) -> bool {
+        self.0.random::<f64>() < share
+    }
+
+    pub fn pick<T: Copy>(&mut self, of: &[T]) -> T {
+        of[self.count(0..of.len())]
+    }
+
+    /// In the cube from −1 to 1.
+    pub fn point(&mut self) -> [f64; 3] {
+        [(); 3].map(|()| self.within(-1.0..1.0))
+    }
+
+    pub fn direction(&mut self) -> [f64; 3] {
+        loop {
+            let v = Vector(self.point());
+            let length = v.length();
+            if length > 0.1 && length < 1.0 {
+                return (v * (1.0 / length)).0;
+            }
+        }
+    }
+
+    /// Of any length.
+    pub fn quaternion(&mut self) -> [f64; 4] {
+        [(); 4].map(|()| self.within(-1.0..1.0))
+    }
+
+    pub fn place(&mut self, position: [f64; 3]) -> Place {
+        let quaternion = match self.chance(0.3) {
+            true => [1.0, 0.0, 0.0, 0.0],
+            false => self.quaternion(),
+        };
+        Place { position, quaternion }
+    }
+}
+
+pub fn plus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    (Vector(a) + Vector(b)).0
+}
+
+pub fn times(a: [f64; 3], s: f64) -> [f64; 3] {
+    (Vector(a) * s).0
+}

@@ -1,0 +1,138 @@
+//! The engine, asked through its public interface alone.
+
+use crate::case::{Case, Form, Shape};
+use ccd_core::glam::DVec3;
+use ccd_core::schedule::{BestFirst, Fast, HullFirst, Naive};
+use ccd_core::{
+    Answer, Body, Config, DistanceOracle, Moving, OrElse, Polytope, Problem, Schedule,
+};
+use ccd_decomp::{Detail, TriangleMesh, prepare};
+use ccd_distance_gjk::{Auto, Gjk, GjkF32};
+use ccd_distance_vmarch::Vmarch;
+use std::fmt;
+
+/// What the pieces of both bodies are, where their form allows it; else triangles.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    Triangles,
+    Patches,
+    Hull,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Method {
+    Direct,
+    Gjk,
+    GjkF32,
+    Vmarch,
+    Naive,
+    Fast,
+    HullFirst,
+}
+
+/// Both bodies, of pieces of a kind.
+pub struct Bodies {
+    pub bodies: [Body; 2],
+    pub kind: Kind,
+}
+
+impl Bodies {
+    /// # Errors
+    /// What the engine has against the meshes.
+    pub fn new(case: &Case, kind: Kind, trees: Trees) -> Result<Self, String> {
+        let body = |shape: &Shape| body(shape, kind, trees);
+        let [a, b] = &case.shapes;
+        Ok(Bodies { bodies: [body(a)?, body(b)?], kind })
+    }
+
+    /// # Errors
+    /// What the engine has against the query.
+    pub fn problem(&self, case: &Case, config: &Config) -> Result<Problem<'_>, String> {
+        let moving = |k: usize| -> Result<Moving<'_>, String> {
+            let motion = case.courses[k].motion(case.duration).map_err(|e| e.to_string())?;
+            Ok(Moving { body: &self.bodies[k], motion })
+        };
+        Problem::new(moving(0)?, moving(1)?, case.duration, config).map_err(|e| e.to_string())
+    }
+}
+
+/// Whether trees of hulls are wanted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Trees {
+    Without,
+    With,
+}
+
+fn body(shape: &Shape, kind: Kind, trees: Trees) -> Result<Body, String> {
+    let vertices = || shape.vertices.iter().map(|&v| DVec3::from(v)).collect();
+    if shape.form == Form::Points {
+        let polytope = Polytope { points: vertices(), ..Polytope::default() };
+        return Body::polytope(polytope).map_err(|e| e.to_string());
+    }
+    let detail = match (kind, shape.form) {
+        (Kind::Hull, Form::Convex) => Detail::Hull,
+        (Kind::Patches, Form::Convex | Form::Solid) => Detail::Patches(Default::default()),
+        _ => Detail::Triangles,
+    };
+    let mesh = TriangleMesh::new(vertices(), &shape.faces).map_err(|e| e.to_string())?;
+    let model = prepare(&mesh, detail)
+        // Rounding may make of what was meant to be convex what is not, quite.
+        .or_else(|_| prepare(&mesh, Detail::Triangles))
+        .map_err(|e| e.to_string())?;
+    let model = match trees {
+        Trees::With => model.with_hull_tree().map_err(|e| e.to_string())?,
+        Trees::Without => model,
+    };
+    model.body().map_err(|e| e.to_string())
+}
+
+impl Method {
+    pub fn solve(self, problem: &Problem<'_>) -> Answer {
+        fn by<O: DistanceOracle + Default, S: Schedule<O>>(
+            mut schedule: S,
+            problem: &Problem<'_>,
+        ) -> Answer {
+            schedule.solve(problem, &mut O::default())
+        }
+        match self {
+            Method::Direct => by(BestFirst::<Auto>::default(), problem),
+            Method::Gjk => by(BestFirst::<Gjk>::default(), problem),
+            Method::GjkF32 => by(BestFirst::<GjkF32>::default(), problem),
+            Method::Vmarch => by(BestFirst::<OrElse<Vmarch, Gjk>>::default(), problem),
+            Method::Naive => by(Naive::<Auto>::default(), problem),
+            Method::Fast => by(Fast::<Gjk>::default(), problem),
+            Method::HullFirst => by(HullFirst::<Gjk>::default(), problem),
+        }
+    }
+
+    pub fn trees(self) -> Trees {
+        match self {
+            Method::Fast | Method::HullFirst => Trees::With,
+            _ => Trees::Without,
+        }
+    }
+}
+
+impl fmt::Display for Method {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Method::Direct => "--oracle direct",
+            Method::Gjk => "--oracle gjk",
+            Method::GjkF32 => "--oracle gjk-f32",
+            Method::Vmarch => "--oracle vmarch",
+            Method::Naive => "--schedule naive",
+            Method::Fast => "--schedule fast --oracle gjk",
+            Method::HullFirst => "--schedule hull-first --oracle gjk",
+        })
+    }
+}
+
+impl fmt::Display for Kind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Kind::Triangles => "--pieces triangles",
+            Kind::Patches => "--pieces patches",
+            Kind::Hull => "--pieces hull",
+        })
+    }
+}

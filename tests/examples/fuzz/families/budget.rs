@@ -1,0 +1,28 @@
+//! Every small budget.
+
+use super::margins;
+use crate::case::Case;
+use crate::draw::{Draw, times};
+use crate::shapes;
+
+pub(super) fn draw(draw: &mut Draw) -> Case {
+    let mut case = margins::draw(draw);
+    if draw.chance(0.5) {
+        case.shapes[0] = shapes::ring(draw.count(4..9) as u32, draw.count(3..5) as u32, 0.2);
+        case.shapes[1] = shapes::ring(draw.count(4..9) as u32, 3, 0.3);
+    }
+    if draw.chance(0.3) {
+        case.config.margin = 0.0;
+    }
+    if draw.chance(0.4) {
+        let near = draw.log(1e-3..1.0);
+        for course in &mut case.courses {
+            course.start.position = times(course.start.position, near);
+        }
+    }
+    case.config.budget = match draw.chance(0.5) {
+        true => draw.count(0..100) as u64,
+        false => draw.count(0..2000) as u64,
+    };
+    case
+}

@@ -1,0 +1,48 @@
+//! Faces that fall flat on each other, or pass in one plane.
+
+use super::{still, tolerance};
+use crate::case::{Case, Expect, Shape};
+use crate::course::{Course, Place};
+use crate::draw::{Draw, plus, times};
+use crate::shapes;
+
+pub(super) fn draw(draw: &mut Draw) -> Case {
+    let bodies = [level(draw), level(draw)];
+    let mut config = tolerance(draw);
+    if draw.chance(0.3) {
+        config.margin = draw.pick(&[0.125, 0.5, 1.0]);
+    }
+    let high = draw.pick(&[0.0, 0.0, 0.25, 1.0, 1.5]);
+    let aside = [draw.pick(&[-3.0, -2.0, 0.0]), draw.pick(&[-1.0, -0.5, 0.0, 0.25])];
+    let start = [aside[0], aside[1], high];
+    let down = if draw.chance(0.5) { -2.0 * high } else { 0.0 };
+    let along = [draw.pick(&[0.0, 1.0, 4.0]), draw.pick(&[0.0, 0.0, 1.0]), down];
+    let spin = match draw.chance(0.7) {
+        true => [0.0; 3],
+        // Tipping over, or round in the plane.
+        false => times(draw.pick(&[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]), draw.within(-2.0..2.0)),
+    };
+    let mut courses = [still(), Course::velocities(Place::at(start), along, spin)];
+    if draw.chance(0.3) {
+        // The same seen from elsewhere.
+        let far = times(draw.point(), draw.log(1.0..1e4));
+        for course in &mut courses {
+            course.start.position = plus(course.start.position, far);
+        }
+    }
+    Case { shapes: bodies, courses, duration: 1.0, config, expect: Expect::Nothing }
+}
+
+/// A polygon in the plane z = 0, or a box with its lower face there.
+fn level(draw: &mut Draw) -> Shape {
+    if draw.chance(0.4) {
+        let half = [(); 3].map(|()| draw.pick(&[0.25, 0.5, 1.0]));
+        return shapes::cuboid(half).map(|[x, y, z]| [x, y, z + half[2]]);
+    }
+    let count = draw.count(1..5);
+    let flat = shapes::soup(draw, count).map(|[x, y, _]| [x, y, 0.0]);
+    match draw.chance(0.5) {
+        true => flat.map(|v| v.map(|x| (4.0 * x).round() / 4.0)),
+        false => flat,
+    }
+}

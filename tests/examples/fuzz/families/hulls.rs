@@ -1,0 +1,28 @@
+//! Convex pieces of 4 to 2,000 points.
+
+use super::{pass, tolerance};
+use crate::case::Case;
+use crate::draw::Draw;
+use crate::shapes;
+
+pub(super) fn draw(draw: &mut Draw) -> Case {
+    let many = match draw.chance(0.05) {
+        true => draw.log(4.0..2000.0) as usize,
+        false => draw.log(4.0..60.0) as usize,
+    };
+    let few = (2000 / many).clamp(4, 30) as f64;
+    let other = match draw.chance(0.5) {
+        true => shapes::any(draw),
+        false => {
+            let few = draw.log(4.0..few + 1.0) as usize;
+            shapes::hull(draw, few)
+        }
+    };
+    let mut config = tolerance(draw);
+    if draw.chance(0.4) {
+        config.margin = draw.log(1e-3..10.0);
+    }
+    let turn = if draw.chance(0.4) { 0.0 } else { draw.log(1e-3..10.0) };
+    let bodies = [shapes::hull(draw, many), other];
+    pass(draw, bodies, turn, config)
+}

@@ -1,0 +1,165 @@
+//! Two triangles: how far apart, or how deep in each other.
+
+use crate::vector::{Number, Vector};
+
+pub type Triangle<N> = [Vector<N>; 3];
+
+/// The distance of two triangles: that of the nearest of all pairs of points that could be nearest,
+/// so that it is never too small but by rounding; 0 where an edge of one passes through the other.
+pub fn distance<N: Number>(s: &Triangle<N>, t: &Triangle<N>) -> N {
+    let (edges_s, edges_t) = (Edge::all(s), Edge::all(t));
+    let (face_s, face_t) = (normal(s), normal(t));
+    if pierces(&edges_s, t, face_t) || pierces(&edges_t, s, face_s) {
+        return N::of(0.0);
+    }
+    let mut way = s[0] - t[0];
+    let mut best = way.dot(way);
+    let mut offer = |w: Vector<N>| {
+        let square = w.dot(w);
+        if square < best {
+            (best, way) = (square, w);
+        }
+    };
+    for i in 0..3 {
+        on_face(s[i], t, face_t).into_iter().for_each(&mut offer);
+        on_face(t[i], s, face_s).into_iter().for_each(&mut offer);
+        for j in 0..3 {
+            offer(s[i] - t[j]);
+            offer(edges_t[j].from_point(s[i]));
+            offer(edges_s[i].from_point(t[j]));
+            between_lines(&edges_s[i], &edges_t[j]).into_iter().for_each(&mut offer);
+        }
+    }
+    way.length()
+}
+
+/// A side of a triangle.
+struct Edge<N> {
+    from: Vector<N>,
+    way: Vector<N>,
+    /// The way, scaled so that its squares are numbers, and by how much it was.
+    along: Vector<N>,
+    scale: N,
+    square: N,
+}
+
+impl<N: Number> Edge<N> {
+    fn all(t: &Triangle<N>) -> [Self; 3] {
+        [0, 1, 2].map(|k| {
+            let (from, way) = (t[k], t[(k + 1) % 3] - t[k]);
+            let along = way.scaled();
+            let (scale, square) = (ratio(along, way), along.dot(along));
+            Edge { from, way, along, scale, square }
+        })
+    }
+
+    /// From a point to the nearest of the edge; of an edge without length NaN makes that its start.
+    fn from_point(&self, p: Vector<N>) -> Vector<N> {
+        let share = self.along.dot(p - self.from) / self.square * self.scale;
+        self.from + self.way * clamped(share) - p
+    }
+}
+
+#[inline]
+fn clamped<N: Number>(x: N) -> N {
+    let (zero, one) = (N::of(0.0), N::of(1.0));
+    // NaN goes to 0.
+    if x > one {
+        one
+    } else if x > zero {
+        x
+    } else {
+        zero
+    }
+}
+
+/// By how much `long` is longer than `short`, both along the same line.
+fn ratio<N: Number>(long: Vector<N>, short: Vector<N>) -> N {
+    let k = (0..3).fold(0, |k, i| match long.0[i].rounded().abs() > long.0[k].rounded().abs() {
+        true => i,
+        false => k,
+    });
+    long.0[k] / short.0[k]
+}
+
+/// From the nearest point of one edge's line to that of another, where either is within its edge.
+fn between_lines<N: Number>(p: &Edge<N>, q: &Edge<N>) -> Option<Vector<N>> {
+    let n = p.along.cross(q.along);
+    let square = n.dot(n);
+    if !(square.rounded() > 0.0) {
+        return None;
+    }
+    let w = q.from - p.from;
+    let x = w.cross(q.along).dot(n) / square * p.scale;
+    let y = w.cross(p.along).dot(n) / square * q.scale;
+    let (zero, one) = (N::of(0.0), N::of(1.0));
+    let within = |x: N| x >= zero && x <= one;
+    // Clamped all the same: rounding may have put the other one a little beyond its end.
+    (within(x) || within(y)).then(|| w + q.way * clamped(y) - p.way * clamped(x))
+}
+
+/// From a point to a triangle's plane, where it lands within the triangle.
+fn on_face<N: Number>(
+    p: Vector<N>,
+    t: &Triangle<N>,
+    face: Option<Vector<N>>,
+) -> Option<Vector<N>> {
+    let n = face?;
+    let down = n * n.dot(t[0] - p);
+    within(p + down, t, n).then_some(down)
+}
+
+fn within<N: Number>(x: Vector<N>, t: &Triangle<N>, n: Vector<N>) -> bool {
+    let ways = [0, 1, 2].map(|k| (t[(k + 1) % 3] - t[k]).scaled());
+    (0..3).all(|k| n.dot(ways[k].cross(x - t[k])) >= N::of(0.0))
+        // Beyond the ends of a needle rounding alone decides on which side of it a point is.
+        && ways.iter().all(|way| {
+            let heights = t.map(|corner| way.dot(corner - x));
+            heights.iter().any(|&h| h >= N::of(0.0)) && heights.iter().any(|&h| h <= N::of(0.0))
+        })
+}
+
+/// The unit normal; none where the triangle has no area that could be told from rounding.
+pub fn normal<N: Number>(t: &Triangle<N>) -> Option<Vector<N>> {
+    let (u, v) = ((t[1] - t[0]).scaled(), (t[2] - t[0]).scaled());
+    let n = u.cross(v);
+    // Of needles that are thinner than this nothing but the edges is left to the eye of an f64.
+    (n.largest() > 1e-30).then_some(n)?.unit()
+}
+
+/// Whether an edge passes through the inside of a triangle.
+fn pierces<N: Number>(edges: &[Edge<N>; 3], t: &Triangle<N>, face: Option<Vector<N>>) -> bool {
+    let zero = N::of(0.0);
+    let Some(n) = face else { return false };
+    let heights = edges.each_ref().map(|edge| n.dot(edge.from - t[0]));
+    (0..3).any(|k| {
+        let (up, down) = (heights[k], heights[(k + 1) % 3]);
+        let crosses = (up > zero && down < zero) || (up < zero && down > zero);
+        crosses && within(edges[k].from + edges[k].way * (up / (up - down)), t, n)
+    })
+}
+
+/// How far one of two triangles would have to be moved for their insides to be apart, by the
+/// separating axes; negative where a gap shows that they are. 0 where one is flat in every axis.
+pub fn depth<N: Number>(s: &Triangle<N>, t: &Triangle<N>) -> N {
+    let edges = |t: &Triangle<N>| [t[1] - t[0], t[2] - t[1], t[0] - t[2]].map(Vector::scaled);
+    let (es, et, ns, nt) = (edges(s), edges(t), normal(s), normal(t));
+    let mut axes: Vec<Vector<N>> = ns.into_iter().chain(nt).collect();
+    for e in es {
+        axes.extend(et.iter().filter_map(|&f| e.cross(f).unit()));
+    }
+    for (n, edges) in [(ns, es), (nt, et)] {
+        axes.extend(edges.iter().filter_map(|&e| n?.cross(e).unit()));
+    }
+    let overlap = |n: &Vector<N>| {
+        let range = |t: &Triangle<N>| {
+            let h = t.map(|p| n.dot(p - s[0]));
+            let least = h.iter().fold(h[0], |m, &x| if x < m { x } else { m });
+            (least, h.iter().fold(h[0], |m, &x| if x > m { x } else { m }))
+        };
+        let ((a, b), (c, d)) = (range(s), range(t));
+        if d - a < b - c { d - a } else { b - c }
+    };
+    let least = |m: Option<N>, x: N| Some(m.map_or(x, |m| if x < m { x } else { m }));
+    axes.iter().map(overlap).fold(None, least).unwrap_or(N::of(0.0))
+}

@@ -1,0 +1,336 @@
+//! What truly happens: the bodies' distance at a time, and the first time found at which it is below
+//! a threshold, by conservative advancement over all pairs of triangles.
+//!
+//! Places are computed in [`Double`] and differences taken there; distances are searched in f64 and
+//! judged in [`Double`]. What is found is evidence; what is not found may still exist.
+
+use crate::case::Case;
+use crate::course::{Moment, Track};
+use crate::double::Double;
+use crate::nearest::{Triangle, depth, distance};
+use crate::vector::{Number, Vector, larger, smaller};
+
+/// How much of a scene's size the referee's own error may be.
+const ERROR: f64 = 1e-25;
+/// Where the search in f64 asks [`Double`].
+const NOISE: f64 = 1e-13;
+/// Steps of one pair, and of all, before the rest is sampled.
+const PAIR_STEPS: usize = 300;
+const ALL_STEPS: usize = 60_000;
+const SAMPLES: usize = 24;
+
+/// A body's triangles on its track.
+pub struct Side {
+    pub track: Track,
+    /// From the centre of rotation, in the body's frame.
+    pub triangles: Vec<Triangle<Double>>,
+    balls: Vec<Ball>,
+    /// About all triangles.
+    whole: Ball,
+    /// The same about the centre of rotation.
+    reach: f64,
+}
+
+struct Ball {
+    middle: Vector<Double>,
+    radius: f64,
+    /// The largest distance from the centre of rotation, 0 for a body that does not turn.
+    arm: f64,
+}
+
+/// Two bodies on their tracks.
+pub struct Scene {
+    pub sides: [Side; 2],
+    /// The largest length that plays a part.
+    pub scale: f64,
+}
+
+/// A time at which the bodies are nearer than they may be.
+#[derive(Clone, Copy, Debug)]
+pub struct Evidence {
+    pub time: f64,
+    pub distance: f64,
+    pub depth: f64,
+}
+
+impl Side {
+    fn new(triangles: &[Triangle<f64>], track: Track) -> Self {
+        let arm = |p: Vector<f64>| Vector::of(p.0) - track.centre;
+        let triangles: Vec<Triangle<Double>> = triangles.iter().map(|t| t.map(arm)).collect();
+        let balls: Vec<Ball> = triangles.iter().map(|t| Ball::about(t, &track)).collect();
+        let corners: Vec<Vector<Double>> = triangles.iter().flatten().copied().collect();
+        let reaches = corners.iter().map(|p| p.length().rounded());
+        let reach = reaches.fold(0.0, larger);
+        Side { whole: Ball::about(&corners, &track), reach, triangles, balls, track }
+    }
+
+    fn triangle(&self, k: usize, moment: &Moment, origin: Vector<Double>) -> Triangle<Double> {
+        self.triangles[k].map(|p| moment.arm(p) + (moment.centre - origin))
+    }
+}
+
+impl Ball {
+    fn about(points: &[Vector<Double>], track: &Track) -> Self {
+        let sum = points.iter().skip(1).fold(points[0], |sum, &p| sum + p);
+        let middle = sum * Double::new(1.0 / points.len() as f64);
+        let far = |r, &p: &Vector<Double>| larger(r, (p - middle).length().rounded());
+        let radius = points.iter().fold(0.0, far);
+        let arms = points.iter().fold(0.0, |r, p| larger(r, p.length().rounded()));
+        Ball {
+            middle,
+            radius: radius * (1.0 + 1e-9),
+            arm: if track.rate.rounded() > 0.0 { arms } else { 0.0 },
+        }
+    }
+}
+
+impl Scene {
+    pub fn new(case: &Case) -> Self {
+        let side = |k: usize| {
+            Side::new(&case.shapes[k].triangles(), case.courses[k].track(case.duration))
+        };
+        let sides = [side(0), side(1)];
+        let way = (sides[0].track.start - sides[1].track.start).length().rounded();
+        let travel = |s: &Side| s.track.velocity.length().rounded() * case.duration;
+        let turn = |s: &Side| 1.0 + s.track.rate.rounded() * case.duration;
+        let scale = way
+            + travel(&sides[0])
+            + travel(&sides[1])
+            + sides.iter().map(|s| s.reach * turn(s)).sum::<f64>()
+            + case.config.margin;
+        Scene { sides, scale }
+    }
+
+    /// What the referee's distances may be off by. Places in the world are right to 1e-31 of them.
+    pub fn error(&self) -> f64 {
+        let far = self.sides.iter().map(|s| s.track.start.largest());
+        ERROR * self.scale + 1e-29 * far.fold(0.0, larger)
+    }
+
+    pub fn moments(&self, t: f64) -> [Moment; 2] {
+        [self.sides[0].track.at(t), self.sides[1].track.at(t)]
+    }
+
+    /// All triangles of a body at a time, seen from A's centre.
+    pub fn placed(&self, side: usize, t: f64) -> Vec<Triangle<Double>> {
+        let moments = self.moments(t);
+        let all = 0..self.sides[side].triangles.len();
+        all.map(|k| self.sides[side].triangle(k, &moments[side], moments[0].centre)).collect()
+    }
+
+    /// The distance of the two surfaces at a time.
+    pub fn distance(&self, t: f64) -> f64 {
+        let [a, b] = [self.placed(0, t), self.placed(1, t)];
+        let rounded = |all: &[Triangle<Double>]| -> Vec<Triangle<f64>> {
+            all.iter().map(|t| t.map(Vector::rounded)).collect()
+        };
+        let (ra, rb) = (rounded(&a), rounded(&b));
+        let mut near = Vec::new();
+        let mut best = f64::INFINITY;
+        for (i, s) in ra.iter().enumerate() {
+            for (j, t) in rb.iter().enumerate() {
+                let [p, q] = [&self.sides[0].balls[i], &self.sides[1].balls[j]];
+                let apart = (s[0] - t[0]).length() - 2.0 * (p.radius + q.radius);
+                if apart > best {
+                    continue;
+                }
+                let d = distance(s, t);
+                best = smaller(best, d);
+                near.push((d, i, j));
+            }
+        }
+        let noise = NOISE * self.scale;
+        let mut least = f64::INFINITY;
+        for (_, i, j) in near.into_iter().filter(|&(d, ..)| d <= best + noise) {
+            least = smaller(least, distance(&a[i], &b[j]).rounded());
+        }
+        least
+    }
+
+    /// The same with every pair in [`Double`]: to be asked before anything is called wrong.
+    pub fn exact_distance(&self, t: f64) -> f64 {
+        let [a, b] = [self.placed(0, t), self.placed(1, t)];
+        let pairs = a.iter().flat_map(|s| b.iter().map(move |t| distance(s, t).rounded()));
+        pairs.fold(f64::INFINITY, smaller)
+    }
+
+    /// The deepest that two triangles are in each other at a time.
+    pub fn depth(&self, t: f64) -> f64 {
+        let [a, b] = [self.placed(0, t), self.placed(1, t)];
+        let pairs = a.iter().flat_map(|s| {
+            b.iter().map(move |t| {
+                let flat = |t: &Triangle<Double>| t.map(Vector::rounded);
+                match depth(&flat(s), &flat(t)) > 0.0 {
+                    true => depth(s, t).rounded(),
+                    false => 0.0,
+                }
+            })
+        });
+        pairs.fold(0.0, larger)
+    }
+
+    /// A time up to `until` at which the distance is below `threshold`, the earliest that is found;
+    /// and whether none was missed, but for f64's rounding.
+    pub fn first_below(&self, limit: Limit, until: f64) -> (Option<Evidence>, bool) {
+        let [a, b] = &self.sides;
+        let Limit { threshold, .. } = limit;
+        let mut search =
+            Search { scene: self, limit, threshold, until, found: None, steps: 0, proven: true };
+        let begin = search.balls_meet(a.reach + b.reach);
+        for (i, p) in a.balls.iter().enumerate() {
+            let begin = search.balls_apart([p, &b.whole], begin);
+            if !(begin < search.until) {
+                continue;
+            }
+            for j in 0..b.balls.len() {
+                search.pair(i, j, begin);
+            }
+        }
+        (search.found, search.proven)
+    }
+}
+
+/// What is too near.
+#[derive(Clone, Copy, Debug)]
+pub struct Limit {
+    /// A distance below this.
+    pub threshold: f64,
+    /// Triangles that are deeper than this in each other.
+    pub depth: f64,
+}
+
+struct Search<'a> {
+    scene: &'a Scene,
+    limit: Limit,
+    threshold: f64,
+    until: f64,
+    found: Option<Evidence>,
+    steps: usize,
+    proven: bool,
+}
+
+/// A gap, how fast it can close, and how much that can change.
+struct Near {
+    gap: f64,
+    rate: f64,
+    bend: f64,
+}
+
+/// gap = rate τ + bend τ²/2, in the form that does not cancel.
+fn free_time(gap: f64, rate: f64, bend: f64) -> f64 {
+    (1.0 - 1e-9) * 2.0 * gap / (rate + (rate * rate + 2.0 * bend * gap).sqrt())
+}
+
+impl Search<'_> {
+    /// A time until which balls about the two centres of rotation are certainly apart.
+    fn balls_meet(&self, reaches: f64) -> f64 {
+        let [a, b] = &self.scene.sides;
+        let way = (b.track.start - a.track.start).rounded();
+        let v = (b.track.velocity - a.track.velocity).rounded();
+        let kept = (reaches + self.threshold) * (1.0 + 1e-9) + NOISE * self.scene.scale;
+        let (square, along) = (v.dot(v), way.dot(v));
+        let excess = way.dot(way) - kept * kept;
+        let root = along * along - square * excess;
+        if !(excess > 0.0) {
+            0.0
+        } else if along >= 0.0 || root < 0.0 {
+            self.until
+        } else {
+            // The smaller root, in the form that does not cancel.
+            smaller(self.until, larger(0.0, 0.999_999 * excess / (-along + root.sqrt())))
+        }
+    }
+
+    fn pair(&mut self, i: usize, j: usize, begin: f64) {
+        let mut t = begin;
+        for _ in 0..PAIR_STEPS {
+            self.steps += 1;
+            if self.steps > ALL_STEPS {
+                break;
+            }
+            let Near { gap, rate, bend } = self.look(i, j, t);
+            if !(gap > NOISE * self.scene.scale) {
+                if self.judge(i, j, t) {
+                    return;
+                }
+                break;
+            }
+            t += free_time(gap, rate, bend);
+            if !(t < self.until) {
+                return;
+            }
+        }
+        self.proven = false;
+        let left = self.until - t;
+        for k in 0..=SAMPLES {
+            let t = t + left * (k as f64 / SAMPLES as f64);
+            let gap = self.look(i, j, t).gap;
+            if !(gap > NOISE * self.scene.scale) && self.judge(i, j, t) {
+                return;
+            }
+        }
+    }
+
+    /// A time from `begin` on until which two balls are well apart.
+    fn balls_apart(&self, [p, q]: [&Ball; 2], begin: f64) -> f64 {
+        let mut t = begin;
+        for _ in 0..PAIR_STEPS {
+            let Near { gap, rate, bend } = self.near([p, q], &self.scene.moments(t));
+            if !(gap > 0.25 * smaller(p.radius, q.radius) && gap > NOISE * self.scene.scale) {
+                break;
+            }
+            t += free_time(gap, rate, bend);
+            if !(t < self.until) {
+                break;
+            }
+        }
+        t
+    }
+
+    /// How far two balls are from the threshold, and how fast it can come nearer, with how much change.
+    fn near(&self, [p, q]: [&Ball; 2], moments: &[Moment; 2]) -> Near {
+        let [a, b] = &self.scene.sides;
+        let between = moments[1].centre - moments[0].centre;
+        let middles = [moments[0].arm(p.middle), moments[1].arm(q.middle)];
+        let apart = (middles[1] + between - middles[0]).length().rounded();
+        let rates = [a.track.rate.rounded(), b.track.rate.rounded()];
+        let velocity = a.track.velocity_of(middles[0].rounded())
+            - b.track.velocity_of(middles[1].rounded());
+        let rate = velocity.length() + rates[0] * p.radius + rates[1] * q.radius;
+        let bend = rates[0] * rates[0] * p.arm + rates[1] * rates[1] * q.arm;
+        Near { gap: apart - p.radius - q.radius - self.threshold, rate, bend }
+    }
+
+    fn look(&self, i: usize, j: usize, t: f64) -> Near {
+        let (p, q) = (&self.scene.sides[0].balls[i], &self.scene.sides[1].balls[j]);
+        let moments = self.scene.moments(t);
+        let near = self.near([p, q], &moments);
+        if near.gap > 0.5 * (p.radius + q.radius) {
+            return near;
+        }
+        let [s, t] = self.triangles(i, j, &moments).map(|t| t.map(Vector::rounded));
+        Near { gap: distance(&s, &t) - self.threshold, ..near }
+    }
+
+    fn triangles(&self, i: usize, j: usize, moments: &[Moment; 2]) -> [Triangle<Double>; 2] {
+        let [a, b] = &self.scene.sides;
+        let origin = moments[0].centre;
+        [a.triangle(i, &moments[0], origin), b.triangle(j, &moments[1], origin)]
+    }
+
+    /// Whether the pair truly is below the threshold: then nothing later is of interest.
+    fn judge(&mut self, i: usize, j: usize, t: f64) -> bool {
+        let [s, o] = self.triangles(i, j, &self.scene.moments(t));
+        let (distance, error) = (distance(&s, &o).rounded(), self.scene.error());
+        let depth = match distance > error {
+            true => 0.0,
+            false => depth(&s, &o).rounded(),
+        };
+        let below = distance < self.threshold - error || depth > larger(self.limit.depth, error);
+        if below {
+            self.until = t;
+            self.found = Some(Evidence { time: t, distance, depth });
+        }
+        below
+    }
+}

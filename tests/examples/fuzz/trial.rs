@@ -1,0 +1,264 @@
+//! One query: drawn, asked of many methods, judged.
+
+use crate::case::{Case, Form, Shape};
+use crate::draw::Draw;
+use crate::engine::{Bodies, Kind, Method, Trees};
+use crate::families::Family;
+use crate::verdict::{Fault, Given, Judge};
+use ccd_core::{Config, Outcome};
+use std::collections::HashMap;
+use std::fmt;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::process;
+use std::sync::{Arc, Mutex};
+use std::thread::{self, ThreadId};
+use std::time::{Duration, Instant};
+
+/// How long a query may take before it is called a hang.
+const PATIENCE: Duration = Duration::from_secs(20);
+
+/// What came of a query.
+pub struct Trial {
+    pub case: Case,
+    pub asked: Vec<(Kind, Method)>,
+    pub outcomes: Vec<Outcome>,
+    /// What the engine, or the decomposition, did not take.
+    pub refused: Option<String>,
+    pub failures: Vec<Failure>,
+    /// Whether the referee's search for an earlier contact was complete.
+    pub proven: bool,
+}
+
+/// Something wrong with an answer.
+#[derive(Clone, Debug)]
+pub struct Failure {
+    pub fault: Fault,
+    pub by: (Kind, Method),
+    pub text: String,
+    pub others: String,
+}
+
+impl fmt::Display for Trial {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for ((kind, method), outcome) in self.asked.iter().zip(&self.outcomes) {
+            writeln!(f, "{kind} {method}: {outcome:?}")?;
+        }
+        f.write_str(&self.case.reproducer())
+    }
+}
+
+impl Failure {
+    pub fn report(&self, family: Family, seed: u64, number: u64, case: &Case) -> String {
+        let Failure { fault, by: (kind, method), text, others } = self;
+        let Config { margin, tolerance, .. } = case.config;
+        let name = format!("{family:?}").to_lowercase();
+        format!(
+            "{fault:?} {kind} {method}, margin {margin:e}, tolerance {tolerance:e}\n{text}\n{others}\
+             fuzz --family {name} --seed {seed} --only {number}\n{}",
+            case.reproducer()
+        )
+    }
+}
+
+pub fn run(family: Family, seed: u64, number: u64, watch: &Watch) -> Trial {
+    let mut draw = Draw::new(seed, number);
+    let case = family.draw(&mut draw);
+    let asked = methods(&mut draw, &case);
+    watch.begin(number);
+    let trial = ask(case, asked);
+    watch.end();
+    trial
+}
+
+/// By whom, over which pieces, a case is answered: always by the default, and by some others.
+fn methods(draw: &mut Draw, case: &Case) -> Vec<(Kind, Method)> {
+    let mut asked = vec![(Kind::Triangles, Method::Direct)];
+    let form = |form: Form| case.shapes.iter().any(|s| s.form == form);
+    let small = case.shapes.iter().all(|s| s.faces.len() < 200);
+    if draw.chance(0.4) {
+        asked.push((Kind::Triangles, draw.pick(&[Method::Gjk, Method::GjkF32, Method::Vmarch])));
+    }
+    let pieces = match (form(Form::Convex), form(Form::Solid)) {
+        (true, _) => draw.pick(&[Kind::Hull, Kind::Patches]),
+        (false, true) => Kind::Patches,
+        _ => Kind::Triangles,
+    };
+    if pieces != Kind::Triangles && draw.chance(0.6) {
+        asked.push((pieces, draw.pick(&[Method::Direct, Method::Gjk, Method::GjkF32, Method::Vmarch])));
+    }
+    let turn: f64 = case.courses.iter().map(|c| c.turn(case.duration)).sum();
+    if small && turn < 20.0 && draw.chance(0.15) {
+        asked.push((draw.pick(&[Kind::Triangles, pieces]), Method::Naive));
+    }
+    // Trees need exact predicates, which the finest coordinates have none of.
+    if small && turn < 20.0 && draw.chance(0.1) {
+        asked.push((pieces, draw.pick(&[Method::Fast, Method::HullFirst])));
+    }
+    asked
+}
+
+fn ask(case: Case, asked: Vec<(Kind, Method)>) -> Trial {
+    let mut trial = Trial {
+        case,
+        asked: Vec::new(),
+        outcomes: Vec::new(),
+        refused: None,
+        failures: Vec::new(),
+        proven: true,
+    };
+    let Trial { case, failures, refused, .. } = &mut trial;
+    let case = &*case;
+    let mut built: Vec<((Kind, Trees), Bodies)> = Vec::new();
+    for (kind, method) in &asked {
+        let key = (*kind, method.trees());
+        if built.iter().any(|(k, _)| *k == key) {
+            continue;
+        }
+        match catch_unwind(|| Bodies::new(case, key.0, key.1)) {
+            Ok(Ok(bodies)) => built.push((key, bodies)),
+            Ok(Err(why)) => *refused = Some(why),
+            Err(panic) => failures.push(panicked(&*panic, (*kind, *method))),
+        }
+    }
+    let mut given = Vec::new();
+    for (kind, method) in asked {
+        let bodies = built.iter().find(|(k, _)| *k == (kind, method.trees()));
+        let Some((_, bodies)) = bodies else { continue };
+        let problem = match bodies.problem(case, &config_of(case, method)) {
+            Ok(problem) => problem,
+            Err(why) => {
+                *refused = Some(why);
+                continue;
+            }
+        };
+        match catch_unwind(AssertUnwindSafe(|| method.solve(&problem))) {
+            Ok(answer) => given.push(Given { bodies, method, answer }),
+            Err(panic) => failures.push(panicked(&*panic, (kind, method))),
+        }
+    }
+    let asked = given.iter().map(|g| (g.bodies.kind, g.method)).collect();
+    let outcomes = given.iter().map(|g| g.answer.outcome).collect();
+    let mut searched = true;
+    if let Some(first) = given.first() {
+        let volumes = [0, 1].map(|k| first.bodies.bodies[k].volume());
+        let judge = Judge::new(case, volumes, rounding(case, first.bodies));
+        let (faults, proven) = judge.all(&given);
+        searched = proven;
+        let others: String = given
+            .iter()
+            .map(|g| format!("  {} {}: {:?}\n", g.bodies.kind, g.method, g.answer.outcome))
+            .collect();
+        failures.extend(faults.into_iter().map(|(k, fault, text)| Failure {
+            fault,
+            by: (given[k].bodies.kind, given[k].method),
+            text,
+            others: others.clone(),
+        }));
+    }
+    drop(given);
+    drop(built);
+    Trial { asked, outcomes, proven: searched, ..trial }
+}
+
+/// Schedules that take a step for all pairs together are not given all day.
+fn config_of(case: &Case, method: Method) -> Config {
+    let most = match method {
+        Method::Naive | Method::Fast => 200_000,
+        _ => u64::MAX,
+    };
+    Config { budget: case.config.budget.min(most), ..case.config }
+}
+
+/// What the engine allows itself for rounding: the least tolerance that it takes.
+fn rounding(case: &Case, bodies: &Bodies) -> f64 {
+    let least = Config { tolerance: 1e-100, ..case.config };
+    bodies.problem(case, &least).map_or(0.0, |p| p.tolerance())
+}
+
+fn panicked(panic: &(dyn std::any::Any + Send), by: (Kind, Method)) -> Failure {
+    let text = panic.downcast_ref::<String>().cloned();
+    let text = text.or_else(|| panic.downcast_ref::<&str>().map(|&s| s.to_owned()));
+    Failure { fault: Fault::Panic, by, text: text.unwrap_or_default(), others: String::new() }
+}
+
+/// The same case with as few triangles as still fail in the same way.
+pub fn shrunk(case: &Case, failure: &Failure) -> Case {
+    let fails = |case: &Case| {
+        let mut asked = vec![(Kind::Triangles, Method::Direct)];
+        asked.push(failure.by);
+        let again = ask(case.clone(), asked);
+        again.failures.iter().any(|f| f.fault == failure.fault)
+    };
+    let mut case = case.clone();
+    if case.shapes.iter().any(|s| s.form == Form::Points) {
+        return case;
+    }
+    for side in [0, 1] {
+        let mut face = 0;
+        while face < case.shapes[side].faces.len() && case.shapes[side].faces.len() > 1 {
+            let mut fewer = case.clone();
+            fewer.shapes[side].faces.remove(face);
+            fewer.shapes[side].form = Form::Soup;
+            fewer.shapes[side] = used(&fewer.shapes[side]);
+            match fails(&fewer) {
+                true => case = fewer,
+                false => face += 1,
+            }
+        }
+    }
+    case
+}
+
+/// Without the vertices that no face has.
+fn used(shape: &Shape) -> Shape {
+    let mut new = HashMap::new();
+    let mut out = Shape { form: shape.form, ..Shape::default() };
+    for face in &shape.faces {
+        out.faces.push(face.map(|v| {
+            *new.entry(v).or_insert_with(|| {
+                out.vertices.push(shape.vertices[v as usize]);
+                out.vertices.len() as u32 - 1
+            })
+        }));
+    }
+    out
+}
+
+/// Looks at what every thread is at, and ends the program when one does not end.
+#[derive(Clone)]
+pub struct Watch(Arc<Mutex<HashMap<ThreadId, (u64, Instant)>>>);
+
+impl Watch {
+    pub fn start(family: Family, seed: u64) -> Self {
+        let watch = Watch(Arc::default());
+        let all = Arc::downgrade(&watch.0);
+        thread::spawn(move || {
+            while let Some(all) = all.upgrade() {
+                let late = all.lock().ok().and_then(|all| {
+                    all.values().find(|(_, since)| since.elapsed() > PATIENCE).map(|&(n, _)| n)
+                });
+                drop(all);
+                if let Some(number) = late {
+                    let case = family.draw(&mut Draw::new(seed, number));
+                    eprintln!("{:?}: {family:?} --seed {seed} --only {number}", Fault::Hang);
+                    eprintln!("{}", case.reproducer());
+                    process::exit(1);
+                }
+                thread::sleep(Duration::from_millis(500));
+            }
+        });
+        watch
+    }
+
+    fn begin(&self, number: u64) {
+        if let Ok(mut all) = self.0.lock() {
+            all.insert(thread::current().id(), (number, Instant::now()));
+        }
+    }
+
+    fn end(&self) {
+        if let Ok(mut all) = self.0.lock() {
+            all.remove(&thread::current().id());
+        }
+    }
+}

@@ -1,0 +1,158 @@
+//! Vectors over either kind of number.
+
+use std::fmt::Debug;
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+/// f64 to search with, [`Double`](crate::double::Double) to judge with.
+pub trait Number:
+    Copy
+    + Debug
+    + PartialOrd
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+{
+    fn of(x: f64) -> Self;
+    fn rounded(self) -> f64;
+    fn sqrt(self) -> Self;
+}
+
+impl Number for f64 {
+    #[inline]
+    fn of(x: f64) -> Self {
+        x
+    }
+
+    #[inline]
+    fn rounded(self) -> f64 {
+        self
+    }
+
+    #[inline]
+    fn sqrt(self) -> Self {
+        f64::sqrt(self)
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Vector<N>(pub [N; 3]);
+
+impl<N: Number> Vector<N> {
+    #[inline]
+    pub fn of(v: [f64; 3]) -> Self {
+        Vector(v.map(N::of))
+    }
+
+    #[inline]
+    pub fn rounded(self) -> Vector<f64> {
+        Vector(self.0.map(N::rounded))
+    }
+
+    #[inline]
+    pub fn dot(self, o: Self) -> N {
+        self.0[0] * o.0[0] + self.0[1] * o.0[1] + self.0[2] * o.0[2]
+    }
+
+    #[inline]
+    pub fn cross(self, o: Self) -> Self {
+        let ([a, b, c], [x, y, z]) = (self.0, o.0);
+        Vector([b * z - c * y, c * x - a * z, a * y - b * x])
+    }
+
+    #[inline]
+    pub fn length(self) -> N {
+        let size = self.largest();
+        if !(size > 1e-290) {
+            return N::of(size);
+        }
+        // A power of two, so that squares neither overflow nor underflow.
+        let scale = N::of(power_of_two(size));
+        let v = self * (N::of(1.0) / scale);
+        v.dot(v).sqrt() * scale
+    }
+
+    /// Scaled by a power of two to a largest component of about 1; zero stays zero.
+    #[inline]
+    pub fn scaled(self) -> Self {
+        let size = self.largest();
+        match size > 0.0 && size.is_finite() {
+            // In two steps, since the reciprocal of a denormal overflows.
+            true if size < 1e-290 => {
+                let v = self * N::of(2f64.powi(600));
+                v * N::of(1.0 / power_of_two(v.largest()))
+            }
+            true => self * N::of(1.0 / power_of_two(size)),
+            false => self,
+        }
+    }
+
+    /// Of length 1, or none.
+    #[inline]
+    pub fn unit(self) -> Option<Self> {
+        let v = self.scaled();
+        let length = v.dot(v).sqrt();
+        (length.rounded() > 0.1).then(|| v * (N::of(1.0) / length))
+    }
+
+    /// The largest component's size, rounded.
+    #[inline]
+    pub fn largest(self) -> f64 {
+        self.0.iter().fold(0.0, |m, x| larger(m, x.rounded().abs()))
+    }
+}
+
+/// The power of two at or below a normal number: its exponent alone.
+#[inline]
+fn power_of_two(size: f64) -> f64 {
+    f64::from_bits(size.to_bits() & 0x7ff0_0000_0000_0000)
+}
+
+/// The larger of two numbers.
+#[inline]
+pub fn larger(a: f64, b: f64) -> f64 {
+    if b > a { b } else { a }
+}
+
+/// The smaller of two numbers.
+#[inline]
+pub fn smaller(a: f64, b: f64) -> f64 {
+    if b < a { b } else { a }
+}
+
+impl<N: Number> Add for Vector<N> {
+    type Output = Self;
+
+    #[inline]
+    fn add(self, o: Self) -> Self {
+        Vector([self.0[0] + o.0[0], self.0[1] + o.0[1], self.0[2] + o.0[2]])
+    }
+}
+
+impl<N: Number> Sub for Vector<N> {
+    type Output = Self;
+
+    #[inline]
+    fn sub(self, o: Self) -> Self {
+        Vector([self.0[0] - o.0[0], self.0[1] - o.0[1], self.0[2] - o.0[2]])
+    }
+}
+
+impl<N: Number> Neg for Vector<N> {
+    type Output = Self;
+
+    #[inline]
+    fn neg(self) -> Self {
+        Vector(self.0.map(|x| -x))
+    }
+}
+
+impl<N: Number> Mul<N> for Vector<N> {
+    type Output = Self;
+
+    #[inline]
+    fn mul(self, s: N) -> Self {
+        Vector(self.0.map(|x| x * s))
+    }
+}

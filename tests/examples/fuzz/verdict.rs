@@ -1,0 +1,373 @@
+//! Judging answers.
+
+use crate::case::{Case, Expect};
+use crate::double::Double;
+use crate::engine::{Bodies, Method};
+use crate::nearest::{Triangle, depth, distance};
+use crate::referee::{Evidence, Limit, Scene};
+use crate::solid::{Where, beside, clearance, locate, shells};
+use crate::vector::{Number, Vector, larger, smaller};
+use ccd_core::{Answer, Contact, Outcome, Overlap, Piece, StartPolicy, Volume};
+
+/// What an axis at a small distance may be off by, of a scene's size: what is kept of a distance at the
+/// start is what it certifies.
+const AXIS: f64 = 1e-11;
+
+/// What may be wrong with an answer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Fault {
+    /// The bodies were too near before the time that was reported.
+    Late,
+    /// The same, and no contact was reported at all.
+    Missed,
+    /// A contact where the bodies are farther apart than margin and tolerance.
+    FalseContact,
+    /// Touching, or overlapping, where the bodies are apart.
+    FalseStart,
+    /// No overlap reported where there is one.
+    NotOverlapping,
+    /// A lower bound above the distance.
+    LowerBound,
+    /// An upper bound below the distance.
+    UpperBound,
+    /// A witness that is not on its body.
+    Witness,
+    /// A clearance that is not kept.
+    Clearance,
+    /// An unresolved query that was safe for less time than it says.
+    NotSafe,
+    /// Two answers that cannot both be right.
+    Disagreement,
+    Panic,
+    Hang,
+}
+
+/// An answer and who gave it.
+pub struct Given<'a> {
+    pub bodies: &'a Bodies,
+    pub method: Method,
+    pub answer: Answer,
+}
+
+/// What is known of the start.
+struct Start {
+    distance: f64,
+    /// Triangles are deeper in each other than rounding explains, or one body is inside the other.
+    overlaps: bool,
+    /// Whether one could be called inside of the other.
+    may_contain: bool,
+}
+
+/// Judges answers to one case; `rounding` bounds what the engine allows itself for rounding.
+pub struct Judge<'a> {
+    case: &'a Case,
+    scene: Scene,
+    rounding: f64,
+    start: Start,
+    volumes: [Volume; 2],
+}
+
+pub type Faults = Vec<(Fault, String)>;
+
+impl<'a> Judge<'a> {
+    pub fn new(case: &'a Case, volumes: [Volume; 2], rounding: f64) -> Self {
+        let scene = Scene::new(case);
+        let distance = scene.distance(0.0);
+        // Nearer than this, inside and outside are a matter of rounding.
+        let touching = distance <= rounding;
+        let deep = touching && scene.depth(0.0) > rounding;
+        let placed = [scene.placed(0, 0.0), scene.placed(1, 0.0)];
+        let inside = match touching {
+            true => shared_inside(&placed, volumes, rounding),
+            false => contained(&placed, volumes),
+        };
+        let start = Start {
+            distance,
+            overlaps: deep || inside == Where::Inside,
+            may_contain: touching || inside != Where::Outside,
+        };
+        Judge { case, scene, rounding, start, volumes }
+    }
+
+    /// What is wrong with the answers, with who gave them; and whether nothing earlier than their
+    /// times was left unsearched.
+    pub fn all(&self, given: &[Given<'_>]) -> (Vec<(usize, Fault, String)>, bool) {
+        let times = given.iter().map(|g| self.proven(&g.answer.outcome));
+        let until = times.fold(0.0, larger);
+        let (evidence, proven) = self.scene.first_below(self.limit(given), until);
+        let mut faults = Vec::new();
+        for (k, one) in given.iter().enumerate() {
+            let found = self.one(one, evidence).into_iter();
+            faults.extend(found.map(|(fault, text)| (k, fault, text)));
+        }
+        faults.extend(self.disagreements(given));
+        (faults, proven)
+    }
+
+    /// Until when an answer says that nothing touches.
+    fn proven(&self, outcome: &Outcome) -> f64 {
+        match *outcome {
+            Outcome::Contact { time, .. } => time,
+            Outcome::Free { .. } => self.case.duration,
+            Outcome::Unresolved { safe_until, .. } => safe_until,
+            Outcome::Touching { .. } | Outcome::Overlapping { .. } => 0.0,
+        }
+    }
+
+    /// What would be too near.
+    fn limit(&self, given: &[Given<'_>]) -> Limit {
+        let margin = self.case.config.margin;
+        let tolerance = given.iter().map(|g| g.answer.tolerance).fold(self.rounding, larger);
+        let begun = self.start.distance <= margin + tolerance;
+        match self.case.config.start {
+            // Bodies that are let go keep the distance that they have, but for what the axis that
+            // certified it is off by.
+            StartPolicy::Leave if begun && self.start.distance < margin + self.rounding => {
+                let kept = smaller(margin, self.start.distance) - self.rounding - AXIS * self.scene.scale;
+                Limit { threshold: larger(kept, 0.0), depth: self.rounding }
+            }
+            _ => {
+                let clearances = given.iter().filter_map(|g| match g.answer.outcome {
+                    Outcome::Free { clearance } => Some(clearance),
+                    _ => None,
+                });
+                Limit { threshold: clearances.fold(margin, larger), depth: 0.0 }
+            }
+        }
+    }
+
+    fn one(&self, given: &Given<'_>, evidence: Option<Evidence>) -> Faults {
+        let answer = &given.answer;
+        let mut faults = self.unexpected(&answer.outcome);
+        let mut say = |fault, text| faults.push((fault, text));
+        let margin = self.case.config.margin;
+        let proven = self.proven(&answer.outcome);
+        let before = evidence.filter(|e| e.time < proven || proven == self.case.duration);
+        let below_margin = |e: &Evidence| !(e.distance > 0.0) || e.distance < self.kept(margin);
+        let early = before.filter(below_margin);
+        let known = |e: Evidence| {
+            let Evidence { time, distance, depth } = e;
+            format!("at {time:e} {distance:e} apart, {depth:e} deep, {:?}", answer.outcome)
+        };
+        let overlaps = self.start.overlaps;
+        match answer.outcome {
+            Outcome::Contact { .. } | Outcome::Free { .. } | Outcome::Touching { .. } if overlaps => {
+                say(Fault::NotOverlapping, format!("{:?}", answer.outcome));
+            }
+            Outcome::Contact { time, contact } => {
+                early.into_iter().for_each(|e| say(Fault::Late, known(e)));
+                faults.extend(self.near(given, &contact, time));
+            }
+            Outcome::Free { clearance } => match (early, before) {
+                (Some(e), _) => say(Fault::Missed, known(e)),
+                (None, Some(e)) if e.distance < clearance - self.scene.error() => {
+                    say(Fault::Clearance, known(e));
+                }
+                _ => {}
+            },
+            Outcome::Touching { contact } => faults.extend(self.near(given, &contact, 0.0)),
+            Outcome::Overlapping { overlap } => faults.extend(self.overlap(given, &overlap)),
+            Outcome::Unresolved { safe_until, .. } => {
+                if overlaps && safe_until > 0.0 {
+                    say(Fault::NotSafe, format!("overlapping, {:?}", answer.outcome));
+                }
+                early.into_iter().for_each(|e| say(Fault::NotSafe, known(e)));
+            }
+        }
+        faults
+    }
+
+    /// The distance below which the bodies are too near.
+    fn kept(&self, margin: f64) -> f64 {
+        match self.case.config.start {
+            StartPolicy::Leave => smaller(margin, self.start.distance),
+            StartPolicy::Report => margin,
+        }
+    }
+
+    fn unexpected(&self, outcome: &Outcome) -> Faults {
+        let wrong = match (self.case.expect, *outcome) {
+            (_, Outcome::Unresolved { .. }) | (Expect::Nothing, _) => None,
+            (Expect::Free, Outcome::Free { .. }) => None,
+            (Expect::Free, _) => Some(Fault::FalseContact),
+            (Expect::ContactBy(t), Outcome::Contact { time, .. }) => (time > t).then_some(Fault::Late),
+            (Expect::ContactBy(_), Outcome::Free { .. }) => Some(Fault::Missed),
+            (Expect::ContactBy(_), _) => None,
+        };
+        let text = || format!("expected {:?}, {outcome:?}", self.case.expect);
+        wrong.into_iter().map(|fault| (fault, text())).collect()
+    }
+
+    /// A contact at a time: is it one, and are its bounds and witnesses right?
+    fn near(&self, given: &Given<'_>, contact: &Contact, time: f64) -> Faults {
+        let mut faults = Vec::new();
+        let (scene, error) = (&self.scene, self.scene.error());
+        let found = contact.separation;
+        let reported = self.case.config.margin + given.answer.tolerance;
+        let text = |d: f64| format!("distance {d:e}, {:?}", given.answer.outcome);
+        let mut d = scene.distance(time);
+        if d > reported + error || d > found.upper + error {
+            d = scene.exact_distance(time);
+        }
+        if d > reported + error {
+            let fault = if time > 0.0 { Fault::FalseContact } else { Fault::FalseStart };
+            faults.push((fault, text(d)));
+        }
+        if d > found.upper + error {
+            faults.push((Fault::UpperBound, text(d)));
+        }
+        // The bodies' distance at the start; later that of the pair.
+        let lower = match time > 0.0 {
+            true => self.piece_distance(given.bodies, contact, time),
+            false => Some(d),
+        };
+        if let Some(d) = lower.filter(|d| found.lower > d + error) {
+            faults.push((Fault::LowerBound, format!("pieces {}", text(d))));
+        }
+        if let Some(off) = self.off_surface(contact, time) {
+            faults.push((Fault::Witness, format!("off by {off:e}, {}", text(d))));
+        }
+        faults
+    }
+
+    /// How far the witnesses are off what the contact says, where that is more than rounding.
+    fn off_surface(&self, contact: &Contact, time: f64) -> Option<f64> {
+        let origin = self.scene.moments(time)[0].centre;
+        let found = contact.separation;
+        let witnesses = [found.witness_a, found.witness_b].map(|w| Vector(w.to_array()));
+        let far = witnesses.iter().fold(0.0, |m, w| larger(m, w.largest()));
+        let far = larger(far, origin.largest());
+        let allowed = 1e-12 * (self.scene.scale + far) + 16.0 * self.rounding;
+        let mut off = [0, 1].map(|k| {
+            let placed = self.scene.placed(k, time);
+            let point = Vector::of(witnesses[k].0) - origin;
+            let off = clearance(point, &placed);
+            // A piece may stick through the inside of its solid.
+            let inside = off > allowed && locate(point, &placed) != Where::Outside;
+            if inside && self.volumes[k] == Volume::Solid { 0.0 } else { off }
+        });
+        off.sort_by(f64::total_cmp);
+        let way = (witnesses[0] - witnesses[1]).length();
+        let long = larger(0.0, way - found.upper);
+        let unit = (found.normal.length() - 1.0).abs();
+        let bent = if unit < 1e-12 { 0.0 } else { f64::INFINITY };
+        let most = larger(larger(off[1], long), bent);
+        (most > allowed).then_some(most)
+    }
+
+    fn piece_distance(&self, bodies: &Bodies, contact: &Contact, time: f64) -> Option<f64> {
+        let [a, b] = self.piece_triangles(bodies, contact, time)?;
+        let pairs = a.iter().flat_map(|s| b.iter().map(move |t| distance(s, t).rounded()));
+        Some(pairs.fold(f64::INFINITY, smaller))
+    }
+
+    fn piece_triangles(&self, bodies: &Bodies, contact: &Contact, time: f64) -> Option<[Vec<Triangle<Double>>; 2]> {
+        let moments = self.scene.moments(time);
+        let side = |k: usize, piece: u32| {
+            let piece = bodies.bodies[k].pieces().get(piece as usize);
+            let track = &self.scene.sides[k].track;
+            let place = |p: [f64; 3]| {
+                moments[k].arm(Vector::of(p) - track.centre) + (moments[k].centre - moments[0].centre)
+            };
+            Some(surface(&piece)?.into_iter().map(|t| t.map(place)).collect())
+        };
+        Some([side(0, contact.piece_a)?, side(1, contact.piece_b)?])
+    }
+
+    fn overlap(&self, given: &Given<'_>, overlap: &Overlap) -> Faults {
+        let text = || format!("distance {:e}, {:?}", self.start.distance, given.answer.outcome);
+        let wrong = match *overlap {
+            Overlap::Pieces(contact) => self.start.distance > self.rounding && !self.start.may_contain
+                || self.only_touch(given.bodies, &contact),
+            Overlap::AInsideB(p) => !self.is_inside(p.to_array(), 1),
+            Overlap::BInsideA(p) => !self.is_inside(p.to_array(), 0),
+        };
+        wrong.then(|| (Fault::FalseStart, text())).into_iter().collect()
+    }
+
+    /// Whether two pieces that are said to overlap are triangles with disjoint insides.
+    fn only_touch(&self, bodies: &Bodies, contact: &Contact) -> bool {
+        match self.piece_triangles(bodies, contact, 0.0).as_ref().map(|both| both.each_ref().map(|s| &s[..])) {
+            Some([[s], [t]]) => !(depth(s, t).rounded() > 0.0),
+            _ => false,
+        }
+    }
+
+    fn is_inside(&self, p: [f64; 3], outer: usize) -> bool {
+        let point = Vector::of(p) - self.scene.moments(0.0)[0].centre;
+        let placed = self.scene.placed(outer, 0.0);
+        // Points are given in world coordinates, rounded.
+        let near = 1e-12 * larger(self.scene.scale, Vector(p).largest());
+        locate(point, &placed) != Where::Outside || clearance(point, &placed) < near
+    }
+
+    /// A contact so near that another answer's proof should have ended there, too.
+    fn disagreements(&self, given: &[Given<'_>]) -> Vec<(usize, Fault, String)> {
+        let mut faults = Vec::new();
+        if self.case.config.start == StartPolicy::Leave {
+            return faults;
+        }
+        for one in given {
+            let Outcome::Contact { time, .. } = one.answer.outcome else { continue };
+            let d = self.scene.distance(time);
+            for (k, other) in given.iter().enumerate() {
+                let tolerance = smaller(one.answer.tolerance, other.answer.tolerance);
+                let near = d < self.case.config.margin + 0.5 * tolerance - self.scene.error();
+                if near && self.proven(&other.answer.outcome) > time {
+                    let text = format!("{d:e} apart at {time:e}, {:?}", other.answer.outcome);
+                    faults.push((k, Fault::Disagreement, text));
+                }
+            }
+        }
+        faults
+    }
+}
+
+/// The triangles that bound a piece.
+fn surface(piece: &Piece<'_>) -> Option<Vec<[[f64; 3]; 3]>> {
+    let at = |k: u32| piece.points[k as usize].to_array();
+    if let Some(last) = (piece.points.len() as u32).checked_sub(1).filter(|&last| last < 3) {
+        return Some(vec![[at(0), at(1.min(last)), at(last)]]);
+    }
+    let loops = piece.facets.iter();
+    let fans = loops.flat_map(|l| (1..l.len() - 1).map(move |k| [at(l[0]), at(l[k]), at(l[k + 1])]));
+    (!piece.facets.is_empty()).then(|| fans.collect())
+}
+
+/// Whether a part of one body is inside the other one, where the surfaces are apart.
+fn contained(placed: &[Vec<Triangle<Double>>; 2], volumes: [Volume; 2]) -> Where {
+    let mut doubtful = Where::Outside;
+    for outer in [0, 1] {
+        if volumes[outer] == Volume::Surface {
+            continue;
+        }
+        let inner = &placed[1 - outer];
+        for shell in shells(inner) {
+            match locate(inner[shell][0], &placed[outer]) {
+                Where::Inside => return Where::Inside,
+                Where::Outside => {}
+                Where::Doubtful | Where::Unknown => doubtful = Where::Doubtful,
+            }
+        }
+    }
+    doubtful
+}
+
+/// Whether a point is well inside of one body and on, or inside of, the other, where they touch.
+fn shared_inside(placed: &[Vec<Triangle<Double>>; 2], volumes: [Volume; 2], far: f64) -> Where {
+    let well_inside = |p: Vector<Double>, side: usize| {
+        locate(p, &placed[side]) == Where::Inside && clearance(p, &placed[side]) > far
+    };
+    for outer in [0, 1].into_iter().filter(|&k| volumes[k] == Volume::Solid) {
+        let inner = &placed[1 - outer];
+        let corners = inner.iter().map(|t| t[0]);
+        let shared = match volumes[1 - outer] {
+            Volume::Solid => beside(inner).into_iter().filter(|&p| well_inside(p, 1 - outer)).collect(),
+            Volume::Surface => Vec::new(),
+        };
+        if corners.chain(shared).any(|p| well_inside(p, outer)) {
+            return Where::Inside;
+        }
+    }
+    Where::Outside
+}
