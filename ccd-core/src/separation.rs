@@ -101,7 +101,7 @@ fn named(combination: Combination, points: &[DVec3]) -> (Combination, DVec3) {
 }
 
 /// The unit vector, or an arbitrary one where there is none: a support gap is a bound along any.
-fn unit(v: DVec3) -> DVec3 {
+pub(crate) fn unit(v: DVec3) -> DVec3 {
     // Scaled first, so that neither tiny nor huge vectors lose their direction.
     let scale = v.abs().max_element();
     if scale > 0.0 && scale.is_finite() {

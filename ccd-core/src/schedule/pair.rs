@@ -3,7 +3,7 @@
 use super::moment::Moment;
 use crate::oracle::{Combination, DistanceOracle};
 use crate::outcome::{Contact, Separation, Stats};
-use crate::overlap;
+use crate::overlap::{self, Intersection};
 use crate::problem::{Problem, Side, StartPolicy};
 use crate::separation::Checked;
 use crate::tolerance::RESTING;
@@ -43,6 +43,8 @@ pub(crate) enum Step {
     Stalled,
     /// The oracle has no answer.
     GaveUp,
+    /// Touching or intersecting at the start, which nothing tells.
+    Undecided,
 }
 
 impl<C: Default + Clone> Pair<C> {
@@ -86,8 +88,12 @@ impl<C: Default + Clone> Pair<C> {
         let contact = || contact(moment, ids, &checked);
         let apart = problem.margin + problem.tolerance;
         if checked.upper <= apart {
-            if s == 0.0 && overlap::intersects(&moment.pieces, &checked, problem.rounding) {
-                return Step::Overlap(contact());
+            if s == 0.0 {
+                match overlap::intersects(&moment.pieces, &checked, problem.rounding) {
+                    Intersection::Certain => return Step::Overlap(contact()),
+                    Intersection::Undecided => return Step::Undecided,
+                    Intersection::None => {}
+                }
             }
             match self.goal {
                 Goal::Apart => match self.goal_of_start(problem, oracle, stats) {

@@ -1,7 +1,7 @@
 //! What is found at the start: touching, overlapping, or one inside the other.
 
 use super::pair::Step;
-use crate::containment;
+use crate::containment::{self, Containment};
 use crate::oracle::DistanceOracle;
 use crate::outcome::{Answer, Contact, Limit, Outcome, Overlap, Stats};
 use crate::problem::{Problem, StartPolicy};
@@ -41,12 +41,18 @@ pub(crate) fn answer<O: DistanceOracle>(
 #[derive(Debug, Default)]
 pub(crate) struct Start {
     touching: Option<Contact>,
+    /// The pairs that no axis keeps apart.
+    resting: Vec<[u32; 2]>,
     over: bool,
 }
 
 impl Start {
     /// A pair touches at the start; another one may be nearer, or overlap still.
     fn touch(&mut self, contact: Contact) {
+        // Written so that NaN is not apart.
+        if !(contact.separation.lower > 0.0) {
+            self.resting.push([contact.piece_a, contact.piece_b]);
+        }
         let nearest = self.touching.get_or_insert(contact);
         if contact.separation.lower < nearest.separation.lower {
             *nearest = contact;
@@ -78,6 +84,7 @@ impl Start {
             Step::Overlap(contact) => Start::overlapping(contact),
             Step::Stalled => unresolved(Limit::Stalled),
             Step::GaveUp => unresolved(Limit::OracleGaveUp),
+            Step::Undecided => unresolved(Limit::Undecided),
         })
     }
 
@@ -98,14 +105,17 @@ impl Start {
         if std::mem::replace(&mut self.over, true) {
             return None;
         }
-        let touching = self.touching.is_some();
-        let inside = match touching {
-            true => containment::of_touching(problem),
-            false => containment::at_start(problem),
-        };
-        match inside {
-            Some(overlap) => Some(Outcome::Overlapping { overlap }),
-            None => self.touching(),
+        if problem.start == StartPolicy::Leave {
+            // The search that reported the contact has looked already.
+            return self.touching();
+        }
+        match containment::at_start(problem, &std::mem::take(&mut self.resting)) {
+            Containment::Inside(overlap) => Some(Outcome::Overlapping { overlap }),
+            Containment::Outside => self.touching(),
+            Containment::Undecided => Some(Outcome::Unresolved {
+                safe_until: 0.0,
+                reason: Limit::Undecided,
+            }),
         }
     }
 }
