@@ -10,7 +10,7 @@ use ccd_core::{Limit, Outcome};
 use std::fmt;
 
 /// What ends a query early, and what to do about it.
-const LIMITS: [(Limit, &str); 3] = [
+const LIMITS: [(Limit, &str); 4] = [
     (
         Limit::Budget,
         "the budget of node visits was spent; --budget raises it",
@@ -22,6 +22,10 @@ const LIMITS: [(Limit, &str); 3] = [
     (
         Limit::OracleGaveUp,
         "the oracle gave up; another --oracle may not",
+    ),
+    (
+        Limit::Undecided,
+        "at the start it cannot be told whether the bodies overlap; move one of them a little",
     ),
 ];
 

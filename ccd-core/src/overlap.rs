@@ -25,11 +25,7 @@ pub(crate) enum Intersection {
 /// differences of their points, by more than `rounding`, or an axis shows that it is not. Of rounded
 /// ones the claim's witnesses are proof of an intersection, and its axis of there being none; where it
 /// offers neither they count as touching.
-pub(crate) fn intersects(
-    pair: &PiecePair<'_>,
-    checked: &Checked,
-    rounding: f64,
-) -> Intersection {
+pub(crate) fn intersects(pair: &PiecePair<'_>, checked: &Checked, rounding: f64) -> Intersection {
     let radii = pair.a.radius + pair.b.radius;
     if radii > 0.0 {
         // Witnesses of the cores that are nearer than the radii are proof enough.

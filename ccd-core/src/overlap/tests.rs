@@ -220,9 +220,8 @@ fn overlap_by_axes(pair: &PiecePair<'_>) -> bool {
         crossed.collect()
     };
     let depth = |axis: &Double3| {
-        let heights = |points: &[Double3]| -> Vec<Double> {
-            points.iter().map(|p| axis.dot(*p)).collect()
-        };
+        let heights =
+            |points: &[Double3]| -> Vec<Double> { points.iter().map(|p| axis.dot(*p)).collect() };
         let (p, q) = (heights(&a.points), heights(&b.points));
         let farthest = |h: &[Double]| h.iter().copied().reduce(Double::max).unwrap();
         let nearest = |h: &[Double]| h.iter().copied().reduce(Double::min).unwrap();

@@ -83,6 +83,9 @@ fn is_past(triangle: [DVec3; 3], point: DVec3, reach: f64) -> bool {
     };
     separates(normal)
         || separates(-normal)
-        || [(a, b), (b, c), (c, a)].map(across).into_iter().any(separates)
+        || [(a, b), (b, c), (c, a)]
+            .map(across)
+            .into_iter()
+            .any(separates)
         || corners.into_iter().any(separates)
 }

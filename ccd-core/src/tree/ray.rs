@@ -146,7 +146,8 @@ impl Crossings {
         }
         if sides.contains(&Sign::Unclear) {
             // Past a triangle that is too small or too thin for its edges to tell.
-            let reach = greater(size(b - a), size(c - a)) + SIGN_F64 * (size(a) + size(b) + size(c));
+            let reach =
+                greater(size(b - a), size(c - a)) + SIGN_F64 * (size(a) + size(b) + size(c));
             return (a.cross(along).abs().max_element() > 2.0 * reach).then_some(());
         }
         let sign = match sides[0] {

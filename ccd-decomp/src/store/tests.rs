@@ -125,7 +125,7 @@ fn another_version_is_told_before_it_is_called_damaged() {
     ));
     let told = fault(&bytes).to_string();
     assert!(
-        told.contains("version 255") && told.contains("version 1 is what is read"),
+        told.contains("version 255") && told.contains("version 2 is what is read"),
         "{told}"
     );
 }
