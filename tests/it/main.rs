@@ -26,6 +26,7 @@ mod published_bound;
 mod referee;
 mod regressions;
 mod scenes;
+mod shells;
 mod start;
 mod statuses;
 mod symmetries;
