@@ -213,6 +213,10 @@ pub const MAX_CORNERS: usize = 256;
 /// inside or outside of it: its place is rounded, and so is the surface's.
 pub const INSIDE: f64 = 4.0;
 
+/// How far beside an edge that lies on a flat piece points of the piece are looked at, in units of the
+/// length of what lies on it: far above rounding, below the distance to what else is there.
+pub const BESIDE_EDGE: f64 = 1e-3;
+
 /// How far below a flat piece a point of its solid is looked for, in units of the piece's size, one
 /// after the other: far above what tells it from the surface, then within walls that are thinner.
 pub const BELOW_SURFACE: [f64; 4] = [1e-4, 1e-6, 1e-9, 1e-12];
