@@ -10,7 +10,7 @@ use ccd_core::{Limit, Outcome};
 use std::fmt;
 
 /// What ends a query early, and what to do about it.
-const LIMITS: [(Limit, &str); 4] = [
+const LIMITS: [(Limit, &str); 5] = [
     (Limit::Budget, "the budget was spent; --budget raises it"),
     (
         Limit::Deadline,
@@ -23,6 +23,10 @@ const LIMITS: [(Limit, &str); 4] = [
     (
         Limit::OracleGaveUp,
         "the oracle gave up; another --oracle may not",
+    ),
+    (
+        Limit::Undecided,
+        "at the start it cannot be told whether the bodies overlap; move one of them a little",
     ),
 ];
 

@@ -7,12 +7,9 @@ use crate::hierarchy::Hierarchy;
 use crate::hull_tree::{HullTree, HullTreeError};
 use crate::naming::face_under;
 use crate::oracle::Combination;
-use crate::piece::Piece;
 use crate::pieces::Pieces;
 use crate::shell::{Shell, shells};
 use crate::tree::{Tree, pieces_at};
-use crate::vector::normal;
-use glam::DVec3;
 
 /// What moves: convex pieces in the body's own frame, ready for queries; immutable, shareable.
 ///
@@ -29,18 +26,9 @@ pub struct Body {
     tree: Tree,
     volume: Volume,
     shells: Vec<Shell>,
-    /// Which way the faces of a solid are turned.
-    facing: Facing,
     /// Its leaves name the pieces in the order of the tree.
     #[cfg(feature = "hull-tree")]
     hull_tree: Option<HullTree>,
-}
-
-/// Which way the normals of a closed mesh point.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Facing {
-    Outward,
-    Inward,
 }
 
 /// Whether being inside of a body counts as touching it.
@@ -48,7 +36,9 @@ enum Facing {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Volume {
     /// The triangles, or the [mesh's triangles](crate::Piece::mesh_triangles) on the pieces, bound a solid:
-    /// together they are closed. A body inside it overlaps it. A single piece is solid by itself.
+    /// together they are closed. It is where they wind about a point, whichever way: of shells within each
+    /// other each has to be wound the other way than what is around it. A body inside it overlaps it. A
+    /// single piece is solid by itself.
     Solid,
     /// Only the pieces themselves are there to be touched.
     Surface,
@@ -77,10 +67,6 @@ impl Body {
         let (tree, pieces) = Tree::build(pieces, hierarchy)?;
         Ok(Body {
             shells: shells(&pieces),
-            facing: match volume == Volume::Solid && signed_volume(&pieces) < 0.0 {
-                true => Facing::Inward,
-                false => Facing::Outward,
-            },
             pieces,
             tree,
             volume,
@@ -143,24 +129,6 @@ impl Body {
         .map_or(feature, Feature::Face)
     }
 
-    /// The unit normal of a flat piece that points out of the solid which the body's faces bound;
-    /// none where there is no such thing.
-    pub(crate) fn outward_normal(&self, piece: u32) -> Option<DVec3> {
-        let piece = self.pieces.get(piece as usize);
-        if self.volume == Volume::Surface || !piece.is_flat() {
-            return None;
-        }
-        let triangle = match *piece.points {
-            [a, b, c] if self.pieces.all_triangles() => [a, b, c],
-            _ => piece.mesh_triangles().next()?.1,
-        };
-        let normal = normal(triangle)?;
-        Some(match self.facing {
-            Facing::Outward => normal,
-            Facing::Inward => -normal,
-        })
-    }
-
     /// Whether its faces bound a solid that its pieces need not fill.
     pub(crate) fn may_be_hollow(&self) -> bool {
         self.volume == Volume::Solid && (self.pieces.all_triangles() || self.pieces.len() > 1)
@@ -176,21 +144,6 @@ impl Body {
     pub(crate) fn shells(&self) -> &[Shell] {
         &self.shells
     }
-}
-
-/// Six times the volume that the mesh's faces bound, negative where their normals point inward.
-fn signed_volume(pieces: &Pieces) -> f64 {
-    let cone = |triangle: [DVec3; 3]| area_normal(triangle).dot(triangle[0]);
-    let of_piece = |piece: Piece<'_>| -> f64 { piece.mesh_triangles().map(|(_, t)| cone(t)).sum() };
-    match pieces.all_triangles() {
-        true => (0..pieces.len()).map(|k| cone(pieces.triangle(k))).sum(),
-        false => pieces.iter().map(of_piece).sum(),
-    }
-}
-
-/// The normal of a triangle, twice its area long.
-fn area_normal([a, b, c]: [DVec3; 3]) -> DVec3 {
-    (b - a).cross(c - a)
 }
 
 #[cfg(test)]

@@ -88,6 +88,7 @@ mod body;
 mod contacts;
 mod containment;
 mod error;
+mod facing;
 mod feature;
 mod hierarchy;
 #[cfg(feature = "hull-tree")]

@@ -66,6 +66,9 @@ pub enum Limit {
     Stalled,
     /// The oracle gave up on a pair, and nobody else was there to ask.
     OracleGaveUp,
+    /// Bodies that touch at the start, or one of which may be inside the other, are too near to each
+    /// other to tell whether they overlap.
+    Undecided,
 }
 
 /// A checked pair of nearest points, with the features that hold them.

@@ -221,6 +221,14 @@ impl Pieces {
         [corners[0], corners[1], corners[2]]
     }
 
+    /// The corners of a piece that is a triangle, or of the first of the mesh's triangles on it.
+    pub(crate) fn first_triangle(&self, index: usize) -> Option<[DVec3; 3]> {
+        match self.all_triangles() {
+            true => Some(self.triangle(index)),
+            false => self.get(index).mesh_triangles().next().map(|(_, t)| t),
+        }
+    }
+
     /// All points of consecutive pieces.
     pub(crate) fn points_of(&self, pieces: std::ops::Range<usize>) -> &[DVec3] {
         let start = self.point_range(pieces.start).start;

@@ -107,7 +107,7 @@ fn named(combination: Combination, points: &[DVec3]) -> (Combination, DVec3) {
 
 /// The unit vector, or an arbitrary one where there is none: a support gap is a bound along any.
 #[inline]
-fn unit_or_any(v: DVec3) -> DVec3 {
+pub(crate) fn unit_or_any(v: DVec3) -> DVec3 {
     unit(v).unwrap_or(DVec3::X)
 }
 

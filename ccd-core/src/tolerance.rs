@@ -219,9 +219,16 @@ pub const MUCH_LARGER: f32 = 3.0;
 /// is split off would be swept past all the same. Measured on discs and on soups of large triangles.
 pub const SWEPT: f32 = 1.0 / 128.0;
 
-/// A ray that passes an edge, or starts from a plane, at less than about this angle is not used to
-/// tell inside from outside: far above rounding (1e-15), far below the angles of a million triangles.
-pub const GRAZING: f64 = 1e-9;
+/// Bounds the rounding of the determinant of three vectors, relative to the product of their 1-norms,
+/// where two of them, or all, are differences of points; and that of a product of two, relative to theirs.
+///
+/// Each difference is rounded (1u), the products of three components take 2 more, the six of them are
+/// summed in 3: at most 8u; 16u are taken.
+pub const SIGN_F64: f64 = 16.0 * U64;
+
+/// How many rays are tried to count how often a surface winds about a point. A ray fails that passes an
+/// edge by less than rounding, which even of a million triangles one in 10⁸ does.
+pub const RAYS: u32 = 32;
 
 /// How far the columns of an orthonormal frame computed in f64 may be from unit length and right angles:
 /// twelve rotations of [`U64`] each come to less, and f32, to which a box's axes are rounded, is far above.
@@ -246,17 +253,22 @@ pub const CLOSED_GAP: f64 = 1.0 / 16.0;
 /// of one with a coordinate, and no sum of four, overflows or underflows.
 pub const WEIGHTS: std::ops::RangeInclusive<f64> = 1e-100..=1e100;
 
-/// The most axes that are tried to tell an overlap at the start from a touch; of polytopes with more
-/// pairs of edges the oracle's word is taken. Each costs a support query.
-pub const MAX_AXES: usize = 4096;
+/// The most corners that are added to a polytope within the difference of two pieces before it is given
+/// up to tell whether it holds the origin. Each brings the least depth found nearer to the true one;
+/// of pieces of a thousand corners that begin to overlap a few tens were seen to be enough.
+pub const MAX_CORNERS: usize = 256;
 
-/// How many triangles of a body that touches a solid at the start are looked at to tell whether they
-/// lie inside of it.
-pub const INSIDE_SAMPLES: usize = 256;
+/// How much farther from a surface than the rounding of distances a point has to be to be told to be
+/// inside or outside of it: its place is rounded, and so is the surface's.
+pub const INSIDE: f64 = 4.0;
 
-/// How far below a triangle a solid is looked for, in units of the triangle's size: far above what a
-/// ray needs to be clear of the surface, far below the size of what touches.
-pub const BELOW_SURFACE: f64 = 1e-6;
+/// How far beside an edge that lies on a flat piece points of the piece are looked at, in units of the
+/// length of what lies on it: far above rounding, below the distance to what else is there.
+pub const BESIDE_EDGE: f64 = 1e-3;
+
+/// How far below a flat piece a point of its solid is looked for, in units of the piece's size, one
+/// after the other: far above what tells it from the surface, then within walls that are thinner.
+pub const BELOW_SURFACE: [f64; 4] = [1e-4, 1e-6, 1e-9, 1e-12];
 
 /// Bounds the rounding of a height `n·x`, relative to `|n|₁` and the largest coordinate: three
 /// products and two sums, at most 3u; 4u are taken.

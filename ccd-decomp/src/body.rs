@@ -74,15 +74,16 @@ pub fn body_from_mesh(mesh: &TriangleMesh, detail: Detail) -> Result<Prepared, B
 ///
 /// # Guarantee
 /// The pieces cover the mesh; but for [`Detail::Vhacd`] they touch nothing outside of the solid that it
-/// bounds. The body is solid exactly when the mesh is closed and consistently oriented; one that is
-/// inside out counts as solid, too, and its report says so. [`Detail::Auto`] and [`Detail::Triangles`]
-/// take any mesh.
+/// bounds. The body is solid exactly when the mesh is closed, neighbours run the same way, and of shells
+/// that are within others it is [clear](Topology::unclear) what they bound; shells that are inside out are
+/// turned round, and the report says so. [`Detail::Auto`] and [`Detail::Triangles`] take any mesh.
 ///
 /// # Errors
 /// [`BodyError::Decompose`] when the mesh does not bound the kind of solid that was asked for,
 /// [`BodyError::Vhacd`], [`BodyError::Input`] when there are too many pieces.
 pub fn prepare(mesh: &TriangleMesh, detail: Detail) -> Result<Model, BodyError> {
-    let topology = Topology::of(mesh);
+    let (topology, turned) = Topology::and_turned(mesh);
+    let mesh = turned.as_ref().unwrap_or(mesh);
     let (parts, why) = match detail {
         Detail::Auto => auto::choose(mesh, &topology),
         Detail::Triangles => (Parts::Triangles, Why::Asked),
@@ -114,7 +115,7 @@ impl Parts {
         topology: Topology,
         why: Why,
     ) -> Result<Model, BodyError> {
-        let volume = match topology.is_closed() {
+        let volume = match topology.is_solid() {
             true => Volume::Solid,
             false => Volume::Surface,
         };

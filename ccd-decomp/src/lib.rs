@@ -43,6 +43,7 @@ mod hull;
 mod hull_tree;
 mod manifold;
 mod mesh;
+mod nesting;
 mod polygons;
 mod predicates;
 mod repair;

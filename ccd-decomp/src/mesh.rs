@@ -137,6 +137,15 @@ impl TriangleMesh {
         &self.face_ids
     }
 
+    /// The same mesh with some faces turned round.
+    pub(crate) fn turned(&self, faces: &[u32]) -> Self {
+        let mut mesh = self.clone();
+        for &face in faces {
+            mesh.faces[face as usize].swap(1, 2);
+        }
+        mesh
+    }
+
     /// What was found amiss, and what became of it.
     pub fn repairs(&self) -> &Repairs {
         &self.repairs

@@ -94,7 +94,9 @@ impl Report {
 
     /// What was amiss with the mesh, for people; empty when nothing was.
     pub fn remarks(&self) -> String {
-        let plain = |t: &Topology| t.is_manifold() && t.signed_volume > 0.0;
+        let plain = |t: &Topology| {
+            t.is_manifold() && t.is_solid() && t.wrong_way.is_empty() && t.signed_volume > 0.0
+        };
         let topology = self.topology.as_ref().filter(|t| !plain(t));
         let repairs = Some(&self.repairs).filter(|r| !r.is_empty());
         match (topology, repairs) {

@@ -43,7 +43,11 @@ pub(crate) fn crossings(manifold: &Manifold<'_>) -> Vec<(u32, u32)> {
 /// Whether two triangles meet elsewhere than in the corners they share.
 fn cross(manifold: &Manifold<'_>, one: u32, other: u32) -> bool {
     let corners = [one, other].map(|f| manifold.faces()[f as usize]);
-    let triangles = [one, other].map(|f| manifold.triangle(f));
+    meet(corners, [one, other].map(|f| manifold.triangle(f)))
+}
+
+/// The same for triangles with an area, by the numbers of their corners and by their points.
+pub(crate) fn meet(corners: [[u32; 3]; 2], triangles: [[DVec3; 3]; 2]) -> bool {
     let is_shared = |which: usize, k: usize| corners[1 - which].contains(&corners[which][k]);
     let shared = (0..3).filter(|&k| is_shared(0, k)).count();
     match shared {

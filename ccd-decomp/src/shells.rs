@@ -97,7 +97,7 @@ fn winding_of_others(manifold: &Manifold<'_>, shell_of: &[u32], faces: &[u32]) -
 
 /// 1 where a segment leaves through a triangle, −1 where it enters, 0 where it passes by; none when it
 /// meets the triangle's edge, or ends on it.
-fn crossing([from, to]: [DVec3; 2], triangle: [DVec3; 3]) -> Option<i32> {
+pub(crate) fn crossing([from, to]: [DVec3; 2], triangle: [DVec3; 3]) -> Option<i32> {
     let [a, b, c] = triangle;
     let ends = [from, to].map(|p| side(triangle, p));
     if ends[0] == ends[1] && ends[0] != Ordering::Equal {
@@ -117,14 +117,14 @@ fn crossing([from, to]: [DVec3; 2], triangle: [DVec3; 3]) -> Option<i32> {
 
 /// A sum of signed volumes, and of their sizes, which bounds its rounding.
 #[derive(Clone, Copy, Debug, Default)]
-struct Volume {
+pub(crate) struct Volume {
     sum: f64,
     size: f64,
     terms: f64,
 }
 
 impl Volume {
-    fn add(&mut self, triangle: [DVec3; 3], near: DVec3) {
+    pub(crate) fn add(&mut self, triangle: [DVec3; 3], near: DVec3) {
         let [a, b, c] = triangle.map(|p| p - near);
         self.sum += a.dot(b.cross(c));
         self.size += a.length() * b.length() * c.length();
@@ -133,7 +133,7 @@ impl Volume {
 
     /// None when rounding could have made the sign: a term is right to less than 16 units of its
     /// size, and each addition to one unit of what is summed so far.
-    fn is_positive(&self) -> Option<bool> {
+    pub(crate) fn is_positive(&self) -> Option<bool> {
         let rounding = (self.terms + 16.0) * U64 * self.size;
         (self.sum.abs() > rounding).then_some(self.sum > 0.0)
     }

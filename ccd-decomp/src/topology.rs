@@ -1,6 +1,7 @@
 //! Does a mesh bound a solid?
 
 use crate::mesh::TriangleMesh;
+use crate::nesting::Nesting;
 use crate::tally::Tally;
 use ccd_core::glam::DVec3;
 use serde::{Deserialize, Serialize};
@@ -18,8 +19,14 @@ pub struct Topology {
     /// Edges of more than two faces, of which as many run one way as the other: closed parts that
     /// touch each other along an edge.
     pub shared: Tally<Edge>,
-    /// Volume within the faces, negative where they look inward; meaningful for a closed mesh only.
-    /// In the cube of the mesh's unit of length.
+    /// Shells that are wound the other way than is right where they are, when others are not, each by a
+    /// face of it: bodies are made with them turned round.
+    pub wrong_way: Tally<u32>,
+    /// Shells within another one that cross a third, so that nothing tells whether they bound a solid or a
+    /// cavity, each by a face of it.
+    pub unclear: Tally<u32>,
+    /// Volume within the faces, once shells are turned the right way; negative where all look inward.
+    /// Meaningful for a closed mesh only. In the cube of the mesh's unit of length.
     pub signed_volume: f64,
 }
 
@@ -40,7 +47,8 @@ pub enum Orientation {
 }
 
 impl Topology {
-    /// Looks at every edge of a mesh. O(n log n) in the number of faces.
+    /// Looks at every edge of a mesh, and at which of its shells are within which. O(n log n) in the
+    /// number of faces, where few boxes of faces of different shells meet.
     ///
     /// ```
     /// use ccd_decomp::{Format, Topology, TriangleMesh};
@@ -49,6 +57,11 @@ impl Topology {
     /// assert_eq!(Topology::of(&open).boundary.count(), 3);
     /// ```
     pub fn of(mesh: &TriangleMesh) -> Self {
+        Topology::and_turned(mesh).0
+    }
+
+    /// The same, and the mesh with its shells turned the right way, where some are not.
+    pub(crate) fn and_turned(mesh: &TriangleMesh) -> (Self, Option<TriangleMesh>) {
         let mut topology = Topology {
             signed_volume: signed_volume(mesh),
             ..Topology::default()
@@ -63,7 +76,23 @@ impl Topology {
             };
             tally.add(edge);
         }
-        topology
+        if !topology.is_closed() {
+            return (topology, None);
+        }
+        let nesting = Nesting::of(mesh);
+        topology.wrong_way = nesting.wrong;
+        topology.unclear = nesting.unclear;
+        let turned = (!nesting.turned.is_empty()).then(|| mesh.turned(&nesting.turned));
+        if let Some(turned) = &turned {
+            topology.signed_volume = signed_volume(turned);
+        }
+        (topology, turned)
+    }
+
+    /// Whether it bounds a solid: it is closed, and of all its shells it is clear on which side the solid
+    /// is.
+    pub fn is_solid(&self) -> bool {
+        self.is_closed() && self.unclear.is_empty()
     }
 
     /// Whether along every edge as many faces run one way as the other. The winding number of a point
@@ -169,6 +198,13 @@ impl fmt::Display for Topology {
             write!(f, ", not all faces turned the same way")?;
         } else if self.is_closed() && self.orientation() == Orientation::Inward {
             write!(f, ", inside out")?;
+        }
+        let shells = [
+            (&self.wrong_way, "shells wound the wrong way, turned"),
+            (&self.unclear, "shells that may bound a solid or a cavity"),
+        ];
+        for (tally, what) in shells.iter().filter(|(tally, _)| !tally.is_empty()) {
+            write!(f, "; {what}, by a face: {tally}")?;
         }
         for (tally, what) in notes.iter().filter(|(tally, _)| !tally.is_empty()) {
             write!(f, "; {what}: {tally}")?;

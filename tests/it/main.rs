@@ -28,6 +28,7 @@ mod referee;
 mod regressions;
 mod same_names;
 mod scenes;
+mod shells;
 mod start;
 mod statuses;
 mod symmetries;

@@ -1,5 +1,6 @@
 use super::*;
 use crate::piece::{Facet, Origin, Polytope};
+use glam::DVec3;
 
 /// A box on a square, and the square of another piece under it, twice as large.
 fn box_on_a_square() -> Body {

@@ -1,6 +1,6 @@
 //! Inside and outside of solids, points on the surface, shells within shells.
 
-use super::{at_start, contains};
+use super::{Containment, at_start};
 use crate::body::{Body, Volume};
 use crate::motion::Motion;
 use crate::outcome::Overlap;
@@ -16,12 +16,24 @@ fn solid(triangles: &[Triangle]) -> Body {
 }
 
 fn contained(a: &Body, b: &Body) -> Option<Overlap> {
+    match touching_at_start(a, b, &[]) {
+        Containment::Inside(overlap) => Some(overlap),
+        Containment::Outside => None,
+        Containment::Undecided => panic!("too near to tell"),
+    }
+}
+
+fn touching_at_start(a: &Body, b: &Body, touching: &[[u32; 2]]) -> Containment {
     let moving = |body| Moving {
         body,
         motion: Motion::still(Pose::IDENTITY),
     };
     let problem = Problem::new(moving(a), moving(b), 1.0, &Config::default()).unwrap();
-    at_start(&problem)
+    at_start(&problem, touching)
+}
+
+fn contains(body: &Body, point: DVec3) -> Option<bool> {
+    super::contains(body, point, 1e-13)
 }
 
 #[test]
@@ -157,4 +169,40 @@ fn placement_and_size_do_not_matter() {
             "{at} {scale:e}"
         );
     }
+}
+
+/// Two pyramids on one square, the corners of which are on a large triangle: no face passes through it.
+#[test]
+fn a_triangle_through_the_waist_of_an_octahedron_is_inside() {
+    let tip = |k: usize| match k % 2 {
+        0 => DVec3::AXES[k / 2],
+        _ => -DVec3::AXES[k / 2],
+    };
+    let faces = [
+        [0, 2, 4],
+        [2, 1, 4],
+        [1, 3, 4],
+        [3, 0, 4],
+        [2, 0, 5],
+        [1, 2, 5],
+        [3, 1, 5],
+        [0, 3, 5],
+    ];
+    let octahedron: Vec<Triangle> = faces.iter().map(|face| face.map(tip)).collect();
+    let plate = [
+        DVec3::new(-4.0, -4.0, 0.0),
+        DVec3::new(40.0, -4.0, 0.0),
+        DVec3::new(-4.0, 40.0, 0.0),
+    ];
+    let sheet = Body::new(&pieces(&[plate]), Volume::Surface).unwrap();
+    let solid = solid(&octahedron);
+    let touching: Vec<[u32; 2]> = (0..8).map(|k| [k, 0]).collect();
+    let found = |sheet: &Body| touching_at_start(&solid, sheet, &touching);
+    assert!(matches!(
+        found(&sheet),
+        Containment::Inside(Overlap::BInsideA(_))
+    ));
+    // Resting on a tip, it is not.
+    let above = Body::new(&pieces(&moved(&[plate], DVec3::Z)), Volume::Surface).unwrap();
+    assert_eq!(found(&above), Containment::Outside);
 }

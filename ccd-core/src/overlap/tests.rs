@@ -1,17 +1,28 @@
 //! Intersecting is told from touching.
 
-use super::intersects;
+use super::{Intersection, intersects};
 use crate::body::Body;
 use crate::oracle::{Claim, Combination, DistanceOracle, PiecePair};
 use crate::piece::Piece;
 use crate::pose::{Frame, Pose};
 use crate::separation;
-use crate::tests::nearest::{Triangle, nearest};
+use crate::tests::double::{Double, Double3};
+use crate::tests::nearest::Triangle;
 use crate::tests::oracle::Exhaustive;
-use crate::tests::scene::{couple, rng, rotation, within};
+use crate::tests::scene::{RngExt, couple, rng, rotation, within};
 use glam::DVec3;
 
 const ROUNDING: f64 = 1e-13;
+
+/// What is found, which has to be decided.
+fn told(pair: &PiecePair<'_>, claim: &Claim) -> bool {
+    let checked = separation::check(pair, claim, ROUNDING);
+    match intersects(pair, &checked, ROUNDING) {
+        Intersection::Certain => true,
+        Intersection::None => false,
+        Intersection::Undecided => panic!("{pair:?}"),
+    }
+}
 
 fn at(translation: DVec3) -> Frame {
     Frame {
@@ -27,7 +38,7 @@ fn triangles(a: &Triangle, b: &Triangle) -> bool {
         b_to_a: Frame::IDENTITY,
     };
     let claim = Exhaustive.separation(&pair, &mut ()).unwrap();
-    intersects(&pair, &separation::check(&pair, &claim, ROUNDING), ROUNDING)
+    told(&pair, &claim)
 }
 
 #[test]
@@ -65,22 +76,22 @@ fn triangles_that_cross_intersect_and_those_that_touch_do_not() {
     assert!(!triangles(&flat, &beside));
 }
 
+/// Random triangles, needles among them, whatever an honest oracle makes of them.
 #[test]
-fn what_is_apart_never_intersects_and_what_crosses_deeply_does() {
+fn the_same_as_all_axes_of_the_separating_axis_theorem() {
     let mut rng = rng(1);
-    let (mut crossing, mut apart) = (0, 0);
+    let mut counts = [0; 2];
     for _ in 0..20_000 {
         let pair = couple(&mut rng);
-        let found = nearest(&pair[0], &pair[1]).distance;
-        let overlap = triangles(&pair[0], &pair[1]);
-        if found > 1e-12 {
-            assert!(!overlap, "{found:e} {pair:?}");
-            apart += 1;
-        } else if overlap {
-            crossing += 1;
-        }
+        let exact = overlap_by_axes(&PiecePair {
+            a: Piece::from_points(&pair[0]),
+            b: Piece::from_points(&pair[1]),
+            b_to_a: Frame::IDENTITY,
+        });
+        assert_eq!(triangles(&pair[0], &pair[1]), exact, "{pair:?}");
+        counts[usize::from(exact)] += 1;
     }
-    assert!(crossing > 200 && apart > 10_000, "{crossing} {apart}");
+    assert!(counts[0] > 10_000 && counts[1] > 200, "{counts:?}");
 }
 
 /// A claim of the witnesses' being at one point, whatever the axis.
@@ -107,7 +118,7 @@ fn boxes(b_to_a: Frame) -> bool {
         a: named(middle),
         b: named(b_to_a.inverse_point(middle)),
     };
-    intersects(&pair, &separation::check(&pair, &claim, ROUNDING), ROUNDING)
+    told(&pair, &claim)
 }
 
 /// Weights of corners 0, 1, 3, 7 of a unit box, which name any point with x ≥ y ≥ z.
@@ -165,8 +176,102 @@ fn rounded_pieces_intersect_when_their_cores_are_near() {
             b_to_a: turn.into(),
         };
         let claim = Exhaustive.separation(&pair, &mut ()).unwrap();
-        intersects(&pair, &separation::check(&pair, &claim, ROUNDING), ROUNDING)
+        told(&pair, &claim)
     };
     assert!(cross(0.0) && cross(0.5) && cross(1.0 - 1e-9));
     assert!(!cross(1.0) && !cross(1.0 + 1e-9) && !cross(2.0));
+}
+
+/// Whatever an oracle claims of them, pieces intersect or do not.
+#[test]
+fn a_liar_is_believed_neither_way() {
+    let mut rng = rng(3);
+    let body = Body::cuboid(DVec3::ONE).unwrap();
+    let piece = body.pieces().get(0);
+    let (mut overlaps, mut others) = (0, 0);
+    for _ in 0..2_000 {
+        let pose = Pose::new(within(&mut rng, 3.0), rotation(&mut rng)).unwrap();
+        let pair = PiecePair {
+            a: piece,
+            b: piece,
+            b_to_a: pose.into(),
+        };
+        let lie = Claim {
+            axis: within(&mut rng, 1.0),
+            a: Combination::point(rng.random_range(0..8)),
+            b: Combination::point(rng.random_range(0..8)),
+        };
+        let exact = overlap_by_axes(&pair);
+        assert_eq!(told(&pair, &lie), exact, "{pose:?}");
+        overlaps += usize::from(exact);
+        others += usize::from(!exact);
+    }
+    assert!(overlaps > 200 && others > 200, "{overlaps} {others}");
+}
+
+/// The slow and obvious twin, with twice the digits: no axis of the separating-axis theorem keeps the
+/// pieces apart. The axes are the normals of both and the cross products of their edges; for flat pieces
+/// also the normals of their edges within either plane.
+fn overlap_by_axes(pair: &PiecePair<'_>) -> bool {
+    let a = Directions::of(&pair.a, |p| p);
+    let b = Directions::of(&pair.b, |p| pair.b_to_a.point(p));
+    let across = |p: &[Double3], q: &[Double3]| -> Vec<Double3> {
+        let crossed = p.iter().flat_map(|e| q.iter().map(|f| e.cross(*f)));
+        crossed.collect()
+    };
+    let depth = |axis: &Double3| {
+        let heights =
+            |points: &[Double3]| -> Vec<Double> { points.iter().map(|p| axis.dot(*p)).collect() };
+        let (p, q) = (heights(&a.points), heights(&b.points));
+        let farthest = |h: &[Double]| h.iter().copied().reduce(Double::max).unwrap();
+        let nearest = |h: &[Double]| h.iter().copied().reduce(Double::min).unwrap();
+        let (one, other) = (farthest(&p) - nearest(&q), farthest(&q) - nearest(&p));
+        (one.min(other) / axis.length()).get()
+    };
+    [
+        a.normals.clone(),
+        b.normals.clone(),
+        across(&a.edges, &b.edges),
+        across(&a.normals, &a.edges),
+        across(&b.normals, &b.edges),
+        across(&a.normals, &b.edges),
+        across(&b.normals, &a.edges),
+    ]
+    .concat()
+    .iter()
+    .filter(|axis| axis.length().get() > 1e-25)
+    .all(|axis| depth(axis) > ROUNDING)
+}
+
+/// The points of a piece, its edges, each once, and the normals of its facets.
+struct Directions {
+    points: Vec<Double3>,
+    edges: Vec<Double3>,
+    normals: Vec<Double3>,
+}
+
+impl Directions {
+    fn of(piece: &Piece<'_>, place: impl Fn(DVec3) -> DVec3) -> Self {
+        let points: Vec<Double3> = piece.points.iter().map(|&p| place(p).into()).collect();
+        let all: Vec<u32> = (0..points.len() as u32).collect();
+        let loops: Vec<&[u32]> = match piece.facets.is_empty() {
+            true => vec![&all],
+            false => piece.facets.iter().collect(),
+        };
+        let (mut edges, mut normals) = (Vec::new(), Vec::new());
+        for corners in loops {
+            let at = |k: usize| points[corners[k % corners.len()] as usize];
+            for k in 0..corners.len() {
+                // Two facets share an edge, the other way round.
+                let once = piece.facets.is_empty() || corners[k] < corners[(k + 1) % corners.len()];
+                edges.extend(once.then(|| at(k + 1) - at(k)));
+            }
+            normals.push((at(1) - at(0)).cross(at(2) - at(0)));
+        }
+        Directions {
+            points,
+            edges,
+            normals,
+        }
+    }
 }

@@ -3,6 +3,7 @@
 mod attached;
 
 use super::meter::Meter;
+use crate::facing::Facing;
 use crate::motion_bound::{Angle, AxisMotion, Bound, Gap, Track, first_crossing, published, sound};
 use crate::oracle::{DistanceOracle, PiecePair};
 use crate::order::{greater, lesser};
@@ -170,14 +171,18 @@ impl<'p> Moment<'p> {
             return self.free_time(checked, kept);
         }
         let turn = self.pieces.b_to_a.rotation;
-        let out_of_a = self.problem.a.body.outward_normal(a);
-        let into_b = self.problem.b.body.outward_normal(b).map(|n| -(turn * n));
         let along = |axis: DVec3| self.free_along(self.frames[0].rotation * axis, slack(axis));
-        match (out_of_a, into_b) {
-            // Solids on one side of the plane: their faces slide, and cannot meet.
-            (Some(n), Some(m)) if n.dot(m) < 0.0 => longer(along(n), along(m)),
-            (Some(n), _) | (None, Some(n)) => along(n),
-            (None, None) => self.free_time(checked, kept),
+        match (self.problem.a.body.facing(a), self.problem.b.body.facing(b)) {
+            // Which side to keep to is not known: they are not let go.
+            (Facing::Unclear, _) | (_, Facing::Unclear) => Some(0.0),
+            (Facing::Out(n), Facing::Out(m)) => match -(turn * m) {
+                // Solids on one side of the plane: their faces slide, and cannot meet.
+                into_b if n.dot(into_b) < 0.0 => longer(along(n), along(into_b)),
+                _ => along(n),
+            },
+            (Facing::Out(n), Facing::Neither) => along(n),
+            (Facing::Neither, Facing::Out(m)) => along(-(turn * m)),
+            (Facing::Neither, Facing::Neither) => self.free_time(checked, kept),
         }
     }
 

@@ -6,12 +6,11 @@ use super::meter::Meter;
 use super::moment::Moment;
 use super::pair::contact;
 use super::queue::{Full, Queue, Rank};
-use super::start::overlapping;
-use crate::containment;
+use super::start::{contained, overlapping};
 use crate::oracle::DistanceOracle;
 use crate::order::lesser;
 use crate::outcome::{Contact, Limit, Outcome};
-use crate::overlap;
+use crate::overlap::{self, Intersection};
 use crate::problem::Problem;
 use crate::tolerance::NEAREST_SHARE;
 use std::ops::ControlFlow;
@@ -37,20 +36,17 @@ pub(super) fn touching<O: DistanceOracle>(
         waiting: Queue::default(),
         nearest: None,
         lower: f64::INFINITY,
+        touching: Vec::new(),
+        undecided: false,
     };
     if let ControlFlow::Break(outcome) = search.run(oracle, meter) {
         return outcome;
     }
-    let contact = search.contact(seen);
-    // Only surfaces that may touch leave corners in doubt.
-    let inside = match contact.separation.lower > 0.0 {
-        true => containment::at_start(problem),
-        false => containment::of_touching(problem),
-    };
-    match inside {
-        Some(overlap) => Outcome::Overlapping { overlap },
-        None => Outcome::Touching { contact },
+    if search.undecided {
+        return undecided();
     }
+    let contact = search.contact(seen);
+    contained(problem, &search.touching).unwrap_or(Outcome::Touching { contact })
 }
 
 /// Splits the pair of nodes that may hold the nearest pieces, until no pair that waits can hold any
@@ -65,6 +61,10 @@ struct Nearest<'p> {
     nearest: Option<Contact>,
     /// Bounds the distance of all pieces that were measured or given up.
     lower: f64,
+    /// The pairs of pieces that no axis keeps apart; all of them, as none has a distance.
+    touching: Vec<[u32; 2]>,
+    /// Of some pair it cannot be told whether it intersects.
+    undecided: bool,
 }
 
 impl Nearest<'_> {
@@ -131,8 +131,16 @@ impl Nearest<'_> {
         let Some(checked) = moment.ask(oracle, &mut O::Cache::default(), meter) else {
             return unresolved(Limit::OracleGaveUp);
         };
-        if overlap::intersects(&moment.pieces, &checked, problem.rounding) {
-            return ControlFlow::Break(overlapping(contact(&moment, ids, &checked)));
+        match overlap::intersects(&moment.pieces, &checked, problem.rounding) {
+            Intersection::Certain => {
+                return ControlFlow::Break(overlapping(contact(&moment, ids, &checked)));
+            }
+            Intersection::Undecided => self.undecided = true,
+            Intersection::None => {}
+        }
+        // Written so that NaN is not apart.
+        if !(checked.lower > 0.0) {
+            self.touching.push(ids);
         }
         self.lower = lesser(self.lower, checked.lower);
         if checked.upper < self.upper() {
@@ -165,6 +173,13 @@ impl Nearest<'_> {
             false => seen,
         };
         contact.no_nearer_than(self.lower)
+    }
+}
+
+fn undecided() -> Outcome {
+    Outcome::Unresolved {
+        safe_until: 0.0,
+        reason: Limit::Undecided,
     }
 }
 

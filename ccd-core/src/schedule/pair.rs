@@ -4,7 +4,7 @@ use super::meter::Meter;
 use super::moment::Moment;
 use crate::oracle::{Combination, DistanceOracle};
 use crate::outcome::{Contact, Separation};
-use crate::overlap;
+use crate::overlap::{self, Intersection};
 use crate::problem::{Problem, Side, StartPolicy};
 use crate::separation::Checked;
 use crate::tolerance::RESTING;
@@ -37,7 +37,7 @@ enum Goal {
 pub(crate) enum Step {
     /// Certified apart until this clock, which is past the present one; beyond 1 is forever.
     FreeUntil(f64),
-    /// Within the tolerance.
+    /// Within the tolerance; at the start it may intersect, which the search for the nearest pieces tells.
     Contact(Contact),
     /// Intersecting; only at the start.
     Overlap(Contact),
@@ -88,8 +88,13 @@ impl<C: Default + Clone> Pair<C> {
         let contact = || contact(moment, ids, &checked);
         let apart = problem.contact_distance();
         if checked.upper <= apart {
-            if s == 0.0 && overlap::intersects(&moment.pieces, &checked, problem.rounding) {
-                return Step::Overlap(contact());
+            if s == 0.0 {
+                match overlap::intersects(&moment.pieces, &checked, problem.rounding) {
+                    Intersection::Certain => return Step::Overlap(contact()),
+                    // The search for the nearest pieces sees what it comes to.
+                    Intersection::Undecided => return Step::Contact(contact()),
+                    Intersection::None => {}
+                }
             }
             match self.goal {
                 Goal::Apart => match self.goal_of_start(problem, oracle, meter) {

@@ -3,7 +3,7 @@
 use super::meter::Meter;
 use super::nearest;
 use super::pair::Step;
-use crate::containment;
+use crate::containment::{self, Containment};
 use crate::oracle::DistanceOracle;
 use crate::order::lesser;
 use crate::outcome::{Answer, Contact, Limit, Outcome, Overlap, Stats};
@@ -106,8 +106,11 @@ impl Proven {
         if std::mem::replace(&mut self.apart_at_start, true) {
             return None;
         }
-        let overlap = containment::at_start(problem)?;
-        Some(Outcome::Overlapping { overlap })
+        // Bodies that are let go were looked at when their contact was found.
+        match problem.start {
+            StartPolicy::Leave => None,
+            StartPolicy::Report => contained(problem, &[]),
+        }
     }
 
     /// All pairs are apart to the end.
@@ -115,6 +118,19 @@ impl Proven {
         self.past_start(problem).unwrap_or(Outcome::Free {
             clearance: problem.clearance(self.kept),
         })
+    }
+}
+
+/// The answer, if one body is inside the other or that cannot be told. No two pieces intersect;
+/// `touching` are those that no axis keeps apart.
+pub(super) fn contained(problem: &Problem<'_>, touching: &[[u32; 2]]) -> Option<Outcome> {
+    match containment::at_start(problem, touching) {
+        Containment::Inside(overlap) => Some(Outcome::Overlapping { overlap }),
+        Containment::Outside => None,
+        Containment::Undecided => Some(Outcome::Unresolved {
+            safe_until: 0.0,
+            reason: Limit::Undecided,
+        }),
     }
 }
 

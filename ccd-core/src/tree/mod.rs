@@ -9,7 +9,7 @@ mod ray;
 
 pub(crate) use group::{BoxGroup, LANES, Members, TriangleGroup, unit_normal, up};
 
-pub(crate) use place::pieces_at;
+pub(crate) use place::{is_clear, pieces_at};
 pub(crate) use ray::crossings;
 
 use crate::error::InputError;
@@ -124,7 +124,7 @@ impl Tree {
 
     /// Whether a point is within the root's box, or near it.
     pub(crate) fn may_contain(&self, point: DVec3) -> bool {
-        place::holds(&self.nodes[0], point)
+        place::holds(&self.nodes[0], point, 0.0)
     }
 
     pub(crate) fn bytes(&self) -> usize {

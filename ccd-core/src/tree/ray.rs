@@ -1,22 +1,70 @@
-//! How often a ray passes out of the surface of a body.
+//! How often the surface of a body winds about a point, counted along a ray.
 
 use super::{Below, Node, Tree};
 use crate::order::{greater, lesser};
 use crate::pieces::Pieces;
-use crate::tolerance::GRAZING;
+use crate::tolerance::{RAYS, SIGN_F64, U64};
 use glam::DVec3;
+use std::f64::consts::TAU;
 
-/// How often a ray leaves the body's surface less how often it enters it, by the normals of its
-/// triangles: the winding number of a closed mesh about the ray's start. None when the ray passes too
-/// near to an edge, or starts too near to a triangle, to tell.
+/// What a ray crosses of a surface, by the normals of its triangles: 1 where it leaves through one, −1
+/// where it enters.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Crossings {
+    /// Away from the ray's start: the winding number of a closed surface about points just ahead of it.
+    pub(crate) beyond: i32,
+    /// At the start, to within rounding.
+    pub(crate) at_start: i32,
+    /// How many triangles the start is on.
+    pub(crate) on: u32,
+    /// Which way the ray runs.
+    pub(crate) along: DVec3,
+}
+
+/// Counts along the first ray from a point that certainly passes all edges; none when there is no such
+/// ray. Triangles hold the point that it is no farther from than `slack`.
 ///
-/// The surface of pieces that are no triangles is the mesh's faces on them.
-pub(crate) fn crossings(tree: &Tree, pieces: &Pieces, from: DVec3, along: DVec3) -> Option<i32> {
-    let mut total = 0;
+/// # Guarantee
+/// What is ahead of the point by more than rounding is counted as in exact arithmetic, and nothing that
+/// is behind it. The surface of pieces that are no triangles is the mesh's faces on them.
+pub(crate) fn crossings(
+    tree: &Tree,
+    pieces: &Pieces,
+    from: DVec3,
+    slack: f64,
+) -> Option<Crossings> {
+    let start = Start { from, slack };
+    (0..RAYS).find_map(|k| along(tree, pieces, start, direction(k)))
+}
+
+/// Where a ray starts, and how well that is known.
+#[derive(Clone, Copy)]
+struct Start {
+    from: DVec3,
+    slack: f64,
+}
+
+/// Directions all over the sphere, in no special relation to anything.
+fn direction(k: u32) -> DVec3 {
+    // Multiples of these two fractions are spread evenly over a square.
+    let [x, y] = [0.754_877_666_246_693, 0.569_840_290_998_053].map(|f| (f64::from(k) + 0.5) * f);
+    let height = 1.0 - 2.0 * x.fract();
+    let (sin, cos) = (TAU * y.fract()).sin_cos();
+    let radius = greater(0.0, 1.0 - height * height).sqrt();
+    DVec3::new(radius * cos, radius * sin, height)
+}
+
+fn along(tree: &Tree, pieces: &Pieces, start: Start, along: DVec3) -> Option<Crossings> {
+    let mut found = Crossings {
+        beyond: 0,
+        at_start: 0,
+        on: 0,
+        along,
+    };
     let mut stack = vec![0u32];
     while let Some(id) = stack.pop() {
         let node = &tree.nodes[id as usize];
-        if !meets(node, from, along) {
+        if !meets(node, start.from, along) {
             continue;
         }
         match node.below {
@@ -28,17 +76,17 @@ pub(crate) fn crossings(tree: &Tree, pieces: &Pieces, from: DVec3, along: DVec3)
                 let members = &tree.triangles[group as usize].members;
                 let first = members.first - tree.nodes.len() as u32;
                 for piece in first..first + members.count {
-                    total += crossing(pieces.triangle(piece as usize), from, along)?;
+                    found.add(pieces.triangle(piece as usize), start)?;
                 }
             }
             Below::Piece(piece) => {
                 for (_, triangle) in pieces.get(piece as usize).mesh_triangles() {
-                    total += crossing(triangle, from, along)?;
+                    found.add(triangle, start)?;
                 }
             }
         }
     }
-    Some(total)
+    Some(found)
 }
 
 /// Whether a ray may meet a node's box.
@@ -47,7 +95,8 @@ fn meets(node: &Node, from: DVec3, along: DVec3) -> bool {
     let (mut enter, mut leave) = (0.0f64, f64::INFINITY);
     for k in 0..3 {
         let axis = node.axes[k].as_dvec3();
-        let half = node.reach_f64(k);
+        // Places along the ray are as far off as the way is rounded, where it meets the box.
+        let half = node.reach_f64(k) + 32.0 * U64 * way.abs().element_sum();
         let (start, speed) = (axis.dot(way), axis.dot(along));
         let (near, far) = ((-half - start) / speed, (half - start) / speed);
         // A ray within a slab, parallel to it, gives an infinity on either side; NaN counts as met.
@@ -57,30 +106,69 @@ fn meets(node: &Node, from: DVec3, along: DVec3) -> bool {
     !(enter > leave)
 }
 
-/// 1 when the ray leaves through the triangle, −1 when it enters, 0 when it passes by.
-fn crossing(triangle: [DVec3; 3], from: DVec3, along: DVec3) -> Option<i32> {
-    let [a, b, c] = triangle.map(|p| p - from);
-    // Volumes of the ray with each edge: all of one sign where the line passes inside.
-    let sides = [(a, b), (b, c), (c, a)].map(|(p, q)| {
-        let volume = along.dot(p.cross(q));
-        let clear = volume.abs() > GRAZING * p.length() * q.length();
-        (volume, clear)
-    });
-    let positive = |&(volume, clear): &(f64, bool)| clear && volume > 0.0;
-    let negative = |&(volume, clear): &(f64, bool)| clear && volume < 0.0;
-    if sides.iter().any(positive) && sides.iter().any(negative) {
-        return Some(0);
+/// What is certain of a sign.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Sign {
+    Negative,
+    Unclear,
+    Positive,
+}
+
+impl Sign {
+    /// Of a number that is right to [`SIGN_F64`] of a size.
+    fn of(number: f64, size: f64) -> Sign {
+        // Written so that NaN is unclear; products that underflow are off by less than what is added.
+        let rounding = SIGN_F64 * size + f64::MIN_POSITIVE;
+        match () {
+            () if number > rounding => Sign::Positive,
+            () if number < -rounding => Sign::Negative,
+            () => Sign::Unclear,
+        }
     }
-    let sign = match () {
-        () if sides.iter().all(positive) => 1.0,
-        () if sides.iter().all(negative) => -1.0,
-        () => return None,
-    };
-    let height = sign * a.dot((b - a).cross(c - a));
-    let scale = a.length() * (b - a).length() * (c - a).length();
-    match () {
-        () if height > GRAZING * scale => Some(sign as i32),
-        () if height < -GRAZING * scale => Some(0),
-        () => None,
+}
+
+impl Crossings {
+    /// Adds what the ray does at a triangle; none when that is not certain.
+    fn add(&mut self, triangle: [DVec3; 3], start: Start) -> Option<()> {
+        let along = self.along;
+        let corners = triangle.map(|p| p - start.from);
+        let size = |p: DVec3| p.abs().element_sum();
+        let ahead = corners.map(|p| Sign::of(along.dot(p), size(p)));
+        if ahead == [Sign::Negative; 3] {
+            return Some(());
+        }
+        let [a, b, c] = corners;
+        // Volumes of the ray with each edge: all of one sign where the line passes inside.
+        let sides = [(a, b), (b, c), (c, a)]
+            .map(|(p, q)| Sign::of(along.dot(p.cross(q)), size(p) * size(q)));
+        if sides.contains(&Sign::Positive) && sides.contains(&Sign::Negative) {
+            return Some(());
+        }
+        if sides.contains(&Sign::Unclear) {
+            // Past a triangle that is too small or too thin for its edges to tell.
+            let reach =
+                greater(size(b - a), size(c - a)) + SIGN_F64 * (size(a) + size(b) + size(c));
+            return (a.cross(along).abs().max_element() > 2.0 * reach).then_some(());
+        }
+        let sign = match sides[0] {
+            Sign::Positive => 1,
+            _ => -1,
+        };
+        let height = f64::from(sign) * a.dot(b.cross(c));
+        let normal = size((b - a).cross(c - a));
+        let height = match ahead == [Sign::Positive; 3] {
+            true => Sign::Positive,
+            _ if height.abs() <= start.slack * normal => Sign::Unclear,
+            false => Sign::of(height, size(a) * size(b) * size(c)),
+        };
+        match height {
+            Sign::Positive => self.beyond += sign,
+            Sign::Negative => {}
+            Sign::Unclear => {
+                self.at_start += sign;
+                self.on += 1;
+            }
+        }
+        Some(())
     }
 }

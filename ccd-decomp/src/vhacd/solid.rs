@@ -44,7 +44,7 @@ impl<'a> Solid<'a> {
         Solid {
             mesh,
             search: TriMesh::new(vertices, mesh.faces().to_vec()).ok(),
-            closed: topology.is_closed(),
+            closed: topology.is_solid(),
             inside_out: topology.orientation() == Orientation::Inward,
             bounds,
         }

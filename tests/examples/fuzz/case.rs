@@ -67,7 +67,8 @@ impl Shape {
     pub fn with(mut self, other: &Shape) -> Self {
         let base = self.vertices.len() as u32;
         self.vertices.extend(&other.vertices);
-        self.faces.extend(other.faces.iter().map(|f| f.map(|v| v + base)));
+        self.faces
+            .extend(other.faces.iter().map(|f| f.map(|v| v + base)));
         self.form = Form::Soup;
         self
     }
@@ -103,7 +104,10 @@ impl Case {
             }
         };
         for (letter, course) in ['a', 'b'].into_iter().zip(&self.courses) {
-            let Place { position, quaternion } = course.start;
+            let Place {
+                position,
+                quaternion,
+            } = course.start;
             put(letter, "px py pz", &position);
             put(letter, "qw qx qy qz", &quaternion);
             put(letter, "cx cy cz", &course.centre);
@@ -112,13 +116,22 @@ impl Case {
                     put(letter, "vx vy vz", &linear);
                     put(letter, "wx wy wz", &spin);
                 }
-                Goal::End(Place { position, quaternion }) => {
+                Goal::End(Place {
+                    position,
+                    quaternion,
+                }) => {
                     put(letter, "end_px end_py end_pz", &position);
                     put(letter, "end_qw end_qx end_qy end_qz", &quaternion);
                 }
             }
         }
-        let Config { tolerance, margin, budget, start, .. } = self.config;
+        let Config {
+            tolerance,
+            margin,
+            budget,
+            start,
+            ..
+        } = self.config;
         let start = match start {
             StartPolicy::Report => "report",
             StartPolicy::Leave => "leave",

@@ -29,7 +29,10 @@ pub enum Goal {
 
 impl Place {
     pub fn at(position: [f64; 3]) -> Self {
-        Place { position, quaternion: [1.0, 0.0, 0.0, 0.0] }
+        Place {
+            position,
+            quaternion: [1.0, 0.0, 0.0, 0.0],
+        }
     }
 
     fn pose(&self) -> Result<Pose, InputError> {
@@ -54,7 +57,11 @@ impl Place {
 
 impl Course {
     pub fn velocities(start: Place, linear: [f64; 3], spin: [f64; 3]) -> Self {
-        Course { start, goal: Goal::Velocities { linear, spin }, centre: [0.0; 3] }
+        Course {
+            start,
+            goal: Goal::Velocities { linear, spin },
+            centre: [0.0; 3],
+        }
     }
 
     /// As the engine is told of it.
@@ -97,10 +104,20 @@ impl Course {
         let columns = [0, 1, 2].map(|k| {
             let mut unit = [0.0; 3];
             unit[k] = 1.0;
-            let place = Place { position: [0.0; 3], ..self.start };
+            let place = Place {
+                position: [0.0; 3],
+                ..self.start
+            };
             place.point(Vector::of(unit))
         });
-        Track { start, velocity, axis, rate, columns, centre }
+        Track {
+            start,
+            velocity,
+            axis,
+            rate,
+            columns,
+            centre,
+        }
     }
 }
 

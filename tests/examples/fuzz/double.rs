@@ -25,14 +25,20 @@ fn two_sum(a: f64, b: f64) -> Double {
 #[inline]
 fn quick_two_sum(a: f64, b: f64) -> Double {
     let hi = a + b;
-    Double { hi, lo: b - (hi - a) }
+    Double {
+        hi,
+        lo: b - (hi - a),
+    }
 }
 
 /// The product, rounded, and what rounding took off, unless that underflows.
 #[inline]
 fn two_prod(a: f64, b: f64) -> Double {
     let hi = a * b;
-    Double { hi, lo: a.mul_add(b, -hi) }
+    Double {
+        hi,
+        lo: a.mul_add(b, -hi),
+    }
 }
 
 impl Double {
@@ -49,11 +55,15 @@ impl Double {
             -1.497_384_904_859_17e-33,
         ];
         let quarters = (self.hi / HALF_PI[0]).round();
-        let r = HALF_PI.iter().fold(self, |r, &part| r - two_prod(quarters, part));
+        let r = HALF_PI
+            .iter()
+            .fold(self, |r, &part| r - two_prod(quarters, part));
         let square = r * r;
         let series = |first: usize| {
             let terms = (first..28).step_by(2).rev();
-            terms.fold(Double::default(), |sum, n| INVERSE_FACTORIALS[n] - sum * square)
+            terms.fold(Double::default(), |sum, n| {
+                INVERSE_FACTORIALS[n] - sum * square
+            })
         };
         let (sin, cos) = (r * series(1), series(0));
         match quarters.rem_euclid(4.0) as u8 {
@@ -117,7 +127,10 @@ impl Neg for Double {
 
     #[inline]
     fn neg(self) -> Self {
-        Double { hi: -self.hi, lo: -self.lo }
+        Double {
+            hi: -self.hi,
+            lo: -self.lo,
+        }
     }
 }
 

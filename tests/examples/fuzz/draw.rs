@@ -11,7 +11,9 @@ pub struct Draw(Pcg64);
 impl Draw {
     /// One stream for every query, so that each can be asked alone.
     pub fn new(seed: u64, index: u64) -> Self {
-        Draw(Pcg64::seed_from_u64(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ index))
+        Draw(Pcg64::seed_from_u64(
+            seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ index,
+        ))
     }
 
     pub fn within(&mut self, range: Range<f64>) -> f64 {
@@ -59,7 +61,10 @@ impl Draw {
             true => [1.0, 0.0, 0.0, 0.0],
             false => self.quaternion(),
         };
-        Place { position, quaternion }
+        Place {
+            position,
+            quaternion,
+        }
     }
 }
 

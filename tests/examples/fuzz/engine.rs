@@ -3,9 +3,7 @@
 use crate::case::{Case, Form, Shape};
 use ccd_core::glam::DVec3;
 use ccd_core::schedule::{BestFirst, Fast, HullFirst, Naive};
-use ccd_core::{
-    Answer, Body, Config, DistanceOracle, Moving, OrElse, Polytope, Problem, Schedule,
-};
+use ccd_core::{Answer, Body, Config, DistanceOracle, Moving, OrElse, Polytope, Problem, Schedule};
 use ccd_decomp::{Detail, TriangleMesh, prepare};
 use ccd_distance_gjk::{Auto, Gjk, GjkF32};
 use ccd_distance_vmarch::Vmarch;
@@ -42,15 +40,23 @@ impl Bodies {
     pub fn new(case: &Case, kind: Kind, trees: Trees) -> Result<Self, String> {
         let body = |shape: &Shape| body(shape, kind, trees);
         let [a, b] = &case.shapes;
-        Ok(Bodies { bodies: [body(a)?, body(b)?], kind })
+        Ok(Bodies {
+            bodies: [body(a)?, body(b)?],
+            kind,
+        })
     }
 
     /// # Errors
     /// What the engine has against the query.
     pub fn problem(&self, case: &Case, config: &Config) -> Result<Problem<'_>, String> {
         let moving = |k: usize| -> Result<Moving<'_>, String> {
-            let motion = case.courses[k].motion(case.duration).map_err(|e| e.to_string())?;
-            Ok(Moving { body: &self.bodies[k], motion })
+            let motion = case.courses[k]
+                .motion(case.duration)
+                .map_err(|e| e.to_string())?;
+            Ok(Moving {
+                body: &self.bodies[k],
+                motion,
+            })
         };
         Problem::new(moving(0)?, moving(1)?, case.duration, config).map_err(|e| e.to_string())
     }
@@ -66,7 +72,10 @@ pub enum Trees {
 fn body(shape: &Shape, kind: Kind, trees: Trees) -> Result<Body, String> {
     let vertices = || shape.vertices.iter().map(|&v| DVec3::from(v)).collect();
     if shape.form == Form::Points {
-        let polytope = Polytope { points: vertices(), ..Polytope::default() };
+        let polytope = Polytope {
+            points: vertices(),
+            ..Polytope::default()
+        };
         return Body::polytope(polytope).map_err(|e| e.to_string());
     }
     let detail = match (kind, shape.form) {

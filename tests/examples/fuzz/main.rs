@@ -67,16 +67,27 @@ struct Args {
 
 fn main() -> ExitCode {
     let args = Args::parse();
-    let threads = rayon::ThreadPoolBuilder::new().num_threads(args.threads).build_global();
+    let threads = rayon::ThreadPoolBuilder::new()
+        .num_threads(args.threads)
+        .build_global();
     if let Err(error) = threads {
         eprintln!("{error}");
         return ExitCode::FAILURE;
     }
     // Panics of the engine are caught and counted.
     std::panic::set_hook(Box::new(|_| {}));
-    let families = args.family.map_or(Family::value_variants().to_vec(), |one| vec![one]);
-    let failed = families.into_iter().filter(|&family| run(family, &args)).count();
-    if failed == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+    let families = args
+        .family
+        .map_or(Family::value_variants().to_vec(), |one| vec![one]);
+    let failed = families
+        .into_iter()
+        .filter(|&family| run(family, &args))
+        .count();
+    if failed == 0 {
+        ExitCode::SUCCESS
+    } else {
+        ExitCode::FAILURE
+    }
 }
 
 /// Whether anything failed.

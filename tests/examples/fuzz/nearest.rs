@@ -27,7 +27,9 @@ pub fn distance<N: Number>(s: &Triangle<N>, t: &Triangle<N>) -> N {
             offer(s[i] - t[j]);
             offer(edges_t[j].from_point(s[i]));
             offer(edges_s[i].from_point(t[j]));
-            between_lines(&edges_s[i], &edges_t[j]).into_iter().for_each(&mut offer);
+            between_lines(&edges_s[i], &edges_t[j])
+                .into_iter()
+                .for_each(&mut offer);
         }
     }
     way.length()
@@ -49,7 +51,13 @@ impl<N: Number> Edge<N> {
             let (from, way) = (t[k], t[(k + 1) % 3] - t[k]);
             let along = way.scaled();
             let (scale, square) = (ratio(along, way), along.dot(along));
-            Edge { from, way, along, scale, square }
+            Edge {
+                from,
+                way,
+                along,
+                scale,
+                square,
+            }
         })
     }
 
@@ -75,9 +83,11 @@ fn clamped<N: Number>(x: N) -> N {
 
 /// By how much `long` is longer than `short`, both along the same line.
 fn ratio<N: Number>(long: Vector<N>, short: Vector<N>) -> N {
-    let k = (0..3).fold(0, |k, i| match long.0[i].rounded().abs() > long.0[k].rounded().abs() {
-        true => i,
-        false => k,
+    let k = (0..3).fold(0, |k, i| {
+        match long.0[i].rounded().abs() > long.0[k].rounded().abs() {
+            true => i,
+            false => k,
+        }
     });
     long.0[k] / short.0[k]
 }
@@ -99,11 +109,7 @@ fn between_lines<N: Number>(p: &Edge<N>, q: &Edge<N>) -> Option<Vector<N>> {
 }
 
 /// From a point to a triangle's plane, where it lands within the triangle.
-fn on_face<N: Number>(
-    p: Vector<N>,
-    t: &Triangle<N>,
-    face: Option<Vector<N>>,
-) -> Option<Vector<N>> {
+fn on_face<N: Number>(p: Vector<N>, t: &Triangle<N>, face: Option<Vector<N>>) -> Option<Vector<N>> {
     let n = face?;
     let down = n * n.dot(t[0] - p);
     within(p + down, t, n).then_some(down)
@@ -155,11 +161,17 @@ pub fn depth<N: Number>(s: &Triangle<N>, t: &Triangle<N>) -> N {
         let range = |t: &Triangle<N>| {
             let h = t.map(|p| n.dot(p - s[0]));
             let least = h.iter().fold(h[0], |m, &x| if x < m { x } else { m });
-            (least, h.iter().fold(h[0], |m, &x| if x > m { x } else { m }))
+            (
+                least,
+                h.iter().fold(h[0], |m, &x| if x > m { x } else { m }),
+            )
         };
         let ((a, b), (c, d)) = (range(s), range(t));
         if d - a < b - c { d - a } else { b - c }
     };
     let least = |m: Option<N>, x: N| Some(m.map_or(x, |m| if x < m { x } else { m }));
-    axes.iter().map(overlap).fold(None, least).unwrap_or(N::of(0.0))
+    axes.iter()
+        .map(overlap)
+        .fold(None, least)
+        .unwrap_or(N::of(0.0))
 }

@@ -61,7 +61,13 @@ impl Side {
         let corners: Vec<Vector<Double>> = triangles.iter().flatten().copied().collect();
         let reaches = corners.iter().map(|p| p.length().rounded());
         let reach = reaches.fold(0.0, larger);
-        Side { whole: Ball::about(&corners, &track), reach, triangles, balls, track }
+        Side {
+            whole: Ball::about(&corners, &track),
+            reach,
+            triangles,
+            balls,
+            track,
+        }
     }
 
     fn triangle(&self, k: usize, moment: &Moment, origin: Vector<Double>) -> Triangle<Double> {
@@ -75,11 +81,17 @@ impl Ball {
         let middle = sum * Double::new(1.0 / points.len() as f64);
         let far = |r, &p: &Vector<Double>| larger(r, (p - middle).length().rounded());
         let radius = points.iter().fold(0.0, far);
-        let arms = points.iter().fold(0.0, |r, p| larger(r, p.length().rounded()));
+        let arms = points
+            .iter()
+            .fold(0.0, |r, p| larger(r, p.length().rounded()));
         Ball {
             middle,
             radius: radius * (1.0 + 1e-9),
-            arm: if track.rate.rounded() > 0.0 { arms } else { 0.0 },
+            arm: if track.rate.rounded() > 0.0 {
+                arms
+            } else {
+                0.0
+            },
         }
     }
 }
@@ -87,10 +99,15 @@ impl Ball {
 impl Scene {
     pub fn new(case: &Case) -> Self {
         let side = |k: usize| {
-            Side::new(&case.shapes[k].triangles(), case.courses[k].track(case.duration))
+            Side::new(
+                &case.shapes[k].triangles(),
+                case.courses[k].track(case.duration),
+            )
         };
         let sides = [side(0), side(1)];
-        let way = (sides[0].track.start - sides[1].track.start).length().rounded();
+        let way = (sides[0].track.start - sides[1].track.start)
+            .length()
+            .rounded();
         let travel = |s: &Side| s.track.velocity.length().rounded() * case.duration;
         let turn = |s: &Side| 1.0 + s.track.rate.rounded() * case.duration;
         let scale = way
@@ -115,7 +132,8 @@ impl Scene {
     pub fn placed(&self, side: usize, t: f64) -> Vec<Triangle<Double>> {
         let moments = self.moments(t);
         let all = 0..self.sides[side].triangles.len();
-        all.map(|k| self.sides[side].triangle(k, &moments[side], moments[0].centre)).collect()
+        all.map(|k| self.sides[side].triangle(k, &moments[side], moments[0].centre))
+            .collect()
     }
 
     /// The distance of the two surfaces at a time.
@@ -150,7 +168,9 @@ impl Scene {
     /// The same with every pair in [`Double`]: to be asked before anything is called wrong.
     pub fn exact_distance(&self, t: f64) -> f64 {
         let [a, b] = [self.placed(0, t), self.placed(1, t)];
-        let pairs = a.iter().flat_map(|s| b.iter().map(move |t| distance(s, t).rounded()));
+        let pairs = a
+            .iter()
+            .flat_map(|s| b.iter().map(move |t| distance(s, t).rounded()));
         pairs.fold(f64::INFINITY, smaller)
     }
 
@@ -174,8 +194,15 @@ impl Scene {
     pub fn first_below(&self, limit: Limit, until: f64) -> (Option<Evidence>, bool) {
         let [a, b] = &self.sides;
         let Limit { threshold, .. } = limit;
-        let mut search =
-            Search { scene: self, limit, threshold, until, found: None, steps: 0, proven: true };
+        let mut search = Search {
+            scene: self,
+            limit,
+            threshold,
+            until,
+            found: None,
+            steps: 0,
+            proven: true,
+        };
         let begin = search.balls_meet(a.reach + b.reach);
         for (i, p) in a.balls.iter().enumerate() {
             let begin = search.balls_apart([p, &b.whole], begin);
@@ -237,7 +264,10 @@ impl Search<'_> {
             self.until
         } else {
             // The smaller root, in the form that does not cancel.
-            smaller(self.until, larger(0.0, 0.999_999 * excess / (-along + root.sqrt())))
+            smaller(
+                self.until,
+                larger(0.0, 0.999_999 * excess / (-along + root.sqrt())),
+            )
         }
     }
 
@@ -294,11 +324,15 @@ impl Search<'_> {
         let middles = [moments[0].arm(p.middle), moments[1].arm(q.middle)];
         let apart = (middles[1] + between - middles[0]).length().rounded();
         let rates = [a.track.rate.rounded(), b.track.rate.rounded()];
-        let velocity = a.track.velocity_of(middles[0].rounded())
-            - b.track.velocity_of(middles[1].rounded());
+        let velocity =
+            a.track.velocity_of(middles[0].rounded()) - b.track.velocity_of(middles[1].rounded());
         let rate = velocity.length() + rates[0] * p.radius + rates[1] * q.radius;
         let bend = rates[0] * rates[0] * p.arm + rates[1] * rates[1] * q.arm;
-        Near { gap: apart - p.radius - q.radius - self.threshold, rate, bend }
+        Near {
+            gap: apart - p.radius - q.radius - self.threshold,
+            rate,
+            bend,
+        }
     }
 
     fn look(&self, i: usize, j: usize, t: f64) -> Near {
@@ -308,14 +342,22 @@ impl Search<'_> {
         if near.gap > 0.5 * (p.radius + q.radius) {
             return near;
         }
-        let [s, t] = self.triangles(i, j, &moments).map(|t| t.map(Vector::rounded));
-        Near { gap: distance(&s, &t) - self.threshold, ..near }
+        let [s, t] = self
+            .triangles(i, j, &moments)
+            .map(|t| t.map(Vector::rounded));
+        Near {
+            gap: distance(&s, &t) - self.threshold,
+            ..near
+        }
     }
 
     fn triangles(&self, i: usize, j: usize, moments: &[Moment; 2]) -> [Triangle<Double>; 2] {
         let [a, b] = &self.scene.sides;
         let origin = moments[0].centre;
-        [a.triangle(i, &moments[0], origin), b.triangle(j, &moments[1], origin)]
+        [
+            a.triangle(i, &moments[0], origin),
+            b.triangle(j, &moments[1], origin),
+        ]
     }
 
     /// Whether the pair truly is below the threshold: then nothing later is of interest.
@@ -329,7 +371,11 @@ impl Search<'_> {
         let below = distance < self.threshold - error || depth > larger(self.limit.depth, error);
         if below {
             self.until = t;
-            self.found = Some(Evidence { time: t, distance, depth });
+            self.found = Some(Evidence {
+                time: t,
+                distance,
+                depth,
+            });
         }
         below
     }

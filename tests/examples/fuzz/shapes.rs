@@ -19,7 +19,11 @@ pub fn soup(draw: &mut Draw, count: usize) -> Shape {
 }
 
 fn shape(vertices: Vec<[f64; 3]>, faces: Vec<[u32; 3]>, form: Form) -> Shape {
-    Shape { vertices, faces, form }
+    Shape {
+        vertices,
+        faces,
+        form,
+    }
 }
 
 /// Turned outward, as the others are.
@@ -29,14 +33,30 @@ pub fn tetrahedron(draw: &mut Draw) -> Shape {
     let up = (b - a).cross(c - a).dot(d - a) > 0.0;
     let faces = vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];
     let out = shape(corners.map(|c| c.0).to_vec(), faces, Form::Convex);
-    if up { out } else { Shape { form: Form::Convex, ..out.flipped() } }
+    if up {
+        out
+    } else {
+        Shape {
+            form: Form::Convex,
+            ..out.flipped()
+        }
+    }
 }
 
 pub fn cuboid(half: [f64; 3]) -> Shape {
     let sign = |k: usize, bit: usize| if k >> bit & 1 == 1 { 1.0 } else { -1.0 };
     let corner = |k| [0, 1, 2].map(|bit| sign(k, bit) * half[bit]);
-    let sides = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
-    let faces = sides.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]);
+    let sides = [
+        [0, 4, 6, 2],
+        [1, 3, 7, 5],
+        [0, 1, 5, 4],
+        [2, 6, 7, 3],
+        [0, 2, 3, 1],
+        [4, 5, 7, 6],
+    ];
+    let faces = sides
+        .iter()
+        .flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]);
     shape((0..8).map(corner).collect(), faces.collect(), Form::Convex)
 }
 
@@ -60,7 +80,10 @@ pub fn ring(around: u32, across: u32, thickness: f64) -> Shape {
 
 /// Corners around an axis, and two poles: convex, or a star.
 pub fn bipyramid(draw: &mut Draw, corners: u32, waist: f64) -> Shape {
-    let mut vertices = vec![[0.0, 0.0, draw.within(0.2..1.0)], [0.0, 0.0, -draw.within(0.2..1.0)]];
+    let mut vertices = vec![
+        [0.0, 0.0, draw.within(0.2..1.0)],
+        [0.0, 0.0, -draw.within(0.2..1.0)],
+    ];
     let mut faces = Vec::new();
     for k in 0..corners {
         let (s, c) = (std::f64::consts::TAU * f64::from(k) / f64::from(corners)).sin_cos();
@@ -69,7 +92,11 @@ pub fn bipyramid(draw: &mut Draw, corners: u32, waist: f64) -> Shape {
         let (here, next) = (2 + k, 2 + (k + 1) % corners);
         faces.extend([[0, here, next], [1, next, here]]);
     }
-    let form = if waist < 1.0 { Form::Solid } else { Form::Convex };
+    let form = if waist < 1.0 {
+        Form::Solid
+    } else {
+        Form::Convex
+    };
     shape(vertices, faces, form)
 }
 

@@ -19,7 +19,9 @@ pub enum Where {
 
 /// Where a point lies that is on no triangle.
 pub fn locate(p: Vector<Double>, triangles: &[Triangle<Double>]) -> Where {
-    let seen = DIRECTIONS.iter().find_map(|&ray| crossings(p, Vector::of(ray), triangles));
+    let seen = DIRECTIONS
+        .iter()
+        .find_map(|&ray| crossings(p, Vector::of(ray), triangles));
     match seen {
         None => Where::Unknown,
         Some((0, crossed)) if crossed % 2 == 0 => Where::Outside,
@@ -47,7 +49,9 @@ fn crossings(
 ) -> Option<(i32, u32)> {
     let (mut winding, mut crossed) = (0, 0);
     for t in triangles {
-        let size = t.iter().fold(0.0, |m, &v| crate::vector::larger(m, (v - p).largest()));
+        let size = t
+            .iter()
+            .fold(0.0, |m, &v| crate::vector::larger(m, (v - p).largest()));
         let grazing = 1e-18 * size * size;
         let sides = [0, 1, 2].map(|k| {
             let side = (t[k] - p).cross(t[(k + 1) % 3] - p).dot(ray).rounded();
@@ -85,7 +89,9 @@ pub fn shells(triangles: &[Triangle<Double>]) -> Vec<usize> {
         let mut changed = false;
         for (k, t) in triangles.iter().enumerate() {
             for p in t {
-                let first = at.entry(p.0.map(|x| (x.rounded() + 0.0).to_bits())).or_insert(group[k]);
+                let first = at
+                    .entry(p.0.map(|x| (x.rounded() + 0.0).to_bits()))
+                    .or_insert(group[k]);
                 changed |= *first != group[k];
                 group[k] = group[k].min(*first);
                 *first = group[k];
@@ -95,7 +101,12 @@ pub fn shells(triangles: &[Triangle<Double>]) -> Vec<usize> {
             break;
         }
     }
-    group.iter().enumerate().filter(|&(k, &g)| k == g).map(|(k, _)| k).collect()
+    group
+        .iter()
+        .enumerate()
+        .filter(|&(k, &g)| k == g)
+        .map(|(k, _)| k)
+        .collect()
 }
 
 /// How far a point is from a surface.

@@ -30,7 +30,10 @@ impl Tally {
         self.answers += trial.outcomes.len() as u64;
         self.sampled += u64::from(!trial.proven);
         for (kind, method) in &trial.asked {
-            *self.by_method.entry(format!("{kind} {method}")).or_default() += 1;
+            *self
+                .by_method
+                .entry(format!("{kind} {method}"))
+                .or_default() += 1;
         }
         if let Some(outcome) = trial.outcomes.first() {
             *self.statuses.entry(status(outcome).to_owned()).or_default() += 1;
@@ -43,7 +46,10 @@ impl Tally {
             }
         }
         if let Some(why) = &trial.refused {
-            let words: Vec<&str> = why.split(' ').filter(|w| !w.contains(|c: char| c.is_numeric())).collect();
+            let words: Vec<&str> = why
+                .split(' ')
+                .filter(|w| !w.contains(|c: char| c.is_numeric()))
+                .collect();
             *self.refused.entry(words.join(" ")).or_default() += 1;
         }
         let mut first = Vec::new();
@@ -62,7 +68,10 @@ impl Tally {
     }
 
     fn share(&self, statuses: &[&str]) -> f64 {
-        let count = statuses.iter().filter_map(|&s| self.statuses.get(s)).sum::<u64>();
+        let count = statuses
+            .iter()
+            .filter_map(|&s| self.statuses.get(s))
+            .sum::<u64>();
         count as f64 / self.queries as f64
     }
 
@@ -70,7 +79,10 @@ impl Tally {
     /// When hardly any query has, or lacks, a contact: then little is tried.
     pub fn assert_representative(&self) {
         let (hits, misses) = (self.share(&["contact"]), self.share(&["free"]));
-        assert!(hits >= 0.05 && misses >= 0.05, "hits {hits}, misses {misses}");
+        assert!(
+            hits >= 0.05 && misses >= 0.05,
+            "hits {hits}, misses {misses}"
+        );
     }
 }
 
@@ -86,8 +98,16 @@ fn status(outcome: &Outcome) -> &'static str {
 
 impl fmt::Display for Tally {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Tally { queries, answers, sampled, .. } = self;
-        writeln!(f, "{queries} queries, {answers} answers, {sampled} searched by samples")?;
+        let Tally {
+            queries,
+            answers,
+            sampled,
+            ..
+        } = self;
+        writeln!(
+            f,
+            "{queries} queries, {answers} answers, {sampled} searched by samples"
+        )?;
         let maps = [
             ("by the default", &self.statuses),
             ("asked", &self.by_method),

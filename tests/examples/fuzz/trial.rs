@@ -49,8 +49,15 @@ impl fmt::Display for Trial {
 
 impl Failure {
     pub fn report(&self, family: Family, seed: u64, number: u64, case: &Case) -> String {
-        let Failure { fault, by: (kind, method), text, others } = self;
-        let Config { margin, tolerance, .. } = case.config;
+        let Failure {
+            fault,
+            by: (kind, method),
+            text,
+            others,
+        } = self;
+        let Config {
+            margin, tolerance, ..
+        } = case.config;
         let name = format!("{family:?}").to_lowercase();
         format!(
             "{fault:?} {kind} {method}, margin {margin:e}, tolerance {tolerance:e}\n{text}\n{others}\
@@ -76,7 +83,10 @@ fn methods(draw: &mut Draw, case: &Case) -> Vec<(Kind, Method)> {
     let form = |form: Form| case.shapes.iter().any(|s| s.form == form);
     let small = case.shapes.iter().all(|s| s.faces.len() < 200);
     if draw.chance(0.4) {
-        asked.push((Kind::Triangles, draw.pick(&[Method::Gjk, Method::GjkF32, Method::Vmarch])));
+        asked.push((
+            Kind::Triangles,
+            draw.pick(&[Method::Gjk, Method::GjkF32, Method::Vmarch]),
+        ));
     }
     let pieces = match (form(Form::Convex), form(Form::Solid)) {
         (true, _) => draw.pick(&[Kind::Hull, Kind::Patches]),
@@ -84,7 +94,10 @@ fn methods(draw: &mut Draw, case: &Case) -> Vec<(Kind, Method)> {
         _ => Kind::Triangles,
     };
     if pieces != Kind::Triangles && draw.chance(0.6) {
-        asked.push((pieces, draw.pick(&[Method::Direct, Method::Gjk, Method::GjkF32, Method::Vmarch])));
+        asked.push((
+            pieces,
+            draw.pick(&[Method::Direct, Method::Gjk, Method::GjkF32, Method::Vmarch]),
+        ));
     }
     let turn: f64 = case.courses.iter().map(|c| c.turn(case.duration)).sum();
     if small && turn < 20.0 && draw.chance(0.15) {
@@ -106,7 +119,12 @@ fn ask(case: Case, asked: Vec<(Kind, Method)>) -> Trial {
         failures: Vec::new(),
         proven: true,
     };
-    let Trial { case, failures, refused, .. } = &mut trial;
+    let Trial {
+        case,
+        failures,
+        refused,
+        ..
+    } = &mut trial;
     let case = &*case;
     let mut built: Vec<((Kind, Trees), Bodies)> = Vec::new();
     for (kind, method) in &asked {
@@ -132,7 +150,11 @@ fn ask(case: Case, asked: Vec<(Kind, Method)>) -> Trial {
             }
         };
         match catch_unwind(AssertUnwindSafe(|| method.solve(&problem))) {
-            Ok(answer) => given.push(Given { bodies, method, answer }),
+            Ok(answer) => given.push(Given {
+                bodies,
+                method,
+                answer,
+            }),
             Err(panic) => failures.push(panicked(&*panic, (kind, method))),
         }
     }
@@ -157,7 +179,12 @@ fn ask(case: Case, asked: Vec<(Kind, Method)>) -> Trial {
     }
     drop(given);
     drop(built);
-    Trial { asked, outcomes, proven: searched, ..trial }
+    Trial {
+        asked,
+        outcomes,
+        proven: searched,
+        ..trial
+    }
 }
 
 /// Schedules that take a step for all pairs together are not given all day.
@@ -166,19 +193,30 @@ fn config_of(case: &Case, method: Method) -> Config {
         Method::Naive | Method::Fast => 200_000,
         _ => u64::MAX,
     };
-    Config { budget: case.config.budget.min(most), ..case.config }
+    Config {
+        budget: case.config.budget.min(most),
+        ..case.config
+    }
 }
 
 /// What the engine allows itself for rounding: the least tolerance that it takes.
 fn rounding(case: &Case, bodies: &Bodies) -> f64 {
-    let least = Config { tolerance: 1e-100, ..case.config };
+    let least = Config {
+        tolerance: 1e-100,
+        ..case.config
+    };
     bodies.problem(case, &least).map_or(0.0, |p| p.tolerance())
 }
 
 fn panicked(panic: &(dyn std::any::Any + Send), by: (Kind, Method)) -> Failure {
     let text = panic.downcast_ref::<String>().cloned();
     let text = text.or_else(|| panic.downcast_ref::<&str>().map(|&s| s.to_owned()));
-    Failure { fault: Fault::Panic, by, text: text.unwrap_or_default(), others: String::new() }
+    Failure {
+        fault: Fault::Panic,
+        by,
+        text: text.unwrap_or_default(),
+        others: String::new(),
+    }
 }
 
 /// The same case with as few triangles as still fail in the same way.
@@ -212,7 +250,10 @@ pub fn shrunk(case: &Case, failure: &Failure) -> Case {
 /// Without the vertices that no face has.
 fn used(shape: &Shape) -> Shape {
     let mut new = HashMap::new();
-    let mut out = Shape { form: shape.form, ..Shape::default() };
+    let mut out = Shape {
+        form: shape.form,
+        ..Shape::default()
+    };
     for face in &shape.faces {
         out.faces.push(face.map(|v| {
             *new.entry(v).or_insert_with(|| {
@@ -235,12 +276,17 @@ impl Watch {
         thread::spawn(move || {
             while let Some(all) = all.upgrade() {
                 let late = all.lock().ok().and_then(|all| {
-                    all.values().find(|(_, since)| since.elapsed() > PATIENCE).map(|&(n, _)| n)
+                    all.values()
+                        .find(|(_, since)| since.elapsed() > PATIENCE)
+                        .map(|&(n, _)| n)
                 });
                 drop(all);
                 if let Some(number) = late {
                     let case = family.draw(&mut Draw::new(seed, number));
-                    eprintln!("{:?}: {family:?} --seed {seed} --only {number}", Fault::Hang);
+                    eprintln!(
+                        "{:?}: {family:?} --seed {seed} --only {number}",
+                        Fault::Hang
+                    );
                     eprintln!("{}", case.reproducer());
                     process::exit(1);
                 }

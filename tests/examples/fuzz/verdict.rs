@@ -86,7 +86,13 @@ impl<'a> Judge<'a> {
             overlaps: deep || inside == Where::Inside,
             may_contain: touching || inside != Where::Outside,
         };
-        Judge { case, scene, rounding, start, volumes }
+        Judge {
+            case,
+            scene,
+            rounding,
+            start,
+            volumes,
+        }
     }
 
     /// What is wrong with the answers, with who gave them; and whether nothing earlier than their
@@ -117,21 +123,31 @@ impl<'a> Judge<'a> {
     /// What would be too near.
     fn limit(&self, given: &[Given<'_>]) -> Limit {
         let margin = self.case.config.margin;
-        let tolerance = given.iter().map(|g| g.answer.tolerance).fold(self.rounding, larger);
+        let tolerance = given
+            .iter()
+            .map(|g| g.answer.tolerance)
+            .fold(self.rounding, larger);
         let begun = self.start.distance <= margin + tolerance;
         match self.case.config.start {
             // Bodies that are let go keep the distance that they have, but for what the axis that
             // certified it is off by.
             StartPolicy::Leave if begun && self.start.distance < margin + self.rounding => {
-                let kept = smaller(margin, self.start.distance) - self.rounding - AXIS * self.scene.scale;
-                Limit { threshold: larger(kept, 0.0), depth: self.rounding }
+                let kept =
+                    smaller(margin, self.start.distance) - self.rounding - AXIS * self.scene.scale;
+                Limit {
+                    threshold: larger(kept, 0.0),
+                    depth: self.rounding,
+                }
             }
             _ => {
                 let clearances = given.iter().filter_map(|g| match g.answer.outcome {
                     Outcome::Free { clearance } => Some(clearance),
                     _ => None,
                 });
-                Limit { threshold: clearances.fold(margin, larger), depth: 0.0 }
+                Limit {
+                    threshold: clearances.fold(margin, larger),
+                    depth: 0.0,
+                }
             }
         }
     }
@@ -146,12 +162,21 @@ impl<'a> Judge<'a> {
         let below_margin = |e: &Evidence| !(e.distance > 0.0) || e.distance < self.kept(margin);
         let early = before.filter(below_margin);
         let known = |e: Evidence| {
-            let Evidence { time, distance, depth } = e;
-            format!("at {time:e} {distance:e} apart, {depth:e} deep, {:?}", answer.outcome)
+            let Evidence {
+                time,
+                distance,
+                depth,
+            } = e;
+            format!(
+                "at {time:e} {distance:e} apart, {depth:e} deep, {:?}",
+                answer.outcome
+            )
         };
         let overlaps = self.start.overlaps;
         match answer.outcome {
-            Outcome::Contact { .. } | Outcome::Free { .. } | Outcome::Touching { .. } if overlaps => {
+            Outcome::Contact { .. } | Outcome::Free { .. } | Outcome::Touching { .. }
+                if overlaps =>
+            {
                 say(Fault::NotOverlapping, format!("{:?}", answer.outcome));
             }
             Outcome::Contact { time, contact } => {
@@ -171,7 +196,9 @@ impl<'a> Judge<'a> {
                 if overlaps && safe_until > 0.0 {
                     say(Fault::NotSafe, format!("overlapping, {:?}", answer.outcome));
                 }
-                early.into_iter().for_each(|e| say(Fault::NotSafe, known(e)));
+                early
+                    .into_iter()
+                    .for_each(|e| say(Fault::NotSafe, known(e)));
             }
         }
         faults
@@ -190,7 +217,9 @@ impl<'a> Judge<'a> {
             (_, Outcome::Unresolved { .. }) | (Expect::Nothing, _) => None,
             (Expect::Free, Outcome::Free { .. }) => None,
             (Expect::Free, _) => Some(Fault::FalseContact),
-            (Expect::ContactBy(t), Outcome::Contact { time, .. }) => (time > t).then_some(Fault::Late),
+            (Expect::ContactBy(t), Outcome::Contact { time, .. }) => {
+                (time > t).then_some(Fault::Late)
+            }
             (Expect::ContactBy(_), Outcome::Free { .. }) => Some(Fault::Missed),
             (Expect::ContactBy(_), _) => None,
         };
@@ -210,7 +239,11 @@ impl<'a> Judge<'a> {
             d = scene.exact_distance(time);
         }
         if d > reported + error {
-            let fault = if time > 0.0 { Fault::FalseContact } else { Fault::FalseStart };
+            let fault = if time > 0.0 {
+                Fault::FalseContact
+            } else {
+                Fault::FalseStart
+            };
             faults.push((fault, text(d)));
         }
         if d > found.upper + error {
@@ -244,7 +277,11 @@ impl<'a> Judge<'a> {
             let off = clearance(point, &placed);
             // A piece may stick through the inside of its solid.
             let inside = off > allowed && locate(point, &placed) != Where::Outside;
-            if inside && self.volumes[k] == Volume::Solid { 0.0 } else { off }
+            if inside && self.volumes[k] == Volume::Solid {
+                0.0
+            } else {
+                off
+            }
         });
         off.sort_by(f64::total_cmp);
         let way = (witnesses[0] - witnesses[1]).length();
@@ -257,17 +294,25 @@ impl<'a> Judge<'a> {
 
     fn piece_distance(&self, bodies: &Bodies, contact: &Contact, time: f64) -> Option<f64> {
         let [a, b] = self.piece_triangles(bodies, contact, time)?;
-        let pairs = a.iter().flat_map(|s| b.iter().map(move |t| distance(s, t).rounded()));
+        let pairs = a
+            .iter()
+            .flat_map(|s| b.iter().map(move |t| distance(s, t).rounded()));
         Some(pairs.fold(f64::INFINITY, smaller))
     }
 
-    fn piece_triangles(&self, bodies: &Bodies, contact: &Contact, time: f64) -> Option<[Vec<Triangle<Double>>; 2]> {
+    fn piece_triangles(
+        &self,
+        bodies: &Bodies,
+        contact: &Contact,
+        time: f64,
+    ) -> Option<[Vec<Triangle<Double>>; 2]> {
         let moments = self.scene.moments(time);
         let side = |k: usize, piece: u32| {
             let piece = bodies.bodies[k].pieces().get(piece as usize);
             let track = &self.scene.sides[k].track;
             let place = |p: [f64; 3]| {
-                moments[k].arm(Vector::of(p) - track.centre) + (moments[k].centre - moments[0].centre)
+                moments[k].arm(Vector::of(p) - track.centre)
+                    + (moments[k].centre - moments[0].centre)
             };
             Some(surface(&piece)?.into_iter().map(|t| t.map(place)).collect())
         };
@@ -275,19 +320,33 @@ impl<'a> Judge<'a> {
     }
 
     fn overlap(&self, given: &Given<'_>, overlap: &Overlap) -> Faults {
-        let text = || format!("distance {:e}, {:?}", self.start.distance, given.answer.outcome);
+        let text = || {
+            format!(
+                "distance {:e}, {:?}",
+                self.start.distance, given.answer.outcome
+            )
+        };
         let wrong = match *overlap {
-            Overlap::Pieces(contact) => self.start.distance > self.rounding && !self.start.may_contain
-                || self.only_touch(given.bodies, &contact),
+            Overlap::Pieces(contact) => {
+                self.start.distance > self.rounding && !self.start.may_contain
+                    || self.only_touch(given.bodies, &contact)
+            }
             Overlap::AInsideB(p) => !self.is_inside(p.to_array(), 1),
             Overlap::BInsideA(p) => !self.is_inside(p.to_array(), 0),
         };
-        wrong.then(|| (Fault::FalseStart, text())).into_iter().collect()
+        wrong
+            .then(|| (Fault::FalseStart, text()))
+            .into_iter()
+            .collect()
     }
 
     /// Whether two pieces that are said to overlap are triangles with disjoint insides.
     fn only_touch(&self, bodies: &Bodies, contact: &Contact) -> bool {
-        match self.piece_triangles(bodies, contact, 0.0).as_ref().map(|both| both.each_ref().map(|s| &s[..])) {
+        match self
+            .piece_triangles(bodies, contact, 0.0)
+            .as_ref()
+            .map(|both| both.each_ref().map(|s| &s[..]))
+        {
             Some([[s], [t]]) => !(depth(s, t).rounded() > 0.0),
             _ => false,
         }
@@ -308,7 +367,9 @@ impl<'a> Judge<'a> {
             return faults;
         }
         for one in given {
-            let Outcome::Contact { time, .. } = one.answer.outcome else { continue };
+            let Outcome::Contact { time, .. } = one.answer.outcome else {
+                continue;
+            };
             let d = self.scene.distance(time);
             for (k, other) in given.iter().enumerate() {
                 let tolerance = smaller(one.answer.tolerance, other.answer.tolerance);
@@ -326,11 +387,15 @@ impl<'a> Judge<'a> {
 /// The triangles that bound a piece.
 fn surface(piece: &Piece<'_>) -> Option<Vec<[[f64; 3]; 3]>> {
     let at = |k: u32| piece.points[k as usize].to_array();
-    if let Some(last) = (piece.points.len() as u32).checked_sub(1).filter(|&last| last < 3) {
+    if let Some(last) = (piece.points.len() as u32)
+        .checked_sub(1)
+        .filter(|&last| last < 3)
+    {
         return Some(vec![[at(0), at(1.min(last)), at(last)]]);
     }
     let loops = piece.facets.iter();
-    let fans = loops.flat_map(|l| (1..l.len() - 1).map(move |k| [at(l[0]), at(l[k]), at(l[k + 1])]));
+    let fans =
+        loops.flat_map(|l| (1..l.len() - 1).map(move |k| [at(l[0]), at(l[k]), at(l[k + 1])]));
     (!piece.facets.is_empty()).then(|| fans.collect())
 }
 
@@ -362,7 +427,10 @@ fn shared_inside(placed: &[Vec<Triangle<Double>>; 2], volumes: [Volume; 2], far:
         let inner = &placed[1 - outer];
         let corners = inner.iter().map(|t| t[0]);
         let shared = match volumes[1 - outer] {
-            Volume::Solid => beside(inner).into_iter().filter(|&p| well_inside(p, 1 - outer)).collect(),
+            Volume::Solid => beside(inner)
+                .into_iter()
+                .filter(|&p| well_inside(p, 1 - outer))
+                .collect(),
             Volume::Surface => Vec::new(),
         };
         if corners.chain(shared).any(|p| well_inside(p, outer)) {

@@ -8,7 +8,10 @@ use crate::shapes;
 use ccd_core::Config;
 
 pub(super) fn draw(draw: &mut Draw) -> Case {
-    let config = Config { tolerance: draw.log(1e-12..1e-2), ..Config::default() };
+    let config = Config {
+        tolerance: draw.log(1e-12..1e-2),
+        ..Config::default()
+    };
     let bodies = [shapes::any(draw), shapes::any(draw)];
     let mut case = pass(draw, bodies, 0.0, config);
     let far = match draw.chance(0.7) {
@@ -16,7 +19,11 @@ pub(super) fn draw(draw: &mut Draw) -> Case {
         false => [0.0; 3],
     };
     let whole = draw.chance(0.5);
-    case.duration = if draw.chance(0.5) { 1.0 } else { draw.log(1e-6..1e6) };
+    case.duration = if draw.chance(0.5) {
+        1.0
+    } else {
+        draw.log(1e-6..1e6)
+    };
     for course in &mut case.courses {
         *course = ended(draw, course, far, case.duration);
         if whole {
@@ -28,8 +35,13 @@ pub(super) fn draw(draw: &mut Draw) -> Case {
 
 /// The same between end poses, about any centre, far from the origin.
 fn ended(draw: &mut Draw, course: &Course, far: [f64; 3], duration: f64) -> Course {
-    let Goal::Velocities { linear, .. } = course.goal else { return *course };
-    let start = Place { position: plus(course.start.position, far), ..course.start };
+    let Goal::Velocities { linear, .. } = course.goal else {
+        return *course;
+    };
+    let start = Place {
+        position: plus(course.start.position, far),
+        ..course.start
+    };
     let centre = match draw.count(0..3) {
         0 => [0.0; 3],
         1 => draw.point(),
@@ -37,8 +49,15 @@ fn ended(draw: &mut Draw, course: &Course, far: [f64; 3], duration: f64) -> Cour
     };
     if draw.chance(0.15) {
         let slow = |v: [f64; 3]| times(v, 1.0 / duration);
-        let goal = Goal::Velocities { linear: slow(linear), spin: slow(draw.point()) };
-        return Course { start, goal, centre };
+        let goal = Goal::Velocities {
+            linear: slow(linear),
+            spin: slow(draw.point()),
+        };
+        return Course {
+            start,
+            goal,
+            centre,
+        };
     }
     let quaternion = match draw.count(0..3) {
         0 => start.quaternion,
@@ -49,6 +68,13 @@ fn ended(draw: &mut Draw, course: &Course, far: [f64; 3], duration: f64) -> Cour
             [0, 1, 2, 3].map(|k| start.quaternion[k] + turn * by[k])
         }
     };
-    let end = Place { position: plus(start.position, linear), quaternion };
-    Course { start, goal: Goal::End(end), centre }
+    let end = Place {
+        position: plus(start.position, linear),
+        quaternion,
+    };
+    Course {
+        start,
+        goal: Goal::End(end),
+        centre,
+    }
 }

@@ -13,14 +13,24 @@ pub(super) fn draw(draw: &mut Draw) -> Case {
         config.margin = draw.pick(&[0.125, 0.5, 1.0]);
     }
     let high = draw.pick(&[0.0, 0.0, 0.25, 1.0, 1.5]);
-    let aside = [draw.pick(&[-3.0, -2.0, 0.0]), draw.pick(&[-1.0, -0.5, 0.0, 0.25])];
+    let aside = [
+        draw.pick(&[-3.0, -2.0, 0.0]),
+        draw.pick(&[-1.0, -0.5, 0.0, 0.25]),
+    ];
     let start = [aside[0], aside[1], high];
     let down = if draw.chance(0.5) { -2.0 * high } else { 0.0 };
-    let along = [draw.pick(&[0.0, 1.0, 4.0]), draw.pick(&[0.0, 0.0, 1.0]), down];
+    let along = [
+        draw.pick(&[0.0, 1.0, 4.0]),
+        draw.pick(&[0.0, 0.0, 1.0]),
+        down,
+    ];
     let spin = match draw.chance(0.7) {
         true => [0.0; 3],
         // Tipping over, or round in the plane.
-        false => times(draw.pick(&[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]), draw.within(-2.0..2.0)),
+        false => times(
+            draw.pick(&[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]),
+            draw.within(-2.0..2.0),
+        ),
     };
     let mut courses = [still(), Course::velocities(Place::at(start), along, spin)];
     if draw.chance(0.3) {
@@ -30,7 +40,13 @@ pub(super) fn draw(draw: &mut Draw) -> Case {
             course.start.position = plus(course.start.position, far);
         }
     }
-    Case { shapes: bodies, courses, duration: 1.0, config, expect: Expect::Nothing }
+    Case {
+        shapes: bodies,
+        courses,
+        duration: 1.0,
+        config,
+        expect: Expect::Nothing,
+    }
 }
 
 /// A polygon in the plane z = 0, or a box with its lower face there.

@@ -22,7 +22,11 @@ pub(super) fn draw(draw: &mut Draw) -> Case {
     if draw.chance(0.4) {
         config.margin = draw.log(1e-3..10.0);
     }
-    let turn = if draw.chance(0.4) { 0.0 } else { draw.log(1e-3..10.0) };
+    let turn = if draw.chance(0.4) {
+        0.0
+    } else {
+        draw.log(1e-3..10.0)
+    };
     let bodies = [shapes::hull(draw, many), other];
     pass(draw, bodies, turn, config)
 }

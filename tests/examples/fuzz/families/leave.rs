@@ -10,7 +10,11 @@ use ccd_core::StartPolicy;
 pub(super) fn draw(draw: &mut Draw) -> Case {
     let half = [draw.log(0.2..2.0), draw.log(0.2..2.0), draw.log(0.2..2.0)];
     let floor = shapes::cuboid([8.0, 8.0, 0.5]).map(|[x, y, z]| [x, y, z - 0.5]);
-    let floor = if draw.chance(0.2) { floor.flipped() } else { floor };
+    let floor = if draw.chance(0.2) {
+        floor.flipped()
+    } else {
+        floor
+    };
     let (top, half_height) = match draw.count(0..4) {
         0 => (shapes::cuboid(half), half[2]),
         1 => resting(shapes::solid(draw)),
@@ -31,40 +35,65 @@ pub(super) fn draw(draw: &mut Draw) -> Case {
         2 => config.tolerance * draw.within(0.01..1.0),
         _ => config.margin * draw.within(0.0..1.0),
     };
-    let at = [draw.within(-1.0..1.0), draw.within(-1.0..1.0), half_height + gap];
+    let at = [
+        draw.within(-1.0..1.0),
+        draw.within(-1.0..1.0),
+        half_height + gap,
+    ];
     let along = times(draw.point(), draw.within(0.0..3.0));
     let (velocity, spin, expect) = match draw.count(0..5) {
         0 => ([0.0, 0.0, draw.within(0.0..3.0)], [0.0; 3], Expect::Free),
         // Inside the margin, what comes over the next triangle of the floor is a contact.
-        1 if config.margin == 0.0 => {
-            ([along[0], along[1], draw.within(0.1..2.0)], [0.0; 3], Expect::Free)
-        }
+        1 if config.margin == 0.0 => (
+            [along[0], along[1], draw.within(0.1..2.0)],
+            [0.0; 3],
+            Expect::Free,
+        ),
         2 => ([along[0], along[1], 0.0], [0.0; 3], Expect::Nothing),
         3 => {
             let down = draw.log(1e-3..3.0);
             // By then all of the gap is gone.
             let by = (1.001 * gap + 1e-6) / down;
-            let expect = if by < 1.0 { Expect::ContactBy(by) } else { Expect::Nothing };
+            let expect = if by < 1.0 {
+                Expect::ContactBy(by)
+            } else {
+                Expect::Nothing
+            };
             ([along[0], along[1], -down], [0.0; 3], expect)
         }
-        _ => (along, times(draw.direction(), draw.log(1e-3..6.0)), Expect::Nothing),
+        _ => (
+            along,
+            times(draw.direction(), draw.log(1e-3..6.0)),
+            Expect::Nothing,
+        ),
     };
     let mut courses = [still(), Course::velocities(Place::at(at), velocity, spin)];
     if draw.chance(0.3) {
         // Not upward: the gap is to stay what it is.
         let by = [draw.within(-1e3..1e3), draw.within(-1e3..1e3), 0.0];
-        courses.iter_mut().for_each(|c| c.start.position = plus(c.start.position, by));
+        courses
+            .iter_mut()
+            .for_each(|c| c.start.position = plus(c.start.position, by));
     }
     let mut shapes = [floor, top];
     if draw.chance(0.5) {
         shapes.swap(0, 1);
         courses.swap(0, 1);
     }
-    Case { shapes, courses, duration: 1.0, config, expect }
+    Case {
+        shapes,
+        courses,
+        duration: 1.0,
+        config,
+        expect,
+    }
 }
 
 /// A shape with its lowest corner in the plane z = 0.
 fn resting(shape: Shape) -> (Shape, f64) {
-    let lowest = shape.vertices.iter().fold(f64::INFINITY, |m, v| if v[2] < m { v[2] } else { m });
+    let lowest = shape
+        .vertices
+        .iter()
+        .fold(f64::INFINITY, |m, v| if v[2] < m { v[2] } else { m });
     (shape.map(|[x, y, z]| [x, y, z - lowest]), 0.0)
 }

@@ -9,7 +9,11 @@ pub(super) fn draw(draw: &mut Draw) -> Case {
     let bodies = [shapes::any(draw), shapes::any(draw)];
     let mut config = tolerance(draw);
     config.margin = draw.log(1e-3..100.0);
-    let turn = if draw.chance(0.5) { 0.0 } else { draw.log(1e-3..10.0) };
+    let turn = if draw.chance(0.5) {
+        0.0
+    } else {
+        draw.log(1e-3..10.0)
+    };
     let mut case = pass(draw, bodies, turn, config);
     if draw.chance(0.3) {
         // From inside the margin.

@@ -74,7 +74,13 @@ fn pass(draw: &mut Draw, shapes: [Shape; 2], turn: f64, config: Config) -> Case 
         Course::velocities(start, moved, spin(draw))
     };
     let courses = [course(draw, 1.0, miss), course(draw, -1.0, [0.0; 3])];
-    Case { shapes, courses, duration: 1.0, config, expect: Expect::Nothing }
+    Case {
+        shapes,
+        courses,
+        duration: 1.0,
+        config,
+        expect: Expect::Nothing,
+    }
 }
 
 /// At rest, at the origin.
@@ -83,5 +89,8 @@ fn still() -> Course {
 }
 
 fn tolerance(draw: &mut Draw) -> Config {
-    Config { tolerance: draw.log(1e-9..1e-2), ..Config::default() }
+    Config {
+        tolerance: draw.log(1e-9..1e-2),
+        ..Config::default()
+    }
 }

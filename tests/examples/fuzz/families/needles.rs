@@ -16,8 +16,16 @@ pub(super) fn draw(draw: &mut Draw) -> Case {
     if draw.chance(0.4) {
         config.margin = draw.log(1e-2..2.0);
     }
-    let turn = if draw.chance(0.4) { 0.0 } else { draw.log(1e-3..6.0) };
-    let shapes = if draw.chance(0.5) { [thin, other] } else { [other, thin] };
+    let turn = if draw.chance(0.4) {
+        0.0
+    } else {
+        draw.log(1e-3..6.0)
+    };
+    let shapes = if draw.chance(0.5) {
+        [thin, other]
+    } else {
+        [other, thin]
+    };
     let mut case = pass(draw, shapes, turn, config);
     if draw.chance(0.3) {
         for course in &mut case.courses {
@@ -31,7 +39,10 @@ pub(super) fn draw(draw: &mut Draw) -> Case {
         case.courses = [still(), still()];
         case.courses[0].start.position = times(way, -1.5 * reach);
         let linear = times(way, reach * draw.within(0.5..2.0));
-        case.courses[0].goal = Goal::Velocities { linear, spin: [0.0; 3] };
+        case.courses[0].goal = Goal::Velocities {
+            linear,
+            spin: [0.0; 3],
+        };
     }
     case
 }
@@ -60,7 +71,11 @@ fn thin(draw: &mut Draw) -> Shape {
             2 => plus(at, plus(along, aside)),
             _ => plus(plus(at, times(along, share)), aside),
         };
-        let first = if draw.chance(0.3) { plus(at, times(aside, -0.5)) } else { at };
+        let first = if draw.chance(0.3) {
+            plus(at, times(aside, -0.5))
+        } else {
+            at
+        };
         let base = shape.vertices.len() as u32;
         shape.vertices.extend([first, plus(at, along), third]);
         shape.faces.push([base, base + 1, base + 2]);
@@ -74,5 +89,9 @@ fn lattice(draw: &mut Draw) -> [f64; 3] {
         return draw.direction();
     }
     let whole = [(); 3].map(|()| draw.pick(&[-2.0, -1.0, 0.0, 0.0, 1.0, 1.0, 2.0]));
-    if whole == [0.0; 3] { [1.0, 0.0, 0.0] } else { whole }
+    if whole == [0.0; 3] {
+        [1.0, 0.0, 0.0]
+    } else {
+        whole
+    }
 }

@@ -15,7 +15,11 @@ pub(super) fn draw(draw: &mut Draw) -> Case {
     let size = draw.pick(&[0.1, 0.3, 1.0]);
     let other = other.map(|v| times(v, size));
     let config = tolerance(draw);
-    let turn = if draw.chance(0.5) { 0.0 } else { draw.log(0.01..6.0) };
+    let turn = if draw.chance(0.5) {
+        0.0
+    } else {
+        draw.log(0.01..6.0)
+    };
     if draw.chance(0.5) {
         return pass(draw, [several, other], turn, config);
     }
@@ -28,7 +32,13 @@ pub(super) fn draw(draw: &mut Draw) -> Case {
     let velocity = times(draw.direction(), draw.within(0.0..4.0));
     let spin = times(draw.direction(), turn);
     let courses = [still(), Course::velocities(start, velocity, spin)];
-    Case { shapes: [several, other], courses, duration: 1.0, config, expect: Expect::Nothing }
+    Case {
+        shapes: [several, other],
+        courses,
+        duration: 1.0,
+        config,
+        expect: Expect::Nothing,
+    }
 }
 
 /// One to four closed parts, some of them inside out, some in each other.
@@ -43,7 +53,11 @@ fn several(draw: &mut Draw) -> Shape {
         };
         let (here, scale) = (at, size);
         let part = part.map(|v| plus(times(v, scale), here));
-        let part = if draw.chance(0.5) { part.flipped() } else { part };
+        let part = if draw.chance(0.5) {
+            part.flipped()
+        } else {
+            part
+        };
         all = all.with(&part);
         match draw.count(0..3) {
             // Within the last one, beside it, or flush beside it.
@@ -55,4 +69,3 @@ fn several(draw: &mut Draw) -> Shape {
     all.form = Form::Soup;
     all
 }
-

@@ -1,0 +1,98 @@
+//! Outside is told face by face, however the shells are wound.
+
+use super::Facing;
+use crate::body::{Body, Volume};
+use crate::tests::meshes::{cube, inside_out, moved};
+use crate::tests::nearest::Triangle;
+use crate::tests::scene::pieces;
+use glam::DVec3;
+
+fn solid(triangles: &[Triangle]) -> Body {
+    Body::new(&pieces(triangles), Volume::Solid).unwrap()
+}
+
+/// Checks the normal of every face against what the middle of its shell says.
+fn check(body: &Body, out_of: impl Fn(DVec3) -> DVec3) {
+    for piece in 0..body.pieces().len() as u32 {
+        let out = out_of(body.middle(piece));
+        let Facing::Out(normal) = body.facing(piece) else {
+            panic!("{:?}", body.facing(piece));
+        };
+        assert!(normal.dot(out) > 0.1, "{normal} {out}");
+        let inside = body.point_inside(piece).unwrap();
+        assert!((inside - body.middle(piece)).dot(out) < 0.0);
+    }
+}
+
+#[test]
+fn shells_side_by_side_need_not_agree() {
+    let middles = [DVec3::ZERO, 10.0 * DVec3::X];
+    let mut shells = inside_out(&cube(0.5, 2));
+    shells.extend(moved(&cube(1.5, 2), middles[1]));
+    check(&solid(&shells), |p| match p.x < 5.0 {
+        true => p,
+        false => p - middles[1],
+    });
+}
+
+#[test]
+fn a_cavity_faces_inward_however_the_whole_is_wound() {
+    let mut shells = cube(3.0, 2);
+    shells.extend(inside_out(&cube(2.0, 2)));
+    for shells in [inside_out(&shells), shells] {
+        check(&solid(&shells), |p| match p.abs().max_element() > 2.5 {
+            true => p,
+            false => -p,
+        });
+    }
+}
+
+/// A cube as thin as a few units in the last place of its coordinates.
+#[test]
+fn a_thin_wall_has_two_sides() {
+    let thin = |p: DVec3| DVec3::new(p.x, p.y, 1e-11 * p.z) + DVec3::splat(1e3);
+    let plate: Vec<Triangle> = cube(1.0, 1).iter().map(|t| t.map(thin)).collect();
+    let body = solid(&plate);
+    let large = |piece: &u32| body.pieces().get(*piece as usize).points[0].z;
+    let flat = (0..12).filter(|&piece| {
+        let points = body.pieces().get(piece as usize).points;
+        points.iter().all(|p| p.z == points[0].z)
+    });
+    for piece in flat {
+        let Facing::Out(normal) = body.facing(piece) else {
+            panic!("{:?}", body.facing(piece));
+        };
+        assert_eq!(normal.z > 0.0, large(&piece) > 1e3, "{normal}");
+    }
+}
+
+#[test]
+fn faces_back_to_back_and_surfaces_face_neither_way() {
+    let triangle = [DVec3::ZERO, DVec3::X, DVec3::Y];
+    let sheet = solid(&[triangle, [triangle[0], triangle[2], triangle[1]]]);
+    assert_eq!(sheet.facing(0), Facing::Neither);
+    assert_eq!(sheet.point_inside(0), None);
+    let surface = Body::new(&pieces(&cube(1.0, 1)), Volume::Surface).unwrap();
+    assert_eq!(surface.facing(0), Facing::Neither);
+}
+
+/// Two lobes of one shell, wound either way: the cross section is an eight.
+#[test]
+fn a_face_on_which_the_sides_change_is_unclear() {
+    let eight = [(-1.0, -1.0), (1.0, 1.0), (1.0, -1.0), (-1.0, 1.0)];
+    let at = |k: usize, z: f64| DVec3::new(eight[k % 4].0, eight[k % 4].1, z);
+    let mut shell = Vec::new();
+    for k in 0..4 {
+        let [a, b, c, d] = [at(k, 0.0), at(k + 1, 0.0), at(k + 1, 1.0), at(k, 1.0)];
+        shell.extend([[a, b, c], [a, c, d]]);
+    }
+    for (z, turned) in [(0.0, true), (1.0, false)] {
+        let cap = [[0, 1, 2], [0, 2, 3]].map(|t| t.map(|k| at(k, z)));
+        shell.extend(cap.map(|[a, b, c]| if turned { [a, c, b] } else { [a, b, c] }));
+    }
+    let body = solid(&shell);
+    let facings: Vec<Facing> = (0..shell.len() as u32).map(|k| body.facing(k)).collect();
+    assert!(facings.contains(&Facing::Unclear), "{facings:?}");
+    let known = facings.iter().filter(|f| matches!(f, Facing::Out(_)));
+    assert!(known.count() > 0, "{facings:?}");
+}

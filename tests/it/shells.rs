@@ -1,0 +1,237 @@
+//! Shells beside and within each other, wound at random: what is inside, and which side is out.
+
+use ccd_core::glam::DVec3;
+use ccd_core::schedule::{BestFirst, Schedule};
+use ccd_core::{Body, Config, Motion, Moving, Outcome, Pose, Problem, StartPolicy};
+use ccd_decomp::{Detail, Order, prepare};
+use ccd_distance_gjk::Auto;
+use ccd_tests::exact::{Blend, Place, Solid};
+use ccd_tests::models::{Mesh, Shape, boulder, cuboid, icosphere, torus};
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64;
+
+const DETAILS: [Detail; 3] = [
+    Detail::Triangles,
+    Detail::Patches(Order::Cresting),
+    Detail::Auto,
+];
+
+/// A random closed shell about the origin that fits into one of radius 1 and holds one of radius 0.4.
+fn shell(rng: &mut Pcg64) -> Shape {
+    match rng.random_range(0..3) {
+        0 => icosphere(1.0, rng.random_range(0..2)),
+        1 => boulder(1, 0.3, rng.random()),
+        _ => cuboid(DVec3::splat(0.57)),
+    }
+}
+
+/// Shells with how many there are around each.
+fn nests(rng: &mut Pcg64) -> Vec<(Mesh, usize)> {
+    let mut shells = Vec::new();
+    for k in 0..rng.random_range(1..4) {
+        let at = DVec3::new(3.0 * f64::from(k), rng.random(), rng.random());
+        let mut size = rng.random_range(0.8..1.2);
+        for depth in 0..rng.random_range(1..5) {
+            shells.push((shell(rng).scaled(size).moved(at).mesh, depth));
+            size *= rng.random_range(0.25..0.35);
+        }
+    }
+    shells
+}
+
+fn wound(shells: &[(Mesh, usize)], rng: &mut Pcg64) -> Mesh {
+    let mut all = Mesh {
+        vertices: Vec::new(),
+        faces: Vec::new(),
+    };
+    for (shell, _) in shells {
+        match rng.random() {
+            true => all.append(&shell.clone().flipped()),
+            false => all.append(shell),
+        }
+    }
+    all
+}
+
+fn body(mesh: &Mesh, detail: Detail) -> Body {
+    let model = prepare(&mesh.for_decomposition(), detail).expect("a body");
+    model.body().expect("a body")
+}
+
+fn solve(a: &Body, b: &Body, velocity: DVec3, start: StartPolicy) -> Outcome {
+    let moving = |body, velocity| Moving {
+        body,
+        motion: Motion::new(Pose::IDENTITY, velocity, DVec3::ZERO).unwrap(),
+    };
+    let config = Config {
+        tolerance: 1e-6,
+        start,
+        ..Config::default()
+    };
+    let (a, b) = (moving(a, DVec3::ZERO), moving(b, velocity));
+    let problem = Problem::new(a, b, 1.0, &config).unwrap();
+    BestFirst::default()
+        .solve(&problem, &mut Auto::default())
+        .outcome
+}
+
+fn direction(rng: &mut Pcg64) -> DVec3 {
+    let mut ball = || DVec3::from_array([0; 3].map(|_| rng.random_range(-1.0..1.0)));
+    std::iter::repeat_with(&mut ball)
+        .find(|p| (0.1..1.0).contains(&p.length()))
+        .unwrap()
+        .normalize()
+}
+
+/// A point is inside when an odd number of shells is around it, one by one and exactly.
+#[test]
+fn a_body_inside_overlaps_however_shells_are_wound() {
+    let mut rng = Pcg64::seed_from_u64(1);
+    let mut counts = [0; 2];
+    for case in 0..40 {
+        let shells = nests(&mut rng);
+        let mesh = wound(&shells, &mut rng);
+        let solids: Vec<Solid<'_>> = shells.iter().map(|(mesh, _)| Solid::new(mesh)).collect();
+        for detail in DETAILS {
+            let outer = body(&mesh, detail);
+            for _ in 0..10 {
+                let (near, _) = &shells[rng.random_range(0..shells.len())];
+                let at = near.vertices[0].lerp(near.vertices[1], rng.random())
+                    + direction(&mut rng) * 0.1;
+                let places = solids.iter().map(|solid| solid.place(&Blend::mean([at])));
+                let around = places.filter(|place| matches!(place, Place::Inside(_)));
+                let inside = around.count() % 2 == 1;
+                let speck = body(
+                    &cuboid(DVec3::splat(1e-7)).moved(at).mesh,
+                    Detail::Triangles,
+                );
+                let outcome = solve(&outer, &speck, DVec3::ZERO, StartPolicy::Report);
+                if matches!(outcome, Outcome::Touching { .. }) {
+                    continue;
+                }
+                let overlaps = matches!(outcome, Outcome::Overlapping { .. });
+                assert_eq!(overlaps, inside, "case {case} {detail:?} {at} {outcome:?}");
+                counts[usize::from(inside)] += 1;
+            }
+        }
+    }
+    assert!(counts[0] > 200 && counts[1] > 200, "{counts:?}");
+}
+
+/// A triangle that rests on a face is let go on one side only, and something thick on its other side
+/// overlaps.
+#[test]
+fn what_rests_on_a_face_may_leave_it_on_the_outside_only() {
+    let mut rng = Pcg64::seed_from_u64(2);
+    let mut let_go = 0;
+    for case in 0..60 {
+        let shells = nests(&mut rng);
+        let mesh = wound(&shells, &mut rng);
+        let outer = body(&mesh, DETAILS[case % 3]);
+        for _ in 0..5 {
+            let (shell, depth) = &shells[rng.random_range(0..shells.len())];
+            let triangle = shell.triangle(rng.random_range(0..shell.faces.len()));
+            let [a, b, c] = triangle;
+            // Faces look away from the middle; shells at odd depths are of cavities.
+            let normal = (b - a).cross(c - a).normalize();
+            let out = if depth % 2 == 0 { normal } else { -normal };
+            let middle = (a + b + c) / 3.0;
+            let small = triangle.map(|p| middle + 0.3 * (p - middle));
+            let size = a.distance(b);
+            let sheet = Mesh {
+                vertices: small.to_vec(),
+                faces: vec![[0, 1, 2]],
+            };
+            let sheet = body(&sheet, Detail::Triangles);
+            let solve =
+                |b: &Body, way: f64| solve(&outer, b, 0.02 * way * size * out, StartPolicy::Leave);
+            let into = solve(&sheet, -1.0);
+            let at_once = |time: f64| time < 1e-9;
+            assert!(
+                matches!(into, Outcome::Contact { time, .. } if at_once(time)),
+                "case {case} {into:?}"
+            );
+            let away = solve(&sheet, 1.0);
+            assert!(
+                !matches!(away, Outcome::Contact { time, .. } if at_once(time)),
+                "case {case} {away:?}"
+            );
+            let_go += usize::from(matches!(away, Outcome::Free { .. }));
+            let tetrahedron = |tip: DVec3| {
+                let mesh = Mesh {
+                    vertices: [small.as_slice(), &[tip]].concat(),
+                    faces: vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]],
+                };
+                body(&mesh, DETAILS[case % 3])
+            };
+            let outside = solve(&tetrahedron(middle + 0.01 * size * out), 1.0);
+            assert!(
+                !matches!(
+                    outside,
+                    Outcome::Overlapping { .. } | Outcome::Unresolved { .. }
+                ),
+                "case {case} {outside:?}"
+            );
+            let inside = solve(&tetrahedron(middle - 0.01 * size * out), 1.0);
+            assert!(
+                matches!(inside, Outcome::Overlapping { .. }),
+                "case {case} {inside:?}"
+            );
+        }
+    }
+    assert!(let_go > 200, "{let_go}");
+}
+
+/// Of equal bodies every corner of one is on the other one's surface.
+#[test]
+fn equal_bodies_overlap() {
+    for shape in [
+        cuboid(DVec3::ONE),
+        torus(1.0, 0.3, 12, 8),
+        icosphere(1.0, 2),
+    ] {
+        for one in DETAILS {
+            for other in DETAILS {
+                let [a, b] = [one, other].map(|detail| body(&shape.mesh, detail));
+                let outcome = solve(&a, &b, DVec3::ZERO, StartPolicy::Report);
+                let overlaps = matches!(outcome, Outcome::Overlapping { .. });
+                assert!(overlaps, "{one:?} {other:?} {outcome:?}");
+            }
+        }
+    }
+}
+
+/// One tooth of many that every other piece of its body is far from: no sample may miss it.
+#[test]
+fn one_part_of_many_that_is_inside_is_found() {
+    let outer = cuboid(DVec3::ONE);
+    let mut many = Mesh {
+        vertices: Vec::new(),
+        faces: Vec::new(),
+    };
+    for k in 0..400 {
+        let at = DVec3::new(1.05 + 0.3 * f64::from(k), 0.0, 0.0);
+        many.append(&cuboid(DVec3::splat(0.05)).moved(at).mesh);
+    }
+    let a = body(&outer.mesh, Detail::Triangles);
+    let touching = solve(
+        &a,
+        &body(&many, Detail::Triangles),
+        DVec3::ZERO,
+        StartPolicy::Report,
+    );
+    assert!(matches!(touching, Outcome::Touching { .. }), "{touching:?}");
+    // All corners of the last one are on the surface or on edges of it.
+    let inner = cuboid(DVec3::new(1.0, 1.0, 1.0)).mesh;
+    many.append(&inner);
+    let overlapping = solve(
+        &a,
+        &body(&many, Detail::Triangles),
+        DVec3::ZERO,
+        StartPolicy::Report,
+    );
+    assert!(
+        matches!(overlapping, Outcome::Overlapping { .. }),
+        "{overlapping:?}"
+    );
+}
