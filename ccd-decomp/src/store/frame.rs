@@ -17,7 +17,7 @@ const MAGIC: [u8; 8] = *b"\x89ccd\r\n\x1a\n";
 
 /// The version that is written, and the only one that is read: what a body is prepared from is still
 /// there, so that an older file is not worth a second reader.
-pub(super) const VERSION: u32 = 1;
+pub(super) const VERSION: u32 = 2;
 
 const HEADER: usize = MAGIC.len() + size_of::<u32>() + size_of::<u64>();
 
