@@ -4,12 +4,17 @@ use crate::error::InputError;
 use crate::feature::Feature;
 use crate::hierarchy::Hierarchy;
 #[cfg(feature = "hull-tree")]
-use crate::hull_tree::{HullTree, HullTreeError};
-use crate::naming::face_under;
+use crate::hull_tree::{HullTree, HullTreeError, support_of};
+use crate::naming::{face_under, prepare};
 use crate::oracle::Combination;
+use crate::piece::Piece;
 use crate::pieces::Pieces;
 use crate::shell::{Shell, shells};
+#[cfg(not(feature = "hull-tree"))]
+use crate::support::Support;
+use crate::tolerance::BOX_SHARE;
 use crate::tree::{Tree, pieces_at};
+use glam::DVec3;
 
 /// What moves: convex pieces in the body's own frame, ready for queries; immutable, shareable.
 ///
@@ -29,6 +34,15 @@ pub struct Body {
     /// Its leaves name the pieces in the order of the tree.
     #[cfg(feature = "hull-tree")]
     hull_tree: Option<HullTree>,
+    surface: Option<Box<Surface>>,
+}
+
+/// What a convex body is against a body of many triangles.
+#[derive(Clone, Debug)]
+struct Surface {
+    triangles: Body,
+    /// Whether the convex body is about the box that the tree keeps of it.
+    is_box: bool,
 }
 
 /// Whether being inside of a body counts as touching it.
@@ -65,6 +79,11 @@ impl Body {
         volume: Volume,
     ) -> Result<Self, InputError> {
         let (tree, pieces) = Tree::build(pieces, hierarchy)?;
+        // Made now, so that no query waits for it.
+        for piece in pieces.iter() {
+            piece.supported(support_of);
+            prepare(&piece);
+        }
         Ok(Body {
             shells: shells(&pieces),
             pieces,
@@ -72,7 +91,33 @@ impl Body {
             volume,
             #[cfg(feature = "hull-tree")]
             hull_tree: None,
+            surface: None,
         })
+    }
+
+    /// The same body of one piece with the triangles of its surface, for queries against bodies of many
+    /// triangles: near each of these only a few of its own are. Against other bodies it stays one piece.
+    ///
+    /// # Guarantee
+    /// That of queries holds when the triangles bound the same solid as the piece; this is not checked.
+    /// Answers name the same features, and the one piece.
+    ///
+    /// # Errors
+    /// [`InputError::BadSurface`] unless the body has one piece, without rounding, and is solid, and the
+    /// surface is a solid of triangles.
+    pub fn with_surface(mut self, surface: Body) -> Result<Self, InputError> {
+        let solid = |body: &Body| body.volume == Volume::Solid;
+        let whole = self.pieces.len() == 1 && self.pieces.get(0).radius == 0.0;
+        if !(whole && solid(&self) && solid(&surface) && surface.pieces.all_triangles()) {
+            return Err(InputError::BadSurface);
+        }
+        let [x, y, z] = self.tree.half().map(f64::from);
+        let volume = signed_volume(&surface.pieces).abs() / 6.0;
+        self.surface = Some(Box::new(Surface {
+            is_box: volume >= BOX_SHARE * 8.0 * x * y * z,
+            triangles: surface,
+        }));
+        Ok(self)
     }
 
     /// The same body with a hull tree over its pieces, for the schedules that use one.
@@ -91,9 +136,27 @@ impl Body {
         &self.pieces
     }
 
+    /// A piece, with what finds its extremal points where they are many.
+    #[inline]
+    pub(crate) fn piece(&self, index: u32) -> Piece<'_> {
+        self.pieces.get(index as usize).supported(support_of)
+    }
+
     /// Whether it is solid.
     pub fn volume(&self) -> Volume {
         self.volume
+    }
+
+    /// What it is best taken for against another body: its surface, where it was given one and the other
+    /// body has many triangles. A box that is larger than the other body stays one: its own triangles
+    /// would hardly be nearer to anything than it is.
+    pub(crate) fn against(&self, other: &Body) -> &Body {
+        let many = other.pieces.all_triangles() && other.pieces.len() > 1;
+        let larger = self.tree.radius() >= other.tree.radius();
+        match &self.surface {
+            Some(surface) if many && !(larger && surface.is_box) => &surface.triangles,
+            _ => self,
+        }
     }
 
     /// The hull tree over its pieces, if it was given one; its leaves name [`Body::pieces`].
@@ -108,7 +171,9 @@ impl Body {
         let hulls = self.hull_tree.as_ref().map_or(0, HullTree::bytes);
         #[cfg(not(feature = "hull-tree"))]
         let hulls = 0;
-        self.pieces.bytes() + self.tree.bytes() + hulls
+        let surface = self.surface.as_ref();
+        let surface = surface.map_or(0, |surface| surface.triangles.bytes());
+        self.pieces.bytes() + self.tree.bytes() + hulls + surface
     }
 
     /// What a point of a piece is called in the mesh.
@@ -144,6 +209,19 @@ impl Body {
     pub(crate) fn shells(&self) -> &[Shell] {
         &self.shells
     }
+}
+
+/// What finds the extremal points of a piece of many.
+#[cfg(not(feature = "hull-tree"))]
+fn support_of(piece: &Piece<'_>) -> Support {
+    Support::of_points(piece.points)
+}
+
+/// Six times the volume that a closed surface of triangles bounds, negative where their normals point
+/// inward.
+fn signed_volume(pieces: &Pieces) -> f64 {
+    let cone = |[a, b, c]: [DVec3; 3]| (b - a).cross(c - a).dot(a);
+    (0..pieces.len()).map(|k| cone(pieces.triangle(k))).sum()
 }
 
 #[cfg(test)]

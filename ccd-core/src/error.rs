@@ -57,6 +57,8 @@ pub enum InputError {
         /// How many numbers.
         ids: usize,
     },
+    /// A surface is one of triangles that bound a solid, of a solid body of one piece without rounding.
+    BadSurface,
     /// A facet of a polytope names a corner that the polytope does not have.
     FacetOutOfRange {
         /// The piece's index.
@@ -109,6 +111,10 @@ impl fmt::Display for InputError {
             Self::FaceIds { faces, ids } => {
                 write!(f, "{faces} faces need as many numbers, not {ids}")
             }
+            Self::BadSurface => write!(
+                f,
+                "a surface has to be solid and of triangles, and its body one solid piece without rounding"
+            ),
             Self::FacetOutOfRange { piece, facet } => {
                 write!(f, "facet {facet} of piece {piece} names a missing corner")
             }

@@ -17,8 +17,7 @@ use crate::hierarchy::{Hierarchy, HierarchyNode};
 use crate::oracle::Combination;
 use crate::piece::Piece;
 use crate::pieces::{Pieces, range};
-use crate::tolerance::CLIMBED_POINTS;
-use convex::Climbed;
+pub(crate) use convex::support_of;
 use glam::DVec3;
 
 /// A binary tree over the pieces of a body with the convex hull of what is below at every node
@@ -169,14 +168,9 @@ impl HullTree {
     }
 
     /// A node's hull; where it has many points, these are found along a direction by climbing edges,
-    /// once these are proven to be those of the hull.
+    /// once these are proven to be those of the hull, else by searching a tree.
     pub(crate) fn hull(&self, node: u32) -> Piece<'_> {
-        let mut hull = self.hulls.get(node as usize);
-        if hull.points.len() > CLIMBED_POINTS {
-            let climbed = hull.kept(|hull| Box::new(Climbed::new(hull)));
-            hull.support = climbed.and_then(|climbed| climbed.support());
-        }
-        hull
+        self.hulls.get(node as usize).supported(support_of)
     }
 
     /// The nodes that the tree can be [made](HullTree::new) of again.

@@ -170,6 +170,19 @@ impl AxisMotion {
         }
     }
 
+    /// Of points that go straight.
+    #[inline]
+    pub(crate) fn drift(&self) -> f64 {
+        self.drift
+    }
+
+    /// A bound of the second derivative of the height of points at most so far from the axis of
+    /// rotation.
+    #[inline]
+    pub(crate) fn bend(&self, distance: f64) -> f64 {
+        self.omega * self.omega * self.across.length() * distance
+    }
+
     #[inline]
     pub(crate) fn track(&self, height: f64, arm: DVec3) -> Track {
         Track {

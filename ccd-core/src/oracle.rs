@@ -71,7 +71,7 @@ pub struct PiecePair<'a> {
 impl PiecePair<'_> {
     /// How many points there are to look at.
     pub(crate) fn points(&self) -> u64 {
-        self.a.points.len() as u64 + self.b.points.len() as u64
+        self.a.looks() + self.b.looks()
     }
 }
 

@@ -1,7 +1,9 @@
 //! Convex pieces: what bodies are made of and what oracles measure between.
 
+use crate::order::greater;
 use crate::shelf::Shelf;
 use crate::support::Support;
+use crate::tolerance::{CLIMBED_POINTS, RATE_F64};
 use glam::DVec3;
 use std::any::Any;
 
@@ -69,6 +71,19 @@ impl<'a> Piece<'a> {
         Some(entry.get_or_init(|| make(self)))
     }
 
+    /// The same piece with what finds its extremal points where they are many, made once and kept.
+    #[inline]
+    pub(crate) fn supported(self, make: impl FnOnce(&Self) -> Support) -> Self {
+        if self.points.len() <= CLIMBED_POINTS || self.support.is_some() {
+            return self;
+        }
+        let support = self.kept(|piece| Box::new(make(piece)));
+        Piece {
+            support: support.map(|kept| &**kept),
+            ..self
+        }
+    }
+
     /// The mesh's triangles that are on the piece, with the numbers of their faces; polygons are fans
     /// about their first corner.
     pub fn mesh_triangles(&self) -> impl Iterator<Item = (u32, [DVec3; 3])> {
@@ -88,18 +103,52 @@ impl<'a> Piece<'a> {
         fans.chain(faces.map(|face| (face.id, face.corners)))
     }
 
-    /// A point that is farthest along a direction.
-    pub(crate) fn farthest(&self, direction: DVec3) -> DVec3 {
+    /// The index of a point that is farthest along a direction of any length; of a piece of a body,
+    /// without looking at all points where they are many.
+    ///
+    /// # Guarantee
+    /// As [`Support::extremal`].
+    pub fn extremal(&self, direction: DVec3) -> u32 {
         if let Some(support) = self.support {
-            return self.points[support.extremal(direction) as usize];
+            return support.extremal(direction);
         }
-        let mut farthest = self.points[0];
-        for &point in self.points {
-            if direction.dot(point) > direction.dot(farthest) {
-                farthest = point;
+        let (mut found, mut highest) = (0, f64::NEG_INFINITY);
+        for (k, point) in (0..).zip(self.points) {
+            let height = direction.dot(*point);
+            if height > highest {
+                (found, highest) = (k, height);
             }
         }
-        farthest
+        found
+    }
+
+    /// A point that is farthest along a direction.
+    pub(crate) fn farthest(&self, direction: DVec3) -> DVec3 {
+        self.points[self.extremal(direction) as usize]
+    }
+
+    /// A ball about the points, where they are many and [`Piece::extremal`] is fast.
+    #[inline]
+    pub(crate) fn ball(&self) -> Option<(DVec3, f64)> {
+        self.support.and_then(Support::ball)
+    }
+
+    /// How far the points are at most from one, or a little more than that.
+    pub(crate) fn farthest_from(&self, from: DVec3) -> f64 {
+        if let Some((middle, radius)) = self.ball() {
+            return (middle.distance(from) + radius) * (1.0 + RATE_F64);
+        }
+        let squares = self.points.iter().map(|p| p.distance_squared(from));
+        squares.fold(0.0, greater).sqrt()
+    }
+
+    /// How many points are looked at, about, to find an extremal one.
+    pub(crate) fn looks(&self) -> u64 {
+        let few = self.points.len().min(CLIMBED_POINTS);
+        match self.support {
+            Some(_) => few as u64,
+            None => self.points.len() as u64,
+        }
     }
 
     /// Whether it lies in a plane: a polytope of volume has more than two facets.
@@ -143,14 +192,13 @@ impl<'a> Facets<'a> {
     /// The corner loops, facet by facet.
     pub fn iter(&self) -> impl ExactSizeIterator<Item = &'a [u32]> + Clone + use<'a> {
         let facets = *self;
-        (0..facets.ends.len()).map(move |k| {
-            let start = if k == 0 {
-                facets.base
-            } else {
-                facets.ends[k - 1]
-            };
-            &facets.corners[start as usize..facets.ends[k] as usize]
-        })
+        (0..facets.ends.len()).map(move |k| facets.get(k))
+    }
+
+    /// One corner loop.
+    pub(crate) fn get(&self, k: usize) -> &'a [u32] {
+        let start = if k == 0 { self.base } else { self.ends[k - 1] };
+        &self.corners[start as usize..self.ends[k] as usize]
     }
 
     /// What each facet is of the mesh.

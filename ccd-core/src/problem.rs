@@ -94,6 +94,8 @@ pub struct Problem<'a> {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Side<'a> {
     pub(crate) body: &'a Body,
+    /// Whether the body is the surface of the one that was given, which is one piece.
+    pub(crate) is_surface: bool,
     pub(crate) path: Path,
 }
 
@@ -129,15 +131,19 @@ impl<'a> Problem<'a> {
             "at least 0 and at most 1e12",
         )?;
         let origin = b.motion.start().translation();
-        let side = |moving: Moving<'a>| Side {
-            body: moving.body,
-            path: Path::new(&moving.motion, origin, duration),
+        let side = |moving: Moving<'a>, other: Moving<'a>| {
+            let body = moving.body.against(other.body);
+            Side {
+                body,
+                is_surface: !std::ptr::eq(body, moving.body),
+                path: Path::new(&moving.motion, origin, duration),
+            }
         };
         for moving in [&a, &b] {
             check_coordinates("position", moving.motion.start().translation())?;
             check_coordinates("centre", moving.motion.centre())?;
         }
-        let (a, b) = (side(a), side(b));
+        let (a, b) = (side(a, b), side(b, a));
         for side in [&a, &b] {
             side.check()?;
         }
@@ -171,7 +177,7 @@ impl<'a> Problem<'a> {
 
     /// A piece of A and one of B.
     pub(crate) fn pieces(&self, [a, b]: [u32; 2]) -> [Piece<'a>; 2] {
-        let piece = |side: &Side<'a>, k: u32| side.body.pieces().get(k as usize);
+        let piece = |side: &Side<'a>, k: u32| side.body.piece(k);
         [piece(&self.a, a), piece(&self.b, b)]
     }
 
@@ -241,6 +247,11 @@ impl<'a> Problem<'a> {
 }
 
 impl Side<'_> {
+    /// The number that a piece goes by in the body that was given.
+    pub(crate) fn number(&self, piece: u32) -> u32 {
+        if self.is_surface { 0 } else { piece }
+    }
+
     /// The largest coordinate of the body, and that of its centre, in the body's frame.
     fn span(&self) -> f64 {
         self.body.tree().span() + 2.0 * length(self.path.centre)

@@ -291,6 +291,34 @@ pub const JOIN_BEYOND: f64 = 2.0;
 /// corner, climbing takes 30 to 47 ns throughout. Up to 32 a table is not worth its memory.
 pub const CLIMBED_POINTS: usize = 32;
 
+/// Allowance on how far a disc about points reaches, computed in f32 in units of the piece's size,
+/// along a direction whose largest component is 1.
+///
+/// In units of `u = 2⁻²⁴`, lengths of points and of the direction being at most √3: the direction is
+/// rounded (3u); the centre projected by five operations (12u); radius and thickness are multiplied
+/// with lengths of at most √3 (6u and 12u), the normal is not exactly perpendicular to what is across
+/// it (12u), and the sums add 14u: 59u; 96u are taken.
+pub const DISC_F32: f32 = 96.0 * U32;
+
+/// Allowance on the square of a direction's part across a disc's normal, relative to the direction's
+/// own square: the square (9u), that of its part along the normal (27u), the normal's length (6u), and
+/// the difference (3u) come to 45u; 64u are taken.
+pub const DISC_TILT_F32: f32 = 64.0 * U32;
+
+/// By how much the lowest of many points along an axis may be missed while their body turns, in units
+/// of their farthest distances from the centre of rotation and from the body's origin.
+///
+/// The axis as the body sees it is off by the direction of the spin (2u), two products with it (6u),
+/// sine and cosine (4u), their products and sums (4u), and the rotation into the body's frame (7u):
+/// 23u, which two points see with opposite signs: 46u. The search itself adds the rounding of two
+/// heights, at most 14u ([`HEIGHT_F64`]): 60u; 64u are taken.
+pub const TURNED_SUPPORT: f64 = 64.0 * U64;
+
+/// The share of its box that a convex body has to fill to count as one. Measured: a board of 8 corners
+/// under 38,000 triangles takes 29 visits as one box and 41 as twelve triangles; a tetrahedron, a third
+/// of its box, against 26,000 takes 7,500 as one piece and 130 as four triangles.
+pub const BOX_SHARE: f64 = 0.9;
+
 /// How many corners that are level but for rounding are gone through one by one before all corners
 /// of the piece are looked at.
 pub const PLATEAU_POINTS: usize = 32;

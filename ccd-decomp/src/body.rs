@@ -46,6 +46,9 @@ pub struct Model {
     pub volume: Volume,
     /// A tree of hulls over the pieces, for the schedules that use one.
     pub hull_tree: Option<HullTree>,
+    /// The triangles of a convex solid's mesh, and a hierarchy over them: what it is against bodies of
+    /// many triangles.
+    pub surface: Option<(Pieces, Hierarchy)>,
     /// What the pieces are, and why.
     pub report: Report,
 }
@@ -122,10 +125,7 @@ impl Parts {
         let (mut inflated_by, mut sticks_out, mut rebuilt_hulls) = (0.0, 0.0, 0);
         let mut virtual_faces = 0;
         let (kind, pieces) = match self {
-            Parts::Triangles => (
-                PiecesKind::Triangles,
-                Pieces::triangles(mesh.vertices(), &mesh.welded_faces(), mesh.face_ids())?,
-            ),
+            Parts::Triangles => (PiecesKind::Triangles, triangles(mesh)?),
             Parts::Patches(Decomposition { patches }) => {
                 virtual_faces = patches.iter().map(Patch::virtual_facets).sum();
                 let polytopes: Vec<Polytope> = patches.into_iter().map(|p| p.polytope).collect();
@@ -142,6 +142,8 @@ impl Parts {
             }
         };
         let hierarchy = build_hierarchy(&pieces)?;
+        let is_hull = kind == PiecesKind::Hull;
+        let surface = is_hull.then(|| surface_of(mesh)).transpose()?;
         Ok(Model {
             report: Report {
                 kind,
@@ -161,8 +163,21 @@ impl Parts {
             hierarchy,
             volume,
             hull_tree: None,
+            surface,
         })
     }
+}
+
+/// One piece per triangle, and a hierarchy over them.
+fn surface_of(mesh: &TriangleMesh) -> Result<(Pieces, Hierarchy), BodyError> {
+    let pieces = triangles(mesh)?;
+    let hierarchy = build_hierarchy(&pieces)?;
+    Ok((pieces, hierarchy))
+}
+
+fn triangles(mesh: &TriangleMesh) -> Result<Pieces, BodyError> {
+    let pieces = Pieces::triangles(mesh.vertices(), &mesh.welded_faces(), mesh.face_ids());
+    Ok(pieces?)
 }
 
 impl Model {
@@ -171,7 +186,11 @@ impl Model {
     /// # Errors
     /// [`BodyError::Input`], [`BodyError::HullTree`] when the parts do not belong together.
     pub fn body(&self) -> Result<Body, BodyError> {
-        let body = Body::with_hierarchy(&self.pieces, &self.hierarchy, self.volume)?;
+        let mut body = Body::with_hierarchy(&self.pieces, &self.hierarchy, self.volume)?;
+        if let Some((pieces, hierarchy)) = &self.surface {
+            let surface = Body::with_hierarchy(pieces, hierarchy, Volume::Solid)?;
+            body = body.with_surface(surface)?;
+        }
         Ok(match &self.hull_tree {
             Some(tree) => body.with_hull_tree(tree.clone())?,
             None => body,

@@ -60,7 +60,8 @@ pub enum PiecesKind {
 pub enum Why {
     /// It was asked for.
     Asked,
-    /// The solid is convex: one piece is exact, and nothing is less.
+    /// The solid is convex: one piece is exact, and nothing is less. Against a body of many triangles its
+    /// own triangles are taken: pairs of pieces as large as a solid are measured too often there.
     Convex,
     /// Only triangles are exact.
     NothingElse(DecomposeError),
@@ -153,7 +154,10 @@ impl fmt::Display for Why {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Why::Asked => write!(f, "asked for"),
-            Why::Convex => write!(f, "the solid is convex"),
+            Why::Convex => write!(
+                f,
+                "the solid is convex: one piece, or its triangles against bodies of many"
+            ),
             Why::NothingElse(error) => write!(f, "only triangles are exact: {error}"),
             Why::TrianglesFaster(Estimate { triangles, patches }) => {
                 let times = patches / triangles;

@@ -66,7 +66,14 @@ const PREPARE: &str = "prepare it again from its mesh: ccd decompose MESH --out 
 
 /// What is stored of a model, in this order; a hull tree without its pieces, which are there already.
 /// A change to any of these types, or to their order, is another version of the format.
-type Stored = (Pieces, Hierarchy, Volume, Option<Vec<HullNode>>, Report);
+type Stored = (
+    Pieces,
+    Hierarchy,
+    Volume,
+    Option<Vec<HullNode>>,
+    Option<(Pieces, Hierarchy)>,
+    Report,
+);
 
 impl Model {
     /// Stores it in a file, by convention called `NAME.ccd`.
@@ -124,10 +131,11 @@ impl Model {
             hierarchy,
             volume,
             hull_tree,
+            surface,
             report,
         } = self;
         let nodes = hull_tree.as_ref().map(HullTree::to_nodes);
-        let stored = (pieces, hierarchy, volume, nodes, report);
+        let stored = (pieces, hierarchy, volume, nodes, surface, report);
         let unwritable = |error| StoreFault::Unwritable(io::Error::other(error));
         let payload = postcard::to_allocvec(&stored).map_err(unwritable)?;
         frame::write(writer, &payload).map_err(StoreFault::Unwritable)
@@ -140,7 +148,7 @@ impl Model {
         if !rest.is_empty() {
             return Err(StoreFault::invalid(&"there is more than a body"));
         }
-        let (pieces, hierarchy, volume, nodes, report) = stored;
+        let (pieces, hierarchy, volume, nodes, surface, report) = stored;
         let tree = |nodes: Vec<HullNode>| HullTree::new(&pieces, &nodes);
         let hull_tree = nodes.map(tree).transpose();
         let model = Model {
@@ -148,6 +156,7 @@ impl Model {
             pieces,
             hierarchy,
             volume,
+            surface,
             report,
         };
         model.check().map_err(|error| StoreFault::invalid(&error))?;
@@ -158,8 +167,11 @@ impl Model {
     fn check(&self) -> Result<(), &'static str> {
         let pieces = self.pieces.len();
         // Of a binary tree's nodes, one more are leaves than are not.
-        let leaves = self.hierarchy.nodes().len().div_ceil(2);
-        if leaves != pieces {
+        let fits = |pieces: &Pieces, hierarchy: &Hierarchy| {
+            hierarchy.nodes().len().div_ceil(2) == pieces.len()
+        };
+        let surface = self.surface.as_ref();
+        if !(fits(&self.pieces, &self.hierarchy) && surface.is_none_or(|(p, h)| fits(p, h))) {
             return Err("the hierarchy is over another number of pieces");
         }
         if self.report.pieces != pieces {

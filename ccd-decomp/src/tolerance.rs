@@ -139,15 +139,17 @@ pub(crate) const TRIANGLES: PieceCost = PieceCost {
     resting: 5.0,
 };
 
-/// The same: 30, 33, 32, 18, 49 µs, and about 4 to 10 µs for every patch of the plane.
+/// A query takes 2.4 times as long over patches, the median of random pairs of parts of real robots
+/// (`ccd-bench/scripts/pieces.py`; a third to 600 times); and about 4 to 10 µs for every patch of a plane
+/// laid flat.
 pub(crate) const PATCHES: PieceCost = PieceCost {
-    usual: 32.0,
+    usual: 55.0,
     resting: 6.0,
 };
 
 /// In how many of all queries bodies are taken to come to rest flat on each other, to a tolerance so
 /// small that all pieces of the plane are looked at. Unit: one. A guess: the larger, the sooner patches
-/// are chosen; at this value they are from about a hundred triangles in one plane on.
+/// are chosen; at this value they are from about three hundred triangles in one plane on.
 pub(crate) const FLAT_SHARE: f64 = 1.0 / 50.0;
 
 /// Edges within a plane count as equally long when they are in one of so many classes for each doubling

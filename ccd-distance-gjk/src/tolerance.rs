@@ -49,3 +49,7 @@ pub(crate) const SHARPEN_CAP: usize = 12;
 /// How often the weights of a point inside of a tetrahedron are corrected by what they miss it by.
 /// A tetrahedron that is flat by a factor f loses f·u; two rounds make good what f = 1e10 lost.
 pub(crate) const INSIDE_ROUNDS: u32 = 2;
+
+/// Up to this many points of a piece are all looked at for the farthest one; of more, the piece is
+/// asked, which need not look at all of them.
+pub(crate) const SCANNED_POINTS: usize = ccd_core::tolerance::CLIMBED_POINTS;

@@ -7,6 +7,7 @@ mod backends_agree;
 mod bad_inputs;
 mod contacts;
 mod decomposition;
+mod dense_hulls;
 mod equal_bits;
 mod exact;
 mod faulty_meshes;

@@ -55,3 +55,51 @@ fn a_virtual_facet_on_the_surface_takes_the_name_of_the_face_there() {
     assert_eq!(name(&[4, 7]), Feature::Piece(boxed as u32));
     assert_eq!(name(&[0, 7]), Feature::Piece(boxed as u32));
 }
+
+/// A tetrahedron in one piece, and its triangles.
+fn tetrahedron() -> [Body; 2] {
+    let points = vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
+    let faces = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
+    let triangles = Pieces::triangles(&points, &faces, &[0, 1, 2, 3]).unwrap();
+    let polytope = Polytope {
+        facets: (0..)
+            .zip(faces)
+            .map(|(face, corners)| Facet {
+                origin: Origin::Face(face),
+                corners: corners.to_vec(),
+            })
+            .collect(),
+        points,
+        ..Polytope::default()
+    };
+    let one = Pieces::polytopes(&[polytope]).unwrap();
+    [one, triangles].map(|pieces| Body::new(&pieces, Volume::Solid).unwrap())
+}
+
+#[test]
+fn a_surface_is_taken_against_many_triangles_only() {
+    let [one, triangles] = tetrahedron();
+    let both = one.clone().with_surface(triangles.clone()).unwrap();
+    assert_eq!(both.against(&triangles).pieces().len(), 4);
+    assert_eq!(both.against(&one).pieces().len(), 1);
+    assert_eq!(both.against(&both).pieces().len(), 1);
+    assert_eq!(both.against(&Body::ball(1.0).unwrap()).pieces().len(), 1);
+    assert_eq!(one.against(&triangles).pieces().len(), 1);
+    assert_eq!(triangles.against(&triangles).pieces().len(), 4);
+    assert!(both.bytes() > one.bytes());
+}
+
+#[test]
+fn what_is_no_surface_is_refused() {
+    let [one, triangles] = tetrahedron();
+    let open = Body::new(triangles.pieces(), Volume::Surface).unwrap();
+    let refused = [
+        one.clone().with_surface(open),
+        one.clone().with_surface(one.clone()),
+        triangles.clone().with_surface(triangles.clone()),
+        Body::ball(1.0).unwrap().with_surface(triangles),
+    ];
+    for body in refused {
+        assert!(matches!(body, Err(InputError::BadSurface)));
+    }
+}

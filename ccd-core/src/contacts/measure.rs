@@ -48,8 +48,8 @@ pub(super) fn measure(
     FeaturePair {
         feature_a: name(0),
         feature_b: name(1),
-        piece_a: face(0).piece,
-        piece_b: face(1).piece,
+        piece_a: problem.a.number(face(0).piece),
+        piece_b: problem.b.number(face(1).piece),
         separation: Separation {
             lower: gap(&points, normal) - radii - problem.rounding,
             upper: greater(0.0, distance - radii) + problem.rounding,

@@ -1,23 +1,17 @@
 //! Whether facets are those of a convex polytope, exactly.
 
 use super::assemble::edges_of;
-use super::inside::height_below;
+use super::inside::{height_below, too_fine};
 use crate::piece::Piece;
 use crate::support::Support;
 use glam::DVec3;
-use std::collections::HashMap;
 
-/// A hull's extremal points, where its facets are proven to lead to them.
-#[derive(Debug)]
-pub(super) struct Climbed(Option<Support>);
-
-impl Climbed {
-    pub(super) fn new(hull: &Piece<'_>) -> Self {
-        Climbed(is_convex(hull).then(|| Support::new(hull)))
-    }
-
-    pub(super) fn support(&self) -> Option<&Support> {
-        self.0.as_ref()
+/// What finds the extremal points of a hull of many: edges are climbed once they are proven to be
+/// those of the hull; else a tree is searched, which asks for nothing.
+pub(crate) fn support_of(hull: &Piece<'_>) -> Support {
+    match is_convex(hull) {
+        true => Support::new(hull),
+        false => Support::of_points(hull.points),
     }
 }
 
@@ -31,6 +25,9 @@ impl Climbed {
 /// outline turns one way only, the facet is a part of a face that is convex itself, so that from every
 /// corner of it an edge leads up along any direction that goes up from there in that face.
 fn is_convex(hull: &Piece<'_>) -> bool {
+    if hull.facets.is_empty() || too_fine(hull.points).is_some() {
+        return false;
+    }
     let middle = hull.points.iter().sum::<DVec3>() / hull.points.len() as f64;
     let mut on_facets = vec![false; hull.points.len()];
     let mut triangles: Vec<[u32; 3]> = Vec::new();
@@ -67,26 +64,24 @@ fn turns_one_way(points: &[DVec3], corners: &[u32], middle: DVec3) -> bool {
 
 /// Whether across every edge the next triangle is not in front of a triangle.
 fn bends_outward(triangles: &[[u32; 3]], place: impl Fn(&[u32; 3]) -> [DVec3; 3]) -> bool {
-    let sides = |triangle: &[u32; 3]| -> Vec<(u32, u32)> { edges_of(triangle).collect() };
-    let mut across = HashMap::new();
-    for triangle in triangles {
-        for side in sides(triangle) {
-            if across.insert(side, triangle).is_some() {
-                return false;
-            }
-        }
-    }
-    triangles.iter().all(|triangle| {
-        sides(triangle).into_iter().all(|(from, to)| {
-            let next = across.get(&(to, from));
-            next.is_some_and(|next| {
-                let corners = place(next).into_iter();
-                corners
-                    .map(|p| height_below(place(triangle), p))
-                    .all(|height| height >= 0.0)
-            })
+    let mut sides: Vec<((u32, u32), &[u32; 3])> = triangles
+        .iter()
+        .flat_map(|triangle| edges_of(triangle).map(move |side| (side, triangle)))
+        .collect();
+    sides.sort_unstable();
+    let once = sides.windows(2).all(|pair| pair[0].0 != pair[1].0);
+    let across = |&(from, to): &(u32, u32)| {
+        let at = sides.binary_search_by_key(&(to, from), |&(side, _)| side);
+        at.ok().map(|at| sides[at].1)
+    };
+    let bends = |(side, triangle): &((u32, u32), &[u32; 3])| {
+        let next = across(side);
+        next.is_some_and(|next| {
+            let mut corners = place(next).into_iter();
+            corners.all(|p| height_below(place(triangle), p) >= 0.0)
         })
-    })
+    };
+    once && sides.iter().all(bends)
 }
 
 /// Whether a direction from the middle, past all edges, meets one triangle.

@@ -103,7 +103,7 @@ impl<'a> Hulls<'a> {
     fn hull(self, node: u32) -> Piece<'a> {
         match self {
             Hulls::Tree(tree) => tree.hull(node),
-            Hulls::Single(body) => body.pieces().get(node as usize),
+            Hulls::Single(body) => body.piece(node),
         }
     }
 

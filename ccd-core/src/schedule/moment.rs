@@ -1,20 +1,22 @@
 //! Two pieces at one moment, and for how long an axis keeps them apart from then on.
 
 mod attached;
+mod heights;
 
 use super::meter::Meter;
 use crate::facing::Facing;
-use crate::motion_bound::{Angle, AxisMotion, Bound, Gap, Track, first_crossing, published, sound};
+use crate::motion_bound::{Bound, Gap, first_crossing, published, sound};
 use crate::oracle::{DistanceOracle, PiecePair};
 use crate::order::{greater, lesser};
 use crate::piece::Piece;
 use crate::pose::Frame;
-use crate::problem::{Problem, Side};
+use crate::problem::Problem;
 use crate::separation::{self, Checked};
 use crate::tolerance::{AXIS_ROUNDS, RATE_F64, RESTING, TURNED_SHARE, USUAL_STEPS};
 use crate::vector::{length, unit};
 use attached::{Member, Sweep};
 use glam::DVec3;
+use heights::{Heights, Point};
 use std::cell::Cell;
 use std::iter;
 
@@ -224,8 +226,8 @@ impl<'p> Moment<'p> {
         let Problem { a, b, .. } = self.problem;
         let [frame_a, frame_b] = &self.frames;
         [
-            Member::new(a, frame_a, self.pieces.a.points),
-            Member::new(b, frame_b, self.pieces.b.points),
+            Member::new(a, frame_a, self.pieces.a),
+            Member::new(b, frame_b, self.pieces.b),
         ]
     }
 
@@ -245,41 +247,55 @@ impl<'p> Moment<'p> {
     /// A time for which a fixed axis certainly separates the pieces by what it must, or none when it
     /// does so for good; `slack` is by how much more than that it separates them now.
     ///
-    /// Every point's height along the axis is known exactly ([`Track`]); the least gap between any
-    /// two of them is followed by Newton's method with a bound on its curvature.
+    /// Every point's height along the axis is known exactly
+    /// ([`Track`](crate::motion_bound::Track)); the least gap between any two of them is followed by
+    /// Newton's method with a bound on its curvature.
     fn free_along(&self, normal: DVec3, slack: f64) -> Option<f64> {
         let (problem, [frame_a, frame_b]) = (self.problem, &self.frames);
-        let a = Heights::new(&problem.a, self.pieces.a.points, frame_a, normal);
-        let b = Heights::new(&problem.b, self.pieces.b.points, frame_b, normal);
-        let rounding = RATE_F64 * (a.speed + b.speed);
+        // What is highest along an axis is lowest the other way round.
+        let a = Heights::new(&problem.a, &self.pieces.a, frame_a, -normal);
+        let b = Heights::new(&problem.b, &self.pieces.b, frame_b, normal);
+        let rounding = RATE_F64 * (a.speed() + b.speed());
         let rounds = match a.straight() && b.straight() {
             true => 1,
             false => AXIS_ROUNDS,
         };
         // Heights are measured such that the nearest two points are `slack` apart.
-        let gap = |above: Point, below: Point| Gap {
-            gap: slack + (above.height - b.least) - (below.height - a.greatest),
-            rate: below.rate - above.rate + rounding,
-            bend: (above.bend + below.bend) * (1.0 + RATE_F64),
+        let free = |above: &Point, below: &Point| {
+            let gap = Gap {
+                gap: slack + (above.height - b.least()) + (below.height - a.least()),
+                rate: rounding - below.rate - above.rate,
+                bend: (above.bend + below.bend) * (1.0 + RATE_F64),
+            };
+            gap.free_time()
         };
         let points = self.pieces.points();
         self.look(points);
         match (a.few(), b.few()) {
             (Some(below), Some(above)) => first_crossing(self.horizon(), rounds, |tau| {
                 self.look(points);
-                let below = below.at(a.angle(tau), tau);
-                let above = above.at(b.angle(tau), tau);
-                let times = below
-                    .iter()
-                    .flat_map(|&x| above.iter().map(move |&y| gap(y, x).free_time()));
-                times.fold(f64::INFINITY, lesser)
+                least_free(
+                    &above.at(b.angle(tau), tau),
+                    &below.at(a.angle(tau), tau),
+                    free,
+                )
             }),
             _ => first_crossing(self.horizon(), rounds, |tau| {
                 self.look(points);
-                gap(b.lowest(tau), a.highest(tau)).free_time()
+                least_free(&b.lowest(tau), &a.lowest(tau), free)
             }),
         }
     }
+}
+
+/// The least free time of any two points.
+#[inline]
+fn least_free(above: &[Point], below: &[Point], free: impl Fn(&Point, &Point) -> f64) -> f64 {
+    let free = &free;
+    let times = below
+        .iter()
+        .flat_map(|x| above.iter().map(move |y| free(y, x)));
+    times.fold(f64::INFINITY, lesser)
 }
 
 /// A plane that keeps two pieces apart.
@@ -293,132 +309,6 @@ struct Plane {
 /// The longer of two free times, of which none is for good.
 fn longer(one: Option<f64>, other: Option<f64>) -> Option<f64> {
     Some(greater(one?, other?))
-}
-
-/// The points of a piece seen along an axis.
-struct Heights<'a> {
-    points: &'a [DVec3],
-    frame: &'a Frame,
-    /// Where the centre is in the body's frame.
-    centre: DVec3,
-    normal: DVec3,
-    along: AxisMotion,
-    omega: f64,
-    /// The fastest that any point moves, in any direction.
-    speed: f64,
-    /// Of the points' heights.
-    least: f64,
-    greatest: f64,
-    few: Few,
-}
-
-/// One point's height, how fast it rises, and how much that may change.
-#[derive(Clone, Copy, Debug)]
-struct Point {
-    height: f64,
-    rate: f64,
-    bend: f64,
-}
-
-/// Pieces of up to this many points are followed pair of points by pair of points; of others the two
-/// envelopes are.
-const FEW: usize = 3;
-
-/// The tracks of the first few points; unused ones repeat the last.
-#[derive(Clone, Copy, Debug)]
-struct Few([(Track, f64); FEW]);
-
-impl Few {
-    /// Where they are after `tau`.
-    #[inline]
-    fn at(&self, angle: Angle, tau: f64) -> [Point; FEW] {
-        self.0.map(|(track, bend)| Point {
-            height: track.height_at(tau, angle),
-            rate: track.rate_at(angle),
-            bend,
-        })
-    }
-}
-
-impl<'a> Heights<'a> {
-    fn new(side: &Side<'_>, points: &'a [DVec3], frame: &'a Frame, normal: DVec3) -> Self {
-        let path = &side.path;
-        let mut heights = Heights {
-            points,
-            frame,
-            centre: path.centre,
-            normal,
-            along: AxisMotion::new(path.velocity, path.axis, path.rate, normal),
-            omega: path.rate,
-            speed: path.velocity.length(),
-            least: f64::INFINITY,
-            greatest: f64::NEG_INFINITY,
-            few: Few([(Track::default(), 0.0); FEW]),
-        };
-        let (mut least, mut greatest, mut farthest) = (f64::INFINITY, f64::NEG_INFINITY, 0.0f64);
-        let mut few = heights.few;
-        for (k, (track, arm)) in heights.tracks().enumerate() {
-            let height = track.height_at(0.0, Angle::ZERO);
-            least = lesser(least, height);
-            greatest = greater(greatest, height);
-            farthest = greater(farthest, arm.length_squared());
-            if let Some(rest) = few.0.get_mut(k..) {
-                rest.fill((track, track.bend()));
-            }
-        }
-        (heights.least, heights.greatest, heights.few) = (least, greatest, few);
-        heights.speed += path.rate * farthest.sqrt();
-        heights
-    }
-
-    fn straight(&self) -> bool {
-        !(self.omega > 0.0)
-    }
-
-    fn angle(&self, tau: f64) -> Angle {
-        match tau > 0.0 && !self.straight() {
-            true => Angle::new(self.omega * tau),
-            false => Angle::ZERO,
-        }
-    }
-
-    /// The points' tracks, and their arms from the centre.
-    fn tracks(&self) -> impl Iterator<Item = (Track, DVec3)> {
-        let (normal, along, centre) = (self.normal, self.along, self.centre);
-        let rotation = self.frame.rotation;
-        self.points.iter().map(move |&x| {
-            let arm = rotation * (x - centre);
-            (along.track(normal.dot(arm), arm), arm)
-        })
-    }
-
-    fn few(&self) -> Option<&Few> {
-        (self.points.len() <= FEW).then_some(&self.few)
-    }
-
-    /// Bounds all points from above.
-    fn highest(&self, tau: f64) -> Point {
-        self.envelope(tau, f64::NEG_INFINITY, greater)
-    }
-
-    /// Bounds all points from below.
-    fn lowest(&self, tau: f64) -> Point {
-        self.envelope(tau, f64::INFINITY, lesser)
-    }
-
-    fn envelope(&self, tau: f64, from: f64, pick: impl Fn(f64, f64) -> f64) -> Point {
-        let angle = self.angle(tau);
-        let start = Point {
-            height: from,
-            rate: from,
-            bend: 0.0,
-        };
-        self.tracks().fold(start, |so_far, (track, _)| Point {
-            height: pick(so_far.height, track.height_at(tau, angle)),
-            rate: pick(so_far.rate, track.rate_at(angle)),
-            bend: greater(so_far.bend, track.bend()),
-        })
-    }
 }
 
 #[cfg(test)]

@@ -165,8 +165,8 @@ pub(super) fn contact(moment: &Moment<'_>, [a, b]: [u32; 2], checked: &Checked) 
         },
         feature_a: feature(&problem.a, a, &checked.claim.a),
         feature_b: feature(&problem.b, b, &checked.claim.b),
-        piece_a: a,
-        piece_b: b,
+        piece_a: problem.a.number(a),
+        piece_b: problem.b.number(b),
     }
 }
 

@@ -1,6 +1,7 @@
 //! A table of starts, and edges to climb along.
 
 use super::directions::{self, DIRECTIONS};
+use super::tree::ball_about;
 use crate::order::greater;
 use crate::piece::Piece;
 use crate::tolerance::{HEIGHT_F64, PLATEAU_POINTS};
@@ -16,6 +17,7 @@ pub struct SupportTable {
     points: Vec<DVec3>,
     /// The largest coordinate.
     reach: f64,
+    ball: (DVec3, f64),
     neighbours: Vec<u32>,
     /// Where each point's neighbours end.
     ends: Vec<u32>,
@@ -40,6 +42,7 @@ impl SupportTable {
         let mut table = SupportTable {
             points: piece.points.to_vec(),
             reach: piece.points.iter().map(reach).fold(0.0, greater),
+            ball: ball_about(piece.points),
             ends: (0..piece.points.len()).map(end).collect(),
             neighbours: edges.iter().map(|&(_, to)| to).collect(),
             starts: [first; DIRECTIONS],
@@ -81,6 +84,12 @@ impl SupportTable {
         };
         let start = if at == 0 { 0 } else { self.ends[at - 1] };
         &self.neighbours[start as usize..end as usize]
+    }
+
+    /// A ball about the points.
+    #[inline]
+    pub(crate) fn ball(&self) -> (DVec3, f64) {
+        self.ball
     }
 
     /// Goes to the highest neighbour, again and again, until none is higher.

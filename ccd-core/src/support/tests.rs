@@ -1,6 +1,8 @@
 //! Polytopes whose facets are known by construction, in whole numbers: climbing against looking at
 //! every corner.
 
+mod tree;
+
 use super::*;
 use crate::order::greater;
 use crate::piece::{Facet, Origin, Polytope};

@@ -122,6 +122,11 @@ impl Tree {
         self.nodes[0].radius
     }
 
+    /// The half sizes of the root's box.
+    pub(crate) fn half(&self) -> [f32; 3] {
+        self.nodes[0].half
+    }
+
     /// Whether a point is within the root's box, or near it.
     pub(crate) fn may_contain(&self, point: DVec3) -> bool {
         place::holds(&self.nodes[0], point, 0.0)

@@ -24,8 +24,8 @@ fn convex_solids_are_hulls() {
 fn patches_have_to_be_worth_it() {
     let coarse = cubes(&[[0, 0, 0], [1, 0, 0], [0, 0, 1]]);
     assert!(matches!(why(&coarse), Why::TrianglesFaster(_)));
-    let in_corner = |c: &[i32; 3]| c[0] >= 6 && c[2] >= 6;
-    let cells = block([12, 12, 12]).into_iter().filter(|c| !in_corner(c));
+    let in_corner = |c: &[i32; 3]| c[0] >= 8 && c[2] >= 8;
+    let cells = block([16, 16, 16]).into_iter().filter(|c| !in_corner(c));
     let fine = cubes(&cells.collect::<Vec<_>>());
     assert!(
         matches!(why(&fine), Why::PatchesFaster(_)),

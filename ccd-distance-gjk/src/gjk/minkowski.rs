@@ -2,8 +2,9 @@
 
 use super::simplex::Vertex;
 use super::vector::Vector;
-use ccd_core::PiecePair;
+use crate::tolerance::SCANNED_POINTS;
 use ccd_core::glam::DVec3;
+use ccd_core::{Piece, PiecePair};
 
 /// The difference of two hulls, in whatever precision and axes.
 pub(crate) trait Difference {
@@ -59,9 +60,9 @@ impl Difference for Exact<'_> {
     type Vector = DVec3;
 
     fn support(&self, direction: DVec3) -> Vertex<DVec3> {
-        let a = least(self.pair.a.points, |p| -direction.dot(p - self.first_a));
+        let a = farthest(&self.pair.a, self.first_a, direction);
         let turned = self.pair.b_to_a.inverse_vector(direction);
-        let b = least(self.pair.b.points, |p| turned.dot(p - self.first_b));
+        let b = farthest(&self.pair.b, self.first_b, -turned);
         self.vertex(a, b).unwrap_or(Vertex {
             point: self.between,
             a: 0,
@@ -80,14 +81,18 @@ impl Difference for Exact<'_> {
     }
 }
 
-/// The first index of the least value; points are never empty.
+/// The index of a point of a piece that is farthest along a direction; points are never empty. A few
+/// are all looked at, told from the first one, and more are left to the piece.
 #[inline]
-fn least<P: Copy, S: PartialOrd>(points: &[P], value: impl Fn(P) -> S) -> u32 {
-    let mut best = (0, value(points[0]));
-    for (k, &point) in points.iter().enumerate().skip(1) {
-        let value = value(point);
-        if value < best.1 {
-            best = (k as u32, value);
+fn farthest(piece: &Piece<'_>, first: DVec3, direction: DVec3) -> u32 {
+    if piece.points.len() > SCANNED_POINTS {
+        return piece.extremal(direction);
+    }
+    let mut best = (0, f64::NEG_INFINITY);
+    for (k, &point) in (0..).zip(piece.points) {
+        let height = direction.dot(point - first);
+        if height > best.1 {
+            best = (k, height);
         }
     }
     best.0

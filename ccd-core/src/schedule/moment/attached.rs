@@ -11,7 +11,8 @@
 //! `|f''| ≤ |ω×n|(|ω||u×D| + 2|V|) + |Δ|(|ω×n| + |ω_s|)|r|`, where `u` is the direction of `ω`.
 
 use crate::motion_bound::{Angle, Gap, Spinning, first_crossing};
-use crate::order::{greater, lesser};
+use crate::order::lesser;
+use crate::piece::Piece;
 use crate::pose::Frame;
 use crate::problem::Side;
 use crate::tolerance::{ATTACHED_TIME, AXIS_ROUNDS, RATE_F64, attached_rounding};
@@ -22,21 +23,21 @@ use std::cell::Cell;
 pub(super) struct Member<'p> {
     pub(super) side: &'p Side<'p>,
     pub(super) frame: &'p Frame,
-    pub(super) points: &'p [DVec3],
+    pub(super) piece: Piece<'p>,
     /// No point rises faster than this relative to the first one, along any axis that stands still.
     pub(super) swing: f64,
 }
 
 impl<'p> Member<'p> {
-    pub(super) fn new(side: &'p Side<'p>, frame: &'p Frame, points: &'p [DVec3]) -> Self {
+    pub(super) fn new(side: &'p Side<'p>, frame: &'p Frame, piece: Piece<'p>) -> Self {
         let swing = match side.path.turns() {
-            true => side.path.rate * farthest(points, points[0]),
+            true => side.path.rate * piece.farthest_from(piece.points[0]),
             false => 0.0,
         };
         Member {
             side,
             frame,
-            points,
+            piece,
             swing,
         }
     }
@@ -63,7 +64,7 @@ pub(super) struct Sweep<'p> {
     own_omega: f64,
     /// `Δ`
     relative: DVec3,
-    points: &'p [DVec3],
+    piece: Piece<'p>,
     frame: &'p Frame,
     /// Where `D` leads to, in the points' frame, and how far they are from it at most.
     reference: DVec3,
@@ -98,11 +99,11 @@ impl<'p> Sweep<'p> {
         // All points of a body that does not turn go straight: one of the piece's own is nearest.
         let reference = match own.turns() {
             true => own.centre,
-            false => other.points[0],
+            false => other.piece.points[0],
         };
         let way = other.frame.point(reference) - holder.frame.point(path.centre);
         let velocity = own.velocity - path.velocity;
-        let radius = farthest(other.points, reference);
+        let radius = other.piece.farthest_from(reference);
         Sweep {
             normal: Spinning::new(path.axis, normal),
             unit: path.axis,
@@ -113,7 +114,7 @@ impl<'p> Sweep<'p> {
             own_unit: own.axis,
             own_omega: own.rate,
             relative: path.spin - own.spin,
-            points: other.points,
+            piece: other.piece,
             frame: other.frame,
             reference,
             radius,
@@ -129,19 +130,26 @@ impl<'p> Sweep<'p> {
         let (height, rate) = self.allowances();
         let apart = slack - height - self.least();
         first_crossing(horizon, AXIS_ROUNDS, |tau| {
-            self.looks.set(self.looks.get() + self.points.len() as u64);
+            self.looks.set(self.looks.get() + self.piece.looks());
             let turned = self.turned(tau);
             let bend = self.bend(tau);
-            let free = self.arms().map(|arm| {
+            let free = |axis: f64, closing: f64| {
                 let gap = Gap {
-                    gap: apart + (turned.height + turned.axis.dot(arm)),
-                    rate: rate - (turned.rate + turned.closing.dot(arm)),
+                    gap: apart + (turned.height + axis),
+                    rate: rate - (turned.rate + closing),
                     bend,
                 };
                 gap.free_time()
-            });
+            };
+            let least = match self.piece.ball() {
+                Some(_) => free(self.lowest(turned.axis), self.lowest(turned.closing)),
+                None => self
+                    .arms()
+                    .map(|arm| free(turned.axis.dot(arm), turned.closing.dot(arm)))
+                    .fold(f64::INFINITY, lesser),
+            };
             // The bend holds for no longer.
-            free.fold(f64::from(ATTACHED_TIME), lesser)
+            lesser(f64::from(ATTACHED_TIME), least)
         })
     }
 
@@ -159,15 +167,23 @@ impl<'p> Sweep<'p> {
     /// The least of the points' heights at first.
     fn least(&self) -> f64 {
         let Turned { height, axis, .. } = self.turned(0.0);
-        self.arms()
-            .map(|arm| height + axis.dot(arm))
-            .fold(f64::INFINITY, lesser)
+        height + self.lowest(axis)
+    }
+
+    /// How far the arms reach along a direction at least.
+    fn lowest(&self, direction: DVec3) -> f64 {
+        if self.piece.ball().is_some() {
+            let lowest = self.piece.points[self.piece.extremal(-direction) as usize];
+            return direction.dot(lowest - self.reference);
+        }
+        let heights = self.arms().map(|arm| direction.dot(arm));
+        heights.fold(f64::INFINITY, lesser)
     }
 
     /// From the point of reference to the points.
     fn arms(&self) -> impl Iterator<Item = DVec3> {
         let reference = self.reference;
-        self.points.iter().map(move |&y| y - reference)
+        self.piece.points.iter().map(move |&y| y - reference)
     }
 
     fn turned(&self, tau: f64) -> Turned {
@@ -199,12 +215,6 @@ impl<'p> Sweep<'p> {
             + relative * (across + self.own_omega) * self.radius;
         bend * (1.0 + RATE_F64)
     }
-}
-
-/// How far the points are at most from one.
-fn farthest(points: &[DVec3], from: DVec3) -> f64 {
-    let squares = points.iter().map(|p| p.distance_squared(from));
-    squares.fold(0.0, greater).sqrt()
 }
 
 #[cfg(test)]

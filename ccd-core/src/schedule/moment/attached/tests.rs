@@ -87,7 +87,8 @@ fn check(rng: &mut Pcg64, problem: &Problem<'_>, clock: f64, holder: usize, seen
     // Where the axis is in its body's frame, it stays.
     let towards = match rng.random_bool(0.5) {
         true => direction(rng),
-        false => (other.frame.point(other.points[0]) - own.frame.point(own.points[0])).normalize(),
+        false => (other.frame.point(other.piece.points[0]) - own.frame.point(own.piece.points[0]))
+            .normalize(),
     };
     let local = own.frame.inverse_vector(towards);
     let gap_at = |s: f64| {
@@ -123,7 +124,7 @@ fn check(rng: &mut Pcg64, problem: &Problem<'_>, clock: f64, holder: usize, seen
     }
     seen.both += usize::from(other.side.path.turns());
     seen.fast += usize::from(turns > 50.0);
-    seen.many += usize::from(other.points.len() > 3);
+    seen.many += usize::from(other.piece.points.len() > 3);
 }
 
 #[test]
@@ -147,7 +148,7 @@ fn rounding_along_an_axis_that_turns_is_allowed_for() {
             let normal = direction(&mut rng);
             let sweep = Sweep::new(own, other, normal, problem.rounding);
             let motions = [&scene.motions[holder], &scene.motions[1 - holder]];
-            let point = other.points[rng.random_range(0..other.points.len())];
+            let point = other.piece.points[rng.random_range(0..other.piece.points.len())];
             let rises = |tau: f64| {
                 let turned = sweep.turned(tau);
                 let arm = point - sweep.reference;

@@ -1,0 +1,94 @@
+//! Convex solids of many corners: one piece, its triangles, and one piece against triangles answer alike.
+
+use ccd_core::glam::DVec3;
+use ccd_core::schedule::BestFirst;
+use ccd_core::{Answer, Body, Config, Motion, Moving, Outcome, Pose, Problem, Schedule};
+use ccd_decomp::{Detail, body_from_mesh};
+use ccd_distance_gjk::{Auto, Gjk, GjkF32};
+use ccd_tests::models::{Mesh, icosphere, torus};
+
+fn body(mesh: &Mesh, detail: Detail) -> Body {
+    body_from_mesh(&mesh.for_decomposition(), detail)
+        .unwrap()
+        .body
+}
+
+fn answer(a: &Body, b: &Body, velocity: DVec3, spin: DVec3) -> Answer {
+    let start = Pose::from_translation(DVec3::new(-4.0, 0.2, 0.1)).unwrap();
+    let a = Moving {
+        body: a,
+        motion: Motion::new(start, velocity, spin).unwrap(),
+    };
+    let b = Moving {
+        body: b,
+        motion: Motion::still(Pose::IDENTITY),
+    };
+    let problem = Problem::new(a, b, 1.0, &Config::default()).unwrap();
+    let answers = [
+        BestFirst::default().solve(&problem, &mut Auto::default()),
+        BestFirst::default().solve(&problem, &mut Gjk),
+        BestFirst::default().solve(&problem, &mut GjkF32::default()),
+    ];
+    let [time, single, coarse] = [0, 1, 2].map(|k| time(&answers[k]));
+    assert!((time - single).abs() <= 1e-3 && (time - coarse).abs() <= 1e-3);
+    let [answer, ..] = answers;
+    answer
+}
+
+fn time(answer: &Answer) -> f64 {
+    match answer.outcome {
+        Outcome::Contact { time, .. } => time,
+        Outcome::Free { .. } => 1.0,
+        ref other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn a_dense_solid_answers_like_its_triangles() {
+    let ball = icosphere(1.0, 4).mesh;
+    let ring = torus(1.0, 0.4, 32, 16).mesh;
+    let [one, triangles] = [Detail::Hull, Detail::Triangles].map(|detail| body(&ball, detail));
+    assert!(one.pieces().len() == 1 && one.pieces().points().len() > 1_000);
+    let others = [
+        body(&ring, Detail::Triangles),
+        one.clone(),
+        triangles.clone(),
+    ];
+    let mut contacts = 0;
+    for (velocity, spin) in [
+        (DVec3::new(5.0, 0.0, 0.0), DVec3::Z),
+        (DVec3::new(4.0, 0.3, 0.0), DVec3::new(0.5, 1.0, 0.0)),
+        (DVec3::new(3.0, 0.0, 0.1), DVec3::new(1.0, 0.0, 6.0)),
+        (DVec3::new(3.0, 3.0, 0.0), DVec3::ZERO),
+        (DVec3::new(6.0, 3.0, 0.0), DVec3::X),
+    ] {
+        for other in &others {
+            let [found, twin] = [&one, &triangles].map(|a| answer(a, other, velocity, spin));
+            // Both are early by less than the tolerance over the closing speed.
+            assert!(
+                (time(&found) - time(&twin)).abs() <= 2e-3,
+                "{found:?} {twin:?}"
+            );
+            if let Outcome::Contact { contact, .. } = found.outcome {
+                contacts += 1;
+                assert_eq!(contact.piece_a, 0);
+                let named = format!("{:?}", contact.feature_a);
+                assert!(!named.contains("Piece"), "{named}");
+            }
+        }
+    }
+    assert!(contacts >= 9, "{contacts}");
+}
+
+/// What made one piece slow: near a mesh it was measured against nearly every triangle.
+#[test]
+fn a_solid_against_many_triangles_is_looked_at_like_triangles() {
+    let ball = icosphere(1.0, 4).mesh;
+    let ring = body(&torus(1.0, 0.4, 32, 16).mesh, Detail::Triangles);
+    let spin = DVec3::new(0.5, 1.0, 0.0);
+    let [one, triangles] = [Detail::Auto, Detail::Triangles].map(|detail| {
+        let answer = answer(&body(&ball, detail), &ring, DVec3::new(4.0, 0.0, 0.0), spin);
+        answer.stats.oracle_calls
+    });
+    assert!(one <= 2 * triangles, "{one} {triangles}");
+}
