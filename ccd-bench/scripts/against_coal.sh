@@ -19,7 +19,7 @@ core=${CORE:-1}
 echo "pair,median_us,mean_us,coal_median_us,coal_mean_us,median_ratio,mean_ratio"
 while read -r name a b motions; do
     files=("$scenes/$a.obj" "$scenes/$b.obj" "$scenes/$motions.csv")
-    taskset -c "$core" "$ccd" query --quiet --a "${files[0]}" --b "${files[1]}" \
+    taskset -c "$core" "$ccd" query --quiet --threads 1 --a "${files[0]}" --b "${files[1]}" \
         --motions "${files[2]}" --tolerance 1e-3 --repeat 1 --out "$out/$name.csv" "$@"
     taskset -c "$core" python3 "$peer" "${files[@]}" >"$out/$name-coal.csv"
     python3 - "$name" "$out/$name.csv" "$out/$name-coal.csv" <<'PY'

@@ -28,7 +28,7 @@ while read -r name a b motions; do
     while read -r method options; do
         # Options are words.
         # shellcheck disable=SC2086
-        taskset -c "$core" "$ccd" query --quiet --a "${files[0]}" --b "${files[1]}" \
+        taskset -c "$core" "$ccd" query --quiet --threads 1 --a "${files[0]}" --b "${files[1]}" \
             --motions "${files[2]}" --tolerance 1e-3 --repeat "${REPEAT:-3}" --counters \
             --out "$out/$name-$method.csv" $options
         python3 - "$name" "$method" "$out" <<'PY'

@@ -42,7 +42,7 @@ while read -r name a b motions; do
                 --out "$out/$body-${model// /-}.ccd" >>"$result.json"
         done
         # shellcheck disable=SC2086
-        taskset -c "$core" "$ccd" query --quiet --a "$out/$a-${model// /-}.ccd" \
+        taskset -c "$core" "$ccd" query --quiet --threads 1 --a "$out/$a-${model// /-}.ccd" \
             --b "$out/$b-${model// /-}.ccd" --motions "$scenes/$motions.csv" $use \
             --tolerance 1e-3 --out "$result.csv" "$@"
         python3 "$verdict" "$scenes/truth_$name.csv" "$result.csv" >"$result.verdict"

@@ -6,6 +6,8 @@ mod files;
 mod peer;
 mod pieces;
 mod query;
+mod size;
+mod told;
 mod truth;
 
 use chart::{ChartArgs, CommonArgs};

@@ -10,7 +10,6 @@ use ccd_core::{
     Config, ContactsError, FeaturePair, InputError, Moving, Outcome, Problem, Separation,
 };
 use serde::Serialize;
-use std::io;
 
 /// The columns, in order.
 pub const COLUMNS: [&str; 15] = [
@@ -31,7 +30,8 @@ pub const COLUMNS: [&str; 15] = [
     "witness_b_z",
 ];
 
-/// One pair of features as the table holds it, in the order of [`COLUMNS`].
+/// One pair of features as the table holds it, in the order of [`COLUMNS`]; numbers read back to the same
+/// bits.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ContactRow {
     /// As in the table of motions.
@@ -111,23 +111,4 @@ impl ContactRow {
             witness_b: DVec3::to_array(&witness_b),
         }
     }
-}
-
-/// Writes a table; numbers read back to the same bits.
-///
-/// # Errors
-/// When `output` cannot be written to.
-pub fn write<'r>(
-    output: impl io::Write,
-    rows: impl IntoIterator<Item = &'r ContactRow>,
-) -> Result<(), csv::Error> {
-    let mut writer = csv::WriterBuilder::new()
-        .has_headers(false)
-        .from_writer(output);
-    writer.write_record(COLUMNS)?;
-    for row in rows {
-        writer.serialize(row)?;
-    }
-    writer.flush()?;
-    Ok(())
 }

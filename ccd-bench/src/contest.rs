@@ -17,11 +17,10 @@ pub use verdict::{Judged, Verdict, judge};
 
 use crate::measured::{Cell, Trial};
 use crate::motions::Query;
-use crate::query::median;
+use crate::query::{median, percentile};
 use crate::referee::{Referee, Surface, Truth};
 use crate::rival::screw;
 use crate::scene::Scene;
-use crate::summary::percentile;
 use ccd_core::InputError;
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 use seat::Answered;

@@ -4,7 +4,7 @@ use crate::chart::PAPER_TOLERANCE;
 use crate::contest::{
     Allowance, Contest, ContestError, Entrant, Journal, JournalError, Truths, TruthsError,
 };
-use crate::progress::Progress;
+use crate::progress::{Progress, Total};
 use crate::scene::{Listing, Models, Pieces, Scene, SceneBody, SceneError};
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 use std::path::PathBuf;
@@ -90,7 +90,7 @@ impl Plan {
         let mut models = Models::new(self.models.clone());
         let scenes = self.scenes(&mut models)?;
         let cells: usize = self.entrants.iter().map(|&e| self.told(e).count()).sum();
-        let progress = Progress::new(scenes.len() * cells);
+        let progress = Progress::new(Total::Steps(scenes.len() * cells));
         for scene in &scenes {
             let contest = Contest::new(scene)?;
             progress.say(&format!("{}: the truth", scene.name));
@@ -145,7 +145,7 @@ impl Plan {
     }
 
     fn scenes(&self, models: &mut Models) -> Result<Vec<Scene>, SceneError> {
-        let progress = Progress::new(self.listings.len());
+        let progress = Progress::new(Total::Steps(self.listings.len()));
         let make = |listing: &Listing| {
             progress.say(&format!("making {}", listing.name));
             let scene = listing.make(models);

@@ -2,6 +2,8 @@
 
 mod columns;
 mod error;
+mod foreign;
+mod lines;
 mod row;
 #[cfg(test)]
 mod tests;
@@ -12,7 +14,8 @@ pub use write::write;
 
 use ccd_core::Motion;
 use columns::Columns;
-use std::io;
+use lines::Lines;
+use std::io::{self, Read};
 
 /// How two bodies move over one duration.
 #[derive(Clone, Debug, PartialEq)]
@@ -46,37 +49,124 @@ pub struct MotionTable {
 }
 
 impl MotionTable {
-    /// Reads a table; every row is held against all rules, so that all bad ones are known at once.
-    ///
-    /// Columns go by name, in any order; those left out, and empty cells, have their defaults: rest
-    /// at the identity, for a duration of 1. [`known_columns`] lists them.
+    /// Reads a whole table, as [`MotionRows`] reads it row by row.
     ///
     /// # Errors
-    /// [`TableError`] when the header cannot be used; rows that cannot be are listed in
-    /// [`MotionTable::errors`] instead.
+    /// Those of [`MotionRows`]; rows that cannot be asked are listed in [`MotionTable::errors`] instead.
     pub fn read(input: impl io::Read) -> Result<Self, TableError> {
-        let mut reader = csv::ReaderBuilder::new()
-            .flexible(true)
-            .trim(csv::Trim::All)
-            .from_reader(input);
-        let columns = Columns::from_header(reader.headers()?)?;
         let mut table = MotionTable::default();
-        for (index, record) in reader.records().enumerate() {
-            let row = index + 1;
-            let line = match &record {
-                Ok(record) => record.position().map_or(0, csv::Position::line),
-                Err(error) => error.position().map_or(0, csv::Position::line),
-            };
-            let place = Place { row, line };
-            let query = record
-                .map_err(|error| RowProblem::Unreadable(error.to_string()))
-                .and_then(|record| row::query(&columns, &record, index));
-            match query {
-                Ok(query) => table.rows.push((place, query)),
-                Err(problem) => table.errors.push(RowError { place, problem }),
+        for row in MotionRows::new(input)? {
+            match row? {
+                Ok(row) => table.rows.push(row),
+                Err(error) => table.errors.push(error),
             }
         }
         Ok(table)
+    }
+}
+
+/// The rows of a table of motions, one after the other: none is kept.
+///
+/// Columns go by name, in any order; those left out, and empty cells, have their defaults: rest at the
+/// identity, for a duration of 1. [`known_columns`] lists them. Lines may end in `\n`, `\r\n` or `\r`;
+/// empty ones are passed over, but counted.
+#[derive(Debug)]
+pub struct MotionRows<R> {
+    reader: csv::Reader<io::Chain<Lines<R>, &'static [u8]>>,
+    columns: Columns,
+    raw: csv::ByteRecord,
+    /// How many rows have been read.
+    rows: usize,
+    checksum: crc32fast::Hasher,
+}
+
+/// A row that can be asked, or what is wrong with it.
+pub type MotionRow = Result<(Place, Query), RowError>;
+
+impl<R: io::Read> MotionRows<R> {
+    /// Reads the header.
+    ///
+    /// # Errors
+    /// [`TableError`] when it cannot be read, or used.
+    pub fn new(input: R) -> Result<Self, TableError> {
+        let mut reader = csv::ReaderBuilder::new()
+            .flexible(true)
+            .has_headers(false)
+            // Every line has an end, the last one too, so that what has been read says where it began.
+            .from_reader(Lines::new(input).chain(&b"\n"[..]));
+        let mut raw = csv::ByteRecord::new();
+        reader.read_byte_record(&mut raw)?;
+        let columns = Columns::from_header(&raw)?;
+        let mut checksum = crc32fast::Hasher::new();
+        checksum.update(raw.as_slice());
+        Ok(MotionRows {
+            reader,
+            columns,
+            raw,
+            rows: 0,
+            checksum,
+        })
+    }
+
+    /// Passes over rows without a look at what they hold; says how many there were.
+    ///
+    /// # Errors
+    /// [`TableError::Unreadable`].
+    pub fn pass(&mut self, rows: usize) -> Result<usize, TableError> {
+        for passed in 0..rows {
+            if self.advance()?.is_none() {
+                return Ok(passed);
+            }
+        }
+        Ok(rows)
+    }
+
+    /// How many bytes of the input have been read: with what is waiting to be looked at.
+    pub fn bytes(&self) -> u64 {
+        self.reader.get_ref().get_ref().0.bytes
+    }
+
+    /// A checksum of the header and of all rows so far.
+    pub fn checksum(&self) -> u32 {
+        self.checksum.clone().finalize()
+    }
+
+    /// Reads the next row; says where it stands.
+    fn advance(&mut self) -> Result<Option<Place>, TableError> {
+        let before = self.reader.position().line();
+        if !self.reader.read_byte_record(&mut self.raw)? {
+            return Ok(None);
+        }
+        self.checksum.update(self.raw.as_slice());
+        self.rows += 1;
+        // Empty lines before the row have been read as well: its place is told from its end.
+        let ends = |cell: &[u8]| cell.iter().filter(|&&byte| byte == b'\n').count() as u64;
+        let within: u64 = self.raw.iter().map(ends).sum();
+        let after = self.reader.position().line();
+        Ok(Some(Place {
+            row: self.rows,
+            line: after.saturating_sub(within + 1).max(before),
+        }))
+    }
+}
+
+impl<R: io::Read> Iterator for MotionRows<R> {
+    type Item = Result<MotionRow, TableError>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        let place = match self.advance() {
+            Ok(place) => place?,
+            Err(error) => return Some(Err(error)),
+        };
+        let query = row::query(&self.columns, &self.raw, place.row - 1);
+        Some(Ok(match query {
+            Ok(query) => Ok((place, query)),
+            Err(problem) => Err(RowError {
+                place,
+                id: row::id(&self.columns, &self.raw, place.row - 1),
+                problem,
+            }),
+        }))
     }
 }
 

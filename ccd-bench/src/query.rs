@@ -1,11 +1,11 @@
 //! Many queries on one pair of bodies, each timed alone.
 
+use crate::crew::Crew;
 use crate::engine::{Method, Solver};
 use crate::motions::Query;
-use crate::progress::Progress;
 use ccd_core::{Answer, Body, Config, InputError, Moving, Problem};
-use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 use std::num::NonZeroUsize;
+use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
 /// The two bodies of a query; both may be the same.
@@ -26,8 +26,6 @@ pub struct Settings {
     pub config: Config,
     /// How often each query is answered; the time is the median.
     pub repeat: NonZeroUsize,
-    /// On how many threads; any number gives the same answers.
-    pub threads: NonZeroUsize,
 }
 
 impl Default for Settings {
@@ -36,7 +34,6 @@ impl Default for Settings {
             method: Method::default(),
             config: Config::default(),
             repeat: NonZeroUsize::MIN,
-            threads: NonZeroUsize::MIN,
         }
     }
 }
@@ -50,36 +47,37 @@ pub struct Timed {
     pub micros: f64,
 }
 
-/// Answers queries, in their order.
+/// Who answers queries on a pair of bodies, on the threads of a crew.
 ///
-/// On one thread nothing but a query runs between two readings of the clock, and nothing but
-/// bookkeeping between two queries.
-///
-/// # Errors
-/// The outer one when threads cannot be had; an inner one where a query cannot be posed.
-pub fn run<'q>(
-    bodies: Bodies<'_>,
-    queries: &[&'q Query],
-    settings: &Settings,
-    progress: &Progress,
-) -> Result<Vec<Result<Timed, InputError>>, rayon::ThreadPoolBuildError> {
-    let answer = |solver: &mut Box<dyn Solver>, query: &&'q Query| {
-        let timed = time(bodies, query, settings, solver.as_mut());
-        progress.step();
-        timed
-    };
-    let solver = || settings.method.solver();
-    if settings.threads == NonZeroUsize::MIN {
-        let mut solver = solver();
-        return Ok(queries
-            .iter()
-            .map(|query| answer(&mut solver, query))
-            .collect());
+/// On one thread nothing but a query runs between two readings of the clock. On as many as there are
+/// cores, queries share caches and memory, and each may take longer.
+pub struct Desk<'b> {
+    bodies: Bodies<'b>,
+    settings: Settings,
+    /// One for each thread: they own the memory that queries work in.
+    solvers: Vec<Mutex<Box<dyn Solver>>>,
+}
+
+impl<'b> Desk<'b> {
+    /// For as many threads as the crew has.
+    pub fn new(bodies: Bodies<'b>, settings: Settings, crew: &Crew) -> Self {
+        let solver = |_| Mutex::new(settings.method.solver());
+        Desk {
+            bodies,
+            settings,
+            solvers: (0..crew.threads().get()).map(solver).collect(),
+        }
     }
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(settings.threads.get())
-        .build()?;
-    Ok(pool.install(|| queries.par_iter().map_init(solver, answer).collect()))
+
+    /// Answers a query on that thread of the crew; answers do not depend on which it is.
+    ///
+    /// # Errors
+    /// When it cannot be posed.
+    pub fn answer(&self, thread: usize, query: &Query) -> Result<Timed, InputError> {
+        let solver = &self.solvers[thread % self.solvers.len()];
+        let mut solver = solver.lock().unwrap_or_else(PoisonError::into_inner);
+        time(self.bodies, query, &self.settings, solver.as_mut())
+    }
 }
 
 fn time(
@@ -131,4 +129,10 @@ pub fn median(values: &mut [f64]) -> f64 {
         _ if values.len() % 2 == 1 => values[upper],
         _ => 0.5 * (values[upper - 1] + values[upper]),
     }
+}
+
+/// What such a share of values stays within, of values sorted from the least; NaN of none.
+pub fn percentile(sorted: &[f64], share: f64) -> f64 {
+    let within = (share * sorted.len() as f64).ceil() as usize;
+    within.checked_sub(1).map_or(f64::NAN, |k| sorted[k])
 }

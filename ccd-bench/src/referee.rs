@@ -25,7 +25,7 @@ mod track;
 mod triangle;
 
 pub use surface::Surface;
-pub use table::{TruthRow, read_truths, write_truths};
+pub use table::{TRUTH_COLUMNS, TruthRow, read_truths, write_truths};
 
 use crate::motions::Query;
 use search::Search;

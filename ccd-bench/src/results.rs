@@ -3,13 +3,15 @@
 #[cfg(test)]
 mod tests;
 
+use crate::limits;
+use crate::motions::RowProblem;
 use ccd_core::glam::DVec3;
 use ccd_core::{Answer, Contact, Outcome, Overlap, Stats};
 use serde::Serialize;
 use std::io;
 
 /// The columns, in order.
-pub const COLUMNS: [&str; 19] = [
+pub const COLUMNS: [&str; 20] = [
     "id",
     "status",
     "time",
@@ -29,6 +31,7 @@ pub const COLUMNS: [&str; 19] = [
     "iterations",
     "oracle_calls",
     "micros",
+    "reason",
 ];
 
 /// The columns that follow where counters are asked for, in order.
@@ -50,8 +53,8 @@ pub enum Extent {
     WithCounters,
 }
 
-/// One answer as the table holds it, in the order of [`COLUMNS`]; what does not apply is an empty
-/// cell.
+/// One row of motions as the table holds it, in the order of [`COLUMNS`]; what does not apply is an
+/// empty cell.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ResultRow {
     /// As in the table of motions.
@@ -59,7 +62,7 @@ pub struct ResultRow {
     /// What happens.
     pub status: Status,
     /// When: certified that nothing touches before, unless by a bound that is not. The duration when free.
-    pub time: f64,
+    pub time: Option<f64>,
     /// A lower bound of the distance at `time`; when free, at all times.
     pub distance_lower: Option<f64>,
     /// An upper bound of the distance at `time`.
@@ -75,11 +78,13 @@ pub struct ResultRow {
     /// The feature of B's mesh that touches.
     pub feature_b: Option<String>,
     /// Pairs of nodes visited.
-    pub iterations: u64,
+    pub iterations: Option<u64>,
     /// How often the oracle was asked.
-    pub oracle_calls: u64,
-    /// How long that query alone took, in microseconds.
-    pub micros: f64,
+    pub oracle_calls: Option<u64>,
+    /// How long that query alone took, on the thread that answered it, in microseconds.
+    pub micros: Option<f64>,
+    /// Why there is no answer, or none to the end.
+    pub reason: Option<String>,
     /// What else was counted.
     #[serde(skip)]
     pub counters: Counters,
@@ -89,30 +94,30 @@ pub struct ResultRow {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Counters {
     /// How often all pairs were advanced together.
-    pub advancements: u64,
+    pub advancements: Option<u64>,
     /// Steps of the oracle's search; 0 of oracles that do not count them.
-    pub oracle_steps: u64,
+    pub oracle_steps: Option<u64>,
     /// How often the search came back to where it had been.
-    pub cycles: u64,
+    pub cycles: Option<u64>,
     /// How often an oracle gave up and another one was asked.
-    pub fallbacks: u64,
+    pub fallbacks: Option<u64>,
     /// The most pairs that waited at one time.
-    pub front: u64,
+    pub front: Option<u64>,
 }
 
 impl From<&Stats> for Counters {
     fn from(stats: &Stats) -> Self {
         Counters {
-            advancements: stats.advancements,
-            oracle_steps: stats.effort.steps,
-            cycles: stats.effort.cycles,
-            fallbacks: stats.effort.fallbacks,
-            front: stats.peak_front,
+            advancements: Some(stats.advancements),
+            oracle_steps: Some(stats.effort.steps),
+            cycles: Some(stats.effort.cycles),
+            fallbacks: Some(stats.effort.fallbacks),
+            front: Some(stats.peak_front),
         }
     }
 }
 
-/// An [`Outcome`], without what goes with it.
+/// An [`Outcome`], without what goes with it; or that there is none.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Status {
@@ -126,16 +131,19 @@ pub enum Status {
     Overlapping,
     /// A limit came first.
     Unresolved,
+    /// The row asks nothing that could be answered.
+    Error,
 }
 
 impl Status {
     /// All of them, in the order in which they are reported.
-    pub const ALL: [Status; 5] = [
+    pub const ALL: [Status; 6] = [
         Status::Contact,
         Status::Free,
         Status::Touching,
         Status::Overlapping,
         Status::Unresolved,
+        Status::Error,
     ];
 
     /// As the table spells it.
@@ -146,6 +154,7 @@ impl Status {
             Status::Touching => "touching",
             Status::Overlapping => "overlapping",
             Status::Unresolved => "unresolved",
+            Status::Error => "error",
         }
     }
 }
@@ -173,12 +182,12 @@ pub fn safe_time(outcome: &Outcome, duration: f64) -> f64 {
 }
 
 impl ResultRow {
-    /// What the table says of an answer.
-    pub fn new(id: &str, duration: f64, answer: &Answer, micros: f64) -> Self {
-        let row = ResultRow {
+    /// What the table says of a row that cannot be asked.
+    pub fn error(id: &str, why: &RowProblem) -> Self {
+        ResultRow {
             id: id.to_owned(),
-            status: Status::from(&answer.outcome),
-            time: safe_time(&answer.outcome, duration),
+            status: Status::Error,
+            time: None,
             distance_lower: None,
             distance_upper: None,
             normal: [None; 3],
@@ -186,9 +195,31 @@ impl ResultRow {
             witness_b: [None; 3],
             feature_a: None,
             feature_b: None,
-            iterations: answer.stats.node_visits,
-            oracle_calls: answer.stats.oracle_calls,
-            micros,
+            iterations: None,
+            oracle_calls: None,
+            micros: None,
+            reason: Some(why.to_string()),
+            counters: Counters::default(),
+        }
+    }
+
+    /// What the table says of an answer.
+    pub fn new(id: &str, duration: f64, answer: &Answer, micros: f64) -> Self {
+        let row = ResultRow {
+            id: id.to_owned(),
+            status: Status::from(&answer.outcome),
+            time: Some(safe_time(&answer.outcome, duration)),
+            distance_lower: None,
+            distance_upper: None,
+            normal: [None; 3],
+            witness_a: [None; 3],
+            witness_b: [None; 3],
+            feature_a: None,
+            feature_b: None,
+            iterations: Some(answer.stats.node_visits),
+            oracle_calls: Some(answer.stats.oracle_calls),
+            micros: Some(micros),
+            reason: None,
             counters: Counters::from(&answer.stats),
         };
         match answer.outcome {
@@ -209,7 +240,10 @@ impl ResultRow {
                 distance_lower: Some(clearance),
                 ..row
             },
-            Outcome::Unresolved { .. } => row,
+            Outcome::Unresolved { reason, .. } => ResultRow {
+                reason: Some(limits::word(reason).to_owned()),
+                ..row
+            },
         }
     }
 
@@ -228,30 +262,28 @@ impl ResultRow {
     }
 }
 
-/// Writes a table; numbers read back to the same bits.
+/// The columns of a table.
+pub fn columns(extent: Extent) -> Vec<&'static str> {
+    let more: &[&str] = match extent {
+        Extent::Results => &[],
+        Extent::WithCounters => &COUNTER_COLUMNS,
+    };
+    [&COLUMNS, more].concat()
+}
+
+/// Writes a row of a table without its header; numbers read back to the same bits.
 ///
 /// # Errors
-/// When `output` cannot be written to.
-pub fn write<'r>(
-    output: impl io::Write,
+/// When the writer's output cannot be written to.
+pub fn write(
+    writer: &mut csv::Writer<impl io::Write>,
     extent: Extent,
-    rows: impl IntoIterator<Item = &'r ResultRow>,
+    row: &ResultRow,
 ) -> Result<(), csv::Error> {
-    let mut writer = csv::WriterBuilder::new()
-        .has_headers(false)
-        .from_writer(output);
     match extent {
-        Extent::Results => writer.write_record(COLUMNS)?,
-        Extent::WithCounters => writer.write_record(COLUMNS.iter().chain(&COUNTER_COLUMNS))?,
+        Extent::Results => writer.serialize(row),
+        Extent::WithCounters => writer.serialize((row, row.counters)),
     }
-    for row in rows {
-        match extent {
-            Extent::Results => writer.serialize(row)?,
-            Extent::WithCounters => writer.serialize((row, row.counters))?,
-        }
-    }
-    writer.flush()?;
-    Ok(())
 }
 
 fn cells(v: DVec3) -> [Option<f64>; 3] {

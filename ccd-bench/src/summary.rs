@@ -3,44 +3,20 @@
 #[cfg(test)]
 mod tests;
 
-use crate::query::{Timed, median};
+use crate::limits::Reached;
+use crate::query::Timed;
 use crate::results::Status;
+use ccd_core::Outcome;
 use ccd_core::order::greater;
-use ccd_core::{Limit, Outcome};
+use std::collections::BTreeMap;
 use std::fmt;
 
-/// What ends a query early, and what to do about it.
-const LIMITS: [(Limit, &str); 5] = [
-    (Limit::Budget, "the budget was spent; --budget raises it"),
-    (
-        Limit::Deadline,
-        "the deadline was passed; --deadline gives more time",
-    ),
-    (
-        Limit::Stalled,
-        "no step forward could be certified; a larger --tolerance may help",
-    ),
-    (
-        Limit::OracleGaveUp,
-        "the oracle gave up; another --oracle may not",
-    ),
-    (
-        Limit::Undecided,
-        "at the start it cannot be told whether the bodies overlap; move one of them a little",
-    ),
-];
-
-/// Counts and times of many answers.
+/// Counts and times of many answers, of which none is kept.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Summary {
     /// How many of each status, in the order of [`Status::ALL`].
     counts: [usize; Status::ALL.len()],
-    /// Median time of a query, in microseconds; NaN of none, as the two below.
-    pub median_micros: f64,
-    /// Mean time of a query, in microseconds.
-    pub mean_micros: f64,
-    /// The time that 95 of 100 queries stay within, in microseconds.
-    pub p95_micros: f64,
+    times: Times,
     /// Pairs of nodes visited, all queries together.
     pub node_visits: u64,
     /// How often the oracle was asked, all queries together.
@@ -51,8 +27,7 @@ pub struct Summary {
     pub oracle_steps: u64,
     /// The tolerance asked for.
     asked: f64,
-    /// How many answers were ended by each limit, in the order of [`LIMITS`].
-    limits: [usize; LIMITS.len()],
+    limits: Reached,
     /// How many answers had to keep a larger tolerance.
     pub raised: usize,
     /// The largest tolerance kept.
@@ -60,42 +35,56 @@ pub struct Summary {
 }
 
 impl Summary {
-    /// Sums up answers to queries with that tolerance.
-    pub fn new<'t>(answers: impl IntoIterator<Item = &'t Timed>, tolerance: f64) -> Self {
-        let mut summary = Summary {
+    /// Of no answers yet, to queries with that tolerance.
+    pub fn new(tolerance: f64) -> Self {
+        Summary {
             counts: [0; Status::ALL.len()],
-            median_micros: f64::NAN,
-            mean_micros: f64::NAN,
-            p95_micros: f64::NAN,
+            times: Times::default(),
             node_visits: 0,
             oracle_calls: 0,
             advancements: 0,
             oracle_steps: 0,
             asked: tolerance,
-            limits: [0; LIMITS.len()],
+            limits: Reached::default(),
             raised: 0,
             largest_tolerance: tolerance,
-        };
-        let mut micros = Vec::new();
-        for timed in answers {
-            let answer = &timed.answer;
-            summary.counts[Status::from(&answer.outcome) as usize] += 1;
-            if let Outcome::Unresolved { reason, .. } = answer.outcome {
-                let limit = LIMITS.iter().position(|&(limit, _)| limit == reason);
-                limit.into_iter().for_each(|k| summary.limits[k] += 1);
-            }
-            summary.node_visits += answer.stats.node_visits;
-            summary.oracle_calls += answer.stats.oracle_calls;
-            summary.advancements += answer.stats.advancements;
-            summary.oracle_steps += answer.stats.effort.steps;
-            summary.raised += usize::from(answer.tolerance > tolerance);
-            summary.largest_tolerance = greater(summary.largest_tolerance, answer.tolerance);
-            micros.push(timed.micros);
         }
-        summary.median_micros = median(&mut micros);
-        summary.mean_micros = micros.iter().sum::<f64>() / micros.len() as f64;
-        summary.p95_micros = percentile(&micros, 0.95);
-        summary
+    }
+
+    /// One more answer.
+    pub fn add(&mut self, timed: &Timed) {
+        let answer = &timed.answer;
+        self.counts[Status::from(&answer.outcome) as usize] += 1;
+        if let Outcome::Unresolved { reason, .. } = answer.outcome {
+            self.limits.add(reason);
+        }
+        self.node_visits += answer.stats.node_visits;
+        self.oracle_calls += answer.stats.oracle_calls;
+        self.advancements += answer.stats.advancements;
+        self.oracle_steps += answer.stats.effort.steps;
+        self.raised += usize::from(answer.tolerance > self.asked);
+        self.largest_tolerance = greater(self.largest_tolerance, answer.tolerance);
+        self.times.add(timed.micros);
+    }
+
+    /// One more row that could not be asked.
+    pub fn add_error(&mut self) {
+        self.counts[Status::Error as usize] += 1;
+    }
+
+    /// How many were answered.
+    fn answered(&self) -> usize {
+        self.rows() - self.count(Status::Error)
+    }
+
+    /// Median time of a query, in microseconds, to a thousandth; NaN of none, as the mean.
+    pub fn median_micros(&self) -> f64 {
+        self.times.median()
+    }
+
+    /// Mean time of a query, in microseconds.
+    pub fn mean_micros(&self) -> f64 {
+        self.times.total / self.times.count as f64
     }
 
     /// How many there are of a status.
@@ -105,8 +94,8 @@ impl Summary {
 
     /// The means of what is counted, as one line; none of no rows.
     pub fn means(&self) -> Option<String> {
-        let mean = |total: u64| total as f64 / self.rows() as f64;
-        (self.rows() > 0).then(|| {
+        let mean = |total: u64| total as f64 / self.answered() as f64;
+        (self.answered() > 0).then(|| {
             format!(
                 "means: {:.1} advancements, {:.1} oracle calls, {:.1} oracle steps",
                 mean(self.advancements),
@@ -122,10 +111,40 @@ impl Summary {
     }
 }
 
-/// What such a share of values stays within, of values sorted from the least; NaN of none.
-pub fn percentile(sorted: &[f64], share: f64) -> f64 {
-    let within = (share * sorted.len() as f64).ceil() as usize;
-    within.checked_sub(1).map_or(f64::NAN, |k| sorted[k])
+/// How many times there are of each size, to a thousandth: as small for many as for few.
+#[derive(Clone, Debug, Default, PartialEq)]
+struct Times {
+    /// By the leading bits of the time, which are in the order of the times.
+    counts: BTreeMap<u64, u64>,
+    count: u64,
+    total: f64,
+}
+
+/// The bits of a time that are not kept: all but 10 of its fraction.
+const DROPPED: u32 = f64::MANTISSA_DIGITS - 1 - 10;
+
+impl Times {
+    fn add(&mut self, micros: f64) {
+        *self.counts.entry(micros.to_bits() >> DROPPED).or_default() += 1;
+        self.count += 1;
+        self.total += micros;
+    }
+
+    fn median(&self) -> f64 {
+        0.5 * (self.nth(self.count.saturating_sub(1) / 2) + self.nth(self.count / 2))
+    }
+
+    /// The one that so many are not greater than, itself left out.
+    fn nth(&self, before: u64) -> f64 {
+        let mut passed = 0;
+        for (&bits, &count) in &self.counts {
+            passed += count;
+            if passed > before {
+                return f64::from_bits(bits << DROPPED);
+            }
+        }
+        f64::NAN
+    }
 }
 
 impl fmt::Display for Summary {
@@ -139,19 +158,20 @@ impl fmt::Display for Summary {
         if counts.is_empty() {
             return Ok(());
         }
+        write!(f, ": {}", counts.join(", "))?;
+        if self.answered() == 0 {
+            return Ok(());
+        }
         write!(
             f,
-            ": {}; median {:.1} µs, mean {:.1} µs; {} node visits, {} oracle calls",
-            counts.join(", "),
-            self.median_micros,
-            self.mean_micros,
+            "; median {:.1} µs, mean {:.1} µs; {} node visits, {} oracle calls",
+            self.median_micros(),
+            self.mean_micros(),
             self.node_visits,
             self.oracle_calls
         )?;
-        for (count, (_, advice)) in self.limits.iter().zip(LIMITS) {
-            if *count > 0 {
-                write!(f, "\n{count} unresolved: {advice}")?;
-            }
+        for (count, advice) in self.limits.advice() {
+            write!(f, "\n{count} unresolved: {advice}")?;
         }
         if self.raised > 0 {
             write!(

@@ -31,8 +31,11 @@ pub enum MeshFault {
     /// The operating system would not give the bytes.
     #[error("cannot be read: {0}")]
     Unreadable(#[source] io::Error),
+    /// It is no file.
+    #[error("is a folder; name a mesh in it, .obj, .stl, .ply or .off")]
+    Folder,
     /// The file's name does not tell its format.
-    #[error("{extension:?} is not the extension of a mesh; use .obj, .stl, .ply or .off")]
+    #[error("{}; use .obj, .stl, .ply or .off", Extension(.extension))]
     UnknownExtension {
         /// What follows the last dot; empty when there is none.
         extension: String,
@@ -287,6 +290,17 @@ impl fmt::Display for Prefix<'_> {
         match self.0 {
             Some(file) => write!(f, "{}: ", file.display()),
             None => Ok(()),
+        }
+    }
+}
+
+struct Extension<'a>(&'a str);
+
+impl fmt::Display for Extension<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0 {
+            "" => write!(f, "has no extension, which tells the format of a mesh"),
+            other => write!(f, "{other:?} is not the extension of a mesh"),
         }
     }
 }

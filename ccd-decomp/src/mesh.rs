@@ -55,6 +55,9 @@ impl TriangleMesh {
     pub fn read(path: impl AsRef<Path>) -> Result<Self, MeshError> {
         let path = path.as_ref();
         let read = || {
+            if path.is_dir() {
+                return Err(MeshFault::Folder);
+            }
             let format = Format::from_path(path)?;
             let bytes = fs::read(path).map_err(MeshFault::Unreadable)?;
             TriangleMesh::from_polygons(format.parse(&bytes)?)

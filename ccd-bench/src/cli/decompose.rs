@@ -4,7 +4,7 @@ mod figures;
 
 use super::pieces::PiecesArgs;
 use super::{CannotWrite, Verdict, same_file};
-use crate::progress::Spinner;
+use crate::progress::Progress;
 use anyhow::{Context, Result, bail};
 use ccd_core::Body;
 use ccd_decomp::{
@@ -128,8 +128,8 @@ pub(super) fn run(args: &DecomposeArgs) -> Result<Verdict> {
     let detail = args.detail()?;
     let mesh = TriangleMesh::read(&args.mesh)?;
     let spinner = match args.quiet {
-        true => Spinner::hidden(),
-        false => Spinner::new("preparing"),
+        true => Progress::hidden(),
+        false => Progress::of("preparing"),
     };
     let name = args.mesh.display().to_string();
     let start = Instant::now();

@@ -5,7 +5,7 @@ use ccd_decomp::{Detail, Order};
 use clap::{Args, ValueEnum};
 
 /// What a mesh is to be made into.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub(super) struct PiecesArgs {
     /// What pieces a mesh is made into; bodies stored as .ccd keep theirs
     #[arg(long, value_enum, default_value_t)]

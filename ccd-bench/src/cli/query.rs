@@ -1,78 +1,94 @@
 //! `ccd query`: two bodies and a table of motions in, a table of results out.
 
 mod args;
+mod outputs;
+mod pair;
 
 pub(super) use args::QueryArgs;
 
-use super::files::{Output, input_name, is_standard, read_motions, refuse_overwriting};
-use super::{Verdict, complain, same_file};
-use crate::contacts::{self, ContactRow};
+use super::files::{input_name, is_standard, open_motions, refuse_overwriting};
+use super::told::Told;
+use super::{CannotWrite, Verdict, complain};
+use crate::contacts;
+use crate::crew::Crew;
 use crate::engine::{BoundKind, Method};
-use crate::motions::{MotionTable, Place, Query, RowError, RowProblem};
-use crate::progress::{Progress, Spinner};
-use crate::query::{Bodies, Settings, Timed, run as answer};
+use crate::motions::{MotionRow, MotionRows, Place, Query, RowError, RowProblem, TableError};
+use crate::progress::{Progress, Total};
+use crate::query::{Bodies, Desk, Settings, Timed};
 use crate::results::{self, Extent, ResultRow};
 use crate::summary::Summary;
 use anyhow::{Context, Result, bail};
-use ccd_core::{Body, Config, InputError};
-use ccd_decomp::{BodySource, Prepared, build_hull_tree};
-use std::io::{self, Write};
+use ccd_core::Config;
+use ccd_decomp::BodySource;
+use outputs::{Mark, Outputs};
+use pair::Pair;
+use std::io::{self, Read, Write};
 use std::num::NonZeroUsize;
-use std::path::Path;
 
-/// Answers all rows that can be; the others are told on standard error.
+/// Answers all rows that can be; of the others the results say why not.
 pub(super) fn run(args: &QueryArgs) -> Result<Verdict> {
     check(args)?;
+    let (mut rows, length) = open_motions(&args.motions)?;
     let pair = Pair::load(args)?;
-    let table = read_motions(&args.motions)?;
-    // Before the work, not after it, is when to learn that its results have nowhere to go.
-    let out = Output::open(&args.out)?;
-    let contacts_out = args.contacts.as_deref();
-    let contacts_out = contacts_out
-        .map(|path| open_beside(path, args))
-        .transpose()?;
+    let (mut outputs, left) = Outputs::open(args, &fingerprint(args, &pair))?;
+    if args.resume {
+        tell_resumed(args, left);
+    }
+    let begun = begin(args, &mut rows, left)?;
+    outputs.keep(begun)?;
     let settings = settings(args);
     if settings.method.bound == BoundKind::Published {
         complain("--bound published: times are not certified, contacts may be late or missed");
     }
-    let queries: Vec<&Query> = table.rows.iter().map(|(_, query)| query).collect();
-    let progress = if args.quiet {
-        Progress::hidden()
-    } else {
-        Progress::new(queries.len())
+    let crew = Crew::new(args.threads.and_then(|n| NonZeroUsize::new(n.into())))?;
+    let mut work = Work {
+        args,
+        bodies: pair.bodies(),
+        config: settings.config,
+        desk: Desk::new(pair.bodies(), settings, &crew),
+        crew,
+        outputs,
+        summary: Summary::new(args.tolerance),
+        told: Told::new(input_name(&args.motions)),
+        progress: match args.quiet {
+            true => Progress::hidden(),
+            false => Progress::new(length.map_or(Total::Unknown, Total::Bytes)),
+        },
     };
-    let answers = answer(pair.bodies(), &queries, &settings, &progress)?;
-    drop(progress);
-
-    let (good, errors) = sort_out(table, answers);
-    let rows = good.iter().map(|answered| &answered.row);
-    out.write(|writer| results::write(writer, args.extent(), rows))?;
-    let mut complete = errors.is_empty();
-    if let Some(out) = contacts_out {
-        let (rows, told) = all_contacts(args, pair.bodies(), &settings.config, &good);
-        out.write(|writer| contacts::write(writer, &rows))?;
-        complete &= told == Told::All;
-    }
-    for error in &errors {
-        complain(&format!("{}, {error}", input_name(&args.motions)));
+    let bad = work.through(&mut rows, begun)?;
+    work.outputs.finish()?;
+    drop(work.progress);
+    work.told.close();
+    if work.summary.rows() == 0 && left.is_none() {
+        tell_nothing(args, begun.rows);
     }
     if !args.quiet {
-        summarise(args, &good);
+        summarise(args, &work.summary);
     }
-    Ok(match complete {
-        true => Verdict::AllAnswered,
-        false => Verdict::SomeRowsBad,
+    Ok(match bad {
+        0 => Verdict::AllAnswered,
+        _ => Verdict::SomeRowsBad,
     })
 }
 
 /// Refuses what does not go together.
 fn check(args: &QueryArgs) -> Result<()> {
-    refuse_overwriting(("--motions", &args.motions), ("--out", &args.out))?;
+    let mut read = vec![("--motions", args.motions.clone())];
+    for (option, text) in [("--a", &args.a), ("--b", &args.b)] {
+        let source: BodySource = text.parse().context(option)?;
+        read.extend(pair::file(&source).map(|path| (option, path.to_owned())));
+    }
+    for (option, path) in &read {
+        refuse_overwriting((option, path), ("--out", &args.out))?;
+        if let Some(contacts) = &args.contacts {
+            refuse_overwriting((option, path), ("--contacts", contacts))?;
+        }
+    }
     if let Some(contacts) = &args.contacts {
-        refuse_overwriting(("--motions", &args.motions), ("--contacts", contacts))?;
         if is_standard(contacts) && is_standard(&args.out) {
             bail!("--contacts - and --out - are both standard output; give one of them a file");
         }
+        refuse_overwriting(("--out", &args.out), ("--contacts", contacts))?;
     }
     if let Some(bound) = args.bound
         && !args.schedule.uses_a_bound()
@@ -85,52 +101,196 @@ fn check(args: &QueryArgs) -> Result<()> {
     Ok(())
 }
 
-/// Opens the table of contacts; that of results is there already, under whatever name.
-fn open_beside(contacts: &Path, args: &QueryArgs) -> Result<Output> {
-    refuse_overwriting(("--out", &args.out), ("--contacts", contacts))?;
-    Ok(Output::open(contacts)?)
+/// All that answers depend on, in lines.
+fn fingerprint(args: &QueryArgs, pair: &Pair) -> String {
+    let asked = args.asked();
+    let version = env!("CARGO_PKG_VERSION");
+    format!("ccd {version}\n{asked:#?}\nfiles {}", pair.checksums)
 }
 
-/// Whether there is something that could not be told.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Told {
-    All,
-    Some,
+fn tell_resumed(args: &QueryArgs, left: Option<Mark>) {
+    match left {
+        Some(_) if args.quiet => {}
+        Some(Mark { rows, .. }) => {
+            complain(&format!(
+                "--resume: goes on behind row {rows} of the motions"
+            ));
+        }
+        None => complain("--resume: there is nothing to go on with; begins at the beginning"),
+    }
 }
 
-/// The contacts of all rows; those of a row that cannot be listed are told on standard error.
-fn all_contacts(
+/// Passes over the rows that are not asked for, or done with.
+fn begin(
     args: &QueryArgs,
-    bodies: Bodies<'_>,
-    config: &Config,
-    good: &[Answered],
-) -> (Vec<ContactRow>, Told) {
-    let (mut all, mut told) = (Vec::new(), Told::All);
-    for Answered {
-        place,
-        query,
-        timed,
-        ..
-    } in good
-    {
-        match contacts::rows(bodies, query, config, &timed.answer.outcome) {
-            Ok(rows) => all.extend(rows),
-            Err(error) => {
-                let Place { row, line } = place;
-                let table = input_name(&args.motions);
-                complain(&format!(
-                    "{table}, row {row} (line {line}): contacts: {error}"
-                ));
-                told = Told::Some;
+    rows: &mut MotionRows<Box<dyn Read>>,
+    left: Option<Mark>,
+) -> Result<Mark> {
+    let input = || input_name(&args.motions);
+    let wanted = left.map_or(args.rows.start, |left| left.rows);
+    let passed = rows.pass(wanted).with_context(input)?;
+    let checksum = rows.checksum();
+    match left {
+        Some(left) if (passed, checksum) != (left.rows, left.checksum) => bail!(
+            "--resume: {}: not the rows that the interrupted run was given; give it the same, or \
+             delete what it left to begin again",
+            input()
+        ),
+        Some(left) => Ok(left),
+        None => Ok(Mark {
+            rows: passed,
+            checksum,
+            ..Mark::default()
+        }),
+    }
+}
+
+/// There is no row: told, since it is hardly what was meant.
+fn tell_nothing(args: &QueryArgs, passed: usize) {
+    let input = input_name(&args.motions);
+    match args.rows.is_all() {
+        true => complain(&format!("{input}: has a header, but no rows")),
+        false => complain(&format!(
+            "{input}: none of its {passed} rows is in --rows {}",
+            args.rows
+        )),
+    }
+}
+
+/// A run, row by row.
+struct Work<'a> {
+    args: &'a QueryArgs,
+    bodies: Bodies<'a>,
+    config: Config,
+    desk: Desk<'a>,
+    crew: Crew,
+    outputs: Outputs,
+    summary: Summary,
+    told: Told,
+    progress: Progress,
+}
+
+impl Work<'_> {
+    /// Answers the rows from there on; says how many have no complete answer.
+    fn through(&mut self, rows: &mut MotionRows<Box<dyn Read>>, begun: Mark) -> Result<usize> {
+        let mut mark = begun;
+        loop {
+            let left = self
+                .args
+                .rows
+                .end
+                .map_or(usize::MAX, |end| end.saturating_sub(mark.rows));
+            let size = self.crew.batch().min(left);
+            let (batch, broken) = read(rows, size);
+            if batch.is_empty() && broken.is_none() {
+                return Ok(mark.bad);
+            }
+            self.answer(&batch)?;
+            self.progress.read(rows.bytes());
+            mark = Mark {
+                rows: mark.rows + batch.len(),
+                checksum: rows.checksum(),
+                bad: begun.bad + self.told.count(),
+                ..mark
+            };
+            self.outputs.keep(mark)?;
+            if let Some(error) = broken {
+                return Err(error).with_context(|| input_name(&self.args.motions));
             }
         }
     }
-    (all, told)
+
+    fn answer(&mut self, batch: &[MotionRow]) -> Result<(), CannotWrite> {
+        let (desk, progress) = (&self.desk, &self.progress);
+        let answers = self.crew.work(batch, |thread, row| {
+            let answer = match row {
+                Ok((_, query)) => desk.answer(thread, query).map_err(RowProblem::from),
+                Err(error) => Err(error.problem.clone()),
+            };
+            progress.step();
+            answer
+        });
+        let mut good = Vec::new();
+        for (row, answer) in batch.iter().zip(&answers) {
+            let (place, id) = match row {
+                Ok((place, query)) => (*place, &query.id),
+                Err(error) => (error.place, &error.id),
+            };
+            let row = match (row, answer) {
+                (Ok((place, query)), Ok(timed)) => {
+                    self.summary.add(timed);
+                    good.push((*place, query, timed));
+                    self.result(query, timed)
+                }
+                (_, Err(problem)) | (Err(RowError { problem, .. }), _) => {
+                    self.summary.add_error();
+                    self.told.tell(place, problem, &self.progress);
+                    ResultRow::error(id, problem)
+                }
+            };
+            let extent = self.args.extent();
+            let results = &mut self.outputs.results;
+            results.write(|writer| results::write(writer, extent, &row))?;
+        }
+        self.tell_contacts(&good)
+    }
+
+    fn result(&self, query: &Query, timed: &Timed) -> ResultRow {
+        let row = ResultRow::new(&query.id, query.duration, &timed.answer, timed.micros);
+        ResultRow {
+            micros: row.micros.filter(|_| !self.args.no_micros),
+            ..row
+        }
+    }
+
+    /// The contacts of rows that are answered; those that cannot be listed are told.
+    fn tell_contacts(&mut self, good: &[(Place, &Query, &Timed)]) -> Result<(), CannotWrite> {
+        let Some(table) = &mut self.outputs.contacts else {
+            return Ok(());
+        };
+        let (bodies, config) = (self.bodies, &self.config);
+        // A row may have very many.
+        for few in good.chunks(ROWS_OF_CONTACTS) {
+            let all = self.crew.map(few, |_, (_, query, timed)| {
+                contacts::rows(bodies, query, config, &timed.answer.outcome)
+            });
+            for ((place, ..), rows) in few.iter().zip(all) {
+                match rows {
+                    Ok(rows) => {
+                        for row in rows {
+                            table.write(|writer| writer.serialize(row))?;
+                        }
+                    }
+                    Err(error) => {
+                        let problem = format!("contacts: {error}");
+                        self.told.tell(*place, &problem, &self.progress);
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
 }
 
-fn summarise(args: &QueryArgs, good: &[Answered]) {
-    let timed = good.iter().map(|answered| &answered.timed);
-    let summary = Summary::new(timed, args.tolerance);
+/// How many rows' contacts are held at one time.
+const ROWS_OF_CONTACTS: usize = 64;
+
+/// So many rows, or fewer where the table ends, or cannot be read on.
+fn read(
+    rows: &mut MotionRows<Box<dyn Read>>,
+    count: usize,
+) -> (Vec<MotionRow>, Option<TableError>) {
+    let mut batch = Vec::new();
+    for row in rows.take(count) {
+        match row {
+            Ok(row) => batch.push(row),
+            Err(error) => return (batch, Some(error)),
+        }
+    }
+    (batch, None)
+}
+
+fn summarise(args: &QueryArgs, summary: &Summary) {
     let standing = match args.bound {
         Some(BoundKind::Published) => "not certified: ",
         Some(BoundKind::Sound) | None => "",
@@ -142,7 +302,6 @@ fn summarise(args: &QueryArgs, good: &[Answered]) {
 }
 
 fn settings(args: &QueryArgs) -> Settings {
-    let at_least_one = |n| NonZeroUsize::new(n).unwrap_or(NonZeroUsize::MIN);
     Settings {
         method: Method {
             schedule: args.schedule,
@@ -156,101 +315,6 @@ fn settings(args: &QueryArgs) -> Settings {
             budget: args.budget,
             deadline: args.deadline,
         },
-        repeat: at_least_one(args.repeat as usize),
-        threads: at_least_one(usize::from(args.threads)),
-    }
-}
-
-/// A row of motions and what came of it.
-struct Answered {
-    place: Place,
-    query: Query,
-    timed: Timed,
-    row: ResultRow,
-}
-
-/// The results, and all bad rows in the order of the table.
-fn sort_out(
-    table: MotionTable,
-    answers: Vec<Result<Timed, InputError>>,
-) -> (Vec<Answered>, Vec<RowError>) {
-    let (mut good, mut errors) = (Vec::with_capacity(answers.len()), table.errors);
-    for ((place, query), answer) in table.rows.into_iter().zip(answers) {
-        match answer {
-            Ok(timed) => good.push(Answered {
-                row: ResultRow::new(&query.id, query.duration, &timed.answer, timed.micros),
-                place,
-                query,
-                timed,
-            }),
-            Err(error) => errors.push(row_error(place, error)),
-        }
-    }
-    errors.sort_by_key(|error| error.place.row);
-    (good, errors)
-}
-
-fn row_error(place: Place, error: InputError) -> RowError {
-    RowError {
-        place,
-        problem: RowProblem::from(error),
-    }
-}
-
-/// The bodies of a query; B is none of its own when it comes from where A comes from.
-struct Pair {
-    a: Body,
-    b: Option<Body>,
-}
-
-impl Pair {
-    fn load(args: &QueryArgs) -> Result<Self> {
-        let source = |text: &str| text.parse::<BodySource>();
-        let source_a = source(&args.a).context("--a")?;
-        let source_b = source(&args.b).context("--b")?;
-        let detail = args.pieces.detail()?;
-        let load = |option: &str, source: &BodySource, text: &str| -> Result<Body> {
-            let spinner = match args.quiet {
-                true => Spinner::hidden(),
-                false => Spinner::new(&format!("preparing {text}")),
-            };
-            let Prepared { mut body, report } =
-                source.load(detail).with_context(|| option.to_owned())?;
-            if args.schedule.uses_hull_trees() && body.hull_tree().is_none() {
-                body = grow_hull_tree(body).with_context(|| format!("{option} {text}"))?;
-            }
-            drop(spinner);
-            if !args.quiet {
-                let _ = writeln!(io::stderr(), "{option} {text}: {report}");
-            }
-            Ok(body)
-        };
-        Ok(Pair {
-            a: load("--a", &source_a, &args.a)?,
-            b: match same(&source_a, &source_b) {
-                true => None,
-                false => Some(load("--b", &source_b, &args.b)?),
-            },
-        })
-    }
-
-    fn bodies(&self) -> Bodies<'_> {
-        Bodies {
-            a: &self.a,
-            b: self.b.as_ref().unwrap_or(&self.a),
-        }
-    }
-}
-
-fn grow_hull_tree(body: Body) -> Result<Body> {
-    let tree = build_hull_tree(body.pieces())?;
-    Ok(body.with_hull_tree(tree)?)
-}
-
-fn same(a: &BodySource, b: &BodySource) -> bool {
-    match (a, b) {
-        (BodySource::Mesh(a), BodySource::Mesh(b))
-        | (BodySource::Stored(a), BodySource::Stored(b)) => same_file(a, b),
-        _ => a == b,
+        repeat: NonZeroUsize::new(args.repeat as usize).unwrap_or(NonZeroUsize::MIN),
     }
 }

@@ -1,16 +1,19 @@
 //! `ccd truth`: two meshes and a table of motions in, a table of brackets of the exact first contacts out.
 
-use super::files::{Output, input_name, read_motions, refuse_overwriting};
-use super::{Verdict, complain, same_file};
-use crate::motions::Query;
-use crate::progress::{Progress, Spinner};
-use crate::referee::{Referee, Surface, Truth, TruthRow, write_truths};
+use super::files::{Table, input_name, open_motions, refuse_overwriting};
+use super::size::Size;
+use super::told::Told;
+use super::{CannotWrite, Verdict, complain, same_file};
+use crate::crew::Crew;
+use crate::motions::MotionRow;
+use crate::progress::{Progress, Total};
+use crate::referee::{Referee, Surface, TRUTH_COLUMNS, Truth, TruthRow};
 use anyhow::{Context, Result};
 use ccd_core::order::greater;
 use ccd_decomp::TriangleMesh;
 use clap::Args;
-use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 use std::io::{self, Write};
+use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -57,93 +60,167 @@ Table of truths:
             initial    they touch at the start, or all but touch; lo and hi are 0
             graze      apart before lo, at lo in touch or all but, never shown to intersect
             undecided  apart before lo, nothing known after: the work for a row was spent
+            error      the row asks nothing that could be judged
+  reason    what is wrong with a row of status error
 
-Exit code: 0 when every row is judged, 2 on bad input: rows that are good are judged and written all
-the same; 1 when the table cannot be written.
+Rows are written in order as they are judged, to a file that ends in .partial until all are there.
+
+Exit code: 0 when every row is judged, 2 when there are rows of status error, or on other bad input; 1
+when the table cannot be written.
 
 Examples:
   ccd truth --a knot.obj --b knot.obj --motions motions.csv --out truth.csv
   ccd truth --a part.stl --b part.stl --motions motions.csv --threads 1 --out truth.csv
   printf 'a_pz,a_vz\\n3,-4\\n' | ccd truth --a part.stl --b slab.obj --motions -";
 
-/// Judges all rows that can be; the others are told on standard error.
+/// Judges all rows that can be; of the others the table says why not.
 pub(super) fn run(args: &TruthArgs) -> Result<Verdict> {
-    refuse_overwriting(("--motions", &args.motions), ("--out", &args.out))?;
+    for (option, path) in [
+        ("--motions", &args.motions),
+        ("--a", &args.a),
+        ("--b", &args.b),
+    ] {
+        refuse_overwriting((option, path), ("--out", &args.out))?;
+    }
+    let (mut rows, length) = open_motions(&args.motions)?;
     let (a, b) = load(args)?;
-    let table = read_motions(&args.motions)?;
-    // Before the work, not after it, is when to learn that its result has nowhere to go.
-    let out = Output::open(&args.out)?;
-    let queries: Vec<&Query> = table.rows.iter().map(|(_, query)| query).collect();
-    let start = Instant::now();
-    let truths = judge(args, Referee::new(&a, b.as_ref().unwrap_or(&a)), &queries)?;
-    let seconds = start.elapsed().as_secs_f64();
-    let rows = queries.into_iter().zip(&truths);
-    let rows = rows.map(|(query, &truth)| TruthRow::new(query.id.clone(), query.duration, truth));
-    out.write(|writer| write_truths(writer, rows))?;
-    for error in &table.errors {
-        complain(&format!("{}, {error}", input_name(&args.motions)));
+    let referee = Referee::new(&a, b.as_ref().unwrap_or(&a));
+    let mut table = Table::create(&args.out, &TRUTH_COLUMNS)?;
+    let mut crew = Crew::new(args.threads.and_then(|n| NonZeroUsize::new(n.into())))?;
+    let progress = match args.quiet {
+        true => Progress::hidden(),
+        false => Progress::new(length.map_or(Total::Unknown, Total::Bytes)),
+    };
+    let mut told = Told::new(input_name(&args.motions));
+    let (mut seen, start) = (Seen::default(), Instant::now());
+    loop {
+        let batch: Result<Vec<MotionRow>, _> = rows.by_ref().take(crew.batch()).collect();
+        let batch = batch.with_context(|| input_name(&args.motions))?;
+        if batch.is_empty() {
+            break;
+        }
+        let truths = judge(&mut crew, &referee, &batch, &progress);
+        progress.read(rows.bytes());
+        for (row, truth) in batch.iter().zip(truths) {
+            if let Err(error) = row {
+                told.tell(error.place, &error.problem, &progress);
+            }
+            write(&mut table, row, truth)?;
+            truth.iter().for_each(|truth| seen.add(truth));
+        }
+        table.flush()?;
+    }
+    table.finish()?;
+    drop(progress);
+    told.close();
+    if seen.rows() + told.count() == 0 {
+        complain(&format!(
+            "{}: has a header, but no rows",
+            input_name(&args.motions)
+        ));
     }
     if !args.quiet {
-        let _ = writeln!(io::stderr(), "{}, {seconds:.1} s", summary(&truths));
+        let seconds = start.elapsed().as_secs_f64();
+        let _ = writeln!(io::stderr(), "{}, {seconds:.1} s", seen.summary());
     }
-    Ok(match table.errors.is_empty() {
-        true => Verdict::AllAnswered,
-        false => Verdict::SomeRowsBad,
+    Ok(match told.count() {
+        0 => Verdict::AllAnswered,
+        _ => Verdict::SomeRowsBad,
     })
 }
 
 /// The surfaces; B is none of its own when it comes from where A comes from.
 fn load(args: &TruthArgs) -> Result<(Surface, Option<Surface>)> {
-    let surface = |option: &str, path: &Path| -> Result<Surface> {
-        let spinner = match args.quiet {
-            true => Spinner::hidden(),
-            false => Spinner::new(&format!("reading {}", path.display())),
+    let surface = |option: &str, path: &Path| -> Result<(Surface, Size)> {
+        let progress = match args.quiet {
+            true => Progress::hidden(),
+            false => Progress::of(&format!("reading {}", path.display())),
         };
         let mesh = TriangleMesh::read(path).with_context(|| option.to_owned())?;
         let surface = Surface::new(&mesh);
-        drop(spinner);
-        Ok(surface)
+        drop(progress);
+        Ok((surface, Size::of_points(mesh.vertices().iter().copied())))
     };
-    let a = surface("--a", &args.a)?;
-    let b = match same_file(&args.a, &args.b) {
-        true => None,
-        false => Some(surface("--b", &args.b)?),
-    };
-    Ok((a, b))
+    let (a, size_a) = surface("--a", &args.a)?;
+    if same_file(&args.a, &args.b) {
+        return Ok((a, None));
+    }
+    let (b, size_b) = surface("--b", &args.b)?;
+    if !args.quiet {
+        Size::compare(size_a, size_b);
+    }
+    Ok((a, Some(b)))
 }
 
-fn judge(args: &TruthArgs, referee: Referee<'_>, queries: &[&Query]) -> Result<Vec<Truth>> {
-    let progress = match args.quiet {
-        true => Progress::hidden(),
-        false => Progress::new(queries.len()),
-    };
-    let judge = |query: &&Query| {
-        let truth = referee.first_contact(query);
+/// The truths of rows, none of bad ones.
+fn judge(
+    crew: &mut Crew,
+    referee: &Referee<'_>,
+    batch: &[MotionRow],
+    progress: &Progress,
+) -> Vec<Option<Truth>> {
+    crew.work(batch, |_, row| {
+        let query = row.as_ref().map(|(_, query)| query);
+        let truth = query.ok().map(|query| referee.first_contact(query));
         progress.step();
         truth
-    };
-    // 0 is rayon's word for all there are.
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(args.threads.map_or(0, usize::from))
-        .build()?;
-    Ok(pool.install(|| queries.par_iter().map(judge).collect()))
+    })
 }
 
-/// How many there are of each kind, and the widest bracket.
-fn summary(truths: &[Truth]) -> String {
-    let count = |kind: fn(&Truth) -> bool| truths.iter().filter(|truth| kind(truth)).count();
-    let width = |truth: &Truth| match truth {
-        Truth::Hit { lo, hi } => hi - lo,
-        _ => 0.0,
-    };
-    format!(
-        "{} rows: {} hit, {} free, {} initial, {} graze, {} undecided; widest bracket {:.1e}",
-        truths.len(),
-        count(|truth| matches!(truth, Truth::Hit { .. })),
-        count(|truth| matches!(truth, Truth::Free)),
-        count(|truth| matches!(truth, Truth::Start)),
-        count(|truth| matches!(truth, Truth::Graze { .. })),
-        count(|truth| matches!(truth, Truth::Undecided { .. })),
-        truths.iter().map(width).fold(0.0, greater),
-    )
+fn write(table: &mut Table, row: &MotionRow, truth: Option<Truth>) -> Result<(), CannotWrite> {
+    table.write(|writer| match (row, truth) {
+        (Ok((_, query)), Some(truth)) => {
+            let row = TruthRow::new(query.id.clone(), query.duration, truth);
+            writer.serialize((row, ""))
+        }
+        (Err(error), _) => {
+            let reason = error.problem.to_string();
+            writer.serialize((&error.id, "error", "", "", reason))
+        }
+        (Ok(_), None) => Ok(()),
+    })
+}
+
+/// How many truths there are of each kind, and the widest bracket.
+#[derive(Default)]
+struct Seen {
+    hit: usize,
+    free: usize,
+    initial: usize,
+    graze: usize,
+    undecided: usize,
+    widest: f64,
+}
+
+impl Seen {
+    fn add(&mut self, truth: &Truth) {
+        let count = match truth {
+            Truth::Hit { lo, hi } => {
+                self.widest = greater(self.widest, hi - lo);
+                &mut self.hit
+            }
+            Truth::Free => &mut self.free,
+            Truth::Start => &mut self.initial,
+            Truth::Graze { .. } => &mut self.graze,
+            Truth::Undecided { .. } => &mut self.undecided,
+        };
+        *count += 1;
+    }
+
+    fn rows(&self) -> usize {
+        self.hit + self.free + self.initial + self.graze + self.undecided
+    }
+
+    fn summary(&self) -> String {
+        format!(
+            "{} rows: {} hit, {} free, {} initial, {} graze, {} undecided; widest bracket {:.1e}",
+            self.rows(),
+            self.hit,
+            self.free,
+            self.initial,
+            self.graze,
+            self.undecided,
+            self.widest,
+        )
+    }
 }

@@ -17,29 +17,24 @@ fn pair() -> FeaturePair {
     }
 }
 
-fn written(rows: &[ContactRow]) -> Vec<String> {
-    let mut bytes = Vec::new();
-    write(&mut bytes, rows).unwrap();
-    let text = String::from_utf8(bytes).unwrap();
-    text.lines().map(str::to_owned).collect()
-}
-
 #[test]
-fn a_pair_fills_a_row_under_its_header() {
-    let rows = [ContactRow::new("a,b", 0.1 + 0.2, &pair())];
-    let lines = written(&rows);
-    assert_eq!(lines[0], COLUMNS.join(","));
+fn a_pair_fills_a_row() {
+    let mut writer = csv::WriterBuilder::new()
+        .has_headers(false)
+        .from_writer(Vec::new());
+    let row = ContactRow::new("a,b", 0.1 + 0.2, &pair());
+    writer.serialize(row).unwrap();
+    let line = String::from_utf8(writer.into_inner().unwrap()).unwrap();
     assert_eq!(
-        lines[1],
+        line,
         "\"a,b\",0.30000000000000004,v3,e4-7,0.1,0.2,0.0,-1.0,0.0,\
-         1.0,0.3333333333333333,1e-300,4.0,5.0,6.0"
+         1.0,0.3333333333333333,1e-300,4.0,5.0,6.0\n"
     );
-    assert_eq!(lines.len(), 2);
-}
-
-#[test]
-fn a_table_without_rows_has_its_header() {
-    assert_eq!(written(&[]), [COLUMNS.join(",")]);
+    let cells = csv::Reader::from_reader(line.as_bytes())
+        .headers()
+        .unwrap()
+        .len();
+    assert_eq!(cells, COLUMNS.len());
 }
 
 #[test]

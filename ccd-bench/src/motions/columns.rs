@@ -1,6 +1,7 @@
 //! Which columns there are, and where a table has them.
 
 use super::error::TableError;
+use super::foreign;
 use std::ops::Range;
 
 /// One of the two bodies.
@@ -48,18 +49,22 @@ pub(super) struct Columns {
 }
 
 impl Columns {
-    pub(super) fn from_header(header: &csv::StringRecord) -> Result<Self, TableError> {
-        if header.iter().all(str::is_empty) {
+    pub(super) fn from_header(header: &csv::ByteRecord) -> Result<Self, TableError> {
+        if let Some(format) = foreign::format(header) {
+            return Err(TableError::NotCsv { format });
+        }
+        let Ok(header) = csv::StringRecord::from_byte_record(header.clone()) else {
+            return Err(TableError::NotText);
+        };
+        let header: Vec<&str> = header.iter().map(str::trim).collect();
+        if header.iter().all(|column| column.is_empty()) {
             return Err(TableError::Empty);
         }
         let names = known();
         let mut cells = vec![None; names.len()];
-        for (cell, column) in header.iter().enumerate() {
+        for (cell, &column) in header.iter().enumerate() {
             let Some(slot) = names.iter().position(|name| name == column) else {
-                return Err(TableError::UnknownColumn {
-                    column: column.to_owned(),
-                    known: names,
-                });
+                return Err(unknown(&header, column, &names));
             };
             if cells[slot].replace(cell).is_some() {
                 return Err(TableError::RepeatedColumn {
@@ -83,11 +88,41 @@ impl Columns {
         &self.names[slot]
     }
 
+    /// Which cell of a row holds a column.
+    pub(super) fn place(&self, slot: usize) -> Option<usize> {
+        self.cells[slot]
+    }
+
+    /// What the column is called that a cell belongs to.
+    pub(super) fn name_at(&self, place: usize) -> &str {
+        let slot = self.cells.iter().position(|&cell| cell == Some(place));
+        slot.map_or("", |slot| self.name(slot))
+    }
+
     /// What a row says of a column; an empty cell says nothing.
-    pub(super) fn cell<'r>(&self, record: &'r csv::StringRecord, slot: usize) -> Option<&'r str> {
-        record
-            .get(self.cells[slot]?)
-            .filter(|cell| !cell.is_empty())
+    pub(super) fn cell<'r>(&self, row: &[&'r str], slot: usize) -> Option<&'r str> {
+        let cell = row.get(self.cells[slot]?).copied();
+        cell.filter(|cell| !cell.is_empty())
+    }
+}
+
+/// What is wrong with a header that has a column of no known name.
+fn unknown(header: &[&str], column: &str, names: &[String]) -> TableError {
+    if let ([only], Some(separator)) = (header, foreign::separator(column)) {
+        return TableError::Separator {
+            found: separator,
+            header: (*only).to_owned(),
+        };
+    }
+    let lower = column.to_ascii_lowercase();
+    let likeness = |name: &&String| strsim::damerau_levenshtein(name, &lower);
+    let nearest = names.iter().min_by_key(likeness);
+    TableError::UnknownColumn {
+        column: column.to_owned(),
+        // Of so short names, those that differ by more are others.
+        nearest: nearest
+            .filter(|name| likeness(name) <= 2 && likeness(name) < lower.chars().count())
+            .cloned(),
     }
 }
 

@@ -10,14 +10,33 @@ use std::fmt;
 pub enum TableError {
     /// It could not be read.
     #[error("cannot be read: {0}")]
-    Unreadable(#[from] csv::Error),
+    Unreadable(String),
+    /// It is something else.
+    #[error("is {format}, not CSV; export it as CSV, in UTF-8")]
+    NotCsv {
+        /// What it is.
+        format: &'static str,
+    },
+    /// Its header is no text.
+    #[error("is not text in UTF-8; export it as CSV, in UTF-8")]
+    NotText,
+    /// Its cells are not separated by commas.
+    #[error(
+        "header: cells are separated by {found:?}; separate them by commas, and have numbers with a decimal point: {header}"
+    )]
+    Separator {
+        /// What separates them.
+        found: char,
+        /// The header.
+        header: String,
+    },
     /// A column that means nothing here; left alone it would be a motion silently not made.
-    #[error("header: unknown column `{column}`; known are {}", .known.join(" "))]
+    #[error("header: unknown column `{column}`; {}", Known(.nearest.as_deref()))]
     UnknownColumn {
         /// Its name.
         column: String,
-        /// The columns that there are.
-        known: Vec<String>,
+        /// The known column that is spelt nearly so.
+        nearest: Option<String>,
     },
     /// A column that is there twice.
     #[error("header: column `{column}` appears twice")]
@@ -30,12 +49,36 @@ pub enum TableError {
     Empty,
 }
 
+impl From<csv::Error> for TableError {
+    fn from(error: csv::Error) -> Self {
+        TableError::Unreadable(error.to_string())
+    }
+}
+
+/// Which columns there are, or which one is meant.
+struct Known<'a>(Option<&'a str>);
+
+impl fmt::Display for Known<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0 {
+            Some(nearest) => write!(f, "did you mean `{nearest}`?"),
+            None => write!(
+                f,
+                "known are id, duration, and after a_ or b_: px py pz, qw qx qy qz, vx vy vz, wx wy wz, \
+                 end_px end_py end_pz, end_qw end_qx end_qy end_qz, cx cy cz"
+            ),
+        }
+    }
+}
+
 /// A row that cannot be asked.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("row {} (line {}): {problem}", .place.row, .place.line)]
 pub struct RowError {
     /// Which row.
     pub place: Place,
+    /// What the row is called.
+    pub id: String,
     /// What is wrong with it.
     pub problem: RowProblem,
 }
@@ -44,8 +87,11 @@ pub struct RowError {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum RowProblem {
-    /// It is not text, or not CSV.
-    Unreadable(String),
+    /// A cell is not text in UTF-8.
+    NotText {
+        /// Its column.
+        column: String,
+    },
     /// It has more or fewer cells than the header.
     WrongLength {
         /// Its cells.
@@ -95,7 +141,7 @@ pub enum RowProblem {
 impl fmt::Display for RowProblem {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Unreadable(why) => write!(f, "cannot be read: {why}"),
+            Self::NotText { column } => write!(f, "column {column}: is not text in UTF-8"),
             Self::WrongLength { cells, columns } => {
                 write!(
                     f,

@@ -10,7 +10,7 @@ use std::ops::Range;
 /// What a row asks; `index` names a row that has no id.
 pub(super) fn query(
     columns: &Columns,
-    record: &csv::StringRecord,
+    record: &csv::ByteRecord,
     index: usize,
 ) -> Result<Query, RowProblem> {
     if record.len() != columns.len() {
@@ -19,7 +19,10 @@ pub(super) fn query(
             columns: columns.len(),
         });
     }
-    let row = Row { columns, record };
+    let row = Row {
+        columns,
+        cells: &texts(columns, record)?,
+    };
     // A negative zero is a zero.
     let duration = row.number(DURATION)?.unwrap_or(1.0) + 0.0;
     if duration < 0.0 {
@@ -30,7 +33,7 @@ pub(super) fn query(
     }
     Ok(Query {
         id: columns
-            .cell(record, ID)
+            .cell(row.cells, ID)
             .map_or_else(|| index.to_string(), str::to_owned),
         a: row.motion(Side::A, duration)?,
         b: row.motion(Side::B, duration)?,
@@ -38,9 +41,30 @@ pub(super) fn query(
     })
 }
 
+/// What a row is called of which nothing else may be readable.
+pub(super) fn id(columns: &Columns, record: &csv::ByteRecord, index: usize) -> String {
+    let cell = columns.place(ID).and_then(|place| record.get(place));
+    let id = String::from_utf8_lossy(cell.unwrap_or_default());
+    match id.trim() {
+        "" => index.to_string(),
+        id => id.to_owned(),
+    }
+}
+
+/// The cells, without the blanks about them.
+fn texts<'r>(columns: &Columns, record: &'r csv::ByteRecord) -> Result<Vec<&'r str>, RowProblem> {
+    let text = |(place, cell)| match str::from_utf8(cell) {
+        Ok(text) => Ok(text.trim()),
+        Err(_) => Err(RowProblem::NotText {
+            column: columns.name_at(place).to_owned(),
+        }),
+    };
+    record.iter().enumerate().map(text).collect()
+}
+
 struct Row<'a> {
     columns: &'a Columns,
-    record: &'a csv::StringRecord,
+    cells: &'a [&'a str],
 }
 
 impl Row<'_> {
@@ -81,7 +105,7 @@ impl Row<'_> {
     fn first_given(&self, side: Side, first: Quantity, second: Quantity) -> Option<String> {
         slots(side, first)
             .chain(slots(side, second))
-            .find(|&slot| self.columns.cell(self.record, slot).is_some())
+            .find(|&slot| self.columns.cell(self.cells, slot).is_some())
             .map(|slot| self.columns.name(slot).to_owned())
     }
 
@@ -143,7 +167,7 @@ impl Row<'_> {
     }
 
     fn number(&self, slot: usize) -> Result<Option<f64>, RowProblem> {
-        let Some(cell) = self.columns.cell(self.record, slot) else {
+        let Some(cell) = self.columns.cell(self.cells, slot) else {
             return Ok(None);
         };
         match cell.parse::<f64>() {

@@ -200,18 +200,14 @@ fn rows_have_the_length_of_the_header() {
 fn bytes_that_are_no_text_spoil_their_row_only() {
     let table = MotionTable::read(&b"id,a_px\n\xff,1\ngood,1\n"[..]).unwrap();
     assert_eq!(table.rows.len(), 1);
-    assert!(matches!(table.errors[0].problem, RowProblem::Unreadable(_)));
+    let expected = RowProblem::NotText {
+        column: "id".into(),
+    };
+    assert_eq!(table.errors[0].problem, expected);
 }
 
 #[test]
 fn headers_are_held_to_what_is_known() {
-    let unknown = MotionTable::read("id,a_pw\n".as_bytes())
-        .unwrap_err()
-        .to_string();
-    assert!(
-        unknown.contains("`a_pw`") && unknown.contains("b_end_qz"),
-        "{unknown}"
-    );
     let twice = MotionTable::read("id,a_px,id\n".as_bytes()).unwrap_err();
     assert!(matches!(twice, TableError::RepeatedColumn { column } if column == "id"));
     let empty = MotionTable::read(&b""[..]).unwrap_err();
@@ -222,4 +218,100 @@ fn headers_are_held_to_what_is_known() {
 #[test]
 fn a_byte_order_mark_is_no_column() {
     assert_eq!(only_query("\u{feff}id\nx\n").id, "x");
+}
+
+fn refused(bytes: &[u8]) -> String {
+    MotionTable::read(bytes).unwrap_err().to_string()
+}
+
+#[test]
+fn the_column_that_is_meant_is_named() {
+    for (column, meant) in [
+        ("a_pX", "a_px"),
+        ("ID", "id"),
+        ("b_endpx", "b_end_px"),
+        ("durration", "duration"),
+        ("a_xv", "a_vx"),
+    ] {
+        let told = refused(format!("{column}\n").as_bytes());
+        assert!(told.contains(&format!("did you mean `{meant}`?")), "{told}");
+    }
+    let told = refused(b"id,colour\n");
+    assert!(
+        told.contains("`colour`") && told.contains("end_qz"),
+        "{told}"
+    );
+    assert!(!told.contains("did you mean"), "{told}");
+}
+
+#[test]
+fn what_is_no_csv_is_told_for_what_it_is() {
+    for (bytes, told) in [
+        (&b"PAR1\x15\x04\x15\xff\n"[..], "is Parquet, not CSV"),
+        (b"\x1f\x8b\x08\x00\x00", "is gzip"),
+        (b"\xff\xfei\x00d\x00", "is text in UTF-16"),
+        (b"abc\x00\xff", "is binary"),
+        (b"i\xe9d\n1\n", "is not text in UTF-8"),
+        (b"id;a_px\n1;2\n", "separated by ';'"),
+        (b"id\ta_px\n1\t2\n", "separated by '\\t'"),
+    ] {
+        assert!(refused(bytes).contains(told), "{}", refused(bytes));
+    }
+}
+
+/// Whatever ends the lines: every row is told by the line that an editor shows it on.
+#[test]
+fn lines_are_counted_as_editors_count_them() {
+    let text = "\u{feff}\nid,a_px\n\nx1,x\n\n\n\"a\nb\",x\nx3,x\n  ,x\n\"c\n\n\",\"\n1\n\"\nlast,x";
+    let expected = [(1, 4), (2, 7), (3, 9), (4, 10), (6, 16)];
+    for end in ["\n", "\r\n", "\r"] {
+        for last in ["", end] {
+            let text = text.replace('\n', end) + last;
+            let table = read(&text);
+            let places: Vec<(usize, u64)> = table
+                .errors
+                .iter()
+                .map(|error| (error.place.row, error.place.line))
+                .collect();
+            assert_eq!(places, expected, "{end:?} {last:?}");
+            let ids: Vec<&str> = table.errors.iter().map(|error| error.id.as_str()).collect();
+            assert_eq!(ids, ["x1", "a\nb", "x3", "3", "last"]);
+            assert_eq!(table.rows[0].1.a.start().translation(), DVec3::X);
+        }
+    }
+}
+
+/// One byte at a time, so that every pair of a return and a line feed is split.
+struct Drip<'a>(&'a [u8]);
+
+impl io::Read for Drip<'_> {
+    fn read(&mut self, out: &mut [u8]) -> io::Result<usize> {
+        let some = out.len().min(1);
+        self.0.read(&mut out[..some])
+    }
+}
+
+#[test]
+fn lines_split_anywhere_are_the_same_lines() {
+    let text = "id,a_px\r\n\r\n1,x\r\n2,2\r\n";
+    let mut rows = MotionRows::new(Drip(text.as_bytes())).unwrap();
+    let error = rows.next().unwrap().unwrap().unwrap_err();
+    assert_eq!((error.place.row, error.place.line), (1, 3));
+    assert!(rows.next().unwrap().unwrap().is_ok());
+    assert!(rows.next().is_none());
+    assert_eq!(rows.bytes(), text.len() as u64);
+}
+
+#[test]
+fn rows_that_are_passed_over_are_counted() {
+    let text = "id,a_px\n1,1\n2,x\n3,x\n";
+    let rows = || MotionRows::new(text.as_bytes()).unwrap();
+    let (mut passing, mut reading) = (rows(), rows());
+    assert_eq!(passing.pass(2).unwrap(), 2);
+    reading.by_ref().take(2).for_each(drop);
+    assert_eq!(passing.checksum(), reading.checksum());
+    let error = passing.next().unwrap().unwrap().unwrap_err();
+    assert_eq!((error.place.row, error.place.line), (3, 4));
+    assert_ne!(passing.checksum(), reading.checksum());
+    assert_eq!(rows().pass(9).unwrap(), 3);
 }

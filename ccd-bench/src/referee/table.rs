@@ -1,10 +1,13 @@
-//! The table of truths: `id,status,lo,hi`.
+//! The table of truths.
 
 use super::Truth;
 use serde::{Deserialize, Serialize};
 use std::io;
 
-/// One row of the table.
+/// The columns, in order; the last one has what is wrong with a row of motions that cannot be judged.
+pub const TRUTH_COLUMNS: [&str; 5] = ["id", "status", "lo", "hi", "reason"];
+
+/// One row of the table, without a reason.
 ///
 /// Of a hit, `lo` and `hi` bracket the first contact. Free rows have the duration for both, rows that
 /// touch at the start 0; of others nothing touches before `lo`, and `hi` is the duration.
@@ -65,7 +68,7 @@ pub fn write_truths(
     let mut writer = csv::WriterBuilder::new()
         .has_headers(false)
         .from_writer(output);
-    writer.write_record(["id", "status", "lo", "hi"])?;
+    writer.write_record(&TRUTH_COLUMNS[..4])?;
     for row in rows {
         writer.serialize(row)?;
     }

@@ -29,12 +29,21 @@ fn contact() -> Contact {
     }
 }
 
+/// A table of one row.
+fn table(extent: Extent, row: &ResultRow) -> String {
+    let mut writer = csv::WriterBuilder::new()
+        .has_headers(false)
+        .from_writer(Vec::new());
+    writer.write_record(columns(extent)).unwrap();
+    write(&mut writer, extent, row).unwrap();
+    String::from_utf8(writer.into_inner().unwrap()).unwrap()
+}
+
 /// The cells of a row as written, by column.
 fn written(outcome: Outcome) -> Vec<(&'static str, String)> {
     let row = ResultRow::new("a,b", 2.5, &answer(outcome), 12.75);
-    let mut bytes = Vec::new();
-    write(&mut bytes, Extent::Results, [&row]).unwrap();
-    let mut reader = csv::Reader::from_reader(&bytes[..]);
+    let text = table(Extent::Results, &row);
+    let mut reader = csv::Reader::from_reader(text.as_bytes());
     assert_eq!(
         reader.headers().unwrap(),
         &csv::StringRecord::from(COLUMNS.to_vec())
@@ -67,7 +76,7 @@ fn a_contact_fills_every_cell() {
         values[8..14],
         ["1.0", "0.3333333333333333", "1e-300", "4.0", "5.0", "6.0"]
     );
-    assert_eq!(values[14..], ["e3-7", "f12", "17", "5", "12.75"]);
+    assert_eq!(values[14..], ["e3-7", "f12", "17", "5", "12.75", ""]);
 }
 
 #[test]
@@ -112,6 +121,7 @@ fn unresolved_is_safe_until_its_time() {
         ("unresolved".into(), "0.75".into())
     );
     assert_eq!(cell(&row, "distance_lower"), "");
+    assert_eq!(cell(&row, "reason"), "budget");
 }
 
 #[test]
@@ -125,10 +135,16 @@ fn names_are_those_that_are_written() {
 }
 
 #[test]
-fn a_table_without_rows_has_its_header() {
-    let mut bytes = Vec::new();
-    write(&mut bytes, Extent::Results, []).unwrap();
-    assert_eq!(String::from_utf8(bytes).unwrap().trim(), COLUMNS.join(","));
+fn a_row_that_asks_nothing_has_its_reason_alone() {
+    let problem = RowProblem::NotANumber {
+        column: "a_px".into(),
+        value: "x".into(),
+    };
+    let row = ResultRow::error("bad", &problem);
+    let text = table(Extent::WithCounters, &row);
+    let cells = text.lines().nth(1).unwrap();
+    let reason = "column a_px: `x` is not a finite number";
+    assert_eq!(cells, format!("bad,error{},{reason},,,,,", ",".repeat(17)));
 }
 
 /// By name and by place, after all that is there without them.
@@ -148,11 +164,7 @@ fn counters_follow_the_other_columns() {
         ..answer(Outcome::Free { clearance: 0.25 })
     };
     let row = ResultRow::new("a", 2.5, &answer, 12.75);
-    let text = |extent| {
-        let mut bytes = Vec::new();
-        write(&mut bytes, extent, [&row]).unwrap();
-        String::from_utf8(bytes).unwrap()
-    };
+    let text = |extent| table(extent, &row);
     let (plain, counted) = (text(Extent::Results), text(Extent::WithCounters));
     for (line, (with, more)) in plain.lines().zip(counted.lines().zip([
         "advancements,oracle_steps,cycles,fallbacks,front",

@@ -135,7 +135,7 @@ fn counters_are_more_columns_and_a_line_of_means() {
         let text = String::from_utf8(output.to_vec()).unwrap();
         text.lines().next().unwrap().to_owned()
     };
-    assert!(header(&plain.stdout).ends_with("iterations,oracle_calls,micros"));
+    assert!(header(&plain.stdout).ends_with("iterations,oracle_calls,micros,reason"));
     for (schedule, steps) in [("best-first", false), ("naive", true)] {
         let run = Run::query(&CUBES).args(&["--counters", "--schedule", schedule]);
         let output = run.stdin(DROPS).output();

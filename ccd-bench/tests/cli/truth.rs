@@ -54,7 +54,11 @@ fn good_rows_are_judged_and_bad_ones_told() {
     ]);
     let output = run.stdin("id,a_px,a_vx\nbad,x,0\ngood,3,-4\n").output();
     assert_eq!(output.status.code(), Some(2));
-    assert_eq!(parse(&output.stdout).len(), 1);
+    let rows = parse(&output.stdout);
+    let statuses = rows.iter().map(|row| row.text("status"));
+    assert_eq!(statuses.collect::<Vec<_>>(), ["error", "hit"]);
+    assert_eq!([rows[0].text("lo"), rows[1].text("reason")], ["", ""]);
+    assert!(rows[0].text("reason").contains("`x`"));
     let told = stderr(&output);
     assert!(
         told.contains("standard input, row 1 (line 2): column a_px"),

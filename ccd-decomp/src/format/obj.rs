@@ -114,7 +114,10 @@ impl Statements {
         let mut lines = [self.vertex_lines.as_slice(), &self.face_lines].concat();
         lines.sort_unstable();
         let problem = match self.text.lines().nth(statement) {
-            Some(text) => format!("{error} in {text:?}"),
+            Some(text) => match no_vertex_number(text) {
+                Some(word) => format!("{word:?} instead of the number of a vertex in {text:?}"),
+                None => format!("{error} in {text:?}"),
+            },
             None => error.to_string(),
         };
         MeshFault::syntax(lines.get(statement).copied(), problem)
@@ -153,6 +156,15 @@ impl Statements {
         }
         None
     }
+}
+
+/// The first corner of a face that begins with no whole number.
+fn no_vertex_number(statement: &str) -> Option<&str> {
+    let corners = statement.strip_prefix('f')?.split_whitespace();
+    let number = |corner: &str| corner.split('/').next().map(str::parse::<i64>);
+    corners
+        .into_iter()
+        .find(|corner| !matches!(number(corner), Some(Ok(_))))
 }
 
 /// A vertex statement without the three or more numbers that some programs put after the position;

@@ -29,7 +29,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Polygons, MeshFault> {
         let mut line = lines.need(|| format!("face {face} of {faces}"))?;
         let corners: u32 = line.number("the number of corners of a face")?;
         for _ in 0..corners {
-            let corner = line.number("as many vertex numbers as the face has corners")?;
+            let corner = line.number("the number of a vertex for each corner of a face")?;
             polygons.corners.push(corner);
         }
         polygons.ends.push(polygons.corners.len());

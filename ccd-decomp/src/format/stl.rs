@@ -84,6 +84,11 @@ fn parse_text(text: &str) -> Result<Polygons, MeshFault> {
                 facet_lines.push(number);
                 one_solid.push_str("facet normal 0 0 0\n");
             }
+            ("vertex", _) if let Some(word) = not_finite(&lower) => {
+                let facet = facet_lines.len().saturating_sub(1);
+                let problem = format!("facet {facet}: {word:?} instead of a finite coordinate");
+                return Err(MeshFault::syntax(Some(number), problem));
+            }
             _ => {
                 let _ = writeln!(one_solid, "{lower}");
             }
@@ -110,6 +115,12 @@ fn parse_text(text: &str) -> Result<Polygons, MeshFault> {
     })?;
     polygons.face_lines = facet_lines;
     Ok(polygons)
+}
+
+/// The first word of a line that is a number, and NaN or infinite.
+fn not_finite(line: &str) -> Option<&str> {
+    let infinite = |word: &&str| word.parse::<f32>().is_ok_and(|x| !x.is_finite());
+    line.split_whitespace().find(infinite)
 }
 
 /// Runs the library; `fault` says what an error at a facet means.

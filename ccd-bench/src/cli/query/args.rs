@@ -6,11 +6,13 @@ use crate::results::Extent;
 use ccd_core::StartPolicy;
 use ccd_core::tolerance::{DEFAULT_BUDGET, DEFAULT_TOLERANCE};
 use clap::{Args, ValueEnum};
+use std::fmt;
 use std::path::PathBuf;
+use std::str::FromStr;
 use std::time::Duration;
 
 /// Answer a table of motions of two bodies
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 #[command(after_help = QUERY_AFTER_HELP, after_long_help = QUERY_AFTER_LONG_HELP)]
 pub(in crate::cli) struct QueryArgs {
     /// Body A: a mesh (.obj .stl .ply .off), a prepared body (.ccd, see `ccd decompose`),
@@ -51,10 +53,18 @@ pub(in crate::cli) struct QueryArgs {
     /// How long a query may take, in seconds, before it is left unresolved
     #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_hyphen_values = true)]
     pub(super) deadline: Option<Duration>,
-    /// Threads to answer on; any number gives the same answers, one gives the truest times
-    #[arg(long, value_name = "N", default_value_t = 1,
-          value_parser = clap::value_parser!(u16).range(1..=1024))]
-    pub(super) threads: u16,
+    /// Threads to answer on; any number gives the same answers, one the truest times [default: all
+    /// there are]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub(super) threads: Option<u16>,
+    /// Answer these rows alone: FROM..TO, numbered from 0, TO not included; either may be left out
+    #[arg(
+        long,
+        value_name = "FROM..TO",
+        default_value = "..",
+        hide_default_value = true
+    )]
+    pub(super) rows: RowRange,
     /// Answer each query so many times and report the median time
     #[arg(long, value_name = "N", default_value_t = 1,
           value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
@@ -69,6 +79,12 @@ pub(in crate::cli) struct QueryArgs {
     /// More columns for the table of results, and their means: what the query took besides visits
     #[arg(long)]
     pub(super) counters: bool,
+    /// Leave the cells of `micros` empty, so that equal answers are equal files
+    #[arg(long)]
+    pub(super) no_micros: bool,
+    /// Go on behind the last row that an interrupted run with the same options has written to --out
+    #[arg(long)]
+    pub(super) resume: bool,
     /// Say nothing on standard error but what is wrong
     #[arg(long, short)]
     pub(super) quiet: bool,
@@ -80,6 +96,18 @@ impl QueryArgs {
         match self.counters {
             true => Extent::WithCounters,
             false => Extent::Results,
+        }
+    }
+
+    /// The options that answers depend on; the others as if they had not been given.
+    pub(super) fn asked(&self) -> Self {
+        QueryArgs {
+            motions: PathBuf::new(),
+            out: PathBuf::new(),
+            threads: None,
+            resume: false,
+            quiet: false,
+            ..self.clone()
         }
     }
 }
@@ -118,7 +146,11 @@ Table of results:
   time      certified: no contact before it; 0 to duration
   normal, witnesses         in the world's frame at `time`; the normal points from A to B
   feature_a, feature_b      v7, e3-7, f12: vertex, edge, face as numbered in the mesh, from 0
-  iterations, oracle_calls  what the query took; micros: its time alone, in microseconds
+            error        the row asks nothing that can be answered; most cells are empty
+  iterations, oracle_calls  what the query took
+  micros                    its time alone, in microseconds, on the thread that answered it; with all
+                            cores at work each may take longer: measure with --threads 1
+  reason                    of error what is wrong; of unresolved budget, deadline, stalled, oracle gave up, undecided
   with --counters also
   advancements              how often all pairs were advanced together; 0 where each has its clock
   oracle_steps, cycles      the oracle's: from feature to feature; back to where it had been
@@ -132,11 +164,17 @@ foot in, or two edges that cross; or, where there is no such thing, vertex and e
   feature_a, feature_b, distance_lower, distance_upper, normal_x … witness_b_z
                             as in the results, of the two features
 
+Rows are written in order as they are answered, results and contacts to files that end in .partial,
+which get their names once all rows are there; until then what had the names is left alone. When a run
+is interrupted, the same command with --resume goes on behind its last row. Bytes are the same for any
+number of threads and interruptions, but for micros: --no-micros leaves it out. --rows 0..1000 and
+--rows 1000..2000 are parts of one table, for two machines; ids are numbered through.
+
 With --bound published no time is certified: contacts may be late, or missed.
 
-Exit code: 0 when every row has a result (unresolved is one), 2 on bad input: rows that are good are
-answered and written all the same; 2 also when a row has more contacts than --budget allows; 1 when
-the results or the contacts cannot be written.
+Exit code: 0 when every row is answered (unresolved is an answer, and no rows are none to answer), 2
+when there are rows of status error, or on other bad input; 2 also when a row has more contacts than
+--budget allows; 1 when the results or the contacts cannot be written.
 
 Examples:
   ccd query --a knot.obj --b knot.obj --motions motions.csv --out results.csv
@@ -154,6 +192,52 @@ pub(super) enum StartArg {
     Report,
     /// Bodies in contact are let go as long as they do not approach
     Leave,
+}
+
+/// Some rows of a table that lie together, numbered from 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct RowRange {
+    /// The first one.
+    pub(super) start: usize,
+    /// The first one that is not among them any more.
+    pub(super) end: Option<usize>,
+}
+
+impl RowRange {
+    pub(super) fn is_all(self) -> bool {
+        self.start == 0 && self.end.is_none()
+    }
+}
+
+impl FromStr for RowRange {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let bound = |text: &str, absent| match text {
+            "" => Ok(absent),
+            number => number.parse().map(Some).map_err(|_| ()),
+        };
+        let range = text.split_once("..").and_then(|(start, end)| {
+            let start = bound(start, Some(0)).ok()??;
+            let end = bound(end, None).ok()?;
+            Some(RowRange { start, end })
+        });
+        range
+            .filter(|range| range.end.is_none_or(|end| range.start < end))
+            .ok_or_else(|| {
+                "give the first row and the one behind the last, such as 1000..2000".into()
+            })
+    }
+}
+
+impl fmt::Display for RowRange {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let RowRange { start, end } = self;
+        match end {
+            Some(end) => write!(f, "{start}..{end}"),
+            None => write!(f, "{start}.."),
+        }
+    }
 }
 
 fn positive(text: &str) -> Result<f64, String> {

@@ -55,13 +55,32 @@ use rstest::rstest;
 )]
 #[case::short_vertex(Format::Obj, "# one\nv 0 0\nf 1 1 1", "line 2: position parse error")]
 #[case::weightless(Format::Obj, "v 0 0 0 0\nf 1 1 1", "line 1: scaling (w) by zero")]
-#[case::bad_face(Format::Obj, "v 0 0 0\nf 1 1 1\nf 1 x 1", "line 3: face parse error")]
+#[case::bad_face(
+    Format::Obj,
+    "v 0 0 0\nf 1 1 1\nf 1 x 1",
+    "line 3: \"x\" instead of the number of a vertex"
+)]
+#[case::nan_face(
+    Format::Obj,
+    "v 0 0 0\nf 1 NaN/1 1",
+    "line 2: \"NaN/1\" instead of the number of a vertex"
+)]
+#[case::nan_face_off(
+    Format::Off,
+    "OFF\n1 1 0\n0 0 0\n3 0 nan 0\n",
+    "line 4: \"nan\" instead of the number of a vertex"
+)]
+#[case::nan_face_stl(
+    Format::Stl,
+    "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 0 NaN 0",
+    "line 5: facet 0: \"nan\" instead of a finite coordinate"
+)]
 #[case::two_corners(Format::Obj, "v 0 0 0\nf 1 1 1\nf 1 1", "line 3: face 1 has 2 corners")]
 #[case::no_corners(Format::Obj, "v 0 0 0\nf", "line 2: face 0 has 0 corners")]
 #[case::stl_infinite(
     Format::Stl,
     "solid x\nfacet normal 0 0 1\nouter loop\nvertex inf 0 0",
-    "line 2: facet 0"
+    "line 4: facet 0: \"inf\""
 )]
 #[case::stl_ends(
     Format::Stl,
@@ -84,7 +103,7 @@ use rstest::rstest;
 #[case::off_short(
     Format::Off,
     "OFF\n1 1 0\n0 0 0\n3 0 0\n",
-    "line 4: ends before as many vertex"
+    "line 4: ends before the number of a vertex for each corner"
 )]
 #[case::off_index(
     Format::Off,
@@ -187,7 +206,7 @@ fn long_lines_are_quoted_in_part() {
     let text = format!("v 0 0 0\nf 1 1 {}\n", "é".repeat(10_000));
     let message = read(Format::Obj, text.as_bytes()).unwrap_err().to_string();
     assert!(
-        message.len() < 1000 && message.starts_with("line 2: face parse error"),
+        message.len() < 1000 && message.starts_with("line 2: \"éé"),
         "{message}"
     );
 }
@@ -207,6 +226,8 @@ fn files_are_named() {
         matches!(missing.fault, MeshFault::Unreadable(_)),
         "{missing}"
     );
+    let folder = TriangleMesh::read(std::env::temp_dir()).unwrap_err();
+    assert!(matches!(folder.fault, MeshFault::Folder), "{folder}");
     for name in ["part.step", "part", ".obj"] {
         let unknown = TriangleMesh::read(name).unwrap_err();
         assert!(
