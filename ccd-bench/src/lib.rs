@@ -21,6 +21,7 @@ pub mod engine;
 pub mod evaluation;
 pub mod joined;
 mod limits;
+mod lines;
 pub mod measured;
 pub mod model;
 pub mod motions;

@@ -1,6 +1,8 @@
 //! What was measured: the table behind the charts, and the trials behind the table.
 
+use crate::lines::Lines;
 use serde::{Deserialize, Serialize};
+use std::fs::File;
 use std::path::Path;
 
 /// One method on one scene at one tolerance: a row of `chart.csv`.
@@ -95,7 +97,9 @@ pub fn write<T: Serialize>(path: &Path, rows: &[T]) -> Result<(), csv::Error> {
 /// # Errors
 /// When the file cannot be read, or a row is none of this table.
 pub fn read<T: for<'de> Deserialize<'de>>(path: &Path) -> Result<Vec<T>, csv::Error> {
-    csv::Reader::from_path(path)?.deserialize().collect()
+    // Errors tell the line, which is counted rightly where all lines end alike.
+    let mut reader = csv::Reader::from_reader(Lines::new(File::open(path)?));
+    reader.deserialize().collect()
 }
 
 /// NaN as an empty cell.

@@ -3,7 +3,6 @@
 mod columns;
 mod error;
 mod foreign;
-mod lines;
 mod row;
 #[cfg(test)]
 mod tests;
@@ -12,9 +11,9 @@ mod write;
 pub use error::{RowError, RowProblem, TableError};
 pub use write::write;
 
+use crate::lines::Lines;
 use ccd_core::Motion;
 use columns::Columns;
-use lines::Lines;
 use std::io::{self, Read};
 
 /// How two bodies move over one duration.

@@ -87,6 +87,15 @@ fn what_others_measured_is_judged_and_put_into_a_readme() {
         .output();
     assert_eq!(output.status.code(), Some(2));
     assert!(stderr(&output).contains("atlantis"), "{}", stderr(&output));
+
+    // As Python's csv writes it.
+    let bad = rows.replace("1,free", "one,free").replace('\n', "\r\n");
+    let bad = scene.file("bad.csv", &bad);
+    let output = chart(&folder)
+        .args(&["--redraw", "--join", bad.to_str().unwrap()])
+        .output();
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("line: 3"), "{}", stderr(&output));
 }
 
 #[test]

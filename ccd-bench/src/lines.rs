@@ -4,15 +4,15 @@ use std::io::{self, Read};
 
 /// Turns every end of a line, `\r\n` and a lone `\r` too, into `\n`, so that counting these counts lines.
 #[derive(Debug)]
-pub(super) struct Lines<R> {
+pub(crate) struct Lines<R> {
     input: R,
     after_return: bool,
     /// How many bytes of the input have been read.
-    pub(super) bytes: u64,
+    pub(crate) bytes: u64,
 }
 
 impl<R: Read> Lines<R> {
-    pub(super) fn new(input: R) -> Self {
+    pub(crate) fn new(input: R) -> Self {
         Lines {
             input,
             after_return: false,
