@@ -2,7 +2,7 @@
 
 use crate::error::DecomposeError;
 use crate::mesh::TriangleMesh;
-use crate::predicates::{is_degenerate, side, too_fine};
+use crate::predicates::{Projection, is_degenerate, side, too_fine};
 use crate::self_intersection::{Crossing, crossings};
 use crate::shells::check_orientation;
 use crate::tally::Tally;
@@ -39,6 +39,8 @@ pub(crate) enum Bend {
     Flat,
     /// It is more.
     Reflex,
+    /// They lie in one plane and on one side of the edge: back to back. A solid has no such edge.
+    Folded,
 }
 
 impl<'m> Manifold<'m> {
@@ -156,10 +158,18 @@ impl<'m> Manifold<'m> {
     pub(crate) fn bend(&self, half_edge: HalfEdge) -> Bend {
         let twin = self.twin(half_edge);
         let far = self.faces[twin as usize / 3][(twin as usize % 3 + 2) % 3];
-        match side(self.triangle(half_edge / 3), self.point(far)) {
+        let (triangle, far) = (self.triangle(half_edge / 3), self.point(far));
+        match side(triangle, far) {
             Ordering::Less => Bend::Convex,
-            Ordering::Equal => Bend::Flat,
             Ordering::Greater => Bend::Reflex,
+            Ordering::Equal => {
+                let [start, end] = self.ends(half_edge).map(|v| self.point(v));
+                let beyond = |plane: Projection| plane.turn(start, end, far) == Ordering::Less;
+                match Projection::of(triangle).is_some_and(beyond) {
+                    true => Bend::Flat,
+                    false => Bend::Folded,
+                }
+            }
         }
     }
 }
