@@ -36,6 +36,7 @@ impl Flats {
     pub(crate) fn new(manifold: &Manifold<'_>) -> Self {
         let mut merger = Merger::new(manifold);
         let mut edges = merger.flat_edges();
+        // Each round leaves fewer.
         loop {
             let before = edges.len();
             edges.retain(|&edge| !merger.merge_over(edge));
@@ -198,7 +199,9 @@ impl<'a, 'm> Merger<'a, 'm> {
                 continue;
             };
             let onward = |&h: &HalfEdge| Some(self.next[h as usize]).filter(|&h| h != start);
-            flat.rim = std::iter::successors(Some(start), onward).collect();
+            // A convex polygon has one rim, on which each half-edge is once.
+            let most = 3 * flat.faces.len();
+            flat.rim = std::iter::successors(Some(start), onward).take(most).collect();
             let plane = Projection::of(self.manifold.triangle(flat.faces[0]));
             let starts: Vec<u32> = flat.rim.iter().map(|&h| self.manifold.ends(h)[0]).collect();
             let points = self.manifold.mesh().vertices();
@@ -217,6 +220,7 @@ impl DisjointSets {
     }
 
     fn root(&mut self, mut k: u32) -> u32 {
+        // Every element names a smaller one.
         while self.0[k as usize] != k {
             // Halving the way keeps later ones short.
             self.0[k as usize] = self.0[self.0[k as usize] as usize];

@@ -5,9 +5,11 @@ use crate::mesh::TriangleMesh;
 use crate::predicates::{Projection, is_degenerate, side, too_fine};
 use crate::self_intersection::{Crossing, crossings};
 use crate::shells::check_orientation;
+use crate::star::is_seen_whole;
 use crate::tally::Tally;
 use crate::topology::{Edge, Orientation, Topology};
 use crate::triangle_boxes::TriangleBoxes;
+use crate::work::Work;
 use ccd_core::glam::DVec3;
 use std::cell::OnceCell;
 use std::cmp::Ordering;
@@ -49,7 +51,7 @@ impl<'m> Manifold<'m> {
     /// A mesh that is inside out as a whole is turned.
     pub(crate) fn new(mesh: &'m TriangleMesh) -> Result<Self, DecomposeError> {
         let manifold = Manifold::unchecked(mesh, &Topology::of(mesh))?;
-        manifold.check()?;
+        manifold.check(&Work::unbounded())?;
         Ok(manifold)
     }
 
@@ -94,9 +96,15 @@ impl<'m> Manifold<'m> {
     }
 
     /// Checks what the edges alone do not tell.
-    pub(crate) fn check(&self) -> Result<(), DecomposeError> {
+    ///
+    /// # Errors
+    /// [`DecomposeError`]; [`TooLong`](DecomposeError::TooLong) when the work does not suffice to tell.
+    pub(crate) fn check(&self, work: &Work) -> Result<(), DecomposeError> {
+        if is_seen_whole(self) {
+            return Ok(());
+        }
         let mut pairs = Tally::default();
-        for (face, other) in crossings(self) {
+        for (face, other) in crossings(self, work)? {
             let [face, other] = [face, other].map(|f| self.mesh.face_ids()[f as usize]);
             pairs.add(Crossing { face, other });
         }
@@ -131,8 +139,7 @@ impl<'m> Manifold<'m> {
     /// The faces by where they are.
     pub(crate) fn boxes(&self) -> &TriangleBoxes {
         self.boxes.get_or_init(|| {
-            let faces = 0..self.faces.len() as u32;
-            TriangleBoxes::new(faces.map(|face| self.triangle(face)))
+            TriangleBoxes::new(self.mesh.vertices(), &self.faces)
         })
     }
 

@@ -114,7 +114,7 @@ pub(crate) fn approximate(mesh: &TriangleMesh, hulls: u32) -> Result<Approximati
         return Err(VhacdError::TooCoarse { sticks_out, limit });
     }
     Ok(Approximation {
-        rebuilt: parts.iter().filter(|part| part.way == Way::Exact).count(),
+        rebuilt: parts.iter().filter(|part| part.way == Way::Rebuilt).count(),
         polytopes: parts.into_iter().map(|p| p.polytope(uncovered)).collect(),
         uncovered,
         sticks_out,

@@ -2,6 +2,7 @@ use super::*;
 use crate::mesh::TriangleMesh;
 use crate::test_meshes::{block, cubes, joined, mesh, placed, tetrahedron};
 use crate::topology::Topology;
+use crate::work::Work;
 use ccd_core::glam::DVec3;
 use rstest::rstest;
 
@@ -93,6 +94,6 @@ fn folds_are_no_polygons() {
     for (mesh, polygons) in cases {
         let manifold = Manifold::unchecked(&mesh, &Topology::of(&mesh)).unwrap();
         assert_eq!(Flats::new(&manifold).len(), polygons);
-        assert!(manifold.check().is_err());
+        assert!(manifold.check(&Work::unbounded()).is_err());
     }
 }
