@@ -115,7 +115,8 @@ impl PointTree {
                 at = node.next as usize;
                 continue;
             }
-            for &(point, number) in &self.points[node.points.start as usize..node.points.end as usize]
+            for &(point, number) in
+                &self.points[node.points.start as usize..node.points.end as usize]
             {
                 if !(normal.dot(point) < least) {
                     visit(number);

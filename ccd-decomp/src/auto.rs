@@ -38,10 +38,7 @@ fn within(mesh: &TriangleMesh, topology: &Topology, work: &Work) -> (Parts, Why)
         return (Parts::Hull(Box::new(polytope)), Why::Convex);
     }
     match decompose_flats(&manifold, &flats, Order::default(), work) {
-        Ok(decomposition) => (
-            Parts::Patches(decomposition),
-            Why::PatchesFaster(estimate),
-        ),
+        Ok(decomposition) => (Parts::Patches(decomposition), Why::PatchesFaster(estimate)),
         Err(error) => only_triangles(error),
     }
 }

@@ -201,7 +201,9 @@ impl<'a, 'm> Merger<'a, 'm> {
             let onward = |&h: &HalfEdge| Some(self.next[h as usize]).filter(|&h| h != start);
             // A convex polygon has one rim, on which each half-edge is once.
             let most = 3 * flat.faces.len();
-            flat.rim = std::iter::successors(Some(start), onward).take(most).collect();
+            flat.rim = std::iter::successors(Some(start), onward)
+                .take(most)
+                .collect();
             let plane = Projection::of(self.manifold.triangle(flat.faces[0]));
             let starts: Vec<u32> = flat.rim.iter().map(|&h| self.manifold.ends(h)[0]).collect();
             let points = self.manifold.mesh().vertices();

@@ -61,7 +61,10 @@ impl ExactHull {
             _ => [0, c, b],
         };
         let [a, b, c] = base;
-        Some(ExactHull::with_facets(conflicts::facets(points, [a, b, c, d])))
+        Some(ExactHull::with_facets(conflicts::facets(
+            points,
+            [a, b, c, d],
+        )))
     }
 
     /// The facets.

@@ -138,9 +138,8 @@ impl<'m> Manifold<'m> {
 
     /// The faces by where they are.
     pub(crate) fn boxes(&self) -> &TriangleBoxes {
-        self.boxes.get_or_init(|| {
-            TriangleBoxes::new(self.mesh.vertices(), &self.faces)
-        })
+        self.boxes
+            .get_or_init(|| TriangleBoxes::new(self.mesh.vertices(), &self.faces))
     }
 
     /// The half-edge that runs along the same edge the other way.

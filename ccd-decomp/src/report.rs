@@ -163,7 +163,10 @@ impl fmt::Display for Why {
             Why::NothingElse(error) => write!(f, "only triangles are exact: {error}"),
             Why::TooLong => {
                 let why = DecomposeError::TooLong;
-                write!(f, "other pieces take longer to make than is spent unasked: {why}")
+                write!(
+                    f,
+                    "other pieces take longer to make than is spent unasked: {why}"
+                )
             }
             Why::TrianglesFaster(Estimate { triangles, patches }) => {
                 let times = patches / triangles;

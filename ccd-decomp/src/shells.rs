@@ -85,13 +85,15 @@ fn winding_of_others(manifold: &Manifold<'_>, shell_of: &[u32], faces: &[u32]) -
         let across = DVec3::new(0.7548, 0.5698, -0.3247) * tilt;
         let to = from + 3.0 * size * (along + across);
         let mut windings = Some(0);
-        manifold.boxes().all_meeting(&Region::segment([from, to]), |f| {
-            if shell_of[f as usize] != shell {
-                let crossing = crossing([from, to], manifold.triangle(f));
-                windings = windings.zip(crossing).map(|(sum, one)| sum + one);
-            }
-            windings.is_some()
-        });
+        manifold
+            .boxes()
+            .all_meeting(&Region::segment([from, to]), |f| {
+                if shell_of[f as usize] != shell {
+                    let crossing = crossing([from, to], manifold.triangle(f));
+                    windings = windings.zip(crossing).map(|(sum, one)| sum + one);
+                }
+                windings.is_some()
+            });
         windings
     })
 }

@@ -42,7 +42,11 @@ fn middles(manifold: &Manifold<'_>) -> [DVec3; 2] {
 
 /// A point next to one, that predicates are exact for.
 fn predictable(p: DVec3) -> DVec3 {
-    DVec3::select(p.abs().cmplt(DVec3::splat(LEAST_COORDINATE)), DVec3::ZERO, p)
+    DVec3::select(
+        p.abs().cmplt(DVec3::splat(LEAST_COORDINATE)),
+        DVec3::ZERO,
+        p,
+    )
 }
 
 /// Whether a direction from the middle, past all edges, meets one triangle.

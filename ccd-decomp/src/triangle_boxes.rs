@@ -1,6 +1,7 @@
 //! The triangles of a mesh by where they are.
 
 mod fans;
+mod rim;
 
 use ccd_core::glam::DVec3;
 use fans::{Fan, split};

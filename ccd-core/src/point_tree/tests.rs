@@ -5,7 +5,9 @@ use glam::dvec3;
 fn noise() -> impl FnMut() -> f64 {
     let mut state = 1_u64;
     move || {
-        state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        state = state
+            .wrapping_mul(6364136223846793005)
+            .wrapping_add(1442695040888963407);
         (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
     }
 }
@@ -34,12 +36,19 @@ fn nothing_in_front_is_passed_over() {
 /// A plane that touches one end of a long row looks at a few of its points.
 #[test]
 fn most_points_are_passed_over_together() {
-    let points: Vec<DVec3> = (0..100_000).map(|k| dvec3(f64::from(k), 0.0, 0.0)).collect();
+    let points: Vec<DVec3> = (0..100_000)
+        .map(|k| dvec3(f64::from(k), 0.0, 0.0))
+        .collect();
     let tree = PointTree::new(&points);
     let mut found = Vec::new();
-    tree.for_each_not_behind([dvec3(99_999.0, 0.0, 0.0), dvec3(99_999.0, 1.0, 0.0), dvec3(99_999.0, 0.0, 1.0)], |k| {
-        found.push(k)
-    });
+    tree.for_each_not_behind(
+        [
+            dvec3(99_999.0, 0.0, 0.0),
+            dvec3(99_999.0, 1.0, 0.0),
+            dvec3(99_999.0, 0.0, 1.0),
+        ],
+        |k| found.push(k),
+    );
     assert_eq!(found, [99_999]);
     assert!(tree.nodes.len() < 32_768);
 }

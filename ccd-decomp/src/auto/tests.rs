@@ -83,7 +83,12 @@ fn what_is_folded_stays_triangles() {
     let flat = crate::test_meshes::mesh(corners.clone(), &faces);
     let two = crate::test_meshes::mesh(corners[..3].to_vec(), &[[0, 1, 2], [0, 2, 1]]);
     let solid = placed(&cubes(&block([9, 9, 1])), 1.0, DVec3::splat(5.0));
-    for mesh in [&flat, &two, &joined(&[&solid, &flat]), &joined(&[&solid, &two])] {
+    for mesh in [
+        &flat,
+        &two,
+        &joined(&[&solid, &flat]),
+        &joined(&[&solid, &two]),
+    ] {
         assert!(matches!(
             why(mesh),
             Why::TrianglesFaster(_) | Why::NothingElse(_)

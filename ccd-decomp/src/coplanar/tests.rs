@@ -81,10 +81,14 @@ fn a_grid_with_a_hole_is_a_few_rectangles() {
 /// beside a solid. Nothing is merged over a fold.
 #[test]
 fn folds_are_no_polygons() {
-    let back_to_back = mesh(vec![DVec3::ZERO, DVec3::X, DVec3::Y], &[[0, 1, 2], [0, 2, 1]]);
+    let back_to_back = mesh(
+        vec![DVec3::ZERO, DVec3::X, DVec3::Y],
+        &[[0, 1, 2], [0, 2, 1]],
+    );
     let corners = vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::X + DVec3::Y];
     let flat = mesh(corners, &[[0, 1, 2], [1, 3, 2], [0, 2, 3], [0, 3, 1]]);
-    let beside = |part: &TriangleMesh| joined(&[&placed(&tetrahedron(), 1.0, 5.0 * DVec3::X), part]);
+    let beside =
+        |part: &TriangleMesh| joined(&[&placed(&tetrahedron(), 1.0, 5.0 * DVec3::X), part]);
     let cases = [
         (back_to_back.clone(), 2),
         (flat.clone(), 2),

@@ -143,7 +143,9 @@ impl<'a> Growing<'a> {
         // Every facet goes once.
         while let Some(&seen) = gone.get(at) {
             at += 1;
-            let Facet { corners, across, .. } = self.facets[seen as usize];
+            let Facet {
+                corners, across, ..
+            } = self.facets[seen as usize];
             for k in 0..3 {
                 let beyond = across[k];
                 if !self.facets[beyond as usize].is_there {

@@ -20,7 +20,13 @@ fn others_are_not() {
     let one = tetrahedron();
     let around = joined(&[&one, &placed(&one, 3.0, DVec3::splat(-0.3))]);
     assert!(!is_seen(&around), "a surface seen through another one");
-    assert!(!is_seen(&cubes(&[[0, 0, 0], [1, 0, 0], [0, 1, 0], [2, 1, 0], [2, 0, 0]])));
+    assert!(!is_seen(&cubes(&[
+        [0, 0, 0],
+        [1, 0, 0],
+        [0, 1, 0],
+        [2, 1, 0],
+        [2, 0, 0]
+    ])));
     let corners = vec![DVec3::ZERO, DVec3::X, DVec3::Y];
     assert!(!is_seen(&mesh(corners, &[[0, 1, 2], [0, 2, 1]])));
 }

@@ -1,21 +1,18 @@
 //! Many triangles about one vertex.
 
+use super::rim::{Edge, Rim, Slab};
 use super::{Bounds, Shape};
 use crate::predicates::{side, turn_along};
 use crate::tolerance::FAN_TRIANGLES;
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 use ccd_core::tolerance::height_rounding;
-use parry3d_f64::bounding_volume::Aabb;
-use parry3d_f64::math::Vector;
-use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy, BvhNode};
 use std::cmp::Ordering;
 
 /// Triangles that have one vertex, the hub, in common: searched by the edges across from it.
 pub(super) struct Fan {
     hub: DVec3,
-    faces: Vec<u32>,
-    rim: Bvh,
+    rim: Rim,
 }
 
 /// The faces that are in no large fan, and the large fans; each face is in one at most.
@@ -34,43 +31,38 @@ pub(super) fn split(points: &[DVec3], faces: &[[u32; 3]]) -> (Vec<u32>, Vec<Fan>
     }
     members.sort_unstable();
     let fans = members.chunk_by(|a, b| a.0 == b.0);
-    (single, fans.map(|fan| Fan::new(points, faces, fan)).collect())
+    (
+        single,
+        fans.map(|fan| Fan::new(points, faces, fan)).collect(),
+    )
 }
 
 impl Fan {
     fn new(points: &[DVec3], faces: &[[u32; 3]], members: &[(u32, u32)]) -> Self {
         let hub = members[0].0;
         let edge = |&(_, face): &(u32, u32)| {
-            let others = faces[face as usize].into_iter().filter(|&v| v != hub);
-            Bounds::of(others.map(|v| points[v as usize])).as_aabb()
+            let corners = faces[face as usize];
+            let k = corners.iter().position(|&v| v == hub).unwrap_or(0);
+            let ends = [1, 2].map(|step| points[corners[(k + step) % 3] as usize]);
+            Edge { ends, face }
         };
-        let boxes: Vec<Aabb> = members.iter().map(edge).collect();
         Fan {
             hub: points[hub as usize],
-            faces: members.iter().map(|&(_, face)| face).collect(),
-            rim: Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes),
+            rim: Rim::new(members.iter().map(edge).collect()),
         }
     }
 
     pub(super) fn bounds(&self) -> Bounds {
-        let all = self.rim.root_aabb();
-        Bounds::of([self.hub, point(all.mins), point(all.maxs)])
+        let ends = self.rim.edges.iter().flat_map(|edge| edge.ends);
+        Bounds::of(ends.chain([self.hub]))
     }
 
     /// As [`TriangleBoxes::all_meeting`](super::TriangleBoxes::all_meeting).
     pub(super) fn all_meeting(&self, shape: &Shape, holds: impl FnMut(u32) -> bool) -> bool {
         let planes = planes(shape, self.hub);
-        let is_near = |node: &BvhNode| {
-            let bounds = [node.mins(), node.maxs()].map(point);
-            !planes.iter().any(|plane| plane.has_in_front(bounds))
-        };
-        let mut near = self.rim.leaves(is_near).map(|k| self.faces[k as usize]);
-        near.all(holds)
+        let is_far = |slab: &Slab| planes.iter().any(|plane| plane.has_in_front(slab));
+        self.rim.all_but(is_far, holds)
     }
-}
-
-fn point(v: Vector) -> DVec3 {
-    DVec3::new(v.x, v.y, v.z)
 }
 
 /// A plane, by a point of it and two vectors that span it, so that `u × v` looks to its front.
@@ -95,13 +87,21 @@ impl Plane {
     }
 
     /// Whether all of a box is certainly in front.
-    fn has_in_front(&self, [lo, hi]: [DVec3; 2]) -> bool {
-        let lowest = DVec3::select(self.normal.cmpgt(DVec3::ZERO), lo, hi) - self.foot;
-        let reach = greater(lowest.abs().max_element(), self.foot.abs().max_element());
-        // Written so that NaN is not in front.
-        self.normal.dot(lowest) > height_rounding(self.sides, reach)
+    fn has_in_front(&self, slab: &Slab) -> bool {
+        let way = slab.centre - self.foot;
+        let reach = greater(
+            way.abs().max_element() + slab.halves.element_sum() + slab.slack,
+            self.foot.abs().max_element(),
+        );
+        let along = DVec3::from_array(slab.axes.map(|axis| self.normal.dot(axis).abs()));
+        let depth = along.dot(slab.halves) + self.normal.abs().element_sum() * slab.slack;
+        // Twice, as there are three axes to go along. Written so that NaN is not in front.
+        self.normal.dot(way) - depth > 2.0 * height_rounding(self.sides, reach)
     }
 }
+
+/// How many facets of a hull are looked at.
+const PLANES: usize = 64;
 
 /// Planes that have all of a shape behind or in them, and a hub in front or in them: exactly. A triangle
 /// of the hub and an edge in front of one of them has no point in common with the shape but the hub.
@@ -110,7 +110,8 @@ fn planes(shape: &Shape, hub: DVec3) -> Vec<Plane> {
         Shape::Segment([p, q]) => vec![Plane::of([hub, *p, *q]), Plane::of([hub, *q, *p])],
         Shape::Inside(facets) => {
             let is_front = |&&facet: &&[DVec3; 3]| side(facet, hub) != Ordering::Less;
-            let facets = facets.iter().filter(is_front);
+            // The newest ones are the likeliest to have something in front of them.
+            let facets = facets.iter().rev().take(PLANES).filter(is_front);
             facets.map(|&facet| Plane::of(facet)).collect()
         }
         Shape::Triangle(corners) => {
