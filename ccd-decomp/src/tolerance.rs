@@ -169,8 +169,8 @@ pub(crate) const CROSSINGS: usize = 1000;
 
 /// What `auto` spends on finding out whether patches are exact, and on making them.
 ///
-/// Unit: exact predicates, about, of 10 to 20 ns where they are easy: half a second.
-pub(crate) const AUTO_WORK: u64 = 1 << 25;
+/// Unit: exact predicates, about, of 10 to 40 ns: half a second at most.
+pub(crate) const AUTO_WORK: u64 = 1 << 24;
 
 /// Up to so many points a hull that serves to compare volumes is the library's, right or wrong.
 ///

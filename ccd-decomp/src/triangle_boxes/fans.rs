@@ -2,7 +2,7 @@
 
 use super::rim::{Edge, Rim, Slab};
 use super::{Bounds, Shape};
-use crate::predicates::{side, turn_along};
+use crate::predicates::{Projection, side, turn_along};
 use crate::tolerance::FAN_TRIANGLES;
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
@@ -116,6 +116,10 @@ fn planes(shape: &Shape, hub: DVec3) -> Vec<Plane> {
         }
         Shape::Triangle(corners) => {
             let mut planes = Vec::new();
+            // A hub amid the triangle is a point in common, whatever is in front.
+            if !corners.contains(&hub) && holds(*corners, hub) {
+                return planes;
+            }
             for k in 0..3 {
                 let [p, q, r] = [0, 1, 2].map(|l| corners[(k + l) % 3]);
                 through(&mut planes, hub, [p, q], r);
@@ -133,6 +137,15 @@ fn planes(shape: &Shape, hub: DVec3) -> Vec<Plane> {
             planes
         }
     }
+}
+
+/// Whether a triangle holds a point.
+fn holds(triangle: [DVec3; 3], point: DVec3) -> bool {
+    let within = |plane: Projection| {
+        let mut edges = (0..3).map(|k| (triangle[k], triangle[(k + 1) % 3]));
+        edges.all(|(a, b)| plane.turn(a, b, point) != Ordering::Less)
+    };
+    side(triangle, point) == Ordering::Equal && Projection::of(triangle).is_none_or(within)
 }
 
 /// The plane of the hub and an edge, the rest of the triangle behind it.

@@ -50,3 +50,18 @@ fn nothing_that_meets_is_left_out() {
     }
     assert!(meeting > 100, "{meeting}");
 }
+
+/// A tip that only touches, amid a triangle or on its edge, meets it with all that is about it.
+#[test]
+fn a_hub_that_touches_is_not_left_out() {
+    let mesh = star(64, 0.5);
+    let boxes = TriangleBoxes::new(mesh.vertices(), mesh.faces());
+    let [a, b] = [DVec3::new(-1.0, -1.0, 1.0), DVec3::new(1.0, 1.0, 1.0)];
+    let amid = [a, DVec3::new(1.0, -1.0, 1.0), DVec3::new(0.0, 2.0, 1.0)];
+    for touching in [amid, [a, b, DVec3::new(3.0, -1.0, 1.0)]] {
+        assert_eq!(found(&boxes, &Region::triangle(touching)).len(), 64);
+    }
+    // Beside the tip, in the plane that touches it.
+    let beside = [a, b, DVec3::new(-1.0, 4.0, 1.0)].map(|p| p + DVec3::Y);
+    assert!(found(&boxes, &Region::triangle(beside)).is_empty());
+}
