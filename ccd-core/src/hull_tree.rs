@@ -100,8 +100,8 @@ impl HullTree {
     /// [`HullTreeError`] names the node, and what of the [guarantee](HullTree) fails there.
     ///
     /// # Complexity
-    /// Linear in all points and facets, and one exact predicate for each point that an inner hull
-    /// hides and each of the hull's facets.
+    /// O(n log n) in all points and facets, where few of the points that a hull hides are near each of
+    /// its facets.
     pub fn new(pieces: &Pieces, nodes: &[HullNode]) -> Result<Self, HullTreeError> {
         assemble::assemble(pieces, nodes)
     }

@@ -105,6 +105,7 @@ mod overlap;
 mod path;
 mod piece;
 mod pieces;
+pub mod point_tree;
 mod pose;
 mod primitive;
 mod principal;

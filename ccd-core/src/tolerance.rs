@@ -4,6 +4,8 @@
 //! rounds with a relative error of at most `u`. The counts below take every operation's error at
 //! its worst and add them up; the test suite samples each allowance against exact references.
 
+use glam::DVec3;
+
 /// Relative rounding error of one operation in f64.
 pub const U64: f64 = f64::EPSILON / 2.0;
 
@@ -327,6 +329,19 @@ pub const PLATEAU_POINTS: usize = 32;
 /// which name a contact gets, and nothing else. Witnesses are combinations of corners, right to a
 /// few [`U64`] of that size, times what a flat piece makes of them.
 pub const ON_FACET: f64 = 1e-9;
+
+/// Bounds the error of the height `n·x − n·a`, with `n = u × v`, of a point over a plane, when all
+/// three are rounded differences of points and no coordinate of `x` or `a` exceeds `reach`.
+///
+/// With `u` half a unit in the last place and `m` the product of the largest coordinates of `u` and
+/// `v`: a component of `n` is at most `2m` and off by `8u m`, which a height of two terms of three
+/// products sees with `2 · 3 · 8u m reach`; coordinates are off by `u reach` (`2 · 3 · 2u m reach`);
+/// two dot products and their difference round by `4u` of `2 · 3 · 2m reach`. That is 108u; 128u are
+/// taken, and what may underflow.
+pub fn height_rounding(sides: [DVec3; 2], reach: f64) -> f64 {
+    let [u, v] = sides.map(|side| side.abs().max_element());
+    128.0 * U64 * u * v * reach + f64::MIN_POSITIVE
+}
 
 #[cfg(test)]
 mod tests;

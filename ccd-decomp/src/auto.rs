@@ -8,14 +8,19 @@ use crate::manifold::{Bend, Manifold};
 use crate::mesh::TriangleMesh;
 use crate::report::{Estimate, Why};
 use crate::surface::{Order, decompose_flats};
-use crate::tolerance::{FLAT_SHARE, PATCHES, PieceCost, TRIANGLES};
+use crate::tolerance::{AUTO_WORK, FLAT_SHARE, PATCHES, PieceCost, TRIANGLES};
 use crate::topology::Topology;
+use crate::work::Work;
 
 /// One hull where the solid is convex; else patches or triangles, whichever is estimated to be faster.
 ///
 /// What takes long, looking for intersections and decomposing, is only done once it is known to be
-/// worth it.
+/// worth it, and only for [so long](AUTO_WORK).
 pub(crate) fn choose(mesh: &TriangleMesh, topology: &Topology) -> (Parts, Why) {
+    within(mesh, topology, &Work::of(AUTO_WORK))
+}
+
+fn within(mesh: &TriangleMesh, topology: &Topology, work: &Work) -> (Parts, Why) {
     let manifold = match Manifold::unchecked(mesh, topology) {
         Ok(manifold) => manifold,
         Err(error) => return only_triangles(error),
@@ -26,21 +31,24 @@ pub(crate) fn choose(mesh: &TriangleMesh, topology: &Topology) -> (Parts, Why) {
     if convex.is_err() && !(estimate.patches < estimate.triangles) {
         return (Parts::Triangles, Why::TrianglesFaster(estimate));
     }
-    if let Err(error) = manifold.check() {
+    if let Err(error) = manifold.check(work) {
         return only_triangles(error);
     }
-    match convex {
-        Ok(polytope) => (Parts::Hull(Box::new(polytope)), Why::Convex),
-        Err(_) => {
-            let decomposition = decompose_flats(&manifold, &flats, Order::default());
-            let why = Why::PatchesFaster(estimate);
-            (Parts::Patches(decomposition), why)
-        }
+    if let Ok(polytope) = convex {
+        return (Parts::Hull(Box::new(polytope)), Why::Convex);
+    }
+    match decompose_flats(&manifold, &flats, Order::default(), work) {
+        Ok(decomposition) => (Parts::Patches(decomposition), Why::PatchesFaster(estimate)),
+        Err(error) => only_triangles(error),
     }
 }
 
 fn only_triangles(error: DecomposeError) -> (Parts, Why) {
-    (Parts::Triangles, Why::NothingElse(error))
+    let why = match error {
+        DecomposeError::TooLong => Why::TooLong,
+        error => Why::NothingElse(error),
+    };
+    (Parts::Triangles, why)
 }
 
 /// A plane part of the surface.

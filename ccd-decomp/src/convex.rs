@@ -17,7 +17,7 @@ use ccd_core::{Face, Facet, Origin, Polytope};
 /// # Errors
 /// [`DecomposeError::NotConvex`] with a reflex edge, [`DecomposeError::NotInOnePart`].
 pub(crate) fn as_polytope(manifold: &Manifold<'_>) -> Result<Polytope, DecomposeError> {
-    if let Some([v, w]) = reflex_edge(manifold) {
+    if let Some([v, w]) = bad_edge(manifold) {
         let edge = Edge(v.min(w), v.max(w));
         return Err(DecomposeError::NotConvex { edge });
     }
@@ -63,10 +63,11 @@ pub(crate) fn as_polytope(manifold: &Manifold<'_>) -> Result<Polytope, Decompose
     Ok(polytope)
 }
 
-/// The ends of the first edge at which the solid's angle is more than half a turn.
-fn reflex_edge(manifold: &Manifold<'_>) -> Option<[u32; 2]> {
+/// The ends of the first edge at which the solid's angle is more than half a turn, or none at all.
+fn bad_edge(manifold: &Manifold<'_>) -> Option<[u32; 2]> {
+    let is_bad = |&h: &u32| matches!(manifold.bend(h), Bend::Reflex | Bend::Folded);
     (0..3 * manifold.faces().len() as u32)
-        .find(|&h| manifold.bend(h) == Bend::Reflex)
+        .find(is_bad)
         .map(|h| manifold.ends(h))
 }
 

@@ -29,9 +29,14 @@ pub(crate) struct Flat {
 impl Flats {
     /// Merges neighbours as long as their union is convex, those with the longest common edge first:
     /// a diagonal that may be left out goes before an edge of the outline `[HM83]`.
+    ///
+    /// Takes a manifold whose triangles may meet each other, too: what is merged lies on either side of
+    /// the line that is left out, so that every group is a convex polygon, once covered, whatever the
+    /// rest of the mesh does.
     pub(crate) fn new(manifold: &Manifold<'_>) -> Self {
         let mut merger = Merger::new(manifold);
         let mut edges = merger.flat_edges();
+        // Each round leaves fewer.
         loop {
             let before = edges.len();
             edges.retain(|&edge| !merger.merge_over(edge));
@@ -113,14 +118,14 @@ impl<'a, 'm> Merger<'a, 'm> {
         if one == other {
             return true;
         }
-        // The stretch that both have in common, seen from the one.
-        let (mut first, mut last) = (edge, edge);
-        while self.region(self.manifold.twin(self.previous[first as usize])) == other {
-            first = self.previous[first as usize];
-        }
-        while self.region(self.manifold.twin(self.next[last as usize])) == other {
-            last = self.next[last as usize];
-        }
+        // The stretch that both have in common, seen from the one. It is not all of a rim: of a convex
+        // polygon only the edges on one line can have another one beyond that line.
+        let Some(first) = self.walk(edge, |merger, h| merger.previous[h as usize], other) else {
+            return false;
+        };
+        let Some(last) = self.walk(edge, |merger, h| merger.next[h as usize], other) else {
+            return false;
+        };
         let twin = |h: HalfEdge| self.manifold.twin(h);
         let joints = [
             (
@@ -138,6 +143,26 @@ impl<'a, 'm> Merger<'a, 'm> {
         }
         self.regions.join(one, other);
         true
+    }
+
+    /// The last half-edge, from one on along its rim, that has a region beyond it; none where all have.
+    fn walk(
+        &mut self,
+        edge: HalfEdge,
+        step: impl Fn(&Self, HalfEdge) -> HalfEdge,
+        beyond: u32,
+    ) -> Option<HalfEdge> {
+        let mut last = edge;
+        loop {
+            let next = step(self, last);
+            if next == edge {
+                return None;
+            }
+            if self.region(self.manifold.twin(next)) != beyond {
+                return Some(last);
+            }
+            last = next;
+        }
     }
 
     /// Whether a rim goes straight on or to the left from one half-edge to the next.
@@ -174,7 +199,11 @@ impl<'a, 'm> Merger<'a, 'm> {
                 continue;
             };
             let onward = |&h: &HalfEdge| Some(self.next[h as usize]).filter(|&h| h != start);
-            flat.rim = std::iter::successors(Some(start), onward).collect();
+            // A convex polygon has one rim, on which each half-edge is once.
+            let most = 3 * flat.faces.len();
+            flat.rim = std::iter::successors(Some(start), onward)
+                .take(most)
+                .collect();
             let plane = Projection::of(self.manifold.triangle(flat.faces[0]));
             let starts: Vec<u32> = flat.rim.iter().map(|&h| self.manifold.ends(h)[0]).collect();
             let points = self.manifold.mesh().vertices();
@@ -193,6 +222,7 @@ impl DisjointSets {
     }
 
     fn root(&mut self, mut k: u32) -> u32 {
+        // Every element names a smaller one.
         while self.0[k as usize] != k {
             // Halving the way keeps later ones short.
             self.0[k as usize] = self.0[self.0[k as usize] as usize];

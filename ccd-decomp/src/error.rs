@@ -165,7 +165,7 @@ pub enum DecomposeError {
     /// Faces meet that share no vertex or edge there.
     #[error("faces that intersect: {pairs}; mend them, or use triangles")]
     SelfIntersecting {
-        /// The pairs of faces.
+        /// The pairs of faces, a thousand at most: there may be more.
         pairs: Tally<Crossing>,
     },
     /// The solid is in front of a face, not behind it.
@@ -201,6 +201,9 @@ pub enum DecomposeError {
         /// How many parts.
         parts: u32,
     },
+    /// Only as much may be spent as was allowed for, and that did not suffice to tell.
+    #[error("use patches or a hull to have them however long it takes, or triangles")]
+    TooLong,
     /// A coordinate is too near to 0 for exact computations.
     #[error("vertex {vertex} has a coordinate nearer to 0 than {LEAST_COORDINATE:e}; make it 0")]
     TooFine {

@@ -1,5 +1,7 @@
 //! Convex hulls grown point by point, by exact predicates.
 
+mod conflicts;
+
 use crate::predicates::{is_degenerate, side_of};
 use crate::triangle_boxes::Bounds;
 use ccd_core::glam::DVec3;
@@ -38,7 +40,14 @@ impl ExactHull {
         }
     }
 
-    /// The hull of all points; none when they lie in one plane.
+    fn with_facets(facets: Vec<[u32; 3]>) -> Self {
+        let mut corners: Vec<u32> = facets.iter().flatten().copied().collect();
+        corners.sort_unstable();
+        corners.dedup();
+        ExactHull { facets, corners }
+    }
+
+    /// The hull of all points; none when they lie in one plane. O(n log n).
     pub(crate) fn of(points: &[DVec3]) -> Option<Self> {
         let at = |k: u32| points[k as usize];
         let rest = 0..points.len() as u32;
@@ -51,10 +60,11 @@ impl ExactHull {
             Ordering::Less => [0, b, c],
             _ => [0, c, b],
         };
-        let mut hull = ExactHull::polygon(&base);
-        hull.insert(points, d);
-        rest.for_each(|k| hull.insert(points, k));
-        Some(hull)
+        let [a, b, c] = base;
+        Some(ExactHull::with_facets(conflicts::facets(
+            points,
+            [a, b, c, d],
+        )))
     }
 
     /// The facets.
@@ -67,14 +77,7 @@ impl ExactHull {
         &self.corners
     }
 
-    /// Takes a point in. O(n) in the number of facets.
-    pub(crate) fn insert(&mut self, points: &[DVec3], point: u32) {
-        if let Some(growth) = self.growth(points, point) {
-            self.grow(growth);
-        }
-    }
-
-    /// What a point would change; none when it is inside already.
+    /// What a point would change; none when it is inside already. O(f log f) in the number of facets.
     pub(crate) fn growth(&self, points: &[DVec3], point: u32) -> Option<Growth> {
         let sees = |&facet: &[u32; 3]| side_of(points, facet, point) == Ordering::Greater;
         let seen: Vec<bool> = self.facets.iter().map(sees).collect();
@@ -109,10 +112,7 @@ impl ExactHull {
         let mut seen = growth.seen.into_iter();
         self.facets.retain(|_| !seen.next().unwrap_or(false));
         self.facets.extend(growth.fan);
-        self.corners.clear();
-        self.corners.extend(self.facets.iter().flatten());
-        self.corners.sort_unstable();
-        self.corners.dedup();
+        *self = ExactHull::with_facets(std::mem::take(&mut self.facets));
     }
 }
 

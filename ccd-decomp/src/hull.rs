@@ -1,9 +1,10 @@
-//! Convex hulls: a library's, proven afterwards by exact predicates, or else computed exactly.
+//! Convex hulls: of few points a library's, of many computed exactly; proven by exact predicates.
 //!
 //! ```text
-//! points ─┬─ in one plane ─────────────► flat.rs ────────────────────────┐
-//!         └─ library.rs ─► proof.rs ─┬─ proven ─────────────────────────┼─► Hull
-//!                                    └─ refuted ─► exact.rs, proof.rs ──┘
+//! points ─┬─ in one plane ──────────────────► flat.rs ───────────────────────┐
+//!         ├─ few ─► library.rs ─► proof.rs ─┬─ proven ──────────────────────┼─► Hull
+//!         │                                 └─ refuted ─► exact.rs, proof.rs ┤
+//!         └─ many ────────────────────────► exact.rs, proof.rs ──────────────┘
 //! ```
 
 mod exact;
@@ -12,7 +13,9 @@ mod library;
 mod proof;
 mod span;
 
+use crate::exact_hull::ExactHull;
 use crate::predicates;
+use crate::tolerance::{LIBRARY_POINTS, LIKELY_POINTS};
 use ccd_core::glam::DVec3;
 use ccd_core::tolerance::MAX_COORDINATE;
 use span::Span;
@@ -41,6 +44,8 @@ pub(crate) enum Way {
     /// By the library, and proven.
     Library,
     /// The library's hull is not the hull, or there was none: computed exactly instead.
+    Rebuilt,
+    /// The points are too many for the library: computed exactly.
     Exact,
     /// All points are in one plane: a polygon, seen from either side.
     Flat,
@@ -72,8 +77,7 @@ pub enum HullError {
 /// See [`HullError`].
 ///
 /// # Complexity
-/// O(n log n + n f) for n points and f facets, with a small constant at n f; at worst O(n f) exact
-/// predicates where the library fails.
+/// O(n log n), and as much memory as a few points each take.
 pub(crate) fn hull(points: &[DVec3]) -> Result<Hull, HullError> {
     // Written so that NaN fails.
     let good = |p: &DVec3| p.abs().max_element() <= MAX_COORDINATE && p.is_finite();
@@ -88,30 +92,34 @@ pub(crate) fn hull(points: &[DVec3]) -> Result<Hull, HullError> {
         Span::Point(a) => Err(HullError::Single(name(a))),
         Span::Line(a, b) => Err(HullError::Collinear(name(a), name(b))),
         Span::Plane(triangle) => Ok((flat::facets(&cloud.points, triangle), Way::Flat)),
-        Span::Volume(simplex) => solid(&cloud.points, simplex),
+        Span::Volume => solid(&cloud.points),
     };
     found.map(|(facets, way)| cloud.named(facets, way))
 }
 
-/// The triangles of what is likely the hull of points at different places: nothing is proven, which
-/// makes it fast. None where the library fails.
+/// The triangles of what is likely the hull of points: of few the library's, of which nothing is
+/// proven, which makes it fast. None where that fails.
 pub(crate) fn likely_triangles(points: &[DVec3]) -> Option<Vec<[u32; 3]>> {
-    library::triangles(points)
+    match points.len() <= LIKELY_POINTS {
+        true => library::triangles(points),
+        false => ExactHull::of(points).map(|hull| hull.facets().to_vec()),
+    }
 }
 
 /// Facets, as loops of indices.
 type Loops = Vec<Vec<u32>>;
 
-fn solid(points: &[DVec3], simplex: [usize; 4]) -> Result<(Loops, Way), HullError> {
-    let mut likely = simplex.map(|k| k as u32).to_vec();
-    if let Some(triangles) = library::triangles(points) {
-        if let Ok(facets) = proof::prove(points, proof::loops(points, &triangles)) {
-            return Ok((facets, Way::Library));
-        }
-        likely.extend(triangles.iter().flatten());
+fn solid(points: &[DVec3]) -> Result<(Loops, Way), HullError> {
+    let few = points.len() <= LIBRARY_POINTS;
+    if few
+        && let Some(triangles) = library::triangles(points)
+        && let Ok(facets) = proof::prove(points, proof::loops(points, &triangles))
+    {
+        return Ok((facets, Way::Library));
     }
-    match exact::facets(points, likely) {
-        Some(facets) => Ok((facets, Way::Exact)),
+    let way = if few { Way::Rebuilt } else { Way::Exact };
+    match exact::facets(points) {
+        Some(facets) => Ok((facets, way)),
         None => Err(HullError::Unproven(points.len())),
     }
 }

@@ -46,7 +46,7 @@ pub(crate) fn grow(pieces: &Pieces) -> Result<Grown, BuildError> {
         if let HullNode::Inner(children, _) = nodes[at] {
             let corners = children.map(|child| corners(&nodes[child as usize], pieces));
             let (hull, way) = joint_hull(&corners.concat())?;
-            rebuilt += usize::from(way == Way::Exact);
+            rebuilt += usize::from(way == Way::Rebuilt);
             nodes[at] = HullNode::Inner(children, hull);
         }
     }
@@ -78,6 +78,7 @@ fn split_all(pieces: &Pieces) -> Vec<HullNode> {
     let mut order: Vec<u32> = (0..pieces.len() as u32).collect();
     let mut nodes = vec![HullNode::Leaf(0)];
     let mut stack = vec![(0, 0, order.len())];
+    // Either side of a split has fewer pieces.
     while let Some((at, start, end)) = stack.pop() {
         let range = &mut order[start..end];
         if let [piece] = *range {

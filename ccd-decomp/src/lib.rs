@@ -51,6 +51,7 @@ mod report;
 mod self_intersection;
 mod shells;
 mod source;
+mod star;
 mod store;
 mod surface;
 mod tally;
@@ -60,6 +61,7 @@ mod tolerance;
 mod topology;
 mod triangle_boxes;
 mod vhacd;
+mod work;
 
 pub use body::{Detail, Model, Prepared, body_from_mesh, prepare};
 pub use error::{BodyError, DecomposeError, MeshError, MeshFault, SourceError};

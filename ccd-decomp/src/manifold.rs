@@ -2,12 +2,14 @@
 
 use crate::error::DecomposeError;
 use crate::mesh::TriangleMesh;
-use crate::predicates::{is_degenerate, side, too_fine};
+use crate::predicates::{Projection, is_degenerate, side, too_fine};
 use crate::self_intersection::{Crossing, crossings};
 use crate::shells::check_orientation;
+use crate::star::is_seen_whole;
 use crate::tally::Tally;
 use crate::topology::{Edge, Orientation, Topology};
 use crate::triangle_boxes::TriangleBoxes;
+use crate::work::Work;
 use ccd_core::glam::DVec3;
 use std::cell::OnceCell;
 use std::cmp::Ordering;
@@ -39,6 +41,8 @@ pub(crate) enum Bend {
     Flat,
     /// It is more.
     Reflex,
+    /// They lie in one plane and on one side of the edge: back to back. A solid has no such edge.
+    Folded,
 }
 
 impl<'m> Manifold<'m> {
@@ -47,7 +51,7 @@ impl<'m> Manifold<'m> {
     /// A mesh that is inside out as a whole is turned.
     pub(crate) fn new(mesh: &'m TriangleMesh) -> Result<Self, DecomposeError> {
         let manifold = Manifold::unchecked(mesh, &Topology::of(mesh))?;
-        manifold.check()?;
+        manifold.check(&Work::unbounded())?;
         Ok(manifold)
     }
 
@@ -92,9 +96,15 @@ impl<'m> Manifold<'m> {
     }
 
     /// Checks what the edges alone do not tell.
-    pub(crate) fn check(&self) -> Result<(), DecomposeError> {
+    ///
+    /// # Errors
+    /// [`DecomposeError`]; [`TooLong`](DecomposeError::TooLong) when the work does not suffice to tell.
+    pub(crate) fn check(&self, work: &Work) -> Result<(), DecomposeError> {
+        if is_seen_whole(self) {
+            return Ok(());
+        }
         let mut pairs = Tally::default();
-        for (face, other) in crossings(self) {
+        for (face, other) in crossings(self, work)? {
             let [face, other] = [face, other].map(|f| self.mesh.face_ids()[f as usize]);
             pairs.add(Crossing { face, other });
         }
@@ -128,10 +138,8 @@ impl<'m> Manifold<'m> {
 
     /// The faces by where they are.
     pub(crate) fn boxes(&self) -> &TriangleBoxes {
-        self.boxes.get_or_init(|| {
-            let faces = 0..self.faces.len() as u32;
-            TriangleBoxes::new(faces.map(|face| self.triangle(face)))
-        })
+        self.boxes
+            .get_or_init(|| TriangleBoxes::new(self.mesh.vertices(), &self.faces))
     }
 
     /// The half-edge that runs along the same edge the other way.
@@ -156,10 +164,18 @@ impl<'m> Manifold<'m> {
     pub(crate) fn bend(&self, half_edge: HalfEdge) -> Bend {
         let twin = self.twin(half_edge);
         let far = self.faces[twin as usize / 3][(twin as usize % 3 + 2) % 3];
-        match side(self.triangle(half_edge / 3), self.point(far)) {
+        let (triangle, far) = (self.triangle(half_edge / 3), self.point(far));
+        match side(triangle, far) {
             Ordering::Less => Bend::Convex,
-            Ordering::Equal => Bend::Flat,
             Ordering::Greater => Bend::Reflex,
+            Ordering::Equal => {
+                let [start, end] = self.ends(half_edge).map(|v| self.point(v));
+                let beyond = |plane: Projection| plane.turn(start, end, far) == Ordering::Less;
+                match Projection::of(triangle).is_some_and(beyond) {
+                    true => Bend::Flat,
+                    false => Bend::Folded,
+                }
+            }
         }
     }
 }

@@ -6,7 +6,7 @@ use crate::self_intersection::meet;
 use crate::shells::{Volume, crossing};
 use crate::tally::Tally;
 use crate::tolerance::RAY_TRIES;
-use crate::triangle_boxes::{Bounds, TriangleBoxes};
+use crate::triangle_boxes::{Region, TriangleBoxes};
 use ccd_core::glam::DVec3;
 
 /// The shells of a closed mesh by what is around them.
@@ -64,8 +64,11 @@ impl<'m> Shells<'m> {
         for (face, &shell) in shell_of.iter().enumerate() {
             faces_of[shell as usize].push(face as u32);
         }
+        let faces: Vec<[u32; 3]> = (0..shell_of.len() as u32)
+            .map(|face| corners(mesh, face))
+            .collect();
         Shells {
-            boxes: TriangleBoxes::new((0..shell_of.len() as u32).map(|face| triangle(mesh, face))),
+            boxes: TriangleBoxes::new(mesh.vertices(), &faces),
             mesh,
             shell_of,
             faces_of,
@@ -177,15 +180,17 @@ impl<'m> Shells<'m> {
             let (along, tilt) = (DVec3::AXES[k % 3], 1e-3 * (1.0 + 0.618 * k as f64));
             let to = from + 3.0 * size * (along + DVec3::new(0.7548, 0.5698, -0.3247) * tilt);
             let mut met = Vec::new();
-            let passes = self.boxes.all_meeting(Bounds::of([from, to]), |face| {
-                let other = self.shell_of[face as usize];
-                let found = match other == shell {
-                    true => Some(0),
-                    false => crossing([from, to], triangle(self.mesh, face)),
-                };
-                met.extend(found.filter(|&one| one != 0).map(|one| (other, one)));
-                found.is_some()
-            });
+            let passes = self
+                .boxes
+                .all_meeting(&Region::segment([from, to]), |face| {
+                    let other = self.shell_of[face as usize];
+                    let found = match other == shell {
+                        true => Some(0),
+                        false => crossing([from, to], triangle(self.mesh, face)),
+                    };
+                    met.extend(found.filter(|&one| one != 0).map(|one| (other, one)));
+                    found.is_some()
+                });
             passes.then(|| {
                 met.sort_unstable();
                 met.chunk_by(|one, next| one.0 == next.0)
@@ -204,7 +209,7 @@ impl<'m> Shells<'m> {
         let faces = self.faces_of[shell as usize].iter();
         for &face in faces.filter(|&&face| !flat(face)) {
             let one = triangle(self.mesh, face);
-            self.boxes.all_meeting(Bounds::of(one), |near| {
+            self.boxes.all_meeting(&Region::triangle(one), |near| {
                 let other = self.shell_of[near as usize];
                 if other != shell && !crossed.contains(&other) && !flat(near) {
                     let ids = [face, near].map(|f| corners(self.mesh, f));

@@ -73,6 +73,13 @@ impl Projection {
     }
 }
 
+/// Where a point lies of a line, for one who looks against a coordinate axis and from `a` to `b`:
+/// `Greater` to the left.
+pub(crate) fn turn_along(axis: usize, [a, b]: [DVec3; 2], point: DVec3) -> Ordering {
+    let [a, b, point] = [a, b, point].map(|p| coord2(p, axis));
+    sign(orient2d(a, b, point))
+}
+
 /// Whether a triangle has no area.
 pub(crate) fn is_degenerate(triangle: [DVec3; 3]) -> bool {
     Projection::of(triangle).is_none()

@@ -65,6 +65,8 @@ pub enum Why {
     Convex,
     /// Only triangles are exact.
     NothingElse(DecomposeError),
+    /// Whether anything else is exact takes longer to tell than it is worth; it may be asked for.
+    TooLong,
     /// Queries are estimated to be faster over triangles than over patches.
     TrianglesFaster(Estimate),
     /// Queries are estimated to be faster over patches.
@@ -159,6 +161,13 @@ impl fmt::Display for Why {
                 "the solid is convex: one piece, or its triangles against bodies of many"
             ),
             Why::NothingElse(error) => write!(f, "only triangles are exact: {error}"),
+            Why::TooLong => {
+                let why = DecomposeError::TooLong;
+                write!(
+                    f,
+                    "other pieces take longer to make than is spent unasked: {why}"
+                )
+            }
             Why::TrianglesFaster(Estimate { triangles, patches }) => {
                 let times = patches / triangles;
                 write!(

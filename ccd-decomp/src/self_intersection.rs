@@ -1,8 +1,11 @@
 //! Faces of a mesh that meet where they share nothing.
 
+use crate::error::DecomposeError;
 use crate::manifold::Manifold;
 use crate::predicates::{Projection, side};
-use crate::triangle_boxes::Bounds;
+use crate::tolerance::CROSSINGS;
+use crate::triangle_boxes::Region;
+use crate::work::Work;
 use ccd_core::glam::DVec3;
 use serde::{Deserialize, Serialize};
 use std::cmp::Ordering;
@@ -23,22 +26,35 @@ impl fmt::Display for Crossing {
     }
 }
 
-/// All pairs of faces that meet where they share nothing; touching counts.
-pub(crate) fn crossings(manifold: &Manifold<'_>) -> Vec<(u32, u32)> {
+/// The pairs of faces that meet where they share nothing, touching or crossing: all, or as many as are
+/// [counted](CROSSINGS).
+///
+/// # Errors
+/// [`DecomposeError::TooLong`].
+pub(crate) fn crossings(
+    manifold: &Manifold<'_>,
+    work: &Work,
+) -> Result<Vec<(u32, u32)>, DecomposeError> {
     let mut found = Vec::new();
     for face in 0..manifold.faces().len() as u32 {
-        manifold
-            .boxes()
-            .all_meeting(Bounds::of(manifold.triangle(face)), |other| {
-                if face < other && cross(manifold, face, other) {
-                    found.push((face, other));
-                }
-                true
-            });
+        let near = Region::triangle(manifold.triangle(face));
+        let goes_on = manifold.boxes().all_meeting(&near, |other| {
+            if face < other && cross(manifold, face, other) {
+                found.push((face, other));
+            }
+            found.len() < CROSSINGS && work.spend(PAIR)
+        });
+        if !goes_on {
+            work.check()?;
+            break;
+        }
     }
     found.sort_unstable();
-    found
+    Ok(found)
 }
+
+/// Predicates that a pair takes, about.
+const PAIR: usize = 4;
 
 /// Whether two triangles meet elsewhere than in the corners they share.
 fn cross(manifold: &Manifold<'_>, one: u32, other: u32) -> bool {
@@ -51,18 +67,7 @@ pub(crate) fn meet(corners: [[u32; 3]; 2], triangles: [[DVec3; 3]; 2]) -> bool {
     let is_shared = |which: usize, k: usize| corners[1 - which].contains(&corners[which][k]);
     let shared = (0..3).filter(|&k| is_shared(0, k)).count();
     match shared {
-        0 => {
-            let beyond = |which: usize| {
-                let sides = triangles[1 - which].map(|p| side(triangles[which], p));
-                sides[0] != Ordering::Equal && sides.iter().all(|&s| s == sides[0])
-            };
-            !beyond(0)
-                && !beyond(1)
-                && (0..3).any(|k| {
-                    let edge = |which: usize| [triangles[which][k], triangles[which][(k + 1) % 3]];
-                    meets(edge(0), triangles[1]) || meets(edge(1), triangles[0])
-                })
-        }
+        0 => triangles_meet(triangles),
         // Two edges meet the other triangle in the shared corner; if they do elsewhere, too, one of
         // the far edges does as well.
         1 => [0, 1].into_iter().any(|which| {
@@ -74,6 +79,20 @@ pub(crate) fn meet(corners: [[u32; 3]; 2], triangles: [[DVec3; 3]; 2]) -> bool {
         // The same triangle, from the other side.
         _ => true,
     }
+}
+
+/// Whether two triangles of non-zero area have a point in common.
+pub(crate) fn triangles_meet(triangles: [[DVec3; 3]; 2]) -> bool {
+    let beyond = |which: usize| {
+        let sides = triangles[1 - which].map(|p| side(triangles[which], p));
+        sides[0] != Ordering::Equal && sides.iter().all(|&s| s == sides[0])
+    };
+    !beyond(0)
+        && !beyond(1)
+        && (0..3).any(|k| {
+            let edge = |which: usize| [triangles[which][k], triangles[which][(k + 1) % 3]];
+            meets(edge(0), triangles[1]) || meets(edge(1), triangles[0])
+        })
 }
 
 /// Whether two triangles that share an edge lie in one plane, on one side of it.

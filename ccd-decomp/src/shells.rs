@@ -4,7 +4,7 @@ use crate::error::DecomposeError;
 use crate::manifold::Manifold;
 use crate::predicates::side;
 use crate::tolerance::RAY_TRIES;
-use crate::triangle_boxes::Bounds;
+use crate::triangle_boxes::Region;
 use ccd_core::glam::DVec3;
 use ccd_core::tolerance::U64;
 use std::cmp::Ordering;
@@ -58,6 +58,7 @@ pub(crate) fn shells(manifold: &Manifold<'_>) -> Vec<u32> {
         }
         shell_of[seed as usize] = count;
         stack.push(seed);
+        // Each face is put there once.
         while let Some(face) = stack.pop() {
             for next in manifold.neighbours(face) {
                 if shell_of[next as usize] == UNSEEN {
@@ -84,13 +85,15 @@ fn winding_of_others(manifold: &Manifold<'_>, shell_of: &[u32], faces: &[u32]) -
         let across = DVec3::new(0.7548, 0.5698, -0.3247) * tilt;
         let to = from + 3.0 * size * (along + across);
         let mut windings = Some(0);
-        manifold.boxes().all_meeting(Bounds::of([from, to]), |f| {
-            if shell_of[f as usize] != shell {
-                let crossing = crossing([from, to], manifold.triangle(f));
-                windings = windings.zip(crossing).map(|(sum, one)| sum + one);
-            }
-            windings.is_some()
-        });
+        manifold
+            .boxes()
+            .all_meeting(&Region::segment([from, to]), |f| {
+                if shell_of[f as usize] != shell {
+                    let crossing = crossing([from, to], manifold.triangle(f));
+                    windings = windings.zip(crossing).map(|(sum, one)| sum + one);
+                }
+                windings.is_some()
+            });
         windings
     })
 }

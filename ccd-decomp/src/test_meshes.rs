@@ -81,3 +81,19 @@ pub(crate) fn turned(part: &TriangleMesh) -> TriangleMesh {
 pub(crate) fn mesh(vertices: Vec<DVec3>, faces: &[[u32; 3]]) -> TriangleMesh {
     TriangleMesh::new(vertices, faces).unwrap()
 }
+
+/// Two cones over a star: a rim of corners at radius 1 and another one, with apices above and below.
+pub(crate) fn star(corners: u32, inner: f64) -> TriangleMesh {
+    let corner = |k: u32| {
+        let angle = std::f64::consts::TAU * f64::from(k) / f64::from(corners);
+        let radius = if k.is_multiple_of(2) { 1.0 } else { inner };
+        dvec3(radius * angle.cos(), radius * angle.sin(), 0.0)
+    };
+    let mut vertices: Vec<DVec3> = (0..corners).map(corner).collect();
+    vertices.extend([DVec3::Z, -DVec3::Z]);
+    let side = |k: u32| {
+        let next = (k + 1) % corners;
+        [[k, next, corners], [next, k, corners + 1]]
+    };
+    mesh(vertices, &(0..corners).flat_map(side).collect::<Vec<_>>())
+}

@@ -1,6 +1,5 @@
 //! Every number of this crate that is a choice rather than a consequence: its unit, and what it buys.
 
-use ccd_core::glam::DVec3;
 use ccd_core::tolerance::U64;
 
 /// Below this many pieces a hierarchy is agglomerated, above it is split at medians.
@@ -31,19 +30,6 @@ pub(crate) const RAY_TRIES: usize = 16;
 /// 163, 158, 255 µs with patches of up to 16, 32, 64, 128, 1024 polygons, which were 910, 492, 324,
 /// 292, 258.
 pub(crate) const PATCH_POLYGONS: usize = 48;
-
-/// Bounds the error of the height `n·x − n·a`, with `n = u × v`, of a point over a plane, when all
-/// three are rounded differences of points and no coordinate of `x` or `a` exceeds `reach`.
-///
-/// With `u` half a unit in the last place and `m` the product of the largest coordinates of `u` and
-/// `v`: a component of `n` is at most `2m` and off by `8u m`, which a height of two terms of three
-/// products sees with `2 · 3 · 8u m reach`; coordinates are off by `u reach` (`2 · 3 · 2u m reach`);
-/// two dot products and their difference round by `4u` of `2 · 3 · 2m reach`. That is 108u; 128u are
-/// taken, and what may underflow.
-pub(crate) fn height_rounding(sides: [DVec3; 2], reach: f64) -> f64 {
-    let [u, v] = sides.map(|side| side.abs().max_element());
-    128.0 * U64 * u * v * reach + f64::MIN_POSITIVE
-}
 
 /// The least share of its pieces that a node of a hull tree leaves to either child; otherwise it is
 /// split at the median.
@@ -158,3 +144,35 @@ pub(crate) const LENGTHS: f64 = 16.0;
 
 /// The same of directions: one unit of a direction's coordinates is in so many classes.
 pub(crate) const DIRECTIONS: f64 = 64.0;
+
+/// Up to so many points their hull is the library's, if that can be proven.
+///
+/// Unit: points. The library takes time and memory that grow with their square: a hull of 625 corners
+/// on a circle and two on its axis took it 380 MB.
+pub(crate) const LIBRARY_POINTS: usize = 64;
+
+/// Of so many pieces at most the centres tell along which axis a node of a hull tree is split.
+///
+/// Unit: pieces. Larger: the same trees, but the hulls of all centres at all levels take as long as
+/// the tree's own.
+pub(crate) const SPREAD_PIECES: usize = 1024;
+
+/// From so many triangles about one vertex on they are searched as a fan.
+///
+/// Unit: triangles. Boxes of fewer meet each other all, but these are few.
+pub(crate) const FAN_TRIANGLES: u32 = 32;
+
+/// So many pairs of faces that intersect are counted before the search for more ends.
+///
+/// Unit: pairs. The fan of a polygon that is not convex has as many as the square of its corners.
+pub(crate) const CROSSINGS: usize = 1000;
+
+/// What `auto` spends on finding out whether patches are exact, and on making them.
+///
+/// Unit: exact predicates, about, of 10 to 40 ns: half a second at most.
+pub(crate) const AUTO_WORK: u64 = 1 << 24;
+
+/// Up to so many points a hull that serves to compare volumes is the library's, right or wrong.
+///
+/// Unit: points. At this many the library's memory peaks at 60 MB.
+pub(crate) const LIKELY_POINTS: usize = 256;

@@ -15,9 +15,13 @@ mod merge;
 mod solid;
 mod voxels;
 
+use crate::convex::as_polytope;
 use crate::hull::{HullError, Way, hull};
+use crate::manifold::Manifold;
 use crate::mesh::TriangleMesh;
+use crate::star::is_seen_whole;
 use crate::tolerance;
+use crate::topology::Topology;
 use ccd_core::glam::DVec3;
 use ccd_core::{Facet, Origin, Polytope};
 use solid::Solid;
@@ -73,7 +77,7 @@ pub enum VhacdError {
     },
 }
 
-/// Approximates a mesh by so many hulls or fewer; a mesh that no grid of voxels suits, because its
+/// Approximates a mesh by so many hulls or fewer: a convex solid by one; so, too, a mesh that no grid of voxels suits, because its
 /// triangles are large and many or its coordinates hardly differ, by one.
 ///
 /// # Errors
@@ -92,8 +96,10 @@ pub(crate) fn approximate(mesh: &TriangleMesh, hulls: u32) -> Result<Approximati
         });
     }
     let solid = Solid::of(mesh);
-    let parts = match Voxels::of(&solid, hulls) {
-        Some(voxels) if hulls > 1 => {
+    let is_convex = is_convex(mesh);
+    let voxels = Voxels::of(&solid, hulls).filter(|_| hulls > 1 && !is_convex);
+    let parts = match voxels {
+        Some(voxels) => {
             let labels = labels::labels(&solid, &voxels, hulls).ok_or(VhacdError::Library)?;
             cover::points_by_part(&solid, &voxels, labels)
         }
@@ -107,18 +113,28 @@ pub(crate) fn approximate(mesh: &TriangleMesh, hulls: u32) -> Result<Approximati
         .and_then(|parts| merge::down_to(parts, hulls as usize))
         .map_err(VhacdError::Hull)?;
     let uncovered = tolerance::clip_rounding(solid.farthest_coordinate());
-    let sticks_out = (excess::bound(&solid, &parts) + uncovered).next_up();
+    let excess = match is_convex {
+        true => 0.0,
+        false => excess::bound(&solid, &parts),
+    };
+    let sticks_out = (excess + uncovered).next_up();
     let limit = tolerance::TOO_COARSE * solid.reach() + 2.0 * uncovered;
     // Written so that NaN fails.
     if !(sticks_out <= limit) {
         return Err(VhacdError::TooCoarse { sticks_out, limit });
     }
     Ok(Approximation {
-        rebuilt: parts.iter().filter(|part| part.way == Way::Exact).count(),
+        rebuilt: parts.iter().filter(|part| part.way == Way::Rebuilt).count(),
         polytopes: parts.into_iter().map(|p| p.polytope(uncovered)).collect(),
         uncovered,
         sticks_out,
     })
+}
+
+/// Whether the mesh is known to be a convex solid, so that its hull has no error.
+fn is_convex(mesh: &TriangleMesh) -> bool {
+    let manifold = Manifold::unchecked(mesh, &Topology::of(mesh));
+    manifold.is_ok_and(|manifold| is_seen_whole(&manifold) && as_polytope(&manifold).is_ok())
 }
 
 /// A convex part: the corners of its hull, and the facets if they are not all in a line.

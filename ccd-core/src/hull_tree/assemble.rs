@@ -217,11 +217,15 @@ fn check_inside(
 ) -> Result<(), HullFault> {
     let container = Container::new(&hull.points, &hull.facets);
     for (&(child, node), ids) in children.iter().zip([&identity.of_left, &identity.of_right]) {
-        for ((point, &at), &id) in (0..).zip(&node.hull.points).zip(ids) {
-            let corner = (id as usize) < hull.points.len();
-            if !corner && !container.holds(at) {
-                return Err(HullFault::ChildOutside { child, point });
-            }
+        let is_hidden = |&k: &u32| ids[k as usize] as usize >= hull.points.len();
+        let hidden: Vec<u32> = (0..ids.len() as u32).filter(is_hidden).collect();
+        let places: Vec<DVec3> = hidden
+            .iter()
+            .map(|&k| node.hull.points[k as usize])
+            .collect();
+        if let Some(k) = container.left_out(&places) {
+            let point = hidden[k];
+            return Err(HullFault::ChildOutside { child, point });
         }
     }
     Ok(())

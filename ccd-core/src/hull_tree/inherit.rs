@@ -4,9 +4,10 @@
 //! of the parent is a child's, or is tiled by one of either child, or is a bridge.
 
 use super::assemble::edges_of;
-use super::inside::{is_collinear, is_coplanar};
+use super::inside::{is_collinear, is_coplanar, spanning};
 use super::{FacetClass, Hull};
 use crate::piece::{Face, Origin, Polytope};
+use crate::point_tree::PointTree;
 use glam::DVec3;
 use std::collections::{HashMap, HashSet};
 
@@ -29,16 +30,24 @@ impl Skin {
     /// Of a piece's facets.
     pub(super) fn of_piece(piece: &Polytope) -> Vec<Skin> {
         let mut skins = Vec::with_capacity(piece.facets.len());
+        let starts: Vec<DVec3> = piece.faces.iter().map(|face| face.corners[0]).collect();
+        let tree = PointTree::new(&starts);
         for facet in &piece.facets {
             let corners: Vec<DVec3> = points_of(piece, &facet.corners);
-            let within = |face: &&Face| is_coplanar(&corners, face.corners);
+            let mut near = Vec::new();
+            if let Some(plane) = spanning(&corners) {
+                tree.for_each_not_behind(plane, |k| near.push(k));
+            }
+            near.sort_unstable();
+            let near = near.iter().map(|&k| piece.faces[k as usize]);
+            let within = |face: &Face| is_coplanar(&corners, face.corners);
             skins.push(Skin {
                 origin: facet.origin,
                 class: match facet.origin {
                     Origin::Face(_) | Origin::Faces => FacetClass::Original,
                     Origin::Virtual => FacetClass::Contained,
                 },
-                faces: piece.faces.iter().filter(within).copied().collect(),
+                faces: near.filter(within).collect(),
             });
         }
         skins

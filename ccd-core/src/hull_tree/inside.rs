@@ -1,5 +1,6 @@
 //! Whether a point lies in a hull, exactly `[SHE97]`.
 
+use crate::point_tree::PointTree;
 use crate::tolerance::LEAST_COORDINATE;
 use glam::DVec3;
 use robust::{Coord, Coord3D, orient2d, orient3d};
@@ -31,26 +32,37 @@ impl<'a> Container<'a> {
         }
     }
 
-    /// Whether the hull of the points certainly holds a point.
+    /// The first of some points that the hull of the points does not certainly hold.
     ///
     /// # Guarantee
-    /// Exact, and true only if so, whatever the facets: about a point outside of the hull a closed
+    /// Exact, and none only if so, whatever the facets: about a point outside of the hull a closed
     /// surface with its corners in the hull winds 0 times. Where no facet has the point in front, the
     /// solid angles at which it sees them all have one sign, so that they are all 0: no facet has it
     /// behind.
-    pub(super) fn holds(&self, point: DVec3) -> bool {
+    ///
+    /// # Complexity
+    /// O(n log n) for n points and facets in all that few points are near each.
+    pub(super) fn left_out(&self, places: &[DVec3]) -> Option<usize> {
         if self.fans.is_empty() {
-            return in_simplex(self.points, point);
+            return places.iter().position(|&p| !in_simplex(self.points, p));
         }
-        let mut behind = false;
+        let tree = PointTree::new(places);
+        let mut outside = vec![false; places.len()];
+        // Facets in whose planes it lies; all others have it behind.
+        let mut level = vec![0; places.len()];
         for &triangle in &self.fans {
-            match height_below(triangle, point) {
-                height if height > 0.0 => behind = true,
-                0.0 => {}
-                _ => return false,
-            }
+            tree.for_each_not_behind(triangle, |k| {
+                match height_below(triangle, places[k as usize]) {
+                    height if height > 0.0 => {}
+                    0.0 => level[k as usize] += 1,
+                    _ => outside[k as usize] = true,
+                }
+            });
         }
-        behind || in_polygon(&self.first, point)
+        (0..places.len()).find(|&k| {
+            let behind = level[k] < self.fans.len();
+            outside[k] || !(behind || in_polygon(&self.first, places[k]))
+        })
     }
 }
 
@@ -87,6 +99,11 @@ pub(super) fn is_coplanar(polygon: &[DVec3], triangle: [DVec3; 3]) -> bool {
         let same_side = (turn(fan, drop) > 0.0) == (turn(triangle, drop) > 0.0);
         same_side && triangle.iter().all(in_plane)
     })
+}
+
+/// Three corners of a polygon that are not on one line.
+pub(super) fn spanning(polygon: &[DVec3]) -> Option<[DVec3; 3]> {
+    plane(polygon).map(|(corners, _)| corners)
 }
 
 /// Three corners of a polygon that are not on one line, and a coordinate axis along which they are

@@ -62,3 +62,36 @@ fn what_bounds_no_solid_stays_triangles() {
     };
     assert!(error.to_string().contains("edges with one face"));
 }
+
+#[test]
+fn what_takes_too_long_stays_triangles() {
+    let in_corner = |c: &[i32; 3]| c[0] >= 6 && c[2] >= 6;
+    let cells = block([12, 12, 12]).into_iter().filter(|c| !in_corner(c));
+    let mesh = cubes(&cells.collect::<Vec<_>>());
+    for steps in [1, 1000] {
+        let (parts, why) = within(&mesh, &Topology::of(&mesh), &Work::of(steps));
+        assert_eq!(why, Why::TooLong);
+        assert!(matches!(parts, Parts::Triangles));
+    }
+}
+
+/// Edges that pair up, but no solid: these were merged for ever.
+#[test]
+fn what_is_folded_stays_triangles() {
+    let corners = vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::X + DVec3::Y];
+    let faces = [[0, 1, 2], [1, 3, 2], [0, 2, 3], [0, 3, 1]];
+    let flat = crate::test_meshes::mesh(corners.clone(), &faces);
+    let two = crate::test_meshes::mesh(corners[..3].to_vec(), &[[0, 1, 2], [0, 2, 1]]);
+    let solid = placed(&cubes(&block([9, 9, 1])), 1.0, DVec3::splat(5.0));
+    for mesh in [
+        &flat,
+        &two,
+        &joined(&[&solid, &flat]),
+        &joined(&[&solid, &two]),
+    ] {
+        assert!(matches!(
+            why(mesh),
+            Why::TrianglesFaster(_) | Why::NothingElse(_)
+        ));
+    }
+}

@@ -1,6 +1,9 @@
 use super::*;
 use crate::mesh::TriangleMesh;
-use crate::test_meshes::{block, cubes, tetrahedron};
+use crate::test_meshes::{block, cubes, joined, mesh, placed, tetrahedron};
+use crate::topology::Topology;
+use crate::work::Work;
+use ccd_core::glam::DVec3;
 use rstest::rstest;
 
 fn flats(mesh: &TriangleMesh) -> Flats {
@@ -71,5 +74,30 @@ fn a_grid_with_a_hole_is_a_few_rectangles() {
         let flats = flats(&shuffled);
         // Four about the hole above and below, four sides outside and four within.
         assert_eq!(flats.len(), 4 + 4 + 4 + 4, "{stride}");
+    }
+}
+
+/// Whatever the mesh, as long as its edges pair up: triangles back to back, a flat tetrahedron, either
+/// beside a solid. Nothing is merged over a fold.
+#[test]
+fn folds_are_no_polygons() {
+    let back_to_back = mesh(
+        vec![DVec3::ZERO, DVec3::X, DVec3::Y],
+        &[[0, 1, 2], [0, 2, 1]],
+    );
+    let corners = vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::X + DVec3::Y];
+    let flat = mesh(corners, &[[0, 1, 2], [1, 3, 2], [0, 2, 3], [0, 3, 1]]);
+    let beside =
+        |part: &TriangleMesh| joined(&[&placed(&tetrahedron(), 1.0, 5.0 * DVec3::X), part]);
+    let cases = [
+        (back_to_back.clone(), 2),
+        (flat.clone(), 2),
+        (beside(&back_to_back), 6),
+        (beside(&flat), 6),
+    ];
+    for (mesh, polygons) in cases {
+        let manifold = Manifold::unchecked(&mesh, &Topology::of(&mesh)).unwrap();
+        assert_eq!(Flats::new(&manifold).len(), polygons);
+        assert!(manifold.check(&Work::unbounded()).is_err());
     }
 }

@@ -73,9 +73,11 @@ fn a_polygon_grows_to_either_side() {
     ];
     let mut hull = ExactHull::polygon(&[0, 1, 2, 3]);
     assert_eq!(hull.facets().len(), 4);
-    hull.insert(&points, 4);
+    let growth = hull.growth(&points, 4).unwrap();
+    hull.grow(growth);
     assert_eq!(hull.facets().len(), 6);
-    hull.insert(&points, 5);
+    let growth = hull.growth(&points, 5).unwrap();
+    hull.grow(growth);
     assert_eq!(hull.facets().len(), 8);
     check(&points, &hull).unwrap();
 }

@@ -5,26 +5,15 @@ use ccd_core::glam::DVec3;
 use parry3d_f64::math::Vector;
 use parry3d_f64::transformation::try_convex_hull;
 use std::panic::catch_unwind;
-use std::thread;
 
-/// Up to so many points the calling thread's stack will do.
+/// The triangles of the hull of a few points at different places; none when the library gives up.
 ///
-/// The library recurses once per triangle that a new corner removes, of which there are fewer than
-/// twice as many as points.
-const SHALLOW: usize = 1000;
-
-/// Bytes of stack per point: twice the frame of that recursion, with room for an unoptimised build.
-const FRAME: usize = 2 * 1024;
-
-/// The triangles of the hull of points at different places; none when the library gives up.
+/// It takes time and memory that grow with the square of the number of points, and recurses once per
+/// triangle that a new corner removes: hence few.
 pub(super) fn triangles(points: &[DVec3]) -> Option<Vec<[u32; 3]>> {
     let cloud: Vec<Vector> = points.iter().map(|p| p.to_array().into()).collect();
-    let (corners, triangles) = if points.len() <= SHALLOW {
-        // It asserts what rounding can violate.
-        catch_unwind(|| try_convex_hull(&cloud)).ok()?.ok()?
-    } else {
-        deep(&cloud)?
-    };
+    // It asserts what rounding can violate.
+    let (corners, triangles) = catch_unwind(|| try_convex_hull(&cloud)).ok()?.ok()?;
     let corners = corners.iter().map(|p| DVec3::from_array(p.to_array()));
     let ids = identify(points, corners)?;
     let named = |&[a, b, c]: &[u32; 3]| {
@@ -32,17 +21,6 @@ pub(super) fn triangles(points: &[DVec3]) -> Option<Vec<[u32; 3]>> {
         Some([id(a)?, id(b)?, id(c)?])
     };
     triangles.iter().map(named).collect()
-}
-
-type Mesh = (Vec<Vector>, Vec<[u32; 3]>);
-
-/// The same on a stack that is deep enough.
-fn deep(cloud: &[Vector]) -> Option<Mesh> {
-    thread::scope(|scope| {
-        let builder = thread::Builder::new().stack_size(cloud.len().saturating_mul(FRAME));
-        let worker = builder.spawn_scoped(scope, || try_convex_hull(cloud));
-        worker.ok()?.join().ok()?.ok()
-    })
 }
 
 /// Which of the points are at the places of the corners, which the library does not tell.

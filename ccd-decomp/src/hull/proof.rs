@@ -3,9 +3,8 @@
 use super::{Loops, lexicographic};
 use crate::polygons::polygons;
 use crate::predicates::{Projection, side};
-use crate::tolerance::height_rounding;
 use ccd_core::glam::DVec3;
-use ccd_core::order::greater;
+use ccd_core::point_tree::PointTree;
 use std::cmp::Ordering;
 
 /// Why polygons are not proven to be the facets of the hull.
@@ -36,7 +35,7 @@ pub(super) fn loops(points: &[DVec3], triangles: &[[u32; 3]]) -> Loops {
 /// [`Refutation`].
 ///
 /// # Complexity
-/// O(n f) for n points and f polygons, with a small constant.
+/// O(n log n) for n points and O(n) polygons that few of them are near each.
 pub(super) fn prove(points: &[DVec3], polygons: Loops) -> Result<Loops, Refutation> {
     if let Some(bent) = polygons.iter().position(|p| !is_convex(points, p)) {
         return Err(Refutation::Bent(bent));
@@ -104,83 +103,18 @@ fn unmatched_edge(points: &[DVec3], polygons: &Loops) -> Option<(u32, u32)> {
 }
 
 /// The points in front of any of the polygons.
-///
-/// Nearly all are told apart by their rounded heights, [`LANES`] at a time; exact predicates decide
-/// about the rest.
 fn outside(points: &[DVec3], polygons: &Loops) -> Vec<u32> {
-    let columns = Columns::of(points);
-    let mut outside = Vec::new();
+    let tree = PointTree::new(points);
+    let mut is_outside = vec![false; points.len()];
     for corners in polygons {
         let plane = plane(points, corners);
-        columns.for_each_near(plane, |v| {
+        tree.for_each_not_behind(plane, |v| {
             if side(plane, points[v as usize]) == Ordering::Greater {
-                outside.push(v);
+                is_outside[v as usize] = true;
             }
         });
     }
-    outside.sort_unstable();
-    outside.dedup();
-    outside
-}
-
-/// How many points are looked at at once: a few vector registers full.
-const LANES: usize = 16;
-
-/// Points relative to the first one, by coordinate and [`LANES`] at a time.
-struct Columns {
-    base: DVec3,
-    blocks: Vec<[[f64; LANES]; 3]>,
-    count: usize,
-    /// The largest absolute coordinate.
-    reach: f64,
-}
-
-impl Columns {
-    fn of(points: &[DVec3]) -> Self {
-        let base = points.first().copied().unwrap_or(DVec3::ZERO);
-        let mut blocks = vec![[[0.0; LANES]; 3]; points.len().div_ceil(LANES)];
-        let mut reach = 0.0_f64;
-        for (k, &point) in points.iter().enumerate() {
-            let place = point - base;
-            reach = greater(reach, place.abs().max_element());
-            for (axis, x) in place.to_array().into_iter().enumerate() {
-                blocks[k / LANES][axis][k % LANES] = x;
-            }
-        }
-        Columns {
-            base,
-            blocks,
-            count: points.len(),
-            reach,
-        }
-    }
-
-    /// The points that may be in front of a plane, and some that are not.
-    fn for_each_near(&self, plane: [DVec3; 3], mut visit: impl FnMut(u32)) {
-        let [a, b, c] = plane;
-        let (u, v) = (b - a, c - a);
-        let normal = u.cross(v);
-        let least = normal.dot(a - self.base) - height_rounding([u, v], self.reach);
-        let [x, y, z] = normal.to_array();
-        for (block, [xs, ys, zs]) in self.blocks.iter().enumerate() {
-            let mut heights = [0.0; LANES];
-            for (k, height) in heights.iter_mut().enumerate() {
-                *height = x * xs[k] + y * ys[k] + z * zs[k];
-            }
-            // Counted without branches; written so that NaN counts.
-            let near = heights
-                .iter()
-                .map(|&h| u32::from(!(h < least)))
-                .sum::<u32>();
-            if near == 0 {
-                continue;
-            }
-            let lanes = self.count.saturating_sub(block * LANES).min(LANES);
-            for (k, height) in heights[..lanes].iter().enumerate() {
-                if !(*height < least) {
-                    visit((block * LANES + k) as u32);
-                }
-            }
-        }
-    }
+    (0..points.len() as u32)
+        .filter(|&v| is_outside[v as usize])
+        .collect()
 }

@@ -13,8 +13,7 @@ pub(super) enum Span {
     /// The two ends of the points on it.
     Line(usize, usize),
     Plane([usize; 3]),
-    /// The last one is in front of the triangle of the others.
-    Volume([usize; 4]),
+    Volume,
 }
 
 impl Span {
@@ -42,8 +41,7 @@ impl Span {
         let proper = |&k: &usize| side_of(k) != Ordering::Equal;
         match farthest(points.len(), height, proper) {
             None => Span::Plane([a, b, c]),
-            Some(d) if side_of(d) == Ordering::Greater => Span::Volume([a, b, c, d]),
-            Some(d) => Span::Volume([a, c, b, d]),
+            Some(_) => Span::Volume,
         }
     }
 }

@@ -207,7 +207,15 @@ fn a_plane_is_seen_from_both_sides() {
 #[test]
 fn the_library_serves_where_nothing_is_degenerate() {
     for seed in 0..20 {
-        assert_eq!(proper(&cloud(200, seed)).way, Way::Library);
+        assert_eq!(proper(&cloud(LIBRARY_POINTS, seed)).way, Way::Library);
+    }
+}
+
+/// Where the library would take time and memory that grow with the square.
+#[test]
+fn hulls_of_many_points_are_exact() {
+    for points in [cloud(200, 1), ball(300, 2), cylinder(100, 2), grid(5)] {
+        assert_eq!(proper(&points).way, Way::Exact);
     }
 }
 
@@ -217,17 +225,13 @@ fn near_planes_are_settled_exactly() {
     let ways: Vec<Way> = (0..20)
         .map(|seed| proper(&shaken(grid(4), 1e-15, seed)).way)
         .collect();
-    assert!(ways.contains(&Way::Exact), "{ways:?}");
+    assert!(ways.contains(&Way::Rebuilt), "{ways:?}");
 }
 
 #[test]
 fn without_a_candidate_the_hull_is_exact() {
     for points in [cloud(60, 1), grid(4), ball(80, 3), cylinder(7, 4)] {
-        let Span::Volume(simplex) = Span::of(&points) else {
-            panic!("points that span a volume");
-        };
-        let likely = simplex.map(|k| k as u32).to_vec();
-        let facets = exact::facets(&points, likely).expect("proven");
+        let facets = exact::facets(&points).expect("proven");
         let cloud = Cloud::of(&points);
         let hull = cloud.named(facets, Way::Exact);
         assert_proper(&points, &hull);

@@ -1,7 +1,7 @@
 //! Where pieces are split in two.
 
 use crate::hull::hull;
-use crate::tolerance::{EIGEN_ROUNDS, LEAST_SHARE};
+use crate::tolerance::{EIGEN_ROUNDS, LEAST_SHARE, SPREAD_PIECES};
 use ccd_core::Pieces;
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
@@ -39,7 +39,10 @@ impl Splitter {
 
     /// The unit vector along which the surface of the hull of the centres is spread most.
     fn longest(&self, pieces: &[u32]) -> DVec3 {
-        let centres: Vec<DVec3> = pieces.iter().map(|&k| self.centres[k as usize]).collect();
+        // Of many pieces some will do to tell how they are spread.
+        let stride = pieces.len().div_ceil(SPREAD_PIECES);
+        let some = pieces.iter().step_by(stride);
+        let centres: Vec<DVec3> = some.map(|&k| self.centres[k as usize]).collect();
         let mean = centres.iter().sum::<DVec3>() / centres.len() as f64;
         let reach = |p: &DVec3| (*p - mean).abs().max_element();
         let size = centres.iter().map(reach).fold(0.0, greater);

@@ -1,7 +1,10 @@
 use crate::error::DecomposeError;
 use crate::manifold::Manifold;
+use crate::mesh::TriangleMesh;
 use crate::self_intersection::Crossing;
 use crate::test_meshes::{cubes, joined, mesh, placed, tetrahedron};
+use crate::topology::Topology;
+use crate::work::Work;
 use ccd_core::glam::{DVec3, dvec3};
 use rstest::rstest;
 
@@ -75,4 +78,64 @@ fn stairs_do_not_meet_themselves() {
         [2, 0, 2],
     ]);
     assert!(Manifold::new(&stairs).is_ok());
+}
+
+/// A polygon along z, each cap the fan about its first corner.
+fn prism(outline: &[DVec3]) -> TriangleMesh {
+    let n = outline.len() as u32;
+    let mut vertices = outline.to_vec();
+    vertices.extend(outline.iter().map(|&p| p + DVec3::Z));
+    let mut faces = Vec::new();
+    for k in 0..n {
+        let l = (k + 1) % n;
+        faces.extend([[k, l, n + l], [k, n + l, n + k]]);
+    }
+    for k in 1..n - 1 {
+        faces.extend([[0, k + 1, k], [n, n + k, n + k + 1]]);
+    }
+    mesh(vertices, &faces)
+}
+
+/// Teeth about the first corner, which sees them all; no point sees all of the surface.
+fn fan_of_teeth(teeth: u32) -> TriangleMesh {
+    let tooth = |k: u32| {
+        let angle = std::f64::consts::FRAC_PI_2 * f64::from(k) / f64::from(2 * teeth);
+        let radius = if k.is_multiple_of(2) { 1.0 } else { 0.9 };
+        dvec3(radius * angle.cos(), radius * angle.sin(), 0.0)
+    };
+    let outline: Vec<DVec3> = [DVec3::ZERO]
+        .into_iter()
+        .chain((0..2 * teeth).map(tooth))
+        .collect();
+    prism(&outline)
+}
+
+/// Work that grows as the number of triangles, not as the square of those about one vertex.
+#[test]
+fn fans_are_not_compared_pair_by_pair() {
+    for teeth in [50, 500, 5_000] {
+        let mesh = fan_of_teeth(teeth);
+        let manifold = Manifold::unchecked(&mesh, &Topology::of(&mesh)).unwrap();
+        assert!(!crate::star::is_seen_whole(&manifold));
+        // All pairs of 5,000 teeth would be 40,000 for each triangle.
+        let work = Work::of(400 * mesh.faces().len() as u64);
+        assert_eq!(manifold.check(&work), Ok(()), "{teeth}");
+        assert_eq!(manifold.check(&Work::of(100)), Err(DecomposeError::TooLong));
+    }
+}
+
+/// The fan of a polygon that is not convex overlaps itself as often as the square of its corners.
+#[test]
+fn crossings_are_counted_up_to_a_thousand() {
+    let mut outline = vec![DVec3::ZERO, dvec3(202.0, 0.0, 0.0)];
+    for tooth in (1..=100).rev() {
+        let x = 2.0 * f64::from(tooth);
+        let corners = [(x, 1.0), (x, 5.0), (x - 1.0, 5.0), (x - 1.0, 1.0)];
+        outline.extend(corners.map(|(x, y)| dvec3(x, y, 0.0)));
+    }
+    let mesh = prism(&outline);
+    let Err(DecomposeError::SelfIntersecting { pairs }) = Manifold::new(&mesh).map(|_| ()) else {
+        panic!("overlapping fans");
+    };
+    assert_eq!(pairs.count(), crate::tolerance::CROSSINGS);
 }

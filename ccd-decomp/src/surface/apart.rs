@@ -11,6 +11,8 @@ pub(super) struct Obstacle<'a> {
     points: &'a [DVec3],
     hull: &'a ExactHull,
     edges: OnceCell<Vec<Edge>>,
+    /// The corners of all facets, in order, each with its facet.
+    meeting: OnceCell<Vec<(u32, u32)>>,
 }
 
 /// An edge of a hull with the facets on either side.
@@ -27,6 +29,7 @@ impl<'a> Obstacle<'a> {
             points,
             hull,
             edges: OnceCell::new(),
+            meeting: OnceCell::new(),
         }
     }
 
@@ -38,11 +41,26 @@ impl<'a> Obstacle<'a> {
     /// other. Of the latter only those come into question that touch the hull where the triangle's
     /// corner sees its outline.
     pub(super) fn is_apart_from(&self, triangle: [u32; 3]) -> bool {
-        // The newest facets are the likeliest to have it in front of them.
+        // Facets that it meets at a corner are the likeliest to have it in front of them, then new ones.
         let mut facets = self.hull.facets().iter().rev();
-        facets.any(|&facet| self.is_in_front(facet, triangle))
+        triangle.iter().any(|&v| self.is_in_front_at(v, triangle))
+            || facets.any(|&facet| self.is_in_front(facet, triangle))
             || self.separates(triangle, triangle)
             || (0..3).any(|k| self.is_apart_at(triangle, k))
+    }
+
+    /// Whether the triangle is in front of a facet that one of its corners is a corner of.
+    fn is_in_front_at(&self, corner: u32, triangle: [u32; 3]) -> bool {
+        let meeting = self.meeting.get_or_init(|| {
+            let facets = (0..).zip(self.hull.facets());
+            let corners = facets.flat_map(|(k, facet)| facet.map(|v| (v, k)));
+            let mut meeting: Vec<(u32, u32)> = corners.collect();
+            meeting.sort_unstable();
+            meeting
+        });
+        let first = meeting.partition_point(|&(v, _)| v < corner);
+        let mut there = meeting[first..].iter().take_while(|(v, _)| *v == corner);
+        there.any(|&(_, k)| self.is_in_front(self.hull.facets()[k as usize], triangle))
     }
 
     fn is_in_front(&self, facet: [u32; 3], triangle: [u32; 3]) -> bool {

@@ -14,6 +14,7 @@ use crate::error::DecomposeError;
 use crate::manifold::{Bend, Manifold};
 use crate::mesh::TriangleMesh;
 use crate::tolerance::PATCH_POLYGONS;
+use crate::work::Work;
 use order::{Frontier, seeds};
 use region::{Join, Region};
 
@@ -50,24 +51,29 @@ pub struct Decomposition {
 /// ```
 pub fn decompose(mesh: &TriangleMesh, order: Order) -> Result<Decomposition, DecomposeError> {
     let manifold = Manifold::new(mesh)?;
-    Ok(decompose_flats(&manifold, &Flats::new(&manifold), order))
+    decompose_flats(&manifold, &Flats::new(&manifold), order, &Work::unbounded())
 }
 
 /// The same of a surface that is known to bound a solid, and its polygons.
+///
+/// # Errors
+/// [`DecomposeError::TooLong`].
 pub(crate) fn decompose_flats(
     manifold: &Manifold<'_>,
     flats: &Flats,
     order: Order,
-) -> Decomposition {
+    work: &Work,
+) -> Result<Decomposition, DecomposeError> {
     if let Ok(polytope) = as_polytope(manifold) {
         let faces = (0..manifold.faces().len() as u32).collect();
         let patches = vec![Patch { faces, polytope }];
-        return Decomposition { patches };
+        return Ok(Decomposition { patches });
     }
     let mut grower = Grower {
         manifold,
         flats,
         order,
+        work,
         taken: vec![false; flats.len()],
         tried: vec![u32::MAX; flats.len()],
     };
@@ -75,16 +81,18 @@ pub(crate) fn decompose_flats(
     for seed in seeds(manifold, flats, order) {
         if !grower.taken[seed as usize] {
             let region = grower.grow(seed, patches.len() as u32);
+            work.check()?;
             patches.push(Patch::new(manifold, flats, &region));
         }
     }
-    Decomposition { patches }
+    Ok(Decomposition { patches })
 }
 
 struct Grower<'a, 'm> {
     manifold: &'a Manifold<'m>,
     flats: &'a Flats,
     order: Order,
+    work: &'a Work,
     /// Polygons that belong to a patch.
     taken: Vec<bool>,
     /// The last patch that each polygon was tried for: what was refused once always will be, as the hull
@@ -101,13 +109,15 @@ impl Grower<'_, '_> {
         // A flat patch takes no polygon of its own plane: their union need not be convex. Once it has
         // got volume they are tried again.
         let mut in_plane = Vec::new();
+        // Polygons are put there when another one joins, and each joins once.
         while let Some(next) = frontier.pop() {
             let tried = &mut self.tried[next as usize];
             if self.taken[next as usize] || *tried == patch || region.len() >= PATCH_POLYGONS {
                 continue;
             }
             *tried = patch;
-            match region.join(self.manifold, self.flats, next) {
+            self.work.spend(region.hull().facets().len());
+            match region.join(self.manifold, self.flats, next, self.work) {
                 Join::Refused => {}
                 Join::InPlane => in_plane.push(next),
                 Join::Joined => {

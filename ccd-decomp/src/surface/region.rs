@@ -5,7 +5,8 @@ use crate::coplanar::Flats;
 use crate::exact_hull::ExactHull;
 use crate::manifold::Manifold;
 use crate::predicates::side_of;
-use crate::triangle_boxes::Bounds;
+use crate::triangle_boxes::{self, Bounds};
+use crate::work::Work;
 use ccd_core::glam::DVec3;
 use std::cmp::Ordering;
 
@@ -49,8 +50,14 @@ impl Region {
         &self.hull
     }
 
-    /// Takes a polygon in if the patch stays a patch.
-    pub(super) fn join(&mut self, manifold: &Manifold<'_>, flats: &Flats, flat: u32) -> Join {
+    /// Takes a polygon in if the patch stays a patch, which is known only while there is work left.
+    pub(super) fn join(
+        &mut self,
+        manifold: &Manifold<'_>,
+        flats: &Flats,
+        flat: u32,
+        work: &Work,
+    ) -> Join {
         let points = manifold.mesh().vertices();
         let plane = |f: u32| manifold.faces()[flats.get(f).faces[0] as usize];
         // The hull so far must lie behind the polygon, …
@@ -84,9 +91,13 @@ impl Region {
                 let of = flats.of_face(face);
                 of == flat
                     || self.flats.contains(&of)
-                    || obstacle.is_apart_from(manifold.faces()[face as usize])
+                    || work.spend(hull.facets().len())
+                        && obstacle.is_apart_from(manifold.faces()[face as usize])
             };
-            if !manifold.boxes().all_meeting(changed, is_apart) {
+            let facets = hull.facets().iter();
+            let facets = facets.map(|facet| facet.map(|v| points[v as usize]));
+            let near = triangle_boxes::Region::inside(facets.collect(), changed);
+            if !manifold.boxes().all_meeting(&near, is_apart) {
                 return Join::Refused;
             }
             self.hull = hull;

@@ -1,5 +1,5 @@
 use super::*;
-use crate::test_meshes::{block, cubes, joined, placed, tetrahedron, turned};
+use crate::test_meshes::{block, cubes, joined, placed, star, tetrahedron, turned};
 use ccd_core::Origin;
 use ccd_core::glam::DVec3;
 use rstest::rstest;
@@ -133,4 +133,18 @@ fn patches_are_capped() {
         .map(|p| p.faces.iter().filter(|&&f| flank(f)).count())
         .max();
     assert!(most <= Some(PATCH_POLYGONS), "{most:?}");
+}
+
+/// All patches meet in both apices: work that grows as their number all the same.
+#[test]
+fn patches_of_slivers_take_linear_work() {
+    for corners in [100, 1_000, 10_000] {
+        let mesh = star(corners, 0.5);
+        let manifold = Manifold::new(&mesh).unwrap();
+        let flats = Flats::new(&manifold);
+        let work = Work::of(1_000 * u64::from(corners));
+        let decomposition = decompose_flats(&manifold, &flats, Order::default(), &work).unwrap();
+        check(&mesh, &decomposition);
+        assert_eq!(decomposition.patches.len(), corners as usize / 2);
+    }
 }

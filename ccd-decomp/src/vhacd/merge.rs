@@ -11,6 +11,7 @@ use ccd_core::glam::DVec3;
 /// O(n²) hulls at worst; of parts apart from each other the boxes stand in for the hulls.
 pub(super) fn down_to(parts: Vec<Part>, most: usize) -> Result<Vec<Part>, HullError> {
     let mut merger = Merger::new(parts);
+    // Each step leaves one less, or none.
     while merger.count > most {
         merger.merge_best()?;
     }

@@ -323,3 +323,13 @@ fn places(#[case] mesh: TriangleMesh) {
         }
     }
 }
+
+/// However thin its triangles, and however many hulls are asked for.
+#[test]
+fn a_convex_solid_is_one_hull() {
+    let cones = crate::test_meshes::star(400, 1.0);
+    let found = approximate(&cones, 32).expect("an approximation");
+    assert_eq!(found.polytopes.len(), 1);
+    assert_eq!(found.polytopes[0].points.len(), 402);
+    assert!(found.sticks_out < 1e-6, "{}", found.sticks_out);
+}

@@ -152,6 +152,7 @@ impl Voxels {
         mut visit: impl FnMut(u32, &[DVec3]),
     ) {
         let mut stack = vec![(self.ranges(triangle), triangle.to_vec())];
+        // Blocks are halved, and one cube has one label.
         while let Some((block, polygon)) = stack.pop() {
             if polygon.is_empty() {
                 continue;
