@@ -4,6 +4,7 @@
 use crate::body::Body;
 use crate::motion::Motion;
 use crate::oracle::{Claim, Combination, GiveUp};
+use crate::order::lesser;
 use crate::outcome::{Answer, Limit, Outcome};
 use crate::pose::Pose;
 use crate::problem::{Config, Moving, Problem, StartPolicy};
@@ -54,7 +55,7 @@ fn within_margin(rng: &mut Pcg64, most: usize) -> Scene {
     let gap = distance(&scene.problem(), 0.0);
     scene.config.margin = match rng.random_bool(0.5) {
         true => gap * rng.random_range(1.0..1.5),
-        false => (size * magnitude(rng, -3.0, 2.0)).min(1e11),
+        false => lesser(1e11, size * magnitude(rng, -3.0, 2.0)),
     };
     scene
 }
