@@ -160,10 +160,12 @@ impl Track {
             true => {
                 let (sin, cos) = (self.rate * Double::new(t)).sin_cos();
                 let n = self.axis;
-                self.columns.map(|c| {
+                let [a, b, c] = self.columns;
+                let turned = |c: Vector<Double>| {
                     let along = n * n.dot(c);
                     (c - along) * cos + n.cross(c) * sin + along
-                })
+                };
+                [turned(a), turned(b), turned(c)]
             }
             false => self.columns,
         };

@@ -59,11 +59,14 @@ impl Double {
             .iter()
             .fold(self, |r, &part| r - two_prod(quarters, part));
         let square = r * r;
+        let factors = &*INVERSE_FACTORIALS;
         let series = |first: usize| {
-            let terms = (first..28).step_by(2).rev();
-            terms.fold(Double::default(), |sum, n| {
-                INVERSE_FACTORIALS[n] - sum * square
-            })
+            let (mut sum, mut n) = (Double::default(), 26 + first);
+            while n > first {
+                sum = factors[n] - sum * square;
+                n -= 2;
+            }
+            factors[first] - sum * square
         };
         let (sin, cos) = (r * series(1), series(0));
         match quarters.rem_euclid(4.0) as u8 {
@@ -82,9 +85,9 @@ impl Double {
     }
 }
 
-static INVERSE_FACTORIALS: LazyLock<[Double; 28]> = LazyLock::new(|| {
-    let mut all = [Double::new(1.0); 28];
-    for n in 1..28 {
+static INVERSE_FACTORIALS: LazyLock<[Double; 29]> = LazyLock::new(|| {
+    let mut all = [Double::new(1.0); 29];
+    for n in 1..29 {
         all[n] = all[n - 1] / Double::new(n as f64);
     }
     all

@@ -47,8 +47,8 @@ struct Edge<N> {
 
 impl<N: Number> Edge<N> {
     fn all(t: &Triangle<N>) -> [Self; 3] {
-        [0, 1, 2].map(|k| {
-            let (from, way) = (t[k], t[(k + 1) % 3] - t[k]);
+        let edge = |from: Vector<N>, to: Vector<N>| {
+            let way = to - from;
             let along = way.scaled();
             let (scale, square) = (ratio(along, way), along.dot(along));
             Edge {
@@ -58,7 +58,8 @@ impl<N: Number> Edge<N> {
                 scale,
                 square,
             }
-        })
+        };
+        [edge(t[0], t[1]), edge(t[1], t[2]), edge(t[2], t[0])]
     }
 
     /// From a point to the nearest of the edge; of an edge without length NaN makes that its start.
@@ -82,14 +83,17 @@ fn clamped<N: Number>(x: N) -> N {
 }
 
 /// By how much `long` is longer than `short`, both along the same line.
+#[inline]
 fn ratio<N: Number>(long: Vector<N>, short: Vector<N>) -> N {
-    let k = (0..3).fold(0, |k, i| {
-        match long.0[i].rounded().abs() > long.0[k].rounded().abs() {
-            true => i,
-            false => k,
-        }
-    });
-    long.0[k] / short.0[k]
+    let ([x, y, z], [u, v, w]) = (long.0, short.0);
+    let [a, b, c] = [x, y, z].map(|x| x.rounded().abs());
+    if a >= b && a >= c {
+        x / u
+    } else if b >= c {
+        y / v
+    } else {
+        z / w
+    }
 }
 
 /// From the nearest point of one edge's line to that of another, where either is within its edge.
@@ -116,11 +120,15 @@ fn on_face<N: Number>(p: Vector<N>, t: &Triangle<N>, face: Option<Vector<N>>) ->
 }
 
 fn within<N: Number>(x: Vector<N>, t: &Triangle<N>, n: Vector<N>) -> bool {
-    let ways = [0, 1, 2].map(|k| (t[(k + 1) % 3] - t[k]).scaled());
+    let ways = [
+        (t[1] - t[0]).scaled(),
+        (t[2] - t[1]).scaled(),
+        (t[0] - t[2]).scaled(),
+    ];
     (0..3).all(|k| n.dot(ways[k].cross(x - t[k])) >= N::of(0.0))
         // Beyond the ends of a needle rounding alone decides on which side of it a point is.
         && ways.iter().all(|way| {
-            let heights = t.map(|corner| way.dot(corner - x));
+            let heights = [way.dot(t[0] - x), way.dot(t[1] - x), way.dot(t[2] - x)];
             heights.iter().any(|&h| h >= N::of(0.0)) && heights.iter().any(|&h| h <= N::of(0.0))
         })
 }
@@ -137,7 +145,8 @@ pub fn normal<N: Number>(t: &Triangle<N>) -> Option<Vector<N>> {
 fn pierces<N: Number>(edges: &[Edge<N>; 3], t: &Triangle<N>, face: Option<Vector<N>>) -> bool {
     let zero = N::of(0.0);
     let Some(n) = face else { return false };
-    let heights = edges.each_ref().map(|edge| n.dot(edge.from - t[0]));
+    let height = |k: usize| n.dot(edges[k].from - t[0]);
+    let heights = [height(0), height(1), height(2)];
     (0..3).any(|k| {
         let (up, down) = (heights[k], heights[(k + 1) % 3]);
         let crosses = (up > zero && down < zero) || (up < zero && down > zero);

@@ -71,7 +71,8 @@ impl Side {
     }
 
     fn triangle(&self, k: usize, moment: &Moment, origin: Vector<Double>) -> Triangle<Double> {
-        self.triangles[k].map(|p| moment.arm(p) + (moment.centre - origin))
+        let ([p, q, r], to) = (self.triangles[k], moment.centre - origin);
+        [moment.arm(p) + to, moment.arm(q) + to, moment.arm(r) + to]
     }
 }
 
@@ -139,30 +140,38 @@ impl Scene {
     /// The distance of the two surfaces at a time.
     pub fn distance(&self, t: f64) -> f64 {
         let [a, b] = [self.placed(0, t), self.placed(1, t)];
-        let rounded = |all: &[Triangle<Double>]| -> Vec<Triangle<f64>> {
-            all.iter().map(|t| t.map(Vector::rounded)).collect()
+        let near = self.nearest(&a, &b);
+        let best = near
+            .iter()
+            .fold(f64::INFINITY, |best, &(d, ..)| smaller(best, d));
+        let noise = NOISE * self.scale;
+        let nearest = near.into_iter().filter(|&(d, ..)| d <= best + noise);
+        let exact = nearest.map(|(_, i, j)| distance(&a[i], &b[j]).rounded());
+        exact.fold(f64::INFINITY, smaller)
+    }
+
+    /// Pairs of triangles with their distances in f64, the least among them.
+    fn nearest(&self, a: &[Triangle<Double>], b: &[Triangle<Double>]) -> Vec<(f64, usize, usize)> {
+        let rounded = |all: &[Triangle<Double>]| -> Vec<(Triangle<f64>, Vector<f64>)> {
+            let middle = |t: &Triangle<f64>| (t[0] + t[1] + t[2]) * (1.0 / 3.0);
+            let rounded = all.iter().map(|t| t.map(Vector::rounded));
+            rounded.map(|t| (t, middle(&t))).collect()
         };
-        let (ra, rb) = (rounded(&a), rounded(&b));
-        let mut near = Vec::new();
-        let mut best = f64::INFINITY;
-        for (i, s) in ra.iter().enumerate() {
-            for (j, t) in rb.iter().enumerate() {
-                let [p, q] = [&self.sides[0].balls[i], &self.sides[1].balls[j]];
-                let apart = (s[0] - t[0]).length() - 2.0 * (p.radius + q.radius);
-                if apart > best {
-                    continue;
+        let (a, b) = (rounded(a), rounded(b));
+        let balls = self.sides.each_ref().map(|side| &side.balls);
+        let (mut near, mut best) = (Vec::new(), f64::INFINITY);
+        for (i, (s, m)) in a.iter().enumerate() {
+            for (j, (t, n)) in b.iter().enumerate() {
+                let (way, radii) = (*m - *n, balls[0][i].radius + balls[1][j].radius);
+                let kept = (best + radii) * (1.0 + 1e-9) + NOISE * self.scale;
+                if way.dot(way) < kept * kept {
+                    let d = distance(s, t);
+                    best = smaller(best, d);
+                    near.push((d, i, j));
                 }
-                let d = distance(s, t);
-                best = smaller(best, d);
-                near.push((d, i, j));
             }
         }
-        let noise = NOISE * self.scale;
-        let mut least = f64::INFINITY;
-        for (_, i, j) in near.into_iter().filter(|&(d, ..)| d <= best + noise) {
-            least = smaller(least, distance(&a[i], &b[j]).rounded());
-        }
-        least
+        near
     }
 
     /// The same with every pair in [`Double`]: to be asked before anything is called wrong.
@@ -204,6 +213,10 @@ impl Scene {
             proven: true,
         };
         let begin = search.balls_meet(a.reach + b.reach);
+        let begin = search.together(begin);
+        if !(begin < until) {
+            return (None, true);
+        }
         for (i, p) in a.balls.iter().enumerate() {
             let begin = search.balls_apart([p, &b.whole], begin);
             if !(begin < search.until) {
@@ -301,6 +314,30 @@ impl Search<'_> {
         }
     }
 
+    /// A time from `begin` on until which the bodies are well apart, all pairs taken together.
+    fn together(&self, begin: f64) -> f64 {
+        let mut t = begin;
+        for _ in 0..PAIR_STEPS {
+            let [a, b] = [0, 1].map(|side| self.scene.placed(side, t));
+            let near = self.scene.nearest(&a, &b);
+            let least = near
+                .iter()
+                .fold(f64::INFINITY, |least, &(d, ..)| smaller(least, d));
+            let whole = self.scene.sides.each_ref().map(|side| &side.whole);
+            let Near { rate, bend, .. } = self.near(whole, &self.scene.moments(t));
+            let tau = free_time(least - self.threshold, rate, bend);
+            // A hundred more such steps would not get there: pair by pair it is faster.
+            if !(tau > 0.003 * (self.until - t)) {
+                break;
+            }
+            t += tau;
+            if !(t < self.until) {
+                break;
+            }
+        }
+        t
+    }
+
     /// A time from `begin` on until which two balls are well apart.
     fn balls_apart(&self, [p, q]: [&Ball; 2], begin: f64) -> f64 {
         let mut t = begin;
@@ -342,9 +379,9 @@ impl Search<'_> {
         if near.gap > 0.5 * (p.radius + q.radius) {
             return near;
         }
-        let [s, t] = self
-            .triangles(i, j, &moments)
-            .map(|t| t.map(Vector::rounded));
+        let [[a, b, c], [d, e, f]] = self.triangles(i, j, &moments);
+        let s = [a.rounded(), b.rounded(), c.rounded()];
+        let t = [d.rounded(), e.rounded(), f.rounded()];
         Near {
             gap: distance(&s, &t) - self.threshold,
             ..near

@@ -47,7 +47,14 @@ impl<N: Number> Vector<N> {
 
     #[inline]
     pub fn rounded(self) -> Vector<f64> {
-        Vector(self.0.map(N::rounded))
+        self.each(N::rounded)
+    }
+
+    /// As `map` of arrays, which compilers leave a loop.
+    #[inline]
+    fn each<M>(self, change: impl Fn(N) -> M) -> Vector<M> {
+        let [x, y, z] = self.0;
+        Vector([change(x), change(y), change(z)])
     }
 
     #[inline]
@@ -99,7 +106,8 @@ impl<N: Number> Vector<N> {
     /// The largest component's size, rounded.
     #[inline]
     pub fn largest(self) -> f64 {
-        self.0.iter().fold(0.0, |m, x| larger(m, x.rounded().abs()))
+        let Vector([x, y, z]) = self.each(|x| x.rounded().abs());
+        larger(larger(x, y), z)
     }
 }
 
@@ -144,7 +152,7 @@ impl<N: Number> Neg for Vector<N> {
 
     #[inline]
     fn neg(self) -> Self {
-        Vector(self.0.map(|x| -x))
+        self.each(|x| -x)
     }
 }
 
@@ -153,6 +161,6 @@ impl<N: Number> Mul<N> for Vector<N> {
 
     #[inline]
     fn mul(self, s: N) -> Self {
-        Vector(self.0.map(|x| x * s))
+        self.each(|x| x * s)
     }
 }
