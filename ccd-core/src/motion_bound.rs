@@ -180,7 +180,7 @@ impl AxisMotion {
     /// rotation.
     #[inline]
     pub(crate) fn bend(&self, distance: f64) -> f64 {
-        self.omega * self.omega * self.across.length() * distance
+        self.omega * self.omega * length(self.across) * distance
     }
 
     #[inline]

@@ -4,6 +4,7 @@ use crate::order::greater;
 use crate::shelf::Shelf;
 use crate::support::Support;
 use crate::tolerance::{CLIMBED_POINTS, RATE_F64};
+use crate::vector::distance;
 use glam::DVec3;
 use std::any::Any;
 
@@ -136,7 +137,7 @@ impl<'a> Piece<'a> {
     /// How far the points are at most from one, or a little more than that.
     pub(crate) fn farthest_from(&self, from: DVec3) -> f64 {
         if let Some((middle, radius)) = self.ball() {
-            return (middle.distance(from) + radius) * (1.0 + RATE_F64);
+            return (distance(middle, from) + radius) * (1.0 + RATE_F64);
         }
         let squares = self.points.iter().map(|p| p.distance_squared(from));
         squares.fold(0.0, greater).sqrt()

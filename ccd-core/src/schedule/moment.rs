@@ -264,7 +264,7 @@ impl<'p> Moment<'p> {
         let free = |above: &Point, below: &Point| {
             let gap = Gap {
                 gap: slack + (above.height - b.least()) + (below.height - a.least()),
-                rate: rounding - below.rate - above.rate,
+                rate: -below.rate - above.rate + rounding,
                 bend: (above.bend + below.bend) * (1.0 + RATE_F64),
             };
             gap.free_time()

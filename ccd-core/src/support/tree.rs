@@ -3,7 +3,8 @@
 
 use crate::order::{greater, lesser};
 use crate::principal::principal_axes;
-use crate::tolerance::{DISC_F32, DISC_TILT_F32};
+use crate::tolerance::{DISC_F32, DISC_TILT_F32, FRAME_F64};
+use crate::vector::distance;
 use glam::{DMat3, DVec3, Vec3};
 
 /// How many points make a block, and how many children a group has.
@@ -237,11 +238,11 @@ impl Disc {
     /// Its normal is the direction in which the points spread least.
     fn about(points: &[DVec3]) -> Self {
         let frame = principal_axes(|| points.iter().map(|&p| (p, 1.0)));
-        // Without a frame that is one, the box along the coordinates serves.
-        let frame = if frame.is_finite() {
-            frame
-        } else {
-            DMat3::IDENTITY
+        // What is no frame, for rounding or underflow, would make no disc.
+        let is_unit = |axis: DVec3| (axis.length_squared() - 1.0).abs() <= FRAME_F64;
+        let frame = match [0, 1, 2].into_iter().all(|k| is_unit(frame.col(k))) {
+            true => frame,
+            false => DMat3::IDENTITY,
         };
         let turned = frame.transpose();
         let (low, high) = extent(points.iter().map(|&p| turned * p));
@@ -289,8 +290,8 @@ fn arrange(points: &[DVec3], order: &mut [u32]) {
 pub(super) fn ball_about(points: &[DVec3]) -> (DVec3, f64) {
     let (low, high) = extent(points.iter().copied());
     let middle = low + 0.5 * (high - low);
-    let squares = points.iter().map(|p| p.distance_squared(middle));
-    (middle, squares.fold(0.0, greater).sqrt().next_up())
+    let ways = points.iter().map(|&p| distance(p, middle));
+    (middle, ways.fold(0.0, greater).next_up())
 }
 
 /// The box of at least one point.

@@ -87,17 +87,13 @@ impl<'a> Heights<'a> {
         normal: DVec3,
     ) -> Self {
         let path = &side.path;
-        let unit = match path.turns() {
-            true => path.spin / path.rate,
-            false => DVec3::ZERO,
-        };
         let mut heights = Heights {
             piece,
             frame,
             centre: path.centre,
             normal,
-            seen: Spinning::new(-unit, normal),
-            along: AxisMotion::new(path.velocity, unit, path.rate, normal),
+            seen: Spinning::new(-path.axis, normal),
+            along: AxisMotion::new(path.velocity, path.axis, path.rate, normal),
             omega: path.rate,
             speed: length(path.velocity),
             least: f64::INFINITY,
@@ -106,7 +102,7 @@ impl<'a> Heights<'a> {
             missed: 0.0,
         };
         match piece.ball() {
-            Some((middle, radius)) => heights.see_many(unit, middle, radius),
+            Some((middle, radius)) => heights.see_many(path.axis, middle, radius),
             None => heights.see_all(),
         }
         heights
@@ -125,7 +121,7 @@ impl<'a> Heights<'a> {
         self.speed += self.omega * farthest.sqrt();
     }
 
-    fn see_many(&mut self, unit: DVec3, middle: DVec3, radius: f64) {
+    fn see_many(&mut self, axis: DVec3, middle: DVec3, radius: f64) {
         self.least = self.lowest_of(self.normal).height_at(0.0, Angle::ZERO);
         if self.straight() {
             return;
@@ -133,7 +129,7 @@ impl<'a> Heights<'a> {
         let arm = self.frame.rotation * (middle - self.centre);
         let farthest = (length(arm) + radius) * (1.0 + RATE_F64);
         self.speed += self.omega * farthest;
-        self.bend = self.along.bend(length(unit.cross(arm)) + radius) * (1.0 + RATE_F64);
+        self.bend = self.along.bend(length(axis.cross(arm)) + radius) * (1.0 + RATE_F64);
         self.missed = TURNED_SUPPORT * (farthest + length(middle) + radius);
     }
 
