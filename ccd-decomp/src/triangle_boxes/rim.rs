@@ -3,6 +3,7 @@
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 use ccd_core::tolerance::U64;
+use ccd_core::vector::unit;
 use std::ops::Range;
 
 /// The edge of a face across from its hub.
@@ -111,12 +112,12 @@ impl Slab {
             .iter()
             .map(|edge| edge.ends[1] - edge.ends[0])
             .max_by(|a, b| a.length_squared().total_cmp(&b.length_squared()));
-        let first = longest.and_then(DVec3::try_normalize).unwrap_or(DVec3::X);
+        let first = longest.and_then(unit).unwrap_or(DVec3::X);
         let aside = |p: DVec3| (p - centre).reject_from_normalized(first);
         let farthest = ends()
             .map(aside)
             .max_by(|a, b| a.length_squared().total_cmp(&b.length_squared()));
-        let second = farthest.and_then(DVec3::try_normalize);
+        let second = farthest.and_then(unit);
         let second = second.unwrap_or_else(|| first.any_orthonormal_vector());
         let axes = [first, second, first.cross(second)];
         let (mut halves, mut slack, mut reach) = (DVec3::ZERO, 0.0, 0.0);
