@@ -143,14 +143,15 @@ Table of results:
             overlapping  intersecting at the start, or one solid inside the other
             unresolved   a limit was reached (--budget, --deadline, or what can be certified): certainly
                          no contact before `time`, nothing known after
+            error        the row asks nothing that can be answered; most cells are empty
   time      certified: no contact before it; 0 to duration
   normal, witnesses         in the world's frame at `time`; the normal points from A to B
   feature_a, feature_b      v7, e3-7, f12: vertex, edge, face as numbered in the mesh, from 0
-            error        the row asks nothing that can be answered; most cells are empty
   iterations, oracle_calls  what the query took
   micros                    its time alone, in microseconds, on the thread that answered it; with all
                             cores at work each may take longer: measure with --threads 1
-  reason                    of error what is wrong; of unresolved budget, deadline, stalled, oracle gave up, undecided
+  reason                    of error what is wrong; of unresolved which limit: budget, deadline,
+                            stalled, oracle gave up, undecided
   with --counters also
   advancements              how often all pairs were advanced together; 0 where each has its clock
   oracle_steps, cycles      the oracle's: from feature to feature; back to where it had been
@@ -167,8 +168,9 @@ foot in, or two edges that cross; or, where there is no such thing, vertex and e
 Rows are written in order as they are answered, results and contacts to files that end in .partial,
 which get their names once all rows are there; until then what had the names is left alone. When a run
 is interrupted, the same command with --resume goes on behind its last row. Bytes are the same for any
-number of threads and interruptions, but for micros: --no-micros leaves it out. --rows 0..1000 and
---rows 1000..2000 are parts of one table, for two machines; ids are numbered through.
+number of threads and interruptions, but for micros (--no-micros leaves it out) and --deadline.
+--rows 0..1000 and --rows 1000..2000 are parts of one table, for two machines; ids are numbered
+through.
 
 With --bound published no time is certified: contacts may be late, or missed.
 
