@@ -2,31 +2,93 @@
 
 use crate::double::Double;
 use crate::nearest::{Triangle, distance, normal};
-use crate::vector::{Number, Vector, smaller};
+use crate::vector::{Number, Vector, larger, smaller};
 use std::collections::HashMap;
 
 /// Where a point lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Where {
     Outside,
-    /// By parity and by winding number.
     Inside,
-    /// By one of them only: shells in shells of the same orientation.
+    /// Within parts that cross each other.
     Doubtful,
     /// Every ray grazed.
     Unknown,
 }
 
-/// Where a point lies that is on no triangle.
-pub fn locate(p: Vector<Double>, triangles: &[Triangle<Double>]) -> Where {
-    let seen = DIRECTIONS
-        .iter()
-        .find_map(|&ray| crossings(p, Vector::of(ray), triangles));
-    match seen {
-        None => Where::Unknown,
-        Some((0, crossed)) if crossed % 2 == 0 => Where::Outside,
-        Some((winding, crossed)) if winding != 0 && crossed % 2 == 1 => Where::Inside,
-        Some(_) => Where::Doubtful,
+/// Closed triangles, part by part.
+pub struct Solid {
+    pub triangles: Vec<Triangle<Double>>,
+    /// The connected part that each is of.
+    parts: Vec<usize>,
+    /// Whether parts cross each other: then what is in several of them is of no clear kind.
+    crossing: bool,
+}
+
+impl Solid {
+    pub fn new(triangles: Vec<Triangle<Double>>) -> Self {
+        let parts = parts(&triangles);
+        let pairs = (0..parts.len()).flat_map(|i| (0..i).map(move |j| (i, j)));
+        let meet = |i: usize, j: usize| !(distance(&triangles[i], &triangles[j]).rounded() > 0.0);
+        let crossing = pairs
+            .into_iter()
+            .any(|(i, j)| parts[i] != parts[j] && meet(i, j));
+        Solid {
+            triangles,
+            parts,
+            crossing,
+        }
+    }
+
+    /// A corner of every part.
+    pub fn corners(&self) -> impl Iterator<Item = Vector<Double>> {
+        let firsts = self
+            .parts
+            .iter()
+            .enumerate()
+            .filter(|&(k, &part)| k == part);
+        firsts.map(|(k, _)| self.triangles[k][0])
+    }
+
+    /// Where a point lies that is on no triangle: of parts in each other every second one is a cavity.
+    pub fn locate(&self, p: Vector<Double>) -> Where {
+        let seen = DIRECTIONS
+            .iter()
+            .find_map(|&ray| self.crossings(p, Vector::of(ray)));
+        let Some(seen) = seen else {
+            return Where::Unknown;
+        };
+        let around = seen
+            .values()
+            .filter(|(_, crossed)| crossed % 2 == 1)
+            .count();
+        let twofold = seen
+            .values()
+            .any(|&(winding, crossed)| winding != 0 && crossed % 2 == 0);
+        match around {
+            _ if twofold || self.crossing && around > 1 => Where::Doubtful,
+            around if around % 2 == 1 => Where::Inside,
+            _ => Where::Outside,
+        }
+    }
+
+    /// The winding number and the number of crossings of a ray, for every part that it crosses; none
+    /// where it grazes.
+    fn crossings(
+        &self,
+        p: Vector<Double>,
+        ray: Vector<Double>,
+    ) -> Option<HashMap<usize, (i32, u32)>> {
+        let mut seen = HashMap::new();
+        for (t, &part) in self.triangles.iter().zip(&self.parts) {
+            let turn = crossing(p, ray, t)?;
+            if turn != 0 {
+                let (winding, crossed) = seen.entry(part).or_insert((0, 0));
+                *winding += turn;
+                *crossed += 1;
+            }
+        }
+        Some(seen)
     }
 }
 
@@ -41,47 +103,32 @@ const DIRECTIONS: [[f64; 3]; 8] = [
     [0.02, 0.41, -0.89],
 ];
 
-/// The winding number and the number of crossings of a ray; none where it grazes.
-fn crossings(
-    p: Vector<Double>,
-    ray: Vector<Double>,
-    triangles: &[Triangle<Double>],
-) -> Option<(i32, u32)> {
-    let (mut winding, mut crossed) = (0, 0);
-    for t in triangles {
-        let size = t
-            .iter()
-            .fold(0.0, |m, &v| crate::vector::larger(m, (v - p).largest()));
-        let grazing = 1e-18 * size * size;
-        let sides = [0, 1, 2].map(|k| {
-            let side = (t[k] - p).cross(t[(k + 1) % 3] - p).dot(ray).rounded();
-            if side > grazing {
-                1
-            } else if side < -grazing {
-                -1
-            } else {
-                0
-            }
-        });
-        if sides.contains(&1) && sides.contains(&-1) {
-            continue;
-        }
-        let n = (t[1] - t[0]).cross(t[2] - t[0]);
-        if sides.contains(&0) {
-            // Of a triangle that is seen edge-on, or whose rim the ray meets, nothing is known.
-            return None;
-        }
-        let along = n.dot(t[0] - p) / n.dot(ray);
-        if along > Double::new(0.0) {
-            winding += sides[0];
-            crossed += 1;
-        }
+/// Which way a triangle winds about a ray that crosses it, 0 where it does not; none where it grazes.
+fn crossing(p: Vector<Double>, ray: Vector<Double>, t: &Triangle<Double>) -> Option<i32> {
+    let size = t.iter().fold(0.0, |m, &v| larger(m, (v - p).largest()));
+    let grazing = 1e-18 * size * size;
+    let sides = [0, 1, 2].map(|k| {
+        let side = (t[k] - p).cross(t[(k + 1) % 3] - p).dot(ray).rounded();
+        i32::from(side > grazing) - i32::from(side < -grazing)
+    });
+    if sides.contains(&1) && sides.contains(&-1) {
+        return Some(0);
     }
-    Some((winding, crossed))
+    if sides.contains(&0) {
+        // Of a triangle that is seen edge-on, or whose rim the ray meets, nothing is known.
+        return None;
+    }
+    let n = (t[1] - t[0]).cross(t[2] - t[0]);
+    let along = n.dot(t[0] - p) / n.dot(ray);
+    Some(if along > Double::new(0.0) {
+        sides[0]
+    } else {
+        0
+    })
 }
 
-/// A triangle of every connected part.
-pub fn shells(triangles: &[Triangle<Double>]) -> Vec<usize> {
+/// For every triangle the first one that is connected to it.
+fn parts(triangles: &[Triangle<Double>]) -> Vec<usize> {
     let mut group: Vec<usize> = (0..triangles.len()).collect();
     // The least of the groups that have a corner at a place.
     let mut at: HashMap<[u64; 3], usize> = HashMap::new();
@@ -89,24 +136,17 @@ pub fn shells(triangles: &[Triangle<Double>]) -> Vec<usize> {
         let mut changed = false;
         for (k, t) in triangles.iter().enumerate() {
             for p in t {
-                let first = at
-                    .entry(p.0.map(|x| (x.rounded() + 0.0).to_bits()))
-                    .or_insert(group[k]);
+                let place = p.0.map(|x| (x.rounded() + 0.0).to_bits());
+                let first = at.entry(place).or_insert(group[k]);
                 changed |= *first != group[k];
                 group[k] = group[k].min(*first);
                 *first = group[k];
             }
         }
         if !changed {
-            break;
+            return group;
         }
     }
-    group
-        .iter()
-        .enumerate()
-        .filter(|&(k, &g)| k == g)
-        .map(|(k, _)| k)
-        .collect()
 }
 
 /// How far a point is from a surface.

@@ -5,13 +5,13 @@ use crate::double::Double;
 use crate::engine::{Bodies, Method};
 use crate::nearest::{Triangle, depth, distance};
 use crate::referee::{Evidence, Limit, Scene};
-use crate::solid::{Where, beside, clearance, locate, shells};
+use crate::solid::{Solid, Where, beside, clearance};
 use crate::vector::{Number, Vector, larger, smaller};
 use ccd_core::{Answer, Contact, Outcome, Overlap, Piece, StartPolicy, Volume};
 
-/// What an axis at a small distance may be off by, of a scene's size: what is kept of a distance at the
-/// start is what it certifies.
-const AXIS: f64 = 1e-11;
+/// How much of a distance at the start is kept at least by bodies that are let go: of what is near, the
+/// axis of an oracle has to certify no more than that.
+const KEPT: f64 = 0.5;
 
 /// What may be wrong with an answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -64,6 +64,8 @@ pub struct Judge<'a> {
     scene: Scene,
     rounding: f64,
     start: Start,
+    /// At the start.
+    placed: [Solid; 2],
     volumes: [Volume; 2],
 }
 
@@ -76,7 +78,7 @@ impl<'a> Judge<'a> {
         // Nearer than this, inside and outside are a matter of rounding.
         let touching = distance <= rounding;
         let deep = touching && scene.depth(0.0) > rounding;
-        let placed = [scene.placed(0, 0.0), scene.placed(1, 0.0)];
+        let placed = [0, 1].map(|side| Solid::new(scene.placed(side, 0.0)));
         let inside = match touching {
             true => shared_inside(&placed, volumes, rounding),
             false => contained(&placed, volumes),
@@ -91,6 +93,7 @@ impl<'a> Judge<'a> {
             scene,
             rounding,
             start,
+            placed,
             volumes,
         }
     }
@@ -129,16 +132,10 @@ impl<'a> Judge<'a> {
             .fold(self.rounding, larger);
         let begun = self.start.distance <= margin + tolerance;
         match self.case.config.start {
-            // Bodies that are let go keep the distance that they have, but for what the axis that
-            // certified it is off by.
-            StartPolicy::Leave if begun && self.start.distance < margin + self.rounding => {
-                let kept =
-                    smaller(margin, self.start.distance) - self.rounding - AXIS * self.scene.scale;
-                Limit {
-                    threshold: larger(kept, 0.0),
-                    depth: self.rounding,
-                }
-            }
+            StartPolicy::Leave if begun && self.start.distance < margin + self.rounding => Limit {
+                threshold: KEPT * smaller(margin, self.start.distance),
+                depth: self.rounding,
+            },
             _ => {
                 let clearances = given.iter().filter_map(|g| match g.answer.outcome {
                     Outcome::Free { clearance } => Some(clearance),
@@ -207,7 +204,7 @@ impl<'a> Judge<'a> {
     /// The distance below which the bodies are too near.
     fn kept(&self, margin: f64) -> f64 {
         match self.case.config.start {
-            StartPolicy::Leave => smaller(margin, self.start.distance),
+            StartPolicy::Leave => smaller(margin, KEPT * self.start.distance),
             StartPolicy::Report => margin,
         }
     }
@@ -276,8 +273,8 @@ impl<'a> Judge<'a> {
             let point = Vector::of(witnesses[k].0) - origin;
             let off = clearance(point, &placed);
             // A piece may stick through the inside of its solid.
-            let inside = off > allowed && locate(point, &placed) != Where::Outside;
-            if inside && self.volumes[k] == Volume::Solid {
+            let may = self.volumes[k] == Volume::Solid && off > allowed;
+            if may && Solid::new(placed).locate(point) != Where::Outside {
                 0.0
             } else {
                 off
@@ -354,10 +351,10 @@ impl<'a> Judge<'a> {
 
     fn is_inside(&self, p: [f64; 3], outer: usize) -> bool {
         let point = Vector::of(p) - self.scene.moments(0.0)[0].centre;
-        let placed = self.scene.placed(outer, 0.0);
+        let solid = &self.placed[outer];
         // Points are given in world coordinates, rounded.
         let near = 1e-12 * larger(self.scene.scale, Vector(p).largest());
-        locate(point, &placed) != Where::Outside || clearance(point, &placed) < near
+        solid.locate(point) != Where::Outside || clearance(point, &solid.triangles) < near
     }
 
     /// A contact so near that another answer's proof should have ended there, too.
@@ -400,15 +397,11 @@ fn surface(piece: &Piece<'_>) -> Option<Vec<[[f64; 3]; 3]>> {
 }
 
 /// Whether a part of one body is inside the other one, where the surfaces are apart.
-fn contained(placed: &[Vec<Triangle<Double>>; 2], volumes: [Volume; 2]) -> Where {
+fn contained(placed: &[Solid; 2], volumes: [Volume; 2]) -> Where {
     let mut doubtful = Where::Outside;
-    for outer in [0, 1] {
-        if volumes[outer] == Volume::Surface {
-            continue;
-        }
-        let inner = &placed[1 - outer];
-        for shell in shells(inner) {
-            match locate(inner[shell][0], &placed[outer]) {
+    for outer in [0, 1].into_iter().filter(|&k| volumes[k] == Volume::Solid) {
+        for corner in placed[1 - outer].corners() {
+            match placed[outer].locate(corner) {
                 Where::Inside => return Where::Inside,
                 Where::Outside => {}
                 Where::Doubtful | Where::Unknown => doubtful = Where::Doubtful,
@@ -419,21 +412,18 @@ fn contained(placed: &[Vec<Triangle<Double>>; 2], volumes: [Volume; 2]) -> Where
 }
 
 /// Whether a point is well inside of one body and on, or inside of, the other, where they touch.
-fn shared_inside(placed: &[Vec<Triangle<Double>>; 2], volumes: [Volume; 2], far: f64) -> Where {
-    let well_inside = |p: Vector<Double>, side: usize| {
-        locate(p, &placed[side]) == Where::Inside && clearance(p, &placed[side]) > far
+fn shared_inside(placed: &[Solid; 2], volumes: [Volume; 2], far: f64) -> Where {
+    let well_inside = |p: Vector<Double>, solid: &Solid| {
+        solid.locate(p) == Where::Inside && clearance(p, &solid.triangles) > far
     };
     for outer in [0, 1].into_iter().filter(|&k| volumes[k] == Volume::Solid) {
         let inner = &placed[1 - outer];
-        let corners = inner.iter().map(|t| t[0]);
-        let shared = match volumes[1 - outer] {
-            Volume::Solid => beside(inner)
-                .into_iter()
-                .filter(|&p| well_inside(p, 1 - outer))
-                .collect(),
-            Volume::Surface => Vec::new(),
-        };
-        if corners.chain(shared).any(|p| well_inside(p, outer)) {
+        let mut points: Vec<_> = inner.triangles.iter().map(|t| t[0]).collect();
+        if volumes[1 - outer] == Volume::Solid {
+            let near = beside(&inner.triangles).into_iter();
+            points.extend(near.filter(|&p| well_inside(p, inner)));
+        }
+        if points.into_iter().any(|p| well_inside(p, &placed[outer])) {
             return Where::Inside;
         }
     }
