@@ -29,7 +29,9 @@ fn no_proof_leans_on_a_vector_normalised_elsewhere() {
         let code = text.split("#[cfg(test)]").next().unwrap_or_default();
         let normalises = |line: &&str| {
             let line = line.trim_start();
-            !line.starts_with("//") && (line.contains("normalize") || line.contains("length_recip"))
+            // What takes a vector as normalised does not normalise it.
+            let code = line.replace("normalized", "");
+            !line.starts_with("//") && (code.contains("normalize") || code.contains("length_recip"))
         };
         if let Some(line) = code.lines().find(normalises) {
             let elsewhere = ELSEWHERE.iter().any(|(path, _)| file.ends_with(path));
