@@ -94,8 +94,8 @@ pub struct Problem<'a> {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Side<'a> {
     pub(crate) body: &'a Body,
-    /// Whether the body is the surface of the one that was given, which is one piece.
-    pub(crate) is_surface: bool,
+    /// The body that was given, of one piece, where `body` is its surface.
+    pub(crate) given: Option<&'a Body>,
     pub(crate) path: Path,
 }
 
@@ -135,7 +135,7 @@ impl<'a> Problem<'a> {
             let body = moving.body.against(other.body);
             Side {
                 body,
-                is_surface: !std::ptr::eq(body, moving.body),
+                given: (!std::ptr::eq(body, moving.body)).then_some(moving.body),
                 path: Path::new(&moving.motion, origin, duration),
             }
         };
@@ -198,6 +198,30 @@ impl<'a> Problem<'a> {
         self.margin + NODE_GAP * self.tolerance
     }
 
+    /// The clock of a time that the motions are at, to within rounding.
+    pub(crate) fn clock(&self, time: f64) -> f64 {
+        match self.duration > 0.0 {
+            true => time / self.duration,
+            false => 0.0,
+        }
+    }
+
+    /// The same of the bodies that were given, where surfaces are looked at in their place; none where
+    /// these are what is looked at.
+    pub(crate) fn given(&self) -> Option<Self> {
+        let of = |side: &Side<'a>| Side {
+            body: side.given.unwrap_or(side.body),
+            given: None,
+            path: side.path,
+        };
+        let looked_at = self.a.given.is_none() && self.b.given.is_none();
+        (!looked_at).then(|| Problem {
+            a: of(&self.a),
+            b: of(&self.b),
+            ..self.clone()
+        })
+    }
+
     /// The same, with a contact at the start for an answer.
     pub(crate) fn reporting(&self) -> Self {
         Problem {
@@ -240,6 +264,11 @@ impl<'a> Problem<'a> {
         }
     }
 
+    /// A point in the world's coordinates, in the problem's.
+    pub(crate) fn local(&self, point: DVec3) -> DVec3 {
+        point - self.origin
+    }
+
     /// A point in the problem's coordinates, in the world's.
     pub(crate) fn world(&self, point: DVec3) -> DVec3 {
         point + self.origin
@@ -249,7 +278,7 @@ impl<'a> Problem<'a> {
 impl Side<'_> {
     /// The number that a piece goes by in the body that was given.
     pub(crate) fn number(&self, piece: u32) -> u32 {
-        if self.is_surface { 0 } else { piece }
+        if self.given.is_some() { 0 } else { piece }
     }
 
     /// The largest coordinate of the body, and that of its centre, in the body's frame.

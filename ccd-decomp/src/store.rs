@@ -174,6 +174,13 @@ impl Model {
         if !(fits(&self.pieces, &self.hierarchy) && surface.is_none_or(|(p, h)| fits(p, h))) {
             return Err("the hierarchy is over another number of pieces");
         }
+        let whole = || {
+            let solid = self.volume == Volume::Solid;
+            solid && pieces == 1 && self.pieces.get(0).radius == 0.0
+        };
+        if surface.is_some_and(|(pieces, _)| !(whole() && pieces.all_triangles())) {
+            return Err("the surface is not that of one solid piece");
+        }
         if self.report.pieces != pieces {
             return Err("the report counts another number of pieces");
         }

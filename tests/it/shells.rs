@@ -146,7 +146,8 @@ fn what_rests_on_a_face_may_leave_it_on_the_outside_only() {
             let solve =
                 |b: &Body, way: f64| solve(&outer, b, 0.02 * way * size * out, StartPolicy::Leave);
             let into = solve(&sheet, -1.0);
-            let at_once = |time: f64| time < 1e-9;
+            // What rests may come nearer by a few roundings, 3e-12 here; speeds are above 3e-4.
+            let at_once = |time: f64| time < 1e-8;
             assert!(
                 matches!(into, Outcome::Contact { time, .. } if at_once(time)),
                 "case {case} {into:?}"

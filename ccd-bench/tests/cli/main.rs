@@ -386,7 +386,7 @@ fn the_summary_counts_and_quiet_is_quiet() {
 fn a_table_without_rows_has_a_header_for_an_answer() {
     let output = Run::query(&FALLING_CUBE).stdin("id\n").output();
     assert!(output.status.success());
-    let header = String::from_utf8(output.stdout).unwrap();
+    let header = String::from_utf8(output.stdout.clone()).unwrap();
     assert!(
         header.starts_with("id,status,time,distance_lower,"),
         "{header}"

@@ -52,7 +52,9 @@ fn good_rows_are_judged_and_bad_ones_told() {
         "-",
         "--quiet",
     ]);
-    let output = run.stdin("id,a_px,a_vx\nbad,x,0\ngood,3,-4\n").output();
+    let output = run
+        .stdin("id,a_px,a_py,a_pz,a_vx\nbad,x,0,0,0\ngood,3,.1,.1,-4\n")
+        .output();
     assert_eq!(output.status.code(), Some(2));
     let rows = parse(&output.stdout);
     let statuses = rows.iter().map(|row| row.text("status"));

@@ -4,6 +4,7 @@ mod best_first;
 mod expand;
 #[cfg(feature = "hull-tree")]
 mod fast;
+mod given;
 mod group;
 #[cfg(feature = "hull-tree")]
 mod hull_first;

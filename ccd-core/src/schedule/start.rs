@@ -1,5 +1,6 @@
 //! What is found at the start: touching, overlapping, or one inside the other.
 
+use super::given::of_given;
 use super::meter::Meter;
 use super::nearest;
 use super::pair::Step;
@@ -32,8 +33,9 @@ pub(crate) fn answer<O: DistanceOracle>(
         }
         _ => (outcome, problem.tolerance),
     };
+    let within = problem.margin + tolerance;
     Answer {
-        outcome,
+        outcome: of_given(problem, oracle, &mut meter, outcome, within),
         tolerance,
         stats: Stats {
             effort: oracle.effort() - before,

@@ -65,8 +65,8 @@ fn what_bounds_no_solid_stays_triangles() {
 
 #[test]
 fn what_takes_too_long_stays_triangles() {
-    let in_corner = |c: &[i32; 3]| c[0] >= 6 && c[2] >= 6;
-    let cells = block([12, 12, 12]).into_iter().filter(|c| !in_corner(c));
+    let in_corner = |c: &[i32; 3]| c[0] >= 8 && c[2] >= 8;
+    let cells = block([16, 16, 16]).into_iter().filter(|c| !in_corner(c));
     let mesh = cubes(&cells.collect::<Vec<_>>());
     for steps in [1, 1000] {
         let (parts, why) = within(&mesh, &Topology::of(&mesh), &Work::of(steps));
