@@ -101,10 +101,10 @@ fn hulls_of_few_points(#[values(1, 2, 3, 4, 5, 6)] a: usize, #[values(4, 5, 6)] 
 fn intersecting_hulls(#[values(4, 7, 30)] a: usize, #[values(4, 30)] b: usize) {
     let draw = |rng: &mut Pcg64| scene::intersecting(rng, a, b);
     over(draw, |scene| {
-        laws::names_a_common_point::<Gjk>(scene, 1e-12)
+        laws::names_a_common_point::<Gjk>(scene, 1e-12);
     });
     over(draw, |scene| {
-        laws::names_a_common_point::<GjkF32>(scene, 1e-12)
+        laws::names_a_common_point::<GjkF32>(scene, 1e-12);
     });
 }
 
@@ -114,10 +114,10 @@ fn pressed_flat(#[values(3, 4, 8, 30)] a: usize, #[values(3, 4, 30)] b: usize) {
     let draw = |rng: &mut Pcg64| scene::pressed(rng, a, b);
     over(draw, |scene| laws::names_a_common_point::<Gjk>(scene, 1e-6));
     over(draw, |scene| {
-        laws::names_a_common_point::<GjkF32>(scene, 1e-6)
+        laws::names_a_common_point::<GjkF32>(scene, 1e-6);
     });
     over(draw, |scene| {
-        laws::names_a_common_point::<Auto>(scene, 1e-6)
+        laws::names_a_common_point::<Auto>(scene, 1e-6);
     });
 }
 

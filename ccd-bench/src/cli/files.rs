@@ -198,9 +198,12 @@ pub(super) fn refuse_overwriting(
     Ok(())
 }
 
+/// Rows of motions from anywhere.
+pub(super) type Motions = MotionRows<Box<dyn Read>>;
+
 /// The table of motions, of which `--motions` names the file, and how many bytes it has where that is
 /// known.
-pub(super) fn open_motions(path: &Path) -> Result<(MotionRows<Box<dyn Read>>, Option<u64>)> {
+pub(super) fn open_motions(path: &Path) -> Result<(Motions, Option<u64>)> {
     let name = || input_name(path);
     let advice = "give --motions a CSV file, or - for standard input";
     if is_standard(path) {

@@ -6,13 +6,13 @@ mod pair;
 
 pub(super) use args::QueryArgs;
 
-use super::files::{input_name, is_standard, open_motions, refuse_overwriting};
+use super::files::{Motions, input_name, is_standard, open_motions, refuse_overwriting};
 use super::told::Told;
 use super::{CannotWrite, Verdict, complain};
 use crate::contacts;
 use crate::crew::Crew;
 use crate::engine::{BoundKind, Method};
-use crate::motions::{MotionRow, MotionRows, Place, Query, RowError, RowProblem, TableError};
+use crate::motions::{MotionRow, Place, Query, RowError, RowProblem, TableError};
 use crate::progress::{Progress, Total};
 use crate::query::{Bodies, Desk, Settings, Timed};
 use crate::results::{self, Extent, ResultRow};
@@ -22,7 +22,7 @@ use ccd_core::Config;
 use ccd_decomp::BodySource;
 use outputs::{Mark, Outputs};
 use pair::Pair;
-use std::io::{self, Read, Write};
+use std::io::{self, Write};
 use std::num::NonZeroUsize;
 
 /// Answers all rows that can be; of the others the results say why not.
@@ -121,11 +121,7 @@ fn tell_resumed(args: &QueryArgs, left: Option<Mark>) {
 }
 
 /// Passes over the rows that are not asked for, or done with.
-fn begin(
-    args: &QueryArgs,
-    rows: &mut MotionRows<Box<dyn Read>>,
-    left: Option<Mark>,
-) -> Result<Mark> {
+fn begin(args: &QueryArgs, rows: &mut Motions, left: Option<Mark>) -> Result<Mark> {
     let input = || input_name(&args.motions);
     let wanted = left.map_or(args.rows.start, |left| left.rows);
     let passed = rows.pass(wanted).with_context(input)?;
@@ -172,7 +168,7 @@ struct Work<'a> {
 
 impl Work<'_> {
     /// Answers the rows from there on; says how many have no complete answer.
-    fn through(&mut self, rows: &mut MotionRows<Box<dyn Read>>, begun: Mark) -> Result<usize> {
+    fn through(&mut self, rows: &mut Motions, begun: Mark) -> Result<usize> {
         let mut mark = begun;
         loop {
             let left = self
@@ -276,10 +272,7 @@ impl Work<'_> {
 const ROWS_OF_CONTACTS: usize = 64;
 
 /// So many rows, or fewer where the table ends, or cannot be read on.
-fn read(
-    rows: &mut MotionRows<Box<dyn Read>>,
-    count: usize,
-) -> (Vec<MotionRow>, Option<TableError>) {
+fn read(rows: &mut Motions, count: usize) -> (Vec<MotionRow>, Option<TableError>) {
     let mut batch = Vec::new();
     for row in rows.take(count) {
         match row {

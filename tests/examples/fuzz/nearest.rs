@@ -25,8 +25,8 @@ pub fn distance<N: Number>(s: &Triangle<N>, t: &Triangle<N>) -> N {
         on_face(t[i], s, face_s).into_iter().for_each(&mut offer);
         for j in 0..3 {
             offer(s[i] - t[j]);
-            offer(edges_t[j].from_point(s[i]));
-            offer(edges_s[i].from_point(t[j]));
+            offer(edges_t[j].way_from(s[i]));
+            offer(edges_s[i].way_from(t[j]));
             between_lines(&edges_s[i], &edges_t[j])
                 .into_iter()
                 .for_each(&mut offer);
@@ -63,7 +63,7 @@ impl<N: Number> Edge<N> {
     }
 
     /// From a point to the nearest of the edge; of an edge without length NaN makes that its start.
-    fn from_point(&self, p: Vector<N>) -> Vector<N> {
+    fn way_from(&self, p: Vector<N>) -> Vector<N> {
         let share = self.along.dot(p - self.from) / self.square * self.scale;
         self.from + self.way * clamped(share) - p
     }

@@ -5,16 +5,17 @@ use crate::case::Case;
 use crate::course::Goal;
 use crate::draw::{Draw, plus, times};
 use crate::shapes;
+use ccd_core::order::{greater, lesser};
 
 pub(super) fn draw(draw: &mut Draw) -> Case {
     let sizes = [draw.log(1e-9..1e9), draw.log(1e-9..1e9)];
-    let large = f64::max(sizes[0], sizes[1]);
+    let large = greater(sizes[0], sizes[1]);
     let bodies = sizes.map(|size| shapes::any(draw).map(|v| times(v, size)));
     let mut config = tolerance(draw);
     config.tolerance *= if draw.chance(0.5) {
         large
     } else {
-        f64::min(sizes[0], sizes[1])
+        lesser(sizes[0], sizes[1])
     };
     let turn = if draw.chance(0.5) {
         0.0
