@@ -8,8 +8,8 @@ use std::time::{Duration, Instant};
 
 /// Some threads, and how many things to give them at once.
 ///
-/// Batches are as many things as take about [`BATCH`], so that what is done can be kept that often, and
-/// no more than [`MOST`], so that memory is bounded whatever there is to do.
+/// Batches are as many things as take about half a second, so that what is done can be kept that often, and
+/// no more than 4,096, so that memory is bounded whatever there is to do.
 pub struct Crew {
     /// None where one thread does it all.
     pool: Option<ThreadPool>,
