@@ -1,5 +1,6 @@
 //! Triangles of a mesh that lie in one plane, merged into convex polygons.
 
+use crate::disjoint_sets::DisjointSets;
 use crate::manifold::{Bend, HalfEdge, Manifold};
 use crate::polygons::strict_corners;
 use crate::predicates::Projection;
@@ -210,30 +211,6 @@ impl<'a, 'm> Merger<'a, 'm> {
             flat.corners = plane.map_or(starts.clone(), |p| strict_corners(points, &starts, p));
         }
         Flats { flats, flat_of }
-    }
-}
-
-/// Sets that are joined: every element names another one of its set, the root itself.
-struct DisjointSets(Vec<u32>);
-
-impl DisjointSets {
-    fn new(count: usize) -> Self {
-        DisjointSets((0..count as u32).collect())
-    }
-
-    fn root(&mut self, mut k: u32) -> u32 {
-        // Every element names a smaller one.
-        while self.0[k as usize] != k {
-            // Halving the way keeps later ones short.
-            self.0[k as usize] = self.0[self.0[k as usize] as usize];
-            k = self.0[k as usize];
-        }
-        k
-    }
-
-    fn join(&mut self, a: u32, b: u32) {
-        let (a, b) = (self.root(a), self.root(b));
-        self.0[a.max(b) as usize] = a.min(b);
     }
 }
 

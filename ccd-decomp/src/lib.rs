@@ -35,6 +35,7 @@ mod auto;
 mod body;
 mod convex;
 mod coplanar;
+mod disjoint_sets;
 mod error;
 mod exact_hull;
 mod format;

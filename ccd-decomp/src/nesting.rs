@@ -1,5 +1,6 @@
 //! Shells within shells: which of a closed mesh's parts bound material, and which a cavity.
 
+use crate::disjoint_sets::DisjointSets;
 use crate::mesh::TriangleMesh;
 use crate::predicates::{is_degenerate, too_fine};
 use crate::self_intersection::meet;
@@ -247,7 +248,7 @@ fn closed_parts(mesh: &TriangleMesh) -> Vec<u32> {
         }
     }
     uses.sort_unstable();
-    let mut parts = Parts((0..mesh.faces().len() as u32).collect());
+    let mut parts = DisjointSets::new(mesh.faces().len());
     let edges = || uses.chunk_by(|one, next| (one.0, one.1) == (next.0, next.1));
     for edge in edges().filter(|edge| edge.len() == 2) {
         parts.join(edge[0].2, edge[1].2);
@@ -276,25 +277,6 @@ fn closed_parts(mesh: &TriangleMesh) -> Vec<u32> {
             *number
         })
         .collect()
-}
-
-/// Sets that are joined: every element names another one of its set, the root itself.
-struct Parts(Vec<u32>);
-
-impl Parts {
-    fn root(&mut self, mut k: u32) -> u32 {
-        while self.0[k as usize] != k {
-            // Halving the way keeps later ones short.
-            self.0[k as usize] = self.0[self.0[k as usize] as usize];
-            k = self.0[k as usize];
-        }
-        k
-    }
-
-    fn join(&mut self, a: u32, b: u32) {
-        let (a, b) = (self.root(a), self.root(b));
-        self.0[a.max(b) as usize] = a.min(b);
-    }
 }
 
 #[cfg(test)]

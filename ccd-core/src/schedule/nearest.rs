@@ -43,7 +43,7 @@ pub(super) fn touching<O: DistanceOracle>(
         return outcome;
     }
     if search.undecided {
-        return undecided();
+        return unresolved(Limit::Undecided);
     }
     let contact = search.contact(seen);
     contained(problem, &search.touching).unwrap_or(Outcome::Touching { contact })
@@ -77,7 +77,7 @@ impl Nearest<'_> {
         let mut next = Some(Next::roots(self.problem));
         while let Some(pair) = next {
             if let Err(limit) = meter.visit() {
-                return unresolved(limit);
+                return ControlFlow::Break(unresolved(limit));
             }
             match pair {
                 Next::Split(split) => {
@@ -98,7 +98,7 @@ impl Nearest<'_> {
         }
         match self.waiting.push(distance, Rank::Group, group) {
             Ok(()) => ControlFlow::Continue(()),
-            Err(Full) => unresolved(Limit::Budget),
+            Err(Full) => ControlFlow::Break(unresolved(Limit::Budget)),
         }
     }
 
@@ -129,7 +129,7 @@ impl Nearest<'_> {
         let problem = self.problem;
         let moment = Moment::new(problem, ids[0], ids[1], 0.0);
         let Some(checked) = moment.ask(oracle, &mut O::Cache::default(), meter) else {
-            return unresolved(Limit::OracleGaveUp);
+            return ControlFlow::Break(unresolved(Limit::OracleGaveUp));
         };
         match overlap::intersects(&moment.pieces, &checked, problem.rounding) {
             Intersection::Certain => {
@@ -176,18 +176,11 @@ impl Nearest<'_> {
     }
 }
 
-fn undecided() -> Outcome {
+fn unresolved(reason: Limit) -> Outcome {
     Outcome::Unresolved {
         safe_until: 0.0,
-        reason: Limit::Undecided,
-    }
-}
-
-fn unresolved(reason: Limit) -> ControlFlow<Outcome> {
-    ControlFlow::Break(Outcome::Unresolved {
-        safe_until: 0.0,
         reason,
-    })
+    }
 }
 
 #[cfg(test)]
