@@ -1,9 +1,12 @@
 //! Checking what an oracle claims: nothing of it is believed unseen.
 
+mod sharp;
+
 use crate::oracle::{Claim, Combination, PiecePair};
 use crate::order::{greater, lesser};
 use crate::vector::{length, unit};
 use glam::DVec3;
+pub(crate) use sharp::sharpened;
 
 /// A checked claim, in A's frame.
 #[derive(Clone, Copy, Debug)]

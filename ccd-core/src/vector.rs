@@ -21,6 +21,15 @@ use glam::DVec3;
 /// ```
 #[inline]
 pub fn unit(v: DVec3) -> Option<DVec3> {
+    let square = v.length_squared();
+    match SQUARES.contains(&square) {
+        true => Some(v / square.sqrt()),
+        false => unit_of_extreme(v),
+    }
+}
+
+#[cold]
+fn unit_of_extreme(v: DVec3) -> Option<DVec3> {
     let v = scaled(v).0;
     let length = v.length();
     // False for NaN too.
@@ -55,7 +64,13 @@ pub fn across(a: DVec3, b: DVec3) -> DVec3 {
 /// The unit normal of a triangle, from which its corners turn left; none where they are on one line.
 #[inline]
 pub fn normal([a, b, c]: [DVec3; 3]) -> Option<DVec3> {
-    unit(across(b - a, c - a))
+    let across_both = (b - a).cross(c - a);
+    let square = across_both.length_squared();
+    // Products that underflowed or overflowed leave a square that is neither.
+    match SQUARES.contains(&square) {
+        true => Some(across_both / square.sqrt()),
+        false => unit_of_extreme(across(b - a, c - a)),
+    }
 }
 
 /// The vector times a power of two, such that its square is an ordinary number, and the inverse of that

@@ -133,6 +133,48 @@ fn flush_solids_that_dive_into_each_other_are_in_contact_at_once() {
     }
 }
 
+/// A box inside of the margin of a floor eighty times its size: across so small a gap the nearest points'
+/// way is not exact enough to tell sliding from approaching, the features' normals are.
+#[test]
+fn inside_the_margin_sliding_is_told_and_approaching_at_once() {
+    let floor = cuboid(DVec3::new(8.0, 8.0, 0.5)).moved(-0.5 * DVec3::Z);
+    let half = DVec3::new(0.11, 0.06, 0.05);
+    let config = |margin: f64| Config {
+        margin,
+        ..leave(4e-8)
+    };
+    for margin in [3.4e-3, 0.1] {
+        for share in [1.0, 0.5, 1e-3, 0.0] {
+            let gap = share * margin;
+            let at = |velocity: DVec3| Query {
+                a: Actor::still(floor.clone(), DVec3::ZERO),
+                b: Actor::moving(
+                    cuboid(half),
+                    DVec3::new(0.25, -0.97, half.z + gap),
+                    velocity,
+                    DVec3::ZERO,
+                ),
+                duration: 1.0,
+            };
+            let across = DVec3::new(-1.12, 0.63, 0.0);
+            let query = at(across);
+            for_each_setup(&query, &config(margin), |_, setup, answer| {
+                let told = matches!(
+                    answer.outcome,
+                    Outcome::Free { .. } | Outcome::Contact { .. }
+                );
+                assert!(told, "{gap} {setup:?}\n{answer:?}");
+            });
+            let query = at(across - 0.01 * DVec3::Z);
+            let allowed = 2.0 * RESTING * query.rounding() / 0.01;
+            outcomes(&query, &config(margin), |outcome| match outcome {
+                Outcome::Contact { time, .. } => time <= allowed,
+                _ => false,
+            });
+        }
+    }
+}
+
 /// What a backend claims of a pair at the start is no licence to let it pass.
 #[test]
 fn a_liar_cannot_have_a_pair_let_go() {

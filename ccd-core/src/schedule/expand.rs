@@ -73,7 +73,7 @@ impl Split {
 /// # Panics
 /// When the node is a single piece.
 pub(crate) fn expand(problem: &Problem<'_>, split: &Split, s: f64) -> Expansion {
-    split_node(&Meeting::new(problem, split, s), split)
+    split_node::<Moving>(&Meeting::new(problem, split, s), split)
 }
 
 /// Splits a node at the start, to measure: what stands for the time for which a pair keeps apart is a
@@ -82,14 +82,11 @@ pub(crate) fn expand(problem: &Problem<'_>, split: &Split, s: f64) -> Expansion 
 /// # Panics
 /// When the node is a single piece.
 pub(crate) fn measure(problem: &Problem<'_>, split: &Split) -> Expansion {
-    let meeting = Meeting {
-        pace: Pace::Unit,
-        ..Meeting::new(problem, split, 0.0)
-    };
-    split_node(&meeting, split)
+    split_node::<Uniform>(&Meeting::new(problem, split, 0.0), split)
 }
 
-fn split_node(meeting: &Meeting<'_>, split: &Split) -> Expansion {
+#[inline(always)]
+fn split_node<P: Pace>(meeting: &Meeting<'_>, split: &Split) -> Expansion {
     let tree = meeting.near.body.tree();
     let Named::Node(node) = tree.get(split.node) else {
         unreachable!("a triangle is a single piece");
@@ -98,7 +95,7 @@ fn split_node(meeting: &Meeting<'_>, split: &Split) -> Expansion {
         Below::Boxes(group) => {
             let group = tree.box_group(group);
             Expansion {
-                bounds: meeting.bound(group, &group.members),
+                bounds: meeting.bound::<_, P>(group, &group.members),
                 first: group.members.first,
                 count: group.members.count,
                 leaves: group.leaves,
@@ -107,7 +104,7 @@ fn split_node(meeting: &Meeting<'_>, split: &Split) -> Expansion {
         Below::Triangles(group) => {
             let group = tree.triangle_group(group);
             Expansion {
-                bounds: meeting.bound(group, &group.members),
+                bounds: meeting.bound::<_, P>(group, &group.members),
                 first: group.members.first,
                 count: group.members.count,
                 leaves: u8::MAX,
@@ -131,19 +128,36 @@ struct Meeting<'p> {
     spin: DVec3,
     /// How much time is left.
     horizon: f32,
-    pace: Pace,
 }
 
 /// How fast gaps close.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Pace {
-    /// As the bodies move.
-    Moving,
-    /// By one unit of length in one of time, along every axis: the time that takes is the distance.
-    Unit,
+trait Pace {
+    /// For how long members of a group keep apart from the far body's node.
+    fn bound<C: Children, O: Other>(view: &View<'_>, group: &C, other: &O) -> Bounds;
+}
+
+/// As the bodies move.
+struct Moving;
+
+/// By one unit of length in one of time, along every axis: the time that takes is the distance.
+struct Uniform;
+
+impl Pace for Moving {
+    #[inline]
+    fn bound<C: Children, O: Other>(view: &View<'_>, group: &C, other: &O) -> Bounds {
+        view.bound(group, other)
+    }
+}
+
+impl Pace for Uniform {
+    fn bound<C: Children, O: Other>(view: &View<'_>, group: &C, other: &O) -> Bounds {
+        view.distances(group, other)
+    }
 }
 
 impl<'p> Meeting<'p> {
+    // Half of a kilobyte, made once a visit: built where it is used, not moved there.
+    #[inline(always)]
     fn new(problem: &'p Problem<'_>, split: &Split, s: f64) -> Self {
         let (near, far) = (split.body.of(problem), split.body.other().of(problem));
         let (near_frame, far_frame) = (near.path.frame(s), far.path.frame(s));
@@ -156,12 +170,12 @@ impl<'p> Meeting<'p> {
             velocity: near_frame.inverse_vector(near.path.velocity - far.path.velocity),
             spin: near_frame.inverse_vector(far.path.spin),
             horizon: (1.0 - s) as f32,
-            pace: Pace::Moving,
         }
     }
 
     /// Bounds a group of the near body against the far body's node.
-    fn bound<C: Children>(&self, group: &C, members: &Members) -> Bounds {
+    #[inline]
+    fn bound<C: Children, P: Pace>(&self, group: &C, members: &Members) -> Bounds {
         let mut far_to_near = self.far_to_near;
         far_to_near.translation -= members.origin;
         let view = View {
@@ -171,10 +185,10 @@ impl<'p> Meeting<'p> {
             members,
         };
         match self.far.body.tree().get(self.other) {
-            Named::Node(node) => view.bound(group, &view.node(node)),
+            Named::Node(node) => P::bound(&view, group, &view.node(node)),
             Named::Triangle(piece) => {
                 let corners = self.far.body.pieces().triangle(piece as usize);
-                view.bound(group, &view.triangle(corners))
+                P::bound(&view, group, &view.triangle(corners))
             }
         }
     }
@@ -197,9 +211,6 @@ impl View<'_> {
         let Meeting {
             near: n, far: f, ..
         } = self.meeting;
-        if self.meeting.pace == Pace::Unit {
-            return self.distances(group, other);
-        }
         match (n.path.turns(), f.path.turns()) {
             (false, false) => self.turning(group, other, Straight, Straight),
             (true, false) => self.turning(group, other, near(), Straight),

@@ -6,7 +6,7 @@ use crate::oracle::{Combination, DistanceOracle};
 use crate::outcome::{Contact, Separation};
 use crate::overlap::{self, Intersection};
 use crate::problem::{Problem, Side, StartPolicy};
-use crate::separation::Checked;
+use crate::separation::{Checked, sharpened};
 use crate::tolerance::RESTING;
 use crate::vector::unit;
 use glam::DVec3;
@@ -85,41 +85,48 @@ impl<C: Default + Clone> Pair<C> {
             return Step::GaveUp;
         };
         let ids = [self.a, self.b];
-        let contact = || contact(moment, ids, &checked);
+        let in_contact = |checked| Step::Contact(contact(moment, ids, checked));
         let apart = problem.contact_distance();
         if checked.upper <= apart {
             if s == 0.0 {
                 match overlap::intersects(&moment.pieces, &checked, problem.rounding) {
-                    Intersection::Certain => return Step::Overlap(contact()),
+                    Intersection::Certain => {
+                        return Step::Overlap(contact(moment, ids, &checked));
+                    }
                     // The search for the nearest pieces sees what it comes to.
-                    Intersection::Undecided => return Step::Contact(contact()),
+                    Intersection::Undecided => return in_contact(&checked),
                     Intersection::None => {}
                 }
             }
             match self.goal {
                 Goal::Apart => match self.goal_of_start(problem, oracle, meter) {
                     Some(goal) => self.goal = goal,
-                    None => return Step::Contact(contact()),
+                    None => return in_contact(&checked),
                 },
-                Goal::Parted => return Step::Contact(contact()),
+                Goal::Parted => return in_contact(&checked),
                 Goal::Resting { .. } => {}
             }
         } else if checked.lower > apart && self.goal != Goal::Apart {
             self.goal = Goal::Parted;
         }
-        let kept = match self.goal {
-            Goal::Apart | Goal::Parted => problem.gap(),
-            Goal::Resting { floor } => floor,
+        let (kept, is_resting) = match self.goal {
+            Goal::Apart | Goal::Parted => (problem.gap(), false),
+            Goal::Resting { floor } => (floor, true),
         };
-        let free = match self.goal {
-            Goal::Resting { .. } => moment.resting_time(&checked, kept, ids),
-            Goal::Apart | Goal::Parted => free_time(moment, &checked, kept),
+        // What the axis loses may be all that there is to advance by. Written so that NaN is that, too.
+        let checked = match is_resting || !(checked.lower > kept + problem.rounding) {
+            true => sharpened(&moment.pieces, &checked, problem.rounding),
+            false => checked,
+        };
+        let free = match is_resting {
+            true => moment.resting_time(&checked, kept, ids),
+            false => free_time(moment, &checked, kept),
         };
         meter.stats.point_looks += moment.looks();
         match free {
             None => Step::FreeUntil(f64::INFINITY),
             Some(tau) if (s + tau).next_down() > s => Step::FreeUntil((s + tau).next_down()),
-            Some(_) if matches!(self.goal, Goal::Resting { .. }) => Step::Contact(contact()),
+            Some(_) if is_resting => in_contact(&checked),
             Some(_) => Step::Stalled,
         }
     }
@@ -137,6 +144,7 @@ impl<C: Default + Clone> Pair<C> {
         }
         let moment = Moment::new(problem, self.a, self.b, 0.0);
         let start = moment.ask(oracle, &mut C::default(), meter)?;
+        let start = sharpened(&moment.pieces, &start, problem.rounding);
         // Written so that NaN is a contact, and so is a pair that no axis was found to keep apart.
         let resting =
             start.upper <= problem.contact_distance() && start.lower >= -RESTING * problem.rounding;

@@ -25,7 +25,10 @@ pub(crate) fn answer<O: DistanceOracle>(
 ) -> Answer {
     let before = oracle.effort();
     let mut meter = Meter::new(problem);
-    let outcome = search(&problem.reporting(), oracle, &mut meter);
+    let outcome = match problem.start {
+        StartPolicy::Report => search(problem, oracle, &mut meter),
+        StartPolicy::Leave => search(&problem.reporting(), oracle, &mut meter),
+    };
     let (outcome, tolerance) = match (problem.start, outcome) {
         (StartPolicy::Leave, Outcome::Touching { contact }) => {
             let problem = problem.leaving(contact.separation.lower - problem.margin);

@@ -162,3 +162,41 @@ fn radii_are_taken_off_and_witnesses_lie_on_the_surface() {
     assert_eq!(checked.witness_b, 2.5 * DVec3::X);
     assert_eq!(checked.core_distance, 3.0);
 }
+
+/// The way between near points is rounded; large triangles lose what that tilts it by.
+#[test]
+fn features_have_better_axes_than_near_points() {
+    let mut rng = rng(3);
+    let floor = [[-8.0, -8.0, 0.0], [8.0, -8.0, 0.0], [0.0, 8.0, 0.0]].map(DVec3::from);
+    let corner = [[0.0, 0.0, 0.0], [8.0, 1.0, 16.0], [-8.0, 1.0, 16.0]].map(DVec3::from);
+    let edge = [[-8.0, 0.0, 0.0], [8.0, 0.0, 0.0], [0.0, 0.0, 16.0]].map(DVec3::from);
+    let below = |triangle: Triangle| triangle.map(|p| DVec3::new(p.y, p.x, -p.z));
+    let couples = [(floor, corner), (below(edge), edge), (below(corner), floor)];
+    let mut poor = 0;
+    for k in 0..3_000 {
+        let distance = magnitude(&mut rng, -4.0, -1.0);
+        let (a, b) = couples[k % 3];
+        let b_to_a = Frame::from(Pose::new(DVec3::ZERO, rotation(&mut rng)).unwrap());
+        let b = b.map(|p| b_to_a.inverse_vector(p + distance * DVec3::Z));
+        let pair = PiecePair {
+            a: Piece::from_points(&a),
+            b: Piece::from_points(&b),
+            b_to_a,
+        };
+        let claim = Exhaustive.separation(&pair, &mut ()).unwrap();
+        let tilted = Claim {
+            axis: DVec3::Z + within(&mut rng, 1e-11),
+            ..claim
+        };
+        let checked = check(&pair, &tilted, ROUNDING);
+        let sharp = sharpened(&pair, &checked, ROUNDING);
+        assert!(sharp.lower <= distance, "{k}: {} {distance}", sharp.lower);
+        assert!(
+            sharp.lower >= distance - 2.0 * ROUNDING,
+            "{k}: {:e}",
+            distance - sharp.lower
+        );
+        poor += usize::from(checked.lower < distance - 10.0 * ROUNDING);
+    }
+    assert!(poor > 2_000, "{poor}");
+}

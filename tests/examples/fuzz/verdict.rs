@@ -9,9 +9,8 @@ use crate::solid::{Solid, Where, beside, clearance};
 use crate::vector::{Number, Vector, larger, smaller};
 use ccd_core::{Answer, Contact, Outcome, Overlap, Piece, StartPolicy, Volume};
 
-/// How much of a distance at the start is kept at least by bodies that are let go: of what is near, the
-/// axis of an oracle has to certify no more than that.
-const KEPT: f64 = 0.5;
+/// How much nearer than at the start bodies that are let go may come unseen, in units of rounding.
+const RESTING: f64 = 1.0;
 
 /// What may be wrong with an answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -133,7 +132,7 @@ impl<'a> Judge<'a> {
         let begun = self.start.distance <= margin + tolerance;
         match self.case.config.start {
             StartPolicy::Leave if begun && self.start.distance < margin + self.rounding => Limit {
-                threshold: KEPT * smaller(margin, self.start.distance),
+                threshold: self.kept(margin),
                 depth: self.rounding,
             },
             _ => {
@@ -204,7 +203,7 @@ impl<'a> Judge<'a> {
     /// The distance below which the bodies are too near.
     fn kept(&self, margin: f64) -> f64 {
         match self.case.config.start {
-            StartPolicy::Leave => smaller(margin, KEPT * self.start.distance),
+            StartPolicy::Leave => smaller(margin, self.start.distance - RESTING * self.rounding),
             StartPolicy::Report => margin,
         }
     }

@@ -366,5 +366,5 @@ fn still<C: Children>(meeting: &Meeting<'_>, group: &C, members: &Members) -> Bo
         reach: members.reach.clamp(radius / much, radius * much),
         ..*members
     };
-    meeting.bound(group, &members)
+    meeting.bound::<_, Moving>(group, &members)
 }

@@ -21,8 +21,8 @@ pub(super) struct Heights<'a> {
     /// Where the centre is in the body's frame.
     centre: DVec3,
     normal: DVec3,
-    /// The axis as the turning body sees it.
-    seen: Spinning,
+    /// About which the body turns.
+    axis: DVec3,
     along: AxisMotion,
     omega: f64,
     speed: f64,
@@ -92,7 +92,7 @@ impl<'a> Heights<'a> {
             frame,
             centre: path.centre,
             normal,
-            seen: Spinning::new(-path.axis, normal),
+            axis: path.axis,
             along: AxisMotion::new(path.velocity, path.axis, path.rate, normal),
             omega: path.rate,
             speed: length(path.velocity),
@@ -102,7 +102,7 @@ impl<'a> Heights<'a> {
             missed: 0.0,
         };
         match piece.ball() {
-            Some((middle, radius)) => heights.see_many(path.axis, middle, radius),
+            Some((middle, radius)) => heights.see_many(middle, radius),
             None => heights.see_all(),
         }
         heights
@@ -121,7 +121,7 @@ impl<'a> Heights<'a> {
         self.speed += self.omega * farthest.sqrt();
     }
 
-    fn see_many(&mut self, axis: DVec3, middle: DVec3, radius: f64) {
+    fn see_many(&mut self, middle: DVec3, radius: f64) {
         self.least = self.lowest_of(self.normal).height_at(0.0, Angle::ZERO);
         if self.straight() {
             return;
@@ -129,7 +129,7 @@ impl<'a> Heights<'a> {
         let arm = self.frame.rotation * (middle - self.centre);
         let farthest = (length(arm) + radius) * (1.0 + RATE_F64);
         self.speed += self.omega * farthest;
-        self.bend = self.along.bend(length(axis.cross(arm)) + radius) * (1.0 + RATE_F64);
+        self.bend = self.along.bend(length(self.axis.cross(arm)) + radius) * (1.0 + RATE_F64);
         self.missed = TURNED_SUPPORT * (farthest + length(middle) + radius);
     }
 
@@ -192,7 +192,9 @@ impl<'a> Heights<'a> {
                 bend: 0.0,
             };
         }
-        let (axis, slope) = (self.seen.at(angle), self.seen.slope_at(angle));
+        // The normal as the turning body sees it.
+        let seen = Spinning::new(-self.axis, self.normal);
+        let (axis, slope) = (seen.at(angle), seen.slope_at(angle));
         Point {
             height: self.lowest_of(axis).height_at(tau, angle) - self.missed,
             rate: self.lowest_of(slope).rate_at(angle) - self.omega * self.missed,
