@@ -119,33 +119,45 @@ fn ask(case: Case, asked: Vec<(Kind, Method)>) -> Trial {
         failures: Vec::new(),
         proven: true,
     };
-    let Trial {
-        case,
-        failures,
-        refused,
-        ..
-    } = &mut trial;
-    let case = &*case;
+    let built = build(&mut trial, &asked);
+    let given = answers(&mut trial, &built, asked);
+    trial.asked = given.iter().map(|g| (g.bodies.kind, g.method)).collect();
+    trial.outcomes = given.iter().map(|g| g.answer.outcome).collect();
+    judge(&mut trial, &given);
+    trial
+}
+
+/// Bodies of every kind that is asked for.
+fn build(trial: &mut Trial, asked: &[(Kind, Method)]) -> Vec<((Kind, Trees), Bodies)> {
     let mut built: Vec<((Kind, Trees), Bodies)> = Vec::new();
-    for (kind, method) in &asked {
+    for (kind, method) in asked {
         let key = (*kind, method.trees());
         if built.iter().any(|(k, _)| *k == key) {
             continue;
         }
-        match catch_unwind(|| Bodies::new(case, key.0, key.1)) {
+        match catch_unwind(|| Bodies::new(&trial.case, key.0, key.1)) {
             Ok(Ok(bodies)) => built.push((key, bodies)),
-            Ok(Err(why)) => *refused = Some(why),
-            Err(panic) => failures.push(panicked(&*panic, (*kind, *method))),
+            Ok(Err(why)) => trial.refused = Some(why),
+            Err(panic) => trial.failures.push(panicked(&*panic, (*kind, *method))),
         }
     }
+    built
+}
+
+/// What everyone says who takes the case.
+fn answers<'b>(
+    trial: &mut Trial,
+    built: &'b [((Kind, Trees), Bodies)],
+    asked: Vec<(Kind, Method)>,
+) -> Vec<Given<'b>> {
     let mut given = Vec::new();
     for (kind, method) in asked {
         let bodies = built.iter().find(|(k, _)| *k == (kind, method.trees()));
         let Some((_, bodies)) = bodies else { continue };
-        let problem = match bodies.problem(case, &config_of(case, method)) {
+        let problem = match bodies.problem(&trial.case, &config_of(&trial.case, method)) {
             Ok(problem) => problem,
             Err(why) => {
-                *refused = Some(why);
+                trial.refused = Some(why);
                 continue;
             }
         };
@@ -155,36 +167,30 @@ fn ask(case: Case, asked: Vec<(Kind, Method)>) -> Trial {
                 method,
                 answer,
             }),
-            Err(panic) => failures.push(panicked(&*panic, (kind, method))),
+            Err(panic) => trial.failures.push(panicked(&*panic, (kind, method))),
         }
     }
-    let asked = given.iter().map(|g| (g.bodies.kind, g.method)).collect();
-    let outcomes = given.iter().map(|g| g.answer.outcome).collect();
-    let mut searched = true;
-    if let Some(first) = given.first() {
-        let volumes = [0, 1].map(|k| first.bodies.bodies[k].volume());
-        let judge = Judge::new(case, volumes, rounding(case, first.bodies));
-        let (faults, proven) = judge.all(&given);
-        searched = proven;
-        let others: String = given
-            .iter()
-            .map(|g| format!("  {} {}: {:?}\n", g.bodies.kind, g.method, g.answer.outcome))
-            .collect();
-        failures.extend(faults.into_iter().map(|(k, fault, text)| Failure {
-            fault,
-            by: (given[k].bodies.kind, given[k].method),
-            text,
-            others: others.clone(),
-        }));
-    }
-    drop(given);
-    drop(built);
-    Trial {
-        asked,
-        outcomes,
-        proven: searched,
-        ..trial
-    }
+    given
+}
+
+/// Notes what is wrong with the answers.
+fn judge(trial: &mut Trial, given: &[Given<'_>]) {
+    let Some(first) = given.first() else { return };
+    let volumes = [0, 1].map(|k| first.bodies.bodies[k].volume());
+    let judge = Judge::new(&trial.case, volumes, rounding(&trial.case, first.bodies));
+    let (faults, proven) = judge.all(given);
+    let others: String = given
+        .iter()
+        .map(|g| format!("  {} {}: {:?}\n", g.bodies.kind, g.method, g.answer.outcome))
+        .collect();
+    let failures = faults.into_iter().map(|(k, fault, text)| Failure {
+        fault,
+        by: (given[k].bodies.kind, given[k].method),
+        text,
+        others: others.clone(),
+    });
+    trial.failures.extend(failures);
+    trial.proven = proven;
 }
 
 /// Schedules that take a step for all pairs together are not given all day.

@@ -1,13 +1,16 @@
 //! Judging answers.
 
+mod start;
+
 use crate::case::{Case, Expect};
 use crate::double::Double;
 use crate::engine::{Bodies, Method};
 use crate::nearest::{Triangle, depth, distance};
 use crate::referee::{Evidence, Limit, Scene};
-use crate::solid::{Solid, Where, beside, clearance};
+use crate::solid::{Solid, Where, clearance};
 use crate::vector::{Number, Vector, larger, smaller};
 use ccd_core::{Answer, Contact, Outcome, Overlap, Piece, StartPolicy, Volume};
+use start::Start;
 
 /// How much nearer than at the start bodies that are let go may come unseen, in units of rounding.
 const RESTING: f64 = 1.0;
@@ -48,15 +51,6 @@ pub struct Given<'a> {
     pub answer: Answer,
 }
 
-/// What is known of the start.
-struct Start {
-    distance: f64,
-    /// Triangles are deeper in each other than rounding explains, or one body is inside the other.
-    overlaps: bool,
-    /// Whether one could be called inside of the other.
-    may_contain: bool,
-}
-
 /// Judges answers to one case; `rounding` bounds what the engine allows itself for rounding.
 pub struct Judge<'a> {
     case: &'a Case,
@@ -73,20 +67,8 @@ pub type Faults = Vec<(Fault, String)>;
 impl<'a> Judge<'a> {
     pub fn new(case: &'a Case, volumes: [Volume; 2], rounding: f64) -> Self {
         let scene = Scene::new(case);
-        let distance = scene.distance(0.0);
-        // Nearer than this, inside and outside are a matter of rounding.
-        let touching = distance <= rounding;
-        let deep = touching && scene.depth(0.0) > rounding;
         let placed = [0, 1].map(|side| Solid::new(scene.placed(side, 0.0)));
-        let inside = match touching {
-            true => shared_inside(&placed, volumes, rounding),
-            false => contained(&placed, volumes),
-        };
-        let start = Start {
-            distance,
-            overlaps: deep || inside == Where::Inside,
-            may_contain: touching || inside != Where::Outside,
-        };
+        let start = Start::of(&scene, &placed, volumes, rounding);
         Judge {
             case,
             scene,
@@ -393,38 +375,4 @@ fn surface(piece: &Piece<'_>) -> Option<Vec<[[f64; 3]; 3]>> {
     let fans =
         loops.flat_map(|l| (1..l.len() - 1).map(move |k| [at(l[0]), at(l[k]), at(l[k + 1])]));
     (!piece.facets.is_empty()).then(|| fans.collect())
-}
-
-/// Whether a part of one body is inside the other one, where the surfaces are apart.
-fn contained(placed: &[Solid; 2], volumes: [Volume; 2]) -> Where {
-    let mut doubtful = Where::Outside;
-    for outer in [0, 1].into_iter().filter(|&k| volumes[k] == Volume::Solid) {
-        for corner in placed[1 - outer].corners() {
-            match placed[outer].locate(corner) {
-                Where::Inside => return Where::Inside,
-                Where::Outside => {}
-                Where::Doubtful | Where::Unknown => doubtful = Where::Doubtful,
-            }
-        }
-    }
-    doubtful
-}
-
-/// Whether a point is well inside of one body and on, or inside of, the other, where they touch.
-fn shared_inside(placed: &[Solid; 2], volumes: [Volume; 2], far: f64) -> Where {
-    let well_inside = |p: Vector<Double>, solid: &Solid| {
-        solid.locate(p) == Where::Inside && clearance(p, &solid.triangles) > far
-    };
-    for outer in [0, 1].into_iter().filter(|&k| volumes[k] == Volume::Solid) {
-        let inner = &placed[1 - outer];
-        let mut points: Vec<_> = inner.triangles.iter().map(|t| t[0]).collect();
-        if volumes[1 - outer] == Volume::Solid {
-            let near = beside(&inner.triangles).into_iter();
-            points.extend(near.filter(|&p| well_inside(p, inner)));
-        }
-        if points.into_iter().any(|p| well_inside(p, &placed[outer])) {
-            return Where::Inside;
-        }
-    }
-    Where::Outside
 }

@@ -40,33 +40,7 @@ pub(super) fn draw(draw: &mut Draw) -> Case {
         draw.within(-1.0..1.0),
         half_height + gap,
     ];
-    let along = times(draw.point(), draw.within(0.0..3.0));
-    let (velocity, spin, expect) = match draw.count(0..5) {
-        0 => ([0.0, 0.0, draw.within(0.0..3.0)], [0.0; 3], Expect::Free),
-        // Inside the margin, what comes over the next triangle of the floor is a contact.
-        1 if config.margin == 0.0 => (
-            [along[0], along[1], draw.within(0.1..2.0)],
-            [0.0; 3],
-            Expect::Free,
-        ),
-        2 => ([along[0], along[1], 0.0], [0.0; 3], Expect::Nothing),
-        3 => {
-            let down = draw.log(1e-3..3.0);
-            // By then all of the gap is gone.
-            let by = (1.001 * gap + 1e-6) / down;
-            let expect = if by < 1.0 {
-                Expect::ContactBy(by)
-            } else {
-                Expect::Nothing
-            };
-            ([along[0], along[1], -down], [0.0; 3], expect)
-        }
-        _ => (
-            along,
-            times(draw.direction(), draw.log(1e-3..6.0)),
-            Expect::Nothing,
-        ),
-    };
+    let (velocity, spin, expect) = way(draw, gap, config.margin);
     let mut courses = [still(), Course::velocities(Place::at(at), velocity, spin)];
     if draw.chance(0.3) {
         // Not upward: the gap is to stay what it is.
@@ -96,4 +70,35 @@ fn resting(shape: Shape) -> (Shape, f64) {
         .iter()
         .fold(f64::INFINITY, |m, v| if v[2] < m { v[2] } else { m });
     (shape.map(|[x, y, z]| [x, y, z - lowest]), 0.0)
+}
+
+/// How it leaves, if it does: velocity, spin, and what has to come of it.
+fn way(draw: &mut Draw, gap: f64, margin: f64) -> ([f64; 3], [f64; 3], Expect) {
+    let along = times(draw.point(), draw.within(0.0..3.0));
+    match draw.count(0..5) {
+        0 => ([0.0, 0.0, draw.within(0.0..3.0)], [0.0; 3], Expect::Free),
+        // Inside the margin, what comes over the next triangle of the floor is a contact.
+        1 if margin == 0.0 => (
+            [along[0], along[1], draw.within(0.1..2.0)],
+            [0.0; 3],
+            Expect::Free,
+        ),
+        2 => ([along[0], along[1], 0.0], [0.0; 3], Expect::Nothing),
+        3 => {
+            let down = draw.log(1e-3..3.0);
+            // By then all of the gap is gone.
+            let by = (1.001 * gap + 1e-6) / down;
+            let expect = if by < 1.0 {
+                Expect::ContactBy(by)
+            } else {
+                Expect::Nothing
+            };
+            ([along[0], along[1], -down], [0.0; 3], expect)
+        }
+        _ => (
+            along,
+            times(draw.direction(), draw.log(1e-3..6.0)),
+            Expect::Nothing,
+        ),
+    }
 }

@@ -1,0 +1,223 @@
+//! Conservative advancement over all pairs of triangles, in f64, judged in [`Double`].
+
+use super::{Ball, Evidence, Limit, NOISE, Scene};
+use crate::course::Moment;
+use crate::double::Double;
+use crate::nearest::{Triangle, depth, distance};
+use crate::vector::{Number, larger, smaller};
+
+/// Steps of one pair, and of all, before the rest is sampled.
+const PAIR_STEPS: usize = 300;
+const ALL_STEPS: usize = 60_000;
+const SAMPLES: usize = 24;
+
+/// Looks for the first time at which two bodies are too near.
+pub(super) struct Search<'a> {
+    scene: &'a Scene,
+    limit: Limit,
+    threshold: f64,
+    until: f64,
+    found: Option<Evidence>,
+    steps: usize,
+    proven: bool,
+}
+
+/// A gap, how fast it can close, and how much that can change.
+struct Near {
+    gap: f64,
+    rate: f64,
+    bend: f64,
+}
+
+/// gap = rate τ + bend τ²/2, in the form that does not cancel.
+fn free_time(gap: f64, rate: f64, bend: f64) -> f64 {
+    (1.0 - 1e-9) * 2.0 * gap / (rate + (rate * rate + 2.0 * bend * gap).sqrt())
+}
+
+impl<'a> Search<'a> {
+    pub(super) fn new(scene: &'a Scene, limit: Limit, until: f64) -> Self {
+        Search {
+            scene,
+            limit,
+            threshold: limit.threshold,
+            until,
+            found: None,
+            steps: 0,
+            proven: true,
+        }
+    }
+
+    pub(super) fn run(mut self) -> (Option<Evidence>, bool) {
+        let [a, b] = &self.scene.sides;
+        let begin = self.balls_meet(a.reach + b.reach);
+        let begin = self.together(begin);
+        if !(begin < self.until) {
+            return (None, true);
+        }
+        for (i, p) in a.balls.iter().enumerate() {
+            let begin = self.balls_apart([p, &b.whole], begin);
+            if !(begin < self.until) {
+                continue;
+            }
+            for j in 0..b.balls.len() {
+                self.pair(i, j, begin);
+            }
+        }
+        (self.found, self.proven)
+    }
+
+    /// A time until which balls about the two centres of rotation are certainly apart.
+    fn balls_meet(&self, reaches: f64) -> f64 {
+        let [a, b] = &self.scene.sides;
+        let way = (b.track.start - a.track.start).rounded();
+        let v = (b.track.velocity - a.track.velocity).rounded();
+        let kept = (reaches + self.threshold) * (1.0 + 1e-9) + NOISE * self.scene.scale;
+        let (square, along) = (v.dot(v), way.dot(v));
+        let excess = way.dot(way) - kept * kept;
+        let root = along * along - square * excess;
+        if !(excess > 0.0) {
+            0.0
+        } else if along >= 0.0 || root < 0.0 {
+            self.until
+        } else {
+            // The smaller root, in the form that does not cancel.
+            smaller(
+                self.until,
+                larger(0.0, 0.999_999 * excess / (-along + root.sqrt())),
+            )
+        }
+    }
+
+    fn pair(&mut self, i: usize, j: usize, begin: f64) {
+        let mut t = begin;
+        for _ in 0..PAIR_STEPS {
+            self.steps += 1;
+            if self.steps > ALL_STEPS {
+                break;
+            }
+            let Near { gap, rate, bend } = self.look(i, j, t);
+            if !(gap > NOISE * self.scene.scale) {
+                if self.judge(i, j, t) {
+                    return;
+                }
+                break;
+            }
+            t += free_time(gap, rate, bend);
+            if !(t < self.until) {
+                return;
+            }
+        }
+        self.proven = false;
+        let left = self.until - t;
+        for k in 0..=SAMPLES {
+            let t = t + left * (k as f64 / SAMPLES as f64);
+            let gap = self.look(i, j, t).gap;
+            if !(gap > NOISE * self.scene.scale) && self.judge(i, j, t) {
+                return;
+            }
+        }
+    }
+
+    /// A time from `begin` on until which the bodies are well apart, all pairs taken together.
+    fn together(&self, begin: f64) -> f64 {
+        let mut t = begin;
+        for _ in 0..PAIR_STEPS {
+            let [a, b] = [0, 1].map(|side| self.scene.placed(side, t));
+            let near = self.scene.nearest(&a, &b);
+            let least = near
+                .iter()
+                .fold(f64::INFINITY, |least, &(d, ..)| smaller(least, d));
+            let whole = self.scene.sides.each_ref().map(|side| &side.whole);
+            let Near { rate, bend, .. } = self.near(whole, &self.scene.moments(t));
+            let tau = free_time(least - self.threshold, rate, bend);
+            // A hundred more such steps would not get there: pair by pair it is faster.
+            if !(tau > 0.003 * (self.until - t)) {
+                break;
+            }
+            t += tau;
+            if !(t < self.until) {
+                break;
+            }
+        }
+        t
+    }
+
+    /// A time from `begin` on until which two balls are well apart.
+    fn balls_apart(&self, [p, q]: [&Ball; 2], begin: f64) -> f64 {
+        let mut t = begin;
+        for _ in 0..PAIR_STEPS {
+            let Near { gap, rate, bend } = self.near([p, q], &self.scene.moments(t));
+            if !(gap > 0.25 * smaller(p.radius, q.radius) && gap > NOISE * self.scene.scale) {
+                break;
+            }
+            t += free_time(gap, rate, bend);
+            if !(t < self.until) {
+                break;
+            }
+        }
+        t
+    }
+
+    /// How far two balls are from the threshold, and how fast it can come nearer, with how much change.
+    fn near(&self, [p, q]: [&Ball; 2], moments: &[Moment; 2]) -> Near {
+        let [a, b] = &self.scene.sides;
+        let between = moments[1].centre - moments[0].centre;
+        let middles = [moments[0].arm(p.middle), moments[1].arm(q.middle)];
+        let apart = (middles[1] + between - middles[0]).length().rounded();
+        let rates = [a.track.rate.rounded(), b.track.rate.rounded()];
+        let velocity =
+            a.track.velocity_of(middles[0].rounded()) - b.track.velocity_of(middles[1].rounded());
+        let rate = velocity.length() + rates[0] * p.radius + rates[1] * q.radius;
+        let bend = rates[0] * rates[0] * p.arm + rates[1] * rates[1] * q.arm;
+        Near {
+            gap: apart - p.radius - q.radius - self.threshold,
+            rate,
+            bend,
+        }
+    }
+
+    fn look(&self, i: usize, j: usize, t: f64) -> Near {
+        let (p, q) = (&self.scene.sides[0].balls[i], &self.scene.sides[1].balls[j]);
+        let moments = self.scene.moments(t);
+        let near = self.near([p, q], &moments);
+        if near.gap > 0.5 * (p.radius + q.radius) {
+            return near;
+        }
+        let [[a, b, c], [d, e, f]] = self.triangles(i, j, &moments);
+        let s = [a.rounded(), b.rounded(), c.rounded()];
+        let t = [d.rounded(), e.rounded(), f.rounded()];
+        Near {
+            gap: distance(&s, &t) - self.threshold,
+            ..near
+        }
+    }
+
+    fn triangles(&self, i: usize, j: usize, moments: &[Moment; 2]) -> [Triangle<Double>; 2] {
+        let [a, b] = &self.scene.sides;
+        let origin = moments[0].centre;
+        [
+            a.triangle(i, &moments[0], origin),
+            b.triangle(j, &moments[1], origin),
+        ]
+    }
+
+    /// Whether the pair truly is below the threshold: then nothing later is of interest.
+    fn judge(&mut self, i: usize, j: usize, t: f64) -> bool {
+        let [s, o] = self.triangles(i, j, &self.scene.moments(t));
+        let (distance, error) = (distance(&s, &o).rounded(), self.scene.error());
+        let depth = match distance > error {
+            true => 0.0,
+            false => depth(&s, &o).rounded(),
+        };
+        let below = distance < self.threshold - error || depth > larger(self.limit.depth, error);
+        if below {
+            self.until = t;
+            self.found = Some(Evidence {
+                time: t,
+                distance,
+                depth,
+            });
+        }
+        below
+    }
+}

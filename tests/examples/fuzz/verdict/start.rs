@@ -1,0 +1,73 @@
+//! What is known of the bodies at the start: how near, and whether one is inside of the other.
+
+use crate::double::Double;
+use crate::referee::Scene;
+use crate::solid::{Solid, Where, beside, clearance};
+use crate::vector::Vector;
+use ccd_core::Volume;
+
+/// What is known of the start.
+pub(super) struct Start {
+    pub(super) distance: f64,
+    /// Triangles are deeper in each other than rounding explains, or one body is inside the other.
+    pub(super) overlaps: bool,
+    /// Whether one could be called inside of the other.
+    pub(super) may_contain: bool,
+}
+
+impl Start {
+    pub(super) fn of(
+        scene: &Scene,
+        placed: &[Solid; 2],
+        volumes: [Volume; 2],
+        rounding: f64,
+    ) -> Self {
+        let distance = scene.distance(0.0);
+        // Nearer than this, inside and outside are a matter of rounding.
+        let touching = distance <= rounding;
+        let deep = touching && scene.depth(0.0) > rounding;
+        let inside = match touching {
+            true => shared_inside(placed, volumes, rounding),
+            false => contained(placed, volumes),
+        };
+        Start {
+            distance,
+            overlaps: deep || inside == Where::Inside,
+            may_contain: touching || inside != Where::Outside,
+        }
+    }
+}
+
+/// Whether a part of one body is inside the other one, where the surfaces are apart.
+fn contained(placed: &[Solid; 2], volumes: [Volume; 2]) -> Where {
+    let mut doubtful = Where::Outside;
+    for outer in [0, 1].into_iter().filter(|&k| volumes[k] == Volume::Solid) {
+        for corner in placed[1 - outer].corners() {
+            match placed[outer].locate(corner) {
+                Where::Inside => return Where::Inside,
+                Where::Outside => {}
+                Where::Doubtful | Where::Unknown => doubtful = Where::Doubtful,
+            }
+        }
+    }
+    doubtful
+}
+
+/// Whether a point is well inside of one body and on, or inside of, the other, where they touch.
+fn shared_inside(placed: &[Solid; 2], volumes: [Volume; 2], far: f64) -> Where {
+    let well_inside = |p: Vector<Double>, solid: &Solid| {
+        solid.locate(p) == Where::Inside && clearance(p, &solid.triangles) > far
+    };
+    for outer in [0, 1].into_iter().filter(|&k| volumes[k] == Volume::Solid) {
+        let inner = &placed[1 - outer];
+        let mut points: Vec<_> = inner.triangles.iter().map(|t| t[0]).collect();
+        if volumes[1 - outer] == Volume::Solid {
+            let near = beside(&inner.triangles).into_iter();
+            points.extend(near.filter(|&p| well_inside(p, inner)));
+        }
+        if points.into_iter().any(|p| well_inside(p, &placed[outer])) {
+            return Where::Inside;
+        }
+    }
+    Where::Outside
+}
