@@ -85,8 +85,8 @@ pub(crate) fn voxel_resolution(hulls: u32) -> u32 {
 /// The coarsest grid that is of any use; unit: voxels.
 pub(crate) const LEAST_RESOLUTION: u32 = 8;
 
-/// How many pairs of a triangle and a voxel in its box may be looked at: a second's work.
-pub(crate) const VOXELS_TESTED: usize = 1 << 24;
+/// How many pairs of a triangle and a voxel in its box may be looked at: half a second's work.
+pub(crate) const VOXELS_TESTED: usize = 1 << 22;
 
 /// The least size of a voxel in units of what cutting at it may be off by.
 pub(crate) const COARSE_VOXELS: f64 = 1024.0;
@@ -174,9 +174,9 @@ pub(crate) const LIBRARY_POINTS: usize = 64;
 
 /// Of so many pieces at most the centres tell along which axis a node of a hull tree is split.
 ///
-/// Unit: pieces. Larger: the same trees, but the hulls of all centres at all levels take as long as
-/// the tree's own.
-pub(crate) const SPREAD_PIECES: usize = 1024;
+/// Unit: pieces. Larger: hardly better axes; the hulls of 1,024 centres at all nodes took as long as the
+/// tree's own.
+pub(crate) const SPREAD_PIECES: usize = 64;
 
 /// From so many triangles about one vertex on they are searched as a fan.
 ///

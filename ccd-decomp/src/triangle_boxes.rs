@@ -1,6 +1,7 @@
 //! The triangles of a mesh by where they are.
 
 mod fans;
+mod nearest;
 mod planes;
 mod slab;
 mod slabs;
@@ -10,6 +11,7 @@ use crate::work::Work;
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 use fans::{Fan, split};
+pub(crate) use nearest::NearestTriangles;
 use parry3d_f64::bounding_volume::Aabb;
 use parry3d_f64::math::Vector;
 use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};

@@ -1,6 +1,6 @@
 //! Many triangles about one vertex.
 
-use super::planes::planes_beside;
+use super::planes::{planes_beside, planes_within};
 use super::slab::Slab;
 use super::slabs::{Part, Slabs};
 use super::{Bounds, Hull, Shape};
@@ -89,6 +89,15 @@ impl Fan {
         })
     }
 
+    /// Whether a triangle that the hub is no corner of is in the plane of all.
+    fn has_beside_hub(&self, corners: &[DVec3; 3]) -> bool {
+        let level = |plane: [DVec3; 3]| {
+            let mut sides = corners.iter().map(|&corner| side(plane, corner));
+            sides.all(|side| side == Ordering::Equal)
+        };
+        !corners.contains(&self.hub) && self.plane.is_some_and(level)
+    }
+
     pub(super) fn bounds(&self) -> Bounds {
         let hub = Bounds::of([self.hub]);
         self.rim.bounds().map_or(hub, |rim| rim.union(hub))
@@ -106,7 +115,12 @@ impl Fan {
         {
             return true;
         }
-        let planes = planes_beside(shape, self.hub);
+        let planes = match shape {
+            Shape::Triangle(corners) if self.has_beside_hub(corners) => {
+                planes_within(corners, self.hub)
+            }
+            _ => planes_beside(shape, self.hub),
+        };
         let is_far = |_: &Bounds, slab: &Slab| planes.iter().any(|plane| plane.has_in_front(slab));
         self.rim.all_but(is_far, work, holds)
     }

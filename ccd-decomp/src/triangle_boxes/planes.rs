@@ -129,6 +129,37 @@ fn extents(corners: &[DVec3; 3]) -> Vec<Extent> {
         .collect()
 }
 
+/// The same for a triangle in one plane with the hub and all about it, which the planes of the hub and an
+/// edge do not tell apart: planes upright on the coordinate planes, through the hub and a corner, and
+/// along the edges.
+pub(super) fn planes_within(corners: &[DVec3; 3], hub: DVec3) -> Vec<Plane> {
+    let mut planes = Vec::new();
+    if holds(*corners, hub) {
+        return planes;
+    }
+    for k in 0..3 {
+        let [p, q, r] = [0, 1, 2].map(|l| corners[(k + l) % 3]);
+        upright(&mut planes, [hub, p], &[q, r], hub);
+        upright(&mut planes, [p, q], &[r], hub);
+    }
+    planes
+}
+
+/// The upright planes along a line that have some points behind or in them, and the hub in front or in
+/// them.
+fn upright(planes: &mut Vec<Plane>, [p, q]: [DVec3; 2], behind: &[DVec3], hub: DVec3) {
+    for (axis, up) in DVec3::AXES.into_iter().enumerate() {
+        let turn = |x: DVec3| turn_along(axis, [p, q], x);
+        let none = |of: Ordering| behind.iter().all(|&x| turn(x) != of);
+        if none(Ordering::Greater) && turn(hub) != Ordering::Less {
+            planes.push(Plane::new(p, [up, q - p]));
+        }
+        if none(Ordering::Less) && turn(hub) != Ordering::Greater {
+            planes.push(Plane::new(p, [q - p, up]));
+        }
+    }
+}
+
 /// Whether a triangle holds a point.
 fn holds(triangle: [DVec3; 3], point: DVec3) -> bool {
     let within = |plane: Projection| {

@@ -75,6 +75,13 @@ impl Slab {
         along.dot(self.halves) + vector.abs().element_sum() * self.slack
     }
 
+    /// At most the distance of a point from what is in it, up to rounding; negative inside. Of each axis by
+    /// itself, as they need not be at right angles.
+    pub(super) fn distance(&self, point: DVec3) -> f64 {
+        let along = along_each(&self.axes, point - self.centre).abs();
+        (along - self.halves).max_element() - 2.0 * self.slack
+    }
+
     /// Whether one of its own axes certainly has it on one side, and all of some points on the other.
     pub(super) fn is_beside(&self, points: &[DVec3]) -> bool {
         let reach = points.iter().map(|p| p.abs().max_element());

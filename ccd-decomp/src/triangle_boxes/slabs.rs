@@ -1,9 +1,11 @@
 //! Parts of triangles in a tree of boxes that lie as the parts do.
 
 use super::Bounds;
+use super::nearest::distance_to;
 use super::slab::Slab;
 use crate::work::Work;
 use ccd_core::glam::DVec3;
+use ccd_core::order::greater;
 use std::ops::Range;
 
 /// What is searched of a face: all of it, or one edge, of which an end is there twice.
@@ -94,6 +96,16 @@ impl Slabs {
         work: &Work,
         mut holds: impl FnMut(u32) -> bool,
     ) -> bool {
+        self.all_parts_but(is_far, work, |part| holds(part.face))
+    }
+
+    /// The same with the parts themselves.
+    pub(super) fn all_parts_but(
+        &self,
+        is_far: impl Fn(&Bounds, &Slab) -> bool,
+        work: &Work,
+        mut holds: impl FnMut(&Part) -> bool,
+    ) -> bool {
         let mut at = 0;
         // Every step leads to a later node.
         while let Some(node) = self.nodes.get(at) {
@@ -105,11 +117,30 @@ impl Slabs {
                 continue;
             }
             let parts = &self.parts[node.parts.start as usize..node.parts.end as usize];
-            if !parts.iter().all(|part| holds(part.face)) {
+            if !parts.iter().all(&mut holds) {
                 return false;
             }
             at += 1;
         }
         true
+    }
+
+    /// The parts of a leaf, or the two nodes below an inner one.
+    pub(super) fn below(&self, at: usize) -> (&[Part], Option<[usize; 2]>) {
+        let Some(node) = self.nodes.get(at) else {
+            return (&[], None);
+        };
+        let parts = &self.parts[node.parts.start as usize..node.parts.end as usize];
+        let left = at + 1;
+        let below = parts
+            .is_empty()
+            .then(|| [left, self.nodes[left].next as usize]);
+        (parts, below)
+    }
+
+    /// At most the distance of a point from what is in a node, up to rounding.
+    pub(super) fn distance(&self, at: usize, point: DVec3) -> f64 {
+        let node = &self.nodes[at];
+        greater(distance_to(&node.bounds, point), node.slab.distance(point))
     }
 }

@@ -4,10 +4,13 @@ use crate::predicates::{is_degenerate, side};
 use crate::self_intersection::triangles_meet;
 use crate::shells::crossing;
 use crate::test_meshes::star;
+use parry3d_f64::query::PointQuery;
+use parry3d_f64::shape::Triangle;
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;
 use std::cmp::Ordering;
+use std::ops::ControlFlow;
 
 fn found(boxes: &TriangleBoxes, region: &Region) -> Vec<u32> {
     let mut found = Vec::new();
@@ -156,4 +159,47 @@ fn what_is_left_out_meets_nothing() {
     }
     assert!(met.iter().all(|&count| count > 100), "{met:?}");
     assert!(near < asked / 10 * 9, "{near} of {asked}");
+}
+
+/// The least distance is found, and all boxes that meet a box: held against every triangle.
+#[test]
+fn the_nearest_triangle_is_found() {
+    let given = (soup(), prop::collection::vec([corner(), corner()], 40));
+    let mut runner = TestRunner::deterministic();
+    let (mut met, mut missed) = (0, 0);
+    for _ in 0..40 {
+        let ((points, faces), probes) = given.new_tree(&mut runner).unwrap().current();
+        let search = NearestTriangles::new(&points, &faces);
+        let at = |face: &[u32; 3]| face.map(|v| points[v as usize]);
+        for [p, q] in probes {
+            let point = 2.0 * p;
+            let distance = |corners: [DVec3; 3]| {
+                let [a, b, c] = corners.map(|p| Vector::new(p.x, p.y, p.z));
+                let query = Vector::new(point.x, point.y, point.z);
+                Triangle::new(a, b, c).distance_to_local_point(query, false)
+            };
+            let all = faces.iter().map(|face| distance(at(face)));
+            let least = all.fold(f64::INFINITY, ccd_core::order::lesser);
+            let (face, found) = search.to(point, distance).unwrap();
+            assert_eq!(distance(at(&faces[face as usize])), found);
+            assert!(found <= least + 1e-12, "{found} {least}");
+            let bounds = Bounds::of([p, q]);
+            let mut within = Vec::new();
+            search.in_box([bounds.lo, bounds.hi], |face| {
+                within.push(face);
+                ControlFlow::Continue(())
+            });
+            within.sort_unstable();
+            let meets = |face: &[u32; 3]| Bounds::of(at(face)).meets(&bounds);
+            let twin: Vec<u32> = (0..)
+                .zip(&faces)
+                .filter(|(_, f)| meets(f))
+                .map(|(k, _)| k)
+                .collect();
+            met += twin.len();
+            missed += faces.len() - twin.len();
+            assert_eq!(within, twin);
+        }
+    }
+    assert!(met > 1000 && missed > 1000, "{met}, {missed}");
 }
