@@ -111,7 +111,7 @@ impl<'m> Manifold<'m> {
         if !pairs.is_empty() {
             return Err(DecomposeError::SelfIntersecting { pairs });
         }
-        check_orientation(self)
+        check_orientation(self, work)
     }
 
     /// The mesh that it is of.
@@ -133,7 +133,8 @@ impl<'m> Manifold<'m> {
     /// The corners of a face.
     #[inline]
     pub(crate) fn triangle(&self, face: u32) -> [DVec3; 3] {
-        self.faces[face as usize].map(|v| self.point(v))
+        let [a, b, c] = self.faces[face as usize];
+        [self.point(a), self.point(b), self.point(c)]
     }
 
     /// The faces by where they are.

@@ -1,5 +1,7 @@
 //! A mesh that is fit to be made a body of.
 
+mod outline;
+
 use crate::error::{MeshError, MeshFault};
 use crate::format::Format;
 use crate::predicates::is_without_area;
@@ -227,10 +229,12 @@ impl Polygons {
         })
     }
 
-    /// Cuts every polygon into the fan about its first corner.
+    /// Cuts every polygon into the fan about its first corner, or, where that has a triangle without area or
+    /// one that lies beyond the polygon, into others within it.
     ///
     /// The signed areas of the fan add up to the polygon's, so that the fan covers a planar polygon
-    /// whether or not it is convex; of one that is not it covers more, which is reported.
+    /// whether or not it is convex; of one that is not it covers more, which is reported where the polygon
+    /// cannot be filled either, as it meets itself.
     fn triangulate(&self, repairs: &mut Repairs) -> (Vec<[u32; 3]>, Vec<u32>) {
         let (mut faces, mut ids) = (Vec::new(), Vec::new());
         faces.reserve_exact(self.corners.len() - 2 * self.ends.len());
@@ -244,13 +248,32 @@ impl Polygons {
             }
             if corners.len() > 3 {
                 repairs.polygons.add(id);
-                if overhangs(&self.vertices, &faces[start..]) {
-                    repairs.overhanging.add(id);
+                let fan = &mut faces[start..];
+                let overhangs = overhangs(&self.vertices, fan);
+                if !(overhangs || has_flat(&self.vertices, fan)) {
+                    continue;
+                }
+                let points: Vec<DVec3> =
+                    corners.iter().map(|&v| self.vertices[v as usize]).collect();
+                match outline::fill(&points) {
+                    Some(filled) => {
+                        for (face, triangle) in fan.iter_mut().zip(filled) {
+                            *face = triangle.map(|k| corners[k] as u32);
+                        }
+                    }
+                    None if overhangs => repairs.overhanging.add(id),
+                    None => {}
                 }
             }
         }
         (faces, ids)
     }
+}
+
+/// Whether some triangle of a fan has no area.
+fn has_flat(vertices: &[DVec3], fan: &[[u32; 3]]) -> bool {
+    fan.iter()
+        .any(|face| is_without_area(face.map(|v| vertices[v as usize])))
 }
 
 /// Whether some triangle of a fan looks away from where the fan as a whole looks.

@@ -8,6 +8,7 @@ use crate::shells::{Volume, crossing};
 use crate::tally::Tally;
 use crate::tolerance::RAY_TRIES;
 use crate::triangle_boxes::{Region, TriangleBoxes};
+use crate::work::Work;
 use ccd_core::glam::DVec3;
 
 /// The shells of a closed mesh by what is around them.
@@ -181,17 +182,17 @@ impl<'m> Shells<'m> {
             let (along, tilt) = (DVec3::AXES[k % 3], 1e-3 * (1.0 + 0.618 * k as f64));
             let to = from + 3.0 * size * (along + DVec3::new(0.7548, 0.5698, -0.3247) * tilt);
             let mut met = Vec::new();
-            let passes = self
-                .boxes
-                .all_meeting(&Region::segment([from, to]), |face| {
-                    let other = self.shell_of[face as usize];
-                    let found = match other == shell {
-                        true => Some(0),
-                        false => crossing([from, to], triangle(self.mesh, face)),
-                    };
-                    met.extend(found.filter(|&one| one != 0).map(|one| (other, one)));
-                    found.is_some()
-                });
+            let passes =
+                self.boxes
+                    .all_meeting(&Region::segment([from, to]), &Work::unbounded(), |face| {
+                        let other = self.shell_of[face as usize];
+                        let found = match other == shell {
+                            true => Some(0),
+                            false => crossing([from, to], triangle(self.mesh, face)),
+                        };
+                        met.extend(found.filter(|&one| one != 0).map(|one| (other, one)));
+                        found.is_some()
+                    });
             passes.then(|| {
                 met.sort_unstable();
                 met.chunk_by(|one, next| one.0 == next.0)
@@ -210,16 +211,17 @@ impl<'m> Shells<'m> {
         let faces = self.faces_of[shell as usize].iter();
         for &face in faces.filter(|&&face| !flat(face)) {
             let one = triangle(self.mesh, face);
-            self.boxes.all_meeting(&Region::triangle(one), |near| {
-                let other = self.shell_of[near as usize];
-                if other != shell && !crossed.contains(&other) && !flat(near) {
-                    let ids = [face, near].map(|f| corners(self.mesh, f));
-                    if meet(ids, [one, triangle(self.mesh, near)]) {
-                        crossed.push(other);
+            self.boxes
+                .all_meeting(&Region::triangle(one), &Work::unbounded(), |near| {
+                    let other = self.shell_of[near as usize];
+                    if other != shell && !crossed.contains(&other) && !flat(near) {
+                        let ids = [face, near].map(|f| corners(self.mesh, f));
+                        if meet(ids, [one, triangle(self.mesh, near)]) {
+                            crossed.push(other);
+                        }
                     }
-                }
-                true
-            });
+                    true
+                });
         }
         crossed
     }

@@ -24,9 +24,8 @@ pub(crate) fn side(triangle: [DVec3; 3], point: DVec3) -> Ordering {
         // In a plane across a coordinate axis, which would take the predicate its longest computation.
         return Ordering::Equal;
     }
-    let [a, b, c] = triangle.map(coord3);
     // Shewchuk's determinant is positive below.
-    sign(-orient3d(a, b, c, coord3(point)))
+    sign(-orient3d(coord3(p), coord3(q), coord3(r), coord3(point)))
 }
 
 /// The same for points of a list, by their numbers: corners of the triangle are in its plane, which
@@ -36,7 +35,9 @@ pub(crate) fn side_of(points: &[DVec3], triangle: [u32; 3], point: u32) -> Order
     if triangle.contains(&point) {
         return Ordering::Equal;
     }
-    side(triangle.map(|v| points[v as usize]), points[point as usize])
+    let [a, b, c] = triangle;
+    let corners = [points[a as usize], points[b as usize], points[c as usize]];
+    side(corners, points[point as usize])
 }
 
 /// The coordinate plane that a triangle is projected to, keeping an area, and how it then turns.
@@ -65,7 +66,11 @@ impl Projection {
     /// looks at the triangle's front and from `a` to `b`.
     #[inline]
     pub(crate) fn turn(self, a: DVec3, b: DVec3, point: DVec3) -> Ordering {
-        let [a, b, point] = [a, b, point].map(|p| coord2(p, self.drop));
+        let (a, b, point) = (
+            coord2(a, self.drop),
+            coord2(b, self.drop),
+            coord2(point, self.drop),
+        );
         match self.turned {
             true => sign(orient2d(b, a, point)),
             false => sign(orient2d(a, b, point)),

@@ -11,10 +11,11 @@ use std::fmt;
 /// No repair removes a point of the surface.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Repairs {
-    /// Faces of more than three corners, cut into the fan about their first corner. Of a polygon
-    /// that is not planar the fan is one of several surfaces its rim could mean.
+    /// Faces of more than three corners, cut into the fan about their first corner, or, where that does
+    /// not fit, into other triangles within. Of a polygon that is not planar these are one of several
+    /// surfaces its rim could mean.
     pub polygons: Tally<u32>,
-    /// Those of them that are not convex, or far from planar: the fan reaches beyond the face.
+    /// Those of them that meet themselves, or are far from planar: the fan reaches beyond the face.
     pub overhanging: Tally<u32>,
     /// Faces dropped since another face has the same three points in the same orientation. The same
     /// points the other way round are kept: back to back, the two close what one would leave open.
@@ -49,7 +50,10 @@ impl fmt::Display for Repairs {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let notes = [
             (&self.polygons, "polygons cut into triangles"),
-            (&self.overhanging, "of them not convex, covered too widely"),
+            (
+                &self.overhanging,
+                "of them meeting themselves, covered too widely",
+            ),
             (&self.duplicates, "duplicate faces dropped"),
             (&self.collapsed, "collapsed faces dropped"),
             (&self.zero_area, "faces without area kept"),

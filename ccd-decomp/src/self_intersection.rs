@@ -38,7 +38,7 @@ pub(crate) fn crossings(
     let mut found = Vec::new();
     for face in 0..manifold.faces().len() as u32 {
         let near = Region::triangle(manifold.triangle(face));
-        let goes_on = manifold.boxes().all_meeting(&near, |other| {
+        let goes_on = manifold.boxes().all_meeting(&near, work, |other| {
             if face < other && cross(manifold, face, other) {
                 found.push((face, other));
             }

@@ -5,6 +5,7 @@ use crate::manifold::Manifold;
 use crate::predicates::side;
 use crate::tolerance::RAY_TRIES;
 use crate::triangle_boxes::Region;
+use crate::work::Work;
 use ccd_core::glam::DVec3;
 use ccd_core::tolerance::U64;
 use std::cmp::Ordering;
@@ -13,7 +14,13 @@ use std::cmp::Ordering;
 ///
 /// As faces only meet where they share an edge or vertex, it is enough to look at one point of every
 /// shell: its other faces see the same of the rest.
-pub(crate) fn check_orientation(manifold: &Manifold<'_>) -> Result<(), DecomposeError> {
+///
+/// # Errors
+/// [`DecomposeError`]; [`TooLong`](DecomposeError::TooLong) when the work does not suffice to tell.
+pub(crate) fn check_orientation(
+    manifold: &Manifold<'_>,
+    work: &Work,
+) -> Result<(), DecomposeError> {
     let shell_of = shells(manifold);
     let count = shell_of.iter().max().map_or(0, |&last| last as usize + 1);
     let mut volumes = vec![Volume::default(); count];
@@ -32,8 +39,9 @@ pub(crate) fn check_orientation(manifold: &Manifold<'_>) -> Result<(), Decompose
         };
         let around = match count {
             1 => Some(0),
-            _ => winding_of_others(manifold, &shell_of, faces),
+            _ => winding_of_others(manifold, &shell_of, faces, work),
         };
+        work.check()?;
         let Some(around) = around else {
             return Err(DecomposeError::Entangled { face });
         };
@@ -73,7 +81,12 @@ pub(crate) fn shells(manifold: &Manifold<'_>) -> Vec<u32> {
 }
 
 /// How often the other shells wind about the faces of one; none when all rays graze something.
-fn winding_of_others(manifold: &Manifold<'_>, shell_of: &[u32], faces: &[u32]) -> Option<i32> {
+fn winding_of_others(
+    manifold: &Manifold<'_>,
+    shell_of: &[u32],
+    faces: &[u32],
+    work: &Work,
+) -> Option<i32> {
     let shell = shell_of[faces[0] as usize];
     let near = manifold.triangle(faces[0])[0];
     let size = manifold.boxes().reach(near);
@@ -87,7 +100,7 @@ fn winding_of_others(manifold: &Manifold<'_>, shell_of: &[u32], faces: &[u32]) -
         let mut windings = Some(0);
         manifold
             .boxes()
-            .all_meeting(&Region::segment([from, to]), |f| {
+            .all_meeting(&Region::segment([from, to]), work, |f| {
                 if shell_of[f as usize] != shell {
                     let crossing = crossing([from, to], manifold.triangle(f));
                     windings = windings.zip(crossing).map(|(sum, one)| sum + one);

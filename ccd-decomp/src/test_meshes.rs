@@ -97,3 +97,59 @@ pub(crate) fn star(corners: u32, inner: f64) -> TriangleMesh {
     };
     mesh(vertices, &(0..corners).flat_map(side).collect::<Vec<_>>())
 }
+
+/// A polygon along z, each cap the fan about its first corner.
+pub(crate) fn prism(outline: &[DVec3]) -> TriangleMesh {
+    let n = outline.len() as u32;
+    let mut vertices = outline.to_vec();
+    vertices.extend(outline.iter().map(|&p| p + DVec3::Z));
+    let mut faces = Vec::new();
+    for k in 0..n {
+        let l = (k + 1) % n;
+        faces.extend([[k, l, n + l], [k, n + l, n + k]]);
+    }
+    for k in 1..n - 1 {
+        faces.extend([[0, k + 1, k], [n, n + k, n + k + 1]]);
+    }
+    mesh(vertices, &faces)
+}
+
+/// Teeth that lean away from the first corner, which sees all of them: the fans of the caps are exact.
+pub(crate) fn teeth(count: u32) -> Vec<DVec3> {
+    let corner = |k: u32| {
+        let share = f64::from(k) / f64::from(2 * count - 1);
+        let angle = 0.5 * std::f64::consts::PI * share;
+        let radius = if k.is_multiple_of(2) { 0.9 } else { 1.0 };
+        radius * dvec3(angle.cos(), angle.sin(), 0.0)
+    };
+    [DVec3::ZERO]
+        .into_iter()
+        .chain((0..2 * count).map(corner))
+        .collect()
+}
+
+/// A convex prism of so many corners under a narrower, longer one: large caps on what no point sees all
+/// of.
+pub(crate) fn notched(corners: u32) -> TriangleMesh {
+    let ring = |radius: f64, z: f64| {
+        (0..corners).map(move |k| {
+            let angle = std::f64::consts::TAU * f64::from(k) / f64::from(corners);
+            dvec3(radius * angle.cos(), radius * angle.sin(), z)
+        })
+    };
+    let rings = [(1.0, 0.0), (1.0, 1.0), (0.3, 1.0), (0.3, 21.0)];
+    let vertices = rings.into_iter().flat_map(|(radius, z)| ring(radius, z));
+    let mut faces = Vec::new();
+    for k in 0..corners {
+        let l = (k + 1) % corners;
+        for base in [0, corners, 2 * corners] {
+            let [a, b, c, d] = [base + k, base + l, base + corners + l, base + corners + k];
+            faces.extend([[a, b, c], [a, c, d]]);
+        }
+    }
+    for k in 1..corners - 1 {
+        let top = 3 * corners;
+        faces.extend([[0, k + 1, k], [top, top + k, top + k + 1]]);
+    }
+    mesh(vertices.collect(), &faces)
+}

@@ -1,5 +1,6 @@
 //! Every number of this crate that is a choice rather than a consequence: its unit, and what it buys.
 
+use ccd_core::glam::DVec3;
 use ccd_core::tolerance::U64;
 
 /// Below this many pieces a hierarchy is agglomerated, above it is split at medians.
@@ -31,6 +32,13 @@ pub(crate) const RAY_TRIES: usize = 16;
 /// 292, 258.
 pub(crate) const PATCH_POLYGONS: usize = 48;
 
+/// A patch takes no polygon that would give it more corners than this; a polygon of more is a patch by
+/// itself.
+///
+/// Unit: corners. A polygon is held against all facets of a patch, and so is every triangle near it: the
+/// time that growing takes increases with their square. Twice as many as 48 polygons of a sphere have.
+pub(crate) const PATCH_CORNERS: usize = 256;
+
 /// The least share of its pieces that a node of a hull tree leaves to either child; otherwise it is
 /// split at the median.
 ///
@@ -53,6 +61,19 @@ pub(crate) fn clip_rounding(farthest: f64) -> f64 {
     1024.0 * U64 * farthest
 }
 
+/// Bounds the error of the length of a difference of points along a direction, and of how far a box of
+/// [`Slab`](crate::triangle_boxes) goes along it, when no coordinate exceeds `reach`; in its unit of
+/// length, for a direction about as long as 1.
+///
+/// With `u` half a unit in the last place, `d` the sum of the direction's coordinates and `m` the reach: a
+/// difference is off by `2u m` in every coordinate and its length along the direction by `8u d m`; twice, as
+/// there is one of the box and one of the shape. The box's half lengths are at most `2√3 m`, and each is
+/// taken along the direction to `4u d`: `42u d m`. Their sums round by `12u d m`. That is 70u; 128u are
+/// taken, and what may underflow.
+pub(crate) fn slab_rounding(direction: DVec3, reach: f64) -> f64 {
+    128.0 * U64 * direction.abs().element_sum() * reach + f64::MIN_POSITIVE
+}
+
 /// Voxels along a mesh's longest side when it is to be approximated by so many hulls.
 ///
 /// Finer ones place the cuts between the hulls better, at a cost of their cube. Measured on a knot, a
@@ -64,8 +85,8 @@ pub(crate) fn voxel_resolution(hulls: u32) -> u32 {
 /// The coarsest grid that is of any use; unit: voxels.
 pub(crate) const LEAST_RESOLUTION: u32 = 8;
 
-/// How many pairs of a triangle and a voxel in its box may be looked at: a second's work.
-pub(crate) const VOXELS_TESTED: usize = 1 << 24;
+/// How many pairs of a triangle and a voxel in its box may be looked at: half a second's work.
+pub(crate) const VOXELS_TESTED: usize = 1 << 22;
 
 /// The least size of a voxel in units of what cutting at it may be off by.
 pub(crate) const COARSE_VOXELS: f64 = 1024.0;
@@ -153,14 +174,20 @@ pub(crate) const LIBRARY_POINTS: usize = 64;
 
 /// Of so many pieces at most the centres tell along which axis a node of a hull tree is split.
 ///
-/// Unit: pieces. Larger: the same trees, but the hulls of all centres at all levels take as long as
-/// the tree's own.
-pub(crate) const SPREAD_PIECES: usize = 1024;
+/// Unit: pieces. Larger: hardly better axes; the hulls of 1,024 centres at all nodes took as long as the
+/// tree's own.
+pub(crate) const SPREAD_PIECES: usize = 64;
 
 /// From so many triangles about one vertex on they are searched as a fan.
 ///
 /// Unit: triangles. Boxes of fewer meet each other all, but these are few.
 pub(crate) const FAN_TRIANGLES: u32 = 32;
+
+/// So many boxes of triangles along the coordinate axes may meet that of a shape before the shape itself is
+/// held against them.
+///
+/// Unit: boxes. Fewer: slower for triangles that are no slivers, which hardly ever come to so many.
+pub(crate) const BOXES_MET: usize = 32;
 
 /// So many pairs of faces that intersect are counted before the search for more ends.
 ///

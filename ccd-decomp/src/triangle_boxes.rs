@@ -1,24 +1,33 @@
 //! The triangles of a mesh by where they are.
 
 mod fans;
-mod rim;
+mod nearest;
+mod planes;
+mod slab;
+mod slabs;
 
+use crate::tolerance::BOXES_MET;
+use crate::work::Work;
 use ccd_core::glam::DVec3;
+use ccd_core::order::greater;
 use fans::{Fan, split};
+pub(crate) use nearest::NearestTriangles;
 use parry3d_f64::bounding_volume::Aabb;
 use parry3d_f64::math::Vector;
 use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
+use planes::Apart;
+use slab::Slab;
+use slabs::{Part, Slabs};
+use std::cell::{Cell, OnceCell};
 
-/// The boxes of triangles, to be searched. Those of a large fan about one vertex, which are long and
-/// thin and have boxes that all meet, are one leaf together.
+/// The boxes of triangles, to be searched: boxes that lie as the triangles do, so that those of slivers
+/// side by side hardly meet. The triangles of a large fan about one vertex, where all of them meet, are
+/// searched by themselves.
 pub(crate) struct TriangleBoxes {
+    single: Slabs,
+    fans: Vec<Fan>,
+    /// The boxes of the fans.
     bvh: Bvh,
-    leaves: Vec<Leaf>,
-}
-
-enum Leaf {
-    Face(u32),
-    Fan(Fan),
 }
 
 /// A box along the coordinate axes; touching counts as meeting.
@@ -39,51 +48,74 @@ pub(crate) struct Region {
 enum Shape {
     Segment([DVec3; 2]),
     Triangle([DVec3; 3]),
-    /// The open inside of a hull, by its facets.
-    Inside(Vec<[DVec3; 3]>),
+    /// The open inside of a hull.
+    Inside(Hull),
+}
+
+/// The facets of a hull that are kept to tell what is in front of it.
+const FACETS: usize = 64;
+
+#[derive(Clone, Debug)]
+struct Hull {
+    corners: Vec<DVec3>,
+    /// The largest ones, the larger first.
+    facets: Vec<[DVec3; 3]>,
 }
 
 impl TriangleBoxes {
     /// O(n log n).
     pub(crate) fn new(points: &[DVec3], faces: &[[u32; 3]]) -> Self {
         let (single, fans) = split(points, faces);
-        let mut boxes: Vec<Aabb> = Vec::with_capacity(single.len() + fans.len());
-        let mut leaves = Vec::with_capacity(single.len() + fans.len());
-        for face in single {
-            let triangle = faces[face as usize].map(|v| points[v as usize]);
-            boxes.push(Bounds::of(triangle).as_aabb());
-            leaves.push(Leaf::Face(face));
-        }
-        for fan in fans {
-            boxes.push(fan.bounds().as_aabb());
-            leaves.push(Leaf::Fan(fan));
-        }
+        let part = |face: u32| Part {
+            corners: faces[face as usize].map(|v| points[v as usize]),
+            face,
+        };
+        let boxes: Vec<Aabb> = fans.iter().map(|fan| fan.bounds().as_aabb()).collect();
         TriangleBoxes {
+            single: Slabs::new(single.into_iter().map(part).collect()),
             bvh: Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes),
-            leaves,
+            fans,
         }
     }
 
     /// Calls back with every triangle that may meet a region, and some that do not, until the answer is
-    /// no.
+    /// no, or the work is spent: one for each box that is looked at.
     ///
     /// # Guarantee
     /// A triangle that is left out shares no point with the region, but perhaps a common corner.
-    pub(crate) fn all_meeting(&self, region: &Region, mut holds: impl FnMut(u32) -> bool) -> bool {
+    pub(crate) fn all_meeting(
+        &self,
+        region: &Region,
+        work: &Work,
+        mut holds: impl FnMut(u32) -> bool,
+    ) -> bool {
+        // Only where boxes along the coordinate axes leave too many.
+        let (met, apart) = (Cell::new(0), OnceCell::new());
+        let is_far = |bounds: &Bounds, slab: &Slab| {
+            if !bounds.meets(&region.bounds) {
+                return true;
+            }
+            met.set(met.get() + 1);
+            met.get() > BOXES_MET && apart.get_or_init(|| Apart::from(&region.shape)).has(slab)
+        };
+        if !self.single.all_but(is_far, work, &mut holds) {
+            return false;
+        }
         let aabb = region.bounds.as_aabb();
         let mut near = self.bvh.intersect_aabb(&aabb);
-        near.all(|leaf| match &self.leaves[leaf as usize] {
-            Leaf::Face(face) => holds(*face),
-            Leaf::Fan(fan) => fan.all_meeting(&region.shape, &mut holds),
+        near.all(|fan| {
+            let fan = &self.fans[fan as usize];
+            !fan.bounds().meets(&region.bounds)
+                || work.spend(1) && fan.all_meeting(&region.shape, work, &mut holds)
         })
     }
 
     /// At least the distance of a point from any of the triangles' points, about.
     pub(crate) fn reach(&self, point: DVec3) -> f64 {
-        let all = self.bvh.root_aabb();
-        let vector = |v: Vector| DVec3::new(v.x, v.y, v.z);
-        let (lo, hi) = (vector(all.mins), vector(all.maxs));
-        (point - lo).abs().max((hi - point).abs()).length()
+        let single = self.single.bounds();
+        let all = self.fans.iter().map(Fan::bounds).chain(single);
+        let far = all.map(|b| (point - b.lo).abs().max((b.hi - point).abs()).length());
+        far.fold(0.0, greater)
     }
 }
 
@@ -102,9 +134,17 @@ impl Region {
         }
     }
 
-    /// What is in a box and inside of a hull, given by its facets.
-    pub(crate) fn inside(facets: Vec<[DVec3; 3]>, bounds: Bounds) -> Self {
-        let shape = Shape::Inside(facets);
+    /// What is in a box and inside of a hull, given by its corners and its facets.
+    pub(crate) fn inside(corners: Vec<DVec3>, mut facets: Vec<[DVec3; 3]>, bounds: Bounds) -> Self {
+        // What is near a hull, but not in it, is most likely in front of a large facet.
+        let area = |[a, b, c]: &[DVec3; 3]| (*b - *a).cross(*c - *a).length_squared();
+        let larger = |f: &[DVec3; 3], g: &[DVec3; 3]| area(g).total_cmp(&area(f));
+        if facets.len() > FACETS {
+            facets.select_nth_unstable_by(FACETS, larger);
+            facets.truncate(FACETS);
+        }
+        facets.sort_by(larger);
+        let shape = Shape::Inside(Hull { corners, facets });
         Region { bounds, shape }
     }
 }
@@ -128,6 +168,11 @@ impl Bounds {
             lo: self.lo.min(other.lo),
             hi: self.hi.max(other.hi),
         }
+    }
+
+    /// Whether two have a point in common.
+    fn meets(&self, other: &Bounds) -> bool {
+        (self.lo.cmple(other.hi) & other.lo.cmple(self.hi)).all()
     }
 
     fn as_aabb(self) -> Aabb {

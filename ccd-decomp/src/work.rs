@@ -29,6 +29,12 @@ impl Work {
         rest.is_some_and(|rest| rest > 0)
     }
 
+    /// How many steps are left.
+    #[cfg(test)]
+    pub(crate) fn left(&self) -> u64 {
+        self.left.get()
+    }
+
     /// # Errors
     /// [`DecomposeError::TooLong`] when all is spent.
     pub(crate) fn check(&self) -> Result<(), DecomposeError> {

@@ -12,7 +12,7 @@ use std::cmp::Ordering;
 pub(super) enum Refutation {
     /// The polygon of this index is not flat and strictly convex.
     Bent(usize),
-    /// This edge does not have one polygon on either side, in different planes.
+    /// This edge does not have one polygon on either side, each behind the other's plane.
     Edge(u32, u32),
     /// These points are in front of a polygon, in ascending order.
     Outside(Vec<u32>),
@@ -37,17 +37,31 @@ pub(super) fn loops(points: &[DVec3], triangles: &[[u32; 3]]) -> Loops {
 /// # Complexity
 /// O(n log n) for n points and O(n) polygons that few of them are near each.
 pub(super) fn prove(points: &[DVec3], polygons: Loops) -> Result<Loops, Refutation> {
+    let polygons = prove_convex(points, polygons)?;
+    let outside = outside(points, &polygons);
+    match outside.is_empty() {
+        true => Ok(polygons),
+        false => Err(Refutation::Outside(outside)),
+    }
+}
+
+/// The polygons, if they close a surface that is convex at each of its edges: of points that are known to be
+/// in front of none, such as those of which exact predicates told so when the hull grew past them, they
+/// are then the facets of the hull.
+///
+/// # Errors
+/// [`Refutation`], but for points outside.
+///
+/// # Complexity
+/// O(n log n), whatever the points: of many that are nearly in one plane every polygon has many near it.
+pub(super) fn prove_convex(points: &[DVec3], polygons: Loops) -> Result<Loops, Refutation> {
     if let Some(bent) = polygons.iter().position(|p| !is_convex(points, p)) {
         return Err(Refutation::Bent(bent));
     }
     if let Some((v, w)) = unmatched_edge(points, &polygons) {
         return Err(Refutation::Edge(v, w));
     }
-    let outside = outside(points, &polygons);
-    match outside.is_empty() {
-        true => Ok(polygons),
-        false => Err(Refutation::Outside(outside)),
-    }
+    Ok(polygons)
 }
 
 /// Whether a loop is flat, turns left at every corner, and goes around once.
@@ -72,7 +86,7 @@ fn plane(points: &[DVec3], corners: &[u32]) -> [DVec3; 3] {
     [corners[0], corners[1], corners[2]].map(|v| points[v as usize])
 }
 
-/// An edge that does not have one polygon on either side, in different planes. There is one if there
+/// An edge that does not have one polygon on either side, each behind the other's plane. There is one if there
 /// are no polygons.
 fn unmatched_edge(points: &[DVec3], polygons: &Loops) -> Option<(u32, u32)> {
     let mut edges: Vec<(u32, u32, usize)> = Vec::new();
@@ -92,8 +106,8 @@ fn unmatched_edge(points: &[DVec3], polygons: &Loops) -> Option<(u32, u32)> {
         twin.is_ok_and(|twin| {
             let plane = plane(points, &polygons[left]);
             let beyond = &polygons[edges[twin].2];
-            let off = |&v: &u32| side(plane, points[v as usize]) != Ordering::Equal;
-            beyond.iter().any(off)
+            let mut sides = beyond.iter().map(|&v| side(plane, points[v as usize]));
+            sides.find(|&side| side != Ordering::Equal) == Some(Ordering::Less)
         })
     };
     let odd = twice

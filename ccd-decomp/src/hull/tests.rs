@@ -299,8 +299,8 @@ fn refuted() {
     );
     assert!(prove(&split, proof::loops(&split, &pyramid)).is_ok());
     let inside_out = tetrahedron.map(|[a, b, c]| vec![a, c, b]).to_vec();
-    let all = Refutation::Outside(vec![0, 1, 2, 3]);
-    assert_eq!(prove(&points[..4], inside_out), Err(all));
+    let reflex = Refutation::Edge(0, 1);
+    assert_eq!(prove(&points[..4], inside_out), Err(reflex));
 }
 
 proptest! {

@@ -1,6 +1,6 @@
 //! Where pieces are split in two.
 
-use crate::hull::hull;
+use crate::hull::likely_triangles;
 use crate::tolerance::{EIGEN_ROUNDS, LEAST_SHARE, SPREAD_PIECES};
 use ccd_core::Pieces;
 use ccd_core::glam::DVec3;
@@ -24,6 +24,9 @@ impl Splitter {
     /// Puts at least two pieces in an order in which those of one side come first, and says how many
     /// these are.
     pub(super) fn split(&self, pieces: &mut [u32]) -> usize {
+        if pieces.len() == 2 {
+            return 1;
+        }
         let axis = self.longest(pieces);
         let height = |piece: u32| axis.dot(self.centres[piece as usize]);
         pieces.sort_unstable_by(|&a, &b| height(a).total_cmp(&height(b)).then(a.cmp(&b)));
@@ -51,29 +54,27 @@ impl Splitter {
         }
         // In units in which no product is too small.
         let unit: Vec<DVec3> = centres.iter().map(|&p| (p - mean) / size).collect();
-        let spread = match hull(&unit) {
-            Ok(hull) => of_surface(&unit, &hull.facets),
-            Err(_) => of_points(&unit),
+        // Any axis will do, so that nothing has to be proven.
+        let spread = match likely_triangles(&unit) {
+            Some(triangles) => of_surface(&unit, &triangles),
+            None => of_points(&unit),
         };
         principal(spread).unwrap_or(DVec3::X)
     }
 }
 
 /// The second moments of a surface about its centroid.
-fn of_surface(points: &[DVec3], facets: &[Vec<u32>]) -> Matrix3<f64> {
+fn of_surface(points: &[DVec3], triangles: &[[u32; 3]]) -> Matrix3<f64> {
     let (mut area, mut first, mut second) = (0.0, DVec3::ZERO, Matrix3::zeros());
-    for corners in facets {
-        let at = |k: usize| points[corners[k] as usize];
-        for k in 1..corners.len() - 1 {
-            let [p, q, r] = [at(0), at(k), at(k + 1)];
-            let weight = (q - p).cross(r - p).length();
-            let middle = (p + q + r) / 3.0;
-            area += weight;
-            first += weight * middle;
-            // A triangle's moments are those of its corners and three times its middle.
-            let corners = square(p) + square(q) + square(r) + 9.0 * square(middle);
-            second += weight / 12.0 * corners;
-        }
+    for corners in triangles {
+        let [p, q, r] = corners.map(|v| points[v as usize]);
+        let weight = (q - p).cross(r - p).length();
+        let middle = (p + q + r) / 3.0;
+        area += weight;
+        first += weight * middle;
+        // A triangle's moments are those of its corners and three times its middle.
+        let corners = square(p) + square(q) + square(r) + 9.0 * square(middle);
+        second += weight / 12.0 * corners;
     }
     second - square(first / area) * area
 }

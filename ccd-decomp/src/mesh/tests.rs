@@ -79,11 +79,31 @@ fn the_finest_face_has_an_area() {
 }
 
 #[test]
-fn a_concave_polygon_is_covered_and_reported() {
-    let file = "v 0 0 0\nv 4 0 0\nv 1 1 0\nv 0 4 0\nv 3 0 1\nf 2 3 4 1\nf 3 4 1 2\n";
+fn a_concave_polygon_is_filled() {
+    let file = "v 0 0 0\nv 4 0 0\nv 1 1 0\nv 0 4 0\nf 2 3 4 1\nf 3 4 1 2\n";
     let mesh = TriangleMesh::from_reader(crate::Format::Obj, file.as_bytes()).unwrap();
     // From corner 4,0 one triangle of the fan lies the other way round; from the notch none does.
+    assert_eq!(mesh.faces()[..2], [[1, 2, 0], [2, 3, 0]]);
+    assert_eq!(mesh.face_ids()[..2], [0, 0]);
     assert_eq!(mesh.repairs().polygons.first(), [0, 1]);
+    assert!(mesh.repairs().overhanging.is_empty());
+}
+
+/// Corners in line with the first one are no reason for faces without area; other polygons keep their fan.
+#[test]
+fn a_polygon_with_straight_corners_is_filled() {
+    let file = "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nf 1 2 3 4 5\nf 4 5 1 3\n";
+    let mesh = TriangleMesh::from_reader(crate::Format::Obj, file.as_bytes()).unwrap();
+    assert_eq!(mesh.faces().len(), 5);
+    assert_eq!(mesh.faces()[3..], [[3, 4, 0], [3, 0, 2]]);
+    assert!(mesh.repairs().zero_area.is_empty());
+}
+
+#[test]
+fn a_polygon_that_meets_itself_is_covered_and_reported() {
+    let file = "v 0 0 0\nv 2 2 0\nv 2 0 0\nv 0 1 0\nf 1 2 3 4\n";
+    let mesh = TriangleMesh::from_reader(crate::Format::Obj, file.as_bytes()).unwrap();
+    assert_eq!(mesh.faces(), [[0, 1, 2], [0, 2, 3]]);
     assert_eq!(mesh.repairs().overhanging.first(), [0]);
 }
 

@@ -2,10 +2,14 @@ use crate::error::DecomposeError;
 use crate::manifold::Manifold;
 use crate::mesh::TriangleMesh;
 use crate::self_intersection::Crossing;
-use crate::test_meshes::{cubes, joined, mesh, placed, tetrahedron};
+use crate::test_meshes::{cubes, joined, mesh, notched, placed, prism, teeth, tetrahedron};
+use crate::tolerance::CROSSINGS;
 use crate::topology::Topology;
 use crate::work::Work;
-use ccd_core::glam::{DVec3, dvec3};
+use ccd_core::glam::{DQuat, DVec3, dvec3};
+use proptest::prelude::*;
+use proptest::strategy::ValueTree;
+use proptest::test_runner::TestRunner;
 use rstest::rstest;
 
 /// Whether two tetrahedra are said to meet.
@@ -80,22 +84,6 @@ fn stairs_do_not_meet_themselves() {
     assert!(Manifold::new(&stairs).is_ok());
 }
 
-/// A polygon along z, each cap the fan about its first corner.
-fn prism(outline: &[DVec3]) -> TriangleMesh {
-    let n = outline.len() as u32;
-    let mut vertices = outline.to_vec();
-    vertices.extend(outline.iter().map(|&p| p + DVec3::Z));
-    let mut faces = Vec::new();
-    for k in 0..n {
-        let l = (k + 1) % n;
-        faces.extend([[k, l, n + l], [k, n + l, n + k]]);
-    }
-    for k in 1..n - 1 {
-        faces.extend([[0, k + 1, k], [n, n + k, n + k + 1]]);
-    }
-    mesh(vertices, &faces)
-}
-
 /// Work that grows as the number of triangles, not as the square of those about one vertex.
 #[test]
 fn fans_of_convex_caps_are_not_compared_pair_by_pair() {
@@ -112,6 +100,76 @@ fn fans_of_convex_caps_are_not_compared_pair_by_pair() {
     }
 }
 
+/// Steps of work that checking a mesh takes, for every face.
+fn steps_per_face(mesh: &TriangleMesh) -> u64 {
+    let manifold = Manifold::unchecked(mesh, &Topology::of(mesh)).unwrap();
+    let work = Work::unbounded();
+    assert_eq!(manifold.check(&work), Ok(()));
+    (u64::MAX - work.left()) / mesh.faces().len() as u64
+}
+
+/// Slivers that no point sees all of, and walls along them: each is near a few others.
+#[test]
+fn steps_per_face_stay_bounded_however_many_slivers_there_are() {
+    for count in [50, 500, 5_000] {
+        let comb = steps_per_face(&prism(&teeth(count)));
+        let step = steps_per_face(&notched(count));
+        assert!(comb < 400 && step < 400, "{count}: {comb}, {step}");
+    }
+}
+
+/// Prisms over outlines on a grid, so that corners coincide and edges lie in lines, and over rough
+/// circles; large enough for fans.
+fn rough_prism(radii: &[(i32, f64)], on_grid: bool, turn: f64) -> TriangleMesh {
+    let corner = |(k, &(step, radius)): (usize, &(i32, f64))| {
+        let angle = std::f64::consts::TAU * k as f64 / radii.len() as f64;
+        let p = dvec3(angle.cos(), angle.sin(), 0.0);
+        match on_grid {
+            true => (p * 4.0 * f64::from(step)).round(),
+            false => p * radius,
+        }
+    };
+    let flat = prism(&radii.iter().enumerate().map(corner).collect::<Vec<_>>());
+    let turn = DQuat::from_rotation_x(if on_grid { 0.0 } else { turn });
+    let turned = flat.vertices().iter().map(|&p| turn * p);
+    mesh(turned.collect(), flat.faces())
+}
+
+/// The same pairs as when every pair is looked at.
+#[test]
+fn crossings_are_those_of_all_pairs() {
+    let radii = |n| prop::collection::vec((1..=3_i32, 0.9..1.1_f64), n);
+    let given = (
+        prop_oneof![radii(3..12), radii(30..60)],
+        any::<bool>(),
+        0.0..3.0_f64,
+    );
+    let mut runner = TestRunner::deterministic();
+    let (mut whole, mut crossed) = (0, 0);
+    for _ in 0..150 {
+        let (radii, on_grid, turn) = given.new_tree(&mut runner).unwrap().current();
+        let mesh = rough_prism(&radii, on_grid, turn);
+        let Ok(manifold) = Manifold::unchecked(&mesh, &Topology::of(&mesh)) else {
+            continue;
+        };
+        let faces = 0..mesh.faces().len() as u32;
+        let pairs = faces
+            .clone()
+            .flat_map(|f| faces.clone().map(move |g| (f, g)));
+        let all: Vec<_> = pairs
+            .filter(|&(f, g)| f < g && super::cross(&manifold, f, g))
+            .collect();
+        let found = super::crossings(&manifold, &Work::unbounded()).unwrap();
+        match all.len() < CROSSINGS {
+            true => assert_eq!(found, all),
+            false => assert_eq!(found.len(), CROSSINGS),
+        }
+        whole += u32::from(all.is_empty());
+        crossed += u32::from(!all.is_empty());
+    }
+    assert!(whole > 10 && crossed > 10, "{whole}, {crossed}");
+}
+
 #[test]
 fn crossings_are_counted_up_to_a_thousand() {
     let mut outline = vec![DVec3::ZERO, dvec3(202.0, 0.0, 0.0)];
@@ -124,5 +182,5 @@ fn crossings_are_counted_up_to_a_thousand() {
     let Err(DecomposeError::SelfIntersecting { pairs }) = Manifold::new(&mesh).map(|_| ()) else {
         panic!("overlapping fans");
     };
-    assert_eq!(pairs.count(), crate::tolerance::CROSSINGS);
+    assert_eq!(pairs.count(), CROSSINGS);
 }

@@ -5,6 +5,7 @@ use crate::coplanar::Flats;
 use crate::exact_hull::ExactHull;
 use crate::manifold::Manifold;
 use crate::predicates::side_of;
+use crate::tolerance::PATCH_CORNERS;
 use crate::triangle_boxes::{self, Bounds};
 use crate::work::Work;
 use ccd_core::glam::DVec3;
@@ -59,6 +60,9 @@ impl Region {
         work: &Work,
     ) -> Join {
         let points = manifold.mesh().vertices();
+        if self.hull.corners().len() + flats.get(flat).corners.len() > PATCH_CORNERS {
+            return Join::Refused;
+        }
         let plane = |f: u32| manifold.faces()[flats.get(f).faces[0] as usize];
         // The hull so far must lie behind the polygon, …
         match self.highest_over(points, plane(flat)) {
@@ -84,6 +88,7 @@ impl Region {
             new.sort_by_key(|&v| side_of(points, first_plane, v) == Ordering::Equal);
         }
         // … and the new hull within the solid.
+        work.spend(new.len() * self.hull.facets().len());
         let (hull, changed) = self.grown(points, &new);
         if let Some(changed) = changed {
             let obstacle = Obstacle::new(points, &hull);
@@ -96,8 +101,9 @@ impl Region {
             };
             let facets = hull.facets().iter();
             let facets = facets.map(|facet| facet.map(|v| points[v as usize]));
-            let near = triangle_boxes::Region::inside(facets.collect(), changed);
-            if !manifold.boxes().all_meeting(&near, is_apart) {
+            let corners = hull.corners().iter().map(|&v| points[v as usize]);
+            let near = triangle_boxes::Region::inside(corners.collect(), facets.collect(), changed);
+            if !manifold.boxes().all_meeting(&near, work, is_apart) {
                 return Join::Refused;
             }
             self.hull = hull;

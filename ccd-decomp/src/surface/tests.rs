@@ -1,5 +1,8 @@
 use super::*;
-use crate::test_meshes::{block, cubes, joined, placed, star, tetrahedron, turned};
+use crate::test_meshes::{
+    block, cubes, joined, notched, placed, prism, star, teeth, tetrahedron, turned,
+};
+use crate::topology::Topology;
 use ccd_core::Origin;
 use ccd_core::glam::DVec3;
 use rstest::rstest;
@@ -146,5 +149,21 @@ fn patches_of_slivers_take_linear_work() {
         let decomposition = decompose_flats(&manifold, &flats, Order::default(), &work).unwrap();
         check(&mesh, &decomposition);
         assert_eq!(decomposition.patches.len(), corners as usize / 2);
+    }
+}
+
+/// Whatever corners a polygon has, and slivers a surface.
+#[test]
+fn steps_per_face_stay_bounded() {
+    for count in [50, 500, 5_000] {
+        for mesh in [prism(&teeth(count)), notched(count)] {
+            let manifold = Manifold::unchecked(&mesh, &Topology::of(&mesh)).unwrap();
+            let work = Work::unbounded();
+            let flats = Flats::new(&manifold);
+            let found = decompose_flats(&manifold, &flats, Order::default(), &work).unwrap();
+            check(&mesh, &found);
+            let steps = (u64::MAX - work.left()) / mesh.faces().len() as u64;
+            assert!(steps < 8_000, "{count}: {steps}");
+        }
     }
 }

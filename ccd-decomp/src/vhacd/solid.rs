@@ -4,19 +4,23 @@ use crate::mesh::TriangleMesh;
 use crate::predicates::side;
 use crate::tolerance::NEAREST_SLACK;
 use crate::topology::{Orientation, Topology};
+use crate::triangle_boxes::{NearestTriangles, Region, TriangleBoxes};
+use crate::work::Work;
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
-use parry3d_f64::bounding_volume::Aabb;
 use parry3d_f64::math::Vector;
 use parry3d_f64::query::PointQueryWithLocation;
-use parry3d_f64::shape::TriMesh;
+use parry3d_f64::shape::Triangle;
 use robust::{Coord, orient2d};
 use std::cmp::Ordering;
+use std::ops::ControlFlow;
 
 /// The points about which a mesh winds and its surface; the surface alone if the mesh is open.
 pub(super) struct Solid<'a> {
     mesh: &'a TriangleMesh,
-    search: Option<TriMesh>,
+    search: NearestTriangles,
+    /// What rays meet.
+    boxes: TriangleBoxes,
     closed: bool,
     inside_out: bool,
     bounds: [DVec3; 2],
@@ -39,11 +43,11 @@ impl<'a> Solid<'a> {
             corners().fold(DVec3::INFINITY, DVec3::min),
             corners().fold(DVec3::NEG_INFINITY, DVec3::max),
         ];
-        let vertices = mesh.vertices().iter().map(|&p| vector(p)).collect();
         let topology = Topology::of(mesh);
         Solid {
             mesh,
-            search: TriMesh::new(vertices, mesh.faces().to_vec()).ok(),
+            search: NearestTriangles::new(mesh.vertices(), mesh.faces()),
+            boxes: TriangleBoxes::new(mesh.vertices(), mesh.faces()),
             closed: topology.is_solid(),
             inside_out: topology.orientation() == Orientation::Inward,
             bounds,
@@ -74,21 +78,21 @@ impl<'a> Solid<'a> {
     }
 
     /// The triangles whose boxes meet a box, if there are so many at most.
-    pub(super) fn triangles_in(
-        &self,
-        [lo, hi]: [DVec3; 2],
-        most: usize,
-    ) -> Option<Vec<[DVec3; 3]>> {
-        let bounds = Aabb::new(vector(lo), vector(hi));
-        let mut found = Vec::new();
-        for face in self.search.as_ref()?.bvh().intersect_aabb(&bounds) {
-            if found.len() == most {
-                return None;
+    pub(super) fn triangles_in(&self, bounds: [DVec3; 2], most: usize) -> Option<Vec<[DVec3; 3]>> {
+        let (mut found, mut is_over) = (Vec::new(), false);
+        self.search.in_box(bounds, |face| {
+            is_over = found.len() == most;
+            if is_over {
+                return ControlFlow::Break(());
             }
-            let corners = self.mesh.faces().get(face as usize)?;
-            found.push(corners.map(|v| self.mesh.vertices()[v as usize]));
-        }
-        Some(found)
+            found.push(self.triangle(face));
+            ControlFlow::Continue(())
+        });
+        (!is_over).then_some(found)
+    }
+
+    fn triangle(&self, face: u32) -> [DVec3; 3] {
+        self.mesh.faces()[face as usize].map(|v| self.mesh.vertices()[v as usize])
     }
 
     /// The smallest box that holds it.
@@ -127,26 +131,28 @@ impl<'a> Solid<'a> {
     /// The distance to the surface as the library sees it, and to a point that is certainly on a
     /// triangle: its projection has weights that are clamped, as those of a needle may be anything.
     fn nearest(&self, point: DVec3) -> (f64, f64) {
-        let Some(search) = &self.search else {
+        let query = vector(point);
+        let project = |corners: [DVec3; 3]| {
+            let [a, b, c] = corners.map(vector);
+            Triangle::new(a, b, c).project_local_point_and_get_location(query, false)
+        };
+        let distance = |corners: [DVec3; 3]| {
+            let (found, _) = project(corners);
+            DVec3::from_array(found.point.to_array()).distance(point)
+        };
+        let Some((face, found)) = self.search.to(point, distance) else {
             return (0.0, f64::INFINITY);
         };
-        let query = vector(point);
-        let (found, (face, location)) = search.project_local_point_and_get_location(query, false);
-        let found = DVec3::from_array(found.point.to_array()).distance(point);
+        let corners = self.triangle(face);
+        let (_, location) = project(corners);
         let weights = location
             .barycentric_coordinates()
             .unwrap_or([1.0, 0.0, 0.0]);
         let weights = weights.map(|w| w.clamp(0.0, 1.0));
         let sum: f64 = weights.iter().sum();
-        let on = self.mesh.faces().get(face as usize).map(|corners| {
-            let corners = corners.map(|v| self.mesh.vertices()[v as usize]);
-            corners
-                .iter()
-                .zip(weights)
-                .map(|(&p, w)| w / sum * (p - point))
-                .sum::<DVec3>()
-        });
-        let reached = on.map_or(f64::INFINITY, DVec3::length);
+        let on = corners.iter().zip(weights);
+        let on: DVec3 = on.map(|(&p, w)| w / sum * (p - point)).sum();
+        let reached = on.length();
         // NaN, were there any, is as far as can be.
         let far = |way: f64| if way.is_nan() { f64::INFINITY } else { way };
         (if found.is_nan() { 0.0 } else { found }, far(reached))
@@ -155,19 +161,16 @@ impl<'a> Solid<'a> {
     /// Whether the mesh winds about a point, by exact predicates; for a point on the surface, whether
     /// it does about one next to it. Never for an open mesh.
     pub(super) fn winds_about(&self, point: DVec3) -> bool {
-        let (true, Some(search)) = (self.closed, &self.search) else {
+        if !self.closed {
             return false;
-        };
-        let above = Aabb::new(
-            vector(point),
-            Vector::new(point.x, point.y, greater(point.z, self.bounds[1].z)),
-        );
-        let winding: i32 = search
-            .bvh()
-            .intersect_aabb(&above)
-            .filter_map(|face| self.mesh.faces().get(face as usize))
-            .map(|face| crossing(face.map(|v| self.mesh.vertices()[v as usize]), point))
-            .sum();
+        }
+        let top = DVec3::new(point.x, point.y, greater(point.z, self.bounds[1].z));
+        let above = Region::segment([point, top]);
+        let mut winding = 0;
+        self.boxes.all_meeting(&above, &Work::unbounded(), |face| {
+            winding += crossing(self.triangle(face), point);
+            true
+        });
         winding != 0
     }
 }

@@ -1,0 +1,114 @@
+use super::*;
+use crate::predicates::Projection;
+use proptest::prelude::*;
+use proptest::strategy::ValueTree;
+use proptest::test_runner::TestRunner;
+use robust::{Coord, orient2d};
+use std::cmp::Ordering;
+
+fn turn(p: DVec3, q: DVec3, r: DVec3) -> f64 {
+    let [a, b, c] = [p, q, r].map(|p| Coord { x: p.x, y: p.y });
+    orient2d(a, b, c)
+}
+
+/// Whether two edges of an outline that are not neighbours meet: all pairs, exactly.
+fn meets_itself(points: &[DVec3]) -> bool {
+    let n = points.len();
+    let at = |k: usize| points[k % n];
+    let between = |p: DVec3, q: DVec3, x: DVec3| {
+        turn(p, q, x) == 0.0 && x.cmpge(p.min(q)).all() && x.cmple(p.max(q)).all()
+    };
+    let meet = |k: usize, l: usize| {
+        let [p, q, r, s] = [at(k), at(k + 1), at(l), at(l + 1)];
+        let crosses = turn(p, q, r) * turn(p, q, s) < 0.0 && turn(r, s, p) * turn(r, s, q) < 0.0;
+        let ends = [(p, q, r), (p, q, s), (r, s, p), (r, s, q)];
+        crosses || ends.iter().any(|&(p, q, x)| between(p, q, x))
+    };
+    let folded = |k: usize| {
+        let [p, q, r] = [at(k), at(k + 1), at(k + 2)];
+        turn(p, q, r) == 0.0 && (q - p).dot(r - q) <= 0.0
+    };
+    (0..n).any(folded) || (0..n).any(|k| (k + 2..n).any(|l| (l + 1) % n != k && meet(k, l)))
+}
+
+/// Outlines about the origin and at random, on a grid and not: filled just when they do not meet
+/// themselves, by triangles whose areas add up to the outline's.
+#[test]
+fn outlines_are_filled_unless_they_meet_themselves() {
+    let radii = prop::collection::vec((0.5..4.0_f64, -4..=4_i32, -4..=4_i32), 4..12);
+    let given = (radii, 0..3_u8);
+    let mut runner = TestRunner::deterministic();
+    let (mut whole, mut crossed) = (0, 0);
+    for _ in 0..400 {
+        let (radii, kind) = given.new_tree(&mut runner).unwrap().current();
+        let n = radii.len() as f64;
+        let corner = |(k, &(radius, x, y)): (usize, &(f64, i32, i32))| {
+            let angle = std::f64::consts::TAU * k as f64 / n;
+            let round = radius * DVec3::new(angle.cos(), angle.sin(), 0.0);
+            match kind {
+                0 => round,
+                1 => round.round(),
+                _ => DVec3::new(x.into(), y.into(), 0.0),
+            }
+        };
+        let points: Vec<DVec3> = radii.iter().enumerate().map(corner).collect();
+        let filled = fill(&points);
+        if meets_itself(&points) {
+            assert_eq!(filled, None, "{points:?}");
+            crossed += 1;
+            continue;
+        }
+        whole += 1;
+        let filled = filled.unwrap();
+        assert_eq!(filled.len(), points.len() - 2);
+        let area = |[a, b, c]: [usize; 3]| turn(points[a], points[b], points[c]);
+        let first = points.iter().zip(points.iter().cycle().skip(1));
+        let all: f64 = first.map(|(p, q)| turn(DVec3::ZERO, *p, *q)).sum();
+        assert!(filled.iter().all(|&t| area(t) * all > 0.0));
+        let sum: f64 = filled.iter().map(|&t| area(t)).sum();
+        assert!((sum - all).abs() < 1e-9 * all.abs());
+    }
+    assert!(whole > 50 && crossed > 50, "{whole}, {crossed}");
+}
+
+#[test]
+fn outlines_are_filled_from_whichever_side() {
+    let notch = [(0.0, 0.0), (4.0, 0.0), (1.0, 1.0), (0.0, 4.0)];
+    for axes in [
+        [0, 1, 2],
+        [1, 2, 0],
+        [2, 0, 1],
+        [1, 0, 2],
+        [0, 2, 1],
+        [2, 1, 0],
+    ] {
+        let placed = |&(x, y): &(f64, f64)| {
+            let mut p = [0.0; 3];
+            (p[axes[0]], p[axes[1]], p[axes[2]]) = (x, y, 0.25 * x);
+            DVec3::from_array(p)
+        };
+        let points: Vec<DVec3> = notch.iter().map(placed).collect();
+        assert_eq!(fill(&points), Some(vec![[0, 1, 2], [0, 2, 3]]));
+        let turned: Vec<DVec3> = points.iter().rev().copied().collect();
+        let filled = fill(&turned).unwrap();
+        let plane = Projection::of([points[0], points[2], points[1]]).unwrap();
+        let [a, b, c] = filled[0].map(|k| turned[k]);
+        assert_eq!(plane.turn(a, b, c), Ordering::Greater);
+    }
+}
+
+#[test]
+fn what_has_no_inside_is_not_filled() {
+    let line: Vec<DVec3> = (0..5).map(|k| DVec3::X * f64::from(k)).collect();
+    assert_eq!(fill(&line), None);
+    assert_eq!(fill(&[DVec3::ONE; 6]), None);
+    let twice = [DVec3::ZERO, DVec3::X, DVec3::ONE, DVec3::X, DVec3::Y];
+    assert_eq!(fill(&twice), None);
+    let fine = [
+        DVec3::ZERO,
+        1e-300 * DVec3::X,
+        DVec3::ONE,
+        1e-300 * DVec3::Y,
+    ];
+    assert_eq!(fill(&fine), None);
+}
