@@ -200,6 +200,11 @@ pub const WORTHWHILE: f64 = 1.0 / 64.0;
 /// and what a rate of zero picks up by rounding over the whole duration.
 pub const RESTING: f64 = 4.0;
 
+/// How much of what [`RESTING`] grants has to be left, in units of the distance's rounding, for a pair that
+/// rests to be followed on. Less is what heights were rounded to: each look would find some of it again, and
+/// a pair that approaches slowly be looked at a million times before it is in contact.
+pub const RESTED: f64 = 1.0 / 16.0;
+
 /// How far apart two nodes have to be, in units of their radii, for a second look at them to be
 /// worth more than a split. Measured: 0.5 serves meshes on meshes as well as meshes on a thin board;
 /// less makes large nodes creep past each other, more splits what only passes.

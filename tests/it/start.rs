@@ -133,6 +133,23 @@ fn flush_solids_that_dive_into_each_other_are_in_contact_at_once() {
     }
 }
 
+/// What is left of resting is used up in a few steps, not in one for every bit of it.
+#[test]
+fn approaching_ever_so_slowly_takes_no_longer() {
+    for approach in [1e-5, 1e-7, 1e-9, 1e-11] {
+        let query = sliding(0.0, -approach * DVec3::Z).query;
+        for_each_setup(&query, &leave(1e-3), |_, setup, answer| {
+            let Outcome::Contact { time, .. } = answer.outcome else {
+                panic!("{approach:e} {setup:?}\n{answer:?}");
+            };
+            // Half of the least tolerance is what rounding makes of resting.
+            assert!(time * approach <= 0.5 * answer.tolerance, "{time:e}");
+            let calls = answer.stats.oracle_calls;
+            assert!(calls < 5_000, "{approach:e}: {calls} {setup:?}");
+        });
+    }
+}
+
 /// A box inside of the margin of a floor eighty times its size: across so small a gap the nearest points'
 /// way is not exact enough to tell sliding from approaching, the features' normals are.
 #[test]

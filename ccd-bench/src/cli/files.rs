@@ -21,6 +21,9 @@ pub(super) struct Table {
 /// What the name of a file ends in that is not whole yet.
 const PARTIAL: &str = ".partial";
 
+/// What the name of the journal ends in that stands beside it.
+pub(super) const RESUME: &str = ".resume";
+
 /// Where a file is going to be, and where it is until then.
 pub(super) struct Beside {
     target: PathBuf,
@@ -187,13 +190,24 @@ fn csv_cause(error: csv::Error) -> io::Error {
     }
 }
 
-/// Refuses to have two options name one file, of which the second one is written to.
+/// Refuses to have two options name one file, of which the second one is written to, or what stands beside
+/// it until it is whole.
 pub(super) fn refuse_overwriting(
     (read, source): (&str, &Path),
     (written, target): (&str, &Path),
 ) -> Result<()> {
-    if !is_standard(target) && same_file(source, target) {
+    if is_standard(target) {
+        return Ok(());
+    }
+    if same_file(source, target) {
         bail!("{written} names the file of {read}, which it would overwrite; give it another");
+    }
+    for ending in [PARTIAL, RESUME] {
+        let beside = with_ending(target, ending);
+        if same_file(source, &beside) {
+            let beside = beside.display();
+            bail!("{written} is put together in {beside}, the file of {read}; give it another");
+        }
     }
     Ok(())
 }

@@ -89,6 +89,7 @@ fn check(args: &QueryArgs) -> Result<()> {
             bail!("--contacts - and --out - are both standard output; give one of them a file");
         }
         refuse_overwriting(("--out", &args.out), ("--contacts", contacts))?;
+        refuse_overwriting(("--contacts", contacts), ("--out", &args.out))?;
     }
     if let Some(bound) = args.bound
         && !args.schedule.uses_a_bound()

@@ -212,17 +212,29 @@ fn raised_tolerances_are_told() {
 fn results_never_overwrite_their_motions() {
     let folder = std::env::temp_dir().join(format!("ccd-out-{}", std::process::id()));
     std::fs::create_dir_all(&folder).unwrap();
-    let motions = folder.join("motions.csv");
-    std::fs::write(&motions, DROP).unwrap();
-    let name = motions.to_str().unwrap();
-    let output = std::process::Command::new(env!("CARGO_BIN_EXE_ccd"))
-        .args(["query", "--a", "box:1,1,1", "--b", "box:1,1,1"])
-        .args(["--motions", name, "--out", name])
-        .output()
-        .unwrap();
-    assert_eq!(output.status.code(), Some(2));
-    assert!(stderr(&output).contains("overwrite"), "{}", stderr(&output));
-    assert_eq!(std::fs::read_to_string(&motions).unwrap(), DROP);
+    let named = |name: &str| folder.join(name).to_str().unwrap().to_owned();
+    // The results, the file that they are put together in, and the journal beside it.
+    for [motions, option, target] in [
+        ["m.csv", "--out", "m.csv"],
+        ["m.csv.partial", "--out", "m.csv"],
+        ["m.csv.resume", "--out", "m.csv"],
+        ["m.csv.partial", "--contacts", "m.csv"],
+    ] {
+        let (motions, target) = (named(motions), named(target));
+        std::fs::write(&motions, DROP).unwrap();
+        for more in [&[][..], &["--resume"]] {
+            let output = std::process::Command::new(env!("CARGO_BIN_EXE_ccd"))
+                .args(["query", "--a", "box:1,1,1", "--b", "box:1,1,1"])
+                .args(["--motions", &motions, option, &target])
+                .args(more)
+                .output()
+                .unwrap();
+            assert_eq!(output.status.code(), Some(2), "{motions} {target}");
+            let told = stderr(&output);
+            assert!(told.contains("give it another"), "{told}");
+            assert_eq!(std::fs::read_to_string(&motions).unwrap(), DROP);
+        }
+    }
     std::fs::remove_dir_all(&folder).unwrap();
 }
 

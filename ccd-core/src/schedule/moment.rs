@@ -12,7 +12,7 @@ use crate::piece::Piece;
 use crate::pose::Frame;
 use crate::problem::Problem;
 use crate::separation::{self, Checked};
-use crate::tolerance::{AXIS_ROUNDS, RATE_F64, RESTING, TURNED_SHARE, USUAL_STEPS};
+use crate::tolerance::{AXIS_ROUNDS, RATE_F64, RESTED, RESTING, TURNED_SHARE, USUAL_STEPS};
 use crate::vector::{length, unit};
 use attached::{Member, Sweep};
 use glam::DVec3;
@@ -167,13 +167,22 @@ impl<'p> Moment<'p> {
             let radii = self.pieces.a.radius + self.pieces.b.radius;
             separation::support_gap(&self.pieces, axis, checked.witness_a) - radii - rounding - kept
         };
+        // Written so that NaN is nothing left.
+        let is_left = |slack: f64| slack > RESTED * rounding;
+        let anyhow = || match is_left(checked.lower - kept) {
+            true => self.free_time(checked, kept),
+            false => Some(0.0),
+        };
         // Also when they have just passed the plane by what rounding makes of resting.
         let in_one_plane = slack(-checked.axis) >= -RESTING * rounding;
         if !in_one_plane {
-            return self.free_time(checked, kept);
+            return anyhow();
         }
         let turn = self.pieces.b_to_a.rotation;
-        let along = |axis: DVec3| self.free_along(self.frames[0].rotation * axis, slack(axis));
+        let along = |axis: DVec3| match slack(axis) {
+            slack if is_left(slack) => self.free_along(self.frames[0].rotation * axis, slack),
+            _ => Some(0.0),
+        };
         match (self.problem.a.body.facing(a), self.problem.b.body.facing(b)) {
             // Which side to keep to is not known: they are not let go.
             (Facing::Unclear, _) | (_, Facing::Unclear) => Some(0.0),
@@ -184,7 +193,7 @@ impl<'p> Moment<'p> {
             },
             (Facing::Out(n), Facing::Neither) => along(n),
             (Facing::Neither, Facing::Out(m)) => along(-(turn * m)),
-            (Facing::Neither, Facing::Neither) => self.free_time(checked, kept),
+            (Facing::Neither, Facing::Neither) => anyhow(),
         }
     }
 

@@ -6,7 +6,7 @@
 
 use super::args::QueryArgs;
 use crate::cli::CannotWrite;
-use crate::cli::files::{Beside, Table};
+use crate::cli::files::{Beside, RESUME, Table};
 use crate::contacts;
 use crate::results;
 use anyhow::{Result, bail};
@@ -41,9 +41,6 @@ struct Journal {
     path: PathBuf,
     file: File,
 }
-
-/// What the journal's name ends in.
-const RESUME: &str = ".resume";
 
 /// Stands in the journal between the options and the marks.
 const MARKS: &str = "\nmarks:\n";
