@@ -1,5 +1,7 @@
 //! Faces of a mesh that meet where they share nothing.
 
+mod plates;
+
 use crate::error::DecomposeError;
 use crate::manifold::Manifold;
 use crate::predicates::{Projection, side};
@@ -7,6 +9,7 @@ use crate::tolerance::CROSSINGS;
 use crate::triangle_boxes::Region;
 use crate::work::Work;
 use ccd_core::glam::DVec3;
+use plates::Plates;
 use serde::{Deserialize, Serialize};
 use std::cmp::Ordering;
 use std::fmt;
@@ -36,14 +39,21 @@ pub(crate) fn crossings(
     work: &Work,
 ) -> Result<Vec<(u32, u32)>, DecomposeError> {
     let mut found = Vec::new();
+    let plates = Plates::of(manifold);
     for face in 0..manifold.faces().len() as u32 {
         let near = Region::triangle(manifold.triangle(face));
-        let goes_on = manifold.boxes().all_meeting(&near, work, |other| {
-            if face < other && cross(manifold, face, other) {
-                found.push((face, other));
+        let mut pair = |other: u32| {
+            if cross(manifold, face, other) {
+                found.push((face.min(other), face.max(other)));
             }
             found.len() < CROSSINGS && work.spend(PAIR)
-        });
+        };
+        let goes_on = match &plates {
+            Some(plates) => plates.all_meeting(face, &near, work, pair),
+            None => manifold
+                .boxes()
+                .all_meeting(&near, work, |other| other <= face || pair(other)),
+        };
         if !goes_on {
             work.check()?;
             break;

@@ -100,6 +100,12 @@ pub(crate) fn star(corners: u32, inner: f64) -> TriangleMesh {
 
 /// A polygon along z, each cap the fan about its first corner.
 pub(crate) fn prism(outline: &[DVec3]) -> TriangleMesh {
+    let fan = (1..outline.len() as u32 - 1).map(|k| [0, k, k + 1]);
+    capped(outline, &fan.collect::<Vec<_>>())
+}
+
+/// A polygon along z, whose caps are of some triangles between its corners.
+fn capped(outline: &[DVec3], caps: &[[u32; 3]]) -> TriangleMesh {
     let n = outline.len() as u32;
     let mut vertices = outline.to_vec();
     vertices.extend(outline.iter().map(|&p| p + DVec3::Z));
@@ -108,10 +114,27 @@ pub(crate) fn prism(outline: &[DVec3]) -> TriangleMesh {
         let l = (k + 1) % n;
         faces.extend([[k, l, n + l], [k, n + l, n + k]]);
     }
-    for k in 1..n - 1 {
-        faces.extend([[0, k + 1, k], [n, n + k, n + k + 1]]);
+    for &[a, b, c] in caps {
+        faces.extend([[a, c, b], [n + a, n + b, n + c]]);
     }
     mesh(vertices, &faces)
+}
+
+/// Upright teeth of some heights on a bar from z = 0 to 1, whose caps fit it: a fan for the bar, and two
+/// triangles for every tooth.
+pub(crate) fn comb(heights: &[f64]) -> TriangleMesh {
+    let count = heights.len() as u32;
+    let mut outline = vec![DVec3::ZERO, dvec3(f64::from(2 * count + 1), 0.0, 0.0)];
+    let mut caps = Vec::new();
+    for (tooth, &height) in (1..=count).rev().zip(heights) {
+        let [right, left] = [0.0, 1.0].map(|width| f64::from(2 * tooth) - width);
+        let base = outline.len() as u32;
+        let places = [(right, 1.0), (right, height), (left, height), (left, 1.0)];
+        outline.extend(places.map(|(x, y)| dvec3(x, y, 0.0)));
+        let [a, b, c, d] = [0, 1, 2, 3].map(|k| base + k);
+        caps.extend([[0, base - 1, a], [0, a, d], [a, b, c], [a, c, d]]);
+    }
+    capped(&outline, &caps)
 }
 
 /// Teeth that lean away from the first corner, which sees all of them: the fans of the caps are exact.

@@ -106,6 +106,12 @@ pub(crate) const PARTS_PER_HULL: u32 = 2;
 /// The most parts to ask the library for: merging takes time that grows with their cube.
 pub(crate) const MOST_PARTS: u32 = 512;
 
+/// Up to so many points of a part tell what merging it with another one costs.
+///
+/// Unit: points. At most half of [`LIKELY_POINTS`]. More: hardly better choices, and time that grows with
+/// their square.
+pub(crate) const PRICED_POINTS: u32 = 96;
+
 /// Hulls that may stick out by more than this, in units of half the mesh's diagonal, are refused.
 pub(crate) const TOO_COARSE: f64 = 0.5;
 

@@ -134,6 +134,11 @@ impl Region {
         }
     }
 
+    /// The box about it.
+    pub(crate) fn bounds(&self) -> &Bounds {
+        &self.bounds
+    }
+
     /// What is in a box and inside of a hull, given by its corners and its facets.
     pub(crate) fn inside(corners: Vec<DVec3>, mut facets: Vec<[DVec3; 3]>, bounds: Bounds) -> Self {
         // What is near a hull, but not in it, is most likely in front of a large facet.
@@ -171,11 +176,11 @@ impl Bounds {
     }
 
     /// Whether two have a point in common.
-    fn meets(&self, other: &Bounds) -> bool {
+    pub(crate) fn meets(&self, other: &Bounds) -> bool {
         (self.lo.cmple(other.hi) & other.lo.cmple(self.hi)).all()
     }
 
-    fn as_aabb(self) -> Aabb {
+    pub(crate) fn as_aabb(self) -> Aabb {
         let vector = |p: DVec3| Vector::new(p.x, p.y, p.z);
         Aabb::new(vector(self.lo), vector(self.hi))
     }

@@ -10,6 +10,7 @@
 
 mod cover;
 mod excess;
+mod extremes;
 mod labels;
 mod merge;
 mod solid;
@@ -105,12 +106,11 @@ pub(crate) fn approximate(mesh: &TriangleMesh, hulls: u32) -> Result<Approximati
         }
         _ => vec![solid.corners().collect()],
     };
-    let parts: Vec<Part> = parts
-        .into_iter()
-        .filter(|points| !points.is_empty())
-        .map(|points| Part::of(&points))
+    let parts = parts.into_iter().filter(|points| !points.is_empty());
+    let parts: Vec<Part> = merge::down_to(parts.collect(), hulls as usize)
+        .iter()
+        .map(|points| Part::of(points))
         .collect::<Result<_, HullError>>()
-        .and_then(|parts| merge::down_to(parts, hulls as usize))
         .map_err(VhacdError::Hull)?;
     let uncovered = tolerance::clip_rounding(solid.farthest_coordinate());
     let excess = match is_convex {
@@ -171,15 +171,6 @@ impl Part {
             facets: Vec::new(),
             way: Way::Flat,
         }
-    }
-
-    /// Its facets, fanned out.
-    fn triangles(&self) -> impl Iterator<Item = [u32; 3]> {
-        let fan = |f: &Vec<u32>| {
-            let fan: Vec<_> = f[1..].windows(2).map(|e| [f[0], e[0], e[1]]).collect();
-            fan
-        };
-        self.facets.iter().flat_map(fan)
     }
 
     fn polytope(self, radius: f64) -> Polytope {

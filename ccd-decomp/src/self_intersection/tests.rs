@@ -2,7 +2,7 @@ use crate::error::DecomposeError;
 use crate::manifold::Manifold;
 use crate::mesh::TriangleMesh;
 use crate::self_intersection::Crossing;
-use crate::test_meshes::{cubes, joined, mesh, notched, placed, prism, teeth, tetrahedron};
+use crate::test_meshes::{comb, cubes, joined, mesh, notched, placed, prism, teeth, tetrahedron};
 use crate::tolerance::CROSSINGS;
 use crate::topology::Topology;
 use crate::work::Work;
@@ -112,9 +112,11 @@ fn steps_per_face(mesh: &TriangleMesh) -> u64 {
 #[test]
 fn steps_per_face_stay_bounded_however_many_slivers_there_are() {
     for count in [50, 500, 5_000] {
-        let comb = steps_per_face(&prism(&teeth(count)));
+        let leaning = steps_per_face(&prism(&teeth(count)));
         let step = steps_per_face(&notched(count));
-        assert!(comb < 400 && step < 400, "{count}: {comb}, {step}");
+        let upright = steps_per_face(&comb(&vec![5.0; count as usize]));
+        let steps = [leaning, step, upright];
+        assert!(steps.iter().all(|&steps| steps < 400), "{count}: {steps:?}");
     }
 }
 

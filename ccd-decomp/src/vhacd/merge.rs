@@ -1,21 +1,26 @@
 //! Fewer parts: those that fill their common hull best are merged first.
 
-use super::Part;
-use crate::hull::{HullError, likely_triangles};
+use super::extremes::{bounds, farthest, without_inner};
+use crate::exact_hull::ExactHull;
+use crate::hull::likely_triangles;
+use crate::tolerance::PRICED_POINTS;
 use ccd_core::glam::DVec3;
 
-/// Merges pairs of parts until there are no more than so many: always the pair whose hull has the least
+/// Merges pairs of parts, given by points of their hulls, until there are no more than so many: always the pair whose hull has the least
 /// volume beyond their own.
 ///
 /// # Complexity
-/// O(n²) hulls at worst; of parts apart from each other the boxes stand in for the hulls.
-pub(super) fn down_to(parts: Vec<Part>, most: usize) -> Result<Vec<Part>, HullError> {
-    let mut merger = Merger::new(parts);
-    // Each step leaves one less, or none.
-    while merger.count > most {
-        merger.merge_best()?;
-    }
-    Ok(merger.parts.into_iter().flatten().map(|p| p.part).collect())
+/// O(n²) hulls of few points each, however many a part has; of parts apart from each other the boxes stand
+/// in for the hulls.
+///
+/// # Guarantee
+/// The hull of what comes out for some parts contains these parts; volumes serve to choose alone.
+pub(super) fn down_to(parts: Vec<Vec<DVec3>>, most: usize) -> Vec<Vec<DVec3>> {
+    let mut merger = Merger::new(parts.into_iter().map(without_inner).collect());
+    // Each step leaves one less.
+    while merger.count > most && merger.merge_best() {}
+    let parts = merger.parts.into_iter().flatten();
+    parts.map(|part| part.points).collect()
 }
 
 struct Merger {
@@ -26,14 +31,18 @@ struct Merger {
 }
 
 struct Measured {
-    part: Part,
+    points: Vec<DVec3>,
+    /// Few of them, whose hull is about as large.
+    priced: Vec<DVec3>,
+    /// Of these.
     volume: f64,
     bounds: [DVec3; 2],
 }
 
 impl Merger {
-    fn new(parts: Vec<Part>) -> Self {
-        let parts: Vec<_> = parts.into_iter().map(|p| Some(Measured::of(p))).collect();
+    fn new(parts: Vec<Vec<DVec3>>) -> Self {
+        let measured = |points: Vec<DVec3>| Some(Measured::of(points));
+        let parts: Vec<_> = parts.into_iter().map(measured).collect();
         let mut merger = Merger {
             count: parts.len(),
             prices: parts
@@ -58,18 +67,19 @@ impl Merger {
         }
     }
 
-    fn merge_best(&mut self) -> Result<(), HullError> {
+    /// Whether there was a pair to merge.
+    fn merge_best(&mut self) -> bool {
         let live = |k: usize| self.parts[k].is_some();
         let pairs = (0..self.parts.len()).flat_map(|l| (0..l).map(move |k| (k, l)));
         let best = pairs
             .filter(|&(k, l)| live(k) && live(l))
             .min_by(|&(k, l), &(m, n)| self.prices[l][k].total_cmp(&self.prices[n][m]));
         let Some((k, l)) = best else {
-            self.count = 0;
-            return Ok(());
+            return false;
         };
-        if let (Some(one), Some(other)) = (self.parts[k].take(), self.parts[l].take()) {
-            self.parts[k] = Some(Measured::of(Part::of(&one.corners_with(&other))?));
+        if let (Some(mut one), Some(other)) = (self.parts[k].take(), self.parts[l].take()) {
+            one.points.extend(other.points);
+            self.parts[k] = Some(Measured::of(without_inner(one.points)));
         }
         self.count -= 1;
         for other in 0..self.parts.len() {
@@ -78,26 +88,21 @@ impl Merger {
                 self.prices[high][low] = self.price(low, high);
             }
         }
-        Ok(())
+        true
     }
 }
 
 impl Measured {
-    fn of(part: Part) -> Self {
-        let corners = || part.corners.iter().copied();
+    fn of(points: Vec<DVec3>) -> Self {
+        let priced = farthest(&points, PRICED_POINTS);
+        let hull = ExactHull::of(&priced);
+        let (lo, hi) = bounds(&points);
         Measured {
-            volume: volume(&part.corners, part.triangles()),
-            bounds: [
-                corners().fold(DVec3::INFINITY, DVec3::min),
-                corners().fold(DVec3::NEG_INFINITY, DVec3::max),
-            ],
-            part,
+            volume: hull.map_or(0.0, |hull| volume(&priced, hull.facets().iter().copied())),
+            bounds: [lo, hi],
+            priced,
+            points,
         }
-    }
-
-    fn corners_with(&self, other: &Measured) -> Vec<DVec3> {
-        let corners = self.part.corners.iter().chain(&other.part.corners);
-        corners.copied().collect()
     }
 
     /// The volume that merging adds. The box is more than the hull, which keeps parts that are apart
@@ -110,9 +115,9 @@ impl Measured {
                 || other.bounds[0][axis] > self.bounds[1][axis]
         };
         let common = || {
-            let corners = self.corners_with(other);
-            let triangles = likely_triangles(&corners)?;
-            Some(volume(&corners, triangles.into_iter()))
+            let points = [&self.priced[..], &other.priced].concat();
+            let triangles = likely_triangles(&points)?;
+            Some(volume(&points, triangles.into_iter()))
         };
         let common = if (0..3).any(apart) { None } else { common() };
         common.unwrap_or((hi - lo).element_product()) - self.volume - other.volume
