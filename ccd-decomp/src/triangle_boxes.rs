@@ -33,8 +33,8 @@ pub(crate) struct TriangleBoxes {
 /// A box along the coordinate axes; touching counts as meeting.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Bounds {
-    lo: DVec3,
-    hi: DVec3,
+    pub(crate) lo: DVec3,
+    pub(crate) hi: DVec3,
 }
 
 /// A part of space in which triangles are looked for.

@@ -143,11 +143,12 @@ fn what_rests_on_a_face_may_leave_it_on_the_outside_only() {
                 faces: vec![[0, 1, 2]],
             };
             let sheet = body(&sheet, Detail::Triangles);
+            let speed = 0.02 * size;
             let solve =
-                |b: &Body, way: f64| solve(&outer, b, 0.02 * way * size * out, StartPolicy::Leave);
+                |b: &Body, way: f64| solve(&outer, b, way * speed * out, StartPolicy::Leave);
             let into = solve(&sheet, -1.0);
-            // What rests may come nearer by a few roundings, 3e-12 here; speeds are above 3e-4.
-            let at_once = |time: f64| time < 1e-8;
+            // What rests may come nearer by a few roundings.
+            let at_once = |time: f64| time * speed < 3e-12;
             assert!(
                 matches!(into, Outcome::Contact { time, .. } if at_once(time)),
                 "case {case} {into:?}"

@@ -180,6 +180,8 @@ fn tables_take_the_place_of_files_alone() {
         let output = finished(query(&scene, &["--out", out]), one);
         assert_eq!(output.status.code(), Some(1), "{out}: {}", stderr(&output));
     }
+    let output = finished(query(&scene, &["--out", ""]), one);
+    assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
     let mesh = path(&scene, "part.obj");
     fs::write(&mesh, crate::TETRAHEDRON).unwrap();
     let over = ["--out", "part.obj", "--a", "part.obj"];

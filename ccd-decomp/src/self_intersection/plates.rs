@@ -58,7 +58,7 @@ struct Group {
 const BESIDE: usize = 4;
 
 impl<'a, 'm> Plates<'a, 'm> {
-    /// None where no vertex has a large fan about it. O(n log n), as [`Flats::new`].
+    /// None where no polygon has a large fan: the boxes of all triangles do then. O(n log n), as [`Flats::new`].
     pub(super) fn of(manifold: &'a Manifold<'m>) -> Option<Self> {
         let mut count = vec![0; manifold.mesh().vertices().len()];
         for &v in manifold.faces().iter().flatten() {
@@ -81,6 +81,9 @@ impl<'a, 'm> Plates<'a, 'm> {
                 plate_of[face as usize] = number;
             }
             plates.push(Plate { number, ..plate });
+        }
+        if plates.is_empty() {
+            return None;
         }
         let rest = (0..).zip(&plate_of).filter(|(_, plate)| **plate == NONE);
         let rest = Group::of(manifold, rest.map(|(face, _)| face).collect());

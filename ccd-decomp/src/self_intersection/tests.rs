@@ -103,6 +103,9 @@ fn fans_of_convex_caps_are_not_compared_pair_by_pair() {
 /// Steps of work that checking a mesh takes, for every face.
 fn steps_per_face(mesh: &TriangleMesh) -> u64 {
     let manifold = Manifold::unchecked(mesh, &Topology::of(mesh)).unwrap();
+    assert!(!crate::star::is_seen_whole(&manifold));
+    let too_few = Work::of(100);
+    assert_eq!(manifold.check(&too_few), Err(DecomposeError::TooLong));
     let work = Work::unbounded();
     assert_eq!(manifold.check(&work), Ok(()));
     (u64::MAX - work.left()) / mesh.faces().len() as u64

@@ -77,15 +77,10 @@ impl Fan {
     /// Whether it is in a plane that has a hull on one side: none of it reaches inside.
     fn is_beside(&self, hull: &Hull) -> bool {
         self.plane.is_some_and(|plane| {
-            let mut sides = hull.corners.iter().map(|&corner| side(plane, corner));
-            let mut of_hull = Ordering::Equal;
-            sides.all(|side| {
-                let same = of_hull == Ordering::Equal || side == Ordering::Equal || side == of_hull;
-                if of_hull == Ordering::Equal {
-                    of_hull = side;
-                }
-                same
-            })
+            let sides = hull.corners.iter().map(|&corner| side(plane, corner));
+            let mut sides = sides.filter(|&side| side != Ordering::Equal);
+            let first = sides.next();
+            sides.all(|side| Some(side) == first)
         })
     }
 

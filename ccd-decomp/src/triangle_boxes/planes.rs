@@ -67,8 +67,8 @@ pub(super) fn planes_beside(shape: &Shape, hub: DVec3) -> Vec<Plane> {
                 let [p, q, r] = [0, 1, 2].map(|l| corners[(k + l) % 3]);
                 through(&mut planes, hub, [p, q], r);
                 if hub == p {
-                    beside(&mut planes, [p, q], r);
-                    beside(&mut planes, [p, r], q);
+                    upright(&mut planes, [p, q], &[r], hub);
+                    upright(&mut planes, [p, r], &[q], hub);
                 }
             }
             let [p, q, r] = *corners;
@@ -174,20 +174,6 @@ fn through(planes: &mut Vec<Plane>, hub: DVec3, [p, q]: [DVec3; 2], rest: DVec3)
     for plane in [[hub, p, q], [hub, q, p]] {
         if side(plane, rest) != Ordering::Greater {
             planes.push(Plane::of(plane));
-        }
-    }
-}
-
-/// The planes along an edge that are upright on the coordinate planes, the rest of the triangle behind
-/// them.
-fn beside(planes: &mut Vec<Plane>, [p, q]: [DVec3; 2], rest: DVec3) {
-    for (axis, upright) in DVec3::AXES.into_iter().enumerate() {
-        let turn = turn_along(axis, [p, q], rest);
-        if turn != Ordering::Greater {
-            planes.push(Plane::new(p, [upright, q - p]));
-        }
-        if turn != Ordering::Less {
-            planes.push(Plane::new(p, [q - p, upright]));
         }
     }
 }

@@ -3,6 +3,7 @@
 
 use crate::exact_hull::ExactHull;
 use crate::predicates::{side, too_fine};
+use crate::triangle_boxes::Bounds;
 use ccd_core::glam::DVec3;
 use std::cmp::Ordering;
 use std::f64::consts::PI;
@@ -11,7 +12,7 @@ use std::f64::consts::PI;
 ///
 /// Directions are spread evenly over the box of the points, stretched to a cube.
 pub(super) fn farthest(points: &[DVec3], directions: u32) -> Vec<DVec3> {
-    let (lo, hi) = bounds(points);
+    let Bounds { lo, hi } = Bounds::of(points.iter().copied());
     let stretch = |x: f64| if x > 0.0 { x.recip() } else { 0.0 };
     let scale = DVec3::from_array((hi - lo).to_array().map(stretch));
     let mut found: Vec<usize> = (0..directions)
@@ -33,13 +34,6 @@ fn direction(k: u32, count: u32) -> DVec3 {
     let radius = (1.0 - z * z).sqrt();
     let angle = PI * (3.0 - 5.0_f64.sqrt()) * f64::from(k);
     DVec3::new(radius * angle.cos(), radius * angle.sin(), z)
-}
-
-/// The box of some points.
-pub(super) fn bounds(points: &[DVec3]) -> (DVec3, DVec3) {
-    let none = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-    let wider = |(lo, hi): (DVec3, DVec3), &p: &DVec3| (lo.min(p), hi.max(p));
-    points.iter().fold(none, wider)
 }
 
 /// Directions whose farthest points tell what is within.

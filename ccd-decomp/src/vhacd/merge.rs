@@ -1,13 +1,14 @@
 //! Fewer parts: those that fill their common hull best are merged first.
 
-use super::extremes::{bounds, farthest, without_inner};
+use super::extremes::{farthest, without_inner};
 use crate::exact_hull::ExactHull;
 use crate::hull::likely_triangles;
 use crate::tolerance::PRICED_POINTS;
+use crate::triangle_boxes::Bounds;
 use ccd_core::glam::DVec3;
 
-/// Merges pairs of parts, given by points of their hulls, until there are no more than so many: always the pair whose hull has the least
-/// volume beyond their own.
+/// Merges pairs of parts, given by points of their hulls, until there are no more than so many: always the
+/// pair whose hull has the least volume beyond their own.
 ///
 /// # Complexity
 /// O(n²) hulls of few points each, however many a part has; of parts apart from each other the boxes stand
@@ -36,7 +37,7 @@ struct Measured {
     priced: Vec<DVec3>,
     /// Of these.
     volume: f64,
-    bounds: [DVec3; 2],
+    bounds: Bounds,
 }
 
 impl Merger {
@@ -96,10 +97,9 @@ impl Measured {
     fn of(points: Vec<DVec3>) -> Self {
         let priced = farthest(&points, PRICED_POINTS);
         let hull = ExactHull::of(&priced);
-        let (lo, hi) = bounds(&points);
         Measured {
             volume: hull.map_or(0.0, |hull| volume(&priced, hull.facets().iter().copied())),
-            bounds: [lo, hi],
+            bounds: Bounds::of(points.iter().copied()),
             priced,
             points,
         }
@@ -108,19 +108,15 @@ impl Measured {
     /// The volume that merging adds. The box is more than the hull, which keeps parts that are apart
     /// from being merged before others.
     fn price_with(&self, other: &Measured) -> f64 {
-        let lo = self.bounds[0].min(other.bounds[0]);
-        let hi = self.bounds[1].max(other.bounds[1]);
-        let apart = |axis: usize| {
-            self.bounds[0][axis] > other.bounds[1][axis]
-                || other.bounds[0][axis] > self.bounds[1][axis]
-        };
         let common = || {
             let points = [&self.priced[..], &other.priced].concat();
             let triangles = likely_triangles(&points)?;
             Some(volume(&points, triangles.into_iter()))
         };
-        let common = if (0..3).any(apart) { None } else { common() };
-        common.unwrap_or((hi - lo).element_product()) - self.volume - other.volume
+        let meet = self.bounds.meets(&other.bounds);
+        let both = self.bounds.union(other.bounds);
+        let of_box = (both.hi - both.lo).element_product();
+        meet.then(common).flatten().unwrap_or(of_box) - self.volume - other.volume
     }
 }
 

@@ -52,15 +52,7 @@ fn points_too_fine_or_in_a_plane_are_kept() {
         .map(|k| DVec3::new(f64::from(k % 10), f64::from(k / 10), 0.0))
         .collect();
     assert_eq!(without_inner(plane.clone()), plane);
-    let mut fine: Vec<DVec3> = (0..1000)
-        .map(|k| {
-            DVec3::new(
-                f64::from(k % 10),
-                f64::from(k / 10 % 10),
-                f64::from(k / 100),
-            )
-        })
-        .collect();
+    let mut fine = grid();
     assert!(without_inner(fine.clone()).len() < 600);
     fine.push(DVec3::splat(1e-95));
     assert_eq!(without_inner(fine.clone()), fine);
@@ -68,17 +60,15 @@ fn points_too_fine_or_in_a_plane_are_kept() {
 
 #[test]
 fn the_farthest_points_are_few() {
-    let points: Vec<DVec3> = (0..1000)
-        .map(|k| {
-            DVec3::new(
-                f64::from(k % 10),
-                f64::from(k / 10 % 10),
-                f64::from(k / 100),
-            )
-        })
-        .collect();
+    let points = grid();
     let far = farthest(&points, 96);
     // The corners of a cube.
     assert_eq!(far.len(), 8);
     assert!(farthest(&[], 96).is_empty());
+}
+
+/// The points of whole numbers in a cube.
+fn grid() -> Vec<DVec3> {
+    let point = |k: u32| DVec3::new((k % 10).into(), (k / 10 % 10).into(), (k / 100).into());
+    (0..1000).map(point).collect()
 }
