@@ -96,7 +96,7 @@ pub fn prepare(mesh: &TriangleMesh, detail: Detail) -> Result<Model, BodyError> 
             (Parts::Hull(Box::new(polytope)), Why::Asked)
         }
         Detail::Vhacd { hulls } => {
-            let approximation = approximate(mesh, hulls)?;
+            let approximation = approximate(mesh, &topology, hulls)?;
             (Parts::Vhacd(approximation), Why::Asked)
         }
     };

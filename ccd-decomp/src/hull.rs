@@ -159,7 +159,7 @@ impl Cloud {
 }
 
 /// The order by x, then y, then z: of points in a plane or on a line, the order along some direction.
-fn lexicographic(p: DVec3, q: DVec3) -> Ordering {
+pub(crate) fn lexicographic(p: DVec3, q: DVec3) -> Ordering {
     let by = |x: f64, y: f64| x.partial_cmp(&y).unwrap_or(Ordering::Equal);
     by(p.x, q.x).then(by(p.y, q.y)).then(by(p.z, q.z))
 }

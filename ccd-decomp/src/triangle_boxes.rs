@@ -6,7 +6,6 @@ mod planes;
 mod slab;
 mod slabs;
 
-use crate::tolerance::BOXES_MET;
 use crate::work::Work;
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
@@ -15,10 +14,7 @@ pub(crate) use nearest::NearestTriangles;
 use parry3d_f64::bounding_volume::Aabb;
 use parry3d_f64::math::Vector;
 use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
-use planes::Apart;
-use slab::Slab;
 use slabs::{Part, Slabs};
-use std::cell::{Cell, OnceCell};
 
 /// The boxes of triangles, to be searched: boxes that lie as the triangles do, so that those of slivers
 /// side by side hardly meet. The triangles of a large fan about one vertex, where all of them meet, are
@@ -89,16 +85,7 @@ impl TriangleBoxes {
         work: &Work,
         mut holds: impl FnMut(u32) -> bool,
     ) -> bool {
-        // Only where boxes along the coordinate axes leave too many.
-        let (met, apart) = (Cell::new(0), OnceCell::new());
-        let is_far = |bounds: &Bounds, slab: &Slab| {
-            if !bounds.meets(&region.bounds) {
-                return true;
-            }
-            met.set(met.get() + 1);
-            met.get() > BOXES_MET && apart.get_or_init(|| Apart::from(&region.shape)).has(slab)
-        };
-        if !self.single.all_but(is_far, work, &mut holds) {
+        if !self.single.all_meeting(region, work, &mut holds) {
             return false;
         }
         let aabb = region.bounds.as_aabb();

@@ -25,6 +25,7 @@ use crate::tolerance;
 use crate::topology::Topology;
 use ccd_core::glam::DVec3;
 use ccd_core::{Facet, Origin, Polytope};
+use rayon::prelude::*;
 use solid::Solid;
 use voxels::Voxels;
 
@@ -78,16 +79,20 @@ pub enum VhacdError {
     },
 }
 
-/// Approximates a mesh by so many hulls or fewer: a convex solid by one; so, too, a mesh that no grid of voxels suits, because its
-/// triangles are large and many or its coordinates hardly differ, by one.
+/// Approximates a mesh by so many hulls or fewer: a convex solid by one, and a mesh that no grid of voxels
+/// suits, because its triangles are large and many or its coordinates hardly differ.
 ///
 /// # Errors
 /// See [`VhacdError`].
 ///
 /// # Complexity
-/// Parts: the library's, O(r³) in the resolution. Errors: a branch and bound of at most
-/// [`tolerance::EXCESS_CELLS`] cells, each with a search for the nearest triangle.
-pub(crate) fn approximate(mesh: &TriangleMesh, hulls: u32) -> Result<Approximation, VhacdError> {
+/// Parts: the library's, O(r³) in the resolution. Errors: a branch and bound of about
+/// [`tolerance::EXCESS_WORK`] steps.
+pub(crate) fn approximate(
+    mesh: &TriangleMesh,
+    topology: &Topology,
+    hulls: u32,
+) -> Result<Approximation, VhacdError> {
     if hulls == 0 {
         return Err(VhacdError::NoHulls);
     }
@@ -96,19 +101,23 @@ pub(crate) fn approximate(mesh: &TriangleMesh, hulls: u32) -> Result<Approximati
             vertex: vertex as u32,
         });
     }
-    let solid = Solid::of(mesh);
-    let is_convex = is_convex(mesh);
+    let solid = Solid::of(mesh, topology);
+    let is_convex = is_convex(mesh, topology);
     let voxels = Voxels::of(&solid, hulls).filter(|_| hulls > 1 && !is_convex);
     let parts = match voxels {
         Some(voxels) => {
-            let labels = labels::labels(&solid, &voxels, hulls).ok_or(VhacdError::Library)?;
-            cover::points_by_part(&solid, &voxels, labels)
+            let (contents, labels) = rayon::join(
+                || cover::contents(&solid, &voxels),
+                || labels::labels(&solid, &voxels, hulls),
+            );
+            let labels = labels.ok_or(VhacdError::Library)?;
+            cover::points_by_part(&solid, &voxels, &contents, labels)
         }
-        _ => vec![solid.corners().collect()],
+        None => vec![cover::each_once(solid.corners().collect())],
     };
     let parts = parts.into_iter().filter(|points| !points.is_empty());
     let parts: Vec<Part> = merge::down_to(parts.collect(), hulls as usize)
-        .iter()
+        .par_iter()
         .map(|points| Part::of(points))
         .collect::<Result<_, HullError>>()
         .map_err(VhacdError::Hull)?;
@@ -132,8 +141,8 @@ pub(crate) fn approximate(mesh: &TriangleMesh, hulls: u32) -> Result<Approximati
 }
 
 /// Whether the mesh is known to be a convex solid, so that its hull has no error.
-fn is_convex(mesh: &TriangleMesh) -> bool {
-    let manifold = Manifold::unchecked(mesh, &Topology::of(mesh));
+fn is_convex(mesh: &TriangleMesh, topology: &Topology) -> bool {
+    let manifold = Manifold::unchecked(mesh, topology);
     manifold.is_ok_and(|manifold| is_seen_whole(&manifold) && as_polytope(&manifold).is_ok())
 }
 

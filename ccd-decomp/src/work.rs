@@ -29,10 +29,9 @@ impl Work {
         rest.is_some_and(|rest| rest > 0)
     }
 
-    /// How many steps are left.
-    #[cfg(test)]
-    pub(crate) fn left(&self) -> u64 {
-        self.left.get()
+    /// How many steps it took so far, of as much as it takes.
+    pub(crate) fn taken(&self) -> u64 {
+        u64::MAX - self.left.get()
     }
 
     /// # Errors

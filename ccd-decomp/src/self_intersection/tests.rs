@@ -108,7 +108,7 @@ fn steps_per_face(mesh: &TriangleMesh) -> u64 {
     assert_eq!(manifold.check(&too_few), Err(DecomposeError::TooLong));
     let work = Work::unbounded();
     assert_eq!(manifold.check(&work), Ok(()));
-    (u64::MAX - work.left()) / mesh.faces().len() as u64
+    work.taken() / mesh.faces().len() as u64
 }
 
 /// Slivers that no point sees all of, and walls along them: each is near a few others.

@@ -1,16 +1,18 @@
 //! Triangles near a point or in a box.
 
-use super::Bounds;
 use super::slabs::{Part, Slabs};
+use super::{Bounds, Region};
 use crate::work::Work;
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
-use std::ops::ControlFlow;
 
 /// Triangles, to be searched by distance: boxes lie as the triangles do, so that slivers are told apart.
 pub(crate) struct NearestTriangles {
     all: Slabs,
 }
+
+/// What looking at a node by distance takes, in nodes looked at for whether they meet a region.
+const NODE: usize = 4;
 
 impl NearestTriangles {
     /// O(n log n).
@@ -31,6 +33,7 @@ impl NearestTriangles {
     pub(crate) fn to(
         &self,
         point: DVec3,
+        work: &Work,
         mut measure: impl FnMut([DVec3; 3]) -> f64,
     ) -> Option<(u32, f64)> {
         let mut best: Option<(u32, f64)> = None;
@@ -41,6 +44,7 @@ impl NearestTriangles {
             if is_farther {
                 continue;
             }
+            work.spend(NODE);
             let (parts, below) = self.all.below(at);
             for part in parts {
                 let distance = measure(part.corners);
@@ -62,17 +66,27 @@ impl NearestTriangles {
         best
     }
 
-    /// Calls back with the triangles whose boxes meet a box, until told to stop.
-    pub(crate) fn in_box(
+    /// Calls back with the triangles whose boxes meet a box, until the answer is no, or the work is spent.
+    pub(crate) fn all_in(
         &self,
-        [lo, hi]: [DVec3; 2],
-        mut visit: impl FnMut(u32) -> ControlFlow<()>,
-    ) {
-        let region = Bounds { lo, hi };
-        let is_far = |bounds: &Bounds, _: &_| !bounds.meets(&region);
-        self.all.all_parts_but(is_far, &Work::unbounded(), |part| {
-            !Bounds::of(part.corners).meets(&region) || visit(part.face).is_continue()
-        });
+        bounds: &Bounds,
+        work: &Work,
+        mut holds: impl FnMut(u32) -> bool,
+    ) -> bool {
+        let is_far = |other: &Bounds, _: &_| !other.meets(bounds);
+        self.all.all_parts_but(is_far, work, |part| {
+            !Bounds::of(part.corners).meets(bounds) || holds(part.face)
+        })
+    }
+
+    /// As [`TriangleBoxes::all_meeting`](super::TriangleBoxes::all_meeting).
+    pub(crate) fn all_meeting(
+        &self,
+        region: &Region,
+        work: &Work,
+        holds: impl FnMut(u32) -> bool,
+    ) -> bool {
+        self.all.all_meeting(region, work, holds)
     }
 }
 

@@ -1,11 +1,14 @@
 //! Parts of triangles in a tree of boxes that lie as the parts do.
 
-use super::Bounds;
 use super::nearest::distance_to;
+use super::planes::Apart;
 use super::slab::Slab;
+use super::{Bounds, Region};
+use crate::tolerance::BOXES_MET;
 use crate::work::Work;
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
+use std::cell::{Cell, OnceCell};
 use std::ops::Range;
 
 /// What is searched of a face: all of it, or one edge, of which an end is there twice.
@@ -27,8 +30,8 @@ struct Node {
     slab: Slab,
     /// The parts of a leaf; none of an inner node.
     parts: Range<u32>,
-    /// The first node that is not below it.
-    next: u32,
+    /// How many nodes are below it, with itself.
+    count: u32,
 }
 
 /// The most parts of a leaf.
@@ -43,13 +46,12 @@ impl Part {
 
 impl Slabs {
     /// O(n log n).
-    pub(super) fn new(parts: Vec<Part>) -> Self {
-        let nodes = Vec::with_capacity(2 * parts.len());
-        let mut slabs = Slabs { parts, nodes };
-        if !slabs.parts.is_empty() {
-            slabs.build(0..slabs.parts.len());
+    pub(super) fn new(mut parts: Vec<Part>) -> Self {
+        let mut nodes = Vec::with_capacity(2 * parts.len());
+        if !parts.is_empty() {
+            build(&mut nodes, &mut parts, 0);
         }
-        slabs
+        Slabs { parts, nodes }
     }
 
     /// The smallest box along the coordinate axes that holds all; none of nothing.
@@ -57,35 +59,24 @@ impl Slabs {
         self.nodes.first().map(|node| node.bounds)
     }
 
-    /// Halves the count each time, so that it is at most as deep as a count has bits.
-    fn build(&mut self, range: Range<usize>) {
-        let parts = &mut self.parts[range.clone()];
-        let slab = Slab::about(parts);
-        let at = self.nodes.len();
-        let split = parts.len() / 2;
-        let is_leaf = parts.len() <= LEAF;
-        if !is_leaf {
-            let along = slab.widest(parts);
-            let height = |part: &Part| along.dot(part.middle());
-            parts.select_nth_unstable_by(split, |a, b| {
-                let order = height(a).total_cmp(&height(b));
-                order.then(a.face.cmp(&b.face))
-            });
-        }
-        self.nodes.push(Node {
-            bounds: Bounds::of(parts.iter().flat_map(|part| part.corners)),
-            slab,
-            parts: match is_leaf {
-                true => range.start as u32..range.end as u32,
-                false => 0..0,
-            },
-            next: 0,
-        });
-        if !is_leaf {
-            self.build(range.start..range.start + split);
-            self.build(range.start + split..range.end);
-        }
-        self.nodes[at].next = self.nodes.len() as u32;
+    /// Calls back with the faces of all parts that may meet a region, and some that do not, until the answer
+    /// is no, or the work is spent.
+    pub(super) fn all_meeting(
+        &self,
+        region: &Region,
+        work: &Work,
+        holds: impl FnMut(u32) -> bool,
+    ) -> bool {
+        // Only where boxes along the coordinate axes leave too many.
+        let (met, apart) = (Cell::new(0), OnceCell::new());
+        let is_far = |bounds: &Bounds, slab: &Slab| {
+            if !bounds.meets(&region.bounds) {
+                return true;
+            }
+            met.set(met.get() + 1);
+            met.get() > BOXES_MET && apart.get_or_init(|| Apart::from(&region.shape)).has(slab)
+        };
+        self.all_but(is_far, work, holds)
     }
 
     /// Calls back with the faces of all parts but those in boxes that are far, until the answer is no,
@@ -113,7 +104,7 @@ impl Slabs {
                 return false;
             }
             if is_far(&node.bounds, &node.slab) {
-                at = node.next as usize;
+                at += node.count as usize;
                 continue;
             }
             let parts = &self.parts[node.parts.start as usize..node.parts.end as usize];
@@ -134,7 +125,7 @@ impl Slabs {
         let left = at + 1;
         let below = parts
             .is_empty()
-            .then(|| [left, self.nodes[left].next as usize]);
+            .then(|| [left, left + self.nodes[left].count as usize]);
         (parts, below)
     }
 
@@ -143,4 +134,51 @@ impl Slabs {
         let node = &self.nodes[at];
         greater(distance_to(&node.bounds, point), node.slab.distance(point))
     }
+}
+
+/// More parts than this are shared between the cores.
+const SHARED: usize = 4096;
+
+/// Adds the nodes over some parts, which are put in order and of which the first has this number.
+///
+/// Halves the count each time, so that it is at most as deep as a count has bits.
+fn build(nodes: &mut Vec<Node>, parts: &mut [Part], first: usize) {
+    let slab = Slab::about(parts);
+    let at = nodes.len();
+    let split = parts.len() / 2;
+    let is_leaf = parts.len() <= LEAF;
+    nodes.push(Node {
+        bounds: Bounds::of(parts.iter().flat_map(|part| part.corners)),
+        parts: match is_leaf {
+            true => first as u32..(first + parts.len()) as u32,
+            false => 0..0,
+        },
+        slab,
+        count: 1,
+    });
+    if !is_leaf {
+        let along = nodes[at].slab.widest(parts);
+        let height = |part: &Part| along.dot(part.middle());
+        parts.select_nth_unstable_by(split, |a, b| {
+            let order = height(a).total_cmp(&height(b));
+            order.then(a.face.cmp(&b.face))
+        });
+        let is_shared = parts.len() > SHARED;
+        let (left, right) = parts.split_at_mut(split);
+        let all_of = |parts: &mut [Part], first: usize| {
+            let mut nodes = Vec::new();
+            build(&mut nodes, parts, first);
+            nodes
+        };
+        if is_shared {
+            let (left, right) =
+                rayon::join(|| all_of(left, first), || all_of(right, first + split));
+            nodes.extend(left);
+            nodes.extend(right);
+        } else {
+            build(nodes, left, first);
+            build(nodes, right, first + split);
+        }
+    }
+    nodes[at].count = (nodes.len() - at) as u32;
 }

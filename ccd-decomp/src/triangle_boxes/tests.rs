@@ -10,7 +10,6 @@ use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;
 use std::cmp::Ordering;
-use std::ops::ControlFlow;
 
 fn found(boxes: &TriangleBoxes, region: &Region) -> Vec<u32> {
     let mut found = Vec::new();
@@ -180,15 +179,16 @@ fn the_nearest_triangle_is_found() {
             };
             let all = faces.iter().map(|face| distance(at(face)));
             let least = all.fold(f64::INFINITY, ccd_core::order::lesser);
-            let (face, found) = search.to(point, distance).unwrap();
+            let (face, found) = search.to(point, &Work::unbounded(), distance).unwrap();
             assert_eq!(distance(at(&faces[face as usize])), found);
             assert!(found <= least + 1e-12, "{found} {least}");
             let bounds = Bounds::of([p, q]);
             let mut within = Vec::new();
-            search.in_box([bounds.lo, bounds.hi], |face| {
+            let all = search.all_in(&bounds, &Work::unbounded(), |face| {
                 within.push(face);
-                ControlFlow::Continue(())
+                true
             });
+            assert!(all);
             within.sort_unstable();
             let meets = |face: &[u32; 3]| Bounds::of(at(face)).meets(&bounds);
             let twin: Vec<u32> = (0..)

@@ -8,11 +8,16 @@
 
 use super::solid::Solid;
 use super::voxels::{Cell, Voxels};
+use crate::hull::lexicographic;
+use crate::tolerance::on_edge;
+use crate::work::Work;
 use ccd_core::glam::DVec3;
+use ccd_core::vector::unit;
+use rayon::prelude::*;
 
 /// What a cube has of the solid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Content {
+pub(super) enum Content {
     /// Not known yet.
     Unknown,
     /// Some of the surface.
@@ -28,29 +33,101 @@ enum Content {
 pub(super) fn points_by_part(
     solid: &Solid<'_>,
     voxels: &Voxels,
+    contents: &[Content],
     mut labels: Vec<u32>,
 ) -> Vec<Vec<DVec3>> {
     let count = labels.iter().max().map_or(0, |&last| last as usize + 1);
     let mut parts = vec![Vec::new(); count];
-    let mut contents = vec![Content::Unknown; voxels.len()];
-    for triangle in solid.triangles() {
-        voxels.for_each_met(triangle, |cell| contents[cell] = Content::Surface);
-        voxels.for_each_piece(triangle, &labels, |part, polygon| {
-            parts[part as usize].extend(polygon);
-        });
+    let near = on_edge(solid.farthest_coordinate());
+    let triangles: Vec<_> = solid.triangles().collect();
+    let pieces: Vec<_> = triangles
+        .par_chunks(SHARE)
+        .map(|triangles| pieces(triangles, voxels, &labels, near))
+        .collect();
+    for (part, point) in pieces.into_iter().flatten() {
+        parts[part as usize].push(point);
     }
-    fill(solid, voxels, &mut contents);
-    for (label, content) in labels.iter_mut().zip(&contents) {
+    for (label, content) in labels.iter_mut().zip(contents) {
         if *content == Content::Nothing {
             *label = NO_PART;
         }
     }
-    add_corners(solid, voxels, &contents, &labels, &mut parts);
-    parts
+    add_corners(solid, voxels, contents, &labels, &mut parts);
+    parts.into_par_iter().map(each_once).collect()
 }
 
 /// The label of a cube that has nothing of the solid.
 const NO_PART: u32 = u32::MAX;
+
+/// So many triangles are cut at a time.
+const SHARE: usize = 1024;
+
+/// What every cube has of a solid.
+pub(super) fn contents(solid: &Solid<'_>, voxels: &Voxels) -> Vec<Content> {
+    let triangles: Vec<_> = solid.triangles().collect();
+    let met = |triangles: &[[DVec3; 3]]| {
+        let mut cells = Vec::new();
+        for &triangle in triangles {
+            voxels.for_each_met(triangle, |cell| cells.push(cell));
+        }
+        cells.sort_unstable();
+        cells.dedup();
+        cells
+    };
+    let met: Vec<_> = triangles.par_chunks(SHARE).map(met).collect();
+    let mut contents = vec![Content::Unknown; voxels.len()];
+    for cell in met.into_iter().flatten() {
+        contents[cell] = Content::Surface;
+    }
+    fill(solid, voxels, &mut contents);
+    contents
+}
+
+/// Points of some triangles with the numbers of the parts that they are in.
+fn pieces(
+    triangles: &[[DVec3; 3]],
+    voxels: &Voxels,
+    labels: &[u32],
+    near: f64,
+) -> Vec<(u32, DVec3)> {
+    let (mut all, mut of_one) = (Vec::new(), Vec::new());
+    for &triangle in triangles {
+        voxels.for_each_piece(triangle, labels, |part, polygon| {
+            of_one.extend(polygon.iter().map(|&point| (part, point)));
+        });
+        of_one.sort_unstable_by_key(|&(part, _)| part);
+        for of_part in of_one.chunk_by(|one, next| one.0 == next.0) {
+            let points = of_part.iter().map(|&(_, point)| point).collect();
+            let kept = without_between(points, triangle, near);
+            all.extend(kept.into_iter().map(|point| (of_part[0].0, point)));
+        }
+        of_one.clear();
+    }
+    all
+}
+
+/// Some points of a triangle but those between two others on one of its edges, up to rounding.
+fn without_between(mut points: Vec<DVec3>, [a, b, c]: [DVec3; 3], near: f64) -> Vec<DVec3> {
+    for [from, to] in [[a, b], [b, c], [c, a]] {
+        let Some(along) = unit(to - from) else {
+            continue;
+        };
+        let is_on = |p: &DVec3| (*p - from).cross(along).length() <= near;
+        let height = |p: &DVec3| (*p - from).dot(along);
+        let by_height = |p: &DVec3, q: &DVec3| height(p).total_cmp(&height(q));
+        let on = || points.iter().copied().filter(is_on);
+        let ends = [on().min_by(by_height), on().max_by(by_height)];
+        points.retain(|p| !is_on(p) || ends.contains(&Some(*p)));
+    }
+    points
+}
+
+/// Every point once: most are corners of several triangles.
+pub(super) fn each_once(mut points: Vec<DVec3>) -> Vec<DVec3> {
+    points.sort_unstable_by(|&p, &q| lexicographic(p, q));
+    points.dedup();
+    points
+}
 
 /// Tells full cubes from empty ones: those that are connected without meeting the surface are alike.
 fn fill(solid: &Solid<'_>, voxels: &Voxels, contents: &mut [Content]) {
@@ -59,7 +136,8 @@ fn fill(solid: &Solid<'_>, voxels: &Voxels, contents: &mut [Content]) {
         if contents[seed] != Content::Unknown {
             continue;
         }
-        let content = match solid.winds_about(voxels.corner(voxels.cell(seed))) {
+        let content = match solid.winds_about(voxels.corner(voxels.cell(seed)), &Work::unbounded())
+        {
             true => Content::Full,
             false => Content::Nothing,
         };
@@ -98,7 +176,7 @@ fn add_corners(
                 let inside = match (has(Content::Full), has(Content::Nothing)) {
                     (true, _) => true,
                     (_, true) => false,
-                    _ => solid.winds_about(corner),
+                    _ => solid.winds_about(corner, &Work::unbounded()),
                 };
                 if inside {
                     around.sort_unstable_by_key(|&cell| labels[cell]);
@@ -125,3 +203,6 @@ fn cells_around(voxels: &Voxels, corner: Cell) -> impl Iterator<Item = usize> {
         Some(voxels.index(cell))
     })
 }
+
+#[cfg(test)]
+mod tests;

@@ -5,10 +5,12 @@ mod under;
 
 use super::Part;
 use super::solid::{Place, Solid};
-use crate::tolerance::{EXCESS_CELLS, EXCESS_FLOOR, EXCESS_RATIO};
-use body::{Body, Meets};
-use ccd_core::glam::DVec3;
+use crate::tolerance::{EXCESS_FLOOR, EXCESS_RATIO, EXCESS_WORK};
+use crate::work::Work;
+use body::Body;
+use ccd_core::glam::{BVec3, DVec3};
 use ccd_core::order::{greater, lesser};
+use rayon::prelude::*;
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
@@ -17,110 +19,170 @@ use std::collections::BinaryHeap;
 /// The distance to the solid changes by no more than one moves, so that its value at the centre of a
 /// box bounds it in the box; where the surface is nearly flat, [`under`] knows better. Boxes about the
 /// parts are split, the one with the largest bound first, until that is hardly more than a distance
-/// that was found, or the cells are spent.
+/// that was found, or the work is spent.
 pub(super) fn bound(solid: &Solid<'_>, parts: &[Part]) -> f64 {
     let floor = EXCESS_FLOOR * solid.reach();
     let bodies: Vec<Body<'_>> = parts.iter().map(|part| Body::of(part, solid)).collect();
     let mut search = Search {
         solid,
         bodies: &bodies,
+        taken: 0,
         found: 0.0,
         heap: BinaryHeap::new(),
     };
     let mut settled = 0.0_f64;
     for (k, body) in bodies.iter().enumerate() {
-        match body.excess_by_depth(solid) {
-            Some(bound) if bound <= floor => settled = greater(settled, bound),
-            _ => search.push(k, body.bounds),
+        match body.excess_by_shrinking(solid, floor) {
+            Some(bound) => settled = greater(settled, bound),
+            None => search.begin(k),
         }
     }
-    for body in &bodies {
-        body.part.corners.iter().for_each(|&p| search.look_at(p));
-    }
-    for _ in 0..EXCESS_CELLS / 8 {
-        let target = greater(EXCESS_RATIO * search.found, search.found + floor);
-        match search.heap.peek() {
-            Some(cell) if cell.bound > target => search.split(),
-            _ => break,
-        }
-    }
+    while search.split_worst(floor) {}
     let open = search.heap.peek().map_or(0.0, |cell| cell.bound);
     greater(greater(open, search.found), settled)
 }
 
+/// Up to about so many corners of a part are looked at.
+const CORNERS: usize = 256;
+
+/// So many boxes are split at a time, on all cores.
+const BATCH: usize = 16;
+
+/// So many planes take as long as a triangle.
+const PLANES_A_STEP: usize = 16;
+
 struct Search<'a> {
     solid: &'a Solid<'a>,
     bodies: &'a [Body<'a>],
+    /// How many steps were taken.
+    taken: u64,
     /// The largest distance of a point of a part that was looked at.
     found: f64,
     heap: BinaryHeap<Cell>,
 }
 
 /// A box, and a bound on the distance to the solid of any point of a part in it.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 struct Cell {
     bound: f64,
     body: usize,
     bounds: [DVec3; 2],
+    /// Those of the part's planes that it is not all behind.
+    planes: Vec<u32>,
+}
+
+/// What a look at a box tells.
+#[derive(Default)]
+struct Look {
+    /// Of the box's centre, if that is in the part.
+    distance: f64,
+    /// None if the box has nothing of the part that is farther than was known.
+    cell: Option<Cell>,
+    taken: u64,
 }
 
 impl Search<'_> {
-    fn look_at(&mut self, point: DVec3) {
-        if let Place::Outside { distance } = self.solid.place(point) {
-            self.found = greater(self.found, distance);
+    /// Looks at some corners of a part, and at its box.
+    fn begin(&mut self, body: usize) {
+        let Body {
+            part,
+            planes,
+            bounds,
+            ..
+        } = &self.bodies[body];
+        let stride = part.corners.len().div_ceil(CORNERS);
+        for &point in part.corners.iter().step_by(stride) {
+            if let Place::Outside { distance } = self.solid.place(point, &Work::unbounded()) {
+                self.found = greater(self.found, distance);
+            }
         }
-    }
-
-    /// Splits the box with the largest bound in eight.
-    fn split(&mut self) {
-        let Some(cell) = self.heap.pop() else {
-            return;
+        let whole = Cell {
+            bound: f64::INFINITY,
+            body,
+            bounds: *bounds,
+            planes: (0..planes.len() as u32).collect(),
         };
-        let [lo, hi] = cell.bounds;
-        let middle = (lo + hi) / 2.0;
-        for k in 0..8 {
-            let upper = [0, 1, 2].map(|axis| k >> axis & 1 == 1);
-            let pick = |above: DVec3, below: DVec3| {
-                DVec3::from_array([0, 1, 2].map(|axis| match upper[axis] {
-                    true => above[axis],
-                    false => below[axis],
-                }))
-            };
-            self.push(cell.body, [pick(middle, lo), pick(hi, middle)]);
-        }
+        let look = self.look(&whole, *bounds);
+        self.note(look);
     }
 
-    fn push(&mut self, body: usize, bounds: [DVec3; 2]) {
+    /// Splits some boxes in eight, those with the largest bounds; no more once these are hardly more than
+    /// what was found, or the work is spent.
+    fn split_worst(&mut self, floor: f64) -> bool {
+        let target = greater(EXCESS_RATIO * self.found, self.found + floor);
+        let worst: Vec<Cell> = (0..BATCH)
+            .map_while(|_| {
+                let is_worth_it = self.heap.peek()?.bound > target;
+                is_worth_it.then(|| self.heap.pop()).flatten()
+            })
+            .collect();
+        let parts: Vec<_> = worst
+            .iter()
+            .flat_map(|cell| octants(cell.bounds).map(|bounds| (cell, bounds)))
+            .collect();
+        let looks: Vec<Look> = parts
+            .par_iter()
+            .map(|(cell, bounds)| self.look(cell, *bounds))
+            .collect();
+        looks.into_iter().for_each(|look| self.note(look));
+        !worst.is_empty() && self.taken < EXCESS_WORK
+    }
+
+    fn note(&mut self, look: Look) {
+        self.taken += look.taken;
+        self.found = greater(self.found, look.distance);
+        self.heap.extend(look.cell);
+    }
+
+    /// Looks at a box within one that was looked at.
+    fn look(&self, within: &Cell, bounds: [DVec3; 2]) -> Look {
+        let Cell { body, planes, .. } = within;
+        let (solid, part, work) = (self.solid, &self.bodies[*body], &Work::unbounded());
         let [lo, hi] = bounds;
         let (centre, half) = ((lo + hi) / 2.0, (hi - lo) / 2.0);
-        let reach = half.length() + self.solid.slack();
-        let within = match self.bodies[body].meets(centre, half) {
-            Meets::No => return,
-            Meets::Centre => true,
-            Meets::Perhaps => false,
-        };
-        let near = match self.solid.place(centre) {
-            Place::Inside { depth } => reach - depth,
-            Place::Outside { distance } => {
-                if within {
-                    self.found = greater(self.found, distance);
+        let reach = half.length() + solid.slack();
+        work.spend(1 + planes.len() / PLANES_A_STEP);
+        let mut look = Look::default();
+        if let Some(meeting) = part.meets(centre, half, planes) {
+            let near = match solid.place(centre, work) {
+                Place::Inside { depth } => reach - depth,
+                Place::Outside { distance } => {
+                    if meeting.has_centre {
+                        look.distance = distance;
+                    }
+                    distance + reach
                 }
-                distance + reach
+            };
+            let planes = meeting.planes;
+            let above = planes.iter().map(|&k| part.planes[k as usize]);
+            let under = || under::excess(solid, above, [centre, half], work);
+            let is_known = |bound: f64| bound <= self.found;
+            let mut bound = lesser(near, within.bound);
+            if !is_known(bound) {
+                bound = under().map_or(bound, |under| lesser(under, bound));
             }
-        };
-        if !(near > self.found) {
-            return;
-        }
-        let under = under::excess(self.solid, &self.bodies[body], centre, half);
-        let bound = under.map_or(near, |bound| lesser(bound, near));
-        if bound > self.found {
-            self.heap.push(Cell {
+            look.cell = (!is_known(bound)).then_some(Cell {
                 bound,
-                body,
+                body: *body,
                 bounds,
+                planes,
             });
         }
+        look.taken = work.taken();
+        look
     }
+}
+
+/// The eight boxes that a box is split into at its middle.
+fn octants([lo, hi]: [DVec3; 2]) -> [[DVec3; 2]; 8] {
+    let middle = (lo + hi) / 2.0;
+    std::array::from_fn(|k| {
+        let upper = BVec3::new(k & 1 != 0, k & 2 != 0, k & 4 != 0);
+        [
+            DVec3::select(upper, middle, lo),
+            DVec3::select(upper, hi, middle),
+        ]
+    })
 }
 
 impl Ord for Cell {

@@ -6,6 +6,7 @@ use crate::hull::likely_triangles;
 use crate::tolerance::PRICED_POINTS;
 use crate::triangle_boxes::Bounds;
 use ccd_core::glam::DVec3;
+use rayon::prelude::*;
 
 /// Merges pairs of parts, given by points of their hulls, until there are no more than so many: always the
 /// pair whose hull has the least volume beyond their own.
@@ -17,7 +18,7 @@ use ccd_core::glam::DVec3;
 /// # Guarantee
 /// The hull of what comes out for some parts contains these parts; volumes serve to choose alone.
 pub(super) fn down_to(parts: Vec<Vec<DVec3>>, most: usize) -> Vec<Vec<DVec3>> {
-    let mut merger = Merger::new(parts.into_iter().map(without_inner).collect());
+    let mut merger = Merger::new(parts);
     // Each step leaves one less.
     while merger.count > most && merger.merge_best() {}
     let parts = merger.parts.into_iter().flatten();
@@ -43,7 +44,7 @@ struct Measured {
 impl Merger {
     fn new(parts: Vec<Vec<DVec3>>) -> Self {
         let measured = |points: Vec<DVec3>| Some(Measured::of(points));
-        let parts: Vec<_> = parts.into_iter().map(measured).collect();
+        let parts: Vec<_> = parts.into_par_iter().map(measured).collect();
         let mut merger = Merger {
             count: parts.len(),
             prices: parts
@@ -80,7 +81,7 @@ impl Merger {
         };
         if let (Some(mut one), Some(other)) = (self.parts[k].take(), self.parts[l].take()) {
             one.points.extend(other.points);
-            self.parts[k] = Some(Measured::of(without_inner(one.points)));
+            self.parts[k] = Some(Measured::of(one.points));
         }
         self.count -= 1;
         for other in 0..self.parts.len() {
@@ -95,6 +96,7 @@ impl Merger {
 
 impl Measured {
     fn of(points: Vec<DVec3>) -> Self {
+        let points = without_inner(points);
         let priced = farthest(&points, PRICED_POINTS);
         let hull = ExactHull::of(&priced);
         Measured {

@@ -4,7 +4,7 @@ use crate::mesh::TriangleMesh;
 use crate::predicates::side;
 use crate::tolerance::NEAREST_SLACK;
 use crate::topology::{Orientation, Topology};
-use crate::triangle_boxes::{NearestTriangles, Region, TriangleBoxes};
+use crate::triangle_boxes::{Bounds, NearestTriangles, Region};
 use crate::work::Work;
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
@@ -13,14 +13,11 @@ use parry3d_f64::query::PointQueryWithLocation;
 use parry3d_f64::shape::Triangle;
 use robust::{Coord, orient2d};
 use std::cmp::Ordering;
-use std::ops::ControlFlow;
 
 /// The points about which a mesh winds and its surface; the surface alone if the mesh is open.
 pub(super) struct Solid<'a> {
     mesh: &'a TriangleMesh,
     search: NearestTriangles,
-    /// What rays meet.
-    boxes: TriangleBoxes,
     closed: bool,
     inside_out: bool,
     bounds: [DVec3; 2],
@@ -36,18 +33,16 @@ pub(super) enum Place {
 }
 
 impl<'a> Solid<'a> {
-    pub(super) fn of(mesh: &'a TriangleMesh) -> Self {
+    pub(super) fn of(mesh: &'a TriangleMesh, topology: &Topology) -> Self {
         let at = |v: &u32| mesh.vertices()[*v as usize];
         let corners = || mesh.faces().iter().flatten().map(at);
         let bounds = [
             corners().fold(DVec3::INFINITY, DVec3::min),
             corners().fold(DVec3::NEG_INFINITY, DVec3::max),
         ];
-        let topology = Topology::of(mesh);
         Solid {
             mesh,
             search: NearestTriangles::new(mesh.vertices(), mesh.faces()),
-            boxes: TriangleBoxes::new(mesh.vertices(), mesh.faces()),
             closed: topology.is_solid(),
             inside_out: topology.orientation() == Orientation::Inward,
             bounds,
@@ -78,17 +73,18 @@ impl<'a> Solid<'a> {
     }
 
     /// The triangles whose boxes meet a box, if there are so many at most.
-    pub(super) fn triangles_in(&self, bounds: [DVec3; 2], most: usize) -> Option<Vec<[DVec3; 3]>> {
-        let (mut found, mut is_over) = (Vec::new(), false);
-        self.search.in_box(bounds, |face| {
-            is_over = found.len() == most;
-            if is_over {
-                return ControlFlow::Break(());
-            }
+    pub(super) fn triangles_in(
+        &self,
+        [lo, hi]: [DVec3; 2],
+        most: usize,
+        work: &Work,
+    ) -> Option<Vec<[DVec3; 3]>> {
+        let mut found = Vec::new();
+        let all = self.search.all_in(&Bounds { lo, hi }, work, |face| {
             found.push(self.triangle(face));
-            ControlFlow::Continue(())
+            found.len() <= most
         });
-        (!is_over).then_some(found)
+        all.then_some(found)
     }
 
     fn triangle(&self, face: u32) -> [DVec3; 3] {
@@ -116,9 +112,9 @@ impl<'a> Solid<'a> {
     }
 
     /// Where a point is.
-    pub(super) fn place(&self, point: DVec3) -> Place {
-        let (found, reached) = self.nearest(point);
-        match self.winds_about(point) {
+    pub(super) fn place(&self, point: DVec3, work: &Work) -> Place {
+        let (found, reached) = self.nearest(point, work);
+        match self.winds_about(point, work) {
             true => Place::Inside {
                 depth: greater(0.0, lesser(found, reached) - self.slack()),
             },
@@ -130,7 +126,7 @@ impl<'a> Solid<'a> {
 
     /// The distance to the surface as the library sees it, and to a point that is certainly on a
     /// triangle: its projection has weights that are clamped, as those of a needle may be anything.
-    fn nearest(&self, point: DVec3) -> (f64, f64) {
+    fn nearest(&self, point: DVec3, work: &Work) -> (f64, f64) {
         let query = vector(point);
         let project = |corners: [DVec3; 3]| {
             let [a, b, c] = corners.map(vector);
@@ -140,7 +136,7 @@ impl<'a> Solid<'a> {
             let (found, _) = project(corners);
             DVec3::from_array(found.point.to_array()).distance(point)
         };
-        let Some((face, found)) = self.search.to(point, distance) else {
+        let Some((face, found)) = self.search.to(point, work, distance) else {
             return (0.0, f64::INFINITY);
         };
         let corners = self.triangle(face);
@@ -160,14 +156,14 @@ impl<'a> Solid<'a> {
 
     /// Whether the mesh winds about a point, by exact predicates; for a point on the surface, whether
     /// it does about one next to it. Never for an open mesh.
-    pub(super) fn winds_about(&self, point: DVec3) -> bool {
+    pub(super) fn winds_about(&self, point: DVec3, work: &Work) -> bool {
         if !self.closed {
             return false;
         }
         let top = DVec3::new(point.x, point.y, greater(point.z, self.bounds[1].z));
         let above = Region::segment([point, top]);
         let mut winding = 0;
-        self.boxes.all_meeting(&above, &Work::unbounded(), |face| {
+        self.search.all_meeting(&above, work, |face| {
             winding += crossing(self.triangle(face), point);
             true
         });

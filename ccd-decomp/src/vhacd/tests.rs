@@ -1,6 +1,7 @@
 use super::solid::Place;
 use super::*;
 use crate::predicates::side;
+use crate::work::Work;
 use ccd_core::order::{greater, lesser};
 use rstest::rstest;
 use std::cmp::Ordering;
@@ -167,8 +168,14 @@ fn is_in(polytope: &Polytope, point: DVec3, way: f64) -> bool {
     inside || distance(&fans.concat(), point) <= way
 }
 
+fn approximated(mesh: &TriangleMesh, hulls: u32) -> Result<Approximation, VhacdError> {
+    approximate(mesh, &Topology::of(mesh), hulls)
+}
+
 #[rstest]
 #[case::prism(prism(), 4)]
+#[case::star(crate::test_meshes::star(300, 0.5), 16)]
+#[case::comb(crate::test_meshes::comb(&[5.0; 40]), 8)]
 #[case::torus(torus(24, 12, 0.3), 8)]
 #[case::thin_torus(torus(48, 8, 0.05), 16)]
 #[case::hollow(cubes(&[cubic(1.0), [DVec3::splat(0.5), DVec3::splat(-0.5)]]), 12)]
@@ -176,7 +183,7 @@ fn is_in(polytope: &Polytope, point: DVec3, way: f64) -> bool {
 #[case::sheet(sheet(), 8)]
 #[case::far_off(far_off(), 8)]
 fn errors_bound_what_is_sampled(#[case] mesh: TriangleMesh, #[case] hulls: u32) {
-    let found = approximate(&mesh, hulls).expect("an approximation");
+    let found = approximated(&mesh, hulls).expect("an approximation");
     assert!((1..=hulls as usize).contains(&found.polytopes.len()));
     let size = mesh
         .vertices()
@@ -186,7 +193,7 @@ fn errors_bound_what_is_sampled(#[case] mesh: TriangleMesh, #[case] hulls: u32) 
     assert!(found.uncovered <= 1e-12 * size);
     let mut next = noise();
     let closed = crate::Topology::of(&mesh).is_closed();
-    let [lo, hi] = Solid::of(&mesh).bounds();
+    let [lo, hi] = Solid::of(&mesh, &Topology::of(&mesh)).bounds();
     let mut samples: Vec<DVec3> = triangles(&mesh)
         .iter()
         .flat_map(|t| [mix(t, &mut next), mix(t, &mut next)])
@@ -233,7 +240,7 @@ fn far_off() -> TriangleMesh {
 #[case::cavity(cubes(&[cubic(1.0), [DVec3::splat(0.5), DVec3::splat(-0.5)]]), 0.5)]
 #[case::prism(prism(), 0.5)]
 fn one_hull_sticks_out_by(#[case] mesh: TriangleMesh, #[case] expected: f64) {
-    let found = approximate(&mesh, 1).expect("an approximation");
+    let found = approximated(&mesh, 1).expect("an approximation");
     assert_eq!(found.polytopes.len(), 1);
     let ratio = found.sticks_out / expected;
     assert!(
@@ -248,7 +255,7 @@ fn one_hull_sticks_out_by(#[case] mesh: TriangleMesh, #[case] expected: f64) {
 #[case(2)]
 #[case(7)]
 fn a_box_is_approximated_exactly(#[case] hulls: u32) {
-    let found = approximate(&cubes(&[cubic(1.0)]), hulls).expect("an approximation");
+    let found = approximated(&cubes(&[cubic(1.0)]), hulls).expect("an approximation");
     assert!(found.sticks_out < 1e-6, "{}", found.sticks_out);
     if hulls == 1 {
         assert_eq!(found.polytopes[0].facets.len(), 6);
@@ -259,14 +266,14 @@ fn a_box_is_approximated_exactly(#[case] hulls: u32) {
 #[test]
 fn more_hulls_stick_out_less() {
     let mesh = torus(48, 16, 0.2);
-    let errors = [1, 4, 16, 64].map(|hulls| approximate(&mesh, hulls).expect("hulls").sticks_out);
+    let errors = [1, 4, 16, 64].map(|hulls| approximated(&mesh, hulls).expect("hulls").sticks_out);
     assert!(errors.windows(2).all(|e| e[1] < 0.6 * e[0]), "{errors:?}");
 }
 
 #[test]
 fn the_same_twice() {
     let mesh = torus(24, 12, 0.3);
-    let [one, other] = [(); 2].map(|()| approximate(&mesh, 8).expect("hulls"));
+    let [one, other] = [(); 2].map(|()| approximated(&mesh, 8).expect("hulls"));
     assert_eq!(one.polytopes, other.polytopes);
     assert_eq!(one.sticks_out, other.sticks_out);
 }
@@ -274,24 +281,24 @@ fn the_same_twice() {
 #[test]
 fn needles_and_points() {
     let needle = mesh(&[DVec3::ZERO, DVec3::X, 2.0 * DVec3::X], &[[0, 1, 2]]);
-    let found = approximate(&needle, 1).expect("a segment");
+    let found = approximated(&needle, 1).expect("a segment");
     assert_eq!(found.polytopes[0].points, [DVec3::ZERO, 2.0 * DVec3::X]);
     assert!(found.polytopes[0].facets.is_empty());
-    let many = approximate(&needle, u32::MAX).expect("segments");
+    let many = approximated(&needle, u32::MAX).expect("segments");
     assert!(!many.polytopes.is_empty());
 }
 
 #[test]
 fn refusals() {
     let cube = cubes(&[cubic(1.0)]);
-    assert_eq!(approximate(&cube, 0).err(), Some(VhacdError::NoHulls));
+    assert_eq!(approximated(&cube, 0).err(), Some(VhacdError::NoHulls));
     let fine = mesh(&[DVec3::ZERO, DVec3::X, DVec3::splat(1e-95)], &[[0, 1, 2]]);
     assert_eq!(
-        approximate(&fine, 4).err(),
+        approximated(&fine, 4).err(),
         Some(VhacdError::TooFine { vertex: 2 })
     );
     let apart = cubes(&[cubic(1.0), [DVec3::splat(9.0), DVec3::splat(10.0)]]);
-    let error = approximate(&apart, 1).err();
+    let error = approximated(&apart, 1).err();
     assert!(
         matches!(error, Some(VhacdError::TooCoarse { .. })),
         "{error:?}"
@@ -305,7 +312,7 @@ fn refusals() {
 #[case::hollow(cubes(&[cubic(1.0), [DVec3::splat(0.5), DVec3::splat(-0.5)]]))]
 #[case::inside_out(cubes(&[[DVec3::splat(0.5), DVec3::splat(-0.5)]]))]
 fn places(#[case] mesh: TriangleMesh) {
-    let (solid, surface) = (Solid::of(&mesh), triangles(&mesh));
+    let (solid, surface) = (Solid::of(&mesh, &Topology::of(&mesh)), triangles(&mesh));
     for k in 0..21 * 21 * 21 {
         let point = DVec3::new((k % 21) as f64, (k / 21 % 21) as f64, (k / 441) as f64) / 4.0 - 2.5;
         let way = distance(&surface, point);
@@ -313,11 +320,11 @@ fn places(#[case] mesh: TriangleMesh) {
             continue;
         }
         assert_eq!(
-            solid.winds_about(point),
+            solid.winds_about(point, &Work::unbounded()),
             is_seen_around(&mesh, point),
             "{point}"
         );
-        match solid.place(point) {
+        match solid.place(point, &Work::unbounded()) {
             Place::Inside { depth } => assert!(depth <= way && depth > way - 1e-6),
             Place::Outside { distance } => assert!(distance >= way && distance < way + 1e-6),
         }
@@ -328,7 +335,7 @@ fn places(#[case] mesh: TriangleMesh) {
 #[test]
 fn a_convex_solid_is_one_hull() {
     let cones = crate::test_meshes::star(400, 1.0);
-    let found = approximate(&cones, 32).expect("an approximation");
+    let found = approximated(&cones, 32).expect("an approximation");
     assert_eq!(found.polytopes.len(), 1);
     assert_eq!(found.polytopes[0].points.len(), 402);
     assert!(found.sticks_out < 1e-6, "{}", found.sticks_out);

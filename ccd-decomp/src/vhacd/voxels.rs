@@ -226,6 +226,8 @@ fn cut_at(
             part.push(p);
         }
         if keeps(p[axis]) != keeps(q[axis]) {
+            // An edge gives the same point from either side.
+            let (p, q) = if p[axis] < q[axis] { (p, q) } else { (q, p) };
             let mut between = p + (plane - p[axis]) / (q[axis] - p[axis]) * (q - p);
             between[axis] = plane;
             part.push(between);

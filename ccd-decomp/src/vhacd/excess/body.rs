@@ -3,6 +3,8 @@
 use super::super::Part;
 use super::super::solid::Solid;
 use crate::tolerance::WELL_SHAPED;
+use crate::work::Work;
+use ccd_core::SupportTree;
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 use ccd_core::vector::unit;
@@ -10,43 +12,39 @@ use ccd_core::vector::unit;
 /// A part with the planes of its facets.
 pub(super) struct Body<'a> {
     pub(super) part: &'a Part,
-    /// Unit normals, and heights of the planes along them; only of facets that are well shaped, which
-    /// is right to within the solid's slack.
-    pub(super) planes: Vec<(DVec3, f64)>,
+    /// Only those of facets that are well shaped, which are right to within the solid's slack.
+    pub(super) planes: Vec<Plane>,
     pub(super) bounds: [DVec3; 2],
     slack: f64,
 }
 
-/// Whether a box has anything of a part.
-pub(super) enum Meets {
-    No,
-    /// It may.
-    Perhaps,
-    /// Its centre is in the part.
-    Centre,
+/// A plane in front of which a part has nothing.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Plane {
+    /// Of length 1.
+    pub(super) normal: DVec3,
+    /// Along the normal.
+    pub(super) height: f64,
+}
+
+/// What a box that may have some of a part is to the part's planes.
+pub(super) struct Meeting {
+    /// Whether the centre is in the part.
+    pub(super) has_centre: bool,
+    /// The numbers of the planes that the box is not all behind.
+    pub(super) planes: Vec<u32>,
 }
 
 impl<'a> Body<'a> {
     pub(super) fn of(part: &'a Part, solid: &Solid<'_>) -> Self {
         let corners = || part.corners.iter().copied();
-        let plane = |facet: &Vec<u32>| {
-            let at = |k: usize| part.corners[facet[k] as usize];
-            // The corner triangle of the largest area.
-            let last = facet.len() - 1;
-            let normals = (1..last).map(|k| (at(k) - at(0), at(k + 1) - at(0)));
-            let (u, v) = normals.max_by(|(u, v), (s, t)| {
-                u.cross(*v)
-                    .length_squared()
-                    .total_cmp(&s.cross(*t).length_squared())
-            })?;
-            let normal = u.cross(v);
-            let good = normal.length() > WELL_SHAPED * u.length() * v.length();
-            let normal = unit(normal).filter(|_| good)?;
-            Some((normal, normal.dot(at(0))))
-        };
         Body {
             part,
-            planes: part.facets.iter().filter_map(plane).collect(),
+            planes: part
+                .facets
+                .iter()
+                .filter_map(|facet| Plane::of(part, facet))
+                .collect(),
             bounds: [
                 corners().fold(DVec3::INFINITY, DVec3::min),
                 corners().fold(DVec3::NEG_INFINITY, DVec3::max),
@@ -55,54 +53,101 @@ impl<'a> Body<'a> {
         }
     }
 
-    pub(super) fn meets(&self, centre: DVec3, half: DVec3) -> Meets {
-        let mut highest = f64::NEG_INFINITY;
-        for &(normal, height) in &self.planes {
-            let above = normal.dot(centre) - height;
-            if above > normal.abs().dot(half) + self.slack {
-                return Meets::No;
+    /// Holds a box against some planes: those that a larger box is not all behind. None if it has nothing of
+    /// the part.
+    pub(super) fn meets(&self, centre: DVec3, half: DVec3, among: &[u32]) -> Option<Meeting> {
+        let mut meeting = Meeting {
+            has_centre: !self.planes.is_empty(),
+            planes: Vec::new(),
+        };
+        for &k in among {
+            let plane = self.planes[k as usize];
+            let above = plane.above(centre);
+            let reach = plane.normal.abs().dot(half) + self.slack;
+            if above > reach {
+                return None;
             }
-            highest = greater(highest, above);
+            // Written so that NaN is no bound.
+            if !(above <= 0.0) {
+                meeting.has_centre = false;
+            }
+            if !(above < -reach) {
+                meeting.planes.push(k);
+            }
         }
-        match highest <= 0.0 && !self.planes.is_empty() {
-            true => Meets::Centre,
-            false => Meets::Perhaps,
-        }
+        Some(meeting)
     }
 
-    /// How deep a point is below the planes.
-    fn depth(&self, point: DVec3) -> f64 {
-        let depth = |&(normal, height): &(DVec3, f64)| height - normal.dot(point);
-        self.planes.iter().map(depth).fold(f64::INFINITY, lesser)
-    }
-
-    /// A bound for a part that hardly any of the surface reaches into: what is deeper than that has
-    /// no surface in it, so that it is all in the solid if one point is. The part shrunk towards that
-    /// point is as deep, and by so much the part may stick out.
-    pub(super) fn excess_by_depth(&self, solid: &Solid<'_>) -> Option<f64> {
+    /// A bound for a part that hardly any of the surface reaches into; none if it would be more than
+    /// some.
+    ///
+    /// Let the part be shrunk towards a point of the solid, so far that each triangle of the surface is in front
+    /// of one of its planes. No surface is within, so that it is all in the solid; by what it was shrunk, the
+    /// part may stick out.
+    ///
+    /// # Complexity
+    /// O(log f) for each triangle near the part, of f facets.
+    pub(super) fn excess_by_shrinking(&self, solid: &Solid<'_>, most: f64) -> Option<f64> {
         let count = self.part.corners.len() as f64;
         let centre = self.part.corners.iter().sum::<DVec3>() / count;
-        let [lo, hi] = self.bounds;
-        let near = |t: &[DVec3; 3]| {
-            let (low, high) = (t[0].min(t[1]).min(t[2]), t[0].max(t[1]).max(t[2]));
-            low.cmple(hi).all() && high.cmpge(lo).all()
-        };
-        // A triangle is no deeper than below the plane that is nearest to its deepest corner.
-        let reaches = |t: [DVec3; 3]| {
-            let below = |&(normal, height): &(DVec3, f64)| {
-                let depths = t.map(|p| height - normal.dot(p));
-                depths.into_iter().fold(f64::NEG_INFINITY, greater)
-            };
-            self.planes.iter().map(below).fold(f64::INFINITY, lesser)
-        };
-        let deepest = solid
-            .triangles()
-            .filter(near)
-            .map(reaches)
-            .fold(0.0, greater);
-        let share = (deepest + 2.0 * self.slack) / (self.depth(centre) - self.slack);
+        let depths = self.planes.iter().map(|plane| plane.above(centre));
+        let depths: Vec<f64> = depths.map(|above| self.slack - above).collect();
+        let is_inside = depths.iter().all(|&depth| depth > 2.0 * self.slack);
+        if depths.is_empty() || !is_inside || !solid.winds_about(centre, &Work::unbounded()) {
+            return None;
+        }
         let far = self.part.corners.iter().map(|p| p.distance(centre));
         let reach = far.fold(0.0, greater) + self.slack;
-        ((0.0..1.0).contains(&share) && solid.winds_about(centre)).then_some(share * reach)
+        // In units of its depth below each plane a point is as far out as the farthest of these is along it.
+        let duals = self.planes.iter().zip(&depths);
+        let duals: Vec<DVec3> = duals.map(|(plane, depth)| plane.normal / *depth).collect();
+        let farthest = SupportTree::new(&duals);
+        let share_before = |triangle: [DVec3; 3], towards: DVec3| {
+            let k = farthest.extremal(towards - centre) as usize;
+            let out = triangle.map(|p| self.planes[k].normal.dot(p - centre) - self.slack);
+            out.into_iter().fold(f64::INFINITY, lesser) / depths[k]
+        };
+        let enough = 1.0 - most / reach;
+        let mut share = 1.0_f64;
+        let near = solid.triangles().filter(|t| self.is_near(t));
+        for triangle in near {
+            let [p, q, r] = triangle;
+            let towards = [(p + q + r) / 3.0, p, q, r].into_iter();
+            let of_this = towards
+                .map(|towards| share_before(triangle, towards))
+                .find(|&share| share >= enough)?;
+            share = lesser(share, of_this);
+        }
+        Some((1.0 - share) * reach)
+    }
+
+    fn is_near(&self, triangle: &[DVec3; 3]) -> bool {
+        let [p, q, r] = *triangle;
+        let [lo, hi] = self.bounds;
+        p.min(q).min(r).cmple(hi).all() && p.max(q).max(r).cmpge(lo).all()
+    }
+}
+
+impl Plane {
+    /// That of a facet; none if it is not well shaped.
+    fn of(part: &Part, facet: &[u32]) -> Option<Self> {
+        let at = |k: usize| part.corners[facet[k] as usize];
+        // The corner triangle of the largest area.
+        let last = facet.len() - 1;
+        let sides = (1..last).map(|k| (at(k) - at(0), at(k + 1) - at(0)));
+        let area = |(u, v): &(DVec3, DVec3)| u.cross(*v).length_squared();
+        let (u, v) = sides.max_by(|one, other| area(one).total_cmp(&area(other)))?;
+        let normal = u.cross(v);
+        let good = normal.length() > WELL_SHAPED * u.length() * v.length();
+        let normal = unit(normal).filter(|_| good)?;
+        Some(Plane {
+            normal,
+            height: normal.dot(at(0)),
+        })
+    }
+
+    /// How far a point is in front of it.
+    pub(super) fn above(&self, point: DVec3) -> f64 {
+        self.normal.dot(point) - self.height
     }
 }

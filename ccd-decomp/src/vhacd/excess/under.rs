@@ -2,8 +2,9 @@
 
 use super::super::solid::Solid;
 use super::super::voxels::cut_to_box;
-use super::body::Body;
+use super::body::Plane;
 use crate::tolerance::TRIANGLES_UNDER;
+use crate::work::Work;
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 use ccd_core::vector::unit;
@@ -17,12 +18,12 @@ use ccd_core::vector::unit;
 /// nothing.
 pub(super) fn excess(
     solid: &Solid<'_>,
-    body: &Body<'_>,
-    centre: DVec3,
-    half: DVec3,
+    planes: impl Iterator<Item = Plane>,
+    [centre, half]: [DVec3; 2],
+    work: &Work,
 ) -> Option<f64> {
     let bounds = [centre - 3.0 * half, centre + 3.0 * half];
-    let near = solid.triangles_in(bounds, TRIANGLES_UNDER)?;
+    let near = solid.triangles_in(bounds, TRIANGLES_UNDER, work)?;
     let normals = near.iter().map(|[a, b, c]| (b - a).cross(c - a));
     let up = unit(solid.orientation() * normals.sum::<DVec3>())?;
     let height = |p: DVec3| up.dot(p - centre);
@@ -34,22 +35,30 @@ pub(super) fn excess(
     }
     lowest -= solid.slack();
     let deepest = centre - 3.0 * half * up.signum();
-    if !(height(deepest) < lowest) || !solid.winds_about(deepest) {
+    if !(height(deepest) < lowest) || !solid.winds_about(deepest, work) {
         return None;
     }
-    let sinks = greater(0.0, highest(body, up, centre, half, solid.slack()) - lowest);
+    let sinks = greater(
+        0.0,
+        highest(planes, up, [centre, half], solid.slack()) - lowest,
+    );
     let stays = (sinks * up.abs()).cmple(2.0 * half).all();
     stays.then_some(sinks + solid.slack())
 }
 
-/// A bound on the height of a part's points in a box: by each of the part's planes, of whose normal the
-/// upward direction is a multiple and a rest.
-fn highest(body: &Body<'_>, up: DVec3, centre: DVec3, half: DVec3, slack: f64) -> f64 {
-    let by_plane = |&(normal, height): &(DVec3, f64)| {
-        let multiple = greater(0.0, up.dot(normal));
-        let rest = up - multiple * normal;
-        multiple * (height - normal.dot(centre) + slack) + rest.abs().dot(half)
+/// A bound on the height of a part's points in a box: by each of some planes that it is behind, of whose
+/// normal the upward direction is a multiple and a rest.
+fn highest(
+    planes: impl Iterator<Item = Plane>,
+    up: DVec3,
+    [centre, half]: [DVec3; 2],
+    slack: f64,
+) -> f64 {
+    let by_plane = |plane: Plane| {
+        let multiple = greater(0.0, up.dot(plane.normal));
+        let rest = up - multiple * plane.normal;
+        multiple * (slack - plane.above(centre)) + rest.abs().dot(half)
     };
     let by_box = up.abs().dot(half);
-    body.planes.iter().map(by_plane).fold(by_box, lesser)
+    planes.map(by_plane).fold(by_box, lesser)
 }
