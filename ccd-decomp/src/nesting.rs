@@ -1,15 +1,18 @@
 //! Shells within shells: which of a closed mesh's parts bound material, and which a cavity.
 
-use crate::disjoint_sets::DisjointSets;
+mod parts;
+
 use crate::mesh::TriangleMesh;
 use crate::predicates::{is_degenerate, too_fine};
 use crate::self_intersection::meet;
 use crate::shells::{Volume, crossing};
 use crate::tally::Tally;
-use crate::tolerance::RAY_TRIES;
+use crate::tolerance::{FACE_ROUNDING, RAY_TRIES};
 use crate::triangle_boxes::{Region, TriangleBoxes};
 use crate::work::Work;
 use ccd_core::glam::DVec3;
+use ccd_core::vector::unit;
+use parts::closed_parts;
 
 /// The shells of a closed mesh by what is around them.
 ///
@@ -171,35 +174,57 @@ impl<'m> Shells<'m> {
         }
     }
 
-    /// The other shells that wind about a corner of one; none when all rays graze something.
+    /// The other shells that wind about one; none when nothing tells.
     fn winding_about(&self, shell: u32) -> Option<Vec<u32>> {
         let faces = &self.faces_of[shell as usize];
         let size = self.boxes.reach(triangle(self.mesh, faces[0])[0]);
-        (0..RAY_TRIES).find_map(|k| {
-            // Shells may touch at a corner, so that it is another one each time.
-            let from = triangle(self.mesh, faces[k * faces.len() / RAY_TRIES])[k % 3];
+        let face = |k: usize| triangle(self.mesh, faces[k * faces.len() / RAY_TRIES]);
+        // Shells may touch at a corner, so that it is another one each time.
+        let corners = (0..RAY_TRIES).map(|k| (k, face(k)[k % 3]));
+        // Or at all corners, as those that share faces do.
+        let middles = (0..RAY_TRIES).filter_map(|k| Some((k, self.middle(shell, face(k), size)?)));
+        corners.chain(middles).find_map(|(k, from)| {
             // Nearly along an axis, so that few boxes meet the ray's, and in no special relation to any.
             let (along, tilt) = (DVec3::AXES[k % 3], 1e-3 * (1.0 + 0.618 * k as f64));
             let to = from + 3.0 * size * (along + DVec3::new(0.7548, 0.5698, -0.3247) * tilt);
-            let mut met = Vec::new();
-            let passes =
-                self.boxes
-                    .all_meeting(&Region::segment([from, to]), &Work::unbounded(), |face| {
-                        let other = self.shell_of[face as usize];
-                        let found = match other == shell {
-                            true => Some(0),
-                            false => crossing([from, to], triangle(self.mesh, face)),
-                        };
-                        met.extend(found.filter(|&one| one != 0).map(|one| (other, one)));
-                        found.is_some()
-                    });
-            passes.then(|| {
-                met.sort_unstable();
-                met.chunk_by(|one, next| one.0 == next.0)
-                    .filter(|of_one| of_one.iter().map(|&(_, one)| one).sum::<i32>() != 0)
-                    .map(|of_one| of_one[0].0)
-                    .collect()
-            })
+            self.winding_before(shell, [from, to])
+        })
+    }
+
+    /// The middle of a face, which is on it up to rounding: none where another shell may come between.
+    fn middle(&self, shell: u32, face: [DVec3; 3], size: f64) -> Option<DVec3> {
+        let [a, b, c] = face;
+        let middle = (a + b + c) / 3.0;
+        let off = unit((b - a).cross(c - a))? * FACE_ROUNDING * size;
+        let near = Region::segment([middle - off, middle + off]);
+        let is_of_shell = |face: u32| self.shell_of[face as usize] == shell;
+        let misses = |face: u32| {
+            let ends = [middle - off, middle + off];
+            is_of_shell(face) || crossing(ends, triangle(self.mesh, face)) == Some(0)
+        };
+        let is_alone = self.boxes.all_meeting(&near, &Work::unbounded(), misses);
+        is_alone.then_some(middle)
+    }
+
+    /// The other shells that wind about the start of a ray; none when it grazes something.
+    fn winding_before(&self, shell: u32, ray: [DVec3; 2]) -> Option<Vec<u32>> {
+        let mut met = Vec::new();
+        let region = Region::segment(ray);
+        let passes = self.boxes.all_meeting(&region, &Work::unbounded(), |face| {
+            let other = self.shell_of[face as usize];
+            let found = match other == shell {
+                true => Some(0),
+                false => crossing(ray, triangle(self.mesh, face)),
+            };
+            met.extend(found.filter(|&one| one != 0).map(|one| (other, one)));
+            found.is_some()
+        });
+        passes.then(|| {
+            met.sort_unstable();
+            met.chunk_by(|one, next| one.0 == next.0)
+                .filter(|of_one| of_one.iter().map(|&(_, one)| one).sum::<i32>() != 0)
+                .map(|of_one| of_one[0].0)
+                .collect()
         })
     }
 
@@ -233,52 +258,6 @@ fn corners(mesh: &TriangleMesh, face: u32) -> [u32; 3] {
 
 fn triangle(mesh: &TriangleMesh, face: u32) -> [DVec3; 3] {
     mesh.faces()[face as usize].map(|v| mesh.vertices()[v as usize])
-}
-
-/// The number of the part of every face. Parts are connected over edges of two faces; and over other
-/// edges where they would not be closed by themselves.
-fn closed_parts(mesh: &TriangleMesh) -> Vec<u32> {
-    // Every edge of a face: the ends, the smaller first, the face, and which way it runs.
-    let mut uses = Vec::new();
-    uses.reserve_exact(3 * mesh.faces().len());
-    for face in 0..mesh.faces().len() as u32 {
-        let [a, b, c] = corners(mesh, face);
-        for (v, w) in [(a, b), (b, c), (c, a)] {
-            if v != w {
-                uses.push((v.min(w), v.max(w), face, if v < w { 1 } else { -1 }));
-            }
-        }
-    }
-    uses.sort_unstable();
-    let mut parts = DisjointSets::new(mesh.faces().len());
-    let edges = || uses.chunk_by(|one, next| (one.0, one.1) == (next.0, next.1));
-    for edge in edges().filter(|edge| edge.len() == 2) {
-        parts.join(edge[0].2, edge[1].2);
-    }
-    for edge in edges().filter(|edge| edge.len() > 2) {
-        let mut sides: Vec<(u32, i32)> = edge.iter().map(|u| (parts.root(u.2), u.3)).collect();
-        sides.sort_unstable();
-        let open = sides
-            .chunk_by(|one, next| one.0 == next.0)
-            .filter(|part| part.iter().map(|&(_, way)| way).sum::<i32>() != 0)
-            .map(|part| part[0].0)
-            .collect::<Vec<_>>();
-        for pair in open.windows(2) {
-            parts.join(pair[0], pair[1]);
-        }
-    }
-    let mut number = vec![u32::MAX; mesh.faces().len()];
-    let mut count = 0;
-    (0..mesh.faces().len() as u32)
-        .map(|face| {
-            let number = &mut number[parts.root(face) as usize];
-            if *number == u32::MAX {
-                *number = count;
-                count += 1;
-            }
-            *number
-        })
-        .collect()
 }
 
 #[cfg(test)]

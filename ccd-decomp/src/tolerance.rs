@@ -24,6 +24,11 @@ pub(crate) const REINSERTED_SHARE: f32 = 0.02;
 /// Unit: rays. Each one grazes an edge only by accident.
 pub(crate) const RAY_TRIES: usize = 16;
 
+/// How far on either side of a face no other shell may be for the face's middle to tell what is around it, in
+/// units of the mesh's size. Rounding takes the middle off the face by 8 [`U64`] at most, and the face's normal
+/// is right to a hundredth even of needles of an aspect of 1e6.
+pub(crate) const FACE_ROUNDING: f64 = 1e-12;
+
 /// A patch grows no further beyond so many polygons.
 ///
 /// Unit: polygons. Growing takes time that grows with their square, and an oracle takes time that

@@ -130,3 +130,28 @@ fn shells_that_share_an_edge_are_told_apart() {
         assert!((topology.signed_volume - 2.0).abs() < 1e-12);
     }
 }
+
+/// Cubes of a lattice at random, each closed by itself, that share faces, edges and corners: solids all.
+#[test]
+fn shells_that_share_faces_are_told_apart() {
+    let mut shared = 0;
+    for seed in 1..120_u32 {
+        let bits =
+            seed.wrapping_mul(0x9e37_79b9) >> 3 & seed.wrapping_mul(0x85eb_ca6b).rotate_left(9);
+        let place = |k: u32| 4.0 + dvec3((k % 3).into(), (k / 3 % 3).into(), (k / 9).into());
+        let places = (0..27).filter(|k| bits >> k & 1 == 1).map(place);
+        let of_lattice: Vec<_> = places.map(|place| (place, 0.5, seed % 2 == 0)).collect();
+        if of_lattice.is_empty() {
+            continue;
+        }
+        let mesh = cubes(&of_lattice);
+        let topology = Topology::of(&mesh);
+        assert_eq!(counts(&mesh), [0, 0], "{seed}");
+        let volume = topology.signed_volume.abs() - of_lattice.len() as f64;
+        assert!(volume.abs() < 1e-9, "{seed}");
+        let prepared = body_from_mesh(&mesh, Detail::Auto).unwrap();
+        assert_eq!(prepared.body.volume(), Volume::Solid);
+        shared += usize::from(topology.shared.count() > 4);
+    }
+    assert!(shared > 40, "{shared}");
+}
