@@ -101,7 +101,10 @@ impl<F> Row<'_, F> {
     {
         let waiting = Mutex::new(Some((one, first)));
         let fill_waiting = || {
-            let taken = waiting.lock().unwrap_or_else(PoisonError::into_inner).take();
+            let taken = waiting
+                .lock()
+                .unwrap_or_else(PoisonError::into_inner)
+                .take();
             taken.map_or(Ok(()), |(range, done)| self.fill(range, done, parts))
         };
         let (of_first, of_second) = scope(|threads| {

@@ -37,7 +37,10 @@ fn is_closed(hull: &Hull) -> bool {
     let is_pair = |pair: &[u64]| matches!(*pair, [one, other] if one & 1 == 0 && other == one + 1);
     let once = edges.windows(2).all(|edges| edges[0] != edges[1]);
     let proper = |edge: &u64| edge >> 33 != edge << 31 >> 32;
-    hull.points.len() <= 1 << 31 && once && pairs.into_iter().all(is_pair) && edges.iter().all(proper)
+    hull.points.len() <= 1 << 31
+        && once
+        && pairs.into_iter().all(is_pair)
+        && edges.iter().all(proper)
 }
 
 /// The first thing that is wrong with the facets, if anything.

@@ -160,7 +160,10 @@ impl<'a> Side<'a> {
     fn part(&self, k: usize) -> Option<Part<'a>> {
         let (corners, skin) = match self.child.hull.facets.get(k) {
             Some(facet) => (&facet.corners[..], self.child.skins.get(k)?),
-            None => (&SIDES.get(k - self.child.hull.facets.len())?[..], self.lone?),
+            None => (
+                &SIDES.get(k - self.child.hull.facets.len())?[..],
+                self.lone?,
+            ),
         };
         Some(Part {
             child: self.child,
