@@ -1,8 +1,11 @@
 //! The convex hull tree: a hull at every node, the pieces at the leaves `[FAST06 §3.3]`.
 
 mod assemble;
+mod bottom_up;
 mod convex;
+mod edges;
 mod error;
+mod identity;
 mod inherit;
 mod inside;
 mod renumber;

@@ -1,8 +1,10 @@
 //! Convex hulls grown point by point, by exact predicates.
 
 mod conflicts;
+mod few;
 
 use crate::predicates::{is_degenerate, side_of};
+use crate::tolerance::FEW_POINTS;
 use crate::triangle_boxes::Bounds;
 use ccd_core::glam::DVec3;
 use std::cmp::Ordering;
@@ -49,6 +51,16 @@ impl ExactHull {
 
     /// The hull of all points; none when they lie in one plane. O(n log n).
     pub(crate) fn of(points: &[DVec3]) -> Option<Self> {
+        let simplex = ExactHull::simplex(points)?;
+        let facets = match points.len() <= FEW_POINTS {
+            true => few::facets(points, simplex),
+            false => conflicts::facets(points, simplex),
+        };
+        Some(ExactHull::with_facets(facets))
+    }
+
+    /// A triangle of points, and a point behind it; none when all lie in one plane. O(n).
+    fn simplex(points: &[DVec3]) -> Option<[u32; 4]> {
         let at = |k: u32| points[k as usize];
         let rest = 0..points.len() as u32;
         let b = rest.clone().find(|&k| at(k) != at(0))?;
@@ -56,15 +68,10 @@ impl ExactHull {
         let c = rest.clone().find(area)?;
         let height = |k: u32| side_of(points, [0, b, c], k);
         let d = rest.clone().find(|&k| height(k) != Ordering::Equal)?;
-        let base = match height(d) {
-            Ordering::Less => [0, b, c],
-            _ => [0, c, b],
-        };
-        let [a, b, c] = base;
-        Some(ExactHull::with_facets(conflicts::facets(
-            points,
-            [a, b, c, d],
-        )))
+        Some(match height(d) {
+            Ordering::Less => [0, b, c, d],
+            _ => [0, c, b, d],
+        })
     }
 
     /// The facets.

@@ -1,10 +1,10 @@
-//! Convex hulls: of few points a library's, of many computed exactly; proven by exact predicates.
+//! Convex hulls: of some points a library's, of few or many computed exactly; proven by exact predicates.
 //!
 //! ```text
-//! points ─┬─ in one plane ──────────────────► flat.rs ───────────────────────┐
-//!         ├─ few ─► library.rs ─► proof.rs ─┬─ proven ──────────────────────┼─► Hull
-//!         │                                 └─ refuted ─► exact.rs, proof.rs ┤
-//!         └─ many ────────────────────────► exact.rs, proof.rs ──────────────┘
+//! points ─┬─ in one plane ───────────────────► flat.rs ───────────────────────┐
+//!         ├─ some ─► library.rs ─► proof.rs ─┬─ proven ──────────────────────┼─► Hull
+//!         │                                  └─ refuted ─► exact.rs, proof.rs ┤
+//!         └─ few or many ──────────────────► exact.rs, proof.rs ──────────────┘
 //! ```
 
 mod exact;
@@ -15,7 +15,7 @@ mod span;
 
 use crate::exact_hull::ExactHull;
 use crate::predicates;
-use crate::tolerance::{LIBRARY_POINTS, LIKELY_POINTS};
+use crate::tolerance::{FEW_POINTS, LIBRARY_POINTS, LIKELY_POINTS};
 use ccd_core::glam::DVec3;
 use ccd_core::tolerance::MAX_COORDINATE;
 use span::Span;
@@ -45,7 +45,7 @@ pub(crate) enum Way {
     Library,
     /// The library's hull is not the hull, or there was none: computed exactly instead.
     Rebuilt,
-    /// The points are too many for the library: computed exactly.
+    /// The points are too few for the library to be worth it, or too many: computed exactly.
     Exact,
     /// All points are in one plane: a polygon, seen from either side.
     Flat,
@@ -110,14 +110,14 @@ pub(crate) fn likely_triangles(points: &[DVec3]) -> Option<Vec<[u32; 3]>> {
 type Loops = Vec<Vec<u32>>;
 
 fn solid(points: &[DVec3]) -> Result<(Loops, Way), HullError> {
-    let few = points.len() <= LIBRARY_POINTS;
-    if few
+    let some = FEW_POINTS < points.len() && points.len() <= LIBRARY_POINTS;
+    if some
         && let Some(triangles) = library::triangles(points)
         && let Ok(facets) = proof::prove(points, proof::loops(points, &triangles))
     {
         return Ok((facets, Way::Library));
     }
-    let way = if few { Way::Rebuilt } else { Way::Exact };
+    let way = if some { Way::Rebuilt } else { Way::Exact };
     match exact::facets(points) {
         Some(facets) => Ok((facets, way)),
         None => Err(HullError::Unproven(points.len())),

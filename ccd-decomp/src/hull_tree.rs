@@ -3,6 +3,7 @@
 mod split;
 
 use crate::hull::{HullError, Way, hull};
+use crate::tolerance::SIDE_BY_SIDE;
 use ccd_core::glam::DVec3;
 use ccd_core::{Hull, HullNode, HullTree, HullTreeError, InputError, Pieces};
 use split::Splitter;
@@ -14,7 +15,7 @@ use split::Splitter;
 ///
 /// # Guarantee
 /// Every hull is exact. The depth is at most logarithmic in the number of pieces. The same pieces give
-/// the same tree; no input panics.
+/// the same tree, on any number of threads; no input panics.
 ///
 /// # Errors
 /// [`BuildError`]: a coordinate that exact predicates cannot deal with, or too many pieces.
@@ -39,19 +40,80 @@ pub(crate) fn grow(pieces: &Pieces) -> Result<Grown, BuildError> {
         let pieces = pieces.len();
         return Err(HullTreeError::from(InputError::TooManyPieces { pieces }).into());
     }
-    let mut nodes = split_all(pieces);
-    let mut rebuilt = 0;
-    // Children come after their parents.
-    for at in (0..nodes.len()).rev() {
-        if let HullNode::Inner(children, _) = nodes[at] {
-            let corners = children.map(|child| corners(&nodes[child as usize], pieces));
-            let (hull, way) = joint_hull(&corners.concat())?;
-            rebuilt += usize::from(way == Way::Rebuilt);
-            nodes[at] = HullNode::Inner(children, hull);
-        }
-    }
+    let mut order: Vec<u32> = (0..pieces.len() as u32).collect();
+    let mut nodes = vec![HullNode::Leaf(0); (2 * order.len()).saturating_sub(1)];
+    let grower = Grower {
+        pieces,
+        splitter: Splitter::new(pieces),
+    };
+    let rebuilt = match nodes.split_first_mut() {
+        Some((root, below)) => grower.grow(
+            &mut order,
+            Place {
+                node: root,
+                below,
+                first: 1,
+            },
+        )?,
+        None => 0,
+    };
     let tree = HullTree::new(pieces, &nodes)?;
     Ok(Grown { tree, rebuilt })
+}
+
+struct Grower<'a> {
+    pieces: &'a Pieces,
+    splitter: Splitter,
+}
+
+/// Where a subtree goes: its root, and all below, which starts at a number.
+struct Place<'a> {
+    node: &'a mut HullNode,
+    below: &'a mut [HullNode],
+    first: u32,
+}
+
+impl Grower<'_> {
+    /// Makes the subtree over some pieces, every node before its children, and says how many hulls were
+    /// rebuilt. A share of the pieces goes to either side, so that the depth is logarithmic.
+    fn grow(&self, pieces: &mut [u32], place: Place<'_>) -> Result<usize, BuildError> {
+        let Place { node, below, first } = place;
+        if let [piece] = *pieces {
+            *node = HullNode::Leaf(piece);
+            return Ok(0);
+        }
+        let count = pieces.len();
+        let middle = self.splitter.split(pieces);
+        let (of_left, of_right) = pieces.split_at_mut(middle);
+        let [left, right, below @ ..] = below else {
+            return Err(BuildError::Unproven { points: 0 });
+        };
+        let (below_right, below_left) = below.split_at_mut(2 * (of_right.len() - 1));
+        let start = first + 2;
+        let left_start = start + below_right.len() as u32;
+        let to_left = Place {
+            node: left,
+            below: below_left,
+            first: left_start,
+        };
+        let to_right = Place {
+            node: right,
+            below: below_right,
+            first: start,
+        };
+        let (grown_left, grown_right) = match count >= SIDE_BY_SIDE {
+            true => rayon::join(
+                || self.grow(of_left, to_left),
+                || self.grow(of_right, to_right),
+            ),
+            false => (self.grow(of_left, to_left), self.grow(of_right, to_right)),
+        };
+        let rebuilt = grown_left? + grown_right?;
+        let corners = [&*left, &*right].map(|child| corners(child, self.pieces));
+        let (hull, way) = joint_hull(&corners.concat())?;
+        *node = HullNode::Inner([first, first + 1], hull);
+        Ok(rebuilt + usize::from(way == Way::Rebuilt))
+    }
 }
 
 /// Why pieces have no hull tree.
@@ -70,29 +132,6 @@ pub enum BuildError {
     /// The core does not take the tree.
     #[error(transparent)]
     Tree(#[from] HullTreeError),
-}
-
-/// The tree without hulls: every node before its children.
-fn split_all(pieces: &Pieces) -> Vec<HullNode> {
-    let splitter = Splitter::new(pieces);
-    let mut order: Vec<u32> = (0..pieces.len() as u32).collect();
-    let mut nodes = vec![HullNode::Leaf(0)];
-    let mut stack = vec![(0, 0, order.len())];
-    // Either side of a split has fewer pieces.
-    while let Some((at, start, end)) = stack.pop() {
-        let range = &mut order[start..end];
-        if let [piece] = *range {
-            nodes[at] = HullNode::Leaf(piece);
-            continue;
-        }
-        let middle = start + splitter.split(range);
-        let left = nodes.len();
-        nodes.extend([HullNode::Leaf(0), HullNode::Leaf(0)]);
-        let children = [left, left + 1].map(|child| child as u32);
-        nodes[at] = HullNode::Inner(children, Hull::default());
-        stack.extend([(left, start, middle), (left + 1, middle, end)]);
-    }
-    nodes
 }
 
 fn corners<'a>(node: &'a HullNode, pieces: &'a Pieces) -> &'a [DVec3] {

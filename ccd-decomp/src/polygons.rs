@@ -20,34 +20,26 @@ pub(crate) fn polygons(points: &[DVec3], triangles: &[[u32; 3]]) -> Vec<Polygon>
     let surface = Surface::new(points, triangles);
     let group_of = surface.groups();
     let count = group_of.iter().max().map_or(0, |&last| last as usize + 1);
-    let mut groups = vec![Group::default(); count];
-    for (t, &number) in group_of.iter().enumerate() {
-        let group = &mut groups[number as usize];
-        group.triangles.push(t as u32);
-        let inner = |k: usize| {
-            surface
-                .twins(t, k)
-                .any(|(twin, _)| group_of[twin] == number)
-        };
-        let rim = (0..3).filter(|&k| !inner(k)).map(|k| surface.edge(t, k));
-        group.rim.extend(rim);
+    // The triangles group by group, each group's in ascending order.
+    let mut ends = vec![0; count];
+    group_of.iter().for_each(|&k| ends[k as usize] += 1);
+    let mut end = 0;
+    for next in &mut ends {
+        end += std::mem::replace(next, end);
     }
-    let polygon = |group: Group| {
-        let first = *group.triangles.first()?;
-        let plane = Projection::of(triangles[first as usize].map(|v| points[v as usize]))?;
-        Some(Polygon {
-            corners: strict_corners(points, &chained(group.rim), plane),
-            triangles: group.triangles,
-        })
-    };
-    groups.into_iter().filter_map(polygon).collect()
-}
-
-#[derive(Clone, Default)]
-struct Group {
-    triangles: Vec<u32>,
-    /// The directed edges around it.
-    rim: Vec<(u32, u32)>,
+    let mut members = vec![0; triangles.len()];
+    for (t, &number) in (0..).zip(&group_of) {
+        members[ends[number as usize] as usize] = t;
+        ends[number as usize] += 1;
+    }
+    let starts = std::iter::once(&0).chain(&ends);
+    let ranges = starts
+        .zip(&ends)
+        .map(|(&start, &end)| start as usize..end as usize);
+    let groups = ranges.map(|range| &members[range]);
+    groups
+        .filter_map(|group| surface.polygon(group, &group_of))
+        .collect()
 }
 
 /// Drops the corners of a convex loop at which it goes straight on.
@@ -57,6 +49,15 @@ pub(crate) fn strict_corners(points: &[DVec3], rim: &[u32], plane: Projection) -
         .filter(|&k| plane.turn(at(k + rim.len() - 1), at(k), at(k + 1)) != Ordering::Equal)
         .map(|k| rim[k])
         .collect()
+}
+
+/// The same loop from its least corner on.
+fn starting_least([a, b, c]: [u32; 3]) -> [u32; 3] {
+    match (a < b && a < c, b < c) {
+        (true, _) => [a, b, c],
+        (false, true) => [b, c, a],
+        (false, false) => [c, a, b],
+    }
 }
 
 /// The directed edges of one loop, one after the other, as the loop of their first ends.
@@ -79,25 +80,91 @@ fn chained(mut rim: Vec<(u32, u32)>) -> Vec<u32> {
 struct Surface<'a> {
     points: &'a [DVec3],
     triangles: &'a [[u32; 3]],
-    /// Directed edges, sorted, with the triangle and the place in it that each starts from.
+    /// For the edge from corner `k` of triangle `t`, at `3 t + k`, the one edge that runs the other way;
+    /// empty where there is not one of each.
+    pairs: Vec<u32>,
+    /// Where there is not: directed edges, sorted, with the triangle and the place in it that each starts from.
     edges: Vec<(u32, u32, u32, u8)>,
+}
+
+/// For every edge the one that runs the other way; none unless there is one of each. O(n log n).
+fn pairs(triangles: &[[u32; 3]]) -> Option<Vec<u32>> {
+    let mut edges: Vec<(u64, u32)> = Vec::with_capacity(3 * triangles.len());
+    for (t, &[a, b, c]) in (0..).zip(triangles) {
+        for (k, (v, w)) in (0..).zip([(a, b), (b, c), (c, a)]) {
+            let (low, high) = (v.min(w), v.max(w));
+            edges.push((u64::from(low) << 32 | u64::from(high), 3 * t + k));
+        }
+    }
+    edges.sort_unstable();
+    let start = |edge: u32| triangles[edge as usize / 3][edge as usize % 3];
+    let mut pairs = vec![0; edges.len()];
+    let mut last = None;
+    for pair in edges.chunks(2) {
+        match *pair {
+            [(key, one), (other_key, other)]
+                if key == other_key && last != Some(key) && start(one) != start(other) =>
+            {
+                (pairs[one as usize], pairs[other as usize]) = (other, one);
+                last = Some(key);
+            }
+            _ => return None,
+        }
+    }
+    Some(pairs)
 }
 
 impl<'a> Surface<'a> {
     fn new(points: &'a [DVec3], triangles: &'a [[u32; 3]]) -> Self {
+        let surface = Surface {
+            points,
+            triangles,
+            pairs: pairs(triangles).unwrap_or_default(),
+            edges: Vec::new(),
+        };
+        match surface.pairs.is_empty() {
+            true => surface.with_edges(),
+            false => surface,
+        }
+    }
+
+    fn with_edges(mut self) -> Self {
+        let triangles = self.triangles;
         let edge = |t: usize, k: usize| {
             let triangle = triangles[t];
             (triangle[k], triangle[(k + 1) % 3], t as u32, k as u8)
         };
-        let mut edges: Vec<_> = (0..triangles.len())
+        self.pairs = Vec::new();
+        self.edges = (0..triangles.len())
             .flat_map(|t| (0..3).map(move |k| edge(t, k)))
             .collect();
-        edges.sort_unstable();
-        Surface {
-            points,
-            triangles,
-            edges,
-        }
+        self.edges.sort_unstable();
+        self
+    }
+
+    /// The polygon that a group of triangles forms; none without area.
+    fn polygon(&self, group: &[u32], group_of: &[u32]) -> Option<Polygon> {
+        let first = *group.first()? as usize;
+        let plane = Projection::of(self.triangles[first].map(|v| self.points[v as usize]))?;
+        let corners = match group {
+            [_] => starting_least(self.triangles[first]).to_vec(),
+            _ => {
+                let is_inner = |t: usize, k: usize| {
+                    let mut twins = self.twins(t, k);
+                    twins.any(|(twin, _)| group_of[twin] == group_of[t])
+                };
+                let edges = group
+                    .iter()
+                    .flat_map(|&t| (0..3).map(move |k| (t as usize, k)));
+                let rim = edges.filter(|&(t, k)| !is_inner(t, k));
+                let rim = rim.map(|(t, k)| self.edge(t, k)).collect();
+                strict_corners(self.points, &chained(rim), plane)
+            }
+        };
+        Some(Polygon {
+            corners,
+            triangles: group.to_vec(),
+        })
     }
 
     fn edge(&self, triangle: usize, k: usize) -> (u32, u32) {
@@ -113,7 +180,10 @@ impl<'a> Surface<'a> {
         let same = self.edges[first..]
             .iter()
             .take_while(move |e| (e.0, e.1) == (b, a));
-        same.map(|e| (e.2 as usize, e.3 as usize))
+        let pair = self.pairs.get(3 * triangle + k).copied();
+        let pair = pair.map(|edge| (edge as usize / 3, edge as usize % 3));
+        pair.into_iter()
+            .chain(same.map(|e| (e.2 as usize, e.3 as usize)))
     }
 
     /// The number of every triangle's group: one plane, one side, connected.
@@ -121,6 +191,8 @@ impl<'a> Surface<'a> {
         const UNSEEN: u32 = u32::MAX;
         let mut group_of = vec![UNSEEN; self.triangles.len()];
         let mut count = 0;
+        // Of pairs what was found of one edge is so of the other.
+        let mut ends_at = vec![false; self.pairs.len()];
         let mut stack = Vec::new();
         for seed in 0..self.triangles.len() {
             if group_of[seed] != UNSEEN {
@@ -129,10 +201,16 @@ impl<'a> Surface<'a> {
             group_of[seed] = count;
             stack.push(seed);
             while let Some(t) = stack.pop() {
-                for (next, l) in (0..3).flat_map(|k| self.twins(t, k)) {
-                    if group_of[next] == UNSEEN && self.goes_on(t, next, l) {
+                for (k, (next, l)) in (0..3).flat_map(|k| self.twins(t, k).map(move |n| (k, n))) {
+                    let is_known = ends_at.get(3 * t + k) == Some(&true);
+                    if is_known || group_of[next] != UNSEEN {
+                        continue;
+                    }
+                    if self.goes_on(t, next, l) {
                         group_of[next] = count;
                         stack.push(next);
+                    } else if let Some(ends) = ends_at.get_mut(3 * next + l) {
+                        *ends = true;
                     }
                 }
             }

@@ -192,6 +192,17 @@ pub(crate) const DIRECTIONS: f64 = 64.0;
 /// on a circle and two on its axis took it 380 MB.
 pub(crate) const LIBRARY_POINTS: usize = 64;
 
+/// The hull of up to so many points is grown by holding each of them against all facets.
+///
+/// Unit: points. More: the time grows with their square; fewer: the library takes three to ten times as
+/// long over them, and fails on many that are coplanar.
+pub(crate) const FEW_POINTS: usize = 32;
+
+/// From so many pieces on the two sides of a node of a hull tree are built beside each other.
+///
+/// Unit: pieces. Fewer: handing over takes as long as the work; more: a core waits at the end.
+pub(crate) const SIDE_BY_SIDE: usize = 256;
+
 /// Of so many pieces at most the centres tell along which axis a node of a hull tree is split.
 ///
 /// Unit: pieces. Larger: hardly better axes; the hulls of 1,024 centres at all nodes took as long as the

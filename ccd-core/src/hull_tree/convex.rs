@@ -1,6 +1,6 @@
 //! Whether facets are those of a convex polytope, exactly.
 
-use super::assemble::edges_of;
+use super::edges::edges_of;
 use super::inside::{height_below, too_fine};
 use crate::piece::Piece;
 use crate::support::Support;

@@ -3,13 +3,12 @@
 //! A child's hull meets the plane of a facet of its parent in at most one facet of its own. So a facet
 //! of the parent is a child's, or is tiled by one of either child, or is a bridge.
 
-use super::assemble::edges_of;
+use super::edges::{EdgeMap, edges_of};
 use super::inside::{is_collinear, is_coplanar, spanning};
 use super::{FacetClass, Hull};
 use crate::piece::{Face, Origin, Polytope};
 use crate::point_tree::PointTree;
 use glam::DVec3;
-use std::collections::{HashMap, HashSet};
 
 /// What is known of one facet.
 #[derive(Clone, Debug)]
@@ -79,15 +78,13 @@ pub(super) struct Child<'a> {
 /// What the facets of a hull are, given its children and where all their points are.
 pub(super) fn inherit(hull: &Hull, places: &[DVec3], children: [Child<'_>; 2]) -> Vec<Skin> {
     let triangles = children.map(|child| lone_triangle(&child));
-    let sides = [0, 1].map(|k| Side::new(&children[k], &triangles[k]));
+    let sides = [0, 1].map(|k| Side::new(children[k], triangles[k].as_ref(), places.len()));
     let skin = |corners: &Vec<u32>| {
         let parts = sides.each_ref().map(|side| side.sharing_an_edge(corners));
         match parts {
-            [Some(part), _] | [_, Some(part)] if same_loop(&part.corners, corners) => {
-                part.skin.clone()
-            }
-            [Some(one), Some(other)] if tile(places, corners, [one, other]) => {
-                Skin::joined([one, other])
+            [Some(part), _] | [_, Some(part)] if same_loop(&part, corners) => part.skin.clone(),
+            [Some(one), Some(other)] if tile(places, corners, [&one, &other]) => {
+                Skin::joined([&one, &other])
             }
             _ => Skin::BRIDGE,
         }
@@ -95,23 +92,35 @@ pub(super) fn inherit(hull: &Hull, places: &[DVec3], children: [Child<'_>; 2]) -
     hull.facets.iter().map(skin).collect()
 }
 
-/// A facet of a child, by the common numbers.
+/// A facet of a child.
 struct Part<'a> {
-    corners: Vec<u32>,
-    places: Vec<DVec3>,
-    /// The corners' numbers in the mesh.
-    vertices: Vec<u32>,
+    child: Child<'a>,
+    /// By the child's numbers.
+    corners: &'a [u32],
     skin: &'a Skin,
 }
 
 impl Part<'_> {
+    /// Its corners by the common numbers.
+    fn ids(&self) -> impl ExactSizeIterator<Item = u32> + Clone {
+        self.corners.iter().map(|&v| self.child.ids[v as usize])
+    }
+
+    fn edges(&self) -> impl Iterator<Item = (u32, u32)> + Clone {
+        self.ids().zip(self.ids().cycle().skip(1))
+    }
+
     fn mesh_faces(&self) -> Vec<Face> {
+        let hull = self.child.hull;
         match self.skin.origin {
-            Origin::Face(id) => (1..self.places.len() - 1)
-                .map(|k| Face {
-                    id,
-                    vertices: [0, k, k + 1].map(|k| self.vertices[k]),
-                    corners: [0, k, k + 1].map(|k| self.places[k]),
+            Origin::Face(id) => (1..self.corners.len() - 1)
+                .map(|k| {
+                    let corners = [0, k, k + 1].map(|k| self.corners[k]);
+                    Face {
+                        id,
+                        vertices: corners.map(|v| vertex_of(hull, v)),
+                        corners: corners.map(|v| hull.points[v as usize]),
+                    }
                 })
                 .collect(),
             Origin::Faces | Origin::Virtual => self.skin.faces.clone(),
@@ -121,37 +130,51 @@ impl Part<'_> {
 
 /// A child's facets.
 struct Side<'a> {
-    parts: Vec<Part<'a>>,
+    child: Child<'a>,
+    /// What either side is of a triangle by itself.
+    lone: Option<&'a Skin>,
     /// Which part an edge belongs to.
-    by_edge: HashMap<(u32, u32), usize>,
+    by_edge: EdgeMap,
 }
 
+/// The two sides of a triangle by itself.
+const SIDES: [[u32; 3]; 2] = [[0, 1, 2], [2, 1, 0]];
+
 impl<'a> Side<'a> {
-    fn new(child: &Child<'a>, lone: &'a Option<Skin>) -> Self {
-        let part = |(corners, skin): (&[u32], &'a Skin)| Part {
-            corners: corners.iter().map(|&v| child.ids[v as usize]).collect(),
-            places: points_of(child.hull, corners),
-            vertices: corners.iter().map(|&v| vertex_of(child.hull, v)).collect(),
-            skin,
-        };
+    /// Of a child whose points have numbers below `places`.
+    fn new(child: Child<'a>, lone: Option<&'a Skin>, places: usize) -> Self {
         let facets = child.hull.facets.iter().map(|facet| &facet.corners[..]);
-        let mut parts: Vec<Part<'_>> = facets.zip(child.skins).map(part).collect();
-        if let Some(skin) = lone {
-            parts.extend([&[0, 1, 2], &[2, 1, 0]].map(|corners| part((corners, skin))));
-        }
-        let edges = |(k, part): (usize, &Part<'_>)| {
-            let edges: Vec<_> = edges_of(&part.corners).map(|edge| (edge, k)).collect();
-            edges
-        };
+        let sides = SIDES.iter().map(|corners| &corners[..]);
+        let loops = facets.chain(sides.filter(|_| lone.is_some()));
+        let edges = loops.zip(0..).flat_map(|(corners, k)| {
+            let id = |v: u32| child.ids[v as usize];
+            edges_of(corners).map(move |(from, to)| ((id(from), id(to)), k))
+        });
         Side {
-            by_edge: parts.iter().enumerate().flat_map(edges).collect(),
-            parts,
+            child,
+            lone,
+            by_edge: EdgeMap::new(places, edges),
         }
     }
 
-    fn sharing_an_edge(&self, corners: &[u32]) -> Option<&Part<'a>> {
-        let mut known = edges_of(corners).filter_map(|edge| self.by_edge.get(&edge));
-        known.next().map(|&k| &self.parts[k])
+    fn part(&self, k: usize) -> Option<Part<'a>> {
+        let (corners, skin) = match self.child.hull.facets.get(k) {
+            Some(facet) => (&facet.corners[..], self.child.skins.get(k)?),
+            None => (
+                &SIDES.get(k - self.child.hull.facets.len())?[..],
+                self.lone?,
+            ),
+        };
+        Some(Part {
+            child: self.child,
+            corners,
+            skin,
+        })
+    }
+
+    fn sharing_an_edge(&self, corners: &[u32]) -> Option<Part<'a>> {
+        let mut known = edges_of(corners).filter_map(|edge| self.by_edge.get(edge));
+        self.part(known.next()? as usize)
     }
 }
 
@@ -179,35 +202,40 @@ fn points_of(polytope: &Polytope, corners: &[u32]) -> Vec<DVec3> {
     corners.iter().map(point).collect()
 }
 
-/// Whether two loops are the same but for where they begin.
-fn same_loop(one: &[u32], other: &[u32]) -> bool {
-    let Some(start) = other.iter().position(|v| *v == one[0]) else {
+/// Whether a part's loop is another one but for where it begins.
+fn same_loop(part: &Part<'_>, other: &[u32]) -> bool {
+    let first = part.ids().next();
+    let Some(start) = other.iter().position(|&v| Some(v) == first) else {
         return false;
     };
     let (end, begin) = other.split_at(start);
-    one.len() == other.len() && one.iter().eq(begin.iter().chain(end))
+    part.corners.len() == other.len() && part.ids().eq(begin.iter().chain(end).copied())
 }
 
 /// Whether two convex polygons together are a facet of the hull: what is left of their edges, once
 /// those are gone that run both ways, is the facet's loop, but for corners within its edges.
 fn tile(places: &[DVec3], corners: &[u32], parts: [&Part<'_>; 2]) -> bool {
-    let edges: Vec<(u32, u32)> = parts.iter().flat_map(|p| edges_of(&p.corners)).collect();
-    let all: HashSet<(u32, u32)> = edges.iter().copied().collect();
-    let border = |&(from, to): &(u32, u32)| !all.contains(&(to, from));
-    let left: Vec<(u32, u32)> = edges.iter().copied().filter(border).collect();
-    let next: HashMap<u32, u32> = left.iter().copied().collect();
+    let mut edges: Vec<(u32, u32)> = parts.iter().flat_map(|part| part.edges()).collect();
+    edges.sort_unstable();
+    let border = |&(from, to): &(u32, u32)| edges.binary_search(&(to, from)).is_err();
+    let next: Vec<(u32, u32)> = edges.iter().copied().filter(border).collect();
     // Edges that both have, and corners where they only touch, are no border.
-    if all.len() != edges.len() || next.len() != left.len() {
+    let twice = edges.windows(2).any(|e| e[0] == e[1]);
+    if twice || next.windows(2).any(|e| e[0].0 == e[1].0) {
         return false;
     }
+    let after = |v: u32| {
+        let at = next.binary_search_by_key(&v, |edge| edge.0);
+        at.ok().map(|at| next[at].1)
+    };
     let mut used = 0;
     for (from, to) in edges_of(corners) {
         let place = |v: u32| places[v as usize];
         let between = |v: u32| is_collinear(place(from), place(to), place(v));
         let mut at = from;
         while at != to {
-            match next.get(&at) {
-                Some(&step) if used < next.len() && (step == to || between(step)) => at = step,
+            match after(at) {
+                Some(step) if used < next.len() && (step == to || between(step)) => at = step,
                 _ => return false,
             }
             used += 1;

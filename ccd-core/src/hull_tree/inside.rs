@@ -46,6 +46,9 @@ impl<'a> Container<'a> {
         if self.fans.is_empty() {
             return places.iter().position(|&p| !in_simplex(self.points, p));
         }
+        if places.is_empty() {
+            return None;
+        }
         let tree = PointTree::new(places);
         let mut outside = vec![false; places.len()];
         // Facets in whose planes it lies; all others have it behind.

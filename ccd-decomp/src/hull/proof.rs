@@ -75,6 +75,9 @@ fn is_convex(points: &[DVec3], corners: &[u32]) -> bool {
     let Some(projection) = Projection::of(plane) else {
         return false;
     };
+    if n == 3 {
+        return true;
+    }
     let flat = (3..n).all(|k| side(plane, at(k)) == Ordering::Equal);
     let left = |k: usize| projection.turn(at(k), at(k + 1), at(k + 2)) == Ordering::Greater;
     // Along any direction, a convex loop goes up once and down once.
@@ -89,10 +92,59 @@ fn plane(points: &[DVec3], corners: &[u32]) -> [DVec3; 3] {
 /// An edge that does not have one polygon on either side, each behind the other's plane. There is one if there
 /// are no polygons.
 fn unmatched_edge(points: &[DVec3], polygons: &Loops) -> Option<(u32, u32)> {
+    match all_match(points, polygons) {
+        true => None,
+        false => find_unmatched(points, polygons),
+    }
+}
+
+/// The directed edges of a loop.
+fn edges_of(corners: &[u32]) -> impl Iterator<Item = (u32, u32)> {
+    let next = corners.iter().cycle().skip(1);
+    corners.iter().copied().zip(next.copied())
+}
+
+/// Whether every edge has one polygon on either side, each behind the other's plane, which either is if the
+/// other is.
+fn all_match(points: &[DVec3], polygons: &Loops) -> bool {
+    let mut edges: Vec<(u64, bool, u32)> = Vec::with_capacity(polygons.iter().map(Vec::len).sum());
+    for (k, corners) in (0..).zip(polygons) {
+        edges.extend(edges_of(corners).map(|(v, w)| {
+            let (low, high) = (v.min(w), v.max(w));
+            (u64::from(low) << 32 | u64::from(high), v > w, k)
+        }));
+    }
+    edges.sort_unstable();
+    let is_fold = |pair: &[(u64, bool, u32)]| match *pair {
+        [(one, false, left), (other, true, right)] if one == other => {
+            let edge = [(one >> 32) as u32, one as u32];
+            folds(
+                points,
+                edge,
+                &polygons[left as usize],
+                &polygons[right as usize],
+            )
+        }
+        _ => false,
+    };
+    let twice = |e: &[(u64, bool, u32)]| (e[0].0, e[0].1) == (e[1].0, e[1].1);
+    !edges.is_empty() && edges.chunks(2).all(is_fold) && !edges.windows(2).any(twice)
+}
+
+/// Whether beyond an edge of a flat polygon another one goes on behind its plane.
+fn folds(points: &[DVec3], edge: [u32; 2], polygon: &[u32], beyond: &[u32]) -> bool {
+    let plane = plane(points, polygon);
+    // The ends are in the plane, which would take the predicate its longest computation.
+    let others = beyond.iter().filter(|v| !edge.contains(v));
+    let mut sides = others.map(|&v| side(plane, points[v as usize]));
+    sides.find(|&side| side != Ordering::Equal) == Some(Ordering::Less)
+}
+
+/// The first edge that does not match.
+fn find_unmatched(points: &[DVec3], polygons: &Loops) -> Option<(u32, u32)> {
     let mut edges: Vec<(u32, u32, usize)> = Vec::new();
     for (k, corners) in polygons.iter().enumerate() {
-        let next = corners.iter().cycle().skip(1);
-        edges.extend(corners.iter().zip(next).map(|(&v, &w)| (v, w, k)));
+        edges.extend(edges_of(corners).map(|(v, w)| (v, w, k)));
     }
     edges.sort_unstable();
     if edges.is_empty() {
@@ -104,10 +156,8 @@ fn unmatched_edge(points: &[DVec3], polygons: &Loops) -> Option<(u32, u32)> {
     let is_fold = |&(v, w, left): &(u32, u32, usize)| {
         let twin = edges.binary_search_by_key(&(w, v), |e| (e.0, e.1));
         twin.is_ok_and(|twin| {
-            let plane = plane(points, &polygons[left]);
             let beyond = &polygons[edges[twin].2];
-            let mut sides = beyond.iter().map(|&v| side(plane, points[v as usize]));
-            sides.find(|&side| side != Ordering::Equal) == Some(Ordering::Less)
+            folds(points, [v, w], &polygons[left], beyond)
         })
     };
     let odd = twice
@@ -123,7 +173,7 @@ fn outside(points: &[DVec3], polygons: &Loops) -> Vec<u32> {
     for corners in polygons {
         let plane = plane(points, corners);
         tree.for_each_not_behind(plane, |v| {
-            if side(plane, points[v as usize]) == Ordering::Greater {
+            if !corners.contains(&v) && side(plane, points[v as usize]) == Ordering::Greater {
                 is_outside[v as usize] = true;
             }
         });

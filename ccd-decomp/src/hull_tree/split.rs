@@ -28,11 +28,14 @@ impl Splitter {
             return 1;
         }
         let axis = self.longest(pieces);
-        let height = |piece: u32| axis.dot(self.centres[piece as usize]);
-        pieces.sort_unstable_by(|&a, &b| height(a).total_cmp(&height(b)).then(a.cmp(&b)));
-        let (first, last) = (pieces[0], pieces[pieces.len() - 1]);
-        let middle = 0.5 * (height(first) + height(last));
-        let below = pieces.partition_point(|&piece| height(piece) < middle);
+        let height = |&piece: &u32| (axis.dot(self.centres[piece as usize]), piece);
+        let mut heights: Vec<(f64, u32)> = pieces.iter().map(height).collect();
+        heights.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        for (piece, sorted) in pieces.iter_mut().zip(&heights) {
+            *piece = sorted.1;
+        }
+        let middle = 0.5 * (heights[0].0 + heights[heights.len() - 1].0);
+        let below = heights.partition_point(|&(height, _)| height < middle);
         let least = greater(1.0, LEAST_SHARE * pieces.len() as f64);
         match (below.min(pieces.len() - below) as f64) < least {
             true => pieces.len() / 2,

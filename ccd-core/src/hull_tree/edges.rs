@@ -1,0 +1,172 @@
+//! Edges of loops of corners, found again without hashing.
+
+use super::Hull;
+use super::error::HullFault;
+use std::collections::HashSet;
+
+/// The edges of a loop of corners.
+pub(super) fn edges_of(corners: &[u32]) -> impl Iterator<Item = (u32, u32)> + Clone {
+    let next = corners.iter().cycle().skip(1);
+    corners.iter().copied().zip(next.copied())
+}
+
+/// Whether the facets are loops of corners that close a surface. O(n log n).
+pub(super) fn check_facets(hull: &Hull) -> Result<(), HullFault> {
+    match is_closed(hull) {
+        true => Ok(()),
+        false => find_fault(hull),
+    }
+}
+
+/// Whether every edge of the facets is there once in either direction.
+fn is_closed(hull: &Hull) -> bool {
+    let exists = |&v: &u32| (v as usize) < hull.points.len();
+    let mut edges: Vec<u64> = Vec::with_capacity(hull.facets.iter().map(Vec::len).sum());
+    for corners in &hull.facets {
+        if corners.len() < 3 || !corners.iter().all(exists) {
+            return false;
+        }
+        edges.extend(edges_of(corners).map(|(from, to)| {
+            let (low, high) = (from.min(to), from.max(to));
+            // The last bit is left to the direction, of which the highest corner leaves none over.
+            u64::from(low) << 33 | u64::from(high) << 1 | u64::from(from > to)
+        }));
+    }
+    edges.sort_unstable();
+    let pairs = edges.chunks(2);
+    let is_pair = |pair: &[u64]| matches!(*pair, [one, other] if one & 1 == 0 && other == one + 1);
+    let once = edges.windows(2).all(|edges| edges[0] != edges[1]);
+    let proper = |edge: &u64| edge >> 33 != edge << 31 >> 32;
+    hull.points.len() <= 1 << 31
+        && once
+        && pairs.into_iter().all(is_pair)
+        && edges.iter().all(proper)
+}
+
+/// The first thing that is wrong with the facets, if anything.
+fn find_fault(hull: &Hull) -> Result<(), HullFault> {
+    let exists = |&v: &u32| (v as usize) < hull.points.len();
+    let mut edges = HashSet::new();
+    for (facet, corners) in (0..).zip(&hull.facets) {
+        if corners.len() < 3 || !corners.iter().all(exists) {
+            return Err(HullFault::BadFacet { facet });
+        }
+        for (from, to) in edges_of(corners) {
+            if from == to || !edges.insert((from, to)) {
+                return Err(HullFault::Open { facet });
+            }
+        }
+    }
+    for (facet, corners) in (0..).zip(&hull.facets) {
+        if edges_of(corners).any(|(from, to)| !edges.contains(&(to, from))) {
+            return Err(HullFault::Open { facet });
+        }
+    }
+    Ok(())
+}
+
+/// What belongs to directed edges between points of so many numbers.
+pub(super) struct EdgeMap {
+    /// Where the edges from each point start, and at last where those of the last one end.
+    starts: Vec<u32>,
+    /// To which point they lead, and what belongs to them; in ascending order where they are many.
+    edges: Vec<(u32, u32)>,
+}
+
+/// From one point lead so many edges before they are sorted.
+const MANY: usize = 8;
+
+impl EdgeMap {
+    /// Of edges that are there more than once the last one counts. O(n log n).
+    pub(super) fn new(
+        points: usize,
+        edges: impl Iterator<Item = ((u32, u32), u32)> + Clone,
+    ) -> Self {
+        let mut starts = vec![0; points + 1];
+        for ((from, _), _) in edges.clone() {
+            starts[from as usize + 1] += 1;
+        }
+        for k in 0..points {
+            starts[k + 1] += starts[k];
+        }
+        let mut next = starts.clone();
+        let mut sorted = vec![(0, 0); starts[points] as usize];
+        for ((from, to), what) in edges {
+            let at = &mut next[from as usize];
+            sorted[*at as usize] = (to, what);
+            *at += 1;
+        }
+        for range in starts.windows(2) {
+            let from = &mut sorted[range[0] as usize..range[1] as usize];
+            if from.len() > MANY {
+                from.sort_by_key(|edge| edge.0);
+            }
+        }
+        let edges = sorted;
+        EdgeMap { starts, edges }
+    }
+
+    /// What belongs to an edge.
+    pub(super) fn get(&self, (from, to): (u32, u32)) -> Option<u32> {
+        let [start, end] = [from, from + 1].map(|k| self.starts[k as usize] as usize);
+        let from = &self.edges[start..end];
+        let up_to = match from.len() > MANY {
+            true => from.partition_point(|edge| edge.0 <= to),
+            false => from.len(),
+        };
+        let mut found = from[..up_to].iter().rev();
+        match from.len() > MANY {
+            true => found.next().filter(|edge| edge.0 == to),
+            false => found.find(|edge| edge.0 == to),
+        }
+        .map(|edge| edge.1)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::DVec3;
+    use std::collections::HashMap;
+
+    fn numbers() -> impl FnMut(u32) -> u32 {
+        let mut state = 1_u32;
+        move |below| {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (state >> 16) % below
+        }
+    }
+
+    #[test]
+    fn edges_are_found_as_in_a_table() {
+        let mut number = numbers();
+        let edges: Vec<((u32, u32), u32)> =
+            (0..400).map(|k| ((number(12), number(30)), k)).collect();
+        for some in [&edges[..20], &edges] {
+            let table: HashMap<(u32, u32), u32> = some.iter().copied().collect();
+            let map = EdgeMap::new(30, some.iter().copied());
+            for edge in (0..30).flat_map(|from| (0..30).map(move |to| (from, to))) {
+                assert_eq!(map.get(edge), table.get(&edge).copied());
+            }
+        }
+    }
+
+    #[test]
+    fn surfaces_that_are_closed_have_no_fault() {
+        let mut number = numbers();
+        let tetrahedron = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
+        let mut closed = 0;
+        for _ in 0..2000 {
+            let mut facets = tetrahedron.map(Vec::from).to_vec();
+            for _ in 0..number(3) {
+                let (facet, corner) = (number(4) as usize, number(3) as usize);
+                facets[facet][corner] = number(5);
+            }
+            let points = vec![DVec3::ZERO; 4];
+            let hull = Hull { points, facets };
+            closed += u32::from(is_closed(&hull));
+            assert_eq!(is_closed(&hull), find_fault(&hull).is_ok());
+        }
+        assert!((200..1900).contains(&closed), "{closed}");
+    }
+}
