@@ -107,9 +107,9 @@ pub(super) struct Node<'a> {
     pub(super) skins: Vec<Skin>,
     /// The mesh's faces on a leaf; an inner node has those of its skins.
     pub(super) own_faces: Option<Vec<Face>>,
-    radius: f64,
-    evenly_rounded: bool,
-    size: f64,
+    pub(super) radius: f64,
+    pub(super) evenly_rounded: bool,
+    pub(super) size: f64,
 }
 
 impl<'a> Node<'a> {

@@ -208,17 +208,27 @@ fn points_of(polytope: &Polytope, corners: &[u32]) -> Vec<DVec3> {
 
 /// Whether a part's loop is another one but for where it begins.
 fn same_loop(part: &Part<'_>, other: &[u32]) -> bool {
+    if part.corners.len() != other.len() {
+        return false;
+    }
     let first = part.ids().next();
     let Some(start) = other.iter().position(|&v| Some(v) == first) else {
         return false;
     };
     let (end, begin) = other.split_at(start);
-    part.corners.len() == other.len() && part.ids().eq(begin.iter().chain(end).copied())
+    part.ids().eq(begin.iter().chain(end).copied())
 }
 
 /// Whether two convex polygons together are a facet of the hull: what is left of their edges, once
 /// those are gone that run both ways, is the facet's loop, but for corners within its edges.
+///
+/// A part has the facet's corners and the two ends of the cut, at most; of many more it is not even looked
+/// at, as it may share an edge with each of many facets.
 fn tile(places: &[DVec3], corners: &[u32], parts: [&Part<'_>; 2]) -> bool {
+    let most = 2 * corners.len() + 8;
+    if parts.iter().any(|part| part.corners.len() > most) {
+        return false;
+    }
     let mut edges: Vec<(u32, u32)> = parts.iter().flat_map(|part| part.edges()).collect();
     edges.sort_unstable();
     let border = |&(from, to): &(u32, u32)| edges.binary_search(&(to, from)).is_err();
