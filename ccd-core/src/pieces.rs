@@ -8,6 +8,7 @@ use crate::piece::{Face, Facets, Origin, Piece, Place, Polytope};
 use crate::shelf::Shelf;
 use crate::tolerance::MAX_COORDINATE;
 use glam::DVec3;
+pub(crate) use row::{Listed, Row};
 
 /// The pieces of one body, flat in memory, with the numbers of the mesh they came from.
 #[derive(Clone, Debug)]
@@ -114,28 +115,19 @@ impl Pieces {
     /// [`InputError::EmptyPiece`], [`InputError::BadPoint`], [`InputError::BadRadius`],
     /// [`InputError::FacetOutOfRange`], [`InputError::NoPieces`], [`InputError::TooManyPieces`].
     pub fn polytopes(polytopes: &[Polytope]) -> Result<Self, InputError> {
-        let (mut points, mut vertex_ids, mut point_ends) = (Vec::new(), Vec::new(), Vec::new());
-        let mut surfaces = Surfaces::default();
-        for (piece, polytope) in polytopes.iter().enumerate() {
-            let count = polytope.points.len();
-            points.extend_from_slice(&polytope.points);
-            if polytope.vertex_ids.len() == count {
-                vertex_ids.extend_from_slice(&polytope.vertex_ids);
-            } else {
-                vertex_ids.extend(0..count as u32);
-            }
-            point_ends.push(points.len() as u32);
-            surfaces.push(piece, polytope)?;
+        let points = polytopes.iter().map(|polytope| polytope.points.len());
+        let mut row = Row::new(polytopes.len(), points.sum());
+        for polytope in polytopes {
+            let facets = polytope.facets.iter();
+            row.push(Listed {
+                points: &polytope.points,
+                vertex_ids: &polytope.vertex_ids,
+                facets: facets.map(|facet| (&facet.corners[..], facet.origin)),
+                faces: polytope.faces.iter().copied(),
+                radius: polytope.radius,
+            })?;
         }
-        Pieces {
-            points,
-            vertex_ids,
-            point_ends,
-            radii: Radii::Each(polytopes.iter().map(|p| p.radius).collect()),
-            shape: Shape::Polytopes(Box::new(surfaces)),
-            shelf: Shelf::default(),
-        }
-        .checked()
+        row.into_pieces()
     }
 
     fn checked(self) -> Result<Self, InputError> {
@@ -312,31 +304,6 @@ impl Shape {
 }
 
 impl Surfaces {
-    fn push(&mut self, piece: usize, polytope: &Polytope) -> Result<(), InputError> {
-        let known = |corners: &[u32]| {
-            let exists = |&c: &u32| (c as usize) < polytope.points.len();
-            corners.len() >= 3 && corners.iter().all(exists)
-        };
-        let mut loops = polytope.facets.iter().map(|facet| &facet.corners[..]);
-        if let Some(facet) = loops.position(|corners| !known(corners)) {
-            return Err(InputError::FacetOutOfRange { piece, facet });
-        }
-        let finite = |face: &Face| face.corners.iter().all(|p| p.is_finite());
-        if let Some(face) = polytope.faces.iter().position(|face| !finite(face)) {
-            let facet = polytope.facets.len() + face;
-            return Err(InputError::FacetOutOfRange { piece, facet });
-        }
-        for facet in &polytope.facets {
-            self.corners.extend_from_slice(&facet.corners);
-            self.corner_ends.push(self.corners.len() as u32);
-            self.origins.push(facet.origin);
-        }
-        self.facet_ends.push(self.origins.len() as u32);
-        self.faces.extend_from_slice(&polytope.faces);
-        self.face_ends.push(self.faces.len() as u32);
-        Ok(())
-    }
-
     #[inline]
     fn of(&self, piece: usize) -> Facets<'_> {
         let facets = range(&self.facet_ends, piece);
@@ -382,6 +349,7 @@ pub(crate) fn range(ends: &[u32], k: usize) -> std::ops::Range<usize> {
     start as usize..ends[k] as usize
 }
 
+mod row;
 #[cfg(feature = "serde")]
 mod serial;
 #[cfg(test)]

@@ -186,13 +186,17 @@ impl Model {
     /// # Errors
     /// [`BodyError::Input`], [`BodyError::HullTree`] when the parts do not belong together.
     pub fn body(&self) -> Result<Body, BodyError> {
-        let mut body = Body::with_hierarchy(&self.pieces, &self.hierarchy, self.volume)?;
+        let (body, hull_tree) = rayon::join(
+            || Body::with_hierarchy(&self.pieces, &self.hierarchy, self.volume),
+            || self.hull_tree.clone(),
+        );
+        let mut body = body?;
         if let Some((pieces, hierarchy)) = &self.surface {
             let surface = Body::with_hierarchy(pieces, hierarchy, Volume::Solid)?;
             body = body.with_surface(surface)?;
         }
-        Ok(match &self.hull_tree {
-            Some(tree) => body.with_hull_tree(tree.clone())?,
+        Ok(match hull_tree {
+            Some(tree) => body.with_hull_tree(tree)?,
             None => body,
         })
     }

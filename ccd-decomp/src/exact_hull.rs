@@ -2,6 +2,7 @@
 
 mod conflicts;
 mod few;
+mod plane;
 
 use crate::predicates::{is_degenerate, side_of};
 use crate::tolerance::FEW_POINTS;

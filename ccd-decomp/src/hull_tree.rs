@@ -58,6 +58,8 @@ pub(crate) fn grow(pieces: &Pieces) -> Result<Grown, BuildError> {
         None => 0,
     };
     let tree = HullTree::new(pieces, &nodes)?;
+    // Giving back that much memory takes a while, which nobody has to wait for.
+    rayon::spawn(move || drop(nodes));
     Ok(Grown { tree, rebuilt })
 }
 

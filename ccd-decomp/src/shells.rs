@@ -3,11 +3,10 @@
 use crate::error::DecomposeError;
 use crate::manifold::Manifold;
 use crate::predicates::side;
-use crate::tolerance::RAY_TRIES;
+use crate::tolerance::{RAY_TRIES, volume_rounding};
 use crate::triangle_boxes::Region;
 use crate::work::Work;
 use ccd_core::glam::DVec3;
-use ccd_core::tolerance::U64;
 use std::cmp::Ordering;
 
 /// Checks that the solid, which is where the winding number is not 0, is behind every face.
@@ -135,23 +134,31 @@ pub(crate) fn crossing([from, to]: [DVec3; 2], triangle: [DVec3; 3]) -> Option<i
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Volume {
     sum: f64,
+    /// What rounding took from the sum.
+    lost: f64,
     size: f64,
     terms: f64,
 }
 
 impl Volume {
-    pub(crate) fn add(&mut self, triangle: [DVec3; 3], near: DVec3) {
-        let [a, b, c] = triangle.map(|p| p - near);
-        self.sum += a.dot(b.cross(c));
-        self.size += a.length() * b.length() * c.length();
+    pub(crate) fn add(&mut self, [p, q, r]: [DVec3; 3], near: DVec3) {
+        let (arm, sides) = (p - near, [q - p, r - p]);
+        let term = arm.dot(sides[0].cross(sides[1]));
+        let sum = self.sum + term;
+        // Exactly what the sum was rounded by (Knuth's two-sum).
+        let added = sum - self.sum;
+        self.lost += (self.sum - (sum - added)) + (term - added);
+        self.sum = sum;
+        self.size += arm.length() * sides[0].length() * sides[1].length();
         self.terms += 1.0;
     }
 
-    /// None when rounding could have made the sign: a term is right to less than 16 units of its
-    /// size, and each addition to one unit of what is summed so far.
+    /// None when [rounding](volume_rounding) could have made the sign.
     pub(crate) fn is_positive(&self) -> Option<bool> {
-        let rounding = (self.terms + 16.0) * U64 * self.size;
-        (self.sum.abs() > rounding).then_some(self.sum > 0.0)
+        let sum = self.sum + self.lost;
+        let rounding = volume_rounding(self.size, self.terms);
+        // Written so that NaN tells nothing.
+        (sum.abs() > rounding).then_some(sum > 0.0)
     }
 }
 

@@ -86,6 +86,18 @@ pub(crate) fn slab_rounding(direction: DVec3, reach: f64) -> f64 {
     128.0 * U64 * direction.abs().element_sum() * reach + f64::MIN_POSITIVE
 }
 
+/// Bounds the error of the sum of so many products `a · (b × c)` of rounded differences of points, when
+/// `size` is the sum of `|a| |b| |c|` and what each addition rounds off is added up beside it; in the
+/// unit of the products.
+///
+/// With `u` half a unit in the last place: of the six products of three coordinates each comes from three
+/// differences, and is rounded twice and added up four times: to 9u. Their sizes add up to at most
+/// `√3 |a| |b| |c|`: 16u of the size. A compensated sum of `n` terms is off by `u` of itself and `2 n² u²` of
+/// their sizes. The size is right to `(n + 16) u` of itself. 32u are taken, and what grows with `n²`.
+pub(crate) fn volume_rounding(size: f64, terms: f64) -> f64 {
+    (32.0 + 4.0 * terms * (terms * U64)) * U64 * size
+}
+
 /// Voxels along a mesh's longest side when it is to be approximated by so many hulls.
 ///
 /// Finer ones place the cuts between the hulls better, at a cost of their cube. Measured on a knot, a

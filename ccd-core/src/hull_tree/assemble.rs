@@ -7,11 +7,13 @@ use super::identity::Identity;
 use super::inherit::{Child, Skin, inherit};
 use super::inside::{Container, too_fine};
 use super::{FacetClass, Hull, HullNode, HullTree};
+use crate::error::InputError;
 use crate::hierarchy::{Hierarchy, HierarchyNode, bounds};
 use crate::order::greater;
-use crate::piece::{Facet, Polytope};
-use crate::pieces::Pieces;
+use crate::piece::{Face, Polytope};
+use crate::pieces::{Listed, Pieces, Row};
 use glam::DVec3;
+use std::borrow::Cow;
 
 pub(super) fn assemble(pieces: &Pieces, nodes: &[HullNode]) -> Result<HullTree, HullTreeError> {
     let hierarchy = hierarchy(pieces, nodes)?;
@@ -40,28 +42,52 @@ pub(super) fn assemble(pieces: &Pieces, nodes: &[HullNode]) -> Result<HullTree, 
         class_ends,
         evenly_rounded: done.iter().map(|node| node.evenly_rounded).collect(),
         sizes: done.iter().map(|node| node.size).collect(),
-        hulls: Pieces::polytopes(&done.into_iter().map(|node| node.hull).collect::<Vec<_>>())?,
+        hulls: hulls(done)?,
     })
 }
 
+/// The hulls of all nodes; each node's memory is given back once its hull is in.
+fn hulls(nodes: Vec<Node<'_>>) -> Result<Pieces, InputError> {
+    let mut row = Row::new(
+        nodes.len(),
+        nodes.iter().map(|node| node.points.len()).sum(),
+    );
+    for node in nodes {
+        let loops = node.loops.iter().map(|corners| &corners[..]);
+        let of_skins = node.skins.iter().flat_map(|skin| &skin.faces);
+        let (own, of_skins) = match &node.own_faces {
+            Some(own) => (&own[..], None),
+            None => (&[][..], Some(of_skins)),
+        };
+        row.push(Listed {
+            points: &node.points,
+            vertex_ids: &node.vertex_ids,
+            facets: loops.zip(node.skins.iter().map(|skin| skin.origin)),
+            faces: own.iter().chain(of_skins.into_iter().flatten()).copied(),
+            radius: node.radius,
+        })?;
+    }
+    row.into_pieces()
+}
+
 /// The facets that meet in each point of all hulls, in ascending order, and where each point's end.
-fn meeting(nodes: &[Node]) -> (Vec<u32>, Vec<u32>) {
+fn meeting(nodes: &[Node<'_>]) -> (Vec<u32>, Vec<u32>) {
     let (mut meeting, mut ends) = (Vec::new(), Vec::new());
-    for Node { hull, .. } in nodes {
+    for Node { points, loops, .. } in nodes {
         let start = ends.len();
         let first = meeting.len() as u32;
         // First how many there are, then where the next one goes, which at last is where they end.
-        ends.resize(start + hull.points.len(), 0);
+        ends.resize(start + points.len(), 0);
         let next = &mut ends[start..];
-        let corners = hull.facets.iter().flat_map(|facet| &facet.corners);
+        let corners = loops.iter().flatten();
         corners.for_each(|&corner| next[corner as usize] += 1);
         let mut end = first;
         for next in next.iter_mut() {
             end += std::mem::replace(next, end);
         }
         meeting.resize(end as usize, 0);
-        for (k, facet) in (0..).zip(&hull.facets) {
-            for &corner in &facet.corners {
+        for (k, corners) in (0..).zip(loops.iter()) {
+            for &corner in corners {
                 meeting[next[corner as usize] as usize] = k;
                 next[corner as usize] += 1;
             }
@@ -72,68 +98,66 @@ fn meeting(nodes: &[Node]) -> (Vec<u32>, Vec<u32>) {
 
 /// A node that is checked.
 #[derive(Debug, Default)]
-struct Node {
-    hull: Polytope,
+pub(super) struct Node<'a> {
+    pub(super) points: Cow<'a, [DVec3]>,
+    /// In the mesh, of its points.
+    pub(super) vertex_ids: Vec<u32>,
+    pub(super) loops: Cow<'a, [Vec<u32>]>,
     /// Of its facets.
-    skins: Vec<Skin>,
-    evenly_rounded: bool,
-    size: f64,
+    pub(super) skins: Vec<Skin>,
+    /// The mesh's faces on a leaf; an inner node has those of its skins.
+    pub(super) own_faces: Option<Vec<Face>>,
+    pub(super) radius: f64,
+    pub(super) evenly_rounded: bool,
+    pub(super) size: f64,
 }
 
-impl Node {
-    fn leaf(at: usize, hull: Polytope) -> Result<Self, HullTreeError> {
-        if let Some(point) = too_fine(&hull.points) {
+impl<'a> Node<'a> {
+    fn leaf(at: usize, piece: Polytope) -> Result<Self, HullTreeError> {
+        if let Some(point) = too_fine(&piece.points) {
             let point = point as u32;
             return Err(HullFault::TooFine { point }.at(at));
         }
+        let skins = Skin::of_piece(&piece);
+        let loops = piece.facets.into_iter().map(|facet| facet.corners);
         Ok(Node {
-            skins: Skin::of_piece(&hull),
+            skins,
             evenly_rounded: true,
-            size: size(&hull),
-            hull,
+            size: size(&piece.points, piece.radius),
+            loops: Cow::Owned(loops.collect()),
+            points: Cow::Owned(piece.points),
+            vertex_ids: piece.vertex_ids,
+            own_faces: Some(piece.faces),
+            radius: piece.radius,
         })
     }
 
-    fn inner(at: usize, hull: &Hull, children: [(u32, &Node); 2]) -> Result<Self, HullTreeError> {
+    fn inner(
+        at: usize,
+        hull: &'a Hull,
+        children: [(u32, &Node<'_>); 2],
+    ) -> Result<Self, HullTreeError> {
         check_facets(hull).map_err(|fault| fault.at(at))?;
-        let identity = Identity::new(hull, children.map(|(_, child)| &child.hull))
-            .map_err(|fault| fault.at(at))?;
+        let identity =
+            Identity::new(hull, children.map(|(_, child)| child)).map_err(|fault| fault.at(at))?;
         check_inside(hull, &identity, &children).map_err(|fault| fault.at(at))?;
 
         let [left, right] = children.map(|(_, child)| child);
-        let even = |child: &Node| child.evenly_rounded && child.hull.radius == left.hull.radius;
+        let even = |child: &Node<'_>| child.evenly_rounded && child.radius == left.radius;
         let evenly_rounded = even(left) && even(right);
-        let children = [
-            left.as_child(&identity.of_left),
-            right.as_child(&identity.of_right),
-        ];
-        let skins = inherit(hull, &identity.places, children);
-        let facets = hull.facets.iter().zip(&skins);
-        let facet = |(corners, skin): (&Vec<u32>, &Skin)| Facet {
-            origin: skin.origin,
-            corners: corners.clone(),
-        };
-        let hull = Polytope {
-            points: hull.points.clone(),
-            facets: facets.map(facet).collect(),
-            faces: skins.iter().flat_map(|skin| skin.faces.clone()).collect(),
-            radius: greater(left.hull.radius, right.hull.radius),
-            vertex_ids: identity.vertex_ids,
-        };
+        let of_left = Child::new(left, &identity.of_left);
+        let of_right = Child::new(right, &identity.of_right);
+        let radius = greater(left.radius, right.radius);
         Ok(Node {
-            skins,
+            skins: inherit(hull, &identity.places, [of_left, of_right]),
             evenly_rounded,
-            size: size(&hull),
-            hull,
+            size: size(&hull.points, radius),
+            loops: Cow::Borrowed(&hull.facets),
+            points: Cow::Borrowed(&hull.points),
+            vertex_ids: identity.vertex_ids,
+            own_faces: None,
+            radius,
         })
-    }
-
-    fn as_child<'a>(&'a self, ids: &'a [u32]) -> Child<'a> {
-        Child {
-            hull: &self.hull,
-            skins: &self.skins,
-            ids,
-        }
     }
 }
 
@@ -141,16 +165,13 @@ impl Node {
 fn check_inside(
     hull: &Hull,
     identity: &Identity,
-    children: &[(u32, &Node); 2],
+    children: &[(u32, &Node<'_>); 2],
 ) -> Result<(), HullFault> {
     let container = Container::new(&hull.points, &hull.facets);
     for (&(child, node), ids) in children.iter().zip([&identity.of_left, &identity.of_right]) {
         let is_hidden = |&k: &u32| ids[k as usize] as usize >= hull.points.len();
         let hidden: Vec<u32> = (0..ids.len() as u32).filter(is_hidden).collect();
-        let places: Vec<DVec3> = hidden
-            .iter()
-            .map(|&k| node.hull.points[k as usize])
-            .collect();
+        let places: Vec<DVec3> = hidden.iter().map(|&k| node.points[k as usize]).collect();
         if let Some(k) = container.left_out(&places) {
             let point = hidden[k];
             return Err(HullFault::ChildOutside { child, point });
@@ -167,7 +188,7 @@ fn hierarchy(pieces: &Pieces, nodes: &[HullNode]) -> Result<Hierarchy, HullTreeE
     Ok(Hierarchy::new(plain.collect(), pieces.len())?)
 }
 
-fn size(hull: &Polytope) -> f64 {
-    let (lo, hi) = bounds(hull.points.iter().copied());
-    0.5 * hi.distance(lo) + hull.radius
+fn size(points: &[DVec3], radius: f64) -> f64 {
+    let (lo, hi) = bounds(points.iter().copied());
+    0.5 * hi.distance(lo) + radius
 }

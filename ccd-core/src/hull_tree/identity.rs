@@ -1,8 +1,8 @@
 //! Which points of two children and their parent's hull are at one place.
 
 use super::Hull;
+use super::assemble::Node;
 use super::error::HullFault;
-use crate::piece::Polytope;
 use glam::DVec3;
 
 /// Which points of the children are the same, and which of them are the hull's.
@@ -19,13 +19,13 @@ pub(super) struct Identity {
 
 impl Identity {
     /// O(n log n).
-    pub(super) fn new(hull: &Hull, [left, right]: [&Polytope; 2]) -> Result<Self, HullFault> {
+    pub(super) fn new(hull: &Hull, [left, right]: [&Node<'_>; 2]) -> Result<Self, HullFault> {
         let own = hull.points.len();
-        let all = [&hull.points, &left.points, &right.points];
+        let all = [&hull.points[..], &left.points, &right.points];
         let same = representatives(all, own);
         let mut numbers = same.clone();
         let mut places = hull.points.clone();
-        let points = left.points.iter().chain(&right.points);
+        let points = left.points.iter().chain(right.points.iter());
         for (k, point) in (own..).zip(points) {
             numbers[k] = match same[k] as usize {
                 first if first == k => {
@@ -59,7 +59,7 @@ impl Identity {
 
 /// For every point of some lists in a row the one that stands for its place: of the first `own` the last
 /// one there, else the first one.
-fn representatives(lists: [&Vec<DVec3>; 3], own: usize) -> Vec<u32> {
+fn representatives(lists: [&[DVec3]; 3], own: usize) -> Vec<u32> {
     // Adding zero makes −0 a 0.
     let place = |p: &DVec3| p.to_array().map(|x| (x + 0.0).to_bits());
     let points = lists.into_iter().flatten();
@@ -108,12 +108,12 @@ mod tests {
                 let mut point = |_| DVec3::new(coordinate(), coordinate(), 0.0);
                 (0..count).map(&mut point).collect()
             };
-            let polytope = |points: Vec<DVec3>| Polytope {
+            let node = |points: Vec<DVec3>| Node {
                 vertex_ids: (0..points.len() as u32).collect(),
-                points,
-                ..Polytope::default()
+                points: points.into(),
+                ..Node::default()
             };
-            let [left, right] = [points(7), points(9)].map(polytope);
+            let [left, right] = [points(7), points(9)].map(node);
             let hull = Hull {
                 points: [&left.points[..4], &right.points[3..5]].concat(),
                 facets: Vec::new(),

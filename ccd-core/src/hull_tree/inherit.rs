@@ -3,6 +3,7 @@
 //! A child's hull meets the plane of a facet of its parent in at most one facet of its own. So a facet
 //! of the parent is a child's, or is tiled by one of either child, or is a bridge.
 
+use super::assemble::Node;
 use super::edges::{EdgeMap, edges_of};
 use super::inside::{is_collinear, is_coplanar, spanning};
 use super::{FacetClass, Hull};
@@ -69,10 +70,15 @@ impl Skin {
 /// A child whose points are numbered together with those of its parent, which come first.
 #[derive(Clone, Copy)]
 pub(super) struct Child<'a> {
-    pub(super) hull: &'a Polytope,
-    pub(super) skins: &'a [Skin],
+    node: &'a Node<'a>,
     /// The numbers of its points.
-    pub(super) ids: &'a [u32],
+    ids: &'a [u32],
+}
+
+impl<'a> Child<'a> {
+    pub(super) fn new(node: &'a Node<'a>, ids: &'a [u32]) -> Self {
+        Child { node, ids }
+    }
 }
 
 /// What the facets of a hull are, given its children and where all their points are.
@@ -111,15 +117,15 @@ impl Part<'_> {
     }
 
     fn mesh_faces(&self) -> Vec<Face> {
-        let hull = self.child.hull;
+        let node = self.child.node;
         match self.skin.origin {
             Origin::Face(id) => (1..self.corners.len() - 1)
                 .map(|k| {
                     let corners = [0, k, k + 1].map(|k| self.corners[k]);
                     Face {
                         id,
-                        vertices: corners.map(|v| vertex_of(hull, v)),
-                        corners: corners.map(|v| hull.points[v as usize]),
+                        vertices: corners.map(|v| vertex_of(node, v)),
+                        corners: corners.map(|v| node.points[v as usize]),
                     }
                 })
                 .collect(),
@@ -143,7 +149,7 @@ const SIDES: [[u32; 3]; 2] = [[0, 1, 2], [2, 1, 0]];
 impl<'a> Side<'a> {
     /// Of a child whose points have numbers below `places`.
     fn new(child: Child<'a>, lone: Option<&'a Skin>, places: usize) -> Self {
-        let facets = child.hull.facets.iter().map(|facet| &facet.corners[..]);
+        let facets = child.node.loops.iter().map(|corners| &corners[..]);
         let sides = SIDES.iter().map(|corners| &corners[..]);
         let loops = facets.chain(sides.filter(|_| lone.is_some()));
         let edges = loops.zip(0..).flat_map(|(corners, k)| {
@@ -158,12 +164,10 @@ impl<'a> Side<'a> {
     }
 
     fn part(&self, k: usize) -> Option<Part<'a>> {
-        let (corners, skin) = match self.child.hull.facets.get(k) {
-            Some(facet) => (&facet.corners[..], self.child.skins.get(k)?),
-            None => (
-                &SIDES.get(k - self.child.hull.facets.len())?[..],
-                self.lone?,
-            ),
+        let node = self.child.node;
+        let (corners, skin) = match node.loops.get(k) {
+            Some(corners) => (&corners[..], node.skins.get(k)?),
+            None => (&SIDES.get(k - node.loops.len())?[..], self.lone?),
         };
         Some(Part {
             child: self.child,
@@ -180,9 +184,9 @@ impl<'a> Side<'a> {
 
 /// What the front and the back are of a triangle by itself, which lists no facets.
 fn lone_triangle(child: &Child<'_>) -> Option<Skin> {
-    let alone = child.hull.facets.is_empty() && child.hull.points.len() == 3;
+    let alone = child.node.loops.is_empty() && child.node.points.len() == 3;
     alone.then(|| Skin {
-        origin: match child.hull.faces[..] {
+        origin: match child.node.own_faces.as_deref().unwrap_or_default() {
             [face] => Origin::Face(face.id),
             _ => Origin::Virtual,
         },
@@ -192,8 +196,8 @@ fn lone_triangle(child: &Child<'_>) -> Option<Skin> {
 }
 
 /// The number of a point in the mesh.
-fn vertex_of(polytope: &Polytope, point: u32) -> u32 {
-    let known = polytope.vertex_ids.get(point as usize);
+fn vertex_of(node: &Node<'_>, point: u32) -> u32 {
+    let known = node.vertex_ids.get(point as usize);
     known.copied().unwrap_or(point)
 }
 
@@ -204,17 +208,27 @@ fn points_of(polytope: &Polytope, corners: &[u32]) -> Vec<DVec3> {
 
 /// Whether a part's loop is another one but for where it begins.
 fn same_loop(part: &Part<'_>, other: &[u32]) -> bool {
+    if part.corners.len() != other.len() {
+        return false;
+    }
     let first = part.ids().next();
     let Some(start) = other.iter().position(|&v| Some(v) == first) else {
         return false;
     };
     let (end, begin) = other.split_at(start);
-    part.corners.len() == other.len() && part.ids().eq(begin.iter().chain(end).copied())
+    part.ids().eq(begin.iter().chain(end).copied())
 }
 
 /// Whether two convex polygons together are a facet of the hull: what is left of their edges, once
 /// those are gone that run both ways, is the facet's loop, but for corners within its edges.
+///
+/// A part has the facet's corners and the two ends of the cut, at most; of many more it is not even looked
+/// at, as it may share an edge with each of many facets.
 fn tile(places: &[DVec3], corners: &[u32], parts: [&Part<'_>; 2]) -> bool {
+    let most = 2 * corners.len() + 8;
+    if parts.iter().any(|part| part.corners.len() > most) {
+        return false;
+    }
     let mut edges: Vec<(u32, u32)> = parts.iter().flat_map(|part| part.edges()).collect();
     edges.sort_unstable();
     let border = |&(from, to): &(u32, u32)| edges.binary_search(&(to, from)).is_err();

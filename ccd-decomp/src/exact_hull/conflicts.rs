@@ -1,8 +1,7 @@
 //! The hull of many points: in random order, each knowing what it sees `[CS89]`.
 
-use crate::predicates::side_of;
+use super::plane::{Places, Plane};
 use ccd_core::glam::DVec3;
-use std::cmp::Ordering;
 
 /// The facets of the hull of points that span a volume, from a triangle and a point behind it on.
 ///
@@ -22,11 +21,15 @@ fn scrambled(v: u32) -> u32 {
     h ^ h >> 16
 }
 
+/// Lists of more room than this are given back.
+const SPARED: usize = 64;
+
 /// No facet, or no point.
 const NONE: u32 = u32::MAX;
 
 struct Facet {
     corners: [u32; 3],
+    plane: Plane,
     /// The facets beyond its edges; the first is from its first corner to its second.
     across: [u32; 3],
     /// The points to come that see it.
@@ -37,7 +40,9 @@ struct Facet {
 }
 
 struct Growing<'a> {
-    points: &'a [DVec3],
+    places: Places<'a>,
+    /// Empty lists, to be used again.
+    spare: Vec<Vec<u32>>,
     facets: Vec<Facet>,
     /// For every point a facet that it sees; one that is gone, or none, if it is inside.
     sees: Vec<u32>,
@@ -67,8 +72,9 @@ impl<'a> Growing<'a> {
 
     fn new(points: &'a [DVec3], [a, b, c, d]: [u32; 4], order: &[u32]) -> Self {
         let mut hull = Growing {
-            points,
-            facets: Vec::new(),
+            places: Places::new(points),
+            spare: Vec::new(),
+            facets: Vec::with_capacity(4 * points.len()),
             sees: vec![NONE; points.len()],
             held: vec![NONE; points.len()],
             starting: vec![NONE; points.len()],
@@ -83,16 +89,18 @@ impl<'a> Growing<'a> {
     /// Adds a facet, and tells those of some points that see it.
     fn push(&mut self, corners: [u32; 3], across: [u32; 3], candidates: &[u32]) {
         let number = self.facets.len() as u32;
-        let mut seen_by = Vec::new();
+        let plane = self.places.plane(corners);
+        let mut seen_by = self.spare.pop().unwrap_or_default();
         for &v in candidates {
             let is_new = std::mem::replace(&mut self.held[v as usize], number) != number;
-            if is_new && side_of(self.points, corners, v) == Ordering::Greater {
+            if is_new && self.places.is_in_front(&plane, corners, v) {
                 self.sees[v as usize] = number;
                 seen_by.push(v);
             }
         }
         self.facets.push(Facet {
             corners,
+            plane,
             across,
             seen_by,
             is_there: true,
@@ -131,7 +139,11 @@ impl<'a> Growing<'a> {
             self.facets[after as usize].across[2] = k;
         }
         for facet in gone {
-            self.facets[facet as usize].seen_by = Vec::new();
+            let mut seen_by = std::mem::take(&mut self.facets[facet as usize].seen_by);
+            if seen_by.capacity() <= SPARED {
+                seen_by.clear();
+                self.spare.push(seen_by);
+            }
         }
     }
 
@@ -164,11 +176,16 @@ impl<'a> Growing<'a> {
     }
 
     fn is_seen(&mut self, facet: u32, v: u32) -> bool {
-        let Facet { corners, asked, .. } = self.facets[facet as usize];
+        let Facet {
+            corners,
+            plane,
+            asked,
+            ..
+        } = self.facets[facet as usize];
         if asked.0 == v {
             return asked.1;
         }
-        let seen = side_of(self.points, corners, v) == Ordering::Greater;
+        let seen = self.places.is_in_front(&plane, corners, v);
         self.facets[facet as usize].asked = (v, seen);
         seen
     }

@@ -1,10 +1,7 @@
 //! The hull of few points: each is held against all facets, without lists of who sees what.
 
-use crate::predicates::side_of;
+use super::plane::{Places, Plane};
 use ccd_core::glam::DVec3;
-use ccd_core::order::greater;
-use ccd_core::tolerance::height_rounding;
-use std::cmp::Ordering;
 
 /// The facets of the hull of points that span a volume, from a triangle and a point behind it on.
 ///
@@ -15,32 +12,20 @@ pub(super) fn facets(points: &[DVec3], simplex: [u32; 4]) -> Vec<[u32; 3]> {
 }
 
 struct Growing<'a> {
-    points: &'a [DVec3],
-    /// The same relative to one of them.
-    places: Vec<DVec3>,
-    /// The largest coordinate of those.
-    reach: f64,
+    places: Places<'a>,
     facets: Vec<Facet>,
 }
 
 struct Facet {
     corners: [u32; 3],
-    normal: DVec3,
-    height: f64,
-    /// What a point's height over it may be off by.
-    rounding: f64,
+    plane: Plane,
 }
 
 impl<'a> Growing<'a> {
     fn all(points: &'a [DVec3], simplex: [u32; 4]) -> Self {
         let [a, b, c, d] = simplex;
-        let base = points[a as usize];
-        let places: Vec<DVec3> = points.iter().map(|&p| p - base).collect();
-        let coordinates = places.iter().map(|p| p.abs().max_element());
         let mut hull = Growing {
-            points,
-            reach: coordinates.fold(0.0, greater),
-            places,
+            places: Places::new(points),
             facets: Vec::with_capacity(2 * points.len()),
         };
         for corners in [[a, b, c], [b, a, d], [c, b, d], [a, c, d]] {
@@ -54,25 +39,18 @@ impl<'a> Growing<'a> {
     }
 
     fn push(&mut self, corners: [u32; 3]) {
-        let [p, q, r] = corners.map(|v| self.places[v as usize]);
-        let sides = [q - p, r - p];
-        let normal = sides[0].cross(sides[1]);
-        self.facets.push(Facet {
-            corners,
-            normal,
-            height: normal.dot(p),
-            rounding: height_rounding(sides, self.reach),
-        });
+        let plane = self.places.plane(corners);
+        self.facets.push(Facet { corners, plane });
     }
 
     /// Replaces what a point sees by a fan from its rim; `edges` is there to be used again.
     fn insert(&mut self, v: u32, edges: &mut Vec<(u32, u32)>) {
         edges.clear();
-        let (points, place) = (self.points, self.places[v as usize]);
-        self.facets.retain(|facet| {
-            let seen = facet.is_seen(points, v, place);
+        let places = &self.places;
+        self.facets.retain(|&Facet { corners, ref plane }| {
+            let seen = places.is_in_front(plane, corners, v);
             if seen {
-                let [a, b, c] = facet.corners;
+                let [a, b, c] = corners;
                 edges.extend([(a, b), (b, c), (c, a)]);
             }
             !seen
@@ -81,18 +59,6 @@ impl<'a> Growing<'a> {
             if !edges.contains(&(b, a)) {
                 self.push([a, b, v]);
             }
-        }
-    }
-}
-
-impl Facet {
-    /// Exactly; where rounding cannot matter, by the height.
-    fn is_seen(&self, points: &[DVec3], v: u32, place: DVec3) -> bool {
-        let height = self.normal.dot(place) - self.height;
-        // Written so that NaN is told exactly.
-        match height.abs() > self.rounding {
-            true => height > 0.0,
-            false => side_of(points, self.corners, v) == Ordering::Greater,
         }
     }
 }
