@@ -121,11 +121,11 @@ fn a_mesh_that_is_not_what_was_asked_for_is_named_with_its_file() {
     assert!(error.starts_with(&expected), "{error}");
 }
 
-/// Four points of a plane, but for rounding: the library is not to be believed.
+/// Many points of a plane, but for rounding: the library is not to be believed.
 #[test]
 fn hulls_that_the_library_gets_wrong_are_counted() {
-    use crate::test_meshes::{cubes, placed};
-    let step = cubes(&[[0, 0, 0], [1, 0, 0], [0, 0, 1]]);
+    use crate::test_meshes::{block, cubes, placed};
+    let step = cubes(&block([4, 4, 2]));
     let model = prepare(&step, Detail::Triangles).unwrap();
     assert_eq!(model.report.rebuilt_hulls, 0);
     // Turned such that planes are planes no more.
