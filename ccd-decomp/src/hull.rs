@@ -97,10 +97,10 @@ pub(crate) fn hull(points: &[DVec3]) -> Result<Hull, HullError> {
     found.map(|(facets, way)| cloud.named(facets, way))
 }
 
-/// The triangles of what is likely the hull of points: of few the library's, of which nothing is
-/// proven, which makes it fast. None where that fails.
+/// The triangles of what is likely the hull of points: of a number between few and many the library's, of
+/// which nothing is proven, which makes it fast. None where that fails, or few or many points lie in one plane.
 pub(crate) fn likely_triangles(points: &[DVec3]) -> Option<Vec<[u32; 3]>> {
-    match points.len() <= LIKELY_POINTS {
+    match (FEW_POINTS + 1..=LIKELY_POINTS).contains(&points.len()) {
         true => library::triangles(points),
         false => ExactHull::of(points).map(|hull| hull.facets().to_vec()),
     }
