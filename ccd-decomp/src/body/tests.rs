@@ -122,6 +122,12 @@ fn what_is_wrong_reaches_the_caller_typed() {
     ));
     assert!(matches!(
         parse_body("sphere:1e300", Detail::Auto),
+        Err(BodyError::Source(SourceError::TooLong { .. }))
+    ));
+    // Nobody has looked at a length that comes from code.
+    let source = BodySource::Sphere { radius: 1e300 };
+    assert!(matches!(
+        source.load(Detail::Auto),
         Err(BodyError::Input(_))
     ));
     match parse_body("no/such/file.ply", Detail::Auto) {
