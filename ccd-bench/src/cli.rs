@@ -1,5 +1,6 @@
 //! The command line: what can be said, and what the exit code says.
 
+mod causes;
 mod chart;
 mod decompose;
 mod files;
@@ -89,7 +90,7 @@ pub fn main() -> ExitCode {
             // The reader of a pipe has seen enough.
             Some(failed) if failed.source.kind() == io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
             failed => {
-                complain(&format!("{error:#}"));
+                complain(&causes::in_words(&error));
                 ExitCode::from(if failed.is_some() { 1 } else { 2 })
             }
         },

@@ -29,6 +29,7 @@ pub mod peer;
 pub mod presentation;
 pub mod progress;
 pub mod query;
+mod quotes;
 pub mod referee;
 pub mod report;
 pub mod results;

@@ -1,8 +1,13 @@
 //! What was measured: the table behind the charts, and the trials behind the table.
 
+#[cfg(test)]
+mod tests;
+
 use crate::lines::Lines;
+use crate::quotes::Quotes;
 use serde::{Deserialize, Serialize};
 use std::fs::File;
+use std::io::{self, Read};
 use std::path::Path;
 
 /// One method on one scene at one tolerance: a row of `chart.csv`.
@@ -98,8 +103,17 @@ pub fn write<T: Serialize>(path: &Path, rows: &[T]) -> Result<(), csv::Error> {
 /// When the file cannot be read, or a row is none of this table.
 pub fn read<T: for<'de> Deserialize<'de>>(path: &Path) -> Result<Vec<T>, csv::Error> {
     // Errors tell the line, which is counted rightly where all lines end alike.
-    let mut reader = csv::Reader::from_reader(Lines::new(File::open(path)?));
-    reader.deserialize().collect()
+    let mut reader =
+        csv::Reader::from_reader(Quotes::new(Lines::new(File::open(path)?)).chain(&b"\n"[..]));
+    let rows: Result<Vec<T>, csv::Error> = reader.deserialize().collect();
+    let end = reader.position().line();
+    match reader.get_ref().get_ref().0.unclosed(end) {
+        Some(line) => Err(csv::Error::from(io::Error::new(
+            io::ErrorKind::InvalidData,
+            format!("line {line}: a quote opens a cell here and nothing closes it"),
+        ))),
+        None => rows,
+    }
 }
 
 /// NaN as an empty cell.

@@ -12,6 +12,7 @@ pub use error::{RowError, RowProblem, TableError};
 pub use write::write;
 
 use crate::lines::Lines;
+use crate::quotes::Quotes;
 use ccd_core::Motion;
 use columns::Columns;
 use std::io::{self, Read};
@@ -32,7 +33,7 @@ pub struct Query {
 /// Where in a table a row stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Place {
-    /// Counted from 1 below the header.
+    /// Counted from 0 below the header, as `--rows` and the ids of rows without an id count.
     pub row: usize,
     /// The line of the file, counted from 1.
     pub line: u64,
@@ -68,10 +69,10 @@ impl MotionTable {
 ///
 /// Columns go by name, in any order; those left out, and empty cells, have their defaults: rest at the
 /// identity, for a duration of 1. [`known_columns`] lists them. Lines may end in `\n`, `\r\n` or `\r`;
-/// empty ones are passed over, but counted.
+/// empty ones are passed over, but counted. A quoted cell may hold ends of lines, and has to end.
 #[derive(Debug)]
 pub struct MotionRows<R> {
-    reader: csv::Reader<io::Chain<Lines<R>, &'static [u8]>>,
+    reader: Reader<R>,
     columns: Columns,
     raw: csv::ByteRecord,
     /// How many rows have been read.
@@ -92,9 +93,12 @@ impl<R: io::Read> MotionRows<R> {
             .flexible(true)
             .has_headers(false)
             // Every line has an end, the last one too, so that what has been read says where it began.
-            .from_reader(Lines::new(input).chain(&b"\n"[..]));
+            .from_reader(Quotes::new(Lines::new(input)).chain(&b"\n"[..]));
         let mut raw = csv::ByteRecord::new();
         reader.read_byte_record(&mut raw)?;
+        if let Some(line) = unclosed(&reader) {
+            return Err(TableError::UnclosedQuote { row: None, line });
+        }
         let columns = Columns::from_header(&raw)?;
         let mut checksum = crc32fast::Hasher::new();
         checksum.update(raw.as_slice());
@@ -110,7 +114,7 @@ impl<R: io::Read> MotionRows<R> {
     /// Passes over rows without a look at what they hold; says how many there were.
     ///
     /// # Errors
-    /// [`TableError::Unreadable`].
+    /// [`TableError::Unreadable`], [`TableError::UnclosedQuote`].
     pub fn pass(&mut self, rows: usize) -> Result<usize, TableError> {
         for passed in 0..rows {
             if self.advance()?.is_none() {
@@ -122,7 +126,7 @@ impl<R: io::Read> MotionRows<R> {
 
     /// How many bytes of the input have been read: with what is waiting to be looked at.
     pub fn bytes(&self) -> u64 {
-        self.reader.get_ref().get_ref().0.bytes
+        self.reader.get_ref().get_ref().0.input().bytes
     }
 
     /// A checksum of the header and of all rows so far.
@@ -136,17 +140,30 @@ impl<R: io::Read> MotionRows<R> {
         if !self.reader.read_byte_record(&mut self.raw)? {
             return Ok(None);
         }
+        if let Some(line) = unclosed(&self.reader) {
+            let row = Some(self.rows);
+            return Err(TableError::UnclosedQuote { row, line });
+        }
         self.checksum.update(self.raw.as_slice());
+        let row = self.rows;
         self.rows += 1;
         // Empty lines before the row have been read as well: its place is told from its end.
         let ends = |cell: &[u8]| cell.iter().filter(|&&byte| byte == b'\n').count() as u64;
         let within: u64 = self.raw.iter().map(ends).sum();
         let after = self.reader.position().line();
         Ok(Some(Place {
-            row: self.rows,
+            row,
             line: after.saturating_sub(within + 1).max(before),
         }))
     }
+}
+
+type Reader<R> = csv::Reader<io::Chain<Quotes<Lines<R>>, &'static [u8]>>;
+
+/// The line on which a quote opens that the record just read holds, and that nobody closes.
+fn unclosed<R: io::Read>(reader: &Reader<R>) -> Option<u64> {
+    let (quotes, _) = reader.get_ref().get_ref();
+    quotes.unclosed(reader.position().line())
 }
 
 impl<R: io::Read> Iterator for MotionRows<R> {
@@ -157,12 +174,12 @@ impl<R: io::Read> Iterator for MotionRows<R> {
             Ok(place) => place?,
             Err(error) => return Some(Err(error)),
         };
-        let query = row::query(&self.columns, &self.raw, place.row - 1);
+        let query = row::query(&self.columns, &self.raw, place.row);
         Some(Ok(match query {
             Ok(query) => Ok((place, query)),
             Err(problem) => Err(RowError {
                 place,
-                id: row::id(&self.columns, &self.raw, place.row - 1),
+                id: row::id(&self.columns, &self.raw, place.row),
                 problem,
             }),
         }))

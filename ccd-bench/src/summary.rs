@@ -16,6 +16,8 @@ use std::fmt;
 pub struct Summary {
     /// How many of each status, in the order of [`Status::ALL`].
     counts: [usize; Status::ALL.len()],
+    /// How many of them an earlier run answered: nothing else is known of these.
+    earlier: usize,
     times: Times,
     /// Pairs of nodes visited, all queries together.
     pub node_visits: u64,
@@ -39,6 +41,7 @@ impl Summary {
     pub fn new(tolerance: f64) -> Self {
         Summary {
             counts: [0; Status::ALL.len()],
+            earlier: 0,
             times: Times::default(),
             node_visits: 0,
             oracle_calls: 0,
@@ -49,6 +52,15 @@ impl Summary {
             raised: 0,
             largest_tolerance: tolerance,
         }
+    }
+
+    /// With the rows of an earlier run, so many of each status in the order of [`Status::ALL`].
+    pub fn going_on(mut self, counts: [usize; Status::ALL.len()]) -> Self {
+        for (count, more) in self.counts.iter_mut().zip(counts) {
+            *count += more;
+        }
+        self.earlier += counts.iter().sum::<usize>();
+        self
     }
 
     /// One more answer.
@@ -72,9 +84,14 @@ impl Summary {
         self.counts[Status::Error as usize] += 1;
     }
 
-    /// How many were answered.
-    fn answered(&self) -> usize {
-        self.rows() - self.count(Status::Error)
+    /// How many were answered here.
+    fn answered(&self) -> u64 {
+        self.times.count
+    }
+
+    /// How many there are of each status, in the order of [`Status::ALL`].
+    pub fn counts(&self) -> [usize; Status::ALL.len()] {
+        self.counts
     }
 
     /// Median time of a query, in microseconds, to a thousandth; NaN of none, as the mean.
@@ -159,6 +176,11 @@ impl fmt::Display for Summary {
             return Ok(());
         }
         write!(f, ": {}", counts.join(", "))?;
+        match self.rows() - self.earlier {
+            _ if self.earlier == 0 => {}
+            0 => write!(f, "; none of them in this run")?,
+            here => write!(f, "; {here} of them in this run")?,
+        }
         if self.answered() == 0 {
             return Ok(());
         }

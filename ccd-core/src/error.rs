@@ -1,5 +1,6 @@
 //! What can be wrong with an input; numerical trouble is an [`Outcome`](crate::Outcome) instead.
 
+use crate::tolerance::MAX_COORDINATE;
 use std::fmt;
 
 /// An input that no query can be posed with, naming the offending element.
@@ -36,7 +37,8 @@ pub enum InputError {
         /// The point's index within the piece.
         point: usize,
     },
-    /// A rounding radius is negative, NaN or infinite.
+    /// A rounding radius is negative, NaN, infinite or beyond
+    /// [`tolerance::MAX_COORDINATE`](crate::tolerance::MAX_COORDINATE).
     BadRadius {
         /// The piece's index.
         piece: usize,
@@ -87,17 +89,17 @@ impl fmt::Display for InputError {
                 what,
                 value,
                 allowed,
-            } => write!(f, "{what} is {value}, but must be {allowed}"),
+            } => write!(f, "{what} is {}, but must be {allowed}", Short(*value)),
             Self::NoPieces => write!(f, "a body needs at least one piece"),
             Self::EmptyPiece { piece } => write!(f, "piece {piece} has no points"),
             Self::BadPoint { piece, point } => write!(
                 f,
-                "point {point} of piece {piece} is NaN, infinite or too large"
+                "point {point} of piece {piece} has a coordinate that is not within {MAX_COORDINATE:e} of 0"
             ),
             Self::BadRadius { piece } => {
                 write!(
                     f,
-                    "the radius of piece {piece} is negative, NaN or infinite"
+                    "the radius of piece {piece} is not from 0 to {MAX_COORDINATE:e}"
                 )
             }
             Self::VertexOutOfRange {
@@ -127,3 +129,20 @@ impl fmt::Display for InputError {
 }
 
 impl std::error::Error for InputError {}
+
+/// A number in as few digits as tell it: those with many places by a power of ten.
+struct Short(f64);
+
+impl fmt::Display for Short {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Short(value) = *self;
+        // Neither NaN nor an infinity has a power of ten.
+        match value == 0.0 || !value.is_finite() || (1e-4..1e7).contains(&value.abs()) {
+            true => write!(f, "{value}"),
+            false => write!(f, "{value:e}"),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -75,8 +75,10 @@ impl Motion {
     /// that: what it certifies holds for the motion between the poses as given
     /// ([`tolerance::distance_rounding`](crate::tolerance::distance_rounding)).
     ///
-    /// At half a turn, but for rounding, both ways are shortest; the one taken is that of the rotation's
-    /// quaternion as it comes out of the arithmetic.
+    /// At half a turn both ways are shortest. The one taken is counterclockwise about the vector part of
+    /// `end · start⁻¹`, of the quaternions as they are given: the negative of either one, though the same
+    /// orientation, turns the other way. Where the scalar part of that product is 0 but for rounding
+    /// (within about 1e-15), rounding decides; the same numbers always give the same way.
     ///
     /// # Errors
     /// [`InputError::OutOfRange`] when `duration` is not positive and finite,

@@ -48,6 +48,9 @@ pub enum MeshFault {
         /// What can be read instead.
         instead: &'static str,
     },
+    /// Git stands for it with a few lines.
+    #[error("{LFS_ADVICE}")]
+    LfsPointer,
     /// There is no vertex.
     #[error("has no vertices; is it a mesh, and all of it?")]
     NoVertices,
@@ -116,6 +119,18 @@ pub enum MeshFault {
         /// How many there are.
         count: usize,
     },
+}
+
+/// How a file begins that Git LFS has in the place of one that is not fetched yet.
+const LFS_BEGINNING: &[u8] = b"version https://git-lfs";
+
+/// What to do about it.
+pub(crate) const LFS_ADVICE: &str = "is a Git LFS pointer, a few lines that stand for the file; run `git \
+                                     lfs pull` to fetch the file itself";
+
+/// Whether a file is but a pointer of Git LFS, told by how it begins.
+pub(crate) fn is_lfs_pointer(bytes: &[u8]) -> bool {
+    bytes.starts_with(LFS_BEGINNING)
 }
 
 impl MeshFault {
@@ -235,8 +250,20 @@ pub enum SourceError {
         /// How many were given.
         given: usize,
     },
+    /// A length is beyond what is computed with.
+    #[error(
+        "{length:?} is too large a length of {shape:?}: lengths are from 0 to {MAX_COORDINATE:e}; use a larger unit of length"
+    )]
+    TooLong {
+        /// The shape.
+        shape: &'static str,
+        /// The text given for the length.
+        length: String,
+    },
     /// A length is not a finite number of at least 0.
-    #[error("{length:?} is not a length of {shape:?}: a finite number of at least 0; {EXAMPLES}")]
+    #[error(
+        "{length:?} is not a length of {shape:?}: a number from 0 to {MAX_COORDINATE:e}; {EXAMPLES}"
+    )]
     BadLength {
         /// The shape.
         shape: &'static str,

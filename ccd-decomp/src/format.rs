@@ -6,7 +6,7 @@ mod off;
 mod ply;
 mod stl;
 
-use crate::error::MeshFault;
+use crate::error::{MeshFault, is_lfs_pointer};
 use crate::mesh::Polygons;
 use std::path::Path;
 
@@ -49,6 +49,9 @@ impl Format {
     pub(crate) fn parse(self, bytes: &[u8]) -> Result<Polygons, MeshFault> {
         // Some editors put a byte order mark before a text; the first keyword would be lost in it.
         let unmarked = bytes.strip_prefix("\u{feff}".as_bytes()).unwrap_or(bytes);
+        if is_lfs_pointer(unmarked) {
+            return Err(MeshFault::LfsPointer);
+        }
         match self {
             Format::Obj => obj::parse(unmarked),
             Format::Stl => stl::parse(bytes),

@@ -6,10 +6,11 @@ use crate::mesh::TriangleMesh;
 use crate::store::STORED_EXTENSION;
 use ccd_core::Body;
 use ccd_core::glam::DVec3;
+use ccd_core::tolerance::MAX_COORDINATE;
 use std::path::PathBuf;
 use std::str::FromStr;
 
-/// Where a body comes from. All lengths are finite and at least 0, in the scene's unit of length.
+/// Where a body comes from. All lengths are from 0 to [`MAX_COORDINATE`], in the scene's unit of length.
 ///
 /// ```
 /// use ccd_decomp::BodySource;
@@ -132,7 +133,13 @@ fn lengths<const N: usize>(shape: &'static str, given: &str) -> Result<[f64; N],
     let mut lengths = [0.0; N];
     for (length, word) in lengths.iter_mut().zip(words) {
         *length = match word.parse::<f64>() {
-            Ok(value) if value >= 0.0 && value.is_finite() => value,
+            Ok(value) if (0.0..=MAX_COORDINATE).contains(&value) => value,
+            Ok(value) if value > MAX_COORDINATE && value.is_finite() => {
+                return Err(SourceError::TooLong {
+                    shape,
+                    length: word.into(),
+                });
+            }
             _ => {
                 return Err(SourceError::BadLength {
                     shape,

@@ -5,7 +5,7 @@ mod frame;
 mod tests;
 
 use crate::body::Model;
-use crate::error::Prefix;
+use crate::error::{LFS_ADVICE, Prefix};
 use crate::report::Report;
 use ccd_core::{Hierarchy, HullNode, HullTree, Pieces, Volume};
 use std::fmt;
@@ -39,6 +39,9 @@ pub enum StoreFault {
     /// It does not begin as a stored body does.
     #[error("holds no stored body; give a mesh, or {PREPARE}")]
     Foreign,
+    /// Git stands for it with a few lines.
+    #[error("{LFS_ADVICE}")]
+    LfsPointer,
     /// Another version of the program wrote it.
     #[error(
         "is of version {version} of the format, and version {} is what is read; {PREPARE}",

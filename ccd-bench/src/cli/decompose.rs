@@ -2,6 +2,7 @@
 
 mod figures;
 
+use super::files::check_folder;
 use super::pieces::PiecesArgs;
 use super::{CannotWrite, Verdict, same_file};
 use crate::progress::Progress;
@@ -112,6 +113,9 @@ enum Output<'a> {
 pub(super) fn run(args: &DecomposeArgs) -> Result<Verdict> {
     // Before the work, not after it, is when to learn that its result has nowhere to go.
     let out = args.out.as_deref().map(Output::of).transpose()?;
+    if let Some(out) = &out {
+        check_folder(out.path()).map_err(|source| out.failed(source))?;
+    }
     if args
         .out
         .as_ref()
@@ -190,18 +194,26 @@ impl<'a> Output<'a> {
     }
 
     fn write(&self, model: &Model) -> Result<(), CannotWrite> {
-        let (Output::Pieces(path) | Output::Body(path)) = self;
-        let written = File::create(path).and_then(|file| match self {
+        let written = File::create(self.path()).and_then(|file| match self {
             Output::Pieces(_) => write_obj_pieces(&model.pieces, file),
             Output::Body(_) => model.write(file).map_err(|error| match error.fault {
                 StoreFault::Unwritable(error) => error,
                 fault => io::Error::other(fault),
             }),
         });
-        written.map_err(|source| CannotWrite {
-            place: path.display().to_string(),
+        written.map_err(|source| self.failed(source))
+    }
+
+    fn path(&self) -> &'a Path {
+        let (Output::Pieces(path) | Output::Body(path)) = *self;
+        path
+    }
+
+    fn failed(&self, source: io::Error) -> CannotWrite {
+        CannotWrite {
+            place: self.path().display().to_string(),
             source,
-        })
+        }
     }
 }
 

@@ -138,7 +138,10 @@ impl Beside {
                 File::options().write(true).open(path)?;
                 fs::canonicalize(path)?
             }
-            Err(_) => path.to_owned(),
+            Err(_) => {
+                check_folder(path)?;
+                path.to_owned()
+            }
         };
         if target.file_name().is_none() {
             let problem = "it names no file";
@@ -158,6 +161,29 @@ impl Beside {
         with_ending(&self.target, ending)
     }
 
+    /// Whether the table is there that was finished with so many bytes; it gets its name if it has none
+    /// yet.
+    ///
+    /// # Errors
+    /// When another file has the name.
+    pub(super) fn name_whole(&self, bytes: u64) -> Result<bool> {
+        let length = |path: &Path| fs::metadata(path).ok().map(|there| there.len());
+        if length(&self.partial) == Some(bytes) {
+            fs::rename(&self.partial, &self.target).map_err(|source| CannotWrite {
+                place: self.target.display().to_string(),
+                source,
+            })?;
+        }
+        match length(&self.target) {
+            Some(there) if there != bytes => bail!(
+                "--resume: {} is not as the finished run left it; leave out --resume to begin again and \
+                 overwrite it",
+                self.target.display()
+            ),
+            there => Ok(there.is_some()),
+        }
+    }
+
     fn create(&self) -> Result<File, CannotWrite> {
         File::create(&self.partial).map_err(|source| CannotWrite {
             place: self.partial.display().to_string(),
@@ -175,6 +201,26 @@ impl Beside {
         file.seek(io::SeekFrom::End(0))?;
         Ok(file)
     }
+}
+
+/// Says so where the folder is not there that a file is to be in.
+pub(super) fn check_folder(path: &Path) -> io::Result<()> {
+    let folder = path.parent().filter(|folder| *folder != "");
+    let Some(folder) = folder else {
+        return Ok(());
+    };
+    let (kind, problem) = match fs::metadata(folder) {
+        Ok(there) if there.is_dir() => return Ok(()),
+        Ok(_) => (io::ErrorKind::NotADirectory, "is no folder"),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => {
+            (error.kind(), "is a folder that is not there; make it first")
+        }
+        Err(error) => return Err(error),
+    };
+    Err(io::Error::new(
+        kind,
+        format!("{} {problem}", folder.display()),
+    ))
 }
 
 fn with_ending(path: &Path, ending: &str) -> PathBuf {

@@ -15,6 +15,9 @@ pub(super) struct PiecesArgs {
     hulls: Option<u32>,
 }
 
+/// What stands for the value of an option that has none.
+pub(super) const NOT_GIVEN: &str = "not given";
+
 const DEFAULT_HULLS: u32 = 32;
 const MOST_HULLS: i64 = 4096;
 
@@ -34,7 +37,22 @@ enum PiecesArg {
     Vhacd,
 }
 
+/// What the command line calls a value.
+pub(super) fn word(value: &impl ValueEnum) -> String {
+    let value = value.to_possible_value();
+    value.map_or_else(String::new, |value| value.get_name().to_owned())
+}
+
 impl PiecesArgs {
+    /// The options as they are in force.
+    pub(super) fn asked(&self) -> [(&'static str, String); 2] {
+        let hulls = match self.pieces {
+            PiecesArg::Vhacd => self.hulls.unwrap_or(DEFAULT_HULLS).to_string(),
+            _ => NOT_GIVEN.to_owned(),
+        };
+        [("--pieces", word(&self.pieces)), ("--hulls", hulls)]
+    }
+
     /// The library's word for it.
     pub(super) fn detail(&self) -> Result<Detail> {
         if self.hulls.is_some() && self.pieces != PiecesArg::Vhacd {

@@ -1,6 +1,7 @@
 //! `ccd query`: two bodies and a table of motions in, a table of results out.
 
 mod args;
+mod journal;
 mod outputs;
 mod pair;
 
@@ -20,7 +21,8 @@ use crate::summary::Summary;
 use anyhow::{Context, Result, bail};
 use ccd_core::Config;
 use ccd_decomp::BodySource;
-use outputs::{Mark, Outputs};
+use journal::{CONTENT, Mark, Settings as Asked};
+use outputs::{Opened, Outputs};
 use pair::Pair;
 use std::io::{self, Write};
 use std::num::NonZeroUsize;
@@ -30,7 +32,11 @@ pub(super) fn run(args: &QueryArgs) -> Result<Verdict> {
     check(args)?;
     let (mut rows, length) = open_motions(&args.motions)?;
     let pair = Pair::load(args)?;
-    let (mut outputs, left) = Outputs::open(args, &fingerprint(args, &pair))?;
+    let (mut outputs, left) = match Opened::new(args, &asked(args, &pair))? {
+        Opened::Begun(outputs) => (outputs, None),
+        Opened::GoesOn(outputs, left) => (outputs, Some(left)),
+        Opened::Whole(mark) => return leave(args, &mut rows, mark),
+    };
     if args.resume {
         tell_resumed(args, left);
     }
@@ -48,15 +54,15 @@ pub(super) fn run(args: &QueryArgs) -> Result<Verdict> {
         desk: Desk::new(pair.bodies(), settings, &crew),
         crew,
         outputs,
-        summary: Summary::new(args.tolerance),
+        summary: Summary::new(args.tolerance).going_on(begun.counts),
         told: Told::new(input_name(&args.motions)),
         progress: match args.quiet {
             true => Progress::hidden(),
             false => Progress::new(length.map_or(Total::Unknown, Total::Bytes)),
         },
     };
-    let bad = work.through(&mut rows, begun)?;
-    work.outputs.finish()?;
+    let end = work.through(&mut rows, begun)?;
+    work.outputs.finish(end)?;
     drop(work.progress);
     work.told.close();
     if work.summary.rows() == 0 && left.is_none() {
@@ -65,10 +71,14 @@ pub(super) fn run(args: &QueryArgs) -> Result<Verdict> {
     if !args.quiet {
         summarise(args, &work.summary);
     }
-    Ok(match bad {
+    Ok(verdict(end))
+}
+
+fn verdict(end: Mark) -> Verdict {
+    match end.bad {
         0 => Verdict::AllAnswered,
         _ => Verdict::SomeRowsBad,
-    })
+    }
 }
 
 /// Refuses what does not go together.
@@ -102,23 +112,46 @@ fn check(args: &QueryArgs) -> Result<()> {
     Ok(())
 }
 
-/// All that answers depend on, in lines.
-fn fingerprint(args: &QueryArgs, pair: &Pair) -> String {
-    let asked = args.asked();
-    let version = env!("CARGO_PKG_VERSION");
-    format!("ccd {version}\n{asked:#?}\nfiles {}", pair.checksums)
+/// All that the tables depend on but the motions.
+fn asked(args: &QueryArgs, pair: &Pair) -> Asked {
+    let own = |(option, value): (&str, String)| (option.to_owned(), value);
+    let mut asked = vec![own(("ccd", env!("CARGO_PKG_VERSION").to_owned()))];
+    asked.extend(args.asked().into_iter().map(own));
+    for (option, checksum) in &pair.checksums {
+        asked.push((format!("{CONTENT}{option}"), checksum.clone()));
+    }
+    Asked(asked)
 }
 
 fn tell_resumed(args: &QueryArgs, left: Option<Mark>) {
     match left {
         Some(_) if args.quiet => {}
         Some(Mark { rows, .. }) => {
-            complain(&format!(
-                "--resume: goes on behind row {rows} of the motions"
-            ));
+            complain(&format!("--resume: goes on with row {rows} of the motions"));
         }
         None => complain("--resume: there is nothing to go on with; begins at the beginning"),
     }
+}
+
+/// Nothing is left to do, if the motions are those that the finished run was given.
+fn leave(args: &QueryArgs, rows: &mut Motions, whole: Mark) -> Result<Verdict> {
+    let (input, out) = (input_name(&args.motions), args.out.display());
+    let passed = rows.pass(whole.rows).with_context(|| input.clone())?;
+    let same = (passed, rows.checksum()) == (whole.rows, whole.checksum);
+    let more = args.rows.end.is_none_or(|end| whole.rows < end);
+    if !same || more && rows.pass(1).with_context(|| input.clone())? > 0 {
+        bail!(
+            "--resume: {input}: not the rows that the finished run was given; give it the same, or leave \
+             out --resume to begin again"
+        );
+    }
+    if !args.quiet {
+        complain(&format!(
+            "--resume: {out} has all rows of this query already and is left as it is"
+        ));
+        summarise(args, &Summary::new(args.tolerance).going_on(whole.counts));
+    }
+    Ok(verdict(whole))
 }
 
 /// Passes over the rows that are not asked for, or done with.
@@ -130,8 +163,9 @@ fn begin(args: &QueryArgs, rows: &mut Motions, left: Option<Mark>) -> Result<Mar
     match left {
         Some(left) if (passed, checksum) != (left.rows, left.checksum) => bail!(
             "--resume: {}: not the rows that the interrupted run was given; give it the same, or \
-             delete what it left to begin again",
-            input()
+             delete {}.partial to begin again",
+            input(),
+            args.out.display()
         ),
         Some(left) => Ok(left),
         None => Ok(Mark {
@@ -168,8 +202,8 @@ struct Work<'a> {
 }
 
 impl Work<'_> {
-    /// Answers the rows from there on; says how many have no complete answer.
-    fn through(&mut self, rows: &mut Motions, begun: Mark) -> Result<usize> {
+    /// Answers the rows from there on; says how far that is.
+    fn through(&mut self, rows: &mut Motions, begun: Mark) -> Result<Mark> {
         let mut mark = begun;
         loop {
             let left = self
@@ -180,7 +214,7 @@ impl Work<'_> {
             let size = self.crew.batch().min(left);
             let (batch, broken) = read(rows, size);
             if batch.is_empty() && broken.is_none() {
-                return Ok(mark.bad);
+                return Ok(mark);
             }
             self.answer(&batch)?;
             self.progress.read(rows.bytes());
@@ -188,6 +222,7 @@ impl Work<'_> {
                 rows: mark.rows + batch.len(),
                 checksum: rows.checksum(),
                 bad: begun.bad + self.told.count(),
+                counts: self.summary.counts(),
                 ..mark
             };
             self.outputs.keep(mark)?;

@@ -1,6 +1,7 @@
 //! How large bodies are, to see units that do not go together.
 
 use super::complain;
+use crate::text::Number;
 use ccd_core::Body;
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
@@ -48,8 +49,8 @@ impl Size {
         };
         if ratio > RATIO && ratio.is_finite() {
             complain(&format!(
-                "{large} is {ratio:.0} times as large as {small} ({a} and {b}): are both in one unit of \
-                 length?"
+                "{large} is {} times as large as {small} ({a} and {b}): are both in one unit of length?",
+                Figure(ratio)
             ));
         }
     }
@@ -68,9 +69,6 @@ struct Figure(f64);
 impl fmt::Display for Figure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let rounded: f64 = format!("{:.3e}", self.0).parse().unwrap_or(self.0);
-        match rounded == 0.0 || (1e-4..1e7).contains(&rounded) {
-            true => write!(f, "{rounded}"),
-            false => write!(f, "{rounded:e}"),
-        }
+        write!(f, "{}", Number(rounded))
     }
 }

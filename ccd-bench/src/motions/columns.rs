@@ -53,6 +53,9 @@ impl Columns {
         if let Some(format) = foreign::format(header) {
             return Err(TableError::NotCsv { format });
         }
+        if foreign::is_lfs_pointer(header) {
+            return Err(TableError::LfsPointer);
+        }
         let Ok(header) = csv::StringRecord::from_byte_record(header.clone()) else {
             return Err(TableError::NotText);
         };
@@ -61,6 +64,9 @@ impl Columns {
             return Err(TableError::Empty);
         }
         let names = known();
+        if let Some(number) = number_without_names(&header, &names) {
+            return Err(TableError::NoHeader { number });
+        }
         let mut cells = vec![None; names.len()];
         for (cell, &column) in header.iter().enumerate() {
             let Some(slot) = names.iter().position(|name| name == column) else {
@@ -104,6 +110,22 @@ impl Columns {
         let cell = row.get(self.cells[slot]?).copied();
         cell.filter(|cell| !cell.is_empty())
     }
+}
+
+/// A number in a header that names no column: such a line is a row.
+fn number_without_names(header: &[&str], names: &[String]) -> Option<String> {
+    if header
+        .iter()
+        .any(|cell| names.iter().any(|name| name == cell))
+    {
+        return None;
+    }
+    // `inf` and `nan` read as numbers too, but may be meant as names.
+    let is_number = |cell: &&&str| {
+        let digits = cell.contains(|c: char| c.is_ascii_digit());
+        digits && cell.parse::<f64>().is_ok()
+    };
+    header.iter().find(is_number).map(|&cell| cell.to_owned())
 }
 
 /// What is wrong with a header that has a column of no known name.

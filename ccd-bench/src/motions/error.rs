@@ -1,6 +1,7 @@
 //! What can be wrong with a table of motions.
 
 use super::Place;
+use crate::text::Number;
 use ccd_core::InputError;
 use std::fmt;
 
@@ -16,6 +17,29 @@ pub enum TableError {
     NotCsv {
         /// What it is.
         format: &'static str,
+    },
+    /// Git stands for it with a few lines.
+    #[error(
+        "is a Git LFS pointer, a few lines that stand for the table; run `git lfs pull` to fetch the table \
+         itself"
+    )]
+    LfsPointer,
+    /// A quoted cell has no end: it would hold all rows that follow.
+    #[error("{}(line {line}): a quote opens a cell here and nothing closes it; close it, or remove it", RowOrHeader(.row))]
+    UnclosedQuote {
+        /// The row that the cell is of, from 0; none when it is of the header.
+        row: Option<usize>,
+        /// The line that the quote opens on, from 1.
+        line: u64,
+    },
+    /// Its first line has numbers where names have to be.
+    #[error(
+        "header: `{number}` is a number: the first line has to name the columns, such as id,a_px,a_vx; {}",
+        Known(None)
+    )]
+    NoHeader {
+        /// The first one.
+        number: String,
     },
     /// Its header is no text.
     #[error("is not text in UTF-8; export it as CSV, in UTF-8")]
@@ -52,6 +76,17 @@ pub enum TableError {
 impl From<csv::Error> for TableError {
     fn from(error: csv::Error) -> Self {
         TableError::Unreadable(error.to_string())
+    }
+}
+
+struct RowOrHeader<'a>(&'a Option<usize>);
+
+impl fmt::Display for RowOrHeader<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0 {
+            Some(row) => write!(f, "row {row} "),
+            None => write!(f, "header "),
+        }
     }
 }
 
@@ -159,17 +194,17 @@ impl fmt::Display for RowProblem {
                 f,
                 "columns {}: ({} {} {} {}) is a quaternion of length zero, it names no orientation",
                 columns.join(" "),
-                value[0],
-                value[1],
-                value[2],
-                value[3],
+                Number(value[0]),
+                Number(value[1]),
+                Number(value[2]),
+                Number(value[3]),
             ),
             Self::EndPoseAndVelocity { end, velocity } => write!(
                 f,
                 "columns {end} and {velocity}: give the end pose or the velocities, not both"
             ),
             Self::BadDuration { value, allowed } => {
-                write!(f, "column duration: {value} is not {allowed}")
+                write!(f, "column duration: {} is not {allowed}", Number(*value))
             }
             Self::Input(error) => write!(f, "{error}"),
         }

@@ -12,6 +12,14 @@ const BEGINNINGS: [(&[u8], &str); 8] = [
     (b"\xfe\xff", "text in UTF-16"),
 ];
 
+/// How a file begins that Git LFS has in the place of one that is not fetched yet.
+const LFS_BEGINNING: &[u8] = b"version https://git-lfs";
+
+/// Whether a header is that of a pointer of Git LFS.
+pub(super) fn is_lfs_pointer(header: &csv::ByteRecord) -> bool {
+    header.as_slice().starts_with(LFS_BEGINNING)
+}
+
 /// Which format a header belongs to, when it is not that of a text.
 pub(super) fn format(header: &csv::ByteRecord) -> Option<&'static str> {
     let bytes = header.as_slice();

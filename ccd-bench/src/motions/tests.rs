@@ -193,7 +193,7 @@ fn rows_have_the_length_of_the_header() {
         .iter()
         .map(|e| (e.place.row, e.place.line))
         .collect();
-    assert_eq!(places, [(1, 2), (2, 3)]);
+    assert_eq!(places, [(0, 2), (1, 3)]);
 }
 
 #[test]
@@ -259,11 +259,102 @@ fn what_is_no_csv_is_told_for_what_it_is() {
     }
 }
 
+/// Neither are the rows before it lost, nor does it take those that follow for one cell.
+#[test]
+fn a_quote_that_nobody_closes_is_told_where_it_opens() {
+    for (text, rows, expected) in [
+        ("id,a_px\n0,1\n\n1,\"2\n2,3\n", 1, (Some(1), 4)),
+        ("id,a_px\n\"a\nb\",1\n\"c\n\n,2\n", 1, (Some(1), 4)),
+        ("id,a_px\n0,1\n1,\"", 1, (Some(1), 3)),
+        ("id,a_px\n0,\"1\"\"\n1,2\n", 0, (Some(0), 2)),
+        ("\u{feff}\n\"id,a_px\n0,1\n", 0, (None, 2)),
+    ] {
+        for end in ["\n", "\r\n", "\r"] {
+            let text = text.replace('\n', end);
+            let mut read = 0;
+            let told = MotionRows::new(text.as_bytes()).and_then(|mut table| {
+                read = table.by_ref().take(rows).filter(Result::is_ok).count();
+                table.next().transpose()
+            });
+            let Err(TableError::UnclosedQuote { row, line }) = told else {
+                panic!("{text:?}: {told:?}");
+            };
+            assert_eq!((read, (row, line)), (rows, expected), "{text:?}");
+        }
+    }
+    // Rows that are passed over are rows all the same.
+    let mut passing = MotionRows::new(&b"id\n0\n\"1\n2\n"[..]).unwrap();
+    assert!(matches!(
+        passing.pass(9),
+        Err(TableError::UnclosedQuote {
+            row: Some(1),
+            line: 3
+        })
+    ));
+}
+
+/// However many rows wait in memory behind the one that is read.
+#[test]
+fn quotes_that_are_closed_are_legal() {
+    let mut text = "id,a_px\n".to_owned();
+    for k in 0..5000 {
+        text += &format!("\"{k}\n, \"\"x\"\"\",\"{k}\"\n");
+    }
+    let table = read(&text);
+    assert_eq!((table.rows.len(), table.errors.len()), (5000, 0));
+    assert_eq!(table.rows[7].1.id, "7\n, \"x\"");
+}
+
+#[test]
+fn a_first_line_of_numbers_is_no_header() {
+    for text in ["1,2,3\n", "drop,4,-4\n", " 1e-3\n", "-.5,x\n"] {
+        let told = refused(text.as_bytes());
+        assert!(
+            told.contains("the first line has to name the columns"),
+            "{told}"
+        );
+    }
+    // With a name among them it is one, and a wrong one.
+    let told = refused(b"id,4\n");
+    assert!(told.contains("unknown column `4`"), "{told}");
+}
+
+#[test]
+fn a_pointer_of_git_lfs_is_no_table() {
+    let told = refused(b"version https://git-lfs.github.com/spec/v1\noid sha256:0\n");
+    assert!(told.contains("git lfs pull"), "{told}");
+}
+
+#[test]
+fn numbers_of_many_digits_are_told_in_few() {
+    for (text, expected) in [
+        ("duration\n-1e308\n", "column duration: -1e308 is not"),
+        ("a_qw,a_qx,a_qy,a_qz\n1e-320,0,-0,0\n", "(1e-320 0 -0 0)"),
+    ] {
+        let told = only_problem(text).to_string();
+        assert!(told.contains(expected), "{told}");
+    }
+}
+
+/// Of two ways as short the sign of the quaternion says which.
+#[test]
+fn half_a_turn_goes_the_way_that_its_axis_points() {
+    let spin = |end: &str| {
+        let text = format!("a_end_qw,a_end_qx,a_end_qy,a_end_qz\n{end}\n");
+        only_query(&text).a.spin()
+    };
+    let half = std::f64::consts::PI;
+    assert_eq!(spin("0,0,0,1"), half * DVec3::Z);
+    assert_eq!(spin("0,0,0,-1"), -half * DVec3::Z);
+    // Elsewhere both signs are one orientation, and one way.
+    assert_eq!(spin("1,0,0,1"), spin("-1,0,0,-1"));
+}
+
 /// Whatever ends the lines: every row is told by the line that an editor shows it on.
 #[test]
 fn lines_are_counted_as_editors_count_them() {
     let text = "\u{feff}\nid,a_px\n\nx1,x\n\n\n\"a\nb\",x\nx3,x\n  ,x\n\"c\n\n\",\"\n1\n\"\nlast,x";
-    let expected = [(1, 4), (2, 7), (3, 9), (4, 10), (6, 16)];
+    let expected = [(0, 4), (1, 7), (2, 9), (3, 10), (5, 16)];
     for end in ["\n", "\r\n", "\r"] {
         for last in ["", end] {
             let text = text.replace('\n', end) + last;
@@ -296,7 +387,7 @@ fn lines_split_anywhere_are_the_same_lines() {
     let text = "id,a_px\r\n\r\n1,x\r\n2,2\r\n";
     let mut rows = MotionRows::new(Drip(text.as_bytes())).unwrap();
     let error = rows.next().unwrap().unwrap().unwrap_err();
-    assert_eq!((error.place.row, error.place.line), (1, 3));
+    assert_eq!((error.place.row, error.place.line), (0, 3));
     assert!(rows.next().unwrap().unwrap().is_ok());
     assert!(rows.next().is_none());
     assert_eq!(rows.bytes(), text.len() as u64);
@@ -311,7 +402,7 @@ fn rows_that_are_passed_over_are_counted() {
     reading.by_ref().take(2).for_each(drop);
     assert_eq!(passing.checksum(), reading.checksum());
     let error = passing.next().unwrap().unwrap().unwrap_err();
-    assert_eq!((error.place.row, error.place.line), (3, 4));
+    assert_eq!((error.place.row, error.place.line), (2, 4));
     assert_ne!(passing.checksum(), reading.checksum());
     assert_eq!(rows().pass(9).unwrap(), 3);
 }

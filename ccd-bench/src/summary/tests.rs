@@ -92,6 +92,25 @@ fn medians_of_many_times_are_right_to_a_thousandth() {
 }
 
 #[test]
+fn rows_of_earlier_runs_are_counted_and_told_apart() {
+    let mut earlier = sum(&[timed(3.0, 1e-3)], 1e-3);
+    earlier.add_error();
+    let mut summary = Summary::new(1e-3).going_on(earlier.counts());
+    assert_eq!(
+        summary.to_string(),
+        "2 rows: 1 free, 1 error; none of them in this run"
+    );
+    assert_eq!(summary.means(), None);
+    summary.add(&timed(5.0, 1e-3));
+    assert_eq!((summary.rows(), summary.median_micros()), (3, 5.0));
+    let text = summary.to_string();
+    let begin = "3 rows: 2 free, 1 error; 1 of them in this run; median 5.0";
+    assert!(text.starts_with(begin), "{text}");
+    let means = "means: 3.0 advancements, 2.0 oracle calls, 7.0 oracle steps";
+    assert_eq!(summary.means().as_deref(), Some(means));
+}
+
+#[test]
 fn rows_that_were_not_asked_take_no_time() {
     let mut summary = sum(&[timed(3.0, 1e-3)], 1e-3);
     summary.add_error();

@@ -123,7 +123,7 @@ fn a_row_of_too_many_contacts_is_told() {
     assert_eq!(output.status.code(), Some(2));
     assert_eq!(parse(&output.stdout)[0].text("status"), "touching");
     let told = stderr(&output);
-    assert!(told.contains("row 1 (line 2): contacts: "), "{told}");
+    assert!(told.contains("row 0 (line 2): contacts: "), "{told}");
     assert!(told.contains("--budget"), "{told}");
 }
 

@@ -298,3 +298,23 @@ fn help_shows_what_is_printed() {
         assert!(text.contains(expected), "{text}");
     }
 }
+
+#[test]
+fn a_folder_that_is_not_there_is_told_before_the_work() {
+    let scene = Scene::new("decompose-no-folder");
+    let mesh = scene.file("t.obj", crate::TETRAHEDRON);
+    for name in ["t.obj", "t.ccd"] {
+        let out = scene.directory.join("gone").join(name);
+        let run = Run::bare(&["decompose", mesh.to_str().unwrap()]);
+        let output = run
+            .args(&["--out", out.to_str().unwrap()])
+            .stdin("")
+            .output();
+        assert_eq!(output.status.code(), Some(1));
+        let told = stderr(&output);
+        assert!(
+            told.contains("gone is a folder that is not there"),
+            "{told}"
+        );
+    }
+}

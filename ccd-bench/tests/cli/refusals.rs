@@ -44,7 +44,7 @@ fn bad_rows_keep_their_place_and_are_told() {
         if status == "error" {
             assert_eq!([rows[k].text("time"), rows[k].text("micros")], ["", ""]);
             // The first few are told at once.
-            let (row, line) = (k + 1, k + 2);
+            let (row, line) = (k, k + 2);
             let message = format!("standard input, row {row} (line {line}): {reason}");
             assert_eq!(told.contains(&message), k <= 5, "{message:?} in\n{told}");
         }
@@ -90,6 +90,14 @@ fn bad_bodies_and_files_are_told_by_name() {
         ),
         (["--a", "ball:1", "--b", "sphere:1"], "sphere:0.5"),
         (["--a", "sphere:-1", "--b", "sphere:1"], "\"-1\""),
+        (
+            ["--a", "sphere:1e13", "--b", "sphere:1"],
+            "too large a length of \"sphere\": lengths are from 0 to 1e12",
+        ),
+        (
+            ["--a", "box:1,1,1e308", "--b", "sphere:1"],
+            "\"1e308\" is too large a length of \"box\"",
+        ),
     ] {
         let output = Run::query(&bodies).stdin(DROP).output();
         assert_eq!(output.status.code(), Some(2), "{bodies:?}");
@@ -114,6 +122,8 @@ fn bad_options_are_refused() {
         ["--tolerance", "-1e-3"],
         ["--tolerance", "NaN"],
         ["--margin", "-1"],
+        ["--margin", "1e13"],
+        ["--tolerance", "1e13"],
         ["--threads", "0"],
         ["--repeat", "0"],
         ["--budget", "0"],
@@ -141,5 +151,77 @@ fn results_that_cannot_be_written_are_another_failure() {
         .stdin(DROP)
         .output();
     assert_eq!(output.status.code(), Some(1));
-    assert!(stderr(&output).contains("results.csv"));
+    let told = stderr(&output);
+    let folder = "/no/such/directory";
+    assert_eq!(
+        told.matches("is a folder that is not there").count(),
+        1,
+        "{told}"
+    );
+    assert!(
+        told.contains(&format!("cannot write {folder}/results.csv: {folder} is")),
+        "{told}"
+    );
+}
+
+/// The rows before it are answered, and those behind it are not taken for its cell.
+#[test]
+fn a_quote_that_nobody_closes_is_an_error() {
+    for (motions, rows, expected) in [
+        ("a_pz,id\n4,x\n5,\"y\n6,z\n", 1, "row 1 (line 3): a quote"),
+        ("id,a_pz\n\"a\nb\",4\n\"c,5\n", 1, "row 1 (line 4): a quote"),
+        ("a_pz,\"id\n4,x\n", 0, "header (line 1): a quote"),
+    ] {
+        let output = Run::query(&FALLING_CUBE).stdin(motions).output();
+        assert_eq!(output.status.code(), Some(2), "{motions}");
+        let told = stderr(&output);
+        let expected = format!("standard input: {expected} opens a cell here");
+        assert!(told.contains(&expected), "{expected}: {told}");
+        if rows > 0 {
+            assert_eq!(parse(&output.stdout).len(), rows, "{motions}");
+        }
+    }
+    let closed = Run::query(&FALLING_CUBE).stdin("id,a_pz\n\"a\nb\",4\n");
+    assert_eq!(closed.succeeds()[0].text("id"), "a\nb");
+}
+
+#[test]
+fn large_numbers_are_told_in_few_digits() {
+    let output = Run::query(&FALLING_CUBE)
+        .stdin("a_pz,duration\n1e308,1\n4,-1e308\n")
+        .output();
+    assert_eq!(output.status.code(), Some(2));
+    let told = stderr(&output);
+    assert!(
+        told.contains("row 0 (line 2): position is 1e308, but"),
+        "{told}"
+    );
+    assert!(
+        told.contains("row 1 (line 3): column duration: -1e308 is"),
+        "{told}"
+    );
+    assert!(!told.contains("00000"), "{told}");
+}
+
+/// Git stands for large files with a few lines until they are fetched.
+#[test]
+fn pointers_of_git_lfs_are_told_for_what_they_are() {
+    let scene = Scene::new("lfs");
+    let pointer = "version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 9\n";
+    let advice = "is a Git LFS pointer";
+    for name in ["p.obj", "p.stl", "p.ply", "p.off", "p.ccd"] {
+        let mesh = scene.file(name, pointer);
+        let output = Run::query(&["--a", mesh.to_str().unwrap(), "--b", "sphere:1"])
+            .stdin(DROP)
+            .output();
+        assert_eq!(output.status.code(), Some(2), "{name}");
+        let told = stderr(&output);
+        assert!(
+            told.contains(advice) && told.contains("git lfs pull"),
+            "{told}"
+        );
+    }
+    let output = Run::query(&FALLING_CUBE).stdin(pointer).output();
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains(advice), "{}", stderr(&output));
 }

@@ -112,11 +112,17 @@ fn a_run_that_is_killed_twice_ends_with_the_same_bytes() {
     }
     let output = finished(query(&scene, &["--resume"]), &table);
     assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
-    assert!(
-        stderr(&output).contains("goes on behind row"),
-        "{}",
-        stderr(&output)
-    );
+    let told = stderr(&output);
+    let count = |before: &str, after: &str| {
+        let (_, rest) = told.split_once(before)?;
+        rest.split_once(after)?.0.parse::<usize>().ok()
+    };
+    let done = count("goes on with row ", " of the motions");
+    let done = done.unwrap_or_else(|| panic!("{told}"));
+    // All rows of the table are counted, those of this run apart.
+    assert!(told.contains("\n20000 rows: "), "{told}");
+    let here = count(", 20 error; ", " of them in this run; median");
+    assert_eq!(here, Some(ROWS - done), "{told}");
     for name in TABLES {
         assert!(
             read(&path(&scene, name)) == read(&path(&whole, name)),
@@ -124,7 +130,8 @@ fn a_run_that_is_killed_twice_ends_with_the_same_bytes() {
         );
     }
     let left = fs::read_dir(&scene.directory).unwrap().count();
-    assert_eq!(left, TABLES.len(), "nothing else is left");
+    assert_eq!(left, TABLES.len() + 1, "nothing is left but the journal");
+    assert!(path(&scene, "results.csv.resume").exists());
 }
 
 #[test]
@@ -139,19 +146,21 @@ fn a_run_goes_on_only_with_the_same_question() {
         (
             &["--tolerance", "1e-6", "--resume"][..],
             &table,
-            "`tolerance: 0.001,`, not `tolerance: 1e-6,`",
+            "asked something else: --tolerance was 0.001 and is 1e-6 now; ask the same",
         ),
-        (&["--b", "box:9,9,2", "--resume"], &table, "box:9,9,2"),
+        (
+            &["--b", "box:9,9,2", "--deadline", "1.5", "--resume"],
+            &table,
+            "--b was box:9,9,1 and is box:9,9,2 now, --deadline was not given and is 1.5 now;",
+        ),
         (&["--resume"], &other_rows, "not the rows"),
         (&[], &table, "rows of an interrupted run; --resume goes on"),
     ] {
         let output = finished(query(&scene, options), input);
         assert_eq!(output.status.code(), Some(2), "{options:?}");
-        assert!(
-            stderr(&output).contains(expected),
-            "{expected}: {}",
-            stderr(&output)
-        );
+        let told = stderr(&output);
+        assert!(told.contains(expected), "{expected}: {told}");
+        assert!(!told.contains("Some(") && !told.contains(" {"), "{told}");
         assert_eq!(
             read(&path(&scene, "results.csv.partial")),
             kept,
@@ -169,6 +178,132 @@ fn nothing_to_resume_is_no_failure() {
     assert!(stderr(&output).contains("nothing to go on with"));
     let output = finished(query(&scene, &["--resume", "--out", "-"]), one);
     assert_eq!(output.status.code(), Some(2));
+}
+
+/// The tables with the times at which they were last written.
+fn tables(scene: &Scene) -> Vec<(String, std::time::SystemTime)> {
+    let table = |name: &&str| {
+        let path = path(scene, name);
+        let written = fs::metadata(&path).unwrap().modified().unwrap();
+        (read(&path), written)
+    };
+    TABLES.iter().map(table).collect()
+}
+
+#[test]
+fn a_finished_run_is_left_as_it_is() {
+    for (name, table, code) in [
+        ("finished", "id,a_pz,a_vz\nx,4,-4\ny,9,-1\n", 0),
+        ("finished-bad", "id,a_pz,a_vz\nx,4,-4\ny,9,z\n", 2),
+        ("finished-empty", "id,a_pz,a_vz\n", 0),
+    ] {
+        let scene = fresh(name);
+        let output = finished(query(&scene, &[]), table);
+        assert_eq!(output.status.code(), Some(code), "{}", stderr(&output));
+        let before = tables(&scene);
+        let output = finished(query(&scene, &["--resume"]), table);
+        assert_eq!(output.status.code(), Some(code), "{}", stderr(&output));
+        let told = stderr(&output);
+        assert!(
+            told.contains("results.csv has all rows of this query already and is left as it is"),
+            "{told}"
+        );
+        assert_eq!(
+            told.contains("2 rows: "),
+            !name.ends_with("empty"),
+            "{told}"
+        );
+        assert!(!told.contains("median"), "{told}");
+        assert_eq!(tables(&scene), before);
+        // Without the option it is a new run.
+        let output = finished(query(&scene, &[]), table);
+        assert_eq!(output.status.code(), Some(code));
+        assert_ne!(tables(&scene)[0].1, before[0].1);
+    }
+}
+
+#[test]
+fn a_finished_run_of_another_question_is_neither_overwritten_nor_taken() {
+    let table = "id,a_pz,a_vz\nx,4,-4\ny,9,-1\n";
+    let scene = fresh("finished-other");
+    let output = finished(query(&scene, &[]), table);
+    assert!(output.status.success(), "{}", stderr(&output));
+    let before = tables(&scene);
+    for (options, input, expected) in [
+        (
+            &["--tolerance", "1e-6"][..],
+            table,
+            "the finished run was asked something else: --tolerance was 0.001 and is 1e-6 now",
+        ),
+        (
+            &["--contacts", "other.csv"],
+            table,
+            "--contacts was contacts.csv and is other.csv now",
+        ),
+        (&["--rows", "..1"], table, "--rows was 0.. and is 0..1 now"),
+        (&[], "id,a_pz,a_vz\nx,4,-4\ny,9,-2\n", "not the rows that"),
+        (&[], "id,a_pz,a_vz\nx,4,-4\n", "not the rows that"),
+        (&[], &format!("{table}z,9,-1\n"), "not the rows that"),
+    ] {
+        let mut command = query(&scene, options);
+        command.arg("--resume");
+        let output = finished(command, input);
+        assert_eq!(output.status.code(), Some(2), "{options:?}");
+        let told = stderr(&output);
+        assert!(told.contains(expected), "{expected}: {told}");
+        assert_eq!(tables(&scene), before);
+    }
+    // What somebody else has written there is not taken for it.
+    fs::write(path(&scene, "results.csv"), "mine").unwrap();
+    let output = finished(query(&scene, &["--resume"]), table);
+    assert_eq!(output.status.code(), Some(2));
+    let told = stderr(&output);
+    assert!(told.contains("not as the finished run left it"), "{told}");
+    assert_eq!(read(&path(&scene, "results.csv")), "mine");
+    // Where there is no table, there is all to do.
+    fs::remove_file(path(&scene, "results.csv")).unwrap();
+    let output = finished(query(&scene, &["--resume"]), table);
+    assert!(output.status.success(), "{}", stderr(&output));
+    assert_eq!(read(&path(&scene, "results.csv")), before[0].0);
+}
+
+/// A run that ends between its last row and the names of its tables has but these to give.
+#[test]
+fn tables_that_are_whole_get_their_names() {
+    let table = "id,a_pz,a_vz\nx,4,-4\ny,9,-1\n";
+    let scene = fresh("nameless");
+    let output = finished(query(&scene, &[]), table);
+    assert!(output.status.success(), "{}", stderr(&output));
+    let before = tables(&scene);
+    for names in [&TABLES[..], &TABLES[1..]] {
+        for name in names {
+            let partial = path(&scene, &format!("{name}.partial"));
+            fs::rename(path(&scene, name), partial).unwrap();
+        }
+        let output = finished(query(&scene, &["--resume"]), table);
+        assert!(output.status.success(), "{}", stderr(&output));
+        assert_eq!(tables(&scene), before);
+    }
+}
+
+#[test]
+fn a_mesh_that_has_changed_is_told_by_its_option() {
+    let scene = fresh("changed-mesh");
+    let mesh = path(&scene, "part.obj");
+    let options = ["--a", "part.obj"];
+    fs::write(&mesh, crate::TETRAHEDRON).unwrap();
+    let table = "a_pz\n9\n";
+    assert!(finished(query(&scene, &options), table).status.success());
+    fs::write(&mesh, crate::TETRAHEDRON.replace("v 1 0 0", "v 2 0 0")).unwrap();
+    let mut command = query(&scene, &options);
+    command.arg("--resume");
+    let output = finished(command, table);
+    assert_eq!(output.status.code(), Some(2));
+    let told = stderr(&output);
+    assert!(
+        told.contains(": the file of --a has changed since; ask"),
+        "{told}"
+    );
 }
 
 #[test]

@@ -63,7 +63,7 @@ fn good_rows_are_judged_and_bad_ones_told() {
     assert!(rows[0].text("reason").contains("`x`"));
     let told = stderr(&output);
     assert!(
-        told.contains("standard input, row 1 (line 2): column a_px"),
+        told.contains("standard input, row 0 (line 2): column a_px"),
         "{told}"
     );
 }

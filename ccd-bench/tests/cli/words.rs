@@ -19,7 +19,7 @@ fn lines_are_counted_whatever_ends_them() {
     for end in ["\n", "\r\n", "\r"] {
         let table = "\u{feff}a_px\n1\n2\n\n3\nx\n".replace('\n', end);
         let told = told_of(&table);
-        assert!(told.contains("row 4 (line 6): column a_px: `x`"), "{told}");
+        assert!(told.contains("row 3 (line 6): column a_px: `x`"), "{told}");
     }
 }
 
@@ -48,6 +48,53 @@ fn everything_is_said_once() {
             !told.contains("os error") && !told.contains("utf-8"),
             "{told}"
         );
+    }
+}
+
+/// By their names and in words, without the numbers that the system has for them.
+#[test]
+fn what_is_not_there_is_told_once() {
+    let scene = Scene::new("not-there");
+    let there = scene.file("there.csv", "id\n1\n");
+    let there = there.to_str().unwrap();
+    for (motions, a, out) in [
+        ("gone.csv", "sphere:1", "-"),
+        (there, "gone.obj", "-"),
+        (there, "gone.ccd", "-"),
+        (there, "sphere:1", "gone/out.csv"),
+        (there, "sphere:1", "/dev/null/gone.csv"),
+    ] {
+        let run = Run::bare(&["query", "--quiet", "--motions", motions, "--out", out]);
+        let output = run.args(&["--a", a, "--b", "sphere:1"]).stdin("").output();
+        assert!(!output.status.success());
+        let told = stderr(&output);
+        assert!(
+            told.contains("gone") && !told.contains("os error"),
+            "{told}"
+        );
+        let mut parts: Vec<&str> = told.trim().split(": ").collect();
+        let all = parts.len();
+        parts.sort_unstable();
+        parts.dedup();
+        assert_eq!(parts.len(), all, "{told}");
+    }
+}
+
+#[test]
+fn a_table_without_a_header_is_told_so() {
+    let told = told_of("1,2,3\n4,5,6\n");
+    assert!(
+        told.contains("`1` is a number: the first line has to name the columns"),
+        "{told}"
+    );
+}
+
+#[test]
+fn help_says_how_rows_count_and_which_way_half_a_turn_goes() {
+    let output = Run::bare(&["query", "--help"]).stdin("").output();
+    let text = String::from_utf8(output.stdout).unwrap();
+    for words in ["Rows count from 0 everywhere", "Half a turn can go either"] {
+        assert!(text.contains(words), "{words}");
     }
 }
 

@@ -52,6 +52,23 @@ fn half_turns_and_tiny_turns_keep_their_digits() {
     }
 }
 
+/// Both ways are as short: the signs of the quaternions decide.
+#[test]
+fn half_a_turn_goes_about_the_axis_as_it_is_given() {
+    let turn = |start: DQuat, end: DQuat| {
+        let [start, end] = [start, end].map(|q| Pose::new(DVec3::ZERO, q).unwrap());
+        let motion = Motion::between(start, end, DVec3::ZERO, 1.0);
+        motion.unwrap().spin()
+    };
+    for axis in [DVec3::X, DVec3::Y, DVec3::Z, -DVec3::X] {
+        let half = DQuat::from_xyzw(axis.x, axis.y, axis.z, 0.0);
+        let one = DQuat::IDENTITY;
+        assert_eq!(turn(one, half), PI * axis);
+        assert_eq!(turn(one, -half), -PI * axis);
+        assert_eq!(turn(-one, half), -PI * axis);
+    }
+}
+
 #[test]
 fn any_number_of_turns_is_a_motion() {
     let spin = 2.0 * PI * 6.0 * DVec3::Y;

@@ -145,6 +145,19 @@ fn a_byte_order_mark_hides_no_vertex() {
 }
 
 #[test]
+fn a_pointer_of_git_lfs_is_told_for_what_it_is() {
+    let pointer = b"version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 12\n";
+    for (format, _) in valid() {
+        let fault = read(format, pointer).unwrap_err();
+        assert!(
+            matches!(fault, MeshFault::LfsPointer),
+            "{format:?}: {fault}"
+        );
+        assert!(fault.to_string().contains("git lfs pull"), "{fault}");
+    }
+}
+
+#[test]
 fn off_counts_may_follow_the_keyword_or_stand_alone() {
     let body = "3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
     for text in [format!("OFF {body}"), body.to_string()] {

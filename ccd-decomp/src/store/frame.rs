@@ -9,6 +9,7 @@
 //! | 4 | CRC-32 of all before |
 
 use super::StoreFault;
+use crate::error::is_lfs_pointer;
 use std::io::{self, Read, Write};
 
 /// Written as PNG's: no text begins so, and a transfer that changes line ends or cuts the eighth bit
@@ -38,10 +39,15 @@ pub(super) fn write(mut writer: impl Write, payload: &[u8]) -> io::Result<()> {
 /// # Complexity
 /// Linear in the bytes that there are, whatever length they announce.
 pub(super) fn read(mut reader: impl Read) -> Result<Vec<u8>, StoreFault> {
-    let header = bytes(&mut reader, HEADER as u64)?;
+    let mut header = bytes(&mut reader, HEADER as u64)?;
     if !header.starts_with(&MAGIC) {
-        // What is cut within the magic number is more likely not ours at all.
-        return Err(StoreFault::Foreign);
+        // A few bytes more tell a pointer. What is cut within the magic number is more likely not ours
+        // at all.
+        header.extend(bytes(&mut reader, HEADER as u64)?);
+        return Err(match is_lfs_pointer(&header) {
+            true => StoreFault::LfsPointer,
+            false => StoreFault::Foreign,
+        });
     }
     let mut fields = &header[MAGIC.len()..];
     let version = u32::from_le_bytes(array(&mut fields)?);

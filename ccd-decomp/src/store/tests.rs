@@ -131,6 +131,13 @@ fn another_version_is_told_before_it_is_called_damaged() {
 }
 
 #[test]
+fn a_pointer_of_git_lfs_is_told_for_what_it_is() {
+    let fault = fault(b"version https://git-lfs.github.com/spec/v1\noid sha256:0\n");
+    assert!(matches!(fault, StoreFault::LfsPointer), "{fault}");
+    assert!(fault.to_string().contains("git lfs pull"), "{fault}");
+}
+
+#[test]
 fn a_file_cut_anywhere_is_an_error() {
     for bytes in FILES.iter() {
         for end in 0..bytes.len() {

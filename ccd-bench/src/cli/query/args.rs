@@ -1,10 +1,11 @@
 //! What `ccd query` can be told.
 
-use crate::cli::pieces::PiecesArgs;
+use crate::cli::pieces::{NOT_GIVEN, PiecesArgs, word};
 use crate::engine::{BoundKind, OracleKind, ScheduleKind};
 use crate::results::Extent;
+use crate::text::Number;
 use ccd_core::StartPolicy;
-use ccd_core::tolerance::{DEFAULT_BUDGET, DEFAULT_TOLERANCE};
+use ccd_core::tolerance::{DEFAULT_BUDGET, DEFAULT_TOLERANCE, MAX_COORDINATE};
 use clap::{Args, ValueEnum};
 use std::fmt;
 use std::path::PathBuf;
@@ -82,7 +83,8 @@ pub(in crate::cli) struct QueryArgs {
     /// Leave the cells of `micros` empty, so that equal answers are equal files
     #[arg(long)]
     pub(super) no_micros: bool,
-    /// Go on behind the last row that an interrupted run with the same options has written to --out
+    /// Go on behind the last row that an interrupted run with the same options has written to --out;
+    /// what a finished one has written is left as it is
     #[arg(long)]
     pub(super) resume: bool,
     /// Say nothing on standard error but what is wrong
@@ -99,16 +101,56 @@ impl QueryArgs {
         }
     }
 
-    /// The options that answers depend on; the others as if they had not been given.
-    pub(super) fn asked(&self) -> Self {
-        QueryArgs {
-            motions: PathBuf::new(),
-            out: PathBuf::new(),
-            threads: None,
-            resume: false,
-            quiet: false,
-            ..self.clone()
-        }
+    /// The options that tables depend on, with their values.
+    pub(super) fn asked(&self) -> Vec<(&'static str, String)> {
+        // Whoever adds an option is asked here whether tables depend on it.
+        let QueryArgs {
+            a,
+            b,
+            motions: _,
+            oracle,
+            schedule,
+            bound,
+            pieces,
+            tolerance,
+            margin,
+            start,
+            budget,
+            deadline,
+            threads: _,
+            rows,
+            repeat,
+            out: _,
+            contacts,
+            counters,
+            no_micros,
+            resume: _,
+            quiet: _,
+        } = self;
+        let flag = |given| if given { "given" } else { NOT_GIVEN }.to_owned();
+        let bound = bound.map(|bound| bound.to_string());
+        let deadline = deadline.map(|time| Number(time.as_secs_f64()).to_string());
+        let contacts = contacts.as_ref().map(|path| path.display().to_string());
+        let or_not = |value: Option<String>| value.unwrap_or_else(|| NOT_GIVEN.to_owned());
+        let mut asked = vec![
+            ("--a", a.clone()),
+            ("--b", b.clone()),
+            ("--oracle", oracle.to_string()),
+            ("--schedule", schedule.to_string()),
+            ("--bound", or_not(bound)),
+            ("--tolerance", Number(*tolerance).to_string()),
+            ("--margin", Number(*margin).to_string()),
+            ("--start", word(start)),
+            ("--budget", budget.to_string()),
+            ("--deadline", or_not(deadline)),
+            ("--rows", rows.to_string()),
+            ("--repeat", repeat.to_string()),
+            ("--contacts", or_not(contacts)),
+            ("--counters", flag(*counters)),
+            ("--no-micros", flag(*no_micros)),
+        ];
+        asked.extend(pieces.asked());
+        asked
     }
 }
 
@@ -121,12 +163,16 @@ See `ccd query --help` for the columns of both tables and the exit code.";
 
 const QUERY_AFTER_LONG_HELP: &str = "\
 Table of motions: columns by name, in any order; all may be left out, and so may single cells.
+Rows count from 0 everywhere: in ids, in --rows and in messages. Lines of a file count from 1.
   id                        what the row is called; default: its number, from 0
   a_px a_py a_pz            A's position at the start; default 0
   a_qw a_qx a_qy a_qz       A's orientation at the start, normalised; default identity
   then either the end pose, reached by the shortest turn
   a_end_px a_end_py a_end_pz a_end_qw a_end_qx a_end_qy a_end_qz
-                            position or orientation left out: as at the start
+                            position or orientation left out: as at the start. Half a turn can go either
+                            way: it goes counterclockwise about (x, y, z) of end · start⁻¹, so that the
+                            signs of the quaternions decide (within 1e-15 of it, rounding does). Give
+                            velocities to be sure
   or velocities in the world's frame, per unit of time, any number of turns
   a_vx a_vy a_vz a_wx a_wy a_wz            default 0
   a_cx a_cy a_cz            the point of A that moves straight, in A's frame; default its origin
@@ -167,7 +213,9 @@ foot in, or two edges that cross; or, where there is no such thing, vertex and e
 
 Rows are written in order as they are answered, results and contacts to files that end in .partial,
 which get their names once all rows are there; until then what had the names is left alone. When a run
-is interrupted, the same command with --resume goes on behind its last row. Bytes are the same for any
+is interrupted, the same command with --resume goes on behind its last row, and where all rows are
+there, it leaves the tables as they are and exits as the run did that wrote them. For this a file that
+ends in .resume stays beside --out: it says what was asked. Bytes are the same for any
 number of threads and interruptions, but for micros (--no-micros leaves it out) and --deadline.
 --rows 0..1000 and --rows 1000..2000 are parts of one table, for two machines; ids are numbered
 through.
@@ -244,14 +292,14 @@ impl fmt::Display for RowRange {
 
 fn positive(text: &str) -> Result<f64, String> {
     number(text)
-        .filter(|value| *value > 0.0)
-        .ok_or_else(|| "give a positive number, such as 1e-3".to_owned())
+        .filter(|value| *value > 0.0 && *value <= MAX_COORDINATE)
+        .ok_or_else(|| format!("give a positive number up to {MAX_COORDINATE:e}, such as 1e-3"))
 }
 
 fn not_negative(text: &str) -> Result<f64, String> {
     number(text)
-        .filter(|value| *value >= 0.0)
-        .ok_or_else(|| "give a number of at least 0, such as 0.01".to_owned())
+        .filter(|value| (0.0..=MAX_COORDINATE).contains(value))
+        .ok_or_else(|| format!("give a number from 0 to {MAX_COORDINATE:e}, such as 0.01"))
 }
 
 fn seconds(text: &str) -> Result<Duration, String> {

@@ -8,7 +8,6 @@ use crate::query::Bodies;
 use anyhow::{Context, Result};
 use ccd_core::Body;
 use ccd_decomp::{BodySource, Prepared, build_hull_tree};
-use std::fmt::Write as _;
 use std::fs::File;
 use std::io::{self, Write};
 use std::path::Path;
@@ -17,8 +16,8 @@ use std::path::Path;
 pub(super) struct Pair {
     a: Body,
     b: Option<Body>,
-    /// Checksums of the files that they come from.
-    pub(super) checksums: String,
+    /// Checksums of the files that they come from, by option.
+    pub(super) checksums: [(&'static str, String); 2],
 }
 
 impl Pair {
@@ -34,10 +33,8 @@ impl Pair {
         if let (Some(b), false) = (&b, args.quiet) {
             Size::compare(Size::of(&a), Size::of(b));
         }
-        let mut checksums = String::new();
-        for source in [&source_a, &source_b] {
-            let _ = writeln!(checksums, "{:08x}", checksum(source));
-        }
+        let checksums = [("--a", &source_a), ("--b", &source_b)]
+            .map(|(option, source)| (option, format!("{:08x}", checksum(source))));
         Ok(Pair { a, b, checksums })
     }
 

@@ -1,0 +1,33 @@
+use super::*;
+
+/// Where a quote is left open, of a text read in pieces of that size.
+fn open(text: &str, size: usize) -> Option<u64> {
+    let mut quotes = Quotes::new(text.as_bytes());
+    let mut piece = vec![0; size];
+    while quotes.read(&mut piece).unwrap() > 0 {}
+    quotes.unclosed(u64::MAX)
+}
+
+#[test]
+fn only_quotes_that_nobody_closes_are_open() {
+    for (text, expected) in [
+        ("", None),
+        ("a,b\n1,2\n", None),
+        ("a,\"b\nc\"\n", None),
+        ("a,\"b\"\"c\"\n", None),
+        ("\"a\"", None),
+        // Within a cell, and behind the closing one, a quote is a letter.
+        ("a\"b,c\n", None),
+        (" \"a\n", None),
+        ("\"a\" \"b\n", None),
+        ("\"\n", Some(1)),
+        ("a,b\n1,\"2\n3,4\n", Some(2)),
+        ("\"x\ny\",\"b\"\"\n\n", Some(2)),
+        ("\u{feff}\"a\n", Some(1)),
+        ("\u{feff}\"a\"\n\n\"b", Some(3)),
+    ] {
+        for size in [1, 2, 64] {
+            assert_eq!(open(text, size), expected, "{text:?}");
+        }
+    }
+}
