@@ -52,12 +52,16 @@ impl ExactHull {
 
     /// The hull of all points; none when they lie in one plane. O(n log n).
     pub(crate) fn of(points: &[DVec3]) -> Option<Self> {
+        ExactHull::facets_of(points).map(ExactHull::with_facets)
+    }
+
+    /// The facets of the hull of all points; none when they lie in one plane. O(n log n).
+    pub(crate) fn facets_of(points: &[DVec3]) -> Option<Vec<[u32; 3]>> {
         let simplex = ExactHull::simplex(points)?;
-        let facets = match points.len() <= FEW_POINTS {
+        Some(match points.len() <= FEW_POINTS {
             true => few::facets(points, simplex),
             false => conflicts::facets(points, simplex),
-        };
-        Some(ExactHull::with_facets(facets))
+        })
     }
 
     /// A triangle of points, and a point behind it; none when all lie in one plane. O(n).

@@ -14,6 +14,7 @@ mod proof;
 mod span;
 
 use crate::exact_hull::ExactHull;
+use crate::polygons::loops;
 use crate::predicates;
 use crate::tolerance::{FEW_POINTS, LIBRARY_POINTS, LIKELY_POINTS};
 use ccd_core::glam::DVec3;
@@ -102,7 +103,7 @@ pub(crate) fn hull(points: &[DVec3]) -> Result<Hull, HullError> {
 pub(crate) fn likely_triangles(points: &[DVec3]) -> Option<Vec<[u32; 3]>> {
     match (FEW_POINTS + 1..=LIKELY_POINTS).contains(&points.len()) {
         true => library::triangles(points),
-        false => ExactHull::of(points).map(|hull| hull.facets().to_vec()),
+        false => ExactHull::facets_of(points),
     }
 }
 
@@ -113,7 +114,7 @@ fn solid(points: &[DVec3]) -> Result<(Loops, Way), HullError> {
     let some = FEW_POINTS < points.len() && points.len() <= LIBRARY_POINTS;
     if some
         && let Some(triangles) = library::triangles(points)
-        && let Ok(facets) = proof::prove(points, proof::loops(points, &triangles))
+        && let Ok(facets) = proof::prove(points, loops(points, &triangles))
     {
         return Ok((facets, Way::Library));
     }

@@ -150,17 +150,17 @@ fn joint_hull(points: &[DVec3]) -> Result<(Hull, Way), BuildError> {
         facets: Vec::new(),
     };
     match hull(points) {
-        Ok(found) => {
+        Ok(mut found) => {
             let mut number = vec![0; points.len()];
             for (k, &v) in (0..).zip(&found.vertices) {
                 number[v as usize] = k;
             }
-            let facets = found.facets.iter();
+            for corner in found.facets.iter_mut().flatten() {
+                *corner = number[*corner as usize];
+            }
             let hull = Hull {
                 points: found.vertices.iter().map(|&v| point(v)).collect(),
-                facets: facets
-                    .map(|corners| corners.iter().map(|&v| number[v as usize]).collect())
-                    .collect(),
+                facets: found.facets,
             };
             Ok((hull, found.way))
         }

@@ -17,6 +17,28 @@ pub(crate) struct Polygon {
 ///
 /// Exact: polygons are in one plane precisely. The two sides of a flat surface are two polygons.
 pub(crate) fn polygons(points: &[DVec3], triangles: &[[u32; 3]]) -> Vec<Polygon> {
+    let mut polygons = Vec::new();
+    for_each_polygon(points, triangles, |corners, group| {
+        polygons.push(Polygon {
+            corners,
+            triangles: group.to_vec(),
+        });
+    });
+    polygons
+}
+
+/// The corners alone of the [polygons].
+pub(crate) fn loops(points: &[DVec3], triangles: &[[u32; 3]]) -> Vec<Vec<u32>> {
+    let mut loops = Vec::with_capacity(triangles.len());
+    for_each_polygon(points, triangles, |corners, _| loops.push(corners));
+    loops
+}
+
+fn for_each_polygon(
+    points: &[DVec3],
+    triangles: &[[u32; 3]],
+    mut visit: impl FnMut(Vec<u32>, &[u32]),
+) {
     let surface = Surface::new(points, triangles);
     let group_of = surface.groups();
     let count = group_of.iter().max().map_or(0, |&last| last as usize + 1);
@@ -33,13 +55,12 @@ pub(crate) fn polygons(points: &[DVec3], triangles: &[[u32; 3]]) -> Vec<Polygon>
         ends[number as usize] += 1;
     }
     let starts = std::iter::once(&0).chain(&ends);
-    let ranges = starts
-        .zip(&ends)
-        .map(|(&start, &end)| start as usize..end as usize);
-    let groups = ranges.map(|range| &members[range]);
-    groups
-        .filter_map(|group| surface.polygon(group, &group_of))
-        .collect()
+    for (&start, &end) in starts.zip(&ends) {
+        let group = &members[start as usize..end as usize];
+        if let Some(corners) = surface.corners(group, &group_of) {
+            visit(corners, group);
+        }
+    }
 }
 
 /// Drops the corners of a convex loop at which it goes straight on.
@@ -142,29 +163,23 @@ impl<'a> Surface<'a> {
         self
     }
 
-    /// The polygon that a group of triangles forms; none without area.
-    fn polygon(&self, group: &[u32], group_of: &[u32]) -> Option<Polygon> {
+    /// The corners of the polygon that a group of triangles forms; none without area.
+    fn corners(&self, group: &[u32], group_of: &[u32]) -> Option<Vec<u32>> {
         let first = *group.first()? as usize;
         let plane = Projection::of(self.triangles[first].map(|v| self.points[v as usize]))?;
-        let corners = match group {
-            [_] => starting_least(self.triangles[first]).to_vec(),
-            _ => {
-                let is_inner = |t: usize, k: usize| {
-                    let mut twins = self.twins(t, k);
-                    twins.any(|(twin, _)| group_of[twin] == group_of[t])
-                };
-                let edges = group
-                    .iter()
-                    .flat_map(|&t| (0..3).map(move |k| (t as usize, k)));
-                let rim = edges.filter(|&(t, k)| !is_inner(t, k));
-                let rim = rim.map(|(t, k)| self.edge(t, k)).collect();
-                strict_corners(self.points, &chained(rim), plane)
-            }
+        if group.len() == 1 {
+            return Some(starting_least(self.triangles[first]).to_vec());
+        }
+        let is_inner = |t: usize, k: usize| {
+            let mut twins = self.twins(t, k);
+            twins.any(|(twin, _)| group_of[twin] == group_of[t])
         };
-        Some(Polygon {
-            corners,
-            triangles: group.to_vec(),
-        })
+        let edges = group
+            .iter()
+            .flat_map(|&t| (0..3).map(move |k| (t as usize, k)));
+        let rim = edges.filter(|&(t, k)| !is_inner(t, k));
+        let rim = rim.map(|(t, k)| self.edge(t, k)).collect();
+        Some(strict_corners(self.points, &chained(rim), plane))
     }
 
     fn edge(&self, triangle: usize, k: usize) -> (u32, u32) {

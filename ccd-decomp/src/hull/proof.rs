@@ -1,7 +1,6 @@
 //! Are these polygons the facets of the hull of those points: exactly.
 
 use super::{Loops, lexicographic};
-use crate::polygons::polygons;
 use crate::predicates::{Projection, side};
 use ccd_core::glam::DVec3;
 use ccd_core::point_tree::PointTree;
@@ -16,12 +15,6 @@ pub(super) enum Refutation {
     Edge(u32, u32),
     /// These points are in front of a polygon, in ascending order.
     Outside(Vec<u32>),
-}
-
-/// What is to be proven: the polygons that triangles form.
-pub(super) fn loops(points: &[DVec3], triangles: &[[u32; 3]]) -> Loops {
-    let polygons = polygons(points, triangles).into_iter();
-    polygons.map(|polygon| polygon.corners).collect()
 }
 
 /// The polygons, if they are the facets of the hull of the points.

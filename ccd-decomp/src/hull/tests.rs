@@ -297,7 +297,7 @@ fn refuted() {
         prove(&split, pyramid.map(Vec::from).to_vec()),
         Err(Refutation::Edge(0, 2))
     );
-    assert!(prove(&split, proof::loops(&split, &pyramid)).is_ok());
+    assert!(prove(&split, loops(&split, &pyramid)).is_ok());
     let inside_out = tetrahedron.map(|[a, b, c]| vec![a, c, b]).to_vec();
     let reflex = Refutation::Edge(0, 1);
     assert_eq!(prove(&points[..4], inside_out), Err(reflex));
