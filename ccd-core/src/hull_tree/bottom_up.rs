@@ -108,7 +108,7 @@ impl<F> Row<'_, F> {
             taken.map_or(Ok(()), |(range, done)| self.fill(range, done, parts))
         };
         let (of_first, of_second) = scope(|threads| {
-            let thread = Builder::new().spawn_scoped(threads, &fill_waiting);
+            let thread = Builder::new().spawn_scoped(threads, fill_waiting);
             let of_second = self.fill(other, second, parts);
             let of_first = match thread {
                 Ok(thread) => thread.join().unwrap_or_else(|panic| resume_unwind(panic)),
