@@ -4,7 +4,7 @@ use crate::auto;
 use crate::convex::as_polytope;
 use crate::error::BodyError;
 use crate::hierarchy::build_hierarchy;
-use crate::hull_tree::{Grown, grow};
+use crate::hull_tree::build_hull_tree;
 use crate::manifold::Manifold;
 use crate::mesh::TriangleMesh;
 use crate::repair::Repairs;
@@ -206,9 +206,7 @@ impl Model {
     /// # Errors
     /// [`BodyError::BuildHullTree`].
     pub fn with_hull_tree(mut self) -> Result<Self, BodyError> {
-        let Grown { tree, rebuilt } = grow(&self.pieces)?;
-        self.hull_tree = Some(tree);
-        self.report.rebuilt_hulls += rebuilt;
+        self.hull_tree = Some(build_hull_tree(&self.pieces)?);
         Ok(self)
     }
 

@@ -80,6 +80,28 @@ pub enum HullError {
 /// # Complexity
 /// O(n log n), and as much memory as a few points each take.
 pub(crate) fn hull(points: &[DVec3]) -> Result<Hull, HullError> {
+    hull_by(points, solid)
+}
+
+/// The same by exact predicates alone, for those who prove it themselves.
+///
+/// # Errors
+/// See [`HullError`].
+///
+/// # Complexity
+/// As [`hull`].
+pub(crate) fn unproven_hull(points: &[DVec3]) -> Result<Hull, HullError> {
+    hull_by(points, |points| match ExactHull::facets_of(points) {
+        Some(triangles) => Ok((loops(points, &triangles), Way::Exact)),
+        None => Err(HullError::Unproven(points.len())),
+    })
+}
+
+/// `solid` takes points at different places that span a volume.
+fn hull_by(
+    points: &[DVec3],
+    solid: impl FnOnce(&[DVec3]) -> Result<(Loops, Way), HullError>,
+) -> Result<Hull, HullError> {
     // Written so that NaN fails.
     let good = |p: &DVec3| p.abs().max_element() <= MAX_COORDINATE && p.is_finite();
     let out_of_range = points.iter().position(|p| !good(p));

@@ -2,7 +2,7 @@
 
 mod split;
 
-use crate::hull::{HullError, Way, hull};
+use crate::hull::{HullError, unproven_hull};
 use crate::tolerance::SIDE_BY_SIDE;
 use ccd_core::glam::DVec3;
 use ccd_core::{Hull, HullNode, HullTree, HullTreeError, InputError, Pieces};
@@ -24,18 +24,6 @@ use split::Splitter;
 /// O(n log² n) for n corners where few of them stay corners from level to level; at worst O(h n log n)
 /// for hulls of up to h facets.
 pub fn build_hull_tree(pieces: &Pieces) -> Result<HullTree, BuildError> {
-    Ok(grow(pieces)?.tree)
-}
-
-/// A hull tree, and how it came about.
-pub(crate) struct Grown {
-    pub(crate) tree: HullTree,
-    /// How many hulls the library got wrong, so that they were computed exactly.
-    pub(crate) rebuilt: usize,
-}
-
-/// As [`build_hull_tree`], with an account.
-pub(crate) fn grow(pieces: &Pieces) -> Result<Grown, BuildError> {
     if pieces.len() >= u32::MAX as usize / 2 {
         let pieces = pieces.len();
         return Err(HullTreeError::from(InputError::TooManyPieces { pieces }).into());
@@ -46,21 +34,15 @@ pub(crate) fn grow(pieces: &Pieces) -> Result<Grown, BuildError> {
         pieces,
         splitter: Splitter::new(pieces),
     };
-    let rebuilt = match nodes.split_first_mut() {
-        Some((root, below)) => grower.grow(
-            &mut order,
-            Place {
-                node: root,
-                below,
-                first: 1,
-            },
-        )?,
-        None => 0,
-    };
-    let tree = HullTree::new(pieces, &nodes)?;
-    // Giving back that much memory takes a while, which nobody has to wait for.
-    rayon::spawn(move || drop(nodes));
-    Ok(Grown { tree, rebuilt })
+    if let Some((root, below)) = nodes.split_first_mut() {
+        let place = Place {
+            node: root,
+            below,
+            first: 1,
+        };
+        grower.grow(&mut order, place)?;
+    }
+    Ok(HullTree::new(pieces, &nodes)?)
 }
 
 struct Grower<'a> {
@@ -76,13 +58,13 @@ struct Place<'a> {
 }
 
 impl Grower<'_> {
-    /// Makes the subtree over some pieces, every node before its children, and says how many hulls were
-    /// rebuilt. A share of the pieces goes to either side, so that the depth is logarithmic.
-    fn grow(&self, pieces: &mut [u32], place: Place<'_>) -> Result<usize, BuildError> {
+    /// Makes the subtree over some pieces, every node before its children. A share of the pieces goes to
+    /// either side, so that the depth is logarithmic.
+    fn grow(&self, pieces: &mut [u32], place: Place<'_>) -> Result<(), BuildError> {
         let Place { node, below, first } = place;
         if let [piece] = *pieces {
             *node = HullNode::Leaf(piece);
-            return Ok(0);
+            return Ok(());
         }
         let count = pieces.len();
         let middle = self.splitter.split(pieces);
@@ -110,11 +92,11 @@ impl Grower<'_> {
             ),
             false => (self.grow(of_left, to_left), self.grow(of_right, to_right)),
         };
-        let rebuilt = grown_left? + grown_right?;
+        grown_left.and(grown_right)?;
         let corners = [&*left, &*right].map(|child| corners(child, self.pieces));
-        let (hull, way) = joint_hull(&corners.concat())?;
+        let hull = joint_hull(&corners.concat())?;
         *node = HullNode::Inner([first, first + 1], hull);
-        Ok(rebuilt + usize::from(way == Way::Rebuilt))
+        Ok(())
     }
 }
 
@@ -143,13 +125,14 @@ fn corners<'a>(node: &'a HullNode, pieces: &'a Pieces) -> &'a [DVec3] {
     }
 }
 
-fn joint_hull(points: &[DVec3]) -> Result<(Hull, Way), BuildError> {
+/// The core proves it when the tree is made.
+fn joint_hull(points: &[DVec3]) -> Result<Hull, BuildError> {
     let point = |k: u32| points[k as usize];
     let lower = |points| Hull {
         points,
         facets: Vec::new(),
     };
-    match hull(points) {
+    match unproven_hull(points) {
         Ok(mut found) => {
             let mut number = vec![0; points.len()];
             for (k, &v) in (0..).zip(&found.vertices) {
@@ -158,14 +141,13 @@ fn joint_hull(points: &[DVec3]) -> Result<(Hull, Way), BuildError> {
             for corner in found.facets.iter_mut().flatten() {
                 *corner = number[*corner as usize];
             }
-            let hull = Hull {
+            Ok(Hull {
                 points: found.vertices.iter().map(|&v| point(v)).collect(),
                 facets: found.facets,
-            };
-            Ok((hull, found.way))
+            })
         }
-        Err(HullError::Single(a)) => Ok((lower(vec![point(a)]), Way::Flat)),
-        Err(HullError::Collinear(a, b)) => Ok((lower(vec![point(a), point(b)]), Way::Flat)),
+        Err(HullError::Single(a)) => Ok(lower(vec![point(a)])),
+        Err(HullError::Collinear(a, b)) => Ok(lower(vec![point(a), point(b)])),
         Err(HullError::OutOfRange(a)) => Err(BuildError::OutOfRange(point(a))),
         Err(HullError::Empty | HullError::Unproven(_)) => Err(BuildError::Unproven {
             points: points.len(),

@@ -28,8 +28,8 @@ pub struct Report {
     /// How far the pieces reach beyond the solid at most, or beyond the surface of an open mesh, in the
     /// mesh's unit of length: contacts may be reported early by as much. 0 for all exact kinds.
     pub sticks_out: f64,
-    /// How many hulls, of approximate pieces or of a hull tree, the library got wrong, so that they were
-    /// computed exactly: 0 for all other kinds, whose hulls are exact from the start.
+    /// How many hulls of approximate pieces the library got wrong, so that they were computed exactly: 0 for
+    /// all other kinds, whose hulls are exact from the start.
     pub rebuilt_hulls: usize,
     /// Whether being inside of it counts as touching it: when its mesh is closed.
     pub volume: Volume,

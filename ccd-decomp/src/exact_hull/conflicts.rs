@@ -5,8 +5,9 @@ use ccd_core::glam::DVec3;
 
 /// The facets of the hull of points that span a volume, from a triangle and a point behind it on.
 ///
-/// Points are taken in an order that has nothing to do with where they are, so that for any points at
-/// all the work is expected to be O(n log n), and the memory O(n).
+/// Points are taken in rounds, each of about half of those that are left for it and the rounds after, whatever
+/// their places; so that for any points at all the work is expected to be O(n log n), and the memory O(n).
+/// Within a round they come as they were given, neighbours likely one after the other `[ACR03]`.
 pub(super) fn facets(points: &[DVec3], simplex: [u32; 4]) -> Vec<[u32; 3]> {
     let hull = Growing::all(points, simplex);
     let left = hull.facets.into_iter().filter(|facet| facet.is_there);
@@ -62,7 +63,8 @@ struct RimEdge {
 impl<'a> Growing<'a> {
     fn all(points: &'a [DVec3], simplex: [u32; 4]) -> Self {
         let mut order: Vec<u32> = (0..points.len() as u32).collect();
-        order.sort_unstable_by_key(|&v| (scrambled(v), v));
+        order.sort_unstable_by_key(|&v| (scrambled(v).leading_zeros(), v));
+        order.reverse();
         let mut hull = Growing::new(points, simplex, &order);
         for v in order {
             hull.insert(v);
