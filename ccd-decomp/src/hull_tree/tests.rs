@@ -36,7 +36,7 @@ fn piece() -> impl Strategy<Value = Polytope> {
 
 /// The hull of points with its facets, which close it and are none of a mesh's.
 fn polytope(points: &[DVec3]) -> Polytope {
-    let (hull, _) = joint_hull(points).unwrap();
+    let hull = joint_hull(points).unwrap();
     let facet = |corners: &Vec<u32>| ccd_core::Facet {
         origin: ccd_core::Origin::Virtual,
         corners: corners.clone(),
