@@ -2,19 +2,17 @@ use super::*;
 use crate::test_meshes::star;
 
 /// Two cones: an apex sees up to half of all facets, each time it or a point of the rim comes.
-///
-/// In a random order about six facets come with each point, as many as meet in a corner on average. In rounds
-/// the points before are at least a half of those that a random order could have had before: twice as many.
 #[test]
 fn few_facets_are_made_whatever_the_points() {
     for (corners, inner) in [(2_000, 1.0), (2_000, 0.5), (16_000, 1.0)] {
         let mesh = star(corners, inner);
         let hull = Growing::all(mesh.vertices(), [0, 2, 4, corners + 1]);
         let made = hull.facets.len();
-        assert!(made <= 12 * corners as usize, "{made} of {corners}");
-        // Nobody is left to see them, and what is gone holds nothing.
+        assert!(made <= 8 * corners as usize, "{made} of {corners}");
+        // Nobody is left to see them, and what is gone holds nothing; each of the two facets a corner that are
+        // left has a list that was used before, with room for a few.
         assert!(hull.facets.iter().all(|facet| facet.seen_by.is_empty()));
         let held: usize = hull.facets.iter().map(|f| f.seen_by.capacity()).sum();
-        assert!(held <= 8 * corners as usize, "{held} of {corners}");
+        assert!(held <= 16 * corners as usize, "{held} of {corners}");
     }
 }
