@@ -196,13 +196,13 @@ impl<'m> Shells<'m> {
         let [a, b, c] = face;
         let middle = (a + b + c) / 3.0;
         let off = unit((b - a).cross(c - a))? * FACE_ROUNDING * size;
-        let near = Region::segment([middle - off, middle + off]);
+        let across = [middle - off, middle + off];
         let is_of_shell = |face: u32| self.shell_of[face as usize] == shell;
-        let misses = |face: u32| {
-            let ends = [middle - off, middle + off];
-            is_of_shell(face) || crossing(ends, triangle(self.mesh, face)) == Some(0)
-        };
-        let is_alone = self.boxes.all_meeting(&near, &Work::unbounded(), misses);
+        let misses =
+            |face: u32| is_of_shell(face) || crossing(across, triangle(self.mesh, face)) == Some(0);
+        let is_alone = self
+            .boxes
+            .all_meeting(&Region::segment(across), &Work::unbounded(), misses);
         is_alone.then_some(middle)
     }
 

@@ -100,6 +100,10 @@ impl<'a> Growing<'a> {
                 seen_by.push(v);
             }
         }
+        // Most are seen by nobody to come.
+        if seen_by.is_empty() {
+            self.spare.push(std::mem::take(&mut seen_by));
+        }
         self.facets.push(Facet {
             corners,
             plane,

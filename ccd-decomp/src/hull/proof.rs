@@ -82,46 +82,34 @@ fn plane(points: &[DVec3], corners: &[u32]) -> [DVec3; 3] {
     [corners[0], corners[1], corners[2]].map(|v| points[v as usize])
 }
 
-/// An edge that does not have one polygon on either side, each behind the other's plane. There is one if there
-/// are no polygons.
+/// An edge that does not have one polygon on either side, each behind the other's plane, which either is if
+/// the other is. There is one if there are no polygons.
 fn unmatched_edge(points: &[DVec3], polygons: &Loops) -> Option<(u32, u32)> {
-    match all_match(points, polygons) {
-        true => None,
-        false => find_unmatched(points, polygons),
-    }
-}
-
-/// The directed edges of a loop.
-fn edges_of(corners: &[u32]) -> impl Iterator<Item = (u32, u32)> {
-    let next = corners.iter().cycle().skip(1);
-    corners.iter().copied().zip(next.copied())
-}
-
-/// Whether every edge has one polygon on either side, each behind the other's plane, which either is if the
-/// other is.
-fn all_match(points: &[DVec3], polygons: &Loops) -> bool {
+    // Both ways of an edge stand beside each other: the smaller end first, then which way it runs.
     let mut edges: Vec<(u64, bool, u32)> = Vec::with_capacity(polygons.iter().map(Vec::len).sum());
     for (k, corners) in (0..).zip(polygons) {
-        edges.extend(edges_of(corners).map(|(v, w)| {
+        let next = corners.iter().cycle().skip(1);
+        edges.extend(corners.iter().zip(next).map(|(&v, &w)| {
             let (low, high) = (v.min(w), v.max(w));
             (u64::from(low) << 32 | u64::from(high), v > w, k)
         }));
     }
     edges.sort_unstable();
+    let ends = |edge: u64| ((edge >> 32) as u32, edge as u32);
+    let polygon = |k: u32| &polygons[k as usize];
     let is_fold = |pair: &[(u64, bool, u32)]| match *pair {
         [(one, false, left), (other, true, right)] if one == other => {
-            let edge = [(one >> 32) as u32, one as u32];
-            folds(
-                points,
-                edge,
-                &polygons[left as usize],
-                &polygons[right as usize],
-            )
+            folds(points, ends(one).into(), polygon(left), polygon(right))
         }
         _ => false,
     };
+    if edges.is_empty() {
+        return Some((0, 0));
+    }
     let twice = |e: &[(u64, bool, u32)]| (e[0].0, e[0].1) == (e[1].0, e[1].1);
-    !edges.is_empty() && edges.chunks(2).all(is_fold) && !edges.windows(2).any(twice)
+    let odd = edges.windows(2).find(|e| twice(e));
+    let odd = odd.or_else(|| edges.chunks(2).find(|pair| !is_fold(pair)));
+    odd.map(|edges| ends(edges[0].0))
 }
 
 /// Whether beyond an edge of a flat polygon another one goes on behind its plane.
@@ -131,32 +119,6 @@ fn folds(points: &[DVec3], edge: [u32; 2], polygon: &[u32], beyond: &[u32]) -> b
     let others = beyond.iter().filter(|v| !edge.contains(v));
     let mut sides = others.map(|&v| side(plane, points[v as usize]));
     sides.find(|&side| side != Ordering::Equal) == Some(Ordering::Less)
-}
-
-/// The first edge that does not match.
-fn find_unmatched(points: &[DVec3], polygons: &Loops) -> Option<(u32, u32)> {
-    let mut edges: Vec<(u32, u32, usize)> = Vec::new();
-    for (k, corners) in polygons.iter().enumerate() {
-        edges.extend(edges_of(corners).map(|(v, w)| (v, w, k)));
-    }
-    edges.sort_unstable();
-    if edges.is_empty() {
-        return Some((0, 0));
-    }
-    let twice = edges
-        .windows(2)
-        .find(|e| (e[0].0, e[0].1) == (e[1].0, e[1].1));
-    let is_fold = |&(v, w, left): &(u32, u32, usize)| {
-        let twin = edges.binary_search_by_key(&(w, v), |e| (e.0, e.1));
-        twin.is_ok_and(|twin| {
-            let beyond = &polygons[edges[twin].2];
-            folds(points, [v, w], &polygons[left], beyond)
-        })
-    };
-    let odd = twice
-        .map(|e| &e[0])
-        .or_else(|| edges.iter().find(|&e| !is_fold(e)));
-    odd.map(|&(v, w, _)| (v, w))
 }
 
 /// The points in front of any of the polygons.

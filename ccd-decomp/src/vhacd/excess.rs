@@ -99,10 +99,10 @@ impl Search<'_> {
         let whole = Cell {
             bound: f64::INFINITY,
             body,
-            bounds: *bounds,
+            bounds: [bounds.lo, bounds.hi],
             planes: (0..planes.len() as u32).collect(),
         };
-        let look = self.look(&whole, *bounds);
+        let look = self.look(&whole, whole.bounds);
         self.note(look);
     }
 

@@ -9,10 +9,9 @@ fn few_facets_are_made_whatever_the_points() {
         let hull = Growing::all(mesh.vertices(), [0, 2, 4, corners + 1]);
         let made = hull.facets.len();
         assert!(made <= 8 * corners as usize, "{made} of {corners}");
-        // Nobody is left to see them, and what is gone holds nothing; each of the two facets a corner that are
-        // left has a list that was used before, with room for a few.
+        // Nobody is left to see them, and what is gone holds nothing.
         assert!(hull.facets.iter().all(|facet| facet.seen_by.is_empty()));
         let held: usize = hull.facets.iter().map(|f| f.seen_by.capacity()).sum();
-        assert!(held <= 16 * corners as usize, "{held} of {corners}");
+        assert!(held <= 8 * corners as usize, "{held} of {corners}");
     }
 }

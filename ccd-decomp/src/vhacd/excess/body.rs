@@ -3,6 +3,7 @@
 use super::super::Part;
 use super::super::solid::Solid;
 use crate::tolerance::WELL_SHAPED;
+use crate::triangle_boxes::Bounds;
 use crate::work::Work;
 use ccd_core::SupportTree;
 use ccd_core::glam::DVec3;
@@ -14,7 +15,7 @@ pub(super) struct Body<'a> {
     pub(super) part: &'a Part,
     /// Only those of facets that are well shaped, which are right to within the solid's slack.
     pub(super) planes: Vec<Plane>,
-    pub(super) bounds: [DVec3; 2],
+    pub(super) bounds: Bounds,
     slack: f64,
 }
 
@@ -37,7 +38,6 @@ pub(super) struct Meeting {
 
 impl<'a> Body<'a> {
     pub(super) fn of(part: &'a Part, solid: &Solid<'_>) -> Self {
-        let corners = || part.corners.iter().copied();
         Body {
             part,
             planes: part
@@ -45,10 +45,7 @@ impl<'a> Body<'a> {
                 .iter()
                 .filter_map(|facet| Plane::of(part, facet))
                 .collect(),
-            bounds: [
-                corners().fold(DVec3::INFINITY, DVec3::min),
-                corners().fold(DVec3::NEG_INFINITY, DVec3::max),
-            ],
+            bounds: Bounds::of(part.corners.iter().copied()),
             slack: solid.slack(),
         }
     }
@@ -109,7 +106,9 @@ impl<'a> Body<'a> {
         };
         let enough = 1.0 - most / reach;
         let mut share = 1.0_f64;
-        let near = solid.triangles().filter(|t| self.is_near(t));
+        let near = solid
+            .triangles()
+            .filter(|&t| Bounds::of(t).meets(&self.bounds));
         for triangle in near {
             let [p, q, r] = triangle;
             let towards = [(p + q + r) / 3.0, p, q, r].into_iter();
@@ -119,12 +118,6 @@ impl<'a> Body<'a> {
             share = lesser(share, of_this);
         }
         Some((1.0 - share) * reach)
-    }
-
-    fn is_near(&self, triangle: &[DVec3; 3]) -> bool {
-        let [p, q, r] = *triangle;
-        let [lo, hi] = self.bounds;
-        p.min(q).min(r).cmple(hi).all() && p.max(q).max(r).cmpge(lo).all()
     }
 }
 
