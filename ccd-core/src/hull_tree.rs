@@ -8,6 +8,7 @@ mod error;
 mod identity;
 mod inherit;
 mod inside;
+mod loops;
 mod renumber;
 #[cfg(feature = "serde")]
 mod serial;
@@ -15,6 +16,7 @@ mod serial;
 mod tests;
 
 pub use error::{HullFault, HullTreeError};
+pub use loops::Loops;
 
 use crate::hierarchy::{Hierarchy, HierarchyNode};
 use crate::oracle::Combination;
@@ -22,6 +24,7 @@ use crate::piece::Piece;
 use crate::pieces::{Pieces, range};
 pub(crate) use convex::support_of;
 use glam::DVec3;
+use std::sync::Arc;
 
 /// A binary tree over the pieces of a body with the convex hull of what is below at every node
 /// `[SWIFT01]`.
@@ -44,8 +47,14 @@ use glam::DVec3;
 )]
 pub struct HullTree {
     hierarchy: Hierarchy,
-    /// One for every node of the hierarchy.
-    hulls: Pieces,
+    /// Clones share them, whatever their leaves call the pieces.
+    hulls: Arc<Hulls>,
+}
+
+/// The hulls of all nodes, in the hierarchy's order.
+#[derive(Debug)]
+struct Hulls {
+    pieces: Pieces,
     /// What the facets of all hulls are, in order.
     classes: Vec<FacetClass>,
     /// Where each hull's facets end.
@@ -79,7 +88,7 @@ pub struct Hull {
     /// Loops of indices into the points, counter-clockwise seen from outside: convex polygons, no
     /// two of them coplanar, that close the hull. A flat polygon has two; a hull of one or two points
     /// has none.
-    pub facets: Vec<Vec<u32>>,
+    pub facets: Loops,
 }
 
 /// What a part of a node's surface is of the pieces below; the better one comes first.
@@ -117,7 +126,7 @@ impl HullTree {
     /// The hulls of all nodes, in their order: whatever works on pieces works on nodes. Features of an
     /// inner hull have the names that they have in the mesh, as far as they are of it.
     pub fn hulls(&self) -> &Pieces {
-        &self.hulls
+        &self.hulls.pieces
     }
 
     /// What the facets of a node's hull are, in their order.
@@ -125,7 +134,7 @@ impl HullTree {
     /// # Panics
     /// When there is no such node.
     pub fn facet_classes(&self, node: u32) -> &[FacetClass] {
-        &self.classes[range(&self.class_ends, node as usize)]
+        &self.hulls.classes[range(&self.hulls.class_ends, node as usize)]
     }
 
     /// What the feature is that holds a combination of a node's points: the best of the facets that
@@ -139,7 +148,7 @@ impl HullTree {
     pub fn class_of(&self, node: u32, point: &Combination) -> FacetClass {
         let at = node as usize;
         let support = point.support();
-        if support.is_empty() || !self.evenly_rounded[at] {
+        if support.is_empty() || !self.hulls.evenly_rounded[at] {
             return FacetClass::Free;
         }
         if support.len() == 1 {
@@ -150,9 +159,9 @@ impl HullTree {
             HierarchyNode::Leaf(_) => FacetClass::Contained,
             HierarchyNode::Inner(..) => FacetClass::Free,
         };
-        let (first, others) = (self.meeting(at, support[0]), &support[1..]);
+        let (first, others) = (self.hulls.meeting(at, support[0]), &support[1..]);
         let holding = first.iter().filter(|facet| {
-            let holds = |&v| self.meeting(at, v).contains(facet);
+            let holds = |&v| self.hulls.meeting(at, v).contains(facet);
             others.iter().all(holds)
         });
         let classes = self.facet_classes(node);
@@ -160,27 +169,17 @@ impl HullTree {
         holding.map(class).min().unwrap_or(inside)
     }
 
-    /// The facets of a node's hull that meet in one of its points; none when there is no such point.
-    fn meeting(&self, node: usize, point: u32) -> &[u32] {
-        let points = self.hulls.point_range(node);
-        let at = points.start + point as usize;
-        if !points.contains(&at) {
-            return &[];
-        }
-        &self.meeting[range(&self.meeting_ends, at)]
-    }
-
     /// A node's hull; where it has many points, these are found along a direction by climbing edges,
     /// once these are proven to be those of the hull, else by searching a tree.
     pub(crate) fn hull(&self, node: u32) -> Piece<'_> {
-        self.hulls.get(node as usize).supported(support_of)
+        self.hulls.pieces.get(node as usize).supported(support_of)
     }
 
     /// The nodes that the tree can be [made](HullTree::new) of again.
     pub fn to_nodes(&self) -> Vec<HullNode> {
         let inner = |at: usize, children: [u32; 2]| {
-            let hull = self.hulls.get(at);
-            let facets = hull.facets.iter().map(<[u32]>::to_vec).collect();
+            let hull = self.hulls.pieces.get(at);
+            let facets = hull.facets.iter().collect();
             let points = hull.points.to_vec();
             HullNode::Inner(children, Hull { points, facets })
         };
@@ -196,13 +195,12 @@ impl HullTree {
     /// Half the diagonal of a node's box, rounding included.
     #[inline]
     pub(crate) fn size(&self, node: u32) -> f64 {
-        self.sizes[node as usize]
+        self.hulls.sizes[node as usize]
     }
 
     /// Bytes held, about.
     pub(crate) fn bytes(&self) -> usize {
-        let meeting = 4 * (self.meeting.len() + self.meeting_ends.len());
-        self.hulls.bytes() + self.classes.len() + 25 * self.sizes.len() + meeting
+        self.hulls.bytes()
     }
 
     /// The same tree with leaves that name the same pieces in another list.
@@ -212,5 +210,22 @@ impl HullTree {
     pub(crate) fn renumbered(self, pieces: &Pieces) -> Result<Self, HullTreeError> {
         let hierarchy = renumber::renumber(&self, pieces)?;
         Ok(HullTree { hierarchy, ..self })
+    }
+}
+
+impl Hulls {
+    /// The facets of a node's hull that meet in one of its points; none when there is no such point.
+    fn meeting(&self, node: usize, point: u32) -> &[u32] {
+        let points = self.pieces.point_range(node);
+        let at = points.start + point as usize;
+        if !points.contains(&at) {
+            return &[];
+        }
+        &self.meeting[range(&self.meeting_ends, at)]
+    }
+
+    fn bytes(&self) -> usize {
+        let meeting = 4 * (self.meeting.len() + self.meeting_ends.len());
+        self.pieces.bytes() + self.classes.len() + 25 * self.sizes.len() + meeting
     }
 }

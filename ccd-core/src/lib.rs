@@ -129,7 +129,7 @@ pub use feature::Feature;
 pub use glam;
 pub use hierarchy::{Hierarchy, HierarchyNode};
 #[cfg(feature = "hull-tree")]
-pub use hull_tree::{FacetClass, Hull, HullFault, HullNode, HullTree, HullTreeError};
+pub use hull_tree::{FacetClass, Hull, HullFault, HullNode, HullTree, HullTreeError, Loops};
 pub use motion::Motion;
 pub use oracle::{Claim, Combination, DistanceOracle, Effort, GiveUp, OrElse, PiecePair};
 pub use outcome::{Answer, Contact, Limit, Outcome, Overlap, Separation, Stats};

@@ -8,7 +8,7 @@ use crate::piece::{Face, Facets, Origin, Piece, Place, Polytope};
 use crate::shelf::Shelf;
 use crate::tolerance::MAX_COORDINATE;
 use glam::DVec3;
-pub(crate) use row::{Listed, Row};
+pub(crate) use row::{Listed, Room, Row};
 
 /// The pieces of one body, flat in memory, with the numbers of the mesh they came from.
 #[derive(Clone, Debug)]
@@ -115,8 +115,14 @@ impl Pieces {
     /// [`InputError::EmptyPiece`], [`InputError::BadPoint`], [`InputError::BadRadius`],
     /// [`InputError::FacetOutOfRange`], [`InputError::NoPieces`], [`InputError::TooManyPieces`].
     pub fn polytopes(polytopes: &[Polytope]) -> Result<Self, InputError> {
-        let points = polytopes.iter().map(|polytope| polytope.points.len());
-        let mut row = Row::new(polytopes.len(), points.sum());
+        let facets = || polytopes.iter().flat_map(|polytope| &polytope.facets);
+        let mut row = Row::with_room(Room {
+            pieces: polytopes.len(),
+            points: polytopes.iter().map(|p| p.points.len()).sum(),
+            facets: facets().count(),
+            corners: facets().map(|facet| facet.corners.len()).sum(),
+            faces: polytopes.iter().map(|p| p.faces.len()).sum(),
+        });
         for polytope in polytopes {
             let facets = polytope.facets.iter();
             row.push(Listed {

@@ -186,17 +186,13 @@ impl Model {
     /// # Errors
     /// [`BodyError::Input`], [`BodyError::HullTree`] when the parts do not belong together.
     pub fn body(&self) -> Result<Body, BodyError> {
-        let (body, hull_tree) = rayon::join(
-            || Body::with_hierarchy(&self.pieces, &self.hierarchy, self.volume),
-            || self.hull_tree.clone(),
-        );
-        let mut body = body?;
+        let mut body = Body::with_hierarchy(&self.pieces, &self.hierarchy, self.volume)?;
         if let Some((pieces, hierarchy)) = &self.surface {
             let surface = Body::with_hierarchy(pieces, hierarchy, Volume::Solid)?;
             body = body.with_surface(surface)?;
         }
-        Ok(match hull_tree {
-            Some(tree) => body.with_hull_tree(tree)?,
+        Ok(match &self.hull_tree {
+            Some(tree) => body.with_hull_tree(tree.clone())?,
             None => body,
         })
     }

@@ -17,6 +17,7 @@ use crate::exact_hull::ExactHull;
 use crate::polygons::loops;
 use crate::predicates;
 use crate::tolerance::{FEW_POINTS, LIBRARY_POINTS, LIKELY_POINTS};
+use ccd_core::Loops;
 use ccd_core::glam::DVec3;
 use ccd_core::tolerance::MAX_COORDINATE;
 use span::Span;
@@ -34,7 +35,7 @@ pub(crate) struct Hull {
     /// The hull's corners in ascending order; of several points at one place, the first.
     pub(crate) vertices: Vec<u32>,
     /// Convex polygons, counter-clockwise seen from outside.
-    pub(crate) facets: Vec<Vec<u32>>,
+    pub(crate) facets: Loops,
     /// How it was found.
     pub(crate) way: Way,
 }
@@ -129,9 +130,6 @@ pub(crate) fn likely_triangles(points: &[DVec3]) -> Option<Vec<[u32; 3]>> {
     }
 }
 
-/// Facets, as loops of indices.
-type Loops = Vec<Vec<u32>>;
-
 fn solid(points: &[DVec3]) -> Result<(Loops, Way), HullError> {
     let some = FEW_POINTS < points.len() && points.len() <= LIBRARY_POINTS;
     if some
@@ -167,10 +165,10 @@ impl Cloud {
     }
 
     fn named(&self, mut facets: Loops, way: Way) -> Hull {
-        for corner in facets.iter_mut().flatten() {
+        for corner in facets.corners_mut() {
             *corner = self.ids[*corner as usize];
         }
-        let mut vertices: Vec<u32> = facets.iter().flatten().copied().collect();
+        let mut vertices: Vec<u32> = facets.corners().to_vec();
         vertices.sort_unstable();
         vertices.dedup();
         Hull {

@@ -5,7 +5,7 @@ mod split;
 use crate::hull::{HullError, unproven_hull};
 use crate::tolerance::SIDE_BY_SIDE;
 use ccd_core::glam::DVec3;
-use ccd_core::{Hull, HullNode, HullTree, HullTreeError, InputError, Pieces};
+use ccd_core::{Hull, HullNode, HullTree, HullTreeError, InputError, Loops, Pieces};
 use split::Splitter;
 
 /// Builds the convex hull tree of pieces.
@@ -130,7 +130,7 @@ fn joint_hull(points: &[DVec3]) -> Result<Hull, BuildError> {
     let point = |k: u32| points[k as usize];
     let lower = |points| Hull {
         points,
-        facets: Vec::new(),
+        facets: Loops::default(),
     };
     match unproven_hull(points) {
         Ok(mut found) => {
@@ -138,7 +138,7 @@ fn joint_hull(points: &[DVec3]) -> Result<Hull, BuildError> {
             for (k, &v) in (0..).zip(&found.vertices) {
                 number[v as usize] = k;
             }
-            for corner in found.facets.iter_mut().flatten() {
+            for corner in found.facets.corners_mut() {
                 *corner = number[*corner as usize];
             }
             Ok(Hull {

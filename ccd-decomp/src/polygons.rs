@@ -1,6 +1,7 @@
 //! Triangles of a convex surface that lie in one plane, as one polygon.
 
 use crate::predicates::{Projection, side};
+use ccd_core::Loops;
 use ccd_core::glam::DVec3;
 use std::cmp::Ordering;
 
@@ -20,7 +21,7 @@ pub(crate) fn polygons(points: &[DVec3], triangles: &[[u32; 3]]) -> Vec<Polygon>
     let mut polygons = Vec::new();
     for_each_polygon(points, triangles, |corners, group| {
         polygons.push(Polygon {
-            corners,
+            corners: corners.to_vec(),
             triangles: group.to_vec(),
         });
     });
@@ -28,8 +29,8 @@ pub(crate) fn polygons(points: &[DVec3], triangles: &[[u32; 3]]) -> Vec<Polygon>
 }
 
 /// The corners alone of the [polygons].
-pub(crate) fn loops(points: &[DVec3], triangles: &[[u32; 3]]) -> Vec<Vec<u32>> {
-    let mut loops = Vec::with_capacity(triangles.len());
+pub(crate) fn loops(points: &[DVec3], triangles: &[[u32; 3]]) -> Loops {
+    let mut loops = Loops::with_capacity(triangles.len(), 3 * triangles.len());
     for_each_polygon(points, triangles, |corners, _| loops.push(corners));
     loops
 }
@@ -37,7 +38,7 @@ pub(crate) fn loops(points: &[DVec3], triangles: &[[u32; 3]]) -> Vec<Vec<u32>> {
 fn for_each_polygon(
     points: &[DVec3],
     triangles: &[[u32; 3]],
-    mut visit: impl FnMut(Vec<u32>, &[u32]),
+    mut visit: impl FnMut(&[u32], &[u32]),
 ) {
     let surface = Surface::new(points, triangles);
     let group_of = surface.groups();
@@ -57,8 +58,13 @@ fn for_each_polygon(
     let starts = std::iter::once(&0).chain(&ends);
     for (&start, &end) in starts.zip(&ends) {
         let group = &members[start as usize..end as usize];
-        if let Some(corners) = surface.corners(group, &group_of) {
-            visit(corners, group);
+        let first = triangles[members[start as usize] as usize];
+        let Some(plane) = Projection::of(first.map(|v| points[v as usize])) else {
+            continue;
+        };
+        match group {
+            [_] => visit(&starting_least(first), group),
+            _ => visit(&surface.corners(group, &group_of, plane), group),
         }
     }
 }
@@ -163,13 +169,8 @@ impl<'a> Surface<'a> {
         self
     }
 
-    /// The corners of the polygon that a group of triangles forms; none without area.
-    fn corners(&self, group: &[u32], group_of: &[u32]) -> Option<Vec<u32>> {
-        let first = *group.first()? as usize;
-        let plane = Projection::of(self.triangles[first].map(|v| self.points[v as usize]))?;
-        if group.len() == 1 {
-            return Some(starting_least(self.triangles[first]).to_vec());
-        }
+    /// The corners of the polygon that a group of triangles in a plane forms.
+    fn corners(&self, group: &[u32], group_of: &[u32], plane: Projection) -> Vec<u32> {
         let is_inner = |t: usize, k: usize| {
             let mut twins = self.twins(t, k);
             twins.any(|(twin, _)| group_of[twin] == group_of[t])
@@ -179,7 +180,7 @@ impl<'a> Surface<'a> {
             .flat_map(|&t| (0..3).map(move |k| (t as usize, k)));
         let rim = edges.filter(|&(t, k)| !is_inner(t, k));
         let rim = rim.map(|(t, k)| self.edge(t, k)).collect();
-        Some(strict_corners(self.points, &chained(rim), plane))
+        strict_corners(self.points, &chained(rim), plane)
     }
 
     fn edge(&self, triangle: usize, k: usize) -> (u32, u32) {

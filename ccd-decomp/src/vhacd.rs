@@ -24,7 +24,7 @@ use crate::star::is_seen_whole;
 use crate::tolerance;
 use crate::topology::Topology;
 use ccd_core::glam::DVec3;
-use ccd_core::{Facet, Origin, Polytope};
+use ccd_core::{Facet, Loops, Origin, Polytope};
 use rayon::prelude::*;
 use solid::Solid;
 use voxels::Voxels;
@@ -149,7 +149,7 @@ fn is_convex(mesh: &TriangleMesh, topology: &Topology) -> bool {
 /// A convex part: the corners of its hull, and the facets if they are not all in a line.
 struct Part {
     corners: Vec<DVec3>,
-    facets: Vec<Vec<u32>>,
+    facets: Loops,
     way: Way,
 }
 
@@ -163,13 +163,11 @@ impl Part {
             Err(error) => return Err(error),
         };
         let place = |v: &u32| hull.vertices.partition_point(|w| w < v) as u32;
+        let mut facets = hull.facets;
+        facets.corners_mut().iter_mut().for_each(|v| *v = place(v));
         Ok(Part {
             corners: hull.vertices.iter().map(at).collect(),
-            facets: hull
-                .facets
-                .iter()
-                .map(|f| f.iter().map(place).collect())
-                .collect(),
+            facets,
             way: hull.way,
         })
     }
@@ -177,19 +175,19 @@ impl Part {
     fn thin(corners: Vec<DVec3>) -> Self {
         Part {
             corners,
-            facets: Vec::new(),
+            facets: Loops::default(),
             way: Way::Flat,
         }
     }
 
     fn polytope(self, radius: f64) -> Polytope {
-        let facet = |corners| Facet {
+        let facet = |corners: &[u32]| Facet {
             origin: Origin::Virtual,
-            corners,
+            corners: corners.to_vec(),
         };
         Polytope {
             points: self.corners,
-            facets: self.facets.into_iter().map(facet).collect(),
+            facets: self.facets.iter().map(facet).collect(),
             radius,
             ..Polytope::default()
         }

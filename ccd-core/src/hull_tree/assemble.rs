@@ -6,14 +6,15 @@ use super::error::{HullFault, HullTreeError};
 use super::identity::Identity;
 use super::inherit::{Child, Skin, inherit};
 use super::inside::{Container, too_fine};
-use super::{FacetClass, Hull, HullNode, HullTree};
+use super::{FacetClass, Hull, HullNode, HullTree, Hulls, Loops};
 use crate::error::InputError;
 use crate::hierarchy::{Hierarchy, HierarchyNode, bounds};
 use crate::order::greater;
 use crate::piece::{Face, Polytope};
-use crate::pieces::{Listed, Pieces, Row};
+use crate::pieces::{Listed, Pieces, Room, Row};
 use glam::DVec3;
 use std::borrow::Cow;
+use std::sync::Arc;
 
 pub(super) fn assemble(pieces: &Pieces, nodes: &[HullNode]) -> Result<HullTree, HullTreeError> {
     let hierarchy = hierarchy(pieces, nodes)?;
@@ -34,36 +35,41 @@ pub(super) fn assemble(pieces: &Pieces, nodes: &[HullNode]) -> Result<HullTree, 
         class_ends.push(classes.len() as u32);
     }
     let (meeting, meeting_ends) = meeting(&done);
-    Ok(HullTree {
-        hierarchy,
+    let hulls = Hulls {
         meeting,
         meeting_ends,
         classes,
         class_ends,
         evenly_rounded: done.iter().map(|node| node.evenly_rounded).collect(),
         sizes: done.iter().map(|node| node.size).collect(),
-        hulls: hulls(done)?,
+        pieces: flattened(done)?,
+    };
+    Ok(HullTree {
+        hierarchy,
+        hulls: Arc::new(hulls),
     })
 }
 
 /// The hulls of all nodes; each node's memory is given back once its hull is in.
-fn hulls(nodes: Vec<Node<'_>>) -> Result<Pieces, InputError> {
-    let mut row = Row::new(
-        nodes.len(),
-        nodes.iter().map(|node| node.points.len()).sum(),
-    );
+fn flattened(nodes: Vec<Node<'_>>) -> Result<Pieces, InputError> {
+    let mut room = Room::default();
+    for node in &nodes {
+        room.pieces += 1;
+        room.points += node.points.len();
+        room.facets += node.loops.len();
+        room.corners += node.loops.corners().len();
+        room.faces += node.faces().count();
+    }
+    let mut row = Row::with_room(room);
     for node in nodes {
-        let loops = node.loops.iter().map(|corners| &corners[..]);
-        let of_skins = node.skins.iter().flat_map(|skin| &skin.faces);
-        let (own, of_skins) = match &node.own_faces {
-            Some(own) => (&own[..], None),
-            None => (&[][..], Some(of_skins)),
-        };
         row.push(Listed {
             points: &node.points,
             vertex_ids: &node.vertex_ids,
-            facets: loops.zip(node.skins.iter().map(|skin| skin.origin)),
-            faces: own.iter().chain(of_skins.into_iter().flatten()).copied(),
+            facets: node
+                .loops
+                .iter()
+                .zip(node.skins.iter().map(|skin| skin.origin)),
+            faces: node.faces().copied(),
             radius: node.radius,
         })?;
     }
@@ -79,7 +85,7 @@ fn meeting(nodes: &[Node<'_>]) -> (Vec<u32>, Vec<u32>) {
         // First how many there are, then where the next one goes, which at last is where they end.
         ends.resize(start + points.len(), 0);
         let next = &mut ends[start..];
-        let corners = loops.iter().flatten();
+        let corners = loops.corners().iter();
         corners.for_each(|&corner| next[corner as usize] += 1);
         let mut end = first;
         for next in next.iter_mut() {
@@ -102,7 +108,7 @@ pub(super) struct Node<'a> {
     pub(super) points: Cow<'a, [DVec3]>,
     /// In the mesh, of its points.
     pub(super) vertex_ids: Vec<u32>,
-    pub(super) loops: Cow<'a, [Vec<u32>]>,
+    pub(super) loops: Cow<'a, Loops>,
     /// Of its facets.
     pub(super) skins: Vec<Skin>,
     /// The mesh's faces on a leaf; an inner node has those of its skins.
@@ -130,6 +136,16 @@ impl<'a> Node<'a> {
             own_faces: Some(piece.faces),
             radius: piece.radius,
         })
+    }
+
+    /// The mesh's faces on its surface.
+    fn faces(&self) -> impl Iterator<Item = &Face> {
+        let of_skins = self.skins.iter().flat_map(|skin| &skin.faces);
+        let (own, of_skins) = match &self.own_faces {
+            Some(own) => (&own[..], None),
+            None => (&[][..], Some(of_skins)),
+        };
+        own.iter().chain(of_skins.into_iter().flatten())
     }
 
     fn inner(

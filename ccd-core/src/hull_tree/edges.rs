@@ -21,8 +21,8 @@ pub(super) fn check_facets(hull: &Hull) -> Result<(), HullFault> {
 /// Whether every edge of the facets is there once in either direction.
 fn is_closed(hull: &Hull) -> bool {
     let exists = |&v: &u32| (v as usize) < hull.points.len();
-    let mut edges: Vec<u64> = Vec::with_capacity(hull.facets.iter().map(Vec::len).sum());
-    for corners in &hull.facets {
+    let mut edges: Vec<u64> = Vec::with_capacity(hull.facets.corners().len());
+    for corners in hull.facets.iter() {
         if corners.len() < 3 || !corners.iter().all(exists) {
             return false;
         }
@@ -47,7 +47,7 @@ fn is_closed(hull: &Hull) -> bool {
 fn find_fault(hull: &Hull) -> Result<(), HullFault> {
     let exists = |&v: &u32| (v as usize) < hull.points.len();
     let mut edges = HashSet::new();
-    for (facet, corners) in (0..).zip(&hull.facets) {
+    for (facet, corners) in (0..).zip(hull.facets.iter()) {
         if corners.len() < 3 || !corners.iter().all(exists) {
             return Err(HullFault::BadFacet { facet });
         }
@@ -57,7 +57,7 @@ fn find_fault(hull: &Hull) -> Result<(), HullFault> {
             }
         }
     }
-    for (facet, corners) in (0..).zip(&hull.facets) {
+    for (facet, corners) in (0..).zip(hull.facets.iter()) {
         if edges_of(corners).any(|(from, to)| !edges.contains(&(to, from))) {
             return Err(HullFault::Open { facet });
         }
@@ -163,6 +163,7 @@ mod tests {
                 facets[facet][corner] = number(5);
             }
             let points = vec![DVec3::ZERO; 4];
+            let facets = facets.iter().collect();
             let hull = Hull { points, facets };
             closed += u32::from(is_closed(&hull));
             assert_eq!(is_closed(&hull), find_fault(&hull).is_ok());

@@ -79,6 +79,7 @@ fn representatives(lists: [&[DVec3]; 3], own: usize) -> Vec<u32> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::hull_tree::Loops;
     use std::collections::HashMap;
 
     /// The same by a table, point after point.
@@ -116,7 +117,7 @@ mod tests {
             let [left, right] = [points(7), points(9)].map(node);
             let hull = Hull {
                 points: [&left.points[..4], &right.points[3..5]].concat(),
-                facets: Vec::new(),
+                facets: Loops::default(),
             };
             let found = Identity::new(&hull, [&left, &right]).unwrap();
             let (numbers, places) = twin(&hull.points, [&left.points, &right.points]);

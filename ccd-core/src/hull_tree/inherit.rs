@@ -85,7 +85,7 @@ impl<'a> Child<'a> {
 pub(super) fn inherit(hull: &Hull, places: &[DVec3], children: [Child<'_>; 2]) -> Vec<Skin> {
     let triangles = children.map(|child| lone_triangle(&child));
     let sides = [0, 1].map(|k| Side::new(children[k], triangles[k].as_ref(), places.len()));
-    let skin = |corners: &Vec<u32>| {
+    let skin = |corners: &[u32]| {
         let parts = sides.each_ref().map(|side| side.sharing_an_edge(corners));
         match parts {
             [Some(part), _] | [_, Some(part)] if same_loop(&part, corners) => part.skin.clone(),
@@ -149,9 +149,12 @@ const SIDES: [[u32; 3]; 2] = [[0, 1, 2], [2, 1, 0]];
 impl<'a> Side<'a> {
     /// Of a child whose points have numbers below `places`.
     fn new(child: Child<'a>, lone: Option<&'a Skin>, places: usize) -> Self {
-        let facets = child.node.loops.iter().map(|corners| &corners[..]);
         let sides = SIDES.iter().map(|corners| &corners[..]);
-        let loops = facets.chain(sides.filter(|_| lone.is_some()));
+        let loops = child
+            .node
+            .loops
+            .iter()
+            .chain(sides.filter(|_| lone.is_some()));
         let edges = loops.zip(0..).flat_map(|(corners, k)| {
             let id = |v: u32| child.ids[v as usize];
             edges_of(corners).map(move |(from, to)| ((id(from), id(to)), k))
@@ -166,7 +169,7 @@ impl<'a> Side<'a> {
     fn part(&self, k: usize) -> Option<Part<'a>> {
         let node = self.child.node;
         let (corners, skin) = match node.loops.get(k) {
-            Some(corners) => (&corners[..], node.skins.get(k)?),
+            Some(corners) => (corners, node.skins.get(k)?),
             None => (&SIDES.get(k - node.loops.len())?[..], self.lone?),
         };
         Some(Part {

@@ -1,5 +1,6 @@
 //! Whether a point lies in a hull, exactly `[SHE97]`.
 
+use super::Loops;
 use crate::point_tree::PointTree;
 use crate::tolerance::LEAST_COORDINATE;
 use glam::DVec3;
@@ -16,9 +17,9 @@ pub(super) struct Container<'a> {
 
 impl<'a> Container<'a> {
     /// Every edge of the facets must be met by exactly one facet the other way round.
-    pub(super) fn new(points: &'a [DVec3], facets: &[Vec<u32>]) -> Self {
+    pub(super) fn new(points: &'a [DVec3], facets: &Loops) -> Self {
         let at = |&v: &u32| points[v as usize];
-        let fan = |corners: &'_ Vec<u32>| {
+        let fan = |corners: &[u32]| {
             let corners: Vec<DVec3> = corners.iter().map(at).collect();
             let triangles = 1..corners.len() - 1;
             triangles.map(move |k| [corners[0], corners[k], corners[k + 1]])
@@ -27,7 +28,7 @@ impl<'a> Container<'a> {
             points,
             fans: facets.iter().flat_map(fan).collect(),
             first: facets
-                .first()
+                .get(0)
                 .map_or(Vec::new(), |corners| corners.iter().map(at).collect()),
         }
     }

@@ -9,10 +9,11 @@ use std::cmp::Ordering;
 /// The tree's hierarchy, with leaves that name the pieces of a list that they are to the bit: of several, the
 /// first leaf names the first.
 pub(super) fn renumber(tree: &HullTree, pieces: &Pieces) -> Result<Hierarchy, HullTreeError> {
+    let hulls = tree.hulls();
     let mut renamed = tree.hierarchy.nodes().to_vec();
     let nodes = (0..renamed.len()).filter(|&at| matches!(renamed[at], HierarchyNode::Leaf(_)));
     let leaves = sorted(nodes.collect(), |one, other| {
-        order([&tree.hulls, &tree.hulls], [one, other])
+        order([hulls, hulls], [one, other])
     });
     let known = sorted((0..pieces.len()).collect(), |one, other| {
         order([pieces, pieces], [one, other])
@@ -20,7 +21,7 @@ pub(super) fn renumber(tree: &HullTree, pieces: &Pieces) -> Result<Hierarchy, Hu
     let mut known = known.into_iter().peekable();
     let mut found = Vec::with_capacity(leaves.len());
     for at in leaves {
-        let to_leaf = |&k: &usize| order([pieces, &tree.hulls], [k, at]);
+        let to_leaf = |&k: &usize| order([pieces, hulls], [k, at]);
         // What is less than this leaf is no leaf.
         while known.next_if(|k| to_leaf(k) == Ordering::Less).is_some() {}
         let same = known.next_if(|k| to_leaf(k) == Ordering::Equal);

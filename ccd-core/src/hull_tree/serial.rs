@@ -17,7 +17,7 @@ impl From<HullTree> for Stored {
         let nodes = tree.hierarchy.nodes().iter().enumerate();
         let mut pieces: Vec<(u32, Polytope)> = nodes
             .filter_map(|(at, node)| match node {
-                HierarchyNode::Leaf(piece) => Some((*piece, tree.hulls.polytope(at))),
+                HierarchyNode::Leaf(piece) => Some((*piece, tree.hulls().polytope(at))),
                 HierarchyNode::Inner(..) => None,
             })
             .collect();

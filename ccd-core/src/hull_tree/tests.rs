@@ -152,7 +152,7 @@ fn triangles_segments_and_points_join() {
     let pieces = Pieces::triangles(&[a, b, c, d], &[[0, 1, 2], [0, 2, 3]], &[8, 9]).unwrap();
     let square = Hull {
         points: vec![a, b, c, d],
-        facets: vec![vec![0, 1, 2, 3], vec![3, 2, 1, 0]],
+        facets: Loops::from_iter([[0, 1, 2, 3], [3, 2, 1, 0]]),
     };
     let nodes = |hull| {
         vec![
@@ -169,7 +169,7 @@ fn triangles_segments_and_points_join() {
     let along = |x: f64| x * DVec3::X;
     let segment = Hull {
         points: vec![along(0.0), along(3.0)],
-        facets: vec![],
+        facets: Loops::default(),
     };
     let beads = [
         flat(&[along(0.0), along(1.0)]),
@@ -198,7 +198,7 @@ fn triangles_segments_and_points_join() {
     let same = [flat(&[c]), flat(&[c])];
     let point = Hull {
         points: vec![c],
-        facets: vec![],
+        facets: Loops::default(),
     };
     assert!(tree(&same, point).is_ok());
 }
@@ -207,7 +207,7 @@ fn triangles_segments_and_points_join() {
 fn flat_hulls_hold_what_is_in_their_plane_and_outline_only() {
     let square = Hull {
         points: corners(DVec3::ZERO, DVec3::new(1.0, 1.0, 0.0))[..4].to_vec(),
-        facets: vec![vec![0, 1, 3, 2], vec![2, 3, 1, 0]],
+        facets: Loops::from_iter([[0, 1, 3, 2], [2, 3, 1, 0]]),
     };
     let plate = flat(&square.points);
     let holds = |p: DVec3| tree(&[plate.clone(), flat(&[p])], square.clone()).is_ok();
@@ -225,7 +225,7 @@ fn containment_is_exact() {
     let tetrahedron = [6.0 * DVec3::X, 3.0 * DVec3::Y, 2.0 * DVec3::Z, DVec3::ZERO];
     let hull = Hull {
         points: tetrahedron.to_vec(),
-        facets: vec![vec![0, 1, 2], vec![1, 0, 3], vec![2, 1, 3], vec![0, 2, 3]],
+        facets: Loops::from_iter([[0, 1, 2], [1, 0, 3], [2, 1, 3], [0, 2, 3]]),
     };
     let holds = |p: DVec3| tree(&[flat(&tetrahedron), flat(&[p])], hull.clone()).is_ok();
     let on = DVec3::new(1.0, 1.0, 1.0);
@@ -244,38 +244,42 @@ fn containment_is_exact() {
 fn hulls_that_are_none_are_refused() {
     let pieces = [block(0.0, 1.0, 0), block(1.0, 3.0, 6)];
     let good = hull_of(0.0, 3.0);
-    let refused = |change: &dyn Fn(&mut Hull)| {
-        let mut hull = good.clone();
-        change(&mut hull);
-        fault(&pieces, hull)
+    let refused = |change: &dyn Fn(&mut Vec<DVec3>, &mut Vec<Vec<u32>>)| {
+        let mut points = good.points.clone();
+        let mut facets = good.facets.iter().map(Vec::from).collect();
+        change(&mut points, &mut facets);
+        let facets = facets.into();
+        fault(&pieces, Hull { points, facets })
     };
     assert_eq!(
-        refused(&|hull| hull.points[3] *= 2.0),
+        refused(&|points, _| points[3] *= 2.0),
         HullFault::ForeignPoint { point: 3 }
     );
     assert_eq!(
-        refused(&|hull| hull.facets[2][1] = 8),
+        refused(&|_, facets| facets[2][1] = 8),
         HullFault::BadFacet { facet: 2 }
     );
     assert_eq!(
-        refused(&|hull| hull.facets[4].truncate(2)),
+        refused(&|_, facets| facets[4].truncate(2)),
         HullFault::BadFacet { facet: 4 }
     );
     assert_eq!(
-        refused(&|hull| drop(hull.facets.pop())),
+        refused(&|_, facets| drop(facets.pop())),
         HullFault::Open { facet: 0 }
     );
     assert_eq!(
-        refused(&|hull| hull.facets.push(BOX[0].to_vec())),
+        refused(&|_, facets| facets.push(BOX[0].to_vec())),
         HullFault::Open { facet: 6 }
     );
     // Inside out, too small, or none at all.
     let outside = |child, point| HullFault::ChildOutside { child, point };
-    let inside_out = |hull: &mut Hull| hull.facets.iter_mut().for_each(|f| f.reverse());
-    assert_eq!(refused(&inside_out), outside(1, 1));
+    assert_eq!(
+        refused(&|_, facets| facets.iter_mut().for_each(|f| f.reverse())),
+        outside(1, 1)
+    );
     let small = fault(&pieces, hull_of(0.0, 1.0));
     assert_eq!(small, outside(2, 1));
-    assert_eq!(refused(&|hull| hull.facets.clear()), outside(1, 1));
+    assert_eq!(refused(&|_, facets| facets.clear()), outside(1, 1));
 }
 
 #[test]

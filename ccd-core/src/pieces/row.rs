@@ -25,15 +25,32 @@ pub(crate) struct Row {
     surfaces: Surfaces,
 }
 
+/// How much there is of everything.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Room {
+    pub(crate) pieces: usize,
+    pub(crate) points: usize,
+    pub(crate) facets: usize,
+    /// Of all facets.
+    pub(crate) corners: usize,
+    pub(crate) faces: usize,
+}
+
 impl Row {
-    /// With room for so many.
-    pub(crate) fn new(pieces: usize, points: usize) -> Self {
+    pub(crate) fn with_room(room: Room) -> Self {
         Row {
-            points: Vec::with_capacity(points),
-            vertex_ids: Vec::with_capacity(points),
-            point_ends: Vec::with_capacity(pieces),
-            radii: Vec::with_capacity(pieces),
-            surfaces: Surfaces::default(),
+            points: Vec::with_capacity(room.points),
+            vertex_ids: Vec::with_capacity(room.points),
+            point_ends: Vec::with_capacity(room.pieces),
+            radii: Vec::with_capacity(room.pieces),
+            surfaces: Surfaces {
+                facet_ends: Vec::with_capacity(room.pieces),
+                origins: Vec::with_capacity(room.facets),
+                corner_ends: Vec::with_capacity(room.facets),
+                corners: Vec::with_capacity(room.corners),
+                face_ends: Vec::with_capacity(room.pieces),
+                faces: Vec::with_capacity(room.faces),
+            },
         }
     }
 

@@ -3,7 +3,7 @@
 
 use super::{BestFirst, Fast, HullFirst, Naive, Schedule};
 use crate::body::{Body, Volume};
-use crate::hull_tree::{Hull, HullNode, HullTree};
+use crate::hull_tree::{Hull, HullNode, HullTree, Loops};
 use crate::motion::Motion;
 use crate::oracle::{Claim, Combination, GiveUp};
 use crate::order::{greater, lesser};
@@ -47,7 +47,7 @@ fn chain(rng: &mut Pcg64, count: usize) -> Body {
         let ends = [first, end - 1].map(|k| balls[k].points[0]);
         let hull = Hull {
             points: ends.to_vec(),
-            facets: vec![],
+            facets: Loops::default(),
         };
         nodes[node] = HullNode::Inner([left as u32, left as u32 + 1], hull);
         nodes.extend([HullNode::Leaf(0), HullNode::Leaf(0)]);

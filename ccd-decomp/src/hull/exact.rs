@@ -1,9 +1,9 @@
 //! The hull by exact predicates alone.
 
-use super::Loops;
 use super::proof::prove_convex;
 use crate::exact_hull::ExactHull;
 use crate::polygons::loops;
+use ccd_core::Loops;
 use ccd_core::glam::DVec3;
 
 /// The facets of the hull of points that span a volume; none if they cannot be proven to close

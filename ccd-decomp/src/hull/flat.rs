@@ -1,7 +1,8 @@
 //! The hull of points in one plane, exactly.
 
-use super::{Loops, lexicographic};
+use super::lexicographic;
 use crate::predicates::Projection;
+use ccd_core::Loops;
 use ccd_core::glam::DVec3;
 use std::cmp::Ordering;
 
@@ -10,7 +11,7 @@ use std::cmp::Ordering;
 pub(super) fn facets(points: &[DVec3], triangle: [usize; 3]) -> Loops {
     let at = |k: u32| points[k as usize];
     let Some(projection) = Projection::of(triangle.map(|k| points[k])) else {
-        return Loops::new();
+        return Loops::default();
     };
     let mut order: Vec<u32> = (0..points.len() as u32).collect();
     order.sort_unstable_by(|&v, &w| lexicographic(at(v), at(w)));
@@ -31,5 +32,5 @@ pub(super) fn facets(points: &[DVec3], triangle: [usize; 3]) -> Loops {
     let mut front = chain(&mut order.iter().copied());
     front.extend(chain(&mut order.iter().rev().copied()));
     let back = front.iter().rev().copied().collect();
-    vec![front, back]
+    Loops::from_iter([front, back])
 }

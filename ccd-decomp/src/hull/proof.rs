@@ -1,7 +1,8 @@
 //! Are these polygons the facets of the hull of those points: exactly.
 
-use super::{Loops, lexicographic};
+use super::lexicographic;
 use crate::predicates::{Projection, side};
+use ccd_core::Loops;
 use ccd_core::glam::DVec3;
 use ccd_core::point_tree::PointTree;
 use std::cmp::Ordering;
@@ -86,8 +87,8 @@ fn plane(points: &[DVec3], corners: &[u32]) -> [DVec3; 3] {
 /// the other is. There is one if there are no polygons.
 fn unmatched_edge(points: &[DVec3], polygons: &Loops) -> Option<(u32, u32)> {
     // Both ways of an edge stand beside each other: the smaller end first, then which way it runs.
-    let mut edges: Vec<(u64, bool, u32)> = Vec::with_capacity(polygons.iter().map(Vec::len).sum());
-    for (k, corners) in (0..).zip(polygons) {
+    let mut edges: Vec<(u64, bool, u32)> = Vec::with_capacity(polygons.corners().len());
+    for (k, corners) in (0..).zip(polygons.iter()) {
         let next = corners.iter().cycle().skip(1);
         edges.extend(corners.iter().zip(next).map(|(&v, &w)| {
             let (low, high) = (v.min(w), v.max(w));
@@ -96,7 +97,7 @@ fn unmatched_edge(points: &[DVec3], polygons: &Loops) -> Option<(u32, u32)> {
     }
     edges.sort_unstable();
     let ends = |edge: u64| ((edge >> 32) as u32, edge as u32);
-    let polygon = |k: u32| &polygons[k as usize];
+    let polygon = |k: u32| polygons.get(k as usize).unwrap_or_default();
     let is_fold = |pair: &[(u64, bool, u32)]| match *pair {
         [(one, false, left), (other, true, right)] if one == other => {
             folds(points, ends(one).into(), polygon(left), polygon(right))
@@ -125,7 +126,7 @@ fn folds(points: &[DVec3], edge: [u32; 2], polygon: &[u32], beyond: &[u32]) -> b
 fn outside(points: &[DVec3], polygons: &Loops) -> Vec<u32> {
     let tree = PointTree::new(points);
     let mut is_outside = vec![false; points.len()];
-    for corners in polygons {
+    for corners in polygons.iter() {
         let plane = plane(points, corners);
         tree.for_each_not_behind(plane, |v| {
             if !corners.contains(&v) && side(plane, points[v as usize]) == Ordering::Greater {

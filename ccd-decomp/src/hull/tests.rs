@@ -65,7 +65,7 @@ fn is_amid(points: &[DVec3], distinct: &[usize], k: usize) -> bool {
 fn assert_proper(points: &[DVec3], hull: &Hull) {
     let at = |v: u32| points[v as usize];
     let mut edges = BTreeSet::new();
-    for corners in &hull.facets {
+    for corners in hull.facets.iter() {
         assert!(corners.len() >= 3);
         let plane = [at(corners[0]), at(corners[1]), at(corners[2])];
         for &p in points {
@@ -81,7 +81,7 @@ fn assert_proper(points: &[DVec3], hull: &Hull) {
     for &(v, w) in &edges {
         assert!(edges.contains(&(w, v)), "edge {v}-{w} is open");
     }
-    let corners: BTreeSet<u32> = hull.facets.iter().flatten().copied().collect();
+    let corners: BTreeSet<u32> = hull.facets.corners().iter().copied().collect();
     assert_eq!(hull.vertices, corners.into_iter().collect::<Vec<_>>());
     let (v, e, f) = (hull.vertices.len(), edges.len() / 2, hull.facets.len());
     assert_eq!(v + f, e + 2, "Euler's formula");
@@ -200,8 +200,9 @@ fn a_plane_is_seen_from_both_sides() {
         (hull.way, hull.vertices.as_slice()),
         (Way::Flat, &[0, 4, 20, 24][..])
     );
-    let back: Vec<u32> = hull.facets[1].iter().rev().copied().collect();
-    assert_eq!(hull.facets[0], back);
+    let facet = |k| hull.facets.get(k).expect("two facets");
+    let back: Vec<u32> = facet(1).iter().rev().copied().collect();
+    assert_eq!(facet(0), back);
 }
 
 #[test]
@@ -262,22 +263,26 @@ fn refuted() {
         DVec3::ONE,
     ];
     let tetrahedron = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
-    let facets = tetrahedron.map(Vec::from).to_vec();
+    let as_they_are = |facets: &[[u32; 3]]| facets.iter().collect::<Loops>();
+    let facets = as_they_are(&tetrahedron);
     assert!(prove(&points[..5], facets.clone()).is_ok());
     let outside = Refutation::Outside(vec![5]);
     assert_eq!(prove(&points, facets.clone()), Err(outside));
     assert_eq!(
-        prove(&points, facets[1..].to_vec()),
+        prove(&points, as_they_are(&tetrahedron[1..])),
         Err(Refutation::Edge(0, 1))
     );
-    let twice = [facets.clone(), facets.clone()].concat();
+    let twice = as_they_are(&[tetrahedron, tetrahedron].concat());
     assert_eq!(prove(&points, twice), Err(Refutation::Edge(0, 1)));
-    assert_eq!(prove(&points, vec![vec![0, 1]]), Err(Refutation::Bent(0)));
     assert_eq!(
-        prove(&points, vec![vec![0, 2, 1, 3]]),
+        prove(&points, Loops::from_iter([[0, 1]])),
         Err(Refutation::Bent(0))
     );
-    assert!(prove(&points, Vec::new()).is_err());
+    assert_eq!(
+        prove(&points, Loops::from_iter([[0, 2, 1, 3]])),
+        Err(Refutation::Bent(0))
+    );
+    assert!(prove(&points, Loops::default()).is_err());
     let split = [
         DVec3::ZERO,
         DVec3::X,
@@ -294,11 +299,11 @@ fn refuted() {
         [3, 0, 4],
     ];
     assert_eq!(
-        prove(&split, pyramid.map(Vec::from).to_vec()),
+        prove(&split, as_they_are(&pyramid)),
         Err(Refutation::Edge(0, 2))
     );
     assert!(prove(&split, loops(&split, &pyramid)).is_ok());
-    let inside_out = tetrahedron.map(|[a, b, c]| vec![a, c, b]).to_vec();
+    let inside_out = as_they_are(&tetrahedron.map(|[a, b, c]| [a, c, b]));
     let reflex = Refutation::Edge(0, 1);
     assert_eq!(prove(&points[..4], inside_out), Err(reflex));
 }

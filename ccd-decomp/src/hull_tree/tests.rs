@@ -37,9 +37,9 @@ fn piece() -> impl Strategy<Value = Polytope> {
 /// The hull of points with its facets, which close it and are none of a mesh's.
 fn polytope(points: &[DVec3]) -> Polytope {
     let hull = joint_hull(points).unwrap();
-    let facet = |corners: &Vec<u32>| ccd_core::Facet {
+    let facet = |corners: &[u32]| ccd_core::Facet {
         origin: ccd_core::Origin::Virtual,
-        corners: corners.clone(),
+        corners: corners.to_vec(),
     };
     Polytope {
         facets: hull.facets.iter().map(facet).collect(),

@@ -1,0 +1,110 @@
+//! Loops of corners, flat in memory.
+
+/// Loops of corners, such as the facets of a [hull](super::Hull), each by indices into a list of points.
+///
+/// ```
+/// use ccd_core::Loops;
+/// let tetrahedron = Loops::from_iter([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]);
+/// assert_eq!(tetrahedron.len(), 4);
+/// assert_eq!(tetrahedron.get(2), Some(&[1, 2, 3][..]));
+/// assert!(tetrahedron.iter().all(|corners| corners.len() == 3));
+/// ```
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(from = "Vec<Vec<u32>>"))]
+pub struct Loops {
+    corners: Vec<u32>,
+    /// Where each loop ends.
+    ends: Vec<usize>,
+}
+
+impl Loops {
+    /// With room for so many loops, and so many corners in all.
+    pub fn with_capacity(loops: usize, corners: usize) -> Self {
+        Loops {
+            corners: Vec::with_capacity(corners),
+            ends: Vec::with_capacity(loops),
+        }
+    }
+
+    /// Adds a loop.
+    pub fn push(&mut self, corners: &[u32]) {
+        self.corners.extend_from_slice(corners);
+        self.ends.push(self.corners.len());
+    }
+
+    /// How many loops there are.
+    pub fn len(&self) -> usize {
+        self.ends.len()
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.ends.is_empty()
+    }
+
+    /// One loop.
+    pub fn get(&self, k: usize) -> Option<&[u32]> {
+        let end = *self.ends.get(k)?;
+        let start = if k == 0 { 0 } else { self.ends[k - 1] };
+        Some(&self.corners[start..end])
+    }
+
+    /// The loops in a row.
+    pub fn iter(&self) -> impl ExactSizeIterator<Item = &[u32]> + DoubleEndedIterator + Clone {
+        (0..self.len()).map(|k| self.get(k).unwrap_or_default())
+    }
+
+    /// The corners of all loops in a row.
+    pub fn corners(&self) -> &[u32] {
+        &self.corners
+    }
+
+    /// The same, to be renamed.
+    pub fn corners_mut(&mut self) -> &mut [u32] {
+        &mut self.corners
+    }
+}
+
+impl<L: AsRef<[u32]>> FromIterator<L> for Loops {
+    fn from_iter<I: IntoIterator<Item = L>>(iter: I) -> Self {
+        let mut loops = Loops::default();
+        for corners in iter {
+            loops.push(corners.as_ref());
+        }
+        loops
+    }
+}
+
+impl From<Vec<Vec<u32>>> for Loops {
+    fn from(loops: Vec<Vec<u32>>) -> Self {
+        loops.into_iter().collect()
+    }
+}
+
+/// As a list of lists.
+#[cfg(feature = "serde")]
+impl serde::Serialize for Loops {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_seq(self.iter())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn loops_are_those_of_a_list_of_lists() {
+        let nested: Vec<Vec<u32>> = vec![vec![3, 1, 2], vec![], vec![0, 1, 2, 3], vec![7]];
+        let loops = Loops::from(nested.clone());
+        assert!(loops.iter().eq(nested.iter().map(|l| &l[..])));
+        assert!(loops.iter().rev().eq(nested.iter().rev().map(|l| &l[..])));
+        assert_eq!(loops.corners(), nested.concat());
+        assert_eq!((loops.len(), loops.get(4)), (4, None));
+        assert!(Loops::default().is_empty());
+        let mut pushed = Loops::with_capacity(4, 8);
+        nested.iter().for_each(|corners| pushed.push(corners));
+        assert_eq!(pushed, loops);
+    }
+}
