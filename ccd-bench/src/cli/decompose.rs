@@ -9,8 +9,8 @@ use crate::progress::Progress;
 use anyhow::{Context, Result, bail};
 use ccd_core::Body;
 use ccd_decomp::{
-    BodyError, Detail, Model, Order, STORED_EXTENSION, StoreFault, TriangleMesh, prepare,
-    write_obj_pieces,
+    BodyError, Detail, Model, Order, STORED_EXTENSION, StoreFault, TriangleMesh, build_hull_tree,
+    prepare, write_obj_pieces,
 };
 use clap::{Args, ValueEnum};
 use figures::Figures;
@@ -166,10 +166,15 @@ impl DecomposeArgs {
 
     fn build(&self, mesh: &TriangleMesh, detail: Detail) -> Result<(Model, Body), BodyError> {
         let mut model = prepare(mesh, detail)?;
-        if self.hull_tree {
-            model = model.with_hull_tree()?;
+        if !self.hull_tree {
+            let body = model.body()?;
+            return Ok((model, body));
         }
-        let body = model.body()?;
+        // Either takes long, and needs nothing of the other.
+        let (body, tree) = rayon::join(|| model.body(), || build_hull_tree(&model.pieces));
+        let tree = tree?;
+        let body = body?.with_hull_tree(tree.clone())?;
+        model.hull_tree = Some(tree);
         Ok((model, body))
     }
 }

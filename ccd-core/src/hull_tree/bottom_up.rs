@@ -21,12 +21,14 @@ pub(super) fn bottom_up<T: Default + Send>(
     make: impl Fn(usize, [&T; 2]) -> Result<T, HullTreeError> + Sync,
 ) -> Result<Vec<T>, HullTreeError> {
     let cores = available_parallelism().map_or(1, NonZero::get);
-    // Twice as many parts as cores, as they are not all of one size.
-    bottom_up_in(2 * cores, hierarchy, make)
+    // Several parts for a core, as they are not all of one size.
+    let least = hierarchy.nodes().len() / (4 * cores);
+    bottom_up_from(least.max(WORTHWHILE), hierarchy, make)
 }
 
-fn bottom_up_in<T: Default + Send>(
-    parts: usize,
+/// Subtrees of fewer nodes are made in one go.
+fn bottom_up_from<T: Default + Send>(
+    least: usize,
     hierarchy: &Hierarchy,
     make: impl Fn(usize, [&T; 2]) -> Result<T, HullTreeError> + Sync,
 ) -> Result<Vec<T>, HullTreeError> {
@@ -41,10 +43,11 @@ fn bottom_up_in<T: Default + Send>(
         hierarchy,
         order: &order,
         below: &below,
+        least,
         make,
     };
     let mut done: Vec<T> = order.iter().map(|_| T::default()).collect();
-    row.fill(0..order.len(), &mut done, parts)?;
+    row.fill(0..order.len(), &mut done)?;
     let mut sorted: Vec<T> = order.iter().map(|_| T::default()).collect();
     for (&at, made) in order.iter().zip(done) {
         sorted[at] = made;
@@ -58,6 +61,8 @@ struct Row<'a, F> {
     order: &'a [usize],
     /// How many nodes each one's subtree has.
     below: &'a [usize],
+    /// A subtree of fewer nodes is made in one go.
+    least: usize,
     make: F,
 }
 
@@ -65,24 +70,23 @@ struct Row<'a, F> {
 const WORTHWHILE: usize = 1024;
 
 impl<F> Row<'_, F> {
-    /// Makes a range of the row that is one subtree, in at most so many parts at once.
+    /// Makes a range of the row that is one subtree.
     fn fill<T: Default + Send>(
         &self,
         range: Range<usize>,
         done: &mut [T],
-        parts: usize,
     ) -> Result<(), HullTreeError>
     where
         F: Fn(usize, [&T; 2]) -> Result<T, HullTreeError> + Sync,
     {
         let root = self.order[range.end - 1];
         match self.hierarchy.nodes()[root] {
-            HierarchyNode::Inner(left, _) if parts > 1 && range.len() >= WORTHWHILE => {
+            HierarchyNode::Inner(left, _) if range.len() >= self.least => {
                 let middle = range.start + self.below[left as usize];
                 let (first, others) = done.split_at_mut(middle - range.start);
                 let (second, _) = others.split_at_mut(range.end - 1 - middle);
                 let ranges = [range.start..middle, middle..range.end - 1];
-                self.fill_both(ranges, [first, second], parts.div_ceil(2))?;
+                self.fill_both(ranges, [first, second])?;
                 self.fill_one(range.end - 1, range.start, done)
             }
             _ => (range.clone()).try_for_each(|at| self.fill_one(at, range.start, done)),
@@ -94,7 +98,6 @@ impl<F> Row<'_, F> {
         &self,
         [one, other]: [Range<usize>; 2],
         [first, second]: [&mut [T]; 2],
-        parts: usize,
     ) -> Result<(), HullTreeError>
     where
         F: Fn(usize, [&T; 2]) -> Result<T, HullTreeError> + Sync,
@@ -105,11 +108,11 @@ impl<F> Row<'_, F> {
                 .lock()
                 .unwrap_or_else(PoisonError::into_inner)
                 .take();
-            taken.map_or(Ok(()), |(range, done)| self.fill(range, done, parts))
+            taken.map_or(Ok(()), |(range, done)| self.fill(range, done))
         };
         let (of_first, of_second) = scope(|threads| {
             let thread = Builder::new().spawn_scoped(threads, fill_waiting);
-            let of_second = self.fill(other, second, parts);
+            let of_second = self.fill(other, second);
             let of_first = match thread {
                 Ok(thread) => thread.join().unwrap_or_else(|panic| resume_unwind(panic)),
                 Err(_) => fill_waiting(),
@@ -171,7 +174,7 @@ mod tests {
     }
 
     #[test]
-    fn any_number_of_parts_makes_the_same() {
+    fn parts_of_any_size_make_the_same() {
         let hierarchy = hierarchy(5000);
         // Of every node which pieces are below, as they come.
         let make = |at: usize, [left, right]: [&Vec<u32>; 2]| {
@@ -180,10 +183,10 @@ mod tests {
                 HierarchyNode::Inner(..) => [&left[..], right].concat(),
             })
         };
-        let one = bottom_up_in(1, &hierarchy, make).unwrap();
+        let one = bottom_up_from(usize::MAX, &hierarchy, make).unwrap();
         assert_eq!(one[0], (0..5000).collect::<Vec<u32>>());
-        for parts in [2, 3, 8, 64] {
-            assert_eq!(bottom_up_in(parts, &hierarchy, make).unwrap(), one);
+        for least in [5000, 1000, 100] {
+            assert_eq!(bottom_up_from(least, &hierarchy, make).unwrap(), one);
         }
     }
 
@@ -195,9 +198,9 @@ mod tests {
             999 => Err(fault(at)),
             _ => Ok(0),
         };
-        let one = bottom_up_in(1, &hierarchy, make).unwrap_err();
-        for parts in [2, 3, 8, 64] {
-            assert_eq!(bottom_up_in(parts, &hierarchy, make).unwrap_err(), one);
+        let one = bottom_up_from(usize::MAX, &hierarchy, make).unwrap_err();
+        for least in [5000, 1000, 100] {
+            assert_eq!(bottom_up_from(least, &hierarchy, make).unwrap_err(), one);
         }
     }
 }
