@@ -3,7 +3,6 @@
 #[cfg(test)]
 mod tests;
 
-use crate::limits;
 use crate::motions::RowProblem;
 use ccd_core::glam::DVec3;
 use ccd_core::{Answer, Contact, Outcome, Overlap, Stats};
@@ -241,7 +240,7 @@ impl ResultRow {
                 ..row
             },
             Outcome::Unresolved { reason, .. } => ResultRow {
-                reason: Some(limits::word(reason).to_owned()),
+                reason: Some(reason.to_string()),
                 ..row
             },
         }

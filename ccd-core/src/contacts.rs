@@ -95,7 +95,7 @@ impl Problem<'_> {
     /// ```
     /// use ccd_core::{glam::DVec3, Body, Config, Motion, Moving, Pose, Problem};
     /// let (cube, slab) = (Body::cuboid(DVec3::splat(0.5))?, Body::cuboid(DVec3::new(2.0, 2.0, 1.0))?);
-    /// let place = Pose::from_translation(DVec3::new(0.3, 0.2, 1.5005))?;
+    /// let place = Pose::at(DVec3::new(0.3, 0.2, 1.5005))?;
     /// let still = |body, pose| Moving { body, motion: Motion::still(pose) };
     /// let (a, b) = (still(&cube, place), still(&slab, Pose::IDENTITY));
     /// let problem = Problem::new(a, b, 1.0, &Config::default())?;

@@ -68,6 +68,13 @@ pub enum InputError {
         /// The facet's index within the piece.
         facet: usize,
     },
+    /// A face of the mesh on a polytope has a corner that is NaN or infinite.
+    BadFace {
+        /// The piece's index.
+        piece: usize,
+        /// The face's index within the piece.
+        face: usize,
+    },
     /// A hierarchy must hold every piece exactly once, below one root, without cycles.
     BadHierarchy {
         /// The piece or node at which that fails.
@@ -119,6 +126,12 @@ impl fmt::Display for InputError {
             ),
             Self::FacetOutOfRange { piece, facet } => {
                 write!(f, "facet {facet} of piece {piece} names a missing corner")
+            }
+            Self::BadFace { piece, face } => {
+                write!(
+                    f,
+                    "face {face} of piece {piece} has a corner that is NaN or infinite"
+                )
             }
             Self::BadHierarchy { at } => {
                 write!(f, "the hierarchy misses, repeats or loops at {at}")

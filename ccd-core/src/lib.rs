@@ -57,7 +57,7 @@
 //! }
 //!
 //! let ball = Body::ball(0.5)?;
-//! let start = Pose::from_translation(DVec3::new(-3.0, 0.0, 0.0))?;
+//! let start = Pose::at(DVec3::new(-3.0, 0.0, 0.0))?;
 //! let problem = Problem::new(
 //!     Moving { body: &ball, motion: Motion::new(start, 4.0 * DVec3::X, DVec3::Z)? },
 //!     Moving { body: &ball, motion: Motion::still(Pose::IDENTITY) },

@@ -27,22 +27,34 @@ pub struct Motion {
 }
 
 impl Motion {
-    /// A body at rest.
+    /// At rest in the world's frame.
+    pub const STILL: Motion = Motion {
+        start: Pose::IDENTITY,
+        velocity: DVec3::ZERO,
+        spin: DVec3::ZERO,
+        centre: DVec3::ZERO,
+    };
+
+    /// At rest.
     pub fn still(pose: Pose) -> Self {
         Motion {
             start: pose,
-            velocity: DVec3::ZERO,
-            spin: DVec3::ZERO,
-            centre: DVec3::ZERO,
+            ..Motion::STILL
         }
     }
 
     /// From the pose at `t = 0` and the velocities, per unit of time, turning about the body's
     /// origin.
     ///
+    /// Velocities are arrays, or whatever turns into them: vectors of `glam`, `nalgebra`, `mint`.
+    ///
     /// # Errors
     /// [`InputError::NotFinite`].
-    pub fn new(start: Pose, velocity: DVec3, spin: DVec3) -> Result<Self, InputError> {
+    pub fn new(
+        start: Pose,
+        velocity: impl Into<[f64; 3]>,
+        spin: impl Into<[f64; 3]>,
+    ) -> Result<Self, InputError> {
         Motion::about(start, velocity, spin, DVec3::ZERO)
     }
 
@@ -53,10 +65,12 @@ impl Motion {
     /// [`InputError::NotFinite`].
     pub fn about(
         start: Pose,
-        velocity: DVec3,
-        spin: DVec3,
-        centre: DVec3,
+        velocity: impl Into<[f64; 3]>,
+        spin: impl Into<[f64; 3]>,
+        centre: impl Into<[f64; 3]>,
     ) -> Result<Self, InputError> {
+        let [velocity, spin, centre] =
+            [velocity.into(), spin.into(), centre.into()].map(DVec3::from_array);
         if !(velocity.is_finite() && spin.is_finite() && centre.is_finite()) {
             return Err(InputError::NotFinite { what: "motion" });
         }
@@ -86,9 +100,10 @@ impl Motion {
     pub fn between(
         start: Pose,
         end: Pose,
-        centre: DVec3,
+        centre: impl Into<[f64; 3]>,
         duration: f64,
     ) -> Result<Self, InputError> {
+        let centre = DVec3::from_array(centre.into());
         if !(duration > 0.0 && duration.is_finite()) {
             return Err(InputError::OutOfRange {
                 what: "duration",

@@ -5,6 +5,7 @@ use crate::oracle::Effort;
 use crate::order::lesser;
 use crate::tolerance::LOOKS_PER_VISIT;
 use glam::DVec3;
+use std::fmt;
 
 /// The answer to "when do they first touch?".
 ///
@@ -69,6 +70,18 @@ pub enum Limit {
     /// Bodies that touch at the start, or one of which may be inside the other, are too near to each
     /// other to tell whether they overlap.
     Undecided,
+}
+
+impl fmt::Display for Limit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Limit::Budget => "budget",
+            Limit::Deadline => "deadline",
+            Limit::Stalled => "stalled",
+            Limit::OracleGaveUp => "oracle gave up",
+            Limit::Undecided => "undecided",
+        })
+    }
 }
 
 /// A checked pair of nearest points, with the features that hold them.

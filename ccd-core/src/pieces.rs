@@ -113,7 +113,8 @@ impl Pieces {
     ///
     /// # Errors
     /// [`InputError::EmptyPiece`], [`InputError::BadPoint`], [`InputError::BadRadius`],
-    /// [`InputError::FacetOutOfRange`], [`InputError::NoPieces`], [`InputError::TooManyPieces`].
+    /// [`InputError::FacetOutOfRange`], [`InputError::BadFace`], [`InputError::NoPieces`],
+    /// [`InputError::TooManyPieces`].
     pub fn polytopes(polytopes: &[Polytope]) -> Result<Self, InputError> {
         let facets = || polytopes.iter().flat_map(|polytope| &polytope.facets);
         let mut row = Row::with_room(Room {

@@ -9,6 +9,7 @@ use glam::{DMat3, DQuat, DVec3};
 /// use ccd_core::{glam::{DQuat, DVec3}, Pose};
 /// let pose = Pose::new(DVec3::X, DQuat::from_rotation_z(1.0)).unwrap();
 /// assert_eq!(pose.transform_point(DVec3::ZERO), DVec3::X);
+/// assert_eq!(Pose::at([1.0, 0.0, 0.0]).unwrap().translation(), DVec3::X);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pose {
@@ -23,12 +24,20 @@ impl Pose {
         rotation: DQuat::IDENTITY,
     };
 
-    /// A pose from its parts; the quaternion is normalised.
+    /// A pose from its parts, the quaternion as x, y, z, w; it is normalised.
+    ///
+    /// Both take arrays, and whatever turns into them: vectors and quaternions of `glam`, `nalgebra`,
+    /// `mint`.
     ///
     /// # Errors
     /// [`InputError::NotFinite`] for a NaN or infinite part, [`InputError::ZeroQuaternion`] when the
     /// quaternion's length cannot be divided by.
-    pub fn new(translation: DVec3, rotation: DQuat) -> Result<Self, InputError> {
+    pub fn new(
+        translation: impl Into<[f64; 3]>,
+        rotation: impl Into<[f64; 4]>,
+    ) -> Result<Self, InputError> {
+        let translation = DVec3::from_array(translation.into());
+        let rotation = DQuat::from_array(rotation.into());
         if !(translation.is_finite() && rotation.is_finite()) {
             return Err(InputError::NotFinite { what: "pose" });
         }
@@ -50,11 +59,11 @@ impl Pose {
         }
     }
 
-    /// The same orientation as the world's, moved.
+    /// At a position, oriented as the world.
     ///
     /// # Errors
     /// [`InputError::NotFinite`].
-    pub fn from_translation(translation: DVec3) -> Result<Self, InputError> {
+    pub fn at(translation: impl Into<[f64; 3]>) -> Result<Self, InputError> {
         Pose::new(translation, DQuat::IDENTITY)
     }
 

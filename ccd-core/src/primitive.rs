@@ -31,12 +31,13 @@ impl Body {
         })
     }
 
-    /// A box about the origin; corner `k` has a positive x, y, z where bit 0, 1, 2 of `k` is set, and
+    /// A box about the origin, of half of its sides; corner `k` has a positive x, y, z where bit 0, 1, 2 of `k` is set, and
     /// faces 0 to 5 look along −x, +x, −y, +y, −z, +z.
     ///
     /// # Errors
     /// [`InputError::BadPoint`].
-    pub fn cuboid(half_extents: DVec3) -> Result<Self, InputError> {
+    pub fn cuboid(half_extents: impl Into<[f64; 3]>) -> Result<Self, InputError> {
+        let half_extents = DVec3::from_array(half_extents.into());
         let sign = |corner: u32, bit: u32| if corner >> bit & 1 == 1 { 1.0 } else { -1.0 };
         let corner = |k| half_extents * DVec3::new(sign(k, 0), sign(k, 1), sign(k, 2));
         let loops = [

@@ -72,6 +72,12 @@ pub struct Moving<'a> {
     pub motion: Motion,
 }
 
+impl<'a> From<(&'a Body, Motion)> for Moving<'a> {
+    fn from((body, motion): (&'a Body, Motion)) -> Self {
+        Moving { body, motion }
+    }
+}
+
 /// A well-posed query over `[0, duration]`.
 #[derive(Clone, Debug)]
 pub struct Problem<'a> {
@@ -100,7 +106,7 @@ pub(crate) struct Side<'a> {
 }
 
 impl<'a> Problem<'a> {
-    /// Poses a query.
+    /// Poses a query over two moving bodies, which may be given as pairs of a body and its motion.
     ///
     /// # Errors
     /// [`InputError::OutOfRange`] for a duration or margin that is negative, a tolerance that is not
@@ -108,11 +114,12 @@ impl<'a> Problem<'a> {
     /// body a coordinate of the position at the start or of the centre, or the distance from B's position
     /// to the centre and on along its travel; its turn.
     pub fn new(
-        a: Moving<'a>,
-        b: Moving<'a>,
+        a: impl Into<Moving<'a>>,
+        b: impl Into<Moving<'a>>,
         duration: f64,
         config: &Config,
     ) -> Result<Self, InputError> {
+        let (a, b) = (a.into(), b.into());
         let finite = 0.0..=f64::MAX;
         check(
             "duration",

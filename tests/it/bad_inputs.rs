@@ -25,7 +25,7 @@ fn poses_and_motions_are_finite() {
                 "{result:?}"
             );
         };
-        not_finite(Pose::from_translation(v).map(drop));
+        not_finite(Pose::at(v).map(drop));
         not_finite(Pose::new(DVec3::ZERO, DQuat::from_xyzw(0.0, 0.0, bad, 1.0)).map(drop));
         not_finite(Motion::new(Pose::IDENTITY, v, DVec3::ZERO).map(drop));
         not_finite(Motion::new(Pose::IDENTITY, DVec3::ZERO, v).map(drop));
@@ -99,7 +99,7 @@ fn durations_tolerances_and_margins_have_their_range() {
 
 #[test]
 fn velocities_that_overflow_are_refused() {
-    let end = Pose::from_translation(1e300 * DVec3::X).expect("finite");
+    let end = Pose::at(1e300 * DVec3::X).expect("finite");
     let motion = Motion::between(Pose::IDENTITY, end, DVec3::ZERO, 1e-100);
     assert!(
         matches!(motion, Err(InputError::NotFinite { .. })),
@@ -111,7 +111,7 @@ fn velocities_that_overflow_are_refused() {
 fn a_motion_too_fast_to_certify_ends_in_an_answer_or_an_error() {
     let body = cube();
     for speed in [1e12, 1e100, 1e300] {
-        let far = Pose::from_translation(10.0 * DVec3::X).expect("finite");
+        let far = Pose::at(10.0 * DVec3::X).expect("finite");
         let motion = Motion::new(far, -speed * DVec3::X, speed * DVec3::ONE).expect("finite");
         let fast = Moving {
             body: &body,

@@ -14,7 +14,7 @@ fn body(mesh: &Mesh, detail: Detail) -> Body {
 }
 
 fn answer(a: &Body, b: &Body, velocity: DVec3, spin: DVec3) -> Answer {
-    let start = Pose::from_translation(DVec3::new(-4.0, 0.2, 0.1)).unwrap();
+    let start = Pose::at(DVec3::new(-4.0, 0.2, 0.1)).unwrap();
     let a = Moving {
         body: a,
         motion: Motion::new(start, velocity, spin).unwrap(),

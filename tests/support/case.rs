@@ -171,13 +171,8 @@ impl Part {
 
     fn actor(&self) -> Actor {
         let turned = DQuat::from_scaled_axis(self.turned.into());
-        let start = Pose::new(self.position.into(), turned).expect("a pose");
-        let motion = Motion::about(
-            start,
-            self.velocity.into(),
-            self.spin.into(),
-            self.centre.into(),
-        );
+        let start = Pose::new(self.position, turned).expect("a pose");
+        let motion = Motion::about(start, self.velocity, self.spin, self.centre);
         Actor {
             shape: self.shape.shape().scaled(self.scale),
             motion: motion.expect("finite velocities"),

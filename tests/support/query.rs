@@ -145,7 +145,7 @@ impl Actor {
     /// # Panics
     /// When a number is not finite.
     pub fn moving(shape: Shape, at: DVec3, velocity: DVec3, spin: DVec3) -> Self {
-        let start = Pose::from_translation(at).expect("a finite place");
+        let start = Pose::at(at).expect("a finite place");
         Actor {
             shape,
             motion: Motion::new(start, velocity, spin).expect("finite velocities"),

@@ -24,7 +24,7 @@ fn cube() -> TriangleMesh {
 
 /// A cube flies at another from 4 away with speed 8: contact at 3/8.
 fn flight() -> Query {
-    let start = Pose::from_translation(-4.0 * DVec3::X).unwrap();
+    let start = Pose::at(-4.0 * DVec3::X).unwrap();
     Query {
         id: "flight".to_owned(),
         a: Motion::new(start, 8.0 * DVec3::X, DVec3::ZERO).unwrap(),

@@ -55,11 +55,11 @@ fn turned_box(half: DVec3, turn: DMat3) -> TriangleMesh {
 }
 
 fn moving(at: DVec3, velocity: DVec3, spin: DVec3) -> Motion {
-    Motion::new(Pose::from_translation(at).unwrap(), velocity, spin).unwrap()
+    Motion::new(Pose::at(at).unwrap(), velocity, spin).unwrap()
 }
 
 fn still(at: DVec3) -> Motion {
-    Motion::still(Pose::from_translation(at).unwrap())
+    Motion::still(Pose::at(at).unwrap())
 }
 
 fn query(a: Motion, b: Motion) -> Query {

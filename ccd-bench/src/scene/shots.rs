@@ -75,7 +75,7 @@ fn at_rest(row: usize, a: Motion, b: DVec3) -> Result<Query, InputError> {
     Ok(Query {
         id: row.to_string(),
         a,
-        b: Motion::still(Pose::from_translation(b)?),
+        b: Motion::still(Pose::at(b)?),
         duration: 1.0,
     })
 }

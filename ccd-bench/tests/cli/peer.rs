@@ -19,7 +19,7 @@ fn cube() -> TriangleMesh {
 
 /// One cube falls onto another, 2 below it, at speed 4.
 fn drop() -> Query {
-    let above = Pose::from_translation(3.0 * DVec3::Z).unwrap();
+    let above = Pose::at(3.0 * DVec3::Z).unwrap();
     Query {
         id: "drop".into(),
         a: Motion::new(above, -4.0 * DVec3::Z, DVec3::ZERO).unwrap(),

@@ -30,7 +30,7 @@ fn still<'a>(a: &'a Body, b: &'a Body, pose: Pose, config: &Config) -> Problem<'
 }
 
 fn at(x: f64, y: f64, z: f64) -> Pose {
-    Pose::from_translation(DVec3::new(x, y, z)).unwrap()
+    Pose::at(DVec3::new(x, y, z)).unwrap()
 }
 
 fn turned(pose: Pose, axis: DVec3, angle: f64) -> Pose {

@@ -73,14 +73,9 @@ fn half_a_turn_goes_about_the_axis_as_it_is_given() {
 fn any_number_of_turns_is_a_motion() {
     let spin = 2.0 * PI * 6.0 * DVec3::Y;
     let motion = Motion::about(Pose::IDENTITY, DVec3::X, spin, DVec3::Z).unwrap();
-    let end = Pose::from_translation(DVec3::X).unwrap();
+    let end = Pose::at(DVec3::X).unwrap();
     assert!(apart(&motion.pose(1.0), &end) < 1e-13);
-    assert!(
-        apart(
-            &motion.pose(0.5),
-            &Pose::from_translation(0.5 * DVec3::X).unwrap()
-        ) < 1e-13
-    );
+    assert!(apart(&motion.pose(0.5), &Pose::at(0.5 * DVec3::X).unwrap()) < 1e-13);
     // A quarter of a turn later it faces another way.
     assert!(apart(&motion.pose(1.0 / 24.0), &end) > 1.0);
 }
@@ -127,7 +122,7 @@ fn what_is_not_finite_is_refused() {
             ..
         })
     ));
-    let far = Pose::from_translation(DVec3::X).unwrap();
+    let far = Pose::at(DVec3::X).unwrap();
     let overflow = Motion::between(Pose::IDENTITY, far, DVec3::ZERO, 1e-320);
     assert_eq!(overflow, Err(InputError::NotFinite { what: "motion" }));
 }

@@ -57,7 +57,7 @@ impl Row {
     /// Adds one.
     ///
     /// # Errors
-    /// [`InputError::FacetOutOfRange`].
+    /// [`InputError::FacetOutOfRange`], [`InputError::BadFace`].
     pub(crate) fn push<'a>(
         &mut self,
         polytope: Listed<'a, impl Iterator<Item = (&'a [u32], Origin)>, impl Iterator<Item = Face>>,
@@ -88,8 +88,7 @@ impl Row {
         surfaces.facet_ends.push(surfaces.origins.len() as u32);
         for (k, face) in polytope.faces.enumerate() {
             if !face.corners.iter().all(|p| p.is_finite()) {
-                let facet = facets + k;
-                return Err(InputError::FacetOutOfRange { piece, facet });
+                return Err(InputError::BadFace { piece, face: k });
             }
             surfaces.faces.push(face);
         }

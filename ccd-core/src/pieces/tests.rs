@@ -85,6 +85,18 @@ fn polytopes_that_are_none_are_refused() {
         let expected = InputError::FacetOutOfRange { piece: 1, facet: 1 };
         assert_eq!(refused(polytope), Some(expected));
     }
+    let face = |x: f64| Face {
+        id: 0,
+        vertices: [0, 1, 2],
+        corners: [CORNERS[0], CORNERS[1], DVec3::splat(x)],
+    };
+    let polytope = Polytope {
+        points: CORNERS.to_vec(),
+        faces: vec![face(1.0), face(f64::NAN)],
+        ..Polytope::default()
+    };
+    let expected = InputError::BadFace { piece: 1, face: 1 };
+    assert_eq!(refused(polytope), Some(expected));
 }
 
 #[test]

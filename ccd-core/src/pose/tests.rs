@@ -42,10 +42,7 @@ fn what_names_no_pose_is_refused() {
     );
     let not_finite = Err(InputError::NotFinite { what: "pose" });
     for bad in [f64::NAN, f64::INFINITY] {
-        assert_eq!(
-            Pose::from_translation(DVec3::new(0.0, bad, 0.0)),
-            not_finite
-        );
+        assert_eq!(Pose::at(DVec3::new(0.0, bad, 0.0)), not_finite);
         let q = DQuat::from_xyzw(bad, 0.0, 0.0, 1.0);
         assert_eq!(Pose::new(DVec3::ZERO, q), not_finite);
     }

@@ -53,7 +53,7 @@ fn what_is_out_of_range_is_refused_by_name() {
 #[test]
 fn coordinates_are_accepted_up_to_one_limit_and_refused_beyond() {
     let config = Config::default();
-    let pose = |at: f64| Pose::from_translation(at * DVec3::Z).unwrap();
+    let pose = |at: f64| Pose::at(at * DVec3::Z).unwrap();
     let refusal = |motion| refused(posed(motion, 1.0, &config));
     let good = |motion| posed(motion, 1.0, &config).is_ok();
     let about = |start, centre| Motion::about(start, DVec3::ZERO, DVec3::Y, centre).unwrap();
@@ -106,8 +106,8 @@ fn coordinates_are_accepted_up_to_one_limit_and_refused_beyond() {
 
 #[test]
 fn a_tolerance_that_cannot_be_certified_is_raised() {
-    let near = Motion::still(Pose::from_translation(3.0 * DVec3::X).unwrap());
-    let far = Motion::still(Pose::from_translation(3e9 * DVec3::X).unwrap());
+    let near = Motion::still(Pose::at(3.0 * DVec3::X).unwrap());
+    let far = Motion::still(Pose::at(3e9 * DVec3::X).unwrap());
     let fine = Config {
         tolerance: 1e-15,
         ..Config::default()
@@ -141,4 +141,30 @@ fn clocks_are_times_that_are_never_late() {
             last = time;
         }
     }
+}
+
+#[test]
+fn ranges_are_named_as_they_are() {
+    let named = |result: Result<f64, InputError>, limit: f64| {
+        let words = result.unwrap_err().to_string();
+        assert!(words.contains(&format!("{limit:e}")), "{words}: {limit:e}");
+    };
+    let (still, config) = (Motion::STILL, Config::default());
+    let tolerance = |tolerance| Config {
+        tolerance,
+        ..config
+    };
+    named(posed(still, 1.0, &tolerance(0.0)), LEAST_TOLERANCE);
+    named(posed(still, 1.0, &tolerance(0.0)), MAX_COORDINATE);
+    let margin = Config {
+        margin: -1.0,
+        ..config
+    };
+    named(posed(still, 1.0, &margin), MAX_COORDINATE);
+    let far = Motion::still(Pose::at([2.0 * MAX_COORDINATE, 0.0, 0.0]).unwrap());
+    named(posed(far, 1.0, &config), MAX_COORDINATE);
+    let travels = Motion::new(Pose::IDENTITY, [2.0 * MAX_COORDINATE, 0.0, 0.0], [0.0; 3]);
+    named(posed(travels.unwrap(), 1.0, &config), MAX_COORDINATE);
+    let turns = Motion::new(Pose::IDENTITY, [0.0; 3], [2.0 * MAX_TURN, 0.0, 0.0]);
+    named(posed(turns.unwrap(), 1.0, &config), MAX_TURN);
 }

@@ -209,7 +209,7 @@ fn answers_are_right_and_those_of_the_other_schedules() {
 fn trees_spare_most_pairs_of_pieces() {
     let mut rng = rng(22);
     let bodies = [400, 400].map(|count| chain(&mut rng, count));
-    let far = Pose::from_translation(2e3 * DVec3::Y).unwrap();
+    let far = Pose::at(2e3 * DVec3::Y).unwrap();
     let motion = Motion::new(far, -1e3 * DVec3::Y, DVec3::X).unwrap();
     let still = Motion::still(Pose::IDENTITY);
     let moving = |k: usize, motion| Moving {
@@ -317,7 +317,7 @@ fn bodies_without_trees_are_searched_by_their_boxes() {
     );
     let soup = Body::new(&soup.unwrap(), Volume::Surface).unwrap();
     let ball = Body::ball(0.25).unwrap();
-    let above = Pose::from_translation(DVec3::new(0.25, 0.25, 2.25)).unwrap();
+    let above = Pose::at(DVec3::new(0.25, 0.25, 2.25)).unwrap();
     let falling = Motion::new(above, -2.0 * DVec3::Z, DVec3::ZERO).unwrap();
     let problem = Problem::new(
         Moving {
@@ -356,7 +356,7 @@ fn what_touches_at_the_start_is_told_or_let_go() {
     let way = top.normalize();
     let outcome = |speed: f64, start| {
         let place = top + (radius + 0.05 + 1e-5) * way;
-        let pose = Pose::from_translation(place).unwrap();
+        let pose = Pose::at(place).unwrap();
         let moving = Moving {
             body: &ball,
             motion: Motion::new(pose, speed * way, DVec3::ZERO).unwrap(),

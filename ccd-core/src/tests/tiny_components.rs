@@ -60,7 +60,7 @@ fn margins_are_kept_from_needles_of_widths_that_have_no_square() {
         let bodies: [Body; 2] = [body(&needles), body(&[passer])];
         let goal = needles[0][1] * rng.random_range(0.0..1.0) + within(&mut rng, 0.1);
         let way = [normal, direction(&mut rng)][rng.random_range(0..2)];
-        let start = Pose::from_translation(goal - way * rng.random_range(1.0..3.0)).unwrap();
+        let start = Pose::at(goal - way * rng.random_range(1.0..3.0)).unwrap();
         let motion = Motion::new(start, way * rng.random_range(1.0..4.0), DVec3::ZERO).unwrap();
         let config = Config {
             tolerance: magnitude(&mut rng, -9.0, -3.0),

@@ -165,7 +165,7 @@ fn two_rods() -> Scene {
 
 /// T20: T4 far away; the offsets are powers of two, so that the scene itself is not rounded.
 fn far_rod(offset: f64) -> Scene {
-    let place = Pose::from_translation(DVec3::new(offset, -offset, offset)).expect("finite");
+    let place = Pose::at(DVec3::new(offset, -offset, offset)).expect("finite");
     Scene::new(
         format!("T20 rod at {offset}"),
         upright(PI, 1.25, place),
@@ -189,7 +189,7 @@ fn scaled_rod(scale: f64) -> Scene {
 fn rigidly_turning_pair() -> Scene {
     let cube = || cuboid(DVec3::splat(0.5));
     let on_table = |x: f64| {
-        let start = Pose::from_translation(x * DVec3::X).expect("finite");
+        let start = Pose::at(x * DVec3::X).expect("finite");
         let about_origin = -x * DVec3::X;
         Actor {
             shape: cube(),

@@ -218,7 +218,7 @@ fn touching_and_overlapping_at_the_start_are_told_and_let_go() {
         DVec3::new(0.1, 0.0, 1.0),
     ]]);
     let outcome = |height: f64, speed: f64, start: StartPolicy| {
-        let at = Pose::from_translation(DVec3::new(0.3, 0.3, height)).unwrap();
+        let at = Pose::at(DVec3::new(0.3, 0.3, height)).unwrap();
         let moving = |body, motion| Moving { body, motion };
         let config = Config {
             start,

@@ -39,7 +39,7 @@ fn tori<R>(cuts: Cuts, x: f64, config: &Config, then: impl FnOnce(&Problem<'_>) 
     let torus = body(&torus(cuts.around, cuts.about));
     let moving = |x: f64| Moving {
         body: &torus,
-        motion: Motion::still(Pose::from_translation(x * DVec3::X).unwrap()),
+        motion: Motion::still(Pose::at(x * DVec3::X).unwrap()),
     };
     then(&Problem::new(moving(x), moving(0.0), 1.0, config).unwrap())
 }
@@ -243,7 +243,7 @@ fn single_pieces_are_measured_once() {
     let ball = Body::ball(1.0).unwrap();
     let moving = |x: f64| Moving {
         body: &ball,
-        motion: Motion::still(Pose::from_translation(x * DVec3::X).unwrap()),
+        motion: Motion::still(Pose::at(x * DVec3::X).unwrap()),
     };
     let config = Config {
         margin: 10.0,

@@ -11,7 +11,7 @@ use crate::tests::oracle::{Always, Exhaustive};
 /// A ball of radius 1 at `x`, moving along −x by `speed`, and one at the origin at rest.
 fn balls<R>(x: f64, speed: f64, config: &Config, then: impl FnOnce(&Problem<'_>) -> R) -> R {
     let ball = Body::ball(1.0).unwrap();
-    let start = Pose::from_translation(x * DVec3::X).unwrap();
+    let start = Pose::at(x * DVec3::X).unwrap();
     let a = Moving {
         body: &ball,
         motion: Motion::new(start, -speed * DVec3::X, DVec3::ZERO).unwrap(),
@@ -107,7 +107,7 @@ fn returning<R>(config: &Config, then: impl FnOnce(&Problem<'_>) -> R) -> R {
         // Its other end comes around.
         motion: Motion::new(Pose::IDENTITY, DVec3::ZERO, 0.5 * turn * DVec3::Y).unwrap(),
     };
-    let beside = Pose::from_translation(DVec3::new(-0.2, 0.0, 0.9)).unwrap();
+    let beside = Pose::at(DVec3::new(-0.2, 0.0, 0.9)).unwrap();
     let b = Moving {
         body: &ball,
         motion: Motion::still(beside),

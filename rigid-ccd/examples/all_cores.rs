@@ -1,0 +1,34 @@
+//! A thousand questions on all cores: a solver for each thread.
+
+use rayon::prelude::*;
+use rigid_ccd::{Body, Error, Hit, Motion, Pose, Solver};
+
+/// A capsule that flies past a box, or into it, turned a little further each time.
+fn motion(k: u32) -> Result<Motion, Error> {
+    let angle = f64::from(k) * 0.01;
+    let from = Pose::at([4.0 * angle.cos(), 4.0 * angle.sin(), 0.3])?;
+    let velocity = [-5.0 * (angle + 0.2).cos(), -5.0 * (angle + 0.2).sin(), 0.0];
+    Ok(Motion::new(from, velocity, [angle, 1.0, 0.0])?)
+}
+
+#[allow(clippy::print_stdout, reason = "an example shows what comes out")]
+fn main() -> Result<(), Error> {
+    let capsule = Body::capsule(0.1, 0.6)?;
+    let wall = Body::cuboid([0.5, 1.0, 0.5])?;
+
+    let hits = (0..1000_u32)
+        .into_par_iter()
+        .map_init(Solver::new, |solver, k| {
+            solver.first_contact((&capsule, motion(k)?), (&wall, Motion::STILL), 1.0)
+        })
+        .collect::<Result<Vec<Option<Hit>>, Error>>()?;
+
+    let times: Vec<f64> = hits.iter().flatten().map(|hit| hit.time).collect();
+    let mean = times.iter().sum::<f64>() / times.len() as f64;
+    println!(
+        "{} of {} meet, at {mean:.4} on average",
+        times.len(),
+        hits.len()
+    );
+    Ok(())
+}

@@ -1,0 +1,29 @@
+//! A cube falls flat onto a slab: all features that are in contact when it lands.
+
+use rigid_ccd::{Body, Config, Motion, Pose, Problem, first_contact};
+use std::error::Error;
+
+#[allow(clippy::print_stdout, reason = "an example shows what comes out")]
+fn main() -> Result<(), Box<dyn Error>> {
+    let cube = Body::cuboid([0.5, 0.5, 0.5])?;
+    let slab = Body::cuboid([2.0, 2.0, 0.1])?;
+    let falls = Motion::new(Pose::at([0.3, 0.2, 2.0])?, [0.0, 0.0, -3.0], [0.0; 3])?;
+
+    let hit = first_contact((&cube, falls), (&slab, Motion::STILL), 1.0)?.ok_or("no contact")?;
+    println!("lands at {:.4}", hit.time);
+
+    let problem = Problem::new(
+        (&cube, falls),
+        (&slab, Motion::STILL),
+        1.0,
+        &Config::default(),
+    )?;
+    for pair in problem.contacts_at(hit.time)? {
+        let (a, b) = (pair.feature_a, pair.feature_b);
+        println!(
+            "{a} of the cube, {b} of the slab, in {:.3}",
+            pair.separation.witness_b
+        );
+    }
+    Ok(())
+}

@@ -1,0 +1,23 @@
+//! A box flies at a ball, turning 20 radians per unit of time: when, where and how do they meet?
+
+use rigid_ccd::{Body, Motion, Pose, first_contact};
+use std::error::Error;
+
+#[allow(clippy::print_stdout, reason = "an example shows what comes out")]
+fn main() -> Result<(), Box<dyn Error>> {
+    // Half of its sides.
+    let body = Body::cuboid([0.5, 0.5, 0.5])?;
+    let ball = Body::ball(0.3)?;
+
+    let start = Pose::at([-3.0, 0.0, 0.0])?;
+    let fast = Motion::new(start, [4.0, 0.0, 0.0], [0.0, 0.0, 20.0])?;
+    let slow = Motion::new(start, [1.0, 0.0, 0.0], [0.0, 0.0, 20.0])?;
+
+    for (name, flies) in [("fast", fast), ("slow", slow)] {
+        match first_contact((&body, flies), (&ball, Motion::STILL), 1.0)? {
+            Some(hit) => println!("{name}: contact at {:.4} in {:.4}", hit.time, hit.witness_a),
+            None => println!("{name}: no contact"),
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,38 @@
+//! A wedge drops onto a bracket and turns on its way: two meshes, of files given or of those beside
+//! this example.
+//!
+//! `cargo run --example two_meshes -- part.stl other.obj`
+
+use rigid_ccd::{Config, Motion, Pose, Solver, load};
+use std::error::Error;
+
+const BRACKET: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/bracket.obj");
+const WEDGE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/wedge.obj");
+
+#[allow(clippy::print_stdout, reason = "an example shows what comes out")]
+fn main() -> Result<(), Box<dyn Error>> {
+    let mut files = std::env::args().skip(1);
+    let moving = load(files.next().unwrap_or(WEDGE.into()))?;
+    let standing = load(files.next().unwrap_or(BRACKET.into()))?;
+
+    let start = Pose::at([0.7, 0.2, 2.0])?;
+    let drops = Motion::new(start, [0.0, 0.0, -2.0], [0.0, 1.5, 0.0])?;
+
+    // A contact is reported while the bodies are no more than a millionth apart.
+    let mut solver = Solver::new().with_config(Config {
+        tolerance: 1e-6,
+        ..Config::default()
+    });
+    match solver.first_contact((&moving, drops), (&standing, Motion::STILL), 1.0)? {
+        Some(hit) => {
+            println!("contact at {:.6} in {:.6}", hit.time, hit.witness_b);
+            if let Some(contact) = hit.contact {
+                let (a, b) = (contact.feature_a, contact.feature_b);
+                println!("{a} of the moving body with {b} of the standing one");
+                println!("normal {:.6}", contact.separation.normal);
+            }
+        }
+        None => println!("no contact"),
+    }
+    Ok(())
+}

@@ -1,0 +1,20 @@
+//! Why a question has no answer.
+
+use ccd_core::{InputError, Limit};
+
+/// Why a question has no answer.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// The question cannot be asked.
+    #[error(transparent)]
+    Input(#[from] InputError),
+    /// A limit was reached before the answer was.
+    #[error("unresolved ({reason}): nothing touches before {safe_until}, later is not known")]
+    Unresolved {
+        /// Nothing touches before this time.
+        safe_until: f64,
+        /// Which limit.
+        reason: Limit,
+    },
+}

@@ -1,0 +1,134 @@
+//! The front door says what the engine says.
+
+use rigid_ccd::glam::DVec3;
+use rigid_ccd::schedule::{BestFirst, Schedule};
+use rigid_ccd::{
+    Auto, Body, Config, DistanceOracle, Error, Gjk, HitKind, InputError, Limit, Motion, Outcome,
+    Pose, Problem, Solver, first_contact,
+};
+
+fn capsule() -> Body {
+    Body::capsule(0.1, 0.6).unwrap()
+}
+
+fn cuboid() -> Body {
+    Body::cuboid([0.5, 0.4, 0.3]).unwrap()
+}
+
+fn at(x: f64) -> Pose {
+    Pose::at([x, 0.1, 0.05]).unwrap()
+}
+
+fn moving(x: f64, speed: f64) -> Motion {
+    Motion::new(at(x), [speed, 0.0, 0.1], [0.3, 2.0, 1.0]).unwrap()
+}
+
+#[test]
+fn hits_are_the_engines_bit_for_bit() {
+    let (a, b) = (capsule(), cuboid());
+    let config = Config {
+        tolerance: 1e-5,
+        margin: 0.01,
+        ..Config::default()
+    };
+    let mut solver = Solver::new().with_config(config);
+    let (mut schedule, mut oracle) = (BestFirst::default(), Auto::default());
+    let (mut hits, mut misses) = (0, 0);
+    for k in 0..50 {
+        let flies = moving(-3.0, 0.1 * f64::from(k));
+        let problem = Problem::new((&a, flies), (&b, Motion::STILL), 1.0, &config).unwrap();
+        let answer = schedule.solve(&problem, &mut oracle);
+        let found = solver.first_contact((&a, flies), (&b, Motion::STILL), 1.0);
+        match (answer.outcome, found.unwrap()) {
+            (Outcome::Contact { time, contact }, Some(hit)) => {
+                assert_eq!((hit.time, hit.contact), (time, Some(contact)));
+                assert_eq!(hit.kind, HitKind::Contact);
+                assert_eq!(hit.witness_a, contact.separation.witness_a);
+                assert_eq!(hit.witness_b, contact.separation.witness_b);
+                hits += 1;
+            }
+            (Outcome::Free { .. }, None) => misses += 1,
+            other => panic!("{other:?}"),
+        }
+    }
+    assert!(hits > 10 && misses > 10, "{hits} hits, {misses} misses");
+}
+
+#[test]
+fn what_is_in_contact_at_the_start_is_a_hit_at_0() {
+    let (a, b) = (cuboid(), cuboid());
+    let touching = first_contact((&a, Motion::still(beside(1.0))), (&b, Motion::STILL), 1.0);
+    let touching = touching.unwrap().unwrap();
+    assert_eq!((touching.time, touching.kind), (0.0, HitKind::Touching));
+    let across = first_contact((&a, Motion::still(beside(0.3))), (&b, Motion::STILL), 1.0);
+    let across = across.unwrap().unwrap();
+    assert_eq!((across.time, across.kind), (0.0, HitKind::Overlapping));
+}
+
+fn beside(x: f64) -> Pose {
+    Pose::at([x, 0.0, 0.0]).unwrap()
+}
+
+#[test]
+fn a_limit_is_an_error_with_a_certified_time() {
+    let (a, b) = (capsule(), cuboid());
+    let mut solver = Solver::with_oracle(Gjk::default()).with_config(Config {
+        budget: 1,
+        ..Config::default()
+    });
+    let found = solver.first_contact((&a, moving(-3.0, 4.0)), (&b, Motion::STILL), 1.0);
+    let Err(Error::Unresolved { safe_until, reason }) = found else {
+        panic!("{found:?}");
+    };
+    assert_eq!(reason, Limit::Budget);
+    assert!((0.0..0.6).contains(&safe_until), "{safe_until}");
+    let words = found.unwrap_err().to_string();
+    assert!(words.starts_with("unresolved (budget): "), "{words}");
+}
+
+#[test]
+fn what_cannot_be_asked_is_an_error() {
+    let ball = Body::ball(0.5).unwrap();
+    let found = first_contact((&ball, Motion::STILL), (&ball, Motion::STILL), -1.0);
+    let out_of_range = |error| matches!(error, Error::Input(InputError::OutOfRange { .. }));
+    assert!(found.is_err_and(out_of_range));
+    assert!(Pose::at([f64::NAN, 0.0, 0.0]).is_err());
+}
+
+#[test]
+fn vectors_are_arrays_or_turn_into_them() {
+    let (v, w) = ([1.0, 2.0, 3.0], [0.1, 0.2, 0.3]);
+    let arrays = Motion::new(at(0.0), v, w).unwrap();
+    let vectors = Motion::new(at(0.0), DVec3::from(v), DVec3::from(w)).unwrap();
+    assert_eq!(arrays, vectors);
+}
+
+#[test]
+fn backends_agree() {
+    let (a, b) = (capsule(), cuboid());
+    let asked = ((&a, moving(-3.0, 4.0)), (&b, Motion::STILL));
+    let time = |found: Result<Option<rigid_ccd::Hit>, Error>| found.unwrap().unwrap().time;
+    let by_default = time(first_contact(asked.0, asked.1, 1.0));
+    let mut gjk = Solver::with_oracle(Gjk::default());
+    let mut both = Solver::with_oracle(rigid_ccd::Direct::default().or_else(Gjk::default()));
+    for other in [
+        time(gjk.first_contact(asked.0, asked.1, 1.0)),
+        time(both.first_contact(asked.0, asked.1, 1.0)),
+    ] {
+        assert!((other - by_default).abs() < 1e-3, "{other} {by_default}");
+    }
+}
+
+#[cfg(feature = "meshes")]
+#[test]
+fn meshes_are_loaded_from_files() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/examples");
+    let bracket = rigid_ccd::load(format!("{folder}/bracket.obj")).unwrap();
+    let inside = Motion::still(Pose::at([0.2, 0.5, 1.0]).unwrap());
+    let ball = Body::ball(0.05).unwrap();
+    let hit = first_contact((&ball, inside), (&bracket, Motion::STILL), 1.0).unwrap();
+    let hit = hit.expect("the bracket is solid");
+    assert_eq!((hit.kind, hit.contact), (HitKind::Overlapping, None));
+    let missing = rigid_ccd::load(format!("{folder}/none.obj")).unwrap_err();
+    assert!(missing.to_string().contains("none.obj"), "{missing}");
+}
