@@ -72,25 +72,20 @@ impl Row {
         self.radii.push(polytope.radius);
         let surfaces = &mut self.surfaces;
         let exists = |&c: &u32| (c as usize) < count;
-        let mut facets = 0;
-        for (corners, origin) in polytope.facets {
+        for (facet, (corners, origin)) in polytope.facets.enumerate() {
             if corners.len() < 3 || !corners.iter().all(exists) {
-                return Err(InputError::FacetOutOfRange {
-                    piece,
-                    facet: facets,
-                });
+                return Err(InputError::FacetOutOfRange { piece, facet });
             }
             surfaces.corners.extend_from_slice(corners);
             surfaces.corner_ends.push(surfaces.corners.len() as u32);
             surfaces.origins.push(origin);
-            facets += 1;
         }
         surfaces.facet_ends.push(surfaces.origins.len() as u32);
-        for (k, face) in polytope.faces.enumerate() {
-            if !face.corners.iter().all(|p| p.is_finite()) {
-                return Err(InputError::BadFace { piece, face: k });
+        for (face, on_it) in polytope.faces.enumerate() {
+            if !on_it.corners.iter().all(|p| p.is_finite()) {
+                return Err(InputError::BadFace { piece, face });
             }
-            surfaces.faces.push(face);
+            surfaces.faces.push(on_it);
         }
         surfaces.face_ends.push(surfaces.faces.len() as u32);
         Ok(())

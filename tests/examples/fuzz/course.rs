@@ -37,7 +37,7 @@ impl Place {
 
     fn pose(&self) -> Result<Pose, InputError> {
         let [w, x, y, z] = self.quaternion;
-        Pose::new(self.position.into(), DQuat::from_xyzw(x, y, z, w))
+        Pose::new(self.position, DQuat::from_xyzw(x, y, z, w))
     }
 
     /// The unit quaternion.
@@ -68,9 +68,7 @@ impl Course {
     pub fn motion(&self, duration: f64) -> Result<Motion, InputError> {
         let (start, centre) = (self.start.pose()?, DVec3::from(self.centre));
         match self.goal {
-            Goal::Velocities { linear, spin } => {
-                Motion::about(start, linear.into(), spin.into(), centre)
-            }
+            Goal::Velocities { linear, spin } => Motion::about(start, linear, spin, centre),
             Goal::End(end) => Motion::between(start, end.pose()?, centre, duration),
         }
     }
