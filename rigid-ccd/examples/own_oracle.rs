@@ -55,7 +55,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     for (name, other) in [("ball", Body::ball(0.5)?), ("box", Body::cuboid([0.5; 3])?)] {
         let (a, b) = ((&capsule, flies), (&other, Motion::STILL));
         let theirs = Solver::new().first_contact(a, b, 1.0)?.map(|hit| hit.time);
-        let mut solver = Solver::with_oracle(Segments.or_else(Gjk::default()));
+        let mut solver = Solver::with_oracle(Segments.or_else(Gjk));
         let own = solver.first_contact(a, b, 1.0)?.map(|hit| hit.time);
         println!("{name}: {own:.4?}, by the default {theirs:.4?}");
     }

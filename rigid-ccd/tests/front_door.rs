@@ -72,7 +72,7 @@ fn beside(x: f64) -> Pose {
 #[test]
 fn a_limit_is_an_error_with_a_certified_time() {
     let (a, b) = (capsule(), cuboid());
-    let mut solver = Solver::with_oracle(Gjk::default()).with_config(Config {
+    let mut solver = Solver::with_oracle(Gjk).with_config(Config {
         budget: 1,
         ..Config::default()
     });
@@ -109,8 +109,8 @@ fn backends_agree() {
     let asked = ((&a, moving(-3.0, 4.0)), (&b, Motion::STILL));
     let time = |found: Result<Option<rigid_ccd::Hit>, Error>| found.unwrap().unwrap().time;
     let by_default = time(first_contact(asked.0, asked.1, 1.0));
-    let mut gjk = Solver::with_oracle(Gjk::default());
-    let mut both = Solver::with_oracle(rigid_ccd::Direct::default().or_else(Gjk::default()));
+    let mut gjk = Solver::with_oracle(Gjk);
+    let mut both = Solver::with_oracle(rigid_ccd::Direct.or_else(Gjk));
     for other in [
         time(gjk.first_contact(asked.0, asked.1, 1.0)),
         time(both.first_contact(asked.0, asked.1, 1.0)),

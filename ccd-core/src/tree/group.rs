@@ -2,6 +2,7 @@
 
 use super::Node;
 use crate::order::greater;
+use crate::tolerance::SQUARES;
 use crate::vector::{length, normal};
 use glam::{DVec3, Vec3};
 
@@ -122,7 +123,13 @@ impl TriangleGroup {
 
 /// The unit normal of a triangle, or zero when it has none.
 pub(crate) fn unit_normal(corners: [DVec3; 3]) -> Vec3 {
-    normal(corners).unwrap_or(DVec3::ZERO).as_vec3()
+    let across = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+    let square = across.length_squared();
+    match SQUARES.contains(&square) {
+        // In f32 a reciprocal will do.
+        true => (across * square.sqrt().recip()).as_vec3(),
+        false => normal(corners).unwrap_or(DVec3::ZERO).as_vec3(),
+    }
 }
 
 /// The nearest f32 that is not below.
