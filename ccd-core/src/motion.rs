@@ -46,7 +46,7 @@ impl Motion {
     /// From the pose at `t = 0` and the velocities, per unit of time, turning about the body's
     /// origin.
     ///
-    /// Velocities are arrays, or whatever turns into them: vectors of `glam`, `nalgebra`, `mint`.
+    /// Velocities are arrays, or whatever turns into them: vectors of `glam` and `nalgebra`.
     ///
     /// # Errors
     /// [`InputError::NotFinite`].

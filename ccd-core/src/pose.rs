@@ -26,8 +26,8 @@ impl Pose {
 
     /// A pose from its parts, the quaternion as x, y, z, w; it is normalised.
     ///
-    /// Both take arrays, and whatever turns into them: vectors and quaternions of `glam`, `nalgebra`,
-    /// `mint`.
+    /// Both take arrays, and whatever turns into them: vectors of `glam` and `nalgebra`, quaternions of
+    /// `glam`; of `nalgebra` their `coords`.
     ///
     /// # Errors
     /// [`InputError::NotFinite`] for a NaN or infinite part, [`InputError::ZeroQuaternion`] when the

@@ -7,7 +7,7 @@ use crate::store::STORED_EXTENSION;
 use ccd_core::Body;
 use ccd_core::glam::DVec3;
 use ccd_core::tolerance::MAX_COORDINATE;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 /// Where a body comes from. All lengths are from 0 to [`MAX_COORDINATE`], in the scene's unit of length.
@@ -67,16 +67,19 @@ impl BodySource {
                 radius,
                 half_height,
             } => Prepared::primitive(Body::capsule(radius, half_height)?),
-            BodySource::Stored(ref path) => Model::load(path)?.into_prepared()?,
+            BodySource::Stored(ref path) => in_file(path, Model::load(path)?.into_prepared())?,
             BodySource::Mesh(ref path) => {
-                let prepared = body_from_mesh(&TriangleMesh::read(path)?, detail);
-                prepared.map_err(|error| BodyError::InFile {
-                    file: path.clone(),
-                    error: Box::new(error),
-                })?
+                in_file(path, body_from_mesh(&TriangleMesh::read(path)?, detail))?
             }
         })
     }
+}
+
+fn in_file<T>(path: &Path, made: Result<T, BodyError>) -> Result<T, BodyError> {
+    made.map_err(|error| BodyError::InFile {
+        file: path.into(),
+        error: Box::new(error),
+    })
 }
 
 impl BodySource {

@@ -1,7 +1,7 @@
 //! A wedge drops onto a bracket and turns on its way: two meshes, of files given or of those beside
 //! this example.
 //!
-//! `cargo run --example two_meshes -- part.stl other.obj`
+//! `cargo run -p rigid-ccd --example two_meshes -- part.stl other.obj`
 
 use rigid_ccd::{Config, Motion, Pose, Solver, load};
 use std::error::Error;

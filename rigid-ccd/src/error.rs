@@ -1,14 +1,20 @@
 //! Why a question has no answer.
 
 use ccd_core::{InputError, Limit};
+#[cfg(feature = "meshes")]
+use ccd_decomp::BodyError;
 
 /// Why a question has no answer.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
     /// The question cannot be asked.
     #[error(transparent)]
     Input(#[from] InputError),
+    /// A body cannot be made.
+    #[cfg(feature = "meshes")]
+    #[error(transparent)]
+    Body(#[from] BodyError),
     /// A limit was reached before the answer was.
     #[error("unresolved ({reason}): nothing touches before {safe_until}, later is not known")]
     Unresolved {

@@ -8,7 +8,8 @@ use crate::Error;
 /// The first contact of two bodies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {
-    /// When, in the motions' unit of time: nothing touches before.
+    /// When, in the motions' unit of time: nothing touches before, but for what
+    /// [`StartPolicy::Leave`](ccd_core::StartPolicy::Leave) lets go of at the start.
     pub time: f64,
     /// Whether the bodies come into contact, or are in contact at the start.
     pub kind: HitKind,
@@ -17,7 +18,7 @@ pub struct Hit {
     /// A point of body B where it is nearest to A.
     pub witness_b: DVec3,
     /// The normal, the distance and the features; none where one body lies inside the other at the
-    /// start.
+    /// start: both witnesses are then the same point, which lies in both.
     pub contact: Option<Contact>,
 }
 

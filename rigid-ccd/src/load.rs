@@ -15,7 +15,7 @@ use std::path::Path;
 ///
 /// ```no_run
 /// let part = rigid_ccd::load("part.stl")?;
-/// # Ok::<(), rigid_ccd::mesh::BodyError>(())
+/// # Ok::<(), rigid_ccd::Error>(())
 /// ```
 pub fn load(path: impl AsRef<Path>) -> Result<Body, BodyError> {
     let path = path.as_ref();

@@ -21,14 +21,13 @@ pub(super) fn bottom_up<T: Default + Send>(
     make: impl Fn(usize, [&T; 2]) -> Result<T, HullTreeError> + Sync,
 ) -> Result<Vec<T>, HullTreeError> {
     let cores = available_parallelism().map_or(1, NonZero::get);
-    // Several parts for a core, as they are not all of one size.
-    let least = hierarchy.nodes().len() / (4 * cores);
-    bottom_up_from(least.max(WORTHWHILE), hierarchy, make)
+    // Several parts for each of many cores, as they are not all of one size.
+    let parts = if cores > 1 { 4 * cores } else { 1 };
+    bottom_up_in(parts, hierarchy, make)
 }
 
-/// Subtrees of fewer nodes are made in one go.
-fn bottom_up_from<T: Default + Send>(
-    least: usize,
+fn bottom_up_in<T: Default + Send>(
+    parts: usize,
     hierarchy: &Hierarchy,
     make: impl Fn(usize, [&T; 2]) -> Result<T, HullTreeError> + Sync,
 ) -> Result<Vec<T>, HullTreeError> {
@@ -43,11 +42,10 @@ fn bottom_up_from<T: Default + Send>(
         hierarchy,
         order: &order,
         below: &below,
-        least,
         make,
     };
     let mut done: Vec<T> = order.iter().map(|_| T::default()).collect();
-    row.fill(0..order.len(), &mut done)?;
+    row.fill(0..order.len(), &mut done, parts)?;
     let mut sorted: Vec<T> = order.iter().map(|_| T::default()).collect();
     for (&at, made) in order.iter().zip(done) {
         sorted[at] = made;
@@ -61,8 +59,6 @@ struct Row<'a, F> {
     order: &'a [usize],
     /// How many nodes each one's subtree has.
     below: &'a [usize],
-    /// A subtree of fewer nodes is made in one go.
-    least: usize,
     make: F,
 }
 
@@ -70,56 +66,65 @@ struct Row<'a, F> {
 const WORTHWHILE: usize = 1024;
 
 impl<F> Row<'_, F> {
-    /// Makes a range of the row that is one subtree.
+    /// Makes a range of the row that is one subtree, in at most so many parts: they are shared out by
+    /// size, and either side gets fewer, so that no chain of nodes takes it deeper than there are parts.
     fn fill<T: Default + Send>(
         &self,
         range: Range<usize>,
         done: &mut [T],
+        parts: usize,
     ) -> Result<(), HullTreeError>
     where
         F: Fn(usize, [&T; 2]) -> Result<T, HullTreeError> + Sync,
     {
         let root = self.order[range.end - 1];
         match self.hierarchy.nodes()[root] {
-            HierarchyNode::Inner(left, _) if range.len() >= self.least => {
+            HierarchyNode::Inner(left, _) if parts > 1 && range.len() >= WORTHWHILE => {
                 let middle = range.start + self.below[left as usize];
                 let (first, others) = done.split_at_mut(middle - range.start);
                 let (second, _) = others.split_at_mut(range.end - 1 - middle);
                 let ranges = [range.start..middle, middle..range.end - 1];
-                self.fill_both(ranges, [first, second])?;
+                let of_first = parts * ranges[0].len() / range.len();
+                let of_first = of_first.clamp(1, parts - 1);
+                self.fill_both(ranges, [first, second], [of_first, parts - of_first])?;
                 self.fill_one(range.end - 1, range.start, done)
             }
             _ => (range.clone()).try_for_each(|at| self.fill_one(at, range.start, done)),
         }
     }
 
-    /// Makes two subtrees beside each other, or one after the other where there is no thread to be had.
+    /// Makes two subtrees, beside each other where both are worth it and there is a thread to be had.
     fn fill_both<T: Default + Send>(
         &self,
         [one, other]: [Range<usize>; 2],
         [first, second]: [&mut [T]; 2],
+        [of_first, of_second]: [usize; 2],
     ) -> Result<(), HullTreeError>
     where
         F: Fn(usize, [&T; 2]) -> Result<T, HullTreeError> + Sync,
     {
+        if one.len() < WORTHWHILE || other.len() < WORTHWHILE {
+            self.fill(one, first, of_first)?;
+            return self.fill(other, second, of_second);
+        }
         let waiting = Mutex::new(Some((one, first)));
         let fill_waiting = || {
             let taken = waiting
                 .lock()
                 .unwrap_or_else(PoisonError::into_inner)
                 .take();
-            taken.map_or(Ok(()), |(range, done)| self.fill(range, done))
+            taken.map_or(Ok(()), |(range, done)| self.fill(range, done, of_first))
         };
-        let (of_first, of_second) = scope(|threads| {
+        let (first, second) = scope(|threads| {
             let thread = Builder::new().spawn_scoped(threads, fill_waiting);
-            let of_second = self.fill(other, second);
-            let of_first = match thread {
+            let second = self.fill(other, second, of_second);
+            let first = match thread {
                 Ok(thread) => thread.join().unwrap_or_else(|panic| resume_unwind(panic)),
                 Err(_) => fill_waiting(),
             };
-            (of_first, of_second)
+            (first, second)
         });
-        of_first.and(of_second)
+        first.and(second)
     }
 
     /// Makes a node of the row once its children are made; what is made starts at a place of the row.
@@ -174,7 +179,7 @@ mod tests {
     }
 
     #[test]
-    fn parts_of_any_size_make_the_same() {
+    fn any_number_of_parts_makes_the_same() {
         let hierarchy = hierarchy(5000);
         // Of every node which pieces are below, as they come.
         let make = |at: usize, [left, right]: [&Vec<u32>; 2]| {
@@ -183,10 +188,39 @@ mod tests {
                 HierarchyNode::Inner(..) => [&left[..], right].concat(),
             })
         };
-        let one = bottom_up_from(usize::MAX, &hierarchy, make).unwrap();
+        let one = bottom_up_in(1, &hierarchy, make).unwrap();
         assert_eq!(one[0], (0..5000).collect::<Vec<u32>>());
-        for least in [5000, 1000, 100] {
-            assert_eq!(bottom_up_from(least, &hierarchy, make).unwrap(), one);
+        for parts in [2, 3, 8, 64] {
+            assert_eq!(bottom_up_in(parts, &hierarchy, make).unwrap(), one);
+        }
+    }
+
+    /// Every node has one leaf and the rest: as deep as there are pieces.
+    #[test]
+    fn chains_take_no_more_stack_than_other_trees() {
+        const PIECES: u32 = 100_000;
+        for leaf_first in [true, false] {
+            let mut nodes = Vec::new();
+            for k in 0..PIECES - 1 {
+                let (leaf, rest) = (2 * k + 1, 2 * k + 2);
+                nodes.push(match leaf_first {
+                    true => HierarchyNode::Inner(leaf, rest),
+                    false => HierarchyNode::Inner(rest, leaf),
+                });
+                nodes.push(HierarchyNode::Leaf(k));
+            }
+            nodes.push(HierarchyNode::Leaf(PIECES - 1));
+            let hierarchy = Hierarchy::new(nodes, PIECES as usize).unwrap();
+            let count = |at: usize, [left, right]: [&u32; 2]| {
+                Ok(match hierarchy.nodes()[at] {
+                    HierarchyNode::Leaf(_) => 1,
+                    HierarchyNode::Inner(..) => left + right,
+                })
+            };
+            for parts in [1, 8, 64] {
+                assert_eq!(bottom_up_in(parts, &hierarchy, count).unwrap()[0], PIECES);
+            }
+            assert_eq!(bottom_up(&hierarchy, count).unwrap()[0], PIECES);
         }
     }
 
@@ -198,9 +232,9 @@ mod tests {
             999 => Err(fault(at)),
             _ => Ok(0),
         };
-        let one = bottom_up_from(usize::MAX, &hierarchy, make).unwrap_err();
-        for least in [5000, 1000, 100] {
-            assert_eq!(bottom_up_from(least, &hierarchy, make).unwrap_err(), one);
+        let one = bottom_up_in(1, &hierarchy, make).unwrap_err();
+        for parts in [2, 3, 8, 64] {
+            assert_eq!(bottom_up_in(parts, &hierarchy, make).unwrap_err(), one);
         }
     }
 }

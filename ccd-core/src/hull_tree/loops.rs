@@ -107,4 +107,16 @@ mod tests {
         nested.iter().for_each(|corners| pushed.push(corners));
         assert_eq!(pushed, loops);
     }
+
+    #[cfg(feature = "serde")]
+    #[test]
+    fn loops_are_stored_as_lists_of_lists() {
+        let nested: Vec<Vec<u32>> = vec![vec![3, 1, 2], vec![], vec![0, 1, 2, 300]];
+        let bytes = postcard::to_allocvec(&nested).unwrap();
+        assert_eq!(
+            postcard::to_allocvec(&Loops::from(nested.clone())),
+            Ok(bytes.clone())
+        );
+        assert_eq!(postcard::from_bytes(&bytes), Ok(Loops::from(nested)));
+    }
 }
