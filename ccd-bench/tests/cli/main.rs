@@ -40,8 +40,8 @@ fn a_box_falls_onto_a_box() {
 
 #[test]
 fn every_schedule_and_oracle_gives_the_answer() {
-    for schedule in ["best-first", "hull-first", "naive"] {
-        for oracle in ["direct", "gjk", "gjk-f32"] {
+    for schedule in ["best-first", "hull-first", "fast", "naive"] {
+        for oracle in ["direct", "gjk", "gjk-f32", "vmarch"] {
             let options = [
                 "--schedule",
                 schedule,
