@@ -31,8 +31,10 @@ impl Body {
         })
     }
 
-    /// A box about the origin, of half of its sides; corner `k` has a positive x, y, z where bit 0, 1, 2 of `k` is set, and
-    /// faces 0 to 5 look along −x, +x, −y, +y, −z, +z.
+    /// A box about the origin, given by half of each side.
+    ///
+    /// Corner `k` has a positive x, y, z where bit 0, 1, 2 of `k` is set, and faces 0 to 5 look along −x,
+    /// +x, −y, +y, −z, +z.
     ///
     /// # Errors
     /// [`InputError::BadPoint`].

@@ -83,7 +83,8 @@ fn in_file<T>(path: &Path, made: Result<T, BodyError>) -> Result<T, BodyError> {
 }
 
 impl BodySource {
-    fn of_file(path: PathBuf) -> Self {
+    /// A file by its extension: a body that was stored, or a mesh.
+    pub fn of_file(path: PathBuf) -> Self {
         let extension = path.extension().unwrap_or_default();
         match extension.eq_ignore_ascii_case(STORED_EXTENSION) {
             true => BodySource::Stored(path),

@@ -1,7 +1,7 @@
 //! Bodies from files.
 
 use ccd_core::Body;
-use ccd_decomp::{BodyError, BodySource, Detail, STORED_EXTENSION};
+use ccd_decomp::{BodyError, BodySource, Detail};
 use std::path::Path;
 
 /// Loads a body from a mesh file (OBJ, STL, PLY, OFF), or from a `.ccd` file that was prepared before.
@@ -18,11 +18,6 @@ use std::path::Path;
 /// # Ok::<(), rigid_ccd::Error>(())
 /// ```
 pub fn load(path: impl AsRef<Path>) -> Result<Body, BodyError> {
-    let path = path.as_ref();
-    let extension = path.extension().unwrap_or_default();
-    let source = match extension.eq_ignore_ascii_case(STORED_EXTENSION) {
-        true => BodySource::Stored(path.into()),
-        false => BodySource::Mesh(path.into()),
-    };
+    let source = BodySource::of_file(path.as_ref().into());
     Ok(source.load(Detail::Auto)?.body)
 }

@@ -6,7 +6,7 @@ use ccd_distance_gjk::{Auto, Direct, Gjk, GjkF32};
 use ccd_distance_vmarch::Vmarch;
 use ccd_tests::backends::for_each_setup;
 use ccd_tests::case::Case;
-use ccd_tests::models::{Kind, Shape};
+use ccd_tests::models::Kind;
 use ccd_tests::strategies::{cases, check_cases, runner};
 use proptest::strategy::{Strategy, ValueTree};
 
@@ -55,9 +55,9 @@ fn used_as_fresh<O: DistanceOracle + Default, S: Schedule<O> + Default>() {
     for case in sample(200) {
         let query = case.query();
         // Patches have facets, over which marching keeps its place from call to call.
-        let patches = |shape: &Shape| shape.kinds().any(|kind| kind == Kind::Patches);
-        let solids = patches(&query.a.shape) && patches(&query.b.shape);
-        let as_patches = solids.then(|| query.bodies([Kind::Patches; 2]));
+        let shapes = [&query.a.shape, &query.b.shape];
+        let solid = shapes.iter().all(|shape| shape.can_be(Kind::Patches));
+        let as_patches = solid.then(|| query.bodies([Kind::Patches; 2]));
         for bodies in as_patches.into_iter().chain([query.triangles()]) {
             if bodies.pairs() > 1_000 {
                 continue;

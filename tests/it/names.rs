@@ -12,8 +12,8 @@ fn contacts_of_patches_name_the_mesh() {
     let (named, unnamed) = (Cell::new(0), Cell::new(0));
     check_cases(500, cases(), |case| {
         let query = case.query();
-        let solid = |shape: &ccd_tests::models::Shape| shape.kinds().any(|k| k == Kind::Patches);
-        if !solid(&query.a.shape) || !solid(&query.b.shape) {
+        let shapes = [&query.a.shape, &query.b.shape];
+        if !shapes.iter().all(|shape| shape.can_be(Kind::Patches)) {
             return Ok(());
         }
         let bodies = query.bodies([Kind::Patches; 2]);

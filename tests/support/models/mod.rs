@@ -179,6 +179,11 @@ impl Shape {
         })
     }
 
+    /// Whether it can be built of such pieces.
+    pub fn can_be(&self, kind: Kind) -> bool {
+        self.kinds().any(|known| known == kind)
+    }
+
     /// The engine's body; parts are filled by themselves, so that only the other kinds can be hollow.
     ///
     /// # Panics
