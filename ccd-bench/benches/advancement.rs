@@ -6,15 +6,16 @@
 //! cargo bench -p ccd-bench --bench advancement -- santa
 //! ```
 
-use ccd_bench::contender::Contender;
-use ccd_bench::contest::{Allowance, Contest, Entrant, Ours, Truths};
-use ccd_bench::engine::ScheduleKind;
-use ccd_bench::evaluation::USUAL_TOLERANCE;
-use ccd_bench::progress::Progress;
+use ccd_bench::method::solver::Solver;
+use ccd_bench::method::{Method, Ours};
+use ccd_bench::run::contest::{Allowance, Contest, Truths};
+use ccd_bench::run::evaluation::USUAL_TOLERANCE;
 use ccd_bench::scene::{Models, Pieces, listings};
 use criterion::{
     BenchmarkId, Criterion, SamplingMode, Throughput, criterion_group, criterion_main,
 };
+use rigid_ccd::batch::ScheduleKind;
+use rigid_ccd::command::Progress;
 use std::time::Duration;
 
 /// How many rows of a scene, spread over it.
@@ -46,24 +47,24 @@ fn advancement(criterion: &mut Criterion) {
         let mut group = criterion.benchmark_group(format!("advancement/{}", scene.name));
         group.throughput(Throughput::Elements(rows.len() as u64));
         group.sampling_mode(SamplingMode::Flat);
-        for entrant in Entrant::all() {
-            let Entrant::Ours(method, pieces @ (Pieces::Least | Pieces::Patches)) = entrant else {
+        for method in Method::all() {
+            let Method::Ours(kind, pieces @ (Pieces::Least | Pieces::Patches)) = method else {
                 continue;
             };
             // Of all pairs in every step one scene's worth is enough.
-            if method.schedule == ScheduleKind::Naive && scene.name != SMALL {
+            if kind.schedule == ScheduleKind::Naive && scene.name != SMALL {
                 continue;
             }
-            truths.find(&contest, entrant.path(), &rows, &Progress::hidden());
+            truths.find(&contest, method.motion_kind(), &rows, &Progress::hidden());
             // Nothing is timed that is wrong, or that cannot enter.
-            if !is_right(&contest, entrant, &truths) {
+            if !is_right(&contest, method, &truths) {
                 continue;
             }
             let bodies = scene.bodies_of(pieces).expect("it has just entered");
-            let mut contender = Ours::new(method, bodies, USUAL_TOLERANCE);
-            group.bench_function(BenchmarkId::from_parameter(entrant), |bencher| {
+            let mut solver = Ours::new(kind, bodies, USUAL_TOLERANCE);
+            group.bench_function(BenchmarkId::from_parameter(method), |bencher| {
                 bencher.iter(|| {
-                    let steps = |&row: &usize| contender.answer(&scene.queries[row]).steps;
+                    let steps = |&row: &usize| solver.answer(&scene.queries[row]).steps;
                     rows.iter().map(steps).sum::<u64>()
                 });
             });
@@ -73,7 +74,7 @@ fn advancement(criterion: &mut Criterion) {
 }
 
 /// False where it cannot enter.
-fn is_right(contest: &Contest<'_>, entrant: Entrant, truths: &Truths) -> bool {
+fn is_right(contest: &Contest<'_>, method: Method, truths: &Truths) -> bool {
     let allowance = Allowance {
         cell: Duration::MAX,
         patience: Duration::MAX,
@@ -81,11 +82,11 @@ fn is_right(contest: &Contest<'_>, entrant: Entrant, truths: &Truths) -> bool {
         least_rows: ROWS,
         rehearsal: Duration::MAX,
     };
-    let seat = contest
-        .seat(entrant, USUAL_TOLERANCE)
+    let session = contest
+        .session(method, USUAL_TOLERANCE)
         .expect("no peer is asked");
-    seat.is_some_and(|mut seat| {
-        let heard = contest.hear(&mut seat, &allowance, truths);
+    session.is_some_and(|mut session| {
+        let heard = contest.run(&mut session, &allowance, truths);
         let (cell, _) = heard
             .expect("no peer is asked")
             .expect("all queries can be asked");

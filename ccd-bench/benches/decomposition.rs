@@ -5,7 +5,7 @@
 //! cargo bench -p ccd-bench --bench decomposition
 //! ```
 
-use ccd_bench::model::Model;
+use ccd_bench::scene::model::Model;
 use ccd_decomp::{Detail, Order, TriangleMesh, body_from_mesh, decompose};
 use criterion::{
     BenchmarkId, Criterion, SamplingMode, Throughput, criterion_group, criterion_main,

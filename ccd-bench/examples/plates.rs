@@ -5,7 +5,7 @@
 //! `cargo run --release -p ccd-bench --example plates`.
 
 use anyhow::ensure;
-use ccd_bench::model::Plate;
+use ccd_bench::scene::model::Plate;
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::schedule::{BestFirst, Schedule};
 use ccd_core::{Config, Motion, Moving, Outcome, Pose, Problem};

@@ -1,8 +1,8 @@
 //! Writes the motions of the scenes that are shots and drops, as stored in `scenes/`:
 //! `cargo run --example record_shots -- ccd-bench/scenes`.
 
-use ccd_bench::motions::{Query, write};
 use ccd_bench::scene::{Shots, drops_past_board};
+use rigid_ccd::table::motions::{Query, write};
 use std::fs::File;
 use std::path::Path;
 

@@ -3,7 +3,7 @@
 # charts that the README shows, in charts/.
 #
 # usage: keep.sh [REPORT [COMMIT]]
-#   REPORT   the folder that `ccd chart --out` wrote to, default target/ccd-report
+#   REPORT   the folder that `ccd-bench chart --out` wrote to, default target/ccd-report
 #   COMMIT   what the program that measured was built from, default the one checked out
 set -euo pipefail
 here=$(cd "$(dirname "$0")/.." && pwd)

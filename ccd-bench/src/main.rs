@@ -1,7 +1,7 @@
-//! The `ccd` command.
+//! The `ccd-bench` command.
 
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    ccd_bench::cli::main()
+    ccd_bench::command::main()
 }

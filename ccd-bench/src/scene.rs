@@ -1,6 +1,7 @@
 //! The paper's five scenes `[FAST06 §6.2]`, and one small enough for the slowest method.
 
 mod listing;
+pub mod model;
 mod shots;
 #[cfg(test)]
 mod tests;
@@ -8,11 +9,11 @@ mod tests;
 pub use listing::{Listing, listings};
 pub use shots::{Shots, drops_past_board};
 
-use crate::model::{Model, Origin};
-use crate::motions::Query;
-use crate::query::Bodies;
+use crate::scene::model::{Model, Origin};
 use ccd_core::{Body, InputError};
 use ccd_decomp::{BodyError, Detail, Order, TriangleMesh, body_from_mesh, prepare};
+use rigid_ccd::batch::Bodies;
+use rigid_ccd::table::motions::Query;
 use std::collections::HashMap;
 use std::path::PathBuf;
 use std::sync::{Arc, OnceLock};

@@ -41,11 +41,19 @@
 //! - `vmarch`: the distance backend `Vmarch`.
 //! - `nalgebra`: conversions between [`Pose`] and `nalgebra::Isometry3<f64>`.
 
+#[cfg(feature = "command")]
+pub mod batch;
+#[cfg(feature = "command")]
+pub mod command;
 mod error;
 mod hit;
 #[cfg(feature = "meshes")]
 mod load;
 mod solver;
+#[cfg(feature = "command")]
+pub mod table;
+#[cfg(feature = "command")]
+mod text;
 
 pub use ccd_core::glam;
 pub use ccd_core::schedule;

@@ -14,10 +14,7 @@
 mod simulation;
 
 use anyhow::{Context, Result, bail};
-use ccd_bench::engine::{Method, Solver};
-use ccd_bench::model::Model;
-use ccd_bench::motions::Query;
-use ccd_bench::query::{Bodies, solve};
+use ccd_bench::scene::model::Model;
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{Body, Config, Motion, Outcome, Pose};
 use ccd_decomp::{Detail, TriangleMesh, body_from_mesh};
@@ -26,6 +23,9 @@ use rand_pcg::Pcg64;
 use rapier3d_f64::parry::bounding_volume::BoundingVolume;
 use rapier3d_f64::parry::query::{ClosestPoints, closest_points};
 use rapier3d_f64::prelude::{Pose as At, SharedShape, Vector};
+use rigid_ccd::batch::{Bodies, solve};
+use rigid_ccd::batch::{Solve, SolverKind};
+use rigid_ccd::table::motions::Query;
 use simulation::{convex_parts, sectors, simulate};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -122,7 +122,7 @@ fn record(recording: &Recording, models: Option<&Path>) -> Result<Table> {
     let mut subject = Subject {
         body: &body,
         centre: DVec3::ZERO,
-        solver: Method::default().solver(),
+        solver: SolverKind::default().solver(),
     };
     let mut table = Table {
         text: HEADER.to_owned(),
@@ -149,7 +149,7 @@ struct Subject<'a> {
     body: &'a Body,
     /// That it turns about.
     centre: DVec3,
-    solver: Box<dyn Solver>,
+    solver: Box<dyn Solve>,
 }
 
 /// What comes of a row.

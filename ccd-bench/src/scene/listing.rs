@@ -1,8 +1,8 @@
 //! The scenes as data: which models, which rows of which motions.
 
 use super::{Models, Scene, SceneError};
-use crate::model::Model;
-use crate::motions::{MotionTable, Query};
+use crate::scene::model::Model;
+use rigid_ccd::table::motions::{MotionTable, Query};
 use serde::Deserialize;
 
 /// A scene before it is made.

@@ -1,10 +1,10 @@
 //! Bodies shot at resting ones.
 
-use crate::motions::Query;
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{InputError, Motion, Pose};
 use rand::{Rng, RngExt, SeedableRng};
 use rand_pcg::Pcg64;
+use rigid_ccd::table::motions::Query;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::ops::Range;
 

@@ -1,12 +1,12 @@
 //! Peers behind a guard: what hangs is cut off, what dies is started again.
 
-use ccd_bench::contender::Claim;
-use ccd_bench::model::Board;
-use ccd_bench::motions::Query;
-use ccd_bench::peer::{Asked, Guarded, PeerKind};
+use ccd_bench::method::peer::{Asked, Guarded, PeerKind};
+use ccd_bench::method::solver::Claim;
+use ccd_bench::scene::model::Board;
 use ccd_core::glam::DVec3;
 use ccd_core::{Motion, Pose};
 use ccd_decomp::TriangleMesh;
+use rigid_ccd::table::motions::Query;
 use std::time::{Duration, Instant};
 
 /// What nothing here takes.
@@ -29,7 +29,7 @@ fn drop() -> Query {
 }
 
 fn guarded(kind: PeerKind) -> Guarded {
-    let program = env!("CARGO_BIN_EXE_ccd").into();
+    let program = crate::PROGRAM.into();
     Guarded::with_program(program, kind, [&cube(), &cube()]).unwrap()
 }
 

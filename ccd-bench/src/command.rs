@@ -1,0 +1,53 @@
+//! The command `ccd-bench`: demo, charts, brackets of exact first contacts.
+
+mod chart;
+mod peer;
+mod truth;
+
+use chart::{ChartArgs, CommonArgs};
+use clap::{Parser, Subcommand};
+use peer::PeerArgs;
+use rigid_ccd::command::exit_code;
+use std::process::ExitCode;
+use truth::TruthArgs;
+
+/// Compares methods of continuous collision detection: speed against accuracy
+#[derive(Debug, Parser)]
+#[command(name = "ccd-bench", version, after_help = AFTER_HELP)]
+struct Cli {
+    #[command(subcommand)]
+    command: Option<Command>,
+}
+
+const AFTER_HELP: &str = "\
+Without a command, `ccd-bench` runs the demo.
+
+Examples:
+  ccd-bench
+  ccd-bench chart --scenes santa --tolerances 1e-3,1e-6
+  ccd-bench truth --a knot.obj --b knot.obj --motions motions.csv --out truth.csv";
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Compare all methods on the paper's five scenes: a table, charts, a page (under a minute)
+    Demo(CommonArgs),
+    /// Measure speed against accuracy: scenes, methods and tolerances of your choice
+    Chart(ChartArgs),
+    /// Bracket the exact first contacts of two meshes, to judge answers by
+    Truth(TruthArgs),
+    #[command(hide = true)]
+    Peer(PeerArgs),
+}
+
+/// Runs the command that the process was started with.
+pub fn main() -> ExitCode {
+    let command = Cli::parse().command;
+    exit_code(
+        match command.unwrap_or_else(|| Command::Demo(CommonArgs::default())) {
+            Command::Demo(args) => chart::run_demo(&args),
+            Command::Chart(args) => chart::run(&args),
+            Command::Truth(args) => truth::run(&args),
+            Command::Peer(args) => peer::run(&args),
+        },
+    )
+}

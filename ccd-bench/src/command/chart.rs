@@ -1,0 +1,272 @@
+//! `ccd-bench chart` and `ccd-bench demo`: what is to be measured, and what is to be made of it.
+
+use crate::method::Method;
+use crate::method::peer::PeerKind;
+use crate::run::contest::Allowance;
+use crate::run::evaluation::{Evaluated, Plan, USUAL_TOLERANCE};
+use crate::run::joined::{self, Foreign};
+use crate::scene::listings;
+use crate::show::presentation::{Presentation, splice};
+use anyhow::{Context, Result, ensure};
+use clap::Args;
+use rigid_ccd::command::{CannotWrite, Exit};
+use std::fmt::Display;
+use std::io::{self, Write};
+use std::path::PathBuf;
+use std::time::Duration;
+
+/// What to measure, and where to.
+#[derive(Debug, Args)]
+#[command(after_help = AFTER_HELP)]
+pub(super) struct ChartArgs {
+    /// Measure everything: every scene, method and row, at nine tolerances (about half an hour)
+    #[arg(long)]
+    full: bool,
+    #[command(flatten)]
+    common: CommonArgs,
+    /// Only these scenes
+    #[arg(long, value_name = "NAME", value_delimiter = ',')]
+    scenes: Vec<String>,
+    /// Only these methods
+    #[arg(long, value_name = "NAME", value_delimiter = ',')]
+    methods: Vec<String>,
+    /// Only these tolerances
+    #[arg(long, value_name = "LENGTH", value_delimiter = ',')]
+    tolerances: Vec<f64>,
+    /// Seconds for each method on each scene at each tolerance; then no further row is asked
+    #[arg(long, value_name = "SECONDS")]
+    cell: Option<f64>,
+    /// Seconds after which a peer is stopped in the middle of a row
+    #[arg(long, value_name = "SECONDS")]
+    patience: Option<f64>,
+    /// Rows of trials measured elsewhere: scene,method,tolerance,id,micros,steps,status,time
+    #[arg(long, value_name = "FILE.csv")]
+    join: Vec<PathBuf>,
+    /// Put the tables between the markers `<!-- ccd chart: NAME -->` and `<!-- end -->` of this file
+    #[arg(long, value_name = "FILE.md")]
+    splice: Vec<PathBuf>,
+    /// Draw what the folder holds, and measure nothing
+    #[arg(long, conflicts_with_all = ["full", "export"])]
+    redraw: bool,
+    /// Write the meshes and motions of the scenes to this folder, for programs elsewhere, and measure
+    /// nothing
+    #[arg(long, value_name = "DIR")]
+    export: Option<PathBuf>,
+}
+
+/// What the demo can be told, too.
+#[derive(Clone, Debug, Args)]
+pub(super) struct CommonArgs {
+    /// Use the meshes found here (bunny70k.obj, bunny26k.obj, santa.obj, knot2880.obj, …) in place
+    /// of the models made by code
+    #[arg(long, value_name = "DIR")]
+    models: Option<PathBuf>,
+    /// Where tables, charts and the page go; what is there already is not measured again
+    #[arg(long, value_name = "DIR", default_value = REPORT)]
+    out: PathBuf,
+}
+
+const REPORT: &str = "target/ccd-report";
+
+impl Default for CommonArgs {
+    fn default() -> Self {
+        CommonArgs {
+            models: None,
+            out: REPORT.into(),
+        }
+    }
+}
+
+const AFTER_HELP: &str = "\
+Figures of the same program and settings are kept, so that an interrupted run goes on where it
+stopped. A name that is not known is answered with those that are.
+
+Examples:
+  ccd-bench chart                                       a few rows of everything, in a minute
+  ccd-bench chart --full --out full                     everything
+  ccd-bench chart --scenes santa --tolerances 1e-3,1e-6
+  ccd-bench chart --export scenes                       meshes and motions, for other programs";
+
+/// From coarse to fine, as shares of a body of size 1.
+const TOLERANCES: [f64; 9] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9];
+/// Where methods are compared at equal accuracy.
+const FEW_TOLERANCES: [f64; 2] = [USUAL_TOLERANCE, 1e-6];
+
+/// How much is measured.
+#[derive(Clone, Copy, PartialEq)]
+enum Extent {
+    /// A few rows of everything that takes no long.
+    Glance,
+    /// Everything.
+    Full,
+}
+
+/// What runs in this process, and what in one of its own: for everything in half an hour,
+const AT_LENGTH: (Allowance, Allowance) = (
+    Allowance {
+        cell: Duration::from_millis(600),
+        patience: Duration::from_secs(4),
+        rows: usize::MAX,
+        least_rows: 10,
+        rehearsal: Duration::from_secs(20),
+    },
+    Allowance {
+        cell: Duration::from_millis(600),
+        patience: Duration::from_secs(4),
+        rows: usize::MAX,
+        least_rows: 1,
+        rehearsal: Duration::ZERO,
+    },
+);
+/// and for a few rows of everything in a minute.
+const AT_A_GLANCE: (Allowance, Allowance) = (
+    Allowance {
+        cell: Duration::from_millis(40),
+        patience: Duration::from_millis(200),
+        rows: 40,
+        least_rows: 3,
+        rehearsal: Duration::from_millis(400),
+    },
+    Allowance {
+        cell: Duration::from_millis(40),
+        patience: Duration::from_millis(200),
+        rows: 40,
+        least_rows: 1,
+        rehearsal: Duration::ZERO,
+    },
+);
+
+pub(super) fn run(args: &ChartArgs) -> Result<Exit> {
+    let extent = match args.full {
+        true => Extent::Full,
+        false => Extent::Glance,
+    };
+    let mut plan = plan(&args.common, extent)?;
+    plan.listings = chosen(plan.listings, &args.scenes, "scene", |l| l.name.clone())?;
+    plan.methods = chosen(plan.methods, &args.methods, "method", Method::to_string)?;
+    if !args.tolerances.is_empty() {
+        for tolerance in &args.tolerances {
+            ensure!(
+                *tolerance > 0.0 && tolerance.is_finite(),
+                "--tolerances: {tolerance} is no positive length"
+            );
+        }
+        plan.tolerances.clone_from(&args.tolerances);
+    }
+    if let Some(seconds) = args.cell {
+        plan.allowance.cell = duration("--cell", seconds)?;
+    }
+    if let Some(seconds) = args.patience {
+        plan.peer_allowance.patience = duration("--patience", seconds)?;
+    }
+    if let Some(folder) = &args.export {
+        joined::export(&plan.listings, plan.models, folder)?;
+        return Ok(Exit::AllAnswered);
+    }
+    // Before the work, not after it, is when to learn that a file is no table.
+    let mut foreign = Vec::new();
+    for file in &args.join {
+        let trials = joined::read_trials(file);
+        foreign.extend(trials.with_context(|| format!("joining {}", file.display()))?);
+    }
+    let evaluated = match args.redraw {
+        true => plan.recall()?,
+        false => plan.run()?,
+    };
+    present(&plan, evaluated, foreign, &args.splice)
+}
+
+pub(super) fn run_demo(args: &CommonArgs) -> Result<Exit> {
+    let plan = plan(args, Extent::Glance)?;
+    present(&plan, plan.run()?, Vec::new(), &[])
+}
+
+/// Tables, charts and the page.
+fn present(
+    plan: &Plan,
+    mut evaluated: Evaluated,
+    joined: Vec<Foreign>,
+    readmes: &[PathBuf],
+) -> Result<Exit> {
+    joined::join(&mut evaluated, joined)?;
+    let presentation = Presentation::new(&evaluated);
+    let page = presentation.write(&plan.folder)?;
+    for readme in readmes {
+        splice(readme, &presentation.comparisons)
+            .with_context(|| format!("splicing {}", readme.display()))?;
+    }
+    let mut out = io::stdout().lock();
+    let mut say = |text: &dyn Display| {
+        writeln!(out, "{text}").map_err(|source| CannotWrite {
+            place: "the tables".to_owned(),
+            source,
+        })
+    };
+    for table in &presentation.summary {
+        say(&format_args!("{}\n{}", table.title, table.for_terminal()))?;
+    }
+    say(&format_args!("The report: {}", page.display()))?;
+    Ok(Exit::AllAnswered)
+}
+
+/// Everything, or a few rows of everything that takes no long.
+fn plan(common: &CommonArgs, extent: Extent) -> Result<Plan> {
+    if let Some(directory) = &common.models {
+        ensure!(
+            directory.is_dir(),
+            "{} is no directory; give --models one that holds meshes such as bunny70k.obj",
+            directory.display()
+        );
+    }
+    let (allowance, peer_allowance) = match extent {
+        Extent::Full => AT_LENGTH,
+        Extent::Glance => AT_A_GLANCE,
+    };
+    let tolerances: &[f64] = match extent {
+        Extent::Full => &TOLERANCES,
+        Extent::Glance => &FEW_TOLERANCES,
+    };
+    let methods = Method::all().into_iter();
+    let methods = methods.filter(|method| extent == Extent::Full || takes_no_long(*method));
+    Ok(Plan {
+        listings: listings()?,
+        methods: methods.collect(),
+        tolerances: tolerances.to_vec(),
+        allowance,
+        peer_allowance,
+        models: common.models.clone(),
+        folder: common.out.clone(),
+    })
+}
+
+/// Whether a few rows of an method are there at once: other processes take time to start.
+fn takes_no_long(method: Method) -> bool {
+    match method {
+        Method::Ours(..) | Method::Rival(_) => true,
+        Method::Peer(kind) => kind == PeerKind::ParryF64,
+    }
+}
+
+/// Those of the names asked for; all where none is.
+fn chosen<T>(
+    all: Vec<T>,
+    names: &[String],
+    what: &str,
+    name_of: impl Fn(&T) -> String,
+) -> Result<Vec<T>> {
+    let known: Vec<String> = all.iter().map(&name_of).collect();
+    for name in names {
+        ensure!(
+            known.contains(name),
+            "there is no {what} {name}; there are: {}",
+            known.join(", ")
+        );
+    }
+    let wanted = |item: &T| names.is_empty() || names.contains(&name_of(item));
+    Ok(all.into_iter().filter(wanted).collect())
+}
+
+fn duration(option: &str, seconds: f64) -> Result<Duration> {
+    Duration::try_from_secs_f64(seconds)
+        .with_context(|| format!("{option}: {seconds} is no time to wait"))
+}

@@ -1,0 +1,226 @@
+//! `ccd-bench truth`: two meshes and a table of motions in, a table of brackets of the exact first contacts out.
+
+use crate::truth::{Referee, Surface, TRUTH_COLUMNS, Truth, TruthRow};
+use anyhow::{Context, Result};
+use ccd_core::order::greater;
+use ccd_decomp::TriangleMesh;
+use clap::Args;
+use rigid_ccd::batch::Threads;
+use rigid_ccd::command::{
+    BadRows, CannotWrite, Exit, Size, Table, complain, input_name, open_motions,
+    refuse_overwriting, same_file,
+};
+use rigid_ccd::command::{Progress, Total};
+use rigid_ccd::table::motions::MotionRow;
+use std::io::{self, Write};
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+/// Bracket the exact first contacts of two meshes, to judge answers by
+#[derive(Debug, Args)]
+#[command(after_help = AFTER_HELP, after_long_help = AFTER_LONG_HELP)]
+pub(super) struct TruthArgs {
+    /// Body A: a mesh, .obj, .stl, .ply or .off
+    #[arg(long, value_name = "MESH")]
+    a: PathBuf,
+    /// Body B, as body A; the same file is loaded once
+    #[arg(long, value_name = "MESH")]
+    b: PathBuf,
+    /// The table of motions, CSV, as of `ccd query`; - reads standard input
+    #[arg(long, value_name = "CSV")]
+    motions: PathBuf,
+    /// Threads to work on; any number gives the same brackets [default: all there are]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
+    /// The table of truths, CSV; - writes to standard output
+    #[arg(long, value_name = "CSV", default_value = "-")]
+    out: PathBuf,
+    /// Say nothing on standard error but what is wrong
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+const AFTER_HELP: &str = "\
+Examples:
+  ccd-bench truth --a knot.obj --b knot.obj --motions motions.csv --out truth.csv
+  printf 'a_pz,a_vz\\n3,-4\\n' | ccd-bench truth --a part.stl --b slab.obj --motions -
+
+See `ccd-bench truth --help` for the columns of the table and the exit code.";
+
+const AFTER_LONG_HELP: &str = "\
+The bodies are surfaces: what is inside one is apart from it. The method is none of those that
+`ccd query` has, and is made to be right, not fast: bisection in time, each step certified against
+rounding.
+
+Table of truths:
+  id        as in the table of motions (see `ccd query --help` for its columns)
+  status    hit        the first contact is not before lo and not after hi, usually 1e-13 apart
+            free       apart for the whole duration; lo and hi are the duration
+            initial    they touch at the start, or all but touch; lo and hi are 0
+            graze      apart before lo, at lo in touch or all but, never shown to intersect
+            undecided  apart before lo, nothing known after: the work for a row was spent
+            error      the row asks nothing that could be judged
+  reason    what is wrong with a row of status error
+
+Rows are written in order as they are judged, to a file that ends in .partial until all are there.
+
+Exit code: 0 when every row is judged, 2 when there are rows of status error, or on other bad input; 1
+when the table cannot be written.
+
+Examples:
+  ccd-bench truth --a knot.obj --b knot.obj --motions motions.csv --out truth.csv
+  ccd-bench truth --a part.stl --b part.stl --motions motions.csv --threads 1 --out truth.csv
+  printf 'a_pz,a_vz\\n3,-4\\n' | ccd-bench truth --a part.stl --b slab.obj --motions -";
+
+/// Judges all rows that can be; of the others the table says why not.
+pub(super) fn run(args: &TruthArgs) -> Result<Exit> {
+    for (option, path) in [
+        ("--motions", &args.motions),
+        ("--a", &args.a),
+        ("--b", &args.b),
+    ] {
+        refuse_overwriting((option, path), ("--out", &args.out))?;
+    }
+    let (mut rows, length) = open_motions(&args.motions)?;
+    let (a, b) = load(args)?;
+    let referee = Referee::new(&a, b.as_ref().unwrap_or(&a));
+    let mut table = Table::create(&args.out, &TRUTH_COLUMNS)?;
+    let mut threads = Threads::new(args.threads.and_then(|n| NonZeroUsize::new(n.into())))?;
+    let progress = match args.quiet {
+        true => Progress::hidden(),
+        false => Progress::new(length.map_or(Total::Unknown, Total::Bytes)),
+    };
+    let mut bad_rows = BadRows::new(input_name(&args.motions));
+    let (mut seen, start) = (Seen::default(), Instant::now());
+    loop {
+        let batch: Result<Vec<MotionRow>, _> = rows.by_ref().take(threads.batch()).collect();
+        let batch = batch.with_context(|| input_name(&args.motions))?;
+        if batch.is_empty() {
+            break;
+        }
+        let truths = judge(&mut threads, &referee, &batch, &progress);
+        progress.read(rows.bytes());
+        for (row, truth) in batch.iter().zip(truths) {
+            if let Err(error) = row {
+                bad_rows.report(error.place, &error.problem, &progress);
+            }
+            write(&mut table, row, truth)?;
+            truth.iter().for_each(|truth| seen.add(truth));
+        }
+        table.flush()?;
+    }
+    table.finish()?;
+    drop(progress);
+    bad_rows.close();
+    if seen.rows() + bad_rows.count() == 0 {
+        complain(&format!(
+            "{}: has a header, but no rows",
+            input_name(&args.motions)
+        ));
+    }
+    if !args.quiet {
+        let seconds = start.elapsed().as_secs_f64();
+        let _ = writeln!(io::stderr(), "{}, {seconds:.1} s", seen.summary());
+    }
+    Ok(match bad_rows.count() {
+        0 => Exit::AllAnswered,
+        _ => Exit::SomeRowsBad,
+    })
+}
+
+/// The surfaces; B is none of its own when it comes from where A comes from.
+fn load(args: &TruthArgs) -> Result<(Surface, Option<Surface>)> {
+    let surface = |option: &str, path: &Path| -> Result<(Surface, Size)> {
+        let progress = match args.quiet {
+            true => Progress::hidden(),
+            false => Progress::of(&format!("reading {}", path.display())),
+        };
+        let mesh = TriangleMesh::read(path).with_context(|| option.to_owned())?;
+        let surface = Surface::new(&mesh);
+        drop(progress);
+        Ok((surface, Size::of_points(mesh.vertices().iter().copied())))
+    };
+    let (a, size_a) = surface("--a", &args.a)?;
+    if same_file(&args.a, &args.b) {
+        return Ok((a, None));
+    }
+    let (b, size_b) = surface("--b", &args.b)?;
+    if !args.quiet {
+        Size::compare(size_a, size_b);
+    }
+    Ok((a, Some(b)))
+}
+
+/// The truths of rows, none of bad ones.
+fn judge(
+    threads: &mut Threads,
+    referee: &Referee<'_>,
+    batch: &[MotionRow],
+    progress: &Progress,
+) -> Vec<Option<Truth>> {
+    threads.work(batch, |_, row| {
+        let query = row.as_ref().map(|(_, query)| query);
+        let truth = query.ok().map(|query| referee.first_contact(query));
+        progress.step();
+        truth
+    })
+}
+
+fn write(table: &mut Table, row: &MotionRow, truth: Option<Truth>) -> Result<(), CannotWrite> {
+    table.write(|writer| match (row, truth) {
+        (Ok((_, query)), Some(truth)) => {
+            let row = TruthRow::new(query.id.clone(), query.duration, truth);
+            writer.serialize((row, ""))
+        }
+        (Err(error), _) => {
+            let reason = error.problem.to_string();
+            writer.serialize((&error.id, "error", "", "", reason))
+        }
+        (Ok(_), None) => Ok(()),
+    })
+}
+
+/// How many truths there are of each kind, and the widest bracket.
+#[derive(Default)]
+struct Seen {
+    hit: usize,
+    free: usize,
+    initial: usize,
+    graze: usize,
+    undecided: usize,
+    widest: f64,
+}
+
+impl Seen {
+    fn add(&mut self, truth: &Truth) {
+        let count = match truth {
+            Truth::Hit { lo, hi } => {
+                self.widest = greater(self.widest, hi - lo);
+                &mut self.hit
+            }
+            Truth::Free => &mut self.free,
+            Truth::Start => &mut self.initial,
+            Truth::Graze { .. } => &mut self.graze,
+            Truth::Undecided { .. } => &mut self.undecided,
+        };
+        *count += 1;
+    }
+
+    fn rows(&self) -> usize {
+        self.hit + self.free + self.initial + self.graze + self.undecided
+    }
+
+    fn summary(&self) -> String {
+        format!(
+            "{} rows: {} hit, {} free, {} initial, {} graze, {} undecided; widest bracket {:.1e}",
+            self.rows(),
+            self.hit,
+            self.free,
+            self.initial,
+            self.graze,
+            self.undecided,
+            self.widest,
+        )
+    }
+}

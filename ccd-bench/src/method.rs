@@ -1,0 +1,206 @@
+//! The methods that are compared, by name: this project's, published rivals built here, peer libraries.
+
+pub mod peer;
+pub mod rival;
+pub mod solver;
+
+use crate::method::peer::PeerKind;
+use crate::method::rival::{C2a, Contact, DynamicChecker, Stepping};
+use crate::method::solver::{Adjustable, Claim, Reply, Solver};
+use crate::scene::{Pieces, Scene};
+use ccd_core::{Config, Outcome};
+use rigid_ccd::batch::{Bodies, solve};
+use rigid_ccd::batch::{BoundKind, OracleKind, ScheduleKind, Solve, SolverKind};
+use rigid_ccd::table::motions::Query;
+use std::fmt;
+
+/// A method that answers queries.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Method {
+    /// One of this project, over bodies made of such pieces.
+    Ours(SolverKind, Pieces),
+    /// A published rival, built here.
+    Rival(RivalKind),
+    /// A library.
+    Peer(PeerKind),
+}
+
+/// The rivals there are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum RivalKind {
+    /// Continuous tests of oriented boxes.
+    Contact,
+    /// Adaptive bisection.
+    DynamicChecker,
+    /// Controlled conservative advancement.
+    C2a,
+    /// Static tests at equal steps.
+    Stepping,
+}
+
+/// Which motion somebody moves the bodies along.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MotionKind {
+    /// As the query says: a centre straight, the body turning about it.
+    Given,
+    /// From the same pose at the start to the same at the end, along a screw.
+    Screw,
+}
+
+const RIVALS: [RivalKind; 4] = [
+    RivalKind::Contact,
+    RivalKind::DynamicChecker,
+    RivalKind::C2a,
+    RivalKind::Stepping,
+];
+
+impl Method {
+    /// All of them, the default kind first.
+    pub fn all() -> Vec<Method> {
+        let kind = |schedule, oracle| SolverKind {
+            schedule,
+            oracle,
+            bound: BoundKind::Sound,
+        };
+        let (best, hull, fast) = (
+            ScheduleKind::BestFirst,
+            ScheduleKind::HullFirst,
+            ScheduleKind::Fast,
+        );
+        let ours = [
+            (kind(best, OracleKind::Direct), Pieces::Least),
+            (kind(best, OracleKind::Gjk), Pieces::Least),
+            (kind(best, OracleKind::GjkF32), Pieces::Least),
+            (kind(fast, OracleKind::Vmarch), Pieces::Patches),
+            (kind(fast, OracleKind::Gjk), Pieces::Patches),
+            (kind(hull, OracleKind::Vmarch), Pieces::Patches),
+            (kind(ScheduleKind::Naive, OracleKind::Direct), Pieces::Least),
+            (kind(best, OracleKind::Direct), Pieces::Triangles),
+            (kind(best, OracleKind::Direct), Pieces::Patches),
+            (kind(best, OracleKind::Direct), Pieces::ApproximateHulls),
+        ];
+        let ours = ours.map(|(kind, pieces)| Method::Ours(kind, pieces));
+        let rivals = RIVALS.map(Method::Rival);
+        let peers = PeerKind::ALL.into_iter().map(Method::Peer);
+        ours.into_iter().chain(rivals).chain(peers).collect()
+    }
+
+    /// Whether it is measured at every tolerance: not where none changes its answers, nor for models of
+    /// the bodies that are compared with each other alone.
+    pub fn takes_tolerances(self) -> bool {
+        match self {
+            Method::Ours(..) => !self.is_model(),
+            Method::Rival(_) => true,
+            Method::Peer(kind) => kind.takes_tolerance(),
+        }
+    }
+
+    /// Whether it is the default kind over pieces that it would not choose itself.
+    pub fn is_model(self) -> bool {
+        match self {
+            Method::Ours(kind, pieces) => {
+                let own = match kind.schedule.uses_hull_trees() {
+                    true => Pieces::Patches,
+                    false => Pieces::Least,
+                };
+                pieces != own
+            }
+            Method::Rival(_) | Method::Peer(_) => false,
+        }
+    }
+
+    /// Which motion it moves the bodies along.
+    pub fn motion_kind(self) -> MotionKind {
+        match self {
+            Method::Rival(RivalKind::Contact) => MotionKind::Screw,
+            _ => MotionKind::Given,
+        }
+    }
+}
+
+impl RivalKind {
+    /// Takes a session at a scene.
+    pub fn enter(self, scene: &Scene, tolerance: f64) -> Box<dyn Adjustable> {
+        let (a, b) = (scene.a.mesh(), scene.b.mesh());
+        match self {
+            RivalKind::Contact => Box::new(Contact::new(a, b, tolerance)),
+            RivalKind::DynamicChecker => Box::new(DynamicChecker::new(a, b, tolerance)),
+            RivalKind::C2a => Box::new(C2a::new(a, b, tolerance)),
+            RivalKind::Stepping => Box::new(Stepping::new(a, b, tolerance)),
+        }
+    }
+}
+
+/// One of this project's methods as a solver.
+pub struct Ours<'s> {
+    bodies: Bodies<'s>,
+    kind: SolverKind,
+    solver: Box<dyn Solve>,
+    config: Config,
+}
+
+impl<'s> Ours<'s> {
+    /// A kind on two bodies.
+    pub fn new(kind: SolverKind, bodies: Bodies<'s>, tolerance: f64) -> Self {
+        Ours {
+            bodies,
+            kind,
+            solver: kind.solver(),
+            config: Config {
+                tolerance,
+                ..Config::default()
+            },
+        }
+    }
+}
+
+impl Adjustable for Ours<'_> {
+    fn set_tolerance(&mut self, tolerance: f64) {
+        self.config.tolerance = tolerance;
+    }
+}
+
+impl Solver for Ours<'_> {
+    /// Steps are advancements of all pairs where there is such a thing, else pairs of nodes visited.
+    fn answer(&mut self, query: &Query) -> Reply {
+        let Ok(answer) = solve(self.bodies, query, &self.config, self.solver.as_mut()) else {
+            // A query that cannot be posed is not answered.
+            return Reply {
+                claim: Claim::Unresolved { safe_until: 0.0 },
+                steps: 0,
+            };
+        };
+        let claim = match answer.outcome {
+            Outcome::Contact { time, .. } => Claim::Contact { time },
+            Outcome::Touching { .. } | Outcome::Overlapping { .. } => Claim::Contact { time: 0.0 },
+            Outcome::Free { .. } => Claim::Free,
+            Outcome::Unresolved { safe_until, .. } => Claim::Unresolved { safe_until },
+        };
+        let steps = match self.kind.schedule.uses_a_bound() {
+            true => answer.stats.advancements,
+            false => answer.stats.node_visits,
+        };
+        Reply { claim, steps }
+    }
+}
+
+impl fmt::Display for Method {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Method::Ours(kind, pieces) => {
+                write!(f, "{} {}", kind.schedule, kind.oracle)?;
+                match (pieces, kind.schedule.uses_hull_trees()) {
+                    (Pieces::Least, _) | (Pieces::Patches, true) => Ok(()),
+                    (Pieces::Triangles, _) => f.write_str(" over triangles"),
+                    (Pieces::Patches, false) => f.write_str(" over patches"),
+                    (Pieces::ApproximateHulls, _) => f.write_str(" over hulls"),
+                }
+            }
+            Method::Rival(RivalKind::Contact) => f.write_str("CONTACT"),
+            Method::Rival(RivalKind::DynamicChecker) => f.write_str("Dynamic Collision Checker"),
+            Method::Rival(RivalKind::C2a) => f.write_str("C2A"),
+            Method::Rival(RivalKind::Stepping) => f.write_str("discrete stepping"),
+            Method::Peer(kind) => f.write_str(kind.name()),
+        }
+    }
+}

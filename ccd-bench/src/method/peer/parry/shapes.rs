@@ -1,0 +1,42 @@
+//! Meshes, poses and motions as the library has them.
+
+use super::library::math::{Pose, Real, Rotation, Vector};
+use super::library::query::NonlinearRigidMotion;
+use super::library::shape::TriMesh;
+use crate::method::peer::PeerError;
+use ccd_core::Motion;
+use ccd_core::glam::{DQuat, DVec3};
+use ccd_decomp::TriangleMesh;
+
+/// The same triangles in the same order.
+pub(in crate::method::peer) fn tri_mesh(mesh: &TriangleMesh) -> Result<TriMesh, PeerError> {
+    let vertices = mesh.vertices().iter().map(|&v| vector(v)).collect();
+    TriMesh::new(vertices, mesh.faces().to_vec()).map_err(|error| PeerError {
+        why: error.to_string(),
+    })
+}
+
+/// The same motion: both turn about a centre that moves straight, each at a constant rate.
+pub(in crate::method::peer) fn rigid_motion(motion: &Motion) -> NonlinearRigidMotion {
+    NonlinearRigidMotion::new(
+        pose(motion, 0.0),
+        vector(motion.centre()),
+        vector(motion.velocity()),
+        vector(motion.spin()),
+    )
+}
+
+/// Where a body is at a time.
+pub(in crate::method::peer) fn pose(motion: &Motion, time: f64) -> Pose {
+    let pose = motion.pose(time);
+    Pose::from_parts(vector(pose.translation()), rotation(pose.rotation()))
+}
+
+/// Each part rounded to the library's number.
+pub(in crate::method::peer) fn vector(v: DVec3) -> Vector {
+    Vector::new(v.x as Real, v.y as Real, v.z as Real)
+}
+
+fn rotation(q: DQuat) -> Rotation {
+    Rotation::from_xyzw(q.x as Real, q.y as Real, q.z as Real, q.w as Real).normalize()
+}

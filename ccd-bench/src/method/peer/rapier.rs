@@ -1,0 +1,128 @@
+//! rapier in double precision: one step of its simulation, as long as the query, with continuous collision
+//! detection.
+
+use crate::method::peer::parry::double::shapes::{pose, tri_mesh, vector};
+use crate::method::peer::{PeerError, contact_at};
+use crate::method::solver::{Claim, Reply, Solver};
+use ccd_core::Motion;
+use ccd_core::glam::{DQuat, DVec3};
+use ccd_decomp::TriangleMesh;
+use rapier3d_f64::prelude::{
+    ColliderBuilder, MassProperties, PhysicsWorld, Pose, RigidBodyBuilder, RigidBodyHandle,
+    SharedShape, Vector,
+};
+use rigid_ccd::table::motions::Query;
+
+/// A as a body that flies freely, B as a fixed one, and where the step stops A; one step.
+///
+/// The engine sweeps no meshes (they rely on contacts found in time), only convex bodies and compounds of
+/// them, so that A is a compound of its triangles here; B stays the mesh it is. Each triangle is swept
+/// against B's by [parry's sweeps](crate::method::peer::parry::double::sweep), from the pose at the start to that at
+/// the end, the shorter way and at no constant rate: a turn of more than half a circle is another motion,
+/// and large turns are rough, as a step of a game's is expected to be short. The whole step is timed.
+///
+/// # Tolerance
+/// `allowed_linear_error`; the sweeps stop at a gap of up to 1.25 times that.
+///
+/// # Guarantee
+/// None. A triangle that overlaps B's at the start is swept on as a small ball about its centre.
+pub struct Simulated {
+    world: PhysicsWorld,
+    a: RigidBodyHandle,
+    b: RigidBodyHandle,
+}
+
+/// A hit is reported up to this many times the allowed error.
+const ERRORS_AT_HIT: f64 = 1.25;
+/// A step that goes this share of its way is held to have gone all of it: what poses round by.
+const WHOLE: f64 = 1.0 - 1e-9;
+
+impl Simulated {
+    /// Of two meshes.
+    ///
+    /// # Errors
+    /// When parry takes one for no mesh.
+    pub fn new(a: &TriangleMesh, b: &TriangleMesh, tolerance: f64) -> Result<Self, PeerError> {
+        let mut world = PhysicsWorld::new();
+        world.gravity = Vector::ZERO;
+        let parameters = &mut world.integration_parameters;
+        parameters.normalized_allowed_linear_error = tolerance / ERRORS_AT_HIT;
+        let triangles = tri_mesh(a)?
+            .triangles()
+            .map(|t| (Pose::IDENTITY, SharedShape::triangle(t.a, t.b, t.c)))
+            .collect();
+        // Without density: the mass is set for each query, about its centre.
+        let flying = ColliderBuilder::new(SharedShape::compound(triangles)).density(0.0);
+        let fixed = ColliderBuilder::new(SharedShape::new(tri_mesh(b)?));
+        let (a, _) = world.insert(RigidBodyBuilder::dynamic().can_sleep(false), flying);
+        let (b, _) = world.insert(RigidBodyBuilder::fixed(), fixed);
+        Ok(Simulated { world, a, b })
+    }
+
+    /// Sets both bodies on their way.
+    fn pose(&mut self, query: &Query) {
+        self.world.integration_parameters.dt = query.duration;
+        if let Some(b) = self.world.bodies.get_mut(self.b) {
+            b.set_position(pose(&query.b, 0.0), true);
+        }
+        if let Some(a) = self.world.bodies.get_mut(self.a) {
+            let centre = vector(query.a.centre());
+            // The same inertia about all axes, so that it keeps turning about the one it turns about.
+            let mass = MassProperties::new(centre, 1.0, Vector::splat(1.0));
+            a.set_additional_mass_properties(mass, true);
+            a.recompute_mass_properties_from_colliders(&self.world.colliders);
+            a.set_position(pose(&query.a, 0.0), true);
+            a.set_linvel(vector(query.a.velocity() - query.b.velocity()), true);
+            a.set_angvel(vector(query.a.spin()), true);
+        }
+    }
+}
+
+impl Solver for Simulated {
+    fn answer(&mut self, query: &Query) -> Reply {
+        let turns = query.b.spin() != DVec3::ZERO;
+        if turns || !(query.duration > 0.0) {
+            let claim = Claim::Refused;
+            return Reply { claim, steps: 0 };
+        }
+        self.pose(query);
+        self.world.step();
+        let claim = match self.world.bodies.get(self.a) {
+            Some(a) => match share(query, a.position()) {
+                share if share >= WHOLE => Claim::Free,
+                share => contact_at(share * query.duration, query.duration),
+            },
+            None => Claim::Unresolved { safe_until: 0.0 },
+        };
+        Reply { claim, steps: 1 }
+    }
+}
+
+/// How much of its way a body has gone; NaN or 1 of no way.
+fn share(query: &Query, end: &Pose) -> f64 {
+    let motion = &query.a;
+    let way = query.duration * (motion.velocity() - query.b.velocity());
+    if way == DVec3::ZERO {
+        return share_of_turn(motion, query.duration, end);
+    }
+    let centre = DVec3::from(end.transform_point(vector(motion.centre())).to_array());
+    let start = motion.start().transform_point(motion.centre());
+    (centre - start).dot(way) / way.length_squared()
+}
+
+/// The same where the body turns only, as a sweep mixes two orientations: the shorter way.
+fn share_of_turn(motion: &Motion, duration: f64, end: &Pose) -> f64 {
+    let turn_to = |rotation: DQuat| {
+        let turn = rotation * motion.start().rotation().conjugate();
+        let shorter = if turn.w < 0.0 { -turn } else { turn };
+        shorter.to_scaled_axis()
+    };
+    let whole = turn_to(motion.pose(duration).rotation());
+    let angle = whole.length();
+    // A whole number of turns leads nowhere; what rounding leaves of it is no way either.
+    if angle < 1e-12 {
+        return 1.0;
+    }
+    let turned = turn_to(DQuat::from_array(end.rotation.to_array())).dot(whole) / angle;
+    0.5 * (1.0 + (0.5 * (turned - 0.5 * angle)).tan() / (0.25 * angle).tan())
+}

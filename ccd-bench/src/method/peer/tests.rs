@@ -1,0 +1,304 @@
+//! Every peer on scenes of meshes with exact answers: what it gets right, and what it is known to get wrong.
+
+use super::PeerKind;
+use super::wire::{format_query, format_reply, parse_query, parse_reply};
+use crate::method::solver::{Claim, Reply, TimedReply};
+use crate::scene::model::Board;
+use ccd_core::glam::{DQuat, DVec3};
+use ccd_core::{Motion, Pose};
+use ccd_decomp::TriangleMesh;
+use rigid_ccd::table::motions::Query;
+use rstest::rstest;
+use std::f64::consts::{FRAC_PI_4, PI, SQRT_2};
+
+const TOLERANCE: f64 = 1e-3;
+
+/// Two meshes, a query, and the exact time of the first contact.
+#[derive(Debug)]
+struct Exact {
+    a: TriangleMesh,
+    b: TriangleMesh,
+    query: Query,
+    time: f64,
+    /// How fast the bodies close there.
+    speed: f64,
+}
+
+impl Exact {
+    fn ask(&self, kind: PeerKind) -> Reply {
+        let mut peer = kind.solver(&self.a, &self.b, TOLERANCE).unwrap();
+        peer.answer(&self.query)
+    }
+
+    /// Asserts that a contact is reported within what the peer may be off by.
+    fn assert_right(&self, kind: PeerKind) {
+        let reply = self.ask(kind);
+        let Claim::Contact { time } = reply.claim else {
+            panic!("{}: {reply:?}", kind.name());
+        };
+        let late = time - self.time;
+        let (early_by, late_by) = allowed(kind);
+        assert!(
+            (-early_by / self.speed..=late_by).contains(&late),
+            "{}: {late} late",
+            kind.name()
+        );
+    }
+}
+
+/// How early, as a length, and how late, as a time, a right answer may be.
+fn allowed(kind: PeerKind) -> (f64, f64) {
+    match kind {
+        PeerKind::ParryF64 => (1e-9, 1e-9),
+        // Sixteen roundings of coordinates between 8 and 16: the largest are 9.
+        PeerKind::ParryF32 => (16.0 * f64::from(8.0 * f32::EPSILON), 1e-5),
+        PeerKind::ParrySweepF32 => (1.01 * TOLERANCE, 1e-6),
+        PeerKind::ParrySweepF64 | PeerKind::RapierStepF64 => (1.01 * TOLERANCE, 1e-12),
+        PeerKind::Hanging | PeerKind::Dying => (0.0, 0.0),
+    }
+}
+
+fn cuboid(x: f64, y: f64, z: f64) -> TriangleMesh {
+    let half_extents = DVec3::new(x, y, z);
+    Board { half_extents }.mesh().unwrap()
+}
+
+fn query(a: Motion, b: Motion) -> Query {
+    let id = String::new();
+    let duration = 1.0;
+    Query { id, a, b, duration }
+}
+
+fn motion(at: DVec3, turned: DQuat, velocity: DVec3, spin: DVec3) -> Motion {
+    Motion::new(Pose::new(at, turned).unwrap(), velocity, spin).unwrap()
+}
+
+/// T1: a cube falls flat onto a slab.
+fn face_on_face() -> Exact {
+    let falling = motion(
+        3.0 * DVec3::Z,
+        DQuat::IDENTITY,
+        -4.0 * DVec3::Z,
+        DVec3::ZERO,
+    );
+    let slab = motion(-DVec3::Z, DQuat::IDENTITY, DVec3::ZERO, DVec3::ZERO);
+    Exact {
+        a: cuboid(0.5, 0.5, 0.5),
+        b: cuboid(9.0, 9.0, 1.0),
+        query: query(falling, slab),
+        time: 0.625,
+        speed: 4.0,
+    }
+}
+
+/// T8: two cubes meet with crossed edges.
+fn edge_on_edge() -> Exact {
+    let about = DQuat::from_axis_angle;
+    let upper = motion(
+        3.0 * DVec3::Z,
+        about(DVec3::X, FRAC_PI_4),
+        -4.0 * DVec3::Z,
+        DVec3::ZERO,
+    );
+    let lower = motion(
+        DVec3::ZERO,
+        about(DVec3::Y, FRAC_PI_4),
+        DVec3::ZERO,
+        DVec3::ZERO,
+    );
+    Exact {
+        a: cuboid(0.5, 0.5, 0.5),
+        b: cuboid(0.5, 0.5, 0.5),
+        query: query(upper, lower),
+        time: (3.0 - SQRT_2) / 4.0,
+        speed: 4.0,
+    }
+}
+
+/// Two balls meet corner on corner, both moving.
+fn ball_on_ball() -> Exact {
+    let left = motion(
+        -2.5 * DVec3::X,
+        DQuat::IDENTITY,
+        3.0 * DVec3::X,
+        DVec3::ZERO,
+    );
+    let right = motion(2.5 * DVec3::X, DQuat::IDENTITY, -DVec3::X, DVec3::ZERO);
+    Exact {
+        a: ball(),
+        b: ball(),
+        query: query(left, right),
+        time: 0.75,
+        speed: 4.0,
+    }
+}
+
+/// T4: an upright rod turns by `turns` half circles, and strikes a wall with an edge.
+fn rod_on_wall(turns: f64) -> Exact {
+    let (length, width, wall) = (2.0_f64, 0.05_f64, 1.2);
+    let spin = turns * PI;
+    let time = ((wall / length.hypot(width)).asin() - width.atan2(length)) / spin;
+    let rod = motion(DVec3::ZERO, DQuat::IDENTITY, DVec3::ZERO, spin * DVec3::Y);
+    let far = motion(
+        (wall + 1.0) * DVec3::X,
+        DQuat::IDENTITY,
+        DVec3::ZERO,
+        DVec3::ZERO,
+    );
+    Exact {
+        a: cuboid(width, 0.3, length),
+        b: cuboid(1.0, 9.0, 9.0),
+        query: query(rod, far),
+        time,
+        // Of the edge, across the wall: it stands length · cos off the axis there.
+        speed: spin * (length.hypot(width).powi(2) - wall * wall).sqrt(),
+    }
+}
+
+/// An octahedron with each face cut in 16, its corners on the unit ball and on the axes.
+fn ball() -> TriangleMesh {
+    let axes = [DVec3::X, DVec3::Y, DVec3::Z];
+    let mut triangles = Vec::new();
+    for octant in 0..8 {
+        let sign = |k: usize| if octant >> k & 1 == 1 { -1.0 } else { 1.0 };
+        let [x, y, z] = [0, 1, 2].map(|k| sign(k) * axes[k]);
+        let outward = sign(0) * sign(1) * sign(2) > 0.0;
+        triangles.push(if outward { [x, y, z] } else { [x, z, y] });
+    }
+    for _ in 0..2 {
+        triangles = triangles.into_iter().flat_map(quarters).collect();
+    }
+    let faces: Vec<[u32; 3]> = (0..triangles.len() as u32)
+        .map(|k| [3 * k, 3 * k + 1, 3 * k + 2])
+        .collect();
+    TriangleMesh::new(triangles.concat(), &faces).unwrap()
+}
+
+fn quarters([a, b, c]: [DVec3; 3]) -> [[DVec3; 3]; 4] {
+    let middle = |p: DVec3, q: DVec3| (p + q).normalize();
+    let (ab, bc, ca) = (middle(a, b), middle(b, c), middle(c, a));
+    [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]
+}
+
+#[rstest]
+fn what_flies_straight_is_right_with_every_peer(
+    #[values(face_on_face(), edge_on_edge(), ball_on_ball())] exact: Exact,
+) {
+    for kind in PeerKind::ALL {
+        exact.assert_right(kind);
+    }
+}
+
+#[rstest]
+fn half_a_turn_is_right_with_all_but_a_whole_step(#[values(0.5, 1.0)] turns: f64) {
+    for kind in PeerKind::ALL {
+        if kind != PeerKind::RapierStepF64 {
+            rod_on_wall(turns).assert_right(kind);
+        }
+    }
+}
+
+#[rstest]
+fn more_than_half_a_turn_is_right_with_sweeps(#[values(1.9, 2.0, 7.0)] turns: f64) {
+    for kind in [PeerKind::ParrySweepF64, PeerKind::ParrySweepF32] {
+        rod_on_wall(turns).assert_right(kind);
+    }
+}
+
+/// Known: a gap that is not monotone is bisected over all the time there is, and a later root found.
+#[rstest]
+fn more_than_half_a_turn_is_late_with_casts(#[values(2.0, 7.0)] turns: f64) {
+    let exact = rod_on_wall(turns);
+    for kind in [PeerKind::ParryF64, PeerKind::ParryF32] {
+        let Claim::Contact { time } = exact.ask(kind).claim else {
+            panic!("{}: no contact", kind.name());
+        };
+        assert!(time - exact.time > 0.1, "{}: {time}", kind.name());
+    }
+}
+
+/// Known: a step turns by a mix of quaternions, not at a constant rate, and a whole turn is none.
+#[test]
+fn large_turns_are_wrong_with_a_whole_step() {
+    let half = rod_on_wall(1.0);
+    let Claim::Contact { time } = half.ask(PeerKind::RapierStepF64).claim else {
+        panic!("half a turn has no contact");
+    };
+    assert!(time - half.time > 0.02, "{time}");
+    let whole = rod_on_wall(2.0).ask(PeerKind::RapierStepF64);
+    assert_eq!(whole.claim, Claim::Free);
+}
+
+#[test]
+fn what_passes_is_free_with_every_peer() {
+    let mut passing = face_on_face();
+    let aside = Pose::new(DVec3::new(9.6, 0.0, 3.0), DQuat::IDENTITY).unwrap();
+    passing.query.a = Motion::new(aside, -4.0 * DVec3::Z, DVec3::ZERO).unwrap();
+    for kind in PeerKind::ALL {
+        assert_eq!(passing.ask(kind).claim, Claim::Free, "{}", kind.name());
+    }
+}
+
+#[test]
+fn a_second_query_is_answered_as_the_first() {
+    let exact = edge_on_edge();
+    for kind in PeerKind::ALL {
+        let mut peer = kind.solver(&exact.a, &exact.b, TOLERANCE).unwrap();
+        let first = peer.answer(&exact.query);
+        let mut other = exact.query.clone();
+        other.a = motion(9.0 * DVec3::X, DQuat::IDENTITY, DVec3::ONE, DVec3::ONE);
+        assert_eq!(peer.answer(&other).claim, Claim::Free, "{}", kind.name());
+        assert_eq!(peer.answer(&exact.query), first, "{}", kind.name());
+    }
+}
+
+#[test]
+fn what_rapier_holds_still_does_not_turn() {
+    let mut exact = edge_on_edge();
+    exact.query.b = motion(DVec3::ZERO, DQuat::IDENTITY, DVec3::ZERO, DVec3::X);
+    assert_eq!(exact.ask(PeerKind::RapierStepF64).claim, Claim::Refused);
+}
+
+#[test]
+fn tighter_tolerances_tighten_sweeps_alone() {
+    let exact = ball_on_ball();
+    for kind in PeerKind::ALL {
+        let at = |tolerance| {
+            let mut peer = kind.solver(&exact.a, &exact.b, tolerance).unwrap();
+            peer.answer(&exact.query).claim
+        };
+        assert_eq!(
+            at(1e-2) != at(1e-4),
+            kind.takes_tolerance(),
+            "{}",
+            kind.name()
+        );
+    }
+}
+
+#[test]
+fn names_are_those_of_the_command_line() {
+    use clap::ValueEnum;
+    for kind in PeerKind::value_variants() {
+        assert_eq!(PeerKind::from_str(kind.name(), false), Ok(*kind));
+    }
+}
+
+#[test]
+fn queries_and_replies_survive_the_line() {
+    let asked = rod_on_wall(1.0).query;
+    assert_eq!(parse_query(&format_query(&asked)), Some(asked));
+    for claim in [
+        Claim::Contact { time: 0.1 + 0.2 },
+        Claim::Free,
+        Claim::Unresolved { safe_until: 1e-300 },
+    ] {
+        let reply = Reply { claim, steps: 7 };
+        let timed = TimedReply { reply, micros: 1.5 };
+        assert_eq!(parse_reply(&format_reply(&timed)), Some(timed));
+    }
+    for broken in ["", "1 2 3", "a b"] {
+        assert_eq!(parse_query(broken), None);
+        assert_eq!(parse_reply(broken), None);
+    }
+}

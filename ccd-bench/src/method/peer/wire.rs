@@ -1,0 +1,133 @@
+//! What is said between a guard and the process it guards: one line for each query, one for each reply.
+
+use crate::method::solver::{Claim, Reply, Solver, TimedReply, timed};
+use ccd_core::glam::{DQuat, DVec3};
+use ccd_core::{Motion, Pose};
+use rigid_ccd::table::motions::Query;
+use std::io::{self, BufRead, Write};
+use std::time::Duration;
+
+/// What the process says once it has its meshes.
+pub const READY: &str = "ready";
+
+/// Answers queries as they are read, until there are no more.
+///
+/// # Errors
+/// When a line is no query, or nobody reads the replies.
+pub fn serve(
+    solver: &mut dyn Solver,
+    input: impl BufRead,
+    mut output: impl Write,
+) -> io::Result<()> {
+    writeln!(output, "{READY}")?;
+    output.flush()?;
+    for line in input.lines() {
+        let line = line?;
+        let Some(query) = parse_query(&line) else {
+            return Err(io::Error::new(io::ErrorKind::InvalidData, line));
+        };
+        writeln!(output, "{}", format_reply(&timed(solver, &query)))?;
+        output.flush()?;
+    }
+    Ok(())
+}
+
+/// A query as one line; it is read back to the same bits, but for its name, which stays behind.
+pub fn format_query(query: &Query) -> String {
+    let motion = |motion: &Motion| {
+        let start = motion.start();
+        [
+            start.translation().to_array().as_slice(),
+            &start.rotation().to_array(),
+            &motion.velocity().to_array(),
+            &motion.spin().to_array(),
+            &motion.centre().to_array(),
+        ]
+        .concat()
+    };
+    let numbers = [motion(&query.a), motion(&query.b), vec![query.duration]].concat();
+    let texts: Vec<String> = numbers.iter().map(f64::to_string).collect();
+    texts.join(" ")
+}
+
+/// Numbers of a motion on the line.
+const OF_MOTION: usize = 16;
+
+/// The query of a line; none of a line that is no query.
+pub fn parse_query(line: &str) -> Option<Query> {
+    let numbers: Vec<f64> = line
+        .split(' ')
+        .map(|text| text.parse().ok())
+        .collect::<Option<_>>()?;
+    let (a, rest) = numbers.split_at_checked(OF_MOTION)?;
+    let (b, rest) = rest.split_at_checked(OF_MOTION)?;
+    let &[duration] = rest else {
+        return None;
+    };
+    Some(Query {
+        id: String::new(),
+        a: motion(a)?,
+        b: motion(b)?,
+        duration,
+    })
+}
+
+fn motion(numbers: &[f64]) -> Option<Motion> {
+    let vector = |k: usize| DVec3::from_slice(&numbers[k..k + 3]);
+    let rotation = DQuat::from_slice(&numbers[3..7]);
+    let start = Pose::new(vector(0), rotation).ok()?;
+    Motion::about(start, vector(7), vector(10), vector(13)).ok()
+}
+
+/// A reply as one line: `time,status,steps,micros`.
+pub fn format_reply(timed: &TimedReply) -> String {
+    let (time, status) = match timed.reply.claim {
+        Claim::Contact { time } => (time, "contact"),
+        Claim::Free => (0.0, "free"),
+        Claim::Unresolved { safe_until } => (safe_until, "unresolved"),
+        Claim::Refused => (0.0, "refused"),
+    };
+    format!("{time},{status},{},{}", timed.reply.steps, timed.micros)
+}
+
+/// The reply of a line; none of a line that is no reply.
+pub fn parse_reply(line: &str) -> Option<TimedReply> {
+    let mut cells = line.split(',');
+    let time: f64 = cells.next()?.parse().ok()?;
+    let claim = match cells.next()? {
+        "contact" => Claim::Contact { time },
+        "free" => Claim::Free,
+        "unresolved" => Claim::Unresolved { safe_until: time },
+        "refused" => Claim::Refused,
+        _ => return None,
+    };
+    let steps = cells.next()?.parse().ok()?;
+    let micros = cells.next()?.parse().ok()?;
+    let reply = Reply { claim, steps };
+    cells
+        .next()
+        .is_none()
+        .then_some(TimedReply { reply, micros })
+}
+
+/// Never answers.
+#[derive(Clone, Copy, Debug)]
+pub struct Hanging;
+
+impl Solver for Hanging {
+    fn answer(&mut self, _: &Query) -> Reply {
+        loop {
+            std::thread::sleep(Duration::from_secs(3600));
+        }
+    }
+}
+
+/// Ends its process instead of answering.
+#[derive(Clone, Copy, Debug)]
+pub struct Dying;
+
+impl Solver for Dying {
+    fn answer(&mut self, _: &Query) -> Reply {
+        std::process::exit(3)
+    }
+}

@@ -1,0 +1,37 @@
+//! Published rivals, built here from their descriptions to be compared with.
+//!
+//! They share no code with the engine that they are compared with: meshes, distances, bounding volumes
+//! and motions are their own.
+//!
+//! | rival | source |
+//! |---|---|
+//! | [`Contact`]: continuous OBB test, interval arithmetic, bisection | \[CONTACT02\] |
+//! | [`DynamicChecker`]: adaptive bisection by undirected bounds | \[DCC02\] |
+//! | [`C2a`]: controlled conservative advancement over swept spheres | \[C2A09\] |
+//! | [`Stepping`]: a static test at every step | what is done without any of them |
+
+mod c2a;
+mod contact;
+mod course;
+mod dynamic_checker;
+mod interval;
+mod lanes;
+mod obb_tree;
+mod patience;
+mod principal_axes;
+mod rectangles;
+mod resolution;
+mod screw;
+mod stepping;
+mod swept_spheres;
+#[cfg(test)]
+mod tests;
+mod triangles_apart;
+mod triangles_cross;
+
+pub use c2a::C2a;
+pub use contact::Contact;
+pub use course::{Course, Placement};
+pub use dynamic_checker::DynamicChecker;
+pub use screw::screw;
+pub use stepping::Stepping;

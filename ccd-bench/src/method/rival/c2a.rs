@@ -1,0 +1,257 @@
+//! The rival that advances both bodies by the least step over pairs of swept spheres.
+
+use super::patience::Patience;
+use super::swept_spheres::{Gap, Leaves, Pair, SphereTree, Trees, Under};
+use super::{Course, Placement};
+use crate::method::solver::{Adjustable, Claim, Reply, Solver};
+use ccd_core::order::lesser;
+use ccd_decomp::TriangleMesh;
+use closing::Closing;
+use rigid_ccd::table::motions::Query;
+
+mod closing;
+#[cfg(test)]
+mod tests;
+
+/// Controlled conservative advancement \[C2A09\].
+///
+/// Every step descends both trees as a distance query does, and is as long as the least of (distance) /
+/// (bound of the speed at which it closes) over the pairs of nodes and triangles at which the descent
+/// stops. It stops at pairs that are farther apart than the nearest triangles found, or that allow as
+/// long a step as is left; in the first steps, far from contact, already at pairs that are nearly as far
+/// apart. The triangles that were nearest at the last step are measured first.
+///
+/// # Guarantee
+/// No contact is missed or late. At a time reported the bodies are within the tolerance, a length.
+///
+/// # Choices
+/// The authors' program skips the step of a pair of triangles farther apart than the nearest ones, and
+/// stops at steps that are short as well as at distances, either of which may make a contact late or
+/// early; here no pair is skipped, and distance alone decides. Speeds of both bodies along a direction
+/// are summed before they are bounded from below by zero. Pure translations are no special case.
+#[derive(Clone, Debug)]
+pub struct C2a {
+    trees: Trees,
+    tolerance: f64,
+    patience: Patience,
+    closing: Closing,
+    pairs: Vec<Candidate>,
+}
+
+/// A pair of nodes to look into.
+#[derive(Clone, Copy, Debug)]
+struct Candidate {
+    pair: Pair,
+    distance: f64,
+    /// For how long they do not touch.
+    step: f64,
+}
+
+/// What a descent has found so far.
+#[derive(Clone, Copy, Debug)]
+struct Found {
+    /// Of the nearest triangles.
+    distance: f64,
+    /// These triangles.
+    nearest: Option<(Leaves, Pair)>,
+    /// The least step.
+    step: f64,
+}
+
+/// Where the bodies are, and how far a descent goes.
+struct Look<'a> {
+    /// Body B as seen from body A.
+    place: &'a Placement,
+    /// Until the end of the duration.
+    remaining: f64,
+    /// By how much, of its distance, a pair that is not looked into may be nearer than the nearest
+    /// triangles found.
+    excess: f64,
+}
+
+/// How a descent ends.
+enum Descent {
+    /// At all pairs where it may stop.
+    Done(Found),
+    /// At triangles within the tolerance.
+    Within,
+    /// For want of patience, or of numbers.
+    GaveUp,
+}
+
+impl C2a {
+    /// Builds both trees; the tolerance is a length.
+    pub fn new(a: &TriangleMesh, b: &TriangleMesh, tolerance: f64) -> Self {
+        let trees = Trees {
+            a: SphereTree::new(a),
+            b: SphereTree::new(b),
+        };
+        C2a {
+            closing: Closing::new(&trees),
+            trees,
+            tolerance,
+            patience: Patience::default(),
+            pairs: Vec::new(),
+        }
+    }
+}
+
+impl Adjustable for C2a {
+    fn set_tolerance(&mut self, tolerance: f64) {
+        self.tolerance = tolerance;
+    }
+}
+
+impl Solver for C2a {
+    fn answer(&mut self, query: &Query) -> Reply {
+        let (a, b) = (Course::new(&query.a), Course::new(&query.b));
+        self.closing.begin(&a, &b);
+        let mut pairs_left = self.patience.pairs;
+        let mut time = 0.0;
+        let mut last = None;
+        for steps in 1..=self.patience.steps {
+            let frame = a.at(time);
+            let look = Look {
+                place: &b.at(time).seen_from(&frame),
+                remaining: query.duration - time,
+                excess: self.excess(steps, last.as_ref(), query.duration),
+            };
+            self.closing.look_from(&frame);
+            let found = match self.descend(&look, last.as_ref(), &mut pairs_left) {
+                Descent::Done(found) => found,
+                Descent::Within => return reply(Claim::Contact { time }, steps),
+                Descent::GaveUp => return reply(Claim::Unresolved { safe_until: time }, steps),
+            };
+            if found.step >= look.remaining {
+                return reply(Claim::Free, steps);
+            }
+            let next = time + found.step;
+            // Neither NaN nor a step too short for the clock goes on.
+            if !(next > time) {
+                return reply(Claim::Unresolved { safe_until: time }, steps);
+            }
+            time = next;
+            last = Some(found);
+        }
+        reply(Claim::Unresolved { safe_until: time }, self.patience.steps)
+    }
+}
+
+fn reply(claim: Claim, steps: u64) -> Reply {
+    Reply { claim, steps }
+}
+
+impl C2a {
+    /// The control: how coarse a step may be, by how many there were and how near contact is.
+    fn excess(&self, step: u64, last: Option<&Found>, duration: f64) -> f64 {
+        /// Coarse steps at first, with their excess.
+        const FIRST: (u64, f64) = (3, 3.0);
+        /// And after them.
+        const THEN: (u64, f64) = (6, 0.5);
+        /// Of the duration: after a step below, all are exact.
+        const SHORT: f64 = 0.005;
+        /// In tolerances: nearer than this, all are exact.
+        const NEAR: f64 = 16.0;
+
+        let exact = last.is_some_and(|last| {
+            !(last.step > SHORT * duration && last.distance > NEAR * self.tolerance)
+        });
+        match step {
+            _ if exact => 0.0,
+            _ if step <= FIRST.0 => FIRST.1,
+            _ if step <= THEN.0 => THEN.1,
+            _ => 0.0,
+        }
+    }
+
+    /// One step's descent of both trees, nearest pairs first.
+    fn descend(&mut self, look: &Look<'_>, last: Option<&Found>, pairs_left: &mut u64) -> Descent {
+        let mut found = Found {
+            distance: f64::INFINITY,
+            nearest: None,
+            step: f64::INFINITY,
+        };
+        if let Some((leaves, pair)) = last.and_then(|last| last.nearest) {
+            self.measure(&mut found, look, leaves, pair);
+        }
+        let Some(roots) = self.trees.roots(look.place) else {
+            return Descent::Done(found);
+        };
+        self.pairs.clear();
+        let roots = self.candidate(roots);
+        self.pairs.push(roots);
+        loop {
+            if found.distance <= self.tolerance {
+                return Descent::Within;
+            }
+            let Some(candidate) = self.pairs.pop() else {
+                return Descent::Done(found);
+            };
+            if candidate.may_stop(&mut found, look) {
+                continue;
+            }
+            if *pairs_left == 0 || found.distance.is_nan() {
+                return Descent::GaveUp;
+            }
+            *pairs_left -= 1;
+            match self.trees.under(&candidate.pair) {
+                Under::Triangles(leaves) => {
+                    self.measure(&mut found, look, leaves, candidate.pair);
+                }
+                Under::Pairs([first, second]) => {
+                    let (first, second) = (self.candidate(first), self.candidate(second));
+                    let ordered = if first.distance < second.distance {
+                        [second, first]
+                    } else {
+                        [first, second]
+                    };
+                    self.pairs.extend(ordered);
+                }
+            }
+        }
+    }
+
+    #[inline]
+    fn candidate(&mut self, pair: Pair) -> Candidate {
+        let gap = self.trees.gap(&pair);
+        Candidate {
+            step: self.closing.step(&self.trees, &pair, &gap),
+            pair,
+            distance: gap.distance,
+        }
+    }
+
+    /// What two triangles are apart, and for how long.
+    fn measure(&mut self, found: &mut Found, look: &Look<'_>, leaves: Leaves, pair: Pair) {
+        let between = self.trees.nearest(leaves, look.place).between();
+        let distance = between.length();
+        let gap = Gap {
+            distance,
+            direction: between / distance,
+        };
+        let step = self.closing.step(&self.trees, &pair, &gap);
+        // NaN counts.
+        if !(step >= found.step) {
+            found.step = step;
+        }
+        if !(distance >= found.distance) {
+            found.distance = distance;
+            found.nearest = Some((leaves, pair));
+        }
+    }
+}
+
+impl Candidate {
+    /// Whether a pair need not be looked into; then its step counts.
+    #[inline]
+    fn may_stop(&self, found: &mut Found, look: &Look<'_>) -> bool {
+        if self.step >= lesser(found.step, look.remaining) {
+            return true;
+        }
+        let far = self.distance * (1.0 + look.excess) >= found.distance;
+        if far {
+            found.step = self.step;
+        }
+        far
+    }
+}

@@ -1,0 +1,118 @@
+//! How fast nodes of two moving bodies can close along a direction.
+
+use crate::method::rival::swept_spheres::{Gap, Pair, SphereTree, Trees};
+use crate::method::rival::{Course, Placement};
+use ccd_core::glam::{DMat3, DVec3};
+
+/// Both motions of a query as seen from body A at one time, and bounds of nodes' speeds.
+#[derive(Clone, Debug)]
+pub(super) struct Closing {
+    a: Spin,
+    b: Spin,
+    /// Of A's centre relative to B's, in the world.
+    velocity_w: DVec3,
+    /// The same as seen from A.
+    velocity: DVec3,
+    /// B's axis in the world.
+    axis_b_w: DVec3,
+    /// The same as seen from A.
+    axis_b: DVec3,
+}
+
+/// A body's turning, and how far its nodes are from the axis.
+#[derive(Clone, Debug)]
+struct Spin {
+    centre: DVec3,
+    /// In the body, where it stays.
+    axis: DVec3,
+    rate: f64,
+    /// Of each node, with the number of the motion that it was computed for.
+    levers: Vec<(u64, f64)>,
+    motion: u64,
+}
+
+impl Closing {
+    pub(super) fn new(trees: &Trees) -> Self {
+        Closing {
+            a: Spin::new(&trees.a),
+            b: Spin::new(&trees.b),
+            velocity_w: DVec3::ZERO,
+            velocity: DVec3::ZERO,
+            axis_b_w: DVec3::Z,
+            axis_b: DVec3::Z,
+        }
+    }
+
+    /// Takes up the motions of a query.
+    pub(super) fn begin(&mut self, a: &Course, b: &Course) {
+        self.a.begin(a);
+        self.b.begin(b);
+        self.velocity_w = a.velocity - b.velocity;
+        self.axis_b_w = b.axis;
+    }
+
+    /// Takes body A's placement as the frame of directions.
+    pub(super) fn look_from(&mut self, frame_a: &Placement) {
+        let to_a: DMat3 = frame_a.rotation.transpose();
+        self.velocity = to_a * self.velocity_w;
+        self.axis_b = to_a * self.axis_b_w;
+    }
+
+    /// For how long two nodes, or triangles in them, do not touch: until their gap has closed along its
+    /// direction, which stays as it is, at the speed
+    ///
+    /// `v·n + |n × ω_A| l_A + |n × ω_B| l_B`
+    ///
+    /// of the centres and of points at the ends of both levers \[C2A09 §4\]. It holds however far the
+    /// bodies turn, since a point's distance from the axis does not change.
+    #[inline]
+    pub(super) fn step(&mut self, trees: &Trees, pair: &Pair, gap: &Gap) -> f64 {
+        if !(gap.distance > 0.0) {
+            return 0.0;
+        }
+        let n = gap.direction;
+        let speed = self.velocity.dot(n)
+            + self.a.speed(&trees.a, pair.a, n.cross(self.a.axis))
+            + self.b.speed(&trees.b, pair.b, n.cross(self.axis_b));
+        if speed <= 0.0 {
+            f64::INFINITY
+        } else {
+            gap.distance / speed
+        }
+    }
+}
+
+impl Spin {
+    fn new(tree: &SphereTree) -> Self {
+        Spin {
+            centre: DVec3::ZERO,
+            axis: DVec3::Z,
+            rate: 0.0,
+            levers: vec![(0, 0.0); tree.len()],
+            motion: 0,
+        }
+    }
+
+    fn begin(&mut self, course: &Course) {
+        let axis = course.orientation.transpose() * course.axis;
+        self.rate = course.rate;
+        if self.motion == 0 || axis != self.axis || course.centre != self.centre {
+            self.axis = axis;
+            self.centre = course.centre;
+            self.motion += 1;
+        }
+    }
+
+    /// Of a node's points along a direction, its cross product with the axis given.
+    #[inline]
+    fn speed(&mut self, tree: &SphereTree, node: u32, across: DVec3) -> f64 {
+        if self.rate == 0.0 {
+            return 0.0;
+        }
+        let lever = &mut self.levers[node as usize];
+        if lever.0 != self.motion {
+            *lever = (self.motion, tree.lever(node, self.centre, self.axis));
+        }
+        self.rate * across.length() * lever.1
+    }
+}

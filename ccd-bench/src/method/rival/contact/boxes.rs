@@ -1,0 +1,77 @@
+//! The continuous overlap test of two oriented boxes.
+
+use super::relative::Enclosure;
+use crate::method::rival::interval::cross_sum;
+use crate::method::rival::obb_tree::Obb;
+use ccd_core::glam::{DMat3, DVec3};
+
+/// Added to the cosines between two boxes' axes: their rounding, without which the cross product of
+/// parallel axes would separate anything.
+const COSINE_SLACK: f64 = 1e-14;
+
+/// What is known of two boxes over an interval of time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Boxes {
+    /// They do not meet.
+    Apart,
+    /// No axis separates them all the time.
+    Near {
+        /// By how much the enclosure of the motion is wide, as a length: the radius of a corner's place.
+        spread: f64,
+    },
+}
+
+/// Whether one of the 15 axes separates the boxes over all of the interval, both sides of every inequality
+/// enclosed by interval arithmetic \[CONTACT02\].
+pub(super) fn boxes(a: &Obb, b: &Obb, enclosure: &Enclosure) -> Boxes {
+    let into = b.axes.transpose();
+    let centre = enclosure.rotation * a.centre + enclosure.offset;
+    let t = into * (centre.middle - b.centre);
+    let t_radius = into.abs() * centre.radius;
+    let t_high = t.abs() + t_radius;
+    let cos = into * (enclosure.rotation.middle * a.axes);
+    let cos_radius = into.abs() * (enclosure.rotation.radius * a.axes.abs());
+    let high = upper_cosines(cos, cos_radius);
+    let (ha, hb) = (a.half, b.half);
+    // The axes of B: the distance of the centres along them against both half widths.
+    if (t.abs() - t_radius - hb - high * ha).max_element() > 0.0 {
+        return Boxes::Apart;
+    }
+    // Those of A. Of |Σ t_i c_i| the middle is |Σ t c|, the radius Σ (|t|+r)(|c|+s) − |t||c|.
+    let low = cos.abs();
+    let along = cos.transpose_mul_vec3(t).abs() + low.transpose_mul_vec3(t.abs());
+    let width = high.transpose_mul_vec3(t_high + hb) + ha;
+    if (along - width).max_element() > 0.0 {
+        return Boxes::Apart;
+    }
+    // The axes `b_i × a_j`, for all i at once.
+    let separates = |c: DVec3, c_high: DVec3, of_a: DVec3| {
+        let gap = t.cross(c).abs() + cross_sum(t.abs(), c.abs());
+        (gap - cross_sum(t_high + hb, c_high) - of_a).max_element() > 0.0
+    };
+    let DMat3 {
+        x_axis: x,
+        y_axis: y,
+        z_axis: z,
+    } = high;
+    if separates(cos.x_axis, x, ha.y * z + ha.z * y)
+        || separates(cos.y_axis, y, ha.z * x + ha.x * z)
+        || separates(cos.z_axis, z, ha.x * y + ha.y * x)
+    {
+        return Boxes::Apart;
+    }
+    Boxes::Near {
+        spread: (t_radius + cos_radius * ha).max_element(),
+    }
+}
+
+/// The largest absolute values of cosines.
+fn upper_cosines(cos: DMat3, radius: DMat3) -> DMat3 {
+    let upper =
+        |c: DVec3, r: DVec3| (c.abs() + r + COSINE_SLACK).min(DVec3::splat(1.0 + COSINE_SLACK));
+    DMat3::from_cols(
+        upper(cos.x_axis, radius.x_axis),
+        upper(cos.y_axis, radius.y_axis),
+        upper(cos.z_axis, radius.z_axis),
+    )
+}

@@ -1,0 +1,247 @@
+//! The continuous elementary tests: a corner against a face, an edge against an edge.
+
+use super::relative::Enclosure;
+use crate::method::rival::Placement;
+use crate::method::rival::interval::{Interval, IntervalVec};
+use ccd_core::glam::DVec3;
+use ccd_core::order::{greater, lesser};
+
+/// A triangle with what the tests need of it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Facet {
+    corners: [DVec3; 3],
+    /// Edge k leads from corner k to the next.
+    edges: [DVec3; 3],
+    normal: DVec3,
+    /// Along the plane, away from edge k towards the third corner.
+    inward: [DVec3; 3],
+}
+
+/// One elementary test of a pair of triangles.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Test {
+    /// A corner of the first against the second's face.
+    CornerFace(usize),
+    /// The first's face against a corner of the second.
+    FaceCorner(usize),
+    /// An edge of each.
+    EdgeEdge(usize, usize),
+}
+
+/// Which tests may still have a root.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Open(u16);
+
+/// Two triangles, the second at rest in the frame of the enclosures.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Triangles {
+    pub(super) a: Facet,
+    pub(super) b: Facet,
+}
+
+impl Facet {
+    pub(super) fn new(corners: &[DVec3; 3]) -> Self {
+        let [a, b, c] = *corners;
+        let edges = [b - a, c - b, a - c];
+        let normal = edges[0].cross(edges[1]);
+        Facet {
+            corners: *corners,
+            edges,
+            normal,
+            inward: edges.map(|edge| normal.cross(edge)),
+        }
+    }
+
+    /// A triangle without area has no face that anything could hit; its edges and corners are tested.
+    fn is_flat(&self) -> bool {
+        self.normal == DVec3::ZERO
+    }
+}
+
+impl Test {
+    /// All fifteen.
+    const ALL: [Test; 15] = [
+        Test::CornerFace(0),
+        Test::CornerFace(1),
+        Test::CornerFace(2),
+        Test::FaceCorner(0),
+        Test::FaceCorner(1),
+        Test::FaceCorner(2),
+        Test::EdgeEdge(0, 0),
+        Test::EdgeEdge(0, 1),
+        Test::EdgeEdge(0, 2),
+        Test::EdgeEdge(1, 0),
+        Test::EdgeEdge(1, 1),
+        Test::EdgeEdge(1, 2),
+        Test::EdgeEdge(2, 0),
+        Test::EdgeEdge(2, 1),
+        Test::EdgeEdge(2, 2),
+    ];
+}
+
+impl Open {
+    /// None of them.
+    const NONE: Open = Open(0);
+
+    /// All tests.
+    pub(super) const ALL: Open = Open((1 << Test::ALL.len()) - 1);
+
+    /// Whether none is left.
+    pub(super) fn is_empty(self) -> bool {
+        self.0 == 0
+    }
+
+    /// Those of them that hold.
+    pub(super) fn keep(self, mut holds: impl FnMut(Test) -> bool) -> Open {
+        let (mut kept, mut left) = (0, self.0);
+        while left != 0 {
+            let k = left.trailing_zeros();
+            if holds(Test::ALL[k as usize]) {
+                kept |= 1 << k;
+            }
+            left &= left - 1;
+        }
+        Open(kept)
+    }
+}
+
+impl Triangles {
+    /// The contact function of a test at a placement: zero where corner and plane, or both lines, meet.
+    pub(super) fn value(&self, test: Test, at: &Placement) -> f64 {
+        let (a, b) = (&self.a, &self.b);
+        match test {
+            Test::CornerFace(i) => (at.apply(a.corners[i]) - b.corners[0]).dot(b.normal),
+            Test::FaceCorner(j) => {
+                (b.corners[j] - at.apply(a.corners[0])).dot(at.rotation * a.normal)
+            }
+            Test::EdgeEdge(i, j) => {
+                let axis = (at.rotation * a.edges[i]).cross(b.edges[j]);
+                (b.corners[j] - at.apply(a.corners[i])).dot(axis)
+            }
+        }
+    }
+
+    /// All rates of change of a contact function over the interval of the enclosures.
+    pub(super) fn rate(&self, test: Test, now: &Enclosure, rates: &Enclosure) -> Interval {
+        let (a, b) = (&self.a, &self.b);
+        match test {
+            Test::CornerFace(i) => rates.point(a.corners[i]).dot_point(b.normal),
+            Test::FaceCorner(j) => {
+                let between = from_point(b.corners[j], now.point(a.corners[0]));
+                between.dot(rates.rotation * a.normal)
+                    - rates.point(a.corners[0]).dot(now.rotation * a.normal)
+            }
+            Test::EdgeEdge(i, j) => {
+                let between = from_point(b.corners[j], now.point(a.corners[i]));
+                let axis = (now.rotation * a.edges[i]).cross_point(b.edges[j]);
+                let axis_rate = (rates.rotation * a.edges[i]).cross_point(b.edges[j]);
+                between.dot(axis_rate) - rates.point(a.corners[i]).dot(axis)
+            }
+        }
+    }
+
+    /// The tests that may have a root over the interval of the enclosure, out of those given.
+    ///
+    /// None when all corners of one triangle stay on one side of the other's plane.
+    pub(super) fn open(&self, tests: Open, now: &Enclosure) -> Open {
+        let (a, b) = (&self.a, &self.b);
+        let corners = a.corners.map(|corner| now.point(corner));
+        let over_b = corners.map(|x| x.minus_point(b.corners[0]).dot_point(b.normal));
+        if one_side(over_b) {
+            return Open::NONE;
+        }
+        let normal = now.rotation * a.normal;
+        let over_a = b.corners.map(|x| from_point(x, corners[0]).dot(normal));
+        if one_side(over_a) {
+            return Open::NONE;
+        }
+        tests.keep(|test| match test {
+            Test::CornerFace(i) => {
+                !(b.is_flat() || over_b[i].excludes_zero()) && self.may_be_in_b(corners[i])
+            }
+            Test::FaceCorner(j) => {
+                !(a.is_flat() || over_a[j].excludes_zero())
+                    && self.may_be_in_a(b.corners[j], &corners, now)
+            }
+            Test::EdgeEdge(i, j) => self.may_cross((i, j), corners[i], now),
+        })
+    }
+
+    /// Whether a corner of the first may be above the second's face.
+    fn may_be_in_b(&self, corner: IntervalVec) -> bool {
+        let b = &self.b;
+        (0..3).all(|k| {
+            let inside = corner.minus_point(b.corners[k]).dot_point(b.inward[k]);
+            !(inside.high() < 0.0)
+        })
+    }
+
+    /// Whether a corner of the second may be above the first's face.
+    fn may_be_in_a(&self, corner: DVec3, corners: &[IntervalVec; 3], now: &Enclosure) -> bool {
+        (0..3).all(|k| {
+            let inward = now.rotation * self.a.inward[k];
+            !(from_point(corner, corners[k]).dot(inward).high() < 0.0)
+        })
+    }
+
+    /// Whether two edges may have a point in common.
+    ///
+    /// With the points `p + s e` and `q + u g`, `w = q − p` and `c = e × g`, a common point needs
+    /// `w · c = 0`, `w × g = s c`, `w × e = u c` and `w · g = s e·g − u g·g`, where s and u are between 0
+    /// and 1. The last three also tell parallel edges apart, for which `c` and with it `w · c` vanish.
+    fn may_cross(&self, edges: (usize, usize), p: IntervalVec, now: &Enclosure) -> bool {
+        let g = self.b.edges[edges.1];
+        let w = from_point(self.b.corners[edges.1], p);
+        let e = now.rotation * self.a.edges[edges.0];
+        let c = e.cross_point(g);
+        if w.dot(c).excludes_zero() {
+            return false;
+        }
+        let at_s = w.cross_point(g);
+        if exceeds(at_s, c) {
+            return false;
+        }
+        let at_u = w.cross(e);
+        if exceeds(at_u, c) {
+            return false;
+        }
+        let (along, of_e, of_g) = (w.dot_point(g), e.dot_point(g), g.length_squared());
+        if along.low() > greater(0.0, of_e.high()) || along.high() < lesser(0.0, of_e.low()) - of_g
+        {
+            return false;
+        }
+        let square = c.dot(c);
+        let share = |x: IntervalVec| {
+            let s = x.dot(c);
+            !(s.high() < 0.0 || (square - s).high() < 0.0)
+        };
+        share(at_s) && share(at_u)
+    }
+}
+
+impl Enclosure {
+    /// All places of a point of the first body; of rates, all its velocities.
+    #[inline]
+    pub(super) fn point(&self, point: DVec3) -> IntervalVec {
+        self.rotation * point + self.offset
+    }
+}
+
+/// A point less all others.
+#[inline]
+fn from_point(point: DVec3, from: IntervalVec) -> IntervalVec {
+    IntervalVec {
+        middle: point - from.middle,
+        radius: from.radius,
+    }
+}
+
+/// Whether all three are positive or all three negative.
+fn one_side(values: [Interval; 3]) -> bool {
+    values.iter().all(|value| value.low() > 0.0) || values.iter().all(|value| value.high() < 0.0)
+}
+
+/// Whether no share between 0 and 1 of some vector in `whole` can be in `part`.
+fn exceeds(part: IntervalVec, whole: IntervalVec) -> bool {
+    (part.smallest() - whole.largest()).max_element() > 0.0
+}

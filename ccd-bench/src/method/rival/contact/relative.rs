@@ -1,0 +1,217 @@
+//! Where one moving body is as seen from the other: at a time, and enclosed over an interval of time.
+
+use crate::method::rival::interval::{Arc, Interval, IntervalMat, IntervalVec};
+use crate::method::rival::{Course, Placement};
+use ccd_core::glam::{DMat3, DVec3};
+
+/// The motion of the first body as seen from the second, both about their reference points.
+///
+/// For a point `x` of the first body from its reference point, `rotation(t) x + offset(t)` is the same
+/// point from the reference point of the second, along the second body's axes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Relative {
+    first: Path,
+    second: Path,
+}
+
+/// One body: `rotation(t) = fixed + cos(ωt) cos + sin(ωt) sin`, the reference point alike, but for a
+/// straight part.
+#[derive(Clone, Copy, Debug)]
+struct Path {
+    fixed: DMat3,
+    cos: DMat3,
+    sin: DMat3,
+    rate: f64,
+    from: DVec3,
+    velocity: DVec3,
+    /// The reference point's offset from the centre, in the body's frame.
+    lever: DVec3,
+}
+
+/// All placements of one body as seen from another over an interval of time; or their rates of change.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Enclosure {
+    pub(super) rotation: IntervalMat,
+    pub(super) offset: IntervalVec,
+}
+
+/// An interval of time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Span {
+    pub(super) start: f64,
+    pub(super) end: f64,
+}
+
+impl Span {
+    pub(super) fn width(self) -> f64 {
+        self.end - self.start
+    }
+
+    pub(super) fn middle(self) -> f64 {
+        self.start + 0.5 * (self.end - self.start)
+    }
+}
+
+impl Relative {
+    /// From two motions and the bodies' reference points, each in its body's frame.
+    pub(super) fn new(first: (&Course, DVec3), second: (&Course, DVec3)) -> Self {
+        // Along the second body's axes at the start, so that one that does not turn needs no turning back.
+        let axes = second.0.orientation.transpose();
+        let mut relative = Relative {
+            first: Path::new(first.0, first.1, axes),
+            second: Path::new(second.0, second.1, axes),
+        };
+        // Only the difference of the straight parts matters; apart they would be enclosed apart.
+        relative.first.from -= relative.second.from;
+        relative.first.velocity -= relative.second.velocity;
+        relative.second.from = DVec3::ZERO;
+        relative.second.velocity = DVec3::ZERO;
+        relative
+    }
+
+    /// The placement at a time.
+    pub(super) fn at(&self, time: f64) -> Placement {
+        let (first, place_first) = self.first.at(time);
+        let (second, place_second) = self.second.at(time);
+        let back = second.transpose();
+        Placement {
+            rotation: back * first,
+            translation: back * (place_first - place_second),
+        }
+    }
+
+    /// All placements between two times.
+    pub(super) fn over(&self, span: Span) -> Enclosure {
+        let (first, place_first) = self.first.over(span);
+        if self.second.rate == 0.0 {
+            let offset = place_first.minus_point(self.second.still_place());
+            return Enclosure {
+                rotation: first,
+                offset,
+            };
+        }
+        let (second, place_second) = self.second.over(span);
+        let back = second.transpose();
+        Enclosure {
+            rotation: back * first,
+            offset: back * (place_first - place_second),
+        }
+    }
+
+    /// All rates of change of the placements between two times.
+    pub(super) fn rates_over(&self, span: Span) -> Enclosure {
+        let (first_rate, place_first_rate) = self.first.rates_over(span);
+        if self.second.rate == 0.0 {
+            return Enclosure {
+                rotation: first_rate,
+                offset: place_first_rate,
+            };
+        }
+        let (first, place_first) = self.first.over(span);
+        let (second, place_second) = self.second.over(span);
+        let (second_rate, place_second_rate) = self.second.rates_over(span);
+        let (back, back_rate) = (second.transpose(), second_rate.transpose());
+        Enclosure {
+            rotation: back_rate * first + back * first_rate,
+            offset: back_rate * (place_first - place_second)
+                + back * (place_first_rate - place_second_rate),
+        }
+    }
+}
+
+impl Path {
+    fn new(course: &Course, reference: DVec3, axes: DMat3) -> Self {
+        let axis = axes * course.axis;
+        let orientation = axes * course.orientation;
+        let still = course.rate == 0.0;
+        // What lies along the axis stays; the rest goes round.
+        let along = |column: DVec3| match still {
+            true => column,
+            false => axis * axis.dot(column),
+        };
+        let fixed = columns(orientation, along);
+        let cos = orientation - fixed;
+        Path {
+            fixed,
+            cos,
+            sin: columns(cos, |column| axis.cross(column)),
+            rate: course.rate,
+            from: axes * course.from,
+            velocity: axes * course.velocity,
+            lever: reference - course.centre,
+        }
+    }
+
+    /// Where the reference point of a body that does not turn is, but for its straight part.
+    fn still_place(&self) -> DVec3 {
+        self.from + self.fixed * self.lever
+    }
+
+    fn at(&self, time: f64) -> (DMat3, DVec3) {
+        let (sin, cos) = (self.rate * time).sin_cos();
+        let rotation = self.fixed + self.cos * cos + self.sin * sin;
+        let place = self.from + self.velocity * time + rotation * self.lever;
+        (rotation, place)
+    }
+
+    fn over(&self, span: Span) -> (IntervalMat, IntervalVec) {
+        let half = 0.5 * span.width();
+        let (cos, sin) = self.turned(span.middle());
+        let arc = Arc::new(self.rate * half);
+        let turning = swing(cos, sin, arc);
+        let rotation = IntervalMat {
+            middle: self.fixed + turning.middle,
+            radius: turning.radius,
+        };
+        let straight = self.from + self.velocity * span.middle() + self.fixed * self.lever;
+        let round = swing_vec(cos * self.lever, sin * self.lever, arc);
+        let place = IntervalVec {
+            middle: straight + round.middle,
+            radius: self.velocity.abs() * half + round.radius,
+        };
+        (rotation, place)
+    }
+
+    fn rates_over(&self, span: Span) -> (IntervalMat, IntervalVec) {
+        let (cos, sin) = self.turned(span.middle());
+        let arc = Arc::new(self.rate * 0.5 * span.width());
+        let (cos, sin) = (sin * self.rate, cos * -self.rate);
+        let round = swing_vec(cos * self.lever, sin * self.lever, arc);
+        let velocity = IntervalVec {
+            middle: self.velocity + round.middle,
+            radius: round.radius,
+        };
+        (swing(cos, sin, arc), velocity)
+    }
+
+    /// The coefficients of cosine and sine when the angle is counted from that at a time.
+    fn turned(&self, time: f64) -> (DMat3, DMat3) {
+        let (sin, cos) = (self.rate * time).sin_cos();
+        (
+            self.cos * cos + self.sin * sin,
+            self.sin * cos - self.cos * sin,
+        )
+    }
+}
+
+fn columns(matrix: DMat3, map: impl Fn(DVec3) -> DVec3) -> DMat3 {
+    DMat3::from_cols(map(matrix.x_axis), map(matrix.y_axis), map(matrix.z_axis))
+}
+
+/// All values of `cos(φ) cos + sin(φ) sin` for φ in the arc.
+fn swing(cos: DMat3, sin: DMat3, arc: Arc) -> IntervalMat {
+    let Interval { middle, radius } = arc.cos;
+    IntervalMat {
+        middle: cos * middle,
+        radius: cos.abs() * radius + sin.abs() * arc.sin,
+    }
+}
+
+/// As [`swing`], for vectors.
+fn swing_vec(cos: DVec3, sin: DVec3, arc: Arc) -> IntervalVec {
+    let Interval { middle, radius } = arc.cos;
+    IntervalVec {
+        middle: cos * middle,
+        radius: cos.abs() * radius + sin.abs() * arc.sin,
+    }
+}

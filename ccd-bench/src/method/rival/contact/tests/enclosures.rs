@@ -1,0 +1,246 @@
+//! Enclosures, boxes and triangles against samples of the motion.
+
+use crate::method::rival::contact::boxes::{Boxes, boxes};
+use crate::method::rival::contact::clock::{Clock, Slice};
+use crate::method::rival::contact::elementary::{Facet, Triangles};
+use crate::method::rival::contact::leaf::{Touch, first_touch};
+use crate::method::rival::contact::relative::{Enclosure, Relative, Span};
+use crate::method::rival::obb_tree::Obb;
+use crate::method::rival::tests::samples::{Samples, distance};
+use crate::method::rival::triangles_cross::triangles_cross;
+use crate::method::rival::{Course, Placement};
+use ccd_core::glam::{DMat3, DVec3};
+use ccd_core::order::greater;
+
+fn relative(samples: &mut Samples, speed: f64, spin: f64) -> Relative {
+    let query = samples.query(speed, spin);
+    let (a, b) = (Course::new(&query.a), Course::new(&query.b));
+    Relative::new((&a, samples.vector(1.0)), (&b, samples.vector(1.0)))
+}
+
+/// By how much a placement, or a rate, lies outside of an enclosure.
+fn outside(enclosure: &Enclosure, rotation: DMat3, offset: DVec3) -> f64 {
+    let column = |k: usize| {
+        let off = (rotation.col(k) - enclosure.rotation.middle.col(k)).abs();
+        (off - enclosure.rotation.radius.col(k)).max_element()
+    };
+    let off = (offset - enclosure.offset.middle).abs() - enclosure.offset.radius;
+    (0..3).map(column).fold(off.max_element(), greater)
+}
+
+fn span(samples: &mut Samples) -> Span {
+    let start = samples.number(0.0, 1.0);
+    let width = samples.number(0.0, 1.0).powi(3);
+    Span {
+        start,
+        end: start + width,
+    }
+}
+
+fn times(span: Span, count: u32) -> impl Iterator<Item = f64> {
+    (0..=count).map(move |k| span.start + span.width() * f64::from(k) / f64::from(count))
+}
+
+#[test]
+fn placements_are_those_of_the_motions() {
+    let mut samples = Samples::new(1);
+    for _ in 0..200 {
+        let query = samples.query(3.0, 5.0);
+        let (a, b) = (Course::new(&query.a), Course::new(&query.b));
+        let (from_a, from_b) = (samples.vector(1.0), samples.vector(1.0));
+        let relative = Relative::new((&a, from_a), (&b, from_b));
+        let (point, time) = (samples.vector(2.0), samples.number(0.0, 1.0));
+        let world = query.a.pose(time).transform_point(point);
+        let seen = relative.at(time).apply(point - from_a) + from_b;
+        let back = query.b.pose(time).transform_point(seen);
+        assert!(back.distance(world) < 1e-12);
+    }
+}
+
+#[test]
+fn enclosures_contain_all_placements_and_rates_between() {
+    let mut samples = Samples::new(2);
+    for k in 0..2000 {
+        // Some with the second body at rest, some with whole turns.
+        let mut relative = relative(&mut samples, 3.0, if k % 3 == 0 { 30.0 } else { 3.0 });
+        if k % 2 == 0 {
+            let query = samples.query(3.0, 3.0);
+            let still = ccd_core::Motion::still(query.b.start());
+            let (a, b) = (Course::new(&query.a), Course::new(&still));
+            relative = Relative::new((&a, samples.vector(1.0)), (&b, samples.vector(1.0)));
+        }
+        let span = span(&mut samples);
+        let (places, rates) = (relative.over(span), relative.rates_over(span));
+        for time in times(span, 20) {
+            let at = relative.at(time);
+            assert!(outside(&places, at.rotation, at.translation) < 1e-12);
+            let (before, after) = (relative.at(time - 1e-5), relative.at(time + 1e-5));
+            let rotation = (after.rotation - before.rotation) * 0.5e5;
+            let offset = (after.translation - before.translation) * 0.5e5;
+            // Central differences are off by h²/6 of the third derivative, here about 1e-10 · 60³ · 4.
+            assert!(outside(&rates, rotation, offset) < 1e-4);
+        }
+    }
+}
+
+#[test]
+fn enclosures_shrink_with_the_interval() {
+    let mut samples = Samples::new(3);
+    for _ in 0..100 {
+        let relative = relative(&mut samples, 3.0, 3.0);
+        let start = samples.number(0.0, 1.0);
+        let width = |width: f64| {
+            let over = relative.over(Span {
+                start,
+                end: start + width,
+            });
+            (0..3)
+                .map(|k| over.rotation.radius.col(k).length())
+                .sum::<f64>()
+                + over.offset.radius.length()
+        };
+        assert!(width(0.0) == 0.0 && width(1e-6) < 1e-4 && width(1e-3) < 1e-1);
+    }
+}
+
+fn random_box(samples: &mut Samples) -> Obb {
+    Obb {
+        axes: DMat3::from_quat(samples.rotation()),
+        centre: samples.vector(1.0),
+        half: samples.vector(0.5).abs(),
+    }
+}
+
+/// Whether a point of a grid over one box lies in the other.
+fn boxes_meet(a: &Obb, b: &Obb, at: &Placement) -> bool {
+    const STEPS: [f64; 5] = [-1.0, -0.5, 0.0, 0.5, 1.0];
+    let grid = |o: &Obb| {
+        let o = *o;
+        let points = STEPS.iter().flat_map(|&x| {
+            let lines = STEPS.iter().map(move |&y| (x, y));
+            lines.flat_map(|(x, y)| STEPS.iter().map(move |&z| DVec3::new(x, y, z)))
+        });
+        points.map(move |p| o.centre + o.axes * (p * o.half))
+    };
+    let holds = |o: &Obb, p: DVec3| {
+        let along = o.axes.transpose_mul_vec3(p - o.centre).abs();
+        (along - o.half).max_element() <= 0.0
+    };
+    let back = at.rotation.transpose();
+    grid(a).any(|p| holds(b, at.apply(p))) || grid(b).any(|p| holds(a, back * (p - at.translation)))
+}
+
+#[test]
+fn boxes_told_apart_never_meet() {
+    let mut samples = Samples::new(4);
+    let (mut apart, mut near, mut met) = (0, 0, 0);
+    for _ in 0..6000 {
+        let relative = relative(&mut samples, 2.0, 3.0);
+        let (a, b) = (random_box(&mut samples), random_box(&mut samples));
+        let start = samples.number(0.0, 1.0);
+        let span = Span {
+            start,
+            end: start + samples.number(0.0, 0.2),
+        };
+        let meet = times(span, 8).any(|time| boxes_meet(&a, &b, &relative.at(time)));
+        met += usize::from(meet);
+        match boxes(&a, &b, &relative.over(span)) {
+            Boxes::Apart => {
+                assert!(!meet);
+                apart += 1;
+            }
+            Boxes::Near { spread } => {
+                assert!(spread >= 0.0);
+                near += 1;
+            }
+        }
+    }
+    // Most pairs that do not meet are told apart.
+    assert!(
+        apart > 3000 && met > 50,
+        "{apart} apart, {near} near, {met} met"
+    );
+    assert!(f64::from(near) < 0.45 * 6000.0, "{near}");
+}
+
+#[test]
+fn boxes_at_rest_are_told_apart_exactly_where_a_face_separates_them() {
+    let at = Placement {
+        rotation: DMat3::IDENTITY,
+        translation: DVec3::ZERO,
+    };
+    let enclosure = |offset: DVec3| {
+        let still = crate::method::rival::tests::samples::still(DVec3::ZERO);
+        let course = Course::new(&still);
+        let relative = Relative::new((&course, -offset), (&course, DVec3::ZERO));
+        assert_eq!(relative.at(0.3).rotation, at.rotation);
+        relative.over(Span {
+            start: 0.0,
+            end: 1.0,
+        })
+    };
+    let cube = Obb {
+        axes: DMat3::IDENTITY,
+        centre: DVec3::ZERO,
+        half: DVec3::splat(0.5),
+    };
+    let spread = 0.0;
+    for axis in DVec3::AXES {
+        let ask = |offset: f64| boxes(&cube, &cube, &enclosure(offset * axis));
+        assert_eq!(ask(1.0 + 1e-9), Boxes::Apart);
+        assert_eq!(ask(-1.0 - 1e-9), Boxes::Apart);
+        assert_eq!(ask(1.0 - 1e-9), Boxes::Near { spread });
+    }
+}
+
+/// No point of one triangle moves faster as seen from the other below: centres by √3 (2 + 4), points up to
+/// 3 √3 from them by √3 times as much, twice.
+const MAX_SPEED: f64 = 30.0;
+
+/// The first body is on its way to the second one's start.
+fn approach(samples: &mut Samples) -> Relative {
+    let query = samples.query(1.0, 1.0);
+    let (mut a, b) = (Course::new(&query.a), Course::new(&query.b));
+    a.velocity += query.b.start().translation() - query.a.start().translation();
+    Relative::new((&a, samples.vector(1.0)), (&b, samples.vector(1.0)))
+}
+
+#[test]
+fn triangles_touch_when_samples_first_cross() {
+    let mut samples = Samples::new(5);
+    let (mut hits, mut free) = (0, 0);
+    for k in 0..1500 {
+        let relative = approach(&mut samples);
+        let (a, b) = (samples.triangle(), samples.triangle());
+        let at = |time: f64| a.map(|p| relative.at(time).apply(p));
+        if triangles_cross(&at(0.0), &b) {
+            continue;
+        }
+        let tolerance = [1e-2, 1e-4, 1e-8][k % 3];
+        let triangles = Triangles {
+            a: Facet::new(&a),
+            b: Facet::new(&b),
+        };
+        let mut clock = Clock::new(relative, tolerance / MAX_SPEED, 1 << 20);
+        let touch = first_touch(&triangles, Slice::whole(1.0), &mut clock);
+        let span = Span {
+            start: 0.0,
+            end: 1.0,
+        };
+        let crossing = times(span, 500).find(|&time| triangles_cross(&at(time), &b));
+        match touch {
+            Touch::At(time) => {
+                assert!(crossing.is_none_or(|crossing| time <= crossing));
+                let gap = distance(&at(time), &b);
+                assert!(gap <= tolerance, "{gap} at {time}, tolerance {tolerance}");
+                hits += 1;
+            }
+            Touch::Never => {
+                assert_eq!(crossing, None);
+                free += 1;
+            }
+            Touch::Unknown => panic!("the work ran out"),
+        }
+    }
+    assert!(hits > 200 && free > 200, "{hits} hits, {free} free");
+}

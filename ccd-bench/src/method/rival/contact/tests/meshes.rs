@@ -1,0 +1,107 @@
+//! Torus knots against samples of their screw motions.
+
+use super::super::*;
+use crate::method::rival::Placement;
+use crate::method::rival::screw;
+use crate::method::rival::tests::samples::{Samples, distance};
+use crate::scene::Shots;
+use crate::scene::model::Model;
+use ccd_core::Motion;
+use ccd_core::glam::DVec3;
+use ccd_core::order::lesser;
+
+/// How many samples of a motion the truth is taken from.
+const SAMPLES: u32 = 1000;
+
+fn placement(query: &Query, time: f64) -> Placement {
+    let [a, b] = [query.a, query.b].map(|motion| Course::new(&motion).at(time));
+    a.seen_from(&b)
+}
+
+/// The first sample at which the meshes cross.
+fn first_crossing(tree: &ObbTree, query: &Query) -> Option<f64> {
+    let mut stack = Vec::new();
+    (0..=SAMPLES)
+        .map(|k| query.duration * f64::from(k) / f64::from(SAMPLES))
+        .find(|&time| crossing(tree, tree, &placement(query, time), &mut stack) == Crossing::Found)
+}
+
+/// The distance of two meshes that do not cross, by all pairs of triangles.
+fn gap(mesh: &TriangleMesh, at: &Placement) -> f64 {
+    let triangles = || {
+        let corner = |v: u32| mesh.vertices()[v as usize];
+        mesh.faces().iter().map(move |face| face.map(corner))
+    };
+    triangles()
+        .map(|t| t.map(|p| at.apply(p)))
+        .flat_map(|t| triangles().map(move |u| distance(&t, &u)))
+        .fold(f64::INFINITY, lesser)
+}
+
+/// Holds answers against samples; tells how many queries hit.
+fn judge(queries: &[Query], tolerance: f64) -> usize {
+    let mesh = Model::Knot216.generate().unwrap();
+    let tree = ObbTree::new(&mesh);
+    let mut contact = Contact::new(&mesh, &mesh, tolerance);
+    let mut hits = 0;
+    for query in queries {
+        let reply = contact.answer(query);
+        let moved = screw(query).unwrap();
+        let crossing = first_crossing(&tree, &moved);
+        match reply.claim {
+            Claim::Contact { time } => {
+                assert!(crossing.is_none_or(|crossing| time <= crossing), "late");
+                let gap = gap(&mesh, &placement(&moved, time));
+                assert!(gap <= tolerance, "{gap} at {time}, tolerance {tolerance}");
+                hits += 1;
+            }
+            Claim::Free => assert_eq!(crossing, None, "missed"),
+            Claim::Unresolved { .. } | Claim::Refused => panic!("{reply:?}"),
+        }
+    }
+    hits
+}
+
+fn shots(count: usize) -> Vec<Query> {
+    let shots = Shots {
+        count,
+        translations: count / 3,
+        distance: 3.0..3.8,
+        aside: 2.3,
+        seed: 7,
+    };
+    shots.queries().unwrap()
+}
+
+#[test]
+fn shots_are_answered_never_late_and_within_the_tolerance() {
+    let queries = shots(45);
+    for (tolerance, part) in [(1e-2, 0..15), (1e-4, 15..30), (1e-8, 30..45)] {
+        let hits = judge(&queries[part], tolerance);
+        assert!((4..15).contains(&hits), "{hits} of 15 hit");
+    }
+}
+
+#[test]
+fn both_bodies_may_move_and_turn_far() {
+    let mut samples = Samples::new(8);
+    let queries: Vec<Query> = shots(20)
+        .into_iter()
+        .map(|query| {
+            let (spin, far) = (samples.vector(1.0), samples.vector(5.0));
+            Query {
+                // With a drift along the axis, so that the screw is another motion.
+                a: turned(&query.a, query.a.velocity() + 0.1 * spin, spin),
+                b: turned(&query.b, DVec3::ZERO, far),
+                ..query
+            }
+        })
+        .collect();
+    let hits = judge(&queries, 1e-4);
+    assert!((6..20).contains(&hits), "{hits} of 20 hit");
+}
+
+/// Another motion from the same start.
+fn turned(motion: &Motion, velocity: DVec3, spin: DVec3) -> Motion {
+    Motion::new(motion.start(), velocity, spin).unwrap()
+}

@@ -1,0 +1,221 @@
+//! Scenes with exact answers, in which the screw is the motion.
+
+use super::super::*;
+use crate::method::rival::tests::samples::{cuboid, moving, query, still};
+use ccd_core::glam::{DQuat, DVec3};
+use ccd_core::order::lesser;
+use std::f64::consts::{FRAC_PI_4, PI};
+
+/// The rod's half length and half width.
+const LENGTH: f64 = 2.0;
+const WIDTH: f64 = 0.05;
+
+fn ask(a: &TriangleMesh, b: &TriangleMesh, tolerance: f64, query: &Query) -> Claim {
+    Contact::new(a, b, tolerance).answer(query).claim
+}
+
+/// At three tolerances: never late, and early by no more than the approach takes for the tolerance.
+fn assert_contact(meshes: [&TriangleMesh; 2], query: &Query, exact: f64, speed: f64) {
+    for tolerance in [1e-2, 1e-4, 1e-8] {
+        let swapped = Query {
+            a: query.b,
+            b: query.a,
+            ..query.clone()
+        };
+        let claims = [
+            ask(meshes[0], meshes[1], tolerance, query),
+            ask(meshes[1], meshes[0], tolerance, &swapped),
+        ];
+        for claim in claims {
+            let Claim::Contact { time } = claim else {
+                panic!("{claim:?} in place of {exact}")
+            };
+            let early = exact - time;
+            assert!(
+                (-1e-12..=1.5 * tolerance / speed).contains(&early),
+                "{early} at {tolerance}"
+            );
+        }
+    }
+}
+
+/// From a height of 3 with speed 4 onto what has its top at 0.
+fn falling_flat() -> Query {
+    let down = -4.0 * DVec3::Z;
+    let a = moving(3.0 * DVec3::Z, DQuat::IDENTITY, down, DVec3::ZERO);
+    query(a, still(-0.5 * DVec3::Z))
+}
+
+#[test]
+fn a_cube_falls_flat_on_a_slab() {
+    let query = falling_flat();
+    let meshes = [&cuboid(0.5, 0.5, 0.5), &cuboid(3.0, 3.0, 0.5)];
+    assert_contact(meshes, &query, 0.625, 4.0);
+}
+
+#[test]
+fn a_corner_falls_on_a_slab() {
+    // The cube's diagonal points down.
+    let upright = DQuat::from_rotation_arc(DVec3::ONE.normalize(), -DVec3::Z);
+    let a = moving(3.0 * DVec3::Z, upright, -4.0 * DVec3::Z, DVec3::ZERO);
+    let query = query(a, still(-0.5 * DVec3::Z));
+    let meshes = [&cuboid(0.5, 0.5, 0.5), &cuboid(3.0, 3.0, 0.5)];
+    assert_contact(meshes, &query, (3.0 - 0.75f64.sqrt()) / 4.0, 4.0);
+}
+
+#[test]
+fn two_edges_meet_across() {
+    let about_x = DQuat::from_rotation_x(FRAC_PI_4);
+    let a = moving(3.0 * DVec3::Z, about_x, -4.0 * DVec3::Z, DVec3::ZERO);
+    let b = moving(
+        DVec3::ZERO,
+        DQuat::from_rotation_y(FRAC_PI_4),
+        DVec3::ZERO,
+        DVec3::ZERO,
+    );
+    let cube = cuboid(0.5, 0.5, 0.5);
+    let exact = (3.0 - 2f64.sqrt()) / 4.0;
+    assert_contact([&cube, &cube], &query(a, b), exact, 4.0);
+}
+
+#[test]
+fn a_rod_turns_into_a_wall() {
+    let radius = LENGTH.hypot(WIDTH);
+    let rod = cuboid(WIDTH, 0.3, LENGTH);
+    let wall = cuboid(0.5, 3.0, 3.0);
+    for (turns, height) in [(1.0, 1.2), (1.9, 1.2), (2.0, 1.9), (7.0, 0.5)] {
+        let spin = turns * PI;
+        let a = moving(DVec3::ZERO, DQuat::IDENTITY, DVec3::ZERO, spin * DVec3::Y);
+        let query = query(a, still((height + 0.5) * DVec3::X));
+        let angle = (height / radius).asin();
+        let exact = (angle - WIDTH.atan2(LENGTH)) / spin;
+        // The corner moves along its circle, towards the wall by this much of it.
+        let speed = spin * radius * angle.cos();
+        assert_contact(
+            [&rod, &wall],
+            &query,
+            exact,
+            speed * (radius / (radius + 1.0)),
+        );
+    }
+}
+
+#[test]
+fn a_rod_turns_past_a_wall() {
+    let radius = LENGTH.hypot(WIDTH);
+    let (rod, wall) = (cuboid(WIDTH, 0.3, LENGTH), cuboid(0.5, 3.0, 3.0));
+    for (share, hits) in [(1.0 - 1e-3, true), (1.0 - 1e-6, true), (1.0 + 1e-3, false)] {
+        let a = moving(DVec3::ZERO, DQuat::IDENTITY, DVec3::ZERO, PI * DVec3::Y);
+        let query = query(a, still((radius * share + 0.5) * DVec3::X));
+        let exact = (lesser(1.0, share).asin() - WIDTH.atan2(LENGTH)) / PI;
+        match ask(&rod, &wall, 1e-7, &query) {
+            Claim::Contact { time } => {
+                assert!(
+                    hits && time <= exact + 1e-9 && time > exact - 1e-3,
+                    "{time} {exact}"
+                );
+            }
+            claim => assert_eq!((claim, hits), (Claim::Free, false)),
+        }
+    }
+}
+
+#[test]
+fn parallel_edges_meet() {
+    let (reach, polar) = (1.3, 1.0f64);
+    let exact = (polar - f64::asin(WIDTH / reach)) / 1.5;
+    let a = moving(DVec3::ZERO, DQuat::IDENTITY, DVec3::ZERO, 1.5 * DVec3::Z);
+    let (sin, cos) = polar.sin_cos();
+    let edge = reach * DVec3::new(cos, sin, 0.0);
+    let onward = DVec3::new(-sin, cos, 0.0);
+    // The corner (−, −) of the post's square faces the rod.
+    let half = 0.2;
+    let post = moving(
+        edge + onward * (half * 2f64.sqrt()),
+        DQuat::from_rotation_z(polar + FRAC_PI_4),
+        DVec3::ZERO,
+        DVec3::ZERO,
+    );
+    let meshes = [&cuboid(LENGTH, WIDTH, 0.1), &cuboid(half, half, 1.0)];
+    let speed = 1.5 * reach * (reach / (LENGTH + WIDTH + 0.1));
+    assert_contact(meshes, &query(a, post), exact, speed);
+}
+
+#[test]
+fn both_bodies_turn() {
+    let radius = LENGTH.hypot(WIDTH);
+    let rod = cuboid(WIDTH, 0.3, LENGTH);
+    let spin = 2.0 * DVec3::Y;
+    let a = moving(DVec3::ZERO, DQuat::IDENTITY, DVec3::ZERO, spin);
+    let b = moving(3.0 * DVec3::X, DQuat::IDENTITY, DVec3::ZERO, -spin);
+    let angle = (1.5 / radius).asin();
+    let exact = (angle - WIDTH.atan2(LENGTH)) / 2.0;
+    assert_contact(
+        [&rod, &rod],
+        &query(a, b),
+        exact,
+        2.0 * radius * angle.cos(),
+    );
+}
+
+#[test]
+fn surfaces_that_cross_at_the_start_touch_there() {
+    let cube = cuboid(0.5, 0.5, 0.5);
+    let a = moving(0.9 * DVec3::Z, DQuat::IDENTITY, DVec3::Z, DVec3::Y);
+    let claim = ask(&cube, &cube, 1e-3, &query(a, still(DVec3::ZERO)));
+    assert_eq!(claim, Claim::Contact { time: 0.0 });
+}
+
+#[test]
+fn bodies_at_rest_are_free() {
+    let cube = cuboid(0.5, 0.5, 0.5);
+    let apart = query(still(1.001 * DVec3::Z), still(DVec3::ZERO));
+    assert_eq!(ask(&cube, &cube, 1e-3, &apart), Claim::Free);
+}
+
+#[test]
+fn work_is_limited() {
+    let (cube, slab) = (cuboid(0.5, 0.5, 0.5), cuboid(3.0, 3.0, 0.5));
+    let tilt = DQuat::from_scaled_axis(DVec3::new(0.5, 0.3, 0.2));
+    let tilted: Vec<DVec3> = slab.vertices().iter().map(|&v| tilt * v).collect();
+    let tilted = TriangleMesh::new(tilted, slab.faces()).unwrap();
+    // Slides over the slab at a distance of a millionth.
+    let place = tilt * DVec3::new(0.0, 0.0, 1.0 + 1e-6);
+    let slide = moving(place, tilt, tilt * DVec3::X, DVec3::ZERO);
+    let slide = query(slide, still(DVec3::ZERO));
+    let fall = moving(
+        3.0 * DVec3::Z,
+        DQuat::IDENTITY,
+        -4.0 * DVec3::Z,
+        DVec3::ZERO,
+    );
+    let fall = query(fall, still(-0.5 * DVec3::Z));
+    let halvings = Limits {
+        halvings: 1000,
+        ..LIMITS
+    };
+    let pairs = Limits { pairs: 5, ..LIMITS };
+    for (limits, slab, query, end) in [(halvings, tilted, slide, 1.0), (pairs, slab, fall, 0.625)] {
+        let mut contact = Contact::new(&cube, &slab, 1e-9);
+        contact.limits = limits;
+        let reply = contact.answer(&query);
+        let Claim::Unresolved { safe_until } = reply.claim else {
+            panic!("{reply:?}")
+        };
+        assert!((0.0..=end).contains(&safe_until), "{safe_until}");
+        assert!(reply.steps <= 1000, "{}", reply.steps);
+    }
+}
+
+#[test]
+fn tolerances_that_are_none_are_never_late() {
+    let query = falling_flat();
+    let (cube, slab) = (cuboid(0.5, 0.5, 0.5), cuboid(3.0, 3.0, 0.5));
+    for tolerance in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        match ask(&cube, &slab, tolerance, &query) {
+            Claim::Contact { time } => assert!(time <= 0.625 + 1e-12),
+            Claim::Unresolved { safe_until } => assert!(safe_until <= 0.625 + 1e-12),
+            claim => panic!("{claim:?} at tolerance {tolerance}"),
+        }
+    }
+}

@@ -1,0 +1,249 @@
+//! Intervals, as a middle and a radius, of numbers, vectors and matrices.
+//!
+//! Plain rounding: enclosures are those of exact arithmetic up to a few units in the last place.
+
+use ccd_core::glam::{DMat3, DVec3};
+use std::ops::{Add, Mul, Sub};
+
+/// All numbers within `radius` of `middle`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Interval {
+    pub(super) middle: f64,
+    pub(super) radius: f64,
+}
+
+/// An interval for every coordinate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct IntervalVec {
+    pub(super) middle: DVec3,
+    pub(super) radius: DVec3,
+}
+
+/// An interval for every entry.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct IntervalMat {
+    pub(super) middle: DMat3,
+    pub(super) radius: DMat3,
+}
+
+/// The cosine and the sine of all angles between −h and h.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Arc {
+    pub(super) cos: Interval,
+    /// About zero.
+    pub(super) sin: f64,
+}
+
+impl Arc {
+    /// Both ranges, exactly.
+    #[inline]
+    pub(super) fn new(half_angle: f64) -> Self {
+        use std::f64::consts::{FRAC_PI_2, PI};
+        let (sin, cos) = half_angle.sin_cos();
+        let least_cos = if half_angle < PI { cos } else { -1.0 };
+        Arc {
+            cos: Interval {
+                middle: 0.5 * (1.0 + least_cos),
+                radius: 0.5 * (1.0 - least_cos),
+            },
+            sin: if half_angle < FRAC_PI_2 { sin } else { 1.0 },
+        }
+    }
+}
+
+impl Interval {
+    #[inline]
+    pub(super) fn low(self) -> f64 {
+        self.middle - self.radius
+    }
+
+    #[inline]
+    pub(super) fn high(self) -> f64 {
+        self.middle + self.radius
+    }
+
+    /// Whether no number in it is zero; not so if it is NaN.
+    #[inline]
+    pub(super) fn excludes_zero(self) -> bool {
+        self.middle.abs() > self.radius
+    }
+}
+
+impl Add for Interval {
+    type Output = Interval;
+
+    #[inline]
+    fn add(self, other: Interval) -> Interval {
+        Interval {
+            middle: self.middle + other.middle,
+            radius: self.radius + other.radius,
+        }
+    }
+}
+
+impl Sub for Interval {
+    type Output = Interval;
+
+    #[inline]
+    fn sub(self, other: Interval) -> Interval {
+        Interval {
+            middle: self.middle - other.middle,
+            radius: self.radius + other.radius,
+        }
+    }
+}
+
+impl IntervalVec {
+    /// The dot product with a vector.
+    #[inline]
+    pub(super) fn dot_point(self, other: DVec3) -> Interval {
+        Interval {
+            middle: self.middle.dot(other),
+            radius: self.radius.dot(other.abs()),
+        }
+    }
+
+    /// The dot product.
+    #[inline]
+    pub(super) fn dot(self, other: IntervalVec) -> Interval {
+        Interval {
+            middle: self.middle.dot(other.middle),
+            radius: self.middle.abs().dot(other.radius)
+                + self.radius.dot(other.middle.abs() + other.radius),
+        }
+    }
+
+    /// The cross product with a vector.
+    #[inline]
+    pub(super) fn cross_point(self, other: DVec3) -> IntervalVec {
+        IntervalVec {
+            middle: self.middle.cross(other),
+            radius: cross_sum(self.radius, other.abs()),
+        }
+    }
+
+    /// The cross product.
+    #[inline]
+    pub(super) fn cross(self, other: IntervalVec) -> IntervalVec {
+        IntervalVec {
+            middle: self.middle.cross(other.middle),
+            radius: cross_sum(self.middle.abs(), other.radius)
+                + cross_sum(self.radius, other.middle.abs() + other.radius),
+        }
+    }
+
+    /// The difference from a vector.
+    #[inline]
+    pub(super) fn minus_point(self, other: DVec3) -> IntervalVec {
+        IntervalVec {
+            middle: self.middle - other,
+            radius: self.radius,
+        }
+    }
+
+    /// The largest absolute values of the coordinates.
+    #[inline]
+    pub(super) fn largest(self) -> DVec3 {
+        self.middle.abs() + self.radius
+    }
+
+    /// The smallest absolute values of the coordinates, negative where zero lies well inside.
+    #[inline]
+    pub(super) fn smallest(self) -> DVec3 {
+        self.middle.abs() - self.radius
+    }
+}
+
+/// A cross product with plus in place of minus: how radii add up in one.
+#[inline]
+pub(super) fn cross_sum(a: DVec3, b: DVec3) -> DVec3 {
+    DVec3::new(
+        a.y * b.z + a.z * b.y,
+        a.z * b.x + a.x * b.z,
+        a.x * b.y + a.y * b.x,
+    )
+}
+
+impl Add for IntervalVec {
+    type Output = IntervalVec;
+
+    #[inline]
+    fn add(self, other: IntervalVec) -> IntervalVec {
+        IntervalVec {
+            middle: self.middle + other.middle,
+            radius: self.radius + other.radius,
+        }
+    }
+}
+
+impl Sub for IntervalVec {
+    type Output = IntervalVec;
+
+    #[inline]
+    fn sub(self, other: IntervalVec) -> IntervalVec {
+        IntervalVec {
+            middle: self.middle - other.middle,
+            radius: self.radius + other.radius,
+        }
+    }
+}
+
+impl Mul<DVec3> for IntervalMat {
+    type Output = IntervalVec;
+
+    #[inline]
+    fn mul(self, point: DVec3) -> IntervalVec {
+        IntervalVec {
+            middle: self.middle * point,
+            radius: self.radius * point.abs(),
+        }
+    }
+}
+
+impl Mul<IntervalVec> for IntervalMat {
+    type Output = IntervalVec;
+
+    #[inline]
+    fn mul(self, vector: IntervalVec) -> IntervalVec {
+        IntervalVec {
+            middle: self.middle * vector.middle,
+            radius: self.middle.abs() * vector.radius + self.radius * vector.largest(),
+        }
+    }
+}
+
+impl Mul for IntervalMat {
+    type Output = IntervalMat;
+
+    fn mul(self, other: IntervalMat) -> IntervalMat {
+        IntervalMat {
+            middle: self.middle * other.middle,
+            radius: self.middle.abs() * other.radius
+                + self.radius * (other.middle.abs() + other.radius),
+        }
+    }
+}
+
+impl Add for IntervalMat {
+    type Output = IntervalMat;
+
+    fn add(self, other: IntervalMat) -> IntervalMat {
+        IntervalMat {
+            middle: self.middle + other.middle,
+            radius: self.radius + other.radius,
+        }
+    }
+}
+
+impl IntervalMat {
+    /// All transposes.
+    pub(super) fn transpose(self) -> IntervalMat {
+        IntervalMat {
+            middle: self.middle.transpose(),
+            radius: self.radius.transpose(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

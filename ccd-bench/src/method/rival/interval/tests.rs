@@ -1,0 +1,97 @@
+use super::*;
+use crate::method::rival::tests::samples::Samples;
+use ccd_core::order::{greater, lesser};
+
+/// Room for rounding.
+const SLACK: f64 = 1e-12;
+
+fn interval_vec(samples: &mut Samples) -> IntervalVec {
+    IntervalVec {
+        middle: samples.vector(2.0),
+        radius: samples.vector(1.0).abs(),
+    }
+}
+
+fn interval_mat(samples: &mut Samples) -> IntervalMat {
+    let [a, b, c] = [(); 3].map(|()| interval_vec(samples));
+    IntervalMat {
+        middle: DMat3::from_cols(a.middle, b.middle, c.middle),
+        radius: DMat3::from_cols(a.radius, b.radius, c.radius),
+    }
+}
+
+fn member_vec(of: IntervalVec, samples: &mut Samples) -> DVec3 {
+    of.middle + of.radius * samples.vector(1.0)
+}
+
+fn member_mat(of: IntervalMat, samples: &mut Samples) -> DMat3 {
+    let column = |k: usize| IntervalVec {
+        middle: of.middle.col(k),
+        radius: of.radius.col(k),
+    };
+    let [a, b, c] = [0, 1, 2].map(|k| member_vec(column(k), samples));
+    DMat3::from_cols(a, b, c)
+}
+
+fn has(interval: Interval, value: f64) -> bool {
+    (interval.low() - SLACK..=interval.high() + SLACK).contains(&value)
+}
+
+fn has_vec(interval: IntervalVec, value: DVec3) -> bool {
+    let off = (value - interval.middle).abs() - interval.radius;
+    off.max_element() <= SLACK
+}
+
+#[test]
+fn results_contain_those_of_members() {
+    let mut samples = Samples::new(1);
+    for _ in 0..2000 {
+        let (u, v) = (interval_vec(&mut samples), interval_vec(&mut samples));
+        let (m, n) = (interval_mat(&mut samples), interval_mat(&mut samples));
+        let p = samples.vector(3.0);
+        for _ in 0..10 {
+            let (x, y) = (member_vec(u, &mut samples), member_vec(v, &mut samples));
+            let (f, g) = (member_mat(m, &mut samples), member_mat(n, &mut samples));
+            assert!(has(u.dot(v), x.dot(y)) && has(u.dot_point(p), x.dot(p)));
+            assert!(has(u.dot(v) + u.dot_point(p), x.dot(y) + x.dot(p)));
+            assert!(has(u.dot(v) - u.dot_point(p), x.dot(y) - x.dot(p)));
+            assert!(has_vec(u.cross(v), x.cross(y)) && has_vec(u.cross_point(p), x.cross(p)));
+            assert!(has_vec(u + v, x + y) && has_vec(u - v, x - y));
+            assert!(has_vec(u.minus_point(p), x - p));
+            assert!(has_vec(m * p, f * p) && has_vec(m * u, f * x));
+            let (product, sum) = (m * n, m.transpose() + n);
+            let both = [(product, f * g), (sum, f.transpose() + g)];
+            for (interval, value) in both {
+                let off = value - interval.middle;
+                assert!((0..3).all(|k| {
+                    (off.col(k).abs() - interval.radius.col(k)).max_element() <= SLACK
+                }));
+            }
+            assert!((x.abs() - u.largest()).max_element() <= SLACK);
+            assert!((u.smallest() - x.abs()).max_element() <= SLACK);
+        }
+    }
+}
+
+#[test]
+fn arcs_are_the_ranges_of_cosine_and_sine() {
+    for half in [0.0, 1e-9, 0.3, 1.5, 1.6, 3.0, 3.2, 40.0] {
+        let arc = Arc::new(half);
+        let angles = (-20_000..=20_000).map(|k| half * f64::from(k) / 20_000.0);
+        let (mut least, mut most) = (f64::INFINITY, 0.0);
+        for angle in angles {
+            assert!(has(arc.cos, angle.cos()) && angle.sin().abs() <= arc.sin + SLACK);
+            least = lesser(least, angle.cos());
+            most = greater(most, angle.sin());
+        }
+        assert!((arc.cos.low() - least).abs() < 1e-5 && (arc.sin - most).abs() < 1e-5);
+        assert!((arc.cos.high() - 1.0).abs() < SLACK);
+    }
+}
+
+#[test]
+fn zero_is_excluded_only_where_it_is_not() {
+    let interval = |middle, radius| Interval { middle, radius };
+    assert!(interval(1.0, 0.5).excludes_zero() && interval(-1.0, 0.5).excludes_zero());
+    assert!(!interval(0.5, 0.5).excludes_zero() && !interval(f64::NAN, 0.5).excludes_zero());
+}

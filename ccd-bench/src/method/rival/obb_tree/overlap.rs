@@ -1,0 +1,103 @@
+//! Whether two meshes cross as they stand.
+
+use super::{Content, Obb, ObbTree};
+use crate::method::rival::Placement;
+use crate::method::rival::interval::cross_sum;
+use crate::method::rival::triangles_cross::triangles_cross;
+use ccd_core::glam::{DMat3, DVec3};
+
+/// Added to the cosines between two boxes' axes, so that the cross product of parallel ones, which is
+/// nothing but rounding, separates nothing \[OBBTREE96 §5\].
+const COSINE_SLACK: f64 = 1e-14;
+
+/// Whether two surfaces have a point in common.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::method::rival) enum Crossing {
+    /// They do.
+    Found,
+    /// They do not.
+    None,
+}
+
+/// Whether the triangles of two trees touch or cross, A placed in B's frame.
+///
+/// `stack` is scratch, kept by the caller so that nothing is allocated from one call to the next.
+///
+/// # Complexity
+/// Of the pairs of boxes that overlap, at most all pairs of nodes.
+pub(in crate::method::rival) fn crossing(
+    a: &ObbTree,
+    b: &ObbTree,
+    placement: &Placement,
+    stack: &mut Vec<(u32, u32)>,
+) -> Crossing {
+    let between_origins = Placement {
+        rotation: placement.rotation,
+        translation: placement.apply(a.origin) - b.origin,
+    };
+    stack.clear();
+    stack.push((0, 0));
+    while let Some((i, j)) = stack.pop() {
+        let (node_a, node_b) = (a.node(i), b.node(j));
+        if node_a.bounds.apart(&node_b.bounds, &between_origins) {
+            continue;
+        }
+        match (node_a.content, node_b.content) {
+            (Content::Triangle(p), Content::Triangle(q)) => {
+                let p = a.triangle(p).map(|x| between_origins.apply(x));
+                if triangles_cross(&p, b.triangle(q)) {
+                    return Crossing::Found;
+                }
+            }
+            (Content::Nodes([left, right]), other)
+                if other_is_smaller(other, &node_a.bounds, &node_b.bounds) =>
+            {
+                stack.extend([(right, j), (left, j)]);
+            }
+            (_, Content::Nodes([left, right])) => stack.extend([(i, right), (i, left)]),
+            (Content::Nodes([left, right]), Content::Triangle(_)) => {
+                stack.extend([(right, j), (left, j)]);
+            }
+        }
+    }
+    Crossing::None
+}
+
+/// Whether A's node is the one to open: B's cannot be, or is smaller.
+fn other_is_smaller(other: Content, a: &Obb, b: &Obb) -> bool {
+    matches!(other, Content::Triangle(_)) || a.half.max_element() > b.half.max_element()
+}
+
+impl Obb {
+    /// Whether one of the 15 axes separates this box, placed in the other's frame, from the other
+    /// \[OBBTREE96 §5\].
+    fn apart(&self, other: &Obb, placement: &Placement) -> bool {
+        let into = other.axes.transpose();
+        let t = into * (placement.apply(self.centre) - other.centre);
+        let cos = into * (placement.rotation * self.axes);
+        let mut abs = cos.abs();
+        abs.x_axis += COSINE_SLACK;
+        abs.y_axis += COSINE_SLACK;
+        abs.z_axis += COSINE_SLACK;
+        let (ha, hb) = (self.half, other.half);
+        if (t.abs() - hb - abs * ha).max_element() > 0.0 {
+            return true;
+        }
+        let along_a = cos.transpose_mul_vec3(t).abs() - ha - abs.transpose_mul_vec3(hb);
+        if along_a.max_element() > 0.0 {
+            return true;
+        }
+        // The axes `b_i × a_j`, for all i at once.
+        let separates = |c: DVec3, abs_c: DVec3, of_a: DVec3| {
+            (t.cross(c).abs() - cross_sum(hb, abs_c) - of_a).max_element() > 0.0
+        };
+        let DMat3 {
+            x_axis: x,
+            y_axis: y,
+            z_axis: z,
+        } = abs;
+        separates(cos.x_axis, x, ha.y * z + ha.z * y)
+            || separates(cos.y_axis, y, ha.z * x + ha.x * z)
+            || separates(cos.z_axis, z, ha.x * y + ha.y * x)
+    }
+}

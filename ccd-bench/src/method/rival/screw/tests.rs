@@ -1,0 +1,82 @@
+use super::*;
+use crate::method::rival::tests::samples::{Samples, query, still};
+use ccd_core::Pose;
+use ccd_core::order::lesser;
+
+fn off(a: Pose, b: Pose, point: DVec3) -> f64 {
+    a.transform_point(point).distance(b.transform_point(point))
+}
+
+#[test]
+fn screws_start_and_end_where_the_motion_does() {
+    let mut samples = Samples::new(1);
+    let mut between = 0;
+    for _ in 0..2000 {
+        // Up to 2.7 turns.
+        let query = samples.query(3.0, 10.0);
+        let screw = screw(&query).unwrap();
+        assert_eq!((screw.duration, &screw.id), (query.duration, &query.id));
+        for (screw, motion) in [(screw.a, query.a), (screw.b, query.b)] {
+            let point = samples.vector(1.0);
+            let sine = (0.5 * motion.spin().length()).sin().abs();
+            let slack = 1e-12 / lesser(1.0, 10.0 * sine);
+            assert!(off(screw.pose(0.0), motion.pose(0.0), point) <= slack);
+            assert!(off(screw.pose(1.0), motion.pose(1.0), point) <= slack);
+            assert!(screw.velocity().cross(screw.spin()).length() <= 1e-12 * screw.spin().length());
+            between += usize::from(off(screw.pose(0.5), motion.pose(0.5), point) > 0.1);
+        }
+    }
+    assert!(between > 2000, "in between they differ: {between}");
+}
+
+#[test]
+fn points_of_the_axis_slide_along_it() {
+    let mut samples = Samples::new(2);
+    for _ in 0..200 {
+        let screw = screw(&samples.query(3.0, 3.0)).unwrap().a;
+        let centre = |t: f64| screw.pose(t).transform_point(screw.centre());
+        let path = centre(1.0) - centre(0.0);
+        assert!((path - screw.velocity()).length() < 1e-11);
+    }
+}
+
+#[test]
+fn translations_and_turns_about_the_centre_stay_as_they_are() {
+    let mut samples = Samples::new(3);
+    for _ in 0..100 {
+        let translation = samples.motion(3.0, 1e-300);
+        let translation = Motion::about(
+            translation.start(),
+            translation.velocity(),
+            DVec3::ZERO,
+            DVec3::X,
+        )
+        .unwrap();
+        let start = translation.start();
+        let turn = Motion::new(start, DVec3::ZERO, samples.vector(8.0)).unwrap();
+        let given = query(translation, turn);
+        assert_eq!(screw(&given).unwrap(), given);
+    }
+}
+
+#[test]
+fn whole_turns_have_no_axis_and_stay_straight() {
+    let whole = std::f64::consts::TAU * DVec3::Z;
+    for spin in [whole, 2.0 * whole, 1e-16 * DVec3::Z, whole * (1.0 + 1e-5)] {
+        let motion = Motion::new(Pose::IDENTITY, DVec3::X, spin).unwrap();
+        let given = query(motion, still(DVec3::ZERO));
+        assert_eq!(screw(&given).unwrap(), given);
+    }
+    // A little more turn, and there is an axis, far away.
+    let motion = Motion::new(Pose::IDENTITY, DVec3::X, 1e-3 * DVec3::Z).unwrap();
+    let screw = screw(&query(motion, still(DVec3::ZERO))).unwrap();
+    assert!((screw.a.centre().length() - 1e3).abs() < 1.0);
+    assert!(off(screw.a.pose(1.0), motion.pose(1.0), DVec3::Y) < 1e-12);
+}
+
+#[test]
+fn overflow_is_an_error() {
+    let motion = Motion::new(Pose::IDENTITY, 1e308 * DVec3::X, 1e-3 * DVec3::Z).unwrap();
+    let result = screw(&query(motion, still(DVec3::ZERO)));
+    assert_eq!(result, Err(InputError::NotFinite { what: "motion" }));
+}

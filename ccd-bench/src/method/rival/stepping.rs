@@ -1,0 +1,81 @@
+//! A static test at every step, what is done without any continuous method.
+
+use super::Course;
+use super::obb_tree::{Crossing, ObbTree, crossing};
+use super::resolution::resolution;
+use crate::method::solver::{Adjustable, Claim, Reply, Solver};
+use ccd_decomp::TriangleMesh;
+use rigid_ccd::table::motions::Query;
+
+/// Samples of one query, at most: some seconds' worth.
+const MAX_SAMPLES: u64 = 1 << 20;
+
+/// Tests two triangle meshes for intersection at equal steps in time.
+///
+/// # Guarantee
+/// None. The steps are so short that no point moves by more than the tolerance from one to the next; a
+/// contact is reported up to a step late, and one that begins and ends between two steps is missed. More
+/// than 2²⁰ steps are not made; what is left is unresolved.
+///
+/// # Source
+/// Boxes and their tests: \[OBBTREE96\].
+#[derive(Clone, Debug)]
+pub struct Stepping {
+    trees: [ObbTree; 2],
+    tolerance: f64,
+    stack: Vec<(u32, u32)>,
+}
+
+impl Stepping {
+    /// For two meshes; the tolerance is a length.
+    pub fn new(a: &TriangleMesh, b: &TriangleMesh, tolerance: f64) -> Self {
+        Stepping {
+            trees: [a, b].map(ObbTree::new),
+            tolerance,
+            stack: Vec::new(),
+        }
+    }
+
+    fn crosses(&mut self, courses: &[Course; 2], time: f64) -> bool {
+        let placement = courses[0].at(time).seen_from(&courses[1].at(time));
+        let [a, b] = &self.trees;
+        crossing(a, b, &placement, &mut self.stack) == Crossing::Found
+    }
+}
+
+impl Adjustable for Stepping {
+    fn set_tolerance(&mut self, tolerance: f64) {
+        self.tolerance = tolerance;
+    }
+}
+
+impl Solver for Stepping {
+    /// Steps are samples; the last one is at the end of the duration.
+    fn answer(&mut self, query: &Query) -> Reply {
+        let courses = [Course::new(&query.a), Course::new(&query.b)];
+        let step = resolution(&courses, &self.trees, self.tolerance);
+        // Bodies at rest are looked at twice; the cast saturates, and takes NaN for none.
+        let steps = ((query.duration / step).ceil() as u64).max(1);
+        let mut before = 0.0;
+        for k in 0..=steps.min(MAX_SAMPLES - 1) {
+            let time = query.duration * (k as f64 / steps as f64);
+            if self.crosses(&courses, time) {
+                let claim = Claim::Contact { time };
+                return Reply {
+                    claim,
+                    steps: k + 1,
+                };
+            }
+            before = time;
+        }
+        let (claim, steps) = if steps < MAX_SAMPLES {
+            (Claim::Free, steps + 1)
+        } else {
+            (Claim::Unresolved { safe_until: before }, MAX_SAMPLES)
+        };
+        Reply { claim, steps }
+    }
+}
+
+#[cfg(test)]
+mod tests;

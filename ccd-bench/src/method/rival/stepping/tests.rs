@@ -1,0 +1,71 @@
+use super::*;
+use crate::method::rival::tests::samples::{cuboid, moving, query, still};
+use ccd_core::glam::{DQuat, DVec3};
+
+/// A cube of side 1 at height 3 falls by 4 on a slab whose top is at height 0.
+fn fall() -> Query {
+    let a = moving(
+        3.0 * DVec3::Z,
+        DQuat::IDENTITY,
+        -4.0 * DVec3::Z,
+        DVec3::ZERO,
+    );
+    query(a, still(-0.5 * DVec3::Z))
+}
+
+fn stepping(tolerance: f64) -> Stepping {
+    Stepping::new(&cuboid(0.5, 0.5, 0.5), &cuboid(3.0, 3.0, 0.5), tolerance)
+}
+
+#[test]
+fn contacts_are_reported_at_the_next_sample() {
+    for tolerance in [0.3, 0.01, 0.000_7] {
+        let reply = stepping(tolerance).answer(&fall());
+        let Claim::Contact { time } = reply.claim else {
+            panic!("{reply:?}")
+        };
+        assert!(
+            (0.625..0.625 + tolerance / 4.0 + 1e-12).contains(&time),
+            "{time}"
+        );
+        let steps = (4.0 / tolerance).ceil();
+        assert_eq!(reply.steps, (0.625 * steps).ceil() as u64 + 1);
+    }
+}
+
+#[test]
+fn what_begins_and_ends_between_samples_is_missed() {
+    let mut query = fall();
+    let (a, b) = (cuboid(0.5, 0.5, 0.01), cuboid(3.0, 3.0, 0.01));
+    let ask = |tolerance: f64| Stepping::new(&a, &b, tolerance).answer(&query);
+    let missed = ask(2.0);
+    assert_eq!((missed.claim, missed.steps), (Claim::Free, 3));
+    assert!(matches!(ask(0.01).claim, Claim::Contact { .. }));
+    query.duration = 0.5;
+    let before = Stepping::new(&a, &b, 0.01).answer(&query);
+    assert_eq!((before.claim, before.steps), (Claim::Free, 201));
+}
+
+#[test]
+fn bodies_at_rest_are_tested_as_they_stand() {
+    let apart = query(still(1.1 * DVec3::Z), still(DVec3::ZERO));
+    assert_eq!(stepping(1e-3).answer(&apart).claim, Claim::Free);
+    let across = query(still(0.9 * DVec3::Z), still(DVec3::ZERO));
+    let contact = Claim::Contact { time: 0.0 };
+    assert_eq!(stepping(1e-3).answer(&across).claim, contact);
+}
+
+#[test]
+fn more_samples_than_anybody_waits_for_are_not_taken() {
+    let reply = stepping(1e-9).answer(&fall());
+    assert_eq!(reply.steps, MAX_SAMPLES);
+    let Claim::Unresolved { safe_until } = reply.claim else {
+        panic!("{reply:?}")
+    };
+    let expected = (MAX_SAMPLES - 1) as f64 * 1e-9 / 4.0;
+    assert!((safe_until - expected).abs() < 1e-12, "{safe_until}");
+    for tolerance in [0.0, -1.0, f64::NAN] {
+        let reply = stepping(tolerance).answer(&fall());
+        assert!(reply.steps <= MAX_SAMPLES, "{tolerance}: {reply:?}");
+    }
+}

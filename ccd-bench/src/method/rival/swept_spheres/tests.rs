@@ -1,0 +1,154 @@
+use super::{Below, Pair, SphereTree, Trees, Under};
+use crate::method::rival::Placement;
+use crate::scene::model::Model;
+use ccd_core::glam::{DMat3, DQuat, DVec3};
+use ccd_core::order::{greater, lesser};
+use ccd_decomp::TriangleMesh;
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64;
+
+fn knot() -> TriangleMesh {
+    Model::Knot216.generate().unwrap()
+}
+
+fn random_place(rng: &mut Pcg64) -> Placement {
+    let mut vec = |size: f64| size * DVec3::from_array([0; 3].map(|_| rng.random_range(-1.0..1.0)));
+    Placement {
+        rotation: DMat3::from_quat(DQuat::from_scaled_axis(vec(3.0))),
+        translation: vec(3.0),
+    }
+}
+
+/// The triangles below a node.
+fn triangles(tree: &SphereTree, node: u32) -> Vec<u32> {
+    match tree.nodes[node as usize].below {
+        Below::Triangle(k) => vec![k],
+        Below::Children(first) => [triangles(tree, first), triangles(tree, first + 1)].concat(),
+    }
+}
+
+#[test]
+fn nodes_hold_their_triangles_and_are_tight() {
+    for mesh in [
+        knot(),
+        Model::Board.generate().unwrap(),
+        Model::Bunny26k.generate().unwrap(),
+    ] {
+        let tree = SphereTree::new(&mesh);
+        let mut all = triangles(&tree, 0);
+        all.sort_unstable();
+        assert_eq!(all, (0..mesh.faces().len() as u32).collect::<Vec<_>>());
+        for (k, node) in tree.nodes.iter().enumerate().take(500) {
+            let below = triangles(&tree, k as u32);
+            let inside = tree.frames[k];
+            let mut farthest = 0.0_f64;
+            for point in below.iter().flat_map(|&t| tree.triangles[t as usize]) {
+                let local = inside.rotation.transpose() * (point - inside.translation);
+                let nearest = local.clamp(DVec3::ZERO, node.lengths.extend(0.0));
+                farthest = greater(farthest, local.distance(nearest));
+            }
+            assert!(
+                farthest <= node.radius,
+                "node {k}: {farthest} {}",
+                node.radius
+            );
+            assert!(
+                node.radius <= farthest + 1e-12,
+                "node {k}: {farthest} {}",
+                node.radius
+            );
+        }
+    }
+}
+
+#[test]
+fn no_split_is_lopsided() {
+    // A strip of little triangles and one far away, so that the mean is beyond all but this one.
+    let at = |k: u32| if k == 0 { 1e6 } else { 1e-3 * f64::from(k) };
+    let corners = |k| [DVec3::ZERO, DVec3::X, DVec3::Y].map(|p| 1e-3 * p + at(k) * DVec3::X);
+    let faces: Vec<_> = (0..400).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect();
+    let mesh = TriangleMesh::new((0..400).flat_map(corners).collect(), &faces).unwrap();
+    let tree = SphereTree::new(&mesh);
+    for (k, node) in tree.nodes.iter().enumerate() {
+        let Below::Children(first) = node.below else {
+            continue;
+        };
+        let all = triangles(&tree, k as u32).len();
+        let few = triangles(&tree, first)
+            .len()
+            .min(triangles(&tree, first + 1).len());
+        assert!(16 * few + 15 >= all, "{few} of {all}");
+    }
+}
+
+#[test]
+fn no_node_is_farther_than_its_triangles_or_nearer_than_its_size() {
+    let trees = Trees {
+        a: SphereTree::new(&knot()),
+        b: SphereTree::new(&knot()),
+    };
+    let mut rng = Pcg64::seed_from_u64(4);
+    let (mut checked, mut apart) = (0, 0);
+    for _ in 0..60 {
+        let place = random_place(&mut rng);
+        let mut pair: Pair = trees.roots(&place).unwrap();
+        while let Under::Pairs(pairs) = trees.under(&pair) {
+            pair = pairs[rng.random_range(0..2)];
+            let (a, b) = (triangles(&trees.a, pair.a), triangles(&trees.b, pair.b));
+            if a.len() * b.len() > 3_000 {
+                continue;
+            }
+            let mut true_distance = f64::INFINITY;
+            for &i in &a {
+                for &j in &b {
+                    let nearest = trees.nearest(super::Leaves { a: i, b: j }, &place);
+                    true_distance = lesser(true_distance, nearest.between().length());
+                }
+            }
+            let gap = trees.gap(&pair);
+            assert_eq!(gap.distance, trees.distance(&pair));
+            assert!(gap.distance <= true_distance + 1e-12);
+            assert!(true_distance <= gap.distance + trees.slack(&pair) + 1e-12);
+            if gap.distance > 0.0 {
+                let along = |points: &[DVec3; 3]| points.map(|p| gap.direction.dot(p));
+                let high = a
+                    .iter()
+                    .flat_map(|&i| along(&trees.a.triangles[i as usize]));
+                let low = b.iter().flat_map(|&j| {
+                    along(&trees.b.triangles[j as usize].map(|corner| place.apply(corner)))
+                });
+                let parted =
+                    low.fold(f64::INFINITY, lesser) - high.fold(f64::NEG_INFINITY, greater);
+                assert!(parted >= gap.distance - 1e-12, "{parted} {}", gap.distance);
+                apart += 1;
+            }
+            checked += 1;
+        }
+    }
+    assert!(
+        checked > 300 && apart > 200,
+        "{checked} checked, {apart} apart"
+    );
+}
+
+#[test]
+fn levers_reach_all_points() {
+    let tree = SphereTree::new(&knot());
+    let (centre, axis) = (
+        DVec3::new(0.3, -0.2, 0.5),
+        DVec3::new(1.0, 2.0, 3.0).normalize(),
+    );
+    for node in 0..tree.len() as u32 {
+        let farthest = triangles(&tree, node)
+            .iter()
+            .flat_map(|&t| tree.triangles[t as usize])
+            .map(|p| (p - centre).cross(axis).length())
+            .fold(0.0, greater);
+        let lever = tree.lever(node, centre, axis);
+        let size = tree.nodes[node as usize].size();
+        assert!(
+            farthest <= lever && lever <= farthest + size,
+            "{farthest} {lever}"
+        );
+    }
+}

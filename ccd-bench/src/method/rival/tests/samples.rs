@@ -1,0 +1,120 @@
+//! Random vectors, triangles and motions for the rivals' tests, and distances the slow way.
+
+use crate::scene::model::Board;
+use ccd_core::glam::{DQuat, DVec3};
+use ccd_core::order::lesser;
+use ccd_core::{Motion, Pose};
+use ccd_decomp::TriangleMesh;
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64;
+use rigid_ccd::table::motions::Query;
+
+/// Draws what tests need.
+pub(in crate::method::rival) struct Samples(Pcg64);
+
+impl Samples {
+    pub(in crate::method::rival) fn new(seed: u64) -> Self {
+        Samples(Pcg64::seed_from_u64(seed))
+    }
+
+    pub(in crate::method::rival) fn number(&mut self, low: f64, high: f64) -> f64 {
+        self.0.random_range(low..high)
+    }
+
+    /// Of a cube.
+    pub(in crate::method::rival) fn vector(&mut self, half: f64) -> DVec3 {
+        DVec3::from_array([(); 3].map(|()| self.number(-half, half)))
+    }
+
+    pub(in crate::method::rival) fn rotation(&mut self) -> DQuat {
+        DQuat::from_scaled_axis(self.vector(3.0))
+    }
+
+    pub(in crate::method::rival) fn triangle(&mut self) -> [DVec3; 3] {
+        [(); 3].map(|()| self.vector(1.0))
+    }
+
+    /// With a turn of up to `spin` about any centre.
+    pub(in crate::method::rival) fn motion(&mut self, speed: f64, spin: f64) -> Motion {
+        let start = Pose::new(self.vector(2.0), self.rotation()).unwrap();
+        let (velocity, spin) = (self.vector(speed), self.vector(spin));
+        Motion::about(start, velocity, spin, self.vector(1.0)).unwrap()
+    }
+
+    pub(in crate::method::rival) fn query(&mut self, speed: f64, spin: f64) -> Query {
+        query(self.motion(speed, spin), self.motion(speed, spin))
+    }
+}
+
+/// Of duration 1.
+pub(in crate::method::rival) fn query(a: Motion, b: Motion) -> Query {
+    Query {
+        id: String::new(),
+        a,
+        b,
+        duration: 1.0,
+    }
+}
+
+pub(in crate::method::rival) fn moving(
+    place: DVec3,
+    rotation: DQuat,
+    velocity: DVec3,
+    spin: DVec3,
+) -> Motion {
+    Motion::new(Pose::new(place, rotation).unwrap(), velocity, spin).unwrap()
+}
+
+pub(in crate::method::rival) fn still(place: DVec3) -> Motion {
+    moving(place, DQuat::IDENTITY, DVec3::ZERO, DVec3::ZERO)
+}
+
+pub(in crate::method::rival) fn cuboid(x: f64, y: f64, z: f64) -> TriangleMesh {
+    let half_extents = DVec3::new(x, y, z);
+    Board { half_extents }.mesh().unwrap()
+}
+
+/// The distance of two triangles that do not cross: of corners from triangles and of edges.
+pub(in crate::method::rival) fn distance(a: &[DVec3; 3], b: &[DVec3; 3]) -> f64 {
+    let edge = |t: &[DVec3; 3], k: usize| [t[k], t[(k + 1) % 3]];
+    let mut least = f64::INFINITY;
+    for i in 0..3 {
+        least = lesser(lesser(least, from_inside(a[i], b)), from_inside(b[i], a));
+        for j in 0..3 {
+            least = lesser(least, edge_distance(edge(a, i), edge(b, j)));
+        }
+    }
+    least
+}
+
+/// The distance from a triangle's plane where the foot lies in the triangle.
+fn from_inside(p: DVec3, t: &[DVec3; 3]) -> f64 {
+    let normal = (t[1] - t[0]).cross(t[2] - t[0]).normalize();
+    let inside = |k: usize| normal.cross(t[(k + 1) % 3] - t[k]).dot(p - t[k]) >= 0.0;
+    match (0..3).all(inside) {
+        true => (p - t[0]).dot(normal).abs(),
+        false => f64::INFINITY,
+    }
+}
+
+/// The distance of two segments: of their ends, and of the lines where the feet are inside.
+fn edge_distance([p, p2]: [DVec3; 2], [q, q2]: [DVec3; 2]) -> f64 {
+    let to_segment = |x: DVec3, a: DVec3, b: DVec3| {
+        let s = ((x - a).dot(b - a) / (b - a).length_squared()).clamp(0.0, 1.0);
+        x.distance(a.lerp(b, s))
+    };
+    let ends = [
+        to_segment(p, q, q2),
+        to_segment(p2, q, q2),
+        to_segment(q, p, p2),
+        to_segment(q2, p, p2),
+    ];
+    let (e, g, w) = (p2 - p, q2 - q, q - p);
+    let c = e.cross(g);
+    let [s, u] = [w.cross(g), w.cross(e)].map(|x| x.dot(c) / c.length_squared());
+    let lines = match (0.0..=1.0).contains(&s) && (0.0..=1.0).contains(&u) {
+        true => w.dot(c).abs() / c.length(),
+        false => f64::INFINITY,
+    };
+    ends.into_iter().fold(lines, lesser)
+}

@@ -1,0 +1,342 @@
+//! What the rivals' tests ask them: scenes with exact answers, and shots held against brute force.
+
+use crate::method::rival::patience::Patience;
+use crate::method::rival::triangles_apart::{Triangle, nearest};
+use crate::method::rival::{Course, Placement};
+use crate::method::solver::{Claim, Solver};
+use crate::scene::Shots;
+use crate::scene::model::Model;
+use ccd_core::glam::{DMat3, DQuat, DVec3};
+use ccd_core::order::{greater, lesser};
+use ccd_core::{Motion, Pose};
+use ccd_decomp::TriangleMesh;
+use rigid_ccd::table::motions::Query;
+use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_4, PI, SQRT_2};
+
+/// Two bodies, their motions, and the first contact.
+struct Exact {
+    name: &'static str,
+    a: TriangleMesh,
+    b: TriangleMesh,
+    query: Query,
+    time: f64,
+    /// Of the points that meet, at contact, towards each other.
+    closing_speed: f64,
+}
+
+pub(in crate::method::rival) fn knot_216() -> TriangleMesh {
+    Model::Knot216.generate().unwrap()
+}
+
+fn boxed(half: DVec3) -> TriangleMesh {
+    turned_box(half, DMat3::IDENTITY)
+}
+
+fn turned_box(half: DVec3, turn: DMat3) -> TriangleMesh {
+    let corner = |k: u32| {
+        let side = |bit: u32| if k >> bit & 1 == 1 { 1.0 } else { -1.0 };
+        turn * (half * DVec3::new(side(0), side(1), side(2)))
+    };
+    let faces = [
+        [0, 2, 1],
+        [1, 2, 3],
+        [4, 5, 6],
+        [5, 7, 6],
+        [0, 1, 4],
+        [1, 5, 4],
+        [2, 6, 3],
+        [3, 6, 7],
+        [0, 4, 2],
+        [2, 4, 6],
+        [1, 3, 5],
+        [3, 7, 5],
+    ];
+    TriangleMesh::new((0..8).map(corner).collect(), &faces).unwrap()
+}
+
+fn moving(at: DVec3, velocity: DVec3, spin: DVec3) -> Motion {
+    Motion::new(Pose::at(at).unwrap(), velocity, spin).unwrap()
+}
+
+fn still(at: DVec3) -> Motion {
+    Motion::still(Pose::at(at).unwrap())
+}
+
+fn query(a: Motion, b: Motion) -> Query {
+    Query {
+        id: String::new(),
+        a,
+        b,
+        duration: 1.0,
+    }
+}
+
+/// The half extents of a slab whose near face is at the origin's height when it is sunk by its third.
+const SLAB: DVec3 = DVec3::new(10.0, 10.0, 1.0);
+
+/// Where that slab is.
+const SUNK: DVec3 = DVec3::new(0.0, 0.0, -1.0);
+
+fn falling_boxes() -> Vec<Exact> {
+    let fall = |name, a, b, at_b, time| Exact {
+        name,
+        a,
+        b,
+        query: query(
+            moving(3.0 * DVec3::Z, -4.0 * DVec3::Z, DVec3::ZERO),
+            still(at_b),
+        ),
+        time,
+        closing_speed: 4.0,
+    };
+    let cube = DVec3::splat(0.5);
+    let upright = DQuat::from_rotation_arc(DVec3::ONE.normalize(), DVec3::NEG_Z);
+    vec![
+        fall("cube on slab", boxed(cube), boxed(SLAB), SUNK, 0.625),
+        fall(
+            "edge on edge",
+            turned_box(cube, DMat3::from_rotation_x(FRAC_PI_4)),
+            turned_box(cube, DMat3::from_rotation_y(FRAC_PI_4)),
+            DVec3::ZERO,
+            (3.0 - SQRT_2) / 4.0,
+        ),
+        fall(
+            "corner on slab",
+            turned_box(cube, DMat3::from_quat(upright)),
+            boxed(SLAB),
+            SUNK,
+            (3.0 - 0.75_f64.sqrt()) / 4.0,
+        ),
+    ]
+}
+
+/// Rods of half length 2 and half width 0.05 whose corner meets a plane at a height, or another one.
+fn turning_rods() -> Vec<Exact> {
+    let (length, width, height) = (2.0_f64, 0.05_f64, 1.2);
+    let radius = length.hypot(width);
+    let angle = |height: f64| (height / radius).asin() - width.atan2(length);
+    // A corner at the radius rises as fast as it is far along.
+    let rise = |height: f64| (radius * radius - height * height).sqrt();
+    let mut scenes = vec![Exact {
+        name: "rod on slab",
+        a: boxed(DVec3::new(length, 0.3, width)),
+        b: boxed(SLAB),
+        query: query(
+            moving(height * DVec3::Z, DVec3::ZERO, PI * DVec3::Y),
+            still(SUNK),
+        ),
+        time: angle(height) / PI,
+        closing_speed: PI * rise(height),
+    }];
+    for turns in [1.0, 1.9] {
+        scenes.push(Exact {
+            name: "rod on wall",
+            a: boxed(DVec3::new(width, 0.3, length)),
+            b: boxed(DVec3::new(1.0, 10.0, 10.0)),
+            query: query(
+                moving(DVec3::ZERO, DVec3::ZERO, turns * PI * DVec3::Y),
+                still((height + 1.0) * DVec3::X),
+            ),
+            time: angle(height) / (turns * PI),
+            closing_speed: turns * PI * rise(height),
+        });
+    }
+    let (apart, speed) = (3.0, 2.0);
+    let rod = || boxed(DVec3::new(width, 0.3, length));
+    scenes.push(Exact {
+        name: "rod on rod",
+        a: rod(),
+        b: rod(),
+        query: query(
+            moving(DVec3::ZERO, DVec3::ZERO, speed * DVec3::Y),
+            moving(apart * DVec3::X, DVec3::ZERO, -speed * DVec3::Y),
+        ),
+        time: angle(0.5 * apart) / speed,
+        closing_speed: 2.0 * speed * rise(0.5 * apart),
+    });
+    // An edge along z and the post's, turning towards each other.
+    let (length, width, distance, at) = (2.0, 0.05_f64, 1.3, 1.0_f64);
+    let near = DVec3::new(at.cos(), at.sin(), 0.0);
+    let outward = DMat3::from_rotation_z(at + FRAC_PI_4);
+    // The post's edge faces the rod: its diagonal points against the rod's way.
+    let facing = DVec3::new(-at.sin(), at.cos(), 0.0);
+    scenes.push(Exact {
+        name: "rod on post",
+        a: boxed(DVec3::new(length, width, 0.1)),
+        b: turned_box(DVec3::new(0.1, 0.1, 0.5), outward),
+        query: query(
+            moving(DVec3::ZERO, DVec3::ZERO, 1.5 * DVec3::Z),
+            still(distance * near + 0.1 * SQRT_2 * facing),
+        ),
+        time: (at - (width / distance).asin()) / 1.5,
+        closing_speed: 1.5 * (distance * distance - width * width).sqrt(),
+    });
+    scenes
+}
+
+/// Times are never late, and as early as it takes to close the tolerance, half as fast as at contact.
+pub(in crate::method::rival) fn assert_exact_scenes<C: Solver>(
+    tolerance: f64,
+    rival: impl Fn(&TriangleMesh, &TriangleMesh) -> C,
+) {
+    /// Of the duration: what rounding may make late.
+    const ROUNDING: f64 = 1e-12;
+
+    for scene in falling_boxes().into_iter().chain(turning_rods()) {
+        let reply = rival(&scene.a, &scene.b).answer(&scene.query);
+        let Claim::Contact { time } = reply.claim else {
+            panic!("{}: {reply:?}, not {}", scene.name, scene.time);
+        };
+        let early = scene.time - time;
+        let most = 2.0 * tolerance / scene.closing_speed;
+        assert!(
+            early >= -ROUNDING,
+            "{} at {tolerance:e}: late by {}",
+            scene.name,
+            -early
+        );
+        assert!(
+            early <= most + ROUNDING,
+            "{} at {tolerance:e}: early by {early}",
+            scene.name
+        );
+    }
+}
+
+/// Distances of two knots by all pairs of triangles.
+struct BruteForce {
+    triangles: Vec<Triangle>,
+    balls: Vec<(DVec3, f64)>,
+}
+
+impl BruteForce {
+    fn new(mesh: &TriangleMesh) -> Self {
+        let corner = |v: u32| mesh.vertices()[v as usize];
+        let triangles: Vec<Triangle> = mesh.faces().iter().map(|face| face.map(corner)).collect();
+        let ball = |t: &Triangle| {
+            let centre = (t[0] + t[1] + t[2]) / 3.0;
+            (
+                centre,
+                t.map(|p| p.distance(centre)).into_iter().fold(0.0, greater),
+            )
+        };
+        BruteForce {
+            balls: triangles.iter().map(ball).collect(),
+            triangles,
+        }
+    }
+
+    fn distance(&self, place: &Placement) -> f64 {
+        let moved: Vec<Triangle> = self
+            .triangles
+            .iter()
+            .map(|t| t.map(|p| place.apply(p)))
+            .collect();
+        let balls: Vec<_> = self
+            .balls
+            .iter()
+            .map(|&(p, r)| (place.apply(p), r))
+            .collect();
+        let mut least = f64::INFINITY;
+        for (a, (p, r)) in self.triangles.iter().zip(&self.balls) {
+            for (b, (q, s)) in moved.iter().zip(&balls) {
+                if p.distance(*q) - r - s < least {
+                    least = lesser(least, nearest(a, b).between().length());
+                }
+            }
+        }
+        least
+    }
+}
+
+/// Shots of small knots: until the time reported nothing touches, and at that time the bodies are
+/// within the tolerance.
+pub(in crate::method::rival) fn assert_shots(tolerance: f64, rival: &mut impl Solver) {
+    /// Of the duration: samples are no farther apart than what closes the distance, or this.
+    const SAMPLE: f64 = 5e-4;
+
+    let shots = Shots {
+        count: 60,
+        translations: 20,
+        distance: 3.0..3.8,
+        aside: 2.3,
+        seed: 5,
+    };
+    let brute_force = BruteForce::new(&knot_216());
+    // Knots turn about their origin.
+    let corners = brute_force.triangles.iter().flatten();
+    let reach = corners.map(|p| p.length()).fold(0.0, greater);
+    let (mut hits, mut free) = (0, 0);
+    for query in shots.queries().unwrap() {
+        let (a, b) = (Course::new(&query.a), Course::new(&query.b));
+        let apart = |time: f64| brute_force.distance(&b.at(time).seen_from(&a.at(time)));
+        let until = match rival.answer(&query).claim {
+            Claim::Contact { time } => {
+                let distance = apart(time);
+                assert!(
+                    distance <= 1.000_001 * tolerance,
+                    "{}: early, {distance}",
+                    query.id
+                );
+                hits += 1;
+                time
+            }
+            Claim::Free => {
+                free += 1;
+                query.duration
+            }
+            claim => panic!("{}: {claim:?}", query.id),
+        };
+        let speed = a.velocity.length() + reach * a.rate;
+        let mut time = 0.0;
+        while time < until {
+            let distance = apart(time);
+            assert!(
+                distance > 0.0,
+                "{}: touching at {time} before {until}",
+                query.id
+            );
+            time += greater(distance / speed, SAMPLE * query.duration);
+        }
+    }
+    assert!(hits >= 20 && free >= 10, "{hits} hits, {free} free");
+}
+
+/// Asserts that a rival whose patience is short ends with a time, for either kind of patience.
+pub(in crate::method::rival) fn assert_gives_up<C: Solver>(
+    rival: impl Fn(&TriangleMesh, &TriangleMesh) -> C,
+    give: impl Fn(&mut C, Patience),
+) {
+    let (a, b, query) = hovering();
+    let mut rival = rival(&a, &b);
+    assert_eq!(rival.answer(&query).claim, Claim::Free);
+    let short = [
+        Patience {
+            steps: 20,
+            ..Patience::default()
+        },
+        Patience {
+            pairs: 1_000,
+            ..Patience::default()
+        },
+    ];
+    for patience in short {
+        give(&mut rival, patience);
+        let Claim::Unresolved { safe_until } = rival.answer(&query).claim else {
+            panic!("{patience:?} was enough");
+        };
+        let within = 0.0 < safe_until && safe_until < query.duration;
+        assert!(within, "{safe_until}");
+    }
+}
+
+/// Two boxes that turn past each other, never touching, so close that it takes many steps to tell.
+pub(in crate::method::rival) fn hovering() -> (TriangleMesh, TriangleMesh, Query) {
+    // Its upright edges are at a distance of 1 from its axis.
+    let turning = boxed(DVec3::new(FRAC_1_SQRT_2, FRAC_1_SQRT_2, 0.5));
+    let query = query(
+        moving(DVec3::ZERO, DVec3::ZERO, 6.0 * DVec3::Z),
+        still(1.51 * DVec3::X),
+    );
+    (turning, boxed(DVec3::splat(0.5)), query)
+}

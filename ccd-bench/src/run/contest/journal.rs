@@ -1,0 +1,162 @@
+//! What has been measured so far, on disk, so that an interrupted evaluation goes on where it stopped.
+
+use crate::run::measured::{Cell, Trial, write};
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use std::collections::{HashMap, HashSet};
+use std::fs::{self, OpenOptions};
+use std::path::{Path, PathBuf};
+
+/// `chart.csv` and `trials.csv` in a folder, grown by one cell at a time.
+pub struct Journal {
+    cells: Vec<Cell>,
+    trials: Vec<Trial>,
+    done: HashSet<(String, String, u64)>,
+    folder: PathBuf,
+}
+
+/// Why a journal cannot be kept.
+#[derive(Debug, thiserror::Error)]
+#[error("{}: {source}", path.display())]
+pub struct JournalError {
+    path: PathBuf,
+    source: csv::Error,
+}
+
+/// Says what the figures of a folder were measured with.
+const STAMP: &str = "measured-with.txt";
+const CHART: &str = "chart.csv";
+const TRIALS: &str = "trials.csv";
+
+/// A cell's scene, method and tolerance.
+type Key = (String, String, u64);
+
+impl Journal {
+    /// Opens the one in a folder, and keeps what it holds when that was measured with the same stamp;
+    /// else that is moved aside, with what else there is of these names.
+    ///
+    /// # Errors
+    /// [`JournalError`] when the folder cannot be written to.
+    pub fn open(folder: &Path, stamp: &str, others: &[&str]) -> Result<Self, JournalError> {
+        fs::create_dir_all(folder).map_err(|e| failed(folder)(e.into()))?;
+        let stamp_file = folder.join(STAMP);
+        if !fs::read_to_string(&stamp_file).is_ok_and(|kept| kept == stamp) {
+            for name in [CHART, TRIALS].iter().chain(others) {
+                let path = folder.join(name);
+                if path.exists() {
+                    let aside = folder.join(format!("{name}.old"));
+                    fs::rename(&path, aside).map_err(|e| failed(&path)(e.into()))?;
+                }
+            }
+            fs::write(&stamp_file, stamp).map_err(|e| failed(&stamp_file)(e.into()))?;
+        }
+        let journal = Journal::read(folder);
+        journal.write()?;
+        Ok(journal)
+    }
+
+    /// What a folder holds, whatever it was measured with.
+    pub fn read(folder: &Path) -> Self {
+        let mut cells: Vec<Cell> = whole_rows(&folder.join(CHART));
+        let mut trials: Vec<Trial> = whole_rows(&folder.join(TRIALS));
+        // Trials are written before their cell, and a cell stands for all of its trials.
+        let mut counts: HashMap<Key, usize> = HashMap::new();
+        for trial in &trials {
+            *counts.entry(key_of(trial)).or_default() += 1;
+        }
+        cells.retain(|cell| counts.get(&key(cell)) == Some(&cell.rows));
+        let done: HashSet<Key> = cells.iter().map(key).collect();
+        trials.retain(|trial| done.contains(&key_of(trial)));
+        Journal {
+            cells,
+            trials,
+            done,
+            folder: folder.to_owned(),
+        }
+    }
+
+    /// Whether a cell has been measured.
+    pub fn has(&self, scene: &str, method: &str, tolerance: f64) -> bool {
+        let key = (scene.to_owned(), method.to_owned(), tolerance.to_bits());
+        self.done.contains(&key)
+    }
+
+    /// Adds a cell and its trials, on disk too.
+    ///
+    /// # Errors
+    /// When they cannot be written.
+    pub fn add(&mut self, cell: Cell, trials: Vec<Trial>) -> Result<(), JournalError> {
+        let (trials_file, chart_file) = (self.folder.join(TRIALS), self.folder.join(CHART));
+        append(&trials_file, &trials).map_err(failed(&trials_file))?;
+        append(&chart_file, std::slice::from_ref(&cell)).map_err(failed(&chart_file))?;
+        self.done.insert(key(&cell));
+        self.cells.push(cell);
+        self.trials.extend(trials);
+        Ok(())
+    }
+
+    /// Forgets all of a method, on disk too.
+    ///
+    /// # Errors
+    /// When the files cannot be written.
+    pub fn forget(&mut self, method: &str) -> Result<(), JournalError> {
+        self.cells.retain(|cell| cell.method != method);
+        self.trials.retain(|trial| trial.method != method);
+        self.done = self.cells.iter().map(key).collect();
+        self.write()
+    }
+
+    fn write(&self) -> Result<(), JournalError> {
+        let (trials_file, chart_file) = (self.folder.join(TRIALS), self.folder.join(CHART));
+        write(&trials_file, &self.trials).map_err(failed(&trials_file))?;
+        write(&chart_file, &self.cells).map_err(failed(&chart_file))
+    }
+
+    /// All cells so far, in the order in which they were measured.
+    pub fn cells(&self) -> &[Cell] {
+        &self.cells
+    }
+
+    /// All trials so far.
+    pub fn trials(&self) -> &[Trial] {
+        &self.trials
+    }
+}
+
+fn key(cell: &Cell) -> Key {
+    let tolerance = cell.tolerance.to_bits();
+    (cell.scene.clone(), cell.method.clone(), tolerance)
+}
+
+fn key_of(trial: &Trial) -> Key {
+    let tolerance = trial.tolerance.to_bits();
+    (trial.scene.clone(), trial.method.clone(), tolerance)
+}
+
+/// The rows of a table up to the first that is none: one that was being written when the power went.
+fn whole_rows<T: DeserializeOwned>(path: &Path) -> Vec<T> {
+    let Ok(reader) = csv::Reader::from_path(path) else {
+        return Vec::new();
+    };
+    reader.into_deserialize().map_while(Result::ok).collect()
+}
+
+fn failed(path: &Path) -> impl Fn(csv::Error) -> JournalError {
+    let path = path.to_owned();
+    move |source| JournalError {
+        path: path.clone(),
+        source,
+    }
+}
+
+fn append<T: Serialize>(path: &Path, rows: &[T]) -> Result<(), csv::Error> {
+    let file = OpenOptions::new().append(true).open(path)?;
+    let mut writer = csv::WriterBuilder::new()
+        .has_headers(file.metadata()?.len() == 0)
+        .from_writer(file);
+    for row in rows {
+        writer.serialize(row)?;
+    }
+    writer.flush()?;
+    Ok(())
+}

@@ -1,0 +1,148 @@
+//! Where an method sits while it is asked: in this process, or in one of its own that can be stopped.
+
+use super::MOST_PAIRS_FOR_NAIVE;
+use crate::method::peer::{Asked, Guarded};
+use crate::method::solver::{Adjustable, Claim, Reply, TimedReply, timed};
+use crate::method::{Method, Ours};
+use crate::scene::Scene;
+use rigid_ccd::batch::ScheduleKind;
+use rigid_ccd::table::motions::Query;
+use std::io;
+use std::time::{Duration, Instant};
+
+/// An method that can be asked about one scene.
+pub struct Session<'s> {
+    method: Method,
+    tolerance: f64,
+    place: Place<'s>,
+}
+
+enum Place<'s> {
+    Here(Box<dyn Adjustable + 's>),
+    Guarded(Box<Guarded>),
+}
+
+/// What came of a question.
+pub(super) enum Answered {
+    InTime {
+        reply: Reply,
+        micros: f64,
+    },
+    /// Stopped after that.
+    CutOff {
+        patience: Duration,
+    },
+    Died,
+}
+
+impl<'s> Session<'s> {
+    /// None where the scene is none for this method.
+    pub(super) fn take(
+        method: Method,
+        scene: &'s Scene,
+        tolerance: f64,
+    ) -> io::Result<Option<Self>> {
+        let place = match method {
+            Method::Ours(kind, pieces) => {
+                let too_many = scene.pairs() > MOST_PAIRS_FOR_NAIVE;
+                let suits = kind.schedule != ScheduleKind::Naive || !too_many;
+                let Some(bodies) = scene.bodies_of(pieces).filter(|_| suits) else {
+                    return Ok(None);
+                };
+                Place::Here(Box::new(Ours::new(kind, bodies, tolerance)))
+            }
+            Method::Rival(kind) => Place::Here(kind.enter(scene, tolerance)),
+            Method::Peer(kind) => {
+                let (a, b) = (scene.a.mesh(), scene.b.mesh());
+                Place::Guarded(Box::new(Guarded::start(kind, a, b, tolerance)?))
+            }
+        };
+        Ok(Some(Session {
+            method,
+            tolerance,
+            place,
+        }))
+    }
+
+    /// Who sits here.
+    pub fn method(&self) -> Method {
+        self.method
+    }
+
+    /// With which tolerance it answers.
+    pub fn tolerance(&self) -> f64 {
+        self.tolerance
+    }
+
+    /// Tells it another tolerance.
+    ///
+    /// # Errors
+    /// When a peer's process does not start again.
+    pub fn set_tolerance(&mut self, tolerance: f64) -> io::Result<()> {
+        self.tolerance = tolerance;
+        match &mut self.place {
+            Place::Here(solver) => {
+                solver.set_tolerance(tolerance);
+                Ok(())
+            }
+            Place::Guarded(guarded) => guarded.restart_with(tolerance),
+        }
+    }
+
+    /// Lets a kind that prepares what it meets do so with some queries, for so long; says with how many
+    /// it has.
+    pub(super) fn rehearse<'q>(
+        &mut self,
+        queries: impl ExactSizeIterator<Item = &'q Query>,
+        time: Duration,
+    ) -> usize {
+        let start = Instant::now();
+        match (&mut self.place, self.method) {
+            (Place::Here(solver), Method::Ours(kind, _)) if kind.schedule.uses_hull_trees() => {
+                let rehearsed = queries.take_while(|_| start.elapsed() < time);
+                rehearsed.map(|query| solver.answer(query)).count()
+            }
+            _ => queries.len(),
+        }
+    }
+
+    /// Asks one query.
+    ///
+    /// # Errors
+    /// When a peer's process does not start again.
+    pub(super) fn ask(&mut self, query: &Query, patience: Duration) -> io::Result<Answered> {
+        Ok(match &mut self.place {
+            Place::Here(solver) => {
+                let TimedReply { reply, micros } = timed(solver.as_mut(), query);
+                Answered::InTime { reply, micros }
+            }
+            Place::Guarded(guarded) => match guarded.ask(query, patience)? {
+                Asked::Answered { reply, micros } => Answered::InTime { reply, micros },
+                Asked::CutOff => Answered::CutOff { patience },
+                Asked::Died => Answered::Died,
+            },
+        })
+    }
+}
+
+impl Answered {
+    pub(super) fn is_refusal(&self) -> bool {
+        let refused = |reply: &Reply| reply.claim == Claim::Refused;
+        matches!(self, Answered::InTime { reply, .. } if refused(reply))
+    }
+
+    pub(super) fn micros(&self) -> f64 {
+        match *self {
+            Answered::InTime { micros, .. } => micros,
+            Answered::CutOff { patience } => patience.as_secs_f64() * 1e6,
+            Answered::Died => f64::NAN,
+        }
+    }
+
+    pub(super) fn steps(&self) -> u64 {
+        match self {
+            Answered::InTime { reply, .. } => reply.steps,
+            Answered::CutOff { .. } | Answered::Died => 0,
+        }
+    }
+}

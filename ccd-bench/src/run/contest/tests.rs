@@ -1,0 +1,213 @@
+use super::*;
+use crate::method::solver::Claim;
+use crate::scene::{Models, Pieces, listings};
+use ccd_core::glam::DVec3;
+use ccd_core::{Motion, Pose};
+use ccd_decomp::{Format, TriangleMesh};
+use rigid_ccd::batch::SolverKind;
+use rstest::rstest;
+
+/// A cube of side 1 about the origin.
+fn cube() -> TriangleMesh {
+    let corners = (0..8).map(|k| {
+        let at = |bit: usize| if k >> bit & 1 == 1 { 0.5 } else { -0.5 };
+        format!("v {} {} {}\n", at(0), at(1), at(2))
+    });
+    let faces = [
+        "1 3 4 2", "5 6 8 7", "1 2 6 5", "3 7 8 4", "1 5 7 3", "2 4 8 6",
+    ];
+    let obj: String = corners
+        .chain(faces.iter().map(|face| format!("f {face}\n")))
+        .collect();
+    TriangleMesh::from_reader(Format::Obj, obj.as_bytes()).unwrap()
+}
+
+/// A cube flies at another from 4 away with speed 8: contact at 3/8.
+fn flight() -> Query {
+    let start = Pose::at(-4.0 * DVec3::X).unwrap();
+    Query {
+        id: "flight".to_owned(),
+        a: Motion::new(start, 8.0 * DVec3::X, DVec3::ZERO).unwrap(),
+        b: Motion::still(Pose::IDENTITY),
+        duration: 1.0,
+    }
+}
+
+const HIT: Truth = Truth::Hit {
+    lo: 0.375,
+    hi: 0.375,
+};
+
+#[rstest]
+#[case::exact(HIT, Claim::Contact { time: 0.375 }, Verdict::Right, Some(0.0))]
+#[case::within(HIT, Claim::Contact { time: 0.37 }, Verdict::Right, Some(0.005))]
+#[case::early(HIT, Claim::Contact { time: 0.25 }, Verdict::Early, Some(0.125))]
+#[case::late(HIT, Claim::Contact { time: 0.376 }, Verdict::Late, Some(0.001))]
+#[case::no_time(HIT, Claim::Contact { time: f64::NAN }, Verdict::Late, None)]
+#[case::missed(HIT, Claim::Free, Verdict::Missed, None)]
+#[case::given_up(HIT, Claim::Unresolved { safe_until: 0.3 }, Verdict::Unresolved, None)]
+#[case::given_up_late(HIT, Claim::Unresolved { safe_until: 0.4 }, Verdict::Late, None)]
+#[case::free(Truth::Free, Claim::Free, Verdict::Right, None)]
+#[case::near(Truth::Free, Claim::Contact { time: 0.37 }, Verdict::Right, None)]
+#[case::false_contact(Truth::Free, Claim::Contact { time: 0.2 }, Verdict::False, None)]
+#[case::start(Truth::Start, Claim::Contact { time: 0.0 }, Verdict::Undecided, None)]
+#[case::wide(Truth::Hit { lo: 0.3, hi: 0.4 }, Claim::Contact { time: 0.35 }, Verdict::Undecided, None)]
+#[case::just_late(HIT, Claim::Contact { time: 0.375 + 1e-11 }, Verdict::Late, Some(1e-11))]
+#[case::unknown(Truth::Graze { lo: 0.3 }, Claim::Free, Verdict::Undecided, None)]
+fn claims_are_judged(
+    #[case] truth: Truth,
+    #[case] claim: Claim,
+    #[case] verdict: Verdict,
+    #[case] error: Option<f64>,
+) {
+    let surface = Surface::new(&cube());
+    let referee = Referee::new(&surface, &surface);
+    // The distance at time t is 3 − 8 t.
+    let judged = judge(&referee, &flight(), truth, claim, 0.05);
+    assert_eq!(judged.verdict, verdict);
+    match error {
+        Some(error) => assert!((judged.error.unwrap() - error).abs() < 1e-12),
+        None => assert!(judged.error.is_none_or(f64::is_nan)),
+    }
+}
+
+fn small_scene() -> Scene {
+    let listing = listings()
+        .unwrap()
+        .into_iter()
+        .find(|listing| listing.name == "knot216")
+        .unwrap();
+    listing.make(&mut Models::default()).unwrap()
+}
+
+const EVERYTHING: Allowance = Allowance {
+    cell: Duration::MAX,
+    patience: Duration::MAX,
+    rows: usize::MAX,
+    least_rows: 1,
+    rehearsal: Duration::MAX,
+};
+
+#[test]
+fn any_number_of_first_rows_is_spread_over_all() {
+    let scene = small_scene();
+    let contest = Contest::new(&scene).unwrap();
+    let count = scene.queries.len();
+    let mut all = contest.order(usize::MAX);
+    assert_eq!(contest.order(5), all[..5]);
+    let most = *all[..5].iter().max().unwrap();
+    let least = *all[..5].iter().min().unwrap();
+    assert!(most - least > count / 2, "{:?}", &all[..5]);
+    all.sort_unstable();
+    assert_eq!(all, (0..count).collect::<Vec<_>>());
+}
+
+#[test]
+fn this_project_is_right_on_the_small_scene_and_its_cell_says_so() {
+    let scene = small_scene();
+    let contest = Contest::new(&scene).unwrap();
+    let mut truths = Truths::default();
+    let rows = contest.order(usize::MAX);
+    let found = truths.find(
+        &contest,
+        MotionKind::Given,
+        &rows,
+        &rigid_ccd::command::Progress::hidden(),
+    );
+    assert_eq!(found, scene.queries.len());
+    let method = Method::Ours(SolverKind::default(), Pieces::Least);
+    let mut session = contest.session(method, 1e-6).unwrap().unwrap();
+    let heard = contest.run(&mut session, &EVERYTHING, &truths).unwrap();
+    let (cell, trials) = heard.unwrap();
+    assert_eq!(cell.rows, scene.queries.len());
+    assert_eq!(trials.len(), cell.rows);
+    assert!(trials.iter().all(|t| t.verdict == "right"), "{trials:?}");
+    let errors = trials.iter().map(|t| t.error).filter(|e| !e.is_nan());
+    let mut errors: Vec<f64> = errors.collect();
+    errors.sort_by(f64::total_cmp);
+    let hits = errors.len();
+    assert!((8..25).contains(&hits), "{hits} of 25 hit");
+    // The tolerance over how fast they close in; few of these flights graze.
+    assert!(errors[hits / 2] < 1e-6, "{errors:?}");
+    assert_eq!(cell.max_error, errors[hits - 1]);
+    assert!(cell.mean_error <= cell.max_error);
+    assert!(cell.median_us > 0.0 && cell.mean_steps >= 1.0);
+    assert_eq!(sum_up(&trials), cell);
+}
+
+#[test]
+fn truths_outlast_the_program_and_are_those_of_one_motion_only() {
+    let scene = small_scene();
+    let contest = Contest::new(&scene).unwrap();
+    let folder = std::env::temp_dir().join(format!("ccd-truths-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let file = folder.join("truth.csv");
+    let hidden = rigid_ccd::command::Progress::hidden();
+    let mut truths = Truths::default();
+    truths.find(&contest, MotionKind::Given, &[0, 1, 2], &hidden);
+    truths.write(&file).unwrap();
+    let mut again = Truths::read(&file).unwrap();
+    assert_eq!(
+        again.find(&contest, MotionKind::Given, &[0, 1, 2], &hidden),
+        0
+    );
+    for row in 0..3 {
+        let (one, other) = (
+            truths.of(&contest, MotionKind::Given),
+            again.of(&contest, MotionKind::Given),
+        );
+        assert_eq!(one(row), other(row));
+    }
+    let mut moved = scene.clone();
+    for query in &mut moved.queries {
+        query.duration *= 0.5;
+    }
+    let moved = Contest::new(&moved).unwrap();
+    assert_eq!(
+        again.find(&moved, MotionKind::Given, &[0, 1, 2], &hidden),
+        3
+    );
+    std::fs::remove_dir_all(folder).unwrap();
+}
+
+#[test]
+fn an_interrupted_journal_goes_on_where_it_stopped() {
+    let folder = std::env::temp_dir().join(format!("ccd-journal-{}", std::process::id()));
+    let trial = |method: &str, id: &str| Trial {
+        scene: "santa".to_owned(),
+        method: method.to_owned(),
+        tolerance: 1e-3,
+        row: 0,
+        id: id.to_owned(),
+        micros: 2.5,
+        steps: 3,
+        verdict: "right".to_owned(),
+        error: f64::NAN,
+    };
+    let add = |journal: &mut Journal, method: &str| {
+        let trials = vec![trial(method, "0"), trial(method, "1")];
+        journal.add(sum_up(&trials), trials).unwrap();
+    };
+    let mut journal = Journal::open(&folder, "one", &[]).unwrap();
+    add(&mut journal, "C2A");
+    add(&mut journal, "CONTACT");
+    // The last trial is lost, as if the power had gone.
+    let trials = std::fs::read_to_string(folder.join("trials.csv")).unwrap();
+    let cut = trials.trim_end().rfind('\n').unwrap();
+    std::fs::write(folder.join("trials.csv"), &trials[..=cut]).unwrap();
+    let mut journal = Journal::open(&folder, "one", &[]).unwrap();
+    assert!(journal.has("santa", "C2A", 1e-3));
+    assert!(!journal.has("santa", "CONTACT", 1e-3));
+    assert_eq!((journal.cells().len(), journal.trials().len()), (1, 2));
+    add(&mut journal, "CONTACT");
+    let again = Journal::open(&folder, "one", &[]).unwrap();
+    assert_eq!((again.cells().len(), again.trials().len()), (2, 4));
+    let mut again = again;
+    again.forget("C2A").unwrap();
+    let again = Journal::open(&folder, "one", &[]).unwrap();
+    assert_eq!((again.cells().len(), again.trials().len()), (1, 2));
+    let other = Journal::open(&folder, "other", &[]).unwrap();
+    assert!(other.cells().is_empty());
+    assert!(folder.join("chart.csv.old").exists());
+    std::fs::remove_dir_all(folder).unwrap();
+}

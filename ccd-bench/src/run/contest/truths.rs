@@ -1,0 +1,144 @@
+//! The truth about the scenes: kept, so that it is found once.
+
+use super::Contest;
+use crate::method::MotionKind;
+use crate::truth::{Truth, TruthRow, read_truths, write_truths};
+use ccd_decomp::TriangleMesh;
+use rayon::iter::{IntoParallelIterator, ParallelIterator};
+use rigid_ccd::command::Progress;
+use std::collections::BTreeMap;
+use std::fs::{self, File};
+use std::path;
+
+/// What is known of the first contacts of all scenes, by scene, meshes and motions, and row.
+#[derive(Debug, Default)]
+pub struct Truths {
+    known: BTreeMap<String, TruthRow>,
+}
+
+/// Why truths cannot be had.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum TruthsError {
+    /// A file cannot be read or written, or is no table of truths.
+    #[error("truths: {0}")]
+    Table(#[from] csv::Error),
+}
+
+impl Truths {
+    /// Those of a file, if there is one.
+    ///
+    /// # Errors
+    /// When it is no table of truths.
+    pub fn read(file: &path::Path) -> Result<Self, TruthsError> {
+        let mut truths = Truths::default();
+        if file.exists() {
+            let file = File::open(file).map_err(csv::Error::from)?;
+            truths.add(read_truths(file)?);
+        }
+        Ok(truths)
+    }
+
+    /// Writes all that is known.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
+    pub fn write(&self, file: &path::Path) -> Result<(), TruthsError> {
+        // Under another name first: half a table would still be a table.
+        let part = file.with_extension("part");
+        let whole = File::create(&part).map_err(csv::Error::from)?;
+        write_truths(whole, self.known.values().cloned())?;
+        Ok(fs::rename(part, file).map_err(csv::Error::from)?)
+    }
+
+    /// Finds what is not known yet of some rows of a scene, on all processors; says how many it found.
+    pub fn find(
+        &mut self,
+        contest: &Contest<'_>,
+        path: MotionKind,
+        rows: &[usize],
+        progress: &Progress,
+    ) -> usize {
+        let fingerprint = fingerprint(contest, path);
+        let key = |row: usize| key(contest, fingerprint, path, row);
+        let unknown: Vec<usize> = rows
+            .iter()
+            .copied()
+            .filter(|&row| !self.known.contains_key(&key(row)))
+            .collect();
+        let referee = contest.referee();
+        let found: Vec<TruthRow> = unknown
+            .into_par_iter()
+            .map(|row| {
+                let query = &contest.queries(path)[row];
+                let truth = referee.first_contact(query);
+                progress.tick();
+                TruthRow::new(key(row), query.duration, truth)
+            })
+            .collect();
+        let count = found.len();
+        self.add(found);
+        count
+    }
+
+    /// The truth of each row of a scene; undecided where it has not been found.
+    pub fn of<'t>(
+        &'t self,
+        contest: &'t Contest<'_>,
+        path: MotionKind,
+    ) -> impl Fn(usize) -> Truth + 't {
+        let fingerprint = fingerprint(contest, path);
+        move |row| {
+            let known = self.known.get(&key(contest, fingerprint, path, row));
+            known.map_or(Truth::Undecided { lo: 0.0 }, TruthRow::truth)
+        }
+    }
+
+    fn add(&mut self, rows: Vec<TruthRow>) {
+        self.known
+            .extend(rows.into_iter().map(|row| (row.id.clone(), row)));
+    }
+}
+
+/// What a row is called in the table: its truth is that of these meshes and motions.
+fn key(contest: &Contest<'_>, fingerprint: u32, path: MotionKind, row: usize) -> String {
+    let scene = &contest.scene().name;
+    let id = &contest.queries(path)[row].id;
+    format!("{scene}/{fingerprint:08x}/{id}")
+}
+
+/// Tells meshes and motions apart, to the bit.
+fn fingerprint(contest: &Contest<'_>, path: MotionKind) -> u32 {
+    let mut hash = crc32fast::Hasher::new();
+    for body in [&contest.scene().a, &contest.scene().b] {
+        hash_mesh(body.mesh(), &mut hash);
+    }
+    for query in contest.queries(path) {
+        for motion in [&query.a, &query.b] {
+            let start = motion.start();
+            let vectors = [
+                start.translation(),
+                motion.velocity(),
+                motion.spin(),
+                motion.centre(),
+            ];
+            let numbers = vectors.into_iter().flat_map(|v| v.to_array());
+            hash_numbers(numbers.chain(start.rotation().to_array()), &mut hash);
+        }
+        hash_numbers([query.duration], &mut hash);
+    }
+    hash.finalize()
+}
+
+fn hash_mesh(mesh: &TriangleMesh, hash: &mut crc32fast::Hasher) {
+    hash_numbers(mesh.vertices().iter().flat_map(|v| v.to_array()), hash);
+    for corner in mesh.faces().iter().flatten() {
+        hash.update(&corner.to_le_bytes());
+    }
+}
+
+fn hash_numbers(numbers: impl IntoIterator<Item = f64>, hash: &mut crc32fast::Hasher) {
+    for number in numbers {
+        hash.update(&number.to_bits().to_le_bytes());
+    }
+}

@@ -1,0 +1,218 @@
+//! Methods, scenes and tolerances: all combinations measured, one after another, into a journal.
+
+use crate::method::{Method, MotionKind};
+use crate::run::contest::{
+    Allowance, Contest, ContestError, Journal, JournalError, Truths, TruthsError,
+};
+use crate::scene::{Listing, Models, Pieces, Scene, SceneBody, SceneError};
+use crate::show::chart::PAPER_TOLERANCE;
+use rayon::iter::{IntoParallelIterator, ParallelIterator};
+use rigid_ccd::command::{Progress, Total};
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// What to measure.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    /// On what.
+    pub listings: Vec<Listing>,
+    /// Whom.
+    pub methods: Vec<Method>,
+    /// With which tolerances.
+    pub tolerances: Vec<f64>,
+    /// How long what runs in this process is listened to.
+    pub allowance: Allowance,
+    /// How long a peer is listened to.
+    pub peer_allowance: Allowance,
+    /// Where to look for mesh files in place of the models made by code.
+    pub models: Option<PathBuf>,
+    /// Where the figures go.
+    pub folder: PathBuf,
+}
+
+/// What was measured, and on what.
+pub struct Evaluated {
+    /// The scenes.
+    pub scenes: Vec<Scene>,
+    /// Cells and trials.
+    pub journal: Journal,
+    /// What they were held against.
+    pub truths: Truths,
+}
+
+/// Why an evaluation ended early.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum EvaluationError {
+    /// A scene cannot be made.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// An method cannot be heard.
+    #[error(transparent)]
+    Contest(#[from] ContestError),
+    /// The truth cannot be kept.
+    #[error(transparent)]
+    Truths(#[from] TruthsError),
+    /// Figures cannot be kept.
+    #[error(transparent)]
+    Journal(#[from] JournalError),
+}
+
+/// What has been found of the truth, in the folder of the figures.
+const TRUTHS: &str = "truth.csv";
+
+/// The tolerance of methods that have none to be told.
+pub const USUAL_TOLERANCE: f64 = PAPER_TOLERANCE;
+
+impl Plan {
+    /// What the folder holds, whatever it was measured with; measures nothing.
+    ///
+    /// # Errors
+    /// [`EvaluationError`].
+    pub fn recall(&self) -> Result<Evaluated, EvaluationError> {
+        let mut models = Models::new(self.models.clone());
+        let make = |listing: &Listing| listing.make(&mut models);
+        let scenes: Result<Vec<Scene>, SceneError> = self.listings.iter().map(make).collect();
+        Ok(Evaluated {
+            scenes: scenes?,
+            journal: Journal::read(&self.folder),
+            truths: Truths::read(&self.folder.join(TRUTHS))?,
+        })
+    }
+
+    /// Measures what the folder does not hold yet.
+    ///
+    /// # Errors
+    /// [`EvaluationError`]; what was measured before it is kept.
+    pub fn run(&self) -> Result<Evaluated, EvaluationError> {
+        let mut journal = Journal::open(&self.folder, &self.stamp(), &[TRUTHS])?;
+        let truths_file = self.folder.join(TRUTHS);
+        let mut truths = Truths::read(&truths_file)?;
+        let mut models = Models::new(self.models.clone());
+        let scenes = self.scenes(&mut models)?;
+        let cells: usize = self.methods.iter().map(|&e| self.told(e).count()).sum();
+        let progress = Progress::new(Total::Steps(scenes.len() * cells));
+        for scene in &scenes {
+            let contest = Contest::new(scene)?;
+            progress.say(&format!("{}: the truth", scene.name));
+            let rows = contest.order(self.allowance.rows);
+            for path in self.paths() {
+                if truths.find(&contest, path, &rows, &progress) > 0 {
+                    truths.write(&truths_file)?;
+                }
+            }
+            self.run_scene(&contest, &truths, &mut journal, &progress)?;
+        }
+        drop(progress);
+        Ok(Evaluated {
+            scenes,
+            journal,
+            truths,
+        })
+    }
+
+    fn run_scene(
+        &self,
+        contest: &Contest<'_>,
+        truths: &Truths,
+        journal: &mut Journal,
+        progress: &Progress,
+    ) -> Result<(), EvaluationError> {
+        let scene = &contest.scene().name;
+        for &method in &self.methods {
+            let name = method.to_string();
+            let allowance = match method {
+                Method::Peer(_) => &self.peer_allowance,
+                Method::Ours(..) | Method::Rival(_) => &self.allowance,
+            };
+            let mut session = None;
+            for tolerance in self.told(method) {
+                progress.step();
+                if journal.has(scene, &name, tolerance) {
+                    continue;
+                }
+                progress.say(&format!("{scene}: {name}, {tolerance:e}"));
+                match &mut session {
+                    None => session = contest.session(method, tolerance)?,
+                    Some(session) => contest.adjust(session, tolerance)?,
+                }
+                let Some(session) = &mut session else {
+                    continue;
+                };
+                if let Some((cell, trials)) = contest.run(session, allowance, truths)? {
+                    journal.add(cell, trials)?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn scenes(&self, models: &mut Models) -> Result<Vec<Scene>, SceneError> {
+        let progress = Progress::new(Total::Steps(self.listings.len()));
+        let make = |listing: &Listing| {
+            progress.say(&format!("making {}", listing.name));
+            let scene = listing.make(models);
+            progress.step();
+            scene
+        };
+        let scenes: Result<Vec<Scene>, SceneError> = self.listings.iter().map(make).collect();
+        let scenes = scenes?;
+        progress.say("making pieces");
+        self.make_pieces(&scenes);
+        Ok(scenes)
+    }
+
+    /// Makes all bodies of all pieces that some method wants, on all processors.
+    fn make_pieces(&self, scenes: &[Scene]) {
+        let mut wanted: Vec<(&SceneBody, Pieces)> = Vec::new();
+        for body in scenes.iter().flat_map(|scene| [&scene.a, &scene.b]) {
+            for &method in &self.methods {
+                let Method::Ours(_, pieces) = method else {
+                    continue;
+                };
+                let same = |(b, p): &(&SceneBody, Pieces)| {
+                    *p == pieces && Arc::ptr_eq(&b.body, &body.body)
+                };
+                if !wanted.iter().any(same) {
+                    wanted.push((body, pieces));
+                }
+            }
+        }
+        wanted.into_par_iter().for_each(|(body, pieces)| {
+            body.of(pieces);
+        });
+    }
+
+    /// The tolerances that an method is told: all, or the usual one where it cannot be told any.
+    fn told(&self, method: Method) -> impl Iterator<Item = f64> {
+        self.tolerances
+            .iter()
+            .copied()
+            .filter(move |&tolerance| method.takes_tolerances() || tolerance == USUAL_TOLERANCE)
+    }
+
+    /// The paths that some method moves bodies along.
+    fn paths(&self) -> Vec<MotionKind> {
+        let mut paths = Vec::new();
+        for path in self.methods.iter().map(|method| method.motion_kind()) {
+            if !paths.contains(&path) {
+                paths.push(path);
+            }
+        }
+        paths
+    }
+
+    /// What figures depend on beside the cell that they stand in: this program, and the allowances.
+    fn stamp(&self) -> String {
+        let program = std::env::current_exe().and_then(std::fs::read);
+        let program = program.map_or(0, |bytes| crc32fast::hash(&bytes));
+        format!(
+            "program {program:08x}\nmodels {}\nmethods {:?}\npeers {:?}\n",
+            self.models
+                .as_ref()
+                .map_or("by code".into(), |folder| folder.display().to_string()),
+            self.allowance,
+            self.peer_allowance
+        )
+    }
+}

@@ -1,0 +1,177 @@
+//! Scenes for programs elsewhere, and what those measured on them.
+
+use crate::method::solver::Claim;
+use crate::method::{Method, MotionKind};
+use crate::run::contest::{Contest, Judged, Truths, Verdict, judge, sum_up};
+use crate::run::evaluation::Evaluated;
+use crate::run::measured::{Trial, read};
+use crate::scene::{Listing, Models, Scene};
+use anyhow::{Context, Result, bail, ensure};
+use ccd_decomp::write_obj;
+use rigid_ccd::table::motions;
+use serde::Deserialize;
+use std::fs::{self, File};
+use std::io::BufWriter;
+use std::path;
+
+/// A trial measured elsewhere.
+#[derive(Clone, Debug, Deserialize)]
+pub struct Foreign {
+    scene: String,
+    method: String,
+    tolerance: f64,
+    id: String,
+    micros: f64,
+    steps: u64,
+    status: String,
+    time: Option<f64>,
+}
+
+/// What a program elsewhere says of a query.
+enum Said {
+    Claim(Claim),
+    CutOff,
+    Died,
+    /// That it measured something else, such as a single distance: there is nothing to judge.
+    Nothing,
+}
+
+/// Writes each scene into a folder of its name: `a.obj`, `b.obj`, `motions.csv`.
+///
+/// # Errors
+/// When a scene cannot be made or a file not be written.
+pub fn export(
+    listings: &[Listing],
+    models: Option<path::PathBuf>,
+    folder: &path::Path,
+) -> Result<()> {
+    let mut models = Models::new(models);
+    for listing in listings {
+        let scene = listing.make(&mut models)?;
+        let place = folder.join(&scene.name);
+        fs::create_dir_all(&place).with_context(|| place.display().to_string())?;
+        let file = |name: &str| {
+            let path = place.join(name);
+            let file = File::create(&path).with_context(|| path.display().to_string());
+            file.map(BufWriter::new)
+        };
+        write_obj(scene.a.mesh(), file("a.obj")?)?;
+        write_obj(scene.b.mesh(), file("b.obj")?)?;
+        motions::write(file("motions.csv")?, &scene.queries)?;
+    }
+    Ok(())
+}
+
+/// Reads a table of trials measured elsewhere.
+///
+/// # Errors
+/// When the file is none, or names a method of this program.
+pub fn read_trials(file: &path::Path) -> Result<Vec<Foreign>> {
+    let foreign: Vec<Foreign> = read(file)?;
+    let own: Vec<String> = Method::all().iter().map(ToString::to_string).collect();
+    for trial in &foreign {
+        ensure!(
+            !own.contains(&trial.method),
+            "{} is measured here; give it another name",
+            trial.method
+        );
+        said(trial)?;
+    }
+    Ok(foreign)
+}
+
+/// Judges trials and puts them in the place of what was known of their methods.
+///
+/// # Errors
+/// When they are about scenes or queries that there are not.
+pub fn join(evaluated: &mut Evaluated, mut foreign: Vec<Foreign>) -> Result<()> {
+    for trial in &foreign {
+        if evaluated
+            .journal
+            .cells()
+            .iter()
+            .any(|c| c.method == trial.method)
+        {
+            evaluated.journal.forget(&trial.method)?;
+        }
+    }
+    while let Some(first) = foreign.first() {
+        let key = (first.scene.clone(), first.method.clone(), first.tolerance);
+        let (group, rest): (Vec<_>, Vec<_>) = foreign
+            .into_iter()
+            .partition(|f| (&f.scene, &f.method, f.tolerance) == (&key.0, &key.1, key.2));
+        foreign = rest;
+        let Some(scene) = evaluated.scenes.iter().find(|s| s.name == key.0) else {
+            bail!("there is no scene {}, or it was not measured here", key.0);
+        };
+        let trials = judged(scene, &group, &mut evaluated.truths)?;
+        evaluated.journal.add(sum_up(&trials), trials)?;
+    }
+    Ok(())
+}
+
+fn judged(scene: &Scene, group: &[Foreign], truths: &mut Truths) -> Result<Vec<Trial>> {
+    let contest = Contest::new(scene)?;
+    let rows: Result<Vec<usize>> = group
+        .iter()
+        .map(|foreign| {
+            let row = scene.queries.iter().position(|q| q.id == foreign.id);
+            row.with_context(|| format!("scene {} has no query {}", scene.name, foreign.id))
+        })
+        .collect();
+    let rows = rows?;
+    truths.find(
+        &contest,
+        MotionKind::Given,
+        &rows,
+        &rigid_ccd::command::Progress::hidden(),
+    );
+    let truth = truths.of(&contest, MotionKind::Given);
+    let mut trials = Vec::new();
+    for (foreign, &row) in group.iter().zip(&rows) {
+        let judged = match said(foreign)? {
+            Said::Claim(claim) => judge(
+                &contest.referee(),
+                &scene.queries[row],
+                truth(row),
+                claim,
+                foreign.tolerance,
+            ),
+            Said::CutOff => Judged::plain(Verdict::CutOff),
+            Said::Died => Judged::plain(Verdict::Died),
+            Said::Nothing => Judged::plain(Verdict::NotJudged),
+        };
+        trials.push(Trial {
+            scene: scene.name.clone(),
+            method: foreign.method.clone(),
+            tolerance: foreign.tolerance,
+            row,
+            id: foreign.id.clone(),
+            micros: foreign.micros,
+            steps: foreign.steps,
+            verdict: judged.verdict.to_string(),
+            error: judged.error.unwrap_or(f64::NAN),
+        });
+    }
+    Ok(trials)
+}
+
+fn said(foreign: &Foreign) -> Result<Said> {
+    let time = || {
+        let time = foreign.time.filter(|time| time.is_finite());
+        time.with_context(|| format!("{} of {} has no time", foreign.status, foreign.id))
+    };
+    Ok(match foreign.status.as_str() {
+        "contact" => Said::Claim(Claim::Contact { time: time()? }),
+        "free" => Said::Claim(Claim::Free),
+        "unresolved" => Said::Claim(Claim::Unresolved {
+            safe_until: foreign.time.unwrap_or(0.0),
+        }),
+        "cut off" => Said::CutOff,
+        "died" => Said::Died,
+        "static" => Said::Nothing,
+        other => {
+            bail!("status {other}: it has to be contact, free, unresolved, cut off, died or static")
+        }
+    })
+}

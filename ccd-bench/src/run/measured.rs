@@ -1,0 +1,132 @@
+//! What was measured: the table behind the charts, and the trials behind the table.
+
+#[cfg(test)]
+mod tests;
+
+use rigid_ccd::table::Lines;
+use rigid_ccd::table::Quotes;
+use serde::{Deserialize, Serialize};
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::Path;
+
+/// One method on one scene at one tolerance: a row of `chart.csv`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Cell {
+    /// The scene's name.
+    pub scene: String,
+    /// The method's name.
+    pub method: String,
+    /// As a length.
+    pub tolerance: f64,
+    /// How many queries were asked.
+    pub rows: usize,
+    /// Of one query, in microseconds, as the two below.
+    pub median_us: f64,
+    /// The mean.
+    pub mean_us: f64,
+    /// What 95 of 100 queries stay within.
+    pub p95_us: f64,
+    /// Contacts reported after the exact first one.
+    pub late: usize,
+    /// Contacts not reported.
+    pub missed: usize,
+    /// Contacts reported that do not happen, not even within the tolerance.
+    #[serde(rename = "false")]
+    pub false_contacts: usize,
+    /// Queries given up, those cut off included.
+    pub unresolved: usize,
+    /// Of the times of contact, by how much they are off, as a share of the duration; NaN (an empty
+    /// cell) of none.
+    #[serde(with = "optional")]
+    pub mean_error: f64,
+    /// The largest of these.
+    #[serde(with = "optional")]
+    pub max_error: f64,
+    /// Contacts reported while the bodies are farther apart than the tolerance.
+    pub early: usize,
+    /// Queries that took longer than anybody would wait, and were stopped, or that the peer died of.
+    pub cut_off: usize,
+    /// Queries of which the truth is not known well enough to judge the answer.
+    pub undecided: usize,
+    /// Steps in time of a query, as the method counts them.
+    pub mean_steps: f64,
+}
+
+/// One query: a row of `trials.csv`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Trial {
+    /// The scene's name.
+    pub scene: String,
+    /// The method's name.
+    pub method: String,
+    /// As a length.
+    pub tolerance: f64,
+    /// The query's place in its scene, from 0.
+    pub row: usize,
+    /// The query's name.
+    pub id: String,
+    /// Of this query, in microseconds.
+    pub micros: f64,
+    /// Steps in time.
+    pub steps: u64,
+    /// How the claim stands against the truth.
+    pub verdict: String,
+    /// By how much a time of contact is off, as a share of the duration; NaN where there is none.
+    #[serde(with = "optional")]
+    pub error: f64,
+}
+
+impl Cell {
+    /// Whether some contact was reported too late, or not at all.
+    pub fn is_unsafe(&self) -> bool {
+        self.late + self.missed > 0
+    }
+}
+
+/// Writes a table with a header.
+///
+/// # Errors
+/// When the file cannot be written.
+pub fn write<T: Serialize>(path: &Path, rows: &[T]) -> Result<(), csv::Error> {
+    let mut writer = csv::Writer::from_path(path)?;
+    for row in rows {
+        writer.serialize(row)?;
+    }
+    writer.flush()?;
+    Ok(())
+}
+
+/// Reads a table with a header.
+///
+/// # Errors
+/// When the file cannot be read, or a row is none of this table.
+pub fn read<T: for<'de> Deserialize<'de>>(path: &Path) -> Result<Vec<T>, csv::Error> {
+    // Errors tell the line, which is counted rightly where all lines end alike.
+    let mut reader =
+        csv::Reader::from_reader(Quotes::new(Lines::new(File::open(path)?)).chain(&b"\n"[..]));
+    let rows: Result<Vec<T>, csv::Error> = reader.deserialize().collect();
+    let end = reader.position().line();
+    match reader.get_ref().get_ref().0.unclosed(end) {
+        Some(line) => Err(csv::Error::from(io::Error::new(
+            io::ErrorKind::InvalidData,
+            format!("line {line}: a quote opens a cell here and nothing closes it"),
+        ))),
+        None => rows,
+    }
+}
+
+/// NaN as an empty cell.
+mod optional {
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    // serde's `with` passes a reference.
+    #[expect(clippy::trivially_copy_pass_by_ref)]
+    pub(super) fn serialize<S: Serializer>(value: &f64, to: S) -> Result<S::Ok, S::Error> {
+        Some(*value).filter(|v| !v.is_nan()).serialize(to)
+    }
+
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
+        Ok(Option::deserialize(from)?.unwrap_or(f64::NAN))
+    }
+}

@@ -1,0 +1,111 @@
+//! A sheet of panels that share their axes, with one legend.
+
+use super::axis::Axis;
+use super::legend::Legend;
+use super::panel::{BOTTOM_MARGIN, LEFT_MARGIN, Label, Labelled, Panel, TOP_MARGIN, remark};
+use super::sheet::{DrawError, Hand, MARGIN, Rect, Sheet, TEXT, WIDTH};
+use plotters::style::FontStyle;
+
+/// Height of the chart's title and of the line below it.
+pub(super) const HEAD: f64 = 50.0;
+/// Height of a line of remarks.
+const REMARK: f64 = 16.0;
+/// Between two panels.
+const GUTTER: f64 = 14.0;
+
+/// What panels have in common.
+pub(super) struct Grid<'a> {
+    pub(super) title: &'a str,
+    /// What is better, and whatever else the title does not say.
+    pub(super) subtitle: &'a str,
+    /// Below the legend, a line each.
+    pub(super) remarks: Vec<String>,
+    pub(super) legend: Legend<'a>,
+    pub(super) x: Axis,
+    pub(super) y: Axis,
+    pub(super) columns: usize,
+    /// Height of a panel's axes.
+    pub(super) height: f64,
+    /// Room to the right of a panel's axes.
+    pub(super) beside: f64,
+}
+
+impl Grid<'_> {
+    /// The SVG of panels with these titles, whose data `body` draws by their number.
+    pub(super) fn draw(
+        &self,
+        titles: &[&str],
+        body: impl Fn(&Sheet<'_>, usize, &Panel<'_>) -> Result<(), DrawError>,
+    ) -> Result<String, DrawError> {
+        let columns = self.columns.max(1);
+        let rows = titles.len().div_ceil(columns);
+        let pitch = self.height + TOP_MARGIN + GUTTER;
+        let panels_end = HEAD + pitch * rows as f64 - GUTTER + BOTTOM_MARGIN;
+        let remarks_top = panels_end + self.legend.height() + GUTTER;
+        let height = remarks_top + REMARK * self.remarks.len() as f64 + MARGIN;
+        Sheet::draw(self.title, (WIDTH, height), |sheet| {
+            head(sheet, self.title, self.subtitle)?;
+            for (number, title) in titles.iter().enumerate() {
+                let (row, column) = (number / columns, number % columns);
+                let panel = Panel {
+                    rect: self.place(row, column),
+                    title,
+                    x: &self.x,
+                    y: &self.y,
+                    labelled: Labelled {
+                        x: written(number + columns >= titles.len()),
+                        y: written(column == 0),
+                    },
+                };
+                panel.draw(sheet)?;
+                body(sheet, number, &panel)?;
+            }
+            self.legend.draw(sheet, (MARGIN, panels_end))?;
+            foot(sheet, &self.remarks, remarks_top)
+        })
+    }
+
+    fn place(&self, row: usize, column: usize) -> Rect {
+        let columns = self.columns.max(1) as f64;
+        let inside = WIDTH - LEFT_MARGIN - 2.0 * MARGIN;
+        let pitch = (inside + GUTTER) / columns;
+        Rect {
+            left: MARGIN + LEFT_MARGIN + pitch * column as f64,
+            top: HEAD + TOP_MARGIN + (self.height + TOP_MARGIN + GUTTER) * row as f64,
+            width: pitch - GUTTER - self.beside,
+            height: self.height,
+        }
+    }
+}
+
+/// A chart's title, and the line below it.
+pub(super) fn head(sheet: &Sheet<'_>, title: &str, subtitle: &str) -> Result<(), DrawError> {
+    let hand = Hand {
+        size: 16.0,
+        weight: FontStyle::Bold,
+        ..Hand::default()
+    };
+    sheet.text(title, (MARGIN, 16.0), hand)?;
+    sheet.text(subtitle, (MARGIN, 36.0), Hand::default())
+}
+
+/// Remarks, one below the other.
+pub(super) fn foot(sheet: &Sheet<'_>, remarks: &[String], top: f64) -> Result<(), DrawError> {
+    for (line, remark_text) in remarks.iter().enumerate() {
+        let middle = top + REMARK * line as f64;
+        sheet.text(remark_text, (MARGIN, middle), remark())?;
+    }
+    Ok(())
+}
+
+/// How high remarks are.
+pub(super) fn foot_height(remarks: &[String]) -> f64 {
+    REMARK * remarks.len() as f64 + TEXT
+}
+
+fn written(outermost: bool) -> Label {
+    match outermost {
+        true => Label::Written,
+        false => Label::Left,
+    }
+}

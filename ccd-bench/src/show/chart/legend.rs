@@ -1,0 +1,93 @@
+//! The legend, below the data: never on it.
+
+use super::look::{Fill, Look};
+use super::sheet::{DrawError, Hand, MARGIN, Sheet, Spot, TEXT, WIDTH, text_width};
+use super::{Family, MethodFacts};
+use ccd_core::order::greater;
+use plotters::style::FontStyle;
+
+/// Height of a line of the legend.
+const LINE: f64 = 18.0;
+/// Length of the sample of a line.
+const SAMPLE: f64 = 30.0;
+/// Between a sample and its text, and between two columns.
+const GAP: f64 = 6.0;
+
+/// Names and looks, by family.
+pub(super) struct Legend<'a> {
+    groups: Vec<(&'static str, Vec<(String, &'a Look)>)>,
+    column: f64,
+    columns: usize,
+}
+
+impl<'a> Legend<'a> {
+    /// Of methods, on a sheet of the usual width.
+    pub(super) fn of(shown: &'a [(&MethodFacts<'_>, Look)]) -> Self {
+        let entries = shown.iter().map(|(method, look)| {
+            let text = match look.fill {
+                Fill::Solid => method.label.to_owned(),
+                Fill::Hollow => format!("{} (unsafe)", method.label),
+            };
+            (method.family, text, look)
+        });
+        Legend::new(entries, WIDTH - 2.0 * MARGIN)
+    }
+
+    /// Of entries in their order, so wide.
+    fn new(entries: impl Iterator<Item = (Family, String, &'a Look)>, width: f64) -> Self {
+        let mut groups: Vec<(&'static str, Vec<(String, &'a Look)>)> = Vec::new();
+        for (family, text, look) in entries {
+            let title = family.title();
+            match groups.iter_mut().find(|(group, _)| *group == title) {
+                Some((_, group)) => group.push((text, look)),
+                None => groups.push((title, vec![(text, look)])),
+            }
+        }
+        let widest = groups
+            .iter()
+            .flat_map(|(_, group)| group)
+            .map(|(text, _)| text_width(text, TEXT))
+            .fold(0.0, greater);
+        let column = widest + SAMPLE + 3.0 * GAP;
+        // At least one, at most as many as anybody wants to read across.
+        let columns = ((width - head_width(&groups)) / column).clamp(1.0, 6.0) as usize;
+        Legend {
+            groups,
+            column,
+            columns,
+        }
+    }
+
+    /// How high it is.
+    pub(super) fn height(&self) -> f64 {
+        let lines = |(_, group): &(_, Vec<_>)| group.len().div_ceil(self.columns);
+        LINE * self.groups.iter().map(lines).sum::<usize>() as f64
+    }
+
+    /// Draws it with its upper left corner there, in pixels.
+    pub(super) fn draw(&self, sheet: &Sheet<'_>, (left, mut top): Spot) -> Result<(), DrawError> {
+        let head = head_width(&self.groups);
+        for (title, group) in &self.groups {
+            let bold = Hand {
+                weight: FontStyle::Bold,
+                ..Hand::default()
+            };
+            sheet.text(title, (left, top + 0.5 * LINE), bold)?;
+            for (index, (text, look)) in group.iter().enumerate() {
+                let (row, column) = (index / self.columns, index % self.columns);
+                let left = left + head + self.column * column as f64;
+                let middle = top + LINE * (row as f64 + 0.5);
+                sheet.line(&[(left, middle), (left + SAMPLE, middle)], look.pen(1.5))?;
+                sheet.marker((left + 0.5 * SAMPLE, middle), look)?;
+                sheet.text(text, (left + SAMPLE + GAP, middle), Hand::default())?;
+            }
+            top += LINE * group.len().div_ceil(self.columns) as f64;
+        }
+        Ok(())
+    }
+}
+
+fn head_width(groups: &[(&'static str, Vec<(String, &Look)>)]) -> f64 {
+    let widest = groups.iter().map(|(title, _)| text_width(title, TEXT));
+    widest.fold(0.0, greater) + 3.0 * GAP
+}

@@ -1,0 +1,214 @@
+//! Time against error: one panel for each scene, with a strip for what is unsafe.
+
+use super::axis::Axis;
+use super::grid::Grid;
+use super::legend::Legend;
+use super::look::{Fill, Look, WARNING};
+use super::panel::{Kind, Panel, Point, mark, remark};
+use super::sheet::{DrawError, FRAME, Hand, Rect, Sheet};
+use super::{ChartError, Charts, Drawing, Family, MethodFacts, SceneFacts, failed};
+use crate::run::measured::Cell;
+use ccd_core::order::greater;
+use plotters::style::Color;
+use plotters::style::text_anchor::HPos;
+
+/// Errors below this are rounding, and drawn at the edge.
+const LEAST_ERROR: f64 = 1e-12;
+/// Room for a method in the strip.
+const LANE: f64 = 10.0;
+/// Between a panel and its strip.
+const STRIP_GAP: f64 = 4.0;
+/// What the strip is called needs this much.
+const LEAST_STRIP: f64 = 46.0;
+
+type Shown<'a> = (&'a MethodFacts<'a>, Look);
+
+/// All scenes.
+pub(super) fn all_scenes(charts: &Charts<'_>) -> Result<Option<Drawing>, ChartError> {
+    draw(charts, "pareto", &charts.measured_scenes(), Layout::DENSE)
+}
+
+/// The scenes to show first.
+pub(super) fn headline(charts: &Charts<'_>) -> Result<Option<Drawing>, ChartError> {
+    let mut scenes = charts.measured_scenes();
+    scenes.retain(|scene| charts.headline.contains(&scene.name));
+    draw(charts, "pareto-small", &scenes, Layout::ROOMY)
+}
+
+/// How many panels side by side, and how high.
+#[derive(Clone, Copy, Debug)]
+struct Layout {
+    columns: usize,
+    height: f64,
+}
+
+impl Layout {
+    const DENSE: Layout = Layout {
+        columns: 3,
+        height: 190.0,
+    };
+    const ROOMY: Layout = Layout {
+        columns: 2,
+        height: 280.0,
+    };
+}
+
+fn draw(
+    charts: &Charts<'_>,
+    name: &str,
+    scenes: &[&SceneFacts<'_>],
+    layout: Layout,
+) -> Result<Option<Drawing>, ChartError> {
+    let shown: Vec<_> = charts
+        .shown(&Family::COMPARED)
+        .into_iter()
+        .filter(|(method, _)| {
+            scenes
+                .iter()
+                .any(|scene| !charts.cells_of(scene.name, method.name).is_empty())
+        })
+        .collect();
+    let cells: Vec<_> = scenes
+        .iter()
+        .flat_map(|scene| {
+            shown.iter().flat_map(|(method, look)| {
+                let cells = charts.cells_of(scene.name, method.name);
+                cells.into_iter().map(|cell| (cell, look.fill))
+            })
+        })
+        .collect();
+    let Some((x, y)) = axes(&cells) else {
+        return Ok(None);
+    };
+    let strip = strip_width(&shown);
+    let title = "Time against error: lower left is better";
+    let grid = Grid {
+        title,
+        subtitle: "One line per method, a marker for each tolerance; hollow in the strip beside: \
+                   late or missed contacts somewhere, so no accuracy to show",
+        remarks: remarks(&cells),
+        legend: Legend::of(&shown),
+        x,
+        y,
+        columns: layout.columns,
+        height: layout.height,
+        beside: strip,
+    };
+    let titles: Vec<_> = scenes.iter().map(|scene| scene.name).collect();
+    let svg = grid.draw(&titles, |sheet, number, panel| {
+        draw_scene(charts, sheet, (scenes[number], panel), &shown)?;
+        match strip > 0.0 {
+            true => draw_strip(charts, sheet, (scenes[number], panel), &shown, strip),
+            false => Ok(()),
+        }
+    });
+    Ok(Some(Drawing {
+        name: name.to_owned(),
+        title: format!("{title}. One panel for each scene."),
+        svg: svg.map_err(failed(name))?,
+    }))
+}
+
+fn axes(cells: &[(&Cell, Fill)]) -> Option<(Axis, Axis)> {
+    let times = cells.iter().map(|(cell, _)| cell.median_us);
+    let safe = cells.iter().filter(|(_, fill)| *fill == Fill::Solid);
+    let errors = safe.map(|(cell, _)| greater(LEAST_ERROR, cell.mean_error));
+    // A plane with nothing on it is still one: the strip says what there is.
+    let errors = errors.chain([LEAST_ERROR]);
+    Some((
+        Axis::logarithmic("mean error, share of duration", errors)?,
+        Axis::logarithmic("time of a query, median, µs", times)?,
+    ))
+}
+
+/// None where nothing is unsafe.
+fn strip_width(shown: &[Shown<'_>]) -> f64 {
+    let lanes = shown.iter().filter(|(_, look)| look.fill == Fill::Hollow);
+    match lanes.count() {
+        0 => 0.0,
+        lanes => STRIP_GAP + greater(LEAST_STRIP, LANE * (lanes as f64 + 1.0)),
+    }
+}
+
+fn remarks(cells: &[(&Cell, Fill)]) -> Vec<String> {
+    let mut remarks = vec![
+        "Errors are those of the time of contact; below 10⁻¹² they are drawn at the left edge. \
+         A method that found nothing has no error and no marker."
+            .to_owned(),
+    ];
+    if cells.iter().any(|(cell, _)| kind(cell) == Kind::AtLeast) {
+        remarks.push(
+            "Arrow up: half of the queries or more were given up or cut off; the time is at least that."
+                .to_owned(),
+        );
+    }
+    remarks
+}
+
+fn draw_scene(
+    charts: &Charts<'_>,
+    sheet: &Sheet<'_>,
+    (scene, panel): (&SceneFacts<'_>, &Panel<'_>),
+    shown: &[Shown<'_>],
+) -> Result<(), DrawError> {
+    for (method, look) in shown.iter().filter(|(_, look)| look.fill == Fill::Solid) {
+        let cells = charts.cells_of(scene.name, method.name);
+        let points: Vec<_> = cells
+            .iter()
+            .filter(|cell| !cell.mean_error.is_nan())
+            .map(|cell| Point {
+                x: greater(LEAST_ERROR, cell.mean_error),
+                y: cell.median_us,
+                kind: kind(cell),
+            })
+            .collect();
+        panel.series(sheet, &points, look)?;
+    }
+    Ok(())
+}
+
+/// What is unsafe, by its time alone: one lane for each method.
+fn draw_strip(
+    charts: &Charts<'_>,
+    sheet: &Sheet<'_>,
+    (scene, panel): (&SceneFacts<'_>, &Panel<'_>),
+    shown: &[Shown<'_>],
+    width: f64,
+) -> Result<(), DrawError> {
+    let strip = Rect {
+        left: panel.rect.right() + STRIP_GAP,
+        width: width - STRIP_GAP,
+        ..panel.rect
+    };
+    sheet.rect(strip, WARNING.mix(0.08).filled())?;
+    sheet.frame(strip, FRAME)?;
+    let hand = Hand {
+        colour: WARNING,
+        across: HPos::Center,
+        ..remark()
+    };
+    let middle = strip.left + 0.5 * strip.width;
+    sheet.text("unsafe", (middle, strip.top - 9.0), hand)?;
+    let unsafe_ones: Vec<_> = shown
+        .iter()
+        .filter(|(_, look)| look.fill == Fill::Hollow)
+        .collect();
+    let lane = strip.width / (unsafe_ones.len() as f64 + 1.0);
+    for (number, (method, look)) in unsafe_ones.iter().enumerate() {
+        let x = strip.left + lane * (number as f64 + 1.0);
+        for cell in charts.cells_of(scene.name, method.name) {
+            if let Some((_, y)) = panel.spot(LEAST_ERROR, cell.median_us) {
+                mark(sheet, (x, y), kind(cell), look)?;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Whether a cell's median is the time of queries that were given up or cut off.
+pub(super) fn kind(cell: &Cell) -> Kind {
+    match cell.rows > 0 && 2 * cell.unresolved >= cell.rows {
+        true => Kind::AtLeast,
+        false => Kind::Measured,
+    }
+}

@@ -1,0 +1,269 @@
+use super::axis::{Axis, power_of_ten};
+use super::*;
+
+const SCENES: [SceneFacts<'_>; 3] = [
+    SceneFacts {
+        name: "knot small",
+        shape: "knot",
+        triangles: 2_880,
+        figure: Some(7),
+    },
+    SceneFacts {
+        name: "knot large",
+        shape: "knot",
+        triangles: 34_560,
+        figure: Some(7),
+    },
+    SceneFacts {
+        name: "never measured",
+        shape: "ring",
+        triangles: 10_000,
+        figure: Some(8),
+    },
+];
+const METHODS: [MethodFacts<'_>; 4] = [
+    MethodFacts {
+        name: "ours",
+        family: Family::Ours,
+        label: "our method",
+    },
+    MethodFacts {
+        name: "careless",
+        family: Family::Peer,
+        label: "careless <peer> & co",
+    },
+    MethodFacts {
+        name: "absent",
+        family: Family::Rival,
+        label: "absent rival",
+    },
+    MethodFacts {
+        name: "over patches",
+        family: Family::Model,
+        label: "patches",
+    },
+];
+
+fn cell(scene: &str, method: &str, tolerance: f64) -> Cell {
+    Cell {
+        scene: scene.to_owned(),
+        method: method.to_owned(),
+        tolerance,
+        rows: 100,
+        median_us: 50.0 - tolerance.log10(),
+        mean_us: 60.0,
+        p95_us: 100.0,
+        late: 0,
+        missed: 0,
+        false_contacts: 0,
+        unresolved: 0,
+        mean_error: 0.3 * tolerance,
+        max_error: tolerance,
+        early: 0,
+        cut_off: 0,
+        undecided: 0,
+        mean_steps: 4.0,
+    }
+}
+
+/// Three methods on two scenes; the careless one misses a contact in one cell.
+fn cells() -> Vec<Cell> {
+    let mut cells = Vec::new();
+    for scene in &SCENES[..2] {
+        for method in ["ours", "careless", "over patches"] {
+            cells.extend([1e-1, 1e-3, 1e-6].map(|tolerance| cell(scene.name, method, tolerance)));
+        }
+    }
+    for cell in &mut cells {
+        if (cell.scene.as_str(), cell.method.as_str()) == ("knot small", "careless") {
+            cell.missed = 1;
+        }
+    }
+    cells
+}
+
+fn trials() -> Vec<Trial> {
+    let of = |(scene, method): (&str, &str)| {
+        let (scene, method) = (scene.to_owned(), method.to_owned());
+        (0..20).map(move |number| Trial {
+            scene: scene.clone(),
+            method: method.clone(),
+            tolerance: 1e-3,
+            row: number as usize,
+            id: number.to_string(),
+            micros: 10.0 + f64::from(number),
+            steps: 3,
+            verdict: "right".to_owned(),
+            error: f64::NAN,
+        })
+    };
+    [
+        ("knot small", "ours"),
+        ("knot small", "careless"),
+        ("knot large", "ours"),
+    ]
+    .into_iter()
+    .flat_map(of)
+    .collect()
+}
+
+fn charts<'a>(cells: &'a [Cell], trials: &'a [Trial]) -> Charts<'a> {
+    Charts {
+        cells,
+        trials,
+        scenes: &SCENES,
+        methods: &METHODS,
+        headline: &["knot large"],
+        published: &["ours", "careless"],
+    }
+}
+
+/// The text of one chart.
+fn svg(drawings: &[Drawing], name: &str) -> String {
+    let drawing = drawings.iter().find(|drawing| drawing.name == name);
+    drawing
+        .map(|drawing| drawing.svg.clone())
+        .unwrap_or_default()
+}
+
+#[test]
+fn every_chart_is_there_and_names_what_it_shows() {
+    let (cells, trials) = (cells(), trials());
+    let drawings = charts(&cells, &trials).drawings().unwrap();
+    let names: Vec<_> = drawings.iter().map(|d| d.name.as_str()).collect();
+    let expected = [
+        "pareto",
+        "pareto-small",
+        "triangles",
+        "tolerance",
+        "steps",
+        "models",
+        "figure-7",
+    ];
+    assert_eq!(names, expected);
+    for drawing in &drawings {
+        let label = match drawing.name.as_str() {
+            "models" => "patches",
+            _ => "our method",
+        };
+        assert!(drawing.svg.contains(label), "{}", drawing.name);
+        assert!(!drawing.svg.contains("absent rival"), "{}", drawing.name);
+        assert!(!drawing.svg.contains("never measured"), "{}", drawing.name);
+    }
+    assert!(!svg(&drawings, "pareto-small").contains("knot small"));
+}
+
+#[test]
+fn names_are_escaped_and_no_number_is_lost() {
+    let (mut cells, trials) = (cells(), trials());
+    cells[0].mean_error = f64::NAN;
+    cells[1].median_us = f64::NAN;
+    cells[2].mean_error = 0.0;
+    cells[3].mean_steps = f64::INFINITY;
+    cells[4].unresolved = cells[4].rows;
+    for drawing in charts(&cells, &trials).drawings().unwrap() {
+        for lost in ["NaN", "inf", "<peer>", "& co"] {
+            assert!(!drawing.svg.contains(lost), "{lost} in {}", drawing.name);
+        }
+    }
+    let drawings = charts(&cells, &trials).drawings().unwrap();
+    assert!(svg(&drawings, "pareto").contains("careless &lt;peer&gt; &amp; co (unsafe)"));
+}
+
+#[test]
+fn an_unsafe_method_stands_in_the_strip_only() {
+    let (safe, trials) = (cells(), trials());
+    let mut careful = safe.clone();
+    for cell in &mut careful {
+        cell.missed = 0;
+    }
+    // Peers draw a shape of this colour.
+    let colour = |charts: &Charts<'_>| charts.colours()[1].1.to_uppercase();
+    let with = charts(&safe, &trials);
+    let without = charts(&careful, &trials);
+    let lines = |charts: &Charts<'_>| {
+        let text = svg(&charts.drawings().unwrap(), "pareto");
+        let colour = colour(charts);
+        let of_colour = text.lines().filter(|line| line.contains(&colour));
+        // Dashes of lines through data, and filled markers.
+        let filled = format!("fill=\"{colour}\"");
+        let (solid, hollow): (Vec<_>, Vec<_>) = of_colour.partition(|line| line.contains(&filled));
+        (solid.len(), hollow.len(), text.contains(">\nunsafe\n<"))
+    };
+    let (solid, _, strip) = lines(&with);
+    assert_eq!((solid, strip), (0, true), "no filled marker, and a strip");
+    let (solid, _, strip) = lines(&without);
+    // Two scenes, three tolerances, and the legend.
+    assert_eq!((solid, strip), (7, false));
+}
+
+#[test]
+fn empty_tables_are_an_error_and_strange_ones_no_panic() {
+    let empty = charts(&[], &[]).drawings();
+    assert!(matches!(empty, Err(ChartError::NothingToDraw)), "{empty:?}");
+    let strangers = [cell("elsewhere", "nobody", 1e-3)];
+    let unknown = charts(&strangers, &[]).drawings();
+    assert!(
+        matches!(unknown, Err(ChartError::NothingToDraw)),
+        "{unknown:?}"
+    );
+    let mut lost = [cell("knot small", "ours", f64::NAN)];
+    lost[0].median_us = f64::NAN;
+    lost[0].mean_error = f64::NAN;
+    lost[0].mean_steps = f64::NAN;
+    assert_eq!(charts(&lost, &[]).drawings().unwrap(), []);
+}
+
+#[test]
+fn files_are_written_and_a_folder_that_is_not_there_is_an_error() {
+    let (cells, trials) = (cells(), trials());
+    let charts = charts(&cells, &trials);
+    let folder = std::env::temp_dir().join(format!("ccd-charts-{}", std::process::id()));
+    let missing = charts.write(&folder);
+    assert!(
+        matches!(missing, Err(ChartError::Write { .. })),
+        "{missing:?}"
+    );
+    fs::create_dir(&folder).unwrap();
+    let paths = charts.write(&folder).unwrap();
+    assert!(paths.iter().all(|path| path.is_file()));
+    assert_eq!(paths.len(), charts.drawings().unwrap().len());
+    fs::remove_dir_all(&folder).unwrap();
+}
+
+#[test]
+fn no_two_methods_look_alike() {
+    let methods: Vec<_> = [Family::Ours, Family::Rival, Family::Peer]
+        .into_iter()
+        .flat_map(|family| {
+            [MethodFacts {
+                name: "",
+                family,
+                label: "",
+            }; 10]
+        })
+        .collect();
+    let looks = look::looks(&methods, |_| Fill::Solid);
+    for (index, look) in looks.iter().enumerate() {
+        assert!(!looks[..index].contains(look), "{index}");
+    }
+}
+
+#[test]
+fn axes_cover_their_values() {
+    let axis = Axis::logarithmic("", [3e-7, 0.5].into_iter()).unwrap();
+    assert_eq!(axis.share(1e-7), Some(0.0));
+    assert_eq!(axis.share(1.0), Some(1.0));
+    assert_eq!(axis.share(0.0), Some(0.0), "beyond the edge");
+    assert_eq!(axis.share(f64::NAN), None);
+    assert!(axis.share(3e-7) < axis.share(0.5));
+    assert!(Axis::logarithmic("", [0.0, f64::NAN].into_iter()).is_none());
+    let fitted = Axis::fitted("", [2_880.0, 69_664.0].into_iter()).unwrap();
+    let said: Vec<_> = fitted
+        .ticks()
+        .iter()
+        .filter_map(|t| t.text.as_deref())
+        .collect();
+    assert_eq!(said, ["5,000", "10,000", "20,000", "50,000"]);
+    assert_eq!(power_of_ten(-12), "10⁻¹²");
+}

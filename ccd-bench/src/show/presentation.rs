@@ -1,0 +1,150 @@
+//! What was measured, made into tables, charts and a page.
+
+mod readme;
+mod views;
+
+pub use readme::splice;
+
+use crate::method::Method;
+use crate::run::evaluation::{Evaluated, USUAL_TOLERANCE};
+use crate::scene::Scene;
+use crate::show::chart::{Charts, Family, MethodFacts, SceneFacts};
+use crate::show::tables::{self, TextTable};
+use anyhow::Result;
+use std::path::{Path, PathBuf};
+
+/// Tables, charts and views of one evaluation.
+pub struct Presentation<'e> {
+    evaluated: &'e Evaluated,
+    /// For the terminal.
+    pub summary: Vec<TextTable>,
+    /// For readers of a page or a README.
+    pub comparisons: Vec<TextTable>,
+    methods: Vec<(String, Family)>,
+}
+
+/// The finer of the two tolerances at which methods are compared.
+const FINE_TOLERANCE: f64 = 1e-6;
+/// The method that others are compared with.
+const DEFAULT: &str = "best-first direct";
+/// The paper's own.
+const AS_PUBLISHED: &str = "fast vmarch";
+/// What the paper compares itself with; by what factors, stands beside.
+const PAPERS_RIVALS: [&str; 2] = ["CONTACT", "Dynamic Collision Checker"];
+/// The scenes of the small chart.
+const HEADLINE: [&str; 2] = ["knot34560 turning", "bunny turning"];
+
+impl<'e> Presentation<'e> {
+    /// Sums up what was measured.
+    pub fn new(evaluated: &'e Evaluated) -> Self {
+        let journal = &evaluated.journal;
+        let methods = families(&tables::methods(journal.cells()));
+        let others: Vec<&str> = methods
+            .iter()
+            .filter(|(name, family)| {
+                matches!(family, Family::Rival | Family::Peer) || name == AS_PUBLISHED
+            })
+            .map(|(name, _)| name.as_str())
+            .collect();
+        let compared = |tolerance| tables::ratios(journal.trials(), DEFAULT, &others, tolerance);
+        let mut published = tables::ratios(
+            journal.trials(),
+            AS_PUBLISHED,
+            &PAPERS_RIVALS,
+            USUAL_TOLERANCE,
+        );
+        published.title += "; the paper reports 1.4 to 45.5 over CONTACT";
+        let safety = tables::safety(journal.cells(), journal.trials());
+        let usual = tables::at_tolerance(journal.cells(), USUAL_TOLERANCE);
+        Presentation {
+            evaluated,
+            comparisons: vec![
+                compared(USUAL_TOLERANCE).named("usual"),
+                compared(FINE_TOLERANCE).named("fine"),
+                published.named("published"),
+                safety.clone().named("safety"),
+                usual.clone().named("all"),
+            ],
+            summary: vec![usual, safety],
+            methods,
+        }
+    }
+
+    /// Writes charts and the page into a folder; returns the page's path.
+    ///
+    /// # Errors
+    /// When there is nothing to draw, or a file cannot be written.
+    pub fn write(&self, folder: &Path) -> Result<PathBuf> {
+        let shapes: Vec<String> = self.evaluated.scenes.iter().map(shape).collect();
+        let scenes: Vec<SceneFacts<'_>> = self
+            .evaluated
+            .scenes
+            .iter()
+            .zip(&shapes)
+            .map(|(scene, shape)| SceneFacts {
+                name: &scene.name,
+                shape,
+                triangles: scene.a.triangles(),
+                figure: scene.figure,
+            })
+            .collect();
+        let methods: Vec<MethodFacts<'_>> = self
+            .methods
+            .iter()
+            .map(|(name, family)| MethodFacts {
+                name,
+                family: *family,
+                label: name,
+            })
+            .collect();
+        let charts = Charts {
+            cells: self.evaluated.journal.cells(),
+            trials: self.evaluated.journal.trials(),
+            scenes: &scenes,
+            methods: &methods,
+            headline: &HEADLINE,
+            published: &[AS_PUBLISHED, PAPERS_RIVALS[0], DEFAULT],
+        };
+        charts.write(folder)?;
+        Ok(views::write_page(
+            charts,
+            &self.evaluated.scenes,
+            &self.comparisons,
+            folder,
+        )?)
+    }
+}
+
+/// Whose each method is; one that is not known was measured elsewhere.
+fn families(names: &[&str]) -> Vec<(String, Family)> {
+    let known: Vec<(String, Family)> = Method::all()
+        .into_iter()
+        .map(|method| (method.to_string(), family(method)))
+        .collect();
+    names
+        .iter()
+        .map(|&name| {
+            let found = known.iter().find(|(known, _)| known == name);
+            (
+                name.to_owned(),
+                found.map_or(Family::Peer, |(_, family)| *family),
+            )
+        })
+        .collect()
+}
+
+fn family(method: Method) -> Family {
+    match method {
+        Method::Ours(..) if method.is_model() => Family::Model,
+        Method::Ours(..) => Family::Ours,
+        Method::Rival(_) => Family::Rival,
+        Method::Peer(_) => Family::Peer,
+    }
+}
+
+/// What moves in a scene, and how, whatever its size and whether it turns.
+fn shape(scene: &Scene) -> String {
+    let plain: String = scene.name.chars().filter(|c| !c.is_ascii_digit()).collect();
+    let plain = plain.trim_end_matches(" translating");
+    plain.trim_end_matches(" turning").to_owned()
+}

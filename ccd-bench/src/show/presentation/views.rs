@@ -1,0 +1,84 @@
+//! The page: charts, tables, and a few motions of each scene to be looked at.
+
+use crate::scene::Scene;
+use crate::show::chart::Charts;
+use crate::show::report::{Page, PageError, Shot, View};
+use crate::show::tables::TextTable;
+use ccd_core::{Config, InputError, Outcome};
+use rigid_ccd::batch::SolverKind;
+use rigid_ccd::batch::solve;
+use std::path::{Path, PathBuf};
+
+/// How many motions of a scene can be looked at: contacts, and others.
+const CONTACTS: usize = 6;
+const OTHERS: usize = 2;
+
+const PREFACE: &str = "\
+When do two moving bodies first touch? Methods of this project, published rivals and peer libraries were \
+asked the same, timed one query at a time, and held against brackets of the exact first contact.
+
+A method that was late, or missed a contact, anywhere is drawn as unsafe everywhere: it has no place on \
+the plane of speed and accuracy.";
+
+/// Why there is no page.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub(super) enum ViewsError {
+    /// A query of a scene cannot be posed.
+    #[error(transparent)]
+    Input(#[from] InputError),
+    /// The page cannot be written.
+    #[error(transparent)]
+    Page(#[from] PageError),
+}
+
+/// Writes the page into a folder; returns its path.
+///
+/// # Errors
+/// [`ViewsError`].
+pub(super) fn write_page(
+    charts: Charts<'_>,
+    scenes: &[Scene],
+    tables: &[TextTable],
+    folder: &Path,
+) -> Result<PathBuf, ViewsError> {
+    let views: Result<Vec<View<'_>>, InputError> = scenes.iter().map(view).collect();
+    let page = Page {
+        title: "Speed against accuracy",
+        preface: PREFACE,
+        charts,
+        views: &views?,
+        tables,
+    };
+    let path = folder.join("index.html");
+    page.write(&path)?;
+    Ok(path)
+}
+
+/// The first motions of each kind.
+fn view(scene: &Scene) -> Result<View<'_>, InputError> {
+    let mut solver = SolverKind::default().solver();
+    let mut shots = Vec::new();
+    let (mut contacts, mut others) = (0, 0);
+    for query in &scene.queries {
+        let answer = solve(scene.bodies(), query, &Config::default(), solver.as_mut())?;
+        let (seen, most) = match answer.outcome {
+            Outcome::Contact { .. } => (&mut contacts, CONTACTS),
+            _ => (&mut others, OTHERS),
+        };
+        if *seen < most {
+            *seen += 1;
+            let query = query.clone();
+            shots.push(Shot { query, answer });
+        }
+        if (contacts, others) == (CONTACTS, OTHERS) {
+            break;
+        }
+    }
+    Ok(View {
+        scene: &scene.name,
+        a: scene.a.mesh(),
+        b: scene.b.mesh(),
+        shots,
+    })
+}

@@ -1,0 +1,237 @@
+use super::*;
+use crate::run::measured::Cell;
+use crate::scene::model::Model;
+use crate::show::chart::{Family, MethodFacts, SceneFacts};
+use base64::Engine;
+use base64::prelude::BASE64_STANDARD;
+use ccd_core::glam::{DQuat, DVec3};
+use ccd_core::{Config, Motion, Pose};
+use ccd_decomp::{Detail, body_from_mesh};
+use rigid_ccd::batch::SolverKind;
+use rigid_ccd::batch::{Bodies, solve};
+use serde_json::Value;
+
+fn mesh() -> TriangleMesh {
+    Model::Knot216.generate().unwrap()
+}
+
+/// A knot turning past a resting one, so far aside.
+fn shot(mesh: &TriangleMesh, aside: f64) -> Shot {
+    let body = body_from_mesh(mesh, Detail::Auto).unwrap().body;
+    let start = Pose::new(DVec3::new(3.0, aside, 0.0), DQuat::from_rotation_y(0.3)).unwrap();
+    let end = Pose::new(DVec3::new(-3.0, aside, 0.0), DQuat::from_rotation_x(0.5)).unwrap();
+    let centre = DVec3::new(0.1, 0.2, 0.3);
+    let query = Query {
+        id: "</script>".to_owned(),
+        a: Motion::between(start, end, centre, 2.0).unwrap(),
+        b: Motion::still(Pose::IDENTITY),
+        duration: 2.0,
+    };
+    let bodies = Bodies { a: &body, b: &body };
+    let mut solver = SolverKind::default().solver();
+    let answer = solve(bodies, &query, &Config::default(), solver.as_mut()).unwrap();
+    Shot { query, answer }
+}
+
+fn cell() -> Cell {
+    Cell {
+        scene: "knots".to_owned(),
+        method: "ours".to_owned(),
+        tolerance: 1e-3,
+        rows: 2,
+        median_us: 5.0,
+        mean_us: 6.0,
+        p95_us: 7.0,
+        late: 0,
+        missed: 0,
+        false_contacts: 0,
+        unresolved: 0,
+        mean_error: f64::NAN,
+        max_error: f64::NAN,
+        early: 0,
+        cut_off: 0,
+        undecided: 0,
+        mean_steps: 4.0,
+    }
+}
+
+fn with_page<T>(look: impl FnOnce(&Page<'_>) -> T) -> T {
+    let mesh = mesh();
+    let views = [View {
+        scene: "knots",
+        a: &mesh,
+        b: &mesh,
+        shots: vec![shot(&mesh, 0.2), shot(&mesh, 9.0)],
+    }];
+    let tables = [TextTable {
+        name: "usual".to_owned(),
+        title: "A <table>".to_owned(),
+        header: vec!["name & kind".to_owned()],
+        rows: vec![vec!["{{style}}".to_owned()]],
+    }];
+    let charts = Charts {
+        cells: &[cell()],
+        trials: &[],
+        scenes: &[SceneFacts {
+            name: "knots",
+            shape: "knot",
+            triangles: 216,
+            figure: None,
+        }],
+        methods: &[MethodFacts {
+            name: "ours",
+            family: Family::Ours,
+            label: "ours",
+        }],
+        headline: &[],
+        published: &[],
+    };
+    look(&Page {
+        title: "Of \"knots\"",
+        preface: "One.\n\nTwo < three.",
+        charts,
+        views: &views,
+        tables: &tables,
+    })
+}
+
+fn script(html: &str, id: &str) -> Value {
+    let tag = format!("<script type=\"application/json\" id=\"{id}\">");
+    let (_, rest) = html.split_once(&tag).unwrap();
+    serde_json::from_str(rest.split_once("</script>").unwrap().0).unwrap()
+}
+
+fn decoded<const N: usize>(value: &Value) -> Vec<[u8; N]> {
+    let bytes = BASE64_STANDARD.decode(value.as_str().unwrap()).unwrap();
+    bytes
+        .chunks_exact(N)
+        .map(|chunk| chunk.try_into().unwrap())
+        .collect()
+}
+
+#[test]
+fn meshes_are_stored_once_and_decode_to_their_numbers() {
+    let html = with_page(|page| page.html().unwrap());
+    let data = script(&html, "views");
+    let meshes = data["meshes"].as_array().unwrap();
+    assert_eq!(meshes.len(), 1);
+    assert_eq!(
+        (&data["views"][0]["a"], &data["views"][0]["b"]),
+        (&0.into(), &0.into())
+    );
+    let mesh = mesh();
+    let places: Vec<f32> = decoded(&meshes[0]["vertices"])
+        .into_iter()
+        .map(f32::from_le_bytes)
+        .collect();
+    let expected: Vec<f32> = mesh
+        .vertices()
+        .iter()
+        .flat_map(|v| v.as_vec3().to_array())
+        .collect();
+    assert_eq!(places, expected);
+    let corners: Vec<u32> = decoded(&meshes[0]["faces"])
+        .into_iter()
+        .map(u32::from_le_bytes)
+        .collect();
+    assert_eq!(corners, mesh.faces().concat());
+}
+
+#[test]
+fn shots_say_what_happens_and_where() {
+    let html = with_page(|page| page.html().unwrap());
+    let data = script(&html, "views");
+    let shots = data["views"][0]["shots"].as_array().unwrap();
+    let mesh = mesh();
+    let query = shot(&mesh, 0.2).query;
+    assert!(
+        shots[0]["status"]
+            .as_str()
+            .unwrap()
+            .starts_with("Contact at")
+    );
+    assert!(
+        shots[1]["status"]
+            .as_str()
+            .unwrap()
+            .starts_with("No contact until 2")
+    );
+    let time = shots[0]["time"].as_f64().unwrap();
+    assert!(time > 0.0 && time < 2.0);
+    assert!(shots[1]["time"].is_null() && shots[1]["contact"].is_null());
+    assert!(shots[0]["contact"]["normal"].is_array());
+    // The formula that the page moves bodies by gives the pose of the motion.
+    let numbers = |value: &Value| -> Vec<f64> {
+        value
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(|n| n.as_f64().unwrap())
+            .collect()
+    };
+    let motion = &shots[0]["a"];
+    let [centre, from, velocity, spin] = ["centre", "from", "velocity", "spin"]
+        .map(|name| DVec3::from_slice(&numbers(&motion[name])));
+    let rows = numbers(&motion["rotation"]);
+    let start = |x: DVec3| {
+        DVec3::new(
+            DVec3::from_slice(&rows[0..3]).dot(x),
+            DVec3::from_slice(&rows[3..6]).dot(x),
+            DVec3::from_slice(&rows[6..9]).dot(x),
+        )
+    };
+    let point = DVec3::new(0.7, -0.4, 1.1);
+    let turned = DQuat::from_scaled_axis(spin * time) * start(point - centre);
+    let moved = turned + from + velocity * time;
+    let expected = query.a.pose(time).transform_point(point);
+    assert!(moved.distance(expected) < 1e-12, "{moved} {expected}");
+}
+
+#[test]
+fn the_page_needs_nothing_else_and_escapes_what_it_is_given() {
+    let html = with_page(|page| page.html().unwrap());
+    assert!(html.contains("<title>Of &quot;knots&quot;</title>"));
+    assert!(html.contains("<p>Two &lt; three.</p>"));
+    assert!(html.contains("<h3>A &lt;table&gt;</h3>"));
+    assert!(html.contains("name &amp; kind"));
+    assert!(
+        html.contains("<td class=\"number\">{{style}}</td>"),
+        "not filled in again"
+    );
+    for elsewhere in [
+        "<script src",
+        "<link rel=\"stylesheet",
+        "@import",
+        "cdn.jsdelivr",
+    ] {
+        assert!(!html.contains(elsewhere), "{elsewhere}");
+    }
+    assert!(html.contains("plotly.js v"));
+    assert!(
+        !html.contains("MathJax.loader"),
+        "no script that sets formulas"
+    );
+    // The scripts and data of the page, and plotly.
+    assert_eq!(html.matches("</script>").count(), 7);
+}
+
+#[test]
+fn a_quantity_without_a_value_is_null() {
+    let html = with_page(|page| page.html().unwrap());
+    let data = script(&html, "measured");
+    assert!(data["cells"][0]["error"].is_null());
+    assert_eq!(data["scenes"][0], "knots");
+    assert_eq!(data["methods"][0]["unsafe"], false);
+}
+
+#[test]
+fn a_page_of_nothing_is_an_error() {
+    let error = with_page(|page| {
+        let charts = Charts {
+            cells: &[],
+            ..page.charts
+        };
+        Page { charts, ..*page }.html()
+    });
+    assert!(matches!(error, Err(PageError::Chart(_))));
+}

@@ -1,0 +1,259 @@
+//! What the measurements come to, as tables of words.
+
+#[cfg(test)]
+mod tests;
+
+use crate::method::Method;
+use crate::run::contest::Verdict;
+use crate::run::measured::{Cell, Trial};
+use comfy_table::presets::{ASCII_MARKDOWN, UTF8_BORDERS_ONLY};
+use comfy_table::{CellAlignment, Table, TableStyle};
+use rigid_ccd::batch::median;
+use std::collections::HashMap;
+
+/// A table as text.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TextTable {
+    /// What markers in a README call it.
+    pub name: String,
+    /// What it shows.
+    pub title: String,
+    /// What its columns are called.
+    pub header: Vec<String>,
+    /// Its rows.
+    pub rows: Vec<Vec<String>>,
+}
+
+/// Of fewer rows than this, a median is told with their number.
+const FEW: usize = 10;
+
+/// What a table says where there is nothing to say.
+const NOTHING: &str = "–";
+
+impl TextTable {
+    fn new(title: impl Into<String>, header: &[&str]) -> Self {
+        TextTable {
+            name: String::new(),
+            title: title.into(),
+            header: header.iter().map(|&name| name.to_owned()).collect(),
+            rows: Vec::new(),
+        }
+    }
+
+    /// The same, by a name.
+    pub fn named(self, name: &str) -> Self {
+        TextTable {
+            name: name.to_owned(),
+            ..self
+        }
+    }
+
+    /// For a terminal.
+    pub fn for_terminal(&self) -> String {
+        self.laid_out(UTF8_BORDERS_ONLY)
+    }
+
+    /// For a README.
+    pub fn as_markdown(&self) -> String {
+        self.laid_out(ASCII_MARKDOWN)
+    }
+
+    fn laid_out(&self, style: TableStyle) -> String {
+        let mut table = Table::new();
+        table.load_style(style).set_header(&self.header);
+        for (index, column) in table.column_iter_mut().enumerate() {
+            // Words to the left, numbers to the right.
+            let is_words = |row: &Vec<String>| {
+                row.get(index)
+                    .is_some_and(|cell| cell.starts_with(char::is_alphabetic))
+            };
+            if !self.rows.iter().any(is_words) {
+                column.set_cell_alignment(CellAlignment::Right);
+            }
+        }
+        for row in &self.rows {
+            table.add_row(row);
+        }
+        table.to_string()
+    }
+}
+
+/// Every method on every scene at one tolerance.
+pub fn at_tolerance(cells: &[Cell], tolerance: f64) -> TextTable {
+    let mut table = TextTable::new(
+        format!("Tolerance {tolerance:e}"),
+        &[
+            "scene",
+            "method",
+            "rows",
+            "median µs",
+            "mean µs",
+            "p95 µs",
+            "late",
+            "missed",
+            "false",
+            "early",
+            "unresolved",
+            "mean error",
+        ],
+    );
+    let mut last = "";
+    for cell in cells.iter().filter(|cell| cell.tolerance == tolerance) {
+        let scene = if cell.scene == last { "" } else { &cell.scene };
+        last = &cell.scene;
+        table.rows.push(vec![
+            scene.to_owned(),
+            cell.method.clone(),
+            cell.rows.to_string(),
+            micros(cell.median_us),
+            micros(cell.mean_us),
+            micros(cell.p95_us),
+            cell.late.to_string(),
+            cell.missed.to_string(),
+            cell.false_contacts.to_string(),
+            cell.early.to_string(),
+            cell.unresolved.to_string(),
+            match cell.mean_error.is_nan() {
+                true => NOTHING.to_owned(),
+                false => format!("{:.0e}", cell.mean_error),
+            },
+        ]);
+    }
+    table
+}
+
+/// How often each method was late, missed a contact, or reported a false one, over all scenes and
+/// tolerances; without those that answer no query.
+pub fn safety(cells: &[Cell], trials: &[Trial]) -> TextTable {
+    let not_judged = Verdict::NotJudged.to_string();
+    let answers = |method: &str| {
+        let judged = |t: &Trial| t.method == method && t.verdict != not_judged;
+        trials.iter().any(judged)
+    };
+    let mut table = TextTable::new(
+        "Answers held against the truth, all scenes and tolerances",
+        &[
+            "method",
+            "queries",
+            "late",
+            "missed",
+            "false",
+            "early",
+            "unresolved",
+            "of these cut off",
+            "undecided",
+        ],
+    );
+    for method in methods(cells).into_iter().filter(|m| answers(m)) {
+        let of = || cells.iter().filter(|cell| cell.method == method);
+        let sum = |count: fn(&Cell) -> usize| of().map(count).sum::<usize>().to_string();
+        table.rows.push(vec![
+            method.to_owned(),
+            sum(|c| c.rows),
+            sum(|c| c.late),
+            sum(|c| c.missed),
+            sum(|c| c.false_contacts),
+            sum(|c| c.early),
+            sum(|c| c.unresolved),
+            sum(|c| c.cut_off),
+            sum(|c| c.undecided),
+        ]);
+    }
+    table
+}
+
+/// How many times longer others take than one method, scene by scene: the median of the ratios query by
+/// query (the ratio of the total times) over the queries that both were asked, and whether the other was late or missed a contact there.
+pub fn ratios(trials: &[Trial], reference: &str, others: &[&str], tolerance: f64) -> TextTable {
+    let mut header = vec!["scene"];
+    header.extend(others);
+    let mut table = TextTable::new(
+        format!("Time in units of {reference}, tolerance {tolerance:e}"),
+        &header,
+    );
+    let at = |t: &&Trial| t.tolerance == tolerance;
+    let mut scenes: Vec<&str> = Vec::new();
+    for trial in trials.iter().filter(at) {
+        if !scenes.contains(&trial.scene.as_str()) {
+            scenes.push(&trial.scene);
+        }
+    }
+    for scene in scenes {
+        let of = |method: &str| -> HashMap<&str, &Trial> {
+            let here = trials.iter().filter(at);
+            here.filter(|t| t.scene == scene && t.method == method)
+                .map(|t| (t.id.as_str(), t))
+                .collect()
+        };
+        let base = of(reference);
+        let mut row = vec![scene.to_owned()];
+        row.extend(others.iter().map(|other| ratio(&base, &of(other))));
+        table.rows.push(row);
+    }
+    table
+}
+
+fn ratio(base: &HashMap<&str, &Trial>, other: &HashMap<&str, &Trial>) -> String {
+    let mut ratios = Vec::new();
+    let (mut ours, mut theirs) = (0.0, 0.0);
+    for (id, trial) in other {
+        if let Some(same) = base.get(id).filter(|_| !trial.micros.is_nan()) {
+            ratios.push(trial.micros / same.micros);
+            ours += same.micros;
+            theirs += trial.micros;
+        }
+    }
+    if ratios.is_empty() {
+        return NOTHING.to_owned();
+    }
+    let said = |verdict: Verdict| {
+        let name = verdict.to_string();
+        other.values().any(|trial| trial.verdict == name)
+    };
+    let given_up = match said(Verdict::CutOff) || said(Verdict::Unresolved) {
+        true => "> ",
+        false => "",
+    };
+    let rows = match ratios.len() {
+        few @ ..FEW => format!(" [{few}]"),
+        _ => String::new(),
+    };
+    let mark = match said(Verdict::Late) || said(Verdict::Missed) {
+        true => " †",
+        false => "",
+    };
+    let (typical, total) = (
+        three_digits(median(&mut ratios)),
+        three_digits(theirs / ours),
+    );
+    format!("{given_up}{typical} ({total}){rows}{mark}")
+}
+
+fn three_digits(value: f64) -> String {
+    match value {
+        ..10.0 => format!("{value:.2}"),
+        10.0..100.0 => format!("{value:.1}"),
+        _ => format!("{value:.0}"),
+    }
+}
+
+/// The methods of a table, in their order, by name.
+pub fn methods(cells: &[Cell]) -> Vec<&str> {
+    let order: Vec<String> = Method::all().iter().map(ToString::to_string).collect();
+    let mut methods: Vec<&str> = Vec::new();
+    for cell in cells {
+        if !methods.contains(&cell.method.as_str()) {
+            methods.push(&cell.method);
+        }
+    }
+    // Those joined from elsewhere come last, in the order in which they came.
+    methods.sort_by_key(|name| order.iter().position(|o| o == name).unwrap_or(order.len()));
+    methods
+}
+
+fn micros(value: f64) -> String {
+    match value {
+        ..1000.0 => format!("{value:.1}"),
+        _ => format!("{value:.0}"),
+    }
+}

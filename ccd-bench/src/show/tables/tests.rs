@@ -1,0 +1,91 @@
+use super::*;
+use crate::run::contest::sum_up;
+
+fn trial(scene: &str, method: &str, id: &str, micros: f64, verdict: Verdict) -> Trial {
+    Trial {
+        scene: scene.to_owned(),
+        method: method.to_owned(),
+        tolerance: 1e-3,
+        row: id.parse().unwrap(),
+        id: id.to_owned(),
+        micros,
+        steps: 1,
+        verdict: verdict.to_string(),
+        error: if verdict == Verdict::Right {
+            1e-4
+        } else {
+            f64::NAN
+        },
+    }
+}
+
+fn trials() -> Vec<Trial> {
+    let right = Verdict::Right;
+    vec![
+        trial("santa", "best-first direct", "0", 10.0, right),
+        trial("santa", "best-first direct", "1", 20.0, right),
+        trial("santa", "best-first direct", "2", 1000.0, right),
+        trial("santa", "C2A", "0", 30.0, right),
+        trial("santa", "C2A", "1", 80.0, right),
+        trial("santa", "discrete stepping", "1", 50.0, Verdict::Missed),
+        trial("santa", "parry-f64", "0", 4e6, Verdict::CutOff),
+        trial("santa", "coal-distance", "0", 5.0, Verdict::NotJudged),
+    ]
+}
+
+#[test]
+fn ratios_are_of_the_rows_that_both_were_asked() {
+    let others = ["C2A", "discrete stepping", "parry-f64", "naive direct"];
+    let table = ratios(&trials(), "best-first direct", &others, 1e-3);
+    // Over rows 0 and 1. The row that took 1000 was asked of one only.
+    assert_eq!(
+        table.rows,
+        [[
+            "santa",
+            "3.50 (3.67) [2]",
+            "2.50 (2.50) [1] †",
+            "> 400000 (400000) [1]",
+            "–"
+        ]]
+    );
+    assert!(
+        ratios(&trials(), "best-first direct", &others, 1e-6)
+            .rows
+            .is_empty()
+    );
+}
+
+#[test]
+fn answers_are_counted_per_method_and_distances_are_none() {
+    let all = trials();
+    let mut cells: Vec<Cell> = Vec::new();
+    for method in ["C2A", "discrete stepping", "parry-f64", "coal-distance"] {
+        let of: Vec<Trial> = all.iter().filter(|t| t.method == method).cloned().collect();
+        cells.push(sum_up(&of));
+    }
+    let table = safety(&cells, &all);
+    assert_eq!(
+        table.rows,
+        [
+            ["C2A", "2", "0", "0", "0", "0", "0", "0", "0"],
+            ["discrete stepping", "1", "0", "1", "0", "0", "0", "0", "0"],
+            ["parry-f64", "1", "0", "0", "0", "0", "1", "1", "0"],
+        ]
+    );
+    let usual = at_tolerance(&cells, 1e-3);
+    assert_eq!(usual.rows[0][..4], ["santa", "C2A", "2", "55.0"]);
+    assert_eq!(usual.rows[1][0], "", "a scene is named once");
+    assert_eq!(usual.rows[0][11], "1e-4");
+    assert_eq!(usual.rows[1][11], NOTHING);
+}
+
+#[test]
+fn tables_are_laid_out_for_terminals_and_for_markdown() {
+    let table = safety(&[sum_up(&trials()[3..5])], &trials());
+    assert!(table.for_terminal().contains('│'));
+    let markdown = table.as_markdown();
+    let lines: Vec<&str> = markdown.lines().collect();
+    assert_eq!(lines.len(), 3, "{markdown}");
+    assert!(lines[1].starts_with("|--"), "{markdown}");
+    assert!(lines[2].starts_with("| C2A"), "{markdown}");
+}

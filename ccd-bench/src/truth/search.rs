@@ -1,0 +1,366 @@
+//! The search for the first contact: time is halved, earliest first, and each half starts from the pairs of
+//! nodes that could not be excluded over the whole.
+
+use super::moment::{Boxes, Moment, Span};
+use super::pierce::Instant;
+use super::surface::{Content, Node, Surface, Triangle};
+use super::track::Track;
+use super::triangle::{gap, nearest, normals};
+use super::{Referee, Truth};
+use ccd_core::order::{greater, lesser};
+use rigid_ccd::table::motions::Query;
+use std::ops::ControlFlow;
+use std::rc::Rc;
+
+/// A node of A and one of B.
+pub(super) type Pair = [u32; 2];
+
+/// One query under way.
+pub(super) struct Search<'a> {
+    surfaces: [&'a Surface; 2],
+    pub(super) tracks: [Track; 2],
+    farthest: [f64; 2],
+    duration: f64,
+    /// Tests of pairs left.
+    pub(super) budget: u64,
+}
+
+/// Pairs tested before a query is left undecided: minutes would pass, where a hard one takes a second.
+pub(super) const BUDGET: u64 = 30_000_000;
+/// A span of this share of the duration is not halved any more: 2⁻⁴⁶, 1.4e-14.
+const SHORTEST: f64 = 1.0 / (1_u64 << 46) as f64;
+/// After a time that cannot be excluded, proof of contact is looked for as far ahead as that share of the
+/// duration times 2³⁶: about a thousandth of the duration.
+const DOUBLINGS: u32 = 36;
+/// From here on, all triangles are looked at, not only those that came near first, at every so many
+/// doublings.
+const WIDER_EVERY: u32 = 6;
+/// Nodes are split while they are larger than this many times what they travel in the span.
+const COARSE: f64 = 1.0;
+/// Triangles smaller than this share of what they travel are told apart as well by their boxes.
+const SMALL: f64 = 0.25;
+
+/// How many of the normals are those of faces.
+const FACES: usize = 2;
+/// Triangles nearer than this share of their edges are tried along the normals of their edges, too.
+const CLOSE: f64 = 1e-3;
+
+/// What remains of a span.
+#[derive(Debug, PartialEq)]
+enum Sifted {
+    /// Pairs not excluded.
+    Left(Vec<Pair>),
+    /// The budget is spent.
+    Spent,
+}
+
+impl<'a> Search<'a> {
+    pub(super) fn new(referee: &Referee<'a>, query: &Query) -> Self {
+        let surfaces = [referee.a, referee.b];
+        Search {
+            surfaces,
+            tracks: [
+                Track::new(&query.a, referee.a),
+                Track::new(&query.b, referee.b),
+            ],
+            farthest: surfaces.map(Surface::farthest),
+            duration: query.duration,
+            budget: BUDGET,
+        }
+    }
+
+    /// The pair of roots, unless a body has no triangles.
+    pub(super) fn roots(&self) -> Option<Pair> {
+        let [a, b] = self.surfaces;
+        Some([a.root()?, b.root()?])
+    }
+
+    pub(super) fn run(mut self) -> Truth {
+        let Some(roots) = self.roots() else {
+            return Truth::Free;
+        };
+        if !(self.duration >= 0.0 && self.duration.is_finite()) {
+            return Truth::Undecided { lo: 0.0 };
+        }
+        match self.touch_at(roots, 0.0, Proof::NotApart) {
+            Touch::No => self.halve(roots),
+            Touch::Yes => Truth::Start,
+            Touch::Spent => Truth::Undecided { lo: 0.0 },
+        }
+    }
+
+    /// Halves the duration, depth first, earliest first.
+    fn halve(&mut self, roots: Pair) -> Truth {
+        let whole = Span {
+            start: 0.0,
+            end: self.duration,
+        };
+        let shortest = SHORTEST * self.duration;
+        let mut pending = vec![(whole, Rc::new(vec![roots]))];
+        let mut doubt = Doubt::default();
+        while let Some((span, pairs)) = pending.pop() {
+            let Some(span) = span.from(doubt.over) else {
+                continue;
+            };
+            let moment = self.moment(span);
+            let left = match self.sift(&moment, &pairs) {
+                Sifted::Left(left) if left.is_empty() => continue,
+                Sifted::Left(left) => left,
+                Sifted::Spent => {
+                    return Truth::Undecided {
+                        lo: doubt.first.unwrap_or(span.start),
+                    };
+                }
+            };
+            let middle = span.start.midpoint(span.end);
+            if span.end - span.start > shortest && span.start < middle && middle < span.end {
+                let left = Rc::new(left);
+                let [early, late] = span.at(middle);
+                pending.push((late, Rc::clone(&left)));
+                pending.push((early, left));
+                continue;
+            }
+            let lo = *doubt.first.get_or_insert(span.start);
+            if let Some(hi) = self.proof_after(span.start, roots, &left, doubt.met) {
+                return Truth::Hit { lo, hi };
+            }
+            doubt.pass(span, shortest);
+        }
+        match doubt.first {
+            None => Truth::Free,
+            Some(lo) => Truth::Graze { lo },
+        }
+    }
+
+    pub(super) fn moment(&self, span: Span) -> Moment {
+        let [a, b] = &self.tracks;
+        Moment::new([a, b], self.farthest, span)
+    }
+
+    /// The pairs that may meet within the span, of nodes no larger than what they travel.
+    fn sift(&mut self, moment: &Moment, pairs: &[Pair]) -> Sifted {
+        let mut left = Vec::new();
+        if moment.is_far() {
+            return Sifted::Left(left);
+        }
+        let mut stack = pairs.to_vec();
+        while let Some(pair) = stack.pop() {
+            if self.budget == 0 {
+                return Sifted::Spent;
+            }
+            self.budget -= 1;
+            let [a, b] = self.nodes(pair);
+            let Boxes::Near { travel } = moment.boxes(a, b) else {
+                continue;
+            };
+            match self.split(pair) {
+                Some(Split { size, parts }) if size > COARSE * travel => stack.extend(parts),
+                Some(_) => left.push(pair),
+                None if greater(a.size, b.size) < SMALL * travel => left.push(pair),
+                None if self.triangles_apart(moment, pair) => {}
+                None => left.push(pair),
+            }
+        }
+        Sifted::Left(left)
+    }
+
+    /// Whether the triangles of two leaves certainly stay apart within the span.
+    fn triangles_apart(&self, moment: &Moment, pair: Pair) -> bool {
+        let Some([a, b]) = self.triangles(pair) else {
+            return false;
+        };
+        let [start, end] = moment.ends(a, b);
+        let apart = |n| {
+            let least = lesser(gap(n, &start[0], &start[1]), gap(n, &end[0], &end[1]));
+            // False of NaN as well: `min` drops one, so ask for the direction itself.
+            n.is_finite() && least > moment.slack()
+        };
+        let placed = moment.placed(a);
+        let mut normals = normals(&placed, b);
+        if normals.by_ref().take(FACES).any(apart) {
+            return true;
+        }
+        let (p, q) = nearest(&placed, b);
+        let (between, size) = (p - q, (b[1] - b[0]).length() + (a[1] - a[0]).length());
+        // The direction between two points is only as good as their distance is larger than rounding.
+        apart(between.normalize()) || (between.length() < CLOSE * size && normals.any(apart))
+    }
+
+    /// A time soon after `from` at which the surfaces certainly share a point.
+    fn proof_after(&mut self, from: f64, roots: Pair, near: &[Pair], met: u32) -> Option<f64> {
+        let mut step = SHORTEST * self.duration;
+        for doubling in 0..=DOUBLINGS {
+            let time = lesser(from + step, self.duration);
+            if self.certain_at(near, time) {
+                return Some(time);
+            }
+            // All triangles only the first time, and then once: doubts that last are dear enough.
+            let wider = doubling % WIDER_EVERY == WIDER_EVERY - 1 && (met == 0 || doubling == met);
+            if wider && self.touch_at(roots, time, Proof::Pierced) == Touch::Yes {
+                return Some(time);
+            }
+            if time >= self.duration {
+                break;
+            }
+            step *= 2.0;
+        }
+        None
+    }
+
+    fn certain_at(&mut self, pairs: &[Pair], time: f64) -> bool {
+        let [a, b] = &self.tracks;
+        let instant = Instant::new(a, b, time);
+        self.budget = self.budget.saturating_sub(pairs.len() as u64);
+        let mut triangles = pairs.iter().filter_map(|&pair| self.triangles(pair));
+        triangles.any(|[a, b]| instant.certainly_meet(a, b))
+    }
+
+    /// Whether the surfaces touch at a time.
+    fn touch_at(&mut self, roots: Pair, time: f64, proof: Proof) -> Touch {
+        let span = Span {
+            start: time,
+            end: time,
+        };
+        let moment = self.moment(span);
+        let [a, b] = &self.tracks;
+        let instant = Instant::new(a, b, time);
+        self.descend(&moment, roots, |search, pair| {
+            let touches = match proof {
+                Proof::NotApart => true,
+                Proof::Pierced => {
+                    let triangles = search.triangles(pair);
+                    triangles.is_some_and(|[a, b]| instant.certainly_meet(a, b))
+                }
+            };
+            match touches {
+                true => ControlFlow::Break(()),
+                false => ControlFlow::Continue(()),
+            }
+        })
+    }
+
+    /// Hands on all leaves that are not certainly apart, until told to stop.
+    fn descend(
+        &mut self,
+        moment: &Moment,
+        roots: Pair,
+        mut leaf: impl FnMut(&Self, Pair) -> ControlFlow<()>,
+    ) -> Touch {
+        let mut stack = vec![roots];
+        while let Some(pair) = stack.pop() {
+            if self.budget == 0 {
+                return Touch::Spent;
+            }
+            self.budget -= 1;
+            let [a, b] = self.nodes(pair);
+            if moment.boxes(a, b) == Boxes::Apart {
+                continue;
+            }
+            if let Some(Split { parts, .. }) = self.split(pair) {
+                stack.extend(parts);
+            } else if !self.triangles_apart(moment, pair) && leaf(self, pair).is_break() {
+                return Touch::Yes;
+            }
+        }
+        Touch::No
+    }
+
+    pub(super) fn nodes(&self, [a, b]: Pair) -> [&'a Node; 2] {
+        [self.surfaces[0].node(a), self.surfaces[1].node(b)]
+    }
+
+    pub(super) fn triangles(&self, pair: Pair) -> Option<[&'a Triangle; 2]> {
+        let [a, b] = self.nodes(pair).map(|node| node.content);
+        match [a, b] {
+            [Content::Triangle(a), Content::Triangle(b)] => {
+                Some([self.surfaces[0].triangle(a), self.surfaces[1].triangle(b)])
+            }
+            _ => None,
+        }
+    }
+
+    /// A pair whose larger node is split, or the only one that can be; none of two triangles.
+    pub(super) fn split(&self, [a, b]: Pair) -> Option<Split> {
+        let [node_a, node_b] = self.nodes([a, b]);
+        let of_a = |parts: [u32; 2]| Split {
+            size: node_a.size,
+            parts: parts.map(|part| [part, b]),
+        };
+        let of_b = |parts: [u32; 2]| Split {
+            size: node_b.size,
+            parts: parts.map(|part| [a, part]),
+        };
+        match (node_a.content, node_b.content) {
+            (Content::Children(parts), Content::Children(_)) if node_a.size >= node_b.size => {
+                Some(of_a(parts))
+            }
+            (_, Content::Children(parts)) => Some(of_b(parts)),
+            (Content::Children(parts), Content::Triangle(_)) => Some(of_a(parts)),
+            (Content::Triangle(_), Content::Triangle(_)) => None,
+        }
+    }
+}
+
+/// What becomes of a pair when a node is split.
+pub(super) struct Split {
+    /// The size of that node.
+    size: f64,
+    pub(super) parts: [Pair; 2],
+}
+
+/// What it takes for surfaces to be said to touch.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Proof {
+    /// That they cannot be shown to be apart.
+    NotApart,
+    /// That an edge certainly passes through a triangle.
+    Pierced,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Touch {
+    Yes,
+    No,
+    Spent,
+}
+
+/// Times that could neither be excluded nor shown to be after the first contact.
+#[derive(Debug, Default)]
+struct Doubt {
+    /// When they begin.
+    first: Option<f64>,
+    /// Until when nothing more is asked.
+    over: f64,
+    /// How many there were.
+    met: u32,
+}
+
+impl Doubt {
+    /// Goes on after one of them, twice as far each time: surfaces that slide on each other all along are
+    /// left after as many steps as the duration has halvings.
+    fn pass(&mut self, span: Span, shortest: f64) {
+        let ahead = shortest * 2.0_f64.powi(self.met.min(1000) as i32);
+        self.over = span.end + ahead;
+        self.met = self.met.saturating_add(1);
+    }
+}
+
+impl Span {
+    /// The part that is not over yet, if any.
+    fn from(self, start: f64) -> Option<Self> {
+        let start = greater(self.start, start);
+        (start < self.end).then_some(Span { start, ..self })
+    }
+
+    fn at(self, middle: f64) -> [Self; 2] {
+        let early = Span {
+            end: middle,
+            ..self
+        };
+        let late = Span {
+            start: middle,
+            ..self
+        };
+        [early, late]
+    }
+}

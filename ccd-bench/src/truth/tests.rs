@@ -1,0 +1,60 @@
+mod distances;
+mod enclosures;
+mod exact;
+mod sampled;
+mod tables;
+
+use super::{Referee, Surface, Truth};
+use crate::scene::model::Board;
+use ccd_core::glam::{DQuat, DVec3};
+use ccd_core::{Motion, Pose};
+use ccd_decomp::TriangleMesh;
+use rand::{Rng, RngExt};
+use rigid_ccd::table::motions::Query;
+
+/// A box about the origin by its half extents.
+fn cuboid(x: f64, y: f64, z: f64) -> Surface {
+    let half_extents = DVec3::new(x, y, z);
+    Surface::new(&Board { half_extents }.mesh().unwrap())
+}
+
+fn still(x: f64, y: f64, z: f64) -> Motion {
+    Motion::still(at(DVec3::new(x, y, z), DQuat::IDENTITY))
+}
+
+fn at(place: DVec3, rotation: DQuat) -> Pose {
+    Pose::new(place, rotation).unwrap()
+}
+
+fn query(a: Motion, b: Motion, duration: f64) -> Query {
+    Query {
+        id: "query".to_owned(),
+        a,
+        b,
+        duration,
+    }
+}
+
+fn judge([a, b]: [&Surface; 2], query: &Query) -> Truth {
+    Referee::new(a, b).first_contact(query)
+}
+
+fn random_vector(rng: &mut impl Rng, reach: f64) -> DVec3 {
+    let mut coordinate = || rng.random_range(-reach..reach);
+    DVec3::new(coordinate(), coordinate(), coordinate())
+}
+
+/// Triangles anywhere in a cube, that may share corners or cross each other.
+fn soup(rng: &mut impl Rng, triangles: u32) -> TriangleMesh {
+    let vertices = (0..3 * triangles).map(|_| random_vector(rng, 1.0));
+    let faces: Vec<_> = (0..triangles)
+        .map(|i| [3 * i, 3 * i + 1, 3 * i + 2])
+        .collect();
+    TriangleMesh::new(vertices.collect(), &faces).unwrap()
+}
+
+fn random_motion(rng: &mut impl Rng, from: DVec3, velocity: DVec3, spin: f64) -> Motion {
+    let turn = DQuat::from_scaled_axis(random_vector(rng, 3.0));
+    let spin = random_vector(rng, spin);
+    Motion::about(at(from, turn), velocity, spin, random_vector(rng, 0.5)).unwrap()
+}

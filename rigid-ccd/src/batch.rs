@@ -1,0 +1,142 @@
+//! Many queries on one pair of bodies, each timed alone.
+
+mod solver_kind;
+mod threads;
+
+pub use solver_kind::{BoundKind, OracleKind, ScheduleKind, Solve, SolverKind};
+pub use threads::Threads;
+
+use crate::table::motions::Query;
+use ccd_core::{Answer, Body, Config, InputError, Moving, Problem};
+use std::num::NonZeroUsize;
+use std::sync::{Mutex, PoisonError};
+use std::time::Instant;
+
+/// The two bodies of a query; both may be the same.
+#[derive(Clone, Copy, Debug)]
+pub struct Bodies<'a> {
+    /// Body A.
+    pub a: &'a Body,
+    /// Body B.
+    pub b: &'a Body,
+}
+
+/// How to answer.
+#[derive(Clone, Copy, Debug)]
+pub struct Settings {
+    /// By what.
+    pub method: SolverKind,
+    /// How accurately.
+    pub config: Config,
+    /// How often each query is answered; the time is the median.
+    pub repeat: NonZeroUsize,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Settings {
+            method: SolverKind::default(),
+            config: Config::default(),
+            repeat: NonZeroUsize::MIN,
+        }
+    }
+}
+
+/// An answer and how long it took.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Timed {
+    /// What was answered.
+    pub answer: Answer,
+    /// Posing and solving, in microseconds.
+    pub micros: f64,
+}
+
+/// Who answers queries on a pair of bodies, on the threads of a crew.
+///
+/// On one thread nothing but a query runs between two readings of the clock. On as many as there are
+/// cores, queries share caches and memory, and each may take longer.
+pub struct PairSolver<'b> {
+    bodies: Bodies<'b>,
+    settings: Settings,
+    /// One for each thread: they own the memory that queries work in.
+    solvers: Vec<Mutex<Box<dyn Solve>>>,
+}
+
+impl<'b> PairSolver<'b> {
+    /// For as many threads as the crew has.
+    pub fn new(bodies: Bodies<'b>, settings: Settings, crew: &Threads) -> Self {
+        let solver = |_| Mutex::new(settings.method.solver());
+        PairSolver {
+            bodies,
+            settings,
+            solvers: (0..crew.threads().get()).map(solver).collect(),
+        }
+    }
+
+    /// Answers a query on that thread of the crew; answers do not depend on which it is.
+    ///
+    /// # Errors
+    /// When it cannot be posed.
+    pub fn answer(&self, thread: usize, query: &Query) -> Result<Timed, InputError> {
+        let solver = &self.solvers[thread % self.solvers.len()];
+        let mut solver = solver.lock().unwrap_or_else(PoisonError::into_inner);
+        time(self.bodies, query, &self.settings, solver.as_mut())
+    }
+}
+
+fn time(
+    bodies: Bodies<'_>,
+    query: &Query,
+    settings: &Settings,
+    solver: &mut dyn Solve,
+) -> Result<Timed, InputError> {
+    let mut micros = Vec::with_capacity(settings.repeat.get());
+    loop {
+        let start = Instant::now();
+        let answer = solve(bodies, query, &settings.config, solver)?;
+        micros.push(start.elapsed().as_secs_f64() * 1e6);
+        if micros.len() == settings.repeat.get() {
+            let micros = median(&mut micros);
+            return Ok(Timed { answer, micros });
+        }
+    }
+}
+
+/// Poses and answers one query.
+///
+/// # Errors
+/// As [`Problem::new`].
+pub fn solve(
+    bodies: Bodies<'_>,
+    query: &Query,
+    config: &Config,
+    solver: &mut dyn Solve,
+) -> Result<Answer, InputError> {
+    let a = Moving {
+        body: bodies.a,
+        motion: query.a,
+    };
+    let b = Moving {
+        body: bodies.b,
+        motion: query.b,
+    };
+    let problem = Problem::new(a, b, query.duration, config)?;
+    Ok(solver.solve(&problem))
+}
+
+/// The middle value, the mean of the two middle ones, or NaN of none; sorts them.
+pub fn median(values: &mut [f64]) -> f64 {
+    values.sort_by(f64::total_cmp);
+    let upper = values.len() / 2;
+    match values {
+        [] => f64::NAN,
+        _ if values.len() % 2 == 1 => values[upper],
+        _ => 0.5 * (values[upper - 1] + values[upper]),
+    }
+}
+
+/// What such a share of values stays within, of values sorted from the least; NaN of none.
+pub fn percentile(sorted: &[f64], share: f64) -> f64 {
+    let within = (share * sorted.len() as f64).ceil() as usize;
+    within.checked_sub(1).map_or(f64::NAN, |k| sorted[k])
+}

@@ -1,0 +1,35 @@
+//! `ccd completions`: a script that completes commands and options in a shell.
+
+use super::{Cli, Exit};
+use crate::command::files::CannotWrite;
+use anyhow::Result;
+use clap::{Args, CommandFactory};
+use clap_complete::{Shell, generate};
+use std::io::{self, Write};
+
+/// Print a script that completes commands and options in a shell
+#[derive(Debug, Args)]
+#[command(after_help = AFTER_HELP)]
+pub(super) struct CompletionsArgs {
+    /// The shell
+    #[arg(value_enum)]
+    shell: Shell,
+}
+
+const AFTER_HELP: &str = "\
+Examples:
+  ccd completions bash > ~/.local/share/bash-completion/completions/ccd
+  ccd completions zsh > ~/.zfunc/_ccd
+  ccd completions fish > ~/.config/fish/completions/ccd.fish";
+
+pub(super) fn run(args: &CompletionsArgs) -> Result<Exit> {
+    let mut script = Vec::new();
+    generate(args.shell, &mut Cli::command(), "ccd", &mut script);
+    io::stdout()
+        .write_all(&script)
+        .map_err(|source| CannotWrite {
+            place: "standard output".to_owned(),
+            source,
+        })?;
+    Ok(Exit::AllAnswered)
+}

@@ -1,0 +1,112 @@
+//! What a mesh has become, in figures.
+
+use ccd_core::{Body, Volume};
+use ccd_decomp::Model;
+use indicatif::HumanCount;
+use serde::Serialize;
+use std::fmt;
+
+/// What a mesh has become. Prints as aligned lines for people.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub(super) struct Figures {
+    mesh: String,
+    pieces_kind: String,
+    why: String,
+    triangles: usize,
+    pieces: usize,
+    virtual_faces: usize,
+    tree_nodes: usize,
+    hulls: usize,
+    build_ms: f64,
+    bytes: usize,
+    exact: bool,
+    sticks_out: f64,
+    inflated_by: f64,
+    rebuilt_hulls: usize,
+    volume: &'static str,
+    remarks: String,
+}
+
+impl Figures {
+    pub(super) fn new(mesh: String, model: &Model, body: &Body, build_ms: f64) -> Self {
+        let report = &model.report;
+        Figures {
+            mesh,
+            pieces_kind: report.kind.to_string(),
+            why: report.why.to_string(),
+            triangles: report.triangles,
+            pieces: report.pieces,
+            virtual_faces: report.virtual_faces,
+            tree_nodes: report.tree_nodes,
+            hulls: model
+                .hull_tree
+                .as_ref()
+                .map_or(0, |tree| tree.hulls().len()),
+            // To the microsecond: more digits say nothing.
+            build_ms: (build_ms * 1e3).round() / 1e3,
+            bytes: body.bytes(),
+            exact: report.is_exact(),
+            sticks_out: report.sticks_out,
+            inflated_by: report.inflated_by,
+            rebuilt_hulls: report.rebuilt_hulls,
+            volume: match report.volume {
+                Volume::Solid => "solid",
+                Volume::Surface => "surface",
+            },
+            remarks: report.remarks(),
+        }
+    }
+}
+
+impl fmt::Display for Figures {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let line = |f: &mut fmt::Formatter<'_>, name: &str, what: &str| match what {
+            "" => Ok(()),
+            what => writeln!(f, "{name:<14}{what}"),
+        };
+        let triangles = count(self.triangles);
+        line(f, "mesh", &format!("{}: {triangles} triangles", self.mesh))?;
+        line(f, "remarks", &self.remarks)?;
+        line(f, "pieces", &self.pieces_text())?;
+        line(f, "why", &self.why)?;
+        line(f, "virtual faces", &count(self.virtual_faces).to_string())?;
+        line(f, "tree nodes", &self.tree_text())?;
+        match self.rebuilt_hulls {
+            0 => {}
+            rebuilt => line(f, "rebuilt hulls", &count(rebuilt).to_string())?,
+        }
+        line(f, "build", &format!("{:.1} ms", self.build_ms))?;
+        line(f, "memory", &format!("{:.1} MB", self.bytes as f64 / 1e6))?;
+        write!(f, "{:<14}{}", "error", self.error_text())
+    }
+}
+
+impl Figures {
+    fn pieces_text(&self) -> String {
+        let pieces = format!("{} {}", count(self.pieces), self.pieces_kind);
+        match self.exact {
+            true => format!("{pieces}, {}", self.volume),
+            // Every one of them is filled, whatever the mesh bounds.
+            false => pieces,
+        }
+    }
+
+    fn tree_text(&self) -> String {
+        let nodes = count(self.tree_nodes);
+        match self.hulls {
+            0 => nodes.to_string(),
+            hulls => format!("{nodes}, {} hulls", count(hulls)),
+        }
+    }
+
+    fn error_text(&self) -> String {
+        match self.exact {
+            true => "none: the pieces are the mesh".to_owned(),
+            false => format!("the pieces stick out by at most {:.3e}", self.sticks_out),
+        }
+    }
+}
+
+fn count(count: usize) -> HumanCount {
+    HumanCount(count as u64)
+}

@@ -1,0 +1,177 @@
+//! Progress on standard error, for work that takes a while.
+
+use indicatif::{HumanCount, ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::io::{self, IsTerminal, Write};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::mpsc::{self, RecvTimeoutError, Sender};
+use std::thread::{self, JoinHandle};
+use std::time::Duration;
+
+/// Shows how far work is once that has taken a second: a bar that moves where standard error is a
+/// terminal, else a line every few seconds.
+#[derive(Debug)]
+pub struct Progress {
+    bar: ProgressBar,
+    steps: Arc<AtomicU64>,
+    total: Total,
+    /// Closed when the work is done.
+    working: Option<Sender<()>>,
+    showing: Option<JoinHandle<()>>,
+}
+
+/// What there is to do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Total {
+    /// So many steps.
+    Steps(usize),
+    /// Steps that are read from so many bytes.
+    Bytes(u64),
+    /// Steps, nobody knows how many.
+    Unknown,
+    /// One thing.
+    One,
+}
+
+/// Work that is done within this shows nothing.
+const PATIENCE: Duration = Duration::from_secs(1);
+
+/// How often a bar turns.
+const TURN: Duration = Duration::from_millis(120);
+
+/// How often a line is written.
+const LINES: Duration = Duration::from_secs(5);
+
+impl Progress {
+    /// Starts now, and goes on until it is dropped.
+    pub fn new(total: Total) -> Self {
+        let mut progress = Progress::hidden();
+        progress.total = total;
+        let length = match total {
+            Total::Steps(steps) => Some(steps as u64),
+            Total::Bytes(bytes) => Some(bytes),
+            Total::Unknown | Total::One => None,
+        };
+        if let Some(length) = length {
+            progress.bar.set_length(length);
+        }
+        let (bar, steps) = (progress.bar.clone(), Arc::clone(&progress.steps));
+        bar.set_style(style(total, Arc::clone(&steps)));
+        let (working, done) = mpsc::channel();
+        let show = move || {
+            let goes_on = |patience| done.recv_timeout(patience) == Err(RecvTimeoutError::Timeout);
+            if !goes_on(PATIENCE) {
+                return;
+            }
+            if io::stderr().is_terminal() {
+                bar.set_draw_target(ProgressDrawTarget::stderr());
+                bar.enable_steady_tick(TURN);
+                return;
+            }
+            while goes_on(LINES) {
+                let _ = writeln!(io::stderr(), "ccd: {}", line(&bar, total, &steps));
+            }
+        };
+        // Without a thread nothing is shown, and the work goes on.
+        progress.showing = thread::Builder::new().spawn(show).ok();
+        progress.working = Some(working);
+        progress
+    }
+
+    /// Of one thing that takes its time.
+    pub fn of(what: &str) -> Self {
+        let progress = Progress::new(Total::One);
+        progress.say(what);
+        progress
+    }
+
+    /// Counts without ever showing anything.
+    pub fn hidden() -> Self {
+        Progress {
+            bar: ProgressBar::with_draw_target(None, ProgressDrawTarget::hidden()),
+            steps: Arc::default(),
+            total: Total::Unknown,
+            working: None,
+            showing: None,
+        }
+    }
+
+    /// One more step is done.
+    pub fn step(&self) {
+        self.steps.fetch_add(1, Ordering::Relaxed);
+        if let Total::Steps(_) = self.total {
+            self.bar.inc(1);
+        }
+    }
+
+    /// So many bytes have been read.
+    pub fn read(&self, bytes: u64) {
+        if let Total::Bytes(_) = self.total {
+            self.bar.set_position(bytes);
+        }
+    }
+
+    /// Lets a bar be drawn anew though no step is done.
+    pub fn tick(&self) {
+        self.bar.tick();
+    }
+
+    /// Says what is being done.
+    pub fn say(&self, message: &str) {
+        self.bar.set_message(message.to_owned());
+    }
+
+    /// Lets something else be written to standard error, the bar out of its way.
+    pub fn aside(&self, write: impl FnOnce()) {
+        self.bar.suspend(write);
+    }
+}
+
+impl Drop for Progress {
+    fn drop(&mut self) {
+        drop(self.working.take());
+        if let Some(showing) = self.showing.take() {
+            // It holds no result, and panics nowhere.
+            let _ = showing.join();
+        }
+        self.bar.finish_and_clear();
+    }
+}
+
+fn style(total: Total, steps: Arc<AtomicU64>) -> ProgressStyle {
+    let template = match total {
+        Total::Steps(_) => "{bar:30} {pos}/{len} {wide_msg}",
+        Total::Bytes(_) => "{bar:30} {percent} % {rows}",
+        Total::Unknown => "{spinner} {rows}",
+        Total::One => "{spinner} {wide_msg} {elapsed}",
+    };
+    ProgressStyle::with_template(template)
+        .unwrap_or_else(|_| ProgressStyle::default_bar())
+        .with_key(
+            "rows",
+            move |state: &indicatif::ProgressState, out: &mut dyn std::fmt::Write| {
+                let _ = out.write_str(&rate(&steps, state.elapsed()));
+            },
+        )
+}
+
+/// The same in a line of its own.
+fn line(bar: &ProgressBar, total: Total, steps: &AtomicU64) -> String {
+    let share = || 100 * bar.position() / bar.length().unwrap_or(1).max(1);
+    match total {
+        Total::Steps(steps) => format!("{} of {steps} {}", bar.position(), bar.message()),
+        Total::Bytes(_) => format!("{}, {} %", rate(steps, bar.elapsed()), share()),
+        Total::Unknown => rate(steps, bar.elapsed()),
+        Total::One => format!("{}, {} s", bar.message(), bar.elapsed().as_secs()),
+    }
+}
+
+fn rate(steps: &AtomicU64, elapsed: Duration) -> String {
+    let steps = steps.load(Ordering::Relaxed);
+    let rate = steps as f64 / elapsed.as_secs_f64();
+    format!(
+        "{} rows, {} rows/s",
+        HumanCount(steps),
+        HumanCount(rate as u64)
+    )
+}

@@ -1,0 +1,126 @@
+use super::*;
+use crate::batch::median;
+use ccd_core::{Answer, Effort, Outcome, Stats};
+
+fn sum<'t>(answers: impl IntoIterator<Item = &'t Timed>, tolerance: f64) -> Summary {
+    let mut summary = Summary::new(tolerance);
+    answers.into_iter().for_each(|timed| summary.add(timed));
+    summary
+}
+
+fn timed(micros: f64, tolerance: f64) -> Timed {
+    Timed {
+        answer: Answer {
+            outcome: Outcome::Free { clearance: 1.0 },
+            tolerance,
+            stats: Stats {
+                node_visits: 10,
+                oracle_calls: 2,
+                advancements: 3,
+                effort: Effort {
+                    steps: 7,
+                    ..Effort::default()
+                },
+                ..Stats::default()
+            },
+        },
+        micros,
+    }
+}
+
+#[test]
+fn times_and_visits_are_summed_up() {
+    let answers: Vec<Timed> = (1..=100)
+        .rev()
+        .map(|micros| timed(f64::from(micros), 1e-3))
+        .collect();
+    let summary = sum(&answers, 1e-3);
+    assert_eq!((summary.rows(), summary.count(Status::Free)), (100, 100));
+    assert_eq!(summary.count(Status::Contact), 0);
+    assert_eq!(
+        (summary.median_micros(), summary.mean_micros()),
+        (50.5, 50.5)
+    );
+    assert_eq!((summary.node_visits, summary.oracle_calls), (1000, 200));
+    assert_eq!(
+        summary.to_string(),
+        "100 rows: 100 free; median 50.5 µs, mean 50.5 µs; 1000 node visits, 200 oracle calls"
+    );
+}
+
+#[test]
+fn the_median_of_an_odd_number_is_the_middle_one() {
+    assert_eq!(median(&mut [9.0, 1.0, 2.0]), 2.0);
+    assert_eq!(median(&mut [7.0]), 7.0);
+    assert!(median(&mut []).is_nan());
+}
+
+#[test]
+fn raised_tolerances_are_counted() {
+    let answers = [timed(1.0, 1e-9), timed(1.0, 4e-8), timed(1.0, 3e-8)];
+    let summary = sum(&answers, 1e-9);
+    assert_eq!((summary.raised, summary.largest_tolerance), (2, 4e-8));
+    let text = summary.to_string();
+    assert!(
+        text.contains("raised in 2 rows, to at most 4.00e-8"),
+        "{text}"
+    );
+}
+
+#[test]
+fn means_are_per_row() {
+    let answers = [timed(1.0, 1e-3), timed(2.0, 1e-3)];
+    assert_eq!(
+        sum(&answers, 1e-3).means().as_deref(),
+        Some("means: 3.0 advancements, 2.0 oracle calls, 7.0 oracle steps")
+    );
+    assert_eq!(sum([], 1e-3).means(), None);
+}
+
+#[test]
+fn no_rows_have_no_times() {
+    assert_eq!(sum([], 1e-3).to_string(), "0 rows");
+}
+
+#[test]
+fn medians_of_many_times_are_right_to_a_thousandth() {
+    let mut times: Vec<f64> = (0..9999).map(|k| 0.37 * 1.003_f64.powi(k % 4001)).collect();
+    let answers: Vec<Timed> = times.iter().map(|&micros| timed(micros, 1e-3)).collect();
+    let exact = median(&mut times);
+    let told = sum(&answers, 1e-3).median_micros();
+    assert!((0.999 * exact..=exact).contains(&told), "{told} {exact}");
+}
+
+#[test]
+fn rows_of_earlier_runs_are_counted_and_told_apart() {
+    let mut earlier = sum(&[timed(3.0, 1e-3)], 1e-3);
+    earlier.add_error();
+    let mut summary = Summary::new(1e-3).going_on(earlier.counts());
+    assert_eq!(
+        summary.to_string(),
+        "2 rows: 1 free, 1 error; none of them in this run"
+    );
+    assert_eq!(summary.means(), None);
+    summary.add(&timed(5.0, 1e-3));
+    assert_eq!((summary.rows(), summary.median_micros()), (3, 5.0));
+    let text = summary.to_string();
+    let begin = "3 rows: 2 free, 1 error; 1 of them in this run; median 5.0";
+    assert!(text.starts_with(begin), "{text}");
+    let means = "means: 3.0 advancements, 2.0 oracle calls, 7.0 oracle steps";
+    assert_eq!(summary.means().as_deref(), Some(means));
+}
+
+#[test]
+fn rows_that_were_not_asked_take_no_time() {
+    let mut summary = sum(&[timed(3.0, 1e-3)], 1e-3);
+    summary.add_error();
+    assert_eq!((summary.rows(), summary.median_micros()), (2, 3.0));
+    let text = summary.to_string();
+    assert!(
+        text.starts_with("2 rows: 1 free, 1 error; median 3.0"),
+        "{text}"
+    );
+    let mut none = Summary::new(1e-3);
+    none.add_error();
+    assert_eq!(none.to_string(), "1 row: 1 error");
+}

@@ -1,0 +1,45 @@
+//! Lines that all end alike.
+
+use std::io::{self, Read};
+
+/// Turns every end of a line, `\r\n` and a lone `\r` too, into `\n`, so that counting these counts lines.
+#[derive(Debug)]
+pub struct Lines<R> {
+    input: R,
+    after_return: bool,
+    /// How many bytes of the input have been read.
+    pub bytes: u64,
+}
+
+impl<R: Read> Lines<R> {
+    /// Reads from there.
+    pub fn new(input: R) -> Self {
+        Lines {
+            input,
+            after_return: false,
+            bytes: 0,
+        }
+    }
+}
+
+impl<R: Read> Read for Lines<R> {
+    fn read(&mut self, out: &mut [u8]) -> io::Result<usize> {
+        loop {
+            let read = self.input.read(out)?;
+            self.bytes += read as u64;
+            let mut kept = 0;
+            for k in 0..read {
+                let (byte, second) = (out[k], self.after_return && out[k] == b'\n');
+                self.after_return = byte == b'\r';
+                if !second {
+                    out[kept] = if self.after_return { b'\n' } else { byte };
+                    kept += 1;
+                }
+            }
+            // Nothing kept would say that the input has ended.
+            if kept > 0 || read == 0 {
+                return Ok(kept);
+            }
+        }
+    }
+}

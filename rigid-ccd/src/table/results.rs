@@ -1,0 +1,290 @@
+//! The table of results: answers in, CSV out.
+
+#[cfg(test)]
+mod tests;
+
+use crate::table::motions::RowProblem;
+use ccd_core::glam::DVec3;
+use ccd_core::{Answer, Contact, Outcome, Overlap, Stats};
+use serde::Serialize;
+use std::io;
+
+/// The columns, in order.
+pub const COLUMNS: [&str; 20] = [
+    "id",
+    "status",
+    "time",
+    "distance_lower",
+    "distance_upper",
+    "normal_x",
+    "normal_y",
+    "normal_z",
+    "witness_a_x",
+    "witness_a_y",
+    "witness_a_z",
+    "witness_b_x",
+    "witness_b_y",
+    "witness_b_z",
+    "feature_a",
+    "feature_b",
+    "iterations",
+    "oracle_calls",
+    "micros",
+    "reason",
+];
+
+/// The columns that follow where counters are asked for, in order.
+pub const COUNTER_COLUMNS: [&str; 5] = [
+    "advancements",
+    "oracle_steps",
+    "cycles",
+    "fallbacks",
+    "front",
+];
+
+/// Which columns a table has.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Extent {
+    /// [`COLUMNS`].
+    #[default]
+    Results,
+    /// These, and [`COUNTER_COLUMNS`].
+    WithCounters,
+}
+
+/// One row of motions as the table holds it, in the order of [`COLUMNS`]; what does not apply is an
+/// empty cell.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ResultRow {
+    /// As in the table of motions.
+    pub id: String,
+    /// What happens.
+    pub status: Status,
+    /// When: certified that nothing touches before, unless by a bound that is not. The duration when free.
+    pub time: Option<f64>,
+    /// A lower bound of the distance at `time`; when free, at all times.
+    pub distance_lower: Option<f64>,
+    /// An upper bound of the distance at `time`.
+    pub distance_upper: Option<f64>,
+    /// From A to B, in the world's frame.
+    pub normal: [Option<f64>; 3],
+    /// The nearest point of A, in the world's frame at `time`.
+    pub witness_a: [Option<f64>; 3],
+    /// The nearest point of B, in the world's frame at `time`.
+    pub witness_b: [Option<f64>; 3],
+    /// The feature of A's mesh that touches.
+    pub feature_a: Option<String>,
+    /// The feature of B's mesh that touches.
+    pub feature_b: Option<String>,
+    /// Pairs of nodes visited.
+    pub iterations: Option<u64>,
+    /// How often the oracle was asked.
+    pub oracle_calls: Option<u64>,
+    /// How long that query alone took, on the thread that answered it, in microseconds.
+    pub micros: Option<f64>,
+    /// Why there is no answer, or none to the end.
+    pub reason: Option<String>,
+    /// What else was counted.
+    #[serde(skip)]
+    pub counters: Counters,
+}
+
+/// What is counted beside the visits and the calls, in the order of [`COUNTER_COLUMNS`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Counters {
+    /// How often all pairs were advanced together.
+    pub advancements: Option<u64>,
+    /// Steps of the oracle's search; 0 of oracles that do not count them.
+    pub oracle_steps: Option<u64>,
+    /// How often the search came back to where it had been.
+    pub cycles: Option<u64>,
+    /// How often an oracle gave up and another one was asked.
+    pub fallbacks: Option<u64>,
+    /// The most pairs that waited at one time.
+    pub front: Option<u64>,
+}
+
+impl From<&Stats> for Counters {
+    fn from(stats: &Stats) -> Self {
+        Counters {
+            advancements: Some(stats.advancements),
+            oracle_steps: Some(stats.effort.steps),
+            cycles: Some(stats.effort.cycles),
+            fallbacks: Some(stats.effort.fallbacks),
+            front: Some(stats.peak_front),
+        }
+    }
+}
+
+/// An [`Outcome`], without what goes with it; or that there is none.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Status {
+    /// They touch.
+    Contact,
+    /// They never do.
+    Free,
+    /// They touch at the start.
+    Touching,
+    /// They overlap at the start.
+    Overlapping,
+    /// A limit came first.
+    Unresolved,
+    /// The row asks nothing that could be answered.
+    Error,
+}
+
+impl Status {
+    /// All of them, in the order in which they are reported.
+    pub const ALL: [Status; 6] = [
+        Status::Contact,
+        Status::Free,
+        Status::Touching,
+        Status::Overlapping,
+        Status::Unresolved,
+        Status::Error,
+    ];
+
+    /// As the table spells it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Status::Contact => "contact",
+            Status::Free => "free",
+            Status::Touching => "touching",
+            Status::Overlapping => "overlapping",
+            Status::Unresolved => "unresolved",
+            Status::Error => "error",
+        }
+    }
+}
+
+impl From<&Outcome> for Status {
+    fn from(outcome: &Outcome) -> Self {
+        match outcome {
+            Outcome::Contact { .. } => Status::Contact,
+            Outcome::Free { .. } => Status::Free,
+            Outcome::Touching { .. } => Status::Touching,
+            Outcome::Overlapping { .. } => Status::Overlapping,
+            Outcome::Unresolved { .. } => Status::Unresolved,
+        }
+    }
+}
+
+/// Until when an outcome says that nothing touches.
+pub fn safe_time(outcome: &Outcome, duration: f64) -> f64 {
+    match *outcome {
+        Outcome::Contact { time, .. } => time,
+        Outcome::Free { .. } => duration,
+        Outcome::Touching { .. } | Outcome::Overlapping { .. } => 0.0,
+        Outcome::Unresolved { safe_until, .. } => safe_until,
+    }
+}
+
+impl ResultRow {
+    /// What the table says of a row that cannot be asked.
+    pub fn error(id: &str, why: &RowProblem) -> Self {
+        ResultRow {
+            id: id.to_owned(),
+            status: Status::Error,
+            time: None,
+            distance_lower: None,
+            distance_upper: None,
+            normal: [None; 3],
+            witness_a: [None; 3],
+            witness_b: [None; 3],
+            feature_a: None,
+            feature_b: None,
+            iterations: None,
+            oracle_calls: None,
+            micros: None,
+            reason: Some(why.to_string()),
+            counters: Counters::default(),
+        }
+    }
+
+    /// What the table says of an answer.
+    pub fn new(id: &str, duration: f64, answer: &Answer, micros: f64) -> Self {
+        let row = ResultRow {
+            id: id.to_owned(),
+            status: Status::from(&answer.outcome),
+            time: Some(safe_time(&answer.outcome, duration)),
+            distance_lower: None,
+            distance_upper: None,
+            normal: [None; 3],
+            witness_a: [None; 3],
+            witness_b: [None; 3],
+            feature_a: None,
+            feature_b: None,
+            iterations: Some(answer.stats.node_visits),
+            oracle_calls: Some(answer.stats.oracle_calls),
+            micros: Some(micros),
+            reason: None,
+            counters: Counters::from(&answer.stats),
+        };
+        match answer.outcome {
+            Outcome::Contact { contact, .. }
+            | Outcome::Touching { contact }
+            | Outcome::Overlapping {
+                overlap: Overlap::Pieces(contact),
+            } => row.with_contact(&contact),
+            // The one point belongs to both solids.
+            Outcome::Overlapping {
+                overlap: Overlap::AInsideB(point) | Overlap::BInsideA(point),
+            } => ResultRow {
+                witness_a: cells(point),
+                witness_b: cells(point),
+                ..row
+            },
+            Outcome::Free { clearance } => ResultRow {
+                distance_lower: Some(clearance),
+                ..row
+            },
+            Outcome::Unresolved { reason, .. } => ResultRow {
+                reason: Some(reason.to_string()),
+                ..row
+            },
+        }
+    }
+
+    fn with_contact(self, contact: &Contact) -> Self {
+        let separation = &contact.separation;
+        ResultRow {
+            distance_lower: Some(separation.lower),
+            distance_upper: Some(separation.upper),
+            normal: cells(separation.normal),
+            witness_a: cells(separation.witness_a),
+            witness_b: cells(separation.witness_b),
+            feature_a: Some(contact.feature_a.to_string()),
+            feature_b: Some(contact.feature_b.to_string()),
+            ..self
+        }
+    }
+}
+
+/// The columns of a table.
+pub fn columns(extent: Extent) -> Vec<&'static str> {
+    let more: &[&str] = match extent {
+        Extent::Results => &[],
+        Extent::WithCounters => &COUNTER_COLUMNS,
+    };
+    [&COLUMNS, more].concat()
+}
+
+/// Writes a row of a table without its header; numbers read back to the same bits.
+///
+/// # Errors
+/// When the writer's output cannot be written to.
+pub fn write(
+    writer: &mut csv::Writer<impl io::Write>,
+    extent: Extent,
+    row: &ResultRow,
+) -> Result<(), csv::Error> {
+    match extent {
+        Extent::Results => writer.serialize(row),
+        Extent::WithCounters => writer.serialize((row, row.counters)),
+    }
+}
+
+fn cells(v: DVec3) -> [Option<f64>; 3] {
+    v.to_array().map(Some)
+}

@@ -1,0 +1,112 @@
+//! Running the command, and reading what it writes.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+
+/// One call of the command.
+pub(crate) struct Run {
+    args: Vec<String>,
+    stdin: String,
+}
+
+impl Run {
+    pub(crate) fn bare(args: &[&str]) -> Self {
+        let run = Run {
+            args: Vec::new(),
+            stdin: String::new(),
+        };
+        run.args(args)
+    }
+
+    pub(crate) fn args(mut self, args: &[&str]) -> Self {
+        self.args.extend(args.iter().map(|&arg| arg.to_owned()));
+        self
+    }
+
+    pub(crate) fn stdin(mut self, text: &str) -> Self {
+        self.stdin = text.to_owned();
+        self
+    }
+
+    pub(crate) fn output(&self) -> Output {
+        let mut child = Command::new(crate::PROGRAM)
+            .args(&self.args)
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        // A command that fails early does not read its input.
+        let _ = child.stdin.take().unwrap().write_all(self.stdin.as_bytes());
+        child.wait_with_output().unwrap()
+    }
+
+    pub(crate) fn succeeds(&self) -> Vec<Row> {
+        let output = self.output();
+        assert!(
+            output.status.success(),
+            "{:?}: {}",
+            self.args,
+            stderr(&output)
+        );
+        parse(&output.stdout)
+    }
+}
+
+/// One row of results, cells by column.
+pub(crate) struct Row(pub(crate) Vec<(String, String)>);
+
+impl Row {
+    pub(crate) fn text(&self, column: &str) -> &str {
+        let cell = self.0.iter().find(|(name, _)| name == column);
+        &cell.unwrap_or_else(|| panic!("no column {column}")).1
+    }
+
+    pub(crate) fn number(&self, column: &str) -> f64 {
+        let text = self.text(column);
+        text.parse()
+            .unwrap_or_else(|_| panic!("{column}: {text:?}"))
+    }
+}
+
+pub(crate) fn parse(table: &[u8]) -> Vec<Row> {
+    let mut reader = csv::Reader::from_reader(table);
+    let names: Vec<String> = reader
+        .headers()
+        .unwrap()
+        .iter()
+        .map(str::to_owned)
+        .collect();
+    let row = |record: csv::StringRecord| {
+        let cells = record.iter().map(str::to_owned);
+        Row(names.iter().cloned().zip(cells).collect())
+    };
+    reader
+        .records()
+        .map(|record| row(record.unwrap()))
+        .collect()
+}
+
+pub(crate) fn stderr(output: &Output) -> String {
+    String::from_utf8(output.stderr.clone()).unwrap()
+}
+
+/// A directory for one test's files.
+pub(crate) struct Scene {
+    pub(crate) directory: PathBuf,
+}
+
+impl Scene {
+    pub(crate) fn new(name: &str) -> Self {
+        let directory = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+        std::fs::create_dir_all(&directory).unwrap();
+        Scene { directory }
+    }
+
+    pub(crate) fn file(&self, name: &str, text: &str) -> PathBuf {
+        let path = self.directory.join(name);
+        std::fs::write(&path, text).unwrap();
+        path
+    }
+}

@@ -1,0 +1,317 @@
+//! `ccd decompose`, and queries on what it makes.
+
+use crate::command::{Row, Run, Scene, stderr};
+use ccd_decomp::{Format, TriangleMesh};
+use rstest::rstest;
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+use std::process::Output;
+
+const TETRAHEDRON: &str =
+    "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
+/// The same without its last face.
+const OPEN: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\n";
+
+/// A knot of 216 triangles, which is neither convex nor, to look at, anything else simple.
+fn knot(scene: &Scene) -> PathBuf {
+    scene.file("knot.obj", include_str!("../data/knot216.obj"))
+}
+
+fn name(path: &Path) -> &str {
+    path.to_str().unwrap()
+}
+
+fn decompose(mesh: &Path, options: &[&str]) -> Output {
+    Run::bare(&["decompose", name(mesh)]).args(options).output()
+}
+
+/// The object that `--format json` prints.
+fn figures(mesh: &Path, options: &[&str]) -> Value {
+    let output = decompose(mesh, &[options, &["--format", "json"]].concat());
+    assert!(output.status.success(), "{}", stderr(&output));
+    assert_eq!(stderr(&output), "");
+    assert_eq!(output.stdout.iter().filter(|&&b| b == b'\n').count(), 1);
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+#[rstest]
+#[case("triangles", 216)]
+#[case("patches", 108)]
+fn a_knot_is_exact_in_every_kind_of_piece(#[case] kind: &str, #[case] most: u64) {
+    let scene = Scene::new(&format!("decompose-{kind}"));
+    let mesh = knot(&scene);
+    let figures = figures(&mesh, &["--pieces", kind]);
+    assert_eq!(figures["mesh"], name(&mesh));
+    assert_eq!(figures["pieces_kind"], kind);
+    assert_eq!(figures["triangles"], 216);
+    let pieces = figures["pieces"].as_u64().unwrap();
+    assert!((1..=most).contains(&pieces), "{pieces}");
+    assert_eq!(figures["tree_nodes"], 2 * pieces - 1);
+    assert_eq!(figures["exact"], true);
+    assert_eq!(figures["sticks_out"], 0.0);
+    assert_eq!(figures["volume"], "solid");
+    assert!(figures["build_ms"].as_f64().unwrap() > 0.0);
+    // A point has 24 bytes.
+    assert!(figures["bytes"].as_u64().unwrap() > 24 * pieces);
+    let hidden = figures["virtual_faces"].as_u64().unwrap();
+    assert_eq!(hidden > 0, kind == "patches");
+}
+
+#[test]
+fn people_read_aligned_lines() {
+    let scene = Scene::new("decompose-text");
+    let output = decompose(&knot(&scene), &["--pieces", "patches"]);
+    assert!(output.status.success(), "{}", stderr(&output));
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(text.contains("knot.obj: 216 triangles\n"), "{text}");
+    assert!(text.contains(" patches, solid\n"), "{text}");
+    for line in [
+        "pieces",
+        "why",
+        "virtual faces",
+        "tree nodes",
+        "build",
+        "memory",
+        "error",
+    ] {
+        let starts = |l: &str| l.starts_with(line) && l.chars().nth(13) == Some(' ');
+        assert!(text.lines().any(starts), "{line}: {text}");
+    }
+    assert!(text.ends_with("none: the pieces are the mesh\n"), "{text}");
+}
+
+#[test]
+fn a_convex_mesh_is_one_hull_and_says_so() {
+    let scene = Scene::new("decompose-hull");
+    let mesh = scene.file("tetrahedron.obj", TETRAHEDRON);
+    for kind in ["auto", "hull"] {
+        let figures = figures(&mesh, &["--pieces", kind]);
+        assert_eq!(
+            (&figures["pieces_kind"], &figures["pieces"]),
+            (&"hull".into(), &1.into())
+        );
+        assert_eq!(figures["exact"], true);
+    }
+}
+
+#[rstest]
+#[case("cresting")]
+#[case("breadth-first")]
+#[case("depth-first")]
+fn every_order_covers_the_mesh(#[case] order: &str) {
+    let scene = Scene::new(&format!("decompose-{order}"));
+    let mesh = knot(&scene);
+    let figures = figures(&mesh, &["--pieces", "patches", "--order", order]);
+    assert_eq!(figures["pieces_kind"], "patches");
+    assert!(figures["pieces"].as_u64().unwrap() < 216 / 2);
+}
+
+#[test]
+fn approximate_pieces_say_by_how_much() {
+    let scene = Scene::new("decompose-vhacd");
+    let mesh = knot(&scene);
+    let figures = figures(&mesh, &["--pieces", "vhacd", "--hulls", "16"]);
+    assert_eq!(figures["pieces_kind"], "vhacd");
+    assert_eq!(figures["exact"], false);
+    assert!(figures["sticks_out"].as_f64().unwrap() > 0.0);
+    let text = decompose(&mesh, &["--pieces", "vhacd"]);
+    let text = String::from_utf8(text.stdout).unwrap();
+    assert!(text.contains("stick out by at most"), "{text}");
+}
+
+#[test]
+fn pieces_are_written_as_groups() {
+    let scene = Scene::new("decompose-obj");
+    let mesh = knot(&scene);
+    let out = scene.directory.join("pieces.obj");
+    let figures = figures(&mesh, &["--pieces", "patches", "--out", name(&out)]);
+    let text = std::fs::read_to_string(&out).unwrap();
+    let groups = text.lines().filter(|line| line.starts_with("g piece_"));
+    assert_eq!(groups.count() as u64, figures["pieces"].as_u64().unwrap());
+    let again = TriangleMesh::from_reader(Format::Obj, text.as_bytes()).unwrap();
+    assert!(again.faces().len() >= 216);
+}
+
+const FLIGHTS: &str = "id,a_px,a_py,a_pz,a_vx,a_vy,a_vz,a_wx,a_wz\n\
+    straight,4,0.1,0.2,-4,0,0,0,0\nturning,4,-0.3,0.1,-4,0,0,3,2\n\
+    past,4,9,0,-4,0,0,1,1\nacross,0.2,4,1,0,-4,-0.5,0,5\n";
+
+fn answers(body: &Path, options: &[&str]) -> Vec<Row> {
+    let run = Run::query(&["--a", name(body), "--b", name(body)]).args(options);
+    run.stdin(FLIGHTS).succeeds()
+}
+
+#[rstest]
+#[case("triangles")]
+#[case("patches")]
+#[case("vhacd")]
+fn a_stored_body_answers_as_its_mesh_does(#[case] kind: &str) {
+    let scene = Scene::new(&format!("stored-{kind}"));
+    let mesh = knot(&scene);
+    let out = scene.directory.join("knot.ccd");
+    figures(&mesh, &["--pieces", kind, "--out", name(&out)]);
+    let all = |rows: Vec<Row>| -> Vec<_> { rows.into_iter().map(Row::without_micros).collect() };
+    let fresh = all(answers(&mesh, &["--pieces", kind]));
+    assert!(fresh.iter().any(|row| row[1] == "contact"));
+    assert_eq!(all(answers(&out, &[])), fresh);
+}
+
+#[test]
+fn patches_and_triangles_hit_at_the_same_time() {
+    let scene = Scene::new("patches-triangles");
+    let mesh = knot(&scene);
+    let with = |kind| answers(&mesh, &["--pieces", kind, "--tolerance", "1e-6"]);
+    let (triangles, patches) = (with("triangles"), with("patches"));
+    assert_eq!(patches[0].text("status"), "contact");
+    for (one, other) in triangles.iter().zip(&patches) {
+        assert_eq!(one.text("status"), other.text("status"));
+    }
+    // The first row flies along x at speed 4.
+    let closing_speed = 4.0 * triangles[0].number("normal_x").abs();
+    let apart = (triangles[0].number("time") - patches[0].number("time")).abs();
+    assert!(apart <= 2e-6 / closing_speed, "{apart}");
+}
+
+#[test]
+fn hull_trees_are_stored_and_used() {
+    let scene = Scene::new("hull-tree");
+    let mesh = knot(&scene);
+    let out = scene.directory.join("knot.ccd");
+    let options = ["--pieces", "patches", "--hull-tree", "--out", name(&out)];
+    let figures = figures(&mesh, &options);
+    assert_eq!(figures["hulls"], figures["tree_nodes"]);
+    let tree = answers(&out, &["--schedule", "hull-first"]);
+    let boxes = answers(&out, &["--schedule", "best-first"]);
+    for (one, other) in tree.iter().zip(&boxes) {
+        assert_eq!(one.text("status"), other.text("status"));
+    }
+}
+
+#[test]
+fn early_contacts_of_approximate_bodies_are_told() {
+    let scene = Scene::new("vhacd-warning");
+    let mesh = knot(&scene);
+    let run = |options: &[&str]| {
+        let run = Run::query(&["--a", name(&mesh), "--b", name(&mesh)]).args(options);
+        run.stdin(FLIGHTS).output()
+    };
+    let output = run(&["--pieces", "vhacd"]);
+    assert!(output.status.success());
+    assert!(stderr(&output).contains("early"), "{}", stderr(&output));
+    let output = run(&["--pieces", "patches"]);
+    assert!(!stderr(&output).contains("early"), "{}", stderr(&output));
+}
+
+#[test]
+fn what_no_pieces_can_be_made_of_is_told() {
+    let scene = Scene::new("decompose-bad");
+    let open = scene.file("open.obj", OPEN);
+    for (mesh, kind, expected) in [
+        (open.clone(), "patches", "e0-2"),
+        (open.clone(), "hull", "open.obj"),
+        (knot(&scene), "hull", "convex"),
+        (scene.directory.join("missing.obj"), "auto", "missing.obj"),
+        (scene.file("part.txt", ""), "auto", ".obj"),
+    ] {
+        let output = decompose(&mesh, &["--pieces", kind]);
+        assert_eq!(output.status.code(), Some(2), "{mesh:?} {kind}");
+        assert_eq!(output.stdout, b"");
+        let told = stderr(&output);
+        assert!(told.contains(expected), "{mesh:?} {kind}: {told}");
+    }
+    let figures = figures(&open, &["--pieces", "auto"]);
+    assert_eq!(figures["pieces_kind"], "triangles");
+    assert_eq!(figures["volume"], "surface");
+    assert!(figures["remarks"].as_str().unwrap().contains("open"));
+}
+
+#[rstest]
+#[case(&["--out", "knot.txt"], ".ccd")]
+#[case(&["--pieces", "patches", "--hulls", "9"], "vhacd")]
+#[case(&["--pieces", "vhacd", "--hulls", "0"], "--hulls")]
+#[case(&["--pieces", "triangles", "--order", "cresting"], "--order")]
+#[case(&["--pieces", "pieces"], "patches")]
+fn options_that_do_not_go_together_are_refused(#[case] options: &[&str], #[case] expected: &str) {
+    let scene = Scene::new("decompose-options");
+    let output = decompose(&scene.file("part.obj", TETRAHEDRON), options);
+    assert_eq!(output.status.code(), Some(2), "{options:?}");
+    assert!(stderr(&output).contains(expected), "{}", stderr(&output));
+}
+
+#[test]
+fn a_mesh_is_never_overwritten() {
+    let scene = Scene::new("decompose-overwrite");
+    let mesh = scene.file("part.obj", TETRAHEDRON);
+    let same = scene.directory.join(".").join("part.obj");
+    let output = decompose(&mesh, &["--out", name(&same)]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("overwrite"), "{}", stderr(&output));
+    assert_eq!(std::fs::read_to_string(&mesh).unwrap(), TETRAHEDRON);
+}
+
+#[rstest]
+#[case("pieces.obj")]
+#[case("body.ccd")]
+fn a_result_that_cannot_be_written_is_another_failure(#[case] file: &str) {
+    let scene = Scene::new("decompose-unwritable");
+    let mesh = scene.file("part.obj", TETRAHEDRON);
+    let out = format!("/no/such/directory/{file}");
+    let output = decompose(&mesh, &["--out", &out]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(stderr(&output).contains(file), "{}", stderr(&output));
+}
+
+#[test]
+fn stored_bodies_that_cannot_be_read_are_told() {
+    let scene = Scene::new("stored-bad");
+    let mesh = scene.file("part.obj", TETRAHEDRON);
+    let out = scene.directory.join("part.ccd");
+    figures(&mesh, &["--out", name(&out)]);
+    let bytes = std::fs::read(&out).unwrap();
+    let mut damaged = bytes.clone();
+    damaged[30] ^= 1;
+    for (bytes, expected) in [
+        (&damaged[..], "part.ccd: is damaged"),
+        (&bytes[..50], "part.ccd: is cut short"),
+        (b"v 0 0 0", "part.ccd: holds no stored body"),
+    ] {
+        std::fs::write(&out, bytes).unwrap();
+        let output = Run::query(&["--a", name(&out), "--b", "sphere:1"])
+            .stdin("id\n")
+            .output();
+        assert_eq!(output.status.code(), Some(2));
+        let told = stderr(&output);
+        assert!(told.contains("--a: ") && told.contains(expected), "{told}");
+        assert!(told.contains("ccd decompose"), "{told}");
+    }
+}
+
+#[test]
+fn help_shows_what_is_printed() {
+    for (option, expected) in [("-h", "--out knot.ccd"), ("--help", "sticks_out")] {
+        let output = Run::bare(&["decompose", option]).output();
+        assert!(output.status.success());
+        let text = String::from_utf8(output.stdout).unwrap();
+        assert!(text.contains(expected), "{text}");
+    }
+}
+
+#[test]
+fn a_folder_that_is_not_there_is_told_before_the_work() {
+    let scene = Scene::new("decompose-no-folder");
+    let mesh = scene.file("t.obj", crate::TETRAHEDRON);
+    for name in ["t.obj", "t.ccd"] {
+        let out = scene.directory.join("gone").join(name);
+        let run = Run::bare(&["decompose", mesh.to_str().unwrap()]);
+        let output = run
+            .args(&["--out", out.to_str().unwrap()])
+            .stdin("")
+            .output();
+        assert_eq!(output.status.code(), Some(1));
+        let told = stderr(&output);
+        assert!(
+            told.contains("gone is a folder that is not there"),
+            "{told}"
+        );
+    }
+}

@@ -1,0 +1,308 @@
+//! The `ccd` command as its users run it.
+
+mod command;
+mod contacts;
+mod decompose;
+mod refusals;
+mod resume;
+mod words;
+
+use command::{Row, Run, Scene, parse, stderr};
+
+/// The command that is run.
+const PROGRAM: &str = env!("CARGO_BIN_EXE_ccd");
+
+/// A cube falling at speed 4 onto a slab whose top is 2.5 below its underside.
+const FALLING_CUBE: [&str; 4] = ["--a", "box:.5,.5,.5", "--b", "box:9,9,1"];
+const DROP: &str = "id,a_pz,a_vz\ndrop,4,-4\n";
+const DROP_TIME: f64 = 2.5 / 4.0;
+
+const TETRAHEDRON: &str =
+    "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
+
+impl Run {
+    /// A query whose motions come from standard input.
+    pub(crate) fn query(bodies: &[&str]) -> Self {
+        Run::bare(&["query", "--motions", "-"]).args(bodies)
+    }
+}
+
+impl Row {
+    /// Never late, and early by no more than it takes to cross the tolerance.
+    pub(crate) fn assert_in_time(&self, exact: f64, closing_speed: f64) {
+        let early = exact - self.number("time");
+        assert!(
+            (-1e-12..=1e-3 / closing_speed).contains(&early),
+            "{early} early"
+        );
+    }
+
+    pub(crate) fn without_micros(self) -> Vec<String> {
+        let cells = self.0.into_iter().filter(|(name, _)| name != "micros");
+        cells.map(|(_, value)| value).collect()
+    }
+}
+
+#[test]
+fn a_box_falls_onto_a_box() {
+    let run = Run::query(&FALLING_CUBE).stdin(DROP);
+    let rows = run.succeeds();
+    assert_eq!(rows.len(), 1);
+    let row = &rows[0];
+    assert_eq!((row.text("id"), row.text("status")), ("drop", "contact"));
+    row.assert_in_time(DROP_TIME, 4.0);
+    assert!(row.number("distance_upper") <= 1e-3);
+    assert!(row.number("distance_lower") <= row.number("distance_upper"));
+    assert!(row.number("normal_z") < -0.999);
+    assert!(
+        (row.number("witness_b_z") - 1.0).abs() < 1e-12,
+        "the slab's top"
+    );
+    assert!(row.number("iterations") >= 1.0 && row.number("micros") > 0.0);
+}
+
+#[test]
+fn every_schedule_and_oracle_gives_the_answer() {
+    for schedule in ["best-first", "hull-first", "fast", "naive"] {
+        for oracle in ["direct", "gjk", "gjk-f32", "vmarch"] {
+            let options = [
+                "--schedule",
+                schedule,
+                "--oracle",
+                oracle,
+                "--tolerance",
+                "1e-6",
+            ];
+            let rows = Run::query(&FALLING_CUBE)
+                .args(&options)
+                .stdin(DROP)
+                .succeeds();
+            assert_eq!(rows[0].text("status"), "contact", "{schedule} {oracle}");
+            let late = rows[0].number("time") - DROP_TIME;
+            assert!(
+                (-1e-6..=1e-12).contains(&late),
+                "{schedule} {oracle}: {late}"
+            );
+        }
+    }
+}
+
+#[test]
+fn every_status_is_told() {
+    let motions = "id,a_pz,a_vz,duration\n\
+                   free,4,-4,0.25\ncontact,4,-4,\ntouching,1.5005,-4,\noverlapping,1,0,\n";
+    let rows = Run::query(&FALLING_CUBE).stdin(motions).succeeds();
+    for row in &rows {
+        assert_eq!(row.text("id"), row.text("status"));
+    }
+    assert_eq!(rows.len(), 4);
+    assert_eq!(rows[0].number("time"), 0.25);
+    assert!(rows[0].number("distance_lower") > 0.0);
+    assert_eq!(rows[0].text("normal_x"), "");
+    assert_eq!(rows[2].number("time"), 0.0);
+}
+
+#[test]
+fn an_unresolved_row_is_a_result() {
+    let scene = Scene::new("unresolved");
+    let mesh = scene.file("tetrahedron.obj", TETRAHEDRON);
+    let mesh = mesh.to_str().unwrap();
+    let motions = "a_px,a_vx,a_wz\n5,-5,9\n";
+    let rows = Run::query(&["--a", mesh, "--b", mesh, "--budget", "1"])
+        .stdin(motions)
+        .succeeds();
+    assert_eq!(rows[0].text("status"), "unresolved");
+    assert_eq!(rows[0].text("reason"), "budget");
+    assert!((0.0..0.9).contains(&rows[0].number("time")));
+}
+
+#[test]
+fn a_deadline_leaves_a_row_unresolved_and_says_so() {
+    let output = Run::query(&FALLING_CUBE)
+        .args(&["--deadline", "0"])
+        .stdin(DROP)
+        .output();
+    assert!(output.status.success());
+    let told = stderr(&output);
+    assert!(
+        told.contains("1 unresolved") && told.contains("--deadline"),
+        "{told}"
+    );
+    // Enough time is none to speak of.
+    let rows = Run::query(&FALLING_CUBE)
+        .args(&["--deadline", "3600"])
+        .stdin(DROP)
+        .succeeds();
+    assert_eq!(rows[0].text("status"), "contact");
+}
+
+#[test]
+fn margin_is_kept_and_leave_lets_go() {
+    let with_margin = Run::query(&FALLING_CUBE)
+        .args(&["--margin", "0.5"])
+        .stdin(DROP)
+        .succeeds();
+    with_margin[0].assert_in_time(2.0 / 4.0, 4.0);
+    let parting = "a_pz,a_vz\n1.5,1\n";
+    let reported = Run::query(&FALLING_CUBE).stdin(parting).succeeds();
+    assert_eq!(reported[0].text("status"), "touching");
+    let left = Run::query(&FALLING_CUBE)
+        .args(&["--start", "leave"])
+        .stdin(parting)
+        .succeeds();
+    assert_eq!(left[0].text("status"), "free");
+}
+
+#[test]
+fn files_are_read_and_written() {
+    let scene = Scene::new("files");
+    let motions = scene.file("motions.csv", DROP);
+    let results = scene.directory.join("results.csv");
+    let mesh = scene.file("tetrahedron.obj", TETRAHEDRON);
+    let run = Run::bare(&["query", "--a", mesh.to_str().unwrap(), "--b", "sphere:0.5"])
+        .args(&[
+            "--motions",
+            motions.to_str().unwrap(),
+            "--out",
+            results.to_str().unwrap(),
+        ])
+        .stdin("");
+    let output = run.output();
+    assert!(output.status.success(), "{}", stderr(&output));
+    assert_eq!(output.stdout, b"");
+    let rows = parse(&std::fs::read(&results).unwrap());
+    assert_eq!(rows[0].text("status"), "contact");
+    // From z = 4 its base comes down to the ball's top at 0.5.
+    rows[0].assert_in_time(3.5 / 4.0, 4.0);
+    assert_eq!(rows[0].text("feature_b"), "v0");
+}
+
+#[test]
+fn the_same_file_twice_is_loaded_once() {
+    let scene = Scene::new("once");
+    let mesh = scene.file("tetrahedron.obj", TETRAHEDRON);
+    let other_name = scene.directory.join(".").join("tetrahedron.obj");
+    let bodies = [
+        "--a",
+        mesh.to_str().unwrap(),
+        "--b",
+        other_name.to_str().unwrap(),
+    ];
+    let output = Run::query(&bodies).stdin("a_px,a_vx\n3,-3\n").output();
+    assert!(output.status.success());
+    assert_eq!(stderr(&output).matches(", solid").count(), 1);
+}
+
+#[test]
+fn threads_and_repetitions_change_no_bit() {
+    let scene = Scene::new("threads");
+    let mesh = scene.file("tetrahedron.obj", TETRAHEDRON);
+    let bodies = ["--a", mesh.to_str().unwrap(), "--b", "capsule:0.2,0.7"];
+    let mut motions = "a_px,a_py,a_vx,a_wx,a_wy,b_wz\n".to_owned();
+    for k in 0..64 {
+        let k = f64::from(k);
+        motions += &format!("3,{},-6,{k},2,{}\n", 0.06 * k - 1.9, 0.1 * k);
+    }
+    let answers = |options: &[&str]| -> Vec<Vec<String>> {
+        let rows = Run::query(&bodies).args(options).stdin(&motions).succeeds();
+        rows.into_iter().map(Row::without_micros).collect()
+    };
+    let one = answers(&[]);
+    assert_eq!(one.len(), 64);
+    assert_eq!(one, answers(&["--threads", "1"]));
+    let contacts = one.iter().filter(|row| row[1] == "contact").count();
+    assert!((10..60).contains(&contacts), "{contacts} of 64 hit");
+    assert_eq!(one, answers(&["--threads", "2"]));
+    assert_eq!(one, answers(&["--repeat", "3"]));
+}
+
+#[test]
+fn raised_tolerances_are_told() {
+    let far = "a_px,b_px,a_pz,a_vz\n1e9,1e9,4,-4\n";
+    let output = Run::query(&FALLING_CUBE)
+        .args(&["--tolerance", "1e-12"])
+        .stdin(far)
+        .output();
+    assert!(output.status.success());
+    assert!(
+        stderr(&output).contains("tolerance 1e-12 cannot be certified"),
+        "{}",
+        stderr(&output)
+    );
+}
+
+#[test]
+fn results_never_overwrite_their_motions() {
+    let folder = std::env::temp_dir().join(format!("ccd-out-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let named = |name: &str| folder.join(name).to_str().unwrap().to_owned();
+    // The results, the file that they are put together in, and the journal beside it.
+    for [motions, option, target] in [
+        ["m.csv", "--out", "m.csv"],
+        ["m.csv.partial", "--out", "m.csv"],
+        ["m.csv.resume", "--out", "m.csv"],
+        ["m.csv.partial", "--contacts", "m.csv"],
+    ] {
+        let (motions, target) = (named(motions), named(target));
+        std::fs::write(&motions, DROP).unwrap();
+        for more in [&[][..], &["--resume"]] {
+            let output = std::process::Command::new(PROGRAM)
+                .args(["query", "--a", "box:1,1,1", "--b", "box:1,1,1"])
+                .args(["--motions", &motions, option, &target])
+                .args(more)
+                .output()
+                .unwrap();
+            assert_eq!(output.status.code(), Some(2), "{motions} {target}");
+            let told = stderr(&output);
+            assert!(told.contains("give it another"), "{told}");
+            assert_eq!(std::fs::read_to_string(&motions).unwrap(), DROP);
+        }
+    }
+    std::fs::remove_dir_all(&folder).unwrap();
+}
+
+#[test]
+fn the_summary_counts_and_quiet_is_quiet() {
+    let loud = Run::query(&FALLING_CUBE).stdin(DROP).output();
+    assert!(
+        stderr(&loud).contains("1 row: 1 contact; median"),
+        "{}",
+        stderr(&loud)
+    );
+    let quiet = Run::query(&FALLING_CUBE)
+        .args(&["--quiet"])
+        .stdin(DROP)
+        .output();
+    assert_eq!(stderr(&quiet), "");
+    assert!(quiet.status.success());
+}
+
+#[test]
+fn a_table_without_rows_has_a_header_for_an_answer() {
+    let output = Run::query(&FALLING_CUBE).stdin("id\n").output();
+    assert!(output.status.success());
+    let header = String::from_utf8(output.stdout.clone()).unwrap();
+    assert!(
+        header.starts_with("id,status,time,distance_lower,"),
+        "{header}"
+    );
+    assert!(
+        stderr(&output).contains("standard input: has a header, but no rows"),
+        "{}",
+        stderr(&output)
+    );
+}
+
+#[test]
+fn help_shows_examples() {
+    for args in [&["--help"][..], &["query", "--help"], &["query", "-h"]] {
+        let output = Run::bare(args).stdin("").output();
+        assert!(output.status.success());
+        assert!(
+            String::from_utf8(output.stdout)
+                .unwrap()
+                .contains("ccd query --a"),
+            "{args:?}"
+        );
+    }
+}

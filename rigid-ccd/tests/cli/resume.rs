@@ -1,0 +1,341 @@
+//! Runs that are interrupted: nothing of what was there is lost, and what was done is not done again.
+
+use crate::command::{Scene, stderr};
+use std::fs;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Output, Stdio};
+
+/// What is asked unless a test says otherwise.
+const USUAL: [[&str; 2]; 5] = [
+    ["--a", "box:.5,.5,.5"],
+    ["--b", "box:9,9,1"],
+    ["--motions", "-"],
+    ["--out", "results.csv"],
+    ["--contacts", "contacts.csv"],
+];
+const ROWS: usize = 20_000;
+
+fn motions() -> String {
+    let mut table = "id,a_px,a_pz,a_vz,a_wx\n".to_owned();
+    for k in 0..ROWS {
+        let bad = if k % 1000 == 7 { "x" } else { "" };
+        table += &format!("r{k},{}{bad},4,-4,{}\n", k % 17, k % 5);
+    }
+    table
+}
+
+/// A folder of its own, with nothing of earlier tests.
+fn fresh(name: &str) -> Scene {
+    let scene = Scene::new(name);
+    fs::remove_dir_all(&scene.directory).unwrap();
+    Scene::new(name)
+}
+
+fn query(scene: &Scene, options: &[&str]) -> Command {
+    let usual = USUAL.iter().filter(|[name, _]| !options.contains(name));
+    let mut command = Command::new(crate::PROGRAM);
+    command
+        .current_dir(&scene.directory)
+        .args(["query", "--no-micros"])
+        .args(usual.flatten())
+        .args(options)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped());
+    command
+}
+
+fn finished(mut command: Command, input: &str) -> Output {
+    let mut child = command.spawn().unwrap();
+    let _ = child.stdin.take().unwrap().write_all(input.as_bytes());
+    child.wait_with_output().unwrap()
+}
+
+/// Gives it some of the table and no end, until rows are kept; then kills it.
+fn killed(scene: &Scene, options: &[&str], some: &str) {
+    let marks = || {
+        let journal = fs::read_to_string(path(scene, "results.csv.resume"));
+        journal.unwrap_or_default().matches("\"rows\":").count()
+    };
+    let begun = marks();
+    let mut child: Child = query(scene, options).spawn().unwrap();
+    let mut input = child.stdin.take().unwrap();
+    input.write_all(some.as_bytes()).unwrap();
+    input.flush().unwrap();
+    while marks() < begun.max(1) + 2 {
+        assert!(child.try_wait().unwrap().is_none(), "it ended by itself");
+        std::thread::yield_now();
+    }
+    child.kill().unwrap();
+    child.wait().unwrap();
+}
+
+fn path(scene: &Scene, name: &str) -> PathBuf {
+    scene.directory.join(name)
+}
+
+fn read(path: &Path) -> String {
+    fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}
+
+const TABLES: [&str; 2] = ["results.csv", "contacts.csv"];
+
+#[test]
+fn a_run_that_is_killed_twice_ends_with_the_same_bytes() {
+    let table = motions();
+    let whole = fresh("undisturbed");
+    let output = finished(query(&whole, &[]), &table);
+    assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
+
+    let scene = fresh("killed");
+    for name in TABLES {
+        fs::write(path(&scene, name), "of old").unwrap();
+    }
+    let third = table.match_indices('\n').nth(ROWS / 3).unwrap().0;
+    killed(&scene, &[], &table[..third]);
+    // Half a row, as a process leaves it that is killed while it writes.
+    for name in [
+        "results.csv.partial",
+        "contacts.csv.partial",
+        "results.csv.resume",
+    ] {
+        let mut file = fs::File::options()
+            .append(true)
+            .open(path(&scene, name))
+            .unwrap();
+        file.write_all(b"r9,con").unwrap();
+    }
+    killed(&scene, &["--resume", "--threads", "2"], &table[..2 * third]);
+    for name in TABLES {
+        assert_eq!(read(&path(&scene, name)), "of old");
+    }
+    let output = finished(query(&scene, &["--resume"]), &table);
+    assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
+    let told = stderr(&output);
+    let count = |before: &str, after: &str| {
+        let (_, rest) = told.split_once(before)?;
+        rest.split_once(after)?.0.parse::<usize>().ok()
+    };
+    let done = count("goes on with row ", " of the motions");
+    let done = done.unwrap_or_else(|| panic!("{told}"));
+    // All rows of the table are counted, those of this run apart.
+    assert!(told.contains("\n20000 rows: "), "{told}");
+    let here = count(", 20 error; ", " of them in this run; median");
+    assert_eq!(here, Some(ROWS - done), "{told}");
+    for name in TABLES {
+        assert!(
+            read(&path(&scene, name)) == read(&path(&whole, name)),
+            "{name} differs"
+        );
+    }
+    let left = fs::read_dir(&scene.directory).unwrap().count();
+    assert_eq!(left, TABLES.len() + 1, "nothing is left but the journal");
+    assert!(path(&scene, "results.csv.resume").exists());
+}
+
+#[test]
+fn a_run_goes_on_only_with_the_same_question() {
+    let table = motions();
+    let scene = fresh("other-question");
+    let part = &table[..table.len() / 2];
+    killed(&scene, &[], part);
+    let kept = read(&path(&scene, "results.csv.partial"));
+    let other_rows = table.replace(",4,-4,", ",4,-5,");
+    for (options, input, expected) in [
+        (
+            &["--tolerance", "1e-6", "--resume"][..],
+            &table,
+            "asked something else: --tolerance was 0.001 and is 1e-6 now; ask the same",
+        ),
+        (
+            &["--b", "box:9,9,2", "--deadline", "1.5", "--resume"],
+            &table,
+            "--b was box:9,9,1 and is box:9,9,2 now, --deadline was not given and is 1.5 now;",
+        ),
+        (&["--resume"], &other_rows, "not the rows"),
+        (&[], &table, "rows of an interrupted run; --resume goes on"),
+    ] {
+        let output = finished(query(&scene, options), input);
+        assert_eq!(output.status.code(), Some(2), "{options:?}");
+        let told = stderr(&output);
+        assert!(told.contains(expected), "{expected}: {told}");
+        assert!(!told.contains("Some(") && !told.contains(" {"), "{told}");
+        assert_eq!(
+            read(&path(&scene, "results.csv.partial")),
+            kept,
+            "{options:?}"
+        );
+    }
+}
+
+#[test]
+fn nothing_to_resume_is_no_failure() {
+    let scene = fresh("nothing-to-resume");
+    let one = "a_pz\n4\n";
+    let output = finished(query(&scene, &["--resume"]), one);
+    assert!(output.status.success(), "{}", stderr(&output));
+    assert!(stderr(&output).contains("nothing to go on with"));
+    let output = finished(query(&scene, &["--resume", "--out", "-"]), one);
+    assert_eq!(output.status.code(), Some(2));
+}
+
+/// The tables with the times at which they were last written.
+fn tables(scene: &Scene) -> Vec<(String, std::time::SystemTime)> {
+    let table = |name: &&str| {
+        let path = path(scene, name);
+        let written = fs::metadata(&path).unwrap().modified().unwrap();
+        (read(&path), written)
+    };
+    TABLES.iter().map(table).collect()
+}
+
+#[test]
+fn a_finished_run_is_left_as_it_is() {
+    for (name, table, code) in [
+        ("finished", "id,a_pz,a_vz\nx,4,-4\ny,9,-1\n", 0),
+        ("finished-bad", "id,a_pz,a_vz\nx,4,-4\ny,9,z\n", 2),
+        ("finished-empty", "id,a_pz,a_vz\n", 0),
+    ] {
+        let scene = fresh(name);
+        let output = finished(query(&scene, &[]), table);
+        assert_eq!(output.status.code(), Some(code), "{}", stderr(&output));
+        let before = tables(&scene);
+        let output = finished(query(&scene, &["--resume"]), table);
+        assert_eq!(output.status.code(), Some(code), "{}", stderr(&output));
+        let told = stderr(&output);
+        assert!(
+            told.contains("results.csv has all rows of this query already and is left as it is"),
+            "{told}"
+        );
+        assert_eq!(
+            told.contains("2 rows: "),
+            !name.ends_with("empty"),
+            "{told}"
+        );
+        assert!(!told.contains("median"), "{told}");
+        assert_eq!(tables(&scene), before);
+        // Without the option it is a new run.
+        let output = finished(query(&scene, &[]), table);
+        assert_eq!(output.status.code(), Some(code));
+        assert_ne!(tables(&scene)[0].1, before[0].1);
+    }
+}
+
+#[test]
+fn a_finished_run_of_another_question_is_neither_overwritten_nor_taken() {
+    let table = "id,a_pz,a_vz\nx,4,-4\ny,9,-1\n";
+    let scene = fresh("finished-other");
+    let output = finished(query(&scene, &[]), table);
+    assert!(output.status.success(), "{}", stderr(&output));
+    let before = tables(&scene);
+    for (options, input, expected) in [
+        (
+            &["--tolerance", "1e-6"][..],
+            table,
+            "the finished run was asked something else: --tolerance was 0.001 and is 1e-6 now",
+        ),
+        (
+            &["--contacts", "other.csv"],
+            table,
+            "--contacts was contacts.csv and is other.csv now",
+        ),
+        (&["--rows", "..1"], table, "--rows was 0.. and is 0..1 now"),
+        (&[], "id,a_pz,a_vz\nx,4,-4\ny,9,-2\n", "not the rows that"),
+        (&[], "id,a_pz,a_vz\nx,4,-4\n", "not the rows that"),
+        (&[], &format!("{table}z,9,-1\n"), "not the rows that"),
+    ] {
+        let mut command = query(&scene, options);
+        command.arg("--resume");
+        let output = finished(command, input);
+        assert_eq!(output.status.code(), Some(2), "{options:?}");
+        let told = stderr(&output);
+        assert!(told.contains(expected), "{expected}: {told}");
+        assert_eq!(tables(&scene), before);
+    }
+    // What somebody else has written there is not taken for it.
+    fs::write(path(&scene, "results.csv"), "mine").unwrap();
+    let output = finished(query(&scene, &["--resume"]), table);
+    assert_eq!(output.status.code(), Some(2));
+    let told = stderr(&output);
+    assert!(told.contains("not as the finished run left it"), "{told}");
+    assert_eq!(read(&path(&scene, "results.csv")), "mine");
+    // Where there is no table, there is all to do.
+    fs::remove_file(path(&scene, "results.csv")).unwrap();
+    let output = finished(query(&scene, &["--resume"]), table);
+    assert!(output.status.success(), "{}", stderr(&output));
+    assert_eq!(read(&path(&scene, "results.csv")), before[0].0);
+}
+
+/// A run that ends between its last row and the names of its tables has but these to give.
+#[test]
+fn tables_that_are_whole_get_their_names() {
+    let table = "id,a_pz,a_vz\nx,4,-4\ny,9,-1\n";
+    let scene = fresh("nameless");
+    let output = finished(query(&scene, &[]), table);
+    assert!(output.status.success(), "{}", stderr(&output));
+    let before = tables(&scene);
+    for names in [&TABLES[..], &TABLES[1..]] {
+        for name in names {
+            let partial = path(&scene, &format!("{name}.partial"));
+            fs::rename(path(&scene, name), partial).unwrap();
+        }
+        let output = finished(query(&scene, &["--resume"]), table);
+        assert!(output.status.success(), "{}", stderr(&output));
+        assert_eq!(tables(&scene), before);
+    }
+}
+
+#[test]
+fn a_mesh_that_has_changed_is_told_by_its_option() {
+    let scene = fresh("changed-mesh");
+    let mesh = path(&scene, "part.obj");
+    let options = ["--a", "part.obj"];
+    fs::write(&mesh, crate::TETRAHEDRON).unwrap();
+    let table = "a_pz\n9\n";
+    assert!(finished(query(&scene, &options), table).status.success());
+    fs::write(&mesh, crate::TETRAHEDRON.replace("v 1 0 0", "v 2 0 0")).unwrap();
+    let mut command = query(&scene, &options);
+    command.arg("--resume");
+    let output = finished(command, table);
+    assert_eq!(output.status.code(), Some(2));
+    let told = stderr(&output);
+    assert!(
+        told.contains(": the file of --a has changed since; ask"),
+        "{told}"
+    );
+}
+
+#[test]
+fn tables_take_the_place_of_files_alone() {
+    let scene = fresh("no-files");
+    let one = "a_pz\n4\n";
+    fs::create_dir(path(&scene, "folder")).unwrap();
+    for out in ["folder", "no/such/file"] {
+        let output = finished(query(&scene, &["--out", out]), one);
+        assert_eq!(output.status.code(), Some(1), "{out}: {}", stderr(&output));
+    }
+    let output = finished(query(&scene, &["--out", ""]), one);
+    assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
+    let mesh = path(&scene, "part.obj");
+    fs::write(&mesh, crate::TETRAHEDRON).unwrap();
+    let over = ["--out", "part.obj", "--a", "part.obj"];
+    let output = finished(query(&scene, &over), one);
+    assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
+    assert_eq!(read(&mesh), crate::TETRAHEDRON);
+}
+
+#[cfg(unix)]
+#[test]
+fn devices_stay_what_they_are() {
+    use std::os::unix::fs::FileTypeExt;
+    let scene = fresh("devices");
+    let output = finished(query(&scene, &["--out", "/dev/null"]), "a_pz\n4\n");
+    assert!(output.status.success(), "{}", stderr(&output));
+    assert!(
+        fs::metadata("/dev/null")
+            .unwrap()
+            .file_type()
+            .is_char_device()
+    );
+}
