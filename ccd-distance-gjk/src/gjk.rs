@@ -4,12 +4,10 @@ mod fan;
 mod minkowski;
 mod oracle;
 mod refine;
-mod rounded;
 mod search;
 mod segment;
 mod sharpen;
 mod simplex;
-mod single;
 mod start;
 mod termination;
 #[cfg(test)]
@@ -19,5 +17,4 @@ mod triangle;
 mod vector;
 
 pub use oracle::Gjk;
-pub use single::GjkF32;
 pub use start::Cache;

@@ -7,7 +7,6 @@
 //! |---|---|---|---|
 //! | [`Direct`] | 1 to 3 points | all pairs of features at once, in closed form | for triangle meshes; balls and capsules too |
 //! | [`Gjk`] | any | GJK in f64, warm start | for hulls and patches |
-//! | [`GjkF32`] | any | GJK in f32, finished in f64 | for hulls of a hundred points and more, asked cold |
 //! | [`Auto`] | any | [`Direct`], or [`Gjk`] where that gives up | when in doubt |
 //!
 //! # Guarantee
@@ -33,7 +32,7 @@
 //! | axes of features, for small distances | `direct/axis.rs` |
 //! | a common point of what intersects | `direct/pierce.rs` |
 //! | the GJK search | `gjk/search.rs`, stopped by `gjk/termination.rs` |
-//! | its support | `gjk/minkowski.rs`, `gjk/rounded.rs` in f32 |
+//! | its support | `gjk/minkowski.rs` |
 //! | the nearest point of a simplex | `gjk/segment.rs`, `gjk/triangle.rs`, `gjk/tetrahedron.rs` |
 //! | where rounding stalls it: axes, witnesses | `gjk/sharpen.rs` and `gjk/fan.rs`, `gjk/refine.rs` |
 
@@ -50,7 +49,7 @@ mod tests;
 mod tolerance;
 
 pub use direct::Direct;
-pub use gjk::{Cache, Gjk, GjkF32};
+pub use gjk::{Cache, Gjk};
 
 /// The closed form where there is one, GJK elsewhere.
 ///

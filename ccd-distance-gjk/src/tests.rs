@@ -4,7 +4,7 @@ mod laws;
 pub(crate) mod scene;
 mod twin;
 
-use crate::{Auto, Direct, Gjk, GjkF32};
+use crate::{Auto, Direct, Gjk};
 use ccd_core::glam::{DMat3, DVec3};
 use ccd_core::{DistanceOracle, Frame, Piece, PiecePair};
 use rstest::rstest;
@@ -87,13 +87,11 @@ macro_rules! obeys {
 
 obeys!(direct, Direct);
 obeys!(gjk, Gjk);
-obeys!(gjk_f32, GjkF32);
 obeys!(auto, Auto);
 
 #[rstest]
 fn hulls_of_few_points(#[values(1, 2, 3, 4, 5, 6)] a: usize, #[values(4, 5, 6)] b: usize) {
     random::<Gjk>(a, b);
-    random::<GjkF32>(a, b);
     random::<Auto>(a, b);
 }
 
@@ -103,9 +101,6 @@ fn intersecting_hulls(#[values(4, 7, 30)] a: usize, #[values(4, 30)] b: usize) {
     over(draw, |scene| {
         laws::names_a_common_point::<Gjk>(scene, 1e-12);
     });
-    over(draw, |scene| {
-        laws::names_a_common_point::<GjkF32>(scene, 1e-12);
-    });
 }
 
 /// Of flat pieces a common point is known to fewer digits: the worst of these was 1.7e-7.
@@ -113,9 +108,6 @@ fn intersecting_hulls(#[values(4, 7, 30)] a: usize, #[values(4, 30)] b: usize) {
 fn pressed_flat(#[values(3, 4, 8, 30)] a: usize, #[values(3, 4, 30)] b: usize) {
     let draw = |rng: &mut Pcg64| scene::pressed(rng, a, b);
     over(draw, |scene| laws::names_a_common_point::<Gjk>(scene, 1e-6));
-    over(draw, |scene| {
-        laws::names_a_common_point::<GjkF32>(scene, 1e-6);
-    });
     over(draw, |scene| {
         laws::names_a_common_point::<Auto>(scene, 1e-6);
     });
@@ -125,7 +117,6 @@ fn pressed_flat(#[values(3, 4, 8, 30)] a: usize, #[values(3, 4, 30)] b: usize) {
 fn stacked_boxes(#[values(1e-3, 1e-6, 1e-9, 1e-11)] gap: f64) {
     let draw = |rng: &mut Pcg64| scene::stacked_boxes(rng, gap);
     over(draw, |scene| is_apart_by::<Gjk>(scene, gap, 1e-9));
-    over(draw, |scene| is_apart_by::<GjkF32>(scene, gap, 1e-9));
 }
 
 #[rstest]
@@ -133,11 +124,9 @@ fn balls_of_many_points(#[values(50, 500)] count: usize, #[values(1e-2, 1.0)] ga
     for seed in 0..100 {
         let scene = scene::balls(&mut Pcg64::seed_from_u64(seed), count, gap);
         laws::certifies_separation::<Gjk>(&scene);
-        laws::certifies_separation::<GjkF32>(&scene);
         laws::is_symmetric::<Gjk>(&scene);
     }
     history::<Gjk>(count);
-    history::<GjkF32>(count);
 }
 
 /// Random hulls: what is apart is certified, agrees with brute force and does not depend on the
@@ -289,7 +278,6 @@ fn nonsense_ends() {
                 let pair = PiecePair { a, b, b_to_a };
                 law::<Direct>(&pair);
                 law::<Gjk>(&pair);
-                law::<GjkF32>(&pair);
                 law::<Auto>(&pair);
             }
         }

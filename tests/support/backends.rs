@@ -4,7 +4,7 @@ use crate::models::Kind;
 use crate::query::{Bodies, Query};
 use ccd_core::schedule::{BestFirst, Fast, HullFirst, Naive};
 use ccd_core::{Answer, Body, Config, DistanceOracle, Problem, Schedule};
-use ccd_distance_gjk::{Auto, Direct, Gjk, GjkF32};
+use ccd_distance_gjk::{Auto, Direct, Gjk};
 use ccd_distance_vmarch::Vmarch;
 
 /// The schedules.
@@ -27,8 +27,6 @@ pub enum Oracle {
     Direct,
     /// GJK in f64.
     Gjk,
-    /// GJK that searches in f32.
-    GjkF32,
     /// Closed forms, then GJK.
     Auto,
     /// Voronoi marching, then GJK.
@@ -65,8 +63,8 @@ impl Backend {
 
     /// Every schedule with every oracle.
     pub fn all() -> impl Iterator<Item = Backend> {
-        use Oracle::{Auto, Direct, Gjk, GjkF32, Vmarch};
-        let oracles = [Direct, Gjk, GjkF32, Auto, Vmarch];
+        use Oracle::{Auto, Direct, Gjk, Vmarch};
+        let oracles = [Direct, Gjk, Auto, Vmarch];
         let orders = [
             Order::BestFirst,
             Order::HullFirst,
@@ -100,7 +98,6 @@ impl Backend {
         match self.oracle {
             Oracle::Direct => self.solve_with(problem, &mut Direct),
             Oracle::Gjk => self.solve_with(problem, &mut Gjk),
-            Oracle::GjkF32 => self.solve_with(problem, &mut GjkF32::default()),
             Oracle::Auto => self.solve_with(problem, &mut Auto::default()),
             Oracle::Vmarch => self.solve_with(problem, &mut Vmarch::default().or_else(Gjk)),
         }

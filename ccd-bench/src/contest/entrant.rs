@@ -66,7 +66,6 @@ impl Entrant {
         let ours = [
             (method(best, OracleKind::Direct), Pieces::Least),
             (method(best, OracleKind::Gjk), Pieces::Least),
-            (method(best, OracleKind::GjkF32), Pieces::Least),
             (method(fast, OracleKind::Vmarch), Pieces::Patches),
             (method(fast, OracleKind::Gjk), Pieces::Patches),
             (method(hull, OracleKind::Vmarch), Pieces::Patches),

@@ -85,7 +85,7 @@ fn methods(draw: &mut Draw, case: &Case) -> Vec<(Kind, Method)> {
     if draw.chance(0.4) {
         asked.push((
             Kind::Triangles,
-            draw.pick(&[Method::Gjk, Method::GjkF32, Method::Vmarch]),
+            draw.pick(&[Method::Gjk, Method::Vmarch]),
         ));
     }
     let pieces = match (form(Form::Convex), form(Form::Solid)) {
@@ -96,7 +96,7 @@ fn methods(draw: &mut Draw, case: &Case) -> Vec<(Kind, Method)> {
     if pieces != Kind::Triangles && draw.chance(0.6) {
         asked.push((
             pieces,
-            draw.pick(&[Method::Direct, Method::Gjk, Method::GjkF32, Method::Vmarch]),
+            draw.pick(&[Method::Direct, Method::Gjk, Method::Vmarch]),
         ));
     }
     let turn: f64 = case.courses.iter().map(|c| c.turn(case.duration)).sum();
