@@ -1,6 +1,7 @@
 //! GJK: descends the Minkowski difference of two hulls towards the origin `[GJK88]`.
 
 mod fan;
+mod foot;
 mod minkowski;
 mod oracle;
 mod refine;
@@ -14,7 +15,6 @@ mod termination;
 mod tests;
 mod tetrahedron;
 mod triangle;
-mod vector;
 
 pub use oracle::Gjk;
 pub use start::Cache;

@@ -24,22 +24,22 @@ pub(crate) const ROUND_CAP: u32 = 4;
 
 /// GJK stops when the support gap comes within this many units in the last place of the distance,
 /// relative to the distance.
-pub(crate) const CONVERGED_ULPS: f32 = 16.0;
+pub(crate) const CONVERGED_ULPS: f64 = 16.0;
 
 /// A stalled GJK search is taken up again unless the support gap is within this many units in the
 /// last place of the distance (1e-12 of it): less would spend steps on digits that nobody sees.
-pub(crate) const SETTLED_ULPS: f32 = 4096.0;
+pub(crate) const CERTIFIED_ULPS: f64 = 4096.0;
 
 /// GJK calls the pieces touching when their distance is at most this many units in the last place
 /// of the coordinates' difference: a vertex b − a and a combination of four are rounded by about
 /// 2 units each.
-pub(crate) const TOUCHING_ULPS: f32 = 4.0;
+pub(crate) const TOUCHING_ULPS: f64 = 4.0;
 
 /// The rounding of a signed volume of a tetrahedron, in units in the last place of the product of
 /// its three edges' lengths: 3 for the cross product, 3 for the scalar product, 2 for the edges.
 /// A volume below it has no sign; without this a flat tetrahedron beside the origin may pass for
 /// one around it.
-pub(crate) const VOLUME_ULPS: f32 = 8.0;
+pub(crate) const VOLUME_ULPS: f64 = 8.0;
 
 /// How many vertices of the difference are weighed against each other when an axis is made of
 /// features: three hold the nearest point, the others are those that an axis tried before ran into.

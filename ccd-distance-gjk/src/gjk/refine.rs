@@ -1,6 +1,6 @@
 //! Nearer witnesses than the search's, in closed form.
 
-use super::minkowski::{Difference, Exact};
+use super::minkowski::Difference;
 use super::search::Found;
 use super::simplex::Simplex;
 use crate::direct::nearest::{Corners, nearest};
@@ -10,10 +10,10 @@ use ccd_core::order::lesser;
 /// The nearest points of what a simplex spans on either side, in closed form, if they are nearer:
 /// rounding that stalls a search on nearly parallel edges does not reach them. Of four points on one
 /// side the first three are looked at.
-pub(crate) fn witnesses(exact: &Exact<'_>, simplex: Simplex<DVec3>, found: &mut Found<DVec3>) {
+pub(crate) fn witnesses(difference: &Difference<'_>, simplex: Simplex, found: &mut Found) {
     let vertices = simplex.vertices();
-    let p = Points::new(vertices.iter().map(|v| (v.a, exact.point_a(v.a))));
-    let q = Points::new(vertices.iter().map(|v| (v.b, exact.point_b(v.b))));
+    let p = Points::new(vertices.iter().map(|v| (v.a, difference.point_a(v.a))));
+    let q = Points::new(vertices.iter().map(|v| (v.b, difference.point_b(v.b))));
     let (Some(p), Some(q)) = (p, q) else {
         return;
     };
@@ -22,7 +22,7 @@ pub(crate) fn witnesses(exact: &Exact<'_>, simplex: Simplex<DVec3>, found: &mut 
     if square < found.square {
         let shares = Couple::new(near.a, near.b);
         found.square = square;
-        (found.simplex, found.weights) = coupled(exact, &p, &q, shares);
+        (found.simplex, found.weights) = coupled(difference, &p, &q, shares);
     }
 }
 
@@ -53,14 +53,14 @@ impl Points {
 
 /// Vertices of the difference, and weights, whose combination is that of the points on either side.
 fn coupled(
-    exact: &Exact<'_>,
+    difference: &Difference<'_>,
     p: &Points,
     q: &Points,
     couple: Couple,
-) -> (Simplex<DVec3>, [f64; 4]) {
+) -> (Simplex, [f64; 4]) {
     let (mut simplex, mut weights) = (Simplex::EMPTY, [0.0; 4]);
     for (i, j, weight) in couple {
-        let vertex = exact.vertex(p.indices[i], q.indices[j]);
+        let vertex = difference.vertex(p.indices[i], q.indices[j]);
         if vertex.is_some_and(|vertex| simplex.push(vertex)) {
             weights[simplex.vertices().len() - 1] = weight;
         }

@@ -3,7 +3,6 @@
 use super::minkowski::Difference;
 use super::search::Found;
 use super::simplex::Simplex;
-use super::vector::Vector;
 use ccd_core::glam::DVec3;
 use ccd_core::vector::unit;
 
@@ -20,9 +19,9 @@ pub struct Cache {
 
 impl Cache {
     /// What to keep of a search.
-    pub(crate) fn of<V: Vector>(found: &Found<V>) -> Self {
+    pub(crate) fn of(found: &Found) -> Self {
         let mut cache = Cache {
-            axis: found.axis.widen(),
+            axis: found.axis,
             ..Cache::default()
         };
         for (vertex, pair) in found.simplex.vertices().iter().zip(&mut cache.pairs) {
@@ -33,7 +32,7 @@ impl Cache {
     }
 
     /// The simplex to start from, never empty.
-    pub(crate) fn simplex<D: Difference>(&self, difference: &D) -> Simplex<D::Vector> {
+    pub(crate) fn simplex(&self, difference: &Difference<'_>) -> Simplex {
         let mut simplex = Simplex::EMPTY;
         for &[a, b] in self.pairs.iter().take(usize::from(self.len)) {
             if let Some(vertex) = difference.vertex(a, b) {
@@ -42,7 +41,7 @@ impl Cache {
         }
         if simplex.vertices().is_empty() {
             let axis = unit(self.axis);
-            let direction = axis.map_or(difference.between(), D::Vector::round);
+            let direction = axis.unwrap_or(difference.between);
             simplex.push(difference.support(direction));
         }
         simplex
