@@ -1,13 +1,14 @@
-//! From marches to an answer: ties are certified, cycles settled, marches taken up again.
+//! Certifies the end of a march: ties, cycles, and marches taken up again from elsewhere.
 
-use crate::around;
 use crate::certificate::best_axis;
+use crate::counters::Counters;
 use crate::feature::{Certainty, Next, Pair, Whose};
-use crate::march::{End, march, step};
-use crate::oracle::Counters;
+use crate::march::{march, step};
+use crate::neighbourhood;
 use crate::penetration;
-use crate::place::Places;
+use crate::placed::PlacedPair;
 use crate::start::extremal;
+use crate::termination::End;
 use crate::tolerance::{CYCLE_LOOK, FAR, RESTARTS, ROUNDS};
 use crate::touching;
 use crate::witness::Witness;
@@ -16,7 +17,7 @@ use ccd_core::{Claim, GiveUp};
 
 /// What is claimed, and the pair to start from the next time.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Answer {
+pub(crate) struct Certified {
     pub(crate) pair: Pair,
     pub(crate) claim: Claim,
 }
@@ -28,11 +29,11 @@ pub(crate) struct Answer {
 /// [`GiveUp::Uncertified`] where none did.
 #[cold]
 #[inline(never)]
-pub(crate) fn settle(
-    places: &Places<'_>,
+pub(crate) fn certify(
+    placed: &PlacedPair<'_>,
     first: End,
     counters: &mut Counters,
-) -> Result<Answer, GiveUp> {
+) -> Result<Certified, GiveUp> {
     let (mut end, mut restarts) = (first, 0);
     let mut why = GiveUp::Uncertified;
     for _ in 0..ROUNDS {
@@ -41,66 +42,66 @@ pub(crate) fn settle(
             End::Cap(_) => GiveUp::StepCap,
             End::Nearest(..) | End::Common(..) | End::Unclear(_) => why,
         };
-        let from = match judge(places, end, counters) {
-            Verdict::Settled(answer) => return Ok(answer),
-            Verdict::Nearer(pair) => pair,
-            Verdict::Doubtful(_) if restarts == RESTARTS => break,
-            Verdict::Doubtful(axis) => {
+        let from = match examine(placed, end, counters) {
+            Finding::Certified(answer) => return Ok(answer),
+            Finding::Nearer(pair) => pair,
+            Finding::Doubtful(_) if restarts == RESTARTS => break,
+            Finding::Doubtful(axis) => {
                 counters.restarts += 1;
                 restarts += 1;
-                extremal(places, axis)
+                extremal(placed, axis)
             }
         };
-        end = march(places, from, counters);
+        end = march(placed, from, counters);
     }
-    let found = search(places, extremal(places, places.b.origin()), counters);
+    let found = search_common_point(placed, extremal(placed, placed.b.origin()), counters);
     found.ok_or(why)
 }
 
 /// What an end is worth.
-enum Verdict {
-    Settled(Answer),
+enum Finding {
+    Certified(Certified),
     /// There is a pair around it that is nearer.
     Nearer(Pair),
     /// It is not certified; this is the best axis so far.
     Doubtful(DVec3),
 }
 
-fn judge(places: &Places<'_>, end: End, counters: &mut Counters) -> Verdict {
+fn examine(placed: &PlacedPair<'_>, end: End, counters: &mut Counters) -> Finding {
     match end {
-        End::Nearest(pair, certainty) => weigh(places, pair, certainty),
+        End::Nearest(pair, certainty) => examine_stop(placed, pair, certainty),
         End::Common(pair, whose, crossing) => {
             counters.penetrations += 1;
-            let claim = touching::common(places, whose, &crossing);
-            Verdict::Settled(Answer { pair, claim })
+            let claim = touching::common(placed, whose, &crossing);
+            Finding::Certified(Certified { pair, claim })
         }
-        End::Unclear(pair) => match search(places, pair, counters) {
-            Some(answer) => Verdict::Settled(answer),
-            None => weigh_cycle(places, pair),
+        End::Unclear(pair) => match search_common_point(placed, pair, counters) {
+            Some(answer) => Finding::Certified(answer),
+            None => examine_cycle(placed, pair),
         },
-        End::Cycle(pair) | End::Cap(pair) => weigh_cycle(places, pair),
+        End::Cycle(pair) | End::Cap(pair) => examine_cycle(placed, pair),
     }
 }
 
 /// A stop, certified where it has to be.
-fn weigh(places: &Places<'_>, pair: Pair, certainty: Certainty) -> Verdict {
-    let witness = Witness::of(places, pair);
-    if certainty == Certainty::Sure || witness.distance() >= FAR * places.scale.size {
-        return settled(places, pair, &witness, witness.axis);
+fn examine_stop(placed: &PlacedPair<'_>, pair: Pair, certainty: Certainty) -> Finding {
+    let witness = Witness::of(placed, pair);
+    if certainty == Certainty::Sure || witness.distance() >= FAR * placed.scale.size {
+        return certified(placed, pair, &witness, witness.axis);
     }
-    certify(places, pair)
+    certify_tie(placed, pair)
 }
 
 /// The best pair of a cycle.
-fn weigh_cycle(places: &Places<'_>, start: Pair) -> Verdict {
+fn examine_cycle(placed: &PlacedPair<'_>, start: Pair) -> Finding {
     let (mut pair, mut nearest) = (start, start);
-    let mut least = Witness::of(places, start).distance();
+    let mut least = Witness::of(placed, start).distance();
     for _ in 0..CYCLE_LOOK {
-        match step(places, pair) {
+        match step(placed, pair) {
             Next::To(a, b) => pair = Pair { a, b },
             _ => break,
         }
-        let distance = Witness::of(places, pair).distance();
+        let distance = Witness::of(placed, pair).distance();
         if distance < least {
             (nearest, least) = (pair, distance);
         }
@@ -108,50 +109,54 @@ fn weigh_cycle(places: &Places<'_>, start: Pair) -> Verdict {
             break;
         }
     }
-    certify(places, nearest)
+    certify_tie(placed, nearest)
 }
 
 /// Certifies a pair, or one that is nearer around it: a march back from there might end at the same
 /// tie.
-fn certify(places: &Places<'_>, start: Pair) -> Verdict {
+fn certify_tie(placed: &PlacedPair<'_>, start: Pair) -> Finding {
     let mut pair = start;
     for _ in 0..ROUNDS {
-        let witness = Witness::of(places, pair);
+        let witness = Witness::of(placed, pair);
         let distance = witness.distance();
-        let axis = best_axis(places, pair, &witness);
-        if axis.certifies(distance, places) || distance <= places.scale.rounding() {
-            return settled(places, pair, &witness, axis.direction);
+        let axis = best_axis(placed, pair, &witness);
+        if axis.certifies(distance, placed) || distance <= placed.scale.rounding() {
+            return certified(placed, pair, &witness, axis.direction);
         }
-        match around::nearer(places, pair, distance) {
+        match neighbourhood::nearer(placed, pair, distance) {
             Some(nearer) => pair = nearer,
             // As near as it gets: what is left of doubt is the axis'.
             None if axis.gap >= 0.5 * distance => {
-                return settled(places, pair, &witness, axis.direction);
+                return certified(placed, pair, &witness, axis.direction);
             }
-            None => return Verdict::Doubtful(axis.direction),
+            None => return Finding::Doubtful(axis.direction),
         }
     }
-    Verdict::Nearer(pair)
+    Finding::Nearer(pair)
 }
 
-fn settled(places: &Places<'_>, pair: Pair, witness: &Witness, axis: DVec3) -> Verdict {
+fn certified(placed: &PlacedPair<'_>, pair: Pair, witness: &Witness, axis: DVec3) -> Finding {
     let claim = Claim {
         axis,
-        ..witness.claim(places)
+        ..witness.claim(placed)
     };
-    Verdict::Settled(Answer { pair, claim })
+    Finding::Certified(Certified { pair, claim })
 }
 
 /// Looks for a common point among all edges and faces.
-fn search(places: &Places<'_>, pair: Pair, counters: &mut Counters) -> Option<Answer> {
-    let Places { a, b, scale } = places;
+fn search_common_point(
+    placed: &PlacedPair<'_>,
+    pair: Pair,
+    counters: &mut Counters,
+) -> Option<Certified> {
+    let PlacedPair { a, b, scale } = placed;
     let of = |whose| move |crossing| (whose, crossing);
     let found = penetration::searched(a, b, *scale).map(of(Whose::X));
     let found = found.or_else(|| penetration::searched(b, a, *scale).map(of(Whose::Y)));
     let (whose, crossing) = found?;
     counters.penetrations += 1;
-    let claim = touching::common(places, whose, &crossing);
-    Some(Answer { pair, claim })
+    let claim = touching::common(placed, whose, &crossing);
+    Some(Certified { pair, claim })
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! Edges cut by the planes of another feature `[VCLIP98 §3.2]`.
 
-use crate::place::{Line, Placed, clamped};
+use crate::placed::{Line, Placed, clamped};
 
 /// What is left of an edge within the prism above and below a face.
 #[derive(Clone, Copy, Debug, PartialEq)]

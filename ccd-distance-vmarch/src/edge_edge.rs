@@ -3,7 +3,7 @@
 use crate::clip;
 use crate::feature::Certainty::{Sure, Tied};
 use crate::feature::{Behind, Feature, Next, Whose};
-use crate::place::{Line, Placed, Scale, clamped};
+use crate::placed::{Line, Placed, Scale, clamped};
 use crate::polytope::Edge;
 use crate::tolerance::{LEVEL, PARALLEL};
 use ccd_core::glam::DVec3;

@@ -4,7 +4,7 @@ use crate::clip::{self, Clipped};
 use crate::edge_edge;
 use crate::feature::{Behind, Feature, Next, Whose};
 use crate::penetration;
-use crate::place::{Line, Placed, Scale};
+use crate::placed::{Line, Placed, Scale};
 
 /// What of the edge is above the face, within its prism, has a lowest point: on to the edge's end, or
 /// to the side of the face that bounds it there. Where nothing is, on to the nearest side.

@@ -2,7 +2,7 @@
 
 use crate::feature::{Behind, Crossing, Feature};
 use crate::penetration;
-use crate::place::{Placed, Scale};
+use crate::placed::{Placed, Scale};
 use ccd_core::glam::DVec3;
 
 /// Where to go from behind a face.

@@ -81,29 +81,33 @@
     reason = "comparisons are written so that NaN takes the way out"
 )]
 
-mod around;
 mod certificate;
+mod certify;
 mod clip;
+mod counters;
+mod double_double;
 mod edge_edge;
 mod edge_face;
 mod escape;
 mod feature;
 mod march;
+mod neighbourhood;
 mod oracle;
+mod orientation;
 mod penetration;
-mod place;
+mod placed;
 mod polytope;
-mod settle;
 mod start;
+mod termination;
 #[cfg(test)]
 mod tests;
 mod tolerance;
 mod touching;
-mod twofold;
 mod vertex_edge;
 mod vertex_face;
 mod vertex_vertex;
 mod witness;
 
-pub use oracle::{Counters, Vmarch};
+pub use counters::Counters;
+pub use oracle::Vmarch;
 pub use start::Cache;

@@ -1,7 +1,7 @@
 //! Two polytopes in one frame: A where it is, B taken there feature by feature.
 
 use crate::polytope::{Edge, Polytope};
-use crate::tolerance::PLACE;
+use crate::tolerance::PLACING;
 use ccd_core::Frame;
 use ccd_core::glam::{DMat3, DVec3};
 use ccd_core::order::{greater, lesser};
@@ -41,21 +41,21 @@ pub(crate) trait Placed {
 
 /// Polytope A.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Here<'a>(pub(crate) &'a Polytope);
+pub(crate) struct PlacedA<'a>(pub(crate) &'a Polytope);
 
 /// Polytope B.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct There<'a> {
+pub(crate) struct PlacedB<'a> {
     shape: &'a Polytope,
     rotation: DMat3,
     translation: DVec3,
 }
 
-/// Both, and how much their places are rounded.
+/// Both polytopes, and the rounding of their places.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Places<'a> {
-    pub(crate) a: Here<'a>,
-    pub(crate) b: There<'a>,
+pub(crate) struct PlacedPair<'a> {
+    pub(crate) a: PlacedA<'a>,
+    pub(crate) b: PlacedB<'a>,
     pub(crate) scale: Scale,
 }
 
@@ -74,12 +74,12 @@ pub(crate) struct Line {
     pub(crate) length: f64,
 }
 
-impl<'a> Places<'a> {
+impl<'a> PlacedPair<'a> {
     pub(crate) fn new(a: &'a Polytope, b: &'a Polytope, b_to_a: &Frame) -> Self {
         let translation = b_to_a.point(b.origin) - a.origin;
-        Places {
-            a: Here(a),
-            b: There {
+        PlacedPair {
+            a: PlacedA(a),
+            b: PlacedB {
                 shape: b,
                 rotation: b_to_a.rotation,
                 translation,
@@ -91,7 +91,7 @@ impl<'a> Places<'a> {
     }
 }
 
-impl There<'_> {
+impl PlacedB<'_> {
     /// Where the origin is.
     pub(crate) fn origin(&self) -> DVec3 {
         self.translation
@@ -111,7 +111,7 @@ impl Scale {
     /// How far a difference of two placed points may be off.
     #[inline(always)]
     pub(crate) fn rounding(self) -> f64 {
-        PLACE * self.size
+        PLACING * self.size
     }
 }
 
@@ -134,7 +134,7 @@ pub(crate) fn clamped(parameter: f64, length: f64) -> f64 {
     lesser(greater(0.0, parameter), length)
 }
 
-impl Placed for Here<'_> {
+impl Placed for PlacedA<'_> {
     #[inline(always)]
     fn shape(&self) -> &Polytope {
         self.0
@@ -151,7 +151,7 @@ impl Placed for Here<'_> {
     }
 }
 
-impl Placed for There<'_> {
+impl Placed for PlacedB<'_> {
     #[inline(always)]
     fn shape(&self) -> &Polytope {
         self.shape

@@ -6,13 +6,14 @@ mod build;
 mod convex;
 mod facets;
 mod merge;
+mod support;
 #[cfg(test)]
 mod tests;
 
 use crate::feature::Feature;
 pub(crate) use facets::unit;
+use support::DirectionTable;
 
-use crate::start::Starts;
 use ccd_core::glam::DVec3;
 
 /// A piece with the planes that bound the Voronoi regions of its features.
@@ -39,8 +40,8 @@ pub(crate) struct Polytope {
     pub(crate) edges: Vec<Edge>,
     pub(crate) faces: Vec<Face>,
     pub(crate) sides: Vec<Side>,
-    /// Where to start from, in polytopes of many corners.
-    pub(crate) starts: Option<Box<Starts>>,
+    /// Where to climb from, in polytopes of many corners.
+    directions: Option<Box<DirectionTable>>,
 }
 
 /// A corner.

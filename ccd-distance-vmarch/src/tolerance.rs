@@ -13,7 +13,7 @@ const U: f64 = f64::EPSILON / 2.0;
 /// products and three sums whose matrix is rounded (8u of its reach, per coordinate, √3 of that as a
 /// length), and subtracted (1u): below 16u. Points nearer than that are the same point. Without it
 /// the march would follow directions that are nothing but rounding.
-pub(crate) const PLACE: f64 = 16.0 * U;
+pub(crate) const PLACING: f64 = 16.0 * U;
 
 /// The rounding of a scalar product of two unit vectors of which one is placed: either is rounded when
 /// it is made (1u), one is turned (3u), and the product adds 3u. Without it a march would wander
@@ -32,7 +32,7 @@ pub(crate) const PARALLEL: f64 = 16.0 * U;
 pub(crate) const FAR: f64 = 1.0 / 4.0;
 
 /// How far the distance of the witnesses may exceed the gap along the axis for both to count as
-/// certified, in units of the pair's size: [`PLACE`]. More would let a tie pass that has something
+/// certified, in units of the pair's size: [`PLACING`]. More would let a tie pass that has something
 /// nearer around it; less would look around where there is nothing to be found.
 pub(crate) const CERTIFIED: f64 = 16.0 * U;
 

@@ -2,7 +2,7 @@
 
 use crate::feature::Certainty::{Sure, Tied};
 use crate::feature::{Feature, Next};
-use crate::place::{Line, Placed, Scale};
+use crate::placed::{Line, Placed, Scale};
 use crate::tolerance::LEVEL;
 use ccd_core::glam::DVec3;
 

@@ -2,7 +2,7 @@
 
 use crate::feature::Certainty::{Sure, Tied};
 use crate::feature::{Behind, Feature, Next, Whose};
-use crate::place::{Placed, Scale};
+use crate::placed::{Placed, Scale};
 use crate::tolerance::LEVEL;
 
 /// The corner against all face-edge planes, on to the edge of the one it violates most; and above the

@@ -2,7 +2,7 @@
 
 use crate::feature::Certainty::{Sure, Tied};
 use crate::feature::{Feature, Next};
-use crate::place::{Placed, Scale};
+use crate::placed::{Placed, Scale};
 use ccd_core::glam::DVec3;
 
 /// Each corner against the other's vertex-edge planes: on to the edge that leads nearest to the other

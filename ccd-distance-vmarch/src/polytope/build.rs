@@ -1,8 +1,8 @@
 //! From a piece to a polytope.
 
 use super::facets::{Facets, off_line};
+use super::support::DirectionTable;
 use super::{Polytope, assemble, convex, merge};
-use crate::start::Starts;
 use crate::tolerance::{COPLANAR, TABLED};
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
@@ -49,7 +49,7 @@ impl Polytope {
     fn assembled(points: &[DVec3], ends: &[u32], loops: &[Vec<u32>]) -> Self {
         let mut polytope = assemble::assemble(points, ends, loops);
         if polytope.vertices.len() > TABLED {
-            polytope.starts = Some(Box::new(Starts::new(&polytope)));
+            polytope.directions = Some(Box::new(DirectionTable::new(&polytope)));
         }
         polytope
     }
