@@ -11,7 +11,7 @@ mod ball;
 use ball::{ball, direction};
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{Body, DistanceOracle, Frame, PiecePair, Pieces, Pose};
-use ccd_distance_gjk::{Direct, Gjk};
+use ccd_distance_gjk::{ClosedForm, Gjk};
 use ccd_distance_vmarch::Vmarch;
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use rand::SeedableRng;
@@ -69,8 +69,8 @@ fn distances(criterion: &mut Criterion) {
                 group.bench_function(id("vmarch"), |b| b.iter(|| run::<Vmarch>(&course)));
                 group.bench_function(id("gjk"), |b| b.iter(|| run::<Gjk>(&course)));
                 if a.all_triangles() {
-                    assert_alike(&distances, &course.distances::<Direct>());
-                    group.bench_function(id("direct"), |b| b.iter(|| run::<Direct>(&course)));
+                    assert_alike(&distances, &course.distances::<ClosedForm>());
+                    group.bench_function(id("direct"), |b| b.iter(|| run::<ClosedForm>(&course)));
                 }
                 group.finish();
             }

@@ -3,7 +3,7 @@
 use ccd_core::motion_bound::Bound;
 use ccd_core::schedule::{BestFirst, Fast, HullFirst, Naive};
 use ccd_core::{Answer, DistanceOracle, OrElse, Problem, Schedule};
-use ccd_distance_gjk::{Auto, Gjk};
+use ccd_distance_gjk::{Direct, Gjk};
 use ccd_distance_vmarch::Vmarch;
 use clap::ValueEnum;
 use std::fmt;
@@ -105,7 +105,7 @@ impl Method {
     /// A solver with memory of its own.
     pub fn solver(self) -> Box<dyn Solver> {
         match self.oracle {
-            OracleKind::Direct => self.with_oracle::<Auto>(),
+            OracleKind::Direct => self.with_oracle::<Direct>(),
             OracleKind::Gjk => self.with_oracle::<Gjk>(),
             OracleKind::Vmarch => self.with_oracle::<OrElse<Vmarch, Gjk>>(),
         }

@@ -5,9 +5,9 @@
 //!
 //! | backend | pieces | how | choose it |
 //! |---|---|---|---|
-//! | [`Direct`] | 1 to 3 points | all pairs of features at once, in closed form | for triangle meshes; balls and capsules too |
+//! | [`ClosedForm`] | 1 to 3 points | all pairs of features at once, in closed form | for triangle meshes; balls and capsules too |
 //! | [`Gjk`] | any | GJK in f64, warm start | for hulls and patches |
-//! | [`Auto`] | any | [`Direct`], or [`Gjk`] where that gives up | when in doubt |
+//! | [`Direct`] | any | [`ClosedForm`], or [`Gjk`] where that gives up | when in doubt |
 //!
 //! # Guarantee
 //! What all of them promise, of pieces whose size and distance are together s:
@@ -28,9 +28,9 @@
 //!
 //! | step | file |
 //! |---|---|
-//! | edges against edges, corners against faces | `direct/nearest.rs` |
-//! | axes of features, for small distances | `direct/axis.rs` |
-//! | a common point of what intersects | `direct/pierce.rs` |
+//! | edges against edges, corners against faces | `closed_form/nearest.rs` |
+//! | axes of features, for small distances | `closed_form/axis.rs` |
+//! | a common point of what intersects | `closed_form/pierce.rs` |
 //! | the GJK search | `gjk/search.rs`, stopped by `gjk/termination.rs` |
 //! | its support | `gjk/minkowski.rs` |
 //! | the nearest point of a simplex | `gjk/segment.rs`, `gjk/triangle.rs`, `gjk/tetrahedron.rs` |
@@ -41,21 +41,21 @@
     reason = "comparisons are written so that NaN takes the way out"
 )]
 
-mod direct;
+mod closed_form;
 mod gjk;
 mod lanes;
 #[cfg(test)]
 mod tests;
 mod tolerance;
 
-pub use direct::Direct;
+pub use closed_form::ClosedForm;
 pub use gjk::{Cache, Gjk};
 
 /// The closed form where there is one, GJK elsewhere.
 ///
 /// ```
 /// use ccd_core::{DistanceOracle, Frame, Piece, PiecePair, glam::DVec3};
-/// use ccd_distance_gjk::Auto;
+/// use ccd_distance_gjk::Direct;
 /// let square = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::X + DVec3::Y];
 /// let point = [DVec3::new(0.5, 0.5, 2.0)];
 /// let pair = PiecePair {
@@ -63,9 +63,9 @@ pub use gjk::{Cache, Gjk};
 ///     b: Piece::from_points(&point),
 ///     b_to_a: Frame::IDENTITY,
 /// };
-/// let mut oracle = Auto::default();
+/// let mut oracle = Direct::default();
 /// let claim = oracle.separation(&pair, &mut Default::default()).unwrap();
 /// assert_eq!(claim.a.of(&square), Some(DVec3::new(0.5, 0.5, 0.0)));
 /// assert_eq!(oracle.fallbacks(), 1);
 /// ```
-pub type Auto = ccd_core::OrElse<Direct, Gjk>;
+pub type Direct = ccd_core::OrElse<ClosedForm, Gjk>;

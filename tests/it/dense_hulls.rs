@@ -4,7 +4,7 @@ use ccd_core::glam::DVec3;
 use ccd_core::schedule::BestFirst;
 use ccd_core::{Answer, Body, Config, Motion, Moving, Outcome, Pose, Problem, Schedule};
 use ccd_decomp::{Detail, body_from_mesh};
-use ccd_distance_gjk::{Auto, Gjk};
+use ccd_distance_gjk::{Direct, Gjk};
 use ccd_tests::models::{Mesh, icosphere, torus};
 
 fn body(mesh: &Mesh, detail: Detail) -> Body {
@@ -25,7 +25,7 @@ fn answer(a: &Body, b: &Body, velocity: DVec3, spin: DVec3) -> Answer {
     };
     let problem = Problem::new(a, b, 1.0, &Config::default()).unwrap();
     let answers = [
-        BestFirst::default().solve(&problem, &mut Auto::default()),
+        BestFirst::default().solve(&problem, &mut Direct::default()),
         BestFirst::default().solve(&problem, &mut Gjk),
     ];
     let [one, other] = [0, 1].map(|k| time(&answers[k]));

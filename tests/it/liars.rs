@@ -69,6 +69,6 @@ fn nobody_to_ask_is_said_so() {
 fn best_first() -> Backend {
     Backend {
         order: Order::BestFirst,
-        oracle: Oracle::Auto,
+        oracle: Oracle::Direct,
     }
 }

@@ -2,7 +2,7 @@
 
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{DistanceOracle, OrElse};
-use ccd_distance_gjk::{Auto, Direct, Gjk};
+use ccd_distance_gjk::{ClosedForm, Direct, Gjk};
 use ccd_distance_vmarch::Vmarch;
 use ccd_tests::contract::{Pair, bounds_law, cache_law, ends_law};
 use ccd_tests::strategies::{direction, rotation, runner};
@@ -39,9 +39,9 @@ macro_rules! contract {
 }
 
 contract! {
-    direct: Direct, [1, 2, 3];
+    closed_form: ClosedForm, [1, 2, 3];
     gjk: Gjk, [1, 2, 3, 8, 20];
-    auto: Auto, [1, 2, 3, 8, 20];
+    direct: Direct, [1, 2, 3, 8, 20];
     // Pieces of more than three points come without facets here: all of these go to GJK.
     vmarch: OrElse<Vmarch, Gjk>, [1, 2, 3, 8, 20];
 }

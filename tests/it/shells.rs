@@ -4,7 +4,7 @@ use ccd_core::glam::DVec3;
 use ccd_core::schedule::{BestFirst, Schedule};
 use ccd_core::{Body, Config, Motion, Moving, Outcome, Pose, Problem, StartPolicy};
 use ccd_decomp::{Detail, Order, prepare};
-use ccd_distance_gjk::Auto;
+use ccd_distance_gjk::Direct;
 use ccd_tests::exact::{Blend, Place, Solid};
 use ccd_tests::models::{Mesh, Shape, boulder, cuboid, icosphere, torus};
 use rand::{RngExt, SeedableRng};
@@ -71,7 +71,7 @@ fn solve(a: &Body, b: &Body, velocity: DVec3, start: StartPolicy) -> Outcome {
     let (a, b) = (moving(a, DVec3::ZERO), moving(b, velocity));
     let problem = Problem::new(a, b, 1.0, &config).unwrap();
     BestFirst::default()
-        .solve(&problem, &mut Auto::default())
+        .solve(&problem, &mut Direct::default())
         .outcome
 }
 

@@ -4,7 +4,7 @@ use ccd_core::glam::DVec3;
 use ccd_core::schedule::{BestFirst, Schedule};
 use ccd_core::tolerance::RESTING;
 use ccd_core::{Claim, Config, DistanceOracle, GiveUp, Outcome, PiecePair, StartPolicy};
-use ccd_distance_gjk::Direct;
+use ccd_distance_gjk::ClosedForm;
 use ccd_tests::analytic::sliding;
 use ccd_tests::backends::for_each_setup;
 use ccd_tests::checks::{Judge, check_contact};
@@ -219,16 +219,16 @@ fn a_liar_cannot_have_a_pair_let_go() {
     let bodies = query.triangles();
     let problem = query.problem(&bodies, &leave(1e-3));
     for axis in [DVec3::X, DVec3::Y, -DVec3::Y, -DVec3::Z, DVec3::NAN] {
-        let answer = BestFirst::default().solve(&problem, &mut AxisLiar(axis, Direct));
+        let answer = BestFirst::default().solve(&problem, &mut AxisLiar(axis, ClosedForm));
         assert!(!is_free(answer.outcome), "{axis} {answer:?}");
     }
 }
 
 /// The right points, along an axis of its own.
-struct AxisLiar(DVec3, Direct);
+struct AxisLiar(DVec3, ClosedForm);
 
 impl DistanceOracle for AxisLiar {
-    type Cache = <Direct as DistanceOracle>::Cache;
+    type Cache = <ClosedForm as DistanceOracle>::Cache;
 
     fn separation(
         &mut self,

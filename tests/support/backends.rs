@@ -4,7 +4,7 @@ use crate::models::Kind;
 use crate::query::{Bodies, Query};
 use ccd_core::schedule::{BestFirst, Fast, HullFirst, Naive};
 use ccd_core::{Answer, Body, Config, DistanceOracle, Problem, Schedule};
-use ccd_distance_gjk::{Auto, Direct, Gjk};
+use ccd_distance_gjk::{ClosedForm, Direct, Gjk};
 use ccd_distance_vmarch::Vmarch;
 
 /// The schedules.
@@ -24,11 +24,11 @@ pub enum Order {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Oracle {
     /// Closed forms, up to triangles.
-    Direct,
+    ClosedForm,
     /// GJK in f64.
     Gjk,
     /// Closed forms, then GJK.
-    Auto,
+    Direct,
     /// Voronoi marching, then GJK.
     Vmarch,
 }
@@ -58,13 +58,13 @@ impl Backend {
     /// What a query gets by default.
     pub const DEFAULT: Backend = Backend {
         order: Order::BestFirst,
-        oracle: Oracle::Auto,
+        oracle: Oracle::Direct,
     };
 
     /// Every schedule with every oracle.
     pub fn all() -> impl Iterator<Item = Backend> {
-        use Oracle::{Auto, Direct, Gjk, Vmarch};
-        let oracles = [Direct, Gjk, Auto, Vmarch];
+        use Oracle::{ClosedForm, Direct, Gjk, Vmarch};
+        let oracles = [ClosedForm, Gjk, Direct, Vmarch];
         let orders = [
             Order::BestFirst,
             Order::HullFirst,
@@ -86,7 +86,7 @@ impl Backend {
             }
             Order::Naive => bodies.pairs() <= NAIVE_PAIRS,
         };
-        let small = self.oracle != Oracle::Direct
+        let small = self.oracle != Oracle::ClosedForm
             || [bodies.a(), bodies.b()]
                 .iter()
                 .all(|body| body.pieces().iter().all(|piece| piece.points.len() <= 3));
@@ -96,9 +96,9 @@ impl Backend {
     /// Answers with a fresh schedule and a fresh oracle.
     pub fn solve(self, problem: &Problem<'_>) -> Answer {
         match self.oracle {
-            Oracle::Direct => self.solve_with(problem, &mut Direct),
+            Oracle::ClosedForm => self.solve_with(problem, &mut ClosedForm),
             Oracle::Gjk => self.solve_with(problem, &mut Gjk),
-            Oracle::Auto => self.solve_with(problem, &mut Auto::default()),
+            Oracle::Direct => self.solve_with(problem, &mut Direct::default()),
             Oracle::Vmarch => self.solve_with(problem, &mut Vmarch::default().or_else(Gjk)),
         }
     }

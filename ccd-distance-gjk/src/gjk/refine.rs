@@ -3,7 +3,7 @@
 use super::minkowski::Difference;
 use super::search::Found;
 use super::simplex::Simplex;
-use crate::direct::nearest::{Corners, nearest};
+use crate::closed_form::nearest::{Corners, nearest};
 use ccd_core::glam::DVec3;
 use ccd_core::order::lesser;
 

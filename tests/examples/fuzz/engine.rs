@@ -5,7 +5,7 @@ use ccd_core::glam::DVec3;
 use ccd_core::schedule::{BestFirst, Fast, HullFirst, Naive};
 use ccd_core::{Answer, Body, Config, DistanceOracle, Moving, OrElse, Polytope, Problem, Schedule};
 use ccd_decomp::{Detail, TriangleMesh, prepare};
-use ccd_distance_gjk::{Auto, Gjk};
+use ccd_distance_gjk::{Direct, Gjk};
 use ccd_distance_vmarch::Vmarch;
 use std::fmt;
 
@@ -103,10 +103,10 @@ impl Method {
             schedule.solve(problem, &mut O::default())
         }
         match self {
-            Method::Direct => by(BestFirst::<Auto>::default(), problem),
+            Method::Direct => by(BestFirst::<Direct>::default(), problem),
             Method::Gjk => by(BestFirst::<Gjk>::default(), problem),
             Method::Vmarch => by(BestFirst::<OrElse<Vmarch, Gjk>>::default(), problem),
-            Method::Naive => by(Naive::<Auto>::default(), problem),
+            Method::Naive => by(Naive::<Direct>::default(), problem),
             Method::Fast => by(Fast::<Gjk>::default(), problem),
             Method::HullFirst => by(HullFirst::<Gjk>::default(), problem),
         }

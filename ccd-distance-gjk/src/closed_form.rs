@@ -31,7 +31,7 @@ use nearest::{Corners, Nearest};
 ///
 /// ```
 /// use ccd_core::{DistanceOracle, Frame, Piece, PiecePair, glam::DVec3};
-/// use ccd_distance_gjk::Direct;
+/// use ccd_distance_gjk::ClosedForm;
 /// let floor = [DVec3::ZERO, 4.0 * DVec3::X, 4.0 * DVec3::Y];
 /// let above = [DVec3::new(1.0, 1.0, 0.5)];
 /// let pair = PiecePair {
@@ -39,13 +39,13 @@ use nearest::{Corners, Nearest};
 ///     b: Piece::from_points(&above),
 ///     b_to_a: Frame::IDENTITY,
 /// };
-/// let claim = Direct::default().separation(&pair, &mut ()).unwrap();
+/// let claim = ClosedForm::default().separation(&pair, &mut ()).unwrap();
 /// assert_eq!(claim.a.of(&floor), Some(DVec3::new(1.0, 1.0, 0.0)));
 /// ```
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Direct;
+pub struct ClosedForm;
 
-impl DistanceOracle for Direct {
+impl DistanceOracle for ClosedForm {
     type Cache = ();
 
     #[inline]

@@ -1,6 +1,6 @@
 //! Which features are named, what is refused, and the common point of what intersects inside.
 
-use super::Direct;
+use super::ClosedForm;
 use super::nearest::nearest;
 use super::pierce::common_point;
 use ccd_core::glam::DVec3;
@@ -19,7 +19,7 @@ fn claim(a: &[DVec3], b: &[DVec3]) -> Result<Claim, GiveUp> {
         b: Piece::from_points(b),
         b_to_a: Frame::IDENTITY,
     };
-    Direct.separation(&pair, &mut ())
+    ClosedForm.separation(&pair, &mut ())
 }
 
 fn v(x: f64, y: f64, z: f64) -> DVec3 {
