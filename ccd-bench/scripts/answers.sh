@@ -6,7 +6,7 @@
 #   SCENES   folder with meshes (*.obj), motions (*.csv) and brackets (truth_*.csv)
 #   VERDICT  a program that is called as `VERDICT truth.csv result.csv` and prints the counts
 #   OUT      folder for the results, default a new one
-# environment: ORACLES="direct gjk" and TOLERANCES="1e-3" take these only, CCD=… is the command
+# environment: ORACLES="gjk vmarch" and TOLERANCES="1e-3" take these only, CCD=… is the command
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 . "$here/pairs.sh"

@@ -67,7 +67,7 @@ impl DistanceOracle for ClosedForm {
     }
 }
 
-/// For pieces that nearly touch, or intersect: the best axis of all, and a common point if there
+/// Returns the best axis of all for pieces that nearly touch or intersect, and a common point if there
 /// is one.
 #[cold]
 #[inline(never)]
@@ -80,8 +80,8 @@ fn examine(p: &Corners, q: &Corners, near: Nearest) -> (DVec3, Nearest) {
     (best.direction, pierce::common_point(p, q, near))
 }
 
-/// Both pieces in A's axes, the origin in A's first point, so that rounding is that of the pieces'
-/// size wherever they lie.
+/// Moves both pieces to A's axes, with the origin in A's first point: rounding is then that of the
+/// pieces' size wherever they lie.
 #[inline]
 fn local(pair: &PiecePair<'_>) -> Option<(Corners, Corners)> {
     let (a, b) = (corners(&pair.a)?, corners(&pair.b)?);

@@ -10,7 +10,7 @@ use ccd_core::{DistanceOracle, Frame, Piece, PiecePair};
 use rstest::rstest;
 use scene::{Meeting, Pcg64, Scene, SeedableRng};
 
-/// How many scenes each law sees; `CCD_CASES` in the environment sets another number.
+/// The number of scenes that each law sees; `CCD_CASES` in the environment sets another number.
 fn cases() -> u64 {
     let given = std::env::var("CCD_CASES").ok();
     given.and_then(|text| text.parse().ok()).unwrap_or(2000)
@@ -103,7 +103,7 @@ fn intersecting_hulls(#[values(4, 7, 30)] a: usize, #[values(4, 30)] b: usize) {
     });
 }
 
-/// Of flat pieces a common point is known to fewer digits: the worst of these was 1.7e-7.
+/// A common point of flat pieces is known to fewer digits: the worst of these was 1.7e-7.
 #[rstest]
 fn pressed_flat(#[values(3, 4, 8, 30)] a: usize, #[values(3, 4, 30)] b: usize) {
     let draw = |rng: &mut Pcg64| scene::pressed(rng, a, b);
@@ -129,7 +129,7 @@ fn balls_of_many_points(#[values(50, 500)] count: usize, #[values(1e-2, 1.0)] ga
     history::<Gjk>(count);
 }
 
-/// Random hulls: what is apart is certified, agrees with brute force and does not depend on the
+/// Random hulls: hulls apart are certified, agree with brute force and do not depend on the
 /// order; both outcomes are met often enough.
 fn random<O: DistanceOracle + Default>(a: usize, b: usize) {
     let apart = std::cell::Cell::new(0);

@@ -1,4 +1,4 @@
-//! What a stop at a tie is worth: the support gap along its axis against the distance.
+//! Axes that certify a stop at a tie: the support gap along them against the distance.
 
 use crate::feature::{Feature, Pair};
 use crate::placed::{Placed, PlacedPair};
@@ -16,7 +16,7 @@ pub(crate) struct Axis {
 }
 
 impl Axis {
-    /// A direction of any length; none at all separates nothing.
+    /// Measures the gap along a direction of any length; one of no length separates nothing.
     pub(crate) fn along(placed: &PlacedPair<'_>, direction: DVec3) -> Self {
         let direction = unit(direction);
         let known = direction != DVec3::ZERO;
@@ -48,8 +48,8 @@ pub(crate) fn gap(placed: &PlacedPair<'_>, n: DVec3) -> f64 {
         - highest.fold(f64::NEG_INFINITY, greater)
 }
 
-/// No less than the gap along a direction of any length: that between two corners, found by climbing
-/// where there are many.
+/// Bounds the gap along a direction of any length from above: by the gap between two corners, found by
+/// climbing where there are many.
 fn most(placed: &PlacedPair<'_>, direction: DVec3) -> f64 {
     let n = unit(direction);
     let highest = placed.a.0.vertex(placed.a.0.extremal(n)).point;
@@ -65,7 +65,7 @@ fn most(placed: &PlacedPair<'_>, direction: DVec3) -> f64 {
     }
 }
 
-/// The best axis for nearest features whose way is tied, or is rounding.
+/// Returns the best axis for nearest features whose difference is tied, or is rounding.
 ///
 /// The directions along which features are the extremal ones make up a cone; a way that is rounded
 /// may fall out of it. Its borders are tried too: the normals of the faces around, the cross products
@@ -107,11 +107,11 @@ pub(crate) fn best_axis(placed: &PlacedPair<'_>, pair: Pair, witness: &Witness) 
     best
 }
 
-/// Directions of what meets in a feature, in A's frame.
+/// The directions of the edges and faces that meet in a feature, in A's frame.
 struct Around {
     edges: Vec<DVec3>,
     normals: Vec<DVec3>,
-    /// Across an edge, in the plane of a face.
+    /// The directions across an edge, in the plane of a face.
     within: Vec<DVec3>,
 }
 

@@ -15,14 +15,14 @@ use crate::witness::Witness;
 use ccd_core::glam::DVec3;
 use ccd_core::{Claim, GiveUp};
 
-/// What is claimed, and the pair to start from the next time.
+/// A claim, and the pair to start from the next time.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Certified {
     pub(crate) pair: Pair,
     pub(crate) claim: Claim,
 }
 
-/// From the end of a march that is not certain by itself to an answer that is certified, or proven.
+/// Certifies, or proves, an answer from the end of a march that is not certain by itself.
 ///
 /// # Errors
 /// When, from several starts, none is: [`GiveUp::Cycle`] or [`GiveUp::StepCap`] where a march ended so,
@@ -58,7 +58,7 @@ pub(crate) fn certify(
     found.ok_or(why)
 }
 
-/// What an end is worth.
+/// The worth of an end.
 enum Finding {
     Certified(Certified),
     /// There is a pair around it that is nearer.
@@ -83,7 +83,7 @@ fn examine(placed: &PlacedPair<'_>, end: End, counters: &mut Counters) -> Findin
     }
 }
 
-/// A stop, certified where it has to be.
+/// Certifies a stop where it has to be.
 fn examine_stop(placed: &PlacedPair<'_>, pair: Pair, certainty: Certainty) -> Finding {
     let witness = Witness::of(placed, pair);
     if certainty == Certainty::Sure || witness.distance() >= FAR * placed.scale.size {
@@ -92,7 +92,7 @@ fn examine_stop(placed: &PlacedPair<'_>, pair: Pair, certainty: Certainty) -> Fi
     certify_tie(placed, pair)
 }
 
-/// The best pair of a cycle.
+/// Certifies the best pair of a cycle.
 fn examine_cycle(placed: &PlacedPair<'_>, start: Pair) -> Finding {
     let (mut pair, mut nearest) = (start, start);
     let mut least = Witness::of(placed, start).distance();
@@ -143,7 +143,7 @@ fn certified(placed: &PlacedPair<'_>, pair: Pair, witness: &Witness, axis: DVec3
     Finding::Certified(Certified { pair, claim })
 }
 
-/// Looks for a common point among all edges and faces.
+/// Searches for a common point among all edges and faces.
 fn search_common_point(
     placed: &PlacedPair<'_>,
     pair: Pair,

@@ -1,15 +1,15 @@
-//! Counts of what an oracle met with.
+//! Counts of an oracle's work.
 
-/// What an oracle met with, over all calls.
+/// The work of an oracle over all calls.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counters {
-    /// How often it was asked.
+    /// The calls.
     pub calls: u64,
     /// Pairs of features that were tested.
     pub steps: u64,
     /// Pairs that came up again.
     pub cycles: u64,
-    /// Features found behind a face, with all faces looked at for it.
+    /// Features found behind a face, for which all faces were looked at.
     pub local_minima: u64,
     /// Marches taken up again from other features.
     pub restarts: u64,

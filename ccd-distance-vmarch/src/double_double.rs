@@ -1,4 +1,4 @@
-//! Numbers of twice the digits, for what is made once and has to be right `[SHE97]`.
+//! Numbers of twice the digits: double-double arithmetic `[SHE97]`.
 //!
 //! The normal of a sliver is the small difference of large products: in f64 it would be right to no
 //! digit where the sliver is thinner than 1e-16 of its length, and wrong by as much as it is thin
@@ -28,7 +28,7 @@ impl DoubleDouble {
         self.high + self.low
     }
 
-    /// The sum of two numbers of which the first is not smaller.
+    /// The sum of two numbers, the larger one first.
     fn renormalised(high: f64, low: f64) -> Self {
         let sum = high + low;
         DoubleDouble {

@@ -1,4 +1,4 @@
-//! The march: from a pair of features to a nearer one, until none is nearer `[VCLIP98 §3]`.
+//! The march from a pair of features to a nearer one, until none is nearer `[VCLIP98 §3]`.
 
 use crate::counters::Counters;
 use crate::escape::{self, Escape};
@@ -8,7 +8,7 @@ use crate::termination::{Brent, End};
 use crate::tolerance::STEPS_PER_FEATURE;
 use crate::{edge_edge, edge_face, vertex_edge, vertex_face, vertex_vertex};
 
-/// Marches from a pair.
+/// Marches from a pair of features to the nearest one.
 ///
 /// In exact arithmetic every step leads to features that are nearer, or as near and of a lower
 /// dimension, so that none is met twice. In floating point one may be: [`Brent`] notices.

@@ -1,10 +1,11 @@
-//! All features around a tie: what rounding hid from the march, looked at pair by pair.
+//! All features around a tie, compared pair by pair: rounding may have hidden a nearer pair from the march.
 
 use crate::edge_edge;
 use crate::feature::{Feature, Pair};
 use crate::placed::{Placed, PlacedPair};
 use crate::polytope::NO_FACE;
 use crate::tolerance::AROUND;
+use ccd_core::glam::DVec3;
 
 /// The nearest pair of features of the faces around a pair, if it is nearer than that by more than
 /// `rounding`.
@@ -111,7 +112,7 @@ impl Star {
     }
 }
 
-/// The end of an edge that a parameter is at, or the edge.
+/// The end of an edge at a parameter, or the edge.
 fn end_or_edge<P: Placed>(polytope: &P, e: u32, parameter: f64) -> Feature {
     let edge = polytope.shape().edge(e);
     if !(parameter > 0.0) {
@@ -123,8 +124,8 @@ fn end_or_edge<P: Placed>(polytope: &P, e: u32, parameter: f64) -> Feature {
     }
 }
 
-/// How high a point is above a face, or nothing beside it and behind it.
-fn height<P: Placed>(point: ccd_core::glam::DVec3, polytope: &P, f: u32) -> f64 {
+/// The height of a point above a face, infinite beside it and behind it.
+fn height<P: Placed>(point: DVec3, polytope: &P, f: u32) -> f64 {
     let mut height = f64::INFINITY;
     let normal = polytope.vector(polytope.shape().face(f).normal);
     for side in polytope.shape().sides_of(f) {

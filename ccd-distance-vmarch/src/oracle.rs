@@ -1,4 +1,4 @@
-//! The backend.
+//! Voronoi marching as a backend.
 
 use crate::certify::certify;
 use crate::counters::Counters;
@@ -60,7 +60,7 @@ pub struct Vmarch {
 }
 
 impl Vmarch {
-    /// What it met with so far.
+    /// The work so far.
     pub fn counters(&self) -> Counters {
         self.counters
     }
@@ -99,8 +99,7 @@ impl DistanceOracle for Vmarch {
 /// A prepared piece, or why it can't be.
 type Prepared = Box<Result<Polytope, GiveUp>>;
 
-/// What is kept of a piece; of a piece that is of no list, what is made of it now, and kept by the
-/// caller.
+/// Returns what is kept of a piece; a piece of no list is prepared now, and kept by the caller.
 #[inline]
 fn prepared<'p>(piece: &Piece<'p>, own: &'p mut Option<Prepared>) -> Result<&'p Polytope, GiveUp> {
     let make = |piece: &Piece<'_>| -> Prepared { Box::new(Polytope::new(piece)) };

@@ -8,7 +8,7 @@ use crate::tolerance::PIERCED_PAIRS;
 use ccd_core::glam::DVec3;
 use ccd_core::order::lesser;
 
-/// Where an edge goes through a face, or ends on it.
+/// Finds the point where an edge goes through a face, or ends on it.
 ///
 /// # Guarantee
 /// The signs are those of the placed points, whatever rounding placed them: some is given only if the
@@ -38,7 +38,7 @@ pub(crate) fn pierced<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32) -> Opt
     None
 }
 
-/// Whether a corner is inside of the other polytope: within a tetrahedron that one of its corners
+/// Finds a corner inside the other polytope: within a tetrahedron that one of its corners
 /// spans with a triangle of one of its faces.
 ///
 /// # Guarantee
@@ -76,8 +76,8 @@ pub(crate) fn contained<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y) -> Option<Cr
     None
 }
 
-/// Looks for any edge of X that goes through a face of Y, of polytopes that are not too large for that,
-/// and for a corner of X inside Y.
+/// Searches for an edge of X that goes through a face of Y, or a corner of X inside Y, unless the
+/// polytopes are too large for that.
 pub(crate) fn searched<X: Placed, Y: Placed>(x: &X, y: &Y, scale: Scale) -> Option<Crossing> {
     let (edges, faces) = (x.shape().edges.len() as u32, y.shape().faces.len() as u32);
     if edges as usize * faces as usize > PIERCED_PAIRS {
@@ -88,7 +88,7 @@ pub(crate) fn searched<X: Placed, Y: Placed>(x: &X, y: &Y, scale: Scale) -> Opti
     through.or_else(|| contained(x, 0, y))
 }
 
-/// As [`pierced`], of edges that are not clearly on one side of the face's plane.
+/// Does the same as [`pierced`] for edges that are not clearly on one side of the face's plane.
 fn straddled<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32, scale: Scale) -> Option<Crossing> {
     let base = y.point(y.shape().sides_of(f).first()?.start);
     let normal = y.vector(y.shape().face(f).normal);

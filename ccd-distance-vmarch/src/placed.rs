@@ -1,4 +1,4 @@
-//! Two polytopes in one frame: A where it is, B taken there feature by feature.
+//! Two polytopes in one frame: A as it is, B mapped there feature by feature.
 
 use crate::polytope::{Edge, Polytope};
 use crate::tolerance::PLACING;
@@ -6,8 +6,9 @@ use ccd_core::Frame;
 use ccd_core::glam::{DMat3, DVec3};
 use ccd_core::order::{greater, lesser};
 
-/// A polytope that is placed in the frame of A's polytope. A test of two features is written once, for
-/// any two of these.
+/// A polytope that is placed in the frame of A's polytope.
+///
+/// A test of two features is written once, for any two of these.
 pub(crate) trait Placed {
     fn shape(&self) -> &Polytope;
     /// Places a point.
@@ -32,7 +33,7 @@ pub(crate) trait Placed {
         }
     }
 
-    /// For the faces that meet in an edge, how far a way leads into either.
+    /// The components of a vector into either of the faces that meet in an edge.
     #[inline(always)]
     fn inward(&self, edge: &Edge, way: DVec3) -> [f64; 2] {
         edge.inward.map(|inward| self.vector(inward).dot(way))
@@ -59,10 +60,10 @@ pub(crate) struct PlacedPair<'a> {
     pub(crate) scale: Scale,
 }
 
-/// How large a pair of polytopes is, and what that makes of rounding.
+/// The size of a pair of polytopes, and the rounding it brings.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Scale {
-    /// Both reaches and the way between the origins.
+    /// The sum of both reaches and of the distance of the origins.
     pub(crate) size: f64,
 }
 
@@ -92,12 +93,12 @@ impl<'a> PlacedPair<'a> {
 }
 
 impl PlacedB<'_> {
-    /// Where the origin is.
+    /// The position of the origin.
     pub(crate) fn origin(&self) -> DVec3 {
         self.translation
     }
 
-    /// A direction of A's frame in its own.
+    /// Turns a direction of A's frame to the polytope's own.
     pub(crate) fn own_vector(&self, vector: DVec3) -> DVec3 {
         DVec3::new(
             self.rotation.x_axis.dot(vector),
@@ -108,7 +109,7 @@ impl PlacedB<'_> {
 }
 
 impl Scale {
-    /// How far a difference of two placed points may be off.
+    /// The largest error of a difference of two placed points.
     #[inline(always)]
     pub(crate) fn rounding(self) -> f64 {
         PLACING * self.size
@@ -128,7 +129,7 @@ impl Line {
     }
 }
 
-/// Between 0 and `length`; 0 for what is no number.
+/// Clamps between 0 and `length`; NaN becomes 0.
 #[inline(always)]
 pub(crate) fn clamped(parameter: f64, length: f64) -> f64 {
     lesser(greater(0.0, parameter), length)

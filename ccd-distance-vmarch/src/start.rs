@@ -1,23 +1,22 @@
-//! Where a march begins: at the last pair of features, or at corners that face each other
-//! `[SWIFT01]`.
+//! The start of a march: the last pair of features, or corners that face each other `[SWIFT01]`.
 
 use crate::feature::{Feature, Pair};
 use crate::placed::{Placed, PlacedPair};
 use crate::polytope::Polytope;
 use ccd_core::glam::DVec3;
 
-/// Which features were nearest, and along which axis, for the next call to start from.
+/// The features that were nearest, and their axis, for the next call to start from.
 ///
 /// Features serve the polytope that they are of; for any other one, such as a part of that, the axis
 /// says where to start. Whatever a cache holds, it only decides where a march begins.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Cache(Option<Last>);
 
-/// How the last march ended.
+/// The end of the last march.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Last {
     pair: Pair,
-    /// Of A's polytope and B's.
+    /// The names of both polytopes.
     names: [u64; 2],
     axis: DVec3,
 }

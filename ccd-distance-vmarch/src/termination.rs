@@ -2,24 +2,25 @@
 
 use crate::feature::{Certainty, Crossing, Pair, Whose};
 
-/// How a march ends.
+/// The end of a march.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum End {
-    /// At nearest features.
+    /// Nearest features.
     Nearest(Pair, Certainty),
-    /// At a common point: of A's features with B, in the order that is told.
+    /// A common point of A's and B's features; the polytope whose edge it is comes with it.
     Common(Pair, Whose, Crossing),
-    /// Where it had been before.
+    /// A pair that was met before.
     Cycle(Pair),
-    /// Behind all faces, without a common point that could be proven.
+    /// A pair behind all faces, without a common point that could be proven.
     Unclear(Pair),
-    /// At its cap of steps.
+    /// The pair at the cap of steps.
     Cap(Pair),
 }
 
-/// Brent's detection of cycles: each state is compared with one that was left behind, which is
-/// replaced after 1, 2, 4, … steps. A cycle is noticed within three times its length and what came
-/// before it.
+/// Brent's detection of cycles.
+///
+/// Each state is compared with one that was left behind, which is replaced after 1, 2, 4, … steps. A
+/// cycle is noticed within three times the sum of its length and of the steps before it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Brent {
     left: Pair,

@@ -1,4 +1,4 @@
-//! What has a common point, but may have no inside in common: the axis that keeps it apart.
+//! Axes for pieces with a common point that may only touch.
 
 use crate::certificate::{Axis, best_axis};
 use crate::feature::{Crossing, Feature, Pair, Whose};
@@ -7,7 +7,7 @@ use crate::polytope::Polytope;
 use crate::witness::{self, Witness};
 use ccd_core::Claim;
 
-/// The claim of a proven common point.
+/// Makes the claim of a proven common point.
 ///
 /// Its axis is the normal of the face that shows it; or, where the point is on the border of what it
 /// was found in, that of the axes around which keeps the pieces apart best: they may only touch.
@@ -28,8 +28,8 @@ pub(crate) fn common(placed: &PlacedPair<'_>, whose: Whose, crossing: &Crossing)
     claim
 }
 
-/// The features that hold a common point, unless that shows that insides meet: where an edge goes
-/// through the inside of a face, and where a point is inside of a polytope.
+/// Returns the features that hold a common point, unless that shows that insides meet: where an edge
+/// goes through the inside of a face, and where a point is inside a polytope.
 fn border(placed: &PlacedPair<'_>, whose: Whose, crossing: &Crossing) -> Option<Pair> {
     let PlacedPair { a, b, scale } = placed;
     let found = match whose {

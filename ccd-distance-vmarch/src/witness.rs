@@ -1,4 +1,4 @@
-//! What a stop means: the nearest points, clamped into their features, and the axis between them.
+//! The nearest points of a stop, clamped into their features, and the axis between them.
 
 use crate::edge_edge;
 use crate::feature::{Corners, Crossing, Feature, Pair, Whose};
@@ -11,15 +11,15 @@ use ccd_core::{Claim, Combination};
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Witness {
     pub(crate) points: [DVec3; 2],
-    /// What corners they are combined of.
+    /// The corners that they are combined of.
     spots: [Corners<3>; 2],
-    /// Of any length.
+    /// The direction from A to B, of any length.
     pub(crate) axis: DVec3,
 }
 
 impl Witness {
-    /// Of a pair at which a march may stop; of an edge or face and a face, of which it never stops,
-    /// two of their corners.
+    /// Computes the nearest points of a pair at which a march may stop. A march never stops at an edge or
+    /// face and a face; two of their corners stand for them.
     #[inline]
     pub(crate) fn of(placed: &PlacedPair<'_>, pair: Pair) -> Self {
         let PlacedPair { a, b, scale } = placed;
@@ -145,7 +145,7 @@ fn vertex_face<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y, f: u32) -> Witness {
     }
 }
 
-/// What of a way is across a direction.
+/// The part of a vector across a direction.
 #[inline]
 pub(crate) fn across(way: DVec3, along: DVec3) -> DVec3 {
     way - along * way.dot(along)

@@ -36,18 +36,18 @@ pub enum Oracle {
 /// A schedule with an oracle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Backend {
-    /// Which schedule.
+    /// The schedule.
     pub order: Order,
-    /// Which oracle.
+    /// The oracle.
     pub oracle: Oracle,
 }
 
-/// How an answer came about: print it when an assertion fails.
+/// The backend and the pieces of an answer: print it when an assertion fails.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Setup {
-    /// Who answered.
+    /// The backend that answered.
     pub backend: Backend,
-    /// Of what the bodies were built.
+    /// The pieces that the bodies were built of.
     pub kinds: [Kind; 2],
 }
 
@@ -55,7 +55,7 @@ pub struct Setup {
 const NAIVE_PAIRS: usize = 400;
 
 impl Backend {
-    /// What a query gets by default.
+    /// The default of a query.
     pub const DEFAULT: Backend = Backend {
         order: Order::BestFirst,
         oracle: Oracle::Direct,

@@ -16,7 +16,7 @@ pub(crate) struct Fan {
 }
 
 impl Fan {
-    /// The vertices that hold the nearest point; none without one.
+    /// Takes the vertices that hold the nearest point; none without one.
     pub(crate) fn new(found: &Found) -> Option<Self> {
         let held = found.simplex.vertices();
         let mut out = Fan {
@@ -51,9 +51,10 @@ impl Fan {
         room
     }
 
-    /// The axis along which these vertices are farthest from the origin, and how far: the nearest
-    /// point, a known axis, or any, as they are or made perpendicular to an edge, or what is
-    /// perpendicular to two edges.
+    /// Returns the axis along which these vertices are farthest from the origin, and how far.
+    ///
+    /// The candidates are the nearest point, a known axis, and any one, as they are or made
+    /// perpendicular to an edge, and the perpendiculars of two edges.
     pub(crate) fn best(&self, known: DVec3) -> (DVec3, f64) {
         let mut edges = [DVec3::ZERO; SHARPEN_CAP];
         for (edge, vertex) in edges.iter_mut().zip(self.vertices()) {

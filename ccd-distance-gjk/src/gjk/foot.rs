@@ -9,8 +9,8 @@ pub(crate) struct Foot {
     pub(crate) weights: [f64; 4],
     /// The vertices' combination by these weights.
     pub(crate) point: DVec3,
-    /// Along `point`, but made of the feature, so that it stays sharp where the point is short; of any
-    /// length. None when the origin is inside.
+    /// The direction of `point`, of any length; none when the origin is inside. It is made of the
+    /// feature, so that it stays sharp where the point is short.
     pub(crate) direction: Option<DVec3>,
 }
 
@@ -26,11 +26,11 @@ impl Foot {
         }
     }
 
-    /// The foot on a sub-simplex, told in the indices of the whole: its vertex `k` is `places[k]`.
-    pub(crate) fn lifted(self, places: &[usize]) -> Self {
+    /// Returns the foot on a sub-simplex in the indices of the whole: its vertex `k` is `indices[k]`.
+    pub(crate) fn lifted(self, indices: &[usize]) -> Self {
         let mut weights = [0.0; 4];
-        for (&place, &weight) in places.iter().zip(&self.weights) {
-            weights[place] = weight;
+        for (&index, &weight) in indices.iter().zip(&self.weights) {
+            weights[index] = weight;
         }
         Foot { weights, ..self }
     }

@@ -13,12 +13,12 @@ pub(crate) struct Difference<'a> {
     pair: &'a PiecePair<'a>,
     first_a: DVec3,
     first_b: DVec3,
-    /// From the first point of A to that of B.
+    /// The vector from the first point of A to that of B.
     pub(crate) between: DVec3,
 }
 
 impl<'a> Difference<'a> {
-    /// None for a piece without points.
+    /// Takes a pair; none if a piece has no points.
     pub(crate) fn new(pair: &'a PiecePair<'a>) -> Option<Self> {
         let (&first_a, &first_b) = (pair.a.points.first()?, pair.b.points.first()?);
         Some(Difference {
@@ -62,8 +62,9 @@ impl<'a> Difference<'a> {
     }
 }
 
-/// The index of a point of a piece that is farthest along a direction; points are never empty. A few
-/// are all looked at, told from the first one, and more are left to the piece.
+/// Returns the index of a point of a piece that is farthest along a direction; points are never empty.
+///
+/// A few are all looked at, relative to the first one. More are left to the piece.
 #[inline]
 fn farthest(piece: &Piece<'_>, first: DVec3, direction: DVec3) -> u32 {
     if piece.points.len() > SCANNED_POINTS {

@@ -1,4 +1,4 @@
-//! The backend.
+//! GJK as a backend.
 
 use super::minkowski::Difference;
 use super::refine;
@@ -20,8 +20,8 @@ use ccd_core::{Claim, Combination, DistanceOracle, GiveUp, PiecePair};
 /// gives up on pieces that have points, and claims nothing of those that have none.
 ///
 /// # Complexity
-/// About 3 to 10 steps, 1 to 2 from a warm [`Cache`], each of which looks at every point once;
-/// without allocation.
+/// About 3 to 10 steps, 1 to 2 from a warm [`Cache`], without allocation. Each step looks at every point
+/// once.
 ///
 /// ```
 /// use ccd_core::{DistanceOracle, Frame, Piece, PiecePair, glam::DVec3};
@@ -53,15 +53,17 @@ impl DistanceOracle for Gjk {
     }
 }
 
-/// What is claimed of a pair with a piece that has no points.
+/// The claim about a pair with a piece that has no points.
 pub(crate) const NOTHING: Claim = Claim {
     axis: DVec3::ZERO,
     a: Combination::EMPTY,
     b: Combination::EMPTY,
 };
 
-/// Searches, and where rounding stalls the search short of the distance that its axis certifies,
-/// goes on from the vertices that the features' axes run into.
+/// Searches for the nearest point, again and again where rounding stalls the search.
+///
+/// A search that stalls short of the distance that its axis certifies goes on from the vertices that
+/// the features' axes run into.
 pub(crate) fn solve(difference: &Difference<'_>, mut simplex: Simplex) -> Found {
     let mut found = Found::nothing();
     for _ in 0..ROUND_CAP {
@@ -93,7 +95,7 @@ fn certified(found: &Found) -> bool {
     found.gap > 0.0 && meets(found.gap, found.square, &found.simplex, CERTIFIED_ULPS)
 }
 
-/// Says what was found.
+/// Makes a claim of what was found.
 pub(crate) fn claim(found: &Found) -> Claim {
     let mut out = Claim {
         axis: found.axis,

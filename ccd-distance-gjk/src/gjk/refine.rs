@@ -7,9 +7,11 @@ use crate::closed_form::nearest::{Corners, nearest};
 use ccd_core::glam::DVec3;
 use ccd_core::order::lesser;
 
-/// The nearest points of what a simplex spans on either side, in closed form, if they are nearer:
-/// rounding that stalls a search on nearly parallel edges does not reach them. Of four points on one
-/// side the first three are looked at.
+/// Replaces the witnesses by the nearest points of what a simplex spans on either side, if those are
+/// nearer.
+///
+/// They are found in closed form, which rounding that stalls a search on nearly parallel edges does not
+/// reach. If one side has four points, the first three are looked at.
 pub(crate) fn witnesses(difference: &Difference<'_>, simplex: Simplex, found: &mut Found) {
     let vertices = simplex.vertices();
     let p = Points::new(vertices.iter().map(|v| (v.a, difference.point_a(v.a))));
@@ -51,7 +53,8 @@ impl Points {
     }
 }
 
-/// Vertices of the difference, and weights, whose combination is that of the points on either side.
+/// Returns vertices of the difference, and weights, whose combination is that of the points on either
+/// side.
 fn coupled(
     difference: &Difference<'_>,
     p: &Points,
@@ -68,8 +71,10 @@ fn coupled(
     (simplex, weights)
 }
 
-/// Pairs the weights of two sides off against each other, in order: of `m` and `n` positive ones
-/// that makes at most `m + n − 1` pairs, three for corner and face and for edge and edge.
+/// Pairs the weights of two sides off against each other, in order.
+///
+/// `m` and `n` positive weights make at most `m + n − 1` pairs: three for corner and face, and for edge
+/// and edge.
 pub(crate) struct Couple {
     a: [f64; 3],
     b: [f64; 3],

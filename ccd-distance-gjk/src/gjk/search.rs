@@ -1,4 +1,4 @@
-//! The search itself.
+//! The GJK search `[GJK88]`.
 
 use super::minkowski::Difference;
 use super::simplex::{Simplex, Vertex};
@@ -21,7 +21,7 @@ pub(crate) struct Found {
 }
 
 impl Found {
-    /// Nothing.
+    /// The start of a search: no simplex and no axis.
     pub(crate) fn nothing() -> Self {
         Found {
             simplex: Simplex::EMPTY,
@@ -32,7 +32,7 @@ impl Found {
         }
     }
 
-    /// Looks along an axis: the vertex that is least along it, and its support gap.
+    /// Looks along an axis; returns the vertex that is least along it, and the support gap.
     pub(crate) fn probe(&mut self, difference: &Difference<'_>, axis: DVec3) -> (Vertex, f64) {
         let vertex = difference.support(axis);
         let gap = axis.dot(vertex.point) / axis.length_squared().sqrt();
@@ -43,8 +43,8 @@ impl Found {
     }
 }
 
-/// Goes from `simplex` to the point of the difference that is nearest to the origin, step by step
-/// nearer `[GJK88]`; `found` keeps the best, whatever stops it.
+/// Searches for the point of the difference that is nearest to the origin, from `simplex` on, each step
+/// nearer; `found` keeps the best, whatever stops it.
 pub(crate) fn search(difference: &Difference<'_>, mut simplex: Simplex, found: &mut Found) -> Stop {
     for _ in 0..STEP_CAP {
         let Some(foot) = simplex.foot() else {

@@ -8,9 +8,11 @@ use crate::tolerance::SHARPEN_CAP;
 use ccd_core::glam::DVec3;
 use ccd_core::vector::unit;
 
-/// Looks for an axis that certifies the distance, among those that the difference's vertices near
-/// the origin span; returns the four vertices seen that are least along the best axis, the ones that
-/// the nearest point should be a combination of.
+/// Searches for an axis that certifies the distance, among those that the difference's vertices near
+/// the origin span.
+///
+/// Returns the four vertices seen that are least along the best axis: the nearest point should be a
+/// combination of them.
 ///
 /// An axis in the cone of normals at the nearest vertex f has f as its least vertex. Rounding tilts
 /// the nearest point's direction out of that cone when the point is short; so the axis is made

@@ -6,7 +6,7 @@ use super::simplex::Simplex;
 use ccd_core::glam::DVec3;
 use ccd_core::vector::unit;
 
-/// Where a search ended, for the next one on the same pair to start from.
+/// The end of a search, for the next one on the same pair to start from.
 ///
 /// Its vertices are looked up anew wherever the pieces are by then, so that what another pair left
 /// behind, or an index out of range, costs steps, not accuracy.
@@ -18,7 +18,7 @@ pub struct Cache {
 }
 
 impl Cache {
-    /// What to keep of a search.
+    /// Keeps the end of a search.
     pub(crate) fn of(found: &Found) -> Self {
         let mut cache = Cache {
             axis: found.axis,

@@ -1,11 +1,11 @@
-//! When a search stops.
+//! The end of a search: reasons and tests.
 
 use super::foot::Foot;
 use super::simplex::Simplex;
 use crate::tolerance::TOUCHING_ULPS;
 use ccd_core::order::greater;
 
-/// Why a search stopped.
+/// The reason why a search stopped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Stop {
     /// The support gap has met the distance.
@@ -26,8 +26,9 @@ pub(crate) fn touches(foot: &Foot, simplex: &Simplex) -> bool {
     foot.point.length_squared() <= rounding * rounding * reach(simplex)
 }
 
-/// Whether a support gap has met the distance of the nearest point, whose square is given, up to
-/// `share` units in the last place of it, and rounding.
+/// Whether a support gap has met the distance of the nearest point, whose square is given.
+///
+/// They meet up to `share` units in the last place of the distance, and rounding.
 pub(crate) fn meets(gap: f64, square: f64, simplex: &Simplex, share: f64) -> bool {
     let distance = square.sqrt();
     let rounding = TOUCHING_ULPS * f64::EPSILON * reach(simplex).sqrt();

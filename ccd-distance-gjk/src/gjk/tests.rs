@@ -140,7 +140,7 @@ fn a_simplex_takes_no_pair_twice_and_no_fifth() {
     assert!(!simplex.push(vertex(2, 2)));
 }
 
-/// Of a pyramid's apex above the origin, the axis that all edges allow is found edge by edge.
+/// The axis that all edges of a pyramid's apex allow is found edge by edge.
 #[test]
 fn a_fan_finds_the_axis_between_its_edges() {
     let mut found = Found::nothing();

@@ -62,8 +62,8 @@ fn inside(corners: [DVec3; 4], heights: [Height; 4]) -> Option<Foot> {
     })
 }
 
-/// How high the origin stands over a face, and the corner opposite of it: both times the length of
-/// the face's normal.
+/// The heights of the origin and of the opposite corner over a face, both times the length of the
+/// face's normal.
 #[derive(Clone, Copy)]
 struct Height {
     normal: DVec3,
@@ -72,7 +72,7 @@ struct Height {
 }
 
 impl Height {
-    /// None unless both are certainly on the same side of the face.
+    /// Measures both heights; none unless both are certainly on the same side of the face.
     fn certain(a: DVec3, b: DVec3, c: DVec3, apex: DVec3) -> Option<Self> {
         let (ab, ac, up) = (b - a, c - a, apex - a);
         let normal = ab.cross(ac);

@@ -56,9 +56,10 @@ fn face(corners: [DVec3; 3], n: DVec3, areas: [f64; 3]) -> Foot {
     }
 }
 
-/// The normal, on the face's side of the origin, or the foot: whichever rounding turns less. The one
-/// is turned by rounding over its height relative to the longest edge, the other over its length
-/// relative to the corners'.
+/// Returns the normal, on the face's side of the origin, or the foot: whichever rounding turns less.
+///
+/// Rounding turns the normal by its share of the triangle's height relative to the longest edge, and the
+/// foot by its share of the foot's length relative to the corners'.
 fn straighter(corners: [DVec3; 3], n: DVec3, point: DVec3, length2: f64) -> DVec3 {
     let reach = corners
         .iter()

@@ -12,7 +12,7 @@ use crate::witness::Witness;
 use ccd_core::GiveUp;
 use ccd_core::glam::{DQuat, DVec3};
 
-/// What every end at every pair is certified as has the same distance.
+/// Every end at every pair is certified at the same distance.
 fn certifies(placed: &PlacedPair<'_>, a: &shape::Shape, b: &shape::Shape, truth: f64) {
     let place = |p: DVec3| placed.b.point(p - placed.b.shape().origin);
     for one in features(placed.a.0) {

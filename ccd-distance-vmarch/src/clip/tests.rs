@@ -6,7 +6,7 @@ use crate::tests::setting::{cube, edge, face, moved, needle};
 use ccd_core::glam::DVec3;
 use rstest::rstest;
 
-/// What of a needle is over the cube's top: parameters, and the middles of the edges that cut it.
+/// The part of a needle over the cube's top: parameters, and the middles of the edges that cut it.
 fn clipped(half: DVec3, at: DVec3) -> Option<[(f64, Option<u32>); 2]> {
     let (cube, needle) = (cube(), needle(half));
     let placed = moved(&cube, &needle, at);

@@ -10,7 +10,7 @@ use ccd_core::glam::DVec3;
 use ccd_core::order::lesser;
 use rstest::rstest;
 
-/// What is said of the cube's edge along x at y = z = 1 and a needle.
+/// Tests the cube's edge along x at y = z = 1 against a needle.
 fn of_needle(half: DVec3, at: DVec3) -> Next {
     let (cube, needle) = (cube(), needle(half));
     let placed = moved(&cube, &needle, at);

@@ -6,7 +6,7 @@ use crate::tests::setting::{cube, edge, face, moved, needle};
 use ccd_core::glam::DVec3;
 use rstest::rstest;
 
-/// What is said of a needle and the cube's top.
+/// Tests a needle against the cube's top.
 fn of_needle(half: DVec3, at: DVec3) -> Next {
     let (cube, needle) = (cube(), needle(half));
     let placed = moved(&cube, &needle, at);

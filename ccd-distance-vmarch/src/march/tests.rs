@@ -1,4 +1,4 @@
-//! From every pair of features to the nearest one.
+//! Every pair of features leads to the nearest one.
 
 use super::march;
 use crate::counters::Counters;

@@ -1,4 +1,4 @@
-//! From features next to the nearest ones.
+//! Features next to the nearest ones lead to these.
 
 use super::nearer;
 use crate::feature::{Feature, Pair};

@@ -1,4 +1,4 @@
-//! Flat lists from outlines.
+//! Lays outlines out as flat lists.
 
 use super::facets::{Plane, turn, unit};
 use super::{Edge, Face, NO_FACE, Polytope, Side, Spoke, Vertex};

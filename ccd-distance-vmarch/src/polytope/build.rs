@@ -1,4 +1,4 @@
-//! From a piece to a polytope.
+//! Prepares a polytope from a piece.
 
 use super::facets::{Facets, off_line};
 use super::support::DirectionTable;
@@ -55,7 +55,7 @@ impl Polytope {
     }
 }
 
-/// What points extend to, by the numbers of points far from each other.
+/// The extent of points: none, a line, or more; with the numbers of points far from each other.
 enum Spread {
     Point,
     Line([u32; 2]),

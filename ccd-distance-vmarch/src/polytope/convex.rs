@@ -28,9 +28,9 @@ pub(crate) fn is_convex(points: &[DVec3], polytope: &Polytope, rounding: f64) ->
 struct Check<'a> {
     points: &'a [DVec3],
     polytope: &'a Polytope,
-    /// How far off each face's plane rounding may have put corners of the polytope.
+    /// The largest distance off each face's plane that rounding may have moved corners to.
     slacks: Vec<f64>,
-    /// Where each edge is among the sides of either of its faces.
+    /// The position of each edge among the sides of either of its faces.
     positions: Vec<[usize; 2]>,
 }
 
@@ -132,8 +132,8 @@ impl<'a> Check<'a> {
         layers.is_none_or(|layers| layers <= 1)
     }
 
-    /// How many faces the line from one point towards another one leaves through; none where it meets
-    /// the edge of one.
+    /// Counts the faces through which the line from one point towards another one leaves; none where it
+    /// meets the edge of one.
     fn left_through(&self, from: DVec3, to: DVec3) -> Option<usize> {
         let mut layers = 0;
         for face in 0..self.polytope.faces.len() as u32 {

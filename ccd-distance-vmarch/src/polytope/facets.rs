@@ -10,7 +10,7 @@ use ccd_core::vector;
 pub(crate) struct Facets {
     pub(crate) loops: Vec<Vec<u32>>,
     pub(crate) planes: Vec<Plane>,
-    /// Of every facet the facets across its sides, in order.
+    /// The facets across the sides of every facet, in order.
     pub(crate) across: Vec<Vec<u32>>,
 }
 
@@ -112,7 +112,7 @@ pub(crate) fn unit(v: DVec3) -> DVec3 {
     vector::unit(v).unwrap_or(DVec3::ZERO)
 }
 
-/// How far a point is off the line through two others; from the first one, if they are equal.
+/// The distance of a point from the line through two others; from the first one, if they are equal.
 pub(crate) fn off_line(p: DVec3, [start, end]: [DVec3; 2]) -> f64 {
     let along = DoubleDoubleVector::difference(end, start);
     let area = DoubleDoubleVector::difference(p, start)
@@ -126,7 +126,7 @@ pub(crate) fn off_line(p: DVec3, [start, end]: [DVec3; 2]) -> f64 {
     }
 }
 
-/// For every point the first one in its place.
+/// Maps every point to the first one at the same position.
 fn welded(points: &[DVec3]) -> Vec<u32> {
     // Zero is added so that -0 is 0.
     let key = |v: u32| {

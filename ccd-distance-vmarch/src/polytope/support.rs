@@ -3,14 +3,14 @@
 use super::Polytope;
 use ccd_core::glam::DVec3;
 
-/// For directions all around the corner that is farthest along each.
+/// The corner that is farthest along each of the directions all around.
 ///
 /// A direction belongs to one of sixteen squares on one of six sides of a cube: it is found by
 /// comparing, and the corner is one or two edges away from the extremal one in most polytopes.
 #[derive(Clone, Debug)]
 pub(crate) struct DirectionTable([u32; 6 * SQUARES * SQUARES]);
 
-/// How many squares there are along the side of the cube.
+/// The number of squares along the side of the cube.
 const SQUARES: usize = 4;
 
 impl DirectionTable {
@@ -66,7 +66,7 @@ fn middle_of(square: usize) -> DVec3 {
 }
 
 impl Polytope {
-    /// A corner that is farthest along a direction, but for rounding.
+    /// Returns a corner that is farthest along a direction, except for rounding.
     pub(crate) fn extremal(&self, direction: DVec3) -> u32 {
         if let Some(table) = &self.directions {
             return self.climbed(table.of(direction), direction);
@@ -82,8 +82,9 @@ impl Polytope {
             .1
     }
 
-    /// Goes to the highest neighbour until none is higher. It may stop short of corners that are level
-    /// but for rounding: a march goes on from there.
+    /// Climbs to the highest neighbour until none is higher.
+    ///
+    /// It may stop short of corners that are level except for rounding: a march goes on from there.
     fn climbed(&self, start: u32, direction: DVec3) -> u32 {
         let height = |v: u32| self.vertex(v).point.dot(direction);
         let (mut at, mut highest) = (start, height(start));

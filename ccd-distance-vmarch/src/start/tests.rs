@@ -26,7 +26,7 @@ fn what_is_no_state_is_not_begun_with(#[case] a: Feature, #[case] b: Feature) {
     assert_eq!(cache.start(&placed), corners);
 }
 
-/// What one polytope is no more, the other one may be still.
+/// A part takes the place of one polytope; the other one's feature is kept.
 #[test]
 fn a_part_is_begun_with_along_the_last_axis() {
     let (cube, point) = (cube(), point());

@@ -12,7 +12,7 @@ pub(crate) fn prepared(shape: &Shape) -> Polytope {
     Polytope::new(&pieces.get(0)).expect("a convex polytope")
 }
 
-/// From −1 to 1 along every axis.
+/// The cube from −1 to 1 along every axis.
 pub(crate) fn cube() -> Polytope {
     prepared(&shape::cuboid(DVec3::ONE))
 }

@@ -65,7 +65,7 @@ impl Shape {
     }
 }
 
-/// In the cube of side two about the origin.
+/// Draws a vector in the cube of side two about the origin.
 pub(crate) fn vector(rng: &mut Pcg64) -> DVec3 {
     DVec3::from_array(std::array::from_fn(|_| rng.random_range(-1.0..1.0)))
 }
@@ -79,7 +79,7 @@ pub(crate) fn direction(rng: &mut Pcg64) -> DVec3 {
     }
 }
 
-/// Between two powers of ten, every order of magnitude as likely.
+/// Draws a number between two powers of ten, every order of magnitude as likely.
 pub(crate) fn magnitude(rng: &mut Pcg64, low: f64, high: f64) -> f64 {
     10f64.powf(rng.random_range(low..high))
 }

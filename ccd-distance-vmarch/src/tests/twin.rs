@@ -1,4 +1,4 @@
-//! The slow, obvious way: all corners, edges and faces of one polytope against all of the other.
+//! Distances by brute force: all corners, edges and faces of one polytope against all of the other.
 
 use super::shape::Shape;
 use crate::double_double::DoubleDoubleVector;

@@ -7,7 +7,7 @@ use crate::tests::setting::{cube, edge, face, moved, needle, point, turned, vert
 use ccd_core::glam::{DQuat, DVec3};
 use rstest::rstest;
 
-/// What is said of a point and the cube's edge along x at y = z = 1.
+/// Tests a point against the cube's edge along x at y = z = 1.
 fn of_point(at: DVec3) -> Next {
     let (cube, point) = (cube(), point());
     let placed = moved(&cube, &point, at);

@@ -7,7 +7,7 @@ use crate::tests::setting::{cube, edge, moved, point, vertex};
 use ccd_core::glam::DVec3;
 use rstest::rstest;
 
-/// What is said of the cube's corner at (1, 1, 1) and a point.
+/// Tests the cube's corner at (1, 1, 1) against a point.
 fn of_point(at: DVec3) -> Next {
     let (cube, point) = (cube(), point());
     let placed = moved(&cube, &point, at);

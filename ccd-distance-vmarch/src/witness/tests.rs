@@ -19,7 +19,7 @@ fn witness(
     let claim = witness.claim(&placed);
     let on_a = claim.a.of(&a.points).expect("a point of A");
     let on_b = claim.b.of(&b.points).expect("a point of B") + at;
-    // The witness is told from the middle of A.
+    // The witness is relative to the middle of A.
     assert!((on_a - one.origin).distance(witness.points[0]) < 1e-15);
     assert!((on_b - one.origin).distance(witness.points[1]) < 1e-15);
     witness
@@ -69,7 +69,7 @@ fn features_have_nearest_points() {
     );
 }
 
-/// Of nearest points that are next to each other, the axis is that of the edges, not of rounding.
+/// The axis of nearest points next to each other is that of the edges, not of rounding.
 #[test]
 fn axes_are_those_of_the_features() {
     let (one, other) = (
@@ -156,7 +156,7 @@ fn feet_beside_the_triangle_are_clamped_into_it() {
 }
 
 /// Needles that cross at a small angle, close by: rounding of the axis along them would cost a
-/// hundred times what their placed are rounded by.
+/// hundred times what their positions are rounded by.
 #[test]
 fn axes_certify_what_crosses_at_any_angle() {
     let mut rng = Pcg64::seed_from_u64(9);
