@@ -11,6 +11,7 @@ use ccd_tests::checks::{Judge, check_contact};
 use ccd_tests::models::{Mesh, Shape, cuboid};
 use ccd_tests::query::{Actor, Query};
 use ccd_tests::strategies::{cases, check_cases};
+use std::cell::Cell;
 
 fn leave(tolerance: f64) -> Config {
     Config {
@@ -266,6 +267,7 @@ fn what_is_left_alone_may_come_back() {
 
 #[test]
 fn where_nothing_touches_at_the_start_both_policies_say_the_same() {
+    let (hits, misses) = (Cell::new(0), Cell::new(0));
     check_cases(500, cases(), |case| {
         let query = case.query();
         let config = Config {
@@ -284,10 +286,24 @@ fn where_nothing_touches_at_the_start_both_policies_say_the_same() {
             if at_start {
                 return;
             }
+            let same =
+                std::mem::discriminant(&reported.outcome) == std::mem::discriminant(&left.outcome);
+            if !same {
+                law = Err(format!("{setup:?}\n{reported:?}\n{left:?}"));
+            }
+            let count = match reported.outcome {
+                Outcome::Contact { .. } => &hits,
+                _ => &misses,
+            };
+            count.set(count.get() + 1);
             if let Err(why) = judge.check(&left, bodies) {
                 law = Err(format!("{why}\n{setup:?}\n{reported:?}\n{left:?}"));
             }
         });
         law
     });
+    assert!(
+        hits.get() > 500 && misses.get() > 500,
+        "{hits:?} {misses:?}"
+    );
 }
