@@ -11,7 +11,7 @@ mod ball;
 use ball::{ball, direction};
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{Body, DistanceOracle, Frame, PiecePair, Pieces, Pose};
-use ccd_distance_gjk::{Direct, Gjk, GjkF32};
+use ccd_distance_gjk::{ClosedForm, Gjk};
 use ccd_distance_vmarch::Vmarch;
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use rand::SeedableRng;
@@ -68,11 +68,9 @@ fn distances(criterion: &mut Criterion) {
                 assert_alike(&distances, &course.distances::<Vmarch>());
                 group.bench_function(id("vmarch"), |b| b.iter(|| run::<Vmarch>(&course)));
                 group.bench_function(id("gjk"), |b| b.iter(|| run::<Gjk>(&course)));
-                assert_alike(&distances, &course.distances::<GjkF32>());
-                group.bench_function(id("gjk-f32"), |b| b.iter(|| run::<GjkF32>(&course)));
                 if a.all_triangles() {
-                    assert_alike(&distances, &course.distances::<Direct>());
-                    group.bench_function(id("direct"), |b| b.iter(|| run::<Direct>(&course)));
+                    assert_alike(&distances, &course.distances::<ClosedForm>());
+                    group.bench_function(id("direct"), |b| b.iter(|| run::<ClosedForm>(&course)));
                 }
                 group.finish();
             }
@@ -142,8 +140,8 @@ impl Course {
     }
 }
 
-/// To what a backend that searches in single precision may be off its own optimum: the square of its
-/// rounding, times the largest distance here, and some.
+/// The largest difference between the distances of two backends: far above their rounding at the
+/// largest distance here.
 const ALIKE: f64 = 1e-9;
 
 fn assert_alike(one: &[f64], other: &[f64]) {

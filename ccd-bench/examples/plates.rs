@@ -10,7 +10,7 @@ use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::schedule::{BestFirst, Schedule};
 use ccd_core::{Config, Motion, Moving, Outcome, Pose, Problem};
 use ccd_decomp::{Detail, body_from_mesh};
-use ccd_distance_gjk::Auto;
+use ccd_distance_gjk::Direct;
 use std::io::Write;
 use std::time::Instant;
 
@@ -43,7 +43,7 @@ fn main() -> anyhow::Result<()> {
                 tolerance,
                 ..Config::default()
             };
-            let (mut schedule, mut oracle) = (BestFirst::<Auto>::default(), Auto::default());
+            let (mut schedule, mut oracle) = (BestFirst::<Direct>::default(), Direct::default());
             let mut micros = Vec::new();
             let mut last = None;
             for _ in 0..REPEATS {

@@ -6,7 +6,7 @@
 #   SCENES   folder with meshes (*.obj), motions (*.csv) and brackets (truth_*.csv)
 #   VERDICT  a program that is called as `VERDICT truth.csv result.csv` and prints the counts
 #   OUT      folder for the results, default a new one
-# environment: ORACLES="gjk gjk-f32" and TOLERANCES="1e-3" take these only, CCD=… is the command
+# environment: ORACLES="gjk vmarch" and TOLERANCES="1e-3" take these only, CCD=… is the command
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 . "$here/pairs.sh"
@@ -17,7 +17,7 @@ shift $(($# < 3 ? $# : 3))
 mkdir -p "$out"
 ccd=${CCD:-$here/../../target/release/ccd}
 for tolerance in ${TOLERANCES:-1e-3 1e-6}; do
-    for oracle in ${ORACLES:-direct gjk gjk-f32}; do
+    for oracle in ${ORACLES:-direct gjk}; do
         while read -r name a b motions; do
             result=$out/$name-$oracle-$tolerance.csv
             "$ccd" query --quiet --a "$scenes/$a.obj" --b "$scenes/$b.obj" \

@@ -70,7 +70,6 @@ impl Method {
         let ours = [
             (kind(best, OracleKind::Direct), Pieces::Least),
             (kind(best, OracleKind::Gjk), Pieces::Least),
-            (kind(best, OracleKind::GjkF32), Pieces::Least),
             (kind(fast, OracleKind::Vmarch), Pieces::Patches),
             (kind(fast, OracleKind::Gjk), Pieces::Patches),
             (kind(hull, OracleKind::Vmarch), Pieces::Patches),

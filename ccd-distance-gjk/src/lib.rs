@@ -1,72 +1,86 @@
-//! Distance backends for [`ccd_core`]: closed forms for the smallest pieces, GJK for all others.
+//! Distances of two convex pieces for [`ccd_core`]: closed forms for the smallest, GJK for all others.
 //!
-//! Each is a [`DistanceOracle`](ccd_core::DistanceOracle): for two convex pieces it names a pair of
-//! nearest points, and an axis that proves how far apart they are. The engine checks both.
+//! Each backend is a [`DistanceOracle`](ccd_core::DistanceOracle). It names a pair of nearest points, and
+//! an axis that proves how far apart the pieces are. The engine checks both.
 //!
-//! | backend | pieces | how | choose it |
+//! | backend | pieces | method | choose it |
 //! |---|---|---|---|
-//! | [`Direct`] | 1 to 3 points | all pairs of features at once, in closed form | for triangle meshes; balls and capsules too |
-//! | [`Gjk`] | any | GJK in f64, warm start | for hulls and patches |
-//! | [`GjkF32`] | any | GJK in f32, finished in f64 | for hulls of a hundred points and more, asked cold |
-//! | [`Auto`] | any | [`Direct`], or [`Gjk`] where that gives up | when in doubt |
+//! | [`Direct`] | any | [`ClosedForm`], and [`Gjk`] where that gives up | when in doubt |
+//! | [`ClosedForm`] | 1 to 3 points | all pairs of features at once, in closed form | for triangle meshes; balls and capsules too |
+//! | [`Gjk`] | any | GJK with a warm start | for hulls and patches |
+//!
+//! Two units above the middle of a square:
+//!
+//! ```
+//! use ccd_core::{DistanceOracle, Frame, Piece, PiecePair, glam::DVec3};
+//! use ccd_distance_gjk::Direct;
+//! let square = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::X + DVec3::Y];
+//! let point = [DVec3::new(0.5, 0.5, 2.0)];
+//! let pair = PiecePair {
+//!     a: Piece::from_points(&square),
+//!     b: Piece::from_points(&point),
+//!     b_to_a: Frame::IDENTITY,
+//! };
+//! let mut oracle = Direct::default();
+//! let claim = oracle.separation(&pair, &mut Default::default()).unwrap();
+//! assert_eq!(claim.a.of(&square), Some(DVec3::new(0.5, 0.5, 0.0)));
+//! assert_eq!(claim.axis.normalize(), DVec3::Z);
+//! // A square has four points: GJK has answered.
+//! assert_eq!(oracle.fallbacks(), 1);
+//! ```
 //!
 //! # Guarantee
-//! What all of them promise, of pieces whose size and distance are together s:
-//! - Separated pieces: the witnesses' distance is the pieces' to 1e-13 s; beside needles thinner than
-//!   1e-7 s, and nearer than that, to their width. The axis certifies that
-//!   distance to 1e-12 s where it exceeds 1e-3 s, and at least half of it down to 1e-11 s: where the
-//!   witnesses' difference is mostly rounding, the axis is made of the features that hold them.
-//! - Intersecting pieces: both witnesses are the same point, to 1e-12 s; of pieces pressed flat, down to
-//!   1e-12 of their size, to 1e-6 s.
-//! - Touching pieces: an axis along which their insides are apart, to 1e-14 s.
-//! - The size s is that of the pieces, not of their coordinates: those only bring the rounding they
+//! All backends promise, for pieces whose size and distance are together s:
+//! - Separated pieces: the witnesses' distance is right to 1e-13 s. Beside needles thinner than 1e-7 s,
+//!   and nearer than that, it is right to their width. The axis certifies that distance to 1e-12 s where
+//!   it exceeds 1e-3 s, and at least half of it down to 1e-11 s: where the witnesses' difference is
+//!   mostly rounding, the axis is made of the features that hold them.
+//! - Intersecting pieces: both witnesses are the same point, to 1e-12 s. For pieces pressed flat, down to
+//!   1e-12 of their size, they are to 1e-6 s.
+//! - Touching pieces: their insides are apart along the axis, to 1e-14 s.
+//! - The size s is that of the pieces, not of their coordinates, which only bring the rounding they
 //!   were given with.
 //! - Every input ends after a bounded number of steps, and the same input gives the same bits.
 //!
-//! All that for sizes and distances from 1e-45 to 1e15; smaller ones run into underflow.
+//! That holds for sizes and distances from 1e-45 to 1e15; smaller ones run into underflow.
 //!
 //! # How the files follow the method
 //!
 //! | step | file |
 //! |---|---|
-//! | edges against edges, corners against faces | `direct/nearest.rs` |
-//! | axes of features, for small distances | `direct/axis.rs` |
-//! | a common point of what intersects | `direct/pierce.rs` |
-//! | the GJK search | `gjk/search.rs`, stopped by `gjk/termination.rs` |
-//! | its support | `gjk/minkowski.rs`, `gjk/rounded.rs` in f32 |
-//! | the nearest point of a simplex | `gjk/segment.rs`, `gjk/triangle.rs`, `gjk/tetrahedron.rs` |
-//! | where rounding stalls it: axes, witnesses | `gjk/sharpen.rs` and `gjk/fan.rs`, `gjk/refine.rs` |
+//! | the closed forms as a backend | `closed_form.rs` |
+//! | edges against edges, corners against faces | `closed_form/nearest.rs` |
+//! | axes of features, for small distances | `closed_form/axis.rs` |
+//! | a common point of intersecting triangles | `closed_form/pierce.rs` |
+//! | four vectors at once | `lanes.rs` |
+//! | GJK as a backend | `gjk/oracle.rs` |
+//! | the first simplex, and what the next call starts from | `gjk/start.rs` |
+//! | the GJK search, and when it stops | `gjk/search.rs`, `gjk/termination.rs` |
+//! | the Minkowski difference and its support | `gjk/minkowski.rs` |
+//! | the point of a simplex nearest to the origin | `gjk/simplex.rs`, `gjk/foot.rs`; `gjk/segment.rs`, `gjk/triangle.rs`, `gjk/tetrahedron.rs` |
+//! | better axes where rounding stalls the search | `gjk/sharpen.rs`, `gjk/fan.rs` |
+//! | nearer witnesses there | `gjk/refine.rs` |
+//! | every tolerance | `tolerance.rs` |
 
 #![allow(
     clippy::neg_cmp_op_on_partial_ord,
     reason = "comparisons are written so that NaN takes the way out"
 )]
 
-mod direct;
+mod closed_form;
 mod gjk;
 mod lanes;
 #[cfg(test)]
 mod tests;
 mod tolerance;
 
-pub use direct::Direct;
-pub use gjk::{Cache, Gjk, GjkF32};
+pub use closed_form::ClosedForm;
+pub use gjk::{Cache, Gjk};
 
 /// The closed form where there is one, GJK elsewhere.
-///
-/// ```
-/// use ccd_core::{DistanceOracle, Frame, Piece, PiecePair, glam::DVec3};
-/// use ccd_distance_gjk::Auto;
-/// let square = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::X + DVec3::Y];
-/// let point = [DVec3::new(0.5, 0.5, 2.0)];
-/// let pair = PiecePair {
-///     a: Piece::from_points(&square),
-///     b: Piece::from_points(&point),
-///     b_to_a: Frame::IDENTITY,
-/// };
-/// let mut oracle = Auto::default();
-/// let claim = oracle.separation(&pair, &mut Default::default()).unwrap();
-/// assert_eq!(claim.a.of(&square), Some(DVec3::new(0.5, 0.5, 0.0)));
-/// assert_eq!(oracle.fallbacks(), 1);
-/// ```
-pub type Auto = ccd_core::OrElse<Direct, Gjk>;
+pub type Direct = ccd_core::OrElse<ClosedForm, Gjk>;
+
+/// The code that the README shows.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

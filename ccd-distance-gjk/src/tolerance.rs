@@ -13,43 +13,44 @@ pub(crate) const KEEP: f64 = 63.0 / 64.0;
 /// nearest features' own axes keep [`KEEP`]; a half is far from it and from 0 alike.
 pub(crate) const SUSPECT: f64 = 0.5;
 
-/// How many steps a GJK search may take.
+/// The cap of a GJK search's steps.
 ///
 /// Hulls take 3 to 10 steps, finely tessellated spheres up to about 30; beyond, a search only
 /// shuffles rounding. The claim at the cap is as true as any other, only less sharp.
 pub(crate) const STEP_CAP: u32 = 64;
 
-/// How often a GJK search goes on from the features' axis after its own axis turned out too poor.
+/// The number of times that a GJK search goes on from the features' axis after its own axis turned out
+/// too poor.
 pub(crate) const ROUND_CAP: u32 = 4;
 
-/// GJK stops when the support gap comes within this many units in the last place of the distance,
-/// relative to the distance.
-pub(crate) const CONVERGED_ULPS: f32 = 16.0;
+/// The difference of support gap and distance at which GJK stops, in units in the last place of the
+/// distance.
+pub(crate) const CONVERGED_ULPS: f64 = 16.0;
 
-/// A stalled GJK search is taken up again unless the support gap is within this many units in the
+/// The difference of support gap and distance above which a stalled GJK search goes on, in units in the
 /// last place of the distance (1e-12 of it): less would spend steps on digits that nobody sees.
-pub(crate) const SETTLED_ULPS: f32 = 4096.0;
+pub(crate) const CERTIFIED_ULPS: f64 = 4096.0;
 
-/// GJK calls the pieces touching when their distance is at most this many units in the last place
-/// of the coordinates' difference: a vertex b − a and a combination of four are rounded by about
+/// The distance at which GJK calls pieces touching, in units in the last place of the coordinates'
+/// difference: a vertex b − a and a combination of four are rounded by about
 /// 2 units each.
-pub(crate) const TOUCHING_ULPS: f32 = 4.0;
+pub(crate) const TOUCHING_ULPS: f64 = 4.0;
 
 /// The rounding of a signed volume of a tetrahedron, in units in the last place of the product of
 /// its three edges' lengths: 3 for the cross product, 3 for the scalar product, 2 for the edges.
 /// A volume below it has no sign; without this a flat tetrahedron beside the origin may pass for
 /// one around it.
-pub(crate) const VOLUME_ULPS: f32 = 8.0;
+pub(crate) const VOLUME_ULPS: f64 = 8.0;
 
-/// How many vertices of the difference are weighed against each other when an axis is made of
-/// features: three hold the nearest point, the others are those that an axis tried before ran into.
+/// The number of vertices of the difference that are weighed against each other when an axis is made
+/// of features: three hold the nearest point, the others are those that an axis tried before ran into.
 /// Corners of meshes join 3 to 10 edges.
 pub(crate) const SHARPEN_CAP: usize = 12;
 
-/// How often the weights of a point inside of a tetrahedron are corrected by what they miss it by.
+/// The number of times that the weights of a point inside a tetrahedron are corrected by their error.
 /// A tetrahedron that is flat by a factor f loses f·u; two rounds make good what f = 1e10 lost.
 pub(crate) const INSIDE_ROUNDS: u32 = 2;
 
-/// Up to this many points of a piece are all looked at for the farthest one; of more, the piece is
-/// asked, which need not look at all of them.
+/// The number of points up to which all are looked at for the farthest one. A piece of more is asked,
+/// which need not look at all of them.
 pub(crate) const SCANNED_POINTS: usize = ccd_core::tolerance::CLIMBED_POINTS;

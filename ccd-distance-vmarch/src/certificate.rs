@@ -1,7 +1,7 @@
-//! What a stop at a tie is worth: the support gap along its axis against the distance.
+//! Axes that certify a stop at a tie: the support gap along them against the distance.
 
 use crate::feature::{Feature, Pair};
-use crate::place::{Placed, Places};
+use crate::placed::{Placed, PlacedPair};
 use crate::polytope::{NO_FACE, Polytope, unit};
 use crate::tolerance::{AXIS_EDGES, CERTIFIED, CERTIFIED_SHARE};
 use crate::witness::{Witness, across};
@@ -16,14 +16,14 @@ pub(crate) struct Axis {
 }
 
 impl Axis {
-    /// A direction of any length; none at all separates nothing.
-    pub(crate) fn along(places: &Places<'_>, direction: DVec3) -> Self {
+    /// Measures the gap along a direction of any length; one of no length separates nothing.
+    pub(crate) fn along(placed: &PlacedPair<'_>, direction: DVec3) -> Self {
         let direction = unit(direction);
         let known = direction != DVec3::ZERO;
         Axis {
             direction,
             gap: if known {
-                gap(places, direction)
+                gap(placed, direction)
             } else {
                 f64::NEG_INFINITY
             },
@@ -33,64 +33,64 @@ impl Axis {
     /// Whether the distance is certified along it, to rounding.
     ///
     /// Written so that NaN is not.
-    pub(crate) fn certifies(&self, distance: f64, places: &Places<'_>) -> bool {
-        let slack = CERTIFIED * places.scale.size + CERTIFIED_SHARE * distance;
+    pub(crate) fn certifies(&self, distance: f64, placed: &PlacedPair<'_>) -> bool {
+        let slack = CERTIFIED * placed.scale.size + CERTIFIED_SHARE * distance;
         self.direction != DVec3::ZERO && distance - self.gap <= slack
     }
 }
 
 /// The support gap `min_B n·y − max_A n·x` along a unit vector.
-pub(crate) fn gap(places: &Places<'_>, n: DVec3) -> f64 {
-    let highest = places.a.0.vertices.iter().map(|v| n.dot(v.point));
-    let own = places.b.own_vector(n);
-    let lowest = places.b.shape().vertices.iter().map(|v| own.dot(v.point));
-    lowest.fold(f64::INFINITY, lesser) + n.dot(places.b.origin())
+pub(crate) fn gap(placed: &PlacedPair<'_>, n: DVec3) -> f64 {
+    let highest = placed.a.0.vertices.iter().map(|v| n.dot(v.point));
+    let own = placed.b.own_vector(n);
+    let lowest = placed.b.shape().vertices.iter().map(|v| own.dot(v.point));
+    lowest.fold(f64::INFINITY, lesser) + n.dot(placed.b.origin())
         - highest.fold(f64::NEG_INFINITY, greater)
 }
 
-/// No less than the gap along a direction of any length: that between two corners, found by climbing
-/// where there are many.
-fn most(places: &Places<'_>, direction: DVec3) -> f64 {
+/// Bounds the gap along a direction of any length from above: by the gap between two corners, found by
+/// climbing where there are many.
+fn most(placed: &PlacedPair<'_>, direction: DVec3) -> f64 {
     let n = unit(direction);
-    let highest = places.a.0.vertex(places.a.0.extremal(n)).point;
-    let shape = places.b.shape();
-    let own = -places.b.own_vector(n);
-    let lowest = places.b.vertex(shape.extremal(own));
+    let highest = placed.a.0.vertex(placed.a.0.extremal(n)).point;
+    let shape = placed.b.shape();
+    let own = -placed.b.own_vector(n);
+    let lowest = placed.b.vertex(shape.extremal(own));
     // The axis of no direction separates nothing.
     let known = n != DVec3::ZERO;
     if known {
-        n.dot(lowest - highest) + places.scale.rounding()
+        n.dot(lowest - highest) + placed.scale.rounding()
     } else {
         f64::NEG_INFINITY
     }
 }
 
-/// The best axis for nearest features whose way is tied, or is rounding.
+/// Returns the best axis for nearest features whose difference is tied, or is rounding.
 ///
 /// The directions along which features are the extremal ones make up a cone; a way that is rounded
 /// may fall out of it. Its borders are tried too: the normals of the faces around, the cross products
 /// of edges, the way across each edge; and for what lies in one plane or on one line, directions
 /// within.
-pub(crate) fn best_axis(places: &Places<'_>, pair: Pair, witness: &Witness) -> Axis {
+pub(crate) fn best_axis(placed: &PlacedPair<'_>, pair: Pair, witness: &Witness) -> Axis {
     let (distance, way) = (witness.distance(), witness.way());
-    let mut best = Axis::along(places, witness.axis);
-    if best.certifies(distance, places) {
+    let mut best = Axis::along(placed, witness.axis);
+    if best.certifies(distance, placed) {
         return best;
     }
     let mut offer = |direction: DVec3| {
         for direction in [direction, -direction] {
             // Written so that NaN is no better.
-            if !(most(places, direction) > best.gap) {
+            if !(most(placed, direction) > best.gap) {
                 continue;
             }
-            let axis = Axis::along(places, direction);
+            let axis = Axis::along(placed, direction);
             if axis.gap > best.gap {
                 best = axis;
             }
         }
     };
-    let around_a = Around::new(&places.a, pair.a, way);
-    let around_b = Around::new(&places.b, pair.b, way);
+    let around_a = Around::new(&placed.a, pair.a, way);
+    let around_b = Around::new(&placed.b, pair.b, way);
     for around in [&around_a, &around_b] {
         around.normals.iter().copied().for_each(&mut offer);
         around.within.iter().copied().for_each(&mut offer);
@@ -107,11 +107,11 @@ pub(crate) fn best_axis(places: &Places<'_>, pair: Pair, witness: &Witness) -> A
     best
 }
 
-/// Directions of what meets in a feature, in A's frame.
+/// The directions of the edges and faces that meet in a feature, in A's frame.
 struct Around {
     edges: Vec<DVec3>,
     normals: Vec<DVec3>,
-    /// Across an edge, in the plane of a face.
+    /// The directions across an edge, in the plane of a face.
     within: Vec<DVec3>,
 }
 

@@ -1,16 +1,16 @@
 //! Edges cut by the planes of another feature `[VCLIP98 §3.2]`.
 
-use crate::place::{Line, Placed, clamped};
+use crate::placed::{Line, Placed, clamped};
+use ccd_core::glam::DVec3;
 
-/// What is left of an edge within the prism above and below a face.
+/// The part of an edge within the prism above and below a face.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Clipped {
-    /// From where to where.
     pub(crate) from: Cut,
     pub(crate) to: Cut,
 }
 
-/// An end of what is left.
+/// An end of that part.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Cut {
     pub(crate) parameter: f64,
@@ -20,12 +20,7 @@ pub(crate) struct Cut {
 
 /// Cuts an edge by the face-edge planes of a face; nothing may be left.
 #[inline]
-pub(crate) fn to_prism<Y: Placed>(
-    line: &Line,
-    end: ccd_core::glam::DVec3,
-    y: &Y,
-    face: u32,
-) -> Option<Clipped> {
+pub(crate) fn to_prism<Y: Placed>(line: &Line, end: DVec3, y: &Y, face: u32) -> Option<Clipped> {
     let mut out = Clipped {
         from: Cut {
             parameter: 0.0,
@@ -61,7 +56,7 @@ pub(crate) fn to_prism<Y: Placed>(
     (out.from.parameter <= out.to.parameter).then_some(out)
 }
 
-/// The middle of what of a segment lies beside another one that is parallel to it, or the end that is
+/// The middle of the part of a segment beside another one that is parallel to it, or the end that is
 /// nearest to it.
 #[inline]
 pub(crate) fn beside(one: &Line, other: &Line) -> f64 {

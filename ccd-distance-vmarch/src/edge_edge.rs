@@ -3,13 +3,15 @@
 use crate::clip;
 use crate::feature::Certainty::{Sure, Tied};
 use crate::feature::{Behind, Feature, Next, Whose};
-use crate::place::{Line, Placed, Scale, clamped};
+use crate::placed::{Line, Placed, Scale, clamped};
 use crate::polytope::Edge;
 use crate::tolerance::{LEVEL, PARALLEL};
 use ccd_core::glam::DVec3;
 
-/// The nearest points of both edges against the other edge's planes, vertex-edge planes first: on to a
-/// corner where a nearest point is an end, to a face on whose side the other edge's point lies.
+/// Tests the nearest points of both edges against the other edge's planes, vertex-edge planes first.
+///
+/// The march goes on to a corner where a nearest point is an end, and to a face on whose side the other
+/// edge's point lies.
 #[inline]
 pub(crate) fn next<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32, scale: Scale) -> Next {
     let (one, other) = (x.line(e), y.line(f));
@@ -47,7 +49,7 @@ pub(crate) fn next<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32, scale: Sc
 /// The nearest points of two segments.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Near {
-    /// Where they are on either.
+    /// Their parameters along either.
     pub(crate) parameters: [f64; 2],
     /// The cross product of the directions; its length is the sine of the angle between them.
     pub(crate) across: DVec3,
@@ -93,13 +95,13 @@ fn end_of(edge: &Edge, parameter: f64) -> Option<u32> {
     }
 }
 
-/// From one edge's nearest point to the other's.
+/// The vector from one edge's nearest point to the other's, and the axis between the edges.
 #[derive(Clone, Copy)]
 struct Facing {
     way: DVec3,
-    /// As it is, or the direction across both edges: whichever rounding turns less.
+    /// That vector, or the direction across both edges: whichever rounding turns less.
     axis: DVec3,
-    /// What of a product with the axis is rounding.
+    /// The rounding of a product with the axis.
     slack: f64,
 }
 
@@ -156,9 +158,9 @@ impl Facing {
     }
 }
 
-/// Where a point lies that is not in an edge's region.
+/// The side of an edge on which a point outside its region lies.
 enum Side {
-    /// On the side of this face.
+    /// The side of this face.
     Before(u32),
     /// Behind both faces that meet in the edge, less far behind this one.
     Behind(u32),

@@ -1,11 +1,11 @@
-//! Out of local minima: behind one face, but not behind all of them `[VCLIP98 §3.3]`.
+//! The way out of local minima: behind one face, but not behind all of them `[VCLIP98 §3.3]`.
 
 use crate::feature::{Behind, Crossing, Feature};
 use crate::penetration;
-use crate::place::{Placed, Scale};
+use crate::placed::{Placed, Scale};
 use ccd_core::glam::DVec3;
 
-/// Where to go from behind a face.
+/// The way on from behind a face.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Escape {
     /// The feature is before that face, farther than before any other one.
@@ -17,7 +17,7 @@ pub(crate) enum Escape {
     Unclear,
 }
 
-/// Looks at all faces of Y for the one that a feature of X is farthest before of.
+/// Finds the face of Y that a feature of X is farthest in front of.
 pub(crate) fn escape<X: Placed, Y: Placed>(x: &X, behind: Behind, y: &Y, scale: Scale) -> Escape {
     if let Some((face, height)) = farthest(behind.point, y)
         && height > scale.rounding()

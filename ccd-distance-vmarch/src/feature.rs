@@ -17,7 +17,7 @@ pub(crate) struct Pair {
     pub(crate) b: Feature,
 }
 
-/// What a test of one pair says: of features of a polytope X and another one Y, in that order.
+/// The outcome of a test of one pair: of features of polytopes X and Y, in that order.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Next {
     /// A pair that is nearer, or as near and made of less.
@@ -31,7 +31,7 @@ pub(crate) enum Next {
     Pierced(Whose, Crossing),
 }
 
-/// Of which of the two polytopes X and Y something is.
+/// One of the two polytopes X and Y.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Whose {
     X,
@@ -39,7 +39,7 @@ pub(crate) enum Whose {
 }
 
 impl Next {
-    /// The same said of Y and X.
+    /// The same outcome for Y and X.
     #[inline(always)]
     pub(crate) fn swapped(self) -> Next {
         match self {
@@ -61,7 +61,7 @@ impl Whose {
     }
 }
 
-/// How sure a stop is.
+/// The certainty of a stop.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Certainty {
     /// Every Voronoi plane was passed on its inner side, clear of rounding.

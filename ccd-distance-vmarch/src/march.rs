@@ -1,44 +1,30 @@
-//! The march: from a pair of features to a nearer one, until none is nearer `[VCLIP98 §3]`.
+//! The march from a pair of features to a nearer one, until none is nearer `[VCLIP98 §3]`.
 
+use crate::counters::Counters;
 use crate::escape::{self, Escape};
-use crate::feature::{Behind, Certainty, Crossing, Feature, Next, Pair, Whose};
-use crate::oracle::Counters;
-use crate::place::{Placed, Places};
+use crate::feature::{Behind, Feature, Next, Pair, Whose};
+use crate::placed::{Placed, PlacedPair};
+use crate::termination::{Brent, End};
 use crate::tolerance::STEPS_PER_FEATURE;
 use crate::{edge_edge, edge_face, vertex_edge, vertex_face, vertex_vertex};
 
-/// How a march ends.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum End {
-    /// At nearest features.
-    Nearest(Pair, Certainty),
-    /// At a common point: of A's features with B, in the order that is told.
-    Common(Pair, Whose, Crossing),
-    /// Where it had been before.
-    Cycle(Pair),
-    /// Behind all faces, without a common point that could be proven.
-    Unclear(Pair),
-    /// At its cap of steps.
-    Cap(Pair),
-}
-
-/// Marches from a pair.
+/// Marches from a pair of features to the nearest one.
 ///
 /// In exact arithmetic every step leads to features that are nearer, or as near and of a lower
 /// dimension, so that none is met twice. In floating point one may be: [`Brent`] notices.
-pub(crate) fn march(places: &Places<'_>, start: Pair, counters: &mut Counters) -> End {
-    let features = places.a.shape().features() + places.b.shape().features();
+pub(crate) fn march(placed: &PlacedPair<'_>, start: Pair, counters: &mut Counters) -> End {
+    let features = placed.a.shape().features() + placed.b.shape().features();
     let mut pair = start;
     let mut brent = Brent::new(start);
     for _ in 0..STEPS_PER_FEATURE * features {
         counters.steps += 1;
-        pair = match step(places, pair) {
+        pair = match step(placed, pair) {
             Next::To(a, b) => Pair { a, b },
             Next::Stop(certainty) => return End::Nearest(pair, certainty),
             Next::Pierced(whose, crossing) => return End::Common(pair, whose, crossing),
             Next::Behind(whose, behind) => {
                 counters.local_minima += 1;
-                match escaped(places, whose, behind) {
+                match escaped(placed, whose, behind) {
                     Escape::Face(feature, face) => facing(whose, feature, Feature::Face(face)),
                     Escape::Inside(crossing) => return End::Common(pair, whose, crossing),
                     Escape::Unclear => return End::Unclear(pair),
@@ -53,44 +39,9 @@ pub(crate) fn march(places: &Places<'_>, start: Pair, counters: &mut Counters) -
     End::Cap(pair)
 }
 
-/// Brent's detection of cycles: each state is compared with one that was left behind, which is
-/// replaced after 1, 2, 4, … steps. A cycle is noticed within three times its length and what came
-/// before it.
-#[derive(Clone, Copy, Debug)]
-struct Brent {
-    left: Pair,
-    steps: u32,
-    until: u32,
-}
-
-impl Brent {
-    fn new(start: Pair) -> Self {
-        Brent {
-            left: start,
-            steps: 0,
-            until: 1,
-        }
-    }
-
-    /// Whether the march has come back to the state that was left behind.
-    #[inline]
-    fn returned(&mut self, pair: Pair) -> bool {
-        if pair == self.left {
-            return true;
-        }
-        self.steps += 1;
-        if self.steps == self.until {
-            self.left = pair;
-            self.until = self.until.saturating_mul(2);
-            self.steps = 0;
-        }
-        false
-    }
-}
-
 #[cold]
-fn escaped(places: &Places<'_>, whose: Whose, behind: Behind) -> Escape {
-    let Places { a, b, scale } = places;
+fn escaped(placed: &PlacedPair<'_>, whose: Whose, behind: Behind) -> Escape {
+    let PlacedPair { a, b, scale } = placed;
     match whose {
         Whose::X => escape::escape(a, behind, b, *scale),
         Whose::Y => escape::escape(b, behind, a, *scale),
@@ -99,8 +50,8 @@ fn escaped(places: &Places<'_>, whose: Whose, behind: Behind) -> Escape {
 
 /// Tests one pair, in the order A, B. Two faces are never tested: an edge of one is taken.
 #[inline]
-pub(crate) fn step(places: &Places<'_>, pair: Pair) -> Next {
-    let Places { a, b, scale } = places;
+pub(crate) fn step(placed: &PlacedPair<'_>, pair: Pair) -> Next {
+    let PlacedPair { a, b, scale } = placed;
     match (pair.a, pair.b) {
         (Feature::Vertex(v), Feature::Vertex(w)) => vertex_vertex::next(a, v, b, w, *scale),
         (Feature::Vertex(v), Feature::Edge(e)) => vertex_edge::next(a, v, b, e, *scale),

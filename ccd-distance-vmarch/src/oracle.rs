@@ -1,11 +1,13 @@
-//! The backend.
+//! Voronoi marching as a backend.
 
+use crate::certify::certify;
+use crate::counters::Counters;
 use crate::feature::Certainty;
-use crate::march::{End, march};
-use crate::place::Places;
+use crate::march::march;
+use crate::placed::PlacedPair;
 use crate::polytope::Polytope;
-use crate::settle::settle;
 use crate::start::Cache;
+use crate::termination::End;
 use crate::witness::Witness;
 use ccd_core::{Claim, DistanceOracle, Effort, GiveUp, Piece, PiecePair};
 
@@ -57,25 +59,8 @@ pub struct Vmarch {
     counters: Counters,
 }
 
-/// What an oracle met with, over all calls.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Counters {
-    /// How often it was asked.
-    pub calls: u64,
-    /// Pairs of features that were tested.
-    pub steps: u64,
-    /// Pairs that came up again.
-    pub cycles: u64,
-    /// Features found behind a face, with all faces looked at for it.
-    pub local_minima: u64,
-    /// Marches taken up again from other features.
-    pub restarts: u64,
-    /// Common points, each proven by exact signs.
-    pub penetrations: u64,
-}
-
 impl Vmarch {
-    /// What it met with so far.
+    /// The work so far.
     pub fn counters(&self) -> Counters {
         self.counters
     }
@@ -90,16 +75,16 @@ impl DistanceOracle for Vmarch {
         let (mut own_a, mut own_b) = (None, None);
         let a = prepared(&pair.a, &mut own_a)?;
         let b = prepared(&pair.b, &mut own_b)?;
-        let places = Places::new(a, b, &pair.b_to_a);
-        let end = march(&places, cache.start(&places), &mut self.counters);
+        let placed = PlacedPair::new(a, b, &pair.b_to_a);
+        let end = march(&placed, cache.start(&placed), &mut self.counters);
         if let End::Nearest(nearest, Certainty::Sure) = end {
-            let claim = Witness::of(&places, nearest).claim(&places);
-            cache.keep(&places, nearest, claim.axis);
+            let claim = Witness::of(&placed, nearest).claim(&placed);
+            cache.keep(&placed, nearest, claim.axis);
             return Ok(claim);
         }
-        let answer = settle(&places, end, &mut self.counters)?;
-        cache.keep(&places, answer.pair, answer.claim.axis);
-        Ok(answer.claim)
+        let certified = certify(&placed, end, &mut self.counters)?;
+        cache.keep(&placed, certified.pair, certified.claim.axis);
+        Ok(certified.claim)
     }
 
     fn effort(&self) -> Effort {
@@ -114,8 +99,7 @@ impl DistanceOracle for Vmarch {
 /// A prepared piece, or why it can't be.
 type Prepared = Box<Result<Polytope, GiveUp>>;
 
-/// What is kept of a piece; of a piece that is of no list, what is made of it now, and kept by the
-/// caller.
+/// Returns what is kept of a piece; a piece of no list is prepared now, and kept by the caller.
 #[inline]
 fn prepared<'p>(piece: &Piece<'p>, own: &'p mut Option<Prepared>) -> Result<&'p Polytope, GiveUp> {
     let make = |piece: &Piece<'_>| -> Prepared { Box::new(Polytope::new(piece)) };

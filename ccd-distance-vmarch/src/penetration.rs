@@ -1,14 +1,14 @@
 //! Common points, proven by exact signs before they are believed `[SHE97]`.
 
+use crate::double_double::volume;
 use crate::feature::{Corners, Crossing};
-use crate::place::{Placed, Scale};
+use crate::orientation::orientation;
+use crate::placed::{Placed, Scale};
 use crate::tolerance::PIERCED_PAIRS;
-use crate::twofold::volume;
 use ccd_core::glam::DVec3;
 use ccd_core::order::lesser;
-use robust::{Coord3D, orient3d};
 
-/// Where an edge goes through a face, or ends on it.
+/// Finds the point where an edge goes through a face, or ends on it.
 ///
 /// # Guarantee
 /// The signs are those of the placed points, whatever rounding placed them: some is given only if the
@@ -38,7 +38,7 @@ pub(crate) fn pierced<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32) -> Opt
     None
 }
 
-/// Whether a corner is inside of the other polytope: within a tetrahedron that one of its corners
+/// Finds a corner inside the other polytope: within a tetrahedron that one of its corners
 /// spans with a triangle of one of its faces.
 ///
 /// # Guarantee
@@ -76,8 +76,8 @@ pub(crate) fn contained<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y) -> Option<Cr
     None
 }
 
-/// Looks for any edge of X that goes through a face of Y, of polytopes that are not too large for that,
-/// and for a corner of X inside Y.
+/// Searches for an edge of X that goes through a face of Y, or a corner of X inside Y, unless the
+/// polytopes are too large for that.
 pub(crate) fn searched<X: Placed, Y: Placed>(x: &X, y: &Y, scale: Scale) -> Option<Crossing> {
     let (edges, faces) = (x.shape().edges.len() as u32, y.shape().faces.len() as u32);
     if edges as usize * faces as usize > PIERCED_PAIRS {
@@ -88,7 +88,7 @@ pub(crate) fn searched<X: Placed, Y: Placed>(x: &X, y: &Y, scale: Scale) -> Opti
     through.or_else(|| contained(x, 0, y))
 }
 
-/// As [`pierced`], of edges that are not clearly on one side of the face's plane.
+/// Does the same as [`pierced`] for edges that are not clearly on one side of the face's plane.
 fn straddled<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32, scale: Scale) -> Option<Crossing> {
     let base = y.point(y.shape().sides_of(f).first()?.start);
     let normal = y.vector(y.shape().face(f).normal);
@@ -103,13 +103,13 @@ fn straddled<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32, scale: Scale) -
 
 /// Whether a segment and a triangle that is not in one plane with it have a point in common.
 fn passes([start, end]: [DVec3; 2], triangle: [DVec3; 3]) -> bool {
-    let (first, last) = (side(triangle, start), side(triangle, end));
+    let (first, last) = (orientation(triangle, start), orientation(triangle, end));
     let beside = (first > 0.0 && last > 0.0) || (first < 0.0 && last < 0.0);
     if beside || (first == 0.0 && last == 0.0) {
         return false;
     }
     let [a, b, c] = triangle;
-    let turns = [[a, b], [b, c], [c, a]].map(|[p, q]| side([start, p, q], end));
+    let turns = [[a, b], [b, c], [c, a]].map(|[p, q]| orientation([start, p, q], end));
     turns.iter().all(|&turn| turn >= 0.0) || turns.iter().all(|&turn| turn <= 0.0)
 }
 
@@ -128,33 +128,14 @@ fn weights([start, end]: [DVec3; 2], [a, b, c]: [DVec3; 3]) -> ([f64; 2], [f64; 
 fn enclosed(point: DVec3, apex: DVec3, [a, b, c]: [DVec3; 3]) -> Option<[f64; 4]> {
     // Every face of it, seen from outside.
     let faces = [[apex, c, b], [apex, a, c], [apex, b, a], [a, b, c]];
-    let behind = faces.iter().all(|face| side(*face, point) <= 0.0);
-    let solid = side([a, b, c], apex) < 0.0;
+    let behind = faces.iter().all(|face| orientation(*face, point) <= 0.0);
+    let solid = orientation([a, b, c], apex) < 0.0;
     if !(behind && solid) {
         return None;
     }
     let parts = faces.map(|face| volume(face, point).abs());
     let total = parts.iter().sum::<f64>();
     Some(parts.map(|part| part / total))
-}
-
-/// Positive where the point sees the triangle counter-clockwise, negative behind it: exactly, unless
-/// coordinates are finer than [`LEAST_COORDINATE`](ccd_core::tolerance::LEAST_COORDINATE), by which
-/// points may be off then.
-#[inline]
-pub(crate) fn side([a, b, c]: [DVec3; 3], point: DVec3) -> f64 {
-    let level = a.cmpeq(b) & a.cmpeq(c) & a.cmpeq(point);
-    if level.any() {
-        // In a plane across a coordinate axis, which would take the predicate its longest computation.
-        return 0.0;
-    }
-    let coord = |p: DVec3| Coord3D {
-        x: p.x,
-        y: p.y,
-        z: p.z,
-    };
-    // Shewchuk's determinant is positive below.
-    -orient3d(coord(a), coord(b), coord(c), coord(point))
 }
 
 #[cfg(test)]

@@ -6,13 +6,14 @@ mod build;
 mod convex;
 mod facets;
 mod merge;
+mod support;
 #[cfg(test)]
 mod tests;
 
 use crate::feature::Feature;
 pub(crate) use facets::unit;
+use support::DirectionTable;
 
-use crate::start::Starts;
 use ccd_core::glam::DVec3;
 
 /// A piece with the planes that bound the Voronoi regions of its features.
@@ -30,7 +31,7 @@ use ccd_core::glam::DVec3;
 /// About 700 bytes for each corner of a polytope of triangles.
 #[derive(Clone, Debug)]
 pub(crate) struct Polytope {
-    /// Where the origin lies in the piece's own coordinates.
+    /// The position of the origin in the piece's own coordinates.
     pub(crate) origin: DVec3,
     /// The distance of the farthest corner from the origin.
     pub(crate) reach: f64,
@@ -39,15 +40,15 @@ pub(crate) struct Polytope {
     pub(crate) edges: Vec<Edge>,
     pub(crate) faces: Vec<Face>,
     pub(crate) sides: Vec<Side>,
-    /// Where to start from, in polytopes of many corners.
-    pub(crate) starts: Option<Box<Starts>>,
+    /// The corners to climb from, in polytopes of many corners.
+    directions: Option<Box<DirectionTable>>,
 }
 
 /// A corner.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Vertex {
     pub(crate) point: DVec3,
-    /// Which of the piece's points it is.
+    /// Its number among the piece's points.
     pub(crate) number: u32,
     first_spoke: u32,
     end_spoke: u32,
@@ -56,7 +57,7 @@ pub(crate) struct Vertex {
 /// An edge as its corner sees it: the normal of a vertex-edge plane.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Spoke {
-    /// Of length one, away from the corner.
+    /// The direction away from the corner, of length one.
     pub(crate) along: DVec3,
     pub(crate) edge: u32,
     /// The corner at the other end.
@@ -67,11 +68,11 @@ pub(crate) struct Spoke {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Edge {
     pub(crate) start: DVec3,
-    /// Of length one, towards the end.
+    /// The direction towards the end, of length one.
     pub(crate) along: DVec3,
     pub(crate) length: f64,
-    /// For each face that meets here the direction from the edge into the face, of length one: the
-    /// normal of the face-edge plane. Zero where there is no face.
+    /// The direction from the edge into either face that meets here, of length one: the normal of the
+    /// face-edge plane. Zero where there is no face.
     pub(crate) inward: [DVec3; 2],
     pub(crate) ends: [u32; 2],
     /// [`NO_FACE`] where there is none.
@@ -84,7 +85,7 @@ pub(crate) const NO_FACE: u32 = u32::MAX;
 /// A convex polygon.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Face {
-    /// Outward, of length one.
+    /// The outward normal, of length one.
     pub(crate) normal: DVec3,
     first_side: u32,
     end_side: u32,
@@ -93,9 +94,9 @@ pub(crate) struct Face {
 /// A side of a face, in the face's order, counter-clockwise seen from outside.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Side {
-    /// As [`Edge::inward`] for this face.
+    /// The same as [`Edge::inward`] for this face.
     pub(crate) inward: DVec3,
-    /// As [`Edge::start`]: planes are told from the same point wherever they are used, so that a
+    /// The same as [`Edge::start`]: a plane's side is computed from the same point everywhere, so that a
     /// point is on the same side for the edge and for the face, to the bit.
     pub(crate) start: DVec3,
     pub(crate) edge: u32,
@@ -153,7 +154,7 @@ impl Polytope {
         (number as usize) < count
     }
 
-    /// How many features there are.
+    /// The number of features.
     pub(crate) fn features(&self) -> usize {
         self.vertices.len() + self.edges.len() + self.faces.len()
     }

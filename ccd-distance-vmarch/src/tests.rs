@@ -19,7 +19,7 @@ use scene::{Kind, Scene};
 use shape::{Pcg64, SeedableRng, direction, magnitude};
 use twin::Bare;
 
-/// How many scenes are drawn of each kind; `CCD_TEST_CASES` in the environment multiplies it,
+/// The number of scenes drawn of each kind; `CCD_TEST_CASES` in the environment multiplies it,
 /// `CCD_TEST_SLOW` makes it a million claims over all kinds.
 fn cases() -> u64 {
     let given = std::env::var("CCD_TEST_CASES").ok();
@@ -30,7 +30,7 @@ fn cases() -> u64 {
     }
 }
 
-/// What claims of one kind came to.
+/// The claims about one kind, summed up.
 #[derive(Debug, Default)]
 struct Tally {
     claims: u64,
@@ -75,7 +75,7 @@ impl Tally {
             assert!(
                 distance <= 200.0 * unit,
                 "{distance:e}: {}",
-                told(scene, &claim)
+                described(scene, &claim)
             );
             return;
         }
@@ -93,17 +93,17 @@ impl Tally {
         assert!(
             error <= slack,
             "{distance:e}, not {truth:e}: {}",
-            told(scene, &claim)
+            described(scene, &claim)
         );
         assert!(
             gap >= truth - slack,
             "gap {gap:e} of {truth:e}: {}",
-            told(scene, &claim)
+            described(scene, &claim)
         );
     }
 }
 
-fn told(scene: &Scene<'_>, claim: &Claim) -> String {
+fn described(scene: &Scene<'_>, claim: &Claim) -> String {
     let (a, b, frame) = (&scene.a.shape, &scene.b.shape, scene.b_to_a);
     format!("{claim:?} of {a:?}, {b:?}, {frame:?}")
 }

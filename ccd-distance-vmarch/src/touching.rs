@@ -1,23 +1,23 @@
-//! What has a common point, but may have no inside in common: the axis that keeps it apart.
+//! Axes for pieces with a common point that may only touch.
 
 use crate::certificate::{Axis, best_axis};
 use crate::feature::{Crossing, Feature, Pair, Whose};
-use crate::place::{Placed, Places, Scale};
+use crate::placed::{Placed, PlacedPair, Scale};
 use crate::polytope::Polytope;
 use crate::witness::{self, Witness};
 use ccd_core::Claim;
 
-/// The claim of a proven common point.
+/// Makes the claim of a proven common point.
 ///
 /// Its axis is the normal of the face that shows it; or, where the point is on the border of what it
 /// was found in, that of the axes around which keeps the pieces apart best: they may only touch.
-pub(crate) fn common(places: &Places<'_>, whose: Whose, crossing: &Crossing) -> Claim {
-    let claim = witness::common(places, whose, crossing);
-    let Some(pair) = border(places, whose, crossing) else {
+pub(crate) fn common(placed: &PlacedPair<'_>, whose: Whose, crossing: &Crossing) -> Claim {
+    let claim = witness::common(placed, whose, crossing);
+    let Some(pair) = border(placed, whose, crossing) else {
         return claim;
     };
-    let normal = Axis::along(places, claim.axis);
-    let best = best_axis(places, pair, &Witness::of(places, pair));
+    let normal = Axis::along(placed, claim.axis);
+    let best = best_axis(placed, pair, &Witness::of(placed, pair));
     // Written so that NaN changes nothing.
     if best.gap > normal.gap {
         return Claim {
@@ -28,10 +28,10 @@ pub(crate) fn common(places: &Places<'_>, whose: Whose, crossing: &Crossing) -> 
     claim
 }
 
-/// The features that hold a common point, unless that shows that insides meet: where an edge goes
-/// through the inside of a face, and where a point is inside of a polytope.
-fn border(places: &Places<'_>, whose: Whose, crossing: &Crossing) -> Option<Pair> {
-    let Places { a, b, scale } = places;
+/// Returns the features that hold a common point, unless that shows that insides meet: where an edge
+/// goes through the inside of a face, and where a point is inside a polytope.
+fn border(placed: &PlacedPair<'_>, whose: Whose, crossing: &Crossing) -> Option<Pair> {
+    let PlacedPair { a, b, scale } = placed;
     let found = match whose {
         Whose::X => features(a, b, crossing, *scale),
         Whose::Y => features(b, a, crossing, *scale).map(|(x, y)| (y, x)),

@@ -2,11 +2,11 @@
 
 use crate::feature::Certainty::{Sure, Tied};
 use crate::feature::{Feature, Next};
-use crate::place::{Line, Placed, Scale};
+use crate::placed::{Line, Placed, Scale};
 use crate::tolerance::LEVEL;
 use ccd_core::glam::DVec3;
 
-/// The corner against the edge's two vertex-edge planes and two face-edge planes, and then the edge
+/// Tests the corner against the edge's two vertex-edge planes and two face-edge planes, then the edge
 /// against the corner's vertex-edge planes.
 ///
 /// V-Clip cuts the edge with those planes and asks at both ends of what remains in which direction
@@ -66,13 +66,13 @@ pub(crate) fn side_faced<Y: Placed>(
 /// The edge of a corner along which another edge's line comes nearer.
 struct Bent {
     edge: u32,
-    /// How much nearer, beyond rounding.
+    /// The gain in distance, beyond rounding.
     by: f64,
     /// Whether some edge is neither clearly bent towards the line nor away from it.
     tied: bool,
 }
 
-/// Of the corner's edges the one that leads nearest to the line, which `way` leads to.
+/// Finds the corner's edge that leads nearest to the line, which `way` leads to.
 ///
 /// A step along the corner's edge is answered by one along the line: what counts is the edge's part
 /// across the line. Of nearly parallel edges that is small, and so has to be what rounding is taken

@@ -2,12 +2,11 @@
 
 use crate::feature::Certainty::{Sure, Tied};
 use crate::feature::{Behind, Feature, Next, Whose};
-use crate::place::{Placed, Scale};
+use crate::placed::{Placed, Scale};
 use crate::tolerance::LEVEL;
 
-/// The corner against all face-edge planes, on to the edge of the one it violates most; and above the
-/// face, each of the corner's edges against the face's plane, on to the one that falls towards it most
-/// steeply.
+/// Tests the corner against all face-edge planes; the march goes on to the edge of the one it violates
+/// most. Above the face, it goes on to the corner's edge that falls towards the face most steeply.
 ///
 /// The nearest violated plane would not do: the edge it belongs to need not be nearer.
 #[inline]

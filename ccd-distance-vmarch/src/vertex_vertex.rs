@@ -2,13 +2,13 @@
 
 use crate::feature::Certainty::{Sure, Tied};
 use crate::feature::{Feature, Next};
-use crate::place::{Placed, Scale};
+use crate::placed::{Placed, Scale};
 use ccd_core::glam::DVec3;
 
-/// Each corner against the other's vertex-edge planes: on to the edge that leads nearest to the other
-/// corner.
+/// Tests each corner against the other's vertex-edge planes; the march goes on to the edge that leads
+/// nearest to the other corner.
 ///
-/// No slack is needed: [`vertex_edge`](crate::vertex_edge) tells the same plane by the same product
+/// No slack is needed: [`vertex_edge`](crate::vertex_edge) tests the same plane by the same product
 /// of the same numbers, so that no pair comes back from there.
 #[inline]
 pub(crate) fn next<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y, w: u32, scale: Scale) -> Next {

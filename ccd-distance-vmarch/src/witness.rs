@@ -1,8 +1,8 @@
-//! What a stop means: the nearest points, clamped into their features, and the axis between them.
+//! The nearest points of a stop, clamped into their features, and the axis between them.
 
 use crate::edge_edge;
 use crate::feature::{Corners, Crossing, Feature, Pair, Whose};
-use crate::place::{Line, Placed, Places, Scale, clamped};
+use crate::placed::{Line, Placed, PlacedPair, Scale, clamped};
 use crate::polytope::Polytope;
 use ccd_core::glam::DVec3;
 use ccd_core::{Claim, Combination};
@@ -11,18 +11,18 @@ use ccd_core::{Claim, Combination};
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Witness {
     pub(crate) points: [DVec3; 2],
-    /// What corners they are combined of.
+    /// The corners that they are combined of.
     spots: [Corners<3>; 2],
-    /// Of any length.
+    /// The direction from A to B, of any length.
     pub(crate) axis: DVec3,
 }
 
 impl Witness {
-    /// Of a pair at which a march may stop; of an edge or face and a face, of which it never stops,
-    /// two of their corners.
+    /// Computes the nearest points of a pair at which a march may stop. A march never stops at an edge or
+    /// face and a face; two of their corners stand for them.
     #[inline]
-    pub(crate) fn of(places: &Places<'_>, pair: Pair) -> Self {
-        let Places { a, b, scale } = places;
+    pub(crate) fn of(placed: &PlacedPair<'_>, pair: Pair) -> Self {
+        let PlacedPair { a, b, scale } = placed;
         match (pair.a, pair.b) {
             (Feature::Vertex(v), Feature::Vertex(w)) => vertex_vertex(a, v, b, w),
             (Feature::Vertex(v), Feature::Edge(e)) => vertex_edge(a, v, b, e),
@@ -43,11 +43,11 @@ impl Witness {
     }
 
     #[inline]
-    pub(crate) fn claim(&self, places: &Places<'_>) -> Claim {
+    pub(crate) fn claim(&self, placed: &PlacedPair<'_>) -> Claim {
         Claim {
             axis: self.axis,
-            a: named(places.a.shape(), &self.spots[0]),
-            b: named(places.b.shape(), &self.spots[1]),
+            a: named(placed.a.shape(), &self.spots[0]),
+            b: named(placed.b.shape(), &self.spots[1]),
         }
     }
 
@@ -63,8 +63,8 @@ impl Witness {
 }
 
 /// The claim of a proven common point, along the normal of the face that shows it.
-pub(crate) fn common(places: &Places<'_>, whose: Whose, crossing: &Crossing) -> Claim {
-    let (a, b) = (&places.a, &places.b);
+pub(crate) fn common(placed: &PlacedPair<'_>, whose: Whose, crossing: &Crossing) -> Claim {
+    let (a, b) = (&placed.a, &placed.b);
     let on_edge = |shape| named(shape, &crossing.on_edge);
     let on_face = |shape| named(shape, &crossing.on_face);
     match whose {
@@ -145,7 +145,7 @@ fn vertex_face<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y, f: u32) -> Witness {
     }
 }
 
-/// What of a way is across a direction.
+/// The part of a vector across a direction.
 #[inline]
 pub(crate) fn across(way: DVec3, along: DVec3) -> DVec3 {
     way - along * way.dot(along)

@@ -68,7 +68,7 @@ pub use ccd_core::{
 pub use ccd_decomp as mesh;
 #[cfg(feature = "meshes")]
 pub use ccd_decomp::BodyError;
-pub use ccd_distance_gjk::{Auto, Direct, Gjk, GjkF32};
+pub use ccd_distance_gjk::{ClosedForm, Direct, Gjk};
 #[cfg(feature = "vmarch")]
 pub use ccd_distance_vmarch::Vmarch;
 pub use error::Error;

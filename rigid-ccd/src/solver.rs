@@ -3,7 +3,7 @@
 use crate::{Error, Hit};
 use ccd_core::schedule::{BestFirst, Schedule};
 use ccd_core::{Answer, Config, DistanceOracle, InputError, Moving, Problem};
-use ccd_distance_gjk::Auto;
+use ccd_distance_gjk::Direct;
 
 /// When do two bodies first touch, from time 0 to a duration? None when they stay apart.
 ///
@@ -48,7 +48,7 @@ pub fn first_contact<'b>(
 /// }
 /// # Ok::<(), rigid_ccd::Error>(())
 /// ```
-pub struct Solver<O: DistanceOracle = Auto> {
+pub struct Solver<O: DistanceOracle = Direct> {
     schedule: BestFirst<O>,
     oracle: O,
     config: Config,
@@ -57,7 +57,7 @@ pub struct Solver<O: DistanceOracle = Auto> {
 impl Solver {
     /// With the backend that suits all pieces.
     pub fn new() -> Self {
-        Solver::with_oracle(Auto::default())
+        Solver::with_oracle(Direct::default())
     }
 }
 

@@ -3,7 +3,7 @@
 use rigid_ccd::glam::DVec3;
 use rigid_ccd::schedule::{BestFirst, Schedule};
 use rigid_ccd::{
-    Auto, Body, Config, DistanceOracle, Error, Gjk, HitKind, InputError, Limit, Motion, Outcome,
+    Body, Config, Direct, DistanceOracle, Error, Gjk, HitKind, InputError, Limit, Motion, Outcome,
     Pose, Problem, Solver, first_contact,
 };
 
@@ -32,7 +32,7 @@ fn hits_are_the_engines_bit_for_bit() {
         ..Config::default()
     };
     let mut solver = Solver::new().with_config(config);
-    let (mut schedule, mut oracle) = (BestFirst::default(), Auto::default());
+    let (mut schedule, mut oracle) = (BestFirst::default(), Direct::default());
     let (mut hits, mut misses) = (0, 0);
     for k in 0..50 {
         let flies = moving(-3.0, 0.1 * f64::from(k));
@@ -110,7 +110,7 @@ fn backends_agree() {
     let time = |found: Result<Option<rigid_ccd::Hit>, Error>| found.unwrap().unwrap().time;
     let by_default = time(first_contact(asked.0, asked.1, 1.0));
     let mut gjk = Solver::with_oracle(Gjk);
-    let mut both = Solver::with_oracle(rigid_ccd::Direct.or_else(Gjk));
+    let mut both = Solver::with_oracle(rigid_ccd::ClosedForm.or_else(Gjk));
     for other in [
         time(gjk.first_contact(asked.0, asked.1, 1.0)),
         time(both.first_contact(asked.0, asked.1, 1.0)),

@@ -2,7 +2,7 @@
 
 use ccd_core::schedule::{BestFirst, Naive};
 use ccd_core::{DistanceOracle, OrElse, Schedule};
-use ccd_distance_gjk::{Auto, Direct, Gjk, GjkF32};
+use ccd_distance_gjk::{ClosedForm, Direct, Gjk};
 use ccd_distance_vmarch::Vmarch;
 use ccd_tests::backends::for_each_setup;
 use ccd_tests::case::Case;
@@ -41,13 +41,12 @@ macro_rules! used_as_fresh {
 }
 
 used_as_fresh! {
-    used_best_first_direct: BestFirst, Direct;
+    used_best_first_closed_form: BestFirst, ClosedForm;
     used_best_first_gjk: BestFirst, Gjk;
-    used_best_first_gjk_f32: BestFirst, GjkF32;
-    used_best_first_auto: BestFirst, Auto;
+    used_best_first_direct: BestFirst, Direct;
     used_best_first_vmarch: BestFirst, OrElse<Vmarch, Gjk>;
+    used_naive_closed_form: Naive, ClosedForm;
     used_naive_direct: Naive, Direct;
-    used_naive_auto: Naive, Auto;
 }
 
 fn used_as_fresh<O: DistanceOracle + Default, S: Schedule<O> + Default>() {

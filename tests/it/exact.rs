@@ -3,7 +3,7 @@
 use ccd_core::Polytope;
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
-use ccd_tests::exact::{Blend, Effort, Place, Solid, samples, side_of, triangle_holds};
+use ccd_tests::exact::{Blend, Effort, Location, Solid, samples, side_of, triangle_holds};
 use ccd_tests::models::{Mesh, convex_solids, cuboid, hollow, l_prism, solids};
 use ccd_tests::referee::{contains, point_triangle};
 use ccd_tests::strategies::{direction, runner};
@@ -38,7 +38,7 @@ fn points_of_faces_edges_and_vertices_are_on_the_surface() {
                 Blend::new([(7, a), (20, b), (37, c)]),
             ];
             for p in some {
-                assert_eq!(solid.place(&p), Place::Surface, "{}: {p:?}", model.name);
+                assert_eq!(solid.locate(&p), Location::Surface, "{}: {p:?}", model.name);
             }
         }
     }
@@ -53,9 +53,9 @@ fn points_a_rounding_off_the_surface_are_not_on_it() {
         // In the middle of a face, on its diagonal, beside that.
         for beside in [DVec3::ZERO, DVec3::splat(0.3), DVec3::new(0.1, 0.2, 0.7)] {
             let p = |x: f64| at(beside - axis * beside.dot(axis) + x * axis);
-            assert_eq!(solid.place(&p(1.0)), Place::Surface);
-            assert_eq!(solid.place(&p(1.0_f64.next_down())), Place::Inside(1));
-            assert_eq!(solid.place(&p(1.0_f64.next_up())), Place::Outside);
+            assert_eq!(solid.locate(&p(1.0)), Location::Surface);
+            assert_eq!(solid.locate(&p(1.0_f64.next_down())), Location::Inside(1));
+            assert_eq!(solid.locate(&p(1.0_f64.next_up())), Location::Outside);
         }
     }
 }
@@ -105,9 +105,9 @@ fn rays_through_edges_and_vertices_count_once() {
                 ];
                 // Where the bars meet, the one's side is in the other.
                 let flat = lesser(greater(bars[0], bars[1]), within(-0.5, z, 0.5));
-                let expected = [Place::Outside, Place::Surface, Place::Inside(1)][flat];
+                let expected = [Location::Outside, Location::Surface, Location::Inside(1)][flat];
                 let p = at(DVec3::new(x, y, z));
-                assert_eq!(solid.place(&p), expected, "{p:?}");
+                assert_eq!(solid.locate(&p), expected, "{p:?}");
             }
         }
     }
@@ -121,14 +121,14 @@ fn cavities_are_outside_and_windings_add_up() {
     twice.append(&small.mesh);
     let flipped = big.mesh.clone().flipped();
     for (mesh, p, place) in [
-        (&cavity, 0.1, Place::Outside),
-        (&cavity, 0.7, Place::Inside(1)),
-        (&cavity, 0.5, Place::Surface),
-        (&twice, 0.1, Place::Inside(2)),
-        (&twice, 0.7, Place::Inside(1)),
-        (&flipped, 0.7, Place::Inside(-1)),
+        (&cavity, 0.1, Location::Outside),
+        (&cavity, 0.7, Location::Inside(1)),
+        (&cavity, 0.5, Location::Surface),
+        (&twice, 0.1, Location::Inside(2)),
+        (&twice, 0.7, Location::Inside(1)),
+        (&flipped, 0.7, Location::Inside(-1)),
     ] {
-        assert_eq!(Solid::new(mesh).place(&at(DVec3::splat(p))), place, "{p}");
+        assert_eq!(Solid::new(mesh).locate(&at(DVec3::splat(p))), place, "{p}");
     }
 }
 
@@ -151,13 +151,13 @@ fn solid_angles_say_the_same() {
                 continue;
             }
             let by_angle = contains(mesh, &mesh.vertices, near);
-            match solid.place(&p) {
-                Place::Surface => panic!("{}: {p:?}", model.name),
-                Place::Inside(windings) => {
+            match solid.locate(&p) {
+                Location::Surface => panic!("{}: {p:?}", model.name),
+                Location::Inside(windings) => {
                     inside += 1;
                     assert!(by_angle && windings == 1, "{}: {p:?}", model.name);
                 }
-                Place::Outside => {
+                Location::Outside => {
                     outside += 1;
                     assert!(!by_angle, "{}: {p:?}", model.name);
                 }
@@ -194,13 +194,13 @@ fn rounded_points_of_a_face_are_told_by_its_plane() {
             let on = Blend::new([(u, a), (v, b), (32, c)]);
             let rounded = at(on.rounded());
             let (expected, count) = match side_of([a, b, c], &rounded) {
-                Ordering::Greater => (Place::Outside, &outside),
+                Ordering::Greater => (Location::Outside, &outside),
                 Ordering::Equal => return Ok(()),
-                Ordering::Less => (Place::Inside(1), &inside),
+                Ordering::Less => (Location::Inside(1), &inside),
             };
             count.set(count.get() + 1);
-            prop_assert_eq!(Solid::new(&mesh).place(&on), Place::Surface);
-            prop_assert_eq!(Solid::new(&mesh).place(&rounded), expected);
+            prop_assert_eq!(Solid::new(&mesh).locate(&on), Location::Surface);
+            prop_assert_eq!(Solid::new(&mesh).locate(&rounded), expected);
             Ok(())
         })
         .unwrap_or_else(|error| panic!("{error}"));

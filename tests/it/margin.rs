@@ -7,10 +7,12 @@ use ccd_tests::checks::Judge;
 use ccd_tests::models::cuboid;
 use ccd_tests::query::{Actor, Query};
 use ccd_tests::strategies::{cases, check_cases};
+use std::cell::Cell;
 
 #[test]
 fn random_cases_keep_any_margin() {
     for margin in [1e-2, 0.3, 2.0] {
+        let contacts = Cell::new(0);
         check_cases(150, cases(), |case| {
             let query = case.query();
             let config = Config {
@@ -20,12 +22,15 @@ fn random_cases_keep_any_margin() {
             let judge = Judge::new(&query, &config);
             let mut law = Ok(());
             for_each_setup(&query, &config, |bodies, setup, answer| {
+                let contact = matches!(answer.outcome, Outcome::Contact { .. });
+                contacts.set(contacts.get() + u32::from(contact));
                 if let Err(why) = judge.check(&answer, bodies) {
                     law = Err(format!("margin {margin}: {why}\n{setup:?}\n{answer:?}"));
                 }
             });
             law
         });
+        assert!(contacts.get() > 500, "margin {margin}: {contacts:?}");
     }
 }
 

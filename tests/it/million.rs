@@ -36,7 +36,7 @@ fn check(answer: &Answer) {
 fn a_million_pairs_kept_at_once() {
     let naive = Backend {
         order: Order::Naive,
-        oracle: Oracle::Direct,
+        oracle: Oracle::ClosedForm,
     };
     let answer = falling_plate(23, naive, 1e-3);
     assert!(answer.stats.peak_front > 1_000_000, "{answer:?}");

@@ -1,15 +1,21 @@
-//! Contacts of patches are named as contacts of the triangles that they are made of.
+//! Contacts of patches are named as the mesh numbers what is there.
 
+use ccd_core::glam::DVec3;
 use ccd_core::{Config, Feature, Outcome};
 use ccd_tests::backends::Backend;
 use ccd_tests::models::Kind;
+use ccd_tests::query::Actor;
+use ccd_tests::referee::{point_segment, point_triangle};
 use ccd_tests::strategies::{cases, check_cases};
 use std::cell::Cell;
+use std::collections::BTreeSet;
 
-/// Only behind the surface, on a virtual facet, there is nothing of the mesh to name.
+/// A witness lies on the feature that is named, which is the least one of the mesh that holds it: a
+/// vertex rather than an edge, an edge rather than a face. For an edge between facets of several faces a
+/// patch names a face with it. On a virtual facet, behind the surface, nothing of the mesh is named.
 #[test]
 fn contacts_of_patches_name_the_mesh() {
-    let (named, unnamed) = (Cell::new(0), Cell::new(0));
+    let counts: [Cell<u32>; 3] = Default::default();
     check_cases(500, cases(), |case| {
         let query = case.query();
         let shapes = [&query.a.shape, &query.b.shape];
@@ -22,17 +28,72 @@ fn contacts_of_patches_name_the_mesh() {
             ..Config::default()
         };
         let answer = Backend::DEFAULT.solve(&query.problem(&bodies, &config));
-        if let Outcome::Contact { contact, .. } = answer.outcome {
-            for feature in [contact.feature_a, contact.feature_b] {
-                let count = match feature {
-                    Feature::Piece(_) => &unnamed,
-                    _ => &named,
-                };
+        if let Outcome::Contact { time, contact } = answer.outcome {
+            let it = contact.separation;
+            for (actor, witness, feature) in [
+                (&query.a, it.witness_a, contact.feature_a),
+                (&query.b, it.witness_b, contact.feature_b),
+            ] {
+                let holding = holding(actor, time, witness, query.rounding());
+                let name = name(feature, &holding).ok_or_else(|| {
+                    format!("{feature} at {witness} at {time}, where there are {holding:?}")
+                })?;
+                let count = &counts[name as usize];
                 count.set(count.get() + 1);
             }
         }
         Ok(())
     });
-    let (named, unnamed) = (named.get(), unnamed.get());
-    assert!(named > 100 && 50 * unnamed < named, "{named}, {unnamed}");
+    let [least, larger, none] = counts.map(|count| count.get());
+    assert!(
+        least > 100 && 2 * larger < least && 50 * none < least,
+        "{least}, {larger}, {none}"
+    );
+}
+
+/// What a name is, next to the features that hold a witness.
+#[derive(Clone, Copy)]
+enum Name {
+    /// That of the least one.
+    Least,
+    /// That of a face with the edge that is the least one.
+    Larger,
+    /// No name of the mesh, where nothing of it is.
+    None,
+}
+
+/// None for a name that is wrong.
+fn name(feature: Feature, holding: &BTreeSet<Feature>) -> Option<Name> {
+    match (feature, holding.first()) {
+        (Feature::Piece(_), None) => Some(Name::None),
+        (named, Some(&least)) if named == least => Some(Name::Least),
+        (Feature::Face(_), Some(Feature::Edge(..))) => {
+            holding.contains(&feature).then_some(Name::Larger)
+        }
+        _ => None,
+    }
+}
+
+/// All features of the mesh that a point is on at a time; vertices come first, then edges.
+fn holding(actor: &Actor, time: f64, point: DVec3, rounding: f64) -> BTreeSet<Feature> {
+    let (pose, mesh) = (actor.motion.pose(time), &actor.shape.mesh);
+    let at = |v: u32| pose.transform_point(mesh.vertices[v as usize]);
+    let is_on = |nearest: DVec3| nearest.distance(point) <= rounding;
+    let mut out = BTreeSet::new();
+    for (face, &corners) in (0..).zip(&mesh.faces) {
+        if !is_on(point_triangle(point, corners.map(at))) {
+            continue;
+        }
+        out.insert(Feature::Face(face));
+        for k in 0..3 {
+            let (v, w) = (corners[k], corners[(k + 1) % 3]);
+            if is_on(at(v)) {
+                out.insert(Feature::Vertex(v));
+            }
+            if is_on(point_segment(point, [at(v), at(w)])) {
+                out.insert(Feature::edge(v, w));
+            }
+        }
+    }
+    out
 }

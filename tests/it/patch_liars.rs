@@ -1,4 +1,4 @@
-//! The laws of patches find wrong patches: each kind of lie is told by the law that it breaks.
+//! The laws of patches find wrong patches: each kind of lie is found by the law that it breaks.
 
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;

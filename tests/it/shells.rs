@@ -4,8 +4,8 @@ use ccd_core::glam::DVec3;
 use ccd_core::schedule::{BestFirst, Schedule};
 use ccd_core::{Body, Config, Motion, Moving, Outcome, Pose, Problem, StartPolicy};
 use ccd_decomp::{Detail, Order, prepare};
-use ccd_distance_gjk::Auto;
-use ccd_tests::exact::{Blend, Place, Solid};
+use ccd_distance_gjk::Direct;
+use ccd_tests::exact::{Blend, Location, Solid};
 use ccd_tests::models::{Mesh, Shape, boulder, cuboid, icosphere, torus};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
@@ -71,7 +71,7 @@ fn solve(a: &Body, b: &Body, velocity: DVec3, start: StartPolicy) -> Outcome {
     let (a, b) = (moving(a, DVec3::ZERO), moving(b, velocity));
     let problem = Problem::new(a, b, 1.0, &config).unwrap();
     BestFirst::default()
-        .solve(&problem, &mut Auto::default())
+        .solve(&problem, &mut Direct::default())
         .outcome
 }
 
@@ -98,8 +98,8 @@ fn a_body_inside_overlaps_however_shells_are_wound() {
                 let (near, _) = &shells[rng.random_range(0..shells.len())];
                 let at = near.vertices[0].lerp(near.vertices[1], rng.random())
                     + direction(&mut rng) * 0.1;
-                let places = solids.iter().map(|solid| solid.place(&Blend::mean([at])));
-                let around = places.filter(|place| matches!(place, Place::Inside(_)));
+                let places = solids.iter().map(|solid| solid.locate(&Blend::mean([at])));
+                let around = places.filter(|place| matches!(place, Location::Inside(_)));
                 let inside = around.count() % 2 == 1;
                 let speck = body(
                     &cuboid(DVec3::splat(1e-7)).moved(at).mesh,

@@ -25,8 +25,8 @@ fn outcomes_by_kind(query: &Query, check: impl Fn([Kind; 2], Outcome) -> bool) {
     });
 }
 
-/// Whether a body is told to be inside of the other; where pieces may fill the inside, they may also be
-/// told to overlap.
+/// Whether a body is reported inside the other; where pieces may fill the inside, they may also be
+/// reported as overlapping.
 fn nested(kinds: [Kind; 2], outcome: Outcome, check: impl Fn(Overlap) -> bool) -> bool {
     match outcome {
         Outcome::Overlapping {

@@ -46,7 +46,7 @@ fn no_proof_leans_on_a_vector_normalised_elsewhere() {
     );
 }
 
-/// All source files in a folder but for tests.
+/// All source files in a folder, except tests.
 fn collect(folder: &Path, files: &mut Vec<PathBuf>) {
     const TESTS: [&str; 3] = ["tests", "tests.rs", "over_hulls.rs"];
     for entry in std::fs::read_dir(folder).expect("a folder") {

@@ -4,7 +4,7 @@ use crate::models::Kind;
 use crate::query::{Bodies, Query};
 use ccd_core::schedule::{BestFirst, Fast, HullFirst, Naive};
 use ccd_core::{Answer, Body, Config, DistanceOracle, Problem, Schedule};
-use ccd_distance_gjk::{Auto, Direct, Gjk, GjkF32};
+use ccd_distance_gjk::{ClosedForm, Direct, Gjk};
 use ccd_distance_vmarch::Vmarch;
 
 /// The schedules.
@@ -24,13 +24,11 @@ pub enum Order {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Oracle {
     /// Closed forms, up to triangles.
-    Direct,
+    ClosedForm,
     /// GJK in f64.
     Gjk,
-    /// GJK that searches in f32.
-    GjkF32,
     /// Closed forms, then GJK.
-    Auto,
+    Direct,
     /// Voronoi marching, then GJK.
     Vmarch,
 }
@@ -38,18 +36,18 @@ pub enum Oracle {
 /// A schedule with an oracle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Backend {
-    /// Which schedule.
+    /// The schedule.
     pub order: Order,
-    /// Which oracle.
+    /// The oracle.
     pub oracle: Oracle,
 }
 
-/// How an answer came about: print it when an assertion fails.
+/// The backend and the pieces of an answer: print it when an assertion fails.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Setup {
-    /// Who answered.
+    /// The backend that answered.
     pub backend: Backend,
-    /// Of what the bodies were built.
+    /// The pieces that the bodies were built of.
     pub kinds: [Kind; 2],
 }
 
@@ -57,16 +55,16 @@ pub struct Setup {
 const NAIVE_PAIRS: usize = 400;
 
 impl Backend {
-    /// What a query gets by default.
+    /// The default of a query.
     pub const DEFAULT: Backend = Backend {
         order: Order::BestFirst,
-        oracle: Oracle::Auto,
+        oracle: Oracle::Direct,
     };
 
     /// Every schedule with every oracle.
     pub fn all() -> impl Iterator<Item = Backend> {
-        use Oracle::{Auto, Direct, Gjk, GjkF32, Vmarch};
-        let oracles = [Direct, Gjk, GjkF32, Auto, Vmarch];
+        use Oracle::{ClosedForm, Direct, Gjk, Vmarch};
+        let oracles = [ClosedForm, Gjk, Direct, Vmarch];
         let orders = [
             Order::BestFirst,
             Order::HullFirst,
@@ -88,7 +86,7 @@ impl Backend {
             }
             Order::Naive => bodies.pairs() <= NAIVE_PAIRS,
         };
-        let small = self.oracle != Oracle::Direct
+        let small = self.oracle != Oracle::ClosedForm
             || [bodies.a(), bodies.b()]
                 .iter()
                 .all(|body| body.pieces().iter().all(|piece| piece.points.len() <= 3));
@@ -98,10 +96,9 @@ impl Backend {
     /// Answers with a fresh schedule and a fresh oracle.
     pub fn solve(self, problem: &Problem<'_>) -> Answer {
         match self.oracle {
-            Oracle::Direct => self.solve_with(problem, &mut Direct),
+            Oracle::ClosedForm => self.solve_with(problem, &mut ClosedForm),
             Oracle::Gjk => self.solve_with(problem, &mut Gjk),
-            Oracle::GjkF32 => self.solve_with(problem, &mut GjkF32::default()),
-            Oracle::Auto => self.solve_with(problem, &mut Auto::default()),
+            Oracle::Direct => self.solve_with(problem, &mut Direct::default()),
             Oracle::Vmarch => self.solve_with(problem, &mut Vmarch::default().or_else(Gjk)),
         }
     }

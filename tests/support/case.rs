@@ -1,4 +1,4 @@
-//! A query as plain data: what generators yield, what the corpus stores, what failures print.
+//! Queries as plain data: generators draw them, the corpus stores them, failures print them.
 
 use crate::models::{self, Mesh, Shape};
 use crate::query::{Actor, Query};
@@ -6,25 +6,25 @@ use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{Config, Motion, Pose, StartPolicy};
 use serde::{Deserialize, Serialize};
 
-/// A query, what to ask, and why it is worth asking.
+/// A query with its settings, and why it is worth asking.
 #[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Case {
-    /// What it goes by.
+    /// Its name.
     #[serde(default)]
     pub name: String,
-    /// What went wrong, or could.
+    /// The fault that it showed, or could show.
     #[serde(default)]
     pub why: String,
-    /// From time 0 to this.
+    /// The end of the time, which begins at 0.
     pub duration: f64,
-    /// As [`Config::tolerance`].
+    /// The same as [`Config::tolerance`].
     #[serde(default = "default_tolerance")]
     pub tolerance: f64,
-    /// As [`Config::margin`].
+    /// The same as [`Config::margin`].
     #[serde(default)]
     pub margin: f64,
-    /// As [`Config::start`].
+    /// The same as [`Config::start`].
     #[serde(default)]
     pub start: Start,
     /// Body A.
@@ -33,14 +33,14 @@ pub struct Case {
     pub b: Part,
 }
 
-/// As [`StartPolicy`].
+/// The same as [`StartPolicy`].
 #[derive(Clone, Copy, Debug, Default, Deserialize, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Start {
-    /// As [`StartPolicy::Report`].
+    /// The same as [`StartPolicy::Report`].
     #[default]
     Report,
-    /// As [`StartPolicy::Leave`].
+    /// The same as [`StartPolicy::Leave`].
     Leave,
 }
 
@@ -48,24 +48,24 @@ pub enum Start {
 #[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Part {
-    /// What moves.
+    /// The shape that moves.
     pub shape: Model,
     /// Every coordinate is multiplied by this.
     #[serde(default = "one")]
     pub scale: f64,
-    /// Where the body's origin is at the start.
+    /// The position of the body's origin at the start.
     #[serde(default)]
     pub position: [f64; 3],
-    /// How it is turned at the start: a rotation vector, in radians.
+    /// The rotation at the start: a rotation vector, in radians.
     #[serde(default)]
     pub turned: [f64; 3],
-    /// Of the centre, per unit of time.
+    /// The velocity of the centre, per unit of time.
     #[serde(default)]
     pub velocity: [f64; 3],
-    /// In radians per unit of time.
+    /// The angular velocity, in radians per unit of time.
     #[serde(default)]
     pub spin: [f64; 3],
-    /// What it turns about, in its own frame.
+    /// The point that it turns about, in its own frame.
     #[serde(default)]
     pub centre: [f64; 3],
 }
@@ -136,7 +136,7 @@ impl Case {
         }
     }
 
-    /// What to ask.
+    /// The settings of the query.
     pub fn config(&self) -> Config {
         Config {
             tolerance: self.tolerance,
@@ -149,7 +149,7 @@ impl Case {
         }
     }
 
-    /// As it goes into the corpus.
+    /// Writes the case as it goes into the corpus.
     pub fn to_toml(&self) -> String {
         toml::to_string(self).unwrap_or_else(|error| format!("# {error}\n{self:?}"))
     }

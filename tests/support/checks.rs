@@ -1,4 +1,4 @@
-//! What every answer owes, checked against the referee and against the bodies themselves.
+//! The laws of every answer, checked against the referee and against the bodies themselves.
 
 use crate::distances::{
     distance_to_mesh, distance_to_mesh_feature, distance_to_part_feature, distance_to_piece,
@@ -21,7 +21,7 @@ pub struct Judge<'a> {
     samples: Vec<(f64, f64)>,
 }
 
-/// Holds, or says why not.
+/// The law holds, or the reason why not.
 pub type Law = Result<(), String>;
 
 /// Returns the reason unless the condition holds; comparisons with NaN do not.
@@ -58,7 +58,7 @@ impl<'a> Judge<'a> {
         Judge { config, ..self }
     }
 
-    /// What the referee saw.
+    /// The referee's verdict.
     pub fn verdict(&self) -> Verdict {
         self.verdict
     }
@@ -87,8 +87,8 @@ impl<'a> Judge<'a> {
         }
     }
 
-    /// Checks what an answer says of the time alone, so that it may be the answer to this query in
-    /// another guise, one that rounds by `more` than this one.
+    /// Checks the time of an answer alone, which may be that to this query in another guise that rounds by
+    /// `more` than this one.
     ///
     /// # Errors
     /// Which law the answer breaks.
@@ -143,8 +143,8 @@ impl<'a> Judge<'a> {
         Ok(())
     }
 
-    /// Whether a point of a piece of body A (0) or B (1) at the start is there by right: in the solid, or
-    /// on the mesh. Parts are taken at their word, as they need not be closed together.
+    /// Whether a point of a piece of body A (0) or B (1) at the start is in the solid, or on the mesh. Parts
+    /// are believed, as they need not be closed together.
     fn fills(&self, body: usize, point: DVec3, kind: Kind) -> bool {
         let places = Placement::pair(self.query);
         let place = |p| places[body].at(0.0, p) + places[0].origin();

@@ -4,20 +4,28 @@ use crate::referee::{point_segment, point_triangle};
 use crate::tolerance::rounding;
 use ccd_core::glam::{DMat3, DQuat, DVec3};
 use ccd_core::order::{greater, lesser};
-use ccd_core::{Claim, DistanceOracle, Frame, Piece, PiecePair};
+use ccd_core::{
+    Claim, DistanceOracle, Facet, Frame, GiveUp, Origin, Piece, PiecePair, Pieces, Polytope,
+};
+use std::collections::BTreeSet;
 
 /// A pair of pieces, owned.
 #[derive(Clone, Debug)]
 pub struct Pair {
-    /// The points of A's piece.
-    pub a: Vec<DVec3>,
-    /// The points of B's piece, in B's frame.
-    pub b: Vec<DVec3>,
-    /// Maps B's coordinates to A's.
-    pub b_to_a: Frame,
+    a: Hull,
+    b: Hull,
+    b_to_a: Frame,
 }
 
-/// What a claim comes to when it is checked.
+/// The points of a piece, with the facets of their hull where those are known.
+#[derive(Clone, Debug)]
+pub struct Hull {
+    points: Vec<DVec3>,
+    /// The same points with facets.
+    with_facets: Option<Pieces>,
+}
+
+/// The bounds that a claim gives when it is checked.
 #[derive(Clone, Copy, Debug)]
 pub struct Checked {
     /// The gap of the supports along the claimed axis: a lower bound of the distance.
@@ -26,9 +34,49 @@ pub struct Checked {
     pub upper: f64,
 }
 
+impl Hull {
+    /// Takes points, and finds the facets of their hull unless some are coplanar.
+    pub fn new(points: Vec<DVec3>) -> Self {
+        let facets = facets(&points);
+        Hull::with_facets(points, facets)
+    }
+
+    /// Takes points and the facets of their hull; without facets they are points alone.
+    pub fn with_facets(points: Vec<DVec3>, facets: Vec<Facet>) -> Self {
+        let polytope = || Polytope {
+            points: points.clone(),
+            facets: facets.clone(),
+            ..Polytope::default()
+        };
+        let with_facets =
+            (!facets.is_empty()).then(|| Pieces::polytopes(&[polytope()]).expect("a polytope"));
+        Hull {
+            points,
+            with_facets,
+        }
+    }
+
+    /// The mean of the points.
+    pub fn middle(&self) -> DVec3 {
+        self.points.iter().sum::<DVec3>() / self.points.len() as f64
+    }
+
+    fn piece(&self) -> Piece<'_> {
+        match &self.with_facets {
+            Some(pieces) => pieces.get(0),
+            None => Piece::from_points(&self.points),
+        }
+    }
+
+    /// Whether a backend that needs facets may refuse it.
+    fn lacks_facets(&self) -> bool {
+        self.points.len() > 3 && self.with_facets.is_none()
+    }
+}
+
 impl Pair {
-    /// From points and a placement of B's frame in A's.
-    pub fn new(a: Vec<DVec3>, b: Vec<DVec3>, rotation: DQuat, translation: DVec3) -> Self {
+    /// Takes two hulls and a placement of B's frame in A's.
+    pub fn new(a: Hull, b: Hull, rotation: DQuat, translation: DVec3) -> Self {
         Pair {
             a,
             b,
@@ -41,37 +89,40 @@ impl Pair {
 
     fn as_pieces(&self) -> PiecePair<'_> {
         PiecePair {
-            a: Piece::from_points(&self.a),
-            b: Piece::from_points(&self.b),
+            a: self.a.piece(),
+            b: self.b.piece(),
             b_to_a: self.b_to_a,
         }
     }
 
     fn b_in_a(&self) -> Vec<DVec3> {
-        self.b.iter().map(|&p| self.b_to_a.point(p)).collect()
+        let points = self.b.points.iter();
+        points.map(|&p| self.b_to_a.point(p)).collect()
+    }
+
+    /// Whether an oracle may give up for a reason: for missing facets alone.
+    fn excuses(&self, why: GiveUp) -> bool {
+        why == GiveUp::BadFacets && (self.a.lacks_facets() || self.b.lacks_facets())
     }
 
     /// Bounds the rounding of a distance of this pair.
     pub fn rounding(&self) -> f64 {
         let largest = |points: &[DVec3]| points.iter().map(|p| p.length()).fold(0.0, greater);
-        rounding(largest(&self.a) + largest(&self.b_in_a()) + largest(&self.b))
+        rounding(largest(&self.a.points) + largest(&self.b_in_a()) + largest(&self.b.points))
     }
 
-    /// What a claim about this pair comes to; a claim that names no points is an error.
+    /// Computes the bounds that a claim about this pair gives; a claim that names no points is an error.
     ///
     /// # Errors
     /// What the claim lacks.
     pub fn check(&self, claim: &Claim) -> Result<Checked, String> {
         let b = self.b_in_a();
-        let point_a = claim.a.of(&self.a).ok_or("names no point of A")?;
+        let point_a = claim.a.of(&self.a.points).ok_or("names no point of A")?;
         let point_b = claim.b.of(&b).ok_or("names no point of B")?;
         let n = claim.axis.try_normalize();
         let lower = n.map_or(f64::NEG_INFINITY, |n| {
-            let most = self
-                .a
-                .iter()
-                .map(|p| p.dot(n))
-                .fold(f64::NEG_INFINITY, greater);
+            let along = self.a.points.iter().map(|p| p.dot(n));
+            let most = along.fold(f64::NEG_INFINITY, greater);
             b.iter().map(|p| p.dot(n)).fold(f64::INFINITY, lesser) - most
         });
         Ok(Checked {
@@ -86,21 +137,60 @@ impl Pair {
     /// nearest points is an axis that separates the hulls. 0 for hulls that meet.
     pub fn distance(&self) -> f64 {
         let b = self.b_in_a();
-        let (all_a, all_b) = (simplices(&self.a), simplices(&b));
+        let (all_a, all_b) = (simplices(&self.a.points), simplices(&b));
         let mut best = DVec3::INFINITY;
         for s in &all_a {
             for t in &all_b {
                 simplex_distance(s, t, &mut best);
             }
         }
-        let most = self
-            .a
-            .iter()
-            .map(|p| p.dot(best))
-            .fold(f64::NEG_INFINITY, greater);
+        let along = self.a.points.iter().map(|p| p.dot(best));
+        let most = along.fold(f64::NEG_INFINITY, greater);
         let least = b.iter().map(|p| p.dot(best)).fold(f64::INFINITY, lesser);
         if least > most { best.length() } else { 0.0 }
     }
+}
+
+/// The triangles of more than three points that have all others behind them; none unless they close a
+/// surface, which they do where no four points are coplanar.
+fn facets(points: &[DVec3]) -> Vec<Facet> {
+    let size = points.iter().map(|p| p.length()).fold(0.0, greater);
+    let slack = rounding(size.powi(3));
+    let count = points.len() as u32;
+    let at = |v: u32| points[v as usize];
+    let mut out = Vec::new();
+    for [i, j, k] in triples(count) {
+        let normal = (at(j) - at(i)).cross(at(k) - at(i));
+        let others = (0..count).filter(|v| ![i, j, k].contains(v));
+        let (mut before, mut behind) = (false, false);
+        for v in others {
+            let height = (at(v) - at(i)).dot(normal);
+            before |= height >= -slack;
+            behind |= height <= slack;
+        }
+        match (before, behind) {
+            (false, true) => out.push(vec![i, j, k]),
+            (true, false) => out.push(vec![i, k, j]),
+            _ => {}
+        }
+    }
+    let sides = |corners: &Vec<u32>| [0, 1, 2].map(|n| (corners[n], corners[(n + 1) % 3]));
+    let all: BTreeSet<(u32, u32)> = out.iter().flat_map(sides).collect();
+    let closed = all.iter().all(|&(v, w)| all.contains(&(w, v)));
+    let facet = |corners| Facet {
+        origin: Origin::Virtual,
+        corners,
+    };
+    match closed {
+        true => out.into_iter().map(facet).collect(),
+        false => Vec::new(),
+    }
+}
+
+/// All ways to take three of so many, in order.
+fn triples(count: u32) -> impl Iterator<Item = [u32; 3]> {
+    let pairs = (0..count).flat_map(move |i| (i + 1..count).map(move |j| [i, j]));
+    pairs.flat_map(move |[i, j]| (j + 1..count).map(move |k| [i, j, k]))
 }
 
 /// All triangles among some points that have the rest on one side (or what there is, for fewer than
@@ -113,18 +203,15 @@ fn simplices(points: &[DVec3]) -> Vec<Vec<DVec3>> {
     // More triangles than needed do no harm: they lie inside of the hull.
     let slack = rounding(size.powi(3));
     let mut out = Vec::new();
-    for (i, &a) in points.iter().enumerate() {
-        for (j, &b) in points.iter().enumerate().skip(i + 1) {
-            for &c in &points[j + 1..] {
-                let normal = (b - a).cross(c - a);
-                let heights = points.iter().map(|p| (*p - a).dot(normal));
-                let (least, most) = heights.fold((0.0, 0.0), |(lo, hi): (f64, f64), h| {
-                    (lesser(lo, h), greater(hi, h))
-                });
-                if most <= slack || least >= -slack {
-                    out.push(vec![a, b, c]);
-                }
-            }
+    for triple in triples(points.len() as u32) {
+        let [a, b, c] = triple.map(|v| points[v as usize]);
+        let normal = (b - a).cross(c - a);
+        let heights = points.iter().map(|p| (*p - a).dot(normal));
+        let (least, most) = heights.fold((0.0, 0.0), |(lo, hi): (f64, f64), h| {
+            (lesser(lo, h), greater(hi, h))
+        });
+        if most <= slack || least >= -slack {
+            out.push(vec![a, b, c]);
         }
     }
     out
@@ -175,7 +262,18 @@ fn crossing(e: [DVec3; 2], f: [DVec3; 2]) -> Option<DVec3> {
         .then(|| n * (w.dot(n) / n.length_squared()))
 }
 
-/// The law of bounds: what is claimed, checked, encloses the true distance, and closely.
+/// The kind of pair that a law was checked with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Met {
+    /// They are apart.
+    Apart,
+    /// They have a common point, or are apart by no more than rounding.
+    Meeting,
+    /// The oracle gave up for a reason that its documentation names.
+    Refused,
+}
+
+/// The law of bounds: those of a claim enclose the true distance closely.
 ///
 /// # Errors
 /// What the oracle got wrong.
@@ -183,10 +281,12 @@ pub fn bounds_law<O: DistanceOracle>(
     oracle: &mut O,
     pair: &Pair,
     slack: f64,
-) -> Result<(), String> {
-    let claim = oracle
-        .separation(&pair.as_pieces(), &mut O::Cache::default())
-        .map_err(|give_up| format!("gave up: {give_up:?}"))?;
+) -> Result<Met, String> {
+    let claim = match oracle.separation(&pair.as_pieces(), &mut O::Cache::default()) {
+        Ok(claim) => claim,
+        Err(why) if pair.excuses(why) => return Ok(Met::Refused),
+        Err(why) => return Err(format!("gave up: {why:?}")),
+    };
     let (checked, distance) = (pair.check(&claim)?, pair.distance());
     let rounding = pair.rounding();
     // The two enclosing inequalities hold for any claim; they check the brute force, too.
@@ -194,10 +294,18 @@ pub fn bounds_law<O: DistanceOracle>(
         return Err(format!("{checked:?} does not enclose {distance}"));
     }
     let (far, near) = (checked.upper - distance, distance - checked.lower);
-    if distance > rounding && !(far <= slack + rounding && near <= slack + rounding) {
+    if !(far <= slack + rounding) {
+        return Err(format!(
+            "the witnesses of {checked:?} are not {distance} apart"
+        ));
+    }
+    if !(distance > rounding) {
+        return Ok(Met::Meeting);
+    }
+    if !(near <= slack + rounding) {
         return Err(format!("{checked:?} is loose about {distance}"));
     }
-    Ok(())
+    Ok(Met::Apart)
 }
 
 /// The law of caches: one left by another pair, whatever its size, changes nothing beyond `slack`.
@@ -208,7 +316,7 @@ pub fn cache_law<O: DistanceOracle>(
     oracle: &mut O,
     pairs: [&Pair; 2],
     slack: f64,
-) -> Result<(), String> {
+) -> Result<Met, String> {
     let mut cache = O::Cache::default();
     // Whatever it says of the first pair, the second one is what counts.
     let _ = oracle.separation(&pairs[0].as_pieces(), &mut cache);
@@ -217,24 +325,44 @@ pub fn cache_law<O: DistanceOracle>(
     let fresh = oracle.separation(&pair.as_pieces(), &mut O::Cache::default());
     let (stale, fresh) = match (stale, fresh) {
         (Ok(stale), Ok(fresh)) => (pair.check(&stale)?, pair.check(&fresh)?),
-        (Err(_), Err(_)) => return Ok(()),
+        (Err(stale), Err(fresh)) if stale == fresh && pair.excuses(fresh) => {
+            return Ok(Met::Refused);
+        }
         (stale, fresh) => return Err(format!("stale {stale:?}, fresh {fresh:?}")),
     };
     let distance = pair.distance();
     let off = |checked: Checked| greater(checked.upper - distance, distance - checked.lower);
     let as_good = off(stale) <= off(fresh) + slack + pair.rounding();
-    if distance > pair.rounding() && !as_good {
+    if !(distance > pair.rounding()) {
+        return Ok(Met::Meeting);
+    }
+    if !as_good {
         return Err(format!(
             "stale {stale:?}, fresh {fresh:?}, distance {distance}"
         ));
     }
-    Ok(())
+    Ok(Met::Apart)
 }
 
-/// The law of ends: an answer or a typed refusal, whatever the points.
-pub fn ends_law<O: DistanceOracle>(oracle: &mut O, pair: &Pair) {
+/// The law of ends: an answer that names points of the pieces, or a typed refusal, whatever the points.
+///
+/// # Errors
+/// Which point is named that a piece lacks.
+pub fn ends_law<O: DistanceOracle>(oracle: &mut O, pair: &Pair) -> Result<(), String> {
     let mut cache = O::Cache::default();
     for _ in 0..3 {
-        let _ = oracle.separation(&pair.as_pieces(), &mut cache);
+        let Ok(claim) = oracle.separation(&pair.as_pieces(), &mut cache) else {
+            continue;
+        };
+        for (named, of) in [(claim.a, &pair.a), (claim.b, &pair.b)] {
+            if named
+                .support()
+                .iter()
+                .any(|&k| k as usize >= of.points.len())
+            {
+                return Err(format!("{claim:?} names no point of {:?}", of.points));
+            }
+        }
     }
+    Ok(())
 }

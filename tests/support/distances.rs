@@ -1,4 +1,4 @@
-//! How far points are from pieces, from meshes, and from what is named of them.
+//! Distances of points from pieces, from meshes, and from features of these.
 
 use crate::models::Mesh;
 use crate::referee::{point_segment, point_triangle};
@@ -6,7 +6,7 @@ use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 use ccd_core::{Feature, Origin, Piece, Polytope};
 
-/// How far a point is from a piece; 0 inside.
+/// The distance of a point from a piece; 0 inside.
 pub(crate) fn distance_to_piece(
     p: DVec3,
     piece: &Piece<'_>,
@@ -42,7 +42,7 @@ pub(crate) fn distance_to_piece(
     greater(0.0, core - piece.radius)
 }
 
-/// How far a point is from the surface.
+/// The distance of a point from the surface.
 pub(crate) fn distance_to_mesh(p: DVec3, mesh: &Mesh, place: impl Fn(DVec3) -> DVec3) -> f64 {
     let off = |k| {
         let corners = mesh.triangle(k).map(&place);

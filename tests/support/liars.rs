@@ -3,7 +3,7 @@
 use ccd_core::glam::DVec3;
 use ccd_core::{Claim, Combination, DistanceOracle, GiveUp, PiecePair};
 
-/// How to lie.
+/// A way to lie.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Lie {
     /// Any axis, any points.
@@ -35,7 +35,7 @@ impl Lie {
     ];
 }
 
-/// Lies in one way, the same each time it is made anew.
+/// An oracle that lies in one way, the same each time it is made anew.
 #[derive(Clone, Debug)]
 pub struct Liar {
     lie: Lie,
@@ -43,7 +43,7 @@ pub struct Liar {
 }
 
 impl Liar {
-    /// One that lies so.
+    /// Makes an oracle that lies so.
     pub fn new(lie: Lie) -> Self {
         Liar { lie, state: 1 }
     }

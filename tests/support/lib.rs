@@ -1,4 +1,4 @@
-//! What the property suite is made of: models by code, an independent referee, scenes with
+//! The parts of the property suite: models by code, an independent referee, scenes with
 //! closed-form answers, and the machinery that runs one property over every backend, schedule and
 //! kind of piece.
 

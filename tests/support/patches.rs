@@ -1,8 +1,9 @@
-//! What a convex patch of a closed surface owes: its hull is in the solid, its faces are on its hull,
+//! The laws of a convex patch of a closed surface: its hull is in the solid, its faces are on its hull,
 //! and its names are right; all of it exactly.
 
 use crate::exact::{
-    Blend, Effort, Place, Solid, is_convex_polygon, is_degenerate, samples, side_of, triangle_holds,
+    Blend, Effort, Location, Solid, is_convex_polygon, is_degenerate, samples, side_of,
+    triangle_holds,
 };
 use crate::models::Mesh;
 use ccd_core::glam::DVec3;
@@ -10,13 +11,13 @@ use ccd_core::{Facet, Origin, Polytope};
 use std::cmp::Ordering;
 use std::collections::HashMap;
 
-/// Holds, or says why not.
+/// The law holds, or the reason why not.
 pub type Law = Result<(), String>;
 
 /// A convex patch: faces of a mesh, and the polytope that stands for them.
 #[derive(Clone, Debug)]
 pub struct Claim<'a> {
-    /// Of the mesh, by number.
+    /// The faces of the mesh, by number.
     pub faces: &'a [u32],
     /// Their hull.
     pub polytope: &'a Polytope,
@@ -50,7 +51,7 @@ pub fn check_inside(
     seed: u64,
 ) -> Result<usize, String> {
     let all = samples(claim.polytope, effort, seed);
-    match all.iter().find(|p| solid.place(p) == Place::Outside) {
+    match all.iter().find(|p| solid.locate(p) == Location::Outside) {
         Some(p) => Err(format!(
             "{p:?} is outside, in the hull of {:?}",
             claim.faces

@@ -10,9 +10,9 @@ use std::rc::Rc;
 /// A shape and how it moves.
 #[derive(Clone, Debug)]
 pub struct Actor {
-    /// What moves.
+    /// The shape that moves.
     pub shape: Shape,
-    /// How.
+    /// Its motion.
     pub motion: Motion,
 }
 
@@ -23,7 +23,7 @@ pub struct Query {
     pub a: Actor,
     /// Body B.
     pub b: Actor,
-    /// From time 0 to this.
+    /// The end of the time, which begins at 0.
     pub duration: f64,
 }
 
@@ -31,7 +31,7 @@ pub struct Query {
 pub struct Bodies {
     a: Rc<Body>,
     b: Rc<Body>,
-    /// What they were built of.
+    /// The pieces that they were built of.
     pub kinds: [Kind; 2],
 }
 
@@ -100,7 +100,7 @@ impl Query {
         }
     }
 
-    /// What is asked of the engine.
+    /// Poses the query to the engine.
     ///
     /// # Panics
     /// When the engine refuses it.
@@ -118,7 +118,7 @@ impl Query {
 }
 
 impl Bodies {
-    /// How many pairs of pieces there are.
+    /// The number of pairs of pieces.
     pub fn pairs(&self) -> usize {
         self.a.pieces().len() * self.b.pieces().len()
     }

@@ -6,8 +6,9 @@ use proptest::prelude::*;
 use proptest::test_runner::{RngSeed, TestRunner};
 use std::f64::consts::{PI, TAU};
 
-/// A runner of `cases` cases, times `CCD_TEST_CASES` where that is set; always the same ones, unless
-/// `CCD_TEST_SEED` names another seed.
+/// A runner of `cases` cases, times `CCD_TEST_CASES` where that is set.
+///
+/// The cases are always the same ones, unless `CCD_TEST_SEED` names another seed.
 pub fn runner(cases: u32) -> TestRunner {
     TestRunner::new(ProptestConfig {
         cases: cases * setting("CCD_TEST_CASES", 1),
@@ -48,12 +49,12 @@ pub fn cases() -> impl Strategy<Value = Case> {
     aimed(model(), model())
 }
 
-/// As [`cases`], of convex shapes only.
+/// The same as [`cases`], of convex shapes only.
 pub fn convex_cases() -> impl Strategy<Value = Case> {
     aimed(convex_model(), convex_model())
 }
 
-/// As [`cases`], far from the origin, and from very small to very large.
+/// The same as [`cases`], far from the origin, and from very small to very large.
 pub fn remote_cases() -> impl Strategy<Value = Case> {
     (
         cases(),
@@ -81,7 +82,7 @@ pub fn remote_cases() -> impl Strategy<Value = Case> {
         })
 }
 
-/// As [`cases`], so close together that many overlap at the start.
+/// The same as [`cases`], so close together that many overlap at the start.
 pub fn crowded_cases() -> impl Strategy<Value = Case> {
     (cases(), 0.0..0.4f64).prop_map(|(mut case, nearer)| {
         case.b.position = (nearer * DVec3::from(case.b.position)).into();
@@ -147,7 +148,7 @@ fn part(model: impl Strategy<Value = Model>) -> impl Strategy<Value = Part> {
     })
 }
 
-/// None, a part of a turn, or up to three turns per unit of time.
+/// No spin, a part of a turn, or up to three turns per unit of time.
 fn spin() -> impl Strategy<Value = DVec3> {
     prop_oneof![
         2 => Just(DVec3::ZERO),

@@ -10,13 +10,13 @@ pub fn rounding(scale: f64) -> f64 {
     256.0 * 0.5 * f64::EPSILON * scale
 }
 
-/// How much later than a closed form a reported time may be, relative to the duration: the rounding
+/// The delay of a reported time after a closed form that is allowed, relative to the duration: the rounding
 /// of the closed form itself, a few units in the last place after the subtractions in it.
 pub const CLOSED_FORM: f64 = 1e-13;
 
-/// Below this part of a scene's size the referee takes bodies for touching unless it sees them
+/// The part of a scene's size below which the referee takes bodies for touching unless it sees them
 /// intersect: 2²³ times the rounding of its distances, and less than any tolerance tested.
 pub const CLOSE: f64 = 1e-10;
 
-/// How much of each step the referee keeps: rounding takes less than the rest.
+/// The part of each step that the referee keeps: rounding takes less than the rest.
 pub const KEPT: f64 = 1.0 - 1e-9;

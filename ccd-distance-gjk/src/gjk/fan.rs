@@ -11,13 +11,13 @@ use ccd_core::vector::unit;
 pub(crate) struct Fan {
     /// The nearest point.
     point: DVec3,
-    vertices: [Vertex<DVec3>; SHARPEN_CAP],
+    vertices: [Vertex; SHARPEN_CAP],
     len: usize,
 }
 
 impl Fan {
-    /// The vertices that hold the nearest point; none without one.
-    pub(crate) fn new(found: &Found<DVec3>) -> Option<Self> {
+    /// Takes the vertices that hold the nearest point; none without one.
+    pub(crate) fn new(found: &Found) -> Option<Self> {
         let held = found.simplex.vertices();
         let mut out = Fan {
             point: DVec3::ZERO,
@@ -36,13 +36,13 @@ impl Fan {
         Some(out)
     }
 
-    fn vertices(&self) -> &[Vertex<DVec3>] {
+    fn vertices(&self) -> &[Vertex] {
         &self.vertices[..self.len]
     }
 
     /// Adds a vertex; `false` if it is there already, or there are too many.
-    pub(crate) fn push(&mut self, vertex: Vertex<DVec3>) -> bool {
-        let same = |v: &Vertex<DVec3>| v.point == vertex.point;
+    pub(crate) fn push(&mut self, vertex: Vertex) -> bool {
+        let same = |v: &Vertex| v.point == vertex.point;
         let room = self.len < SHARPEN_CAP && !self.vertices().iter().any(same);
         if room {
             self.vertices[self.len] = vertex;
@@ -51,9 +51,10 @@ impl Fan {
         room
     }
 
-    /// The axis along which these vertices are farthest from the origin, and how far: the nearest
-    /// point, a known axis, or any, as they are or made perpendicular to an edge, or what is
-    /// perpendicular to two edges.
+    /// Returns the axis along which these vertices are farthest from the origin, and how far.
+    ///
+    /// The candidates are the nearest point, a known axis, and any one, as they are or made
+    /// perpendicular to an edge, and the perpendiculars of two edges.
     pub(crate) fn best(&self, known: DVec3) -> (DVec3, f64) {
         let mut edges = [DVec3::ZERO; SHARPEN_CAP];
         for (edge, vertex) in edges.iter_mut().zip(self.vertices()) {
@@ -92,8 +93,8 @@ impl Fan {
     }
 
     /// The four vertices that are least along an axis.
-    pub(crate) fn least(mut self, axis: DVec3) -> Simplex<DVec3> {
-        let height = |v: &Vertex<DVec3>| axis.dot(v.point);
+    pub(crate) fn least(mut self, axis: DVec3) -> Simplex {
+        let height = |v: &Vertex| axis.dot(v.point);
         self.vertices[..self.len].sort_by(|v, w| height(v).total_cmp(&height(w)));
         let mut out = Simplex::EMPTY;
         for vertex in self.vertices().iter().take(4) {

@@ -1,40 +1,27 @@
 //! The Minkowski difference of a pair's hulls: its vertices and its support.
 
 use super::simplex::Vertex;
-use super::vector::Vector;
 use crate::tolerance::SCANNED_POINTS;
 use ccd_core::glam::DVec3;
 use ccd_core::{Piece, PiecePair};
 
-/// The difference of two hulls, in whatever precision and axes.
-pub(crate) trait Difference {
-    /// The precision.
-    type Vector: Vector;
-
-    /// The vertex that is least along `direction`.
-    fn support(&self, direction: Self::Vector) -> Vertex<Self::Vector>;
-
-    /// The vertex of the given points, if both pieces have them.
-    fn vertex(&self, a: u32, b: u32) -> Option<Vertex<Self::Vector>>;
-
-    /// From the first point of A to that of B.
-    fn between(&self) -> Self::Vector;
-}
-
-/// A pair in f64, in A's axes, each piece told from its own first point: rounding is that of the
-/// pieces' sizes and of their distance, wherever they lie.
-pub(crate) struct Exact<'a> {
-    pub(crate) pair: &'a PiecePair<'a>,
+/// The difference of a pair's hulls in A's axes.
+///
+/// Each piece's points are taken relative to its own first one: rounding is that of the pieces' sizes
+/// and of their distance, wherever they lie.
+pub(crate) struct Difference<'a> {
+    pair: &'a PiecePair<'a>,
     first_a: DVec3,
     first_b: DVec3,
-    between: DVec3,
+    /// The vector from the first point of A to that of B.
+    pub(crate) between: DVec3,
 }
 
-impl<'a> Exact<'a> {
-    /// None for a piece without points.
+impl<'a> Difference<'a> {
+    /// Takes a pair; none if a piece has no points.
     pub(crate) fn new(pair: &'a PiecePair<'a>) -> Option<Self> {
         let (&first_a, &first_b) = (pair.a.points.first()?, pair.b.points.first()?);
-        Some(Exact {
+        Some(Difference {
             pair,
             first_a,
             first_b,
@@ -54,12 +41,9 @@ impl<'a> Exact<'a> {
         let turned = *self.pair.b.points.get(index as usize)? - self.first_b;
         Some(self.pair.b_to_a.rotation * turned + self.between)
     }
-}
 
-impl Difference for Exact<'_> {
-    type Vector = DVec3;
-
-    fn support(&self, direction: DVec3) -> Vertex<DVec3> {
+    /// The vertex that is least along `direction`.
+    pub(crate) fn support(&self, direction: DVec3) -> Vertex {
         let a = farthest(&self.pair.a, self.first_a, direction);
         let turned = self.pair.b_to_a.inverse_vector(direction);
         let b = farthest(&self.pair.b, self.first_b, -turned);
@@ -70,19 +54,17 @@ impl Difference for Exact<'_> {
         })
     }
 
+    /// The vertex of the given points, if both pieces have them.
     #[inline]
-    fn vertex(&self, a: u32, b: u32) -> Option<Vertex<DVec3>> {
+    pub(crate) fn vertex(&self, a: u32, b: u32) -> Option<Vertex> {
         let point = self.point_b(b)? - self.point_a(a)?;
         Some(Vertex { point, a, b })
     }
-
-    fn between(&self) -> DVec3 {
-        self.between
-    }
 }
 
-/// The index of a point of a piece that is farthest along a direction; points are never empty. A few
-/// are all looked at, told from the first one, and more are left to the piece.
+/// Returns the index of a point of a piece that is farthest along a direction; points are never empty.
+///
+/// A few are all looked at, relative to the first one. More are left to the piece.
 #[inline]
 fn farthest(piece: &Piece<'_>, first: DVec3, direction: DVec3) -> u32 {
     if piece.points.len() > SCANNED_POINTS {

@@ -1,17 +1,17 @@
-//! GJK in f64.
+//! GJK as a backend.
 
-use super::minkowski::Exact;
+use super::minkowski::Difference;
 use super::refine;
 use super::search::{Found, search};
 use super::sharpen;
 use super::simplex::Simplex;
 use super::start::Cache;
 use super::termination::{Stop, meets};
-use crate::tolerance::{KEEP, ROUND_CAP, SETTLED_ULPS};
+use crate::tolerance::{CERTIFIED_ULPS, KEEP, ROUND_CAP};
 use ccd_core::glam::DVec3;
 use ccd_core::{Claim, Combination, DistanceOracle, GiveUp, PiecePair};
 
-/// The distance of two hulls of any number of points, by GJK in f64 `[GJK88]`.
+/// The distance of two hulls of any number of points, by GJK `[GJK88]`.
 ///
 /// # Guarantee
 /// Of separated pieces of size s, both moved near the origin, the witnesses are within about
@@ -20,8 +20,8 @@ use ccd_core::{Claim, Combination, DistanceOracle, GiveUp, PiecePair};
 /// gives up on pieces that have points, and claims nothing of those that have none.
 ///
 /// # Complexity
-/// About 3 to 10 steps, 1 to 2 from a warm [`Cache`], each of which looks at every point once;
-/// without allocation.
+/// About 3 to 10 steps, 1 to 2 from a warm [`Cache`], without allocation. Each step looks at every point
+/// once.
 ///
 /// ```
 /// use ccd_core::{DistanceOracle, Frame, Piece, PiecePair, glam::DVec3};
@@ -44,44 +44,46 @@ impl DistanceOracle for Gjk {
     type Cache = Cache;
 
     fn separation(&mut self, pair: &PiecePair<'_>, cache: &mut Cache) -> Result<Claim, GiveUp> {
-        let Some(exact) = Exact::new(pair) else {
+        let Some(difference) = Difference::new(pair) else {
             return Ok(NOTHING);
         };
-        let found = solve(&exact, cache.simplex(&exact));
+        let found = solve(&difference, cache.simplex(&difference));
         *cache = Cache::of(&found);
         Ok(claim(&found))
     }
 }
 
-/// What is claimed of a pair with a piece that has no points.
+/// The claim about a pair with a piece that has no points.
 pub(crate) const NOTHING: Claim = Claim {
     axis: DVec3::ZERO,
     a: Combination::EMPTY,
     b: Combination::EMPTY,
 };
 
-/// Searches, and where rounding stalls the search short of the distance that its axis certifies,
-/// goes on from the vertices that the features' axes run into.
-pub(crate) fn solve(exact: &Exact<'_>, mut simplex: Simplex<DVec3>) -> Found<DVec3> {
+/// Searches for the nearest point, again and again where rounding stalls the search.
+///
+/// A search that stalls short of the distance that its axis certifies goes on from the vertices that
+/// the features' axes run into.
+pub(crate) fn solve(difference: &Difference<'_>, mut simplex: Simplex) -> Found {
     let mut found = Found::nothing();
     for _ in 0..ROUND_CAP {
         let before = found.square;
-        let stop = search(exact, simplex, &mut found);
+        let stop = search(difference, simplex, &mut found);
         if stop == Stop::Enclosed {
-            sharpen::to_faces(exact, &mut found);
+            sharpen::to_faces(difference, &mut found);
             break;
         }
         if stop == Stop::Converged && found.gap >= KEEP * found.square.sqrt() {
             break;
         }
-        refine::witnesses(exact, found.simplex, &mut found);
+        refine::witnesses(difference, found.simplex, &mut found);
         // Written so that NaN breaks.
-        if settled(&found) || !(found.square < before) {
+        if certified(&found) || !(found.square < before) {
             break;
         }
-        simplex = sharpen::to_features(exact, &mut found);
-        refine::witnesses(exact, simplex, &mut found);
-        if settled(&found) {
+        simplex = sharpen::to_features(difference, &mut found);
+        refine::witnesses(difference, simplex, &mut found);
+        if certified(&found) {
             break;
         }
     }
@@ -89,12 +91,12 @@ pub(crate) fn solve(exact: &Exact<'_>, mut simplex: Simplex<DVec3>) -> Found<DVe
 }
 
 /// Whether the axis certifies the distance as well as rounding lets it.
-fn settled(found: &Found<DVec3>) -> bool {
-    found.gap > 0.0 && meets(found.gap, found.square, &found.simplex, SETTLED_ULPS)
+fn certified(found: &Found) -> bool {
+    found.gap > 0.0 && meets(found.gap, found.square, &found.simplex, CERTIFIED_ULPS)
 }
 
-/// Says what was found.
-pub(crate) fn claim(found: &Found<DVec3>) -> Claim {
+/// Makes a claim of what was found.
+pub(crate) fn claim(found: &Found) -> Claim {
     let mut out = Claim {
         axis: found.axis,
         ..NOTHING

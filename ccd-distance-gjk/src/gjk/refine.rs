@@ -1,19 +1,21 @@
 //! Nearer witnesses than the search's, in closed form.
 
-use super::minkowski::{Difference, Exact};
+use super::minkowski::Difference;
 use super::search::Found;
 use super::simplex::Simplex;
-use crate::direct::nearest::{Corners, nearest};
+use crate::closed_form::nearest::{Corners, nearest};
 use ccd_core::glam::DVec3;
 use ccd_core::order::lesser;
 
-/// The nearest points of what a simplex spans on either side, in closed form, if they are nearer:
-/// rounding that stalls a search on nearly parallel edges does not reach them. Of four points on one
-/// side the first three are looked at.
-pub(crate) fn witnesses(exact: &Exact<'_>, simplex: Simplex<DVec3>, found: &mut Found<DVec3>) {
+/// Replaces the witnesses by the nearest points of what a simplex spans on either side, if those are
+/// nearer.
+///
+/// They are found in closed form, which rounding that stalls a search on nearly parallel edges does not
+/// reach. If one side has four points, the first three are looked at.
+pub(crate) fn witnesses(difference: &Difference<'_>, simplex: Simplex, found: &mut Found) {
     let vertices = simplex.vertices();
-    let p = Points::new(vertices.iter().map(|v| (v.a, exact.point_a(v.a))));
-    let q = Points::new(vertices.iter().map(|v| (v.b, exact.point_b(v.b))));
+    let p = Points::new(vertices.iter().map(|v| (v.a, difference.point_a(v.a))));
+    let q = Points::new(vertices.iter().map(|v| (v.b, difference.point_b(v.b))));
     let (Some(p), Some(q)) = (p, q) else {
         return;
     };
@@ -22,7 +24,7 @@ pub(crate) fn witnesses(exact: &Exact<'_>, simplex: Simplex<DVec3>, found: &mut 
     if square < found.square {
         let shares = Couple::new(near.a, near.b);
         found.square = square;
-        (found.simplex, found.weights) = coupled(exact, &p, &q, shares);
+        (found.simplex, found.weights) = coupled(difference, &p, &q, shares);
     }
 }
 
@@ -51,16 +53,17 @@ impl Points {
     }
 }
 
-/// Vertices of the difference, and weights, whose combination is that of the points on either side.
+/// Returns vertices of the difference, and weights, whose combination is that of the points on either
+/// side.
 fn coupled(
-    exact: &Exact<'_>,
+    difference: &Difference<'_>,
     p: &Points,
     q: &Points,
     couple: Couple,
-) -> (Simplex<DVec3>, [f64; 4]) {
+) -> (Simplex, [f64; 4]) {
     let (mut simplex, mut weights) = (Simplex::EMPTY, [0.0; 4]);
     for (i, j, weight) in couple {
-        let vertex = exact.vertex(p.indices[i], q.indices[j]);
+        let vertex = difference.vertex(p.indices[i], q.indices[j]);
         if vertex.is_some_and(|vertex| simplex.push(vertex)) {
             weights[simplex.vertices().len() - 1] = weight;
         }
@@ -68,8 +71,10 @@ fn coupled(
     (simplex, weights)
 }
 
-/// Pairs the weights of two sides off against each other, in order: of `m` and `n` positive ones
-/// that makes at most `m + n − 1` pairs, three for corner and face and for edge and edge.
+/// Pairs the weights of two sides off against each other, in order.
+///
+/// `m` and `n` positive weights make at most `m + n − 1` pairs: three for corner and face, and for edge
+/// and edge.
 pub(crate) struct Couple {
     a: [f64; 3],
     b: [f64; 3],

@@ -1,45 +1,41 @@
-//! The search itself, in either precision.
+//! The GJK search `[GJK88]`.
 
 use super::minkowski::Difference;
 use super::simplex::{Simplex, Vertex};
 use super::termination::{Stop, meets, touches};
-use super::vector::Vector;
 use crate::tolerance::{CONVERGED_ULPS, STEP_CAP};
-use num_traits::{Float, Zero};
+use ccd_core::glam::DVec3;
 
 /// The best that is known of a pair.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Found<V: Vector> {
+pub(crate) struct Found {
     /// The simplex of the nearest point, and its weights.
-    pub(crate) simplex: Simplex<V>,
-    pub(crate) weights: [V::Scalar; 4],
+    pub(crate) simplex: Simplex,
+    pub(crate) weights: [f64; 4],
     /// The square of that point's distance from the origin.
-    pub(crate) square: V::Scalar,
+    pub(crate) square: f64,
     /// The axis with the largest support gap, of any length.
-    pub(crate) axis: V,
+    pub(crate) axis: DVec3,
     /// That gap, along the unit vector.
-    pub(crate) gap: V::Scalar,
+    pub(crate) gap: f64,
 }
 
-impl<V: Vector> Found<V> {
-    /// Nothing.
+impl Found {
+    /// The start of a search: no simplex and no axis.
     pub(crate) fn nothing() -> Self {
         Found {
             simplex: Simplex::EMPTY,
-            weights: [V::Scalar::zero(); 4],
-            square: V::Scalar::infinity(),
-            axis: V::ZERO,
-            gap: V::Scalar::neg_infinity(),
+            weights: [0.0; 4],
+            square: f64::INFINITY,
+            axis: DVec3::ZERO,
+            gap: f64::NEG_INFINITY,
         }
     }
 
-    /// Looks along an axis: the vertex that is least along it, and its support gap.
-    pub(crate) fn probe<D>(&mut self, difference: &D, axis: V) -> (Vertex<V>, V::Scalar)
-    where
-        D: Difference<Vector = V>,
-    {
+    /// Looks along an axis; returns the vertex that is least along it, and the support gap.
+    pub(crate) fn probe(&mut self, difference: &Difference<'_>, axis: DVec3) -> (Vertex, f64) {
         let vertex = difference.support(axis);
-        let gap = axis.dot(vertex.point) / axis.square().sqrt();
+        let gap = axis.dot(vertex.point) / axis.length_squared().sqrt();
         if gap > self.gap {
             (self.axis, self.gap) = (axis, gap);
         }
@@ -47,18 +43,14 @@ impl<V: Vector> Found<V> {
     }
 }
 
-/// Goes from `simplex` to the point of the difference that is nearest to the origin, step by step
-/// nearer `[GJK88]`; `found` keeps the best, whatever stops it.
-pub(crate) fn search<D: Difference>(
-    difference: &D,
-    mut simplex: Simplex<D::Vector>,
-    found: &mut Found<D::Vector>,
-) -> Stop {
+/// Searches for the point of the difference that is nearest to the origin, from `simplex` on, each step
+/// nearer; `found` keeps the best, whatever stops it.
+pub(crate) fn search(difference: &Difference<'_>, mut simplex: Simplex, found: &mut Found) -> Stop {
     for _ in 0..STEP_CAP {
         let Some(foot) = simplex.foot() else {
             return Stop::Stalled;
         };
-        let square = foot.point.square();
+        let square = foot.point.length_squared();
         // Written so that NaN stops it.
         if !(square < found.square) {
             return Stop::Stalled;

@@ -1,25 +1,23 @@
 //! The point of a segment that is nearest to the origin.
 
-use super::simplex::Foot;
-use super::vector::Vector;
-use num_traits::{One, Zero};
+use super::foot::Foot;
+use ccd_core::glam::DVec3;
 
 /// The foot of the origin on the segment from `a` to `b`, which may be equal.
-pub(crate) fn foot<V: Vector>(a: V, b: V) -> Foot<V> {
-    let (zero, one) = (V::Scalar::zero(), V::Scalar::one());
+pub(crate) fn foot(a: DVec3, b: DVec3) -> Foot {
     let d = b - a;
-    let (along, square) = (-a.dot(d), d.square());
+    let (along, square) = (-a.dot(d), d.length_squared());
     // Written so that NaN, and a segment without a length, end at a corner.
-    if along >= square && square > zero {
+    if along >= square && square > 0.0 {
         return Foot::corner(b, 1);
     }
-    if !(along > zero && square > zero) {
+    if !(along > 0.0 && square > 0.0) {
         return Foot::corner(a, 0);
     }
     let t = along / square;
     let point = a + d * t;
     Foot {
-        weights: [one - t, t, zero, zero],
+        weights: [1.0 - t, t, 0.0, 0.0],
         point,
         // Made perpendicular once more: that is what rounding takes from a short difference.
         direction: Some(point - d * (point.dot(d) / square)),

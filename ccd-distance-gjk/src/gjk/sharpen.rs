@@ -1,29 +1,31 @@
 //! Better axes than the difference of the nearest points: those of the features they lie on.
 
 use super::fan::Fan;
-use super::minkowski::{Difference, Exact};
+use super::minkowski::Difference;
 use super::search::Found;
 use super::simplex::{Simplex, Vertex};
 use crate::tolerance::SHARPEN_CAP;
 use ccd_core::glam::DVec3;
 use ccd_core::vector::unit;
 
-/// Looks for an axis that certifies the distance, among those that the difference's vertices near
-/// the origin span; returns the four vertices seen that are least along the best axis, the ones that
-/// the nearest point should be a combination of.
+/// Searches for an axis that certifies the distance, among those that the difference's vertices near
+/// the origin span.
+///
+/// Returns the four vertices seen that are least along the best axis: the nearest point should be a
+/// combination of them.
 ///
 /// An axis in the cone of normals at the nearest vertex f has f as its least vertex. Rounding tilts
 /// the nearest point's direction out of that cone when the point is short; so the axis is made
 /// perpendicular to one or two of the edges `x − f` that lead to vertices it ran into, again and
 /// again, until it runs into none.
-pub(crate) fn to_features(exact: &Exact<'_>, found: &mut Found<DVec3>) -> Simplex<DVec3> {
+pub(crate) fn to_features(difference: &Difference<'_>, found: &mut Found) -> Simplex {
     let Some(mut fan) = Fan::new(found) else {
         return Simplex::EMPTY;
     };
     if found.axis == DVec3::ZERO {
         // They touched at once: any axis will do to run into the first vertices.
-        let axis = unit(exact.between()).unwrap_or(DVec3::X);
-        fan.push(found.probe(exact, axis).0);
+        let axis = unit(difference.between).unwrap_or(DVec3::X);
+        fan.push(found.probe(difference, axis).0);
     }
     for _ in 0..SHARPEN_CAP {
         let (axis, promise) = fan.best(found.axis);
@@ -31,7 +33,7 @@ pub(crate) fn to_features(exact: &Exact<'_>, found: &mut Found<DVec3>) -> Simple
         if !(promise > found.gap) {
             break;
         }
-        let (vertex, gap) = found.probe(exact, axis);
+        let (vertex, gap) = found.probe(difference, axis);
         if gap >= promise || !fan.push(vertex) {
             break;
         }
@@ -40,16 +42,16 @@ pub(crate) fn to_features(exact: &Exact<'_>, found: &mut Found<DVec3>) -> Simple
 }
 
 /// Tries the faces of a simplex that encloses the origin: the axes of the least way out of it.
-pub(crate) fn to_faces(exact: &Exact<'_>, found: &mut Found<DVec3>) {
+pub(crate) fn to_faces(difference: &Difference<'_>, found: &mut Found) {
     let corners = found.simplex.vertices();
-    let Ok([a, b, c, d]) = <[Vertex<DVec3>; 4]>::try_from(corners) else {
+    let Ok([a, b, c, d]) = <[Vertex; 4]>::try_from(corners) else {
         return;
     };
     for [a, b, c] in [[a, b, c], [a, b, d], [a, c, d], [b, c, d]] {
         let n = (b.point - a.point).cross(c.point - a.point);
         let inward = if n.dot(a.point) > 0.0 { -n } else { n };
         if let Some(axis) = unit(inward) {
-            found.probe(exact, axis);
+            found.probe(difference, axis);
         }
     }
 }

@@ -3,11 +3,10 @@
 use super::minkowski::Difference;
 use super::search::Found;
 use super::simplex::Simplex;
-use super::vector::Vector;
 use ccd_core::glam::DVec3;
 use ccd_core::vector::unit;
 
-/// Where a search ended, for the next one on the same pair to start from.
+/// The end of a search, for the next one on the same pair to start from.
 ///
 /// Its vertices are looked up anew wherever the pieces are by then, so that what another pair left
 /// behind, or an index out of range, costs steps, not accuracy.
@@ -19,10 +18,10 @@ pub struct Cache {
 }
 
 impl Cache {
-    /// What to keep of a search.
-    pub(crate) fn of<V: Vector>(found: &Found<V>) -> Self {
+    /// Keeps the end of a search.
+    pub(crate) fn of(found: &Found) -> Self {
         let mut cache = Cache {
-            axis: found.axis.widen(),
+            axis: found.axis,
             ..Cache::default()
         };
         for (vertex, pair) in found.simplex.vertices().iter().zip(&mut cache.pairs) {
@@ -33,7 +32,7 @@ impl Cache {
     }
 
     /// The simplex to start from, never empty.
-    pub(crate) fn simplex<D: Difference>(&self, difference: &D) -> Simplex<D::Vector> {
+    pub(crate) fn simplex(&self, difference: &Difference<'_>) -> Simplex {
         let mut simplex = Simplex::EMPTY;
         for &[a, b] in self.pairs.iter().take(usize::from(self.len)) {
             if let Some(vertex) = difference.vertex(a, b) {
@@ -42,7 +41,7 @@ impl Cache {
         }
         if simplex.vertices().is_empty() {
             let axis = unit(self.axis);
-            let direction = axis.map_or(difference.between(), D::Vector::round);
+            let direction = axis.unwrap_or(difference.between);
             simplex.push(difference.support(direction));
         }
         simplex

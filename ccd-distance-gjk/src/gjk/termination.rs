@@ -1,12 +1,11 @@
-//! When a search stops.
+//! The end of a search: reasons and tests.
 
-use super::simplex::{Foot, Simplex};
-use super::vector::{Vector, ulps};
+use super::foot::Foot;
+use super::simplex::Simplex;
 use crate::tolerance::TOUCHING_ULPS;
 use ccd_core::order::greater;
-use num_traits::Float;
 
-/// Why a search stopped.
+/// The reason why a search stopped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Stop {
     /// The support gap has met the distance.
@@ -15,33 +14,29 @@ pub(crate) enum Stop {
     Touching,
     /// The simplex encloses the origin: the hulls intersect.
     Enclosed,
-    /// No vertex brings it nearer in this precision.
+    /// No vertex brings it nearer.
     Stalled,
     /// It took too many steps.
     Capped,
 }
 
 /// Whether the nearest point is the origin, up to rounding.
-pub(crate) fn touches<V: Vector>(foot: &Foot<V>, simplex: &Simplex<V>) -> bool {
-    let rounding = ulps::<V::Scalar>(TOUCHING_ULPS);
-    foot.point.square() <= rounding * rounding * reach(simplex)
+pub(crate) fn touches(foot: &Foot, simplex: &Simplex) -> bool {
+    let rounding = TOUCHING_ULPS * f64::EPSILON;
+    foot.point.length_squared() <= rounding * rounding * reach(simplex)
 }
 
-/// Whether a support gap has met the distance of the nearest point, whose square is given, up to
-/// `share` units in the last place of it, and rounding.
-pub(crate) fn meets<V: Vector>(
-    gap: V::Scalar,
-    square: V::Scalar,
-    simplex: &Simplex<V>,
-    share: f32,
-) -> bool {
+/// Whether a support gap has met the distance of the nearest point, whose square is given.
+///
+/// They meet up to `share` units in the last place of the distance, and rounding.
+pub(crate) fn meets(gap: f64, square: f64, simplex: &Simplex, share: f64) -> bool {
     let distance = square.sqrt();
-    let rounding = ulps::<V::Scalar>(TOUCHING_ULPS) * reach(simplex).sqrt();
-    distance - gap <= ulps::<V::Scalar>(share) * distance + rounding
+    let rounding = TOUCHING_ULPS * f64::EPSILON * reach(simplex).sqrt();
+    distance - gap <= share * f64::EPSILON * distance + rounding
 }
 
 /// The square of the largest vertex: what rounding is relative to.
-fn reach<V: Vector>(simplex: &Simplex<V>) -> V::Scalar {
-    let squares = simplex.vertices().iter().map(|v| v.point.square());
-    squares.fold(V::Scalar::min_positive_value(), greater)
+fn reach(simplex: &Simplex) -> f64 {
+    let squares = simplex.vertices().iter().map(|v| v.point.length_squared());
+    squares.fold(f64::MIN_POSITIVE, greater)
 }

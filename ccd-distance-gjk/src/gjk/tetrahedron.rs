@@ -1,18 +1,17 @@
 //! The point of a tetrahedron that is nearest to the origin.
 
-use super::simplex::Foot;
+use super::foot::Foot;
 use super::triangle;
-use super::vector::{Vector, ulps};
 use crate::tolerance::{INSIDE_ROUNDS, TOUCHING_ULPS, VOLUME_ULPS};
+use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
-use num_traits::Zero;
 
 /// The foot of the origin on the tetrahedron, which may be flat.
 ///
 /// The origin is called inside only where it is certainly on the inner side of every face, and the
 /// corners do make it up; else all faces are looked at: those it seems to be inside of may hold the
 /// nearest point, if the tetrahedron is flat.
-pub(crate) fn foot<V: Vector>(corners: [V; 4]) -> Foot<V> {
+pub(crate) fn foot(corners: [DVec3; 4]) -> Foot {
     let heights = FACES
         .map(|[apex, a, b, c]| Height::certain(corners[a], corners[b], corners[c], corners[apex]));
     if let [Some(a), Some(b), Some(c), Some(d)] = heights
@@ -32,15 +31,14 @@ pub(crate) fn foot<V: Vector>(corners: [V; 4]) -> Foot<V> {
 const FACES: [[usize; 4]; 4] = [[0, 1, 2, 3], [1, 0, 2, 3], [2, 0, 1, 3], [3, 0, 1, 2]];
 
 /// The weights that make up the origin, if rounding lets them.
-fn inside<V: Vector>(corners: [V; 4], heights: [Height<V>; 4]) -> Option<Foot<V>> {
-    let zero = V::Scalar::zero();
-    let combined = |weights: [V::Scalar; 4]| {
+fn inside(corners: [DVec3; 4], heights: [Height; 4]) -> Option<Foot> {
+    let combined = |weights: [f64; 4]| {
         let terms = corners.iter().zip(weights);
-        terms.fold(V::ZERO, |sum, (&corner, weight)| sum + corner * weight)
+        terms.fold(DVec3::ZERO, |sum, (&corner, weight)| sum + corner * weight)
     };
-    let normalised = |weights: [V::Scalar; 4]| {
-        let weights = weights.map(|weight| greater(zero, weight));
-        let total = weights.iter().fold(zero, |sum, &weight| sum + weight);
+    let normalised = |weights: [f64; 4]| {
+        let weights = weights.map(|weight| greater(0.0, weight));
+        let total = weights.iter().fold(0.0, |sum, &weight| sum + weight);
         weights.map(|weight| weight / total)
     };
     let mut weights = normalised(heights.map(|height| height.of_origin / height.of_apex));
@@ -51,37 +49,40 @@ fn inside<V: Vector>(corners: [V; 4], heights: [Height<V>; 4]) -> Option<Foot<V>
         let correction = heights.map(|height| height.normal.dot(missed) / height.of_apex);
         weights = normalised(std::array::from_fn(|k| weights[k] - correction[k]));
     }
-    let reach = corners.iter().map(|c| c.square()).fold(zero, greater);
-    let rounding = ulps::<V::Scalar>(TOUCHING_ULPS);
-    let hit = combined(weights).square() <= rounding * rounding * reach;
+    let reach = corners
+        .iter()
+        .map(|c| c.length_squared())
+        .fold(0.0, greater);
+    let rounding = TOUCHING_ULPS * f64::EPSILON;
+    let hit = combined(weights).length_squared() <= rounding * rounding * reach;
     hit.then_some(Foot {
         weights,
-        point: V::ZERO,
+        point: DVec3::ZERO,
         direction: None,
     })
 }
 
-/// How high the origin stands over a face, and the corner opposite of it: both times the length of
-/// the face's normal.
+/// The heights of the origin and of the opposite corner over a face, both times the length of the
+/// face's normal.
 #[derive(Clone, Copy)]
-struct Height<V: Vector> {
-    normal: V,
-    of_origin: V::Scalar,
-    of_apex: V::Scalar,
+struct Height {
+    normal: DVec3,
+    of_origin: f64,
+    of_apex: f64,
 }
 
-impl<V: Vector> Height<V> {
-    /// None unless both are certainly on the same side of the face.
-    fn certain(a: V, b: V, c: V, apex: V) -> Option<Self> {
+impl Height {
+    /// Measures both heights; none unless both are certainly on the same side of the face.
+    fn certain(a: DVec3, b: DVec3, c: DVec3, apex: DVec3) -> Option<Self> {
         let (ab, ac, up) = (b - a, c - a, apex - a);
         let normal = ab.cross(ac);
         let (of_origin, of_apex) = (-a.dot(normal), up.dot(normal));
-        let rounding = ulps::<V::Scalar>(VOLUME_ULPS);
-        let unit = rounding * rounding * ab.square() * ac.square();
+        let rounding = VOLUME_ULPS * f64::EPSILON;
+        let unit = rounding * rounding * ab.length_squared() * ac.length_squared();
         // Squares, to do without roots. Written so that NaN is on no side.
-        let certain = of_origin * of_apex > V::Scalar::zero()
-            && of_origin * of_origin > unit * a.square()
-            && of_apex * of_apex > unit * up.square();
+        let certain = of_origin * of_apex > 0.0
+            && of_origin * of_origin > unit * a.length_squared()
+            && of_apex * of_apex > unit * up.length_squared();
         certain.then_some(Height {
             normal,
             of_origin,

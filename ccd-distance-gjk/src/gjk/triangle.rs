@@ -1,30 +1,29 @@
 //! The point of a triangle that is nearest to the origin.
 
+use super::foot::Foot;
 use super::segment;
-use super::simplex::Foot;
-use super::vector::Vector;
+use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
-use num_traits::{Float, Zero};
 
 /// The foot of the origin on the triangle `a`, `b`, `c`, which may be degenerate.
 ///
 /// Inside of the face where the origin is inside of all three edges; else the nearest foot on the
 /// edges it is outside of. A triangle so flat that rounding may decide the sides is also compared
 /// with all of its edges.
-pub(crate) fn foot<V: Vector>(a: V, b: V, c: V) -> Foot<V> {
+pub(crate) fn foot(a: DVec3, b: DVec3, c: DVec3) -> Foot {
     let corners = [a, b, c];
     let (ab, ac, bc) = (b - a, c - a, c - b);
     let n = ab.cross(ac);
     // Twice the areas, times |n|², that the origin's foot spans with each edge; each edge's weight
     // goes to the corner opposite of it.
     let areas = [b.cross(bc).dot(n), -c.cross(ac).dot(n), a.cross(ab).dot(n)];
-    let zero = V::Scalar::zero();
-    let inside = areas.iter().all(|&area| area > zero);
+    let inside = areas.iter().all(|&area| area > 0.0);
     // sin² of the angle at `a` below which areas lose half of their digits.
-    let flat = n.square() <= V::Scalar::epsilon() * ab.square() * greater(ac.square(), bc.square());
+    let flat = n.length_squared()
+        <= f64::EPSILON * ab.length_squared() * greater(ac.length_squared(), bc.length_squared());
     let mut best = inside.then(|| face(corners, n, areas));
     for (opposite, &area) in areas.iter().enumerate() {
-        if flat || !inside && !(area > zero) {
+        if flat || !inside && !(area > 0.0) {
             let edge = [(opposite + 1) % 3, (opposite + 2) % 3];
             let on_edge = segment::foot(corners[edge[0]], corners[edge[1]]).lifted(&edge);
             best = Some(on_edge.or_nearer(best));
@@ -34,8 +33,8 @@ pub(crate) fn foot<V: Vector>(a: V, b: V, c: V) -> Foot<V> {
 }
 
 /// The foot inside of the face, by the areas opposite of each corner.
-fn face<V: Vector>(corners: [V; 3], n: V, areas: [V::Scalar; 3]) -> Foot<V> {
-    let square = |k: usize| (corners[(k + 1) % 3] - corners[k]).square();
+fn face(corners: [DVec3; 3], n: DVec3, areas: [f64; 3]) -> Foot {
+    let square = |k: usize| (corners[(k + 1) % 3] - corners[k]).length_squared();
     let start = (1..3).fold(0, |best, k| if square(k) > square(best) { k } else { best });
     let end = (start + 1) % 3;
     let (edge, length2) = (corners[end] - corners[start], square(start));
@@ -47,33 +46,34 @@ fn face<V: Vector>(corners: [V; 3], n: V, areas: [V::Scalar; 3]) -> Foot<V> {
     let back = combined(corners, weights).dot(edge) / length2;
     // No farther than to the edges.
     let back = lesser(weights[end], greater(-weights[start], back));
-    weights[start] = weights[start] + back;
-    weights[end] = weights[end] - back;
+    weights[start] += back;
+    weights[end] -= back;
     let point = combined(corners, weights);
     Foot {
-        weights: [weights[0], weights[1], weights[2], V::Scalar::zero()],
+        weights: [weights[0], weights[1], weights[2], 0.0],
         point,
         direction: Some(straighter(corners, n, point, length2)),
     }
 }
 
-/// The normal, on the face's side of the origin, or the foot: whichever rounding turns less. The one
-/// is turned by rounding over its height relative to the longest edge, the other over its length
-/// relative to the corners'.
-fn straighter<V: Vector>(corners: [V; 3], n: V, point: V, length2: V::Scalar) -> V {
+/// Returns the normal, on the face's side of the origin, or the foot: whichever rounding turns less.
+///
+/// Rounding turns the normal by its share of the triangle's height relative to the longest edge, and the
+/// foot by its share of the foot's length relative to the corners'.
+fn straighter(corners: [DVec3; 3], n: DVec3, point: DVec3, length2: f64) -> DVec3 {
     let reach = corners
         .iter()
-        .map(|c| c.square())
-        .fold(V::Scalar::zero(), greater);
-    if point.square() * length2 * length2 > n.square() * reach {
+        .map(|c| c.length_squared())
+        .fold(0.0, greater);
+    if point.length_squared() * length2 * length2 > n.length_squared() * reach {
         point
-    } else if corners[0].dot(n) < V::Scalar::zero() {
+    } else if corners[0].dot(n) < 0.0 {
         -n
     } else {
         n
     }
 }
 
-fn combined<V: Vector>(corners: [V; 3], [u, v, w]: [V::Scalar; 3]) -> V {
+fn combined(corners: [DVec3; 3], [u, v, w]: [f64; 3]) -> DVec3 {
     corners[0] * u + corners[1] * v + corners[2] * w
 }

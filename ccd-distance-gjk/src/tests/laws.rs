@@ -1,4 +1,4 @@
-//! What every backend has to obey, each law written once.
+//! The laws of every backend, each written once.
 
 use super::scene::Scene;
 use super::twin;
@@ -43,8 +43,8 @@ pub(super) fn check(scene: &Scene, claim: &Claim) -> Checked {
     }
 }
 
-/// Of separated pieces the axis certifies the witnesses' distance: to rounding if they are well
-/// apart, and half of it if they are not.
+/// The axis certifies the witnesses' distance of separated pieces: to rounding if they are well apart,
+/// and half of it if they are not.
 pub(super) fn certifies_separation<O: DistanceOracle + Default>(scene: &Scene) -> Checked {
     let checked = check(scene, &cold::<O>(scene));
     let Checked { distance, gap } = checked;
@@ -83,7 +83,7 @@ pub(super) fn names_a_common_point<O: DistanceOracle + Default>(scene: &Scene, w
     );
 }
 
-/// Of pieces that only just touch, the axis is one that does separate their insides.
+/// The axis separates the insides of pieces that only just touch.
 pub(super) fn separates_touching<O: DistanceOracle + Default>(scene: &Scene) {
     let checked = check(scene, &cold::<O>(scene));
     assert!(
@@ -134,7 +134,7 @@ pub(super) fn ignores_history<O: DistanceOracle + Default>(scenes: &[Scene]) {
     }
 }
 
-/// On any finite input it ends with points of the pieces, no nearer than the axis allows.
+/// Any finite input ends with points of the pieces, no nearer than the axis allows.
 pub(super) fn survives<O: DistanceOracle + Default>(scene: &Scene) {
     let checked = check(scene, &cold::<O>(scene));
     let sound = checked.gap <= checked.distance + 1e-13 * scene.size;

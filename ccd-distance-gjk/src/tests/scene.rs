@@ -1,4 +1,4 @@
-//! Pairs of pieces of every kind that has ever upset a distance routine, with what is known of them.
+//! Pairs of pieces that have upset distance routines, and their known distances.
 
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::order::{greater, lesser};
@@ -13,12 +13,12 @@ pub(crate) struct Scene {
     pub(crate) a: Vec<DVec3>,
     pub(crate) b: Vec<DVec3>,
     pub(crate) b_to_a: Frame,
-    /// How large the pieces and their distance are, together.
+    /// The size of the pieces and their distance, together.
     pub(crate) size: f64,
 }
 
 impl Scene {
-    /// From points in A's frame.
+    /// Takes points in A's frame.
     fn new(a: Vec<DVec3>, b: Vec<DVec3>) -> Self {
         let reach = |x: DVec3| a.iter().chain(&b).map(|y| y.distance(x)).fold(0.0, greater);
         let size = greater(f64::MIN_POSITIVE, reach(a[0]));
@@ -38,7 +38,7 @@ impl Scene {
         }
     }
 
-    /// B's points in A's frame, told from A's first point, without the rounding of far coordinates.
+    /// Both pieces' points in A's frame, relative to A's first point, without the rounding of far coordinates.
     pub(crate) fn local(&self) -> (Vec<DVec3>, Vec<DVec3>) {
         let between = self.b_to_a.point(self.b[0]) - self.a[0];
         let local = |y: &DVec3| self.b_to_a.rotation * (*y - self.b[0]) + between;
@@ -97,7 +97,7 @@ pub(crate) fn pose(rng: &mut Pcg64, far: f64) -> Pose {
     Pose::new(far * vector(rng), turn).expect("finite and of length one")
 }
 
-/// In the cube of side two about the origin.
+/// Draws a vector in the cube of side two about the origin.
 pub(crate) fn vector(rng: &mut Pcg64) -> DVec3 {
     DVec3::from_array(std::array::from_fn(|_| rng.random_range(-1.0..1.0)))
 }
@@ -106,7 +106,7 @@ pub(crate) fn points(rng: &mut Pcg64, count: usize) -> Vec<DVec3> {
     (0..count).map(|_| vector(rng)).collect()
 }
 
-/// Between two powers of ten, every order of magnitude as likely.
+/// Draws a number between two powers of ten, every order of magnitude as likely.
 pub(crate) fn magnitude(rng: &mut Pcg64, low: f64, high: f64) -> f64 {
     10f64.powf(rng.random_range(low..high))
 }
@@ -144,7 +144,7 @@ fn crossing(rng: &mut Pcg64, a: usize, b: usize) -> (Vec<DVec3>, Vec<DVec3>) {
     (a, b)
 }
 
-/// What is nearest to what in [`near_contact`].
+/// The features that are nearest in [`near_contact`].
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Meeting {
     CornerFace,

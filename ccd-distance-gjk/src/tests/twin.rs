@@ -1,4 +1,4 @@
-//! The slow, obvious way: every point, edge and triangle that the points of a piece span.
+//! Distances by brute force: every point, edge and triangle that the points of a piece span.
 
 use ccd_core::glam::DVec3;
 use ccd_core::order::lesser;
@@ -20,7 +20,7 @@ pub(super) fn distance(a: &[DVec3], b: &[DVec3]) -> f64 {
     best
 }
 
-/// From a point to the nearest of the points, edges and triangles.
+/// The distance of a point from the nearest of the points, edges and triangles.
 fn from_point(x: DVec3, points: &[DVec3]) -> f64 {
     let corners = points.iter().map(|p| p.distance(x));
     let feet = edges(points).into_iter().filter_map(|[p, q]| {

@@ -11,21 +11,21 @@ use rstest::rstest;
 #[test]
 fn gaps_are_those_of_the_supports() {
     let cube = cube();
-    let places = moved(&cube, &cube, DVec3::new(3.0, 0.5, 0.0));
-    assert_eq!(gap(&places, DVec3::X), 1.0);
-    assert_eq!(gap(&places, -DVec3::X), -5.0);
-    assert_eq!(gap(&places, DVec3::Y), -1.5);
-    let places = turned(
+    let placed = moved(&cube, &cube, DVec3::new(3.0, 0.5, 0.0));
+    assert_eq!(gap(&placed, DVec3::X), 1.0);
+    assert_eq!(gap(&placed, -DVec3::X), -5.0);
+    assert_eq!(gap(&placed, DVec3::Y), -1.5);
+    let placed = turned(
         &cube,
         &cube,
         DQuat::from_rotation_z(std::f64::consts::FRAC_PI_4),
         3.0 * DVec3::X,
     );
-    assert!((gap(&places, DVec3::X) - (2.0 - 2f64.sqrt())).abs() < 1e-15);
-    let axis = Axis::along(&places, 7.0 * DVec3::X);
-    assert!(axis.certifies(2.0 - 2f64.sqrt(), &places) && !axis.certifies(0.6, &places));
-    assert!(!axis.certifies(f64::NAN, &places));
-    assert!(!Axis::along(&places, DVec3::ZERO).certifies(0.0, &places));
+    assert!((gap(&placed, DVec3::X) - (2.0 - 2f64.sqrt())).abs() < 1e-15);
+    let axis = Axis::along(&placed, 7.0 * DVec3::X);
+    assert!(axis.certifies(2.0 - 2f64.sqrt(), &placed) && !axis.certifies(0.6, &placed));
+    assert!(!axis.certifies(f64::NAN, &placed));
+    assert!(!Axis::along(&placed, DVec3::ZERO).certifies(0.0, &placed));
 }
 
 /// Cubes that touch in a corner, an edge, a face, or are a hair apart: the way is no direction, the
@@ -42,42 +42,42 @@ fn touching_features_have_an_axis(
     #[values(0.0, 1e-300, 1e-16, 1e-13)] hair: f64,
 ) {
     let cube = cube();
-    let places = moved(&cube, &cube, at + hair * DVec3::new(1.0, 0.3, 0.1));
+    let placed = moved(&cube, &cube, at + hair * DVec3::new(1.0, 0.3, 0.1));
     let corner = |along: DVec3| Feature::Vertex(vertex(&cube, along));
     let pair = Pair {
         a: corner(DVec3::ONE),
         b: corner(DVec3::new(-1.0, -1.0, -1.0)),
     };
-    let axis = best_axis(&places, pair, &Witness::of(&places, pair));
+    let axis = best_axis(&placed, pair, &Witness::of(&placed, pair));
     assert!(axis.gap >= -1e-15, "{axis:?}");
 }
 
 #[test]
 fn crossing_edges_and_what_is_flat_have_an_axis() {
     let (cube, across) = (cube(), needle(DVec3::new(0.5, 1.0, -1.0)));
-    let places = moved(&cube, &across, DVec3::new(0.0, 1.0, 1.0));
+    let placed = moved(&cube, &across, DVec3::new(0.0, 1.0, 1.0));
     let pair = Pair {
         a: Feature::Edge(edge(&cube, DVec3::Y + DVec3::Z)),
         b: Feature::Edge(0),
     };
-    let axis = best_axis(&places, pair, &Witness::of(&places, pair));
+    let axis = best_axis(&placed, pair, &Witness::of(&placed, pair));
     assert!(axis.gap >= -1e-15, "{axis:?}");
     // Two squares side by side in one plane, and two needles on one line.
     let square = prepared(&shape::polygon(4));
     let side = std::f64::consts::FRAC_1_SQRT_2;
-    let places = moved(&square, &square, DVec3::new(side, side, 0.0) * 2f64.sqrt());
+    let placed = moved(&square, &square, DVec3::new(side, side, 0.0) * 2f64.sqrt());
     let pair = Pair {
         a: Feature::Edge(edge(&square, DVec3::new(0.5, 0.5, 0.0))),
         b: Feature::Edge(edge(&square, DVec3::new(-0.5, -0.5, 0.0))),
     };
-    let axis = best_axis(&places, pair, &Witness::of(&places, pair));
+    let axis = best_axis(&placed, pair, &Witness::of(&placed, pair));
     assert!(axis.gap >= -1e-15, "{axis:?}");
     let line = needle(DVec3::X);
-    let places = moved(&line, &line, 2.0 * DVec3::X);
+    let placed = moved(&line, &line, 2.0 * DVec3::X);
     let pair = Pair {
         a: Feature::Vertex(vertex(&line, DVec3::X)),
         b: Feature::Vertex(vertex(&line, -DVec3::X)),
     };
-    let axis = best_axis(&places, pair, &Witness::of(&places, pair));
+    let axis = best_axis(&placed, pair, &Witness::of(&placed, pair));
     assert!(axis.gap >= -1e-15, "{axis:?}");
 }

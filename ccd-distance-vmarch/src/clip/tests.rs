@@ -1,18 +1,18 @@
 //! Lines over the top of a cube, and beside each other.
 
 use super::{beside, to_prism};
-use crate::place::{Line, Placed};
+use crate::placed::{Line, Placed};
 use crate::tests::setting::{cube, edge, face, moved, needle};
 use ccd_core::glam::DVec3;
 use rstest::rstest;
 
-/// What of a needle is over the cube's top: parameters, and the middles of the edges that cut it.
+/// The part of a needle over the cube's top: parameters, and the middles of the edges that cut it.
 fn clipped(half: DVec3, at: DVec3) -> Option<[(f64, Option<u32>); 2]> {
     let (cube, needle) = (cube(), needle(half));
-    let places = moved(&cube, &needle, at);
-    let line = places.b.line(0);
-    let end = places.b.vertex(1);
-    let clipped = to_prism(&line, end, &places.a, face(&cube, DVec3::Z))?;
+    let placed = moved(&cube, &needle, at);
+    let line = placed.b.line(0);
+    let end = placed.b.vertex(1);
+    let clipped = to_prism(&line, end, &placed.a, face(&cube, DVec3::Z))?;
     Some([clipped.from, clipped.to].map(|cut| (cut.parameter, cut.by)))
 }
 
@@ -47,9 +47,9 @@ fn of_what_is_beside_nothing_is_left(#[case] half: DVec3, #[case] at: DVec3) {
         assert_eq!(clipped(half, at), None);
     } else {
         let cube = cube();
-        let places = moved(&cube, &cube, DVec3::NAN);
+        let placed = moved(&cube, &cube, DVec3::NAN);
         let top = face(&cube, DVec3::Z);
-        let left = to_prism(&places.b.line(0), DVec3::NAN, &places.a, top);
+        let left = to_prism(&placed.b.line(0), DVec3::NAN, &placed.a, top);
         assert!(left.is_none_or(|left| left.from.by.is_none()));
     }
 }

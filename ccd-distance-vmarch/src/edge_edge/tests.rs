@@ -3,19 +3,19 @@
 use super::{nearest, next};
 use crate::feature::Certainty::{Sure, Tied};
 use crate::feature::{Feature, Next, Whose};
-use crate::place::Line;
+use crate::placed::Line;
 use crate::tests::setting::{cube, edge, face, moved, needle, vertex};
 use crate::tests::shape::{Pcg64, RngExt, SeedableRng, direction, magnitude};
 use ccd_core::glam::DVec3;
 use ccd_core::order::lesser;
 use rstest::rstest;
 
-/// What is said of the cube's edge along x at y = z = 1 and a needle.
+/// Tests the cube's edge along x at y = z = 1 against a needle.
 fn of_needle(half: DVec3, at: DVec3) -> Next {
     let (cube, needle) = (cube(), needle(half));
-    let places = moved(&cube, &needle, at);
+    let placed = moved(&cube, &needle, at);
     let edge = edge(&cube, DVec3::new(0.0, 1.0, 1.0));
-    let there = next(&places.a, edge, &places.b, 0, places.scale);
+    let there = next(&placed.a, edge, &placed.b, 0, placed.scale);
     let back = moved(&needle, &cube, -at);
     let swapped = next(&back.a, 0, &back.b, edge, back.scale).swapped();
     match (there, swapped) {

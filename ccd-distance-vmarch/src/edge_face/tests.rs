@@ -6,12 +6,12 @@ use crate::tests::setting::{cube, edge, face, moved, needle};
 use ccd_core::glam::DVec3;
 use rstest::rstest;
 
-/// What is said of a needle and the cube's top.
+/// Tests a needle against the cube's top.
 fn of_needle(half: DVec3, at: DVec3) -> Next {
     let (cube, needle) = (cube(), needle(half));
-    let places = moved(&cube, &needle, at);
+    let placed = moved(&cube, &needle, at);
     let top = face(&cube, DVec3::Z);
-    let there = next(&places.b, 0, &places.a, top, places.scale);
+    let there = next(&placed.b, 0, &placed.a, top, placed.scale);
     let back = moved(&needle, &cube, -at);
     let again = next(&back.a, 0, &back.b, top, back.scale);
     match (there, again) {

@@ -2,19 +2,19 @@
 
 use super::{Escape, escape, farthest};
 use crate::feature::{Behind, Feature};
-use crate::place::Placed;
+use crate::placed::Placed;
 use crate::tests::setting::{cube, face, moved, needle, point};
 use ccd_core::glam::DVec3;
 
 fn of_point(at: DVec3) -> Escape {
     let (cube, point) = (cube(), point());
-    let places = moved(&cube, &point, at);
+    let placed = moved(&cube, &point, at);
     let behind = Behind {
         feature: Feature::Vertex(0),
         point: at,
         face: face(&cube, DVec3::Z),
     };
-    escape(&places.b, behind, &places.a, places.scale)
+    escape(&placed.b, behind, &placed.a, placed.scale)
 }
 
 #[test]
@@ -48,13 +48,13 @@ fn leaves_open_what_exact_signs_do_not_show() {
 fn edges_go_through_or_are_inside() {
     let (cube, short, long) = (cube(), needle(0.5 * DVec3::X), needle(3.0 * DVec3::X));
     for needle in [&short, &long] {
-        let places = moved(&cube, needle, DVec3::ZERO);
+        let placed = moved(&cube, needle, DVec3::ZERO);
         let behind = Behind {
             feature: Feature::Edge(0),
             point: DVec3::ZERO,
             face: face(&cube, DVec3::Z),
         };
-        let found = escape(&places.b, behind, &places.a, places.scale);
+        let found = escape(&placed.b, behind, &placed.a, placed.scale);
         let Escape::Inside(crossing) = found else {
             panic!("{found:?}");
         };
@@ -63,7 +63,7 @@ fn edges_go_through_or_are_inside() {
             .vertices
             .iter()
             .zip(crossing.on_edge.weights);
-        let named: DVec3 = corners.map(|(&v, w)| w * places.b.vertex(v)).sum();
+        let named: DVec3 = corners.map(|(&v, w)| w * placed.b.vertex(v)).sum();
         assert!(named.abs().max_element() <= 1.0 + 1e-15);
     }
 }
@@ -71,9 +71,9 @@ fn edges_go_through_or_are_inside() {
 #[test]
 fn the_farthest_face_is_found() {
     let cube = cube();
-    let places = moved(&cube, &cube, DVec3::ZERO);
+    let placed = moved(&cube, &cube, DVec3::ZERO);
     for normal in [DVec3::X, -DVec3::Y, DVec3::Z] {
-        let found = farthest(5.0 * normal, &places.a);
+        let found = farthest(5.0 * normal, &placed.a);
         assert_eq!(found, Some((face(&cube, normal), 4.0)));
     }
 }

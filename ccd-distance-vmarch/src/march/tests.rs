@@ -1,41 +1,13 @@
-//! From every pair of features to the nearest one; and states that come again.
+//! Every pair of features leads to the nearest one.
 
-use super::{Brent, End, march};
-use crate::feature::{Feature, Pair};
-use crate::oracle::Counters;
+use super::march;
+use crate::counters::Counters;
+use crate::feature::Pair;
+use crate::termination::End;
 use crate::tests::setting::{cube, features, needle, point, prepared, turned};
 use crate::tests::shape;
 use crate::witness::Witness;
 use ccd_core::glam::{DQuat, DVec3};
-
-#[test]
-fn states_that_come_again_are_noticed() {
-    let state = |k: u32| Pair {
-        a: Feature::Vertex(k),
-        b: Feature::Edge(k),
-    };
-    for tail in 0..40 {
-        for length in 1..40 {
-            let mut brent = Brent::new(state(0));
-            // 0, 1, …, tail, …, tail + length − 1, tail, …
-            let at = |k: u32| {
-                if k < tail {
-                    k
-                } else {
-                    tail + (k - tail) % length
-                }
-            };
-            let noticed = (1..1000).find(|&k| brent.returned(state(at(k))));
-            let noticed = noticed.expect("it goes in a circle");
-            assert!(
-                noticed >= length && noticed <= 3 * (tail + length) + 2,
-                "{tail} {length}"
-            );
-        }
-    }
-    let mut brent = Brent::new(state(0));
-    assert!((1..1000).all(|k| !brent.returned(state(k))));
-}
 
 /// Wherever it begins, it ends at the same distance.
 #[test]
@@ -71,19 +43,19 @@ fn every_start_leads_to_the_nearest_features() {
                 .zip(ways)
                 .chain(turns.iter().zip(ways.into_iter().rev()))
             {
-                let places = turned(one, other, *turn, way);
+                let placed = turned(one, other, *turn, way);
                 let mut least: Option<f64> = None;
                 for a in features(one) {
                     for b in features(other) {
                         let mut counters = Counters::default();
-                        let end = march(&places, Pair { a, b }, &mut counters);
+                        let end = march(&placed, Pair { a, b }, &mut counters);
                         starts += 1;
                         let End::Nearest(pair, _) = end else {
                             // A claim is made of these by what comes after.
                             others += 1;
                             continue;
                         };
-                        let distance = Witness::of(&places, pair).distance();
+                        let distance = Witness::of(&placed, pair).distance();
                         let first = *least.get_or_insert(distance);
                         assert!(
                             (distance - first).abs() < 1e-14,

@@ -1,8 +1,8 @@
 //! Common points of needles, tetrahedra and cubes, to the last bit.
 
-use super::{contained, enclosed, passes, pierced, searched, side, weights};
-use crate::place::Placed;
-use crate::tests::setting::{cube, edge, face, moved, needle, point};
+use super::{contained, enclosed, passes, pierced, searched, weights};
+use crate::placed::Placed;
+use crate::tests::setting::{cube, face, moved, needle, point};
 use crate::tests::shape::{Pcg64, SeedableRng, direction, magnitude, vector};
 use ccd_core::glam::DVec3;
 use rstest::rstest;
@@ -89,12 +89,12 @@ fn tetrahedra_enclose_to_the_last_bit() {
 #[case(DVec3::new(1.0 + f64::EPSILON, 0.5, 0.5), false)]
 fn corners_are_inside_or_not(#[case] at: DVec3, #[case] inside: bool) {
     let (cube, point) = (cube(), point());
-    let places = moved(&cube, &point, at);
-    let found = contained(&places.b, 0, &places.a);
+    let placed = moved(&cube, &point, at);
+    let found = contained(&placed.b, 0, &placed.a);
     assert_eq!(found.is_some(), inside);
     if let Some(found) = found {
         let corners = found.on_face.vertices.iter().zip(found.on_face.weights);
-        let named: DVec3 = corners.map(|(&v, w)| w * places.a.vertex(v)).sum();
+        let named: DVec3 = corners.map(|(&v, w)| w * placed.a.vertex(v)).sum();
         assert!(named.distance(at) < 1e-15);
     }
 }
@@ -103,12 +103,12 @@ fn corners_are_inside_or_not(#[case] at: DVec3, #[case] inside: bool) {
 fn faces_are_pierced_anywhere() {
     let (cube, needle) = (cube(), needle(3.0 * DVec3::Z));
     for (x, y) in [(0.0, 0.0), (0.9, -0.9), (-0.5, 0.5), (1.0, 1.0), (0.0, 1.0)] {
-        let places = moved(&cube, &needle, DVec3::new(x, y, 0.0));
+        let placed = moved(&cube, &needle, DVec3::new(x, y, 0.0));
         for normal in [DVec3::Z, -DVec3::Z] {
-            let found = pierced(&places.b, 0, &places.a, face(&cube, normal));
+            let found = pierced(&placed.b, 0, &placed.a, face(&cube, normal));
             assert!(found.is_some());
         }
-        let beside = pierced(&places.b, 0, &places.a, face(&cube, DVec3::X));
+        let beside = pierced(&placed.b, 0, &placed.a, face(&cube, DVec3::X));
         assert!(beside.is_none());
     }
 }
@@ -121,17 +121,8 @@ fn faces_are_pierced_anywhere() {
 #[case(DVec3::new(9.0, 0.0, 0.0), false)]
 fn the_search_finds_what_there_is(#[case] at: DVec3, #[case] meets: bool) {
     let (one, other) = (cube(), cube());
-    let places = moved(&one, &other, at);
-    let found = searched(&places.a, &places.b, places.scale)
-        .or_else(|| searched(&places.b, &places.a, places.scale));
+    let placed = moved(&one, &other, at);
+    let found = searched(&placed.a, &placed.b, placed.scale)
+        .or_else(|| searched(&placed.b, &placed.a, placed.scale));
     assert_eq!(found.is_some(), meets);
-}
-
-#[test]
-fn sides_are_those_of_the_triangle() {
-    assert!(side(TRIANGLE, DVec3::Z) > 0.0);
-    assert!(side(TRIANGLE, DVec3::new(0.3, 0.3, -1e-80)) < 0.0);
-    assert_eq!(side(TRIANGLE, DVec3::new(7.0, -3.0, 0.0)), 0.0);
-    let e = edge(&cube(), DVec3::X + DVec3::Y);
-    assert_eq!(cube().edge(e).length, 2.0);
 }

@@ -1,8 +1,8 @@
-//! From a piece to a polytope.
+//! Prepares a polytope from a piece.
 
 use super::facets::{Facets, off_line};
+use super::support::DirectionTable;
 use super::{Polytope, assemble, convex, merge};
-use crate::start::Starts;
 use crate::tolerance::{COPLANAR, TABLED};
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
@@ -49,13 +49,13 @@ impl Polytope {
     fn assembled(points: &[DVec3], ends: &[u32], loops: &[Vec<u32>]) -> Self {
         let mut polytope = assemble::assemble(points, ends, loops);
         if polytope.vertices.len() > TABLED {
-            polytope.starts = Some(Box::new(Starts::new(&polytope)));
+            polytope.directions = Some(Box::new(DirectionTable::new(&polytope)));
         }
         polytope
     }
 }
 
-/// What points extend to, by the numbers of points far from each other.
+/// The extent of points: none, a line, or more; with the numbers of points far from each other.
 enum Spread {
     Point,
     Line([u32; 2]),

@@ -1,7 +1,7 @@
 //! Whether faces enclose something convex, once.
 
 use super::{NO_FACE, Polytope, Side, unit};
-use crate::penetration::side;
+use crate::orientation::orientation;
 use crate::tolerance::{CONVEX, COPLANAR, LINES};
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
@@ -28,21 +28,21 @@ pub(crate) fn is_convex(points: &[DVec3], polytope: &Polytope, rounding: f64) ->
 struct Check<'a> {
     points: &'a [DVec3],
     polytope: &'a Polytope,
-    /// How far off each face's plane rounding may have put corners of the polytope.
+    /// The largest distance off each face's plane that rounding may have moved corners to.
     slacks: Vec<f64>,
-    /// Where each edge is among the sides of either of its faces.
-    places: Vec<[usize; 2]>,
+    /// The position of each edge among the sides of either of its faces.
+    positions: Vec<[usize; 2]>,
 }
 
 impl<'a> Check<'a> {
     fn new(points: &'a [DVec3], polytope: &'a Polytope, rounding: f64) -> Self {
-        let mut places = vec![[0; 2]; polytope.edges.len()];
+        let mut positions = vec![[0; 2]; polytope.edges.len()];
         let mut slacks = Vec::with_capacity(polytope.faces.len());
         for face in 0..polytope.faces.len() as u32 {
             let sides = polytope.sides_of(face);
             for (at, side) in sides.iter().enumerate() {
                 let slot = usize::from(polytope.edge(side.edge).faces[0] != face);
-                places[side.edge as usize][slot] = at;
+                positions[side.edge as usize][slot] = at;
             }
             let width = greater(f64::MIN_POSITIVE, width(polytope, face));
             slacks.push(rounding * (1.0 + polytope.reach / width));
@@ -51,7 +51,7 @@ impl<'a> Check<'a> {
             points,
             polytope,
             slacks,
-            places,
+            positions,
         }
     }
 
@@ -85,7 +85,7 @@ impl<'a> Check<'a> {
             let slot = usize::from(edge.faces[0] == face);
             let other = edge.faces[slot];
             let ring = self.polytope.sides_of(other);
-            let at = self.places[side.edge as usize][slot];
+            let at = self.positions[side.edge as usize][slot];
             let start = self.corner(side.vertex);
             let slack = greater(self.slacks[face as usize], self.slacks[other as usize]);
             [ring.len() - 1, 2].into_iter().all(|step| {
@@ -132,8 +132,8 @@ impl<'a> Check<'a> {
         layers.is_none_or(|layers| layers <= 1)
     }
 
-    /// How many faces the line from one point towards another one leaves through; none where it meets
-    /// the edge of one.
+    /// Counts the faces through which the line from one point towards another one leaves; none where it
+    /// meets the edge of one.
     fn left_through(&self, from: DVec3, to: DVec3) -> Option<usize> {
         let mut layers = 0;
         for face in 0..self.polytope.faces.len() as u32 {
@@ -142,10 +142,11 @@ impl<'a> Check<'a> {
             for k in 1..sides.len() - 1 {
                 let corners = [at(0), at(k), at(k + 1)];
                 let [a, b, c] = corners;
-                let turns = [[a, b], [b, c], [c, a]].map(|[p, q]| side([from, p, q], to));
+                let turns = [[a, b], [b, c], [c, a]].map(|[p, q]| orientation([from, p, q], to));
                 if turns.iter().all(|&turn| turn > 0.0) {
                     layers += 1;
-                } else if turns.iter().all(|&turn| turn >= 0.0) && side(corners, from) != 0.0 {
+                } else if turns.iter().all(|&turn| turn >= 0.0) && orientation(corners, from) != 0.0
+                {
                     return None;
                 }
             }

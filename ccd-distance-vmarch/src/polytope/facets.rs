@@ -1,6 +1,6 @@
 //! A piece's facets as they are given: welded, with their planes, and joined along their sides.
 
-use crate::twofold::TwofoldVector;
+use crate::double_double::DoubleDoubleVector;
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 use ccd_core::vector;
@@ -10,7 +10,7 @@ use ccd_core::vector;
 pub(crate) struct Facets {
     pub(crate) loops: Vec<Vec<u32>>,
     pub(crate) planes: Vec<Plane>,
-    /// Of every facet the facets across its sides, in order.
+    /// The facets across the sides of every facet, in order.
     pub(crate) across: Vec<Vec<u32>>,
 }
 
@@ -84,10 +84,10 @@ impl Plane {
     /// The plane whose normal is the polygon's vector of area, from exact differences of corners.
     pub(crate) fn of(points: &[DVec3], corners: &[u32]) -> Self {
         let at = |k: usize| points[corners[k] as usize];
-        let mut sum = TwofoldVector::default();
+        let mut sum = DoubleDoubleVector::default();
         for k in 1..corners.len() - 1 {
-            let one = TwofoldVector::difference(at(k), at(0));
-            sum = sum + one.cross(TwofoldVector::difference(at(k + 1), at(0)));
+            let one = DoubleDoubleVector::difference(at(k), at(0));
+            sum = sum + one.cross(DoubleDoubleVector::difference(at(k + 1), at(0)));
         }
         let area = sum.value();
         let normal = unit(area);
@@ -112,10 +112,12 @@ pub(crate) fn unit(v: DVec3) -> DVec3 {
     vector::unit(v).unwrap_or(DVec3::ZERO)
 }
 
-/// How far a point is off the line through two others; from the first one, if they are equal.
+/// The distance of a point from the line through two others; from the first one, if they are equal.
 pub(crate) fn off_line(p: DVec3, [start, end]: [DVec3; 2]) -> f64 {
-    let along = TwofoldVector::difference(end, start);
-    let area = TwofoldVector::difference(p, start).cross(along).value();
+    let along = DoubleDoubleVector::difference(end, start);
+    let area = DoubleDoubleVector::difference(p, start)
+        .cross(along)
+        .value();
     let length = along.value().length();
     if length > 0.0 {
         area.length() / length
@@ -124,7 +126,7 @@ pub(crate) fn off_line(p: DVec3, [start, end]: [DVec3; 2]) -> f64 {
     }
 }
 
-/// For every point the first one in its place.
+/// Maps every point to the first one at the same position.
 fn welded(points: &[DVec3]) -> Vec<u32> {
     // Zero is added so that -0 is 0.
     let key = |v: u32| {

@@ -34,7 +34,7 @@ pub(crate) fn merge(points: &[DVec3], facets: &Facets, rounding: f64) -> Option<
     polygons.then_some(outlines)
 }
 
-/// Which face every facet is part of, and how many faces there are.
+/// Assigns a face to every facet; returns the faces and their number.
 fn grouped(points: &[DVec3], facets: &Facets, rounding: f64) -> (Vec<u32>, u32) {
     const NONE: u32 = u32::MAX;
     let mut order: Vec<u32> = (0..facets.loops.len() as u32).collect();

@@ -1,4 +1,4 @@
-//! What pieces are prepared as, and what is refused.
+//! Pieces as they are prepared, and pieces that are refused.
 
 use super::{NO_FACE, Polytope};
 use crate::tests::setting::prepared;
@@ -7,7 +7,7 @@ use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{GiveUp, Piece};
 use rstest::rstest;
 
-/// How many corners, edges and faces there are.
+/// The numbers of corners, edges and faces.
 fn counts(polytope: &Polytope) -> [usize; 3] {
     [
         polytope.vertices.len(),
@@ -16,7 +16,7 @@ fn counts(polytope: &Polytope) -> [usize; 3] {
     ]
 }
 
-/// What every polytope obeys.
+/// Checks the laws of every polytope.
 fn is_sound(polytope: &Polytope) {
     let slack = 1e-14 * polytope.reach;
     for (v, vertex) in (0..).zip(&polytope.vertices) {
@@ -173,7 +173,7 @@ fn thin_polytopes_are_sound() {
     }
 }
 
-/// What is thinner than rounding is flat.
+/// A plate thinner than rounding is flat.
 #[test]
 fn plates_are_flat_from_rounding_on() {
     for (thin, faces) in [(1e-12, 6), (1e-14, 6), (1e-16, 2), (0.0, 2)] {

@@ -1,4 +1,4 @@
-//! What holds of claims about pieces that touch, hold each other, spin, or make no sense.
+//! Laws of claims about pieces that touch, contain each other, spin, or make no sense.
 
 use super::scene::{self, Body, Kind, Scene};
 use super::shape::{self, Pcg64, SeedableRng, Shape, direction, magnitude};
@@ -10,8 +10,8 @@ use ccd_core::order::{greater, lesser};
 use ccd_core::{Claim, Combination, DistanceOracle, Frame, GiveUp, Piece, PiecePair};
 use rstest::rstest;
 
-/// Of pieces that intersect by next to nothing, touch, or are apart by next to nothing, what is
-/// claimed is true to rounding.
+/// Claims about pieces that intersect by next to nothing, touch, or are apart by next to nothing are
+/// true to rounding.
 #[rstest]
 fn touching_is_told_to_rounding(
     #[values(-1e-9, -1e-13, -1e-16, 0.0, 1e-16, 1e-13, 1e-9)] gap: f64,
@@ -299,7 +299,7 @@ fn place_does_not_matter() {
     }
 }
 
-/// What it cannot march over is another oracle's, and everything is counted.
+/// Another oracle answers where it gives up, and everything is counted.
 #[test]
 fn other_oracles_take_over_and_counts_are_kept() {
     /// Claims the first points.

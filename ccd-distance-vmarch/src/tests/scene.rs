@@ -162,7 +162,7 @@ pub(crate) struct Scene<'a> {
     pub(crate) a: &'a Body,
     pub(crate) b: &'a Body,
     pub(crate) b_to_a: Frame,
-    /// How far they are apart at least; 0 if they were placed to intersect.
+    /// The least distance; 0 if they were placed to intersect.
     pub(crate) gap: f64,
 }
 
@@ -232,7 +232,7 @@ pub(crate) fn draw<'a>(kind: Kind, pool: &'a [Body], rng: &mut Pcg64) -> Scene<'
     Scene { a, b, b_to_a, gap }
 }
 
-/// Where B has to be to be apart from A along some direction, and how far it is then.
+/// Returns a position of B apart from A along some direction, and the distance there.
 fn apart(kind: Kind, a: &Body, b: &Body, rotation: DMat3, rng: &mut Pcg64) -> (DVec3, f64) {
     let whole = kind == Kind::Grid;
     let n = match rng.random_range(0..4) {

@@ -2,7 +2,7 @@
 
 use super::shape::{self, Shape};
 use crate::feature::Feature;
-use crate::place::Places;
+use crate::placed::PlacedPair;
 use crate::polytope::Polytope;
 use ccd_core::Frame;
 use ccd_core::glam::{DMat3, DQuat, DVec3};
@@ -12,7 +12,7 @@ pub(crate) fn prepared(shape: &Shape) -> Polytope {
     Polytope::new(&pieces.get(0)).expect("a convex polytope")
 }
 
-/// From −1 to 1 along every axis.
+/// The cube from −1 to 1 along every axis.
 pub(crate) fn cube() -> Polytope {
     prepared(&shape::cuboid(DVec3::ONE))
 }
@@ -26,16 +26,16 @@ pub(crate) fn needle(half: DVec3) -> Polytope {
     prepared(&shape::few(&[-half, half]))
 }
 
-pub(crate) fn moved<'a>(a: &'a Polytope, b: &'a Polytope, by: DVec3) -> Places<'a> {
+pub(crate) fn moved<'a>(a: &'a Polytope, b: &'a Polytope, by: DVec3) -> PlacedPair<'a> {
     turned(a, b, DQuat::IDENTITY, by)
 }
 
-pub(crate) fn turned<'a>(a: &'a Polytope, b: &'a Polytope, by: DQuat, to: DVec3) -> Places<'a> {
+pub(crate) fn turned<'a>(a: &'a Polytope, b: &'a Polytope, by: DQuat, to: DVec3) -> PlacedPair<'a> {
     let frame = Frame {
         rotation: DMat3::from_quat(by),
         translation: to,
     };
-    Places::new(a, b, &frame)
+    PlacedPair::new(a, b, &frame)
 }
 
 /// The corner nearest to a point, in the polytope's own coordinates.

@@ -1,6 +1,6 @@
 //! Polytopes whose facets are known, by construction or by looking at all planes.
 
-use crate::penetration::side;
+use crate::orientation::orientation;
 use ccd_core::glam::DVec3;
 use ccd_core::{Facet, Origin, Pieces, Polytope};
 pub(crate) use rand::{RngExt, SeedableRng};
@@ -65,7 +65,7 @@ impl Shape {
     }
 }
 
-/// In the cube of side two about the origin.
+/// Draws a vector in the cube of side two about the origin.
 pub(crate) fn vector(rng: &mut Pcg64) -> DVec3 {
     DVec3::from_array(std::array::from_fn(|_| rng.random_range(-1.0..1.0)))
 }
@@ -79,7 +79,7 @@ pub(crate) fn direction(rng: &mut Pcg64) -> DVec3 {
     }
 }
 
-/// Between two powers of ten, every order of magnitude as likely.
+/// Draws a number between two powers of ten, every order of magnitude as likely.
 pub(crate) fn magnitude(rng: &mut Pcg64, low: f64, high: f64) -> f64 {
     10f64.powf(rng.random_range(low..high))
 }
@@ -96,7 +96,8 @@ pub(crate) fn hull(points: &[DVec3]) -> Shape {
                 }
                 for [p, q, r] in [[i, j, k], [i, k, j]] {
                     let triangle = [points[p], points[q], points[r]];
-                    let sides: Vec<f64> = points.iter().map(|&x| side(triangle, x)).collect();
+                    let sides: Vec<f64> =
+                        points.iter().map(|&x| orientation(triangle, x)).collect();
                     if sides.iter().all(|&s| s <= 0.0) && sides.iter().any(|&s| s < 0.0) {
                         let on = (0..count as u32).filter(|&v| sides[v as usize] == 0.0);
                         let on: Vec<u32> = on.collect();
@@ -124,7 +125,10 @@ fn around(points: &[DVec3], on: &[u32], [p, q, r]: [DVec3; 3]) -> Vec<u32> {
     let above = p + normal.normalize_or_zero() * (q - p).length();
     let is_side = |v: u32, w: u32| {
         let base = [points[v as usize], points[w as usize], above];
-        let turns: Vec<f64> = on.iter().map(|&x| side(base, points[x as usize])).collect();
+        let turns: Vec<f64> = on
+            .iter()
+            .map(|&x| orientation(base, points[x as usize]))
+            .collect();
         // Inside of the polygon is behind a plane that stands on the side; nothing within the side.
         let [a, b] = [v, w].map(|x| points[x as usize]);
         let within = |&&x: &&u32| {
@@ -133,7 +137,7 @@ fn around(points: &[DVec3], on: &[u32], [p, q, r]: [DVec3; 3]) -> Vec<u32> {
         };
         let on_line = on
             .iter()
-            .filter(|&&x| side(base, points[x as usize]) == 0.0);
+            .filter(|&&x| orientation(base, points[x as usize]) == 0.0);
         let beyond = on_line.clone().any(|x| {
             let c = points[*x as usize];
             (c - a).dot(b - a) < 0.0 || (c - b).dot(a - b) < 0.0

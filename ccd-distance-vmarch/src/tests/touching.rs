@@ -23,8 +23,8 @@ fn parts() -> Vec<Body> {
 
 /// Another cube beside, above or before the first one, shifted along the common face, and turned by
 /// quarters, which are not quite quarters in floating point.
-fn places() -> Vec<Frame> {
-    let mut places = Vec::new();
+fn frames() -> Vec<Frame> {
+    let mut frames = Vec::new();
     for (side, shift) in [
         (DVec3::X, DVec3::Y),
         (DVec3::Y, DVec3::Z),
@@ -33,7 +33,7 @@ fn places() -> Vec<Frame> {
         for translation in [2.0 * side, -2.0 * side] {
             for shifted in [0.0, -0.5, 2.0] {
                 for axis in [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z] {
-                    places.push(Frame {
+                    frames.push(Frame {
                         translation: translation + shifted * shift,
                         rotation: DMat3::from_quat(DQuat::from_scaled_axis(FRAC_PI_2 * axis)),
                     });
@@ -41,7 +41,7 @@ fn places() -> Vec<Frame> {
             }
         }
     }
-    places
+    frames
 }
 
 /// Whatever two of their parts touch in, the axis keeps them apart.
@@ -49,7 +49,7 @@ fn places() -> Vec<Frame> {
 fn parts_of_flush_cubes_are_kept_apart() {
     let parts = parts();
     let mut touching = 0;
-    for b_to_a in places() {
+    for b_to_a in frames() {
         for (a, b) in parts.iter().flat_map(|a| parts.iter().map(move |b| (a, b))) {
             let scene = Scene {
                 a,

@@ -1,7 +1,7 @@
-//! The slow, obvious way: all corners, edges and faces of one polytope against all of the other.
+//! Distances by brute force: all corners, edges and faces of one polytope against all of the other.
 
 use super::shape::Shape;
-use crate::twofold::TwofoldVector;
+use crate::double_double::DoubleDoubleVector;
 use ccd_core::Frame;
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
@@ -44,7 +44,7 @@ impl Bare {
         let normal = |corners: &Vec<u32>| {
             let from = |k: usize| {
                 let [p, q] = [corners[k], corners[0]].map(|v| shape.points[v as usize]);
-                TwofoldVector::difference(p, q)
+                DoubleDoubleVector::difference(p, q)
             };
             let parts = (1..corners.len() - 1).map(|k| from(k).cross(from(k + 1)));
             let area = parts.reduce(|sum, part| sum + part).expect("three corners");
@@ -140,9 +140,9 @@ fn crossing(e: &Segment, f: &Segment) -> f64 {
     let [p, q] = e.ends;
     let [r, s] = f.ends;
     let (d, g, w) = (
-        TwofoldVector::difference(q, p),
-        TwofoldVector::difference(s, r),
-        TwofoldVector::difference(r, p),
+        DoubleDoubleVector::difference(q, p),
+        DoubleDoubleVector::difference(s, r),
+        DoubleDoubleVector::difference(r, p),
     );
     let n = d.cross(g);
     let t = w.cross(g).dot(n).value() / n.dot(n).value();

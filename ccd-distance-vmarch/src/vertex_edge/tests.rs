@@ -7,12 +7,12 @@ use crate::tests::setting::{cube, edge, face, moved, needle, point, turned, vert
 use ccd_core::glam::{DQuat, DVec3};
 use rstest::rstest;
 
-/// What is said of a point and the cube's edge along x at y = z = 1.
+/// Tests a point against the cube's edge along x at y = z = 1.
 fn of_point(at: DVec3) -> Next {
     let (cube, point) = (cube(), point());
-    let places = moved(&cube, &point, at);
+    let placed = moved(&cube, &point, at);
     let edge = edge(&cube, DVec3::new(0.0, 1.0, 1.0));
-    let there = next(&places.b, 0, &places.a, edge, places.scale);
+    let there = next(&placed.b, 0, &placed.a, edge, placed.scale);
     let back = moved(&point, &cube, -at);
     assert_eq!(there, next(&back.a, 0, &back.b, edge, back.scale));
     there
@@ -69,9 +69,9 @@ fn goes_on_to_an_edge_that_falls(#[case] slope: f64, #[case] falls: Option<bool>
     let turn = DQuat::from_rotation_y(-slope);
     // The needle's first corner stands a millionth above the edge's bisector.
     let up = DVec3::new(0.0, 1.0, 1.0) + 1e-6 * DVec3::new(0.0, 1.0, 1.0);
-    let places = turned(&cube, &needle, turn, up - turn * (-0.4 * DVec3::X));
+    let placed = turned(&cube, &needle, turn, up - turn * (-0.4 * DVec3::X));
     let edge = edge(&cube, DVec3::new(0.0, 1.0, 1.0));
-    let said = next(&places.b, 0, &places.a, edge, places.scale);
+    let said = next(&placed.b, 0, &placed.a, edge, placed.scale);
     match falls {
         Some(_) => assert_eq!(said, Next::To(Feature::Edge(0), Feature::Edge(edge))),
         None => assert_eq!(said, Next::Stop(Sure)),

@@ -7,12 +7,12 @@ use crate::tests::setting::{cube, edge, face, moved, needle, point, turned};
 use ccd_core::glam::{DQuat, DVec3};
 use rstest::rstest;
 
-/// What is said of a point and the cube's top.
+/// Tests a point against the cube's top.
 fn of_point(at: DVec3) -> Next {
     let (cube, point) = (cube(), point());
-    let places = moved(&cube, &point, at);
+    let placed = moved(&cube, &point, at);
     let top = face(&cube, DVec3::Z);
-    let there = next(&places.b, 0, &places.a, top, places.scale);
+    let there = next(&placed.b, 0, &placed.a, top, placed.scale);
     let back = moved(&point, &cube, -at);
     let again = next(&back.a, 0, &back.b, top, back.scale);
     match (there, again) {
@@ -69,14 +69,14 @@ fn finds_what_is_behind(#[case] at: DVec3) {
 #[case(1e-14, false)]
 fn goes_on_along_an_edge_that_falls(#[case] slope: f64, #[case] falls: bool) {
     let (cube, needle) = (cube(), needle(0.4 * DVec3::X));
-    let places = turned(
+    let placed = turned(
         &cube,
         &needle,
         DQuat::from_rotation_y(-slope),
         1.5 * DVec3::Z,
     );
     let top = face(&cube, DVec3::Z);
-    let said = next(&places.b, 0, &places.a, top, places.scale);
+    let said = next(&placed.b, 0, &placed.a, top, placed.scale);
     if falls {
         assert_eq!(said, Next::To(Feature::Edge(0), Feature::Face(top)));
     } else {

@@ -7,12 +7,12 @@ use crate::tests::setting::{cube, edge, moved, point, vertex};
 use ccd_core::glam::DVec3;
 use rstest::rstest;
 
-/// What is said of the cube's corner at (1, 1, 1) and a point.
+/// Tests the cube's corner at (1, 1, 1) against a point.
 fn of_point(at: DVec3) -> Next {
     let (cube, point) = (cube(), point());
-    let places = moved(&cube, &point, at);
+    let placed = moved(&cube, &point, at);
     let corner = vertex(&cube, DVec3::ONE);
-    let there = next(&places.a, corner, &places.b, 0, places.scale);
+    let there = next(&placed.a, corner, &placed.b, 0, placed.scale);
     // The other way around, it is the point's corner against the cube's.
     let back = moved(&point, &cube, -at);
     let swapped = next(&back.a, 0, &back.b, corner, back.scale).swapped();

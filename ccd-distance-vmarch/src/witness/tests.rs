@@ -14,12 +14,12 @@ fn witness(
     of: impl Fn(&crate::polytope::Polytope, &crate::polytope::Polytope) -> Pair,
 ) -> Witness {
     let (one, other) = (prepared(a), prepared(b));
-    let places = moved(&one, &other, at);
-    let witness = Witness::of(&places, of(&one, &other));
-    let claim = witness.claim(&places);
+    let placed = moved(&one, &other, at);
+    let witness = Witness::of(&placed, of(&one, &other));
+    let claim = witness.claim(&placed);
     let on_a = claim.a.of(&a.points).expect("a point of A");
     let on_b = claim.b.of(&b.points).expect("a point of B") + at;
-    // The witness is told from the middle of A.
+    // The witness is relative to the middle of A.
     assert!((on_a - one.origin).distance(witness.points[0]) < 1e-15);
     assert!((on_b - one.origin).distance(witness.points[1]) < 1e-15);
     witness
@@ -69,7 +69,7 @@ fn features_have_nearest_points() {
     );
 }
 
-/// Of nearest points that are next to each other, the axis is that of the edges, not of rounding.
+/// The axis of nearest points next to each other is that of the edges, not of rounding.
 #[test]
 fn axes_are_those_of_the_features() {
     let (one, other) = (
@@ -81,12 +81,12 @@ fn axes_are_those_of_the_features() {
         .normalize();
     for gap in [1e-3, 1e-9, 1e-15] {
         for side in [normal, -normal] {
-            let places = moved(&one, &other, gap * side);
+            let placed = moved(&one, &other, gap * side);
             let pair = Pair {
                 a: Feature::Edge(0),
                 b: Feature::Edge(0),
             };
-            let axis = Witness::of(&places, pair).axis.normalize();
+            let axis = Witness::of(&placed, pair).axis.normalize();
             assert!(axis.distance(side) < 1e-15, "{gap}: {axis} {side}");
         }
     }
@@ -95,12 +95,12 @@ fn axes_are_those_of_the_features() {
 #[test]
 fn what_is_never_a_stop_has_points_all_the_same() {
     let (cube, point) = (cube(), point());
-    let places = moved(&cube, &cube, 4.0 * DVec3::X);
+    let placed = moved(&cube, &cube, 4.0 * DVec3::X);
     let pair = Pair {
         a: Feature::Face(0),
         b: Feature::Face(1),
     };
-    assert!(Witness::of(&places, pair).distance() >= 2.0);
+    assert!(Witness::of(&placed, pair).distance() >= 2.0);
     assert_eq!(point.reach, 0.0);
 }
 
@@ -156,7 +156,7 @@ fn feet_beside_the_triangle_are_clamped_into_it() {
 }
 
 /// Needles that cross at a small angle, close by: rounding of the axis along them would cost a
-/// hundred times what their places are rounded by.
+/// hundred times what their positions are rounded by.
 #[test]
 fn axes_certify_what_crosses_at_any_angle() {
     let mut rng = Pcg64::seed_from_u64(9);
@@ -169,13 +169,13 @@ fn axes_certify_what_crosses_at_any_angle() {
         let normal = way.any_orthonormal_vector();
         let other = ccd_core::glam::DQuat::from_axis_angle(normal, angle) * way;
         let (one, other) = (needle(0.9 * way), needle(0.8 * other));
-        let places = moved(&one, &other, gap * normal + 0.1 * way);
+        let placed = moved(&one, &other, gap * normal + 0.1 * way);
         let pair = Pair {
             a: Feature::Edge(0),
             b: Feature::Edge(0),
         };
-        let witness = Witness::of(&places, pair);
-        let gap = crate::certificate::gap(&places, witness.axis.normalize());
+        let witness = Witness::of(&placed, pair);
+        let gap = crate::certificate::gap(&placed, witness.axis.normalize());
         let short = witness.distance() - gap;
         assert!(short <= 2e-15, "{short:e} at {angle:e}, {gap:e}");
     }

@@ -3,7 +3,7 @@
 use ccd_core::motion_bound::Bound;
 use ccd_core::schedule::{BestFirst, Fast, HullFirst, Naive};
 use ccd_core::{Answer, DistanceOracle, OrElse, Problem, Schedule};
-use ccd_distance_gjk::{Auto, Gjk, GjkF32};
+use ccd_distance_gjk::{Direct, Gjk};
 use ccd_distance_vmarch::Vmarch;
 use clap::ValueEnum;
 use std::fmt;
@@ -78,8 +78,6 @@ pub enum OracleKind {
     Direct,
     /// GJK in double precision, for any convex piece.
     Gjk,
-    /// GJK that searches in single precision, checked in double.
-    GjkF32,
     /// Voronoi marching, as published; where that gives up, gjk.
     Vmarch,
 }
@@ -107,9 +105,8 @@ impl SolverKind {
     /// A solver with memory of its own.
     pub fn solver(self) -> Box<dyn Solve> {
         match self.oracle {
-            OracleKind::Direct => self.with_oracle::<Auto>(),
+            OracleKind::Direct => self.with_oracle::<Direct>(),
             OracleKind::Gjk => self.with_oracle::<Gjk>(),
-            OracleKind::GjkF32 => self.with_oracle::<GjkF32>(),
             OracleKind::Vmarch => self.with_oracle::<OrElse<Vmarch, Gjk>>(),
         }
     }

@@ -5,7 +5,7 @@ use ccd_core::glam::DVec3;
 use ccd_core::schedule::{BestFirst, Fast, HullFirst, Naive};
 use ccd_core::{Answer, Body, Config, DistanceOracle, Moving, OrElse, Polytope, Problem, Schedule};
 use ccd_decomp::{Detail, TriangleMesh, prepare};
-use ccd_distance_gjk::{Auto, Gjk, GjkF32};
+use ccd_distance_gjk::{Direct, Gjk};
 use ccd_distance_vmarch::Vmarch;
 use std::fmt;
 
@@ -21,7 +21,6 @@ pub enum Kind {
 pub enum Method {
     Direct,
     Gjk,
-    GjkF32,
     Vmarch,
     Naive,
     Fast,
@@ -104,11 +103,10 @@ impl Method {
             schedule.solve(problem, &mut O::default())
         }
         match self {
-            Method::Direct => by(BestFirst::<Auto>::default(), problem),
+            Method::Direct => by(BestFirst::<Direct>::default(), problem),
             Method::Gjk => by(BestFirst::<Gjk>::default(), problem),
-            Method::GjkF32 => by(BestFirst::<GjkF32>::default(), problem),
             Method::Vmarch => by(BestFirst::<OrElse<Vmarch, Gjk>>::default(), problem),
-            Method::Naive => by(Naive::<Auto>::default(), problem),
+            Method::Naive => by(Naive::<Direct>::default(), problem),
             Method::Fast => by(Fast::<Gjk>::default(), problem),
             Method::HullFirst => by(HullFirst::<Gjk>::default(), problem),
         }
@@ -127,7 +125,6 @@ impl fmt::Display for Method {
         f.write_str(match self {
             Method::Direct => "--oracle direct",
             Method::Gjk => "--oracle gjk",
-            Method::GjkF32 => "--oracle gjk-f32",
             Method::Vmarch => "--oracle vmarch",
             Method::Naive => "--schedule naive",
             Method::Fast => "--schedule fast --oracle gjk",

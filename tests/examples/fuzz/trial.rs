@@ -83,10 +83,7 @@ fn methods(draw: &mut Draw, case: &Case) -> Vec<(Kind, Method)> {
     let form = |form: Form| case.shapes.iter().any(|s| s.form == form);
     let small = case.shapes.iter().all(|s| s.faces.len() < 200);
     if draw.chance(0.4) {
-        asked.push((
-            Kind::Triangles,
-            draw.pick(&[Method::Gjk, Method::GjkF32, Method::Vmarch]),
-        ));
+        asked.push((Kind::Triangles, draw.pick(&[Method::Gjk, Method::Vmarch])));
     }
     let pieces = match (form(Form::Convex), form(Form::Solid)) {
         (true, _) => draw.pick(&[Kind::Hull, Kind::Patches]),
@@ -96,7 +93,7 @@ fn methods(draw: &mut Draw, case: &Case) -> Vec<(Kind, Method)> {
     if pieces != Kind::Triangles && draw.chance(0.6) {
         asked.push((
             pieces,
-            draw.pick(&[Method::Direct, Method::Gjk, Method::GjkF32, Method::Vmarch]),
+            draw.pick(&[Method::Direct, Method::Gjk, Method::Vmarch]),
         ));
     }
     let turn: f64 = case.courses.iter().map(|c| c.turn(case.duration)).sum();

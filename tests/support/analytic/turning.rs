@@ -35,8 +35,8 @@ pub(super) fn scenes() -> Vec<Scene> {
     out
 }
 
-/// When the rod's corner, turning at `speed`, first comes to `height` from the plane through the
-/// axis.
+/// The time at which the rod's corner, turning at `speed`, first comes to `height` from the plane
+/// through the axis.
 fn corner_time(height: f64, speed: f64) -> f64 {
     ((height / reach()).asin() - WIDTH.atan2(LENGTH)) / speed
 }

@@ -27,7 +27,7 @@ pub(super) fn scenes() -> Vec<Scene> {
     out
 }
 
-/// How far below the nut's bottom the screw starts, less a pitch.
+/// The depth below the nut's bottom at which the screw starts, less a pitch.
 const LOW: f64 = 1.05;
 
 /// T18: three turns of a screw in its nut, climbing by `pitch` a turn.

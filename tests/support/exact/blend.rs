@@ -10,7 +10,7 @@ use std::cell::OnceCell;
 pub struct Blend(Vec<(u32, DVec3)>);
 
 impl Blend {
-    /// Of some points, each with its weight.
+    /// Blends some points, each with its weight.
     ///
     /// # Panics
     /// When all weights are 0.

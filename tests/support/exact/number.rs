@@ -6,7 +6,7 @@ use ccd_core::order::{greater, lesser};
 use dashu_ratio::Relaxed;
 use std::cmp::Ordering;
 
-/// What a predicate needs of its numbers.
+/// The arithmetic that a predicate needs.
 pub(super) trait Number: Sized {
     /// Any finite number, as it is.
     fn of(x: f64) -> Self;
@@ -15,7 +15,7 @@ pub(super) trait Number: Sized {
     fn times(&self, other: &Self) -> Self;
     /// Divided by a number that is not 0.
     fn over(&self, divisor: u32) -> Self;
-    /// On which side of 0 it is, if that is certain.
+    /// The sign, if it is certain.
     fn sign(&self) -> Option<Ordering>;
 
     /// The coordinates of a point.

@@ -1,4 +1,4 @@
-//! Which side a point is on: of an edge seen along an axis, of a triangle.
+//! The side of a point: of an edge seen along an axis, and of a triangle.
 
 use super::blend::Spot;
 use super::number::{Interval, Number};
@@ -41,7 +41,7 @@ pub(super) fn holds(triangle: [DVec3; 3], p: &Spot<'_>) -> bool {
     !(0..3).any(beyond) && side(triangle, p) == Ordering::Equal && !VIEWS.iter().any(out_of_view)
 }
 
-/// How a number compares to a coordinate of a point.
+/// Compares a number to a coordinate of a point.
 fn compare(x: f64, axis: usize, p: &Spot<'_>) -> Ordering {
     p.near[axis]
         .minus(&Interval::of(x))

@@ -6,26 +6,26 @@ use ccd_core::glam::DVec3;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 
-/// How many points to take at random.
+/// The numbers of random points to take.
 #[derive(Clone, Copy, Debug)]
 pub struct Effort {
-    /// Of each facet, besides its mean and its edges' middles.
+    /// The points of each facet, besides its mean and its edges' middles.
     pub per_facet: usize,
-    /// Of each polytope, between pairs of its points.
+    /// The points of each polytope between pairs of its points.
     pub chords: usize,
-    /// Of each polytope, between four of its points.
+    /// The points of each polytope between four of its points.
     pub blends: usize,
 }
 
 impl Effort {
-    /// For models of a few hundred faces.
+    /// The effort for models of a few hundred faces.
     pub const THOROUGH: Effort = Effort {
         per_facet: 6,
         chords: 24,
         blends: 16,
     };
 
-    /// For models of thousands of faces.
+    /// The effort for models of thousands of faces.
     pub const QUICK: Effort = Effort {
         per_facet: 1,
         chords: 4,

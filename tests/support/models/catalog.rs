@@ -9,7 +9,7 @@ use ccd_core::glam::{DQuat, DVec3};
 
 /// A solid and what it is called.
 pub struct Model {
-    /// What it is called.
+    /// Its name.
     pub name: String,
     /// The solid.
     pub shape: Shape,

@@ -112,7 +112,7 @@ pub fn terrain(cells: usize, seed: u64) -> Shape {
     .between(|i, j| at(i, j, 0.0), |i, j| at(i, j, heights[&(i, j)]))
 }
 
-/// Which cells of a grid there are.
+/// The cells of a grid that are filled.
 struct Sheet<'a> {
     rows: Line,
     columns: Line,

@@ -52,8 +52,7 @@ pub fn both(one: &Shape, other: &Shape) -> Shape {
     Shape::closed(mesh)
 }
 
-/// The vertices of a divided icosahedron moved to distances from the origin that their directions
-/// tell.
+/// Moves the vertices of a divided icosahedron to distances from the origin by their directions.
 fn star(levels: u32, mut radius: impl FnMut(DVec3) -> f64) -> Shape {
     let Mesh {
         mut vertices,

@@ -4,7 +4,7 @@ use super::{Line, Mesh, Shape, grid_faces};
 use ccd_core::glam::DVec3;
 use std::f64::consts::TAU;
 
-/// How far the thread climbs in one turn.
+/// The height that the thread climbs in one turn.
 pub const PITCH: f64 = 0.5;
 
 /// Around the axis, and along it for each pitch, of the coarsest thread.

@@ -6,7 +6,7 @@ use rand::RngExt;
 use std::collections::HashMap;
 
 /// A pile of cubes in a corner: columns of random heights up to `size` that do not grow away from it.
-/// Its sides are coplanar regions of any outline, none of which touch each other at an edge.
+/// Its sides are coplanar regions of any outline; no two touch each other at an edge.
 pub fn pile(size: usize, seed: u64) -> Shape {
     let mut dice = dice(seed);
     let mut heights = vec![vec![0; size]; size];

@@ -1,4 +1,4 @@
-//! Where the points of a moving body are, straight from the definition of the motion.
+//! Positions of a moving body's points, straight from the definition of the motion.
 
 use crate::query::{Actor, Query};
 use ccd_core::glam::DVec3;
@@ -19,7 +19,7 @@ pub struct Placement {
 }
 
 impl Placement {
-    /// Of both bodies of a query, A first.
+    /// The placements of both bodies of a query, A first.
     pub fn pair(query: &Query) -> [Placement; 2] {
         let (mut a, mut b) = (Placement::new(&query.a), Placement::new(&query.b));
         let (pa, pb) = (
@@ -48,18 +48,18 @@ impl Placement {
         }
     }
 
-    /// Where a point of the body is.
+    /// The position of a point of the body.
     pub fn at(&self, time: f64, point: DVec3) -> DVec3 {
         let arm = apply(self.start, point - self.centre);
         turned(arm, time * self.spin) + self.offset + time * self.velocity
     }
 
-    /// What positions are relative to, in the world, at time 0.
+    /// The origin of positions, in the world, at time 0.
     pub fn origin(&self) -> DVec3 {
         self.origin
     }
 
-    /// Relative to body A's centre.
+    /// The velocity relative to body A's centre.
     pub fn velocity(&self) -> DVec3 {
         self.velocity
     }

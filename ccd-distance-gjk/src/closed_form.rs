@@ -31,7 +31,7 @@ use nearest::{Corners, Nearest};
 ///
 /// ```
 /// use ccd_core::{DistanceOracle, Frame, Piece, PiecePair, glam::DVec3};
-/// use ccd_distance_gjk::Direct;
+/// use ccd_distance_gjk::ClosedForm;
 /// let floor = [DVec3::ZERO, 4.0 * DVec3::X, 4.0 * DVec3::Y];
 /// let above = [DVec3::new(1.0, 1.0, 0.5)];
 /// let pair = PiecePair {
@@ -39,13 +39,13 @@ use nearest::{Corners, Nearest};
 ///     b: Piece::from_points(&above),
 ///     b_to_a: Frame::IDENTITY,
 /// };
-/// let claim = Direct::default().separation(&pair, &mut ()).unwrap();
+/// let claim = ClosedForm::default().separation(&pair, &mut ()).unwrap();
 /// assert_eq!(claim.a.of(&floor), Some(DVec3::new(1.0, 1.0, 0.0)));
 /// ```
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Direct;
+pub struct ClosedForm;
 
-impl DistanceOracle for Direct {
+impl DistanceOracle for ClosedForm {
     type Cache = ();
 
     #[inline]
@@ -67,7 +67,7 @@ impl DistanceOracle for Direct {
     }
 }
 
-/// For pieces that nearly touch, or intersect: the best axis of all, and a common point if there
+/// Returns the best axis of all for pieces that nearly touch or intersect, and a common point if there
 /// is one.
 #[cold]
 #[inline(never)]
@@ -80,8 +80,8 @@ fn examine(p: &Corners, q: &Corners, near: Nearest) -> (DVec3, Nearest) {
     (best.direction, pierce::common_point(p, q, near))
 }
 
-/// Both pieces in A's axes, the origin in A's first point, so that rounding is that of the pieces'
-/// size wherever they lie.
+/// Moves both pieces to A's axes, with the origin in A's first point: rounding is then that of the
+/// pieces' size wherever they lie.
 #[inline]
 fn local(pair: &PiecePair<'_>) -> Option<(Corners, Corners)> {
     let (a, b) = (corners(&pair.a)?, corners(&pair.b)?);

@@ -1,6 +1,6 @@
-//! Which features are named, what is refused, and the common point of what intersects inside.
+//! The features named, the pieces refused, and the common point of triangles that intersect inside.
 
-use super::Direct;
+use super::ClosedForm;
 use super::nearest::nearest;
 use super::pierce::common_point;
 use ccd_core::glam::DVec3;
@@ -19,14 +19,14 @@ fn claim(a: &[DVec3], b: &[DVec3]) -> Result<Claim, GiveUp> {
         b: Piece::from_points(b),
         b_to_a: Frame::IDENTITY,
     };
-    Direct.separation(&pair, &mut ())
+    ClosedForm.separation(&pair, &mut ())
 }
 
 fn v(x: f64, y: f64, z: f64) -> DVec3 {
     DVec3::new(x, y, z)
 }
 
-/// The points named are those of the features, no more: what is a corner has weight one.
+/// The points named are those of the features, no more: a corner has weight one.
 #[rstest]
 #[case::corner_above_face([v(1.0, 1.0, 1.0), v(1.0, 2.0, 3.0), v(2.0, 1.0, 3.0)], &[0, 1, 2], &[0])]
 #[case::corner_beside_edge([v(1.0, -1.0, 0.0), v(1.0, -2.0, 1.0), v(2.0, -2.0, 1.0)], &[0, 1], &[0])]

@@ -29,7 +29,7 @@ use ccd_decomp::{Detail, Order, TriangleMesh, build_hull_tree, prepare};
 /// A triangle mesh: what the referee looks at, and what the engine is given.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mesh {
-    /// In the body's own frame.
+    /// The vertices in the body's own frame.
     pub vertices: Vec<DVec3>,
     /// Counter-clockwise seen from outside, where there is an outside.
     pub faces: Vec<[u32; 3]>,

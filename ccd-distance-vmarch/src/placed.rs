@@ -1,13 +1,14 @@
-//! Two polytopes in one frame: A where it is, B taken there feature by feature.
+//! Two polytopes in one frame: A as it is, B mapped there feature by feature.
 
 use crate::polytope::{Edge, Polytope};
-use crate::tolerance::PLACE;
+use crate::tolerance::PLACING;
 use ccd_core::Frame;
 use ccd_core::glam::{DMat3, DVec3};
 use ccd_core::order::{greater, lesser};
 
-/// A polytope that is placed in the frame of A's polytope. A test of two features is written once, for
-/// any two of these.
+/// A polytope that is placed in the frame of A's polytope.
+///
+/// A test of two features is written once, for any two of these.
 pub(crate) trait Placed {
     fn shape(&self) -> &Polytope;
     /// Places a point.
@@ -32,7 +33,7 @@ pub(crate) trait Placed {
         }
     }
 
-    /// For the faces that meet in an edge, how far a way leads into either.
+    /// The components of a vector into either of the faces that meet in an edge.
     #[inline(always)]
     fn inward(&self, edge: &Edge, way: DVec3) -> [f64; 2] {
         edge.inward.map(|inward| self.vector(inward).dot(way))
@@ -41,28 +42,28 @@ pub(crate) trait Placed {
 
 /// Polytope A.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Here<'a>(pub(crate) &'a Polytope);
+pub(crate) struct PlacedA<'a>(pub(crate) &'a Polytope);
 
 /// Polytope B.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct There<'a> {
+pub(crate) struct PlacedB<'a> {
     shape: &'a Polytope,
     rotation: DMat3,
     translation: DVec3,
 }
 
-/// Both, and how much their places are rounded.
+/// Both polytopes, and the rounding of their places.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Places<'a> {
-    pub(crate) a: Here<'a>,
-    pub(crate) b: There<'a>,
+pub(crate) struct PlacedPair<'a> {
+    pub(crate) a: PlacedA<'a>,
+    pub(crate) b: PlacedB<'a>,
     pub(crate) scale: Scale,
 }
 
-/// How large a pair of polytopes is, and what that makes of rounding.
+/// The size of a pair of polytopes, and the rounding it brings.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Scale {
-    /// Both reaches and the way between the origins.
+    /// The sum of both reaches and of the distance of the origins.
     pub(crate) size: f64,
 }
 
@@ -74,12 +75,12 @@ pub(crate) struct Line {
     pub(crate) length: f64,
 }
 
-impl<'a> Places<'a> {
+impl<'a> PlacedPair<'a> {
     pub(crate) fn new(a: &'a Polytope, b: &'a Polytope, b_to_a: &Frame) -> Self {
         let translation = b_to_a.point(b.origin) - a.origin;
-        Places {
-            a: Here(a),
-            b: There {
+        PlacedPair {
+            a: PlacedA(a),
+            b: PlacedB {
                 shape: b,
                 rotation: b_to_a.rotation,
                 translation,
@@ -91,13 +92,13 @@ impl<'a> Places<'a> {
     }
 }
 
-impl There<'_> {
-    /// Where the origin is.
+impl PlacedB<'_> {
+    /// The position of the origin.
     pub(crate) fn origin(&self) -> DVec3 {
         self.translation
     }
 
-    /// A direction of A's frame in its own.
+    /// Turns a direction of A's frame to the polytope's own.
     pub(crate) fn own_vector(&self, vector: DVec3) -> DVec3 {
         DVec3::new(
             self.rotation.x_axis.dot(vector),
@@ -108,10 +109,10 @@ impl There<'_> {
 }
 
 impl Scale {
-    /// How far a difference of two placed points may be off.
+    /// The largest error of a difference of two placed points.
     #[inline(always)]
     pub(crate) fn rounding(self) -> f64 {
-        PLACE * self.size
+        PLACING * self.size
     }
 }
 
@@ -128,13 +129,13 @@ impl Line {
     }
 }
 
-/// Between 0 and `length`; 0 for what is no number.
+/// Clamps between 0 and `length`; NaN becomes 0.
 #[inline(always)]
 pub(crate) fn clamped(parameter: f64, length: f64) -> f64 {
     lesser(greater(0.0, parameter), length)
 }
 
-impl Placed for Here<'_> {
+impl Placed for PlacedA<'_> {
     #[inline(always)]
     fn shape(&self) -> &Polytope {
         self.0
@@ -151,7 +152,7 @@ impl Placed for Here<'_> {
     }
 }
 
-impl Placed for There<'_> {
+impl Placed for PlacedB<'_> {
     #[inline(always)]
     fn shape(&self) -> &Polytope {
         self.shape

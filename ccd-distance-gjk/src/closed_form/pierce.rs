@@ -27,7 +27,7 @@ pub(crate) fn common_point(p: &Corners, q: &Corners, near: Nearest) -> Nearest {
         })
 }
 
-/// Where the edges of `of` meet the plane of `face`: weights of the edge's triangle and the face's.
+/// Cuts the edges of `of` with the plane of `face`: weights of the edge's triangle and of the face.
 fn pierces(of: &Corners, face: &Corners) -> [([f64; 3], [f64; 3]); 3] {
     let (e, f) = (face[1] - face[0], face[2] - face[0]);
     let n = e.cross(f);

@@ -1,10 +1,10 @@
 //! Every rescue, entered on purpose.
 
-use super::settle;
+use super::certify;
+use crate::counters::Counters;
 use crate::feature::{Certainty, Feature, Pair};
-use crate::march::End;
-use crate::oracle::Counters;
-use crate::place::{Placed, Places};
+use crate::placed::{Placed, PlacedPair};
+use crate::termination::End;
 use crate::tests::setting::{cube, features, moved, needle, point, prepared, turned};
 use crate::tests::shape;
 use crate::tolerance::FAR;
@@ -12,26 +12,26 @@ use crate::witness::Witness;
 use ccd_core::GiveUp;
 use ccd_core::glam::{DQuat, DVec3};
 
-/// What every end at every pair is settled as has the same distance.
-fn settles(places: &Places<'_>, a: &shape::Shape, b: &shape::Shape, truth: f64) {
-    let place = |p: DVec3| places.b.point(p - places.b.shape().origin);
-    for one in features(places.a.0) {
-        for other in features(places.b.shape()) {
+/// Every end at every pair is certified at the same distance.
+fn certifies(placed: &PlacedPair<'_>, a: &shape::Shape, b: &shape::Shape, truth: f64) {
+    let place = |p: DVec3| placed.b.point(p - placed.b.shape().origin);
+    for one in features(placed.a.0) {
+        for other in features(placed.b.shape()) {
             if matches!((one, other), (Feature::Face(_), Feature::Face(_))) {
                 continue;
             }
             let pair = Pair { a: one, b: other };
             // A stop is only looked into where rounding could hide something nearer.
-            let close = Witness::of(places, pair).distance() < FAR * places.scale.size;
+            let close = Witness::of(placed, pair).distance() < FAR * placed.scale.size;
             let tie = close.then_some(End::Nearest(pair, Certainty::Tied));
             let ends = [End::Cycle(pair), End::Cap(pair), End::Unclear(pair)];
             for end in ends.into_iter().chain(tie) {
                 let mut counters = Counters::default();
-                let answer = settle(places, end, &mut counters);
+                let answer = certify(placed, end, &mut counters);
                 let claim = answer
                     .unwrap_or_else(|why| panic!("{why:?} from {end:?}"))
                     .claim;
-                let on_a = claim.a.of(&a.points).expect("a point of A") - places.a.0.origin;
+                let on_a = claim.a.of(&a.points).expect("a point of A") - placed.a.0.origin;
                 let on_b = place(claim.b.of(&b.points).expect("a point of B"));
                 let distance = on_a.distance(on_b);
                 assert!(
@@ -44,7 +44,7 @@ fn settles(places: &Places<'_>, a: &shape::Shape, b: &shape::Shape, truth: f64) 
 }
 
 #[test]
-fn every_end_is_settled() {
+fn every_end_is_certified() {
     let shapes = [shape::cuboid(DVec3::ONE), shape::antiprism(3)];
     let truths = [
         (DVec3::new(3.0, 0.0, 0.0), 1.0),
@@ -52,38 +52,38 @@ fn every_end_is_settled() {
     ];
     let cube = prepared(&shapes[0]);
     for (at, truth) in truths {
-        let places = moved(&cube, &cube, at);
-        settles(&places, &shapes[0], &shapes[0], truth);
+        let placed = moved(&cube, &cube, at);
+        certifies(&placed, &shapes[0], &shapes[0], truth);
     }
     // Intersecting: one point.
     let other = prepared(&shapes[1]);
-    let places = turned(
+    let placed = turned(
         &cube,
         &other,
         DQuat::from_rotation_x(0.4),
         DVec3::new(1.2, 0.3, 0.1),
     );
-    settles(&places, &shapes[0], &shapes[1], 0.0);
+    certifies(&placed, &shapes[0], &shapes[1], 0.0);
 }
 
 #[test]
 fn what_makes_no_sense_is_given_up() {
     let (cube, needle, point) = (cube(), needle(DVec3::X), point());
     for polytope in [&cube, &needle, &point] {
-        let places = moved(&cube, polytope, DVec3::NAN);
+        let placed = moved(&cube, polytope, DVec3::NAN);
         let pair = Pair {
             a: Feature::Vertex(0),
             b: Feature::Vertex(0),
         };
         let mut counters = Counters::default();
-        let cycle = settle(&places, End::Cycle(pair), &mut counters);
-        let cap = settle(&places, End::Cap(pair), &mut counters);
+        let cycle = certify(&placed, End::Cycle(pair), &mut counters);
+        let cap = certify(&placed, End::Cap(pair), &mut counters);
         assert!(matches!(cycle.err(), None | Some(GiveUp::Cycle)));
         assert!(matches!(cap.err(), None | Some(GiveUp::StepCap)));
         // What is said to be a cycle has been counted as one.
         for end in [End::Unclear(pair), End::Nearest(pair, Certainty::Tied)] {
             let mut counters = Counters::default();
-            let why = settle(&places, end, &mut counters).err();
+            let why = certify(&placed, end, &mut counters).err();
             assert!(why != Some(GiveUp::Cycle) || counters.cycles > 0);
         }
     }

@@ -132,7 +132,7 @@ fn normal(edges: &[DVec3; 3]) -> DVec3 {
     }
 }
 
-/// Along and across the longest edge of all: axes for segments on one line, and for points.
+/// Returns axes along and across the longest edge of all, for segments on one line, and for points.
 fn frame(edges_p: &[DVec3; 3], edges_q: &[DVec3; 3]) -> Lanes3 {
     let edge = longest(&[longest(edges_p), longest(edges_q)]);
     let along = unit(edge).unwrap_or(DVec3::X);

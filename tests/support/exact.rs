@@ -1,4 +1,4 @@
-//! Where a point is of a closed mesh, without rounding: the judge of decompositions.
+//! Points inside, on and outside closed meshes, without rounding: the judge of decompositions.
 //!
 //! It shares no code with what it judges.
 
@@ -17,12 +17,12 @@ use ccd_core::glam::{DVec2, DVec3};
 use predicates::{VIEWS, holds, side, turn};
 use std::cmp::Ordering;
 
-/// Where a point is of a closed mesh.
+/// The location of a point next to a closed mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Place {
+pub enum Location {
     /// The mesh does not wind about it.
     Outside,
-    /// On a face.
+    /// The point is on a face.
     Surface,
     /// The mesh winds about it this many times; negative for a mesh that is inside out.
     Inside(i32),
@@ -68,7 +68,7 @@ pub fn is_convex_polygon(corners: &[DVec3]) -> bool {
 }
 
 impl<'a> Solid<'a> {
-    /// Of a mesh that is closed: every edge has as many faces that run along it one way as the other.
+    /// Takes a mesh that is closed: every edge has as many faces that run along it one way as the other.
     pub fn new(mesh: &'a Mesh) -> Self {
         Solid {
             mesh,
@@ -76,11 +76,11 @@ impl<'a> Solid<'a> {
         }
     }
 
-    /// Where a point is: by the faces that a ray from it upwards crosses.
+    /// Locates a point by the faces that a ray from it upwards crosses.
     ///
     /// The ray is moved by (ε, ε²) sideways, with ε smaller than any number, so that it meets no edge
     /// and no upright face, and no case is special.
-    pub fn place(&self, point: &Blend) -> Place {
+    pub fn locate(&self, point: &Blend) -> Location {
         let p = Spot::new(point);
         let mut windings = 0;
         for &face in self.columns.faces_over(&p) {
@@ -90,13 +90,13 @@ impl<'a> Solid<'a> {
                 continue;
             }
             if holds(triangle, &p) {
-                return Place::Surface;
+                return Location::Surface;
             }
             windings += crossing(triangle, &p);
         }
         match windings {
-            0 => Place::Outside,
-            _ => Place::Inside(windings),
+            0 => Location::Outside,
+            _ => Location::Inside(windings),
         }
     }
 }
@@ -184,7 +184,7 @@ impl Columns {
         cell.to_array().map(|x| (x as usize).min(self.count - 1))
     }
 
-    /// At least every face that a point could be over, under or on.
+    /// Returns at least every face that a point could be over, under or on.
     fn faces_over(&self, p: &Spot<'_>) -> &[u32] {
         let [x, y] = self.cell_of(DVec2::new(p.near[0].lo, p.near[1].lo));
         &self.faces[x * self.count + y]

@@ -10,17 +10,17 @@ pub use twisted::screw_in_nut;
 
 use crate::query::{Actor, Query};
 
-/// A scene with what happens in it.
+/// A scene with its known outcome.
 pub struct Scene {
-    /// What it goes by.
+    /// Its name.
     pub name: String,
     /// The bodies and their motions.
     pub query: Query,
-    /// What happens.
+    /// The known outcome.
     pub expect: Expect,
 }
 
-/// What happens in a scene.
+/// The known outcome of a scene.
 pub enum Expect {
     /// The bodies touch.
     Hit {
@@ -40,7 +40,7 @@ pub enum Expect {
     Unknown,
 }
 
-/// When the distance first comes down to a value.
+/// The time at which the distance first comes down to a value.
 pub type Distance = Box<dyn Fn(f64) -> f64 + Send + Sync>;
 
 /// Every scene.

@@ -22,8 +22,8 @@ impl Nearest {
     }
 }
 
-/// The nearest points of the boundaries, and of corners and faces: those of the triangles, if they
-/// do not intersect `[ERICSON05 §5.1]`.
+/// Returns the nearest points of two triangles that do not intersect `[ERICSON05 §5.1]`: those of their
+/// boundaries, and of corners and faces.
 ///
 /// Every candidate is a pair of points of the triangles, however ill-conditioned; the least of
 /// their distances decides.
@@ -53,9 +53,9 @@ struct EdgeEdge {
     square: f64x4,
     /// The edge of the first triangle.
     edge: f64x4,
-    /// Where on that edge.
+    /// The parameter along that edge.
     s: f64x4,
-    /// Where on the second triangle's edge.
+    /// The parameter along the second triangle's edge.
     t: f64x4,
 }
 

@@ -1,10 +1,11 @@
-//! All features around a tie: what rounding hid from the march, looked at pair by pair.
+//! All features around a tie, compared pair by pair: rounding may have hidden a nearer pair from the march.
 
 use crate::edge_edge;
 use crate::feature::{Feature, Pair};
-use crate::place::{Placed, Places};
+use crate::placed::{Placed, PlacedPair};
 use crate::polytope::NO_FACE;
 use crate::tolerance::AROUND;
+use ccd_core::glam::DVec3;
 
 /// The nearest pair of features of the faces around a pair, if it is nearer than that by more than
 /// `rounding`.
@@ -12,47 +13,47 @@ use crate::tolerance::AROUND;
 /// What is convex has no distance that is least around one pair and not everywhere: where nothing
 /// around is nearer, nothing is. Unlike a march this does not ask in which direction the distance
 /// falls, which is rounding at a tie, but how large it is, which is not.
-pub(crate) fn nearer(places: &Places<'_>, pair: Pair, distance: f64) -> Option<Pair> {
-    let (a, b) = (Star::new(&places.a, pair.a), Star::new(&places.b, pair.b));
+pub(crate) fn nearer(placed: &PlacedPair<'_>, pair: Pair, distance: f64) -> Option<Pair> {
+    let (a, b) = (Star::new(&placed.a, pair.a), Star::new(&placed.b, pair.b));
     if a.edges.len() * b.edges.len() > AROUND {
         return None;
     }
     let mut best = Best {
-        distance: distance - places.scale.rounding(),
+        distance: distance - placed.scale.rounding(),
         pair: None,
     };
     for &e in &a.edges {
-        let one = places.a.line(e);
+        let one = placed.a.line(e);
         for &f in &b.edges {
-            let other = places.b.line(f);
+            let other = placed.b.line(f);
             let [s, t] = edge_edge::nearest(&one, &other).parameters;
-            let ends = (end_or_edge(&places.a, e, s), end_or_edge(&places.b, f, t));
+            let ends = (end_or_edge(&placed.a, e, s), end_or_edge(&placed.b, f, t));
             best.offer(one.at(s).distance(other.at(t)), ends.0, ends.1);
         }
     }
     for &v in &a.vertices {
-        let point = places.a.vertex(v);
+        let point = placed.a.vertex(v);
         for &f in &b.edges {
-            let line = places.b.line(f);
+            let line = placed.b.line(f);
             let t = line.nearest(point);
-            let end = end_or_edge(&places.b, f, t);
+            let end = end_or_edge(&placed.b, f, t);
             best.offer(line.at(t).distance(point), Feature::Vertex(v), end);
         }
         for &f in &b.faces {
-            let height = height(point, &places.b, f);
+            let height = height(point, &placed.b, f);
             best.offer(height, Feature::Vertex(v), Feature::Face(f));
         }
     }
     for &w in &b.vertices {
-        let point = places.b.vertex(w);
+        let point = placed.b.vertex(w);
         for &e in &a.edges {
-            let line = places.a.line(e);
+            let line = placed.a.line(e);
             let s = line.nearest(point);
-            let end = end_or_edge(&places.a, e, s);
+            let end = end_or_edge(&placed.a, e, s);
             best.offer(line.at(s).distance(point), end, Feature::Vertex(w));
         }
         for &f in &a.faces {
-            let height = height(point, &places.a, f);
+            let height = height(point, &placed.a, f);
             best.offer(height, Feature::Face(f), Feature::Vertex(w));
         }
     }
@@ -111,7 +112,7 @@ impl Star {
     }
 }
 
-/// The end of an edge that a parameter is at, or the edge.
+/// The end of an edge at a parameter, or the edge.
 fn end_or_edge<P: Placed>(polytope: &P, e: u32, parameter: f64) -> Feature {
     let edge = polytope.shape().edge(e);
     if !(parameter > 0.0) {
@@ -123,8 +124,8 @@ fn end_or_edge<P: Placed>(polytope: &P, e: u32, parameter: f64) -> Feature {
     }
 }
 
-/// How high a point is above a face, or nothing beside it and behind it.
-fn height<P: Placed>(point: ccd_core::glam::DVec3, polytope: &P, f: u32) -> f64 {
+/// The height of a point above a face, infinite beside it and behind it.
+fn height<P: Placed>(point: DVec3, polytope: &P, f: u32) -> f64 {
     let mut height = f64::INFINITY;
     let normal = polytope.vector(polytope.shape().face(f).normal);
     for side in polytope.shape().sides_of(f) {

@@ -1,4 +1,4 @@
-//! From features next to the nearest ones.
+//! Features next to the nearest ones lead to these.
 
 use super::nearer;
 use crate::feature::{Feature, Pair};
@@ -11,13 +11,13 @@ use ccd_core::order::lesser;
 #[test]
 fn what_is_nearest_has_nothing_nearer_around() {
     let cube = cube();
-    let places = moved(&cube, &cube, DVec3::new(3.0, 3.0, 3.0));
+    let placed = moved(&cube, &cube, DVec3::new(3.0, 3.0, 3.0));
     let pair = Pair {
         a: Feature::Vertex(vertex(&cube, DVec3::ONE)),
         b: Feature::Vertex(vertex(&cube, -DVec3::ONE)),
     };
-    let distance = Witness::of(&places, pair).distance();
-    assert_eq!(nearer(&places, pair, distance), None);
+    let distance = Witness::of(&placed, pair).distance();
+    assert_eq!(nearer(&placed, pair, distance), None);
 }
 
 /// Two cubes almost face to face, tilted so that the corners at one end are nearer by less than their
@@ -25,7 +25,7 @@ fn what_is_nearest_has_nothing_nearer_around() {
 #[test]
 fn slow_approaches_are_found() {
     let (one, other) = (cube(), prepared(&shape::cuboid(DVec3::splat(0.9))));
-    let places = turned(
+    let placed = turned(
         &one,
         &other,
         DQuat::from_rotation_y(1e-10),
@@ -40,11 +40,11 @@ fn slow_approaches_are_found() {
         b: Feature::Vertex(vertex(&other, DVec3::new(0.9, 0.9, -0.9))),
         ..high
     };
-    let [far, near] = [high, low].map(|pair| Witness::of(&places, pair).distance());
+    let [far, near] = [high, low].map(|pair| Witness::of(&placed, pair).distance());
     assert!((far - near).abs() > 1e-10);
     let (above, pair) = if far > near { (far, high) } else { (near, low) };
-    let found = nearer(&places, pair, above).expect("the other end is nearer");
-    let distance = Witness::of(&places, found).distance();
+    let found = nearer(&placed, pair, above).expect("the other end is nearer");
+    let distance = Witness::of(&placed, found).distance();
     assert!((distance - lesser(far, near)).abs() < 1e-15, "{found:?}");
 }
 
@@ -55,15 +55,15 @@ fn all_kinds_of_features_are_found() {
         a: Feature::Edge(edge(&cube, DVec3::X + DVec3::Z)),
         b: Feature::Vertex(vertex(&cube, DVec3::new(-1.0, -1.0, -1.0))),
     };
-    let places = moved(&cube, &cube, DVec3::new(0.5, 0.5, 3.0));
-    let found = nearer(&places, top, 9.0).expect("the faces are nearer");
-    assert!((Witness::of(&places, found).distance() - 1.0).abs() < 1e-15);
+    let placed = moved(&cube, &cube, DVec3::new(0.5, 0.5, 3.0));
+    let found = nearer(&placed, top, 9.0).expect("the faces are nearer");
+    assert!((Witness::of(&placed, found).distance() - 1.0).abs() < 1e-15);
     let single = prepared(&shape::few(&[DVec3::ZERO]));
-    let places = moved(&cube, &single, DVec3::new(0.2, 0.1, 3.0));
+    let placed = moved(&cube, &single, DVec3::new(0.2, 0.1, 3.0));
     let pair = Pair {
         a: Feature::Edge(edge(&cube, DVec3::X + DVec3::Z)),
         b: Feature::Vertex(0),
     };
-    let found = nearer(&places, pair, 2.5).expect("the top is nearer");
+    let found = nearer(&placed, pair, 2.5).expect("the top is nearer");
     assert_eq!(found.a, Feature::Face(face(&cube, DVec3::Z)));
 }

@@ -3,11 +3,11 @@
 //! It shares no code with the engine: poses from the formula of the motion, distances by trying all
 //! pairs of vertices, edges and faces, times by undirected conservative advancement.
 
-mod place;
+mod placement;
 mod triangles;
 
 use ccd_core::order::{greater, lesser};
-pub use place::Placement;
+pub use placement::Placement;
 pub use triangles::{contains, point_segment, point_triangle};
 
 use crate::query::Query;
@@ -15,7 +15,7 @@ use crate::tolerance::{CLOSE, KEPT};
 use ccd_core::glam::DVec3;
 use triangles::Posed;
 
-/// What the referee saw.
+/// The referee's finding.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Verdict {
     /// The surfaces are within the margin at the start.
@@ -55,12 +55,12 @@ pub struct Referee<'a> {
 const MAX_STEPS: u32 = 20_000;
 
 impl<'a> Referee<'a> {
-    /// Of contacts at a distance of 0.
+    /// Judges contacts at a distance of 0.
     pub fn new(query: &'a Query) -> Self {
         Referee::with_margin(query, 0.0)
     }
 
-    /// Of contacts at a distance of `margin`.
+    /// Judges contacts at a distance of `margin`.
     pub fn with_margin(query: &'a Query, margin: f64) -> Self {
         Referee {
             query,
@@ -97,7 +97,7 @@ impl<'a> Referee<'a> {
         )
     }
 
-    /// When the bodies first touch.
+    /// Finds when the bodies first touch.
     pub fn verdict(&self) -> Verdict {
         let speed = self.speed();
         let close = CLOSE * self.size();
@@ -106,7 +106,7 @@ impl<'a> Referee<'a> {
             let gap = self.gap(time) - self.margin;
             least = lesser(least, gap);
             if gap <= close {
-                return self.settle(time, close / speed);
+                return self.find_contact(time, close / speed);
             }
             // The distance falls no faster than `speed`.
             time += KEPT * gap / speed;
@@ -125,8 +125,8 @@ impl<'a> Referee<'a> {
         (b.velocity() - a.velocity()).length() + a.rim_speed() + b.rim_speed()
     }
 
-    /// Looks for a contact soon after a time at which the bodies nearly touch.
-    fn settle(&self, lo: f64, first_step: f64) -> Verdict {
+    /// Searches for a contact soon after a time at which the bodies nearly touch.
+    fn find_contact(&self, lo: f64, first_step: f64) -> Verdict {
         if lo == 0.0 && self.touches(0.0) {
             return Verdict::Start;
         }

@@ -1,0 +1,45 @@
+//! The point of a simplex that is nearest to the origin.
+
+use ccd_core::glam::DVec3;
+
+/// A point of a simplex's hull, meant to be the one nearest to the origin.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Foot {
+    /// One weight per vertex, none negative, of sum one.
+    pub(crate) weights: [f64; 4],
+    /// The vertices' combination by these weights.
+    pub(crate) point: DVec3,
+    /// The direction of `point`, of any length; none when the origin is inside. It is made of the
+    /// feature, so that it stays sharp where the point is short.
+    pub(crate) direction: Option<DVec3>,
+}
+
+impl Foot {
+    /// The corner with the given index.
+    pub(crate) fn corner(point: DVec3, index: usize) -> Self {
+        let mut weights = [0.0; 4];
+        weights[index] = 1.0;
+        Foot {
+            weights,
+            point,
+            direction: Some(point),
+        }
+    }
+
+    /// Returns the foot on a sub-simplex in the indices of the whole: its vertex `k` is `indices[k]`.
+    pub(crate) fn lifted(self, indices: &[usize]) -> Self {
+        let mut weights = [0.0; 4];
+        for (&index, &weight) in indices.iter().zip(&self.weights) {
+            weights[index] = weight;
+        }
+        Foot { weights, ..self }
+    }
+
+    /// The nearer one, `other` if they are equal.
+    pub(crate) fn or_nearer(self, other: Option<Self>) -> Self {
+        match other {
+            Some(other) if !(self.point.length_squared() < other.point.length_squared()) => other,
+            _ => self,
+        }
+    }
+}

@@ -1,0 +1,163 @@
+//! Certifies the end of a march: ties, cycles, and marches taken up again from elsewhere.
+
+use crate::certificate::best_axis;
+use crate::counters::Counters;
+use crate::feature::{Certainty, Next, Pair, Whose};
+use crate::march::{march, step};
+use crate::neighbourhood;
+use crate::penetration;
+use crate::placed::PlacedPair;
+use crate::start::extremal;
+use crate::termination::End;
+use crate::tolerance::{CYCLE_LOOK, FAR, RESTARTS, ROUNDS};
+use crate::touching;
+use crate::witness::Witness;
+use ccd_core::glam::DVec3;
+use ccd_core::{Claim, GiveUp};
+
+/// A claim, and the pair to start from the next time.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Certified {
+    pub(crate) pair: Pair,
+    pub(crate) claim: Claim,
+}
+
+/// Certifies, or proves, an answer from the end of a march that is not certain by itself.
+///
+/// # Errors
+/// When, from several starts, none is: [`GiveUp::Cycle`] or [`GiveUp::StepCap`] where a march ended so,
+/// [`GiveUp::Uncertified`] where none did.
+#[cold]
+#[inline(never)]
+pub(crate) fn certify(
+    placed: &PlacedPair<'_>,
+    first: End,
+    counters: &mut Counters,
+) -> Result<Certified, GiveUp> {
+    let (mut end, mut restarts) = (first, 0);
+    let mut why = GiveUp::Uncertified;
+    for _ in 0..ROUNDS {
+        why = match end {
+            End::Cycle(_) => GiveUp::Cycle,
+            End::Cap(_) => GiveUp::StepCap,
+            End::Nearest(..) | End::Common(..) | End::Unclear(_) => why,
+        };
+        let from = match examine(placed, end, counters) {
+            Finding::Certified(answer) => return Ok(answer),
+            Finding::Nearer(pair) => pair,
+            Finding::Doubtful(_) if restarts == RESTARTS => break,
+            Finding::Doubtful(axis) => {
+                counters.restarts += 1;
+                restarts += 1;
+                extremal(placed, axis)
+            }
+        };
+        end = march(placed, from, counters);
+    }
+    let found = search_common_point(placed, extremal(placed, placed.b.origin()), counters);
+    found.ok_or(why)
+}
+
+/// The worth of an end.
+enum Finding {
+    Certified(Certified),
+    /// There is a pair around it that is nearer.
+    Nearer(Pair),
+    /// It is not certified; this is the best axis so far.
+    Doubtful(DVec3),
+}
+
+fn examine(placed: &PlacedPair<'_>, end: End, counters: &mut Counters) -> Finding {
+    match end {
+        End::Nearest(pair, certainty) => examine_stop(placed, pair, certainty),
+        End::Common(pair, whose, crossing) => {
+            counters.penetrations += 1;
+            let claim = touching::common(placed, whose, &crossing);
+            Finding::Certified(Certified { pair, claim })
+        }
+        End::Unclear(pair) => match search_common_point(placed, pair, counters) {
+            Some(answer) => Finding::Certified(answer),
+            None => examine_cycle(placed, pair),
+        },
+        End::Cycle(pair) | End::Cap(pair) => examine_cycle(placed, pair),
+    }
+}
+
+/// Certifies a stop where it has to be.
+fn examine_stop(placed: &PlacedPair<'_>, pair: Pair, certainty: Certainty) -> Finding {
+    let witness = Witness::of(placed, pair);
+    if certainty == Certainty::Sure || witness.distance() >= FAR * placed.scale.size {
+        return certified(placed, pair, &witness, witness.axis);
+    }
+    certify_tie(placed, pair)
+}
+
+/// Certifies the best pair of a cycle.
+fn examine_cycle(placed: &PlacedPair<'_>, start: Pair) -> Finding {
+    let (mut pair, mut nearest) = (start, start);
+    let mut least = Witness::of(placed, start).distance();
+    for _ in 0..CYCLE_LOOK {
+        match step(placed, pair) {
+            Next::To(a, b) => pair = Pair { a, b },
+            _ => break,
+        }
+        let distance = Witness::of(placed, pair).distance();
+        if distance < least {
+            (nearest, least) = (pair, distance);
+        }
+        if pair == start {
+            break;
+        }
+    }
+    certify_tie(placed, nearest)
+}
+
+/// Certifies a pair, or one that is nearer around it: a march back from there might end at the same
+/// tie.
+fn certify_tie(placed: &PlacedPair<'_>, start: Pair) -> Finding {
+    let mut pair = start;
+    for _ in 0..ROUNDS {
+        let witness = Witness::of(placed, pair);
+        let distance = witness.distance();
+        let axis = best_axis(placed, pair, &witness);
+        if axis.certifies(distance, placed) || distance <= placed.scale.rounding() {
+            return certified(placed, pair, &witness, axis.direction);
+        }
+        match neighbourhood::nearer(placed, pair, distance) {
+            Some(nearer) => pair = nearer,
+            // As near as it gets: what is left of doubt is the axis'.
+            None if axis.gap >= 0.5 * distance => {
+                return certified(placed, pair, &witness, axis.direction);
+            }
+            None => return Finding::Doubtful(axis.direction),
+        }
+    }
+    Finding::Nearer(pair)
+}
+
+fn certified(placed: &PlacedPair<'_>, pair: Pair, witness: &Witness, axis: DVec3) -> Finding {
+    let claim = Claim {
+        axis,
+        ..witness.claim(placed)
+    };
+    Finding::Certified(Certified { pair, claim })
+}
+
+/// Searches for a common point among all edges and faces.
+fn search_common_point(
+    placed: &PlacedPair<'_>,
+    pair: Pair,
+    counters: &mut Counters,
+) -> Option<Certified> {
+    let PlacedPair { a, b, scale } = placed;
+    let of = |whose| move |crossing| (whose, crossing);
+    let found = penetration::searched(a, b, *scale).map(of(Whose::X));
+    let found = found.or_else(|| penetration::searched(b, a, *scale).map(of(Whose::Y)));
+    let (whose, crossing) = found?;
+    counters.penetrations += 1;
+    let claim = touching::common(placed, whose, &crossing);
+    Some(Certified { pair, claim })
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,18 @@
+//! Counts of an oracle's work.
+
+/// The work of an oracle over all calls.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counters {
+    /// The calls.
+    pub calls: u64,
+    /// Pairs of features that were tested.
+    pub steps: u64,
+    /// Pairs that came up again.
+    pub cycles: u64,
+    /// Features found behind a face, for which all faces were looked at.
+    pub local_minima: u64,
+    /// Marches taken up again from other features.
+    pub restarts: u64,
+    /// Common points, each proven by exact signs.
+    pub penetrations: u64,
+}

@@ -1,0 +1,113 @@
+//! Numbers of twice the digits: double-double arithmetic `[SHE97]`.
+//!
+//! The normal of a sliver is the small difference of large products: in f64 it would be right to no
+//! digit where the sliver is thinner than 1e-16 of its length, and wrong by as much as it is thin
+//! elsewhere. Sums of pairs of f64 leave 106 bits for it.
+
+use ccd_core::glam::DVec3;
+use std::ops::{Add, Mul, Sub};
+
+/// A number held as the unevaluated sum of two.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct DoubleDouble {
+    high: f64,
+    low: f64,
+}
+
+impl DoubleDouble {
+    /// `a − b`, without rounding.
+    pub(crate) fn difference(a: f64, b: f64) -> Self {
+        let high = a - b;
+        let back = high - a;
+        let low = (a - (high - back)) - (b + back);
+        DoubleDouble { high, low }
+    }
+
+    /// Rounded to f64.
+    pub(crate) fn value(self) -> f64 {
+        self.high + self.low
+    }
+
+    /// The sum of two numbers, the larger one first.
+    fn renormalised(high: f64, low: f64) -> Self {
+        let sum = high + low;
+        DoubleDouble {
+            high: sum,
+            low: low - (sum - high),
+        }
+    }
+}
+
+impl Add for DoubleDouble {
+    type Output = DoubleDouble;
+
+    fn add(self, other: DoubleDouble) -> DoubleDouble {
+        let sum = DoubleDouble::difference(self.high, -other.high);
+        DoubleDouble::renormalised(sum.high, sum.low + (self.low + other.low))
+    }
+}
+
+impl Sub for DoubleDouble {
+    type Output = DoubleDouble;
+
+    fn sub(self, other: DoubleDouble) -> DoubleDouble {
+        let negated = DoubleDouble {
+            high: -other.high,
+            low: -other.low,
+        };
+        self + negated
+    }
+}
+
+impl Mul for DoubleDouble {
+    type Output = DoubleDouble;
+
+    fn mul(self, other: DoubleDouble) -> DoubleDouble {
+        let high = self.high * other.high;
+        let low = self.high.mul_add(other.high, -high);
+        DoubleDouble::renormalised(high, low + (self.high * other.low + self.low * other.high))
+    }
+}
+
+/// A vector of such numbers.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct DoubleDoubleVector([DoubleDouble; 3]);
+
+impl DoubleDoubleVector {
+    /// `a − b`, without rounding.
+    pub(crate) fn difference(a: DVec3, b: DVec3) -> Self {
+        DoubleDoubleVector([0, 1, 2].map(|k| DoubleDouble::difference(a[k], b[k])))
+    }
+
+    pub(crate) fn cross(self, other: Self) -> Self {
+        let ([a, b, c], [d, e, f]) = (self.0, other.0);
+        DoubleDoubleVector([b * f - c * e, c * d - a * f, a * e - b * d])
+    }
+
+    pub(crate) fn dot(self, other: Self) -> DoubleDouble {
+        let ([a, b, c], [d, e, f]) = (self.0, other.0);
+        a * d + b * e + c * f
+    }
+
+    /// Rounded to f64.
+    pub(crate) fn value(self) -> DVec3 {
+        DVec3::from_array(self.0.map(DoubleDouble::value))
+    }
+}
+
+impl Add for DoubleDoubleVector {
+    type Output = DoubleDoubleVector;
+
+    fn add(self, other: Self) -> Self {
+        DoubleDoubleVector([0, 1, 2].map(|k| self.0[k] + other.0[k]))
+    }
+}
+
+/// Six times the volume of a tetrahedron, positive where `d` sees the triangle counter-clockwise.
+pub(crate) fn volume([a, b, c]: [DVec3; 3], d: DVec3) -> f64 {
+    let from = |p: DVec3| DoubleDoubleVector::difference(p, a);
+    from(b).cross(from(c)).dot(from(d)).value()
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,34 @@
+//! Digits that f64 alone would lose.
+
+use super::*;
+
+#[test]
+fn digits_that_cancel_are_kept() {
+    // (2²⁷ + 1)² − 2⁵⁴ = 2²⁸ + 1, of which f64 loses the 1.
+    let x = DoubleDouble::difference(134_217_729.0, 0.0);
+    let square = DoubleDouble::difference(18_014_398_509_481_984.0, 0.0);
+    assert_eq!((x * x - square).value(), 268_435_457.0);
+}
+
+#[test]
+fn slivers_have_normals() {
+    // The difference of both products is 2⁻¹⁰⁴.
+    let tiny = 1.0 + f64::EPSILON;
+    let (a, b) = (DVec3::new(tiny, 1.0, 0.0), DVec3::new(1.0, 1.0 / 1.0, 0.0));
+    let zero = DVec3::ZERO;
+    let cross =
+        DoubleDoubleVector::difference(a, zero).cross(DoubleDoubleVector::difference(b, zero));
+    assert_eq!(cross.value(), DVec3::new(0.0, 0.0, f64::EPSILON));
+    let square = DVec3::new(tiny, 1.0, 0.0);
+    let other = DVec3::new(1.0, 2.0 - tiny, 0.0);
+    let cross = DoubleDoubleVector::difference(square, zero)
+        .cross(DoubleDoubleVector::difference(other, zero));
+    assert_eq!(cross.value().z, -f64::EPSILON * f64::EPSILON);
+}
+
+#[test]
+fn volumes_have_signs() {
+    let base = [DVec3::ZERO, DVec3::X, DVec3::Y];
+    assert_eq!(volume(base, 2.0 * DVec3::Z), 2.0);
+    assert_eq!(volume(base, -DVec3::Z + 9.0 * DVec3::X), -1.0);
+}

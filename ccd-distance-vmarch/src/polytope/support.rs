@@ -1,0 +1,109 @@
+//! Extremal corners: a table of directions, and hill climbing `[SWIFT01]`.
+
+use super::Polytope;
+use ccd_core::glam::DVec3;
+
+/// The corner that is farthest along each of the directions all around.
+///
+/// A direction belongs to one of sixteen squares on one of six sides of a cube: it is found by
+/// comparing, and the corner is one or two edges away from the extremal one in most polytopes.
+#[derive(Clone, Debug)]
+pub(crate) struct DirectionTable([u32; 6 * SQUARES * SQUARES]);
+
+/// The number of squares along the side of the cube.
+const SQUARES: usize = 4;
+
+impl DirectionTable {
+    /// Fills the table, going from square to square, with a climb for each.
+    pub(crate) fn new(polytope: &Polytope) -> Self {
+        let mut corners = [0; 6 * SQUARES * SQUARES];
+        let mut at = 0;
+        for (square, corner) in corners.iter_mut().enumerate() {
+            at = polytope.climbed(at, middle_of(square));
+            *corner = at;
+        }
+        DirectionTable(corners)
+    }
+
+    /// The corner for a direction of any length; some corner for one that is not finite.
+    fn of(&self, direction: DVec3) -> u32 {
+        self.0[square_of(direction)]
+    }
+}
+
+/// The square that a direction belongs to.
+fn square_of(direction: DVec3) -> usize {
+    let size = direction.abs();
+    let axis = match (size.x >= size.y, size.x >= size.z, size.y >= size.z) {
+        (true, true, _) => 0,
+        (_, _, true) => 1,
+        _ => 2,
+    };
+    let side = 2 * axis + usize::from(direction[axis] < 0.0);
+    let step = |across: f64| {
+        let part = 0.5 * SQUARES as f64 * (1.0 + across / size[axis]);
+        // What is no number is cast to 0.
+        (part as usize).min(SQUARES - 1)
+    };
+    let (u, v) = (direction[(axis + 1) % 3], direction[(axis + 2) % 3]);
+    (side * SQUARES + step(u)) * SQUARES + step(v)
+}
+
+/// The direction in the middle of a square.
+fn middle_of(square: usize) -> DVec3 {
+    let (side, u, v) = (
+        square / (SQUARES * SQUARES),
+        square / SQUARES % SQUARES,
+        square % SQUARES,
+    );
+    let across = |step: usize| (step as f64 + 0.5) / (0.5 * SQUARES as f64) - 1.0;
+    let axis = side / 2;
+    let mut out = DVec3::ZERO;
+    out[axis] = if side % 2 == 1 { -1.0 } else { 1.0 };
+    out[(axis + 1) % 3] = across(u);
+    out[(axis + 2) % 3] = across(v);
+    out
+}
+
+impl Polytope {
+    /// Returns a corner that is farthest along a direction, except for rounding.
+    pub(crate) fn extremal(&self, direction: DVec3) -> u32 {
+        if let Some(table) = &self.directions {
+            return self.climbed(table.of(direction), direction);
+        }
+        let heights = self
+            .vertices
+            .iter()
+            .map(|v| v.point.dot(direction))
+            .zip(0..);
+        let none = (f64::NEG_INFINITY, 0);
+        heights
+            .fold(none, |best, here| if here.0 > best.0 { here } else { best })
+            .1
+    }
+
+    /// Climbs to the highest neighbour until none is higher.
+    ///
+    /// It may stop short of corners that are level except for rounding: a march goes on from there.
+    fn climbed(&self, start: u32, direction: DVec3) -> u32 {
+        let height = |v: u32| self.vertex(v).point.dot(direction);
+        let (mut at, mut highest) = (start, height(start));
+        // Every round is higher than the last one.
+        for _ in 0..self.vertices.len() {
+            let before = at;
+            for spoke in self.spokes_of(before) {
+                let here = height(spoke.to);
+                if here > highest {
+                    (at, highest) = (spoke.to, here);
+                }
+            }
+            if at == before {
+                break;
+            }
+        }
+        at
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,47 @@
+//! Climbing finds the corner that looking at all finds.
+
+use super::{DirectionTable, SQUARES, middle_of, square_of};
+use crate::tests::setting::{cube, prepared};
+use crate::tests::shape::{self, Pcg64, SeedableRng, direction};
+use ccd_core::glam::DVec3;
+use ccd_core::order::greater;
+
+#[test]
+fn directions_are_in_the_square_whose_middle_is_near() {
+    for square in 0..6 * SQUARES * SQUARES {
+        for scale in [1e-150, 1.0, 1e150] {
+            assert_eq!(square_of(middle_of(square) * scale), square);
+        }
+    }
+    let mut rng = Pcg64::seed_from_u64(1);
+    for _ in 0..10_000 {
+        let look = direction(&mut rng);
+        let angle = look.angle_between(middle_of(square_of(look)));
+        // Half the diagonal of a square in the middle of a side.
+        assert!(angle <= 0.36, "{angle}");
+    }
+    for nonsense in [DVec3::NAN, DVec3::ZERO, DVec3::INFINITY] {
+        assert!(square_of(nonsense) < 6 * SQUARES * SQUARES);
+    }
+}
+
+#[test]
+fn climbing_from_the_table_finds_the_extremal_corner() {
+    let mut rng = Pcg64::seed_from_u64(2);
+    for shape in [
+        shape::globe(9, 16),
+        shape::prism(40),
+        shape::random_hull(&mut rng, 40),
+    ] {
+        let polytope = prepared(&shape);
+        assert!(polytope.directions.is_some());
+        for _ in 0..2_000 {
+            let look = direction(&mut rng);
+            let height = |v: &super::super::Vertex| look.dot(v.point);
+            let highest = polytope.vertices.iter().map(height).fold(f64::MIN, greater);
+            let found = polytope.vertex(polytope.extremal(look));
+            assert!(height(found) >= highest - 1e-15);
+        }
+    }
+    assert!(DirectionTable::new(&cube()).0.iter().all(|&v| v < 8));
+}

@@ -1,0 +1,57 @@
+//! The ends of a march, and the detection of cycles.
+
+use crate::feature::{Certainty, Crossing, Pair, Whose};
+
+/// The end of a march.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum End {
+    /// Nearest features.
+    Nearest(Pair, Certainty),
+    /// A common point of A's and B's features; the polytope whose edge it is comes with it.
+    Common(Pair, Whose, Crossing),
+    /// A pair that was met before.
+    Cycle(Pair),
+    /// A pair behind all faces, without a common point that could be proven.
+    Unclear(Pair),
+    /// The pair at the cap of steps.
+    Cap(Pair),
+}
+
+/// Brent's detection of cycles.
+///
+/// Each state is compared with one that was left behind, which is replaced after 1, 2, 4, … steps. A
+/// cycle is noticed within three times the sum of its length and of the steps before it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Brent {
+    left: Pair,
+    steps: u32,
+    until: u32,
+}
+
+impl Brent {
+    pub(crate) fn new(start: Pair) -> Self {
+        Brent {
+            left: start,
+            steps: 0,
+            until: 1,
+        }
+    }
+
+    /// Whether the march has come back to the state that was left behind.
+    #[inline]
+    pub(crate) fn returned(&mut self, pair: Pair) -> bool {
+        if pair == self.left {
+            return true;
+        }
+        self.steps += 1;
+        if self.steps == self.until {
+            self.left = pair;
+            self.until = self.until.saturating_mul(2);
+            self.steps = 0;
+        }
+        false
+    }
+}
+
+#[cfg(test)]
+mod tests;
