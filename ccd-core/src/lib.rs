@@ -27,7 +27,7 @@
 //! | distance of two pieces, and its check | `oracle.rs`, `separation.rs` |
 //! | conservative advancement, all pairs `[FAST06 Alg. 1]` | `schedule/naive.rs` |
 //! | conservative advancement, best first | `schedule/best_first.rs` |
-//! | the same over hull trees `[FAST06 §3.3, §5.1]` | `hull_tree.rs`, `schedule/hull_first.rs` |
+//! | the same over hull trees `[FAST06 §3.3, §5.1]` | `hull_tree.rs`, `schedule/fast/` |
 //! | farthest corner along a direction `[FAST06 §4.2]` | `support.rs` |
 //! | one pair of pieces at one moment | `schedule/pair.rs`, `schedule/moment.rs` |
 //! | features of all contacts at a time `[FAST06 §5.2]` | `contacts.rs` |

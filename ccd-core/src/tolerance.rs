@@ -281,11 +281,6 @@ pub const BELOW_SURFACE: [f64; 4] = [1e-4, 1e-6, 1e-9, 1e-12];
 /// products and two sums, at most 3u; 4u are taken.
 pub const HEIGHT_F64: f64 = 4.0 * U64;
 
-/// The share of the time left that a pair of nodes of two hull trees has to advance by to be looked
-/// at again rather than split, where their distance is not that of the pieces below. On patches of
-/// knots, a ring and a bunny a half and never made no clear difference.
-pub const HULL_PROGRESS: f64 = 1.0 / 2.0;
-
 /// How much farther than the bodies two pairs of the front of a descent have to be for the pair that
 /// covers both to be tried in their place; and how much nearer the bodies have to have come for it to
 /// be tried again. What it saves is to measure both of them, what it costs is to measure one more.

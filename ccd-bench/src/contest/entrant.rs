@@ -58,18 +58,13 @@ impl Entrant {
             oracle,
             bound: BoundKind::Sound,
         };
-        let (best, hull, fast) = (
-            ScheduleKind::BestFirst,
-            ScheduleKind::HullFirst,
-            ScheduleKind::Fast,
-        );
+        let (best, fast) = (ScheduleKind::BestFirst, ScheduleKind::Fast);
         let ours = [
             (method(best, OracleKind::Direct), Pieces::Least),
             (method(best, OracleKind::Gjk), Pieces::Least),
             (method(best, OracleKind::GjkF32), Pieces::Least),
             (method(fast, OracleKind::Vmarch), Pieces::Patches),
             (method(fast, OracleKind::Gjk), Pieces::Patches),
-            (method(hull, OracleKind::Vmarch), Pieces::Patches),
             (
                 method(ScheduleKind::Naive, OracleKind::Direct),
                 Pieces::Least,

@@ -7,16 +7,12 @@ mod fast;
 mod given;
 mod group;
 #[cfg(feature = "hull-tree")]
-mod hull_first;
-#[cfg(feature = "hull-tree")]
 mod hulls;
 mod lanes;
 mod meter;
 mod moment;
 mod naive;
 mod nearest;
-#[cfg(all(test, feature = "hull-tree"))]
-mod over_hulls;
 mod pair;
 mod queue;
 mod start;
@@ -24,8 +20,6 @@ mod start;
 pub use best_first::BestFirst;
 #[cfg(feature = "hull-tree")]
 pub use fast::Fast;
-#[cfg(feature = "hull-tree")]
-pub use hull_first::HullFirst;
 pub use naive::Naive;
 
 use crate::oracle::DistanceOracle;

@@ -8,9 +8,9 @@ use crate::order::lesser;
 use crate::outcome::{Answer, Limit, Outcome};
 use crate::pose::Pose;
 use crate::problem::{Config, Moving, Problem, StartPolicy};
-use crate::schedule::{BestFirst, Naive, Schedule};
 #[cfg(feature = "hull-tree")]
-use crate::schedule::{Fast, HullFirst};
+use crate::schedule::Fast;
+use crate::schedule::{BestFirst, Naive, Schedule};
 use crate::tests::meshes::torus;
 use crate::tests::oracle::{Always, Exhaustive};
 use crate::tests::scene::{Kind, Pcg64, RngExt, Scene, body, distance, magnitude, rng, scene};
@@ -23,8 +23,6 @@ fn schedules() -> Vec<Box<dyn Schedule<Exhaustive>>> {
     vec![
         Box::new(BestFirst::default()),
         Box::new(Naive::default()),
-        #[cfg(feature = "hull-tree")]
-        Box::new(HullFirst::default()),
         #[cfg(feature = "hull-tree")]
         Box::new(Fast::default()),
     ]

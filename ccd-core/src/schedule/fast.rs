@@ -3,6 +3,8 @@
 mod descent;
 mod front;
 mod reach;
+#[cfg(test)]
+mod tests;
 
 use super::Schedule;
 use super::best_first::BestFirst;
