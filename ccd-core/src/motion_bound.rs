@@ -3,14 +3,13 @@
 //! Three bounds, from coarse to exact:
 //! - [`published`]: Eq. 5 of the paper, which holds at one moment only and is unsound over a step;
 //! - [`sound`]: holds over any later interval `[C2A09]`;
-//! - [`Track`]: the exact displacement of a point along an axis, linear plus a sinusoid, with its
-//!   maximum over an interval in closed form and its first crossing.
+//! - [`Track`]: the exact displacement of a point along an axis, linear plus a sinusoid, which a gap
+//!   is followed on to its first crossing.
 
 use crate::order::greater;
-use crate::tolerance::{CROSSING_ROUNDS, RATE_F64, WORTHWHILE};
+use crate::tolerance::{RATE_F64, WORTHWHILE};
 use crate::vector::{length, unit};
 use glam::DVec3;
-use std::f64::consts::TAU;
 
 /// Constant velocity of a centre and constant angular velocity about it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -60,7 +59,6 @@ pub fn sound(motion: &Velocities, n: DVec3, reach: f64) -> f64 {
 /// let turn = Velocities { linear: DVec3::ZERO, spin: DVec3::Z };
 /// let track = Track::new(&turn, DVec3::X, 0.0, DVec3::Y);
 /// assert!((track.at(1.0) + 1f64.sin()).abs() < 1e-15);
-/// assert!(track.max_over(1.0).abs() < 1e-15);
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Track {
@@ -83,51 +81,6 @@ impl Track {
     /// The height after `tau`.
     pub fn at(&self, tau: f64) -> f64 {
         self.height_at(tau, Angle::new(self.omega * tau))
-    }
-
-    /// The greatest height over `[0, tau]`, in closed form.
-    ///
-    /// # Guarantee
-    /// No smaller than the height at any time of the interval, up to rounding.
-    pub fn max_over(&self, tau: f64) -> f64 {
-        let ends = greater(self.at(0.0), self.at(tau));
-        let amplitude = self.p.hypot(self.q);
-        let speed = amplitude * self.omega;
-        // Turning points: drift + ω(q cos θ − p sin θ) = 0, so sin(θ − φ) = drift / (ω ρ).
-        if !(speed > 0.0) || self.drift.abs() >= speed {
-            return ends;
-        }
-        let phase = self.q.atan2(self.p);
-        let angle = (self.drift / speed).asin();
-        [phase + angle, phase + std::f64::consts::PI - angle]
-            .into_iter()
-            .flat_map(|theta| {
-                let first = theta.rem_euclid(TAU) / self.omega;
-                let period = TAU / self.omega;
-                // A drift makes the last turning point the highest, or the first one.
-                let last = first + greater(0.0, ((tau - first) / period).floor()) * period;
-                [first, last]
-            })
-            .filter(|t| (0.0..=tau).contains(t))
-            .fold(ends, |highest, t| greater(highest, self.at(t)))
-    }
-
-    /// The first time within `[0, horizon]` at which the height may reach `limit`, or a lower bound
-    /// of it, or none if it stays below.
-    ///
-    /// # Guarantee
-    /// Below `limit` before the time returned: Newton's method with a bound on the curvature
-    /// `|s″| ≤ ω² ρ`, which never oversteps.
-    pub fn first_crossing(&self, limit: f64, horizon: f64) -> Option<f64> {
-        first_crossing(horizon, CROSSING_ROUNDS, |tau| {
-            let angle = Angle::new(self.omega * tau);
-            Gap {
-                gap: limit - self.height_at(tau, angle),
-                rate: self.rate_at(angle),
-                bend: self.bend(),
-            }
-            .free_time()
-        })
     }
 
     #[inline]

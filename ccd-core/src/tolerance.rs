@@ -188,10 +188,6 @@ pub const TURNED_SHARE: f64 = 0.5;
 /// again. Each round is a Newton step that cannot overstep, so that few suffice.
 pub const AXIS_ROUNDS: usize = 16;
 
-/// The cap on Newton steps towards the first crossing of one track; each at least doubles the
-/// digits once it is near.
-pub const CROSSING_ROUNDS: usize = 64;
-
 /// The least growth of a free time, relative to what is there, that is worth another Newton step.
 pub const WORTHWHILE: f64 = 1.0 / 64.0;
 

@@ -1,6 +1,6 @@
 //! Tracks against the formula they stand for, and the three bounds against sampled truth.
 
-use super::{Gap, Track, Velocities, published, sound};
+use super::{Angle, Gap, Track, Velocities, first_crossing, published, sound};
 use crate::order::{greater, lesser};
 use crate::tests::scene::{Pcg64, RngExt, direction, magnitude, rng, within};
 use glam::{DQuat, DVec3};
@@ -60,28 +60,17 @@ fn highest(track: &Track, turns: f64, tau: f64) -> f64 {
     greater(track.at(0.5 * (low + high)), track.at(at(best)))
 }
 
-#[test]
-fn the_greatest_height_is_neither_below_nor_above_what_is_found() {
-    let mut rng = rng(2);
-    let mut inside = 0;
-    for _ in 0..4_000 {
-        let (motion, n, arm) = setting(&mut rng);
-        let track = Track::new(&motion, n, 0.0, arm);
-        let tau = rng.random_range(0.0..1.0);
-        let found = highest(&track, motion.spin.length() * tau, tau);
-        let bound = track.max_over(tau);
-        let size = 1.0 + motion.linear.length();
-        assert!(
-            bound >= found - 1e-13 * size,
-            "{bound} < {found}: {motion:?}"
-        );
-        assert!(
-            bound <= found + 1e-12 * size,
-            "{bound} > {found}: {motion:?}"
-        );
-        inside += usize::from(bound > greater(track.at(0.0), track.at(tau)) + 1e-6);
-    }
-    assert!(inside > 500, "{inside} with a turning point inside");
+/// When a track may reach a limit, within a duration of 1.
+fn crossing(track: &Track, limit: f64) -> Option<f64> {
+    first_crossing(1.0, 64, |tau| {
+        let angle = Angle::new(track.omega * tau);
+        Gap {
+            gap: limit - track.height_at(tau, angle),
+            rate: track.rate_at(angle),
+            bend: track.bend(),
+        }
+        .free_time()
+    })
 }
 
 #[test]
@@ -95,9 +84,9 @@ fn the_first_crossing_is_never_late_and_near() {
         let samples = 64 + (64.0 * motion.spin.length()) as usize;
         let at = |k: usize| k as f64 / samples as f64;
         let truth = (1..=samples).find(|&k| track.at(at(k)) >= limit);
-        let found = track.first_crossing(limit, 1.0);
+        let found = crossing(&track, limit);
         let until = found.unwrap_or(1.0);
-        let before = track.max_over(until);
+        let before = highest(&track, motion.spin.length() * until, until);
         let size = 1.0 + motion.linear.length() + motion.spin.length();
         assert!(
             before <= limit + 1e-14 * size,
@@ -214,10 +203,13 @@ fn the_published_bound_lets_the_mace_through_the_wall() {
     let step = gap / sound(&motion, DVec3::Y, reach);
     assert!(step < contact);
     let tracks = tips.map(|tip| Track::new(&motion, DVec3::Y, tip.y, tip));
-    assert!(tracks.iter().all(|track| track.max_over(step) < wall));
-    let first = tracks
-        .iter()
-        .filter_map(|track| track.first_crossing(wall, 1.0));
+    let turns = motion.spin.length() * step;
+    assert!(
+        tracks
+            .iter()
+            .all(|track| highest(track, turns, step) < wall)
+    );
+    let first = tracks.iter().filter_map(|track| crossing(track, wall));
     let first = first.fold(f64::INFINITY, lesser);
     assert!(
         first <= contact && first > 0.98 * contact,
