@@ -1,6 +1,6 @@
 //! The choice of schedule and oracle at run time.
 
-use ccd_core::motion_bound::Bound;
+use ccd_core::Bound;
 use ccd_core::schedule::{BestFirst, Fast, Naive};
 use ccd_core::{Answer, DistanceOracle, OrElse, Problem, Schedule};
 use ccd_distance_gjk::{Auto, Gjk, GjkF32};

@@ -9,9 +9,9 @@ mod skin;
 #[cfg(test)]
 mod tests;
 
-use crate::feature::Feature;
+use crate::body::feature::Feature;
+use crate::motion::pose::Frame;
 use crate::outcome::Separation;
-use crate::pose::Frame;
 use crate::problem::Problem;
 use manifold::Manifold;
 use near::near_faces;

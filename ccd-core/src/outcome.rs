@@ -1,8 +1,8 @@
 //! What a query answers.
 
-use crate::feature::Feature;
-use crate::oracle::Effort;
-use crate::order::lesser;
+use crate::body::feature::Feature;
+use crate::distance::oracle::Effort;
+use crate::math::order::lesser;
 use crate::tolerance::LOOKS_PER_VISIT;
 use glam::DVec3;
 use std::fmt;

@@ -1,13 +1,13 @@
 //! A query: two moving bodies, a duration, and how accurately to answer.
 
 use crate::body::Body;
+use crate::body::piece::Piece;
 use crate::error::InputError;
+use crate::math::order::{greater, lesser};
+use crate::math::vector::{distance, length};
 use crate::motion::Motion;
-use crate::order::{greater, lesser};
-use crate::path::Path;
-use crate::piece::Piece;
+use crate::motion::path::Path;
 use crate::tolerance::{self, LEAST_TOLERANCE, MAX_COORDINATE, MAX_TURN, NODE_GAP};
-use crate::vector::{distance, length};
 use glam::DVec3;
 use std::time::Duration;
 

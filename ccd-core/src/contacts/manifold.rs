@@ -4,7 +4,7 @@ use super::FeaturePair;
 use super::closest::{Part, crossing, on_triangle};
 use super::measure::measure;
 use super::skin::{Skin, Spot, edge};
-use crate::pose::Frame;
+use crate::motion::pose::Frame;
 use crate::problem::Problem;
 use glam::DVec3;
 use std::collections::{HashMap, HashSet};

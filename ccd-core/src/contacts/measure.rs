@@ -3,11 +3,11 @@
 use super::FeaturePair;
 use super::manifold::Meeting;
 use super::skin::{Skin, Spot};
-use crate::order::{greater, lesser};
+use crate::math::order::{greater, lesser};
+use crate::math::vector::{self, normal, unit};
+use crate::motion::pose::Frame;
 use crate::outcome::Separation;
-use crate::pose::Frame;
 use crate::problem::Problem;
-use crate::vector::{self, normal, unit};
 use glam::DVec3;
 
 /// Bounds the distance of two features of which the nearest points are known, in the world's

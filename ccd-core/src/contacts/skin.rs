@@ -3,10 +3,10 @@
 mod unpack;
 
 use crate::body::Body;
-use crate::feature::Feature;
-use crate::order::greater;
-use crate::pose::Frame;
-use crate::vector::{across, normal, unit};
+use crate::body::feature::Feature;
+use crate::math::order::greater;
+use crate::math::vector::{across, normal, unit};
+use crate::motion::pose::Frame;
 use glam::DVec3;
 use std::collections::HashMap;
 use std::ops::Range;

@@ -1,13 +1,14 @@
 //! Every pair keeps its own clock; the pair whose proof expires first is looked at next.
 
 use super::Schedule;
-use super::expand::{Split, expand};
-use super::group::{Group, Next};
+use super::answer::answer;
 use super::meter::Meter;
-use super::pair::Pair;
+use super::nodes::expand::{Split, expand};
+use super::nodes::siblings::{Group, Next};
+use super::pieces::pair::Pair;
+use super::proven::Proven;
 use super::queue::{Full, Queue, Rank};
-use super::start::{self, Proven};
-use crate::oracle::DistanceOracle;
+use crate::distance::oracle::DistanceOracle;
 use crate::outcome::{Answer, Limit, Outcome};
 use crate::problem::Problem;
 use std::ops::ControlFlow;
@@ -48,7 +49,7 @@ enum Found<C> {
 
 impl<O: DistanceOracle> Schedule<O> for BestFirst<O> {
     fn solve(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer {
-        start::answer(problem, oracle, |problem, oracle, meter| {
+        answer(problem, oracle, |problem, oracle, meter| {
             self.queue.clear();
             let outcome = self.first_contact(problem, oracle, meter);
             let stats = &mut meter.stats;

@@ -2,21 +2,23 @@
 
 mod descent;
 mod front;
+mod hull_pair;
 mod reach;
 #[cfg(test)]
 mod tests;
 
 use super::Schedule;
+use super::answer::answer;
 use super::best_first::BestFirst;
-use super::hulls::HullPair;
 use super::meter::Meter;
-use super::start::{self, Proven};
-use crate::motion_bound::Bound;
-use crate::oracle::DistanceOracle;
+use super::proven::Proven;
+use crate::distance::oracle::DistanceOracle;
+use crate::motion::bound::Bound;
 use crate::outcome::{Answer, Limit, Outcome};
 use crate::problem::Problem;
 use descent::Descent;
 use front::Front;
+use hull_pair::HullPair;
 use reach::Reaches;
 use std::ops::ControlFlow;
 
@@ -76,7 +78,7 @@ impl<O: DistanceOracle> Schedule<O> for Fast<O> {
             return self.without_trees.solve(problem, oracle);
         };
         self.reaches.forget();
-        start::answer(problem, oracle, |problem, oracle, meter| {
+        answer(problem, oracle, |problem, oracle, meter| {
             self.advance(problem, hulls, oracle, meter)
         })
     }

@@ -1,13 +1,14 @@
 //! All pairs of pieces, one common clock: Alg. 1 of the paper, the slow and obvious twin.
 
 use super::Schedule;
+use super::answer::answer;
 use super::meter::Meter;
-use super::moment::Moment;
-use super::pair::Pair;
-use super::start::{self, Proven};
-use crate::motion_bound::Bound;
-use crate::oracle::DistanceOracle;
-use crate::order::lesser;
+use super::pieces::pair::Pair;
+use super::pieces::snapshot::Moment;
+use super::proven::Proven;
+use crate::distance::oracle::DistanceOracle;
+use crate::math::order::lesser;
+use crate::motion::bound::Bound;
 use crate::outcome::{Answer, Limit, Outcome};
 use crate::problem::{Problem, Side};
 use std::ops::ControlFlow;
@@ -45,7 +46,7 @@ impl<O: DistanceOracle> Default for Naive<O> {
 
 impl<O: DistanceOracle> Schedule<O> for Naive<O> {
     fn solve(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer {
-        start::answer(problem, oracle, |problem, oracle, meter| {
+        answer(problem, oracle, |problem, oracle, meter| {
             let outcome = self.search(problem, oracle, meter);
             meter.stats.peak_front = self.pairs.len() as u64;
             outcome

@@ -1,6 +1,6 @@
 //! Pairs that wait for their clocks, least clock first.
 
-use crate::order::greater;
+use crate::math::order::greater;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 use std::collections::binary_heap::PeekMut;

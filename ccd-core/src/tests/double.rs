@@ -1,8 +1,8 @@
 //! Arithmetic with twice the digits of f64: the reference that allowances for rounding are sampled
 //! against. A number is the unevaluated sum of two f64, right to about 1e-31.
 
+use crate::math::order::greater;
 use crate::motion::Motion;
-use crate::order::greater;
 use glam::{DQuat, DVec3};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 

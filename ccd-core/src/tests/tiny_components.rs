@@ -4,13 +4,13 @@ use super::nearest::nearest;
 use super::oracle::Exhaustive;
 use super::scene::{Pcg64, RngExt, body, direction, magnitude, rng, within};
 use crate::body::Body;
+use crate::math::order::lesser;
+use crate::math::vector::unit;
 use crate::motion::Motion;
-use crate::order::lesser;
+use crate::motion::pose::Pose;
 use crate::outcome::Outcome;
-use crate::pose::Pose;
 use crate::problem::{Config, Moving, Problem};
 use crate::schedule::{BestFirst, Schedule};
-use crate::vector::unit;
 use glam::DVec3;
 
 /// A vector of small whole numbers.

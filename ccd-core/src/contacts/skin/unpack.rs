@@ -1,10 +1,10 @@
 //! From a piece to triangles with names.
 
 use super::{Corner, Face, Place, Skin};
-use crate::feature::Feature;
-use crate::oracle::Combination;
-use crate::piece::Piece;
-use crate::tree::pieces_at;
+use crate::body::combination::Combination;
+use crate::body::feature::Feature;
+use crate::body::piece::Piece;
+use crate::body::tree::pieces_at;
 use glam::DVec3;
 use std::collections::HashMap;
 

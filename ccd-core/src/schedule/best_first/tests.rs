@@ -1,13 +1,14 @@
 //! Whole queries: against sampled truth, the naive twin, tiny budgets, and a million pairs at once.
 
 use super::*;
+use crate::body::combination::Combination;
+use crate::body::hierarchy::{Hierarchy, HierarchyNode};
 use crate::body::{Body, Volume};
-use crate::hierarchy::{Hierarchy, HierarchyNode};
+use crate::distance::oracle::{Claim, GiveUp};
+use crate::math::order::{greater, lesser};
 use crate::motion::Motion;
-use crate::oracle::{Claim, Combination, GiveUp};
-use crate::order::{greater, lesser};
+use crate::motion::pose::Pose;
 use crate::outcome::{Contact, Stats};
-use crate::pose::Pose;
 use crate::problem::{Config, Moving, Side, StartPolicy};
 use crate::schedule::Naive;
 use crate::tests::nearest::{Triangle, nearest};

@@ -1,17 +1,17 @@
 //! The distance of the bodies at one clock, and what it leaves of the front `[FAST06 Alg. 3]`.
 
-use super::super::hulls::{HullPair, Near};
-use super::super::meter::Meter;
-use super::super::moment::Moment;
-use super::super::pair::Step;
-use super::super::start::Proven;
 use super::front::{Front, Item};
+use super::hull_pair::{HullPair, Near};
 use super::reach::Reaches;
-use crate::motion_bound::Bound;
-use crate::oracle::DistanceOracle;
-use crate::order::lesser;
+use crate::distance::oracle::DistanceOracle;
+use crate::math::order::lesser;
+use crate::motion::bound::Bound;
 use crate::outcome::{Contact, Outcome};
 use crate::problem::{Problem, StartPolicy};
+use crate::schedule::meter::Meter;
+use crate::schedule::pieces::pair::Step;
+use crate::schedule::pieces::snapshot::Moment;
+use crate::schedule::proven::Proven;
 use crate::tolerance::JOIN_BEYOND;
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;

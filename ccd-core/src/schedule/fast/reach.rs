@@ -1,7 +1,7 @@
 //! How far nodes reach from their body's axis of rotation, each computed once a query.
 
-use super::super::moment::Moment;
 use crate::problem::Problem;
+use crate::schedule::pieces::snapshot::Moment;
 
 #[derive(Debug, Default)]
 pub(super) struct Reaches {

@@ -1,15 +1,16 @@
 //! Chains of balls, whose hulls are capsules: against the best-first and the naive search.
 
 use super::{BestFirst, Fast, Schedule};
+use crate::body::combination::Combination;
+use crate::body::hull_tree::{Hull, HullNode, HullTree, Loops};
+use crate::body::pieces::Pieces;
+use crate::body::polytope::Polytope;
 use crate::body::{Body, Volume};
-use crate::hull_tree::{Hull, HullNode, HullTree, Loops};
+use crate::distance::oracle::{Claim, GiveUp};
+use crate::math::order::{greater, lesser};
 use crate::motion::Motion;
-use crate::oracle::{Claim, Combination, GiveUp};
-use crate::order::{greater, lesser};
+use crate::motion::pose::Pose;
 use crate::outcome::{Answer, Limit, Outcome};
-use crate::piece::Polytope;
-use crate::pieces::Pieces;
-use crate::pose::Pose;
 use crate::problem::{Config, Moving, Problem, StartPolicy};
 use crate::schedule::Naive;
 use crate::tests::oracle::{Always, Exhaustive};

@@ -1,7 +1,7 @@
 //! The queue against a sorted list.
 
 use super::{Queue, Rank};
-use crate::order::greater;
+use crate::math::order::greater;
 use crate::tests::scene::{RngExt, rng};
 use proptest::prelude::*;
 

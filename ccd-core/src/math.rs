@@ -1,0 +1,6 @@
+//! Numbers and vectors: what rounds, what underflows, and what is exact.
+
+pub mod order;
+pub mod point_tree;
+pub(crate) mod principal;
+pub mod vector;
