@@ -88,6 +88,7 @@ mod body;
 mod contacts;
 mod distance;
 mod error;
+pub mod limits;
 mod math;
 mod motion;
 mod outcome;
@@ -112,6 +113,8 @@ pub use contacts::{ContactsError, FeaturePair};
 pub use distance::oracle::{Claim, DistanceOracle, Effort, GiveUp, OrElse, PiecePair};
 pub use error::InputError;
 pub use glam;
+#[cfg(feature = "exact")]
+pub use math::exact;
 pub use math::{order, point_tree, vector};
 pub use motion::Motion;
 pub use motion::bound::Bound;

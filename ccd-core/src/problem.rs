@@ -3,11 +3,12 @@
 use crate::body::Body;
 use crate::body::piece::Piece;
 use crate::error::InputError;
+use crate::limits::{self, LEAST_TOLERANCE, MAX_COORDINATE, MAX_TURN};
 use crate::math::order::{greater, lesser};
 use crate::math::vector::{distance, length};
 use crate::motion::Motion;
 use crate::motion::path::Path;
-use crate::tolerance::{self, LEAST_TOLERANCE, MAX_COORDINATE, MAX_TURN, NODE_GAP};
+use crate::tolerance::{self, NODE_GAP};
 use glam::DVec3;
 use std::time::Duration;
 
@@ -36,10 +37,10 @@ pub struct Config {
 impl Default for Config {
     fn default() -> Self {
         Config {
-            tolerance: tolerance::DEFAULT_TOLERANCE,
+            tolerance: limits::DEFAULT_TOLERANCE,
             margin: 0.0,
             start: StartPolicy::default(),
-            budget: tolerance::DEFAULT_BUDGET,
+            budget: limits::DEFAULT_BUDGET,
             deadline: None,
         }
     }

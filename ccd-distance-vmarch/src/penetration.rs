@@ -139,7 +139,7 @@ fn enclosed(point: DVec3, apex: DVec3, [a, b, c]: [DVec3; 3]) -> Option<[f64; 4]
 }
 
 /// Positive where the point sees the triangle counter-clockwise, negative behind it: exactly, unless
-/// coordinates are finer than [`LEAST_COORDINATE`](ccd_core::tolerance::LEAST_COORDINATE), by which
+/// coordinates are finer than [`LEAST_COORDINATE`](ccd_core::limits::LEAST_COORDINATE), by which
 /// points may be off then.
 #[inline]
 pub(crate) fn side([a, b, c]: [DVec3; 3], point: DVec3) -> f64 {

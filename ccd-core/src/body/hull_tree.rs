@@ -9,6 +9,7 @@ mod identity;
 mod inherit;
 mod inside;
 mod loops;
+mod node;
 mod renumber;
 #[cfg(feature = "serde")]
 mod serial;

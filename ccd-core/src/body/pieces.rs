@@ -8,7 +8,7 @@ use super::piece::{Piece, Place};
 use super::polytope::{Face, Origin, Polytope};
 use super::side_table::Shelf;
 use crate::error::InputError;
-use crate::tolerance::MAX_COORDINATE;
+use crate::limits::MAX_COORDINATE;
 use glam::DVec3;
 pub(crate) use row::{Listed, Room, Row};
 

@@ -100,7 +100,7 @@ impl PointTree {
     ///
     /// # Guarantee
     /// Points that it passes over are behind the plane in exact arithmetic. Coordinates are at most
-    /// [`MAX_COORDINATE`](crate::tolerance::MAX_COORDINATE).
+    /// [`MAX_COORDINATE`](crate::limits::MAX_COORDINATE).
     pub fn for_each_not_behind(&self, plane: [DVec3; 3], mut visit: impl FnMut(u32)) {
         let [a, b, c] = plane;
         let (u, v, foot) = (b - a, c - a, a - self.base);

@@ -30,7 +30,7 @@ const COSINE: [f64; 7] = [
     1.0 / 20_922_789_888_000.0,
 ];
 
-/// Sine and cosine of an angle from 0 up to [`MAX_TURN`](crate::tolerance::MAX_TURN).
+/// Sine and cosine of an angle from 0 up to [`MAX_TURN`](crate::limits::MAX_TURN).
 ///
 /// # Guarantee
 /// Each is off by at most 2u, as [`distance_rounding`](crate::tolerance::distance_rounding) counts.
@@ -54,8 +54,9 @@ pub(crate) fn sin_cos(angle: f64) -> (f64, f64) {
 #[cfg(test)]
 mod tests {
     use super::sin_cos;
+    use crate::limits::MAX_TURN;
     use crate::math::order::greater;
-    use crate::tolerance::{MAX_TURN, U64};
+    use crate::tolerance::U64;
 
     #[test]
     fn agrees_with_the_standard_library() {

@@ -5,7 +5,7 @@ use crate::engine::{BoundKind, OracleKind, ScheduleKind};
 use crate::results::Extent;
 use crate::text::Number;
 use ccd_core::StartPolicy;
-use ccd_core::tolerance::{DEFAULT_BUDGET, DEFAULT_TOLERANCE, MAX_COORDINATE};
+use ccd_core::limits::{DEFAULT_BUDGET, DEFAULT_TOLERANCE, MAX_COORDINATE};
 use clap::{Args, ValueEnum};
 use std::fmt;
 use std::path::PathBuf;

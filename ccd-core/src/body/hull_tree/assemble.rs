@@ -4,13 +4,15 @@ use super::bottom_up::bottom_up;
 use super::edges::check_facets;
 use super::error::{HullFault, HullTreeError};
 use super::identity::Identity;
-use super::inherit::{Child, Skin, inherit};
-use super::inside::{Container, too_fine};
-use super::{FacetClass, Hull, HullNode, HullTree, Hulls, Loops};
+use super::inherit::{Child, inherit};
+use super::inside::Container;
+use super::node::{Node, Skin};
+use super::{FacetClass, Hull, HullNode, HullTree, Hulls};
 use crate::body::hierarchy::{Hierarchy, HierarchyNode, bounds};
 use crate::body::pieces::{Listed, Pieces, Room, Row};
-use crate::body::polytope::{Face, Polytope};
+use crate::body::polytope::Polytope;
 use crate::error::InputError;
+use crate::math::exact::too_fine;
 use crate::math::order::greater;
 use glam::DVec3;
 use std::borrow::Cow;
@@ -19,9 +21,9 @@ use std::sync::Arc;
 pub(super) fn assemble(pieces: &Pieces, nodes: &[HullNode]) -> Result<HullTree, HullTreeError> {
     let hierarchy = hierarchy(pieces, nodes)?;
     let done = bottom_up(&hierarchy, |at, children| match (&nodes[at], children) {
-        (HullNode::Leaf(piece), _) => Node::leaf(at, pieces.polytope(*piece as usize)),
+        (HullNode::Leaf(piece), _) => leaf(at, pieces.polytope(*piece as usize)),
         (HullNode::Inner(names, hull), [left, right]) => {
-            Node::inner(at, hull, [(names[0], left), (names[1], right)])
+            inner(at, hull, [(names[0], left), (names[1], right)])
         }
     })?;
     let mut classes = Vec::new();
@@ -102,79 +104,53 @@ fn meeting(nodes: &[Node<'_>]) -> (Vec<u32>, Vec<u32>) {
     (meeting, ends)
 }
 
-/// A node that is checked.
-#[derive(Debug, Default)]
-pub(super) struct Node<'a> {
-    pub(super) points: Cow<'a, [DVec3]>,
-    /// In the mesh, of its points.
-    pub(super) vertex_ids: Vec<u32>,
-    pub(super) loops: Cow<'a, Loops>,
-    /// Of its facets.
-    pub(super) skins: Vec<Skin>,
-    /// The mesh's faces on a leaf; an inner node has those of its skins.
-    pub(super) own_faces: Option<Vec<Face>>,
-    pub(super) radius: f64,
-    pub(super) evenly_rounded: bool,
-    pub(super) size: f64,
+/// The node of a piece.
+fn leaf(at: usize, piece: Polytope) -> Result<Node<'static>, HullTreeError> {
+    if let Some(point) = too_fine(&piece.points) {
+        let point = point as u32;
+        return Err(HullFault::TooFine { point }.at(at));
+    }
+    let skins = Skin::of_piece(&piece);
+    let loops = piece.facets.into_iter().map(|facet| facet.corners);
+    Ok(Node {
+        skins,
+        evenly_rounded: true,
+        size: size(&piece.points, piece.radius),
+        loops: Cow::Owned(loops.collect()),
+        points: Cow::Owned(piece.points),
+        vertex_ids: piece.vertex_ids,
+        own_faces: Some(piece.faces),
+        radius: piece.radius,
+    })
 }
 
-impl<'a> Node<'a> {
-    fn leaf(at: usize, piece: Polytope) -> Result<Self, HullTreeError> {
-        if let Some(point) = too_fine(&piece.points) {
-            let point = point as u32;
-            return Err(HullFault::TooFine { point }.at(at));
-        }
-        let skins = Skin::of_piece(&piece);
-        let loops = piece.facets.into_iter().map(|facet| facet.corners);
-        Ok(Node {
-            skins,
-            evenly_rounded: true,
-            size: size(&piece.points, piece.radius),
-            loops: Cow::Owned(loops.collect()),
-            points: Cow::Owned(piece.points),
-            vertex_ids: piece.vertex_ids,
-            own_faces: Some(piece.faces),
-            radius: piece.radius,
-        })
-    }
+/// The node of a hull over two children, which it holds.
+fn inner<'a>(
+    at: usize,
+    hull: &'a Hull,
+    children: [(u32, &Node<'_>); 2],
+) -> Result<Node<'a>, HullTreeError> {
+    check_facets(hull).map_err(|fault| fault.at(at))?;
+    let identity =
+        Identity::new(hull, children.map(|(_, child)| child)).map_err(|fault| fault.at(at))?;
+    check_inside(hull, &identity, &children).map_err(|fault| fault.at(at))?;
 
-    /// The mesh's faces on its surface.
-    fn faces(&self) -> impl Iterator<Item = &Face> {
-        let of_skins = self.skins.iter().flat_map(|skin| &skin.faces);
-        let (own, of_skins) = match &self.own_faces {
-            Some(own) => (&own[..], None),
-            None => (&[][..], Some(of_skins)),
-        };
-        own.iter().chain(of_skins.into_iter().flatten())
-    }
-
-    fn inner(
-        at: usize,
-        hull: &'a Hull,
-        children: [(u32, &Node<'_>); 2],
-    ) -> Result<Self, HullTreeError> {
-        check_facets(hull).map_err(|fault| fault.at(at))?;
-        let identity =
-            Identity::new(hull, children.map(|(_, child)| child)).map_err(|fault| fault.at(at))?;
-        check_inside(hull, &identity, &children).map_err(|fault| fault.at(at))?;
-
-        let [left, right] = children.map(|(_, child)| child);
-        let even = |child: &Node<'_>| child.evenly_rounded && child.radius == left.radius;
-        let evenly_rounded = even(left) && even(right);
-        let of_left = Child::new(left, &identity.of_left);
-        let of_right = Child::new(right, &identity.of_right);
-        let radius = greater(left.radius, right.radius);
-        Ok(Node {
-            skins: inherit(hull, &identity.places, [of_left, of_right]),
-            evenly_rounded,
-            size: size(&hull.points, radius),
-            loops: Cow::Borrowed(&hull.facets),
-            points: Cow::Borrowed(&hull.points),
-            vertex_ids: identity.vertex_ids,
-            own_faces: None,
-            radius,
-        })
-    }
+    let [left, right] = children.map(|(_, child)| child);
+    let even = |child: &Node<'_>| child.evenly_rounded && child.radius == left.radius;
+    let evenly_rounded = even(left) && even(right);
+    let of_left = Child::new(left, &identity.of_left);
+    let of_right = Child::new(right, &identity.of_right);
+    let radius = greater(left.radius, right.radius);
+    Ok(Node {
+        skins: inherit(hull, &identity.places, [of_left, of_right]),
+        evenly_rounded,
+        size: size(&hull.points, radius),
+        loops: Cow::Borrowed(&hull.facets),
+        points: Cow::Borrowed(&hull.points),
+        vertex_ids: identity.vertex_ids,
+        own_faces: None,
+        radius,
+    })
 }
 
 /// Whether the hull holds all points of its children.

@@ -1,16 +1,17 @@
 //! Whether facets are those of a convex polytope, exactly.
 
 use super::edges::edges_of;
-use super::inside::{height_below, too_fine};
 use crate::body::piece::Piece;
 use crate::body::support::Support;
+use crate::math::exact::{side, too_fine};
 use glam::DVec3;
+use std::cmp::Ordering;
 
 /// What finds the extremal points of a hull of many: edges are climbed once they are proven to be
 /// those of the hull; else a tree is searched, which asks for nothing.
 pub(crate) fn support_of(hull: &Piece<'_>) -> Support {
     match is_convex(hull) {
-        true => Support::new(hull),
+        true => Support::new(hull.points, hull.facets),
         false => Support::of_points(hull.points),
     }
 }
@@ -39,7 +40,7 @@ fn is_convex(hull: &Piece<'_>) -> bool {
         }
     }
     let place = |triangle: &[u32; 3]| triangle.map(|v| hull.points[v as usize]);
-    let behind = |triangle: &[u32; 3]| height_below(place(triangle), middle) > 0.0;
+    let behind = |triangle: &[u32; 3]| side(place(triangle), middle).is_lt();
     on_facets.into_iter().all(|on| on)
         && triangles.iter().all(behind)
         && bends_outward(&triangles, place)
@@ -51,15 +52,14 @@ fn is_plane(points: &[DVec3], corners: &[u32]) -> bool {
     let place = |&v: &u32| points[v as usize];
     let first = [0, 1, 2].map(|k| place(&corners[k]));
     let mut others = corners[3..].iter().map(place);
-    others.all(|p| height_below(first, p) == 0.0)
+    others.all(|p| side(first, p).is_eq())
 }
 
 /// Whether no corner of a facet is reflex, seen from a point behind it.
 fn turns_one_way(points: &[DVec3], corners: &[u32], middle: DVec3) -> bool {
     let place = |k: usize| points[corners[k % corners.len()] as usize];
-    let mut turns =
-        (0..corners.len()).map(|k| height_below([place(k), place(k + 1), place(k + 2)], middle));
-    turns.all(|turn| turn >= 0.0)
+    let fan = |k: usize| [place(k), place(k + 1), place(k + 2)];
+    (0..corners.len()).all(|k| side(fan(k), middle).is_le())
 }
 
 /// Whether across every edge the next triangle is not in front of a triangle.
@@ -74,11 +74,11 @@ fn bends_outward(triangles: &[[u32; 3]], place: impl Fn(&[u32; 3]) -> [DVec3; 3]
         let at = sides.binary_search_by_key(&(to, from), |&(side, _)| side);
         at.ok().map(|at| sides[at].1)
     };
-    let bends = |(side, triangle): &((u32, u32), &[u32; 3])| {
-        let next = across(side);
+    let bends = |(edge, triangle): &((u32, u32), &[u32; 3])| {
+        let next = across(edge);
         next.is_some_and(|next| {
             let mut corners = place(next).into_iter();
-            corners.all(|p| height_below(place(triangle), p) >= 0.0)
+            corners.all(|p| side(place(triangle), p).is_le())
         })
     };
     once && sides.iter().all(bends)
@@ -98,10 +98,10 @@ fn covers_once(
     for triangle in triangles {
         let [a, b, c] = place(triangle);
         let sides = [[a, b], [b, c], [c, a]];
-        let heights = sides.map(|[from, to]| height_below([middle, to, from], target));
-        if heights.into_iter().all(|height| height > 0.0) {
+        let past = sides.map(|[from, to]| side([middle, to, from], target));
+        if past.into_iter().all(Ordering::is_lt) {
             met += 1;
-        } else if !heights.into_iter().any(|height| height < 0.0) {
+        } else if !past.into_iter().any(Ordering::is_gt) {
             // Through an edge: it cannot be told how often.
             return false;
         }

@@ -1,8 +1,8 @@
 //! Which points of two children and their parent's hull are at one place.
 
 use super::Hull;
-use super::assemble::Node;
 use super::error::HullFault;
+use super::node::Node;
 use glam::DVec3;
 
 /// Which points of the children are the same, and which of them are the hull's.

@@ -3,22 +3,14 @@
 //! A child's hull meets the plane of a facet of its parent in at most one facet of its own. So a facet
 //! of the parent is a child's, or is tiled by one of either child, or is a bridge.
 
-use super::assemble::Node;
 use super::edges::{EdgeMap, edges_of};
-use super::inside::{is_collinear, is_coplanar, spanning};
+use super::inside::{is_coplanar, spanning};
+use super::node::{Node, Skin};
 use super::{FacetClass, Hull};
 use crate::body::polytope::{Face, Origin, Polytope};
+use crate::math::exact::is_degenerate;
 use crate::math::point_tree::PointTree;
 use glam::DVec3;
-
-/// What is known of one facet.
-#[derive(Clone, Debug)]
-pub(super) struct Skin {
-    pub(super) origin: Origin,
-    pub(super) class: FacetClass,
-    /// The triangles of the mesh that lie in it, unless it is one face by itself.
-    pub(super) faces: Vec<Face>,
-}
 
 impl Skin {
     const BRIDGE: Skin = Skin {
@@ -248,7 +240,7 @@ fn tile(places: &[DVec3], corners: &[u32], parts: [&Part<'_>; 2]) -> bool {
     let mut used = 0;
     for (from, to) in edges_of(corners) {
         let place = |v: u32| places[v as usize];
-        let between = |v: u32| is_collinear(place(from), place(to), place(v));
+        let between = |v: u32| is_degenerate([place(from), place(to), place(v)]);
         let mut at = from;
         while at != to {
             match after(at) {

@@ -1,10 +1,10 @@
 //! Whether a point lies in a hull, exactly `[SHE97]`.
 
 use super::Loops;
+use crate::math::exact::{is_degenerate, side, turn_along};
 use crate::math::point_tree::PointTree;
-use crate::tolerance::LEAST_COORDINATE;
 use glam::DVec3;
-use robust::{Coord, Coord3D, orient2d, orient3d};
+use std::cmp::Ordering;
 
 /// A hull that points are held against.
 pub(super) struct Container<'a> {
@@ -55,12 +55,10 @@ impl<'a> Container<'a> {
         // Facets in whose planes it lies; all others have it behind.
         let mut level = vec![0; places.len()];
         for &triangle in &self.fans {
-            tree.for_each_not_behind(triangle, |k| {
-                match height_below(triangle, places[k as usize]) {
-                    height if height > 0.0 => {}
-                    0.0 => level[k as usize] += 1,
-                    _ => outside[k as usize] = true,
-                }
+            tree.for_each_not_behind(triangle, |k| match side(triangle, places[k as usize]) {
+                Ordering::Less => {}
+                Ordering::Equal => level[k as usize] += 1,
+                Ordering::Greater => outside[k as usize] = true,
             });
         }
         (0..places.len()).find(|&k| {
@@ -68,14 +66,6 @@ impl<'a> Container<'a> {
             outside[k] || !(behind || in_polygon(&self.first, places[k]))
         })
     }
-}
-
-/// The first point with a coordinate that is too near to 0 for exact predicates.
-pub(super) fn too_fine(points: &[DVec3]) -> Option<usize> {
-    let fine = |x: f64| x != 0.0 && x.abs() < LEAST_COORDINATE;
-    points
-        .iter()
-        .position(|p| p.to_array().into_iter().any(fine))
 }
 
 /// Whether a point is one of up to three, between two, or in their triangle.
@@ -93,14 +83,15 @@ fn in_simplex(points: &[DVec3], point: DVec3) -> bool {
 
 fn on_segment(a: DVec3, b: DVec3, point: DVec3) -> bool {
     let between = point.cmpge(a.min(b)).all() && point.cmple(a.max(b)).all();
-    between && is_collinear(a, b, point)
+    between && is_degenerate([a, b, point])
 }
 
 /// Whether a triangle lies in the plane of a polygon and is seen from the same side.
 pub(super) fn is_coplanar(polygon: &[DVec3], triangle: [DVec3; 3]) -> bool {
-    plane(polygon).is_some_and(|(fan, drop)| {
-        let in_plane = |&p: &DVec3| height_below(fan, p) == 0.0;
-        let same_side = (turn(fan, drop) > 0.0) == (turn(triangle, drop) > 0.0);
+    plane(polygon).is_some_and(|(fan, axis)| {
+        let in_plane = |&p: &DVec3| side(fan, p).is_eq();
+        let turn = |[a, b, c]: [DVec3; 3]| turn_along(axis, [a, b], c);
+        let same_side = turn(fan).is_gt() == turn(triangle).is_gt();
         same_side && triangle.iter().all(in_plane)
     })
 }
@@ -115,61 +106,35 @@ pub(super) fn spanning(polygon: &[DVec3]) -> Option<[DVec3; 3]> {
 fn plane(polygon: &[DVec3]) -> Option<([DVec3; 3], usize)> {
     (1..polygon.len().saturating_sub(1)).find_map(|k| {
         let fan = [0, k, k + 1].map(|k| polygon[k]);
-        let drop = (0..3).find(|&drop| turn(fan, drop) != 0.0)?;
-        Some((fan, drop))
+        let [a, b, c] = fan;
+        let axis = (0..3).find(|&axis| turn_along(axis, [a, b], c).is_ne())?;
+        Some((fan, axis))
     })
-}
-
-/// Whether three points are on one line.
-pub(super) fn is_collinear(a: DVec3, b: DVec3, c: DVec3) -> bool {
-    (0..3).all(|drop| turn([a, b, c], drop) == 0.0)
 }
 
 /// Whether a point lies in the plane of a polygon and in the hull of its corners: on no edge's outer
 /// side and on the inner side of one, by the same count of windings.
 fn in_polygon(corners: &[DVec3], point: DVec3) -> bool {
-    let Some((fan, drop)) = plane(corners) else {
+    let Some((fan, axis)) = plane(corners) else {
         return false;
     };
-    let front = turn(fan, drop);
-    let in_plane = |p: &DVec3| height_below(fan, *p) == 0.0;
+    let [a, b, c] = fan;
+    let front = turn_along(axis, [a, b], c);
+    let in_plane = |p: &DVec3| side(fan, *p).is_eq();
     if !(in_plane(&point) && corners.iter().all(in_plane)) {
         return false;
     }
     let mut inner = false;
     for (k, &from) in corners.iter().enumerate() {
         let to = corners[(k + 1) % corners.len()];
-        let side = turn([from, to, point], drop);
-        if side == 0.0 {
+        let turn = turn_along(axis, [from, to], point);
+        if turn.is_eq() {
             continue;
         }
-        if (side > 0.0) != (front > 0.0) {
+        if turn != front {
             return false;
         }
         inner = true;
     }
     inner
-}
-
-/// Positive where a point is behind a triangle, that is, where the triangle is seen clockwise from;
-/// 0 in its plane. Only the sign is right.
-pub(super) fn height_below(triangle: [DVec3; 3], point: DVec3) -> f64 {
-    let coord = |p: DVec3| Coord3D {
-        x: p.x,
-        y: p.y,
-        z: p.z,
-    };
-    let [a, b, c] = triangle.map(coord);
-    orient3d(a, b, c, coord(point))
-}
-
-/// The turn of three points seen along a coordinate axis. Only the sign is right.
-fn turn(triangle: [DVec3; 3], drop: usize) -> f64 {
-    let coord = |p: DVec3| match drop {
-        0 => Coord { x: p.y, y: p.z },
-        1 => Coord { x: p.z, y: p.x },
-        _ => Coord { x: p.x, y: p.y },
-    };
-    let [a, b, c] = triangle.map(coord);
-    orient2d(a, b, c)
 }
