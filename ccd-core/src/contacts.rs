@@ -1,6 +1,7 @@
 //! The features that are in contact at a time, all of them `[FAST06 §5.2]`.
 
 mod boxes;
+mod candidate;
 mod closest;
 mod manifold;
 mod measure;

@@ -12,7 +12,7 @@ pub use scan::SupportScan;
 pub use table::SupportTable;
 pub use tree::SupportTree;
 
-use super::piece::Piece;
+use super::facets::Facets;
 use crate::tolerance::CLIMBED_POINTS;
 use glam::DVec3;
 
@@ -24,9 +24,9 @@ use glam::DVec3;
 /// takes half the time and relies on the facets.
 ///
 /// ```
-/// use ccd_core::{glam::DVec3, Piece, Support};
+/// use ccd_core::{glam::DVec3, Facets, Support};
 /// let corners = [DVec3::ZERO, DVec3::X, DVec3::Y];
-/// let support = Support::new(&Piece::from_points(&corners));
+/// let support = Support::new(&corners, Facets::NONE);
 /// assert_eq!(support.extremal(DVec3::new(0.1, 1.0, 5.0)), 2);
 /// ```
 #[derive(Clone, Debug)]
@@ -40,13 +40,13 @@ pub enum Support {
 }
 
 impl Support {
-    /// Prepares a piece, whose facets must be those of its hull where it has more than
-    /// [`CLIMBED_POINTS`] points; without facets, every point is looked at.
-    pub fn new(piece: &Piece<'_>) -> Self {
-        let climbed = piece.points.len() > CLIMBED_POINTS;
-        match climbed.then(|| SupportTable::new(piece)).flatten() {
+    /// Prepares a piece of these points. Where there are more than [`CLIMBED_POINTS`] of them, the
+    /// facets must be those of their hull; without facets, every point is looked at.
+    pub fn new(points: &[DVec3], facets: Facets<'_>) -> Self {
+        let climbed = points.len() > CLIMBED_POINTS;
+        match climbed.then(|| SupportTable::new(points, facets)).flatten() {
             Some(table) => Support::Climb(Box::new(table)),
-            None => Support::Scan(SupportScan::new(piece.points)),
+            None => Support::Scan(SupportScan::new(points)),
         }
     }
 

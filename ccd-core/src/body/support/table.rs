@@ -2,7 +2,7 @@
 
 use super::directions::{self, DIRECTIONS};
 use super::tree::ball_about;
-use crate::body::piece::Piece;
+use crate::body::facets::Facets;
 use crate::math::order::greater;
 use crate::tolerance::{HEIGHT_F64, PLATEAU_POINTS};
 use glam::DVec3;
@@ -25,10 +25,10 @@ pub struct SupportTable {
 }
 
 impl SupportTable {
-    /// Prepares a piece whose facets are those of its hull; none where no facets are known.
-    pub fn new(piece: &Piece<'_>) -> Option<Self> {
-        let first = *piece.facets.iter().next()?.first()?;
-        let edges = piece.facets.iter().flat_map(|corners| {
+    /// Prepares points with the facets of their hull; none where no facets are known.
+    pub fn new(points: &[DVec3], facets: Facets<'_>) -> Option<Self> {
+        let first = *facets.iter().next()?.first()?;
+        let edges = facets.iter().flat_map(|corners| {
             let next = corners.iter().cycle().skip(1);
             corners.iter().copied().zip(next.copied())
         });
@@ -40,10 +40,10 @@ impl SupportTable {
         let end = |v: usize| edges.partition_point(|&(from, _)| from as usize <= v) as u32;
         let reach = |p: &DVec3| p.abs().max_element();
         let mut table = SupportTable {
-            points: piece.points.to_vec(),
-            reach: piece.points.iter().map(reach).fold(0.0, greater),
-            ball: ball_about(piece.points),
-            ends: (0..piece.points.len()).map(end).collect(),
+            points: points.to_vec(),
+            reach: points.iter().map(reach).fold(0.0, greater),
+            ball: ball_about(points),
+            ends: (0..points.len()).map(end).collect(),
             neighbours: edges.iter().map(|&(_, to)| to).collect(),
             starts: [first; DIRECTIONS],
         };

@@ -4,6 +4,7 @@
 mod tree;
 
 use super::*;
+use crate::body::piece::Piece;
 use crate::body::pieces::Pieces;
 use crate::body::polytope::{Facet, Origin, Polytope};
 use crate::math::order::greater;
@@ -102,7 +103,7 @@ fn climbing_finds_what_looking_at_all_finds() {
     let mut rng = rng(12);
     for pieces in shapes() {
         let piece = pieces.get(0);
-        let table = SupportTable::new(&piece).unwrap();
+        let table = SupportTable::new(piece.points, piece.facets).unwrap();
         let scan = SupportScan::new(piece.points);
         let reach = piece.points.iter().map(|p| p.abs().max_element());
         let reach = reach.fold(0.0, greater);
@@ -167,17 +168,27 @@ fn directions_are_their_own_nearest_and_none_is_far() {
 #[test]
 fn many_corners_with_facets_are_climbed_others_looked_at() {
     let large = bowl(40);
-    assert!(matches!(Support::new(&large.get(0)), Support::Climb(_)));
+    assert!(matches!(
+        Support::new(large.get(0).points, large.get(0).facets),
+        Support::Climb(_)
+    ));
     let bare = Piece::from_points(large.points());
-    assert!(matches!(Support::new(&bare), Support::Scan(_)));
-    assert!(SupportTable::new(&bare).is_none());
-    assert!(matches!(Support::new(&bowl(2).get(0)), Support::Scan(_)));
+    assert!(matches!(
+        Support::new(bare.points, bare.facets),
+        Support::Scan(_)
+    ));
+    assert!(SupportTable::new(bare.points, bare.facets).is_none());
+    let small = bowl(2);
+    assert!(matches!(
+        Support::new(small.get(0).points, small.get(0).facets),
+        Support::Scan(_)
+    ));
 }
 
 #[test]
 fn directions_that_are_none_give_some_corner() {
     let pieces = bowl(40);
-    let table = SupportTable::new(&pieces.get(0)).unwrap();
+    let table = SupportTable::new(pieces.get(0).points, pieces.get(0).facets).unwrap();
     let scan = SupportScan::new(pieces.points());
     for look in [DVec3::NAN, DVec3::INFINITY, DVec3::ZERO, -DVec3::INFINITY] {
         assert!(table.extremal(look) < 1600);
@@ -193,7 +204,7 @@ fn points_on_no_facet_are_no_dead_end() {
     let pieces = bowl(3);
     let facets = pieces.get(0).facets.iter().map(<[u32]>::to_vec).collect();
     let pieces = polytope(points, facets);
-    let table = SupportTable::new(&pieces.get(0)).unwrap();
+    let table = SupportTable::new(pieces.get(0).points, pieces.get(0).facets).unwrap();
     assert!(table.neighbours(9).is_empty());
     assert_eq!(table.extremal_from(9, DVec3::X + DVec3::Y + DVec3::Z), 8);
 }
