@@ -235,8 +235,8 @@ impl ResultRow {
                 witness_b: cells(point),
                 ..row
             },
-            Outcome::Free { clearance } => ResultRow {
-                distance_lower: Some(clearance),
+            Outcome::Free { proven_gap } => ResultRow {
+                distance_lower: Some(proven_gap),
                 ..row
             },
             Outcome::Unresolved { reason, .. } => ResultRow {

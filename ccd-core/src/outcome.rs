@@ -23,7 +23,7 @@ pub enum Outcome {
     /// The bodies stay apart over the whole duration.
     Free {
         /// The gap, a lower bound of the distance at all times.
-        clearance: f64,
+        proven_gap: f64,
     },
     /// The bodies are within margin + tolerance at the start, without overlapping.
     Touching {

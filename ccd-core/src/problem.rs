@@ -255,7 +255,7 @@ impl<'a> Problem<'a> {
 
     /// The distance that is kept at all times by bodies that are found free, when no gap of nodes was
     /// proven to less than `proven`.
-    pub(crate) fn clearance(&self, proven: f64) -> f64 {
+    pub(crate) fn proven_gap(&self, proven: f64) -> f64 {
         match self.start {
             StartPolicy::Report => greater(lesser(self.gap(), proven), self.margin),
             // Pieces that rest on each other keep none.

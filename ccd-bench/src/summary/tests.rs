@@ -11,7 +11,7 @@ fn sum<'t>(answers: impl IntoIterator<Item = &'t Timed>, tolerance: f64) -> Summ
 fn timed(micros: f64, tolerance: f64) -> Timed {
     Timed {
         answer: Answer {
-            outcome: Outcome::Free { clearance: 1.0 },
+            outcome: Outcome::Free { proven_gap: 1.0 },
             tolerance,
             stats: Stats {
                 node_visits: 10,

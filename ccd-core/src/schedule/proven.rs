@@ -63,7 +63,7 @@ impl Proven {
     pub(crate) fn contact(&self, problem: &Problem<'_>, contact: Contact, s: f64) -> Outcome {
         Outcome::Contact {
             time: problem.time(s),
-            contact: contact.no_nearer_than(problem.clearance(self.kept)),
+            contact: contact.no_nearer_than(problem.proven_gap(self.kept)),
         }
     }
 
@@ -83,7 +83,7 @@ impl Proven {
     /// All pairs are apart to the end.
     pub(crate) fn end(&mut self, problem: &Problem<'_>) -> Outcome {
         self.past_start(problem).unwrap_or(Outcome::Free {
-            clearance: problem.clearance(self.kept),
+            proven_gap: problem.proven_gap(self.kept),
         })
     }
 }

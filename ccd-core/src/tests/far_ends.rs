@@ -107,9 +107,9 @@ fn answers_hold_for_the_motion_between_the_poses_as_given() {
                     );
                     (share.get(), 0.0)
                 }
-                Outcome::Free { clearance } => {
+                Outcome::Free { proven_gap } => {
                     misses += 1;
-                    (1.0, clearance)
+                    (1.0, proven_gap)
                 }
                 Outcome::Touching { .. } | Outcome::Overlapping { .. } => continue,
                 outcome => panic!("{number}: {outcome:?}"),

@@ -80,9 +80,9 @@ fn margins_are_kept_from_needles_of_widths_that_have_no_square() {
                 hits += 1;
                 (time, problem.margin)
             }
-            Outcome::Free { clearance } => {
+            Outcome::Free { proven_gap } => {
                 misses += 1;
-                (1.0, clearance)
+                (1.0, proven_gap)
             }
             // The slow oracle squares what it should not, and names poor axes.
             Outcome::Unresolved { safe_until, .. } => {

@@ -60,9 +60,9 @@ fn answers_hold_at_sampled_times_and_are_those_of_the_naive_twin() {
                 assert!(distance(&problem, last) <= margin + tolerance + problem.rounding);
                 (time, margin)
             }
-            (Outcome::Free { clearance }, Outcome::Free { .. }) => {
+            (Outcome::Free { proven_gap }, Outcome::Free { .. }) => {
                 misses += 1;
-                (1.0, clearance)
+                (1.0, proven_gap)
             }
             // Nearest within the tolerance, but not within half of it: both answers are right.
             (Outcome::Contact { time, .. }, Outcome::Free { .. })

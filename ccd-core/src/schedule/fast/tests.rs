@@ -148,8 +148,8 @@ fn checked(problem: &Problem<'_>, outcome: &Outcome) -> f64 {
             holds_until(time, problem.margin);
             time
         }
-        Outcome::Free { clearance } => {
-            holds_until(1.0, clearance);
+        Outcome::Free { proven_gap } => {
+            holds_until(1.0, proven_gap);
             f64::INFINITY
         }
         Outcome::Touching { .. } => {
