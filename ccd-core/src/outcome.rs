@@ -132,7 +132,7 @@ pub struct Separation {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Stats {
     /// How many pairs of nodes were bounded or split, pairs of pieces included.
-    pub node_visits: u64,
+    pub iterations: u64,
     /// How often a point of a piece was looked at, about: in each step of an oracle's search, and
     /// each time that a gap is followed.
     pub point_looks: u64,
@@ -154,7 +154,7 @@ impl Stats {
     /// [`LOOKS_PER_VISIT`] looks at points.
     #[inline]
     pub fn work(&self) -> u64 {
-        self.node_visits + self.point_looks / LOOKS_PER_VISIT
+        self.iterations + self.point_looks / LOOKS_PER_VISIT
     }
 }
 

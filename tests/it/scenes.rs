@@ -114,7 +114,7 @@ fn check_answer(
         (Expect::Free { gap }, Outcome::Free { proven_gap }) => {
             if *proven_gap > gap + rounding {
                 return Err(format!(
-                    "a proven_gap of {proven_gap} at a distance of {gap}"
+                    "a proven gap of {proven_gap} at a distance of {gap}"
                 ));
             }
         }

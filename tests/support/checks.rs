@@ -115,7 +115,7 @@ impl<'a> Judge<'a> {
                 let less = self.samples.iter().find(|s| s.1 < proven_gap - rounding);
                 law!(
                     less.is_none(),
-                    "the proven_gap {proven_gap} is less at {less:?}"
+                    "the proven gap {proven_gap} is less at {less:?}"
                 );
             }
             Outcome::Touching { .. } => {

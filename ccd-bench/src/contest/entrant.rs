@@ -172,7 +172,7 @@ impl Contender for Ours<'_> {
         };
         let steps = match self.method.schedule.uses_a_bound() {
             true => answer.stats.advancements,
-            false => answer.stats.node_visits,
+            false => answer.stats.iterations,
         };
         Reply { claim, steps }
     }

@@ -6,7 +6,7 @@ fn answer(outcome: Outcome) -> Answer {
         outcome,
         tolerance: 1e-3,
         stats: Stats {
-            node_visits: 17,
+            iterations: 17,
             oracle_calls: 5,
             ..Stats::default()
         },

@@ -128,7 +128,7 @@ fn budgets_end_a_query_with_a_time_that_is_safe_and_grows() {
                 Outcome::Contact { time, .. } => time,
                 _ => 1.0,
             };
-            (time, answer.stats.node_visits, answer.stats.work())
+            (time, answer.stats.iterations, answer.stats.work())
         };
         let mut last = 0.0;
         for budget in 0..visits.min(60) {
@@ -359,10 +359,10 @@ fn a_large_piece_turns_past_many_small_ones_at_little_cost() {
         let answer = solve(&problem);
         assert!(matches!(answer.outcome, Outcome::Free { .. }), "{answer:?}");
         let Stats {
-            node_visits,
+            iterations,
             oracle_calls,
             ..
         } = answer.stats;
-        assert!(node_visits < 512 && oracle_calls < 10, "{answer:?}");
+        assert!(iterations < 512 && oracle_calls < 10, "{answer:?}");
     }
 }

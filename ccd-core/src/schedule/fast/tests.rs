@@ -230,7 +230,7 @@ fn budgets_end_a_query_with_a_time_that_is_safe() {
             _ => continue,
         };
         let mut last = 0.0;
-        for budget in 0..answer.stats.node_visits.min(40) {
+        for budget in 0..answer.stats.iterations.min(40) {
             let mut problem = scene.problem();
             problem.budget = budget;
             let outcome = solve(&problem).outcome;

@@ -137,7 +137,7 @@ fn bounds_hold_the_distance_and_no_budget_makes_another_answer() {
         let loose = separation.upper - separation.lower;
         let slack = 2.0 * NEAREST_SHARE * separation.upper + 8.0 * problem.rounding;
         assert!(loose <= slack, "{number}: {separation:?}");
-        let visits = full.stats.node_visits;
+        let visits = full.stats.iterations;
         for budget in 0..visits.min(80) {
             scene.config.budget = budget;
             let outcome = solve(&scene.problem()).outcome;
@@ -253,5 +253,5 @@ fn single_pieces_are_measured_once() {
         panic!("{answer:?}");
     };
     assert!(contact.separation.lower <= 2.0 && contact.separation.upper >= 2.0);
-    assert_eq!(answer.stats.node_visits, 2);
+    assert_eq!(answer.stats.iterations, 2);
 }
