@@ -126,7 +126,7 @@ impl Problem<'_> {
         let reach = self.margin + self.tolerance + 2.0 * self.rounding;
         let near = near_faces(self, &mut skins, &b_to_a, reach).ok_or(too_many)?;
         for skin in &mut skins {
-            skin.settle(self.rounding);
+            skin.hide_cuts(self.rounding);
         }
         let [a, b] = &skins;
         let mut manifold = Manifold::new(self, [a, b]);

@@ -29,7 +29,7 @@
 //! | conservative advancement, best first | `schedule/best_first.rs` |
 //! | the same over hull trees `[FAST06 §3.3, §5.1]` | `hull_tree.rs`, `schedule/fast/` |
 //! | farthest corner along a direction `[FAST06 §4.2]` | `support.rs` |
-//! | one pair of pieces at one moment | `schedule/pair.rs`, `schedule/moment.rs` |
+//! | one pair of pieces at one instant | `schedule/pair.rs`, `schedule/instant.rs` |
 //! | features of all contacts at a time `[FAST06 §5.2]` | `contacts.rs` |
 //! | contact at the start, one body inside the other | `schedule/nearest.rs`, `overlap.rs`, `containment.rs` |
 //! | every allowance for rounding | [`tolerance`] |

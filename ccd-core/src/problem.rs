@@ -106,6 +106,29 @@ pub(crate) struct Side<'a> {
     pub(crate) path: Path,
 }
 
+/// One of the two bodies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Which {
+    A,
+    B,
+}
+
+impl Which {
+    pub(crate) fn other(self) -> Which {
+        match self {
+            Which::A => Which::B,
+            Which::B => Which::A,
+        }
+    }
+
+    pub(crate) fn of<'p, 'a>(self, problem: &'p Problem<'a>) -> &'p Side<'a> {
+        match self {
+            Which::A => &problem.a,
+            Which::B => &problem.b,
+        }
+    }
+}
+
 impl<'a> Problem<'a> {
     /// Poses a query over two moving bodies, which may be given as pairs of a body and its motion.
     ///

@@ -11,7 +11,7 @@ use glam::DVec3;
 
 /// What a point of a polytope is, by the polytope's corners and the mesh's faces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Name {
+pub(crate) enum MeshFeature {
     Vertex(u32),
     Edge(u32, u32),
     Face(u32),
@@ -22,17 +22,17 @@ pub(crate) enum Name {
 ///
 /// Corners that no facet of the mesh holds together may still name a point on the mesh: a virtual
 /// facet may lie within the surface, and so may a chord of two coplanar faces.
-pub(crate) fn of_polytope(piece: &Piece<'_>, point: &Combination) -> Name {
+pub(crate) fn look_up(piece: &Piece<'_>, point: &Combination) -> MeshFeature {
     let (facets, support) = (piece.facets, point.support());
     if !facets.is_empty() && !is_on_mesh(piece) {
-        return Name::Nothing;
+        return MeshFeature::Nothing;
     }
     if let [v] = *support {
-        return Name::Vertex(v);
+        return MeshFeature::Vertex(v);
     }
     let all: Vec<u32>;
-    let near = match (Meeting::of(piece), support.first()) {
-        (Some(meeting), Some(&corner)) => meeting.at(corner),
+    let near = match (FacetsByCorner::of(piece), support.first()) {
+        (Some(by_corner), Some(&corner)) => by_corner.at(corner),
         _ => {
             all = (0..facets.len() as u32).collect();
             &all
@@ -51,41 +51,41 @@ pub(crate) fn of_polytope(piece: &Piece<'_>, point: &Combination) -> Name {
             ends.any(|ends| ends == (v, w) || ends == (w, v))
         };
         if facets.is_empty() || whole.clone().any(|(_, corners)| joins(corners)) {
-            return Name::Edge(v, w);
+            return MeshFeature::Edge(v, w);
         }
     }
     let mut holding = whole.filter(|(_, corners)| support.iter().all(|v| corners.contains(v)));
     match holding.next() {
-        Some((face, _)) => Name::Face(face),
+        Some((face, _)) => MeshFeature::Face(face),
         None => point
             .of(piece.points)
             .and_then(|at| face_under(piece, at))
-            .map_or(Name::Nothing, Name::Face),
+            .map_or(MeshFeature::Nothing, MeshFeature::Face),
     }
 }
 
 /// Whether anything of the mesh is on the piece.
 fn is_on_mesh(piece: &Piece<'_>) -> bool {
-    match Meeting::of(piece) {
-        Some(meeting) => meeting.is_on_mesh,
+    match FacetsByCorner::of(piece) {
+        Some(by_corner) => by_corner.is_on_mesh,
         None => piece.mesh_triangles().next().is_some(),
     }
 }
 
 /// Which facets of a piece meet in each of its corners.
-struct Meeting {
+struct FacetsByCorner {
     is_on_mesh: bool,
     facets: Vec<u32>,
     /// Where those of each corner end.
     ends: Vec<u32>,
 }
 
-impl Meeting {
+impl FacetsByCorner {
     /// That of a piece of many facets, made once and kept; none where there are few, or nowhere to keep
     /// it.
-    fn of<'a>(piece: &Piece<'a>) -> Option<&'a Meeting> {
+    fn of<'a>(piece: &Piece<'a>) -> Option<&'a FacetsByCorner> {
         let many = piece.facets.len() > CLIMBED_POINTS;
-        let kept = many.then(|| piece.kept(|piece| Box::new(Meeting::new(piece))))?;
+        let kept = many.then(|| piece.kept(|piece| Box::new(FacetsByCorner::new(piece))))?;
         kept.map(|kept| &**kept)
     }
 
@@ -96,7 +96,7 @@ impl Meeting {
             .collect();
         pairs.sort_unstable();
         let end = |v: usize| pairs.partition_point(|&(corner, _)| corner as usize <= v) as u32;
-        Meeting {
+        FacetsByCorner {
             is_on_mesh: piece.mesh_triangles().next().is_some(),
             ends: (0..piece.points.len()).map(end).collect(),
             facets: pairs.iter().map(|&(_, facet)| facet).collect(),
@@ -111,7 +111,7 @@ impl Meeting {
 
 /// Makes what naming points of a piece takes, so that no query waits for it.
 pub(crate) fn prepare(piece: &Piece<'_>) {
-    Meeting::of(piece);
+    FacetsByCorner::of(piece);
 }
 
 /// The face of the mesh that a point lies on, but for rounding.

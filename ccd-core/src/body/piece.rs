@@ -2,7 +2,7 @@
 
 use super::facets::Facets;
 use super::polytope::Origin;
-use super::side_table::Shelf;
+use super::side_table::SideTable;
 use super::support::Support;
 use crate::math::order::greater;
 use crate::math::vector::distance;
@@ -24,13 +24,13 @@ pub struct Piece<'a> {
     /// Finds extremal points, where that is prepared, and proven to find the right ones.
     pub(crate) support: Option<&'a Support>,
     /// Where backends keep what they make of it.
-    pub(crate) place: Option<Place<'a>>,
+    pub(crate) slot: Option<Slot<'a>>,
 }
 
 /// Which of how many pieces one is.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Place<'a> {
-    pub(crate) shelf: &'a Shelf,
+pub(crate) struct Slot<'a> {
+    pub(crate) side_table: &'a SideTable,
     pub(crate) len: usize,
     pub(crate) index: usize,
 }
@@ -43,7 +43,7 @@ impl<'a> Piece<'a> {
             radius: 0.0,
             facets: Facets::NONE,
             support: None,
-            place: None,
+            slot: None,
         }
     }
 
@@ -69,8 +69,8 @@ impl<'a> Piece<'a> {
     /// ```
     #[inline]
     pub fn kept<T: Any + Send + Sync>(&self, make: impl FnOnce(&Self) -> T) -> Option<&'a T> {
-        let place = self.place?;
-        let entry = place.shelf.entry(place.len, place.index);
+        let slot = self.slot?;
+        let entry = slot.side_table.entry(slot.len, slot.index);
         Some(entry.get_or_init(|| make(self)))
     }
 

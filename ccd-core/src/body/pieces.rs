@@ -3,10 +3,10 @@
 use super::combination::Combination;
 use super::facets::Facets;
 use super::feature::Feature;
-use super::feature_lookup::{self, Name};
-use super::piece::{Piece, Place};
+use super::feature_lookup::{self, MeshFeature};
+use super::piece::{Piece, Slot};
 use super::polytope::{Face, Origin, Polytope};
-use super::side_table::Shelf;
+use super::side_table::SideTable;
 use crate::error::InputError;
 use crate::limits::MAX_COORDINATE;
 use glam::DVec3;
@@ -27,7 +27,7 @@ pub struct Pieces {
     radii: Radii,
     shape: Shape,
     /// What backends keep of them.
-    shelf: Shelf,
+    side_table: SideTable,
 }
 
 /// Indices are kept in 32 bits, of which a quarter names points and the rest has room for nodes.
@@ -102,7 +102,7 @@ impl Pieces {
             shape: Shape::Triangles {
                 face_ids: face_ids.to_vec(),
             },
-            shelf: Shelf::default(),
+            side_table: SideTable::default(),
         }
         .checked()
     }
@@ -188,8 +188,8 @@ impl Pieces {
             radius: self.radius(index),
             facets: self.facets(index),
             support: None,
-            place: Some(Place {
-                shelf: &self.shelf,
+            slot: Some(Slot {
+                side_table: &self.side_table,
                 len: self.len(),
                 index,
             }),
@@ -249,7 +249,7 @@ impl Pieces {
                 }
             },
             shape: self.shape.reordered(order),
-            shelf: Shelf::default(),
+            side_table: SideTable::default(),
         };
         for &k in order {
             let range = self.point_range(k as usize);
@@ -270,14 +270,12 @@ impl Pieces {
             (Shape::Triangles { .. }, [v]) => Feature::Vertex(id(*v)),
             (Shape::Triangles { .. }, [v, w]) => Feature::edge(id(*v), id(*w)),
             (Shape::Triangles { face_ids }, _) => Feature::Face(face_ids[piece]),
-            (Shape::Polytopes(_), _) => {
-                match feature_lookup::of_polytope(&self.get(piece), point) {
-                    Name::Vertex(v) => Feature::Vertex(id(v)),
-                    Name::Edge(v, w) => Feature::edge(id(v), id(w)),
-                    Name::Face(face) => Feature::Face(face),
-                    Name::Nothing => Feature::Piece(piece as u32),
-                }
-            }
+            (Shape::Polytopes(_), _) => match feature_lookup::look_up(&self.get(piece), point) {
+                MeshFeature::Vertex(v) => Feature::Vertex(id(v)),
+                MeshFeature::Edge(v, w) => Feature::edge(id(v), id(w)),
+                MeshFeature::Face(face) => Feature::Face(face),
+                MeshFeature::Nothing => Feature::Piece(piece as u32),
+            },
         }
     }
 

@@ -1,7 +1,7 @@
 //! How fast a moving body advances along a fixed axis, at most.
 //!
 //! Coarser than the exact [`Track`](super::track::Track) of a point:
-//! - [`published`]: Eq. 5 of the paper, which holds at one moment only and is unsound over a step;
+//! - [`published`]: Eq. 5 of the paper, which holds at one instant only and is unsound over a step;
 //! - [`sound`]: holds over any later interval `[C2A09]`.
 
 use crate::math::order::greater;
@@ -21,7 +21,7 @@ pub(crate) struct Velocities {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Bound {
     /// `max (n×ω)·r + |v·n|` over the arms r, as the paper prints it `[FAST06 §4.2 Eq. 5]`. It holds at
-    /// one moment only. **Unsound** over a step: times may be late, and contacts missed.
+    /// one instant only. **Unsound** over a step: times may be late, and contacts missed.
     Published,
     /// `v·n + |n×ω| ρ`, where ρ is the largest distance from the axis of rotation: it holds over any
     /// interval `[C2A09]`.
@@ -29,7 +29,7 @@ pub enum Bound {
     Sound,
 }
 
-/// `maxᵢ (n×ω)·rᵢ + |v·n|`: the fastest advance along `n` at this very moment, over the arms `rᵢ`
+/// `maxᵢ (n×ω)·rᵢ + |v·n|`: the fastest advance along `n` at this very instant, over the arms `rᵢ`
 /// from the centre, of which `farthest` tells the one that is farthest along a direction
 /// `[FAST06 §4.2 Eq. 5]`.
 ///

@@ -17,7 +17,7 @@ pub(crate) struct Track {
 impl Track {
     #[inline]
     pub(crate) fn height_at(&self, tau: f64, angle: Angle) -> f64 {
-        self.height + self.drift * tau + angle.versine * self.p + angle.sin * self.q
+        self.height + self.drift * tau + angle.cos_minus_one * self.p + angle.sin * self.q
     }
 
     #[inline]
@@ -85,24 +85,24 @@ impl AxisMotion {
 pub(crate) struct Angle {
     sin: f64,
     cos: f64,
-    versine: f64,
+    cos_minus_one: f64,
 }
 
 impl Angle {
     pub(crate) const ZERO: Angle = Angle {
         sin: 0.0,
         cos: 1.0,
-        versine: 0.0,
+        cos_minus_one: 0.0,
     };
 
     #[inline]
     pub(crate) fn new(theta: f64) -> Self {
         let (s, c) = (0.5 * theta).sin_cos();
-        let versine = -2.0 * s * s;
+        let cos_minus_one = -2.0 * s * s;
         Angle {
             sin: 2.0 * s * c,
-            cos: 1.0 + versine,
-            versine,
+            cos: 1.0 + cos_minus_one,
+            cos_minus_one,
         }
     }
 }
@@ -130,7 +130,7 @@ impl Spinning {
 
     #[inline]
     pub(crate) fn at(&self, angle: Angle) -> DVec3 {
-        self.start + self.across * angle.versine + self.beside * angle.sin
+        self.start + self.across * angle.cos_minus_one + self.beside * angle.sin
     }
 
     /// Its derivative, per radian.

@@ -4,7 +4,7 @@ use super::Schedule;
 use super::answer::answer;
 use super::meter::Meter;
 use super::pieces::pair::Pair;
-use super::pieces::snapshot::Moment;
+use super::pieces::snapshot::Snapshot;
 use super::proven::Proven;
 use crate::distance::oracle::DistanceOracle;
 use crate::math::order::lesser;
@@ -74,17 +74,17 @@ impl<O: DistanceOracle> Naive<O> {
         while s < 1.0 {
             meter.stats.advancements += 1;
             let mut next = f64::INFINITY;
-            let moment = Moment::new(problem, 0, 0, s);
+            let snapshot = Snapshot::new(problem, 0, 0, s);
             for pair in &mut self.pairs {
                 if let Err(limit) = meter.visit() {
                     return unresolved(s, limit);
                 }
-                let moment = moment.with(problem.pieces([pair.a, pair.b]));
+                let snapshot = snapshot.with(problem.pieces([pair.a, pair.b]));
                 let reaches = [reaches[0][pair.a as usize], reaches[1][pair.b as usize]];
-                let step = pair.advance_by(&moment, oracle, meter, |moment, checked, kept| {
-                    moment.directed_time(checked, kept, self.bound, reaches)
+                let step = pair.advance_by(&snapshot, oracle, meter, |snapshot, checked, kept| {
+                    snapshot.directed_time(checked, kept, self.bound, reaches)
                 });
-                match proven.settle(problem, oracle, meter, step, s) {
+                match proven.conclude(problem, oracle, meter, step, s) {
                     ControlFlow::Continue(clock) => next = lesser(next, clock),
                     ControlFlow::Break(outcome) => return outcome,
                 }

@@ -36,7 +36,7 @@ impl Proven {
     /// What a pair of pieces at clock `s` has come to: the clock to wait for, or the answer.
     ///
     /// A pair that touches at the start is not the answer yet: another one may be nearer, or overlap.
-    pub(crate) fn settle<O: DistanceOracle>(
+    pub(crate) fn conclude<O: DistanceOracle>(
         &self,
         problem: &Problem<'_>,
         oracle: &mut O,

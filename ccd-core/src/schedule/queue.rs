@@ -24,7 +24,7 @@ type Key = u128;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Rank {
     PiecePair = 0,
-    Group = 1,
+    Siblings = 1,
 }
 
 /// More items than this cannot wait at once.

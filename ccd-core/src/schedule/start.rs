@@ -4,9 +4,9 @@ mod containment;
 
 use super::meter::Meter;
 use super::nodes::expand::measure;
-use super::nodes::siblings::{Group, Next};
+use super::nodes::siblings::{Next, Siblings};
 use super::pieces::pair::contact;
-use super::pieces::snapshot::Moment;
+use super::pieces::snapshot::Snapshot;
 use super::queue::{Full, Queue, Rank};
 use crate::distance::oracle::DistanceOracle;
 use crate::distance::overlap::{self, Intersection};
@@ -58,7 +58,7 @@ pub(super) fn touching<O: DistanceOracle>(
 struct Nearest<'p> {
     problem: &'p Problem<'p>,
     /// By lower bounds of their distance.
-    waiting: Queue<Group>,
+    waiting: Queue<Siblings>,
     /// The pieces of least upper bound.
     nearest: Option<Contact>,
     /// Bounds the distance of all pieces that were measured or given up.
@@ -84,7 +84,7 @@ impl Nearest<'_> {
             match pair {
                 Next::Split(split) => {
                     let expansion = measure(self.problem, &split);
-                    self.wait(Group::new(self.problem, &expansion, split, 0.0))?;
+                    self.wait(Siblings::new(self.problem, &expansion, split, 0.0))?;
                 }
                 Next::Ask(a, b) => self.look([a, b], oracle, meter)?,
             }
@@ -93,12 +93,12 @@ impl Nearest<'_> {
         ControlFlow::Continue(())
     }
 
-    fn wait(&mut self, group: Group) -> ControlFlow<Outcome> {
-        let distance = group.clock();
+    fn wait(&mut self, siblings: Siblings) -> ControlFlow<Outcome> {
+        let distance = siblings.clock();
         if !(distance < self.upper()) {
             return ControlFlow::Continue(());
         }
-        match self.waiting.push(distance, Rank::Group, group) {
+        match self.waiting.push(distance, Rank::Siblings, siblings) {
             Ok(()) => ControlFlow::Continue(()),
             Err(Full) => ControlFlow::Break(unresolved(Limit::Budget)),
         }
@@ -129,13 +129,13 @@ impl Nearest<'_> {
         meter: &mut Meter,
     ) -> ControlFlow<Outcome> {
         let problem = self.problem;
-        let moment = Moment::new(problem, ids[0], ids[1], 0.0);
-        let Some(checked) = moment.ask(oracle, &mut O::Cache::default(), meter) else {
+        let snapshot = Snapshot::new(problem, ids[0], ids[1], 0.0);
+        let Some(checked) = snapshot.ask(oracle, &mut O::Cache::default(), meter) else {
             return ControlFlow::Break(unresolved(Limit::OracleGaveUp));
         };
-        match overlap::intersects(&moment.pieces, &checked, problem.rounding) {
+        match overlap::intersects(&snapshot.pieces, &checked, problem.rounding) {
             Intersection::Certain => {
-                return ControlFlow::Break(overlapping(contact(&moment, ids, &checked)));
+                return ControlFlow::Break(overlapping(contact(&snapshot, ids, &checked)));
             }
             Intersection::Undecided => self.undecided = true,
             Intersection::None => {}
@@ -146,7 +146,7 @@ impl Nearest<'_> {
         }
         self.lower = lesser(self.lower, checked.lower);
         if checked.upper < self.upper() {
-            self.nearest = Some(contact(&moment, ids, &checked));
+            self.nearest = Some(contact(&snapshot, ids, &checked));
         }
         ControlFlow::Continue(())
     }

@@ -41,10 +41,10 @@ fn names_are_those_of_looking_at_all_facets() {
     let piece = pieces.get(0);
     // Of no list, so that nothing is kept.
     let bare = Piece {
-        place: None,
+        slot: None,
         ..piece
     };
-    assert!(Meeting::of(&piece).is_some() && Meeting::of(&bare).is_none());
+    assert!(FacetsByCorner::of(&piece).is_some() && FacetsByCorner::of(&bare).is_none());
     let mut rng = rng(41);
     let (mut faces, mut edges) = (0, 0);
     for _ in 0..3_000 {
@@ -59,10 +59,10 @@ fn names_are_those_of_looking_at_all_facets() {
         for _ in 0..rng.random_range(1..=3) {
             point.push(near[rng.random_range(0..4)], rng.random_range(0.1..1.0));
         }
-        let name = of_polytope(&piece, &point);
-        assert_eq!(name, of_polytope(&bare, &point), "{point:?}");
-        faces += usize::from(matches!(name, Name::Face(_)));
-        edges += usize::from(matches!(name, Name::Edge(..)));
+        let name = look_up(&piece, &point);
+        assert_eq!(name, look_up(&bare, &point), "{point:?}");
+        faces += usize::from(matches!(name, MeshFeature::Face(_)));
+        edges += usize::from(matches!(name, MeshFeature::Edge(..)));
     }
     assert!(faces > 300 && edges > 300, "{faces} {edges}");
 }

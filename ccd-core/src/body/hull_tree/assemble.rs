@@ -6,7 +6,7 @@ use super::error::{HullFault, HullTreeError};
 use super::identity::Identity;
 use super::inherit::{Child, inherit};
 use super::inside::Container;
-use super::node::{Node, Skin};
+use super::node::{FacetData, Node};
 use super::{FacetClass, Hull, HullNode, HullTree, Hulls};
 use crate::body::hierarchy::{Hierarchy, HierarchyNode, bounds};
 use crate::body::pieces::{Listed, Pieces, Room, Row};
@@ -30,10 +30,14 @@ pub(super) fn assemble(pieces: &Pieces, nodes: &[HullNode]) -> Result<HullTree, 
     let mut class_ends = Vec::with_capacity(done.len());
     for node in &done {
         // A bridge between thick and thin pieces is level with neither.
-        classes.extend(node.skins.iter().map(|skin| match node.evenly_rounded {
-            true => skin.class,
-            false => FacetClass::Free,
-        }));
+        classes.extend(
+            node.facet_data
+                .iter()
+                .map(|facet| match node.evenly_rounded {
+                    true => facet.class,
+                    false => FacetClass::Free,
+                }),
+        );
         class_ends.push(classes.len() as u32);
     }
     let (meeting, meeting_ends) = meeting(&done);
@@ -70,7 +74,7 @@ fn flattened(nodes: Vec<Node<'_>>) -> Result<Pieces, InputError> {
             facets: node
                 .loops
                 .iter()
-                .zip(node.skins.iter().map(|skin| skin.origin)),
+                .zip(node.facet_data.iter().map(|facet| facet.origin)),
             faces: node.faces().copied(),
             radius: node.radius,
         })?;
@@ -110,10 +114,10 @@ fn leaf(at: usize, piece: Polytope) -> Result<Node<'static>, HullTreeError> {
         let point = point as u32;
         return Err(HullFault::TooFine { point }.at(at));
     }
-    let skins = Skin::of_piece(&piece);
+    let facet_data = FacetData::of_piece(&piece);
     let loops = piece.facets.into_iter().map(|facet| facet.corners);
     Ok(Node {
-        skins,
+        facet_data,
         evenly_rounded: true,
         size: size(&piece.points, piece.radius),
         loops: Cow::Owned(loops.collect()),
@@ -142,7 +146,7 @@ fn inner<'a>(
     let of_right = Child::new(right, &identity.of_right);
     let radius = greater(left.radius, right.radius);
     Ok(Node {
-        skins: inherit(hull, &identity.places, [of_left, of_right]),
+        facet_data: inherit(hull, &identity.places, [of_left, of_right]),
         evenly_rounded,
         size: size(&hull.points, radius),
         loops: Cow::Borrowed(&hull.facets),

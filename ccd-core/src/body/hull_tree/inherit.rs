@@ -5,23 +5,23 @@
 
 use super::edges::{EdgeMap, edges_of};
 use super::inside::{is_coplanar, spanning};
-use super::node::{Node, Skin};
+use super::node::{FacetData, Node};
 use super::{FacetClass, Hull};
 use crate::body::polytope::{Face, Origin, Polytope};
 use crate::math::exact::is_degenerate;
 use crate::math::point_tree::PointTree;
 use glam::DVec3;
 
-impl Skin {
-    const BRIDGE: Skin = Skin {
+impl FacetData {
+    const BRIDGE: FacetData = FacetData {
         origin: Origin::Virtual,
         class: FacetClass::Free,
         faces: Vec::new(),
     };
 
     /// Of a piece's facets.
-    pub(super) fn of_piece(piece: &Polytope) -> Vec<Skin> {
-        let mut skins = Vec::with_capacity(piece.facets.len());
+    pub(super) fn of_piece(piece: &Polytope) -> Vec<FacetData> {
+        let mut facet_data = Vec::with_capacity(piece.facets.len());
         let starts: Vec<DVec3> = piece.faces.iter().map(|face| face.corners[0]).collect();
         let tree = PointTree::new(&starts);
         for facet in &piece.facets {
@@ -33,7 +33,7 @@ impl Skin {
             near.sort_unstable();
             let near = near.iter().map(|&k| piece.faces[k as usize]);
             let within = |face: &Face| is_coplanar(&corners, face.corners);
-            skins.push(Skin {
+            facet_data.push(FacetData {
                 origin: facet.origin,
                 class: match facet.origin {
                     Origin::Face(_) | Origin::Faces => FacetClass::Original,
@@ -42,13 +42,13 @@ impl Skin {
                 faces: near.filter(within).collect(),
             });
         }
-        skins
+        facet_data
     }
 
     /// Of a facet that two others tile.
-    fn joined(parts: [&Part<'_>; 2]) -> Skin {
-        let class = parts[0].skin.class.max(parts[1].skin.class);
-        Skin {
+    fn joined(parts: [&Part<'_>; 2]) -> FacetData {
+        let class = parts[0].facet.class.max(parts[1].facet.class);
+        FacetData {
             origin: match class {
                 FacetClass::Original => Origin::Faces,
                 FacetClass::Contained | FacetClass::Free => Origin::Virtual,
@@ -74,20 +74,20 @@ impl<'a> Child<'a> {
 }
 
 /// What the facets of a hull are, given its children and where all their points are.
-pub(super) fn inherit(hull: &Hull, places: &[DVec3], children: [Child<'_>; 2]) -> Vec<Skin> {
+pub(super) fn inherit(hull: &Hull, places: &[DVec3], children: [Child<'_>; 2]) -> Vec<FacetData> {
     let triangles = children.map(|child| lone_triangle(&child));
     let sides = [0, 1].map(|k| Side::new(children[k], triangles[k].as_ref(), places.len()));
-    let skin = |corners: &[u32]| {
+    let facet = |corners: &[u32]| {
         let parts = sides.each_ref().map(|side| side.sharing_an_edge(corners));
         match parts {
-            [Some(part), _] | [_, Some(part)] if same_loop(&part, corners) => part.skin.clone(),
+            [Some(part), _] | [_, Some(part)] if same_loop(&part, corners) => part.facet.clone(),
             [Some(one), Some(other)] if tile(places, corners, [&one, &other]) => {
-                Skin::joined([&one, &other])
+                FacetData::joined([&one, &other])
             }
-            _ => Skin::BRIDGE,
+            _ => FacetData::BRIDGE,
         }
     };
-    hull.facets.iter().map(skin).collect()
+    hull.facets.iter().map(facet).collect()
 }
 
 /// A facet of a child.
@@ -95,7 +95,7 @@ struct Part<'a> {
     child: Child<'a>,
     /// By the child's numbers.
     corners: &'a [u32],
-    skin: &'a Skin,
+    facet: &'a FacetData,
 }
 
 impl Part<'_> {
@@ -110,7 +110,7 @@ impl Part<'_> {
 
     fn mesh_faces(&self) -> Vec<Face> {
         let node = self.child.node;
-        match self.skin.origin {
+        match self.facet.origin {
             Origin::Face(id) => (1..self.corners.len() - 1)
                 .map(|k| {
                     let corners = [0, k, k + 1].map(|k| self.corners[k]);
@@ -121,7 +121,7 @@ impl Part<'_> {
                     }
                 })
                 .collect(),
-            Origin::Faces | Origin::Virtual => self.skin.faces.clone(),
+            Origin::Faces | Origin::Virtual => self.facet.faces.clone(),
         }
     }
 }
@@ -130,7 +130,7 @@ impl Part<'_> {
 struct Side<'a> {
     child: Child<'a>,
     /// What either side is of a triangle by itself.
-    lone: Option<&'a Skin>,
+    lone: Option<&'a FacetData>,
     /// Which part an edge belongs to.
     by_edge: EdgeMap,
 }
@@ -140,7 +140,7 @@ const SIDES: [[u32; 3]; 2] = [[0, 1, 2], [2, 1, 0]];
 
 impl<'a> Side<'a> {
     /// Of a child whose points have numbers below `places`.
-    fn new(child: Child<'a>, lone: Option<&'a Skin>, places: usize) -> Self {
+    fn new(child: Child<'a>, lone: Option<&'a FacetData>, places: usize) -> Self {
         let sides = SIDES.iter().map(|corners| &corners[..]);
         let loops = child
             .node
@@ -160,14 +160,14 @@ impl<'a> Side<'a> {
 
     fn part(&self, k: usize) -> Option<Part<'a>> {
         let node = self.child.node;
-        let (corners, skin) = match node.loops.get(k) {
-            Some(corners) => (corners, node.skins.get(k)?),
+        let (corners, facet) = match node.loops.get(k) {
+            Some(corners) => (corners, node.facet_data.get(k)?),
             None => (&SIDES.get(k - node.loops.len())?[..], self.lone?),
         };
         Some(Part {
             child: self.child,
             corners,
-            skin,
+            facet,
         })
     }
 
@@ -178,9 +178,9 @@ impl<'a> Side<'a> {
 }
 
 /// What the front and the back are of a triangle by itself, which lists no facets.
-fn lone_triangle(child: &Child<'_>) -> Option<Skin> {
+fn lone_triangle(child: &Child<'_>) -> Option<FacetData> {
     let alone = child.node.loops.is_empty() && child.node.points.len() == 3;
-    alone.then(|| Skin {
+    alone.then(|| FacetData {
         origin: match child.node.own_faces.as_deref().unwrap_or_default() {
             [face] => Origin::Face(face.id),
             _ => Origin::Virtual,

@@ -13,7 +13,7 @@ pub(super) struct Node<'a> {
     pub(super) vertex_ids: Vec<u32>,
     pub(super) loops: Cow<'a, Loops>,
     /// Of its facets.
-    pub(super) skins: Vec<Skin>,
+    pub(super) facet_data: Vec<FacetData>,
     /// The mesh's faces on a leaf; an inner node has those of its skins.
     pub(super) own_faces: Option<Vec<Face>>,
     pub(super) radius: f64,
@@ -23,7 +23,7 @@ pub(super) struct Node<'a> {
 
 /// What is known of one facet.
 #[derive(Clone, Debug)]
-pub(super) struct Skin {
+pub(super) struct FacetData {
     pub(super) origin: Origin,
     pub(super) class: FacetClass,
     /// The triangles of the mesh that lie in it, unless it is one face by itself.
@@ -33,7 +33,7 @@ pub(super) struct Skin {
 impl Node<'_> {
     /// The mesh's faces on its surface.
     pub(super) fn faces(&self) -> impl Iterator<Item = &Face> {
-        let of_skins = self.skins.iter().flat_map(|skin| &skin.faces);
+        let of_skins = self.facet_data.iter().flat_map(|facet| &facet.faces);
         let (own, of_skins) = match &self.own_faces {
             Some(own) => (&own[..], None),
             None => (&[][..], Some(of_skins)),

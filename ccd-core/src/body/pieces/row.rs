@@ -2,7 +2,7 @@
 
 use super::{Pieces, Radii, Shape, Surfaces};
 use crate::body::polytope::{Face, Origin};
-use crate::body::side_table::Shelf;
+use crate::body::side_table::SideTable;
 use crate::error::InputError;
 use glam::DVec3;
 
@@ -102,7 +102,7 @@ impl Row {
             point_ends: self.point_ends,
             radii: Radii::Each(self.radii),
             shape: Shape::Polytopes(Box::new(self.surfaces)),
-            shelf: Shelf::default(),
+            side_table: SideTable::default(),
         }
         .checked()
     }

@@ -2,7 +2,7 @@
 
 use super::{Pieces, Radii, Shape};
 use crate::body::polytope::Polytope;
-use crate::body::side_table::Shelf;
+use crate::body::side_table::SideTable;
 use crate::error::InputError;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
@@ -65,7 +65,7 @@ impl TryFrom<Stored> for Pieces {
             point_ends: (1..=triangles).map(|k| 3 * k as u32).collect(),
             radii: Radii::Zero,
             shape: Shape::Triangles { face_ids },
-            shelf: Shelf::default(),
+            side_table: SideTable::default(),
         }
         .checked()
     }

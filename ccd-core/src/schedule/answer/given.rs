@@ -6,7 +6,7 @@ use crate::outcome::{Contact, Outcome, Overlap};
 use crate::problem::Problem;
 use crate::schedule::meter::Meter;
 use crate::schedule::pieces::pair;
-use crate::schedule::pieces::snapshot::Moment;
+use crate::schedule::pieces::snapshot::Snapshot;
 
 /// The outcome for the bodies that were given: of a contact the normal, the witnesses and the bounds are
 /// those of the pieces that it names.
@@ -49,18 +49,19 @@ fn of_pieces<O: DistanceOracle>(
     s: f64,
 ) -> Contact {
     let ids = [contact.piece_a, contact.piece_b];
-    let moment = Moment::new(given, ids[0], ids[1], s);
+    let snapshot = Snapshot::new(given, ids[0], ids[1], s);
     let bound = contact.separation.lower;
-    let checked = moment.ask(oracle, &mut O::Cache::default(), meter);
+    let checked = snapshot.ask(oracle, &mut O::Cache::default(), meter);
     match checked.filter(|checked| checked.upper <= within) {
-        Some(checked) => pair::contact(&moment, ids, &checked).no_nearer_than(bound),
+        Some(checked) => pair::contact(&snapshot, ids, &checked).no_nearer_than(bound),
         // The oracle sees less of the pieces: what was found on their surfaces stands, with what its
         // normal proves of them.
         None => {
-            let axis = moment.frames[0].inverse_vector(contact.separation.normal);
-            let from = moment.frames[0].inverse_point(given.local(contact.separation.witness_a));
-            let radii = moment.pieces.a.radius + moment.pieces.b.radius;
-            contact.no_nearer_than(support_gap(&moment.pieces, axis, from) - radii - given.rounding)
+            let axis = snapshot.frames[0].inverse_vector(contact.separation.normal);
+            let from = snapshot.frames[0].inverse_point(given.local(contact.separation.witness_a));
+            let radii = snapshot.pieces.a.radius + snapshot.pieces.b.radius;
+            contact
+                .no_nearer_than(support_gap(&snapshot.pieces, axis, from) - radii - given.rounding)
         }
     }
 }

@@ -7,7 +7,7 @@ use crate::body::hull_tree::{FacetClass, HullTree};
 use crate::body::piece::Piece;
 use crate::distance::oracle::Claim;
 use crate::problem::Problem;
-use crate::schedule::nodes::expand::Which;
+use crate::problem::Which;
 
 /// The nodes of both bodies.
 #[derive(Clone, Copy, Debug)]

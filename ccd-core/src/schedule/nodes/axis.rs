@@ -1,6 +1,6 @@
 //! Axes to separate two nodes along.
 
-use super::shape::{Children, Other};
+use super::shape::{Children, OtherNode};
 use super::vector::{TINY, choose, dot, max, min, unit};
 use glam::Vec3;
 
@@ -18,7 +18,7 @@ pub(super) struct Axis {
 ///
 /// Homogeneous in the axis: a zero vector gives no gap, and one of any length a sound gap.
 #[inline(always)]
-pub(super) fn widest<C: Children, P: Other>(
+pub(super) fn widest<C: Children, P: OtherNode>(
     children: &C,
     other: &P,
     lane: usize,
@@ -37,7 +37,7 @@ pub(super) fn widest<C: Children, P: Other>(
 
 /// The way between the centres when they are nearest, should they go on by `travel` at most.
 #[inline(always)]
-pub(super) fn passing<C: Children, P: Other>(
+pub(super) fn passing<C: Children, P: OtherNode>(
     children: &C,
     other: &P,
     lane: usize,
@@ -50,7 +50,13 @@ pub(super) fn passing<C: Children, P: Other>(
 }
 
 #[inline(always)]
-fn along<C: Children, P: Other>(children: &C, other: &P, lane: usize, way: Vec3, n: Vec3) -> Axis {
+fn along<C: Children, P: OtherNode>(
+    children: &C,
+    other: &P,
+    lane: usize,
+    way: Vec3,
+    n: Vec3,
+) -> Axis {
     let split_reach = children.reach(lane, n);
     let other_reach = other.reach(n);
     Axis {

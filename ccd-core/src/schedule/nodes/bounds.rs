@@ -2,11 +2,11 @@
 //!
 //! Everything here is relative to the origin of the group that is split, in its body's frame, in
 //! f32, one array lane per child; loops over lanes are what the compiler turns into vector code.
-//! The rounding of every gap and rate is covered by the slacks of [`Closing`].
+//! The rounding of every gap and rate is covered by the slacks of [`RelativeMotionF32`].
 
 use super::axis;
-use super::eight_pairs::{Closing, Pairing};
-use super::shape::{Children, Other};
+use super::eight_pairs::{EightPairs, RelativeMotionF32};
+use super::shape::{Children, OtherNode};
 use super::turn::Turn;
 use super::vector::max;
 use crate::body::tree::LANES;
@@ -19,7 +19,7 @@ pub(crate) struct Bounds {
     pub(crate) free: [f32; LANES],
     /// Positive when a pair is so far apart for its size that looking at it again, once its time is
     /// over, is worth more than splitting it.
-    pub(crate) aloof: [f32; LANES],
+    pub(crate) waits: [f32; LANES],
     /// How thick the child is along the axis, less how thick the other node is.
     pub(crate) thicker: [f32; LANES],
     /// The gap that the free times prove to be kept.
@@ -31,31 +31,31 @@ pub(crate) struct Bounds {
 /// Two axes are tried: the one with the widest gap now, and the one along which the centres are
 /// apart when they are nearest. The first serves pairs that approach, the second such that pass.
 #[inline(always)]
-pub(crate) fn bound<C: Children, P: Other, S: Turn, O: Turn>(
+pub(crate) fn bound<C: Children, P: OtherNode, S: Turn, O: Turn>(
     children: &C,
     other: &P,
-    closing: &Closing<S, O>,
+    motion: &RelativeMotionF32<S, O>,
 ) -> Bounds {
     let mut out = Bounds {
         free: [0.0; LANES],
-        aloof: [0.0; LANES],
+        waits: [0.0; LANES],
         thicker: [0.0; LANES],
-        kept: closing.kept,
+        kept: motion.kept,
     };
-    let pairing = Pairing::new(children, other, closing);
+    let pairs = EightPairs::new(children, other, motion);
     for lane in 0..LANES {
-        let pair = pairing.lane(lane);
+        let pair = pairs.lane(lane);
         let widest = axis::widest(children, other, lane, pair.way);
         let passing = axis::passing(
             children,
             other,
             lane,
             pair.way,
-            pair.velocity * closing.horizon,
+            pair.velocity * motion.horizon,
         );
-        out.free[lane] = max(pairing.free(&pair, widest), pairing.free(&pair, passing));
+        out.free[lane] = max(pairs.free(&pair, widest), pairs.free(&pair, passing));
         let radius = children.radius(lane);
-        out.aloof[lane] = widest.gap - closing.slack - LOOK_AGAIN * (radius + other.radius());
+        out.waits[lane] = widest.gap - motion.slack - LOOK_AGAIN * (radius + other.radius());
         out.thicker[lane] = (widest.split_reach + THICKNESS * radius)
             - (widest.other_reach + THICKNESS * other.radius());
     }
@@ -65,30 +65,30 @@ pub(crate) fn bound<C: Children, P: Other, S: Turn, O: Turn>(
 /// Bounds eight pairs along planes that turn with the body of the larger nodes, where those of
 /// [`bound`] do not last as long.
 #[inline(always)]
-pub(crate) fn bound_attached<C: Children, P: Other, S: Turn, O: Turn>(
+pub(crate) fn bound_attached<C: Children, P: OtherNode, S: Turn, O: Turn>(
     children: &C,
     other: &P,
-    closing: &Closing<S, O>,
+    motion: &RelativeMotionF32<S, O>,
     larger: Larger,
     out: &mut Bounds,
 ) {
-    let pairing = Pairing::new(children, other, closing);
+    let pairs = EightPairs::new(children, other, motion);
     for lane in 0..LANES {
-        let pair = pairing.lane(lane);
+        let pair = pairs.lane(lane);
         let widest = axis::widest(children, other, lane, pair.way);
         let past = match larger {
             Larger::Split => Past {
-                attached: pairing.free_with_split(widest),
-                spin: closing.split.rate(),
-                arm: closing.split.arm(other.centre()),
+                attached: pairs.free_with_split(widest),
+                spin: motion.split.rate(),
+                arm: motion.split.arm(other.centre()),
                 large: children.radius(lane),
                 small: other.radius(),
                 whole: children.is_piece(lane),
             },
             Larger::Other => Past {
-                attached: pairing.free_with_other(&pair, widest),
-                spin: closing.other.rate(),
-                arm: closing.other.arm(children.centre(lane)),
+                attached: pairs.free_with_other(&pair, widest),
+                spin: motion.other.rate(),
+                arm: motion.other.arm(children.centre(lane)),
                 large: other.radius(),
                 small: children.radius(lane),
                 whole: other.is_piece(),
@@ -97,9 +97,9 @@ pub(crate) fn bound_attached<C: Children, P: Other, S: Turn, O: Turn>(
         let free = max(out.free[lane], past.attached);
         out.free[lane] = free;
         let swept = free * past.spin * past.arm - past.large * SWEPT;
-        let clear = widest.gap - closing.slack - LOOK_AGAIN * past.small;
-        let aloof = if past.whole { max(swept, clear) } else { swept };
-        out.aloof[lane] = max(out.aloof[lane], aloof);
+        let clear = widest.gap - motion.slack - LOOK_AGAIN * past.small;
+        let waits = if past.whole { max(swept, clear) } else { swept };
+        out.waits[lane] = max(out.waits[lane], waits);
     }
 }
 

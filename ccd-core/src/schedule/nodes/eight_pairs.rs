@@ -2,7 +2,7 @@
 
 use super::axis::Axis;
 use super::clock;
-use super::shape::{Children, Other};
+use super::shape::{Children, OtherNode};
 use super::turn::Turn;
 use super::vector::{dot, length};
 use crate::tolerance::{ACROSS_F32, BEND_F32, LEAST_BEND_F32};
@@ -10,7 +10,7 @@ use glam::Vec3;
 
 /// What all lanes share: the motion, and allowances for rounding.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Closing<S, O> {
+pub(crate) struct RelativeMotionF32<S, O> {
     /// Of the split side's centre less that of the other side's.
     pub(crate) velocity: Vec3,
     pub(crate) split: S,
@@ -28,10 +28,10 @@ pub(crate) struct Closing<S, O> {
 }
 
 /// The children of a group, each with the other node.
-pub(super) struct Pairing<'a, C, P, S, O> {
+pub(super) struct EightPairs<'a, C, P, S, O> {
     pub(super) children: &'a C,
     pub(super) other: &'a P,
-    pub(super) closing: &'a Closing<S, O>,
+    pub(super) motion: &'a RelativeMotionF32<S, O>,
     /// The velocity of the other node's centre due to turning.
     pub(super) other_turning: Vec3,
     /// No point of the other node moves faster due to turning.
@@ -50,58 +50,58 @@ pub(super) struct Lane {
     pub(super) speed: f32,
 }
 
-impl<'a, C: Children, P: Other, S: Turn, O: Turn> Pairing<'a, C, P, S, O> {
+impl<'a, C: Children, P: OtherNode, S: Turn, O: Turn> EightPairs<'a, C, P, S, O> {
     #[inline(always)]
-    pub(super) fn new(children: &'a C, other: &'a P, closing: &'a Closing<S, O>) -> Self {
-        let other_turning = closing.other.velocity(other.centre());
-        Pairing {
+    pub(super) fn new(children: &'a C, other: &'a P, motion: &'a RelativeMotionF32<S, O>) -> Self {
+        let other_turning = motion.other.velocity(other.centre());
+        EightPairs {
             children,
             other,
-            closing,
+            motion,
             other_turning,
             // A slack on the speeds covers what rounding takes off the bends.
             other_speed: length(other_turning)
-                + closing.other.rate() * other.radius()
-                + closing.rate_slack,
+                + motion.other.rate() * other.radius()
+                + motion.rate_slack,
         }
     }
 
     #[inline(always)]
     pub(super) fn lane(&self, lane: usize) -> Lane {
         let centre = self.children.centre(lane);
-        let turning = self.closing.split.velocity(centre);
+        let turning = self.motion.split.velocity(centre);
         Lane {
             lane,
             way: self.other.centre() - centre,
-            velocity: self.closing.velocity + turning - self.other_turning,
+            velocity: self.motion.velocity + turning - self.other_turning,
             speed: length(turning)
-                + self.closing.split.rate() * self.children.radius(lane)
-                + self.closing.rate_slack,
+                + self.motion.split.rate() * self.children.radius(lane)
+                + self.motion.rate_slack,
         }
     }
 
     /// For how long a plane across the axis, standing still, keeps the pair apart.
     #[inline(always)]
     pub(super) fn free(&self, pair: &Lane, axis: Axis) -> f32 {
-        let closing = self.closing;
+        let motion = self.motion;
         // n·(v + ω×arm) of the centres, and what the points around them add.
-        let mut rate = dot(axis.n, pair.velocity) + closing.rate_slack;
+        let mut rate = dot(axis.n, pair.velocity) + motion.rate_slack;
         let mut bend = LEAST_BEND_F32;
         if S::TURNS {
-            let m = closing.split.across(axis.n);
+            let m = motion.split.across(axis.n);
             rate += self.children.reach(pair.lane, m);
-            bend += bending(m, closing.split.rate(), pair.speed);
+            bend += bending(m, motion.split.rate(), pair.speed);
         }
         if O::TURNS {
-            let m = closing.other.across(axis.n);
+            let m = motion.other.across(axis.n);
             rate += self.other.reach(m);
-            bend += bending(m, closing.other.rate(), self.other_speed);
+            bend += bending(m, motion.other.rate(), self.other_speed);
         }
-        let apart = axis.gap - closing.slack;
+        let apart = axis.gap - motion.slack;
         if S::TURNS || O::TURNS {
-            clock::free_time(apart, closing.closed, rate, bend)
+            clock::free_time(apart, motion.closed, rate, bend)
         } else {
-            clock::straight_free_time(apart, closing.closed, rate)
+            clock::straight_free_time(apart, motion.closed, rate)
         }
     }
 }

@@ -3,41 +3,18 @@
 
 use super::bounds::Bounds;
 use super::bounds::{Larger, bound, bound_attached};
-use super::eight_pairs::Closing;
-use super::shape::{Children, Other, OtherBox, OtherTriangle};
+use super::eight_pairs::RelativeMotionF32;
+use super::shape::{Children, OtherBox, OtherNode, OtherTriangle};
 use super::turn::Turning;
 use super::turn::{Straight, Turn};
 use crate::body::tree::{Below, LANES, Members, Named, Node, NodeId, unit_normal, up};
 use crate::math::order::greater;
 use crate::motion::pose::Frame;
-use crate::problem::{Problem, Side};
+use crate::problem::{Problem, Side, Which};
 use crate::tolerance::{
     CLOSED_GAP, LEAST_GAP_F32, MUCH_LARGER, PLACES_F32, RATE_F32, REACH_F32, WAY_F32,
 };
 use glam::{DMat3, DVec3, Vec3};
-
-/// Which body a node belongs to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Which {
-    A,
-    B,
-}
-
-impl Which {
-    pub(crate) fn other(self) -> Which {
-        match self {
-            Which::A => Which::B,
-            Which::B => Which::A,
-        }
-    }
-
-    pub(crate) fn of<'p, 'a>(self, problem: &'p Problem<'a>) -> &'p Side<'a> {
-        match self {
-            Which::A => &problem.a,
-            Which::B => &problem.b,
-        }
-    }
-}
 
 /// The children of the split node, each paired with the other node.
 #[derive(Clone, Copy, Debug)]
@@ -77,7 +54,7 @@ impl Split {
 /// # Panics
 /// When the node is a single piece.
 pub(crate) fn expand(problem: &Problem<'_>, split: &Split, s: f64) -> Expansion {
-    split_node::<Moving>(&Meeting::new(problem, split, s), split)
+    split_node::<AsTheyMove>(&RelativeMotion::new(problem, split, s), split)
 }
 
 /// Splits a node at the start, to measure: what stands for the time for which a pair keeps apart is a
@@ -86,12 +63,12 @@ pub(crate) fn expand(problem: &Problem<'_>, split: &Split, s: f64) -> Expansion 
 /// # Panics
 /// When the node is a single piece.
 pub(crate) fn measure(problem: &Problem<'_>, split: &Split) -> Expansion {
-    split_node::<Uniform>(&Meeting::new(problem, split, 0.0), split)
+    split_node::<UnitRate>(&RelativeMotion::new(problem, split, 0.0), split)
 }
 
 #[inline(always)]
-fn split_node<P: Pace>(meeting: &Meeting<'_>, split: &Split) -> Expansion {
-    let tree = meeting.near.body.tree();
+fn split_node<P: Pace>(motion: &RelativeMotion<'_>, split: &Split) -> Expansion {
+    let tree = motion.split_side.body.tree();
     let Named::Node(node) = tree.get(split.node) else {
         unreachable!("a triangle is a single piece");
     };
@@ -99,7 +76,7 @@ fn split_node<P: Pace>(meeting: &Meeting<'_>, split: &Split) -> Expansion {
         Below::Boxes(group) => {
             let group = tree.box_group(group);
             Expansion {
-                bounds: meeting.bound::<_, P>(group, &group.members),
+                bounds: motion.bound::<_, P>(group, &group.members),
                 first: group.members.first,
                 count: group.members.count,
                 leaves: group.leaves,
@@ -108,7 +85,7 @@ fn split_node<P: Pace>(meeting: &Meeting<'_>, split: &Split) -> Expansion {
         Below::Triangles(group) => {
             let group = tree.triangle_group(group);
             Expansion {
-                bounds: meeting.bound::<_, P>(group, &group.members),
+                bounds: motion.bound::<_, P>(group, &group.members),
                 first: group.members.first,
                 count: group.members.count,
                 leaves: u8::MAX,
@@ -118,114 +95,113 @@ fn split_node<P: Pace>(meeting: &Meeting<'_>, split: &Split) -> Expansion {
     }
 }
 
-/// The two bodies at a clock, along the axes of the one whose node is split.
-struct Meeting<'p> {
+/// How the two bodies move past each other at a clock, along the axes of the one whose node is split.
+struct RelativeMotion<'p> {
     problem: &'p Problem<'p>,
-    near: &'p Side<'p>,
-    far: &'p Side<'p>,
-    /// The far body's node.
+    split_side: &'p Side<'p>,
+    other_side: &'p Side<'p>,
+    /// The other body's node.
     other: NodeId,
-    far_to_near: Frame,
-    /// Of the near centre less that of the far one.
+    other_to_split: Frame,
+    /// The velocity of the split body's centre less that of the other one's.
     velocity: DVec3,
-    /// The far body's.
-    spin: DVec3,
+    /// The angular velocity of the other body.
+    other_spin: DVec3,
     /// How much time is left.
     horizon: f32,
 }
 
 /// How fast gaps close.
 trait Pace {
-    /// For how long members of a group keep apart from the far body's node.
-    fn bound<C: Children, O: Other>(view: &View<'_>, group: &C, other: &O) -> Bounds;
+    /// For how long members of a group keep apart from the other body's node.
+    fn bound<C: Children, O: OtherNode>(view: &GroupView<'_>, group: &C, other: &O) -> Bounds;
 }
 
 /// As the bodies move.
-struct Moving;
+struct AsTheyMove;
 
 /// By one unit of length in one of time, along every axis: the time that takes is the distance.
-struct Uniform;
+struct UnitRate;
 
-impl Pace for Moving {
+impl Pace for AsTheyMove {
     #[inline]
-    fn bound<C: Children, O: Other>(view: &View<'_>, group: &C, other: &O) -> Bounds {
+    fn bound<C: Children, O: OtherNode>(view: &GroupView<'_>, group: &C, other: &O) -> Bounds {
         view.bound(group, other)
     }
 }
 
-impl Pace for Uniform {
-    fn bound<C: Children, O: Other>(view: &View<'_>, group: &C, other: &O) -> Bounds {
+impl Pace for UnitRate {
+    fn bound<C: Children, O: OtherNode>(view: &GroupView<'_>, group: &C, other: &O) -> Bounds {
         view.distances(group, other)
     }
 }
 
-impl<'p> Meeting<'p> {
+impl<'p> RelativeMotion<'p> {
     // Half of a kilobyte, made once a visit: built where it is used, not moved there.
     #[inline(always)]
     fn new(problem: &'p Problem<'_>, split: &Split, s: f64) -> Self {
-        let (near, far) = (split.body.of(problem), split.body.other().of(problem));
-        let (near_frame, far_frame) = (near.path.frame(s), far.path.frame(s));
-        Meeting {
+        let (split_side, other_side) = (split.body.of(problem), split.body.other().of(problem));
+        let (split_frame, other_frame) = (split_side.path.frame(s), other_side.path.frame(s));
+        RelativeMotion {
             problem,
-            near,
-            far,
+            split_side,
+            other_side,
             other: split.other,
-            far_to_near: near_frame.from_frame(&far_frame),
-            velocity: near_frame.inverse_vector(near.path.velocity - far.path.velocity),
-            spin: near_frame.inverse_vector(far.path.spin),
+            other_to_split: split_frame.from_frame(&other_frame),
+            velocity: split_frame
+                .inverse_vector(split_side.path.velocity - other_side.path.velocity),
+            other_spin: split_frame.inverse_vector(other_side.path.spin),
             horizon: (1.0 - s) as f32,
         }
     }
 
-    /// Bounds a group of the near body against the far body's node.
+    /// Bounds a group of the split body against the other body's node.
     #[inline]
     fn bound<C: Children, P: Pace>(&self, group: &C, members: &Members) -> Bounds {
-        let mut far_to_near = self.far_to_near;
-        far_to_near.translation -= members.origin;
-        let view = View {
-            turn: columns(&far_to_near.rotation),
-            far_to_near,
-            meeting: self,
+        let mut other_to_split = self.other_to_split;
+        other_to_split.translation -= members.origin;
+        let view = GroupView {
+            turn: columns(&other_to_split.rotation),
+            other_to_split,
+            motion: self,
             members,
         };
-        match self.far.body.tree().get(self.other) {
+        match self.other_side.body.tree().get(self.other) {
             Named::Node(node) => P::bound(&view, group, &view.node(node)),
             Named::Triangle(piece) => {
-                let corners = self.far.body.pieces().triangle(piece as usize);
+                let corners = self.other_side.body.pieces().triangle(piece as usize);
                 P::bound(&view, group, &view.triangle(corners))
             }
         }
     }
 }
 
-/// The far body as a group sees it.
-struct View<'m> {
-    meeting: &'m Meeting<'m>,
+/// The relative motion as a group of the split body sees it.
+struct GroupView<'m> {
+    motion: &'m RelativeMotion<'m>,
     members: &'m Members,
     /// Relative to the group's origin.
-    far_to_near: Frame,
+    other_to_split: Frame,
     /// The same rotation in f32: columns.
     turn: [Vec3; 3],
 }
 
-impl View<'_> {
-    fn bound<C: Children, P: Other>(&self, group: &C, other: &P) -> Bounds {
-        let near = || self.near_turning();
-        let far = || self.far_turning();
-        let Meeting {
-            near: n, far: f, ..
-        } = self.meeting;
-        match (n.path.turns(), f.path.turns()) {
-            (false, false) => self.turning(group, other, Straight, Straight),
-            (true, false) => self.turning(group, other, near(), Straight),
-            (false, true) => self.turning(group, other, Straight, far()),
-            (true, true) => self.turning(group, other, near(), far()),
+impl GroupView<'_> {
+    fn bound<C: Children, P: OtherNode>(&self, group: &C, other: &P) -> Bounds {
+        let split_turn = || self.split_turning();
+        let other_turn = || self.other_turning();
+        let sides = [self.motion.split_side, self.motion.other_side];
+        match sides.map(|side| side.path.turns()) {
+            [false, false] => self.turning(group, other, Straight, Straight),
+            [true, false] => self.turning(group, other, split_turn(), Straight),
+            [false, true] => self.turning(group, other, Straight, other_turn()),
+            [true, true] => self.turning(group, other, split_turn(), other_turn()),
         }
     }
 
     fn node(&self, node: &Node) -> OtherBox {
         OtherBox {
-            centre: self.far_to_near.point(node.centre).as_vec3(),
+            centre: self.other_to_split.point(node.centre).as_vec3(),
             axes: node
                 .axes
                 .map(|u| self.turn[0] * u.x + self.turn[1] * u.y + self.turn[2] * u.z),
@@ -237,7 +213,7 @@ impl View<'_> {
     }
 
     fn triangle(&self, corners: [DVec3; 3]) -> OtherTriangle {
-        let corners = corners.map(|p| self.far_to_near.point(p));
+        let corners = corners.map(|p| self.other_to_split.point(p));
         let centre = (corners[0] + corners[1] + corners[2]) / 3.0;
         let arms = corners.map(|p| p - centre);
         let farthest = arms.map(|arm| arm.length_squared());
@@ -249,8 +225,8 @@ impl View<'_> {
         }
     }
 
-    fn near_turning(&self) -> Turning {
-        let path = &self.meeting.near.path;
+    fn split_turning(&self) -> Turning {
+        let path = &self.motion.split_side.path;
         Turning {
             spin: path.spin_local.as_vec3(),
             rate: up(path.rate),
@@ -258,59 +234,60 @@ impl View<'_> {
         }
     }
 
-    fn far_turning(&self) -> Turning {
-        let path = &self.meeting.far.path;
+    fn other_turning(&self) -> Turning {
+        let path = &self.motion.other_side.path;
         Turning {
-            spin: self.meeting.spin.as_vec3(),
+            spin: self.motion.other_spin.as_vec3(),
             rate: up(path.rate),
-            centre: self.far_to_near.point(path.centre).as_vec3(),
+            centre: self.other_to_split.point(path.centre).as_vec3(),
         }
     }
 
-    fn turning<C: Children, P: Other, S: Turn, O: Turn>(
+    fn turning<C: Children, P: OtherNode, S: Turn, O: Turn>(
         &self,
         group: &C,
         other: &P,
-        split: S,
-        far: O,
+        split_turn: S,
+        other_turn: O,
     ) -> Bounds {
-        let velocity = self.meeting.velocity.as_vec3();
+        let velocity = self.motion.velocity.as_vec3();
         let reach = self.members.reach;
         // An arm is the difference of two places, each rounded where it is.
-        let places = other.centre().length() + far.arm(Vec3::ZERO);
+        let places = other.centre().length() + other_turn.arm(Vec3::ZERO);
         let speed = velocity.length()
-            + split.rate() * (reach + split.arm(Vec3::ZERO))
-            + far.rate() * (other.radius() + far.arm(other.centre()) + PLACES_F32 * places);
-        let problem = self.meeting.problem;
+            + split_turn.rate() * (reach + split_turn.arm(Vec3::ZERO))
+            + other_turn.rate()
+                * (other.radius() + other_turn.arm(other.centre()) + PLACES_F32 * places);
+        let problem = self.motion.problem;
         let rounding = self.rounding(other);
         let slack = greater(
             (up(problem.margin) + rounding).next_up(),
             up(problem.node_gap()),
         );
         let closed = (CLOSED_GAP * problem.tolerance) as f32;
-        let closing = Closing {
+        let motion = RelativeMotionF32 {
             velocity,
-            split,
-            other: far,
-            horizon: self.meeting.horizon,
+            split: split_turn,
+            other: other_turn,
+            horizon: self.motion.horizon,
             slack,
             kept: (slack - rounding).next_down(),
             closed: greater(LEAST_GAP_F32, closed),
             rate_slack: RATE_F32 * speed,
         };
-        let mut bounds = bound(group, other, &closing);
+        let mut bounds = bound(group, other, &motion);
         if S::TURNS && reach > MUCH_LARGER * other.radius() {
-            bound_attached(group, other, &closing, Larger::Split, &mut bounds);
+            bound_attached(group, other, &motion, Larger::Split, &mut bounds);
         } else if O::TURNS && other.radius() > MUCH_LARGER * reach {
-            bound_attached(group, other, &closing, Larger::Other, &mut bounds);
+            bound_attached(group, other, &motion, Larger::Other, &mut bounds);
         }
         bounds
     }
 
     /// Lower bounds of distances: for how long pairs keep apart that close in at a rate of 1.
-    fn distances<C: Children, P: Other>(&self, group: &C, other: &P) -> Bounds {
+    fn distances<C: Children, P: OtherNode>(&self, group: &C, other: &P) -> Bounds {
         let rounding = self.rounding(other);
-        let closing = Closing {
+        let motion = RelativeMotionF32 {
             velocity: Vec3::ZERO,
             split: Straight,
             other: Straight,
@@ -322,16 +299,16 @@ impl View<'_> {
         };
         Bounds {
             // A second look would see the same.
-            aloof: [0.0; LANES],
-            ..bound(group, other, &closing)
+            waits: [0.0; LANES],
+            ..bound(group, other, &motion)
         }
     }
 
     /// What rounding may do to a gap.
-    fn rounding<P: Other>(&self, other: &P) -> f32 {
+    fn rounding<P: OtherNode>(&self, other: &P) -> f32 {
         let [x, y, z] = other.centre().abs().to_array();
         let rounding = WAY_F32 * (x + y + z) + REACH_F32 * (other.radius() + self.members.reach);
-        (rounding + up(self.meeting.problem.rounding)).next_up()
+        (rounding + up(self.motion.problem.rounding)).next_up()
     }
 }
 

@@ -20,7 +20,7 @@ pub(crate) trait Children {
 }
 
 /// The node that all children of a group are paired with.
-pub(crate) trait Other {
+pub(crate) trait OtherNode {
     fn centre(&self) -> Vec3;
     /// A unit vector that is likely to separate the node from others, or zero.
     fn normal(&self) -> Vec3;
@@ -127,7 +127,7 @@ pub(crate) struct OtherBox {
     pub(crate) piece: bool,
 }
 
-impl Other for OtherBox {
+impl OtherNode for OtherBox {
     #[inline(always)]
     fn centre(&self) -> Vec3 {
         self.centre
@@ -168,7 +168,7 @@ pub(crate) struct OtherTriangle {
     pub(crate) radius: f32,
 }
 
-impl Other for OtherTriangle {
+impl OtherNode for OtherTriangle {
     #[inline(always)]
     fn centre(&self) -> Vec3 {
         self.centre

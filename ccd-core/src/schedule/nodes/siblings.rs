@@ -1,13 +1,14 @@
 //! Pairs that came of one split wait together, and are taken out one by one.
 
-use super::expand::{Expansion, Split, Which};
+use super::expand::{Expansion, Split};
 use crate::body::tree::{LANES, NodeId};
 use crate::math::order::greater;
 use crate::problem::Problem;
+use crate::problem::Which;
 
 /// Up to eight pairs: the children of a node, each with one node of the other body.
 #[derive(Debug)]
-pub(crate) struct Group {
+pub(crate) struct Siblings {
     /// For how long after `since` each pair is certified; infinite once it is done with.
     free: FreeTimes,
     since: f64,
@@ -17,7 +18,7 @@ pub(crate) struct Group {
     /// Which children are thicker than the other node and are to be split next.
     thicker: u8,
     /// Which children are better looked at again than split.
-    aloof: u8,
+    waits: u8,
 }
 
 /// What to do with a pair whose clock has run out.
@@ -44,39 +45,39 @@ impl Next {
     }
 }
 
-impl Group {
+impl Siblings {
     /// The pair of both roots, of which the given body's is to be split.
     pub(crate) fn roots(body: Which) -> Self {
-        Group {
+        Siblings {
             free: FreeTimes::new(&[0.0; LANES], 1),
             since: 0.0,
             split: Split::all(body, 0, 0),
             first: 0,
             thicker: 1,
-            aloof: 0,
+            waits: 0,
         }
     }
 
     /// What came of a split at a clock.
     pub(crate) fn new(problem: &Problem<'_>, expansion: &Expansion, split: Split, s: f64) -> Self {
         let bounds = &expansion.bounds;
-        let (mut thicker, mut aloof) = (0, 0);
+        let (mut thicker, mut waits) = (0, 0);
         for lane in 0..LANES {
             thicker |= u8::from(bounds.thicker[lane] > 0.0) << lane;
-            aloof |= u8::from(bounds.aloof[lane] > 0.0) << lane;
+            waits |= u8::from(bounds.waits[lane] > 0.0) << lane;
         }
         let other_tree = split.body.other().of(problem).body.tree();
         if other_tree.piece(split.other).is_some() {
             thicker = u8::MAX;
         }
         let used = split.lanes & lanes_below(expansion.count);
-        Group {
+        Siblings {
             free: FreeTimes::new(&bounds.free, used),
             since: s,
             split,
             first: expansion.first,
             thicker: thicker & !expansion.leaves,
-            aloof,
+            waits,
         }
     }
 
@@ -102,8 +103,8 @@ impl Group {
             body, node, other, ..
         } = self.split;
         let child = self.first + lane as NodeId;
-        // A second look at the same moment would see the same.
-        if advanced && self.aloof >> lane & 1 == 1 {
+        // A second look at the same instant would see the same.
+        if advanced && self.waits >> lane & 1 == 1 {
             return Next::Split(Split {
                 lanes: 1 << lane,
                 ..Split::all(body, node, other)

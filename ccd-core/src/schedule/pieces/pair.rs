@@ -1,6 +1,6 @@
 //! One pair of pieces: ask the oracle, check its claim, advance the pair's own clock.
 
-use super::snapshot::Moment;
+use super::snapshot::Snapshot;
 use crate::body::combination::Combination;
 use crate::distance::oracle::DistanceOracle;
 use crate::distance::overlap::{self, Intersection};
@@ -66,33 +66,33 @@ impl<C: Default + Clone> Pair<C> {
         meter: &mut Meter,
         s: f64,
     ) -> Step {
-        let moment = Moment::new(problem, self.a, self.b, s);
-        self.advance_by(&moment, oracle, meter, |moment, checked, kept| {
-            moment.free_time(checked, kept)
+        let snapshot = Snapshot::new(problem, self.a, self.b, s);
+        self.advance_by(&snapshot, oracle, meter, |snapshot, checked, kept| {
+            snapshot.free_time(checked, kept)
         })
     }
 
-    /// The same, where the pair is at a moment, with another way to tell for how long it keeps a gap;
+    /// The same, where the pair is at a instant, with another way to tell for how long it keeps a gap;
     /// pairs that rest on each other are followed as ever.
     pub(crate) fn advance_by<O: DistanceOracle<Cache = C>>(
         &mut self,
-        moment: &Moment<'_>,
+        snapshot: &Snapshot<'_>,
         oracle: &mut O,
         meter: &mut Meter,
-        free_time: impl FnOnce(&Moment<'_>, &Checked, f64) -> Option<f64>,
+        free_time: impl FnOnce(&Snapshot<'_>, &Checked, f64) -> Option<f64>,
     ) -> Step {
-        let (problem, s) = (moment.problem, moment.clock);
-        let Some(checked) = moment.ask(oracle, &mut self.cache, meter) else {
+        let (problem, s) = (snapshot.problem, snapshot.clock);
+        let Some(checked) = snapshot.ask(oracle, &mut self.cache, meter) else {
             return Step::GaveUp;
         };
         let ids = [self.a, self.b];
-        let in_contact = |checked| Step::Contact(contact(moment, ids, checked));
+        let in_contact = |checked| Step::Contact(contact(snapshot, ids, checked));
         let apart = problem.contact_distance();
         if checked.upper <= apart {
             if s == 0.0 {
-                match overlap::intersects(&moment.pieces, &checked, problem.rounding) {
+                match overlap::intersects(&snapshot.pieces, &checked, problem.rounding) {
                     Intersection::Certain => {
-                        return Step::Overlap(contact(moment, ids, &checked));
+                        return Step::Overlap(contact(snapshot, ids, &checked));
                     }
                     // The search for the nearest pieces sees what it comes to.
                     Intersection::Undecided => return in_contact(&checked),
@@ -116,14 +116,14 @@ impl<C: Default + Clone> Pair<C> {
         };
         // What the axis loses may be all that there is to advance by. Written so that NaN is that, too.
         let checked = match is_resting || !(checked.lower > kept + problem.rounding) {
-            true => sharpened(&moment.pieces, &checked, problem.rounding),
+            true => sharpened(&snapshot.pieces, &checked, problem.rounding),
             false => checked,
         };
         let free = match is_resting {
-            true => moment.resting_time(&checked, kept, ids),
-            false => free_time(moment, &checked, kept),
+            true => snapshot.resting_time(&checked, kept, ids),
+            false => free_time(snapshot, &checked, kept),
         };
-        meter.stats.point_looks += moment.looks();
+        meter.stats.point_looks += snapshot.looks();
         match free {
             None => Step::FreeUntil(f64::INFINITY),
             Some(tau) if (s + tau).next_down() > s => Step::FreeUntil((s + tau).next_down()),
@@ -143,9 +143,9 @@ impl<C: Default + Clone> Pair<C> {
         if problem.start == StartPolicy::Report {
             return None;
         }
-        let moment = Moment::new(problem, self.a, self.b, 0.0);
-        let start = moment.ask(oracle, &mut C::default(), meter)?;
-        let start = sharpened(&moment.pieces, &start, problem.rounding);
+        let snapshot = Snapshot::new(problem, self.a, self.b, 0.0);
+        let start = snapshot.ask(oracle, &mut C::default(), meter)?;
+        let start = sharpened(&snapshot.pieces, &start, problem.rounding);
         // Written so that NaN is a contact, and so is a pair that no axis was found to keep apart.
         let resting =
             start.upper <= problem.contact_distance() && start.lower >= -RESTING * problem.rounding;
@@ -159,8 +159,8 @@ impl<C: Default + Clone> Pair<C> {
 }
 
 /// A checked pair in the world's coordinates, with its features.
-pub(crate) fn contact(moment: &Moment<'_>, [a, b]: [u32; 2], checked: &Checked) -> Contact {
-    let (problem, a_to_world) = (moment.problem, &moment.frames[0]);
+pub(crate) fn contact(snapshot: &Snapshot<'_>, [a, b]: [u32; 2], checked: &Checked) -> Contact {
+    let (problem, a_to_world) = (snapshot.problem, &snapshot.frames[0]);
     let world = |x: DVec3| problem.world(a_to_world.point(x));
     let feature =
         |side: &Side<'_>, piece: u32, point: &Combination| side.body.feature(piece, point);

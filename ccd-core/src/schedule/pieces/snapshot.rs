@@ -1,7 +1,7 @@
-//! Two pieces at one moment, and for how long an axis keeps them apart from then on.
+//! Two pieces at one instant, and for how long an axis keeps them apart from then on.
 
 use super::heights::{Heights, Point};
-use super::sweeping_piece::{Member, Sweep};
+use super::sweeping_piece::{Member, SweepingPiece};
 use crate::body::facing::Facing;
 use crate::body::piece::Piece;
 use crate::distance::oracle::{DistanceOracle, PiecePair};
@@ -19,7 +19,7 @@ use std::cell::Cell;
 use std::iter;
 
 /// Two pieces where they are at a clock.
-pub(crate) struct Moment<'p> {
+pub(crate) struct Snapshot<'p> {
     pub(crate) problem: &'p Problem<'p>,
     /// Of A and B, in the problem's coordinates.
     pub(crate) frames: [Frame; 2],
@@ -29,17 +29,17 @@ pub(crate) struct Moment<'p> {
     looks: Cell<u64>,
 }
 
-impl<'p> Moment<'p> {
+impl<'p> Snapshot<'p> {
     /// Piece `a` of A and piece `b` of B at a clock.
     pub(crate) fn new(problem: &'p Problem<'_>, a: u32, b: u32, clock: f64) -> Self {
-        Moment::of(problem, problem.pieces([a, b]), clock)
+        Snapshot::of(problem, problem.pieces([a, b]), clock)
     }
 
     /// Any two convex hulls, of A and of B, at a clock.
     pub(crate) fn of(problem: &'p Problem<'_>, [a, b]: [Piece<'p>; 2], clock: f64) -> Self {
         let frames = [problem.a.path.frame(clock), problem.b.path.frame(clock)];
         let b_to_a = frames[0].from_frame(&frames[1]);
-        Moment {
+        Snapshot {
             problem,
             frames,
             pieces: PiecePair { a, b, b_to_a },
@@ -50,7 +50,7 @@ impl<'p> Moment<'p> {
 
     /// Two other hulls at the same clock.
     pub(crate) fn with(&self, [a, b]: [Piece<'p>; 2]) -> Self {
-        Moment {
+        Snapshot {
             pieces: PiecePair {
                 a,
                 b,
@@ -109,7 +109,7 @@ impl<'p> Moment<'p> {
         Some(free)
     }
 
-    /// As [`Moment::free_time`], across the axis of the claim alone, by a bound of how fast either body
+    /// As [`Snapshot::free_time`], across the axis of the claim alone, by a bound of how fast either body
     /// advances along it `[FAST06 §4.2]`; `reaches` are those of the pieces' points from their body's
     /// axis of rotation.
     ///
@@ -150,7 +150,7 @@ impl<'p> Moment<'p> {
         (!(free >= self.horizon())).then_some(free)
     }
 
-    /// As [`Moment::free_time`] for two pieces, of these indices, that rest on each other.
+    /// As [`Snapshot::free_time`] for two pieces, of these indices, that rest on each other.
     ///
     /// Triangles that lie in one plane are kept apart by it on either side, and may still be about to
     /// pass into each other: where one of them bounds a solid, it is only kept apart on the outside.
@@ -211,7 +211,7 @@ impl<'p> Moment<'p> {
         (slack > 0.0).then_some(Plane { normal, slack })
     }
 
-    /// The same as [`Moment::free_along`] by planes that turn with one of the bodies, where it is its
+    /// The same as [`Snapshot::free_along`] by planes that turn with one of the bodies, where it is its
     /// turning that uses up the slack within `free`; 0 where it is not.
     pub(super) fn free_attached(
         &self,
@@ -224,7 +224,7 @@ impl<'p> Moment<'p> {
         let mut longest = 0.0f64;
         for (holder, other, normal) in [(a, b, plane.normal), (b, a, -plane.normal)] {
             if uses_up(holder.swing) && uses_up(holder.swing_about(normal)) {
-                let sweep = Sweep::new(holder, other, normal, self.problem.rounding);
+                let sweep = SweepingPiece::new(holder, other, normal, self.problem.rounding);
                 let free = sweep.free_time(plane.slack, self.horizon());
                 self.look(sweep.looks.get());
                 longest = greater(longest, free?);

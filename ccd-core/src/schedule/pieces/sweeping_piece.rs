@@ -51,7 +51,7 @@ impl<'p> Member<'p> {
 }
 
 /// The piece of one body on its way, seen from a plane that turns with the other body.
-pub(super) struct Sweep<'p> {
+pub(super) struct SweepingPiece<'p> {
     /// `n`, and the `ω` that it turns at.
     normal: Spinning,
     unit: DVec3,
@@ -87,7 +87,7 @@ struct Turned {
     closing: DVec3,
 }
 
-impl<'p> Sweep<'p> {
+impl<'p> SweepingPiece<'p> {
     /// What sweeps past a plane that turns with the body of `holder`; `normal` points from there to
     /// the other piece, and `rounding` is the problem's.
     pub(super) fn new(
@@ -105,7 +105,7 @@ impl<'p> Sweep<'p> {
         let way = other.frame.point(reference) - holder.frame.point(path.centre);
         let velocity = own.velocity - path.velocity;
         let radius = other.piece.farthest_from(reference);
-        Sweep {
+        SweepingPiece {
             normal: Spinning::new(path.axis, normal),
             unit: path.axis,
             omega: path.rate,

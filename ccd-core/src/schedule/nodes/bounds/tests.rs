@@ -52,10 +52,10 @@ impl Solid {
 }
 
 /// A group and another node, in f32 and in f64; `P` and `C` as in the bounds.
-struct Meeting<C, P> {
+struct Sample<C, P> {
     group: C,
     other: P,
-    closing: Closing<Turning, Turning>,
+    motion: RelativeMotionF32<Turning, Turning>,
     /// What rounding may do to a gap, as far as the slack allows for it.
     allowed: f32,
     children: Vec<Solid>,
@@ -84,8 +84,8 @@ fn planes_hold_and_allowances_suffice_for_boxes() {
     let mut worst = Worst::new();
     for _ in 0..6_000 {
         let other = Shape::new(&mut rng);
-        let meeting = Setting::new(&mut rng, &other).boxes(&mut rng, &other);
-        meeting.audit(&mut rng, &mut worst);
+        let sample = Setting::new(&mut rng, &other).boxes(&mut rng, &other);
+        sample.audit(&mut rng, &mut worst);
     }
     worst.assert();
 }
@@ -96,8 +96,8 @@ fn planes_hold_and_allowances_suffice_for_triangles() {
     let mut worst = Worst::new();
     for _ in 0..6_000 {
         let other = Shape::new(&mut rng).triangle();
-        let meeting = Setting::new(&mut rng, &other).triangles(&mut rng, &other);
-        meeting.audit(&mut rng, &mut worst);
+        let sample = Setting::new(&mut rng, &other).triangles(&mut rng, &other);
+        sample.audit(&mut rng, &mut worst);
     }
     worst.assert();
 }
@@ -121,15 +121,15 @@ impl Worst {
     }
 }
 
-impl<C: Children, P: Other> Meeting<C, P> {
+impl<C: Children, P: OtherNode> Sample<C, P> {
     fn audit(&self, rng: &mut Pcg64, worst: &mut Worst) {
-        let pairing = Pairing::new(&self.group, &self.other, &self.closing);
+        let pairs = EightPairs::new(&self.group, &self.other, &self.motion);
         let reach = (0..LANES)
             .map(|k| self.group.centre(k).length() + self.group.radius(k))
             .fold(0.0, greater);
         for lane in 0..LANES {
-            let pair = pairing.lane(lane);
-            let travel = pair.velocity * self.closing.horizon;
+            let pair = pairs.lane(lane);
+            let travel = pair.velocity * self.motion.horizon;
             let axes = [
                 axis::widest(&self.group, &self.other, lane, pair.way),
                 axis::passing(&self.group, &self.other, lane, pair.way, travel),
@@ -137,13 +137,13 @@ impl<C: Children, P: Other> Meeting<C, P> {
             ];
             for axis in axes {
                 self.sample_allowances(&pair, axis, worst);
-                let free = pairing.free(&pair, axis);
+                let free = pairs.free(&pair, axis);
                 self.check_still(lane, axis, free, worst);
                 if reach > MUCH_LARGER * self.other.radius() {
-                    let free = pairing.free_with_split(axis);
+                    let free = pairs.free_with_split(axis);
                     self.check_attached(lane, axis, free, Larger::Split, worst);
                 } else if self.other.radius() > MUCH_LARGER * reach {
-                    let free = pairing.free_with_other(&pair, axis);
+                    let free = pairs.free_with_other(&pair, axis);
                     self.check_attached(lane, axis, free, Larger::Other, worst);
                 }
             }
@@ -163,29 +163,29 @@ impl<C: Children, P: Other> Meeting<C, P> {
 
     /// Each rounded quantity against the same in f64.
     fn sample_allowances(&self, pair: &Lane, axis: Axis, worst: &mut Worst) {
-        let (closing, n) = (&self.closing, axis.n.as_dvec3());
+        let (motion, n) = (&self.motion, axis.n.as_dvec3());
         let child = &self.children[pair.lane];
-        let [m, o] = [closing.split.across(axis.n), closing.other.across(axis.n)];
+        let [m, o] = [motion.split.across(axis.n), motion.other.across(axis.n)];
         let rate =
             dot(axis.n, pair.velocity) + self.group.reach(pair.lane, m) + self.other.reach(o);
         let exact = n.dot(self.velocity) + child.fastest(n) + self.far.fastest(-n);
         let below = exact - f64::from(rate);
-        worst.rate = greater(worst.rate, below / f64::from(closing.rate_slack));
+        worst.rate = greater(worst.rate, below / f64::from(motion.rate_slack));
 
         let gap = -self.far.highest(-n, 0.0) - child.highest(n, 0.0);
         let above = f64::from(axis.gap) - gap;
         worst.support = greater(worst.support, above / f64::from(self.allowed));
 
-        for (turning, body) in [(closing.split, child), (closing.other, &self.far)] {
+        for (turning, body) in [(motion.split, child), (motion.other, &self.far)] {
             let across = n.cross(body.spin).length();
             let below = across - f64::from(length(turning.across(axis.n)) * BEND_F32);
             let allowed = f64::from(ACROSS_F32 * turning.rate);
             worst.across = greater(worst.across, below / allowed);
         }
 
-        let apart = axis.gap - closing.slack;
+        let apart = axis.gap - motion.slack;
         let bend = (child.bend(n) + self.far.bend(n)) as f32 + LEAST_BEND_F32;
-        let free = f64::from(clock::free_time(apart, closing.closed, rate, bend));
+        let free = f64::from(clock::free_time(apart, motion.closed, rate, bend));
         if free > 0.0 && free < 1e30 {
             let [apart, rate, bend] = [apart, rate, bend].map(f64::from);
             let root = (rate * rate + 2.0 * bend * apart).sqrt();
@@ -227,11 +227,11 @@ impl<C: Children, P: Other> Meeting<C, P> {
 
     /// Whether there was a free time to check.
     fn check(&self, lane: usize, free: f32, gap: impl Fn(f64) -> f64, worst: &mut Worst) -> bool {
-        assert!(free >= 0.0, "{:?}", self.closing);
+        assert!(free >= 0.0, "{:?}", self.motion);
         if free == 0.0 {
             return false;
         }
-        let kept = f64::from(self.closing.kept);
+        let kept = f64::from(self.motion.kept);
         let size = self.children[lane].far() + self.far.far() + self.velocity.length();
         let until = lesser(1.0, f64::from(free));
         for k in 0..=16 {
@@ -240,7 +240,7 @@ impl<C: Children, P: Other> Meeting<C, P> {
             assert!(
                 found >= kept - 1e-14 * size,
                 "{found:e} at {tau:e} of {free:e}, {kept:e} promised; {:?}",
-                self.closing,
+                self.motion,
             );
         }
         let rest = (gap(until) - kept) / (gap(0.0) - kept);

@@ -332,15 +332,15 @@ fn planes_that_stand_still(
     let Named::Node(below) = tree.get(node) else {
         panic!("a node to split");
     };
-    let meeting = Meeting::new(problem, &Split::all(split, node, other), s);
+    let motion = RelativeMotion::new(problem, &Split::all(split, node, other), s);
     match below.below {
         Below::Boxes(group) => {
             let group = tree.box_group(group);
-            still(&meeting, group, &group.members)
+            still(&motion, group, &group.members)
         }
         Below::Triangles(group) => {
             let group = tree.triangle_group(group);
-            still(&meeting, group, &group.members)
+            still(&motion, group, &group.members)
         }
         Below::Piece(_) => panic!("a node to split"),
     }
@@ -348,9 +348,9 @@ fn planes_that_stand_still(
 
 /// Planes turn with much larger nodes only: a reach that is neither much larger nor much smaller than
 /// the other node's keeps them out.
-fn still<C: Children>(meeting: &Meeting<'_>, group: &C, members: &Members) -> Bounds {
-    let far = meeting.far;
-    let radius = match far.body.tree().get(meeting.other) {
+fn still<C: Children>(motion: &RelativeMotion<'_>, group: &C, members: &Members) -> Bounds {
+    let far = motion.other_side;
+    let radius = match far.body.tree().get(motion.other) {
         Named::Node(node) => node.radius,
         Named::Triangle(piece) => {
             let [a, b, c] = far.body.pieces().triangle(piece as usize);
@@ -366,5 +366,5 @@ fn still<C: Children>(meeting: &Meeting<'_>, group: &C, members: &Members) -> Bo
         reach: members.reach.clamp(radius / much, radius * much),
         ..*members
     };
-    meeting.bound::<_, Moving>(group, &members)
+    motion.bound::<_, AsTheyMove>(group, &members)
 }

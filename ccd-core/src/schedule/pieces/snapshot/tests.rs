@@ -16,10 +16,10 @@ fn an_axis_separates_for_as_long_as_it_says() {
         let scene = scene(&mut rng, kind, 2);
         let problem = scene.problem();
         let clock = scene.clock * rng.random_range(0.0..1.0);
-        let moment = Moment::new(&problem, 0, 0, clock);
+        let snapshot = Snapshot::new(&problem, 0, 0, clock);
         let mut normal = direction(&mut rng);
         let heights = |s: f64, normal: DVec3| {
-            let now = Moment::new(&problem, 0, 0, s);
+            let now = Snapshot::new(&problem, 0, 0, s);
             let axis = now.frames[0].inverse_vector(normal);
             separation::support_gap(&now.pieces, axis, now.pieces.a.points[0])
         };
@@ -29,7 +29,7 @@ fn an_axis_separates_for_as_long_as_it_says() {
         let gap = heights(clock, normal);
         // How much of what there is may be used up.
         let slack = gap.abs() * magnitude(&mut rng, -3.0, 0.0);
-        let free = moment.free_along(normal, slack);
+        let free = snapshot.free_along(normal, slack);
         let until = free.map_or(1.0, |free| clock + free);
         let least = gap - slack - 3.0 * problem.rounding;
         for k in 0..=SAMPLES {
@@ -63,15 +63,15 @@ fn pieces_stay_apart_for_as_long_as_the_better_axis_says() {
         let scene = scene(&mut rng, kind, 2);
         let problem = scene.problem();
         let clock = scene.clock * rng.random_range(0.9..1.0);
-        let moment = Moment::new(&problem, 0, 0, clock);
+        let snapshot = Snapshot::new(&problem, 0, 0, clock);
         let mut meter = Meter::new(&problem);
-        let checked = moment.ask(&mut Exhaustive, &mut (), &mut meter).unwrap();
+        let checked = snapshot.ask(&mut Exhaustive, &mut (), &mut meter).unwrap();
         assert_eq!(meter.stats.oracle_calls, 1);
         let kept = problem.gap();
         if checked.lower <= kept {
             continue;
         }
-        let free = moment.free_time(&checked, kept);
+        let free = snapshot.free_time(&checked, kept);
         let until = free.map_or(1.0, |free| clock + free);
         for k in 0..=SAMPLES {
             let s = clock + (until - clock) * f64::from(k) / f64::from(SAMPLES);
@@ -109,12 +109,12 @@ fn no_slack_is_no_time() {
     for _ in 0..500 {
         let scene = scene(&mut rng, Kind::Any, 1);
         let problem = scene.problem();
-        let moment = Moment::new(&problem, 0, 0, 0.5);
+        let snapshot = Snapshot::new(&problem, 0, 0, 0.5);
         for slack in [0.0, -1.0, f64::NAN, f64::NEG_INFINITY] {
-            let free = moment.free_along(direction(&mut rng), slack);
+            let free = snapshot.free_along(direction(&mut rng), slack);
             assert_eq!(free, Some(0.0), "{slack}");
         }
-        let free = moment.free_along(DVec3::NAN, 1.0);
+        let free = snapshot.free_along(DVec3::NAN, 1.0);
         assert_eq!(free, Some(0.0));
     }
 }

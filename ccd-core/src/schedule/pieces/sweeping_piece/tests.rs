@@ -9,7 +9,7 @@ use crate::math::order::greater;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::problem::{Config, Moving, Problem};
-use crate::schedule::pieces::snapshot::{Moment, Plane};
+use crate::schedule::pieces::snapshot::{Plane, Snapshot};
 use crate::tests::double::{Double, Double3, place};
 use crate::tests::scene::{Kind, Pcg64, RngExt, Scene, direction, magnitude, rng, scene, within};
 
@@ -78,8 +78,8 @@ fn crowded(rng: &mut Pcg64, kind: Kind) -> Scene {
 }
 
 fn check(rng: &mut Pcg64, problem: &Problem<'_>, clock: f64, holder: usize, seen: &mut Seen) {
-    let moment = Moment::new(problem, 0, 0, clock);
-    let members = moment.members();
+    let snapshot = Snapshot::new(problem, 0, 0, clock);
+    let members = snapshot.members();
     let (own, other) = (&members[holder], &members[1 - holder]);
     if !own.side.path.turns() {
         return;
@@ -92,7 +92,7 @@ fn check(rng: &mut Pcg64, problem: &Problem<'_>, clock: f64, holder: usize, seen
     };
     let local = own.frame.inverse_vector(towards);
     let gap_at = |s: f64| {
-        let PiecePair { a, b, b_to_a } = Moment::new(problem, 0, 0, s).pieces;
+        let PiecePair { a, b, b_to_a } = Snapshot::new(problem, 0, 0, s).pieces;
         let in_a = match holder {
             0 => local,
             _ => -(b_to_a.rotation * local),
@@ -101,7 +101,8 @@ fn check(rng: &mut Pcg64, problem: &Problem<'_>, clock: f64, holder: usize, seen
     };
     let gap = gap_at(clock);
     let slack = gap.abs() * magnitude(rng, -3.0, 0.0);
-    let free = Sweep::new(own, other, towards, problem.rounding).free_time(slack, 1.0 - clock);
+    let free =
+        SweepingPiece::new(own, other, towards, problem.rounding).free_time(slack, 1.0 - clock);
     let until = free.map_or(1.0, |free| clock + free);
     // Both gaps are rounded.
     let least = gap - slack - 2.0 * problem.rounding;
@@ -138,15 +139,15 @@ fn rounding_along_an_axis_that_turns_is_allowed_for() {
         let grain = f64::from(1 << 20);
         let [clock, tau] =
             [0.5, 0.5].map(|most| (rng.random_range(0.0..most) * grain).floor() / grain);
-        let moment = Moment::new(&problem, 0, 0, clock);
-        let members = moment.members();
+        let snapshot = Snapshot::new(&problem, 0, 0, clock);
+        let members = snapshot.members();
         for holder in [0, 1] {
             let (own, other) = (&members[holder], &members[1 - holder]);
             if !own.side.path.turns() {
                 continue;
             }
             let normal = direction(&mut rng);
-            let sweep = Sweep::new(own, other, normal, problem.rounding);
+            let sweep = SweepingPiece::new(own, other, normal, problem.rounding);
             let motions = [&scene.motions[holder], &scene.motions[1 - holder]];
             let point = other.piece.points[rng.random_range(0..other.piece.points.len())];
             let rises = |tau: f64| {
@@ -219,16 +220,19 @@ fn a_large_plate_turns_past_a_small_ball_at_once() {
             (plate, ball)
         };
         let problem = Problem::new(a, b, 1.0, &Config::default()).unwrap();
-        let moment = Moment::new(&problem, 0, 0, 0.0);
+        let snapshot = Snapshot::new(&problem, 0, 0, 0.0);
         let normal = if swapped { -DVec3::Z } else { DVec3::Z };
         let plane = Plane { normal, slack: 0.3 };
-        let still = moment.free_along(plane.normal, plane.slack).unwrap();
+        let still = snapshot.free_along(plane.normal, plane.slack).unwrap();
         assert!(still < 0.01, "{still}");
         // 0.5 (1 − cos τ) uses up 0.3 after 1.16.
-        assert_eq!(moment.free_attached(&moment.members(), &plane, still), None);
+        assert_eq!(
+            snapshot.free_attached(&snapshot.members(), &plane, still),
+            None
+        );
         let closer = Plane { normal, slack: 0.1 };
-        let free = moment
-            .free_attached(&moment.members(), &closer, still)
+        let free = snapshot
+            .free_attached(&snapshot.members(), &closer, still)
             .unwrap();
         let exact = 0.8f64.acos();
         assert!(free <= exact && free > 0.9 * exact, "{free} {exact}");
@@ -242,14 +246,14 @@ fn no_slack_is_no_time() {
     for _ in 0..500 {
         let scene = crowded(&mut rng, Kind::Rim);
         let problem = scene.problem();
-        let moment = Moment::new(&problem, 0, 0, 0.5);
-        let [a, b] = moment.members();
+        let snapshot = Snapshot::new(&problem, 0, 0, 0.5);
+        let [a, b] = snapshot.members();
         for slack in [0.0, -1.0, f64::NAN, f64::NEG_INFINITY] {
-            let free =
-                Sweep::new(&a, &b, direction(&mut rng), problem.rounding).free_time(slack, 0.5);
+            let free = SweepingPiece::new(&a, &b, direction(&mut rng), problem.rounding)
+                .free_time(slack, 0.5);
             assert_eq!(free, Some(0.0), "{slack}");
         }
-        let free = Sweep::new(&a, &b, DVec3::NAN, problem.rounding).free_time(1.0, 0.5);
+        let free = SweepingPiece::new(&a, &b, DVec3::NAN, problem.rounding).free_time(1.0, 0.5);
         assert_eq!(free, Some(0.0));
     }
 }

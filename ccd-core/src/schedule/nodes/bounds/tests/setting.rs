@@ -1,10 +1,10 @@
 //! Random groups and nodes that meet, in f64 and rounded as an expansion rounds them.
 
-use super::{Meeting, Solid};
+use super::{Sample, Solid};
 use crate::body::tree::{Below, BoxGroup, LANES, Node, TriangleGroup, unit_normal, up};
 use crate::math::order::greater;
-use crate::schedule::nodes::eight_pairs::Closing;
-use crate::schedule::nodes::shape::{Other, OtherBox, OtherTriangle};
+use crate::schedule::nodes::eight_pairs::RelativeMotionF32;
+use crate::schedule::nodes::shape::{OtherBox, OtherNode, OtherTriangle};
 use crate::schedule::nodes::turn::{Turn, Turning};
 use crate::tests::scene::{Pcg64, RngExt, direction, magnitude, rotation, within};
 use crate::tolerance::{LEAST_GAP_F32, PLACES_F32, RATE_F32, REACH_F32, WAY_F32};
@@ -142,7 +142,7 @@ impl Setting {
         Shape::of_size(rng, size, centre)
     }
 
-    pub(super) fn boxes(&self, rng: &mut Pcg64, other: &Shape) -> Meeting<BoxGroup, OtherBox> {
+    pub(super) fn boxes(&self, rng: &mut Pcg64, other: &Shape) -> Sample<BoxGroup, OtherBox> {
         let shapes: Vec<Shape> = (0..LANES).map(|_| self.child_shape(rng)).collect();
         let nodes: Vec<Node> = shapes.iter().map(|s| s.node.clone()).collect();
         let group = BoxGroup::new(&nodes, 0, self.origin);
@@ -158,14 +158,14 @@ impl Setting {
             piece: false,
         };
         let reach = group.members.reach;
-        self.meeting(group, boxed, reach, children, self.far(other))
+        self.sample(group, boxed, reach, children, self.far(other))
     }
 
     pub(super) fn triangles(
         &self,
         rng: &mut Pcg64,
         other: &Shape,
-    ) -> Meeting<TriangleGroup, OtherTriangle> {
+    ) -> Sample<TriangleGroup, OtherTriangle> {
         let shapes: Vec<Shape> = (0..LANES).map(|_| self.child_shape(rng)).collect();
         let corners: Vec<[DVec3; 3]> = shapes
             .iter()
@@ -184,18 +184,18 @@ impl Setting {
             radius: up(arms.map(DVec3::length).into_iter().fold(0.0, greater)).next_up(),
         };
         let reach = group.members.reach;
-        self.meeting(group, triangle, reach, children, far)
+        self.sample(group, triangle, reach, children, far)
     }
 
     /// The allowances as an expansion makes them.
-    fn meeting<C, P: Other>(
+    fn sample<C, P: OtherNode>(
         &self,
         group: C,
         other: P,
         reach: f32,
         children: Vec<Solid>,
         far: Solid,
-    ) -> Meeting<C, P> {
+    ) -> Sample<C, P> {
         let turning = |k: usize| Turning {
             spin: self.spins[k].as_vec3(),
             rate: up(self.spins[k].length()),
@@ -211,8 +211,8 @@ impl Setting {
             + split.rate * (reach + split.arm(Vec3::ZERO))
             + turning_far.rate * (other.radius() + far_arm);
         let kept = 1e-3 * other.radius();
-        Meeting {
-            closing: Closing {
+        Sample {
+            motion: RelativeMotionF32 {
                 velocity,
                 split,
                 other: turning_far,
