@@ -25,7 +25,8 @@ fn support(criterion: &mut Criterion) {
         let tree = ball(&mut rng, corners);
         let piece = tree.hulls().get(0);
         let scan = SupportScan::new(piece.points);
-        let table = SupportTable::new(&piece).expect("the hull of a ball has facets");
+        let table =
+            SupportTable::new(piece.points, piece.facets).expect("the hull of a ball has facets");
         let cold: Vec<DVec3> = (0..LOOKS).map(|_| direction(&mut rng)).collect();
         let warm = turning(&mut rng);
         group.bench_with_input(BenchmarkId::new("scan", corners), &cold, |b, looks| {

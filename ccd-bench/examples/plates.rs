@@ -61,7 +61,7 @@ fn main() -> anyhow::Result<()> {
             writeln!(
                 out,
                 "{tolerance:e},{turned},{time},{},{},{:.1}",
-                answer.stats.node_visits,
+                answer.stats.iterations,
                 answer.stats.oracle_calls,
                 micros[REPEATS / 2]
             )?;

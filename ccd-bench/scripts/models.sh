@@ -22,7 +22,6 @@ core=${CORE:-1}
 # Name, how `ccd decompose` makes it, how `ccd query` uses it.
 models="triangles|--pieces triangles|
 patches|--pieces patches|
-hull tree|--pieces patches --hull-tree|--schedule hull-first
 vhacd 32|--pieces vhacd --hulls 32|
 vhacd 128|--pieces vhacd --hulls 128|"
 

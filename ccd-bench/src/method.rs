@@ -62,17 +62,12 @@ impl Method {
             oracle,
             bound: BoundKind::Sound,
         };
-        let (best, hull, fast) = (
-            ScheduleKind::BestFirst,
-            ScheduleKind::HullFirst,
-            ScheduleKind::Fast,
-        );
+        let (best, fast) = (ScheduleKind::BestFirst, ScheduleKind::Fast);
         let ours = [
             (kind(best, OracleKind::Direct), Pieces::Least),
             (kind(best, OracleKind::Gjk), Pieces::Least),
             (kind(fast, OracleKind::Vmarch), Pieces::Patches),
             (kind(fast, OracleKind::Gjk), Pieces::Patches),
-            (kind(hull, OracleKind::Vmarch), Pieces::Patches),
             (kind(ScheduleKind::Naive, OracleKind::Direct), Pieces::Least),
             (kind(best, OracleKind::Direct), Pieces::Triangles),
             (kind(best, OracleKind::Direct), Pieces::Patches),
@@ -177,7 +172,7 @@ impl Solver for Ours<'_> {
         };
         let steps = match self.kind.schedule.uses_a_bound() {
             true => answer.stats.advancements,
-            false => answer.stats.node_visits,
+            false => answer.stats.iterations,
         };
         Reply { claim, steps }
     }

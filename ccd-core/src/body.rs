@@ -1,20 +1,37 @@
 //! A body: convex pieces, a tree over them, and whether they bound a solid.
 
-use crate::error::InputError;
-use crate::feature::Feature;
-use crate::hierarchy::Hierarchy;
+pub(crate) mod combination;
+pub(crate) mod facets;
+pub(crate) mod facing;
+pub(crate) mod feature;
+mod feature_lookup;
+pub(crate) mod hierarchy;
 #[cfg(feature = "hull-tree")]
-use crate::hull_tree::{HullTree, HullTreeError, support_of};
-use crate::naming::{face_under, prepare};
-use crate::oracle::Combination;
-use crate::piece::Piece;
-use crate::pieces::Pieces;
-use crate::shell::{Shell, shells};
-#[cfg(not(feature = "hull-tree"))]
-use crate::support::Support;
+pub(crate) mod hull_tree;
+pub(crate) mod piece;
+pub(crate) mod pieces;
+pub(crate) mod polytope;
+mod primitive;
+pub(crate) mod shell;
+mod side_table;
+pub(crate) mod support;
+pub(crate) mod tree;
+
+use crate::error::InputError;
 use crate::tolerance::BOX_SHARE;
-use crate::tree::{Tree, pieces_at};
+use combination::Combination;
+use feature::Feature;
+use feature_lookup::{face_under, prepare};
 use glam::DVec3;
+use hierarchy::Hierarchy;
+#[cfg(feature = "hull-tree")]
+use hull_tree::{HullTree, HullTreeError, support_of};
+use piece::Piece;
+use pieces::Pieces;
+use shell::{Shell, shells};
+#[cfg(not(feature = "hull-tree"))]
+use support::Support;
+use tree::{Tree, pieces_at};
 
 /// What moves: convex pieces in the body's own frame, ready for queries; immutable, shareable.
 ///

@@ -1,6 +1,7 @@
 //! The features that are in contact at a time, all of them `[FAST06 §5.2]`.
 
 mod boxes;
+mod candidate;
 mod closest;
 mod manifold;
 mod measure;
@@ -9,9 +10,9 @@ mod skin;
 #[cfg(test)]
 mod tests;
 
-use crate::feature::Feature;
+use crate::body::feature::Feature;
+use crate::motion::pose::Frame;
 use crate::outcome::Separation;
-use crate::pose::Frame;
 use crate::problem::Problem;
 use manifold::Manifold;
 use near::near_faces;
@@ -125,7 +126,7 @@ impl Problem<'_> {
         let reach = self.margin + self.tolerance + 2.0 * self.rounding;
         let near = near_faces(self, &mut skins, &b_to_a, reach).ok_or(too_many)?;
         for skin in &mut skins {
-            skin.settle(self.rounding);
+            skin.hide_cuts(self.rounding);
         }
         let [a, b] = &skins;
         let mut manifold = Manifold::new(self, [a, b]);

@@ -1,6 +1,6 @@
 //! What can be wrong with an input; numerical trouble is an [`Outcome`](crate::Outcome) instead.
 
-use crate::tolerance::MAX_COORDINATE;
+use crate::limits::MAX_COORDINATE;
 use std::fmt;
 
 /// An input that no query can be posed with, naming the offending element.
@@ -30,7 +30,7 @@ pub enum InputError {
         /// Its index.
         piece: usize,
     },
-    /// A point of a piece is NaN, infinite or beyond [`tolerance::MAX_COORDINATE`](crate::tolerance::MAX_COORDINATE).
+    /// A point of a piece is NaN, infinite or beyond [`MAX_COORDINATE`](crate::limits::MAX_COORDINATE).
     BadPoint {
         /// The piece's index.
         piece: usize,
@@ -38,7 +38,7 @@ pub enum InputError {
         point: usize,
     },
     /// A rounding radius is negative, NaN, infinite or beyond
-    /// [`tolerance::MAX_COORDINATE`](crate::tolerance::MAX_COORDINATE).
+    /// [`MAX_COORDINATE`](crate::limits::MAX_COORDINATE).
     BadRadius {
         /// The piece's index.
         piece: usize,

@@ -27,9 +27,9 @@
 //! | distance of two pieces, and its check | `oracle.rs`, `separation.rs` |
 //! | conservative advancement, all pairs `[FAST06 Alg. 1]` | `schedule/naive.rs` |
 //! | conservative advancement, best first | `schedule/best_first.rs` |
-//! | the same over hull trees `[FAST06 §3.3, §5.1]` | `hull_tree.rs`, `schedule/hull_first.rs` |
+//! | the same over hull trees `[FAST06 §3.3, §5.1]` | `hull_tree.rs`, `schedule/fast/` |
 //! | farthest corner along a direction `[FAST06 §4.2]` | `support.rs` |
-//! | one pair of pieces at one moment | `schedule/pair.rs`, `schedule/moment.rs` |
+//! | one pair of pieces at one instant | `schedule/pair.rs`, `schedule/instant.rs` |
 //! | features of all contacts at a time `[FAST06 §5.2]` | `contacts.rs` |
 //! | contact at the start, one body inside the other | `schedule/nearest.rs`, `overlap.rs`, `containment.rs` |
 //! | every allowance for rounding | [`tolerance`] |
@@ -86,56 +86,39 @@ compile_error!(
 );
 mod body;
 mod contacts;
-mod containment;
+mod distance;
 mod error;
-mod facing;
-mod feature;
-mod hierarchy;
-#[cfg(feature = "hull-tree")]
-mod hull_tree;
-#[cfg(feature = "nalgebra")]
-mod interop;
+pub mod limits;
+mod math;
 mod motion;
-pub mod motion_bound;
-mod naming;
-mod oracle;
-pub mod order;
 mod outcome;
-mod overlap;
-mod path;
-mod piece;
-mod pieces;
-pub mod point_tree;
-mod pose;
-mod primitive;
-mod principal;
 mod problem;
 pub mod schedule;
-mod separation;
-mod shelf;
-mod shell;
-mod support;
 #[cfg(test)]
 mod tests;
 pub mod tolerance;
-mod tree;
-mod trig;
-pub mod vector;
 
+pub use body::combination::Combination;
+pub use body::facets::Facets;
+pub use body::feature::Feature;
+pub use body::hierarchy::{Hierarchy, HierarchyNode};
+#[cfg(feature = "hull-tree")]
+pub use body::hull_tree::{FacetClass, Hull, HullFault, HullNode, HullTree, HullTreeError, Loops};
+pub use body::piece::Piece;
+pub use body::pieces::Pieces;
+pub use body::polytope::{Face, Facet, Origin, Polytope};
+pub use body::support::{DIRECTIONS, Support, SupportScan, SupportTable, SupportTree};
 pub use body::{Body, Volume};
 pub use contacts::{ContactsError, FeaturePair};
+pub use distance::oracle::{Claim, DistanceOracle, Effort, GiveUp, OrElse, PiecePair};
 pub use error::InputError;
-pub use feature::Feature;
 pub use glam;
-pub use hierarchy::{Hierarchy, HierarchyNode};
-#[cfg(feature = "hull-tree")]
-pub use hull_tree::{FacetClass, Hull, HullFault, HullNode, HullTree, HullTreeError, Loops};
+#[cfg(feature = "exact")]
+pub use math::exact;
+pub use math::{order, point_tree, vector};
 pub use motion::Motion;
-pub use oracle::{Claim, Combination, DistanceOracle, Effort, GiveUp, OrElse, PiecePair};
+pub use motion::bound::Bound;
+pub use motion::pose::{Frame, Pose};
 pub use outcome::{Answer, Contact, Limit, Outcome, Overlap, Separation, Stats};
-pub use piece::{Face, Facet, Facets, Origin, Piece, Polytope};
-pub use pieces::Pieces;
-pub use pose::{Frame, Pose};
 pub use problem::{Config, Moving, Problem, StartPolicy};
 pub use schedule::Schedule;
-pub use support::{DIRECTIONS, Support, SupportScan, SupportTable, SupportTree};

@@ -1,10 +1,19 @@
 //! How a body moves: a chosen centre at constant velocity, the body turning about it at constant
 //! angular velocity.
 
+pub(crate) mod bound;
+pub(crate) mod gap;
+#[cfg(feature = "nalgebra")]
+mod interop;
+pub(crate) mod path;
+pub(crate) mod pose;
+pub(crate) mod track;
+mod trig;
+
 use crate::error::InputError;
-use crate::pose::{Frame, Pose};
-use crate::vector::length;
+use crate::math::vector::length;
 use glam::{DQuat, DVec3};
+use pose::{Frame, Pose};
 
 /// A motion with constant linear velocity of a chosen centre and constant angular velocity, any
 /// number of turns `[FAST06 §4.1]`.

@@ -1,8 +1,8 @@
 //! What a query answers.
 
-use crate::feature::Feature;
-use crate::oracle::Effort;
-use crate::order::lesser;
+use crate::body::feature::Feature;
+use crate::distance::oracle::Effort;
+use crate::math::order::lesser;
 use crate::tolerance::LOOKS_PER_VISIT;
 use glam::DVec3;
 use std::fmt;
@@ -23,7 +23,7 @@ pub enum Outcome {
     /// The bodies stay apart over the whole duration.
     Free {
         /// The gap, a lower bound of the distance at all times.
-        clearance: f64,
+        proven_gap: f64,
     },
     /// The bodies are within margin + tolerance at the start, without overlapping.
     Touching {
@@ -132,7 +132,7 @@ pub struct Separation {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Stats {
     /// How many pairs of nodes were bounded or split, pairs of pieces included.
-    pub node_visits: u64,
+    pub iterations: u64,
     /// How often a point of a piece was looked at, about: in each step of an oracle's search, and
     /// each time that a gap is followed.
     pub point_looks: u64,
@@ -154,7 +154,7 @@ impl Stats {
     /// [`LOOKS_PER_VISIT`] looks at points.
     #[inline]
     pub fn work(&self) -> u64 {
-        self.node_visits + self.point_looks / LOOKS_PER_VISIT
+        self.iterations + self.point_looks / LOOKS_PER_VISIT
     }
 }
 

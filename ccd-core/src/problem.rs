@@ -1,13 +1,14 @@
 //! A query: two moving bodies, a duration, and how accurately to answer.
 
 use crate::body::Body;
+use crate::body::piece::Piece;
 use crate::error::InputError;
+use crate::limits::{self, LEAST_TOLERANCE, MAX_COORDINATE, MAX_TURN};
+use crate::math::order::{greater, lesser};
+use crate::math::vector::{distance, length};
 use crate::motion::Motion;
-use crate::order::{greater, lesser};
-use crate::path::Path;
-use crate::piece::Piece;
-use crate::tolerance::{self, LEAST_TOLERANCE, MAX_COORDINATE, MAX_TURN, NODE_GAP};
-use crate::vector::{distance, length};
+use crate::motion::path::Path;
+use crate::tolerance::{self, NODE_GAP};
 use glam::DVec3;
 use std::time::Duration;
 
@@ -36,10 +37,10 @@ pub struct Config {
 impl Default for Config {
     fn default() -> Self {
         Config {
-            tolerance: tolerance::DEFAULT_TOLERANCE,
+            tolerance: limits::DEFAULT_TOLERANCE,
             margin: 0.0,
             start: StartPolicy::default(),
-            budget: tolerance::DEFAULT_BUDGET,
+            budget: limits::DEFAULT_BUDGET,
             deadline: None,
         }
     }
@@ -103,6 +104,29 @@ pub(crate) struct Side<'a> {
     /// The body that was given, of one piece, where `body` is its surface.
     pub(crate) given: Option<&'a Body>,
     pub(crate) path: Path,
+}
+
+/// One of the two bodies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Which {
+    A,
+    B,
+}
+
+impl Which {
+    pub(crate) fn other(self) -> Which {
+        match self {
+            Which::A => Which::B,
+            Which::B => Which::A,
+        }
+    }
+
+    pub(crate) fn of<'p, 'a>(self, problem: &'p Problem<'a>) -> &'p Side<'a> {
+        match self {
+            Which::A => &problem.a,
+            Which::B => &problem.b,
+        }
+    }
 }
 
 impl<'a> Problem<'a> {
@@ -254,7 +278,7 @@ impl<'a> Problem<'a> {
 
     /// The distance that is kept at all times by bodies that are found free, when no gap of nodes was
     /// proven to less than `proven`.
-    pub(crate) fn clearance(&self, proven: f64) -> f64 {
+    pub(crate) fn proven_gap(&self, proven: f64) -> f64 {
         match self.start {
             StartPolicy::Report => greater(lesser(self.gap(), proven), self.margin),
             // Pieces that rest on each other keep none.

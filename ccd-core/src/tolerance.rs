@@ -12,13 +12,6 @@ pub const U64: f64 = f64::EPSILON / 2.0;
 /// Relative rounding error of one operation in f32.
 pub const U32: f32 = f32::EPSILON / 2.0;
 
-/// The tolerance of a query that names none, in the scene's unit of length `[FAST06 §6.2]`.
-pub const DEFAULT_TOLERANCE: f64 = 1e-3;
-
-/// How much [work](crate::Stats::work) a query may take that names no budget: a few seconds, and less
-/// than a gigabyte of pairs that wait (0.6 at worst, seen with the schedule `Fast`).
-pub const DEFAULT_BUDGET: u64 = 1 << 22;
-
 /// How many looks at points of pieces cost as much as a visit of a pair of nodes. A look is a
 /// projection onto an axis, or a track and its rate there.
 pub const LOOKS_PER_VISIT: u64 = 128;
@@ -36,21 +29,6 @@ pub const WORK_BETWEEN_LOOKS: u64 = 256;
 /// that share a corner, or lie in two planes, one is enough.
 pub const NEAREST_SHARE: f64 = 1.0 / 65536.0;
 
-/// The least tolerance that can be asked for, in the scene's unit of length: squares of distances
-/// that matter stay above the underflow of f64 (2.2e-308).
-pub const LEAST_TOLERANCE: f64 = 1e-100;
-
-/// The largest coordinate of points, positions and centres, and the longest travel, margin and tolerance,
-/// in the scene's unit of length: squares of distances, and of speeds after the [largest turn](MAX_TURN),
-/// stay below the overflow of f32 (3.4e38).
-pub const MAX_COORDINATE: f64 = 1e12;
-
-/// Coordinates nearer to 0 than this, 0 itself excepted, are too fine for exact predicates.
-///
-/// The last bit of a coordinate c is at least 2⁻⁵³ |c|, the error terms of a determinant are multiples
-/// of the product of three such bits, and that has to be a number: (2⁻⁵³ · 1e-90)³ > 2⁻¹⁰⁷⁴.
-pub const LEAST_COORDINATE: f64 = 1e-90;
-
 /// Squares of lengths within this are right to a few `u`: a component whose own square underflows, below
 /// 2.2e-308, is no part of them.
 pub const SQUARES: std::ops::RangeInclusive<f64> = 1e-200..=1e200;
@@ -60,10 +38,6 @@ pub const SQUARES: std::ops::RangeInclusive<f64> = 1e-200..=1e200;
 /// The least number, 4.9e-324, comes to 2.6e-113, whose square is right, and 1e-100 to 5.3e110; the
 /// greatest, 1.8e308, comes down to 3.4e97, and 1e100 to 1.9e-111.
 pub const SCALE: f64 = f64::from_bits((1023 + 700) << 52);
-
-/// The largest turn of one motion, in radians. Beyond it the rounding of the angle alone moves a
-/// point by 1e-10 of its arm.
-pub const MAX_TURN: f64 = 1e6;
 
 /// Bounds the error of any support gap or witness distance that is computed in f64, beside the exact one
 /// of the bodies as they were posed: points, poses, centres and velocities, or end poses, as given.
@@ -188,10 +162,6 @@ pub const TURNED_SHARE: f64 = 0.5;
 /// again. Each round is a Newton step that cannot overstep, so that few suffice.
 pub const AXIS_ROUNDS: usize = 16;
 
-/// The cap on Newton steps towards the first crossing of one track; each at least doubles the
-/// digits once it is near.
-pub const CROSSING_ROUNDS: usize = 64;
-
 /// The least growth of a free time, relative to what is there, that is worth another Newton step.
 pub const WORTHWHILE: f64 = 1.0 / 64.0;
 
@@ -280,11 +250,6 @@ pub const BELOW_SURFACE: [f64; 4] = [1e-4, 1e-6, 1e-9, 1e-12];
 /// Bounds the rounding of a height `n·x`, relative to `|n|₁` and the largest coordinate: three
 /// products and two sums, at most 3u; 4u are taken.
 pub const HEIGHT_F64: f64 = 4.0 * U64;
-
-/// The share of the time left that a pair of nodes of two hull trees has to advance by to be looked
-/// at again rather than split, where their distance is not that of the pieces below. On patches of
-/// knots, a ring and a bunny a half and never made no clear difference.
-pub const HULL_PROGRESS: f64 = 1.0 / 2.0;
 
 /// How much farther than the bodies two pairs of the front of a descent have to be for the pair that
 /// covers both to be tried in their place; and how much nearer the bodies have to have come for it to

@@ -6,7 +6,7 @@ use crate::store::StoreError;
 use crate::tally::Tally;
 use crate::topology::{Edge, Topology};
 use crate::vhacd::VhacdError;
-use ccd_core::tolerance::{LEAST_COORDINATE, MAX_COORDINATE};
+use ccd_core::limits::{LEAST_COORDINATE, MAX_COORDINATE};
 use ccd_core::{HullTreeError, InputError};
 use serde::{Deserialize, Serialize};
 use std::fmt;

@@ -19,7 +19,7 @@ use crate::predicates;
 use crate::tolerance::{FEW_POINTS, LIBRARY_POINTS, LIKELY_POINTS};
 use ccd_core::Loops;
 use ccd_core::glam::DVec3;
-use ccd_core::tolerance::MAX_COORDINATE;
+use ccd_core::limits::MAX_COORDINATE;
 use span::Span;
 use std::cmp::Ordering;
 

@@ -7,7 +7,7 @@ use crate::format::Format;
 use crate::predicates::is_without_area;
 use crate::repair::{Repairs, collapsed_faces, duplicate_faces};
 use ccd_core::glam::DVec3;
-use ccd_core::tolerance::MAX_COORDINATE;
+use ccd_core::limits::MAX_COORDINATE;
 use std::collections::HashMap;
 use std::fs;
 use std::io::Read;

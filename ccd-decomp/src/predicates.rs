@@ -1,8 +1,8 @@
 //! On which side of a plane or line does a point lie: exactly, by the crate `robust` `[SHE97]`.
 
 use ccd_core::glam::DVec3;
+use ccd_core::limits::LEAST_COORDINATE;
 use ccd_core::order::greater;
-use ccd_core::tolerance::LEAST_COORDINATE;
 use robust::{Coord, Coord3D, orient2d, orient3d};
 use std::cmp::Ordering;
 

@@ -6,7 +6,7 @@ use crate::mesh::TriangleMesh;
 use crate::store::STORED_EXTENSION;
 use ccd_core::Body;
 use ccd_core::glam::DVec3;
-use ccd_core::tolerance::MAX_COORDINATE;
+use ccd_core::limits::MAX_COORDINATE;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 

@@ -3,7 +3,7 @@
 use crate::manifold::Manifold;
 use crate::predicates::side;
 use ccd_core::glam::DVec3;
-use ccd_core::tolerance::LEAST_COORDINATE;
+use ccd_core::limits::LEAST_COORDINATE;
 use std::cmp::Ordering;
 
 /// Whether a point was found that has every face in front of it, behind no other one.

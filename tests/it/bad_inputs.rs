@@ -3,7 +3,7 @@
 //! `InputError::TooManyPieces` alone is missing: it takes a billion points.
 
 use ccd_core::glam::{DQuat, DVec3};
-use ccd_core::tolerance::MAX_COORDINATE;
+use ccd_core::limits::MAX_COORDINATE;
 use ccd_core::{
     Body, Config, Facet, Hierarchy, HierarchyNode, InputError, Motion, Moving, Origin, Pieces,
     Polytope, Pose, Problem, Volume,

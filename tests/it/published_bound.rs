@@ -1,7 +1,7 @@
 //! The paper's own bound looks at one moment only: it is late where arms turn, and the sound one is not.
 
+use ccd_core::Bound;
 use ccd_core::glam::{DQuat, DVec3};
-use ccd_core::motion_bound::Bound;
 use ccd_core::schedule::{Fast, Naive};
 use ccd_core::{Answer, Config, Motion, Outcome, Pose, Problem, Schedule};
 use ccd_distance_gjk::Gjk;

@@ -111,9 +111,11 @@ fn check_answer(
                 return Err(format!("loose: {time} < {earliest}"));
             }
         }
-        (Expect::Free { gap }, Outcome::Free { clearance }) => {
-            if *clearance > gap + rounding {
-                return Err(format!("a clearance of {clearance} at a distance of {gap}"));
+        (Expect::Free { gap }, Outcome::Free { proven_gap }) => {
+            if *proven_gap > gap + rounding {
+                return Err(format!(
+                    "a proven gap of {proven_gap} at a distance of {gap}"
+                ));
             }
         }
         // Nearer than the tolerance is as good as touching.

@@ -2,7 +2,7 @@
 
 use crate::models::Kind;
 use crate::query::{Bodies, Query};
-use ccd_core::schedule::{BestFirst, Fast, HullFirst, Naive};
+use ccd_core::schedule::{BestFirst, Fast, Naive};
 use ccd_core::{Answer, Body, Config, DistanceOracle, Problem, Schedule};
 use ccd_distance_gjk::{ClosedForm, Direct, Gjk};
 use ccd_distance_vmarch::Vmarch;
@@ -12,8 +12,6 @@ use ccd_distance_vmarch::Vmarch;
 pub enum Order {
     /// A queue of clocks.
     BestFirst,
-    /// The same over pairs of nodes of hull trees.
-    HullFirst,
     /// One step for all, over the front of a descent through hull trees.
     Fast,
     /// All pairs, one step for all.
@@ -65,12 +63,7 @@ impl Backend {
     pub fn all() -> impl Iterator<Item = Backend> {
         use Oracle::{ClosedForm, Direct, Gjk, Vmarch};
         let oracles = [ClosedForm, Gjk, Direct, Vmarch];
-        let orders = [
-            Order::BestFirst,
-            Order::HullFirst,
-            Order::Fast,
-            Order::Naive,
-        ];
+        let orders = [Order::BestFirst, Order::Fast, Order::Naive];
         orders
             .into_iter()
             .flat_map(move |order| oracles.map(|oracle| Backend { order, oracle }))
@@ -81,9 +74,7 @@ impl Backend {
         let fit = match self.order {
             Order::BestFirst => true,
             // Without trees it is another schedule's answer.
-            Order::HullFirst | Order::Fast => {
-                bodies.pairs() > 1 && [bodies.a(), bodies.b()].iter().all(has_tree)
-            }
+            Order::Fast => bodies.pairs() > 1 && [bodies.a(), bodies.b()].iter().all(has_tree),
             Order::Naive => bodies.pairs() <= NAIVE_PAIRS,
         };
         let small = self.oracle != Oracle::ClosedForm
@@ -108,7 +99,6 @@ impl Backend {
         match self.order {
             Order::BestFirst => BestFirst::<O>::default().solve(problem, oracle),
             Order::Fast => Fast::<O>::default().solve(problem, oracle),
-            Order::HullFirst => HullFirst::<O>::default().solve(problem, oracle),
             Order::Naive => Naive::<O>::default().solve(problem, oracle),
         }
     }

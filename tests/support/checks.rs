@@ -105,17 +105,17 @@ impl<'a> Judge<'a> {
                 let gap = self.referee.gap(*time);
                 law!(gap <= reach, "false: the distance at {time} is {gap}");
             }
-            Outcome::Free { clearance } => {
+            Outcome::Free { proven_gap } => {
                 law!(
                     self.verdict.latest().is_none(),
                     "missed: {:?}",
                     self.verdict
                 );
                 law!(!self.nested, "missed: one body is inside of the other");
-                let less = self.samples.iter().find(|s| s.1 < clearance - rounding);
+                let less = self.samples.iter().find(|s| s.1 < proven_gap - rounding);
                 law!(
                     less.is_none(),
-                    "the clearance {clearance} is less at {less:?}"
+                    "the proven gap {proven_gap} is less at {less:?}"
                 );
             }
             Outcome::Touching { .. } => {

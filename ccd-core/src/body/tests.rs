@@ -1,5 +1,5 @@
+use super::polytope::{Facet, Origin, Polytope};
 use super::*;
-use crate::piece::{Facet, Origin, Polytope};
 use glam::DVec3;
 
 /// A box on a square, and the square of another piece under it, twice as large.

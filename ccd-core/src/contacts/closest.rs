@@ -1,7 +1,7 @@
 //! Nearest points in closed form: of a corner on a triangle, of two edges that cross
 //! `[ERICSON05 §5.1]`.
 
-use crate::order::lesser;
+use crate::math::order::lesser;
 use glam::DVec3;
 
 /// Which part of a triangle a point is on.

@@ -1,10 +1,11 @@
 //! What is found in contact, and which of it is told.
 
 use super::FeaturePair;
+use super::candidate::Candidate;
 use super::closest::{Part, crossing, on_triangle};
 use super::measure::measure;
 use super::skin::{Skin, Spot, edge};
-use crate::pose::Frame;
+use crate::motion::pose::Frame;
 use crate::problem::Problem;
 use glam::DVec3;
 use std::collections::{HashMap, HashSet};
@@ -13,26 +14,7 @@ use std::collections::{HashMap, HashSet};
 pub(super) struct Manifold<'a> {
     problem: &'a Problem<'a>,
     skins: [&'a Skin<'a>; 2],
-    found: HashMap<[Spot; 2], Meeting>,
-}
-
-/// Two nearest points, in A's frame, and a face that each is on.
-#[derive(Clone, Copy)]
-pub(super) struct Meeting {
-    pub(super) points: [DVec3; 2],
-    pub(super) faces: [u32; 2],
-    /// Both faces' rounding radii: faces that share an edge or a corner may have others.
-    radii: f64,
-}
-
-impl Meeting {
-    fn distance(&self) -> f64 {
-        self.points[0].distance(self.points[1])
-    }
-
-    fn gap(&self) -> f64 {
-        self.distance() - self.radii
-    }
+    found: HashMap<[Spot; 2], Candidate>,
 }
 
 impl<'a> Manifold<'a> {
@@ -82,13 +64,13 @@ impl<'a> Manifold<'a> {
             rounding,
             ..
         } = self.problem;
-        let meeting = Meeting {
+        let candidate = Candidate {
             points,
             faces,
             radii: radius(0) + radius(1),
         };
-        if meeting.gap() - rounding <= margin + tolerance {
-            keep_nearest(&mut self.found, spots, meeting);
+        if candidate.gap() - rounding <= margin + tolerance {
+            keep_nearest(&mut self.found, spots, candidate);
         }
     }
 
@@ -96,18 +78,20 @@ impl<'a> Manifold<'a> {
     pub(super) fn pairs(&self, a_to_world: &Frame) -> Vec<FeaturePair> {
         let covered = self.covered();
         let mut told = HashMap::new();
-        for (mut spots, mut meeting) in sorted(&self.found) {
-            if covered.contains(&spots) || self.nearer_beside(spots, &meeting) {
+        for (mut spots, mut candidate) in sorted(&self.found) {
+            if covered.contains(&spots) || self.nearer_beside(spots, &candidate) {
                 continue;
             }
             for (k, skin) in self.skins.iter().enumerate() {
-                (spots[k], meeting.faces[k]) = skin.named(spots[k], meeting.faces[k]);
+                (spots[k], candidate.faces[k]) = skin.named(spots[k], candidate.faces[k]);
             }
-            keep_nearest(&mut told, spots, meeting);
+            keep_nearest(&mut told, spots, candidate);
         }
         let mut pairs: Vec<FeaturePair> = sorted(&told)
             .iter()
-            .map(|(spots, meeting)| measure(self.problem, self.skins, a_to_world, spots, meeting))
+            .map(|(spots, candidate)| {
+                measure(self.problem, self.skins, a_to_world, spots, candidate)
+            })
             .collect();
         pairs.sort_by(|one, other| {
             let names = |pair: &FeaturePair| (pair.feature_a, pair.feature_b);
@@ -121,13 +105,13 @@ impl<'a> Manifold<'a> {
     /// Whether a point on an edge or corner within a plane is nearest only on the triangle from which
     /// it was found, while another one around comes nearer elsewhere. That it is a point of its own is
     /// due to the cut; the nearer place makes a pair, or one that is nearer still.
-    fn nearer_beside(&self, spots: [Spot; 2], meeting: &Meeting) -> bool {
+    fn nearer_beside(&self, spots: [Spot; 2], candidate: &Candidate) -> bool {
         let rounding = self.problem.rounding;
         (0..2).any(|k| {
-            let (skin, from) = (self.skins[k], meeting.points[1 - k]);
+            let (skin, from) = (self.skins[k], candidate.points[1 - k]);
             skin.sharing(spots[k]).iter().any(|&face| {
                 let (_, nearest) = on_triangle(from, skin.triangle(face), rounding);
-                from.distance(nearest) + rounding < meeting.distance()
+                from.distance(nearest) + rounding < candidate.distance()
             })
         })
     }
@@ -159,15 +143,15 @@ fn spot(skin: &Skin<'_>, face: u32, part: Part) -> Spot {
     }
 }
 
-fn keep_nearest(pairs: &mut HashMap<[Spot; 2], Meeting>, spots: [Spot; 2], meeting: Meeting) {
-    let kept = pairs.entry(spots).or_insert(meeting);
-    if meeting.gap() < kept.gap() {
-        *kept = meeting;
+fn keep_nearest(pairs: &mut HashMap<[Spot; 2], Candidate>, spots: [Spot; 2], candidate: Candidate) {
+    let kept = pairs.entry(spots).or_insert(candidate);
+    if candidate.gap() < kept.gap() {
+        *kept = candidate;
     }
 }
 
 /// In an order that does not depend on the map, which has none.
-fn sorted(pairs: &HashMap<[Spot; 2], Meeting>) -> Vec<([Spot; 2], Meeting)> {
+fn sorted(pairs: &HashMap<[Spot; 2], Candidate>) -> Vec<([Spot; 2], Candidate)> {
     let mut list: Vec<_> = pairs.iter().map(|(&spots, &it)| (spots, it)).collect();
     list.sort_unstable_by_key(|&(spots, _)| spots);
     list

@@ -1,13 +1,13 @@
 //! How near two features are, checked as every separation is.
 
 use super::FeaturePair;
-use super::manifold::Meeting;
+use super::candidate::Candidate;
 use super::skin::{Skin, Spot};
-use crate::order::{greater, lesser};
+use crate::math::order::{greater, lesser};
+use crate::math::vector::{self, normal, unit};
+use crate::motion::pose::Frame;
 use crate::outcome::Separation;
-use crate::pose::Frame;
 use crate::problem::Problem;
-use crate::vector::{self, normal, unit};
 use glam::DVec3;
 
 /// Bounds the distance of two features of which the nearest points are known, in the world's
@@ -21,15 +21,15 @@ pub(super) fn measure(
     skins: [&Skin<'_>; 2],
     a_to_world: &Frame,
     spots: &[Spot; 2],
-    meeting: &Meeting,
+    candidate: &Candidate,
 ) -> FeaturePair {
-    let face = |k: usize| skins[k].face(meeting.faces[k]);
-    let points = [0, 1].map(|k| skins[k].points(spots[k], meeting.faces[k]));
-    let [a, b] = meeting.points;
+    let face = |k: usize| skins[k].face(candidate.faces[k]);
+    let points = [0, 1].map(|k| skins[k].points(spots[k], candidate.faces[k]));
+    let [a, b] = candidate.points;
     let (distance, radii) = (vector::distance(a, b), face(0).radius + face(1).radius);
     let towards = match distance > problem.rounding {
         true => b - a,
-        false => outward(skins, spots, meeting),
+        false => outward(skins, spots, candidate),
     };
     let mut normal = unit(towards).unwrap_or(DVec3::X);
     for across in across(&points).into_iter().flatten() {
@@ -44,7 +44,7 @@ pub(super) fn measure(
     }
     let way = unit(b - a).unwrap_or(normal);
     let world = |x: DVec3| problem.world(a_to_world.point(x));
-    let name = |k: usize| skins[k].name(spots[k], meeting.faces[k]);
+    let name = |k: usize| skins[k].name(spots[k], candidate.faces[k]);
     FeaturePair {
         feature_a: name(0),
         feature_b: name(1),
@@ -87,12 +87,12 @@ fn across([a, b]: &[[DVec3; 3]; 2]) -> [Option<DVec3>; 3] {
 
 /// About where B is, seen from A, for features that touch: out of the one and into the other, or, of
 /// surfaces that have no outside, from the middle of one piece to that of the other.
-fn outward(skins: [&Skin<'_>; 2], spots: &[Spot; 2], meeting: &Meeting) -> DVec3 {
+fn outward(skins: [&Skin<'_>; 2], spots: &[Spot; 2], candidate: &Candidate) -> DVec3 {
     let out = |k: usize| {
-        let out = skins[k].outward(spots[k], meeting.faces[k]);
+        let out = skins[k].outward(spots[k], candidate.faces[k]);
         unit(out).unwrap_or(DVec3::ZERO)
     };
-    let middle = |k: usize| skins[k].middle(skins[k].face(meeting.faces[k]).piece);
+    let middle = |k: usize| skins[k].middle(skins[k].face(candidate.faces[k]).piece);
     match out(0) - out(1) {
         DVec3::ZERO => middle(1) - middle(0),
         towards => towards,

@@ -3,12 +3,12 @@
 
 use super::boxes::{FaceTrees, NearFaces};
 use super::skin::Skin;
-use crate::order::{greater, lesser};
-use crate::pose::Frame;
+use crate::body::tree::{Below, Named, NodeId, Tree};
+use crate::math::order::{greater, lesser};
+use crate::math::vector::{length, normal};
+use crate::motion::pose::Frame;
 use crate::problem::{Problem, Side};
 use crate::tolerance::BOX_F64;
-use crate::tree::{Below, Named, NodeId, Tree};
-use crate::vector::{length, normal};
 use glam::DVec3;
 
 /// All pairs of faces, of A and of B, that may be nearer than `reach`; none when that takes more than

@@ -3,10 +3,10 @@
 mod unpack;
 
 use crate::body::Body;
-use crate::feature::Feature;
-use crate::order::greater;
-use crate::pose::Frame;
-use crate::vector::{across, normal, unit};
+use crate::body::feature::Feature;
+use crate::math::order::greater;
+use crate::math::vector::{across, normal, unit};
+use crate::motion::pose::Frame;
 use glam::DVec3;
 use std::collections::HashMap;
 use std::ops::Range;
@@ -18,14 +18,14 @@ pub(super) struct Skin<'a> {
     corners: Vec<Corner>,
     faces: Vec<Face>,
     /// Corners by place and number.
-    known: HashMap<(Place, Option<u32>), u32>,
+    known: HashMap<(PointBits, Option<u32>), u32>,
     /// The edges within a plane, and the faces on either side: first that to which a point on it
     /// belongs.
     within: HashMap<[u32; 2], [u32; 2]>,
     /// Corners without a number, within a plane.
     hidden: Vec<bool>,
     /// The faces around each of these.
-    around: HashMap<u32, Vec<u32>>,
+    faces_around: HashMap<u32, Vec<u32>>,
     /// The first triangle that goes by a face's number.
     first_of: HashMap<Feature, u32>,
     /// The sum of the normals around each corner.
@@ -35,7 +35,7 @@ pub(super) struct Skin<'a> {
 /// A point of the surface that triangles share.
 struct Corner {
     at: DVec3,
-    place: Place,
+    place: PointBits,
     /// Its number in the mesh, where its piece has it.
     id: Option<u32>,
 }
@@ -57,7 +57,7 @@ pub(super) enum Spot {
 }
 
 /// A point in the body's frame, by its bits.
-type Place = [u64; 3];
+type PointBits = [u64; 3];
 
 impl<'a> Skin<'a> {
     /// Nothing yet of a body that lies so in A's frame.
@@ -70,7 +70,7 @@ impl<'a> Skin<'a> {
             known: HashMap::new(),
             within: HashMap::new(),
             hidden: Vec::new(),
-            around: HashMap::new(),
+            faces_around: HashMap::new(),
             first_of: HashMap::new(),
             outward: Vec::new(),
         }
@@ -85,7 +85,7 @@ impl<'a> Skin<'a> {
 
     /// To be called once all that is needed is unpacked: finds the edges and corners that are not of
     /// the shape, but of how it is cut into triangles. Heights of up to `rounding` are none.
-    pub(super) fn settle(&mut self, rounding: f64) {
+    pub(super) fn hide_cuts(&mut self, rounding: f64) {
         self.share_numbers();
         self.add_normals();
         let mut sides: HashMap<[u32; 2], Sides> = HashMap::new();
@@ -119,7 +119,7 @@ impl<'a> Skin<'a> {
         }
         for (face, Face { corners, .. }) in (0u32..).zip(&self.faces) {
             for &corner in corners.iter().filter(|&&k| self.hidden[k as usize]) {
-                self.around.entry(corner).or_default().push(face);
+                self.faces_around.entry(corner).or_default().push(face);
             }
         }
     }
@@ -193,7 +193,7 @@ impl<'a> Skin<'a> {
     /// The faces that a spot is within, where it is within a plane: none of what is told as itself.
     pub(super) fn sharing(&self, spot: Spot) -> &[u32] {
         let faces = match spot {
-            Spot::Corner(corner) => self.around.get(&corner).map(Vec::as_slice),
+            Spot::Corner(corner) => self.faces_around.get(&corner).map(Vec::as_slice),
             Spot::Edge(ends) => self.within.get(&ends).map(<[u32; 2]>::as_slice),
             Spot::Face(_) => None,
         };
@@ -260,7 +260,7 @@ impl<'a> Skin<'a> {
 
     /// Corners whose piece has no number for them take the one that another piece has.
     fn share_numbers(&mut self) {
-        let mut numbered: HashMap<Place, (u32, u32)> = HashMap::new();
+        let mut numbered: HashMap<PointBits, (u32, u32)> = HashMap::new();
         for (k, corner) in (0u32..).zip(&self.corners) {
             if let Some(id) = corner.id {
                 let least = numbered.entry(corner.place).or_insert((id, k));

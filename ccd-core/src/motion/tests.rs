@@ -1,9 +1,9 @@
 //! Motions pass through the poses they are made of.
 
 use super::Motion;
+use super::pose::Pose;
 use crate::error::InputError;
-use crate::order::greater;
-use crate::pose::Pose;
+use crate::math::order::greater;
 use crate::tests::scene::{RngExt, direction, magnitude, rng, rotation, within};
 use glam::{DQuat, DVec3};
 use std::f64::consts::PI;

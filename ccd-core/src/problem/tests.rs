@@ -1,7 +1,7 @@
 //! What makes a query, and in which units it is put.
 
 use super::*;
-use crate::pose::Pose;
+use crate::motion::pose::Pose;
 
 fn posed(motion: Motion, duration: f64, config: &Config) -> Result<f64, InputError> {
     let ball = Body::ball(1.0).unwrap();

@@ -1,13 +1,14 @@
 //! Every pair keeps its own clock; the pair whose proof expires first is looked at next.
 
 use super::Schedule;
-use super::expand::{Split, expand};
-use super::group::{Group, Next};
+use super::answer::answer;
 use super::meter::Meter;
-use super::pair::Pair;
+use super::nodes::expand::{Split, expand};
+use super::nodes::siblings::{Next, Siblings};
+use super::pieces::pair::Pair;
+use super::proven::Proven;
 use super::queue::{Full, Queue, Rank};
-use super::start::{self, Proven};
-use crate::oracle::DistanceOracle;
+use crate::distance::oracle::DistanceOracle;
 use crate::outcome::{Answer, Limit, Outcome};
 use crate::problem::Problem;
 use std::ops::ControlFlow;
@@ -36,7 +37,7 @@ impl<O: DistanceOracle> Default for BestFirst<O> {
 
 #[derive(Debug)]
 enum Item<C> {
-    Group(Group),
+    Siblings(Siblings),
     Pieces(Pair<C>),
 }
 
@@ -48,7 +49,7 @@ enum Found<C> {
 
 impl<O: DistanceOracle> Schedule<O> for BestFirst<O> {
     fn solve(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer {
-        start::answer(problem, oracle, |problem, oracle, meter| {
+        answer(problem, oracle, |problem, oracle, meter| {
             self.queue.clear();
             let outcome = self.first_contact(problem, oracle, meter);
             let stats = &mut meter.stats;
@@ -86,11 +87,11 @@ impl<O: DistanceOracle> BestFirst<O> {
                 Found::Split(split) => {
                     let expansion = expand(problem, &split, s);
                     proven.keep(f64::from(expansion.bounds.kept));
-                    self.push_group(Group::new(problem, &expansion, split, s))
+                    self.push_siblings(Siblings::new(problem, &expansion, split, s))
                 }
                 Found::Pieces(mut pair) => {
                     let step = pair.advance(problem, oracle, meter, s);
-                    match proven.settle(problem, oracle, meter, step, s) {
+                    match proven.conclude(problem, oracle, meter, step, s) {
                         ControlFlow::Continue(clock) => self.push_pair(clock, pair),
                         ControlFlow::Break(outcome) => return outcome,
                     }
@@ -106,11 +107,11 @@ impl<O: DistanceOracle> BestFirst<O> {
     fn open_roots(&mut self, problem: &Problem<'_>) -> Result<(), Full> {
         match Next::roots(problem) {
             Next::Ask(a, b) => self.push_pair(0.0, Pair::new(a, b)),
-            Next::Split(split) => self.push_group(Group::roots(split.body)),
+            Next::Split(split) => self.push_siblings(Siblings::roots(split.body)),
         }
     }
 
-    /// Takes out the pair of least clock, and lets the rest of its group wait for theirs.
+    /// Takes out the pair of least clock, and lets the rest of its siblings wait for theirs.
     fn next(&mut self, problem: &Problem<'_>) -> Option<(f64, Found<O::Cache>)> {
         let visit = self.queue.visit()?;
         let s = visit.clock;
@@ -120,9 +121,9 @@ impl<O: DistanceOracle> BestFirst<O> {
                 visit.remove();
                 found
             }
-            Item::Group(group) => {
-                let next = group.take_least(problem);
-                match group.clock() {
+            Item::Siblings(siblings) => {
+                let next = siblings.take_least(problem);
+                match siblings.clock() {
                     clock if clock < 1.0 => visit.postpone(clock),
                     _ => visit.remove(),
                 }
@@ -135,10 +136,11 @@ impl<O: DistanceOracle> BestFirst<O> {
         Some((s, found))
     }
 
-    fn push_group(&mut self, group: Group) -> Result<(), Full> {
-        let clock = group.clock();
+    fn push_siblings(&mut self, siblings: Siblings) -> Result<(), Full> {
+        let clock = siblings.clock();
         if clock < 1.0 {
-            self.queue.push(clock, Rank::Group, Item::Group(group))?;
+            self.queue
+                .push(clock, Rank::Siblings, Item::Siblings(siblings))?;
         }
         Ok(())
     }

@@ -32,7 +32,7 @@ impl Meter {
     /// One more pair is about to be visited.
     #[inline]
     pub(crate) fn visit(&mut self) -> Result<(), Limit> {
-        self.stats.node_visits += 1;
+        self.stats.iterations += 1;
         let work = self.stats.work();
         if work > self.budget {
             return Err(Limit::Budget);

@@ -1,13 +1,14 @@
 //! All pairs of pieces, one common clock: Alg. 1 of the paper, the slow and obvious twin.
 
 use super::Schedule;
+use super::answer::answer;
 use super::meter::Meter;
-use super::moment::Moment;
-use super::pair::Pair;
-use super::start::{self, Proven};
-use crate::motion_bound::Bound;
-use crate::oracle::DistanceOracle;
-use crate::order::lesser;
+use super::pieces::pair::Pair;
+use super::pieces::snapshot::Snapshot;
+use super::proven::Proven;
+use crate::distance::oracle::DistanceOracle;
+use crate::math::order::lesser;
+use crate::motion::bound::Bound;
 use crate::outcome::{Answer, Limit, Outcome};
 use crate::problem::{Problem, Side};
 use std::ops::ControlFlow;
@@ -45,7 +46,7 @@ impl<O: DistanceOracle> Default for Naive<O> {
 
 impl<O: DistanceOracle> Schedule<O> for Naive<O> {
     fn solve(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer {
-        start::answer(problem, oracle, |problem, oracle, meter| {
+        answer(problem, oracle, |problem, oracle, meter| {
             let outcome = self.search(problem, oracle, meter);
             meter.stats.peak_front = self.pairs.len() as u64;
             outcome
@@ -73,17 +74,17 @@ impl<O: DistanceOracle> Naive<O> {
         while s < 1.0 {
             meter.stats.advancements += 1;
             let mut next = f64::INFINITY;
-            let moment = Moment::new(problem, 0, 0, s);
+            let snapshot = Snapshot::new(problem, 0, 0, s);
             for pair in &mut self.pairs {
                 if let Err(limit) = meter.visit() {
                     return unresolved(s, limit);
                 }
-                let moment = moment.with(problem.pieces([pair.a, pair.b]));
+                let snapshot = snapshot.with(problem.pieces([pair.a, pair.b]));
                 let reaches = [reaches[0][pair.a as usize], reaches[1][pair.b as usize]];
-                let step = pair.advance_by(&moment, oracle, meter, |moment, checked, kept| {
-                    moment.directed_time(checked, kept, self.bound, reaches)
+                let step = pair.advance_by(&snapshot, oracle, meter, |snapshot, checked, kept| {
+                    snapshot.directed_time(checked, kept, self.bound, reaches)
                 });
-                match proven.settle(problem, oracle, meter, step, s) {
+                match proven.conclude(problem, oracle, meter, step, s) {
                     ControlFlow::Continue(clock) => next = lesser(next, clock),
                     ControlFlow::Break(outcome) => return outcome,
                 }

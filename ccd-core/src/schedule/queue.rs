@@ -1,6 +1,6 @@
 //! Pairs that wait for their clocks, least clock first.
 
-use crate::order::greater;
+use crate::math::order::greater;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 use std::collections::binary_heap::PeekMut;
@@ -24,7 +24,7 @@ type Key = u128;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Rank {
     PiecePair = 0,
-    Group = 1,
+    Siblings = 1,
 }
 
 /// More items than this cannot wait at once.

@@ -1,128 +1,180 @@
-//! What is found at the start: touching, overlapping, or one inside the other.
+//! How near bodies are that touch at the start: nearest pairs first.
 
-use super::given::of_given;
+mod containment;
+
 use super::meter::Meter;
-use super::nearest;
-use super::pair::Step;
-use crate::containment::{self, Containment};
-use crate::oracle::DistanceOracle;
-use crate::order::lesser;
-use crate::outcome::{Answer, Contact, Limit, Outcome, Overlap, Stats};
-use crate::problem::{Problem, StartPolicy};
+use super::nodes::expand::measure;
+use super::nodes::siblings::{Next, Siblings};
+use super::pieces::pair::contact;
+use super::pieces::snapshot::Snapshot;
+use super::queue::{Full, Queue, Rank};
+use crate::distance::oracle::DistanceOracle;
+use crate::distance::overlap::{self, Intersection};
+use crate::math::order::lesser;
+use crate::outcome::{Contact, Limit, Outcome, Overlap};
+use crate::problem::Problem;
+use crate::tolerance::NEAREST_SHARE;
+use containment::Containment;
 use std::ops::ControlFlow;
 
-/// Searches as the problem's policy for the start demands.
+/// The answer for bodies of which two pieces were seen in contact at the start: how near the bodies
+/// are, or that they overlap.
 ///
-/// Bodies that begin in contact and are to be let go are searched again at half the gap that they
-/// began with: what parts or slides keeps more than that, what approaches does not. Where there is
-/// no gap to speak of, it is the pairs that rest on each other that are let go, each on its own.
+/// # Guarantee
+/// Touching bodies are no nearer than the contact's lower bound, and its pieces show the upper one.
+/// The same whichever pieces were `seen`, if the oracle is honest.
 ///
-/// A search adds to the meter what it took.
-pub(crate) fn answer<O: DistanceOracle>(
+/// # Complexity
+/// One distance of the bodies, whatever the margin, and a look at every pair of pieces that may
+/// intersect.
+pub(super) fn touching<O: DistanceOracle>(
     problem: &Problem<'_>,
     oracle: &mut O,
-    mut search: impl FnMut(&Problem<'_>, &mut O, &mut Meter) -> Outcome,
-) -> Answer {
-    let before = oracle.effort();
-    let mut meter = Meter::new(problem);
-    let outcome = match problem.start {
-        StartPolicy::Report => search(problem, oracle, &mut meter),
-        StartPolicy::Leave => search(&problem.reporting(), oracle, &mut meter),
+    meter: &mut Meter,
+    seen: Contact,
+) -> Outcome {
+    let mut search = Nearest {
+        problem,
+        waiting: Queue::default(),
+        nearest: None,
+        lower: f64::INFINITY,
+        touching: Vec::new(),
+        undecided: false,
     };
-    let (outcome, tolerance) = match (problem.start, outcome) {
-        (StartPolicy::Leave, Outcome::Touching { contact }) => {
-            let problem = problem.leaving(contact.separation.lower - problem.margin);
-            (search(&problem, oracle, &mut meter), problem.tolerance)
-        }
-        _ => (outcome, problem.tolerance),
-    };
-    let within = problem.margin + tolerance;
-    Answer {
-        outcome: of_given(problem, oracle, &mut meter, outcome, within),
-        tolerance,
-        stats: Stats {
-            effort: oracle.effort() - before,
-            ..meter.stats
-        },
+    if let ControlFlow::Break(outcome) = search.run(oracle, meter) {
+        return outcome;
     }
+    if search.undecided {
+        return unresolved(Limit::Undecided);
+    }
+    let contact = search.contact(seen);
+    contained(problem, &search.touching).unwrap_or(Outcome::Touching { contact })
 }
 
-/// What is proven of the bodies, whatever becomes of pairs that still wait.
-#[derive(Debug)]
-pub(crate) struct Proven {
-    /// At the start no pair of pieces is in contact, and no body inside the other.
-    apart_at_start: bool,
-    /// The least gap that pairs of nodes were proven to keep.
-    kept: f64,
+/// Splits the pair of nodes that may hold the nearest pieces, until no pair that waits can hold any
+/// that are nearer than those found.
+///
+/// What may intersect is bounded by no distance at all, and therefore comes before all others.
+struct Nearest<'p> {
+    problem: &'p Problem<'p>,
+    /// By lower bounds of their distance.
+    waiting: Queue<Siblings>,
+    /// The pieces of least upper bound.
+    nearest: Option<Contact>,
+    /// Bounds the distance of all pieces that were measured or given up.
+    lower: f64,
+    /// The pairs of pieces that no axis keeps apart; all of them, as none has a distance.
+    touching: Vec<[u32; 2]>,
+    /// Of some pair it cannot be told whether it intersects.
+    undecided: bool,
 }
 
-impl Default for Proven {
-    fn default() -> Self {
-        Proven {
-            apart_at_start: false,
-            kept: f64::INFINITY,
-        }
-    }
-}
-
-impl Proven {
-    /// Pairs of nodes keep a gap until their clocks.
-    pub(crate) fn keep(&mut self, gap: f64) {
-        self.kept = lesser(self.kept, gap);
-    }
-
-    /// What a pair of pieces at clock `s` has come to: the clock to wait for, or the answer.
-    ///
-    /// A pair that touches at the start is not the answer yet: another one may be nearer, or overlap.
-    pub(crate) fn settle<O: DistanceOracle>(
-        &self,
-        problem: &Problem<'_>,
+impl Nearest<'_> {
+    /// Finds the nearest pieces; breaks with the answer when two overlap, or a limit is reached.
+    fn run<O: DistanceOracle>(
+        &mut self,
         oracle: &mut O,
         meter: &mut Meter,
-        step: Step,
-        s: f64,
-    ) -> ControlFlow<Outcome, f64> {
-        let unresolved = |reason| Outcome::Unresolved {
-            safe_until: problem.time(s),
-            reason,
-        };
-        ControlFlow::Break(match step {
-            Step::FreeUntil(clock) => return ControlFlow::Continue(clock),
-            Step::Contact(contact) if s > 0.0 => self.contact(problem, contact, s),
-            Step::Contact(contact) => nearest::touching(problem, oracle, meter, contact),
-            Step::Overlap(contact) => overlapping(contact),
-            Step::Stalled => unresolved(Limit::Stalled),
-            Step::GaveUp => unresolved(Limit::OracleGaveUp),
-        })
+    ) -> ControlFlow<Outcome> {
+        let mut next = Some(Next::roots(self.problem));
+        while let Some(pair) = next {
+            if let Err(limit) = meter.visit() {
+                return ControlFlow::Break(unresolved(limit));
+            }
+            match pair {
+                Next::Split(split) => {
+                    let expansion = measure(self.problem, &split);
+                    self.wait(Siblings::new(self.problem, &expansion, split, 0.0))?;
+                }
+                Next::Ask(a, b) => self.look([a, b], oracle, meter)?,
+            }
+            next = self.next();
+        }
+        ControlFlow::Continue(())
     }
 
-    /// A pair is in contact at clock `s`. Others may be nearer: they are known to keep what clocks
-    /// prove, and no more.
-    pub(crate) fn contact(&self, problem: &Problem<'_>, contact: Contact, s: f64) -> Outcome {
-        Outcome::Contact {
-            time: problem.time(s),
-            contact: contact.no_nearer_than(problem.clearance(self.kept)),
+    fn wait(&mut self, siblings: Siblings) -> ControlFlow<Outcome> {
+        let distance = siblings.clock();
+        if !(distance < self.upper()) {
+            return ControlFlow::Continue(());
+        }
+        match self.waiting.push(distance, Rank::Siblings, siblings) {
+            Ok(()) => ControlFlow::Continue(()),
+            Err(Full) => ControlFlow::Break(unresolved(Limit::Budget)),
         }
     }
 
-    /// All pairs are past the start, and none was in contact there: the answer, if one body is inside
-    /// the other.
-    pub(crate) fn past_start(&mut self, problem: &Problem<'_>) -> Option<Outcome> {
-        if std::mem::replace(&mut self.apart_at_start, true) {
+    /// The pair that may be the nearest; none when no pair can be nearer than what is found.
+    fn next(&mut self) -> Option<Next> {
+        let (upper, near_enough) = (self.upper(), self.near_enough());
+        let visit = self.waiting.visit()?;
+        // What has no distance may intersect.
+        if visit.clock > 0.0 && visit.clock >= near_enough {
+            self.lower = lesser(self.lower, visit.clock);
             return None;
         }
-        // Bodies that are let go were looked at when their contact was found.
-        match problem.start {
-            StartPolicy::Leave => None,
-            StartPolicy::Report => contained(problem, &[]),
+        let next = visit.item.take_least(self.problem);
+        match visit.item.clock() {
+            distance if distance < upper => visit.postpone(distance),
+            _ => visit.remove(),
+        }
+        Some(next)
+    }
+
+    /// Measures two pieces.
+    fn look<O: DistanceOracle>(
+        &mut self,
+        ids: [u32; 2],
+        oracle: &mut O,
+        meter: &mut Meter,
+    ) -> ControlFlow<Outcome> {
+        let problem = self.problem;
+        let snapshot = Snapshot::new(problem, ids[0], ids[1], 0.0);
+        let Some(checked) = snapshot.ask(oracle, &mut O::Cache::default(), meter) else {
+            return ControlFlow::Break(unresolved(Limit::OracleGaveUp));
+        };
+        match overlap::intersects(&snapshot.pieces, &checked, problem.rounding) {
+            Intersection::Certain => {
+                return ControlFlow::Break(overlapping(contact(&snapshot, ids, &checked)));
+            }
+            Intersection::Undecided => self.undecided = true,
+            Intersection::None => {}
+        }
+        // Written so that NaN is not apart.
+        if !(checked.lower > 0.0) {
+            self.touching.push(ids);
+        }
+        self.lower = lesser(self.lower, checked.lower);
+        if checked.upper < self.upper() {
+            self.nearest = Some(contact(&snapshot, ids, &checked));
+        }
+        ControlFlow::Continue(())
+    }
+
+    /// Bounds the distance of the bodies from above.
+    fn upper(&self) -> f64 {
+        let upper = |contact: Contact| contact.separation.upper;
+        self.nearest.map_or(f64::INFINITY, upper)
+    }
+
+    /// Pairs that are no nearer need not be looked at.
+    fn near_enough(&self) -> f64 {
+        let upper = self.upper();
+        match upper <= self.problem.contact_distance() {
+            true => upper * (1.0 - NEAREST_SHARE),
+            false => upper,
         }
     }
 
-    /// All pairs are apart to the end.
-    pub(crate) fn end(&mut self, problem: &Problem<'_>) -> Outcome {
-        self.past_start(problem).unwrap_or(Outcome::Free {
-            clearance: problem.clearance(self.kept),
-        })
+    /// The nearest pieces, with a lower bound that holds for all.
+    fn contact(&self, seen: Contact) -> Contact {
+        let nearest = self.nearest.unwrap_or(seen);
+        // An oracle may take back what it said.
+        let contact = match nearest.separation.upper <= self.problem.contact_distance() {
+            true => nearest,
+            false => seen,
+        };
+        contact.no_nearer_than(self.lower)
     }
 }
 
@@ -145,3 +197,13 @@ pub(super) fn overlapping(contact: Contact) -> Outcome {
         overlap: Overlap::Pieces(contact),
     }
 }
+
+fn unresolved(reason: Limit) -> Outcome {
+    Outcome::Unresolved {
+        safe_until: 0.0,
+        reason,
+    }
+}
+
+#[cfg(test)]
+mod tests;

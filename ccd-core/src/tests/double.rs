@@ -1,8 +1,8 @@
 //! Arithmetic with twice the digits of f64: the reference that allowances for rounding are sampled
 //! against. A number is the unevaluated sum of two f64, right to about 1e-31.
 
+use crate::math::order::greater;
 use crate::motion::Motion;
-use crate::order::greater;
 use glam::{DQuat, DVec3};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -61,24 +61,24 @@ impl Double {
             halvings += 1;
         }
         let square = angle * angle;
-        let (mut sin, mut versine) = (angle, Double::ZERO);
+        let (mut sin, mut cos_minus_one) = (angle, Double::ZERO);
         let (mut odd, mut even) = (angle, Double::from(1.0));
         for k in 1..14 {
             let n = f64::from(2 * k);
             even = -(even * square) / Double::from((n - 1.0) * n);
             odd = -(odd * square) / Double::from(n * (n + 1.0));
-            versine = versine + even;
+            cos_minus_one = cos_minus_one + even;
             sin = sin + odd;
         }
         // Doubled as cos − 1, which does not cancel while the angle is small.
         for _ in 0..halvings {
             let two = Double::from(2.0);
-            (sin, versine) = (
-                two * sin * (versine + Double::from(1.0)),
+            (sin, cos_minus_one) = (
+                two * sin * (cos_minus_one + Double::from(1.0)),
                 -(two * sin * sin),
             );
         }
-        (sin, versine + Double::from(1.0))
+        (sin, cos_minus_one + Double::from(1.0))
     }
 }
 

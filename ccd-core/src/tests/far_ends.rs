@@ -6,8 +6,8 @@ use super::oracle::Exhaustive;
 use super::scene::{Pcg64, RngExt, direction, magnitude, rng, rotation, within};
 use crate::body::Body;
 use crate::motion::Motion;
+use crate::motion::pose::Pose;
 use crate::outcome::Outcome;
-use crate::pose::Pose;
 use crate::problem::{Config, Moving, Problem};
 use crate::schedule::{BestFirst, Naive, Schedule};
 use glam::DVec3;
@@ -67,12 +67,12 @@ fn answers_hold_for_the_motion_between_the_poses_as_given() {
     for number in 0..2_000 {
         let scene = Scene::new(&mut rng);
         let bodies = scene.centres.map(|centre| {
-            let ball = crate::piece::Polytope {
+            let ball = crate::body::polytope::Polytope {
                 points: vec![centre],
                 radius: scene.radii,
                 ..Default::default()
             };
-            let pieces = crate::pieces::Pieces::polytopes(&[ball]).unwrap();
+            let pieces = crate::body::pieces::Pieces::polytopes(&[ball]).unwrap();
             Body::new(&pieces, crate::body::Volume::Surface).unwrap()
         });
         let duration = magnitude(&mut rng, -2.0, 2.0);
@@ -107,9 +107,9 @@ fn answers_hold_for_the_motion_between_the_poses_as_given() {
                     );
                     (share.get(), 0.0)
                 }
-                Outcome::Free { clearance } => {
+                Outcome::Free { proven_gap } => {
                     misses += 1;
-                    (1.0, clearance)
+                    (1.0, proven_gap)
                 }
                 Outcome::Touching { .. } | Outcome::Overlapping { .. } => continue,
                 outcome => panic!("{number}: {outcome:?}"),

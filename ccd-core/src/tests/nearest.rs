@@ -1,7 +1,7 @@
 //! The nearest points of two triangles, the slow and obvious way: every edge with every edge, every
 //! corner with the other's plane, and whether an edge pierces the other triangle.
 
-use crate::order::lesser;
+use crate::math::order::lesser;
 use glam::DVec3;
 
 pub(crate) type Triangle = [DVec3; 3];

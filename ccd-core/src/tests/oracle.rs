@@ -1,8 +1,9 @@
 //! A slow oracle for pieces of up to three points, and one that lies.
 
 use super::nearest::{Triangle, nearest, point};
-use crate::oracle::{Claim, Combination, DistanceOracle, GiveUp, PiecePair};
-use crate::separation::support_gap;
+use crate::body::combination::Combination;
+use crate::distance::oracle::{Claim, DistanceOracle, GiveUp, PiecePair};
+use crate::distance::separation::support_gap;
 use glam::DVec3;
 
 /// Compares every feature with every other one; balls and capsules are their cores.

@@ -1,11 +1,11 @@
 //! Random bodies and motions of every shape and size, the same for the same seed.
 
 use super::nearest::{Triangle, nearest};
+use crate::body::pieces::Pieces;
 use crate::body::{Body, Volume};
+use crate::math::order::{greater, lesser};
 use crate::motion::Motion;
-use crate::order::{greater, lesser};
-use crate::pieces::Pieces;
-use crate::pose::Pose;
+use crate::motion::pose::Pose;
 use crate::problem::{Config, Moving, Problem};
 use glam::{DQuat, DVec3};
 pub(crate) use rand::{RngExt, SeedableRng};

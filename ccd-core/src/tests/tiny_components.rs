@@ -4,13 +4,13 @@ use super::nearest::nearest;
 use super::oracle::Exhaustive;
 use super::scene::{Pcg64, RngExt, body, direction, magnitude, rng, within};
 use crate::body::Body;
+use crate::math::order::lesser;
+use crate::math::vector::unit;
 use crate::motion::Motion;
-use crate::order::lesser;
+use crate::motion::pose::Pose;
 use crate::outcome::Outcome;
-use crate::pose::Pose;
 use crate::problem::{Config, Moving, Problem};
 use crate::schedule::{BestFirst, Schedule};
-use crate::vector::unit;
 use glam::DVec3;
 
 /// A vector of small whole numbers.
@@ -80,9 +80,9 @@ fn margins_are_kept_from_needles_of_widths_that_have_no_square() {
                 hits += 1;
                 (time, problem.margin)
             }
-            Outcome::Free { clearance } => {
+            Outcome::Free { proven_gap } => {
                 misses += 1;
-                (1.0, clearance)
+                (1.0, proven_gap)
             }
             // The slow oracle squares what it should not, and names poor axes.
             Outcome::Unresolved { safe_until, .. } => {

@@ -1,12 +1,13 @@
 //! The f64 allowances against arithmetic of twice the digits.
 
 use super::distance_rounding;
+use crate::body::combination::Combination;
+use crate::body::pieces::Pieces;
+use crate::distance::oracle::{Claim, PiecePair};
+use crate::distance::separation;
+use crate::math::order::greater;
 use crate::motion::Motion;
-use crate::oracle::{Claim, Combination, PiecePair};
-use crate::order::greater;
-use crate::pieces::Pieces;
 use crate::problem::{Config, Moving, Problem};
-use crate::separation;
 use crate::tests::double::{Double, Double3, place};
 use crate::tests::far_ends::{between, ends};
 use crate::tests::scene::{

@@ -1,7 +1,7 @@
 //! The choice of schedule and oracle at run time.
 
-use ccd_core::motion_bound::Bound;
-use ccd_core::schedule::{BestFirst, Fast, HullFirst, Naive};
+use ccd_core::Bound;
+use ccd_core::schedule::{BestFirst, Fast, Naive};
 use ccd_core::{Answer, DistanceOracle, OrElse, Problem, Schedule};
 use ccd_distance_gjk::{Direct, Gjk};
 use ccd_distance_vmarch::Vmarch;
@@ -25,8 +25,6 @@ pub enum ScheduleKind {
     /// The pair whose proof expires first is looked at next.
     #[default]
     BestFirst,
-    /// The same over trees of convex hulls, which are built for it: nodes are measured like pieces.
-    HullFirst,
     /// As published: one step for all pairs at which the distance query over hull trees stops.
     Fast,
     /// All pairs of pieces, one step for all: slow, for comparison on small meshes.
@@ -56,7 +54,7 @@ impl ScheduleKind {
     /// Whether it is of use only for bodies with a [hull tree](ccd_core::Body::hull_tree).
     pub fn uses_hull_trees(self) -> bool {
         match self {
-            ScheduleKind::HullFirst | ScheduleKind::Fast => true,
+            ScheduleKind::Fast => true,
             ScheduleKind::BestFirst | ScheduleKind::Naive => false,
         }
     }
@@ -65,7 +63,7 @@ impl ScheduleKind {
     pub fn uses_a_bound(self) -> bool {
         match self {
             ScheduleKind::Fast | ScheduleKind::Naive => true,
-            ScheduleKind::BestFirst | ScheduleKind::HullFirst => false,
+            ScheduleKind::BestFirst => false,
         }
     }
 }
@@ -120,10 +118,6 @@ impl SolverKind {
         match self.schedule {
             ScheduleKind::BestFirst => Box::new(Pairing {
                 schedule: BestFirst::<O>::default(),
-                oracle,
-            }),
-            ScheduleKind::HullFirst => Box::new(Pairing {
-                schedule: HullFirst::<O>::default(),
                 oracle,
             }),
             ScheduleKind::Fast => Box::new(Pairing {

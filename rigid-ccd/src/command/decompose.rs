@@ -32,7 +32,7 @@ pub(super) struct DecomposeArgs {
     /// In which order --pieces patches grow [default: cresting]
     #[arg(long, value_enum)]
     order: Option<OrderArg>,
-    /// Build the tree of convex hulls too, which --schedule hull-first of a query uses
+    /// Build the tree of convex hulls too, which --schedule fast of a query uses
     #[arg(long)]
     hull_tree: bool,
     /// Where to write the pieces (.obj, one group for each) or the prepared body (.ccd)
@@ -81,7 +81,7 @@ Examples:
   ccd decompose part.stl --pieces vhacd --hulls 64 --format json
   ccd decompose knot.obj --pieces patches --order depth-first --out patches.obj
   ccd decompose knot.obj --hull-tree --out knot.ccd
-  ccd query --a knot.ccd --b knot.ccd --motions motions.csv --schedule hull-first";
+  ccd query --a knot.ccd --b knot.ccd --motions motions.csv --schedule fast";
 
 /// In which order patches grow.
 #[derive(Clone, Copy, Debug, ValueEnum)]

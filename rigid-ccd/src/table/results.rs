@@ -215,7 +215,7 @@ impl ResultRow {
             witness_b: [None; 3],
             feature_a: None,
             feature_b: None,
-            iterations: Some(answer.stats.node_visits),
+            iterations: Some(answer.stats.iterations),
             oracle_calls: Some(answer.stats.oracle_calls),
             micros: Some(micros),
             reason: None,
@@ -235,8 +235,8 @@ impl ResultRow {
                 witness_b: cells(point),
                 ..row
             },
-            Outcome::Free { clearance } => ResultRow {
-                distance_lower: Some(clearance),
+            Outcome::Free { proven_gap } => ResultRow {
+                distance_lower: Some(proven_gap),
                 ..row
             },
             Outcome::Unresolved { reason, .. } => ResultRow {

@@ -180,7 +180,7 @@ fn hull_trees_are_stored_and_used() {
     let options = ["--pieces", "patches", "--hull-tree", "--out", name(&out)];
     let figures = figures(&mesh, &options);
     assert_eq!(figures["hulls"], figures["tree_nodes"]);
-    let tree = answers(&out, &["--schedule", "hull-first"]);
+    let tree = answers(&out, &["--schedule", "fast"]);
     let boxes = answers(&out, &["--schedule", "best-first"]);
     for (one, other) in tree.iter().zip(&boxes) {
         assert_eq!(one.text("status"), other.text("status"));

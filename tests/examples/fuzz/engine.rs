@@ -2,7 +2,7 @@
 
 use crate::case::{Case, Form, Shape};
 use ccd_core::glam::DVec3;
-use ccd_core::schedule::{BestFirst, Fast, HullFirst, Naive};
+use ccd_core::schedule::{BestFirst, Fast, Naive};
 use ccd_core::{Answer, Body, Config, DistanceOracle, Moving, OrElse, Polytope, Problem, Schedule};
 use ccd_decomp::{Detail, TriangleMesh, prepare};
 use ccd_distance_gjk::{Direct, Gjk};
@@ -24,7 +24,6 @@ pub enum Method {
     Vmarch,
     Naive,
     Fast,
-    HullFirst,
 }
 
 /// Both bodies, of pieces of a kind.
@@ -108,13 +107,12 @@ impl Method {
             Method::Vmarch => by(BestFirst::<OrElse<Vmarch, Gjk>>::default(), problem),
             Method::Naive => by(Naive::<Direct>::default(), problem),
             Method::Fast => by(Fast::<Gjk>::default(), problem),
-            Method::HullFirst => by(HullFirst::<Gjk>::default(), problem),
         }
     }
 
     pub fn trees(self) -> Trees {
         match self {
-            Method::Fast | Method::HullFirst => Trees::With,
+            Method::Fast => Trees::With,
             _ => Trees::Without,
         }
     }
@@ -128,7 +126,6 @@ impl fmt::Display for Method {
             Method::Vmarch => "--oracle vmarch",
             Method::Naive => "--schedule naive",
             Method::Fast => "--schedule fast --oracle gjk",
-            Method::HullFirst => "--schedule hull-first --oracle gjk",
         })
     }
 }

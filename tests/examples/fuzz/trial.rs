@@ -102,7 +102,7 @@ fn methods(draw: &mut Draw, case: &Case) -> Vec<(Kind, Method)> {
     }
     // Trees need exact predicates, which the finest coordinates have none of.
     if small && turn < 20.0 && draw.chance(0.1) {
-        asked.push((pieces, draw.pick(&[Method::Fast, Method::HullFirst])));
+        asked.push((pieces, Method::Fast));
     }
     asked
 }

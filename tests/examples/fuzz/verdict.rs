@@ -34,7 +34,7 @@ pub enum Fault {
     UpperBound,
     /// A witness that is not on its body.
     Witness,
-    /// A clearance that is not kept.
+    /// A proven gap that is not kept.
     Clearance,
     /// An unresolved query that was safe for less time than it says.
     NotSafe,
@@ -118,12 +118,12 @@ impl<'a> Judge<'a> {
                 depth: self.rounding,
             },
             _ => {
-                let clearances = given.iter().filter_map(|g| match g.answer.outcome {
-                    Outcome::Free { clearance } => Some(clearance),
+                let gaps = given.iter().filter_map(|g| match g.answer.outcome {
+                    Outcome::Free { proven_gap } => Some(proven_gap),
                     _ => None,
                 });
                 Limit {
-                    threshold: clearances.fold(margin, larger),
+                    threshold: gaps.fold(margin, larger),
                     depth: 0.0,
                 }
             }
@@ -161,9 +161,9 @@ impl<'a> Judge<'a> {
                 early.into_iter().for_each(|e| say(Fault::Late, known(e)));
                 faults.extend(self.near(given, &contact, time));
             }
-            Outcome::Free { clearance } => match (early, before) {
+            Outcome::Free { proven_gap } => match (early, before) {
                 (Some(e), _) => say(Fault::Missed, known(e)),
-                (None, Some(e)) if e.distance < clearance - self.scene.error() => {
+                (None, Some(e)) if e.distance < proven_gap - self.scene.error() => {
                     say(Fault::Clearance, known(e));
                 }
                 _ => {}

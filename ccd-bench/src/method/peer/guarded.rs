@@ -61,7 +61,7 @@ impl Guarded {
     }
 
     /// A peer by another program with the command `peer`, not started yet: the first query starts it, at
-    /// a tolerance of [`ccd_core::tolerance::DEFAULT_TOLERANCE`] unless it is
+    /// a tolerance of [`ccd_core::limits::DEFAULT_TOLERANCE`] unless it is
     /// [told another](Self::restart_with).
     ///
     /// # Errors
@@ -74,7 +74,7 @@ impl Guarded {
         Ok(Guarded {
             kind,
             program,
-            tolerance: ccd_core::tolerance::DEFAULT_TOLERANCE,
+            tolerance: ccd_core::limits::DEFAULT_TOLERANCE,
             meshes: Meshes::write(meshes)?,
             process: None,
         })

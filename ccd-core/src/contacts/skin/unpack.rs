@@ -1,10 +1,10 @@
 //! From a piece to triangles with names.
 
-use super::{Corner, Face, Place, Skin};
-use crate::feature::Feature;
-use crate::oracle::Combination;
-use crate::piece::Piece;
-use crate::tree::pieces_at;
+use super::{Corner, Face, PointBits, Skin};
+use crate::body::combination::Combination;
+use crate::body::feature::Feature;
+use crate::body::piece::Piece;
+use crate::body::tree::pieces_at;
 use glam::DVec3;
 use std::collections::HashMap;
 
@@ -73,7 +73,7 @@ impl Skin<'_> {
         let points = (0..piece.points.len() as u32).rev();
         let own = points.map(|k| (piece.points[k as usize], self.number(index, k)));
         // The first of several points at one place counts.
-        let numbers: HashMap<Place, Option<u32>> = numbered
+        let numbers: HashMap<PointBits, Option<u32>> = numbered
             .chain(own)
             .map(|(point, number)| (place(point), number))
             .collect();
@@ -124,6 +124,6 @@ impl Skin<'_> {
 }
 
 /// Both zeros are one place.
-fn place(point: DVec3) -> Place {
+fn place(point: DVec3) -> PointBits {
     point.to_array().map(|x| (x + 0.0).to_bits())
 }

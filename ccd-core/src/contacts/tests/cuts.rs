@@ -1,7 +1,7 @@
 //! What is flat makes the same pairs however it is cut; pieces of many faces, or that share corners.
 
 use super::*;
-use crate::pieces::Pieces;
+use crate::body::pieces::Pieces;
 
 /// A slab's top and bottom of four triangles each, about a point in the middle that has no number.
 fn hull_cut_about_its_middles(half: DVec3) -> Body {

@@ -1,10 +1,10 @@
 //! All pairs of features, the slow and obvious way.
 
+use crate::body::feature::Feature;
+use crate::body::pieces::Pieces;
 use crate::body::{Body, Volume};
-use crate::feature::Feature;
-use crate::order::{greater, lesser};
-use crate::pieces::Pieces;
-use crate::pose::Pose;
+use crate::math::order::{greater, lesser};
+use crate::motion::pose::Pose;
 use crate::tests::nearest::{Triangle, nearest};
 use crate::tests::scene::{Pcg64, RngExt};
 use glam::DVec3;

@@ -1,17 +1,17 @@
 //! The distance of the bodies at one clock, and what it leaves of the front `[FAST06 Alg. 3]`.
 
-use super::super::hulls::{HullPair, Near};
-use super::super::meter::Meter;
-use super::super::moment::Moment;
-use super::super::pair::Step;
-use super::super::start::Proven;
 use super::front::{Front, Item};
+use super::hull_pair::{HullPair, Near};
 use super::reach::Reaches;
-use crate::motion_bound::Bound;
-use crate::oracle::DistanceOracle;
-use crate::order::lesser;
+use crate::distance::oracle::DistanceOracle;
+use crate::math::order::lesser;
+use crate::motion::bound::Bound;
 use crate::outcome::{Contact, Outcome};
 use crate::problem::{Problem, StartPolicy};
+use crate::schedule::meter::Meter;
+use crate::schedule::pieces::pair::Step;
+use crate::schedule::pieces::snapshot::Snapshot;
+use crate::schedule::proven::Proven;
 use crate::tolerance::JOIN_BEYOND;
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -51,14 +51,14 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
     where
         O: DistanceOracle<Cache = C>,
     {
-        let moment = Moment::of(self.problem, self.hulls.hulls([0, 0]), s);
+        let snapshot = Snapshot::of(self.problem, self.hulls.hulls([0, 0]), s);
         let mut found = Found {
             distance: f64::INFINITY,
             contact: None,
             open: BinaryHeap::new(),
         };
         for at in self.front.leaves() {
-            self.look(oracle, &moment, at, &mut found)?;
+            self.look(oracle, &snapshot, at, &mut found)?;
         }
         while let Some(Open { lower, at }) = found.open.pop() {
             // Written so that NaN is split.
@@ -68,14 +68,14 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
             let Some(first) = self.front.drop_below(self.hulls, at) else {
                 continue;
             };
-            self.look(oracle, &moment, first, &mut found)?;
-            self.look(oracle, &moment, first + 1, &mut found)?;
+            self.look(oracle, &snapshot, first, &mut found)?;
+            self.look(oracle, &snapshot, first + 1, &mut found)?;
         }
         if let Some(contact) = found.contact {
             return ControlFlow::Break(self.proven.contact(self.problem, contact, s));
         }
         let next = self.front.clock();
-        self.join(oracle, &moment, &mut found, next)?;
+        self.join(oracle, &snapshot, &mut found, next)?;
         ControlFlow::Continue(next)
     }
 
@@ -83,7 +83,7 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
     fn look<O>(
         &mut self,
         oracle: &mut O,
-        moment: &Moment<'p>,
+        snapshot: &Snapshot<'p>,
         at: u32,
         found: &mut Found,
     ) -> ControlFlow<Outcome>
@@ -92,38 +92,43 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
     {
         if let Err(reason) = self.meter.visit() {
             return ControlFlow::Break(Outcome::Unresolved {
-                safe_until: self.problem.time(moment.clock),
+                safe_until: self.problem.time(snapshot.clock),
                 reason,
             });
         }
         match self.front.node(at).item {
             Item::Nodes(_) => {
-                self.look_at_nodes(oracle, moment, at, found);
+                self.look_at_nodes(oracle, snapshot, at, found);
                 ControlFlow::Continue(())
             }
-            Item::Pieces(_) => self.look_at_pieces(oracle, moment, at, found),
+            Item::Pieces(_) => self.look_at_pieces(oracle, snapshot, at, found),
         }
     }
 
-    fn look_at_nodes<O>(&mut self, oracle: &mut O, moment: &Moment<'p>, at: u32, found: &mut Found)
-    where
+    fn look_at_nodes<O>(
+        &mut self,
+        oracle: &mut O,
+        snapshot: &Snapshot<'p>,
+        at: u32,
+        found: &mut Found,
+    ) where
         O: DistanceOracle<Cache = C>,
     {
-        let (problem, s) = (self.problem, moment.clock);
+        let (problem, s) = (self.problem, snapshot.clock);
         let node = self.front.node(at);
         let Item::Nodes(cache) = &mut node.item else {
             return;
         };
-        let moment = moment.with(self.hulls.hulls(node.pair));
-        let Some(checked) = moment.ask(oracle, cache, self.meter) else {
+        let snapshot = snapshot.with(self.hulls.hulls(node.pair));
+        let Some(checked) = snapshot.ask(oracle, cache, self.meter) else {
             // Smaller hulls may be easier.
             (node.lower, node.near, node.clock) = (f64::NEG_INFINITY, Near::Bridges, s);
             let lower = node.lower;
             found.open.push(Open { lower, at });
             return;
         };
-        let reaches = self.reaches.each(problem, node.pair, &moment);
-        let free = moment.directed_time(&checked, problem.gap(), self.bound, reaches);
+        let reaches = self.reaches.each(problem, node.pair, &snapshot);
+        let free = snapshot.directed_time(&checked, problem.gap(), self.bound, reaches);
         node.lower = checked.lower;
         node.near = self.hulls.near(node.pair, &checked.claim);
         node.clock = free.map_or(f64::INFINITY, |free| (s + free).next_down());
@@ -143,26 +148,26 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
     fn look_at_pieces<O>(
         &mut self,
         oracle: &mut O,
-        moment: &Moment<'p>,
+        snapshot: &Snapshot<'p>,
         at: u32,
         found: &mut Found,
     ) -> ControlFlow<Outcome>
     where
         O: DistanceOracle<Cache = C>,
     {
-        let (problem, bound, s) = (self.problem, self.bound, moment.clock);
+        let (problem, bound, s) = (self.problem, self.bound, snapshot.clock);
         let node = self.front.node(at);
         let Item::Pieces(pair) = &mut node.item else {
             return ControlFlow::Continue(());
         };
-        let moment = moment.with(problem.pieces([pair.a, pair.b]));
-        let reaches = self.reaches.each(problem, node.pair, &moment);
+        let snapshot = snapshot.with(problem.pieces([pair.a, pair.b]));
+        let reaches = self.reaches.each(problem, node.pair, &snapshot);
         // Pairs that rest on each other have no say in how near the bodies are.
         node.lower = f64::NEG_INFINITY;
-        let step = pair.advance_by(&moment, oracle, self.meter, |moment, checked, kept| {
+        let step = pair.advance_by(&snapshot, oracle, self.meter, |snapshot, checked, kept| {
             node.lower = checked.lower;
             found.distance = lesser(found.distance, checked.upper);
-            moment.directed_time(checked, kept, bound, reaches)
+            snapshot.directed_time(checked, kept, bound, reaches)
         });
         if let Step::Contact(contact) = step
             && s > 0.0
@@ -170,7 +175,7 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
             found.touch(contact);
             return ControlFlow::Continue(());
         }
-        node.clock = self.proven.settle(problem, oracle, self.meter, step, s)?;
+        node.clock = self.proven.conclude(problem, oracle, self.meter, step, s)?;
         ControlFlow::Continue(())
     }
 
@@ -179,7 +184,7 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
     fn join<O>(
         &mut self,
         oracle: &mut O,
-        moment: &Moment<'p>,
+        snapshot: &Snapshot<'p>,
         found: &mut Found,
         next: f64,
     ) -> ControlFlow<Outcome>
@@ -198,7 +203,7 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
             if !far || self.front.node(at).join_below <= distance {
                 continue;
             }
-            self.look(oracle, moment, at, found)?;
+            self.look(oracle, snapshot, at, found)?;
             let node = self.front.node(at);
             if node.lower >= distance && node.clock >= next {
                 self.front.raise(at);

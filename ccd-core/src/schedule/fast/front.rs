@@ -1,8 +1,8 @@
 //! The bounding volume traversal tree, and its front `[FAST06 §5.1]`.
 
-use super::super::hulls::{Below, HullPair, Near};
-use super::super::pair::Pair;
-use crate::order::lesser;
+use super::hull_pair::{Below, HullPair, Near};
+use crate::math::order::lesser;
+use crate::schedule::pieces::pair::Pair;
 
 /// Pairs of nodes of two hull trees, from the pair of roots down to those at which a descent stopped.
 ///

@@ -1,7 +1,7 @@
 //! How far nodes reach from their body's axis of rotation, each computed once a query.
 
-use super::super::moment::Moment;
 use crate::problem::Problem;
+use crate::schedule::pieces::snapshot::Snapshot;
 
 #[derive(Debug, Default)]
 pub(super) struct Reaches {
@@ -16,15 +16,15 @@ impl Reaches {
         self.query += 1;
     }
 
-    /// Of both nodes of a pair, whose hulls are those of a moment.
+    /// Of both nodes of a pair, whose hulls are those of a instant.
     pub(super) fn each(
         &mut self,
         problem: &Problem<'_>,
         pair: [u32; 2],
-        moment: &Moment<'_>,
+        snapshot: &Snapshot<'_>,
     ) -> [f64; 2] {
         let paths = [&problem.a.path, &problem.b.path];
-        let points = [moment.pieces.a.points, moment.pieces.b.points];
+        let points = [snapshot.pieces.a.points, snapshot.pieces.b.points];
         [0, 1].map(|k| {
             let (known, at) = (&mut self.known[k], pair[k] as usize);
             if known.len() <= at {

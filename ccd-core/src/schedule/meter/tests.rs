@@ -3,7 +3,7 @@
 use super::*;
 use crate::body::Body;
 use crate::motion::Motion;
-use crate::pose::Pose;
+use crate::motion::pose::Pose;
 use crate::problem::{Config, Moving};
 use crate::tolerance::LOOKS_PER_VISIT;
 use std::time::Duration;

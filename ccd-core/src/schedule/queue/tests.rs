@@ -1,7 +1,7 @@
 //! The queue against a sorted list.
 
 use super::{Queue, Rank};
-use crate::order::greater;
+use crate::math::order::greater;
 use crate::tests::scene::{RngExt, rng};
 use proptest::prelude::*;
 
@@ -19,13 +19,13 @@ fn drain(queue: &mut Queue<u32>) -> Vec<u32> {
 fn least_clock_first_then_piece_pairs_then_the_newest() {
     let mut queue = Queue::default();
     let pushed = [
-        (0.5, Rank::Group, 6),
-        (0.25, Rank::Group, 3),
+        (0.5, Rank::Siblings, 6),
+        (0.25, Rank::Siblings, 3),
         (0.25, Rank::PiecePair, 1),
-        (0.25, Rank::Group, 2),
+        (0.25, Rank::Siblings, 2),
         (0.25, Rank::PiecePair, 0),
         (0.5, Rank::PiecePair, 5),
-        (0.5 - f64::EPSILON, Rank::Group, 4),
+        (0.5 - f64::EPSILON, Rank::Siblings, 4),
     ];
     for (clock, rank, item) in pushed {
         queue.push(clock, rank, item).unwrap();
@@ -48,7 +48,7 @@ fn clocks_keep_all_their_bits() {
         1.0f64.next_down(),
     ];
     for (item, &clock) in clocks.iter().enumerate().rev() {
-        queue.push(clock, Rank::Group, item as u32).unwrap();
+        queue.push(clock, Rank::Siblings, item as u32).unwrap();
     }
     for &clock in &clocks {
         let visit = queue.visit().unwrap();
@@ -62,7 +62,7 @@ fn places_are_used_again() {
     let mut queue = Queue::default();
     for round in 0..100 {
         for item in 0..10 {
-            queue.push(0.1, Rank::Group, item).unwrap();
+            queue.push(0.1, Rank::Siblings, item).unwrap();
         }
         let out = drain(&mut queue);
         assert_eq!(out, (0..10).rev().collect::<Vec<_>>(), "round {round}");
@@ -78,7 +78,7 @@ fn places_are_used_again() {
 fn what_is_postponed_waits_in_its_place() {
     let mut queue = Queue::default();
     for (clock, item) in [(0.1, 0), (0.2, 1), (0.3, 2)] {
-        queue.push(clock, Rank::Group, item).unwrap();
+        queue.push(clock, Rank::Siblings, item).unwrap();
     }
     let visit = queue.visit().unwrap();
     *visit.item = 7;
@@ -102,7 +102,7 @@ proptest! {
             list.sort_by(|x, y| x.partial_cmp(y).unwrap());
             match rng.random_range(0..4) {
                 0 | 1 => {
-                    let rank = [Rank::PiecePair, Rank::Group][rng.random_range(0..2)];
+                    let rank = [Rank::PiecePair, Rank::Siblings][rng.random_range(0..2)];
                     queue.push(clock, rank, step as u32).unwrap();
                     list.push((clock, rank as u8, -step, step as u32));
                     peak = peak.max(list.len());

@@ -5,7 +5,7 @@ use crate::command::pieces::{NOT_GIVEN, PiecesArgs, word};
 use crate::table::results::Extent;
 use crate::text::Number;
 use ccd_core::StartPolicy;
-use ccd_core::tolerance::{DEFAULT_BUDGET, DEFAULT_TOLERANCE, MAX_COORDINATE};
+use ccd_core::limits::{DEFAULT_BUDGET, DEFAULT_TOLERANCE, MAX_COORDINATE};
 use clap::{Args, ValueEnum};
 use std::fmt;
 use std::path::PathBuf;

@@ -20,7 +20,7 @@ pub(super) struct Summary {
     earlier: usize,
     times: Times,
     /// Pairs of nodes visited, all queries together.
-    pub(super) node_visits: u64,
+    pub(super) iterations: u64,
     /// How often the oracle was asked, all queries together.
     pub(super) oracle_calls: u64,
     /// How often all pairs were advanced together, all queries together.
@@ -43,7 +43,7 @@ impl Summary {
             counts: [0; Status::ALL.len()],
             earlier: 0,
             times: Times::default(),
-            node_visits: 0,
+            iterations: 0,
             oracle_calls: 0,
             advancements: 0,
             oracle_steps: 0,
@@ -70,7 +70,7 @@ impl Summary {
         if let Outcome::Unresolved { reason, .. } = answer.outcome {
             self.limits.add(reason);
         }
-        self.node_visits += answer.stats.node_visits;
+        self.iterations += answer.stats.iterations;
         self.oracle_calls += answer.stats.oracle_calls;
         self.advancements += answer.stats.advancements;
         self.oracle_steps += answer.stats.effort.steps;
@@ -189,7 +189,7 @@ impl fmt::Display for Summary {
             "; median {:.1} µs, mean {:.1} µs; {} node visits, {} oracle calls",
             self.median_micros(),
             self.mean_micros(),
-            self.node_visits,
+            self.iterations,
             self.oracle_calls
         )?;
         for (count, advice) in self.limits.advice() {

@@ -52,7 +52,7 @@ fn what_ends_without_a_contact_has_no_rows() {
         safe_until: 0.5,
         reason: Limit::Budget,
     };
-    for outcome in [Outcome::Free { clearance: 1.0 }, unresolved] {
+    for outcome in [Outcome::Free { proven_gap: 1.0 }, unresolved] {
         let rows = rows(bodies, &query, &Config::default(), &outcome);
         assert_eq!(rows, Ok(Vec::new()));
     }

@@ -6,7 +6,7 @@ fn answer(outcome: Outcome) -> Answer {
         outcome,
         tolerance: 1e-3,
         stats: Stats {
-            node_visits: 17,
+            iterations: 17,
             oracle_calls: 5,
             ..Stats::default()
         },
@@ -81,7 +81,7 @@ fn a_contact_fills_every_cell() {
 
 #[test]
 fn free_lasts_the_duration_with_its_clearance() {
-    let row = written(Outcome::Free { clearance: 0.25 });
+    let row = written(Outcome::Free { proven_gap: 0.25 });
     assert_eq!(cell(&row, "status"), "free");
     assert_eq!(cell(&row, "time"), "2.5");
     assert_eq!(cell(&row, "distance_lower"), "0.25");
@@ -161,7 +161,7 @@ fn counters_follow_the_other_columns() {
             },
             ..Stats::default()
         },
-        ..answer(Outcome::Free { clearance: 0.25 })
+        ..answer(Outcome::Free { proven_gap: 0.25 })
     };
     let row = ResultRow::new("a", 2.5, &answer, 12.75);
     let text = |extent| table(extent, &row);

@@ -11,10 +11,10 @@ fn sum<'t>(answers: impl IntoIterator<Item = &'t Timed>, tolerance: f64) -> Summ
 fn timed(micros: f64, tolerance: f64) -> Timed {
     Timed {
         answer: Answer {
-            outcome: Outcome::Free { clearance: 1.0 },
+            outcome: Outcome::Free { proven_gap: 1.0 },
             tolerance,
             stats: Stats {
-                node_visits: 10,
+                iterations: 10,
                 oracle_calls: 2,
                 advancements: 3,
                 effort: Effort {
@@ -41,7 +41,7 @@ fn times_and_visits_are_summed_up() {
         (summary.median_micros(), summary.mean_micros()),
         (50.5, 50.5)
     );
-    assert_eq!((summary.node_visits, summary.oracle_calls), (1000, 200));
+    assert_eq!((summary.iterations, summary.oracle_calls), (1000, 200));
     assert_eq!(
         summary.to_string(),
         "100 rows: 100 free; median 50.5 µs, mean 50.5 µs; 1000 node visits, 200 oracle calls"

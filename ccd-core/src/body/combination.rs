@@ -1,0 +1,72 @@
+//! A point of a piece, by the piece's points.
+
+use crate::tolerance::WEIGHTS;
+use glam::DVec3;
+
+/// A convex combination of up to four points of a piece.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Combination {
+    indices: [u32; 4],
+    weights: [f64; 4],
+    len: u8,
+}
+
+impl Combination {
+    /// The combination of no points, to which terms are [pushed](Combination::push).
+    pub const EMPTY: Combination = Combination {
+        indices: [0; 4],
+        weights: [0.0; 4],
+        len: 0,
+    };
+
+    /// One point alone.
+    pub fn point(index: u32) -> Self {
+        let mut out = Self::EMPTY;
+        out.push(index, 1.0);
+        out
+    }
+
+    /// `(1 − t)` of one point and `t` of another.
+    pub fn segment(indices: [u32; 2], t: f64) -> Self {
+        let mut out = Self::EMPTY;
+        out.push(indices[0], 1.0 - t);
+        out.push(indices[1], t);
+        out
+    }
+
+    /// Adds a term; weights that are not positive, or outside of [`WEIGHTS`], are dropped, equal
+    /// indices are merged, terms beyond four distinct indices are dropped.
+    pub fn push(&mut self, index: u32, weight: f64) {
+        // NaN is in no range.
+        if !WEIGHTS.contains(&weight) {
+            return;
+        }
+        let len = self.len as usize;
+        if let Some(k) = self.indices[..len].iter().position(|&i| i == index) {
+            self.weights[k] += weight;
+        } else if len < 4 {
+            self.indices[len] = index;
+            self.weights[len] = weight;
+            self.len += 1;
+        }
+    }
+
+    /// The indices of the points with a positive weight.
+    pub fn support(&self) -> &[u32] {
+        &self.indices[..self.len as usize]
+    }
+
+    /// The point that it names, or none when it is empty or names a point that `points` lacks.
+    ///
+    /// Weights are divided by their sum, so that the result lies in the hull up to rounding.
+    pub fn of(&self, points: &[DVec3]) -> Option<DVec3> {
+        let (mut sum, mut total) = (DVec3::ZERO, 0.0);
+        let first = *points.get(*self.support().first()? as usize)?;
+        for (&index, &weight) in self.support().iter().zip(&self.weights) {
+            // Relative to the first point: rounding stays that of the piece's size.
+            sum += weight * (*points.get(index as usize)? - first);
+            total += weight;
+        }
+        Some(first + sum / total)
+    }
+}

@@ -1,0 +1,53 @@
+//! The facets of a piece.
+
+use super::polytope::{Face, Origin};
+
+/// The facets of a piece: convex polygons, each a loop of indices into the piece's points,
+/// counter-clockwise seen from outside; and the mesh's faces that are on them.
+#[derive(Clone, Copy, Debug)]
+pub struct Facets<'a> {
+    pub(crate) origins: &'a [Origin],
+    /// `ends[k]` is where the corners of facet `k` end in `corners`, counted from `base`.
+    pub(crate) ends: &'a [u32],
+    pub(crate) corners: &'a [u32],
+    pub(crate) base: u32,
+    pub(crate) faces: &'a [Face],
+}
+
+impl<'a> Facets<'a> {
+    /// No facets.
+    pub const NONE: Facets<'static> = Facets {
+        origins: &[],
+        ends: &[],
+        corners: &[],
+        base: 0,
+        faces: &[],
+    };
+
+    /// How many facets there are.
+    pub fn len(&self) -> usize {
+        self.ends.len()
+    }
+
+    /// Whether no facet is known.
+    pub fn is_empty(&self) -> bool {
+        self.ends.is_empty()
+    }
+
+    /// The corner loops, facet by facet.
+    pub fn iter(&self) -> impl ExactSizeIterator<Item = &'a [u32]> + Clone + use<'a> {
+        let facets = *self;
+        (0..facets.ends.len()).map(move |k| facets.get(k))
+    }
+
+    /// One corner loop.
+    pub(crate) fn get(&self, k: usize) -> &'a [u32] {
+        let start = if k == 0 { self.base } else { self.ends[k - 1] };
+        &self.corners[start as usize..self.ends[k] as usize]
+    }
+
+    /// What each facet is of the mesh.
+    pub fn origins(&self) -> &'a [Origin] {
+        self.origins
+    }
+}

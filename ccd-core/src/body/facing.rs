@@ -1,0 +1,126 @@
+//! On which side of a flat piece the solid is.
+
+use super::tree::crossings;
+use super::{Body, Volume};
+use crate::math::order::greater;
+use crate::tolerance::{BELOW_SURFACE, U64};
+use glam::DVec3;
+
+/// On which side of a flat piece the solid is that the body's faces bound.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Facing {
+    /// On one only: the unit normal that points out of it.
+    Out(DVec3),
+    /// On neither, as far as is known: of a surface, a piece with a volume or no area, two faces back
+    /// to back.
+    Neither,
+    /// On one side here and on the other there, or too near to other faces to tell.
+    Unclear,
+}
+
+/// What is known of a piece, kept beside it.
+struct Kept {
+    facing: Facing,
+    inside: Option<DVec3>,
+}
+
+impl Body {
+    /// On which side of a piece the solid is.
+    ///
+    /// # Guarantee
+    /// [`Facing::Out`] and [`Facing::Neither`] of a solid's flat piece hold, exactly, where they were
+    /// looked for: at four points of it. They hold for all of it that no other face passes through.
+    pub(crate) fn facing(&self, piece: u32) -> Facing {
+        self.kept(piece).map_or(Facing::Neither, |kept| kept.facing)
+    }
+
+    /// The unit normal of a flat piece that points out of the solid which the body's faces bound;
+    /// none where there is no such thing.
+    pub(crate) fn outward_normal(&self, piece: u32) -> Option<DVec3> {
+        match self.facing(piece) {
+            Facing::Out(normal) => Some(normal),
+            Facing::Neither | Facing::Unclear => None,
+        }
+    }
+
+    /// A point of the solid next to the middle of a piece, or within it; none where there is none.
+    pub(crate) fn point_inside(&self, piece: u32) -> Option<DVec3> {
+        if !self.pieces().get(piece as usize).is_flat() {
+            return Some(self.middle(piece));
+        }
+        self.kept(piece)?.inside
+    }
+
+    /// The mean of a piece's points.
+    pub(crate) fn middle(&self, piece: u32) -> DVec3 {
+        let points = self.pieces().get(piece as usize).points;
+        points.iter().sum::<DVec3>() / points.len() as f64
+    }
+
+    /// Of a solid's flat pieces: made when it is first asked for.
+    fn kept(&self, piece: u32) -> Option<&Kept> {
+        let of = self.pieces().get(piece as usize);
+        if self.volume() == Volume::Surface || !of.is_flat() {
+            return None;
+        }
+        of.kept(|_| self.look(piece))
+    }
+
+    fn look(&self, piece: u32) -> Kept {
+        let triangle = self.pieces().first_triangle(piece as usize);
+        let normal = triangle.and_then(crate::math::vector::normal);
+        let (Some(triangle), Some(normal)) = (triangle, normal) else {
+            return Kept {
+                facing: Facing::Neither,
+                inside: None,
+            };
+        };
+        let middle = triangle.iter().sum::<DVec3>() / 3.0;
+        let samples = [middle, triangle[0], triangle[1], triangle[2]].map(|p| 0.5 * (p + middle));
+        let [first, others @ ..] = samples.map(|at| self.facing_at(at, normal));
+        let facing = match others.iter().all(|other| *other == first) {
+            true => first,
+            false => Facing::Unclear,
+        };
+        let size = triangle
+            .iter()
+            .fold(0.0, |size, p| greater(size, p.distance(middle)));
+        let inside = match facing {
+            Facing::Out(out) => BELOW_SURFACE
+                .iter()
+                .map(|share| middle - out * (share * size))
+                .find(|&p| self.winds_about(p)),
+            Facing::Neither | Facing::Unclear => None,
+        };
+        Kept { facing, inside }
+    }
+
+    /// On which side of a face with that normal the surface winds about a point of it.
+    fn facing_at(&self, at: DVec3, normal: DVec3) -> Facing {
+        // A mean is rounded in units of the coordinates.
+        let slack = 4.0 * U64 * at.abs().element_sum();
+        let Some(found) = crossings(self.tree(), self.pieces(), at, slack) else {
+            return Facing::Unclear;
+        };
+        let (ahead, behind) = (found.beyond, found.beyond + found.at_start);
+        let ahead_is_out = match ahead.abs().cmp(&behind.abs()) {
+            _ if found.on == 0 => return Facing::Unclear,
+            std::cmp::Ordering::Equal => return Facing::Neither,
+            std::cmp::Ordering::Less => true,
+            std::cmp::Ordering::Greater => false,
+        };
+        match ahead_is_out == (normal.dot(found.along) > 0.0) {
+            true => Facing::Out(normal),
+            false => Facing::Out(-normal),
+        }
+    }
+
+    /// Whether its surface certainly winds about a point.
+    fn winds_about(&self, point: DVec3) -> bool {
+        crossings(self.tree(), self.pieces(), point, 0.0)
+            .is_some_and(|found| found.on == 0 && found.beyond != 0)
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,153 @@
+//! Which feature of a mesh a point of a polytope lies on.
+
+use super::combination::Combination;
+use super::piece::Piece;
+use super::pieces::range;
+use super::polytope::Origin;
+use crate::math::order::greater;
+use crate::math::vector::{normal, unit};
+use crate::tolerance::{CLIMBED_POINTS, ON_FACET};
+use glam::DVec3;
+
+/// What a point of a polytope is, by the polytope's corners and the mesh's faces.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum MeshFeature {
+    Vertex(u32),
+    Edge(u32, u32),
+    Face(u32),
+    Nothing,
+}
+
+/// Names a combination of corners.
+///
+/// Corners that no facet of the mesh holds together may still name a point on the mesh: a virtual
+/// facet may lie within the surface, and so may a chord of two coplanar faces.
+pub(crate) fn look_up(piece: &Piece<'_>, point: &Combination) -> MeshFeature {
+    let (facets, support) = (piece.facets, point.support());
+    if !facets.is_empty() && !is_on_mesh(piece) {
+        return MeshFeature::Nothing;
+    }
+    if let [v] = *support {
+        return MeshFeature::Vertex(v);
+    }
+    let all: Vec<u32>;
+    let near = match (FacetsByCorner::of(piece), support.first()) {
+        (Some(by_corner), Some(&corner)) => by_corner.at(corner),
+        _ => {
+            all = (0..facets.len() as u32).collect();
+            &all
+        }
+    };
+    let whole = near
+        .iter()
+        .filter_map(|&k| match facets.origins()[k as usize] {
+            Origin::Face(id) => Some((id, facets.get(k as usize))),
+            Origin::Faces | Origin::Virtual => None,
+        });
+    if let [v, w] = *support {
+        let joins = |corners: &[u32]| {
+            let mut ends =
+                (0..corners.len()).map(|k| (corners[k], corners[(k + 1) % corners.len()]));
+            ends.any(|ends| ends == (v, w) || ends == (w, v))
+        };
+        if facets.is_empty() || whole.clone().any(|(_, corners)| joins(corners)) {
+            return MeshFeature::Edge(v, w);
+        }
+    }
+    let mut holding = whole.filter(|(_, corners)| support.iter().all(|v| corners.contains(v)));
+    match holding.next() {
+        Some((face, _)) => MeshFeature::Face(face),
+        None => point
+            .of(piece.points)
+            .and_then(|at| face_under(piece, at))
+            .map_or(MeshFeature::Nothing, MeshFeature::Face),
+    }
+}
+
+/// Whether anything of the mesh is on the piece.
+fn is_on_mesh(piece: &Piece<'_>) -> bool {
+    match FacetsByCorner::of(piece) {
+        Some(by_corner) => by_corner.is_on_mesh,
+        None => piece.mesh_triangles().next().is_some(),
+    }
+}
+
+/// Which facets of a piece meet in each of its corners.
+struct FacetsByCorner {
+    is_on_mesh: bool,
+    facets: Vec<u32>,
+    /// Where those of each corner end.
+    ends: Vec<u32>,
+}
+
+impl FacetsByCorner {
+    /// That of a piece of many facets, made once and kept; none where there are few, or nowhere to keep
+    /// it.
+    fn of<'a>(piece: &Piece<'a>) -> Option<&'a FacetsByCorner> {
+        let many = piece.facets.len() > CLIMBED_POINTS;
+        let kept = many.then(|| piece.kept(|piece| Box::new(FacetsByCorner::new(piece))))?;
+        kept.map(|kept| &**kept)
+    }
+
+    fn new(piece: &Piece<'_>) -> Self {
+        let facets = (0..).zip(piece.facets.iter());
+        let mut pairs: Vec<(u32, u32)> = facets
+            .flat_map(|(facet, corners)| corners.iter().map(move |&v| (v, facet)))
+            .collect();
+        pairs.sort_unstable();
+        let end = |v: usize| pairs.partition_point(|&(corner, _)| corner as usize <= v) as u32;
+        FacetsByCorner {
+            is_on_mesh: piece.mesh_triangles().next().is_some(),
+            ends: (0..piece.points.len()).map(end).collect(),
+            facets: pairs.iter().map(|&(_, facet)| facet).collect(),
+        }
+    }
+
+    /// In ascending order.
+    fn at(&self, corner: u32) -> &[u32] {
+        &self.facets[range(&self.ends, corner as usize)]
+    }
+}
+
+/// Makes what naming points of a piece takes, so that no query waits for it.
+pub(crate) fn prepare(piece: &Piece<'_>) {
+    FacetsByCorner::of(piece);
+}
+
+/// The face of the mesh that a point lies on, but for rounding.
+pub(crate) fn face_under(piece: &Piece<'_>, point: DVec3) -> Option<u32> {
+    if !is_on_mesh(piece) {
+        return None;
+    }
+    let way = |p: &DVec3| p.distance(point);
+    let reach = ON_FACET * piece.points.iter().map(way).fold(0.0, greater);
+    let near = |[a, b, c]: [DVec3; 3]| {
+        let (lo, hi) = (a.min(b).min(c) - reach, a.max(b).max(c) + reach);
+        lo.cmple(point).all() && point.cmple(hi).all()
+    };
+    let off = piece
+        .mesh_triangles()
+        .filter(|&(_, triangle)| near(triangle))
+        .map(|(id, triangle)| (distance_off(triangle, point), id));
+    let (off, face) = off.min_by(|a, b| a.0.total_cmp(&b.0))?;
+    (off <= reach).then_some(face)
+}
+
+/// How far a point is off a triangle's plane, or beyond one of its edges, whichever is more.
+fn distance_off([a, b, c]: [DVec3; 3], point: DVec3) -> f64 {
+    let Some(normal) = normal([a, b, c]) else {
+        return f64::INFINITY;
+    };
+    let beyond = |from: DVec3, to: DVec3| {
+        let outward = unit((to - from).cross(normal)).unwrap_or(DVec3::ZERO);
+        outward.dot(point - from)
+    };
+    let height = normal.dot(point - a).abs();
+    greater(
+        greater(greater(height, beyond(a, b)), beyond(b, c)),
+        beyond(c, a),
+    )
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,68 @@
+//! Names by what meets in a corner against looking at all facets.
+
+use super::*;
+use crate::body::pieces::Pieces;
+use crate::body::polytope::{Facet, Polytope};
+use crate::tests::scene::{RngExt, rng};
+
+/// A prism of 60 sides, every third of which is no part of the mesh.
+fn prism() -> Pieces {
+    let count = 60;
+    let rim = |height: f64| {
+        (0..count).map(move |k| {
+            let (sin, cos) = (f64::from(k) / f64::from(count) * std::f64::consts::TAU).sin_cos();
+            DVec3::new(cos, sin, height)
+        })
+    };
+    let side = |k: u32| {
+        let next = (k + 1) % count;
+        vec![k, next, next + count, k + count]
+    };
+    let loops = (0..count).map(side);
+    let caps = [(0..count).rev().collect(), (count..2 * count).collect()];
+    let facet = |(k, corners)| Facet {
+        origin: match k % 3 {
+            0 => Origin::Virtual,
+            _ => Origin::Face(k),
+        },
+        corners,
+    };
+    let polytope = Polytope {
+        points: rim(0.0).chain(rim(1.0)).collect(),
+        facets: (0..).zip(loops.chain(caps)).map(facet).collect(),
+        ..Polytope::default()
+    };
+    Pieces::polytopes(&[polytope]).unwrap()
+}
+
+#[test]
+fn names_are_those_of_looking_at_all_facets() {
+    let pieces = prism();
+    let piece = pieces.get(0);
+    // Of no list, so that nothing is kept.
+    let bare = Piece {
+        slot: None,
+        ..piece
+    };
+    assert!(FacetsByCorner::of(&piece).is_some() && FacetsByCorner::of(&bare).is_none());
+    let mut rng = rng(41);
+    let (mut faces, mut edges) = (0, 0);
+    for _ in 0..3_000 {
+        let corner = rng.random_range(0..60u32);
+        let near = [
+            corner,
+            (corner + 1) % 60,
+            corner + 60,
+            (corner + 1) % 60 + 60,
+        ];
+        let mut point = Combination::EMPTY;
+        for _ in 0..rng.random_range(1..=3) {
+            point.push(near[rng.random_range(0..4)], rng.random_range(0.1..1.0));
+        }
+        let name = look_up(&piece, &point);
+        assert_eq!(name, look_up(&bare, &point), "{point:?}");
+        faces += usize::from(matches!(name, MeshFeature::Face(_)));
+        edges += usize::from(matches!(name, MeshFeature::Edge(..)));
+    }
+    assert!(faces > 300 && edges > 300, "{faces} {edges}");
+}

@@ -1,0 +1,190 @@
+//! Nodes checked and put together, children before their parents.
+
+use super::bottom_up::bottom_up;
+use super::edges::check_facets;
+use super::error::{HullFault, HullTreeError};
+use super::identity::Identity;
+use super::inherit::{Child, inherit};
+use super::inside::Container;
+use super::node::{FacetData, Node};
+use super::{FacetClass, Hull, HullNode, HullTree, Hulls};
+use crate::body::hierarchy::{Hierarchy, HierarchyNode, bounds};
+use crate::body::pieces::{Listed, Pieces, Room, Row};
+use crate::body::polytope::Polytope;
+use crate::error::InputError;
+use crate::math::exact::too_fine;
+use crate::math::order::greater;
+use glam::DVec3;
+use std::borrow::Cow;
+use std::sync::Arc;
+
+pub(super) fn assemble(pieces: &Pieces, nodes: &[HullNode]) -> Result<HullTree, HullTreeError> {
+    let hierarchy = hierarchy(pieces, nodes)?;
+    let done = bottom_up(&hierarchy, |at, children| match (&nodes[at], children) {
+        (HullNode::Leaf(piece), _) => leaf(at, pieces.polytope(*piece as usize)),
+        (HullNode::Inner(names, hull), [left, right]) => {
+            inner(at, hull, [(names[0], left), (names[1], right)])
+        }
+    })?;
+    let mut classes = Vec::new();
+    let mut class_ends = Vec::with_capacity(done.len());
+    for node in &done {
+        // A bridge between thick and thin pieces is level with neither.
+        classes.extend(
+            node.facet_data
+                .iter()
+                .map(|facet| match node.evenly_rounded {
+                    true => facet.class,
+                    false => FacetClass::Free,
+                }),
+        );
+        class_ends.push(classes.len() as u32);
+    }
+    let (meeting, meeting_ends) = meeting(&done);
+    let hulls = Hulls {
+        meeting,
+        meeting_ends,
+        classes,
+        class_ends,
+        evenly_rounded: done.iter().map(|node| node.evenly_rounded).collect(),
+        sizes: done.iter().map(|node| node.size).collect(),
+        pieces: flattened(done)?,
+    };
+    Ok(HullTree {
+        hierarchy,
+        hulls: Arc::new(hulls),
+    })
+}
+
+/// The hulls of all nodes; each node's memory is given back once its hull is in.
+fn flattened(nodes: Vec<Node<'_>>) -> Result<Pieces, InputError> {
+    let mut room = Room::default();
+    for node in &nodes {
+        room.pieces += 1;
+        room.points += node.points.len();
+        room.facets += node.loops.len();
+        room.corners += node.loops.corners().len();
+        room.faces += node.faces().count();
+    }
+    let mut row = Row::with_room(room);
+    for node in nodes {
+        row.push(Listed {
+            points: &node.points,
+            vertex_ids: &node.vertex_ids,
+            facets: node
+                .loops
+                .iter()
+                .zip(node.facet_data.iter().map(|facet| facet.origin)),
+            faces: node.faces().copied(),
+            radius: node.radius,
+        })?;
+    }
+    row.into_pieces()
+}
+
+/// The facets that meet in each point of all hulls, in ascending order, and where each point's end.
+fn meeting(nodes: &[Node<'_>]) -> (Vec<u32>, Vec<u32>) {
+    let (mut meeting, mut ends) = (Vec::new(), Vec::new());
+    for Node { points, loops, .. } in nodes {
+        let start = ends.len();
+        let first = meeting.len() as u32;
+        // First how many there are, then where the next one goes, which at last is where they end.
+        ends.resize(start + points.len(), 0);
+        let next = &mut ends[start..];
+        let corners = loops.corners().iter();
+        corners.for_each(|&corner| next[corner as usize] += 1);
+        let mut end = first;
+        for next in next.iter_mut() {
+            end += std::mem::replace(next, end);
+        }
+        meeting.resize(end as usize, 0);
+        for (k, corners) in (0..).zip(loops.iter()) {
+            for &corner in corners {
+                meeting[next[corner as usize] as usize] = k;
+                next[corner as usize] += 1;
+            }
+        }
+    }
+    (meeting, ends)
+}
+
+/// The node of a piece.
+fn leaf(at: usize, piece: Polytope) -> Result<Node<'static>, HullTreeError> {
+    if let Some(point) = too_fine(&piece.points) {
+        let point = point as u32;
+        return Err(HullFault::TooFine { point }.at(at));
+    }
+    let facet_data = FacetData::of_piece(&piece);
+    let loops = piece.facets.into_iter().map(|facet| facet.corners);
+    Ok(Node {
+        facet_data,
+        evenly_rounded: true,
+        size: size(&piece.points, piece.radius),
+        loops: Cow::Owned(loops.collect()),
+        points: Cow::Owned(piece.points),
+        vertex_ids: piece.vertex_ids,
+        own_faces: Some(piece.faces),
+        radius: piece.radius,
+    })
+}
+
+/// The node of a hull over two children, which it holds.
+fn inner<'a>(
+    at: usize,
+    hull: &'a Hull,
+    children: [(u32, &Node<'_>); 2],
+) -> Result<Node<'a>, HullTreeError> {
+    check_facets(hull).map_err(|fault| fault.at(at))?;
+    let identity =
+        Identity::new(hull, children.map(|(_, child)| child)).map_err(|fault| fault.at(at))?;
+    check_inside(hull, &identity, &children).map_err(|fault| fault.at(at))?;
+
+    let [left, right] = children.map(|(_, child)| child);
+    let even = |child: &Node<'_>| child.evenly_rounded && child.radius == left.radius;
+    let evenly_rounded = even(left) && even(right);
+    let of_left = Child::new(left, &identity.of_left);
+    let of_right = Child::new(right, &identity.of_right);
+    let radius = greater(left.radius, right.radius);
+    Ok(Node {
+        facet_data: inherit(hull, &identity.places, [of_left, of_right]),
+        evenly_rounded,
+        size: size(&hull.points, radius),
+        loops: Cow::Borrowed(&hull.facets),
+        points: Cow::Borrowed(&hull.points),
+        vertex_ids: identity.vertex_ids,
+        own_faces: None,
+        radius,
+    })
+}
+
+/// Whether the hull holds all points of its children.
+fn check_inside(
+    hull: &Hull,
+    identity: &Identity,
+    children: &[(u32, &Node<'_>); 2],
+) -> Result<(), HullFault> {
+    let container = Container::new(&hull.points, &hull.facets);
+    for (&(child, node), ids) in children.iter().zip([&identity.of_left, &identity.of_right]) {
+        let is_hidden = |&k: &u32| ids[k as usize] as usize >= hull.points.len();
+        let hidden: Vec<u32> = (0..ids.len() as u32).filter(is_hidden).collect();
+        let places: Vec<DVec3> = hidden.iter().map(|&k| node.points[k as usize]).collect();
+        if let Some(k) = container.left_out(&places) {
+            let point = hidden[k];
+            return Err(HullFault::ChildOutside { child, point });
+        }
+    }
+    Ok(())
+}
+
+fn hierarchy(pieces: &Pieces, nodes: &[HullNode]) -> Result<Hierarchy, HullTreeError> {
+    let plain = nodes.iter().map(|node| match *node {
+        HullNode::Leaf(piece) => HierarchyNode::Leaf(piece),
+        HullNode::Inner([left, right], _) => HierarchyNode::Inner(left, right),
+    });
+    Ok(Hierarchy::new(plain.collect(), pieces.len())?)
+}
+
+fn size(points: &[DVec3], radius: f64) -> f64 {
+    let (lo, hi) = bounds(points.iter().copied());
+    0.5 * hi.distance(lo) + radius
+}

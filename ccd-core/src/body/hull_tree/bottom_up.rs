@@ -1,0 +1,240 @@
+//! Nodes made children first, subtrees beside each other on all cores.
+
+use super::HullTreeError;
+use crate::body::hierarchy::{Hierarchy, HierarchyNode};
+use std::num::NonZero;
+use std::ops::Range;
+use std::panic::resume_unwind;
+use std::sync::{Mutex, PoisonError};
+use std::thread::{Builder, available_parallelism, scope};
+
+/// What is made of every node, given what is made of its children; leaves are given any two.
+///
+/// # Guarantee
+/// The same for any number of cores, also where it fails: of several errors it is that of the node that
+/// comes first when one node is made after the other.
+///
+/// # Errors
+/// Those of making a node.
+pub(super) fn bottom_up<T: Default + Send>(
+    hierarchy: &Hierarchy,
+    make: impl Fn(usize, [&T; 2]) -> Result<T, HullTreeError> + Sync,
+) -> Result<Vec<T>, HullTreeError> {
+    let cores = available_parallelism().map_or(1, NonZero::get);
+    // Several parts for each of many cores, as they are not all of one size.
+    let parts = if cores > 1 { 4 * cores } else { 1 };
+    bottom_up_in(parts, hierarchy, make)
+}
+
+fn bottom_up_in<T: Default + Send>(
+    parts: usize,
+    hierarchy: &Hierarchy,
+    make: impl Fn(usize, [&T; 2]) -> Result<T, HullTreeError> + Sync,
+) -> Result<Vec<T>, HullTreeError> {
+    let order = children_first(hierarchy);
+    let mut below = vec![1; order.len()];
+    for &at in &order {
+        if let HierarchyNode::Inner(left, right) = hierarchy.nodes()[at] {
+            below[at] += below[left as usize] + below[right as usize];
+        }
+    }
+    let row = Row {
+        hierarchy,
+        order: &order,
+        below: &below,
+        make,
+    };
+    let mut done: Vec<T> = order.iter().map(|_| T::default()).collect();
+    row.fill(0..order.len(), &mut done, parts)?;
+    let mut sorted: Vec<T> = order.iter().map(|_| T::default()).collect();
+    for (&at, made) in order.iter().zip(done) {
+        sorted[at] = made;
+    }
+    Ok(sorted)
+}
+
+/// Nodes in a row, each right after the subtree of its first child and then that of its second.
+struct Row<'a, F> {
+    hierarchy: &'a Hierarchy,
+    order: &'a [usize],
+    /// How many nodes each one's subtree has.
+    below: &'a [usize],
+    make: F,
+}
+
+/// A subtree of fewer nodes is not worth a thread.
+const WORTHWHILE: usize = 1024;
+
+impl<F> Row<'_, F> {
+    /// Makes a range of the row that is one subtree, in at most so many parts: they are shared out by
+    /// size, and either side gets fewer, so that no chain of nodes takes it deeper than there are parts.
+    fn fill<T: Default + Send>(
+        &self,
+        range: Range<usize>,
+        done: &mut [T],
+        parts: usize,
+    ) -> Result<(), HullTreeError>
+    where
+        F: Fn(usize, [&T; 2]) -> Result<T, HullTreeError> + Sync,
+    {
+        let root = self.order[range.end - 1];
+        match self.hierarchy.nodes()[root] {
+            HierarchyNode::Inner(left, _) if parts > 1 && range.len() >= WORTHWHILE => {
+                let middle = range.start + self.below[left as usize];
+                let (first, others) = done.split_at_mut(middle - range.start);
+                let (second, _) = others.split_at_mut(range.end - 1 - middle);
+                let ranges = [range.start..middle, middle..range.end - 1];
+                let of_first = parts * ranges[0].len() / range.len();
+                let of_first = of_first.clamp(1, parts - 1);
+                self.fill_both(ranges, [first, second], [of_first, parts - of_first])?;
+                self.fill_one(range.end - 1, range.start, done)
+            }
+            _ => (range.clone()).try_for_each(|at| self.fill_one(at, range.start, done)),
+        }
+    }
+
+    /// Makes two subtrees, beside each other where both are worth it and there is a thread to be had.
+    fn fill_both<T: Default + Send>(
+        &self,
+        [one, other]: [Range<usize>; 2],
+        [first, second]: [&mut [T]; 2],
+        [of_first, of_second]: [usize; 2],
+    ) -> Result<(), HullTreeError>
+    where
+        F: Fn(usize, [&T; 2]) -> Result<T, HullTreeError> + Sync,
+    {
+        if one.len() < WORTHWHILE || other.len() < WORTHWHILE {
+            self.fill(one, first, of_first)?;
+            return self.fill(other, second, of_second);
+        }
+        let waiting = Mutex::new(Some((one, first)));
+        let fill_waiting = || {
+            let taken = waiting
+                .lock()
+                .unwrap_or_else(PoisonError::into_inner)
+                .take();
+            taken.map_or(Ok(()), |(range, done)| self.fill(range, done, of_first))
+        };
+        let (first, second) = scope(|threads| {
+            let thread = Builder::new().spawn_scoped(threads, fill_waiting);
+            let second = self.fill(other, second, of_second);
+            let first = match thread {
+                Ok(thread) => thread.join().unwrap_or_else(|panic| resume_unwind(panic)),
+                Err(_) => fill_waiting(),
+            };
+            (first, second)
+        });
+        first.and(second)
+    }
+
+    /// Makes a node of the row once its children are made; what is made starts at a place of the row.
+    fn fill_one<T>(&self, at: usize, start: usize, done: &mut [T]) -> Result<(), HullTreeError>
+    where
+        F: Fn(usize, [&T; 2]) -> Result<T, HullTreeError> + Sync,
+    {
+        let node = self.order[at];
+        let here = at - start;
+        let children = match self.hierarchy.nodes()[node] {
+            HierarchyNode::Inner(_, right) => [here - 1 - self.below[right as usize], here - 1],
+            HierarchyNode::Leaf(_) => [here; 2],
+        };
+        done[here] = (self.make)(node, children.map(|child| &done[child]))?;
+        Ok(())
+    }
+}
+
+/// All nodes, each after its children, every subtree in one go.
+fn children_first(hierarchy: &Hierarchy) -> Vec<usize> {
+    let mut order = Vec::with_capacity(hierarchy.nodes().len());
+    let mut stack = vec![0];
+    while let Some(at) = stack.pop() {
+        order.push(at as usize);
+        if let HierarchyNode::Inner(left, right) = hierarchy.nodes()[at as usize] {
+            stack.extend([left, right]);
+        }
+    }
+    order.reverse();
+    order
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::body::hull_tree::HullFault;
+
+    /// A tree over so many pieces, each node before its children, split unevenly.
+    fn hierarchy(pieces: usize) -> Hierarchy {
+        let mut nodes = vec![HierarchyNode::Leaf(0)];
+        let mut stack = vec![(0, 0, pieces)];
+        while let Some((at, start, end)) = stack.pop() {
+            nodes[at] = HierarchyNode::Leaf(start as u32);
+            if end - start > 1 {
+                let (left, middle) = (nodes.len(), start + (end - start).div_ceil(3));
+                nodes.extend([HierarchyNode::Leaf(0); 2]);
+                nodes[at] = HierarchyNode::Inner(left as u32, left as u32 + 1);
+                stack.extend([(left, start, middle), (left + 1, middle, end)]);
+            }
+        }
+        Hierarchy::new(nodes, pieces).unwrap()
+    }
+
+    #[test]
+    fn any_number_of_parts_makes_the_same() {
+        let hierarchy = hierarchy(5000);
+        // Of every node which pieces are below, as they come.
+        let make = |at: usize, [left, right]: [&Vec<u32>; 2]| {
+            Ok(match hierarchy.nodes()[at] {
+                HierarchyNode::Leaf(piece) => vec![piece],
+                HierarchyNode::Inner(..) => [&left[..], right].concat(),
+            })
+        };
+        let one = bottom_up_in(1, &hierarchy, make).unwrap();
+        assert_eq!(one[0], (0..5000).collect::<Vec<u32>>());
+        for parts in [2, 3, 8, 64] {
+            assert_eq!(bottom_up_in(parts, &hierarchy, make).unwrap(), one);
+        }
+    }
+
+    /// Every node has one leaf and the rest: as deep as there are pieces.
+    #[test]
+    fn chains_take_no_more_stack_than_other_trees() {
+        const PIECES: u32 = 100_000;
+        for leaf_first in [true, false] {
+            let mut nodes = Vec::new();
+            for k in 0..PIECES - 1 {
+                let (leaf, rest) = (2 * k + 1, 2 * k + 2);
+                nodes.push(match leaf_first {
+                    true => HierarchyNode::Inner(leaf, rest),
+                    false => HierarchyNode::Inner(rest, leaf),
+                });
+                nodes.push(HierarchyNode::Leaf(k));
+            }
+            nodes.push(HierarchyNode::Leaf(PIECES - 1));
+            let hierarchy = Hierarchy::new(nodes, PIECES as usize).unwrap();
+            let count = |at: usize, [left, right]: [&u32; 2]| {
+                Ok(match hierarchy.nodes()[at] {
+                    HierarchyNode::Leaf(_) => 1,
+                    HierarchyNode::Inner(..) => left + right,
+                })
+            };
+            for parts in [1, 8, 64] {
+                assert_eq!(bottom_up_in(parts, &hierarchy, count).unwrap()[0], PIECES);
+            }
+            assert_eq!(bottom_up(&hierarchy, count).unwrap()[0], PIECES);
+        }
+    }
+
+    #[test]
+    fn the_first_error_is_the_same() {
+        let hierarchy = hierarchy(5000);
+        let fault = |at: usize| HullFault::BadFacet { facet: 7 }.at(at);
+        let make = |at: usize, _: [&u32; 2]| match at % 1000 {
+            999 => Err(fault(at)),
+            _ => Ok(0),
+        };
+        let one = bottom_up_in(1, &hierarchy, make).unwrap_err();
+        for parts in [2, 3, 8, 64] {
+            assert_eq!(bottom_up_in(parts, &hierarchy, make).unwrap_err(), one);
+        }
+    }
+}

@@ -1,0 +1,113 @@
+//! Whether facets are those of a convex polytope, exactly.
+
+use super::edges::edges_of;
+use crate::body::piece::Piece;
+use crate::body::support::Support;
+use crate::math::exact::{side, too_fine};
+use glam::DVec3;
+use std::cmp::Ordering;
+
+/// What finds the extremal points of a hull of many: edges are climbed once they are proven to be
+/// those of the hull; else a tree is searched, which asks for nothing.
+pub(crate) fn support_of(hull: &Piece<'_>) -> Support {
+    match is_convex(hull) {
+        true => Support::new(hull.points, hull.facets),
+        false => Support::of_points(hull.points),
+    }
+}
+
+/// Whether the facets close a convex polytope that has all points for corners.
+///
+/// # Guarantee
+/// Exact where it says so. The facets are seen as fans of triangles, no two of which have a side the
+/// same way round. A point behind all of them sees their surface spread over all directions, each
+/// covered equally often; once, if a single one is. Such a surface is that of a convex polytope when
+/// it bends inward at no edge `[MEHLHORN96]`. Where the triangles of each facet are coplanar and its
+/// outline turns one way only, the facet is a part of a face that is convex itself, so that from every
+/// corner of it an edge leads up along any direction that goes up from there in that face.
+fn is_convex(hull: &Piece<'_>) -> bool {
+    if hull.facets.is_empty() || too_fine(hull.points).is_some() {
+        return false;
+    }
+    let middle = hull.points.iter().sum::<DVec3>() / hull.points.len() as f64;
+    let mut on_facets = vec![false; hull.points.len()];
+    let mut triangles: Vec<[u32; 3]> = Vec::new();
+    for corners in hull.facets.iter() {
+        corners.iter().for_each(|&v| on_facets[v as usize] = true);
+        triangles.extend((1..corners.len() - 1).map(|k| [corners[0], corners[k], corners[k + 1]]));
+        if !is_plane(hull.points, corners) || !turns_one_way(hull.points, corners, middle) {
+            return false;
+        }
+    }
+    let place = |triangle: &[u32; 3]| triangle.map(|v| hull.points[v as usize]);
+    let behind = |triangle: &[u32; 3]| side(place(triangle), middle).is_lt();
+    on_facets.into_iter().all(|on| on)
+        && triangles.iter().all(behind)
+        && bends_outward(&triangles, place)
+        && covers_once(&triangles, place, middle)
+}
+
+/// Whether the corners lie in the plane of the first three.
+fn is_plane(points: &[DVec3], corners: &[u32]) -> bool {
+    let place = |&v: &u32| points[v as usize];
+    let first = [0, 1, 2].map(|k| place(&corners[k]));
+    let mut others = corners[3..].iter().map(place);
+    others.all(|p| side(first, p).is_eq())
+}
+
+/// Whether no corner of a facet is reflex, seen from a point behind it.
+fn turns_one_way(points: &[DVec3], corners: &[u32], middle: DVec3) -> bool {
+    let place = |k: usize| points[corners[k % corners.len()] as usize];
+    let fan = |k: usize| [place(k), place(k + 1), place(k + 2)];
+    (0..corners.len()).all(|k| side(fan(k), middle).is_le())
+}
+
+/// Whether across every edge the next triangle is not in front of a triangle.
+fn bends_outward(triangles: &[[u32; 3]], place: impl Fn(&[u32; 3]) -> [DVec3; 3]) -> bool {
+    let mut sides: Vec<((u32, u32), &[u32; 3])> = triangles
+        .iter()
+        .flat_map(|triangle| edges_of(triangle).map(move |side| (side, triangle)))
+        .collect();
+    sides.sort_unstable();
+    let once = sides.windows(2).all(|pair| pair[0].0 != pair[1].0);
+    let across = |&(from, to): &(u32, u32)| {
+        let at = sides.binary_search_by_key(&(to, from), |&(side, _)| side);
+        at.ok().map(|at| sides[at].1)
+    };
+    let bends = |(edge, triangle): &((u32, u32), &[u32; 3])| {
+        let next = across(edge);
+        next.is_some_and(|next| {
+            let mut corners = place(next).into_iter();
+            corners.all(|p| side(place(triangle), p).is_le())
+        })
+    };
+    once && sides.iter().all(bends)
+}
+
+/// Whether a direction from the middle, past all edges, meets one triangle.
+fn covers_once(
+    triangles: &[[u32; 3]],
+    place: impl Fn(&[u32; 3]) -> [DVec3; 3],
+    middle: DVec3,
+) -> bool {
+    let Some(first) = triangles.first() else {
+        return false;
+    };
+    let target = place(first).into_iter().sum::<DVec3>() / 3.0;
+    let mut met = 0;
+    for triangle in triangles {
+        let [a, b, c] = place(triangle);
+        let sides = [[a, b], [b, c], [c, a]];
+        let past = sides.map(|[from, to]| side([middle, to, from], target));
+        if past.into_iter().all(Ordering::is_lt) {
+            met += 1;
+        } else if !past.into_iter().any(Ordering::is_gt) {
+            // Through an edge: it cannot be told how often.
+            return false;
+        }
+    }
+    met == 1
+}
+
+#[cfg(test)]
+mod tests;

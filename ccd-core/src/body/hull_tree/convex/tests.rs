@@ -1,0 +1,160 @@
+//! Surfaces in whole numbers that are convex, or only nearly so.
+
+use super::is_convex;
+use crate::body::pieces::Pieces;
+use crate::body::polytope::{Facet, Origin, Polytope};
+use glam::DVec3;
+
+fn convex(points: &[[f64; 3]], facets: &[&[u32]]) -> bool {
+    let facet = |corners: &&[u32]| Facet {
+        origin: Origin::Virtual,
+        corners: corners.to_vec(),
+    };
+    let polytope = Polytope {
+        points: points.iter().map(|&p| DVec3::from_array(p)).collect(),
+        facets: facets.iter().map(facet).collect(),
+        ..Polytope::default()
+    };
+    is_convex(&Pieces::polytopes(&[polytope]).unwrap().get(0))
+}
+
+const ROOF: [[f64; 3]; 5] = [
+    [0.0, 0.0, 0.0],
+    [2.0, 0.0, 0.0],
+    [2.0, 2.0, 0.0],
+    [0.0, 2.0, 0.0],
+    [1.0, 1.0, 3.0],
+];
+const SLOPES: [&[u32]; 5] = [
+    &[3, 2, 1, 0],
+    &[0, 1, 4],
+    &[1, 2, 4],
+    &[2, 3, 4],
+    &[3, 0, 4],
+];
+
+#[test]
+fn polytopes_are() {
+    assert!(convex(&ROOF, &SLOPES));
+    // A facet in two parts of one plane.
+    let parts: [&[u32]; 6] = [
+        &[3, 2, 1],
+        &[3, 1, 0],
+        SLOPES[1],
+        SLOPES[2],
+        SLOPES[3],
+        SLOPES[4],
+    ];
+    assert!(convex(&ROOF, &parts));
+}
+
+#[test]
+fn what_is_dented_turned_or_open_is_not() {
+    let mut dented = ROOF;
+    dented[2] = [0.75, 0.75, 0.0];
+    assert!(!convex(&dented, &SLOPES));
+    let parts: [&[u32]; 6] = [
+        &[3, 2, 1],
+        &[3, 1, 0],
+        SLOPES[1],
+        SLOPES[2],
+        SLOPES[3],
+        SLOPES[4],
+    ];
+    let mut folded = ROOF;
+    // Across the square there is an edge now, which bends inward one way and outward the other way.
+    folded[2] = [2.0, 2.0, -1e-60];
+    assert!(!convex(&folded, &parts));
+    folded[2] = [2.0, 2.0, 1e-60];
+    assert!(convex(&folded, &parts) && !convex(&folded, &SLOPES));
+    let inside_out: Vec<Vec<u32>> = SLOPES.map(|f| f.iter().rev().copied().collect()).to_vec();
+    let inside_out: Vec<&[u32]> = inside_out.iter().map(Vec::as_slice).collect();
+    assert!(!convex(&ROOF, &inside_out));
+    assert!(!convex(&ROOF, &SLOPES[..4]));
+    let mut spare = ROOF.to_vec();
+    spare.push([1.0, 1.0, 9.0]);
+    assert!(!convex(&spare, &SLOPES));
+}
+
+/// A pyramid over a five-pointed star: at every edge it bends outward, but about its middle it goes
+/// round twice.
+#[test]
+fn a_star_that_winds_twice_is_not() {
+    let rim = [
+        [0.0, 10.0],
+        [9.0, 3.0],
+        [6.0, -8.0],
+        [-6.0, -8.0],
+        [-9.0, 3.0],
+    ];
+    let mut points: Vec<[f64; 3]> = rim.iter().map(|&[x, y]| [x, y, 0.0]).collect();
+    points.extend([[0.0, 0.0, 20.0], [0.0, 0.0, -20.0]]);
+    let sides = |step: u32| -> Vec<Vec<u32>> {
+        (0..5)
+            .flat_map(|k| {
+                // Clockwise numbers, so backwards.
+                let (from, to) = ((k + step) % 5, k);
+                [vec![from, to, 5], vec![to, from, 6]]
+            })
+            .collect()
+    };
+    let check = |step| {
+        let facets = sides(step);
+        let facets: Vec<&[u32]> = facets.iter().map(Vec::as_slice).collect();
+        convex(&points, &facets)
+    };
+    assert!(check(1));
+    assert!(!check(2));
+}
+
+/// A box whose lid is cut into an L and a square: flat, but climbing along the L's outline ends in its
+/// reflex corner.
+#[test]
+fn facets_that_are_not_convex_are_not() {
+    let [o, z] = [0.0, 1.0];
+    let mut points = vec![[o, o, o], [2.0, o, o], [2.0, 2.0, o], [o, 2.0, o]];
+    let lid = [
+        [o, o],
+        [2.0, o],
+        [2.0, 1.0],
+        [1.0, 1.0],
+        [1.0, 2.0],
+        [o, 2.0],
+        [2.0, 2.0],
+    ];
+    points.extend(lid.map(|[x, y]| [x, y, z]));
+    let sides: [&[u32]; 5] = [
+        &[3, 2, 1, 0],
+        &[0, 1, 5, 4],
+        &[1, 2, 10, 6, 5],
+        &[2, 3, 9, 8, 10],
+        &[3, 0, 4, 9],
+    ];
+    let with = |lid: &[&[u32]]| convex(&points, &[&sides, lid].concat());
+    assert!(!with(&[&[4, 5, 6, 7, 8, 9], &[7, 6, 10, 8]]));
+    assert!(with(&[&[4, 5, 6, 7], &[4, 7, 8, 9], &[7, 6, 10, 8]]));
+}
+
+/// A spindle with a second, lower roof over the same rim.
+#[test]
+fn surfaces_that_share_a_rim_are_not() {
+    let points = [
+        [1.0, 0.0, 0.0],
+        [0.0, 1.0, 0.0],
+        [-1.0, 0.0, 0.0],
+        [0.0, -1.0, 0.0],
+        [0.0, 0.0, 10.0],
+        [0.0, 0.0, -10.0],
+        [0.0, 0.0, 0.5],
+    ];
+    let roof = |apex: u32| (0..4).map(move |k| vec![k, (k + 1) % 4, apex]);
+    let floor = (0..4).map(|k| vec![(k + 1) % 4, k, 5]);
+    let spindle: Vec<Vec<u32>> = roof(4).chain(floor).collect();
+    let all: Vec<Vec<u32>> = spindle.iter().cloned().chain(roof(6)).collect();
+    let check = |points: &[[f64; 3]], facets: &[Vec<u32>]| {
+        let facets: Vec<&[u32]> = facets.iter().map(Vec::as_slice).collect();
+        convex(points, &facets)
+    };
+    assert!(check(&points[..6], &spindle));
+    assert!(!check(&points, &all));
+}

@@ -1,0 +1,254 @@
+//! What an inner hull's surface has of its children's.
+//!
+//! A child's hull meets the plane of a facet of its parent in at most one facet of its own. So a facet
+//! of the parent is a child's, or is tiled by one of either child, or is a bridge.
+
+use super::edges::{EdgeMap, edges_of};
+use super::inside::{is_coplanar, spanning};
+use super::node::{FacetData, Node};
+use super::{FacetClass, Hull};
+use crate::body::polytope::{Face, Origin, Polytope};
+use crate::math::exact::is_degenerate;
+use crate::math::point_tree::PointTree;
+use glam::DVec3;
+
+impl FacetData {
+    const BRIDGE: FacetData = FacetData {
+        origin: Origin::Virtual,
+        class: FacetClass::Free,
+        faces: Vec::new(),
+    };
+
+    /// Of a piece's facets.
+    pub(super) fn of_piece(piece: &Polytope) -> Vec<FacetData> {
+        let mut facet_data = Vec::with_capacity(piece.facets.len());
+        let starts: Vec<DVec3> = piece.faces.iter().map(|face| face.corners[0]).collect();
+        let tree = PointTree::new(&starts);
+        for facet in &piece.facets {
+            let corners: Vec<DVec3> = points_of(piece, &facet.corners);
+            let mut near = Vec::new();
+            if let Some(plane) = spanning(&corners) {
+                tree.for_each_not_behind(plane, |k| near.push(k));
+            }
+            near.sort_unstable();
+            let near = near.iter().map(|&k| piece.faces[k as usize]);
+            let within = |face: &Face| is_coplanar(&corners, face.corners);
+            facet_data.push(FacetData {
+                origin: facet.origin,
+                class: match facet.origin {
+                    Origin::Face(_) | Origin::Faces => FacetClass::Original,
+                    Origin::Virtual => FacetClass::Contained,
+                },
+                faces: near.filter(within).collect(),
+            });
+        }
+        facet_data
+    }
+
+    /// Of a facet that two others tile.
+    fn joined(parts: [&Part<'_>; 2]) -> FacetData {
+        let class = parts[0].facet.class.max(parts[1].facet.class);
+        FacetData {
+            origin: match class {
+                FacetClass::Original => Origin::Faces,
+                FacetClass::Contained | FacetClass::Free => Origin::Virtual,
+            },
+            class,
+            faces: parts.iter().flat_map(|part| part.mesh_faces()).collect(),
+        }
+    }
+}
+
+/// A child whose points are numbered together with those of its parent, which come first.
+#[derive(Clone, Copy)]
+pub(super) struct Child<'a> {
+    node: &'a Node<'a>,
+    /// The numbers of its points.
+    ids: &'a [u32],
+}
+
+impl<'a> Child<'a> {
+    pub(super) fn new(node: &'a Node<'a>, ids: &'a [u32]) -> Self {
+        Child { node, ids }
+    }
+}
+
+/// What the facets of a hull are, given its children and where all their points are.
+pub(super) fn inherit(hull: &Hull, places: &[DVec3], children: [Child<'_>; 2]) -> Vec<FacetData> {
+    let triangles = children.map(|child| lone_triangle(&child));
+    let sides = [0, 1].map(|k| Side::new(children[k], triangles[k].as_ref(), places.len()));
+    let facet = |corners: &[u32]| {
+        let parts = sides.each_ref().map(|side| side.sharing_an_edge(corners));
+        match parts {
+            [Some(part), _] | [_, Some(part)] if same_loop(&part, corners) => part.facet.clone(),
+            [Some(one), Some(other)] if tile(places, corners, [&one, &other]) => {
+                FacetData::joined([&one, &other])
+            }
+            _ => FacetData::BRIDGE,
+        }
+    };
+    hull.facets.iter().map(facet).collect()
+}
+
+/// A facet of a child.
+struct Part<'a> {
+    child: Child<'a>,
+    /// By the child's numbers.
+    corners: &'a [u32],
+    facet: &'a FacetData,
+}
+
+impl Part<'_> {
+    /// Its corners by the common numbers.
+    fn ids(&self) -> impl ExactSizeIterator<Item = u32> + Clone {
+        self.corners.iter().map(|&v| self.child.ids[v as usize])
+    }
+
+    fn edges(&self) -> impl Iterator<Item = (u32, u32)> + Clone {
+        self.ids().zip(self.ids().cycle().skip(1))
+    }
+
+    fn mesh_faces(&self) -> Vec<Face> {
+        let node = self.child.node;
+        match self.facet.origin {
+            Origin::Face(id) => (1..self.corners.len() - 1)
+                .map(|k| {
+                    let corners = [0, k, k + 1].map(|k| self.corners[k]);
+                    Face {
+                        id,
+                        vertices: corners.map(|v| vertex_of(node, v)),
+                        corners: corners.map(|v| node.points[v as usize]),
+                    }
+                })
+                .collect(),
+            Origin::Faces | Origin::Virtual => self.facet.faces.clone(),
+        }
+    }
+}
+
+/// A child's facets.
+struct Side<'a> {
+    child: Child<'a>,
+    /// What either side is of a triangle by itself.
+    lone: Option<&'a FacetData>,
+    /// Which part an edge belongs to.
+    by_edge: EdgeMap,
+}
+
+/// The two sides of a triangle by itself.
+const SIDES: [[u32; 3]; 2] = [[0, 1, 2], [2, 1, 0]];
+
+impl<'a> Side<'a> {
+    /// Of a child whose points have numbers below `places`.
+    fn new(child: Child<'a>, lone: Option<&'a FacetData>, places: usize) -> Self {
+        let sides = SIDES.iter().map(|corners| &corners[..]);
+        let loops = child
+            .node
+            .loops
+            .iter()
+            .chain(sides.filter(|_| lone.is_some()));
+        let edges = loops.zip(0..).flat_map(|(corners, k)| {
+            let id = |v: u32| child.ids[v as usize];
+            edges_of(corners).map(move |(from, to)| ((id(from), id(to)), k))
+        });
+        Side {
+            child,
+            lone,
+            by_edge: EdgeMap::new(places, edges),
+        }
+    }
+
+    fn part(&self, k: usize) -> Option<Part<'a>> {
+        let node = self.child.node;
+        let (corners, facet) = match node.loops.get(k) {
+            Some(corners) => (corners, node.facet_data.get(k)?),
+            None => (&SIDES.get(k - node.loops.len())?[..], self.lone?),
+        };
+        Some(Part {
+            child: self.child,
+            corners,
+            facet,
+        })
+    }
+
+    fn sharing_an_edge(&self, corners: &[u32]) -> Option<Part<'a>> {
+        let mut known = edges_of(corners).filter_map(|edge| self.by_edge.get(edge));
+        self.part(known.next()? as usize)
+    }
+}
+
+/// What the front and the back are of a triangle by itself, which lists no facets.
+fn lone_triangle(child: &Child<'_>) -> Option<FacetData> {
+    let alone = child.node.loops.is_empty() && child.node.points.len() == 3;
+    alone.then(|| FacetData {
+        origin: match child.node.own_faces.as_deref().unwrap_or_default() {
+            [face] => Origin::Face(face.id),
+            _ => Origin::Virtual,
+        },
+        class: FacetClass::Original,
+        faces: Vec::new(),
+    })
+}
+
+/// The number of a point in the mesh.
+fn vertex_of(node: &Node<'_>, point: u32) -> u32 {
+    let known = node.vertex_ids.get(point as usize);
+    known.copied().unwrap_or(point)
+}
+
+fn points_of(polytope: &Polytope, corners: &[u32]) -> Vec<DVec3> {
+    let point = |&v: &u32| polytope.points[v as usize];
+    corners.iter().map(point).collect()
+}
+
+/// Whether a part's loop is another one but for where it begins.
+fn same_loop(part: &Part<'_>, other: &[u32]) -> bool {
+    if part.corners.len() != other.len() {
+        return false;
+    }
+    let first = part.ids().next();
+    let Some(start) = other.iter().position(|&v| Some(v) == first) else {
+        return false;
+    };
+    let (end, begin) = other.split_at(start);
+    part.ids().eq(begin.iter().chain(end).copied())
+}
+
+/// Whether two convex polygons together are a facet of the hull: what is left of their edges, once
+/// those are gone that run both ways, is the facet's loop, but for corners within its edges.
+///
+/// A part has the facet's corners and the two ends of the cut, at most; of many more it is not even looked
+/// at, as it may share an edge with each of many facets.
+fn tile(places: &[DVec3], corners: &[u32], parts: [&Part<'_>; 2]) -> bool {
+    let most = 2 * corners.len() + 8;
+    if parts.iter().any(|part| part.corners.len() > most) {
+        return false;
+    }
+    let mut edges: Vec<(u32, u32)> = parts.iter().flat_map(|part| part.edges()).collect();
+    edges.sort_unstable();
+    let border = |&(from, to): &(u32, u32)| edges.binary_search(&(to, from)).is_err();
+    let next: Vec<(u32, u32)> = edges.iter().copied().filter(border).collect();
+    // Edges that both have, and corners where they only touch, are no border.
+    let twice = edges.windows(2).any(|e| e[0] == e[1]);
+    if twice || next.windows(2).any(|e| e[0].0 == e[1].0) {
+        return false;
+    }
+    let after = |v: u32| {
+        let at = next.binary_search_by_key(&v, |edge| edge.0);
+        at.ok().map(|at| next[at].1)
+    };
+    let mut used = 0;
+    for (from, to) in edges_of(corners) {
+        let place = |v: u32| places[v as usize];
+        let between = |v: u32| is_degenerate([place(from), place(to), place(v)]);
+        let mut at = from;
+        while at != to {
+            match after(at) {
+                Some(step) if used < next.len() && (step == to || between(step)) => at = step,
+                _ => return false,
+            }
+            used += 1;
+        }
+    }
+    used == next.len()
+}

@@ -1,0 +1,140 @@
+//! Whether a point lies in a hull, exactly `[SHE97]`.
+
+use super::Loops;
+use crate::math::exact::{is_degenerate, side, turn_along};
+use crate::math::point_tree::PointTree;
+use glam::DVec3;
+use std::cmp::Ordering;
+
+/// A hull that points are held against.
+pub(super) struct Container<'a> {
+    points: &'a [DVec3],
+    /// The facets as fans of triangles.
+    fans: Vec<[DVec3; 3]>,
+    /// The first facet's corners.
+    first: Vec<DVec3>,
+}
+
+impl<'a> Container<'a> {
+    /// Every edge of the facets must be met by exactly one facet the other way round.
+    pub(super) fn new(points: &'a [DVec3], facets: &Loops) -> Self {
+        let at = |&v: &u32| points[v as usize];
+        let fan = |corners: &[u32]| {
+            let corners: Vec<DVec3> = corners.iter().map(at).collect();
+            let triangles = 1..corners.len() - 1;
+            triangles.map(move |k| [corners[0], corners[k], corners[k + 1]])
+        };
+        Container {
+            points,
+            fans: facets.iter().flat_map(fan).collect(),
+            first: facets
+                .get(0)
+                .map_or(Vec::new(), |corners| corners.iter().map(at).collect()),
+        }
+    }
+
+    /// The first of some points that the hull of the points does not certainly hold.
+    ///
+    /// # Guarantee
+    /// Exact, and none only if so, whatever the facets: about a point outside of the hull a closed
+    /// surface with its corners in the hull winds 0 times. Where no facet has the point in front, the
+    /// solid angles at which it sees them all have one sign, so that they are all 0: no facet has it
+    /// behind.
+    ///
+    /// # Complexity
+    /// O(n log n) for n points and facets in all that few points are near each.
+    pub(super) fn left_out(&self, places: &[DVec3]) -> Option<usize> {
+        if self.fans.is_empty() {
+            return places.iter().position(|&p| !in_simplex(self.points, p));
+        }
+        if places.is_empty() {
+            return None;
+        }
+        let tree = PointTree::new(places);
+        let mut outside = vec![false; places.len()];
+        // Facets in whose planes it lies; all others have it behind.
+        let mut level = vec![0; places.len()];
+        for &triangle in &self.fans {
+            tree.for_each_not_behind(triangle, |k| match side(triangle, places[k as usize]) {
+                Ordering::Less => {}
+                Ordering::Equal => level[k as usize] += 1,
+                Ordering::Greater => outside[k as usize] = true,
+            });
+        }
+        (0..places.len()).find(|&k| {
+            let behind = level[k] < self.fans.len();
+            outside[k] || !(behind || in_polygon(&self.first, places[k]))
+        })
+    }
+}
+
+/// Whether a point is one of up to three, between two, or in their triangle.
+fn in_simplex(points: &[DVec3], point: DVec3) -> bool {
+    match *points {
+        [a] => a == point,
+        [a, b] => on_segment(a, b, point),
+        [a, b, c] => {
+            let edges = [(a, b), (b, c), (c, a)];
+            edges.iter().any(|&(a, b)| on_segment(a, b, point)) || in_polygon(points, point)
+        }
+        _ => false,
+    }
+}
+
+fn on_segment(a: DVec3, b: DVec3, point: DVec3) -> bool {
+    let between = point.cmpge(a.min(b)).all() && point.cmple(a.max(b)).all();
+    between && is_degenerate([a, b, point])
+}
+
+/// Whether a triangle lies in the plane of a polygon and is seen from the same side.
+pub(super) fn is_coplanar(polygon: &[DVec3], triangle: [DVec3; 3]) -> bool {
+    plane(polygon).is_some_and(|(fan, axis)| {
+        let in_plane = |&p: &DVec3| side(fan, p).is_eq();
+        let turn = |[a, b, c]: [DVec3; 3]| turn_along(axis, [a, b], c);
+        let same_side = turn(fan).is_gt() == turn(triangle).is_gt();
+        same_side && triangle.iter().all(in_plane)
+    })
+}
+
+/// Three corners of a polygon that are not on one line.
+pub(super) fn spanning(polygon: &[DVec3]) -> Option<[DVec3; 3]> {
+    plane(polygon).map(|(corners, _)| corners)
+}
+
+/// Three corners of a polygon that are not on one line, and a coordinate axis along which they are
+/// not, either.
+fn plane(polygon: &[DVec3]) -> Option<([DVec3; 3], usize)> {
+    (1..polygon.len().saturating_sub(1)).find_map(|k| {
+        let fan = [0, k, k + 1].map(|k| polygon[k]);
+        let [a, b, c] = fan;
+        let axis = (0..3).find(|&axis| turn_along(axis, [a, b], c).is_ne())?;
+        Some((fan, axis))
+    })
+}
+
+/// Whether a point lies in the plane of a polygon and in the hull of its corners: on no edge's outer
+/// side and on the inner side of one, by the same count of windings.
+fn in_polygon(corners: &[DVec3], point: DVec3) -> bool {
+    let Some((fan, axis)) = plane(corners) else {
+        return false;
+    };
+    let [a, b, c] = fan;
+    let front = turn_along(axis, [a, b], c);
+    let in_plane = |p: &DVec3| side(fan, *p).is_eq();
+    if !(in_plane(&point) && corners.iter().all(in_plane)) {
+        return false;
+    }
+    let mut inner = false;
+    for (k, &from) in corners.iter().enumerate() {
+        let to = corners[(k + 1) % corners.len()];
+        let turn = turn_along(axis, [from, to], point);
+        if turn.is_eq() {
+            continue;
+        }
+        if turn != front {
+            return false;
+        }
+        inner = true;
+    }
+    inner
+}

@@ -1,0 +1,43 @@
+//! A node of a hull tree while the tree is put together.
+
+use super::{FacetClass, Loops};
+use crate::body::polytope::{Face, Origin};
+use glam::DVec3;
+use std::borrow::Cow;
+
+/// A node that is checked.
+#[derive(Debug, Default)]
+pub(super) struct Node<'a> {
+    pub(super) points: Cow<'a, [DVec3]>,
+    /// In the mesh, of its points.
+    pub(super) vertex_ids: Vec<u32>,
+    pub(super) loops: Cow<'a, Loops>,
+    /// Of its facets.
+    pub(super) facet_data: Vec<FacetData>,
+    /// The mesh's faces on a leaf; an inner node has those of its skins.
+    pub(super) own_faces: Option<Vec<Face>>,
+    pub(super) radius: f64,
+    pub(super) evenly_rounded: bool,
+    pub(super) size: f64,
+}
+
+/// What is known of one facet.
+#[derive(Clone, Debug)]
+pub(super) struct FacetData {
+    pub(super) origin: Origin,
+    pub(super) class: FacetClass,
+    /// The triangles of the mesh that lie in it, unless it is one face by itself.
+    pub(super) faces: Vec<Face>,
+}
+
+impl Node<'_> {
+    /// The mesh's faces on its surface.
+    pub(super) fn faces(&self) -> impl Iterator<Item = &Face> {
+        let of_skins = self.facet_data.iter().flat_map(|facet| &facet.faces);
+        let (own, of_skins) = match &self.own_faces {
+            Some(own) => (&own[..], None),
+            None => (&[][..], Some(of_skins)),
+        };
+        own.iter().chain(of_skins.into_iter().flatten())
+    }
+}

@@ -1,0 +1,58 @@
+//! Leaves found again in another list of the same pieces.
+
+use super::HullTree;
+use super::error::{HullFault, HullTreeError};
+use crate::body::hierarchy::{Hierarchy, HierarchyNode};
+use crate::body::pieces::Pieces;
+use std::cmp::Ordering;
+
+/// The tree's hierarchy, with leaves that name the pieces of a list that they are to the bit: of several, the
+/// first leaf names the first.
+pub(super) fn renumber(tree: &HullTree, pieces: &Pieces) -> Result<Hierarchy, HullTreeError> {
+    let hulls = tree.hulls();
+    let mut renamed = tree.hierarchy.nodes().to_vec();
+    let nodes = (0..renamed.len()).filter(|&at| matches!(renamed[at], HierarchyNode::Leaf(_)));
+    let leaves = sorted(nodes.collect(), |one, other| {
+        order([hulls, hulls], [one, other])
+    });
+    let known = sorted((0..pieces.len()).collect(), |one, other| {
+        order([pieces, pieces], [one, other])
+    });
+    let mut known = known.into_iter().peekable();
+    let mut found = Vec::with_capacity(leaves.len());
+    for at in leaves {
+        let to_leaf = |&k: &usize| order([pieces, hulls], [k, at]);
+        // What is less than this leaf is no leaf.
+        while known.next_if(|k| to_leaf(k) == Ordering::Less).is_some() {}
+        let same = known.next_if(|k| to_leaf(k) == Ordering::Equal);
+        found.push((at, same));
+    }
+    found.sort_unstable();
+    for (at, same) in found {
+        let piece = same.ok_or(HullFault::NotAPiece.at(at))?;
+        renamed[at] = HierarchyNode::Leaf(piece as u32);
+    }
+    // Also fails where the list has a piece that no leaf is.
+    Ok(Hierarchy::new(renamed, pieces.len())?)
+}
+
+/// In the order of what they are, and of their numbers.
+fn sorted(mut numbers: Vec<usize>, order: impl Fn(usize, usize) -> Ordering) -> Vec<usize> {
+    numbers.sort_unstable_by(|&one, &other| order(one, other).then(one.cmp(&other)));
+    numbers
+}
+
+/// An order by points, rounding and numbers in the mesh, to the bit.
+fn order(of: [&Pieces; 2], at: [usize; 2]) -> Ordering {
+    let [one, other] = [0, 1].map(|k| of[k].get(at[k]));
+    let bits = |p: &glam::DVec3| p.to_array().map(f64::to_bits);
+    let points = || {
+        one.points
+            .iter()
+            .map(bits)
+            .cmp(other.points.iter().map(bits))
+    };
+    let radii = || one.radius.to_bits().cmp(&other.radius.to_bits());
+    let ids = || of[0].vertex_ids(at[0]).cmp(of[1].vertex_ids(at[1]));
+    points().then_with(radii).then_with(ids)
+}

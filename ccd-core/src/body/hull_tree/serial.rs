@@ -1,0 +1,38 @@
+//! Hull trees as they are stored; what is read is checked like what is made.
+
+use super::{HullNode, HullTree, HullTreeError};
+use crate::body::hierarchy::HierarchyNode;
+use crate::body::pieces::Pieces;
+use crate::body::polytope::Polytope;
+use serde::{Deserialize, Serialize};
+
+#[derive(Serialize, Deserialize)]
+pub(super) struct Stored {
+    pieces: Vec<Polytope>,
+    nodes: Vec<HullNode>,
+}
+
+impl From<HullTree> for Stored {
+    fn from(tree: HullTree) -> Self {
+        let nodes = tree.hierarchy.nodes().iter().enumerate();
+        let mut pieces: Vec<(u32, Polytope)> = nodes
+            .filter_map(|(at, node)| match node {
+                HierarchyNode::Leaf(piece) => Some((*piece, tree.hulls().polytope(at))),
+                HierarchyNode::Inner(..) => None,
+            })
+            .collect();
+        pieces.sort_by_key(|(piece, _)| *piece);
+        Stored {
+            pieces: pieces.into_iter().map(|(_, polytope)| polytope).collect(),
+            nodes: tree.to_nodes(),
+        }
+    }
+}
+
+impl TryFrom<Stored> for HullTree {
+    type Error = HullTreeError;
+
+    fn try_from(stored: Stored) -> Result<Self, HullTreeError> {
+        HullTree::new(&Pieces::polytopes(&stored.pieces)?, &stored.nodes)
+    }
+}

@@ -1,0 +1,346 @@
+//! Trees of few nodes, made by hand: what is inherited, what is refused.
+
+use super::*;
+use crate::body::feature::Feature;
+use crate::body::polytope::{Facet, Origin, Polytope};
+use crate::body::{Body, Volume};
+use crate::error::InputError;
+
+/// The facets of a box whose corner `k` has a positive x, y, z where bit 0, 1, 2 of `k` is set.
+const BOX: [[u32; 4]; 6] = [
+    [0, 4, 6, 2],
+    [1, 3, 7, 5],
+    [0, 1, 5, 4],
+    [2, 6, 7, 3],
+    [0, 2, 3, 1],
+    [4, 5, 7, 6],
+];
+
+fn corners(lo: DVec3, hi: DVec3) -> Vec<DVec3> {
+    let pick = |k: u32, bit: usize| if k >> bit & 1 == 1 { hi[bit] } else { lo[bit] };
+    (0..8)
+        .map(|k| DVec3::new(pick(k, 0), pick(k, 1), pick(k, 2)))
+        .collect()
+}
+
+/// A box from one x to another, 1 high and 1 wide; its faces are numbered from `first` on.
+fn block(from: f64, to: f64, first: u32) -> Polytope {
+    let facet = |(k, corners): (usize, &[u32; 4])| Facet {
+        origin: Origin::Face(first + k as u32),
+        corners: corners.to_vec(),
+    };
+    Polytope {
+        points: corners(DVec3::new(from, 0.0, 0.0), DVec3::new(to, 1.0, 1.0)),
+        vertex_ids: (0..8).map(|k| 10 * first + k).collect(),
+        facets: BOX.iter().enumerate().map(facet).collect(),
+        ..Polytope::default()
+    }
+}
+
+fn hull_of(from: f64, to: f64) -> Hull {
+    let block = block(from, to, 0);
+    Hull {
+        points: block.points,
+        facets: block
+            .facets
+            .into_iter()
+            .map(|facet| facet.corners)
+            .collect(),
+    }
+}
+
+fn tree(pieces: &[Polytope], hull: Hull) -> Result<HullTree, HullTreeError> {
+    let pieces = Pieces::polytopes(pieces).unwrap();
+    let nodes = [
+        HullNode::Inner([1, 2], hull),
+        HullNode::Leaf(0),
+        HullNode::Leaf(1),
+    ];
+    HullTree::new(&pieces, &nodes)
+}
+
+fn fault(pieces: &[Polytope], hull: Hull) -> HullFault {
+    match tree(pieces, hull) {
+        Err(HullTreeError::Node { node: 0, fault }) => fault,
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn facets_are_a_childs_or_tiled_or_bridges() {
+    use FacetClass::{Free, Original};
+    // End to end: the sides are tiled, though the corners between are hidden.
+    let whole = tree(&[block(0.0, 1.0, 0), block(1.0, 3.0, 6)], hull_of(0.0, 3.0)).unwrap();
+    assert_eq!(whole.facet_classes(0), [Original; 6]);
+    let root = whole.hulls().get(0);
+    let origins = [Origin::Face(0), Origin::Face(7)];
+    assert_eq!(root.facets.origins()[..2], origins);
+    assert_eq!(root.facets.origins()[2..], [Origin::Faces; 4]);
+    // The mesh's faces are found again on a tiled side.
+    let top = Combination::segment([4, 7], 0.25);
+    assert_eq!(whole.hulls().feature(0, &top), Feature::Face(5));
+    let top = Combination::segment([4, 7], 0.75);
+    assert_eq!(whole.hulls().feature(0, &top), Feature::Face(11));
+    assert_eq!(
+        whole.hulls().feature(0, &Combination::point(7)),
+        Feature::Vertex(67)
+    );
+    // Apart: the sides are bridges.
+    let gap = tree(&[block(0.0, 1.0, 0), block(2.0, 3.0, 6)], hull_of(0.0, 3.0)).unwrap();
+    assert_eq!(
+        gap.facet_classes(0),
+        [Original, Original, Free, Free, Free, Free]
+    );
+    assert_eq!(gap.facet_classes(2), [Original; 6]);
+}
+
+#[test]
+fn virtual_facets_stay_contained() {
+    let mut left = block(0.0, 1.0, 0);
+    left.facets[5].origin = Origin::Virtual;
+    let whole = tree(&[left, block(1.0, 3.0, 6)], hull_of(0.0, 3.0)).unwrap();
+    assert_eq!(whole.facet_classes(1)[5], FacetClass::Contained);
+    assert_eq!(whole.facet_classes(0)[5], FacetClass::Contained);
+    assert_eq!(whole.hulls().get(0).facets.origins()[5], Origin::Virtual);
+}
+
+#[test]
+fn features_take_the_best_class_of_their_facets() {
+    let gap = tree(&[block(0.0, 1.0, 0), block(2.0, 3.0, 6)], hull_of(0.0, 3.0)).unwrap();
+    let class = |node, support: &[u32]| {
+        let mut point = Combination::EMPTY;
+        support.iter().for_each(|&v| point.push(v, 1.0));
+        gap.class_of(node, &point)
+    };
+    use FacetClass::{Contained, Free, Original};
+    assert_eq!(class(0, &[]), Free);
+    assert_eq!(class(0, &[5]), Original);
+    // Along the end, across the end, along the bridge, across the inside.
+    assert_eq!(class(0, &[0, 2]), Original);
+    assert_eq!(class(0, &[0, 6]), Original);
+    assert_eq!(class(0, &[0, 4, 6]), Original);
+    assert_eq!(class(0, &[4, 5]), Free);
+    assert_eq!(class(0, &[4, 5, 7]), Free);
+    assert_eq!(class(0, &[0, 7]), Free);
+    // The inside of a piece is the piece's.
+    assert_eq!(class(1, &[0, 7]), Contained);
+}
+
+#[test]
+fn thick_and_thin_pieces_are_bridged_everywhere() {
+    let thick = Polytope {
+        radius: 0.5,
+        ..block(1.0, 3.0, 6)
+    };
+    let whole = tree(&[block(0.0, 1.0, 0), thick], hull_of(0.0, 3.0)).unwrap();
+    assert_eq!(whole.hulls().get(0).radius, 0.5);
+    assert_eq!(whole.facet_classes(0), [FacetClass::Free; 6]);
+    assert_eq!(whole.class_of(0, &Combination::point(0)), FacetClass::Free);
+    assert_eq!(whole.facet_classes(2), [FacetClass::Original; 6]);
+}
+
+fn flat(points: &[DVec3]) -> Polytope {
+    Polytope {
+        points: points.to_vec(),
+        ..Polytope::default()
+    }
+}
+
+#[test]
+fn triangles_segments_and_points_join() {
+    let [a, b, c, d] = [DVec3::ZERO, DVec3::X, DVec3::X + DVec3::Y, DVec3::Y];
+    let pieces = Pieces::triangles(&[a, b, c, d], &[[0, 1, 2], [0, 2, 3]], &[8, 9]).unwrap();
+    let square = Hull {
+        points: vec![a, b, c, d],
+        facets: Loops::from_iter([[0, 1, 2, 3], [3, 2, 1, 0]]),
+    };
+    let nodes = |hull| {
+        vec![
+            HullNode::Inner([1, 2], hull),
+            HullNode::Leaf(0),
+            HullNode::Leaf(1),
+        ]
+    };
+    let whole = HullTree::new(&pieces, &nodes(square)).unwrap();
+    assert_eq!(whole.facet_classes(0), [FacetClass::Original; 2]);
+    let inside = Combination::segment([1, 3], 0.25);
+    assert_eq!(whole.hulls().feature(0, &inside), Feature::Face(8));
+
+    let along = |x: f64| x * DVec3::X;
+    let segment = Hull {
+        points: vec![along(0.0), along(3.0)],
+        facets: Loops::default(),
+    };
+    let beads = [
+        flat(&[along(0.0), along(1.0)]),
+        flat(&[along(3.0), along(2.0)]),
+    ];
+    assert!(tree(&beads, segment.clone()).is_ok());
+    let beads = [flat(&[along(0.0), along(3.0)]), flat(&[along(2.0)])];
+    assert!(tree(&beads, segment.clone()).is_ok());
+    let off = [
+        flat(&[along(0.0), along(3.0)]),
+        flat(&[DVec3::new(2.0, 1e-300, 0.0)]),
+    ];
+    assert!(matches!(
+        tree(&off, segment.clone()),
+        Err(HullTreeError::Node {
+            node: 2,
+            fault: HullFault::TooFine { point: 0 }
+        })
+    ));
+    let off = [
+        flat(&[along(0.0), along(3.0)]),
+        flat(&[DVec3::new(2.0, 1e-80, 0.0)]),
+    ];
+    let outside = HullFault::ChildOutside { child: 2, point: 0 };
+    assert_eq!(fault(&off, segment), outside);
+    let same = [flat(&[c]), flat(&[c])];
+    let point = Hull {
+        points: vec![c],
+        facets: Loops::default(),
+    };
+    assert!(tree(&same, point).is_ok());
+}
+
+#[test]
+fn flat_hulls_hold_what_is_in_their_plane_and_outline_only() {
+    let square = Hull {
+        points: corners(DVec3::ZERO, DVec3::new(1.0, 1.0, 0.0))[..4].to_vec(),
+        facets: Loops::from_iter([[0, 1, 3, 2], [2, 3, 1, 0]]),
+    };
+    let plate = flat(&square.points);
+    let holds = |p: DVec3| tree(&[plate.clone(), flat(&[p])], square.clone()).is_ok();
+    assert!(holds(DVec3::new(0.5, 0.25, 0.0)));
+    assert!(holds(DVec3::new(1.0, 0.25, 0.0)));
+    assert!(holds(DVec3::new(0.5, 0.25, -0.0)));
+    assert!(!holds(DVec3::new(0.5, 0.25, 1e-80)));
+    assert!(!holds(DVec3::new(1f64.next_up(), 0.25, 0.0)));
+    assert!(!holds(DVec3::new(2.0, 0.0, 0.0)));
+}
+
+#[test]
+fn containment_is_exact() {
+    // A slanted facet that no coordinate plane shows: x + 2 y + 3 z = 6.
+    let tetrahedron = [6.0 * DVec3::X, 3.0 * DVec3::Y, 2.0 * DVec3::Z, DVec3::ZERO];
+    let hull = Hull {
+        points: tetrahedron.to_vec(),
+        facets: Loops::from_iter([[0, 1, 2], [1, 0, 3], [2, 1, 3], [0, 2, 3]]),
+    };
+    let holds = |p: DVec3| tree(&[flat(&tetrahedron), flat(&[p])], hull.clone()).is_ok();
+    let on = DVec3::new(1.0, 1.0, 1.0);
+    assert!(holds(on));
+    for k in 0..3 {
+        let mut p = on;
+        p[k] = 1f64.next_down();
+        assert!(holds(p));
+        p[k] = 1f64.next_up();
+        assert!(!holds(p));
+    }
+    assert!(!holds(DVec3::new(0.5, 0.5, -1e-80)));
+}
+
+#[test]
+fn hulls_that_are_none_are_refused() {
+    let pieces = [block(0.0, 1.0, 0), block(1.0, 3.0, 6)];
+    let good = hull_of(0.0, 3.0);
+    let refused = |change: &dyn Fn(&mut Vec<Vec<u32>>)| {
+        let points = good.points.clone();
+        let mut facets = good.facets.iter().map(Vec::from).collect();
+        change(&mut facets);
+        let facets = facets.into();
+        fault(&pieces, Hull { points, facets })
+    };
+    let mut foreign = good.clone();
+    foreign.points[3] *= 2.0;
+    assert_eq!(
+        fault(&pieces, foreign),
+        HullFault::ForeignPoint { point: 3 }
+    );
+    assert_eq!(
+        refused(&|facets| facets[2][1] = 8),
+        HullFault::BadFacet { facet: 2 }
+    );
+    assert_eq!(
+        refused(&|facets| facets[4].truncate(2)),
+        HullFault::BadFacet { facet: 4 }
+    );
+    assert_eq!(
+        refused(&|facets| drop(facets.pop())),
+        HullFault::Open { facet: 0 }
+    );
+    assert_eq!(
+        refused(&|facets| facets.push(BOX[0].to_vec())),
+        HullFault::Open { facet: 6 }
+    );
+    // Inside out, too small, or none at all.
+    let outside = |child, point| HullFault::ChildOutside { child, point };
+    assert_eq!(
+        refused(&|facets| facets.iter_mut().for_each(|f| f.reverse())),
+        outside(1, 1)
+    );
+    let small = fault(&pieces, hull_of(0.0, 1.0));
+    assert_eq!(small, outside(2, 1));
+    assert_eq!(refused(&|facets| facets.clear()), outside(1, 1));
+}
+
+#[test]
+fn nodes_that_are_no_hierarchy_are_refused() {
+    let pieces = Pieces::polytopes(&[block(0.0, 1.0, 0), block(1.0, 3.0, 6)]).unwrap();
+    let refused = |nodes: &[HullNode]| HullTree::new(&pieces, nodes).unwrap_err();
+    let root = |children| HullNode::Inner(children, hull_of(0.0, 3.0));
+    let missing = refused(&[HullNode::Leaf(0)]);
+    assert_eq!(missing, InputError::BadHierarchy { at: 1 }.into());
+    let twice = refused(&[root([1, 2]), HullNode::Leaf(1), HullNode::Leaf(1)]);
+    assert_eq!(twice, InputError::BadHierarchy { at: 1 }.into());
+    let cycle = refused(&[root([1, 0]), HullNode::Leaf(0)]);
+    assert_eq!(cycle, InputError::BadHierarchy { at: 0 }.into());
+    assert_eq!(refused(&[]), InputError::BadHierarchy { at: 0 }.into());
+}
+
+#[test]
+fn bodies_take_the_trees_of_their_pieces_only() {
+    let polytopes = [block(5.0, 7.0, 0), block(0.0, 1.0, 6)];
+    let nodes = [
+        HullNode::Inner([1, 2], hull_of(0.0, 7.0)),
+        HullNode::Leaf(0),
+        HullNode::Leaf(1),
+    ];
+    let pieces = Pieces::polytopes(&polytopes).unwrap();
+    let tree = HullTree::new(&pieces, &nodes).unwrap();
+    let body = Body::new(&pieces, Volume::Surface).unwrap();
+    let body = body.with_hull_tree(tree.clone()).unwrap();
+    // Whatever order the body has its pieces in.
+    let kept = body.hull_tree().unwrap();
+    for (at, node) in kept.hierarchy().nodes().iter().enumerate() {
+        if let HierarchyNode::Leaf(piece) = node {
+            let piece = body.pieces().get(*piece as usize);
+            assert_eq!(piece.points, kept.hulls().get(at).points);
+        }
+    }
+    let others = Pieces::polytopes(&[polytopes[0].clone(), block(0.0, 2.0, 6)]).unwrap();
+    let other = Body::new(&others, Volume::Surface).unwrap();
+    let refused = other.with_hull_tree(tree.clone()).unwrap_err();
+    assert_eq!(refused, HullFault::NotAPiece.at(2));
+    let single = Body::new(
+        &Pieces::polytopes(&polytopes[..1]).unwrap(),
+        Volume::Surface,
+    );
+    let refused = single.unwrap().with_hull_tree(tree).unwrap_err();
+    assert_eq!(refused, HullFault::NotAPiece.at(2));
+}
+
+#[test]
+fn nodes_are_given_back() {
+    let pieces = Pieces::polytopes(&[block(0.0, 1.0, 0), block(2.0, 3.0, 6)]).unwrap();
+    let nodes = vec![
+        HullNode::Inner([2, 1], hull_of(0.0, 3.0)),
+        HullNode::Leaf(1),
+        HullNode::Leaf(0),
+    ];
+    let tree = HullTree::new(&pieces, &nodes).unwrap();
+    assert_eq!(tree.to_nodes(), nodes);
+}
+
+#[cfg(feature = "serde")]
+mod stored;

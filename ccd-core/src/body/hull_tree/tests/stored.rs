@@ -1,0 +1,88 @@
+//! What is stored is read again, and checked.
+
+use super::*;
+use crate::body::hierarchy::Hierarchy;
+use serde::{Serialize, de::DeserializeOwned};
+
+fn read<T: DeserializeOwned>(bytes: &[u8]) -> Option<T> {
+    postcard::from_bytes(bytes).ok()
+}
+
+fn bytes<T: Serialize>(value: &T) -> Vec<u8> {
+    postcard::to_allocvec(value).unwrap()
+}
+
+fn sample() -> (Pieces, HullTree) {
+    let pieces = [block(0.0, 1.0, 0), block(1.0, 3.0, 6)];
+    let tree = tree(&pieces, hull_of(0.0, 3.0)).unwrap();
+    (Pieces::polytopes(&pieces).unwrap(), tree)
+}
+
+#[test]
+fn what_is_stored_is_read_again() {
+    let (pieces, tree) = sample();
+    let again: Pieces = read(&bytes(&pieces)).unwrap();
+    assert!((0..2).all(|k| again.polytope(k) == pieces.polytope(k)));
+    let again: HullTree = read(&bytes(&tree)).unwrap();
+    assert_eq!(again.to_nodes(), tree.to_nodes());
+    assert_eq!(again.facet_classes(0), tree.facet_classes(0));
+    let again: Hierarchy = read(&bytes(tree.hierarchy())).unwrap();
+    assert_eq!(again.nodes(), tree.hierarchy().nodes());
+    assert_eq!(read(&bytes(&Volume::Solid)), Some(Volume::Solid));
+    let triangles = [DVec3::X, DVec3::Y, DVec3::Z, DVec3::ONE];
+    let soup = Pieces::triangles(&triangles, &[[0, 1, 2], [3, 2, 1]], &[7, 4]).unwrap();
+    let again: Pieces = read(&bytes(&soup)).unwrap();
+    assert!(again.all_triangles());
+    assert!((0..2).all(|k| again.polytope(k) == soup.polytope(k)));
+}
+
+#[test]
+fn what_is_read_is_checked() {
+    let point = |x: f64| Polytope {
+        points: vec![DVec3::splat(x)],
+        ..Polytope::default()
+    };
+    let variant = 1u32;
+    let pieces = |x: f64| read::<Pieces>(&bytes(&(variant, vec![point(x)])));
+    assert!(pieces(1.0).is_some());
+    assert!(pieces(f64::NAN).is_none());
+    assert!(read::<Pieces>(&bytes(&(variant, Vec::<Polytope>::new()))).is_none());
+    // Triangles: as many numbers as corners and faces.
+    let soup = |corners: usize, vertices: usize, faces: usize| {
+        let raw = (
+            0u32,
+            vec![DVec3::X; corners],
+            vec![0u32; vertices],
+            vec![0u32; faces],
+        );
+        read::<Pieces>(&bytes(&raw))
+    };
+    assert!(soup(6, 6, 2).is_some());
+    assert!(soup(6, 5, 2).is_none() && soup(5, 5, 2).is_none() && soup(6, 6, 3).is_none());
+    assert!(soup(0, 0, 0).is_none());
+    let nodes = vec![HierarchyNode::Inner(1, 1), HierarchyNode::Leaf(0)];
+    assert!(read::<Hierarchy>(&bytes(&nodes)).is_none());
+    let (_, tree) = sample();
+    let mut nodes = tree.to_nodes();
+    let polytopes = vec![block(0.0, 1.0, 0), block(1.0, 3.0, 6)];
+    assert!(read::<HullTree>(&bytes(&(&polytopes, &nodes))).is_some());
+    nodes[0] = HullNode::Inner([1, 2], hull_of(0.0, 1.0));
+    assert!(read::<HullTree>(&bytes(&(&polytopes, &nodes))).is_none());
+}
+
+/// Whatever is amiss with the bytes, there is an error or a tree that holds.
+#[test]
+fn no_bytes_make_it_panic() {
+    let (_, tree) = sample();
+    let good = bytes(&tree);
+    for at in 0..good.len() {
+        for flip in [0x01, 0x40, 0xff] {
+            let mut bad = good.clone();
+            bad[at] ^= flip;
+            if let Some(tree) = read::<HullTree>(&bad) {
+                assert_eq!(tree.hierarchy().nodes().len(), tree.hulls().len());
+            }
+        }
+        assert!(read::<HullTree>(&good[..at]).is_none());
+    }
+}

@@ -1,0 +1,366 @@
+//! The pieces of one body, flat in memory.
+
+use super::combination::Combination;
+use super::facets::Facets;
+use super::feature::Feature;
+use super::feature_lookup::{self, MeshFeature};
+use super::piece::{Piece, Slot};
+use super::polytope::{Face, Origin, Polytope};
+use super::side_table::SideTable;
+use crate::error::InputError;
+use crate::limits::MAX_COORDINATE;
+use glam::DVec3;
+pub(crate) use row::{Listed, Room, Row};
+
+/// The pieces of one body, flat in memory, with the numbers of the mesh they came from.
+#[derive(Clone, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(try_from = "serial::Stored", into = "serial::Stored")
+)]
+pub struct Pieces {
+    points: Vec<DVec3>,
+    vertex_ids: Vec<u32>,
+    /// Where each piece's points end.
+    point_ends: Vec<u32>,
+    radii: Radii,
+    shape: Shape,
+    /// What backends keep of them.
+    side_table: SideTable,
+}
+
+/// Indices are kept in 32 bits, of which a quarter names points and the rest has room for nodes.
+const MAX_POINTS: usize = u32::MAX as usize / 4;
+
+#[derive(Clone, Debug)]
+enum Radii {
+    Zero,
+    Each(Vec<f64>),
+}
+
+#[derive(Clone, Debug)]
+enum Shape {
+    /// Every piece is a triangle; the mesh's number of each.
+    Triangles {
+        face_ids: Vec<u32>,
+    },
+    Polytopes(Box<Surfaces>),
+}
+
+/// The facets and mesh faces of all pieces.
+#[derive(Clone, Debug, Default)]
+struct Surfaces {
+    /// Where each piece's facets end in `corner_ends` and `origins`.
+    facet_ends: Vec<u32>,
+    origins: Vec<Origin>,
+    /// Where each facet's corners end.
+    corner_ends: Vec<u32>,
+    corners: Vec<u32>,
+    /// Where each piece's faces end.
+    face_ends: Vec<u32>,
+    faces: Vec<Face>,
+}
+
+impl Pieces {
+    /// One piece per triangle of a mesh or soup; `face_ids[k]` is the number `faces[k]` goes by.
+    ///
+    /// # Errors
+    /// [`InputError::VertexOutOfRange`], [`InputError::BadPoint`], [`InputError::NoPieces`],
+    /// [`InputError::FaceIds`], [`InputError::TooManyPieces`].
+    pub fn triangles(
+        vertices: &[DVec3],
+        faces: &[[u32; 3]],
+        face_ids: &[u32],
+    ) -> Result<Self, InputError> {
+        if faces.len() != face_ids.len() {
+            return Err(InputError::FaceIds {
+                faces: faces.len(),
+                ids: face_ids.len(),
+            });
+        }
+        if faces.len() >= MAX_POINTS / 3 {
+            return Err(InputError::TooManyPieces {
+                pieces: faces.len(),
+            });
+        }
+        for (face, corners) in faces.iter().enumerate() {
+            if let Some(&vertex) = corners.iter().find(|&&v| v as usize >= vertices.len()) {
+                return Err(InputError::VertexOutOfRange {
+                    face,
+                    vertex,
+                    vertices: vertices.len(),
+                });
+            }
+        }
+        let vertex_ids: Vec<u32> = faces.iter().flatten().copied().collect();
+        Pieces {
+            points: vertex_ids.iter().map(|&v| vertices[v as usize]).collect(),
+            vertex_ids,
+            point_ends: (1..=faces.len()).map(|k| 3 * k as u32).collect(),
+            radii: Radii::Zero,
+            shape: Shape::Triangles {
+                face_ids: face_ids.to_vec(),
+            },
+            side_table: SideTable::default(),
+        }
+        .checked()
+    }
+
+    /// Convex polytopes, balls and capsules among them.
+    ///
+    /// # Guarantee
+    /// The piece is the hull of the points; facets only serve to name features and to confirm
+    /// overlaps, so that a wrong facet list cannot make a query late.
+    ///
+    /// # Errors
+    /// [`InputError::EmptyPiece`], [`InputError::BadPoint`], [`InputError::BadRadius`],
+    /// [`InputError::FacetOutOfRange`], [`InputError::BadFace`], [`InputError::NoPieces`],
+    /// [`InputError::TooManyPieces`].
+    pub fn polytopes(polytopes: &[Polytope]) -> Result<Self, InputError> {
+        let facets = || polytopes.iter().flat_map(|polytope| &polytope.facets);
+        let mut row = Row::with_room(Room {
+            pieces: polytopes.len(),
+            points: polytopes.iter().map(|p| p.points.len()).sum(),
+            facets: facets().count(),
+            corners: facets().map(|facet| facet.corners.len()).sum(),
+            faces: polytopes.iter().map(|p| p.faces.len()).sum(),
+        });
+        for polytope in polytopes {
+            let facets = polytope.facets.iter();
+            row.push(Listed {
+                points: &polytope.points,
+                vertex_ids: &polytope.vertex_ids,
+                facets: facets.map(|facet| (&facet.corners[..], facet.origin)),
+                faces: polytope.faces.iter().copied(),
+                radius: polytope.radius,
+            })?;
+        }
+        row.into_pieces()
+    }
+
+    fn checked(self) -> Result<Self, InputError> {
+        if self.point_ends.is_empty() {
+            return Err(InputError::NoPieces);
+        }
+        if self.points.len() >= MAX_POINTS {
+            return Err(InputError::TooManyPieces {
+                pieces: self.point_ends.len(),
+            });
+        }
+        for piece in 0..self.len() {
+            let points = &self.points[self.point_range(piece)];
+            if points.is_empty() {
+                return Err(InputError::EmptyPiece { piece });
+            }
+            // Written so that NaN fails.
+            let good = |p: &DVec3| p.abs().max_element() <= MAX_COORDINATE && p.is_finite();
+            if let Some(point) = points.iter().position(|p| !good(p)) {
+                return Err(InputError::BadPoint { piece, point });
+            }
+            let radius = self.radius(piece);
+            if !(0.0..=MAX_COORDINATE).contains(&radius) {
+                return Err(InputError::BadRadius { piece });
+            }
+        }
+        Ok(self)
+    }
+
+    /// How many pieces there are: at least one.
+    #[allow(clippy::len_without_is_empty)]
+    pub fn len(&self) -> usize {
+        self.point_ends.len()
+    }
+
+    /// Whether every piece is a triangle without rounding.
+    pub fn all_triangles(&self) -> bool {
+        matches!(self.shape, Shape::Triangles { .. })
+    }
+
+    /// One piece.
+    ///
+    /// # Panics
+    /// When `index` is not below [`Pieces::len`].
+    #[inline]
+    pub fn get(&self, index: usize) -> Piece<'_> {
+        Piece {
+            points: &self.points[self.point_range(index)],
+            radius: self.radius(index),
+            facets: self.facets(index),
+            support: None,
+            slot: Some(Slot {
+                side_table: &self.side_table,
+                len: self.len(),
+                index,
+            }),
+        }
+    }
+
+    /// All pieces in order.
+    pub fn iter(&self) -> impl Iterator<Item = Piece<'_>> {
+        (0..self.len()).map(|k| self.get(k))
+    }
+
+    /// All points of all pieces in order; points that pieces share appear once for each.
+    pub fn points(&self) -> &[DVec3] {
+        &self.points
+    }
+
+    /// Bytes held, about.
+    pub(crate) fn bytes(&self) -> usize {
+        let facets = match &self.shape {
+            Shape::Triangles { .. } => 0,
+            Shape::Polytopes(surfaces) => surfaces.bytes(),
+        };
+        size_of_val(self.points.as_slice()) + 4 * (self.vertex_ids.len() + 2 * self.len()) + facets
+    }
+
+    /// The three corners of a piece of which [`Pieces::all_triangles`] holds.
+    #[inline]
+    pub(crate) fn triangle(&self, index: usize) -> [DVec3; 3] {
+        let corners = &self.points[3 * index..3 * index + 3];
+        [corners[0], corners[1], corners[2]]
+    }
+
+    /// The corners of a piece that is a triangle, or of the first of the mesh's triangles on it.
+    pub(crate) fn first_triangle(&self, index: usize) -> Option<[DVec3; 3]> {
+        match self.all_triangles() {
+            true => Some(self.triangle(index)),
+            false => self.get(index).mesh_triangles().next().map(|(_, t)| t),
+        }
+    }
+
+    /// All points of consecutive pieces.
+    pub(crate) fn points_of(&self, pieces: std::ops::Range<usize>) -> &[DVec3] {
+        let start = self.point_range(pieces.start).start;
+        &self.points[start..self.point_ends[pieces.end - 1] as usize]
+    }
+
+    /// The same pieces in another order: piece `k` of the result is piece `order[k]` of this.
+    pub(crate) fn reordered(&self, order: &[u32]) -> Pieces {
+        let mut out = Pieces {
+            points: Vec::with_capacity(self.points.len()),
+            vertex_ids: Vec::with_capacity(self.points.len()),
+            point_ends: Vec::with_capacity(self.len()),
+            radii: match &self.radii {
+                Radii::Zero => Radii::Zero,
+                Radii::Each(radii) => {
+                    Radii::Each(order.iter().map(|&k| radii[k as usize]).collect())
+                }
+            },
+            shape: self.shape.reordered(order),
+            side_table: SideTable::default(),
+        };
+        for &k in order {
+            let range = self.point_range(k as usize);
+            out.points.extend_from_slice(&self.points[range.clone()]);
+            out.vertex_ids.extend_from_slice(&self.vertex_ids[range]);
+            out.point_ends.push(out.points.len() as u32);
+        }
+        out
+    }
+
+    /// What a point of a piece is called in the mesh: the vertex, edge or face that holds the corners
+    /// it is combined of, or the face that it lies on all the same; [`Feature::Piece`] inside, and
+    /// on a polytope of which all facets are virtual.
+    pub fn feature(&self, piece: usize, point: &Combination) -> Feature {
+        let id = |corner: u32| self.vertex_ids[self.point_range(piece).start + corner as usize];
+        match (&self.shape, point.support()) {
+            (_, []) => Feature::Piece(piece as u32),
+            (Shape::Triangles { .. }, [v]) => Feature::Vertex(id(*v)),
+            (Shape::Triangles { .. }, [v, w]) => Feature::edge(id(*v), id(*w)),
+            (Shape::Triangles { face_ids }, _) => Feature::Face(face_ids[piece]),
+            (Shape::Polytopes(_), _) => match feature_lookup::look_up(&self.get(piece), point) {
+                MeshFeature::Vertex(v) => Feature::Vertex(id(v)),
+                MeshFeature::Edge(v, w) => Feature::edge(id(v), id(w)),
+                MeshFeature::Face(face) => Feature::Face(face),
+                MeshFeature::Nothing => Feature::Piece(piece as u32),
+            },
+        }
+    }
+
+    #[inline]
+    pub(crate) fn point_range(&self, piece: usize) -> std::ops::Range<usize> {
+        range(&self.point_ends, piece)
+    }
+
+    #[inline]
+    fn radius(&self, piece: usize) -> f64 {
+        match &self.radii {
+            Radii::Zero => 0.0,
+            Radii::Each(radii) => radii[piece],
+        }
+    }
+
+    #[inline]
+    fn facets(&self, piece: usize) -> Facets<'_> {
+        match &self.shape {
+            Shape::Triangles { .. } => Facets::NONE,
+            Shape::Polytopes(surfaces) => surfaces.of(piece),
+        }
+    }
+}
+
+impl Shape {
+    fn reordered(&self, order: &[u32]) -> Shape {
+        match self {
+            Shape::Triangles { face_ids } => Shape::Triangles {
+                face_ids: order.iter().map(|&k| face_ids[k as usize]).collect(),
+            },
+            Shape::Polytopes(surfaces) => Shape::Polytopes(Box::new(surfaces.reordered(order))),
+        }
+    }
+}
+
+impl Surfaces {
+    #[inline]
+    fn of(&self, piece: usize) -> Facets<'_> {
+        let facets = range(&self.facet_ends, piece);
+        Facets {
+            base: match facets.start {
+                0 => 0,
+                start => self.corner_ends[start - 1],
+            },
+            origins: &self.origins[facets.clone()],
+            ends: &self.corner_ends[facets],
+            corners: &self.corners,
+            faces: &self.faces[range(&self.face_ends, piece)],
+        }
+    }
+
+    fn reordered(&self, order: &[u32]) -> Surfaces {
+        let mut out = Surfaces::default();
+        for &k in order {
+            let facets = self.of(k as usize);
+            for corners in facets.iter() {
+                out.corners.extend_from_slice(corners);
+                out.corner_ends.push(out.corners.len() as u32);
+            }
+            out.origins.extend_from_slice(facets.origins);
+            out.facet_ends.push(out.origins.len() as u32);
+            out.faces.extend_from_slice(facets.faces);
+            out.face_ends.push(out.faces.len() as u32);
+        }
+        out
+    }
+
+    fn bytes(&self) -> usize {
+        size_of_val(self.origins.as_slice())
+            + size_of_val(self.faces.as_slice())
+            + 4 * (2 * self.facet_ends.len() + self.corner_ends.len() + self.corners.len())
+    }
+}
+
+/// The `k`-th range of a list given by the ends of its ranges.
+#[inline]
+pub(crate) fn range(ends: &[u32], k: usize) -> std::ops::Range<usize> {
+    let start = if k == 0 { 0 } else { ends[k - 1] };
+    start as usize..ends[k] as usize
+}
+
+mod row;
+#[cfg(feature = "serde")]
+mod serial;
+#[cfg(test)]
+mod tests;
+mod unpack;

@@ -1,0 +1,72 @@
+//! Pieces as they are stored; what is read is checked like what is made.
+
+use super::{Pieces, Radii, Shape};
+use crate::body::polytope::Polytope;
+use crate::body::side_table::SideTable;
+use crate::error::InputError;
+use glam::DVec3;
+use serde::{Deserialize, Serialize};
+
+#[derive(Serialize, Deserialize)]
+pub(super) enum Stored {
+    Triangles {
+        corners: Vec<DVec3>,
+        vertex_ids: Vec<u32>,
+        face_ids: Vec<u32>,
+    },
+    Polytopes(Vec<Polytope>),
+}
+
+impl From<Pieces> for Stored {
+    fn from(pieces: Pieces) -> Self {
+        match pieces.shape {
+            Shape::Triangles { face_ids } => Stored::Triangles {
+                corners: pieces.points,
+                vertex_ids: pieces.vertex_ids,
+                face_ids,
+            },
+            Shape::Polytopes(_) => {
+                Stored::Polytopes((0..pieces.len()).map(|k| pieces.polytope(k)).collect())
+            }
+        }
+    }
+}
+
+impl TryFrom<Stored> for Pieces {
+    type Error = InputError;
+
+    fn try_from(stored: Stored) -> Result<Self, InputError> {
+        let (points, vertex_ids, face_ids) = match stored {
+            Stored::Polytopes(polytopes) => return Pieces::polytopes(&polytopes),
+            Stored::Triangles {
+                corners,
+                vertex_ids,
+                face_ids,
+            } => (corners, vertex_ids, face_ids),
+        };
+        let triangles = face_ids.len();
+        // Three corners each, and a number for every corner.
+        if points.len() % 3 != 0 || points.len() / 3 != triangles {
+            return Err(InputError::FaceIds {
+                faces: points.len() / 3,
+                ids: triangles,
+            });
+        }
+        if vertex_ids.len() != points.len() {
+            return Err(InputError::VertexOutOfRange {
+                face: vertex_ids.len() / 3,
+                vertex: vertex_ids.len() as u32,
+                vertices: points.len(),
+            });
+        }
+        Pieces {
+            points,
+            vertex_ids,
+            point_ends: (1..=triangles).map(|k| 3 * k as u32).collect(),
+            radii: Radii::Zero,
+            shape: Shape::Triangles { face_ids },
+            side_table: SideTable::default(),
+        }
+        .checked()
+    }
+}

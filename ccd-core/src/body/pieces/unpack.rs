@@ -1,0 +1,38 @@
+//! Pieces taken apart again.
+
+use super::{Pieces, Shape};
+use crate::body::polytope::{Face, Facet, Polytope};
+
+impl Pieces {
+    /// A piece as it could be handed to [`Pieces::polytopes`] again; a triangle lists its face.
+    ///
+    /// # Panics
+    /// When `index` is not below [`Pieces::len`].
+    pub fn polytope(&self, index: usize) -> Polytope {
+        let piece = self.get(index);
+        let facets = piece.facets.iter().zip(piece.facets.origins());
+        let facet = |(corners, &origin): (&[u32], _)| Facet {
+            origin,
+            corners: corners.to_vec(),
+        };
+        Polytope {
+            points: piece.points.to_vec(),
+            vertex_ids: self.vertex_ids(index).to_vec(),
+            facets: facets.map(facet).collect(),
+            faces: match &self.shape {
+                Shape::Polytopes(_) => piece.facets.faces.to_vec(),
+                Shape::Triangles { face_ids } => vec![Face {
+                    id: face_ids[index],
+                    vertices: [0, 1, 2].map(|k| self.vertex_ids(index)[k]),
+                    corners: self.triangle(index),
+                }],
+            },
+            radius: piece.radius,
+        }
+    }
+
+    /// The numbers that a piece's points go by in the mesh.
+    pub(crate) fn vertex_ids(&self, index: usize) -> &[u32] {
+        &self.vertex_ids[self.point_range(index)]
+    }
+}

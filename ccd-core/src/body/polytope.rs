@@ -1,0 +1,53 @@
+//! A piece as it is handed in.
+
+use glam::DVec3;
+
+/// A convex polytope as it is handed to [`Pieces::polytopes`](crate::Pieces::polytopes).
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Polytope {
+    /// The points whose hull it is.
+    pub points: Vec<DVec3>,
+    /// The number each point goes by in the mesh it came from; empty numbers them from 0.
+    pub vertex_ids: Vec<u32>,
+    /// The hull's facets, where known: they tile its boundary; a flat polygon has two.
+    pub facets: Vec<Facet>,
+    /// The mesh's faces that are on the hull's boundary and are not a facet by themselves.
+    pub faces: Vec<Face>,
+    /// Rounding radius ≥ 0.
+    pub radius: f64,
+}
+
+/// One facet of a [`Polytope`].
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Facet {
+    /// What it is of the mesh.
+    pub origin: Origin,
+    /// Indices into the polytope's points, counter-clockwise seen from outside.
+    pub corners: Vec<u32>,
+}
+
+/// What a facet is of the mesh that its polytope came from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum Origin {
+    /// The face of that number.
+    Face(u32),
+    /// Several coplanar faces, listed in [`Polytope::faces`].
+    Faces,
+    /// No part of the mesh, or not as a whole: it closes the polytope.
+    Virtual,
+}
+
+/// A triangle of a mesh on the boundary of a [`Polytope`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Face {
+    /// The number it goes by in the mesh.
+    pub id: u32,
+    /// The numbers its corners go by in the mesh.
+    pub vertices: [u32; 3],
+    /// Counter-clockwise seen from outside; not necessarily points of the polytope.
+    pub corners: [DVec3; 3],
+}

@@ -1,0 +1,74 @@
+//! Bodies of a single piece: ball, capsule, box.
+
+use super::pieces::Pieces;
+use super::polytope::{Facet, Origin, Polytope};
+use super::{Body, Volume};
+use crate::error::InputError;
+use glam::DVec3;
+
+impl Body {
+    /// A ball about the origin; exact, not a mesh.
+    ///
+    /// # Errors
+    /// [`InputError::BadRadius`].
+    pub fn ball(radius: f64) -> Result<Self, InputError> {
+        Body::polytope(Polytope {
+            points: vec![DVec3::ZERO],
+            radius,
+            ..Polytope::default()
+        })
+    }
+
+    /// All points within `radius` of the segment from `−half_height` to `half_height` along z.
+    ///
+    /// # Errors
+    /// [`InputError::BadRadius`], [`InputError::BadPoint`].
+    pub fn capsule(radius: f64, half_height: f64) -> Result<Self, InputError> {
+        Body::polytope(Polytope {
+            points: vec![-half_height * DVec3::Z, half_height * DVec3::Z],
+            radius,
+            ..Polytope::default()
+        })
+    }
+
+    /// A box about the origin, given by half of each side.
+    ///
+    /// Corner `k` has a positive x, y, z where bit 0, 1, 2 of `k` is set, and faces 0 to 5 look along −x,
+    /// +x, −y, +y, −z, +z.
+    ///
+    /// # Errors
+    /// [`InputError::BadPoint`].
+    pub fn cuboid(half_extents: impl Into<[f64; 3]>) -> Result<Self, InputError> {
+        let half_extents = DVec3::from_array(half_extents.into());
+        let sign = |corner: u32, bit: u32| if corner >> bit & 1 == 1 { 1.0 } else { -1.0 };
+        let corner = |k| half_extents * DVec3::new(sign(k, 0), sign(k, 1), sign(k, 2));
+        let loops = [
+            [0, 4, 6, 2],
+            [1, 3, 7, 5],
+            [0, 1, 5, 4],
+            [2, 6, 7, 3],
+            [0, 2, 3, 1],
+            [4, 5, 7, 6],
+        ];
+        Body::polytope(Polytope {
+            points: (0..8).map(corner).collect(),
+            facets: loops
+                .iter()
+                .enumerate()
+                .map(|(id, corners)| Facet {
+                    origin: Origin::Face(id as u32),
+                    corners: corners.to_vec(),
+                })
+                .collect(),
+            ..Polytope::default()
+        })
+    }
+
+    /// A body of one convex piece, filled.
+    ///
+    /// # Errors
+    /// As [`Pieces::polytopes`].
+    pub fn polytope(polytope: Polytope) -> Result<Self, InputError> {
+        Body::new(&Pieces::polytopes(&[polytope])?, Volume::Solid)
+    }
+}

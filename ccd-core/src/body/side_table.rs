@@ -1,0 +1,76 @@
+//! What backends keep of pieces, beside the pieces.
+
+use std::any::Any;
+use std::fmt;
+use std::sync::OnceLock;
+
+/// One list for every type that was asked for, with an entry for each piece, made when it is first
+/// asked for.
+///
+/// It lives and dies with the pieces, and is shared by all threads that share them; a copy of the
+/// pieces starts with an empty one.
+#[derive(Default)]
+pub(crate) struct SideTable(OnceLock<Box<Column>>);
+
+struct Column {
+    /// A `Vec<OnceLock<T>>` of some `T`.
+    entries: Box<dyn Any + Send + Sync>,
+    /// Of other types.
+    next: SideTable,
+}
+
+impl SideTable {
+    /// The entry of one of `len` pieces.
+    #[inline]
+    pub(crate) fn entry<T: Any + Send + Sync>(&self, len: usize, index: usize) -> &OnceLock<T> {
+        let mut side_table = self;
+        loop {
+            let column = side_table.0.get_or_init(|| Box::new(Column::of::<T>(len)));
+            if let Some(entries) = column.entries.downcast_ref::<Vec<OnceLock<T>>>() {
+                return &entries[index];
+            }
+            side_table = &column.next;
+        }
+    }
+}
+
+impl Column {
+    fn of<T: Any + Send + Sync>(len: usize) -> Self {
+        let entries: Vec<OnceLock<T>> = (0..len).map(|_| OnceLock::new()).collect();
+        Column {
+            entries: Box::new(entries),
+            next: SideTable::default(),
+        }
+    }
+}
+
+impl Clone for SideTable {
+    fn clone(&self) -> Self {
+        SideTable::default()
+    }
+}
+
+impl fmt::Debug for SideTable {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("SideTable").finish_non_exhaustive()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_type_and_piece_is_made_once() {
+        let side_table = SideTable::default();
+        for _ in 0..2 {
+            assert_eq!(*side_table.entry::<u32>(3, 1).get_or_init(|| 7), 7);
+            let text = side_table.entry::<String>(3, 1);
+            assert_eq!(text.get_or_init(|| "seven".to_owned()), "seven");
+            assert_eq!(*side_table.entry::<u32>(3, 2).get_or_init(|| 8), 8);
+        }
+        assert_eq!(side_table.entry::<u32>(3, 1).get(), Some(&7));
+        assert_eq!(side_table.entry::<u32>(3, 0).get(), None);
+        assert_eq!(side_table.clone().entry::<u32>(3, 1).get(), None);
+    }
+}

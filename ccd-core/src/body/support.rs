@@ -1,0 +1,91 @@
+//! The corner of a piece that is farthest along a direction `[FAST06 §4.2]`.
+
+mod directions;
+mod scan;
+mod table;
+#[cfg(test)]
+mod tests;
+mod tree;
+
+pub use directions::DIRECTIONS;
+pub use scan::SupportScan;
+pub use table::SupportTable;
+pub use tree::SupportTree;
+
+use super::facets::Facets;
+use crate::tolerance::CLIMBED_POINTS;
+use glam::DVec3;
+
+/// Finds extremal corners of one piece: all corners are looked at, eight at once, while they are few.
+/// Where they are many, a tree over them is searched, or, from a start that a table of directions
+/// gives, an edge is climbed after the other.
+///
+/// A [`Body`](crate::Body) keeps trees for its pieces of many points; they serve any points. Climbing
+/// takes half the time and relies on the facets.
+///
+/// ```
+/// use ccd_core::{glam::DVec3, Facets, Support};
+/// let corners = [DVec3::ZERO, DVec3::X, DVec3::Y];
+/// let support = Support::new(&corners, Facets::NONE);
+/// assert_eq!(support.extremal(DVec3::new(0.1, 1.0, 5.0)), 2);
+/// ```
+#[derive(Clone, Debug)]
+pub enum Support {
+    /// Looks at every corner.
+    Scan(SupportScan),
+    /// Climbs along edges.
+    Climb(Box<SupportTable>),
+    /// Searches a tree.
+    Tree(Box<SupportTree>),
+}
+
+impl Support {
+    /// Prepares a piece of these points. Where there are more than [`CLIMBED_POINTS`] of them, the
+    /// facets must be those of their hull; without facets, every point is looked at.
+    pub fn new(points: &[DVec3], facets: Facets<'_>) -> Self {
+        let climbed = points.len() > CLIMBED_POINTS;
+        match climbed.then(|| SupportTable::new(points, facets)).flatten() {
+            Some(table) => Support::Climb(Box::new(table)),
+            None => Support::Scan(SupportScan::new(points)),
+        }
+    }
+
+    /// Prepares a piece whatever its facets are.
+    pub(crate) fn of_points(points: &[DVec3]) -> Self {
+        Support::Tree(Box::new(SupportTree::new(points)))
+    }
+
+    /// The index of a point that is farthest along a direction of any length.
+    ///
+    /// # Guarantee
+    /// No point of the piece is farther by more than the rounding of two heights, which is
+    /// [`HEIGHT_F64`](crate::tolerance::HEIGHT_F64) of the direction's 1-norm and the largest
+    /// coordinate each. A direction that is not finite gives some point.
+    #[inline]
+    pub fn extremal(&self, direction: DVec3) -> u32 {
+        match self {
+            Support::Scan(scan) => scan.extremal(direction),
+            Support::Climb(table) => table.extremal(direction),
+            Support::Tree(tree) => tree.extremal(direction),
+        }
+    }
+
+    /// The same, for a direction along which a corner may be known to be about as far.
+    #[inline]
+    pub(crate) fn extremal_near(&self, corner: Option<u32>, direction: DVec3) -> u32 {
+        match (self, corner) {
+            (Support::Climb(table), Some(corner)) => table.extremal_from(corner, direction),
+            _ => self.extremal(direction),
+        }
+    }
+
+    /// A ball about the points, where one is known.
+    #[inline]
+    pub(crate) fn ball(&self) -> Option<(DVec3, f64)> {
+        match self {
+            Support::Scan(_) => None,
+            Support::Climb(table) => Some(table.ball()),
+            Support::Tree(tree) => Some(tree.ball()),
+        }
+    }
+}

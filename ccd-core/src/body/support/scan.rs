@@ -1,0 +1,55 @@
+//! All points looked at, several at once.
+
+use crate::math::order::greater;
+use glam::DVec3;
+
+/// How many points are looked at together: what two vectors of 256 bits hold.
+const LANES: usize = 8;
+
+/// The points of a piece laid out for the vector units: the slow way of many, the fast way of few.
+#[derive(Clone, Debug)]
+pub struct SupportScan {
+    /// x, y and z of eight points; the last point is repeated to fill the last block.
+    blocks: Vec<[[f64; LANES]; 3]>,
+    last: u32,
+}
+
+impl SupportScan {
+    /// Takes at least one point, and at most as many as an index can name.
+    pub fn new(points: &[DVec3]) -> Self {
+        let last = points.len().saturating_sub(1);
+        let point = |k: usize| points.get(k.min(last)).copied().unwrap_or_default();
+        let block = |first: usize| {
+            [0, 1, 2].map(|axis| std::array::from_fn(|lane| point(first + lane)[axis]))
+        };
+        SupportScan {
+            blocks: (0..points.len()).step_by(LANES).map(block).collect(),
+            last: last as u32,
+        }
+    }
+
+    /// The index of a point that is farthest along a direction; of several, the first.
+    ///
+    /// # Guarantee
+    /// As [`Support::extremal`](crate::Support::extremal).
+    ///
+    /// # Complexity
+    /// Linear in the points.
+    #[inline]
+    pub fn extremal(&self, direction: DVec3) -> u32 {
+        let (mut highest, mut of) = ([f64::NEG_INFINITY; LANES], [0u64; LANES]);
+        for ([x, y, z], block) in self.blocks.iter().zip(0u64..) {
+            for lane in 0..LANES {
+                let height =
+                    x[lane] * direction.x + (y[lane] * direction.y + z[lane] * direction.z);
+                let higher = height > highest[lane];
+                highest[lane] = if higher { height } else { highest[lane] };
+                of[lane] = if higher { block } else { of[lane] };
+            }
+        }
+        let most = highest.into_iter().fold(f64::NEG_INFINITY, greater);
+        let index = |lane: usize| (of[lane] * LANES as u64) as u32 + lane as u32;
+        let level = (0..LANES).filter(|&lane| highest[lane] == most);
+        level.map(index).min().unwrap_or(0).min(self.last)
+    }
+}

@@ -1,0 +1,165 @@
+//! A table of starts, and edges to climb along.
+
+use super::directions::{self, DIRECTIONS};
+use super::tree::ball_about;
+use crate::body::facets::Facets;
+use crate::math::order::greater;
+use crate::tolerance::{HEIGHT_F64, PLATEAU_POINTS};
+use glam::DVec3;
+
+/// The corners of a convex polytope, which of them are joined by an edge, and which are farthest
+/// along 114 directions.
+///
+/// # Memory
+/// About 70 bytes for each corner, and half a kilobyte.
+#[derive(Clone, Debug)]
+pub struct SupportTable {
+    points: Vec<DVec3>,
+    /// The largest coordinate.
+    reach: f64,
+    ball: (DVec3, f64),
+    neighbours: Vec<u32>,
+    /// Where each point's neighbours end.
+    ends: Vec<u32>,
+    starts: [u32; DIRECTIONS],
+}
+
+impl SupportTable {
+    /// Prepares points with the facets of their hull; none where no facets are known.
+    pub fn new(points: &[DVec3], facets: Facets<'_>) -> Option<Self> {
+        let first = *facets.iter().next()?.first()?;
+        let edges = facets.iter().flat_map(|corners| {
+            let next = corners.iter().cycle().skip(1);
+            corners.iter().copied().zip(next.copied())
+        });
+        // Of both facets that meet in an edge, either one names one of its two directions; where
+        // facets are wrong, both are still there.
+        let mut edges: Vec<(u32, u32)> = edges.flat_map(|(v, w)| [(v, w), (w, v)]).collect();
+        edges.sort_unstable();
+        edges.dedup();
+        let end = |v: usize| edges.partition_point(|&(from, _)| from as usize <= v) as u32;
+        let reach = |p: &DVec3| p.abs().max_element();
+        let mut table = SupportTable {
+            points: points.to_vec(),
+            reach: points.iter().map(reach).fold(0.0, greater),
+            ball: ball_about(points),
+            ends: (0..points.len()).map(end).collect(),
+            neighbours: edges.iter().map(|&(_, to)| to).collect(),
+            starts: [first; DIRECTIONS],
+        };
+        let mut at = first;
+        for (number, direction) in directions::all().enumerate() {
+            at = table.climb(at, direction);
+            table.starts[number] = at;
+        }
+        Some(table)
+    }
+
+    /// The index of a point that is farthest along a direction.
+    ///
+    /// # Guarantee
+    /// As [`Support::extremal`](crate::Support::extremal), provided that the facets are those of the
+    /// hull.
+    #[inline]
+    pub fn extremal(&self, direction: DVec3) -> u32 {
+        self.climb(self.starts[directions::nearest(direction)], direction)
+    }
+
+    /// The same from a known corner, e.g. the last answer; from one that is on no facet, the table's
+    /// start is taken.
+    #[inline]
+    pub fn extremal_from(&self, start: u32, direction: DVec3) -> u32 {
+        match self.neighbours(start) {
+            [] => self.extremal(direction),
+            _ => self.climb(start, direction),
+        }
+    }
+
+    /// The corners that share an edge with one; none for a point that is on no facet.
+    #[inline]
+    pub fn neighbours(&self, corner: u32) -> &[u32] {
+        let at = corner as usize;
+        let Some(&end) = self.ends.get(at) else {
+            return &[];
+        };
+        let start = if at == 0 { 0 } else { self.ends[at - 1] };
+        &self.neighbours[start as usize..end as usize]
+    }
+
+    /// A ball about the points.
+    #[inline]
+    pub(crate) fn ball(&self) -> (DVec3, f64) {
+        self.ball
+    }
+
+    /// Goes to the highest neighbour, again and again, until none is higher.
+    ///
+    /// From every corner edges lead upward to the highest one, so that a corner none of whose
+    /// neighbours is higher is the highest, in exact arithmetic. Heights are rounded: on such a way a
+    /// corner may seem lower than the one before, but never by more than twice the rounding than any
+    /// before. So all corners are gone through that are joined by corners no lower than that; one of
+    /// them is the highest, or one that is higher than here.
+    fn climb(&self, start: u32, direction: DVec3) -> u32 {
+        let slack = 2.0 * HEIGHT_F64 * self.reach * direction.abs().element_sum();
+        let (mut at, mut height) = (start, self.height(start, direction));
+        // Every round is higher than the last one.
+        for _ in 0..self.points.len() {
+            let (mut next, mut highest) = (at, f64::NEG_INFINITY);
+            for &neighbour in self.neighbours(at) {
+                let here = self.height(neighbour, direction);
+                if here > highest {
+                    (next, highest) = (neighbour, here);
+                }
+            }
+            if !(highest > height) {
+                if !(highest >= height - slack) {
+                    return at;
+                }
+                match self.beyond_level(at, height, slack, direction) {
+                    Some(higher) => (next, highest) = higher,
+                    None => return at,
+                }
+            }
+            (at, height) = (next, highest);
+        }
+        at
+    }
+
+    /// A corner that is higher, beyond corners that are level but for rounding.
+    fn beyond_level(
+        &self,
+        at: u32,
+        height: f64,
+        slack: f64,
+        direction: DVec3,
+    ) -> Option<(u32, f64)> {
+        let mut level = vec![at];
+        let mut next = 0;
+        while let Some(&from) = level.get(next) {
+            next += 1;
+            for &neighbour in self.neighbours(from) {
+                let here = self.height(neighbour, direction);
+                if here > height {
+                    return Some((neighbour, here));
+                }
+                if here >= height - slack && !level.contains(&neighbour) {
+                    level.push(neighbour);
+                }
+            }
+            if level.len() > PLATEAU_POINTS {
+                return self.highest(direction).filter(|&(_, here)| here > height);
+            }
+        }
+        None
+    }
+
+    fn highest(&self, direction: DVec3) -> Option<(u32, f64)> {
+        let all = (0..).zip(&self.points).map(|(k, p)| (k, direction.dot(*p)));
+        all.max_by(|a, b| a.1.total_cmp(&b.1))
+    }
+
+    #[inline]
+    fn height(&self, corner: u32, direction: DVec3) -> f64 {
+        direction.dot(self.points[corner as usize])
+    }
+}

@@ -1,0 +1,91 @@
+//! The tree against looking at every point.
+
+use super::looks;
+use crate::body::support::{Support, SupportTree};
+use crate::tests::scene::{Pcg64, RngExt, direction, magnitude, rng, within};
+use crate::tolerance::HEIGHT_F64;
+use glam::DVec3;
+
+/// Points of every kind: a ball's surface, a ball, a plane, a line, a single place, a grid, a needle.
+fn cloud(rng: &mut Pcg64, kind: usize, count: usize) -> Vec<DVec3> {
+    let [u, v] = [direction(rng), direction(rng)];
+    let whole = |rng: &mut Pcg64| f64::from(rng.random_range(-3..=3));
+    let place = |rng: &mut Pcg64| match kind {
+        0 => direction(rng),
+        1 => within(rng, 1.0),
+        2 => u * rng.random_range(-1.0..1.0) + v * rng.random_range(-1.0..1.0),
+        3 => u * rng.random_range(-1.0..1.0),
+        4 => DVec3::ZERO,
+        5 => DVec3::from_array([(); 3].map(|()| whole(rng))),
+        _ => u * rng.random_range(-1.0..1.0) + within(rng, 1e-7),
+    };
+    (0..count).map(|_| place(rng)).collect()
+}
+
+#[test]
+fn searching_finds_what_looking_at_all_finds() {
+    let mut rng = rng(21);
+    let counts = [
+        1, 2, 7, 8, 9, 63, 64, 65, 100, 511, 513, 1_000, 4_097, 5_000,
+    ];
+    for (number, count) in counts.into_iter().cycle().take(140).enumerate() {
+        // Of every size, and up to a million times their size away from the origin.
+        let size = magnitude(&mut rng, -30.0, 11.0);
+        let offset = direction(&mut rng) * size * magnitude(&mut rng, -3.0, 6.0);
+        let offset = if number % 3 == 0 { DVec3::ZERO } else { offset };
+        let points: Vec<DVec3> = cloud(&mut rng, number % 7, count)
+            .into_iter()
+            .map(|p| p * size + offset)
+            .collect();
+        let tree = SupportTree::new(&points);
+        let reach = points.iter().map(|p| p.abs().max_element());
+        let reach = reach.fold(0.0, crate::math::order::greater);
+        let (middle, radius) = tree.ball();
+        for p in &points {
+            assert!(p.distance(middle) <= radius * (1.0 + 16.0 * crate::tolerance::U64));
+        }
+        for look in looks(200) {
+            let height = |p: &DVec3| look.dot(*p);
+            let highest = points.iter().map(height);
+            let highest = highest.fold(f64::NEG_INFINITY, crate::math::order::greater);
+            let found = height(&points[tree.extremal(look) as usize]);
+            // The tree's own rounding, and that of the heights here.
+            let slack = 4.0 * HEIGHT_F64 * reach * look.abs().element_sum();
+            assert!(found >= highest - slack, "{count}: {:e}", highest - found);
+        }
+    }
+}
+
+/// What makes it worth having: of a ball's surface few points are looked at.
+#[test]
+fn of_a_curved_surface_little_is_looked_at() {
+    let mut rng = rng(22);
+    let points = cloud(&mut rng, 0, 32_768);
+    let tree = SupportTree::new(&points);
+    let looks = (0..200).map(|_| direction(&mut rng));
+    let seen: usize = looks.map(|look| tree.visits(look)).sum();
+    assert!(seen < 200 * 40, "{} nodes a search", seen / 200);
+}
+
+#[test]
+fn directions_that_are_none_give_some_point() {
+    let mut rng = rng(23);
+    let points = cloud(&mut rng, 1, 300);
+    let support = Support::of_points(&points);
+    for look in [DVec3::NAN, DVec3::INFINITY, DVec3::ZERO, -DVec3::INFINITY] {
+        assert!(support.extremal(look) < 300);
+    }
+}
+
+/// Points too close to each other to be told apart in f32, and points whose sizes are no numbers of f32.
+#[test]
+fn the_finest_points_are_all_looked_at() {
+    for size in [1e-320, 1e-300, 1e-60, 1e12] {
+        let points: Vec<DVec3> = (0..100)
+            .map(|k| DVec3::new(size * f64::from(k), 0.0, 0.0))
+            .collect();
+        let tree = SupportTree::new(&points);
+        assert_eq!(tree.extremal(DVec3::X), 99, "{size:e}");
+        assert_eq!(tree.extremal(-DVec3::X), 0, "{size:e}");
+    }
+}

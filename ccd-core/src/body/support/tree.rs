@@ -1,0 +1,328 @@
+//! A tree over the points of a piece, of which only those parts are looked at that may hold the
+//! farthest one.
+
+use crate::math::order::{greater, lesser};
+use crate::math::principal::principal_axes;
+use crate::math::vector::distance;
+use crate::tolerance::{DISC_F32, DISC_TILT_F32, FRAME_F64};
+use glam::{DMat3, DVec3, Vec3};
+
+/// How many points make a block, and how many children a group has.
+const LANES: usize = 8;
+
+/// The points of a piece in blocks of eight, and discs about the points of every block, of every eight
+/// blocks, and so on up to one group. Of a curved surface, discs shrink with the square of their
+/// width, so that few of them reach farther than the farthest point.
+///
+/// # Memory
+/// About 70 bytes for each point.
+#[derive(Clone, Debug)]
+pub struct SupportTree {
+    blocks: Vec<Block>,
+    groups: Vec<Discs>,
+    /// Where the groups of each level begin, those over blocks first; the last level is one group.
+    levels: Vec<usize>,
+    ball: (DVec3, f64),
+}
+
+/// Eight points less the middle, in units of the piece's size; the last one is repeated.
+#[derive(Clone, Debug)]
+#[repr(align(32))]
+struct Block {
+    points: [[f64; LANES]; 3],
+    /// What numbers the points go by.
+    numbers: [u32; LANES],
+}
+
+/// Eight discs, each of which holds the points below it: those at most `thickness` to either side
+/// along `normal` from `centre`, and at most `radius` across.
+#[derive(Clone, Debug)]
+#[repr(align(32))]
+struct Discs {
+    centre: [[f32; LANES]; 3],
+    normal: [[f32; LANES]; 3],
+    radius: [f32; LANES],
+    thickness: [f32; LANES],
+    /// What rounding takes at most; of lanes without a disc so little that nothing is below.
+    rounding: [f32; LANES],
+}
+
+impl SupportTree {
+    /// Takes at least one point, all finite, and at most as many as an index can name.
+    ///
+    /// # Complexity
+    /// O(n log n).
+    pub fn new(points: &[DVec3]) -> Self {
+        let (middle, reach) = ball_about(points);
+        let scale = power_of_two_above(reach).recip();
+        let placed: Vec<DVec3> = points.iter().map(|&p| (p - middle) * scale).collect();
+        let mut order: Vec<u32> = (0..points.len() as u32).collect();
+        arrange(&placed, &mut order);
+        let sorted: Vec<DVec3> = order.iter().map(|&k| placed[k as usize]).collect();
+        let mut tree = SupportTree {
+            blocks: order
+                .chunks(LANES)
+                .map(|of| Block::new(&placed, of))
+                .collect(),
+            groups: Vec::new(),
+            levels: Vec::new(),
+            ball: ball_about(points),
+        };
+        let mut width = LANES;
+        while width < sorted.len() {
+            tree.levels.push(tree.groups.len());
+            let groups = sorted.chunks(LANES * width);
+            tree.groups
+                .extend(groups.map(|points| Discs::new(points, width)));
+            width *= LANES;
+        }
+        tree
+    }
+
+    /// The index of a point that is farthest along a direction.
+    ///
+    /// # Guarantee
+    /// As [`Support::extremal`](crate::Support::extremal), whatever the points are.
+    ///
+    /// # Complexity
+    /// About logarithmic in the points of a curved surface; linear where all are equally far.
+    pub fn extremal(&self, direction: DVec3) -> u32 {
+        let mut look = Look::new(direction);
+        self.descend(self.levels.len(), 0, &mut look);
+        look.found
+    }
+
+    /// A ball about the points.
+    #[inline]
+    pub(crate) fn ball(&self) -> (DVec3, f64) {
+        self.ball
+    }
+
+    /// How many nodes are looked at for the farthest point.
+    #[cfg(test)]
+    pub(super) fn visits(&self, direction: DVec3) -> usize {
+        let mut look = Look::new(direction);
+        self.descend(self.levels.len(), 0, &mut look);
+        look.visits
+    }
+
+    /// Looks at what is below one node of a level, what may be farthest first.
+    fn descend(&self, level: usize, at: usize, look: &mut Look) {
+        #[cfg(test)]
+        {
+            look.visits += 1;
+        }
+        let Some(below) = level.checked_sub(1) else {
+            return look.at(&self.blocks[at]);
+        };
+        let mut bounds = self.groups[self.levels[below] + at].bounds(look.unit);
+        for _ in 0..LANES {
+            let lane = highest(&bounds);
+            // Written so that NaN ends it.
+            if !(bounds[lane] > look.floor) {
+                return;
+            }
+            bounds[lane] = f32::NEG_INFINITY;
+            self.descend(below, LANES * at + lane, look);
+        }
+    }
+}
+
+/// A direction, and the farthest point so far.
+struct Look {
+    direction: DVec3,
+    /// Its largest component is 1.
+    unit: Vec3,
+    size: f64,
+    highest: f64,
+    /// What a disc has to reach beyond to matter.
+    floor: f32,
+    found: u32,
+    #[cfg(test)]
+    visits: usize,
+}
+
+impl Look {
+    #[inline]
+    fn new(direction: DVec3) -> Self {
+        let size = direction.abs().max_element();
+        Look {
+            direction,
+            unit: (direction / size).as_vec3(),
+            size,
+            highest: f64::NEG_INFINITY,
+            floor: f32::NEG_INFINITY,
+            found: 0,
+            #[cfg(test)]
+            visits: 0,
+        }
+    }
+
+    #[inline]
+    fn at(&mut self, block: &Block) {
+        let ([x, y, z], d) = (&block.points, self.direction);
+        let mut heights = [0.0; LANES];
+        for k in 0..LANES {
+            heights[k] = x[k] * d.x + (y[k] * d.y + z[k] * d.z);
+        }
+        let lane = highest(&heights);
+        if heights[lane] > self.highest {
+            self.highest = heights[lane];
+            self.floor = ((self.highest / self.size) as f32).next_down();
+            self.found = block.numbers[lane];
+        }
+    }
+}
+
+impl Block {
+    fn new(placed: &[DVec3], numbers: &[u32]) -> Self {
+        let number = |lane: usize| numbers[lane.min(numbers.len() - 1)];
+        let row = |axis: usize| std::array::from_fn(|lane| placed[number(lane) as usize][axis]);
+        Block {
+            points: [0, 1, 2].map(row),
+            numbers: std::array::from_fn(number),
+        }
+    }
+}
+
+impl Discs {
+    /// Of at most eight times so many points.
+    fn new(points: &[DVec3], width: usize) -> Self {
+        let mut discs = Discs {
+            centre: [[0.0; LANES]; 3],
+            normal: [[0.0; LANES]; 3],
+            radius: [0.0; LANES],
+            thickness: [0.0; LANES],
+            rounding: [f32::NEG_INFINITY; LANES],
+        };
+        for (lane, points) in points.chunks(width).enumerate() {
+            let disc = Disc::about(points);
+            for axis in 0..3 {
+                discs.centre[axis][lane] = disc.centre[axis];
+                discs.normal[axis][lane] = disc.normal[axis];
+            }
+            discs.radius[lane] = disc.radius;
+            discs.thickness[lane] = disc.thickness;
+            discs.rounding[lane] = DISC_F32;
+        }
+        discs
+    }
+
+    /// How far the discs reach at most, along a direction whose largest component is 1.
+    #[inline]
+    fn bounds(&self, d: Vec3) -> [f32; LANES] {
+        let square = d.length_squared() * (1.0 + DISC_TILT_F32);
+        let ([x, y, z], [u, v, w]) = (&self.centre, &self.normal);
+        let mut bounds = [0.0; LANES];
+        for k in 0..LANES {
+            let along = u[k] * d.x + (v[k] * d.y + w[k] * d.z);
+            let across = square - along * along;
+            let across = if across > 0.0 { across } else { 0.0 }.sqrt();
+            let centre = x[k] * d.x + (y[k] * d.y + z[k] * d.z);
+            let reach = self.radius[k] * across + self.thickness[k] * along.abs();
+            bounds[k] = centre + reach + self.rounding[k];
+        }
+        bounds
+    }
+}
+
+/// A disc about some points; its numbers are as they are stored.
+struct Disc {
+    centre: Vec3,
+    normal: Vec3,
+    radius: f32,
+    thickness: f32,
+}
+
+impl Disc {
+    /// Its normal is the direction in which the points spread least.
+    fn about(points: &[DVec3]) -> Self {
+        let frame = principal_axes(|| points.iter().map(|&p| (p, 1.0)));
+        // What is no frame, for rounding or underflow, would make no disc.
+        let is_unit = |axis: DVec3| (axis.length_squared() - 1.0).abs() <= FRAME_F64;
+        let frame = match [0, 1, 2].into_iter().all(|k| is_unit(frame.col(k))) {
+            true => frame,
+            false => DMat3::IDENTITY,
+        };
+        let turned = frame.transpose();
+        let (low, high) = extent(points.iter().map(|&p| turned * p));
+        let thinnest = (high - low).min_position();
+        let centre = (frame * (0.5 * (low + high))).as_vec3();
+        let normal = frame.col(thinnest).as_vec3();
+        let (mut square, mut thickness) = (0.0, 0.0);
+        for &point in points {
+            let way = point - centre.as_dvec3();
+            let along = normal.as_dvec3().dot(way);
+            thickness = greater(thickness, along.abs());
+            square = greater(square, (way - along * normal.as_dvec3()).length_squared());
+        }
+        // One step for rounding to f32, one for rounding in f64.
+        let outward = |x: f64| (x as f32).next_up().next_up();
+        Disc {
+            centre,
+            normal,
+            radius: outward(square.sqrt()),
+            thickness: outward(thickness),
+        }
+    }
+}
+
+/// Brings points into an order in which each block, each eight blocks, and so on, are near each other.
+fn arrange(points: &[DVec3], order: &mut [u32]) {
+    if order.len() <= LANES {
+        return;
+    }
+    let mut unit = LANES;
+    while unit * LANES < order.len() {
+        unit *= LANES;
+    }
+    let at = |k: u32| points[k as usize];
+    let (low, high) = extent(order.iter().map(|&k| at(k)));
+    let axis = (high - low).max_position();
+    let half = order.len().div_ceil(unit) / 2 * unit;
+    order.select_nth_unstable_by(half, |&k, &l| at(k)[axis].total_cmp(&at(l)[axis]));
+    let (before, after) = order.split_at_mut(half);
+    arrange(points, before);
+    arrange(points, after);
+}
+
+/// The middle of the box of at least one point, and how far they are from it at most.
+pub(super) fn ball_about(points: &[DVec3]) -> (DVec3, f64) {
+    let (low, high) = extent(points.iter().copied());
+    let middle = low + 0.5 * (high - low);
+    let ways = points.iter().map(|&p| distance(p, middle));
+    (middle, ways.fold(0.0, greater).next_up())
+}
+
+/// The box of at least one point.
+fn extent(points: impl Iterator<Item = DVec3>) -> (DVec3, DVec3) {
+    let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    for point in points {
+        for axis in 0..3 {
+            low[axis] = lesser(low[axis], point[axis]);
+            high[axis] = greater(high[axis], point[axis]);
+        }
+    }
+    (low, high)
+}
+
+/// The power of two above a number; 1 of one too small to divide by.
+fn power_of_two_above(x: f64) -> f64 {
+    const EXPONENT: u64 = 0x7ff << 52;
+    match f64::from_bits(x.to_bits() & EXPONENT) {
+        below if below > 0.0 => 2.0 * below,
+        _ => 1.0,
+    }
+}
+
+/// The first lane of the highest value.
+#[inline]
+fn highest<T: PartialOrd + Copy>(values: &[T; LANES]) -> usize {
+    let (mut best, mut most) = (0, values[0]);
+    for (k, &value) in values.iter().enumerate().skip(1) {
+        let higher = value > most;
+        most = if higher { value } else { most };
+        best = if higher { k } else { best };
+    }
+    best
+}

@@ -1,0 +1,174 @@
+//! How often the surface of a body winds about a point, counted along a ray.
+
+use super::{Below, Node, Tree};
+use crate::body::pieces::Pieces;
+use crate::math::order::{greater, lesser};
+use crate::tolerance::{RAYS, SIGN_F64, U64};
+use glam::DVec3;
+use std::f64::consts::TAU;
+
+/// What a ray crosses of a surface, by the normals of its triangles: 1 where it leaves through one, −1
+/// where it enters.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Crossings {
+    /// Away from the ray's start: the winding number of a closed surface about points just ahead of it.
+    pub(crate) beyond: i32,
+    /// At the start, to within rounding.
+    pub(crate) at_start: i32,
+    /// How many triangles the start is on.
+    pub(crate) on: u32,
+    /// Which way the ray runs.
+    pub(crate) along: DVec3,
+}
+
+/// Counts along the first ray from a point that certainly passes all edges; none when there is no such
+/// ray. Triangles hold the point that it is no farther from than `slack`.
+///
+/// # Guarantee
+/// What is ahead of the point by more than rounding is counted as in exact arithmetic, and nothing that
+/// is behind it. The surface of pieces that are no triangles is the mesh's faces on them.
+pub(crate) fn crossings(
+    tree: &Tree,
+    pieces: &Pieces,
+    from: DVec3,
+    slack: f64,
+) -> Option<Crossings> {
+    let start = Start { from, slack };
+    (0..RAYS).find_map(|k| along(tree, pieces, start, direction(k)))
+}
+
+/// Where a ray starts, and how well that is known.
+#[derive(Clone, Copy)]
+struct Start {
+    from: DVec3,
+    slack: f64,
+}
+
+/// Directions all over the sphere, in no special relation to anything.
+fn direction(k: u32) -> DVec3 {
+    // Multiples of these two fractions are spread evenly over a square.
+    let [x, y] = [0.754_877_666_246_693, 0.569_840_290_998_053].map(|f| (f64::from(k) + 0.5) * f);
+    let height = 1.0 - 2.0 * x.fract();
+    let (sin, cos) = (TAU * y.fract()).sin_cos();
+    let radius = greater(0.0, 1.0 - height * height).sqrt();
+    DVec3::new(radius * cos, radius * sin, height)
+}
+
+fn along(tree: &Tree, pieces: &Pieces, start: Start, along: DVec3) -> Option<Crossings> {
+    let mut found = Crossings {
+        beyond: 0,
+        at_start: 0,
+        on: 0,
+        along,
+    };
+    let mut stack = vec![0u32];
+    while let Some(id) = stack.pop() {
+        let node = &tree.nodes[id as usize];
+        if !meets(node, start.from, along) {
+            continue;
+        }
+        match node.below {
+            Below::Boxes(group) => {
+                let members = &tree.boxes[group as usize].members;
+                stack.extend(members.first..members.first + members.count);
+            }
+            Below::Triangles(group) => {
+                let members = &tree.triangles[group as usize].members;
+                let first = members.first - tree.nodes.len() as u32;
+                for piece in first..first + members.count {
+                    found.add(pieces.triangle(piece as usize), start)?;
+                }
+            }
+            Below::Piece(piece) => {
+                for (_, triangle) in pieces.get(piece as usize).mesh_triangles() {
+                    found.add(triangle, start)?;
+                }
+            }
+        }
+    }
+    Some(found)
+}
+
+/// Whether a ray may meet a node's box.
+fn meets(node: &Node, from: DVec3, along: DVec3) -> bool {
+    let way = from - node.centre;
+    let (mut enter, mut leave) = (0.0f64, f64::INFINITY);
+    for k in 0..3 {
+        let axis = node.axes[k].as_dvec3();
+        // Places along the ray are as far off as the way is rounded, where it meets the box.
+        let half = node.reach_f64(k) + 32.0 * U64 * way.abs().element_sum();
+        let (start, speed) = (axis.dot(way), axis.dot(along));
+        let (near, far) = ((-half - start) / speed, (half - start) / speed);
+        // A ray within a slab, parallel to it, gives an infinity on either side; NaN counts as met.
+        enter = greater(enter, lesser(near, far));
+        leave = lesser(leave, greater(near, far));
+    }
+    !(enter > leave)
+}
+
+/// What is certain of a sign.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Sign {
+    Negative,
+    Unclear,
+    Positive,
+}
+
+impl Sign {
+    /// Of a number that is right to [`SIGN_F64`] of a size.
+    fn of(number: f64, size: f64) -> Sign {
+        // Written so that NaN is unclear; products that underflow are off by less than what is added.
+        let rounding = SIGN_F64 * size + f64::MIN_POSITIVE;
+        match () {
+            () if number > rounding => Sign::Positive,
+            () if number < -rounding => Sign::Negative,
+            () => Sign::Unclear,
+        }
+    }
+}
+
+impl Crossings {
+    /// Adds what the ray does at a triangle; none when that is not certain.
+    fn add(&mut self, triangle: [DVec3; 3], start: Start) -> Option<()> {
+        let along = self.along;
+        let corners = triangle.map(|p| p - start.from);
+        let size = |p: DVec3| p.abs().element_sum();
+        let ahead = corners.map(|p| Sign::of(along.dot(p), size(p)));
+        if ahead == [Sign::Negative; 3] {
+            return Some(());
+        }
+        let [a, b, c] = corners;
+        // Volumes of the ray with each edge: all of one sign where the line passes inside.
+        let sides = [(a, b), (b, c), (c, a)]
+            .map(|(p, q)| Sign::of(along.dot(p.cross(q)), size(p) * size(q)));
+        if sides.contains(&Sign::Positive) && sides.contains(&Sign::Negative) {
+            return Some(());
+        }
+        if sides.contains(&Sign::Unclear) {
+            // Past a triangle that is too small or too thin for its edges to tell.
+            let reach =
+                greater(size(b - a), size(c - a)) + SIGN_F64 * (size(a) + size(b) + size(c));
+            return (a.cross(along).abs().max_element() > 2.0 * reach).then_some(());
+        }
+        let sign = match sides[0] {
+            Sign::Positive => 1,
+            _ => -1,
+        };
+        let height = f64::from(sign) * a.dot(b.cross(c));
+        let normal = size((b - a).cross(c - a));
+        let height = match ahead == [Sign::Positive; 3] {
+            true => Sign::Positive,
+            _ if height.abs() <= start.slack * normal => Sign::Unclear,
+            false => Sign::of(height, size(a) * size(b) * size(c)),
+        };
+        match height {
+            Sign::Positive => self.beyond += sign,
+            Sign::Negative => {}
+            Sign::Unclear => {
+                self.at_start += sign;
+                self.on += 1;
+            }
+        }
+        Some(())
+    }
+}

@@ -1,0 +1,241 @@
+//! What every tree must be, for bodies of every kind.
+
+use super::*;
+use crate::body::pieces::Pieces;
+use crate::body::polytope::Polytope;
+use crate::body::{Body, Volume};
+use crate::math::order::greater;
+use crate::math::vector::length;
+use crate::tests::nearest::Triangle;
+use crate::tests::scene::{Look, Pcg64, RngExt, body, direction, magnitude, rng, soup, within};
+use glam::DVec3;
+
+/// Boxes and balls hold the points to within the rounding of the f64 arithmetic that checks it.
+const CHECK: f64 = 1e-14;
+
+/// Checks all that holds of any tree; how many groups it has.
+fn check(body: &Body) -> usize {
+    let (tree, pieces) = (body.tree(), body.pieces());
+    let mut seen = vec![0; pieces.len()];
+    let below_root = visit(tree, pieces, 0, &mut seen);
+    assert!(seen.iter().all(|&n| n == 1), "each piece once: {seen:?}");
+    assert_eq!(below_root.len(), pieces.len());
+    assert!(tree.span() >= farthest(pieces) * (1.0 - CHECK));
+    assert!(tree.bytes() >= size_of::<Node>() * tree.nodes.len());
+    tree.boxes.len() + tree.triangles.len()
+}
+
+fn farthest(pieces: &Pieces) -> f64 {
+    let reach =
+        |p: crate::Piece<'_>| p.points.iter().map(|&x| length(x)).fold(0.0, greater) + p.radius;
+    pieces.iter().map(reach).fold(0.0, greater)
+}
+
+/// Checks a node and all below it; the pieces below.
+fn visit(tree: &Tree, pieces: &Pieces, id: NodeId, seen: &mut [u32]) -> Vec<u32> {
+    let Named::Node(node) = tree.get(id) else {
+        let piece = tree.piece(id).expect("a triangle");
+        seen[piece as usize] += 1;
+        return vec![piece];
+    };
+    let mut below = Vec::new();
+    match node.below {
+        Below::Piece(piece) => {
+            assert_eq!(tree.piece(id), Some(piece));
+            seen[piece as usize] += 1;
+            below.push(piece);
+        }
+        Below::Boxes(group) => {
+            let group = tree.box_group(group);
+            for child in members(&group.members) {
+                let lane = (child - group.members.first) as usize;
+                let inside = visit(tree, pieces, child, seen);
+                check_row(group, lane, pieces, &inside);
+                let leaf = tree.piece(child).is_some();
+                assert_eq!(group.leaves >> lane & 1 == 1, leaf);
+                below.extend(inside);
+            }
+        }
+        Below::Triangles(group) => {
+            let group = tree.triangle_group(group);
+            for child in members(&group.members) {
+                let lane = (child - group.members.first) as usize;
+                let inside = visit(tree, pieces, child, seen);
+                let [piece] = inside[..] else {
+                    panic!("one triangle");
+                };
+                check_triangle(group, lane, pieces.triangle(piece as usize));
+                below.push(piece);
+            }
+        }
+    }
+    check_node(node, pieces, &below);
+    below
+}
+
+fn members(members: &Members) -> std::ops::Range<NodeId> {
+    assert!((1..=LANES as u32).contains(&members.count));
+    members.first..members.first + members.count
+}
+
+/// The box and the ball hold all points, rounding radii included.
+fn check_node(node: &Node, pieces: &Pieces, below: &[u32]) {
+    assert!(node.half.iter().all(|h| h.is_finite()) && node.radius.is_finite());
+    for axis in node.axes {
+        assert!((axis.as_dvec3().length() - 1.0).abs() < 4.0 * f64::from(f32::EPSILON));
+    }
+    let [x, y, z] = node.axes.map(|axis| axis.as_dvec3());
+    for askew in [x.dot(y), y.dot(z), z.dot(x)] {
+        assert!(askew.abs() < 4.0 * f64::from(f32::EPSILON), "{node:?}");
+    }
+    for &piece in below {
+        let piece = pieces.get(piece as usize);
+        for &point in piece.points {
+            let way = point - node.centre;
+            let slack = CHECK * (point.length() + node.centre.length());
+            assert!(way.length() + piece.radius <= f64::from(node.radius) + slack);
+            let half = node.half.map(|h| f64::from(h) + f64::from(node.rounding));
+            for (axis, half) in node.axes.iter().zip(half) {
+                let reach = way.dot(axis.as_dvec3()).abs() + piece.radius;
+                assert!(reach <= half + slack, "{reach:e} > {half:e}");
+            }
+        }
+    }
+}
+
+/// So does the row of a group, about the centre that is rounded there.
+fn check_row(group: &BoxGroup, lane: usize, pieces: &Pieces, below: &[u32]) {
+    let at =
+        |rows: &[[f32; LANES]; 3]| DVec3::from_array([0, 1, 2].map(|k| f64::from(rows[k][lane])));
+    let centre = group.members.origin + at(&group.centre);
+    for &piece in below {
+        let piece = pieces.get(piece as usize);
+        for &point in piece.points {
+            let way = point - centre;
+            let slack = CHECK * (point.length() + centre.length());
+            assert!(way.length() + piece.radius <= f64::from(group.radius[lane]) + slack);
+            for k in 0..3 {
+                let reach = way.dot(at(&group.axes[k])).abs() + piece.radius;
+                let half = f64::from(group.half[k][lane]) + f64::from(group.rounding[lane]);
+                assert!(reach <= half + slack);
+            }
+            let from_origin = (point - group.members.origin).length() + piece.radius;
+            assert!(from_origin <= f64::from(group.members.reach) + slack);
+        }
+    }
+}
+
+/// Corners are rounded to f32 relative to the group's origin, and the ball holds the true ones.
+fn check_triangle(group: &TriangleGroup, lane: usize, triangle: Triangle) {
+    let mean = (triangle[0] + triangle[1] + triangle[2]) / 3.0;
+    for (k, &corner) in triangle.iter().enumerate() {
+        let exact = corner - group.members.origin;
+        let slack = CHECK * (corner.length() + group.members.origin.length());
+        for axis in 0..3 {
+            let rounded = f64::from(group.corners[k][axis][lane]);
+            let allowed = exact[axis].abs() * f64::from(f32::EPSILON) / 2.0;
+            assert!((rounded - exact[axis]).abs() <= allowed + f64::from(f32::MIN_POSITIVE));
+        }
+        assert!((corner - mean).length() <= f64::from(group.radius[lane]) + slack);
+        assert!(exact.length() <= f64::from(group.members.reach) + slack);
+    }
+    let normal = DVec3::from_array(group.normal.map(|row| f64::from(row[lane])));
+    let off = (normal.length() - 1.0).abs();
+    assert!(
+        normal == DVec3::ZERO || off < f64::from(f32::EPSILON),
+        "{normal}"
+    );
+}
+
+fn random_soup(rng: &mut Pcg64, count: usize) -> Vec<Triangle> {
+    let look = Look::ALL[rng.random_range(0..5)];
+    let size = magnitude(rng, -6.0, 6.0);
+    let offset = size * magnitude(rng, -3.0, 6.0);
+    let middle = direction(rng) * offset;
+    let triangles = soup(rng, look, count, size);
+    triangles.iter().map(|t| t.map(|p| p + middle)).collect()
+}
+
+#[test]
+fn soups_of_every_kind_and_count() {
+    let mut rng = rng(1);
+    for count in (1..=80).chain([200, 511, 512, 513, 3_000]) {
+        for _ in 0..3 {
+            let groups = check(&body(&random_soup(&mut rng, count)));
+            // Eight lanes are put to use: not many more groups than clusters of eight.
+            assert!(groups <= 1 + count / 2, "{groups} for {count}");
+        }
+    }
+}
+
+#[test]
+fn single_equal_and_degenerate_pieces() {
+    let corner = [DVec3::ZERO, DVec3::X, DVec3::Y];
+    for count in [1, 2, 8, 9, 65, 300] {
+        check(&body(&vec![corner; count]));
+        check(&body(&vec![[DVec3::ONE; 3]; count]));
+        let line = |k: usize| [0.0, 0.3, 1.0].map(|t| (k as f64 + t) * DVec3::new(1.0, 2.0, 3.0));
+        check(&body(&(0..count).map(line).collect::<Vec<_>>()));
+        let flat = |k: usize| corner.map(|p| p + DVec3::new((k % 7) as f64, (k / 7) as f64, 0.0));
+        check(&body(&(0..count).map(flat).collect::<Vec<_>>()));
+    }
+}
+
+#[test]
+fn coordinates_up_to_the_largest_and_down_to_the_least() {
+    let mut rng = rng(2);
+    for scale in [1e-300, 1e-30, 1e-12, 1e6, 9e11] {
+        for count in [1, 7, 100] {
+            let triangles: Vec<Triangle> = soup(&mut rng, Look::Mixed, count, 0.5)
+                .iter()
+                .map(|t| t.map(|p| p * scale))
+                .collect();
+            check(&body(&triangles));
+        }
+    }
+}
+
+/// Below 1e-154 squares of components lose their digits, below 1e-162 they vanish.
+#[test]
+fn components_whose_squares_are_no_numbers() {
+    let mut rng = rng(4);
+    for _ in 0..3_000 {
+        let count = rng.random_range(1..30);
+        let tiny = magnitude(&mut rng, -170.0, -150.0);
+        let triangles: Vec<Triangle> = soup(&mut rng, Look::Plump, count, 1.0)
+            .iter()
+            .map(|t| {
+                let mut kept = |_| [1.0, tiny, 0.0][rng.random_range(0..3)];
+                let scale = [0, 1, 2].map(|_| DVec3::from_array([0, 1, 2].map(&mut kept)));
+                [0, 1, 2].map(|k| t[k] * scale[k])
+            })
+            .collect();
+        check(&body(&triangles));
+    }
+    // Frames that such normals gave: their lengths were off by up to a third.
+    for k in 0..2_000 {
+        let tiny = 1e-163 * 1.002f64.powi(k);
+        let across = DVec3::new(-tiny, tiny, 0.3 * tiny);
+        check(&body(&[[DVec3::ZERO, DVec3::new(1.0, 1.0, -2.0), across]]));
+    }
+}
+
+#[test]
+fn polytopes_balls_and_capsules_are_held_with_their_radii() {
+    let mut rng = rng(3);
+    for count in [1, 2, 8, 9, 70, 300] {
+        let polytopes: Vec<Polytope> = (0..count)
+            .map(|_| {
+                let at = within(&mut rng, 10.0);
+                let points = rng.random_range(1..12);
+                Polytope {
+                    points: (0..points).map(|_| at + within(&mut rng, 1.0)).collect(),
+                    radius: [0.0, 0.5, 3.0][rng.random_range(0..3)],
+                    ..Polytope::default()
+                }
+            })
+            .collect();
+        let pieces = Pieces::polytopes(&polytopes).unwrap();
+        check(&Body::new(&pieces, Volume::Surface).unwrap());
+    }
+}

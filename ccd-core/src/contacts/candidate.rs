@@ -1,0 +1,22 @@
+//! Two nearest points that may make a pair.
+
+use glam::DVec3;
+
+/// Two nearest points, in A's frame, and a face that each is on.
+#[derive(Clone, Copy)]
+pub(super) struct Candidate {
+    pub(super) points: [DVec3; 2],
+    pub(super) faces: [u32; 2],
+    /// Both faces' rounding radii: faces that share an edge or a corner may have others.
+    pub(super) radii: f64,
+}
+
+impl Candidate {
+    pub(super) fn distance(&self) -> f64 {
+        self.points[0].distance(self.points[1])
+    }
+
+    pub(super) fn gap(&self) -> f64 {
+        self.distance() - self.radii
+    }
+}

@@ -1,0 +1,183 @@
+//! The contract between the engine and whatever measures the distance of two pieces.
+
+use crate::body::combination::Combination;
+use crate::body::piece::Piece;
+use crate::motion::pose::Frame;
+use glam::DVec3;
+
+/// A backend: finds how far two convex pieces are apart.
+///
+/// # Contract
+/// For pieces P and Q, given in frame A (Q through [`PiecePair::b_to_a`]), radii ignored:
+/// 1. The [`Claim::axis`] points from P to Q; the better it is, the closer the pieces'
+///    support along it comes to their distance. It need not be a unit vector, nor finite.
+/// 2. The [`Claim::a`] and [`Claim::b`] name points of P and Q as convex combinations of their
+///    points; the nearer they are to the closest pair, the better.
+/// 3. When the pieces intersect, both combinations name (nearly) the same point.
+/// 4. It ends, after a bounded number of steps, on every input; when it can't say, it
+///    [gives up](GiveUp).
+/// 5. A cache that belongs to another pair, or to none, changes the time it takes, not the answer's
+///    worth.
+///
+/// # Guarantee
+/// The engine believes nothing of this unseen: along any axis n, `min_Q n·y − max_P n·x` bounds the
+/// distance from below, and any two points of P and Q bound it from above, whatever the oracle did
+/// ([`Separation`](crate::Separation)). A poor claim makes a query slow or
+/// [unresolved](crate::Outcome::Unresolved), never late.
+pub trait DistanceOracle {
+    /// What a call leaves for the next one on the same pair; the default is a cold start.
+    type Cache: Clone + Default;
+
+    /// Claims how far the pair is apart.
+    ///
+    /// # Errors
+    /// A [`GiveUp`] says why the oracle has no answer; the caller may ask another one
+    /// ([`OrElse`]).
+    fn separation(
+        &mut self,
+        pair: &PiecePair<'_>,
+        cache: &mut Self::Cache,
+    ) -> Result<Claim, GiveUp>;
+
+    /// What it took so far, over all calls; an oracle that does not count says 0.
+    fn effort(&self) -> Effort {
+        Effort::default()
+    }
+
+    /// Asks `other` wherever this oracle gives up.
+    fn or_else<O: DistanceOracle>(self, other: O) -> OrElse<Self, O>
+    where
+        Self: Sized,
+    {
+        OrElse {
+            first: self,
+            second: other,
+            fallbacks: 0,
+        }
+    }
+}
+
+/// Two pieces, each in its own body's frame, and how those frames lie to each other.
+#[derive(Clone, Copy, Debug)]
+pub struct PiecePair<'a> {
+    /// A piece of body A; A's frame is where claims are made.
+    pub a: Piece<'a>,
+    /// A piece of body B, in B's frame.
+    pub b: Piece<'a>,
+    /// Maps B's coordinates to A's.
+    pub b_to_a: Frame,
+}
+
+impl PiecePair<'_> {
+    /// How many points there are to look at.
+    pub(crate) fn points(&self) -> u64 {
+        self.a.looks() + self.b.looks()
+    }
+}
+
+/// What an oracle says of a pair, unchecked, in A's frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Claim {
+    /// Points from A's piece to B's piece; any length.
+    pub axis: DVec3,
+    /// The point of A's piece that is nearest to B's.
+    pub a: Combination,
+    /// The point of B's piece that is nearest to A's.
+    pub b: Combination,
+}
+
+/// What an oracle had to do, over many calls.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Effort {
+    /// Steps of its search: from features to neighbouring features, from simplex to simplex.
+    pub steps: u64,
+    /// How often it came back to where it had been.
+    pub cycles: u64,
+    /// How often it gave up and another oracle was asked.
+    pub fallbacks: u64,
+}
+
+impl std::ops::Add for Effort {
+    type Output = Effort;
+
+    fn add(self, other: Effort) -> Effort {
+        Effort {
+            steps: self.steps + other.steps,
+            cycles: self.cycles + other.cycles,
+            fallbacks: self.fallbacks + other.fallbacks,
+        }
+    }
+}
+
+impl std::ops::Sub for Effort {
+    type Output = Effort;
+
+    /// What was added since `earlier`.
+    fn sub(self, earlier: Effort) -> Effort {
+        Effort {
+            steps: self.steps - earlier.steps,
+            cycles: self.cycles - earlier.cycles,
+            fallbacks: self.fallbacks - earlier.fallbacks,
+        }
+    }
+}
+
+/// Why an oracle has no answer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum GiveUp {
+    /// It is made for pieces of fewer points.
+    TooManyPoints,
+    /// It needs the facets of the pieces' hulls, and they are not known, or do not close a hull.
+    BadFacets,
+    /// It ran into its cap of steps.
+    StepCap,
+    /// It came back to where it had been.
+    Cycle,
+    /// It could not certify what it found, from wherever it started.
+    Uncertified,
+}
+
+/// Two oracles, the second asked wherever the first one gives up; made by
+/// [`DistanceOracle::or_else`].
+#[derive(Clone, Debug, Default)]
+pub struct OrElse<First, Second> {
+    first: First,
+    second: Second,
+    fallbacks: u64,
+}
+
+impl<First, Second> OrElse<First, Second> {
+    /// How often the second oracle was asked.
+    pub fn fallbacks(&self) -> u64 {
+        self.fallbacks
+    }
+}
+
+impl<First: DistanceOracle, Second: DistanceOracle> DistanceOracle for OrElse<First, Second> {
+    /// The second oracle's is only made once it is asked: most pairs never need it.
+    type Cache = (First::Cache, Option<Box<Second::Cache>>);
+
+    fn separation(
+        &mut self,
+        pair: &PiecePair<'_>,
+        cache: &mut Self::Cache,
+    ) -> Result<Claim, GiveUp> {
+        self.first.separation(pair, &mut cache.0).or_else(|_| {
+            self.fallbacks += 1;
+            self.second
+                .separation(pair, cache.1.get_or_insert_default())
+        })
+    }
+
+    fn effort(&self) -> Effort {
+        let own = Effort {
+            fallbacks: self.fallbacks,
+            ..Effort::default()
+        };
+        own + self.first.effort() + self.second.effort()
+    }
+}
+
+#[cfg(test)]
+mod tests;

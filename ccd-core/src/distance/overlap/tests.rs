@@ -1,0 +1,278 @@
+//! Intersecting is told from touching.
+
+use super::{Intersection, intersects};
+use crate::body::Body;
+use crate::body::combination::Combination;
+use crate::body::piece::Piece;
+use crate::distance::oracle::{Claim, DistanceOracle, PiecePair};
+use crate::distance::separation;
+use crate::motion::pose::{Frame, Pose};
+use crate::tests::double::{Double, Double3};
+use crate::tests::nearest::Triangle;
+use crate::tests::oracle::Exhaustive;
+use crate::tests::scene::{RngExt, couple, rng, rotation, within};
+use glam::DVec3;
+
+const ROUNDING: f64 = 1e-13;
+
+/// What is found, which has to be decided.
+fn told(pair: &PiecePair<'_>, claim: &Claim) -> bool {
+    let checked = separation::check(pair, claim, ROUNDING);
+    match intersects(pair, &checked, ROUNDING) {
+        Intersection::Certain => true,
+        Intersection::None => false,
+        Intersection::Undecided => panic!("{pair:?}"),
+    }
+}
+
+fn at(translation: DVec3) -> Frame {
+    Frame {
+        translation,
+        ..Frame::IDENTITY
+    }
+}
+
+fn triangles(a: &Triangle, b: &Triangle) -> bool {
+    let pair = PiecePair {
+        a: Piece::from_points(a),
+        b: Piece::from_points(b),
+        b_to_a: Frame::IDENTITY,
+    };
+    let claim = Exhaustive.separation(&pair, &mut ()).unwrap();
+    told(&pair, &claim)
+}
+
+#[test]
+fn triangles_that_cross_intersect_and_those_that_touch_do_not() {
+    let flat = [DVec3::ZERO, 2.0 * DVec3::X, 2.0 * DVec3::Y];
+    let spike = |tip: f64| {
+        [
+            DVec3::new(0.5, 0.5, tip),
+            DVec3::new(0.4, 0.5, 1.0),
+            DVec3::new(0.6, 0.6, 1.0),
+        ]
+    };
+    assert!(triangles(&flat, &spike(-0.1)));
+    assert!(triangles(&flat, &spike(-1e-6)));
+    assert!(!triangles(&flat, &spike(0.0)), "a corner on a face");
+    assert!(!triangles(&flat, &spike(0.1)));
+    // A shared edge, a shared corner, the same triangle.
+    assert!(!triangles(&flat, &[DVec3::ZERO, 2.0 * DVec3::X, DVec3::Z]));
+    assert!(!triangles(
+        &flat,
+        &[DVec3::ZERO, -DVec3::X, DVec3::new(-1.0, -1.0, 1.0)]
+    ));
+    assert!(!triangles(&flat, &flat));
+    // Edges that meet within, at a right angle.
+    let above = [
+        DVec3::new(1.0, -1.0, 0.0),
+        DVec3::new(1.0, 1.0, 0.0),
+        DVec3::new(1.0, 0.0, 2.0),
+    ];
+    assert!(!triangles(&flat, &above), "an edge in the plane");
+    let through = above.map(|p| p - 0.5 * DVec3::Z);
+    assert!(triangles(&flat, &through));
+    // Coplanar triangles have no inside in common.
+    let beside = flat.map(|p| p + DVec3::new(0.3, 0.2, 0.0));
+    assert!(!triangles(&flat, &beside));
+}
+
+/// Random triangles, needles among them, whatever an honest oracle makes of them.
+#[test]
+fn the_same_as_all_axes_of_the_separating_axis_theorem() {
+    let mut rng = rng(1);
+    let mut counts = [0; 2];
+    for _ in 0..20_000 {
+        let pair = couple(&mut rng);
+        let exact = overlap_by_axes(&PiecePair {
+            a: Piece::from_points(&pair[0]),
+            b: Piece::from_points(&pair[1]),
+            b_to_a: Frame::IDENTITY,
+        });
+        assert_eq!(triangles(&pair[0], &pair[1]), exact, "{pair:?}");
+        counts[usize::from(exact)] += 1;
+    }
+    assert!(counts[0] > 10_000 && counts[1] > 200, "{counts:?}");
+}
+
+/// A claim of the witnesses' being at one point, whatever the axis.
+fn boxes(b_to_a: Frame) -> bool {
+    let body = Body::cuboid(DVec3::ONE).unwrap();
+    let piece = body.pieces().get(0);
+    let pair = PiecePair {
+        a: piece,
+        b: piece,
+        b_to_a,
+    };
+    // The middle of what both boxes have in common, as a point of either.
+    let middle = 0.5 * b_to_a.translation;
+    let named = |p: DVec3| -> Combination {
+        // Four corners about the point: trilinear weights along the box's diagonal directions.
+        let mut out = Combination::EMPTY;
+        for (corner, weight) in tetrahedron(p) {
+            out.push(corner, weight);
+        }
+        out
+    };
+    let claim = Claim {
+        axis: b_to_a.translation,
+        a: named(middle),
+        b: named(b_to_a.inverse_point(middle)),
+    };
+    told(&pair, &claim)
+}
+
+/// Weights of corners 0, 1, 3, 7 of a unit box, which name any point with x ≥ y ≥ z.
+fn tetrahedron(p: DVec3) -> [(u32, f64); 4] {
+    let mut order = [0, 1, 2];
+    order.sort_by(|&i, &j| p[j].total_cmp(&p[i]));
+    let [x, y, z] = order.map(|k| 0.5 * (p[k] + 1.0));
+    let first = 1 << order[0];
+    let second = first | 1 << order[1];
+    [(0, 1.0 - x), (first, x - y), (second, y - z), (7, z)]
+}
+
+#[test]
+fn boxes_overlap_by_more_than_rounding_or_not() {
+    let mut rng = rng(2);
+    for gap in [-1.0, -1e-3, -1e-9] {
+        for way in [DVec3::X, DVec3::Y, -DVec3::Z] {
+            assert!(boxes(at((2.0 + gap) * way)), "{gap} {way}");
+        }
+    }
+    for gap in [0.0, 1e-14, 1e-9, 1.0] {
+        for way in [DVec3::X, DVec3::Y, -DVec3::Z] {
+            assert!(!boxes(at((2.0 + gap) * way)), "{gap} {way}");
+        }
+    }
+    // Edge to edge: no face normal tells the two apart.
+    let turned = |axis: DVec3| glam::DQuat::from_axis_angle(axis, std::f64::consts::FRAC_PI_4);
+    let crossed = |gap: f64| {
+        let pose = Pose::new(
+            (2.0 * 2f64.sqrt() + gap) * DVec3::Z,
+            turned(DVec3::X).inverse() * turned(DVec3::Y),
+        );
+        // Seen from A, which is turned about x itself.
+        let a = Frame::from(Pose::new(DVec3::ZERO, turned(DVec3::X)).unwrap());
+        let b = Frame::from(Pose::new(pose.unwrap().translation(), turned(DVec3::Y)).unwrap());
+        boxes(a.from_frame(&b))
+    };
+    assert!(!crossed(1e-9));
+    assert!(crossed(-1e-3));
+    for _ in 0..100 {
+        let pose = Pose::new(within(&mut rng, 0.5), rotation(&mut rng)).unwrap();
+        assert!(boxes(Frame::from(pose)), "deep inside: {pose:?}");
+    }
+}
+
+#[test]
+fn rounded_pieces_intersect_when_their_cores_are_near() {
+    let capsule = Body::capsule(0.5, 1.0).unwrap();
+    let piece = capsule.pieces().get(0);
+    let cross = |x: f64| {
+        let turn = Pose::new(x * DVec3::X, glam::DQuat::from_rotation_x(1.0)).unwrap();
+        let pair = PiecePair {
+            a: piece,
+            b: piece,
+            b_to_a: turn.into(),
+        };
+        let claim = Exhaustive.separation(&pair, &mut ()).unwrap();
+        told(&pair, &claim)
+    };
+    assert!(cross(0.0) && cross(0.5) && cross(1.0 - 1e-9));
+    assert!(!cross(1.0) && !cross(1.0 + 1e-9) && !cross(2.0));
+}
+
+/// Whatever an oracle claims of them, pieces intersect or do not.
+#[test]
+fn a_liar_is_believed_neither_way() {
+    let mut rng = rng(3);
+    let body = Body::cuboid(DVec3::ONE).unwrap();
+    let piece = body.pieces().get(0);
+    let (mut overlaps, mut others) = (0, 0);
+    for _ in 0..2_000 {
+        let pose = Pose::new(within(&mut rng, 3.0), rotation(&mut rng)).unwrap();
+        let pair = PiecePair {
+            a: piece,
+            b: piece,
+            b_to_a: pose.into(),
+        };
+        let lie = Claim {
+            axis: within(&mut rng, 1.0),
+            a: Combination::point(rng.random_range(0..8)),
+            b: Combination::point(rng.random_range(0..8)),
+        };
+        let exact = overlap_by_axes(&pair);
+        assert_eq!(told(&pair, &lie), exact, "{pose:?}");
+        overlaps += usize::from(exact);
+        others += usize::from(!exact);
+    }
+    assert!(overlaps > 200 && others > 200, "{overlaps} {others}");
+}
+
+/// The slow and obvious twin, with twice the digits: no axis of the separating-axis theorem keeps the
+/// pieces apart. The axes are the normals of both and the cross products of their edges; for flat pieces
+/// also the normals of their edges within either plane.
+fn overlap_by_axes(pair: &PiecePair<'_>) -> bool {
+    let a = Directions::of(&pair.a, |p| p);
+    let b = Directions::of(&pair.b, |p| pair.b_to_a.point(p));
+    let across = |p: &[Double3], q: &[Double3]| -> Vec<Double3> {
+        let crossed = p.iter().flat_map(|e| q.iter().map(|f| e.cross(*f)));
+        crossed.collect()
+    };
+    let depth = |axis: &Double3| {
+        let heights =
+            |points: &[Double3]| -> Vec<Double> { points.iter().map(|p| axis.dot(*p)).collect() };
+        let (p, q) = (heights(&a.points), heights(&b.points));
+        let farthest = |h: &[Double]| h.iter().copied().reduce(Double::max).unwrap();
+        let nearest = |h: &[Double]| h.iter().copied().reduce(Double::min).unwrap();
+        let (one, other) = (farthest(&p) - nearest(&q), farthest(&q) - nearest(&p));
+        (one.min(other) / axis.length()).get()
+    };
+    [
+        a.normals.clone(),
+        b.normals.clone(),
+        across(&a.edges, &b.edges),
+        across(&a.normals, &a.edges),
+        across(&b.normals, &b.edges),
+        across(&a.normals, &b.edges),
+        across(&b.normals, &a.edges),
+    ]
+    .concat()
+    .iter()
+    .filter(|axis| axis.length().get() > 1e-25)
+    .all(|axis| depth(axis) > ROUNDING)
+}
+
+/// The points of a piece, its edges, each once, and the normals of its facets.
+struct Directions {
+    points: Vec<Double3>,
+    edges: Vec<Double3>,
+    normals: Vec<Double3>,
+}
+
+impl Directions {
+    fn of(piece: &Piece<'_>, place: impl Fn(DVec3) -> DVec3) -> Self {
+        let points: Vec<Double3> = piece.points.iter().map(|&p| place(p).into()).collect();
+        let all: Vec<u32> = (0..points.len() as u32).collect();
+        let loops: Vec<&[u32]> = match piece.facets.is_empty() {
+            true => vec![&all],
+            false => piece.facets.iter().collect(),
+        };
+        let (mut edges, mut normals) = (Vec::new(), Vec::new());
+        for corners in loops {
+            let at = |k: usize| points[corners[k % corners.len()] as usize];
+            for k in 0..corners.len() {
+                // Two facets share an edge, the other way round.
+                let once = piece.facets.is_empty() || corners[k] < corners[(k + 1) % corners.len()];
+                edges.extend(once.then(|| at(k + 1) - at(k)));
+            }
+            normals.push((at(1) - at(0)).cross(at(2) - at(0)));
+        }
+        Directions {
+            points,
+            edges,
+            normals,
+        }
+    }
+}

@@ -1,0 +1,113 @@
+//! Checking what an oracle claims: nothing of it is believed unseen.
+
+mod sharp;
+
+use super::oracle::{Claim, PiecePair};
+use crate::body::combination::Combination;
+use crate::math::order::{greater, lesser};
+use crate::math::vector::{length, unit_or_any};
+use glam::DVec3;
+pub(crate) use sharp::sharpened;
+
+/// A checked claim, in A's frame.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Checked {
+    /// What was claimed; its combinations name points that exist.
+    pub(crate) claim: Claim,
+    /// Bounds the distance from below, rounding deducted; negative when no axis separates.
+    pub(crate) lower: f64,
+    /// Bounds the distance from above, rounding added.
+    pub(crate) upper: f64,
+    /// The unit axis that `lower` was computed along.
+    pub(crate) axis: DVec3,
+    /// The distance of the witnesses before the pieces' radii are taken off.
+    pub(crate) core_distance: f64,
+    /// The points that `upper` was computed from, on the rounded surfaces.
+    pub(crate) witness_a: DVec3,
+    pub(crate) witness_b: DVec3,
+}
+
+/// Checks a claim with one support query per axis and one pair of points; `rounding` bounds the
+/// error of either.
+///
+/// # Guarantee
+/// `lower ≤ distance ≤ upper`, whatever was claimed.
+pub(crate) fn check(pair: &PiecePair<'_>, claim: &Claim, rounding: f64) -> Checked {
+    let (a, on_a) = named(claim.a, pair.a.points);
+    let (b, on_b) = named(claim.b, pair.b.points);
+    let on_b = pair.b_to_a.point(on_b);
+    let way = on_b - on_a;
+    let distance = length(way);
+    let radii = pair.a.radius + pair.b.radius;
+
+    let mut axis = unit_or_any(claim.axis);
+    let near = [&a, &b].map(|claimed| claimed.support().first().copied());
+    let mut gap = support_gap_near(pair, axis, on_a, near);
+    // Written so that NaN asks for the second axis.
+    if !(gap > 0.5 * distance) {
+        let second = unit_or_any(way);
+        let second_gap = support_gap_near(pair, second, on_a, near);
+        if !(gap >= second_gap) {
+            (axis, gap) = (second, second_gap);
+        }
+    }
+    let outward = if distance > 0.0 {
+        unit_or_any(way)
+    } else {
+        axis
+    };
+    Checked {
+        claim: Claim { axis, a, b },
+        lower: gap - radii - rounding,
+        upper: greater(0.0, distance - radii) + rounding,
+        axis,
+        core_distance: distance,
+        witness_a: on_a + outward * pair.a.radius,
+        witness_b: on_b - outward * pair.b.radius,
+    }
+}
+
+/// `min_B n·y − max_A n·x` of the unrounded pieces, with heights measured from `from`.
+#[inline]
+pub(crate) fn support_gap(pair: &PiecePair<'_>, n: DVec3, from: DVec3) -> f64 {
+    support_gap_near(pair, n, from, [None; 2])
+}
+
+/// The same; where edges are climbed, from corners that may be known to be about as far as any.
+#[inline]
+fn support_gap_near(pair: &PiecePair<'_>, n: DVec3, from: DVec3, near: [Option<u32>; 2]) -> f64 {
+    let highest = match pair.a.support {
+        Some(support) => {
+            let farthest = support.extremal_near(near[0], n);
+            n.dot(pair.a.points[farthest as usize] - from)
+        }
+        None => {
+            let heights = pair.a.points.iter().map(|&x| n.dot(x - from));
+            heights.fold(f64::NEG_INFINITY, greater)
+        }
+    };
+    let n_b = pair.b_to_a.inverse_vector(n);
+    let origin_b = n.dot(pair.b_to_a.translation - from);
+    let lowest = match pair.b.support {
+        Some(support) => {
+            let farthest = support.extremal_near(near[1], -n_b);
+            n_b.dot(pair.b.points[farthest as usize])
+        }
+        None => {
+            let heights = pair.b.points.iter().map(|&y| n_b.dot(y));
+            heights.fold(f64::INFINITY, lesser)
+        }
+    };
+    lowest + origin_b - highest
+}
+
+/// The point that a combination names; one that names none of the piece's is replaced.
+fn named(combination: Combination, points: &[DVec3]) -> (Combination, DVec3) {
+    match combination.of(points) {
+        Some(point) => (combination, point),
+        None => (Combination::point(0), points[0]),
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,77 @@
+//! Better axes than the one that was claimed: those of the features that the nearest points lie on.
+
+use super::{Checked, support_gap};
+use crate::body::combination::Combination;
+use crate::body::piece::Piece;
+use crate::distance::oracle::PiecePair;
+use crate::math::vector::{across, unit};
+use glam::{DMat3, DVec3};
+
+/// What was checked, along the best axis that the claim's features have.
+///
+/// The way between nearest points is as exact as their coordinates: along it two pieces that are near,
+/// for their size, lose some of their distance. The normal of a face, or of two edges, is exact to its
+/// last bits.
+pub(crate) fn sharpened(pair: &PiecePair<'_>, checked: &Checked, rounding: f64) -> Checked {
+    let radii = pair.a.radius + pair.b.radius;
+    let mut best = *checked;
+    for axis in axes(pair, checked).into_iter().filter_map(unit) {
+        for axis in [axis, -axis] {
+            let lower = support_gap(pair, axis, checked.witness_a) - radii - rounding;
+            if lower > best.lower {
+                best = Checked {
+                    lower,
+                    axis,
+                    ..best
+                };
+            }
+        }
+    }
+    best
+}
+
+/// The way between the witnesses; across it and a single edge; the normals of faces, and of two edges.
+fn axes(pair: &PiecePair<'_>, checked: &Checked) -> [DVec3; 4] {
+    let way = checked.witness_b - checked.witness_a;
+    let on_a = Feature::of(&pair.a, &checked.claim.a);
+    let on_b = Feature::of(&pair.b, &checked.claim.b).seen(pair.b_to_a.rotation);
+    let edges = match (on_a.edge, on_b.edge) {
+        (Some(e), Some(f)) => across(e, f),
+        (Some(e), None) | (None, Some(e)) => across(across(e, way), e),
+        (None, None) => DVec3::ZERO,
+    };
+    [way, edges, on_a.normal, on_b.normal]
+}
+
+/// What a nearest point lies on.
+struct Feature {
+    edge: Option<DVec3>,
+    /// Of its face, or of the piece where that is a triangle; zero where there is none.
+    normal: DVec3,
+}
+
+impl Feature {
+    /// In the piece's frame.
+    fn of(piece: &Piece<'_>, combination: &Combination) -> Self {
+        let points = piece.points;
+        let way = |from: u32, to: u32| points[to as usize] - points[from as usize];
+        let support = combination.support();
+        let edge = match *support {
+            [a, b, ..] => Some(way(a, b)),
+            _ => None,
+        };
+        let normal = match (support, points.len()) {
+            (&[a, b, c, ..], _) => across(way(a, b), way(a, c)),
+            (_, 3) => across(way(0, 1), way(0, 2)),
+            _ => DVec3::ZERO,
+        };
+        Feature { edge, normal }
+    }
+
+    fn seen(self, turn: DMat3) -> Self {
+        Feature {
+            edge: self.edge.map(|e| turn * e),
+            normal: turn * self.normal,
+        }
+    }
+}

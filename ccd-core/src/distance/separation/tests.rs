@@ -1,0 +1,202 @@
+//! Claims are checked, true ones and lies alike.
+
+use super::*;
+use crate::body::piece::Piece;
+use crate::distance::oracle::DistanceOracle;
+use crate::motion::pose::{Frame, Pose};
+use crate::tests::nearest::{Triangle, nearest};
+use crate::tests::oracle::Exhaustive;
+use crate::tests::scene::{self, Pcg64, RngExt, magnitude, rng, rotation, within};
+
+const ROUNDING: f64 = 1e-13;
+
+/// A random pair of triangles, and its exact distance.
+fn couple(rng: &mut Pcg64) -> (Triangle, Triangle, Frame, f64) {
+    let pair = scene::couple(rng);
+    let pose = Pose::new(within(rng, 0.5), rotation(rng)).unwrap();
+    let frame = Frame::from(pose);
+    let distance = nearest(&pair[0], &pair[1].map(|p| frame.point(p))).distance;
+    (pair[0], pair[1], frame, distance)
+}
+
+fn claim_of(rng: &mut Pcg64) -> Claim {
+    let mut numbers = || match rng.random_range(0..6) {
+        0 => f64::NAN,
+        1 => f64::INFINITY,
+        2 => 0.0,
+        3 => -1.0,
+        4 => magnitude(rng, -300.0, 300.0),
+        _ => rng.random_range(-1.0..1.0),
+    };
+    let axis = DVec3::new(numbers(), numbers(), numbers());
+    let weights: [f64; 6] = std::array::from_fn(|_| numbers());
+    let mut combinations = weights.chunks(3).map(|weights| {
+        let mut out = Combination::EMPTY;
+        for &weight in weights {
+            out.push(rng.random_range(0..4), weight);
+        }
+        out
+    });
+    Claim {
+        axis,
+        a: combinations.next().unwrap(),
+        b: combinations.next().unwrap(),
+    }
+}
+
+#[test]
+fn bounds_hold_whatever_is_claimed() {
+    let mut rng = rng(1);
+    let mut replaced = 0;
+    for _ in 0..50_000 {
+        let (a, b, b_to_a, distance) = couple(&mut rng);
+        let pair = PiecePair {
+            a: Piece::from_points(&a),
+            b: Piece::from_points(&b),
+            b_to_a,
+        };
+        let claim = claim_of(&mut rng);
+        let checked = check(&pair, &claim, ROUNDING);
+        assert!(
+            checked.lower <= distance,
+            "{} > {distance}: {claim:?}",
+            checked.lower
+        );
+        assert!(
+            checked.upper >= distance,
+            "{} < {distance}: {claim:?}",
+            checked.upper
+        );
+        assert!((checked.axis.length() - 1.0).abs() < 1e-15, "{claim:?}");
+        let between = checked.witness_a.distance(checked.witness_b);
+        assert!((between - checked.core_distance).abs() < 1e-14);
+        // Features are named by points that exist.
+        for (combination, points) in [(checked.claim.a, a), (checked.claim.b, b)] {
+            assert!(combination.of(&points).is_some());
+        }
+        replaced += usize::from(checked.claim.a != claim.a);
+    }
+    assert!(replaced > 5_000, "{replaced}");
+}
+
+#[test]
+fn a_true_claim_is_tight() {
+    let mut rng = rng(2);
+    let (mut apart, mut across) = (0, 0);
+    for _ in 0..10_000 {
+        let (a, b, b_to_a, distance) = couple(&mut rng);
+        let pair = PiecePair {
+            a: Piece::from_points(&a),
+            b: Piece::from_points(&b),
+            b_to_a,
+        };
+        let claim = Exhaustive.separation(&pair, &mut ()).unwrap();
+        let checked = check(&pair, &claim, ROUNDING);
+        assert!(checked.upper <= distance + 3.0 * ROUNDING);
+        if distance > 1e-3 {
+            assert!(
+                checked.lower >= distance - 1e-9,
+                "{} {distance}",
+                checked.lower
+            );
+            apart += 1;
+        } else {
+            across += 1;
+        }
+    }
+    assert!(apart > 5_000 && across > 300, "{apart} {across}");
+}
+
+/// Weights that overflow when they are summed must not make two distant pieces touch.
+#[test]
+fn weights_that_overflow_are_a_lie_like_any_other() {
+    let a = [DVec3::ZERO, DVec3::X, DVec3::Y];
+    let b = a.map(|p| p + 5.0 * DVec3::Z);
+    let pair = PiecePair {
+        a: Piece::from_points(&a),
+        b: Piece::from_points(&b),
+        b_to_a: Frame::IDENTITY,
+    };
+    for weight in [f64::MAX, 1e308, 5e-324, 1e-310] {
+        let mut lie = Combination::EMPTY;
+        for (index, share) in [(0, 1.0), (1, 0.7), (2, 0.9), (1, 1.0)] {
+            lie.push(index, weight * share);
+        }
+        let claim = Claim {
+            axis: DVec3::Z,
+            a: lie,
+            b: lie,
+        };
+        let checked = check(&pair, &claim, ROUNDING);
+        assert!(checked.upper >= 5.0, "{weight:e}: {}", checked.upper);
+        assert!(checked.witness_a.is_finite(), "{weight:e}");
+        // In the triangle's hull.
+        let at = checked.witness_a;
+        assert!(
+            at.min_element() >= 0.0 && at.x + at.y <= 1.0 + 1e-12,
+            "{weight:e}: {at}"
+        );
+    }
+}
+
+#[test]
+fn radii_are_taken_off_and_witnesses_lie_on_the_surface() {
+    let (a, b) = ([DVec3::ZERO], [3.0 * DVec3::X]);
+    let ball = |points, radius| Piece {
+        radius,
+        ..Piece::from_points(points)
+    };
+    let pair = PiecePair {
+        a: ball(&a, 1.0),
+        b: ball(&b, 0.5),
+        b_to_a: Frame::IDENTITY,
+    };
+    let claim = Claim {
+        axis: DVec3::X,
+        a: Combination::point(0),
+        b: Combination::point(0),
+    };
+    let checked = check(&pair, &claim, 0.0);
+    assert_eq!((checked.lower, checked.upper), (1.5, 1.5));
+    assert_eq!(checked.witness_a, DVec3::X);
+    assert_eq!(checked.witness_b, 2.5 * DVec3::X);
+    assert_eq!(checked.core_distance, 3.0);
+}
+
+/// The way between near points is rounded; large triangles lose what that tilts it by.
+#[test]
+fn features_have_better_axes_than_near_points() {
+    let mut rng = rng(3);
+    let floor = [[-8.0, -8.0, 0.0], [8.0, -8.0, 0.0], [0.0, 8.0, 0.0]].map(DVec3::from);
+    let corner = [[0.0, 0.0, 0.0], [8.0, 1.0, 16.0], [-8.0, 1.0, 16.0]].map(DVec3::from);
+    let edge = [[-8.0, 0.0, 0.0], [8.0, 0.0, 0.0], [0.0, 0.0, 16.0]].map(DVec3::from);
+    let below = |triangle: Triangle| triangle.map(|p| DVec3::new(p.y, p.x, -p.z));
+    let couples = [(floor, corner), (below(edge), edge), (below(corner), floor)];
+    let mut poor = 0;
+    for k in 0..3_000 {
+        let distance = magnitude(&mut rng, -4.0, -1.0);
+        let (a, b) = couples[k % 3];
+        let b_to_a = Frame::from(Pose::new(DVec3::ZERO, rotation(&mut rng)).unwrap());
+        let b = b.map(|p| b_to_a.inverse_vector(p + distance * DVec3::Z));
+        let pair = PiecePair {
+            a: Piece::from_points(&a),
+            b: Piece::from_points(&b),
+            b_to_a,
+        };
+        let claim = Exhaustive.separation(&pair, &mut ()).unwrap();
+        let tilted = Claim {
+            axis: DVec3::Z + within(&mut rng, 1e-11),
+            ..claim
+        };
+        let checked = check(&pair, &tilted, ROUNDING);
+        let sharp = sharpened(&pair, &checked, ROUNDING);
+        assert!(sharp.lower <= distance, "{k}: {} {distance}", sharp.lower);
+        assert!(
+            sharp.lower >= distance - 2.0 * ROUNDING,
+            "{k}: {:e}",
+            distance - sharp.lower
+        );
+        poor += usize::from(checked.lower < distance - 10.0 * ROUNDING);
+    }
+    assert!(poor > 2_000, "{poor}");
+}

@@ -1,0 +1,131 @@
+//! Points by where they are, to find those in front of planes.
+
+use super::order::greater;
+use crate::tolerance::height_rounding;
+use glam::DVec3;
+use std::ops::Range;
+
+/// Points in a binary tree of boxes.
+///
+/// Many planes that each have few of many points in front, or on them, such as the facets of a hull, are
+/// told from the rest in about O(log n) each.
+///
+/// ```
+/// use ccd_core::glam::DVec3;
+/// use ccd_core::point_tree::PointTree;
+/// let tree = PointTree::new(&[DVec3::ZERO, DVec3::Z, -DVec3::Z]);
+/// let mut found = Vec::new();
+/// tree.for_each_not_behind([DVec3::ZERO, DVec3::X, DVec3::Y], |k| found.push(k));
+/// found.sort();
+/// assert_eq!(found, [0, 1]);
+/// ```
+#[derive(Clone, Debug)]
+pub struct PointTree {
+    /// All places are relative to this one.
+    base: DVec3,
+    /// In the order of the leaves, with the numbers that they were given by.
+    points: Vec<(DVec3, u32)>,
+    /// Every node before those below it, the left ones first.
+    nodes: Vec<Node>,
+    /// The largest absolute coordinate.
+    reach: f64,
+}
+
+#[derive(Clone, Debug)]
+struct Node {
+    middle: DVec3,
+    half: DVec3,
+    /// The points of a leaf; none of an inner node.
+    points: Range<u32>,
+    /// The first node that is not below it.
+    next: u32,
+}
+
+/// The most points of a leaf.
+const LEAF: usize = 8;
+
+impl PointTree {
+    /// O(n log n).
+    pub fn new(points: &[DVec3]) -> Self {
+        let base = points.first().copied().unwrap_or(DVec3::ZERO);
+        let mut tree = PointTree {
+            base,
+            points: points.iter().map(|&p| p - base).zip(0..).collect(),
+            nodes: Vec::with_capacity(4 * points.len() / LEAF + 1),
+            reach: 0.0,
+        };
+        if !points.is_empty() {
+            tree.build(0..points.len());
+        }
+        // Of the boxes rather than of the points, as it is their corners that heights are taken of.
+        let corner = |node: &Node| (node.middle.abs() + node.half).max_element();
+        tree.reach = tree.nodes.iter().map(corner).fold(0.0, greater);
+        tree
+    }
+
+    /// Halves the count each time, so that it is at most as deep as a count has bits.
+    fn build(&mut self, range: Range<usize>) {
+        let points = &mut self.points[range.clone()];
+        let (mut lo, mut hi) = (points[0].0, points[0].0);
+        for &(p, _) in points.iter() {
+            (lo, hi) = (lo.min(p), hi.max(p));
+        }
+        // Widened by what halving rounds off; the sum of two products in place of one is within the
+        // allowance for heights.
+        let (middle, half) = ((lo + hi) / 2.0, (hi - lo) / 2.0);
+        let half = half + (lo.abs().max(hi.abs())) * f64::EPSILON;
+        let at = self.nodes.len();
+        let is_leaf = points.len() <= LEAF;
+        self.nodes.push(Node {
+            middle,
+            half,
+            points: match is_leaf {
+                true => range.start as u32..range.end as u32,
+                false => 0..0,
+            },
+            next: 0,
+        });
+        if !is_leaf {
+            let axis = half.max_position();
+            let split = points.len() / 2;
+            points.select_nth_unstable_by(split, |p, q| p.0[axis].total_cmp(&q.0[axis]));
+            self.build(range.start..range.start + split);
+            self.build(range.start + split..range.end);
+        }
+        self.nodes[at].next = self.nodes.len() as u32;
+    }
+
+    /// Calls back with the number of every point that is not certainly behind the plane of a triangle,
+    /// whose front is where it is seen counter-clockwise from.
+    ///
+    /// # Guarantee
+    /// Points that it passes over are behind the plane in exact arithmetic. Coordinates are at most
+    /// [`MAX_COORDINATE`](crate::limits::MAX_COORDINATE).
+    pub fn for_each_not_behind(&self, plane: [DVec3; 3], mut visit: impl FnMut(u32)) {
+        let [a, b, c] = plane;
+        let (u, v, foot) = (b - a, c - a, a - self.base);
+        let normal = u.cross(v);
+        let reach = greater(self.reach, foot.abs().max_element());
+        let least = normal.dot(foot) - height_rounding([u, v], reach);
+        let mut at = 0;
+        // Every step leads to a later node.
+        while let Some(node) = self.nodes.get(at) {
+            // Written so that NaN goes on.
+            if normal.dot(node.middle) + normal.abs().dot(node.half) < least {
+                at = node.next as usize;
+                continue;
+            }
+            for &(point, number) in
+                &self.points[node.points.start as usize..node.points.end as usize]
+            {
+                if !(normal.dot(point) < least) {
+                    visit(number);
+                }
+            }
+            at += 1;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

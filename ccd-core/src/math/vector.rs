@@ -1,0 +1,97 @@
+//! Lengths and directions of vectors of any size.
+//!
+//! A length is the root of a sum of squares, and squares of components below about 1e-154 lose their
+//! digits, then vanish; above 1e154 they overflow. A vector divided by such a length is no unit vector,
+//! and what is measured along it is no distance. Whatever is proven along an axis takes it from here.
+
+use crate::tolerance::{SCALE, SQUARES};
+use glam::DVec3;
+
+/// The unit vector along `v`; none along zero, and where a component is NaN or infinite.
+///
+/// # Guarantee
+/// Its length is 1 to within `4u`, however short or long the vector is: three squares and their sum (3u,
+/// halved by the root), the root and the quotient (1u each).
+///
+/// ```
+/// use ccd_core::{glam::DVec3, vector::unit};
+/// let tiny = DVec3::new(3e-320, 4e-320, 0.0);
+/// assert!((unit(tiny).unwrap().length() - 1.0).abs() < 1e-15);
+/// assert_eq!(unit(DVec3::ZERO), None);
+/// ```
+#[inline]
+pub fn unit(v: DVec3) -> Option<DVec3> {
+    let square = v.length_squared();
+    match SQUARES.contains(&square) {
+        true => Some(v / square.sqrt()),
+        false => unit_of_extreme(v),
+    }
+}
+
+#[cold]
+fn unit_of_extreme(v: DVec3) -> Option<DVec3> {
+    let v = scaled(v).0;
+    let length = v.length();
+    // False for NaN too.
+    (length > 0.0 && length.is_finite()).then(|| v / length)
+}
+
+/// The unit vector, or an arbitrary one where there is none: a support gap is a bound along any.
+#[inline]
+pub(crate) fn unit_or_any(v: DVec3) -> DVec3 {
+    unit(v).unwrap_or(DVec3::X)
+}
+
+/// The length of a vector.
+///
+/// # Guarantee
+/// Right to within `4u` of itself, or to the last bit where that is a denormal number.
+#[inline]
+pub fn length(v: DVec3) -> f64 {
+    let (v, back) = scaled(v);
+    v.length() * back
+}
+
+/// The distance of two points: the [length] of what leads from one to the other.
+#[inline]
+pub fn distance(a: DVec3, b: DVec3) -> f64 {
+    length(b - a)
+}
+
+/// A vector across two others, of any length; zero where they are parallel but for rounding.
+///
+/// The components of a cross product are products, which vanish where the vectors are short; so either
+/// is brought to a length near 1 first.
+#[inline]
+pub fn across(a: DVec3, b: DVec3) -> DVec3 {
+    scaled(a).0.cross(scaled(b).0)
+}
+
+/// The unit normal of a triangle, from which its corners turn left; none where they are on one line.
+#[inline]
+pub fn normal([a, b, c]: [DVec3; 3]) -> Option<DVec3> {
+    let across_both = (b - a).cross(c - a);
+    let square = across_both.length_squared();
+    // Products that underflowed or overflowed leave a square that is neither.
+    match SQUARES.contains(&square) {
+        true => Some(across_both / square.sqrt()),
+        false => unit_of_extreme(across(b - a, c - a)),
+    }
+}
+
+/// The vector times a power of two, such that its square is an ordinary number, and the inverse of that
+/// power.
+#[inline]
+fn scaled(v: DVec3) -> (DVec3, f64) {
+    let square = v.length_squared();
+    if square < *SQUARES.start() {
+        (v * SCALE, SCALE.recip())
+    } else if square > *SQUARES.end() {
+        (v * SCALE.recip(), SCALE)
+    } else {
+        (v, 1.0)
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,53 @@
+//! How fast a moving body advances along a fixed axis, at most.
+//!
+//! Coarser than the exact [`Track`](super::track::Track) of a point:
+//! - [`published`]: Eq. 5 of the paper, which holds at one instant only and is unsound over a step;
+//! - [`sound`]: holds over any later interval `[C2A09]`.
+
+use crate::math::order::greater;
+use crate::math::vector::length;
+use glam::DVec3;
+
+/// Constant velocity of a centre and constant angular velocity about it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Velocities {
+    /// Of the centre.
+    pub(crate) linear: DVec3,
+    /// About the centre, radians per unit of time.
+    pub(crate) spin: DVec3,
+}
+
+/// Which bound of a body's advance along an axis a schedule divides distances by.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Bound {
+    /// `max (n×ω)·r + |v·n|` over the arms r, as the paper prints it `[FAST06 §4.2 Eq. 5]`. It holds at
+    /// one instant only. **Unsound** over a step: times may be late, and contacts missed.
+    Published,
+    /// `v·n + |n×ω| ρ`, where ρ is the largest distance from the axis of rotation: it holds over any
+    /// interval `[C2A09]`.
+    #[default]
+    Sound,
+}
+
+/// `maxᵢ (n×ω)·rᵢ + |v·n|`: the fastest advance along `n` at this very instant, over the arms `rᵢ`
+/// from the centre, of which `farthest` tells the one that is farthest along a direction
+/// `[FAST06 §4.2 Eq. 5]`.
+///
+/// **Unsound over a step**: the arms turn with the body. It is here to be compared with.
+pub(crate) fn published(
+    motion: &Velocities,
+    n: DVec3,
+    farthest: impl FnOnce(DVec3) -> DVec3,
+) -> f64 {
+    let c = n.cross(motion.spin);
+    greater(0.0, c.dot(farthest(c))) + motion.linear.dot(n).abs()
+}
+
+/// `v·n + |n×ω| ρ`: an upper bound of the rate of advance along `n` at any time, for points no
+/// farther than `reach` from the axis of rotation `[C2A09]`, signed.
+///
+/// # Guarantee
+/// Holds over any interval; exact arithmetic up to a few units in the last place.
+pub(crate) fn sound(motion: &Velocities, n: DVec3, reach: f64) -> f64 {
+    motion.linear.dot(n) + length(n.cross(motion.spin)) * reach
+}

@@ -1,0 +1,62 @@
+//! How long a gap stays open.
+
+use crate::tolerance::{RATE_F64, WORTHWHILE};
+
+/// A gap that closes: at most by `rate τ + bend τ²/2` within `τ`.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Gap {
+    pub(crate) gap: f64,
+    pub(crate) rate: f64,
+    pub(crate) bend: f64,
+}
+
+impl Gap {
+    /// The longest time for which the gap stays open for certain; 0 when it is not open, NaN
+    /// included.
+    #[inline]
+    pub(crate) fn free_time(&self) -> f64 {
+        let (gap, rate, bend) = (self.gap, self.rate, self.bend);
+        if rate.is_nan() {
+            return 0.0;
+        }
+        let root = (rate * rate + 2.0 * bend * gap).sqrt();
+        // Where the squares underflow, the root is no less than the rate still; NaN stays NaN.
+        let root = if root < rate.abs() { rate.abs() } else { root };
+        let tau = if rate > 0.0 {
+            2.0 * gap / (rate + root)
+        } else if bend > 0.0 {
+            (root - rate) / bend
+        } else {
+            f64::INFINITY
+        };
+        // A pair that is not apart gets no free time, also when it recedes.
+        if gap > 0.0 && tau > 0.0 {
+            tau * (1.0 - RATE_F64)
+        } else {
+            0.0
+        }
+    }
+}
+
+/// The first time within `[0, horizon]` at which a gap may close, or a lower bound of it, or none
+/// if it stays open; `free_time(τ)` is a time for which it stays open from `τ` on.
+#[inline]
+pub(crate) fn first_crossing(
+    horizon: f64,
+    rounds: usize,
+    free_time: impl Fn(f64) -> f64,
+) -> Option<f64> {
+    let mut tau = 0.0;
+    for _ in 0..rounds {
+        let step = free_time(tau);
+        tau += step;
+        if tau >= horizon {
+            return None;
+        }
+        // Steps shrink from here on: what is left is not worth a round.
+        if step <= tau * WORTHWHILE {
+            break;
+        }
+    }
+    Some(tau)
+}

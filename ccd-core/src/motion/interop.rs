@@ -1,0 +1,51 @@
+//! Conversions from and to the types of other libraries.
+
+use super::pose::Pose;
+use crate::error::InputError;
+use glam::{DQuat, DVec3};
+use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
+
+impl TryFrom<Isometry3<f64>> for Pose {
+    type Error = InputError;
+
+    /// The same placement.
+    ///
+    /// # Errors
+    /// [`InputError::NotFinite`] for a NaN or infinite part.
+    fn try_from(isometry: Isometry3<f64>) -> Result<Self, InputError> {
+        let t = isometry.translation.vector;
+        let q = isometry.rotation.coords;
+        Pose::new(
+            DVec3::new(t.x, t.y, t.z),
+            DQuat::from_xyzw(q.x, q.y, q.z, q.w),
+        )
+    }
+}
+
+impl From<Pose> for Isometry3<f64> {
+    fn from(pose: Pose) -> Self {
+        let (t, q) = (pose.translation(), pose.rotation());
+        Isometry3::from_parts(
+            Translation3::new(t.x, t.y, t.z),
+            UnitQuaternion::new_normalize(Quaternion::new(q.w, q.x, q.y, q.z)),
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn there_and_back() {
+        let rotation = DQuat::from_xyzw(0.1, -0.2, 0.3, 0.9);
+        let pose = Pose::new(DVec3::new(1.0, 2.0, 3.0), rotation).unwrap();
+        let isometry = Isometry3::from(pose);
+        let point = isometry * nalgebra::Point3::new(0.5, -1.0, 2.0);
+        let expected = pose.transform_point(DVec3::new(0.5, -1.0, 2.0));
+        assert!(DVec3::new(point.x, point.y, point.z).distance(expected) < 1e-14);
+        let back = Pose::try_from(isometry).unwrap();
+        assert!(back.rotation().angle_between(pose.rotation()) < 1e-7);
+        assert_eq!(back.translation(), pose.translation());
+    }
+}

@@ -1,0 +1,126 @@
+//! A motion in a problem's own units: time runs from 0 to 1, and the origin is where both bodies
+//! are near, so that neither a far world nor a long duration costs digits.
+
+use super::Motion;
+use super::bound::Velocities;
+use super::pose::Frame;
+use super::trig::sin_cos;
+use crate::math::order::greater;
+use crate::math::vector::{length, unit};
+use glam::{DMat3, DVec3};
+
+/// `R(s) = cos(ω s) A + sin(ω s) B + C` about a centre at `start + s · velocity` `[FAST06 §4.1]`.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Path {
+    /// `A = R₀ − C`
+    cosine: DMat3,
+    /// `B = [u]× R₀`
+    sine: DMat3,
+    /// `C = u uᵀ R₀`
+    constant: DMat3,
+    /// The rotation's centre, in the body's frame.
+    pub(crate) centre: DVec3,
+    /// The centre's place at `s = 0`.
+    start: DVec3,
+    /// The centre's velocity, per unit of `s`.
+    pub(crate) velocity: DVec3,
+    /// The angular velocity along the world's axes, per unit of `s`.
+    pub(crate) spin: DVec3,
+    /// The same along the body's axes; it does not change.
+    pub(crate) spin_local: DVec3,
+    /// `|spin|`
+    pub(crate) rate: f64,
+    /// The direction of `spin`; zero where the body does not turn.
+    pub(crate) axis: DVec3,
+}
+
+impl Path {
+    pub(crate) fn new(motion: &Motion, origin: DVec3, duration: f64) -> Self {
+        let start = Frame::from(motion.start());
+        let spin = motion.spin() * duration;
+        let axis = unit(spin).unwrap_or(DVec3::ZERO);
+        let constant = outer(axis) * start.rotation;
+        let velocity = motion.velocity() * duration;
+        Path {
+            cosine: start.rotation - constant,
+            sine: cross_matrix(axis) * start.rotation,
+            constant,
+            centre: motion.centre(),
+            start: (start.translation - origin) + start.rotation * motion.centre(),
+            velocity,
+            spin,
+            spin_local: start.inverse_vector(spin),
+            rate: length(spin),
+            axis,
+        }
+    }
+
+    /// Where the body is at `s`.
+    #[inline]
+    pub(crate) fn frame(&self, s: f64) -> Frame {
+        let rotation = if self.rate > 0.0 {
+            let (sin, cos) = sin_cos(self.rate * s);
+            self.cosine * cos + self.sine * sin + self.constant
+        } else {
+            self.cosine + self.constant
+        };
+        Frame {
+            rotation,
+            translation: self.centre_at(s) - rotation * self.centre,
+        }
+    }
+
+    /// Where the centre of rotation is at `s`.
+    #[inline]
+    pub(crate) fn centre_at(&self, s: f64) -> DVec3 {
+        self.start + self.velocity * s
+    }
+
+    /// How fast the point of the body that is at `x` moves.
+    #[inline]
+    pub(crate) fn velocity_at(&self, x: DVec3, s: f64) -> DVec3 {
+        self.velocity + self.spin.cross(x - self.centre_at(s))
+    }
+
+    /// Per unit of `s`.
+    pub(crate) fn velocities(&self) -> Velocities {
+        Velocities {
+            linear: self.velocity,
+            spin: self.spin,
+        }
+    }
+
+    /// How far the farthest of some points of the body is from the axis of rotation, which does not
+    /// change; 0 where it does not turn.
+    pub(crate) fn reach(&self, points: &[DVec3]) -> f64 {
+        if !self.turns() {
+            return 0.0;
+        }
+        let axis = unit(self.spin_local).unwrap_or(DVec3::ZERO);
+        let squares = points
+            .iter()
+            .map(|&x| axis.cross(x - self.centre).length_squared());
+        squares.fold(0.0, greater).sqrt()
+    }
+
+    pub(crate) fn turns(&self) -> bool {
+        self.rate > 0.0
+    }
+}
+
+/// `u uᵀ`
+fn outer(u: DVec3) -> DMat3 {
+    DMat3::from_cols(u * u.x, u * u.y, u * u.z)
+}
+
+/// `[u]×`
+fn cross_matrix(u: DVec3) -> DMat3 {
+    DMat3::from_cols(
+        DVec3::new(0.0, u.z, -u.y),
+        DVec3::new(-u.z, 0.0, u.x),
+        DVec3::new(u.y, -u.x, 0.0),
+    )
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,63 @@
+//! A path is the motion less the origin, in units of the duration.
+
+use super::Path;
+use crate::motion::Motion;
+use crate::motion::pose::Pose;
+use crate::tests::scene::{RngExt, direction, magnitude, rng, rotation, within};
+use glam::DVec3;
+
+#[test]
+fn frames_are_the_poses_of_the_motion_less_the_origin() {
+    let mut rng = rng(1);
+    for _ in 0..2_000 {
+        let start = Pose::new(within(&mut rng, 9.0), rotation(&mut rng)).unwrap();
+        let turn = match rng.random_range(0..3) {
+            0 => 0.0,
+            1 => magnitude(&mut rng, -12.0, -3.0),
+            _ => magnitude(&mut rng, -3.0, 1.6),
+        };
+        let duration = magnitude(&mut rng, -3.0, 3.0);
+        let motion = Motion::about(
+            start,
+            within(&mut rng, 5.0) / duration,
+            direction(&mut rng) * turn / duration,
+            within(&mut rng, 3.0),
+        )
+        .unwrap();
+        let origin = within(&mut rng, 9.0);
+        let path = Path::new(&motion, origin, duration);
+        let point = within(&mut rng, 3.0);
+        for s in [0.0, 0.3, 1.0, rng.random_range(0.0..1.0)] {
+            let frame = path.frame(s);
+            let truth = motion.pose(s * duration).transform_point(point) - origin;
+            let scale = 1e-14 * (10.0 + turn);
+            assert!(
+                frame.point(point).distance(truth) < scale,
+                "{motion:?} at {s}"
+            );
+            assert!(path.centre_at(s).distance(frame.point(motion.centre())) < scale);
+            // The velocity is the limit of what is covered in a short time.
+            let step = 1e-6;
+            let moved = path.frame(s + step).point(point) - frame.point(point);
+            let velocity = path.velocity_at(frame.point(point), s);
+            let error = (moved / step).distance(velocity);
+            assert!(
+                error < 1e-5 * (1.0 + turn * turn) + 1e-7 * (10.0 + turn),
+                "{error:e}"
+            );
+        }
+        assert_eq!(path.turns(), turn > 0.0);
+        let spin = path.frame(0.7).rotation * path.spin_local;
+        assert!(spin.distance(path.spin) < 1e-13 * (1.0 + turn));
+    }
+}
+
+#[test]
+fn without_a_turn_the_rotation_does_not_change_by_a_bit() {
+    let mut rng = rng(2);
+    let start = Pose::new(DVec3::ONE, rotation(&mut rng)).unwrap();
+    let motion = Motion::new(start, DVec3::X, DVec3::ZERO).unwrap();
+    let path = Path::new(&motion, DVec3::ZERO, 1.0);
+    assert_eq!(path.frame(0.0).rotation, path.frame(0.9).rotation);
+    assert_eq!(path.rate, 0.0);
+}

@@ -1,0 +1,150 @@
+//! The exact height of a turning point along an axis.
+
+use crate::math::vector::length;
+use glam::DVec3;
+
+/// The height of one moving point along a fixed axis:
+/// `height + drift τ + (cos ωτ − 1) p + sin ωτ q`.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Track {
+    height: f64,
+    drift: f64,
+    p: f64,
+    q: f64,
+    omega: f64,
+}
+
+impl Track {
+    #[inline]
+    pub(crate) fn height_at(&self, tau: f64, angle: Angle) -> f64 {
+        self.height + self.drift * tau + angle.cos_minus_one * self.p + angle.sin * self.q
+    }
+
+    #[inline]
+    pub(crate) fn rate_at(&self, angle: Angle) -> f64 {
+        self.drift + self.omega * (angle.cos * self.q - angle.sin * self.p)
+    }
+
+    /// A bound of the second derivative.
+    #[inline]
+    pub(crate) fn bend(&self) -> f64 {
+        self.omega * self.omega * (self.p * self.p + self.q * self.q).sqrt()
+    }
+}
+
+/// What all points of a body share when seen along one axis.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct AxisMotion {
+    drift: f64,
+    /// `n` less its part along the axis of rotation.
+    across: DVec3,
+    /// `n × u`
+    beside: DVec3,
+    omega: f64,
+}
+
+impl AxisMotion {
+    /// `unit` is the direction of the axis of rotation, zero if there is none.
+    #[inline]
+    pub(crate) fn new(linear: DVec3, unit: DVec3, omega: f64, n: DVec3) -> Self {
+        AxisMotion {
+            drift: linear.dot(n),
+            across: n - n.dot(unit) * unit,
+            beside: n.cross(unit),
+            omega,
+        }
+    }
+
+    /// Of points that go straight.
+    #[inline]
+    pub(crate) fn drift(&self) -> f64 {
+        self.drift
+    }
+
+    /// A bound of the second derivative of the height of points at most so far from the axis of
+    /// rotation.
+    #[inline]
+    pub(crate) fn bend(&self, distance: f64) -> f64 {
+        self.omega * self.omega * length(self.across) * distance
+    }
+
+    #[inline]
+    pub(crate) fn track(&self, height: f64, arm: DVec3) -> Track {
+        Track {
+            height,
+            drift: self.drift,
+            p: self.across.dot(arm),
+            q: self.beside.dot(arm),
+            omega: self.omega,
+        }
+    }
+}
+
+/// Sine, cosine, and cosine less one without cancellation.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Angle {
+    sin: f64,
+    cos: f64,
+    cos_minus_one: f64,
+}
+
+impl Angle {
+    pub(crate) const ZERO: Angle = Angle {
+        sin: 0.0,
+        cos: 1.0,
+        cos_minus_one: 0.0,
+    };
+
+    #[inline]
+    pub(crate) fn new(theta: f64) -> Self {
+        let (s, c) = (0.5 * theta).sin_cos();
+        let cos_minus_one = -2.0 * s * s;
+        Angle {
+            sin: 2.0 * s * c,
+            cos: 1.0 + cos_minus_one,
+            cos_minus_one,
+        }
+    }
+}
+
+/// A vector that turns about an axis.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Spinning {
+    start: DVec3,
+    /// The vector less its part along the axis.
+    across: DVec3,
+    /// `u × v`
+    beside: DVec3,
+}
+
+impl Spinning {
+    /// `unit` is the direction of the axis, zero if there is none.
+    #[inline]
+    pub(crate) fn new(unit: DVec3, start: DVec3) -> Self {
+        Spinning {
+            start,
+            across: start - start.dot(unit) * unit,
+            beside: unit.cross(start),
+        }
+    }
+
+    #[inline]
+    pub(crate) fn at(&self, angle: Angle) -> DVec3 {
+        self.start + self.across * angle.cos_minus_one + self.beside * angle.sin
+    }
+
+    /// Its derivative, per radian.
+    #[inline]
+    pub(crate) fn slope_at(&self, angle: Angle) -> DVec3 {
+        self.beside * angle.cos - self.across * angle.sin
+    }
+
+    /// The length of the derivative, which does not change.
+    #[inline]
+    pub(crate) fn slope(&self) -> f64 {
+        self.beside.length()
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,235 @@
+//! Tracks against the formula they stand for, and the three bounds against sampled truth.
+
+use super::{Angle, AxisMotion, Track};
+use crate::math::order::{greater, lesser};
+use crate::math::vector::{length, unit};
+use crate::motion::bound::{Velocities, published, sound};
+use crate::motion::gap::{Gap, first_crossing};
+use crate::tests::scene::{Pcg64, RngExt, direction, magnitude, rng, within};
+use glam::{DQuat, DVec3};
+
+impl Track {
+    /// The track along `n` of a point that starts at `height` along it, at arm `arm` from the
+    /// motion's centre.
+    fn new(motion: &Velocities, n: DVec3, height: f64, arm: DVec3) -> Self {
+        let axis = unit(motion.spin).unwrap_or(DVec3::ZERO);
+        AxisMotion::new(motion.linear, axis, length(motion.spin), n).track(height, arm)
+    }
+
+    /// The height after `tau`.
+    fn at(&self, tau: f64) -> f64 {
+        self.height_at(tau, Angle::new(self.omega * tau))
+    }
+}
+
+/// A random motion, axis and arm, all of about unit size.
+fn setting(rng: &mut Pcg64) -> (Velocities, DVec3, DVec3) {
+    let turn = match rng.random_range(0..5) {
+        0 => 0.0,
+        1 => magnitude(rng, -9.0, -1.0),
+        _ => magnitude(rng, -1.0, 1.6),
+    };
+    let fast = match rng.random_range(0..4) {
+        0 => 0.0,
+        _ => magnitude(rng, -3.0, 2.0),
+    };
+    let motion = Velocities {
+        linear: direction(rng) * fast,
+        spin: direction(rng) * turn,
+    };
+    (motion, direction(rng), within(rng, 1.0))
+}
+
+fn height(motion: &Velocities, n: DVec3, height: f64, arm: DVec3, tau: f64) -> f64 {
+    let turned = DQuat::from_scaled_axis(motion.spin * tau) * arm;
+    height + n.dot(motion.linear * tau + turned - arm)
+}
+
+#[test]
+fn a_track_is_the_height_of_a_turning_point() {
+    let mut rng = rng(1);
+    for _ in 0..10_000 {
+        let (motion, n, arm) = setting(&mut rng);
+        let track = Track::new(&motion, n, 0.3, arm);
+        let tau = rng.random_range(0.0..1.0);
+        let size = 2.0 + motion.linear.length() + motion.spin.length();
+        let off = track.at(tau) - height(&motion, n, 0.3, arm, tau);
+        assert!(off.abs() < 1e-14 * size, "{off:e} {motion:?}");
+    }
+}
+
+/// The highest point of a track over `[0, tau]`: dense samples, the best of them refined by golden
+/// sections.
+fn highest(track: &Track, turns: f64, tau: f64) -> f64 {
+    let samples = 64 + (64.0 * turns) as usize;
+    let at = |k: usize| tau * k as f64 / samples as f64;
+    let best = (0..=samples).max_by(|&i, &j| track.at(at(i)).total_cmp(&track.at(at(j))));
+    let best = best.unwrap();
+    let (mut low, mut high) = (at(best.saturating_sub(1)), at((best + 1).min(samples)));
+    for _ in 0..100 {
+        let (first, second) = (low + 0.382 * (high - low), low + 0.618 * (high - low));
+        if track.at(first) < track.at(second) {
+            low = first;
+        } else {
+            high = second;
+        }
+    }
+    greater(track.at(0.5 * (low + high)), track.at(at(best)))
+}
+
+/// When a track may reach a limit, within a duration of 1.
+fn crossing(track: &Track, limit: f64) -> Option<f64> {
+    first_crossing(1.0, 64, |tau| {
+        let angle = Angle::new(track.omega * tau);
+        Gap {
+            gap: limit - track.height_at(tau, angle),
+            rate: track.rate_at(angle),
+            bend: track.bend(),
+        }
+        .free_time()
+    })
+}
+
+#[test]
+fn the_first_crossing_is_never_late_and_near() {
+    let mut rng = rng(3);
+    let (mut crossings, mut near) = (0, 0);
+    for _ in 0..10_000 {
+        let (motion, n, arm) = setting(&mut rng);
+        let track = Track::new(&motion, n, 0.0, arm);
+        let limit = magnitude(&mut rng, -6.0, 0.3);
+        let samples = 64 + (64.0 * motion.spin.length()) as usize;
+        let at = |k: usize| k as f64 / samples as f64;
+        let truth = (1..=samples).find(|&k| track.at(at(k)) >= limit);
+        let found = crossing(&track, limit);
+        let until = found.unwrap_or(1.0);
+        let before = highest(&track, motion.spin.length() * until, until);
+        let size = 1.0 + motion.linear.length() + motion.spin.length();
+        assert!(
+            before <= limit + 1e-14 * size,
+            "{before:e} > {limit:e}: {motion:?}"
+        );
+        let Some(k) = truth else { continue };
+        let found = found.expect("a crossing that samples find");
+        assert!(found <= at(k));
+        crossings += 1;
+        // What is left is not worth a round.
+        let (mut low, mut high) = (at(k - 1), at(k));
+        for _ in 0..100 {
+            let middle = 0.5 * (low + high);
+            if track.at(middle) < limit {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        near += usize::from(found >= low * (1.0 - 1e-1) || found >= at(k - 1));
+    }
+    assert!(crossings > 2_000, "{crossings}");
+    assert!(100 * near >= 95 * crossings, "{near} of {crossings}");
+}
+
+#[test]
+fn a_zero_gap_or_nan_gets_no_free_time() {
+    let free = |gap: f64, rate: f64, bend: f64| Gap { gap, rate, bend }.free_time();
+    for rate in [-1.0, 0.0, 1.0, f64::NAN] {
+        for bend in [0.0, 1.0, f64::NAN] {
+            for gap in [0.0, -0.0, -1.0, f64::NEG_INFINITY, f64::NAN] {
+                assert_eq!(free(gap, rate, bend), 0.0, "{gap} {rate} {bend}");
+            }
+        }
+    }
+    assert_eq!(free(1.0, -1.0, 0.0), f64::INFINITY);
+    assert_eq!(free(1.0, f64::NAN, 1.0), 0.0);
+    assert_eq!(free(1.0, 1.0, f64::NAN), 0.0);
+}
+
+#[test]
+fn free_times_use_up_the_gap_and_no_more() {
+    let mut rng = rng(4);
+    for _ in 0..10_000 {
+        let sign = [-1.0, 0.0, 1.0][rng.random_range(0..3)];
+        let gap = Gap {
+            gap: magnitude(&mut rng, -9.0, 3.0),
+            rate: sign * magnitude(&mut rng, -6.0, 6.0),
+            bend: magnitude(&mut rng, -6.0, 6.0),
+        };
+        let tau = gap.free_time();
+        let rest = gap.gap - gap.rate * tau - 0.5 * gap.bend * tau * tau;
+        let scale = gap.gap + (gap.rate * tau).abs() + gap.bend * tau * tau;
+        assert!(rest >= -1e-15 * scale, "{gap:?}: {rest:e}");
+        assert!(rest <= 1e-14 * scale, "{gap:?}: {rest:e}");
+    }
+}
+
+/// The arm that is farthest along a direction.
+fn farthest(arms: &[DVec3], c: DVec3) -> DVec3 {
+    let farther = |a: &DVec3, b: &DVec3| c.dot(*a).total_cmp(&c.dot(*b));
+    arms.iter().copied().max_by(farther).unwrap()
+}
+
+/// No point rises faster along `n` than [`sound`] says, at any time.
+#[test]
+fn the_sound_bound_holds_over_intervals() {
+    let mut rng = rng(6);
+    let mut beaten = 0;
+    for _ in 0..2_000 {
+        let (motion, n, _) = setting(&mut rng);
+        let arms: Vec<DVec3> = (0..8).map(|_| within(&mut rng, 1.0)).collect();
+        let axis = motion.spin.normalize_or_zero();
+        let reach = arms.iter().map(|r| r.reject_from_normalized(axis).length());
+        let bound = sound(&motion, n, reach.fold(0.0, greater));
+        let instant = published(&motion, n, |c| farthest(&arms, c));
+        let turning = instant - motion.linear.dot(n).abs();
+        let most = greater(0.0, bound - motion.linear.dot(n));
+        assert!(turning <= most + 1e-12 * (1.0 + bound.abs() + instant));
+        let mut fastest = f64::NEG_INFINITY;
+        for &arm in &arms {
+            for k in 1..=32 {
+                let tau = f64::from(k) / 32.0;
+                let rise = height(&motion, n, 0.0, arm, tau);
+                let slack = 1e-13 * (1.0 + motion.linear.length() + motion.spin.length());
+                assert!(rise <= bound * tau + slack, "{rise} > {bound} × {tau}");
+                fastest = greater(fastest, rise / tau);
+            }
+        }
+        beaten += usize::from(fastest > instant + 1e-9);
+    }
+    // Random motions show that the published bound does not hold over an interval.
+    assert!(beaten > 100, "{beaten}");
+}
+
+/// An arm of 2 that hangs down and turns about its end towards a wall above: the published bound
+/// sees its tip move sideways, and lets it turn through the wall.
+#[test]
+fn the_published_bound_lets_the_mace_through_the_wall() {
+    let (length, width, wall) = (2.0, 0.02, 1.0);
+    let motion = Velocities {
+        linear: DVec3::ZERO,
+        spin: 3.0 * DVec3::Z,
+    };
+    let tips = [-width, width].map(|x| DVec3::new(x, -length, 0.0));
+    let ball = 0.1;
+    let gap = wall - ball;
+    // Fastest advance of the tips, and of the ball about the centre, which does not advance.
+    let allowed = gap / published(&motion, DVec3::Y, |c| farthest(&tips, c));
+    let reach = tips[0].length();
+    let contact = (length.atan2(width) + (wall / reach).asin()) / 3.0;
+    assert!(allowed > 1.0, "a step of {allowed} passes the whole motion");
+    assert!(contact < 0.7);
+    let step = gap / sound(&motion, DVec3::Y, reach);
+    assert!(step < contact);
+    let tracks = tips.map(|tip| Track::new(&motion, DVec3::Y, tip.y, tip));
+    let turns = motion.spin.length() * step;
+    assert!(
+        tracks
+            .iter()
+            .all(|track| highest(track, turns, step) < wall)
+    );
+    let first = tracks.iter().filter_map(|track| crossing(track, wall));
+    let first = first.fold(f64::INFINITY, lesser);
+    assert!(
+        first <= contact && first > 0.98 * contact,
+        "{first} of {contact}"
+    );
+}

@@ -1,0 +1,67 @@
+//! Answers found on surfaces, told of the pieces that they are the surfaces of.
+
+use crate::distance::oracle::DistanceOracle;
+use crate::distance::separation::support_gap;
+use crate::outcome::{Contact, Outcome, Overlap};
+use crate::problem::Problem;
+use crate::schedule::meter::Meter;
+use crate::schedule::pieces::pair;
+use crate::schedule::pieces::snapshot::Snapshot;
+
+/// The outcome for the bodies that were given: of a contact the normal, the witnesses and the bounds are
+/// those of the pieces that it names.
+///
+/// `within` is the distance at which a contact was to be found.
+pub(super) fn of_given<O: DistanceOracle>(
+    problem: &Problem<'_>,
+    oracle: &mut O,
+    meter: &mut Meter,
+    outcome: Outcome,
+    within: f64,
+) -> Outcome {
+    let Some(given) = problem.given() else {
+        return outcome;
+    };
+    let mut told = |contact, s| of_pieces(&given, oracle, meter, contact, within, s);
+    match outcome {
+        Outcome::Contact { time, contact } => Outcome::Contact {
+            time,
+            contact: told(contact, given.clock(time)),
+        },
+        Outcome::Touching { contact } => Outcome::Touching {
+            contact: told(contact, 0.0),
+        },
+        Outcome::Overlapping {
+            overlap: Overlap::Pieces(contact),
+        } => Outcome::Overlapping {
+            overlap: Overlap::Pieces(told(contact, 0.0)),
+        },
+        Outcome::Overlapping { .. } | Outcome::Free { .. } | Outcome::Unresolved { .. } => outcome,
+    }
+}
+
+fn of_pieces<O: DistanceOracle>(
+    given: &Problem<'_>,
+    oracle: &mut O,
+    meter: &mut Meter,
+    contact: Contact,
+    within: f64,
+    s: f64,
+) -> Contact {
+    let ids = [contact.piece_a, contact.piece_b];
+    let snapshot = Snapshot::new(given, ids[0], ids[1], s);
+    let bound = contact.separation.lower;
+    let checked = snapshot.ask(oracle, &mut O::Cache::default(), meter);
+    match checked.filter(|checked| checked.upper <= within) {
+        Some(checked) => pair::contact(&snapshot, ids, &checked).no_nearer_than(bound),
+        // The oracle sees less of the pieces: what was found on their surfaces stands, with what its
+        // normal proves of them.
+        None => {
+            let axis = snapshot.frames[0].inverse_vector(contact.separation.normal);
+            let from = snapshot.frames[0].inverse_point(given.local(contact.separation.witness_a));
+            let radii = snapshot.pieces.a.radius + snapshot.pieces.b.radius;
+            contact
+                .no_nearer_than(support_gap(&snapshot.pieces, axis, from) - radii - given.rounding)
+        }
+    }
+}

@@ -1,0 +1,130 @@
+//! The paper's schedule: one step for all, over the front of the bounding volume traversal tree.
+
+mod descent;
+mod front;
+mod hull_pair;
+mod reach;
+#[cfg(test)]
+mod tests;
+
+use super::Schedule;
+use super::answer::answer;
+use super::best_first::BestFirst;
+use super::meter::Meter;
+use super::proven::Proven;
+use crate::distance::oracle::DistanceOracle;
+use crate::motion::bound::Bound;
+use crate::outcome::{Answer, Limit, Outcome};
+use crate::problem::Problem;
+use descent::Descent;
+use front::Front;
+use hull_pair::HullPair;
+use reach::Reaches;
+use std::ops::ControlFlow;
+
+/// Hierarchical conservative advancement over [hull trees](crate::HullTree), as published
+/// `[FAST06 Alg. 2]`.
+///
+/// The distance of the bodies is computed by a descent through pairs of nodes `[FAST06 Alg. 3]`; the
+/// pairs at which it stops, the *front*, cover all pairs of pieces. Each keeps apart for its distance
+/// divided by a [bound](Bound) of its rate of approach; all are advanced by the least of these times,
+/// and the distance is computed again, until it is within the tolerance. The next descent starts from
+/// the front that the last one left `[SWIFT01]`: the pieces that were nearest are in it, so that the
+/// distance is bounded before anything is split, and the nearest pair is always split first. Pairs that
+/// have become far are joined again.
+///
+/// It is here to be compared with: [`BestFirst`] does away with the common step.
+///
+/// Bodies of one piece need no tree. If another body has [none](crate::Body::hull_tree), the query is
+/// answered by [`BestFirst`].
+///
+/// # Guarantee
+/// That of [`Schedule::solve`] with [`Bound::Sound`]; with [`Bound::Published`] times may be late and
+/// contacts missed.
+///
+/// # Complexity
+/// The bodies come nearer by a share of their distance in every step, so that grazing passes and fast
+/// turning cost many steps, and bodies that are [let go](crate::StartPolicy::Leave) from flush contact
+/// and turn may cost the whole budget, where [`BestFirst`] follows the points' paths.
+#[derive(Debug)]
+pub struct Fast<O: DistanceOracle> {
+    bound: Bound,
+    front: Front<O::Cache>,
+    reaches: Reaches,
+    without_trees: BestFirst<O>,
+}
+
+impl<O: DistanceOracle> Fast<O> {
+    /// A schedule that divides distances by a bound.
+    pub fn new(bound: Bound) -> Self {
+        Fast {
+            bound,
+            front: Front::default(),
+            reaches: Reaches::default(),
+            without_trees: BestFirst::default(),
+        }
+    }
+}
+
+impl<O: DistanceOracle> Default for Fast<O> {
+    fn default() -> Self {
+        Fast::new(Bound::default())
+    }
+}
+
+impl<O: DistanceOracle> Schedule<O> for Fast<O> {
+    fn solve(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer {
+        let Some(hulls) = HullPair::of(problem) else {
+            return self.without_trees.solve(problem, oracle);
+        };
+        self.reaches.forget();
+        answer(problem, oracle, |problem, oracle, meter| {
+            self.advance(problem, hulls, oracle, meter)
+        })
+    }
+}
+
+impl<O: DistanceOracle> Fast<O> {
+    /// Alg. 2: computes the distance, and advances both bodies by what it allows for, again and again.
+    fn advance(
+        &mut self,
+        problem: &Problem<'_>,
+        hulls: HullPair<'_>,
+        oracle: &mut O,
+        meter: &mut Meter,
+    ) -> Outcome {
+        let mut proven = Proven::default();
+        self.front.plant(hulls);
+        let mut s = 0.0;
+        while s < 1.0 {
+            meter.stats.advancements += 1;
+            let mut descent = Descent {
+                problem,
+                hulls,
+                bound: self.bound,
+                front: &mut self.front,
+                reaches: &mut self.reaches,
+                proven: &proven,
+                meter,
+            };
+            let next = descent.step(oracle, s);
+            let stats = &mut meter.stats;
+            stats.peak_front = stats.peak_front.max(self.front.peak());
+            let next = match next {
+                ControlFlow::Continue(next) => next,
+                ControlFlow::Break(outcome) => return outcome,
+            };
+            if let Some(outcome) = proven.past_start(problem) {
+                return outcome;
+            }
+            if !(next > s) {
+                return Outcome::Unresolved {
+                    safe_until: problem.time(s),
+                    reason: Limit::Stalled,
+                };
+            }
+            s = next;
+        }
+        proven.end(problem)
+    }
+}

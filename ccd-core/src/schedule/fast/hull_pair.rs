@@ -1,0 +1,131 @@
+//! The nodes of hull trees, in pairs.
+
+use crate::body::Body;
+use crate::body::combination::Combination;
+use crate::body::hierarchy::HierarchyNode;
+use crate::body::hull_tree::{FacetClass, HullTree};
+use crate::body::piece::Piece;
+use crate::distance::oracle::Claim;
+use crate::problem::Problem;
+use crate::problem::Which;
+
+/// The nodes of both bodies.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct HullPair<'a> {
+    pub(super) a: Hulls<'a>,
+    pub(super) b: Hulls<'a>,
+}
+
+/// What the nearest features of two nodes belong to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Near {
+    /// Pieces, both.
+    Pieces,
+    /// A bridge on one of the bodies.
+    Bridge(Which),
+    /// Bridges, both.
+    Bridges,
+}
+
+/// What is below a pair of nodes.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Below {
+    /// Both are leaves: of these pieces.
+    Pieces([u32; 2]),
+    /// The pairs that cover this one.
+    Pairs([[u32; 2]; 2]),
+}
+
+impl<'a> HullPair<'a> {
+    /// None when one of the bodies has more than one piece, and no tree.
+    pub(super) fn of(problem: &Problem<'a>) -> Option<Self> {
+        Some(HullPair {
+            a: Hulls::of(problem.a.body)?,
+            b: Hulls::of(problem.b.body)?,
+        })
+    }
+
+    pub(super) fn hulls(&self, [a, b]: [u32; 2]) -> [Piece<'a>; 2] {
+        [self.a.hull(a), self.b.hull(b)]
+    }
+
+    /// What the nearest features belong to, of which a claim names points.
+    pub(super) fn near(&self, [a, b]: [u32; 2], claim: &Claim) -> Near {
+        match (self.a.is_bridge(a, &claim.a), self.b.is_bridge(b, &claim.b)) {
+            (false, false) => Near::Pieces,
+            (true, false) => Near::Bridge(Which::A),
+            (false, true) => Near::Bridge(Which::B),
+            (true, true) => Near::Bridges,
+        }
+    }
+
+    /// The pairs to look at instead: one node is a child, of the body that has a bridge where only one
+    /// has, of the larger node otherwise, of the one that has any if the other one has none.
+    pub(super) fn below(&self, [a, b]: [u32; 2], near: Near) -> Below {
+        use HierarchyNode::{Inner, Leaf};
+        let body = match near {
+            Near::Bridge(body) => body,
+            Near::Pieces | Near::Bridges => self.larger([a, b]),
+        };
+        match (self.a.below(a), self.b.below(b), body) {
+            (Leaf(a), Leaf(b), _) => Below::Pieces([a, b]),
+            (Inner(left, right), Leaf(_), _) | (Inner(left, right), _, Which::A) => {
+                Below::Pairs([[left, b], [right, b]])
+            }
+            (_, Inner(left, right), _) => Below::Pairs([[a, left], [a, right]]),
+        }
+    }
+
+    fn larger(&self, [a, b]: [u32; 2]) -> Which {
+        match self.b.size(b) > self.a.size(a) {
+            true => Which::B,
+            false => Which::A,
+        }
+    }
+}
+
+/// The nodes of a body.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Hulls<'a> {
+    Tree(&'a HullTree),
+    /// Of a body of one piece, which is its own tree.
+    Single(&'a Body),
+}
+
+impl<'a> Hulls<'a> {
+    fn of(body: &'a Body) -> Option<Self> {
+        match body.hull_tree() {
+            Some(tree) => Some(Hulls::Tree(tree)),
+            None if body.pieces().len() == 1 => Some(Hulls::Single(body)),
+            None => None,
+        }
+    }
+
+    fn hull(self, node: u32) -> Piece<'a> {
+        match self {
+            Hulls::Tree(tree) => tree.hull(node),
+            Hulls::Single(body) => body.piece(node),
+        }
+    }
+
+    fn below(self, node: u32) -> HierarchyNode {
+        match self {
+            Hulls::Tree(tree) => tree.hierarchy().nodes()[node as usize],
+            Hulls::Single(_) => HierarchyNode::Leaf(0),
+        }
+    }
+
+    fn is_bridge(self, node: u32, point: &Combination) -> bool {
+        match self {
+            Hulls::Tree(tree) => tree.class_of(node, point) == FacetClass::Free,
+            Hulls::Single(_) => false,
+        }
+    }
+
+    fn size(self, node: u32) -> f64 {
+        match self {
+            Hulls::Tree(tree) => tree.size(node),
+            Hulls::Single(_) => 0.0,
+        }
+    }
+}

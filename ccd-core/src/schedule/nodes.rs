@@ -1,0 +1,12 @@
+//! Pairs of nodes, eight at once, in f32.
+
+mod axis;
+mod bounds;
+mod clock;
+mod eight_pairs;
+pub(super) mod expand;
+mod shape;
+pub(super) mod siblings;
+mod sweeping_node;
+mod turn;
+mod vector;

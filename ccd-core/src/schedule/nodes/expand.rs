@@ -1,0 +1,324 @@
+//! Splitting one node of a pair: its children against the other node, at the pose of the pair's
+//! clock.
+
+use super::bounds::Bounds;
+use super::bounds::{Larger, bound, bound_attached};
+use super::eight_pairs::RelativeMotionF32;
+use super::shape::{Children, OtherBox, OtherNode, OtherTriangle};
+use super::turn::Turning;
+use super::turn::{Straight, Turn};
+use crate::body::tree::{Below, LANES, Members, Named, Node, NodeId, unit_normal, up};
+use crate::math::order::greater;
+use crate::motion::pose::Frame;
+use crate::problem::{Problem, Side, Which};
+use crate::tolerance::{
+    CLOSED_GAP, LEAST_GAP_F32, MUCH_LARGER, PLACES_F32, RATE_F32, REACH_F32, WAY_F32,
+};
+use glam::{DMat3, DVec3, Vec3};
+
+/// The children of the split node, each paired with the other node.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Expansion {
+    pub(crate) bounds: Bounds,
+    pub(crate) first: NodeId,
+    pub(crate) count: u32,
+    /// Which children are single pieces.
+    pub(crate) leaves: u8,
+}
+
+/// A node to be split, and the other body's node that its children are paired with.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Split {
+    /// Whose node is split.
+    pub(crate) body: Which,
+    pub(crate) node: NodeId,
+    pub(crate) other: NodeId,
+    /// Which of the children are wanted.
+    pub(crate) lanes: u8,
+}
+
+impl Split {
+    /// A split of which all children are wanted.
+    pub(crate) fn all(body: Which, node: NodeId, other: NodeId) -> Self {
+        Split {
+            body,
+            node,
+            other,
+            lanes: u8::MAX,
+        }
+    }
+}
+
+/// Splits a node at clock `s`.
+///
+/// # Panics
+/// When the node is a single piece.
+pub(crate) fn expand(problem: &Problem<'_>, split: &Split, s: f64) -> Expansion {
+    split_node::<AsTheyMove>(&RelativeMotion::new(problem, split, s), split)
+}
+
+/// Splits a node at the start, to measure: what stands for the time for which a pair keeps apart is a
+/// lower bound of its distance.
+///
+/// # Panics
+/// When the node is a single piece.
+pub(crate) fn measure(problem: &Problem<'_>, split: &Split) -> Expansion {
+    split_node::<UnitRate>(&RelativeMotion::new(problem, split, 0.0), split)
+}
+
+#[inline(always)]
+fn split_node<P: Pace>(motion: &RelativeMotion<'_>, split: &Split) -> Expansion {
+    let tree = motion.split_side.body.tree();
+    let Named::Node(node) = tree.get(split.node) else {
+        unreachable!("a triangle is a single piece");
+    };
+    match node.below {
+        Below::Boxes(group) => {
+            let group = tree.box_group(group);
+            Expansion {
+                bounds: motion.bound::<_, P>(group, &group.members),
+                first: group.members.first,
+                count: group.members.count,
+                leaves: group.leaves,
+            }
+        }
+        Below::Triangles(group) => {
+            let group = tree.triangle_group(group);
+            Expansion {
+                bounds: motion.bound::<_, P>(group, &group.members),
+                first: group.members.first,
+                count: group.members.count,
+                leaves: u8::MAX,
+            }
+        }
+        Below::Piece(_) => unreachable!("a single piece has no children"),
+    }
+}
+
+/// How the two bodies move past each other at a clock, along the axes of the one whose node is split.
+struct RelativeMotion<'p> {
+    problem: &'p Problem<'p>,
+    split_side: &'p Side<'p>,
+    other_side: &'p Side<'p>,
+    /// The other body's node.
+    other: NodeId,
+    other_to_split: Frame,
+    /// The velocity of the split body's centre less that of the other one's.
+    velocity: DVec3,
+    /// The angular velocity of the other body.
+    other_spin: DVec3,
+    /// How much time is left.
+    horizon: f32,
+}
+
+/// How fast gaps close.
+trait Pace {
+    /// For how long members of a group keep apart from the other body's node.
+    fn bound<C: Children, O: OtherNode>(view: &GroupView<'_>, group: &C, other: &O) -> Bounds;
+}
+
+/// As the bodies move.
+struct AsTheyMove;
+
+/// By one unit of length in one of time, along every axis: the time that takes is the distance.
+struct UnitRate;
+
+impl Pace for AsTheyMove {
+    #[inline]
+    fn bound<C: Children, O: OtherNode>(view: &GroupView<'_>, group: &C, other: &O) -> Bounds {
+        view.bound(group, other)
+    }
+}
+
+impl Pace for UnitRate {
+    fn bound<C: Children, O: OtherNode>(view: &GroupView<'_>, group: &C, other: &O) -> Bounds {
+        view.distances(group, other)
+    }
+}
+
+impl<'p> RelativeMotion<'p> {
+    // Half of a kilobyte, made once a visit: built where it is used, not moved there.
+    #[inline(always)]
+    fn new(problem: &'p Problem<'_>, split: &Split, s: f64) -> Self {
+        let (split_side, other_side) = (split.body.of(problem), split.body.other().of(problem));
+        let (split_frame, other_frame) = (split_side.path.frame(s), other_side.path.frame(s));
+        RelativeMotion {
+            problem,
+            split_side,
+            other_side,
+            other: split.other,
+            other_to_split: split_frame.from_frame(&other_frame),
+            velocity: split_frame
+                .inverse_vector(split_side.path.velocity - other_side.path.velocity),
+            other_spin: split_frame.inverse_vector(other_side.path.spin),
+            horizon: (1.0 - s) as f32,
+        }
+    }
+
+    /// Bounds a group of the split body against the other body's node.
+    #[inline]
+    fn bound<C: Children, P: Pace>(&self, group: &C, members: &Members) -> Bounds {
+        let mut other_to_split = self.other_to_split;
+        other_to_split.translation -= members.origin;
+        let view = GroupView {
+            turn: columns(&other_to_split.rotation),
+            other_to_split,
+            motion: self,
+            members,
+        };
+        match self.other_side.body.tree().get(self.other) {
+            Named::Node(node) => P::bound(&view, group, &view.node(node)),
+            Named::Triangle(piece) => {
+                let corners = self.other_side.body.pieces().triangle(piece as usize);
+                P::bound(&view, group, &view.triangle(corners))
+            }
+        }
+    }
+}
+
+/// The relative motion as a group of the split body sees it.
+struct GroupView<'m> {
+    motion: &'m RelativeMotion<'m>,
+    members: &'m Members,
+    /// Relative to the group's origin.
+    other_to_split: Frame,
+    /// The same rotation in f32: columns.
+    turn: [Vec3; 3],
+}
+
+impl GroupView<'_> {
+    fn bound<C: Children, P: OtherNode>(&self, group: &C, other: &P) -> Bounds {
+        let split_turn = || self.split_turning();
+        let other_turn = || self.other_turning();
+        let sides = [self.motion.split_side, self.motion.other_side];
+        match sides.map(|side| side.path.turns()) {
+            [false, false] => self.turning(group, other, Straight, Straight),
+            [true, false] => self.turning(group, other, split_turn(), Straight),
+            [false, true] => self.turning(group, other, Straight, other_turn()),
+            [true, true] => self.turning(group, other, split_turn(), other_turn()),
+        }
+    }
+
+    fn node(&self, node: &Node) -> OtherBox {
+        OtherBox {
+            centre: self.other_to_split.point(node.centre).as_vec3(),
+            axes: node
+                .axes
+                .map(|u| self.turn[0] * u.x + self.turn[1] * u.y + self.turn[2] * u.z),
+            half: node.half,
+            rounding: node.rounding,
+            radius: node.radius,
+            piece: matches!(node.below, Below::Piece(_)),
+        }
+    }
+
+    fn triangle(&self, corners: [DVec3; 3]) -> OtherTriangle {
+        let corners = corners.map(|p| self.other_to_split.point(p));
+        let centre = (corners[0] + corners[1] + corners[2]) / 3.0;
+        let arms = corners.map(|p| p - centre);
+        let farthest = arms.map(|arm| arm.length_squared());
+        OtherTriangle {
+            centre: centre.as_vec3(),
+            corners: arms.map(DVec3::as_vec3),
+            normal: unit_normal(corners),
+            radius: up(farthest.into_iter().fold(0.0, greater).sqrt()).next_up(),
+        }
+    }
+
+    fn split_turning(&self) -> Turning {
+        let path = &self.motion.split_side.path;
+        Turning {
+            spin: path.spin_local.as_vec3(),
+            rate: up(path.rate),
+            centre: (path.centre - self.members.origin).as_vec3(),
+        }
+    }
+
+    fn other_turning(&self) -> Turning {
+        let path = &self.motion.other_side.path;
+        Turning {
+            spin: self.motion.other_spin.as_vec3(),
+            rate: up(path.rate),
+            centre: self.other_to_split.point(path.centre).as_vec3(),
+        }
+    }
+
+    fn turning<C: Children, P: OtherNode, S: Turn, O: Turn>(
+        &self,
+        group: &C,
+        other: &P,
+        split_turn: S,
+        other_turn: O,
+    ) -> Bounds {
+        let velocity = self.motion.velocity.as_vec3();
+        let reach = self.members.reach;
+        // An arm is the difference of two places, each rounded where it is.
+        let places = other.centre().length() + other_turn.arm(Vec3::ZERO);
+        let speed = velocity.length()
+            + split_turn.rate() * (reach + split_turn.arm(Vec3::ZERO))
+            + other_turn.rate()
+                * (other.radius() + other_turn.arm(other.centre()) + PLACES_F32 * places);
+        let problem = self.motion.problem;
+        let rounding = self.rounding(other);
+        let slack = greater(
+            (up(problem.margin) + rounding).next_up(),
+            up(problem.node_gap()),
+        );
+        let closed = (CLOSED_GAP * problem.tolerance) as f32;
+        let motion = RelativeMotionF32 {
+            velocity,
+            split: split_turn,
+            other: other_turn,
+            horizon: self.motion.horizon,
+            slack,
+            kept: (slack - rounding).next_down(),
+            closed: greater(LEAST_GAP_F32, closed),
+            rate_slack: RATE_F32 * speed,
+        };
+        let mut bounds = bound(group, other, &motion);
+        if S::TURNS && reach > MUCH_LARGER * other.radius() {
+            bound_attached(group, other, &motion, Larger::Split, &mut bounds);
+        } else if O::TURNS && other.radius() > MUCH_LARGER * reach {
+            bound_attached(group, other, &motion, Larger::Other, &mut bounds);
+        }
+        bounds
+    }
+
+    /// Lower bounds of distances: for how long pairs keep apart that close in at a rate of 1.
+    fn distances<C: Children, P: OtherNode>(&self, group: &C, other: &P) -> Bounds {
+        let rounding = self.rounding(other);
+        let motion = RelativeMotionF32 {
+            velocity: Vec3::ZERO,
+            split: Straight,
+            other: Straight,
+            horizon: 0.0,
+            slack: rounding,
+            kept: 0.0,
+            closed: 0.0,
+            rate_slack: 1.0,
+        };
+        Bounds {
+            // A second look would see the same.
+            waits: [0.0; LANES],
+            ..bound(group, other, &motion)
+        }
+    }
+
+    /// What rounding may do to a gap.
+    fn rounding<P: OtherNode>(&self, other: &P) -> f32 {
+        let [x, y, z] = other.centre().abs().to_array();
+        let rounding = WAY_F32 * (x + y + z) + REACH_F32 * (other.radius() + self.members.reach);
+        (rounding + up(self.motion.problem.rounding)).next_up()
+    }
+}
+
+fn columns(matrix: &DMat3) -> [Vec3; 3] {
+    [
+        matrix.x_axis.as_vec3(),
+        matrix.y_axis.as_vec3(),
+        matrix.z_axis.as_vec3(),
+    ]
+}
+
+#[cfg(test)]
+mod tests;

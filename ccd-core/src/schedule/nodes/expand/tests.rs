@@ -1,0 +1,370 @@
+//! Every free time of every lane is checked against sampled truth, in f64, vertex by vertex.
+
+use super::*;
+use crate::math::order::{greater, lesser};
+use crate::tests::nearest::{Triangle, nearest};
+use crate::tests::scene::{Kind, Pcg64, RngExt, Scene, rng, scene};
+
+/// At how many times within its free time a lane is looked at, ends included.
+const SAMPLES: usize = 17;
+
+/// What came of an audit, so that a test can tell that it tested something.
+#[derive(Debug, Default)]
+struct Tally {
+    /// Lanes with a free time, all checked, and lanes without.
+    free: usize,
+    none: usize,
+    /// Free times that only planes turning with a body yield.
+    attached: usize,
+    /// Lanes whose pieces are not apart at the clock.
+    overlapping: usize,
+    /// Samples proven apart by one axis, and else by comparing all triangles.
+    by_axis: usize,
+    by_pieces: usize,
+    /// Which roles were split, of which kind, against what.
+    by_role: [usize; 2],
+    boxes: usize,
+    triangles: usize,
+    against_triangle: usize,
+}
+
+#[test]
+fn free_times_hold_for_any_bodies_and_motions() {
+    let tally = audit(Kind::Any, 1, 75_000);
+    shares_are_substantial(&tally);
+}
+
+#[test]
+fn free_times_hold_for_what_slides_past() {
+    let tally = audit(Kind::Sliding, 2, 30_000);
+    shares_are_substantial(&tally);
+}
+
+#[test]
+fn free_times_hold_near_the_rim_of_a_turning_body() {
+    let tally = audit(Kind::Rim, 3, 45_000);
+    shares_are_substantial(&tally);
+    // Planes that turn with the larger body are what such scenes need.
+    assert!(20 * tally.attached > tally.free, "{tally:?}");
+}
+
+#[test]
+fn overlapping_pairs_get_no_free_time_though_they_recede() {
+    let tally = audit(Kind::Receding, 4, 20_000);
+    assert!(4 * tally.none > tally.free, "{tally:?}");
+    assert!(tally.overlapping > 200, "{tally:?}");
+}
+
+fn shares_are_substantial(tally: &Tally) {
+    assert!(20 * tally.none > tally.free, "{tally:?}");
+    assert!(8 * tally.free > tally.none, "{tally:?}");
+    assert!(
+        tally.by_role.iter().all(|&n| 4 * n > tally.free),
+        "{tally:?}"
+    );
+    assert!(10 * tally.boxes > tally.free, "{tally:?}");
+    assert!(10 * tally.triangles > tally.free, "{tally:?}");
+    assert!(20 * tally.against_triangle > tally.free, "{tally:?}");
+}
+
+/// Checks lanes of random scenes until enough had a free time.
+fn audit(kind: Kind, seed: u64, lanes: usize) -> Tally {
+    let mut rng = rng(seed);
+    let mut tally = Tally::default();
+    for number in 0.. {
+        if tally.free >= lanes {
+            break;
+        }
+        let scene = scene(&mut rng, kind, 200);
+        let audit = Audit {
+            problem: &scene.problem(),
+            scene: &scene,
+            name: (kind, seed, number),
+        };
+        for _ in 0..8 {
+            audit.descend(&mut rng, &mut tally);
+        }
+    }
+    tally
+}
+
+struct Audit<'a> {
+    problem: &'a Problem<'a>,
+    scene: &'a Scene,
+    name: (Kind, u64, usize),
+}
+
+/// A lane of an expansion: the child, the other node, from when on and until when.
+#[derive(Debug)]
+struct Lane {
+    split: Which,
+    child: NodeId,
+    other: NodeId,
+    from: f64,
+    until: f64,
+    /// The gap that is promised until then.
+    kept: f64,
+}
+
+impl Audit<'_> {
+    /// From the roots to a pair of pieces, splitting either side, each time at another clock.
+    fn descend(&self, rng: &mut Pcg64, tally: &mut Tally) {
+        let mut ids = [0, 0];
+        let (a, b) = (self.problem.a.body.tree(), self.problem.b.body.tree());
+        for _ in 0..24 {
+            let open = [a.piece(ids[0]).is_none(), b.piece(ids[1]).is_none()];
+            let split = match open {
+                [false, false] => return,
+                [true, false] => Which::A,
+                [false, true] => Which::B,
+                _ if rng.random_bool(0.5) => Which::A,
+                _ => Which::B,
+            };
+            let (node, other) = match split {
+                Which::A => (ids[0], ids[1]),
+                Which::B => (ids[1], ids[0]),
+            };
+            let s = self.clock(rng);
+            let expansion = expand(self.problem, &super::Split::all(split, node, other), s);
+            self.check(&expansion, split, node, other, s, tally);
+            let lane = self.next(rng, &expansion);
+            ids[split as usize] = expansion.first + lane;
+        }
+    }
+
+    /// Near the clock at which the bodies are near each other, or anywhere.
+    fn clock(&self, rng: &mut Pcg64) -> f64 {
+        let near = self.scene.clock + rng.random_range(-0.2..0.2) * self.scene.window;
+        match rng.random_range(0..8) {
+            0 => 0.0,
+            1 | 2 => rng.random_range(0.0..1.0),
+            3 => self.scene.clock,
+            _ => near.clamp(0.0, 0.999),
+        }
+    }
+
+    /// The child to go on with: mostly the one of least free time.
+    fn next(&self, rng: &mut Pcg64, expansion: &Expansion) -> u32 {
+        let free = |k: &u32| expansion.bounds.free[*k as usize];
+        let least = (0..expansion.count).min_by(|i, j| free(i).total_cmp(&free(j)));
+        match rng.random_bool(0.8) {
+            true => least.unwrap_or(0),
+            false => rng.random_range(0..expansion.count),
+        }
+    }
+
+    fn check(
+        &self,
+        expansion: &Expansion,
+        split: Which,
+        node: NodeId,
+        other: NodeId,
+        s: f64,
+        tally: &mut Tally,
+    ) {
+        let still = planes_that_stand_still(self.problem, split, node, other, s);
+        for lane in 0..expansion.count {
+            let free = expansion.bounds.free[lane as usize];
+            assert!(expansion.bounds.kept >= 0.0, "{:?}", self.name);
+            assert!(free >= 0.0, "{:?}: {free}", self.name);
+            let pair = Lane {
+                split,
+                child: expansion.first + lane,
+                other,
+                from: s,
+                until: lesser(1.0, s + f64::from(free)),
+                kept: f64::from(expansion.bounds.kept),
+            };
+            if free > 0.0 {
+                self.verify(&pair, tally);
+                tally.free += 1;
+                tally.by_role[split as usize] += 1;
+                tally.attached += usize::from(free > 1.5 * still.free[lane as usize]);
+                let other_tree = split.other().of(self.problem).body.tree();
+                tally.against_triangle += usize::from(other_tree.piece(other).is_some());
+                match expansion.leaves {
+                    u8::MAX => tally.triangles += 1,
+                    _ => tally.boxes += 1,
+                }
+            } else {
+                tally.none += 1;
+                tally.overlapping += usize::from(self.overlap(&pair));
+            }
+        }
+    }
+
+    /// Whether some pieces of a small lane are not farther apart than the gap to be kept.
+    fn overlap(&self, lane: &Lane) -> bool {
+        let (near, far) = self.at(lane, lane.from);
+        near.len() * far.len() <= 64 && self.least_distance(&near, &far, 0.0) <= self.problem.gap()
+    }
+
+    /// Every triangle below the child stays farther than the kept gap from every one below the other
+    /// node, at every sampled time.
+    fn verify(&self, lane: &Lane, tally: &mut Tally) {
+        // The reference is right to within the rounding that the bounds leave room for.
+        let kept = lane.kept - self.problem.rounding;
+        let mut prover = Prover::default();
+        for k in 0..SAMPLES {
+            let share = k as f64 / (SAMPLES - 1) as f64;
+            let s = lane.from + share * (lane.until - lane.from);
+            let (near, far) = self.at(lane, s);
+            if prover.separates(&near, &far, kept) {
+                tally.by_axis += 1;
+            } else {
+                let least = self.least_distance(&near, &far, kept);
+                assert!(
+                    least > kept,
+                    "{:?}: {least:e} apart at {s}, {kept:e} promised: {lane:?}",
+                    self.name,
+                );
+                tally.by_pieces += 1;
+            }
+        }
+    }
+
+    fn least_distance(&self, near: &[Triangle], far: &[Triangle], enough: f64) -> f64 {
+        let mut least = f64::INFINITY;
+        for a in near {
+            for b in far {
+                let mut prover = Prover::default();
+                if !(enough > 0.0 && prover.separates(&[*a], &[*b], enough)) {
+                    least = lesser(least, nearest(a, b).distance);
+                }
+            }
+        }
+        least
+    }
+
+    /// The triangles below both nodes, where they are at a clock.
+    fn at(&self, lane: &Lane, s: f64) -> (Vec<Triangle>, Vec<Triangle>) {
+        let placed = |which: Which, id: NodeId| {
+            let side = which.of(self.problem);
+            let frame = side.path.frame(s);
+            let mut out = Vec::new();
+            below(side, id, &mut |piece| {
+                out.push(
+                    side.body
+                        .pieces()
+                        .triangle(piece as usize)
+                        .map(|p| frame.point(p)),
+                );
+            });
+            out
+        };
+        (
+            placed(lane.split, lane.child),
+            placed(lane.split.other(), lane.other),
+        )
+    }
+}
+
+/// All pieces below a node.
+fn below(side: &Side<'_>, id: NodeId, visit: &mut impl FnMut(u32)) {
+    let tree = side.body.tree();
+    let members = match tree.get(id) {
+        Named::Triangle(piece) => return visit(piece),
+        Named::Node(node) => match node.below {
+            Below::Piece(piece) => return visit(piece),
+            Below::Boxes(group) => tree.box_group(group).members,
+            Below::Triangles(group) => tree.triangle_group(group).members,
+        },
+    };
+    for k in 0..members.count {
+        below(side, members.first + k, visit);
+    }
+}
+
+/// Looks for one axis that separates two sets of triangles, starting with the one that last did.
+#[derive(Default)]
+struct Prover {
+    axis: Option<DVec3>,
+}
+
+impl Prover {
+    fn separates(&mut self, a: &[Triangle], b: &[Triangle], kept: f64) -> bool {
+        let mut axis = self.axis.unwrap_or_else(|| b[0][0] - a[0][0]);
+        // The nearest point found so far of the difference of the hulls.
+        let mut nearest: Option<DVec3> = None;
+        for _ in 0..24 {
+            let Some(n) = axis.try_normalize() else {
+                return false;
+            };
+            let support = lowest(b, n) - lowest(a, -n);
+            if n.dot(support) > kept {
+                self.axis = Some(n);
+                return true;
+            }
+            let from = nearest.unwrap_or(support);
+            let step = support - from;
+            let share = (-from.dot(step) / step.length_squared()).clamp(0.0, 1.0);
+            let next = if share > 0.0 {
+                from + share * step
+            } else {
+                from
+            };
+            nearest = Some(next);
+            axis = next;
+        }
+        false
+    }
+}
+
+fn lowest(triangles: &[Triangle], n: DVec3) -> DVec3 {
+    let points = triangles.iter().flatten().copied();
+    points
+        .map(|p| (n.dot(p), p))
+        .fold((f64::INFINITY, DVec3::ZERO), |least, at| {
+            if at.0 < least.0 { at } else { least }
+        })
+        .1
+}
+
+/// The bounds of [`expand`] without planes that turn with a body.
+fn planes_that_stand_still(
+    problem: &Problem<'_>,
+    split: Which,
+    node: NodeId,
+    other: NodeId,
+    s: f64,
+) -> Bounds {
+    let tree = split.of(problem).body.tree();
+    let Named::Node(below) = tree.get(node) else {
+        panic!("a node to split");
+    };
+    let motion = RelativeMotion::new(problem, &Split::all(split, node, other), s);
+    match below.below {
+        Below::Boxes(group) => {
+            let group = tree.box_group(group);
+            still(&motion, group, &group.members)
+        }
+        Below::Triangles(group) => {
+            let group = tree.triangle_group(group);
+            still(&motion, group, &group.members)
+        }
+        Below::Piece(_) => panic!("a node to split"),
+    }
+}
+
+/// Planes turn with much larger nodes only: a reach that is neither much larger nor much smaller than
+/// the other node's keeps them out.
+fn still<C: Children>(motion: &RelativeMotion<'_>, group: &C, members: &Members) -> Bounds {
+    let far = motion.other_side;
+    let radius = match far.body.tree().get(motion.other) {
+        Named::Node(node) => node.radius,
+        Named::Triangle(piece) => {
+            let [a, b, c] = far.body.pieces().triangle(piece as usize);
+            let mean = (a + b + c) / 3.0;
+            [a, b, c]
+                .map(|p| up(p.distance(mean)))
+                .into_iter()
+                .fold(0.0, greater)
+        }
+    };
+    let much = 0.99 * MUCH_LARGER;
+    let members = Members {
+        reach: members.reach.clamp(radius / much, radius * much),
+        ..*members
+    };
+    motion.bound::<_, AsTheyMove>(group, &members)
+}

@@ -1,0 +1,173 @@
+//! Pairs that came of one split wait together, and are taken out one by one.
+
+use super::expand::{Expansion, Split};
+use crate::body::tree::{LANES, NodeId};
+use crate::math::order::greater;
+use crate::problem::Problem;
+use crate::problem::Which;
+
+/// Up to eight pairs: the children of a node, each with one node of the other body.
+#[derive(Debug)]
+pub(crate) struct Siblings {
+    /// For how long after `since` each pair is certified; infinite once it is done with.
+    free: FreeTimes,
+    since: f64,
+    /// The split that the pairs came of.
+    split: Split,
+    first: NodeId,
+    /// Which children are thicker than the other node and are to be split next.
+    thicker: u8,
+    /// Which children are better looked at again than split.
+    waits: u8,
+}
+
+/// What to do with a pair whose clock has run out.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Next {
+    /// Ask the oracle about two pieces, of A and of B.
+    Ask(u32, u32),
+    /// Split one of the two nodes.
+    Split(Split),
+}
+
+impl Next {
+    /// The pair of both roots: of two that can be split the smaller one is, as a large one is best kept
+    /// whole until it matters.
+    pub(crate) fn roots(problem: &Problem<'_>) -> Self {
+        let (a, b) = (problem.a.body.tree(), problem.b.body.tree());
+        let body = match (a.piece(0), b.piece(0)) {
+            (Some(a), Some(b)) => return Next::Ask(a, b),
+            (None, None) if !(b.radius() < a.radius()) => Which::A,
+            (None, Some(_)) => Which::A,
+            _ => Which::B,
+        };
+        Next::Split(Split::all(body, 0, 0))
+    }
+}
+
+impl Siblings {
+    /// The pair of both roots, of which the given body's is to be split.
+    pub(crate) fn roots(body: Which) -> Self {
+        Siblings {
+            free: FreeTimes::new(&[0.0; LANES], 1),
+            since: 0.0,
+            split: Split::all(body, 0, 0),
+            first: 0,
+            thicker: 1,
+            waits: 0,
+        }
+    }
+
+    /// What came of a split at a clock.
+    pub(crate) fn new(problem: &Problem<'_>, expansion: &Expansion, split: Split, s: f64) -> Self {
+        let bounds = &expansion.bounds;
+        let (mut thicker, mut waits) = (0, 0);
+        for lane in 0..LANES {
+            thicker |= u8::from(bounds.thicker[lane] > 0.0) << lane;
+            waits |= u8::from(bounds.waits[lane] > 0.0) << lane;
+        }
+        let other_tree = split.body.other().of(problem).body.tree();
+        if other_tree.piece(split.other).is_some() {
+            thicker = u8::MAX;
+        }
+        let used = split.lanes & lanes_below(expansion.count);
+        Siblings {
+            free: FreeTimes::new(&bounds.free, used),
+            since: s,
+            split,
+            first: expansion.first,
+            thicker: thicker & !expansion.leaves,
+            waits,
+        }
+    }
+
+    /// The least clock among the pairs, never later than what is certified; infinite when all are
+    /// done with.
+    #[inline]
+    pub(crate) fn clock(&self) -> f64 {
+        let free = self.free.least();
+        if free > 0.0 {
+            // One step down undoes the rounding of the sum.
+            greater(self.since, (self.since + f64::from(free)).next_down())
+        } else {
+            self.since
+        }
+    }
+
+    /// Takes out the pair of least clock.
+    #[inline]
+    pub(crate) fn take_least(&mut self, problem: &Problem<'_>) -> Next {
+        let advanced = self.clock() > self.since;
+        let lane = self.free.take_least();
+        let Split {
+            body, node, other, ..
+        } = self.split;
+        let child = self.first + lane as NodeId;
+        // A second look at the same instant would see the same.
+        if advanced && self.waits >> lane & 1 == 1 {
+            return Next::Split(Split {
+                lanes: 1 << lane,
+                ..Split::all(body, node, other)
+            });
+        }
+        if self.thicker >> lane & 1 == 1 {
+            return Next::Split(Split::all(body, child, other));
+        }
+        let child_piece = body.of(problem).body.tree().piece(child);
+        let other_piece = body.other().of(problem).body.tree().piece(other);
+        match (child_piece, other_piece, body) {
+            (Some(a), Some(b), Which::A) | (Some(b), Some(a), Which::B) => Next::Ask(a, b),
+            _ => Next::Split(Split::all(body.other(), other, child)),
+        }
+    }
+}
+
+/// A mask of the first lanes.
+fn lanes_below(count: u32) -> u8 {
+    u8::MAX >> (LANES as u32 - count)
+}
+
+/// The free times of eight pairs, rounded down to bits that end in the pair's lane: bits of numbers
+/// that are not negative order as the numbers do, so that the least of them tells its lane too.
+#[derive(Clone, Copy, Debug)]
+struct FreeTimes([u32; LANES]);
+
+const LANE_BITS: u32 = LANES as u32 - 1;
+
+impl FreeTimes {
+    /// Lanes that are not used are done with.
+    fn new(free: &[f32; LANES], used: u8) -> Self {
+        let mut bits = [0; LANES];
+        for (lane, bits) in bits.iter_mut().enumerate() {
+            let time = match used >> lane & 1 {
+                1 => free[lane],
+                _ => f32::INFINITY,
+            };
+            *bits = time.to_bits() & !LANE_BITS | lane as u32;
+        }
+        FreeTimes(bits)
+    }
+
+    /// The least of the times.
+    #[inline]
+    fn least(&self) -> f32 {
+        f32::from_bits(self.least_bits() & !LANE_BITS)
+    }
+
+    /// Ends the pair of least time; which one it was.
+    #[inline]
+    fn take_least(&mut self) -> usize {
+        let least = self.least_bits();
+        // All lanes are written at once: the next look at them need not wait for a single one.
+        self.0 = self.0.map(|bits| match bits == least {
+            true => f32::INFINITY.to_bits() | LANE_BITS,
+            false => bits,
+        });
+        (least & LANE_BITS) as usize
+    }
+
+    #[inline]
+    fn least_bits(&self) -> u32 {
+        self.0.iter().fold(u32::MAX, |least, &bits| least.min(bits))
+    }
+}

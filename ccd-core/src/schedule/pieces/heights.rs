@@ -1,0 +1,224 @@
+//! The points of a piece seen along an axis that stands still.
+
+use crate::body::piece::Piece;
+use crate::math::order::{greater, lesser};
+use crate::math::vector::length;
+use crate::motion::pose::Frame;
+use crate::motion::track::{Angle, AxisMotion, Spinning, Track};
+use crate::problem::Side;
+use crate::tolerance::{RATE_F64, TURNED_SUPPORT};
+use glam::DVec3;
+use std::ops::Deref;
+
+/// How high a piece's points are along an axis while their body moves.
+///
+/// Few points are followed one by one. Of many only the lowest one is looked for, along the axis as
+/// the body sees it by then, and so is the one that sinks fastest: heights after a while, and rates,
+/// are products of a vector with the points as they are in the body's frame.
+pub(super) struct Heights<'a> {
+    piece: &'a Piece<'a>,
+    frame: &'a Frame,
+    /// Where the centre is in the body's frame.
+    centre: DVec3,
+    normal: DVec3,
+    /// About which the body turns.
+    axis: DVec3,
+    along: AxisMotion,
+    omega: f64,
+    speed: f64,
+    least: f64,
+    few: Few,
+    /// Of all points, where there are many.
+    bend: f64,
+    /// By how much the lowest of many points may be missed, and how fast that may change.
+    missed: f64,
+}
+
+/// One point's height, how fast it rises, and how much that may change; or what bounds these of all
+/// points from below, and from above.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Point {
+    pub(super) height: f64,
+    pub(super) rate: f64,
+    pub(super) bend: f64,
+}
+
+/// Pieces of up to this many points are followed pair of points by pair of points.
+const FEW: usize = 3;
+
+/// The tracks of the first few points; unused ones repeat the last.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Few([(Track, f64); FEW]);
+
+impl Few {
+    /// Where they are after `tau`.
+    #[inline]
+    pub(super) fn at(&self, angle: Angle, tau: f64) -> [Point; FEW] {
+        self.0.map(|(track, bend)| Point {
+            height: track.height_at(tau, angle),
+            rate: track.rate_at(angle),
+            bend,
+        })
+    }
+}
+
+/// Points of which one is the lowest, or one that bounds them all.
+pub(super) enum Lowest {
+    Few([Point; FEW]),
+    Bound([Point; 1]),
+}
+
+impl Deref for Lowest {
+    type Target = [Point];
+
+    fn deref(&self) -> &[Point] {
+        match self {
+            Lowest::Few(points) => points,
+            Lowest::Bound(point) => point,
+        }
+    }
+}
+
+impl<'a> Heights<'a> {
+    pub(super) fn new(
+        side: &Side<'_>,
+        piece: &'a Piece<'a>,
+        frame: &'a Frame,
+        normal: DVec3,
+    ) -> Self {
+        let path = &side.path;
+        let mut heights = Heights {
+            piece,
+            frame,
+            centre: path.centre,
+            normal,
+            axis: path.axis,
+            along: AxisMotion::new(path.velocity, path.axis, path.rate, normal),
+            omega: path.rate,
+            speed: length(path.velocity),
+            least: f64::INFINITY,
+            few: Few([(Track::default(), 0.0); FEW]),
+            bend: 0.0,
+            missed: 0.0,
+        };
+        match piece.ball() {
+            Some((middle, radius)) => heights.see_many(middle, radius),
+            None => heights.see_all(),
+        }
+        heights
+    }
+
+    fn see_all(&mut self) {
+        let (mut least, mut farthest, mut few) = (f64::INFINITY, 0.0, self.few);
+        for (k, (track, arm)) in self.tracks().enumerate() {
+            least = lesser(least, track.height_at(0.0, Angle::ZERO));
+            farthest = greater(farthest, arm.length_squared());
+            if let Some(rest) = few.0.get_mut(k..) {
+                rest.fill((track, track.bend()));
+            }
+        }
+        (self.least, self.few) = (least, few);
+        self.speed += self.omega * farthest.sqrt();
+    }
+
+    fn see_many(&mut self, middle: DVec3, radius: f64) {
+        self.least = self.lowest_of(self.normal).height_at(0.0, Angle::ZERO);
+        if self.straight() {
+            return;
+        }
+        let arm = self.frame.rotation * (middle - self.centre);
+        let farthest = (length(arm) + radius) * (1.0 + RATE_F64);
+        self.speed += self.omega * farthest;
+        self.bend = self.along.bend(length(self.axis.cross(arm)) + radius) * (1.0 + RATE_F64);
+        self.missed = TURNED_SUPPORT * (farthest + length(middle) + radius);
+    }
+
+    /// The fastest that any point moves, in any direction.
+    pub(super) fn speed(&self) -> f64 {
+        self.speed
+    }
+
+    /// The least height now.
+    pub(super) fn least(&self) -> f64 {
+        self.least
+    }
+
+    pub(super) fn straight(&self) -> bool {
+        !(self.omega > 0.0)
+    }
+
+    pub(super) fn angle(&self, tau: f64) -> Angle {
+        match tau > 0.0 && !self.straight() {
+            true => Angle::new(self.omega * tau),
+            false => Angle::ZERO,
+        }
+    }
+
+    pub(super) fn few(&self) -> Option<&Few> {
+        (self.piece.points.len() <= FEW).then_some(&self.few)
+    }
+
+    /// Bounds all points from below after `tau`.
+    pub(super) fn lowest(&self, tau: f64) -> Lowest {
+        let angle = self.angle(tau);
+        if let Some(few) = self.few() {
+            return Lowest::Few(few.at(angle, tau));
+        }
+        Lowest::Bound([match self.piece.ball() {
+            Some(_) => self.bound_of_many(angle, tau),
+            None => self.bound_of_all(angle, tau),
+        }])
+    }
+
+    fn bound_of_all(&self, angle: Angle, tau: f64) -> Point {
+        let start = Point {
+            height: f64::INFINITY,
+            rate: f64::INFINITY,
+            bend: 0.0,
+        };
+        self.tracks().fold(start, |bound, (track, _)| Point {
+            height: lesser(bound.height, track.height_at(tau, angle)),
+            rate: lesser(bound.rate, track.rate_at(angle)),
+            bend: greater(bound.bend, track.bend()),
+        })
+    }
+
+    fn bound_of_many(&self, angle: Angle, tau: f64) -> Point {
+        if self.straight() {
+            let height = self.least + self.along.drift() * tau;
+            return Point {
+                height,
+                rate: self.along.drift(),
+                bend: 0.0,
+            };
+        }
+        // The normal as the turning body sees it.
+        let seen = Spinning::new(-self.axis, self.normal);
+        let (axis, slope) = (seen.at(angle), seen.slope_at(angle));
+        Point {
+            height: self.lowest_of(axis).height_at(tau, angle) - self.missed,
+            rate: self.lowest_of(slope).rate_at(angle) - self.omega * self.missed,
+            bend: self.bend,
+        }
+    }
+
+    /// The track of the point that is lowest along a direction in which the body as it is now is seen.
+    fn lowest_of(&self, direction: DVec3) -> Track {
+        let index = self.piece.extremal(self.frame.inverse_vector(-direction));
+        self.track(self.piece.points[index as usize]).0
+    }
+
+    /// The points' tracks, and their arms from the centre.
+    fn tracks(&self) -> impl Iterator<Item = (Track, DVec3)> {
+        self.piece.points.iter().map(|&x| self.track(x))
+    }
+
+    #[inline]
+    fn track(&self, point: DVec3) -> (Track, DVec3) {
+        let arm = self.frame.rotation * (point - self.centre);
+        (self.along.track(self.normal.dot(arm), arm), arm)
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,183 @@
+//! One pair of pieces: ask the oracle, check its claim, advance the pair's own clock.
+
+use super::snapshot::Snapshot;
+use crate::body::combination::Combination;
+use crate::distance::oracle::DistanceOracle;
+use crate::distance::overlap::{self, Intersection};
+use crate::distance::separation::{Checked, sharpened};
+use crate::math::vector::unit;
+use crate::outcome::{Contact, Separation};
+use crate::problem::{Problem, Side, StartPolicy};
+use crate::schedule::meter::Meter;
+use crate::tolerance::RESTING;
+use glam::DVec3;
+
+/// A pair of pieces that is being advanced.
+#[derive(Clone, Debug)]
+pub(crate) struct Pair<C> {
+    pub(crate) a: u32,
+    pub(crate) b: u32,
+    goal: Goal,
+    /// What the oracle left for its next call.
+    cache: C,
+}
+
+/// What a pair's clock proves, and when the pair is in contact; distances beyond the margin.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Goal {
+    /// In contact at the query's tolerance; half of it is proven kept.
+    Apart,
+    /// The same for a pair that began in contact and has come apart since.
+    Parted,
+    /// Began in contact to within rounding: in contact once it cannot be proven above this.
+    Resting { floor: f64 },
+}
+
+/// What became of a pair at its clock.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Step {
+    /// Certified apart until this clock, which is past the present one; beyond 1 is forever.
+    FreeUntil(f64),
+    /// Within the tolerance; at the start it may intersect, which the search for the nearest pieces tells.
+    Contact(Contact),
+    /// Intersecting; only at the start.
+    Overlap(Contact),
+    /// The next clock is not past the present one.
+    Stalled,
+    /// The oracle has no answer.
+    GaveUp,
+}
+
+impl<C: Default + Clone> Pair<C> {
+    pub(crate) fn new(a: u32, b: u32) -> Self {
+        Pair {
+            a,
+            b,
+            goal: Goal::Apart,
+            cache: C::default(),
+        }
+    }
+
+    /// Looks at the pair at clock `s`, until which it is certified apart, and certifies it further.
+    pub(crate) fn advance<O: DistanceOracle<Cache = C>>(
+        &mut self,
+        problem: &Problem<'_>,
+        oracle: &mut O,
+        meter: &mut Meter,
+        s: f64,
+    ) -> Step {
+        let snapshot = Snapshot::new(problem, self.a, self.b, s);
+        self.advance_by(&snapshot, oracle, meter, |snapshot, checked, kept| {
+            snapshot.free_time(checked, kept)
+        })
+    }
+
+    /// The same, where the pair is at a instant, with another way to tell for how long it keeps a gap;
+    /// pairs that rest on each other are followed as ever.
+    pub(crate) fn advance_by<O: DistanceOracle<Cache = C>>(
+        &mut self,
+        snapshot: &Snapshot<'_>,
+        oracle: &mut O,
+        meter: &mut Meter,
+        free_time: impl FnOnce(&Snapshot<'_>, &Checked, f64) -> Option<f64>,
+    ) -> Step {
+        let (problem, s) = (snapshot.problem, snapshot.clock);
+        let Some(checked) = snapshot.ask(oracle, &mut self.cache, meter) else {
+            return Step::GaveUp;
+        };
+        let ids = [self.a, self.b];
+        let in_contact = |checked| Step::Contact(contact(snapshot, ids, checked));
+        let apart = problem.contact_distance();
+        if checked.upper <= apart {
+            if s == 0.0 {
+                match overlap::intersects(&snapshot.pieces, &checked, problem.rounding) {
+                    Intersection::Certain => {
+                        return Step::Overlap(contact(snapshot, ids, &checked));
+                    }
+                    // The search for the nearest pieces sees what it comes to.
+                    Intersection::Undecided => return in_contact(&checked),
+                    Intersection::None => {}
+                }
+            }
+            match self.goal {
+                Goal::Apart => match self.goal_of_start(problem, oracle, meter) {
+                    Some(goal) => self.goal = goal,
+                    None => return in_contact(&checked),
+                },
+                Goal::Parted => return in_contact(&checked),
+                Goal::Resting { .. } => {}
+            }
+        } else if checked.lower > apart && self.goal != Goal::Apart {
+            self.goal = Goal::Parted;
+        }
+        let (kept, is_resting) = match self.goal {
+            Goal::Apart | Goal::Parted => (problem.gap(), false),
+            Goal::Resting { floor } => (floor, true),
+        };
+        // What the axis loses may be all that there is to advance by. Written so that NaN is that, too.
+        let checked = match is_resting || !(checked.lower > kept + problem.rounding) {
+            true => sharpened(&snapshot.pieces, &checked, problem.rounding),
+            false => checked,
+        };
+        let free = match is_resting {
+            true => snapshot.resting_time(&checked, kept, ids),
+            false => free_time(snapshot, &checked, kept),
+        };
+        meter.stats.point_looks += snapshot.looks();
+        match free {
+            None => Step::FreeUntil(f64::INFINITY),
+            Some(tau) if (s + tau).next_down() > s => Step::FreeUntil((s + tau).next_down()),
+            Some(_) if is_resting => in_contact(&checked),
+            Some(_) => Step::Stalled,
+        }
+    }
+
+    /// What a pair that is within the tolerance has to keep from now on, or none when it is in
+    /// contact.
+    fn goal_of_start<O: DistanceOracle<Cache = C>>(
+        &self,
+        problem: &Problem<'_>,
+        oracle: &mut O,
+        meter: &mut Meter,
+    ) -> Option<Goal> {
+        if problem.start == StartPolicy::Report {
+            return None;
+        }
+        let snapshot = Snapshot::new(problem, self.a, self.b, 0.0);
+        let start = snapshot.ask(oracle, &mut C::default(), meter)?;
+        let start = sharpened(&snapshot.pieces, &start, problem.rounding);
+        // Written so that NaN is a contact, and so is a pair that no axis was found to keep apart.
+        let resting =
+            start.upper <= problem.contact_distance() && start.lower >= -RESTING * problem.rounding;
+        if !resting {
+            return None;
+        }
+        Some(Goal::Resting {
+            floor: start.lower - RESTING * problem.rounding,
+        })
+    }
+}
+
+/// A checked pair in the world's coordinates, with its features.
+pub(crate) fn contact(snapshot: &Snapshot<'_>, [a, b]: [u32; 2], checked: &Checked) -> Contact {
+    let (problem, a_to_world) = (snapshot.problem, &snapshot.frames[0]);
+    let world = |x: DVec3| problem.world(a_to_world.point(x));
+    let feature =
+        |side: &Side<'_>, piece: u32, point: &Combination| side.body.feature(piece, point);
+    Contact {
+        separation: Separation {
+            lower: checked.lower,
+            upper: checked.upper,
+            normal: unit(a_to_world.rotation * checked.axis).unwrap_or(checked.axis),
+            witness_a: world(checked.witness_a),
+            witness_b: world(checked.witness_b),
+        },
+        feature_a: feature(&problem.a, a, &checked.claim.a),
+        feature_b: feature(&problem.b, b, &checked.claim.b),
+        piece_a: problem.a.number(a),
+        piece_b: problem.b.number(b),
+    }
+}
+
+#[cfg(test)]
+mod tests;

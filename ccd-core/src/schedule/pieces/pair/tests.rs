@@ -1,0 +1,162 @@
+//! A pair of pieces on its own: the clock it earns, and when it is in contact.
+
+use super::*;
+use crate::body::Body;
+use crate::body::combination::Combination;
+use crate::distance::oracle::{Claim, GiveUp};
+use crate::motion::Motion;
+use crate::motion::pose::Pose;
+use crate::problem::{Config, Moving};
+use crate::tests::oracle::{Always, Exhaustive};
+
+/// A ball of radius 1 at `x`, moving along −x by `speed`, and one at the origin at rest.
+fn balls<R>(x: f64, speed: f64, config: &Config, then: impl FnOnce(&Problem<'_>) -> R) -> R {
+    let ball = Body::ball(1.0).unwrap();
+    let start = Pose::at(x * DVec3::X).unwrap();
+    let a = Moving {
+        body: &ball,
+        motion: Motion::new(start, -speed * DVec3::X, DVec3::ZERO).unwrap(),
+    };
+    let b = Moving {
+        body: &ball,
+        motion: Motion::still(Pose::IDENTITY),
+    };
+    then(&Problem::new(a, b, 1.0, config).unwrap())
+}
+
+/// Advances a new pair, clock by clock, until something else comes of it.
+fn run(problem: &Problem<'_>) -> (f64, Step) {
+    let mut pair = Pair::new(0, 0);
+    let mut s = 0.0;
+    for _ in 0..128 {
+        match pair.advance(problem, &mut Exhaustive, &mut Meter::new(problem), s) {
+            Step::FreeUntil(clock) if clock < 1.0 => {
+                assert!(clock > s);
+                s = clock;
+            }
+            step => return (s, step),
+        }
+    }
+    panic!("no end after 128 steps, at {s}");
+}
+
+#[test]
+fn two_balls_meet_when_they_do() {
+    let config = Config::default();
+    let (s, step) = balls(4.0, 4.0, &config, run);
+    assert!(matches!(step, Step::Contact(_)), "two balls meet");
+    // The gap of 2 is closed at half the duration; they stop within the tolerance of it.
+    assert!(s <= 0.5 && s > 0.5 - config.tolerance / 4.0, "{s}");
+}
+
+#[test]
+fn a_pair_that_recedes_is_done_with() {
+    let (s, step) = balls(4.0, -4.0, &Config::default(), run);
+    assert_eq!(s, 0.0);
+    assert!(matches!(step, Step::FreeUntil(clock) if clock > 1.0));
+}
+
+#[test]
+fn the_margin_is_kept() {
+    let config = Config {
+        margin: 1.0,
+        ..Config::default()
+    };
+    let (s, step) = balls(4.0, 4.0, &config, run);
+    assert!(matches!(step, Step::Contact(_)));
+    assert!(s <= 0.25 && s > 0.2497, "{s}");
+}
+
+#[test]
+fn overlap_is_told_from_touching() {
+    let (s, step) = balls(1.9, 0.0, &Config::default(), run);
+    assert!(s == 0.0 && matches!(step, Step::Overlap(_)));
+    let (s, step) = balls(2.0, 0.0, &Config::default(), run);
+    assert!(s == 0.0 && matches!(step, Step::Contact(_)));
+}
+
+#[test]
+fn what_touches_at_the_start_is_let_go_unless_it_approaches() {
+    let config = Config {
+        start: StartPolicy::Leave,
+        ..Config::default()
+    };
+    // Pairs that begin with a gap are left to the search: it goes by half of that.
+    let x = 2.0;
+    let (_, step) = balls(x, -1.0, &config, run);
+    assert!(matches!(step, Step::FreeUntil(_)), "parting");
+    let (_, step) = balls(x, 0.0, &config, run);
+    assert!(matches!(step, Step::FreeUntil(_)), "resting");
+    let (s, step) = balls(x, 1.0, &config, run);
+    assert!(matches!(step, Step::Contact(_)), "approaching");
+    // Never late but for what rounding makes of resting.
+    assert!(s <= 1e-12, "{s}");
+    // Touching again after it came apart is a contact at the query's own tolerance.
+    let (s, step) = returning(&config, run);
+    assert!(matches!(step, Step::Contact(_)));
+    let exact = 1.0 - 2.0 * 0.2f64.atan2(0.9) / std::f64::consts::PI;
+    assert!(s > exact - 1e-3 && s <= exact + 1e-12, "{s}");
+}
+
+/// A bar that turns about z away from the one it touches, and back to it from the other side.
+fn returning<R>(config: &Config, then: impl FnOnce(&Problem<'_>) -> R) -> R {
+    let bar = Body::capsule(0.1, 1.0).unwrap();
+    let ball = Body::ball(0.1).unwrap();
+    let turn = std::f64::consts::TAU;
+    let a = Moving {
+        body: &bar,
+        // Its other end comes around.
+        motion: Motion::new(Pose::IDENTITY, DVec3::ZERO, 0.5 * turn * DVec3::Y).unwrap(),
+    };
+    let beside = Pose::at(DVec3::new(-0.2, 0.0, 0.9)).unwrap();
+    let b = Moving {
+        body: &ball,
+        motion: Motion::still(beside),
+    };
+    then(&Problem::new(a, b, 1.0, config).unwrap())
+}
+
+#[test]
+fn an_oracle_that_gives_up_is_counted() {
+    let (step, stats) = balls(4.0, 4.0, &Config::default(), |problem| {
+        let mut oracle = Always(Err(GiveUp::StepCap));
+        let mut meter = Meter::new(problem);
+        let step = Pair::new(0, 0).advance(problem, &mut oracle, &mut meter, 0.0);
+        (step, meter.stats)
+    });
+    assert!(matches!(step, Step::GaveUp));
+    assert_eq!((stats.oracle_calls, stats.give_ups), (1, 1));
+}
+
+#[test]
+fn a_lying_oracle_cannot_make_a_pair_late() {
+    let directions = [
+        DVec3::X,
+        -DVec3::X,
+        DVec3::Y,
+        DVec3::ZERO,
+        DVec3::NAN,
+        DVec3::INFINITY,
+    ];
+    for axis in directions {
+        let claim = Claim {
+            axis,
+            a: Combination::point(7),
+            b: Combination::EMPTY,
+        };
+        let step = balls(4.0, 4.0, &Config::default(), |problem| {
+            Pair::new(0, 0).advance(
+                problem,
+                &mut Always(Ok(claim)),
+                &mut Meter::new(problem),
+                0.0,
+            )
+        });
+        // A pair of points has but one axis: the check finds it whatever was claimed.
+        match step {
+            Step::FreeUntil(clock) => assert!(clock <= 0.5, "{axis}: {clock}"),
+            Step::Stalled => {}
+            _ => panic!("neither contact nor overlap"),
+        }
+    }
+}

@@ -1,0 +1,327 @@
+//! Two pieces at one instant, and for how long an axis keeps them apart from then on.
+
+use super::heights::{Heights, Point};
+use super::sweeping_piece::{Member, SweepingPiece};
+use crate::body::facing::Facing;
+use crate::body::piece::Piece;
+use crate::distance::oracle::{DistanceOracle, PiecePair};
+use crate::distance::separation::{self, Checked};
+use crate::math::order::{greater, lesser};
+use crate::math::vector::{length, unit};
+use crate::motion::bound::{Bound, published, sound};
+use crate::motion::gap::{Gap, first_crossing};
+use crate::motion::pose::Frame;
+use crate::problem::Problem;
+use crate::schedule::meter::Meter;
+use crate::tolerance::{AXIS_ROUNDS, RATE_F64, RESTED, RESTING, TURNED_SHARE, USUAL_STEPS};
+use glam::DVec3;
+use std::cell::Cell;
+use std::iter;
+
+/// Two pieces where they are at a clock.
+pub(crate) struct Snapshot<'p> {
+    pub(crate) problem: &'p Problem<'p>,
+    /// Of A and B, in the problem's coordinates.
+    pub(crate) frames: [Frame; 2],
+    pub(crate) pieces: PiecePair<'p>,
+    pub(crate) clock: f64,
+    /// How often a gap was followed past a point.
+    looks: Cell<u64>,
+}
+
+impl<'p> Snapshot<'p> {
+    /// Piece `a` of A and piece `b` of B at a clock.
+    pub(crate) fn new(problem: &'p Problem<'_>, a: u32, b: u32, clock: f64) -> Self {
+        Snapshot::of(problem, problem.pieces([a, b]), clock)
+    }
+
+    /// Any two convex hulls, of A and of B, at a clock.
+    pub(crate) fn of(problem: &'p Problem<'_>, [a, b]: [Piece<'p>; 2], clock: f64) -> Self {
+        let frames = [problem.a.path.frame(clock), problem.b.path.frame(clock)];
+        let b_to_a = frames[0].from_frame(&frames[1]);
+        Snapshot {
+            problem,
+            frames,
+            pieces: PiecePair { a, b, b_to_a },
+            clock,
+            looks: Cell::new(0),
+        }
+    }
+
+    /// Two other hulls at the same clock.
+    pub(crate) fn with(&self, [a, b]: [Piece<'p>; 2]) -> Self {
+        Snapshot {
+            pieces: PiecePair {
+                a,
+                b,
+                ..self.pieces
+            },
+            looks: Cell::new(0),
+            ..*self
+        }
+    }
+
+    /// Asks the oracle and checks what it says; none when it gave up.
+    pub(crate) fn ask<O: DistanceOracle>(
+        &self,
+        oracle: &mut O,
+        cache: &mut O::Cache,
+        meter: &mut Meter,
+    ) -> Option<Checked> {
+        let stats = &mut meter.stats;
+        stats.oracle_calls += 1;
+        let before = oracle.effort().steps;
+        let claim = oracle.separation(&self.pieces, cache);
+        stats.point_looks += match oracle.effort().steps.saturating_sub(before) {
+            0 => USUAL_STEPS * self.pieces.points(),
+            steps => USUAL_STEPS * steps,
+        };
+        match claim {
+            Ok(claim) => Some(separation::check(
+                &self.pieces,
+                &claim,
+                self.problem.rounding,
+            )),
+            Err(_) => {
+                stats.give_ups += 1;
+                None
+            }
+        }
+    }
+
+    /// A time for which the pieces certainly stay farther apart than `kept`, or none when that is
+    /// for good: across the axis of the claim, or the one on which the witnesses pass each other,
+    /// by a plane that stands still or turns with one of the bodies.
+    pub(crate) fn free_time(&self, checked: &Checked, kept: f64) -> Option<f64> {
+        let direct = Plane {
+            normal: self.frames[0].rotation * checked.axis,
+            slack: checked.lower - kept,
+        };
+        let passing = self.passing(checked, kept);
+        let mut free = self.free_along(direct.normal, direct.slack)?;
+        if let Some(passing) = &passing {
+            free = greater(free, self.free_along(passing.normal, passing.slack)?);
+        }
+        let members = self.members();
+        for plane in iter::once(&direct).chain(&passing) {
+            free = greater(self.free_attached(&members, plane, free)?, free);
+        }
+        Some(free)
+    }
+
+    /// As [`Snapshot::free_time`], across the axis of the claim alone, by a bound of how fast either body
+    /// advances along it `[FAST06 §4.2]`; `reaches` are those of the pieces' points from their body's
+    /// axis of rotation.
+    ///
+    /// # Guarantee
+    /// None at all with [`Bound::Published`].
+    pub(crate) fn directed_time(
+        &self,
+        checked: &Checked,
+        kept: f64,
+        bound: Bound,
+        reaches: [f64; 2],
+    ) -> Option<f64> {
+        let Problem { a, b, .. } = self.problem;
+        let normal = self.frames[0].rotation * checked.axis;
+        let sides = [
+            (a, normal, self.pieces.a, &self.frames[0], reaches[0]),
+            (b, -normal, self.pieces.b, &self.frames[1], reaches[1]),
+        ];
+        let (mut rate, mut speed) = (0.0, 0.0);
+        for (side, n, piece, frame, reach) in sides {
+            let motion = side.path.velocities();
+            rate += match bound {
+                Bound::Sound => sound(&motion, n, reach),
+                Bound::Published => published(&motion, n, |c| {
+                    let farthest = piece.farthest(frame.inverse_vector(c));
+                    frame.rotation * (farthest - side.path.centre)
+                }),
+            };
+            speed += length(motion.linear) + side.path.rate * reach;
+        }
+        let gap = Gap {
+            gap: checked.lower - kept,
+            rate: rate + RATE_F64 * speed,
+            bend: 0.0,
+        };
+        let free = gap.free_time();
+        // Written so that NaN is no time at all.
+        (!(free >= self.horizon())).then_some(free)
+    }
+
+    /// As [`Snapshot::free_time`] for two pieces, of these indices, that rest on each other.
+    ///
+    /// Triangles that lie in one plane are kept apart by it on either side, and may still be about to
+    /// pass into each other: where one of them bounds a solid, it is only kept apart on the outside.
+    pub(crate) fn resting_time(
+        &self,
+        checked: &Checked,
+        kept: f64,
+        [a, b]: [u32; 2],
+    ) -> Option<f64> {
+        let rounding = self.problem.rounding;
+        let slack = |axis| {
+            let radii = self.pieces.a.radius + self.pieces.b.radius;
+            separation::support_gap(&self.pieces, axis, checked.witness_a) - radii - rounding - kept
+        };
+        // Written so that NaN is nothing left.
+        let is_left = |slack: f64| slack > RESTED * rounding;
+        let anyhow = || match is_left(checked.lower - kept) {
+            true => self.free_time(checked, kept),
+            false => Some(0.0),
+        };
+        // Also when they have just passed the plane by what rounding makes of resting.
+        let in_one_plane = slack(-checked.axis) >= -RESTING * rounding;
+        if !in_one_plane {
+            return anyhow();
+        }
+        let turn = self.pieces.b_to_a.rotation;
+        let along = |axis: DVec3| match slack(axis) {
+            slack if is_left(slack) => self.free_along(self.frames[0].rotation * axis, slack),
+            _ => Some(0.0),
+        };
+        match (self.problem.a.body.facing(a), self.problem.b.body.facing(b)) {
+            // Which side to keep to is not known: they are not let go.
+            (Facing::Unclear, _) | (_, Facing::Unclear) => Some(0.0),
+            (Facing::Out(n), Facing::Out(m)) => match -(turn * m) {
+                // Solids on one side of the plane: their faces slide, and cannot meet.
+                into_b if n.dot(into_b) < 0.0 => longer(along(n), along(into_b)),
+                _ => along(n),
+            },
+            (Facing::Out(n), Facing::Neither) => along(n),
+            (Facing::Neither, Facing::Out(m)) => along(-(turn * m)),
+            (Facing::Neither, Facing::Neither) => anyhow(),
+        }
+    }
+
+    /// The plane across the way between the witnesses when they are nearest, should they go on as
+    /// they do; none when it does not keep the pieces apart now.
+    fn passing(&self, checked: &Checked, kept: f64) -> Option<Plane> {
+        let [a, b] = [checked.witness_a, checked.witness_b].map(|w| self.frames[0].point(w));
+        let velocity = self.problem.a.path.velocity_at(a, self.clock)
+            - self.problem.b.path.velocity_at(b, self.clock);
+        let nearest = (b - a).dot(velocity) / velocity.length_squared();
+        let way = b - a - velocity * nearest.clamp(0.0, self.horizon());
+        let normal = unit(way)?;
+        let axis = self.frames[0].inverse_vector(normal);
+        let radii = self.pieces.a.radius + self.pieces.b.radius;
+        let gap = separation::support_gap(&self.pieces, axis, checked.witness_a) - radii;
+        let slack = gap - self.problem.rounding - kept;
+        (slack > 0.0).then_some(Plane { normal, slack })
+    }
+
+    /// The same as [`Snapshot::free_along`] by planes that turn with one of the bodies, where it is its
+    /// turning that uses up the slack within `free`; 0 where it is not.
+    pub(super) fn free_attached(
+        &self,
+        members: &[Member<'_>; 2],
+        plane: &Plane,
+        free: f64,
+    ) -> Option<f64> {
+        let [a, b] = members;
+        let uses_up = |swing: f64| swing * free > TURNED_SHARE * plane.slack;
+        let mut longest = 0.0f64;
+        for (holder, other, normal) in [(a, b, plane.normal), (b, a, -plane.normal)] {
+            if uses_up(holder.swing) && uses_up(holder.swing_about(normal)) {
+                let sweep = SweepingPiece::new(holder, other, normal, self.problem.rounding);
+                let free = sweep.free_time(plane.slack, self.horizon());
+                self.look(sweep.looks.get());
+                longest = greater(longest, free?);
+            }
+        }
+        Some(longest)
+    }
+
+    /// Both pieces, of A and of B.
+    pub(super) fn members(&self) -> [Member<'_>; 2] {
+        let Problem { a, b, .. } = self.problem;
+        let [frame_a, frame_b] = &self.frames;
+        [
+            Member::new(a, frame_a, self.pieces.a),
+            Member::new(b, frame_b, self.pieces.b),
+        ]
+    }
+
+    /// How often a gap was followed past a point so far.
+    pub(crate) fn looks(&self) -> u64 {
+        self.looks.get()
+    }
+
+    fn look(&self, points: u64) {
+        self.looks.set(self.looks.get() + points);
+    }
+
+    fn horizon(&self) -> f64 {
+        1.0 - self.clock
+    }
+
+    /// A time for which a fixed axis certainly separates the pieces by what it must, or none when it
+    /// does so for good; `slack` is by how much more than that it separates them now.
+    ///
+    /// Every point's height along the axis is known exactly
+    /// ([`Track`](crate::motion::track::Track)); the least gap between any two of them is followed by
+    /// Newton's method with a bound on its curvature.
+    pub(super) fn free_along(&self, normal: DVec3, slack: f64) -> Option<f64> {
+        let (problem, [frame_a, frame_b]) = (self.problem, &self.frames);
+        // What is highest along an axis is lowest the other way round.
+        let a = Heights::new(&problem.a, &self.pieces.a, frame_a, -normal);
+        let b = Heights::new(&problem.b, &self.pieces.b, frame_b, normal);
+        let rounding = RATE_F64 * (a.speed() + b.speed());
+        let rounds = match a.straight() && b.straight() {
+            true => 1,
+            false => AXIS_ROUNDS,
+        };
+        // Heights are measured such that the nearest two points are `slack` apart.
+        let free = |above: &Point, below: &Point| {
+            let gap = Gap {
+                gap: slack + (above.height - b.least()) + (below.height - a.least()),
+                rate: -below.rate - above.rate + rounding,
+                bend: (above.bend + below.bend) * (1.0 + RATE_F64),
+            };
+            gap.free_time()
+        };
+        let points = self.pieces.points();
+        self.look(points);
+        match (a.few(), b.few()) {
+            (Some(below), Some(above)) => first_crossing(self.horizon(), rounds, |tau| {
+                self.look(points);
+                least_free(
+                    &above.at(b.angle(tau), tau),
+                    &below.at(a.angle(tau), tau),
+                    free,
+                )
+            }),
+            _ => first_crossing(self.horizon(), rounds, |tau| {
+                self.look(points);
+                least_free(&b.lowest(tau), &a.lowest(tau), free)
+            }),
+        }
+    }
+}
+
+/// The least free time of any two points.
+#[inline]
+fn least_free(above: &[Point], below: &[Point], free: impl Fn(&Point, &Point) -> f64) -> f64 {
+    let free = &free;
+    let times = below
+        .iter()
+        .flat_map(|x| above.iter().map(move |y| free(y, x)));
+    times.fold(f64::INFINITY, lesser)
+}
+
+/// A plane that keeps two pieces apart.
+pub(super) struct Plane {
+    /// From A to B, in the problem's coordinates.
+    pub(super) normal: DVec3,
+    /// By how much more than it must it keeps them apart now.
+    pub(super) slack: f64,
+}
+
+/// The longer of two free times, of which none is for good.
+fn longer(one: Option<f64>, other: Option<f64>) -> Option<f64> {
+    Some(greater(one?, other?))
+}
+
+#[cfg(test)]
+mod tests;

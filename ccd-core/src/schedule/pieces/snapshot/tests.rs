@@ -1,0 +1,120 @@
+//! Free times of pieces against sampled truth, along the axis and in distance.
+
+use super::*;
+use crate::tests::nearest::nearest;
+use crate::tests::oracle::Exhaustive;
+use crate::tests::scene::{Kind, RngExt, direction, magnitude, rng, scene};
+
+const SAMPLES: u32 = 32;
+
+#[test]
+fn an_axis_separates_for_as_long_as_it_says() {
+    let mut rng = rng(1);
+    let (mut some, mut forever, mut used) = (0, 0, 0);
+    for number in 0..20_000 {
+        let kind = [Kind::Any, Kind::Rim, Kind::Sliding][number % 3];
+        let scene = scene(&mut rng, kind, 2);
+        let problem = scene.problem();
+        let clock = scene.clock * rng.random_range(0.0..1.0);
+        let snapshot = Snapshot::new(&problem, 0, 0, clock);
+        let mut normal = direction(&mut rng);
+        let heights = |s: f64, normal: DVec3| {
+            let now = Snapshot::new(&problem, 0, 0, s);
+            let axis = now.frames[0].inverse_vector(normal);
+            separation::support_gap(&now.pieces, axis, now.pieces.a.points[0])
+        };
+        if heights(clock, normal) < heights(clock, -normal) {
+            normal = -normal;
+        }
+        let gap = heights(clock, normal);
+        // How much of what there is may be used up.
+        let slack = gap.abs() * magnitude(&mut rng, -3.0, 0.0);
+        let free = snapshot.free_along(normal, slack);
+        let until = free.map_or(1.0, |free| clock + free);
+        let least = gap - slack - 3.0 * problem.rounding;
+        for k in 0..=SAMPLES {
+            let s = clock + (until - clock) * f64::from(k) / f64::from(SAMPLES);
+            let found = heights(s, normal);
+            assert!(
+                found >= least,
+                "{number}: {found:e} < {least:e} at {s} of {until}"
+            );
+        }
+        match free {
+            None => forever += 1,
+            Some(free) => {
+                assert!(free > 0.0 && clock + free <= 1.0);
+                some += 1;
+                used += usize::from(heights(until, normal) < gap - 0.5 * slack);
+            }
+        }
+    }
+    assert!(some > 2_000 && forever > 2_000, "{some} {forever}");
+    // Most of the slack is used up, most of the time.
+    assert!(4 * used > 3 * some, "{used} of {some}");
+}
+
+#[test]
+fn pieces_stay_apart_for_as_long_as_the_better_axis_says() {
+    let mut rng = rng(2);
+    let (mut some, mut forever) = (0, 0);
+    for number in 0..20_000 {
+        let kind = [Kind::Any, Kind::Rim, Kind::Sliding][number % 3];
+        let scene = scene(&mut rng, kind, 2);
+        let problem = scene.problem();
+        let clock = scene.clock * rng.random_range(0.9..1.0);
+        let snapshot = Snapshot::new(&problem, 0, 0, clock);
+        let mut meter = Meter::new(&problem);
+        let checked = snapshot.ask(&mut Exhaustive, &mut (), &mut meter).unwrap();
+        assert_eq!(meter.stats.oracle_calls, 1);
+        let kept = problem.gap();
+        if checked.lower <= kept {
+            continue;
+        }
+        let free = snapshot.free_time(&checked, kept);
+        let until = free.map_or(1.0, |free| clock + free);
+        for k in 0..=SAMPLES {
+            let s = clock + (until - clock) * f64::from(k) / f64::from(SAMPLES);
+            let frames = [&problem.a, &problem.b].map(|side| side.path.frame(s));
+            let a = problem
+                .a
+                .body
+                .pieces()
+                .triangle(0)
+                .map(|p| frames[0].point(p));
+            let b = problem
+                .b
+                .body
+                .pieces()
+                .triangle(0)
+                .map(|p| frames[1].point(p));
+            let found = nearest(&a, &b).distance;
+            assert!(
+                found > kept - problem.rounding,
+                "{number}: {found:e} at {s} of {until}, {kept:e} promised"
+            );
+        }
+        match free {
+            None => forever += 1,
+            Some(_) => some += 1,
+        }
+    }
+    assert!(some > 2_000 && forever > 2_000, "{some} {forever}");
+}
+
+/// Claims without slack, and without meaning, get no time.
+#[test]
+fn no_slack_is_no_time() {
+    let mut rng = rng(3);
+    for _ in 0..500 {
+        let scene = scene(&mut rng, Kind::Any, 1);
+        let problem = scene.problem();
+        let snapshot = Snapshot::new(&problem, 0, 0, 0.5);
+        for slack in [0.0, -1.0, f64::NAN, f64::NEG_INFINITY] {
+            let free = snapshot.free_along(direction(&mut rng), slack);
+            assert_eq!(free, Some(0.0), "{slack}");
+        }
+        let free = snapshot.free_along(DVec3::NAN, 1.0);
+        assert_eq!(free, Some(0.0));
+    }
+}

@@ -1,0 +1,222 @@
+//! A plane that turns with the body of one of the pieces.
+//!
+//! A plane that stands still takes the full speed of a turning piece's far rim, however small the
+//! other piece is. A plane that turns with the body does not: the heights of the body's own piece
+//! stay as they are, and only the other piece sweeps towards it.
+//!
+//! A point of the other piece is at `D + r` from the turning body's centre: `D` leads to a point of
+//! reference that moves straight at `V`, `r` turns about it at `ω_s`. With `n' = ω×n` and
+//! `Δ = ω − ω_s` its height `f = n·(D + r)` has
+//! `f' = (ω×n)·D + n·V + (Δ×n)·r` and
+//! `|f''| ≤ |ω×n|(|ω||u×D| + 2|V|) + |Δ|(|ω×n| + |ω_s|)|r|`, where `u` is the direction of `ω`.
+
+use crate::body::piece::Piece;
+use crate::math::order::lesser;
+use crate::motion::gap::{Gap, first_crossing};
+use crate::motion::pose::Frame;
+use crate::motion::track::{Angle, Spinning};
+use crate::problem::Side;
+use crate::tolerance::{ATTACHED_TIME, AXIS_ROUNDS, RATE_F64, attached_rounding};
+use glam::DVec3;
+use std::cell::Cell;
+
+/// A piece of a body, and where the body is.
+pub(super) struct Member<'p> {
+    pub(super) side: &'p Side<'p>,
+    pub(super) frame: &'p Frame,
+    pub(super) piece: Piece<'p>,
+    /// No point rises faster than this relative to the first one, along any axis that stands still.
+    pub(super) swing: f64,
+}
+
+impl<'p> Member<'p> {
+    pub(super) fn new(side: &'p Side<'p>, frame: &'p Frame, piece: Piece<'p>) -> Self {
+        let swing = match side.path.turns() {
+            true => side.path.rate * piece.farthest_from(piece.points[0]),
+            false => 0.0,
+        };
+        Member {
+            side,
+            frame,
+            piece,
+            swing,
+        }
+    }
+
+    /// The same along one axis.
+    pub(super) fn swing_about(&self, normal: DVec3) -> f64 {
+        let path = &self.side.path;
+        self.swing * path.spin.cross(normal).length() / path.rate
+    }
+}
+
+/// The piece of one body on its way, seen from a plane that turns with the other body.
+pub(super) struct SweepingPiece<'p> {
+    /// `n`, and the `ω` that it turns at.
+    normal: Spinning,
+    unit: DVec3,
+    omega: f64,
+    /// `D`, `V` and `|V|`
+    way: DVec3,
+    velocity: DVec3,
+    speed: f64,
+    /// `ω_s`
+    own_unit: DVec3,
+    own_omega: f64,
+    /// `Δ`
+    relative: DVec3,
+    piece: Piece<'p>,
+    frame: &'p Frame,
+    /// Where `D` leads to, in the points' frame, and how far they are from it at most.
+    reference: DVec3,
+    radius: f64,
+    /// No point is ever farther from the turning body's centre.
+    reach: f64,
+    /// How far points are from their places by rounding, both bodies' together.
+    misplaced: f64,
+    /// How often the plane was followed past a point.
+    pub(super) looks: Cell<u64>,
+}
+
+/// What the points' heights and rates after a while are made of: `height + axis·arm` and
+/// `rate + closing·arm`, with arms in their body's frame.
+struct Turned {
+    height: f64,
+    axis: DVec3,
+    rate: f64,
+    closing: DVec3,
+}
+
+impl<'p> SweepingPiece<'p> {
+    /// What sweeps past a plane that turns with the body of `holder`; `normal` points from there to
+    /// the other piece, and `rounding` is the problem's.
+    pub(super) fn new(
+        holder: &Member<'_>,
+        other: &Member<'p>,
+        normal: DVec3,
+        rounding: f64,
+    ) -> Self {
+        let (path, own) = (&holder.side.path, &other.side.path);
+        // All points of a body that does not turn go straight: one of the piece's own is nearest.
+        let reference = match own.turns() {
+            true => own.centre,
+            false => other.piece.points[0],
+        };
+        let way = other.frame.point(reference) - holder.frame.point(path.centre);
+        let velocity = own.velocity - path.velocity;
+        let radius = other.piece.farthest_from(reference);
+        SweepingPiece {
+            normal: Spinning::new(path.axis, normal),
+            unit: path.axis,
+            omega: path.rate,
+            way,
+            velocity,
+            speed: velocity.length(),
+            own_unit: own.axis,
+            own_omega: own.rate,
+            relative: path.spin - own.spin,
+            piece: other.piece,
+            frame: other.frame,
+            reference,
+            radius,
+            reach: way.length() + velocity.length() + radius,
+            misplaced: rounding,
+            looks: Cell::new(0),
+        }
+    }
+
+    /// A time for which the plane certainly separates the pieces by what it must, or none when it
+    /// does so up to the horizon; `slack` is by how much more than that it separates them now.
+    pub(super) fn free_time(&self, slack: f64, horizon: f64) -> Option<f64> {
+        let (height, rate) = self.allowances();
+        let apart = slack - height - self.least();
+        first_crossing(horizon, AXIS_ROUNDS, |tau| {
+            self.looks.set(self.looks.get() + self.piece.looks());
+            let turned = self.turned(tau);
+            let bend = self.bend(tau);
+            let free = |axis: f64, closing: f64| {
+                let gap = Gap {
+                    gap: apart + (turned.height + axis),
+                    rate: rate - (turned.rate + closing),
+                    bend,
+                };
+                gap.free_time()
+            };
+            let least = match self.piece.ball() {
+                Some(_) => free(self.lowest(turned.axis), self.lowest(turned.closing)),
+                None => self
+                    .arms()
+                    .map(|arm| free(turned.axis.dot(arm), turned.closing.dot(arm)))
+                    .fold(f64::INFINITY, lesser),
+            };
+            // The bend holds for no longer.
+            lesser(f64::from(ATTACHED_TIME), least)
+        })
+    }
+
+    /// What rounding may do to changes of height, and to rates.
+    fn allowances(&self) -> (f64, f64) {
+        let turns = self.omega + self.own_omega;
+        let rounding = attached_rounding(turns);
+        let fastest = self.omega * self.reach + self.speed + self.own_omega * self.radius;
+        (
+            2.0 * self.misplaced + rounding * self.reach,
+            turns * self.misplaced + rounding * fastest,
+        )
+    }
+
+    /// The least of the points' heights at first.
+    fn least(&self) -> f64 {
+        let Turned { height, axis, .. } = self.turned(0.0);
+        height + self.lowest(axis)
+    }
+
+    /// How far the arms reach along a direction at least.
+    fn lowest(&self, direction: DVec3) -> f64 {
+        if self.piece.ball().is_some() {
+            let lowest = self.piece.points[self.piece.extremal(-direction) as usize];
+            return direction.dot(lowest - self.reference);
+        }
+        let heights = self.arms().map(|arm| direction.dot(arm));
+        heights.fold(f64::INFINITY, lesser)
+    }
+
+    /// From the point of reference to the points.
+    fn arms(&self) -> impl Iterator<Item = DVec3> {
+        let reference = self.reference;
+        self.piece.points.iter().map(move |&y| y - reference)
+    }
+
+    fn turned(&self, tau: f64) -> Turned {
+        let angle = Angle::new(self.omega * tau);
+        let own = Angle::new(self.own_omega * tau);
+        let axis = self.normal.at(angle);
+        let way = self.way + self.velocity * tau;
+        let turning = self.normal.slope_at(angle) * self.omega;
+        // Rather than every arm, what it is multiplied with is turned, the other way round.
+        let back = |v| {
+            let turned = Spinning::new(-self.own_unit, v).at(own);
+            self.frame.inverse_vector(turned)
+        };
+        Turned {
+            height: axis.dot(way),
+            axis: back(axis),
+            rate: turning.dot(way) + axis.dot(self.velocity),
+            closing: back(self.relative.cross(axis)),
+        }
+    }
+
+    /// Bounds how heights bend, from `tau` on for as long as [`ATTACHED_TIME`].
+    fn bend(&self, tau: f64) -> f64 {
+        let way = self.way + self.velocity * tau;
+        let arm = self.unit.cross(way).length() + self.speed * f64::from(ATTACHED_TIME);
+        let across = self.omega * (self.normal.slope() + RATE_F64);
+        let relative = self.relative.length() + RATE_F64 * (self.omega + self.own_omega);
+        let bend = across * (self.omega * (arm + RATE_F64 * self.reach) + 2.0 * self.speed)
+            + relative * (across + self.own_omega) * self.radius;
+        bend * (1.0 + RATE_F64)
+    }
+}
+
+#[cfg(test)]
+mod tests;

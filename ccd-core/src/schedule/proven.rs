@@ -1,0 +1,89 @@
+//! What is proven of two bodies on the way to an answer.
+
+use super::meter::Meter;
+use super::pieces::pair::Step;
+use super::start::{contained, overlapping, touching};
+use crate::distance::oracle::DistanceOracle;
+use crate::math::order::lesser;
+use crate::outcome::{Contact, Limit, Outcome};
+use crate::problem::{Problem, StartPolicy};
+use std::ops::ControlFlow;
+
+/// What is proven of the bodies, whatever becomes of pairs that still wait.
+#[derive(Debug)]
+pub(crate) struct Proven {
+    /// At the start no pair of pieces is in contact, and no body inside the other.
+    apart_at_start: bool,
+    /// The least gap that pairs of nodes were proven to keep.
+    kept: f64,
+}
+
+impl Default for Proven {
+    fn default() -> Self {
+        Proven {
+            apart_at_start: false,
+            kept: f64::INFINITY,
+        }
+    }
+}
+
+impl Proven {
+    /// Pairs of nodes keep a gap until their clocks.
+    pub(crate) fn keep(&mut self, gap: f64) {
+        self.kept = lesser(self.kept, gap);
+    }
+
+    /// What a pair of pieces at clock `s` has come to: the clock to wait for, or the answer.
+    ///
+    /// A pair that touches at the start is not the answer yet: another one may be nearer, or overlap.
+    pub(crate) fn conclude<O: DistanceOracle>(
+        &self,
+        problem: &Problem<'_>,
+        oracle: &mut O,
+        meter: &mut Meter,
+        step: Step,
+        s: f64,
+    ) -> ControlFlow<Outcome, f64> {
+        let unresolved = |reason| Outcome::Unresolved {
+            safe_until: problem.time(s),
+            reason,
+        };
+        ControlFlow::Break(match step {
+            Step::FreeUntil(clock) => return ControlFlow::Continue(clock),
+            Step::Contact(contact) if s > 0.0 => self.contact(problem, contact, s),
+            Step::Contact(contact) => touching(problem, oracle, meter, contact),
+            Step::Overlap(contact) => overlapping(contact),
+            Step::Stalled => unresolved(Limit::Stalled),
+            Step::GaveUp => unresolved(Limit::OracleGaveUp),
+        })
+    }
+
+    /// A pair is in contact at clock `s`. Others may be nearer: they are known to keep what clocks
+    /// prove, and no more.
+    pub(crate) fn contact(&self, problem: &Problem<'_>, contact: Contact, s: f64) -> Outcome {
+        Outcome::Contact {
+            time: problem.time(s),
+            contact: contact.no_nearer_than(problem.proven_gap(self.kept)),
+        }
+    }
+
+    /// All pairs are past the start, and none was in contact there: the answer, if one body is inside
+    /// the other.
+    pub(crate) fn past_start(&mut self, problem: &Problem<'_>) -> Option<Outcome> {
+        if std::mem::replace(&mut self.apart_at_start, true) {
+            return None;
+        }
+        // Bodies that are let go were looked at when their contact was found.
+        match problem.start {
+            StartPolicy::Leave => None,
+            StartPolicy::Report => contained(problem, &[]),
+        }
+    }
+
+    /// All pairs are apart to the end.
+    pub(crate) fn end(&mut self, problem: &Problem<'_>) -> Outcome {
+        self.past_start(problem).unwrap_or(Outcome::Free {
+            proven_gap: problem.proven_gap(self.kept),
+        })
+    }
+}

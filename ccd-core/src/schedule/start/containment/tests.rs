@@ -1,0 +1,208 @@
+//! Inside and outside of solids, points on the surface, shells within shells.
+
+use super::{Containment, at_start};
+use crate::body::{Body, Volume};
+use crate::motion::Motion;
+use crate::motion::pose::Pose;
+use crate::outcome::Overlap;
+use crate::problem::{Config, Moving, Problem};
+use crate::tests::meshes::{cube, inside_out, moved};
+use crate::tests::nearest::Triangle;
+use crate::tests::scene::{RngExt, magnitude, pieces, rng, rotation, within};
+use glam::DVec3;
+
+fn solid(triangles: &[Triangle]) -> Body {
+    Body::new(&pieces(triangles), Volume::Solid).unwrap()
+}
+
+fn contained(a: &Body, b: &Body) -> Option<Overlap> {
+    match touching_at_start(a, b, &[]) {
+        Containment::Inside(overlap) => Some(overlap),
+        Containment::Outside => None,
+        Containment::Undecided => panic!("too near to tell"),
+    }
+}
+
+fn touching_at_start(a: &Body, b: &Body, touching: &[[u32; 2]]) -> Containment {
+    let moving = |body| Moving {
+        body,
+        motion: Motion::still(Pose::IDENTITY),
+    };
+    let problem = Problem::new(moving(a), moving(b), 1.0, &Config::default()).unwrap();
+    at_start(&problem, touching)
+}
+
+fn contains(body: &Body, point: DVec3) -> Option<bool> {
+    super::contains(body, point, 1e-13)
+}
+
+#[test]
+fn points_are_inside_or_outside_of_a_cube() {
+    let mut rng = rng(1);
+    let (mut inside, mut outside) = (0, 0);
+    for n in [1, 3, 20] {
+        let body = solid(&cube(1.0, n));
+        for _ in 0..2_000 {
+            let point = within(&mut rng, 2.0);
+            let exact = point.abs().max_element() < 1.0;
+            assert_eq!(contains(&body, point), Some(exact), "{point} {n}");
+            inside += usize::from(exact);
+            outside += usize::from(!exact);
+        }
+    }
+    assert!(inside > 1_000 && outside > 1_000);
+}
+
+#[test]
+fn a_point_on_the_surface_is_not_told_to_be_inside() {
+    for n in [1, 4] {
+        let body = solid(&cube(1.0, n));
+        let on = [
+            DVec3::new(1.0, 0.3, 0.2),
+            DVec3::new(0.1, -1.0, 0.77),
+            DVec3::new(1.0, 1.0, 0.3),
+            DVec3::ONE,
+            -DVec3::ONE,
+            DVec3::new(0.0, 0.0, 1.0),
+        ];
+        for point in on {
+            assert_ne!(contains(&body, point), Some(true), "{point} {n}");
+        }
+    }
+}
+
+/// Rays that pass exactly through corners and edges are not counted wrong.
+#[test]
+fn regular_points_that_line_up_with_edges_are_told() {
+    let body = solid(&cube(1.0, 8));
+    for i in -7..=7 {
+        for j in -7..=7 {
+            for k in -7..=7 {
+                let point = DVec3::new(f64::from(i), f64::from(j), f64::from(k)) / 8.0;
+                assert_eq!(contains(&body, point), Some(true), "{point}");
+                assert_eq!(
+                    contains(&body, point + 2.0 * DVec3::X),
+                    Some(false),
+                    "{point}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn a_cavity_is_outside_and_a_solid_in_it_inside() {
+    let mut shells = cube(3.0, 2);
+    shells.extend(inside_out(&cube(2.0, 2)));
+    shells.extend(cube(1.0, 2));
+    let body = solid(&shells);
+    for (x, inside) in [(0.0, true), (1.5, false), (2.5, true), (3.5, false)] {
+        let point = DVec3::new(x, 0.1 * x, 0.03 * x);
+        assert_eq!(contains(&body, point), Some(inside), "{x}");
+    }
+    // Something in the cavity is no overlap; something in the core or the wall is.
+    let part = |x: f64| solid(&moved(&cube(0.1, 1), x * DVec3::X));
+    for (x, inside) in [(0.0, true), (1.5, false), (2.5, true), (3.5, false)] {
+        let overlap = contained(&part(x), &body);
+        assert_eq!(matches!(overlap, Some(Overlap::AInsideB(_))), inside, "{x}");
+        let overlap = contained(&body, &part(x));
+        assert_eq!(matches!(overlap, Some(Overlap::BInsideA(_))), inside, "{x}");
+    }
+}
+
+#[test]
+fn a_mesh_that_is_inside_out_contains_what_it_surrounds() {
+    let body = solid(&inside_out(&cube(1.0, 3)));
+    assert_eq!(contains(&body, DVec3::new(0.1, 0.2, 0.3)), Some(true));
+    assert_eq!(contains(&body, DVec3::new(1.1, 0.2, 0.3)), Some(false));
+}
+
+#[test]
+fn only_one_of_many_parts_need_be_inside() {
+    let outer = solid(&cube(1.0, 2));
+    let mut parts = moved(&cube(0.1, 1), 5.0 * DVec3::X);
+    parts.extend(moved(&cube(0.1, 1), -5.0 * DVec3::X));
+    assert_eq!(contained(&solid(&parts), &outer), None);
+    parts.extend(cube(0.1, 1));
+    let Some(Overlap::AInsideB(point)) = contained(&solid(&parts), &outer) else {
+        panic!("a part is inside");
+    };
+    assert!(point.abs().max_element() <= 0.1);
+}
+
+#[test]
+fn a_surface_contains_nothing() {
+    let surface = Body::new(&pieces(&cube(1.0, 2)), Volume::Surface).unwrap();
+    let small = solid(&cube(0.1, 1));
+    assert_eq!(contained(&small, &surface), None);
+    // But a surface may be inside of a solid.
+    let inner = Body::new(&pieces(&cube(0.1, 2)), Volume::Surface).unwrap();
+    let overlap = contained(&solid(&cube(1.0, 1)), &inner);
+    assert!(matches!(overlap, Some(Overlap::BInsideA(_))));
+}
+
+#[test]
+fn placement_and_size_do_not_matter() {
+    let mut rng = rng(2);
+    for _ in 0..200 {
+        let scale = magnitude(&mut rng, -6.0, 6.0);
+        let turn = rotation(&mut rng);
+        let far = within(&mut rng, 1e3 * scale);
+        let place = |triangles: Vec<Triangle>, at: DVec3| -> Vec<Triangle> {
+            let put = |p: DVec3| turn * (p + at) * scale + far;
+            triangles.iter().map(|t| t.map(put)).collect()
+        };
+        let at = within(&mut rng, 2.0);
+        let inside = at.abs().max_element() < 0.9;
+        if (0.9..1.1).contains(&at.abs().max_element()) {
+            continue;
+        }
+        let n = rng.random_range(1..4);
+        let (outer, inner) = (
+            solid(&place(cube(1.0, n), DVec3::ZERO)),
+            solid(&place(cube(0.05, 1), at)),
+        );
+        let overlap = contained(&inner, &outer);
+        assert_eq!(
+            matches!(overlap, Some(Overlap::AInsideB(_))),
+            inside,
+            "{at} {scale:e}"
+        );
+    }
+}
+
+/// Two pyramids on one square, the corners of which are on a large triangle: no face passes through it.
+#[test]
+fn a_triangle_through_the_waist_of_an_octahedron_is_inside() {
+    let tip = |k: usize| match k % 2 {
+        0 => DVec3::AXES[k / 2],
+        _ => -DVec3::AXES[k / 2],
+    };
+    let faces = [
+        [0, 2, 4],
+        [2, 1, 4],
+        [1, 3, 4],
+        [3, 0, 4],
+        [2, 0, 5],
+        [1, 2, 5],
+        [3, 1, 5],
+        [0, 3, 5],
+    ];
+    let octahedron: Vec<Triangle> = faces.iter().map(|face| face.map(tip)).collect();
+    let plate = [
+        DVec3::new(-4.0, -4.0, 0.0),
+        DVec3::new(40.0, -4.0, 0.0),
+        DVec3::new(-4.0, 40.0, 0.0),
+    ];
+    let sheet = Body::new(&pieces(&[plate]), Volume::Surface).unwrap();
+    let solid = solid(&octahedron);
+    let touching: Vec<[u32; 2]> = (0..8).map(|k| [k, 0]).collect();
+    let found = |sheet: &Body| touching_at_start(&solid, sheet, &touching);
+    assert!(matches!(
+        found(&sheet),
+        Containment::Inside(Overlap::BInsideA(_))
+    ));
+    // Resting on a tip, it is not.
+    let above = Body::new(&pieces(&moved(&[plate], DVec3::Z)), Volume::Surface).unwrap();
+    assert_eq!(found(&above), Containment::Outside);
+}
