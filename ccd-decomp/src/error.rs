@@ -1,11 +1,11 @@
 //! What can be wrong with a file, a mesh or the description of a body.
 
-use crate::hull_tree::BuildError;
-use crate::self_intersection::Crossing;
-use crate::store::StoreError;
+use crate::file::StoreError;
+use crate::pieces::vhacd::VhacdError;
+use crate::solid::crossings::Crossing;
+use crate::solid::topology::{Edge, Topology};
 use crate::tally::Tally;
-use crate::topology::{Edge, Topology};
-use crate::vhacd::VhacdError;
+use crate::tree::hull_tree::BuildError;
 use ccd_core::tolerance::{LEAST_COORDINATE, MAX_COORDINATE};
 use ccd_core::{HullTreeError, InputError};
 use serde::{Deserialize, Serialize};

@@ -3,19 +3,20 @@
 //! ```text
 //! points ─┬─ in one plane ───────────────────► flat.rs ───────────────────────┐
 //!         ├─ some ─► library.rs ─► proof.rs ─┬─ proven ──────────────────────┼─► Hull
-//!         │                                  └─ refuted ─► exact.rs, proof.rs ┤
-//!         └─ few or many ──────────────────► exact.rs, proof.rs ──────────────┘
+//!         │                                  └─ refuted ─► exact_hull.rs ─────┤
+//!         └─ few or many ──────────────────► exact_hull.rs ─► proof.rs ───────┘
 //! ```
 
-mod exact;
+pub(crate) mod exact_hull;
 mod flat;
 mod library;
+pub(crate) mod polygons;
 mod proof;
 mod span;
 
-use crate::exact_hull::ExactHull;
-use crate::polygons::loops;
-use crate::predicates;
+use crate::exact::predicates;
+use crate::hull::exact_hull::ExactHull;
+use crate::hull::polygons::loops;
 use crate::tolerance::{FEW_POINTS, LIBRARY_POINTS, LIKELY_POINTS};
 use ccd_core::Loops;
 use ccd_core::glam::DVec3;
@@ -139,7 +140,11 @@ fn solid(points: &[DVec3]) -> Result<(Loops, Way), HullError> {
         return Ok((facets, Way::Library));
     }
     let way = if some { Way::Rebuilt } else { Way::Exact };
-    match exact::facets(points) {
+    // No point is in front of a facet of it: each was a corner, or in front of none when the hull came to it.
+    let triangles = ExactHull::facets_of(points);
+    let facets =
+        triangles.and_then(|triangles| proof::prove_convex(points, loops(points, &triangles)).ok());
+    match facets {
         Some(facets) => Ok((facets, way)),
         None => Err(HullError::Unproven(points.len())),
     }

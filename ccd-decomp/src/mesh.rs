@@ -1,11 +1,13 @@
 //! A mesh that is fit to be made a body of.
 
+pub(crate) mod format;
 mod outline;
+pub(crate) mod repair;
 
 use crate::error::{MeshError, MeshFault};
-use crate::format::Format;
-use crate::predicates::is_without_area;
-use crate::repair::{Repairs, collapsed_faces, duplicate_faces};
+use crate::exact::predicates::is_without_area;
+use crate::mesh::format::Format;
+use crate::mesh::repair::{Repairs, collapsed_faces, duplicate_faces};
 use ccd_core::glam::DVec3;
 use ccd_core::tolerance::MAX_COORDINATE;
 use std::collections::HashMap;

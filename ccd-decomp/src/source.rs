@@ -1,9 +1,9 @@
 //! Bodies as they are named on a command line.
 
-use crate::body::{Detail, Model, Prepared, body_from_mesh};
 use crate::error::{BodyError, SourceError};
+use crate::file::STORED_EXTENSION;
 use crate::mesh::TriangleMesh;
-use crate::store::STORED_EXTENSION;
+use crate::prepare::{Detail, Model, Prepared, body_from_mesh};
 use ccd_core::Body;
 use ccd_core::glam::DVec3;
 use ccd_core::tolerance::MAX_COORDINATE;

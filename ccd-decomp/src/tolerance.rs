@@ -74,7 +74,7 @@ pub(crate) fn on_edge(farthest: f64) -> f64 {
 }
 
 /// Bounds the error of the length of a difference of points along a direction, and of how far a box of
-/// [`Slab`](crate::triangle_boxes) goes along it, when no coordinate exceeds `reach`; in its unit of
+/// [`Slab`](crate::search) goes along it, when no coordinate exceeds `reach`; in its unit of
 /// length, for a direction about as long as 1.
 ///
 /// With `u` half a unit in the last place, `d` the sum of the direction's coordinates and `m` the reach: a

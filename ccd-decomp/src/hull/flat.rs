@@ -1,7 +1,7 @@
 //! The hull of points in one plane, exactly.
 
 use super::lexicographic;
-use crate::predicates::Projection;
+use crate::exact::predicates::Projection;
 use ccd_core::Loops;
 use ccd_core::glam::DVec3;
 use std::cmp::Ordering;

@@ -1,5 +1,5 @@
 use super::*;
-use crate::predicates::{Projection, is_degenerate, side};
+use crate::exact::predicates::{Projection, is_degenerate, side};
 use proptest::prelude::*;
 use rstest::rstest;
 use std::collections::BTreeSet;

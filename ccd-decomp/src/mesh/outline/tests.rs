@@ -1,5 +1,5 @@
 use super::*;
-use crate::predicates::Projection;
+use crate::exact::predicates::Projection;
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;

@@ -1,0 +1,3 @@
+//! Exact predicates on points, segments and triangles: signs that rounding cannot change.
+
+pub(crate) mod predicates;

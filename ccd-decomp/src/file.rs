@@ -1,0 +1,213 @@
+//! Prepared bodies as files: written once, read at every start.
+
+mod frame;
+#[cfg(test)]
+mod tests;
+
+use crate::error::{LFS_ADVICE, Prefix};
+use crate::prepare::Model;
+use crate::prepare::report::Report;
+use ccd_core::{Hierarchy, HullNode, HullTree, Pieces, Volume};
+use std::fmt;
+use std::fs::{self, File};
+use std::io::{self, BufReader, Read, Write};
+use std::path::{Path, PathBuf};
+
+/// The extension of a stored body's file.
+pub const STORED_EXTENSION: &str = "ccd";
+
+/// Why a stored body cannot be read, or a body not be stored.
+#[derive(Debug, thiserror::Error)]
+#[error("{}{fault}", Prefix(.file))]
+pub struct StoreError {
+    /// The file, where there is one.
+    pub file: Option<PathBuf>,
+    /// What is wrong with it.
+    pub fault: StoreFault,
+}
+
+/// What is wrong with a stored body.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum StoreFault {
+    /// The operating system would not give the bytes.
+    #[error("cannot be read: {0}")]
+    Unreadable(#[source] io::Error),
+    /// The operating system would not take the bytes.
+    #[error("cannot be written: {0}")]
+    Unwritable(#[source] io::Error),
+    /// It does not begin as a stored body does.
+    #[error("holds no stored body; give a mesh, or {PREPARE}")]
+    Foreign,
+    /// Git stands for it with a few lines.
+    #[error("{LFS_ADVICE}")]
+    LfsPointer,
+    /// Another version of the program wrote it.
+    #[error(
+        "is of version {version} of the format, and version {} is what is read; {PREPARE}",
+        frame::VERSION
+    )]
+    OtherVersion {
+        /// The version it says.
+        version: u32,
+    },
+    /// It ends before all it announces is there.
+    #[error("is cut short; copy it again, or {PREPARE}")]
+    Truncated,
+    /// Its bytes are not those that were written.
+    #[error("is damaged: its checksum is not that of its bytes; copy it again, or {PREPARE}")]
+    Damaged,
+    /// Its bytes are whole, but say nothing that is a body.
+    #[error("holds no valid body: {problem}; {PREPARE}")]
+    Invalid {
+        /// What is not valid.
+        problem: String,
+    },
+}
+
+const PREPARE: &str = "prepare it again from its mesh: ccd decompose MESH --out FILE.ccd";
+
+/// What is stored of a model, in this order; a hull tree without its pieces, which are there already.
+/// A change to any of these types, or to their order, is another version of the format.
+type Stored = (
+    Pieces,
+    Hierarchy,
+    Volume,
+    Option<Vec<HullNode>>,
+    Option<(Pieces, Hierarchy)>,
+    Report,
+);
+
+impl Model {
+    /// Stores it in a file, by convention called `NAME.ccd`.
+    ///
+    /// # Errors
+    /// [`StoreFault::Unwritable`].
+    pub fn save(&self, path: impl AsRef<Path>) -> Result<(), StoreError> {
+        let path = path.as_ref();
+        // A write that is cut short must not take the old file with it.
+        let part = path.with_extension(format!("{STORED_EXTENSION}.part"));
+        let file = File::create(&part).map_err(StoreFault::Unwritable);
+        file.and_then(|file| self.store(file))
+            .and_then(|()| fs::rename(&part, path).map_err(StoreFault::Unwritable))
+            .map_err(|fault| {
+                // It may not even be there.
+                let _ = fs::remove_file(&part);
+                fault.in_file(path)
+            })
+    }
+
+    /// Loads what [`Model::save`] has stored.
+    ///
+    /// # Guarantee
+    /// Its body answers as the one that was stored does, bit by bit. No bytes panic: what is not as it
+    /// was written is an error, or, where even the checksum was forged, still a valid body.
+    ///
+    /// # Errors
+    /// [`StoreError`], with the file's name.
+    pub fn load(path: impl AsRef<Path>) -> Result<Self, StoreError> {
+        let path = path.as_ref();
+        let file = File::open(path).map_err(StoreFault::Unreadable);
+        file.and_then(|file| Model::unpack(BufReader::new(file)))
+            .map_err(|fault| fault.in_file(path))
+    }
+
+    /// Writes it as [`Model::save`] does, to anywhere.
+    ///
+    /// # Errors
+    /// [`StoreFault::Unwritable`].
+    pub fn write(&self, writer: impl Write) -> Result<(), StoreError> {
+        Ok(self.store(writer)?)
+    }
+
+    /// Reads as [`Model::load`] does, from anywhere, to the end.
+    ///
+    /// # Errors
+    /// [`StoreError`].
+    pub fn read(reader: impl Read) -> Result<Self, StoreError> {
+        Ok(Model::unpack(reader)?)
+    }
+
+    fn store(&self, writer: impl Write) -> Result<(), StoreFault> {
+        let Model {
+            pieces,
+            hierarchy,
+            volume,
+            hull_tree,
+            surface,
+            report,
+        } = self;
+        let nodes = hull_tree.as_ref().map(HullTree::to_nodes);
+        let stored = (pieces, hierarchy, volume, nodes, surface, report);
+        let unwritable = |error| StoreFault::Unwritable(io::Error::other(error));
+        let payload = postcard::to_allocvec(&stored).map_err(unwritable)?;
+        frame::write(writer, &payload).map_err(StoreFault::Unwritable)
+    }
+
+    fn unpack(reader: impl Read) -> Result<Self, StoreFault> {
+        let payload = frame::read(reader)?;
+        let (stored, rest): (Stored, &[u8]) =
+            postcard::take_from_bytes(&payload).map_err(|error| StoreFault::invalid(&error))?;
+        if !rest.is_empty() {
+            return Err(StoreFault::invalid(&"there is more than a body"));
+        }
+        let (pieces, hierarchy, volume, nodes, surface, report) = stored;
+        let tree = |nodes: Vec<HullNode>| HullTree::new(&pieces, &nodes);
+        let hull_tree = nodes.map(tree).transpose();
+        let model = Model {
+            hull_tree: hull_tree.map_err(|error| StoreFault::invalid(&error))?,
+            pieces,
+            hierarchy,
+            volume,
+            surface,
+            report,
+        };
+        model.check().map_err(|error| StoreFault::invalid(&error))?;
+        Ok(model)
+    }
+
+    /// Whether its parts, each valid by itself, belong together.
+    fn check(&self) -> Result<(), &'static str> {
+        let pieces = self.pieces.len();
+        // Of a binary tree's nodes, one more are leaves than are not.
+        let fits = |pieces: &Pieces, hierarchy: &Hierarchy| {
+            hierarchy.nodes().len().div_ceil(2) == pieces.len()
+        };
+        let surface = self.surface.as_ref();
+        if !(fits(&self.pieces, &self.hierarchy) && surface.is_none_or(|(p, h)| fits(p, h))) {
+            return Err("the hierarchy is over another number of pieces");
+        }
+        let whole = || {
+            let solid = self.volume == Volume::Solid;
+            solid && pieces == 1 && self.pieces.get(0).radius == 0.0
+        };
+        if surface.is_some_and(|(pieces, _)| !(whole() && pieces.all_triangles())) {
+            return Err("the surface is not that of one solid piece");
+        }
+        if self.report.pieces != pieces {
+            return Err("the report counts another number of pieces");
+        }
+        Ok(())
+    }
+}
+
+impl StoreFault {
+    fn invalid(problem: &dyn fmt::Display) -> Self {
+        StoreFault::Invalid {
+            problem: problem.to_string(),
+        }
+    }
+
+    fn in_file(self, file: &Path) -> StoreError {
+        StoreError {
+            file: Some(file.into()),
+            fault: self,
+        }
+    }
+}
+
+impl From<StoreFault> for StoreError {
+    fn from(fault: StoreFault) -> Self {
+        StoreError { file: None, fault }
+    }
+}

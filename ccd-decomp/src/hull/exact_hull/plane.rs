@@ -1,0 +1,90 @@
+//! Which points are in front of a facet: by their height where rounding cannot matter, else exactly.
+
+use crate::exact::predicates::side_of;
+use ccd_core::glam::DVec3;
+use ccd_core::order::greater;
+use ccd_core::tolerance::height_rounding;
+use std::cmp::Ordering;
+
+/// Points, and where they are relative to one of them.
+pub(super) struct Places<'a> {
+    points: &'a [DVec3],
+    relative: Vec<DVec3>,
+    /// The largest coordinate of those.
+    reach: f64,
+}
+
+/// The plane of three of the points, rounded.
+#[derive(Clone, Copy)]
+pub(super) struct Plane {
+    normal: DVec3,
+    height: f64,
+    /// What a point's height over it may be off by.
+    rounding: f64,
+}
+
+impl<'a> Places<'a> {
+    pub(super) fn new(points: &'a [DVec3]) -> Self {
+        let base = points.first().copied().unwrap_or(DVec3::ZERO);
+        let relative: Vec<DVec3> = points.iter().map(|&p| p - base).collect();
+        let coordinates = relative.iter().map(|p| p.abs().max_element());
+        Places {
+            points,
+            reach: coordinates.fold(0.0, greater),
+            relative,
+        }
+    }
+
+    pub(super) fn plane(&self, corners: [u32; 3]) -> Plane {
+        let [p, q, r] = corners.map(|v| self.points[v as usize]);
+        let sides = [q - p, r - p];
+        let normal = sides[0].cross(sides[1]);
+        Plane {
+            normal,
+            height: normal.dot(self.relative[corners[0] as usize]),
+            rounding: height_rounding(sides, self.reach),
+        }
+    }
+
+    /// Whether a point is in front of the plane through some corners, exactly.
+    #[inline]
+    pub(super) fn is_in_front(&self, plane: &Plane, corners: [u32; 3], v: u32) -> bool {
+        let height = plane.normal.dot(self.relative[v as usize]) - plane.height;
+        // Written so that NaN is told exactly.
+        match height.abs() > plane.rounding {
+            true => height > 0.0,
+            false => side_of(self.points, corners, v) == Ordering::Greater,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        /// Points near a plane, far from the origin or not.
+        #[test]
+        fn heights_tell_what_the_predicate_tells(
+            points in prop::collection::vec(prop::array::uniform3(-2_i8..=2), 4..12),
+            off in prop::collection::vec(prop::array::uniform3(-1.0..1.0), 12),
+            size in prop::sample::select(vec![0.0, 1e-16, 1e-14, 1e-12, 0.1]),
+            far in prop::sample::select(vec![0.0, 0.1, 1e3, 1e9]),
+        ) {
+            let shaken = |(p, off): (&[i8; 3], &[f64; 3])| {
+                let p = DVec3::from_array(p.map(f64::from));
+                p + size * DVec3::from_array(*off) + far
+            };
+            let points: Vec<DVec3> = points.iter().zip(&off).map(shaken).collect();
+            let places = Places::new(&points);
+            for corners in [[0, 1, 2], [3, 1, 2], [1, 3, 0]] {
+                let plane = places.plane(corners);
+                for v in 0..points.len() as u32 {
+                    let exact = side_of(&points, corners, v) == Ordering::Greater;
+                    prop_assert_eq!(places.is_in_front(&plane, corners, v), exact);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,198 @@
+//! A few convex hulls in place of a mesh: approximate, with errors that are certified on both sides.
+//!
+//! ```text
+//! mesh ─ voxels.rs ─ labels.rs (the library's V-HACD) ─ cover.rs ─ merge.rs ─► hulls ─ excess.rs ─► errors
+//! ```
+//!
+//! The library only says which voxel belongs to which part `[MAM16]`. Its hulls are not used, because
+//! they neither contain the mesh nor say by how much they miss it: each hull is made anew, of all that
+//! the solid has in the voxels of its part.
+
+mod cover;
+mod excess;
+mod extremes;
+mod labels;
+mod merge;
+mod solid;
+mod voxels;
+
+use crate::hull::{HullError, Way, hull};
+use crate::mesh::TriangleMesh;
+use crate::pieces::convex::as_polytope;
+use crate::solid::manifold::Manifold;
+use crate::solid::star::is_seen_whole;
+use crate::solid::topology::Topology;
+use crate::tolerance;
+use ccd_core::glam::DVec3;
+use ccd_core::{Facet, Loops, Origin, Polytope};
+use rayon::prelude::*;
+use solid::Solid;
+use voxels::Voxels;
+
+/// Hulls that together cover a solid, or a surface if the mesh is open.
+///
+/// # Guarantee
+/// With S for the solid (the points about which the mesh winds) and its surface, or for the surface
+/// alone if the mesh is open: every point of S is within `uncovered` of a hull's points, and within a
+/// polytope, whose radius that is. No point of a polytope is farther than `sticks_out` from S.
+#[derive(Clone, Debug)]
+pub(crate) struct Approximation {
+    /// At most as many as asked for. Their facets are no part of the mesh.
+    pub(crate) polytopes: Vec<Polytope>,
+    /// How far S sticks out of the hulls at most: the radius of every polytope, in the mesh's unit of
+    /// length. It is what rounding may have cost.
+    pub(crate) uncovered: f64,
+    /// How many of them the library got wrong, so that they were computed exactly.
+    pub(crate) rebuilt: usize,
+    /// How far the polytopes stick out of S at most, in the mesh's unit of length.
+    pub(crate) sticks_out: f64,
+}
+
+/// Why a mesh cannot be approximated.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum VhacdError {
+    /// No hulls were asked for.
+    #[error("a mesh cannot be approximated by no hulls")]
+    NoHulls,
+    /// A coordinate is so near to 0 that predicates are not exact.
+    #[error("vertex {vertex} has a coordinate that is too near to 0 for exact predicates")]
+    TooFine {
+        /// Its number in the mesh.
+        vertex: u32,
+    },
+    /// The library failed on the mesh's voxels.
+    #[error("V-HACD failed on this mesh")]
+    Library,
+    /// A part's hull could not be computed.
+    #[error("the hull of a part failed: {0}")]
+    Hull(HullError),
+    /// The hulls may stick out by so much that they say little.
+    #[error(
+        "the hulls may stick out by {sticks_out:.3e}, more than {limit:.3e}, a quarter of the \
+         diagonal; mend the mesh, or use triangles"
+    )]
+    TooCoarse {
+        /// The certified bound.
+        sticks_out: f64,
+        /// What would be accepted, in the mesh's unit of length.
+        limit: f64,
+    },
+}
+
+/// Approximates a mesh by so many hulls or fewer: a convex solid by one, and a mesh that no grid of voxels
+/// suits, because its triangles are large and many or its coordinates hardly differ.
+///
+/// # Errors
+/// See [`VhacdError`].
+///
+/// # Complexity
+/// Parts: the library's, O(r³) in the resolution. Errors: a branch and bound of about
+/// [`tolerance::EXCESS_WORK`] steps.
+pub(crate) fn approximate(
+    mesh: &TriangleMesh,
+    topology: &Topology,
+    hulls: u32,
+) -> Result<Approximation, VhacdError> {
+    if hulls == 0 {
+        return Err(VhacdError::NoHulls);
+    }
+    if let Some(vertex) = crate::exact::predicates::too_fine(mesh.vertices()) {
+        return Err(VhacdError::TooFine {
+            vertex: vertex as u32,
+        });
+    }
+    let solid = Solid::of(mesh, topology);
+    let is_convex = is_convex(mesh, topology);
+    let voxels = Voxels::of(&solid, hulls).filter(|_| hulls > 1 && !is_convex);
+    let parts = match voxels {
+        Some(voxels) => {
+            let (contents, labels) = rayon::join(
+                || cover::contents(&solid, &voxels),
+                || labels::labels(&solid, &voxels, hulls),
+            );
+            let labels = labels.ok_or(VhacdError::Library)?;
+            cover::points_by_part(&solid, &voxels, &contents, labels)
+        }
+        None => vec![cover::each_once(solid.corners().collect())],
+    };
+    let parts = parts.into_iter().filter(|points| !points.is_empty());
+    let parts: Vec<Part> = merge::down_to(parts.collect(), hulls as usize)
+        .par_iter()
+        .map(|points| Part::of(points))
+        .collect::<Result<_, HullError>>()
+        .map_err(VhacdError::Hull)?;
+    let uncovered = tolerance::clip_rounding(solid.farthest_coordinate());
+    let excess = match is_convex {
+        true => 0.0,
+        false => excess::bound(&solid, &parts),
+    };
+    let sticks_out = (excess + uncovered).next_up();
+    let limit = tolerance::TOO_COARSE * solid.reach() + 2.0 * uncovered;
+    // Written so that NaN fails.
+    if !(sticks_out <= limit) {
+        return Err(VhacdError::TooCoarse { sticks_out, limit });
+    }
+    Ok(Approximation {
+        rebuilt: parts.iter().filter(|part| part.way == Way::Rebuilt).count(),
+        polytopes: parts.into_iter().map(|p| p.polytope(uncovered)).collect(),
+        uncovered,
+        sticks_out,
+    })
+}
+
+/// Whether the mesh is known to be a convex solid, so that its hull has no error.
+fn is_convex(mesh: &TriangleMesh, topology: &Topology) -> bool {
+    let manifold = Manifold::unchecked(mesh, topology);
+    manifold.is_ok_and(|manifold| is_seen_whole(&manifold) && as_polytope(&manifold).is_ok())
+}
+
+/// A convex part: the corners of its hull, and the facets if they are not all in a line.
+struct Part {
+    corners: Vec<DVec3>,
+    facets: Loops,
+    way: Way,
+}
+
+impl Part {
+    fn of(points: &[DVec3]) -> Result<Self, HullError> {
+        let at = |v: &u32| points[*v as usize];
+        let hull = match hull(points) {
+            Ok(hull) => hull,
+            Err(HullError::Single(v)) => return Ok(Part::thin(vec![at(&v)])),
+            Err(HullError::Collinear(v, w)) => return Ok(Part::thin(vec![at(&v), at(&w)])),
+            Err(error) => return Err(error),
+        };
+        let place = |v: &u32| hull.vertices.partition_point(|w| w < v) as u32;
+        let mut facets = hull.facets;
+        facets.corners_mut().iter_mut().for_each(|v| *v = place(v));
+        Ok(Part {
+            corners: hull.vertices.iter().map(at).collect(),
+            facets,
+            way: hull.way,
+        })
+    }
+
+    fn thin(corners: Vec<DVec3>) -> Self {
+        Part {
+            corners,
+            facets: Loops::default(),
+            way: Way::Flat,
+        }
+    }
+
+    fn polytope(self, radius: f64) -> Polytope {
+        let facet = |corners: &[u32]| Facet {
+            origin: Origin::Virtual,
+            corners: corners.to_vec(),
+        };
+        Polytope {
+            points: self.corners,
+            facets: self.facets.iter().map(facet).collect(),
+            radius,
+            ..Polytope::default()
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,146 @@
+//! A part as it is seen by the search: its planes.
+
+use super::super::Part;
+use super::super::solid::Solid;
+use crate::search::Bounds;
+use crate::tolerance::WELL_SHAPED;
+use crate::work::Work;
+use ccd_core::SupportTree;
+use ccd_core::glam::DVec3;
+use ccd_core::order::{greater, lesser};
+use ccd_core::vector::unit;
+
+/// A part with the planes of its facets.
+pub(super) struct Body<'a> {
+    pub(super) part: &'a Part,
+    /// Only those of facets that are well shaped, which are right to within the solid's slack.
+    pub(super) planes: Vec<Plane>,
+    pub(super) bounds: Bounds,
+    slack: f64,
+}
+
+/// A plane in front of which a part has nothing.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Plane {
+    /// Of length 1.
+    pub(super) normal: DVec3,
+    /// Along the normal.
+    pub(super) height: f64,
+}
+
+/// What a box that may have some of a part is to the part's planes.
+pub(super) struct Meeting {
+    /// Whether the centre is in the part.
+    pub(super) has_centre: bool,
+    /// The numbers of the planes that the box is not all behind.
+    pub(super) planes: Vec<u32>,
+}
+
+impl<'a> Body<'a> {
+    pub(super) fn of(part: &'a Part, solid: &Solid<'_>) -> Self {
+        Body {
+            part,
+            planes: part
+                .facets
+                .iter()
+                .filter_map(|facet| Plane::of(part, facet))
+                .collect(),
+            bounds: Bounds::of(part.corners.iter().copied()),
+            slack: solid.slack(),
+        }
+    }
+
+    /// Holds a box against some planes: those that a larger box is not all behind. None if it has nothing of
+    /// the part.
+    pub(super) fn meets(&self, centre: DVec3, half: DVec3, among: &[u32]) -> Option<Meeting> {
+        let mut meeting = Meeting {
+            has_centre: !self.planes.is_empty(),
+            planes: Vec::new(),
+        };
+        for &k in among {
+            let plane = self.planes[k as usize];
+            let above = plane.above(centre);
+            let reach = plane.normal.abs().dot(half) + self.slack;
+            if above > reach {
+                return None;
+            }
+            // Written so that NaN is no bound.
+            if !(above <= 0.0) {
+                meeting.has_centre = false;
+            }
+            if !(above < -reach) {
+                meeting.planes.push(k);
+            }
+        }
+        Some(meeting)
+    }
+
+    /// A bound for a part that hardly any of the surface reaches into; none if it would be more than
+    /// some.
+    ///
+    /// Let the part be shrunk towards a point of the solid, so far that each triangle of the surface is in front
+    /// of one of its planes. No surface is within, so that it is all in the solid; by what it was shrunk, the
+    /// part may stick out.
+    ///
+    /// # Complexity
+    /// O(log f) for each triangle near the part, of f facets.
+    pub(super) fn excess_by_shrinking(&self, solid: &Solid<'_>, most: f64) -> Option<f64> {
+        let count = self.part.corners.len() as f64;
+        let centre = self.part.corners.iter().sum::<DVec3>() / count;
+        let depths = self.planes.iter().map(|plane| plane.above(centre));
+        let depths: Vec<f64> = depths.map(|above| self.slack - above).collect();
+        let is_inside = depths.iter().all(|&depth| depth > 2.0 * self.slack);
+        if depths.is_empty() || !is_inside || !solid.winds_about(centre, &Work::unbounded()) {
+            return None;
+        }
+        let far = self.part.corners.iter().map(|p| p.distance(centre));
+        let reach = far.fold(0.0, greater) + self.slack;
+        // In units of its depth below each plane a point is as far out as the farthest of these is along it.
+        let duals = self.planes.iter().zip(&depths);
+        let duals: Vec<DVec3> = duals.map(|(plane, depth)| plane.normal / *depth).collect();
+        let farthest = SupportTree::new(&duals);
+        let share_before = |triangle: [DVec3; 3], towards: DVec3| {
+            let k = farthest.extremal(towards - centre) as usize;
+            let out = triangle.map(|p| self.planes[k].normal.dot(p - centre) - self.slack);
+            out.into_iter().fold(f64::INFINITY, lesser) / depths[k]
+        };
+        let enough = 1.0 - most / reach;
+        let mut share = 1.0_f64;
+        let near = solid
+            .triangles()
+            .filter(|&t| Bounds::of(t).meets(&self.bounds));
+        for triangle in near {
+            let [p, q, r] = triangle;
+            let towards = [(p + q + r) / 3.0, p, q, r].into_iter();
+            let of_this = towards
+                .map(|towards| share_before(triangle, towards))
+                .find(|&share| share >= enough)?;
+            share = lesser(share, of_this);
+        }
+        Some((1.0 - share) * reach)
+    }
+}
+
+impl Plane {
+    /// That of a facet; none if it is not well shaped.
+    fn of(part: &Part, facet: &[u32]) -> Option<Self> {
+        let at = |k: usize| part.corners[facet[k] as usize];
+        // The corner triangle of the largest area.
+        let last = facet.len() - 1;
+        let sides = (1..last).map(|k| (at(k) - at(0), at(k + 1) - at(0)));
+        let area = |(u, v): &(DVec3, DVec3)| u.cross(*v).length_squared();
+        let (u, v) = sides.max_by(|one, other| area(one).total_cmp(&area(other)))?;
+        let normal = u.cross(v);
+        let good = normal.length() > WELL_SHAPED * u.length() * v.length();
+        let normal = unit(normal).filter(|_| good)?;
+        Some(Plane {
+            normal,
+            height: normal.dot(at(0)),
+        })
+    }
+
+    /// How far a point is in front of it.
+    pub(super) fn above(&self, point: DVec3) -> f64 {
+        self.normal.dot(point) - self.height
+    }
+}

@@ -1,0 +1,122 @@
+//! Many triangles about one vertex.
+
+use super::planes::{planes_beside, planes_within};
+use super::slab::Slab;
+use super::slabs::{Part, Slabs};
+use super::{Bounds, Hull, Shape};
+use crate::exact::predicates::{is_degenerate, side};
+use crate::tolerance::FAN_TRIANGLES;
+use crate::work::Work;
+use ccd_core::glam::DVec3;
+use std::cmp::Ordering;
+
+/// Triangles that have one vertex, the hub, in common: searched by the edges across from it.
+pub(super) struct Fan {
+    hub: DVec3,
+    rim: Slabs,
+    /// A triangle of those that are in its plane, all of them.
+    plane: Option<[DVec3; 3]>,
+}
+
+/// The faces that are in no large fan, and the large fans; each face is in one at most.
+pub(super) fn split(points: &[DVec3], faces: &[[u32; 3]]) -> (Vec<u32>, Vec<Fan>) {
+    let mut count = vec![0; points.len()];
+    for &v in faces.iter().flatten() {
+        count[v as usize] += 1;
+    }
+    let (mut single, mut members) = (Vec::new(), Vec::new());
+    for (number, face) in (0..).zip(faces) {
+        let hub = face.iter().copied().max_by_key(|&v| count[v as usize]);
+        match hub.filter(|&v| count[v as usize] >= FAN_TRIANGLES) {
+            Some(hub) => members.push((hub, number)),
+            None => single.push(number),
+        }
+    }
+    members.sort_unstable();
+    let mut fans = Vec::new();
+    for members in members.chunk_by(|a, b| a.0 == b.0) {
+        let (fan, others) = Fan::new(points, faces, members);
+        fans.push(fan);
+        single.extend(others);
+    }
+    (single, fans)
+}
+
+impl Fan {
+    /// Where most faces are in one plane, without the others.
+    fn new(points: &[DVec3], faces: &[[u32; 3]], members: &[(u32, u32)]) -> (Self, Vec<u32>) {
+        let number = members[0].0;
+        let hub = points[number as usize];
+        let edge = |&(_, face): &(u32, u32)| {
+            let corners = faces[face as usize];
+            let k = corners.iter().position(|&v| v == number).unwrap_or(0);
+            let corners = [1, 2, 2].map(|step| points[corners[(k + step) % 3] as usize]);
+            Part { corners, face }
+        };
+        let mut rim: Vec<Part> = members.iter().map(edge).collect();
+        let [p, q, _] = rim[rim.len() / 2].corners;
+        let in_plane = |part: &Part| {
+            let mut corners = part.corners.iter();
+            corners.all(|&corner| side([hub, p, q], corner) == Ordering::Equal)
+        };
+        let level: Vec<Part> = rim.iter().copied().filter(in_plane).collect();
+        let is_plane = !is_degenerate([hub, p, q]) && 2 * level.len() > rim.len();
+        let mut others = Vec::new();
+        if is_plane {
+            others.extend(rim.iter().filter(|p| !in_plane(p)).map(|p| p.face));
+            rim = level;
+        }
+        let fan = Fan {
+            hub,
+            plane: is_plane.then_some([hub, p, q]),
+            rim: Slabs::new(rim),
+        };
+        (fan, others)
+    }
+
+    /// Whether it is in a plane that has a hull on one side: none of it reaches inside.
+    fn is_beside(&self, hull: &Hull) -> bool {
+        self.plane.is_some_and(|plane| {
+            let sides = hull.corners.iter().map(|&corner| side(plane, corner));
+            let mut sides = sides.filter(|&side| side != Ordering::Equal);
+            let first = sides.next();
+            sides.all(|side| Some(side) == first)
+        })
+    }
+
+    /// Whether a triangle that the hub is no corner of is in the plane of all.
+    fn has_beside_hub(&self, corners: &[DVec3; 3]) -> bool {
+        let level = |plane: [DVec3; 3]| {
+            let mut sides = corners.iter().map(|&corner| side(plane, corner));
+            sides.all(|side| side == Ordering::Equal)
+        };
+        !corners.contains(&self.hub) && self.plane.is_some_and(level)
+    }
+
+    pub(super) fn bounds(&self) -> Bounds {
+        let hub = Bounds::of([self.hub]);
+        self.rim.bounds().map_or(hub, |rim| rim.union(hub))
+    }
+
+    /// As [`TriangleBoxes::all_meeting`](super::TriangleBoxes::all_meeting).
+    pub(super) fn all_meeting(
+        &self,
+        shape: &Shape,
+        work: &Work,
+        holds: impl FnMut(u32) -> bool,
+    ) -> bool {
+        if let Shape::Inside(hull) = shape
+            && self.is_beside(hull)
+        {
+            return true;
+        }
+        let planes = match shape {
+            Shape::Triangle(corners) if self.has_beside_hub(corners) => {
+                planes_within(corners, self.hub)
+            }
+            _ => planes_beside(shape, self.hub),
+        };
+        let is_far = |_: &Bounds, slab: &Slab| planes.iter().any(|plane| plane.has_in_front(slab));
+        self.rim.all_but(is_far, work, holds)
+    }
+}

@@ -1,0 +1,204 @@
+//! A closed surface without faults: what can be decomposed exactly.
+
+use crate::error::DecomposeError;
+use crate::exact::predicates::{Projection, is_degenerate, side, too_fine};
+use crate::mesh::TriangleMesh;
+use crate::search::TriangleBoxes;
+use crate::solid::crossings::{Crossing, crossings};
+use crate::solid::shells::check_orientation;
+use crate::solid::star::is_seen_whole;
+use crate::solid::topology::{Edge, Orientation, Topology};
+use crate::tally::Tally;
+use crate::work::Work;
+use ccd_core::glam::DVec3;
+use std::cell::OnceCell;
+use std::cmp::Ordering;
+
+/// A closed 2-manifold of triangles: every half-edge has one twin that runs the other way.
+///
+/// # Invariants
+/// Vertices at one point are one vertex. No triangle is without area, no two meet but in the vertices
+/// and edges they share, and behind each of them, against its normal, is the solid. Coordinates are fit
+/// for exact predicates.
+pub(crate) struct Manifold<'m> {
+    mesh: &'m TriangleMesh,
+    faces: Vec<[u32; 3]>,
+    /// By half-edge.
+    twins: Vec<u32>,
+    /// Made when they are first asked for.
+    boxes: OnceCell<TriangleBoxes>,
+}
+
+/// Half-edge `3 f + k` runs along face `f` from its corner `k` to the next.
+pub(crate) type HalfEdge = u32;
+
+/// How two faces meet at an edge, seen from outside.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Bend {
+    /// The solid's angle is less than half a turn.
+    Convex,
+    /// They lie in one plane.
+    Flat,
+    /// It is more.
+    Reflex,
+    /// They lie in one plane and on one side of the edge: back to back. A solid has no such edge.
+    Folded,
+}
+
+impl<'m> Manifold<'m> {
+    /// Looks at every edge, and at every pair of triangles that are near each other.
+    ///
+    /// A mesh that is inside out as a whole is turned.
+    pub(crate) fn new(mesh: &'m TriangleMesh) -> Result<Self, DecomposeError> {
+        let manifold = Manifold::unchecked(mesh, &Topology::of(mesh))?;
+        manifold.check(&Work::unbounded())?;
+        Ok(manifold)
+    }
+
+    /// A manifold as far as its edges tell: triangles have an area, but may meet each other, and parts
+    /// may be inside out. Takes a tenth of the time.
+    pub(crate) fn unchecked(
+        mesh: &'m TriangleMesh,
+        topology: &Topology,
+    ) -> Result<Self, DecomposeError> {
+        if let Some(vertex) = too_fine(mesh.vertices()) {
+            return Err(DecomposeError::TooFine { vertex });
+        }
+        if !topology.is_manifold() {
+            return Err(DecomposeError::NotManifold {
+                topology: Box::new(topology.clone()),
+            });
+        }
+        let turned = topology.orientation() == Orientation::Inward;
+        let faces: Vec<[u32; 3]> = mesh
+            .faces()
+            .iter()
+            .map(|face| {
+                let [a, b, c] = face.map(|v| mesh.positions()[v as usize]);
+                if turned { [a, c, b] } else { [a, b, c] }
+            })
+            .collect();
+        let manifold = Manifold {
+            twins: twins(&faces),
+            mesh,
+            faces,
+            boxes: OnceCell::new(),
+        };
+        let mut flat = Tally::default();
+        let face_count = manifold.faces.len() as u32;
+        for face in (0..face_count).filter(|&f| is_degenerate(manifold.triangle(f))) {
+            flat.add(mesh.face_ids()[face as usize]);
+        }
+        match flat.is_empty() {
+            true => Ok(manifold),
+            false => Err(DecomposeError::NoArea { faces: flat }),
+        }
+    }
+
+    /// Checks what the edges alone do not tell.
+    ///
+    /// # Errors
+    /// [`DecomposeError`]; [`TooLong`](DecomposeError::TooLong) when the work does not suffice to tell.
+    pub(crate) fn check(&self, work: &Work) -> Result<(), DecomposeError> {
+        if is_seen_whole(self) {
+            return Ok(());
+        }
+        let mut pairs = Tally::default();
+        for (face, other) in crossings(self, work)? {
+            let [face, other] = [face, other].map(|f| self.mesh.face_ids()[f as usize]);
+            pairs.add(Crossing { face, other });
+        }
+        if !pairs.is_empty() {
+            return Err(DecomposeError::SelfIntersecting { pairs });
+        }
+        check_orientation(self, work)
+    }
+
+    /// The mesh that it is of.
+    pub(crate) fn mesh(&self) -> &'m TriangleMesh {
+        self.mesh
+    }
+
+    /// The corners of all faces, by vertex, counter-clockwise seen from outside.
+    pub(crate) fn faces(&self) -> &[[u32; 3]] {
+        &self.faces
+    }
+
+    /// The point of a vertex.
+    #[inline]
+    pub(crate) fn point(&self, vertex: u32) -> DVec3 {
+        self.mesh.vertices()[vertex as usize]
+    }
+
+    /// The corners of a face.
+    #[inline]
+    pub(crate) fn triangle(&self, face: u32) -> [DVec3; 3] {
+        let [a, b, c] = self.faces[face as usize];
+        [self.point(a), self.point(b), self.point(c)]
+    }
+
+    /// The faces by where they are.
+    pub(crate) fn boxes(&self) -> &TriangleBoxes {
+        self.boxes
+            .get_or_init(|| TriangleBoxes::new(self.mesh.vertices(), &self.faces))
+    }
+
+    /// The half-edge that runs along the same edge the other way.
+    #[inline]
+    pub(crate) fn twin(&self, half_edge: HalfEdge) -> HalfEdge {
+        self.twins[half_edge as usize]
+    }
+
+    /// The three faces beyond the edges of a face.
+    pub(crate) fn neighbours(&self, face: u32) -> [u32; 3] {
+        [0, 1, 2].map(|k| self.twin(3 * face + k) / 3)
+    }
+
+    /// Where a half-edge starts and ends.
+    pub(crate) fn ends(&self, half_edge: HalfEdge) -> [u32; 2] {
+        let face = self.faces[half_edge as usize / 3];
+        let k = half_edge as usize % 3;
+        [face[k], face[(k + 1) % 3]]
+    }
+
+    /// How the faces on either side of an edge meet.
+    pub(crate) fn bend(&self, half_edge: HalfEdge) -> Bend {
+        let twin = self.twin(half_edge);
+        let far = self.faces[twin as usize / 3][(twin as usize % 3 + 2) % 3];
+        let (triangle, far) = (self.triangle(half_edge / 3), self.point(far));
+        match side(triangle, far) {
+            Ordering::Less => Bend::Convex,
+            Ordering::Greater => Bend::Reflex,
+            Ordering::Equal => {
+                let [start, end] = self.ends(half_edge).map(|v| self.point(v));
+                let beyond = |plane: Projection| plane.turn(start, end, far) == Ordering::Less;
+                match Projection::of(triangle).is_some_and(beyond) {
+                    true => Bend::Flat,
+                    false => Bend::Folded,
+                }
+            }
+        }
+    }
+}
+
+/// The twin of every half-edge of faces of which each edge has one face on either side.
+fn twins(faces: &[[u32; 3]]) -> Vec<HalfEdge> {
+    let mut edges: Vec<(Edge, HalfEdge)> = Vec::with_capacity(3 * faces.len());
+    for (f, face) in faces.iter().enumerate() {
+        for k in 0..3 {
+            let (v, w) = (face[k], face[(k + 1) % 3]);
+            edges.push((Edge(v.min(w), v.max(w)), (3 * f + k) as HalfEdge));
+        }
+    }
+    edges.sort_unstable();
+    let mut twins = vec![0; edges.len()];
+    for pair in edges.chunks_exact(2) {
+        let (one, other) = (pair[0].1, pair[1].1);
+        twins[one as usize] = other;
+        twins[other as usize] = one;
+    }
+    twins
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,264 @@
+//! Shells within shells: which of a closed mesh's parts bound material, and which a cavity.
+
+mod parts;
+
+use crate::exact::predicates::{is_degenerate, too_fine};
+use crate::mesh::TriangleMesh;
+use crate::search::{Region, TriangleBoxes};
+use crate::solid::crossings::meet;
+use crate::solid::shells::{Volume, crossing};
+use crate::tally::Tally;
+use crate::tolerance::{FACE_ROUNDING, RAY_TRIES};
+use crate::work::Work;
+use ccd_core::glam::DVec3;
+use ccd_core::vector::unit;
+use parts::closed_parts;
+
+/// The shells of a closed mesh by what is around them.
+///
+/// A shell is closed by itself, and connected over edges. Of shells that do not cross, the outermost
+/// bound solids, those next within bound cavities, and so on, however they are wound. Outermost shells
+/// that cross make up one solid together; within another one, shells that cross are part of it where they
+/// are wound as it is. What else crosses can not be told.
+#[derive(Debug, Default)]
+pub(crate) struct Nesting {
+    /// The faces that have to be turned round for the solid to be behind all faces, or in front of all.
+    pub(crate) turned: Vec<u32>,
+    /// A face of each shell that is wound the wrong way, when others are not, by the file's number.
+    pub(crate) wrong: Tally<u32>,
+    /// A face of each shell of which nothing tells whether it bounds a solid or a cavity.
+    pub(crate) unclear: Tally<u32>,
+}
+
+impl Nesting {
+    /// Of a mesh along every edge of which as many faces run one way as the other. A mesh in one part
+    /// needs no turning.
+    ///
+    /// Exact. O(n log n) where few boxes of triangles of different shells meet.
+    pub(crate) fn of(mesh: &TriangleMesh) -> Self {
+        let shell_of = closed_parts(mesh);
+        let count = shell_of.iter().max().map_or(0, |&last| last as usize + 1);
+        match count {
+            0 | 1 => Nesting::default(),
+            _ => Shells::new(mesh, shell_of, count).nesting(),
+        }
+    }
+}
+
+/// The shells of a mesh, and where its faces are.
+struct Shells<'m> {
+    mesh: &'m TriangleMesh,
+    boxes: TriangleBoxes,
+    shell_of: Vec<u32>,
+    faces_of: Vec<Vec<u32>>,
+}
+
+/// What is around a shell that nothing else of it crosses.
+#[derive(Clone, Debug, Default)]
+struct Around {
+    shells: Vec<u32>,
+    /// Whether another shell crosses it.
+    crossed: bool,
+    /// Whether nothing tells what is around.
+    lost: bool,
+}
+
+impl<'m> Shells<'m> {
+    fn new(mesh: &'m TriangleMesh, shell_of: Vec<u32>, count: usize) -> Self {
+        let mut faces_of = vec![Vec::new(); count];
+        for (face, &shell) in shell_of.iter().enumerate() {
+            faces_of[shell as usize].push(face as u32);
+        }
+        let faces: Vec<[u32; 3]> = (0..shell_of.len() as u32)
+            .map(|face| corners(mesh, face))
+            .collect();
+        Shells {
+            boxes: TriangleBoxes::new(mesh.vertices(), &faces),
+            mesh,
+            shell_of,
+            faces_of,
+        }
+    }
+
+    fn nesting(&self) -> Nesting {
+        let exact = too_fine(self.mesh.vertices()).is_none();
+        let around: Vec<Around> = (0..self.faces_of.len() as u32)
+            .map(|shell| match exact {
+                true => self.around(shell),
+                false => Around {
+                    lost: true,
+                    ..Around::default()
+                },
+            })
+            .collect();
+        let wound: Vec<i32> = self
+            .faces_of
+            .iter()
+            .map(|faces| self.wound(faces))
+            .collect();
+        // What surrounds a shell has less around it.
+        let mut order: Vec<usize> = (0..around.len()).collect();
+        order.sort_by_key(|&shell| around[shell].shells.len());
+        let mut sides = vec![1; around.len()];
+        let mut unclear = Tally::default();
+        for shell in order {
+            let Around {
+                shells,
+                crossed,
+                lost,
+            } = &around[shell];
+            let windings: i32 = shells.iter().map(|&other| sides[other as usize]).sum();
+            let outermost = shells.iter().map(|&k| k as usize);
+            let outermost = outermost.min_by_key(|&k| around[k].shells.len());
+            let as_around = outermost.map(|k| sides[k] * wound[k] * wound[shell]);
+            sides[shell] = match windings {
+                1 if *crossed => 1,
+                1 => -1,
+                _ => 1,
+            };
+            if *lost || *crossed && windings > 0 && as_around != Some(1) {
+                unclear.add(self.name(shell));
+            }
+        }
+        let is_wrong = |shell: usize| wound[shell] * sides[shell] < 0;
+        let mut nesting = Nesting {
+            unclear,
+            ..Nesting::default()
+        };
+        let has_volume = |&shell: &usize| wound[shell] != 0;
+        // A mesh that is inside out as a whole is consistent.
+        if !(0..wound.len()).filter(has_volume).all(is_wrong) {
+            for shell in (0..wound.len()).filter(|&shell| is_wrong(shell)) {
+                nesting.wrong.add(self.name(shell));
+                nesting.turned.extend(&self.faces_of[shell]);
+            }
+        }
+        nesting
+    }
+
+    /// The first face of a shell, by the file's number.
+    fn name(&self, shell: usize) -> u32 {
+        self.mesh.face_ids()[self.faces_of[shell][0] as usize]
+    }
+
+    /// 1 for a shell that is wound outward, −1 for one inward, 0 for one of no volume.
+    fn wound(&self, faces: &[u32]) -> i32 {
+        let near = triangle(self.mesh, faces[0])[0];
+        let mut volume = Volume::default();
+        for &face in faces {
+            volume.add(triangle(self.mesh, face), near);
+        }
+        match volume.is_positive() {
+            Some(true) => 1,
+            Some(false) => -1,
+            None => 0,
+        }
+    }
+
+    fn around(&self, shell: u32) -> Around {
+        let Some(mut shells) = self.winding_about(shell) else {
+            return Around {
+                lost: true,
+                ..Around::default()
+            };
+        };
+        if shells.is_empty() {
+            return Around::default();
+        }
+        let crossed = self.crossed_by(shell);
+        shells.retain(|other| !crossed.contains(other));
+        Around {
+            shells,
+            crossed: !crossed.is_empty(),
+            lost: false,
+        }
+    }
+
+    /// The other shells that wind about one; none when nothing tells.
+    fn winding_about(&self, shell: u32) -> Option<Vec<u32>> {
+        let faces = &self.faces_of[shell as usize];
+        let size = self.boxes.reach(triangle(self.mesh, faces[0])[0]);
+        let face = |k: usize| triangle(self.mesh, faces[k * faces.len() / RAY_TRIES]);
+        // Shells may touch at a corner, so that it is another one each time.
+        let corners = (0..RAY_TRIES).map(|k| (k, face(k)[k % 3]));
+        // Or at all corners, as those that share faces do.
+        let middles = (0..RAY_TRIES).filter_map(|k| Some((k, self.middle(shell, face(k), size)?)));
+        corners.chain(middles).find_map(|(k, from)| {
+            // Nearly along an axis, so that few boxes meet the ray's, and in no special relation to any.
+            let (along, tilt) = (DVec3::AXES[k % 3], 1e-3 * (1.0 + 0.618 * k as f64));
+            let to = from + 3.0 * size * (along + DVec3::new(0.7548, 0.5698, -0.3247) * tilt);
+            self.winding_before(shell, [from, to])
+        })
+    }
+
+    /// The middle of a face, which is on it up to rounding: none where another shell may come between.
+    fn middle(&self, shell: u32, face: [DVec3; 3], size: f64) -> Option<DVec3> {
+        let [a, b, c] = face;
+        let middle = (a + b + c) / 3.0;
+        let off = unit((b - a).cross(c - a))? * FACE_ROUNDING * size;
+        let across = [middle - off, middle + off];
+        let is_of_shell = |face: u32| self.shell_of[face as usize] == shell;
+        let misses =
+            |face: u32| is_of_shell(face) || crossing(across, triangle(self.mesh, face)) == Some(0);
+        let is_alone = self
+            .boxes
+            .all_meeting(&Region::segment(across), &Work::unbounded(), misses);
+        is_alone.then_some(middle)
+    }
+
+    /// The other shells that wind about the start of a ray; none when it grazes something.
+    fn winding_before(&self, shell: u32, ray: [DVec3; 2]) -> Option<Vec<u32>> {
+        let mut met = Vec::new();
+        let region = Region::segment(ray);
+        let passes = self.boxes.all_meeting(&region, &Work::unbounded(), |face| {
+            let other = self.shell_of[face as usize];
+            let found = match other == shell {
+                true => Some(0),
+                false => crossing(ray, triangle(self.mesh, face)),
+            };
+            met.extend(found.filter(|&one| one != 0).map(|one| (other, one)));
+            found.is_some()
+        });
+        passes.then(|| {
+            met.sort_unstable();
+            met.chunk_by(|one, next| one.0 == next.0)
+                .filter(|of_one| of_one.iter().map(|&(_, one)| one).sum::<i32>() != 0)
+                .map(|of_one| of_one[0].0)
+                .collect()
+        })
+    }
+
+    /// The other shells that meet one elsewhere than in shared corners and edges.
+    fn crossed_by(&self, shell: u32) -> Vec<u32> {
+        let mut crossed = Vec::new();
+        let flat = |face: u32| is_degenerate(triangle(self.mesh, face));
+        // What has no area is in an edge of its neighbours.
+        let faces = self.faces_of[shell as usize].iter();
+        for &face in faces.filter(|&&face| !flat(face)) {
+            let one = triangle(self.mesh, face);
+            self.boxes
+                .all_meeting(&Region::triangle(one), &Work::unbounded(), |near| {
+                    let other = self.shell_of[near as usize];
+                    if other != shell && !crossed.contains(&other) && !flat(near) {
+                        let ids = [face, near].map(|f| corners(self.mesh, f));
+                        if meet(ids, [one, triangle(self.mesh, near)]) {
+                            crossed.push(other);
+                        }
+                    }
+                    true
+                });
+        }
+        crossed
+    }
+}
+
+fn corners(mesh: &TriangleMesh, face: u32) -> [u32; 3] {
+    mesh.faces()[face as usize].map(|v| mesh.positions()[v as usize])
+}
+
+fn triangle(mesh: &TriangleMesh, face: u32) -> [DVec3; 3] {
+    mesh.faces()[face as usize].map(|v| mesh.vertices()[v as usize])
+}
+
+#[cfg(test)]
+mod tests;

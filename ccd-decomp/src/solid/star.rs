@@ -1,0 +1,73 @@
+//! Surfaces that are seen whole from one point: no two of their faces meet.
+
+use crate::exact::predicates::side;
+use crate::solid::manifold::Manifold;
+use ccd_core::glam::DVec3;
+use ccd_core::tolerance::LEAST_COORDINATE;
+use std::cmp::Ordering;
+
+/// Whether a point was found that has every face in front of it, behind no other one.
+///
+/// # Guarantee
+/// Exact where it says so: faces then share no more than their vertices and edges, and the solid is
+/// behind them. A point behind all faces sees each of them turned the same way, so that every direction
+/// from it meets as many; once, if a single one does `[MEHLHORN96]`.
+///
+/// # Complexity
+/// O(n).
+pub(crate) fn is_seen_whole(manifold: &Manifold<'_>) -> bool {
+    middles(manifold).iter().any(|&middle| {
+        let triangles = || (0..manifold.faces().len() as u32).map(|face| manifold.triangle(face));
+        let has_behind = |triangle| side(triangle, middle) == Ordering::Less;
+        triangles().all(has_behind) && covers_once(triangles(), middle)
+    })
+}
+
+/// Points that are likely inside: the mean of all corners, and the solid's centre of mass.
+fn middles(manifold: &Manifold<'_>) -> [DVec3; 2] {
+    let faces = 0..manifold.faces().len() as u32;
+    let near = manifold.triangle(0)[0];
+    let (mut sum, mut moment, mut volume) = (DVec3::ZERO, DVec3::ZERO, 0.0);
+    for face in faces.clone() {
+        let [a, b, c] = manifold.triangle(face).map(|p| p - near);
+        let six = a.dot(b.cross(c));
+        sum += a + b + c;
+        moment += six * (a + b + c);
+        volume += six;
+    }
+    let mean = sum / (3 * faces.len()) as f64;
+    // No point at all is one that no face has behind it.
+    [mean, moment / (4.0 * volume)].map(|middle| predictable(near + middle))
+}
+
+/// A point next to one, that predicates are exact for.
+fn predictable(p: DVec3) -> DVec3 {
+    DVec3::select(
+        p.abs().cmplt(DVec3::splat(LEAST_COORDINATE)),
+        DVec3::ZERO,
+        p,
+    )
+}
+
+/// Whether a direction from the middle, past all edges, meets one triangle.
+fn covers_once(triangles: impl Iterator<Item = [DVec3; 3]>, middle: DVec3) -> bool {
+    let mut triangles = triangles.peekable();
+    let Some(&[a, b, c]) = triangles.peek() else {
+        return false;
+    };
+    let target = predictable((a + b + c) / 3.0);
+    let mut met = 0;
+    for [a, b, c] in triangles {
+        let within = [(a, b), (b, c), (c, a)].map(|(v, w)| side([middle, v, w], target));
+        if within == [Ordering::Greater; 3] {
+            met += 1;
+        } else if !within.contains(&Ordering::Less) {
+            // Through an edge: it cannot be told how often.
+            return false;
+        }
+    }
+    met == 1
+}
+
+#[cfg(test)]
+mod tests;

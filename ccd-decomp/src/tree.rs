@@ -1,0 +1,4 @@
+//! Trees over convex pieces.
+
+pub(crate) mod hierarchy;
+pub(crate) mod hull_tree;
