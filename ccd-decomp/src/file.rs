@@ -1,71 +1,18 @@
 //! Prepared bodies as files: written once, read at every start.
 
+pub(crate) mod error;
 mod frame;
-#[cfg(test)]
-mod tests;
-
-use crate::error::{LFS_ADVICE, Prefix};
-use crate::prepare::Model;
+pub(crate) mod obj;
+use crate::prepare::model::Model;
 use crate::prepare::report::Report;
 use ccd_core::{Hierarchy, HullNode, HullTree, Pieces, Volume};
-use std::fmt;
+use error::{StoreError, StoreFault};
 use std::fs::{self, File};
 use std::io::{self, BufReader, Read, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// The extension of a stored body's file.
 pub const STORED_EXTENSION: &str = "ccd";
-
-/// Why a stored body cannot be read, or a body not be stored.
-#[derive(Debug, thiserror::Error)]
-#[error("{}{fault}", Prefix(.file))]
-pub struct StoreError {
-    /// The file, where there is one.
-    pub file: Option<PathBuf>,
-    /// What is wrong with it.
-    pub fault: StoreFault,
-}
-
-/// What is wrong with a stored body.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum StoreFault {
-    /// The operating system would not give the bytes.
-    #[error("cannot be read: {0}")]
-    Unreadable(#[source] io::Error),
-    /// The operating system would not take the bytes.
-    #[error("cannot be written: {0}")]
-    Unwritable(#[source] io::Error),
-    /// It does not begin as a stored body does.
-    #[error("holds no stored body; give a mesh, or {PREPARE}")]
-    Foreign,
-    /// Git stands for it with a few lines.
-    #[error("{LFS_ADVICE}")]
-    LfsPointer,
-    /// Another version of the program wrote it.
-    #[error(
-        "is of version {version} of the format, and version {} is what is read; {PREPARE}",
-        frame::VERSION
-    )]
-    OtherVersion {
-        /// The version it says.
-        version: u32,
-    },
-    /// It ends before all it announces is there.
-    #[error("is cut short; copy it again, or {PREPARE}")]
-    Truncated,
-    /// Its bytes are not those that were written.
-    #[error("is damaged: its checksum is not that of its bytes; copy it again, or {PREPARE}")]
-    Damaged,
-    /// Its bytes are whole, but say nothing that is a body.
-    #[error("holds no valid body: {problem}; {PREPARE}")]
-    Invalid {
-        /// What is not valid.
-        problem: String,
-    },
-}
-
-const PREPARE: &str = "prepare it again from its mesh: ccd decompose MESH --out FILE.ccd";
 
 /// What is stored of a model, in this order; a hull tree without its pieces, which are there already.
 /// A change to any of these types, or to their order, is another version of the format.
@@ -191,23 +138,5 @@ impl Model {
     }
 }
 
-impl StoreFault {
-    fn invalid(problem: &dyn fmt::Display) -> Self {
-        StoreFault::Invalid {
-            problem: problem.to_string(),
-        }
-    }
-
-    fn in_file(self, file: &Path) -> StoreError {
-        StoreError {
-            file: Some(file.into()),
-            fault: self,
-        }
-    }
-}
-
-impl From<StoreFault> for StoreError {
-    fn from(fault: StoreFault) -> Self {
-        StoreError { file: None, fault }
-    }
-}
+#[cfg(test)]
+mod tests;

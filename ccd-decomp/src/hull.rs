@@ -14,7 +14,7 @@ pub(crate) mod polygons;
 mod proof;
 mod span;
 
-use crate::exact::predicates;
+use crate::exact::predicates::{self, lexicographic};
 use crate::hull::exact_hull::ExactHull;
 use crate::hull::polygons::loops;
 use crate::tolerance::{FEW_POINTS, LIBRARY_POINTS, LIKELY_POINTS};
@@ -22,7 +22,6 @@ use ccd_core::Loops;
 use ccd_core::glam::DVec3;
 use ccd_core::tolerance::MAX_COORDINATE;
 use span::Span;
-use std::cmp::Ordering;
 
 /// The convex hull of points, by their indices.
 ///
@@ -140,14 +139,20 @@ fn solid(points: &[DVec3]) -> Result<(Loops, Way), HullError> {
         return Ok((facets, Way::Library));
     }
     let way = if some { Way::Rebuilt } else { Way::Exact };
-    // No point is in front of a facet of it: each was a corner, or in front of none when the hull came to it.
-    let triangles = ExactHull::facets_of(points);
-    let facets =
-        triangles.and_then(|triangles| proof::prove_convex(points, loops(points, &triangles)).ok());
-    match facets {
+    match computed(points) {
         Some(facets) => Ok((facets, way)),
         None => Err(HullError::Unproven(points.len())),
     }
+}
+
+/// The facets of the hull of points that span a volume, by exact predicates; none if they cannot be proven to
+/// close a convex surface.
+///
+/// No point is in front of any: each was a corner, or was in front of none when the hull came to it, which
+/// only grew from then on.
+fn computed(points: &[DVec3]) -> Option<Loops> {
+    let triangles = ExactHull::facets_of(points)?;
+    proof::prove_convex(points, loops(points, &triangles)).ok()
 }
 
 /// Points at different places, and the number of the first given point at each.
@@ -182,12 +187,6 @@ impl Cloud {
             way,
         }
     }
-}
-
-/// The order by x, then y, then z: of points in a plane or on a line, the order along some direction.
-pub(crate) fn lexicographic(p: DVec3, q: DVec3) -> Ordering {
-    let by = |x: f64, y: f64| x.partial_cmp(&y).unwrap_or(Ordering::Equal);
-    by(p.x, q.x).then(by(p.y, q.y)).then(by(p.z, q.z))
 }
 
 #[cfg(test)]

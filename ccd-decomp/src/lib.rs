@@ -31,12 +31,13 @@
 //! assert_eq!(prepared.report.to_string(), "1 convex hull, solid");
 //! ```
 
+mod bounds;
 mod disjoint_sets;
-mod error;
 mod exact;
 mod file;
 mod hull;
 mod mesh;
+mod messages;
 mod pieces;
 mod prepare;
 mod search;
@@ -49,18 +50,23 @@ mod tolerance;
 mod tree;
 mod work;
 
-pub use error::{BodyError, DecomposeError, MeshError, MeshFault, SourceError};
-pub use file::{STORED_EXTENSION, StoreError, StoreFault};
+pub use file::STORED_EXTENSION;
+pub use file::error::{StoreError, StoreFault};
+pub use file::obj::{write_obj, write_obj_pieces};
 pub use hull::HullError;
 pub use mesh::TriangleMesh;
-pub use mesh::format::{Format, write_obj, write_obj_pieces};
+pub use mesh::error::{MeshError, MeshFault};
+pub use mesh::format::Format;
 pub use mesh::repair::Repairs;
 pub use pieces::patches::{Decomposition, Order, Patch, decompose};
 pub use pieces::vhacd::VhacdError;
+pub use prepare::error::PrepareError;
+pub use prepare::model::{Model, Prepared};
 pub use prepare::report::{PiecesKind, Report, Why};
-pub use prepare::{Detail, Model, Prepared, body_from_mesh, prepare};
-pub use solid::crossings::Crossing;
+pub use prepare::{Detail, body_from_mesh, prepare};
+pub use solid::error::{Crossing, DecomposeError};
 pub use solid::topology::{Edge, Orientation, Topology};
+pub use source::error::{BodyError, SourceError};
 pub use source::{BodySource, parse_body};
 pub use tally::Tally;
 pub use tree::hierarchy::build_hierarchy;

@@ -1,9 +1,58 @@
 //! Whether a mesh bounds a solid, and the surface of one that does.
+//!
+//! ```text
+//! TriangleMesh ─► nesting.rs ─► topology.rs ─► manifold.rs ─┬─ star.rs ─────────────────────────┬─► bounds a solid
+//!                                                           └─ flats.rs ─ crossings.rs ─ shells.rs ─┘
+//! ```
 
 pub(crate) mod crossings;
+pub(crate) mod error;
 pub(crate) mod flats;
 pub(crate) mod manifold;
-pub(crate) mod nesting;
+mod nesting;
 pub(crate) mod shells;
 pub(crate) mod star;
 pub(crate) mod topology;
+
+use crate::mesh::TriangleMesh;
+use crate::tally::Tally;
+use crate::work::Work;
+use crossings::crossings;
+use error::{Crossing, DecomposeError};
+use manifold::Manifold;
+use shells::check_orientation;
+use star::is_seen_whole;
+use topology::Topology;
+
+/// The surface of the solid that a mesh bounds: checks every edge, and every pair of triangles that are near
+/// each other.
+///
+/// A mesh that is inside out as a whole is turned.
+///
+/// # Errors
+/// [`DecomposeError`] when the mesh bounds no solid.
+pub(crate) fn bounding_solid(mesh: &TriangleMesh) -> Result<Manifold<'_>, DecomposeError> {
+    let manifold = Manifold::unchecked(mesh, &Topology::of(mesh))?;
+    check_solid(&manifold, &Work::unbounded())?;
+    Ok(manifold)
+}
+
+/// Checks what the edges alone do not decide: that faces share no more than their vertices and edges, and that
+/// the solid is behind all of them.
+///
+/// # Errors
+/// [`DecomposeError`]; [`TooLong`](DecomposeError::TooLong) when the work does not suffice to decide.
+pub(crate) fn check_solid(manifold: &Manifold<'_>, work: &Work) -> Result<(), DecomposeError> {
+    if is_seen_whole(manifold) {
+        return Ok(());
+    }
+    let mut pairs = Tally::default();
+    for (face, other) in crossings(manifold, work)? {
+        let [face, other] = [face, other].map(|f| manifold.mesh().face_ids()[f as usize]);
+        pairs.add(Crossing { face, other });
+    }
+    if !pairs.is_empty() {
+        return Err(DecomposeError::SelfIntersecting { pairs });
+    }
+    check_orientation(manifold, work)
+}

@@ -1,12 +1,16 @@
 //! Bodies as they are named on a command line.
 
-use crate::error::{BodyError, SourceError};
+pub(crate) mod error;
+
 use crate::file::STORED_EXTENSION;
 use crate::mesh::TriangleMesh;
-use crate::prepare::{Detail, Model, Prepared, body_from_mesh};
+use crate::prepare::error::PrepareError;
+use crate::prepare::model::{Model, Prepared};
+use crate::prepare::{Detail, body_from_mesh};
 use ccd_core::Body;
 use ccd_core::glam::DVec3;
 use ccd_core::tolerance::MAX_COORDINATE;
+use error::{BodyError, SourceError};
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
@@ -75,10 +79,10 @@ impl BodySource {
     }
 }
 
-fn in_file<T>(path: &Path, made: Result<T, BodyError>) -> Result<T, BodyError> {
+fn in_file<T>(path: &Path, made: Result<T, PrepareError>) -> Result<T, BodyError> {
     made.map_err(|error| BodyError::InFile {
         file: path.into(),
-        error: Box::new(error),
+        error,
     })
 }
 

@@ -1,6 +1,5 @@
 //! How much may be spent on a mesh.
 
-use crate::error::DecomposeError;
 use std::cell::Cell;
 
 /// Steps that are left: about so many exact predicates.
@@ -35,11 +34,15 @@ impl Work {
     }
 
     /// # Errors
-    /// [`DecomposeError::TooLong`] when all is spent.
-    pub(crate) fn check(&self) -> Result<(), DecomposeError> {
+    /// [`OutOfWork`] when all is spent.
+    pub(crate) fn check(&self) -> Result<(), OutOfWork> {
         match self.left.get() {
-            0 => Err(DecomposeError::TooLong),
+            0 => Err(OutOfWork),
             _ => Ok(()),
         }
     }
 }
+
+/// All that could be spent is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct OutOfWork;

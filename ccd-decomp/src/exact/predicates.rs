@@ -108,6 +108,12 @@ fn scale_to_one(x: f64) -> f64 {
     }
 }
 
+/// The order by x, then y, then z: of points in a plane or on a line, the order along some direction.
+pub(crate) fn lexicographic(p: DVec3, q: DVec3) -> Ordering {
+    let by = |x: f64, y: f64| x.partial_cmp(&y).unwrap_or(Ordering::Equal);
+    by(p.x, q.x).then(by(p.y, q.y)).then(by(p.z, q.z))
+}
+
 #[inline]
 fn sign(determinant: f64) -> Ordering {
     // Coordinates are finite and within bounds, so that the determinant is no NaN.

@@ -8,17 +8,13 @@
 //! | as many | the payload |
 //! | 4 | CRC-32 of all before |
 
-use super::StoreFault;
-use crate::error::is_lfs_pointer;
+use super::error::{StoreFault, VERSION};
+use crate::messages::is_lfs_pointer;
 use std::io::{self, Read, Write};
 
 /// Written as PNG's: no text begins so, and a transfer that changes line ends or cuts the eighth bit
 /// damages it.
 const MAGIC: [u8; 8] = *b"\x89ccd\r\n\x1a\n";
-
-/// The version that is written, and the only one that is read: what a body is prepared from is still
-/// there, so that an older file is not worth a second reader.
-pub(super) const VERSION: u32 = 2;
 
 const HEADER: usize = MAGIC.len() + size_of::<u32>() + size_of::<u64>();
 

@@ -1,4 +1,5 @@
-use super::{StoreFault, frame};
+use super::error::StoreFault;
+use super::frame;
 use crate::{Detail, Format, Model, Order, TriangleMesh, prepare};
 use proptest::prelude::*;
 use rstest::rstest;

@@ -4,8 +4,8 @@ mod conflicts;
 mod few;
 mod plane;
 
+use crate::bounds::Bounds;
 use crate::exact::predicates::{is_degenerate, side_of};
-use crate::search::Bounds;
 use crate::tolerance::FEW_POINTS;
 use ccd_core::glam::DVec3;
 use std::cmp::Ordering;

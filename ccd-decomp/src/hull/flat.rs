@@ -1,7 +1,6 @@
 //! The hull of points in one plane, exactly.
 
-use super::lexicographic;
-use crate::exact::predicates::Projection;
+use crate::exact::predicates::{Projection, lexicographic};
 use ccd_core::Loops;
 use ccd_core::glam::DVec3;
 use std::cmp::Ordering;

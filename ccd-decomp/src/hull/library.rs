@@ -1,6 +1,6 @@
 //! The library's hull: fast, and in floating point, so that it is no more than a candidate.
 
-use super::lexicographic;
+use crate::exact::predicates::lexicographic;
 use ccd_core::glam::DVec3;
 use parry3d_f64::math::Vector;
 use parry3d_f64::transformation::try_convex_hull;

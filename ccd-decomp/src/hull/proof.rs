@@ -1,7 +1,6 @@
 //! Are these polygons the facets of the hull of those points: exactly.
 
-use super::lexicographic;
-use crate::exact::predicates::{Projection, side};
+use crate::exact::predicates::{Projection, lexicographic, side};
 use ccd_core::Loops;
 use ccd_core::glam::DVec3;
 use ccd_core::point_tree::PointTree;

@@ -1,7 +1,6 @@
 //! How many dimensions do points span: exactly.
 
-use super::lexicographic;
-use crate::exact::predicates::{is_degenerate, side};
+use crate::exact::predicates::{is_degenerate, lexicographic, side};
 use ccd_core::glam::DVec3;
 use std::cmp::Ordering;
 

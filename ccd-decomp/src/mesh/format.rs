@@ -1,17 +1,14 @@
-//! File formats: bytes to polygons and back, without touching a file.
+//! File formats: bytes to polygons, without touching a file.
 
 mod obj;
-mod obj_pieces;
 mod off;
 mod ply;
 mod stl;
 
-use crate::error::{MeshFault, is_lfs_pointer};
-use crate::mesh::Polygons;
+use super::error::MeshFault;
+use super::polygons::Polygons;
+use crate::messages::is_lfs_pointer;
 use std::path::Path;
-
-pub use obj::write_obj;
-pub use obj_pieces::write_obj_pieces;
 
 /// A format that a mesh can be read from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

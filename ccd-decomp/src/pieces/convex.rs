@@ -1,7 +1,7 @@
 //! Solids that are their own convex hull.
 
-use crate::error::DecomposeError;
 use crate::hull::polygons::polygons;
+use crate::solid::error::DecomposeError;
 use crate::solid::manifold::{Bend, Manifold};
 use crate::solid::shells::shells;
 use crate::solid::topology::Edge;

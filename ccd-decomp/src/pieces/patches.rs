@@ -1,22 +1,23 @@
 //! Convex surface decomposition: a closed mesh as patches whose hulls lie inside the solid.
 
 mod apart;
+mod growing;
 mod order;
 mod patch;
-mod region;
 
 pub use order::Order;
 pub use patch::Patch;
 
-use crate::error::DecomposeError;
 use crate::mesh::TriangleMesh;
 use crate::pieces::convex::as_polytope;
+use crate::solid::bounding_solid;
+use crate::solid::error::DecomposeError;
 use crate::solid::flats::Flats;
 use crate::solid::manifold::{Bend, Manifold};
 use crate::tolerance::PATCH_POLYGONS;
 use crate::work::Work;
+use growing::{GrowingPatch, Join};
 use order::{Frontier, seeds};
-use region::{Join, Region};
 
 /// A mesh's surface in convex patches.
 #[derive(Clone, Debug)]
@@ -50,7 +51,7 @@ pub struct Decomposition {
 /// assert_eq!(decomposition.patches.len(), 1);
 /// ```
 pub fn decompose(mesh: &TriangleMesh, order: Order) -> Result<Decomposition, DecomposeError> {
-    let manifold = Manifold::new(mesh)?;
+    let manifold = bounding_solid(mesh)?;
     decompose_flats(&manifold, &Flats::new(&manifold), order, &Work::unbounded())
 }
 
@@ -101,8 +102,8 @@ struct Grower<'a, 'm> {
 }
 
 impl Grower<'_, '_> {
-    fn grow(&mut self, seed: u32, patch: u32) -> Region {
-        let mut region = Region::new(self.flats, seed);
+    fn grow(&mut self, seed: u32, patch: u32) -> GrowingPatch {
+        let mut region = GrowingPatch::new(self.flats, seed);
         self.taken[seed as usize] = true;
         let mut frontier = Frontier::new(self.order);
         self.reach(&mut frontier, seed);

@@ -1,11 +1,12 @@
 //! The least model that is exact for a mesh.
 
-use crate::error::DecomposeError;
+use super::parts::Parts;
+use super::report::{Estimate, Why};
 use crate::mesh::TriangleMesh;
 use crate::pieces::convex::as_polytope;
 use crate::pieces::patches::{Order, decompose_flats};
-use crate::prepare::Parts;
-use crate::prepare::report::{Estimate, Why};
+use crate::solid::check_solid;
+use crate::solid::error::DecomposeError;
 use crate::solid::flats::Flats;
 use crate::solid::manifold::{Bend, Manifold};
 use crate::solid::topology::Topology;
@@ -16,7 +17,7 @@ use crate::work::Work;
 ///
 /// What takes long, looking for intersections and decomposing, is only done once it is known to be
 /// worth it, and only for [so long](AUTO_WORK).
-pub(crate) fn choose(mesh: &TriangleMesh, topology: &Topology) -> (Parts, Why) {
+pub(super) fn choose(mesh: &TriangleMesh, topology: &Topology) -> (Parts, Why) {
     within(mesh, topology, &Work::of(AUTO_WORK))
 }
 
@@ -31,7 +32,7 @@ fn within(mesh: &TriangleMesh, topology: &Topology, work: &Work) -> (Parts, Why)
     if convex.is_err() && !(estimate.patches < estimate.triangles) {
         return (Parts::Triangles, Why::TrianglesFaster(estimate));
     }
-    if let Err(error) = manifold.check(work) {
+    if let Err(error) = check_solid(&manifold, work) {
         return only_triangles(error);
     }
     if let Ok(polytope) = convex {

@@ -1,7 +1,7 @@
 //! What a mesh was made into, and why.
 
-use crate::error::DecomposeError;
 use crate::mesh::repair::Repairs;
+use crate::solid::error::DecomposeError;
 use crate::solid::topology::Topology;
 use ccd_core::Volume;
 use serde::{Deserialize, Serialize};

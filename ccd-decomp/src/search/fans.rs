@@ -1,9 +1,11 @@
 //! Many triangles about one vertex.
 
+use super::part::Part;
 use super::planes::{planes_beside, planes_within};
+use super::region::{Hull, Shape};
 use super::slab::Slab;
-use super::slabs::{Part, Slabs};
-use super::{Bounds, Hull, Shape};
+use super::slabs::Slabs;
+use crate::bounds::Bounds;
 use crate::exact::predicates::{is_degenerate, side};
 use crate::tolerance::FAN_TRIANGLES;
 use crate::work::Work;

@@ -1,10 +1,11 @@
 //! Triangles near a point or in a box.
 
-use super::slabs::{Part, Slabs};
-use super::{Bounds, Region};
+use super::part::Part;
+use super::region::Region;
+use super::slabs::Slabs;
+use crate::bounds::Bounds;
 use crate::work::Work;
 use ccd_core::glam::DVec3;
-use ccd_core::order::greater;
 
 /// Triangles, to be searched by distance: boxes lie as the triangles do, so that slivers are told apart.
 pub(crate) struct NearestTriangles {
@@ -88,10 +89,4 @@ impl NearestTriangles {
     ) -> bool {
         self.all.all_meeting(region, work, holds)
     }
-}
-
-/// At most the distance of a point from a box, up to rounding.
-pub(super) fn distance_to(bounds: &Bounds, point: DVec3) -> f64 {
-    let beyond = (bounds.lo - point).max(point - bounds.hi).max(DVec3::ZERO);
-    greater(beyond.length(), 0.0)
 }

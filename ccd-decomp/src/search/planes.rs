@@ -1,7 +1,7 @@
 //! Planes that have a shape on one side, to tell what is on the other.
 
+use super::region::{Hull, Shape};
 use super::slab::{Extent, Slab};
-use super::{Hull, Shape};
 use crate::exact::predicates::{Projection, side, turn_along};
 use ccd_core::glam::DVec3;
 use ccd_core::tolerance::height_rounding;

@@ -1,6 +1,6 @@
 //! A box that lies as what is in it does.
 
-use super::slabs::Part;
+use super::part::Part;
 use crate::tolerance::slab_rounding;
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};

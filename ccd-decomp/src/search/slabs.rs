@@ -1,22 +1,16 @@
 //! Parts of triangles in a tree of boxes that lie as the parts do.
 
-use super::nearest::distance_to;
+use super::part::Part;
 use super::planes::Apart;
+use super::region::Region;
 use super::slab::Slab;
-use super::{Bounds, Region};
+use crate::bounds::Bounds;
 use crate::tolerance::BOXES_MET;
 use crate::work::Work;
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 use std::cell::{Cell, OnceCell};
 use std::ops::Range;
-
-/// What is searched of a face: all of it, or one edge, of which an end is there twice.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Part {
-    pub(super) corners: [DVec3; 3],
-    pub(super) face: u32,
-}
 
 /// Parts in a binary tree.
 pub(super) struct Slabs {
@@ -36,13 +30,6 @@ struct Node {
 
 /// The most parts of a leaf.
 const LEAF: usize = 2;
-
-impl Part {
-    pub(super) fn middle(&self) -> DVec3 {
-        let bounds = Bounds::of(self.corners);
-        0.5 * bounds.lo + 0.5 * bounds.hi
-    }
-}
 
 impl Slabs {
     /// O(n log n).
@@ -70,11 +57,11 @@ impl Slabs {
         // Only where boxes along the coordinate axes leave too many.
         let (met, apart) = (Cell::new(0), OnceCell::new());
         let is_far = |bounds: &Bounds, slab: &Slab| {
-            if !bounds.meets(&region.bounds) {
+            if !bounds.meets(region.bounds()) {
                 return true;
             }
             met.set(met.get() + 1);
-            met.get() > BOXES_MET && apart.get_or_init(|| Apart::from(&region.shape)).has(slab)
+            met.get() > BOXES_MET && apart.get_or_init(|| Apart::from(region.shape())).has(slab)
         };
         self.all_but(is_far, work, holds)
     }
@@ -132,7 +119,7 @@ impl Slabs {
     /// At most the distance of a point from what is in a node, up to rounding.
     pub(super) fn distance(&self, at: usize, point: DVec3) -> f64 {
         let node = &self.nodes[at];
-        greater(distance_to(&node.bounds, point), node.slab.distance(point))
+        greater(node.bounds.distance(point), node.slab.distance(point))
     }
 }
 

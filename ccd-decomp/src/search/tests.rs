@@ -1,9 +1,10 @@
 use super::*;
 use crate::exact::predicates::{is_degenerate, side};
+use crate::exact::triangles::{crossing, triangles_meet};
 use crate::hull::exact_hull::ExactHull;
-use crate::solid::crossings::triangles_meet;
-use crate::solid::shells::crossing;
+use crate::search::nearest::NearestTriangles;
 use crate::test_meshes::star;
+use parry3d_f64::math::Vector;
 use parry3d_f64::query::PointQuery;
 use parry3d_f64::shape::Triangle;
 use proptest::prelude::*;

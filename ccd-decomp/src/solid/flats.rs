@@ -1,9 +1,9 @@
 //! Triangles of a mesh that lie in one plane, merged into convex polygons.
 
+use super::manifold::{Bend, HalfEdge, Manifold};
 use crate::disjoint_sets::DisjointSets;
 use crate::exact::predicates::Projection;
 use crate::hull::polygons::strict_corners;
-use crate::solid::manifold::{Bend, HalfEdge, Manifold};
 use crate::tolerance::{DIRECTIONS, LENGTHS};
 use ccd_core::glam::DVec3;
 use ccd_core::vector::{length, unit};

@@ -1,15 +1,11 @@
-//! A closed surface without faults: what can be decomposed exactly.
+//! The half-edges of a closed surface.
 
-use crate::error::DecomposeError;
+use super::error::DecomposeError;
+use super::topology::{Edge, Orientation, Topology};
 use crate::exact::predicates::{Projection, is_degenerate, side, too_fine};
 use crate::mesh::TriangleMesh;
 use crate::search::TriangleBoxes;
-use crate::solid::crossings::{Crossing, crossings};
-use crate::solid::shells::check_orientation;
-use crate::solid::star::is_seen_whole;
-use crate::solid::topology::{Edge, Orientation, Topology};
 use crate::tally::Tally;
-use crate::work::Work;
 use ccd_core::glam::DVec3;
 use std::cell::OnceCell;
 use std::cmp::Ordering;
@@ -17,9 +13,9 @@ use std::cmp::Ordering;
 /// A closed 2-manifold of triangles: every half-edge has one twin that runs the other way.
 ///
 /// # Invariants
-/// Vertices at one point are one vertex. No triangle is without area, no two meet but in the vertices
-/// and edges they share, and behind each of them, against its normal, is the solid. Coordinates are fit
-/// for exact predicates.
+/// Vertices at one point are one vertex. No triangle is without area. Coordinates are fit for exact
+/// predicates. Of one that [bounds a solid](super::bounding_solid), no two triangles meet except in the
+/// vertices and edges they share, and behind each of them, against its normal, is the solid.
 pub(crate) struct Manifold<'m> {
     mesh: &'m TriangleMesh,
     faces: Vec<[u32; 3]>,
@@ -46,15 +42,6 @@ pub(crate) enum Bend {
 }
 
 impl<'m> Manifold<'m> {
-    /// Looks at every edge, and at every pair of triangles that are near each other.
-    ///
-    /// A mesh that is inside out as a whole is turned.
-    pub(crate) fn new(mesh: &'m TriangleMesh) -> Result<Self, DecomposeError> {
-        let manifold = Manifold::unchecked(mesh, &Topology::of(mesh))?;
-        manifold.check(&Work::unbounded())?;
-        Ok(manifold)
-    }
-
     /// A manifold as far as its edges tell: triangles have an area, but may meet each other, and parts
     /// may be inside out. Takes a tenth of the time.
     pub(crate) fn unchecked(
@@ -93,25 +80,6 @@ impl<'m> Manifold<'m> {
             true => Ok(manifold),
             false => Err(DecomposeError::NoArea { faces: flat }),
         }
-    }
-
-    /// Checks what the edges alone do not tell.
-    ///
-    /// # Errors
-    /// [`DecomposeError`]; [`TooLong`](DecomposeError::TooLong) when the work does not suffice to tell.
-    pub(crate) fn check(&self, work: &Work) -> Result<(), DecomposeError> {
-        if is_seen_whole(self) {
-            return Ok(());
-        }
-        let mut pairs = Tally::default();
-        for (face, other) in crossings(self, work)? {
-            let [face, other] = [face, other].map(|f| self.mesh.face_ids()[f as usize]);
-            pairs.add(Crossing { face, other });
-        }
-        if !pairs.is_empty() {
-            return Err(DecomposeError::SelfIntersecting { pairs });
-        }
-        check_orientation(self, work)
     }
 
     /// The mesh that it is of.

@@ -3,10 +3,11 @@
 mod parts;
 
 use crate::exact::predicates::{is_degenerate, too_fine};
+use crate::exact::triangles::{crossing, meet};
+use crate::exact::volume::SignedVolume;
 use crate::mesh::TriangleMesh;
-use crate::search::{Region, TriangleBoxes};
-use crate::solid::crossings::meet;
-use crate::solid::shells::{Volume, crossing};
+use crate::search::TriangleBoxes;
+use crate::search::region::Region;
 use crate::tally::Tally;
 use crate::tolerance::{FACE_ROUNDING, RAY_TRIES};
 use crate::work::Work;
@@ -144,7 +145,7 @@ impl<'m> Shells<'m> {
     /// 1 for a shell that is wound outward, −1 for one inward, 0 for one of no volume.
     fn wound(&self, faces: &[u32]) -> i32 {
         let near = triangle(self.mesh, faces[0])[0];
-        let mut volume = Volume::default();
+        let mut volume = SignedVolume::default();
         for &face in faces {
             volume.add(triangle(self.mesh, face), near);
         }

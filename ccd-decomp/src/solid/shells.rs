@@ -1,13 +1,13 @@
 //! The connected parts of a closed surface, and whether the solid is on the inner side of each.
 
-use crate::error::DecomposeError;
-use crate::exact::predicates::side;
-use crate::search::Region;
-use crate::solid::manifold::Manifold;
-use crate::tolerance::{RAY_TRIES, volume_rounding};
+use super::error::DecomposeError;
+use super::manifold::Manifold;
+use crate::exact::triangles::crossing;
+use crate::exact::volume::SignedVolume;
+use crate::search::region::Region;
+use crate::tolerance::RAY_TRIES;
 use crate::work::Work;
 use ccd_core::glam::DVec3;
-use std::cmp::Ordering;
 
 /// Checks that the solid, which is where the winding number is not 0, is behind every face.
 ///
@@ -22,7 +22,7 @@ pub(crate) fn check_orientation(
 ) -> Result<(), DecomposeError> {
     let shell_of = shells(manifold);
     let count = shell_of.iter().max().map_or(0, |&last| last as usize + 1);
-    let mut volumes = vec![Volume::default(); count];
+    let mut volumes = vec![SignedVolume::default(); count];
     let near = manifold.triangle(0)[0];
     for (face, &shell) in shell_of.iter().enumerate() {
         volumes[shell as usize].add(manifold.triangle(face as u32), near);
@@ -108,58 +108,6 @@ fn winding_of_others(
             });
         windings
     })
-}
-
-/// 1 where a segment leaves through a triangle, −1 where it enters, 0 where it passes by; none when it
-/// meets the triangle's edge, or ends on it.
-pub(crate) fn crossing([from, to]: [DVec3; 2], triangle: [DVec3; 3]) -> Option<i32> {
-    let [a, b, c] = triangle;
-    let ends = [from, to].map(|p| side(triangle, p));
-    if ends[0] == ends[1] && ends[0] != Ordering::Equal {
-        return Some(0);
-    }
-    let turns = [(a, b), (b, c), (c, a)].map(|(v, w)| side([from, to, v], w));
-    if turns.contains(&Ordering::Less) && turns.contains(&Ordering::Greater) {
-        return Some(0);
-    }
-    match ends {
-        _ if turns.contains(&Ordering::Equal) => None,
-        [Ordering::Less, Ordering::Greater] => Some(1),
-        [Ordering::Greater, Ordering::Less] => Some(-1),
-        _ => None,
-    }
-}
-
-/// A sum of signed volumes, and of their sizes, which bounds its rounding.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Volume {
-    sum: f64,
-    /// What rounding took from the sum.
-    lost: f64,
-    size: f64,
-    terms: f64,
-}
-
-impl Volume {
-    pub(crate) fn add(&mut self, [p, q, r]: [DVec3; 3], near: DVec3) {
-        let (arm, sides) = (p - near, [q - p, r - p]);
-        let term = arm.dot(sides[0].cross(sides[1]));
-        let sum = self.sum + term;
-        // Exactly what the sum was rounded by (Knuth's two-sum).
-        let added = sum - self.sum;
-        self.lost += (self.sum - (sum - added)) + (term - added);
-        self.sum = sum;
-        self.size += arm.length() * sides[0].length() * sides[1].length();
-        self.terms += 1.0;
-    }
-
-    /// None when [rounding](volume_rounding) could have made the sign.
-    pub(crate) fn is_positive(&self) -> Option<bool> {
-        let sum = self.sum + self.lost;
-        let rounding = volume_rounding(self.size, self.terms);
-        // Written so that NaN tells nothing.
-        (sum.abs() > rounding).then_some(sum > 0.0)
-    }
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! Surfaces that are seen whole from one point: no two of their faces meet.
 
+use super::manifold::Manifold;
 use crate::exact::predicates::side;
-use crate::solid::manifold::Manifold;
 use ccd_core::glam::DVec3;
 use ccd_core::tolerance::LEAST_COORDINATE;
 use std::cmp::Ordering;

@@ -1,7 +1,7 @@
 //! Does a mesh bound a solid?
 
+use super::nesting::Nesting;
 use crate::mesh::TriangleMesh;
-use crate::solid::nesting::Nesting;
 use crate::tally::Tally;
 use ccd_core::glam::DVec3;
 use serde::{Deserialize, Serialize};

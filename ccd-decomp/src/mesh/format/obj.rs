@@ -1,10 +1,10 @@
 //! Wavefront OBJ.
 
-use crate::error::MeshFault;
-use crate::mesh::{Polygons, TriangleMesh};
+use crate::mesh::error::MeshFault;
+use crate::mesh::polygons::Polygons;
 use ccd_core::glam::DVec3;
 use std::fmt::Write as _;
-use std::io::{self, BufRead, Read, Write};
+use std::io::{BufRead, Read};
 use tobj::{LoadError, LoadOptions, Mesh};
 
 /// Reads the vertices and faces of an OBJ.
@@ -180,19 +180,4 @@ fn without_colour(line: &str) -> &str {
         Some(colour) => &line[..colour.as_ptr().addr() - line.as_ptr().addr()],
         None => line,
     }
-}
-
-/// Writes the vertices and triangles as an OBJ that reads back to the same bits.
-///
-/// # Errors
-/// Those of the writer.
-pub fn write_obj(mesh: &TriangleMesh, writer: impl Write) -> io::Result<()> {
-    let mut writer = io::BufWriter::new(writer);
-    for v in mesh.vertices() {
-        writeln!(writer, "v {} {} {}", v.x, v.y, v.z)?;
-    }
-    for [a, b, c] in mesh.faces() {
-        writeln!(writer, "f {} {} {}", a + 1, b + 1, c + 1)?;
-    }
-    writer.flush()
 }

@@ -1,7 +1,7 @@
 //! Object File Format (Geomview), text.
 
-use crate::error::MeshFault;
-use crate::mesh::Polygons;
+use crate::mesh::error::MeshFault;
+use crate::mesh::polygons::Polygons;
 use ccd_core::glam::DVec3;
 use std::str::FromStr;
 

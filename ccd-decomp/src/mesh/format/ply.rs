@@ -1,7 +1,7 @@
 //! PLY, binary and text.
 
-use crate::error::MeshFault;
-use crate::mesh::Polygons;
+use crate::mesh::error::MeshFault;
+use crate::mesh::polygons::Polygons;
 use ccd_core::glam::DVec3;
 use ply_rs_bw::parser::{ParseError, Parser, Reader};
 use ply_rs_bw::ply::{Encoding, Header, Property, PropertyAccess, PropertyAccessResult};

@@ -1,7 +1,7 @@
 //! STL, binary and text.
 
-use crate::error::MeshFault;
-use crate::mesh::Polygons;
+use crate::mesh::error::MeshFault;
+use crate::mesh::polygons::Polygons;
 use ccd_core::glam::{DVec3, Vec3};
 use std::borrow::Cow;
 use std::collections::HashMap;

@@ -1,6 +1,6 @@
 //! A finished patch: a polytope that knows which of the mesh's faces it is made of.
 
-use super::region::Region;
+use super::growing::GrowingPatch;
 use crate::exact::predicates::{Projection, side};
 use crate::hull::polygons::polygons;
 use crate::solid::flats::{Flat, Flats};
@@ -21,7 +21,7 @@ pub struct Patch {
 }
 
 impl Patch {
-    pub(super) fn new(manifold: &Manifold<'_>, flats: &Flats, region: &Region) -> Self {
+    pub(super) fn new(manifold: &Manifold<'_>, flats: &Flats, region: &GrowingPatch) -> Self {
         let points = manifold.mesh().vertices();
         let members: Vec<&Flat> = region.flats().iter().map(|&f| flats.get(f)).collect();
         let mut faces: Vec<u32> = members

@@ -1,4 +1,5 @@
 use super::*;
+use crate::solid::bounding_solid;
 use crate::solid::topology::Topology;
 use crate::test_meshes::{
     block, cubes, joined, notched, placed, prism, star, teeth, tetrahedron, turned,
@@ -143,7 +144,7 @@ fn patches_are_capped() {
 fn patches_of_slivers_take_linear_work() {
     for corners in [100, 1_000, 10_000] {
         let mesh = star(corners, 0.5);
-        let manifold = Manifold::new(&mesh).unwrap();
+        let manifold = bounding_solid(&mesh).unwrap();
         let flats = Flats::new(&manifold);
         let work = Work::of(1_000 * u64::from(corners));
         let decomposition = decompose_flats(&manifold, &flats, Order::default(), &work).unwrap();

@@ -8,7 +8,7 @@
 
 use super::solid::Solid;
 use super::voxels::{Cell, Voxels};
-use crate::hull::lexicographic;
+use crate::exact::predicates::lexicographic;
 use crate::tolerance::on_edge;
 use crate::work::Work;
 use ccd_core::glam::DVec3;

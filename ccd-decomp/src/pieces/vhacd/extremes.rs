@@ -1,9 +1,9 @@
 //! The points of a list that matter to its hull: those farthest out in some directions, and those that are
 //! not within the hull of such.
 
+use crate::bounds::Bounds;
 use crate::exact::predicates::{side, too_fine};
 use crate::hull::exact_hull::ExactHull;
-use crate::search::Bounds;
 use ccd_core::glam::DVec3;
 use std::cmp::Ordering;
 use std::f64::consts::PI;

@@ -1,9 +1,9 @@
 //! Fewer parts: those that fill their common hull best are merged first.
 
 use super::extremes::{farthest, without_inner};
+use crate::bounds::Bounds;
 use crate::hull::exact_hull::ExactHull;
 use crate::hull::likely_triangles;
-use crate::search::Bounds;
 use crate::tolerance::PRICED_POINTS;
 use ccd_core::glam::DVec3;
 use rayon::prelude::*;

@@ -1,8 +1,10 @@
 //! What is approximated: which points are in it, and how far are others.
 
+use crate::bounds::Bounds;
 use crate::exact::predicates::side;
 use crate::mesh::TriangleMesh;
-use crate::search::{Bounds, NearestTriangles, Region};
+use crate::search::nearest::NearestTriangles;
+use crate::search::region::Region;
 use crate::solid::topology::{Orientation, Topology};
 use crate::tolerance::NEAREST_SLACK;
 use crate::work::Work;

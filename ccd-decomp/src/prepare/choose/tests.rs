@@ -1,4 +1,5 @@
 use super::*;
+use crate::solid::bounding_solid;
 use crate::test_meshes::{block, cubes, joined, placed, tetrahedron};
 use ccd_core::glam::DVec3;
 
@@ -42,7 +43,7 @@ fn the_largest_plane_is_found_whole() {
         .filter(|c| *c != [2, 0, 1])
         .collect();
     let mesh = cubes(&cells);
-    let manifold = Manifold::new(&mesh).unwrap();
+    let manifold = bounding_solid(&mesh).unwrap();
     let plane = Plane::largest(&manifold, &Flats::new(&manifold));
     assert_eq!(plane.triangles, 12);
     assert_eq!(plane.polygons, 1);

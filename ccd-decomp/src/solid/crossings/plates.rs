@@ -1,7 +1,9 @@
 //! Convex polygons of many slivers, which are looked at one by one only where something reaches in.
 
+use crate::bounds::Bounds;
 use crate::exact::predicates::{Projection, side};
-use crate::search::{Bounds, Region, TriangleBoxes};
+use crate::search::TriangleBoxes;
+use crate::search::region::Region;
 use crate::solid::flats::{Flat, Flats};
 use crate::solid::manifold::Manifold;
 use crate::tolerance::FAN_TRIANGLES;

@@ -1,8 +1,9 @@
-use crate::error::DecomposeError;
 use crate::mesh::TriangleMesh;
-use crate::solid::crossings::Crossing;
+use crate::solid::error::Crossing;
+use crate::solid::error::DecomposeError;
 use crate::solid::manifold::Manifold;
 use crate::solid::topology::Topology;
+use crate::solid::{bounding_solid, check_solid};
 use crate::test_meshes::{comb, cubes, joined, mesh, notched, placed, prism, teeth, tetrahedron};
 use crate::tolerance::CROSSINGS;
 use crate::work::Work;
@@ -16,7 +17,7 @@ use rstest::rstest;
 fn meet(offset: DVec3) -> bool {
     let solid = tetrahedron();
     let both = joined(&[&solid, &placed(&solid, 1.0, offset)]);
-    match Manifold::new(&both).map(|_| ()) {
+    match bounding_solid(&both).map(|_| ()) {
         Ok(()) => false,
         Err(DecomposeError::SelfIntersecting { pairs }) => {
             let across = |pair: &Crossing| pair.face < 4 && pair.other >= 4;
@@ -49,7 +50,7 @@ fn a_shared_corner_is_no_intersection() {
     let inside = placed(&solid, 0.5, DVec3::ZERO);
     let nested = joined(&[&solid, &inside]);
     assert!(matches!(
-        Manifold::new(&nested).err(),
+        bounding_solid(&nested).err(),
         Some(DecomposeError::SelfIntersecting { .. } | DecomposeError::NotManifold { .. })
     ));
 }
@@ -64,7 +65,7 @@ fn a_fold_is_found() {
         dvec3(0.5, 0.5, 0.0),
     ];
     let folded = mesh(vertices, &[[0, 1, 2], [0, 2, 3], [2, 1, 3], [1, 0, 3]]);
-    let error = Manifold::new(&folded).err();
+    let error = bounding_solid(&folded).err();
     assert!(
         matches!(error, Some(DecomposeError::SelfIntersecting { .. })),
         "{error:?}"
@@ -81,7 +82,7 @@ fn stairs_do_not_meet_themselves() {
         [2, 0, 1],
         [2, 0, 2],
     ]);
-    assert!(Manifold::new(&stairs).is_ok());
+    assert!(bounding_solid(&stairs).is_ok());
 }
 
 /// Work that grows as the number of triangles, not as the square of those about one vertex.
@@ -96,7 +97,7 @@ fn fans_of_convex_caps_are_not_compared_pair_by_pair() {
         let manifold = Manifold::unchecked(&mesh, &Topology::of(&mesh)).unwrap();
         // All pairs about a corner of 5,000 would be 2,500 for each triangle.
         let work = Work::of(100 * mesh.faces().len() as u64);
-        assert_eq!(manifold.check(&work), Ok(()), "{corners}");
+        assert_eq!(check_solid(&manifold, &work), Ok(()), "{corners}");
     }
 }
 
@@ -105,9 +106,12 @@ fn steps_per_face(mesh: &TriangleMesh) -> u64 {
     let manifold = Manifold::unchecked(mesh, &Topology::of(mesh)).unwrap();
     assert!(!crate::solid::star::is_seen_whole(&manifold));
     let too_few = Work::of(100);
-    assert_eq!(manifold.check(&too_few), Err(DecomposeError::TooLong));
+    assert_eq!(
+        check_solid(&manifold, &too_few),
+        Err(DecomposeError::TooLong)
+    );
     let work = Work::unbounded();
-    assert_eq!(manifold.check(&work), Ok(()));
+    assert_eq!(check_solid(&manifold, &work), Ok(()));
     work.taken() / mesh.faces().len() as u64
 }
 
@@ -184,7 +188,7 @@ fn crossings_are_counted_up_to_a_thousand() {
         outline.extend(corners.map(|(x, y)| dvec3(x, y, 0.0)));
     }
     let mesh = prism(&outline);
-    let Err(DecomposeError::SelfIntersecting { pairs }) = Manifold::new(&mesh).map(|_| ()) else {
+    let Err(DecomposeError::SelfIntersecting { pairs }) = bounding_solid(&mesh).map(|_| ()) else {
         panic!("overlapping fans");
     };
     assert_eq!(pairs.count(), CROSSINGS);

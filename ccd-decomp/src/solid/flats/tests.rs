@@ -1,13 +1,14 @@
 use super::*;
 use crate::mesh::TriangleMesh;
 use crate::solid::topology::Topology;
+use crate::solid::{bounding_solid, check_solid};
 use crate::test_meshes::{block, cubes, joined, mesh, placed, tetrahedron};
 use crate::work::Work;
 use ccd_core::glam::DVec3;
 use rstest::rstest;
 
 fn flats(mesh: &TriangleMesh) -> Flats {
-    Flats::new(&Manifold::new(mesh).unwrap())
+    Flats::new(&bounding_solid(mesh).unwrap())
 }
 
 #[rstest]
@@ -36,7 +37,7 @@ fn polygons_are_convex_and_leave_nothing_out() {
         .filter(|c| *c != [1, 1, 0])
         .collect();
     let mesh = cubes(&cells);
-    let manifold = Manifold::new(&mesh).unwrap();
+    let manifold = bounding_solid(&mesh).unwrap();
     let flats = Flats::new(&manifold);
     let mut area = 0.0;
     for k in 0..flats.len() as u32 {
@@ -98,6 +99,6 @@ fn folds_are_no_polygons() {
     for (mesh, polygons) in cases {
         let manifold = Manifold::unchecked(&mesh, &Topology::of(&mesh)).unwrap();
         assert_eq!(Flats::new(&manifold).len(), polygons);
-        assert!(manifold.check(&Work::unbounded()).is_err());
+        assert!(check_solid(&manifold, &Work::unbounded()).is_err());
     }
 }

@@ -1,8 +1,9 @@
 use super::*;
+use crate::solid::bounding_solid;
 use crate::test_meshes::{block, cubes, joined, mesh, placed, tetrahedron, turned};
 
 fn refusal(mesh: &TriangleMesh) -> String {
-    Manifold::new(mesh)
+    bounding_solid(mesh)
         .err()
         .map_or(String::new(), |e| e.to_string())
 }
@@ -10,7 +11,7 @@ fn refusal(mesh: &TriangleMesh) -> String {
 #[test]
 fn twins_run_the_other_way() {
     let mesh = cubes(&block([2, 2, 1]));
-    let manifold = Manifold::new(&mesh).unwrap();
+    let manifold = bounding_solid(&mesh).unwrap();
     for h in 0..3 * manifold.faces().len() as u32 {
         let [v, w] = manifold.ends(h);
         assert_eq!(manifold.ends(manifold.twin(h)), [w, v]);
@@ -21,7 +22,7 @@ fn twins_run_the_other_way() {
 #[test]
 fn edges_of_a_step_bend_both_ways() {
     let mesh = cubes(&[[0, 0, 0], [1, 0, 0], [0, 0, 1]]);
-    let manifold = Manifold::new(&mesh).unwrap();
+    let manifold = bounding_solid(&mesh).unwrap();
     let count = |bend| {
         let all = 0..3 * manifold.faces().len() as u32;
         all.filter(|&h| manifold.bend(h) == bend).count()
@@ -36,7 +37,7 @@ fn edges_of_a_step_bend_both_ways() {
 #[test]
 fn a_mesh_that_is_inside_out_is_turned() {
     let mesh = turned(&tetrahedron());
-    let manifold = Manifold::new(&mesh).unwrap();
+    let manifold = bounding_solid(&mesh).unwrap();
     assert!((0..12).all(|h| manifold.bend(h) == Bend::Convex));
 }
 

@@ -2,7 +2,7 @@
 
 use super::super::Part;
 use super::super::solid::Solid;
-use crate::search::Bounds;
+use crate::bounds::Bounds;
 use crate::tolerance::WELL_SHAPED;
 use crate::work::Work;
 use ccd_core::SupportTree;

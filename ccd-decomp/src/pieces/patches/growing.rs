@@ -1,9 +1,10 @@
 //! A patch that grows: its polygons and their hull.
 
 use super::apart::Obstacle;
+use crate::bounds::Bounds;
 use crate::exact::predicates::side_of;
 use crate::hull::exact_hull::ExactHull;
-use crate::search::{self, Bounds};
+use crate::search::region::Region;
 use crate::solid::flats::Flats;
 use crate::solid::manifold::Manifold;
 use crate::tolerance::PATCH_CORNERS;
@@ -12,7 +13,7 @@ use ccd_core::glam::DVec3;
 use std::cmp::Ordering;
 
 /// Polygons of a mesh that are on the boundary of their hull, which lies within the solid.
-pub(super) struct Region {
+pub(super) struct GrowingPatch {
     flats: Vec<u32>,
     hull: ExactHull,
     has_volume: bool,
@@ -28,9 +29,9 @@ pub(super) enum Join {
     InPlane,
 }
 
-impl Region {
+impl GrowingPatch {
     pub(super) fn new(flats: &Flats, seed: u32) -> Self {
-        Region {
+        GrowingPatch {
             flats: vec![seed],
             hull: ExactHull::polygon(&flats.get(seed).corners),
             has_volume: false,
@@ -102,7 +103,7 @@ impl Region {
             let facets = hull.facets().iter();
             let facets = facets.map(|facet| facet.map(|v| points[v as usize]));
             let corners = hull.corners().iter().map(|&v| points[v as usize]);
-            let near = triangle_boxes::Region::inside(corners.collect(), facets.collect(), changed);
+            let near = Region::inside(corners.collect(), facets.collect(), changed);
             if !manifold.boxes().all_meeting(&near, work, is_apart) {
                 return Join::Refused;
             }

@@ -1,7 +1,23 @@
-//! Pieces as Wavefront OBJ, to look at.
+//! Meshes and pieces as Wavefront OBJ.
 
+use crate::mesh::TriangleMesh;
 use ccd_core::{Piece, Pieces};
 use std::io::{self, BufWriter, Write};
+
+/// Writes the vertices and triangles as an OBJ that reads back to the same bits.
+///
+/// # Errors
+/// Those of the writer.
+pub fn write_obj(mesh: &TriangleMesh, writer: impl Write) -> io::Result<()> {
+    let mut writer = BufWriter::new(writer);
+    for v in mesh.vertices() {
+        writeln!(writer, "v {} {} {}", v.x, v.y, v.z)?;
+    }
+    for [a, b, c] in mesh.faces() {
+        writeln!(writer, "f {} {} {}", a + 1, b + 1, c + 1)?;
+    }
+    writer.flush()
+}
 
 /// Writes every piece as a group of its own, `g piece_0` and so on: its facets as polygons, or where
 /// none are known its triangle, its segment or its points.

@@ -1,0 +1,95 @@
+//! Bodies with what they were made of.
+
+use super::error::PrepareError;
+use super::report::{PiecesKind, Report, Why};
+use crate::mesh::repair::Repairs;
+use crate::tree::hull_tree::build_hull_tree;
+use ccd_core::{Body, Hierarchy, HullTree, Pieces, Volume};
+
+/// A body before its tree is built: what is stored in a file.
+#[derive(Clone, Debug)]
+pub struct Model {
+    /// The convex pieces.
+    pub pieces: Pieces,
+    /// A hierarchy over them.
+    pub hierarchy: Hierarchy,
+    /// Whether being inside of it counts as touching it.
+    pub volume: Volume,
+    /// A tree of hulls over the pieces, for the schedules that use one.
+    pub hull_tree: Option<HullTree>,
+    /// The triangles of a convex solid's mesh, and a hierarchy over them: what it is against bodies of
+    /// many triangles.
+    pub surface: Option<(Pieces, Hierarchy)>,
+    /// What the pieces are, and why.
+    pub report: Report,
+}
+
+/// A body, and what it was made of.
+#[derive(Clone, Debug)]
+pub struct Prepared {
+    /// Ready for queries.
+    pub body: Body,
+    /// What it was made of.
+    pub report: Report,
+}
+
+impl Model {
+    /// Builds the body. O(n log n) in the number of pieces.
+    ///
+    /// # Errors
+    /// [`PrepareError::Input`], [`PrepareError::HullTree`] when the parts do not belong together.
+    pub fn body(&self) -> Result<Body, PrepareError> {
+        let mut body = Body::with_hierarchy(&self.pieces, &self.hierarchy, self.volume)?;
+        if let Some((pieces, hierarchy)) = &self.surface {
+            let surface = Body::with_hierarchy(pieces, hierarchy, Volume::Solid)?;
+            body = body.with_surface(surface)?;
+        }
+        Ok(match &self.hull_tree {
+            Some(tree) => body.with_hull_tree(tree.clone())?,
+            None => body,
+        })
+    }
+
+    /// Adds a hull tree over its pieces.
+    ///
+    /// # Errors
+    /// [`PrepareError::BuildHullTree`].
+    pub fn with_hull_tree(mut self) -> Result<Self, PrepareError> {
+        self.hull_tree = Some(build_hull_tree(&self.pieces)?);
+        Ok(self)
+    }
+
+    /// Builds the body, and keeps of the rest only the report.
+    ///
+    /// # Errors
+    /// As [`Model::body`].
+    pub fn into_prepared(self) -> Result<Prepared, PrepareError> {
+        Ok(Prepared {
+            body: self.body()?,
+            report: self.report,
+        })
+    }
+}
+
+impl Prepared {
+    /// A body that was not made of a mesh.
+    pub(crate) fn primitive(body: Body) -> Self {
+        Prepared {
+            report: Report {
+                kind: PiecesKind::Primitive,
+                why: Why::Asked,
+                triangles: 0,
+                pieces: body.pieces().len(),
+                virtual_faces: 0,
+                tree_nodes: 1,
+                inflated_by: 0.0,
+                sticks_out: 0.0,
+                rebuilt_hulls: 0,
+                volume: body.volume(),
+                topology: None,
+                repairs: Repairs::default(),
+            },
+            body,
+        }
+    }
+}
