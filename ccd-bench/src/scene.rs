@@ -12,7 +12,7 @@ use crate::model::{Model, Origin};
 use crate::motions::Query;
 use crate::query::Bodies;
 use ccd_core::{Body, InputError};
-use ccd_decomp::{BodyError, Detail, Order, TriangleMesh, body_from_mesh, prepare};
+use ccd_decomp::{Detail, Order, PrepareError, TriangleMesh, body_from_mesh, prepare};
 use std::collections::HashMap;
 use std::path::PathBuf;
 use std::sync::{Arc, OnceLock};
@@ -110,7 +110,7 @@ pub enum SceneError {
         /// Its name.
         name: &'static str,
         /// Why.
-        source: BodyError,
+        source: PrepareError,
     },
     /// A motion is none.
     #[error(transparent)]
