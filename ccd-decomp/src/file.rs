@@ -14,8 +14,8 @@ use std::path::Path;
 /// The extension of a stored body's file.
 pub const STORED_EXTENSION: &str = "ccd";
 
-/// What is stored of a model, in this order; a hull tree without its pieces, which are there already.
-/// A change to any of these types, or to their order, is another version of the format.
+/// The stored parts of a model, in this order. A hull tree is stored without its pieces, which are there
+/// already. A change to any of these types, or to their order, needs another version of the format.
 type Stored = (
     Pieces,
     Hierarchy,
@@ -26,10 +26,10 @@ type Stored = (
 );
 
 impl Model {
-    /// Stores it in a file, by convention called `NAME.ccd`.
+    /// Stores the model in a file, by convention called `NAME.ccd`.
     ///
     /// # Errors
-    /// [`StoreFault::Unwritable`].
+    /// [`StoreFault::Unwritable`] when the operating system refuses.
     pub fn save(&self, path: impl AsRef<Path>) -> Result<(), StoreError> {
         let path = path.as_ref();
         // A write that is cut short must not take the old file with it.
@@ -44,14 +44,14 @@ impl Model {
             })
     }
 
-    /// Loads what [`Model::save`] has stored.
+    /// Loads a model that [`Model::save`] stored.
     ///
     /// # Guarantee
-    /// Its body answers as the one that was stored does, bit by bit. No bytes panic: what is not as it
-    /// was written is an error, or, where even the checksum was forged, still a valid body.
+    /// The body gives the same answers as the stored one, bit by bit. No bytes panic: a changed file is an error
+    /// or, where even the checksum was forged, still a valid body.
     ///
     /// # Errors
-    /// [`StoreError`], with the file's name.
+    /// [`StoreError`], which names the file.
     pub fn load(path: impl AsRef<Path>) -> Result<Self, StoreError> {
         let path = path.as_ref();
         let file = File::open(path).map_err(StoreFault::Unreadable);
@@ -59,18 +59,18 @@ impl Model {
             .map_err(|fault| fault.in_file(path))
     }
 
-    /// Writes it as [`Model::save`] does, to anywhere.
+    /// Writes the model to any writer, in the format of [`Model::save`].
     ///
     /// # Errors
-    /// [`StoreFault::Unwritable`].
+    /// [`StoreFault::Unwritable`] when the writer fails.
     pub fn write(&self, writer: impl Write) -> Result<(), StoreError> {
         Ok(self.store(writer)?)
     }
 
-    /// Reads as [`Model::load`] does, from anywhere, to the end.
+    /// Reads a model from any reader, to the end, with the guarantee of [`Model::load`].
     ///
     /// # Errors
-    /// [`StoreError`].
+    /// [`StoreError`], without the name of a file.
     pub fn read(reader: impl Read) -> Result<Self, StoreError> {
         Ok(Model::unpack(reader)?)
     }
@@ -113,7 +113,7 @@ impl Model {
         Ok(model)
     }
 
-    /// Whether its parts, each valid by itself, belong together.
+    /// Checks that the parts, each of which is valid, belong together.
     fn check(&self) -> Result<(), &'static str> {
         let pieces = self.pieces.len();
         // Of a binary tree's nodes, one more are leaves than are not.

@@ -37,12 +37,12 @@ pub(crate) struct Hull {
     /// Convex polygons, counter-clockwise seen from outside.
     pub(crate) facets: Loops,
     /// How it was found.
-    pub(crate) way: Way,
+    pub(crate) method: Method,
 }
 
 /// How a hull was found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Way {
+pub(crate) enum Method {
     /// By the library, and proven.
     Library,
     /// The library's hull is not the hull, or there was none: computed exactly instead.
@@ -93,7 +93,7 @@ pub(crate) fn hull(points: &[DVec3]) -> Result<Hull, HullError> {
 /// As [`hull`].
 pub(crate) fn unproven_hull(points: &[DVec3]) -> Result<Hull, HullError> {
     hull_by(points, |points| match ExactHull::facets_of(points) {
-        Some(triangles) => Ok((loops(points, &triangles), Way::Exact)),
+        Some(triangles) => Ok((loops(points, &triangles), Method::Exact)),
         None => Err(HullError::Unproven(points.len())),
     })
 }
@@ -101,7 +101,7 @@ pub(crate) fn unproven_hull(points: &[DVec3]) -> Result<Hull, HullError> {
 /// `solid` takes points at different places that span a volume.
 fn hull_by(
     points: &[DVec3],
-    solid: impl FnOnce(&[DVec3]) -> Result<(Loops, Way), HullError>,
+    solid: impl FnOnce(&[DVec3]) -> Result<(Loops, Method), HullError>,
 ) -> Result<Hull, HullError> {
     // Written so that NaN fails.
     let good = |p: &DVec3| p.abs().max_element() <= MAX_COORDINATE && p.is_finite();
@@ -109,16 +109,16 @@ fn hull_by(
     if let Some(point) = out_of_range.or_else(|| predicates::too_fine(points)) {
         return Err(HullError::OutOfRange(point as u32));
     }
-    let cloud = Cloud::of(points);
+    let cloud = DistinctPoints::of(points);
     let name = |k: usize| cloud.ids[k];
     let found = match Span::of(&cloud.points) {
         Span::Nothing => Err(HullError::Empty),
         Span::Point(a) => Err(HullError::Single(name(a))),
         Span::Line(a, b) => Err(HullError::Collinear(name(a), name(b))),
-        Span::Plane(triangle) => Ok((flat::facets(&cloud.points, triangle), Way::Flat)),
+        Span::Plane(triangle) => Ok((flat::facets(&cloud.points, triangle), Method::Flat)),
         Span::Volume => solid(&cloud.points),
     };
-    found.map(|(facets, way)| cloud.named(facets, way))
+    found.map(|(facets, method)| cloud.named(facets, method))
 }
 
 /// The triangles of what is likely the hull of points: of a number between few and many the library's, of
@@ -130,17 +130,17 @@ pub(crate) fn likely_triangles(points: &[DVec3]) -> Option<Vec<[u32; 3]>> {
     }
 }
 
-fn solid(points: &[DVec3]) -> Result<(Loops, Way), HullError> {
+fn solid(points: &[DVec3]) -> Result<(Loops, Method), HullError> {
     let some = FEW_POINTS < points.len() && points.len() <= LIBRARY_POINTS;
     if some
         && let Some(triangles) = library::triangles(points)
         && let Ok(facets) = proof::prove(points, loops(points, &triangles))
     {
-        return Ok((facets, Way::Library));
+        return Ok((facets, Method::Library));
     }
-    let way = if some { Way::Rebuilt } else { Way::Exact };
+    let method = if some { Method::Rebuilt } else { Method::Exact };
     match computed(points) {
-        Some(facets) => Ok((facets, way)),
+        Some(facets) => Ok((facets, method)),
         None => Err(HullError::Unproven(points.len())),
     }
 }
@@ -156,25 +156,25 @@ fn computed(points: &[DVec3]) -> Option<Loops> {
 }
 
 /// Points at different places, and the number of the first given point at each.
-struct Cloud {
+struct DistinctPoints {
     points: Vec<DVec3>,
     ids: Vec<u32>,
 }
 
-impl Cloud {
+impl DistinctPoints {
     fn of(points: &[DVec3]) -> Self {
         let at = |k: u32| points[k as usize];
         let mut ids: Vec<u32> = (0..points.len() as u32).collect();
         ids.sort_unstable_by(|&v, &w| lexicographic(at(v), at(w)).then(v.cmp(&w)));
         ids.dedup_by(|w, v| at(*v) == at(*w));
         ids.sort_unstable();
-        Cloud {
+        DistinctPoints {
             points: ids.iter().map(|&v| at(v)).collect(),
             ids,
         }
     }
 
-    fn named(&self, mut facets: Loops, way: Way) -> Hull {
+    fn named(&self, mut facets: Loops, method: Method) -> Hull {
         for corner in facets.corners_mut() {
             *corner = self.ids[*corner as usize];
         }
@@ -184,7 +184,7 @@ impl Cloud {
         Hull {
             vertices,
             facets,
-            way,
+            method,
         }
     }
 }

@@ -1,4 +1,4 @@
-//! A mesh that is fit to be made a body of.
+//! Triangle meshes: read, checked and repaired.
 
 pub(crate) mod error;
 pub(crate) mod format;
@@ -17,11 +17,11 @@ use std::fs;
 use std::io::Read;
 use std::path::Path;
 
-/// Triangles over finite vertices, each with the number of the file's face it is part of.
+/// Triangles over finite vertices. Each has the number of the face of the file that it is part of.
 ///
 /// # Guarantee
-/// The triangles cover every planar polygon of the file and every point of its degenerate faces. At
-/// least one triangle; every index names a vertex.
+/// The triangles cover every planar polygon of the file and every point of its degenerate faces. There is at
+/// least one triangle. Every index names a vertex.
 ///
 /// ```
 /// use ccd_decomp::{Format, TriangleMesh};
@@ -36,15 +36,16 @@ pub struct TriangleMesh {
     vertices: Vec<DVec3>,
     faces: Vec<[u32; 3]>,
     face_ids: Vec<u32>,
+    /// For every vertex the first one that lies at exactly the same point.
     positions: Vec<u32>,
     repairs: Repairs,
 }
 
 impl TriangleMesh {
-    /// Reads a mesh from a file, in the format that its extension tells.
+    /// Reads a mesh from a file, in the format of its extension.
     ///
     /// # Errors
-    /// [`MeshError`], naming the file and the element; never panics, whatever the bytes.
+    /// [`MeshError`], which names the file and the element. No bytes panic.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, MeshError> {
         let path = path.as_ref();
         let read = || {
@@ -58,10 +59,10 @@ impl TriangleMesh {
         read().map_err(|fault| fault.in_file(path))
     }
 
-    /// Reads a mesh in a given format.
+    /// Reads a mesh in a given format from any reader.
     ///
     /// # Errors
-    /// As [`TriangleMesh::read`].
+    /// [`MeshError`], which names the element. No bytes panic.
     pub fn from_reader(format: Format, mut reader: impl Read) -> Result<Self, MeshError> {
         let mut bytes = Vec::new();
         reader
@@ -70,7 +71,7 @@ impl TriangleMesh {
         Ok(TriangleMesh::from_polygons(format.parse(&bytes)?)?)
     }
 
-    /// Takes the triangles of a mesh made by code.
+    /// Makes a mesh of vertices and triangles in memory.
     ///
     /// # Errors
     /// [`MeshFault::NotFinite`], [`MeshFault::TooLarge`], [`MeshFault::NoSuchVertex`],
@@ -118,7 +119,7 @@ impl TriangleMesh {
         })
     }
 
-    /// The file's vertices in its own order, unreferenced ones too.
+    /// The vertices in the file's order, unreferenced ones included.
     pub fn vertices(&self) -> &[DVec3] {
         &self.vertices
     }
@@ -128,12 +129,12 @@ impl TriangleMesh {
         &self.faces
     }
 
-    /// The file's number of the face that each triangle is part of.
+    /// The number, by triangle, of the face of the file that the triangle is part of.
     pub fn face_ids(&self) -> &[u32] {
         &self.face_ids
     }
 
-    /// The same mesh with some faces turned round.
+    /// Copies the mesh, with some triangles turned round.
     pub(crate) fn turned(&self, faces: &[u32]) -> Self {
         let mut mesh = self.clone();
         for &face in faces {
@@ -142,24 +143,29 @@ impl TriangleMesh {
         mesh
     }
 
-    /// What was found amiss, and what became of it.
+    /// The faults that were repaired.
     pub fn repairs(&self) -> &Repairs {
         &self.repairs
     }
 
-    /// The faces by the first vertex that lies where a corner does.
-    pub(crate) fn welded_faces(&self) -> Vec<[u32; 3]> {
-        let welded = |face: &[u32; 3]| face.map(|v| self.positions[v as usize]);
-        self.faces.iter().map(welded).collect()
+    /// The points of a triangle's corners.
+    pub(crate) fn triangle(&self, face: u32) -> [DVec3; 3] {
+        self.faces[face as usize].map(|v| self.vertices[v as usize])
     }
 
-    /// For every vertex the first one that lies at exactly the same point.
-    pub(crate) fn positions(&self) -> &[u32] {
-        &self.positions
+    /// The corners of a triangle, each by the first vertex at exactly its point.
+    pub(crate) fn welded_face(&self, face: u32) -> [u32; 3] {
+        self.faces[face as usize].map(|v| self.positions[v as usize])
+    }
+
+    /// The [welded](TriangleMesh::welded_face) corners of all triangles.
+    pub(crate) fn welded_faces(&self) -> Vec<[u32; 3]> {
+        let faces = 0..self.faces.len() as u32;
+        faces.map(|face| self.welded_face(face)).collect()
     }
 }
 
-/// For every vertex the first one at exactly the same point; 0 and −0 are the same.
+/// Finds for every vertex the first one at exactly the same point; 0 and −0 are the same.
 fn weld(vertices: &[DVec3]) -> Vec<u32> {
     let mut first = HashMap::with_capacity(vertices.len());
     let number = |(vertex, point): (usize, &DVec3)| {

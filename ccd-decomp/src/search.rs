@@ -1,29 +1,28 @@
 //! The triangles of a mesh by where they are.
 
+mod box_tree;
+mod element;
 mod fans;
 pub(crate) mod nearest;
-mod part;
+mod oriented_box;
 mod planes;
 pub(crate) mod region;
-mod slab;
-mod slabs;
 
-use crate::bounds::Bounds;
 use crate::work::Work;
+use box_tree::BoxTree;
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
+use element::Element;
 use fans::{Fan, split};
 use parry3d_f64::bounding_volume::Aabb;
 use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
-use part::Part;
 use region::Region;
-use slabs::Slabs;
 
 /// The boxes of triangles, to be searched: boxes that lie as the triangles do, so that those of slivers
 /// side by side hardly meet. The triangles of a large fan about one vertex, where all of them meet, are
 /// searched by themselves.
 pub(crate) struct TriangleBoxes {
-    single: Slabs,
+    single: BoxTree,
     fans: Vec<Fan>,
     /// The boxes of the fans.
     bvh: Bvh,
@@ -33,13 +32,13 @@ impl TriangleBoxes {
     /// O(n log n).
     pub(crate) fn new(points: &[DVec3], faces: &[[u32; 3]]) -> Self {
         let (single, fans) = split(points, faces);
-        let part = |face: u32| Part {
+        let element = |face: u32| Element {
             corners: faces[face as usize].map(|v| points[v as usize]),
             face,
         };
         let boxes: Vec<Aabb> = fans.iter().map(|fan| fan.bounds().as_aabb()).collect();
         TriangleBoxes {
-            single: Slabs::new(single.into_iter().map(part).collect()),
+            single: BoxTree::new(single.into_iter().map(element).collect()),
             bvh: Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes),
             fans,
         }

@@ -11,7 +11,7 @@ pub(crate) mod flats;
 pub(crate) mod manifold;
 mod nesting;
 pub(crate) mod shells;
-pub(crate) mod star;
+pub(crate) mod star_shaped;
 pub(crate) mod topology;
 
 use crate::mesh::TriangleMesh;
@@ -21,7 +21,7 @@ use crossings::crossings;
 use error::{Crossing, DecomposeError};
 use manifold::Manifold;
 use shells::check_orientation;
-use star::is_seen_whole;
+use star_shaped::is_star_shaped;
 use topology::Topology;
 
 /// The surface of the solid that a mesh bounds: checks every edge, and every pair of triangles that are near
@@ -43,7 +43,7 @@ pub(crate) fn bounding_solid(mesh: &TriangleMesh) -> Result<Manifold<'_>, Decomp
 /// # Errors
 /// [`DecomposeError`]; [`TooLong`](DecomposeError::TooLong) when the work does not suffice to decide.
 pub(crate) fn check_solid(manifold: &Manifold<'_>, work: &Work) -> Result<(), DecomposeError> {
-    if is_seen_whole(manifold) {
+    if is_star_shaped(manifold) {
         return Ok(());
     }
     let mut pairs = Tally::default();

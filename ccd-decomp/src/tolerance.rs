@@ -74,7 +74,7 @@ pub(crate) fn on_edge(farthest: f64) -> f64 {
 }
 
 /// Bounds the error of the length of a difference of points along a direction, and of how far a box of
-/// [`Slab`](crate::search) goes along it, when no coordinate exceeds `reach`; in its unit of
+/// [oriented box](crate::search) goes along it, when no coordinate exceeds `reach`; in its unit of
 /// length, for a direction about as long as 1.
 ///
 /// With `u` half a unit in the last place, `d` the sum of the direction's coordinates and `m` the reach: a
@@ -82,7 +82,7 @@ pub(crate) fn on_edge(farthest: f64) -> f64 {
 /// there is one of the box and one of the shape. The box's half lengths are at most `2√3 m`, and each is
 /// taken along the direction to `4u d`: `42u d m`. Their sums round by `12u d m`. That is 70u; 128u are
 /// taken, and what may underflow.
-pub(crate) fn slab_rounding(direction: DVec3, reach: f64) -> f64 {
+pub(crate) fn box_rounding(direction: DVec3, reach: f64) -> f64 {
     128.0 * U64 * direction.abs().element_sum() * reach + f64::MIN_POSITIVE
 }
 

@@ -1,34 +1,34 @@
-//! What can be wrong with a stored body.
+//! Errors of storing and loading bodies.
 
 use crate::messages::{LFS_ADVICE, Prefix};
 use std::fmt;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// Why a stored body cannot be read, or a body not be stored.
+/// A stored body that cannot be read, or a body that cannot be stored.
 #[derive(Debug, thiserror::Error)]
 #[error("{}{fault}", Prefix(.file))]
 pub struct StoreError {
     /// The file, where there is one.
     pub file: Option<PathBuf>,
-    /// What is wrong with it.
+    /// The reason.
     pub fault: StoreFault,
 }
 
-/// What is wrong with a stored body.
+/// The reason why a body cannot be stored or loaded.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum StoreFault {
-    /// The operating system would not give the bytes.
+    /// The operating system does not give the bytes.
     #[error("cannot be read: {0}")]
     Unreadable(#[source] io::Error),
-    /// The operating system would not take the bytes.
+    /// The operating system does not take the bytes.
     #[error("cannot be written: {0}")]
     Unwritable(#[source] io::Error),
-    /// It does not begin as a stored body does.
+    /// The file does not begin like a stored body.
     #[error("holds no stored body; give a mesh, or {PREPARE}")]
     Foreign,
-    /// Git stands for it with a few lines.
+    /// The file is a pointer of Git LFS.
     #[error("{LFS_ADVICE}")]
     LfsPointer,
     /// Another version of the program wrote it.
@@ -37,19 +37,19 @@ pub enum StoreFault {
         VERSION
     )]
     OtherVersion {
-        /// The version it says.
+        /// The version that the file states.
         version: u32,
     },
-    /// It ends before all it announces is there.
+    /// The file ends before the length that it announces.
     #[error("is cut short; copy it again, or {PREPARE}")]
     Truncated,
-    /// Its bytes are not those that were written.
+    /// The bytes are not those that were written.
     #[error("is damaged: its checksum is not that of its bytes; copy it again, or {PREPARE}")]
     Damaged,
-    /// Its bytes are whole, but say nothing that is a body.
+    /// The bytes are whole, but describe no valid body.
     #[error("holds no valid body: {problem}; {PREPARE}")]
     Invalid {
-        /// What is not valid.
+        /// The part that is not valid.
         problem: String,
     },
 }

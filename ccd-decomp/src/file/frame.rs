@@ -1,4 +1,4 @@
-//! What surrounds a stored payload, so that a foreign, cut or damaged file is told as such.
+//! The frame about a stored payload, which detects a foreign, cut or damaged file.
 //!
 //! | bytes | what |
 //! |---|---|
@@ -12,13 +12,13 @@ use super::error::{StoreFault, VERSION};
 use crate::messages::is_lfs_pointer;
 use std::io::{self, Read, Write};
 
-/// Written as PNG's: no text begins so, and a transfer that changes line ends or cuts the eighth bit
-/// damages it.
+/// The first bytes, in the manner of PNG: no text begins so, and a transfer that changes line ends or cuts
+/// the eighth bit damages them.
 const MAGIC: [u8; 8] = *b"\x89ccd\r\n\x1a\n";
 
 const HEADER: usize = MAGIC.len() + size_of::<u32>() + size_of::<u64>();
 
-/// Writes a payload with its frame.
+/// Writes a payload within its frame.
 pub(super) fn write(mut writer: impl Write, payload: &[u8]) -> io::Result<()> {
     let mut header = Vec::with_capacity(HEADER);
     header.extend(MAGIC);
@@ -30,15 +30,14 @@ pub(super) fn write(mut writer: impl Write, payload: &[u8]) -> io::Result<()> {
     writer.flush()
 }
 
-/// Reads a payload, once its frame is seen to be whole.
+/// Reads a payload, and checks that its frame is whole.
 ///
 /// # Complexity
-/// Linear in the bytes that there are, whatever length they announce.
+/// Linear in the bytes that are there, whatever length they announce.
 pub(super) fn read(mut reader: impl Read) -> Result<Vec<u8>, StoreFault> {
     let mut header = bytes(&mut reader, HEADER as u64)?;
     if !header.starts_with(&MAGIC) {
-        // A few bytes more tell a pointer. What is cut within the magic number is more likely not ours
-        // at all.
+        // A few bytes more identify a pointer. A file cut within the magic number is more likely foreign.
         header.extend(bytes(&mut reader, HEADER as u64)?);
         return Err(match is_lfs_pointer(&header) {
             true => StoreFault::LfsPointer,
@@ -65,7 +64,7 @@ pub(super) fn read(mut reader: impl Read) -> Result<Vec<u8>, StoreFault> {
     }
 }
 
-/// The next bytes, as many as asked for or as there are.
+/// Reads the next bytes, as many as asked for or as there are.
 fn bytes(reader: &mut impl Read, count: u64) -> Result<Vec<u8>, StoreFault> {
     let mut bytes = Vec::new();
     let taken = reader.take(count).read_to_end(&mut bytes);
@@ -73,7 +72,7 @@ fn bytes(reader: &mut impl Read, count: u64) -> Result<Vec<u8>, StoreFault> {
     Ok(bytes)
 }
 
-/// The next `N` bytes.
+/// Splits off the next `N` bytes.
 fn array<const N: usize>(from: &mut &[u8]) -> Result<[u8; N], StoreFault> {
     let (first, rest) = from.split_first_chunk().ok_or(StoreFault::Truncated)?;
     *from = rest;

@@ -4,10 +4,10 @@ use crate::mesh::TriangleMesh;
 use ccd_core::{Piece, Pieces};
 use std::io::{self, BufWriter, Write};
 
-/// Writes the vertices and triangles as an OBJ that reads back to the same bits.
+/// Writes the vertices and triangles of a mesh as an OBJ that reads back to the same bits.
 ///
 /// # Errors
-/// Those of the writer.
+/// The writer's errors.
 pub fn write_obj(mesh: &TriangleMesh, writer: impl Write) -> io::Result<()> {
     let mut writer = BufWriter::new(writer);
     for v in mesh.vertices() {
@@ -19,14 +19,14 @@ pub fn write_obj(mesh: &TriangleMesh, writer: impl Write) -> io::Result<()> {
     writer.flush()
 }
 
-/// Writes every piece as a group of its own, `g piece_0` and so on: its facets as polygons, or where
-/// none are known its triangle, its segment or its points.
+/// Writes every piece as a group of its own, `g piece_0` and so on, for viewing: its facets as polygons or,
+/// where none are known, its triangle, its segment or its points.
 ///
-/// Vertices read back to the same bits; those that pieces share are written once for each, and
-/// rounding radii are left out.
+/// Vertices read back to the same bits. A vertex that pieces share is written once for each piece. Rounding
+/// radii are left out.
 ///
 /// # Errors
-/// Those of the writer.
+/// The writer's errors.
 pub fn write_obj_pieces(pieces: &Pieces, writer: impl Write) -> io::Result<()> {
     let mut writer = BufWriter::new(writer);
     let mut written = 0;
@@ -41,7 +41,7 @@ pub fn write_obj_pieces(pieces: &Pieces, writer: impl Write) -> io::Result<()> {
     writer.flush()
 }
 
-/// What there is between the vertices of a piece, of which the first goes by the number `first`.
+/// Writes the facets of a piece, or its segment or points; `first` is the number of its first vertex.
 fn write_elements(piece: &Piece<'_>, first: usize, writer: &mut impl Write) -> io::Result<()> {
     let every = first..first + piece.points.len();
     if !piece.facets.is_empty() {

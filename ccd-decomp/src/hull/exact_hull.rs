@@ -2,7 +2,7 @@
 
 mod conflicts;
 mod few;
-mod plane;
+mod local_points;
 
 use crate::bounds::Bounds;
 use crate::exact::predicates::{is_degenerate, side_of};

@@ -1,4 +1,4 @@
-//! What can be wrong with a file that holds a mesh.
+//! Errors of reading a mesh.
 
 use crate::messages::{LFS_ADVICE, Prefix};
 use ccd_core::tolerance::MAX_COORDINATE;
@@ -6,62 +6,61 @@ use std::fmt;
 use std::io;
 use std::path::PathBuf;
 
-/// A mesh that could not be read: which file, and what is wrong with it where.
+/// A mesh that cannot be read: the file, and the fault.
 #[derive(Debug, thiserror::Error)]
 #[error("{}{fault}", Prefix(.file))]
 pub struct MeshError {
-    /// The file, where the mesh came from one.
+    /// The file, if the mesh came from one.
     pub file: Option<PathBuf>,
-    /// What is wrong with it.
+    /// The fault, with the line and element.
     pub fault: MeshFault,
 }
 
-/// What is wrong with a mesh. Lines count from 1, faces and vertices from 0, both in the file's
-/// order.
+/// The fault of a mesh. Lines count from 1, faces and vertices from 0, both in the file's order.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum MeshFault {
-    /// The operating system would not give the bytes.
+    /// The operating system does not give the bytes.
     #[error("cannot be read: {0}")]
     Unreadable(#[source] io::Error),
-    /// It is no file.
+    /// The path names a folder.
     #[error("is a folder; name a mesh in it, .obj, .stl, .ply or .off")]
     Folder,
-    /// The file's name does not tell its format.
+    /// The file's extension names no known format.
     #[error("{}; use .obj, .stl, .ply or .off", Extension(.extension))]
     UnknownExtension {
-        /// What follows the last dot; empty when there is none.
+        /// The text after the last dot; empty when there is none.
         extension: String,
     },
-    /// The format is known, but not this kind of it.
+    /// The format is known, but this variant of it is not supported.
     #[error("holds {what}, which is not supported; export it as {instead}")]
     Unsupported {
-        /// What the file holds.
+        /// The unsupported content.
         what: String,
-        /// What can be read instead.
+        /// The content that can be read instead.
         instead: &'static str,
     },
-    /// Git stands for it with a few lines.
+    /// The file is a pointer of Git LFS.
     #[error("{LFS_ADVICE}")]
     LfsPointer,
-    /// There is no vertex.
+    /// The mesh has no vertices.
     #[error("has no vertices; is it a mesh, and all of it?")]
     NoVertices,
-    /// There is no face.
+    /// The mesh has no faces.
     #[error("has no faces; export it as triangles or polygons, not as points or lines")]
     NoFaces,
-    /// Something does not read as the format says.
+    /// The content does not follow the format.
     #[error("{}{problem}; mend it or export the mesh again", Line(*.line))]
     Syntax {
-        /// Where.
+        /// The line, in a text.
         line: Option<usize>,
-        /// What was found, and what was expected.
+        /// The text that was found, and the text that was expected.
         problem: String,
     },
-    /// The file ends before everything it announces is there.
+    /// The file ends before the elements that it announces.
     #[error("ends before {missing} is complete; copy or export it again")]
     Truncated {
-        /// What is missing.
+        /// The first missing element.
         missing: String,
     },
     /// A coordinate is NaN or infinite.
@@ -69,27 +68,27 @@ pub enum MeshFault {
     NotFinite {
         /// The vertex.
         vertex: usize,
-        /// Where, in a text.
+        /// The line, in a text.
         line: Option<usize>,
     },
-    /// A coordinate is beyond what is computed with.
+    /// A coordinate is beyond the largest that is computed with.
     #[error("{}vertex {vertex} has a coordinate beyond ±{MAX_COORDINATE:e}; use a larger unit of length", Line(*.line))]
     TooLarge {
         /// The vertex.
         vertex: usize,
-        /// Where, in a text.
+        /// The line, in a text.
         line: Option<usize>,
     },
-    /// A face names a vertex that does not exist.
+    /// A face uses a vertex that does not exist.
     #[error("{}face {face} names vertex {vertex}, but there are {vertices}, numbered from {base}", Line(*.line))]
     NoSuchVertex {
         /// The face.
         face: usize,
-        /// Where, in a text.
+        /// The line, in a text.
         line: Option<usize>,
-        /// The vertex as the file names it; a negative one of an OBJ counts back from the face.
+        /// The vertex as the file writes it; a negative one of an OBJ counts back from the face.
         vertex: i64,
-        /// How many vertices there are.
+        /// The number of vertices.
         vertices: usize,
         /// The number that the format gives to the first vertex.
         base: u8,
@@ -99,23 +98,23 @@ pub enum MeshFault {
     TooFewCorners {
         /// The face.
         face: usize,
-        /// Where, in a text.
+        /// The line, in a text.
         line: Option<usize>,
-        /// How many it has.
+        /// The number of its corners.
         corners: usize,
     },
-    /// More than an index can name.
+    /// There are more elements than an index can name.
     #[error("{count} {what} are too many; split the mesh into several")]
     TooMany {
-        /// Vertices or faces.
+        /// The kind of elements.
         what: &'static str,
-        /// How many there are.
+        /// The number of elements.
         count: usize,
     },
 }
 
 impl MeshFault {
-    /// A syntax error; what it quotes of the file is cut to a length that fits a message.
+    /// Makes a syntax error, and cuts long quotes of the file to a length that fits a message.
     pub(crate) fn syntax(line: Option<usize>, mut problem: String) -> Self {
         if let Some((end, _)) = problem.char_indices().nth(QUOTED) {
             problem.truncate(end);
@@ -132,7 +131,7 @@ impl MeshFault {
     }
 }
 
-/// Characters that a message about syntax may have.
+/// The most characters of a message about syntax.
 const QUOTED: usize = 200;
 
 impl From<MeshFault> for MeshError {

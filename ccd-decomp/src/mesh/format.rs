@@ -1,4 +1,4 @@
-//! File formats: bytes to polygons, without touching a file.
+//! File formats: bytes to polygons, without access to files.
 
 mod obj;
 mod off;
@@ -27,10 +27,10 @@ pub enum Format {
 }
 
 impl Format {
-    /// The format that a file's extension tells, in capitals or not.
+    /// Finds the format of a file by its extension, in capitals or not.
     ///
     /// # Errors
-    /// [`MeshFault::UnknownExtension`].
+    /// [`MeshFault::UnknownExtension`] when the extension is none of a known format.
     pub fn from_path(path: impl AsRef<Path>) -> Result<Self, MeshFault> {
         let extension = path.as_ref().extension().unwrap_or_default();
         let extension = extension.to_string_lossy().to_ascii_lowercase();
@@ -43,6 +43,7 @@ impl Format {
         }
     }
 
+    /// Reads the vertices and faces of a file's content.
     pub(crate) fn parse(self, bytes: &[u8]) -> Result<Polygons, MeshFault> {
         // Some editors put a byte order mark before a text; the first keyword would be lost in it.
         let unmarked = bytes.strip_prefix("\u{feff}".as_bytes()).unwrap_or(bytes);

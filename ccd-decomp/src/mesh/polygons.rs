@@ -7,13 +7,13 @@ use crate::exact::predicates::is_without_area;
 use ccd_core::glam::DVec3;
 use ccd_core::tolerance::MAX_COORDINATE;
 
-/// What a reader found in a file, as it stands there.
+/// The vertices and faces of a file, as a reader found them.
 #[derive(Debug, Default)]
 pub(crate) struct Polygons {
     pub(crate) vertices: Vec<DVec3>,
-    /// The vertices of all faces, numbered from 0, perhaps out of range.
+    /// The vertices of all faces, one face after the other, numbered from 0; not yet checked.
     pub(crate) corners: Vec<i64>,
-    /// Where the corners of each face end.
+    /// The end of each face's corners in `corners`.
     pub(crate) ends: Vec<usize>,
     /// The lines of the vertices and of the faces, from 1; empty where the format has none.
     pub(crate) vertex_lines: Vec<usize>,
@@ -81,12 +81,12 @@ impl Polygons {
         })
     }
 
-    /// Cuts every polygon into the fan about its first corner, or, where that has a triangle without area or
-    /// one that lies beyond the polygon, into others within it.
+    /// Cuts every polygon into the fan about its first corner. Where the fan has a triangle without area, or one
+    /// that lies beyond the polygon, the polygon is filled with other triangles.
     ///
-    /// The signed areas of the fan add up to the polygon's, so that the fan covers a planar polygon
-    /// whether or not it is convex; of one that is not it covers more, which is reported where the polygon
-    /// cannot be filled either, as it meets itself.
+    /// The signed areas of the fan add up to the polygon's, so that the fan covers a planar polygon, convex or
+    /// not. It covers more than a polygon that is not convex. That is reported where the polygon cannot be filled
+    /// either, because it meets itself.
     pub(super) fn triangulate(&self, repairs: &mut Repairs) -> (Vec<[u32; 3]>, Vec<u32>) {
         let (mut faces, mut ids) = (Vec::new(), Vec::new());
         faces.reserve_exact(self.corners.len() - 2 * self.ends.len());
@@ -122,13 +122,13 @@ impl Polygons {
     }
 }
 
-/// Whether some triangle of a fan has no area.
+/// Whether a triangle of a fan has no area.
 fn has_flat(vertices: &[DVec3], fan: &[[u32; 3]]) -> bool {
     fan.iter()
         .any(|face| is_without_area(face.map(|v| vertices[v as usize])))
 }
 
-/// Whether some triangle of a fan looks away from where the fan as a whole looks.
+/// Whether the normal of a triangle of a fan points away from the normal of the whole fan.
 fn overhangs(vertices: &[DVec3], fan: &[[u32; 3]]) -> bool {
     let normal = |face: &[u32; 3]| {
         let [a, b, c] = face.map(|v| vertices[v as usize]);

@@ -1,36 +1,36 @@
-//! What a mesh holds that needs no face of its own, and what becomes of it.
+//! Repairs of a mesh: the report of them, and the faces that are dropped.
 
 use crate::tally::Tally;
 use serde::{Deserialize, Serialize};
 use std::collections::HashSet;
 use std::fmt;
 
-/// What was found amiss with a mesh, and what became of it; numbers are the file's own.
+/// The faults of a mesh, and the repairs. Numbers are those of the file.
 ///
 /// # Guarantee
 /// No repair removes a point of the surface.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Repairs {
-    /// Faces of more than three corners, cut into the fan about their first corner, or, where that does
-    /// not fit, into other triangles within. Of a polygon that is not planar these are one of several
-    /// surfaces its rim could mean.
+    /// Faces of more than three corners, cut into the fan about their first corner or, where that does not fit,
+    /// into other triangles. The rim of a polygon that is not planar bounds several surfaces: these triangles
+    /// are one of them.
     pub polygons: Tally<u32>,
-    /// Those of them that meet themselves, or are far from planar: the fan reaches beyond the face.
+    /// Polygons among them that meet themselves, or are far from planar: the fan reaches beyond the face.
     pub overhanging: Tally<u32>,
-    /// Faces dropped since another face has the same three points in the same orientation. The same
-    /// points the other way round are kept: back to back, the two close what one would leave open.
+    /// Faces dropped because another face has the same three points in the same orientation. The same points
+    /// in the opposite orientation are kept: two faces back to back close what one would leave open.
     pub duplicates: Tally<u32>,
-    /// Faces dropped since two of their corners are the same point, and the segment or point that is
-    /// left lies on an edge of another face. Otherwise they are kept.
+    /// Faces dropped because two of their corners are the same point, and the remaining segment or point lies
+    /// on an edge of another face. Otherwise they are kept.
     pub collapsed: Tally<u32>,
-    /// Faces of no area, kept: a segment or point can be touched, too.
+    /// Faces without area, which are kept: a segment or point can be touched, too.
     pub zero_area: Tally<u32>,
-    /// Vertices that no face names.
+    /// Vertices that no face uses.
     pub unreferenced: Tally<u32>,
 }
 
 impl Repairs {
-    /// Whether nothing was amiss.
+    /// Whether the mesh had no faults.
     pub fn is_empty(&self) -> bool {
         self == &Repairs::default()
     }
@@ -122,7 +122,7 @@ pub(crate) fn collapsed_faces(faces: &[[u32; 3]], positions: &[u32]) -> Vec<bool
     marked
 }
 
-/// The same loop of corners, begun at the smallest.
+/// Rotates a loop of corners so that the smallest comes first.
 fn smallest_first([a, b, c]: [u32; 3]) -> [u32; 3] {
     if a <= b && a <= c {
         [a, b, c]

@@ -2,7 +2,7 @@
 
 use crate::hull::polygons::polygons;
 use crate::solid::error::DecomposeError;
-use crate::solid::manifold::{Bend, Manifold};
+use crate::solid::manifold::{Dihedral, Manifold};
 use crate::solid::shells::shells;
 use crate::solid::topology::Edge;
 use ccd_core::{Face, Facet, Origin, Polytope};
@@ -65,7 +65,7 @@ pub(crate) fn as_polytope(manifold: &Manifold<'_>) -> Result<Polytope, Decompose
 
 /// The ends of the first edge at which the solid's angle is more than half a turn, or none at all.
 fn bad_edge(manifold: &Manifold<'_>) -> Option<[u32; 2]> {
-    let is_bad = |&h: &u32| matches!(manifold.bend(h), Bend::Reflex | Bend::Folded);
+    let is_bad = |&h: &u32| matches!(manifold.dihedral(h), Dihedral::Reflex | Dihedral::Folded);
     (0..3 * manifold.faces().len() as u32)
         .find(is_bad)
         .map(|h| manifold.ends(h))

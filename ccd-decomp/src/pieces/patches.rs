@@ -1,7 +1,7 @@
 //! Convex surface decomposition: a closed mesh as patches whose hulls lie inside the solid.
 
-mod apart;
-mod growing;
+mod growing_patch;
+mod obstacle;
 mod order;
 mod patch;
 
@@ -13,10 +13,10 @@ use crate::pieces::convex::as_polytope;
 use crate::solid::bounding_solid;
 use crate::solid::error::DecomposeError;
 use crate::solid::flats::Flats;
-use crate::solid::manifold::{Bend, Manifold};
+use crate::solid::manifold::{Dihedral, Manifold};
 use crate::tolerance::PATCH_POLYGONS;
 use crate::work::Work;
-use growing::{GrowingPatch, Join};
+use growing_patch::{GrowingPatch, Join};
 use order::{Frontier, seeds};
 
 /// A mesh's surface in convex patches.
@@ -137,7 +137,7 @@ impl Grower<'_, '_> {
     /// Puts the neighbours of a polygon on the frontier, but for those beyond reflex edges.
     fn reach(&self, frontier: &mut Frontier, flat: u32) {
         for &edge in &self.flats.get(flat).rim {
-            if self.manifold.bend(edge) != Bend::Reflex {
+            if self.manifold.dihedral(edge) != Dihedral::Reflex {
                 frontier.push(self.flats.of_face(self.manifold.twin(edge) / 3));
             }
         }

@@ -13,20 +13,21 @@ mod excess;
 mod extremes;
 mod labels;
 mod merge;
-mod solid;
+mod part;
+mod target;
 mod voxels;
 
-use crate::hull::{HullError, Way, hull};
+use crate::hull::{HullError, Method};
 use crate::mesh::TriangleMesh;
 use crate::pieces::convex::as_polytope;
 use crate::solid::manifold::Manifold;
-use crate::solid::star::is_seen_whole;
+use crate::solid::star_shaped::is_star_shaped;
 use crate::solid::topology::Topology;
 use crate::tolerance;
-use ccd_core::glam::DVec3;
-use ccd_core::{Facet, Loops, Origin, Polytope};
+use ccd_core::Polytope;
+use part::Part;
 use rayon::prelude::*;
-use solid::Solid;
+use target::Target;
 use voxels::Voxels;
 
 /// Hulls that together cover a solid, or a surface if the mesh is open.
@@ -101,19 +102,19 @@ pub(crate) fn approximate(
             vertex: vertex as u32,
         });
     }
-    let solid = Solid::of(mesh, topology);
+    let target = Target::of(mesh, topology);
     let is_convex = is_convex(mesh, topology);
-    let voxels = Voxels::of(&solid, hulls).filter(|_| hulls > 1 && !is_convex);
+    let voxels = Voxels::of(&target, hulls).filter(|_| hulls > 1 && !is_convex);
     let parts = match voxels {
         Some(voxels) => {
             let (contents, labels) = rayon::join(
-                || cover::contents(&solid, &voxels),
-                || labels::labels(&solid, &voxels, hulls),
+                || cover::contents(&target, &voxels),
+                || labels::labels(&target, &voxels, hulls),
             );
             let labels = labels.ok_or(VhacdError::Library)?;
-            cover::points_by_part(&solid, &voxels, &contents, labels)
+            cover::points_by_part(&target, &voxels, &contents, labels)
         }
-        None => vec![cover::each_once(solid.corners().collect())],
+        None => vec![cover::each_once(target.corners().collect())],
     };
     let parts = parts.into_iter().filter(|points| !points.is_empty());
     let parts: Vec<Part> = merge::down_to(parts.collect(), hulls as usize)
@@ -121,19 +122,22 @@ pub(crate) fn approximate(
         .map(|points| Part::of(points))
         .collect::<Result<_, HullError>>()
         .map_err(VhacdError::Hull)?;
-    let uncovered = tolerance::clip_rounding(solid.farthest_coordinate());
+    let uncovered = tolerance::clip_rounding(target.farthest_coordinate());
     let excess = match is_convex {
         true => 0.0,
-        false => excess::bound(&solid, &parts),
+        false => excess::bound(&target, &parts),
     };
     let sticks_out = (excess + uncovered).next_up();
-    let limit = tolerance::TOO_COARSE * solid.reach() + 2.0 * uncovered;
+    let limit = tolerance::TOO_COARSE * target.reach() + 2.0 * uncovered;
     // Written so that NaN fails.
     if !(sticks_out <= limit) {
         return Err(VhacdError::TooCoarse { sticks_out, limit });
     }
     Ok(Approximation {
-        rebuilt: parts.iter().filter(|part| part.way == Way::Rebuilt).count(),
+        rebuilt: parts
+            .iter()
+            .filter(|part| part.method == Method::Rebuilt)
+            .count(),
         polytopes: parts.into_iter().map(|p| p.polytope(uncovered)).collect(),
         uncovered,
         sticks_out,
@@ -143,55 +147,7 @@ pub(crate) fn approximate(
 /// Whether the mesh is known to be a convex solid, so that its hull has no error.
 fn is_convex(mesh: &TriangleMesh, topology: &Topology) -> bool {
     let manifold = Manifold::unchecked(mesh, topology);
-    manifold.is_ok_and(|manifold| is_seen_whole(&manifold) && as_polytope(&manifold).is_ok())
-}
-
-/// A convex part: the corners of its hull, and the facets if they are not all in a line.
-struct Part {
-    corners: Vec<DVec3>,
-    facets: Loops,
-    way: Way,
-}
-
-impl Part {
-    fn of(points: &[DVec3]) -> Result<Self, HullError> {
-        let at = |v: &u32| points[*v as usize];
-        let hull = match hull(points) {
-            Ok(hull) => hull,
-            Err(HullError::Single(v)) => return Ok(Part::thin(vec![at(&v)])),
-            Err(HullError::Collinear(v, w)) => return Ok(Part::thin(vec![at(&v), at(&w)])),
-            Err(error) => return Err(error),
-        };
-        let place = |v: &u32| hull.vertices.partition_point(|w| w < v) as u32;
-        let mut facets = hull.facets;
-        facets.corners_mut().iter_mut().for_each(|v| *v = place(v));
-        Ok(Part {
-            corners: hull.vertices.iter().map(at).collect(),
-            facets,
-            way: hull.way,
-        })
-    }
-
-    fn thin(corners: Vec<DVec3>) -> Self {
-        Part {
-            corners,
-            facets: Loops::default(),
-            way: Way::Flat,
-        }
-    }
-
-    fn polytope(self, radius: f64) -> Polytope {
-        let facet = |corners: &[u32]| Facet {
-            origin: Origin::Virtual,
-            corners: corners.to_vec(),
-        };
-        Polytope {
-            points: self.corners,
-            facets: self.facets.iter().map(facet).collect(),
-            radius,
-            ..Polytope::default()
-        }
-    }
+    manifold.is_ok_and(|manifold| is_star_shaped(&manifold) && as_polytope(&manifold).is_ok())
 }
 
 #[cfg(test)]

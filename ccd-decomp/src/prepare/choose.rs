@@ -1,4 +1,4 @@
-//! The least model that is exact for a mesh.
+//! The choice of `Detail::Auto`: the fewest pieces that are exact.
 
 use super::parts::Parts;
 use super::report::{Estimate, Why};
@@ -8,15 +8,15 @@ use crate::pieces::patches::{Order, decompose_flats};
 use crate::solid::check_solid;
 use crate::solid::error::DecomposeError;
 use crate::solid::flats::Flats;
-use crate::solid::manifold::{Bend, Manifold};
+use crate::solid::manifold::{Dihedral, Manifold};
 use crate::solid::topology::Topology;
 use crate::tolerance::{AUTO_WORK, FLAT_SHARE, PATCHES, PieceCost, TRIANGLES};
 use crate::work::Work;
 
-/// One hull where the solid is convex; else patches or triangles, whichever is estimated to be faster.
+/// Chooses one hull where the solid is convex, else patches or triangles, whichever is estimated to be faster.
 ///
-/// What takes long, looking for intersections and decomposing, is only done once it is known to be
-/// worth it, and only for [so long](AUTO_WORK).
+/// Finding intersections and decomposing take long: they are done only where the result would be used, and
+/// only within a [budget](AUTO_WORK).
 pub(super) fn choose(mesh: &TriangleMesh, topology: &Topology) -> (Parts, Why) {
     within(mesh, topology, &Work::of(AUTO_WORK))
 }
@@ -28,7 +28,7 @@ fn within(mesh: &TriangleMesh, topology: &Topology, work: &Work) -> (Parts, Why)
     };
     let convex = as_polytope(&manifold);
     let flats = Flats::new(&manifold);
-    let estimate = Plane::largest(&manifold, &flats).estimate();
+    let estimate = PlanarRegion::largest(&manifold, &flats).estimate();
     if convex.is_err() && !(estimate.patches < estimate.triangles) {
         return (Parts::Triangles, Why::TrianglesFaster(estimate));
     }
@@ -52,22 +52,22 @@ fn only_triangles(error: DecomposeError) -> (Parts, Why) {
     (Parts::Triangles, why)
 }
 
-/// A plane part of the surface.
+/// The size of a plane part of the surface.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
-struct Plane {
+struct PlanarRegion {
     triangles: usize,
-    /// Convex ones, with coplanar triangles merged: at least as many as there are patches in it.
+    /// The convex polygons that its triangles merge into: at least as many as there are patches in it.
     polygons: usize,
 }
 
-impl Plane {
-    /// The one of most triangles.
-    fn largest(manifold: &Manifold<'_>, flats: &Flats) -> Plane {
+impl PlanarRegion {
+    /// Finds the plane part of most triangles.
+    fn largest(manifold: &Manifold<'_>, flats: &Flats) -> PlanarRegion {
         let mut seen = vec![false; flats.len()];
-        let mut largest = Plane::default();
+        let mut largest = PlanarRegion::default();
         let mut stack = Vec::new();
         for seed in 0..flats.len() as u32 {
-            let mut plane = Plane::default();
+            let mut plane = PlanarRegion::default();
             stack.push(seed);
             while let Some(flat) = stack.pop() {
                 if std::mem::replace(&mut seen[flat as usize], true) {
@@ -76,7 +76,10 @@ impl Plane {
                 let flat = flats.get(flat);
                 plane.triangles += flat.faces.len();
                 plane.polygons += 1;
-                let level = flat.rim.iter().filter(|&&h| manifold.bend(h) == Bend::Flat);
+                let level = flat
+                    .rim
+                    .iter()
+                    .filter(|&&h| manifold.dihedral(h) == Dihedral::Flat);
                 stack.extend(level.map(|&h| flats.of_face(manifold.twin(h) / 3)));
             }
             largest = largest.max(plane);
@@ -84,7 +87,7 @@ impl Plane {
         largest
     }
 
-    /// What a query costs where the plane is what rests on another body in some of them.
+    /// Estimates the time of a query, when this part rests on another body in some of the queries.
     fn estimate(self) -> Estimate {
         let cost = |of: PieceCost, count: usize| of.usual + FLAT_SHARE * of.resting * count as f64;
         Estimate {

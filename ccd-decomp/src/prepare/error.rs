@@ -1,4 +1,4 @@
-//! Why a mesh has no body.
+//! Errors of preparing a mesh.
 
 use crate::pieces::vhacd::VhacdError;
 use crate::solid::error::DecomposeError;
@@ -21,7 +21,7 @@ pub enum PrepareError {
     /// A hull tree does not belong to the pieces.
     #[error(transparent)]
     HullTree(#[from] HullTreeError),
-    /// The core does not take it.
+    /// The core rejects the pieces.
     #[error(transparent)]
     Input(#[from] InputError),
 }

@@ -1,4 +1,4 @@
-//! Bodies with what they were made of.
+//! Models, which are stored, and the bodies that are built from them.
 
 use super::error::PrepareError;
 use super::report::{PiecesKind, Report, Why};
@@ -6,30 +6,30 @@ use crate::mesh::repair::Repairs;
 use crate::tree::hull_tree::build_hull_tree;
 use ccd_core::{Body, Hierarchy, HullTree, Pieces, Volume};
 
-/// A body before its tree is built: what is stored in a file.
+/// A body before its tree is built. A `.ccd` file stores it.
 #[derive(Clone, Debug)]
 pub struct Model {
     /// The convex pieces.
     pub pieces: Pieces,
     /// A hierarchy over them.
     pub hierarchy: Hierarchy,
-    /// Whether being inside of it counts as touching it.
+    /// Whether a point inside the body counts as touching it.
     pub volume: Volume,
-    /// A tree of hulls over the pieces, for the schedules that use one.
+    /// The tree of hulls over the pieces, for the schedules that use one.
     pub hull_tree: Option<HullTree>,
-    /// The triangles of a convex solid's mesh, and a hierarchy over them: what it is against bodies of
-    /// many triangles.
+    /// The triangles of a convex solid's mesh, and a hierarchy over them. They stand for the solid against
+    /// bodies of many triangles.
     pub surface: Option<(Pieces, Hierarchy)>,
-    /// What the pieces are, and why.
+    /// The kind of the pieces, and why they are of that kind.
     pub report: Report,
 }
 
-/// A body, and what it was made of.
+/// A body, and the report of how it was made.
 #[derive(Clone, Debug)]
 pub struct Prepared {
-    /// Ready for queries.
+    /// The body, ready for queries.
     pub body: Body,
-    /// What it was made of.
+    /// The kind of its pieces, and why they are of that kind.
     pub report: Report,
 }
 
@@ -37,7 +37,7 @@ impl Model {
     /// Builds the body. O(n log n) in the number of pieces.
     ///
     /// # Errors
-    /// [`PrepareError::Input`], [`PrepareError::HullTree`] when the parts do not belong together.
+    /// [`PrepareError::Input`] and [`PrepareError::HullTree`] when the parts of the model do not belong together.
     pub fn body(&self) -> Result<Body, PrepareError> {
         let mut body = Body::with_hierarchy(&self.pieces, &self.hierarchy, self.volume)?;
         if let Some((pieces, hierarchy)) = &self.surface {
@@ -50,19 +50,19 @@ impl Model {
         })
     }
 
-    /// Adds a hull tree over its pieces.
+    /// Adds a hull tree over the pieces.
     ///
     /// # Errors
-    /// [`PrepareError::BuildHullTree`].
+    /// [`PrepareError::BuildHullTree`] when a hull cannot be computed exactly.
     pub fn with_hull_tree(mut self) -> Result<Self, PrepareError> {
         self.hull_tree = Some(build_hull_tree(&self.pieces)?);
         Ok(self)
     }
 
-    /// Builds the body, and keeps of the rest only the report.
+    /// Builds the body, and drops the rest except the report.
     ///
     /// # Errors
-    /// As [`Model::body`].
+    /// [`PrepareError::Input`] and [`PrepareError::HullTree`] when the parts of the model do not belong together.
     pub fn into_prepared(self) -> Result<Prepared, PrepareError> {
         Ok(Prepared {
             body: self.body()?,
@@ -72,7 +72,7 @@ impl Model {
 }
 
 impl Prepared {
-    /// A body that was not made of a mesh.
+    /// Wraps a body that was not made of a mesh.
     pub(crate) fn primitive(body: Body) -> Self {
         Prepared {
             report: Report {

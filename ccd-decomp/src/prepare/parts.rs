@@ -1,4 +1,4 @@
-//! What a mesh is made into, and the model of it.
+//! The pieces of a mesh, and the model that is made of them.
 
 use super::error::PrepareError;
 use super::model::Model;
@@ -10,7 +10,7 @@ use crate::solid::topology::Topology;
 use crate::tree::hierarchy::build_hierarchy;
 use ccd_core::{Hierarchy, Pieces, Polytope, Volume};
 
-/// What a mesh is made into.
+/// The pieces of a mesh, by kind.
 pub(super) enum Parts {
     Triangles,
     Patches(Decomposition),
@@ -75,7 +75,7 @@ impl Parts {
     }
 }
 
-/// One piece per triangle, and a hierarchy over them.
+/// Makes one piece of every triangle, and a hierarchy over them.
 fn surface_of(mesh: &TriangleMesh) -> Result<(Pieces, Hierarchy), PrepareError> {
     let pieces = triangles(mesh)?;
     let hierarchy = build_hierarchy(&pieces)?;

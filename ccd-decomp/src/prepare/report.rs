@@ -1,4 +1,4 @@
-//! What a mesh was made into, and why.
+//! The report: the kind of a body's pieces, and the reason for that kind.
 
 use crate::mesh::repair::Repairs;
 use crate::solid::error::DecomposeError;
@@ -7,65 +7,65 @@ use ccd_core::Volume;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// What a body was made of. Prints as one line for people.
+/// The pieces that a body was made of, and the reason. Prints as one line for people.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Report {
-    /// What its pieces are.
+    /// The kind of its pieces.
     pub kind: PiecesKind,
-    /// Why they are that.
+    /// Why its pieces are of that kind.
     pub why: Why,
-    /// How many triangles its mesh has; 0 for a box, sphere or capsule.
+    /// The number of triangles of its mesh; 0 for a box, sphere or capsule.
     pub triangles: usize,
-    /// How many pieces it has.
+    /// The number of its pieces.
     pub pieces: usize,
-    /// How many facets of the pieces are no part of the mesh.
+    /// The number of facets of the pieces that are no part of the mesh.
     pub virtual_faces: usize,
-    /// How many nodes the hierarchy over the pieces has.
+    /// The number of nodes of the hierarchy over the pieces.
     pub tree_nodes: usize,
-    /// By how much the pieces were grown so that they certainly cover the mesh, in its unit of length; 0
+    /// The radius that was added to the pieces so that they certainly cover the mesh, in its unit of length; 0
     /// for all exact kinds.
     pub inflated_by: f64,
-    /// How far the pieces reach beyond the solid at most, or beyond the surface of an open mesh, in the
-    /// mesh's unit of length: contacts may be reported early by as much. 0 for all exact kinds.
+    /// A bound on how far the pieces reach beyond the solid, or beyond the surface of an open mesh, in the
+    /// mesh's unit of length. Contacts may be reported early by as much. 0 for all exact kinds.
     pub sticks_out: f64,
-    /// How many hulls of approximate pieces the library got wrong, so that they were computed exactly: 0 for
-    /// all other kinds, whose hulls are exact from the start.
+    /// The number of hulls of approximate pieces that the library got wrong, and that were computed exactly
+    /// instead. 0 for all other kinds, whose hulls are exact from the start.
     pub rebuilt_hulls: usize,
-    /// Whether being inside of it counts as touching it: when its mesh is closed.
+    /// Whether a point inside the body counts as touching it, which is so when its mesh is closed.
     pub volume: Volume,
-    /// How the faces meet, which says why it is solid or not; none for a box, sphere or capsule.
+    /// The edges of the mesh, which show why it is solid or not; none for a box, sphere or capsule.
     pub topology: Option<Topology>,
-    /// What was amiss with the mesh, and what became of it.
+    /// The faults of the mesh that were repaired.
     pub repairs: Repairs,
 }
 
-/// What the pieces of a body are.
+/// The kind of a body's pieces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum PiecesKind {
-    /// A box, sphere or capsule: exact.
+    /// The body is a box, sphere or capsule: exact.
     Primitive,
-    /// The triangles of the mesh: exact.
+    /// The pieces are the triangles of the mesh: exact.
     Triangles,
-    /// Convex patches of the surface, whose hulls lie inside the solid: exact.
+    /// The pieces are convex patches of the surface, whose hulls lie inside the solid: exact.
     Patches,
-    /// The solid itself, which is convex: exact.
+    /// The one piece is the solid itself, which is convex: exact.
     Hull,
-    /// Hulls that cover the solid: approximate.
+    /// The pieces are hulls that cover the solid: approximate.
     Vhacd,
 }
 
-/// Why a body is made of what it is made of.
+/// The reason for the kind of a body's pieces.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum Why {
-    /// It was asked for.
+    /// The caller asked for it.
     Asked,
-    /// The solid is convex: one piece is exact, and nothing is less. Against a body of many triangles its
-    /// own triangles are taken: pairs of pieces as large as a solid are measured too often there.
+    /// The solid is convex: one piece is exact. Against a body of many triangles its own triangles are taken,
+    /// because pairs of pieces as large as a solid are measured too often there.
     Convex,
     /// Only triangles are exact.
     NothingElse(DecomposeError),
-    /// Whether anything else is exact takes longer to tell than it is worth; it may be asked for.
+    /// Finding out whether other pieces are exact takes longer than it is worth; they may be asked for.
     TooLong,
     /// Queries are estimated to be faster over triangles than over patches.
     TrianglesFaster(Estimate),
@@ -73,18 +73,18 @@ pub enum Why {
     PatchesFaster(Estimate),
 }
 
-/// What a query against a body of many triangles is estimated to take over one kind of pieces or
-/// another, in microseconds on the machine that the estimate was measured on: for comparing the two.
+/// The estimated time of a query against a body of many triangles, for two kinds of pieces, in microseconds
+/// on the machine that the estimate was measured on. Only the comparison of the two is meaningful.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Estimate {
-    /// Over triangles.
+    /// The time with triangles.
     pub triangles: f64,
-    /// Over patches.
+    /// The time with patches.
     pub patches: f64,
 }
 
 impl Report {
-    /// Whether the pieces are the solid's surface and nothing outside of it.
+    /// Whether the pieces cover the solid's surface, and nothing outside the solid.
     pub fn is_exact(&self) -> bool {
         match self.kind {
             PiecesKind::Primitive
@@ -95,7 +95,7 @@ impl Report {
         }
     }
 
-    /// What was amiss with the mesh, for people; empty when nothing was.
+    /// Describes the faults of the mesh, for people; empty when it has none.
     pub fn remarks(&self) -> String {
         let plain = |t: &Topology| {
             t.is_manifold() && t.is_solid() && t.wrong_way.is_empty() && t.signed_volume > 0.0

@@ -1,9 +1,9 @@
 //! Parts of triangles in a tree of boxes that lie as the parts do.
 
-use super::part::Part;
+use super::element::Element;
+use super::oriented_box::OrientedBox;
 use super::planes::Apart;
 use super::region::Region;
-use super::slab::Slab;
 use crate::bounds::Bounds;
 use crate::tolerance::BOXES_MET;
 use crate::work::Work;
@@ -13,17 +13,17 @@ use std::cell::{Cell, OnceCell};
 use std::ops::Range;
 
 /// Parts in a binary tree.
-pub(super) struct Slabs {
-    pub(super) parts: Vec<Part>,
+pub(super) struct BoxTree {
+    pub(super) elements: Vec<Element>,
     /// Every node before those below it.
     nodes: Vec<Node>,
 }
 
 struct Node {
     bounds: Bounds,
-    slab: Slab,
+    oriented: OrientedBox,
     /// The parts of a leaf; none of an inner node.
-    parts: Range<u32>,
+    elements: Range<u32>,
     /// How many nodes are below it, with itself.
     count: u32,
 }
@@ -31,14 +31,14 @@ struct Node {
 /// The most parts of a leaf.
 const LEAF: usize = 2;
 
-impl Slabs {
+impl BoxTree {
     /// O(n log n).
-    pub(super) fn new(mut parts: Vec<Part>) -> Self {
-        let mut nodes = Vec::with_capacity(2 * parts.len());
-        if !parts.is_empty() {
-            build(&mut nodes, &mut parts, 0);
+    pub(super) fn new(mut elements: Vec<Element>) -> Self {
+        let mut nodes = Vec::with_capacity(2 * elements.len());
+        if !elements.is_empty() {
+            build(&mut nodes, &mut elements, 0);
         }
-        Slabs { parts, nodes }
+        BoxTree { elements, nodes }
     }
 
     /// The smallest box along the coordinate axes that holds all; none of nothing.
@@ -56,12 +56,15 @@ impl Slabs {
     ) -> bool {
         // Only where boxes along the coordinate axes leave too many.
         let (met, apart) = (Cell::new(0), OnceCell::new());
-        let is_far = |bounds: &Bounds, slab: &Slab| {
+        let is_far = |bounds: &Bounds, oriented: &OrientedBox| {
             if !bounds.meets(region.bounds()) {
                 return true;
             }
             met.set(met.get() + 1);
-            met.get() > BOXES_MET && apart.get_or_init(|| Apart::from(region.shape())).has(slab)
+            met.get() > BOXES_MET
+                && apart
+                    .get_or_init(|| Apart::from(region.shape()))
+                    .has(oriented)
         };
         self.all_but(is_far, work, holds)
     }
@@ -70,19 +73,19 @@ impl Slabs {
     /// or the work is spent.
     pub(super) fn all_but(
         &self,
-        is_far: impl Fn(&Bounds, &Slab) -> bool,
+        is_far: impl Fn(&Bounds, &OrientedBox) -> bool,
         work: &Work,
         mut holds: impl FnMut(u32) -> bool,
     ) -> bool {
-        self.all_parts_but(is_far, work, |part| holds(part.face))
+        self.all_elements_but(is_far, work, |element| holds(element.face))
     }
 
     /// The same with the parts themselves.
-    pub(super) fn all_parts_but(
+    pub(super) fn all_elements_but(
         &self,
-        is_far: impl Fn(&Bounds, &Slab) -> bool,
+        is_far: impl Fn(&Bounds, &OrientedBox) -> bool,
         work: &Work,
-        mut holds: impl FnMut(&Part) -> bool,
+        mut holds: impl FnMut(&Element) -> bool,
     ) -> bool {
         let mut at = 0;
         // Every step leads to a later node.
@@ -90,12 +93,12 @@ impl Slabs {
             if !work.spend(1) {
                 return false;
             }
-            if is_far(&node.bounds, &node.slab) {
+            if is_far(&node.bounds, &node.oriented) {
                 at += node.count as usize;
                 continue;
             }
-            let parts = &self.parts[node.parts.start as usize..node.parts.end as usize];
-            if !parts.iter().all(&mut holds) {
+            let elements = &self.elements[node.elements.start as usize..node.elements.end as usize];
+            if !elements.iter().all(&mut holds) {
                 return false;
             }
             at += 1;
@@ -104,22 +107,22 @@ impl Slabs {
     }
 
     /// The parts of a leaf, or the two nodes below an inner one.
-    pub(super) fn below(&self, at: usize) -> (&[Part], Option<[usize; 2]>) {
+    pub(super) fn below(&self, at: usize) -> (&[Element], Option<[usize; 2]>) {
         let Some(node) = self.nodes.get(at) else {
             return (&[], None);
         };
-        let parts = &self.parts[node.parts.start as usize..node.parts.end as usize];
+        let elements = &self.elements[node.elements.start as usize..node.elements.end as usize];
         let left = at + 1;
-        let below = parts
+        let below = elements
             .is_empty()
             .then(|| [left, left + self.nodes[left].count as usize]);
-        (parts, below)
+        (elements, below)
     }
 
     /// At most the distance of a point from what is in a node, up to rounding.
     pub(super) fn distance(&self, at: usize, point: DVec3) -> f64 {
         let node = &self.nodes[at];
-        greater(node.bounds.distance(point), node.slab.distance(point))
+        greater(node.bounds.distance(point), node.oriented.distance(point))
     }
 }
 
@@ -129,32 +132,32 @@ const SHARED: usize = 4096;
 /// Adds the nodes over some parts, which are put in order and of which the first has this number.
 ///
 /// Halves the count each time, so that it is at most as deep as a count has bits.
-fn build(nodes: &mut Vec<Node>, parts: &mut [Part], first: usize) {
-    let slab = Slab::about(parts);
+fn build(nodes: &mut Vec<Node>, elements: &mut [Element], first: usize) {
+    let oriented = OrientedBox::about(elements);
     let at = nodes.len();
-    let split = parts.len() / 2;
-    let is_leaf = parts.len() <= LEAF;
+    let split = elements.len() / 2;
+    let is_leaf = elements.len() <= LEAF;
     nodes.push(Node {
-        bounds: Bounds::of(parts.iter().flat_map(|part| part.corners)),
-        parts: match is_leaf {
-            true => first as u32..(first + parts.len()) as u32,
+        bounds: Bounds::of(elements.iter().flat_map(|element| element.corners)),
+        elements: match is_leaf {
+            true => first as u32..(first + elements.len()) as u32,
             false => 0..0,
         },
-        slab,
+        oriented,
         count: 1,
     });
     if !is_leaf {
-        let along = nodes[at].slab.widest(parts);
-        let height = |part: &Part| along.dot(part.middle());
-        parts.select_nth_unstable_by(split, |a, b| {
+        let along = nodes[at].oriented.widest(elements);
+        let height = |element: &Element| along.dot(element.middle());
+        elements.select_nth_unstable_by(split, |a, b| {
             let order = height(a).total_cmp(&height(b));
             order.then(a.face.cmp(&b.face))
         });
-        let is_shared = parts.len() > SHARED;
-        let (left, right) = parts.split_at_mut(split);
-        let all_of = |parts: &mut [Part], first: usize| {
+        let is_shared = elements.len() > SHARED;
+        let (left, right) = elements.split_at_mut(split);
+        let all_of = |elements: &mut [Element], first: usize| {
             let mut nodes = Vec::new();
-            build(&mut nodes, parts, first);
+            build(&mut nodes, elements, first);
             nodes
         };
         if is_shared {

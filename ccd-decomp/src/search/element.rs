@@ -5,12 +5,12 @@ use ccd_core::glam::DVec3;
 
 /// What is searched of a face: all of it, or one edge, of which an end is there twice.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Part {
+pub(super) struct Element {
     pub(super) corners: [DVec3; 3],
     pub(super) face: u32,
 }
 
-impl Part {
+impl Element {
     pub(super) fn middle(&self) -> DVec3 {
         let bounds = Bounds::of(self.corners);
         0.5 * bounds.lo + 0.5 * bounds.hi

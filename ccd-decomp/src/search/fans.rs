@@ -1,10 +1,10 @@
 //! Many triangles about one vertex.
 
-use super::part::Part;
+use super::box_tree::BoxTree;
+use super::element::Element;
+use super::oriented_box::OrientedBox;
 use super::planes::{planes_beside, planes_within};
 use super::region::{Hull, Shape};
-use super::slab::Slab;
-use super::slabs::Slabs;
 use crate::bounds::Bounds;
 use crate::exact::predicates::{is_degenerate, side};
 use crate::tolerance::FAN_TRIANGLES;
@@ -15,7 +15,7 @@ use std::cmp::Ordering;
 /// Triangles that have one vertex, the hub, in common: searched by the edges across from it.
 pub(super) struct Fan {
     hub: DVec3,
-    rim: Slabs,
+    rim: BoxTree,
     /// A triangle of those that are in its plane, all of them.
     plane: Option<[DVec3; 3]>,
 }
@@ -53,15 +53,15 @@ impl Fan {
             let corners = faces[face as usize];
             let k = corners.iter().position(|&v| v == number).unwrap_or(0);
             let corners = [1, 2, 2].map(|step| points[corners[(k + step) % 3] as usize]);
-            Part { corners, face }
+            Element { corners, face }
         };
-        let mut rim: Vec<Part> = members.iter().map(edge).collect();
+        let mut rim: Vec<Element> = members.iter().map(edge).collect();
         let [p, q, _] = rim[rim.len() / 2].corners;
-        let in_plane = |part: &Part| {
-            let mut corners = part.corners.iter();
+        let in_plane = |element: &Element| {
+            let mut corners = element.corners.iter();
             corners.all(|&corner| side([hub, p, q], corner) == Ordering::Equal)
         };
-        let level: Vec<Part> = rim.iter().copied().filter(in_plane).collect();
+        let level: Vec<Element> = rim.iter().copied().filter(in_plane).collect();
         let is_plane = !is_degenerate([hub, p, q]) && 2 * level.len() > rim.len();
         let mut others = Vec::new();
         if is_plane {
@@ -71,7 +71,7 @@ impl Fan {
         let fan = Fan {
             hub,
             plane: is_plane.then_some([hub, p, q]),
-            rim: Slabs::new(rim),
+            rim: BoxTree::new(rim),
         };
         (fan, others)
     }
@@ -118,7 +118,9 @@ impl Fan {
             }
             _ => planes_beside(shape, self.hub),
         };
-        let is_far = |_: &Bounds, slab: &Slab| planes.iter().any(|plane| plane.has_in_front(slab));
+        let is_far = |_: &Bounds, oriented: &OrientedBox| {
+            planes.iter().any(|plane| plane.has_in_front(oriented))
+        };
         self.rim.all_but(is_far, work, holds)
     }
 }

@@ -1,15 +1,15 @@
 //! Triangles near a point or in a box.
 
-use super::part::Part;
+use super::box_tree::BoxTree;
+use super::element::Element;
 use super::region::Region;
-use super::slabs::Slabs;
 use crate::bounds::Bounds;
 use crate::work::Work;
 use ccd_core::glam::DVec3;
 
 /// Triangles, to be searched by distance: boxes lie as the triangles do, so that slivers are told apart.
 pub(crate) struct NearestTriangles {
-    all: Slabs,
+    all: BoxTree,
 }
 
 /// What looking at a node by distance takes, in nodes looked at for whether they meet a region.
@@ -18,12 +18,12 @@ const NODE: usize = 4;
 impl NearestTriangles {
     /// O(n log n).
     pub(crate) fn new(points: &[DVec3], faces: &[[u32; 3]]) -> Self {
-        let part = |(face, corners): (u32, &[u32; 3])| Part {
+        let element = |(face, corners): (u32, &[u32; 3])| Element {
             corners: corners.map(|v| points[v as usize]),
             face,
         };
         NearestTriangles {
-            all: Slabs::new((0..).zip(faces).map(part).collect()),
+            all: BoxTree::new((0..).zip(faces).map(element).collect()),
         }
     }
 
@@ -46,12 +46,12 @@ impl NearestTriangles {
                 continue;
             }
             work.spend(NODE);
-            let (parts, below) = self.all.below(at);
-            for part in parts {
-                let distance = measure(part.corners);
+            let (elements, below) = self.all.below(at);
+            for element in elements {
+                let distance = measure(element.corners);
                 // Written so that NaN is no distance, but for want of any.
                 if best.is_none_or(|(_, known)| distance < known) {
-                    best = Some((part.face, distance));
+                    best = Some((element.face, distance));
                 }
             }
             if let Some(children) = below {
@@ -75,8 +75,8 @@ impl NearestTriangles {
         mut holds: impl FnMut(u32) -> bool,
     ) -> bool {
         let is_far = |other: &Bounds, _: &_| !other.meets(bounds);
-        self.all.all_parts_but(is_far, work, |part| {
-            !Bounds::of(part.corners).meets(bounds) || holds(part.face)
+        self.all.all_elements_but(is_far, work, |element| {
+            !Bounds::of(element.corners).meets(bounds) || holds(element.face)
         })
     }
 

@@ -1,7 +1,7 @@
 //! A box that lies as what is in it does.
 
-use super::part::Part;
-use crate::tolerance::slab_rounding;
+use super::element::Element;
+use crate::tolerance::box_rounding;
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 use ccd_core::tolerance::U64;
@@ -10,7 +10,7 @@ use ccd_core::vector::unit;
 /// A box along axes of its own: the centre, and at most so much along each of them, and the slack along
 /// the coordinate axes. The slack makes up for all rounding, and for axes that are not quite at right
 /// angles or of unit length.
-pub(super) struct Slab {
+pub(super) struct OrientedBox {
     pub(super) centre: DVec3,
     pub(super) axes: [DVec3; 3],
     pub(super) halves: DVec3,
@@ -19,17 +19,17 @@ pub(super) struct Slab {
     pub(super) reach: f64,
 }
 
-impl Slab {
+impl OrientedBox {
     /// Along the longest side of some parts, and across to the corner that is farthest from the middle.
-    pub(super) fn about(parts: &[Part]) -> Self {
-        let corners = || parts.iter().flat_map(|part| part.corners);
-        let centre = corners().sum::<DVec3>() / (3 * parts.len()) as f64;
+    pub(super) fn about(elements: &[Element]) -> Self {
+        let corners = || elements.iter().flat_map(|element| element.corners);
+        let centre = corners().sum::<DVec3>() / (3 * elements.len()) as f64;
         let longer = |a: &DVec3, b: &DVec3| a.length_squared().total_cmp(&b.length_squared());
-        let sides = |part: &Part| {
-            let [a, b, c] = part.corners;
+        let sides = |element: &Element| {
+            let [a, b, c] = element.corners;
             [b - a, c - b, a - c]
         };
-        let longest = parts.iter().flat_map(sides).max_by(longer);
+        let longest = elements.iter().flat_map(sides).max_by(longer);
         let first = longest.and_then(unit).unwrap_or(DVec3::X);
         let aside = |p: DVec3| (p - centre).reject_from_normalized(first);
         let farthest = corners().map(aside).max_by(longer);
@@ -47,7 +47,7 @@ impl Slab {
         }
         // The difference and the three products above round by less than 16 units of the reach.
         let slack = slack + 64.0 * U64 * reach;
-        Slab {
+        OrientedBox {
             centre,
             axes,
             halves,
@@ -58,10 +58,10 @@ impl Slab {
 
     /// The axis along which the middles of some parts are spread most: teeth stand side by side, however
     /// long they are.
-    pub(super) fn widest(&self, parts: &[Part]) -> DVec3 {
+    pub(super) fn widest(&self, elements: &[Element]) -> DVec3 {
         let (mut lo, mut hi) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-        for part in parts {
-            let way = part.middle() - self.centre;
+        for element in elements {
+            let way = element.middle() - self.centre;
             let along = along_each(&self.axes, way);
             (lo, hi) = (lo.min(along), hi.max(along));
         }
@@ -88,7 +88,7 @@ impl Slab {
         let reach = reach.fold(self.reach, greater);
         (0..3).any(|k| {
             let axis = self.axes[k];
-            let least = self.halves[k] + self.slack + slab_rounding(axis, reach);
+            let least = self.halves[k] + self.slack + box_rounding(axis, reach);
             let along = |&p: &DVec3| axis.dot(p - self.centre);
             // Written so that NaN is not beside.
             points.iter().all(|p| along(p) > least) || points.iter().all(|p| along(p) < -least)
@@ -135,10 +135,10 @@ impl Extent {
     }
 
     /// Whether all of a box is certainly before the shape, or after it.
-    pub(super) fn misses(&self, slab: &Slab) -> bool {
-        let along = self.direction.dot(slab.centre - self.base);
-        let reach = greater(self.reach, slab.reach);
-        let depth = slab.depth(self.direction) + slab_rounding(self.direction, reach);
+    pub(super) fn misses(&self, oriented: &OrientedBox) -> bool {
+        let along = self.direction.dot(oriented.centre - self.base);
+        let reach = greater(self.reach, oriented.reach);
+        let depth = oriented.depth(self.direction) + box_rounding(self.direction, reach);
         // Written so that NaN does not miss.
         along - depth > self.hi || along + depth < self.lo
     }

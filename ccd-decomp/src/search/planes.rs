@@ -1,7 +1,7 @@
 //! Planes that have a shape on one side, to tell what is on the other.
 
+use super::oriented_box::{Extent, OrientedBox};
 use super::region::{Hull, Shape};
-use super::slab::{Extent, Slab};
 use crate::exact::predicates::{Projection, side, turn_along};
 use ccd_core::glam::DVec3;
 use ccd_core::tolerance::height_rounding;
@@ -35,10 +35,10 @@ impl Plane {
 
     /// Whether all of a box is certainly in front.
     #[inline]
-    pub(super) fn has_in_front(&self, slab: &Slab) -> bool {
-        let way = slab.centre - self.foot;
-        let reach = slab.reach + 2.0 * self.far;
-        let height = self.normal.dot(way) - slab.depth(self.normal);
+    pub(super) fn has_in_front(&self, oriented: &OrientedBox) -> bool {
+        let way = oriented.centre - self.foot;
+        let reach = oriented.reach + 2.0 * self.far;
+        let height = self.normal.dot(way) - oriented.depth(self.normal);
         // Written so that NaN is not in front.
         height > self.rounding * reach + f64::MIN_POSITIVE
     }
@@ -110,10 +110,10 @@ impl<'a> Apart<'a> {
         }
     }
 
-    pub(super) fn has(&self, slab: &Slab) -> bool {
-        self.extents.iter().any(|extent| extent.misses(slab))
-            || self.planes.iter().any(|plane| plane.has_in_front(slab))
-            || !self.points.is_empty() && slab.is_beside(self.points)
+    pub(super) fn has(&self, oriented: &OrientedBox) -> bool {
+        self.extents.iter().any(|extent| extent.misses(oriented))
+            || self.planes.iter().any(|plane| plane.has_in_front(oriented))
+            || !self.points.is_empty() && oriented.is_beside(self.points)
     }
 }
 

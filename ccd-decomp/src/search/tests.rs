@@ -1,4 +1,5 @@
 use super::*;
+use crate::bounds::Bounds;
 use crate::exact::predicates::{is_degenerate, side};
 use crate::exact::triangles::{crossing, triangles_meet};
 use crate::hull::exact_hull::ExactHull;

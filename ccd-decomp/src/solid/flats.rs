@@ -1,6 +1,6 @@
 //! Triangles of a mesh that lie in one plane, merged into convex polygons.
 
-use super::manifold::{Bend, HalfEdge, Manifold};
+use super::manifold::{Dihedral, HalfEdge, Manifold};
 use crate::disjoint_sets::DisjointSets;
 use crate::exact::predicates::Projection;
 use crate::hull::polygons::strict_corners;
@@ -102,7 +102,7 @@ impl<'a, 'm> Merger<'a, 'm> {
             (Reverse(length), way.max(way.map(|x| -x)), h)
         };
         let mut edges: Vec<HalfEdge> = (0..3 * manifold.faces().len() as u32)
-            .filter(|&h| h < manifold.twin(h) && manifold.bend(h) == Bend::Flat)
+            .filter(|&h| h < manifold.twin(h) && manifold.dihedral(h) == Dihedral::Flat)
             .collect();
         edges.sort_by_cached_key(|&h| rank(h));
         edges

@@ -30,7 +30,7 @@ pub(crate) type HalfEdge = u32;
 
 /// How two faces meet at an edge, seen from outside.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Bend {
+pub(crate) enum Dihedral {
     /// The solid's angle is less than half a turn.
     Convex,
     /// They lie in one plane.
@@ -57,14 +57,10 @@ impl<'m> Manifold<'m> {
             });
         }
         let turned = topology.orientation() == Orientation::Inward;
-        let faces: Vec<[u32; 3]> = mesh
-            .faces()
-            .iter()
-            .map(|face| {
-                let [a, b, c] = face.map(|v| mesh.positions()[v as usize]);
-                if turned { [a, c, b] } else { [a, b, c] }
-            })
-            .collect();
+        let mut faces = mesh.welded_faces();
+        if turned {
+            faces.iter_mut().for_each(|face| face.swap(1, 2));
+        }
         let manifold = Manifold {
             twins: twins(&faces),
             mesh,
@@ -130,19 +126,19 @@ impl<'m> Manifold<'m> {
     }
 
     /// How the faces on either side of an edge meet.
-    pub(crate) fn bend(&self, half_edge: HalfEdge) -> Bend {
+    pub(crate) fn dihedral(&self, half_edge: HalfEdge) -> Dihedral {
         let twin = self.twin(half_edge);
         let far = self.faces[twin as usize / 3][(twin as usize % 3 + 2) % 3];
         let (triangle, far) = (self.triangle(half_edge / 3), self.point(far));
         match side(triangle, far) {
-            Ordering::Less => Bend::Convex,
-            Ordering::Greater => Bend::Reflex,
+            Ordering::Less => Dihedral::Convex,
+            Ordering::Greater => Dihedral::Reflex,
             Ordering::Equal => {
                 let [start, end] = self.ends(half_edge).map(|v| self.point(v));
                 let beyond = |plane: Projection| plane.turn(start, end, far) == Ordering::Less;
                 match Projection::of(triangle).is_some_and(beyond) {
-                    true => Bend::Flat,
-                    false => Bend::Folded,
+                    true => Dihedral::Flat,
+                    false => Dihedral::Folded,
                 }
             }
         }

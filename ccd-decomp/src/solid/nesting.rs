@@ -1,6 +1,6 @@
 //! Shells within shells: which of a closed mesh's parts bound material, and which a cavity.
 
-mod parts;
+mod closed_parts;
 
 use crate::exact::predicates::{is_degenerate, too_fine};
 use crate::exact::triangles::{crossing, meet};
@@ -13,7 +13,7 @@ use crate::tolerance::{FACE_ROUNDING, RAY_TRIES};
 use crate::work::Work;
 use ccd_core::glam::DVec3;
 use ccd_core::vector::unit;
-use parts::closed_parts;
+use closed_parts::closed_parts;
 
 /// The shells of a closed mesh by what is around them.
 ///
@@ -56,7 +56,7 @@ struct Shells<'m> {
 
 /// What is around a shell that nothing else of it crosses.
 #[derive(Clone, Debug, Default)]
-struct Around {
+struct Surroundings {
     shells: Vec<u32>,
     /// Whether another shell crosses it.
     crossed: bool,
@@ -70,11 +70,8 @@ impl<'m> Shells<'m> {
         for (face, &shell) in shell_of.iter().enumerate() {
             faces_of[shell as usize].push(face as u32);
         }
-        let faces: Vec<[u32; 3]> = (0..shell_of.len() as u32)
-            .map(|face| corners(mesh, face))
-            .collect();
         Shells {
-            boxes: TriangleBoxes::new(mesh.vertices(), &faces),
+            boxes: TriangleBoxes::new(mesh.vertices(), &mesh.welded_faces()),
             mesh,
             shell_of,
             faces_of,
@@ -83,12 +80,12 @@ impl<'m> Shells<'m> {
 
     fn nesting(&self) -> Nesting {
         let exact = too_fine(self.mesh.vertices()).is_none();
-        let around: Vec<Around> = (0..self.faces_of.len() as u32)
+        let around: Vec<Surroundings> = (0..self.faces_of.len() as u32)
             .map(|shell| match exact {
                 true => self.around(shell),
-                false => Around {
+                false => Surroundings {
                     lost: true,
-                    ..Around::default()
+                    ..Surroundings::default()
                 },
             })
             .collect();
@@ -103,7 +100,7 @@ impl<'m> Shells<'m> {
         let mut sides = vec![1; around.len()];
         let mut unclear = Tally::default();
         for shell in order {
-            let Around {
+            let Surroundings {
                 shells,
                 crossed,
                 lost,
@@ -144,10 +141,10 @@ impl<'m> Shells<'m> {
 
     /// 1 for a shell that is wound outward, −1 for one inward, 0 for one of no volume.
     fn wound(&self, faces: &[u32]) -> i32 {
-        let near = triangle(self.mesh, faces[0])[0];
+        let near = self.mesh.triangle(faces[0])[0];
         let mut volume = SignedVolume::default();
         for &face in faces {
-            volume.add(triangle(self.mesh, face), near);
+            volume.add(self.mesh.triangle(face), near);
         }
         match volume.is_positive() {
             Some(true) => 1,
@@ -156,19 +153,19 @@ impl<'m> Shells<'m> {
         }
     }
 
-    fn around(&self, shell: u32) -> Around {
+    fn around(&self, shell: u32) -> Surroundings {
         let Some(mut shells) = self.winding_about(shell) else {
-            return Around {
+            return Surroundings {
                 lost: true,
-                ..Around::default()
+                ..Surroundings::default()
             };
         };
         if shells.is_empty() {
-            return Around::default();
+            return Surroundings::default();
         }
         let crossed = self.crossed_by(shell);
         shells.retain(|other| !crossed.contains(other));
-        Around {
+        Surroundings {
             shells,
             crossed: !crossed.is_empty(),
             lost: false,
@@ -178,8 +175,8 @@ impl<'m> Shells<'m> {
     /// The other shells that wind about one; none when nothing tells.
     fn winding_about(&self, shell: u32) -> Option<Vec<u32>> {
         let faces = &self.faces_of[shell as usize];
-        let size = self.boxes.reach(triangle(self.mesh, faces[0])[0]);
-        let face = |k: usize| triangle(self.mesh, faces[k * faces.len() / RAY_TRIES]);
+        let size = self.boxes.reach(self.mesh.triangle(faces[0])[0]);
+        let face = |k: usize| self.mesh.triangle(faces[k * faces.len() / RAY_TRIES]);
         // Shells may touch at a corner, so that it is another one each time.
         let corners = (0..RAY_TRIES).map(|k| (k, face(k)[k % 3]));
         // Or at all corners, as those that share faces do.
@@ -200,7 +197,7 @@ impl<'m> Shells<'m> {
         let across = [middle - off, middle + off];
         let is_of_shell = |face: u32| self.shell_of[face as usize] == shell;
         let misses =
-            |face: u32| is_of_shell(face) || crossing(across, triangle(self.mesh, face)) == Some(0);
+            |face: u32| is_of_shell(face) || crossing(across, self.mesh.triangle(face)) == Some(0);
         let is_alone = self
             .boxes
             .all_meeting(&Region::segment(across), &Work::unbounded(), misses);
@@ -215,7 +212,7 @@ impl<'m> Shells<'m> {
             let other = self.shell_of[face as usize];
             let found = match other == shell {
                 true => Some(0),
-                false => crossing(ray, triangle(self.mesh, face)),
+                false => crossing(ray, self.mesh.triangle(face)),
             };
             met.extend(found.filter(|&one| one != 0).map(|one| (other, one)));
             found.is_some()
@@ -232,17 +229,17 @@ impl<'m> Shells<'m> {
     /// The other shells that meet one elsewhere than in shared corners and edges.
     fn crossed_by(&self, shell: u32) -> Vec<u32> {
         let mut crossed = Vec::new();
-        let flat = |face: u32| is_degenerate(triangle(self.mesh, face));
+        let flat = |face: u32| is_degenerate(self.mesh.triangle(face));
         // What has no area is in an edge of its neighbours.
         let faces = self.faces_of[shell as usize].iter();
         for &face in faces.filter(|&&face| !flat(face)) {
-            let one = triangle(self.mesh, face);
+            let one = self.mesh.triangle(face);
             self.boxes
                 .all_meeting(&Region::triangle(one), &Work::unbounded(), |near| {
                     let other = self.shell_of[near as usize];
                     if other != shell && !crossed.contains(&other) && !flat(near) {
-                        let ids = [face, near].map(|f| corners(self.mesh, f));
-                        if meet(ids, [one, triangle(self.mesh, near)]) {
+                        let ids = [face, near].map(|f| self.mesh.welded_face(f));
+                        if meet(ids, [one, self.mesh.triangle(near)]) {
                             crossed.push(other);
                         }
                     }
@@ -251,14 +248,6 @@ impl<'m> Shells<'m> {
         }
         crossed
     }
-}
-
-fn corners(mesh: &TriangleMesh, face: u32) -> [u32; 3] {
-    mesh.faces()[face as usize].map(|v| mesh.positions()[v as usize])
-}
-
-fn triangle(mesh: &TriangleMesh, face: u32) -> [DVec3; 3] {
-    mesh.faces()[face as usize].map(|v| mesh.vertices()[v as usize])
 }
 
 #[cfg(test)]

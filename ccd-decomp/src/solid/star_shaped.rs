@@ -15,7 +15,7 @@ use std::cmp::Ordering;
 ///
 /// # Complexity
 /// O(n).
-pub(crate) fn is_seen_whole(manifold: &Manifold<'_>) -> bool {
+pub(crate) fn is_star_shaped(manifold: &Manifold<'_>) -> bool {
     middles(manifold).iter().any(|&middle| {
         let triangles = || (0..manifold.faces().len() as u32).map(|face| manifold.triangle(face));
         let has_behind = |triangle| side(triangle, middle) == Ordering::Less;

@@ -134,8 +134,7 @@ fn edge_uses(mesh: &TriangleMesh) -> impl Iterator<Item = (Edge, usize, usize)> 
     // The edge in the upper bits, the direction in the lowest; vertex numbers are below 2³¹.
     let mut uses = Vec::new();
     uses.reserve_exact(3 * mesh.faces().len());
-    for face in mesh.faces() {
-        let [a, b, c] = face.map(|v| mesh.positions()[v as usize]);
+    for [a, b, c] in mesh.welded_faces() {
         for (v, w) in [(a, b), (b, c), (c, a)] {
             // From a point to itself is no edge.
             if v != w {

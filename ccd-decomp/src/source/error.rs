@@ -1,4 +1,4 @@
-//! What can be wrong with the description of a body, and why it has no body.
+//! Errors of describing and loading bodies.
 
 use crate::file::error::StoreError;
 use crate::mesh::error::MeshError;
@@ -11,7 +11,7 @@ use std::path::PathBuf;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum BodyError {
-    /// The description reads as no body.
+    /// The text describes no body.
     #[error(transparent)]
     Source(#[from] SourceError),
     /// The mesh cannot be read.
@@ -20,18 +20,18 @@ pub enum BodyError {
     /// The stored body cannot be read.
     #[error(transparent)]
     Store(#[from] StoreError),
-    /// The core does not take the shape.
+    /// The core rejects the shape.
     #[error(transparent)]
     Input(#[from] InputError),
     /// The mesh cannot be made into a body.
     #[error(transparent)]
     Prepare(#[from] PrepareError),
-    /// The mesh or the stored body in a file cannot be made into a body.
+    /// The content of a file cannot be made into a body.
     #[error("{}: {error}", .file.display())]
     InFile {
         /// The file.
         file: PathBuf,
-        /// What is wrong.
+        /// The reason.
         error: PrepareError,
     },
 }
@@ -40,7 +40,7 @@ pub enum BodyError {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SourceError {
-    /// Nothing was given.
+    /// The text is empty.
     #[error("no body given; {EXAMPLES}")]
     Empty,
     /// The word before the colon is none of the shapes.
@@ -54,12 +54,12 @@ pub enum SourceError {
     WrongCount {
         /// The shape.
         shape: &'static str,
-        /// How many it takes.
+        /// The number that it takes.
         expected: usize,
-        /// How many were given.
+        /// The number given.
         given: usize,
     },
-    /// A length is beyond what is computed with.
+    /// A length is beyond the largest coordinate.
     #[error(
         "{length:?} is too large a length of {shape:?}: lengths are from 0 to {MAX_COORDINATE:e}; use a larger unit of length"
     )]

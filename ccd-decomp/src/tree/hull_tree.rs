@@ -35,12 +35,12 @@ pub fn build_hull_tree(pieces: &Pieces) -> Result<HullTree, BuildError> {
         splitter: Splitter::new(pieces),
     };
     if let Some((root, below)) = nodes.split_first_mut() {
-        let place = Place {
+        let slot = Slot {
             node: root,
             below,
             first: 1,
         };
-        grower.grow(&mut order, place)?;
+        grower.grow(&mut order, slot)?;
     }
     Ok(HullTree::new(pieces, &nodes)?)
 }
@@ -51,7 +51,7 @@ struct Grower<'a> {
 }
 
 /// Where a subtree goes: its root, and all below, which starts at a number.
-struct Place<'a> {
+struct Slot<'a> {
     node: &'a mut HullNode,
     below: &'a mut [HullNode],
     first: u32,
@@ -60,8 +60,8 @@ struct Place<'a> {
 impl Grower<'_> {
     /// Makes the subtree over some pieces, every node before its children. A share of the pieces goes to
     /// either side, so that the depth is logarithmic.
-    fn grow(&self, pieces: &mut [u32], place: Place<'_>) -> Result<(), BuildError> {
-        let Place { node, below, first } = place;
+    fn grow(&self, pieces: &mut [u32], slot: Slot<'_>) -> Result<(), BuildError> {
+        let Slot { node, below, first } = slot;
         if let [piece] = *pieces {
             *node = HullNode::Leaf(piece);
             return Ok(());
@@ -75,12 +75,12 @@ impl Grower<'_> {
         let (below_right, below_left) = below.split_at_mut(2 * (of_right.len() - 1));
         let start = first + 2;
         let left_start = start + below_right.len() as u32;
-        let to_left = Place {
+        let to_left = Slot {
             node: left,
             below: below_left,
             first: left_start,
         };
-        let to_right = Place {
+        let to_right = Slot {
             node: right,
             below: below_right,
             first: start,

@@ -1,6 +1,6 @@
 //! The hull of many points: in random order, each knowing what it sees `[CS89]`.
 
-use super::plane::{Places, Plane};
+use super::local_points::{LocalPoints, Plane};
 use ccd_core::glam::DVec3;
 
 /// The facets of the hull of points that span a volume, from a triangle and a point behind it on.
@@ -41,7 +41,7 @@ struct Facet {
 }
 
 struct Growing<'a> {
-    places: Places<'a>,
+    points: LocalPoints<'a>,
     /// Empty lists, to be used again.
     spare: Vec<Vec<u32>>,
     facets: Vec<Facet>,
@@ -74,7 +74,7 @@ impl<'a> Growing<'a> {
 
     fn new(points: &'a [DVec3], [a, b, c, d]: [u32; 4], order: &[u32]) -> Self {
         let mut hull = Growing {
-            places: Places::new(points),
+            points: LocalPoints::new(points),
             spare: Vec::new(),
             facets: Vec::with_capacity(4 * points.len()),
             sees: vec![NONE; points.len()],
@@ -91,11 +91,11 @@ impl<'a> Growing<'a> {
     /// Adds a facet, and tells those of some points that see it.
     fn push(&mut self, corners: [u32; 3], across: [u32; 3], candidates: &[u32]) {
         let number = self.facets.len() as u32;
-        let plane = self.places.plane(corners);
+        let plane = self.points.plane(corners);
         let mut seen_by = self.spare.pop().unwrap_or_default();
         for &v in candidates {
             let is_new = std::mem::replace(&mut self.held[v as usize], number) != number;
-            if is_new && self.places.is_in_front(&plane, corners, v) {
+            if is_new && self.points.is_in_front(&plane, corners, v) {
                 self.sees[v as usize] = number;
                 seen_by.push(v);
             }
@@ -191,7 +191,7 @@ impl<'a> Growing<'a> {
         if asked.0 == v {
             return asked.1;
         }
-        let seen = self.places.is_in_front(&plane, corners, v);
+        let seen = self.points.is_in_front(&plane, corners, v);
         self.facets[facet as usize].asked = (v, seen);
         seen
     }

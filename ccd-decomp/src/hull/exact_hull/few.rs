@@ -1,6 +1,6 @@
 //! The hull of few points: each is held against all facets, without lists of who sees what.
 
-use super::plane::{Places, Plane};
+use super::local_points::{LocalPoints, Plane};
 use ccd_core::glam::DVec3;
 
 /// The facets of the hull of points that span a volume, from a triangle and a point behind it on.
@@ -12,7 +12,7 @@ pub(super) fn facets(points: &[DVec3], simplex: [u32; 4]) -> Vec<[u32; 3]> {
 }
 
 struct Growing<'a> {
-    places: Places<'a>,
+    points: LocalPoints<'a>,
     facets: Vec<Facet>,
 }
 
@@ -25,7 +25,7 @@ impl<'a> Growing<'a> {
     fn all(points: &'a [DVec3], simplex: [u32; 4]) -> Self {
         let [a, b, c, d] = simplex;
         let mut hull = Growing {
-            places: Places::new(points),
+            points: LocalPoints::new(points),
             facets: Vec::with_capacity(2 * points.len()),
         };
         for corners in [[a, b, c], [b, a, d], [c, b, d], [a, c, d]] {
@@ -39,16 +39,16 @@ impl<'a> Growing<'a> {
     }
 
     fn push(&mut self, corners: [u32; 3]) {
-        let plane = self.places.plane(corners);
+        let plane = self.points.plane(corners);
         self.facets.push(Facet { corners, plane });
     }
 
     /// Replaces what a point sees by a fan from its rim; `edges` is there to be used again.
     fn insert(&mut self, v: u32, edges: &mut Vec<(u32, u32)>) {
         edges.clear();
-        let places = &self.places;
+        let points = &self.points;
         self.facets.retain(|&Facet { corners, ref plane }| {
-            let seen = places.is_in_front(plane, corners, v);
+            let seen = points.is_in_front(plane, corners, v);
             if seen {
                 let [a, b, c] = corners;
                 edges.extend([(a, b), (b, c), (c, a)]);

@@ -7,7 +7,7 @@ use ccd_core::tolerance::height_rounding;
 use std::cmp::Ordering;
 
 /// Points, and where they are relative to one of them.
-pub(super) struct Places<'a> {
+pub(super) struct LocalPoints<'a> {
     points: &'a [DVec3],
     relative: Vec<DVec3>,
     /// The largest coordinate of those.
@@ -23,12 +23,12 @@ pub(super) struct Plane {
     rounding: f64,
 }
 
-impl<'a> Places<'a> {
+impl<'a> LocalPoints<'a> {
     pub(super) fn new(points: &'a [DVec3]) -> Self {
         let base = points.first().copied().unwrap_or(DVec3::ZERO);
         let relative: Vec<DVec3> = points.iter().map(|&p| p - base).collect();
         let coordinates = relative.iter().map(|p| p.abs().max_element());
-        Places {
+        LocalPoints {
             points,
             reach: coordinates.fold(0.0, greater),
             relative,

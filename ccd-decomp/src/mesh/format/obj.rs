@@ -9,10 +9,10 @@ use tobj::{LoadError, LoadOptions, Mesh};
 
 /// Reads the vertices and faces of an OBJ.
 ///
-/// `tobj` numbers vertices afresh, by first use and object by object, and does not say where an error
-/// is. So it is given the `v` and `f` statements alone, as one object, and before them one polygon
-/// over all vertices in their order: that makes its numbers the file's own. How far it has read when
-/// it fails tells the line.
+/// `tobj` numbers vertices by first use and object by object, and does not report the place of an error. It is
+/// therefore given the `v` and `f` statements alone, as one object, and before them one polygon over all
+/// vertices in their order, which makes its numbers those of the file. The number of bytes that it has read
+/// when it fails gives the line.
 pub(super) fn parse(bytes: &[u8]) -> Result<Polygons, MeshFault> {
     let text = String::from_utf8_lossy(bytes);
     let statements = Statements::new(&text);
@@ -61,7 +61,7 @@ fn load(reader: &mut impl BufRead) -> Result<Mesh, LoadError> {
         .ok_or(LoadError::GenericFailure)
 }
 
-/// The `v` and `f` statements of a file, one a line, and where they stood.
+/// The `v` and `f` statements of a file, one per line, with the lines of the file that they stood on.
 #[derive(Default)]
 struct Statements {
     text: String,
@@ -102,7 +102,7 @@ impl Statements {
         out
     }
 
-    /// What the library's error means, after it has read `read` bytes of the statements.
+    /// Translates the library's error, after it has read `read` bytes of the statements.
     fn fault(&self, error: LoadError, read: usize) -> MeshFault {
         if error == LoadError::FaceVertexOutOfBounds
             && let Some(fault) = self.missing_vertex()
@@ -123,7 +123,7 @@ impl Statements {
         MeshFault::syntax(lines.get(statement).copied(), problem)
     }
 
-    /// Finds the first corner that names no vertex; the library only says that there is one.
+    /// Finds the first corner that names no vertex; the library only reports that there is one.
     fn missing_vertex(&self) -> Option<MeshFault> {
         let vertices = self.vertex_lines.len();
         let (mut above, mut face) = (0, 0);
@@ -158,7 +158,7 @@ impl Statements {
     }
 }
 
-/// The first corner of a face that begins with no whole number.
+/// Finds the first corner of a face that does not begin with a whole number.
 fn no_vertex_number(statement: &str) -> Option<&str> {
     let corners = statement.strip_prefix('f')?.split_whitespace();
     let number = |corner: &str| corner.split('/').next().map(str::parse::<i64>);
@@ -167,8 +167,8 @@ fn no_vertex_number(statement: &str) -> Option<&str> {
         .find(|corner| !matches!(number(corner), Some(Ok(_))))
 }
 
-/// A vertex statement without the three or more numbers that some programs put after the position;
-/// a single one is a weight and stays.
+/// Removes the three or more numbers that some programs put after the position of a vertex; a single number
+/// is a weight and stays.
 fn without_colour(line: &str) -> &str {
     const KEYWORD_AND_POSITION: usize = 4;
     if line.split_whitespace().count() < KEYWORD_AND_POSITION + 3 {

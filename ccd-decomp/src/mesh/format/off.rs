@@ -38,7 +38,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Polygons, MeshFault> {
     Ok(polygons)
 }
 
-/// The numbers of vertices and faces: on the first line, after the keyword, or on the next.
+/// Reads the numbers of vertices and faces: on the first line, after the keyword, or on the next.
 fn counts<'a>(mut line: Line<'a>, lines: &mut Lines<'a>) -> Result<(u64, u64), MeshFault> {
     let keyword = line.words.clone().next().unwrap_or_default();
     if keyword.parse::<u64>().is_err() {
@@ -70,7 +70,7 @@ fn counts<'a>(mut line: Line<'a>, lines: &mut Lines<'a>) -> Result<(u64, u64), M
     Ok((line.number(what)?, line.number(what)?))
 }
 
-/// The lines that hold anything but blanks and comments.
+/// The lines that hold more than blanks and comments.
 struct Lines<'a> {
     rest: std::str::Lines<'a>,
     number: usize,

@@ -46,8 +46,8 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Polygons, MeshFault> {
     Ok(polygons)
 }
 
-/// Sees that the header describes a mesh, and no more elements than the file has bytes: those of an
-/// element without properties take none, and would be read for ever.
+/// Checks that the header describes a mesh, and no more elements than the file has bytes: elements without
+/// properties take no bytes, and would be read for ever.
 fn check_counts(header: &Header, bytes: usize) -> Result<(), MeshFault> {
     for element in header.elements.values() {
         if element.count > bytes {

@@ -25,7 +25,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Polygons, MeshFault> {
     }
 }
 
-/// Many programs begin a binary file with `solid`, too; only a text has no zero byte.
+/// Whether a file is binary. Many programs begin a binary file with `solid`, too; only a text has no zero byte.
 fn is_binary(bytes: &[u8]) -> bool {
     let exact = announced(bytes).is_some_and(|facets| {
         (bytes.len() - HEADER_BYTES - COUNT_BYTES) as u64 == facets as u64 * FACET_BYTES as u64
@@ -35,7 +35,7 @@ fn is_binary(bytes: &[u8]) -> bool {
     exact || !solid || bytes.contains(&0)
 }
 
-/// The number of facets that a binary file announces.
+/// Reads the number of facets that a binary file announces.
 fn announced(bytes: &[u8]) -> Option<u32> {
     let count = bytes.get(HEADER_BYTES..HEADER_BYTES + COUNT_BYTES)?;
     Some(u32::from_le_bytes(count.try_into().ok()?))
@@ -65,8 +65,8 @@ fn parse_binary(bytes: &[u8]) -> Result<Polygons, MeshFault> {
 
 /// Reads a text of one or more solids.
 ///
-/// `stl_io` stops at the end of the first solid, wants a name after `solid` and finite normals. So it
-/// is given all facets as one solid with blank normals.
+/// `stl_io` stops at the end of the first solid, and needs a name after `solid` and finite normals. It is
+/// therefore given all facets as one solid with blank normals.
 fn parse_text(text: &str) -> Result<Polygons, MeshFault> {
     let mut one_solid = String::with_capacity(text.len() + 32);
     one_solid.push_str("solid all\n");
@@ -117,13 +117,13 @@ fn parse_text(text: &str) -> Result<Polygons, MeshFault> {
     Ok(polygons)
 }
 
-/// The first word of a line that is a number, and NaN or infinite.
+/// Finds the first number of a line that is NaN or infinite.
 fn not_finite(line: &str) -> Option<&str> {
     let infinite = |word: &&str| word.parse::<f32>().is_ok_and(|x| !x.is_finite());
     line.split_whitespace().find(infinite)
 }
 
-/// Runs the library; `fault` says what an error at a facet means.
+/// Runs the library; `fault` translates an error at a facet.
 fn collect(
     bytes: Vec<u8>,
     fault: impl Fn(usize, io::Error) -> MeshFault,

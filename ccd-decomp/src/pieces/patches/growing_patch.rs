@@ -1,6 +1,6 @@
 //! A patch that grows: its polygons and their hull.
 
-use super::apart::Obstacle;
+use super::obstacle::Obstacle;
 use crate::bounds::Bounds;
 use crate::exact::predicates::side_of;
 use crate::hull::exact_hull::ExactHull;

@@ -1,7 +1,7 @@
 //! In which order patches are begun, and grow.
 
 use crate::solid::flats::Flats;
-use crate::solid::manifold::{Bend, Manifold};
+use crate::solid::manifold::{Dihedral, Manifold};
 use std::collections::VecDeque;
 
 /// In which order patches are begun, and grow.
@@ -33,7 +33,10 @@ fn heights(manifold: &Manifold<'_>, flats: &Flats) -> Vec<u32> {
     let mut queue = VecDeque::new();
     for flat in 0..flats.len() as u32 {
         let rim = &flats.get(flat).rim;
-        if rim.iter().any(|&h| manifold.bend(h) == Bend::Reflex) {
+        if rim
+            .iter()
+            .any(|&h| manifold.dihedral(h) == Dihedral::Reflex)
+        {
             height[flat as usize] = 0;
             queue.push_back(flat);
         }

@@ -1,6 +1,6 @@
 //! A finished patch: a polytope that knows which of the mesh's faces it is made of.
 
-use super::growing::GrowingPatch;
+use super::growing_patch::GrowingPatch;
 use crate::exact::predicates::{Projection, side};
 use crate::hull::polygons::polygons;
 use crate::solid::flats::{Flat, Flats};

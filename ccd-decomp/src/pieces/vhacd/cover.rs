@@ -6,7 +6,7 @@
 //! all that the solid has in those cubes. A corner whose eight cubes belong to one part is none of the
 //! hull's, by the same argument.
 
-use super::solid::Solid;
+use super::target::Target;
 use super::voxels::{Cell, Voxels};
 use crate::exact::predicates::lexicographic;
 use crate::tolerance::on_edge;
@@ -31,15 +31,15 @@ pub(super) enum Content {
 /// For every part the points whose hull, grown by the rounding of cuts, contains what the solid has in
 /// the cubes of that label.
 pub(super) fn points_by_part(
-    solid: &Solid<'_>,
+    target: &Target<'_>,
     voxels: &Voxels,
     contents: &[Content],
     mut labels: Vec<u32>,
 ) -> Vec<Vec<DVec3>> {
     let count = labels.iter().max().map_or(0, |&last| last as usize + 1);
     let mut parts = vec![Vec::new(); count];
-    let near = on_edge(solid.farthest_coordinate());
-    let triangles: Vec<_> = solid.triangles().collect();
+    let near = on_edge(target.farthest_coordinate());
+    let triangles: Vec<_> = target.triangles().collect();
     let pieces: Vec<_> = triangles
         .par_chunks(SHARE)
         .map(|triangles| pieces(triangles, voxels, &labels, near))
@@ -52,7 +52,7 @@ pub(super) fn points_by_part(
             *label = NO_PART;
         }
     }
-    add_corners(solid, voxels, contents, &labels, &mut parts);
+    add_corners(target, voxels, contents, &labels, &mut parts);
     parts.into_par_iter().map(each_once).collect()
 }
 
@@ -63,8 +63,8 @@ const NO_PART: u32 = u32::MAX;
 const SHARE: usize = 1024;
 
 /// What every cube has of a solid.
-pub(super) fn contents(solid: &Solid<'_>, voxels: &Voxels) -> Vec<Content> {
-    let triangles: Vec<_> = solid.triangles().collect();
+pub(super) fn contents(target: &Target<'_>, voxels: &Voxels) -> Vec<Content> {
+    let triangles: Vec<_> = target.triangles().collect();
     let met = |triangles: &[[DVec3; 3]]| {
         let mut cells = Vec::new();
         for &triangle in triangles {
@@ -79,7 +79,7 @@ pub(super) fn contents(solid: &Solid<'_>, voxels: &Voxels) -> Vec<Content> {
     for cell in met.into_iter().flatten() {
         contents[cell] = Content::Surface;
     }
-    fill(solid, voxels, &mut contents);
+    fill(target, voxels, &mut contents);
     contents
 }
 
@@ -130,13 +130,13 @@ pub(super) fn each_once(mut points: Vec<DVec3>) -> Vec<DVec3> {
 }
 
 /// Tells full cubes from empty ones: those that are connected without meeting the surface are alike.
-fn fill(solid: &Solid<'_>, voxels: &Voxels, contents: &mut [Content]) {
+fn fill(target: &Target<'_>, voxels: &Voxels, contents: &mut [Content]) {
     let mut stack = Vec::new();
     for seed in 0..contents.len() {
         if contents[seed] != Content::Unknown {
             continue;
         }
-        let content = match solid.winds_about(voxels.corner(voxels.cell(seed)), &Work::unbounded())
+        let content = match target.winds_about(voxels.corner(voxels.cell(seed)), &Work::unbounded())
         {
             true => Content::Full,
             false => Content::Nothing,
@@ -156,7 +156,7 @@ fn fill(solid: &Solid<'_>, voxels: &Voxels, contents: &mut [Content]) {
 
 /// Adds to the parts those corners of their cubes that are in the solid, but for corners amid one part.
 fn add_corners(
-    solid: &Solid<'_>,
+    target: &Target<'_>,
     voxels: &Voxels,
     contents: &[Content],
     labels: &[u32],
@@ -176,7 +176,7 @@ fn add_corners(
                 let inside = match (has(Content::Full), has(Content::Nothing)) {
                     (true, _) => true,
                     (_, true) => false,
-                    _ => solid.winds_about(corner, &Work::unbounded()),
+                    _ => target.winds_about(corner, &Work::unbounded()),
                 };
                 if inside {
                     around.sort_unstable_by_key(|&cell| labels[cell]);

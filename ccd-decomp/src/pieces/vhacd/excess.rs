@@ -1,15 +1,15 @@
 //! How far do hulls stick out of a solid: an upper bound, by branch and bound.
 
-mod body;
+mod part_planes;
 mod under;
 
-use super::Part;
-use super::solid::{Place, Solid};
+use super::part::Part;
+use super::target::{Location, Target};
 use crate::tolerance::{EXCESS_FLOOR, EXCESS_RATIO, EXCESS_WORK};
 use crate::work::Work;
-use body::Body;
 use ccd_core::glam::{BVec3, DVec3};
 use ccd_core::order::{greater, lesser};
+use part_planes::PartPlanes;
 use rayon::prelude::*;
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -20,19 +20,22 @@ use std::collections::BinaryHeap;
 /// box bounds it in the box; where the surface is nearly flat, [`under`] knows better. Boxes about the
 /// parts are split, the one with the largest bound first, until that is hardly more than a distance
 /// that was found, or the work is spent.
-pub(super) fn bound(solid: &Solid<'_>, parts: &[Part]) -> f64 {
-    let floor = EXCESS_FLOOR * solid.reach();
-    let bodies: Vec<Body<'_>> = parts.iter().map(|part| Body::of(part, solid)).collect();
+pub(super) fn bound(target: &Target<'_>, parts: &[Part]) -> f64 {
+    let floor = EXCESS_FLOOR * target.reach();
+    let parts: Vec<PartPlanes<'_>> = parts
+        .iter()
+        .map(|part| PartPlanes::of(part, target))
+        .collect();
     let mut search = Search {
-        solid,
-        bodies: &bodies,
+        target,
+        parts: &parts,
         taken: 0,
         found: 0.0,
         heap: BinaryHeap::new(),
     };
     let mut settled = 0.0_f64;
-    for (k, body) in bodies.iter().enumerate() {
-        match body.excess_by_shrinking(solid, floor) {
+    for (k, part) in parts.iter().enumerate() {
+        match part.excess_by_shrinking(target, floor) {
             Some(bound) => settled = greater(settled, bound),
             None => search.begin(k),
         }
@@ -52,8 +55,8 @@ const BATCH: usize = 16;
 const PLANES_A_STEP: usize = 16;
 
 struct Search<'a> {
-    solid: &'a Solid<'a>,
-    bodies: &'a [Body<'a>],
+    target: &'a Target<'a>,
+    parts: &'a [PartPlanes<'a>],
     /// How many steps were taken.
     taken: u64,
     /// The largest distance of a point of a part that was looked at.
@@ -65,7 +68,7 @@ struct Search<'a> {
 #[derive(Clone, Debug)]
 struct Cell {
     bound: f64,
-    body: usize,
+    part: usize,
     bounds: [DVec3; 2],
     /// Those of the part's planes that it is not all behind.
     planes: Vec<u32>,
@@ -83,22 +86,22 @@ struct Look {
 
 impl Search<'_> {
     /// Looks at some corners of a part, and at its box.
-    fn begin(&mut self, body: usize) {
-        let Body {
+    fn begin(&mut self, number: usize) {
+        let PartPlanes {
             part,
             planes,
             bounds,
             ..
-        } = &self.bodies[body];
+        } = &self.parts[number];
         let stride = part.corners.len().div_ceil(CORNERS);
         for &point in part.corners.iter().step_by(stride) {
-            if let Place::Outside { distance } = self.solid.place(point, &Work::unbounded()) {
+            if let Location::Outside { distance } = self.target.locate(point, &Work::unbounded()) {
                 self.found = greater(self.found, distance);
             }
         }
         let whole = Cell {
             bound: f64::INFINITY,
-            body,
+            part: number,
             bounds: [bounds.lo, bounds.hi],
             planes: (0..planes.len() as u32).collect(),
         };
@@ -136,17 +139,17 @@ impl Search<'_> {
 
     /// Looks at a box within one that was looked at.
     fn look(&self, within: &Cell, bounds: [DVec3; 2]) -> Look {
-        let Cell { body, planes, .. } = within;
-        let (solid, part, work) = (self.solid, &self.bodies[*body], &Work::unbounded());
+        let planes = &within.planes;
+        let (target, part, work) = (self.target, &self.parts[within.part], &Work::unbounded());
         let [lo, hi] = bounds;
         let (centre, half) = ((lo + hi) / 2.0, (hi - lo) / 2.0);
-        let reach = half.length() + solid.slack();
+        let reach = half.length() + target.slack();
         work.spend(1 + planes.len() / PLANES_A_STEP);
         let mut look = Look::default();
         if let Some(meeting) = part.meets(centre, half, planes) {
-            let near = match solid.place(centre, work) {
-                Place::Inside { depth } => reach - depth,
-                Place::Outside { distance } => {
+            let near = match target.locate(centre, work) {
+                Location::Inside { depth } => reach - depth,
+                Location::Outside { distance } => {
                     if meeting.has_centre {
                         look.distance = distance;
                     }
@@ -155,7 +158,7 @@ impl Search<'_> {
             };
             let planes = meeting.planes;
             let above = planes.iter().map(|&k| part.planes[k as usize]);
-            let under = || under::excess(solid, above, [centre, half], work);
+            let under = || under::excess(target, above, [centre, half], work);
             let is_known = |bound: f64| bound <= self.found;
             let mut bound = lesser(near, within.bound);
             if !is_known(bound) {
@@ -163,7 +166,7 @@ impl Search<'_> {
             }
             look.cell = (!is_known(bound)).then_some(Cell {
                 bound,
-                body: *body,
+                part: within.part,
                 bounds,
                 planes,
             });
@@ -194,7 +197,7 @@ impl Ord for Cell {
             along(0)
                 .then(along(1))
                 .then(along(2))
-                .then(self.body.cmp(&other.body))
+                .then(self.part.cmp(&other.part))
         };
         self.bound.total_cmp(&other.bound).then_with(ties)
     }

@@ -1,6 +1,6 @@
 //! Which voxel belongs to which part, by the library.
 
-use super::solid::Solid;
+use super::target::Target;
 use super::voxels::Voxels;
 use crate::tolerance::{BALANCE, CONCAVITY, MOST_PARTS, PARTS_PER_HULL};
 use ccd_core::glam::DVec3;
@@ -14,8 +14,8 @@ use std::panic::catch_unwind;
 ///
 /// Cubes that the library leaves out get the part of a cube near by: any label will do for the
 /// guarantee, as the parts are covered whatever they are.
-pub(super) fn labels(solid: &Solid<'_>, voxels: &Voxels, hulls: u32) -> Option<Vec<u32>> {
-    let parts = decompose(solid, voxels, hulls)?;
+pub(super) fn labels(target: &Target<'_>, voxels: &Voxels, hulls: u32) -> Option<Vec<u32>> {
+    let parts = decompose(target, voxels, hulls)?;
     const NONE: u32 = u32::MAX;
     let counts = voxels.counts();
     let mut labels = vec![NONE; voxels.len()];
@@ -44,8 +44,8 @@ pub(super) fn labels(solid: &Solid<'_>, voxels: &Voxels, hulls: u32) -> Option<V
 
 /// The cubes with their parts, of which there are more than hulls were asked for: the library makes up to
 /// twice as many as it is told.
-fn decompose(solid: &Solid<'_>, voxels: &Voxels, hulls: u32) -> Option<Vec<([usize; 3], u32)>> {
-    let fill_mode = match solid.is_closed() {
+fn decompose(target: &Target<'_>, voxels: &Voxels, hulls: u32) -> Option<Vec<([usize; 3], u32)>> {
+    let fill_mode = match target.is_closed() {
         true => FillMode::FloodFill {
             detect_cavities: true,
         },
@@ -63,8 +63,8 @@ fn decompose(solid: &Solid<'_>, voxels: &Voxels, hulls: u32) -> Option<Vec<([usi
     // Scaled, so that the library's absolute tolerances mean something.
     let scale = f64::from(voxels.resolution() - 1);
     let scaled = |p: DVec3| Vector::from((voxels.in_steps(p) / scale).to_array());
-    let points: Vec<Vector> = solid.triangles().flatten().map(scaled).collect();
-    let faces: Vec<[u32; 3]> = (0..solid.faces().len() as u32)
+    let points: Vec<Vector> = target.triangles().flatten().map(scaled).collect();
+    let faces: Vec<[u32; 3]> = (0..target.faces().len() as u32)
         .map(|k| [3 * k, 3 * k + 1, 3 * k + 2])
         .collect();
     // It asserts what rounding can violate.

@@ -17,7 +17,7 @@ use robust::{Coord, orient2d};
 use std::cmp::Ordering;
 
 /// The points about which a mesh winds and its surface; the surface alone if the mesh is open.
-pub(super) struct Solid<'a> {
+pub(super) struct Target<'a> {
     mesh: &'a TriangleMesh,
     search: NearestTriangles,
     closed: bool,
@@ -27,14 +27,14 @@ pub(super) struct Solid<'a> {
 
 /// Where a point is.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Place {
+pub(super) enum Location {
     /// In the solid, at least so far below the surface.
     Inside { depth: f64 },
     /// Not in it, or on an open surface, at most so far from it.
     Outside { distance: f64 },
 }
 
-impl<'a> Solid<'a> {
+impl<'a> Target<'a> {
     pub(super) fn of(mesh: &'a TriangleMesh, topology: &Topology) -> Self {
         let at = |v: &u32| mesh.vertices()[*v as usize];
         let corners = || mesh.faces().iter().flatten().map(at);
@@ -42,7 +42,7 @@ impl<'a> Solid<'a> {
             corners().fold(DVec3::INFINITY, DVec3::min),
             corners().fold(DVec3::NEG_INFINITY, DVec3::max),
         ];
-        Solid {
+        Target {
             mesh,
             search: NearestTriangles::new(mesh.vertices(), mesh.faces()),
             closed: topology.is_solid(),
@@ -83,14 +83,10 @@ impl<'a> Solid<'a> {
     ) -> Option<Vec<[DVec3; 3]>> {
         let mut found = Vec::new();
         let all = self.search.all_in(&Bounds { lo, hi }, work, |face| {
-            found.push(self.triangle(face));
+            found.push(self.mesh.triangle(face));
             found.len() <= most
         });
         all.then_some(found)
-    }
-
-    fn triangle(&self, face: u32) -> [DVec3; 3] {
-        self.mesh.faces()[face as usize].map(|v| self.mesh.vertices()[v as usize])
     }
 
     /// The smallest box that holds it.
@@ -114,13 +110,13 @@ impl<'a> Solid<'a> {
     }
 
     /// Where a point is.
-    pub(super) fn place(&self, point: DVec3, work: &Work) -> Place {
+    pub(super) fn locate(&self, point: DVec3, work: &Work) -> Location {
         let (found, reached) = self.nearest(point, work);
         match self.winds_about(point, work) {
-            true => Place::Inside {
+            true => Location::Inside {
                 depth: greater(0.0, lesser(found, reached) - self.slack()),
             },
-            false => Place::Outside {
+            false => Location::Outside {
                 distance: reached + self.slack(),
             },
         }
@@ -141,7 +137,7 @@ impl<'a> Solid<'a> {
         let Some((face, found)) = self.search.to(point, work, distance) else {
             return (0.0, f64::INFINITY);
         };
-        let corners = self.triangle(face);
+        let corners = self.mesh.triangle(face);
         let (_, location) = project(corners);
         let weights = location
             .barycentric_coordinates()
@@ -166,7 +162,7 @@ impl<'a> Solid<'a> {
         let above = Region::segment([point, top]);
         let mut winding = 0;
         self.search.all_meeting(&above, work, |face| {
-            winding += crossing(self.triangle(face), point);
+            winding += crossing(self.mesh.triangle(face), point);
             true
         });
         winding != 0

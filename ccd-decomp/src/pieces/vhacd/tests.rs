@@ -1,7 +1,9 @@
-use super::solid::Place;
+use super::target::Location;
 use super::*;
 use crate::exact::predicates::side;
 use crate::work::Work;
+use ccd_core::Facet;
+use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 use rstest::rstest;
 use std::cmp::Ordering;
@@ -193,7 +195,7 @@ fn errors_bound_what_is_sampled(#[case] mesh: TriangleMesh, #[case] hulls: u32) 
     assert!(found.uncovered <= 1e-12 * size);
     let mut next = noise();
     let closed = crate::Topology::of(&mesh).is_closed();
-    let [lo, hi] = Solid::of(&mesh, &Topology::of(&mesh)).bounds();
+    let [lo, hi] = Target::of(&mesh, &Topology::of(&mesh)).bounds();
     let mut samples: Vec<DVec3> = triangles(&mesh)
         .iter()
         .flat_map(|t| [mix(t, &mut next), mix(t, &mut next)])
@@ -312,7 +314,7 @@ fn refusals() {
 #[case::hollow(cubes(&[cubic(1.0), [DVec3::splat(0.5), DVec3::splat(-0.5)]]))]
 #[case::inside_out(cubes(&[[DVec3::splat(0.5), DVec3::splat(-0.5)]]))]
 fn places(#[case] mesh: TriangleMesh) {
-    let (solid, surface) = (Solid::of(&mesh, &Topology::of(&mesh)), triangles(&mesh));
+    let (target, surface) = (Target::of(&mesh, &Topology::of(&mesh)), triangles(&mesh));
     for k in 0..21 * 21 * 21 {
         let point = DVec3::new((k % 21) as f64, (k / 21 % 21) as f64, (k / 441) as f64) / 4.0 - 2.5;
         let way = distance(&surface, point);
@@ -320,13 +322,13 @@ fn places(#[case] mesh: TriangleMesh) {
             continue;
         }
         assert_eq!(
-            solid.winds_about(point, &Work::unbounded()),
+            target.winds_about(point, &Work::unbounded()),
             is_seen_around(&mesh, point),
             "{point}"
         );
-        match solid.place(point, &Work::unbounded()) {
-            Place::Inside { depth } => assert!(depth <= way && depth > way - 1e-6),
-            Place::Outside { distance } => assert!(distance >= way && distance < way + 1e-6),
+        match target.locate(point, &Work::unbounded()) {
+            Location::Inside { depth } => assert!(depth <= way && depth > way - 1e-6),
+            Location::Outside { distance } => assert!(distance >= way && distance < way + 1e-6),
         }
     }
 }

@@ -1,6 +1,6 @@
 //! A grid of cubes about a mesh.
 
-use super::solid::Solid;
+use super::target::Target;
 use crate::tolerance::{self, VOXELS_TESTED, voxel_resolution};
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
@@ -23,12 +23,12 @@ pub(super) type Cell = [usize; 3];
 impl Voxels {
     /// As fine as the number of hulls asks for, unless the mesh's large triangles meet too many or
     /// its coordinates are too coarse; none if no grid makes sense.
-    pub(super) fn of(solid: &Solid<'_>, hulls: u32) -> Option<Self> {
+    pub(super) fn of(target: &Target<'_>, hulls: u32) -> Option<Self> {
         let mut resolution = voxel_resolution(hulls);
         // Halved at most a few times.
         while resolution >= tolerance::LEAST_RESOLUTION {
-            let voxels = Voxels::with_resolution(solid, resolution)?;
-            if voxels.is_affordable(solid) {
+            let voxels = Voxels::with_resolution(target, resolution)?;
+            if voxels.is_affordable(target) {
                 return Some(voxels);
             }
             resolution /= 2;
@@ -36,10 +36,10 @@ impl Voxels {
         None
     }
 
-    fn with_resolution(solid: &Solid<'_>, resolution: u32) -> Option<Self> {
-        let [lo, hi] = solid.bounds();
+    fn with_resolution(target: &Target<'_>, resolution: u32) -> Option<Self> {
+        let [lo, hi] = target.bounds();
         let step = (hi - lo).max_element() / f64::from(resolution - 1);
-        let margin = tolerance::clip_rounding(solid.farthest_coordinate());
+        let margin = tolerance::clip_rounding(target.farthest_coordinate());
         // Written so that NaN fails.
         if !(step > tolerance::COARSE_VOXELS * margin) {
             return None;
@@ -58,9 +58,9 @@ impl Voxels {
         })
     }
 
-    fn is_affordable(&self, solid: &Solid<'_>) -> bool {
+    fn is_affordable(&self, target: &Target<'_>) -> bool {
         let boxed = |t| self.ranges(t).map(|r| r.count()).iter().product::<usize>();
-        solid.triangles().map(boxed).sum::<usize>() <= VOXELS_TESTED
+        target.triangles().map(boxed).sum::<usize>() <= VOXELS_TESTED
     }
 
     pub(super) fn resolution(&self) -> u32 {

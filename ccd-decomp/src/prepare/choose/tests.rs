@@ -44,7 +44,7 @@ fn the_largest_plane_is_found_whole() {
         .collect();
     let mesh = cubes(&cells);
     let manifold = bounding_solid(&mesh).unwrap();
-    let plane = Plane::largest(&manifold, &Flats::new(&manifold));
+    let plane = PlanarRegion::largest(&manifold, &Flats::new(&manifold));
     assert_eq!(plane.triangles, 12);
     assert_eq!(plane.polygons, 1);
 }

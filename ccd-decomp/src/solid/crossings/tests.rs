@@ -104,7 +104,7 @@ fn fans_of_convex_caps_are_not_compared_pair_by_pair() {
 /// Steps of work that checking a mesh takes, for every face.
 fn steps_per_face(mesh: &TriangleMesh) -> u64 {
     let manifold = Manifold::unchecked(mesh, &Topology::of(mesh)).unwrap();
-    assert!(!crate::solid::star::is_seen_whole(&manifold));
+    assert!(!crate::solid::star_shaped::is_star_shaped(&manifold));
     let too_few = Work::of(100);
     assert_eq!(
         check_solid(&manifold, &too_few),

@@ -25,20 +25,20 @@ fn edges_of_a_step_bend_both_ways() {
     let manifold = bounding_solid(&mesh).unwrap();
     let count = |bend| {
         let all = 0..3 * manifold.faces().len() as u32;
-        all.filter(|&h| manifold.bend(h) == bend).count()
+        all.filter(|&h| manifold.dihedral(h) == bend).count()
     };
     // One reflex edge of unit length; each edge has two halves.
-    assert_eq!(count(Bend::Reflex), 2);
+    assert_eq!(count(Dihedral::Reflex), 2);
     // 14 squares have 14 diagonals and 28 edges between them, 6 of which are within a plane.
-    assert_eq!(count(Bend::Flat), 2 * (14 + 6));
-    assert_eq!(count(Bend::Convex), 2 * (28 - 1 - 6));
+    assert_eq!(count(Dihedral::Flat), 2 * (14 + 6));
+    assert_eq!(count(Dihedral::Convex), 2 * (28 - 1 - 6));
 }
 
 #[test]
 fn a_mesh_that_is_inside_out_is_turned() {
     let mesh = turned(&tetrahedron());
     let manifold = bounding_solid(&mesh).unwrap();
-    assert!((0..12).all(|h| manifold.bend(h) == Bend::Convex));
+    assert!((0..12).all(|h| manifold.dihedral(h) == Dihedral::Convex));
 }
 
 #[test]

@@ -1,6 +1,5 @@
 //! The parts of a mesh that are closed by themselves.
 
-use super::{corners, triangle};
 use crate::disjoint_sets::DisjointSets;
 use crate::exact::predicates::{Projection, side, too_fine};
 use crate::mesh::TriangleMesh;
@@ -43,7 +42,7 @@ fn uses(mesh: &TriangleMesh) -> Vec<Use> {
     let mut uses = Vec::new();
     uses.reserve_exact(3 * mesh.faces().len());
     for face in 0..mesh.faces().len() as u32 {
-        let [a, b, c] = corners(mesh, face);
+        let [a, b, c] = mesh.welded_face(face);
         for (v, w) in [(a, b), (b, c), (c, a)] {
             let ends = [v.min(w), v.max(w)];
             let way = if v < w { 1 } else { -1 };
@@ -68,7 +67,7 @@ fn open_at(edge: &[Use], parts: &mut DisjointSets) -> Vec<Use> {
 /// Pairs of faces at one edge with material between them: behind each of the two, and as few others between
 /// as can be. Where nothing tells, all are connected.
 fn across_material(mesh: &TriangleMesh, edge: &[Use]) -> Vec<(u32, u32)> {
-    let Some(around) = Around::of(mesh, edge) else {
+    let Some(around) = AngularOrder::of(mesh, edge) else {
         let pairs = edge.windows(2);
         return pairs.map(|pair| (pair[0].face, pair[1].face)).collect();
     };
@@ -96,7 +95,7 @@ fn across_material(mesh: &TriangleMesh, edge: &[Use]) -> Vec<(u32, u32)> {
 }
 
 /// The way around an edge, from one of its faces on: counter-clockwise for one towards whom the edge points.
-struct Around<'m> {
+struct AngularOrder<'m> {
     mesh: &'m TriangleMesh,
     ends: [DVec3; 2],
     first: DVec3,
@@ -104,7 +103,7 @@ struct Around<'m> {
     projection: Projection,
 }
 
-impl<'m> Around<'m> {
+impl<'m> AngularOrder<'m> {
     /// None where a face has no area, or a coordinate is too fine for exact predicates.
     fn of(mesh: &'m TriangleMesh, edge: &[Use]) -> Option<Self> {
         let [v, w] = edge.first()?.ends.map(|v| mesh.vertices()[v as usize]);
@@ -114,7 +113,7 @@ impl<'m> Around<'m> {
         if is_fine || apexes.iter().any(flat) {
             return None;
         }
-        Some(Around {
+        Some(AngularOrder {
             mesh,
             ends: [v, w],
             first: apexes[0],
@@ -146,9 +145,10 @@ impl<'m> Around<'m> {
 
 /// The corner of a face that is not on an edge of it.
 fn apex(mesh: &TriangleMesh, of: &Use) -> DVec3 {
-    let mut at = corners(mesh, of.face)
+    let mut at = mesh
+        .welded_face(of.face)
         .into_iter()
-        .zip(triangle(mesh, of.face));
+        .zip(mesh.triangle(of.face));
     let off = at.find(|(v, _)| !of.ends.contains(v));
     // A face with two corners at one place has no other.
     off.map_or(mesh.vertices()[of.ends[0] as usize], |(_, p)| p)

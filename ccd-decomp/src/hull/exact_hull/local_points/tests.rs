@@ -15,12 +15,12 @@ proptest! {
             p + size * DVec3::from_array(*off) + far
         };
         let points: Vec<DVec3> = points.iter().zip(&off).map(shaken).collect();
-        let places = Places::new(&points);
+        let local = LocalPoints::new(&points);
         for corners in [[0, 1, 2], [3, 1, 2], [1, 3, 0]] {
-            let plane = places.plane(corners);
+            let plane = local.plane(corners);
             for v in 0..points.len() as u32 {
                 let exact = side_of(&points, corners, v) == Ordering::Greater;
-                prop_assert_eq!(places.is_in_front(&plane, corners, v), exact);
+                prop_assert_eq!(local.is_in_front(&plane, corners, v), exact);
             }
         }
     }

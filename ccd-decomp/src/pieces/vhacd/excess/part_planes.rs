@@ -1,7 +1,7 @@
 //! A part as it is seen by the search: its planes.
 
-use super::super::Part;
-use super::super::solid::Solid;
+use super::super::part::Part;
+use super::super::target::Target;
 use crate::bounds::Bounds;
 use crate::tolerance::WELL_SHAPED;
 use crate::work::Work;
@@ -11,7 +11,7 @@ use ccd_core::order::{greater, lesser};
 use ccd_core::vector::unit;
 
 /// A part with the planes of its facets.
-pub(super) struct Body<'a> {
+pub(super) struct PartPlanes<'a> {
     pub(super) part: &'a Part,
     /// Only those of facets that are well shaped, which are right to within the solid's slack.
     pub(super) planes: Vec<Plane>,
@@ -36,9 +36,9 @@ pub(super) struct Meeting {
     pub(super) planes: Vec<u32>,
 }
 
-impl<'a> Body<'a> {
-    pub(super) fn of(part: &'a Part, solid: &Solid<'_>) -> Self {
-        Body {
+impl<'a> PartPlanes<'a> {
+    pub(super) fn of(part: &'a Part, target: &Target<'_>) -> Self {
+        PartPlanes {
             part,
             planes: part
                 .facets
@@ -46,7 +46,7 @@ impl<'a> Body<'a> {
                 .filter_map(|facet| Plane::of(part, facet))
                 .collect(),
             bounds: Bounds::of(part.corners.iter().copied()),
-            slack: solid.slack(),
+            slack: target.slack(),
         }
     }
 
@@ -84,13 +84,13 @@ impl<'a> Body<'a> {
     ///
     /// # Complexity
     /// O(log f) for each triangle near the part, of f facets.
-    pub(super) fn excess_by_shrinking(&self, solid: &Solid<'_>, most: f64) -> Option<f64> {
+    pub(super) fn excess_by_shrinking(&self, target: &Target<'_>, most: f64) -> Option<f64> {
         let count = self.part.corners.len() as f64;
         let centre = self.part.corners.iter().sum::<DVec3>() / count;
         let depths = self.planes.iter().map(|plane| plane.above(centre));
         let depths: Vec<f64> = depths.map(|above| self.slack - above).collect();
         let is_inside = depths.iter().all(|&depth| depth > 2.0 * self.slack);
-        if depths.is_empty() || !is_inside || !solid.winds_about(centre, &Work::unbounded()) {
+        if depths.is_empty() || !is_inside || !target.winds_about(centre, &Work::unbounded()) {
             return None;
         }
         let far = self.part.corners.iter().map(|p| p.distance(centre));
@@ -106,7 +106,7 @@ impl<'a> Body<'a> {
         };
         let enough = 1.0 - most / reach;
         let mut share = 1.0_f64;
-        let near = solid
+        let near = target
             .triangles()
             .filter(|&t| Bounds::of(t).meets(&self.bounds));
         for triangle in near {

@@ -1,8 +1,8 @@
 //! A part above a nearly flat piece of the surface.
 
-use super::super::solid::Solid;
+use super::super::target::Target;
 use super::super::voxels::cut_to_box;
-use super::body::Plane;
+use super::part_planes::Plane;
 use crate::tolerance::TRIANGLES_UNDER;
 use crate::work::Work;
 use ccd_core::glam::DVec3;
@@ -17,15 +17,15 @@ use ccd_core::vector::unit;
 /// sinking as much as it is higher, if that does not lead out of the large box. None where this says
 /// nothing.
 pub(super) fn excess(
-    solid: &Solid<'_>,
+    target: &Target<'_>,
     planes: impl Iterator<Item = Plane>,
     [centre, half]: [DVec3; 2],
     work: &Work,
 ) -> Option<f64> {
     let bounds = [centre - 3.0 * half, centre + 3.0 * half];
-    let near = solid.triangles_in(bounds, TRIANGLES_UNDER, work)?;
+    let near = target.triangles_in(bounds, TRIANGLES_UNDER, work)?;
     let normals = near.iter().map(|[a, b, c]| (b - a).cross(c - a));
-    let up = unit(solid.orientation() * normals.sum::<DVec3>())?;
+    let up = unit(target.orientation() * normals.sum::<DVec3>())?;
     let height = |p: DVec3| up.dot(p - centre);
     let mut part = Vec::new();
     let mut lowest = f64::INFINITY;
@@ -33,17 +33,17 @@ pub(super) fn excess(
         cut_to_box(&triangle, bounds, &mut part);
         lowest = part.iter().copied().map(height).fold(lowest, lesser);
     }
-    lowest -= solid.slack();
+    lowest -= target.slack();
     let deepest = centre - 3.0 * half * up.signum();
-    if !(height(deepest) < lowest) || !solid.winds_about(deepest, work) {
+    if !(height(deepest) < lowest) || !target.winds_about(deepest, work) {
         return None;
     }
     let sinks = greater(
         0.0,
-        highest(planes, up, [centre, half], solid.slack()) - lowest,
+        highest(planes, up, [centre, half], target.slack()) - lowest,
     );
     let stays = (sinks * up.abs()).cmple(2.0 * half).all();
-    stays.then_some(sinks + solid.slack())
+    stays.then_some(sinks + target.slack())
 }
 
 /// A bound on the height of a part's points in a box: by each of some planes that it is behind, of whose
