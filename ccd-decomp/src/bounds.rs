@@ -25,7 +25,7 @@ impl Bounds {
         })
     }
 
-    /// The smallest box that holds two.
+    /// The smallest box that holds two boxes.
     pub(crate) fn union(self, other: Self) -> Self {
         Bounds {
             lo: self.lo.min(other.lo),
@@ -33,7 +33,7 @@ impl Bounds {
         }
     }
 
-    /// Whether two have a point in common.
+    /// Whether two boxes have a point in common.
     pub(crate) fn meets(&self, other: &Bounds) -> bool {
         (self.lo.cmple(other.hi) & other.lo.cmple(self.hi)).all()
     }
@@ -43,7 +43,7 @@ impl Bounds {
         Aabb::new(vector(self.lo), vector(self.hi))
     }
 
-    /// At most the distance of a point from the box, up to rounding.
+    /// The distance of a point from the box, up to rounding; 0 inside.
     pub(crate) fn distance(&self, point: DVec3) -> f64 {
         let beyond = (self.lo - point).max(point - self.hi).max(DVec3::ZERO);
         greater(beyond.length(), 0.0)

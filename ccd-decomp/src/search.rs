@@ -1,9 +1,14 @@
-//! The triangles of a mesh by where they are.
+//! Searches among triangles: those that may meet a region, and those nearest to a point.
+//!
+//! ```text
+//! element.rs ─► oriented_box.rs ─► planes.rs ─► box_tree.rs ─┬─► fans.rs ─► TriangleBoxes
+//!                                  region.rs ──┘             └─► nearest.rs
+//! ```
 
-mod box_tree;
+pub(crate) mod box_tree;
 mod element;
 mod fans;
-pub(crate) mod nearest;
+mod nearest;
 mod oriented_box;
 mod planes;
 pub(crate) mod region;
@@ -12,15 +17,14 @@ use crate::work::Work;
 use box_tree::BoxTree;
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
-use element::Element;
 use fans::{Fan, split};
 use parry3d_f64::bounding_volume::Aabb;
 use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
 use region::Region;
 
-/// The boxes of triangles, to be searched: boxes that lie as the triangles do, so that those of slivers
-/// side by side hardly meet. The triangles of a large fan about one vertex, where all of them meet, are
-/// searched by themselves.
+/// Triangles in trees of boxes, to be searched by region. The boxes are oriented like the triangles, so that those
+/// of slivers side by side hardly meet. The triangles of a large fan about one vertex, where all of them meet,
+/// have a tree of their own.
 pub(crate) struct TriangleBoxes {
     single: BoxTree,
     fans: Vec<Fan>,
@@ -29,26 +33,22 @@ pub(crate) struct TriangleBoxes {
 }
 
 impl TriangleBoxes {
-    /// O(n log n).
+    /// Builds the trees. O(n log n).
     pub(crate) fn new(points: &[DVec3], faces: &[[u32; 3]]) -> Self {
         let (single, fans) = split(points, faces);
-        let element = |face: u32| Element {
-            corners: faces[face as usize].map(|v| points[v as usize]),
-            face,
-        };
         let boxes: Vec<Aabb> = fans.iter().map(|fan| fan.bounds().as_aabb()).collect();
         TriangleBoxes {
-            single: BoxTree::new(single.into_iter().map(element).collect()),
+            single: BoxTree::of_faces(points, faces, single),
             bvh: Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes),
             fans,
         }
     }
 
-    /// Calls back with every triangle that may meet a region, and some that do not, until the answer is
-    /// no, or the work is spent: one for each box that is looked at.
+    /// Calls back with every triangle that may meet a region, and some that do not, until the answer is no, or the
+    /// work is spent, one step for each box. Returns whether all answers were yes.
     ///
     /// # Guarantee
-    /// A triangle that is left out shares no point with the region, but perhaps a common corner.
+    /// A triangle that is left out shares no point with the region, except perhaps a common corner.
     pub(crate) fn all_meeting(
         &self,
         region: &Region,
@@ -67,7 +67,7 @@ impl TriangleBoxes {
         })
     }
 
-    /// At least the distance of a point from any of the triangles' points, about.
+    /// A bound, up to rounding, on the distance of a point from the points of all triangles.
     pub(crate) fn reach(&self, point: DVec3) -> f64 {
         let single = self.single.bounds();
         let all = self.fans.iter().map(Fan::bounds).chain(single);

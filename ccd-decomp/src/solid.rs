@@ -1,8 +1,9 @@
 //! Whether a mesh bounds a solid, and the surface of one that does.
 //!
 //! ```text
-//! TriangleMesh ─► nesting.rs ─► topology.rs ─► manifold.rs ─┬─ star.rs ─────────────────────────┬─► bounds a solid
-//!                                                           └─ flats.rs ─ crossings.rs ─ shells.rs ─┘
+//! TriangleMesh ─► topology.rs ─► manifold.rs ─┬─ star_shaped.rs ───────────┬─► bounds a solid
+//!                 (nesting.rs)                └─ crossings.rs ─ shells.rs ─┘
+//!                                                (flats.rs)
 //! ```
 
 pub(crate) mod crossings;

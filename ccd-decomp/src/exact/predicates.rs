@@ -1,4 +1,4 @@
-//! On which side of a plane or line does a point lie: exactly, by the crate `robust` `[SHE97]`.
+//! The side of a plane or line on which a point lies: exactly, by the crate `robust` `[SHE97]`.
 
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
@@ -6,7 +6,7 @@ use ccd_core::tolerance::LEAST_COORDINATE;
 use robust::{Coord, Coord3D, orient2d, orient3d};
 use std::cmp::Ordering;
 
-/// The first point with a coordinate that is [too fine](LEAST_COORDINATE) for the predicates to be exact.
+/// Finds the first point with a coordinate [too near to 0](LEAST_COORDINATE) for the predicates to be exact.
 pub(crate) fn too_fine(points: &[DVec3]) -> Option<usize> {
     let fine = |x: f64| x != 0.0 && x.abs() < LEAST_COORDINATE;
     points
@@ -14,22 +14,22 @@ pub(crate) fn too_fine(points: &[DVec3]) -> Option<usize> {
         .position(|p| p.to_array().into_iter().any(fine))
 }
 
-/// Where a point lies of the plane through a triangle: `Greater` where the triangle is seen
-/// counter-clockwise from, `Less` behind, `Equal` in the plane, or when the triangle has no area.
+/// The side of a triangle's plane on which a point lies: `Greater` in front, where the triangle is seen
+/// counter-clockwise, `Less` behind, `Equal` in the plane, or when the triangle has no area.
 #[inline]
 pub(crate) fn side(triangle: [DVec3; 3], point: DVec3) -> Ordering {
     let [p, q, r] = triangle;
     let level = p.cmpeq(q) & p.cmpeq(r) & p.cmpeq(point);
     if level.any() {
-        // In a plane across a coordinate axis, which would take the predicate its longest computation.
+        // All lie in a plane across a coordinate axis, which the predicate would take longest to compute.
         return Ordering::Equal;
     }
     // Shewchuk's determinant is positive below.
     sign(-orient3d(coord3(p), coord3(q), coord3(r), coord3(point)))
 }
 
-/// The same for points of a list, by their numbers: corners of the triangle are in its plane, which
-/// would take the predicate its longest computation to find.
+/// The [side](side) for points of a list, by their numbers. A corner of the triangle is in its plane without a
+/// computation, which would be the predicate's longest.
 #[inline]
 pub(crate) fn side_of(points: &[DVec3], triangle: [u32; 3], point: u32) -> Ordering {
     if triangle.contains(&point) {
@@ -40,7 +40,7 @@ pub(crate) fn side_of(points: &[DVec3], triangle: [u32; 3], point: u32) -> Order
     side(corners, points[point as usize])
 }
 
-/// The coordinate plane that a triangle is projected to, keeping an area, and how it then turns.
+/// A projection of a triangle to a coordinate plane that keeps an area, and the triangle's orientation there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Projection {
     drop: usize,
@@ -48,7 +48,7 @@ pub(crate) struct Projection {
 }
 
 impl Projection {
-    /// None for a triangle of no area.
+    /// Finds a projection; none for a triangle without area.
     pub(crate) fn of(triangle: [DVec3; 3]) -> Option<Self> {
         (0..3).find_map(|drop| {
             let [a, b, c] = triangle.map(|p| coord2(p, drop));
@@ -62,8 +62,8 @@ impl Projection {
         })
     }
 
-    /// Where a point of the triangle's plane lies of a line in it: `Greater` to the left, for one who
-    /// looks at the triangle's front and from `a` to `b`.
+    /// The side of a line in the triangle's plane on which a point of the plane lies: `Greater` to the left of
+    /// the direction from `a` to `b`, seen from the triangle's front.
     #[inline]
     pub(crate) fn turn(self, a: DVec3, b: DVec3, point: DVec3) -> Ordering {
         let (a, b, point) = (
@@ -78,8 +78,8 @@ impl Projection {
     }
 }
 
-/// Where a point lies of a line, for one who looks against a coordinate axis and from `a` to `b`:
-/// `Greater` to the left.
+/// The side of a line on which a point lies, seen against a coordinate axis: `Greater` to the left of the
+/// direction from `a` to `b`.
 pub(crate) fn turn_along(axis: usize, [a, b]: [DVec3; 2], point: DVec3) -> Ordering {
     let [a, b, point] = [a, b, point].map(|p| coord2(p, axis));
     sign(orient2d(a, b, point))
@@ -90,9 +90,9 @@ pub(crate) fn is_degenerate(triangle: [DVec3; 3]) -> bool {
     Projection::of(triangle).is_none()
 }
 
-/// The same for corners however fine: each axis is first scaled by a power of two until its largest
-/// coordinate is about 1, which changes nothing about it. Exact, unless coordinates along one axis
-/// differ by more than 1e90 times.
+/// Whether a triangle has no area, with coordinates however near to 0. Each axis is first scaled by a power of
+/// two until its largest coordinate is about 1, which does not change the answer. Exact, unless coordinates
+/// along one axis differ by a factor of more than 1e90.
 pub(crate) fn is_without_area(triangle: [DVec3; 3]) -> bool {
     let [a, b, c] = triangle.map(DVec3::abs);
     let scale = DVec3::from_array(a.max(b).max(c).to_array().map(scale_to_one));
@@ -108,7 +108,7 @@ fn scale_to_one(x: f64) -> f64 {
     }
 }
 
-/// The order by x, then y, then z: of points in a plane or on a line, the order along some direction.
+/// Compares points by x, then y, then z. On a plane or a line this is the order along some direction.
 pub(crate) fn lexicographic(p: DVec3, q: DVec3) -> Ordering {
     let by = |x: f64, y: f64| x.partial_cmp(&y).unwrap_or(Ordering::Equal);
     by(p.x, q.x).then(by(p.y, q.y)).then(by(p.z, q.z))
@@ -116,7 +116,7 @@ pub(crate) fn lexicographic(p: DVec3, q: DVec3) -> Ordering {
 
 #[inline]
 fn sign(determinant: f64) -> Ordering {
-    // Coordinates are finite and within bounds, so that the determinant is no NaN.
+    // Coordinates are finite and within bounds, so that the determinant is not NaN.
     determinant.partial_cmp(&0.0).unwrap_or(Ordering::Equal)
 }
 

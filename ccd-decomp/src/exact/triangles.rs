@@ -11,8 +11,8 @@ pub(crate) fn meet(corners: [[u32; 3]; 2], triangles: [[DVec3; 3]; 2]) -> bool {
     let shared = (0..3).filter(|&k| is_shared(0, k)).count();
     match shared {
         0 => triangles_meet(triangles),
-        // Two edges meet the other triangle in the shared corner; if they do elsewhere, too, one of
-        // the far edges does as well.
+        // Two edges meet the other triangle in the shared corner. If they meet it elsewhere, too, so does
+        // one of the far edges.
         1 => [0, 1].into_iter().any(|which| {
             let k = (0..3).find(|&k| is_shared(which, k)).unwrap_or(0);
             let far = [(k + 1) % 3, (k + 2) % 3].map(|k| triangles[which][k]);
@@ -58,14 +58,14 @@ fn meets([p, q]: [DVec3; 2], triangle: [DVec3; 3]) -> bool {
         (Ordering::Equal, Ordering::Equal) => meets_in_plane([p, q], triangle),
         (s, t) if s == t => false,
         _ => {
-            // Of the tetrahedra of the segment with each edge: the crossing is inside of all.
+            // The tetrahedra of the segment with each edge have one orientation if it crosses inside.
             let turns = [(a, b), (b, c), (c, a)].map(|(v, w)| side([p, q, v], w));
             !(turns.contains(&Ordering::Less) && turns.contains(&Ordering::Greater))
         }
     }
 }
 
-/// The same for a segment within the triangle's plane.
+/// Whether a segment in the triangle's plane meets the triangle; touching counts.
 fn meets_in_plane([p, q]: [DVec3; 2], triangle: [DVec3; 3]) -> bool {
     let Some(projection) = Projection::of(triangle) else {
         return true;
@@ -77,24 +77,4 @@ fn meets_in_plane([p, q]: [DVec3; 2], triangle: [DVec3; 3]) -> bool {
     let turns = triangle.map(|x| projection.turn(p, q, x));
     let passes = turns[0] != Ordering::Equal && turns.iter().all(|&t| t == turns[0]);
     !(passes || (0..3).any(outside))
-}
-
-/// 1 where a segment leaves through a triangle, −1 where it enters, 0 where it passes by; none when it
-/// meets the triangle's edge, or ends on it.
-pub(crate) fn crossing([from, to]: [DVec3; 2], triangle: [DVec3; 3]) -> Option<i32> {
-    let [a, b, c] = triangle;
-    let ends = [from, to].map(|p| side(triangle, p));
-    if ends[0] == ends[1] && ends[0] != Ordering::Equal {
-        return Some(0);
-    }
-    let turns = [(a, b), (b, c), (c, a)].map(|(v, w)| side([from, to, v], w));
-    if turns.contains(&Ordering::Less) && turns.contains(&Ordering::Greater) {
-        return Some(0);
-    }
-    match ends {
-        _ if turns.contains(&Ordering::Equal) => None,
-        [Ordering::Less, Ordering::Greater] => Some(1),
-        [Ordering::Greater, Ordering::Less] => Some(-1),
-        _ => None,
-    }
 }

@@ -1,4 +1,4 @@
-//! Convex hulls grown point by point, by exact predicates.
+//! Convex hulls that grow point by point, by exact predicates.
 
 mod conflicts;
 mod few;
@@ -10,7 +10,7 @@ use crate::tolerance::FEW_POINTS;
 use ccd_core::glam::DVec3;
 use std::cmp::Ordering;
 
-/// The hull of some points of a list, as a closed surface of triangles of non-zero area.
+/// The hull of some points of a list, as a closed surface of triangles with an area.
 ///
 /// # Guarantee
 /// Exact: every point that was inserted is inside or on it, and every corner is one of them. Facets are
@@ -21,18 +21,18 @@ pub(crate) struct ExactHull {
     corners: Vec<u32>,
 }
 
-/// What inserting a point changes.
+/// The change of a hull when a point is inserted.
 #[derive(Clone, Debug)]
 pub(crate) struct Growth {
-    /// Which facets the point sees from outside, and which it replaces.
+    /// Whether the point sees a facet from outside, and replaces it; by facet.
     seen: Vec<bool>,
-    /// The new ones about the point.
+    /// The new facets, about the point.
     fan: Vec<[u32; 3]>,
 }
 
 impl ExactHull {
-    /// A convex polygon of strict corners, as two facets' fans back to back: a hull without volume,
-    /// into which only points off the plane may be inserted.
+    /// Makes the hull of a convex polygon of strict corners: two fans back to back. It has no volume, and only
+    /// points off its plane may be inserted.
     pub(crate) fn polygon(corners: &[u32]) -> Self {
         let fan = |k: usize| [corners[0], corners[k], corners[k + 1]];
         let front = (1..corners.len() - 1).map(fan);
@@ -50,12 +50,12 @@ impl ExactHull {
         ExactHull { facets, corners }
     }
 
-    /// The hull of all points; none when they lie in one plane. O(n log n).
+    /// Computes the hull of all points; none when they lie in one plane. O(n log n).
     pub(crate) fn of(points: &[DVec3]) -> Option<Self> {
         ExactHull::facets_of(points).map(ExactHull::with_facets)
     }
 
-    /// The facets of the hull of all points; none when they lie in one plane. O(n log n).
+    /// Computes the facets of the hull of all points; none when they lie in one plane. O(n log n).
     pub(crate) fn facets_of(points: &[DVec3]) -> Option<Vec<[u32; 3]>> {
         let simplex = ExactHull::simplex(points)?;
         Some(match points.len() <= FEW_POINTS {
@@ -64,7 +64,7 @@ impl ExactHull {
         })
     }
 
-    /// A triangle of points, and a point behind it; none when all lie in one plane. O(n).
+    /// Finds a triangle of points, and a point behind it; none when all lie in one plane. O(n).
     fn simplex(points: &[DVec3]) -> Option<[u32; 4]> {
         let at = |k: u32| points[k as usize];
         let rest = 0..points.len() as u32;
@@ -84,12 +84,12 @@ impl ExactHull {
         &self.facets
     }
 
-    /// The corners of the facets, each once, in ascending order but for a polygon's.
+    /// The corners of the facets, each once; in ascending order, except those of a polygon.
     pub(crate) fn corners(&self) -> &[u32] {
         &self.corners
     }
 
-    /// What a point would change; none when it is inside already. O(f log f) in the number of facets.
+    /// Computes the change by a point; none when the point is inside already. O(f log f) in the number of facets.
     pub(crate) fn growth(&self, points: &[DVec3], point: u32) -> Option<Growth> {
         let sees = |&facet: &[u32; 3]| side_of(points, facet, point) == Ordering::Greater;
         let seen: Vec<bool> = self.facets.iter().map(sees).collect();
@@ -101,7 +101,7 @@ impl ExactHull {
             edges.extend([(a, b), (b, c), (c, a)]);
         }
         edges.sort_unstable();
-        // What the point sees has one rim, and strictly turns away from it: no new facet is flat.
+        // The visible part has one rim, and strictly turns away from it: no new facet is flat.
         let rim = edges
             .iter()
             .filter(|(a, b)| edges.binary_search(&(*b, *a)).is_err());
@@ -111,7 +111,7 @@ impl ExactHull {
         })
     }
 
-    /// The box of everything that a growth adds or removes.
+    /// The box of all facets that a growth adds or removes.
     pub(crate) fn changed(&self, points: &[DVec3], growth: &Growth) -> Bounds {
         let removed = self.facets.iter().zip(&growth.seen);
         let removed = removed.filter_map(|(facet, seen)| seen.then_some(facet));
@@ -119,7 +119,7 @@ impl ExactHull {
         Bounds::of(corners.map(|&v| points[v as usize]))
     }
 
-    /// Makes the change.
+    /// Applies a change.
     pub(crate) fn grow(&mut self, growth: Growth) {
         let mut seen = growth.seen.into_iter();
         self.facets.retain(|_| !seen.next().unwrap_or(false));

@@ -1,11 +1,12 @@
-//! Triangles of a convex surface that lie in one plane, as one polygon.
+//! Coplanar triangles of a convex surface, merged into polygons.
 
 use crate::exact::predicates::{Projection, side};
+use crate::half_edges::twins;
 use ccd_core::Loops;
 use ccd_core::glam::DVec3;
 use std::cmp::Ordering;
 
-/// Triangles of a convex surface that fill a convex polygon.
+/// A convex polygon that triangles of a convex surface fill.
 #[derive(Clone, Debug)]
 pub(crate) struct Polygon {
     /// Its strict corners, counter-clockwise seen from outside.
@@ -14,9 +15,9 @@ pub(crate) struct Polygon {
     pub(crate) triangles: Vec<u32>,
 }
 
-/// The convex polygons that a closed convex surface of triangles consists of.
+/// Merges the triangles of a closed convex surface into convex polygons.
 ///
-/// Exact: polygons are in one plane precisely. The two sides of a flat surface are two polygons.
+/// Exact: the corners of a polygon are in one plane precisely. The two sides of a flat surface are two polygons.
 pub(crate) fn polygons(points: &[DVec3], triangles: &[[u32; 3]]) -> Vec<Polygon> {
     let mut polygons = Vec::new();
     for_each_polygon(points, triangles, |corners, group| {
@@ -28,7 +29,7 @@ pub(crate) fn polygons(points: &[DVec3], triangles: &[[u32; 3]]) -> Vec<Polygon>
     polygons
 }
 
-/// The corners alone of the [polygons].
+/// Merges triangles like [polygons], and returns only the corners.
 pub(crate) fn loops(points: &[DVec3], triangles: &[[u32; 3]]) -> Loops {
     let mut loops = Loops::with_capacity(triangles.len(), 3 * triangles.len());
     for_each_polygon(points, triangles, |corners, _| loops.push(corners));
@@ -43,7 +44,7 @@ fn for_each_polygon(
     let surface = Surface::new(points, triangles);
     let group_of = surface.groups();
     let count = group_of.iter().max().map_or(0, |&last| last as usize + 1);
-    // The triangles group by group, each group's in ascending order.
+    // Lists the triangles group by group, each group in ascending order.
     let mut ends = vec![0; count];
     group_of.iter().for_each(|&k| ends[k as usize] += 1);
     let mut end = 0;
@@ -78,7 +79,7 @@ pub(crate) fn strict_corners(points: &[DVec3], rim: &[u32], plane: Projection) -
         .collect()
 }
 
-/// The same loop from its least corner on.
+/// Rotates a loop so that its least corner comes first.
 fn starting_least([a, b, c]: [u32; 3]) -> [u32; 3] {
     match (a < b && a < c, b < c) {
         (true, _) => [a, b, c],
@@ -87,7 +88,7 @@ fn starting_least([a, b, c]: [u32; 3]) -> [u32; 3] {
     }
 }
 
-/// The directed edges of one loop, one after the other, as the loop of their first ends.
+/// Chains the directed edges of one loop, and returns the loop of their first ends.
 fn chained(mut rim: Vec<(u32, u32)>) -> Vec<u32> {
     rim.sort_unstable();
     let Some(&(first, mut at)) = rim.first() else {
@@ -107,38 +108,11 @@ fn chained(mut rim: Vec<(u32, u32)>) -> Vec<u32> {
 struct Surface<'a> {
     points: &'a [DVec3],
     triangles: &'a [[u32; 3]],
-    /// For the edge from corner `k` of triangle `t`, at `3 t + k`, the one edge that runs the other way;
-    /// empty where there is not one of each.
+    /// The opposite of the edge from corner `k` of triangle `t`, at `3 t + k`; empty where an edge does not have
+    /// exactly one opposite.
     pairs: Vec<u32>,
-    /// Where there is not: directed edges, sorted, with the triangle and the place in it that each starts from.
+    /// The directed edges for that case, sorted, each with its triangle and the corner that it starts from.
     edges: Vec<(u32, u32, u32, u8)>,
-}
-
-/// For every edge the one that runs the other way; none unless there is one of each. O(n log n).
-fn pairs(triangles: &[[u32; 3]]) -> Option<Vec<u32>> {
-    let mut edges: Vec<(u64, u32)> = Vec::with_capacity(3 * triangles.len());
-    for (t, &[a, b, c]) in (0..).zip(triangles) {
-        for (k, (v, w)) in (0..).zip([(a, b), (b, c), (c, a)]) {
-            let (low, high) = (v.min(w), v.max(w));
-            edges.push((u64::from(low) << 32 | u64::from(high), 3 * t + k));
-        }
-    }
-    edges.sort_unstable();
-    let start = |edge: u32| triangles[edge as usize / 3][edge as usize % 3];
-    let mut pairs = vec![0; edges.len()];
-    let mut last = None;
-    for pair in edges.chunks(2) {
-        match *pair {
-            [(key, one), (other_key, other)]
-                if key == other_key && last != Some(key) && start(one) != start(other) =>
-            {
-                (pairs[one as usize], pairs[other as usize]) = (other, one);
-                last = Some(key);
-            }
-            _ => return None,
-        }
-    }
-    Some(pairs)
 }
 
 impl<'a> Surface<'a> {
@@ -146,7 +120,7 @@ impl<'a> Surface<'a> {
         let surface = Surface {
             points,
             triangles,
-            pairs: pairs(triangles).unwrap_or_default(),
+            pairs: twins(triangles).unwrap_or_default(),
             edges: Vec::new(),
         };
         match surface.pairs.is_empty() {
@@ -188,8 +162,8 @@ impl<'a> Surface<'a> {
         (corners[k], corners[(k + 1) % 3])
     }
 
-    /// The triangles beyond an edge, and where in each the edge starts; the two sides of a flat surface
-    /// may have edges in common, so that there are two.
+    /// Iterates over the triangles beyond an edge, with the corner at which the edge starts. The two sides of a
+    /// flat surface may have edges in common, so that there may be two.
     fn twins(&self, triangle: usize, k: usize) -> impl Iterator<Item = (usize, usize)> {
         let (a, b) = self.edge(triangle, k);
         let first = self.edges.partition_point(|e| (e.0, e.1) < (b, a));
@@ -202,12 +176,12 @@ impl<'a> Surface<'a> {
             .chain(same.map(|e| (e.2 as usize, e.3 as usize)))
     }
 
-    /// The number of every triangle's group: one plane, one side, connected.
+    /// Numbers the groups of triangles, connected in one plane with one normal: the number by triangle.
     fn groups(&self) -> Vec<u32> {
         const UNSEEN: u32 = u32::MAX;
         let mut group_of = vec![UNSEEN; self.triangles.len()];
         let mut count = 0;
-        // Of pairs what was found of one edge is so of the other.
+        // An edge that ends a group does so from both sides.
         let mut ends_at = vec![false; self.pairs.len()];
         let mut stack = Vec::new();
         for seed in 0..self.triangles.len() {
@@ -235,7 +209,7 @@ impl<'a> Surface<'a> {
         group_of
     }
 
-    /// Whether a triangle's plane goes on in its neighbour, on the same side.
+    /// Whether a neighbour continues a triangle's plane, with the same normal.
     fn goes_on(&self, triangle: usize, next: usize, l: usize) -> bool {
         let corners = self.triangles[triangle].map(|v| self.points[v as usize]);
         let beyond = self.triangles[next].map(|v| self.points[v as usize]);

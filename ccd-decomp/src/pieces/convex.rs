@@ -1,4 +1,4 @@
-//! Solids that are their own convex hull.
+//! Convex solids, which are one polytope.
 
 use crate::hull::polygons::polygons;
 use crate::solid::error::DecomposeError;
@@ -7,15 +7,14 @@ use crate::solid::shells::shells;
 use crate::solid::topology::Edge;
 use ccd_core::{Face, Facet, Origin, Polytope};
 
-/// The polytope that a convex solid is.
+/// Makes the polytope of a convex solid.
 ///
-/// Exact: a closed surface in one part, that nowhere meets itself, bounds a convex solid just when none
-/// of its edges is reflex. About every vertex such a surface is a simple spherical polygon without a
-/// reflex angle, which is convex, and a closed set in one part that is locally convex is convex
-/// `[TIE28]`.
+/// Exact: a closed surface in one part that nowhere meets itself bounds a convex solid if and only if none of its
+/// edges is reflex. About every vertex such a surface is a simple spherical polygon without a reflex angle, which
+/// is convex, and a closed connected set that is locally convex is convex `[TIE28]`.
 ///
 /// # Errors
-/// [`DecomposeError::NotConvex`] with a reflex edge, [`DecomposeError::NotInOnePart`].
+/// [`DecomposeError::NotConvex`] with a reflex edge, [`DecomposeError::NotInOnePart`] with the number of parts.
 pub(crate) fn as_polytope(manifold: &Manifold<'_>) -> Result<Polytope, DecomposeError> {
     if let Some([v, w]) = bad_edge(manifold) {
         let edge = Edge(v.min(w), v.max(w));
@@ -63,7 +62,7 @@ pub(crate) fn as_polytope(manifold: &Manifold<'_>) -> Result<Polytope, Decompose
     Ok(polytope)
 }
 
-/// The ends of the first edge at which the solid's angle is more than half a turn, or none at all.
+/// Finds the first edge at which the solid has no convex or flat angle.
 fn bad_edge(manifold: &Manifold<'_>) -> Option<[u32; 2]> {
     let is_bad = |&h: &u32| matches!(manifold.dihedral(h), Dihedral::Reflex | Dihedral::Folded);
     (0..3 * manifold.faces().len() as u32)

@@ -1,4 +1,4 @@
-//! Convex surface decomposition: a closed mesh as patches whose hulls lie inside the solid.
+//! Convex surface decomposition: a closed mesh becomes patches whose hulls lie inside the solid.
 
 mod growing_patch;
 mod obstacle;
@@ -19,18 +19,18 @@ use crate::work::Work;
 use growing_patch::{GrowingPatch, Join};
 use order::{Frontier, seeds};
 
-/// A mesh's surface in convex patches.
+/// The surface of a mesh in convex patches.
 #[derive(Clone, Debug)]
 pub struct Decomposition {
-    /// Every triangle of the mesh is in exactly one.
+    /// The patches. Every triangle of the mesh is in exactly one.
     pub patches: Vec<Patch>,
 }
 
 /// Decomposes the surface of a solid into convex patches `[FAST06 §3.3]` `[SWIFT01]`.
 ///
-/// A patch grows over edges that are not reflex. A polygon joins when it and the patch's polygons stay
-/// on the boundary of their common hull, and that hull stays within the solid. A convex solid is one
-/// patch; others grow to a size that oracles are fast on.
+/// A patch grows over edges that are not reflex. A polygon joins when it and the patch's polygons stay on the
+/// boundary of their common hull, and that hull stays within the solid. A convex solid becomes one patch; other
+/// patches grow to a size for which oracles are fast.
 ///
 /// # Guarantee
 /// Exact, by adaptive predicates on the mesh's own coordinates: the hull of every patch lies inside the
@@ -38,7 +38,7 @@ pub struct Decomposition {
 /// hull. The same mesh and order give the same patches. No tolerance, no change of the mesh.
 ///
 /// # Errors
-/// [`DecomposeError`] when the mesh does not bound a solid, naming the elements that spoil it.
+/// [`DecomposeError`] when the mesh does not bound a solid. It names the faulty elements.
 ///
 /// # Complexity
 /// O(n log n) in the number of triangles where few of them are near each other.
@@ -55,10 +55,10 @@ pub fn decompose(mesh: &TriangleMesh, order: Order) -> Result<Decomposition, Dec
     decompose_flats(&manifold, &Flats::new(&manifold), order, &Work::unbounded())
 }
 
-/// The same of a surface that is known to bound a solid, and its polygons.
+/// Decomposes a surface that is known to bound a solid, given its polygons.
 ///
 /// # Errors
-/// [`DecomposeError::TooLong`].
+/// [`DecomposeError::TooLong`] when the work does not suffice.
 pub(crate) fn decompose_flats(
     manifold: &Manifold<'_>,
     flats: &Flats,
@@ -96,8 +96,8 @@ struct Grower<'a, 'm> {
     work: &'a Work,
     /// Polygons that belong to a patch.
     taken: Vec<bool>,
-    /// The last patch that each polygon was tried for: what was refused once always will be, as the hull
-    /// only grows.
+    /// The last patch that each polygon was tried for. A polygon that was refused once always will be, because the
+    /// hull only grows.
     tried: Vec<u32>,
 }
 
@@ -107,10 +107,10 @@ impl Grower<'_, '_> {
         self.taken[seed as usize] = true;
         let mut frontier = Frontier::new(self.order);
         self.reach(&mut frontier, seed);
-        // A flat patch takes no polygon of its own plane: their union need not be convex. Once it has
-        // got volume they are tried again.
+        // A flat patch takes no polygon of its own plane, because their union need not be convex. Once it has
+        // volume, these polygons are tried again.
         let mut in_plane = Vec::new();
-        // Polygons are put there when another one joins, and each joins once.
+        // Polygons are pushed when another one joins, and each joins once.
         while let Some(next) = frontier.pop() {
             let tried = &mut self.tried[next as usize];
             if self.taken[next as usize] || *tried == patch || region.len() >= PATCH_POLYGONS {
@@ -134,7 +134,7 @@ impl Grower<'_, '_> {
         region
     }
 
-    /// Puts the neighbours of a polygon on the frontier, but for those beyond reflex edges.
+    /// Puts the neighbours of a polygon on the frontier, except those beyond reflex edges.
     fn reach(&self, frontier: &mut Frontier, flat: u32) {
         for &edge in &self.flats.get(flat).rim {
             if self.manifold.dihedral(edge) != Dihedral::Reflex {

@@ -1,12 +1,12 @@
-//! A few convex hulls in place of a mesh: approximate, with errors that are certified on both sides.
+//! Approximation of a mesh by a few convex hulls, with errors that are certified on both sides.
 //!
 //! ```text
 //! mesh ─ voxels.rs ─ labels.rs (the library's V-HACD) ─ cover.rs ─ merge.rs ─► hulls ─ excess.rs ─► errors
 //! ```
 //!
-//! The library only says which voxel belongs to which part `[MAM16]`. Its hulls are not used, because
-//! they neither contain the mesh nor say by how much they miss it: each hull is made anew, of all that
-//! the solid has in the voxels of its part.
+//! The library only assigns voxels to parts `[MAM16]`. Its hulls are not used, because they do not contain the
+//! mesh, and the library does not bound by how much they miss it. Each hull is computed anew, about everything
+//! that the solid has in the voxels of its part.
 
 mod cover;
 mod excess;
@@ -33,32 +33,32 @@ use voxels::Voxels;
 /// Hulls that together cover a solid, or a surface if the mesh is open.
 ///
 /// # Guarantee
-/// With S for the solid (the points about which the mesh winds) and its surface, or for the surface
-/// alone if the mesh is open: every point of S is within `uncovered` of a hull's points, and within a
-/// polytope, whose radius that is. No point of a polytope is farther than `sticks_out` from S.
+/// Let S be the solid (the points about which the mesh winds) with its surface, or the surface alone if the mesh
+/// is open. Every point of S is within `uncovered` of the hull of a polytope's points, and therefore within that
+/// polytope, whose radius this is. No point of a polytope is farther than `sticks_out` from S.
 #[derive(Clone, Debug)]
 pub(crate) struct Approximation {
-    /// At most as many as asked for. Their facets are no part of the mesh.
+    /// The hulls, at most as many as asked for. Their facets are no part of the mesh.
     pub(crate) polytopes: Vec<Polytope>,
-    /// How far S sticks out of the hulls at most: the radius of every polytope, in the mesh's unit of
-    /// length. It is what rounding may have cost.
+    /// A bound on how far rounding may let S stick out of the hulls. It is the radius of every polytope, in the
+    /// mesh's unit of length.
     pub(crate) uncovered: f64,
-    /// How many of them the library got wrong, so that they were computed exactly.
+    /// The number of hulls that the library got wrong, and that were computed exactly instead.
     pub(crate) rebuilt: usize,
-    /// How far the polytopes stick out of S at most, in the mesh's unit of length.
+    /// A bound on how far the polytopes stick out of S, in the mesh's unit of length.
     pub(crate) sticks_out: f64,
 }
 
-/// Why a mesh cannot be approximated.
+/// The reason why a mesh cannot be approximated.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum VhacdError {
     /// No hulls were asked for.
     #[error("a mesh cannot be approximated by no hulls")]
     NoHulls,
-    /// A coordinate is so near to 0 that predicates are not exact.
+    /// A coordinate is too near to 0 for exact predicates.
     #[error("vertex {vertex} has a coordinate that is too near to 0 for exact predicates")]
     TooFine {
-        /// Its number in the mesh.
+        /// The vertex, by its number in the mesh.
         vertex: u32,
     },
     /// The library failed on the mesh's voxels.
@@ -67,7 +67,7 @@ pub enum VhacdError {
     /// A part's hull could not be computed.
     #[error("the hull of a part failed: {0}")]
     Hull(HullError),
-    /// The hulls may stick out by so much that they say little.
+    /// The bound on how far the hulls stick out is too large to be useful.
     #[error(
         "the hulls may stick out by {sticks_out:.3e}, more than {limit:.3e}, a quarter of the \
          diagonal; mend the mesh, or use triangles"
@@ -75,19 +75,19 @@ pub enum VhacdError {
     TooCoarse {
         /// The certified bound.
         sticks_out: f64,
-        /// What would be accepted, in the mesh's unit of length.
+        /// The largest accepted bound, in the mesh's unit of length.
         limit: f64,
     },
 }
 
-/// Approximates a mesh by so many hulls or fewer: a convex solid by one, and a mesh that no grid of voxels
-/// suits, because its triangles are large and many or its coordinates hardly differ.
+/// Approximates a mesh by a number of hulls or fewer. One hull is used for a convex solid, and for a mesh that no
+/// grid of voxels suits, because its triangles are large and many or its coordinates hardly differ.
 ///
 /// # Errors
-/// See [`VhacdError`].
+/// [`VhacdError`] when no hulls are asked for, or none can be certified.
 ///
 /// # Complexity
-/// Parts: the library's, O(r³) in the resolution. Errors: a branch and bound of about
+/// The library takes O(r³) in the resolution r. The bound on the errors takes a branch and bound of about
 /// [`tolerance::EXCESS_WORK`] steps.
 pub(crate) fn approximate(
     mesh: &TriangleMesh,
@@ -144,7 +144,7 @@ pub(crate) fn approximate(
     })
 }
 
-/// Whether the mesh is known to be a convex solid, so that its hull has no error.
+/// Whether the mesh is known to be a convex solid, whose hull has no error.
 fn is_convex(mesh: &TriangleMesh, topology: &Topology) -> bool {
     let manifold = Manifold::unchecked(mesh, topology);
     manifold.is_ok_and(|manifold| is_star_shaped(&manifold) && as_polytope(&manifold).is_ok())

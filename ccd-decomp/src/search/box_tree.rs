@@ -1,4 +1,4 @@
-//! Parts of triangles in a tree of boxes that lie as the parts do.
+//! Binary trees of boxes that are oriented like the triangles in them.
 
 use super::element::Element;
 use super::oriented_box::OrientedBox;
@@ -12,27 +12,40 @@ use ccd_core::order::greater;
 use std::cell::{Cell, OnceCell};
 use std::ops::Range;
 
-/// Parts in a binary tree.
-pub(super) struct BoxTree {
+/// A binary tree of boxes over elements.
+pub(crate) struct BoxTree {
     pub(super) elements: Vec<Element>,
-    /// Every node before those below it.
+    /// The nodes, each before those below it.
     nodes: Vec<Node>,
 }
 
 struct Node {
     bounds: Bounds,
     oriented: OrientedBox,
-    /// The parts of a leaf; none of an inner node.
+    /// The elements of a leaf; none of an inner node.
     elements: Range<u32>,
-    /// How many nodes are below it, with itself.
+    /// The number of nodes of the subtree, with the node itself.
     count: u32,
 }
 
-/// The most parts of a leaf.
+/// The most elements of a leaf.
 const LEAF: usize = 2;
 
 impl BoxTree {
-    /// O(n log n).
+    /// Builds the tree over some triangles. O(n log n).
+    pub(crate) fn of_faces(
+        points: &[DVec3],
+        faces: &[[u32; 3]],
+        some: impl IntoIterator<Item = u32>,
+    ) -> Self {
+        let element = |face: u32| Element {
+            corners: faces[face as usize].map(|v| points[v as usize]),
+            face,
+        };
+        BoxTree::new(some.into_iter().map(element).collect())
+    }
+
+    /// Builds the tree. O(n log n).
     pub(super) fn new(mut elements: Vec<Element>) -> Self {
         let mut nodes = Vec::with_capacity(2 * elements.len());
         if !elements.is_empty() {
@@ -41,20 +54,20 @@ impl BoxTree {
         BoxTree { elements, nodes }
     }
 
-    /// The smallest box along the coordinate axes that holds all; none of nothing.
+    /// The smallest box along the coordinate axes that holds all elements; none without elements.
     pub(super) fn bounds(&self) -> Option<Bounds> {
         self.nodes.first().map(|node| node.bounds)
     }
 
-    /// Calls back with the faces of all parts that may meet a region, and some that do not, until the answer
-    /// is no, or the work is spent.
-    pub(super) fn all_meeting(
+    /// Calls back with the faces of all elements that may meet a region, and some that do not, until the answer is
+    /// no, or the work is spent.
+    pub(crate) fn all_meeting(
         &self,
         region: &Region,
         work: &Work,
         holds: impl FnMut(u32) -> bool,
     ) -> bool {
-        // Only where boxes along the coordinate axes leave too many.
+        // Only where boxes along the coordinate axes leave too many elements.
         let (met, apart) = (Cell::new(0), OnceCell::new());
         let is_far = |bounds: &Bounds, oriented: &OrientedBox| {
             if !bounds.meets(region.bounds()) {
@@ -69,8 +82,8 @@ impl BoxTree {
         self.all_but(is_far, work, holds)
     }
 
-    /// Calls back with the faces of all parts but those in boxes that are far, until the answer is no,
-    /// or the work is spent.
+    /// Calls back with the faces of all elements, except those in boxes that are far, until the answer is no, or
+    /// the work is spent.
     pub(super) fn all_but(
         &self,
         is_far: impl Fn(&Bounds, &OrientedBox) -> bool,
@@ -80,7 +93,8 @@ impl BoxTree {
         self.all_elements_but(is_far, work, |element| holds(element.face))
     }
 
-    /// The same with the parts themselves.
+    /// Calls back with all elements, except those in boxes that are far, until the answer is no, or the work is
+    /// spent.
     pub(super) fn all_elements_but(
         &self,
         is_far: impl Fn(&Bounds, &OrientedBox) -> bool,
@@ -106,7 +120,7 @@ impl BoxTree {
         true
     }
 
-    /// The parts of a leaf, or the two nodes below an inner one.
+    /// The elements of a leaf, or the two nodes below an inner one.
     pub(super) fn below(&self, at: usize) -> (&[Element], Option<[usize; 2]>) {
         let Some(node) = self.nodes.get(at) else {
             return (&[], None);
@@ -119,19 +133,19 @@ impl BoxTree {
         (elements, below)
     }
 
-    /// At most the distance of a point from what is in a node, up to rounding.
+    /// A lower bound, up to rounding, on the distance of a point from the elements of a node.
     pub(super) fn distance(&self, at: usize, point: DVec3) -> f64 {
         let node = &self.nodes[at];
         greater(node.bounds.distance(point), node.oriented.distance(point))
     }
 }
 
-/// More parts than this are shared between the cores.
+/// The number of elements above which subtrees are built in parallel.
 const SHARED: usize = 4096;
 
-/// Adds the nodes over some parts, which are put in order and of which the first has this number.
+/// Adds the nodes over some elements, and sorts the elements; `first` is the number of the first one.
 ///
-/// Halves the count each time, so that it is at most as deep as a count has bits.
+/// Halves the count each time, so that the recursion is at most as deep as a count has bits.
 fn build(nodes: &mut Vec<Node>, elements: &mut [Element], first: usize) {
     let oriented = OrientedBox::about(elements);
     let at = nodes.len();

@@ -1,9 +1,9 @@
-//! What is searched of a face.
+//! The elements of box trees.
 
 use crate::bounds::Bounds;
 use ccd_core::glam::DVec3;
 
-/// What is searched of a face: all of it, or one edge, of which an end is there twice.
+/// An element of a box tree: a whole face, or one edge of it, as a triangle with a repeated corner.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Element {
     pub(super) corners: [DVec3; 3],

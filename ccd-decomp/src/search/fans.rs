@@ -1,4 +1,4 @@
-//! Many triangles about one vertex.
+//! Large fans: many triangles about one vertex.
 
 use super::box_tree::BoxTree;
 use super::element::Element;
@@ -12,15 +12,15 @@ use crate::work::Work;
 use ccd_core::glam::DVec3;
 use std::cmp::Ordering;
 
-/// Triangles that have one vertex, the hub, in common: searched by the edges across from it.
+/// Triangles with one vertex, the hub, in common. They are searched by their edges opposite to it.
 pub(super) struct Fan {
     hub: DVec3,
     rim: BoxTree,
-    /// A triangle of those that are in its plane, all of them.
+    /// One of the triangles, if all of them are in its plane.
     plane: Option<[DVec3; 3]>,
 }
 
-/// The faces that are in no large fan, and the large fans; each face is in one at most.
+/// Splits faces into those in no large fan, and the large fans. Each face is in one fan at most.
 pub(super) fn split(points: &[DVec3], faces: &[[u32; 3]]) -> (Vec<u32>, Vec<Fan>) {
     let mut count = vec![0; points.len()];
     for &v in faces.iter().flatten() {
@@ -45,7 +45,7 @@ pub(super) fn split(points: &[DVec3], faces: &[[u32; 3]]) -> (Vec<u32>, Vec<Fan>
 }
 
 impl Fan {
-    /// Where most faces are in one plane, without the others.
+    /// Makes a fan. Where most faces are in one plane, it leaves out the others, and returns them.
     fn new(points: &[DVec3], faces: &[[u32; 3]], members: &[(u32, u32)]) -> (Self, Vec<u32>) {
         let number = members[0].0;
         let hub = points[number as usize];
@@ -76,7 +76,7 @@ impl Fan {
         (fan, others)
     }
 
-    /// Whether it is in a plane that has a hull on one side: none of it reaches inside.
+    /// Whether the fan is in a plane that has a hull on one side, so that none of it reaches inside.
     fn is_beside(&self, hull: &Hull) -> bool {
         self.plane.is_some_and(|plane| {
             let sides = hull.corners.iter().map(|&corner| side(plane, corner));
@@ -86,7 +86,7 @@ impl Fan {
         })
     }
 
-    /// Whether a triangle that the hub is no corner of is in the plane of all.
+    /// Whether a triangle is in the plane of the fan, and the hub is none of its corners.
     fn has_beside_hub(&self, corners: &[DVec3; 3]) -> bool {
         let level = |plane: [DVec3; 3]| {
             let mut sides = corners.iter().map(|&corner| side(plane, corner));
@@ -100,7 +100,8 @@ impl Fan {
         self.rim.bounds().map_or(hub, |rim| rim.union(hub))
     }
 
-    /// As [`TriangleBoxes::all_meeting`](super::TriangleBoxes::all_meeting).
+    /// Calls back with the triangles that may meet a shape: a part of
+    /// [`TriangleBoxes::all_meeting`](super::TriangleBoxes::all_meeting).
     pub(super) fn all_meeting(
         &self,
         shape: &Shape,

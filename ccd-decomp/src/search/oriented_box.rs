@@ -1,4 +1,4 @@
-//! A box that lies as what is in it does.
+//! Oriented boxes, which have axes of their own.
 
 use super::element::Element;
 use crate::tolerance::box_rounding;
@@ -7,9 +7,8 @@ use ccd_core::order::{greater, lesser};
 use ccd_core::tolerance::U64;
 use ccd_core::vector::unit;
 
-/// A box along axes of its own: the centre, and at most so much along each of them, and the slack along
-/// the coordinate axes. The slack makes up for all rounding, and for axes that are not quite at right
-/// angles or of unit length.
+/// A box along axes of its own: a centre, half a length along each axis, and a slack along the coordinate axes.
+/// The slack covers all rounding, and axes that are not quite at right angles or of unit length.
 pub(super) struct OrientedBox {
     pub(super) centre: DVec3,
     pub(super) axes: [DVec3; 3],
@@ -20,7 +19,8 @@ pub(super) struct OrientedBox {
 }
 
 impl OrientedBox {
-    /// Along the longest side of some parts, and across to the corner that is farthest from the middle.
+    /// Makes the box about some elements: along the longest side, and across to the corner that is farthest from
+    /// the middle.
     pub(super) fn about(elements: &[Element]) -> Self {
         let corners = || elements.iter().flat_map(|element| element.corners);
         let centre = corners().sum::<DVec3>() / (3 * elements.len()) as f64;
@@ -56,8 +56,8 @@ impl OrientedBox {
         }
     }
 
-    /// The axis along which the middles of some parts are spread most: teeth stand side by side, however
-    /// long they are.
+    /// The axis along which the middles of some elements are spread most: teeth stand side by side, however long
+    /// they are.
     pub(super) fn widest(&self, elements: &[Element]) -> DVec3 {
         let (mut lo, mut hi) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         for element in elements {
@@ -68,21 +68,21 @@ impl OrientedBox {
         self.axes[(hi - lo).max_position()]
     }
 
-    /// A length that no point of it is farther from the centre along a vector than, times the vector's.
+    /// A bound on the dot product of a vector with the way from the centre to any point of the box.
     #[inline]
     pub(super) fn depth(&self, vector: DVec3) -> f64 {
         let along = along_each(&self.axes, vector).abs();
         along.dot(self.halves) + vector.abs().element_sum() * self.slack
     }
 
-    /// At most the distance of a point from what is in it, up to rounding; negative inside. Of each axis by
-    /// itself, as they need not be at right angles.
+    /// A lower bound, up to rounding, on the distance of a point from the box; negative inside. Takes each axis
+    /// separately, because they need not be at right angles.
     pub(super) fn distance(&self, point: DVec3) -> f64 {
         let along = along_each(&self.axes, point - self.centre).abs();
         (along - self.halves).max_element() - 2.0 * self.slack
     }
 
-    /// Whether one of its own axes certainly has it on one side, and all of some points on the other.
+    /// Whether one of its axes certainly separates the box from all of some points.
     pub(super) fn is_beside(&self, points: &[DVec3]) -> bool {
         let reach = points.iter().map(|p| p.abs().max_element());
         let reach = reach.fold(self.reach, greater);
@@ -96,13 +96,13 @@ impl OrientedBox {
     }
 }
 
-/// How far a vector goes along each of some axes.
+/// Computes the dot products of a vector with three axes.
 #[inline]
 fn along_each(axes: &[DVec3; 3], way: DVec3) -> DVec3 {
     DVec3::new(axes[0].dot(way), axes[1].dot(way), axes[2].dot(way))
 }
 
-/// A direction, and how far a shape goes along it both ways.
+/// The interval that a shape covers along a direction.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Extent {
     base: DVec3,
@@ -113,7 +113,7 @@ pub(super) struct Extent {
 }
 
 impl Extent {
-    /// Of some points along a unit vector.
+    /// Computes the interval of some points along a unit vector.
     pub(super) fn of(points: &[DVec3], direction: DVec3) -> Self {
         let base = points[0];
         let none = (f64::INFINITY, f64::NEG_INFINITY, 0.0);
@@ -134,7 +134,7 @@ impl Extent {
         }
     }
 
-    /// Whether all of a box is certainly before the shape, or after it.
+    /// Whether a box is certainly before the shape, or after it.
     pub(super) fn misses(&self, oriented: &OrientedBox) -> bool {
         let along = self.direction.dot(oriented.centre - self.base);
         let reach = greater(self.reach, oriented.reach);

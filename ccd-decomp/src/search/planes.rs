@@ -1,4 +1,4 @@
-//! Planes that have a shape on one side, to tell what is on the other.
+//! Planes with a shape on one side, which prove that boxes are on the other.
 
 use super::oriented_box::{Extent, OrientedBox};
 use super::region::{Hull, Shape};
@@ -14,7 +14,7 @@ pub(super) struct Plane {
     foot: DVec3,
     normal: DVec3,
     far: f64,
-    /// What heights may be off by, for every unit of the reach.
+    /// A bound on the rounding error of heights, for every unit of the reach.
     rounding: f64,
 }
 
@@ -24,7 +24,7 @@ impl Plane {
             foot,
             normal: u.cross(v),
             far: foot.abs().max_element(),
-            // Twice, as there are three axes to go along.
+            // Twice, because there are three axes.
             rounding: 2.0 * height_rounding([u, v], 1.0),
         }
     }
@@ -33,7 +33,7 @@ impl Plane {
         Plane::new(a, [b - a, c - a])
     }
 
-    /// Whether all of a box is certainly in front.
+    /// Whether a box is certainly in front.
     #[inline]
     pub(super) fn has_in_front(&self, oriented: &OrientedBox) -> bool {
         let way = oriented.centre - self.foot;
@@ -44,11 +44,11 @@ impl Plane {
     }
 }
 
-/// How many facets of a hull are held against a box.
+/// The number of facets of a hull that boxes are tested with.
 const PLANES: usize = 16;
 
-/// Planes that have all of a shape behind or in them, and a hub in front or in them: exactly. A triangle
-/// of the hub and an edge in front of one of them has no point in common with the shape but the hub.
+/// Finds planes that exactly have all of a shape behind or in them, and a hub in front or in them. A triangle of
+/// the hub and an edge in front of such a plane shares no point with the shape, except the hub.
 pub(super) fn planes_beside(shape: &Shape, hub: DVec3) -> Vec<Plane> {
     match shape {
         Shape::Segment([p, q]) => vec![Plane::of([hub, *p, *q]), Plane::of([hub, *q, *p])],
@@ -59,7 +59,7 @@ pub(super) fn planes_beside(shape: &Shape, hub: DVec3) -> Vec<Plane> {
         }
         Shape::Triangle(corners) => {
             let mut planes = Vec::new();
-            // A hub amid the triangle is a point in common, whatever is in front.
+            // A hub within the triangle is a common point, whatever is in front.
             if !corners.contains(&hub) && holds(*corners, hub) {
                 return planes;
             }
@@ -82,7 +82,7 @@ pub(super) fn planes_beside(shape: &Shape, hub: DVec3) -> Vec<Plane> {
     }
 }
 
-/// What tells boxes that are certainly apart from a shape.
+/// Tests that prove that a box is apart from a shape.
 pub(super) struct Apart<'a> {
     points: &'a [DVec3],
     extents: Vec<Extent>,
@@ -117,7 +117,7 @@ impl<'a> Apart<'a> {
     }
 }
 
-/// How far a triangle goes along its normal, and in its plane across its sides.
+/// Computes the extents of a triangle along its normal, and in its plane across its sides.
 fn extents(corners: &[DVec3; 3]) -> Vec<Extent> {
     let [a, b, c] = *corners;
     let sides = [b - a, c - b, a - c].map(|side| unit(side).unwrap_or(DVec3::ZERO));
@@ -129,9 +129,8 @@ fn extents(corners: &[DVec3; 3]) -> Vec<Extent> {
         .collect()
 }
 
-/// The same for a triangle in one plane with the hub and all about it, which the planes of the hub and an
-/// edge do not tell apart: planes upright on the coordinate planes, through the hub and a corner, and
-/// along the edges.
+/// Finds such planes for a triangle in one plane with the whole fan, where the planes of the hub and an edge prove
+/// nothing: planes upright on the coordinate planes, through the hub and a corner, and along the edges.
 pub(super) fn planes_within(corners: &[DVec3; 3], hub: DVec3) -> Vec<Plane> {
     let mut planes = Vec::new();
     if holds(*corners, hub) {
@@ -145,7 +144,7 @@ pub(super) fn planes_within(corners: &[DVec3; 3], hub: DVec3) -> Vec<Plane> {
     planes
 }
 
-/// The upright planes along a line that have some points behind or in them, and the hub in front or in
+/// Adds the upright planes along a line that have some points behind or in them, and the hub in front or in
 /// them.
 fn upright(planes: &mut Vec<Plane>, [p, q]: [DVec3; 2], behind: &[DVec3], hub: DVec3) {
     for (axis, up) in DVec3::AXES.into_iter().enumerate() {
@@ -169,7 +168,7 @@ fn holds(triangle: [DVec3; 3], point: DVec3) -> bool {
     side(triangle, point) == Ordering::Equal && Projection::of(triangle).is_none_or(within)
 }
 
-/// The plane of the hub and an edge, the rest of the triangle behind it.
+/// Adds the plane of the hub and an edge, if the rest of the triangle is behind it.
 fn through(planes: &mut Vec<Plane>, hub: DVec3, [p, q]: [DVec3; 2], rest: DVec3) {
     for plane in [[hub, p, q], [hub, q, p]] {
         if side(plane, rest) != Ordering::Greater {

@@ -1,9 +1,9 @@
 use super::*;
 use crate::bounds::Bounds;
 use crate::exact::predicates::{is_degenerate, side};
-use crate::exact::triangles::{crossing, triangles_meet};
+use crate::exact::rays::crossing;
+use crate::exact::triangles::triangles_meet;
 use crate::hull::exact_hull::ExactHull;
-use crate::search::nearest::NearestTriangles;
 use crate::test_meshes::star;
 use parry3d_f64::math::Vector;
 use parry3d_f64::query::PointQuery;
@@ -170,7 +170,7 @@ fn the_nearest_triangle_is_found() {
     let (mut met, mut missed) = (0, 0);
     for _ in 0..40 {
         let ((points, faces), probes) = given.new_tree(&mut runner).unwrap().current();
-        let search = NearestTriangles::new(&points, &faces);
+        let search = BoxTree::of_faces(&points, &faces, 0..faces.len() as u32);
         let at = |face: &[u32; 3]| face.map(|v| points[v as usize]);
         for [p, q] in probes {
             let point = 2.0 * p;
@@ -181,7 +181,7 @@ fn the_nearest_triangle_is_found() {
             };
             let all = faces.iter().map(|face| distance(at(face)));
             let least = all.fold(f64::INFINITY, ccd_core::order::lesser);
-            let (face, found) = search.to(point, &Work::unbounded(), distance).unwrap();
+            let (face, found) = search.nearest(point, &Work::unbounded(), distance).unwrap();
             assert_eq!(distance(at(&faces[face as usize])), found);
             assert!(found <= least + 1e-12, "{found} {least}");
             let bounds = Bounds::of([p, q]);

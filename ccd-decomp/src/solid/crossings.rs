@@ -1,4 +1,4 @@
-//! Faces of a mesh that meet where they share nothing.
+//! Pairs of faces of a mesh that meet where they share nothing.
 
 mod plates;
 
@@ -9,11 +9,11 @@ use crate::tolerance::CROSSINGS;
 use crate::work::{OutOfWork, Work};
 use plates::Plates;
 
-/// The pairs of faces that meet where they share nothing, touching or crossing: all, or as many as are
-/// [counted](CROSSINGS).
+/// Finds the pairs of faces that meet where they share nothing, touching or crossing: all, or the first
+/// [thousand](CROSSINGS).
 ///
 /// # Errors
-/// [`OutOfWork`].
+/// [`OutOfWork`] when the work does not suffice.
 pub(crate) fn crossings(
     manifold: &Manifold<'_>,
     work: &Work,
@@ -43,7 +43,7 @@ pub(crate) fn crossings(
     Ok(found)
 }
 
-/// Predicates that a pair takes, about.
+/// The number of predicates that a pair takes, about.
 const PAIR: usize = 4;
 
 /// Whether two triangles meet elsewhere than in the corners they share.

@@ -1,4 +1,4 @@
-//! What can be wrong with a mesh that is to bound a solid.
+//! Errors of a mesh that is to bound a solid.
 
 use super::topology::{Edge, Topology};
 use crate::tally::Tally;
@@ -7,27 +7,27 @@ use ccd_core::tolerance::LEAST_COORDINATE;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// Why a mesh cannot be decomposed exactly: it does not bound a solid. Faces, edges and vertices by
-/// their numbers in the file.
+/// The reason why a mesh cannot be decomposed exactly: it does not bound a solid, or not a convex one. Faces,
+/// edges and vertices have their numbers in the file.
 #[derive(Clone, Debug, PartialEq, thiserror::Error, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum DecomposeError {
-    /// Its edges do not have one face on either side.
+    /// An edge does not have one face on either side.
     #[error("{topology}; {}, or use triangles", .topology.advice())]
     NotManifold {
-        /// Which edges.
+        /// The edges, by kind.
         topology: Box<Topology>,
     },
-    /// Faces without area have no inner side.
+    /// Faces have no area, and therefore no inner side.
     #[error("faces without area: {faces}; remove them, or use triangles")]
     NoArea {
         /// The faces.
         faces: Tally<u32>,
     },
-    /// Faces meet that share no vertex or edge there.
+    /// Faces meet elsewhere than in a vertex or edge that they share.
     #[error("faces that intersect: {pairs}; mend them, or use triangles")]
     SelfIntersecting {
-        /// The pairs of faces, a thousand at most: there may be more.
+        /// The pairs of faces; counting ends at a thousand.
         pairs: Tally<Crossing>,
     },
     /// The solid is in front of a face, not behind it.
@@ -36,14 +36,14 @@ pub enum DecomposeError {
         /// A face of the part.
         face: u32,
     },
-    /// A part's volume is too small to tell its inside.
+    /// The volume of a part is too small to decide on which side its inside is.
     #[error("the part with face {face} holds no volume to speak of; use triangles")]
     NoVolume {
         /// A face of the part.
         face: u32,
     },
-    /// Every corner that was looked at is one of another part, too, so that what surrounds the part
-    /// cannot be told.
+    /// Every corner that was tried is a corner of another part, too, so that the surroundings of the part are
+    /// unknown.
     #[error(
         "the part with face {face} touches other parts at its corners; take the parts for themselves, or use triangles"
     )]
@@ -51,19 +51,19 @@ pub enum DecomposeError {
         /// A face of the part.
         face: u32,
     },
-    /// It is not convex.
+    /// The solid is not convex.
     #[error("not convex at {edge}; use patches or triangles")]
     NotConvex {
         /// An edge at which the solid's angle is more than half a turn.
         edge: Edge,
     },
-    /// It is not convex, as it is not in one part.
+    /// The solid is in several parts, and therefore not convex.
     #[error("{parts} parts, each of which may be convex; use patches or triangles")]
     NotInOnePart {
-        /// How many parts.
+        /// The number of parts.
         parts: u32,
     },
-    /// Only as much may be spent as was allowed for, and that did not suffice to tell.
+    /// The budget of work did not suffice to decide.
     #[error("use patches or a hull to have them however long it takes, or triangles")]
     TooLong,
     /// A coordinate is too near to 0 for exact computations.

@@ -1,18 +1,19 @@
-//! Triangles of a mesh that lie in one plane, merged into convex polygons.
+//! Coplanar triangles of a mesh, merged into convex polygons.
 
-use super::manifold::{Dihedral, HalfEdge, Manifold};
+use super::manifold::{Dihedral, Manifold};
 use crate::disjoint_sets::DisjointSets;
 use crate::exact::predicates::Projection;
+use crate::half_edges::HalfEdge;
 use crate::hull::polygons::strict_corners;
 use crate::tolerance::{DIRECTIONS, LENGTHS};
 use ccd_core::glam::DVec3;
 use ccd_core::vector::{length, unit};
 use std::cmp::{Ordering, Reverse};
 
-/// The faces of a mesh, in groups that each are a convex polygon.
+/// The faces of a mesh, in groups that are convex polygons.
 pub(crate) struct Flats {
     flats: Vec<Flat>,
-    /// By face.
+    /// The number of the polygon, by face.
     flat_of: Vec<u32>,
 }
 
@@ -23,17 +24,16 @@ pub(crate) struct Flat {
     pub(crate) faces: Vec<u32>,
     /// The half-edges around it, counter-clockwise.
     pub(crate) rim: Vec<HalfEdge>,
-    /// Where the rim turns: the polygon's corners.
+    /// The polygon's corners: the vertices at which the rim turns.
     pub(crate) corners: Vec<u32>,
 }
 
 impl Flats {
     /// Merges neighbours as long as their union is convex, those with the longest common edge first:
-    /// a diagonal that may be left out goes before an edge of the outline `[HM83]`.
+    /// a diagonal is removed before an edge of the outline `[HM83]`.
     ///
-    /// Takes a manifold whose triangles may meet each other, too: what is merged lies on either side of
-    /// the line that is left out, so that every group is a convex polygon, once covered, whatever the
-    /// rest of the mesh does.
+    /// The triangles of the manifold may meet each other: two merged polygons lie on either side of the removed
+    /// line, so that every group is a convex polygon, covered once, whatever the rest of the mesh does.
     pub(crate) fn new(manifold: &Manifold<'_>) -> Self {
         let mut merger = Merger::new(manifold);
         let mut edges = merger.flat_edges();
@@ -63,8 +63,8 @@ impl Flats {
     }
 }
 
-/// Regions that grow together. Two convex ones that do not overlap have a single stretch of edges in
-/// common, so that what the union looks like is told at its two ends.
+/// Regions that grow together. Two convex ones that do not overlap have a single stretch of edges in common, so
+/// that the union is convex if it is at the two ends of the stretch.
 struct Merger<'a, 'm> {
     manifold: &'a Manifold<'m>,
     /// The half-edges after and before each one on the rim of its region.
@@ -76,7 +76,7 @@ struct Merger<'a, 'm> {
 impl<'a, 'm> Merger<'a, 'm> {
     fn new(manifold: &'a Manifold<'m>) -> Self {
         let faces = manifold.faces().len() as u32;
-        // Those of a face are numbered from a multiple of 3.
+        // The half-edges of a face are numbered from a multiple of 3.
         let turn = |step: u32| (0..3 * faces).map(move |h| h - h % 3 + (h + step) % 3);
         Merger {
             manifold,
@@ -86,9 +86,9 @@ impl<'a, 'm> Merger<'a, 'm> {
         }
     }
 
-    /// One half-edge of every edge within a plane: the longest first, and of those as long as each
-    /// other one direction after the other. The cells of a grid thus become rows before rows become
-    /// rectangles, in whichever order the mesh has them.
+    /// Collects one half-edge of every edge within a plane: the longest first, and equally long ones one
+    /// direction after the other. The cells of a grid thus become rows before rows become rectangles, whatever
+    /// the order of the mesh.
     fn flat_edges(&self) -> Vec<HalfEdge> {
         let manifold = self.manifold;
         let rank = |h: HalfEdge| {
@@ -112,8 +112,8 @@ impl<'a, 'm> Merger<'a, 'm> {
         self.regions.root(half_edge / 3)
     }
 
-    /// Merges the regions on either side of an edge if the union is convex. Whether the edge is dealt
-    /// with: its sides are one region now.
+    /// Merges the regions on either side of an edge if the union is convex. Returns whether they are one region
+    /// now.
     fn merge_over(&mut self, edge: HalfEdge) -> bool {
         let [one, other] = [edge, self.manifold.twin(edge)].map(|h| self.region(h));
         if one == other {
@@ -146,7 +146,7 @@ impl<'a, 'm> Merger<'a, 'm> {
         true
     }
 
-    /// The last half-edge, from one on along its rim, that has a region beyond it; none where all have.
+    /// Finds the last half-edge, from one on along its rim, that has a region beyond it; none where all have.
     fn walk(
         &mut self,
         edge: HalfEdge,

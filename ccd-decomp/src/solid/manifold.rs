@@ -1,8 +1,9 @@
 //! The half-edges of a closed surface.
 
 use super::error::DecomposeError;
-use super::topology::{Edge, Orientation, Topology};
+use super::topology::{Orientation, Topology};
 use crate::exact::predicates::{Projection, is_degenerate, side, too_fine};
+use crate::half_edges::{HalfEdge, twins};
 use crate::mesh::TriangleMesh;
 use crate::search::TriangleBoxes;
 use crate::tally::Tally;
@@ -19,31 +20,28 @@ use std::cmp::Ordering;
 pub(crate) struct Manifold<'m> {
     mesh: &'m TriangleMesh,
     faces: Vec<[u32; 3]>,
-    /// By half-edge.
-    twins: Vec<u32>,
-    /// Made when they are first asked for.
+    /// The twin, by half-edge.
+    twins: Vec<HalfEdge>,
+    /// The boxes of the faces, made at the first use.
     boxes: OnceCell<TriangleBoxes>,
 }
 
-/// Half-edge `3 f + k` runs along face `f` from its corner `k` to the next.
-pub(crate) type HalfEdge = u32;
-
-/// How two faces meet at an edge, seen from outside.
+/// The kind of angle between two faces at an edge, seen from outside.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Dihedral {
     /// The solid's angle is less than half a turn.
     Convex,
-    /// They lie in one plane.
+    /// The faces lie in one plane.
     Flat,
-    /// It is more.
+    /// The solid's angle is more than half a turn.
     Reflex,
-    /// They lie in one plane and on one side of the edge: back to back. A solid has no such edge.
+    /// The faces lie in one plane and on one side of the edge, back to back. A solid has no such edge.
     Folded,
 }
 
 impl<'m> Manifold<'m> {
-    /// A manifold as far as its edges tell: triangles have an area, but may meet each other, and parts
-    /// may be inside out. Takes a tenth of the time.
+    /// Makes the manifold of a mesh that is one by its edges. Triangles have an area, but may meet each other, and
+    /// parts may be inside out. Takes a tenth of the time of [`bounding_solid`](super::bounding_solid).
     pub(crate) fn unchecked(
         mesh: &'m TriangleMesh,
         topology: &Topology,
@@ -61,24 +59,22 @@ impl<'m> Manifold<'m> {
         if turned {
             faces.iter_mut().for_each(|face| face.swap(1, 2));
         }
-        let manifold = Manifold {
-            twins: twins(&faces),
-            mesh,
-            faces,
-            boxes: OnceCell::new(),
-        };
         let mut flat = Tally::default();
-        let face_count = manifold.faces.len() as u32;
-        for face in (0..face_count).filter(|&f| is_degenerate(manifold.triangle(f))) {
+        for face in (0..faces.len() as u32).filter(|&f| is_degenerate(mesh.triangle(f))) {
             flat.add(mesh.face_ids()[face as usize]);
         }
-        match flat.is_empty() {
-            true => Ok(manifold),
-            false => Err(DecomposeError::NoArea { faces: flat }),
+        match twins(&faces) {
+            Some(twins) if flat.is_empty() => Ok(Manifold {
+                mesh,
+                faces,
+                twins,
+                boxes: OnceCell::new(),
+            }),
+            _ => Err(DecomposeError::NoArea { faces: flat }),
         }
     }
 
-    /// The mesh that it is of.
+    /// The mesh that it was made of.
     pub(crate) fn mesh(&self) -> &'m TriangleMesh {
         self.mesh
     }
@@ -101,7 +97,7 @@ impl<'m> Manifold<'m> {
         [self.point(a), self.point(b), self.point(c)]
     }
 
-    /// The faces by where they are.
+    /// The boxes of the faces.
     pub(crate) fn boxes(&self) -> &TriangleBoxes {
         self.boxes
             .get_or_init(|| TriangleBoxes::new(self.mesh.vertices(), &self.faces))
@@ -118,14 +114,14 @@ impl<'m> Manifold<'m> {
         [0, 1, 2].map(|k| self.twin(3 * face + k) / 3)
     }
 
-    /// Where a half-edge starts and ends.
+    /// The vertices at which a half-edge starts and ends.
     pub(crate) fn ends(&self, half_edge: HalfEdge) -> [u32; 2] {
         let face = self.faces[half_edge as usize / 3];
         let k = half_edge as usize % 3;
         [face[k], face[(k + 1) % 3]]
     }
 
-    /// How the faces on either side of an edge meet.
+    /// Classifies the angle between the faces on either side of an edge.
     pub(crate) fn dihedral(&self, half_edge: HalfEdge) -> Dihedral {
         let twin = self.twin(half_edge);
         let far = self.faces[twin as usize / 3][(twin as usize % 3 + 2) % 3];
@@ -143,25 +139,6 @@ impl<'m> Manifold<'m> {
             }
         }
     }
-}
-
-/// The twin of every half-edge of faces of which each edge has one face on either side.
-fn twins(faces: &[[u32; 3]]) -> Vec<HalfEdge> {
-    let mut edges: Vec<(Edge, HalfEdge)> = Vec::with_capacity(3 * faces.len());
-    for (f, face) in faces.iter().enumerate() {
-        for k in 0..3 {
-            let (v, w) = (face[k], face[(k + 1) % 3]);
-            edges.push((Edge(v.min(w), v.max(w)), (3 * f + k) as HalfEdge));
-        }
-    }
-    edges.sort_unstable();
-    let mut twins = vec![0; edges.len()];
-    for pair in edges.chunks_exact(2) {
-        let (one, other) = (pair[0].1, pair[1].1);
-        twins[one as usize] = other;
-        twins[other as usize] = one;
-    }
-    twins
 }
 
 #[cfg(test)]

@@ -1,9 +1,10 @@
-//! Shells within shells: which of a closed mesh's parts bound material, and which a cavity.
+//! Shells within shells: the parts of a closed mesh that bound material, and those that bound a cavity.
 
 mod closed_parts;
 
 use crate::exact::predicates::{is_degenerate, too_fine};
-use crate::exact::triangles::{crossing, meet};
+use crate::exact::rays::{crossing, probe};
+use crate::exact::triangles::meet;
 use crate::exact::volume::SignedVolume;
 use crate::mesh::TriangleMesh;
 use crate::search::TriangleBoxes;
@@ -15,24 +16,24 @@ use ccd_core::glam::DVec3;
 use ccd_core::vector::unit;
 use closed_parts::closed_parts;
 
-/// The shells of a closed mesh by what is around them.
+/// The shells of a closed mesh whose orientation does not fit their surroundings.
 ///
-/// A shell is closed by itself, and connected over edges. Of shells that do not cross, the outermost
-/// bound solids, those next within bound cavities, and so on, however they are wound. Outermost shells
-/// that cross make up one solid together; within another one, shells that cross are part of it where they
-/// are wound as it is. What else crosses can not be told.
+/// A shell is a closed part that is connected over edges. Among shells that do not cross, the outermost bound
+/// solids, those next within bound cavities, and so on, whatever their orientation. Outermost shells that cross
+/// make up one solid together. Within another shell, shells that cross are part of its solid where they have its
+/// orientation; otherwise they are unclear.
 #[derive(Debug, Default)]
 pub(crate) struct Nesting {
-    /// The faces that have to be turned round for the solid to be behind all faces, or in front of all.
+    /// The faces to turn round, so that the solid is behind all faces, or in front of all.
     pub(crate) turned: Vec<u32>,
-    /// A face of each shell that is wound the wrong way, when others are not, by the file's number.
+    /// A face of each shell of the wrong orientation, when others have the right one, by the file's number.
     pub(crate) wrong: Tally<u32>,
-    /// A face of each shell of which nothing tells whether it bounds a solid or a cavity.
+    /// A face of each shell that may bound a solid or a cavity, by the file's number.
     pub(crate) unclear: Tally<u32>,
 }
 
 impl Nesting {
-    /// Of a mesh along every edge of which as many faces run one way as the other. A mesh in one part
+    /// Examines a closed mesh: along every edge as many faces run one way as the other. A mesh in one part
     /// needs no turning.
     ///
     /// Exact. O(n log n) where few boxes of triangles of different shells meet.
@@ -46,7 +47,7 @@ impl Nesting {
     }
 }
 
-/// The shells of a mesh, and where its faces are.
+/// The shells of a mesh, and the boxes of its faces.
 struct Shells<'m> {
     mesh: &'m TriangleMesh,
     boxes: TriangleBoxes,
@@ -54,14 +55,14 @@ struct Shells<'m> {
     faces_of: Vec<Vec<u32>>,
 }
 
-/// What is around a shell that nothing else of it crosses.
+/// The other shells that surround a shell without crossing it.
 #[derive(Clone, Debug, Default)]
 struct Surroundings {
     shells: Vec<u32>,
-    /// Whether another shell crosses it.
+    /// Whether a surrounding shell crosses it.
     crossed: bool,
-    /// Whether nothing tells what is around.
-    lost: bool,
+    /// Whether the surroundings could not be found.
+    unknown: bool,
 }
 
 impl<'m> Shells<'m> {
@@ -82,19 +83,19 @@ impl<'m> Shells<'m> {
         let exact = too_fine(self.mesh.vertices()).is_none();
         let around: Vec<Surroundings> = (0..self.faces_of.len() as u32)
             .map(|shell| match exact {
-                true => self.around(shell),
+                true => self.surroundings(shell),
                 false => Surroundings {
-                    lost: true,
+                    unknown: true,
                     ..Surroundings::default()
                 },
             })
             .collect();
-        let wound: Vec<i32> = self
+        let orientations: Vec<i32> = self
             .faces_of
             .iter()
-            .map(|faces| self.wound(faces))
+            .map(|faces| self.orientation(faces))
             .collect();
-        // What surrounds a shell has less around it.
+        // A surrounding shell has fewer shells around it.
         let mut order: Vec<usize> = (0..around.len()).collect();
         order.sort_by_key(|&shell| around[shell].shells.len());
         let mut sides = vec![1; around.len()];
@@ -103,30 +104,30 @@ impl<'m> Shells<'m> {
             let Surroundings {
                 shells,
                 crossed,
-                lost,
+                unknown,
             } = &around[shell];
             let windings: i32 = shells.iter().map(|&other| sides[other as usize]).sum();
             let outermost = shells.iter().map(|&k| k as usize);
             let outermost = outermost.min_by_key(|&k| around[k].shells.len());
-            let as_around = outermost.map(|k| sides[k] * wound[k] * wound[shell]);
+            let as_around = outermost.map(|k| sides[k] * orientations[k] * orientations[shell]);
             sides[shell] = match windings {
                 1 if *crossed => 1,
                 1 => -1,
                 _ => 1,
             };
-            if *lost || *crossed && windings > 0 && as_around != Some(1) {
+            if *unknown || *crossed && windings > 0 && as_around != Some(1) {
                 unclear.add(self.name(shell));
             }
         }
-        let is_wrong = |shell: usize| wound[shell] * sides[shell] < 0;
+        let is_wrong = |shell: usize| orientations[shell] * sides[shell] < 0;
         let mut nesting = Nesting {
             unclear,
             ..Nesting::default()
         };
-        let has_volume = |&shell: &usize| wound[shell] != 0;
+        let has_volume = |&shell: &usize| orientations[shell] != 0;
         // A mesh that is inside out as a whole is consistent.
-        if !(0..wound.len()).filter(has_volume).all(is_wrong) {
-            for shell in (0..wound.len()).filter(|&shell| is_wrong(shell)) {
+        if !(0..orientations.len()).filter(has_volume).all(is_wrong) {
+            for shell in (0..orientations.len()).filter(|&shell| is_wrong(shell)) {
                 nesting.wrong.add(self.name(shell));
                 nesting.turned.extend(&self.faces_of[shell]);
             }
@@ -134,13 +135,13 @@ impl<'m> Shells<'m> {
         nesting
     }
 
-    /// The first face of a shell, by the file's number.
+    /// The first face of a shell, by the file's number, which names the shell in reports.
     fn name(&self, shell: usize) -> u32 {
         self.mesh.face_ids()[self.faces_of[shell][0] as usize]
     }
 
-    /// 1 for a shell that is wound outward, −1 for one inward, 0 for one of no volume.
-    fn wound(&self, faces: &[u32]) -> i32 {
+    /// Computes the orientation of a shell: 1 outward, −1 inward, 0 without volume.
+    fn orientation(&self, faces: &[u32]) -> i32 {
         let near = self.mesh.triangle(faces[0])[0];
         let mut volume = SignedVolume::default();
         for &face in faces {
@@ -153,10 +154,10 @@ impl<'m> Shells<'m> {
         }
     }
 
-    fn around(&self, shell: u32) -> Surroundings {
+    fn surroundings(&self, shell: u32) -> Surroundings {
         let Some(mut shells) = self.winding_about(shell) else {
             return Surroundings {
-                lost: true,
+                unknown: true,
                 ..Surroundings::default()
             };
         };
@@ -168,28 +169,26 @@ impl<'m> Shells<'m> {
         Surroundings {
             shells,
             crossed: !crossed.is_empty(),
-            lost: false,
+            unknown: false,
         }
     }
 
-    /// The other shells that wind about one; none when nothing tells.
+    /// Finds the other shells that wind about one; none when every ray grazes something.
     fn winding_about(&self, shell: u32) -> Option<Vec<u32>> {
         let faces = &self.faces_of[shell as usize];
         let size = self.boxes.reach(self.mesh.triangle(faces[0])[0]);
         let face = |k: usize| self.mesh.triangle(faces[k * faces.len() / RAY_TRIES]);
-        // Shells may touch at a corner, so that it is another one each time.
+        // Shells may touch at a corner, so that every try takes another one.
         let corners = (0..RAY_TRIES).map(|k| (k, face(k)[k % 3]));
-        // Or at all corners, as those that share faces do.
+        // They may touch at all corners, as shells that share faces do.
         let middles = (0..RAY_TRIES).filter_map(|k| Some((k, self.middle(shell, face(k), size)?)));
-        corners.chain(middles).find_map(|(k, from)| {
-            // Nearly along an axis, so that few boxes meet the ray's, and in no special relation to any.
-            let (along, tilt) = (DVec3::AXES[k % 3], 1e-3 * (1.0 + 0.618 * k as f64));
-            let to = from + 3.0 * size * (along + DVec3::new(0.7548, 0.5698, -0.3247) * tilt);
-            self.winding_before(shell, [from, to])
-        })
+        corners
+            .chain(middles)
+            .find_map(|(k, from)| self.winding_before(shell, probe(from, size, k)))
     }
 
-    /// The middle of a face, which is on it up to rounding: none where another shell may come between.
+    /// Computes the middle of a face, which is on the face up to rounding; none where another shell may come
+    /// between.
     fn middle(&self, shell: u32, face: [DVec3; 3], size: f64) -> Option<DVec3> {
         let [a, b, c] = face;
         let middle = (a + b + c) / 3.0;
@@ -204,7 +203,7 @@ impl<'m> Shells<'m> {
         is_alone.then_some(middle)
     }
 
-    /// The other shells that wind about the start of a ray; none when it grazes something.
+    /// Finds the other shells that wind about the start of a ray; none when the ray grazes something.
     fn winding_before(&self, shell: u32, ray: [DVec3; 2]) -> Option<Vec<u32>> {
         let mut met = Vec::new();
         let region = Region::segment(ray);
@@ -226,11 +225,11 @@ impl<'m> Shells<'m> {
         })
     }
 
-    /// The other shells that meet one elsewhere than in shared corners and edges.
+    /// Finds the other shells that meet one elsewhere than in shared corners and edges.
     fn crossed_by(&self, shell: u32) -> Vec<u32> {
         let mut crossed = Vec::new();
         let flat = |face: u32| is_degenerate(self.mesh.triangle(face));
-        // What has no area is in an edge of its neighbours.
+        // A face without area lies in an edge of its neighbours.
         let faces = self.faces_of[shell as usize].iter();
         for &face in faces.filter(|&&face| !flat(face)) {
             let one = self.mesh.triangle(face);

@@ -2,36 +2,35 @@
 
 use super::error::DecomposeError;
 use super::manifold::Manifold;
-use crate::exact::triangles::crossing;
+use crate::exact::rays::{crossing, probe};
 use crate::exact::volume::SignedVolume;
 use crate::search::region::Region;
 use crate::tolerance::RAY_TRIES;
 use crate::work::Work;
-use ccd_core::glam::DVec3;
 
 /// Checks that the solid, which is where the winding number is not 0, is behind every face.
 ///
-/// As faces only meet where they share an edge or vertex, it is enough to look at one point of every
-/// shell: its other faces see the same of the rest.
+/// Faces meet only where they share an edge or vertex. One point of every shell is therefore enough: the other
+/// points of the shell have the same winding number in the rest.
 ///
 /// # Errors
-/// [`DecomposeError`]; [`TooLong`](DecomposeError::TooLong) when the work does not suffice to tell.
+/// [`DecomposeError`]; [`TooLong`](DecomposeError::TooLong) when the work does not suffice to decide.
 pub(crate) fn check_orientation(
     manifold: &Manifold<'_>,
     work: &Work,
 ) -> Result<(), DecomposeError> {
     let shell_of = shells(manifold);
     let count = shell_of.iter().max().map_or(0, |&last| last as usize + 1);
-    let mut volumes = vec![SignedVolume::default(); count];
     let near = manifold.triangle(0)[0];
-    for (face, &shell) in shell_of.iter().enumerate() {
-        volumes[shell as usize].add(manifold.triangle(face as u32), near);
-    }
     let mut faces_of = vec![Vec::new(); count];
     for (face, &shell) in shell_of.iter().enumerate() {
         faces_of[shell as usize].push(face as u32);
     }
-    for (faces, volume) in faces_of.iter().zip(&volumes) {
+    for faces in &faces_of {
+        let mut volume = SignedVolume::default();
+        for &face in faces {
+            volume.add(manifold.triangle(face), near);
+        }
         let face = manifold.mesh().face_ids()[faces[0] as usize];
         let Some(outward) = volume.is_positive() else {
             return Err(DecomposeError::NoVolume { face });
@@ -44,7 +43,7 @@ pub(crate) fn check_orientation(
         let Some(around) = around else {
             return Err(DecomposeError::Entangled { face });
         };
-        // An outward shell adds 1 within it; behind the faces of an inward one is what surrounds it.
+        // An outward shell adds 1 within it; behind the faces of an inward one are its surroundings.
         let behind = if outward { around + 1 } else { around };
         if behind == 0 {
             return Err(DecomposeError::InsideOut { face });
@@ -53,7 +52,7 @@ pub(crate) fn check_orientation(
     Ok(())
 }
 
-/// The number of the shell of every face; shells are connected over edges.
+/// Numbers the shells, which are connected over edges: the number by face.
 pub(crate) fn shells(manifold: &Manifold<'_>) -> Vec<u32> {
     const UNSEEN: u32 = u32::MAX;
     let mut shell_of = vec![UNSEEN; manifold.faces().len()];
@@ -79,7 +78,7 @@ pub(crate) fn shells(manifold: &Manifold<'_>) -> Vec<u32> {
     shell_of
 }
 
-/// How often the other shells wind about the faces of one; none when all rays graze something.
+/// Computes the winding number of the other shells about the faces of one; none when all rays graze something.
 fn winding_of_others(
     manifold: &Manifold<'_>,
     shell_of: &[u32],
@@ -92,16 +91,13 @@ fn winding_of_others(
     (0..RAY_TRIES).find_map(|k| {
         // Shells may touch at a corner, so that it is another one each time.
         let from = manifold.triangle(faces[k % faces.len()])[k % 3];
-        // Nearly along an axis, so that few boxes meet the ray's, and in no special relation to any.
-        let (along, tilt) = (DVec3::AXES[k % 3], 1e-3 * (1.0 + 0.618 * k as f64));
-        let across = DVec3::new(0.7548, 0.5698, -0.3247) * tilt;
-        let to = from + 3.0 * size * (along + across);
+        let ray = probe(from, size, k);
         let mut windings = Some(0);
         manifold
             .boxes()
-            .all_meeting(&Region::segment([from, to]), work, |f| {
+            .all_meeting(&Region::segment(ray), work, |f| {
                 if shell_of[f as usize] != shell {
-                    let crossing = crossing([from, to], manifold.triangle(f));
+                    let crossing = crossing(ray, manifold.triangle(f));
                     windings = windings.zip(crossing).map(|(sum, one)| sum + one);
                 }
                 windings.is_some()

@@ -1,4 +1,4 @@
-//! Surfaces that are seen whole from one point: no two of their faces meet.
+//! Star-shaped solids, whose whole surface is visible from one point: no two of their faces meet.
 
 use super::manifold::Manifold;
 use crate::exact::predicates::side;
@@ -6,12 +6,13 @@ use ccd_core::glam::DVec3;
 use ccd_core::tolerance::LEAST_COORDINATE;
 use std::cmp::Ordering;
 
-/// Whether a point was found that has every face in front of it, behind no other one.
+/// Whether a point was found from which the whole surface is visible: it is behind every face, and no face hides
+/// another one.
 ///
 /// # Guarantee
-/// Exact where it says so: faces then share no more than their vertices and edges, and the solid is
-/// behind them. A point behind all faces sees each of them turned the same way, so that every direction
-/// from it meets as many; once, if a single one does `[MEHLHORN96]`.
+/// Exact where the answer is yes: faces then share no more than their vertices and edges, and the solid is behind
+/// them. A point behind all faces has all of them in the same orientation about it, so that every direction
+/// from it meets equally many faces: one, if a single direction does `[MEHLHORN96]`.
 ///
 /// # Complexity
 /// O(n).
@@ -23,7 +24,7 @@ pub(crate) fn is_star_shaped(manifold: &Manifold<'_>) -> bool {
     })
 }
 
-/// Points that are likely inside: the mean of all corners, and the solid's centre of mass.
+/// Computes points that are likely inside: the mean of all corners, and the solid's centre of mass.
 fn middles(manifold: &Manifold<'_>) -> [DVec3; 2] {
     let faces = 0..manifold.faces().len() as u32;
     let near = manifold.triangle(0)[0];
@@ -36,11 +37,11 @@ fn middles(manifold: &Manifold<'_>) -> [DVec3; 2] {
         volume += six;
     }
     let mean = sum / (3 * faces.len()) as f64;
-    // No point at all is one that no face has behind it.
+    // A point that is not finite is behind no face.
     [mean, moment / (4.0 * volume)].map(|middle| predictable(near + middle))
 }
 
-/// A point next to one, that predicates are exact for.
+/// Sets coordinates to 0 that are too near to 0 for exact predicates.
 fn predictable(p: DVec3) -> DVec3 {
     DVec3::select(
         p.abs().cmplt(DVec3::splat(LEAST_COORDINATE)),
@@ -49,7 +50,7 @@ fn predictable(p: DVec3) -> DVec3 {
     )
 }
 
-/// Whether a direction from the middle, past all edges, meets one triangle.
+/// Whether a direction from the middle that avoids all edges meets exactly one triangle.
 fn covers_once(triangles: impl Iterator<Item = [DVec3; 3]>, middle: DVec3) -> bool {
     let mut triangles = triangles.peekable();
     let Some(&[a, b, c]) = triangles.peek() else {
@@ -62,7 +63,7 @@ fn covers_once(triangles: impl Iterator<Item = [DVec3; 3]>, middle: DVec3) -> bo
         if within == [Ordering::Greater; 3] {
             met += 1;
         } else if !within.contains(&Ordering::Less) {
-            // Through an edge: it cannot be told how often.
+            // The direction meets an edge, so that the number of triangles is unclear.
             return false;
         }
     }

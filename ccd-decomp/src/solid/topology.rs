@@ -1,4 +1,4 @@
-//! Does a mesh bound a solid?
+//! The edges of a mesh, and whether it is closed.
 
 use super::nesting::Nesting;
 use crate::mesh::TriangleMesh;
@@ -7,48 +7,47 @@ use ccd_core::glam::DVec3;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// How the faces of a mesh meet at their edges. Vertices at exactly the same point count as one.
+/// The edges of a mesh at which faces do not meet in pairs, and its shells of the wrong orientation. Vertices at
+/// exactly the same point count as one.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Topology {
-    /// Edges of one face only: the rims of holes.
+    /// Edges of one face only, which are the rims of holes.
     pub boundary: Tally<Edge>,
-    /// Edges of two faces that run along them the same way: one of the two is the wrong way round.
+    /// Edges of two faces that run along them the same way: one of the two has the wrong orientation.
     pub flipped: Tally<Edge>,
-    /// Edges of more than two faces, of which not as many run one way as the other.
+    /// Edges of more than two faces, with more faces running one way than the other.
     pub branching: Tally<Edge>,
-    /// Edges of more than two faces, of which as many run one way as the other: closed parts that
-    /// touch each other along an edge.
+    /// Edges of more than two faces, with as many running one way as the other: closed parts touch there.
     pub shared: Tally<Edge>,
-    /// Shells that are wound the other way than is right where they are, when others are not, each by a
-    /// face of it: bodies are made with them turned round.
+    /// Shells of the wrong orientation, when others have the right one, each by one of its faces. Bodies are made
+    /// with these shells turned round.
     pub wrong_way: Tally<u32>,
-    /// Shells within another one that cross a third, so that nothing tells whether they bound a solid or a
-    /// cavity, each by a face of it.
+    /// Shells within another one that cross a third, so that they may bound a solid or a cavity, each by one of
+    /// its faces.
     pub unclear: Tally<u32>,
-    /// Volume within the faces, once shells are turned the right way; negative where all look inward.
-    /// Meaningful for a closed mesh only. In the cube of the mesh's unit of length.
+    /// The volume within the faces, once shells of the wrong orientation are turned; negative where all normals
+    /// point inward. Meaningful for a closed mesh only. In the cube of the mesh's unit of length.
     pub signed_volume: f64,
 }
 
-/// An edge by the numbers of its vertices, the smaller first; of several vertices at one point, the
-/// first.
+/// An edge by the numbers of its vertices, the smaller first. The first vertex stands for all at its point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct Edge(pub u32, pub u32);
 
-/// Where the faces of a closed mesh look, on the whole.
+/// The direction of a closed mesh's normals, on the whole.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Orientation {
-    /// Away from the inside.
+    /// The normals point out of the solid.
     Outward,
-    /// Into it: the mesh is inside out.
+    /// The normals point into the solid: the mesh is inside out.
     Inward,
-    /// The mesh holds no volume, or as much of either kind.
+    /// The mesh holds no volume, or as much of either sign.
     Neither,
 }
 
 impl Topology {
-    /// Looks at every edge of a mesh, and at which of its shells are within which. O(n log n) in the
-    /// number of faces, where few boxes of faces of different shells meet.
+    /// Examines every edge of a mesh, and the nesting of its shells. O(n log n) in the number of faces, where
+    /// few boxes of faces of different shells meet.
     ///
     /// ```
     /// use ccd_decomp::{Format, Topology, TriangleMesh};
@@ -60,7 +59,7 @@ impl Topology {
         Topology::and_turned(mesh).0
     }
 
-    /// The same, and the mesh with its shells turned the right way, where some are not.
+    /// Examines a mesh like [`Topology::of`], and turns the shells of the wrong orientation, if there are any.
     pub(crate) fn and_turned(mesh: &TriangleMesh) -> (Self, Option<TriangleMesh>) {
         let mut topology = Topology {
             signed_volume: signed_volume(mesh),
@@ -89,24 +88,23 @@ impl Topology {
         (topology, turned)
     }
 
-    /// Whether it bounds a solid: it is closed, and of all its shells it is clear on which side the solid
-    /// is.
+    /// Whether the mesh bounds a solid: it is closed, and it is clear on which side of each shell the solid is.
     pub fn is_solid(&self) -> bool {
         self.is_closed() && self.unclear.is_empty()
     }
 
-    /// Whether along every edge as many faces run one way as the other. The winding number of a point
-    /// off the surface is then a whole number, and tells the inside from the outside.
+    /// Whether along every edge as many faces run one way as the other. The winding number of a point off the
+    /// surface is then a whole number, which defines the inside.
     pub fn is_closed(&self) -> bool {
         self.boundary.is_empty() && self.flipped.is_empty() && self.branching.is_empty()
     }
 
-    /// Whether it is closed, and no edge has more than two faces.
+    /// Whether the mesh is closed, and no edge has more than two faces.
     pub fn is_manifold(&self) -> bool {
         self.is_closed() && self.shared.is_empty()
     }
 
-    /// What would make it a manifold, for messages.
+    /// The change that would make the mesh a manifold, for messages.
     pub(crate) fn advice(&self) -> &'static str {
         if !(self.boundary.is_empty() && self.branching.is_empty()) {
             "close the mesh"
@@ -117,7 +115,7 @@ impl Topology {
         }
     }
 
-    /// Where the faces look, by the sign of the volume.
+    /// The direction of the normals, by the sign of the volume.
     pub fn orientation(&self) -> Orientation {
         if self.signed_volume > 0.0 {
             Orientation::Outward
@@ -129,14 +127,14 @@ impl Topology {
     }
 }
 
-/// Every edge with the number of faces that run from its smaller vertex to the larger, and back.
+/// Iterates over every edge, with the number of faces that run from its smaller vertex to the larger, and back.
 fn edge_uses(mesh: &TriangleMesh) -> impl Iterator<Item = (Edge, usize, usize)> {
     // The edge in the upper bits, the direction in the lowest; vertex numbers are below 2³¹.
     let mut uses = Vec::new();
     uses.reserve_exact(3 * mesh.faces().len());
     for [a, b, c] in mesh.welded_faces() {
         for (v, w) in [(a, b), (b, c), (c, a)] {
-            // From a point to itself is no edge.
+            // An edge has two different ends.
             if v != w {
                 uses.push((v.min(w), v.max(w) << 1 | u32::from(v > w)));
             }
@@ -161,8 +159,8 @@ fn edge_uses(mesh: &TriangleMesh) -> impl Iterator<Item = (Edge, usize, usize)> 
     })
 }
 
-/// The sum over all faces of the signed volume of the tetrahedron to a point near the mesh: the sum
-/// of a closed mesh does not depend on the point, its rounding does.
+/// Sums the signed volumes of the tetrahedra between each face and a point near the mesh. The sum of a closed
+/// mesh does not depend on the point, but its rounding does.
 fn signed_volume(mesh: &TriangleMesh) -> f64 {
     let corner = |v: u32| mesh.vertices()[v as usize];
     let near = mesh.faces().first().map_or(DVec3::ZERO, |f| corner(f[0]));

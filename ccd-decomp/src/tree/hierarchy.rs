@@ -1,5 +1,6 @@
-//! Hierarchies over pieces, agglomerated by `obvhs`.
+//! Hierarchies over pieces, built through `obvhs`.
 
+use crate::bounds::Bounds;
 use crate::tolerance::{AGGLOMERATED_PIECES, REINSERTED_SHARE, SEARCH_DEPTH};
 use ccd_core::glam::{DVec3, Vec3A};
 use ccd_core::{Hierarchy, HierarchyNode, InputError, Pieces};
@@ -10,18 +11,18 @@ use obvhs::bvh2::node::Bvh2Node;
 use obvhs::bvh2::reinsertion::ReinsertionOptimizer;
 use obvhs::ploc::{PlocBuilder, PlocSearchDistance, SortPrecision};
 
-/// Builds a hierarchy over pieces: split at medians into clusters, these agglomerated, and the worst
-/// subtrees put where they fit best.
+/// Builds a hierarchy over pieces: splits them at medians into clusters, agglomerates the clusters, and moves the
+/// worst subtrees to better places.
 ///
-/// Agglomeration alone (`[PLOC18]`) makes the best trees, but on pieces that all have one centre, such as
-/// nested or equal ones, it merges a single pair per pass: quadratic time, and a chain. Clusters bound
+/// Agglomeration alone (`[PLOC18]`) makes the best trees. On pieces that all have one centre, such as nested or
+/// equal ones, it merges a single pair per pass, which takes quadratic time and makes a chain. Clusters bound
 /// both.
 ///
 /// # Guarantee
 /// The same pieces give the same hierarchy. Every piece appears once; no input panics.
 ///
 /// # Errors
-/// [`InputError::TooManyPieces`].
+/// [`InputError::TooManyPieces`] when an index cannot name them.
 ///
 /// # Complexity
 /// O(n log n) in the number of pieces.
@@ -49,32 +50,30 @@ impl Boundable for PieceBox {
     }
 }
 
-/// The boxes of all pieces in single precision, moved and scaled so that the whole fills a unit: far
-/// from the origin, or tiny, single precision would not tell them apart.
+/// Computes the boxes of all pieces in single precision, moved and scaled so that the whole fills a unit: single
+/// precision would not separate pieces that are far from the origin, or tiny.
 fn unit_boxes(pieces: &Pieces) -> Vec<PieceBox> {
-    let empty = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-    let include = |(lo, hi): (DVec3, DVec3), p: DVec3| (lo.min(p), hi.max(p));
-    let bounds = |points: &[DVec3]| points.iter().copied().fold(empty, include);
-    let boxes: Vec<(DVec3, DVec3)> = pieces
+    let boxes: Vec<Bounds> = pieces
         .iter()
         .map(|piece| {
-            let (lo, hi) = bounds(piece.points);
-            (lo - piece.radius, hi + piece.radius)
+            let Bounds { lo, hi } = Bounds::of(piece.points.iter().copied());
+            Bounds {
+                lo: lo - piece.radius,
+                hi: hi + piece.radius,
+            }
         })
         .collect();
-    let (lo, hi) = boxes
-        .iter()
-        .fold(empty, |all, &(lo, hi)| include(include(all, lo), hi));
+    let Bounds { lo, hi } = Bounds::of(boxes.iter().flat_map(|b| [b.lo, b.hi]));
     // Too short a length has no reciprocal.
     let scale = Some((hi - lo).max_element().recip()).filter(|s| s.is_finite());
     let unit = |p: DVec3| -> Vec3A { ((p - lo) * scale.unwrap_or(1.0)).as_vec3a() };
     boxes
         .iter()
-        .map(|&(lo, hi)| PieceBox(Aabb::new(unit(lo), unit(hi))))
+        .map(|piece| PieceBox(Aabb::new(unit(piece.lo), unit(piece.hi))))
         .collect()
 }
 
-/// Splits at medians of the centres down to clusters, and agglomerates these.
+/// Splits the boxes at medians of their centres down to clusters, and agglomerates these.
 fn split(boxes: &[PieceBox]) -> Bvh2 {
     let centre = |piece: u32| boxes[piece as usize].0.center();
     let mut order: Vec<u32> = (0..boxes.len() as u32).collect();
@@ -116,7 +115,7 @@ fn split(boxes: &[PieceBox]) -> Bvh2 {
     }
 }
 
-/// Puts the tree over some pieces at a node, its other nodes at the end.
+/// Agglomerates some pieces: puts the root of their tree at a node, and its other nodes at the end.
 fn agglomerate(boxes: &[PieceBox], pieces: &[u32], nodes: &mut Vec<Bvh2Node>, root: usize) {
     let members: Vec<PieceBox> = pieces
         .iter()

@@ -1,4 +1,4 @@
-//! Hull trees over pieces: split top down, hulls built bottom up `[SWIFT01]`.
+//! Hull trees over pieces: pieces are split top down, hulls are built bottom up `[SWIFT01]`.
 
 mod split;
 
@@ -10,15 +10,15 @@ use split::Splitter;
 
 /// Builds the convex hull tree of pieces.
 ///
-/// The pieces are split where the hull of their centres is longest, at half its length or, where that
-/// leaves too few on one side, at the median; the hull of a node is that of its children's corners.
+/// The pieces are split across the longest direction of the hull of their centres: at half its length or, where
+/// that leaves too few on one side, at the median. The hull of a node is that of its children's corners.
 ///
 /// # Guarantee
 /// Every hull is exact. The depth is at most logarithmic in the number of pieces. The same pieces give
 /// the same tree, on any number of threads; no input panics.
 ///
 /// # Errors
-/// [`BuildError`]: a coordinate that exact predicates cannot deal with, or too many pieces.
+/// [`BuildError`]: a coordinate is out of range for exact predicates, or there are too many pieces.
 ///
 /// # Complexity
 /// O(n log² n) for n corners where few of them stay corners from level to level; at worst O(h n log n)
@@ -50,7 +50,7 @@ struct Grower<'a> {
     splitter: Splitter,
 }
 
-/// Where a subtree goes: its root, and all below, which starts at a number.
+/// The slot of a subtree: its root, and the nodes below, the first of which has a number.
 struct Slot<'a> {
     node: &'a mut HullNode,
     below: &'a mut [HullNode],
@@ -58,8 +58,8 @@ struct Slot<'a> {
 }
 
 impl Grower<'_> {
-    /// Makes the subtree over some pieces, every node before its children. A share of the pieces goes to
-    /// either side, so that the depth is logarithmic.
+    /// Makes the subtree over some pieces, every node before its children. Either side gets at least a fixed share
+    /// of the pieces, so that the depth is logarithmic.
     fn grow(&self, pieces: &mut [u32], slot: Slot<'_>) -> Result<(), BuildError> {
         let Slot { node, below, first } = slot;
         if let [piece] = *pieces {
@@ -100,20 +100,20 @@ impl Grower<'_> {
     }
 }
 
-/// Why pieces have no hull tree.
+/// The reason why pieces have no hull tree.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum BuildError {
-    /// A coordinate is so near to 0 that exact predicates cannot tell on which side it is.
+    /// A coordinate of a point is out of range for exact predicates.
     #[error("the point {0} has a coordinate that is out of range for exact predicates")]
     OutOfRange(DVec3),
     /// A hull could not be proven to be one.
     #[error("the hull of {points} points could not be proven")]
     Unproven {
-        /// How many points it is of.
+        /// The number of points.
         points: usize,
     },
-    /// The core does not take the tree.
+    /// The core rejects the tree.
     #[error(transparent)]
     Tree(#[from] HullTreeError),
 }
@@ -125,7 +125,7 @@ fn corners<'a>(node: &'a HullNode, pieces: &'a Pieces) -> &'a [DVec3] {
     }
 }
 
-/// The core proves it when the tree is made.
+/// Computes the hull of some points, which the core proves when the tree is made.
 fn joint_hull(points: &[DVec3]) -> Result<Hull, BuildError> {
     let point = |k: u32| points[k as usize];
     let lower = |points| Hull {

@@ -1,20 +1,20 @@
-//! The hull of many points: in random order, each knowing what it sees `[CS89]`.
+//! The hull of many points, inserted in random order, with a conflict graph of who sees which facet `[CS89]`.
 
 use super::local_points::{LocalPoints, Plane};
 use ccd_core::glam::DVec3;
 
-/// The facets of the hull of points that span a volume, from a triangle and a point behind it on.
+/// Computes the facets of the hull of points that span a volume, from a triangle and a point behind it.
 ///
-/// Points are taken in rounds, each of about half of those that are left for it and the rounds after, whatever
-/// their places; so that for any points at all the work is expected to be O(n log n), and the memory O(n).
-/// Within a round they come as they were given, neighbours likely one after the other `[ACR03]`.
+/// Points are inserted in rounds, each of about half of the remaining points, whatever their places. The expected
+/// work is O(n log n) for any points, and the memory O(n). Within a round they keep the given order, in which
+/// neighbours likely follow each other `[ACR03]`.
 pub(super) fn facets(points: &[DVec3], simplex: [u32; 4]) -> Vec<[u32; 3]> {
     let hull = Growing::all(points, simplex);
     let left = hull.facets.into_iter().filter(|facet| facet.is_there);
     left.map(|facet| facet.corners).collect()
 }
 
-/// A number for every index, without any pattern (the end of MurmurHash3).
+/// Hashes an index to a number without any pattern (the finalizer of MurmurHash3).
 fn scrambled(v: u32) -> u32 {
     let mut h = v.wrapping_add(0x9e37_79b9);
     h = (h ^ h >> 16).wrapping_mul(0x85eb_ca6b);
@@ -22,10 +22,10 @@ fn scrambled(v: u32) -> u32 {
     h ^ h >> 16
 }
 
-/// Lists of more room than this are given back.
+/// The largest capacity of a list that is kept for another use.
 const SPARED: usize = 64;
 
-/// No facet, or no point.
+/// The number of no facet and no point.
 const NONE: u32 = u32::MAX;
 
 struct Facet {
@@ -33,27 +33,27 @@ struct Facet {
     plane: Plane,
     /// The facets beyond its edges; the first is from its first corner to its second.
     across: [u32; 3],
-    /// The points to come that see it.
+    /// The points to be inserted that see it.
     seen_by: Vec<u32>,
     is_there: bool,
-    /// The last point that was asked whether it sees it, and the answer.
+    /// The last point that was tested for seeing it, and the answer.
     asked: (u32, bool),
 }
 
 struct Growing<'a> {
     points: LocalPoints<'a>,
-    /// Empty lists, to be used again.
+    /// Empty lists for another use.
     spare: Vec<Vec<u32>>,
     facets: Vec<Facet>,
-    /// For every point a facet that it sees; one that is gone, or none, if it is inside.
+    /// A facet that a point sees, by point; one that is removed, or none, if the point is inside.
     sees: Vec<u32>,
-    /// For every point the last facet that it was held against.
+    /// The last facet that a point was tested with, by point.
     held: Vec<u32>,
-    /// For every point the new facet whose edge on the rim starts there.
+    /// The new facet whose edge on the rim starts at a point, by point.
     starting: Vec<u32>,
 }
 
-/// An edge of the rim of what a point sees: its ends, the facet beyond, and that on this side.
+/// An edge of the rim of the visible part: its ends, the facet beyond, and the visible facet.
 struct RimEdge {
     ends: [u32; 2],
     beyond: u32,
@@ -88,7 +88,7 @@ impl<'a> Growing<'a> {
         hull
     }
 
-    /// Adds a facet, and tells those of some points that see it.
+    /// Adds a facet, and records which of some points see it.
     fn push(&mut self, corners: [u32; 3], across: [u32; 3], candidates: &[u32]) {
         let number = self.facets.len() as u32;
         let plane = self.points.plane(corners);
@@ -100,7 +100,7 @@ impl<'a> Growing<'a> {
                 seen_by.push(v);
             }
         }
-        // Most are seen by nobody to come.
+        // Most facets are seen by no point to come.
         if seen_by.is_empty() {
             self.spare.push(std::mem::take(&mut seen_by));
         }
@@ -116,7 +116,7 @@ impl<'a> Growing<'a> {
 
     fn insert(&mut self, v: u32) {
         let first = self.sees[v as usize];
-        // Who sees a facet that comes sees one of the two at its edge of the rim: nobody is forgotten.
+        // A point that sees a new facet sees one of the two at its edge of the rim: none is forgotten.
         if first == NONE || !self.facets[first as usize].is_there {
             return;
         }
@@ -132,7 +132,7 @@ impl<'a> Growing<'a> {
             for facet in [edge.seen, edge.beyond] {
                 candidates.extend_from_slice(&self.facets[facet as usize].seen_by);
             }
-            // The facet before it is told apart once all are there.
+            // The facet before it is known once all are there.
             let across = [edge.beyond, self.starting[b as usize], NONE];
             self.push([a, b, v], across, &candidates);
             let beyond = &mut self.facets[edge.beyond as usize];
@@ -153,12 +153,12 @@ impl<'a> Growing<'a> {
         }
     }
 
-    /// Removes the facets that a point sees, which are connected over edges, and finds their rim.
+    /// Removes the facets that a point sees, which are connected over edges, and returns them with their rim.
     fn remove_seen(&mut self, first: u32, v: u32) -> (Vec<u32>, Vec<RimEdge>) {
         let (mut rim, mut gone) = (Vec::new(), vec![first]);
         self.facets[first as usize].is_there = false;
         let mut at = 0;
-        // Every facet goes once.
+        // Every facet is removed once.
         while let Some(&seen) = gone.get(at) {
             at += 1;
             let Facet {

@@ -1,11 +1,11 @@
-//! The hull of few points: each is held against all facets, without lists of who sees what.
+//! The hull of few points: each is tested with all facets, without a conflict graph.
 
 use super::local_points::{LocalPoints, Plane};
 use ccd_core::glam::DVec3;
 
-/// The facets of the hull of points that span a volume, from a triangle and a point behind it on.
+/// Computes the facets of the hull of points that span a volume, from a triangle and a point behind it.
 ///
-/// O(n²), with next to no memory: for few points faster than anything else.
+/// O(n²), with hardly any memory: the fastest method for few points.
 pub(super) fn facets(points: &[DVec3], simplex: [u32; 4]) -> Vec<[u32; 3]> {
     let hull = Growing::all(points, simplex);
     hull.facets.into_iter().map(|facet| facet.corners).collect()
@@ -43,7 +43,7 @@ impl<'a> Growing<'a> {
         self.facets.push(Facet { corners, plane });
     }
 
-    /// Replaces what a point sees by a fan from its rim; `edges` is there to be used again.
+    /// Replaces the facets that a point sees by a fan from their rim; `edges` is a buffer.
     fn insert(&mut self, v: u32, edges: &mut Vec<(u32, u32)>) {
         edges.clear();
         let points = &self.points;

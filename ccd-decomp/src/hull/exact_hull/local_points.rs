@@ -1,4 +1,4 @@
-//! Which points are in front of a facet: by their height where rounding cannot matter, else exactly.
+//! Points in front of a facet: decided by their rounded height where rounding cannot matter, else exactly.
 
 use crate::exact::predicates::side_of;
 use ccd_core::glam::DVec3;
@@ -6,11 +6,11 @@ use ccd_core::order::greater;
 use ccd_core::tolerance::height_rounding;
 use std::cmp::Ordering;
 
-/// Points, and where they are relative to one of them.
+/// Points, and their positions relative to the first one.
 pub(super) struct LocalPoints<'a> {
     points: &'a [DVec3],
     relative: Vec<DVec3>,
-    /// The largest coordinate of those.
+    /// The largest relative coordinate.
     reach: f64,
 }
 
@@ -19,7 +19,7 @@ pub(super) struct LocalPoints<'a> {
 pub(super) struct Plane {
     normal: DVec3,
     height: f64,
-    /// What a point's height over it may be off by.
+    /// A bound on the rounding error of a point's height over it.
     rounding: f64,
 }
 
@@ -50,7 +50,7 @@ impl<'a> LocalPoints<'a> {
     #[inline]
     pub(super) fn is_in_front(&self, plane: &Plane, corners: [u32; 3], v: u32) -> bool {
         let height = plane.normal.dot(self.relative[v as usize]) - plane.height;
-        // Written so that NaN is told exactly.
+        // Written so that NaN is decided exactly.
         match height.abs() > plane.rounding {
             true => height > 0.0,
             false => side_of(self.points, corners, v) == Ordering::Greater,

@@ -1,4 +1,4 @@
-//! A patch that grows: its polygons and their hull.
+//! Growing patches: polygons and their hull.
 
 use super::obstacle::Obstacle;
 use crate::bounds::Bounds;
@@ -12,20 +12,20 @@ use crate::work::Work;
 use ccd_core::glam::DVec3;
 use std::cmp::Ordering;
 
-/// Polygons of a mesh that are on the boundary of their hull, which lies within the solid.
+/// Polygons of a mesh on the boundary of their hull, which lies within the solid.
 pub(super) struct GrowingPatch {
     flats: Vec<u32>,
     hull: ExactHull,
     has_volume: bool,
 }
 
-/// What became of a polygon that was to join.
+/// The result of a polygon's attempt to join.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Join {
     Joined,
-    /// It cannot, now or later.
+    /// The polygon cannot join, now or later.
     Refused,
-    /// It lies in the plane of a patch that has no volume yet.
+    /// The polygon lies in the plane of a patch that has no volume yet.
     InPlane,
 }
 
@@ -38,7 +38,7 @@ impl GrowingPatch {
         }
     }
 
-    /// How many polygons it has.
+    /// The number of its polygons.
     pub(super) fn len(&self) -> usize {
         self.flats.len()
     }
@@ -52,7 +52,7 @@ impl GrowingPatch {
         &self.hull
     }
 
-    /// Takes a polygon in if the patch stays a patch, which is known only while there is work left.
+    /// Takes a polygon in if the patch stays a patch. The answer is meaningful only while there is work left.
     pub(super) fn join(
         &mut self,
         manifold: &Manifold<'_>,
@@ -114,7 +114,7 @@ impl GrowingPatch {
         Join::Joined
     }
 
-    /// Where the highest of the hull's corners lies of a plane.
+    /// The side of a plane on which the highest of the hull's corners lies.
     fn highest_over(&self, points: &[DVec3], plane: [u32; 3]) -> Ordering {
         let corners = self.hull.corners().iter();
         let mut highest = Ordering::Less;
@@ -139,7 +139,7 @@ impl GrowingPatch {
         }
     }
 
-    /// The hull with some more points, and the box of what changes, if anything does.
+    /// Computes the hull with some more points, and the box of the change, if there is one.
     fn grown(&self, points: &[DVec3], new: &[u32]) -> (ExactHull, Option<Bounds>) {
         let mut hull = self.hull.clone();
         let mut changed: Option<Bounds> = None;

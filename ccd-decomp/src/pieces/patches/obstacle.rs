@@ -1,4 +1,4 @@
-//! Does a triangle reach into the inside of a hull?
+//! Hulls as obstacles: the test whether a triangle reaches into the inside of a hull.
 
 use crate::exact::predicates::side_of;
 use crate::hull::exact_hull::ExactHull;
@@ -6,7 +6,7 @@ use ccd_core::glam::DVec3;
 use std::cell::OnceCell;
 use std::cmp::Ordering;
 
-/// A hull that triangles of the same mesh are held against.
+/// A hull that triangles of the same mesh are tested with.
 pub(super) struct Obstacle<'a> {
     points: &'a [DVec3],
     hull: &'a ExactHull,

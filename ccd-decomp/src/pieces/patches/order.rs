@@ -1,22 +1,22 @@
-//! In which order patches are begun, and grow.
+//! The order in which patches begin and grow.
 
 use crate::solid::flats::Flats;
 use crate::solid::manifold::{Dihedral, Manifold};
 use std::collections::VecDeque;
 
-/// In which order patches are begun, and grow.
+/// The order in which patches begin and grow.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Order {
-    /// Begun at the polygons farthest from any reflex edge, on the crests; grown breadth first.
+    /// Patches begin at the polygons farthest from any reflex edge, on the crests, and grow breadth first.
     #[default]
     Cresting,
-    /// Begun in the mesh's order, grown breadth first.
+    /// Patches begin in the mesh's order, and grow breadth first.
     BreadthFirst,
-    /// Begun in the mesh's order, grown depth first.
+    /// Patches begin in the mesh's order, and grow depth first.
     DepthFirst,
 }
 
-/// All polygons, in the order in which patches are begun at them.
+/// Lists all polygons in the order in which patches begin at them.
 pub(super) fn seeds(manifold: &Manifold<'_>, flats: &Flats, order: Order) -> Vec<u32> {
     let mut seeds: Vec<u32> = (0..flats.len() as u32).collect();
     if order == Order::Cresting {
@@ -26,8 +26,8 @@ pub(super) fn seeds(manifold: &Manifold<'_>, flats: &Flats, order: Order) -> Vec
     seeds
 }
 
-/// By polygon: how many steps over edges it is from one with a reflex edge; the most there is where
-/// none can be reached.
+/// Computes, by polygon, the number of steps over edges to one with a reflex edge; `u32::MAX` where none can be
+/// reached.
 fn heights(manifold: &Manifold<'_>, flats: &Flats) -> Vec<u32> {
     let mut height = vec![u32::MAX; flats.len()];
     let mut queue = VecDeque::new();

@@ -1,4 +1,4 @@
-//! A finished patch: a polytope that knows which of the mesh's faces it is made of.
+//! Finished patches: polytopes with the faces of the mesh that they are made of.
 
 use super::growing_patch::GrowingPatch;
 use crate::exact::predicates::{Projection, side};
@@ -9,14 +9,14 @@ use ccd_core::glam::DVec3;
 use ccd_core::{Face, Facet, Origin, Polytope};
 use std::cmp::Ordering;
 
-/// A convex part of a mesh's surface, with its hull.
+/// A convex part of a mesh's surface, and its hull.
 #[derive(Clone, Debug)]
 pub struct Patch {
-    /// Its triangles, as indices into [`TriangleMesh::faces`](crate::TriangleMesh::faces), in ascending
+    /// The triangles, as indices into [`TriangleMesh::faces`](crate::TriangleMesh::faces), in ascending
     /// order.
     pub faces: Vec<u32>,
-    /// The hull. Its points are vertices of the mesh, numbered as there; its facets say of which of the
-    /// mesh's faces they consist, and those that do not are virtual.
+    /// The hull. Its points are vertices of the mesh, with their numbers. Its facets name the faces of the mesh
+    /// that they consist of; the other facets are virtual.
     pub polytope: Polytope,
 }
 
@@ -55,14 +55,14 @@ impl Patch {
         Patch { faces, polytope }
     }
 
-    /// How many of its facets are not wholly part of the mesh.
+    /// The number of facets that are not wholly part of the mesh.
     pub fn virtual_facets(&self) -> usize {
         let facets = self.polytope.facets.iter();
         facets.filter(|f| f.origin == Origin::Virtual).count()
     }
 }
 
-/// The faces of a patch that lie in a facet of its hull, and whether they are all of it.
+/// The faces of a patch that lie in a facet of its hull, and whether they cover it.
 struct Cover {
     faces: Vec<u32>,
     origin: Origin,
@@ -76,7 +76,7 @@ impl Cover {
         let Some(plane) = Projection::of(triangle) else {
             return Cover::none();
         };
-        // In the facet's plane, and seen from the same side.
+        // In the facet's plane, with the same normal.
         let within = |flat: &&&Flat| {
             let own = manifold.triangle(flat.faces[0]);
             own.iter().all(|&p| side(triangle, p) == Ordering::Equal)
@@ -87,7 +87,7 @@ impl Cover {
             .iter()
             .flat_map(|f| f.faces.iter().copied())
             .collect();
-        // Faces that leave nothing out end at the outline only.
+        // Faces that cover the facet end at its outline only.
         let ours = |face: u32| members.iter().any(|f| f.faces.binary_search(&face).is_ok());
         let mut rims = members.iter().flat_map(|f| f.rim.iter().copied());
         let on_outline = |edge: u32| {

@@ -1,10 +1,10 @@
-//! Points whose hulls, part by part, cover a solid.
+//! The points of each part, whose hulls together cover a solid.
 //!
-//! A corner of the hull of what a solid has in a box is on the solid's surface, or a corner of the box:
-//! anywhere else a straight line through it goes on in the solid and the box both ways. So the surface
-//! in a part's cubes, and those of the cubes' corners that are in the solid, have a hull that contains
-//! all that the solid has in those cubes. A corner whose eight cubes belong to one part is none of the
-//! hull's, by the same argument.
+//! Take the hull of the part of a solid in a box. A corner of it is on the solid's surface, or a corner of the
+//! box: through any other point a straight line continues in the solid and the box both ways. Therefore the
+//! surface in a part's cubes, and those corners of the cubes that are in the solid, have a hull that contains all
+//! that the solid has in those cubes. A corner whose eight cubes belong to one part is no corner of the hull, by
+//! the same argument.
 
 use super::target::Target;
 use super::voxels::{Cell, Voxels};
@@ -15,21 +15,21 @@ use ccd_core::glam::DVec3;
 use ccd_core::vector::unit;
 use rayon::prelude::*;
 
-/// What a cube has of the solid.
+/// The content of a cube.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Content {
-    /// Not known yet.
+    /// The content is not known yet.
     Unknown,
-    /// Some of the surface.
+    /// The cube meets the surface.
     Surface,
-    /// All of it is in the solid.
+    /// The cube is in the solid.
     Full,
-    /// None of it is.
+    /// The cube is outside the solid.
     Nothing,
 }
 
-/// For every part the points whose hull, grown by the rounding of cuts, contains what the solid has in
-/// the cubes of that label.
+/// Computes, by part, points whose hull, grown by the rounding of cuts, contains all that the solid has in the
+/// cubes of that label.
 pub(super) fn points_by_part(
     target: &Target<'_>,
     voxels: &Voxels,
@@ -59,10 +59,10 @@ pub(super) fn points_by_part(
 /// The label of a cube that has nothing of the solid.
 const NO_PART: u32 = u32::MAX;
 
-/// So many triangles are cut at a time.
+/// The number of triangles that are cut as one task.
 const SHARE: usize = 1024;
 
-/// What every cube has of a solid.
+/// Computes the content of every cube.
 pub(super) fn contents(target: &Target<'_>, voxels: &Voxels) -> Vec<Content> {
     let triangles: Vec<_> = target.triangles().collect();
     let met = |triangles: &[[DVec3; 3]]| {
@@ -83,7 +83,7 @@ pub(super) fn contents(target: &Target<'_>, voxels: &Voxels) -> Vec<Content> {
     contents
 }
 
-/// Points of some triangles with the numbers of the parts that they are in.
+/// Cuts some triangles, and returns points of them with the numbers of their parts.
 fn pieces(
     triangles: &[[DVec3; 3]],
     voxels: &Voxels,
@@ -106,7 +106,7 @@ fn pieces(
     all
 }
 
-/// Some points of a triangle but those between two others on one of its edges, up to rounding.
+/// Removes the points of a triangle that are between two others on one of its edges, up to rounding.
 fn without_between(mut points: Vec<DVec3>, [a, b, c]: [DVec3; 3], near: f64) -> Vec<DVec3> {
     for [from, to] in [[a, b], [b, c], [c, a]] {
         let Some(along) = unit(to - from) else {
@@ -122,14 +122,14 @@ fn without_between(mut points: Vec<DVec3>, [a, b, c]: [DVec3; 3], near: f64) -> 
     points
 }
 
-/// Every point once: most are corners of several triangles.
+/// Removes duplicates: most points are corners of several triangles.
 pub(super) fn each_once(mut points: Vec<DVec3>) -> Vec<DVec3> {
     points.sort_unstable_by(|&p, &q| lexicographic(p, q));
     points.dedup();
     points
 }
 
-/// Tells full cubes from empty ones: those that are connected without meeting the surface are alike.
+/// Separates full cubes from empty ones: cubes that are connected without meeting the surface are alike.
 fn fill(target: &Target<'_>, voxels: &Voxels, contents: &mut [Content]) {
     let mut stack = Vec::new();
     for seed in 0..contents.len() {
@@ -154,7 +154,7 @@ fn fill(target: &Target<'_>, voxels: &Voxels, contents: &mut [Content]) {
     }
 }
 
-/// Adds to the parts those corners of their cubes that are in the solid, but for corners amid one part.
+/// Adds to the parts those corners of their cubes that are in the solid, except corners within one part.
 fn add_corners(
     target: &Target<'_>,
     voxels: &Voxels,
@@ -189,7 +189,7 @@ fn add_corners(
     }
 }
 
-/// The cubes, up to eight, that a corner is one of.
+/// Iterates over the cubes, up to eight, about a corner.
 fn cells_around(voxels: &Voxels, corner: Cell) -> impl Iterator<Item = usize> {
     let counts = voxels.counts();
     (0..8_usize).filter_map(move |k| {

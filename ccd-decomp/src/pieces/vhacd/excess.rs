@@ -1,4 +1,4 @@
-//! How far do hulls stick out of a solid: an upper bound, by branch and bound.
+//! An upper bound on how far hulls stick out of a solid, by branch and bound.
 
 mod part_planes;
 mod under;
@@ -14,12 +14,12 @@ use rayon::prelude::*;
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-/// A distance that no point of the parts is farther from the solid than.
+/// Bounds the distance from the solid to any point of the parts.
 ///
-/// The distance to the solid changes by no more than one moves, so that its value at the centre of a
-/// box bounds it in the box; where the surface is nearly flat, [`under`] knows better. Boxes about the
-/// parts are split, the one with the largest bound first, until that is hardly more than a distance
-/// that was found, or the work is spent.
+/// The distance to the solid changes by no more than a point moves, so that its value at the centre of a box
+/// bounds it in the box. Where the surface is nearly flat, [`under`] gives a better bound. Boxes about the parts are
+/// split, the one with the largest bound first, until that bound is hardly more than a distance that was found,
+/// or the work is spent.
 pub(super) fn bound(target: &Target<'_>, parts: &[Part]) -> f64 {
     let floor = EXCESS_FLOOR * target.reach();
     let parts: Vec<PartPlanes<'_>> = parts
@@ -45,21 +45,21 @@ pub(super) fn bound(target: &Target<'_>, parts: &[Part]) -> f64 {
     greater(greater(open, search.found), settled)
 }
 
-/// Up to about so many corners of a part are looked at.
+/// The number of corners of a part that are examined, about.
 const CORNERS: usize = 256;
 
-/// So many boxes are split at a time, on all cores.
+/// The number of boxes that are split at a time, on all cores.
 const BATCH: usize = 16;
 
-/// So many planes take as long as a triangle.
+/// The number of planes that take as long as a triangle.
 const PLANES_A_STEP: usize = 16;
 
 struct Search<'a> {
     target: &'a Target<'a>,
     parts: &'a [PartPlanes<'a>],
-    /// How many steps were taken.
+    /// The number of steps that were taken.
     taken: u64,
-    /// The largest distance of a point of a part that was looked at.
+    /// The largest distance of a point of a part that was examined.
     found: f64,
     heap: BinaryHeap<Cell>,
 }
@@ -70,22 +70,22 @@ struct Cell {
     bound: f64,
     part: usize,
     bounds: [DVec3; 2],
-    /// Those of the part's planes that it is not all behind.
+    /// The planes of the part that the box is not all behind.
     planes: Vec<u32>,
 }
 
-/// What a look at a box tells.
+/// The result of examining a box.
 #[derive(Default)]
 struct Look {
-    /// Of the box's centre, if that is in the part.
+    /// The distance of the box's centre, if that is in the part.
     distance: f64,
-    /// None if the box has nothing of the part that is farther than was known.
+    /// The box; none if it has no point of the part that is farther than the largest known distance.
     cell: Option<Cell>,
     taken: u64,
 }
 
 impl Search<'_> {
-    /// Looks at some corners of a part, and at its box.
+    /// Examines some corners of a part, and its box.
     fn begin(&mut self, number: usize) {
         let PartPlanes {
             part,
@@ -109,8 +109,8 @@ impl Search<'_> {
         self.note(look);
     }
 
-    /// Splits some boxes in eight, those with the largest bounds; no more once these are hardly more than
-    /// what was found, or the work is spent.
+    /// Splits some boxes in eight, those with the largest bounds. Returns false once these are hardly more than the
+    /// largest distance found, or the work is spent.
     fn split_worst(&mut self, floor: f64) -> bool {
         let target = greater(EXCESS_RATIO * self.found, self.found + floor);
         let worst: Vec<Cell> = (0..BATCH)
@@ -137,7 +137,7 @@ impl Search<'_> {
         self.heap.extend(look.cell);
     }
 
-    /// Looks at a box within one that was looked at.
+    /// Examines a box within one that was examined.
     fn look(&self, within: &Cell, bounds: [DVec3; 2]) -> Look {
         let planes = &within.planes;
         let (target, part, work) = (self.target, &self.parts[within.part], &Work::unbounded());
@@ -176,7 +176,7 @@ impl Search<'_> {
     }
 }
 
-/// The eight boxes that a box is split into at its middle.
+/// Splits a box into eight at its middle.
 fn octants([lo, hi]: [DVec3; 2]) -> [[DVec3; 2]; 8] {
     let middle = (lo + hi) / 2.0;
     std::array::from_fn(|k| {

@@ -1,5 +1,5 @@
-//! The points of a list that matter to its hull: those farthest out in some directions, and those that are
-//! not within the hull of such.
+//! Reduction of points to those that matter to their hull: the extreme points in some directions, and the points
+//! that are not within the hull of these.
 
 use crate::bounds::Bounds;
 use crate::exact::predicates::{side, too_fine};
@@ -8,9 +8,9 @@ use ccd_core::glam::DVec3;
 use std::cmp::Ordering;
 use std::f64::consts::PI;
 
-/// Points that are the farthest in so many directions, each once, in the order of the list.
+/// Finds the extreme points in a number of directions, each once, in the order of the list.
 ///
-/// Directions are spread evenly over the box of the points, stretched to a cube.
+/// The directions are spread evenly over the box of the points, stretched to a cube.
 pub(super) fn farthest(points: &[DVec3], directions: u32) -> Vec<DVec3> {
     let Bounds { lo, hi } = Bounds::of(points.iter().copied());
     let stretch = |x: f64| if x > 0.0 { x.recip() } else { 0.0 };
@@ -28,7 +28,7 @@ pub(super) fn farthest(points: &[DVec3], directions: u32) -> Vec<DVec3> {
     found.into_iter().map(|place| points[place]).collect()
 }
 
-/// One of a number of directions that are spread evenly: along a spiral, by the golden angle.
+/// Computes the `k`-th of a number of directions that are spread evenly: along a spiral, by the golden angle.
 fn direction(k: u32, count: u32) -> DVec3 {
     let z = 1.0 - (2.0 * f64::from(k) + 1.0) / f64::from(count);
     let radius = (1.0 - z * z).sqrt();
@@ -36,14 +36,14 @@ fn direction(k: u32, count: u32) -> DVec3 {
     DVec3::new(radius * angle.cos(), radius * angle.sin(), z)
 }
 
-/// Directions whose farthest points tell what is within.
+/// The number of directions whose extreme points make the inner hull.
 const DIRECTIONS: u32 = 32;
 
-/// Fewer points, of the same hull.
+/// Removes inner points, and keeps the hull.
 ///
 /// # Guarantee
-/// Exact: a point that is left out is in the hull of some that are kept. Points that are too fine for exact
-/// predicates are all kept.
+/// Exact: a removed point is in the hull of points that are kept. All points are kept if a coordinate is too near
+/// to 0 for exact predicates.
 pub(super) fn without_inner(points: Vec<DVec3>) -> Vec<DVec3> {
     if points.len() <= DIRECTIONS as usize || too_fine(&points).is_some() {
         return points;

@@ -1,4 +1,4 @@
-//! Which voxel belongs to which part, by the library.
+//! The part of every voxel, by the library.
 
 use super::target::Target;
 use super::voxels::Voxels;
@@ -10,10 +10,10 @@ use parry3d_f64::transformation::voxelization::FillMode;
 use std::collections::VecDeque;
 use std::panic::catch_unwind;
 
-/// The number of a part for every cube, meant or not; none when the library fails.
+/// Labels every cube with the number of a part; none when the library fails.
 ///
-/// Cubes that the library leaves out get the part of a cube near by: any label will do for the
-/// guarantee, as the parts are covered whatever they are.
+/// Cubes that the library leaves out get the part of a cube near by. The guarantee holds with any labels, because
+/// parts of any shape are covered.
 pub(super) fn labels(target: &Target<'_>, voxels: &Voxels, hulls: u32) -> Option<Vec<u32>> {
     let parts = decompose(target, voxels, hulls)?;
     const NONE: u32 = u32::MAX;
@@ -35,15 +35,15 @@ pub(super) fn labels(target: &Target<'_>, voxels: &Voxels, hulls: u32) -> Option
             }
         }
     }
-    // Without any, all is one part.
+    // Without a label from the library, all cubes are one part.
     for label in labels.iter_mut().filter(|label| **label == NONE) {
         *label = 0;
     }
     Some(labels)
 }
 
-/// The cubes with their parts, of which there are more than hulls were asked for: the library makes up to
-/// twice as many as it is told.
+/// Assigns cubes to parts through the library. There are more parts than hulls were asked for; the library makes
+/// up to twice its parameter.
 fn decompose(target: &Target<'_>, voxels: &Voxels, hulls: u32) -> Option<Vec<([usize; 3], u32)>> {
     let fill_mode = match target.is_closed() {
         true => FillMode::FloodFill {
@@ -67,7 +67,7 @@ fn decompose(target: &Target<'_>, voxels: &Voxels, hulls: u32) -> Option<Vec<([u
     let faces: Vec<[u32; 3]> = (0..target.faces().len() as u32)
         .map(|k| [3 * k, 3 * k + 1, 3 * k + 2])
         .collect();
-    // It asserts what rounding can violate.
+    // The library asserts conditions that rounding can violate.
     let found = catch_unwind(|| VHACD::decompose(&parameters, &points, &faces, false)).ok()?;
     let mut cells = Vec::new();
     for (part, voxels) in found.voxel_parts().iter().enumerate() {

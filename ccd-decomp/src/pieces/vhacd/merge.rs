@@ -1,4 +1,4 @@
-//! Fewer parts: those that fill their common hull best are merged first.
+//! Merging of parts: those that fill their common hull best first.
 
 use super::extremes::{farthest, without_inner};
 use crate::bounds::Bounds;
@@ -8,15 +8,15 @@ use crate::tolerance::PRICED_POINTS;
 use ccd_core::glam::DVec3;
 use rayon::prelude::*;
 
-/// Merges pairs of parts, given by points of their hulls, until there are no more than so many: always the
-/// pair whose hull has the least volume beyond their own.
+/// Merges pairs of parts, given by points of their hulls, until at most `most` are left: always the pair whose hull
+/// has the least volume beyond their own.
 ///
 /// # Complexity
-/// O(n²) hulls of few points each, however many a part has; of parts apart from each other the boxes stand
-/// in for the hulls.
+/// O(n²) hulls of few points each, whatever the number of a part's points. Boxes stand for the hulls of parts that
+/// are apart from each other.
 ///
 /// # Guarantee
-/// The hull of what comes out for some parts contains these parts; volumes serve to choose alone.
+/// The hull of merged parts contains these parts. Rounded volumes only affect the choice.
 pub(super) fn down_to(parts: Vec<Vec<DVec3>>, most: usize) -> Vec<Vec<DVec3>> {
     let mut merger = Merger::new(parts);
     // Each step leaves one less.
@@ -34,9 +34,9 @@ struct Merger {
 
 struct Measured {
     points: Vec<DVec3>,
-    /// Few of them, whose hull is about as large.
+    /// A few of the points, whose hull is about as large.
     priced: Vec<DVec3>,
-    /// Of these.
+    /// The volume of the hull of `priced`.
     volume: f64,
     bounds: Bounds,
 }
@@ -69,7 +69,7 @@ impl Merger {
         }
     }
 
-    /// Whether there was a pair to merge.
+    /// Merges the cheapest pair. Returns whether there was one.
     fn merge_best(&mut self) -> bool {
         let live = |k: usize| self.parts[k].is_some();
         let pairs = (0..self.parts.len()).flat_map(|l| (0..l).map(move |k| (k, l)));
@@ -107,8 +107,8 @@ impl Measured {
         }
     }
 
-    /// The volume that merging adds. The box is more than the hull, which keeps parts that are apart
-    /// from being merged before others.
+    /// Computes the volume that merging adds. The box is larger than the hull, so that parts that are apart are
+    /// merged last.
     fn price_with(&self, other: &Measured) -> f64 {
         let common = || {
             let points = [&self.priced[..], &other.priced].concat();
@@ -122,7 +122,7 @@ impl Measured {
     }
 }
 
-/// The volume within triangles, rounded: it serves to compare.
+/// Computes the volume within triangles, rounded, for comparisons.
 fn volume(points: &[DVec3], triangles: impl Iterator<Item = [u32; 3]>) -> f64 {
     let at = |v: u32| points[v as usize] - points[0];
     let six = triangles.map(|[a, b, c]| at(a).dot(at(b).cross(at(c))));

@@ -1,10 +1,10 @@
-//! A convex part of what is approximated.
+//! The convex parts of an approximation.
 
 use crate::hull::{HullError, Method, hull};
 use ccd_core::glam::DVec3;
 use ccd_core::{Facet, Loops, Origin, Polytope};
 
-/// A convex part: the corners of its hull, and the facets if they are not all in a line.
+/// A convex part: the corners of its hull, and the facets, unless all corners are on a line.
 pub(super) struct Part {
     pub(super) corners: Vec<DVec3>,
     pub(super) facets: Loops,

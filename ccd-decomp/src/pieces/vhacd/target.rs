@@ -1,9 +1,9 @@
-//! What is approximated: which points are in it, and how far are others.
+//! The target of an approximation: its points, and the distances of other points.
 
 use crate::bounds::Bounds;
 use crate::exact::predicates::side;
 use crate::mesh::TriangleMesh;
-use crate::search::nearest::NearestTriangles;
+use crate::search::box_tree::BoxTree;
 use crate::search::region::Region;
 use crate::solid::topology::{Orientation, Topology};
 use crate::tolerance::NEAREST_SLACK;
@@ -16,38 +16,34 @@ use parry3d_f64::shape::Triangle;
 use robust::{Coord, orient2d};
 use std::cmp::Ordering;
 
-/// The points about which a mesh winds and its surface; the surface alone if the mesh is open.
+/// The solid to be approximated, with its surface; the surface alone if the mesh is open.
 pub(super) struct Target<'a> {
     mesh: &'a TriangleMesh,
-    search: NearestTriangles,
+    search: BoxTree,
     closed: bool,
     inside_out: bool,
     bounds: [DVec3; 2],
 }
 
-/// Where a point is.
+/// The location of a point relative to the target.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Location {
-    /// In the solid, at least so far below the surface.
+    /// The point is in the solid, at least `depth` below the surface.
     Inside { depth: f64 },
-    /// Not in it, or on an open surface, at most so far from it.
+    /// The point is not in the solid, or the surface is open; the target is at most `distance` away.
     Outside { distance: f64 },
 }
 
 impl<'a> Target<'a> {
     pub(super) fn of(mesh: &'a TriangleMesh, topology: &Topology) -> Self {
-        let at = |v: &u32| mesh.vertices()[*v as usize];
-        let corners = || mesh.faces().iter().flatten().map(at);
-        let bounds = [
-            corners().fold(DVec3::INFINITY, DVec3::min),
-            corners().fold(DVec3::NEG_INFINITY, DVec3::max),
-        ];
+        let corners = mesh.faces().iter().flatten();
+        let Bounds { lo, hi } = Bounds::of(corners.map(|&v| mesh.vertices()[v as usize]));
         Target {
             mesh,
-            search: NearestTriangles::new(mesh.vertices(), mesh.faces()),
+            search: BoxTree::of_faces(mesh.vertices(), mesh.faces(), 0..mesh.faces().len() as u32),
             closed: topology.is_solid(),
             inside_out: topology.orientation() == Orientation::Inward,
-            bounds,
+            bounds: [lo, hi],
         }
     }
 
@@ -69,12 +65,12 @@ impl<'a> Target<'a> {
         self.closed
     }
 
-    /// 1 where the faces look out of the solid, −1 where they look into it.
+    /// The orientation: 1 where the normals point out of the solid, −1 where they point into it.
     pub(super) fn orientation(&self) -> f64 {
         if self.inside_out { -1.0 } else { 1.0 }
     }
 
-    /// The triangles whose boxes meet a box, if there are so many at most.
+    /// Finds the triangles whose boxes meet a box; none if there are more than `most`.
     pub(super) fn triangles_in(
         &self,
         [lo, hi]: [DVec3; 2],
@@ -104,12 +100,12 @@ impl<'a> Target<'a> {
         lo.abs().max(hi.abs()).max_element()
     }
 
-    /// What distances, which are rounded, may be off by.
+    /// A bound on the rounding error of distances.
     pub(super) fn slack(&self) -> f64 {
         NEAREST_SLACK * self.reach()
     }
 
-    /// Where a point is.
+    /// Locates a point.
     pub(super) fn locate(&self, point: DVec3, work: &Work) -> Location {
         let (found, reached) = self.nearest(point, work);
         match self.winds_about(point, work) {
@@ -122,8 +118,8 @@ impl<'a> Target<'a> {
         }
     }
 
-    /// The distance to the surface as the library sees it, and to a point that is certainly on a
-    /// triangle: its projection has weights that are clamped, as those of a needle may be anything.
+    /// Computes the distance to the surface by the library, and the distance to a point that is certainly on a
+    /// triangle: the weights of its projection are clamped, because those of a needle may be anything.
     fn nearest(&self, point: DVec3, work: &Work) -> (f64, f64) {
         let query = vector(point);
         let project = |corners: [DVec3; 3]| {
@@ -134,7 +130,7 @@ impl<'a> Target<'a> {
             let (found, _) = project(corners);
             DVec3::from_array(found.point.to_array()).distance(point)
         };
-        let Some((face, found)) = self.search.to(point, work, distance) else {
+        let Some((face, found)) = self.search.nearest(point, work, distance) else {
             return (0.0, f64::INFINITY);
         };
         let corners = self.mesh.triangle(face);
@@ -147,13 +143,13 @@ impl<'a> Target<'a> {
         let on = corners.iter().zip(weights);
         let on: DVec3 = on.map(|(&p, w)| w / sum * (p - point)).sum();
         let reached = on.length();
-        // NaN, were there any, is as far as can be.
+        // NaN counts as infinitely far.
         let far = |way: f64| if way.is_nan() { f64::INFINITY } else { way };
         (if found.is_nan() { 0.0 } else { found }, far(reached))
     }
 
-    /// Whether the mesh winds about a point, by exact predicates; for a point on the surface, whether
-    /// it does about one next to it. Never for an open mesh.
+    /// Whether the mesh winds about a point, by exact predicates. For a point on the surface, the answer is that of
+    /// a point next to it. An open mesh winds about no point.
     pub(super) fn winds_about(&self, point: DVec3, work: &Work) -> bool {
         if !self.closed {
             return false;
@@ -169,10 +165,10 @@ impl<'a> Target<'a> {
     }
 }
 
-/// How a ray from a point along z passes a triangle: 1 to the front, −1 to the back, 0 not at all.
+/// Counts how a ray from a point along z passes a triangle: 1 to the front, −1 to the back, 0 not at all.
 ///
-/// A point in line with an edge is taken a little in the direction of x, and less of y, which tells
-/// for each edge and all triangles on it alike on which side the ray passes.
+/// A point in line with an edge is moved a little in the direction of x, and less in that of y. This decides for
+/// each edge, and for all triangles at it alike, on which side the ray passes.
 fn crossing(triangle: [DVec3; 3], point: DVec3) -> i32 {
     let [a, b, c] = triangle;
     let around: i32 = [(a, b), (b, c), (c, a)]

@@ -1,6 +1,7 @@
 use super::target::Location;
 use super::*;
 use crate::exact::predicates::side;
+use crate::test_meshes::prism;
 use crate::work::Work;
 use ccd_core::Facet;
 use ccd_core::glam::DVec3;
@@ -65,22 +66,10 @@ fn torus(around: u32, across: u32, thickness: f64) -> TriangleMesh {
     mesh(&points, &faces.collect::<Vec<_>>())
 }
 
-fn prism() -> TriangleMesh {
-    // An L, two by two with legs of one, up to 1.
+/// An L, two by two with legs of one, up to 1.
+fn angle() -> TriangleMesh {
     let outline = [(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)];
-    let at = |z: f64| outline.map(|(x, y)| DVec3::new(f64::from(x), f64::from(y), z));
-    let floor = [[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 5]];
-    let walls = (0..6_u32).flat_map(|k| {
-        let l = (k + 1) % 6;
-        [[k, l, l + 6], [k, l + 6, k + 6]]
-    });
-    let lids = floor
-        .into_iter()
-        .flat_map(|[a, b, c]| [[a, c, b], [a + 6, b + 6, c + 6]]);
-    mesh(
-        &[at(0.0), at(1.0)].concat(),
-        &walls.chain(lids).collect::<Vec<_>>(),
-    )
+    prism(&outline.map(|(x, y)| DVec3::new(f64::from(x), f64::from(y), 0.0)))
 }
 
 fn sheet() -> TriangleMesh {
@@ -175,7 +164,7 @@ fn approximated(mesh: &TriangleMesh, hulls: u32) -> Result<Approximation, VhacdE
 }
 
 #[rstest]
-#[case::prism(prism(), 4)]
+#[case::prism(angle(), 4)]
 #[case::star(crate::test_meshes::star(300, 0.5), 16)]
 #[case::comb(crate::test_meshes::comb(&[5.0; 40]), 8)]
 #[case::torus(torus(24, 12, 0.3), 8)]
@@ -240,7 +229,7 @@ fn far_off() -> TriangleMesh {
 #[rstest]
 #[case::torus(torus(96, 48, 0.3), 1.09_f64.sqrt() - 0.3)]
 #[case::cavity(cubes(&[cubic(1.0), [DVec3::splat(0.5), DVec3::splat(-0.5)]]), 0.5)]
-#[case::prism(prism(), 0.5)]
+#[case::prism(angle(), 0.5)]
 fn one_hull_sticks_out_by(#[case] mesh: TriangleMesh, #[case] expected: f64) {
     let found = approximated(&mesh, 1).expect("an approximation");
     assert_eq!(found.polytopes.len(), 1);
@@ -309,7 +298,7 @@ fn refusals() {
 
 /// Lattice points are in line with edges and corners of these meshes.
 #[rstest]
-#[case::prism(prism())]
+#[case::prism(angle())]
 #[case::torus(torus(8, 4, 0.5))]
 #[case::hollow(cubes(&[cubic(1.0), [DVec3::splat(0.5), DVec3::splat(-0.5)]]))]
 #[case::inside_out(cubes(&[[DVec3::splat(0.5), DVec3::splat(-0.5)]]))]

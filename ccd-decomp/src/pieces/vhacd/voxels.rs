@@ -1,4 +1,4 @@
-//! A grid of cubes about a mesh.
+//! Voxels: a grid of cubes about a mesh.
 
 use super::target::Target;
 use crate::tolerance::{self, VOXELS_TESTED, voxel_resolution};
@@ -6,14 +6,15 @@ use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 use std::ops::RangeInclusive;
 
-/// Cubes between planes that are at exactly the stored coordinates, so that neighbours leave no gap.
+/// A grid of cubes between planes at exactly the stored coordinates, so that neighbours leave no gap.
 pub(super) struct Voxels {
     planes: [Vec<f64>; 3],
-    /// The least corner of the mesh, which is the centre of the first cube, and their size.
+    /// The least corner of the mesh, which is the centre of the first cube.
     origin: DVec3,
+    /// The size of the cubes.
     step: f64,
     resolution: u32,
-    /// How much the cubes are widened when something is cut to them, so that rounding loses nothing.
+    /// The width that is added to cubes when something is cut to them, so that rounding loses nothing.
     margin: f64,
 }
 
@@ -21,8 +22,8 @@ pub(super) struct Voxels {
 pub(super) type Cell = [usize; 3];
 
 impl Voxels {
-    /// As fine as the number of hulls asks for, unless the mesh's large triangles meet too many or
-    /// its coordinates are too coarse; none if no grid makes sense.
+    /// Makes the grid for a number of hulls: coarser where the mesh's large triangles meet too many cubes, none
+    /// where its coordinates are too coarse for any grid.
     pub(super) fn of(target: &Target<'_>, hulls: u32) -> Option<Self> {
         let mut resolution = voxel_resolution(hulls);
         // Halved at most a few times.
@@ -67,7 +68,7 @@ impl Voxels {
         self.resolution
     }
 
-    /// A point in the units of the grid: 0 is the centre of the first cube.
+    /// Converts a point to the units of the grid: 0 is the centre of the first cube.
     pub(super) fn in_steps(&self, point: DVec3) -> DVec3 {
         (point - self.origin) / self.step
     }
@@ -90,7 +91,7 @@ impl Voxels {
         [index / z / y, index / z % y, index % z]
     }
 
-    /// The cubes that share a face with one.
+    /// Iterates over the cubes that share a face with one.
     pub(super) fn neighbours(&self, cell: Cell) -> impl Iterator<Item = usize> {
         let counts = self.counts();
         (0..6).filter_map(move |k| {
@@ -103,7 +104,7 @@ impl Voxels {
         })
     }
 
-    /// Where three planes meet.
+    /// The point where three planes meet.
     pub(super) fn corner(&self, [i, j, k]: Cell) -> DVec3 {
         DVec3::new(self.planes[0][i], self.planes[1][j], self.planes[2][k])
     }
@@ -140,11 +141,11 @@ impl Voxels {
         }
     }
 
-    /// Cuts a triangle where the labels of the cubes change, and calls back with the pieces: the label,
-    /// and the corners of a polygon whose hull, grown by the margin, contains what is in its cubes.
+    /// Cuts a triangle where the labels of the cubes change, and calls back with the pieces: the label, and the
+    /// corners of a polygon whose hull, grown by the margin, contains the part of the triangle in its cubes.
     ///
-    /// Each cut makes corners that are in a line but for rounding; so blocks of cubes are halved only
-    /// while they are of different labels.
+    /// Each cut makes corners that are on a line except for rounding. Blocks of cubes are therefore halved only
+    /// while their labels differ.
     pub(super) fn for_each_piece(
         &self,
         triangle: [DVec3; 3],
@@ -183,7 +184,7 @@ impl Voxels {
         }
     }
 
-    /// The part of a polygon in some layers of cubes, widened by the margin.
+    /// Cuts a polygon to some layers of cubes, widened by the margin.
     fn cut(
         &self,
         polygon: &[DVec3],
@@ -200,7 +201,7 @@ impl Voxels {
     }
 }
 
-/// The part of a triangle in a box.
+/// Cuts a triangle to a box.
 pub(super) fn cut_to_box(triangle: &[DVec3; 3], [lo, hi]: [DVec3; 2], part: &mut Vec<DVec3>) {
     let mut rest = Vec::new();
     part.clear();
@@ -211,7 +212,7 @@ pub(super) fn cut_to_box(triangle: &[DVec3; 3], [lo, hi]: [DVec3; 2], part: &mut
     }
 }
 
-/// The part of a convex polygon on one side of a plane (Sutherland and Hodgman).
+/// Cuts a convex polygon to one side of a plane (Sutherland and Hodgman).
 fn cut_at(
     polygon: &[DVec3],
     axis: usize,

@@ -1,4 +1,4 @@
-//! Convex polygons of many slivers, which are looked at one by one only where something reaches in.
+//! Plates: convex polygons of many slivers, which are examined one by one only where something reaches in.
 
 use crate::bounds::Bounds;
 use crate::exact::predicates::{Projection, side};
@@ -13,10 +13,10 @@ use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
 use std::cell::OnceCell;
 use std::cmp::Ordering;
 
-/// The convex polygons of a surface that have a large fan, and the triangles of no such polygon.
+/// The plates of a surface, which are its convex polygons with a large fan, and the remaining triangles.
 ///
 /// The triangles of a polygon are glued edge to edge, the two at an edge on either side of it, and cover it
-/// once: none meets another one but in corners and edges that both have.
+/// once: two of them meet only in corners and edges that both have.
 pub(super) struct Plates<'a, 'm> {
     manifold: &'a Manifold<'m>,
     plates: Vec<Plate>,
@@ -30,16 +30,16 @@ pub(super) struct Plates<'a, 'm> {
 
 const NONE: u32 = u32::MAX;
 
-/// A polygon: its triangles, its plane, and its rim, by the numbers of vertices.
+/// A convex polygon: its triangles, its plane, and its rim by vertex.
 struct Plate {
     number: u32,
     faces: Vec<u32>,
     plane: [DVec3; 3],
     projection: Projection,
-    /// Every vertex of the rim after the one before it and before the one after it, in ascending order.
+    /// The vertices of the rim with their neighbours on it, in ascending order.
     rim: Vec<Passage>,
     bounds: Bounds,
-    /// Made when something reaches in.
+    /// The boxes of the triangles, made when something reaches in.
     group: OnceCell<Group>,
 }
 
@@ -50,17 +50,18 @@ struct Passage {
     after: u32,
 }
 
-/// Some faces, and where they are.
+/// Some faces, with their boxes.
 struct Group {
     faces: Vec<u32>,
     boxes: TriangleBoxes,
 }
 
-/// Predicates that it takes to see that a face is beside a polygon, about.
+/// The number of predicates that it takes to prove that a face is beside a polygon, about.
 const BESIDE: usize = 4;
 
 impl<'a, 'm> Plates<'a, 'm> {
-    /// None where no polygon has a large fan: the boxes of all triangles do then. O(n log n), as [`Flats::new`].
+    /// Finds the plates; none where no polygon has a large fan, so that the boxes of all triangles suffice.
+    /// O(n log n), the time of [`Flats::new`].
     pub(super) fn of(manifold: &'a Manifold<'m>) -> Option<Self> {
         let mut count = vec![0; manifold.mesh().vertices().len()];
         for &v in manifold.faces().iter().flatten() {
@@ -99,9 +100,9 @@ impl<'a, 'm> Plates<'a, 'm> {
         })
     }
 
-    /// Calls back with every face of a higher number, and some of lower ones, that may meet a face elsewhere
-    /// than where they are glued: of each such pair with one of the two at least. As
-    /// [`TriangleBoxes::all_meeting`].
+    /// Calls back with the faces that may meet a face elsewhere than where they are glued, until the answer is no,
+    /// or the work is spent. Each such pair comes up for one of its two faces at least: faces of lower number
+    /// may be left out.
     pub(super) fn all_meeting(
         &self,
         face: u32,
@@ -110,7 +111,7 @@ impl<'a, 'm> Plates<'a, 'm> {
         mut holds: impl FnMut(u32) -> bool,
     ) -> bool {
         let own = self.plate_of[face as usize];
-        // The others are asked about those of plates.
+        // Pairs with a face of a plate come up for the other face.
         if own == NONE {
             let faces = &self.rest.faces;
             let later = |other: u32| faces[other as usize] <= face || holds(faces[other as usize]);
@@ -136,16 +137,17 @@ impl<'a, 'm> Plates<'a, 'm> {
                 .get_or_init(|| Group::of(self.manifold, plate.faces.clone()));
             group.boxes.all_meeting(region, work, |other| {
                 let other = group.faces[other as usize];
-                // Those of plates are asked both ways.
+                // Pairs of faces of two plates come up twice.
                 own != NONE && other < face || holds(other)
             })
         })
     }
 
-    /// Whether all that a face has in common with a plate is a corner, or an edge, of the rim and of both.
+    /// Whether a face shares no more with a plate than a corner, or an edge, of the rim and of both.
     ///
-    /// What the face has in the plate's plane is then out of the box about the plate; or on the other side of a
-    /// line along the rim, and of that line it has a common corner alone, or the edge at which they are glued.
+    /// The part of the face in the plate's plane is then out of the box about the plate; or it is on the other
+    /// side of a line along the rim, and has only a common corner on that line, or the edge at which they are
+    /// glued.
     fn is_beside(&self, face: u32, plate: &Plate) -> bool {
         let (corners, points) = (
             self.manifold.faces()[face as usize],
@@ -164,7 +166,7 @@ impl<'a, 'm> Plates<'a, 'm> {
             }
             let mut on = level().filter(|&k| turn(k) == Ordering::Equal);
             match [on.next(), on.next(), on.next()] {
-                // The corner of the rim that the line goes through.
+                // The one is the corner of the rim that the line goes through.
                 [Some(_), None, None] => true,
                 [Some(k), Some(l), None] => {
                     let start = if (k + 1) % 3 == l { k } else { l };
@@ -175,7 +177,7 @@ impl<'a, 'm> Plates<'a, 'm> {
             }
         };
         let mut level_corners = level().map(|k| plate.passage(corners[k]));
-        // Nothing at all has bounds that meet none.
+        // The bounds of no points meet none.
         !Bounds::of(level().map(|k| points[k])).meets(&plate.bounds)
             || level_corners.any(|passage| {
                 passage.is_some_and(|p| beyond(p.before, p.at) || beyond(p.at, p.after))
@@ -183,7 +185,7 @@ impl<'a, 'm> Plates<'a, 'm> {
     }
 }
 
-/// Whether some corner is one of many of these faces.
+/// Whether a vertex is a corner of many of these faces.
 fn has_fan(manifold: &Manifold<'_>, faces: &[u32]) -> bool {
     if faces.len() < FAN_TRIANGLES as usize {
         return false;
@@ -217,7 +219,7 @@ impl Plate {
         })
     }
 
-    /// How the rim goes through a vertex; none of one that is not on it.
+    /// Finds a vertex on the rim, with its neighbours; none for a vertex that is not on it.
     fn passage(&self, vertex: u32) -> Option<Passage> {
         let found = self.rim.binary_search_by_key(&vertex, |passage| passage.at);
         found.ok().map(|k| self.rim[k])

@@ -1,4 +1,4 @@
-//! The parts of a mesh that are closed by themselves.
+//! The shells of a closed mesh: its smallest closed parts.
 
 use crate::disjoint_sets::DisjointSets;
 use crate::exact::predicates::{Projection, side, too_fine};
@@ -6,10 +6,10 @@ use crate::mesh::TriangleMesh;
 use ccd_core::glam::DVec3;
 use std::cmp::Ordering;
 
-/// The number of the part of every face.
+/// Numbers the parts: the number by face.
 ///
-/// Parts are connected over edges of two faces. At an edge of more, those that it would leave open are
-/// connected to what bounds the same material there, so that solids that share a face are told apart.
+/// Parts are connected over edges of two faces. At an edge of more faces, parts that would stay open are
+/// connected across the material that they bound, so that solids that share a face stay separate.
 pub(super) fn closed_parts(mesh: &TriangleMesh) -> Vec<u32> {
     let mut uses = uses(mesh);
     uses.sort_unstable_by_key(|u| (u.ends, u.face));
@@ -27,17 +27,17 @@ pub(super) fn closed_parts(mesh: &TriangleMesh) -> Vec<u32> {
     numbers(&mut parts, mesh.faces().len())
 }
 
-/// An edge of a face.
+/// The use of an edge by a face.
 #[derive(Clone, Copy, Debug)]
 struct Use {
-    /// By the numbers of their places, the smaller first.
+    /// The ends by welded vertex, the smaller first.
     ends: [u32; 2],
     face: u32,
     /// 1 where the face runs from the first end to the second, else −1.
     way: i32,
 }
 
-/// Every edge of every face, but from a place to itself.
+/// Collects every edge of every face, except from a point to itself.
 fn uses(mesh: &TriangleMesh) -> Vec<Use> {
     let mut uses = Vec::new();
     uses.reserve_exact(3 * mesh.faces().len());
@@ -52,7 +52,7 @@ fn uses(mesh: &TriangleMesh) -> Vec<Use> {
     uses
 }
 
-/// The faces at an edge of those parts that run along it more often one way than the other.
+/// Finds the faces at an edge of those parts that run along it more often one way than the other.
 fn open_at(edge: &[Use], parts: &mut DisjointSets) -> Vec<Use> {
     let mut of_parts: Vec<(u32, Use)> = edge.iter().map(|&u| (parts.root(u.face), u)).collect();
     of_parts.sort_by_key(|of| of.0);
@@ -64,18 +64,18 @@ fn open_at(edge: &[Use], parts: &mut DisjointSets) -> Vec<Use> {
         .collect()
 }
 
-/// Pairs of faces at one edge with material between them: behind each of the two, and as few others between
-/// as can be. Where nothing tells, all are connected.
+/// Pairs the faces at one edge that have material between them: it is behind each of the two, and as few others
+/// as possible are between. All are paired where the faces cannot be ordered.
 fn across_material(mesh: &TriangleMesh, edge: &[Use]) -> Vec<(u32, u32)> {
     let Some(around) = AngularOrder::of(mesh, edge) else {
         let pairs = edge.windows(2);
         return pairs.map(|pair| (pair[0].face, pair[1].face)).collect();
     };
     let mut order = edge.to_vec();
-    // Of faces at one place those come first that end a material.
+    // Among faces in one direction, those that end a material come first.
     order.sort_by(|one, other| around.order(one, other).then(other.way.cmp(&one.way)));
     let (mut begun, mut pairs) = (Vec::new(), Vec::new());
-    // What began before the first one ends in the second round; what is paired is taken out.
+    // A material that began before the first face ends in the second round; paired faces are removed.
     for _ in 0..2 {
         order.retain(|one| match one.way {
             1 => match begun.pop() {
@@ -94,17 +94,19 @@ fn across_material(mesh: &TriangleMesh, edge: &[Use]) -> Vec<(u32, u32)> {
     pairs
 }
 
-/// The way around an edge, from one of its faces on: counter-clockwise for one towards whom the edge points.
+/// The order of faces around an edge, from one of them on: counter-clockwise, with the edge pointing at the
+/// viewer.
 struct AngularOrder<'m> {
     mesh: &'m TriangleMesh,
     ends: [DVec3; 2],
     first: DVec3,
-    /// Of the first face's plane.
+    /// The projection of the first face's plane.
     projection: Projection,
 }
 
 impl<'m> AngularOrder<'m> {
-    /// None where a face has no area, or a coordinate is too fine for exact predicates.
+    /// Starts at the first face; none where a face has no area, or a coordinate is too near to 0 for exact
+    /// predicates.
     fn of(mesh: &'m TriangleMesh, edge: &[Use]) -> Option<Self> {
         let [v, w] = edge.first()?.ends.map(|v| mesh.vertices()[v as usize]);
         let apexes: Vec<DVec3> = edge.iter().map(|one| apex(mesh, one)).collect();
@@ -130,7 +132,7 @@ impl<'m> AngularOrder<'m> {
             .then_with(by_turn)
     }
 
-    /// In the first face's half plane, before the half turn, there, or beyond.
+    /// Computes the quarter of a point: in the first face's half plane, before the half turn, there, or beyond.
     fn quarter(&self, point: DVec3) -> u32 {
         let [v, w] = self.ends;
         let is_near = || self.projection.turn(v, w, point) == Ordering::Greater;
@@ -143,18 +145,18 @@ impl<'m> AngularOrder<'m> {
     }
 }
 
-/// The corner of a face that is not on an edge of it.
+/// The corner of a face opposite to an edge.
 fn apex(mesh: &TriangleMesh, of: &Use) -> DVec3 {
     let mut at = mesh
         .welded_face(of.face)
         .into_iter()
         .zip(mesh.triangle(of.face));
     let off = at.find(|(v, _)| !of.ends.contains(v));
-    // A face with two corners at one place has no other.
+    // A face with two corners at one point has no other corner.
     off.map_or(mesh.vertices()[of.ends[0] as usize], |(_, p)| p)
 }
 
-/// Numbers for the parts, in the order of their first faces, by the face.
+/// Numbers the parts in the order of their first faces: the number by face.
 fn numbers(parts: &mut DisjointSets, faces: usize) -> Vec<u32> {
     let mut number = vec![u32::MAX; faces];
     let mut count = 0;

@@ -1,23 +1,9 @@
 //! Shells within shells, wound at random, against windings counted one shell at a time.
 
+use crate::test_meshes::CUBE;
 use crate::{Detail, Topology, TriangleMesh, body_from_mesh};
 use ccd_core::Volume;
 use ccd_core::glam::{DVec3, dvec3};
-
-const CUBE: [[u32; 3]; 12] = [
-    [0, 4, 6],
-    [0, 6, 2],
-    [1, 3, 7],
-    [1, 7, 5],
-    [0, 1, 5],
-    [0, 5, 4],
-    [2, 6, 7],
-    [2, 7, 3],
-    [0, 2, 3],
-    [0, 3, 1],
-    [4, 5, 7],
-    [4, 7, 6],
-];
 
 /// Cubes by middle, half the side and whether they are inside out, as one mesh.
 fn cubes(cubes: &[(DVec3, f64, bool)]) -> TriangleMesh {

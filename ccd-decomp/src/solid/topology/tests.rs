@@ -1,20 +1,7 @@
+use crate::test_meshes::CUBE;
 use crate::{Edge, Orientation, Topology, TriangleMesh};
 use ccd_core::glam::{DVec3, dvec3};
 
-const CUBE: [[u32; 3]; 12] = [
-    [0, 4, 6],
-    [0, 6, 2],
-    [1, 3, 7],
-    [1, 7, 5],
-    [0, 1, 5],
-    [0, 5, 4],
-    [2, 6, 7],
-    [2, 7, 3],
-    [0, 2, 3],
-    [0, 3, 1],
-    [4, 5, 7],
-    [4, 7, 6],
-];
 const TETRAHEDRON: [[u32; 3]; 4] = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
 
 fn cube_points() -> Vec<DVec3> {

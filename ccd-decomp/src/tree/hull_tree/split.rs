@@ -1,4 +1,4 @@
-//! Where pieces are split in two.
+//! The split of pieces in two.
 
 use crate::hull::likely_triangles;
 use crate::tolerance::{EIGEN_ROUNDS, LEAST_SHARE, SPREAD_PIECES};
@@ -21,8 +21,7 @@ impl Splitter {
         }
     }
 
-    /// Puts at least two pieces in an order in which those of one side come first, and says how many
-    /// these are.
+    /// Sorts at least two pieces so that those of one side come first, and returns the number of these.
     pub(super) fn split(&self, pieces: &mut [u32]) -> usize {
         if pieces.len() == 2 {
             return 1;
@@ -43,9 +42,9 @@ impl Splitter {
         }
     }
 
-    /// The unit vector along which the surface of the hull of the centres is spread most.
+    /// Computes the unit vector along which the surface of the hull of the centres is spread most.
     fn longest(&self, pieces: &[u32]) -> DVec3 {
-        // Of many pieces some will do to tell how they are spread.
+        // A sample of many pieces is enough for their spread.
         let stride = pieces.len().div_ceil(SPREAD_PIECES);
         let some = pieces.iter().step_by(stride);
         let centres: Vec<DVec3> = some.map(|&k| self.centres[k as usize]).collect();
@@ -55,9 +54,9 @@ impl Splitter {
         if !(size > 0.0) {
             return DVec3::X;
         }
-        // In units in which no product is too small.
+        // Scaled, so that no product is too small.
         let unit: Vec<DVec3> = centres.iter().map(|&p| (p - mean) / size).collect();
-        // Any axis will do, so that nothing has to be proven.
+        // Any axis gives a correct tree, so that nothing has to be proven.
         let spread = match likely_triangles(&unit) {
             Some(triangles) => of_surface(&unit, &triangles),
             None => of_points(&unit),
@@ -66,7 +65,7 @@ impl Splitter {
     }
 }
 
-/// The second moments of a surface about its centroid.
+/// Computes the second moments of a surface about its centroid.
 fn of_surface(points: &[DVec3], triangles: &[[u32; 3]]) -> Matrix3<f64> {
     let (mut area, mut first, mut second) = (0.0, DVec3::ZERO, Matrix3::zeros());
     for corners in triangles {

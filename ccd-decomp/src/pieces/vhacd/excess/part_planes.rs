@@ -1,4 +1,4 @@
-//! A part as it is seen by the search: its planes.
+//! The planes of a part, which bound it in the search.
 
 use super::super::part::Part;
 use super::super::target::Target;
@@ -10,29 +10,29 @@ use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 use ccd_core::vector::unit;
 
-/// A part with the planes of its facets.
+/// A part and the planes of its facets.
 pub(super) struct PartPlanes<'a> {
     pub(super) part: &'a Part,
-    /// Only those of facets that are well shaped, which are right to within the solid's slack.
+    /// The planes of well-shaped facets, which are accurate to within the slack.
     pub(super) planes: Vec<Plane>,
     pub(super) bounds: Bounds,
     slack: f64,
 }
 
-/// A plane in front of which a part has nothing.
+/// A plane that has a whole part behind it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Plane {
-    /// Of length 1.
+    /// The normal, of length 1.
     pub(super) normal: DVec3,
-    /// Along the normal.
+    /// The height along the normal.
     pub(super) height: f64,
 }
 
-/// What a box that may have some of a part is to the part's planes.
+/// The position of a box that may meet a part, relative to the part's planes.
 pub(super) struct Meeting {
     /// Whether the centre is in the part.
     pub(super) has_centre: bool,
-    /// The numbers of the planes that the box is not all behind.
+    /// The planes that the box is not all behind, by number.
     pub(super) planes: Vec<u32>,
 }
 
@@ -50,8 +50,8 @@ impl<'a> PartPlanes<'a> {
         }
     }
 
-    /// Holds a box against some planes: those that a larger box is not all behind. None if it has nothing of
-    /// the part.
+    /// Tests a box with some planes: those that a larger box is not all behind. None if the box does not meet the
+    /// part.
     pub(super) fn meets(&self, centre: DVec3, half: DVec3, among: &[u32]) -> Option<Meeting> {
         let mut meeting = Meeting {
             has_centre: !self.planes.is_empty(),
@@ -75,12 +75,12 @@ impl<'a> PartPlanes<'a> {
         Some(meeting)
     }
 
-    /// A bound for a part that hardly any of the surface reaches into; none if it would be more than
-    /// some.
+    /// Bounds the excess of a part that hardly any of the surface reaches into; none if the bound would exceed
+    /// `most`.
     ///
-    /// Let the part be shrunk towards a point of the solid, so far that each triangle of the surface is in front
-    /// of one of its planes. No surface is within, so that it is all in the solid; by what it was shrunk, the
-    /// part may stick out.
+    /// Shrink the part towards a point of the solid until each triangle of the surface is in front of one of its
+    /// planes. The shrunk part contains no surface, so that all of it is in the solid. The part may stick out by
+    /// the amount of the shrinking.
     ///
     /// # Complexity
     /// O(log f) for each triangle near the part, of f facets.
@@ -95,7 +95,8 @@ impl<'a> PartPlanes<'a> {
         }
         let far = self.part.corners.iter().map(|p| p.distance(centre));
         let reach = far.fold(0.0, greater) + self.slack;
-        // In units of its depth below each plane a point is as far out as the farthest of these is along it.
+        // The farthest of these along a direction is the plane that a point there is farthest out of, in units
+        // of the centre's depth.
         let duals = self.planes.iter().zip(&depths);
         let duals: Vec<DVec3> = duals.map(|(plane, depth)| plane.normal / *depth).collect();
         let farthest = SupportTree::new(&duals);
@@ -122,7 +123,7 @@ impl<'a> PartPlanes<'a> {
 }
 
 impl Plane {
-    /// That of a facet; none if it is not well shaped.
+    /// Computes the plane of a facet; none if the facet is not well shaped.
     fn of(part: &Part, facet: &[u32]) -> Option<Self> {
         let at = |k: usize| part.corners[facet[k] as usize];
         // The corner triangle of the largest area.
@@ -139,7 +140,7 @@ impl Plane {
         })
     }
 
-    /// How far a point is in front of it.
+    /// The signed distance of a point in front of the plane.
     pub(super) fn above(&self, point: DVec3) -> f64 {
         self.normal.dot(point) - self.height
     }

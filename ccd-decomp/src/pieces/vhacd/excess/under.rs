@@ -1,4 +1,4 @@
-//! A part above a nearly flat piece of the surface.
+//! A bound for parts above a nearly flat piece of the surface.
 
 use super::super::target::Target;
 use super::super::voxels::cut_to_box;
@@ -9,13 +9,13 @@ use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 use ccd_core::vector::unit;
 
-/// A bound on the distance to the solid of a part's points in a box, from the surface about the box.
+/// Bounds the distance to the solid of a part's points in a box, by the surface about the box; none where this
+/// proves nothing.
 ///
-/// Let the box be grown to three times its size, and a height be measured along the surface's mean
-/// normal. What of the large box is below all of the surface in it is convex and has none of the
-/// surface, so that it is in the solid if one of its points is. A point of the small box comes there by
-/// sinking as much as it is higher, if that does not lead out of the large box. None where this says
-/// nothing.
+/// Grow the box to three times its size, and measure heights along the mean normal of the surface in it. The
+/// points of the large box below all of that surface form a convex set without any surface, which is in the solid
+/// if one of its points is. A point of the small box gets there by sinking to that height, if it stays in the
+/// large box.
 pub(super) fn excess(
     target: &Target<'_>,
     planes: impl Iterator<Item = Plane>,
@@ -46,8 +46,8 @@ pub(super) fn excess(
     stays.then_some(sinks + target.slack())
 }
 
-/// A bound on the height of a part's points in a box: by each of some planes that it is behind, of whose
-/// normal the upward direction is a multiple and a rest.
+/// Bounds the height of a part's points in a box, by each of some planes that the part is behind: the upward
+/// direction is a multiple of the plane's normal, and a rest.
 fn highest(
     planes: impl Iterator<Item = Plane>,
     up: DVec3,
