@@ -40,6 +40,21 @@ pub(crate) struct Hull {
     pub(crate) method: Method,
 }
 
+impl Hull {
+    /// The points of the corners, and the facets by the numbers of these.
+    pub(crate) fn corners_and_facets(mut self, points: &[DVec3]) -> (Vec<DVec3>, Loops) {
+        let mut number = vec![0; points.len()];
+        for (k, &v) in (0..).zip(&self.vertices) {
+            number[v as usize] = k;
+        }
+        for corner in self.facets.corners_mut() {
+            *corner = number[*corner as usize];
+        }
+        let corners = self.vertices.iter().map(|&v| points[v as usize]);
+        (corners.collect(), self.facets)
+    }
+}
+
 /// The method that found a hull.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Method {

@@ -2,4 +2,5 @@
 
 pub(crate) mod convex;
 pub(crate) mod patches;
+mod polytope;
 pub(crate) mod vhacd;

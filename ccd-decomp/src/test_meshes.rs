@@ -70,7 +70,7 @@ pub(crate) fn tetrahedron() -> TriangleMesh {
     )
 }
 
-/// The meshes of several as one.
+/// Several meshes as one.
 pub(crate) fn joined(parts: &[&TriangleMesh]) -> TriangleMesh {
     let (mut vertices, mut faces) = (Vec::new(), Vec::new());
     for part in parts {
@@ -153,7 +153,8 @@ pub(crate) fn comb(heights: &[f64]) -> TriangleMesh {
     capped(&outline, &caps)
 }
 
-/// Teeth that lean away from the first corner, which sees all of them: the fans of the caps are exact.
+/// The outline of teeth that lean away from the first corner, from which all are visible: the fans of the caps are
+/// exact.
 pub(crate) fn teeth(count: u32) -> Vec<DVec3> {
     let corner = |k: u32| {
         let share = f64::from(k) / f64::from(2 * count - 1);
@@ -167,8 +168,8 @@ pub(crate) fn teeth(count: u32) -> Vec<DVec3> {
         .collect()
 }
 
-/// A convex prism of so many corners under a narrower, longer one: large caps on what no point sees all
-/// of.
+/// A convex prism of a number of corners under a narrower, longer one: large caps on a solid that is not
+/// star-shaped.
 pub(crate) fn notched(corners: u32) -> TriangleMesh {
     let ring = |radius: f64, z: f64| {
         (0..corners).map(move |k| {

@@ -8,7 +8,7 @@ use std::sync::LazyLock;
 const TETRAHEDRON: &str =
     "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
 
-/// A tetrahedron with a dent, and for the report's sake a face twice and a vertex too many.
+/// A tetrahedron with a dent, a duplicate face and an unused vertex, which the report mentions.
 const DENTED: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv .2 .2 .2\nv 9 9 9\n\
      f 1 3 2\nf 1 2 4\nf 3 1 4\nf 2 3 5\nf 3 4 5\nf 4 2 5\nf 4 2 5\n";
 
@@ -30,8 +30,7 @@ fn fault(bytes: &[u8]) -> StoreFault {
     }
 }
 
-/// Those of every kind of pieces, with a hull tree and without, small enough to be changed at every
-/// byte.
+/// Stored bodies of every kind of pieces, with a hull tree and without, small enough to be changed at every byte.
 static FILES: LazyLock<Vec<Vec<u8>>> = LazyLock::new(|| {
     let patches = model(DENTED, Detail::Patches(Order::Cresting));
     let models = [
@@ -82,29 +81,29 @@ fn files_are_named_in_errors() {
     model.save(&path).unwrap();
     assert_eq!(Model::load(&path).unwrap().report, model.report);
     std::fs::write(&path, &stored(&model)[..40]).unwrap();
-    let told = Model::load(&path).unwrap_err().to_string();
-    assert!(told.contains("part.ccd: is cut short"), "{told}");
-    assert!(told.contains("ccd decompose MESH --out"), "{told}");
+    let message = Model::load(&path).unwrap_err().to_string();
+    assert!(message.contains("part.ccd: is cut short"), "{message}");
+    assert!(message.contains("ccd decompose MESH --out"), "{message}");
     let nowhere = folder.join("no/such/folder.ccd");
-    let told = [
+    let message = [
         Model::load(&nowhere).unwrap_err().to_string(),
         model.save(&nowhere).unwrap_err().to_string(),
     ];
     assert!(
-        told[0].contains("folder.ccd: cannot be read"),
+        message[0].contains("folder.ccd: cannot be read"),
         "{}",
-        told[0]
+        message[0]
     );
     assert!(
-        told[1].contains("folder.ccd: cannot be written"),
+        message[1].contains("folder.ccd: cannot be written"),
         "{}",
-        told[1]
+        message[1]
     );
     std::fs::remove_dir_all(&folder).unwrap();
 }
 
 #[test]
-fn a_foreign_file_is_told() {
+fn a_foreign_file_is_reported() {
     let files: [&[u8]; 4] = [
         b"",
         b"# an obj\nv 0 0 0\n",
@@ -117,22 +116,22 @@ fn a_foreign_file_is_told() {
 }
 
 #[test]
-fn another_version_is_told_before_it_is_called_damaged() {
+fn another_version_is_reported_before_damage() {
     let mut bytes = stored(&model(DENTED, Detail::Triangles));
     bytes[8] = 0xff;
     assert!(matches!(
         fault(&bytes),
         StoreFault::OtherVersion { version: 0xff }
     ));
-    let told = fault(&bytes).to_string();
+    let message = fault(&bytes).to_string();
     assert!(
-        told.contains("version 255") && told.contains("version 2 is what is read"),
-        "{told}"
+        message.contains("version 255") && message.contains("version 2 is what is read"),
+        "{message}"
     );
 }
 
 #[test]
-fn a_pointer_of_git_lfs_is_told_for_what_it_is() {
+fn a_pointer_of_git_lfs_is_recognised() {
     let fault = fault(b"version https://git-lfs.github.com/spec/v1\noid sha256:0\n");
     assert!(matches!(fault, StoreFault::LfsPointer), "{fault}");
     assert!(fault.to_string().contains("git lfs pull"), "{fault}");
@@ -179,7 +178,7 @@ fn a_length_that_no_memory_holds_is_a_cut_file() {
 }
 
 #[test]
-fn parts_that_do_not_belong_together_are_told() {
+fn parts_that_do_not_belong_together_are_reported() {
     let (mut small, large) = (
         model(TETRAHEDRON, Detail::Triangles),
         model(DENTED, Detail::Triangles),
@@ -194,7 +193,7 @@ fn parts_that_do_not_belong_together_are_told() {
     ));
 }
 
-/// Whatever is read is a body.
+/// Checks that bytes that can be read are a valid body.
 fn check(bytes: &[u8]) {
     if let Ok(model) = Model::read(bytes) {
         let body = model.body().unwrap();
@@ -203,7 +202,7 @@ fn check(bytes: &[u8]) {
     }
 }
 
-/// The payload of a good file, in a frame that says that it is whole.
+/// A changed payload in a frame with a matching checksum.
 fn reframed(payload: &[u8]) -> Vec<u8> {
     let mut bytes = Vec::new();
     frame::write(&mut bytes, payload).unwrap();

@@ -5,7 +5,7 @@ use rstest::rstest;
 use std::cmp::Ordering;
 use std::collections::BTreeSet;
 
-/// The corners and planes by looking at all triples: a triple spans a facet when no point is in front.
+/// The corners and planes by a test of all triples: a triple spans a facet when no point is in front.
 struct Twin {
     vertices: Vec<u32>,
     /// The points on each facet, corners or not.
@@ -62,7 +62,7 @@ fn is_amid(points: &[DVec3], distinct: &[usize], k: usize) -> bool {
     others().any(|a| others().any(|b| amid(a, b)))
 }
 
-/// The promises of a hull, one by one, in exact arithmetic.
+/// Checks the guarantees of a hull, one by one, in exact arithmetic.
 fn assert_proper(points: &[DVec3], hull: &Hull) {
     let at = |v: u32| points[v as usize];
     let mut edges = BTreeSet::new();
@@ -213,7 +213,7 @@ fn the_library_serves_where_nothing_is_degenerate() {
     }
 }
 
-/// Where the library would take time and memory that grow with the square.
+/// The library's time and memory would grow with the square of these numbers of points.
 #[test]
 fn hulls_of_many_points_are_exact() {
     for points in [cloud(200, 1), ball(300, 2), cylinder(100, 2), grid(5)] {
@@ -222,8 +222,8 @@ fn hulls_of_many_points_are_exact() {
 }
 
 #[test]
-fn near_planes_are_settled_exactly() {
-    // Noise far below what the library tells apart.
+fn near_planes_are_decided_exactly() {
+    // Noise far below the tolerances of the library.
     let ways: Vec<Method> = (0..20)
         .map(|seed| proper(&shaken(grid(4), 1e-15, seed)).method)
         .collect();

@@ -66,7 +66,7 @@ fn within(plane: &Plane, count: usize) -> Option<Vec<[usize; 3]>> {
         stack.push(edge.face().as_inner()?.fix());
     }
     let mut triangles = Vec::with_capacity(count);
-    // Every triangle is looked at once for each of its edges.
+    // Every triangle is visited at most once for each of its edges.
     while let Some(face) = stack.pop() {
         if std::mem::replace(&mut seen[face.index()], true) {
             continue;

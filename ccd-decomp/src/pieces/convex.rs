@@ -1,11 +1,12 @@
 //! Convex solids, which are one polytope.
 
+use super::polytope::{CoveredFacet, polytope};
 use crate::hull::polygons::polygons;
 use crate::solid::error::DecomposeError;
 use crate::solid::manifold::{Dihedral, Manifold};
 use crate::solid::shells::shells;
 use crate::solid::topology::Edge;
-use ccd_core::{Face, Facet, Origin, Polytope};
+use ccd_core::Polytope;
 
 /// Makes the polytope of a convex solid.
 ///
@@ -27,39 +28,13 @@ pub(crate) fn as_polytope(manifold: &Manifold<'_>) -> Result<Polytope, Decompose
     if parts > 1 {
         return Err(DecomposeError::NotInOnePart { parts });
     }
-    let points = manifold.mesh().vertices();
-    let polygons = polygons(points, manifold.faces());
-    let mut corners: Vec<u32> = polygons
-        .iter()
-        .flat_map(|p| p.corners.iter().copied())
-        .collect();
-    corners.sort_unstable();
-    corners.dedup();
-    let mut polytope = Polytope::default();
-    let id = |face: u32| manifold.mesh().face_ids()[face as usize];
-    for polygon in &polygons {
-        let origin = match polygon.triangles[..] {
-            [face] => Origin::Face(id(face)),
-            _ => {
-                polytope
-                    .faces
-                    .extend(polygon.triangles.iter().map(|&face| Face {
-                        id: id(face),
-                        vertices: manifold.faces()[face as usize],
-                        corners: manifold.triangle(face),
-                    }));
-                Origin::Faces
-            }
-        };
-        let local = |v: &u32| corners.partition_point(|w| w < v) as u32;
-        polytope.facets.push(Facet {
-            origin,
-            corners: polygon.corners.iter().map(local).collect(),
-        });
-    }
-    polytope.points = corners.iter().map(|&v| points[v as usize]).collect();
-    polytope.vertex_ids = corners;
-    Ok(polytope)
+    let polygons = polygons(manifold.mesh().vertices(), manifold.faces());
+    let facets = polygons.into_iter().map(|polygon| CoveredFacet {
+        corners: polygon.corners,
+        faces: polygon.triangles,
+        is_covered: true,
+    });
+    Ok(polytope(manifold, &facets.collect::<Vec<_>>()))
 }
 
 /// Finds the first edge at which the solid has no convex or flat angle.

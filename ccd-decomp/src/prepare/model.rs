@@ -2,7 +2,6 @@
 
 use super::error::PrepareError;
 use super::report::{PiecesKind, Report, Why};
-use crate::mesh::repair::Repairs;
 use crate::tree::hull_tree::build_hull_tree;
 use ccd_core::{Body, Hierarchy, HullTree, Pieces, Volume};
 
@@ -75,20 +74,7 @@ impl Prepared {
     /// Wraps a body that was not made of a mesh.
     pub(crate) fn primitive(body: Body) -> Self {
         Prepared {
-            report: Report {
-                kind: PiecesKind::Primitive,
-                why: Why::Asked,
-                triangles: 0,
-                pieces: body.pieces().len(),
-                virtual_faces: 0,
-                tree_nodes: 1,
-                inflated_by: 0.0,
-                sticks_out: 0.0,
-                rebuilt_hulls: 0,
-                volume: body.volume(),
-                topology: None,
-                repairs: Repairs::default(),
-            },
+            report: Report::new(PiecesKind::Primitive, Why::Asked, body.volume()),
             body,
         }
     }

@@ -29,49 +29,49 @@ impl Parts {
             true => Volume::Solid,
             false => Volume::Surface,
         };
-        let (mut inflated_by, mut sticks_out, mut rebuilt_hulls) = (0.0, 0.0, 0);
-        let mut virtual_faces = 0;
-        let (kind, pieces) = match self {
-            Parts::Triangles => (PiecesKind::Triangles, triangles(mesh)?),
+        let mut report = Report::new(self.kind(), why, volume);
+        let pieces = match self {
+            Parts::Triangles => triangles(mesh)?,
             Parts::Patches(Decomposition { patches }) => {
-                virtual_faces = patches.iter().map(Patch::virtual_facets).sum();
+                report.virtual_faces = patches.iter().map(Patch::virtual_facets).sum();
                 let polytopes: Vec<Polytope> = patches.into_iter().map(|p| p.polytope).collect();
-                (PiecesKind::Patches, Pieces::polytopes(&polytopes)?)
+                Pieces::polytopes(&polytopes)?
             }
-            Parts::Hull(polytope) => (PiecesKind::Hull, Pieces::polytopes(&[*polytope])?),
+            Parts::Hull(polytope) => Pieces::polytopes(&[*polytope])?,
             Parts::Vhacd(approximation) => {
-                inflated_by = approximation.uncovered;
-                rebuilt_hulls = approximation.rebuilt;
-                sticks_out = approximation.sticks_out;
+                report.inflated_by = approximation.uncovered;
+                report.rebuilt_hulls = approximation.rebuilt;
+                report.sticks_out = approximation.sticks_out;
                 let polytopes = &approximation.polytopes;
-                virtual_faces = polytopes.iter().map(|p| p.facets.len()).sum();
-                (PiecesKind::Vhacd, Pieces::polytopes(polytopes)?)
+                report.virtual_faces = polytopes.iter().map(|p| p.facets.len()).sum();
+                Pieces::polytopes(polytopes)?
             }
         };
         let hierarchy = build_hierarchy(&pieces)?;
-        let is_hull = kind == PiecesKind::Hull;
+        let is_hull = report.kind == PiecesKind::Hull;
         let surface = is_hull.then(|| surface_of(mesh)).transpose()?;
+        report.triangles = mesh.faces().len();
+        report.pieces = pieces.len();
+        report.tree_nodes = hierarchy.nodes().len();
+        report.topology = Some(topology);
+        report.repairs = mesh.repairs().clone();
         Ok(Model {
-            report: Report {
-                kind,
-                why,
-                triangles: mesh.faces().len(),
-                pieces: pieces.len(),
-                virtual_faces,
-                tree_nodes: hierarchy.nodes().len(),
-                inflated_by,
-                sticks_out,
-                rebuilt_hulls,
-                volume,
-                topology: Some(topology),
-                repairs: mesh.repairs().clone(),
-            },
             pieces,
             hierarchy,
             volume,
             hull_tree: None,
             surface,
+            report,
         })
+    }
+
+    fn kind(&self) -> PiecesKind {
+        match self {
+            Parts::Triangles => PiecesKind::Triangles,
+            Parts::Patches(_) => PiecesKind::Patches,
+            Parts::Hull(_) => PiecesKind::Hull,
+            Parts::Vhacd(_) => PiecesKind::Vhacd,
+        }
     }
 }
 

@@ -84,6 +84,24 @@ pub struct Estimate {
 }
 
 impl Report {
+    /// Makes the report of exact pieces without virtual facets, of a body that was not made of a mesh.
+    pub(super) fn new(kind: PiecesKind, why: Why, volume: Volume) -> Self {
+        Report {
+            kind,
+            why,
+            triangles: 0,
+            pieces: 1,
+            virtual_faces: 0,
+            tree_nodes: 1,
+            inflated_by: 0.0,
+            sticks_out: 0.0,
+            rebuilt_hulls: 0,
+            volume,
+            topology: None,
+            repairs: Repairs::default(),
+        }
+    }
+
     /// Whether the pieces cover the solid's surface, and nothing outside the solid.
     pub fn is_exact(&self) -> bool {
         match self.kind {

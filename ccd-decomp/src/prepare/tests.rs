@@ -49,7 +49,7 @@ fn features_carry_the_numbers_of_the_file() {
     assert_eq!(feature(&[0, 1, 2]), "f1");
 }
 
-/// Many points of a plane, except for rounding: every hull is exact all the same, as the core proves.
+/// Many points of a plane up to rounding: every hull is still exact, as the core proves.
 #[test]
 fn hull_trees_of_what_is_nearly_flat_are_proven() {
     use crate::test_meshes::{block, cubes, placed};

@@ -23,7 +23,7 @@ fn found(boxes: &TriangleBoxes, region: &Region) -> Vec<u32> {
     found
 }
 
-/// However large the fans, a triangle or hull among them is near a few others.
+/// A triangle or hull among fans of any size is near a few others.
 #[test]
 fn slivers_are_near_few_others() {
     for corners in [64, 512, 4096] {
@@ -40,7 +40,7 @@ fn slivers_are_near_few_others() {
     }
 }
 
-/// Whoever is left out has no point in common with a triangle: all pairs, exactly.
+/// A triangle that is left out shares no point with the query: all pairs, exactly.
 #[test]
 fn nothing_that_meets_is_left_out() {
     let mesh = star(64, 0.5);
@@ -63,7 +63,7 @@ fn nothing_that_meets_is_left_out() {
     assert!(meeting > 100, "{meeting}");
 }
 
-/// A tip that only touches, amid a triangle or on its edge, meets it with all that is about it.
+/// A hub that only touches, within a triangle or on its edge, meets it with its whole fan.
 #[test]
 fn a_hub_that_touches_is_not_left_out() {
     let mesh = star(64, 0.5);
@@ -87,7 +87,7 @@ fn corner() -> impl Strategy<Value = DVec3> {
     (coordinate(), coordinate(), coordinate()).prop_map(|(x, y, z)| DVec3::new(x, y, z))
 }
 
-/// The corners of triangles about the first one, and of others; slim ones in one plane if so asked.
+/// The corners of triangles about the first one, and of others; on request slim ones in one plane.
 fn soup() -> impl Strategy<Value = (Vec<DVec3>, Vec<[u32; 3]>)> {
     let corners = prop::collection::vec(corner(), 50..120);
     (corners, any::<bool>(), 0..100u32).prop_map(|(mut points, flat, fan)| {
@@ -102,7 +102,7 @@ fn soup() -> impl Strategy<Value = (Vec<DVec3>, Vec<[u32; 3]>)> {
     })
 }
 
-/// All that meets a triangle or a segment, or reaches into a tetrahedron, is found: held against every
+/// All triangles are found that meet a triangle or a segment, or reach into a tetrahedron: compared with every
 /// triangle, exactly.
 #[test]
 fn what_is_left_out_meets_nothing() {
@@ -162,7 +162,7 @@ fn what_is_left_out_meets_nothing() {
     assert!(near < asked / 10 * 9, "{near} of {asked}");
 }
 
-/// The least distance is found, and all boxes that meet a box: held against every triangle.
+/// The least distance is found, and all boxes that meet a box: compared with every triangle.
 #[test]
 fn the_nearest_triangle_is_found() {
     let given = (soup(), prop::collection::vec([corner(), corner()], 40));

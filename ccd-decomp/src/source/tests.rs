@@ -34,22 +34,22 @@ fn bad_descriptions_show_examples(#[case] text: &str, #[case] expected: SourceEr
 #[case("sphere:1e13", "sphere", "1e13")]
 #[case("capsule:1,2e12", "capsule", "2e12")]
 #[case("box:1,1e308,1", "box", "1e308")]
-fn lengths_that_are_too_large_are_told_with_the_range(
+fn lengths_that_are_too_large_are_reported_with_the_range(
     #[case] text: &str,
     #[case] shape: &'static str,
     #[case] length: &str,
 ) {
     let error = text.parse::<BodySource>().unwrap_err();
-    let told = error.to_string();
+    let message = error.to_string();
     assert!(
-        told.contains("too large") && told.contains("from 0 to 1e12"),
-        "{told}"
+        message.contains("too large") && message.contains("from 0 to 1e12"),
+        "{message}"
     );
     let length = length.to_owned();
     assert_eq!(error, SourceError::TooLong { shape, length });
 }
 
-/// What is just not too large is taken.
+/// The largest allowed lengths are accepted.
 #[test]
 fn the_largest_lengths_are_lengths() {
     for text in ["sphere:1e12", "capsule:1e12,1e12", "box:1e12,1e12,1e12"] {
@@ -76,7 +76,7 @@ fn what_is_wrong_reaches_the_caller_typed() {
         parse_body("sphere:1e300", Detail::Auto),
         Err(BodyError::Source(SourceError::TooLong { .. }))
     ));
-    // Nobody has looked at a length that comes from code.
+    // A length that comes from code was not checked by the parser.
     let source = BodySource::Sphere { radius: 1e300 };
     assert!(matches!(
         source.load(Detail::Auto),

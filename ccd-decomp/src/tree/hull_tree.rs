@@ -133,18 +133,9 @@ fn joint_hull(points: &[DVec3]) -> Result<Hull, BuildError> {
         facets: Loops::default(),
     };
     match unproven_hull(points) {
-        Ok(mut found) => {
-            let mut number = vec![0; points.len()];
-            for (k, &v) in (0..).zip(&found.vertices) {
-                number[v as usize] = k;
-            }
-            for corner in found.facets.corners_mut() {
-                *corner = number[*corner as usize];
-            }
-            Ok(Hull {
-                points: found.vertices.iter().map(|&v| point(v)).collect(),
-                facets: found.facets,
-            })
+        Ok(found) => {
+            let (points, facets) = found.corners_and_facets(points);
+            Ok(Hull { points, facets })
         }
         Err(HullError::Single(a)) => Ok(lower(vec![point(a)])),
         Err(HullError::Collinear(a, b)) => Ok(lower(vec![point(a), point(b)])),

@@ -38,7 +38,7 @@ fn the_last_bit_decides() {
 }
 
 #[test]
-fn coordinates_near_zero_are_told() {
+fn coordinates_near_zero_are_reported() {
     let points = [DVec3::ZERO, DVec3::X, dvec3(0.0, 1e-91, 0.0)];
     assert_eq!(too_fine(&points), Some(2));
     assert_eq!(too_fine(&points[..2]), None);

@@ -3,7 +3,7 @@ use crate::exact::predicates::side;
 use ccd_core::glam::dvec3;
 use proptest::prelude::*;
 
-/// On a coarse grid, where many points lie in one plane or on one line.
+/// Points on a coarse grid, where many lie in one plane or on one line.
 fn coarse() -> impl Strategy<Value = Vec<DVec3>> {
     let point = [0..4i32, 0..4i32, 0..4i32].prop_map(|x| DVec3::from_array(x.map(f64::from)));
     prop::collection::vec(point, 1..24)
@@ -40,7 +40,7 @@ proptest! {
         }
     }
 
-    /// What a growth says it changes is where the old and the new hull differ.
+    /// The old and the new hull differ only within the reported box of the change.
     #[test]
     fn changes_stay_within_their_box(points in coarse(), new in [-2.0..6.0, -2.0..6.0, -2.0..6.0]) {
         let mut points = points;

@@ -8,7 +8,7 @@ mod fuzz;
 
 const OBJ: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
 
-/// Everything an OBJ may have besides: carriage returns, normals, relative indices, objects,
+/// Everything else that an OBJ may have: carriage returns, normals, relative indices, objects,
 /// materials, a continued line, colours, a weight, and a byte that is no UTF-8.
 const RICH_OBJ: &[u8] = b"# caf\xe9\r\nmtllib none.mtl\r\no first\r\nv 0 0 0 1\r\nv 1 0 0 0.5 0.5 0.5\r\n\
     v 0 1 0 # up\r\nvn 0 0 1\r\nvt 0 0\r\nusemtl red\r\nf 1/1/1 -1/-1/-1 2/1/1\r\ng second\r\nl 1 2\r\n\
@@ -89,7 +89,7 @@ fn read(format: Format, bytes: &[u8]) -> Result<TriangleMesh, MeshFault> {
     TriangleMesh::from_reader(format, bytes).map_err(|error| error.fault)
 }
 
-/// The corners of all triangles, whatever the vertices are numbered.
+/// The corners of all triangles, independent of the numbers of the vertices.
 fn corners(mesh: &TriangleMesh) -> Vec<[DVec3; 3]> {
     let point = |v: u32| mesh.vertices()[v as usize];
     mesh.faces().iter().map(|face| face.map(point)).collect()
@@ -145,7 +145,7 @@ fn a_byte_order_mark_hides_no_vertex() {
 }
 
 #[test]
-fn a_pointer_of_git_lfs_is_told_for_what_it_is() {
+fn a_pointer_of_git_lfs_is_recognised() {
     let pointer = b"version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 12\n";
     for (format, _) in valid() {
         let fault = read(format, pointer).unwrap_err();

@@ -2,6 +2,7 @@ use super::*;
 use crate::mesh::TriangleMesh;
 use crate::solid::bounding_solid;
 use crate::test_meshes::{block, cubes, joined, placed, tetrahedron, turned};
+use ccd_core::Origin;
 use ccd_core::glam::dvec3;
 
 fn polytope(mesh: &TriangleMesh) -> Result<Polytope, DecomposeError> {

@@ -3,10 +3,11 @@
 use super::growing_patch::GrowingPatch;
 use crate::exact::predicates::{Projection, side};
 use crate::hull::polygons::polygons;
+use crate::pieces::polytope::{CoveredFacet, polytope};
 use crate::solid::flats::{Flat, Flats};
 use crate::solid::manifold::Manifold;
 use ccd_core::glam::DVec3;
-use ccd_core::{Face, Facet, Origin, Polytope};
+use ccd_core::{Origin, Polytope};
 use std::cmp::Ordering;
 
 /// A convex part of a mesh's surface, and its hull.
@@ -22,36 +23,17 @@ pub struct Patch {
 
 impl Patch {
     pub(super) fn new(manifold: &Manifold<'_>, flats: &Flats, region: &GrowingPatch) -> Self {
-        let points = manifold.mesh().vertices();
         let members: Vec<&Flat> = region.flats().iter().map(|&f| flats.get(f)).collect();
         let mut faces: Vec<u32> = members
             .iter()
             .flat_map(|f| f.faces.iter().copied())
             .collect();
         faces.sort_unstable();
-        let mut polytope = Polytope::default();
-        let loops = polygons(points, region.hull().facets());
-        let loops: Vec<Vec<u32>> = loops.into_iter().map(|polygon| polygon.corners).collect();
-        let mut corners: Vec<u32> = loops.iter().flatten().copied().collect();
-        corners.sort_unstable();
-        corners.dedup();
-        for corners_of_facet in loops {
-            let cover = Cover::of(manifold, &members, &corners_of_facet);
-            if cover.origin == Origin::Faces || cover.origin == Origin::Virtual {
-                polytope.faces.extend(cover.faces.iter().map(|&face| Face {
-                    id: manifold.mesh().face_ids()[face as usize],
-                    vertices: manifold.faces()[face as usize],
-                    corners: manifold.triangle(face),
-                }));
-            }
-            let local = |v: &u32| corners.binary_search(v).map_or(0, |k| k as u32);
-            polytope.facets.push(Facet {
-                origin: cover.origin,
-                corners: corners_of_facet.iter().map(local).collect(),
-            });
-        }
-        polytope.points = corners.iter().map(|&v| points[v as usize]).collect();
-        polytope.vertex_ids = corners;
+        let polygons = polygons(manifold.mesh().vertices(), region.hull().facets());
+        let facets = polygons
+            .into_iter()
+            .map(|polygon| covered(manifold, &members, polygon.corners));
+        let polytope = polytope(manifold, &facets.collect::<Vec<_>>());
         Patch { faces, polytope }
     }
 
@@ -62,53 +44,37 @@ impl Patch {
     }
 }
 
-/// The faces of a patch that lie in a facet of its hull, and whether they cover it.
-struct Cover {
-    faces: Vec<u32>,
-    origin: Origin,
-}
-
-impl Cover {
-    fn of(manifold: &Manifold<'_>, members: &[&Flat], facet: &[u32]) -> Self {
-        let at = |v: u32| manifold.point(v);
-        let corners: Vec<DVec3> = facet.iter().map(|&v| at(v)).collect();
-        let triangle = [corners[0], corners[1], corners[2]];
-        let Some(plane) = Projection::of(triangle) else {
-            return Cover::none();
-        };
-        // In the facet's plane, with the same normal.
-        let within = |flat: &&&Flat| {
-            let own = manifold.triangle(flat.faces[0]);
-            own.iter().all(|&p| side(triangle, p) == Ordering::Equal)
-                && plane.turn(own[0], own[1], own[2]) == Ordering::Greater
-        };
-        let members: Vec<&Flat> = members.iter().filter(within).copied().collect();
-        let faces: Vec<u32> = members
-            .iter()
-            .flat_map(|f| f.faces.iter().copied())
-            .collect();
-        // Faces that cover the facet end at its outline only.
-        let ours = |face: u32| members.iter().any(|f| f.faces.binary_search(&face).is_ok());
-        let mut rims = members.iter().flat_map(|f| f.rim.iter().copied());
-        let on_outline = |edge: u32| {
-            let [a, b] = manifold.ends(edge).map(at);
-            corners
-                .iter()
-                .all(|&p| plane.turn(a, b, p) != Ordering::Less)
-        };
-        let whole = rims.all(|edge| ours(manifold.twin(edge) / 3) || on_outline(edge));
-        let origin = match (&faces[..], whole) {
-            ([], _) | (_, false) => Origin::Virtual,
-            (&[face], true) => Origin::Face(manifold.mesh().face_ids()[face as usize]),
-            (_, true) => Origin::Faces,
-        };
-        Cover { faces, origin }
-    }
-
-    fn none() -> Self {
-        Cover {
+/// Finds the faces of a patch that lie in a facet of its hull.
+fn covered(manifold: &Manifold<'_>, members: &[&Flat], facet: Vec<u32>) -> CoveredFacet {
+    let at = |v: u32| manifold.point(v);
+    let corners: Vec<DVec3> = facet.iter().map(|&v| at(v)).collect();
+    let triangle = [corners[0], corners[1], corners[2]];
+    let Some(plane) = Projection::of(triangle) else {
+        return CoveredFacet {
+            corners: facet,
             faces: Vec::new(),
-            origin: Origin::Virtual,
-        }
+            is_covered: false,
+        };
+    };
+    // In the facet's plane, with the same normal.
+    let within = |flat: &&&Flat| {
+        let own = manifold.triangle(flat.faces[0]);
+        own.iter().all(|&p| side(triangle, p) == Ordering::Equal)
+            && plane.turn(own[0], own[1], own[2]) == Ordering::Greater
+    };
+    let members: Vec<&Flat> = members.iter().filter(within).copied().collect();
+    // Faces that cover the facet end at its outline only.
+    let ours = |face: u32| members.iter().any(|f| f.faces.binary_search(&face).is_ok());
+    let mut rims = members.iter().flat_map(|f| f.rim.iter().copied());
+    let on_outline = |edge: u32| {
+        let [a, b] = manifold.ends(edge).map(at);
+        corners
+            .iter()
+            .all(|&p| plane.turn(a, b, p) != Ordering::Less)
+    };
+    CoveredFacet {
+        is_covered: rims.all(|edge| ours(manifold.twin(edge) / 3) || on_outline(edge)),
+        faces: members.iter().flat_map(|f| &f.faces).copied().collect(),
+        corners: facet,
     }
 }

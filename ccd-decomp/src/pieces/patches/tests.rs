@@ -10,7 +10,7 @@ use rstest::rstest;
 
 const ORDERS: [Order; 3] = [Order::Cresting, Order::BreadthFirst, Order::DepthFirst];
 
-/// Every triangle in exactly one patch, and all patches' facets accounted for.
+/// Checks that every triangle is in exactly one patch, and that the facets name their faces.
 fn check(mesh: &TriangleMesh, decomposition: &Decomposition) {
     let mut seen = vec![0; mesh.faces().len()];
     for patch in &decomposition.patches {
@@ -95,7 +95,7 @@ fn the_same_mesh_gives_the_same_patches() {
     }
 }
 
-/// A patch that could go on is cut where it would become slow: the flank of a cone on a disc.
+/// A patch that could grow further ends where it would become slow: the flank of a cone on a disc.
 #[test]
 fn patches_are_capped() {
     let count = 4 * PATCH_POLYGONS as u32;
@@ -139,7 +139,7 @@ fn patches_are_capped() {
     assert!(most <= Some(PATCH_POLYGONS), "{most:?}");
 }
 
-/// All patches meet in both apices: work that grows as their number all the same.
+/// All patches meet in both apices, and still the work grows with their number.
 #[test]
 fn patches_of_slivers_take_linear_work() {
     for corners in [100, 1_000, 10_000] {
@@ -153,7 +153,7 @@ fn patches_of_slivers_take_linear_work() {
     }
 }
 
-/// Whatever corners a polygon has, and slivers a surface.
+/// The work is bounded for any number of corners of a polygon, and of slivers of a surface.
 #[test]
 fn steps_per_face_stay_bounded() {
     for count in [50, 500, 5_000] {

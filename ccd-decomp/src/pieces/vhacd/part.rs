@@ -13,21 +13,21 @@ pub(super) struct Part {
 
 impl Part {
     pub(super) fn of(points: &[DVec3]) -> Result<Self, HullError> {
-        let at = |v: &u32| points[*v as usize];
-        let hull = match hull(points) {
-            Ok(hull) => hull,
-            Err(HullError::Single(v)) => return Ok(Part::thin(vec![at(&v)])),
-            Err(HullError::Collinear(v, w)) => return Ok(Part::thin(vec![at(&v), at(&w)])),
-            Err(error) => return Err(error),
-        };
-        let place = |v: &u32| hull.vertices.partition_point(|w| w < v) as u32;
-        let mut facets = hull.facets;
-        facets.corners_mut().iter_mut().for_each(|v| *v = place(v));
-        Ok(Part {
-            corners: hull.vertices.iter().map(at).collect(),
-            facets,
-            method: hull.method,
-        })
+        let at = |v: u32| points[v as usize];
+        match hull(points) {
+            Ok(hull) => {
+                let method = hull.method;
+                let (corners, facets) = hull.corners_and_facets(points);
+                Ok(Part {
+                    corners,
+                    facets,
+                    method,
+                })
+            }
+            Err(HullError::Single(v)) => Ok(Part::thin(vec![at(v)])),
+            Err(HullError::Collinear(v, w)) => Ok(Part::thin(vec![at(v), at(w)])),
+            Err(error) => Err(error),
+        }
     }
 
     fn thin(corners: Vec<DVec3>) -> Self {

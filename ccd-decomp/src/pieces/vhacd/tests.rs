@@ -111,7 +111,7 @@ fn triangles(mesh: &TriangleMesh) -> Vec<[DVec3; 3]> {
         .collect()
 }
 
-/// Whether a mesh winds about a point, by the angles its triangles are seen at.
+/// Whether a mesh winds about a point, by the solid angles of its triangles.
 fn is_seen_around(mesh: &TriangleMesh, point: DVec3) -> bool {
     let angle = |t: [DVec3; 3]| {
         let [a, b, c] = t.map(|p| p - point);
@@ -143,7 +143,7 @@ fn distance(triangles: &[[DVec3; 3]], point: DVec3) -> f64 {
         .fold(f64::INFINITY, lesser)
 }
 
-/// Whether a point is in a polytope, or no farther from it than that.
+/// Whether a point is in a polytope, or at most `way` from it.
 fn is_in(polytope: &Polytope, point: DVec3, way: f64) -> bool {
     let at = |v: u32| polytope.points[v as usize];
     let fan = |f: &Facet| -> Vec<_> {
@@ -322,7 +322,7 @@ fn places(#[case] mesh: TriangleMesh) {
     }
 }
 
-/// However thin its triangles, and however many hulls are asked for.
+/// A convex solid is one hull, however thin its triangles are, and however many hulls are asked for.
 #[test]
 fn a_convex_solid_is_one_hull() {
     let cones = crate::test_meshes::star(400, 1.0);

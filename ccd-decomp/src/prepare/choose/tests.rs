@@ -20,7 +20,7 @@ fn convex_solids_are_hulls() {
     assert_eq!(why(&cubes(&block([3, 3, 3]))), Why::Convex);
 }
 
-/// Large plane parts in many triangles are a few patches, in few triangles they stay triangles.
+/// Large plane parts of many triangles become a few patches; of few triangles they stay triangles.
 #[test]
 fn patches_have_to_be_worth_it() {
     let coarse = cubes(&[[0, 0, 0], [1, 0, 0], [0, 0, 1]]);
@@ -76,7 +76,7 @@ fn what_takes_too_long_stays_triangles() {
     }
 }
 
-/// Edges that pair up, but no solid: these were merged for ever.
+/// Meshes whose edges pair up, but that bound no solid: merging must end.
 #[test]
 fn what_is_folded_stays_triangles() {
     let corners = vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::X + DVec3::Y];

@@ -13,7 +13,7 @@ use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;
 use rstest::rstest;
 
-/// Whether two tetrahedra are said to meet.
+/// Whether two tetrahedra are reported to meet.
 fn meet(offset: DVec3) -> bool {
     let solid = tetrahedron();
     let both = joined(&[&solid, &placed(&solid, 1.0, offset)]);
@@ -42,7 +42,7 @@ fn two_tetrahedra(#[case] offset: DVec3, #[case] expected: bool) {
     assert_eq!(meet(offset), expected);
 }
 
-/// Two at one corner are one surface, pinched there: they share the corner alone.
+/// Two tetrahedra at one corner are one surface, pinched there: they share only the corner.
 #[test]
 fn a_shared_corner_is_no_intersection() {
     assert!(!meet(DVec3::X));
@@ -85,7 +85,7 @@ fn stairs_do_not_meet_themselves() {
     assert!(bounding_solid(&stairs).is_ok());
 }
 
-/// Work that grows as the number of triangles, not as the square of those about one vertex.
+/// The work grows with the number of triangles, not with the square of those about one vertex.
 #[test]
 fn fans_of_convex_caps_are_not_compared_pair_by_pair() {
     for corners in [50, 500, 5_000] {
@@ -101,7 +101,7 @@ fn fans_of_convex_caps_are_not_compared_pair_by_pair() {
     }
 }
 
-/// Steps of work that checking a mesh takes, for every face.
+/// The steps of work that checking a mesh takes, per face.
 fn steps_per_face(mesh: &TriangleMesh) -> u64 {
     let manifold = Manifold::unchecked(mesh, &Topology::of(mesh)).unwrap();
     assert!(!crate::solid::star_shaped::is_star_shaped(&manifold));
@@ -115,7 +115,7 @@ fn steps_per_face(mesh: &TriangleMesh) -> u64 {
     work.taken() / mesh.faces().len() as u64
 }
 
-/// Slivers that no point sees all of, and walls along them: each is near a few others.
+/// Slivers that are not all visible from one point, and walls along them: each is near a few others.
 #[test]
 fn steps_per_face_stay_bounded_however_many_slivers_there_are() {
     for count in [50, 500, 5_000] {
@@ -144,7 +144,7 @@ fn rough_prism(radii: &[(i32, f64)], on_grid: bool, turn: f64) -> TriangleMesh {
     mesh(turned.collect(), flat.faces())
 }
 
-/// The same pairs as when every pair is looked at.
+/// The pairs are those of a test of every pair.
 #[test]
 fn crossings_are_those_of_all_pairs() {
     let radii = |n| prop::collection::vec((1..=3_i32, 0.9..1.1_f64), n);

@@ -57,7 +57,7 @@ fn polygons_are_convex_and_leave_nothing_out() {
     assert!((16..=24).contains(&flats.len()), "{}", flats.len());
 }
 
-/// Whatever order the faces have: rows first, then rectangles.
+/// Merges rows first, then rectangles, in any order of the faces.
 #[test]
 fn a_grid_with_a_hole_is_a_few_rectangles() {
     let cells = block([9, 9, 1]).into_iter().filter(|c| *c != [4, 5, 0]);
@@ -78,8 +78,8 @@ fn a_grid_with_a_hole_is_a_few_rectangles() {
     }
 }
 
-/// Whatever the mesh, as long as its edges pair up: triangles back to back, a flat tetrahedron, either
-/// beside a solid. Nothing is merged over a fold.
+/// Nothing is merged over a fold of any mesh whose edges pair up: triangles back to back, or a flat tetrahedron,
+/// either beside a solid.
 #[test]
 fn folds_are_no_polygons() {
     let back_to_back = mesh(

@@ -1,4 +1,4 @@
-//! Shells within shells, wound at random, against windings counted one shell at a time.
+//! Shells within shells of random orientation, compared with windings counted one shell at a time.
 
 use crate::test_meshes::CUBE;
 use crate::{Detail, Topology, TriangleMesh, body_from_mesh};
@@ -46,7 +46,7 @@ fn shells_side_by_side_are_each_turned_outward() {
     assert!((volume - 28.0).abs() < 1e-12, "{volume}");
 }
 
-/// However they are wound: solid, cavity, solid, cavity.
+/// Shells of any orientation bound a solid, a cavity, a solid, a cavity.
 #[test]
 fn nested_shells_alternate() {
     for flips in 0..16u32 {
@@ -117,7 +117,7 @@ fn shells_that_share_an_edge_are_told_apart() {
     }
 }
 
-/// Cubes of a lattice at random, each closed by itself, that share faces, edges and corners: solids all.
+/// Random cubes of a lattice, each closed, that share faces, edges and corners: all are solids.
 #[test]
 fn shells_that_share_faces_are_told_apart() {
     let mut shared = 0;

@@ -9,7 +9,7 @@ fn is_seen(mesh: &TriangleMesh) -> bool {
 }
 
 #[test]
-fn convex_and_star_shaped_solids_are_seen_whole() {
+fn convex_and_star_shaped_solids_are_recognised() {
     assert!(is_seen(&tetrahedron()));
     assert!(is_seen(&turned(&tetrahedron())), "turned by the manifold");
     assert!(is_seen(&cubes(&block([3, 2, 1]))));

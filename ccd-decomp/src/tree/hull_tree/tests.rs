@@ -1,4 +1,4 @@
-//! Trees over pieces of every shape: hulls hold what is below, classes tell what is real.
+//! Trees over pieces of every shape: hulls hold the pieces below, classes mark the facets of pieces.
 
 use super::*;
 use crate::exact::predicates::side;
@@ -34,7 +34,7 @@ fn piece() -> impl Strategy<Value = Polytope> {
     })
 }
 
-/// The hull of points with its facets, which close it and are none of a mesh's.
+/// The hull of points with all its facets, which are no part of a mesh.
 fn polytope(points: &[DVec3]) -> Polytope {
     let hull = joint_hull(points).unwrap();
     let facet = |corners: &[u32]| ccd_core::Facet {
@@ -59,7 +59,7 @@ fn leaves(tree: &HullTree, at: usize) -> Vec<usize> {
     }
 }
 
-/// Whether a hull holds a point but for `slack`, the slow way.
+/// Whether a hull holds a point up to `slack`, by testing every facet.
 fn holds(hull: &ccd_core::Piece<'_>, point: DVec3, slack: f64) -> bool {
     let beyond = hull.facets.iter().map(|corners| {
         let at = |k: usize| hull.points[corners[k] as usize];
@@ -108,7 +108,7 @@ proptest! {
                 for &point in tree.hulls().get(leaf).points {
                     prop_assert!(exactly_inside(&hull, point));
                     // A facet of a hull with volume may be so thin that rounding turns its normal; a
-                    // plate's edges bound it as well, which planes alone do not tell.
+                    // plate's edges bound it as well, which planes alone do not show.
                     let has_volume = hull.facets.len() > 2;
                     prop_assert!(has_volume || holds(&hull, point, 1e-9));
                 }
@@ -146,7 +146,7 @@ proptest! {
     }
 }
 
-/// Whether a point is so near to where two plates meet that rounding decides whose it is.
+/// Whether a point is so near to a common edge of two plates that rounding decides to which it belongs.
 fn between(tree: &HullTree, below: &[usize], point: DVec3) -> bool {
     let near = |&&leaf: &&usize| holds(&tree.hulls().get(leaf), point, 1e-6);
     below.iter().filter(near).count() > 1

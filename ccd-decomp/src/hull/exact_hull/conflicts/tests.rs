@@ -1,7 +1,7 @@
 use super::*;
 use crate::test_meshes::star;
 
-/// Two cones: an apex sees up to half of all facets, each time it or a point of the rim comes.
+/// Two cones: an apex sees up to half of all facets when it is inserted, and so does a point of the rim.
 #[test]
 fn few_facets_are_made_whatever_the_points() {
     for (corners, inner) in [(2_000, 1.0), (2_000, 0.5), (16_000, 1.0)] {

@@ -4,7 +4,7 @@ use crate::hull::polygons::polygons;
 use proptest::prelude::*;
 
 proptest! {
-    /// Few points have the polygons that many have, on grids and slightly off them.
+    /// Both methods give the same polygons, on grids and slightly off them.
     #[test]
     fn few_points_have_the_hull_of_many(
         points in prop::collection::vec(prop::array::uniform3(-2_i8..=2), 4..24),

@@ -4,7 +4,7 @@ use proptest::prelude::*;
 proptest! {
     /// Points near a plane, far from the origin or not.
     #[test]
-    fn heights_tell_what_the_predicate_tells(
+    fn heights_agree_with_the_predicate(
         points in prop::collection::vec(prop::array::uniform3(-2_i8..=2), 4..12),
         off in prop::collection::vec(prop::array::uniform3(-1.0..1.0), 12),
         size in prop::sample::select(vec![0.0, 1e-16, 1e-14, 1e-12, 0.1]),

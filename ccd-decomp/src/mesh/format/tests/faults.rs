@@ -1,4 +1,4 @@
-//! Every kind of bad input, and what is said of it.
+//! Every kind of bad input, and its message.
 
 use super::{Format, PLY, binary_stl, read};
 use crate::{MeshFault, TriangleMesh};

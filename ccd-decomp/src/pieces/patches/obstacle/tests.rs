@@ -2,7 +2,7 @@ use super::*;
 use crate::exact::predicates::side;
 use proptest::prelude::*;
 
-/// The slow, obvious twin: any plane through three of all the points.
+/// The slow and obvious test: any plane through three of all the points.
 fn is_apart_by_any_plane(points: &[DVec3], hull: &ExactHull, triangle: [u32; 3]) -> bool {
     let obstacle = Obstacle::new(points, hull);
     let all: Vec<u32> = hull.corners().iter().copied().chain(triangle).collect();
@@ -35,8 +35,8 @@ proptest! {
         prop_assert_eq!(Obstacle::new(&points, &hull).is_apart_from(triangle), expected);
     }
 
-    /// A point of the triangle that is strictly inside all facets says that it is not apart; coordinates
-    /// are such that the point is exact.
+    /// A point of the triangle strictly inside all facets proves that it is not apart; the coordinates make the
+    /// point exact.
     #[test]
     fn what_is_inside_is_not_apart(
         hull in prop::collection::vec(coarse(), 4..9),

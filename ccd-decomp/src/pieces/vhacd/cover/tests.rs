@@ -2,7 +2,7 @@ use super::*;
 use ccd_core::glam::dvec3;
 
 /// Points on the edges of triangles near and far, at random, and one amid each: of each edge two are left, and
-/// whoever is left out is between them.
+/// a removed point is between them.
 #[test]
 fn only_the_ends_of_edges_are_kept() {
     let mut seed = 1_u32;

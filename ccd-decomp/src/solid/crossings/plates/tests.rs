@@ -26,9 +26,9 @@ fn beset(heights: &[f64], places: &[[i32; 4]], turn: f64) -> TriangleMesh {
     crate::test_meshes::mesh(turned.collect(), all.faces())
 }
 
-/// All pairs of faces that meet are told, and never those of one plate: held against all pairs, exactly.
+/// All pairs of faces that meet are reported, except those of one plate: compared with all pairs, exactly.
 #[test]
-fn whoever_meets_is_told() {
+fn whoever_meets_is_reported() {
     let place = [-1..80_i32, -1..12_i32, -2..4_i32, 1..4_i32];
     let height = prop_oneof![Just(5.0), 1.5..6.0_f64];
     let turn = prop_oneof![Just(0.0), Just(0.0), 0.0..3.0_f64];
@@ -49,27 +49,27 @@ fn whoever_meets_is_told() {
             continue;
         };
         let faces = mesh.faces().len() as u32;
-        let mut told = Vec::new();
+        let mut reported = Vec::new();
         for face in 0..faces {
             let region = Region::triangle(manifold.triangle(face));
             plates.all_meeting(face, &region, &Work::unbounded(), |other| {
-                told.push((face.min(other), face.max(other)));
+                reported.push((face.min(other), face.max(other)));
                 true
             });
         }
-        told.sort_unstable();
-        assert!(told.windows(2).all(|pair| pair[0] != pair[1]));
+        reported.sort_unstable();
+        assert!(reported.windows(2).all(|pair| pair[0] != pair[1]));
         let on_plate = |face: u32| plates.plate_of[face as usize] != NONE;
         for (f, g) in (0..faces).flat_map(|f| (f + 1..faces).map(move |g| (f, g))) {
-            let is_told = told.binary_search(&(f, g)).is_ok();
+            let is_reported = reported.binary_search(&(f, g)).is_ok();
             if on_plate(f) || on_plate(g) {
-                asked += u32::from(is_told);
+                asked += u32::from(is_reported);
                 all += 1;
             }
             if cross(&manifold, f, g) {
                 meeting += 1;
                 with_plates += u32::from(on_plate(f) || on_plate(g));
-                assert!(is_told, "{f}, {g}");
+                assert!(is_reported, "{f}, {g}");
             }
         }
     }
@@ -80,7 +80,7 @@ fn whoever_meets_is_told() {
     assert!(asked < all / 100, "{asked} of {all}");
 }
 
-/// What is glued to a plate, or stands on its rim, is beside it: no triangle of it is looked at.
+/// Faces glued to a plate, or standing on its rim, are beside it: no triangle of the plate is examined.
 #[test]
 fn a_comb_is_beside_its_plates() {
     let mesh = comb(&[5.0; 40]);
