@@ -32,13 +32,13 @@ impl Model {
     /// [`StoreFault::Unwritable`] when the operating system refuses.
     pub fn save(&self, path: impl AsRef<Path>) -> Result<(), StoreError> {
         let path = path.as_ref();
-        // A write that is cut short must not take the old file with it.
+        // A write that is cut short must not destroy the old file.
         let part = path.with_extension(format!("{STORED_EXTENSION}.part"));
         let file = File::create(&part).map_err(StoreFault::Unwritable);
         file.and_then(|file| self.store(file))
             .and_then(|()| fs::rename(&part, path).map_err(StoreFault::Unwritable))
             .map_err(|fault| {
-                // It may not even be there.
+                // The file may not even be there.
                 let _ = fs::remove_file(&part);
                 fault.in_file(path)
             })
@@ -116,7 +116,7 @@ impl Model {
     /// Checks that the parts, each of which is valid, belong together.
     fn check(&self) -> Result<(), &'static str> {
         let pieces = self.pieces.len();
-        // Of a binary tree's nodes, one more are leaves than are not.
+        // A binary tree has one more leaf than inner nodes.
         let fits = |pieces: &Pieces, hierarchy: &Hierarchy| {
             hierarchy.nodes().len().div_ceil(2) == pieces.len()
         };

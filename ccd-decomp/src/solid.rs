@@ -25,8 +25,8 @@ use shells::check_orientation;
 use star_shaped::is_star_shaped;
 use topology::Topology;
 
-/// The surface of the solid that a mesh bounds: checks every edge, and every pair of triangles that are near
-/// each other.
+/// Returns the surface of the solid that a mesh bounds, after a check of every edge, and of every pair of triangles
+/// that are near each other.
 ///
 /// A mesh that is inside out as a whole is turned.
 ///

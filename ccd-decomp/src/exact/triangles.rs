@@ -19,7 +19,7 @@ pub(crate) fn meet(corners: [[u32; 3]; 2], triangles: [[DVec3; 3]; 2]) -> bool {
             meets(far, triangles[1 - which])
         }),
         2 => folded(corners, triangles),
-        // The same triangle, from the other side.
+        // One triangle, from either side.
         _ => true,
     }
 }

@@ -109,8 +109,8 @@ pub(crate) fn collapsed_faces(faces: &[[u32; 3]], positions: &[u32]) -> Vec<bool
     {
         cover(face);
     }
-    // Segments before points, so that a point at the end of a kept segment is covered, whichever of
-    // the two the file has first.
+    // Segments come before points, so that a point at the end of a kept segment is covered, in either order of the
+    // file.
     let is_point = |[a, b, c]: [u32; 3]| a == b && b == c;
     for points in [false, true] {
         for (k, face) in faces.iter().map(welded).enumerate() {

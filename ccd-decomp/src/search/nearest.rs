@@ -21,7 +21,7 @@ impl BoxTree {
     ) -> Option<(u32, f64)> {
         let mut best: Option<(u32, f64)> = None;
         let mut stack = vec![(0.0, 0)];
-        // Every node is pushed once, by the one above.
+        // Every node is pushed once, by its parent.
         while let Some((least, at)) = stack.pop() {
             let is_farther = best.is_some_and(|(_, distance)| least >= distance);
             if is_farther {

@@ -37,7 +37,7 @@ impl Flats {
     pub(crate) fn new(manifold: &Manifold<'_>) -> Self {
         let mut merger = Merger::new(manifold);
         let mut edges = merger.flat_edges();
-        // Each round leaves fewer.
+        // Each round leaves fewer edges.
         loop {
             let before = edges.len();
             edges.retain(|&edge| !merger.merge_over(edge));
@@ -119,8 +119,8 @@ impl<'a, 'm> Merger<'a, 'm> {
         if one == other {
             return true;
         }
-        // The stretch that both have in common, seen from the one. It is not all of a rim: of a convex
-        // polygon only the edges on one line can have another one beyond that line.
+        // The stretch that both regions have in common, seen from the first. It is never a whole rim: only the
+        // edges of a convex polygon on one line can have another polygon beyond that line.
         let Some(first) = self.walk(edge, |merger, h| merger.previous[h as usize], other) else {
             return false;
         };

@@ -64,7 +64,7 @@ pub(crate) fn shells(manifold: &Manifold<'_>) -> Vec<u32> {
         }
         shell_of[seed as usize] = count;
         stack.push(seed);
-        // Each face is put there once.
+        // Each face is pushed once.
         while let Some(face) = stack.pop() {
             for next in manifold.neighbours(face) {
                 if shell_of[next as usize] == UNSEEN {
@@ -89,7 +89,7 @@ fn winding_of_others(
     let near = manifold.triangle(faces[0])[0];
     let size = manifold.boxes().reach(near);
     (0..RAY_TRIES).find_map(|k| {
-        // Shells may touch at a corner, so that it is another one each time.
+        // Shells may touch at a corner, so that every try takes another one.
         let from = manifold.triangle(faces[k % faces.len()])[k % 3];
         let ray = probe(from, size, k);
         let mut windings = Some(0);

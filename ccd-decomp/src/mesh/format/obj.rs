@@ -176,7 +176,7 @@ fn without_colour(line: &str) -> &str {
     }
     let mut words = line.split_whitespace();
     match words.nth(KEYWORD_AND_POSITION) {
-        // Both are slices of one line, so that their distance is where to cut.
+        // Both are slices of one line, so that their distance is the length to keep.
         Some(colour) => &line[..colour.as_ptr().addr() - line.as_ptr().addr()],
         None => line,
     }

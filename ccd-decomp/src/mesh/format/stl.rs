@@ -55,7 +55,7 @@ fn parse_binary(bytes: &[u8]) -> Result<Polygons, MeshFault> {
         let problem = format!("announces {facets} facets, but has room for {room}");
         return Err(MeshFault::syntax(None, problem));
     }
-    // The header may say anything; a blank one keeps the library from taking the file for text.
+    // The header may hold anything; a blank one keeps the library from taking the file for text.
     let mut blank = bytes.to_vec();
     blank[..HEADER_BYTES].fill(0);
     collect(blank, |facet, error| {

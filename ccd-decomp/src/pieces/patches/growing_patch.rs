@@ -73,7 +73,7 @@ impl GrowingPatch {
             }
             _ => {}
         }
-        // … the polygon behind those that are there, …
+        // … the polygon behind those of the patch, …
         let corners = flats.get(flat).corners.iter().copied();
         let mut new: Vec<u32> = corners.filter(|&v| !self.is_corner(v)).collect();
         let in_front = |&v: &u32| {

@@ -35,13 +35,12 @@ impl<'a> Obstacle<'a> {
 
     /// Whether a triangle stays out of the open inside of the hull; touching is allowed.
     ///
-    /// Exact. Where that is so, some plane has the hull on one side and the triangle on the other. Such
-    /// planes form a cone, and one on an extreme ray of it passes through three corners that span it:
-    /// the plane of a facet, the triangle's own, or one through an edge of either and a corner of the
-    /// other. Of the latter only those come into question that touch the hull where the triangle's
-    /// corner sees its outline.
+    /// Exact. If the answer is yes, some plane has the hull on one side and the triangle on the other. Such planes form
+    /// a cone. A plane on an extreme ray of the cone passes through three corners that span it: it is the plane of a
+    /// facet, the triangle's own, or one through an edge of either and a corner of the other. Among the latter, only
+    /// those matter that touch the hull on its outline, seen from the triangle's corner.
     pub(super) fn is_apart_from(&self, triangle: [u32; 3]) -> bool {
-        // Facets that it meets at a corner are the likeliest to have it in front of them, then new ones.
+        // The triangle is most likely in front of a facet that it meets at a corner, then of a new facet.
         let mut facets = self.hull.facets().iter().rev();
         triangle.iter().any(|&v| self.is_in_front_at(v, triangle))
             || facets.any(|&facet| self.is_in_front(facet, triangle))
@@ -49,7 +48,7 @@ impl<'a> Obstacle<'a> {
             || (0..3).any(|k| self.is_apart_at(triangle, k))
     }
 
-    /// Whether the triangle is in front of a facet that one of its corners is a corner of.
+    /// Whether the triangle is in front of a facet that has one of the triangle's corners.
     fn is_in_front_at(&self, corner: u32, triangle: [u32; 3]) -> bool {
         let meeting = self.meeting.get_or_init(|| {
             let facets = (0..).zip(self.hull.facets());

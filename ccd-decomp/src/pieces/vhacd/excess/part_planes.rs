@@ -95,8 +95,7 @@ impl<'a> PartPlanes<'a> {
         }
         let far = self.part.corners.iter().map(|p| p.distance(centre));
         let reach = far.fold(0.0, greater) + self.slack;
-        // The farthest of these along a direction is the plane that a point there is farthest out of, in units
-        // of the centre's depth.
+        // In units of the centre's depth, a point is farthest out of the plane whose dual is extremal towards it.
         let duals = self.planes.iter().zip(&depths);
         let duals: Vec<DVec3> = duals.map(|(plane, depth)| plane.normal / *depth).collect();
         let farthest = SupportTree::new(&duals);
