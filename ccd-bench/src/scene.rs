@@ -174,11 +174,12 @@ impl Models {
             return Ok(body.clone());
         }
         let name = model.name();
-        let failed = |source| SceneError::Model { name, source };
+        let failed = |source: BodyError| SceneError::Model { name, source };
         let loaded = model
             .load(self.directory.as_deref())
             .map_err(|error| failed(error.into()))?;
-        let prepared = body_from_mesh(&loaded.mesh, Detail::Auto).map_err(failed)?;
+        let prepared =
+            body_from_mesh(&loaded.mesh, Detail::Auto).map_err(|error| failed(error.into()))?;
         let body = SceneBody {
             body: Arc::new(prepared.body),
             origin: loaded.origin,

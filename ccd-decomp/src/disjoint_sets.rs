@@ -1,19 +1,19 @@
-//! Sets that are joined until nothing more belongs together.
+//! Disjoint sets of elements, which are joined (union and find).
 
-/// Sets that are joined: every element names another one of its set, the root itself.
+/// Disjoint sets: every element points to another one of its set, and the root to itself.
 pub(crate) struct DisjointSets(Vec<u32>);
 
 impl DisjointSets {
-    /// Each of so many elements by itself.
+    /// Makes one set of each element.
     pub(crate) fn new(count: usize) -> Self {
         DisjointSets((0..count as u32).collect())
     }
 
-    /// The element that its set goes by.
+    /// The element that stands for its set.
     pub(crate) fn root(&mut self, mut k: u32) -> u32 {
-        // Every element names a smaller one.
+        // Every element but the root points to a smaller one.
         while self.0[k as usize] != k {
-            // Halving the way keeps later ones short.
+            // Halving the path keeps later ones short.
             self.0[k as usize] = self.0[self.0[k as usize] as usize];
             k = self.0[k as usize];
         }

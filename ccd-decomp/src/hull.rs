@@ -1,107 +1,122 @@
-//! Convex hulls: of some points a library's, of few or many computed exactly; proven by exact predicates.
+//! Convex hulls of points, proven by exact predicates: computed by a library for some points, exactly for few or
+//! many.
 //!
 //! ```text
-//! points ─┬─ in one plane ───────────────────► flat.rs ───────────────────────┐
-//!         ├─ some ─► library.rs ─► proof.rs ─┬─ proven ──────────────────────┼─► Hull
-//!         │                                  └─ refuted ─► exact.rs, proof.rs ┤
-//!         └─ few or many ──────────────────► exact.rs, proof.rs ──────────────┘
+//! points ─► span.rs ─┬─ in one plane ─► flat.rs ───────────────────────────────────────┐
+//!                    ├─ some ─► library.rs ─► proof.rs ─┬─ proven ─────────────────────┼─► Hull
+//!                    │                                  └─ refuted ─┐                  │
+//!                    └─ few or many ────────────────────────────────┴─► exact_hull.rs ─┘
 //! ```
 
-mod exact;
+pub(crate) mod exact_hull;
 mod flat;
 mod library;
+pub(crate) mod polygons;
 mod proof;
 mod span;
 
-use crate::exact_hull::ExactHull;
-use crate::polygons::loops;
-use crate::predicates;
+use crate::exact::predicates::{self, lexicographic};
+use crate::hull::exact_hull::ExactHull;
+use crate::hull::polygons::loops;
 use crate::tolerance::{FEW_POINTS, LIBRARY_POINTS, LIKELY_POINTS};
 use ccd_core::Loops;
 use ccd_core::glam::DVec3;
 use ccd_core::limits::MAX_COORDINATE;
 use span::Span;
-use std::cmp::Ordering;
 
-/// The convex hull of points, by their indices.
+/// A convex hull of points, by their indices.
 ///
 /// # Guarantee
-/// In exact arithmetic on the points as they are stored: every point is inside or on the hull; the
-/// facets are whole, i.e. no two are in one plane (but for the two sides of a flat hull), and strictly
-/// convex; every edge is an edge of two of them, once in either direction, so that they tile the hull's
-/// boundary.
+/// In exact arithmetic on the stored points: every point is inside or on the hull. The facets are whole, so that
+/// no two are in one plane (except the two sides of a flat hull), and strictly convex. Every edge is an edge of
+/// two of them, once in either direction, so that they tile the hull's boundary.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Hull {
-    /// The hull's corners in ascending order; of several points at one place, the first.
+    /// The hull's corners in ascending order; the first point stands for all at its place.
     pub(crate) vertices: Vec<u32>,
     /// Convex polygons, counter-clockwise seen from outside.
     pub(crate) facets: Loops,
-    /// How it was found.
-    pub(crate) way: Way,
+    /// The method that found it.
+    pub(crate) method: Method,
 }
 
-/// How a hull was found.
+impl Hull {
+    /// The points of the corners, and the facets by the numbers of these.
+    pub(crate) fn corners_and_facets(mut self, points: &[DVec3]) -> (Vec<DVec3>, Loops) {
+        let mut number = vec![0; points.len()];
+        for (k, &v) in (0..).zip(&self.vertices) {
+            number[v as usize] = k;
+        }
+        for corner in self.facets.corners_mut() {
+            *corner = number[*corner as usize];
+        }
+        let corners = self.vertices.iter().map(|&v| points[v as usize]);
+        (corners.collect(), self.facets)
+    }
+}
+
+/// The method that found a hull.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Way {
-    /// By the library, and proven.
+pub(crate) enum Method {
+    /// The library computed it, and it was proven.
     Library,
-    /// The library's hull is not the hull, or there was none: computed exactly instead.
+    /// The library failed, or its hull was refuted: it was computed exactly instead.
     Rebuilt,
-    /// The points are too few for the library to be worth it, or too many: computed exactly.
+    /// It was computed exactly from the start, because the points are few or many.
     Exact,
-    /// All points are in one plane: a polygon, seen from either side.
+    /// All points are in one plane: it is a polygon with two sides.
     Flat,
 }
 
-/// Why points have no hull with facets.
+/// The reason why points have no hull with facets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum HullError {
-    /// There is none.
+    /// There are no points.
     #[error("a hull of no points")]
     Empty,
-    /// All of them are at the place of the one named.
+    /// All points are at the place of this one.
     #[error("all points are at the place of point {0}")]
     Single(u32),
-    /// All of them are on the segment between the two named.
+    /// All points are on the segment between these two.
     #[error("all points are on a line, between points {0} and {1}")]
     Collinear(u32, u32),
-    /// A coordinate is so near to 0 that predicates are not exact, not finite, or too large.
+    /// A coordinate is too near to 0 for exact predicates, not finite, or too large.
     #[error("point {0} has a coordinate that is out of range for exact predicates")]
     OutOfRange(u32),
-    /// Not even the hull that was computed exactly could be proven.
+    /// The hull of this many points could not be proven, although it was computed exactly.
     #[error("the hull of {0} points could not be proven")]
     Unproven(usize),
 }
 
-/// The convex hull of points, of which several may be at one place.
+/// Computes the convex hull of points, several of which may be at one place.
 ///
 /// # Errors
-/// See [`HullError`].
+/// [`HullError`] when there is no hull with facets.
 ///
 /// # Complexity
-/// O(n log n), and as much memory as a few points each take.
+/// O(n log n) time, and O(n) memory.
 pub(crate) fn hull(points: &[DVec3]) -> Result<Hull, HullError> {
     hull_by(points, solid)
 }
 
-/// The same by exact predicates alone, for those who prove it themselves.
+/// Computes the convex hull by exact predicates, without the proof, for callers that prove it themselves.
 ///
 /// # Errors
-/// See [`HullError`].
+/// [`HullError`] when there is no hull with facets.
 ///
 /// # Complexity
-/// As [`hull`].
+/// O(n log n) time, and O(n) memory.
 pub(crate) fn unproven_hull(points: &[DVec3]) -> Result<Hull, HullError> {
     hull_by(points, |points| match ExactHull::facets_of(points) {
-        Some(triangles) => Ok((loops(points, &triangles), Way::Exact)),
+        Some(triangles) => Ok((loops(points, &triangles), Method::Exact)),
         None => Err(HullError::Unproven(points.len())),
     })
 }
 
-/// `solid` takes points at different places that span a volume.
+/// Computes a convex hull; `solid` computes it for points at different places that span a volume.
 fn hull_by(
     points: &[DVec3],
-    solid: impl FnOnce(&[DVec3]) -> Result<(Loops, Way), HullError>,
+    solid: impl FnOnce(&[DVec3]) -> Result<(Loops, Method), HullError>,
 ) -> Result<Hull, HullError> {
     // Written so that NaN fails.
     let good = |p: &DVec3| p.abs().max_element() <= MAX_COORDINATE && p.is_finite();
@@ -109,20 +124,21 @@ fn hull_by(
     if let Some(point) = out_of_range.or_else(|| predicates::too_fine(points)) {
         return Err(HullError::OutOfRange(point as u32));
     }
-    let cloud = Cloud::of(points);
+    let cloud = DistinctPoints::of(points);
     let name = |k: usize| cloud.ids[k];
     let found = match Span::of(&cloud.points) {
         Span::Nothing => Err(HullError::Empty),
         Span::Point(a) => Err(HullError::Single(name(a))),
         Span::Line(a, b) => Err(HullError::Collinear(name(a), name(b))),
-        Span::Plane(triangle) => Ok((flat::facets(&cloud.points, triangle), Way::Flat)),
+        Span::Plane(triangle) => Ok((flat::facets(&cloud.points, triangle), Method::Flat)),
         Span::Volume => solid(&cloud.points),
     };
-    found.map(|(facets, way)| cloud.named(facets, way))
+    found.map(|(facets, method)| cloud.named(facets, method))
 }
 
-/// The triangles of what is likely the hull of points: of a number between few and many the library's, of
-/// which nothing is proven, which makes it fast. None where that fails, or few or many points lie in one plane.
+/// Computes triangles that are likely the hull of points. A number of points between few and many takes the
+/// library's hull without a proof, which is fast. None where the library fails, or few or many points lie in one
+/// plane.
 pub(crate) fn likely_triangles(points: &[DVec3]) -> Option<Vec<[u32; 3]>> {
     match (FEW_POINTS + 1..=LIKELY_POINTS).contains(&points.len()) {
         true => library::triangles(points),
@@ -130,41 +146,53 @@ pub(crate) fn likely_triangles(points: &[DVec3]) -> Option<Vec<[u32; 3]>> {
     }
 }
 
-fn solid(points: &[DVec3]) -> Result<(Loops, Way), HullError> {
+/// Computes the hull of points at different places that span a volume.
+fn solid(points: &[DVec3]) -> Result<(Loops, Method), HullError> {
     let some = FEW_POINTS < points.len() && points.len() <= LIBRARY_POINTS;
     if some
         && let Some(triangles) = library::triangles(points)
         && let Ok(facets) = proof::prove(points, loops(points, &triangles))
     {
-        return Ok((facets, Way::Library));
+        return Ok((facets, Method::Library));
     }
-    let way = if some { Way::Rebuilt } else { Way::Exact };
-    match exact::facets(points) {
-        Some(facets) => Ok((facets, way)),
+    let method = if some { Method::Rebuilt } else { Method::Exact };
+    match computed(points) {
+        Some(facets) => Ok((facets, method)),
         None => Err(HullError::Unproven(points.len())),
     }
 }
 
-/// Points at different places, and the number of the first given point at each.
-struct Cloud {
+/// Computes the facets of the hull of points that span a volume by exact predicates; none if they cannot be
+/// proven to close a convex surface.
+///
+/// No point is in front of a facet: each became a corner, or was in front of none when it was inserted, and the
+/// hull has only grown since.
+fn computed(points: &[DVec3]) -> Option<Loops> {
+    let triangles = ExactHull::facets_of(points)?;
+    proof::prove_convex(points, loops(points, &triangles)).ok()
+}
+
+/// The different places of some points, and the number of the first point at each.
+struct DistinctPoints {
     points: Vec<DVec3>,
     ids: Vec<u32>,
 }
 
-impl Cloud {
+impl DistinctPoints {
     fn of(points: &[DVec3]) -> Self {
         let at = |k: u32| points[k as usize];
         let mut ids: Vec<u32> = (0..points.len() as u32).collect();
         ids.sort_unstable_by(|&v, &w| lexicographic(at(v), at(w)).then(v.cmp(&w)));
         ids.dedup_by(|w, v| at(*v) == at(*w));
         ids.sort_unstable();
-        Cloud {
+        DistinctPoints {
             points: ids.iter().map(|&v| at(v)).collect(),
             ids,
         }
     }
 
-    fn named(&self, mut facets: Loops, way: Way) -> Hull {
+    /// Makes a hull of facets, by the numbers of the given points.
+    fn named(&self, mut facets: Loops, method: Method) -> Hull {
         for corner in facets.corners_mut() {
             *corner = self.ids[*corner as usize];
         }
@@ -174,15 +202,9 @@ impl Cloud {
         Hull {
             vertices,
             facets,
-            way,
+            method,
         }
     }
-}
-
-/// The order by x, then y, then z: of points in a plane or on a line, the order along some direction.
-pub(crate) fn lexicographic(p: DVec3, q: DVec3) -> Ordering {
-    let by = |x: f64, y: f64| x.partial_cmp(&y).unwrap_or(Ordering::Equal);
-    by(p.x, q.x).then(by(p.y, q.y)).then(by(p.z, q.z))
 }
 
 #[cfg(test)]

@@ -1,82 +1,96 @@
 //! Meshes in, bodies out: readers, checks, repairs and hierarchies for `ccd-core`.
 //!
-//! ```text
-//! file ─ format ─► TriangleMesh ─┬─ topology ───────────────────► solid or surface ─┐
-//!                                ├─ (triangles) ───┐                                │
-//!                                ├─ manifold ─┬─ convex ────┐                       │
-//!                                │            └─ coplanar ─ surface ─┤              │
-//!                                └─ vhacd ─────────┴─► pieces ─ hierarchy ──────────┴─► Model ─► Body
-//! ```
-//!
 //! | to … | see |
 //! |---|---|
 //! | read OBJ, STL, PLY or OFF | [`TriangleMesh::read`], [`Format`] |
-//! | know what was wrong with a mesh | [`Repairs`], [`Topology`], [`MeshFault`] |
-//! | make a body of it | [`body_from_mesh`], [`Detail`], [`Report`] |
+//! | find the faults of a mesh | [`Repairs`], [`Topology`], [`MeshFault`] |
+//! | make a body of a mesh | [`body_from_mesh`], [`Detail`], [`Report`] |
 //! | decompose its surface exactly | [`decompose`], [`Decomposition`] |
-//! | store what was prepared, and load it | [`prepare`], [`Model::save`], [`Model::load`] |
+//! | store a prepared body, and load it | [`prepare`], [`Model::save`], [`Model::load`] |
 //! | take a body from a command line | [`parse_body`], [`BodySource`] |
 //! | build a hierarchy, or a tree of hulls, over pieces of any kind | [`build_hierarchy`], [`build_hull_tree`] |
 //!
-//! # Guarantee
-//! No repair removes a point of the surface: what is dropped lies on a face that is kept, so that a
-//! query on the body cannot miss a contact that the file's own faces would have. Faces and vertices
-//! keep the numbers they have in the file, from 0.
+//! # Example
+//! A body inside this part goes unnoticed, because the part is not solid. The report names the edges of the hole.
 //!
 //! ```
-//! use ccd_decomp::{body_from_mesh, Detail, Format, TriangleMesh};
-//! let file = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
-//! let mesh = TriangleMesh::from_reader(Format::Obj, file.as_bytes()).unwrap();
-//! let prepared = body_from_mesh(&mesh, Detail::Auto).unwrap();
-//! assert_eq!(prepared.report.to_string(), "1 convex hull, solid");
+//! use ccd_decomp::{Detail, Format, TriangleMesh, body_from_mesh};
+//! let file = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\n";
+//! let mesh = TriangleMesh::from_reader(Format::Obj, file.as_bytes())?;
+//! let report = body_from_mesh(&mesh, Detail::Auto)?.report;
+//! assert_eq!(
+//!     report.to_string(),
+//!     "3 triangles, surface only (open; edges with one face: 3 (e0-2, e0-3, e2-3))"
+//! );
+//!
+//! // The three edges are the rim of a hole. A face closes it, and the body is solid.
+//! let faces = [mesh.faces(), &[[2, 0, 3]]].concat();
+//! let closed = TriangleMesh::new(mesh.vertices().to_vec(), &faces)?;
+//! let report = body_from_mesh(&closed, Detail::Auto)?.report;
+//! assert_eq!(report.to_string(), "1 convex hull, solid");
+//! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
+//!
+//! # Guarantee
+//! No repair removes a point of the surface: a dropped face lies on a face that is kept, so that a query on the body
+//! finds every contact that the file's own faces would have. Faces and vertices keep the numbers that they have in
+//! the file, from 0.
+//!
+//! # Layers
+//! Each module uses only those below it, and has its own errors.
+//!
+//! | module | holds |
+//! |---|---|
+//! | `source` | bodies by their description on a command line, [`BodyError`] |
+//! | `file` | stored bodies, the OBJ writers, [`StoreError`] |
+//! | `prepare` | the model of a mesh: choice of pieces, report, [`PrepareError`] |
+//! | `tree` | hierarchies and hull trees over pieces, [`BuildError`] |
+//! | `pieces` | a mesh in convex pieces: one polytope, patches, approximate hulls ([`VhacdError`]) |
+//! | `solid` | whether a mesh bounds a solid: edges, shells, intersecting faces, [`DecomposeError`] |
+//! | `mesh` | triangle meshes: file formats, repairs, [`MeshError`] |
+//! | `search` | trees of oriented boxes over triangles |
+//! | `hull` | convex hulls of points, proven, [`HullError`] |
+//! | `exact` | exact predicates |
+//! | `tolerance`, `work`, `tally`, `bounds`, `half_edges`, `disjoint_sets`, `messages` | numbers that are choices, budgets, counts, boxes, pairs of edges, sets, parts of messages |
 
-mod auto;
-mod body;
-mod convex;
-mod coplanar;
+mod bounds;
 mod disjoint_sets;
-mod error;
-mod exact_hull;
-mod format;
-mod hierarchy;
+mod exact;
+mod file;
+mod half_edges;
 mod hull;
-mod hull_tree;
-mod manifold;
 mod mesh;
-mod nesting;
-mod polygons;
-mod predicates;
-mod repair;
-mod report;
-mod self_intersection;
-mod shells;
+mod messages;
+mod pieces;
+mod prepare;
+mod search;
+mod solid;
 mod source;
-mod star;
-mod store;
-mod surface;
 mod tally;
 #[cfg(test)]
 mod test_meshes;
 mod tolerance;
-mod topology;
-mod triangle_boxes;
-mod vhacd;
+mod tree;
 mod work;
 
-pub use body::{Detail, Model, Prepared, body_from_mesh, prepare};
-pub use error::{BodyError, DecomposeError, MeshError, MeshFault, SourceError};
-pub use format::{Format, write_obj, write_obj_pieces};
-pub use hierarchy::build_hierarchy;
+pub use file::STORED_EXTENSION;
+pub use file::error::{StoreError, StoreFault};
+pub use file::obj::{write_obj, write_obj_pieces};
 pub use hull::HullError;
-pub use hull_tree::{BuildError, build_hull_tree};
 pub use mesh::TriangleMesh;
-pub use repair::Repairs;
-pub use report::{PiecesKind, Report, Why};
-pub use self_intersection::Crossing;
+pub use mesh::error::{MeshError, MeshFault};
+pub use mesh::format::Format;
+pub use mesh::repair::Repairs;
+pub use pieces::patches::{Decomposition, Order, Patch, decompose};
+pub use pieces::vhacd::VhacdError;
+pub use prepare::error::PrepareError;
+pub use prepare::model::{Model, Prepared};
+pub use prepare::report::{PiecesKind, Report, Why};
+pub use prepare::{Detail, body_from_mesh, prepare};
+pub use solid::error::{Crossing, DecomposeError};
+pub use solid::topology::{Edge, Orientation, Topology};
+pub use source::error::{BodyError, SourceError};
 pub use source::{BodySource, parse_body};
-pub use store::{STORED_EXTENSION, StoreError, StoreFault};
-pub use surface::{Decomposition, Order, Patch, decompose};
 pub use tally::Tally;
-pub use topology::{Edge, Orientation, Topology};
-pub use vhacd::VhacdError;
+pub use tree::hierarchy::build_hierarchy;
+pub use tree::hull_tree::{BuildError, build_hull_tree};

@@ -1,16 +1,21 @@
 //! Bodies as they are named on a command line.
 
-use crate::body::{Detail, Model, Prepared, body_from_mesh};
-use crate::error::{BodyError, SourceError};
+pub(crate) mod error;
+
+use crate::file::STORED_EXTENSION;
 use crate::mesh::TriangleMesh;
-use crate::store::STORED_EXTENSION;
+use crate::prepare::error::PrepareError;
+use crate::prepare::model::{Model, Prepared};
+use crate::prepare::{Detail, body_from_mesh};
 use ccd_core::Body;
 use ccd_core::glam::DVec3;
 use ccd_core::limits::MAX_COORDINATE;
+use error::{BodyError, SourceError};
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
-/// Where a body comes from. All lengths are from 0 to [`MAX_COORDINATE`], in the scene's unit of length.
+/// The description of a body: a shape, or a file. All lengths are from 0 to [`MAX_COORDINATE`], in the
+/// scene's unit of length.
 ///
 /// ```
 /// use ccd_decomp::BodySource;
@@ -39,26 +44,27 @@ pub enum BodySource {
         /// Half the length of the segment along z that it surrounds.
         half_height: f64,
     },
-    /// The path of a file that ends in `.ccd`: a body that was [stored](crate::Model::save).
+    /// The path of a file that ends in `.ccd`: a [stored](crate::Model::save) body.
     Stored(PathBuf),
-    /// Anything else: the path of a mesh file.
+    /// The path of a mesh file: anything else.
     Mesh(PathBuf),
 }
 
-/// Reads the description of a body and makes it.
+/// Makes the body that a text describes.
 ///
 /// # Errors
-/// [`BodyError`], naming the file and element, or showing examples.
+/// [`BodyError`]: it names the file and the element, or shows examples.
 pub fn parse_body(text: &str, detail: Detail) -> Result<Prepared, BodyError> {
     text.parse::<BodySource>()?.load(detail)
 }
 
 impl BodySource {
-    /// Makes the body; a mesh is read from its file, other bodies have one detail only, and a stored
-    /// one has that which it was prepared with.
+    /// Makes the body. The detail applies to meshes only: shapes are single pieces, and a stored body keeps
+    /// the detail that it was prepared with.
     ///
     /// # Errors
-    /// [`BodyError::Mesh`] and those of [`body_from_mesh`], [`BodyError::Store`], [`BodyError::Input`].
+    /// [`BodyError::Mesh`] and [`BodyError::Store`] when the file cannot be read, [`BodyError::InFile`] when its
+    /// content cannot be made into a body, [`BodyError::Input`] when a length is out of range.
     pub fn load(&self, detail: Detail) -> Result<Prepared, BodyError> {
         Ok(match *self {
             BodySource::Box { half_extents } => Prepared::primitive(Body::cuboid(half_extents)?),
@@ -75,15 +81,15 @@ impl BodySource {
     }
 }
 
-fn in_file<T>(path: &Path, made: Result<T, BodyError>) -> Result<T, BodyError> {
+fn in_file<T>(path: &Path, made: Result<T, PrepareError>) -> Result<T, BodyError> {
     made.map_err(|error| BodyError::InFile {
         file: path.into(),
-        error: Box::new(error),
+        error,
     })
 }
 
 impl BodySource {
-    /// A file by its extension: a body that was stored, or a mesh.
+    /// The description of a file, by its extension: a stored body, or a mesh.
     pub fn of_file(path: PathBuf) -> Self {
         let extension = path.extension().unwrap_or_default();
         match extension.eq_ignore_ascii_case(STORED_EXTENSION) {
@@ -154,3 +160,6 @@ fn lengths<const N: usize>(shape: &'static str, given: &str) -> Result<[f64; N],
     }
     Ok(lengths)
 }
+
+#[cfg(test)]
+mod tests;

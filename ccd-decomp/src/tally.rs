@@ -1,30 +1,30 @@
-//! How many there are of something, and which came first.
+//! Counts of elements that a report names.
 
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// How many elements something is true of, and the first of them.
+/// The number of elements of some kind, and the first few of them.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Tally<T> {
     count: usize,
     first: Vec<T>,
 }
 
-/// As many as a report can name before it becomes a list nobody reads.
+/// The most elements that are kept: a report that names more becomes a list nobody reads.
 const NAMED: usize = 8;
 
 impl<T> Tally<T> {
-    /// How many.
+    /// The number of elements.
     pub fn count(&self) -> usize {
         self.count
     }
 
-    /// The first of them, at most eight, in the order they were met.
+    /// The first elements, at most eight, in the order in which they were found.
     pub fn first(&self) -> &[T] {
         &self.first
     }
 
-    /// Whether there is none.
+    /// Whether there are no elements.
     pub fn is_empty(&self) -> bool {
         self.count == 0
     }

@@ -4,6 +4,22 @@ use crate::mesh::TriangleMesh;
 use ccd_core::glam::{DVec3, dvec3};
 use std::collections::HashMap;
 
+/// The faces of a cube, outward: the bits of a corner's number are its coordinates, x the lowest.
+pub(crate) const CUBE: [[u32; 3]; 12] = [
+    [0, 4, 6],
+    [0, 6, 2],
+    [1, 3, 7],
+    [1, 7, 5],
+    [0, 1, 5],
+    [0, 5, 4],
+    [2, 6, 7],
+    [2, 7, 3],
+    [0, 2, 3],
+    [0, 3, 1],
+    [4, 5, 7],
+    [4, 7, 6],
+];
+
 /// The surface of a union of unit cubes, given by their lowest corners: two triangles for every square.
 pub(crate) fn cubes(cells: &[[i32; 3]]) -> TriangleMesh {
     let filled = |c: [i32; 3]| cells.contains(&c);
@@ -54,7 +70,7 @@ pub(crate) fn tetrahedron() -> TriangleMesh {
     )
 }
 
-/// The meshes of several as one.
+/// Several meshes as one.
 pub(crate) fn joined(parts: &[&TriangleMesh]) -> TriangleMesh {
     let (mut vertices, mut faces) = (Vec::new(), Vec::new());
     for part in parts {
@@ -71,7 +87,7 @@ pub(crate) fn placed(part: &TriangleMesh, scale: f64, offset: DVec3) -> Triangle
     mesh(vertices.collect(), part.faces())
 }
 
-/// The same with every face seen from the other side.
+/// A mesh with every face turned round.
 pub(crate) fn turned(part: &TriangleMesh) -> TriangleMesh {
     let faces: Vec<[u32; 3]> = part.faces().iter().map(|&[a, b, c]| [a, c, b]).collect();
     mesh(part.vertices().to_vec(), &faces)
@@ -137,7 +153,8 @@ pub(crate) fn comb(heights: &[f64]) -> TriangleMesh {
     capped(&outline, &caps)
 }
 
-/// Teeth that lean away from the first corner, which sees all of them: the fans of the caps are exact.
+/// The outline of teeth that lean away from the first corner, from which all are visible: the fans of the caps are
+/// exact.
 pub(crate) fn teeth(count: u32) -> Vec<DVec3> {
     let corner = |k: u32| {
         let share = f64::from(k) / f64::from(2 * count - 1);
@@ -151,8 +168,8 @@ pub(crate) fn teeth(count: u32) -> Vec<DVec3> {
         .collect()
 }
 
-/// A convex prism of so many corners under a narrower, longer one: large caps on what no point sees all
-/// of.
+/// A convex prism of a number of corners under a narrower, longer one: large caps on a solid that is not
+/// star-shaped.
 pub(crate) fn notched(corners: u32) -> TriangleMesh {
     let ring = |radius: f64, z: f64| {
         (0..corners).map(move |k| {

@@ -2,7 +2,7 @@
 
 use ccd_core::{InputError, Limit};
 #[cfg(feature = "meshes")]
-use ccd_decomp::BodyError;
+use ccd_decomp::{BodyError, PrepareError};
 
 /// Why a question has no answer.
 #[derive(Debug, thiserror::Error)]
@@ -23,4 +23,11 @@ pub enum Error {
         /// Which limit.
         reason: Limit,
     },
+}
+
+#[cfg(feature = "meshes")]
+impl From<PrepareError> for Error {
+    fn from(error: PrepareError) -> Self {
+        Error::Body(error.into())
+    }
 }

@@ -1,13 +1,12 @@
 //! The hull of points in one plane, exactly.
 
-use super::lexicographic;
-use crate::predicates::Projection;
+use crate::exact::predicates::{Projection, lexicographic};
 use ccd_core::Loops;
 use ccd_core::glam::DVec3;
 use std::cmp::Ordering;
 
-/// The polygon around points that are all in the plane of a triangle of them, and its back: first the
-/// chain below, then the one above, each left-turning throughout (Andrew's monotone chain).
+/// Computes the polygon around points that are all in the plane of a triangle of them, and its back: first the
+/// lower chain, then the upper one, each turning left throughout (Andrew's monotone chain).
 pub(super) fn facets(points: &[DVec3], triangle: [usize; 3]) -> Loops {
     let at = |k: u32| points[k as usize];
     let Some(projection) = Projection::of(triangle.map(|k| points[k])) else {

@@ -1,18 +1,18 @@
-//! The library's hull: fast, and in floating point, so that it is no more than a candidate.
+//! The library's hull: fast, but in floating point, so that it is only a candidate.
 
-use super::lexicographic;
+use crate::exact::predicates::lexicographic;
 use ccd_core::glam::DVec3;
 use parry3d_f64::math::Vector;
 use parry3d_f64::transformation::try_convex_hull;
 use std::panic::catch_unwind;
 
-/// The triangles of the hull of a few points at different places; none when the library gives up.
+/// Computes the triangles of the hull of a few points at different places; none when the library gives up.
 ///
-/// It takes time and memory that grow with the square of the number of points, and recurses once per
-/// triangle that a new corner removes: hence few.
+/// Few, because the library takes time and memory that grow with the square of the number of points, and
+/// recurses once per triangle that a new corner removes.
 pub(super) fn triangles(points: &[DVec3]) -> Option<Vec<[u32; 3]>> {
     let cloud: Vec<Vector> = points.iter().map(|p| p.to_array().into()).collect();
-    // It asserts what rounding can violate.
+    // The library asserts conditions that rounding can violate.
     let (corners, triangles) = catch_unwind(|| try_convex_hull(&cloud)).ok()?.ok()?;
     let corners = corners.iter().map(|p| DVec3::from_array(p.to_array()));
     let ids = identify(points, corners)?;
@@ -23,7 +23,7 @@ pub(super) fn triangles(points: &[DVec3]) -> Option<Vec<[u32; 3]>> {
     triangles.iter().map(named).collect()
 }
 
-/// Which of the points are at the places of the corners, which the library does not tell.
+/// Finds the points at the places of the corners, because the library returns no numbers.
 fn identify(points: &[DVec3], corners: impl Iterator<Item = DVec3>) -> Option<Vec<u32>> {
     let at = |k: u32| points[k as usize];
     let mut order: Vec<u32> = (0..points.len() as u32).collect();

@@ -1,13 +1,12 @@
-//! Are these polygons the facets of the hull of those points: exactly.
+//! The proof that polygons are the facets of the hull of points: exact.
 
-use super::lexicographic;
-use crate::predicates::{Projection, side};
+use crate::exact::predicates::{Projection, lexicographic, side};
 use ccd_core::Loops;
 use ccd_core::glam::DVec3;
 use ccd_core::point_tree::PointTree;
 use std::cmp::Ordering;
 
-/// Why polygons are not proven to be the facets of the hull.
+/// The reason why polygons are not proven to be the facets of the hull.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Refutation {
     /// The polygon of this index is not flat and strictly convex.
@@ -18,7 +17,7 @@ pub(super) enum Refutation {
     Outside(Vec<u32>),
 }
 
-/// The polygons, if they are the facets of the hull of the points.
+/// Returns the polygons, if they are the facets of the hull of the points.
 ///
 /// No point is in front of a polygon, so that each is within a facet of the hull, the right way round.
 /// Beyond each of its edges the plane changes, so that the edge is on the facet's rim, and a convex
@@ -29,7 +28,7 @@ pub(super) enum Refutation {
 /// [`Refutation`].
 ///
 /// # Complexity
-/// O(n log n) for n points and O(n) polygons that few of them are near each.
+/// O(n log n) for n points and O(n) polygons, if few of the points are near each polygon.
 pub(super) fn prove(points: &[DVec3], polygons: Loops) -> Result<Loops, Refutation> {
     let polygons = prove_convex(points, polygons)?;
     let outside = outside(points, &polygons);
@@ -39,15 +38,16 @@ pub(super) fn prove(points: &[DVec3], polygons: Loops) -> Result<Loops, Refutati
     }
 }
 
-/// The polygons, if they close a surface that is convex at each of its edges: of points that are known to be
-/// in front of none, such as those of which exact predicates told so when the hull grew past them, they
-/// are then the facets of the hull.
+/// Returns the polygons, if they close a surface that is convex at each of its edges. They are then the facets of
+/// the hull of points that are known to be in front of none: those for which exact predicates decided so while
+/// the hull grew.
 ///
 /// # Errors
-/// [`Refutation`], but for points outside.
+/// [`Refutation`], except by points outside.
 ///
 /// # Complexity
-/// O(n log n), whatever the points: of many that are nearly in one plane every polygon has many near it.
+/// O(n log n), whatever the points. Where many are nearly in one plane, every polygon has many near it, which
+/// [`prove`] would examine.
 pub(super) fn prove_convex(points: &[DVec3], polygons: Loops) -> Result<Loops, Refutation> {
     if let Some(bent) = polygons.iter().position(|p| !is_convex(points, p)) {
         return Err(Refutation::Bent(bent));
@@ -83,10 +83,10 @@ fn plane(points: &[DVec3], corners: &[u32]) -> [DVec3; 3] {
     [corners[0], corners[1], corners[2]].map(|v| points[v as usize])
 }
 
-/// An edge that does not have one polygon on either side, each behind the other's plane, which either is if
-/// the other is. There is one if there are no polygons.
+/// Finds an edge that does not have one polygon on either side, each behind the other's plane (either is if the
+/// other is). No polygons at all count as such an edge.
 fn unmatched_edge(points: &[DVec3], polygons: &Loops) -> Option<(u32, u32)> {
-    // Both ways of an edge stand beside each other: the smaller end first, then which way it runs.
+    // Sorting puts the two directions of an edge side by side: the smaller end first, then the direction.
     let mut edges: Vec<(u64, bool, u32)> = Vec::with_capacity(polygons.corners().len());
     for (k, corners) in (0..).zip(polygons.iter()) {
         let next = corners.iter().cycle().skip(1);
@@ -113,16 +113,16 @@ fn unmatched_edge(points: &[DVec3], polygons: &Loops) -> Option<(u32, u32)> {
     odd.map(|edges| ends(edges[0].0))
 }
 
-/// Whether beyond an edge of a flat polygon another one goes on behind its plane.
+/// Whether the polygon beyond an edge of a flat polygon continues behind its plane.
 fn folds(points: &[DVec3], edge: [u32; 2], polygon: &[u32], beyond: &[u32]) -> bool {
     let plane = plane(points, polygon);
-    // The ends are in the plane, which would take the predicate its longest computation.
+    // The ends are in the plane, which the predicate would take longest to compute.
     let others = beyond.iter().filter(|v| !edge.contains(v));
     let mut sides = others.map(|&v| side(plane, points[v as usize]));
     sides.find(|&side| side != Ordering::Equal) == Some(Ordering::Less)
 }
 
-/// The points in front of any of the polygons.
+/// Finds the points in front of any of the polygons.
 fn outside(points: &[DVec3], polygons: &Loops) -> Vec<u32> {
     let tree = PointTree::new(points);
     let mut is_outside = vec![false; points.len()];

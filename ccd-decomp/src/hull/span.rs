@@ -1,11 +1,10 @@
-//! How many dimensions do points span: exactly.
+//! The dimension that points span: exact.
 
-use super::lexicographic;
-use crate::predicates::{is_degenerate, side};
+use crate::exact::predicates::{is_degenerate, lexicographic, side};
 use ccd_core::glam::DVec3;
 use std::cmp::Ordering;
 
-/// What points span, with witnesses: indices of points that span as much.
+/// The span of points, with indices of points that span as much.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Span {
     Nothing,
@@ -17,7 +16,7 @@ pub(super) enum Span {
 }
 
 impl Span {
-    /// What points at different places span. O(n).
+    /// Computes the span of points at different places. O(n).
     pub(super) fn of(points: &[DVec3]) -> Self {
         let at = |k: usize| points[k];
         let by_order = |&v: &usize, &w: &usize| lexicographic(at(v), at(w));
@@ -29,7 +28,7 @@ impl Span {
         if a == b {
             return Span::Point(a);
         }
-        // Points far off come first, as they make for larger simplices; any will do.
+        // Far points come first, because they make larger simplices; any will do.
         let off_line = |&k: &usize| (at(b) - at(a)).cross(at(k) - at(a)).length_squared();
         let proper = |&k: &usize| !is_degenerate([at(a), at(b), at(k)]);
         let Some(c) = farthest(points.len(), off_line, proper) else {
@@ -46,7 +45,7 @@ impl Span {
     }
 }
 
-/// The one that is farthest by a rounded measure if it is proper, else the first one that is.
+/// Finds the index of the largest rounded measure if it is proper, else the first proper index.
 fn farthest(
     count: usize,
     measure: impl Fn(&usize) -> f64,

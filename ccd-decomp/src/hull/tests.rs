@@ -1,10 +1,11 @@
 use super::*;
-use crate::predicates::{Projection, is_degenerate, side};
+use crate::exact::predicates::{Projection, is_degenerate, side};
 use proptest::prelude::*;
 use rstest::rstest;
+use std::cmp::Ordering;
 use std::collections::BTreeSet;
 
-/// The corners and planes by looking at all triples: a triple spans a facet when no point is in front.
+/// The corners and planes by a test of all triples: a triple spans a facet when no point is in front.
 struct Twin {
     vertices: Vec<u32>,
     /// The points on each facet, corners or not.
@@ -61,7 +62,7 @@ fn is_amid(points: &[DVec3], distinct: &[usize], k: usize) -> bool {
     others().any(|a| others().any(|b| amid(a, b)))
 }
 
-/// The promises of a hull, one by one, in exact arithmetic.
+/// Checks the guarantees of a hull, one by one, in exact arithmetic.
 fn assert_proper(points: &[DVec3], hull: &Hull) {
     let at = |v: u32| points[v as usize];
     let mut edges = BTreeSet::new();
@@ -160,7 +161,7 @@ fn agrees_with_all_triples(#[case] points: Vec<DVec3>) {
     let hull = proper(&points);
     let twin = Twin::of(&points);
     assert_eq!(hull.vertices, twin.vertices);
-    let facets = if hull.way == Way::Flat {
+    let facets = if hull.method == Method::Flat {
         2 * twin.planes.len()
     } else {
         twin.planes.len()
@@ -197,8 +198,8 @@ fn a_plane_is_seen_from_both_sides() {
     let points: Vec<DVec3> = grid(5)[..25].to_vec();
     let hull = proper(&points);
     assert_eq!(
-        (hull.way, hull.vertices.as_slice()),
-        (Way::Flat, &[0, 4, 20, 24][..])
+        (hull.method, hull.vertices.as_slice()),
+        (Method::Flat, &[0, 4, 20, 24][..])
     );
     let facet = |k| hull.facets.get(k).expect("two facets");
     let back: Vec<u32> = facet(1).iter().rev().copied().collect();
@@ -208,33 +209,33 @@ fn a_plane_is_seen_from_both_sides() {
 #[test]
 fn the_library_serves_where_nothing_is_degenerate() {
     for seed in 0..20 {
-        assert_eq!(proper(&cloud(LIBRARY_POINTS, seed)).way, Way::Library);
+        assert_eq!(proper(&cloud(LIBRARY_POINTS, seed)).method, Method::Library);
     }
 }
 
-/// Where the library would take time and memory that grow with the square.
+/// The library's time and memory would grow with the square of these numbers of points.
 #[test]
 fn hulls_of_many_points_are_exact() {
     for points in [cloud(200, 1), ball(300, 2), cylinder(100, 2), grid(5)] {
-        assert_eq!(proper(&points).way, Way::Exact);
+        assert_eq!(proper(&points).method, Method::Exact);
     }
 }
 
 #[test]
-fn near_planes_are_settled_exactly() {
-    // Noise far below what the library tells apart.
-    let ways: Vec<Way> = (0..20)
-        .map(|seed| proper(&shaken(grid(4), 1e-15, seed)).way)
+fn near_planes_are_decided_exactly() {
+    // Noise far below the tolerances of the library.
+    let ways: Vec<Method> = (0..20)
+        .map(|seed| proper(&shaken(grid(4), 1e-15, seed)).method)
         .collect();
-    assert!(ways.contains(&Way::Rebuilt), "{ways:?}");
+    assert!(ways.contains(&Method::Rebuilt), "{ways:?}");
 }
 
 #[test]
 fn without_a_candidate_the_hull_is_exact() {
     for points in [cloud(60, 1), grid(4), ball(80, 3), cylinder(7, 4)] {
-        let facets = exact::facets(&points).expect("proven");
-        let cloud = Cloud::of(&points);
-        let hull = cloud.named(facets, Way::Exact);
+        let facets = computed(&points).expect("proven");
+        let cloud = DistinctPoints::of(&points);
+        let hull = cloud.named(facets, Method::Exact);
         assert_proper(&points, &hull);
         assert_eq!(hull.vertices, proper(&points).vertices);
     }

@@ -1,4 +1,4 @@
-//! Polygons that the fan about their first corner does not fit, cut into triangles within them.
+//! The triangulation of polygons that the fan about their first corner does not fit.
 
 use ccd_core::glam::DVec3;
 use spade::handles::FixedVertexHandle;
@@ -7,18 +7,18 @@ use std::panic::catch_unwind;
 
 type Plane = ConstrainedDelaunayTriangulation<Point2<f64>>;
 
-/// The triangles that fill a polygon, by the numbers of its corners: two fewer than these, turned as it
-/// is, each edge of it once.
+/// Fills a polygon with triangles, by the numbers of its corners: two fewer than corners, oriented like the
+/// polygon, with each of its edges once.
 ///
-/// None for a polygon that meets itself, seen along the coordinate axis that its normal is nearest to, or
-/// that has a corner twice.
+/// None for a polygon that has a corner twice, or that meets itself when projected along the coordinate axis
+/// nearest to its normal.
 ///
 /// # Guarantee
-/// Exact, seen along that axis: triangles have an area and do not overlap. The same polygon gives the same
+/// Exact in that projection: triangles have an area and do not overlap. The same polygon gives the same
 /// triangles.
 pub(super) fn fill(points: &[DVec3]) -> Option<Vec<[usize; 3]>> {
     let places = projected(points)?;
-    // It may panic where it has a fault; the fan will do then.
+    // A fault of the library may panic; the fan is used then.
     let plane = catch_unwind(|| triangulated(places)).ok()??;
     let count = points.len();
     let at = FixedVertexHandle::from_index;
@@ -31,7 +31,7 @@ pub(super) fn fill(points: &[DVec3]) -> Option<Vec<[usize; 3]>> {
     (triangles.len() == count - 2).then_some(triangles)
 }
 
-/// The points along the axis that their normal is nearest to, from the side that sees them turn left.
+/// Projects the points along the coordinate axis nearest to their normal, so that they turn left.
 fn projected(points: &[DVec3]) -> Option<Vec<Point2<f64>>> {
     let first = *points.first()?;
     let pairs = points.iter().zip(points.iter().cycle().skip(1));
@@ -47,7 +47,7 @@ fn projected(points: &[DVec3]) -> Option<Vec<Point2<f64>>> {
     Some(points.iter().map(flat).collect())
 }
 
-/// The triangulation that has the outline as edges; none where that is not possible.
+/// Triangulates the points with the outline as edges; none where that is not possible.
 fn triangulated(places: Vec<Point2<f64>>) -> Option<Plane> {
     let count = places.len();
     let edges = (0..count).map(|k| [k, (k + 1) % count]).collect();
@@ -56,7 +56,7 @@ fn triangulated(places: Vec<Point2<f64>>) -> Option<Plane> {
     (conflicts == 0).then_some(plane)
 }
 
-/// The triangles on the left of the outline.
+/// Collects the triangles on the left of the outline.
 fn within(plane: &Plane, count: usize) -> Option<Vec<[usize; 3]>> {
     let mut seen = vec![false; plane.num_all_faces()];
     let mut stack = Vec::new();
@@ -66,7 +66,7 @@ fn within(plane: &Plane, count: usize) -> Option<Vec<[usize; 3]>> {
         stack.push(edge.face().as_inner()?.fix());
     }
     let mut triangles = Vec::with_capacity(count);
-    // Every triangle is looked at once for each of its edges.
+    // Every triangle is visited at most once for each of its edges.
     while let Some(face) = stack.pop() {
         if std::mem::replace(&mut seen[face.index()], true) {
             continue;

@@ -89,7 +89,7 @@ fn a_concave_polygon_is_filled() {
     assert!(mesh.repairs().overhanging.is_empty());
 }
 
-/// Corners in line with the first one are no reason for faces without area; other polygons keep their fan.
+/// Corners on a line with the first one make no faces without area; other polygons keep their fan.
 #[test]
 fn a_polygon_with_straight_corners_is_filled() {
     let file = "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nf 1 2 3 4 5\nf 4 5 1 3\n";

@@ -10,8 +10,8 @@ use crate::command::progress::Progress;
 use anyhow::{Context, Result, bail};
 use ccd_core::Body;
 use ccd_decomp::{
-    BodyError, Detail, Model, Order, STORED_EXTENSION, StoreFault, TriangleMesh, build_hull_tree,
-    prepare, write_obj_pieces,
+    Detail, Model, Order, PrepareError, STORED_EXTENSION, StoreFault, TriangleMesh,
+    build_hull_tree, prepare, write_obj_pieces,
 };
 use clap::{Args, ValueEnum};
 use figures::Figures;
@@ -165,7 +165,7 @@ impl DecomposeArgs {
         }
     }
 
-    fn build(&self, mesh: &TriangleMesh, detail: Detail) -> Result<(Model, Body), BodyError> {
+    fn build(&self, mesh: &TriangleMesh, detail: Detail) -> Result<(Model, Body), PrepareError> {
         let mut model = prepare(mesh, detail)?;
         if !self.hull_tree {
             let body = model.body()?;

@@ -1,5 +1,5 @@
 use super::*;
-use crate::predicates::Projection;
+use crate::exact::predicates::Projection;
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;
@@ -31,7 +31,7 @@ fn meets_itself(points: &[DVec3]) -> bool {
     (0..n).any(folded) || (0..n).any(|k| (k + 2..n).any(|l| (l + 1) % n != k && meet(k, l)))
 }
 
-/// Outlines about the origin and at random, on a grid and not: filled just when they do not meet
+/// Outlines about the origin and at random, on a grid and not, are filled if and only if they do not meet
 /// themselves, by triangles whose areas add up to the outline's.
 #[test]
 fn outlines_are_filled_unless_they_meet_themselves() {

@@ -1,0 +1,45 @@
+use super::*;
+use ccd_core::glam::dvec3;
+use proptest::prelude::*;
+
+/// Small whole numbers: the determinant is exact in plain arithmetic.
+fn whole() -> impl Strategy<Value = DVec3> {
+    [-9..=9, -9..=9, -9..=9].prop_map(|x: [i32; 3]| DVec3::from_array(x.map(f64::from)))
+}
+
+proptest! {
+    #[test]
+    fn whole_numbers_agree_with_plain_arithmetic(t in [whole(), whole(), whole()], p in whole()) {
+        let [a, b, c] = t;
+        let height = (b - a).cross(c - a).dot(p - a);
+        prop_assert_eq!(side(t, p), height.partial_cmp(&0.0).unwrap());
+        prop_assert_eq!(is_degenerate(t), (b - a).cross(c - a) == DVec3::ZERO);
+        if let Some(plane) = Projection::of(t) {
+            prop_assert_eq!(plane.turn(a, b, c), Ordering::Greater);
+            prop_assert_eq!(plane.turn(b, a, c), Ordering::Less);
+            prop_assert_eq!(plane.turn(a, b, a + 3.0 * (b - a)), Ordering::Equal);
+            // The far corner, mirrored at the middle of the edge.
+            prop_assert_eq!(plane.turn(a, b, a + b - c), Ordering::Less);
+        }
+    }
+}
+
+#[test]
+fn the_last_bit_decides() {
+    let triangle = [
+        dvec3(0.1, 0.1, 0.1),
+        dvec3(0.3, 0.1, 0.1),
+        dvec3(0.1, 0.7, 0.1),
+    ];
+    let above = f64::from_bits(0.1f64.to_bits() + 1);
+    assert_eq!(side(triangle, dvec3(1e5, 1e5, 0.1)), Ordering::Equal);
+    assert_eq!(side(triangle, dvec3(1e5, 1e5, above)), Ordering::Greater);
+    assert_eq!(side(triangle, dvec3(0.2, 0.2, 0.0)), Ordering::Less);
+}
+
+#[test]
+fn coordinates_near_zero_are_reported() {
+    let points = [DVec3::ZERO, DVec3::X, dvec3(0.0, 1e-91, 0.0)];
+    assert_eq!(too_fine(&points), Some(2));
+    assert_eq!(too_fine(&points[..2]), None);
+}

@@ -1,0 +1,40 @@
+//! The sign of a volume, where rounding cannot have changed it.
+
+use crate::tolerance::volume_rounding;
+use ccd_core::glam::DVec3;
+
+/// A sum of signed volumes, and of their sizes, which bounds the rounding of the sum.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct SignedVolume {
+    sum: f64,
+    /// The rounding errors of the sum.
+    lost: f64,
+    size: f64,
+    terms: f64,
+}
+
+impl SignedVolume {
+    /// Adds the volume, times six, between a triangle and a point near the surface.
+    pub(crate) fn add(&mut self, [p, q, r]: [DVec3; 3], near: DVec3) {
+        let (arm, sides) = (p - near, [q - p, r - p]);
+        let term = arm.dot(sides[0].cross(sides[1]));
+        let sum = self.sum + term;
+        // The exact rounding error of the addition (Knuth's two-sum).
+        let added = sum - self.sum;
+        self.lost += (self.sum - (sum - added)) + (term - added);
+        self.sum = sum;
+        self.size += arm.length() * sides[0].length() * sides[1].length();
+        self.terms += 1.0;
+    }
+
+    /// The sign; none when [rounding](volume_rounding) could have changed it.
+    pub(crate) fn is_positive(&self) -> Option<bool> {
+        let sum = self.sum + self.lost;
+        let rounding = volume_rounding(self.size, self.terms);
+        // Written so that NaN has no sign.
+        (sum.abs() > rounding).then_some(sum > 0.0)
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,82 @@
+//! Errors of storing and loading bodies.
+
+use crate::messages::{LFS_ADVICE, Prefix};
+use std::fmt;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// A stored body that cannot be read, or a body that cannot be stored.
+#[derive(Debug, thiserror::Error)]
+#[error("{}{fault}", Prefix(.file))]
+pub struct StoreError {
+    /// The file, where there is one.
+    pub file: Option<PathBuf>,
+    /// The reason.
+    pub fault: StoreFault,
+}
+
+/// The reason why a body cannot be stored or loaded.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum StoreFault {
+    /// The operating system does not give the bytes.
+    #[error("cannot be read: {0}")]
+    Unreadable(#[source] io::Error),
+    /// The operating system does not take the bytes.
+    #[error("cannot be written: {0}")]
+    Unwritable(#[source] io::Error),
+    /// The file does not begin like a stored body.
+    #[error("holds no stored body; give a mesh, or {PREPARE}")]
+    Foreign,
+    /// The file is a pointer of Git LFS.
+    #[error("{LFS_ADVICE}")]
+    LfsPointer,
+    /// Another version of the program wrote it.
+    #[error(
+        "is of version {version} of the format, and version {} is what is read; {PREPARE}",
+        VERSION
+    )]
+    OtherVersion {
+        /// The version that the file states.
+        version: u32,
+    },
+    /// The file ends before the length that it announces.
+    #[error("is cut short; copy it again, or {PREPARE}")]
+    Truncated,
+    /// The bytes are not those that were written.
+    #[error("is damaged: its checksum is not that of its bytes; copy it again, or {PREPARE}")]
+    Damaged,
+    /// The bytes are whole, but describe no valid body.
+    #[error("holds no valid body: {problem}; {PREPARE}")]
+    Invalid {
+        /// The part that is not valid.
+        problem: String,
+    },
+}
+
+const PREPARE: &str = "prepare it again from its mesh: ccd decompose MESH --out FILE.ccd";
+
+/// The version that is written, and the only one that is read: what a body is prepared from is still
+/// there, so that an older file is not worth a second reader.
+pub(super) const VERSION: u32 = 2;
+
+impl StoreFault {
+    pub(super) fn invalid(problem: &dyn fmt::Display) -> Self {
+        StoreFault::Invalid {
+            problem: problem.to_string(),
+        }
+    }
+
+    pub(super) fn in_file(self, file: &Path) -> StoreError {
+        StoreError {
+            file: Some(file.into()),
+            fault: self,
+        }
+    }
+}
+
+impl From<StoreFault> for StoreError {
+    fn from(fault: StoreFault) -> Self {
+        StoreError { file: None, fault }
+    }
+}

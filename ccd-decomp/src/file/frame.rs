@@ -1,0 +1,87 @@
+//! The frame about a stored payload, which detects a foreign, cut or damaged file.
+//!
+//! | bytes | what |
+//! |---|---|
+//! | 8 | the magic number |
+//! | 4 | the version of the format; as all numbers, little endian |
+//! | 8 | the length of the payload |
+//! | as many | the payload |
+//! | 4 | CRC-32 of all before |
+
+use super::error::{StoreFault, VERSION};
+use crate::messages::is_lfs_pointer;
+use std::io::{self, Read, Write};
+
+/// The first bytes, in the manner of PNG: no text begins so, and a transfer that changes line ends or cuts
+/// the eighth bit damages them.
+const MAGIC: [u8; 8] = *b"\x89ccd\r\n\x1a\n";
+
+const HEADER: usize = MAGIC.len() + size_of::<u32>() + size_of::<u64>();
+
+/// Writes a payload within its frame.
+pub(super) fn write(mut writer: impl Write, payload: &[u8]) -> io::Result<()> {
+    let mut header = Vec::with_capacity(HEADER);
+    header.extend(MAGIC);
+    header.extend(VERSION.to_le_bytes());
+    header.extend((payload.len() as u64).to_le_bytes());
+    writer.write_all(&header)?;
+    writer.write_all(payload)?;
+    writer.write_all(&checksum(&header, payload).to_le_bytes())?;
+    writer.flush()
+}
+
+/// Reads a payload, and checks that its frame is whole.
+///
+/// # Complexity
+/// Linear in the bytes that are there, whatever length they announce.
+pub(super) fn read(mut reader: impl Read) -> Result<Vec<u8>, StoreFault> {
+    let mut header = bytes(&mut reader, HEADER as u64)?;
+    if !header.starts_with(&MAGIC) {
+        // A few bytes more identify a pointer. A file cut within the magic number is more likely foreign.
+        header.extend(bytes(&mut reader, HEADER as u64)?);
+        return Err(match is_lfs_pointer(&header) {
+            true => StoreFault::LfsPointer,
+            false => StoreFault::Foreign,
+        });
+    }
+    let mut fields = &header[MAGIC.len()..];
+    let version = u32::from_le_bytes(array(&mut fields)?);
+    if version != VERSION {
+        return Err(StoreFault::OtherVersion { version });
+    }
+    let length = u64::from_le_bytes(array(&mut fields)?);
+    let payload = bytes(&mut reader, length)?;
+    if payload.len() as u64 != length {
+        return Err(StoreFault::Truncated);
+    }
+    let end = bytes(&mut reader, size_of::<u32>() as u64)?;
+    if u32::from_le_bytes(array(&mut &end[..])?) != checksum(&header, &payload) {
+        return Err(StoreFault::Damaged);
+    }
+    match bytes(&mut reader, 1)?.is_empty() {
+        true => Ok(payload),
+        false => Err(StoreFault::Damaged),
+    }
+}
+
+/// Reads the next bytes, as many as asked for or as there are.
+fn bytes(reader: &mut impl Read, count: u64) -> Result<Vec<u8>, StoreFault> {
+    let mut bytes = Vec::new();
+    let taken = reader.take(count).read_to_end(&mut bytes);
+    taken.map_err(StoreFault::Unreadable)?;
+    Ok(bytes)
+}
+
+/// Splits off the next `N` bytes.
+fn array<const N: usize>(from: &mut &[u8]) -> Result<[u8; N], StoreFault> {
+    let (first, rest) = from.split_first_chunk().ok_or(StoreFault::Truncated)?;
+    *from = rest;
+    Ok(*first)
+}
+
+fn checksum(header: &[u8], payload: &[u8]) -> u32 {
+    let mut hasher = crc32fast::Hasher::new();
+    hasher.update(header);
+    hasher.update(payload);
+    hasher.finalize()
+}

@@ -1,0 +1,262 @@
+use super::error::StoreFault;
+use super::frame;
+use crate::{Detail, Format, Model, Order, TriangleMesh, prepare};
+use proptest::prelude::*;
+use rstest::rstest;
+use std::sync::LazyLock;
+
+const TETRAHEDRON: &str =
+    "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
+
+/// A tetrahedron with a dent, a duplicate face and an unused vertex, which the report mentions.
+const DENTED: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv .2 .2 .2\nv 9 9 9\n\
+     f 1 3 2\nf 1 2 4\nf 3 1 4\nf 2 3 5\nf 3 4 5\nf 4 2 5\nf 4 2 5\n";
+
+fn model(file: &str, detail: Detail) -> Model {
+    let mesh = TriangleMesh::from_reader(Format::Obj, file.as_bytes()).unwrap();
+    prepare(&mesh, detail).unwrap()
+}
+
+fn stored(model: &Model) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    model.write(&mut bytes).unwrap();
+    bytes
+}
+
+fn fault(bytes: &[u8]) -> StoreFault {
+    match Model::read(bytes) {
+        Ok(_) => panic!("read"),
+        Err(error) => error.fault,
+    }
+}
+
+/// Stored bodies of every kind of pieces, with a hull tree and without, small enough to be changed at every byte.
+static FILES: LazyLock<Vec<Vec<u8>>> = LazyLock::new(|| {
+    let patches = model(DENTED, Detail::Patches(Order::Cresting));
+    let models = [
+        model(DENTED, Detail::Triangles),
+        patches.clone(),
+        patches.with_hull_tree().unwrap(),
+        model(TETRAHEDRON, Detail::Hull),
+        model(TETRAHEDRON, Detail::Vhacd { hulls: 2 }),
+    ];
+    models.iter().map(stored).collect()
+});
+
+#[rstest]
+#[case(DENTED, Detail::Triangles)]
+#[case(DENTED, Detail::Patches(Order::Cresting))]
+#[case(DENTED, Detail::Vhacd { hulls: 4 })]
+#[case(TETRAHEDRON, Detail::Hull)]
+fn what_is_stored_is_what_is_read(#[case] file: &str, #[case] detail: Detail) {
+    let model = model(file, detail);
+    let bytes = stored(&model);
+    let again = Model::read(&bytes[..]).unwrap();
+    assert_eq!(stored(&again), bytes);
+    assert_eq!(again.report, model.report);
+    assert_eq!(again.pieces.points(), model.pieces.points());
+    assert_eq!(again.hierarchy.nodes(), model.hierarchy.nodes());
+    let bodies = (again.body().unwrap(), model.body().unwrap());
+    assert_eq!(bodies.0.bytes(), bodies.1.bytes());
+}
+
+#[test]
+fn a_hull_tree_is_stored_with_its_body() {
+    let model = model(DENTED, Detail::Patches(Order::Cresting))
+        .with_hull_tree()
+        .unwrap();
+    let again = Model::read(&stored(&model)[..]).unwrap();
+    let nodes = |model: &Model| model.hull_tree.as_ref().unwrap().to_nodes();
+    assert!(nodes(&model).len() >= 3);
+    assert_eq!(nodes(&again), nodes(&model));
+    assert!(again.body().unwrap().hull_tree().is_some());
+}
+
+#[test]
+fn files_are_named_in_errors() {
+    let folder = std::env::temp_dir().join(format!("ccd-store-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let path = folder.join("part.ccd");
+    let model = model(DENTED, Detail::Triangles);
+    model.save(&path).unwrap();
+    assert_eq!(Model::load(&path).unwrap().report, model.report);
+    std::fs::write(&path, &stored(&model)[..40]).unwrap();
+    let message = Model::load(&path).unwrap_err().to_string();
+    assert!(message.contains("part.ccd: is cut short"), "{message}");
+    assert!(message.contains("ccd decompose MESH --out"), "{message}");
+    let nowhere = folder.join("no/such/folder.ccd");
+    let message = [
+        Model::load(&nowhere).unwrap_err().to_string(),
+        model.save(&nowhere).unwrap_err().to_string(),
+    ];
+    assert!(
+        message[0].contains("folder.ccd: cannot be read"),
+        "{}",
+        message[0]
+    );
+    assert!(
+        message[1].contains("folder.ccd: cannot be written"),
+        "{}",
+        message[1]
+    );
+    std::fs::remove_dir_all(&folder).unwrap();
+}
+
+#[test]
+fn a_foreign_file_is_reported() {
+    let files: [&[u8]; 4] = [
+        b"",
+        b"# an obj\nv 0 0 0\n",
+        b"\x89PNG\r\n\x1a\n.........",
+        b"\x89ccd\n",
+    ];
+    for bytes in files {
+        assert!(matches!(fault(bytes), StoreFault::Foreign), "{bytes:?}");
+    }
+}
+
+#[test]
+fn another_version_is_reported_before_damage() {
+    let mut bytes = stored(&model(DENTED, Detail::Triangles));
+    bytes[8] = 0xff;
+    assert!(matches!(
+        fault(&bytes),
+        StoreFault::OtherVersion { version: 0xff }
+    ));
+    let message = fault(&bytes).to_string();
+    assert!(
+        message.contains("version 255") && message.contains("version 2 is what is read"),
+        "{message}"
+    );
+}
+
+#[test]
+fn a_pointer_of_git_lfs_is_recognised() {
+    let fault = fault(b"version https://git-lfs.github.com/spec/v1\noid sha256:0\n");
+    assert!(matches!(fault, StoreFault::LfsPointer), "{fault}");
+    assert!(fault.to_string().contains("git lfs pull"), "{fault}");
+}
+
+#[test]
+fn a_file_cut_anywhere_is_an_error() {
+    for bytes in FILES.iter() {
+        for end in 0..bytes.len() {
+            let fault = fault(&bytes[..end]);
+            let cut = matches!(fault, StoreFault::Truncated);
+            assert!(
+                cut || end < 8 && matches!(fault, StoreFault::Foreign),
+                "{end}: {fault}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_file_with_more_behind_it_is_damaged() {
+    let mut bytes = stored(&model(DENTED, Detail::Triangles));
+    bytes.push(0);
+    assert!(matches!(fault(&bytes), StoreFault::Damaged));
+}
+
+#[test]
+fn every_bit_counts() {
+    let bytes = stored(&model(TETRAHEDRON, Detail::Triangles));
+    for at in 0..bytes.len() {
+        for bit in 0..8 {
+            let mut changed = bytes.clone();
+            changed[at] ^= 1 << bit;
+            fault(&changed);
+        }
+    }
+}
+
+#[test]
+fn a_length_that_no_memory_holds_is_a_cut_file() {
+    let mut bytes = stored(&model(DENTED, Detail::Triangles));
+    bytes[12..20].copy_from_slice(&u64::MAX.to_le_bytes());
+    assert!(matches!(fault(&bytes), StoreFault::Truncated));
+}
+
+#[test]
+fn parts_that_do_not_belong_together_are_reported() {
+    let (mut small, large) = (
+        model(TETRAHEDRON, Detail::Triangles),
+        model(DENTED, Detail::Triangles),
+    );
+    small.hierarchy = large.hierarchy;
+    assert!(matches!(fault(&stored(&small)), StoreFault::Invalid { .. }));
+    let mut miscounted = model(DENTED, Detail::Triangles);
+    miscounted.report.pieces += 1;
+    assert!(matches!(
+        fault(&stored(&miscounted)),
+        StoreFault::Invalid { .. }
+    ));
+}
+
+/// Checks that bytes that can be read are a valid body.
+fn check(bytes: &[u8]) {
+    if let Ok(model) = Model::read(bytes) {
+        let body = model.body().unwrap();
+        assert_eq!(body.pieces().len(), model.report.pieces);
+        let _ = model.report.to_string();
+    }
+}
+
+/// A changed payload in a frame with a matching checksum.
+fn reframed(payload: &[u8]) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    frame::write(&mut bytes, payload).unwrap();
+    bytes
+}
+
+#[test]
+fn a_payload_cut_anywhere_is_an_error() {
+    for bytes in FILES.iter() {
+        let payload = frame::read(&bytes[..]).unwrap();
+        for end in 0..payload.len() {
+            let fault = fault(&reframed(&payload[..end]));
+            assert!(
+                matches!(fault, StoreFault::Invalid { .. }),
+                "{end}: {fault}"
+            );
+        }
+    }
+}
+
+#[test]
+fn no_single_change_of_a_payload_panics() {
+    for bytes in FILES.iter() {
+        let payload = frame::read(&bytes[..]).unwrap();
+        for at in 0..payload.len() {
+            for value in [0, 1, 2, 0x7f, 0x80, 0xff] {
+                let mut changed = payload.clone();
+                changed[at] = value;
+                check(&reframed(&changed));
+            }
+        }
+    }
+}
+
+proptest! {
+    #[test]
+    fn no_bytes_panic(bytes in prop::collection::vec(any::<u8>(), 0..400)) {
+        check(&bytes);
+        check(&reframed(&bytes));
+    }
+
+    #[test]
+    fn no_changes_of_a_payload_panic(
+        file in any::<prop::sample::Index>(),
+        changes in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..6),
+        cut in any::<prop::sample::Index>(),
+    ) {
+        let bytes = &FILES[file.index(FILES.len())];
+        let mut payload = frame::read(&bytes[..]).unwrap();
+        for (at, byte) in changes {
+            let at = at.index(payload.len());
+            payload[at] = byte;
+        }
+        check(&reframed(&payload));
+        check(&reframed(&payload[cut.index(payload.len())..]));
+    }
+}

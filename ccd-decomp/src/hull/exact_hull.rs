@@ -1,0 +1,132 @@
+//! Convex hulls that grow point by point, by exact predicates.
+
+mod conflicts;
+mod few;
+mod local_points;
+
+use crate::bounds::Bounds;
+use crate::exact::predicates::{is_degenerate, side_of};
+use crate::tolerance::FEW_POINTS;
+use ccd_core::glam::DVec3;
+use std::cmp::Ordering;
+
+/// The hull of some points of a list, as a closed surface of triangles with an area.
+///
+/// # Guarantee
+/// Exact: every point that was inserted is inside or on it, and every corner is one of them. Facets are
+/// counter-clockwise seen from outside; several may lie in one plane.
+#[derive(Clone, Debug)]
+pub(crate) struct ExactHull {
+    facets: Vec<[u32; 3]>,
+    corners: Vec<u32>,
+}
+
+/// The change of a hull when a point is inserted.
+#[derive(Clone, Debug)]
+pub(crate) struct Growth {
+    /// Whether the point sees a facet from outside, and replaces it; by facet.
+    seen: Vec<bool>,
+    /// The new facets, about the point.
+    fan: Vec<[u32; 3]>,
+}
+
+impl ExactHull {
+    /// Makes the hull of a convex polygon of strict corners: two fans back to back. It has no volume, and only
+    /// points off its plane may be inserted.
+    pub(crate) fn polygon(corners: &[u32]) -> Self {
+        let fan = |k: usize| [corners[0], corners[k], corners[k + 1]];
+        let front = (1..corners.len() - 1).map(fan);
+        let back = front.clone().map(|[a, b, c]| [a, c, b]);
+        ExactHull {
+            facets: front.chain(back).collect(),
+            corners: corners.to_vec(),
+        }
+    }
+
+    fn with_facets(facets: Vec<[u32; 3]>) -> Self {
+        let mut corners: Vec<u32> = facets.iter().flatten().copied().collect();
+        corners.sort_unstable();
+        corners.dedup();
+        ExactHull { facets, corners }
+    }
+
+    /// Computes the hull of all points; none when they lie in one plane. O(n log n).
+    pub(crate) fn of(points: &[DVec3]) -> Option<Self> {
+        ExactHull::facets_of(points).map(ExactHull::with_facets)
+    }
+
+    /// Computes the facets of the hull of all points; none when they lie in one plane. O(n log n).
+    pub(crate) fn facets_of(points: &[DVec3]) -> Option<Vec<[u32; 3]>> {
+        let simplex = ExactHull::simplex(points)?;
+        Some(match points.len() <= FEW_POINTS {
+            true => few::facets(points, simplex),
+            false => conflicts::facets(points, simplex),
+        })
+    }
+
+    /// Finds a triangle of points, and a point behind it; none when all lie in one plane. O(n).
+    fn simplex(points: &[DVec3]) -> Option<[u32; 4]> {
+        let at = |k: u32| points[k as usize];
+        let rest = 0..points.len() as u32;
+        let b = rest.clone().find(|&k| at(k) != at(0))?;
+        let area = |&k: &u32| !is_degenerate([at(0), at(b), at(k)]);
+        let c = rest.clone().find(area)?;
+        let height = |k: u32| side_of(points, [0, b, c], k);
+        let d = rest.clone().find(|&k| height(k) != Ordering::Equal)?;
+        Some(match height(d) {
+            Ordering::Less => [0, b, c, d],
+            _ => [0, c, b, d],
+        })
+    }
+
+    /// The facets.
+    pub(crate) fn facets(&self) -> &[[u32; 3]] {
+        &self.facets
+    }
+
+    /// The corners of the facets, each once; in ascending order, except those of a polygon.
+    pub(crate) fn corners(&self) -> &[u32] {
+        &self.corners
+    }
+
+    /// Computes the change by a point; none when the point is inside already. O(f log f) in the number of facets.
+    pub(crate) fn growth(&self, points: &[DVec3], point: u32) -> Option<Growth> {
+        let sees = |&facet: &[u32; 3]| side_of(points, facet, point) == Ordering::Greater;
+        let seen: Vec<bool> = self.facets.iter().map(sees).collect();
+        if !seen.contains(&true) {
+            return None;
+        }
+        let mut edges: Vec<(u32, u32)> = Vec::new();
+        for (&[a, b, c], _) in self.facets.iter().zip(&seen).filter(|(_, seen)| **seen) {
+            edges.extend([(a, b), (b, c), (c, a)]);
+        }
+        edges.sort_unstable();
+        // The visible part has one rim, and strictly turns away from it: no new facet is flat.
+        let rim = edges
+            .iter()
+            .filter(|(a, b)| edges.binary_search(&(*b, *a)).is_err());
+        Some(Growth {
+            fan: rim.map(|&(a, b)| [a, b, point]).collect(),
+            seen,
+        })
+    }
+
+    /// The box of all facets that a growth adds or removes.
+    pub(crate) fn changed(&self, points: &[DVec3], growth: &Growth) -> Bounds {
+        let removed = self.facets.iter().zip(&growth.seen);
+        let removed = removed.filter_map(|(facet, seen)| seen.then_some(facet));
+        let corners = removed.chain(&growth.fan).flatten();
+        Bounds::of(corners.map(|&v| points[v as usize]))
+    }
+
+    /// Applies a change.
+    pub(crate) fn grow(&mut self, growth: Growth) {
+        let mut seen = growth.seen.into_iter();
+        self.facets.retain(|_| !seen.next().unwrap_or(false));
+        self.facets.extend(growth.fan);
+        *self = ExactHull::with_facets(std::mem::take(&mut self.facets));
+    }
+}
+
+#[cfg(test)]
+mod tests;

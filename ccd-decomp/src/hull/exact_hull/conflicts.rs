@@ -1,0 +1,201 @@
+//! The hull of many points, inserted in random order, with a conflict graph of who sees which facet `[CS89]`.
+
+use super::local_points::{LocalPoints, Plane};
+use ccd_core::glam::DVec3;
+
+/// Computes the facets of the hull of points that span a volume, from a triangle and a point behind it.
+///
+/// Points are inserted in rounds, each of about half of the remaining points, whatever their places. The expected
+/// work is O(n log n) for any points, and the memory O(n). Within a round they keep the given order, in which
+/// neighbours likely follow each other `[ACR03]`.
+pub(super) fn facets(points: &[DVec3], simplex: [u32; 4]) -> Vec<[u32; 3]> {
+    let hull = Growing::all(points, simplex);
+    let left = hull.facets.into_iter().filter(|facet| facet.is_there);
+    left.map(|facet| facet.corners).collect()
+}
+
+/// Hashes an index to a number without any pattern (the finalizer of MurmurHash3).
+fn scrambled(v: u32) -> u32 {
+    let mut h = v.wrapping_add(0x9e37_79b9);
+    h = (h ^ h >> 16).wrapping_mul(0x85eb_ca6b);
+    h = (h ^ h >> 13).wrapping_mul(0xc2b2_ae35);
+    h ^ h >> 16
+}
+
+/// The largest capacity of a list that is kept for another use.
+const SPARED: usize = 64;
+
+/// The number of no facet and no point.
+const NONE: u32 = u32::MAX;
+
+struct Facet {
+    corners: [u32; 3],
+    plane: Plane,
+    /// The facets beyond its edges; the first is from its first corner to its second.
+    across: [u32; 3],
+    /// The points to be inserted that see it.
+    seen_by: Vec<u32>,
+    is_there: bool,
+    /// The last point that was tested for seeing it, and the answer.
+    asked: (u32, bool),
+}
+
+struct Growing<'a> {
+    points: LocalPoints<'a>,
+    /// Empty lists for another use.
+    spare: Vec<Vec<u32>>,
+    facets: Vec<Facet>,
+    /// A facet that a point sees, by point; one that is removed, or none, if the point is inside.
+    sees: Vec<u32>,
+    /// The last facet that a point was tested with, by point.
+    held: Vec<u32>,
+    /// The new facet whose edge on the rim starts at a point, by point.
+    starting: Vec<u32>,
+}
+
+/// An edge of the rim of the visible part: its ends, the facet beyond, and the visible facet.
+struct RimEdge {
+    ends: [u32; 2],
+    beyond: u32,
+    seen: u32,
+}
+
+impl<'a> Growing<'a> {
+    fn all(points: &'a [DVec3], simplex: [u32; 4]) -> Self {
+        let mut order: Vec<u32> = (0..points.len() as u32).collect();
+        order.sort_unstable_by_key(|&v| (scrambled(v).leading_zeros(), v));
+        order.reverse();
+        let mut hull = Growing::new(points, simplex, &order);
+        for v in order {
+            hull.insert(v);
+        }
+        hull
+    }
+
+    fn new(points: &'a [DVec3], [a, b, c, d]: [u32; 4], order: &[u32]) -> Self {
+        let mut hull = Growing {
+            points: LocalPoints::new(points),
+            spare: Vec::new(),
+            facets: Vec::with_capacity(4 * points.len()),
+            sees: vec![NONE; points.len()],
+            held: vec![NONE; points.len()],
+            starting: vec![NONE; points.len()],
+        };
+        hull.push([a, b, c], [1, 2, 3], order);
+        hull.push([b, a, d], [0, 3, 2], order);
+        hull.push([c, b, d], [0, 1, 3], order);
+        hull.push([a, c, d], [0, 2, 1], order);
+        hull
+    }
+
+    /// Adds a facet, and records which of some points see it.
+    fn push(&mut self, corners: [u32; 3], across: [u32; 3], candidates: &[u32]) {
+        let number = self.facets.len() as u32;
+        let plane = self.points.plane(corners);
+        let mut seen_by = self.spare.pop().unwrap_or_default();
+        for &v in candidates {
+            let is_new = std::mem::replace(&mut self.held[v as usize], number) != number;
+            if is_new && self.points.is_in_front(&plane, corners, v) {
+                self.sees[v as usize] = number;
+                seen_by.push(v);
+            }
+        }
+        // Most facets are seen by no point to come.
+        if seen_by.is_empty() {
+            self.spare.push(std::mem::take(&mut seen_by));
+        }
+        self.facets.push(Facet {
+            corners,
+            plane,
+            across,
+            seen_by,
+            is_there: true,
+            asked: (NONE, false),
+        });
+    }
+
+    fn insert(&mut self, v: u32) {
+        let first = self.sees[v as usize];
+        // A point that sees a new facet sees one of the two at its edge of the rim: none is forgotten.
+        if first == NONE || !self.facets[first as usize].is_there {
+            return;
+        }
+        let (gone, rim) = self.remove_seen(first, v);
+        let base = self.facets.len() as u32;
+        for (k, edge) in (base..).zip(&rim) {
+            self.starting[edge.ends[0] as usize] = k;
+        }
+        let mut candidates = Vec::new();
+        for (k, edge) in (base..).zip(&rim) {
+            let [a, b] = edge.ends;
+            candidates.clear();
+            for facet in [edge.seen, edge.beyond] {
+                candidates.extend_from_slice(&self.facets[facet as usize].seen_by);
+            }
+            // The facet before it is known once all are there.
+            let across = [edge.beyond, self.starting[b as usize], NONE];
+            self.push([a, b, v], across, &candidates);
+            let beyond = &mut self.facets[edge.beyond as usize];
+            if let Some(place) = (0..3).find(|&l| beyond.corners[l] == b) {
+                beyond.across[place] = k;
+            }
+        }
+        for k in base..self.facets.len() as u32 {
+            let after = self.facets[k as usize].across[1];
+            self.facets[after as usize].across[2] = k;
+        }
+        for facet in gone {
+            let mut seen_by = std::mem::take(&mut self.facets[facet as usize].seen_by);
+            if seen_by.capacity() <= SPARED {
+                seen_by.clear();
+                self.spare.push(seen_by);
+            }
+        }
+    }
+
+    /// Removes the facets that a point sees, which are connected over edges, and returns them with their rim.
+    fn remove_seen(&mut self, first: u32, v: u32) -> (Vec<u32>, Vec<RimEdge>) {
+        let (mut rim, mut gone) = (Vec::new(), vec![first]);
+        self.facets[first as usize].is_there = false;
+        let mut at = 0;
+        // Every facet is removed once.
+        while let Some(&seen) = gone.get(at) {
+            at += 1;
+            let Facet {
+                corners, across, ..
+            } = self.facets[seen as usize];
+            for k in 0..3 {
+                let beyond = across[k];
+                if !self.facets[beyond as usize].is_there {
+                    continue;
+                }
+                if self.is_seen(beyond, v) {
+                    self.facets[beyond as usize].is_there = false;
+                    gone.push(beyond);
+                } else {
+                    let ends = [corners[k], corners[(k + 1) % 3]];
+                    rim.push(RimEdge { ends, beyond, seen });
+                }
+            }
+        }
+        (gone, rim)
+    }
+
+    fn is_seen(&mut self, facet: u32, v: u32) -> bool {
+        let Facet {
+            corners,
+            plane,
+            asked,
+            ..
+        } = self.facets[facet as usize];
+        if asked.0 == v {
+            return asked.1;
+        }
+        let seen = self.points.is_in_front(&plane, corners, v);
+        self.facets[facet as usize].asked = (v, seen);
+        seen
+    }
+}
+
+#[cfg(test)]
+mod tests;

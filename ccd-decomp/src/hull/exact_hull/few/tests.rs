@@ -1,0 +1,35 @@
+use super::*;
+use crate::hull::exact_hull::{ExactHull, conflicts};
+use crate::hull::polygons::polygons;
+use proptest::prelude::*;
+
+proptest! {
+    /// Both methods give the same polygons, on grids and slightly off them.
+    #[test]
+    fn few_points_have_the_hull_of_many(
+        points in prop::collection::vec(prop::array::uniform3(-2_i8..=2), 4..24),
+        off in prop::collection::vec(prop::array::uniform3(-1.0..1.0), 24),
+        size in prop::sample::select(vec![0.0, 1e-16, 1e-12, 0.5]),
+    ) {
+        let shaken = |(p, off): (&[i8; 3], &[f64; 3])| {
+            DVec3::from_array(p.map(f64::from)) + size * DVec3::from_array(*off)
+        };
+        let points: Vec<DVec3> = points.iter().zip(&off).map(shaken).collect();
+        let Some(simplex) = ExactHull::simplex(&points) else { return Ok(()) };
+        let sorted = |triangles: Vec<[u32; 3]>| {
+            let mut loops: Vec<Vec<[u64; 3]>> = Vec::new();
+            for polygon in polygons(&points, &triangles) {
+                // Of points at one place either hull takes any.
+                let place = |&v: &u32| points[v as usize].to_array().map(|x| (x + 0.0).to_bits());
+                let mut corners: Vec<[u64; 3]> = polygon.corners.iter().map(place).collect();
+                let least = (0..corners.len()).min_by_key(|&k| corners[k]).unwrap();
+                corners.rotate_left(least);
+                loops.push(corners);
+            }
+            loops.sort();
+            loops
+        };
+        let few = sorted(facets(&points, simplex));
+        prop_assert_eq!(few, sorted(conflicts::facets(&points, simplex)));
+    }
+}

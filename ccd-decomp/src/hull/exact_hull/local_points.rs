@@ -1,0 +1,62 @@
+//! Points in front of a facet: decided by their rounded height where rounding cannot matter, else exactly.
+
+use crate::exact::predicates::side_of;
+use ccd_core::glam::DVec3;
+use ccd_core::order::greater;
+use ccd_core::tolerance::height_rounding;
+use std::cmp::Ordering;
+
+/// Points, and their positions relative to the first one.
+pub(super) struct LocalPoints<'a> {
+    points: &'a [DVec3],
+    relative: Vec<DVec3>,
+    /// The largest relative coordinate.
+    reach: f64,
+}
+
+/// The plane of three of the points, rounded.
+#[derive(Clone, Copy)]
+pub(super) struct Plane {
+    normal: DVec3,
+    height: f64,
+    /// A bound on the rounding error of a point's height over it.
+    rounding: f64,
+}
+
+impl<'a> LocalPoints<'a> {
+    pub(super) fn new(points: &'a [DVec3]) -> Self {
+        let base = points.first().copied().unwrap_or(DVec3::ZERO);
+        let relative: Vec<DVec3> = points.iter().map(|&p| p - base).collect();
+        let coordinates = relative.iter().map(|p| p.abs().max_element());
+        LocalPoints {
+            points,
+            reach: coordinates.fold(0.0, greater),
+            relative,
+        }
+    }
+
+    pub(super) fn plane(&self, corners: [u32; 3]) -> Plane {
+        let [p, q, r] = corners.map(|v| self.points[v as usize]);
+        let sides = [q - p, r - p];
+        let normal = sides[0].cross(sides[1]);
+        Plane {
+            normal,
+            height: normal.dot(self.relative[corners[0] as usize]),
+            rounding: height_rounding(sides, self.reach),
+        }
+    }
+
+    /// Whether a point is in front of the plane through some corners, exactly.
+    #[inline]
+    pub(super) fn is_in_front(&self, plane: &Plane, corners: [u32; 3], v: u32) -> bool {
+        let height = plane.normal.dot(self.relative[v as usize]) - plane.height;
+        // Written so that NaN is decided exactly.
+        match height.abs() > plane.rounding {
+            true => height > 0.0,
+            false => side_of(self.points, corners, v) == Ordering::Greater,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,83 @@
+use super::*;
+use crate::exact::predicates::side;
+use ccd_core::glam::dvec3;
+use proptest::prelude::*;
+
+/// Points on a coarse grid, where many lie in one plane or on one line.
+fn coarse() -> impl Strategy<Value = Vec<DVec3>> {
+    let point = [0..4i32, 0..4i32, 0..4i32].prop_map(|x| DVec3::from_array(x.map(f64::from)));
+    prop::collection::vec(point, 1..24)
+}
+
+fn check(points: &[DVec3], hull: &ExactHull) -> Result<(), TestCaseError> {
+    let mut edges = Vec::new();
+    for &[a, b, c] in hull.facets() {
+        edges.extend([(a, b), (b, c), (c, a)]);
+        let triangle = [a, b, c].map(|v| points[v as usize]);
+        prop_assert!(!is_degenerate(triangle));
+        for &p in points {
+            prop_assert!(side(triangle, p) != Ordering::Greater, "{p} is outside");
+        }
+    }
+    edges.sort_unstable();
+    for (k, &(a, b)) in edges.iter().enumerate() {
+        prop_assert!(k == 0 || edges[k - 1] != (a, b), "edge {a}-{b} twice");
+        prop_assert!(edges.binary_search(&(b, a)).is_ok(), "edge {a}-{b} open");
+    }
+    Ok(())
+}
+
+proptest! {
+    #[test]
+    fn hulls_are_closed_and_hold_all_points(points in coarse()) {
+        let in_plane = |t: [DVec3; 3]| points.iter().all(|&p| side(t, p) == Ordering::Equal);
+        let all_flat = points.iter().all(|&a| points.iter().all(|&b| {
+            points.iter().all(|&c| in_plane([a, b, c]))
+        }));
+        match ExactHull::of(&points) {
+            Some(hull) => check(&points, &hull)?,
+            None => prop_assert!(all_flat),
+        }
+    }
+
+    /// The old and the new hull differ only within the reported box of the change.
+    #[test]
+    fn changes_stay_within_their_box(points in coarse(), new in [-2.0..6.0, -2.0..6.0, -2.0..6.0]) {
+        let mut points = points;
+        let Some(mut hull) = ExactHull::of(&points) else { return Ok(()) };
+        points.push(DVec3::from_array(new));
+        let last = points.len() as u32 - 1;
+        let before = hull.facets().to_vec();
+        match hull.growth(&points, last) {
+            None => prop_assert!(before.iter().all(|f| side_of(&points, *f, last) != Ordering::Greater)),
+            Some(growth) => {
+                let lost = before.iter().zip(&growth.seen).filter(|(_, s)| **s).count();
+                prop_assert!(lost > 0 && growth.fan.len() >= 3);
+                hull.grow(growth);
+                check(&points, &hull)?;
+                prop_assert!(hull.corners().contains(&last));
+            }
+        }
+    }
+}
+
+#[test]
+fn a_polygon_grows_to_either_side() {
+    let points = [
+        DVec3::ZERO,
+        DVec3::X,
+        dvec3(1.0, 1.0, 0.0),
+        DVec3::Y,
+        dvec3(0.5, 0.5, -1.0),
+        dvec3(0.5, 0.5, 1.0),
+    ];
+    let mut hull = ExactHull::polygon(&[0, 1, 2, 3]);
+    assert_eq!(hull.facets().len(), 4);
+    let growth = hull.growth(&points, 4).unwrap();
+    hull.grow(growth);
+    assert_eq!(hull.facets().len(), 6);
+    let growth = hull.growth(&points, 5).unwrap();
+    hull.grow(growth);
+    assert_eq!(hull.facets().len(), 8);
+    check(&points, &hull).unwrap();
+}

@@ -1,0 +1,183 @@
+//! Wavefront OBJ.
+
+use crate::mesh::error::MeshFault;
+use crate::mesh::polygons::Polygons;
+use ccd_core::glam::DVec3;
+use std::fmt::Write as _;
+use std::io::{BufRead, Read};
+use tobj::{LoadError, LoadOptions, Mesh};
+
+/// Reads the vertices and faces of an OBJ.
+///
+/// `tobj` numbers vertices by first use and object by object, and does not report the place of an error. It is
+/// therefore given the `v` and `f` statements alone, as one object, and before them one polygon over all
+/// vertices in their order, which makes its numbers those of the file. The number of bytes that it has read
+/// when it fails gives the line.
+pub(super) fn parse(bytes: &[u8]) -> Result<Polygons, MeshFault> {
+    let text = String::from_utf8_lossy(bytes);
+    let statements = Statements::new(&text);
+    let vertices = statements.vertex_lines.len();
+    if vertices == 0 {
+        return Err(MeshFault::NoVertices);
+    }
+    let mut pin = String::from("f");
+    for vertex in 1..=vertices {
+        let _ = write!(pin, " {vertex}");
+    }
+    pin.push('\n');
+    let mut reader = pin.as_bytes().chain(statements.text.as_bytes());
+    let mesh = load(&mut reader).map_err(|error| {
+        let unread = reader.get_ref().1.len();
+        statements.fault(error, statements.text.len() - unread)
+    })?;
+    let mut polygons = Polygons {
+        vertices: mesh
+            .positions
+            .chunks_exact(3)
+            .map(DVec3::from_slice)
+            .collect(),
+        corners: mesh.indices[vertices..].iter().map(|&v| v.into()).collect(),
+        vertex_lines: statements.vertex_lines,
+        face_lines: statements.face_lines,
+        ..Polygons::default()
+    };
+    // The library leaves the list out when all polygons, the first included, are triangles.
+    let mut end = 0;
+    polygons
+        .ends
+        .extend((0..polygons.face_lines.len()).map(|k| {
+            end += mesh.face_arities.get(k + 1).map_or(3, |&n| n as usize);
+            end
+        }));
+    Ok(polygons)
+}
+
+fn load(reader: &mut impl BufRead) -> Result<Mesh, LoadError> {
+    let no_materials = |_: &_| Err(LoadError::OpenFileFailed);
+    let (mut models, _) = tobj::load_obj_buf(reader, &LoadOptions::default(), no_materials)?;
+    models
+        .pop()
+        .map(|model| model.mesh)
+        .ok_or(LoadError::GenericFailure)
+}
+
+/// The `v` and `f` statements of a file, one per line, with the lines of the file that they stood on.
+#[derive(Default)]
+struct Statements {
+    text: String,
+    vertex_lines: Vec<usize>,
+    face_lines: Vec<usize>,
+}
+
+impl Statements {
+    fn new(text: &str) -> Self {
+        let mut out = Statements::default();
+        out.text.reserve(text.len());
+        let mut lines = (1..).zip(text.lines());
+        while let Some((number, line)) = lines.next() {
+            let line = line.split('#').next().unwrap_or_default().trim();
+            let start = out.text.len();
+            let lines_of_kind = match line.split_whitespace().next() {
+                Some("v") => {
+                    out.text.push_str(without_colour(line));
+                    &mut out.vertex_lines
+                }
+                Some("f") => {
+                    out.text.push_str(line);
+                    &mut out.face_lines
+                }
+                _ => continue,
+            };
+            lines_of_kind.push(number);
+            // A backslash at its end continues a line.
+            while out.text[start..].ends_with('\\') {
+                out.text.pop();
+                let (_, next) = lines.next().unwrap_or_default();
+                let next = next.split('#').next().unwrap_or_default().trim();
+                out.text.push(' ');
+                out.text.push_str(next);
+            }
+            out.text.push('\n');
+        }
+        out
+    }
+
+    /// Translates the library's error, after it has read `read` bytes of the statements.
+    fn fault(&self, error: LoadError, read: usize) -> MeshFault {
+        if error == LoadError::FaceVertexOutOfBounds
+            && let Some(fault) = self.missing_vertex()
+        {
+            return fault;
+        }
+        let statement = self.text[..read].lines().count().saturating_sub(1);
+        // Statements of both kinds are in the order of their lines.
+        let mut lines = [self.vertex_lines.as_slice(), &self.face_lines].concat();
+        lines.sort_unstable();
+        let problem = match self.text.lines().nth(statement) {
+            Some(text) => match no_vertex_number(text) {
+                Some(word) => format!("{word:?} instead of the number of a vertex in {text:?}"),
+                None => format!("{error} in {text:?}"),
+            },
+            None => error.to_string(),
+        };
+        MeshFault::syntax(lines.get(statement).copied(), problem)
+    }
+
+    /// Finds the first corner that names no vertex; the library only reports that there is one.
+    fn missing_vertex(&self) -> Option<MeshFault> {
+        let vertices = self.vertex_lines.len();
+        let (mut above, mut face) = (0, 0);
+        for statement in self.text.lines() {
+            let mut words = statement.split_whitespace();
+            if words.next() == Some("v") {
+                above += 1;
+                continue;
+            }
+            for word in words {
+                // A corner may leave its vertex out, as in `/1/2`; that names none either.
+                let number = word.split('/').next().unwrap_or_default();
+                let vertex: i64 = number.parse().unwrap_or(0);
+                let good = if vertex < 0 {
+                    -above..=-1
+                } else {
+                    1..=vertices as i64
+                };
+                if !good.contains(&vertex) {
+                    return Some(MeshFault::NoSuchVertex {
+                        face,
+                        line: self.face_lines.get(face).copied(),
+                        vertex,
+                        vertices,
+                        base: 1,
+                    });
+                }
+            }
+            face += 1;
+        }
+        None
+    }
+}
+
+/// Finds the first corner of a face that does not begin with a whole number.
+fn no_vertex_number(statement: &str) -> Option<&str> {
+    let corners = statement.strip_prefix('f')?.split_whitespace();
+    let number = |corner: &str| corner.split('/').next().map(str::parse::<i64>);
+    corners
+        .into_iter()
+        .find(|corner| !matches!(number(corner), Some(Ok(_))))
+}
+
+/// Removes the three or more numbers that some programs put after the position of a vertex; a single number
+/// is a weight and stays.
+fn without_colour(line: &str) -> &str {
+    const KEYWORD_AND_POSITION: usize = 4;
+    if line.split_whitespace().count() < KEYWORD_AND_POSITION + 3 {
+        return line;
+    }
+    let mut words = line.split_whitespace();
+    match words.nth(KEYWORD_AND_POSITION) {
+        // Both are slices of one line, so that their distance is the length to keep.
+        Some(colour) => &line[..colour.as_ptr().addr() - line.as_ptr().addr()],
+        None => line,
+    }
+}

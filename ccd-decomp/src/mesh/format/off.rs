@@ -1,0 +1,122 @@
+//! Object File Format (Geomview), text.
+
+use crate::mesh::error::MeshFault;
+use crate::mesh::polygons::Polygons;
+use ccd_core::glam::DVec3;
+use std::str::FromStr;
+
+/// Reads the vertices and faces of an OFF.
+pub(super) fn parse(bytes: &[u8]) -> Result<Polygons, MeshFault> {
+    let text = String::from_utf8_lossy(bytes);
+    let mut lines = Lines {
+        rest: text.lines(),
+        number: 0,
+    };
+    let Some(first) = lines.next() else {
+        return Err(MeshFault::NoVertices);
+    };
+    let (vertices, faces) = counts(first, &mut lines)?;
+    let mut polygons = Polygons::default();
+    for vertex in 0..vertices {
+        let mut line = lines.need(|| format!("vertex {vertex} of {vertices}"))?;
+        let what = "the three coordinates of a vertex";
+        let mut coordinate = || line.number::<f64>(what);
+        let point = DVec3::new(coordinate()?, coordinate()?, coordinate()?);
+        polygons.vertices.push(point);
+        polygons.vertex_lines.push(line.number);
+    }
+    for face in 0..faces {
+        let mut line = lines.need(|| format!("face {face} of {faces}"))?;
+        let corners: u32 = line.number("the number of corners of a face")?;
+        for _ in 0..corners {
+            let corner = line.number("the number of a vertex for each corner of a face")?;
+            polygons.corners.push(corner);
+        }
+        polygons.ends.push(polygons.corners.len());
+        polygons.face_lines.push(line.number);
+    }
+    Ok(polygons)
+}
+
+/// Reads the numbers of vertices and faces: on the first line, after the keyword, or on the next.
+fn counts<'a>(mut line: Line<'a>, lines: &mut Lines<'a>) -> Result<(u64, u64), MeshFault> {
+    let keyword = line.words.clone().next().unwrap_or_default();
+    if keyword.parse::<u64>().is_err() {
+        let Some(prefix) = keyword.strip_suffix("OFF") else {
+            return Err(line.problem(&format!("{keyword:?} instead of OFF")));
+        };
+        // Texture coordinates, colours and normals follow the position and are passed over; a fourth
+        // coordinate (4) or a dimension (n) would change what it means.
+        let known = ["", "ST", "C", "N", "STC", "STN", "CN", "STCN", "NC"];
+        if !known.contains(&prefix) {
+            return Err(MeshFault::Unsupported {
+                what: format!("{keyword:?}"),
+                instead: "OFF in three dimensions",
+            });
+        }
+        line.words.next();
+        match line.words.clone().next() {
+            Some(word) if word.eq_ignore_ascii_case("binary") => {
+                return Err(MeshFault::Unsupported {
+                    what: "binary OFF".into(),
+                    instead: "text",
+                });
+            }
+            Some(_) => {}
+            None => line = lines.need(|| "the numbers of vertices and faces".into())?,
+        }
+    }
+    let what = "the numbers of vertices and faces";
+    Ok((line.number(what)?, line.number(what)?))
+}
+
+/// The lines that hold more than blanks and comments.
+struct Lines<'a> {
+    rest: std::str::Lines<'a>,
+    number: usize,
+}
+
+struct Line<'a> {
+    words: std::str::SplitWhitespace<'a>,
+    number: usize,
+}
+
+impl<'a> Lines<'a> {
+    fn need(&mut self, missing: impl Fn() -> String) -> Result<Line<'a>, MeshFault> {
+        self.next()
+            .ok_or_else(|| MeshFault::Truncated { missing: missing() })
+    }
+}
+
+impl<'a> Iterator for Lines<'a> {
+    type Item = Line<'a>;
+
+    fn next(&mut self) -> Option<Line<'a>> {
+        for line in self.rest.by_ref() {
+            self.number += 1;
+            let text = line.split('#').next().unwrap_or_default();
+            if !text.trim().is_empty() {
+                return Some(Line {
+                    words: text.split_whitespace(),
+                    number: self.number,
+                });
+            }
+        }
+        None
+    }
+}
+
+impl Line<'_> {
+    fn number<T: FromStr>(&mut self, expected: &str) -> Result<T, MeshFault> {
+        let word = self.words.next();
+        word.and_then(|word| word.parse().ok())
+            .ok_or_else(|| match word {
+                Some(word) => self.problem(&format!("{word:?} instead of {expected}")),
+                None => self.problem(&format!("ends before {expected}")),
+            })
+    }
+
+    fn problem(&self, problem: &str) -> MeshFault {
+        MeshFault::syntax(Some(self.number), problem.into())
+    }
+}

@@ -1,0 +1,188 @@
+use super::Format;
+use crate::{MeshFault, TriangleMesh, write_obj};
+use ccd_core::glam::DVec3;
+use proptest::prelude::*;
+
+mod faults;
+mod fuzz;
+
+const OBJ: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
+
+/// Everything else that an OBJ may have: carriage returns, normals, relative indices, objects,
+/// materials, a continued line, colours, a weight, and a byte that is no UTF-8.
+const RICH_OBJ: &[u8] = b"# caf\xe9\r\nmtllib none.mtl\r\no first\r\nv 0 0 0 1\r\nv 1 0 0 0.5 0.5 0.5\r\n\
+    v 0 1 0 # up\r\nvn 0 0 1\r\nvt 0 0\r\nusemtl red\r\nf 1/1/1 -1/-1/-1 2/1/1\r\ng second\r\nl 1 2\r\n\
+    v 0 0 2 2\r\nf 1//1 2//1 \\\r\n  4//1\r\nusemtl blue\r\nf 2/1 3/1 4/1\r\ns off\r\nf +3 1 -1\r\n";
+
+const STL: &str = "solid a tetrahedron\n\
+    facet normal nan nan nan\nouter loop\nvertex 0 0 0\nvertex 0 1 0\nvertex 1 0 0\nendloop\nendfacet\n\
+    facet normal 0 0 0\nouter loop\nvertex -0 0 0\nvertex 1 0 0\nvertex 0 0 1\nendloop\nendfacet\n\
+    endsolid\n\nSOLID\nFACET NORMAL 1 0 0\n  OUTER LOOP\nVERTEX 1.0E0 0 0\nVERTEX 0 1 0\nVERTEX 0 0 1\n\
+    ENDLOOP\nENDFACET\nfacet normal 0 0 0\nouter loop\nvertex 0 1 0\nvertex 0 0 0\nvertex 0 0 1\nendloop\n\
+    endfacet\nendsolid\n";
+
+const PLY: &str = "ply\nformat ascii 1.0\ncomment made by hand\nelement vertex 4\n\
+    property float x\nproperty double y\nproperty float nx\nproperty int z\nelement face 4\n\
+    property uchar flags\nproperty list uchar int vertex_indices\nelement edge 1\nproperty int a\n\
+    end_header\n0 0 7 0\n1 0 7 0\n0 1 7 0\n0 0 7 1\n9 3 0 2 1\n9 3 0 1 3\n9 3 1 2 3\n9 3 2 0 3\n5\n";
+
+const OFF: &str = "COFF # colours\n\n4 4 6\n0 0 0 255 0 0\n1 0 0 0 0 0\n0 1 0 0 0 0\n# the tip\n0 0 1\n\
+    3 0 2 1\n3 0 1 3  0.5 0.5 0.5\n3 1 2 3\n3 2 0 3\n";
+
+const POINTS: [[f32; 3]; 4] = [[0., 0., 0.], [1., 0., 0.], [0., 1., 0.], [0., 0., 1.]];
+const FACES: [[u32; 3]; 4] = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
+
+/// A binary STL whose header begins like a text.
+fn binary_stl() -> Vec<u8> {
+    let mut bytes = Vec::new();
+    let facets = FACES.map(|face| stl_io::Triangle {
+        normal: stl_io::Normal::new([0.0; 3]),
+        vertices: face.map(|v| stl_io::Vertex::new(POINTS[v as usize])),
+    });
+    stl_io::write_stl(&mut bytes, facets.iter()).unwrap();
+    bytes[..10].copy_from_slice(b"solid bin\n");
+    bytes
+}
+
+fn binary_ply(endian: &str) -> Vec<u8> {
+    let mut bytes = format!(
+        "ply\nformat binary_{endian}_endian 1.0\nelement face 4\n\
+         property list uchar uint vertex_index\nelement vertex 4\nproperty double x\n\
+         property double y\nproperty double z\nend_header\n"
+    )
+    .into_bytes();
+    let little = endian == "little";
+    for face in FACES {
+        bytes.push(3);
+        bytes.extend(face.iter().flat_map(|v| {
+            if little {
+                v.to_le_bytes()
+            } else {
+                v.to_be_bytes()
+            }
+        }));
+    }
+    for x in POINTS.iter().flatten().map(|&x| f64::from(x)) {
+        bytes.extend(if little {
+            x.to_le_bytes()
+        } else {
+            x.to_be_bytes()
+        });
+    }
+    bytes
+}
+
+fn valid() -> Vec<(Format, Vec<u8>)> {
+    vec![
+        (Format::Obj, OBJ.into()),
+        (Format::Obj, RICH_OBJ.into()),
+        (Format::Stl, STL.into()),
+        (Format::Stl, binary_stl()),
+        (Format::Ply, PLY.into()),
+        (Format::Ply, binary_ply("little")),
+        (Format::Ply, binary_ply("big")),
+        (Format::Off, OFF.into()),
+    ]
+}
+
+fn read(format: Format, bytes: &[u8]) -> Result<TriangleMesh, MeshFault> {
+    TriangleMesh::from_reader(format, bytes).map_err(|error| error.fault)
+}
+
+/// The corners of all triangles, independent of the numbers of the vertices.
+fn corners(mesh: &TriangleMesh) -> Vec<[DVec3; 3]> {
+    let point = |v: u32| mesh.vertices()[v as usize];
+    mesh.faces().iter().map(|face| face.map(point)).collect()
+}
+
+#[test]
+fn all_formats_read_the_same_tetrahedron() {
+    let expected: Vec<[DVec3; 3]> = FACES
+        .iter()
+        .map(|face| face.map(|v| ccd_core::glam::Vec3::from_array(POINTS[v as usize]).as_dvec3()))
+        .collect();
+    for (format, bytes) in valid() {
+        let mesh = read(format, &bytes).unwrap();
+        assert_eq!(corners(&mesh), expected, "{format:?}");
+        assert_eq!(mesh.vertices().len(), 4, "{format:?}");
+        assert_eq!(mesh.face_ids(), [0, 1, 2, 3], "{format:?}");
+        assert!(mesh.repairs().is_empty(), "{format:?}: {}", mesh.repairs());
+    }
+}
+
+#[test]
+fn obj_keeps_the_numbers_of_the_file() {
+    let text =
+        "v 9 9 9\nv 0 0 1\nv 0 1 0\nv 1 0 0\nv 8 8 8\nv 1 1 0\no a\nf 6 4 3 2\no b\nf 4 3 2\n";
+    let mesh = read(Format::Obj, text.as_bytes()).unwrap();
+    assert_eq!(mesh.faces(), [[5, 3, 2], [5, 2, 1], [3, 2, 1]]);
+    assert_eq!(mesh.face_ids(), [0, 0, 1]);
+    assert_eq!(mesh.vertices()[4], DVec3::splat(8.0));
+    assert_eq!(mesh.repairs().unreferenced.first(), [0, 4]);
+}
+
+#[test]
+fn obj_of_three_vertices_and_of_few_polygons() {
+    // The library treats exactly three vertices, and all faces alike, as a special case.
+    let three = read(Format::Obj, b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 3 2 1").unwrap();
+    assert_eq!(three.faces(), [[0, 1, 2], [2, 1, 0]]);
+    let mixed = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 3 1\nf 3 2 1";
+    assert_eq!(read(Format::Obj, mixed).unwrap().face_ids(), [0, 2]);
+}
+
+#[test]
+fn stl_welds_corners_in_order_of_appearance() {
+    let mesh = read(Format::Stl, &binary_stl()).unwrap();
+    assert_eq!(mesh.faces()[0], [0, 1, 2]);
+    assert_eq!(mesh.vertices()[1], DVec3::Y);
+}
+
+#[test]
+fn a_byte_order_mark_hides_no_vertex() {
+    let marked = ["\u{feff}", OBJ].concat();
+    let mesh = read(Format::Obj, marked.as_bytes()).unwrap();
+    assert_eq!(mesh.vertices().len(), 4);
+}
+
+#[test]
+fn a_pointer_of_git_lfs_is_recognised() {
+    let pointer = b"version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 12\n";
+    for (format, _) in valid() {
+        let fault = read(format, pointer).unwrap_err();
+        assert!(
+            matches!(fault, MeshFault::LfsPointer),
+            "{format:?}: {fault}"
+        );
+        assert!(fault.to_string().contains("git lfs pull"), "{fault}");
+    }
+}
+
+#[test]
+fn off_counts_may_follow_the_keyword_or_stand_alone() {
+    let body = "3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+    for text in [format!("OFF {body}"), body.to_string()] {
+        assert_eq!(
+            read(Format::Off, text.as_bytes()).unwrap().faces(),
+            [[0, 1, 2]]
+        );
+    }
+}
+
+proptest! {
+    #[test]
+    fn a_written_obj_reads_back_to_the_same_bits(
+        points in prop::collection::vec(prop::array::uniform3(-1e12..1e12), 3..20),
+        picks in prop::collection::vec(prop::array::uniform3(any::<prop::sample::Index>()), 1..20),
+    ) {
+        let faces: Vec<[u32; 3]> = picks
+            .iter()
+            .map(|pick| pick.map(|index| index.index(points.len()) as u32))
+            .collect();
+        let mesh = TriangleMesh::new(points.iter().copied().map(DVec3::from).collect(), &faces).unwrap();
+        let mut bytes = Vec::new();
+        write_obj(&mesh, &mut bytes).unwrap();
+        let again = read(Format::Obj, &bytes).unwrap();
+        prop_assert_eq!(again.vertices(), mesh.vertices());
+        prop_assert_eq!(again.faces(), mesh.faces());
+    }
+}

@@ -1,0 +1,139 @@
+//! The polygons of a file, checked and cut into triangles.
+
+use super::error::MeshFault;
+use super::outline;
+use super::repair::Repairs;
+use crate::exact::predicates::is_without_area;
+use ccd_core::glam::DVec3;
+use ccd_core::limits::MAX_COORDINATE;
+
+/// The vertices and faces of a file, as a reader found them.
+#[derive(Debug, Default)]
+pub(crate) struct Polygons {
+    pub(crate) vertices: Vec<DVec3>,
+    /// The vertices of all faces, one face after the other, numbered from 0; not yet checked.
+    pub(crate) corners: Vec<i64>,
+    /// The end of each face's corners in `corners`.
+    pub(crate) ends: Vec<usize>,
+    /// The lines of the vertices and of the faces, from 1; empty where the format has none.
+    pub(crate) vertex_lines: Vec<usize>,
+    pub(crate) face_lines: Vec<usize>,
+}
+
+impl Polygons {
+    pub(super) fn check(&self) -> Result<(), MeshFault> {
+        let (vertices, faces) = (self.vertices.len(), self.ends.len());
+        let line = |lines: &[usize], k: usize| lines.get(k).copied();
+        if vertices == 0 {
+            return Err(MeshFault::NoVertices);
+        }
+        if faces == 0 {
+            return Err(MeshFault::NoFaces);
+        }
+        let limits = [("vertices", vertices), ("corners", self.corners.len())];
+        for (what, count) in limits {
+            // A fan makes less than one triangle per corner; pieces name corners by u32.
+            if count >= u32::MAX as usize / 12 {
+                return Err(MeshFault::TooMany { what, count });
+            }
+        }
+        // Written so that NaN fails.
+        if let Some(vertex) = self
+            .vertices
+            .iter()
+            .position(|p| !(p.abs().max_element() <= MAX_COORDINATE && p.is_finite()))
+        {
+            let line = line(&self.vertex_lines, vertex);
+            return Err(match self.vertices[vertex].is_finite() {
+                true => MeshFault::TooLarge { vertex, line },
+                false => MeshFault::NotFinite { vertex, line },
+            });
+        }
+        for (face, corners) in self.faces().enumerate() {
+            let line = line(&self.face_lines, face);
+            if corners.len() < 3 {
+                let corners = corners.len();
+                return Err(MeshFault::TooFewCorners {
+                    face,
+                    line,
+                    corners,
+                });
+            }
+            if let Some(&vertex) = corners.iter().find(|&&v| v < 0 || v >= vertices as i64) {
+                return Err(MeshFault::NoSuchVertex {
+                    face,
+                    line,
+                    vertex,
+                    vertices,
+                    base: 0,
+                });
+            }
+        }
+        Ok(())
+    }
+
+    fn faces(&self) -> impl Iterator<Item = &[i64]> {
+        let mut start = 0;
+        self.ends.iter().map(move |&end| {
+            let corners = &self.corners[start..end];
+            start = end;
+            corners
+        })
+    }
+
+    /// Cuts every polygon into the fan about its first corner. Where the fan has a triangle without area, or one
+    /// that lies beyond the polygon, the polygon is filled with other triangles.
+    ///
+    /// The signed areas of the fan add up to the polygon's, so that the fan covers a planar polygon, convex or
+    /// not. It covers more than a polygon that is not convex. That is reported where the polygon cannot be filled
+    /// either, because it meets itself.
+    pub(super) fn triangulate(&self, repairs: &mut Repairs) -> (Vec<[u32; 3]>, Vec<u32>) {
+        let (mut faces, mut ids) = (Vec::new(), Vec::new());
+        faces.reserve_exact(self.corners.len() - 2 * self.ends.len());
+        ids.reserve_exact(faces.capacity());
+        for (face, corners) in self.faces().enumerate() {
+            let id = face as u32;
+            let start = faces.len();
+            for pair in corners[1..].windows(2) {
+                faces.push([corners[0], pair[0], pair[1]].map(|v| v as u32));
+                ids.push(id);
+            }
+            if corners.len() > 3 {
+                repairs.polygons.add(id);
+                let fan = &mut faces[start..];
+                let overhangs = overhangs(&self.vertices, fan);
+                if !(overhangs || has_flat(&self.vertices, fan)) {
+                    continue;
+                }
+                let points: Vec<DVec3> =
+                    corners.iter().map(|&v| self.vertices[v as usize]).collect();
+                match outline::fill(&points) {
+                    Some(filled) => {
+                        for (face, triangle) in fan.iter_mut().zip(filled) {
+                            *face = triangle.map(|k| corners[k] as u32);
+                        }
+                    }
+                    None if overhangs => repairs.overhanging.add(id),
+                    None => {}
+                }
+            }
+        }
+        (faces, ids)
+    }
+}
+
+/// Whether a triangle of a fan has no area.
+fn has_flat(vertices: &[DVec3], fan: &[[u32; 3]]) -> bool {
+    fan.iter()
+        .any(|face| is_without_area(face.map(|v| vertices[v as usize])))
+}
+
+/// Whether the normal of a triangle of a fan points away from the normal of the whole fan.
+fn overhangs(vertices: &[DVec3], fan: &[[u32; 3]]) -> bool {
+    let normal = |face: &[u32; 3]| {
+        let [a, b, c] = face.map(|v| vertices[v as usize]);
+        (b - a).cross(c - a)
+    };
+    let whole: DVec3 = fan.iter().map(normal).sum();
+    fan.iter().any(|face| normal(face).dot(whole) < 0.0)
+}

@@ -1,0 +1,134 @@
+//! Repairs of a mesh: the report of them, and the faces that are dropped.
+
+use crate::tally::Tally;
+use serde::{Deserialize, Serialize};
+use std::collections::HashSet;
+use std::fmt;
+
+/// The faults of a mesh, and the repairs. Numbers are those of the file.
+///
+/// # Guarantee
+/// No repair removes a point of the surface.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Repairs {
+    /// Faces of more than three corners, cut into the fan about their first corner or, where that does not fit,
+    /// into other triangles. The rim of a polygon that is not planar bounds several surfaces: these triangles
+    /// are one of them.
+    pub polygons: Tally<u32>,
+    /// Polygons among them that meet themselves, or are far from planar: the fan reaches beyond the face.
+    pub overhanging: Tally<u32>,
+    /// Faces dropped because another face has the same three points in the same orientation. The same points
+    /// in the opposite orientation are kept: two faces back to back close what one would leave open.
+    pub duplicates: Tally<u32>,
+    /// Faces dropped because two of their corners are the same point, and the remaining segment or point lies
+    /// on an edge of another face. Otherwise they are kept.
+    pub collapsed: Tally<u32>,
+    /// Faces without area, which are kept: a segment or point can be touched, too.
+    pub zero_area: Tally<u32>,
+    /// Vertices that no face uses.
+    pub unreferenced: Tally<u32>,
+}
+
+impl Repairs {
+    /// Whether the mesh had no faults.
+    pub fn is_empty(&self) -> bool {
+        self == &Repairs::default()
+    }
+
+    pub(crate) fn note_unreferenced(&mut self, vertices: usize, corners: &[i64]) {
+        let mut referenced = vec![false; vertices];
+        for &corner in corners {
+            referenced[corner as usize] = true;
+        }
+        for (vertex, _) in referenced.iter().enumerate().filter(|(_, r)| !**r) {
+            self.unreferenced.add(vertex as u32);
+        }
+    }
+}
+
+impl fmt::Display for Repairs {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let notes = [
+            (&self.polygons, "polygons cut into triangles"),
+            (
+                &self.overhanging,
+                "of them meeting themselves, covered too widely",
+            ),
+            (&self.duplicates, "duplicate faces dropped"),
+            (&self.collapsed, "collapsed faces dropped"),
+            (&self.zero_area, "faces without area kept"),
+            (&self.unreferenced, "vertices unused"),
+        ];
+        let mut separator = "";
+        for (tally, what) in notes.iter().filter(|(tally, _)| !tally.is_empty()) {
+            write!(f, "{separator}{what}: {tally}")?;
+            separator = "; ";
+        }
+        if separator.is_empty() {
+            write!(f, "no repairs")?;
+        }
+        Ok(())
+    }
+}
+
+/// Marks every face that has the same points as an earlier one, in the same orientation.
+pub(crate) fn duplicate_faces(faces: &[[u32; 3]], positions: &[u32]) -> Vec<bool> {
+    let mut keyed: Vec<([u32; 3], u32)> = faces
+        .iter()
+        .zip(0..)
+        .map(|(face, k)| (smallest_first(face.map(|v| positions[v as usize])), k))
+        .collect();
+    keyed.sort_unstable();
+    let mut duplicate = vec![false; faces.len()];
+    for pair in keyed.windows(2) {
+        duplicate[pair[1].1 as usize] = pair[0].0 == pair[1].0;
+    }
+    duplicate
+}
+
+/// Marks every face with two corners at one point that lies on an edge of a face that is not marked.
+pub(crate) fn collapsed_faces(faces: &[[u32; 3]], positions: &[u32]) -> Vec<bool> {
+    let welded = |face: &[u32; 3]| face.map(|v| positions[v as usize]);
+    let has_collapsed = |[a, b, c]: [u32; 3]| a == b || b == c || c == a;
+    let mut marked = vec![false; faces.len()];
+    if !faces.iter().any(|face| has_collapsed(welded(face))) {
+        return marked;
+    }
+    // An edge from a point to itself stands for the point.
+    let mut covered = HashSet::new();
+    let mut cover = |[a, b, c]: [u32; 3]| {
+        let pairs = [(a, b), (b, c), (c, a), (a, a), (b, b), (c, c)];
+        let before = covered.len();
+        covered.extend(pairs.map(|(v, w)| (v.min(w), v.max(w))));
+        covered.len() > before
+    };
+    for face in faces
+        .iter()
+        .map(welded)
+        .filter(|&face| !has_collapsed(face))
+    {
+        cover(face);
+    }
+    // Segments come before points, so that a point at the end of a kept segment is covered, in either order of the
+    // file.
+    let is_point = |[a, b, c]: [u32; 3]| a == b && b == c;
+    for points in [false, true] {
+        for (k, face) in faces.iter().map(welded).enumerate() {
+            if has_collapsed(face) && is_point(face) == points {
+                marked[k] = !cover(face);
+            }
+        }
+    }
+    marked
+}
+
+/// Rotates a loop of corners so that the smallest comes first.
+fn smallest_first([a, b, c]: [u32; 3]) -> [u32; 3] {
+    if a <= b && a <= c {
+        [a, b, c]
+    } else if b <= c {
+        [b, c, a]
+    } else {
+        [c, a, b]
+    }
+}

@@ -1,0 +1,28 @@
+//! Parts of messages about files, whether they hold meshes or bodies.
+
+use std::fmt;
+use std::path::PathBuf;
+
+/// Prints the path of a file before a fault, if there is a file.
+pub(crate) struct Prefix<'a>(pub(crate) &'a Option<PathBuf>);
+
+impl fmt::Display for Prefix<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0 {
+            Some(file) => write!(f, "{}: ", file.display()),
+            None => Ok(()),
+        }
+    }
+}
+
+/// The first bytes of a file that Git LFS puts in the place of one that is not fetched yet.
+const LFS_BEGINNING: &[u8] = b"version https://git-lfs";
+
+/// The fault of such a file, with the remedy.
+pub(crate) const LFS_ADVICE: &str = "is a Git LFS pointer, a few lines that stand for the file; run `git \
+                                     lfs pull` to fetch the file itself";
+
+/// Whether bytes begin like a pointer of Git LFS.
+pub(crate) fn is_lfs_pointer(bytes: &[u8]) -> bool {
+    bytes.starts_with(LFS_BEGINNING)
+}

@@ -1,0 +1,49 @@
+//! Convex solids, which are one polytope.
+
+use super::polytope::{CoveredFacet, polytope};
+use crate::hull::polygons::polygons;
+use crate::solid::error::DecomposeError;
+use crate::solid::manifold::{Dihedral, Manifold};
+use crate::solid::shells::shells;
+use crate::solid::topology::Edge;
+use ccd_core::Polytope;
+
+/// Makes the polytope of a convex solid.
+///
+/// Exact: a closed surface in one part that nowhere meets itself bounds a convex solid if and only if none of its
+/// edges is reflex. About every vertex such a surface is a simple spherical polygon without a reflex angle, which
+/// is convex, and a closed connected set that is locally convex is convex `[TIE28]`.
+///
+/// # Errors
+/// [`DecomposeError::NotConvex`] with a reflex edge, [`DecomposeError::NotInOnePart`] with the number of parts.
+pub(crate) fn as_polytope(manifold: &Manifold<'_>) -> Result<Polytope, DecomposeError> {
+    if let Some([v, w]) = bad_edge(manifold) {
+        let edge = Edge(v.min(w), v.max(w));
+        return Err(DecomposeError::NotConvex { edge });
+    }
+    let parts = shells(manifold)
+        .into_iter()
+        .max()
+        .map_or(0, |last| last + 1);
+    if parts > 1 {
+        return Err(DecomposeError::NotInOnePart { parts });
+    }
+    let polygons = polygons(manifold.mesh().vertices(), manifold.faces());
+    let facets = polygons.into_iter().map(|polygon| CoveredFacet {
+        corners: polygon.corners,
+        faces: polygon.triangles,
+        is_covered: true,
+    });
+    Ok(polytope(manifold, &facets.collect::<Vec<_>>()))
+}
+
+/// Finds the first edge at which the solid has no convex or flat angle.
+fn bad_edge(manifold: &Manifold<'_>) -> Option<[u32; 2]> {
+    let is_bad = |&h: &u32| matches!(manifold.dihedral(h), Dihedral::Reflex | Dihedral::Folded);
+    (0..3 * manifold.faces().len() as u32)
+        .find(is_bad)
+        .map(|h| manifold.ends(h))
+}
+
+#[cfg(test)]
+mod tests;

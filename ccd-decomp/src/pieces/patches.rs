@@ -1,0 +1,148 @@
+//! Convex surface decomposition: a closed mesh becomes patches whose hulls lie inside the solid.
+
+mod growing_patch;
+mod obstacle;
+mod order;
+mod patch;
+
+pub use order::Order;
+pub use patch::Patch;
+
+use crate::mesh::TriangleMesh;
+use crate::pieces::convex::as_polytope;
+use crate::solid::bounding_solid;
+use crate::solid::error::DecomposeError;
+use crate::solid::flats::Flats;
+use crate::solid::manifold::{Dihedral, Manifold};
+use crate::tolerance::PATCH_POLYGONS;
+use crate::work::Work;
+use growing_patch::{GrowingPatch, Join};
+use order::{Frontier, seeds};
+
+/// The surface of a mesh in convex patches.
+#[derive(Clone, Debug)]
+pub struct Decomposition {
+    /// The patches. Every triangle of the mesh is in exactly one.
+    pub patches: Vec<Patch>,
+}
+
+/// Decomposes the surface of a solid into convex patches `[FAST06 §3.3]` `[SWIFT01]`.
+///
+/// A patch grows over edges that are not reflex. A polygon joins when it and the patch's polygons stay on the
+/// boundary of their common hull, and that hull stays within the solid. A convex solid becomes one patch; other
+/// patches grow to a size for which oracles are fast.
+///
+/// # Guarantee
+/// Exact, by adaptive predicates on the mesh's own coordinates: the hull of every patch lies inside the
+/// solid or on its surface, and every triangle is part of exactly one patch and of the boundary of its
+/// hull. The same mesh and order give the same patches. No tolerance, no change of the mesh.
+///
+/// # Errors
+/// [`DecomposeError`] when the mesh does not bound a solid. It names the faulty elements.
+///
+/// # Complexity
+/// O(n log n) in the number of triangles where few of them are near each other.
+///
+/// ```
+/// use ccd_decomp::{decompose, Format, Order, TriangleMesh};
+/// let file = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
+/// let mesh = TriangleMesh::from_reader(Format::Obj, file.as_bytes()).unwrap();
+/// let decomposition = decompose(&mesh, Order::Cresting).unwrap();
+/// assert_eq!(decomposition.patches.len(), 1);
+/// ```
+pub fn decompose(mesh: &TriangleMesh, order: Order) -> Result<Decomposition, DecomposeError> {
+    let manifold = bounding_solid(mesh)?;
+    decompose_flats(&manifold, &Flats::new(&manifold), order, &Work::unbounded())
+}
+
+/// Decomposes a surface that is known to bound a solid, given its polygons.
+///
+/// # Errors
+/// [`DecomposeError::TooLong`] when the work does not suffice.
+pub(crate) fn decompose_flats(
+    manifold: &Manifold<'_>,
+    flats: &Flats,
+    order: Order,
+    work: &Work,
+) -> Result<Decomposition, DecomposeError> {
+    if let Ok(polytope) = as_polytope(manifold) {
+        let faces = (0..manifold.faces().len() as u32).collect();
+        let patches = vec![Patch { faces, polytope }];
+        return Ok(Decomposition { patches });
+    }
+    let mut grower = Grower {
+        manifold,
+        flats,
+        order,
+        work,
+        taken: vec![false; flats.len()],
+        tried: vec![u32::MAX; flats.len()],
+    };
+    let mut patches = Vec::new();
+    for seed in seeds(manifold, flats, order) {
+        if !grower.taken[seed as usize] {
+            let region = grower.grow(seed, patches.len() as u32);
+            work.check()?;
+            patches.push(Patch::new(manifold, flats, &region));
+        }
+    }
+    Ok(Decomposition { patches })
+}
+
+struct Grower<'a, 'm> {
+    manifold: &'a Manifold<'m>,
+    flats: &'a Flats,
+    order: Order,
+    work: &'a Work,
+    /// Polygons that belong to a patch.
+    taken: Vec<bool>,
+    /// The last patch that each polygon was tried for. A polygon that was refused once always will be, because the
+    /// hull only grows.
+    tried: Vec<u32>,
+}
+
+impl Grower<'_, '_> {
+    fn grow(&mut self, seed: u32, patch: u32) -> GrowingPatch {
+        let mut region = GrowingPatch::new(self.flats, seed);
+        self.taken[seed as usize] = true;
+        let mut frontier = Frontier::new(self.order);
+        self.reach(&mut frontier, seed);
+        // A flat patch takes no polygon of its own plane, because their union need not be convex. Once it has
+        // volume, these polygons are tried again.
+        let mut in_plane = Vec::new();
+        // Polygons are pushed when another one joins, and each joins once.
+        while let Some(next) = frontier.pop() {
+            let tried = &mut self.tried[next as usize];
+            if self.taken[next as usize] || *tried == patch || region.len() >= PATCH_POLYGONS {
+                continue;
+            }
+            *tried = patch;
+            self.work.spend(region.hull().facets().len());
+            match region.join(self.manifold, self.flats, next, self.work) {
+                Join::Refused => {}
+                Join::InPlane => in_plane.push(next),
+                Join::Joined => {
+                    self.taken[next as usize] = true;
+                    self.reach(&mut frontier, next);
+                    for waiting in in_plane.drain(..) {
+                        self.tried[waiting as usize] = u32::MAX;
+                        frontier.push(waiting);
+                    }
+                }
+            }
+        }
+        region
+    }
+
+    /// Puts the neighbours of a polygon on the frontier, except those beyond reflex edges.
+    fn reach(&self, frontier: &mut Frontier, flat: u32) {
+        for &edge in &self.flats.get(flat).rim {
+            if self.manifold.dihedral(edge) != Dihedral::Reflex {
+                frontier.push(self.flats.of_face(self.manifold.twin(edge) / 3));
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,155 @@
+//! Growing patches: polygons and their hull.
+
+use super::obstacle::Obstacle;
+use crate::bounds::Bounds;
+use crate::exact::predicates::side_of;
+use crate::hull::exact_hull::ExactHull;
+use crate::search::region::Region;
+use crate::solid::flats::Flats;
+use crate::solid::manifold::Manifold;
+use crate::tolerance::PATCH_CORNERS;
+use crate::work::Work;
+use ccd_core::glam::DVec3;
+use std::cmp::Ordering;
+
+/// Polygons of a mesh on the boundary of their hull, which lies within the solid.
+pub(super) struct GrowingPatch {
+    flats: Vec<u32>,
+    hull: ExactHull,
+    has_volume: bool,
+}
+
+/// The result of a polygon's attempt to join.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Join {
+    Joined,
+    /// The polygon cannot join, now or later.
+    Refused,
+    /// The polygon lies in the plane of a patch that has no volume yet.
+    InPlane,
+}
+
+impl GrowingPatch {
+    pub(super) fn new(flats: &Flats, seed: u32) -> Self {
+        GrowingPatch {
+            flats: vec![seed],
+            hull: ExactHull::polygon(&flats.get(seed).corners),
+            has_volume: false,
+        }
+    }
+
+    /// The number of its polygons.
+    pub(super) fn len(&self) -> usize {
+        self.flats.len()
+    }
+
+    /// The polygons, in the order they joined.
+    pub(super) fn flats(&self) -> &[u32] {
+        &self.flats
+    }
+
+    pub(super) fn hull(&self) -> &ExactHull {
+        &self.hull
+    }
+
+    /// Takes a polygon in if the patch stays a patch. The answer is meaningful only while there is work left.
+    pub(super) fn join(
+        &mut self,
+        manifold: &Manifold<'_>,
+        flats: &Flats,
+        flat: u32,
+        work: &Work,
+    ) -> Join {
+        let points = manifold.mesh().vertices();
+        if self.hull.corners().len() + flats.get(flat).corners.len() > PATCH_CORNERS {
+            return Join::Refused;
+        }
+        let plane = |f: u32| manifold.faces()[flats.get(f).faces[0] as usize];
+        // The hull so far must lie behind the polygon, …
+        match self.highest_over(points, plane(flat)) {
+            Ordering::Greater => return Join::Refused,
+            Ordering::Equal if !self.has_volume && self.lies_in(points, plane(flat)) => {
+                return Join::InPlane;
+            }
+            _ => {}
+        }
+        // … the polygon behind those of the patch, …
+        let corners = flats.get(flat).corners.iter().copied();
+        let mut new: Vec<u32> = corners.filter(|&v| !self.is_corner(v)).collect();
+        let in_front = |&v: &u32| {
+            let sees = |&f: &u32| side_of(points, plane(f), v) == Ordering::Greater;
+            self.flats.iter().any(sees)
+        };
+        if new.iter().any(in_front) {
+            return Join::Refused;
+        }
+        if !self.has_volume {
+            // The first point has to be off the plane.
+            let first_plane = plane(self.flats[0]);
+            new.sort_by_key(|&v| side_of(points, first_plane, v) == Ordering::Equal);
+        }
+        // … and the new hull within the solid.
+        work.spend(new.len() * self.hull.facets().len());
+        let (hull, changed) = self.grown(points, &new);
+        if let Some(changed) = changed {
+            let obstacle = Obstacle::new(points, &hull);
+            let is_apart = |face: u32| {
+                let of = flats.of_face(face);
+                of == flat
+                    || self.flats.contains(&of)
+                    || work.spend(hull.facets().len())
+                        && obstacle.is_apart_from(manifold.faces()[face as usize])
+            };
+            let facets = hull.facets().iter();
+            let facets = facets.map(|facet| facet.map(|v| points[v as usize]));
+            let corners = hull.corners().iter().map(|&v| points[v as usize]);
+            let near = Region::inside(corners.collect(), facets.collect(), changed);
+            if !manifold.boxes().all_meeting(&near, work, is_apart) {
+                return Join::Refused;
+            }
+            self.hull = hull;
+            self.has_volume = true;
+        }
+        self.flats.push(flat);
+        Join::Joined
+    }
+
+    /// The side of a plane on which the highest of the hull's corners lies.
+    fn highest_over(&self, points: &[DVec3], plane: [u32; 3]) -> Ordering {
+        let corners = self.hull.corners().iter();
+        let mut highest = Ordering::Less;
+        for &v in corners {
+            highest = highest.max(side_of(points, plane, v));
+            if highest == Ordering::Greater {
+                break;
+            }
+        }
+        highest
+    }
+
+    fn lies_in(&self, points: &[DVec3], plane: [u32; 3]) -> bool {
+        let mut corners = self.hull.corners().iter();
+        corners.all(|&v| side_of(points, plane, v) == Ordering::Equal)
+    }
+
+    fn is_corner(&self, vertex: u32) -> bool {
+        match self.has_volume {
+            true => self.hull.corners().binary_search(&vertex).is_ok(),
+            false => self.hull.corners().contains(&vertex),
+        }
+    }
+
+    /// Computes the hull with some more points, and the box of the change, if there is one.
+    fn grown(&self, points: &[DVec3], new: &[u32]) -> (ExactHull, Option<Bounds>) {
+        let mut hull = self.hull.clone();
+        let mut changed: Option<Bounds> = None;
+        for &v in new {
+            if let Some(growth) = hull.growth(points, v) {
+                let more = hull.changed(points, &growth);
+                changed = Some(changed.map_or(more, |bounds| bounds.union(more)));
+                hull.grow(growth);
+            }
+        }
+        (hull, changed)
+    }
+}

@@ -1,0 +1,124 @@
+//! Hulls as obstacles: the test whether a triangle reaches into the inside of a hull.
+
+use crate::exact::predicates::side_of;
+use crate::hull::exact_hull::ExactHull;
+use ccd_core::glam::DVec3;
+use std::cell::OnceCell;
+use std::cmp::Ordering;
+
+/// A hull that triangles of the same mesh are tested with.
+pub(super) struct Obstacle<'a> {
+    points: &'a [DVec3],
+    hull: &'a ExactHull,
+    edges: OnceCell<Vec<Edge>>,
+    /// The corners of all facets, in order, each with its facet.
+    meeting: OnceCell<Vec<(u32, u32)>>,
+}
+
+/// An edge of a hull with the facets on either side.
+#[derive(Clone, Copy, Debug)]
+struct Edge {
+    ends: [u32; 2],
+    facets: [u32; 2],
+}
+
+impl<'a> Obstacle<'a> {
+    /// Takes a hull that has volume.
+    pub(super) fn new(points: &'a [DVec3], hull: &'a ExactHull) -> Self {
+        Obstacle {
+            points,
+            hull,
+            edges: OnceCell::new(),
+            meeting: OnceCell::new(),
+        }
+    }
+
+    /// Whether a triangle stays out of the open inside of the hull; touching is allowed.
+    ///
+    /// Exact. If the answer is yes, some plane has the hull on one side and the triangle on the other. Such planes form
+    /// a cone. A plane on an extreme ray of the cone passes through three corners that span it: it is the plane of a
+    /// facet, the triangle's own, or one through an edge of either and a corner of the other. Among the latter, only
+    /// those matter that touch the hull on its outline, seen from the triangle's corner.
+    pub(super) fn is_apart_from(&self, triangle: [u32; 3]) -> bool {
+        // The triangle is most likely in front of a facet that it meets at a corner, then of a new facet.
+        let mut facets = self.hull.facets().iter().rev();
+        triangle.iter().any(|&v| self.is_in_front_at(v, triangle))
+            || facets.any(|&facet| self.is_in_front(facet, triangle))
+            || self.separates(triangle, triangle)
+            || (0..3).any(|k| self.is_apart_at(triangle, k))
+    }
+
+    /// Whether the triangle is in front of a facet that has one of the triangle's corners.
+    fn is_in_front_at(&self, corner: u32, triangle: [u32; 3]) -> bool {
+        let meeting = self.meeting.get_or_init(|| {
+            let facets = (0..).zip(self.hull.facets());
+            let corners = facets.flat_map(|(k, facet)| facet.map(|v| (v, k)));
+            let mut meeting: Vec<(u32, u32)> = corners.collect();
+            meeting.sort_unstable();
+            meeting
+        });
+        let first = meeting.partition_point(|&(v, _)| v < corner);
+        let mut there = meeting[first..].iter().take_while(|(v, _)| *v == corner);
+        there.any(|&(_, k)| self.is_in_front(self.hull.facets()[k as usize], triangle))
+    }
+
+    fn is_in_front(&self, facet: [u32; 3], triangle: [u32; 3]) -> bool {
+        let behind = |&p: &u32| side_of(self.points, facet, p) == Ordering::Less;
+        !triangle.iter().any(behind)
+    }
+
+    /// Whether a plane through corner `k` of the triangle separates.
+    fn is_apart_at(&self, triangle: [u32; 3], k: usize) -> bool {
+        let p = triangle[k];
+        let facets = self.hull.facets().iter();
+        let sides: Vec<Ordering> = facets.map(|&f| side_of(self.points, f, p)).collect();
+        let is_outline = |edge: &&Edge| {
+            let [s, t] = edge.facets.map(|f| sides[f as usize]);
+            s != t || s == Ordering::Equal
+        };
+        let next = triangle[(k + 1) % 3];
+        self.edges().iter().filter(is_outline).any(|edge| {
+            let [a, b] = edge.ends;
+            self.separates([a, b, p], triangle)
+                || self.separates([p, next, a], triangle)
+                || self.separates([p, next, b], triangle)
+        })
+    }
+
+    /// Whether a plane through three points has the hull on one side, and the triangle on the other one
+    /// or in the plane. Three points on a line span none: the whole hull would be in it.
+    fn separates(&self, plane: [u32; 3], triangle: [u32; 3]) -> bool {
+        let mut hull_side = Ordering::Equal;
+        for &v in self.hull.corners() {
+            match side_of(self.points, plane, v) {
+                Ordering::Equal => {}
+                s if hull_side == Ordering::Equal => hull_side = s,
+                s if s == hull_side => {}
+                _ => return false,
+            }
+        }
+        let beyond = |&p: &u32| side_of(self.points, plane, p) != hull_side;
+        hull_side != Ordering::Equal && triangle.iter().all(beyond)
+    }
+
+    fn edges(&self) -> &[Edge] {
+        self.edges.get_or_init(|| {
+            let mut sides: Vec<([u32; 2], u32)> = Vec::new();
+            for (f, &[a, b, c]) in self.hull.facets().iter().enumerate() {
+                let ends = [[a, b], [b, c], [c, a]];
+                sides.extend(ends.map(|[v, w]| ([v.min(w), v.max(w)], f as u32)));
+            }
+            sides.sort_unstable();
+            let pairs = sides.chunks_exact(2);
+            pairs
+                .map(|pair| Edge {
+                    ends: pair[0].0,
+                    facets: [pair[0].1, pair[1].1],
+                })
+                .collect()
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,57 @@
+use super::*;
+use crate::exact::predicates::side;
+use proptest::prelude::*;
+
+/// The slow and obvious test: any plane through three of all the points.
+fn is_apart_by_any_plane(points: &[DVec3], hull: &ExactHull, triangle: [u32; 3]) -> bool {
+    let obstacle = Obstacle::new(points, hull);
+    let all: Vec<u32> = hull.corners().iter().copied().chain(triangle).collect();
+    let planes = all.iter().flat_map(|&a| {
+        let all = &all;
+        all.iter()
+            .flat_map(move |&b| all.iter().map(move |&c| [a, b, c]))
+    });
+    planes
+        .into_iter()
+        .any(|plane| obstacle.separates(plane, triangle))
+}
+
+fn coarse() -> impl Strategy<Value = DVec3> {
+    [0..5i32, 0..5i32, 0..5i32].prop_map(|x| DVec3::from_array(x.map(f64::from)))
+}
+
+proptest! {
+    #[test]
+    fn agrees_with_all_planes(
+        hull in prop::collection::vec(coarse(), 4..9),
+        triangle in [coarse(), coarse(), coarse()],
+    ) {
+        let mut points = hull;
+        let Some(hull) = ExactHull::of(&points) else { return Ok(()) };
+        let first = points.len() as u32;
+        points.extend(triangle);
+        let triangle = [first, first + 1, first + 2];
+        let expected = is_apart_by_any_plane(&points, &hull, triangle);
+        prop_assert_eq!(Obstacle::new(&points, &hull).is_apart_from(triangle), expected);
+    }
+
+    /// A point of the triangle strictly inside all facets proves that it is not apart; the coordinates make the
+    /// point exact.
+    #[test]
+    fn what_is_inside_is_not_apart(
+        hull in prop::collection::vec(coarse(), 4..9),
+        triangle in [coarse(), coarse(), coarse()],
+        weights in [1..8i32, 1..8i32],
+    ) {
+        let mut points = hull;
+        let Some(hull) = ExactHull::of(&points) else { return Ok(()) };
+        let [s, t] = weights.map(|w| f64::from(w) / 16.0);
+        let p = (1.0 - s - t) * triangle[0] + s * triangle[1] + t * triangle[2];
+        let at = |v: u32| points[v as usize];
+        let inside = hull.facets().iter().all(|f| side(f.map(at), p) == Ordering::Less);
+        let first = points.len() as u32;
+        points.extend(triangle);
+        let apart = Obstacle::new(&points, &hull).is_apart_from([first, first + 1, first + 2]);
+        prop_assert!(!(inside && apart));
+    }
+}

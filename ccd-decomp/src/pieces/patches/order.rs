@@ -1,0 +1,80 @@
+//! The order in which patches begin and grow.
+
+use crate::solid::flats::Flats;
+use crate::solid::manifold::{Dihedral, Manifold};
+use std::collections::VecDeque;
+
+/// The order in which patches begin and grow.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Order {
+    /// Patches begin at the polygons farthest from any reflex edge, on the crests, and grow breadth first.
+    #[default]
+    Cresting,
+    /// Patches begin in the mesh's order, and grow breadth first.
+    BreadthFirst,
+    /// Patches begin in the mesh's order, and grow depth first.
+    DepthFirst,
+}
+
+/// Lists all polygons in the order in which patches begin at them.
+pub(super) fn seeds(manifold: &Manifold<'_>, flats: &Flats, order: Order) -> Vec<u32> {
+    let mut seeds: Vec<u32> = (0..flats.len() as u32).collect();
+    if order == Order::Cresting {
+        let height = heights(manifold, flats);
+        seeds.sort_by_key(|&flat| std::cmp::Reverse(height[flat as usize]));
+    }
+    seeds
+}
+
+/// Computes, by polygon, the number of steps over edges to one with a reflex edge; `u32::MAX` where none can be
+/// reached.
+fn heights(manifold: &Manifold<'_>, flats: &Flats) -> Vec<u32> {
+    let mut height = vec![u32::MAX; flats.len()];
+    let mut queue = VecDeque::new();
+    for flat in 0..flats.len() as u32 {
+        let rim = &flats.get(flat).rim;
+        if rim
+            .iter()
+            .any(|&h| manifold.dihedral(h) == Dihedral::Reflex)
+        {
+            height[flat as usize] = 0;
+            queue.push_back(flat);
+        }
+    }
+    while let Some(flat) = queue.pop_front() {
+        for &edge in &flats.get(flat).rim {
+            let next = flats.of_face(manifold.twin(edge) / 3);
+            if height[next as usize] == u32::MAX {
+                height[next as usize] = height[flat as usize] + 1;
+                queue.push_back(next);
+            }
+        }
+    }
+    height
+}
+
+/// The polygons that a patch may grow into next.
+pub(super) struct Frontier {
+    order: Order,
+    waiting: VecDeque<u32>,
+}
+
+impl Frontier {
+    pub(super) fn new(order: Order) -> Self {
+        Frontier {
+            order,
+            waiting: VecDeque::new(),
+        }
+    }
+
+    pub(super) fn push(&mut self, flat: u32) {
+        self.waiting.push_back(flat);
+    }
+
+    pub(super) fn pop(&mut self) -> Option<u32> {
+        match self.order {
+            Order::Cresting | Order::BreadthFirst => self.waiting.pop_front(),
+            Order::DepthFirst => self.waiting.pop_back(),
+        }
+    }
+}

@@ -1,0 +1,80 @@
+//! Finished patches: polytopes with the faces of the mesh that they are made of.
+
+use super::growing_patch::GrowingPatch;
+use crate::exact::predicates::{Projection, side};
+use crate::hull::polygons::polygons;
+use crate::pieces::polytope::{CoveredFacet, polytope};
+use crate::solid::flats::{Flat, Flats};
+use crate::solid::manifold::Manifold;
+use ccd_core::glam::DVec3;
+use ccd_core::{Origin, Polytope};
+use std::cmp::Ordering;
+
+/// A convex part of a mesh's surface, and its hull.
+#[derive(Clone, Debug)]
+pub struct Patch {
+    /// The triangles, as indices into [`TriangleMesh::faces`](crate::TriangleMesh::faces), in ascending
+    /// order.
+    pub faces: Vec<u32>,
+    /// The hull. Its points are vertices of the mesh, with their numbers. Its facets name the faces of the mesh
+    /// that they consist of; the other facets are virtual.
+    pub polytope: Polytope,
+}
+
+impl Patch {
+    pub(super) fn new(manifold: &Manifold<'_>, flats: &Flats, region: &GrowingPatch) -> Self {
+        let members: Vec<&Flat> = region.flats().iter().map(|&f| flats.get(f)).collect();
+        let mut faces: Vec<u32> = members
+            .iter()
+            .flat_map(|f| f.faces.iter().copied())
+            .collect();
+        faces.sort_unstable();
+        let polygons = polygons(manifold.mesh().vertices(), region.hull().facets());
+        let facets = polygons
+            .into_iter()
+            .map(|polygon| covered(manifold, &members, polygon.corners));
+        let polytope = polytope(manifold, &facets.collect::<Vec<_>>());
+        Patch { faces, polytope }
+    }
+
+    /// The number of facets that are not wholly part of the mesh.
+    pub fn virtual_facets(&self) -> usize {
+        let facets = self.polytope.facets.iter();
+        facets.filter(|f| f.origin == Origin::Virtual).count()
+    }
+}
+
+/// Finds the faces of a patch that lie in a facet of its hull.
+fn covered(manifold: &Manifold<'_>, members: &[&Flat], facet: Vec<u32>) -> CoveredFacet {
+    let at = |v: u32| manifold.point(v);
+    let corners: Vec<DVec3> = facet.iter().map(|&v| at(v)).collect();
+    let triangle = [corners[0], corners[1], corners[2]];
+    let Some(plane) = Projection::of(triangle) else {
+        return CoveredFacet {
+            corners: facet,
+            faces: Vec::new(),
+            is_covered: false,
+        };
+    };
+    // In the facet's plane, with the same normal.
+    let within = |flat: &&&Flat| {
+        let own = manifold.triangle(flat.faces[0]);
+        own.iter().all(|&p| side(triangle, p) == Ordering::Equal)
+            && plane.turn(own[0], own[1], own[2]) == Ordering::Greater
+    };
+    let members: Vec<&Flat> = members.iter().filter(within).copied().collect();
+    // Faces that cover the facet end at its outline only.
+    let ours = |face: u32| members.iter().any(|f| f.faces.binary_search(&face).is_ok());
+    let mut rims = members.iter().flat_map(|f| f.rim.iter().copied());
+    let on_outline = |edge: u32| {
+        let [a, b] = manifold.ends(edge).map(at);
+        corners
+            .iter()
+            .all(|&p| plane.turn(a, b, p) != Ordering::Less)
+    };
+    CoveredFacet {
+        is_covered: rims.all(|edge| ours(manifold.twin(edge) / 3) || on_outline(edge)),
+        faces: members.iter().flat_map(|f| &f.faces).copied().collect(),
+        corners: facet,
+    }
+}

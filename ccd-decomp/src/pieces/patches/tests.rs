@@ -1,0 +1,170 @@
+use super::*;
+use crate::solid::bounding_solid;
+use crate::solid::topology::Topology;
+use crate::test_meshes::{
+    block, cubes, joined, notched, placed, prism, star, teeth, tetrahedron, turned,
+};
+use ccd_core::Origin;
+use ccd_core::glam::DVec3;
+use rstest::rstest;
+
+const ORDERS: [Order; 3] = [Order::Cresting, Order::BreadthFirst, Order::DepthFirst];
+
+/// Checks that every triangle is in exactly one patch, and that the facets name their faces.
+fn check(mesh: &TriangleMesh, decomposition: &Decomposition) {
+    let mut seen = vec![0; mesh.faces().len()];
+    for patch in &decomposition.patches {
+        patch.faces.iter().for_each(|&f| seen[f as usize] += 1);
+        let polytope = &patch.polytope;
+        let whole = polytope
+            .facets
+            .iter()
+            .filter(|f| matches!(f.origin, Origin::Face(_)));
+        assert_eq!(whole.count() + polytope.faces.len(), patch.faces.len());
+        assert!(polytope.facets.len() >= 2);
+        let virtual_facets = polytope
+            .facets
+            .iter()
+            .filter(|f| f.origin == Origin::Virtual);
+        assert_eq!(virtual_facets.count(), patch.virtual_facets());
+    }
+    assert!(seen.iter().all(|&count| count == 1), "{seen:?}");
+}
+
+fn patches(mesh: &TriangleMesh) -> Vec<usize> {
+    let count = |&order: &Order| {
+        let decomposition = decompose(mesh, order).unwrap();
+        check(mesh, &decomposition);
+        decomposition.patches.len()
+    };
+    ORDERS.iter().map(count).collect()
+}
+
+#[rstest]
+#[case::tetrahedron(tetrahedron())]
+#[case::cube(cubes(&block([1, 1, 1])))]
+#[case::fine_block(cubes(&block([4, 3, 5])))]
+fn convex_solids_are_one_patch(#[case] mesh: TriangleMesh) {
+    assert_eq!(patches(&mesh), [1, 1, 1]);
+    assert_eq!(
+        decompose(&mesh, Order::Cresting).unwrap().patches[0].virtual_facets(),
+        0
+    );
+}
+
+#[test]
+fn a_step_is_a_few_patches() {
+    let step = cubes(&[[0, 0, 0], [1, 0, 0], [0, 0, 1]]);
+    assert!(
+        patches(&step).iter().all(|&n| (2..=6).contains(&n)),
+        "{:?}",
+        patches(&step)
+    );
+}
+
+#[test]
+fn the_walls_of_a_cavity_are_flat_patches() {
+    let outer = placed(&cubes(&block([1, 1, 1])), 4.0, DVec3::ZERO);
+    let inner = placed(&cubes(&block([1, 1, 1])), 2.0, DVec3::ONE);
+    let hollow = joined(&[&outer, &turned(&inner)]);
+    for order in ORDERS {
+        let decomposition = decompose(&hollow, order).unwrap();
+        check(&hollow, &decomposition);
+        let walls = decomposition.patches.iter().filter(|p| p.faces[0] >= 12);
+        for wall in walls {
+            assert_eq!(wall.polytope.facets.len(), 2);
+            assert_eq!(wall.virtual_facets(), 1);
+            assert_eq!(wall.polytope.points.len(), 4);
+        }
+    }
+}
+
+#[test]
+fn the_same_mesh_gives_the_same_patches() {
+    let mesh = cubes(&[[0, 0, 0], [1, 0, 0], [1, 1, 0], [1, 1, 1], [2, 1, 1]]);
+    for order in ORDERS {
+        let once = decompose(&mesh, order).unwrap();
+        let twice = decompose(&mesh, order).unwrap();
+        let faces = |d: &Decomposition| {
+            d.patches
+                .iter()
+                .map(|p| p.faces.clone())
+                .collect::<Vec<_>>()
+        };
+        assert_eq!(faces(&once), faces(&twice));
+    }
+}
+
+/// A patch that could grow further ends where it would become slow: the flank of a cone on a disc.
+#[test]
+fn patches_are_capped() {
+    let count = 4 * PATCH_POLYGONS as u32;
+    let angle = |k: u32| std::f64::consts::TAU * f64::from(k) / f64::from(count);
+    let rim = |radius: f64, z: f64| {
+        (0..count).map(move |k| DVec3::new(radius * angle(k).cos(), radius * angle(k).sin(), z))
+    };
+    let rims = rim(1.0, 0.0).chain(rim(2.0, 0.0)).chain(rim(2.0, -1.0));
+    let vertices: Vec<DVec3> = rims.chain([DVec3::Z, -DVec3::Z]).collect();
+    let (apex, foot) = (3 * count, 3 * count + 1);
+    let faces: Vec<[u32; 3]> = (0..count)
+        .flat_map(|k| {
+            let next = (k + 1) % count;
+            let wall = |lower: u32, upper: u32| {
+                [
+                    [lower + k, lower + next, upper + next],
+                    [lower + k, upper + next, upper + k],
+                ]
+            };
+            let ([a, b], [c, d]) = (wall(count, 0), wall(2 * count, count));
+            [
+                [k, next, apex],
+                a,
+                b,
+                c,
+                d,
+                [2 * count + next, 2 * count + k, foot],
+            ]
+        })
+        .collect();
+    let cone = crate::test_meshes::mesh(vertices, &faces);
+    let decomposition = decompose(&cone, Order::Cresting).unwrap();
+    check(&cone, &decomposition);
+    let largest = decomposition.patches.iter().map(|p| p.faces.len()).max();
+    assert!(largest >= Some(PATCH_POLYGONS), "{largest:?}");
+    let flank = |f: u32| f.is_multiple_of(6);
+    let of_flank = decomposition.patches.iter().filter(|p| flank(p.faces[0]));
+    let most = of_flank
+        .map(|p| p.faces.iter().filter(|&&f| flank(f)).count())
+        .max();
+    assert!(most <= Some(PATCH_POLYGONS), "{most:?}");
+}
+
+/// All patches meet in both apices, and still the work grows with their number.
+#[test]
+fn patches_of_slivers_take_linear_work() {
+    for corners in [100, 1_000, 10_000] {
+        let mesh = star(corners, 0.5);
+        let manifold = bounding_solid(&mesh).unwrap();
+        let flats = Flats::new(&manifold);
+        let work = Work::of(1_000 * u64::from(corners));
+        let decomposition = decompose_flats(&manifold, &flats, Order::default(), &work).unwrap();
+        check(&mesh, &decomposition);
+        assert_eq!(decomposition.patches.len(), corners as usize / 2);
+    }
+}
+
+/// The work is bounded for any number of corners of a polygon, and of slivers of a surface.
+#[test]
+fn steps_per_face_stay_bounded() {
+    for count in [50, 500, 5_000] {
+        for mesh in [prism(&teeth(count)), notched(count)] {
+            let manifold = Manifold::unchecked(&mesh, &Topology::of(&mesh)).unwrap();
+            let work = Work::unbounded();
+            let flats = Flats::new(&manifold);
+            let found = decompose_flats(&manifold, &flats, Order::default(), &work).unwrap();
+            check(&mesh, &found);
+            let steps = work.taken() / mesh.faces().len() as u64;
+            assert!(steps < 8_000, "{count}: {steps}");
+        }
+    }
+}

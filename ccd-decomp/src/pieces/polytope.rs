@@ -1,0 +1,44 @@
+//! Polytopes whose facets name the faces of a mesh.
+
+use crate::solid::manifold::Manifold;
+use ccd_core::{Face, Facet, Origin, Polytope};
+
+/// A facet, and the faces of the mesh that lie in it.
+pub(super) struct CoveredFacet {
+    /// Its corners by vertex, counter-clockwise seen from outside.
+    pub(super) corners: Vec<u32>,
+    pub(super) faces: Vec<u32>,
+    /// Whether the faces cover the facet.
+    pub(super) is_covered: bool,
+}
+
+/// Makes the polytope of some facets. Its points are the vertices of the mesh at their corners.
+pub(super) fn polytope(manifold: &Manifold<'_>, facets: &[CoveredFacet]) -> Polytope {
+    let mut vertices: Vec<u32> = facets.iter().flat_map(|f| &f.corners).copied().collect();
+    vertices.sort_unstable();
+    vertices.dedup();
+    let id = |face: u32| manifold.mesh().face_ids()[face as usize];
+    let mut polytope = Polytope::default();
+    for facet in facets {
+        let origin = match (&facet.faces[..], facet.is_covered) {
+            ([], _) | (_, false) => Origin::Virtual,
+            (&[face], true) => Origin::Face(id(face)),
+            (_, true) => Origin::Faces,
+        };
+        if !matches!(origin, Origin::Face(_)) {
+            polytope.faces.extend(facet.faces.iter().map(|&face| Face {
+                id: id(face),
+                vertices: manifold.faces()[face as usize],
+                corners: manifold.triangle(face),
+            }));
+        }
+        let local = |v: &u32| vertices.partition_point(|w| w < v) as u32;
+        polytope.facets.push(Facet {
+            origin,
+            corners: facet.corners.iter().map(local).collect(),
+        });
+    }
+    polytope.points = vertices.iter().map(|&v| manifold.point(v)).collect();
+    polytope.vertex_ids = vertices;
+    polytope
+}

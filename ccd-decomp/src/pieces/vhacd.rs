@@ -1,0 +1,154 @@
+//! Approximation of a mesh by a few convex hulls, with errors that are certified on both sides.
+//!
+//! ```text
+//! mesh ─ voxels.rs ─ labels.rs (the library's V-HACD) ─ cover.rs ─ merge.rs ─► hulls ─ excess.rs ─► errors
+//! ```
+//!
+//! The library only assigns voxels to parts `[MAM16]`. Its hulls are not used, because they do not contain the
+//! mesh, and the library does not bound by how much they miss it. Each hull is computed anew, about everything
+//! that the solid has in the voxels of its part.
+
+mod cover;
+mod excess;
+mod extremes;
+mod labels;
+mod merge;
+mod part;
+mod target;
+mod voxels;
+
+use crate::hull::{HullError, Method};
+use crate::mesh::TriangleMesh;
+use crate::pieces::convex::as_polytope;
+use crate::solid::manifold::Manifold;
+use crate::solid::star_shaped::is_star_shaped;
+use crate::solid::topology::Topology;
+use crate::tolerance;
+use ccd_core::Polytope;
+use part::Part;
+use rayon::prelude::*;
+use target::Target;
+use voxels::Voxels;
+
+/// Hulls that together cover a solid, or a surface if the mesh is open.
+///
+/// # Guarantee
+/// Let S be the solid (the points about which the mesh winds) with its surface, or the surface alone if the mesh
+/// is open. Every point of S is within `uncovered` of the hull of a polytope's points, and therefore within that
+/// polytope, whose radius this is. No point of a polytope is farther than `sticks_out` from S.
+#[derive(Clone, Debug)]
+pub(crate) struct Approximation {
+    /// The hulls, at most as many as asked for. Their facets are no part of the mesh.
+    pub(crate) polytopes: Vec<Polytope>,
+    /// A bound on how far rounding may let S stick out of the hulls. It is the radius of every polytope, in the
+    /// mesh's unit of length.
+    pub(crate) uncovered: f64,
+    /// The number of hulls that the library got wrong, and that were computed exactly instead.
+    pub(crate) rebuilt: usize,
+    /// A bound on how far the polytopes stick out of S, in the mesh's unit of length.
+    pub(crate) sticks_out: f64,
+}
+
+/// The reason why a mesh cannot be approximated.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum VhacdError {
+    /// No hulls were asked for.
+    #[error("a mesh cannot be approximated by no hulls")]
+    NoHulls,
+    /// A coordinate is too near to 0 for exact predicates.
+    #[error("vertex {vertex} has a coordinate that is too near to 0 for exact predicates")]
+    TooFine {
+        /// The vertex, by its number in the mesh.
+        vertex: u32,
+    },
+    /// The library failed on the mesh's voxels.
+    #[error("V-HACD failed on this mesh")]
+    Library,
+    /// A part's hull could not be computed.
+    #[error("the hull of a part failed: {0}")]
+    Hull(HullError),
+    /// The bound on how far the hulls stick out is too large to be useful.
+    #[error(
+        "the hulls may stick out by {sticks_out:.3e}, more than {limit:.3e}, a quarter of the \
+         diagonal; mend the mesh, or use triangles"
+    )]
+    TooCoarse {
+        /// The certified bound.
+        sticks_out: f64,
+        /// The largest accepted bound, in the mesh's unit of length.
+        limit: f64,
+    },
+}
+
+/// Approximates a mesh by a number of hulls or fewer. One hull is used for a convex solid, and for a mesh that no
+/// grid of voxels suits, because its triangles are large and many or its coordinates hardly differ.
+///
+/// # Errors
+/// [`VhacdError`] when no hulls are asked for, or none can be certified.
+///
+/// # Complexity
+/// The library takes O(r³) in the resolution r. The bound on the errors takes a branch and bound of about
+/// [`tolerance::EXCESS_WORK`] steps.
+pub(crate) fn approximate(
+    mesh: &TriangleMesh,
+    topology: &Topology,
+    hulls: u32,
+) -> Result<Approximation, VhacdError> {
+    if hulls == 0 {
+        return Err(VhacdError::NoHulls);
+    }
+    if let Some(vertex) = crate::exact::predicates::too_fine(mesh.vertices()) {
+        return Err(VhacdError::TooFine {
+            vertex: vertex as u32,
+        });
+    }
+    let target = Target::of(mesh, topology);
+    let is_convex = is_convex(mesh, topology);
+    let voxels = Voxels::of(&target, hulls).filter(|_| hulls > 1 && !is_convex);
+    let parts = match voxels {
+        Some(voxels) => {
+            let (contents, labels) = rayon::join(
+                || cover::contents(&target, &voxels),
+                || labels::labels(&target, &voxels, hulls),
+            );
+            let labels = labels.ok_or(VhacdError::Library)?;
+            cover::points_by_part(&target, &voxels, &contents, labels)
+        }
+        None => vec![cover::each_once(target.corners().collect())],
+    };
+    let parts = parts.into_iter().filter(|points| !points.is_empty());
+    let parts: Vec<Part> = merge::down_to(parts.collect(), hulls as usize)
+        .par_iter()
+        .map(|points| Part::of(points))
+        .collect::<Result<_, HullError>>()
+        .map_err(VhacdError::Hull)?;
+    let uncovered = tolerance::clip_rounding(target.farthest_coordinate());
+    let excess = match is_convex {
+        true => 0.0,
+        false => excess::bound(&target, &parts),
+    };
+    let sticks_out = (excess + uncovered).next_up();
+    let limit = tolerance::TOO_COARSE * target.reach() + 2.0 * uncovered;
+    // Written so that NaN fails.
+    if !(sticks_out <= limit) {
+        return Err(VhacdError::TooCoarse { sticks_out, limit });
+    }
+    Ok(Approximation {
+        rebuilt: parts
+            .iter()
+            .filter(|part| part.method == Method::Rebuilt)
+            .count(),
+        polytopes: parts.into_iter().map(|p| p.polytope(uncovered)).collect(),
+        uncovered,
+        sticks_out,
+    })
+}
+
+/// Whether the mesh is known to be a convex solid, whose hull has no error.
+fn is_convex(mesh: &TriangleMesh, topology: &Topology) -> bool {
+    let manifold = Manifold::unchecked(mesh, topology);
+    manifold.is_ok_and(|manifold| is_star_shaped(&manifold) && as_polytope(&manifold).is_ok())
+}
+
+#[cfg(test)]
+mod tests;

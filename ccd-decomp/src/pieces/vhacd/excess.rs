@@ -1,0 +1,218 @@
+//! An upper bound on how far hulls stick out of a solid, by branch and bound.
+
+mod part_planes;
+mod under;
+
+use super::part::Part;
+use super::target::{Location, Target};
+use crate::tolerance::{EXCESS_FLOOR, EXCESS_RATIO, EXCESS_WORK};
+use crate::work::Work;
+use ccd_core::glam::{BVec3, DVec3};
+use ccd_core::order::{greater, lesser};
+use part_planes::PartPlanes;
+use rayon::prelude::*;
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
+
+/// Bounds the distance from the solid to any point of the parts.
+///
+/// The distance to the solid changes by no more than a point moves, so that its value at the centre of a box
+/// bounds it in the box. Where the surface is nearly flat, [`under`] gives a better bound. Boxes about the parts are
+/// split, the one with the largest bound first, until that bound is hardly more than a distance that was found,
+/// or the work is spent.
+pub(super) fn bound(target: &Target<'_>, parts: &[Part]) -> f64 {
+    let floor = EXCESS_FLOOR * target.reach();
+    let parts: Vec<PartPlanes<'_>> = parts
+        .iter()
+        .map(|part| PartPlanes::of(part, target))
+        .collect();
+    let mut search = Search {
+        target,
+        parts: &parts,
+        taken: 0,
+        found: 0.0,
+        heap: BinaryHeap::new(),
+    };
+    let mut settled = 0.0_f64;
+    for (k, part) in parts.iter().enumerate() {
+        match part.excess_by_shrinking(target, floor) {
+            Some(bound) => settled = greater(settled, bound),
+            None => search.begin(k),
+        }
+    }
+    while search.split_worst(floor) {}
+    let open = search.heap.peek().map_or(0.0, |cell| cell.bound);
+    greater(greater(open, search.found), settled)
+}
+
+/// The number of corners of a part that are examined, about.
+const CORNERS: usize = 256;
+
+/// The number of boxes that are split at a time, on all cores.
+const BATCH: usize = 16;
+
+/// The number of planes that take as long as a triangle.
+const PLANES_A_STEP: usize = 16;
+
+struct Search<'a> {
+    target: &'a Target<'a>,
+    parts: &'a [PartPlanes<'a>],
+    /// The number of steps that were taken.
+    taken: u64,
+    /// The largest distance of a point of a part that was examined.
+    found: f64,
+    heap: BinaryHeap<Cell>,
+}
+
+/// A box, and a bound on the distance to the solid of any point of a part in it.
+#[derive(Clone, Debug)]
+struct Cell {
+    bound: f64,
+    part: usize,
+    bounds: [DVec3; 2],
+    /// The planes of the part that the box is not all behind.
+    planes: Vec<u32>,
+}
+
+/// The result of examining a box.
+#[derive(Default)]
+struct Look {
+    /// The distance of the box's centre, if that is in the part.
+    distance: f64,
+    /// The box; none if it has no point of the part that is farther than the largest known distance.
+    cell: Option<Cell>,
+    taken: u64,
+}
+
+impl Search<'_> {
+    /// Examines some corners of a part, and its box.
+    fn begin(&mut self, number: usize) {
+        let PartPlanes {
+            part,
+            planes,
+            bounds,
+            ..
+        } = &self.parts[number];
+        let stride = part.corners.len().div_ceil(CORNERS);
+        for &point in part.corners.iter().step_by(stride) {
+            if let Location::Outside { distance } = self.target.locate(point, &Work::unbounded()) {
+                self.found = greater(self.found, distance);
+            }
+        }
+        let whole = Cell {
+            bound: f64::INFINITY,
+            part: number,
+            bounds: [bounds.lo, bounds.hi],
+            planes: (0..planes.len() as u32).collect(),
+        };
+        let look = self.look(&whole, whole.bounds);
+        self.note(look);
+    }
+
+    /// Splits some boxes in eight, those with the largest bounds. Returns false once these are hardly more than the
+    /// largest distance found, or the work is spent.
+    fn split_worst(&mut self, floor: f64) -> bool {
+        let target = greater(EXCESS_RATIO * self.found, self.found + floor);
+        let worst: Vec<Cell> = (0..BATCH)
+            .map_while(|_| {
+                let is_worth_it = self.heap.peek()?.bound > target;
+                is_worth_it.then(|| self.heap.pop()).flatten()
+            })
+            .collect();
+        let parts: Vec<_> = worst
+            .iter()
+            .flat_map(|cell| octants(cell.bounds).map(|bounds| (cell, bounds)))
+            .collect();
+        let looks: Vec<Look> = parts
+            .par_iter()
+            .map(|(cell, bounds)| self.look(cell, *bounds))
+            .collect();
+        looks.into_iter().for_each(|look| self.note(look));
+        !worst.is_empty() && self.taken < EXCESS_WORK
+    }
+
+    fn note(&mut self, look: Look) {
+        self.taken += look.taken;
+        self.found = greater(self.found, look.distance);
+        self.heap.extend(look.cell);
+    }
+
+    /// Examines a box within one that was examined.
+    fn look(&self, within: &Cell, bounds: [DVec3; 2]) -> Look {
+        let planes = &within.planes;
+        let (target, part, work) = (self.target, &self.parts[within.part], &Work::unbounded());
+        let [lo, hi] = bounds;
+        let (centre, half) = ((lo + hi) / 2.0, (hi - lo) / 2.0);
+        let reach = half.length() + target.slack();
+        work.spend(1 + planes.len() / PLANES_A_STEP);
+        let mut look = Look::default();
+        if let Some(meeting) = part.meets(centre, half, planes) {
+            let near = match target.locate(centre, work) {
+                Location::Inside { depth } => reach - depth,
+                Location::Outside { distance } => {
+                    if meeting.has_centre {
+                        look.distance = distance;
+                    }
+                    distance + reach
+                }
+            };
+            let planes = meeting.planes;
+            let above = planes.iter().map(|&k| part.planes[k as usize]);
+            let under = || under::excess(target, above, [centre, half], work);
+            let is_known = |bound: f64| bound <= self.found;
+            let mut bound = lesser(near, within.bound);
+            if !is_known(bound) {
+                bound = under().map_or(bound, |under| lesser(under, bound));
+            }
+            look.cell = (!is_known(bound)).then_some(Cell {
+                bound,
+                part: within.part,
+                bounds,
+                planes,
+            });
+        }
+        look.taken = work.taken();
+        look
+    }
+}
+
+/// Splits a box into eight at its middle.
+fn octants([lo, hi]: [DVec3; 2]) -> [[DVec3; 2]; 8] {
+    let middle = (lo + hi) / 2.0;
+    std::array::from_fn(|k| {
+        let upper = BVec3::new(k & 1 != 0, k & 2 != 0, k & 4 != 0);
+        [
+            DVec3::select(upper, middle, lo),
+            DVec3::select(upper, hi, middle),
+        ]
+    })
+}
+
+impl Ord for Cell {
+    fn cmp(&self, other: &Self) -> Ordering {
+        let place = |cell: &Cell| cell.bounds[0].to_array();
+        let ties = || {
+            let (p, q) = (place(self), place(other));
+            let along = |axis: usize| p[axis].total_cmp(&q[axis]);
+            along(0)
+                .then(along(1))
+                .then(along(2))
+                .then(self.part.cmp(&other.part))
+        };
+        self.bound.total_cmp(&other.bound).then_with(ties)
+    }
+}
+
+impl PartialOrd for Cell {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl PartialEq for Cell {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+
+impl Eq for Cell {}

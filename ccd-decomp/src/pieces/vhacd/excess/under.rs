@@ -1,0 +1,64 @@
+//! A bound for parts above a nearly flat piece of the surface.
+
+use super::super::target::Target;
+use super::super::voxels::cut_to_box;
+use super::part_planes::Plane;
+use crate::tolerance::TRIANGLES_UNDER;
+use crate::work::Work;
+use ccd_core::glam::DVec3;
+use ccd_core::order::{greater, lesser};
+use ccd_core::vector::unit;
+
+/// Bounds the distance to the solid of a part's points in a box, by the surface about the box; none where this
+/// proves nothing.
+///
+/// Grow the box to three times its size, and measure heights along the mean normal of the surface in it. The
+/// points of the large box below all of that surface form a convex set without any surface, which is in the solid
+/// if one of its points is. A point of the small box gets there by sinking to that height, if it stays in the
+/// large box.
+pub(super) fn excess(
+    target: &Target<'_>,
+    planes: impl Iterator<Item = Plane>,
+    [centre, half]: [DVec3; 2],
+    work: &Work,
+) -> Option<f64> {
+    let bounds = [centre - 3.0 * half, centre + 3.0 * half];
+    let near = target.triangles_in(bounds, TRIANGLES_UNDER, work)?;
+    let normals = near.iter().map(|[a, b, c]| (b - a).cross(c - a));
+    let up = unit(target.orientation() * normals.sum::<DVec3>())?;
+    let height = |p: DVec3| up.dot(p - centre);
+    let mut part = Vec::new();
+    let mut lowest = f64::INFINITY;
+    for triangle in near {
+        cut_to_box(&triangle, bounds, &mut part);
+        lowest = part.iter().copied().map(height).fold(lowest, lesser);
+    }
+    lowest -= target.slack();
+    let deepest = centre - 3.0 * half * up.signum();
+    if !(height(deepest) < lowest) || !target.winds_about(deepest, work) {
+        return None;
+    }
+    let sinks = greater(
+        0.0,
+        highest(planes, up, [centre, half], target.slack()) - lowest,
+    );
+    let stays = (sinks * up.abs()).cmple(2.0 * half).all();
+    stays.then_some(sinks + target.slack())
+}
+
+/// Bounds the height of a part's points in a box, by each of some planes that the part is behind: the upward
+/// direction is a multiple of the plane's normal, and a rest.
+fn highest(
+    planes: impl Iterator<Item = Plane>,
+    up: DVec3,
+    [centre, half]: [DVec3; 2],
+    slack: f64,
+) -> f64 {
+    let by_plane = |plane: Plane| {
+        let multiple = greater(0.0, up.dot(plane.normal));
+        let rest = up - multiple * plane.normal;
+        multiple * (slack - plane.above(centre)) + rest.abs().dot(half)
+    };
+    let by_box = up.abs().dot(half);
+    planes.map(by_plane).fold(by_box, lesser)
+}

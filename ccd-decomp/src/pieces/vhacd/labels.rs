@@ -1,0 +1,82 @@
+//! The part of every voxel, by the library.
+
+use super::target::Target;
+use super::voxels::Voxels;
+use crate::tolerance::{BALANCE, CONCAVITY, MOST_PARTS, PARTS_PER_HULL};
+use ccd_core::glam::DVec3;
+use parry3d_f64::math::Vector;
+use parry3d_f64::transformation::vhacd::{VHACD, VHACDParameters};
+use parry3d_f64::transformation::voxelization::FillMode;
+use std::collections::VecDeque;
+use std::panic::catch_unwind;
+
+/// Labels every cube with the number of a part; none when the library fails.
+///
+/// Cubes that the library leaves out get the part of a cube near by. The guarantee holds with any labels, because
+/// parts of any shape are covered.
+pub(super) fn labels(target: &Target<'_>, voxels: &Voxels, hulls: u32) -> Option<Vec<u32>> {
+    let parts = decompose(target, voxels, hulls)?;
+    const NONE: u32 = u32::MAX;
+    let counts = voxels.counts();
+    let mut labels = vec![NONE; voxels.len()];
+    let mut queue = VecDeque::new();
+    for (cell, part) in parts {
+        if cell.iter().zip(counts).all(|(&k, count)| k < count) {
+            let index = voxels.index(cell);
+            labels[index] = part;
+            queue.push_back(index);
+        }
+    }
+    while let Some(index) = queue.pop_front() {
+        for next in voxels.neighbours(voxels.cell(index)) {
+            if labels[next] == NONE {
+                labels[next] = labels[index];
+                queue.push_back(next);
+            }
+        }
+    }
+    // Without a label from the library, all cubes are one part.
+    for label in labels.iter_mut().filter(|label| **label == NONE) {
+        *label = 0;
+    }
+    Some(labels)
+}
+
+/// Assigns cubes to parts through the library. There are more parts than hulls were asked for; the library makes
+/// up to twice its parameter.
+fn decompose(target: &Target<'_>, voxels: &Voxels, hulls: u32) -> Option<Vec<([usize; 3], u32)>> {
+    let fill_mode = match target.is_closed() {
+        true => FillMode::FloodFill {
+            detect_cavities: true,
+        },
+        false => FillMode::SurfaceOnly,
+    };
+    let parts = hulls.saturating_mul(PARTS_PER_HULL).min(MOST_PARTS);
+    let parameters = VHACDParameters {
+        resolution: voxels.resolution(),
+        concavity: CONCAVITY,
+        max_convex_hulls: parts,
+        fill_mode,
+        alpha: BALANCE,
+        ..VHACDParameters::default()
+    };
+    // Scaled, so that the library's absolute tolerances mean something.
+    let scale = f64::from(voxels.resolution() - 1);
+    let scaled = |p: DVec3| Vector::from((voxels.in_steps(p) / scale).to_array());
+    let points: Vec<Vector> = target.triangles().flatten().map(scaled).collect();
+    let faces: Vec<[u32; 3]> = (0..target.faces().len() as u32)
+        .map(|k| [3 * k, 3 * k + 1, 3 * k + 2])
+        .collect();
+    // The library asserts conditions that rounding can violate.
+    let found = catch_unwind(|| VHACD::decompose(&parameters, &points, &faces, false)).ok()?;
+    let mut cells = Vec::new();
+    for (part, voxels) in found.voxel_parts().iter().enumerate() {
+        let place = |k: i64| usize::try_from(k).unwrap_or(usize::MAX);
+        let of_part = voxels.voxels().iter().map(|voxel| {
+            let cell = voxel.coords;
+            ([place(cell.x), place(cell.y), place(cell.z)], part as u32)
+        });
+        cells.extend(of_part);
+    }
+    Some(cells)
+}

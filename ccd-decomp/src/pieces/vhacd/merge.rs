@@ -1,0 +1,130 @@
+//! Merging of parts: those that fill their common hull best first.
+
+use super::extremes::{farthest, without_inner};
+use crate::bounds::Bounds;
+use crate::hull::exact_hull::ExactHull;
+use crate::hull::likely_triangles;
+use crate::tolerance::PRICED_POINTS;
+use ccd_core::glam::DVec3;
+use rayon::prelude::*;
+
+/// Merges pairs of parts, given by points of their hulls, until at most `most` are left: always the pair whose hull
+/// has the least volume beyond their own.
+///
+/// # Complexity
+/// O(n²) hulls of few points each, whatever the number of a part's points. Boxes stand for the hulls of parts that
+/// are apart from each other.
+///
+/// # Guarantee
+/// The hull of merged parts contains these parts. Rounded volumes only affect the choice.
+pub(super) fn down_to(parts: Vec<Vec<DVec3>>, most: usize) -> Vec<Vec<DVec3>> {
+    let mut merger = Merger::new(parts);
+    // Each step leaves one less.
+    while merger.count > most && merger.merge_best() {}
+    let parts = merger.parts.into_iter().flatten();
+    parts.map(|part| part.points).collect()
+}
+
+struct Merger {
+    parts: Vec<Option<Measured>>,
+    count: usize,
+    /// The price of merging the pairs `(k, l)`, `k < l`, at `[l][k]`.
+    prices: Vec<Vec<f64>>,
+}
+
+struct Measured {
+    points: Vec<DVec3>,
+    /// A few of the points, whose hull is about as large.
+    priced: Vec<DVec3>,
+    /// The volume of the hull of `priced`.
+    volume: f64,
+    bounds: Bounds,
+}
+
+impl Merger {
+    fn new(parts: Vec<Vec<DVec3>>) -> Self {
+        let measured = |points: Vec<DVec3>| Some(Measured::of(points));
+        let parts: Vec<_> = parts.into_par_iter().map(measured).collect();
+        let mut merger = Merger {
+            count: parts.len(),
+            prices: parts
+                .iter()
+                .enumerate()
+                .map(|(k, _)| vec![0.0; k])
+                .collect(),
+            parts,
+        };
+        for l in 0..merger.parts.len() {
+            for k in 0..l {
+                merger.prices[l][k] = merger.price(k, l);
+            }
+        }
+        merger
+    }
+
+    fn price(&self, k: usize, l: usize) -> f64 {
+        match (&self.parts[k], &self.parts[l]) {
+            (Some(one), Some(other)) => one.price_with(other),
+            _ => f64::INFINITY,
+        }
+    }
+
+    /// Merges the cheapest pair. Returns whether there was one.
+    fn merge_best(&mut self) -> bool {
+        let live = |k: usize| self.parts[k].is_some();
+        let pairs = (0..self.parts.len()).flat_map(|l| (0..l).map(move |k| (k, l)));
+        let best = pairs
+            .filter(|&(k, l)| live(k) && live(l))
+            .min_by(|&(k, l), &(m, n)| self.prices[l][k].total_cmp(&self.prices[n][m]));
+        let Some((k, l)) = best else {
+            return false;
+        };
+        if let (Some(mut one), Some(other)) = (self.parts[k].take(), self.parts[l].take()) {
+            one.points.extend(other.points);
+            self.parts[k] = Some(Measured::of(one.points));
+        }
+        self.count -= 1;
+        for other in 0..self.parts.len() {
+            if other != k && self.parts[other].is_some() {
+                let (low, high) = (k.min(other), k.max(other));
+                self.prices[high][low] = self.price(low, high);
+            }
+        }
+        true
+    }
+}
+
+impl Measured {
+    fn of(points: Vec<DVec3>) -> Self {
+        let points = without_inner(points);
+        let priced = farthest(&points, PRICED_POINTS);
+        let hull = ExactHull::of(&priced);
+        Measured {
+            volume: hull.map_or(0.0, |hull| volume(&priced, hull.facets().iter().copied())),
+            bounds: Bounds::of(points.iter().copied()),
+            priced,
+            points,
+        }
+    }
+
+    /// Computes the volume that merging adds. The box is larger than the hull, so that parts that are apart are
+    /// merged last.
+    fn price_with(&self, other: &Measured) -> f64 {
+        let common = || {
+            let points = [&self.priced[..], &other.priced].concat();
+            let triangles = likely_triangles(&points)?;
+            Some(volume(&points, triangles.into_iter()))
+        };
+        let meet = self.bounds.meets(&other.bounds);
+        let both = self.bounds.union(other.bounds);
+        let of_box = (both.hi - both.lo).element_product();
+        meet.then(common).flatten().unwrap_or(of_box) - self.volume - other.volume
+    }
+}
+
+/// Computes the volume within triangles, rounded, for comparisons.
+fn volume(points: &[DVec3], triangles: impl Iterator<Item = [u32; 3]>) -> f64 {
+    let at = |v: u32| points[v as usize] - points[0];
+    let six = triangles.map(|[a, b, c]| at(a).dot(at(b).cross(at(c))));
+    six.sum::<f64>() / 6.0
+}

@@ -1,0 +1,195 @@
+//! The target of an approximation: its points, and the distances of other points.
+
+use crate::bounds::Bounds;
+use crate::exact::predicates::side;
+use crate::mesh::TriangleMesh;
+use crate::search::box_tree::BoxTree;
+use crate::search::region::Region;
+use crate::solid::topology::{Orientation, Topology};
+use crate::tolerance::NEAREST_SLACK;
+use crate::work::Work;
+use ccd_core::glam::DVec3;
+use ccd_core::order::{greater, lesser};
+use parry3d_f64::math::Vector;
+use parry3d_f64::query::PointQueryWithLocation;
+use parry3d_f64::shape::Triangle;
+use robust::{Coord, orient2d};
+use std::cmp::Ordering;
+
+/// The solid to be approximated, with its surface; the surface alone if the mesh is open.
+pub(super) struct Target<'a> {
+    mesh: &'a TriangleMesh,
+    search: BoxTree,
+    closed: bool,
+    inside_out: bool,
+    bounds: [DVec3; 2],
+}
+
+/// The location of a point relative to the target.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Location {
+    /// The point is in the solid, at least `depth` below the surface.
+    Inside { depth: f64 },
+    /// The point is not in the solid, or the surface is open; the target is at most `distance` away.
+    Outside { distance: f64 },
+}
+
+impl<'a> Target<'a> {
+    pub(super) fn of(mesh: &'a TriangleMesh, topology: &Topology) -> Self {
+        let corners = mesh.faces().iter().flatten();
+        let Bounds { lo, hi } = Bounds::of(corners.map(|&v| mesh.vertices()[v as usize]));
+        Target {
+            mesh,
+            search: BoxTree::of_faces(mesh.vertices(), mesh.faces(), 0..mesh.faces().len() as u32),
+            closed: topology.is_solid(),
+            inside_out: topology.orientation() == Orientation::Inward,
+            bounds: [lo, hi],
+        }
+    }
+
+    pub(super) fn triangles(&self) -> impl ExactSizeIterator<Item = [DVec3; 3]> {
+        let vertices = self.mesh.vertices();
+        let faces = self.mesh.faces().iter();
+        faces.map(|face| face.map(|v| vertices[v as usize]))
+    }
+
+    pub(super) fn corners(&self) -> impl Iterator<Item = DVec3> {
+        self.triangles().flatten()
+    }
+
+    pub(super) fn faces(&self) -> &[[u32; 3]] {
+        self.mesh.faces()
+    }
+
+    pub(super) fn is_closed(&self) -> bool {
+        self.closed
+    }
+
+    /// The orientation: 1 where the normals point out of the solid, −1 where they point into it.
+    pub(super) fn orientation(&self) -> f64 {
+        if self.inside_out { -1.0 } else { 1.0 }
+    }
+
+    /// Finds the triangles whose boxes meet a box; none if there are more than `most`.
+    pub(super) fn triangles_in(
+        &self,
+        [lo, hi]: [DVec3; 2],
+        most: usize,
+        work: &Work,
+    ) -> Option<Vec<[DVec3; 3]>> {
+        let mut found = Vec::new();
+        let all = self.search.all_in(&Bounds { lo, hi }, work, |face| {
+            found.push(self.mesh.triangle(face));
+            found.len() <= most
+        });
+        all.then_some(found)
+    }
+
+    /// The smallest box that holds it.
+    pub(super) fn bounds(&self) -> [DVec3; 2] {
+        self.bounds
+    }
+
+    /// Half the diagonal of that box.
+    pub(super) fn reach(&self) -> f64 {
+        (self.bounds[1] - self.bounds[0]).length() / 2.0
+    }
+
+    pub(super) fn farthest_coordinate(&self) -> f64 {
+        let [lo, hi] = self.bounds;
+        lo.abs().max(hi.abs()).max_element()
+    }
+
+    /// A bound on the rounding error of distances.
+    pub(super) fn slack(&self) -> f64 {
+        NEAREST_SLACK * self.reach()
+    }
+
+    /// Locates a point.
+    pub(super) fn locate(&self, point: DVec3, work: &Work) -> Location {
+        let (found, reached) = self.nearest(point, work);
+        match self.winds_about(point, work) {
+            true => Location::Inside {
+                depth: greater(0.0, lesser(found, reached) - self.slack()),
+            },
+            false => Location::Outside {
+                distance: reached + self.slack(),
+            },
+        }
+    }
+
+    /// Computes the distance to the surface by the library, and the distance to a point that is certainly on a
+    /// triangle: the weights of its projection are clamped, because those of a needle may be anything.
+    fn nearest(&self, point: DVec3, work: &Work) -> (f64, f64) {
+        let query = vector(point);
+        let project = |corners: [DVec3; 3]| {
+            let [a, b, c] = corners.map(vector);
+            Triangle::new(a, b, c).project_local_point_and_get_location(query, false)
+        };
+        let distance = |corners: [DVec3; 3]| {
+            let (found, _) = project(corners);
+            DVec3::from_array(found.point.to_array()).distance(point)
+        };
+        let Some((face, found)) = self.search.nearest(point, work, distance) else {
+            return (0.0, f64::INFINITY);
+        };
+        let corners = self.mesh.triangle(face);
+        let (_, location) = project(corners);
+        let weights = location
+            .barycentric_coordinates()
+            .unwrap_or([1.0, 0.0, 0.0]);
+        let weights = weights.map(|w| w.clamp(0.0, 1.0));
+        let sum: f64 = weights.iter().sum();
+        let on = corners.iter().zip(weights);
+        let on: DVec3 = on.map(|(&p, w)| w / sum * (p - point)).sum();
+        let reached = on.length();
+        // NaN counts as infinitely far.
+        let far = |way: f64| if way.is_nan() { f64::INFINITY } else { way };
+        (if found.is_nan() { 0.0 } else { found }, far(reached))
+    }
+
+    /// Whether the mesh winds about a point, by exact predicates. For a point on the surface, the answer is that of
+    /// a point next to it. An open mesh winds about no point.
+    pub(super) fn winds_about(&self, point: DVec3, work: &Work) -> bool {
+        if !self.closed {
+            return false;
+        }
+        let top = DVec3::new(point.x, point.y, greater(point.z, self.bounds[1].z));
+        let above = Region::segment([point, top]);
+        let mut winding = 0;
+        self.search.all_meeting(&above, work, |face| {
+            winding += crossing(self.mesh.triangle(face), point);
+            true
+        });
+        winding != 0
+    }
+}
+
+/// Counts how a ray from a point along z passes a triangle: 1 to the front, −1 to the back, 0 not at all.
+///
+/// A point in line with an edge is moved a little in the direction of x, and less in that of y. This decides for
+/// each edge, and for all triangles at it alike, on which side the ray passes.
+fn crossing(triangle: [DVec3; 3], point: DVec3) -> i32 {
+    let [a, b, c] = triangle;
+    let around: i32 = [(a, b), (b, c), (c, a)]
+        .into_iter()
+        .map(|(v, w)| {
+            let [q, r, p] = [v, w, point].map(|p| Coord { x: p.x, y: p.y });
+            match (v.y <= point.y, w.y <= point.y) {
+                (true, false) => i32::from(orient2d(q, r, p) > 0.0),
+                (false, true) => -i32::from(orient2d(q, r, p) < 0.0),
+                _ => 0,
+            }
+        })
+        .sum();
+    let below = match around.signum() {
+        0 => return 0,
+        1 => Ordering::Less,
+        _ => Ordering::Greater,
+    };
+    around * i32::from(side(triangle, point) == below)
+}
+
+fn vector(p: DVec3) -> Vector {
+    Vector::new(p.x, p.y, p.z)
+}

@@ -1,0 +1,237 @@
+//! Voxels: a grid of cubes about a mesh.
+
+use super::target::Target;
+use crate::tolerance::{self, VOXELS_TESTED, voxel_resolution};
+use ccd_core::glam::DVec3;
+use ccd_core::order::{greater, lesser};
+use std::ops::RangeInclusive;
+
+/// A grid of cubes between planes at exactly the stored coordinates, so that neighbours leave no gap.
+pub(super) struct Voxels {
+    planes: [Vec<f64>; 3],
+    /// The least corner of the mesh, which is the centre of the first cube.
+    origin: DVec3,
+    /// The size of the cubes.
+    step: f64,
+    resolution: u32,
+    /// The width that is added to cubes when something is cut to them, so that rounding loses nothing.
+    margin: f64,
+}
+
+/// A cube, by its place along each axis.
+pub(super) type Cell = [usize; 3];
+
+impl Voxels {
+    /// Makes the grid for a number of hulls: coarser where the mesh's large triangles meet too many cubes, none
+    /// where its coordinates are too coarse for any grid.
+    pub(super) fn of(target: &Target<'_>, hulls: u32) -> Option<Self> {
+        let mut resolution = voxel_resolution(hulls);
+        // Halved at most a few times.
+        while resolution >= tolerance::LEAST_RESOLUTION {
+            let voxels = Voxels::with_resolution(target, resolution)?;
+            if voxels.is_affordable(target) {
+                return Some(voxels);
+            }
+            resolution /= 2;
+        }
+        None
+    }
+
+    fn with_resolution(target: &Target<'_>, resolution: u32) -> Option<Self> {
+        let [lo, hi] = target.bounds();
+        let step = (hi - lo).max_element() / f64::from(resolution - 1);
+        let margin = tolerance::clip_rounding(target.farthest_coordinate());
+        // Written so that NaN fails.
+        if !(step > tolerance::COARSE_VOXELS * margin) {
+            return None;
+        }
+        let planes = [0, 1, 2].map(|axis| {
+            let count = ((hi[axis] - lo[axis]) / step + 0.5) as usize + 1;
+            let plane = |k: usize| lo[axis] + (k as f64 - 0.5) * step;
+            (0..=count).map(plane).collect()
+        });
+        Some(Voxels {
+            planes,
+            origin: lo,
+            step,
+            resolution,
+            margin,
+        })
+    }
+
+    fn is_affordable(&self, target: &Target<'_>) -> bool {
+        let boxed = |t| self.ranges(t).map(|r| r.count()).iter().product::<usize>();
+        target.triangles().map(boxed).sum::<usize>() <= VOXELS_TESTED
+    }
+
+    pub(super) fn resolution(&self) -> u32 {
+        self.resolution
+    }
+
+    /// Converts a point to the units of the grid: 0 is the centre of the first cube.
+    pub(super) fn in_steps(&self, point: DVec3) -> DVec3 {
+        (point - self.origin) / self.step
+    }
+
+    pub(super) fn counts(&self) -> [usize; 3] {
+        [0, 1, 2].map(|axis| self.planes[axis].len() - 1)
+    }
+
+    pub(super) fn len(&self) -> usize {
+        self.counts().iter().product()
+    }
+
+    pub(super) fn index(&self, [i, j, k]: Cell) -> usize {
+        let [_, y, z] = self.counts();
+        (i * y + j) * z + k
+    }
+
+    pub(super) fn cell(&self, index: usize) -> Cell {
+        let [_, y, z] = self.counts();
+        [index / z / y, index / z % y, index % z]
+    }
+
+    /// Iterates over the cubes that share a face with one.
+    pub(super) fn neighbours(&self, cell: Cell) -> impl Iterator<Item = usize> {
+        let counts = self.counts();
+        (0..6).filter_map(move |k| {
+            let (axis, mut next) = (k / 2, cell);
+            next[axis] = match k % 2 {
+                0 => next[axis].checked_sub(1)?,
+                _ => next[axis] + 1,
+            };
+            (next[axis] < counts[axis]).then(|| self.index(next))
+        })
+    }
+
+    /// The point where three planes meet.
+    pub(super) fn corner(&self, [i, j, k]: Cell) -> DVec3 {
+        DVec3::new(self.planes[0][i], self.planes[1][j], self.planes[2][k])
+    }
+
+    /// The cubes that the box of a triangle may meet, and some next to it.
+    fn ranges(&self, triangle: [DVec3; 3]) -> [RangeInclusive<usize>; 3] {
+        let counts = self.counts();
+        [0, 1, 2].map(|axis| {
+            let place = |p: DVec3| (p[axis] - self.origin[axis]) / self.step + 0.5;
+            let places = triangle.map(place);
+            let lo = places.iter().copied().fold(f64::INFINITY, lesser) - 0.125;
+            let hi = places.iter().copied().fold(f64::NEG_INFINITY, greater) + 0.125;
+            // Conversions saturate.
+            let last = counts[axis] - 1;
+            (lo as usize).min(last)..=(hi as usize).min(last)
+        })
+    }
+
+    /// Calls back with every cube that a triangle meets.
+    pub(super) fn for_each_met(&self, triangle: [DVec3; 3], mut visit: impl FnMut(usize)) {
+        let [xs, ys, zs] = self.ranges(triangle);
+        let (mut slab, mut beam, mut part) = (Vec::new(), Vec::new(), Vec::new());
+        for i in xs {
+            self.cut(&triangle, 0, i..=i, &mut slab);
+            for j in ys.clone() {
+                self.cut(&slab, 1, j..=j, &mut beam);
+                for k in zs.clone() {
+                    self.cut(&beam, 2, k..=k, &mut part);
+                    if !part.is_empty() {
+                        visit(self.index([i, j, k]));
+                    }
+                }
+            }
+        }
+    }
+
+    /// Cuts a triangle where the labels of the cubes change, and calls back with the pieces: the label, and the
+    /// corners of a polygon whose hull, grown by the margin, contains the part of the triangle in its cubes.
+    ///
+    /// Each cut makes corners that are on a line except for rounding. Blocks of cubes are therefore halved only
+    /// while their labels differ.
+    pub(super) fn for_each_piece(
+        &self,
+        triangle: [DVec3; 3],
+        labels: &[u32],
+        mut visit: impl FnMut(u32, &[DVec3]),
+    ) {
+        let mut stack = vec![(self.ranges(triangle), triangle.to_vec())];
+        // Blocks are halved, and one cube has one label.
+        while let Some((block, polygon)) = stack.pop() {
+            if polygon.is_empty() {
+                continue;
+            }
+            let [xs, ys, zs] = block.clone();
+            let (first, mut rows) = (
+                labels[self.index([*xs.start(), *ys.start(), *zs.start()])],
+                xs.flat_map(|i| ys.clone().map(move |j| (i, j))),
+            );
+            let is_first = |(i, j)| {
+                let row = self.index([i, j, *zs.start()])..=self.index([i, j, *zs.end()]);
+                labels[row].iter().all(|&label| label == first)
+            };
+            if rows.all(is_first) {
+                visit(first, &polygon);
+                continue;
+            }
+            let length = |axis: &usize| block[*axis].end() - block[*axis].start();
+            let axis = (0..3).max_by_key(length).unwrap_or(0);
+            let (start, end) = (*block[axis].start(), *block[axis].end());
+            let middle = start + (end - start) / 2;
+            for half in [middle + 1..=end, start..=middle] {
+                let (mut piece, mut block) = (Vec::new(), block.clone());
+                self.cut(&polygon, axis, half.clone(), &mut piece);
+                block[axis] = half;
+                stack.push((block, piece));
+            }
+        }
+    }
+
+    /// Cuts a polygon to some layers of cubes, widened by the margin.
+    fn cut(
+        &self,
+        polygon: &[DVec3],
+        axis: usize,
+        layers: RangeInclusive<usize>,
+        part: &mut Vec<DVec3>,
+    ) {
+        let planes = &self.planes[axis];
+        let lo = planes[*layers.start()] - self.margin;
+        let hi = planes[*layers.end() + 1] + self.margin;
+        let mut above = Vec::with_capacity(polygon.len() + 1);
+        cut_at(polygon, axis, |x| x >= lo, lo, &mut above);
+        cut_at(&above, axis, |x| x <= hi, hi, part);
+    }
+}
+
+/// Cuts a triangle to a box.
+pub(super) fn cut_to_box(triangle: &[DVec3; 3], [lo, hi]: [DVec3; 2], part: &mut Vec<DVec3>) {
+    let mut rest = Vec::new();
+    part.clear();
+    part.extend(triangle);
+    for axis in 0..3 {
+        cut_at(part, axis, |x| x >= lo[axis], lo[axis], &mut rest);
+        cut_at(&rest, axis, |x| x <= hi[axis], hi[axis], part);
+    }
+}
+
+/// Cuts a convex polygon to one side of a plane (Sutherland and Hodgman).
+fn cut_at(
+    polygon: &[DVec3],
+    axis: usize,
+    keeps: impl Fn(f64) -> bool,
+    plane: f64,
+    part: &mut Vec<DVec3>,
+) {
+    part.clear();
+    let next = polygon.iter().cycle().skip(1);
+    for (&p, &q) in polygon.iter().zip(next) {
+        if keeps(p[axis]) {
+            part.push(p);
+        }
+        if keeps(p[axis]) != keeps(q[axis]) {
+            // An edge gives the same point from either side.
+            let (p, q) = if p[axis] < q[axis] { (p, q) } else { (q, p) };
+            let mut between = p + (plane - p[axis]) / (q[axis] - p[axis]) * (q - p);
+            between[axis] = plane;
+            part.push(between);
+        }
+    }
+}

@@ -1,0 +1,111 @@
+//! Meshes made into bodies.
+
+mod choose;
+pub(crate) mod error;
+pub(crate) mod model;
+mod parts;
+pub(crate) mod report;
+
+use crate::mesh::TriangleMesh;
+use crate::pieces::convex::as_polytope;
+use crate::pieces::patches::{Order, decompose};
+use crate::pieces::vhacd::approximate;
+use crate::solid::bounding_solid;
+use crate::solid::topology::Topology;
+use error::PrepareError;
+use model::{Model, Prepared};
+use parts::Parts;
+use report::Why;
+
+/// The kind of pieces that a body is made of.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Detail {
+    /// Chooses the fewest pieces that are exact: one hull for a convex solid, else patches or triangles,
+    /// whichever is estimated to be faster for queries.
+    #[default]
+    Auto,
+    /// Makes one piece of every triangle: exact for any mesh or soup.
+    Triangles,
+    /// Makes convex patches of the surface: exact, for meshes that bound a solid.
+    Patches(Order),
+    /// Makes one piece of the solid itself: exact, for convex ones.
+    Hull,
+    /// Makes hulls about the parts of the mesh: they cover any mesh, and stick out of it.
+    Vhacd {
+        /// The most hulls that there may be.
+        hulls: u32,
+    },
+}
+
+/// Makes a body of a mesh: calls [`prepare`], then [`Model::into_prepared`].
+///
+/// ```
+/// use ccd_core::glam::dvec3;
+/// use ccd_decomp::{Detail, TriangleMesh, body_from_mesh};
+/// // An L of two boxes, extruded along z: six corners below and six above.
+/// let outline = [(0.0, 0.0), (2.0, 0.0), (2.0, 1.0), (1.0, 1.0), (1.0, 2.0), (0.0, 2.0)];
+/// let ring = |z| outline.map(|(x, y)| dvec3(x, y, z));
+/// let vertices = [ring(0.0), ring(1.0)].concat();
+/// let mut faces = Vec::new();
+/// for [a, b, c] in [[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 5]] {
+///     faces.extend([[a, c, b], [6 + a, 6 + b, 6 + c]]);
+/// }
+/// for k in 0..6 {
+///     let next = (k + 1) % 6;
+///     faces.extend([[k, next, 6 + next], [k, 6 + next, 6 + k]]);
+/// }
+/// let mesh = TriangleMesh::new(vertices, &faces)?;
+///
+/// let prepared = body_from_mesh(&mesh, Detail::Triangles)?;
+/// assert_eq!(prepared.report.to_string(), "20 triangles, solid");
+/// // An L is not its own hull: the error names the edge at the inner corner.
+/// let error = body_from_mesh(&mesh, Detail::Hull).unwrap_err();
+/// assert_eq!(error.to_string(), "not convex at e3-9; use patches or triangles");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Guarantee
+/// The pieces cover the mesh, and the body is solid where the mesh bounds a solid: see [`prepare`].
+///
+/// # Errors
+/// [`PrepareError::Decompose`] when the mesh does not bound the kind of solid that was asked for,
+/// [`PrepareError::Vhacd`] when it cannot be approximated, [`PrepareError::Input`] when there are too many
+/// pieces.
+pub fn body_from_mesh(mesh: &TriangleMesh, detail: Detail) -> Result<Prepared, PrepareError> {
+    prepare(mesh, detail)?.into_prepared()
+}
+
+/// Makes the pieces of a mesh, and a hierarchy over them: a model, which can be stored.
+///
+/// # Guarantee
+/// The pieces cover the mesh. Except with [`Detail::Vhacd`], they touch nothing outside the solid that it
+/// bounds. The body is solid exactly when the mesh is closed, neighbouring faces are oriented alike, and it is
+/// [clear](Topology::unclear) which shells bound material and which a cavity. Shells that are inside out are
+/// turned round, and the report says so. [`Detail::Auto`] and [`Detail::Triangles`] take any mesh.
+///
+/// # Errors
+/// [`PrepareError::Decompose`] when the mesh does not bound the kind of solid that was asked for,
+/// [`PrepareError::Vhacd`] when it cannot be approximated, [`PrepareError::Input`] when there are too many
+/// pieces.
+pub fn prepare(mesh: &TriangleMesh, detail: Detail) -> Result<Model, PrepareError> {
+    let (topology, turned) = Topology::and_turned(mesh);
+    let mesh = turned.as_ref().unwrap_or(mesh);
+    let (parts, why) = match detail {
+        Detail::Auto => choose::choose(mesh, &topology),
+        Detail::Triangles => (Parts::Triangles, Why::Asked),
+        Detail::Patches(order) => (Parts::Patches(decompose(mesh, order)?), Why::Asked),
+        Detail::Hull => {
+            let polytope = as_polytope(&bounding_solid(mesh)?)?;
+            (Parts::Hull(Box::new(polytope)), Why::Asked)
+        }
+        Detail::Vhacd { hulls } => {
+            let approximation = approximate(mesh, &topology, hulls)?;
+            (Parts::Vhacd(approximation), Why::Asked)
+        }
+    };
+    parts.into_model(mesh, topology, why)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,98 @@
+use super::*;
+use crate::solid::bounding_solid;
+use crate::test_meshes::{block, cubes, joined, placed, tetrahedron};
+use ccd_core::glam::DVec3;
+
+fn why(mesh: &TriangleMesh) -> Why {
+    let (parts, why) = choose(mesh, &Topology::of(mesh));
+    let fits = match why {
+        Why::Convex => matches!(parts, Parts::Hull(_)),
+        Why::PatchesFaster(_) => matches!(parts, Parts::Patches(_)),
+        _ => matches!(parts, Parts::Triangles),
+    };
+    assert!(fits, "{why}");
+    why
+}
+
+#[test]
+fn convex_solids_are_hulls() {
+    assert_eq!(why(&tetrahedron()), Why::Convex);
+    assert_eq!(why(&cubes(&block([3, 3, 3]))), Why::Convex);
+}
+
+/// Large plane parts of many triangles become a few patches; of few triangles they stay triangles.
+#[test]
+fn patches_have_to_be_worth_it() {
+    let coarse = cubes(&[[0, 0, 0], [1, 0, 0], [0, 0, 1]]);
+    assert!(matches!(why(&coarse), Why::TrianglesFaster(_)));
+    let in_corner = |c: &[i32; 3]| c[0] >= 8 && c[2] >= 8;
+    let cells = block([16, 16, 16]).into_iter().filter(|c| !in_corner(c));
+    let fine = cubes(&cells.collect::<Vec<_>>());
+    assert!(
+        matches!(why(&fine), Why::PatchesFaster(_)),
+        "{}",
+        why(&fine)
+    );
+}
+
+#[test]
+fn the_largest_plane_is_found_whole() {
+    // The bottom of a step: 3 × 2 squares.
+    let cells: Vec<_> = block([3, 2, 2])
+        .into_iter()
+        .filter(|c| *c != [2, 0, 1])
+        .collect();
+    let mesh = cubes(&cells);
+    let manifold = bounding_solid(&mesh).unwrap();
+    let plane = PlanarRegion::largest(&manifold, &Flats::new(&manifold));
+    assert_eq!(plane.triangles, 12);
+    assert_eq!(plane.polygons, 1);
+}
+
+#[test]
+fn what_bounds_no_solid_stays_triangles() {
+    let one = tetrahedron();
+    let pierced = joined(&[&one, &placed(&one, 1.0, DVec3::splat(0.2))]);
+    assert!(matches!(
+        why(&pierced),
+        Why::TrianglesFaster(_) | Why::NothingElse(_)
+    ));
+    let open = crate::test_meshes::mesh(one.vertices().to_vec(), &one.faces()[1..]);
+    let Why::NothingElse(error) = why(&open) else {
+        panic!("an open mesh bounds no solid");
+    };
+    assert!(error.to_string().contains("edges with one face"));
+}
+
+#[test]
+fn what_takes_too_long_stays_triangles() {
+    let in_corner = |c: &[i32; 3]| c[0] >= 8 && c[2] >= 8;
+    let cells = block([16, 16, 16]).into_iter().filter(|c| !in_corner(c));
+    let mesh = cubes(&cells.collect::<Vec<_>>());
+    for steps in [1, 1000] {
+        let (parts, why) = within(&mesh, &Topology::of(&mesh), &Work::of(steps));
+        assert_eq!(why, Why::TooLong);
+        assert!(matches!(parts, Parts::Triangles));
+    }
+}
+
+/// Meshes whose edges pair up, but that bound no solid: merging must end.
+#[test]
+fn what_is_folded_stays_triangles() {
+    let corners = vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::X + DVec3::Y];
+    let faces = [[0, 1, 2], [1, 3, 2], [0, 2, 3], [0, 3, 1]];
+    let flat = crate::test_meshes::mesh(corners.clone(), &faces);
+    let two = crate::test_meshes::mesh(corners[..3].to_vec(), &[[0, 1, 2], [0, 2, 1]]);
+    let solid = placed(&cubes(&block([9, 9, 1])), 1.0, DVec3::splat(5.0));
+    for mesh in [
+        &flat,
+        &two,
+        &joined(&[&solid, &flat]),
+        &joined(&[&solid, &two]),
+    ] {
+        assert!(matches!(
+            why(mesh),
+            Why::TrianglesFaster(_) | Why::NothingElse(_)
+        ));
+    }
+}

@@ -1,0 +1,27 @@
+//! Errors of preparing a mesh.
+
+use crate::pieces::vhacd::VhacdError;
+use crate::solid::error::DecomposeError;
+use crate::tree::hull_tree::BuildError;
+use ccd_core::{HullTreeError, InputError};
+
+/// Why a mesh cannot be made into a body.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum PrepareError {
+    /// The mesh cannot be made into the pieces that were asked for.
+    #[error(transparent)]
+    Decompose(#[from] DecomposeError),
+    /// The mesh cannot be approximated.
+    #[error(transparent)]
+    Vhacd(#[from] VhacdError),
+    /// No hull tree can be built.
+    #[error(transparent)]
+    BuildHullTree(#[from] BuildError),
+    /// A hull tree does not belong to the pieces.
+    #[error(transparent)]
+    HullTree(#[from] HullTreeError),
+    /// The core rejects the pieces.
+    #[error(transparent)]
+    Input(#[from] InputError),
+}

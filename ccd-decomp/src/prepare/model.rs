@@ -1,0 +1,81 @@
+//! Models, which are stored, and the bodies that are built from them.
+
+use super::error::PrepareError;
+use super::report::{PiecesKind, Report, Why};
+use crate::tree::hull_tree::build_hull_tree;
+use ccd_core::{Body, Hierarchy, HullTree, Pieces, Volume};
+
+/// A body before its tree is built. A `.ccd` file stores it.
+#[derive(Clone, Debug)]
+pub struct Model {
+    /// The convex pieces.
+    pub pieces: Pieces,
+    /// A hierarchy over them.
+    pub hierarchy: Hierarchy,
+    /// Whether a point inside the body counts as touching it.
+    pub volume: Volume,
+    /// The tree of hulls over the pieces, for the schedules that use one.
+    pub hull_tree: Option<HullTree>,
+    /// The triangles of a convex solid's mesh, and a hierarchy over them. They stand for the solid against
+    /// bodies of many triangles.
+    pub surface: Option<(Pieces, Hierarchy)>,
+    /// The kind of the pieces, and why they are of that kind.
+    pub report: Report,
+}
+
+/// A body, and the report of how it was made.
+#[derive(Clone, Debug)]
+pub struct Prepared {
+    /// The body, ready for queries.
+    pub body: Body,
+    /// The kind of its pieces, and why they are of that kind.
+    pub report: Report,
+}
+
+impl Model {
+    /// Builds the body. O(n log n) in the number of pieces.
+    ///
+    /// # Errors
+    /// [`PrepareError::Input`] and [`PrepareError::HullTree`] when the parts of the model do not belong together.
+    pub fn body(&self) -> Result<Body, PrepareError> {
+        let mut body = Body::with_hierarchy(&self.pieces, &self.hierarchy, self.volume)?;
+        if let Some((pieces, hierarchy)) = &self.surface {
+            let surface = Body::with_hierarchy(pieces, hierarchy, Volume::Solid)?;
+            body = body.with_surface(surface)?;
+        }
+        Ok(match &self.hull_tree {
+            Some(tree) => body.with_hull_tree(tree.clone())?,
+            None => body,
+        })
+    }
+
+    /// Adds a hull tree over the pieces.
+    ///
+    /// # Errors
+    /// [`PrepareError::BuildHullTree`] when a hull cannot be computed exactly.
+    pub fn with_hull_tree(mut self) -> Result<Self, PrepareError> {
+        self.hull_tree = Some(build_hull_tree(&self.pieces)?);
+        Ok(self)
+    }
+
+    /// Builds the body, and drops the rest except the report.
+    ///
+    /// # Errors
+    /// [`PrepareError::Input`] and [`PrepareError::HullTree`] when the parts of the model do not belong together.
+    pub fn into_prepared(self) -> Result<Prepared, PrepareError> {
+        Ok(Prepared {
+            body: self.body()?,
+            report: self.report,
+        })
+    }
+}
+
+impl Prepared {
+    /// Wraps a body that was not made of a mesh.
+    pub(crate) fn primitive(body: Body) -> Self {
+        Prepared {
+            report: Report::new(PiecesKind::Primitive, Why::Asked, body.volume()),
+            body,
+        }
+    }
+}

@@ -1,0 +1,205 @@
+//! The report: the kind of a body's pieces, and the reason for that kind.
+
+use crate::mesh::repair::Repairs;
+use crate::solid::error::DecomposeError;
+use crate::solid::topology::Topology;
+use ccd_core::Volume;
+use serde::{Deserialize, Serialize};
+use std::fmt;
+
+/// The pieces that a body was made of, and the reason. Prints as one line for people.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Report {
+    /// The kind of its pieces.
+    pub kind: PiecesKind,
+    /// Why its pieces are of that kind.
+    pub why: Why,
+    /// The number of triangles of its mesh; 0 for a box, sphere or capsule.
+    pub triangles: usize,
+    /// The number of its pieces.
+    pub pieces: usize,
+    /// The number of facets of the pieces that are no part of the mesh.
+    pub virtual_faces: usize,
+    /// The number of nodes of the hierarchy over the pieces.
+    pub tree_nodes: usize,
+    /// The radius that was added to the pieces so that they certainly cover the mesh, in its unit of length; 0
+    /// for all exact kinds.
+    pub inflated_by: f64,
+    /// A bound on how far the pieces reach beyond the solid, or beyond the surface of an open mesh, in the
+    /// mesh's unit of length. Contacts may be reported early by as much. 0 for all exact kinds.
+    pub sticks_out: f64,
+    /// The number of hulls of approximate pieces that the library got wrong, and that were computed exactly
+    /// instead. 0 for all other kinds, whose hulls are exact from the start.
+    pub rebuilt_hulls: usize,
+    /// Whether a point inside the body counts as touching it, which is so when its mesh is closed.
+    pub volume: Volume,
+    /// The edges of the mesh, which show why it is solid or not; none for a box, sphere or capsule.
+    pub topology: Option<Topology>,
+    /// The faults of the mesh that were repaired.
+    pub repairs: Repairs,
+}
+
+/// The kind of a body's pieces.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub enum PiecesKind {
+    /// The body is a box, sphere or capsule: exact.
+    Primitive,
+    /// The pieces are the triangles of the mesh: exact.
+    Triangles,
+    /// The pieces are convex patches of the surface, whose hulls lie inside the solid: exact.
+    Patches,
+    /// The one piece is the solid itself, which is convex: exact.
+    Hull,
+    /// The pieces are hulls that cover the solid: approximate.
+    Vhacd,
+}
+
+/// The reason for the kind of a body's pieces.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub enum Why {
+    /// The caller asked for it.
+    Asked,
+    /// The solid is convex: one piece is exact. Against a body of many triangles its own triangles are taken,
+    /// because pairs of pieces as large as a solid are measured too often there.
+    Convex,
+    /// Only triangles are exact.
+    NothingElse(DecomposeError),
+    /// Finding out whether other pieces are exact takes longer than it is worth; they may be asked for.
+    TooLong,
+    /// Queries are estimated to be faster over triangles than over patches.
+    TrianglesFaster(Estimate),
+    /// Queries are estimated to be faster over patches.
+    PatchesFaster(Estimate),
+}
+
+/// The estimated time of a query against a body of many triangles, for two kinds of pieces, in microseconds
+/// on the machine that the estimate was measured on. Only the comparison of the two is meaningful.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Estimate {
+    /// The time with triangles.
+    pub triangles: f64,
+    /// The time with patches.
+    pub patches: f64,
+}
+
+impl Report {
+    /// Makes the report of exact pieces without virtual facets, of a body that was not made of a mesh.
+    pub(super) fn new(kind: PiecesKind, why: Why, volume: Volume) -> Self {
+        Report {
+            kind,
+            why,
+            triangles: 0,
+            pieces: 1,
+            virtual_faces: 0,
+            tree_nodes: 1,
+            inflated_by: 0.0,
+            sticks_out: 0.0,
+            rebuilt_hulls: 0,
+            volume,
+            topology: None,
+            repairs: Repairs::default(),
+        }
+    }
+
+    /// Whether the pieces cover the solid's surface, and nothing outside the solid.
+    pub fn is_exact(&self) -> bool {
+        match self.kind {
+            PiecesKind::Primitive
+            | PiecesKind::Triangles
+            | PiecesKind::Patches
+            | PiecesKind::Hull => true,
+            PiecesKind::Vhacd => false,
+        }
+    }
+
+    /// Describes the faults of the mesh, for people; empty when it has none.
+    pub fn remarks(&self) -> String {
+        let plain = |t: &Topology| {
+            t.is_manifold() && t.is_solid() && t.wrong_way.is_empty() && t.signed_volume > 0.0
+        };
+        let topology = self.topology.as_ref().filter(|t| !plain(t));
+        let repairs = Some(&self.repairs).filter(|r| !r.is_empty());
+        match (topology, repairs) {
+            (Some(topology), Some(repairs)) => format!("{topology}; {repairs}"),
+            (Some(topology), None) => topology.to_string(),
+            (None, Some(repairs)) => repairs.to_string(),
+            (None, None) => String::new(),
+        }
+    }
+}
+
+impl fmt::Display for Report {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (one, many) = match self.kind {
+            PiecesKind::Primitive => ("primitive", "primitives"),
+            PiecesKind::Triangles => ("triangle", "triangles"),
+            PiecesKind::Patches => ("convex patch", "convex patches"),
+            PiecesKind::Hull => ("convex hull", "convex hulls"),
+            PiecesKind::Vhacd => ("approximate hull", "approximate hulls"),
+        };
+        let noun = if self.pieces == 1 { one } else { many };
+        write!(f, "{} {noun}, ", self.pieces)?;
+        match self.volume {
+            Volume::Solid => write!(f, "solid")?,
+            Volume::Surface => write!(f, "surface only")?,
+        }
+        if !self.is_exact() {
+            let by = self.sticks_out;
+            write!(
+                f,
+                ", sticking out by up to {by:.3e}: contacts may be early by that"
+            )?;
+        }
+        match self.remarks() {
+            remarks if remarks.is_empty() => Ok(()),
+            remarks => write!(f, " ({remarks})"),
+        }
+    }
+}
+
+impl fmt::Display for PiecesKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            PiecesKind::Primitive => "primitive",
+            PiecesKind::Triangles => "triangles",
+            PiecesKind::Patches => "patches",
+            PiecesKind::Hull => "hull",
+            PiecesKind::Vhacd => "vhacd",
+        })
+    }
+}
+
+impl fmt::Display for Why {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Why::Asked => write!(f, "asked for"),
+            Why::Convex => write!(
+                f,
+                "the solid is convex: one piece, or its triangles against bodies of many"
+            ),
+            Why::NothingElse(error) => write!(f, "only triangles are exact: {error}"),
+            Why::TooLong => {
+                let why = DecomposeError::TooLong;
+                write!(
+                    f,
+                    "other pieces take longer to make than is spent unasked: {why}"
+                )
+            }
+            Why::TrianglesFaster(Estimate { triangles, patches }) => {
+                let times = patches / triangles;
+                write!(
+                    f,
+                    "over patches a query is estimated to take {times:.1} times as long"
+                )
+            }
+            Why::PatchesFaster(Estimate { triangles, patches }) => {
+                let times = triangles / patches;
+                write!(
+                    f,
+                    "over triangles a query is estimated to take {times:.1} times as long"
+                )
+            }
+        }
+    }
+}

@@ -1,0 +1,80 @@
+//! Searches among triangles: those that may meet a region, and those nearest to a point.
+//!
+//! ```text
+//! element.rs ─► oriented_box.rs ─► planes.rs ─► box_tree.rs ─┬─► fans.rs ─► TriangleBoxes
+//!                                  region.rs ──┘             └─► nearest.rs
+//! ```
+
+pub(crate) mod box_tree;
+mod element;
+mod fans;
+mod nearest;
+mod oriented_box;
+mod planes;
+pub(crate) mod region;
+
+use crate::work::Work;
+use box_tree::BoxTree;
+use ccd_core::glam::DVec3;
+use ccd_core::order::greater;
+use fans::{Fan, split};
+use parry3d_f64::bounding_volume::Aabb;
+use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
+use region::Region;
+
+/// Triangles in trees of boxes, to be searched by region. The boxes are oriented like the triangles, so that those
+/// of slivers side by side hardly meet. The triangles of a large fan about one vertex, where all of them meet,
+/// have a tree of their own.
+pub(crate) struct TriangleBoxes {
+    single: BoxTree,
+    fans: Vec<Fan>,
+    /// The boxes of the fans.
+    bvh: Bvh,
+}
+
+impl TriangleBoxes {
+    /// Builds the trees. O(n log n).
+    pub(crate) fn new(points: &[DVec3], faces: &[[u32; 3]]) -> Self {
+        let (single, fans) = split(points, faces);
+        let boxes: Vec<Aabb> = fans.iter().map(|fan| fan.bounds().as_aabb()).collect();
+        TriangleBoxes {
+            single: BoxTree::of_faces(points, faces, single),
+            bvh: Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes),
+            fans,
+        }
+    }
+
+    /// Calls back with every triangle that may meet a region, and some that do not, until the answer is no, or the
+    /// work is spent, one step for each box. Returns whether all answers were yes.
+    ///
+    /// # Guarantee
+    /// A triangle that is left out shares no point with the region, except perhaps a common corner.
+    pub(crate) fn all_meeting(
+        &self,
+        region: &Region,
+        work: &Work,
+        mut holds: impl FnMut(u32) -> bool,
+    ) -> bool {
+        if !self.single.all_meeting(region, work, &mut holds) {
+            return false;
+        }
+        let aabb = region.bounds().as_aabb();
+        let mut near = self.bvh.intersect_aabb(&aabb);
+        near.all(|fan| {
+            let fan = &self.fans[fan as usize];
+            !fan.bounds().meets(region.bounds())
+                || work.spend(1) && fan.all_meeting(region.shape(), work, &mut holds)
+        })
+    }
+
+    /// A bound, up to rounding, on the distance of a point from the points of all triangles.
+    pub(crate) fn reach(&self, point: DVec3) -> f64 {
+        let single = self.single.bounds();
+        let all = self.fans.iter().map(Fan::bounds).chain(single);
+        let far = all.map(|b| (point - b.lo).abs().max((b.hi - point).abs()).length());
+        far.fold(0.0, greater)
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,188 @@
+//! Binary trees of boxes that are oriented like the triangles in them.
+
+use super::element::Element;
+use super::oriented_box::OrientedBox;
+use super::planes::Apart;
+use super::region::Region;
+use crate::bounds::Bounds;
+use crate::tolerance::BOXES_MET;
+use crate::work::Work;
+use ccd_core::glam::DVec3;
+use ccd_core::order::greater;
+use std::cell::{Cell, OnceCell};
+use std::ops::Range;
+
+/// A binary tree of boxes over elements.
+pub(crate) struct BoxTree {
+    pub(super) elements: Vec<Element>,
+    /// The nodes, each before those below it.
+    nodes: Vec<Node>,
+}
+
+struct Node {
+    bounds: Bounds,
+    oriented: OrientedBox,
+    /// The elements of a leaf; none of an inner node.
+    elements: Range<u32>,
+    /// The number of nodes of the subtree, with the node itself.
+    count: u32,
+}
+
+/// The most elements of a leaf.
+const LEAF: usize = 2;
+
+impl BoxTree {
+    /// Builds the tree over some triangles. O(n log n).
+    pub(crate) fn of_faces(
+        points: &[DVec3],
+        faces: &[[u32; 3]],
+        some: impl IntoIterator<Item = u32>,
+    ) -> Self {
+        let element = |face: u32| Element {
+            corners: faces[face as usize].map(|v| points[v as usize]),
+            face,
+        };
+        BoxTree::new(some.into_iter().map(element).collect())
+    }
+
+    /// Builds the tree. O(n log n).
+    pub(super) fn new(mut elements: Vec<Element>) -> Self {
+        let mut nodes = Vec::with_capacity(2 * elements.len());
+        if !elements.is_empty() {
+            build(&mut nodes, &mut elements, 0);
+        }
+        BoxTree { elements, nodes }
+    }
+
+    /// The smallest box along the coordinate axes that holds all elements; none without elements.
+    pub(super) fn bounds(&self) -> Option<Bounds> {
+        self.nodes.first().map(|node| node.bounds)
+    }
+
+    /// Calls back with the faces of all elements that may meet a region, and some that do not, until the answer is
+    /// no, or the work is spent.
+    pub(crate) fn all_meeting(
+        &self,
+        region: &Region,
+        work: &Work,
+        holds: impl FnMut(u32) -> bool,
+    ) -> bool {
+        // Only where boxes along the coordinate axes leave too many elements.
+        let (met, apart) = (Cell::new(0), OnceCell::new());
+        let is_far = |bounds: &Bounds, oriented: &OrientedBox| {
+            if !bounds.meets(region.bounds()) {
+                return true;
+            }
+            met.set(met.get() + 1);
+            met.get() > BOXES_MET
+                && apart
+                    .get_or_init(|| Apart::from(region.shape()))
+                    .has(oriented)
+        };
+        self.all_but(is_far, work, holds)
+    }
+
+    /// Calls back with the faces of all elements, except those in boxes that are far, until the answer is no, or
+    /// the work is spent.
+    pub(super) fn all_but(
+        &self,
+        is_far: impl Fn(&Bounds, &OrientedBox) -> bool,
+        work: &Work,
+        mut holds: impl FnMut(u32) -> bool,
+    ) -> bool {
+        self.all_elements_but(is_far, work, |element| holds(element.face))
+    }
+
+    /// Calls back with all elements, except those in boxes that are far, until the answer is no, or the work is
+    /// spent.
+    pub(super) fn all_elements_but(
+        &self,
+        is_far: impl Fn(&Bounds, &OrientedBox) -> bool,
+        work: &Work,
+        mut holds: impl FnMut(&Element) -> bool,
+    ) -> bool {
+        let mut at = 0;
+        // Every step leads to a later node.
+        while let Some(node) = self.nodes.get(at) {
+            if !work.spend(1) {
+                return false;
+            }
+            if is_far(&node.bounds, &node.oriented) {
+                at += node.count as usize;
+                continue;
+            }
+            let elements = &self.elements[node.elements.start as usize..node.elements.end as usize];
+            if !elements.iter().all(&mut holds) {
+                return false;
+            }
+            at += 1;
+        }
+        true
+    }
+
+    /// The elements of a leaf, or the two nodes below an inner one.
+    pub(super) fn below(&self, at: usize) -> (&[Element], Option<[usize; 2]>) {
+        let Some(node) = self.nodes.get(at) else {
+            return (&[], None);
+        };
+        let elements = &self.elements[node.elements.start as usize..node.elements.end as usize];
+        let left = at + 1;
+        let below = elements
+            .is_empty()
+            .then(|| [left, left + self.nodes[left].count as usize]);
+        (elements, below)
+    }
+
+    /// A lower bound, up to rounding, on the distance of a point from the elements of a node.
+    pub(super) fn distance(&self, at: usize, point: DVec3) -> f64 {
+        let node = &self.nodes[at];
+        greater(node.bounds.distance(point), node.oriented.distance(point))
+    }
+}
+
+/// The number of elements above which subtrees are built in parallel.
+const SHARED: usize = 4096;
+
+/// Adds the nodes over some elements, and sorts the elements; `first` is the number of the first one.
+///
+/// Halves the count each time, so that the recursion is at most as deep as a count has bits.
+fn build(nodes: &mut Vec<Node>, elements: &mut [Element], first: usize) {
+    let oriented = OrientedBox::about(elements);
+    let at = nodes.len();
+    let split = elements.len() / 2;
+    let is_leaf = elements.len() <= LEAF;
+    nodes.push(Node {
+        bounds: Bounds::of(elements.iter().flat_map(|element| element.corners)),
+        elements: match is_leaf {
+            true => first as u32..(first + elements.len()) as u32,
+            false => 0..0,
+        },
+        oriented,
+        count: 1,
+    });
+    if !is_leaf {
+        let along = nodes[at].oriented.widest(elements);
+        let height = |element: &Element| along.dot(element.middle());
+        elements.select_nth_unstable_by(split, |a, b| {
+            let order = height(a).total_cmp(&height(b));
+            order.then(a.face.cmp(&b.face))
+        });
+        let is_shared = elements.len() > SHARED;
+        let (left, right) = elements.split_at_mut(split);
+        let all_of = |elements: &mut [Element], first: usize| {
+            let mut nodes = Vec::new();
+            build(&mut nodes, elements, first);
+            nodes
+        };
+        if is_shared {
+            let (left, right) =
+                rayon::join(|| all_of(left, first), || all_of(right, first + split));
+            nodes.extend(left);
+            nodes.extend(right);
+        } else {
+            build(nodes, left, first);
+            build(nodes, right, first + split);
+        }
+    }
+    nodes[at].count = (nodes.len() - at) as u32;
+}

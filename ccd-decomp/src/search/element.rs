@@ -1,0 +1,18 @@
+//! The elements of box trees.
+
+use crate::bounds::Bounds;
+use ccd_core::glam::DVec3;
+
+/// An element of a box tree: a whole face, or one edge of it, as a triangle with a repeated corner.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Element {
+    pub(super) corners: [DVec3; 3],
+    pub(super) face: u32,
+}
+
+impl Element {
+    pub(super) fn middle(&self) -> DVec3 {
+        let bounds = Bounds::of(self.corners);
+        0.5 * bounds.lo + 0.5 * bounds.hi
+    }
+}

@@ -1,0 +1,127 @@
+//! Large fans: many triangles about one vertex.
+
+use super::box_tree::BoxTree;
+use super::element::Element;
+use super::oriented_box::OrientedBox;
+use super::planes::{planes_beside, planes_within};
+use super::region::{Hull, Shape};
+use crate::bounds::Bounds;
+use crate::exact::predicates::{is_degenerate, side};
+use crate::tolerance::FAN_TRIANGLES;
+use crate::work::Work;
+use ccd_core::glam::DVec3;
+use std::cmp::Ordering;
+
+/// Triangles with one vertex, the hub, in common. They are searched by their edges opposite to it.
+pub(super) struct Fan {
+    hub: DVec3,
+    rim: BoxTree,
+    /// One of the triangles, if all of them are in its plane.
+    plane: Option<[DVec3; 3]>,
+}
+
+/// Splits faces into those in no large fan, and the large fans. Each face is in one fan at most.
+pub(super) fn split(points: &[DVec3], faces: &[[u32; 3]]) -> (Vec<u32>, Vec<Fan>) {
+    let mut count = vec![0; points.len()];
+    for &v in faces.iter().flatten() {
+        count[v as usize] += 1;
+    }
+    let (mut single, mut members) = (Vec::new(), Vec::new());
+    for (number, face) in (0..).zip(faces) {
+        let hub = face.iter().copied().max_by_key(|&v| count[v as usize]);
+        match hub.filter(|&v| count[v as usize] >= FAN_TRIANGLES) {
+            Some(hub) => members.push((hub, number)),
+            None => single.push(number),
+        }
+    }
+    members.sort_unstable();
+    let mut fans = Vec::new();
+    for members in members.chunk_by(|a, b| a.0 == b.0) {
+        let (fan, others) = Fan::new(points, faces, members);
+        fans.push(fan);
+        single.extend(others);
+    }
+    (single, fans)
+}
+
+impl Fan {
+    /// Makes a fan. Where most faces are in one plane, it leaves out the others, and returns them.
+    fn new(points: &[DVec3], faces: &[[u32; 3]], members: &[(u32, u32)]) -> (Self, Vec<u32>) {
+        let number = members[0].0;
+        let hub = points[number as usize];
+        let edge = |&(_, face): &(u32, u32)| {
+            let corners = faces[face as usize];
+            let k = corners.iter().position(|&v| v == number).unwrap_or(0);
+            let corners = [1, 2, 2].map(|step| points[corners[(k + step) % 3] as usize]);
+            Element { corners, face }
+        };
+        let mut rim: Vec<Element> = members.iter().map(edge).collect();
+        let [p, q, _] = rim[rim.len() / 2].corners;
+        let in_plane = |element: &Element| {
+            let mut corners = element.corners.iter();
+            corners.all(|&corner| side([hub, p, q], corner) == Ordering::Equal)
+        };
+        let level: Vec<Element> = rim.iter().copied().filter(in_plane).collect();
+        let is_plane = !is_degenerate([hub, p, q]) && 2 * level.len() > rim.len();
+        let mut others = Vec::new();
+        if is_plane {
+            others.extend(rim.iter().filter(|p| !in_plane(p)).map(|p| p.face));
+            rim = level;
+        }
+        let fan = Fan {
+            hub,
+            plane: is_plane.then_some([hub, p, q]),
+            rim: BoxTree::new(rim),
+        };
+        (fan, others)
+    }
+
+    /// Whether the fan is in a plane that has a hull on one side, so that none of it reaches inside.
+    fn is_beside(&self, hull: &Hull) -> bool {
+        self.plane.is_some_and(|plane| {
+            let sides = hull.corners.iter().map(|&corner| side(plane, corner));
+            let mut sides = sides.filter(|&side| side != Ordering::Equal);
+            let first = sides.next();
+            sides.all(|side| Some(side) == first)
+        })
+    }
+
+    /// Whether a triangle is in the plane of the fan, and the hub is none of its corners.
+    fn has_beside_hub(&self, corners: &[DVec3; 3]) -> bool {
+        let level = |plane: [DVec3; 3]| {
+            let mut sides = corners.iter().map(|&corner| side(plane, corner));
+            sides.all(|side| side == Ordering::Equal)
+        };
+        !corners.contains(&self.hub) && self.plane.is_some_and(level)
+    }
+
+    pub(super) fn bounds(&self) -> Bounds {
+        let hub = Bounds::of([self.hub]);
+        self.rim.bounds().map_or(hub, |rim| rim.union(hub))
+    }
+
+    /// Calls back with the triangles that may meet a shape: a part of
+    /// [`TriangleBoxes::all_meeting`](super::TriangleBoxes::all_meeting).
+    pub(super) fn all_meeting(
+        &self,
+        shape: &Shape,
+        work: &Work,
+        holds: impl FnMut(u32) -> bool,
+    ) -> bool {
+        if let Shape::Inside(hull) = shape
+            && self.is_beside(hull)
+        {
+            return true;
+        }
+        let planes = match shape {
+            Shape::Triangle(corners) if self.has_beside_hub(corners) => {
+                planes_within(corners, self.hub)
+            }
+            _ => planes_beside(shape, self.hub),
+        };
+        let is_far = |_: &Bounds, oriented: &OrientedBox| {
+            planes.iter().any(|plane| plane.has_in_front(oriented))
+        };
+        self.rim.all_but(is_far, work, holds)
+    }
+}

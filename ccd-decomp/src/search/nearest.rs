@@ -1,0 +1,64 @@
+//! Triangles near a point or in a box.
+
+use super::box_tree::BoxTree;
+use crate::bounds::Bounds;
+use crate::work::Work;
+use ccd_core::glam::DVec3;
+
+/// The work for a node in a search by distance, in units of that for a node in a search by region.
+const NODE: usize = 4;
+
+impl BoxTree {
+    /// Finds the triangle of least distance; `measure` computes the distance of a triangle from the point.
+    ///
+    /// # Guarantee
+    /// No other triangle is nearer, up to rounding of the order of a coordinate's.
+    pub(crate) fn nearest(
+        &self,
+        point: DVec3,
+        work: &Work,
+        mut measure: impl FnMut([DVec3; 3]) -> f64,
+    ) -> Option<(u32, f64)> {
+        let mut best: Option<(u32, f64)> = None;
+        let mut stack = vec![(0.0, 0)];
+        // Every node is pushed once, by its parent.
+        while let Some((least, at)) = stack.pop() {
+            let is_farther = best.is_some_and(|(_, distance)| least >= distance);
+            if is_farther {
+                continue;
+            }
+            work.spend(NODE);
+            let (elements, below) = self.below(at);
+            for element in elements {
+                let distance = measure(element.corners);
+                // Written so that NaN is a distance only where there is no other.
+                if best.is_none_or(|(_, known)| distance < known) {
+                    best = Some((element.face, distance));
+                }
+            }
+            if let Some(children) = below {
+                let [one, other] = children.map(|child| (self.distance(child, point), child));
+                let (near, far) = if one.0 <= other.0 {
+                    (one, other)
+                } else {
+                    (other, one)
+                };
+                stack.extend([far, near]);
+            }
+        }
+        best
+    }
+
+    /// Calls back with the triangles whose boxes meet a box, until the answer is no, or the work is spent.
+    pub(crate) fn all_in(
+        &self,
+        bounds: &Bounds,
+        work: &Work,
+        mut holds: impl FnMut(u32) -> bool,
+    ) -> bool {
+        let is_far = |other: &Bounds, _: &_| !other.meets(bounds);
+        self.all_elements_but(is_far, work, |element| {
+            !Bounds::of(element.corners).meets(bounds) || holds(element.face)
+        })
+    }
+}

@@ -1,0 +1,145 @@
+//! Oriented boxes, which have axes of their own.
+
+use super::element::Element;
+use crate::tolerance::box_rounding;
+use ccd_core::glam::DVec3;
+use ccd_core::order::{greater, lesser};
+use ccd_core::tolerance::U64;
+use ccd_core::vector::unit;
+
+/// A box along axes of its own: a centre, half a length along each axis, and a slack along the coordinate axes.
+/// The slack covers all rounding, and axes that are not quite at right angles or of unit length.
+pub(super) struct OrientedBox {
+    pub(super) centre: DVec3,
+    pub(super) axes: [DVec3; 3],
+    pub(super) halves: DVec3,
+    pub(super) slack: f64,
+    /// The largest coordinate of any point of it.
+    pub(super) reach: f64,
+}
+
+impl OrientedBox {
+    /// Makes the box about some elements: along the longest side, and across to the corner that is farthest from
+    /// the middle.
+    pub(super) fn about(elements: &[Element]) -> Self {
+        let corners = || elements.iter().flat_map(|element| element.corners);
+        let centre = corners().sum::<DVec3>() / (3 * elements.len()) as f64;
+        let longer = |a: &DVec3, b: &DVec3| a.length_squared().total_cmp(&b.length_squared());
+        let sides = |element: &Element| {
+            let [a, b, c] = element.corners;
+            [b - a, c - b, a - c]
+        };
+        let longest = elements.iter().flat_map(sides).max_by(longer);
+        let first = longest.and_then(unit).unwrap_or(DVec3::X);
+        let aside = |p: DVec3| (p - centre).reject_from_normalized(first);
+        let farthest = corners().map(aside).max_by(longer);
+        let second = farthest.and_then(unit);
+        let second = second.unwrap_or_else(|| first.any_orthonormal_vector());
+        let axes = [first, second, first.cross(second)];
+        let (mut halves, mut slack, mut reach) = (DVec3::ZERO, 0.0, 0.0);
+        for p in corners() {
+            let way = p - centre;
+            let along = along_each(&axes, way);
+            let rest = way - along.x * first - along.y * second - along.z * axes[2];
+            halves = halves.max(along.abs());
+            slack = greater(slack, rest.abs().max_element());
+            reach = greater(reach, p.abs().max_element());
+        }
+        // The difference and the three products above round by less than 16 units of the reach.
+        let slack = slack + 64.0 * U64 * reach;
+        OrientedBox {
+            centre,
+            axes,
+            halves,
+            slack,
+            reach: centre.abs().max_element() + halves.element_sum() + slack,
+        }
+    }
+
+    /// The axis along which the middles of some elements are spread most: teeth stand side by side, however long
+    /// they are.
+    pub(super) fn widest(&self, elements: &[Element]) -> DVec3 {
+        let (mut lo, mut hi) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        for element in elements {
+            let way = element.middle() - self.centre;
+            let along = along_each(&self.axes, way);
+            (lo, hi) = (lo.min(along), hi.max(along));
+        }
+        self.axes[(hi - lo).max_position()]
+    }
+
+    /// A bound on the dot product of a vector with the way from the centre to any point of the box.
+    #[inline]
+    pub(super) fn depth(&self, vector: DVec3) -> f64 {
+        let along = along_each(&self.axes, vector).abs();
+        along.dot(self.halves) + vector.abs().element_sum() * self.slack
+    }
+
+    /// A lower bound, up to rounding, on the distance of a point from the box; negative inside. Takes each axis
+    /// separately, because they need not be at right angles.
+    pub(super) fn distance(&self, point: DVec3) -> f64 {
+        let along = along_each(&self.axes, point - self.centre).abs();
+        (along - self.halves).max_element() - 2.0 * self.slack
+    }
+
+    /// Whether one of its axes certainly separates the box from all of some points.
+    pub(super) fn is_beside(&self, points: &[DVec3]) -> bool {
+        let reach = points.iter().map(|p| p.abs().max_element());
+        let reach = reach.fold(self.reach, greater);
+        (0..3).any(|k| {
+            let axis = self.axes[k];
+            let least = self.halves[k] + self.slack + box_rounding(axis, reach);
+            let along = |&p: &DVec3| axis.dot(p - self.centre);
+            // Written so that NaN is not beside.
+            points.iter().all(|p| along(p) > least) || points.iter().all(|p| along(p) < -least)
+        })
+    }
+}
+
+/// Computes the dot products of a vector with three axes.
+#[inline]
+fn along_each(axes: &[DVec3; 3], way: DVec3) -> DVec3 {
+    DVec3::new(axes[0].dot(way), axes[1].dot(way), axes[2].dot(way))
+}
+
+/// The interval that a shape covers along a direction.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Extent {
+    base: DVec3,
+    direction: DVec3,
+    lo: f64,
+    hi: f64,
+    reach: f64,
+}
+
+impl Extent {
+    /// Computes the interval of some points along a unit vector.
+    pub(super) fn of(points: &[DVec3], direction: DVec3) -> Self {
+        let base = points[0];
+        let none = (f64::INFINITY, f64::NEG_INFINITY, 0.0);
+        let (lo, hi, reach) = points.iter().fold(none, |(lo, hi, reach), &p| {
+            let along = direction.dot(p - base);
+            (
+                lesser(lo, along),
+                greater(hi, along),
+                greater(reach, p.abs().max_element()),
+            )
+        });
+        Extent {
+            base,
+            direction,
+            lo,
+            hi,
+            reach,
+        }
+    }
+
+    /// Whether a box is certainly before the shape, or after it.
+    pub(super) fn misses(&self, oriented: &OrientedBox) -> bool {
+        let along = self.direction.dot(oriented.centre - self.base);
+        let reach = greater(self.reach, oriented.reach);
+        let depth = oriented.depth(self.direction) + box_rounding(self.direction, reach);
+        // Written so that NaN does not miss.
+        along - depth > self.hi || along + depth < self.lo
+    }
+}

@@ -1,0 +1,178 @@
+//! Planes with a shape on one side, which prove that boxes are on the other.
+
+use super::oriented_box::{Extent, OrientedBox};
+use super::region::{Hull, Shape};
+use crate::exact::predicates::{Projection, side, turn_along};
+use ccd_core::glam::DVec3;
+use ccd_core::tolerance::height_rounding;
+use ccd_core::vector::unit;
+use std::cmp::Ordering;
+
+/// A plane, by a point of it and two vectors that span it, so that `u × v` looks to its front.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Plane {
+    foot: DVec3,
+    normal: DVec3,
+    far: f64,
+    /// A bound on the rounding error of heights, for every unit of the reach.
+    rounding: f64,
+}
+
+impl Plane {
+    fn new(foot: DVec3, [u, v]: [DVec3; 2]) -> Self {
+        Plane {
+            foot,
+            normal: u.cross(v),
+            far: foot.abs().max_element(),
+            // Twice, because there are three axes.
+            rounding: 2.0 * height_rounding([u, v], 1.0),
+        }
+    }
+
+    fn of([a, b, c]: [DVec3; 3]) -> Self {
+        Plane::new(a, [b - a, c - a])
+    }
+
+    /// Whether a box is certainly in front.
+    #[inline]
+    pub(super) fn has_in_front(&self, oriented: &OrientedBox) -> bool {
+        let way = oriented.centre - self.foot;
+        let reach = oriented.reach + 2.0 * self.far;
+        let height = self.normal.dot(way) - oriented.depth(self.normal);
+        // Written so that NaN is not in front.
+        height > self.rounding * reach + f64::MIN_POSITIVE
+    }
+}
+
+/// The number of facets of a hull that boxes are tested with.
+const PLANES: usize = 16;
+
+/// Finds planes that exactly have all of a shape behind or in them, and a hub in front or in them. A triangle of
+/// the hub and an edge in front of such a plane shares no point with the shape, except the hub.
+pub(super) fn planes_beside(shape: &Shape, hub: DVec3) -> Vec<Plane> {
+    match shape {
+        Shape::Segment([p, q]) => vec![Plane::of([hub, *p, *q]), Plane::of([hub, *q, *p])],
+        Shape::Inside(Hull { facets, .. }) => {
+            let is_front = |&&facet: &&[DVec3; 3]| side(facet, hub) != Ordering::Less;
+            let facets = facets.iter().filter(is_front);
+            facets.map(|&facet| Plane::of(facet)).collect()
+        }
+        Shape::Triangle(corners) => {
+            let mut planes = Vec::new();
+            // A hub within the triangle is a common point, whatever is in front.
+            if !corners.contains(&hub) && holds(*corners, hub) {
+                return planes;
+            }
+            for k in 0..3 {
+                let [p, q, r] = [0, 1, 2].map(|l| corners[(k + l) % 3]);
+                through(&mut planes, hub, [p, q], r);
+                if hub == p {
+                    upright(&mut planes, [p, q], &[r], hub);
+                    upright(&mut planes, [p, r], &[q], hub);
+                }
+            }
+            let [p, q, r] = *corners;
+            for facet in [[p, q, r], [q, p, r]] {
+                if side(facet, hub) != Ordering::Less {
+                    planes.push(Plane::of(facet));
+                }
+            }
+            planes
+        }
+    }
+}
+
+/// Tests that prove that a box is apart from a shape.
+pub(super) struct Apart<'a> {
+    points: &'a [DVec3],
+    extents: Vec<Extent>,
+    planes: Vec<Plane>,
+}
+
+impl<'a> Apart<'a> {
+    pub(super) fn from(shape: &'a Shape) -> Self {
+        let apart = |points, extents| Apart {
+            points,
+            extents,
+            planes: Vec::new(),
+        };
+        match shape {
+            Shape::Segment(ends) => apart(ends, Vec::new()),
+            Shape::Triangle(corners) => apart(corners, extents(corners)),
+            Shape::Inside(Hull { facets, .. }) => Apart {
+                planes: facets
+                    .iter()
+                    .take(PLANES)
+                    .map(|&facet| Plane::of(facet))
+                    .collect(),
+                ..apart(&[], Vec::new())
+            },
+        }
+    }
+
+    pub(super) fn has(&self, oriented: &OrientedBox) -> bool {
+        self.extents.iter().any(|extent| extent.misses(oriented))
+            || self.planes.iter().any(|plane| plane.has_in_front(oriented))
+            || !self.points.is_empty() && oriented.is_beside(self.points)
+    }
+}
+
+/// Computes the extents of a triangle along its normal, and in its plane across its sides.
+fn extents(corners: &[DVec3; 3]) -> Vec<Extent> {
+    let [a, b, c] = *corners;
+    let sides = [b - a, c - b, a - c].map(|side| unit(side).unwrap_or(DVec3::ZERO));
+    let normal = unit(sides[0].cross(sides[1])).unwrap_or(DVec3::ZERO);
+    let across = sides.map(|side| side.cross(normal));
+    let directions = [normal].into_iter().chain(across).filter_map(unit);
+    directions
+        .map(|direction| Extent::of(corners, direction))
+        .collect()
+}
+
+/// Finds such planes for a triangle in one plane with the whole fan, where the planes of the hub and an edge prove
+/// nothing: planes upright on the coordinate planes, through the hub and a corner, and along the edges.
+pub(super) fn planes_within(corners: &[DVec3; 3], hub: DVec3) -> Vec<Plane> {
+    let mut planes = Vec::new();
+    if holds(*corners, hub) {
+        return planes;
+    }
+    for k in 0..3 {
+        let [p, q, r] = [0, 1, 2].map(|l| corners[(k + l) % 3]);
+        upright(&mut planes, [hub, p], &[q, r], hub);
+        upright(&mut planes, [p, q], &[r], hub);
+    }
+    planes
+}
+
+/// Adds the upright planes along a line that have some points behind or in them, and the hub in front or in
+/// them.
+fn upright(planes: &mut Vec<Plane>, [p, q]: [DVec3; 2], behind: &[DVec3], hub: DVec3) {
+    for (axis, up) in DVec3::AXES.into_iter().enumerate() {
+        let turn = |x: DVec3| turn_along(axis, [p, q], x);
+        let none = |of: Ordering| behind.iter().all(|&x| turn(x) != of);
+        if none(Ordering::Greater) && turn(hub) != Ordering::Less {
+            planes.push(Plane::new(p, [up, q - p]));
+        }
+        if none(Ordering::Less) && turn(hub) != Ordering::Greater {
+            planes.push(Plane::new(p, [q - p, up]));
+        }
+    }
+}
+
+/// Whether a triangle holds a point.
+fn holds(triangle: [DVec3; 3], point: DVec3) -> bool {
+    let within = |plane: Projection| {
+        let mut edges = (0..3).map(|k| (triangle[k], triangle[(k + 1) % 3]));
+        edges.all(|(a, b)| plane.turn(a, b, point) != Ordering::Less)
+    };
+    side(triangle, point) == Ordering::Equal && Projection::of(triangle).is_none_or(within)
+}
+
+/// Adds the plane of the hub and an edge, if the rest of the triangle is behind it.
+fn through(planes: &mut Vec<Plane>, hub: DVec3, [p, q]: [DVec3; 2], rest: DVec3) {
+    for plane in [[hub, p, q], [hub, q, p]] {
+        if side(plane, rest) != Ordering::Greater {
+            planes.push(Plane::of(plane));
+        }
+    }
+}

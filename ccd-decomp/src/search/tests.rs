@@ -1,0 +1,207 @@
+use super::*;
+use crate::bounds::Bounds;
+use crate::exact::predicates::{is_degenerate, side};
+use crate::exact::rays::crossing;
+use crate::exact::triangles::triangles_meet;
+use crate::hull::exact_hull::ExactHull;
+use crate::test_meshes::star;
+use parry3d_f64::math::Vector;
+use parry3d_f64::query::PointQuery;
+use parry3d_f64::shape::Triangle;
+use proptest::prelude::*;
+use proptest::strategy::ValueTree;
+use proptest::test_runner::TestRunner;
+use std::cmp::Ordering;
+
+fn found(boxes: &TriangleBoxes, region: &Region) -> Vec<u32> {
+    let mut found = Vec::new();
+    boxes.all_meeting(region, &Work::unbounded(), |face| {
+        found.push(face);
+        true
+    });
+    found.sort_unstable();
+    found
+}
+
+/// A triangle or hull among fans of any size is near a few others.
+#[test]
+fn slivers_are_near_few_others() {
+    for corners in [64, 512, 4096] {
+        let mesh = star(corners, 0.5);
+        let boxes = TriangleBoxes::new(mesh.vertices(), mesh.faces());
+        let triangle = |face: usize| mesh.faces()[face].map(|v| mesh.vertices()[v as usize]);
+        let most = (0..mesh.faces().len()).step_by(37).map(|face| {
+            let near = found(&boxes, &Region::triangle(triangle(face)));
+            assert!(near.contains(&(face as u32)));
+            near.len()
+        });
+        let most = most.max().unwrap();
+        assert!(most <= 24, "{most} of {corners}");
+    }
+}
+
+/// A triangle that is left out shares no point with the query: all pairs, exactly.
+#[test]
+fn nothing_that_meets_is_left_out() {
+    let mesh = star(64, 0.5);
+    // Turned and moved, so that slivers of the two pass through each other.
+    let turn = ccd_core::glam::DQuat::from_rotation_x(0.7);
+    let moved = |p: DVec3| turn * p + DVec3::new(0.3, 0.2, 0.1);
+    let boxes = TriangleBoxes::new(mesh.vertices(), mesh.faces());
+    let mut meeting = 0;
+    for face in mesh.faces() {
+        let one = face.map(|v| moved(mesh.vertices()[v as usize]));
+        let near = found(&boxes, &Region::triangle(one));
+        for (k, other) in (0..).zip(mesh.faces()) {
+            let other = other.map(|v| mesh.vertices()[v as usize]);
+            if triangles_meet([one, other]) {
+                meeting += 1;
+                assert!(near.contains(&k));
+            }
+        }
+    }
+    assert!(meeting > 100, "{meeting}");
+}
+
+/// A hub that only touches, within a triangle or on its edge, meets it with its whole fan.
+#[test]
+fn a_hub_that_touches_is_not_left_out() {
+    let mesh = star(64, 0.5);
+    let boxes = TriangleBoxes::new(mesh.vertices(), mesh.faces());
+    let [a, b] = [DVec3::new(-1.0, -1.0, 1.0), DVec3::new(1.0, 1.0, 1.0)];
+    let amid = [a, DVec3::new(1.0, -1.0, 1.0), DVec3::new(0.0, 2.0, 1.0)];
+    for touching in [amid, [a, b, DVec3::new(3.0, -1.0, 1.0)]] {
+        assert_eq!(found(&boxes, &Region::triangle(touching)).len(), 64);
+    }
+    // Beside the tip, in the plane that touches it.
+    let beside = [a, b, DVec3::new(-1.0, 4.0, 1.0)].map(|p| p + DVec3::Y);
+    assert!(found(&boxes, &Region::triangle(beside)).is_empty());
+}
+
+fn coordinate() -> impl Strategy<Value = f64> {
+    // On a grid, so that much touches or is in one plane, and anywhere.
+    prop_oneof![(-2i32..=2).prop_map(|x| 0.5 * f64::from(x)), -1.0..1.0f64]
+}
+
+fn corner() -> impl Strategy<Value = DVec3> {
+    (coordinate(), coordinate(), coordinate()).prop_map(|(x, y, z)| DVec3::new(x, y, z))
+}
+
+/// The corners of triangles about the first one, and of others; on request slim ones in one plane.
+fn soup() -> impl Strategy<Value = (Vec<DVec3>, Vec<[u32; 3]>)> {
+    let corners = prop::collection::vec(corner(), 50..120);
+    (corners, any::<bool>(), 0..100u32).prop_map(|(mut points, flat, fan)| {
+        if flat {
+            points[..40].iter_mut().for_each(|p| p.z = 0.0);
+        }
+        let n = points.len() as u32;
+        let about = (1..fan.min(n - 1)).map(|k| [0, k, k + 1]);
+        let others = (0..n - 2).map(|k| [k, k + 1, (7 * k + 3) % n]);
+        let faces: Vec<[u32; 3]> = about.chain(others).collect();
+        (points, faces)
+    })
+}
+
+/// All triangles are found that meet a triangle or a segment, or reach into a tetrahedron: compared with every
+/// triangle, exactly.
+#[test]
+fn what_is_left_out_meets_nothing() {
+    let probes = prop::collection::vec([corner(), corner(), corner(), corner()], 20);
+    let given = (soup(), probes);
+    let mut runner = TestRunner::deterministic();
+    let mut met = [0, 0, 0];
+    let (mut asked, mut near) = (0, 0);
+    for _ in 0..60 {
+        let ((points, faces), probes) = given.new_tree(&mut runner).unwrap().current();
+        let boxes = TriangleBoxes::new(&points, &faces);
+        let at = |face: &[u32; 3]| face.map(|v| points[v as usize]);
+        let own = faces.iter().step_by(5).map(|face| {
+            let [a, b, c] = at(face);
+            [a, b, c, 0.5 * (a + b) + DVec3::Z]
+        });
+        for probe in probes.into_iter().chain(own) {
+            let [a, b, c, _] = probe;
+            if is_degenerate([a, b, c]) {
+                continue;
+            }
+            let facets = ExactHull::of(&probe);
+            let facets: Vec<[DVec3; 3]> = facets.map_or(Vec::new(), |hull| {
+                let facets = hull.facets().iter();
+                facets.map(|f| f.map(|v| probe[v as usize])).collect()
+            });
+            let inside = Region::inside(probe.to_vec(), facets.clone(), Bounds::of(probe));
+            let regions = [Region::triangle([a, b, c]), Region::segment([a, b]), inside];
+            let found = regions.map(|region| found(&boxes, &region));
+            asked += faces.len();
+            near += found[0].len();
+            for (k, face) in (0..).zip(&faces) {
+                let corners = at(face);
+                if is_degenerate(corners) {
+                    continue;
+                }
+                let is_inside = |p: &DVec3| {
+                    let behind = |&facet: &[DVec3; 3]| side(facet, *p) == Ordering::Less;
+                    !facets.is_empty() && facets.iter().all(behind)
+                };
+                // A common corner alone need not be found.
+                let shares = [a, b, c].iter().any(|p| corners.contains(p));
+                let meets = [
+                    !shares && triangles_meet([[a, b, c], corners]),
+                    matches!(crossing([a, b], corners), Some(1 | -1)),
+                    corners.iter().any(is_inside)
+                        || is_inside(&(corners.iter().sum::<DVec3>() / 3.0)),
+                ];
+                for l in 0..3 {
+                    met[l] += u32::from(meets[l]);
+                    assert!(!meets[l] || found[l].binary_search(&k).is_ok());
+                }
+            }
+        }
+    }
+    assert!(met.iter().all(|&count| count > 100), "{met:?}");
+    assert!(near < asked / 10 * 9, "{near} of {asked}");
+}
+
+/// The least distance is found, and all boxes that meet a box: compared with every triangle.
+#[test]
+fn the_nearest_triangle_is_found() {
+    let given = (soup(), prop::collection::vec([corner(), corner()], 40));
+    let mut runner = TestRunner::deterministic();
+    let (mut met, mut missed) = (0, 0);
+    for _ in 0..40 {
+        let ((points, faces), probes) = given.new_tree(&mut runner).unwrap().current();
+        let search = BoxTree::of_faces(&points, &faces, 0..faces.len() as u32);
+        let at = |face: &[u32; 3]| face.map(|v| points[v as usize]);
+        for [p, q] in probes {
+            let point = 2.0 * p;
+            let distance = |corners: [DVec3; 3]| {
+                let [a, b, c] = corners.map(|p| Vector::new(p.x, p.y, p.z));
+                let query = Vector::new(point.x, point.y, point.z);
+                Triangle::new(a, b, c).distance_to_local_point(query, false)
+            };
+            let all = faces.iter().map(|face| distance(at(face)));
+            let least = all.fold(f64::INFINITY, ccd_core::order::lesser);
+            let (face, found) = search.nearest(point, &Work::unbounded(), distance).unwrap();
+            assert_eq!(distance(at(&faces[face as usize])), found);
+            assert!(found <= least + 1e-12, "{found} {least}");
+            let bounds = Bounds::of([p, q]);
+            let mut within = Vec::new();
+            let all = search.all_in(&bounds, &Work::unbounded(), |face| {
+                within.push(face);
+                true
+            });
+            assert!(all);
+            within.sort_unstable();
+            let meets = |face: &[u32; 3]| Bounds::of(at(face)).meets(&bounds);
+            let twin: Vec<u32> = (0..)
+                .zip(&faces)
+                .filter(|(_, f)| meets(f))
+                .map(|(k, _)| k)
+                .collect();
+            met += twin.len();
+            missed += faces.len() - twin.len();
+            assert_eq!(within, twin);
+        }
+    }
+    assert!(met > 1000 && missed > 1000, "{met}, {missed}");
+}

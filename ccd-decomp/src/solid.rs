@@ -1,0 +1,59 @@
+//! Whether a mesh bounds a solid, and the surface of one that does.
+//!
+//! ```text
+//! TriangleMesh ─► topology.rs ─► manifold.rs ─┬─ star_shaped.rs ───────────┬─► bounds a solid
+//!                 (nesting.rs)                └─ crossings.rs ─ shells.rs ─┘
+//!                                                (flats.rs)
+//! ```
+
+pub(crate) mod crossings;
+pub(crate) mod error;
+pub(crate) mod flats;
+pub(crate) mod manifold;
+mod nesting;
+pub(crate) mod shells;
+pub(crate) mod star_shaped;
+pub(crate) mod topology;
+
+use crate::mesh::TriangleMesh;
+use crate::tally::Tally;
+use crate::work::Work;
+use crossings::crossings;
+use error::{Crossing, DecomposeError};
+use manifold::Manifold;
+use shells::check_orientation;
+use star_shaped::is_star_shaped;
+use topology::Topology;
+
+/// Returns the surface of the solid that a mesh bounds, after a check of every edge, and of every pair of triangles
+/// that are near each other.
+///
+/// A mesh that is inside out as a whole is turned.
+///
+/// # Errors
+/// [`DecomposeError`] when the mesh bounds no solid.
+pub(crate) fn bounding_solid(mesh: &TriangleMesh) -> Result<Manifold<'_>, DecomposeError> {
+    let manifold = Manifold::unchecked(mesh, &Topology::of(mesh))?;
+    check_solid(&manifold, &Work::unbounded())?;
+    Ok(manifold)
+}
+
+/// Checks what the edges alone do not decide: that faces share no more than their vertices and edges, and that
+/// the solid is behind all of them.
+///
+/// # Errors
+/// [`DecomposeError`]; [`TooLong`](DecomposeError::TooLong) when the work does not suffice to decide.
+pub(crate) fn check_solid(manifold: &Manifold<'_>, work: &Work) -> Result<(), DecomposeError> {
+    if is_star_shaped(manifold) {
+        return Ok(());
+    }
+    let mut pairs = Tally::default();
+    for (face, other) in crossings(manifold, work)? {
+        let [face, other] = [face, other].map(|f| manifold.mesh().face_ids()[f as usize]);
+        pairs.add(Crossing { face, other });
+    }
+    if !pairs.is_empty() {
+        return Err(DecomposeError::SelfIntersecting { pairs });
+    }
+    check_orientation(manifold, work)
+}

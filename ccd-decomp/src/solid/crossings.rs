@@ -1,0 +1,56 @@
+//! Pairs of faces of a mesh that meet where they share nothing.
+
+mod plates;
+
+use super::manifold::Manifold;
+use crate::exact::triangles::meet;
+use crate::search::region::Region;
+use crate::tolerance::CROSSINGS;
+use crate::work::{OutOfWork, Work};
+use plates::Plates;
+
+/// Finds the pairs of faces that meet where they share nothing, touching or crossing: all, or the first
+/// [thousand](CROSSINGS).
+///
+/// # Errors
+/// [`OutOfWork`] when the work does not suffice.
+pub(crate) fn crossings(
+    manifold: &Manifold<'_>,
+    work: &Work,
+) -> Result<Vec<(u32, u32)>, OutOfWork> {
+    let mut found = Vec::new();
+    let plates = Plates::of(manifold);
+    for face in 0..manifold.faces().len() as u32 {
+        let near = Region::triangle(manifold.triangle(face));
+        let mut pair = |other: u32| {
+            if cross(manifold, face, other) {
+                found.push((face.min(other), face.max(other)));
+            }
+            found.len() < CROSSINGS && work.spend(PAIR)
+        };
+        let goes_on = match &plates {
+            Some(plates) => plates.all_meeting(face, &near, work, pair),
+            None => manifold
+                .boxes()
+                .all_meeting(&near, work, |other| other <= face || pair(other)),
+        };
+        if !goes_on {
+            work.check()?;
+            break;
+        }
+    }
+    found.sort_unstable();
+    Ok(found)
+}
+
+/// The number of predicates that a pair takes, about.
+const PAIR: usize = 4;
+
+/// Whether two triangles meet elsewhere than in the corners they share.
+fn cross(manifold: &Manifold<'_>, one: u32, other: u32) -> bool {
+    let corners = [one, other].map(|f| manifold.faces()[f as usize]);
+    meet(corners, [one, other].map(|f| manifold.triangle(f)))
+}
+
+#[cfg(test)]
+mod tests;

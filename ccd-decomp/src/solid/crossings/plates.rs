@@ -1,0 +1,247 @@
+//! Plates: convex polygons of many slivers, which are examined one by one only where something reaches in.
+
+use crate::bounds::Bounds;
+use crate::exact::predicates::{Projection, side};
+use crate::search::TriangleBoxes;
+use crate::search::region::Region;
+use crate::solid::flats::{Flat, Flats};
+use crate::solid::manifold::Manifold;
+use crate::tolerance::FAN_TRIANGLES;
+use crate::work::Work;
+use ccd_core::glam::DVec3;
+use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
+use std::cell::OnceCell;
+use std::cmp::Ordering;
+
+/// The plates of a surface, which are its convex polygons with a large fan, and the remaining triangles.
+///
+/// The triangles of a polygon are glued edge to edge, the two at an edge on either side of it, and cover it
+/// once: two of them meet only in corners and edges that both have.
+pub(super) struct Plates<'a, 'm> {
+    manifold: &'a Manifold<'m>,
+    plates: Vec<Plate>,
+    /// The plate of every face, or [`NONE`].
+    plate_of: Vec<u32>,
+    /// The boxes of the plates.
+    bvh: Bvh,
+    /// The faces of no plate.
+    rest: Group,
+}
+
+const NONE: u32 = u32::MAX;
+
+/// A convex polygon: its triangles, its plane, and its rim by vertex.
+struct Plate {
+    number: u32,
+    faces: Vec<u32>,
+    plane: [DVec3; 3],
+    projection: Projection,
+    /// The vertices of the rim with their neighbours on it, in ascending order.
+    rim: Vec<Passage>,
+    bounds: Bounds,
+    /// The boxes of the triangles, made when something reaches in.
+    group: OnceCell<Group>,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Passage {
+    at: u32,
+    before: u32,
+    after: u32,
+}
+
+/// Some faces, with their boxes.
+struct Group {
+    faces: Vec<u32>,
+    boxes: TriangleBoxes,
+}
+
+/// The number of predicates that it takes to prove that a face is beside a polygon, about.
+const BESIDE: usize = 4;
+
+impl<'a, 'm> Plates<'a, 'm> {
+    /// Finds the plates; none where no polygon has a large fan, so that the boxes of all triangles suffice.
+    /// O(n log n), the time of [`Flats::new`].
+    pub(super) fn of(manifold: &'a Manifold<'m>) -> Option<Self> {
+        let mut count = vec![0; manifold.mesh().vertices().len()];
+        for &v in manifold.faces().iter().flatten() {
+            count[v as usize] += 1;
+        }
+        if count.iter().all(|&about| about < FAN_TRIANGLES) {
+            return None;
+        }
+        let flats = Flats::new(manifold);
+        let mut plates = Vec::new();
+        let mut plate_of = vec![NONE; manifold.faces().len()];
+        for number in 0..flats.len() as u32 {
+            let flat = flats.get(number);
+            let is_large = has_fan(manifold, &flat.faces);
+            let Some(plate) = is_large.then(|| Plate::of(manifold, flat)).flatten() else {
+                continue;
+            };
+            let number = plates.len() as u32;
+            for &face in &plate.faces {
+                plate_of[face as usize] = number;
+            }
+            plates.push(Plate { number, ..plate });
+        }
+        if plates.is_empty() {
+            return None;
+        }
+        let rest = (0..).zip(&plate_of).filter(|(_, plate)| **plate == NONE);
+        let rest = Group::of(manifold, rest.map(|(face, _)| face).collect());
+        let boxes: Vec<_> = plates.iter().map(|plate| plate.bounds.as_aabb()).collect();
+        Some(Plates {
+            manifold,
+            bvh: Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes),
+            plates,
+            plate_of,
+            rest,
+        })
+    }
+
+    /// Calls back with the faces that may meet a face elsewhere than where they are glued, until the answer is no,
+    /// or the work is spent. Each such pair comes up for one of its two faces at least: faces of lower number
+    /// may be left out.
+    pub(super) fn all_meeting(
+        &self,
+        face: u32,
+        region: &Region,
+        work: &Work,
+        mut holds: impl FnMut(u32) -> bool,
+    ) -> bool {
+        let own = self.plate_of[face as usize];
+        // Pairs with a face of a plate come up for the other face.
+        if own == NONE {
+            let faces = &self.rest.faces;
+            let later = |other: u32| faces[other as usize] <= face || holds(faces[other as usize]);
+            if !self.rest.boxes.all_meeting(region, work, later) {
+                return false;
+            }
+        }
+        let aabb = region.bounds().as_aabb();
+        let near = self.bvh.intersect_aabb(&aabb);
+        let mut near = near.map(|plate| &self.plates[plate as usize]);
+        near.all(|plate| {
+            if plate.number == own || !plate.bounds.meets(region.bounds()) {
+                return true;
+            }
+            if !work.spend(BESIDE) {
+                return false;
+            }
+            if self.is_beside(face, plate) {
+                return true;
+            }
+            let group = plate
+                .group
+                .get_or_init(|| Group::of(self.manifold, plate.faces.clone()));
+            group.boxes.all_meeting(region, work, |other| {
+                let other = group.faces[other as usize];
+                // Pairs of faces of two plates come up twice.
+                own != NONE && other < face || holds(other)
+            })
+        })
+    }
+
+    /// Whether a face shares no more with a plate than a corner, or an edge, of the rim and of both.
+    ///
+    /// The part of the face in the plate's plane is then out of the box about the plate; or it is on the other
+    /// side of a line along the rim, and has only a common corner on that line, or the edge at which they are
+    /// glued.
+    fn is_beside(&self, face: u32, plate: &Plate) -> bool {
+        let (corners, points) = (
+            self.manifold.faces()[face as usize],
+            self.manifold.triangle(face),
+        );
+        let sides = points.map(|p| side(plate.plane, p));
+        if sides.contains(&Ordering::Less) && sides.contains(&Ordering::Greater) {
+            return false;
+        }
+        let level = || (0..3).filter(|&k| sides[k] == Ordering::Equal);
+        let beyond = |from: u32, to: u32| {
+            let [from, to] = [from, to].map(|v| self.manifold.point(v));
+            let turn = |k: usize| plate.projection.turn(from, to, points[k]);
+            if level().any(|k| turn(k) == Ordering::Greater) {
+                return false;
+            }
+            let mut on = level().filter(|&k| turn(k) == Ordering::Equal);
+            match [on.next(), on.next(), on.next()] {
+                // The one is the corner of the rim that the line goes through.
+                [Some(_), None, None] => true,
+                [Some(k), Some(l), None] => {
+                    let start = if (k + 1) % 3 == l { k } else { l };
+                    let twin = self.manifold.twin(3 * face + start as u32);
+                    self.plate_of[twin as usize / 3] == plate.number
+                }
+                _ => false,
+            }
+        };
+        let mut level_corners = level().map(|k| plate.passage(corners[k]));
+        // The bounds of no points meet none.
+        !Bounds::of(level().map(|k| points[k])).meets(&plate.bounds)
+            || level_corners.any(|passage| {
+                passage.is_some_and(|p| beyond(p.before, p.at) || beyond(p.at, p.after))
+            })
+    }
+}
+
+/// Whether a vertex is a corner of many of these faces.
+fn has_fan(manifold: &Manifold<'_>, faces: &[u32]) -> bool {
+    if faces.len() < FAN_TRIANGLES as usize {
+        return false;
+    }
+    let corners = faces.iter().flat_map(|&f| manifold.faces()[f as usize]);
+    let mut corners: Vec<u32> = corners.collect();
+    corners.sort_unstable();
+    let mut about = corners.chunk_by(|v, w| v == w);
+    about.any(|about| about.len() >= FAN_TRIANGLES as usize)
+}
+
+impl Plate {
+    fn of(manifold: &Manifold<'_>, flat: &Flat) -> Option<Self> {
+        let plane = manifold.triangle(*flat.faces.first()?);
+        let starts = || flat.rim.iter().map(|&h| manifold.ends(h)[0]);
+        let triples = starts()
+            .zip(starts().cycle().skip(1))
+            .zip(starts().cycle().skip(2));
+        let mut rim: Vec<Passage> = triples
+            .map(|((before, at), after)| Passage { at, before, after })
+            .collect();
+        rim.sort_unstable_by_key(|passage| passage.at);
+        Some(Plate {
+            number: NONE,
+            projection: Projection::of(plane)?,
+            bounds: Bounds::of(starts().map(|v| manifold.point(v))),
+            faces: flat.faces.clone(),
+            plane,
+            rim,
+            group: OnceCell::new(),
+        })
+    }
+
+    /// Finds a vertex on the rim, with its neighbours; none for a vertex that is not on it.
+    fn passage(&self, vertex: u32) -> Option<Passage> {
+        let found = self.rim.binary_search_by_key(&vertex, |passage| passage.at);
+        found.ok().map(|k| self.rim[k])
+    }
+}
+
+impl Group {
+    /// O(n log n) in the number of these faces.
+    fn of(manifold: &Manifold<'_>, faces: Vec<u32>) -> Self {
+        let corners = faces.iter().map(|&f| manifold.faces()[f as usize]);
+        let mut vertices: Vec<u32> = corners.clone().flatten().collect();
+        vertices.sort_unstable();
+        vertices.dedup();
+        let place = |v: u32| vertices.partition_point(|&w| w < v) as u32;
+        let named: Vec<[u32; 3]> = corners.map(|corners| corners.map(place)).collect();
+        let points: Vec<DVec3> = vertices.iter().map(|&v| manifold.point(v)).collect();
+        Group {
+            boxes: TriangleBoxes::new(&points, &named),
+            faces,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,104 @@
+use super::*;
+use crate::mesh::TriangleMesh;
+use crate::solid::crossings::cross;
+use crate::solid::topology::Topology;
+use crate::test_meshes::{comb, joined, placed, tetrahedron};
+use ccd_core::glam::{DQuat, dvec3};
+use proptest::prelude::*;
+use proptest::strategy::ValueTree;
+use proptest::test_runner::TestRunner;
+
+/// Combs of whole and of uneven numbers, upright and turned, with tetrahedra in, on and beside them.
+fn beset(heights: &[f64], places: &[[i32; 4]], turn: f64) -> TriangleMesh {
+    let comb = comb(heights);
+    let thorn = tetrahedron();
+    let thorns: Vec<_> = places
+        .iter()
+        .map(|&[x, y, z, scale]| {
+            let place = 0.5 * dvec3(x.into(), y.into(), z.into());
+            placed(&thorn, 0.5 * f64::from(scale), place)
+        })
+        .collect();
+    let parts: Vec<&TriangleMesh> = [&comb].into_iter().chain(&thorns).collect();
+    let all = joined(&parts);
+    let turn = DQuat::from_rotation_x(turn) * DQuat::from_rotation_z(turn);
+    let turned = all.vertices().iter().map(|&p| turn * p);
+    crate::test_meshes::mesh(turned.collect(), all.faces())
+}
+
+/// All pairs of faces that meet are reported, except those of one plate: compared with all pairs, exactly.
+#[test]
+fn whoever_meets_is_reported() {
+    let place = [-1..80_i32, -1..12_i32, -2..4_i32, 1..4_i32];
+    let height = prop_oneof![Just(5.0), 1.5..6.0_f64];
+    let turn = prop_oneof![Just(0.0), Just(0.0), 0.0..3.0_f64];
+    let given = (
+        prop::collection::vec(height, 18..36),
+        prop::collection::vec(place, 0..6),
+        turn,
+    );
+    let mut runner = TestRunner::deterministic();
+    let (mut meeting, mut with_plates, mut asked, mut all) = (0, 0, 0, 0);
+    for _ in 0..60 {
+        let (heights, places, turn) = given.new_tree(&mut runner).unwrap().current();
+        let mesh = beset(&heights, &places, turn);
+        let Ok(manifold) = Manifold::unchecked(&mesh, &Topology::of(&mesh)) else {
+            continue;
+        };
+        let Some(plates) = Plates::of(&manifold) else {
+            continue;
+        };
+        let faces = mesh.faces().len() as u32;
+        let mut reported = Vec::new();
+        for face in 0..faces {
+            let region = Region::triangle(manifold.triangle(face));
+            plates.all_meeting(face, &region, &Work::unbounded(), |other| {
+                reported.push((face.min(other), face.max(other)));
+                true
+            });
+        }
+        reported.sort_unstable();
+        assert!(reported.windows(2).all(|pair| pair[0] != pair[1]));
+        let on_plate = |face: u32| plates.plate_of[face as usize] != NONE;
+        for (f, g) in (0..faces).flat_map(|f| (f + 1..faces).map(move |g| (f, g))) {
+            let is_reported = reported.binary_search(&(f, g)).is_ok();
+            if on_plate(f) || on_plate(g) {
+                asked += u32::from(is_reported);
+                all += 1;
+            }
+            if cross(&manifold, f, g) {
+                meeting += 1;
+                with_plates += u32::from(on_plate(f) || on_plate(g));
+                assert!(is_reported, "{f}, {g}");
+            }
+        }
+    }
+    assert!(
+        meeting > 200 && with_plates > 100,
+        "{meeting}, {with_plates}"
+    );
+    assert!(asked < all / 100, "{asked} of {all}");
+}
+
+/// Faces glued to a plate, or standing on its rim, are beside it: no triangle of the plate is examined.
+#[test]
+fn a_comb_is_beside_its_plates() {
+    let mesh = comb(&[5.0; 40]);
+    let manifold = Manifold::unchecked(&mesh, &Topology::of(&mesh)).unwrap();
+    let plates = Plates::of(&manifold).unwrap();
+    assert_eq!(plates.plates.len(), 2);
+    assert!(plates.plates.iter().all(|plate| plate.faces.len() == 80));
+    for face in 0..mesh.faces().len() as u32 {
+        let region = Region::triangle(manifold.triangle(face));
+        plates.all_meeting(face, &region, &Work::unbounded(), |other| {
+            assert_eq!(plates.plate_of[other as usize], NONE);
+            true
+        });
+    }
+    assert!(
+        plates
+            .plates
+            .iter()
+            .all(|plate| plate.group.get().is_none())
+    );
+}

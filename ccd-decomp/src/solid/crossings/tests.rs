@@ -1,0 +1,195 @@
+use crate::mesh::TriangleMesh;
+use crate::solid::error::Crossing;
+use crate::solid::error::DecomposeError;
+use crate::solid::manifold::Manifold;
+use crate::solid::topology::Topology;
+use crate::solid::{bounding_solid, check_solid};
+use crate::test_meshes::{comb, cubes, joined, mesh, notched, placed, prism, teeth, tetrahedron};
+use crate::tolerance::CROSSINGS;
+use crate::work::Work;
+use ccd_core::glam::{DQuat, DVec3, dvec3};
+use proptest::prelude::*;
+use proptest::strategy::ValueTree;
+use proptest::test_runner::TestRunner;
+use rstest::rstest;
+
+/// Whether two tetrahedra are reported to meet.
+fn meet(offset: DVec3) -> bool {
+    let solid = tetrahedron();
+    let both = joined(&[&solid, &placed(&solid, 1.0, offset)]);
+    match bounding_solid(&both).map(|_| ()) {
+        Ok(()) => false,
+        Err(DecomposeError::SelfIntersecting { pairs }) => {
+            let across = |pair: &Crossing| pair.face < 4 && pair.other >= 4;
+            assert!(pairs.first().iter().all(across), "{pairs}");
+            true
+        }
+        Err(other) => panic!("{other}"),
+    }
+}
+
+#[rstest]
+#[case::apart(dvec3(2.0, 0.0, 0.0), false)]
+#[case::boxes_overlap(dvec3(0.6, 0.6, 0.6), false)]
+#[case::edge_through_face(dvec3(0.1, 0.2, 0.25), true)]
+#[case::corner_on_face(dvec3(0.25, 0.25, 0.5), true)]
+#[case::corner_on_edge(dvec3(0.5, 0.0, 0.5), true)]
+#[case::edge_on_edge(dvec3(0.5, 0.0, 0.0), true)]
+#[case::within_a_plane(dvec3(0.2, 0.2, 0.0), true)]
+#[case::in_one_plane_apart(dvec3(1.5, 1.5, 0.0), false)]
+#[case::almost_a_corner_on_a_face(dvec3(0.25, 0.25, 0.5 + 1e-16), false)]
+fn two_tetrahedra(#[case] offset: DVec3, #[case] expected: bool) {
+    assert_eq!(meet(offset), expected);
+}
+
+/// Two tetrahedra at one corner are one surface, pinched there: they share only the corner.
+#[test]
+fn a_shared_corner_is_no_intersection() {
+    assert!(!meet(DVec3::X));
+    let solid = tetrahedron();
+    let inside = placed(&solid, 0.5, DVec3::ZERO);
+    let nested = joined(&[&solid, &inside]);
+    assert!(matches!(
+        bounding_solid(&nested).err(),
+        Some(DecomposeError::SelfIntersecting { .. } | DecomposeError::NotManifold { .. })
+    ));
+}
+
+/// A thin fin folded flat onto itself.
+#[test]
+fn a_fold_is_found() {
+    let vertices = vec![
+        DVec3::ZERO,
+        2.0 * DVec3::X,
+        2.0 * DVec3::Y,
+        dvec3(0.5, 0.5, 0.0),
+    ];
+    let folded = mesh(vertices, &[[0, 1, 2], [0, 2, 3], [2, 1, 3], [1, 0, 3]]);
+    let error = bounding_solid(&folded).err();
+    assert!(
+        matches!(error, Some(DecomposeError::SelfIntersecting { .. })),
+        "{error:?}"
+    );
+}
+
+#[test]
+fn stairs_do_not_meet_themselves() {
+    let stairs = cubes(&[
+        [0, 0, 0],
+        [1, 0, 0],
+        [2, 0, 0],
+        [1, 0, 1],
+        [2, 0, 1],
+        [2, 0, 2],
+    ]);
+    assert!(bounding_solid(&stairs).is_ok());
+}
+
+/// The work grows with the number of triangles, not with the square of those about one vertex.
+#[test]
+fn fans_of_convex_caps_are_not_compared_pair_by_pair() {
+    for corners in [50, 500, 5_000] {
+        let corner = |k: u32| {
+            let angle = std::f64::consts::TAU * f64::from(k) / f64::from(corners);
+            dvec3(angle.cos(), angle.sin(), 0.0)
+        };
+        let mesh = prism(&(0..corners).map(corner).collect::<Vec<_>>());
+        let manifold = Manifold::unchecked(&mesh, &Topology::of(&mesh)).unwrap();
+        // All pairs about a corner of 5,000 would be 2,500 for each triangle.
+        let work = Work::of(100 * mesh.faces().len() as u64);
+        assert_eq!(check_solid(&manifold, &work), Ok(()), "{corners}");
+    }
+}
+
+/// The steps of work that checking a mesh takes, per face.
+fn steps_per_face(mesh: &TriangleMesh) -> u64 {
+    let manifold = Manifold::unchecked(mesh, &Topology::of(mesh)).unwrap();
+    assert!(!crate::solid::star_shaped::is_star_shaped(&manifold));
+    let too_few = Work::of(100);
+    assert_eq!(
+        check_solid(&manifold, &too_few),
+        Err(DecomposeError::TooLong)
+    );
+    let work = Work::unbounded();
+    assert_eq!(check_solid(&manifold, &work), Ok(()));
+    work.taken() / mesh.faces().len() as u64
+}
+
+/// Slivers that are not all visible from one point, and walls along them: each is near a few others.
+#[test]
+fn steps_per_face_stay_bounded_however_many_slivers_there_are() {
+    for count in [50, 500, 5_000] {
+        let leaning = steps_per_face(&prism(&teeth(count)));
+        let step = steps_per_face(&notched(count));
+        let upright = steps_per_face(&comb(&vec![5.0; count as usize]));
+        let steps = [leaning, step, upright];
+        assert!(steps.iter().all(|&steps| steps < 400), "{count}: {steps:?}");
+    }
+}
+
+/// Prisms over outlines on a grid, so that corners coincide and edges lie in lines, and over rough
+/// circles; large enough for fans.
+fn rough_prism(radii: &[(i32, f64)], on_grid: bool, turn: f64) -> TriangleMesh {
+    let corner = |(k, &(step, radius)): (usize, &(i32, f64))| {
+        let angle = std::f64::consts::TAU * k as f64 / radii.len() as f64;
+        let p = dvec3(angle.cos(), angle.sin(), 0.0);
+        match on_grid {
+            true => (p * 4.0 * f64::from(step)).round(),
+            false => p * radius,
+        }
+    };
+    let flat = prism(&radii.iter().enumerate().map(corner).collect::<Vec<_>>());
+    let turn = DQuat::from_rotation_x(if on_grid { 0.0 } else { turn });
+    let turned = flat.vertices().iter().map(|&p| turn * p);
+    mesh(turned.collect(), flat.faces())
+}
+
+/// The pairs are those of a test of every pair.
+#[test]
+fn crossings_are_those_of_all_pairs() {
+    let radii = |n| prop::collection::vec((1..=3_i32, 0.9..1.1_f64), n);
+    let given = (
+        prop_oneof![radii(3..12), radii(30..60)],
+        any::<bool>(),
+        0.0..3.0_f64,
+    );
+    let mut runner = TestRunner::deterministic();
+    let (mut whole, mut crossed) = (0, 0);
+    for _ in 0..150 {
+        let (radii, on_grid, turn) = given.new_tree(&mut runner).unwrap().current();
+        let mesh = rough_prism(&radii, on_grid, turn);
+        let Ok(manifold) = Manifold::unchecked(&mesh, &Topology::of(&mesh)) else {
+            continue;
+        };
+        let faces = 0..mesh.faces().len() as u32;
+        let pairs = faces
+            .clone()
+            .flat_map(|f| faces.clone().map(move |g| (f, g)));
+        let all: Vec<_> = pairs
+            .filter(|&(f, g)| f < g && super::cross(&manifold, f, g))
+            .collect();
+        let found = super::crossings(&manifold, &Work::unbounded()).unwrap();
+        match all.len() < CROSSINGS {
+            true => assert_eq!(found, all),
+            false => assert_eq!(found.len(), CROSSINGS),
+        }
+        whole += u32::from(all.is_empty());
+        crossed += u32::from(!all.is_empty());
+    }
+    assert!(whole > 10 && crossed > 10, "{whole}, {crossed}");
+}
+
+#[test]
+fn crossings_are_counted_up_to_a_thousand() {
+    let mut outline = vec![DVec3::ZERO, dvec3(202.0, 0.0, 0.0)];
+    for tooth in (1..=100).rev() {
+        let x = 2.0 * f64::from(tooth);
+        let corners = [(x, 1.0), (x, 5.0), (x - 1.0, 5.0), (x - 1.0, 1.0)];
+        outline.extend(corners.map(|(x, y)| dvec3(x, y, 0.0)));
+    }
+    let mesh = prism(&outline);
+    let Err(DecomposeError::SelfIntersecting { pairs }) = bounding_solid(&mesh).map(|_| ()) else {
+        panic!("overlapping fans");
+    };
+    assert_eq!(pairs.count(), CROSSINGS);
+}

@@ -1,0 +1,218 @@
+//! Coplanar triangles of a mesh, merged into convex polygons.
+
+use super::manifold::{Dihedral, Manifold};
+use crate::disjoint_sets::DisjointSets;
+use crate::exact::predicates::Projection;
+use crate::half_edges::HalfEdge;
+use crate::hull::polygons::strict_corners;
+use crate::tolerance::{DIRECTIONS, LENGTHS};
+use ccd_core::glam::DVec3;
+use ccd_core::vector::{length, unit};
+use std::cmp::{Ordering, Reverse};
+
+/// The faces of a mesh, in groups that are convex polygons.
+pub(crate) struct Flats {
+    flats: Vec<Flat>,
+    /// The number of the polygon, by face.
+    flat_of: Vec<u32>,
+}
+
+/// A convex polygon of a mesh's surface: faces in exactly one plane, without a hole between them.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Flat {
+    /// Its faces, in ascending order.
+    pub(crate) faces: Vec<u32>,
+    /// The half-edges around it, counter-clockwise.
+    pub(crate) rim: Vec<HalfEdge>,
+    /// The polygon's corners: the vertices at which the rim turns.
+    pub(crate) corners: Vec<u32>,
+}
+
+impl Flats {
+    /// Merges neighbours as long as their union is convex, those with the longest common edge first:
+    /// a diagonal is removed before an edge of the outline `[HM83]`.
+    ///
+    /// The triangles of the manifold may meet each other: two merged polygons lie on either side of the removed
+    /// line, so that every group is a convex polygon, covered once, whatever the rest of the mesh does.
+    pub(crate) fn new(manifold: &Manifold<'_>) -> Self {
+        let mut merger = Merger::new(manifold);
+        let mut edges = merger.flat_edges();
+        // Each round leaves fewer edges.
+        loop {
+            let before = edges.len();
+            edges.retain(|&edge| !merger.merge_over(edge));
+            if edges.len() == before {
+                break;
+            }
+        }
+        merger.finish()
+    }
+
+    pub(crate) fn len(&self) -> usize {
+        self.flats.len()
+    }
+
+    pub(crate) fn get(&self, flat: u32) -> &Flat {
+        &self.flats[flat as usize]
+    }
+
+    /// The polygon that a face is part of.
+    #[inline]
+    pub(crate) fn of_face(&self, face: u32) -> u32 {
+        self.flat_of[face as usize]
+    }
+}
+
+/// Regions that grow together. Two convex ones that do not overlap have a single stretch of edges in common, so
+/// that the union is convex if it is at the two ends of the stretch.
+struct Merger<'a, 'm> {
+    manifold: &'a Manifold<'m>,
+    /// The half-edges after and before each one on the rim of its region.
+    next: Vec<HalfEdge>,
+    previous: Vec<HalfEdge>,
+    regions: DisjointSets,
+}
+
+impl<'a, 'm> Merger<'a, 'm> {
+    fn new(manifold: &'a Manifold<'m>) -> Self {
+        let faces = manifold.faces().len() as u32;
+        // The half-edges of a face are numbered from a multiple of 3.
+        let turn = |step: u32| (0..3 * faces).map(move |h| h - h % 3 + (h + step) % 3);
+        Merger {
+            manifold,
+            next: turn(1).collect(),
+            previous: turn(2).collect(),
+            regions: DisjointSets::new(faces as usize),
+        }
+    }
+
+    /// Collects one half-edge of every edge within a plane: the longest first, and equally long ones one
+    /// direction after the other. The cells of a grid thus become rows before rows become rectangles, whatever
+    /// the order of the mesh.
+    fn flat_edges(&self) -> Vec<HalfEdge> {
+        let manifold = self.manifold;
+        let rank = |h: HalfEdge| {
+            let [a, b] = manifold.ends(h).map(|v| manifold.point(v));
+            let way = b - a;
+            let length = (length(way).log2() * LENGTHS).round() as i32;
+            let way = (unit(way).unwrap_or(DVec3::ZERO) * DIRECTIONS)
+                .round()
+                .as_ivec3()
+                .to_array();
+            (Reverse(length), way.max(way.map(|x| -x)), h)
+        };
+        let mut edges: Vec<HalfEdge> = (0..3 * manifold.faces().len() as u32)
+            .filter(|&h| h < manifold.twin(h) && manifold.dihedral(h) == Dihedral::Flat)
+            .collect();
+        edges.sort_by_cached_key(|&h| rank(h));
+        edges
+    }
+
+    fn region(&mut self, half_edge: HalfEdge) -> u32 {
+        self.regions.root(half_edge / 3)
+    }
+
+    /// Merges the regions on either side of an edge if the union is convex. Returns whether they are one region
+    /// now.
+    fn merge_over(&mut self, edge: HalfEdge) -> bool {
+        let [one, other] = [edge, self.manifold.twin(edge)].map(|h| self.region(h));
+        if one == other {
+            return true;
+        }
+        // The stretch that both regions have in common, seen from the first. It is never a whole rim: only the
+        // edges of a convex polygon on one line can have another polygon beyond that line.
+        let Some(first) = self.walk(edge, |merger, h| merger.previous[h as usize], other) else {
+            return false;
+        };
+        let Some(last) = self.walk(edge, |merger, h| merger.next[h as usize], other) else {
+            return false;
+        };
+        let twin = |h: HalfEdge| self.manifold.twin(h);
+        let joints = [
+            (
+                self.previous[first as usize],
+                self.next[twin(first) as usize],
+            ),
+            (self.previous[twin(last) as usize], self.next[last as usize]),
+        ];
+        if !joints.iter().all(|&joint| self.turns_left(joint)) {
+            return false;
+        }
+        for (before, after) in joints {
+            self.next[before as usize] = after;
+            self.previous[after as usize] = before;
+        }
+        self.regions.join(one, other);
+        true
+    }
+
+    /// Finds the last half-edge, from one on along its rim, that has a region beyond it; none where all have.
+    fn walk(
+        &mut self,
+        edge: HalfEdge,
+        step: impl Fn(&Self, HalfEdge) -> HalfEdge,
+        beyond: u32,
+    ) -> Option<HalfEdge> {
+        let mut last = edge;
+        loop {
+            let next = step(self, last);
+            if next == edge {
+                return None;
+            }
+            if self.region(self.manifold.twin(next)) != beyond {
+                return Some(last);
+            }
+            last = next;
+        }
+    }
+
+    /// Whether a rim goes straight on or to the left from one half-edge to the next.
+    fn turns_left(&self, (before, after): (HalfEdge, HalfEdge)) -> bool {
+        let Some(plane) = Projection::of(self.manifold.triangle(before / 3)) else {
+            return false;
+        };
+        let ([a, b], [_, c]) = (self.manifold.ends(before), self.manifold.ends(after));
+        let [a, b, c] = [a, b, c].map(|v| self.manifold.point(v));
+        plane.turn(a, b, c) != Ordering::Less
+    }
+
+    fn finish(mut self) -> Flats {
+        const UNSEEN: u32 = u32::MAX;
+        let faces = self.manifold.faces().len() as u32;
+        let mut number_of = vec![UNSEEN; faces as usize];
+        let mut flat_of = vec![0; faces as usize];
+        let mut flats: Vec<Flat> = Vec::new();
+        for face in 0..faces {
+            let root = self.regions.root(face);
+            let number = &mut number_of[root as usize];
+            if *number == UNSEEN {
+                *number = flats.len() as u32;
+                flats.push(Flat::default());
+            }
+            flat_of[face as usize] = *number;
+            flats[*number as usize].faces.push(face);
+        }
+        for (number, flat) in flats.iter_mut().enumerate() {
+            let outer =
+                |&h: &HalfEdge| flat_of[self.manifold.twin(h) as usize / 3] as usize != number;
+            let own = flat.faces.iter().flat_map(|&f| 3 * f..3 * f + 3);
+            let Some(start) = own.into_iter().find(outer) else {
+                continue;
+            };
+            let onward = |&h: &HalfEdge| Some(self.next[h as usize]).filter(|&h| h != start);
+            // A convex polygon has one rim, on which each half-edge is once.
+            let most = 3 * flat.faces.len();
+            flat.rim = std::iter::successors(Some(start), onward)
+                .take(most)
+                .collect();
+            let plane = Projection::of(self.manifold.triangle(flat.faces[0]));
+            let starts: Vec<u32> = flat.rim.iter().map(|&h| self.manifold.ends(h)[0]).collect();
+            let points = self.manifold.mesh().vertices();
+            flat.corners = plane.map_or(starts.clone(), |p| strict_corners(points, &starts, p));
+        }
+        Flats { flats, flat_of }
+    }
+}
+
+#[cfg(test)]
+mod tests;

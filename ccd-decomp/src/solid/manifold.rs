@@ -1,0 +1,145 @@
+//! The half-edges of a closed surface.
+
+use super::error::DecomposeError;
+use super::topology::{Orientation, Topology};
+use crate::exact::predicates::{Projection, is_degenerate, side, too_fine};
+use crate::half_edges::{HalfEdge, twins};
+use crate::mesh::TriangleMesh;
+use crate::search::TriangleBoxes;
+use crate::tally::Tally;
+use ccd_core::glam::DVec3;
+use std::cell::OnceCell;
+use std::cmp::Ordering;
+
+/// A closed 2-manifold of triangles: every half-edge has one twin that runs the other way.
+///
+/// # Invariants
+/// Vertices at one point are one vertex. No triangle is without area. Coordinates are fit for exact
+/// predicates. Of one that [bounds a solid](super::bounding_solid), no two triangles meet except in the
+/// vertices and edges they share, and behind each of them, against its normal, is the solid.
+pub(crate) struct Manifold<'m> {
+    mesh: &'m TriangleMesh,
+    faces: Vec<[u32; 3]>,
+    /// The twin, by half-edge.
+    twins: Vec<HalfEdge>,
+    /// The boxes of the faces, made at the first use.
+    boxes: OnceCell<TriangleBoxes>,
+}
+
+/// The kind of angle between two faces at an edge, seen from outside.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Dihedral {
+    /// The solid's angle is less than half a turn.
+    Convex,
+    /// The faces lie in one plane.
+    Flat,
+    /// The solid's angle is more than half a turn.
+    Reflex,
+    /// The faces lie in one plane and on one side of the edge, back to back. A solid has no such edge.
+    Folded,
+}
+
+impl<'m> Manifold<'m> {
+    /// Makes the manifold of a mesh that is one by its edges. Triangles have an area, but may meet each other, and
+    /// parts may be inside out. Takes a tenth of the time of [`bounding_solid`](super::bounding_solid).
+    pub(crate) fn unchecked(
+        mesh: &'m TriangleMesh,
+        topology: &Topology,
+    ) -> Result<Self, DecomposeError> {
+        if let Some(vertex) = too_fine(mesh.vertices()) {
+            return Err(DecomposeError::TooFine { vertex });
+        }
+        if !topology.is_manifold() {
+            return Err(DecomposeError::NotManifold {
+                topology: Box::new(topology.clone()),
+            });
+        }
+        let turned = topology.orientation() == Orientation::Inward;
+        let mut faces = mesh.welded_faces();
+        if turned {
+            faces.iter_mut().for_each(|face| face.swap(1, 2));
+        }
+        let mut flat = Tally::default();
+        for face in (0..faces.len() as u32).filter(|&f| is_degenerate(mesh.triangle(f))) {
+            flat.add(mesh.face_ids()[face as usize]);
+        }
+        match twins(&faces) {
+            Some(twins) if flat.is_empty() => Ok(Manifold {
+                mesh,
+                faces,
+                twins,
+                boxes: OnceCell::new(),
+            }),
+            _ => Err(DecomposeError::NoArea { faces: flat }),
+        }
+    }
+
+    /// The mesh that it was made of.
+    pub(crate) fn mesh(&self) -> &'m TriangleMesh {
+        self.mesh
+    }
+
+    /// The corners of all faces, by vertex, counter-clockwise seen from outside.
+    pub(crate) fn faces(&self) -> &[[u32; 3]] {
+        &self.faces
+    }
+
+    /// The point of a vertex.
+    #[inline]
+    pub(crate) fn point(&self, vertex: u32) -> DVec3 {
+        self.mesh.vertices()[vertex as usize]
+    }
+
+    /// The corners of a face.
+    #[inline]
+    pub(crate) fn triangle(&self, face: u32) -> [DVec3; 3] {
+        let [a, b, c] = self.faces[face as usize];
+        [self.point(a), self.point(b), self.point(c)]
+    }
+
+    /// The boxes of the faces.
+    pub(crate) fn boxes(&self) -> &TriangleBoxes {
+        self.boxes
+            .get_or_init(|| TriangleBoxes::new(self.mesh.vertices(), &self.faces))
+    }
+
+    /// The half-edge that runs along the same edge the other way.
+    #[inline]
+    pub(crate) fn twin(&self, half_edge: HalfEdge) -> HalfEdge {
+        self.twins[half_edge as usize]
+    }
+
+    /// The three faces beyond the edges of a face.
+    pub(crate) fn neighbours(&self, face: u32) -> [u32; 3] {
+        [0, 1, 2].map(|k| self.twin(3 * face + k) / 3)
+    }
+
+    /// The vertices at which a half-edge starts and ends.
+    pub(crate) fn ends(&self, half_edge: HalfEdge) -> [u32; 2] {
+        let face = self.faces[half_edge as usize / 3];
+        let k = half_edge as usize % 3;
+        [face[k], face[(k + 1) % 3]]
+    }
+
+    /// Classifies the angle between the faces on either side of an edge.
+    pub(crate) fn dihedral(&self, half_edge: HalfEdge) -> Dihedral {
+        let twin = self.twin(half_edge);
+        let far = self.faces[twin as usize / 3][(twin as usize % 3 + 2) % 3];
+        let (triangle, far) = (self.triangle(half_edge / 3), self.point(far));
+        match side(triangle, far) {
+            Ordering::Less => Dihedral::Convex,
+            Ordering::Greater => Dihedral::Reflex,
+            Ordering::Equal => {
+                let [start, end] = self.ends(half_edge).map(|v| self.point(v));
+                let beyond = |plane: Projection| plane.turn(start, end, far) == Ordering::Less;
+                match Projection::of(triangle).is_some_and(beyond) {
+                    true => Dihedral::Flat,
+                    false => Dihedral::Folded,
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,101 @@
+use super::*;
+use crate::solid::bounding_solid;
+use crate::test_meshes::{block, cubes, joined, mesh, placed, tetrahedron, turned};
+
+fn refusal(mesh: &TriangleMesh) -> String {
+    bounding_solid(mesh)
+        .err()
+        .map_or(String::new(), |e| e.to_string())
+}
+
+#[test]
+fn twins_run_the_other_way() {
+    let mesh = cubes(&block([2, 2, 1]));
+    let manifold = bounding_solid(&mesh).unwrap();
+    for h in 0..3 * manifold.faces().len() as u32 {
+        let [v, w] = manifold.ends(h);
+        assert_eq!(manifold.ends(manifold.twin(h)), [w, v]);
+        assert_eq!(manifold.twin(manifold.twin(h)), h);
+    }
+}
+
+#[test]
+fn edges_of_a_step_bend_both_ways() {
+    let mesh = cubes(&[[0, 0, 0], [1, 0, 0], [0, 0, 1]]);
+    let manifold = bounding_solid(&mesh).unwrap();
+    let count = |bend| {
+        let all = 0..3 * manifold.faces().len() as u32;
+        all.filter(|&h| manifold.dihedral(h) == bend).count()
+    };
+    // One reflex edge of unit length; each edge has two halves.
+    assert_eq!(count(Dihedral::Reflex), 2);
+    // 14 squares have 14 diagonals and 28 edges between them, 6 of which are within a plane.
+    assert_eq!(count(Dihedral::Flat), 2 * (14 + 6));
+    assert_eq!(count(Dihedral::Convex), 2 * (28 - 1 - 6));
+}
+
+#[test]
+fn a_mesh_that_is_inside_out_is_turned() {
+    let mesh = turned(&tetrahedron());
+    let manifold = bounding_solid(&mesh).unwrap();
+    assert!((0..12).all(|h| manifold.dihedral(h) == Dihedral::Convex));
+}
+
+#[test]
+fn faults_name_the_elements() {
+    let solid = tetrahedron();
+    let open = mesh(solid.vertices().to_vec(), &solid.faces()[1..]);
+    assert!(
+        refusal(&open).contains("edges with one face: 3 (e0-1"),
+        "{}",
+        refusal(&open)
+    );
+
+    let mut faces = solid.faces().to_vec();
+    faces[3].swap(0, 1);
+    let flipped = mesh(solid.vertices().to_vec(), &faces);
+    assert!(
+        refusal(&flipped).contains("look opposite ways: 3 (e0-2"),
+        "{}",
+        refusal(&flipped)
+    );
+
+    // Two tetrahedra along one edge.
+    let other = mesh(
+        vec![DVec3::ZERO, DVec3::X, -DVec3::Y, -DVec3::Z],
+        solid.faces(),
+    );
+    let along_an_edge = joined(&[&solid, &other]);
+    assert!(refusal(&along_an_edge).contains("shared by closed parts: 1 (e0-1)"));
+
+    let pierced = joined(&[&solid, &placed(&solid, 1.0, DVec3::splat(0.2))]);
+    assert!(
+        refusal(&pierced).contains("faces that intersect: "),
+        "{}",
+        refusal(&pierced)
+    );
+
+    let tiny = placed(&solid, 1e-95, DVec3::ZERO);
+    assert!(
+        refusal(&tiny).contains("vertex 1 has a coordinate nearer to 0"),
+        "{}",
+        refusal(&tiny)
+    );
+
+    // A corner on the middle of an edge: one face without area.
+    let vertices = vec![DVec3::ZERO, 2.0 * DVec3::X, DVec3::Y, DVec3::Z, DVec3::X];
+    let faces = [
+        [0, 2, 1],
+        [0, 1, 4],
+        [0, 4, 3],
+        [4, 1, 3],
+        [1, 2, 3],
+        [2, 0, 3],
+    ];
+    let needle = mesh(vertices, &faces);
+    assert!(
+        refusal(&needle).contains("faces without area: 1 (1)"),
+        "{}",
+        refusal(&needle)
+    );
+}

@@ -1,0 +1,253 @@
+//! Shells within shells: the parts of a closed mesh that bound material, and those that bound a cavity.
+
+mod closed_parts;
+
+use crate::exact::predicates::{is_degenerate, too_fine};
+use crate::exact::rays::{crossing, probe};
+use crate::exact::triangles::meet;
+use crate::exact::volume::SignedVolume;
+use crate::mesh::TriangleMesh;
+use crate::search::TriangleBoxes;
+use crate::search::region::Region;
+use crate::tally::Tally;
+use crate::tolerance::{FACE_ROUNDING, RAY_TRIES};
+use crate::work::Work;
+use ccd_core::glam::DVec3;
+use ccd_core::vector::unit;
+use closed_parts::closed_parts;
+
+/// The shells of a closed mesh whose orientation does not fit their surroundings.
+///
+/// A shell is a closed part that is connected over edges. Among shells that do not cross, the outermost bound
+/// solids, those next within bound cavities, and so on, whatever their orientation. Outermost shells that cross
+/// make up one solid together. Within another shell, shells that cross are part of its solid where they have its
+/// orientation; otherwise they are unclear.
+#[derive(Debug, Default)]
+pub(crate) struct Nesting {
+    /// The faces to turn round, so that the solid is behind all faces, or in front of all.
+    pub(crate) turned: Vec<u32>,
+    /// A face of each shell of the wrong orientation, when others have the right one, by the file's number.
+    pub(crate) wrong: Tally<u32>,
+    /// A face of each shell that may bound a solid or a cavity, by the file's number.
+    pub(crate) unclear: Tally<u32>,
+}
+
+impl Nesting {
+    /// Examines a closed mesh: along every edge as many faces run one way as the other. A mesh in one part
+    /// needs no turning.
+    ///
+    /// Exact. O(n log n) where few boxes of triangles of different shells meet.
+    pub(crate) fn of(mesh: &TriangleMesh) -> Self {
+        let shell_of = closed_parts(mesh);
+        let count = shell_of.iter().max().map_or(0, |&last| last as usize + 1);
+        match count {
+            0 | 1 => Nesting::default(),
+            _ => Shells::new(mesh, shell_of, count).nesting(),
+        }
+    }
+}
+
+/// The shells of a mesh, and the boxes of its faces.
+struct Shells<'m> {
+    mesh: &'m TriangleMesh,
+    boxes: TriangleBoxes,
+    shell_of: Vec<u32>,
+    faces_of: Vec<Vec<u32>>,
+}
+
+/// The other shells that surround a shell without crossing it.
+#[derive(Clone, Debug, Default)]
+struct Surroundings {
+    shells: Vec<u32>,
+    /// Whether a surrounding shell crosses it.
+    crossed: bool,
+    /// Whether the surroundings could not be found.
+    unknown: bool,
+}
+
+impl<'m> Shells<'m> {
+    fn new(mesh: &'m TriangleMesh, shell_of: Vec<u32>, count: usize) -> Self {
+        let mut faces_of = vec![Vec::new(); count];
+        for (face, &shell) in shell_of.iter().enumerate() {
+            faces_of[shell as usize].push(face as u32);
+        }
+        Shells {
+            boxes: TriangleBoxes::new(mesh.vertices(), &mesh.welded_faces()),
+            mesh,
+            shell_of,
+            faces_of,
+        }
+    }
+
+    fn nesting(&self) -> Nesting {
+        let exact = too_fine(self.mesh.vertices()).is_none();
+        let around: Vec<Surroundings> = (0..self.faces_of.len() as u32)
+            .map(|shell| match exact {
+                true => self.surroundings(shell),
+                false => Surroundings {
+                    unknown: true,
+                    ..Surroundings::default()
+                },
+            })
+            .collect();
+        let orientations: Vec<i32> = self
+            .faces_of
+            .iter()
+            .map(|faces| self.orientation(faces))
+            .collect();
+        // A surrounding shell has fewer shells around it.
+        let mut order: Vec<usize> = (0..around.len()).collect();
+        order.sort_by_key(|&shell| around[shell].shells.len());
+        let mut sides = vec![1; around.len()];
+        let mut unclear = Tally::default();
+        for shell in order {
+            let Surroundings {
+                shells,
+                crossed,
+                unknown,
+            } = &around[shell];
+            let windings: i32 = shells.iter().map(|&other| sides[other as usize]).sum();
+            let outermost = shells.iter().map(|&k| k as usize);
+            let outermost = outermost.min_by_key(|&k| around[k].shells.len());
+            let as_around = outermost.map(|k| sides[k] * orientations[k] * orientations[shell]);
+            sides[shell] = match windings {
+                1 if *crossed => 1,
+                1 => -1,
+                _ => 1,
+            };
+            if *unknown || *crossed && windings > 0 && as_around != Some(1) {
+                unclear.add(self.name(shell));
+            }
+        }
+        let is_wrong = |shell: usize| orientations[shell] * sides[shell] < 0;
+        let mut nesting = Nesting {
+            unclear,
+            ..Nesting::default()
+        };
+        let has_volume = |&shell: &usize| orientations[shell] != 0;
+        // A mesh that is inside out as a whole is consistent.
+        if !(0..orientations.len()).filter(has_volume).all(is_wrong) {
+            for shell in (0..orientations.len()).filter(|&shell| is_wrong(shell)) {
+                nesting.wrong.add(self.name(shell));
+                nesting.turned.extend(&self.faces_of[shell]);
+            }
+        }
+        nesting
+    }
+
+    /// The first face of a shell, by the file's number, which names the shell in reports.
+    fn name(&self, shell: usize) -> u32 {
+        self.mesh.face_ids()[self.faces_of[shell][0] as usize]
+    }
+
+    /// Computes the orientation of a shell: 1 outward, −1 inward, 0 without volume.
+    fn orientation(&self, faces: &[u32]) -> i32 {
+        let near = self.mesh.triangle(faces[0])[0];
+        let mut volume = SignedVolume::default();
+        for &face in faces {
+            volume.add(self.mesh.triangle(face), near);
+        }
+        match volume.is_positive() {
+            Some(true) => 1,
+            Some(false) => -1,
+            None => 0,
+        }
+    }
+
+    fn surroundings(&self, shell: u32) -> Surroundings {
+        let Some(mut shells) = self.winding_about(shell) else {
+            return Surroundings {
+                unknown: true,
+                ..Surroundings::default()
+            };
+        };
+        if shells.is_empty() {
+            return Surroundings::default();
+        }
+        let crossed = self.crossed_by(shell);
+        shells.retain(|other| !crossed.contains(other));
+        Surroundings {
+            shells,
+            crossed: !crossed.is_empty(),
+            unknown: false,
+        }
+    }
+
+    /// Finds the other shells that wind about one; none when every ray grazes something.
+    fn winding_about(&self, shell: u32) -> Option<Vec<u32>> {
+        let faces = &self.faces_of[shell as usize];
+        let size = self.boxes.reach(self.mesh.triangle(faces[0])[0]);
+        let face = |k: usize| self.mesh.triangle(faces[k * faces.len() / RAY_TRIES]);
+        // Shells may touch at a corner, so that every try takes another one.
+        let corners = (0..RAY_TRIES).map(|k| (k, face(k)[k % 3]));
+        // They may touch at all corners, as shells that share faces do.
+        let middles = (0..RAY_TRIES).filter_map(|k| Some((k, self.middle(shell, face(k), size)?)));
+        corners
+            .chain(middles)
+            .find_map(|(k, from)| self.winding_before(shell, probe(from, size, k)))
+    }
+
+    /// Computes the middle of a face, which is on the face up to rounding; none where another shell may come
+    /// between.
+    fn middle(&self, shell: u32, face: [DVec3; 3], size: f64) -> Option<DVec3> {
+        let [a, b, c] = face;
+        let middle = (a + b + c) / 3.0;
+        let off = unit((b - a).cross(c - a))? * FACE_ROUNDING * size;
+        let across = [middle - off, middle + off];
+        let is_of_shell = |face: u32| self.shell_of[face as usize] == shell;
+        let misses =
+            |face: u32| is_of_shell(face) || crossing(across, self.mesh.triangle(face)) == Some(0);
+        let is_alone = self
+            .boxes
+            .all_meeting(&Region::segment(across), &Work::unbounded(), misses);
+        is_alone.then_some(middle)
+    }
+
+    /// Finds the other shells that wind about the start of a ray; none when the ray grazes something.
+    fn winding_before(&self, shell: u32, ray: [DVec3; 2]) -> Option<Vec<u32>> {
+        let mut met = Vec::new();
+        let region = Region::segment(ray);
+        let passes = self.boxes.all_meeting(&region, &Work::unbounded(), |face| {
+            let other = self.shell_of[face as usize];
+            let found = match other == shell {
+                true => Some(0),
+                false => crossing(ray, self.mesh.triangle(face)),
+            };
+            met.extend(found.filter(|&one| one != 0).map(|one| (other, one)));
+            found.is_some()
+        });
+        passes.then(|| {
+            met.sort_unstable();
+            met.chunk_by(|one, next| one.0 == next.0)
+                .filter(|of_one| of_one.iter().map(|&(_, one)| one).sum::<i32>() != 0)
+                .map(|of_one| of_one[0].0)
+                .collect()
+        })
+    }
+
+    /// Finds the other shells that meet one elsewhere than in shared corners and edges.
+    fn crossed_by(&self, shell: u32) -> Vec<u32> {
+        let mut crossed = Vec::new();
+        let flat = |face: u32| is_degenerate(self.mesh.triangle(face));
+        // A face without area lies in an edge of its neighbours.
+        let faces = self.faces_of[shell as usize].iter();
+        for &face in faces.filter(|&&face| !flat(face)) {
+            let one = self.mesh.triangle(face);
+            self.boxes
+                .all_meeting(&Region::triangle(one), &Work::unbounded(), |near| {
+                    let other = self.shell_of[near as usize];
+                    if other != shell && !crossed.contains(&other) && !flat(near) {
+                        let ids = [face, near].map(|f| self.mesh.welded_face(f));
+                        if meet(ids, [one, self.mesh.triangle(near)]) {
+                            crossed.push(other);
+                        }
+                    }
+                    true
+                });
+        }
+        crossed
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,173 @@
+//! The shells of a closed mesh: its smallest closed parts.
+
+use crate::disjoint_sets::DisjointSets;
+use crate::exact::predicates::{Projection, side, too_fine};
+use crate::mesh::TriangleMesh;
+use ccd_core::glam::DVec3;
+use std::cmp::Ordering;
+
+/// Numbers the parts: the number by face.
+///
+/// Parts are connected over edges of two faces. At an edge of more faces, parts that would stay open are
+/// connected across the material that they bound, so that solids that share a face stay separate.
+pub(super) fn closed_parts(mesh: &TriangleMesh) -> Vec<u32> {
+    let mut uses = uses(mesh);
+    uses.sort_unstable_by_key(|u| (u.ends, u.face));
+    let mut parts = DisjointSets::new(mesh.faces().len());
+    let edges = || uses.chunk_by(|one, next| one.ends == next.ends);
+    for edge in edges().filter(|edge| edge.len() == 2) {
+        parts.join(edge[0].face, edge[1].face);
+    }
+    for edge in edges().filter(|edge| edge.len() > 2) {
+        let open = open_at(edge, &mut parts);
+        for (one, other) in across_material(mesh, &open) {
+            parts.join(one, other);
+        }
+    }
+    numbers(&mut parts, mesh.faces().len())
+}
+
+/// The use of an edge by a face.
+#[derive(Clone, Copy, Debug)]
+struct Use {
+    /// The ends by welded vertex, the smaller first.
+    ends: [u32; 2],
+    face: u32,
+    /// 1 where the face runs from the first end to the second, else −1.
+    way: i32,
+}
+
+/// Collects every edge of every face, except from a point to itself.
+fn uses(mesh: &TriangleMesh) -> Vec<Use> {
+    let mut uses = Vec::new();
+    uses.reserve_exact(3 * mesh.faces().len());
+    for face in 0..mesh.faces().len() as u32 {
+        let [a, b, c] = mesh.welded_face(face);
+        for (v, w) in [(a, b), (b, c), (c, a)] {
+            let ends = [v.min(w), v.max(w)];
+            let way = if v < w { 1 } else { -1 };
+            uses.extend((v != w).then_some(Use { ends, face, way }));
+        }
+    }
+    uses
+}
+
+/// Finds the faces at an edge of those parts that run along it more often one way than the other.
+fn open_at(edge: &[Use], parts: &mut DisjointSets) -> Vec<Use> {
+    let mut of_parts: Vec<(u32, Use)> = edge.iter().map(|&u| (parts.root(u.face), u)).collect();
+    of_parts.sort_by_key(|of| of.0);
+    of_parts
+        .chunk_by(|one, next| one.0 == next.0)
+        .filter(|part| part.iter().map(|of| of.1.way).sum::<i32>() != 0)
+        .flatten()
+        .map(|of| of.1)
+        .collect()
+}
+
+/// Pairs the faces at one edge that have material between them: it is behind each of the two, and as few others
+/// as possible are between. All are paired where the faces cannot be ordered.
+fn across_material(mesh: &TriangleMesh, edge: &[Use]) -> Vec<(u32, u32)> {
+    let Some(around) = AngularOrder::of(mesh, edge) else {
+        let pairs = edge.windows(2);
+        return pairs.map(|pair| (pair[0].face, pair[1].face)).collect();
+    };
+    let mut order = edge.to_vec();
+    // Among faces in one direction, those that end a material come first.
+    order.sort_by(|one, other| around.order(one, other).then(other.way.cmp(&one.way)));
+    let (mut begun, mut pairs) = (Vec::new(), Vec::new());
+    // A material that began before the first face ends in the second round; paired faces are removed.
+    for _ in 0..2 {
+        order.retain(|one| match one.way {
+            1 => match begun.pop() {
+                Some(other) => {
+                    pairs.push((one.face, other));
+                    false
+                }
+                None => true,
+            },
+            _ => {
+                begun.push(one.face);
+                false
+            }
+        });
+    }
+    pairs
+}
+
+/// The order of faces around an edge, from one of them on: counter-clockwise, with the edge pointing at the
+/// viewer.
+struct AngularOrder<'m> {
+    mesh: &'m TriangleMesh,
+    ends: [DVec3; 2],
+    first: DVec3,
+    /// The projection of the first face's plane.
+    projection: Projection,
+}
+
+impl<'m> AngularOrder<'m> {
+    /// Starts at the first face; none where a face has no area, or a coordinate is too near to 0 for exact
+    /// predicates.
+    fn of(mesh: &'m TriangleMesh, edge: &[Use]) -> Option<Self> {
+        let [v, w] = edge.first()?.ends.map(|v| mesh.vertices()[v as usize]);
+        let apexes: Vec<DVec3> = edge.iter().map(|one| apex(mesh, one)).collect();
+        let is_fine = too_fine(&[v, w]).or(too_fine(&apexes)).is_some();
+        let flat = |&p: &DVec3| Projection::of([v, w, p]).is_none();
+        if is_fine || apexes.iter().any(flat) {
+            return None;
+        }
+        Some(AngularOrder {
+            mesh,
+            ends: [v, w],
+            first: apexes[0],
+            projection: Projection::of([v, w, apexes[0]])?,
+        })
+    }
+
+    fn order(&self, one: &Use, other: &Use) -> Ordering {
+        let [v, w] = self.ends;
+        let [one, other] = [one, other].map(|of| apex(self.mesh, of));
+        let by_turn = || side([v, w, other], one);
+        self.quarter(one)
+            .cmp(&self.quarter(other))
+            .then_with(by_turn)
+    }
+
+    /// Computes the quarter of a point: in the first face's half plane, before the half turn, there, or beyond.
+    fn quarter(&self, point: DVec3) -> u32 {
+        let [v, w] = self.ends;
+        let is_near = || self.projection.turn(v, w, point) == Ordering::Greater;
+        match side([v, w, self.first], point) {
+            Ordering::Equal if is_near() => 0,
+            Ordering::Greater => 1,
+            Ordering::Equal => 2,
+            Ordering::Less => 3,
+        }
+    }
+}
+
+/// The corner of a face opposite to an edge.
+fn apex(mesh: &TriangleMesh, of: &Use) -> DVec3 {
+    let mut at = mesh
+        .welded_face(of.face)
+        .into_iter()
+        .zip(mesh.triangle(of.face));
+    let off = at.find(|(v, _)| !of.ends.contains(v));
+    // A face with two corners at one point has no other corner.
+    off.map_or(mesh.vertices()[of.ends[0] as usize], |(_, p)| p)
+}
+
+/// Numbers the parts in the order of their first faces: the number by face.
+fn numbers(parts: &mut DisjointSets, faces: usize) -> Vec<u32> {
+    let mut number = vec![u32::MAX; faces];
+    let mut count = 0;
+    (0..faces as u32)
+        .map(|face| {
+            let number = &mut number[parts.root(face) as usize];
+            if *number == u32::MAX {
+                *number = count;
+                count += 1;
+            }
+            *number
+        })
+        .collect()
+}

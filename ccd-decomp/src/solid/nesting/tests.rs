@@ -1,0 +1,143 @@
+//! Shells within shells of random orientation, compared with windings counted one shell at a time.
+
+use crate::test_meshes::CUBE;
+use crate::{Detail, Topology, TriangleMesh, body_from_mesh};
+use ccd_core::Volume;
+use ccd_core::glam::{DVec3, dvec3};
+
+/// Cubes by middle, half the side and whether they are inside out, as one mesh.
+fn cubes(cubes: &[(DVec3, f64, bool)]) -> TriangleMesh {
+    let (mut points, mut faces) = (Vec::new(), Vec::new());
+    for &(middle, half, inward) in cubes {
+        let first = points.len() as u32;
+        let sign = |k: u32, bit: u32| if k >> bit & 1 == 1 { half } else { -half };
+        points.extend((0..8).map(|k| middle + dvec3(sign(k, 0), sign(k, 1), sign(k, 2))));
+        faces.extend(CUBE.map(|face| {
+            let [a, b, c] = face.map(|v| first + v);
+            if inward { [a, c, b] } else { [a, b, c] }
+        }));
+    }
+    TriangleMesh::new(points, &faces).unwrap()
+}
+
+fn counts(mesh: &TriangleMesh) -> [usize; 2] {
+    let topology = Topology::of(mesh);
+    [topology.wrong_way.count(), topology.unclear.count()]
+}
+
+#[test]
+fn shells_side_by_side_are_each_turned_outward() {
+    for (one, other, wrong) in [
+        (true, false, 1),
+        (false, true, 1),
+        (false, false, 0),
+        (true, true, 0),
+    ] {
+        let mesh = cubes(&[(DVec3::ZERO, 0.5, one), (10.0 * DVec3::X, 1.5, other)]);
+        assert_eq!(counts(&mesh), [wrong, 0]);
+        let prepared = body_from_mesh(&mesh, Detail::Triangles).unwrap();
+        assert_eq!(prepared.body.volume(), Volume::Solid);
+    }
+    let mesh = cubes(&[(DVec3::ZERO, 0.5, true), (10.0 * DVec3::X, 1.5, false)]);
+    let report = body_from_mesh(&mesh, Detail::Auto).unwrap().report;
+    let said = report.to_string();
+    assert!(said.contains("turned, by a face: 1 (0)"), "{said}");
+    let volume = Topology::of(&mesh).signed_volume;
+    assert!((volume - 28.0).abs() < 1e-12, "{volume}");
+}
+
+/// Shells of any orientation bound a solid, a cavity, a solid, a cavity.
+#[test]
+fn nested_shells_alternate() {
+    for flips in 0..16u32 {
+        let shells: Vec<(DVec3, f64, bool)> = (0..4)
+            .map(|k| {
+                (
+                    0.01 * f64::from(k) * DVec3::ONE,
+                    4.0 - f64::from(k),
+                    flips >> k & 1 == 1,
+                )
+            })
+            .collect();
+        let mesh = cubes(&shells);
+        let right = |inward: bool| {
+            (0..4)
+                .filter(|&k| shells[k].2 == (inward ^ (k % 2 == 1)))
+                .count()
+        };
+        let wrong = match right(true) {
+            4 => 0,
+            _ => 4 - right(false),
+        };
+        assert_eq!(counts(&mesh), [wrong, 0], "{flips:b}");
+        let volume = Topology::of(&mesh).signed_volume.abs();
+        let cube = |half: f64| 8.0 * half * half * half;
+        let exact = cube(4.0) - cube(3.0) + cube(2.0) - cube(1.0);
+        assert!((volume - exact).abs() < 1e-9, "{flips:b} {volume} {exact}");
+        for detail in [Detail::Patches(crate::Order::default()), Detail::Auto] {
+            let prepared = body_from_mesh(&mesh, detail).unwrap();
+            assert_eq!(prepared.body.volume(), Volume::Solid);
+        }
+    }
+}
+
+#[test]
+fn shells_that_cross_are_one_solid_outside_and_unclear_within_another() {
+    let pair = |inward: bool| [(DVec3::ZERO, 1.0, inward), (0.7 * DVec3::ONE, 1.0, false)];
+    assert_eq!(counts(&cubes(&pair(false))), [0, 0]);
+    assert_eq!(counts(&cubes(&pair(true))), [1, 0]);
+    let around = |inward: bool| (0.1 * DVec3::ONE, 9.0, inward);
+    // Two that are wound as what is around them are part of it.
+    let part = [pair(false).as_slice(), &[around(false)]].concat();
+    assert_eq!(counts(&cubes(&part)), [0, 0]);
+    // Two cavities that cross, or a solid that crosses a cavity.
+    let cavities = [pair(false).as_slice(), &[around(true)]].concat();
+    assert_eq!(counts(&cubes(&cavities))[1], 2);
+    let both = [pair(true).as_slice(), &[around(false)]].concat();
+    let mesh = cubes(&both);
+    assert_eq!(counts(&mesh)[1], 1);
+    let prepared = body_from_mesh(&mesh, Detail::Auto).unwrap();
+    assert_eq!(prepared.body.volume(), Volume::Surface);
+    let said = prepared.report.to_string();
+    assert!(
+        said.contains("may bound a solid or a cavity, by a face: 1 (0)"),
+        "{said}"
+    );
+}
+
+/// Cubes that share an edge, one of them inside out: every edge has as many faces one way as the other.
+#[test]
+fn shells_that_share_an_edge_are_told_apart() {
+    for (one, other) in [(true, false), (false, true), (false, false)] {
+        let mesh = cubes(&[(DVec3::ZERO, 0.5, one), (dvec3(1.0, 1.0, 0.0), 0.5, other)]);
+        let topology = Topology::of(&mesh);
+        assert_eq!(topology.shared.count(), 1);
+        assert_eq!(counts(&mesh), [usize::from(one != other), 0]);
+        assert!((topology.signed_volume - 2.0).abs() < 1e-12);
+    }
+}
+
+/// Random cubes of a lattice, each closed, that share faces, edges and corners: all are solids.
+#[test]
+fn shells_that_share_faces_are_told_apart() {
+    let mut shared = 0;
+    for seed in 1..120_u32 {
+        let bits =
+            seed.wrapping_mul(0x9e37_79b9) >> 3 & seed.wrapping_mul(0x85eb_ca6b).rotate_left(9);
+        let place = |k: u32| 4.0 + dvec3((k % 3).into(), (k / 3 % 3).into(), (k / 9).into());
+        let places = (0..27).filter(|k| bits >> k & 1 == 1).map(place);
+        let of_lattice: Vec<_> = places.map(|place| (place, 0.5, seed % 2 == 0)).collect();
+        if of_lattice.is_empty() {
+            continue;
+        }
+        let mesh = cubes(&of_lattice);
+        let topology = Topology::of(&mesh);
+        assert_eq!(counts(&mesh), [0, 0], "{seed}");
+        let volume = topology.signed_volume.abs() - of_lattice.len() as f64;
+        assert!(volume.abs() < 1e-9, "{seed}");
+        let prepared = body_from_mesh(&mesh, Detail::Auto).unwrap();
+        assert_eq!(prepared.body.volume(), Volume::Solid);
+        shared += usize::from(topology.shared.count() > 4);
+    }
+    assert!(shared > 40, "{shared}");
+}

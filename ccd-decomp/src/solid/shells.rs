@@ -1,0 +1,110 @@
+//! The connected parts of a closed surface, and whether the solid is on the inner side of each.
+
+use super::error::DecomposeError;
+use super::manifold::Manifold;
+use crate::exact::rays::{crossing, probe};
+use crate::exact::volume::SignedVolume;
+use crate::search::region::Region;
+use crate::tolerance::RAY_TRIES;
+use crate::work::Work;
+
+/// Checks that the solid, which is where the winding number is not 0, is behind every face.
+///
+/// Faces meet only where they share an edge or vertex. One point of every shell is therefore enough: the other
+/// points of the shell have the same winding number in the rest.
+///
+/// # Errors
+/// [`DecomposeError`]; [`TooLong`](DecomposeError::TooLong) when the work does not suffice to decide.
+pub(crate) fn check_orientation(
+    manifold: &Manifold<'_>,
+    work: &Work,
+) -> Result<(), DecomposeError> {
+    let shell_of = shells(manifold);
+    let count = shell_of.iter().max().map_or(0, |&last| last as usize + 1);
+    let near = manifold.triangle(0)[0];
+    let mut faces_of = vec![Vec::new(); count];
+    for (face, &shell) in shell_of.iter().enumerate() {
+        faces_of[shell as usize].push(face as u32);
+    }
+    for faces in &faces_of {
+        let mut volume = SignedVolume::default();
+        for &face in faces {
+            volume.add(manifold.triangle(face), near);
+        }
+        let face = manifold.mesh().face_ids()[faces[0] as usize];
+        let Some(outward) = volume.is_positive() else {
+            return Err(DecomposeError::NoVolume { face });
+        };
+        let around = match count {
+            1 => Some(0),
+            _ => winding_of_others(manifold, &shell_of, faces, work),
+        };
+        work.check()?;
+        let Some(around) = around else {
+            return Err(DecomposeError::Entangled { face });
+        };
+        // An outward shell adds 1 within it; behind the faces of an inward one are its surroundings.
+        let behind = if outward { around + 1 } else { around };
+        if behind == 0 {
+            return Err(DecomposeError::InsideOut { face });
+        }
+    }
+    Ok(())
+}
+
+/// Numbers the shells, which are connected over edges: the number by face.
+pub(crate) fn shells(manifold: &Manifold<'_>) -> Vec<u32> {
+    const UNSEEN: u32 = u32::MAX;
+    let mut shell_of = vec![UNSEEN; manifold.faces().len()];
+    let mut count = 0;
+    let mut stack = Vec::new();
+    for seed in 0..shell_of.len() as u32 {
+        if shell_of[seed as usize] != UNSEEN {
+            continue;
+        }
+        shell_of[seed as usize] = count;
+        stack.push(seed);
+        // Each face is pushed once.
+        while let Some(face) = stack.pop() {
+            for next in manifold.neighbours(face) {
+                if shell_of[next as usize] == UNSEEN {
+                    shell_of[next as usize] = count;
+                    stack.push(next);
+                }
+            }
+        }
+        count += 1;
+    }
+    shell_of
+}
+
+/// Computes the winding number of the other shells about the faces of one; none when all rays graze something.
+fn winding_of_others(
+    manifold: &Manifold<'_>,
+    shell_of: &[u32],
+    faces: &[u32],
+    work: &Work,
+) -> Option<i32> {
+    let shell = shell_of[faces[0] as usize];
+    let near = manifold.triangle(faces[0])[0];
+    let size = manifold.boxes().reach(near);
+    (0..RAY_TRIES).find_map(|k| {
+        // Shells may touch at a corner, so that every try takes another one.
+        let from = manifold.triangle(faces[k % faces.len()])[k % 3];
+        let ray = probe(from, size, k);
+        let mut windings = Some(0);
+        manifold
+            .boxes()
+            .all_meeting(&Region::segment(ray), work, |f| {
+                if shell_of[f as usize] != shell {
+                    let crossing = crossing(ray, manifold.triangle(f));
+                    windings = windings.zip(crossing).map(|(sum, one)| sum + one);
+                }
+                windings.is_some()
+            });
+        windings
+    })
+}
+
+#[cfg(test)]
+mod tests;

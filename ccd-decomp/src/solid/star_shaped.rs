@@ -1,0 +1,74 @@
+//! Star-shaped solids, whose whole surface is visible from one point: no two of their faces meet.
+
+use super::manifold::Manifold;
+use crate::exact::predicates::side;
+use ccd_core::glam::DVec3;
+use ccd_core::limits::LEAST_COORDINATE;
+use std::cmp::Ordering;
+
+/// Whether a point was found from which the whole surface is visible: it is behind every face, and no face hides
+/// another one.
+///
+/// # Guarantee
+/// Exact where the answer is yes: faces then share no more than their vertices and edges, and the solid is behind
+/// them. A point behind all faces has all of them in the same orientation about it, so that every direction
+/// from it meets equally many faces: one, if a single direction does `[MEHLHORN96]`.
+///
+/// # Complexity
+/// O(n).
+pub(crate) fn is_star_shaped(manifold: &Manifold<'_>) -> bool {
+    middles(manifold).iter().any(|&middle| {
+        let triangles = || (0..manifold.faces().len() as u32).map(|face| manifold.triangle(face));
+        let has_behind = |triangle| side(triangle, middle) == Ordering::Less;
+        triangles().all(has_behind) && covers_once(triangles(), middle)
+    })
+}
+
+/// Computes points that are likely inside: the mean of all corners, and the solid's centre of mass.
+fn middles(manifold: &Manifold<'_>) -> [DVec3; 2] {
+    let faces = 0..manifold.faces().len() as u32;
+    let near = manifold.triangle(0)[0];
+    let (mut sum, mut moment, mut volume) = (DVec3::ZERO, DVec3::ZERO, 0.0);
+    for face in faces.clone() {
+        let [a, b, c] = manifold.triangle(face).map(|p| p - near);
+        let six = a.dot(b.cross(c));
+        sum += a + b + c;
+        moment += six * (a + b + c);
+        volume += six;
+    }
+    let mean = sum / (3 * faces.len()) as f64;
+    // A point that is not finite is behind no face.
+    [mean, moment / (4.0 * volume)].map(|middle| predictable(near + middle))
+}
+
+/// Sets coordinates to 0 that are too near to 0 for exact predicates.
+fn predictable(p: DVec3) -> DVec3 {
+    DVec3::select(
+        p.abs().cmplt(DVec3::splat(LEAST_COORDINATE)),
+        DVec3::ZERO,
+        p,
+    )
+}
+
+/// Whether a direction from the middle that avoids all edges meets exactly one triangle.
+fn covers_once(triangles: impl Iterator<Item = [DVec3; 3]>, middle: DVec3) -> bool {
+    let mut triangles = triangles.peekable();
+    let Some(&[a, b, c]) = triangles.peek() else {
+        return false;
+    };
+    let target = predictable((a + b + c) / 3.0);
+    let mut met = 0;
+    for [a, b, c] in triangles {
+        let within = [(a, b), (b, c), (c, a)].map(|(v, w)| side([middle, v, w], target));
+        if within == [Ordering::Greater; 3] {
+            met += 1;
+        } else if !within.contains(&Ordering::Less) {
+            // The direction meets an edge, so that the number of triangles is unclear.
+            return false;
+        }
+    }
+    met == 1
+}
+
+#[cfg(test)]
+mod tests;

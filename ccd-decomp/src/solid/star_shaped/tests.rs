@@ -1,0 +1,53 @@
+use super::*;
+use crate::mesh::TriangleMesh;
+use crate::solid::bounding_solid;
+use crate::solid::topology::Topology;
+use crate::test_meshes::{block, cubes, joined, mesh, placed, star, tetrahedron, turned};
+
+fn is_seen(mesh: &TriangleMesh) -> bool {
+    is_star_shaped(&Manifold::unchecked(mesh, &Topology::of(mesh)).unwrap())
+}
+
+#[test]
+fn convex_and_star_shaped_solids_are_recognised() {
+    assert!(is_seen(&tetrahedron()));
+    assert!(is_seen(&turned(&tetrahedron())), "turned by the manifold");
+    assert!(is_seen(&cubes(&block([3, 2, 1]))));
+    assert!(is_seen(&star(40, 0.5)));
+}
+
+#[test]
+fn others_are_not() {
+    let one = tetrahedron();
+    let around = joined(&[&one, &placed(&one, 3.0, DVec3::splat(-0.3))]);
+    assert!(!is_seen(&around), "a surface seen through another one");
+    assert!(!is_seen(&cubes(&[
+        [0, 0, 0],
+        [1, 0, 0],
+        [0, 1, 0],
+        [2, 1, 0],
+        [2, 0, 0]
+    ])));
+    let corners = vec![DVec3::ZERO, DVec3::X, DVec3::Y];
+    assert!(!is_seen(&mesh(corners, &[[0, 1, 2], [0, 2, 1]])));
+}
+
+/// A cone about an axis that goes around twice: every face turned outward, every edge convex.
+#[test]
+fn what_winds_twice_is_not_seen_whole() {
+    let turns = 10;
+    let mut vertices = vec![DVec3::Z, -DVec3::Z];
+    for k in 0..turns {
+        let angle = 2.0 * std::f64::consts::TAU * (f64::from(k) + 0.5) / f64::from(turns);
+        // Two rims that no vertex is common to.
+        let radius = if k < turns / 2 { 1.0 } else { 1.25 };
+        vertices.push(DVec3::new(radius * angle.cos(), radius * angle.sin(), 0.0));
+    }
+    let rim = |k: i32| 2 + (k % turns) as u32;
+    let faces: Vec<[u32; 3]> = (0..turns)
+        .flat_map(|k| [[rim(k), rim(k + 1), 0], [rim(k + 1), rim(k), 1]])
+        .collect();
+    let twice = mesh(vertices, &faces);
+    assert!(!is_seen(&twice));
+    assert!(bounding_solid(&twice).is_err());
+}

@@ -1,0 +1,214 @@
+//! The edges of a mesh, and whether it is closed.
+
+use super::nesting::Nesting;
+use crate::mesh::TriangleMesh;
+use crate::tally::Tally;
+use ccd_core::glam::DVec3;
+use serde::{Deserialize, Serialize};
+use std::fmt;
+
+/// The edges of a mesh at which faces do not meet in pairs, and its shells of the wrong orientation. Vertices at
+/// exactly the same point count as one.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Topology {
+    /// Edges of one face only, which are the rims of holes.
+    pub boundary: Tally<Edge>,
+    /// Edges of two faces that run along them the same way: one of the two has the wrong orientation.
+    pub flipped: Tally<Edge>,
+    /// Edges of more than two faces, with more faces running one way than the other.
+    pub branching: Tally<Edge>,
+    /// Edges of more than two faces, with as many running one way as the other: closed parts touch there.
+    pub shared: Tally<Edge>,
+    /// Shells of the wrong orientation, when others have the right one, each by one of its faces. Bodies are made
+    /// with these shells turned round.
+    pub wrong_way: Tally<u32>,
+    /// Shells within another one that cross a third, so that they may bound a solid or a cavity, each by one of
+    /// its faces.
+    pub unclear: Tally<u32>,
+    /// The volume within the faces, once shells of the wrong orientation are turned; negative where all normals
+    /// point inward. Meaningful for a closed mesh only. In the cube of the mesh's unit of length.
+    pub signed_volume: f64,
+}
+
+/// An edge by the numbers of its vertices, the smaller first. The first vertex stands for all at its point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+pub struct Edge(pub u32, pub u32);
+
+/// The direction of a closed mesh's normals, on the whole.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Orientation {
+    /// The normals point out of the solid.
+    Outward,
+    /// The normals point into the solid: the mesh is inside out.
+    Inward,
+    /// The mesh holds no volume, or as much of either sign.
+    Neither,
+}
+
+impl Topology {
+    /// Examines every edge of a mesh, and the nesting of its shells. O(n log n) in the number of faces, where
+    /// few boxes of faces of different shells meet.
+    ///
+    /// ```
+    /// use ccd_decomp::{Format, Topology, TriangleMesh};
+    /// let file = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\n";
+    /// let open = TriangleMesh::from_reader(Format::Obj, file.as_bytes()).unwrap();
+    /// assert_eq!(Topology::of(&open).boundary.count(), 3);
+    /// ```
+    pub fn of(mesh: &TriangleMesh) -> Self {
+        Topology::and_turned(mesh).0
+    }
+
+    /// Examines a mesh like [`Topology::of`], and turns the shells of the wrong orientation, if there are any.
+    pub(crate) fn and_turned(mesh: &TriangleMesh) -> (Self, Option<TriangleMesh>) {
+        let mut topology = Topology {
+            signed_volume: signed_volume(mesh),
+            ..Topology::default()
+        };
+        for (edge, forward, backward) in edge_uses(mesh) {
+            let tally = match (forward + backward, forward == backward) {
+                (2, true) => continue,
+                (1, _) => &mut topology.boundary,
+                (2, false) => &mut topology.flipped,
+                (_, false) => &mut topology.branching,
+                (_, true) => &mut topology.shared,
+            };
+            tally.add(edge);
+        }
+        if !topology.is_closed() {
+            return (topology, None);
+        }
+        let nesting = Nesting::of(mesh);
+        topology.wrong_way = nesting.wrong;
+        topology.unclear = nesting.unclear;
+        let turned = (!nesting.turned.is_empty()).then(|| mesh.turned(&nesting.turned));
+        if let Some(turned) = &turned {
+            topology.signed_volume = signed_volume(turned);
+        }
+        (topology, turned)
+    }
+
+    /// Whether the mesh bounds a solid: it is closed, and it is clear on which side of each shell the solid is.
+    pub fn is_solid(&self) -> bool {
+        self.is_closed() && self.unclear.is_empty()
+    }
+
+    /// Whether along every edge as many faces run one way as the other. The winding number of a point off the
+    /// surface is then a whole number, which defines the inside.
+    pub fn is_closed(&self) -> bool {
+        self.boundary.is_empty() && self.flipped.is_empty() && self.branching.is_empty()
+    }
+
+    /// Whether the mesh is closed, and no edge has more than two faces.
+    pub fn is_manifold(&self) -> bool {
+        self.is_closed() && self.shared.is_empty()
+    }
+
+    /// The change that would make the mesh a manifold, for messages.
+    pub(crate) fn advice(&self) -> &'static str {
+        if !(self.boundary.is_empty() && self.branching.is_empty()) {
+            "close the mesh"
+        } else if !self.flipped.is_empty() {
+            "turn the faces that look the other way"
+        } else {
+            "take the parts for themselves"
+        }
+    }
+
+    /// The direction of the normals, by the sign of the volume.
+    pub fn orientation(&self) -> Orientation {
+        if self.signed_volume > 0.0 {
+            Orientation::Outward
+        } else if self.signed_volume < 0.0 {
+            Orientation::Inward
+        } else {
+            Orientation::Neither
+        }
+    }
+}
+
+/// Iterates over every edge, with the number of faces that run from its smaller vertex to the larger, and back.
+fn edge_uses(mesh: &TriangleMesh) -> impl Iterator<Item = (Edge, usize, usize)> {
+    // The edge in the upper bits, the direction in the lowest; vertex numbers are below 2³¹.
+    let mut uses = Vec::new();
+    uses.reserve_exact(3 * mesh.faces().len());
+    for [a, b, c] in mesh.welded_faces() {
+        for (v, w) in [(a, b), (b, c), (c, a)] {
+            // An edge has two different ends.
+            if v != w {
+                uses.push((v.min(w), v.max(w) << 1 | u32::from(v > w)));
+            }
+        }
+    }
+    uses.sort_unstable();
+    let mut at = 0;
+    std::iter::from_fn(move || {
+        let &(v, w) = uses.get(at)?;
+        let same = uses[at..]
+            .iter()
+            .take_while(|u| u.0 == v && u.1 >> 1 == w >> 1);
+        let (mut forward, mut backward) = (0, 0);
+        for (_, w) in same {
+            match w & 1 {
+                0 => forward += 1,
+                _ => backward += 1,
+            }
+        }
+        at += forward + backward;
+        Some((Edge(v, w >> 1), forward, backward))
+    })
+}
+
+/// Sums the signed volumes of the tetrahedra between each face and a point near the mesh. The sum of a closed
+/// mesh does not depend on the point, but its rounding does.
+fn signed_volume(mesh: &TriangleMesh) -> f64 {
+    let corner = |v: u32| mesh.vertices()[v as usize];
+    let near = mesh.faces().first().map_or(DVec3::ZERO, |f| corner(f[0]));
+    let six: f64 = mesh
+        .faces()
+        .iter()
+        .map(|face| {
+            let [a, b, c] = face.map(|v| corner(v) - near);
+            a.dot(b.cross(c))
+        })
+        .sum();
+    six / 6.0
+}
+
+impl fmt::Display for Edge {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "e{}-{}", self.0, self.1)
+    }
+}
+
+impl fmt::Display for Topology {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let notes = [
+            (&self.boundary, "edges with one face"),
+            (&self.flipped, "edges between faces that look opposite ways"),
+            (&self.branching, "unbalanced edges with more than two faces"),
+            (&self.shared, "edges shared by closed parts"),
+        ];
+        let torn = !(self.boundary.is_empty() && self.branching.is_empty());
+        write!(f, "{}", if torn { "open" } else { "closed" })?;
+        if !self.flipped.is_empty() {
+            write!(f, ", not all faces turned the same way")?;
+        } else if self.is_closed() && self.orientation() == Orientation::Inward {
+            write!(f, ", inside out")?;
+        }
+        let shells = [
+            (&self.wrong_way, "shells wound the wrong way, turned"),
+            (&self.unclear, "shells that may bound a solid or a cavity"),
+        ];
+        for (tally, what) in shells.iter().filter(|(tally, _)| !tally.is_empty()) {
+            write!(f, "; {what}, by a face: {tally}")?;
+        }
+        for (tally, what) in notes.iter().filter(|(tally, _)| !tally.is_empty()) {
+            write!(f, "; {what}: {tally}")?;
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,158 @@
+use crate::test_meshes::CUBE;
+use crate::{Edge, Orientation, Topology, TriangleMesh};
+use ccd_core::glam::{DVec3, dvec3};
+
+const TETRAHEDRON: [[u32; 3]; 4] = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
+
+fn cube_points() -> Vec<DVec3> {
+    let bit = |k: u32, b: u32| f64::from(k >> b & 1);
+    (0..8)
+        .map(|k| dvec3(bit(k, 0), bit(k, 1), bit(k, 2)) + 1e3)
+        .collect()
+}
+
+fn topology(points: Vec<DVec3>, faces: &[[u32; 3]]) -> Topology {
+    Topology::of(&TriangleMesh::new(points, faces).unwrap())
+}
+
+#[test]
+fn a_cube_is_a_closed_manifold() {
+    let cube = topology(cube_points(), &CUBE);
+    assert!(cube.is_manifold(), "{cube}");
+    assert_eq!(cube.orientation(), Orientation::Outward);
+    assert_eq!(cube.signed_volume, 1.0);
+    assert_eq!(cube.to_string(), "closed");
+}
+
+#[test]
+fn a_cube_inside_out_is_closed() {
+    let cube = topology(cube_points(), &CUBE.map(|[a, b, c]| [a, c, b]));
+    assert!(cube.is_manifold());
+    assert_eq!(cube.orientation(), Orientation::Inward);
+    assert_eq!(cube.to_string(), "closed, inside out");
+}
+
+#[test]
+fn a_soup_of_separate_triangles_is_closed_where_their_corners_meet() {
+    let points = cube_points();
+    let corners = CUBE.iter().flatten().map(|&v| points[v as usize]).collect();
+    let faces: Vec<[u32; 3]> = (0..12).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect();
+    assert!(topology(corners, &faces).is_manifold());
+}
+
+#[test]
+fn a_missing_face_leaves_its_rim() {
+    let open = topology(cube_points(), &CUBE[1..]);
+    assert!(!open.is_closed());
+    assert_eq!(open.boundary.first(), [Edge(0, 4), Edge(0, 6), Edge(4, 6)]);
+    assert_eq!(
+        open.to_string(),
+        "open; edges with one face: 3 (e0-4, e0-6, e4-6)"
+    );
+}
+
+#[test]
+fn a_flipped_face_is_found_at_its_edges() {
+    let mut faces = CUBE;
+    faces[0].swap(1, 2);
+    let flipped = topology(cube_points(), &faces);
+    assert!(!flipped.is_closed());
+    assert_eq!(
+        flipped.flipped.first(),
+        [Edge(0, 4), Edge(0, 6), Edge(4, 6)]
+    );
+    assert!(flipped.boundary.is_empty());
+}
+
+#[test]
+fn two_shells_that_share_an_edge_are_closed_but_no_manifold() {
+    let points = vec![
+        DVec3::ZERO,
+        DVec3::X,
+        DVec3::Y,
+        DVec3::Z,
+        -DVec3::Y,
+        -DVec3::Z,
+    ];
+    let other = TETRAHEDRON.map(|face| face.map(|v| [0, 1, 4, 5][v as usize]));
+    let both = topology(points, &[TETRAHEDRON, other].concat());
+    assert!(both.is_closed() && !both.is_manifold(), "{both}");
+    assert_eq!(both.shared.first(), [Edge(0, 1)]);
+}
+
+#[test]
+fn a_fin_on_an_edge_opens_a_shell() {
+    let points = vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z, -DVec3::Y];
+    let fin = [TETRAHEDRON.as_slice(), &[[0, 1, 4]]].concat();
+    let topology = topology(points, &fin);
+    assert!(!topology.is_closed());
+    assert_eq!(topology.branching.first(), [Edge(0, 1)]);
+    assert_eq!(topology.boundary.count(), 2);
+}
+
+#[test]
+fn a_moebius_strip_cannot_be_oriented() {
+    // Five points in a ring; every three in a row are a face.
+    let points = (0..5).map(|k| dvec3(f64::from(k).cos(), f64::from(k).sin(), f64::from(k * k)));
+    let faces: Vec<[u32; 3]> = (0..5).map(|k| [k, (k + 1) % 5, (k + 2) % 5]).collect();
+    let strip = topology(points.collect(), &faces);
+    assert_eq!(strip.boundary.count(), 5);
+    assert_eq!(strip.flipped.count(), 5);
+}
+
+#[test]
+fn a_klein_bottle_has_no_rim_and_is_not_closed() {
+    // A 4 × 4 grid; going round one way mirrors the other.
+    let number = |i: u32, j: u32| {
+        if i == 4 {
+            (4 - j % 4) % 4
+        } else {
+            4 * i + j % 4
+        }
+    };
+    let mut faces = Vec::new();
+    for (i, j) in (0..16).map(|k| (k / 4, k % 4)) {
+        let quad = [
+            number(i, j),
+            number(i + 1, j),
+            number(i + 1, j + 1),
+            number(i, j + 1),
+        ];
+        faces.extend([[quad[0], quad[1], quad[2]], [quad[0], quad[2], quad[3]]]);
+    }
+    let points = (0..16).map(|k| dvec3(f64::from(k), f64::from(k * k), f64::from(k % 3)));
+    let bottle = topology(points.collect(), &faces);
+    assert!(
+        bottle.boundary.is_empty() && bottle.branching.is_empty(),
+        "{bottle}"
+    );
+    assert!(!bottle.flipped.is_empty() && !bottle.is_closed());
+}
+
+#[test]
+fn faces_without_area_close_what_they_join() {
+    // The face 0 1 3 is split at a point of its side 0–1 that the face below does not know; the
+    // triangle without area between them closes the seam.
+    let points = vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z, 0.5 * DVec3::X];
+    let seam = [
+        [0, 2, 1],
+        [0, 4, 3],
+        [4, 1, 3],
+        [0, 1, 4],
+        [1, 2, 3],
+        [2, 0, 3],
+    ];
+    assert!(topology(points.clone(), &seam).is_manifold());
+    let collapsed = [TETRAHEDRON.as_slice(), &[[0, 0, 1], [2, 2, 2]]].concat();
+    assert!(topology(points, &collapsed).is_manifold());
+}
+
+#[test]
+fn two_faces_back_to_back_hold_nothing() {
+    let sheet = topology(
+        vec![DVec3::ZERO, DVec3::X, DVec3::Y],
+        &[[0, 1, 2], [0, 2, 1]],
+    );
+    assert!(sheet.is_manifold());
+    assert_eq!(sheet.orientation(), Orientation::Neither);
+}

@@ -1,0 +1,85 @@
+//! Errors of describing and loading bodies.
+
+use crate::file::error::StoreError;
+use crate::mesh::error::MeshError;
+use crate::prepare::error::PrepareError;
+use ccd_core::InputError;
+use ccd_core::limits::MAX_COORDINATE;
+use std::path::PathBuf;
+
+/// Why there is no body.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum BodyError {
+    /// The text describes no body.
+    #[error(transparent)]
+    Source(#[from] SourceError),
+    /// The mesh cannot be read.
+    #[error(transparent)]
+    Mesh(#[from] MeshError),
+    /// The stored body cannot be read.
+    #[error(transparent)]
+    Store(#[from] StoreError),
+    /// The core rejects the shape.
+    #[error(transparent)]
+    Input(#[from] InputError),
+    /// The mesh cannot be made into a body.
+    #[error(transparent)]
+    Prepare(#[from] PrepareError),
+    /// The content of a file cannot be made into a body.
+    #[error("{}: {error}", .file.display())]
+    InFile {
+        /// The file.
+        file: PathBuf,
+        /// The reason.
+        error: PrepareError,
+    },
+}
+
+/// A text that describes no body.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SourceError {
+    /// The text is empty.
+    #[error("no body given; {EXAMPLES}")]
+    Empty,
+    /// The word before the colon is none of the shapes.
+    #[error("there is no shape {shape:?}; {EXAMPLES}")]
+    UnknownShape {
+        /// The word.
+        shape: String,
+    },
+    /// A shape needs another number of lengths.
+    #[error("{shape:?} takes {expected} lengths, not {given}; {EXAMPLES}")]
+    WrongCount {
+        /// The shape.
+        shape: &'static str,
+        /// The number that it takes.
+        expected: usize,
+        /// The number given.
+        given: usize,
+    },
+    /// A length is beyond the largest coordinate.
+    #[error(
+        "{length:?} is too large a length of {shape:?}: lengths are from 0 to {MAX_COORDINATE:e}; use a larger unit of length"
+    )]
+    TooLong {
+        /// The shape.
+        shape: &'static str,
+        /// The text given for the length.
+        length: String,
+    },
+    /// A length is not a finite number of at least 0.
+    #[error(
+        "{length:?} is not a length of {shape:?}: a number from 0 to {MAX_COORDINATE:e}; {EXAMPLES}"
+    )]
+    BadLength {
+        /// The shape.
+        shape: &'static str,
+        /// The text given for the length.
+        length: String,
+    },
+}
+
+const EXAMPLES: &str = "use box:1,2,3 (half extents), sphere:0.5 (radius), capsule:0.2,1 (radius, \
+                        half height) or a file such as part.obj";

@@ -1,0 +1,99 @@
+//! The split of pieces in two.
+
+use crate::hull::likely_triangles;
+use crate::tolerance::{EIGEN_ROUNDS, LEAST_SHARE, SPREAD_PIECES};
+use ccd_core::Pieces;
+use ccd_core::glam::DVec3;
+use ccd_core::order::greater;
+use ccd_core::vector::unit;
+use nalgebra::{Matrix3, SymmetricEigen, Vector3};
+
+/// Pieces by their centres, the means of their points.
+pub(super) struct Splitter {
+    centres: Vec<DVec3>,
+}
+
+impl Splitter {
+    pub(super) fn new(pieces: &Pieces) -> Self {
+        let mean = |points: &[DVec3]| points.iter().sum::<DVec3>() / points.len() as f64;
+        Splitter {
+            centres: pieces.iter().map(|piece| mean(piece.points)).collect(),
+        }
+    }
+
+    /// Sorts at least two pieces so that those of one side come first, and returns the number of these.
+    pub(super) fn split(&self, pieces: &mut [u32]) -> usize {
+        if pieces.len() == 2 {
+            return 1;
+        }
+        let axis = self.longest(pieces);
+        let height = |&piece: &u32| (axis.dot(self.centres[piece as usize]), piece);
+        let mut heights: Vec<(f64, u32)> = pieces.iter().map(height).collect();
+        heights.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        for (piece, sorted) in pieces.iter_mut().zip(&heights) {
+            *piece = sorted.1;
+        }
+        let middle = 0.5 * (heights[0].0 + heights[heights.len() - 1].0);
+        let below = heights.partition_point(|&(height, _)| height < middle);
+        let least = greater(1.0, LEAST_SHARE * pieces.len() as f64);
+        match (below.min(pieces.len() - below) as f64) < least {
+            true => pieces.len() / 2,
+            false => below,
+        }
+    }
+
+    /// Computes the unit vector along which the surface of the hull of the centres is spread most.
+    fn longest(&self, pieces: &[u32]) -> DVec3 {
+        // A sample of many pieces is enough for their spread.
+        let stride = pieces.len().div_ceil(SPREAD_PIECES);
+        let some = pieces.iter().step_by(stride);
+        let centres: Vec<DVec3> = some.map(|&k| self.centres[k as usize]).collect();
+        let mean = centres.iter().sum::<DVec3>() / centres.len() as f64;
+        let reach = |p: &DVec3| (*p - mean).abs().max_element();
+        let size = centres.iter().map(reach).fold(0.0, greater);
+        if !(size > 0.0) {
+            return DVec3::X;
+        }
+        // Scaled, so that no product is too small.
+        let unit: Vec<DVec3> = centres.iter().map(|&p| (p - mean) / size).collect();
+        // Any axis gives a correct tree, so that nothing has to be proven.
+        let spread = match likely_triangles(&unit) {
+            Some(triangles) => of_surface(&unit, &triangles),
+            None => of_points(&unit),
+        };
+        principal(spread).unwrap_or(DVec3::X)
+    }
+}
+
+/// Computes the second moments of a surface about its centroid.
+fn of_surface(points: &[DVec3], triangles: &[[u32; 3]]) -> Matrix3<f64> {
+    let (mut area, mut first, mut second) = (0.0, DVec3::ZERO, Matrix3::zeros());
+    for corners in triangles {
+        let [p, q, r] = corners.map(|v| points[v as usize]);
+        let weight = (q - p).cross(r - p).length();
+        let middle = (p + q + r) / 3.0;
+        area += weight;
+        first += weight * middle;
+        // A triangle's moments are those of its corners and three times its middle.
+        let corners = square(p) + square(q) + square(r) + 9.0 * square(middle);
+        second += weight / 12.0 * corners;
+    }
+    second - square(first / area) * area
+}
+
+fn of_points(points: &[DVec3]) -> Matrix3<f64> {
+    points.iter().map(|&p| square(p)).sum()
+}
+
+/// `p pᵀ`
+fn square(p: DVec3) -> Matrix3<f64> {
+    let p = Vector3::from(p.to_array());
+    p * p.transpose()
+}
+
+/// The unit eigenvector of the largest eigenvalue.
+fn principal(matrix: Matrix3<f64>) -> Option<DVec3> {
+    let eigen = SymmetricEigen::try_new(matrix, f64::EPSILON, EIGEN_ROUNDS)?;
+    let axis = eigen.eigenvectors.column(eigen.eigenvalues.imax());
+    unit(DVec3::new(axis[0], axis[1], axis[2]))
+}
