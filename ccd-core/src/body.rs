@@ -25,13 +25,16 @@ use feature_lookup::{face_under, prepare};
 use glam::DVec3;
 use hierarchy::Hierarchy;
 #[cfg(feature = "hull-tree")]
-use hull_tree::{HullTree, HullTreeError, support_of};
+use hull_tree::convex::support_of;
+#[cfg(feature = "hull-tree")]
+use hull_tree::{HullTree, HullTreeError};
 use piece::Piece;
 use pieces::Pieces;
 use shell::{Shell, shells};
 #[cfg(not(feature = "hull-tree"))]
 use support::Support;
-use tree::{Tree, pieces_at};
+use tree::Tree;
+use tree::point_query::pieces_at;
 
 /// What moves: convex pieces in the body's own frame, ready for queries; immutable, shareable.
 ///

@@ -3,6 +3,7 @@
 mod boxes;
 mod candidate;
 mod closest;
+mod feature_pair;
 mod manifold;
 mod measure;
 mod near;
@@ -10,29 +11,13 @@ mod skin;
 #[cfg(test)]
 mod tests;
 
-use crate::body::feature::Feature;
 use crate::motion::pose::Frame;
-use crate::outcome::Separation;
 use crate::problem::Problem;
+pub use feature_pair::FeaturePair;
 use manifold::Manifold;
 use near::near_faces;
 use skin::Skin;
 use std::fmt;
-
-/// A feature of A and one of B that are in contact, and how near they are.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FeaturePair {
-    /// The feature of body A.
-    pub feature_a: Feature,
-    /// The feature of body B.
-    pub feature_b: Feature,
-    /// A piece of body A that has it, as an index into [`Body::pieces`](crate::Body::pieces).
-    pub piece_a: u32,
-    /// A piece of body B that has it.
-    pub piece_b: u32,
-    /// The separation of the two features, not of the pieces, in world coordinates.
-    pub separation: Separation,
-}
 
 /// Why there is no list of contacts.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -82,7 +67,7 @@ impl Problem<'_> {
     ///
     /// # Guarantee
     /// No such pair is missed whose distance is within margin + tolerance, and
-    /// [`Separation::lower`] is within it for every pair. Lower and upper bound are of the two
+    /// [`Separation::lower`](crate::Separation::lower) is within it for every pair. Lower and upper bound are of the two
     /// features, rounding included. The same call gives the same bits.
     ///
     /// # Errors

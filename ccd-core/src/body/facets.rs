@@ -51,3 +51,10 @@ impl<'a> Facets<'a> {
         self.origins
     }
 }
+
+/// The `k`-th range of a list given by the ends of its ranges.
+#[inline]
+pub(crate) fn range(ends: &[u32], k: usize) -> std::ops::Range<usize> {
+    let start = if k == 0 { 0 } else { ends[k - 1] };
+    start as usize..ends[k] as usize
+}

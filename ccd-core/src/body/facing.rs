@@ -1,6 +1,6 @@
 //! On which side of a flat piece the solid is.
 
-use super::tree::crossings;
+use super::tree::ray::crossings;
 use super::{Body, Volume};
 use crate::math::order::greater;
 use crate::tolerance::{BELOW_SURFACE, U64};

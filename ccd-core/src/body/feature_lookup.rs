@@ -1,8 +1,8 @@
 //! Which feature of a mesh a point of a polytope lies on.
 
 use super::combination::Combination;
+use super::facets::range;
 use super::piece::Piece;
-use super::pieces::range;
 use super::polytope::Origin;
 use crate::math::order::greater;
 use crate::math::vector::{normal, unit};

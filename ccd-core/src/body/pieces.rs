@@ -1,7 +1,7 @@
 //! The pieces of one body, flat in memory.
 
 use super::combination::Combination;
-use super::facets::Facets;
+use super::facets::{Facets, range};
 use super::feature::Feature;
 use super::feature_lookup::{self, MeshFeature};
 use super::piece::{Piece, Slot};
@@ -10,7 +10,6 @@ use super::side_table::SideTable;
 use crate::error::InputError;
 use crate::limits::MAX_COORDINATE;
 use glam::DVec3;
-pub(crate) use row::{Listed, Room, Row};
 
 /// The pieces of one body, flat in memory, with the numbers of the mesh they came from.
 #[derive(Clone, Debug)]
@@ -105,38 +104,6 @@ impl Pieces {
             side_table: SideTable::default(),
         }
         .checked()
-    }
-
-    /// Convex polytopes, balls and capsules among them.
-    ///
-    /// # Guarantee
-    /// The piece is the hull of the points; facets only serve to name features and to confirm
-    /// overlaps, so that a wrong facet list cannot make a query late.
-    ///
-    /// # Errors
-    /// [`InputError::EmptyPiece`], [`InputError::BadPoint`], [`InputError::BadRadius`],
-    /// [`InputError::FacetOutOfRange`], [`InputError::BadFace`], [`InputError::NoPieces`],
-    /// [`InputError::TooManyPieces`].
-    pub fn polytopes(polytopes: &[Polytope]) -> Result<Self, InputError> {
-        let facets = || polytopes.iter().flat_map(|polytope| &polytope.facets);
-        let mut row = Row::with_room(Room {
-            pieces: polytopes.len(),
-            points: polytopes.iter().map(|p| p.points.len()).sum(),
-            facets: facets().count(),
-            corners: facets().map(|facet| facet.corners.len()).sum(),
-            faces: polytopes.iter().map(|p| p.faces.len()).sum(),
-        });
-        for polytope in polytopes {
-            let facets = polytope.facets.iter();
-            row.push(Listed {
-                points: &polytope.points,
-                vertex_ids: &polytope.vertex_ids,
-                facets: facets.map(|facet| (&facet.corners[..], facet.origin)),
-                faces: polytope.faces.iter().copied(),
-                radius: polytope.radius,
-            })?;
-        }
-        row.into_pieces()
     }
 
     fn checked(self) -> Result<Self, InputError> {
@@ -351,14 +318,7 @@ impl Surfaces {
     }
 }
 
-/// The `k`-th range of a list given by the ends of its ranges.
-#[inline]
-pub(crate) fn range(ends: &[u32], k: usize) -> std::ops::Range<usize> {
-    let start = if k == 0 { 0 } else { ends[k - 1] };
-    start as usize..ends[k] as usize
-}
-
-mod row;
+pub(crate) mod builder;
 #[cfg(feature = "serde")]
 mod serial;
 #[cfg(test)]

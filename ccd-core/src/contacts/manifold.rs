@@ -1,8 +1,8 @@
 //! What is found in contact, and which of it is told.
 
-use super::FeaturePair;
 use super::candidate::Candidate;
 use super::closest::{Part, crossing, on_triangle};
+use super::feature_pair::FeaturePair;
 use super::measure::measure;
 use super::skin::{Skin, Spot, edge};
 use crate::motion::pose::Frame;

@@ -1,7 +1,7 @@
 //! How near two features are, checked as every separation is.
 
-use super::FeaturePair;
 use super::candidate::Candidate;
+use super::feature_pair::FeaturePair;
 use super::skin::{Skin, Spot};
 use crate::math::order::{greater, lesser};
 use crate::math::vector::{self, normal, unit};

@@ -1,7 +1,7 @@
 //! Every pair keeps its own clock; the pair whose proof expires first is looked at next.
 
-use super::Schedule;
 use super::answer::answer;
+use super::contract::Schedule;
 use super::meter::Meter;
 use super::nodes::expand::{Split, expand};
 use super::nodes::siblings::{Next, Siblings};

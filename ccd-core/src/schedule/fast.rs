@@ -7,9 +7,9 @@ mod reach;
 #[cfg(test)]
 mod tests;
 
-use super::Schedule;
 use super::answer::answer;
 use super::best_first::BestFirst;
+use super::contract::Schedule;
 use super::meter::Meter;
 use super::proven::Proven;
 use crate::distance::oracle::DistanceOracle;

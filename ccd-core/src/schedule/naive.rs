@@ -1,7 +1,7 @@
 //! All pairs of pieces, one common clock: Alg. 1 of the paper, the slow and obvious twin.
 
-use super::Schedule;
 use super::answer::answer;
+use super::contract::Schedule;
 use super::meter::Meter;
 use super::pieces::pair::Pair;
 use super::pieces::snapshot::Snapshot;

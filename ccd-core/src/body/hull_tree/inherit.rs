@@ -4,9 +4,9 @@
 //! of the parent is a child's, or is tiled by one of either child, or is a bridge.
 
 use super::edges::{EdgeMap, edges_of};
+use super::hull::{FacetClass, Hull};
 use super::inside::{is_coplanar, spanning};
 use super::node::{FacetData, Node};
-use super::{FacetClass, Hull};
 use crate::body::polytope::{Face, Origin, Polytope};
 use crate::math::exact::is_degenerate;
 use crate::math::point_tree::PointTree;

@@ -1,6 +1,7 @@
 //! A node of a hull tree while the tree is put together.
 
-use super::{FacetClass, Loops};
+use super::hull::FacetClass;
+use super::loops::Loops;
 use crate::body::polytope::{Face, Origin};
 use glam::DVec3;
 use std::borrow::Cow;

@@ -1,7 +1,7 @@
 //! The box and the ball of a node.
 
 use super::group::up;
-use super::{Below, Node};
+use super::node::{Below, Node};
 use crate::math::order::greater;
 use crate::math::principal::principal_axes;
 use crate::math::vector::{length, unit};

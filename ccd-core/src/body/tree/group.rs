@@ -1,6 +1,6 @@
 //! Children in groups of eight, one array per coordinate, so that eight are bounded at once.
 
-use super::Node;
+use super::node::{Below, Node};
 use crate::math::order::greater;
 use crate::math::vector::{length, normal};
 use crate::tolerance::SQUARES;
@@ -84,7 +84,7 @@ impl BoxGroup {
             group.radius[lane] = (node.radius + off).next_up();
             let reach = up(length(way) + f64::from(node.radius));
             group.members.reach = greater(group.members.reach, reach);
-            if matches!(node.below, super::Below::Piece(_)) {
+            if matches!(node.below, Below::Piece(_)) {
                 group.leaves |= 1 << lane;
             }
         }

@@ -4,7 +4,7 @@ use super::{Corner, Face, PointBits, Skin};
 use crate::body::combination::Combination;
 use crate::body::feature::Feature;
 use crate::body::piece::Piece;
-use crate::body::tree::pieces_at;
+use crate::body::tree::point_query::pieces_at;
 use glam::DVec3;
 use std::collections::HashMap;
 

@@ -8,7 +8,7 @@ use super::axis;
 use super::eight_pairs::{EightPairs, RelativeMotionF32};
 use super::shape::{Children, OtherNode};
 use super::turn::Turn;
-use super::vector::max;
+use super::vector_f32::max;
 use crate::body::tree::LANES;
 use crate::tolerance::{LOOK_AGAIN, SWEPT, THICKNESS};
 

@@ -4,7 +4,7 @@ use super::axis::Axis;
 use super::clock;
 use super::shape::{Children, OtherNode};
 use super::turn::Turn;
-use super::vector::{dot, length};
+use super::vector_f32::{dot, length};
 use crate::tolerance::{ACROSS_F32, BEND_F32, LEAST_BEND_F32};
 use glam::Vec3;
 

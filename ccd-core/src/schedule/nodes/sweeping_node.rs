@@ -13,7 +13,7 @@ use super::clock;
 use super::eight_pairs::{EightPairs, Lane, bending};
 use super::shape::{Children, OtherNode};
 use super::turn::Turn;
-use super::vector::{dot, length, min};
+use super::vector_f32::{dot, length, min};
 use crate::tolerance::{ATTACHED_TIME, BEND_F32, LEAST_BEND_F32, RATE_F32};
 
 /// The node that sweeps towards a plane attached to the other body.

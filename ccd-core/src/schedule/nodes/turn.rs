@@ -1,6 +1,6 @@
 //! How a body turns, as seen from the group that is split.
 
-use super::vector::{cross, length};
+use super::vector_f32::{cross, length};
 use glam::Vec3;
 
 /// A body's turning; nothing is computed for one that does not turn.

@@ -4,7 +4,8 @@ mod beside;
 
 use crate::body::Body;
 use crate::body::shell::Shell;
-use crate::body::tree::{crossings, is_clear};
+use crate::body::tree::point_query::is_clear;
+use crate::body::tree::ray::crossings;
 use crate::motion::pose::Frame;
 use crate::outcome::Overlap;
 use crate::problem::{Problem, Side};
