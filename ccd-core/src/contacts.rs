@@ -8,8 +8,6 @@ mod manifold;
 mod measure;
 mod near;
 mod skin;
-#[cfg(test)]
-mod tests;
 
 use crate::motion::pose::Frame;
 use crate::problem::Problem;
@@ -140,3 +138,6 @@ impl fmt::Display for ContactsError {
 }
 
 impl std::error::Error for ContactsError {}
+
+#[cfg(test)]
+mod tests;

@@ -11,6 +11,20 @@ use std::fmt;
 ///
 /// # Guarantee
 /// Whatever the time in it, nothing touched before that time, in floating point as well.
+///
+/// ```
+/// use ccd_core::Outcome;
+/// /// The part of a motion that is safe to make.
+/// fn safe_share(outcome: &Outcome, duration: f64) -> f64 {
+///     match *outcome {
+///         Outcome::Free { .. } => 1.0,
+///         Outcome::Contact { time, .. } => time / duration,
+///         Outcome::Unresolved { safe_until, .. } => safe_until / duration,
+///         Outcome::Touching { .. } | Outcome::Overlapping { .. } => 0.0,
+///     }
+/// }
+/// assert_eq!(safe_share(&Outcome::Free { proven_gap: 0.1 }, 2.0), 1.0);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Outcome {
     /// The bodies come within margin + tolerance at `time`, and never touched before.
@@ -85,6 +99,28 @@ impl fmt::Display for Limit {
 }
 
 /// A checked pair of nearest points, with the features that hold them.
+///
+/// ```
+/// use ccd_core::{glam::DVec3, schedule::BestFirst, *};
+/// # struct Balls;
+/// # impl DistanceOracle for Balls {
+/// #     type Cache = ();
+/// #     fn separation(&mut self, pair: &PiecePair<'_>, _: &mut ()) -> Result<Claim, GiveUp> {
+/// #         let axis = pair.b_to_a.point(pair.b.points[0]) - pair.a.points[0];
+/// #         Ok(Claim { axis, a: Combination::point(0), b: Combination::point(0) })
+/// #     }
+/// # }
+/// let ball = Body::ball(0.5)?;
+/// let flying = Motion::new(Pose::at(-3.0 * DVec3::X)?, DVec3::X, DVec3::ZERO)?;
+/// let problem = Problem::new((&ball, flying), (&ball, Motion::STILL), 4.0, &Config::default())?;
+/// let answer = BestFirst::default().solve(&problem, &mut Balls);
+/// let Outcome::Contact { contact, .. } = answer.outcome else { panic!("they meet") };
+/// // From A to B, with a point of either ball, which is one piece without vertices.
+/// assert_eq!(contact.separation.normal, DVec3::X);
+/// assert!(contact.separation.witness_b.distance(-0.5 * DVec3::X) < 1e-12);
+/// assert_eq!((contact.piece_a, contact.piece_b), (0, 0));
+/// # Ok::<(), InputError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Contact {
     /// The separation in world coordinates at the time reported.

@@ -13,6 +13,14 @@ use glam::DVec3;
 use std::time::Duration;
 
 /// How accurately to answer, and what to count as a contact.
+///
+/// ```
+/// use ccd_core::Config;
+/// // Contact is where the bodies come within a hundredth, to within a millionth.
+/// let config = Config { margin: 0.01, tolerance: 1e-6, ..Config::default() };
+/// assert_eq!(Config::default().tolerance, 1e-3);
+/// # assert_eq!(config.deadline, None);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Config {
     /// A contact is reported at a distance of at most margin + tolerance. In the scene's unit of
@@ -47,6 +55,29 @@ impl Default for Config {
 }
 
 /// What becomes of a contact at the start.
+///
+/// ```
+/// use ccd_core::{glam::DVec3, schedule::BestFirst, *};
+/// # struct Balls;
+/// # impl DistanceOracle for Balls {
+/// #     type Cache = ();
+/// #     fn separation(&mut self, pair: &PiecePair<'_>, _: &mut ()) -> Result<Claim, GiveUp> {
+/// #         let axis = pair.b_to_a.point(pair.b.points[0]) - pair.a.points[0];
+/// #         Ok(Claim { axis, a: Combination::point(0), b: Combination::point(0) })
+/// #     }
+/// # }
+/// let ball = Body::ball(0.5)?;
+/// // Two balls touch, and fly apart.
+/// let leaving = Motion::new(Pose::at(DVec3::X)?, DVec3::X, DVec3::ZERO)?;
+/// let outcome = |start| -> Result<Outcome, InputError> {
+///     let config = Config { start, ..Config::default() };
+///     let problem = Problem::new((&ball, Motion::STILL), (&ball, leaving), 1.0, &config)?;
+///     Ok(BestFirst::default().solve(&problem, &mut Balls).outcome)
+/// };
+/// assert!(matches!(outcome(StartPolicy::Report)?, Outcome::Touching { .. }));
+/// assert!(matches!(outcome(StartPolicy::Leave)?, Outcome::Free { .. }));
+/// # Ok::<(), InputError>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum StartPolicy {
     /// It is the answer: [`Touching`](crate::Outcome::Touching).
@@ -65,6 +96,14 @@ pub enum StartPolicy {
 }
 
 /// A body and how it moves.
+///
+/// ```
+/// use ccd_core::{Body, Motion, Moving};
+/// let ball = Body::ball(0.5)?;
+/// let resting: Moving = (&ball, Motion::STILL).into();
+/// assert_eq!(resting.motion, Motion::STILL);
+/// # Ok::<(), ccd_core::InputError>(())
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Moving<'a> {
     /// What moves.
@@ -80,6 +119,17 @@ impl<'a> From<(&'a Body, Motion)> for Moving<'a> {
 }
 
 /// A well-posed query over `[0, duration]`.
+///
+/// ```
+/// use ccd_core::{glam::DVec3, Body, Config, Motion, Pose, Problem};
+/// let cube = Body::cuboid([0.5, 0.5, 0.5])?;
+/// let above = Pose::at(DVec3::new(0.0, 0.0, 1e9))?;
+/// let falling = Motion::new(above, -1e9 * DVec3::Z, DVec3::X)?;
+/// let problem = Problem::new((&cube, falling), (&cube, Motion::STILL), 1.0, &Config::default())?;
+/// // At such coordinates no finer tolerance than this can be certified.
+/// assert!(problem.tolerance() > 1e-6);
+/// # Ok::<(), ccd_core::InputError>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Problem<'a> {
     pub(crate) a: Side<'a>,

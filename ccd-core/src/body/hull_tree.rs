@@ -14,8 +14,6 @@ mod node;
 mod renumber;
 #[cfg(feature = "serde")]
 mod serial;
-#[cfg(test)]
-mod tests;
 
 pub use error::{HullFault, HullTreeError};
 pub use hull::{FacetClass, Hull, HullNode};
@@ -175,3 +173,6 @@ impl Hulls {
         self.pieces.bytes() + self.classes.len() + 25 * self.sizes.len() + meeting
     }
 }
+
+#[cfg(test)]
+mod tests;

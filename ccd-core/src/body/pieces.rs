@@ -1,11 +1,16 @@
 //! The pieces of one body, flat in memory.
 
+pub(crate) mod builder;
+#[cfg(feature = "serde")]
+mod serial;
+mod unpack;
+
 use super::combination::Combination;
 use super::facets::{Facets, range};
 use super::feature::Feature;
 use super::feature_lookup::{self, MeshFeature};
 use super::piece::{Piece, Slot};
-use super::polytope::{Face, Origin, Polytope};
+use super::polytope::{Face, Origin};
 use super::side_table::SideTable;
 use crate::error::InputError;
 use crate::limits::MAX_COORDINATE;
@@ -318,9 +323,5 @@ impl Surfaces {
     }
 }
 
-pub(crate) mod builder;
-#[cfg(feature = "serde")]
-mod serial;
 #[cfg(test)]
 mod tests;
-mod unpack;

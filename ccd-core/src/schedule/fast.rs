@@ -4,8 +4,6 @@ mod descent;
 mod front;
 mod hull_pair;
 mod reach;
-#[cfg(test)]
-mod tests;
 
 use super::answer::answer;
 use super::best_first::BestFirst;
@@ -128,3 +126,6 @@ impl<O: DistanceOracle> Fast<O> {
         proven.end(problem)
     }
 }
+
+#[cfg(test)]
+mod tests;
