@@ -23,7 +23,7 @@ use std::fmt;
 pub enum ContactsError {
     /// The time is NaN, or not within the duration.
     NotInDuration {
-        /// What was asked for.
+        /// The time that was asked for.
         time: f64,
         /// The problem's duration.
         duration: f64,

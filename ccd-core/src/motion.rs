@@ -1,5 +1,5 @@
-//! How a body moves: a chosen centre at constant velocity, the body turning about it at constant
-//! angular velocity.
+//! The motion of a body: a chosen centre moves at constant velocity, and the body turns about it at
+//! constant angular velocity.
 
 pub(crate) mod bound;
 pub(crate) mod gap;

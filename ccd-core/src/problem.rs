@@ -12,7 +12,7 @@ use crate::tolerance::{self, NODE_GAP};
 use glam::DVec3;
 use std::time::Duration;
 
-/// How accurately to answer, and what to count as a contact.
+/// The accuracy of an answer, and what counts as a contact.
 ///
 /// ```
 /// use ccd_core::Config;
@@ -28,13 +28,13 @@ pub struct Config {
     pub tolerance: f64,
     /// The distance to keep; 0 reports touching. In the scene's unit of length.
     pub margin: f64,
-    /// What becomes of a contact at the start.
+    /// The treatment of a contact at the start.
     pub start: StartPolicy,
-    /// How much [work](crate::Stats::work) may be done before the query is left unresolved: visits
-    /// of pairs of nodes, and what costs as much. Each takes about a microsecond or less, and up to
-    /// about 150 bytes.
+    /// The most [work](crate::Stats::work) before the query is left unresolved: iterations over pairs
+    /// of nodes, and what costs as much. Each takes about a microsecond or less, and up to about 150
+    /// bytes.
     pub budget: u64,
-    /// How long the query may take before it is left unresolved; none reads no clock.
+    /// The longest time before the query is left unresolved; none reads no clock.
     ///
     /// Looked at every few hundred visits, so that it is overstepped by less than a millisecond
     /// where pieces are small; one call of an oracle is never interrupted. Whether it is reached
@@ -54,7 +54,7 @@ impl Default for Config {
     }
 }
 
-/// What becomes of a contact at the start.
+/// The treatment of a contact at the start.
 ///
 /// ```
 /// use ccd_core::{glam::DVec3, schedule::BestFirst, *};
@@ -106,7 +106,7 @@ pub enum StartPolicy {
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Moving<'a> {
-    /// What moves.
+    /// The body.
     pub body: &'a Body,
     /// How.
     pub motion: Motion,

@@ -24,7 +24,7 @@ impl<'a> Facets<'a> {
         faces: &[],
     };
 
-    /// How many facets there are.
+    /// The number of facets.
     pub fn len(&self) -> usize {
         self.ends.len()
     }
@@ -46,7 +46,7 @@ impl<'a> Facets<'a> {
         &self.corners[start as usize..self.ends[k] as usize]
     }
 
-    /// What each facet is of the mesh.
+    /// The origin of each facet in the mesh.
     pub fn origins(&self) -> &'a [Origin] {
         self.origins
     }

@@ -18,7 +18,7 @@ pub(crate) enum Facing {
     Unclear,
 }
 
-/// What is known of a piece, kept beside it.
+/// The knowledge about a piece that is kept beside it.
 struct Kept {
     facing: Facing,
     inside: Option<DVec3>,
@@ -57,7 +57,7 @@ impl Body {
         points.iter().sum::<DVec3>() / points.len() as f64
     }
 
-    /// Of a solid's flat pieces: made when it is first asked for.
+    /// Returns the knowledge about a solid's flat piece, which is made when it is first asked for.
     fn kept(&self, piece: u32) -> Option<&Kept> {
         let of = self.pieces().get(piece as usize);
         if self.volume() == Volume::Surface || !of.is_flat() {

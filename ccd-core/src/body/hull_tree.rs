@@ -56,7 +56,7 @@ pub struct HullTree {
 #[derive(Debug)]
 struct Hulls {
     pieces: Pieces,
-    /// What the facets of all hulls are, in order.
+    /// The classes of the facets of all hulls, in order.
     classes: Vec<FacetClass>,
     /// Where each hull's facets end.
     class_ends: Vec<u32>,
@@ -82,7 +82,7 @@ impl HullTree {
         &self.hulls.pieces
     }
 
-    /// What the facets of a node's hull are, in their order.
+    /// The classes of the facets of a node's hull, in their order.
     ///
     /// # Panics
     /// When there is no such node.
@@ -90,8 +90,8 @@ impl HullTree {
         &self.hulls.classes[range(&self.hulls.class_ends, node as usize)]
     }
 
-    /// What the feature is that holds a combination of a node's points: the best of the facets that
-    /// meet there `[SWIFT01]`.
+    /// Returns the class of the feature that holds a combination of a node's points: the best of the
+    /// facets that meet there `[SWIFT01]`.
     ///
     /// # Guarantee
     /// Unless [`FacetClass::Free`], the combination lies on a piece below the node, or within one.

@@ -30,7 +30,7 @@ pub struct Pieces {
     point_ends: Vec<u32>,
     radii: Radii,
     shape: Shape,
-    /// What backends keep of them.
+    /// The values that backends keep beside the pieces.
     side_table: SideTable,
 }
 
@@ -138,7 +138,7 @@ impl Pieces {
         Ok(self)
     }
 
-    /// How many pieces there are: at least one.
+    /// The number of pieces: at least one.
     #[allow(clippy::len_without_is_empty)]
     pub fn len(&self) -> usize {
         self.point_ends.len()
@@ -232,9 +232,9 @@ impl Pieces {
         out
     }
 
-    /// What a point of a piece is called in the mesh: the vertex, edge or face that holds the corners
-    /// it is combined of, or the face that it lies on all the same; [`Feature::Piece`] inside, and
-    /// on a polytope of which all facets are virtual.
+    /// Returns the name of a point of a piece in the mesh: the vertex, edge or face that holds the
+    /// corners it is combined of, or the face that it lies on all the same; [`Feature::Piece`]
+    /// inside, and on a polytope whose facets are all virtual.
     pub fn feature(&self, piece: usize, point: &Combination) -> Feature {
         let id = |corner: u32| self.vertex_ids[self.point_range(piece).start + corner as usize];
         match (&self.shape, point.support()) {

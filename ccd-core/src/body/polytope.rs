@@ -22,13 +22,13 @@ pub struct Polytope {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Facet {
-    /// What it is of the mesh.
+    /// The part of the mesh that it is.
     pub origin: Origin,
     /// Indices into the polytope's points, counter-clockwise seen from outside.
     pub corners: Vec<u32>,
 }
 
-/// What a facet is of the mesh that its polytope came from.
+/// The part of the mesh that a facet of its polytope is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Origin {

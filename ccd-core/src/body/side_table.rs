@@ -1,4 +1,4 @@
-//! What backends keep of pieces, beside the pieces.
+//! Values that backends keep beside the pieces.
 
 use std::any::Any;
 use std::fmt;
@@ -15,7 +15,7 @@ pub(crate) struct SideTable(OnceLock<Box<Column>>);
 struct Column {
     /// A `Vec<OnceLock<T>>` of some `T`.
     entries: Box<dyn Any + Send + Sync>,
-    /// Of other types.
+    /// The columns of other types.
     next: SideTable,
 }
 

@@ -30,7 +30,7 @@ pub(crate) struct Tree {
 /// A node, or a triangle beyond the nodes.
 pub(crate) type NodeId = u32;
 
-/// What a [`NodeId`] names.
+/// The node or triangle that a [`NodeId`] names.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Named<'a> {
     Node(&'a Node),

@@ -4,7 +4,7 @@
 use crate::math::order::lesser;
 use glam::DVec3;
 
-/// Which part of a triangle a point is on.
+/// The part of a triangle that a point is on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Part {
     Corner(usize),

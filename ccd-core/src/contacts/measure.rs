@@ -1,4 +1,4 @@
-//! How near two features are, checked as every separation is.
+//! Measures how near two features are, checked as every separation is.
 
 use super::candidate::Candidate;
 use super::feature_pair::FeaturePair;

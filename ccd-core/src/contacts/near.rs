@@ -78,7 +78,7 @@ fn below(tree: &Tree, at: NodeId) -> std::ops::Range<NodeId> {
     members.first..members.first + members.count
 }
 
-/// What a node takes up, in A's frame.
+/// The extent of a node, in A's frame.
 struct Extent {
     centre: DVec3,
     radius: f64,

@@ -11,7 +11,7 @@ use glam::DVec3;
 use std::collections::HashMap;
 use std::ops::Range;
 
-/// What has been unpacked of a body's surface, where it is at a time, in A's frame.
+/// The unpacked part of a body's surface, where it is at a time, in A's frame.
 pub(super) struct Skin<'a> {
     body: &'a Body,
     to_a: Frame,
@@ -200,8 +200,8 @@ impl<'a> Skin<'a> {
         faces.unwrap_or_default()
     }
 
-    /// What a spot on a face is told as, and on which face it is: what is within a plane is of a
-    /// face, and triangles that go by one number are one face.
+    /// Returns the spot that a spot on a face is reported as, and the face that it is on: what is
+    /// within a plane belongs to a face, and triangles that share one number are one face.
     pub(super) fn named(&self, spot: Spot, face: u32) -> (Spot, u32) {
         let face = match spot {
             Spot::Corner(corner) if self.hidden[corner as usize] => face,
@@ -216,8 +216,8 @@ impl<'a> Skin<'a> {
         (Spot::Face(first.copied().unwrap_or(face)), face)
     }
 
-    /// What a spot on a face is called: one that has no number of its own goes by the face, or by the
-    /// piece.
+    /// Returns the name of a spot on a face: one that has no number of its own has the name of the
+    /// face, or of the piece.
     pub(super) fn name(&self, spot: Spot, face: u32) -> Feature {
         let id = |corner: u32| self.number_of(corner);
         let own = match spot {

@@ -11,7 +11,7 @@ use glam::DVec3;
 /// A checked claim, in A's frame.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Checked {
-    /// What was claimed; its combinations name points that exist.
+    /// The claim; its combinations name points that exist.
     pub(crate) claim: Claim,
     /// Bounds the distance from below, rounding deducted; negative when no axis separates.
     pub(crate) lower: f64,

@@ -62,7 +62,7 @@ enum Item<C> {
     Pieces(Pair<C>),
 }
 
-/// What to look at: a pair of pieces, or a pair of nodes of which one is split.
+/// The next thing to look at: a pair of pieces, or a pair of nodes one of which is split.
 enum Found<C> {
     Pieces(Pair<C>),
     Split(Split),

@@ -98,7 +98,7 @@ impl<O: DistanceOracle> Naive<O> {
     }
 }
 
-/// How far each piece reaches from its body's axis of rotation.
+/// Returns the reach of each piece from its body's axis of rotation.
 fn reaches(side: &Side<'_>) -> Vec<f64> {
     let pieces = side.body.pieces().iter();
     pieces.map(|piece| side.path.reach(piece.points)).collect()

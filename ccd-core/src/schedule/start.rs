@@ -1,4 +1,4 @@
-//! How near bodies are that touch at the start: nearest pairs first.
+//! Measures how near bodies are that touch at the start: nearest pairs first.
 
 mod containment;
 
@@ -54,7 +54,7 @@ pub(super) fn touching<O: DistanceOracle>(
 /// Splits the pair of nodes that may hold the nearest pieces, until no pair that waits can hold any
 /// that are nearer than those found.
 ///
-/// What may intersect is bounded by no distance at all, and therefore comes before all others.
+/// Pairs that may intersect are bounded by no distance at all, and therefore come before all others.
 struct Nearest<'p> {
     problem: &'p Problem<'p>,
     /// By lower bounds of their distance.
@@ -65,7 +65,7 @@ struct Nearest<'p> {
     lower: f64,
     /// The pairs of pieces that no axis keeps apart; all of them, as none has a distance.
     touching: Vec<[u32; 2]>,
-    /// Of some pair it cannot be told whether it intersects.
+    /// Some pair could not be shown to intersect or not.
     undecided: bool,
 }
 

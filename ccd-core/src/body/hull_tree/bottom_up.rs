@@ -8,7 +8,7 @@ use std::panic::resume_unwind;
 use std::sync::{Mutex, PoisonError};
 use std::thread::{Builder, available_parallelism, scope};
 
-/// What is made of every node, given what is made of its children; leaves are given any two.
+/// Makes a value for every node from the values of its children; leaves are given any two.
 ///
 /// # Guarantee
 /// The same for any number of cores, also where it fails: of several errors it is that of the node that
@@ -57,7 +57,7 @@ fn bottom_up_in<T: Default + Send>(
 struct Row<'a, F> {
     hierarchy: &'a Hierarchy,
     order: &'a [usize],
-    /// How many nodes each one's subtree has.
+    /// The number of nodes in each node's subtree.
     below: &'a [usize],
     make: F,
 }

@@ -65,7 +65,7 @@ fn find_fault(hull: &Hull) -> Result<(), HullFault> {
     Ok(())
 }
 
-/// What belongs to directed edges between points of so many numbers.
+/// Values by directed edge, between points of so many numbers.
 pub(super) struct EdgeMap {
     /// Where the edges from each point start, and at last where those of the last one end.
     starts: Vec<u32>,
@@ -77,7 +77,7 @@ pub(super) struct EdgeMap {
 const MANY: usize = 8;
 
 impl EdgeMap {
-    /// Of edges that are there more than once the last one counts. O(n log n).
+    /// Makes the map; of edges that come more than once the last one counts. O(n log n).
     pub(super) fn new(
         points: usize,
         edges: impl Iterator<Item = ((u32, u32), u32)> + Clone,
@@ -106,7 +106,7 @@ impl EdgeMap {
         EdgeMap { starts, edges }
     }
 
-    /// What belongs to an edge.
+    /// Returns the value of an edge.
     pub(super) fn get(&self, (from, to): (u32, u32)) -> Option<u32> {
         let [start, end] = [from, from + 1].map(|k| self.starts[k as usize] as usize);
         let from = &self.edges[start..end];

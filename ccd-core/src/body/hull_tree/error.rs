@@ -13,12 +13,12 @@ pub enum HullTreeError {
     Node {
         /// Its index.
         node: u32,
-        /// What is wrong with it.
+        /// The fault.
         fault: HullFault,
     },
 }
 
-/// What can be wrong with a node.
+/// The faults of a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum HullFault {

@@ -3,7 +3,7 @@
 use super::loops::Loops;
 use glam::DVec3;
 
-/// What a node is made of.
+/// A node as it is handed in.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum HullNode {
@@ -25,7 +25,7 @@ pub struct Hull {
     pub facets: Loops,
 }
 
-/// What a part of a node's surface is of the pieces below; the better one comes first.
+/// The class of a part of a node's surface, by the pieces below; the better one comes first.
 ///
 /// The nearest features of two nodes that are both not [`Free`](FacetClass::Free) belong to pieces:
 /// no pair of pieces below is nearer, or farther.

@@ -1,11 +1,11 @@
-//! Which points of two children and their parent's hull are at one place.
+//! Points of two children and of their parent's hull that are at one place.
 
 use super::error::HullFault;
 use super::hull::Hull;
 use super::node::Node;
 use glam::DVec3;
 
-/// Which points of the children are the same, and which of them are the hull's.
+/// The points of the children that are the same, and those of them that are the hull's.
 ///
 /// Numbers below the hull's count of points name those; the others name hidden points.
 pub(super) struct Identity {

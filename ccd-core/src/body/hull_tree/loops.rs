@@ -33,7 +33,7 @@ impl Loops {
         self.ends.push(self.corners.len());
     }
 
-    /// How many loops there are.
+    /// The number of loops.
     pub fn len(&self) -> usize {
         self.ends.len()
     }

@@ -25,13 +25,13 @@ pub(crate) struct PiecesBuilder {
     surfaces: Surfaces,
 }
 
-/// How much there is of everything.
+/// The counts of everything.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Capacity {
     pub(crate) pieces: usize,
     pub(crate) points: usize,
     pub(crate) facets: usize,
-    /// Of all facets.
+    /// The corners of all facets.
     pub(crate) corners: usize,
     pub(crate) faces: usize,
 }

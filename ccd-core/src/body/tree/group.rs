@@ -6,7 +6,7 @@ use crate::math::vector::{length, normal};
 use crate::tolerance::SQUARES;
 use glam::{DVec3, Vec3};
 
-/// How many children a group holds.
+/// The number of children in a group.
 pub(crate) const LANES: usize = 8;
 
 /// Three coordinates, eight each.
@@ -22,7 +22,7 @@ pub(crate) struct BoxGroup {
     pub(crate) rounding: [f32; LANES],
     pub(crate) radius: [f32; LANES],
     pub(crate) members: Members,
-    /// Which lanes hold a single piece.
+    /// The lanes that hold a single piece.
     pub(crate) leaves: u8,
 }
 
@@ -38,7 +38,7 @@ pub(crate) struct TriangleGroup {
     pub(crate) members: Members,
 }
 
-/// What every group has.
+/// The fields that every group has.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Members {
     /// In the body's frame; rows are relative to it.

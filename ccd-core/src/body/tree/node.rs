@@ -17,7 +17,7 @@ pub(crate) struct Node {
     pub(crate) below: Below,
 }
 
-/// What is below a node.
+/// The children of a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Below {
     /// A group of nodes.
@@ -29,7 +29,7 @@ pub(crate) enum Below {
 }
 
 impl Node {
-    /// How far the box reaches along one of its axes, and a little more: the axes are rounded.
+    /// Returns the reach of the box along one of its axes, and a little more: the axes are rounded.
     pub(super) fn reach_f64(&self, axis: usize) -> f64 {
         f64::from(self.half[axis]) + f64::from(self.rounding) + BOX_F64 * f64::from(self.radius)
     }

@@ -1,4 +1,4 @@
-//! What is at a point, or near it.
+//! Queries for the pieces at a point, and for the surface near it.
 
 use super::{Below, Tree};
 use crate::body::pieces::Pieces;

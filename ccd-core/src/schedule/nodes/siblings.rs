@@ -15,13 +15,13 @@ pub(crate) struct Siblings {
     /// The split that the pairs came of.
     split: Split,
     first: NodeId,
-    /// Which children are thicker than the other node and are to be split next.
+    /// The children that are thicker than the other node and are to be split next.
     thicker: u8,
-    /// Which children are better looked at again than split.
+    /// The children that are better looked at again than split.
     waits: u8,
 }
 
-/// What to do with a pair whose clock has run out.
+/// The next step for a pair whose clock has run out.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Next {
     /// Ask the oracle about two pieces, of A and of B.
@@ -58,7 +58,7 @@ impl Siblings {
         }
     }
 
-    /// What came of a split at a clock.
+    /// The pairs that came of a split at a clock.
     pub(crate) fn new(problem: &Problem<'_>, expansion: &Expansion, split: Split, s: f64) -> Self {
         let bounds = &expansion.bounds;
         let (mut thicker, mut waits) = (0, 0);

@@ -20,7 +20,7 @@ use crate::tolerance::{ATTACHED_TIME, BEND_F32, LEAST_BEND_F32, RATE_F32};
 struct SweepingNode {
     /// `n·(v_S − v_O)` at its centre, both taken at that point, and what its points around add.
     rate: f32,
-    /// How far its points are at most from the turning body's centre.
+    /// The largest distance of its points from the turning body's centre.
     distance: f32,
     /// No point of it moves faster due to its own turning.
     speed: f32,

@@ -19,11 +19,12 @@ pub(crate) struct Pair<C> {
     pub(crate) a: u32,
     pub(crate) b: u32,
     goal: Goal,
-    /// What the oracle left for its next call.
+    /// The memory that the oracle left for its next call.
     cache: C,
 }
 
-/// What a pair's clock proves, and when the pair is in contact; distances beyond the margin.
+/// The gap that a pair's clock proves, which decides when the pair is in contact; distances beyond
+/// the margin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Goal {
     /// In contact at the query's tolerance; half of it is proven kept.
@@ -34,7 +35,7 @@ enum Goal {
     Resting { floor: f64 },
 }
 
-/// What became of a pair at its clock.
+/// The result of a pair's advance at its clock.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Step {
     /// Certified apart until this clock, which is past the present one; beyond 1 is forever.
@@ -133,8 +134,8 @@ impl<C: Default + Clone> Pair<C> {
         }
     }
 
-    /// What a pair that is within the tolerance has to keep from now on, or none when it is in
-    /// contact.
+    /// Returns the gap that a pair within the tolerance has to keep from now on, or none when it is
+    /// in contact.
     fn goal_of_start<O: DistanceOracle<Cache = C>>(
         &self,
         problem: &Problem<'_>,

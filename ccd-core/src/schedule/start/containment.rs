@@ -13,7 +13,7 @@ use crate::tolerance::INSIDE;
 use beside::beside_edges;
 use glam::DVec3;
 
-/// What is known of bodies of which no two pieces intersect.
+/// The result for bodies without two pieces that intersect.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Containment {
     /// A point of one is inside the other one's solid.
@@ -38,8 +38,8 @@ pub(crate) enum Containment {
 ///   is, and beside every edge of the other body that lies on them, which is where a surface passes
 ///   through a piece without a face that intersects it.
 ///
-/// What is inside by less than rounding is not told from what touches, nor what is beside an edge by less
-/// than a thousandth of it.
+/// A part that is inside by less than rounding is not distinguished from one that touches, nor is
+/// what is beside an edge by less than a thousandth of it.
 ///
 /// O((parts + pairs that touch) · log n) where rays meet few triangles.
 pub(crate) fn at_start(problem: &Problem<'_>, touching: &[[u32; 2]]) -> Containment {
@@ -88,7 +88,7 @@ struct Search<'a> {
     reach: f64,
 }
 
-/// What a search has come to; the point in the problem's coordinates.
+/// The result of a search; the point is in the problem's coordinates.
 #[derive(Clone, Copy)]
 enum Found {
     Inside(DVec3),
