@@ -45,15 +45,15 @@ impl Problem<'_> {
     /// - a vertex and the part of a face that is nearest to it: mostly the inside of the face, with the
     ///   vertex's foot, or else an edge or a vertex of it, unless a larger part that has these on its
     ///   boundary makes a pair with the same vertex, being as near;
-    /// - two edges of which the nearest points are inside of both. Edges that are parallel but for
+    /// - two edges whose nearest points are inside of both. Edges that are parallel up to
     ///   rounding do not cross: their ends make the pairs.
     ///
-    /// The edge between two triangles that share its vertices and lie in one plane, but for rounding,
+    /// The edge between two triangles that share its vertices and lie in one plane, up to rounding,
     /// is not of the shape: it crosses nothing, and a point on it is of the face of smaller number, in
     /// a pair only where neither triangle comes nearer. So a cube that lies flat on a slab has four
     /// pairs, however the faces are cut into triangles.
     ///
-    /// Features have the names that outcomes have. What has no number of its own goes by the face or
+    /// Features have the names that outcomes have. What has no number of its own has the name of the face or
     /// the piece that it is on: all features of approximate hulls, and what lies where the mesh has no
     /// vertex. Such a pair of names may come more than once, for different places. The same mesh has
     /// the same names in triangles, patches and hulls.

@@ -143,7 +143,7 @@ impl fmt::Display for InputError {
 
 impl std::error::Error for InputError {}
 
-/// A number in as few digits as tell it: those with many places by a power of ten.
+/// A number in as few digits as identify it: those with many places by a power of ten.
 struct Short(f64);
 
 impl fmt::Display for Short {

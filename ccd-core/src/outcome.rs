@@ -82,7 +82,7 @@ pub enum Limit {
     /// The oracle gave up on a pair, and nobody else was there to ask.
     OracleGaveUp,
     /// Bodies that touch at the start, or one of which may be inside the other, are too near to each
-    /// other to tell whether they overlap.
+    /// other to decide whether they overlap.
     Undecided,
 }
 

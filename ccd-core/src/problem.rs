@@ -357,7 +357,7 @@ impl<'a> Problem<'a> {
 }
 
 impl Side<'_> {
-    /// The number that a piece goes by in the body that was given.
+    /// The number of a piece in the body that was given.
     pub(crate) fn number(&self, piece: u32) -> u32 {
         if self.given.is_some() { 0 } else { piece }
     }

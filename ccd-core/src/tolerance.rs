@@ -29,7 +29,7 @@ pub const WORK_BETWEEN_LOOKS: u64 = 256;
 /// is enough of pairs that share a corner, or lie in two planes.
 pub const NEAREST_SHARE: f64 = 1.0 / 65536.0;
 
-/// Squares of lengths within this are right to a few `u`: a component whose own square underflows, below
+/// Squares of lengths within this have a relative error of a few `u`: a component whose own square underflows, below
 /// 2.2e-308, is no part of them.
 pub const SQUARES: std::ops::RangeInclusive<f64> = 1e-200..=1e200;
 
@@ -46,18 +46,18 @@ pub const SCALE: f64 = f64::from_bits((1023 + 700) << 52);
 /// body is placed at `R(s)(x − c) + C(s)`, with `R = cos·A + sin·B + C`:
 /// - the given quaternion is normalised to 2 in direction, which turns by 4, and to 4.5 in length, which
 ///   scales by up to 18; its matrix is evaluated to 9;
-/// - the axis of rotation is right to 4.5, so that `C` is to 15 and `B` to 8, and their share in `R` to 31;
+/// - the axis of rotation is off by 4.5, so that `C` is off by 15, `B` by 8, and their share in `R` by 31;
 ///   sine and cosine add 3, the angle `ω s` adds `5ω`, the four operations of an entry 6;
 /// - `R x`, `R c` and the sums add 7 of `|x|` and of `|c|` each, and 6 of the centre's way;
 /// - into A's frame leads another rotation, which is off the inverse of A's by 67 at most, not counting
 ///   what only turns A; its products and sums add 12, of the way and of both bodies;
 /// - a support value `n·x` with a rounded unit axis adds 4 of `|x|`, and so does a distance; heights along
-///   a fixed axis, of which only differences are used, add 16; a support point that edges are climbed to
+///   a fixed axis, whose differences alone are used, add 16; a support point that edges are climbed to
 ///   may be lower than the farthest one by two heights, `2 · 4 |n|₁ |x|`, which is 14 ([`HEIGHT_F64`]).
 ///
 /// Velocities may have been derived from poses at both ends:
-/// - the travel `(T₁ − T₀) + (R₁ − R₀) c` adds 4 of itself, and 46 of `|c|`;
-/// - the turn adds 12 of a quaternion, which are 45 as an angle, and 9 of itself, which is at most π: 73.
+/// - the travel `(T₁ − T₀) + (R₁ − R₀) c` adds 4 of its length, and 46 of `|c|`;
+/// - the turn adds 12 of a quaternion, which are 45 as an angle, and 9 of its size, which is at most π: 73.
 ///
 /// That is at most `300 + 5ω` of a body's span, which counts `|c|` twice, and 96 of the way between the
 /// bodies. Coordinates are so small in the end that their squares underflow: a length is then off by 3e-162,
@@ -93,7 +93,7 @@ pub const WAY_F32: f32 = 12.0 * U32;
 /// node's.
 ///
 /// A box's half sizes are measured along axes rounded to f32, which are orthogonal to 2u (3.5u of
-/// its radius); three products with three half sizes, of which each is projected by three
+/// its radius); three products with three half sizes, each of them projected by three
 /// operations, add `√3 (3 + 3)u`; the other node's axes are rotated by a matrix rounded once, with
 /// five operations, which adds `√3 · 7u`. Together with the way to a child (6u): 20u of the split
 /// side, 28u of the other one; 32u are taken. Triangles come to less.
@@ -144,7 +144,7 @@ pub const RATE_F64: f64 = 16.0 * U64;
 /// points of the other body, beside what their places are off by: of the farthest distance from the
 /// turning body's centre, and of the largest speed past it. `turns` is the sum of both bodies' turns.
 ///
-/// In units of `u`: an angle is right to `4ω` (its rate to 3, a product adds 1), sine and cosine to 4
+/// In units of `u`: an angle is off by `4ω` (its rate by 3, a product adds 1), sine and cosine by 4
 /// more, and the axis that they turn to 8 more (3 terms, and 2 of its own). It is turned with its body
 /// and back with the other one, `24 + 4 turns`, and into that one's frame, 4; the way takes 6, and the
 /// products with the axis and their sum 5. Differences of two heights take twice as much, at most
@@ -233,7 +233,7 @@ pub const CLOSED_GAP: f64 = 1.0 / 16.0;
 pub const WEIGHTS: std::ops::RangeInclusive<f64> = 1e-100..=1e100;
 
 /// The most corners that are added to a polytope within the difference of two pieces before it is given
-/// up to tell whether it holds the origin. Each brings the least depth found nearer to the true one;
+/// up to decide whether it holds the origin. Each brings the least depth found nearer to the true one;
 /// of pieces of a thousand corners that begin to overlap a few tens were seen to be enough.
 pub const MAX_CORNERS: usize = 256;
 
@@ -299,7 +299,7 @@ pub const BOX_SHARE: f64 = 0.9;
 pub const PLATEAU_POINTS: usize = 32;
 
 /// A witness lies on a facet when it is this near to it, in multiples of its piece's size; decides
-/// which name a contact gets, and nothing else. Witnesses are combinations of corners, right to a
+/// which name a contact gets, and nothing else. Witnesses are combinations of corners, off by a
 /// few [`U64`] of that size, times what a flat piece makes of them.
 pub const ON_FACET: f64 = 1e-9;
 

@@ -14,7 +14,7 @@ pub(crate) enum Facing {
     /// On neither, as far as is known: of a surface, a piece with a volume or no area, two faces back
     /// to back.
     Neither,
-    /// On one side here and on the other there, or too near to other faces to tell.
+    /// On one side here and on the other there, or too near to other faces to know.
     Unclear,
 }
 

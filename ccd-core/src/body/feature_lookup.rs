@@ -114,7 +114,7 @@ pub(crate) fn prepare(piece: &Piece<'_>) {
     FacetsByCorner::of(piece);
 }
 
-/// The face of the mesh that a point lies on, but for rounding.
+/// The face of the mesh that a point lies on, up to rounding.
 pub(crate) fn face_under(piece: &Piece<'_>, point: DVec3) -> Option<u32> {
     if !is_on_mesh(piece) {
         return None;

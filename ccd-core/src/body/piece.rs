@@ -54,7 +54,7 @@ impl<'a> Piece<'a> {
     /// It belongs to the piece as the list has it, whatever has become of the public fields since.
     /// `make` must not ask for the same type of the same piece: it would wait for itself.
     ///
-    /// Types are told apart, so that every backend has a type of its own, and one entry for each
+    /// Types are kept apart, so that every backend has a type of its own, and one entry for each
     /// piece, which costs memory for all pieces of the list from the first one on: box what is large.
     ///
     /// ```

@@ -34,7 +34,7 @@ pub struct Pieces {
     side_table: SideTable,
 }
 
-/// Indices are kept in 32 bits, of which a quarter names points and the rest has room for nodes.
+/// Indices are kept in 32 bits: a quarter of their range names points, the rest has room for nodes.
 const MAX_POINTS: usize = u32::MAX as usize / 4;
 
 #[derive(Clone, Debug)]
@@ -67,7 +67,7 @@ struct Surfaces {
 }
 
 impl Pieces {
-    /// One piece per triangle of a mesh or soup; `face_ids[k]` is the number `faces[k]` goes by.
+    /// One piece per triangle of a mesh or soup; `face_ids[k]` is the number of `faces[k]`.
     ///
     /// # Errors
     /// [`InputError::VertexOutOfRange`], [`InputError::BadPoint`], [`InputError::NoPieces`],
@@ -187,7 +187,7 @@ impl Pieces {
         size_of_val(self.points.as_slice()) + 4 * (self.vertex_ids.len() + 2 * self.len()) + facets
     }
 
-    /// The three corners of a piece of which [`Pieces::all_triangles`] holds.
+    /// The three corners of a piece, where [`Pieces::all_triangles`] holds.
     #[inline]
     pub(crate) fn triangle(&self, index: usize) -> [DVec3; 3] {
         let corners = &self.points[3 * index..3 * index + 3];

@@ -74,7 +74,7 @@ impl<'a> Manifold<'a> {
         }
     }
 
-    /// The pairs, nearest first; `a_to_world` is where A is, but for the problem's origin.
+    /// The pairs, nearest first; `a_to_world` is where A is, apart from the problem's origin.
     pub(super) fn pairs(&self, a_to_world: &Frame) -> Vec<FeaturePair> {
         let covered = self.covered();
         let mut told = HashMap::new();

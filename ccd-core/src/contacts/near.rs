@@ -34,7 +34,7 @@ pub(super) fn near_faces(
     Some(near.pairs)
 }
 
-/// The pairs of pieces of which the nodes above may all be nearer than `reach`.
+/// The pairs of pieces whose nodes above may all be nearer than `reach`.
 fn near_pieces(problem: &Problem<'_>, b_to_a: &Frame, reach: f64) -> Option<Vec<[u32; 2]>> {
     let (a, b) = (problem.a.body.tree(), problem.b.body.tree());
     let (mut near, mut visits) = (Vec::new(), 0);

@@ -26,7 +26,7 @@ pub(super) struct Skin<'a> {
     hidden: Vec<bool>,
     /// The faces around each of these.
     faces_around: HashMap<u32, Vec<u32>>,
-    /// The first triangle that goes by a face's number.
+    /// The first triangle with a face's number.
     first_of: HashMap<Feature, u32>,
     /// The sum of the normals around each corner.
     outward: Vec<DVec3>,
@@ -190,7 +190,7 @@ impl<'a> Skin<'a> {
         }
     }
 
-    /// The faces that a spot is within, where it is within a plane: none of what is told as itself.
+    /// The faces that a spot is within, where it is within a plane: none of a spot that is reported as itself.
     pub(super) fn sharing(&self, spot: Spot) -> &[u32] {
         let faces = match spot {
             Spot::Corner(corner) => self.faces_around.get(&corner).map(Vec::as_slice),
@@ -228,7 +228,7 @@ impl<'a> Skin<'a> {
         own.unwrap_or(self.face(face).name)
     }
 
-    /// The corners of a face, each once, but for those within a plane that no number tells apart from
+    /// The corners of a face, each once, except those within a plane that no number distinguishes from
     /// any other point of it.
     pub(super) fn corners_of(&self, face: u32) -> impl Iterator<Item = u32> + use<'_> {
         let corners = self.face(face).corners;
@@ -237,7 +237,7 @@ impl<'a> Skin<'a> {
         first.map(move |k| corners[k]).filter(shown)
     }
 
-    /// The edges of a face, but for those within a plane.
+    /// The edges of a face, except those within a plane.
     pub(super) fn edges_of(&self, face: u32) -> impl Iterator<Item = [u32; 2]> + use<'_> {
         edges(self.face(face).corners).filter(|&ends| self.across(ends).is_none())
     }

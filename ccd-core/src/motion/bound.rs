@@ -30,7 +30,7 @@ pub enum Bound {
 }
 
 /// `maxᵢ (n×ω)·rᵢ + |v·n|`: the fastest advance along `n` at this very instant, over the arms `rᵢ`
-/// from the centre, of which `farthest` tells the one that is farthest along a direction
+/// from the centre; `farthest` returns the one that is farthest along a direction
 /// `[FAST06 §4.2 Eq. 5]`.
 ///
 /// **Unsound over a step**: the arms turn with the body. It is here to be compared with.

@@ -37,7 +37,7 @@ const COSINE: [f64; 7] = [
 #[inline]
 pub(crate) fn sin_cos(angle: f64) -> (f64, f64) {
     let quarter = (angle * FRAC_2_PI + 0.5).floor();
-    // Exact but for the last step: what is left is right to 2⁻⁵³ of itself, and to 2⁻⁷⁵ at all.
+    // Exact except in the last step: the relative error is at most 2⁻⁵³, the absolute one 2⁻⁷⁵.
     let r = (angle - quarter * HALF_PI[0]) - quarter * HALF_PI[1] - quarter * HALF_PI[2];
     let square = r * r;
     let sum = |terms: &[f64; 7]| terms.iter().rev().fold(0.0, |sum, t| sum * square + t);

@@ -17,7 +17,7 @@ use crate::tolerance::NEAREST_SHARE;
 use containment::Containment;
 use std::ops::ControlFlow;
 
-/// The answer for bodies of which two pieces were seen in contact at the start: how near the bodies
+/// The answer for bodies with two pieces that were seen in contact at the start: how near the bodies
 /// are, or that they overlap.
 ///
 /// # Guarantee
@@ -178,7 +178,7 @@ impl Nearest<'_> {
     }
 }
 
-/// The answer, if one body is inside the other or that cannot be told. No two pieces intersect;
+/// The answer, if one body is inside the other or that cannot be decided. No two pieces intersect;
 /// `touching` are those that no axis keeps apart.
 pub(super) fn contained(problem: &Problem<'_>, touching: &[[u32; 2]]) -> Option<Outcome> {
     match containment::at_start(problem, touching) {

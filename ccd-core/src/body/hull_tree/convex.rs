@@ -102,7 +102,7 @@ fn covers_once(
         if past.into_iter().all(Ordering::is_lt) {
             met += 1;
         } else if !past.into_iter().any(Ordering::is_gt) {
-            // Through an edge: it cannot be told how often.
+            // Through an edge: how often is unknown.
             return false;
         }
     }

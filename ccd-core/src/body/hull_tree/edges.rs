@@ -28,7 +28,7 @@ fn is_closed(hull: &Hull) -> bool {
         }
         edges.extend(edges_of(corners).map(|(from, to)| {
             let (low, high) = (from.min(to), from.max(to));
-            // The last bit is left to the direction, of which the highest corner leaves none over.
+            // The last bit is left to the direction: the highest corner leaves none over.
             u64::from(low) << 33 | u64::from(high) << 1 | u64::from(from > to)
         }));
     }

@@ -44,7 +44,7 @@ pub enum HullFault {
         /// The point's index in the child's hull.
         point: u32,
     },
-    /// A point has a coordinate so near to 0 that no exact predicate can tell its side.
+    /// A point has a coordinate so near to 0 that no exact predicate can decide its side.
     TooFine {
         /// The point's index.
         point: u32,

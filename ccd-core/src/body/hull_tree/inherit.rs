@@ -201,7 +201,7 @@ fn points_of(polytope: &Polytope, corners: &[u32]) -> Vec<DVec3> {
     corners.iter().map(point).collect()
 }
 
-/// Whether a part's loop is another one but for where it begins.
+/// Whether a part's loop is another one, wherever it begins.
 fn same_loop(part: &Part<'_>, other: &[u32]) -> bool {
     if part.corners.len() != other.len() {
         return false;
@@ -215,7 +215,7 @@ fn same_loop(part: &Part<'_>, other: &[u32]) -> bool {
 }
 
 /// Whether two convex polygons together are a facet of the hull: what is left of their edges, once
-/// those are gone that run both ways, is the facet's loop, but for corners within its edges.
+/// those are gone that run both ways, is the facet's loop, except for corners within its edges.
 ///
 /// A part has the facet's corners and the two ends of the cut, at most; of many more it is not even looked
 /// at, as it may share an edge with each of many facets.

@@ -1,4 +1,4 @@
-//! A tree over the points of a piece, of which only those parts are looked at that may hold the
+//! A tree over the points of a piece. A search looks at only those parts that may hold the
 //! farthest one.
 
 use crate::math::order::{greater, lesser};

@@ -34,7 +34,7 @@ pub(crate) fn fit(cloud: &Cloud<'_>, below: Below) -> Node {
     best.node(cloud, below)
 }
 
-/// Whether the columns are orthonormal but for rounding: along others no box holds its points.
+/// Whether the columns are orthonormal up to rounding: along others no box holds its points.
 fn is_frame(frame: &DMat3) -> bool {
     let off = frame.transpose() * *frame - DMat3::IDENTITY;
     // Written so that NaN is none.

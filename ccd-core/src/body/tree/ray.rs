@@ -145,7 +145,7 @@ impl Crossings {
             return Some(());
         }
         if sides.contains(&Sign::Unclear) {
-            // Past a triangle that is too small or too thin for its edges to tell.
+            // Past a triangle that is too small or too thin for its edges to decide.
             let reach =
                 greater(size(b - a), size(c - a)) + SIGN_F64 * (size(a) + size(b) + size(c));
             return (a.cross(along).abs().max_element() > 2.0 * reach).then_some(());

@@ -29,7 +29,7 @@ pub(crate) struct Bounds {
 /// Bounds eight pairs along planes that stand still.
 ///
 /// Two axes are tried: the one with the widest gap now, and the one along which the centres are
-/// apart when they are nearest. The first serves pairs that approach, the second such that pass.
+/// apart when they are nearest. The first suits pairs that approach, the second pairs that pass.
 #[inline(always)]
 pub(crate) fn bound<C: Children, P: OtherNode, S: Turn, O: Turn>(
     children: &C,
@@ -114,7 +114,7 @@ struct Past {
     /// The radii.
     large: f32,
     small: f32,
-    /// The large one cannot be split, so that only the small one's size tells whether it is far.
+    /// The large one cannot be split, so that only the small one's size decides whether it is far.
     whole: bool,
 }
 

@@ -38,7 +38,7 @@ pub(crate) struct Split {
 }
 
 impl Split {
-    /// A split of which all children are wanted.
+    /// A split whose children are all wanted.
     pub(crate) fn all(body: Which, node: NodeId, other: NodeId) -> Self {
         Split {
             body,

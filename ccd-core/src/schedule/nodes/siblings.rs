@@ -46,7 +46,7 @@ impl Next {
 }
 
 impl Siblings {
-    /// The pair of both roots, of which the given body's is to be split.
+    /// The pair of both roots; that of the given body is to be split.
     pub(crate) fn roots(body: Which) -> Self {
         Siblings {
             free: FreeTimes::new(&[0.0; LANES], 1),
@@ -128,7 +128,7 @@ fn lanes_below(count: u32) -> u8 {
 }
 
 /// The free times of eight pairs, rounded down to bits that end in the pair's lane: bits of numbers
-/// that are not negative order as the numbers do, so that the least of them tells its lane too.
+/// that are not negative order as the numbers do, so that the least of them names its lane too.
 #[derive(Clone, Copy, Debug)]
 struct FreeTimes([u32; LANES]);
 

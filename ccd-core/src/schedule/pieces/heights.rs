@@ -62,7 +62,7 @@ impl Few {
     }
 }
 
-/// Points of which one is the lowest, or one that bounds them all.
+/// Points among which is the lowest, or one that bounds them all.
 pub(super) enum Lowest {
     Few([Point; FEW]),
     Bound([Point; 1]),

@@ -40,7 +40,7 @@ enum Goal {
 pub(crate) enum Step {
     /// Certified apart until this clock, which is past the present one; beyond 1 is forever.
     FreeUntil(f64),
-    /// Within the tolerance; at the start it may intersect, which the search for the nearest pieces tells.
+    /// Within the tolerance; at the start it may intersect, which the search for the nearest pieces decides.
     Contact(Contact),
     /// Intersecting; only at the start.
     Overlap(Contact),
@@ -74,7 +74,7 @@ impl<C: Default + Clone> Pair<C> {
         })
     }
 
-    /// The same, where the pair is at a instant, with another way to tell for how long it keeps a gap;
+    /// The same in a snapshot of the pair, with another rule for how long it keeps a gap;
     /// pairs that rest on each other are followed as ever.
     pub(crate) fn advance_by<O: DistanceOracle<Cache = C>>(
         &mut self,

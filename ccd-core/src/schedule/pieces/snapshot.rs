@@ -272,7 +272,7 @@ impl<'p> Snapshot<'p> {
             true => 1,
             false => AXIS_ROUNDS,
         };
-        // Heights are measured such that the nearest two points are `slack` apart.
+        // Heights are measured so that the nearest two points are `slack` apart.
         let free = |above: &Point, below: &Point| {
             let gap = Gap {
                 gap: slack + (above.height - b.least()) + (below.height - a.least()),
@@ -318,7 +318,7 @@ pub(super) struct Plane {
     pub(super) slack: f64,
 }
 
-/// The longer of two free times, of which none is for good.
+/// The longer of two free times; none is for good.
 fn longer(one: Option<f64>, other: Option<f64>) -> Option<f64> {
     Some(greater(one?, other?))
 }

@@ -20,7 +20,7 @@ pub(crate) enum Containment {
     Inside(Overlap),
     /// Nothing of either that was looked at is.
     Outside,
-    /// That can not be told of some part.
+    /// Some part could not be decided.
     Undecided,
 }
 
@@ -30,10 +30,10 @@ pub(crate) enum Containment {
 /// # Guarantee
 /// A point that is found is inside, by more than rounding. When nothing is found, then nothing is inside
 /// of
-/// - any connected part of a body that touches the other nowhere: one point tells of all of it;
+/// - any connected part of a body that touches the other nowhere: one point decides for all of it;
 /// - the rest of the other parts, the pieces that touch left out: what is left of a part is in pieces
 ///   that each have a corner in common with one that touches, and all their corners are looked at;
-/// - pieces that touch and have a volume, of which the middle tells, as no face passes through;
+/// - pieces that touch and have a volume: the middle decides, as no face passes through;
 /// - and flat ones that touch: at their corners, at the middle, there on the side where their own solid
 ///   is, and beside every edge of the other body that lies on them, which is where a surface passes
 ///   through a piece without a face that intersects it.
@@ -128,14 +128,14 @@ impl Search<'_> {
         }
     }
 
-    /// Asks of points in turn, until one tells.
+    /// Asks of points in turn, until one decides.
     fn any_of(&self, points: impl IntoIterator<Item = DVec3>) -> Found {
         let mut answers = points.into_iter().map(|p| self.point(p));
         let told = answers.find(|found| !matches!(found, Found::Undecided));
         told.unwrap_or(Found::Undecided)
     }
 
-    /// Asks of the extreme points of a part. One of which all are on the outer surface is left to the
+    /// Asks of the extreme points of a part. A part that has all of them on the outer surface is left to the
     /// pieces that touch.
     fn part(&self, shell: &Shell, touching: &[u32]) -> Found {
         let found = self.any_of(*shell);
