@@ -25,15 +25,18 @@ use feature_lookup::{face_under, prepare};
 use glam::DVec3;
 use hierarchy::Hierarchy;
 #[cfg(feature = "hull-tree")]
-use hull_tree::{HullTree, HullTreeError, support_of};
+use hull_tree::convex::support_of;
+#[cfg(feature = "hull-tree")]
+use hull_tree::{HullTree, HullTreeError};
 use piece::Piece;
 use pieces::Pieces;
 use shell::{Shell, shells};
 #[cfg(not(feature = "hull-tree"))]
 use support::Support;
-use tree::{Tree, pieces_at};
+use tree::Tree;
+use tree::point_query::pieces_at;
 
-/// What moves: convex pieces in the body's own frame, ready for queries; immutable, shareable.
+/// A moving thing: convex pieces in the body's own frame, ready for queries; immutable, shareable.
 ///
 /// ```
 /// use ccd_core::{glam::DVec3, Body, Pieces, Volume};
@@ -54,7 +57,7 @@ pub struct Body {
     surface: Option<Box<Surface>>,
 }
 
-/// What a convex body is against a body of many triangles.
+/// The triangles of a convex body's surface, which take its place against a body of many triangles.
 #[derive(Clone, Debug)]
 struct Surface {
     triangles: Body,
@@ -164,9 +167,9 @@ impl Body {
         self.volume
     }
 
-    /// What it is best taken for against another body: its surface, where it was given one and the other
-    /// body has many triangles. A box that is larger than the other body stays one: its own triangles
-    /// would hardly be nearer to anything than it is.
+    /// Returns what takes the body's place against another one: its surface, where it was given one
+    /// and the other body has many triangles. A box that is larger than the other body stays one: its
+    /// own triangles would hardly be nearer to anything than it is.
     pub(crate) fn against(&self, other: &Body) -> &Body {
         let many = other.pieces.all_triangles() && other.pieces.len() > 1;
         let larger = self.tree.radius() >= other.tree.radius();
@@ -193,7 +196,7 @@ impl Body {
         self.pieces.bytes() + self.tree.bytes() + hulls + surface
     }
 
-    /// What a point of a piece is called in the mesh.
+    /// Returns the name of a point of a piece in the mesh.
     ///
     /// A virtual facet may lie within the surface, over faces that belong to other pieces: these are
     /// asked where the piece has no name for the point.
@@ -228,7 +231,7 @@ impl Body {
     }
 }
 
-/// What finds the extremal points of a piece of many.
+/// Prepares the search for extremal points of a piece of many points.
 #[cfg(not(feature = "hull-tree"))]
 fn support_of(piece: &Piece<'_>) -> Support {
     Support::of_points(piece.points)

@@ -3,36 +3,19 @@
 mod boxes;
 mod candidate;
 mod closest;
+mod feature_pair;
 mod manifold;
 mod measure;
 mod near;
 mod skin;
-#[cfg(test)]
-mod tests;
 
-use crate::body::feature::Feature;
 use crate::motion::pose::Frame;
-use crate::outcome::Separation;
 use crate::problem::Problem;
+pub use feature_pair::FeaturePair;
 use manifold::Manifold;
 use near::near_faces;
 use skin::Skin;
 use std::fmt;
-
-/// A feature of A and one of B that are in contact, and how near they are.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FeaturePair {
-    /// The feature of body A.
-    pub feature_a: Feature,
-    /// The feature of body B.
-    pub feature_b: Feature,
-    /// A piece of body A that has it, as an index into [`Body::pieces`](crate::Body::pieces).
-    pub piece_a: u32,
-    /// A piece of body B that has it.
-    pub piece_b: u32,
-    /// The separation of the two features, not of the pieces, in world coordinates.
-    pub separation: Separation,
-}
 
 /// Why there is no list of contacts.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,7 +23,7 @@ pub struct FeaturePair {
 pub enum ContactsError {
     /// The time is NaN, or not within the duration.
     NotInDuration {
-        /// What was asked for.
+        /// The time that was asked for.
         time: f64,
         /// The problem's duration.
         duration: f64,
@@ -62,15 +45,15 @@ impl Problem<'_> {
     /// - a vertex and the part of a face that is nearest to it: mostly the inside of the face, with the
     ///   vertex's foot, or else an edge or a vertex of it, unless a larger part that has these on its
     ///   boundary makes a pair with the same vertex, being as near;
-    /// - two edges of which the nearest points are inside of both. Edges that are parallel but for
+    /// - two edges whose nearest points are inside of both. Edges that are parallel up to
     ///   rounding do not cross: their ends make the pairs.
     ///
-    /// The edge between two triangles that share its vertices and lie in one plane, but for rounding,
+    /// The edge between two triangles that share its vertices and lie in one plane, up to rounding,
     /// is not of the shape: it crosses nothing, and a point on it is of the face of smaller number, in
     /// a pair only where neither triangle comes nearer. So a cube that lies flat on a slab has four
     /// pairs, however the faces are cut into triangles.
     ///
-    /// Features have the names that outcomes have. What has no number of its own goes by the face or
+    /// Features have the names that outcomes have. What has no number of its own has the name of the face or
     /// the piece that it is on: all features of approximate hulls, and what lies where the mesh has no
     /// vertex. Such a pair of names may come more than once, for different places. The same mesh has
     /// the same names in triangles, patches and hulls.
@@ -82,7 +65,7 @@ impl Problem<'_> {
     ///
     /// # Guarantee
     /// No such pair is missed whose distance is within margin + tolerance, and
-    /// [`Separation::lower`] is within it for every pair. Lower and upper bound are of the two
+    /// [`Separation::lower`](crate::Separation::lower) is within it for every pair. Lower and upper bound are of the two
     /// features, rounding included. The same call gives the same bits.
     ///
     /// # Errors
@@ -155,3 +138,6 @@ impl fmt::Display for ContactsError {
 }
 
 impl std::error::Error for ContactsError {}
+
+#[cfg(test)]
+mod tests;

@@ -1,4 +1,4 @@
-//! What can be wrong with an input; numerical trouble is an [`Outcome`](crate::Outcome) instead.
+//! Faults of an input; numerical trouble is an [`Outcome`](crate::Outcome) instead.
 
 use crate::limits::MAX_COORDINATE;
 use std::fmt;
@@ -9,18 +9,18 @@ use std::fmt;
 pub enum InputError {
     /// A NaN or an infinity.
     NotFinite {
-        /// Which quantity.
+        /// The quantity.
         what: &'static str,
     },
     /// A quaternion of length zero names no orientation.
     ZeroQuaternion,
     /// A quantity lies outside of what it may be.
     OutOfRange {
-        /// Which quantity.
+        /// The quantity.
         what: &'static str,
-        /// What it was.
+        /// Its value.
         value: f64,
-        /// What it has to be, in words.
+        /// The accepted values, in words.
         allowed: &'static str,
     },
     /// A body needs at least one piece.
@@ -49,14 +49,14 @@ pub enum InputError {
         face: usize,
         /// The vertex it names.
         vertex: u32,
-        /// How many there are.
+        /// The number of vertices.
         vertices: usize,
     },
     /// Every face needs a number.
     FaceIds {
-        /// How many faces there are.
+        /// The number of faces.
         faces: usize,
-        /// How many numbers.
+        /// The number of numbers.
         ids: usize,
     },
     /// A surface is one of triangles that bound a solid, of a solid body of one piece without rounding.
@@ -82,7 +82,7 @@ pub enum InputError {
     },
     /// More pieces than an index can name.
     TooManyPieces {
-        /// How many were given.
+        /// The number of pieces.
         pieces: usize,
     },
 }
@@ -143,7 +143,7 @@ impl fmt::Display for InputError {
 
 impl std::error::Error for InputError {}
 
-/// A number in as few digits as tell it: those with many places by a power of ten.
+/// A number in as few digits as identify it: those with many places by a power of ten.
 struct Short(f64);
 
 impl fmt::Display for Short {

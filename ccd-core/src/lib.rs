@@ -6,6 +6,38 @@
 //! [`DistanceOracle`], the backend that measures the distance of two pieces. Backends, mesh files and
 //! commands live in crates of their own: this one knows no backend, no file, no IO.
 //!
+//! # Example
+//! When do two balls meet that fly at each other off centre?
+//!
+//! ```
+//! use ccd_core::{glam::DVec3, schedule::{BestFirst, Schedule}, *};
+//!
+//! /// Measures two balls: the way from one centre to the other is all there is to know.
+//! struct Balls;
+//!
+//! impl DistanceOracle for Balls {
+//!     type Cache = ();
+//!     fn separation(&mut self, pair: &PiecePair<'_>, _: &mut ()) -> Result<Claim, GiveUp> {
+//!         let axis = pair.b_to_a.point(pair.b.points[0]) - pair.a.points[0];
+//!         Ok(Claim { axis, a: Combination::point(0), b: Combination::point(0) })
+//!     }
+//! }
+//!
+//! let ball = Body::ball(0.5)?;
+//! let flying = |from: DVec3, velocity: DVec3| Motion::new(Pose::at(from)?, velocity, DVec3::ZERO);
+//! let a = flying(DVec3::new(-3.0, 0.6, 0.0), 2.0 * DVec3::X)?;
+//! let b = flying(DVec3::new(3.0, 0.0, 0.0), -2.0 * DVec3::X)?;
+//! let config = Config { tolerance: 1e-6, ..Config::default() };
+//! let problem = Problem::new((&ball, a), (&ball, b), 2.0, &config)?;
+//! let answer = BestFirst::default().solve(&problem, &mut Balls);
+//! let Outcome::Contact { time, contact } = answer.outcome else { panic!("they meet") };
+//! // Centres that are 0.6 apart sideways are 1 apart when they are 0.8 apart along x: at 5.2 / 4.
+//! assert!(time <= 1.3 && time > 1.3 - 1e-6);
+//! assert!(contact.separation.upper <= 1e-6);
+//! # Ok::<(), InputError>(())
+//! ```
+//! Crates beside this one have backends for all convex pieces.
+//!
 //! # Guarantee
 //! 1. **Never late.** For every time reported, no contact happens before it: for every mesh, motion
 //!    and backend, in floating point.
@@ -19,60 +51,30 @@
 //!    the same call twice gives the same bits; except for what a [deadline](Config::deadline) ends.
 //!
 //! # From the paper to the files
-//! | step | where |
+//! | step | file |
 //! |---|---|
-//! | motion between two poses `[FAST06 §4.1]` | `motion.rs`, in a query's own units `path.rs` |
-//! | how far a body can advance along an axis `[FAST06 §4.2]` | [`motion_bound`], eight nodes at once `schedule/lanes/` |
-//! | hierarchy of bounding volumes `[FAST06 §5.1]` | `hierarchy.rs`, laid out for vector units `tree/` |
-//! | distance of two pieces, and its check | `oracle.rs`, `separation.rs` |
-//! | conservative advancement, all pairs `[FAST06 Alg. 1]` | `schedule/naive.rs` |
+//! | the question: two bodies, their motions, a duration | `problem.rs` |
+//! | pieces of a body, and the wide tree over them `[FAST06 §5.1]` | `body/pieces.rs`, `body/tree.rs` |
+//! | tree of convex hulls `[FAST06 §3.3]` | `body/hull_tree.rs` |
+//! | farthest corner along a direction `[FAST06 §4.2]` | `body/support.rs` |
+//! | motion between two poses `[FAST06 §4.1]` | `motion.rs`, in a query's own units `motion/path.rs` |
+//! | bound of the rate at which a body advances `[FAST06 §4.2]` | `motion/bound.rs`, exact for a point `motion/track.rs` |
+//! | Δt = d / μ `[FAST06 Eq. 2]` | `motion/gap.rs` |
+//! | distance of two pieces, and its check | `distance/oracle.rs`, `distance/separation.rs` |
 //! | conservative advancement, best first | `schedule/best_first.rs` |
-//! | the same over hull trees `[FAST06 §3.3, §5.1]` | `hull_tree.rs`, `schedule/fast/` |
-//! | farthest corner along a direction `[FAST06 §4.2]` | `support.rs` |
-//! | one pair of pieces at one instant | `schedule/pair.rs`, `schedule/instant.rs` |
+//! | conservative advancement, all pairs `[FAST06 Alg. 1]` | `schedule/naive.rs` |
+//! | conservative advancement over hull trees `[FAST06 Alg. 2, §5.1]` | `schedule/fast.rs` |
+//! | eight pairs of nodes at once | `schedule/nodes/expand.rs`, `schedule/nodes/bounds.rs` |
+//! | one pair of pieces at one instant | `schedule/pieces/pair.rs`, `schedule/pieces/snapshot.rs` |
+//! | contact at the start, one body inside the other | `schedule/start.rs`, `schedule/start/containment.rs` |
 //! | features of all contacts at a time `[FAST06 §5.2]` | `contacts.rs` |
-//! | contact at the start, one body inside the other | `schedule/nearest.rs`, `overlap.rs`, `containment.rs` |
-//! | every allowance for rounding | [`tolerance`] |
-//!
-//! # Example
-//! ```
-//! use ccd_core::{glam::DVec3, schedule::{BestFirst, Schedule}, *};
-//!
-//! /// The distance of two points, which is all that two balls need.
-//! #[derive(Default)]
-//! struct Points;
-//!
-//! impl DistanceOracle for Points {
-//!     type Cache = ();
-//!     fn separation(&mut self, pair: &PiecePair<'_>, _: &mut ()) -> Result<Claim, GiveUp> {
-//!         let ([a], [b]) = (pair.a.points, pair.b.points) else {
-//!             return Err(GiveUp::TooManyPoints);
-//!         };
-//!         Ok(Claim {
-//!             axis: pair.b_to_a.point(*b) - *a,
-//!             a: Combination::point(0),
-//!             b: Combination::point(0),
-//!         })
-//!     }
-//! }
-//!
-//! let ball = Body::ball(0.5)?;
-//! let start = Pose::at(DVec3::new(-3.0, 0.0, 0.0))?;
-//! let problem = Problem::new(
-//!     Moving { body: &ball, motion: Motion::new(start, 4.0 * DVec3::X, DVec3::Z)? },
-//!     Moving { body: &ball, motion: Motion::still(Pose::IDENTITY) },
-//!     1.0,
-//!     &Config { tolerance: 1e-6, ..Config::default() },
-//! )?;
-//! let answer = BestFirst::default().solve(&problem, &mut Points);
-//! let Outcome::Contact { time, .. } = answer.outcome else { panic!("they meet") };
-//! assert!(time <= 0.5 && time > 0.5 - 1e-6);
-//! # Ok::<(), InputError>(())
-//! ```
+//! | the answer | `outcome.rs` |
+//! | accepted ranges, and every allowance for rounding | [`limits`], [`tolerance`] |
 //!
 //! # Features
 //! - `nalgebra`: conversions between [`Pose`] and `nalgebra::Isometry3<f64>`.
-//! - `hull-tree`: trees of convex hulls, checked by exact predicates, and the schedule over them.
+//! - `exact`: the module `exact`, signs of determinants on stored numbers.
+//! - `hull-tree`: trees of convex hulls, checked by exact signs, and the schedule over them.
 //! - `serde`: pieces, hierarchies and hull trees can be stored; what is read is checked as what is
 //!   made.
 //! - `avx512`: lets the crate be built with AVX-512 by a rustc that has LLVM 22 or older, which

@@ -3,7 +3,7 @@
 /// The tolerance of a query that names none, in the scene's unit of length `[FAST06 §6.2]`.
 pub const DEFAULT_TOLERANCE: f64 = 1e-3;
 
-/// How much [work](crate::Stats::work) a query may take that names no budget: a few seconds, and less
+/// The [work](crate::Stats::work) that a query may take that names no budget: a few seconds, and less
 /// than a gigabyte of pairs that wait (0.6 at worst, seen with the schedule `Fast`).
 pub const DEFAULT_BUDGET: u64 = 1 << 22;
 

@@ -1,5 +1,5 @@
-//! How a body moves: a chosen centre at constant velocity, the body turning about it at constant
-//! angular velocity.
+//! The motion of a body: a chosen centre moves at constant velocity, and the body turns about it at
+//! constant angular velocity.
 
 pub(crate) mod bound;
 pub(crate) mod gap;
@@ -100,7 +100,7 @@ impl Motion {
     ///
     /// At half a turn both ways are shortest. The one taken is counterclockwise about the vector part of
     /// `end · start⁻¹`, of the quaternions as they are given: the negative of either one, though the same
-    /// orientation, turns the other way. Where the scalar part of that product is 0 but for rounding
+    /// orientation, turns the other way. Where the scalar part of that product is 0 up to rounding
     /// (within about 1e-15), rounding decides; the same numbers always give the same way.
     ///
     /// # Errors

@@ -1,4 +1,4 @@
-//! What a query answers.
+//! The answer to a query.
 
 use crate::body::feature::Feature;
 use crate::distance::oracle::Effort;
@@ -11,13 +11,27 @@ use std::fmt;
 ///
 /// # Guarantee
 /// Whatever the time in it, nothing touched before that time, in floating point as well.
+///
+/// ```
+/// use ccd_core::Outcome;
+/// /// The part of a motion that is safe to make.
+/// fn safe_share(outcome: &Outcome, duration: f64) -> f64 {
+///     match *outcome {
+///         Outcome::Free { .. } => 1.0,
+///         Outcome::Contact { time, .. } => time / duration,
+///         Outcome::Unresolved { safe_until, .. } => safe_until / duration,
+///         Outcome::Touching { .. } | Outcome::Overlapping { .. } => 0.0,
+///     }
+/// }
+/// assert_eq!(safe_share(&Outcome::Free { proven_gap: 0.1 }, 2.0), 1.0);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Outcome {
     /// The bodies come within margin + tolerance at `time`, and never touched before.
     Contact {
         /// When, in the motions' unit of time.
         time: f64,
-        /// How near they are then: `lower` and `upper` bound the distance of the bodies.
+        /// The separation at that time: `lower` and `upper` bound the distance of the bodies.
         contact: Contact,
     },
     /// The bodies stay apart over the whole duration.
@@ -27,24 +41,24 @@ pub enum Outcome {
     },
     /// The bodies are within margin + tolerance at the start, without overlapping.
     Touching {
-        /// How near they are at the start: `lower` and `upper` bound the distance of the bodies.
+        /// The separation at the start: `lower` and `upper` bound the distance of the bodies.
         contact: Contact,
     },
     /// The bodies overlap at the start.
     Overlapping {
-        /// How that is known.
+        /// The proof.
         overlap: Overlap,
     },
     /// A limit was reached before an answer was.
     Unresolved {
         /// The bodies do not touch before this time, certified.
         safe_until: f64,
-        /// Which limit.
+        /// The limit.
         reason: Limit,
     },
 }
 
-/// How an overlap at the start is known.
+/// The proof of an overlap at the start.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Overlap {
     /// Two pieces intersect, and no axis separates them; the contact's witnesses lie in both.
@@ -55,7 +69,7 @@ pub enum Overlap {
     BInsideA(DVec3),
 }
 
-/// Which limit ended a query early.
+/// The limit that ended a query early.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Limit {
@@ -68,7 +82,7 @@ pub enum Limit {
     /// The oracle gave up on a pair, and nobody else was there to ask.
     OracleGaveUp,
     /// Bodies that touch at the start, or one of which may be inside the other, are too near to each
-    /// other to tell whether they overlap.
+    /// other to decide whether they overlap.
     Undecided,
 }
 
@@ -85,6 +99,28 @@ impl fmt::Display for Limit {
 }
 
 /// A checked pair of nearest points, with the features that hold them.
+///
+/// ```
+/// use ccd_core::{glam::DVec3, schedule::BestFirst, *};
+/// # struct Balls;
+/// # impl DistanceOracle for Balls {
+/// #     type Cache = ();
+/// #     fn separation(&mut self, pair: &PiecePair<'_>, _: &mut ()) -> Result<Claim, GiveUp> {
+/// #         let axis = pair.b_to_a.point(pair.b.points[0]) - pair.a.points[0];
+/// #         Ok(Claim { axis, a: Combination::point(0), b: Combination::point(0) })
+/// #     }
+/// # }
+/// let ball = Body::ball(0.5)?;
+/// let flying = Motion::new(Pose::at(-3.0 * DVec3::X)?, DVec3::X, DVec3::ZERO)?;
+/// let problem = Problem::new((&ball, flying), (&ball, Motion::STILL), 4.0, &Config::default())?;
+/// let answer = BestFirst::default().solve(&problem, &mut Balls);
+/// let Outcome::Contact { contact, .. } = answer.outcome else { panic!("they meet") };
+/// // From A to B, with a point of either ball, which is one piece without vertices.
+/// assert_eq!(contact.separation.normal, DVec3::X);
+/// assert!(contact.separation.witness_b.distance(-0.5 * DVec3::X) < 1e-12);
+/// assert_eq!((contact.piece_a, contact.piece_b), (0, 0));
+/// # Ok::<(), InputError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Contact {
     /// The separation in world coordinates at the time reported.
@@ -128,30 +164,31 @@ pub struct Separation {
     pub witness_b: DVec3,
 }
 
-/// What it took to answer.
+/// The cost of an answer.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Stats {
-    /// How many pairs of nodes were bounded or split, pairs of pieces included.
+    /// The number of pairs of nodes that were bounded or split, pairs of pieces included.
     pub iterations: u64,
-    /// How often a point of a piece was looked at, about: in each step of an oracle's search, and
-    /// each time that a gap is followed.
+    /// About how often a point of a piece was looked at: in each step of an oracle's search, and each
+    /// time that a gap is followed.
     pub point_looks: u64,
-    /// How often the oracle was asked.
+    /// The number of times that the oracle was asked.
     pub oracle_calls: u64,
-    /// How often the oracle gave up.
+    /// The number of times that the oracle gave up.
     pub give_ups: u64,
     /// The most pairs that waited at one time.
     pub peak_front: u64,
-    /// How often all pairs were advanced together: the steps of conservative advancement, the first
-    /// distance included. 0 for schedules under which every pair has a clock of its own.
+    /// The number of times that all pairs were advanced together: the steps of conservative
+    /// advancement, the first distance included. 0 for schedules under which every pair has a clock
+    /// of its own.
     pub advancements: u64,
-    /// What the oracle did for it.
+    /// The effort of the oracle.
     pub effort: Effort,
 }
 
 impl Stats {
-    /// What the [budget](crate::Config::budget) is spent on: visits, and as much again for every
-    /// [`LOOKS_PER_VISIT`] looks at points.
+    /// Returns what the [budget](crate::Config::budget) is spent on: iterations, and as much again
+    /// for every [`LOOKS_PER_VISIT`] looks at points.
     #[inline]
     pub fn work(&self) -> u64 {
         self.iterations + self.point_looks / LOOKS_PER_VISIT
@@ -161,12 +198,12 @@ impl Stats {
 /// An outcome with its accuracy and its cost.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Answer {
-    /// What happens.
+    /// The outcome.
     pub outcome: Outcome,
     /// The tolerance that was kept: the one asked for; or the least one that can be certified at the
     /// coordinates of the scene, if that is larger; or a smaller one for bodies that were
     /// [let go](crate::StartPolicy::Leave).
     pub tolerance: f64,
-    /// What it took.
+    /// The cost.
     pub stats: Stats,
 }

@@ -12,7 +12,15 @@ use crate::tolerance::{self, NODE_GAP};
 use glam::DVec3;
 use std::time::Duration;
 
-/// How accurately to answer, and what to count as a contact.
+/// The accuracy of an answer, and what counts as a contact.
+///
+/// ```
+/// use ccd_core::Config;
+/// // Contact is where the bodies come within a hundredth, to within a millionth.
+/// let config = Config { margin: 0.01, tolerance: 1e-6, ..Config::default() };
+/// assert_eq!(Config::default().tolerance, 1e-3);
+/// # assert_eq!(config.deadline, None);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Config {
     /// A contact is reported at a distance of at most margin + tolerance. In the scene's unit of
@@ -20,13 +28,13 @@ pub struct Config {
     pub tolerance: f64,
     /// The distance to keep; 0 reports touching. In the scene's unit of length.
     pub margin: f64,
-    /// What becomes of a contact at the start.
+    /// The treatment of a contact at the start.
     pub start: StartPolicy,
-    /// How much [work](crate::Stats::work) may be done before the query is left unresolved: visits
-    /// of pairs of nodes, and what costs as much. Each takes about a microsecond or less, and up to
-    /// about 150 bytes.
+    /// The most [work](crate::Stats::work) before the query is left unresolved: iterations over pairs
+    /// of nodes, and what costs as much. Each takes about a microsecond or less, and up to about 150
+    /// bytes.
     pub budget: u64,
-    /// How long the query may take before it is left unresolved; none reads no clock.
+    /// The longest time before the query is left unresolved; none reads no clock.
     ///
     /// Looked at every few hundred visits, so that it is overstepped by less than a millisecond
     /// where pieces are small; one call of an oracle is never interrupted. Whether it is reached
@@ -46,7 +54,30 @@ impl Default for Config {
     }
 }
 
-/// What becomes of a contact at the start.
+/// The treatment of a contact at the start.
+///
+/// ```
+/// use ccd_core::{glam::DVec3, schedule::BestFirst, *};
+/// # struct Balls;
+/// # impl DistanceOracle for Balls {
+/// #     type Cache = ();
+/// #     fn separation(&mut self, pair: &PiecePair<'_>, _: &mut ()) -> Result<Claim, GiveUp> {
+/// #         let axis = pair.b_to_a.point(pair.b.points[0]) - pair.a.points[0];
+/// #         Ok(Claim { axis, a: Combination::point(0), b: Combination::point(0) })
+/// #     }
+/// # }
+/// let ball = Body::ball(0.5)?;
+/// // Two balls touch, and fly apart.
+/// let leaving = Motion::new(Pose::at(DVec3::X)?, DVec3::X, DVec3::ZERO)?;
+/// let outcome = |start| -> Result<Outcome, InputError> {
+///     let config = Config { start, ..Config::default() };
+///     let problem = Problem::new((&ball, Motion::STILL), (&ball, leaving), 1.0, &config)?;
+///     Ok(BestFirst::default().solve(&problem, &mut Balls).outcome)
+/// };
+/// assert!(matches!(outcome(StartPolicy::Report)?, Outcome::Touching { .. }));
+/// assert!(matches!(outcome(StartPolicy::Leave)?, Outcome::Free { .. }));
+/// # Ok::<(), InputError>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum StartPolicy {
     /// It is the answer: [`Touching`](crate::Outcome::Touching).
@@ -65,9 +96,17 @@ pub enum StartPolicy {
 }
 
 /// A body and how it moves.
+///
+/// ```
+/// use ccd_core::{Body, Motion, Moving};
+/// let ball = Body::ball(0.5)?;
+/// let resting: Moving = (&ball, Motion::STILL).into();
+/// assert_eq!(resting.motion, Motion::STILL);
+/// # Ok::<(), ccd_core::InputError>(())
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Moving<'a> {
-    /// What moves.
+    /// The body.
     pub body: &'a Body,
     /// How.
     pub motion: Motion,
@@ -80,6 +119,17 @@ impl<'a> From<(&'a Body, Motion)> for Moving<'a> {
 }
 
 /// A well-posed query over `[0, duration]`.
+///
+/// ```
+/// use ccd_core::{glam::DVec3, Body, Config, Motion, Pose, Problem};
+/// let cube = Body::cuboid([0.5, 0.5, 0.5])?;
+/// let above = Pose::at(DVec3::new(0.0, 0.0, 1e9))?;
+/// let falling = Motion::new(above, -1e9 * DVec3::Z, DVec3::X)?;
+/// let problem = Problem::new((&cube, falling), (&cube, Motion::STILL), 1.0, &Config::default())?;
+/// // At such coordinates no finer tolerance than this can be certified.
+/// assert!(problem.tolerance() > 1e-6);
+/// # Ok::<(), ccd_core::InputError>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Problem<'a> {
     pub(crate) a: Side<'a>,
@@ -307,7 +357,7 @@ impl<'a> Problem<'a> {
 }
 
 impl Side<'_> {
-    /// The number that a piece goes by in the body that was given.
+    /// The number of a piece in the body that was given.
     pub(crate) fn number(&self, piece: u32) -> u32 {
         if self.given.is_some() { 0 } else { piece }
     }

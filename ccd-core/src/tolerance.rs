@@ -12,28 +12,28 @@ pub const U64: f64 = f64::EPSILON / 2.0;
 /// Relative rounding error of one operation in f32.
 pub const U32: f32 = f32::EPSILON / 2.0;
 
-/// How many looks at points of pieces cost as much as a visit of a pair of nodes. A look is a
-/// projection onto an axis, or a track and its rate there.
+/// The number of looks at points of pieces that cost as much as an iteration over a pair of nodes. A
+/// look is a projection onto an axis, or a track and its rate there.
 pub const LOOKS_PER_VISIT: u64 = 128;
 
-/// How often an oracle that does not count its steps is taken to look at every point of two pieces:
-/// searches take 3 to 10 steps.
+/// The number of steps that an oracle is taken to need that does not count them; in each it looks at
+/// every point of two pieces. Searches take 3 to 10 steps.
 pub const USUAL_STEPS: u64 = 8;
 
-/// How much [work](crate::Stats::work) is done between two looks at the clock, where there is a
-/// deadline. A look takes about 25 ns.
+/// The [work](crate::Stats::work) between two looks at the clock, where there is a deadline. A look
+/// takes about 25 ns.
 pub const WORK_BETWEEN_LOOKS: u64 = 256;
 
-/// How much nearer than the nearest pair of pieces, relative to its distance, another pair may be that
-/// is not looked at: bounds of nodes are rounded by this much and less ([`CLOCK_F32`]), and of the pairs
-/// that share a corner, or lie in two planes, one is enough.
+/// The most that a pair which is not looked at may be nearer than the nearest pair of pieces,
+/// relative to its distance. Bounds of nodes are rounded by this much and less ([`CLOCK_F32`]); one
+/// is enough of pairs that share a corner, or lie in two planes.
 pub const NEAREST_SHARE: f64 = 1.0 / 65536.0;
 
-/// Squares of lengths within this are right to a few `u`: a component whose own square underflows, below
+/// Squares of lengths within this have a relative error of a few `u`: a component whose own square underflows, below
 /// 2.2e-308, is no part of them.
 pub const SQUARES: std::ops::RangeInclusive<f64> = 1e-200..=1e200;
 
-/// What vectors outside of [`SQUARES`] are multiplied with, or divided by: 2⁷⁰⁰ = 5.3e210.
+/// The factor that vectors outside of [`SQUARES`] are multiplied with, or divided by: 2⁷⁰⁰ = 5.3e210.
 ///
 /// The least number, 4.9e-324, comes to 2.6e-113, whose square is right, and 1e-100 to 5.3e110; the
 /// greatest, 1.8e308, comes down to 3.4e97, and 1e100 to 1.9e-111.
@@ -46,18 +46,18 @@ pub const SCALE: f64 = f64::from_bits((1023 + 700) << 52);
 /// body is placed at `R(s)(x − c) + C(s)`, with `R = cos·A + sin·B + C`:
 /// - the given quaternion is normalised to 2 in direction, which turns by 4, and to 4.5 in length, which
 ///   scales by up to 18; its matrix is evaluated to 9;
-/// - the axis of rotation is right to 4.5, so that `C` is to 15 and `B` to 8, and their share in `R` to 31;
+/// - the axis of rotation is off by 4.5, so that `C` is off by 15, `B` by 8, and their share in `R` by 31;
 ///   sine and cosine add 3, the angle `ω s` adds `5ω`, the four operations of an entry 6;
 /// - `R x`, `R c` and the sums add 7 of `|x|` and of `|c|` each, and 6 of the centre's way;
 /// - into A's frame leads another rotation, which is off the inverse of A's by 67 at most, not counting
 ///   what only turns A; its products and sums add 12, of the way and of both bodies;
 /// - a support value `n·x` with a rounded unit axis adds 4 of `|x|`, and so does a distance; heights along
-///   a fixed axis, of which only differences are used, add 16; a support point that edges are climbed to
+///   a fixed axis, whose differences alone are used, add 16; a support point that edges are climbed to
 ///   may be lower than the farthest one by two heights, `2 · 4 |n|₁ |x|`, which is 14 ([`HEIGHT_F64`]).
 ///
 /// Velocities may have been derived from poses at both ends:
-/// - the travel `(T₁ − T₀) + (R₁ − R₀) c` adds 4 of itself, and 46 of `|c|`;
-/// - the turn adds 12 of a quaternion, which are 45 as an angle, and 9 of itself, which is at most π: 73.
+/// - the travel `(T₁ − T₀) + (R₁ − R₀) c` adds 4 of its length, and 46 of `|c|`;
+/// - the turn adds 12 of a quaternion, which are 45 as an angle, and 9 of its size, which is at most π: 73.
 ///
 /// That is at most `300 + 5ω` of a body's span, which counts `|c|` twice, and 96 of the way between the
 /// bodies. Coordinates are so small in the end that their squares underflow: a length is then off by 3e-162,
@@ -68,7 +68,7 @@ pub fn distance_rounding(spans: [f64; 2], turns: [f64; 2], way: f64) -> f64 {
     U64 * (body(0) + body(1) + 96.0 * way) + LEAST_ROUNDING
 }
 
-/// What lengths may be off by because squares underflow, in the scene's unit of length: see
+/// The error of lengths because squares underflow, in the scene's unit of length: see
 /// [`distance_rounding`].
 pub const LEAST_ROUNDING: f64 = 1e-130;
 
@@ -93,7 +93,7 @@ pub const WAY_F32: f32 = 12.0 * U32;
 /// node's.
 ///
 /// A box's half sizes are measured along axes rounded to f32, which are orthogonal to 2u (3.5u of
-/// its radius); three products with three half sizes, of which each is projected by three
+/// its radius); three products with three half sizes, each of them projected by three
 /// operations, add `√3 (3 + 3)u`; the other node's axes are rotated by a matrix rounded once, with
 /// five operations, which adds `√3 · 7u`. Together with the way to a child (6u): 20u of the split
 /// side, 28u of the other one; 32u are taken. Triangles come to less.
@@ -105,9 +105,9 @@ pub const REACH_F32: f32 = 32.0 * U32;
 /// and projected (4u), so that a rate is off by at most 32u = 1.9e-6 of the largest speed.
 pub const RATE_F32: f32 = 2e-6;
 
-/// How much of the distances, from the split group's origin, of a node and of its body's centre of
-/// rotation counts as an arm when the largest speed is taken: the arm is the difference of the two
-/// places, which are rounded by 1u each and subtracted. Of the 33u of [`RATE_F32`] that is 4u.
+/// The share of the distances, from the split group's origin, of a node and of its body's centre of
+/// rotation that counts as an arm when the largest speed is taken: the arm is the difference of the
+/// two places, which are rounded by 1u each and subtracted. That is 4u of the 33u of [`RATE_F32`].
 pub const PLACES_F32: f32 = 1.0 / 8.0;
 
 /// Factor on a free time that is computed in f32 from a gap and a rate that are safe already.
@@ -144,7 +144,7 @@ pub const RATE_F64: f64 = 16.0 * U64;
 /// points of the other body, beside what their places are off by: of the farthest distance from the
 /// turning body's centre, and of the largest speed past it. `turns` is the sum of both bodies' turns.
 ///
-/// In units of `u`: an angle is right to `4ω` (its rate to 3, a product adds 1), sine and cosine to 4
+/// In units of `u`: an angle is off by `4ω` (its rate by 3, a product adds 1), sine and cosine by 4
 /// more, and the axis that they turn to 8 more (3 terms, and 2 of its own). It is turned with its body
 /// and back with the other one, `24 + 4 turns`, and into that one's frame, 4; the way takes 6, and the
 /// products with the axis and their sum 5. Differences of two heights take twice as much, at most
@@ -153,35 +153,36 @@ pub fn attached_rounding(turns: f64) -> f64 {
     U64 * (96.0 + 8.0 * turns)
 }
 
-/// How much of a gap has to go to the turning of one of the pieces about a plane that stands still
-/// for a plane that turns with it to be tried. Measured: pieces as small as those of common meshes
-/// stay far below, large ones that turn past small ones are far above.
+/// The share of a gap that the turning of one of the pieces about a plane that stands still has to
+/// use up before a plane that turns with it is tried. Measured: pieces as small as those of common
+/// meshes stay far below, large ones that turn past small ones are far above.
 pub const TURNED_SHARE: f64 = 0.5;
 
-/// How often an axis is followed along the exact path of the pieces before the oracle is asked
-/// again. Each round is a Newton step that cannot overstep, so that few suffice.
+/// The number of rounds in which an axis is followed along the exact path of the pieces before the
+/// oracle is asked again. Each round is a Newton step that cannot overstep, so that few suffice.
 pub const AXIS_ROUNDS: usize = 16;
 
 /// The least growth of a free time, relative to what is there, that is worth another Newton step.
 pub const WORTHWHILE: f64 = 1.0 / 64.0;
 
-/// How far beyond its distance at the start, in units of the distance's rounding, a pair that began
-/// in contact may come before it counts as approaching. Four cover the rounding of both distances,
-/// and what a rate of zero picks up by rounding over the whole duration.
+/// The distance, in units of the distance's rounding, that a pair which began in contact may come
+/// beyond its distance at the start before it counts as approaching. Four cover the rounding of both
+/// distances, and what a rate of zero picks up by rounding over the whole duration.
 pub const RESTING: f64 = 4.0;
 
-/// How much of what [`RESTING`] grants has to be left, in units of the distance's rounding, for a pair that
-/// rests to be followed on. Less is what heights were rounded to: each look would find some of it again, and
-/// a pair that approaches slowly be looked at a million times before it is in contact.
+/// The part of what [`RESTING`] grants that has to be left, in units of the distance's rounding,
+/// before a pair that rests is followed on. Less is what heights were rounded to: each look would
+/// find some of it again, and a pair that approaches slowly would be looked at a million times before
+/// it is in contact.
 pub const RESTED: f64 = 1.0 / 16.0;
 
-/// How far apart two nodes have to be, in units of their radii, for a second look at them to be
-/// worth more than a split. Measured: 0.5 serves meshes on meshes as well as meshes on a thin board;
-/// less makes large nodes creep past each other, more splits what only passes.
+/// The distance of two nodes, in units of their radii, from which on a second look at them is worth
+/// more than a split. Measured: 0.5 suits meshes on meshes as well as meshes on a thin board; less
+/// makes large nodes creep past each other, more splits what only passes.
 pub const LOOK_AGAIN: f32 = 0.5;
 
-/// How much of a node's radius counts as thickness along any axis when the thicker one of two nodes
-/// is chosen to be split: flat nodes that are seen edge-on are to be split as well.
+/// The share of a node's radius that counts as thickness along any axis when the thicker one of two
+/// nodes is chosen to be split: flat nodes that are seen edge-on are to be split as well.
 pub const THICKNESS: f32 = 0.1;
 
 /// The longest time for which a plane that turns with a body is followed at once, in units of the
@@ -191,9 +192,9 @@ pub const ATTACHED_TIME: f32 = 1.0 / 16.0;
 /// From which ratio of the nodes' radii on a plane that turns with the larger one is tried.
 pub const MUCH_LARGER: f32 = 3.0;
 
-/// How much of a large turning node has to sweep past a small one, in units of the large one's
-/// radius, while it is certain to stay apart, for a second look to be worth more than a split: what
-/// is split off would be swept past all the same. Measured on discs and on soups of large triangles.
+/// The part of a large turning node, in units of its radius, that has to sweep past a small one while
+/// it is certain to stay apart for a second look to be worth more than a split: what is split off
+/// would be swept past all the same. Measured on discs and on soups of large triangles.
 pub const SWEPT: f32 = 1.0 / 128.0;
 
 /// Bounds the rounding of the determinant of three vectors, relative to the product of their 1-norms,
@@ -203,16 +204,17 @@ pub const SWEPT: f32 = 1.0 / 128.0;
 /// summed in 3: at most 8u; 16u are taken.
 pub const SIGN_F64: f64 = 16.0 * U64;
 
-/// How many rays are tried to count how often a surface winds about a point. A ray fails that passes an
-/// edge by less than rounding, which even of a million triangles one in 10⁸ does.
+/// The number of rays that are tried to count how often a surface winds about a point. A ray fails
+/// that passes an edge by less than rounding: one in 10⁸ does, even of a million triangles.
 pub const RAYS: u32 = 32;
 
-/// How far the columns of an orthonormal frame computed in f64 may be from unit length and right angles:
-/// twelve rotations of [`U64`] each come to less, and f32, to which a box's axes are rounded, is far above.
+/// The error of the columns of an orthonormal frame computed in f64, from unit length and right
+/// angles: twelve rotations of [`U64`] each come to less, and f32, to which a box's axes are rounded,
+/// is far above.
 pub const FRAME_F64: f64 = 1e-13;
 
-/// How much a node's box is widened to be met by a ray, relative to its radius: its axes are rounded
-/// to f32, and rays are not counted by the bit.
+/// The widening of a node's box for rays, relative to its radius: its axes are rounded to f32, and
+/// rays are not counted by the bit.
 pub const BOX_F64: f64 = 1e-5;
 
 /// The gap at which the clock of a pair of nodes stops, beyond the margin and in units of the
@@ -231,29 +233,30 @@ pub const CLOSED_GAP: f64 = 1.0 / 16.0;
 pub const WEIGHTS: std::ops::RangeInclusive<f64> = 1e-100..=1e100;
 
 /// The most corners that are added to a polytope within the difference of two pieces before it is given
-/// up to tell whether it holds the origin. Each brings the least depth found nearer to the true one;
+/// up to decide whether it holds the origin. Each brings the least depth found nearer to the true one;
 /// of pieces of a thousand corners that begin to overlap a few tens were seen to be enough.
 pub const MAX_CORNERS: usize = 256;
 
-/// How much farther from a surface than the rounding of distances a point has to be to be told to be
-/// inside or outside of it: its place is rounded, and so is the surface's.
+/// The distance of a point from a surface, in units of the rounding of distances, from which on it is
+/// known to be inside or outside: its place is rounded, and so is the surface's.
 pub const INSIDE: f64 = 4.0;
 
-/// How far beside an edge that lies on a flat piece points of the piece are looked at, in units of the
-/// length of what lies on it: far above rounding, below the distance to what else is there.
+/// The distance from an edge on a flat piece at which points of the piece are looked at, in units of
+/// the length of what lies on it: far above rounding, below the distance to what else is there.
 pub const BESIDE_EDGE: f64 = 1e-3;
 
-/// How far below a flat piece a point of its solid is looked for, in units of the piece's size, one
-/// after the other: far above what tells it from the surface, then within walls that are thinner.
+/// The depths below a flat piece at which a point of its solid is looked for, one after the other, in
+/// units of the piece's size: first far above what distinguishes it from the surface, then within
+/// walls that are thinner.
 pub const BELOW_SURFACE: [f64; 4] = [1e-4, 1e-6, 1e-9, 1e-12];
 
 /// Bounds the rounding of a height `n·x`, relative to `|n|₁` and the largest coordinate: three
 /// products and two sums, at most 3u; 4u are taken.
 pub const HEIGHT_F64: f64 = 4.0 * U64;
 
-/// How much farther than the bodies two pairs of the front of a descent have to be for the pair that
-/// covers both to be tried in their place; and how much nearer the bodies have to have come for it to
-/// be tried again. What it saves is to measure both of them, what it costs is to measure one more.
+/// The ratio of the distance of two pairs of the front of a descent to that of the bodies from which
+/// on the pair that covers both is tried in their place, and by which the bodies have to have come
+/// nearer for it to be tried again. It saves measuring both of them, and costs measuring one more.
 pub const JOIN_BEYOND: f64 = 2.0;
 
 /// Up to this many points of a piece are all looked at for the farthest one; of more, edges are
@@ -291,12 +294,12 @@ pub const TURNED_SUPPORT: f64 = 64.0 * U64;
 /// of its box, against 26,000 takes 7,500 as one piece and 130 as four triangles.
 pub const BOX_SHARE: f64 = 0.9;
 
-/// How many corners that are level but for rounding are gone through one by one before all corners
+/// The number of corners, level up to rounding, that are gone through one by one before all corners
 /// of the piece are looked at.
 pub const PLATEAU_POINTS: usize = 32;
 
 /// A witness lies on a facet when it is this near to it, in multiples of its piece's size; decides
-/// which name a contact gets, and nothing else. Witnesses are combinations of corners, right to a
+/// which name a contact gets, and nothing else. Witnesses are combinations of corners, off by a
 /// few [`U64`] of that size, times what a flat piece makes of them.
 pub const ON_FACET: f64 = 1e-9;
 

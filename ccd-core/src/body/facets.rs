@@ -24,7 +24,7 @@ impl<'a> Facets<'a> {
         faces: &[],
     };
 
-    /// How many facets there are.
+    /// The number of facets.
     pub fn len(&self) -> usize {
         self.ends.len()
     }
@@ -46,8 +46,15 @@ impl<'a> Facets<'a> {
         &self.corners[start as usize..self.ends[k] as usize]
     }
 
-    /// What each facet is of the mesh.
+    /// The origin of each facet in the mesh.
     pub fn origins(&self) -> &'a [Origin] {
         self.origins
     }
+}
+
+/// The `k`-th range of a list given by the ends of its ranges.
+#[inline]
+pub(crate) fn range(ends: &[u32], k: usize) -> std::ops::Range<usize> {
+    let start = if k == 0 { 0 } else { ends[k - 1] };
+    start as usize..ends[k] as usize
 }

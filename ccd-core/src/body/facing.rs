@@ -1,6 +1,6 @@
 //! On which side of a flat piece the solid is.
 
-use super::tree::crossings;
+use super::tree::ray::crossings;
 use super::{Body, Volume};
 use crate::math::order::greater;
 use crate::tolerance::{BELOW_SURFACE, U64};
@@ -14,11 +14,11 @@ pub(crate) enum Facing {
     /// On neither, as far as is known: of a surface, a piece with a volume or no area, two faces back
     /// to back.
     Neither,
-    /// On one side here and on the other there, or too near to other faces to tell.
+    /// On one side here and on the other there, or too near to other faces to know.
     Unclear,
 }
 
-/// What is known of a piece, kept beside it.
+/// The knowledge about a piece that is kept beside it.
 struct Kept {
     facing: Facing,
     inside: Option<DVec3>,
@@ -57,7 +57,7 @@ impl Body {
         points.iter().sum::<DVec3>() / points.len() as f64
     }
 
-    /// Of a solid's flat pieces: made when it is first asked for.
+    /// Returns the knowledge about a solid's flat piece, which is made when it is first asked for.
     fn kept(&self, piece: u32) -> Option<&Kept> {
         let of = self.pieces().get(piece as usize);
         if self.volume() == Volume::Surface || !of.is_flat() {

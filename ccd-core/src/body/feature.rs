@@ -1,4 +1,4 @@
-//! What touches: vertices, edges and faces in the numbering of the mesh they came from.
+//! Features that touch: vertices, edges and faces in the numbering of the mesh they came from.
 
 use std::fmt;
 

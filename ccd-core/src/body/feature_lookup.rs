@@ -1,15 +1,15 @@
-//! Which feature of a mesh a point of a polytope lies on.
+//! Finds the feature of a mesh that a point of a polytope lies on.
 
 use super::combination::Combination;
+use super::facets::range;
 use super::piece::Piece;
-use super::pieces::range;
 use super::polytope::Origin;
 use crate::math::order::greater;
 use crate::math::vector::{normal, unit};
 use crate::tolerance::{CLIMBED_POINTS, ON_FACET};
 use glam::DVec3;
 
-/// What a point of a polytope is, by the polytope's corners and the mesh's faces.
+/// The feature at a point of a polytope, by the polytope's corners and the mesh's faces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum MeshFeature {
     Vertex(u32),
@@ -72,7 +72,7 @@ fn is_on_mesh(piece: &Piece<'_>) -> bool {
     }
 }
 
-/// Which facets of a piece meet in each of its corners.
+/// The facets of a piece that meet in each of its corners.
 struct FacetsByCorner {
     is_on_mesh: bool,
     facets: Vec<u32>,
@@ -114,7 +114,7 @@ pub(crate) fn prepare(piece: &Piece<'_>) {
     FacetsByCorner::of(piece);
 }
 
-/// The face of the mesh that a point lies on, but for rounding.
+/// The face of the mesh that a point lies on, up to rounding.
 pub(crate) fn face_under(piece: &Piece<'_>, point: DVec3) -> Option<u32> {
     if !is_on_mesh(piece) {
         return None;
@@ -133,7 +133,7 @@ pub(crate) fn face_under(piece: &Piece<'_>, point: DVec3) -> Option<u32> {
     (off <= reach).then_some(face)
 }
 
-/// How far a point is off a triangle's plane, or beyond one of its edges, whichever is more.
+/// Returns how far a point is off a triangle's plane, or beyond one of its edges, whichever is more.
 fn distance_off([a, b, c]: [DVec3; 3], point: DVec3) -> f64 {
     let Some(normal) = normal([a, b, c]) else {
         return f64::INFINITY;

@@ -100,7 +100,7 @@ impl Hierarchy {
 impl TryFrom<Vec<HierarchyNode>> for Hierarchy {
     type Error = InputError;
 
-    /// Of stored nodes, which tell themselves how many pieces there are.
+    /// Makes a hierarchy of stored nodes, whose leaves are counted to get the number of pieces.
     fn try_from(nodes: Vec<HierarchyNode>) -> Result<Self, InputError> {
         let leaf = |node: &&HierarchyNode| matches!(node, HierarchyNode::Leaf(_));
         let pieces = nodes.iter().filter(leaf).count();

@@ -2,9 +2,10 @@
 
 mod assemble;
 mod bottom_up;
-mod convex;
+pub(crate) mod convex;
 mod edges;
 mod error;
+mod hull;
 mod identity;
 mod inherit;
 mod inside;
@@ -13,18 +14,17 @@ mod node;
 mod renumber;
 #[cfg(feature = "serde")]
 mod serial;
-#[cfg(test)]
-mod tests;
 
 pub use error::{HullFault, HullTreeError};
+pub use hull::{FacetClass, Hull, HullNode};
 pub use loops::Loops;
 
 use super::combination::Combination;
+use super::facets::range;
 use super::hierarchy::{Hierarchy, HierarchyNode};
 use super::piece::Piece;
-use super::pieces::{Pieces, range};
-pub(crate) use convex::support_of;
-use glam::DVec3;
+use super::pieces::Pieces;
+use convex::support_of;
 use std::sync::Arc;
 
 /// A binary tree over the pieces of a body with the convex hull of what is below at every node
@@ -56,7 +56,7 @@ pub struct HullTree {
 #[derive(Debug)]
 struct Hulls {
     pieces: Pieces,
-    /// What the facets of all hulls are, in order.
+    /// The classes of the facets of all hulls, in order.
     classes: Vec<FacetClass>,
     /// Where each hull's facets end.
     class_ends: Vec<u32>,
@@ -70,55 +70,7 @@ struct Hulls {
     meeting_ends: Vec<u32>,
 }
 
-/// What a node is made of.
-#[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub enum HullNode {
-    /// One piece, by its index.
-    Leaf(u32),
-    /// Two nodes, by their indices, and the hull of both.
-    Inner([u32; 2], Hull),
-}
-
-/// A convex hull without any rounding.
-#[derive(Clone, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Hull {
-    /// Its corners.
-    pub points: Vec<DVec3>,
-    /// Loops of indices into the points, counter-clockwise seen from outside: convex polygons, no
-    /// two of them coplanar, that close the hull. A flat polygon has two; a hull of one or two points
-    /// has none.
-    pub facets: Loops,
-}
-
-/// What a part of a node's surface is of the pieces below; the better one comes first.
-///
-/// The nearest features of two nodes that are both not [`Free`](FacetClass::Free) belong to pieces:
-/// no pair of pieces below is nearer, or farther.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum FacetClass {
-    /// A part of the mesh.
-    Original,
-    /// A part of pieces that is not of the mesh: it closes a piece inside the solid.
-    Contained,
-    /// A bridge between pieces, with nothing behind it.
-    Free,
-}
-
 impl HullTree {
-    /// Makes a tree over pieces; node 0 is the root.
-    ///
-    /// # Errors
-    /// [`HullTreeError`] names the node, and what of the [guarantee](HullTree) fails there.
-    ///
-    /// # Complexity
-    /// O(n log n) in all points and facets, where few of the points that a hull hides are near each of
-    /// its facets.
-    pub fn new(pieces: &Pieces, nodes: &[HullNode]) -> Result<Self, HullTreeError> {
-        assemble::assemble(pieces, nodes)
-    }
-
     /// The nodes, the root first; leaves name pieces.
     pub fn hierarchy(&self) -> &Hierarchy {
         &self.hierarchy
@@ -130,7 +82,7 @@ impl HullTree {
         &self.hulls.pieces
     }
 
-    /// What the facets of a node's hull are, in their order.
+    /// The classes of the facets of a node's hull, in their order.
     ///
     /// # Panics
     /// When there is no such node.
@@ -138,8 +90,8 @@ impl HullTree {
         &self.hulls.classes[range(&self.hulls.class_ends, node as usize)]
     }
 
-    /// What the feature is that holds a combination of a node's points: the best of the facets that
-    /// meet there `[SWIFT01]`.
+    /// Returns the class of the feature that holds a combination of a node's points: the best of the
+    /// facets that meet there `[SWIFT01]`.
     ///
     /// # Guarantee
     /// Unless [`FacetClass::Free`], the combination lies on a piece below the node, or within one.
@@ -203,15 +155,6 @@ impl HullTree {
     pub(crate) fn bytes(&self) -> usize {
         self.hulls.bytes()
     }
-
-    /// The same tree with leaves that name the same pieces in another list.
-    ///
-    /// # Errors
-    /// [`HullFault::NotAPiece`] at a leaf that is none of them.
-    pub(crate) fn renumbered(self, pieces: &Pieces) -> Result<Self, HullTreeError> {
-        let hierarchy = renumber::renumber(&self, pieces)?;
-        Ok(HullTree { hierarchy, ..self })
-    }
 }
 
 impl Hulls {
@@ -230,3 +173,6 @@ impl Hulls {
         self.pieces.bytes() + self.classes.len() + 25 * self.sizes.len() + meeting
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -27,7 +27,7 @@ pub struct Piece<'a> {
     pub(crate) slot: Option<Slot<'a>>,
 }
 
-/// Which of how many pieces one is.
+/// The row of a side table that belongs to a piece.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Slot<'a> {
     pub(crate) side_table: &'a SideTable,
@@ -47,13 +47,14 @@ impl<'a> Piece<'a> {
         }
     }
 
-    /// What a backend makes of the piece and keeps for the next time: made when it is first asked
-    /// for, dropped with the list that the piece is of. None for a piece that is of no list.
+    /// Returns what a backend makes of the piece and keeps for the next time: made when it is first
+    /// asked for, dropped with the list that the piece belongs to. None for a piece that belongs to
+    /// no list.
     ///
     /// It belongs to the piece as the list has it, whatever has become of the public fields since.
     /// `make` must not ask for the same type of the same piece: it would wait for itself.
     ///
-    /// Types are told apart, so that every backend has a type of its own, and one entry for each
+    /// Types are kept apart, so that every backend has a type of its own, and one entry for each
     /// piece, which costs memory for all pieces of the list from the first one on: box what is large.
     ///
     /// ```
@@ -136,7 +137,7 @@ impl<'a> Piece<'a> {
         self.support.and_then(Support::ball)
     }
 
-    /// How far the points are at most from one, or a little more than that.
+    /// Returns the largest distance of the points from one, or a little more than that.
     pub(crate) fn farthest_from(&self, from: DVec3) -> f64 {
         if let Some((middle, radius)) = self.ball() {
             return (distance(middle, from) + radius) * (1.0 + RATE_F64);
@@ -145,7 +146,7 @@ impl<'a> Piece<'a> {
         squares.fold(0.0, greater).sqrt()
     }
 
-    /// How many points are looked at, about, to find an extremal one.
+    /// Returns about how many points are looked at to find an extremal one.
     pub(crate) fn looks(&self) -> u64 {
         let few = self.points.len().min(CLIMBED_POINTS);
         match self.support {

@@ -1,16 +1,20 @@
 //! The pieces of one body, flat in memory.
 
+pub(crate) mod builder;
+#[cfg(feature = "serde")]
+mod serial;
+mod unpack;
+
 use super::combination::Combination;
-use super::facets::Facets;
+use super::facets::{Facets, range};
 use super::feature::Feature;
 use super::feature_lookup::{self, MeshFeature};
 use super::piece::{Piece, Slot};
-use super::polytope::{Face, Origin, Polytope};
+use super::polytope::{Face, Origin};
 use super::side_table::SideTable;
 use crate::error::InputError;
 use crate::limits::MAX_COORDINATE;
 use glam::DVec3;
-pub(crate) use row::{Listed, Room, Row};
 
 /// The pieces of one body, flat in memory, with the numbers of the mesh they came from.
 #[derive(Clone, Debug)]
@@ -26,11 +30,11 @@ pub struct Pieces {
     point_ends: Vec<u32>,
     radii: Radii,
     shape: Shape,
-    /// What backends keep of them.
+    /// The values that backends keep beside the pieces.
     side_table: SideTable,
 }
 
-/// Indices are kept in 32 bits, of which a quarter names points and the rest has room for nodes.
+/// Indices are kept in 32 bits: a quarter of their range names points, the rest has room for nodes.
 const MAX_POINTS: usize = u32::MAX as usize / 4;
 
 #[derive(Clone, Debug)]
@@ -63,7 +67,7 @@ struct Surfaces {
 }
 
 impl Pieces {
-    /// One piece per triangle of a mesh or soup; `face_ids[k]` is the number `faces[k]` goes by.
+    /// One piece per triangle of a mesh or soup; `face_ids[k]` is the number of `faces[k]`.
     ///
     /// # Errors
     /// [`InputError::VertexOutOfRange`], [`InputError::BadPoint`], [`InputError::NoPieces`],
@@ -107,38 +111,6 @@ impl Pieces {
         .checked()
     }
 
-    /// Convex polytopes, balls and capsules among them.
-    ///
-    /// # Guarantee
-    /// The piece is the hull of the points; facets only serve to name features and to confirm
-    /// overlaps, so that a wrong facet list cannot make a query late.
-    ///
-    /// # Errors
-    /// [`InputError::EmptyPiece`], [`InputError::BadPoint`], [`InputError::BadRadius`],
-    /// [`InputError::FacetOutOfRange`], [`InputError::BadFace`], [`InputError::NoPieces`],
-    /// [`InputError::TooManyPieces`].
-    pub fn polytopes(polytopes: &[Polytope]) -> Result<Self, InputError> {
-        let facets = || polytopes.iter().flat_map(|polytope| &polytope.facets);
-        let mut row = Row::with_room(Room {
-            pieces: polytopes.len(),
-            points: polytopes.iter().map(|p| p.points.len()).sum(),
-            facets: facets().count(),
-            corners: facets().map(|facet| facet.corners.len()).sum(),
-            faces: polytopes.iter().map(|p| p.faces.len()).sum(),
-        });
-        for polytope in polytopes {
-            let facets = polytope.facets.iter();
-            row.push(Listed {
-                points: &polytope.points,
-                vertex_ids: &polytope.vertex_ids,
-                facets: facets.map(|facet| (&facet.corners[..], facet.origin)),
-                faces: polytope.faces.iter().copied(),
-                radius: polytope.radius,
-            })?;
-        }
-        row.into_pieces()
-    }
-
     fn checked(self) -> Result<Self, InputError> {
         if self.point_ends.is_empty() {
             return Err(InputError::NoPieces);
@@ -166,7 +138,7 @@ impl Pieces {
         Ok(self)
     }
 
-    /// How many pieces there are: at least one.
+    /// The number of pieces: at least one.
     #[allow(clippy::len_without_is_empty)]
     pub fn len(&self) -> usize {
         self.point_ends.len()
@@ -215,7 +187,7 @@ impl Pieces {
         size_of_val(self.points.as_slice()) + 4 * (self.vertex_ids.len() + 2 * self.len()) + facets
     }
 
-    /// The three corners of a piece of which [`Pieces::all_triangles`] holds.
+    /// The three corners of a piece, where [`Pieces::all_triangles`] holds.
     #[inline]
     pub(crate) fn triangle(&self, index: usize) -> [DVec3; 3] {
         let corners = &self.points[3 * index..3 * index + 3];
@@ -260,9 +232,9 @@ impl Pieces {
         out
     }
 
-    /// What a point of a piece is called in the mesh: the vertex, edge or face that holds the corners
-    /// it is combined of, or the face that it lies on all the same; [`Feature::Piece`] inside, and
-    /// on a polytope of which all facets are virtual.
+    /// Returns the name of a point of a piece in the mesh: the vertex, edge or face that holds the
+    /// corners it is combined of, or the face that it lies on all the same; [`Feature::Piece`]
+    /// inside, and on a polytope whose facets are all virtual.
     pub fn feature(&self, piece: usize, point: &Combination) -> Feature {
         let id = |corner: u32| self.vertex_ids[self.point_range(piece).start + corner as usize];
         match (&self.shape, point.support()) {
@@ -351,16 +323,5 @@ impl Surfaces {
     }
 }
 
-/// The `k`-th range of a list given by the ends of its ranges.
-#[inline]
-pub(crate) fn range(ends: &[u32], k: usize) -> std::ops::Range<usize> {
-    let start = if k == 0 { 0 } else { ends[k - 1] };
-    start as usize..ends[k] as usize
-}
-
-mod row;
-#[cfg(feature = "serde")]
-mod serial;
 #[cfg(test)]
 mod tests;
-mod unpack;

@@ -8,7 +8,7 @@ use glam::DVec3;
 pub struct Polytope {
     /// The points whose hull it is.
     pub points: Vec<DVec3>,
-    /// The number each point goes by in the mesh it came from; empty numbers them from 0.
+    /// The number of each point in the mesh that it came from; empty numbers them from 0.
     pub vertex_ids: Vec<u32>,
     /// The hull's facets, where known: they tile its boundary; a flat polygon has two.
     pub facets: Vec<Facet>,
@@ -22,13 +22,13 @@ pub struct Polytope {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Facet {
-    /// What it is of the mesh.
+    /// The part of the mesh that it is.
     pub origin: Origin,
     /// Indices into the polytope's points, counter-clockwise seen from outside.
     pub corners: Vec<u32>,
 }
 
-/// What a facet is of the mesh that its polytope came from.
+/// The part of the mesh that a facet of its polytope is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Origin {
@@ -44,9 +44,9 @@ pub enum Origin {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Face {
-    /// The number it goes by in the mesh.
+    /// Its number in the mesh.
     pub id: u32,
-    /// The numbers its corners go by in the mesh.
+    /// The numbers of its corners in the mesh.
     pub vertices: [u32; 3],
     /// Counter-clockwise seen from outside; not necessarily points of the polytope.
     pub corners: [DVec3; 3],

@@ -1,4 +1,4 @@
-//! What backends keep of pieces, beside the pieces.
+//! Values that backends keep beside the pieces.
 
 use std::any::Any;
 use std::fmt;
@@ -15,7 +15,7 @@ pub(crate) struct SideTable(OnceLock<Box<Column>>);
 struct Column {
     /// A `Vec<OnceLock<T>>` of some `T`.
     entries: Box<dyn Any + Send + Sync>,
-    /// Of other types.
+    /// The columns of other types.
     next: SideTable,
 }
 
@@ -57,20 +57,4 @@ impl fmt::Debug for SideTable {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn every_type_and_piece_is_made_once() {
-        let side_table = SideTable::default();
-        for _ in 0..2 {
-            assert_eq!(*side_table.entry::<u32>(3, 1).get_or_init(|| 7), 7);
-            let text = side_table.entry::<String>(3, 1);
-            assert_eq!(text.get_or_init(|| "seven".to_owned()), "seven");
-            assert_eq!(*side_table.entry::<u32>(3, 2).get_or_init(|| 8), 8);
-        }
-        assert_eq!(side_table.entry::<u32>(3, 1).get(), Some(&7));
-        assert_eq!(side_table.entry::<u32>(3, 0).get(), None);
-        assert_eq!(side_table.clone().entry::<u32>(3, 1).get(), None);
-    }
-}
+mod tests;

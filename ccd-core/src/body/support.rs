@@ -3,8 +3,6 @@
 mod directions;
 mod scan;
 mod table;
-#[cfg(test)]
-mod tests;
 mod tree;
 
 pub use directions::DIRECTIONS;
@@ -89,3 +87,6 @@ impl Support {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -4,19 +4,14 @@
 mod build;
 mod fit;
 mod group;
-mod point_query;
-mod ray;
+mod node;
+pub(crate) mod point_query;
+pub(crate) mod ray;
 
 pub(crate) use group::{BoxGroup, LANES, Members, TriangleGroup, unit_normal, up};
+pub(crate) use node::{Below, Node};
 
-pub(crate) use point_query::{is_clear, pieces_at};
-pub(crate) use ray::crossings;
-
-use super::hierarchy::Hierarchy;
-use super::pieces::Pieces;
-use crate::error::InputError;
-use crate::tolerance::BOX_F64;
-use glam::{DVec3, Vec3};
+use glam::DVec3;
 
 /// An immutable tree in the body's frame. Node 0 is the root; ids beyond the nodes name triangles.
 ///
@@ -35,32 +30,7 @@ pub(crate) struct Tree {
 /// A node, or a triangle beyond the nodes.
 pub(crate) type NodeId = u32;
 
-/// An oriented box, grown by the pieces' rounding, and a ball about the same centre; both hold all
-/// pieces below.
-#[derive(Clone, Debug)]
-pub(crate) struct Node {
-    pub(crate) centre: DVec3,
-    /// Unit vectors; the last one is the box's thinnest direction.
-    pub(crate) axes: [Vec3; 3],
-    pub(crate) half: [f32; 3],
-    pub(crate) radius: f32,
-    /// The largest rounding radius of the pieces below, which the half sizes leave out.
-    pub(crate) rounding: f32,
-    pub(crate) below: Below,
-}
-
-/// What is below a node.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Below {
-    /// A group of nodes.
-    Boxes(u32),
-    /// A group of triangles.
-    Triangles(u32),
-    /// A single piece.
-    Piece(u32),
-}
-
-/// What a [`NodeId`] names.
+/// The node or triangle that a [`NodeId`] names.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Named<'a> {
     Node(&'a Node),
@@ -68,22 +38,7 @@ pub(crate) enum Named<'a> {
     Triangle(u32),
 }
 
-impl Node {
-    /// How far the box reaches along one of its axes, and a little more: the axes are rounded.
-    fn reach_f64(&self, axis: usize) -> f64 {
-        f64::from(self.half[axis]) + f64::from(self.rounding) + BOX_F64 * f64::from(self.radius)
-    }
-}
-
 impl Tree {
-    /// Builds the tree, and brings the pieces into its order.
-    pub(crate) fn build(
-        pieces: &Pieces,
-        hierarchy: &Hierarchy,
-    ) -> Result<(Tree, Pieces), InputError> {
-        build::build(pieces, hierarchy)
-    }
-
     #[inline]
     pub(crate) fn get(&self, id: NodeId) -> Named<'_> {
         match self.nodes.get(id as usize) {
@@ -129,7 +84,7 @@ impl Tree {
 
     /// Whether a point is within the root's box, or near it.
     pub(crate) fn may_contain(&self, point: DVec3) -> bool {
-        point_query::holds(&self.nodes[0], point, 0.0)
+        self.nodes[0].holds(point, 0.0)
     }
 
     pub(crate) fn bytes(&self) -> usize {

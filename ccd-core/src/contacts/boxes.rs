@@ -26,7 +26,7 @@ enum Below {
     Halves(u32),
 }
 
-/// The pairs of faces that are nearer than `reach`, as far as boxes can tell, and how many pairs of
+/// The pairs of faces that are nearer than `reach`, as far as boxes show, and how many pairs of
 /// boxes may be looked at to find them.
 pub(super) struct NearFaces {
     pub(super) pairs: Vec<[u32; 2]>,

@@ -4,7 +4,7 @@
 use crate::math::order::lesser;
 use glam::DVec3;
 
-/// Which part of a triangle a point is on.
+/// The part of a triangle that a point is on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Part {
     Corner(usize),
@@ -13,7 +13,7 @@ pub(super) enum Part {
     Inside,
 }
 
-/// The nearest point of a triangle, and the least part of the triangle that is as near but for
+/// The nearest point of a triangle, and the least part of the triangle that is as near up to
 /// `rounding`; also of a triangle that is a segment or a point.
 ///
 /// Whatever cancellation does to a weight, the point is one of the triangle, so that its distance is

@@ -1,8 +1,8 @@
-//! What is found in contact, and which of it is told.
+//! All pairs of features in contact, and the choice of those that are reported.
 
-use super::FeaturePair;
 use super::candidate::Candidate;
 use super::closest::{Part, crossing, on_triangle};
+use super::feature_pair::FeaturePair;
 use super::measure::measure;
 use super::skin::{Skin, Spot, edge};
 use crate::motion::pose::Frame;
@@ -26,7 +26,7 @@ impl<'a> Manifold<'a> {
         }
     }
 
-    /// How many pairs are found so far.
+    /// Returns how many pairs are found so far.
     pub(super) fn len(&self) -> usize {
         self.found.len()
     }
@@ -74,7 +74,7 @@ impl<'a> Manifold<'a> {
         }
     }
 
-    /// The pairs, nearest first; `a_to_world` is where A is, but for the problem's origin.
+    /// The pairs, nearest first; `a_to_world` is where A is, apart from the problem's origin.
     pub(super) fn pairs(&self, a_to_world: &Frame) -> Vec<FeaturePair> {
         let covered = self.covered();
         let mut told = HashMap::new();
@@ -116,8 +116,8 @@ impl<'a> Manifold<'a> {
         })
     }
 
-    /// What is no pair by itself: a corner with a part of the boundary of a face or an edge that it
-    /// has its foot inside of, which is as near.
+    /// Returns what is no pair by itself: a corner with a part of the boundary of a face or an edge
+    /// whose inside holds its foot, which is as near.
     fn covered(&self) -> HashSet<[Spot; 2]> {
         let [a, b] = self.skins;
         let mut covered = HashSet::new();

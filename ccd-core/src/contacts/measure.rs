@@ -1,7 +1,7 @@
-//! How near two features are, checked as every separation is.
+//! Measures how near two features are, checked as every separation is.
 
-use super::FeaturePair;
 use super::candidate::Candidate;
+use super::feature_pair::FeaturePair;
 use super::skin::{Skin, Spot};
 use crate::math::order::{greater, lesser};
 use crate::math::vector::{self, normal, unit};
@@ -10,8 +10,8 @@ use crate::outcome::Separation;
 use crate::problem::Problem;
 use glam::DVec3;
 
-/// Bounds the distance of two features of which the nearest points are known, in the world's
-/// coordinates; `a_to_world` is where A is, but for the problem's origin.
+/// Bounds the distance of two features whose nearest points are known, in the world's
+/// coordinates; `a_to_world` is where A is, apart from the problem's origin.
 ///
 /// # Guarantee
 /// `lower ≤ distance ≤ upper`, wherever the points were found: the gap of the features' corners along
@@ -74,7 +74,7 @@ fn gap([a, b]: &[[DVec3; 3]; 2], n: DVec3) -> f64 {
     lowest - highest
 }
 
-/// The normals of features: of a face, of two edges that cross. Those of a face are right to the last
+/// The normals of features: of a face, of two edges that cross. Those of a face are exact to the last
 /// digits where the way to its foot is mostly rounding.
 fn across([a, b]: &[[DVec3; 3]; 2]) -> [Option<DVec3>; 3] {
     let along = |of: &[DVec3; 3]| of[1] - of[0];

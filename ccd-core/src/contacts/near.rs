@@ -34,7 +34,7 @@ pub(super) fn near_faces(
     Some(near.pairs)
 }
 
-/// The pairs of pieces of which the nodes above may all be nearer than `reach`.
+/// The pairs of pieces whose nodes above may all be nearer than `reach`.
 fn near_pieces(problem: &Problem<'_>, b_to_a: &Frame, reach: f64) -> Option<Vec<[u32; 2]>> {
     let (a, b) = (problem.a.body.tree(), problem.b.body.tree());
     let (mut near, mut visits) = (Vec::new(), 0);
@@ -78,7 +78,7 @@ fn below(tree: &Tree, at: NodeId) -> std::ops::Range<NodeId> {
     members.first..members.first + members.count
 }
 
-/// What a node takes up, in A's frame.
+/// The extent of a node, in A's frame.
 struct Extent {
     centre: DVec3,
     radius: f64,

@@ -11,7 +11,7 @@ use glam::DVec3;
 use std::collections::HashMap;
 use std::ops::Range;
 
-/// What has been unpacked of a body's surface, where it is at a time, in A's frame.
+/// The unpacked part of a body's surface, where it is at a time, in A's frame.
 pub(super) struct Skin<'a> {
     body: &'a Body,
     to_a: Frame,
@@ -26,7 +26,7 @@ pub(super) struct Skin<'a> {
     hidden: Vec<bool>,
     /// The faces around each of these.
     faces_around: HashMap<u32, Vec<u32>>,
-    /// The first triangle that goes by a face's number.
+    /// The first triangle with a face's number.
     first_of: HashMap<Feature, u32>,
     /// The sum of the normals around each corner.
     outward: Vec<DVec3>,
@@ -190,7 +190,7 @@ impl<'a> Skin<'a> {
         }
     }
 
-    /// The faces that a spot is within, where it is within a plane: none of what is told as itself.
+    /// The faces that a spot is within, where it is within a plane: none of a spot that is reported as itself.
     pub(super) fn sharing(&self, spot: Spot) -> &[u32] {
         let faces = match spot {
             Spot::Corner(corner) => self.faces_around.get(&corner).map(Vec::as_slice),
@@ -200,8 +200,8 @@ impl<'a> Skin<'a> {
         faces.unwrap_or_default()
     }
 
-    /// What a spot on a face is told as, and on which face it is: what is within a plane is of a
-    /// face, and triangles that go by one number are one face.
+    /// Returns the spot that a spot on a face is reported as, and the face that it is on: what is
+    /// within a plane belongs to a face, and triangles that share one number are one face.
     pub(super) fn named(&self, spot: Spot, face: u32) -> (Spot, u32) {
         let face = match spot {
             Spot::Corner(corner) if self.hidden[corner as usize] => face,
@@ -216,8 +216,8 @@ impl<'a> Skin<'a> {
         (Spot::Face(first.copied().unwrap_or(face)), face)
     }
 
-    /// What a spot on a face is called: one that has no number of its own goes by the face, or by the
-    /// piece.
+    /// Returns the name of a spot on a face: one that has no number of its own has the name of the
+    /// face, or of the piece.
     pub(super) fn name(&self, spot: Spot, face: u32) -> Feature {
         let id = |corner: u32| self.number_of(corner);
         let own = match spot {
@@ -228,7 +228,7 @@ impl<'a> Skin<'a> {
         own.unwrap_or(self.face(face).name)
     }
 
-    /// The corners of a face, each once, but for those within a plane that no number tells apart from
+    /// The corners of a face, each once, except those within a plane that no number distinguishes from
     /// any other point of it.
     pub(super) fn corners_of(&self, face: u32) -> impl Iterator<Item = u32> + use<'_> {
         let corners = self.face(face).corners;
@@ -237,7 +237,7 @@ impl<'a> Skin<'a> {
         first.map(move |k| corners[k]).filter(shown)
     }
 
-    /// The edges of a face, but for those within a plane.
+    /// The edges of a face, except those within a plane.
     pub(super) fn edges_of(&self, face: u32) -> impl Iterator<Item = [u32; 2]> + use<'_> {
         edges(self.face(face).corners).filter(|&ends| self.across(ends).is_none())
     }

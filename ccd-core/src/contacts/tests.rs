@@ -1,9 +1,11 @@
 use super::*;
+use crate::body::feature::Feature;
 use crate::body::polytope::{Facet, Origin, Polytope};
 use crate::body::{Body, Volume};
 use crate::math::order::{greater, lesser};
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
+use crate::outcome::Separation;
 use crate::problem::{Config, Moving};
 use crate::tests::scene::{Look, Pcg64, RngExt, direction, magnitude, rng, rotation, soup, within};
 use glam::{DQuat, DVec3};

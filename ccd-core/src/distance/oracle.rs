@@ -25,7 +25,7 @@ use glam::DVec3;
 /// ([`Separation`](crate::Separation)). A poor claim makes a query slow or
 /// [unresolved](crate::Outcome::Unresolved), never late.
 pub trait DistanceOracle {
-    /// What a call leaves for the next one on the same pair; the default is a cold start.
+    /// The memory that a call leaves for the next one on the same pair; the default is a cold start.
     type Cache: Clone + Default;
 
     /// Claims how far the pair is apart.
@@ -39,7 +39,7 @@ pub trait DistanceOracle {
         cache: &mut Self::Cache,
     ) -> Result<Claim, GiveUp>;
 
-    /// What it took so far, over all calls; an oracle that does not count says 0.
+    /// Returns the effort so far, over all calls; an oracle that does not count returns 0.
     fn effort(&self) -> Effort {
         Effort::default()
     }
@@ -69,13 +69,13 @@ pub struct PiecePair<'a> {
 }
 
 impl PiecePair<'_> {
-    /// How many points there are to look at.
+    /// Returns how many points there are to look at.
     pub(crate) fn points(&self) -> u64 {
         self.a.looks() + self.b.looks()
     }
 }
 
-/// What an oracle says of a pair, unchecked, in A's frame.
+/// The claim of an oracle about a pair, unchecked, in A's frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Claim {
     /// Points from A's piece to B's piece; any length.
@@ -86,14 +86,14 @@ pub struct Claim {
     pub b: Combination,
 }
 
-/// What an oracle had to do, over many calls.
+/// The effort of an oracle, over many calls.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Effort {
     /// Steps of its search: from features to neighbouring features, from simplex to simplex.
     pub steps: u64,
-    /// How often it came back to where it had been.
+    /// The number of times that it came back to where it had been.
     pub cycles: u64,
-    /// How often it gave up and another oracle was asked.
+    /// The number of times that it gave up and another oracle was asked.
     pub fallbacks: u64,
 }
 
@@ -112,7 +112,7 @@ impl std::ops::Add for Effort {
 impl std::ops::Sub for Effort {
     type Output = Effort;
 
-    /// What was added since `earlier`.
+    /// Returns what was added since `earlier`.
     fn sub(self, earlier: Effort) -> Effort {
         Effort {
             steps: self.steps - earlier.steps,
@@ -148,7 +148,7 @@ pub struct OrElse<First, Second> {
 }
 
 impl<First, Second> OrElse<First, Second> {
-    /// How often the second oracle was asked.
+    /// Returns how often the second oracle was asked.
     pub fn fallbacks(&self) -> u64 {
         self.fallbacks
     }

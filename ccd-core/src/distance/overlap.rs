@@ -23,10 +23,10 @@ pub(crate) enum Intersection {
 /// Tells intersecting pieces from touching ones; `rounding` bounds the error of their points' places.
 ///
 /// # Guarantee
-/// Of pieces without rounding radii the claim is not believed either way: the origin is in the hull of
-/// differences of their points, by more than `rounding`, or an axis shows that it is not. Of rounded
-/// ones the claim's witnesses are proof of an intersection, and its axis of there being none; where it
-/// offers neither they count as touching.
+/// Without rounding radii the claim is not believed either way: the origin is in the hull of
+/// differences of the pieces' points, by more than `rounding`, or an axis shows that it is not. With
+/// rounding radii the claim's witnesses prove an intersection, and its axis that there is none; where
+/// it offers neither, the pieces count as touching.
 pub(crate) fn intersects(pair: &PiecePair<'_>, checked: &Checked, rounding: f64) -> Intersection {
     let radii = pair.a.radius + pair.b.radius;
     if radii > 0.0 {
@@ -84,7 +84,8 @@ struct Face {
     corners: [usize; 3],
     /// Unit.
     normal: DVec3,
-    /// How far along its normal the nearest and the farthest of its corners are from the origin.
+    /// The distances of the nearest and the farthest of its corners from the origin, along its
+    /// normal.
     depth: f64,
     height: f64,
 }

@@ -1,18 +1,17 @@
 //! Checking what an oracle claims: nothing of it is believed unseen.
 
-mod sharp;
+pub(crate) mod sharp;
 
 use super::oracle::{Claim, PiecePair};
 use crate::body::combination::Combination;
 use crate::math::order::{greater, lesser};
 use crate::math::vector::{length, unit_or_any};
 use glam::DVec3;
-pub(crate) use sharp::sharpened;
 
 /// A checked claim, in A's frame.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Checked {
-    /// What was claimed; its combinations name points that exist.
+    /// The claim; its combinations name points that exist.
     pub(crate) claim: Claim,
     /// Bounds the distance from below, rounding deducted; negative when no axis separates.
     pub(crate) lower: f64,

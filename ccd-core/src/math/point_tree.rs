@@ -8,7 +8,7 @@ use std::ops::Range;
 /// Points in a binary tree of boxes.
 ///
 /// Many planes that each have few of many points in front, or on them, such as the facets of a hull, are
-/// told from the rest in about O(log n) each.
+/// separated from the rest in about O(log n) each.
 ///
 /// ```
 /// use ccd_core::glam::DVec3;

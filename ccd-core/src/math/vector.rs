@@ -45,7 +45,7 @@ pub(crate) fn unit_or_any(v: DVec3) -> DVec3 {
 /// The length of a vector.
 ///
 /// # Guarantee
-/// Right to within `4u` of itself, or to the last bit where that is a denormal number.
+/// Its relative error is at most `4u`; a denormal number is exact to its last bit.
 #[inline]
 pub fn length(v: DVec3) -> f64 {
     let (v, back) = scaled(v);
@@ -58,7 +58,7 @@ pub fn distance(a: DVec3, b: DVec3) -> f64 {
     length(b - a)
 }
 
-/// A vector across two others, of any length; zero where they are parallel but for rounding.
+/// A vector across two others, of any length; zero where they are parallel up to rounding.
 ///
 /// The components of a cross product are products, which vanish where the vectors are short; so either
 /// is brought to a length near 1 first.
@@ -79,7 +79,7 @@ pub fn normal([a, b, c]: [DVec3; 3]) -> Option<DVec3> {
     }
 }
 
-/// The vector times a power of two, such that its square is an ordinary number, and the inverse of that
+/// The vector times a power of two that makes its square an ordinary number, and the inverse of that
 /// power.
 #[inline]
 fn scaled(v: DVec3) -> (DVec3, f64) {

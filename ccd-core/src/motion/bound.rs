@@ -1,4 +1,4 @@
-//! How fast a moving body advances along a fixed axis, at most.
+//! Bounds of the rate at which a moving body advances along a fixed axis.
 //!
 //! Coarser than the exact [`Track`](super::track::Track) of a point:
 //! - [`published`]: Eq. 5 of the paper, which holds at one instant only and is unsound over a step;
@@ -11,13 +11,13 @@ use glam::DVec3;
 /// Constant velocity of a centre and constant angular velocity about it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Velocities {
-    /// Of the centre.
+    /// The velocity of the centre.
     pub(crate) linear: DVec3,
     /// About the centre, radians per unit of time.
     pub(crate) spin: DVec3,
 }
 
-/// Which bound of a body's advance along an axis a schedule divides distances by.
+/// The bound of a body's advance along an axis by which a schedule divides distances.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Bound {
     /// `max (n×ω)·r + |v·n|` over the arms r, as the paper prints it `[FAST06 §4.2 Eq. 5]`. It holds at
@@ -30,7 +30,7 @@ pub enum Bound {
 }
 
 /// `maxᵢ (n×ω)·rᵢ + |v·n|`: the fastest advance along `n` at this very instant, over the arms `rᵢ`
-/// from the centre, of which `farthest` tells the one that is farthest along a direction
+/// from the centre; `farthest` returns the one that is farthest along a direction
 /// `[FAST06 §4.2 Eq. 5]`.
 ///
 /// **Unsound over a step**: the arms turn with the body. It is here to be compared with.

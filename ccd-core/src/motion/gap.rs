@@ -1,4 +1,4 @@
-//! How long a gap stays open.
+//! The time for which a gap stays open.
 
 use crate::tolerance::{RATE_F64, WORTHWHILE};
 

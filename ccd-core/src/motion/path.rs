@@ -76,7 +76,7 @@ impl Path {
         self.start + self.velocity * s
     }
 
-    /// How fast the point of the body that is at `x` moves.
+    /// Returns the velocity of the point of the body that is at `x`.
     #[inline]
     pub(crate) fn velocity_at(&self, x: DVec3, s: f64) -> DVec3 {
         self.velocity + self.spin.cross(x - self.centre_at(s))
@@ -90,8 +90,8 @@ impl Path {
         }
     }
 
-    /// How far the farthest of some points of the body is from the axis of rotation, which does not
-    /// change; 0 where it does not turn.
+    /// Returns the distance from the axis of rotation of the farthest of some points of the body,
+    /// which does not change; 0 where the body does not turn.
     pub(crate) fn reach(&self, points: &[DVec3]) -> f64 {
         if !self.turns() {
             return 0.0;

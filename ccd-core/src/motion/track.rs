@@ -32,7 +32,7 @@ impl Track {
     }
 }
 
-/// What all points of a body share when seen along one axis.
+/// The motion that all points of a body share when seen along one axis.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct AxisMotion {
     drift: f64,
@@ -55,7 +55,7 @@ impl AxisMotion {
         }
     }
 
-    /// Of points that go straight.
+    /// The rate of points that go straight.
     #[inline]
     pub(crate) fn drift(&self) -> f64 {
         self.drift

@@ -1,7 +1,7 @@
 //! Every pair keeps its own clock; the pair whose proof expires first is looked at next.
 
-use super::Schedule;
 use super::answer::answer;
+use super::contract::Schedule;
 use super::meter::Meter;
 use super::nodes::expand::{Split, expand};
 use super::nodes::siblings::{Next, Siblings};
@@ -22,6 +22,27 @@ use std::ops::ControlFlow;
 /// pieces.
 ///
 /// Keep it between queries: it owns the queue's memory.
+///
+/// ```
+/// use ccd_core::{glam::DVec3, schedule::BestFirst, *};
+/// # struct Balls;
+/// # impl DistanceOracle for Balls {
+/// #     type Cache = ();
+/// #     fn separation(&mut self, pair: &PiecePair<'_>, _: &mut ()) -> Result<Claim, GiveUp> {
+/// #         let axis = pair.b_to_a.point(pair.b.points[0]) - pair.a.points[0];
+/// #         Ok(Claim { axis, a: Combination::point(0), b: Combination::point(0) })
+/// #     }
+/// # }
+/// let ball = Body::ball(0.5)?;
+/// let mut schedule = BestFirst::default();
+/// for speed in [1.0, 2.0] {
+///     let flying = Motion::new(Pose::at(-3.0 * DVec3::X)?, speed * DVec3::X, DVec3::ZERO)?;
+///     let problem = Problem::new((&ball, flying), (&ball, Motion::STILL), 4.0, &Config::default())?;
+///     let outcome = schedule.solve(&problem, &mut Balls).outcome;
+///     assert!(matches!(outcome, Outcome::Contact { time, .. } if (time - 2.0 / speed).abs() < 1e-3));
+/// }
+/// # Ok::<(), InputError>(())
+/// ```
 #[derive(Debug)]
 pub struct BestFirst<O: DistanceOracle> {
     queue: Queue<Item<O::Cache>>,
@@ -41,7 +62,7 @@ enum Item<C> {
     Pieces(Pair<C>),
 }
 
-/// What to look at: a pair of pieces, or a pair of nodes of which one is split.
+/// The next thing to look at: a pair of pieces, or a pair of nodes one of which is split.
 enum Found<C> {
     Pieces(Pair<C>),
     Split(Split),

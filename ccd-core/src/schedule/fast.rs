@@ -4,12 +4,10 @@ mod descent;
 mod front;
 mod hull_pair;
 mod reach;
-#[cfg(test)]
-mod tests;
 
-use super::Schedule;
 use super::answer::answer;
 use super::best_first::BestFirst;
+use super::contract::Schedule;
 use super::meter::Meter;
 use super::proven::Proven;
 use crate::distance::oracle::DistanceOracle;
@@ -128,3 +126,6 @@ impl<O: DistanceOracle> Fast<O> {
         proven.end(problem)
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,4 +1,4 @@
-//! What a query may take, and what it took.
+//! The work that a query may do, and the work that it did.
 
 use crate::outcome::{Limit, Stats};
 use crate::problem::Problem;

@@ -1,7 +1,7 @@
 //! All pairs of pieces, one common clock: Alg. 1 of the paper, the slow and obvious twin.
 
-use super::Schedule;
 use super::answer::answer;
+use super::contract::Schedule;
 use super::meter::Meter;
 use super::pieces::pair::Pair;
 use super::pieces::snapshot::Snapshot;
@@ -98,7 +98,7 @@ impl<O: DistanceOracle> Naive<O> {
     }
 }
 
-/// How far each piece reaches from its body's axis of rotation.
+/// Returns the reach of each piece from its body's axis of rotation.
 fn reaches(side: &Side<'_>) -> Vec<f64> {
     let pieces = side.body.pieces().iter();
     pieces.map(|piece| side.path.reach(piece.points)).collect()

@@ -9,4 +9,4 @@ mod shape;
 pub(super) mod siblings;
 mod sweeping_node;
 mod turn;
-mod vector;
+mod vector_f32;

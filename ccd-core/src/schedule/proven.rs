@@ -1,4 +1,4 @@
-//! What is proven of two bodies on the way to an answer.
+//! Facts that are proven of two bodies on the way to an answer.
 
 use super::meter::Meter;
 use super::pieces::pair::Step;
@@ -9,7 +9,7 @@ use crate::outcome::{Contact, Limit, Outcome};
 use crate::problem::{Problem, StartPolicy};
 use std::ops::ControlFlow;
 
-/// What is proven of the bodies, whatever becomes of pairs that still wait.
+/// The facts that are proven of the bodies, whatever becomes of pairs that still wait.
 #[derive(Debug)]
 pub(crate) struct Proven {
     /// At the start no pair of pieces is in contact, and no body inside the other.
@@ -33,7 +33,8 @@ impl Proven {
         self.kept = lesser(self.kept, gap);
     }
 
-    /// What a pair of pieces at clock `s` has come to: the clock to wait for, or the answer.
+    /// Concludes from the advance of a pair of pieces at clock `s`: the clock to wait for, or the
+    /// answer.
     ///
     /// A pair that touches at the start is not the answer yet: another one may be nearer, or overlap.
     pub(crate) fn conclude<O: DistanceOracle>(

@@ -20,7 +20,7 @@ pub(crate) struct Queue<T> {
 /// bits of age, 32 bits of index.
 type Key = u128;
 
-/// Which of two items with equal clocks comes first.
+/// The order of items with equal clocks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Rank {
     PiecePair = 0,

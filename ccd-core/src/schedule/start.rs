@@ -1,4 +1,4 @@
-//! How near bodies are that touch at the start: nearest pairs first.
+//! Measures how near bodies are that touch at the start: nearest pairs first.
 
 mod containment;
 
@@ -17,7 +17,7 @@ use crate::tolerance::NEAREST_SHARE;
 use containment::Containment;
 use std::ops::ControlFlow;
 
-/// The answer for bodies of which two pieces were seen in contact at the start: how near the bodies
+/// The answer for bodies with two pieces that were seen in contact at the start: how near the bodies
 /// are, or that they overlap.
 ///
 /// # Guarantee
@@ -54,7 +54,7 @@ pub(super) fn touching<O: DistanceOracle>(
 /// Splits the pair of nodes that may hold the nearest pieces, until no pair that waits can hold any
 /// that are nearer than those found.
 ///
-/// What may intersect is bounded by no distance at all, and therefore comes before all others.
+/// Pairs that may intersect are bounded by no distance at all, and therefore come before all others.
 struct Nearest<'p> {
     problem: &'p Problem<'p>,
     /// By lower bounds of their distance.
@@ -65,7 +65,7 @@ struct Nearest<'p> {
     lower: f64,
     /// The pairs of pieces that no axis keeps apart; all of them, as none has a distance.
     touching: Vec<[u32; 2]>,
-    /// Of some pair it cannot be told whether it intersects.
+    /// Some pair could not be shown to intersect or not.
     undecided: bool,
 }
 
@@ -178,7 +178,7 @@ impl Nearest<'_> {
     }
 }
 
-/// The answer, if one body is inside the other or that cannot be told. No two pieces intersect;
+/// The answer, if one body is inside the other or that cannot be decided. No two pieces intersect;
 /// `touching` are those that no axis keeps apart.
 pub(super) fn contained(problem: &Problem<'_>, touching: &[[u32; 2]]) -> Option<Outcome> {
     match containment::at_start(problem, touching) {

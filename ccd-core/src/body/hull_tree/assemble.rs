@@ -3,13 +3,15 @@
 use super::bottom_up::bottom_up;
 use super::edges::check_facets;
 use super::error::{HullFault, HullTreeError};
+use super::hull::{FacetClass, Hull, HullNode};
 use super::identity::Identity;
 use super::inherit::{Child, inherit};
 use super::inside::Container;
 use super::node::{FacetData, Node};
-use super::{FacetClass, Hull, HullNode, HullTree, Hulls};
+use super::{HullTree, Hulls};
 use crate::body::hierarchy::{Hierarchy, HierarchyNode, bounds};
-use crate::body::pieces::{Listed, Pieces, Room, Row};
+use crate::body::pieces::Pieces;
+use crate::body::pieces::builder::{Capacity, PiecesBuilder, PolytopeParts};
 use crate::body::polytope::Polytope;
 use crate::error::InputError;
 use crate::math::exact::too_fine;
@@ -18,57 +20,67 @@ use glam::DVec3;
 use std::borrow::Cow;
 use std::sync::Arc;
 
-pub(super) fn assemble(pieces: &Pieces, nodes: &[HullNode]) -> Result<HullTree, HullTreeError> {
-    let hierarchy = hierarchy(pieces, nodes)?;
-    let done = bottom_up(&hierarchy, |at, children| match (&nodes[at], children) {
-        (HullNode::Leaf(piece), _) => leaf(at, pieces.polytope(*piece as usize)),
-        (HullNode::Inner(names, hull), [left, right]) => {
-            inner(at, hull, [(names[0], left), (names[1], right)])
+impl HullTree {
+    /// Makes a tree over pieces; node 0 is the root.
+    ///
+    /// # Errors
+    /// [`HullTreeError`] names the node, and what of the [guarantee](HullTree) fails there.
+    ///
+    /// # Complexity
+    /// O(n log n) in all points and facets, where few of the points that a hull hides are near each of
+    /// its facets.
+    pub fn new(pieces: &Pieces, nodes: &[HullNode]) -> Result<Self, HullTreeError> {
+        let hierarchy = hierarchy(pieces, nodes)?;
+        let done = bottom_up(&hierarchy, |at, children| match (&nodes[at], children) {
+            (HullNode::Leaf(piece), _) => leaf(at, pieces.polytope(*piece as usize)),
+            (HullNode::Inner(names, hull), [left, right]) => {
+                inner(at, hull, [(names[0], left), (names[1], right)])
+            }
+        })?;
+        let mut classes = Vec::new();
+        let mut class_ends = Vec::with_capacity(done.len());
+        for node in &done {
+            // A bridge between thick and thin pieces is level with neither.
+            classes.extend(
+                node.facet_data
+                    .iter()
+                    .map(|facet| match node.evenly_rounded {
+                        true => facet.class,
+                        false => FacetClass::Free,
+                    }),
+            );
+            class_ends.push(classes.len() as u32);
         }
-    })?;
-    let mut classes = Vec::new();
-    let mut class_ends = Vec::with_capacity(done.len());
-    for node in &done {
-        // A bridge between thick and thin pieces is level with neither.
-        classes.extend(
-            node.facet_data
-                .iter()
-                .map(|facet| match node.evenly_rounded {
-                    true => facet.class,
-                    false => FacetClass::Free,
-                }),
-        );
-        class_ends.push(classes.len() as u32);
+        let (meeting, meeting_ends) = meeting(&done);
+        let hulls = Hulls {
+            meeting,
+            meeting_ends,
+            classes,
+            class_ends,
+            evenly_rounded: done.iter().map(|node| node.evenly_rounded).collect(),
+            sizes: done.iter().map(|node| node.size).collect(),
+            pieces: flattened(done)?,
+        };
+        Ok(HullTree {
+            hierarchy,
+            hulls: Arc::new(hulls),
+        })
     }
-    let (meeting, meeting_ends) = meeting(&done);
-    let hulls = Hulls {
-        meeting,
-        meeting_ends,
-        classes,
-        class_ends,
-        evenly_rounded: done.iter().map(|node| node.evenly_rounded).collect(),
-        sizes: done.iter().map(|node| node.size).collect(),
-        pieces: flattened(done)?,
-    };
-    Ok(HullTree {
-        hierarchy,
-        hulls: Arc::new(hulls),
-    })
 }
 
 /// The hulls of all nodes; each node's memory is given back once its hull is in.
 fn flattened(nodes: Vec<Node<'_>>) -> Result<Pieces, InputError> {
-    let mut room = Room::default();
+    let mut capacity = Capacity::default();
     for node in &nodes {
-        room.pieces += 1;
-        room.points += node.points.len();
-        room.facets += node.loops.len();
-        room.corners += node.loops.corners().len();
-        room.faces += node.faces().count();
+        capacity.pieces += 1;
+        capacity.points += node.points.len();
+        capacity.facets += node.loops.len();
+        capacity.corners += node.loops.corners().len();
+        capacity.faces += node.faces().count();
     }
-    let mut row = Row::with_room(room);
+    let mut builder = PiecesBuilder::with_capacity(capacity);
     for node in nodes {
-        row.push(Listed {
+        builder.push(PolytopeParts {
             points: &node.points,
             vertex_ids: &node.vertex_ids,
             facets: node
@@ -79,7 +91,7 @@ fn flattened(nodes: Vec<Node<'_>>) -> Result<Pieces, InputError> {
             radius: node.radius,
         })?;
     }
-    row.into_pieces()
+    builder.into_pieces()
 }
 
 /// The facets that meet in each point of all hulls, in ascending order, and where each point's end.

@@ -1,6 +1,6 @@
 //! Nodes made children first, subtrees beside each other on all cores.
 
-use super::HullTreeError;
+use super::error::HullTreeError;
 use crate::body::hierarchy::{Hierarchy, HierarchyNode};
 use std::num::NonZero;
 use std::ops::Range;
@@ -8,7 +8,7 @@ use std::panic::resume_unwind;
 use std::sync::{Mutex, PoisonError};
 use std::thread::{Builder, available_parallelism, scope};
 
-/// What is made of every node, given what is made of its children; leaves are given any two.
+/// Makes a value for every node from the values of its children; leaves are given any two.
 ///
 /// # Guarantee
 /// The same for any number of cores, also where it fails: of several errors it is that of the node that
@@ -57,7 +57,7 @@ fn bottom_up_in<T: Default + Send>(
 struct Row<'a, F> {
     hierarchy: &'a Hierarchy,
     order: &'a [usize],
-    /// How many nodes each one's subtree has.
+    /// The number of nodes in each node's subtree.
     below: &'a [usize],
     make: F,
 }
@@ -158,83 +158,4 @@ fn children_first(hierarchy: &Hierarchy) -> Vec<usize> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::body::hull_tree::HullFault;
-
-    /// A tree over so many pieces, each node before its children, split unevenly.
-    fn hierarchy(pieces: usize) -> Hierarchy {
-        let mut nodes = vec![HierarchyNode::Leaf(0)];
-        let mut stack = vec![(0, 0, pieces)];
-        while let Some((at, start, end)) = stack.pop() {
-            nodes[at] = HierarchyNode::Leaf(start as u32);
-            if end - start > 1 {
-                let (left, middle) = (nodes.len(), start + (end - start).div_ceil(3));
-                nodes.extend([HierarchyNode::Leaf(0); 2]);
-                nodes[at] = HierarchyNode::Inner(left as u32, left as u32 + 1);
-                stack.extend([(left, start, middle), (left + 1, middle, end)]);
-            }
-        }
-        Hierarchy::new(nodes, pieces).unwrap()
-    }
-
-    #[test]
-    fn any_number_of_parts_makes_the_same() {
-        let hierarchy = hierarchy(5000);
-        // Of every node which pieces are below, as they come.
-        let make = |at: usize, [left, right]: [&Vec<u32>; 2]| {
-            Ok(match hierarchy.nodes()[at] {
-                HierarchyNode::Leaf(piece) => vec![piece],
-                HierarchyNode::Inner(..) => [&left[..], right].concat(),
-            })
-        };
-        let one = bottom_up_in(1, &hierarchy, make).unwrap();
-        assert_eq!(one[0], (0..5000).collect::<Vec<u32>>());
-        for parts in [2, 3, 8, 64] {
-            assert_eq!(bottom_up_in(parts, &hierarchy, make).unwrap(), one);
-        }
-    }
-
-    /// Every node has one leaf and the rest: as deep as there are pieces.
-    #[test]
-    fn chains_take_no_more_stack_than_other_trees() {
-        const PIECES: u32 = 100_000;
-        for leaf_first in [true, false] {
-            let mut nodes = Vec::new();
-            for k in 0..PIECES - 1 {
-                let (leaf, rest) = (2 * k + 1, 2 * k + 2);
-                nodes.push(match leaf_first {
-                    true => HierarchyNode::Inner(leaf, rest),
-                    false => HierarchyNode::Inner(rest, leaf),
-                });
-                nodes.push(HierarchyNode::Leaf(k));
-            }
-            nodes.push(HierarchyNode::Leaf(PIECES - 1));
-            let hierarchy = Hierarchy::new(nodes, PIECES as usize).unwrap();
-            let count = |at: usize, [left, right]: [&u32; 2]| {
-                Ok(match hierarchy.nodes()[at] {
-                    HierarchyNode::Leaf(_) => 1,
-                    HierarchyNode::Inner(..) => left + right,
-                })
-            };
-            for parts in [1, 8, 64] {
-                assert_eq!(bottom_up_in(parts, &hierarchy, count).unwrap()[0], PIECES);
-            }
-            assert_eq!(bottom_up(&hierarchy, count).unwrap()[0], PIECES);
-        }
-    }
-
-    #[test]
-    fn the_first_error_is_the_same() {
-        let hierarchy = hierarchy(5000);
-        let fault = |at: usize| HullFault::BadFacet { facet: 7 }.at(at);
-        let make = |at: usize, _: [&u32; 2]| match at % 1000 {
-            999 => Err(fault(at)),
-            _ => Ok(0),
-        };
-        let one = bottom_up_in(1, &hierarchy, make).unwrap_err();
-        for parts in [2, 3, 8, 64] {
-            assert_eq!(bottom_up_in(parts, &hierarchy, make).unwrap_err(), one);
-        }
-    }
-}
+mod tests;

@@ -7,8 +7,8 @@ use crate::math::exact::{side, too_fine};
 use glam::DVec3;
 use std::cmp::Ordering;
 
-/// What finds the extremal points of a hull of many: edges are climbed once they are proven to be
-/// those of the hull; else a tree is searched, which asks for nothing.
+/// Prepares the search for extremal points of a hull of many points: edges are climbed once they are
+/// proven to be those of the hull; else a tree is searched, which relies on nothing.
 pub(crate) fn support_of(hull: &Piece<'_>) -> Support {
     match is_convex(hull) {
         true => Support::new(hull.points, hull.facets),
@@ -102,7 +102,7 @@ fn covers_once(
         if past.into_iter().all(Ordering::is_lt) {
             met += 1;
         } else if !past.into_iter().any(Ordering::is_gt) {
-            // Through an edge: it cannot be told how often.
+            // Through an edge: how often is unknown.
             return false;
         }
     }

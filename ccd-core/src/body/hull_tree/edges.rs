@@ -1,7 +1,7 @@
 //! Edges of loops of corners, found again without hashing.
 
-use super::Hull;
 use super::error::HullFault;
+use super::hull::Hull;
 use std::collections::HashSet;
 
 /// The edges of a loop of corners.
@@ -28,7 +28,7 @@ fn is_closed(hull: &Hull) -> bool {
         }
         edges.extend(edges_of(corners).map(|(from, to)| {
             let (low, high) = (from.min(to), from.max(to));
-            // The last bit is left to the direction, of which the highest corner leaves none over.
+            // The last bit is left to the direction: the highest corner leaves none over.
             u64::from(low) << 33 | u64::from(high) << 1 | u64::from(from > to)
         }));
     }
@@ -65,7 +65,7 @@ fn find_fault(hull: &Hull) -> Result<(), HullFault> {
     Ok(())
 }
 
-/// What belongs to directed edges between points of so many numbers.
+/// Values by directed edge, between points of so many numbers.
 pub(super) struct EdgeMap {
     /// Where the edges from each point start, and at last where those of the last one end.
     starts: Vec<u32>,
@@ -77,7 +77,7 @@ pub(super) struct EdgeMap {
 const MANY: usize = 8;
 
 impl EdgeMap {
-    /// Of edges that are there more than once the last one counts. O(n log n).
+    /// Makes the map; of edges that come more than once the last one counts. O(n log n).
     pub(super) fn new(
         points: usize,
         edges: impl Iterator<Item = ((u32, u32), u32)> + Clone,
@@ -106,7 +106,7 @@ impl EdgeMap {
         EdgeMap { starts, edges }
     }
 
-    /// What belongs to an edge.
+    /// Returns the value of an edge.
     pub(super) fn get(&self, (from, to): (u32, u32)) -> Option<u32> {
         let [start, end] = [from, from + 1].map(|k| self.starts[k as usize] as usize);
         let from = &self.edges[start..end];
@@ -124,50 +124,4 @@ impl EdgeMap {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use glam::DVec3;
-    use std::collections::HashMap;
-
-    fn numbers() -> impl FnMut(u32) -> u32 {
-        let mut state = 1_u32;
-        move |below| {
-            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-            (state >> 16) % below
-        }
-    }
-
-    #[test]
-    fn edges_are_found_as_in_a_table() {
-        let mut number = numbers();
-        let edges: Vec<((u32, u32), u32)> =
-            (0..400).map(|k| ((number(12), number(30)), k)).collect();
-        for some in [&edges[..20], &edges] {
-            let table: HashMap<(u32, u32), u32> = some.iter().copied().collect();
-            let map = EdgeMap::new(30, some.iter().copied());
-            for edge in (0..30).flat_map(|from| (0..30).map(move |to| (from, to))) {
-                assert_eq!(map.get(edge), table.get(&edge).copied());
-            }
-        }
-    }
-
-    #[test]
-    fn surfaces_that_are_closed_have_no_fault() {
-        let mut number = numbers();
-        let tetrahedron = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
-        let mut closed = 0;
-        for _ in 0..2000 {
-            let mut facets = tetrahedron.map(Vec::from).to_vec();
-            for _ in 0..number(3) {
-                let (facet, corner) = (number(4) as usize, number(3) as usize);
-                facets[facet][corner] = number(5);
-            }
-            let points = vec![DVec3::ZERO; 4];
-            let facets = facets.iter().collect();
-            let hull = Hull { points, facets };
-            closed += u32::from(is_closed(&hull));
-            assert_eq!(is_closed(&hull), find_fault(&hull).is_ok());
-        }
-        assert!((200..1900).contains(&closed), "{closed}");
-    }
-}
+mod tests;

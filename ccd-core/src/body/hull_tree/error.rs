@@ -13,12 +13,12 @@ pub enum HullTreeError {
     Node {
         /// Its index.
         node: u32,
-        /// What is wrong with it.
+        /// The fault.
         fault: HullFault,
     },
 }
 
-/// What can be wrong with a node.
+/// The faults of a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum HullFault {
@@ -44,7 +44,7 @@ pub enum HullFault {
         /// The point's index in the child's hull.
         point: u32,
     },
-    /// A point has a coordinate so near to 0 that no exact predicate can tell its side.
+    /// A point has a coordinate so near to 0 that no exact predicate can decide its side.
     TooFine {
         /// The point's index.
         point: u32,

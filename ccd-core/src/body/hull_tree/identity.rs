@@ -1,11 +1,11 @@
-//! Which points of two children and their parent's hull are at one place.
+//! Points of two children and of their parent's hull that are at one place.
 
-use super::Hull;
 use super::error::HullFault;
+use super::hull::Hull;
 use super::node::Node;
 use glam::DVec3;
 
-/// Which points of the children are the same, and which of them are the hull's.
+/// The points of the children that are the same, and those of them that are the hull's.
 ///
 /// Numbers below the hull's count of points name those; the others name hidden points.
 pub(super) struct Identity {
@@ -77,52 +77,4 @@ fn representatives(lists: [&[DVec3]; 3], own: usize) -> Vec<u32> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::body::hull_tree::Loops;
-    use std::collections::HashMap;
-
-    /// The same by a table, point after point.
-    fn twin(hull: &[DVec3], children: [&[DVec3]; 2]) -> (Vec<u32>, Vec<DVec3>) {
-        let place = |p: &DVec3| p.to_array().map(|x| (x + 0.0).to_bits());
-        let mut numbers: HashMap<[u64; 3], u32> = hull.iter().map(place).zip(0..).collect();
-        let mut places = hull.to_vec();
-        let points = children.into_iter().flatten();
-        let number = |point: &DVec3| {
-            *numbers.entry(place(point)).or_insert_with(|| {
-                places.push(*point);
-                places.len() as u32 - 1
-            })
-        };
-        (points.map(number).collect(), places)
-    }
-
-    #[test]
-    fn points_get_the_numbers_that_a_table_gives() {
-        let mut state = 1_u32;
-        let mut coordinate = || {
-            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-            [-1.0, -0.0, 0.0, 1.0, 2.0][(state >> 16) as usize % 5]
-        };
-        for _ in 0..200 {
-            let mut points = |count: usize| -> Vec<DVec3> {
-                let mut point = |_| DVec3::new(coordinate(), coordinate(), 0.0);
-                (0..count).map(&mut point).collect()
-            };
-            let node = |points: Vec<DVec3>| Node {
-                vertex_ids: (0..points.len() as u32).collect(),
-                points: points.into(),
-                ..Node::default()
-            };
-            let [left, right] = [points(7), points(9)].map(node);
-            let hull = Hull {
-                points: [&left.points[..4], &right.points[3..5]].concat(),
-                facets: Loops::default(),
-            };
-            let found = Identity::new(&hull, [&left, &right]).unwrap();
-            let (numbers, places) = twin(&hull.points, [&left.points, &right.points]);
-            assert_eq!([found.of_left, found.of_right].concat(), numbers);
-            assert_eq!(found.places, places);
-        }
-    }
-}
+mod tests;

@@ -1,12 +1,12 @@
-//! What an inner hull's surface has of its children's.
+//! The facets that an inner hull inherits from its children.
 //!
 //! A child's hull meets the plane of a facet of its parent in at most one facet of its own. So a facet
 //! of the parent is a child's, or is tiled by one of either child, or is a bridge.
 
 use super::edges::{EdgeMap, edges_of};
+use super::hull::{FacetClass, Hull};
 use super::inside::{is_coplanar, spanning};
 use super::node::{FacetData, Node};
-use super::{FacetClass, Hull};
 use crate::body::polytope::{Face, Origin, Polytope};
 use crate::math::exact::is_degenerate;
 use crate::math::point_tree::PointTree;
@@ -19,7 +19,7 @@ impl FacetData {
         faces: Vec::new(),
     };
 
-    /// Of a piece's facets.
+    /// The data of a piece's facets.
     pub(super) fn of_piece(piece: &Polytope) -> Vec<FacetData> {
         let mut facet_data = Vec::with_capacity(piece.facets.len());
         let starts: Vec<DVec3> = piece.faces.iter().map(|face| face.corners[0]).collect();
@@ -45,7 +45,7 @@ impl FacetData {
         facet_data
     }
 
-    /// Of a facet that two others tile.
+    /// The data of a facet that two others tile.
     fn joined(parts: [&Part<'_>; 2]) -> FacetData {
         let class = parts[0].facet.class.max(parts[1].facet.class);
         FacetData {
@@ -73,7 +73,7 @@ impl<'a> Child<'a> {
     }
 }
 
-/// What the facets of a hull are, given its children and where all their points are.
+/// Returns the data of a hull's facets, given its children and the places of all their points.
 pub(super) fn inherit(hull: &Hull, places: &[DVec3], children: [Child<'_>; 2]) -> Vec<FacetData> {
     let triangles = children.map(|child| lone_triangle(&child));
     let sides = [0, 1].map(|k| Side::new(children[k], triangles[k].as_ref(), places.len()));
@@ -129,9 +129,9 @@ impl Part<'_> {
 /// A child's facets.
 struct Side<'a> {
     child: Child<'a>,
-    /// What either side is of a triangle by itself.
+    /// The data of either side of a triangle by itself.
     lone: Option<&'a FacetData>,
-    /// Which part an edge belongs to.
+    /// The part that an edge belongs to.
     by_edge: EdgeMap,
 }
 
@@ -139,7 +139,7 @@ struct Side<'a> {
 const SIDES: [[u32; 3]; 2] = [[0, 1, 2], [2, 1, 0]];
 
 impl<'a> Side<'a> {
-    /// Of a child whose points have numbers below `places`.
+    /// The side of a child whose points have numbers below `places`.
     fn new(child: Child<'a>, lone: Option<&'a FacetData>, places: usize) -> Self {
         let sides = SIDES.iter().map(|corners| &corners[..]);
         let loops = child
@@ -177,7 +177,7 @@ impl<'a> Side<'a> {
     }
 }
 
-/// What the front and the back are of a triangle by itself, which lists no facets.
+/// Returns the data of front and back of a triangle by itself, which lists no facets.
 fn lone_triangle(child: &Child<'_>) -> Option<FacetData> {
     let alone = child.node.loops.is_empty() && child.node.points.len() == 3;
     alone.then(|| FacetData {
@@ -201,7 +201,7 @@ fn points_of(polytope: &Polytope, corners: &[u32]) -> Vec<DVec3> {
     corners.iter().map(point).collect()
 }
 
-/// Whether a part's loop is another one but for where it begins.
+/// Whether a part's loop is another one, wherever it begins.
 fn same_loop(part: &Part<'_>, other: &[u32]) -> bool {
     if part.corners.len() != other.len() {
         return false;
@@ -215,7 +215,7 @@ fn same_loop(part: &Part<'_>, other: &[u32]) -> bool {
 }
 
 /// Whether two convex polygons together are a facet of the hull: what is left of their edges, once
-/// those are gone that run both ways, is the facet's loop, but for corners within its edges.
+/// those are gone that run both ways, is the facet's loop, except for corners within its edges.
 ///
 /// A part has the facet's corners and the two ends of the cut, at most; of many more it is not even looked
 /// at, as it may share an edge with each of many facets.

@@ -1,6 +1,6 @@
 //! Whether a point lies in a hull, exactly `[SHE97]`.
 
-use super::Loops;
+use super::loops::Loops;
 use crate::math::exact::{is_degenerate, side, turn_along};
 use crate::math::point_tree::PointTree;
 use glam::DVec3;

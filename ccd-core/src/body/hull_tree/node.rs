@@ -1,6 +1,7 @@
 //! A node of a hull tree while the tree is put together.
 
-use super::{FacetClass, Loops};
+use super::hull::FacetClass;
+use super::loops::Loops;
 use crate::body::polytope::{Face, Origin};
 use glam::DVec3;
 use std::borrow::Cow;
@@ -12,7 +13,7 @@ pub(super) struct Node<'a> {
     /// In the mesh, of its points.
     pub(super) vertex_ids: Vec<u32>,
     pub(super) loops: Cow<'a, Loops>,
-    /// Of its facets.
+    /// The data of its facets.
     pub(super) facet_data: Vec<FacetData>,
     /// The mesh's faces on a leaf; an inner node has those of its skins.
     pub(super) own_faces: Option<Vec<Face>>,
@@ -21,7 +22,7 @@ pub(super) struct Node<'a> {
     pub(super) size: f64,
 }
 
-/// What is known of one facet.
+/// The origin, class and mesh faces of one facet.
 #[derive(Clone, Debug)]
 pub(super) struct FacetData {
     pub(super) origin: Origin,

@@ -6,9 +6,20 @@ use crate::body::hierarchy::{Hierarchy, HierarchyNode};
 use crate::body::pieces::Pieces;
 use std::cmp::Ordering;
 
+impl HullTree {
+    /// The same tree with leaves that name the same pieces in another list.
+    ///
+    /// # Errors
+    /// [`HullFault::NotAPiece`] at a leaf that is none of them.
+    pub(crate) fn renumbered(self, pieces: &Pieces) -> Result<Self, HullTreeError> {
+        let hierarchy = renumber(&self, pieces)?;
+        Ok(HullTree { hierarchy, ..self })
+    }
+}
+
 /// The tree's hierarchy, with leaves that name the pieces of a list that they are to the bit: of several, the
 /// first leaf names the first.
-pub(super) fn renumber(tree: &HullTree, pieces: &Pieces) -> Result<Hierarchy, HullTreeError> {
+fn renumber(tree: &HullTree, pieces: &Pieces) -> Result<Hierarchy, HullTreeError> {
     let hulls = tree.hulls();
     let mut renamed = tree.hierarchy.nodes().to_vec();
     let nodes = (0..renamed.len()).filter(|&at| matches!(renamed[at], HierarchyNode::Leaf(_)));

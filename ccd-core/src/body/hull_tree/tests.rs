@@ -5,6 +5,7 @@ use crate::body::feature::Feature;
 use crate::body::polytope::{Facet, Origin, Polytope};
 use crate::body::{Body, Volume};
 use crate::error::InputError;
+use glam::DVec3;
 
 /// The facets of a box whose corner `k` has a positive x, y, z where bit 0, 1, 2 of `k` is set.
 const BOX: [[u32; 4]; 6] = [

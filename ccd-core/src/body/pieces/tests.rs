@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::body::Body;
-use crate::body::polytope::{Face, Facet};
+use crate::body::polytope::{Face, Facet, Polytope};
 use crate::tests::scene::rng;
 use proptest::prelude::*;
 

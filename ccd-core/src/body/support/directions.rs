@@ -3,7 +3,7 @@
 use glam::DVec3;
 use std::f64::consts::FRAC_PI_8;
 
-/// How many directions there are: both poles, and 16 on each of seven circles of latitude.
+/// The number of directions: both poles, and 16 on each of seven circles of latitude.
 pub const DIRECTIONS: usize = 2 + 7 * 16;
 
 /// The squared cosines of 11.25, 33.75, 56.25 and 78.75 degrees: half-way between circles.

@@ -3,7 +3,7 @@
 use crate::math::order::greater;
 use glam::DVec3;
 
-/// How many points are looked at together: what two vectors of 256 bits hold.
+/// The number of points that are looked at together: two vectors of 256 bits hold as many.
 const LANES: usize = 8;
 
 /// The points of a piece laid out for the vector units: the slow way of many, the fast way of few.

@@ -125,7 +125,7 @@ impl SupportTable {
         at
     }
 
-    /// A corner that is higher, beyond corners that are level but for rounding.
+    /// A corner that is higher, beyond corners that are level up to rounding.
     fn beyond_level(
         &self,
         at: u32,

@@ -1,4 +1,4 @@
-//! A tree over the points of a piece, of which only those parts are looked at that may hold the
+//! A tree over the points of a piece. A search looks at only those parts that may hold the
 //! farthest one.
 
 use crate::math::order::{greater, lesser};
@@ -7,7 +7,7 @@ use crate::math::vector::distance;
 use crate::tolerance::{DISC_F32, DISC_TILT_F32, FRAME_F64};
 use glam::{DMat3, DVec3, Vec3};
 
-/// How many points make a block, and how many children a group has.
+/// The number of points in a block, and of children in a group.
 const LANES: usize = 8;
 
 /// The points of a piece in blocks of eight, and discs about the points of every block, of every eight
@@ -30,7 +30,7 @@ pub struct SupportTree {
 #[repr(align(32))]
 struct Block {
     points: [[f64; LANES]; 3],
-    /// What numbers the points go by.
+    /// The numbers of the points.
     numbers: [u32; LANES],
 }
 
@@ -43,7 +43,7 @@ struct Discs {
     normal: [[f32; LANES]; 3],
     radius: [f32; LANES],
     thickness: [f32; LANES],
-    /// What rounding takes at most; of lanes without a disc so little that nothing is below.
+    /// The most that rounding takes; of lanes without a disc so little that nothing is below.
     rounding: [f32; LANES],
 }
 
@@ -98,7 +98,7 @@ impl SupportTree {
         self.ball
     }
 
-    /// How many nodes are looked at for the farthest point.
+    /// Returns how many nodes are looked at for the farthest point.
     #[cfg(test)]
     pub(super) fn visits(&self, direction: DVec3) -> usize {
         let mut look = Look::new(direction);
@@ -135,7 +135,7 @@ struct Look {
     unit: Vec3,
     size: f64,
     highest: f64,
-    /// What a disc has to reach beyond to matter.
+    /// The height that a disc has to reach beyond to matter.
     floor: f32,
     found: u32,
     #[cfg(test)]
@@ -186,7 +186,7 @@ impl Block {
 }
 
 impl Discs {
-    /// Of at most eight times so many points.
+    /// Builds the group of at most eight times so many points.
     fn new(points: &[DVec3], width: usize) -> Self {
         let mut discs = Discs {
             centre: [[0.0; LANES]; 3],
@@ -208,7 +208,7 @@ impl Discs {
         discs
     }
 
-    /// How far the discs reach at most, along a direction whose largest component is 1.
+    /// Returns the largest reach of the discs, along a direction whose largest component is 1.
     #[inline]
     fn bounds(&self, d: Vec3) -> [f32; LANES] {
         let square = d.length_squared() * (1.0 + DISC_TILT_F32);

@@ -9,44 +9,49 @@ use crate::math::order::greater;
 use crate::math::vector::length;
 use glam::DVec3;
 
-/// Builds the tree, and brings the pieces into its order.
-///
-/// A binary node opens its largest descendants until there are eight; triangles stop at clusters of
-/// up to eight, other pieces at one.
-pub(crate) fn build(pieces: &Pieces, hierarchy: &Hierarchy) -> Result<(Tree, Pieces), InputError> {
-    let ranges = Ranges::new(hierarchy, pieces.len())?;
-    let pieces = pieces.reordered(&ranges.order);
-    let mut builder = Builder {
-        nodes: Vec::new(),
-        boxes: Vec::new(),
-        triangles: Vec::new(),
-        hierarchy,
-        ranges: &ranges,
-        pieces: &pieces,
-        whole: if pieces.all_triangles() { LANES } else { 1 },
-    };
-    builder.push_node(0);
-    let mut waiting = vec![(0usize, 0u32)];
-    while let Some((id, at)) = waiting.pop() {
-        builder.fill(id, at, &mut waiting);
+impl Tree {
+    /// Builds the tree, and brings the pieces into its order.
+    ///
+    /// A binary node opens its largest descendants until there are eight; triangles stop at clusters of
+    /// up to eight, other pieces at one.
+    pub(crate) fn build(
+        pieces: &Pieces,
+        hierarchy: &Hierarchy,
+    ) -> Result<(Tree, Pieces), InputError> {
+        let ranges = Ranges::new(hierarchy, pieces.len())?;
+        let pieces = pieces.reordered(&ranges.order);
+        let mut builder = Builder {
+            nodes: Vec::new(),
+            boxes: Vec::new(),
+            triangles: Vec::new(),
+            hierarchy,
+            ranges: &ranges,
+            pieces: &pieces,
+            whole: if pieces.all_triangles() { LANES } else { 1 },
+        };
+        builder.push_node(0);
+        let mut waiting = vec![(0usize, 0u32)];
+        while let Some((id, at)) = waiting.pop() {
+            builder.fill(id, at, &mut waiting);
+        }
+        // Triangles are named by ids beyond the nodes, whose number is known only now.
+        let nodes = builder.nodes.len() as u32;
+        for group in &mut builder.triangles {
+            group.members.first += nodes;
+        }
+        let reach = |k: usize| {
+            let piece = pieces.get(k);
+            let farthest = piece.points.iter().map(|&p| length(p)).fold(0.0, greater);
+            farthest + piece.radius
+        };
+        let tree = Tree {
+            span: (0..pieces.len()).map(reach).fold(0.0, greater),
+            nodes: builder.nodes,
+            boxes: builder.boxes,
+            triangles: builder.triangles,
+        };
+        Ok((tree, pieces))
     }
-    // Triangles are named by ids beyond the nodes, whose number is known only now.
-    let nodes = builder.nodes.len() as u32;
-    for group in &mut builder.triangles {
-        group.members.first += nodes;
-    }
-    let reach = |k: usize| {
-        let piece = pieces.get(k);
-        let farthest = piece.points.iter().map(|&p| length(p)).fold(0.0, greater);
-        farthest + piece.radius
-    };
-    let tree = Tree {
-        span: (0..pieces.len()).map(reach).fold(0.0, greater),
-        nodes: builder.nodes,
-        boxes: builder.boxes,
-        triangles: builder.triangles,
-    };
-    Ok((tree, pieces))
 }
 
 /// Where the pieces below each node of a hierarchy stand when all are listed depth first.

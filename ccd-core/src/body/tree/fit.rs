@@ -1,14 +1,14 @@
 //! The box and the ball of a node.
 
 use super::group::up;
-use super::{Below, Node};
+use super::node::{Below, Node};
 use crate::math::order::greater;
 use crate::math::principal::principal_axes;
 use crate::math::vector::{length, unit};
 use crate::tolerance::FRAME_F64;
 use glam::{DMat3, DVec3, Vec3};
 
-/// What the pieces below a node look like to a fit.
+/// The pieces below a node as a fit sees them.
 pub(crate) struct Cloud<'a> {
     pub(crate) points: &'a [DVec3],
     /// The largest rounding radius among the pieces.
@@ -17,7 +17,7 @@ pub(crate) struct Cloud<'a> {
     pub(crate) triangles: bool,
 }
 
-/// How many frames about the mean normal are tried, a right angle apart in total.
+/// The number of frames about the mean normal that are tried, a right angle apart in total.
 const TURNS: usize = 6;
 
 /// Fits the node that holds all points: of several frames the one whose box has the least surface.
@@ -34,7 +34,7 @@ pub(crate) fn fit(cloud: &Cloud<'_>, below: Below) -> Node {
     best.node(cloud, below)
 }
 
-/// Whether the columns are orthonormal but for rounding: along others no box holds its points.
+/// Whether the columns are orthonormal up to rounding: along others no box holds its points.
 fn is_frame(frame: &DMat3) -> bool {
     let off = frame.transpose() * *frame - DMat3::IDENTITY;
     // Written so that NaN is none.

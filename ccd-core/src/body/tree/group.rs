@@ -1,12 +1,12 @@
 //! Children in groups of eight, one array per coordinate, so that eight are bounded at once.
 
-use super::Node;
+use super::node::{Below, Node};
 use crate::math::order::greater;
 use crate::math::vector::{length, normal};
 use crate::tolerance::SQUARES;
 use glam::{DVec3, Vec3};
 
-/// How many children a group holds.
+/// The number of children in a group.
 pub(crate) const LANES: usize = 8;
 
 /// Three coordinates, eight each.
@@ -22,7 +22,7 @@ pub(crate) struct BoxGroup {
     pub(crate) rounding: [f32; LANES],
     pub(crate) radius: [f32; LANES],
     pub(crate) members: Members,
-    /// Which lanes hold a single piece.
+    /// The lanes that hold a single piece.
     pub(crate) leaves: u8,
 }
 
@@ -38,7 +38,7 @@ pub(crate) struct TriangleGroup {
     pub(crate) members: Members,
 }
 
-/// What every group has.
+/// The fields that every group has.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Members {
     /// In the body's frame; rows are relative to it.
@@ -84,7 +84,7 @@ impl BoxGroup {
             group.radius[lane] = (node.radius + off).next_up();
             let reach = up(length(way) + f64::from(node.radius));
             group.members.reach = greater(group.members.reach, reach);
-            if matches!(node.below, super::Below::Piece(_)) {
+            if matches!(node.below, Below::Piece(_)) {
                 group.leaves |= 1 << lane;
             }
         }

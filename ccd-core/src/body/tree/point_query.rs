@@ -1,8 +1,8 @@
-//! What is at a point, or near it.
+//! Queries for the pieces at a point, and for the surface near it.
 
-use super::{Below, Node, Tree};
+use super::{Below, Tree};
 use crate::body::pieces::Pieces;
-use crate::tolerance::{SIGN_F64, U64};
+use crate::tolerance::SIGN_F64;
 use glam::DVec3;
 
 /// The pieces that are no triangles and whose boxes hold a point, or nearly.
@@ -11,7 +11,7 @@ pub(crate) fn pieces_at(tree: &Tree, point: DVec3) -> Vec<u32> {
     let mut stack = vec![0u32];
     while let Some(id) = stack.pop() {
         let node = &tree.nodes[id as usize];
-        if !holds(node, point, 0.0) {
+        if !node.holds(point, 0.0) {
             continue;
         }
         match node.below {
@@ -32,7 +32,7 @@ pub(crate) fn is_clear(tree: &Tree, pieces: &Pieces, point: DVec3, reach: f64) -
     let mut stack = vec![0u32];
     while let Some(id) = stack.pop() {
         let node = &tree.nodes[id as usize];
-        if !holds(node, point, reach) {
+        if !node.holds(point, reach) {
             continue;
         }
         let clear = match node.below {
@@ -57,13 +57,6 @@ pub(crate) fn is_clear(tree: &Tree, pieces: &Pieces, point: DVec3, reach: f64) -
         }
     }
     true
-}
-
-/// Whether a point is within a node's box, or no farther than `reach` from it, or near that.
-pub(super) fn holds(node: &Node, point: DVec3, reach: f64) -> bool {
-    let way = point - node.centre;
-    let reach = reach + 8.0 * U64 * way.abs().element_sum();
-    (0..3).all(|k| way.dot(node.axes[k].as_dvec3()).abs() <= node.reach_f64(k) + 1.001 * reach)
 }
 
 /// Whether an axis shows that a point is farther than `reach` from a triangle: across the plane, or

@@ -1,4 +1,4 @@
-//! How often the surface of a body winds about a point, counted along a ray.
+//! Counts how often the surface of a body winds about a point, along a ray.
 
 use super::{Below, Node, Tree};
 use crate::body::pieces::Pieces;
@@ -7,17 +7,17 @@ use crate::tolerance::{RAYS, SIGN_F64, U64};
 use glam::DVec3;
 use std::f64::consts::TAU;
 
-/// What a ray crosses of a surface, by the normals of its triangles: 1 where it leaves through one, −1
-/// where it enters.
+/// The crossings of a ray with a surface, by the normals of its triangles: 1 where it leaves through
+/// one, −1 where it enters.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Crossings {
     /// Away from the ray's start: the winding number of a closed surface about points just ahead of it.
     pub(crate) beyond: i32,
     /// At the start, to within rounding.
     pub(crate) at_start: i32,
-    /// How many triangles the start is on.
+    /// The number of triangles that the start is on.
     pub(crate) on: u32,
-    /// Which way the ray runs.
+    /// The direction of the ray.
     pub(crate) along: DVec3,
 }
 
@@ -25,7 +25,7 @@ pub(crate) struct Crossings {
 /// ray. Triangles hold the point that it is no farther from than `slack`.
 ///
 /// # Guarantee
-/// What is ahead of the point by more than rounding is counted as in exact arithmetic, and nothing that
+/// Counts as in exact arithmetic what is ahead of the point by more than rounding, and nothing that
 /// is behind it. The surface of pieces that are no triangles is the mesh's faces on them.
 pub(crate) fn crossings(
     tree: &Tree,
@@ -106,7 +106,7 @@ fn meets(node: &Node, from: DVec3, along: DVec3) -> bool {
     !(enter > leave)
 }
 
-/// What is certain of a sign.
+/// The certain part of a sign.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Sign {
     Negative,
@@ -115,7 +115,7 @@ enum Sign {
 }
 
 impl Sign {
-    /// Of a number that is right to [`SIGN_F64`] of a size.
+    /// The sign of a number whose error is at most [`SIGN_F64`] of a size.
     fn of(number: f64, size: f64) -> Sign {
         // Written so that NaN is unclear; products that underflow are off by less than what is added.
         let rounding = SIGN_F64 * size + f64::MIN_POSITIVE;
@@ -145,7 +145,7 @@ impl Crossings {
             return Some(());
         }
         if sides.contains(&Sign::Unclear) {
-            // Past a triangle that is too small or too thin for its edges to tell.
+            // Past a triangle that is too small or too thin for its edges to decide.
             let reach =
                 greater(size(b - a), size(c - a)) + SIGN_F64 * (size(a) + size(b) + size(c));
             return (a.cross(along).abs().max_element() > 2.0 * reach).then_some(());

@@ -4,7 +4,7 @@ use super::{Corner, Face, PointBits, Skin};
 use crate::body::combination::Combination;
 use crate::body::feature::Feature;
 use crate::body::piece::Piece;
-use crate::body::tree::pieces_at;
+use crate::body::tree::point_query::pieces_at;
 use glam::DVec3;
 use std::collections::HashMap;
 
@@ -35,7 +35,7 @@ impl Skin<'_> {
         }
         let whole = |corners: [u32; 3]| {
             let point = |k: u32| piece.points[k as usize];
-            // Facets of which none is of the mesh name nothing, which takes a look at all to find out.
+            // Facets without one of the mesh name nothing; to find that out takes a look at all of them.
             if !piece.facets.is_empty() {
                 let nameless = corners.map(|k| (point(k), None));
                 return (Feature::Piece(index), nameless);

@@ -7,7 +7,7 @@ use crate::distance::oracle::PiecePair;
 use crate::math::vector::{across, unit};
 use glam::{DMat3, DVec3};
 
-/// What was checked, along the best axis that the claim's features have.
+/// Checks again, along the best axis that the claim's features have.
 ///
 /// The way between nearest points is as exact as their coordinates: along it two pieces that are near,
 /// for their size, lose some of their distance. The normal of a face, or of two edges, is exact to its
@@ -43,10 +43,10 @@ fn axes(pair: &PiecePair<'_>, checked: &Checked) -> [DVec3; 4] {
     [way, edges, on_a.normal, on_b.normal]
 }
 
-/// What a nearest point lies on.
+/// The feature that a nearest point lies on.
 struct Feature {
     edge: Option<DVec3>,
-    /// Of its face, or of the piece where that is a triangle; zero where there is none.
+    /// The normal of its face, or of the piece where that is a triangle; zero where there is none.
     normal: DVec3,
 }
 

@@ -1,5 +1,6 @@
 //! Claims are checked, true ones and lies alike.
 
+use super::sharp::sharpened;
 use super::*;
 use crate::body::piece::Piece;
 use crate::distance::oracle::DistanceOracle;

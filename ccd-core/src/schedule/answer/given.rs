@@ -1,4 +1,4 @@
-//! Answers found on surfaces, told of the pieces that they are the surfaces of.
+//! Translates answers about surfaces to the pieces that have these surfaces.
 
 use crate::distance::oracle::DistanceOracle;
 use crate::distance::separation::support_gap;

@@ -28,7 +28,7 @@ pub(super) struct Descent<'s, 'p, C> {
     pub(super) meter: &'s mut Meter,
 }
 
-/// What is known so far at a clock.
+/// The knowledge at a clock so far.
 struct Found {
     /// Bounds the distance of the bodies from above.
     distance: f64,

@@ -29,7 +29,7 @@ pub(super) struct Node<C> {
     pub(super) lower: f64,
     /// Apart until then, when it was last looked at.
     pub(super) clock: f64,
-    /// What its nearest features belong to.
+    /// The owners of its nearest features.
     pub(super) near: Near,
     /// It is worth another try to join its children while the distance of the bodies is below this.
     pub(super) join_below: f64,

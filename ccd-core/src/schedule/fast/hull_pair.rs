@@ -16,7 +16,7 @@ pub(super) struct HullPair<'a> {
     pub(super) b: Hulls<'a>,
 }
 
-/// What the nearest features of two nodes belong to.
+/// The owners of the nearest features of two nodes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Near {
     /// Pieces, both.
@@ -27,7 +27,7 @@ pub(super) enum Near {
     Bridges,
 }
 
-/// What is below a pair of nodes.
+/// The pairs below a pair of nodes.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Below {
     /// Both are leaves: of these pieces.
@@ -49,7 +49,7 @@ impl<'a> HullPair<'a> {
         [self.a.hull(a), self.b.hull(b)]
     }
 
-    /// What the nearest features belong to, of which a claim names points.
+    /// Returns the owners of the nearest features, whose points a claim names.
     pub(super) fn near(&self, [a, b]: [u32; 2], claim: &Claim) -> Near {
         match (self.a.is_bridge(a, &claim.a), self.b.is_bridge(b, &claim.b)) {
             (false, false) => Near::Pieces,
@@ -88,7 +88,7 @@ impl<'a> HullPair<'a> {
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Hulls<'a> {
     Tree(&'a HullTree),
-    /// Of a body of one piece, which is its own tree.
+    /// The one node of a body of one piece, which is its own tree.
     Single(&'a Body),
 }
 

@@ -1,4 +1,4 @@
-//! How far nodes reach from their body's axis of rotation, each computed once a query.
+//! The reach of nodes from their body's axis of rotation, each computed once a query.
 
 use crate::problem::Problem;
 use crate::schedule::pieces::snapshot::Snapshot;
@@ -16,7 +16,7 @@ impl Reaches {
         self.query += 1;
     }
 
-    /// Of both nodes of a pair, whose hulls are those of a instant.
+    /// Returns the reaches of both nodes of a pair, whose hulls are those of a snapshot.
     pub(super) fn each(
         &mut self,
         problem: &Problem<'_>,

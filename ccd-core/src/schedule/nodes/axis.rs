@@ -1,7 +1,7 @@
 //! Axes to separate two nodes along.
 
 use super::shape::{Children, OtherNode};
-use super::vector::{TINY, choose, dot, max, min, unit};
+use super::vector_f32::{TINY, choose, dot, max, min, unit};
 use glam::Vec3;
 
 /// An axis, the gap along it, and how far either side reaches towards the other.

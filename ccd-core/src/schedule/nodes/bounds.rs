@@ -8,11 +8,11 @@ use super::axis;
 use super::eight_pairs::{EightPairs, RelativeMotionF32};
 use super::shape::{Children, OtherNode};
 use super::turn::Turn;
-use super::vector::max;
+use super::vector_f32::max;
 use crate::body::tree::LANES;
 use crate::tolerance::{LOOK_AGAIN, SWEPT, THICKNESS};
 
-/// What eight pairs come to.
+/// The bounds of eight pairs.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Bounds {
     /// For how long each pair is certainly farther apart than the gap that is to be kept.
@@ -20,7 +20,7 @@ pub(crate) struct Bounds {
     /// Positive when a pair is so far apart for its size that looking at it again, once its time is
     /// over, is worth more than splitting it.
     pub(crate) waits: [f32; LANES],
-    /// How thick the child is along the axis, less how thick the other node is.
+    /// The thickness of the child along the axis, less that of the other node.
     pub(crate) thicker: [f32; LANES],
     /// The gap that the free times prove to be kept.
     pub(crate) kept: f32,
@@ -29,7 +29,7 @@ pub(crate) struct Bounds {
 /// Bounds eight pairs along planes that stand still.
 ///
 /// Two axes are tried: the one with the widest gap now, and the one along which the centres are
-/// apart when they are nearest. The first serves pairs that approach, the second such that pass.
+/// apart when they are nearest. The first suits pairs that approach, the second pairs that pass.
 #[inline(always)]
 pub(crate) fn bound<C: Children, P: OtherNode, S: Turn, O: Turn>(
     children: &C,
@@ -103,21 +103,22 @@ pub(crate) fn bound_attached<C: Children, P: OtherNode, S: Turn, O: Turn>(
     }
 }
 
-/// What is past a much larger node that turns.
+/// A small node past a much larger one that turns.
 struct Past {
     /// For how long a plane that turns with the large one keeps it apart.
     attached: f32,
-    /// How fast the large one turns, and how far from its body's centre the small one is.
+    /// The rate at which the large one turns, and the distance of the small one from its body's
+    /// centre.
     spin: f32,
     arm: f32,
     /// The radii.
     large: f32,
     small: f32,
-    /// The large one cannot be split, so that only the small one's size tells whether it is far.
+    /// The large one cannot be split, so that only the small one's size decides whether it is far.
     whole: bool,
 }
 
-/// Which side's nodes are much larger than the other's.
+/// The side whose nodes are much larger than the other's.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Larger {
     Split,

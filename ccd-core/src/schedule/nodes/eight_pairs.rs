@@ -4,18 +4,18 @@ use super::axis::Axis;
 use super::clock;
 use super::shape::{Children, OtherNode};
 use super::turn::Turn;
-use super::vector::{dot, length};
+use super::vector_f32::{dot, length};
 use crate::tolerance::{ACROSS_F32, BEND_F32, LEAST_BEND_F32};
 use glam::Vec3;
 
-/// What all lanes share: the motion, and allowances for rounding.
+/// The relative motion that all lanes share, in f32, with allowances for rounding.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RelativeMotionF32<S, O> {
-    /// Of the split side's centre less that of the other side's.
+    /// The velocity of the split side's centre less that of the other side's.
     pub(crate) velocity: Vec3,
     pub(crate) split: S,
     pub(crate) other: O,
-    /// How much time is left.
+    /// The time left.
     pub(crate) horizon: f32,
     /// The gap that is to be kept, and what rounding may do to a gap.
     pub(crate) slack: f32,
@@ -23,7 +23,7 @@ pub(crate) struct RelativeMotionF32<S, O> {
     pub(crate) kept: f32,
     /// A gap beyond the slack that is no larger counts as none.
     pub(crate) closed: f32,
-    /// What rounding may do to a rate.
+    /// A bound of what rounding may do to a rate.
     pub(crate) rate_slack: f32,
 }
 
@@ -44,7 +44,7 @@ pub(super) struct Lane {
     pub(super) lane: usize,
     /// From the child's centre to the other's.
     pub(super) way: Vec3,
-    /// Of the child's centre relative to the other's.
+    /// The velocity of the child's centre relative to the other's.
     pub(super) velocity: Vec3,
     /// No point of the child moves faster due to turning.
     pub(super) speed: f32,

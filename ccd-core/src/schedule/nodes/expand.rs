@@ -22,7 +22,7 @@ pub(crate) struct Expansion {
     pub(crate) bounds: Bounds,
     pub(crate) first: NodeId,
     pub(crate) count: u32,
-    /// Which children are single pieces.
+    /// The children that are single pieces.
     pub(crate) leaves: u8,
 }
 
@@ -33,12 +33,12 @@ pub(crate) struct Split {
     pub(crate) body: Which,
     pub(crate) node: NodeId,
     pub(crate) other: NodeId,
-    /// Which of the children are wanted.
+    /// The children that are wanted.
     pub(crate) lanes: u8,
 }
 
 impl Split {
-    /// A split of which all children are wanted.
+    /// A split whose children are all wanted.
     pub(crate) fn all(body: Which, node: NodeId, other: NodeId) -> Self {
         Split {
             body,
@@ -95,7 +95,8 @@ fn split_node<P: Pace>(motion: &RelativeMotion<'_>, split: &Split) -> Expansion 
     }
 }
 
-/// How the two bodies move past each other at a clock, along the axes of the one whose node is split.
+/// The motion of the two bodies past each other at a clock, along the axes of the one whose node is
+/// split.
 struct RelativeMotion<'p> {
     problem: &'p Problem<'p>,
     split_side: &'p Side<'p>,
@@ -107,11 +108,11 @@ struct RelativeMotion<'p> {
     velocity: DVec3,
     /// The angular velocity of the other body.
     other_spin: DVec3,
-    /// How much time is left.
+    /// The time left.
     horizon: f32,
 }
 
-/// How fast gaps close.
+/// The rate at which gaps close.
 trait Pace {
     /// For how long members of a group keep apart from the other body's node.
     fn bound<C: Children, O: OtherNode>(view: &GroupView<'_>, group: &C, other: &O) -> Bounds;
@@ -304,7 +305,7 @@ impl GroupView<'_> {
         }
     }
 
-    /// What rounding may do to a gap.
+    /// Bounds what rounding may do to a gap.
     fn rounding<P: OtherNode>(&self, other: &P) -> f32 {
         let [x, y, z] = other.centre().abs().to_array();
         let rounding = WAY_F32 * (x + y + z) + REACH_F32 * (other.radius() + self.members.reach);

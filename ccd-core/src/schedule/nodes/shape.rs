@@ -1,6 +1,6 @@
 //! The shapes of nodes, as seen from the group that is split.
 
-use super::vector::{TINY, choose, dot, fused, length, max, min};
+use super::vector_f32::{TINY, choose, dot, fused, length, max, min};
 use crate::body::tree::{BoxGroup, LANES, TriangleGroup};
 use glam::Vec3;
 

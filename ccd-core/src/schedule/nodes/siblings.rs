@@ -15,13 +15,13 @@ pub(crate) struct Siblings {
     /// The split that the pairs came of.
     split: Split,
     first: NodeId,
-    /// Which children are thicker than the other node and are to be split next.
+    /// The children that are thicker than the other node and are to be split next.
     thicker: u8,
-    /// Which children are better looked at again than split.
+    /// The children that are better looked at again than split.
     waits: u8,
 }
 
-/// What to do with a pair whose clock has run out.
+/// The next step for a pair whose clock has run out.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Next {
     /// Ask the oracle about two pieces, of A and of B.
@@ -46,7 +46,7 @@ impl Next {
 }
 
 impl Siblings {
-    /// The pair of both roots, of which the given body's is to be split.
+    /// The pair of both roots; that of the given body is to be split.
     pub(crate) fn roots(body: Which) -> Self {
         Siblings {
             free: FreeTimes::new(&[0.0; LANES], 1),
@@ -58,7 +58,7 @@ impl Siblings {
         }
     }
 
-    /// What came of a split at a clock.
+    /// The pairs that came of a split at a clock.
     pub(crate) fn new(problem: &Problem<'_>, expansion: &Expansion, split: Split, s: f64) -> Self {
         let bounds = &expansion.bounds;
         let (mut thicker, mut waits) = (0, 0);
@@ -128,7 +128,7 @@ fn lanes_below(count: u32) -> u8 {
 }
 
 /// The free times of eight pairs, rounded down to bits that end in the pair's lane: bits of numbers
-/// that are not negative order as the numbers do, so that the least of them tells its lane too.
+/// that are not negative order as the numbers do, so that the least of them names its lane too.
 #[derive(Clone, Copy, Debug)]
 struct FreeTimes([u32; LANES]);
 

@@ -13,14 +13,14 @@ use super::clock;
 use super::eight_pairs::{EightPairs, Lane, bending};
 use super::shape::{Children, OtherNode};
 use super::turn::Turn;
-use super::vector::{dot, length, min};
+use super::vector_f32::{dot, length, min};
 use crate::tolerance::{ATTACHED_TIME, BEND_F32, LEAST_BEND_F32, RATE_F32};
 
 /// The node that sweeps towards a plane attached to the other body.
 struct SweepingNode {
     /// `n·(v_S − v_O)` at its centre, both taken at that point, and what its points around add.
     rate: f32,
-    /// How far its points are at most from the turning body's centre.
+    /// The largest distance of its points from the turning body's centre.
     distance: f32,
     /// No point of it moves faster due to its own turning.
     speed: f32,

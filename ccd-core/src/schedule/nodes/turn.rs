@@ -1,6 +1,6 @@
-//! How a body turns, as seen from the group that is split.
+//! The turning of a body, as seen from the group that is split.
 
-use super::vector::{cross, length};
+use super::vector_f32::{cross, length};
 use glam::Vec3;
 
 /// A body's turning; nothing is computed for one that does not turn.
@@ -12,7 +12,7 @@ pub(crate) trait Turn: Copy {
     fn across(&self, n: Vec3) -> Vec3;
     /// `|ω|`, rounded up.
     fn rate(&self) -> f32;
-    /// How far `x` is from the rotation's centre.
+    /// Returns the distance of `x` from the rotation's centre.
     fn arm(&self, x: Vec3) -> f32;
 }
 

@@ -10,7 +10,7 @@ use crate::tolerance::{RATE_F64, TURNED_SUPPORT};
 use glam::DVec3;
 use std::ops::Deref;
 
-/// How high a piece's points are along an axis while their body moves.
+/// The heights of a piece's points along an axis while their body moves.
 ///
 /// Few points are followed one by one. Of many only the lowest one is looked for, along the axis as
 /// the body sees it by then, and so is the one that sinks fastest: heights after a while, and rates,
@@ -28,7 +28,7 @@ pub(super) struct Heights<'a> {
     speed: f64,
     least: f64,
     few: Few,
-    /// Of all points, where there are many.
+    /// The bound for all points, where there are many.
     bend: f64,
     /// By how much the lowest of many points may be missed, and how fast that may change.
     missed: f64,
@@ -62,7 +62,7 @@ impl Few {
     }
 }
 
-/// Points of which one is the lowest, or one that bounds them all.
+/// Points among which is the lowest, or one that bounds them all.
 pub(super) enum Lowest {
     Few([Point; FEW]),
     Bound([Point; 1]),

@@ -4,7 +4,8 @@ use super::snapshot::Snapshot;
 use crate::body::combination::Combination;
 use crate::distance::oracle::DistanceOracle;
 use crate::distance::overlap::{self, Intersection};
-use crate::distance::separation::{Checked, sharpened};
+use crate::distance::separation::Checked;
+use crate::distance::separation::sharp::sharpened;
 use crate::math::vector::unit;
 use crate::outcome::{Contact, Separation};
 use crate::problem::{Problem, Side, StartPolicy};
@@ -18,11 +19,12 @@ pub(crate) struct Pair<C> {
     pub(crate) a: u32,
     pub(crate) b: u32,
     goal: Goal,
-    /// What the oracle left for its next call.
+    /// The memory that the oracle left for its next call.
     cache: C,
 }
 
-/// What a pair's clock proves, and when the pair is in contact; distances beyond the margin.
+/// The gap that a pair's clock proves, which decides when the pair is in contact; distances beyond
+/// the margin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Goal {
     /// In contact at the query's tolerance; half of it is proven kept.
@@ -33,12 +35,12 @@ enum Goal {
     Resting { floor: f64 },
 }
 
-/// What became of a pair at its clock.
+/// The result of a pair's advance at its clock.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Step {
     /// Certified apart until this clock, which is past the present one; beyond 1 is forever.
     FreeUntil(f64),
-    /// Within the tolerance; at the start it may intersect, which the search for the nearest pieces tells.
+    /// Within the tolerance; at the start it may intersect, which the search for the nearest pieces decides.
     Contact(Contact),
     /// Intersecting; only at the start.
     Overlap(Contact),
@@ -72,7 +74,7 @@ impl<C: Default + Clone> Pair<C> {
         })
     }
 
-    /// The same, where the pair is at a instant, with another way to tell for how long it keeps a gap;
+    /// The same in a snapshot of the pair, with another rule for how long it keeps a gap;
     /// pairs that rest on each other are followed as ever.
     pub(crate) fn advance_by<O: DistanceOracle<Cache = C>>(
         &mut self,
@@ -132,8 +134,8 @@ impl<C: Default + Clone> Pair<C> {
         }
     }
 
-    /// What a pair that is within the tolerance has to keep from now on, or none when it is in
-    /// contact.
+    /// Returns the gap that a pair within the tolerance has to keep from now on, or none when it is
+    /// in contact.
     fn goal_of_start<O: DistanceOracle<Cache = C>>(
         &self,
         problem: &Problem<'_>,

@@ -21,11 +21,11 @@ use std::iter;
 /// Two pieces where they are at a clock.
 pub(crate) struct Snapshot<'p> {
     pub(crate) problem: &'p Problem<'p>,
-    /// Of A and B, in the problem's coordinates.
+    /// The frames of A and B, in the problem's coordinates.
     pub(crate) frames: [Frame; 2],
     pub(crate) pieces: PiecePair<'p>,
     pub(crate) clock: f64,
-    /// How often a gap was followed past a point.
+    /// The number of times that a gap was followed past a point.
     looks: Cell<u64>,
 }
 
@@ -243,7 +243,7 @@ impl<'p> Snapshot<'p> {
         ]
     }
 
-    /// How often a gap was followed past a point so far.
+    /// Returns how often a gap was followed past a point so far.
     pub(crate) fn looks(&self) -> u64 {
         self.looks.get()
     }
@@ -272,7 +272,7 @@ impl<'p> Snapshot<'p> {
             true => 1,
             false => AXIS_ROUNDS,
         };
-        // Heights are measured such that the nearest two points are `slack` apart.
+        // Heights are measured so that the nearest two points are `slack` apart.
         let free = |above: &Point, below: &Point| {
             let gap = Gap {
                 gap: slack + (above.height - b.least()) + (below.height - a.least()),
@@ -318,7 +318,7 @@ pub(super) struct Plane {
     pub(super) slack: f64,
 }
 
-/// The longer of two free times, of which none is for good.
+/// The longer of two free times; none is for good.
 fn longer(one: Option<f64>, other: Option<f64>) -> Option<f64> {
     Some(greater(one?, other?))
 }

@@ -72,14 +72,14 @@ pub(super) struct SweepingPiece<'p> {
     radius: f64,
     /// No point is ever farther from the turning body's centre.
     reach: f64,
-    /// How far points are from their places by rounding, both bodies' together.
+    /// The displacement of points by rounding, both bodies' together.
     misplaced: f64,
-    /// How often the plane was followed past a point.
+    /// The number of times that the plane was followed past a point.
     pub(super) looks: Cell<u64>,
 }
 
-/// What the points' heights and rates after a while are made of: `height + axis·arm` and
-/// `rate + closing·arm`, with arms in their body's frame.
+/// The terms of the points' heights and rates after a while: `height + axis·arm` and `rate +
+/// closing·arm`, with arms in their body's frame.
 struct Turned {
     height: f64,
     axis: DVec3,
@@ -88,8 +88,8 @@ struct Turned {
 }
 
 impl<'p> SweepingPiece<'p> {
-    /// What sweeps past a plane that turns with the body of `holder`; `normal` points from there to
-    /// the other piece, and `rounding` is the problem's.
+    /// Prepares what sweeps past a plane that turns with the body of `holder`; `normal` points from
+    /// there to the other piece, and `rounding` is the problem's.
     pub(super) fn new(
         holder: &Member<'_>,
         other: &Member<'p>,
@@ -154,7 +154,7 @@ impl<'p> SweepingPiece<'p> {
         })
     }
 
-    /// What rounding may do to changes of height, and to rates.
+    /// Bounds what rounding may do to changes of height, and to rates.
     fn allowances(&self) -> (f64, f64) {
         let turns = self.omega + self.own_omega;
         let rounding = attached_rounding(turns);
@@ -171,7 +171,7 @@ impl<'p> SweepingPiece<'p> {
         height + self.lowest(axis)
     }
 
-    /// How far the arms reach along a direction at least.
+    /// Returns the least reach of the arms along a direction.
     fn lowest(&self, direction: DVec3) -> f64 {
         if self.piece.ball().is_some() {
             let lowest = self.piece.points[self.piece.extremal(-direction) as usize];

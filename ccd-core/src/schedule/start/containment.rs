@@ -4,7 +4,8 @@ mod beside;
 
 use crate::body::Body;
 use crate::body::shell::Shell;
-use crate::body::tree::{crossings, is_clear};
+use crate::body::tree::point_query::is_clear;
+use crate::body::tree::ray::crossings;
 use crate::motion::pose::Frame;
 use crate::outcome::Overlap;
 use crate::problem::{Problem, Side};
@@ -12,14 +13,14 @@ use crate::tolerance::INSIDE;
 use beside::beside_edges;
 use glam::DVec3;
 
-/// What is known of bodies of which no two pieces intersect.
+/// The result for bodies without two pieces that intersect.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Containment {
     /// A point of one is inside the other one's solid.
     Inside(Overlap),
     /// Nothing of either that was looked at is.
     Outside,
-    /// That can not be told of some part.
+    /// Some part could not be decided.
     Undecided,
 }
 
@@ -29,16 +30,16 @@ pub(crate) enum Containment {
 /// # Guarantee
 /// A point that is found is inside, by more than rounding. When nothing is found, then nothing is inside
 /// of
-/// - any connected part of a body that touches the other nowhere: one point tells of all of it;
+/// - any connected part of a body that touches the other nowhere: one point decides for all of it;
 /// - the rest of the other parts, the pieces that touch left out: what is left of a part is in pieces
 ///   that each have a corner in common with one that touches, and all their corners are looked at;
-/// - pieces that touch and have a volume, of which the middle tells, as no face passes through;
+/// - pieces that touch and have a volume: the middle decides, as no face passes through;
 /// - and flat ones that touch: at their corners, at the middle, there on the side where their own solid
 ///   is, and beside every edge of the other body that lies on them, which is where a surface passes
 ///   through a piece without a face that intersects it.
 ///
-/// What is inside by less than rounding is not told from what touches, nor what is beside an edge by less
-/// than a thousandth of it.
+/// A part that is inside by less than rounding is not distinguished from one that touches, nor is
+/// what is beside an edge by less than a thousandth of it.
 ///
 /// O((parts + pairs that touch) · log n) where rays meet few triangles.
 pub(crate) fn at_start(problem: &Problem<'_>, touching: &[[u32; 2]]) -> Containment {
@@ -87,7 +88,7 @@ struct Search<'a> {
     reach: f64,
 }
 
-/// What a search has come to; the point in the problem's coordinates.
+/// The result of a search; the point is in the problem's coordinates.
 #[derive(Clone, Copy)]
 enum Found {
     Inside(DVec3),
@@ -127,14 +128,14 @@ impl Search<'_> {
         }
     }
 
-    /// Asks of points in turn, until one tells.
+    /// Asks of points in turn, until one decides.
     fn any_of(&self, points: impl IntoIterator<Item = DVec3>) -> Found {
         let mut answers = points.into_iter().map(|p| self.point(p));
         let told = answers.find(|found| !matches!(found, Found::Undecided));
         told.unwrap_or(Found::Undecided)
     }
 
-    /// Asks of the extreme points of a part. One of which all are on the outer surface is left to the
+    /// Asks of the extreme points of a part. A part that has all of them on the outer surface is left to the
     /// pieces that touch.
     fn part(&self, shell: &Shell, touching: &[u32]) -> Found {
         let found = self.any_of(*shell);

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::body::hierarchy::Hierarchy;
+use glam::DVec3;
 use serde::{Serialize, de::DeserializeOwned};
 
 fn read<T: DeserializeOwned>(bytes: &[u8]) -> Option<T> {

@@ -8,7 +8,7 @@ use crate::schedule::nodes::axis::Axis;
 use crate::schedule::nodes::clock;
 use crate::schedule::nodes::eight_pairs::Lane;
 use crate::schedule::nodes::turn::Turning;
-use crate::schedule::nodes::vector::{dot, length};
+use crate::schedule::nodes::vector_f32::{dot, length};
 use crate::tests::scene::{Pcg64, direction, rng};
 use crate::tolerance::{
     ACROSS_F32, ATTACHED_TIME, BEND_F32, CLOCK_F32, LEAST_BEND_F32, MUCH_LARGER,

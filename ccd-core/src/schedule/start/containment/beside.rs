@@ -11,7 +11,7 @@ use glam::DVec3;
 /// the edge is on it. Edges are level that leave the piece's plane by no more than `reach`.
 ///
 /// A surface that passes through a piece's inside without any of its faces intersecting it does so along
-/// such edges. Of what lies in the plane as a whole the faces beyond its edges tell.
+/// such edges. For what lies in the plane as a whole, the faces beyond its edges decide.
 pub(super) fn beside_edges(
     piece: &Piece<'_>,
     other: &Piece<'_>,

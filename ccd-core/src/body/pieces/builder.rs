@@ -1,13 +1,13 @@
 //! Pieces put together one by one.
 
 use super::{Pieces, Radii, Shape, Surfaces};
-use crate::body::polytope::{Face, Origin};
+use crate::body::polytope::{Face, Origin, Polytope};
 use crate::body::side_table::SideTable;
 use crate::error::InputError;
 use glam::DVec3;
 
 /// A polytope by its parts, as those of [`Polytope`](crate::Polytope).
-pub(crate) struct Listed<'a, A, B> {
+pub(crate) struct PolytopeParts<'a, A, B> {
     pub(crate) points: &'a [DVec3],
     pub(crate) vertex_ids: &'a [u32],
     /// Corners, and what the facet is of the mesh.
@@ -17,7 +17,7 @@ pub(crate) struct Listed<'a, A, B> {
 }
 
 /// The pieces so far.
-pub(crate) struct Row {
+pub(crate) struct PiecesBuilder {
     points: Vec<DVec3>,
     vertex_ids: Vec<u32>,
     point_ends: Vec<u32>,
@@ -25,31 +25,65 @@ pub(crate) struct Row {
     surfaces: Surfaces,
 }
 
-/// How much there is of everything.
+/// The counts of everything.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Room {
+pub(crate) struct Capacity {
     pub(crate) pieces: usize,
     pub(crate) points: usize,
     pub(crate) facets: usize,
-    /// Of all facets.
+    /// The corners of all facets.
     pub(crate) corners: usize,
     pub(crate) faces: usize,
 }
 
-impl Row {
-    pub(crate) fn with_room(room: Room) -> Self {
-        Row {
-            points: Vec::with_capacity(room.points),
-            vertex_ids: Vec::with_capacity(room.points),
-            point_ends: Vec::with_capacity(room.pieces),
-            radii: Vec::with_capacity(room.pieces),
+impl Pieces {
+    /// Convex polytopes, balls and capsules among them.
+    ///
+    /// # Guarantee
+    /// The piece is the hull of the points; facets only serve to name features and to confirm
+    /// overlaps, so that a wrong facet list cannot make a query late.
+    ///
+    /// # Errors
+    /// [`InputError::EmptyPiece`], [`InputError::BadPoint`], [`InputError::BadRadius`],
+    /// [`InputError::FacetOutOfRange`], [`InputError::BadFace`], [`InputError::NoPieces`],
+    /// [`InputError::TooManyPieces`].
+    pub fn polytopes(polytopes: &[Polytope]) -> Result<Self, InputError> {
+        let facets = || polytopes.iter().flat_map(|polytope| &polytope.facets);
+        let mut builder = PiecesBuilder::with_capacity(Capacity {
+            pieces: polytopes.len(),
+            points: polytopes.iter().map(|p| p.points.len()).sum(),
+            facets: facets().count(),
+            corners: facets().map(|facet| facet.corners.len()).sum(),
+            faces: polytopes.iter().map(|p| p.faces.len()).sum(),
+        });
+        for polytope in polytopes {
+            let facets = polytope.facets.iter();
+            builder.push(PolytopeParts {
+                points: &polytope.points,
+                vertex_ids: &polytope.vertex_ids,
+                facets: facets.map(|facet| (&facet.corners[..], facet.origin)),
+                faces: polytope.faces.iter().copied(),
+                radius: polytope.radius,
+            })?;
+        }
+        builder.into_pieces()
+    }
+}
+
+impl PiecesBuilder {
+    pub(crate) fn with_capacity(capacity: Capacity) -> Self {
+        PiecesBuilder {
+            points: Vec::with_capacity(capacity.points),
+            vertex_ids: Vec::with_capacity(capacity.points),
+            point_ends: Vec::with_capacity(capacity.pieces),
+            radii: Vec::with_capacity(capacity.pieces),
             surfaces: Surfaces {
-                facet_ends: Vec::with_capacity(room.pieces),
-                origins: Vec::with_capacity(room.facets),
-                corner_ends: Vec::with_capacity(room.facets),
-                corners: Vec::with_capacity(room.corners),
-                face_ends: Vec::with_capacity(room.pieces),
-                faces: Vec::with_capacity(room.faces),
+                facet_ends: Vec::with_capacity(capacity.pieces),
+                origins: Vec::with_capacity(capacity.facets),
+                corner_ends: Vec::with_capacity(capacity.facets),
+                corners: Vec::with_capacity(capacity.corners),
+                face_ends: Vec::with_capacity(capacity.pieces),
+                faces: Vec::with_capacity(capacity.faces),
             },
         }
     }
@@ -60,7 +94,11 @@ impl Row {
     /// [`InputError::FacetOutOfRange`], [`InputError::BadFace`].
     pub(crate) fn push<'a>(
         &mut self,
-        polytope: Listed<'a, impl Iterator<Item = (&'a [u32], Origin)>, impl Iterator<Item = Face>>,
+        polytope: PolytopeParts<
+            'a,
+            impl Iterator<Item = (&'a [u32], Origin)>,
+            impl Iterator<Item = Face>,
+        >,
     ) -> Result<(), InputError> {
         let (piece, count) = (self.point_ends.len(), polytope.points.len());
         self.points.extend_from_slice(polytope.points);

@@ -1,0 +1,40 @@
+//! A node of a hull tree as it is handed in.
+
+use super::loops::Loops;
+use glam::DVec3;
+
+/// A node as it is handed in.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum HullNode {
+    /// One piece, by its index.
+    Leaf(u32),
+    /// Two nodes, by their indices, and the hull of both.
+    Inner([u32; 2], Hull),
+}
+
+/// A convex hull without any rounding.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Hull {
+    /// Its corners.
+    pub points: Vec<DVec3>,
+    /// Loops of indices into the points, counter-clockwise seen from outside: convex polygons, no
+    /// two of them coplanar, that close the hull. A flat polygon has two; a hull of one or two points
+    /// has none.
+    pub facets: Loops,
+}
+
+/// The class of a part of a node's surface, by the pieces below; the better one comes first.
+///
+/// The nearest features of two nodes that are both not [`Free`](FacetClass::Free) belong to pieces:
+/// no pair of pieces below is nearer, or farther.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum FacetClass {
+    /// A part of the mesh.
+    Original,
+    /// A part of pieces that is not of the mesh: it closes a piece inside the solid.
+    Contained,
+    /// A bridge between pieces, with nothing behind it.
+    Free,
+}

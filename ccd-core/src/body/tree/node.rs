@@ -1,0 +1,43 @@
+//! A node: a box, a ball, and what is below.
+
+use crate::tolerance::{BOX_F64, U64};
+use glam::{DVec3, Vec3};
+
+/// An oriented box, grown by the pieces' rounding, and a ball about the same centre; both hold all
+/// pieces below.
+#[derive(Clone, Debug)]
+pub(crate) struct Node {
+    pub(crate) centre: DVec3,
+    /// Unit vectors; the last one is the box's thinnest direction.
+    pub(crate) axes: [Vec3; 3],
+    pub(crate) half: [f32; 3],
+    pub(crate) radius: f32,
+    /// The largest rounding radius of the pieces below, which the half sizes leave out.
+    pub(crate) rounding: f32,
+    pub(crate) below: Below,
+}
+
+/// The children of a node.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Below {
+    /// A group of nodes.
+    Boxes(u32),
+    /// A group of triangles.
+    Triangles(u32),
+    /// A single piece.
+    Piece(u32),
+}
+
+impl Node {
+    /// Returns the reach of the box along one of its axes, and a little more: the axes are rounded.
+    pub(super) fn reach_f64(&self, axis: usize) -> f64 {
+        f64::from(self.half[axis]) + f64::from(self.rounding) + BOX_F64 * f64::from(self.radius)
+    }
+
+    /// Whether a point is within the box, or no farther than `reach` from it, or near that.
+    pub(super) fn holds(&self, point: DVec3, reach: f64) -> bool {
+        let way = point - self.centre;
+        let reach = reach + 8.0 * U64 * way.abs().element_sum();
+        (0..3).all(|k| way.dot(self.axes[k].as_dvec3()).abs() <= self.reach_f64(k) + 1.001 * reach)
+    }
+}
