@@ -5,8 +5,8 @@
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::limits::MAX_COORDINATE;
 use ccd_core::{
-    Body, Config, Facet, Hierarchy, HierarchyNode, InputError, Motion, Moving, Origin, Pieces,
-    Polytope, Pose, Problem, Volume,
+    Body, Config, Face, Facet, Hierarchy, HierarchyNode, InputError, Motion, Moving, Origin,
+    Pieces, Polytope, Pose, Problem, Volume,
 };
 
 const BAD: [f64; 3] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
@@ -150,6 +150,8 @@ fn pieces_name_their_bad_element() {
         vertices: 3,
     };
     assert_eq!(missing, Err(expected));
+    let unnumbered = Pieces::triangles(&triangle, &[[0, 1, 2]], &[]).map(drop);
+    assert_eq!(unnumbered, Err(InputError::FaceIds { faces: 1, ids: 0 }));
     for bad in [2.0 * MAX_COORDINATE, -2.0 * MAX_COORDINATE]
         .into_iter()
         .chain(BAD)
@@ -197,8 +199,29 @@ fn polytopes_name_their_bad_element() {
             Err(InputError::FacetOutOfRange { piece: 1, facet: 0 })
         );
     }
+    for bad in BAD {
+        let face = Face {
+            id: 0,
+            vertices: [0, 1, 2],
+            corners: [DVec3::ZERO, bad * DVec3::X, DVec3::Y],
+        };
+        let result = second(Polytope {
+            faces: vec![face],
+            ..good.clone()
+        });
+        assert_eq!(result, Err(InputError::BadFace { piece: 1, face: 0 }));
+    }
     let flat = Body::cuboid(DVec3::new(1.0, f64::NAN, 1.0)).map(drop);
     assert_eq!(flat, Err(InputError::BadPoint { piece: 0, point: 0 }));
+}
+
+#[test]
+fn a_surface_is_a_solid_of_triangles_for_one_piece() {
+    let ball = Body::ball(1.0).expect("a ball");
+    for (body, surface) in [(cube(), cube()), (ball.clone(), cube()), (cube(), ball)] {
+        let result = body.with_surface(surface).map(drop);
+        assert_eq!(result, Err(InputError::BadSurface));
+    }
 }
 
 #[test]

@@ -43,13 +43,13 @@ impl Hull {
 
     /// Takes points and the facets of their hull; without facets they are points alone.
     pub fn with_facets(points: Vec<DVec3>, facets: Vec<Facet>) -> Self {
-        let polytope = || Polytope {
+        let known = !facets.is_empty();
+        let polytope = Polytope {
             points: points.clone(),
-            facets: facets.clone(),
+            facets,
             ..Polytope::default()
         };
-        let with_facets =
-            (!facets.is_empty()).then(|| Pieces::polytopes(&[polytope()]).expect("a polytope"));
+        let with_facets = known.then(|| Pieces::polytopes(&[polytope]).expect("a polytope"));
         Hull {
             points,
             with_facets,
