@@ -12,7 +12,7 @@ use crate::model::{Model, Origin};
 use crate::motions::Query;
 use crate::query::Bodies;
 use ccd_core::{Body, InputError};
-use ccd_decomp::{Detail, Order, PrepareError, TriangleMesh, body_from_mesh, prepare};
+use ccd_decomp::{BodyError, Detail, Order, TriangleMesh, body_from_mesh, prepare};
 use std::collections::HashMap;
 use std::path::PathBuf;
 use std::sync::{Arc, OnceLock};
@@ -110,7 +110,7 @@ pub enum SceneError {
         /// Its name.
         name: &'static str,
         /// Why.
-        source: PrepareError,
+        source: BodyError,
     },
     /// A motion is none.
     #[error(transparent)]
@@ -177,7 +177,8 @@ impl Models {
         let loaded = model
             .load(self.directory.as_deref())
             .map_err(|error| failed(error.into()))?;
-        let prepared = body_from_mesh(&loaded.mesh, Detail::Auto).map_err(failed)?;
+        let prepared =
+            body_from_mesh(&loaded.mesh, Detail::Auto).map_err(|error| failed(error.into()))?;
         let body = SceneBody {
             body: Arc::new(prepared.body),
             origin: loaded.origin,
