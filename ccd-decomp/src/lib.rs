@@ -6,7 +6,7 @@
 //! | find the faults of a mesh | [`Repairs`], [`Topology`], [`MeshFault`] |
 //! | make a body of a mesh | [`body_from_mesh`], [`Detail`], [`Report`] |
 //! | decompose its surface exactly | [`decompose`], [`Decomposition`] |
-//! | store a prepared body, and load it | [`prepare`], [`Model::save`], [`Model::load`] |
+//! | store a prepared body, and load it | [`prepare`](fn@prepare), [`Model::save`], [`Model::load`] |
 //! | take a body from a command line | [`parse_body`], [`BodySource`] |
 //! | build a hierarchy, or a tree of hulls, over pieces of any kind | [`build_hierarchy`], [`build_hull_tree`] |
 //!
@@ -85,7 +85,7 @@ pub use pieces::patches::{Decomposition, Order, Patch, decompose};
 pub use pieces::vhacd::VhacdError;
 pub use prepare::error::PrepareError;
 pub use prepare::model::{Model, Prepared};
-pub use prepare::report::{PiecesKind, Report, Why};
+pub use prepare::report::{Estimate, PiecesKind, Report, Why};
 pub use prepare::{Detail, body_from_mesh, prepare};
 pub use solid::error::{Crossing, DecomposeError};
 pub use solid::topology::{Edge, Orientation, Topology};

@@ -28,7 +28,7 @@ pub(crate) fn side(triangle: [DVec3; 3], point: DVec3) -> Ordering {
     sign(-orient3d(coord3(p), coord3(q), coord3(r), coord3(point)))
 }
 
-/// The [side](side) for points of a list, by their numbers. A corner of the triangle is in its plane without a
+/// The [side] for points of a list, by their numbers. A corner of the triangle is in its plane without a
 /// computation, which would be the predicate's longest.
 #[inline]
 pub(crate) fn side_of(points: &[DVec3], triangle: [u32; 3], point: u32) -> Ordering {
