@@ -81,7 +81,7 @@
 //! | how it ends, and Brent's detection of cycles | `termination.rs` |
 //! | the five tests | as above; edges cut by planes: `clip.rs` |
 //! | out of local minima | `escape.rs` |
-//! | common points, by exact signs; the axis of pieces that only touch | `penetration.rs`, `orientation.rs`; `touching.rs` |
+//! | common points, by exact signs; the axis of pieces that only touch | `penetration.rs`; `touching.rs` |
 //! | the nearest points, clamped into their features | `witness.rs` |
 //! | ties, cycles, the cap of steps | `certify.rs`, with `certificate.rs` and `neighbourhood.rs` |
 //! | every tolerance | `tolerance.rs` |
@@ -113,7 +113,6 @@ mod feature;
 mod march;
 mod neighbourhood;
 mod oracle;
-mod orientation;
 mod penetration;
 mod placed;
 mod polytope;

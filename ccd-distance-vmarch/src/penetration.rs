@@ -2,9 +2,9 @@
 
 use crate::double_double::volume;
 use crate::feature::{Corners, Crossing};
-use crate::orientation::orientation;
 use crate::placed::{Placed, Scale};
 use crate::tolerance::PIERCED_PAIRS;
+use ccd_core::exact::side;
 use ccd_core::glam::DVec3;
 use ccd_core::order::lesser;
 
@@ -103,14 +103,14 @@ fn straddled<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32, scale: Scale) -
 
 /// Whether a segment and a triangle that is not in one plane with it have a point in common.
 fn passes([start, end]: [DVec3; 2], triangle: [DVec3; 3]) -> bool {
-    let (first, last) = (orientation(triangle, start), orientation(triangle, end));
-    let beside = (first > 0.0 && last > 0.0) || (first < 0.0 && last < 0.0);
-    if beside || (first == 0.0 && last == 0.0) {
+    let (first, last) = (side(triangle, start), side(triangle, end));
+    let beside = first == last && first.is_ne();
+    if beside || (first.is_eq() && last.is_eq()) {
         return false;
     }
     let [a, b, c] = triangle;
-    let turns = [[a, b], [b, c], [c, a]].map(|[p, q]| orientation([start, p, q], end));
-    turns.iter().all(|&turn| turn >= 0.0) || turns.iter().all(|&turn| turn <= 0.0)
+    let turns = [[a, b], [b, c], [c, a]].map(|[p, q]| side([start, p, q], end));
+    turns.iter().all(|&turn| turn.is_ge()) || turns.iter().all(|&turn| turn.is_le())
 }
 
 /// The weights of a segment's ends and of a triangle's corners in the point where they meet.
@@ -128,8 +128,8 @@ fn weights([start, end]: [DVec3; 2], [a, b, c]: [DVec3; 3]) -> ([f64; 2], [f64; 
 fn enclosed(point: DVec3, apex: DVec3, [a, b, c]: [DVec3; 3]) -> Option<[f64; 4]> {
     // Every face of it, seen from outside.
     let faces = [[apex, c, b], [apex, a, c], [apex, b, a], [a, b, c]];
-    let behind = faces.iter().all(|face| orientation(*face, point) <= 0.0);
-    let solid = orientation([a, b, c], apex) < 0.0;
+    let behind = faces.iter().all(|face| side(*face, point).is_le());
+    let solid = side([a, b, c], apex).is_lt();
     if !(behind && solid) {
         return None;
     }

@@ -1,8 +1,8 @@
 //! Whether faces enclose something convex, once.
 
 use super::{NO_FACE, Polytope, Side, unit};
-use crate::orientation::orientation;
 use crate::tolerance::{CONVEX, COPLANAR, LINES};
+use ccd_core::exact::side;
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 
@@ -142,11 +142,10 @@ impl<'a> Check<'a> {
             for k in 1..sides.len() - 1 {
                 let corners = [at(0), at(k), at(k + 1)];
                 let [a, b, c] = corners;
-                let turns = [[a, b], [b, c], [c, a]].map(|[p, q]| orientation([from, p, q], to));
-                if turns.iter().all(|&turn| turn > 0.0) {
+                let turns = [[a, b], [b, c], [c, a]].map(|[p, q]| side([from, p, q], to));
+                if turns.iter().all(|&turn| turn.is_gt()) {
                     layers += 1;
-                } else if turns.iter().all(|&turn| turn >= 0.0) && orientation(corners, from) != 0.0
-                {
+                } else if turns.iter().all(|&turn| turn.is_ge()) && side(corners, from).is_ne() {
                     return None;
                 }
             }

@@ -1,10 +1,11 @@
 //! Polytopes whose facets are known, by construction or by looking at all planes.
 
-use crate::orientation::orientation;
+use ccd_core::exact::side;
 use ccd_core::glam::DVec3;
 use ccd_core::{Facet, Origin, Pieces, Polytope};
 pub(crate) use rand::{RngExt, SeedableRng};
 pub(crate) use rand_pcg::Pcg64;
+use std::cmp::Ordering;
 use std::f64::consts::TAU;
 
 /// Points and the facets of their hull.
@@ -96,10 +97,9 @@ pub(crate) fn hull(points: &[DVec3]) -> Shape {
                 }
                 for [p, q, r] in [[i, j, k], [i, k, j]] {
                     let triangle = [points[p], points[q], points[r]];
-                    let sides: Vec<f64> =
-                        points.iter().map(|&x| orientation(triangle, x)).collect();
-                    if sides.iter().all(|&s| s <= 0.0) && sides.iter().any(|&s| s < 0.0) {
-                        let on = (0..count as u32).filter(|&v| sides[v as usize] == 0.0);
+                    let sides: Vec<Ordering> = points.iter().map(|&x| side(triangle, x)).collect();
+                    if sides.iter().all(|&s| s.is_le()) && sides.iter().any(|&s| s.is_lt()) {
+                        let on = (0..count as u32).filter(|&v| sides[v as usize].is_eq());
                         let on: Vec<u32> = on.collect();
                         let polygon = match on.len() {
                             3 => [p, q, r].map(|v| v as u32).to_vec(),
@@ -125,10 +125,7 @@ fn around(points: &[DVec3], on: &[u32], [p, q, r]: [DVec3; 3]) -> Vec<u32> {
     let above = p + normal.normalize_or_zero() * (q - p).length();
     let is_side = |v: u32, w: u32| {
         let base = [points[v as usize], points[w as usize], above];
-        let turns: Vec<f64> = on
-            .iter()
-            .map(|&x| orientation(base, points[x as usize]))
-            .collect();
+        let turns: Vec<Ordering> = on.iter().map(|&x| side(base, points[x as usize])).collect();
         // Inside of the polygon is behind a plane that stands on the side; nothing within the side.
         let [a, b] = [v, w].map(|x| points[x as usize]);
         let within = |&&x: &&u32| {
@@ -137,12 +134,12 @@ fn around(points: &[DVec3], on: &[u32], [p, q, r]: [DVec3; 3]) -> Vec<u32> {
         };
         let on_line = on
             .iter()
-            .filter(|&&x| orientation(base, points[x as usize]) == 0.0);
+            .filter(|&&x| side(base, points[x as usize]).is_eq());
         let beyond = on_line.clone().any(|x| {
             let c = points[*x as usize];
             (c - a).dot(b - a) < 0.0 || (c - b).dot(a - b) < 0.0
         });
-        turns.iter().all(|&t| t <= 0.0)
+        turns.iter().all(|&t| t.is_le())
             && !beyond
             && (on_line.clone().filter(within).count() < on.len())
     };
