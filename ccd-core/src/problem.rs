@@ -194,23 +194,7 @@ impl<'a> Problem<'a> {
         config: &Config,
     ) -> Result<Self, InputError> {
         let (a, b) = (a.into(), b.into());
-        let finite = 0.0..=f64::MAX;
-        check(
-            "duration",
-            duration,
-            finite.contains(&duration),
-            "at least 0 and finite",
-        )?;
-        let tolerance = config.tolerance;
-        let allowed = (LEAST_TOLERANCE..=MAX_COORDINATE).contains(&tolerance);
-        check("tolerance", tolerance, allowed, "from 1e-100 to 1e12")?;
-        let allowed = (0.0..=MAX_COORDINATE).contains(&config.margin);
-        check(
-            "margin",
-            config.margin,
-            allowed,
-            "at least 0 and at most 1e12",
-        )?;
+        check_config(duration, config)?;
         let origin = b.motion.start().translation();
         let side = |moving: Moving<'a>, other: Moving<'a>| {
             let body = moving.body.against(other.body);
@@ -241,7 +225,7 @@ impl<'a> Problem<'a> {
             b,
             duration,
             origin,
-            tolerance: greater(tolerance, tolerance::least_tolerance(rounding)),
+            tolerance: greater(config.tolerance, tolerance::least_tolerance(rounding)),
             margin: config.margin,
             start: config.start,
             budget: config.budget,
@@ -378,6 +362,27 @@ impl Side<'_> {
         let turn = self.path.rate;
         check("turn", turn, turn <= MAX_TURN, "at most 1e6 radians")
     }
+}
+
+/// Refuses a duration, a tolerance or a margin that is out of range.
+fn check_config(duration: f64, config: &Config) -> Result<(), InputError> {
+    let finite = 0.0..=f64::MAX;
+    check(
+        "duration",
+        duration,
+        finite.contains(&duration),
+        "at least 0 and finite",
+    )?;
+    let tolerance = config.tolerance;
+    let allowed = (LEAST_TOLERANCE..=MAX_COORDINATE).contains(&tolerance);
+    check("tolerance", tolerance, allowed, "from 1e-100 to 1e12")?;
+    let allowed = (0.0..=MAX_COORDINATE).contains(&config.margin);
+    check(
+        "margin",
+        config.margin,
+        allowed,
+        "at least 0 and at most 1e12",
+    )
 }
 
 /// Refuses a point with a coordinate that is too large.
