@@ -1,4 +1,6 @@
-//! Tables as CSV: motions in, results and contacts out.
+//! Tables of the command, as CSV: motions are read; results and contacts are written.
+//!
+//! Public only because `ccd-bench` shares them; no stable interface.
 
 pub mod contacts;
 mod lines;

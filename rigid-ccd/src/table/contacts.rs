@@ -1,4 +1,4 @@
-//! The table of contacts: all features in contact at the times of answers, CSV out.
+//! The table of contacts: all pairs of features in contact, written as CSV.
 
 #[cfg(test)]
 mod tests;
@@ -30,51 +30,50 @@ pub const COLUMNS: [&str; 15] = [
     "witness_b_z",
 ];
 
-/// One pair of features as the table holds it, in the order of [`COLUMNS`]; numbers read back to the same
-/// bits.
+/// One row: a pair of features, in the order of [`COLUMNS`]. Numbers read back to the same bits.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ContactRow {
-    /// As in the table of motions.
+    /// The id in the table of motions.
     pub id: String,
     /// The time of the answer.
     pub time: f64,
-    /// The feature of A's mesh.
+    /// The feature of A.
     pub feature_a: String,
-    /// The feature of B's mesh.
+    /// The feature of B.
     pub feature_b: String,
     /// A lower bound of the features' distance at `time`.
     pub distance_lower: f64,
-    /// An upper bound of it.
+    /// An upper bound of that distance.
     pub distance_upper: f64,
-    /// From A to B, in the world's frame.
+    /// The unit vector from A to B, in the world frame.
     pub normal: [f64; 3],
-    /// The nearest point of A's feature, in the world's frame at `time`.
+    /// The nearest point of A's feature, in the world frame at `time`.
     pub witness_a: [f64; 3],
     /// The nearest point of B's feature.
     pub witness_b: [f64; 3],
 }
 
-/// Why an answer has no contacts to tell.
+/// An error of listing contacts.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum Untold {
-    /// The query cannot be posed.
+pub enum ListError {
+    /// The query is not valid.
     #[error("{0}")]
     Input(#[from] InputError),
-    /// They cannot be listed.
-    #[error("{0}; --budget raises it, a smaller --tolerance needs less")]
+    /// The contacts cannot be listed.
+    #[error("{0}; raise --budget, or reduce --tolerance")]
     Contacts(#[from] ContactsError),
 }
 
-/// All contacts at the time of an answer, nearest first; none unless it ends in contact or touching.
+/// Lists all contacts at the time of a contact or touching, nearest first; none for other outcomes.
 ///
 /// # Errors
-/// [`Untold`].
+/// The query is not valid, or the contacts cannot be listed.
 pub fn rows(
     bodies: Bodies<'_>,
     query: &Query,
     config: &Config,
     outcome: &Outcome,
-) -> Result<Vec<ContactRow>, Untold> {
+) -> Result<Vec<ContactRow>, ListError> {
     let time = match *outcome {
         Outcome::Contact { time, .. } => time,
         Outcome::Touching { .. } => 0.0,
@@ -90,7 +89,7 @@ pub fn rows(
 }
 
 impl ContactRow {
-    /// What the table says of a pair.
+    /// Creates the row of a pair.
     pub fn new(id: &str, time: f64, pair: &FeaturePair) -> Self {
         let Separation {
             lower,

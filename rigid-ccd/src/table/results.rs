@@ -1,4 +1,4 @@
-//! The table of results: answers in, CSV out.
+//! The table of results: answers, written as CSV.
 
 #[cfg(test)]
 mod tests;
@@ -33,7 +33,7 @@ pub const COLUMNS: [&str; 20] = [
     "reason",
 ];
 
-/// The columns that follow where counters are asked for, in order.
+/// The columns of the counters, in order; they follow [`COLUMNS`].
 pub const COUNTER_COLUMNS: [&str; 5] = [
     "advancements",
     "oracle_steps",
@@ -42,65 +42,65 @@ pub const COUNTER_COLUMNS: [&str; 5] = [
     "front",
 ];
 
-/// Which columns a table has.
+/// The set of columns of a table.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Extent {
     /// [`COLUMNS`].
     #[default]
     Results,
-    /// These, and [`COUNTER_COLUMNS`].
+    /// [`COLUMNS`] and [`COUNTER_COLUMNS`].
     WithCounters,
 }
 
-/// One row of motions as the table holds it, in the order of [`COLUMNS`]; what does not apply is an
-/// empty cell.
+/// One row, in the order of [`COLUMNS`]; cells that do not apply are empty.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ResultRow {
-    /// As in the table of motions.
+    /// The id in the table of motions.
     pub id: String,
-    /// What happens.
+    /// The status.
     pub status: Status,
-    /// When: certified that nothing touches before, unless by a bound that is not. The duration when free.
+    /// The time before which there is no contact, certified unless the bound is the published one; the
+    /// duration when free.
     pub time: Option<f64>,
     /// A lower bound of the distance at `time`; when free, at all times.
     pub distance_lower: Option<f64>,
     /// An upper bound of the distance at `time`.
     pub distance_upper: Option<f64>,
-    /// From A to B, in the world's frame.
+    /// The unit vector from A to B, in the world frame.
     pub normal: [Option<f64>; 3],
-    /// The nearest point of A, in the world's frame at `time`.
+    /// The nearest point of A, in the world frame at `time`.
     pub witness_a: [Option<f64>; 3],
-    /// The nearest point of B, in the world's frame at `time`.
+    /// The nearest point of B, in the world frame at `time`.
     pub witness_b: [Option<f64>; 3],
-    /// The feature of A's mesh that touches.
+    /// The feature of A in contact.
     pub feature_a: Option<String>,
-    /// The feature of B's mesh that touches.
+    /// The feature of B in contact.
     pub feature_b: Option<String>,
-    /// Pairs of nodes visited.
+    /// The number of pairs of nodes visited.
     pub iterations: Option<u64>,
-    /// How often the oracle was asked.
+    /// The number of calls of the distance backend.
     pub oracle_calls: Option<u64>,
-    /// How long that query alone took, on the thread that answered it, in microseconds.
+    /// The time of this query alone, in microseconds.
     pub micros: Option<f64>,
-    /// Why there is no answer, or none to the end.
+    /// The problem of an error, or the limit of an unresolved query.
     pub reason: Option<String>,
-    /// What else was counted.
+    /// The counters.
     #[serde(skip)]
     pub counters: Counters,
 }
 
-/// What is counted beside the visits and the calls, in the order of [`COUNTER_COLUMNS`].
+/// More counters of a query, in the order of [`COUNTER_COLUMNS`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Counters {
-    /// How often all pairs were advanced together.
+    /// The number of steps that advanced all pairs together.
     pub advancements: Option<u64>,
-    /// Steps of the oracle's search; 0 of oracles that do not count them.
+    /// The number of steps of the distance backend's search; 0 where it does not count them.
     pub oracle_steps: Option<u64>,
-    /// How often the search came back to where it had been.
+    /// The number of returns of the search to an earlier step.
     pub cycles: Option<u64>,
-    /// How often an oracle gave up and another one was asked.
+    /// The number of pairs that a distance backend gave up on and another one answered.
     pub fallbacks: Option<u64>,
-    /// The most pairs that waited at one time.
+    /// The largest number of pairs that waited at one time.
     pub front: Option<u64>,
 }
 
@@ -116,26 +116,26 @@ impl From<&Stats> for Counters {
     }
 }
 
-/// An [`Outcome`], without what goes with it; or that there is none.
+/// The kind of an [`Outcome`], or an error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Status {
-    /// They touch.
+    /// The bodies come into contact.
     Contact,
-    /// They never do.
+    /// The bodies stay apart.
     Free,
-    /// They touch at the start.
+    /// The bodies touch at the start.
     Touching,
-    /// They overlap at the start.
+    /// The bodies overlap at the start.
     Overlapping,
-    /// A limit came first.
+    /// A limit was reached first.
     Unresolved,
-    /// The row asks nothing that could be answered.
+    /// The row is not a valid query.
     Error,
 }
 
 impl Status {
-    /// All of them, in the order in which they are reported.
+    /// All statuses, in the order in which they are reported.
     pub const ALL: [Status; 6] = [
         Status::Contact,
         Status::Free,
@@ -145,7 +145,7 @@ impl Status {
         Status::Error,
     ];
 
-    /// As the table spells it.
+    /// Returns the name in the table.
     pub fn name(self) -> &'static str {
         match self {
             Status::Contact => "contact",
@@ -170,8 +170,8 @@ impl From<&Outcome> for Status {
     }
 }
 
-/// Until when an outcome says that nothing touches.
-pub fn safe_time(outcome: &Outcome, duration: f64) -> f64 {
+/// Returns the time before which there is no contact.
+fn safe_time(outcome: &Outcome, duration: f64) -> f64 {
     match *outcome {
         Outcome::Contact { time, .. } => time,
         Outcome::Free { .. } => duration,
@@ -181,7 +181,7 @@ pub fn safe_time(outcome: &Outcome, duration: f64) -> f64 {
 }
 
 impl ResultRow {
-    /// What the table says of a row that cannot be asked.
+    /// Creates the row of an invalid query.
     pub fn error(id: &str, why: &RowProblem) -> Self {
         ResultRow {
             id: id.to_owned(),
@@ -202,7 +202,7 @@ impl ResultRow {
         }
     }
 
-    /// What the table says of an answer.
+    /// Creates the row of an answer.
     pub fn new(id: &str, duration: f64, answer: &Answer, micros: f64) -> Self {
         let row = ResultRow {
             id: id.to_owned(),
@@ -227,7 +227,7 @@ impl ResultRow {
             | Outcome::Overlapping {
                 overlap: Overlap::Pieces(contact),
             } => row.with_contact(&contact),
-            // The one point belongs to both solids.
+            // The point lies in both bodies.
             Outcome::Overlapping {
                 overlap: Overlap::AInsideB(point) | Overlap::BInsideA(point),
             } => ResultRow {
@@ -261,7 +261,7 @@ impl ResultRow {
     }
 }
 
-/// The columns of a table.
+/// Returns the columns of a table.
 pub fn columns(extent: Extent) -> Vec<&'static str> {
     let more: &[&str] = match extent {
         Extent::Results => &[],
@@ -270,10 +270,10 @@ pub fn columns(extent: Extent) -> Vec<&'static str> {
     [&COLUMNS, more].concat()
 }
 
-/// Writes a row of a table without its header; numbers read back to the same bits.
+/// Writes a row; numbers read back to the same bits.
 ///
 /// # Errors
-/// When the writer's output cannot be written to.
+/// The writer's output cannot be written to.
 pub fn write(
     writer: &mut csv::Writer<impl io::Write>,
     extent: Extent,
