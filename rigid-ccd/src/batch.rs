@@ -107,7 +107,7 @@ fn time(
 /// Poses and answers one query.
 ///
 /// # Errors
-/// Those of [`Problem::new`].
+/// The errors of [`Problem::new`].
 pub fn solve(
     bodies: Bodies<'_>,
     query: &Query,

@@ -9,14 +9,14 @@ use crate::Error;
 ///
 /// ```
 /// use rigid_ccd::{Body, HitKind, Motion, Overlap, first_contact};
-/// let (small, large) = (Body::ball(0.1)?, Body::cuboid([1.0, 1.0, 1.0])?);
-/// let hit = first_contact((&small, Motion::STILL), (&large, Motion::STILL), 1.0)?;
+/// let (a, b) = (Body::ball(0.1)?, Body::cuboid([1.0, 1.0, 1.0])?);
+/// let hit = first_contact((&a, Motion::STILL), (&b, Motion::STILL), 1.0)?;
 /// match hit.expect("they are in contact").kind {
 ///     HitKind::Contact => println!("they come into contact"),
 ///     HitKind::Touching => println!("they touch at the start"),
 ///     HitKind::Overlapping(Overlap::AInsideB(_)) => println!("A is inside B at the start"),
 ///     HitKind::Overlapping(Overlap::BInsideA(_)) => println!("B is inside A at the start"),
-///     HitKind::Overlapping(Overlap::Pieces(_)) => println!("they intersect at the start"),
+///     HitKind::Overlapping(Overlap::Pieces(_)) => println!("pieces intersect at the start"),
 /// }
 /// # Ok::<(), rigid_ccd::Error>(())
 /// ```
@@ -32,7 +32,7 @@ pub struct Hit {
     /// The point of body B nearest to A, in world coordinates at that time.
     pub witness_b: DVec3,
     /// The normal, the distance and the features in contact. None where one body is inside the other at
-    /// the start: both witnesses are then the same point, which lies in both bodies.
+    /// the start and no two pieces intersect: both witnesses are then one point that lies in both bodies.
     pub contact: Option<Contact>,
 }
 
@@ -43,7 +43,8 @@ pub enum HitKind {
     Contact,
     /// The bodies are within margin + tolerance at the start, without overlapping.
     Touching,
-    /// The bodies intersect at the start, or one is inside the other.
+    /// The bodies intersect at the start, or one is inside the other. A body inside a convex piece, such as
+    /// a box, counts as [`Overlap::Pieces`].
     Overlapping(Overlap),
 }
 

@@ -85,7 +85,7 @@ impl<O: DistanceOracle> Solver<O> {
     /// Finds the first contact of two moving bodies, as the function [`first_contact`] does.
     ///
     /// # Errors
-    /// Those of [`first_contact`].
+    /// The errors of [`first_contact`].
     pub fn first_contact<'b>(
         &mut self,
         a: impl Into<Moving<'b>>,
@@ -102,7 +102,7 @@ impl<O: DistanceOracle> Solver<O> {
     /// the guarantee of [`first_contact`].
     ///
     /// # Errors
-    /// Those of [`Problem::new`]: a duration or a motion out of range.
+    /// The errors of [`Problem::new`]: a duration or a motion out of range.
     ///
     /// ```
     /// use rigid_ccd::{Body, Motion, Outcome, Pose, Solver};

@@ -66,7 +66,7 @@ Statistics, as aligned lines or, with --format json, as one object:
   hulls          number of hulls stored at these nodes; 0 without --hull-tree
   build_ms       preparation time in milliseconds, without reading and writing
   bytes          approximate size of the prepared body in memory
-  exact          whether the pieces have exactly the surface of the mesh
+  exact          whether the pieces represent the mesh exactly
   sticks_out     upper bound on how far the pieces extend beyond the mesh, in the mesh's unit of
                  length; contacts may be reported early by as much
   inflated_by    distance by which the pieces were enlarged to be certain to cover the mesh

@@ -52,7 +52,7 @@ impl MotionTable {
     /// Reads a whole table; [`MotionRows`] reads it row by row.
     ///
     /// # Errors
-    /// Those of [`MotionRows`]. Bad rows are listed in [`MotionTable::errors`] instead.
+    /// The errors of [`MotionRows`]. Bad rows are listed in [`MotionTable::errors`] instead.
     pub fn read(input: impl io::Read) -> Result<Self, TableError> {
         let mut table = MotionTable::default();
         for row in MotionRows::new(input)? {

@@ -186,7 +186,7 @@ impl fmt::Display for Summary {
         }
         write!(
             f,
-            "; median {:.1} µs, mean {:.1} µs; {} node visits, {} oracle calls",
+            "; median {:.1} µs, mean {:.1} µs; {} iterations, {} oracle calls",
             self.median_micros(),
             self.mean_micros(),
             self.iterations,
