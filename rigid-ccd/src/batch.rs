@@ -25,13 +25,13 @@ pub struct Bodies<'a> {
 
 /// The method, the accuracy and the number of repetitions.
 #[derive(Clone, Copy, Debug)]
-pub struct Settings {
+pub(crate) struct Settings {
     /// The schedule and the distance backend.
-    pub method: SolverKind,
+    pub(crate) method: SolverKind,
     /// The tolerance, the margin and the limits.
-    pub config: Config,
+    pub(crate) config: Config,
     /// The number of times that each query is answered; the time is the median.
-    pub repeat: NonZeroUsize,
+    pub(crate) repeat: NonZeroUsize,
 }
 
 impl Default for Settings {
@@ -46,18 +46,18 @@ impl Default for Settings {
 
 /// An answer and how long it took.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Timed {
+pub(crate) struct Timed {
     /// The answer.
-    pub answer: Answer,
+    pub(crate) answer: Answer,
     /// The time to pose and solve the query, in microseconds.
-    pub micros: f64,
+    pub(crate) micros: f64,
 }
 
 /// A solver of queries on a pair of bodies, for several threads.
 ///
 /// On one thread, only the query runs between two readings of the clock. On all cores, queries share
 /// caches and memory, and each may take longer.
-pub struct PairSolver<'b> {
+pub(crate) struct PairSolver<'b> {
     bodies: Bodies<'b>,
     settings: Settings,
     /// One solver for each thread, with the memory that queries work in.
@@ -66,7 +66,7 @@ pub struct PairSolver<'b> {
 
 impl<'b> PairSolver<'b> {
     /// Creates a solver for these threads.
-    pub fn new(bodies: Bodies<'b>, settings: Settings, threads: &Threads) -> Self {
+    pub(crate) fn new(bodies: Bodies<'b>, settings: Settings, threads: &Threads) -> Self {
         let solver = |_| Mutex::new(settings.method.solver());
         PairSolver {
             bodies,
@@ -79,7 +79,7 @@ impl<'b> PairSolver<'b> {
     ///
     /// # Errors
     /// The query is not valid.
-    pub fn answer(&self, thread: usize, query: &Query) -> Result<Timed, InputError> {
+    pub(crate) fn answer(&self, thread: usize, query: &Query) -> Result<Timed, InputError> {
         let solver = &self.solvers[thread % self.solvers.len()];
         let mut solver = solver.lock().unwrap_or_else(PoisonError::into_inner);
         time(self.bodies, query, &self.settings, solver.as_mut())

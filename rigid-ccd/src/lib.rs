@@ -90,3 +90,8 @@ pub use hit::{Hit, HitKind};
 #[cfg(feature = "meshes")]
 pub use load::load;
 pub use solver::{Solver, first_contact};
+
+/// The example in the README.
+#[cfg(all(doctest, feature = "meshes"))]
+#[doc = include_str!("../README.md")]
+struct Readme;

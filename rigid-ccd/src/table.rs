@@ -2,11 +2,11 @@
 //!
 //! Public only because `ccd-bench` shares them; no stable interface.
 
-pub mod contacts;
+pub(crate) mod contacts;
 mod lines;
 pub mod motions;
 mod quotes;
-pub mod results;
+pub(crate) mod results;
 
 pub use lines::Lines;
 pub use quotes::Quotes;

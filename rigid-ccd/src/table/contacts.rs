@@ -12,7 +12,7 @@ use ccd_core::{
 use serde::Serialize;
 
 /// The columns, in order.
-pub const COLUMNS: [&str; 15] = [
+pub(crate) const COLUMNS: [&str; 15] = [
     "id",
     "time",
     "feature_a",
@@ -32,30 +32,30 @@ pub const COLUMNS: [&str; 15] = [
 
 /// One row: a pair of features, in the order of [`COLUMNS`]. Numbers read back to the same bits.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct ContactRow {
+pub(crate) struct ContactRow {
     /// The id in the table of motions.
-    pub id: String,
+    pub(crate) id: String,
     /// The time of the answer.
-    pub time: f64,
+    pub(crate) time: f64,
     /// The feature of A.
-    pub feature_a: String,
+    pub(crate) feature_a: String,
     /// The feature of B.
-    pub feature_b: String,
+    pub(crate) feature_b: String,
     /// A lower bound of the features' distance at `time`.
-    pub distance_lower: f64,
+    pub(crate) distance_lower: f64,
     /// An upper bound of that distance.
-    pub distance_upper: f64,
+    pub(crate) distance_upper: f64,
     /// The unit vector from A to B, in the world frame.
-    pub normal: [f64; 3],
+    pub(crate) normal: [f64; 3],
     /// The nearest point of A's feature, in the world frame at `time`.
-    pub witness_a: [f64; 3],
+    pub(crate) witness_a: [f64; 3],
     /// The nearest point of B's feature.
-    pub witness_b: [f64; 3],
+    pub(crate) witness_b: [f64; 3],
 }
 
 /// An error of listing contacts.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum ListError {
+pub(crate) enum ListError {
     /// The query is not valid.
     #[error("{0}")]
     Input(#[from] InputError),
@@ -68,7 +68,7 @@ pub enum ListError {
 ///
 /// # Errors
 /// The query is not valid, or the contacts cannot be listed.
-pub fn rows(
+pub(crate) fn rows(
     bodies: Bodies<'_>,
     query: &Query,
     config: &Config,
@@ -90,7 +90,7 @@ pub fn rows(
 
 impl ContactRow {
     /// Creates the row of a pair.
-    pub fn new(id: &str, time: f64, pair: &FeaturePair) -> Self {
+    pub(crate) fn new(id: &str, time: f64, pair: &FeaturePair) -> Self {
         let Separation {
             lower,
             upper,

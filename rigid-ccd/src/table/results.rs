@@ -10,7 +10,7 @@ use serde::Serialize;
 use std::io;
 
 /// The columns, in order.
-pub const COLUMNS: [&str; 20] = [
+pub(crate) const COLUMNS: [&str; 20] = [
     "id",
     "status",
     "time",
@@ -34,7 +34,7 @@ pub const COLUMNS: [&str; 20] = [
 ];
 
 /// The columns of the counters, in order; they follow [`COLUMNS`].
-pub const COUNTER_COLUMNS: [&str; 5] = [
+pub(crate) const COUNTER_COLUMNS: [&str; 5] = [
     "advancements",
     "oracle_steps",
     "cycles",
@@ -44,7 +44,7 @@ pub const COUNTER_COLUMNS: [&str; 5] = [
 
 /// The set of columns of a table.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Extent {
+pub(crate) enum Extent {
     /// [`COLUMNS`].
     #[default]
     Results,
@@ -54,54 +54,54 @@ pub enum Extent {
 
 /// One row, in the order of [`COLUMNS`]; cells that do not apply are empty.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct ResultRow {
+pub(crate) struct ResultRow {
     /// The id in the table of motions.
-    pub id: String,
+    pub(crate) id: String,
     /// The status.
-    pub status: Status,
+    pub(crate) status: Status,
     /// The time before which there is no contact, certified unless the bound is the published one; the
     /// duration when free.
-    pub time: Option<f64>,
+    pub(crate) time: Option<f64>,
     /// A lower bound of the distance at `time`; when free, at all times.
-    pub distance_lower: Option<f64>,
+    pub(crate) distance_lower: Option<f64>,
     /// An upper bound of the distance at `time`.
-    pub distance_upper: Option<f64>,
+    pub(crate) distance_upper: Option<f64>,
     /// The unit vector from A to B, in the world frame.
-    pub normal: [Option<f64>; 3],
+    pub(crate) normal: [Option<f64>; 3],
     /// The nearest point of A, in the world frame at `time`.
-    pub witness_a: [Option<f64>; 3],
+    pub(crate) witness_a: [Option<f64>; 3],
     /// The nearest point of B, in the world frame at `time`.
-    pub witness_b: [Option<f64>; 3],
+    pub(crate) witness_b: [Option<f64>; 3],
     /// The feature of A in contact.
-    pub feature_a: Option<String>,
+    pub(crate) feature_a: Option<String>,
     /// The feature of B in contact.
-    pub feature_b: Option<String>,
+    pub(crate) feature_b: Option<String>,
     /// The number of pairs of nodes visited.
-    pub iterations: Option<u64>,
+    pub(crate) iterations: Option<u64>,
     /// The number of calls of the distance backend.
-    pub oracle_calls: Option<u64>,
+    pub(crate) oracle_calls: Option<u64>,
     /// The time of this query alone, in microseconds.
-    pub micros: Option<f64>,
+    pub(crate) micros: Option<f64>,
     /// The problem of an error, or the limit of an unresolved query.
-    pub reason: Option<String>,
+    pub(crate) reason: Option<String>,
     /// The counters.
     #[serde(skip)]
-    pub counters: Counters,
+    pub(crate) counters: Counters,
 }
 
 /// More counters of a query, in the order of [`COUNTER_COLUMNS`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
-pub struct Counters {
+pub(crate) struct Counters {
     /// The number of steps that advanced all pairs together.
-    pub advancements: Option<u64>,
+    pub(crate) advancements: Option<u64>,
     /// The number of steps of the distance backend's search; 0 where it does not count them.
-    pub oracle_steps: Option<u64>,
+    pub(crate) oracle_steps: Option<u64>,
     /// The number of returns of the search to an earlier step.
-    pub cycles: Option<u64>,
+    pub(crate) cycles: Option<u64>,
     /// The number of pairs that a distance backend gave up on and another one answered.
-    pub fallbacks: Option<u64>,
+    pub(crate) fallbacks: Option<u64>,
     /// The largest number of pairs that waited at one time.
-    pub front: Option<u64>,
+    pub(crate) front: Option<u64>,
 }
 
 impl From<&Stats> for Counters {
@@ -119,7 +119,7 @@ impl From<&Stats> for Counters {
 /// The kind of an [`Outcome`], or an error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Status {
+pub(crate) enum Status {
     /// The bodies come into contact.
     Contact,
     /// The bodies stay apart.
@@ -136,7 +136,7 @@ pub enum Status {
 
 impl Status {
     /// All statuses, in the order in which they are reported.
-    pub const ALL: [Status; 6] = [
+    pub(crate) const ALL: [Status; 6] = [
         Status::Contact,
         Status::Free,
         Status::Touching,
@@ -146,7 +146,7 @@ impl Status {
     ];
 
     /// Returns the name in the table.
-    pub fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         match self {
             Status::Contact => "contact",
             Status::Free => "free",
@@ -182,7 +182,7 @@ fn safe_time(outcome: &Outcome, duration: f64) -> f64 {
 
 impl ResultRow {
     /// Creates the row of an invalid query.
-    pub fn error(id: &str, why: &RowProblem) -> Self {
+    pub(crate) fn error(id: &str, why: &RowProblem) -> Self {
         ResultRow {
             id: id.to_owned(),
             status: Status::Error,
@@ -203,7 +203,7 @@ impl ResultRow {
     }
 
     /// Creates the row of an answer.
-    pub fn new(id: &str, duration: f64, answer: &Answer, micros: f64) -> Self {
+    pub(crate) fn new(id: &str, duration: f64, answer: &Answer, micros: f64) -> Self {
         let row = ResultRow {
             id: id.to_owned(),
             status: Status::from(&answer.outcome),
@@ -262,7 +262,7 @@ impl ResultRow {
 }
 
 /// Returns the columns of a table.
-pub fn columns(extent: Extent) -> Vec<&'static str> {
+pub(crate) fn columns(extent: Extent) -> Vec<&'static str> {
     let more: &[&str] = match extent {
         Extent::Results => &[],
         Extent::WithCounters => &COUNTER_COLUMNS,
@@ -274,7 +274,7 @@ pub fn columns(extent: Extent) -> Vec<&'static str> {
 ///
 /// # Errors
 /// The writer's output cannot be written to.
-pub fn write(
+pub(crate) fn write(
     writer: &mut csv::Writer<impl io::Write>,
     extent: Extent,
     row: &ResultRow,

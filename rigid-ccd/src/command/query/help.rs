@@ -15,7 +15,7 @@ Table of motions:
   ids, in --rows and in messages. Lines of a file count from 1.
   id                        name of the row in the results [default: its number]
   a_px a_py a_pz            position of A at the start [default: 0]
-  a_qw a_qx a_qy a_qz       orientation of A at the start, normalised [default: identity]
+  a_qw a_qx a_qy a_qz       orientation of A at the start, a quaternion [default: identity]
   a_vx a_vy a_vz            velocity of A's centre, world frame, per unit of time [default: 0]
   a_wx a_wy a_wz            angular velocity of A, world frame, radians per unit of time [default: 0]
   a_end_px a_end_py a_end_pz a_end_qw a_end_qx a_end_qy a_end_qz
