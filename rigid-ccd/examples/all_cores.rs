@@ -1,9 +1,9 @@
-//! A thousand questions on all cores: a solver for each thread.
+//! A thousand queries on all cores, with a solver for each thread.
 
 use rayon::prelude::*;
 use rigid_ccd::{Body, Error, Hit, Motion, Pose, Solver};
 
-/// A capsule that flies past a box, or into it, turned a little further each time.
+/// Returns the motion of a capsule that flies past a box or into it, from another side for each `k`.
 fn motion(k: u32) -> Result<Motion, Error> {
     let angle = f64::from(k) * 0.01;
     let from = Pose::at([4.0 * angle.cos(), 4.0 * angle.sin(), 0.3])?;
@@ -26,7 +26,7 @@ fn main() -> Result<(), Error> {
     let times: Vec<f64> = hits.iter().flatten().map(|hit| hit.time).collect();
     let mean = times.iter().sum::<f64>() / times.len() as f64;
     println!(
-        "{} of {} meet, at {mean:.4} on average",
+        "{} of {} touch, at {mean:.4} on average",
         times.len(),
         hits.len()
     );

@@ -1,4 +1,4 @@
-//! A cube falls flat onto a slab: all features that are in contact when it lands.
+//! A cube falls flat onto a slab: all features in contact when it lands.
 
 use rigid_ccd::{Body, Config, Motion, Pose, Problem, first_contact};
 use std::error::Error;

@@ -1,12 +1,12 @@
-//! A distance backend of one's own: the nearest points of balls and capsules, GJK for all else.
+//! A custom distance backend: nearest points of balls and capsules, with GJK for other pieces.
 //!
-//! The engine checks what it says: a wrong one is slow or does not know, and is never late.
+//! The engine checks each result: with a wrong backend, a query is slow or unresolved, never late.
 
 use rigid_ccd::{Body, Motion, Pose, Solver};
 use rigid_ccd::{Claim, Combination, DistanceOracle, GiveUp, Gjk, PiecePair};
 use std::error::Error;
 
-/// For pieces of one or two points.
+/// A distance backend for pieces of one or two points.
 struct Segments;
 
 impl DistanceOracle for Segments {
@@ -20,7 +20,7 @@ impl DistanceOracle for Segments {
         let last = [a.len() - 1, b.len() - 1];
         let (p, q) = (a[0], pair.b_to_a.point(b[0]));
         let (u, v) = (a[last[0]] - p, pair.b_to_a.point(b[last[1]]) - q);
-        // The nearest point of one segment to a point of the other, in turn.
+        // Alternates: the nearest point of one segment to a point of the other.
         let (mut s, mut t) = (0.5, 0.5);
         for _ in 0..100 {
             s = clamped((q + t * v - p).dot(u) / u.length_squared());
@@ -34,7 +34,7 @@ impl DistanceOracle for Segments {
     }
 }
 
-/// From 0 to 1; 0 for what is no number, as of a ball's segment, which has no length.
+/// Clamps to 0..1. NaN becomes 0: the segment of a ball has length 0.
 fn clamped(share: f64) -> f64 {
     if share.is_nan() {
         return 0.0;
@@ -49,10 +49,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     let flies = Motion::new(start, [4.0, 0.0, 0.0], [1.0, 2.0, 3.0])?;
     for (name, other) in [("ball", Body::ball(0.5)?), ("box", Body::cuboid([0.5; 3])?)] {
         let (a, b) = ((&capsule, flies), (&other, Motion::STILL));
-        let theirs = Solver::new().first_contact(a, b, 1.0)?.map(|hit| hit.time);
+        let by_default = Solver::new().first_contact(a, b, 1.0)?.map(|hit| hit.time);
         let mut solver = Solver::with_oracle(Segments.or_else(Gjk));
         let own = solver.first_contact(a, b, 1.0)?.map(|hit| hit.time);
-        println!("{name}: {own:.4?}, by the default {theirs:.4?}");
+        println!("{name}: {own:.4?}, by the default {by_default:.4?}");
     }
     Ok(())
 }

@@ -1,11 +1,11 @@
-//! A box flies at a ball, turning 20 radians per unit of time: when, where and how do they meet?
+//! A box flies at a ball and turns by 20 radians per unit of time: when and where do they touch?
 
 use rigid_ccd::{Body, Motion, Pose, first_contact};
 use std::error::Error;
 
 #[allow(clippy::print_stdout, reason = "an example shows what comes out")]
 fn main() -> Result<(), Box<dyn Error>> {
-    // Half of its sides.
+    // Half extents.
     let body = Body::cuboid([0.5, 0.5, 0.5])?;
     let ball = Body::ball(0.3)?;
 

@@ -1,5 +1,4 @@
-//! A wedge drops onto a bracket and turns on its way: two meshes, of files given or of those beside
-//! this example.
+//! A wedge drops onto a bracket and turns on its way. Give two mesh files to use them instead.
 //!
 //! `cargo run -p rigid-ccd --example two_meshes -- part.stl other.obj`
 
@@ -18,7 +17,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let start = Pose::at([0.7, 0.2, 2.0])?;
     let drops = Motion::new(start, [0.0, 0.0, -2.0], [0.0, 1.5, 0.0])?;
 
-    // A contact is reported while the bodies are no more than a millionth apart.
+    // A contact is a distance of at most a millionth.
     let mut solver = Solver::new().with_config(Config {
         tolerance: 1e-6,
         ..Config::default()

@@ -1,4 +1,6 @@
 //! Many queries on one pair of bodies, each timed alone.
+//!
+//! Public only because `ccd-bench` shares it; no stable interface. Use [`Solver`](crate::Solver) instead.
 
 mod solver_kind;
 mod threads;
@@ -21,15 +23,15 @@ pub struct Bodies<'a> {
     pub b: &'a Body,
 }
 
-/// How to answer.
+/// The method, the accuracy and the number of repetitions.
 #[derive(Clone, Copy, Debug)]
-pub struct Settings {
-    /// By what.
-    pub method: SolverKind,
-    /// How accurately.
-    pub config: Config,
-    /// How often each query is answered; the time is the median.
-    pub repeat: NonZeroUsize,
+pub(crate) struct Settings {
+    /// The schedule and the distance backend.
+    pub(crate) method: SolverKind,
+    /// The tolerance, the margin and the limits.
+    pub(crate) config: Config,
+    /// The number of times that each query is answered; the time is the median.
+    pub(crate) repeat: NonZeroUsize,
 }
 
 impl Default for Settings {
@@ -44,40 +46,40 @@ impl Default for Settings {
 
 /// An answer and how long it took.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Timed {
-    /// What was answered.
-    pub answer: Answer,
-    /// Posing and solving, in microseconds.
-    pub micros: f64,
+pub(crate) struct Timed {
+    /// The answer.
+    pub(crate) answer: Answer,
+    /// The time to pose and solve the query, in microseconds.
+    pub(crate) micros: f64,
 }
 
-/// Who answers queries on a pair of bodies, on the threads of a crew.
+/// A solver of queries on a pair of bodies, for several threads.
 ///
-/// On one thread nothing but a query runs between two readings of the clock. On as many as there are
-/// cores, queries share caches and memory, and each may take longer.
-pub struct PairSolver<'b> {
+/// On one thread, only the query runs between two readings of the clock. On all cores, queries share
+/// caches and memory, and each may take longer.
+pub(crate) struct PairSolver<'b> {
     bodies: Bodies<'b>,
     settings: Settings,
-    /// One for each thread: they own the memory that queries work in.
+    /// One solver for each thread, with the memory that queries work in.
     solvers: Vec<Mutex<Box<dyn Solve>>>,
 }
 
 impl<'b> PairSolver<'b> {
-    /// For as many threads as the crew has.
-    pub fn new(bodies: Bodies<'b>, settings: Settings, crew: &Threads) -> Self {
+    /// Creates a solver for these threads.
+    pub(crate) fn new(bodies: Bodies<'b>, settings: Settings, threads: &Threads) -> Self {
         let solver = |_| Mutex::new(settings.method.solver());
         PairSolver {
             bodies,
             settings,
-            solvers: (0..crew.threads().get()).map(solver).collect(),
+            solvers: (0..threads.threads().get()).map(solver).collect(),
         }
     }
 
-    /// Answers a query on that thread of the crew; answers do not depend on which it is.
+    /// Answers a query on that thread; the answer does not depend on the thread.
     ///
     /// # Errors
-    /// When it cannot be posed.
-    pub fn answer(&self, thread: usize, query: &Query) -> Result<Timed, InputError> {
+    /// The query is not valid.
+    pub(crate) fn answer(&self, thread: usize, query: &Query) -> Result<Timed, InputError> {
         let solver = &self.solvers[thread % self.solvers.len()];
         let mut solver = solver.lock().unwrap_or_else(PoisonError::into_inner);
         time(self.bodies, query, &self.settings, solver.as_mut())
@@ -105,7 +107,7 @@ fn time(
 /// Poses and answers one query.
 ///
 /// # Errors
-/// As [`Problem::new`].
+/// The errors of [`Problem::new`].
 pub fn solve(
     bodies: Bodies<'_>,
     query: &Query,
@@ -124,7 +126,7 @@ pub fn solve(
     Ok(solver.solve(&problem))
 }
 
-/// The middle value, the mean of the two middle ones, or NaN of none; sorts them.
+/// Sorts values and returns their median; NaN without values.
 pub fn median(values: &mut [f64]) -> f64 {
     values.sort_by(f64::total_cmp);
     let upper = values.len() / 2;
@@ -135,7 +137,7 @@ pub fn median(values: &mut [f64]) -> f64 {
     }
 }
 
-/// What such a share of values stays within, of values sorted from the least; NaN of none.
+/// Returns a percentile of sorted values, for a share from 0 to 1; NaN without values.
 pub fn percentile(sorted: &[f64], share: f64) -> f64 {
     let within = (share * sorted.len() as f64).ceil() as usize;
     within.checked_sub(1).map_or(f64::NAN, |k| sorted[k])

@@ -1,4 +1,6 @@
-//! The command `ccd`: options, files in and out, progress, and what the exit code says.
+//! The command `ccd`: options, files, progress and exit codes.
+//!
+//! Public only because the command of `ccd-bench` shares it; no stable interface.
 
 mod bad_rows;
 mod causes;
@@ -25,7 +27,8 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-/// When do two moving bodies first touch, where, and with which features?
+/// Certified continuous collision detection: when do two moving rigid bodies first touch, where, and
+/// with which features?
 #[derive(Debug, Parser)]
 #[command(name = "ccd", version, after_help = AFTER_HELP, arg_required_else_help = true)]
 struct Cli {
@@ -37,30 +40,32 @@ const AFTER_HELP: &str = "\
 Examples:
   ccd query --a knot.obj --b knot.obj --motions motions.csv --out results.csv
   ccd decompose knot.obj --pieces patches --out knot.ccd
-  ccd query --help";
+  ccd completions bash > ~/.local/share/bash-completion/completions/ccd
+
+See `ccd help COMMAND` for the options, tables and exit codes of a command.";
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Answer a table of motions of two bodies
+    /// Find the first contact of two bodies for each row of a table of motions
     Query(Box<QueryArgs>),
-    /// Prepare a mesh: count its pieces, write them, store the body
+    /// Split a mesh into convex pieces; print statistics, write the pieces or the prepared body
     Decompose(DecomposeArgs),
-    /// Print a script that completes commands and options in a shell
+    /// Print a completion script for a shell
     Completions(CompletionsArgs),
-    /// Write man pages to a folder
+    /// Write man pages for the command and each subcommand to a folder
     Man(ManArgs),
 }
 
-/// How a run ended that could write all it had to.
+/// The end of a run that wrote all its output.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Exit {
-    /// Every row is answered.
+    /// Every row has an answer.
     AllAnswered,
-    /// Rows were bad; the others are answered.
+    /// Some rows are bad; the others have an answer.
     SomeRowsBad,
 }
 
-/// Runs the command that the process was started with.
+/// Runs the command line of this process.
 pub fn main() -> ExitCode {
     exit_code(match Cli::parse().command {
         Command::Query(args) => query::run(&args),
@@ -70,30 +75,30 @@ pub fn main() -> ExitCode {
     })
 }
 
-/// Reports an error, and returns the exit code: 0 for success, 1 for results that cannot be written, 2 for
+/// Prints an error, and returns the exit code: 0 for success, 1 for results that cannot be written, 2 for
 /// bad input.
 pub fn exit_code(outcome: anyhow::Result<Exit>) -> ExitCode {
     match outcome {
         Ok(Exit::AllAnswered) => ExitCode::SUCCESS,
         Ok(Exit::SomeRowsBad) => ExitCode::from(2),
         Err(error) => match error.downcast_ref::<CannotWrite>() {
-            // The reader of a pipe has seen enough.
+            // The reader of a pipe has closed it: this is not a failure.
             Some(failed) if failed.source.kind() == io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
             failed => {
-                complain(&causes::in_words(&error));
+                complain(&causes::message(&error));
                 ExitCode::from(if failed.is_some() { 1 } else { 2 })
             }
         },
     }
 }
 
-/// Writes a message to standard error, behind the program's name.
+/// Writes a message to standard error, after the program's name.
 pub fn complain(message: &str) {
-    // A message that cannot be written is no reason to fail.
+    // A message that cannot be written is not a failure.
     let _ = writeln!(io::stderr(), "{}: {message}", program());
 }
 
-/// The name that the process was started by, without folder and extension.
+/// Returns the name of this program, without folder and extension.
 fn program() -> String {
     let path = std::env::args_os().next().map(PathBuf::from);
     let name = path.as_deref().and_then(Path::file_stem);

@@ -1,4 +1,4 @@
-//! A first contact, or what is in contact at the start.
+//! The first contact of two bodies.
 
 use ccd_core::glam::DVec3;
 use ccd_core::{Answer, Contact, Outcome, Overlap};
@@ -6,36 +6,51 @@ use ccd_core::{Answer, Contact, Outcome, Overlap};
 use crate::Error;
 
 /// The first contact of two bodies.
+///
+/// ```
+/// use rigid_ccd::{Body, HitKind, Motion, Overlap, first_contact};
+/// let (a, b) = (Body::ball(0.1)?, Body::cuboid([1.0, 1.0, 1.0])?);
+/// let hit = first_contact((&a, Motion::STILL), (&b, Motion::STILL), 1.0)?;
+/// match hit.expect("they are in contact").kind {
+///     HitKind::Contact => println!("they come into contact"),
+///     HitKind::Touching => println!("they touch at the start"),
+///     HitKind::Overlapping(Overlap::AInsideB(_)) => println!("A is inside B at the start"),
+///     HitKind::Overlapping(Overlap::BInsideA(_)) => println!("B is inside A at the start"),
+///     HitKind::Overlapping(Overlap::Pieces(_)) => println!("pieces intersect at the start"),
+/// }
+/// # Ok::<(), rigid_ccd::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {
-    /// When, in the motions' unit of time: nothing touches before, but for what
-    /// [`StartPolicy::Leave`](ccd_core::StartPolicy::Leave) lets go of at the start.
+    /// The time of the contact, in the motions' unit of time; no contact happens before it.
+    /// [`StartPolicy::Leave`](ccd_core::StartPolicy::Leave) may ignore contacts at the start.
     pub time: f64,
-    /// Whether the bodies come into contact, or are in contact at the start.
+    /// The kind of contact.
     pub kind: HitKind,
-    /// A point of body A where it is nearest to B, in world coordinates at that time.
+    /// The point of body A nearest to B, in world coordinates at that time.
     pub witness_a: DVec3,
-    /// A point of body B where it is nearest to A.
+    /// The point of body B nearest to A, in world coordinates at that time.
     pub witness_b: DVec3,
-    /// The normal, the distance and the features; none where one body lies inside the other at the
-    /// start: both witnesses are then the same point, which lies in both.
+    /// The normal, the distance and the features in contact. None where one body is inside the other at
+    /// the start and no two pieces intersect: both witnesses are then one point that lies in both bodies.
     pub contact: Option<Contact>,
 }
 
-/// How a contact comes about.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// The kind of a contact.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum HitKind {
     /// The bodies come within margin + tolerance.
     Contact,
-    /// They are within margin + tolerance at the start, without overlapping.
+    /// The bodies are within margin + tolerance at the start, without overlapping.
     Touching,
-    /// They overlap at the start, or one lies inside the other.
-    Overlapping,
+    /// The bodies intersect at the start, or one is inside the other. A body inside a convex piece, such as
+    /// a box, counts as [`Overlap::Pieces`].
+    Overlapping(Overlap),
 }
 
 impl Hit {
-    /// What an answer says in short; none when the bodies stay apart.
-    pub(crate) fn of(answer: &Answer) -> Result<Option<Hit>, Error> {
+    /// Returns the hit of an answer; none when the bodies stay apart.
+    pub(crate) fn from_answer(answer: &Answer) -> Result<Option<Hit>, Error> {
         let at = |time, kind, contact: Contact| Hit {
             time,
             kind,
@@ -48,10 +63,10 @@ impl Hit {
             Outcome::Contact { time, contact } => at(time, HitKind::Contact, contact),
             Outcome::Touching { contact } => at(0.0, HitKind::Touching, contact),
             Outcome::Overlapping { overlap } => match overlap {
-                Overlap::Pieces(contact) => at(0.0, HitKind::Overlapping, contact),
+                Overlap::Pieces(contact) => at(0.0, HitKind::Overlapping(overlap), contact),
                 Overlap::AInsideB(point) | Overlap::BInsideA(point) => Hit {
                     time: 0.0,
-                    kind: HitKind::Overlapping,
+                    kind: HitKind::Overlapping(overlap),
                     witness_a: point,
                     witness_b: point,
                     contact: None,

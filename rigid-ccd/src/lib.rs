@@ -1,4 +1,4 @@
-//! When do two moving rigid bodies first touch? Certified never to be late.
+//! Certified continuous collision detection: when do two moving rigid bodies first touch?
 //!
 //! A ball falls onto a bracket:
 //!
@@ -17,29 +17,43 @@
 //!
 //! | to … | use |
 //! |---|---|
-//! | ask one question | [`first_contact`] |
-//! | ask many | [`Solver`], one for each thread |
-//! | choose the tolerance, a margin, a budget, a deadline | [`Solver::with_config`] |
+//! | answer one query | [`first_contact`] |
+//! | answer many | [`Solver`], one for each thread |
+//! | set a tolerance, a margin, a budget or a deadline | [`Solver::with_config`] |
 //! | make a body | [`Body::ball`], [`Body::capsule`], [`Body::cuboid`], `load` for a file |
-//! | make one of vertices and faces in memory | `mesh::TriangleMesh::new`, then `mesh::body_from_mesh`; or [`Pieces::triangles`] |
-//! | move it | [`Motion::new`], [`Motion::between`] |
+//! | make a body from vertices and faces in memory | `mesh::TriangleMesh::new`, then `mesh::body_from_mesh`; or [`Pieces::triangles`] |
+//! | move a body | [`Motion::new`], [`Motion::between`] |
 //! | list all features in contact | [`Problem::contacts_at`] |
-//! | see what was proven, and what that took | [`Solver::answer`] |
-//! | choose a distance backend, or bring one | [`Solver::with_oracle`], [`DistanceOracle`] |
+//! | get proven gaps and statistics | [`Solver::answer`] |
+//! | choose or write a distance backend | [`Solver::with_oracle`], [`DistanceOracle`] |
 //!
-//! Vectors are arrays, or whatever turns into them: those of `glam` and `nalgebra`.
+//! Vectors are arrays, or types that convert into them: those of `glam` and `nalgebra`. Lengths are in
+//! any one unit, times in the motions' unit, angles in radians.
+//!
+//! # Terms
+//! - A *piece* is a convex part of a body: the convex hull of a few points, rounded by a radius. A ball
+//!   is one point with a radius, a box one piece of eight points; a mesh is many pieces, often one for
+//!   each triangle.
+//! - A *distance backend* ([`DistanceOracle`]) computes the distance of two pieces. The engine checks
+//!   each result before it uses it, so a wrong backend makes a query slow or unresolved, never wrong.
+//!   The default, [`Direct`], suits all bodies.
+//! - A contact is a distance of at most margin + *tolerance*. The *margin* is a distance to keep,
+//!   0 by default.
+//! - *Witnesses* are a pair of nearest points of the two bodies.
 //!
 //! # Guarantee
-//! No contact happens before the time of a [`Hit`], and none at all where there is no hit: for every
-//! mesh, motion and backend, in floating point. A query that reaches a limit is an [`Error`], which
-//! carries a time before which nothing touches. What [`StartPolicy::Leave`] lets go of at the start does
-//! not count.
+//! No contact happens before the time of a [`Hit`]. Without a hit, no contact happens at all. This holds
+//! for every mesh, motion and backend, in floating point. A query that reaches a limit is an [`Error`]
+//! with a time before which no contact happens. Contacts at the start that [`StartPolicy::Leave`] ignores
+//! do not count.
 //!
 //! # Features
-//! - `meshes` (default): `load`, and `mesh` for all that `ccd-decomp` does with meshes. It takes
-//!   four fifths of the time to build.
+//! - `meshes` (default): `load`, and `mesh` for everything that `ccd-decomp` does with meshes.
+//! - `command` (default): the command `ccd`. Libraries switch it off: `default-features = false`.
 //! - `vmarch`: the distance backend `Vmarch`.
 //! - `nalgebra`: conversions between [`Pose`] and `nalgebra::Isometry3<f64>`.
+//!
+//! The README of this crate lists the time that each feature takes to build.
 
 #[cfg(feature = "command")]
 pub mod batch;
@@ -63,7 +77,7 @@ pub use ccd_core::{
     Motion, Moving, OrElse, Origin, Outcome, Overlap, Piece, PiecePair, Pieces, Polytope, Pose,
     Problem, Schedule, Separation, StartPolicy, Stats, Volume,
 };
-/// Meshes, and what they are made into.
+/// Meshes, and bodies made from them.
 #[cfg(feature = "meshes")]
 pub use ccd_decomp as mesh;
 #[cfg(feature = "meshes")]
@@ -76,3 +90,8 @@ pub use hit::{Hit, HitKind};
 #[cfg(feature = "meshes")]
 pub use load::load;
 pub use solver::{Solver, first_contact};
+
+/// The example in the README.
+#[cfg(all(doctest, feature = "meshes"))]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -4,17 +4,18 @@ use ccd_core::Body;
 use ccd_decomp::{BodyError, BodySource, Detail};
 use std::path::Path;
 
-/// Loads a body from a mesh file (OBJ, STL, PLY, OFF), or from a `.ccd` file that was prepared before.
+/// Loads a body from a mesh file (OBJ, STL, PLY, OFF) or a prepared body (`.ccd`).
 ///
-/// A mesh becomes the least that is exact: one hull, convex patches or triangles ([`Detail::Auto`]).
-/// To choose, or to see what has become of a mesh, use
-/// [`mesh::body_from_mesh`](ccd_decomp::body_from_mesh).
+/// Coordinates keep the unit of the file. A mesh becomes the fewest convex pieces that are exact: one
+/// hull, convex patches or triangles ([`Detail::Auto`]). To choose the pieces, or to get a report of
+/// defects, use [`mesh::body_from_mesh`](ccd_decomp::body_from_mesh).
 ///
 /// # Errors
-/// [`BodyError`], naming the file and the element that is wrong.
+/// The file cannot be read, or holds no valid mesh; the error names the file and the element.
 ///
-/// ```no_run
-/// let part = rigid_ccd::load("part.stl")?;
+/// ```
+/// let part = rigid_ccd::load("examples/bracket.obj")?;
+/// assert!(!part.pieces().is_empty());
 /// # Ok::<(), rigid_ccd::Error>(())
 /// ```
 pub fn load(path: impl AsRef<Path>) -> Result<Body, BodyError> {

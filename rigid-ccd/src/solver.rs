@@ -1,19 +1,21 @@
-//! Questions, one or many.
+//! Queries, one or many.
 
 use crate::{Error, Hit};
 use ccd_core::schedule::{BestFirst, Schedule};
 use ccd_core::{Answer, Config, DistanceOracle, InputError, Moving, Problem};
 use ccd_distance_gjk::Direct;
 
-/// When do two bodies first touch, from time 0 to a duration? None when they stay apart.
+/// Finds the first contact of two moving bodies, from time 0 to `duration`; none when they stay apart.
 ///
-/// The tolerance is 0.001 in the scene's unit of length; a [`Solver`] takes another one.
+/// Each body comes with its motion. Lengths are in the scene's unit, times in the motions' unit, angles
+/// in radians. A contact is a distance of at most 0.001; a [`Solver`] takes another tolerance.
 ///
 /// # Guarantee
-/// Nothing touches before the time of the hit, or at all where there is none.
+/// No contact happens before the time of the hit. Without a hit, no contact happens at all.
 ///
 /// # Errors
-/// [`Error::Input`] for what cannot be asked, [`Error::Unresolved`] where a limit is reached first.
+/// [`Error::Input`] for a duration or a motion out of range, [`Error::Unresolved`] when a limit is reached
+/// first.
 ///
 /// ```
 /// use rigid_ccd::{Body, Motion, Pose, first_contact};
@@ -31,9 +33,7 @@ pub fn first_contact<'b>(
     Solver::new().first_contact(a, b, duration)
 }
 
-/// Answers many questions: keeps its memory from one to the next.
-///
-/// Make one for each thread.
+/// A solver for many queries, which reuses its memory. Use one for each thread.
 ///
 /// ```
 /// use rigid_ccd::{Body, Config, Motion, Pose, Solver};
@@ -55,7 +55,7 @@ pub struct Solver<O: DistanceOracle = Direct> {
 }
 
 impl Solver {
-    /// With the backend that suits all pieces.
+    /// Creates a solver with the default distance backend, [`Direct`].
     pub fn new() -> Self {
         Solver::with_oracle(Direct::default())
     }
@@ -68,7 +68,7 @@ impl Default for Solver {
 }
 
 impl<O: DistanceOracle> Solver<O> {
-    /// With a distance backend of your choice, or of your own.
+    /// Creates a solver with another distance backend, such as [`Gjk`](crate::Gjk) or your own.
     pub fn with_oracle(oracle: O) -> Self {
         Solver {
             schedule: BestFirst::default(),
@@ -77,29 +77,41 @@ impl<O: DistanceOracle> Solver<O> {
         }
     }
 
-    /// How accurately to answer from now on, and what to count as a contact.
+    /// Sets tolerance, margin, start policy, budget and deadline.
     pub fn with_config(self, config: Config) -> Self {
         Solver { config, ..self }
     }
 
-    /// As the function [`first_contact`].
+    /// Finds the first contact of two moving bodies, as the function [`first_contact`] does.
     ///
     /// # Errors
-    /// As [`first_contact`].
+    /// The errors of [`first_contact`].
     pub fn first_contact<'b>(
         &mut self,
         a: impl Into<Moving<'b>>,
         b: impl Into<Moving<'b>>,
         duration: f64,
     ) -> Result<Option<Hit>, Error> {
-        Hit::of(&self.answer(a, b, duration)?)
+        Hit::from_answer(&self.answer(a, b, duration)?)
     }
 
-    /// The whole answer: what is proven of bodies that stay apart, the tolerance that was kept, what
-    /// it took.
+    /// Returns the full answer: the outcome, the tolerance and the statistics.
+    ///
+    /// A query that reaches a limit is an outcome here,
+    /// [`Outcome::Unresolved`](crate::Outcome::Unresolved), not an error. The time of every outcome has
+    /// the guarantee of [`first_contact`].
     ///
     /// # Errors
-    /// As [`Problem::new`].
+    /// The errors of [`Problem::new`]: a duration or a motion out of range.
+    ///
+    /// ```
+    /// use rigid_ccd::{Body, Motion, Outcome, Pose, Solver};
+    /// let ball = Body::ball(0.5)?;
+    /// let apart = Motion::still(Pose::at([3.0, 0.0, 0.0])?);
+    /// let answer = Solver::new().answer((&ball, apart), (&ball, Motion::STILL), 1.0)?;
+    /// assert!(matches!(answer.outcome, Outcome::Free { proven_gap } if proven_gap > 0.0));
+    /// # Ok::<(), rigid_ccd::Error>(())
+    /// ```
     pub fn answer<'b>(
         &mut self,
         a: impl Into<Moving<'b>>,

@@ -1,15 +1,15 @@
-//! Figures as people read them.
+//! Numbers in messages.
 
 use std::fmt;
 
-/// A number in as few digits as tell it: those with many places by a power of ten.
+/// A number displayed in few digits: very large and very small ones with an exponent.
 #[derive(Clone, Copy)]
 pub(crate) struct Number(pub(crate) f64);
 
 impl fmt::Display for Number {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Number(value) = *self;
-        // Neither NaN nor an infinity has a power of ten.
+        // NaN and infinities have no exponent.
         match value == 0.0 || !value.is_finite() || (1e-4..1e7).contains(&value.abs()) {
             true => write!(f, "{value}"),
             false => write!(f, "{value:e}"),

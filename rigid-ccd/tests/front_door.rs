@@ -1,10 +1,10 @@
-//! The front door says what the engine says.
+//! The public interface gives the answers of the engine.
 
 use rigid_ccd::glam::DVec3;
 use rigid_ccd::schedule::{BestFirst, Schedule};
 use rigid_ccd::{
     Body, Config, Direct, DistanceOracle, Error, Gjk, HitKind, InputError, Limit, Motion, Outcome,
-    Pose, Problem, Solver, first_contact,
+    Overlap, Pose, Problem, Solver, first_contact,
 };
 
 fn capsule() -> Body {
@@ -55,17 +55,19 @@ fn hits_are_the_engines_bit_for_bit() {
 }
 
 #[test]
-fn what_is_in_contact_at_the_start_is_a_hit_at_0() {
+fn contacts_at_the_start_are_hits_at_time_0() {
     let (a, b) = (cuboid(), cuboid());
-    let touching = first_contact((&a, Motion::still(beside(1.0))), (&b, Motion::STILL), 1.0);
+    let touching = first_contact((&a, Motion::still(shifted(1.0))), (&b, Motion::STILL), 1.0);
     let touching = touching.unwrap().unwrap();
     assert_eq!((touching.time, touching.kind), (0.0, HitKind::Touching));
-    let across = first_contact((&a, Motion::still(beside(0.3))), (&b, Motion::STILL), 1.0);
+    let across = first_contact((&a, Motion::still(shifted(0.3))), (&b, Motion::STILL), 1.0);
     let across = across.unwrap().unwrap();
-    assert_eq!((across.time, across.kind), (0.0, HitKind::Overlapping));
+    assert_eq!(across.time, 0.0);
+    let pieces = HitKind::Overlapping(Overlap::Pieces(across.contact.unwrap()));
+    assert_eq!(across.kind, pieces);
 }
 
-fn beside(x: f64) -> Pose {
+fn shifted(x: f64) -> Pose {
     Pose::at([x, 0.0, 0.0]).unwrap()
 }
 
@@ -82,12 +84,12 @@ fn a_limit_is_an_error_with_a_certified_time() {
     };
     assert_eq!(reason, Limit::Budget);
     assert!((0.0..0.6).contains(&safe_until), "{safe_until}");
-    let words = found.unwrap_err().to_string();
-    assert!(words.starts_with("unresolved (budget): "), "{words}");
+    let message = found.unwrap_err().to_string();
+    assert!(message.starts_with("unresolved (budget): "), "{message}");
 }
 
 #[test]
-fn what_cannot_be_asked_is_an_error() {
+fn invalid_input_is_an_error() {
     let ball = Body::ball(0.5).unwrap();
     let found = first_contact((&ball, Motion::STILL), (&ball, Motion::STILL), -1.0);
     let out_of_range = |error| matches!(error, Error::Input(InputError::OutOfRange { .. }));
@@ -96,7 +98,7 @@ fn what_cannot_be_asked_is_an_error() {
 }
 
 #[test]
-fn vectors_are_arrays_or_turn_into_them() {
+fn vectors_are_arrays_or_convert_into_them() {
     let (v, w) = ([1.0, 2.0, 3.0], [0.1, 0.2, 0.3]);
     let arrays = Motion::new(at(0.0), v, w).unwrap();
     let vectors = Motion::new(at(0.0), DVec3::from(v), DVec3::from(w)).unwrap();
@@ -106,14 +108,14 @@ fn vectors_are_arrays_or_turn_into_them() {
 #[test]
 fn backends_agree() {
     let (a, b) = (capsule(), cuboid());
-    let asked = ((&a, moving(-3.0, 4.0)), (&b, Motion::STILL));
+    let query = ((&a, moving(-3.0, 4.0)), (&b, Motion::STILL));
     let time = |found: Result<Option<rigid_ccd::Hit>, Error>| found.unwrap().unwrap().time;
-    let by_default = time(first_contact(asked.0, asked.1, 1.0));
+    let by_default = time(first_contact(query.0, query.1, 1.0));
     let mut gjk = Solver::with_oracle(Gjk);
     let mut both = Solver::with_oracle(rigid_ccd::ClosedForm.or_else(Gjk));
     for other in [
-        time(gjk.first_contact(asked.0, asked.1, 1.0)),
-        time(both.first_contact(asked.0, asked.1, 1.0)),
+        time(gjk.first_contact(query.0, query.1, 1.0)),
+        time(both.first_contact(query.0, query.1, 1.0)),
     ] {
         assert!((other - by_default).abs() < 1e-3, "{other} {by_default}");
     }
@@ -128,7 +130,8 @@ fn meshes_are_loaded_from_files() {
     let ball = Body::ball(0.05).unwrap();
     let hit = first_contact((&ball, inside), (&bracket, Motion::STILL), 1.0).unwrap();
     let hit = hit.expect("the bracket is solid");
-    assert_eq!((hit.kind, hit.contact), (HitKind::Overlapping, None));
+    let inside = HitKind::Overlapping(Overlap::AInsideB(hit.witness_a));
+    assert_eq!((hit.kind, hit.contact), (inside, None));
     let missing = rigid_ccd::load(format!("{folder}/none.obj")).unwrap_err();
     assert!(missing.to_string().contains("none.obj"), "{missing}");
 }

@@ -103,7 +103,7 @@ pub(super) fn run(args: &TruthArgs) -> Result<Exit> {
         progress.read(rows.bytes());
         for (row, truth) in batch.iter().zip(truths) {
             if let Err(error) = row {
-                bad_rows.report(error.place, &error.problem, &progress);
+                bad_rows.report(error.position, &error.problem, &progress);
             }
             write(&mut table, row, truth)?;
             truth.iter().for_each(|truth| seen.add(truth));

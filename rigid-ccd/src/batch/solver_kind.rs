@@ -1,4 +1,4 @@
-//! The choice of schedule and oracle at run time.
+//! Schedules and distance backends chosen at run time.
 
 use ccd_core::Bound;
 use ccd_core::schedule::{BestFirst, Fast, Naive};
@@ -8,36 +8,36 @@ use ccd_distance_vmarch::Vmarch;
 use clap::ValueEnum;
 use std::fmt;
 
-/// A schedule with an oracle: what queries are answered by.
+/// A schedule with a distance backend.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct SolverKind {
-    /// In which order pairs are looked at.
+    /// The order in which pairs of pieces are advanced.
     pub schedule: ScheduleKind,
-    /// Who measures the distance of two pieces.
+    /// The distance backend.
     pub oracle: OracleKind,
-    /// For the schedules that [use one](ScheduleKind::uses_a_bound).
+    /// The bound on the motion, for the schedules that [use one](ScheduleKind::uses_a_bound).
     pub bound: BoundKind,
 }
 
-/// The schedules there are.
+/// A schedule.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, ValueEnum)]
 pub enum ScheduleKind {
-    /// The pair whose proof expires first is looked at next.
+    /// Advances the pair whose proof expires first.
     #[default]
     BestFirst,
-    /// As published: one step for all pairs at which the distance query over hull trees stops.
+    /// FAST, as published: one step for all pairs at which the distance query over hull trees stops.
     Fast,
-    /// All pairs of pieces, one step for all: slow, for comparison on small meshes.
+    /// One step for all pairs of pieces: slow, for comparison on small bodies.
     Naive,
 }
 
-/// How a schedule that takes one step for all bounds the bodies' advance over it.
+/// The bound on the motion over a step of all pairs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, ValueEnum)]
 pub enum BoundKind {
-    /// Holds however far they turn.
+    /// Holds for any rotation.
     #[default]
     Sound,
-    /// As the paper prints it: times may be late, and contacts missed.
+    /// As published: times may be late, and contacts may be missed.
     Published,
 }
 
@@ -51,7 +51,7 @@ impl From<BoundKind> for Bound {
 }
 
 impl ScheduleKind {
-    /// Whether it is of use only for bodies with a [hull tree](ccd_core::Body::hull_tree).
+    /// Returns whether the schedule needs bodies with a [hull tree](ccd_core::Body::hull_tree).
     pub fn uses_hull_trees(self) -> bool {
         match self {
             ScheduleKind::Fast => true,
@@ -59,7 +59,7 @@ impl ScheduleKind {
         }
     }
 
-    /// Whether it takes one step for all pairs, which a [bound](BoundKind) is chosen for.
+    /// Returns whether the schedule takes one step for all pairs, and so uses a [bound](BoundKind).
     pub fn uses_a_bound(self) -> bool {
         match self {
             ScheduleKind::Fast | ScheduleKind::Naive => true,
@@ -68,26 +68,26 @@ impl ScheduleKind {
     }
 }
 
-/// The oracles there are.
+/// A distance backend.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, ValueEnum)]
 pub enum OracleKind {
-    /// Closed forms for points, segments and triangles; pieces of more points (a box) go to gjk.
+    /// Closed forms for points, segments and triangles; `gjk` for pieces of more points, such as boxes.
     #[default]
     Direct,
     /// GJK in double precision, for any convex piece.
     Gjk,
-    /// Voronoi marching, as published; where that gives up, gjk.
+    /// Voronoi marching, as published; `gjk` where it gives up.
     Vmarch,
 }
 
-/// Answers queries one after another, keeping its memory in between.
+/// A solver of queries that reuses its memory.
 pub trait Solve: Send {
-    /// As [`Schedule::solve`].
+    /// Solves a problem, as [`Schedule::solve`].
     fn solve(&mut self, problem: &Problem<'_>) -> Answer;
 }
 
 impl SolverKind {
-    /// All combinations that are never late.
+    /// Returns all combinations with a sound bound.
     pub fn all() -> impl Iterator<Item = SolverKind> {
         ScheduleKind::value_variants().iter().flat_map(|&schedule| {
             OracleKind::value_variants()
@@ -100,7 +100,7 @@ impl SolverKind {
         })
     }
 
-    /// A solver with memory of its own.
+    /// Creates a solver.
     pub fn solver(self) -> Box<dyn Solve> {
         match self.oracle {
             OracleKind::Direct => self.with_oracle::<Direct>(),
@@ -165,7 +165,7 @@ impl fmt::Display for OracleKind {
     }
 }
 
-/// The name that the command line knows a value by.
+/// Writes the name of a value on the command line.
 fn write_value(value: &impl ValueEnum, f: &mut fmt::Formatter<'_>) -> fmt::Result {
     match value.to_possible_value() {
         Some(value) => f.pad(value.get_name()),

@@ -1,4 +1,4 @@
-//! Threads that work through a long row of things, batch by batch, in order.
+//! Threads that process many items batch by batch, in order.
 
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
@@ -6,27 +6,27 @@ use std::num::NonZeroUsize;
 use std::thread::available_parallelism;
 use std::time::{Duration, Instant};
 
-/// Some threads, and how many things to give them at once.
+/// Threads, and the size of the next batch for them.
 ///
-/// Batches are as many things as take about half a second, so that what is done can be kept that often, and
-/// no more than 4,096, so that memory is bounded whatever there is to do.
+/// A batch takes about half a second, so that results can be saved that often. It has at most 4,096
+/// items, so that memory is bounded.
 pub struct Threads {
-    /// None where one thread does it all.
+    /// None for one thread.
     pool: Option<ThreadPool>,
     batch: usize,
 }
 
-/// How long a batch should take, about: work that is lost when it is interrupted.
+/// The time that a batch should take: an interruption loses about as much work.
 const BATCH: Duration = Duration::from_millis(500);
 
-/// The most things in a batch.
-const MOST: usize = 4096;
+/// The most items in a batch.
+const MAX_ITEMS: usize = 4096;
 
 impl Threads {
-    /// So many threads; as many as there are cores by default.
+    /// Starts threads, by default one for each core.
     ///
     /// # Errors
-    /// When they cannot be had.
+    /// The threads cannot be started.
     pub fn new(threads: Option<NonZeroUsize>) -> Result<Self, ThreadPoolBuildError> {
         let all = || available_parallelism().unwrap_or(NonZeroUsize::MIN);
         let threads = threads.unwrap_or_else(all).get();
@@ -37,7 +37,7 @@ impl Threads {
         })
     }
 
-    /// How many there are.
+    /// Returns the number of threads.
     pub fn threads(&self) -> NonZeroUsize {
         let threads = self
             .pool
@@ -46,40 +46,40 @@ impl Threads {
         NonZeroUsize::new(threads).unwrap_or(NonZeroUsize::MIN)
     }
 
-    /// How many things the next batch should have.
+    /// Returns the number of items that the next batch should have.
     pub fn batch(&self) -> usize {
         self.batch
     }
 
-    /// Does the work on every thing, told the number of the thread it runs on; results are in the order
-    /// of the things.
+    /// Calls `work` with the number of the thread and each item, and adapts the size of the next batch;
+    /// results are in the order of the items.
     pub fn work<T: Sync, R: Send>(
         &mut self,
-        things: &[T],
+        items: &[T],
         work: impl Fn(usize, &T) -> R + Sync,
     ) -> Vec<R> {
         let start = Instant::now();
-        let results = self.map(things, work);
+        let results = self.map(items, work);
         let taken = start.elapsed();
         if taken < BATCH / 2 {
-            self.batch = MOST.min(2 * self.batch);
+            self.batch = MAX_ITEMS.min(2 * self.batch);
         } else if taken > 2 * BATCH {
             self.batch = self.threads().get().max(self.batch / 2);
         }
         results
     }
 
-    /// As [`Threads::work`], but the batch is no guide to how many things the next one should have.
+    /// Calls `work` as [`Threads::work`] does, and keeps the size of the next batch.
     pub fn map<T: Sync, R: Send>(
         &self,
-        things: &[T],
+        items: &[T],
         work: impl Fn(usize, &T) -> R + Sync,
     ) -> Vec<R> {
         let Some(pool) = &self.pool else {
-            return things.iter().map(|thing| work(0, thing)).collect();
+            return items.iter().map(|item| work(0, item)).collect();
         };
-        let here = |thing| work(rayon::current_thread_index().unwrap_or(0), thing);
-        pool.install(|| things.par_iter().map(here).collect())
+        let here = |item| work(rayon::current_thread_index().unwrap_or(0), item);
+        pool.install(|| items.par_iter().map(here).collect())
     }
 }
 
@@ -89,27 +89,27 @@ mod tests {
 
     #[test]
     fn results_are_in_order_on_any_number_of_threads() {
-        let things: Vec<usize> = (0..10_000).collect();
+        let items: Vec<usize> = (0..10_000).collect();
         for threads in [1, 2, 5] {
-            let mut crew = Threads::new(NonZeroUsize::new(threads)).unwrap();
-            assert_eq!(crew.threads().get(), threads);
-            let done = crew.work(&things, |thread, thing| (thread, 3 * thing));
+            let mut quick = Threads::new(NonZeroUsize::new(threads)).unwrap();
+            assert_eq!(quick.threads().get(), threads);
+            let done = quick.work(&items, |thread, item| (thread, 3 * item));
             assert!(done.iter().all(|&(thread, _)| thread < threads));
             assert!(
                 done.iter()
-                    .zip(&things)
-                    .all(|(done, thing)| done.1 == 3 * thing)
+                    .zip(&items)
+                    .all(|(done, item)| done.1 == 3 * item)
             );
         }
     }
 
     #[test]
-    fn batches_grow_for_quick_work_alone() {
-        let mut crew = Threads::new(NonZeroUsize::new(2)).unwrap();
+    fn batches_grow_only_for_quick_work() {
+        let mut quick = Threads::new(NonZeroUsize::new(2)).unwrap();
         for _ in 0..20 {
-            crew.work(&[0], |_, _| ());
+            quick.work(&[0], |_, _| ());
         }
-        assert_eq!(crew.batch(), MOST);
+        assert_eq!(quick.batch(), MAX_ITEMS);
         let mut slow = Threads::new(NonZeroUsize::new(1)).unwrap();
         slow.work(&[0], |_, _| std::thread::sleep(3 * BATCH));
         assert_eq!(slow.batch(), 1);

@@ -1,47 +1,46 @@
-//! What is said of bad rows while there are more to come.
+//! Messages about bad rows.
 
 use super::complain;
 use crate::command::progress::Progress;
 use crate::table::motions::RowPosition;
 use std::fmt::Display;
 
-/// Tells of the first few rows at once, and counts the others.
+/// A counter of bad rows that prints the first few at once.
 pub struct BadRows {
     input: String,
     count: usize,
 }
 
-/// How many rows are told of.
-const AT_ONCE: usize = 5;
+/// The number of bad rows that are printed.
+const PRINTED: usize = 5;
 
 impl BadRows {
-    /// Of the rows of that table.
+    /// Creates a counter for a table of that name.
     pub fn new(input: String) -> Self {
         BadRows { input, count: 0 }
     }
 
-    /// One more.
-    pub fn report(&mut self, place: RowPosition, problem: &dyn Display, progress: &Progress) {
+    /// Counts a bad row, and prints it if it is among the first.
+    pub fn report(&mut self, position: RowPosition, problem: &dyn Display, progress: &Progress) {
         self.count += 1;
-        if self.count <= AT_ONCE {
-            let (RowPosition { row, line }, input) = (place, &self.input);
+        if self.count <= PRINTED {
+            let (RowPosition { row, line }, input) = (position, &self.input);
             let message = format!("{input}, row {row} (line {line}): {problem}");
             progress.aside(|| complain(&message));
         }
     }
 
-    /// Says how many there were, unless each has been told.
+    /// Prints the number of bad rows, if more than the first few.
     pub fn close(&self) {
-        if self.count > AT_ONCE {
+        if self.count > PRINTED {
             let BadRows { input, count } = self;
             complain(&format!(
-                "{input}: {count} rows in all are like these; column `reason` of the results has every \
-                 bad one's"
+                "{input}: {count} bad rows in all; see column `reason` of the results"
             ));
         }
     }
 
-    /// How many there were.
+    /// Returns the number of bad rows.
     pub fn count(&self) -> usize {
         self.count
     }

@@ -1,26 +1,26 @@
-//! Why a run failed: each cause once, and in words.
+//! The message of an error: each cause once, without error numbers.
 
-/// What is told of an error and of its causes, from the outermost inward.
-pub(super) fn in_words(error: &anyhow::Error) -> String {
-    let mut told = String::new();
+/// Returns the messages of an error and its causes, from the outermost to the innermost.
+pub(super) fn message(error: &anyhow::Error) -> String {
+    let mut message = String::new();
     for cause in error.chain() {
         let cause = without_numbers(&cause.to_string());
-        // Most errors tell their cause in their own words.
-        if told.contains(&cause) {
+        // Most errors repeat the message of their cause.
+        if message.contains(&cause) {
             continue;
         }
-        if !told.is_empty() {
-            told += ": ";
+        if !message.is_empty() {
+            message += ": ";
         }
-        told += &cause;
+        message += &cause;
     }
-    told
+    message
 }
 
-/// What stands before the number that the system has for an error.
+/// The text before the error number of the operating system.
 const NUMBER: &str = " (os error ";
 
-/// Without the numbers of the system's errors, beside which there are their words.
+/// Removes the error numbers of the operating system; their messages are in the text already.
 fn without_numbers(text: &str) -> String {
     let mut parts = text.split(NUMBER);
     let mut out = parts.next().unwrap_or_default().to_owned();
@@ -45,19 +45,19 @@ mod tests {
     use std::io;
 
     #[test]
-    fn every_cause_is_told_once() {
+    fn every_cause_is_reported_once() {
         let source = io::Error::from_raw_os_error(2);
         let words = without_numbers(&source.to_string());
         assert!(!words.contains("os error"), "{words}");
         let place = "out.csv".to_owned();
         let error = anyhow::Error::from(CannotWrite { place, source });
-        assert_eq!(in_words(&error), format!("cannot write out.csv: {words}"));
+        assert_eq!(message(&error), format!("cannot write out.csv: {words}"));
         let error = Err::<(), _>(anyhow!("inner")).context("outer").unwrap_err();
-        assert_eq!(in_words(&error), "outer: inner");
+        assert_eq!(message(&error), "outer: inner");
     }
 
     #[test]
-    fn only_numbers_of_errors_are_left_out() {
+    fn only_error_numbers_are_removed() {
         for (text, expected) in [
             ("gone (os error 2); look", "gone; look"),
             ("a (os error 2): b (os error 13)", "a: b"),

@@ -1,4 +1,4 @@
-//! `ccd completions`: a script that completes commands and options in a shell.
+//! `ccd completions`: completion scripts for shells.
 
 use super::{Cli, Exit};
 use crate::command::files::CannotWrite;
@@ -7,11 +7,11 @@ use clap::{Args, CommandFactory};
 use clap_complete::{Shell, generate};
 use std::io::{self, Write};
 
-/// Print a script that completes commands and options in a shell
+/// Print a completion script for a shell
 #[derive(Debug, Args)]
 #[command(after_help = AFTER_HELP)]
 pub(super) struct CompletionsArgs {
-    /// The shell
+    /// Shell to complete in
     #[arg(value_enum)]
     shell: Shell,
 }

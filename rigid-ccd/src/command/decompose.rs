@@ -1,6 +1,6 @@
-//! `ccd decompose`: what a mesh becomes.
+//! `ccd decompose`: splits a mesh into convex pieces.
 
-mod figures;
+mod statistics;
 
 use super::Exit;
 use super::files::check_folder;
@@ -14,34 +14,34 @@ use ccd_decomp::{
     build_hull_tree, prepare, write_obj_pieces,
 };
 use clap::{Args, ValueEnum};
-use figures::Figures;
+use statistics::Statistics;
 use std::fs::File;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-/// Prepare a mesh: count the pieces it becomes, write them, store the body
+/// Split a mesh into convex pieces; print statistics, write the pieces or the prepared body
 #[derive(Debug, Args)]
 #[command(after_help = AFTER_HELP, after_long_help = AFTER_LONG_HELP)]
 pub(super) struct DecomposeArgs {
-    /// The mesh: .obj, .stl, .ply or .off
+    /// Mesh file: .obj, .stl, .ply or .off
     #[arg(value_name = "MESH")]
     mesh: PathBuf,
     #[command(flatten)]
     pieces: PiecesArgs,
-    /// In which order --pieces patches grow [default: cresting]
+    /// Order in which --pieces patches grow [default: cresting]
     #[arg(long, value_enum)]
     order: Option<OrderArg>,
-    /// Build the tree of convex hulls too, which --schedule fast of a query uses
+    /// Also build the tree of convex hulls, for `ccd query --schedule fast`
     #[arg(long)]
     hull_tree: bool,
-    /// Where to write the pieces (.obj, one group for each) or the prepared body (.ccd)
+    /// Write the pieces (.obj, one group for each) or the prepared body (.ccd) to this file
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
-    /// For whom to print what the mesh has become
+    /// Output format of the statistics
     #[arg(long, value_enum, default_value_t)]
     format: FormatArg,
-    /// Say nothing on standard error but what is wrong
+    /// Print only warnings and errors on standard error
     #[arg(long, short)]
     quiet: bool,
 }
@@ -52,29 +52,32 @@ Examples:
   ccd decompose knot.obj --pieces patches --out patches.obj
   ccd decompose knot.obj --out knot.ccd && ccd query --a knot.ccd --b knot.ccd --motions motions.csv
 
-See `ccd decompose --help` for what is printed and the exit code.";
+See `ccd decompose --help` for the statistics and the exit codes.";
 
 const AFTER_LONG_HELP: &str = "\
-Printed, as aligned lines or with --format json as one object:
+Statistics, as aligned lines or, with --format json, as one object:
   mesh           the file
-  pieces_kind    triangles, patches, hull or vhacd; why says what made `auto` choose it
-  triangles      how many the mesh has, once it is mended
-  pieces         how many convex pieces it becomes
-  virtual_faces  facets of the pieces that are no part of the mesh
-  tree_nodes     nodes of the binary hierarchy over the pieces
-  hulls          hulls kept at these nodes: 0 without --hull-tree
-  build_ms       what preparing took, without reading and writing, in milliseconds
-  bytes          what the prepared body takes in memory, about
-  exact          whether the pieces are the mesh, no more and no less
-  sticks_out     how far they reach beyond it at most, in the mesh's unit of length: contacts of such
-                 a body may be reported early by as much
-  inflated_by    by how much they were grown to be sure to cover the mesh
-  rebuilt_hulls  hulls that the hull library got wrong, computed exactly instead
-  volume         solid, or surface where being inside is not to be in contact
-  remarks        what was amiss with the mesh, if anything
+  pieces_kind    triangles, patches, hull or vhacd
+  why            reason for this kind of pieces
+  triangles      number of triangles of the mesh, after repairs
+  pieces         number of convex pieces
+  virtual_faces  number of facets of the pieces that are not part of the mesh
+  tree_nodes     number of nodes of the bounding volume hierarchy over the pieces
+  hulls          number of hulls stored at these nodes; 0 without --hull-tree
+  build_ms       preparation time in milliseconds, without reading and writing
+  bytes          approximate size of the prepared body in memory
+  exact          whether the pieces represent the mesh exactly
+  sticks_out     upper bound on how far the pieces extend beyond the mesh, in the mesh's unit of
+                 length; contacts may be reported early by as much
+  inflated_by    distance by which the pieces were enlarged to be certain to cover the mesh
+  rebuilt_hulls  number of hulls that the hull library got wrong and that were recomputed exactly
+  volume         solid, or surface: a body inside a surface is not in contact with it
+  remarks        defects of the mesh and their repairs, if any
 
-Exit code: 0 when the mesh is prepared and written, 2 on bad input, such as a mesh that bounds no
-solid where patches are asked for, 1 when the result cannot be written.
+Exit codes:
+  0  the mesh is prepared and written
+  1  the result cannot be written
+  2  bad input, such as a mesh that does not bound a solid with --pieces patches
 
 Examples:
   ccd decompose part.stl
@@ -83,53 +86,37 @@ Examples:
   ccd decompose knot.obj --hull-tree --out knot.ccd
   ccd query --a knot.ccd --b knot.ccd --motions motions.csv --schedule fast";
 
-/// In which order patches grow.
+/// The order in which patches grow.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum OrderArg {
     /// From the crests of the surface outward
     Cresting,
-    /// As the mesh has its faces, all around
+    /// Breadth first, in the order of the faces of the mesh
     BreadthFirst,
-    /// As the mesh has its faces, onward
+    /// Depth first, in the order of the faces of the mesh
     DepthFirst,
 }
 
-/// For whom to print.
+/// The output format of the statistics.
 #[derive(Clone, Copy, Debug, Default, ValueEnum)]
 enum FormatArg {
-    /// For people
+    /// Aligned lines
     #[default]
     Text,
-    /// For programs
+    /// One JSON object
     Json,
 }
 
-/// What a file is to hold.
+/// The content of an output file.
 enum Output<'a> {
     Pieces(&'a Path),
     Body(&'a Path),
 }
 
-/// Prepares the mesh, writes it where that is asked for, and prints what has become of it.
+/// Prepares the mesh, writes the output file if any, and prints the statistics.
 pub(super) fn run(args: &DecomposeArgs) -> Result<Exit> {
-    // Before the work, not after it, is when to learn that its result has nowhere to go.
     let out = args.out.as_deref().map(Output::of).transpose()?;
-    if let Some(out) = &out {
-        check_folder(out.path()).map_err(|source| out.failed(source))?;
-    }
-    if args
-        .out
-        .as_ref()
-        .is_some_and(|out| same_file(&args.mesh, out))
-    {
-        bail!("--out names the mesh, which it would overwrite; give it another file");
-    }
-    if args.mesh.extension().is_some_and(|e| e == STORED_EXTENSION) {
-        bail!(
-            "{}: is prepared already; give the mesh it was made from",
-            args.mesh.display()
-        );
-    }
+    args.check_paths(out.as_ref())?;
     let detail = args.detail()?;
     let mesh = TriangleMesh::read(&args.mesh)?;
     let spinner = match args.quiet {
@@ -144,10 +131,10 @@ pub(super) fn run(args: &DecomposeArgs) -> Result<Exit> {
     if let Some(out) = out {
         out.write(&model)?;
     }
-    let figures = Figures::new(name, &model, &body, build_ms);
+    let statistics = Statistics::new(name, &model, &body, build_ms);
     let printed = match args.format {
-        FormatArg::Text => writeln!(io::stdout(), "{figures}"),
-        FormatArg::Json => print_json(&figures),
+        FormatArg::Text => writeln!(io::stdout(), "{statistics}"),
+        FormatArg::Json => print_json(&statistics),
     };
     printed.map_err(|source| CannotWrite {
         place: "standard output".to_owned(),
@@ -157,10 +144,27 @@ pub(super) fn run(args: &DecomposeArgs) -> Result<Exit> {
 }
 
 impl DecomposeArgs {
+    /// Checks the paths before the work, which may take long.
+    fn check_paths(&self, out: Option<&Output<'_>>) -> Result<()> {
+        if let Some(out) = out {
+            check_folder(out.path()).map_err(|source| out.failed(source))?;
+            if same_file(&self.mesh, out.path()) {
+                bail!("--out would overwrite the mesh; give --out another file");
+            }
+        }
+        if self.mesh.extension().is_some_and(|e| e == STORED_EXTENSION) {
+            bail!(
+                "{}: is already a prepared body; give the mesh it was made from",
+                self.mesh.display()
+            );
+        }
+        Ok(())
+    }
+
     fn detail(&self) -> Result<Detail> {
         match (self.pieces.detail()?, self.order) {
             (Detail::Patches(_), Some(order)) => Ok(Detail::Patches(order.into())),
-            (_, Some(_)) => bail!("--order says how patches grow; give --pieces patches with it"),
+            (_, Some(_)) => bail!("--order needs --pieces patches"),
             (detail, None) => Ok(detail),
         }
     }
@@ -171,7 +175,7 @@ impl DecomposeArgs {
             let body = model.body()?;
             return Ok((model, body));
         }
-        // Either takes long, and needs nothing of the other.
+        // Both take long and are independent of each other.
         let (body, tree) = rayon::join(|| model.body(), || build_hull_tree(&model.pieces));
         let tree = tree?;
         let body = body?.with_hull_tree(tree.clone())?;
@@ -180,8 +184,8 @@ impl DecomposeArgs {
     }
 }
 
-fn print_json(figures: &Figures) -> io::Result<()> {
-    let text = serde_json::to_string(figures)?;
+fn print_json(statistics: &Statistics) -> io::Result<()> {
+    let text = serde_json::to_string(statistics)?;
     writeln!(io::stdout(), "{text}")
 }
 
@@ -192,7 +196,7 @@ impl<'a> Output<'a> {
             Some("obj") => Ok(Output::Pieces(path)),
             Some(STORED_EXTENSION) => Ok(Output::Body(path)),
             _ => bail!(
-                "--out {}: call the file .obj for the pieces, or .{STORED_EXTENSION} for the \
+                "--out {}: use the extension .obj for the pieces, or .{STORED_EXTENSION} for the \
                  prepared body",
                 path.display()
             ),

@@ -1,4 +1,4 @@
-//! Tables in and out: files, or the standard streams.
+//! Tables read and written: files, or the standard streams.
 
 use crate::table::motions::MotionRows;
 use anyhow::{Context, Result, anyhow, bail};
@@ -7,103 +7,103 @@ use std::fs::{self, File};
 use std::io::{self, Read, Seek, Write};
 use std::path::{Path, PathBuf};
 
-/// Results that have nowhere to go: not the input's fault.
+/// An output that cannot be written; the input is not at fault.
 #[derive(Debug, thiserror::Error)]
 #[error("cannot write {place}: {source}")]
 pub struct CannotWrite {
     /// The file or stream.
     pub place: String,
-    /// Why it cannot be written.
+    /// The reason.
     pub source: io::Error,
 }
 
 /// A table that is written row by row.
 ///
-/// A file gets its name once it is whole. Until then its rows are in one beside it, the name of which
-/// ends in [`PARTIAL`]; what has no length, such as a pipe or a terminal, is written to as it is.
+/// A file gets its final name once it is complete. Until then its rows are in a file next to it, whose
+/// name ends in [`PARTIAL`]. A pipe, a terminal or a device is written directly.
 pub struct Table {
     name: String,
-    writer: csv::Writer<Counted>,
-    beside: Option<Beside>,
+    writer: csv::Writer<CountingWriter>,
+    pending: Option<PendingFile>,
 }
 
-/// What the name of a file ends in that is not whole yet.
+/// The ending of the name of an incomplete table.
 const PARTIAL: &str = ".partial";
 
-/// What the name of the journal ends in that stands beside it.
+/// The ending of the name of the journal.
 pub(super) const RESUME: &str = ".resume";
 
-/// Where a file is going to be, and where it is until then.
-pub struct Beside {
+/// A file with its final name and the name that it has until it is complete.
+pub struct PendingFile {
     target: PathBuf,
     partial: PathBuf,
 }
 
-/// Counts what is written.
-pub struct Counted {
+/// A writer that counts bytes.
+pub struct CountingWriter {
     to: Box<dyn Write>,
     bytes: u64,
 }
 
 impl Table {
-    /// Begins a table with its header; the file of that name is left as it is.
+    /// Creates a table with its header; an existing file of that name is kept until the table is complete.
     pub fn create(path: &Path, header: &[&str]) -> Result<Self, CannotWrite> {
         let name = output_name(path);
         let failed = |source| CannotWrite {
             place: name.clone(),
             source,
         };
-        let beside = Beside::find(path).map_err(failed)?;
-        let to: Box<dyn Write> = match &beside {
+        let pending = PendingFile::find(path).map_err(failed)?;
+        let to: Box<dyn Write> = match &pending {
             _ if is_standard(path) => Box::new(io::stdout().lock()),
-            Some(beside) => Box::new(beside.create()?),
+            Some(pending) => Box::new(pending.create()?),
             None => Box::new(File::options().write(true).open(path).map_err(failed)?),
         };
-        let mut table = Table::new(name, to, 0, beside);
+        let mut table = Table::new(name, to, 0, pending);
         table.write(|writer| writer.write_record(header))?;
         Ok(table)
     }
 
-    /// Goes on with one of which so many bytes are to be kept; what stands behind is dropped.
-    pub fn resume(beside: Beside, bytes: u64) -> Result<Self, CannotWrite> {
-        let file = beside.open(bytes).map_err(|source| CannotWrite {
-            place: beside.partial.display().to_string(),
+    /// Continues a table after its first `bytes` bytes, and drops the rest.
+    pub fn resume(pending: PendingFile, bytes: u64) -> Result<Self, CannotWrite> {
+        let file = pending.open(bytes).map_err(|source| CannotWrite {
+            place: pending.partial.display().to_string(),
             source,
         })?;
-        let name = beside.target.display().to_string();
-        Ok(Table::new(name, Box::new(file), bytes, Some(beside)))
+        let name = pending.target.display().to_string();
+        Ok(Table::new(name, Box::new(file), bytes, Some(pending)))
     }
 
-    fn new(name: String, to: Box<dyn Write>, bytes: u64, beside: Option<Beside>) -> Self {
+    fn new(name: String, to: Box<dyn Write>, bytes: u64, pending: Option<PendingFile>) -> Self {
         let mut builder = csv::WriterBuilder::new();
         let builder = builder.has_headers(false).buffer_capacity(1 << 16);
         Table {
             name,
-            writer: builder.from_writer(Counted { to, bytes }),
-            beside,
+            writer: builder.from_writer(CountingWriter { to, bytes }),
+            pending,
         }
     }
 
     /// Adds a row.
     pub fn write(
         &mut self,
-        row: impl FnOnce(&mut csv::Writer<Counted>) -> Result<(), csv::Error>,
+        row: impl FnOnce(&mut csv::Writer<CountingWriter>) -> Result<(), csv::Error>,
     ) -> Result<(), CannotWrite> {
         row(&mut self.writer).map_err(|error| self.failed(csv_cause(error)))
     }
 
-    /// Hands all rows on; says how many bytes the table has now.
+    /// Flushes all rows, and returns the length of the table in bytes.
     pub fn flush(&mut self) -> Result<u64, CannotWrite> {
         let flushed = self.writer.flush();
         flushed.map_err(|source| self.failed(source))?;
         Ok(self.writer.get_ref().bytes)
     }
 
-    /// Gives the file its name.
+    /// Gives the file its final name.
     pub fn finish(mut self) -> Result<(), CannotWrite> {
         self.flush()?;
-        match &self.beside {
-            Some(Beside { target, partial }) => {
+        match &self.pending {
+            Some(PendingFile { target, partial }) => {
                 fs::rename(partial, target).map_err(|source| self.failed(source))
             }
             None => Ok(()),
@@ -118,7 +118,7 @@ impl Table {
     }
 }
 
-impl Write for Counted {
+impl Write for CountingWriter {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         let written = self.to.write(bytes)?;
         self.bytes += written as u64;
@@ -130,20 +130,20 @@ impl Write for Counted {
     }
 }
 
-impl Beside {
-    /// Where the parts of a file are; none for what is no file.
+impl PendingFile {
+    /// Finds both names of a file; returns none for a stream or a device.
     pub fn find(path: &Path) -> io::Result<Option<Self>> {
         if is_standard(path) {
             return Ok(None);
         }
         let target = match fs::metadata(path) {
             Ok(there) if there.is_dir() => {
-                let problem = "it is a folder; name a file";
+                let problem = "it is a folder; give a file name";
                 return Err(io::Error::new(io::ErrorKind::IsADirectory, problem));
             }
             Ok(there) if !there.is_file() => return Ok(None),
             Ok(_) => {
-                // Whoever may not write to the file may not put another in its place either.
+                // A file that must not be written must not be replaced either.
                 File::options().write(true).open(path)?;
                 fs::canonicalize(path)?
             }
@@ -153,29 +153,29 @@ impl Beside {
             }
         };
         if target.file_name().is_none() {
-            let problem = "it names no file";
+            let problem = "it is not a file name";
             return Err(io::Error::new(io::ErrorKind::InvalidFilename, problem));
         }
-        let partial = with_ending(&target, PARTIAL);
-        Ok(Some(Beside { target, partial }))
+        let partial = sibling(&target, PARTIAL);
+        Ok(Some(PendingFile { target, partial }))
     }
 
-    /// The file of the parts.
+    /// The file that holds the rows until the table is complete.
     pub fn partial(&self) -> &Path {
         &self.partial
     }
 
-    /// A file that goes with them.
-    pub fn with_ending(&self, ending: &str) -> PathBuf {
-        with_ending(&self.target, ending)
+    /// Returns the path of the file next to this one whose name has that ending.
+    pub fn sibling(&self, ending: &str) -> PathBuf {
+        sibling(&self.target, ending)
     }
 
-    /// Whether the table is there that was finished with so many bytes; it gets its name if it has none
-    /// yet.
+    /// Renames a complete table of that length, if it still has its temporary name. Returns whether the
+    /// table exists.
     ///
     /// # Errors
-    /// When another file has the name.
-    pub fn name_whole(&self, bytes: u64) -> Result<bool> {
+    /// Another file has the final name.
+    pub fn give_final_name(&self, bytes: u64) -> Result<bool> {
         let length = |path: &Path| fs::metadata(path).ok().map(|there| there.len());
         if length(&self.partial) == Some(bytes) {
             fs::rename(&self.partial, &self.target).map_err(|source| CannotWrite {
@@ -185,7 +185,7 @@ impl Beside {
         }
         match length(&self.target) {
             Some(there) if there != bytes => bail!(
-                "--resume: {} is not as the finished run left it; leave out --resume to begin again and \
+                "--resume: {} has changed since the run finished; omit --resume to start over and \
                  overwrite it",
                 self.target.display()
             ),
@@ -203,7 +203,7 @@ impl Beside {
     fn open(&self, bytes: u64) -> io::Result<File> {
         let mut file = File::options().write(true).open(&self.partial)?;
         if file.metadata()?.len() < bytes {
-            let problem = "rows are missing that an earlier run wrote; delete it to begin again";
+            let problem = "it is shorter than the interrupted run left it; delete it to start over";
             return Err(io::Error::new(io::ErrorKind::UnexpectedEof, problem));
         }
         file.set_len(bytes)?;
@@ -212,7 +212,7 @@ impl Beside {
     }
 }
 
-/// Says so where the folder is not there that a file is to be in.
+/// Checks that the folder of a new file exists.
 pub(super) fn check_folder(path: &Path) -> io::Result<()> {
     let folder = path.parent().filter(|folder| *folder != "");
     let Some(folder) = folder else {
@@ -220,10 +220,11 @@ pub(super) fn check_folder(path: &Path) -> io::Result<()> {
     };
     let (kind, problem) = match fs::metadata(folder) {
         Ok(there) if there.is_dir() => return Ok(()),
-        Ok(_) => (io::ErrorKind::NotADirectory, "is no folder"),
-        Err(error) if error.kind() == io::ErrorKind::NotFound => {
-            (error.kind(), "is a folder that is not there; make it first")
-        }
+        Ok(_) => (io::ErrorKind::NotADirectory, "is not a folder"),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => (
+            error.kind(),
+            "is a folder that does not exist; create it first",
+        ),
         Err(error) => return Err(error),
     };
     Err(io::Error::new(
@@ -232,7 +233,7 @@ pub(super) fn check_folder(path: &Path) -> io::Result<()> {
     ))
 }
 
-fn with_ending(path: &Path, ending: &str) -> PathBuf {
+fn sibling(path: &Path, ending: &str) -> PathBuf {
     let mut name = path.file_name().map_or_else(OsString::new, OsString::from);
     name.push(ending);
     path.with_file_name(name)
@@ -245,8 +246,7 @@ fn csv_cause(error: csv::Error) -> io::Error {
     }
 }
 
-/// Refuses to have two options name one file, of which the second one is written to, or what stands beside
-/// it until it is whole.
+/// Refuses an output that would overwrite an input, directly or by its temporary files.
 pub fn refuse_overwriting(
     (read, source): (&str, &Path),
     (written, target): (&str, &Path),
@@ -255,23 +255,24 @@ pub fn refuse_overwriting(
         return Ok(());
     }
     if same_file(source, target) {
-        bail!("{written} names the file of {read}, which it would overwrite; give it another");
+        bail!("{written} would overwrite the file of {read}; give {written} another file");
     }
     for ending in [PARTIAL, RESUME] {
-        let beside = with_ending(target, ending);
-        if same_file(source, &beside) {
-            let beside = beside.display();
-            bail!("{written} is put together in {beside}, the file of {read}; give it another");
+        let pending = sibling(target, ending);
+        if same_file(source, &pending) {
+            let pending = pending.display();
+            bail!(
+                "{written} would overwrite {pending}, the file of {read}; give {written} another file"
+            );
         }
     }
     Ok(())
 }
 
-/// Rows of motions from anywhere.
+/// The rows of a table of motions from any source.
 pub(super) type Motions = MotionRows<Box<dyn Read>>;
 
-/// The table of motions, of which `--motions` names the file, and how many bytes it has where that is
-/// known.
+/// Opens the table of motions, and returns its length in bytes if known.
 pub fn open_motions(path: &Path) -> Result<(Motions, Option<u64>)> {
     let name = || input_name(path);
     let advice = "give --motions a CSV file, or - for standard input";
@@ -295,7 +296,7 @@ pub fn open_motions(path: &Path) -> Result<(Motions, Option<u64>)> {
     Ok((MotionRows::new(input).with_context(name)?, length))
 }
 
-/// What messages call a file that is read.
+/// Returns the name of an input for messages.
 pub fn input_name(path: &Path) -> String {
     match is_standard(path) {
         true => "standard input".to_owned(),

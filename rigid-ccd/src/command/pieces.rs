@@ -1,21 +1,21 @@
-//! What a mesh is to be made into, as every command is told it.
+//! The options `--pieces` and `--hulls`, for every subcommand.
 
 use anyhow::{Result, bail};
 use ccd_decomp::{Detail, Order};
 use clap::{Args, ValueEnum};
 
-/// What a mesh is to be made into.
+/// The kind of pieces that a mesh is split into.
 #[derive(Clone, Debug, Args)]
 pub(super) struct PiecesArgs {
-    /// What pieces a mesh is made into; bodies stored as .ccd keep theirs
+    /// Convex pieces to split a mesh into; a prepared body (.ccd) keeps its pieces
     #[arg(long, value_enum, default_value_t)]
     pieces: PiecesArg,
-    /// How many hulls --pieces vhacd may make [default: 32]; more of them are closer to the mesh
+    /// Maximum number of hulls of --pieces vhacd; more hulls fit the mesh more closely [default: 32]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=MOST_HULLS))]
     hulls: Option<u32>,
 }
 
-/// What stands for the value of an option that has none.
+/// The recorded value of an option that is not given.
 pub(super) const NOT_GIVEN: &str = "not given";
 
 const DEFAULT_HULLS: u32 = 32;
@@ -24,39 +24,39 @@ const MOST_HULLS: i64 = 4096;
 /// The kinds of pieces.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 enum PiecesArg {
-    /// The least that is exact for the body
+    /// The fewest pieces that are exact: hull, patches or triangles
     #[default]
     Auto,
-    /// Its triangles: exact for any mesh
+    /// One piece for each triangle: exact for any mesh
     Triangles,
-    /// Convex parts of its surface: exact, for closed meshes
+    /// Convex patches of the surface: exact, only for meshes that bound a solid
     Patches,
-    /// The solid itself: exact for convex meshes, refused for others
+    /// One convex hull: exact, only for convex meshes
     Hull,
-    /// A few hulls about its parts: approximate, contacts may be reported early
+    /// Approximate convex decomposition (V-HACD): contacts may be reported early
     Vhacd,
 }
 
-/// What the command line calls a value.
-pub(super) fn word(value: &impl ValueEnum) -> String {
+/// Returns the name of a value on the command line.
+pub(super) fn value_name(value: &impl ValueEnum) -> String {
     let value = value.to_possible_value();
     value.map_or_else(String::new, |value| value.get_name().to_owned())
 }
 
 impl PiecesArgs {
-    /// The options as they are in force.
-    pub(super) fn asked(&self) -> [(&'static str, String); 2] {
+    /// Returns the options with their effective values.
+    pub(super) fn recorded(&self) -> [(&'static str, String); 2] {
         let hulls = match self.pieces {
             PiecesArg::Vhacd => self.hulls.unwrap_or(DEFAULT_HULLS).to_string(),
             _ => NOT_GIVEN.to_owned(),
         };
-        [("--pieces", word(&self.pieces)), ("--hulls", hulls)]
+        [("--pieces", value_name(&self.pieces)), ("--hulls", hulls)]
     }
 
-    /// The library's word for it.
+    /// Returns the corresponding value of the library.
     pub(super) fn detail(&self) -> Result<Detail> {
         if self.hulls.is_some() && self.pieces != PiecesArg::Vhacd {
-            bail!("--hulls says how many hulls --pieces vhacd makes; give both or neither");
+            bail!("--hulls needs --pieces vhacd");
         }
         Ok(match self.pieces {
             PiecesArg::Auto => Detail::Auto,

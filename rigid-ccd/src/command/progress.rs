@@ -8,42 +8,42 @@ use std::sync::mpsc::{self, RecvTimeoutError, Sender};
 use std::thread::{self, JoinHandle};
 use std::time::Duration;
 
-/// Shows how far work is once that has taken a second: a bar that moves where standard error is a
-/// terminal, else a line every few seconds.
+/// The progress of work that takes longer than a second: a moving bar where standard error is a terminal,
+/// else a line every few seconds.
 #[derive(Debug)]
 pub struct Progress {
     bar: ProgressBar,
     steps: Arc<AtomicU64>,
     total: Total,
-    /// Closed when the work is done.
+    /// The end of a channel that closes when the work is done.
     working: Option<Sender<()>>,
     showing: Option<JoinHandle<()>>,
 }
 
-/// What there is to do.
+/// The amount of work.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Total {
-    /// So many steps.
+    /// A known number of steps.
     Steps(usize),
-    /// Steps that are read from so many bytes.
+    /// Steps read from an input of known length in bytes.
     Bytes(u64),
-    /// Steps, nobody knows how many.
+    /// An unknown number of steps.
     Unknown,
-    /// One thing.
+    /// One long step.
     One,
 }
 
-/// Work that is done within this shows nothing.
-const PATIENCE: Duration = Duration::from_secs(1);
+/// The time before anything is shown.
+const DELAY: Duration = Duration::from_secs(1);
 
-/// How often a bar turns.
-const TURN: Duration = Duration::from_millis(120);
+/// The time between two frames of a bar.
+const FRAME: Duration = Duration::from_millis(120);
 
-/// How often a line is written.
-const LINES: Duration = Duration::from_secs(5);
+/// The time between two lines.
+const LINE: Duration = Duration::from_secs(5);
 
 impl Progress {
-    /// Starts now, and goes on until it is dropped.
+    /// Starts to show progress, until it is dropped.
     pub fn new(total: Total) -> Self {
         let mut progress = Progress::hidden();
         progress.total = total;
@@ -59,33 +59,33 @@ impl Progress {
         bar.set_style(style(total, Arc::clone(&steps)));
         let (working, done) = mpsc::channel();
         let show = move || {
-            let goes_on = |patience| done.recv_timeout(patience) == Err(RecvTimeoutError::Timeout);
-            if !goes_on(PATIENCE) {
+            let still_working = |time| done.recv_timeout(time) == Err(RecvTimeoutError::Timeout);
+            if !still_working(DELAY) {
                 return;
             }
             if io::stderr().is_terminal() {
                 bar.set_draw_target(ProgressDrawTarget::stderr());
-                bar.enable_steady_tick(TURN);
+                bar.enable_steady_tick(FRAME);
                 return;
             }
-            while goes_on(LINES) {
+            while still_working(LINE) {
                 let _ = writeln!(io::stderr(), "ccd: {}", line(&bar, total, &steps));
             }
         };
-        // Without a thread nothing is shown, and the work goes on.
+        // Without a thread nothing is shown; the work is done all the same.
         progress.showing = thread::Builder::new().spawn(show).ok();
         progress.working = Some(working);
         progress
     }
 
-    /// Of one thing that takes its time.
-    pub fn of(what: &str) -> Self {
+    /// Starts to show one long step.
+    pub fn of(message: &str) -> Self {
         let progress = Progress::new(Total::One);
-        progress.say(what);
+        progress.say(message);
         progress
     }
 
-    /// Counts without ever showing anything.
+    /// Creates a progress that shows nothing.
     pub fn hidden() -> Self {
         Progress {
             bar: ProgressBar::with_draw_target(None, ProgressDrawTarget::hidden()),
@@ -96,7 +96,7 @@ impl Progress {
         }
     }
 
-    /// One more step is done.
+    /// Counts a step.
     pub fn step(&self) {
         self.steps.fetch_add(1, Ordering::Relaxed);
         if let Total::Steps(_) = self.total {
@@ -104,24 +104,24 @@ impl Progress {
         }
     }
 
-    /// So many bytes have been read.
+    /// Sets the number of bytes read.
     pub fn read(&self, bytes: u64) {
         if let Total::Bytes(_) = self.total {
             self.bar.set_position(bytes);
         }
     }
 
-    /// Lets a bar be drawn anew though no step is done.
+    /// Redraws the bar.
     pub fn tick(&self) {
         self.bar.tick();
     }
 
-    /// Says what is being done.
+    /// Sets the message.
     pub fn say(&self, message: &str) {
         self.bar.set_message(message.to_owned());
     }
 
-    /// Lets something else be written to standard error, the bar out of its way.
+    /// Hides the bar while something else is written to standard error.
     pub fn aside(&self, write: impl FnOnce()) {
         self.bar.suspend(write);
     }
@@ -131,7 +131,7 @@ impl Drop for Progress {
     fn drop(&mut self) {
         drop(self.working.take());
         if let Some(showing) = self.showing.take() {
-            // It holds no result, and panics nowhere.
+            // The thread has no result and does not panic.
             let _ = showing.join();
         }
         self.bar.finish_and_clear();
@@ -155,7 +155,7 @@ fn style(total: Total, steps: Arc<AtomicU64>) -> ProgressStyle {
         )
 }
 
-/// The same in a line of its own.
+/// Returns the progress as one line of text.
 fn line(bar: &ProgressBar, total: Total, steps: &AtomicU64) -> String {
     let share = || 100 * bar.position() / bar.length().unwrap_or(1).max(1);
     match total {

@@ -1,4 +1,4 @@
-//! How large bodies are, to see units that do not go together.
+//! Sizes of bodies, to detect different units of length.
 
 use super::complain;
 use crate::text::Number;
@@ -7,16 +7,16 @@ use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 use std::fmt;
 
-/// The sides of the box along the axes that just holds a body, in the scene's unit of length.
+/// The side lengths of a body's axis-aligned bounding box.
 #[derive(Clone, Copy, Debug)]
 pub struct Size(DVec3);
 
-/// How many times as large as the other one a body may be without a word: a part in millimetres beside
-/// one in metres is a thousand times.
+/// The ratio of sizes above which the command warns: a part in millimetres is a thousand times as large as
+/// the same part in metres.
 const RATIO: f64 = 100.0;
 
 impl Size {
-    /// Measures a body.
+    /// Returns the size of a body.
     pub fn of(body: &Body) -> Self {
         let pieces = body.pieces().iter();
         Size::of_points(pieces.flat_map(|piece| {
@@ -26,7 +26,7 @@ impl Size {
         }))
     }
 
-    /// Measures points.
+    /// Returns the size of a set of points.
     pub fn of_points(points: impl IntoIterator<Item = DVec3>) -> Self {
         let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
         for point in points {
@@ -42,7 +42,7 @@ impl Size {
         self.0.to_array().into_iter().fold(0.0, greater)
     }
 
-    /// Says so when two bodies may be measured in different units.
+    /// Warns when two bodies may have different units of length.
     pub fn compare(a: Size, b: Size) {
         let (of_a, of_b) = (a.largest(), b.largest());
         let (large, small, ratio) = match of_a > of_b {
@@ -51,7 +51,7 @@ impl Size {
         };
         if ratio > RATIO && ratio.is_finite() {
             complain(&format!(
-                "{large} is {} times as large as {small} ({a} and {b}): are both in one unit of length?",
+                "{large} is {} times as large as {small} ({a} and {b}): check that both use the same unit of length",
                 Figure(ratio)
             ));
         }
@@ -65,7 +65,7 @@ impl fmt::Display for Size {
     }
 }
 
-/// A number to four figures.
+/// A number rounded to four digits.
 struct Figure(f64);
 
 impl fmt::Display for Figure {

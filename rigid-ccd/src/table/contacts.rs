@@ -1,4 +1,4 @@
-//! The table of contacts: all features in contact at the times of answers, CSV out.
+//! The table of contacts: all pairs of features in contact, written as CSV.
 
 #[cfg(test)]
 mod tests;
@@ -12,7 +12,7 @@ use ccd_core::{
 use serde::Serialize;
 
 /// The columns, in order.
-pub const COLUMNS: [&str; 15] = [
+pub(crate) const COLUMNS: [&str; 15] = [
     "id",
     "time",
     "feature_a",
@@ -30,51 +30,50 @@ pub const COLUMNS: [&str; 15] = [
     "witness_b_z",
 ];
 
-/// One pair of features as the table holds it, in the order of [`COLUMNS`]; numbers read back to the same
-/// bits.
+/// One row: a pair of features, in the order of [`COLUMNS`]. Numbers read back to the same bits.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct ContactRow {
-    /// As in the table of motions.
-    pub id: String,
+pub(crate) struct ContactRow {
+    /// The id in the table of motions.
+    pub(crate) id: String,
     /// The time of the answer.
-    pub time: f64,
-    /// The feature of A's mesh.
-    pub feature_a: String,
-    /// The feature of B's mesh.
-    pub feature_b: String,
+    pub(crate) time: f64,
+    /// The feature of A.
+    pub(crate) feature_a: String,
+    /// The feature of B.
+    pub(crate) feature_b: String,
     /// A lower bound of the features' distance at `time`.
-    pub distance_lower: f64,
-    /// An upper bound of it.
-    pub distance_upper: f64,
-    /// From A to B, in the world's frame.
-    pub normal: [f64; 3],
-    /// The nearest point of A's feature, in the world's frame at `time`.
-    pub witness_a: [f64; 3],
+    pub(crate) distance_lower: f64,
+    /// An upper bound of that distance.
+    pub(crate) distance_upper: f64,
+    /// The unit vector from A to B, in the world frame.
+    pub(crate) normal: [f64; 3],
+    /// The nearest point of A's feature, in the world frame at `time`.
+    pub(crate) witness_a: [f64; 3],
     /// The nearest point of B's feature.
-    pub witness_b: [f64; 3],
+    pub(crate) witness_b: [f64; 3],
 }
 
-/// Why an answer has no contacts to tell.
+/// An error of listing contacts.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum Untold {
-    /// The query cannot be posed.
+pub(crate) enum ListError {
+    /// The query is not valid.
     #[error("{0}")]
     Input(#[from] InputError),
-    /// They cannot be listed.
-    #[error("{0}; --budget raises it, a smaller --tolerance needs less")]
+    /// The contacts cannot be listed.
+    #[error("{0}; raise --budget, or reduce --tolerance")]
     Contacts(#[from] ContactsError),
 }
 
-/// All contacts at the time of an answer, nearest first; none unless it ends in contact or touching.
+/// Lists all contacts at the time of a contact or touching, nearest first; none for other outcomes.
 ///
 /// # Errors
-/// [`Untold`].
-pub fn rows(
+/// The query is not valid, or the contacts cannot be listed.
+pub(crate) fn rows(
     bodies: Bodies<'_>,
     query: &Query,
     config: &Config,
     outcome: &Outcome,
-) -> Result<Vec<ContactRow>, Untold> {
+) -> Result<Vec<ContactRow>, ListError> {
     let time = match *outcome {
         Outcome::Contact { time, .. } => time,
         Outcome::Touching { .. } => 0.0,
@@ -90,8 +89,8 @@ pub fn rows(
 }
 
 impl ContactRow {
-    /// What the table says of a pair.
-    pub fn new(id: &str, time: f64, pair: &FeaturePair) -> Self {
+    /// Creates the row of a pair.
+    pub(crate) fn new(id: &str, time: f64, pair: &FeaturePair) -> Self {
         let Separation {
             lower,
             upper,

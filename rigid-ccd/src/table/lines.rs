@@ -1,18 +1,18 @@
-//! Lines that all end alike.
+//! Line ends.
 
 use std::io::{self, Read};
 
-/// Turns every end of a line, `\r\n` and a lone `\r` too, into `\n`, so that counting these counts lines.
+/// A reader that turns every line end (`\n`, `\r\n`, `\r`) into `\n`, so that counting these counts lines.
 #[derive(Debug)]
 pub struct Lines<R> {
     input: R,
     after_return: bool,
-    /// How many bytes of the input have been read.
+    /// The number of bytes read from the input.
     pub bytes: u64,
 }
 
 impl<R: Read> Lines<R> {
-    /// Reads from there.
+    /// Creates a reader of `input`.
     pub fn new(input: R) -> Self {
         Lines {
             input,
@@ -36,7 +36,7 @@ impl<R: Read> Read for Lines<R> {
                     kept += 1;
                 }
             }
-            // Nothing kept would say that the input has ended.
+            // A read of 0 bytes would mean the end of the input.
             if kept > 0 || read == 0 {
                 return Ok(kept);
             }

@@ -1,4 +1,4 @@
-//! The table of motions: CSV in, motions of two bodies out, and back.
+//! The table of motions: CSV read as motions of two bodies, and written.
 
 mod columns;
 mod error;
@@ -17,42 +17,42 @@ use ccd_core::Motion;
 use columns::Columns;
 use std::io::{self, Read};
 
-/// How two bodies move over one duration.
+/// The motions of two bodies over one duration.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Query {
-    /// What the row is called in the results.
+    /// The id of the row in the results.
     pub id: String,
-    /// Motion of body A.
+    /// The motion of body A.
     pub a: Motion,
-    /// Motion of body B.
+    /// The motion of body B.
     pub b: Motion,
-    /// How long, in the motions' unit of time.
+    /// The end of the motions, in their unit of time.
     pub duration: f64,
 }
 
-/// Where in a table a row stands.
+/// The position of a row in a table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RowPosition {
-    /// Counted from 0 below the header, as `--rows` and the ids of rows without an id count.
+    /// The number of the row, counted from 0 after the header, as `--rows` counts.
     pub row: usize,
     /// The line of the file, counted from 1.
     pub line: u64,
 }
 
-/// A table of motions, its bad rows set aside.
+/// A table of motions, with its bad rows listed separately.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MotionTable {
-    /// The rows that can be asked.
+    /// The valid rows.
     pub rows: Vec<(RowPosition, Query)>,
-    /// What is wrong with the others.
+    /// The errors of the other rows.
     pub errors: Vec<RowError>,
 }
 
 impl MotionTable {
-    /// Reads a whole table, as [`MotionRows`] reads it row by row.
+    /// Reads a whole table; [`MotionRows`] reads it row by row.
     ///
     /// # Errors
-    /// Those of [`MotionRows`]; rows that cannot be asked are listed in [`MotionTable::errors`] instead.
+    /// The errors of [`MotionRows`]. Bad rows are listed in [`MotionTable::errors`] instead.
     pub fn read(input: impl io::Read) -> Result<Self, TableError> {
         let mut table = MotionTable::default();
         for row in MotionRows::new(input)? {
@@ -65,34 +65,34 @@ impl MotionTable {
     }
 }
 
-/// The rows of a table of motions, one after the other: none is kept.
+/// An iterator over the rows of a table of motions.
 ///
-/// Columns go by name, in any order; those left out, and empty cells, have their defaults: rest at the
-/// identity, for a duration of 1. [`known_columns`] lists them. Lines may end in `\n`, `\r\n` or `\r`;
-/// empty ones are passed over, but counted. A quoted cell may hold ends of lines, and has to end.
+/// Columns go by name, in any order. Missing columns and empty cells have defaults: at rest at the
+/// identity, for a duration of 1. Lines may end in `\n`, `\r\n` or `\r`. Empty lines are skipped, but
+/// counted. A quoted cell may hold line ends, and must be closed.
 #[derive(Debug)]
 pub struct MotionRows<R> {
     reader: Reader<R>,
     columns: Columns,
     raw: csv::ByteRecord,
-    /// How many rows have been read.
+    /// The number of rows read.
     rows: usize,
     checksum: crc32fast::Hasher,
 }
 
-/// A row that can be asked, or what is wrong with it.
+/// A valid row, or the error of a bad one.
 pub type MotionRow = Result<(RowPosition, Query), RowError>;
 
 impl<R: io::Read> MotionRows<R> {
     /// Reads the header.
     ///
     /// # Errors
-    /// [`TableError`] when it cannot be read, or used.
+    /// The header cannot be read, or has columns that cannot be used.
     pub fn new(input: R) -> Result<Self, TableError> {
         let mut reader = csv::ReaderBuilder::new()
             .flexible(true)
             .has_headers(false)
-            // Every line has an end, the last one too, so that what has been read says where it began.
+            // Every line needs an end, the last one too: the line of a row is computed from its end.
             .from_reader(Quotes::new(Lines::new(input)).chain(&b"\n"[..]));
         let mut raw = csv::ByteRecord::new();
         reader.read_byte_record(&mut raw)?;
@@ -111,30 +111,30 @@ impl<R: io::Read> MotionRows<R> {
         })
     }
 
-    /// Passes over rows without a look at what they hold; says how many there were.
+    /// Skips rows without parsing them, and returns the number skipped.
     ///
     /// # Errors
     /// [`TableError::Unreadable`], [`TableError::UnclosedQuote`].
-    pub fn pass(&mut self, rows: usize) -> Result<usize, TableError> {
-        for passed in 0..rows {
+    pub fn skip_rows(&mut self, rows: usize) -> Result<usize, TableError> {
+        for skipped in 0..rows {
             if self.advance()?.is_none() {
-                return Ok(passed);
+                return Ok(skipped);
             }
         }
         Ok(rows)
     }
 
-    /// How many bytes of the input have been read: with what is waiting to be looked at.
+    /// Returns the number of bytes read from the input, with those that wait in a buffer.
     pub fn bytes(&self) -> u64 {
         self.reader.get_ref().get_ref().0.input().bytes
     }
 
-    /// A checksum of the header and of all rows so far.
+    /// Returns a checksum of the header and of all rows so far.
     pub fn checksum(&self) -> u32 {
         self.checksum.clone().finalize()
     }
 
-    /// Reads the next row; says where it stands.
+    /// Reads the next row, and returns its position.
     fn advance(&mut self) -> Result<Option<RowPosition>, TableError> {
         let before = self.reader.position().line();
         if !self.reader.read_byte_record(&mut self.raw)? {
@@ -147,7 +147,7 @@ impl<R: io::Read> MotionRows<R> {
         self.checksum.update(self.raw.as_slice());
         let row = self.rows;
         self.rows += 1;
-        // Empty lines before the row have been read as well: its place is told from its end.
+        // Empty lines before the row have been read as well: its line is computed from its end.
         let ends = |cell: &[u8]| cell.iter().filter(|&&byte| byte == b'\n').count() as u64;
         let within: u64 = self.raw.iter().map(ends).sum();
         let after = self.reader.position().line();
@@ -160,7 +160,7 @@ impl<R: io::Read> MotionRows<R> {
 
 type Reader<R> = csv::Reader<io::Chain<Quotes<Lines<R>>, &'static [u8]>>;
 
-/// The line on which a quote opens that the record just read holds, and that nobody closes.
+/// Returns the line of an unclosed quote in the record that was read last.
 fn unclosed<R: io::Read>(reader: &Reader<R>) -> Option<u64> {
     let (quotes, _) = reader.get_ref().get_ref();
     quotes.unclosed(reader.position().line())
@@ -170,23 +170,18 @@ impl<R: io::Read> Iterator for MotionRows<R> {
     type Item = Result<MotionRow, TableError>;
 
     fn next(&mut self) -> Option<Self::Item> {
-        let place = match self.advance() {
-            Ok(place) => place?,
+        let position = match self.advance() {
+            Ok(position) => position?,
             Err(error) => return Some(Err(error)),
         };
-        let query = row::query(&self.columns, &self.raw, place.row);
+        let query = row::query(&self.columns, &self.raw, position.row);
         Some(Ok(match query {
-            Ok(query) => Ok((place, query)),
+            Ok(query) => Ok((position, query)),
             Err(problem) => Err(RowError {
-                place,
-                id: row::id(&self.columns, &self.raw, place.row),
+                position,
+                id: row::id(&self.columns, &self.raw, position.row),
                 problem,
             }),
         }))
     }
-}
-
-/// Every column that a table of motions may have.
-pub fn known_columns() -> Vec<String> {
-    columns::known()
 }

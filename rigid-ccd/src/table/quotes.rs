@@ -1,40 +1,40 @@
-//! Quotes of a table that nobody closes: all that follows would be one cell.
+//! Unclosed quotes in CSV: the rest of the table would become one cell.
 
 #[cfg(test)]
 mod tests;
 
 use std::io::{self, Read};
 
-/// Hands a CSV on as it is, and follows its quotes; lines have to end in `\n`.
+/// A reader that passes CSV through and tracks its quotes; lines must end in `\n`.
 #[derive(Debug)]
 pub struct Quotes<R> {
     input: R,
     state: State,
-    /// The line that is being read, counted from 1.
+    /// The current line, counted from 1.
     line: u64,
     /// The line on which the last quoted cell began.
     opened: u64,
-    /// How many bytes of a byte order mark have been seen; none are looked for behind its place.
+    /// The number of bytes of a byte order mark seen so far; none after its place.
     mark: Option<usize>,
 }
 
-/// Where in a cell the next byte is.
+/// The place of the next byte within a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum State {
-    /// At its first byte: a quote opens here alone.
+    /// The first byte: only here a quote opens.
     Start,
-    /// Within one that has no quotes, or behind them.
+    /// Within a cell without quotes, or after the closing quote.
     Plain,
     /// Between quotes.
     Quoted,
-    /// Behind a quote, which closes the cell unless another one follows.
+    /// After a quote that closes the cell unless another quote follows.
     Closing,
 }
 
 const MARK: [u8; 3] = *b"\xef\xbb\xbf";
 
 impl<R> Quotes<R> {
-    /// Reads from there.
+    /// Creates a reader of `input`.
     pub fn new(input: R) -> Self {
         Quotes {
             input,
@@ -45,16 +45,15 @@ impl<R> Quotes<R> {
         }
     }
 
-    /// What is read from.
+    /// Returns the input.
     pub fn input(&self) -> &R {
         &self.input
     }
 
-    /// The line on which a quote opens that nobody closes, asked behind a record that ends before
-    /// `line`.
+    /// Returns the line of an unclosed quote, after a record that ends before `line`.
     ///
-    /// Such a record has closed its quotes. What is open is in a later one, on a line that is yet to come,
-    /// unless the record ended because the table did.
+    /// Such a record has closed its quotes. An open quote belongs to a later record, on a later line,
+    /// unless the record ended with the table.
     pub fn unclosed(&self, line: u64) -> Option<u64> {
         (self.state == State::Quoted && self.opened < line).then_some(self.opened)
     }

@@ -1,4 +1,4 @@
-//! The table of results: answers in, CSV out.
+//! The table of results: answers, written as CSV.
 
 #[cfg(test)]
 mod tests;
@@ -10,7 +10,7 @@ use serde::Serialize;
 use std::io;
 
 /// The columns, in order.
-pub const COLUMNS: [&str; 20] = [
+pub(crate) const COLUMNS: [&str; 20] = [
     "id",
     "status",
     "time",
@@ -33,8 +33,8 @@ pub const COLUMNS: [&str; 20] = [
     "reason",
 ];
 
-/// The columns that follow where counters are asked for, in order.
-pub const COUNTER_COLUMNS: [&str; 5] = [
+/// The columns of the counters, in order; they follow [`COLUMNS`].
+pub(crate) const COUNTER_COLUMNS: [&str; 5] = [
     "advancements",
     "oracle_steps",
     "cycles",
@@ -42,66 +42,66 @@ pub const COUNTER_COLUMNS: [&str; 5] = [
     "front",
 ];
 
-/// Which columns a table has.
+/// The set of columns of a table.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Extent {
+pub(crate) enum Extent {
     /// [`COLUMNS`].
     #[default]
     Results,
-    /// These, and [`COUNTER_COLUMNS`].
+    /// [`COLUMNS`] and [`COUNTER_COLUMNS`].
     WithCounters,
 }
 
-/// One row of motions as the table holds it, in the order of [`COLUMNS`]; what does not apply is an
-/// empty cell.
+/// One row, in the order of [`COLUMNS`]; cells that do not apply are empty.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct ResultRow {
-    /// As in the table of motions.
-    pub id: String,
-    /// What happens.
-    pub status: Status,
-    /// When: certified that nothing touches before, unless by a bound that is not. The duration when free.
-    pub time: Option<f64>,
+pub(crate) struct ResultRow {
+    /// The id in the table of motions.
+    pub(crate) id: String,
+    /// The status.
+    pub(crate) status: Status,
+    /// The time before which there is no contact, certified unless the bound is the published one; the
+    /// duration when free.
+    pub(crate) time: Option<f64>,
     /// A lower bound of the distance at `time`; when free, at all times.
-    pub distance_lower: Option<f64>,
+    pub(crate) distance_lower: Option<f64>,
     /// An upper bound of the distance at `time`.
-    pub distance_upper: Option<f64>,
-    /// From A to B, in the world's frame.
-    pub normal: [Option<f64>; 3],
-    /// The nearest point of A, in the world's frame at `time`.
-    pub witness_a: [Option<f64>; 3],
-    /// The nearest point of B, in the world's frame at `time`.
-    pub witness_b: [Option<f64>; 3],
-    /// The feature of A's mesh that touches.
-    pub feature_a: Option<String>,
-    /// The feature of B's mesh that touches.
-    pub feature_b: Option<String>,
-    /// Pairs of nodes visited.
-    pub iterations: Option<u64>,
-    /// How often the oracle was asked.
-    pub oracle_calls: Option<u64>,
-    /// How long that query alone took, on the thread that answered it, in microseconds.
-    pub micros: Option<f64>,
-    /// Why there is no answer, or none to the end.
-    pub reason: Option<String>,
-    /// What else was counted.
+    pub(crate) distance_upper: Option<f64>,
+    /// The unit vector from A to B, in the world frame.
+    pub(crate) normal: [Option<f64>; 3],
+    /// The nearest point of A, in the world frame at `time`.
+    pub(crate) witness_a: [Option<f64>; 3],
+    /// The nearest point of B, in the world frame at `time`.
+    pub(crate) witness_b: [Option<f64>; 3],
+    /// The feature of A in contact.
+    pub(crate) feature_a: Option<String>,
+    /// The feature of B in contact.
+    pub(crate) feature_b: Option<String>,
+    /// The number of pairs of nodes visited.
+    pub(crate) iterations: Option<u64>,
+    /// The number of calls of the distance backend.
+    pub(crate) oracle_calls: Option<u64>,
+    /// The time of this query alone, in microseconds.
+    pub(crate) micros: Option<f64>,
+    /// The problem of an error, or the limit of an unresolved query.
+    pub(crate) reason: Option<String>,
+    /// The counters.
     #[serde(skip)]
-    pub counters: Counters,
+    pub(crate) counters: Counters,
 }
 
-/// What is counted beside the visits and the calls, in the order of [`COUNTER_COLUMNS`].
+/// More counters of a query, in the order of [`COUNTER_COLUMNS`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
-pub struct Counters {
-    /// How often all pairs were advanced together.
-    pub advancements: Option<u64>,
-    /// Steps of the oracle's search; 0 of oracles that do not count them.
-    pub oracle_steps: Option<u64>,
-    /// How often the search came back to where it had been.
-    pub cycles: Option<u64>,
-    /// How often an oracle gave up and another one was asked.
-    pub fallbacks: Option<u64>,
-    /// The most pairs that waited at one time.
-    pub front: Option<u64>,
+pub(crate) struct Counters {
+    /// The number of steps that advanced all pairs together.
+    pub(crate) advancements: Option<u64>,
+    /// The number of steps of the distance backend's search; 0 where it does not count them.
+    pub(crate) oracle_steps: Option<u64>,
+    /// The number of returns of the search to an earlier step.
+    pub(crate) cycles: Option<u64>,
+    /// The number of pairs that a distance backend gave up on and another one answered.
+    pub(crate) fallbacks: Option<u64>,
+    /// The largest number of pairs that waited at one time.
+    pub(crate) front: Option<u64>,
 }
 
 impl From<&Stats> for Counters {
@@ -116,27 +116,27 @@ impl From<&Stats> for Counters {
     }
 }
 
-/// An [`Outcome`], without what goes with it; or that there is none.
+/// The kind of an [`Outcome`], or an error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Status {
-    /// They touch.
+pub(crate) enum Status {
+    /// The bodies come into contact.
     Contact,
-    /// They never do.
+    /// The bodies stay apart.
     Free,
-    /// They touch at the start.
+    /// The bodies touch at the start.
     Touching,
-    /// They overlap at the start.
+    /// The bodies overlap at the start.
     Overlapping,
-    /// A limit came first.
+    /// A limit was reached first.
     Unresolved,
-    /// The row asks nothing that could be answered.
+    /// The row is not a valid query.
     Error,
 }
 
 impl Status {
-    /// All of them, in the order in which they are reported.
-    pub const ALL: [Status; 6] = [
+    /// All statuses, in the order in which they are reported.
+    pub(crate) const ALL: [Status; 6] = [
         Status::Contact,
         Status::Free,
         Status::Touching,
@@ -145,8 +145,8 @@ impl Status {
         Status::Error,
     ];
 
-    /// As the table spells it.
-    pub fn name(self) -> &'static str {
+    /// Returns the name in the table.
+    pub(crate) fn name(self) -> &'static str {
         match self {
             Status::Contact => "contact",
             Status::Free => "free",
@@ -170,8 +170,8 @@ impl From<&Outcome> for Status {
     }
 }
 
-/// Until when an outcome says that nothing touches.
-pub fn safe_time(outcome: &Outcome, duration: f64) -> f64 {
+/// Returns the time before which there is no contact.
+fn safe_time(outcome: &Outcome, duration: f64) -> f64 {
     match *outcome {
         Outcome::Contact { time, .. } => time,
         Outcome::Free { .. } => duration,
@@ -181,8 +181,8 @@ pub fn safe_time(outcome: &Outcome, duration: f64) -> f64 {
 }
 
 impl ResultRow {
-    /// What the table says of a row that cannot be asked.
-    pub fn error(id: &str, why: &RowProblem) -> Self {
+    /// Creates the row of an invalid query.
+    pub(crate) fn error(id: &str, why: &RowProblem) -> Self {
         ResultRow {
             id: id.to_owned(),
             status: Status::Error,
@@ -202,8 +202,8 @@ impl ResultRow {
         }
     }
 
-    /// What the table says of an answer.
-    pub fn new(id: &str, duration: f64, answer: &Answer, micros: f64) -> Self {
+    /// Creates the row of an answer.
+    pub(crate) fn new(id: &str, duration: f64, answer: &Answer, micros: f64) -> Self {
         let row = ResultRow {
             id: id.to_owned(),
             status: Status::from(&answer.outcome),
@@ -227,7 +227,7 @@ impl ResultRow {
             | Outcome::Overlapping {
                 overlap: Overlap::Pieces(contact),
             } => row.with_contact(&contact),
-            // The one point belongs to both solids.
+            // The point lies in both bodies.
             Outcome::Overlapping {
                 overlap: Overlap::AInsideB(point) | Overlap::BInsideA(point),
             } => ResultRow {
@@ -261,8 +261,8 @@ impl ResultRow {
     }
 }
 
-/// The columns of a table.
-pub fn columns(extent: Extent) -> Vec<&'static str> {
+/// Returns the columns of a table.
+pub(crate) fn columns(extent: Extent) -> Vec<&'static str> {
     let more: &[&str] = match extent {
         Extent::Results => &[],
         Extent::WithCounters => &COUNTER_COLUMNS,
@@ -270,11 +270,11 @@ pub fn columns(extent: Extent) -> Vec<&'static str> {
     [&COLUMNS, more].concat()
 }
 
-/// Writes a row of a table without its header; numbers read back to the same bits.
+/// Writes a row; numbers read back to the same bits.
 ///
 /// # Errors
-/// When the writer's output cannot be written to.
-pub fn write(
+/// The writer's output cannot be written to.
+pub(crate) fn write(
     writer: &mut csv::Writer<impl io::Write>,
     extent: Extent,
     row: &ResultRow,

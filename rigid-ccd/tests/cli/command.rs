@@ -1,4 +1,4 @@
-//! Running the command, and reading what it writes.
+//! Runs of the command, and its output.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};

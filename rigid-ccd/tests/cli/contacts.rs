@@ -1,4 +1,4 @@
-//! `--contacts`, `--counters`, and what is said of times that are not certified.
+//! `--contacts`, `--counters`, and messages about times that are not certified.
 
 use crate::command::{Row, Run, Scene, parse, stderr};
 use std::path::Path;
@@ -14,7 +14,7 @@ fn contacts_of(run: Run, table: &Path) -> (Vec<Row>, Vec<Row>) {
 }
 
 #[test]
-fn every_contact_of_every_row_is_told() {
+fn every_contact_of_every_row_is_listed() {
     let scene = Scene::new("contacts");
     let table = scene.directory.join("contacts.csv");
     let (results, contacts) = contacts_of(Run::query(&CUBES).stdin(DROPS), &table);
@@ -102,18 +102,18 @@ fn contacts_overwrite_nothing() {
             .args(&options)
             .output();
         assert_eq!(output.status.code(), Some(code), "{options:?}");
-        let told = stderr(&output);
+        let message = stderr(&output);
         assert!(
-            told.contains(expected) && told.contains(options[0]) || code == 1,
-            "{told}"
+            message.contains(expected) && message.contains(options[0]) || code == 1,
+            "{message}"
         );
-        assert!(told.contains(expected), "{told}");
+        assert!(message.contains(expected), "{message}");
     }
     assert_eq!(std::fs::read_to_string(motions).unwrap(), DROPS);
 }
 
 #[test]
-fn a_row_of_too_many_contacts_is_told() {
+fn a_row_with_too_many_contacts_is_reported() {
     let scene = Scene::new("too_many_contacts");
     let table = scene.directory.join("contacts.csv");
     let output = Run::query(&CUBES)
@@ -122,9 +122,9 @@ fn a_row_of_too_many_contacts_is_told() {
         .output();
     assert_eq!(output.status.code(), Some(2));
     assert_eq!(parse(&output.stdout)[0].text("status"), "touching");
-    let told = stderr(&output);
-    assert!(told.contains("row 0 (line 2): contacts: "), "{told}");
-    assert!(told.contains("--budget"), "{told}");
+    let message = stderr(&output);
+    assert!(message.contains("row 0 (line 2): contacts: "), "{message}");
+    assert!(message.contains("--budget"), "{message}");
 }
 
 #[test]
@@ -152,19 +152,26 @@ fn counters_are_more_columns_and_a_line_of_means() {
         }
         let total: f64 = rows.iter().map(|row| row.number("oracle_calls")).sum();
         let mean = format!("{:.1} oracle calls", total / 3.0);
-        let told = stderr(&output);
-        assert!(told.contains("means: ") && told.contains(&mean), "{told}");
+        let message = stderr(&output);
+        assert!(
+            message.contains("means: ") && message.contains(&mean),
+            "{message}"
+        );
     }
 }
 
 #[test]
-fn what_is_not_certified_is_told_so_once() {
+fn times_without_certificate_are_reported_once() {
     let published = ["--schedule", "naive", "--bound", "published"];
     let output = Run::query(&CUBES).args(&published).stdin(DROPS).output();
     assert!(output.status.success());
-    let told = stderr(&output);
-    assert_eq!(told.matches("times are not certified").count(), 1, "{told}");
-    assert!(told.contains("\nnot certified: 3 rows"), "{told}");
+    let message = stderr(&output);
+    assert_eq!(
+        message.matches("times are not certified").count(),
+        1,
+        "{message}"
+    );
+    assert!(message.contains("\nnot certified: 3 rows"), "{message}");
     for sound in [
         &published[..2],
         &["--schedule", "naive", "--bound", "sound"],

@@ -1,4 +1,4 @@
-//! `ccd decompose`, and queries on what it makes.
+//! `ccd decompose`, and queries on prepared bodies.
 
 use crate::command::{Row, Run, Scene, stderr};
 use ccd_decomp::{Format, TriangleMesh};
@@ -12,7 +12,7 @@ const TETRAHEDRON: &str =
 /// The same without its last face.
 const OPEN: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\n";
 
-/// A knot of 216 triangles, which is neither convex nor, to look at, anything else simple.
+/// Writes a knot of 216 triangles, which is not convex.
 fn knot(scene: &Scene) -> PathBuf {
     scene.file("knot.obj", include_str!("../data/knot216.obj"))
 }
@@ -25,8 +25,8 @@ fn decompose(mesh: &Path, options: &[&str]) -> Output {
     Run::bare(&["decompose", name(mesh)]).args(options).output()
 }
 
-/// The object that `--format json` prints.
-fn figures(mesh: &Path, options: &[&str]) -> Value {
+/// Returns the object that `--format json` prints.
+fn statistics(mesh: &Path, options: &[&str]) -> Value {
     let output = decompose(mesh, &[options, &["--format", "json"]].concat());
     assert!(output.status.success(), "{}", stderr(&output));
     assert_eq!(stderr(&output), "");
@@ -40,25 +40,25 @@ fn figures(mesh: &Path, options: &[&str]) -> Value {
 fn a_knot_is_exact_in_every_kind_of_piece(#[case] kind: &str, #[case] most: u64) {
     let scene = Scene::new(&format!("decompose-{kind}"));
     let mesh = knot(&scene);
-    let figures = figures(&mesh, &["--pieces", kind]);
-    assert_eq!(figures["mesh"], name(&mesh));
-    assert_eq!(figures["pieces_kind"], kind);
-    assert_eq!(figures["triangles"], 216);
-    let pieces = figures["pieces"].as_u64().unwrap();
+    let statistics = statistics(&mesh, &["--pieces", kind]);
+    assert_eq!(statistics["mesh"], name(&mesh));
+    assert_eq!(statistics["pieces_kind"], kind);
+    assert_eq!(statistics["triangles"], 216);
+    let pieces = statistics["pieces"].as_u64().unwrap();
     assert!((1..=most).contains(&pieces), "{pieces}");
-    assert_eq!(figures["tree_nodes"], 2 * pieces - 1);
-    assert_eq!(figures["exact"], true);
-    assert_eq!(figures["sticks_out"], 0.0);
-    assert_eq!(figures["volume"], "solid");
-    assert!(figures["build_ms"].as_f64().unwrap() > 0.0);
+    assert_eq!(statistics["tree_nodes"], 2 * pieces - 1);
+    assert_eq!(statistics["exact"], true);
+    assert_eq!(statistics["sticks_out"], 0.0);
+    assert_eq!(statistics["volume"], "solid");
+    assert!(statistics["build_ms"].as_f64().unwrap() > 0.0);
     // A point has 24 bytes.
-    assert!(figures["bytes"].as_u64().unwrap() > 24 * pieces);
-    let hidden = figures["virtual_faces"].as_u64().unwrap();
+    assert!(statistics["bytes"].as_u64().unwrap() > 24 * pieces);
+    let hidden = statistics["virtual_faces"].as_u64().unwrap();
     assert_eq!(hidden > 0, kind == "patches");
 }
 
 #[test]
-fn people_read_aligned_lines() {
+fn statistics_are_aligned_lines() {
     let scene = Scene::new("decompose-text");
     let output = decompose(&knot(&scene), &["--pieces", "patches"]);
     assert!(output.status.success(), "{}", stderr(&output));
@@ -77,20 +77,20 @@ fn people_read_aligned_lines() {
         let starts = |l: &str| l.starts_with(line) && l.chars().nth(13) == Some(' ');
         assert!(text.lines().any(starts), "{line}: {text}");
     }
-    assert!(text.ends_with("none: the pieces are the mesh\n"), "{text}");
+    assert!(text.ends_with("none: the pieces are exact\n"), "{text}");
 }
 
 #[test]
-fn a_convex_mesh_is_one_hull_and_says_so() {
+fn a_convex_mesh_is_one_hull() {
     let scene = Scene::new("decompose-hull");
     let mesh = scene.file("tetrahedron.obj", TETRAHEDRON);
     for kind in ["auto", "hull"] {
-        let figures = figures(&mesh, &["--pieces", kind]);
+        let statistics = statistics(&mesh, &["--pieces", kind]);
         assert_eq!(
-            (&figures["pieces_kind"], &figures["pieces"]),
+            (&statistics["pieces_kind"], &statistics["pieces"]),
             (&"hull".into(), &1.into())
         );
-        assert_eq!(figures["exact"], true);
+        assert_eq!(statistics["exact"], true);
     }
 }
 
@@ -101,19 +101,19 @@ fn a_convex_mesh_is_one_hull_and_says_so() {
 fn every_order_covers_the_mesh(#[case] order: &str) {
     let scene = Scene::new(&format!("decompose-{order}"));
     let mesh = knot(&scene);
-    let figures = figures(&mesh, &["--pieces", "patches", "--order", order]);
-    assert_eq!(figures["pieces_kind"], "patches");
-    assert!(figures["pieces"].as_u64().unwrap() < 216 / 2);
+    let statistics = statistics(&mesh, &["--pieces", "patches", "--order", order]);
+    assert_eq!(statistics["pieces_kind"], "patches");
+    assert!(statistics["pieces"].as_u64().unwrap() < 216 / 2);
 }
 
 #[test]
-fn approximate_pieces_say_by_how_much() {
+fn approximate_pieces_report_their_error() {
     let scene = Scene::new("decompose-vhacd");
     let mesh = knot(&scene);
-    let figures = figures(&mesh, &["--pieces", "vhacd", "--hulls", "16"]);
-    assert_eq!(figures["pieces_kind"], "vhacd");
-    assert_eq!(figures["exact"], false);
-    assert!(figures["sticks_out"].as_f64().unwrap() > 0.0);
+    let statistics = statistics(&mesh, &["--pieces", "vhacd", "--hulls", "16"]);
+    assert_eq!(statistics["pieces_kind"], "vhacd");
+    assert_eq!(statistics["exact"], false);
+    assert!(statistics["sticks_out"].as_f64().unwrap() > 0.0);
     let text = decompose(&mesh, &["--pieces", "vhacd"]);
     let text = String::from_utf8(text.stdout).unwrap();
     assert!(text.contains("stick out by at most"), "{text}");
@@ -124,10 +124,13 @@ fn pieces_are_written_as_groups() {
     let scene = Scene::new("decompose-obj");
     let mesh = knot(&scene);
     let out = scene.directory.join("pieces.obj");
-    let figures = figures(&mesh, &["--pieces", "patches", "--out", name(&out)]);
+    let statistics = statistics(&mesh, &["--pieces", "patches", "--out", name(&out)]);
     let text = std::fs::read_to_string(&out).unwrap();
     let groups = text.lines().filter(|line| line.starts_with("g piece_"));
-    assert_eq!(groups.count() as u64, figures["pieces"].as_u64().unwrap());
+    assert_eq!(
+        groups.count() as u64,
+        statistics["pieces"].as_u64().unwrap()
+    );
     let again = TriangleMesh::from_reader(Format::Obj, text.as_bytes()).unwrap();
     assert!(again.faces().len() >= 216);
 }
@@ -149,7 +152,7 @@ fn a_stored_body_answers_as_its_mesh_does(#[case] kind: &str) {
     let scene = Scene::new(&format!("stored-{kind}"));
     let mesh = knot(&scene);
     let out = scene.directory.join("knot.ccd");
-    figures(&mesh, &["--pieces", kind, "--out", name(&out)]);
+    statistics(&mesh, &["--pieces", kind, "--out", name(&out)]);
     let all = |rows: Vec<Row>| -> Vec<_> { rows.into_iter().map(Row::without_micros).collect() };
     let fresh = all(answers(&mesh, &["--pieces", kind]));
     assert!(fresh.iter().any(|row| row[1] == "contact"));
@@ -178,8 +181,8 @@ fn hull_trees_are_stored_and_used() {
     let mesh = knot(&scene);
     let out = scene.directory.join("knot.ccd");
     let options = ["--pieces", "patches", "--hull-tree", "--out", name(&out)];
-    let figures = figures(&mesh, &options);
-    assert_eq!(figures["hulls"], figures["tree_nodes"]);
+    let statistics = statistics(&mesh, &options);
+    assert_eq!(statistics["hulls"], statistics["tree_nodes"]);
     let tree = answers(&out, &["--schedule", "fast"]);
     let boxes = answers(&out, &["--schedule", "best-first"]);
     for (one, other) in tree.iter().zip(&boxes) {
@@ -188,7 +191,7 @@ fn hull_trees_are_stored_and_used() {
 }
 
 #[test]
-fn early_contacts_of_approximate_bodies_are_told() {
+fn early_contacts_of_approximate_bodies_are_reported() {
     let scene = Scene::new("vhacd-warning");
     let mesh = knot(&scene);
     let run = |options: &[&str]| {
@@ -203,7 +206,7 @@ fn early_contacts_of_approximate_bodies_are_told() {
 }
 
 #[test]
-fn what_no_pieces_can_be_made_of_is_told() {
+fn meshes_without_pieces_are_reported() {
     let scene = Scene::new("decompose-bad");
     let open = scene.file("open.obj", OPEN);
     for (mesh, kind, expected) in [
@@ -216,13 +219,13 @@ fn what_no_pieces_can_be_made_of_is_told() {
         let output = decompose(&mesh, &["--pieces", kind]);
         assert_eq!(output.status.code(), Some(2), "{mesh:?} {kind}");
         assert_eq!(output.stdout, b"");
-        let told = stderr(&output);
-        assert!(told.contains(expected), "{mesh:?} {kind}: {told}");
+        let message = stderr(&output);
+        assert!(message.contains(expected), "{mesh:?} {kind}: {message}");
     }
-    let figures = figures(&open, &["--pieces", "auto"]);
-    assert_eq!(figures["pieces_kind"], "triangles");
-    assert_eq!(figures["volume"], "surface");
-    assert!(figures["remarks"].as_str().unwrap().contains("open"));
+    let statistics = statistics(&open, &["--pieces", "auto"]);
+    assert_eq!(statistics["pieces_kind"], "triangles");
+    assert_eq!(statistics["volume"], "surface");
+    assert!(statistics["remarks"].as_str().unwrap().contains("open"));
 }
 
 #[rstest]
@@ -252,7 +255,7 @@ fn a_mesh_is_never_overwritten() {
 #[rstest]
 #[case("pieces.obj")]
 #[case("body.ccd")]
-fn a_result_that_cannot_be_written_is_another_failure(#[case] file: &str) {
+fn an_unwritable_result_has_exit_code_1(#[case] file: &str) {
     let scene = Scene::new("decompose-unwritable");
     let mesh = scene.file("part.obj", TETRAHEDRON);
     let out = format!("/no/such/directory/{file}");
@@ -262,11 +265,11 @@ fn a_result_that_cannot_be_written_is_another_failure(#[case] file: &str) {
 }
 
 #[test]
-fn stored_bodies_that_cannot_be_read_are_told() {
+fn unreadable_stored_bodies_are_reported() {
     let scene = Scene::new("stored-bad");
     let mesh = scene.file("part.obj", TETRAHEDRON);
     let out = scene.directory.join("part.ccd");
-    figures(&mesh, &["--out", name(&out)]);
+    statistics(&mesh, &["--out", name(&out)]);
     let bytes = std::fs::read(&out).unwrap();
     let mut damaged = bytes.clone();
     damaged[30] ^= 1;
@@ -280,14 +283,17 @@ fn stored_bodies_that_cannot_be_read_are_told() {
             .stdin("id\n")
             .output();
         assert_eq!(output.status.code(), Some(2));
-        let told = stderr(&output);
-        assert!(told.contains("--a: ") && told.contains(expected), "{told}");
-        assert!(told.contains("ccd decompose"), "{told}");
+        let message = stderr(&output);
+        assert!(
+            message.contains("--a: ") && message.contains(expected),
+            "{message}"
+        );
+        assert!(message.contains("ccd decompose"), "{message}");
     }
 }
 
 #[test]
-fn help_shows_what_is_printed() {
+fn help_lists_the_statistics() {
     for (option, expected) in [("-h", "--out knot.ccd"), ("--help", "sticks_out")] {
         let output = Run::bare(&["decompose", option]).output();
         assert!(output.status.success());
@@ -297,7 +303,7 @@ fn help_shows_what_is_printed() {
 }
 
 #[test]
-fn a_folder_that_is_not_there_is_told_before_the_work() {
+fn a_missing_folder_is_reported_before_the_work() {
     let scene = Scene::new("decompose-no-folder");
     let mesh = scene.file("t.obj", crate::TETRAHEDRON);
     for name in ["t.obj", "t.ccd"] {
@@ -308,10 +314,10 @@ fn a_folder_that_is_not_there_is_told_before_the_work() {
             .stdin("")
             .output();
         assert_eq!(output.status.code(), Some(1));
-        let told = stderr(&output);
+        let message = stderr(&output);
         assert!(
-            told.contains("gone is a folder that is not there"),
-            "{told}"
+            message.contains("gone is a folder that does not exist"),
+            "{message}"
         );
     }
 }

@@ -1,18 +1,19 @@
-//! The `ccd` command as its users run it.
+//! The command `ccd`, run as users run it.
 
 mod command;
 mod contacts;
 mod decompose;
+mod manual;
+mod messages;
 mod refusals;
 mod resume;
-mod words;
 
 use command::{Row, Run, Scene, parse, stderr};
 
 /// The command that is run.
 const PROGRAM: &str = env!("CARGO_BIN_EXE_ccd");
 
-/// A cube falling at speed 4 onto a slab whose top is 2.5 below its underside.
+/// A cube that falls at speed 4 onto a slab whose top is 2.5 below its underside.
 const FALLING_CUBE: [&str; 4] = ["--a", "box:.5,.5,.5", "--b", "box:9,9,1"];
 const DROP: &str = "id,a_pz,a_vz\ndrop,4,-4\n";
 const DROP_TIME: f64 = 2.5 / 4.0;
@@ -28,7 +29,7 @@ impl Run {
 }
 
 impl Row {
-    /// Never late, and early by no more than it takes to cross the tolerance.
+    /// Checks that the time is not late, and early by at most the time to cross the tolerance.
     pub(crate) fn assert_in_time(&self, exact: f64, closing_speed: f64) {
         let early = exact - self.number("time");
         assert!(
@@ -88,7 +89,7 @@ fn every_schedule_and_oracle_gives_the_answer() {
 }
 
 #[test]
-fn every_status_is_told() {
+fn every_status_occurs() {
     let motions = "id,a_pz,a_vz,duration\n\
                    free,4,-4,0.25\ncontact,4,-4,\ntouching,1.5005,-4,\noverlapping,1,0,\n";
     let rows = Run::query(&FALLING_CUBE).stdin(motions).succeeds();
@@ -117,18 +118,18 @@ fn an_unresolved_row_is_a_result() {
 }
 
 #[test]
-fn a_deadline_leaves_a_row_unresolved_and_says_so() {
+fn a_deadline_leaves_a_row_unresolved() {
     let output = Run::query(&FALLING_CUBE)
         .args(&["--deadline", "0"])
         .stdin(DROP)
         .output();
     assert!(output.status.success());
-    let told = stderr(&output);
+    let message = stderr(&output);
     assert!(
-        told.contains("1 unresolved") && told.contains("--deadline"),
-        "{told}"
+        message.contains("1 unresolved") && message.contains("--deadline"),
+        "{message}"
     );
-    // Enough time is none to speak of.
+    // A long deadline has no effect.
     let rows = Run::query(&FALLING_CUBE)
         .args(&["--deadline", "3600"])
         .stdin(DROP)
@@ -137,7 +138,7 @@ fn a_deadline_leaves_a_row_unresolved_and_says_so() {
 }
 
 #[test]
-fn margin_is_kept_and_leave_lets_go() {
+fn margins_are_kept_and_leave_ignores_contacts_at_the_start() {
     let with_margin = Run::query(&FALLING_CUBE)
         .args(&["--margin", "0.5"])
         .stdin(DROP)
@@ -217,7 +218,7 @@ fn threads_and_repetitions_change_no_bit() {
 }
 
 #[test]
-fn raised_tolerances_are_told() {
+fn raised_tolerances_are_reported() {
     let far = "a_px,b_px,a_pz,a_vz\n1e9,1e9,4,-4\n";
     let output = Run::query(&FALLING_CUBE)
         .args(&["--tolerance", "1e-12"])
@@ -225,7 +226,7 @@ fn raised_tolerances_are_told() {
         .output();
     assert!(output.status.success());
     assert!(
-        stderr(&output).contains("tolerance 1e-12 cannot be certified"),
+        stderr(&output).contains("--tolerance 1e-12 cannot be certified"),
         "{}",
         stderr(&output)
     );
@@ -236,7 +237,7 @@ fn results_never_overwrite_their_motions() {
     let folder = std::env::temp_dir().join(format!("ccd-out-{}", std::process::id()));
     std::fs::create_dir_all(&folder).unwrap();
     let named = |name: &str| folder.join(name).to_str().unwrap().to_owned();
-    // The results, the file that they are put together in, and the journal beside it.
+    // The results, their temporary file and their journal.
     for [motions, option, target] in [
         ["m.csv", "--out", "m.csv"],
         ["m.csv.partial", "--out", "m.csv"],
@@ -253,8 +254,8 @@ fn results_never_overwrite_their_motions() {
                 .output()
                 .unwrap();
             assert_eq!(output.status.code(), Some(2), "{motions} {target}");
-            let told = stderr(&output);
-            assert!(told.contains("give it another"), "{told}");
+            let message = stderr(&output);
+            assert!(message.contains("another file"), "{message}");
             assert_eq!(std::fs::read_to_string(&motions).unwrap(), DROP);
         }
     }
@@ -262,7 +263,7 @@ fn results_never_overwrite_their_motions() {
 }
 
 #[test]
-fn the_summary_counts_and_quiet_is_quiet() {
+fn the_summary_counts_rows_and_quiet_omits_it() {
     let loud = Run::query(&FALLING_CUBE).stdin(DROP).output();
     assert!(
         stderr(&loud).contains("1 row: 1 contact; median"),
@@ -278,7 +279,7 @@ fn the_summary_counts_and_quiet_is_quiet() {
 }
 
 #[test]
-fn a_table_without_rows_has_a_header_for_an_answer() {
+fn a_table_without_rows_gives_a_header() {
     let output = Run::query(&FALLING_CUBE).stdin("id\n").output();
     assert!(output.status.success());
     let header = String::from_utf8(output.stdout.clone()).unwrap();

@@ -1,10 +1,10 @@
-//! Rows, bodies, files and options that cannot be taken, and what is said of them.
+//! Invalid rows, bodies, files and options, and their messages.
 
 use crate::command::{Run, Scene, parse, stderr};
 use crate::{DROP, FALLING_CUBE};
 
 #[test]
-fn bad_rows_keep_their_place_and_are_told() {
+fn bad_rows_keep_their_place_and_are_reported() {
     let motions = "id,a_pz,a_vz,b_qw,b_qx,b_qy,b_qz,b_end_px,b_end_py,b_end_pz,b_wx,duration\n\
                    good,4,-4,,,,,,,,,\n\
                    text,4,abc,,,,,,,,,\n\
@@ -18,16 +18,16 @@ fn bad_rows_keep_their_place_and_are_told() {
     let output = Run::query(&FALLING_CUBE).stdin(motions).output();
     assert_eq!(output.status.code(), Some(2));
     let rows = parse(&output.stdout);
-    let told = stderr(&output);
+    let message = stderr(&output);
     for (k, (id, reason)) in [
         ("good", ""),
         ("text", "column a_vz: `abc`"),
-        ("partial", "column b_qz: no value, but b_qw"),
+        ("partial", "column b_qz: no value, but column b_qw"),
         ("zero", "columns b_qw b_qx b_qy b_qz: (0 0 0 0)"),
         ("both", "columns b_end_px and b_wx"),
         ("infinite", "column a_pz: `inf`"),
         ("backwards", "column duration: -1"),
-        ("short", "has 2 cells where the header names 12"),
+        ("short", "has 2 cells, but the header has 12"),
         ("also good", ""),
     ]
     .into_iter()
@@ -43,39 +43,43 @@ fn bad_rows_keep_their_place_and_are_told() {
         assert_eq!(rows[k].text("status"), status);
         if status == "error" {
             assert_eq!([rows[k].text("time"), rows[k].text("micros")], ["", ""]);
-            // The first few are told at once.
+            // The first few are reported at once.
             let (row, line) = (k, k + 2);
-            let message = format!("standard input, row {row} (line {line}): {reason}");
-            assert_eq!(told.contains(&message), k <= 5, "{message:?} in\n{told}");
+            let expected = format!("standard input, row {row} (line {line}): {reason}");
+            assert_eq!(
+                message.contains(&expected),
+                k <= 5,
+                "{expected:?} in\n{message}"
+            );
         }
     }
     assert_eq!(rows.len(), 9);
     assert!(
-        told.contains("ccd: standard input: 7 rows in all"),
-        "{told}"
+        message.contains("ccd: standard input: 7 bad rows in all"),
+        "{message}"
     );
-    assert_eq!(told.matches("ccd: ").count(), 6, "{told}");
+    assert_eq!(message.matches("ccd: ").count(), 6, "{message}");
     assert!(
-        told.contains("9 rows: 2 contact, 7 error; median"),
-        "{told}"
+        message.contains("9 rows: 2 contact, 7 error; median"),
+        "{message}"
     );
 }
 
 #[test]
-fn unknown_columns_are_told_with_the_one_that_is_meant() {
+fn an_unknown_column_is_reported_with_the_most_similar_one() {
     let output = Run::query(&FALLING_CUBE).stdin("id,a_pw\n1,2\n").output();
     assert_eq!(output.status.code(), Some(2));
     assert_eq!(output.stdout, b"");
-    let told = stderr(&output);
+    let message = stderr(&output);
     assert!(
-        told.contains("standard input: header: unknown column `a_pw`"),
-        "{told}"
+        message.contains("standard input: header: unknown column `a_pw`"),
+        "{message}"
     );
-    assert!(told.contains("did you mean `a_p"), "{told}");
+    assert!(message.contains("did you mean `a_p"), "{message}");
 }
 
 #[test]
-fn bad_bodies_and_files_are_told_by_name() {
+fn messages_name_the_bad_body_or_file() {
     let scene = Scene::new("bad");
     let broken = scene.file("broken.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n");
     let broken = broken.to_str().unwrap();
@@ -144,29 +148,29 @@ fn bad_options_are_refused() {
 }
 
 #[test]
-fn results_that_cannot_be_written_are_another_failure() {
+fn unwritable_results_have_exit_code_1() {
     let options = ["--out", "/no/such/directory/results.csv"];
     let output = Run::query(&FALLING_CUBE)
         .args(&options)
         .stdin(DROP)
         .output();
     assert_eq!(output.status.code(), Some(1));
-    let told = stderr(&output);
+    let message = stderr(&output);
     let folder = "/no/such/directory";
     assert_eq!(
-        told.matches("is a folder that is not there").count(),
+        message.matches("is a folder that does not exist").count(),
         1,
-        "{told}"
+        "{message}"
     );
     assert!(
-        told.contains(&format!("cannot write {folder}/results.csv: {folder} is")),
-        "{told}"
+        message.contains(&format!("cannot write {folder}/results.csv: {folder} is")),
+        "{message}"
     );
 }
 
-/// The rows before it are answered, and those behind it are not taken for its cell.
+/// The rows before it are answered, and those after it are not read as its cell.
 #[test]
-fn a_quote_that_nobody_closes_is_an_error() {
+fn an_unclosed_quote_is_an_error() {
     for (motions, rows, expected) in [
         ("a_pz,id\n4,x\n5,\"y\n6,z\n", 1, "row 1 (line 3): a quote"),
         ("id,a_pz\n\"a\nb\",4\n\"c,5\n", 1, "row 1 (line 4): a quote"),
@@ -174,9 +178,9 @@ fn a_quote_that_nobody_closes_is_an_error() {
     ] {
         let output = Run::query(&FALLING_CUBE).stdin(motions).output();
         assert_eq!(output.status.code(), Some(2), "{motions}");
-        let told = stderr(&output);
+        let message = stderr(&output);
         let expected = format!("standard input: {expected} opens a cell here");
-        assert!(told.contains(&expected), "{expected}: {told}");
+        assert!(message.contains(&expected), "{expected}: {message}");
         if rows > 0 {
             assert_eq!(parse(&output.stdout).len(), rows, "{motions}");
         }
@@ -186,26 +190,26 @@ fn a_quote_that_nobody_closes_is_an_error() {
 }
 
 #[test]
-fn large_numbers_are_told_in_few_digits() {
+fn large_numbers_have_few_digits_in_messages() {
     let output = Run::query(&FALLING_CUBE)
         .stdin("a_pz,duration\n1e308,1\n4,-1e308\n")
         .output();
     assert_eq!(output.status.code(), Some(2));
-    let told = stderr(&output);
+    let message = stderr(&output);
     assert!(
-        told.contains("row 0 (line 2): position is 1e308, but"),
-        "{told}"
+        message.contains("row 0 (line 2): position is 1e308, but"),
+        "{message}"
     );
     assert!(
-        told.contains("row 1 (line 3): column duration: -1e308 is"),
-        "{told}"
+        message.contains("row 1 (line 3): column duration: -1e308 is"),
+        "{message}"
     );
-    assert!(!told.contains("00000"), "{told}");
+    assert!(!message.contains("00000"), "{message}");
 }
 
 /// Git stands for large files with a few lines until they are fetched.
 #[test]
-fn pointers_of_git_lfs_are_told_for_what_they_are() {
+fn git_lfs_pointers_are_recognised() {
     let scene = Scene::new("lfs");
     let pointer = "version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 9\n";
     let advice = "is a Git LFS pointer";
@@ -215,10 +219,10 @@ fn pointers_of_git_lfs_are_told_for_what_they_are() {
             .stdin(DROP)
             .output();
         assert_eq!(output.status.code(), Some(2), "{name}");
-        let told = stderr(&output);
+        let message = stderr(&output);
         assert!(
-            told.contains(advice) && told.contains("git lfs pull"),
-            "{told}"
+            message.contains(advice) && message.contains("git lfs pull"),
+            "{message}"
         );
     }
     let output = Run::query(&FALLING_CUBE).stdin(pointer).output();

@@ -1,4 +1,4 @@
-//! Runs that are interrupted: nothing of what was there is lost, and what was done is not done again.
+//! Interrupted runs: existing files are kept, and answered rows are not answered again.
 
 use crate::command::{Scene, stderr};
 use std::fs;
@@ -6,7 +6,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
 
-/// What is asked unless a test says otherwise.
+/// The options of a query, unless a test has others.
 const USUAL: [[&str; 2]; 5] = [
     ["--a", "box:.5,.5,.5"],
     ["--b", "box:9,9,1"],
@@ -25,7 +25,7 @@ fn motions() -> String {
     table
 }
 
-/// A folder of its own, with nothing of earlier tests.
+/// Creates an empty folder.
 fn fresh(name: &str) -> Scene {
     let scene = Scene::new(name);
     fs::remove_dir_all(&scene.directory).unwrap();
@@ -52,7 +52,7 @@ fn finished(mut command: Command, input: &str) -> Output {
     child.wait_with_output().unwrap()
 }
 
-/// Gives it some of the table and no end, until rows are kept; then kills it.
+/// Starts a run with a part of the table, and kills it after a few checkpoints.
 fn killed(scene: &Scene, options: &[&str], some: &str) {
     let marks = || {
         let journal = fs::read_to_string(path(scene, "results.csv.resume"));
@@ -94,7 +94,7 @@ fn a_run_that_is_killed_twice_ends_with_the_same_bytes() {
     }
     let third = table.match_indices('\n').nth(ROWS / 3).unwrap().0;
     killed(&scene, &[], &table[..third]);
-    // Half a row, as a process leaves it that is killed while it writes.
+    // Half a row, as a process leaves it when it is killed while it writes.
     for name in [
         "results.csv.partial",
         "contacts.csv.partial",
@@ -112,17 +112,17 @@ fn a_run_that_is_killed_twice_ends_with_the_same_bytes() {
     }
     let output = finished(query(&scene, &["--resume"]), &table);
     assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
-    let told = stderr(&output);
+    let message = stderr(&output);
     let count = |before: &str, after: &str| {
-        let (_, rest) = told.split_once(before)?;
+        let (_, rest) = message.split_once(before)?;
         rest.split_once(after)?.0.parse::<usize>().ok()
     };
-    let done = count("goes on with row ", " of the motions");
-    let done = done.unwrap_or_else(|| panic!("{told}"));
-    // All rows of the table are counted, those of this run apart.
-    assert!(told.contains("\n20000 rows: "), "{told}");
-    let here = count(", 20 error; ", " of them in this run; median");
-    assert_eq!(here, Some(ROWS - done), "{told}");
+    let done = count("continues at row ", " of the motions");
+    let done = done.unwrap_or_else(|| panic!("{message}"));
+    // The summary counts all rows of the table, and those of this run.
+    assert!(message.contains("\n20000 rows: "), "{message}");
+    let here = count(", 20 error; ", " in this run; median");
+    assert_eq!(here, Some(ROWS - done), "{message}");
     for name in TABLES {
         assert!(
             read(&path(&scene, name)) == read(&path(&whole, name)),
@@ -130,12 +130,12 @@ fn a_run_that_is_killed_twice_ends_with_the_same_bytes() {
         );
     }
     let left = fs::read_dir(&scene.directory).unwrap().count();
-    assert_eq!(left, TABLES.len() + 1, "nothing is left but the journal");
+    assert_eq!(left, TABLES.len() + 1, "only the journal is left");
     assert!(path(&scene, "results.csv.resume").exists());
 }
 
 #[test]
-fn a_run_goes_on_only_with_the_same_question() {
+fn a_run_continues_only_with_the_same_options_and_rows() {
     let table = motions();
     let scene = fresh("other-question");
     let part = &table[..table.len() / 2];
@@ -146,21 +146,24 @@ fn a_run_goes_on_only_with_the_same_question() {
         (
             &["--tolerance", "1e-6", "--resume"][..],
             &table,
-            "asked something else: --tolerance was 0.001 and is 1e-6 now; ask the same",
+            "had other options: --tolerance was 0.001 and is now 1e-6; give the same",
         ),
         (
             &["--b", "box:9,9,2", "--deadline", "1.5", "--resume"],
             &table,
-            "--b was box:9,9,1 and is box:9,9,2 now, --deadline was not given and is 1.5 now;",
+            "--b was box:9,9,1 and is now box:9,9,2, --deadline was not given and is now 1.5;",
         ),
         (&["--resume"], &other_rows, "not the rows"),
-        (&[], &table, "rows of an interrupted run; --resume goes on"),
+        (&[], &table, "rows of an interrupted run; add --resume"),
     ] {
         let output = finished(query(&scene, options), input);
         assert_eq!(output.status.code(), Some(2), "{options:?}");
-        let told = stderr(&output);
-        assert!(told.contains(expected), "{expected}: {told}");
-        assert!(!told.contains("Some(") && !told.contains(" {"), "{told}");
+        let message = stderr(&output);
+        assert!(message.contains(expected), "{expected}: {message}");
+        assert!(
+            !message.contains("Some(") && !message.contains(" {"),
+            "{message}"
+        );
         assert_eq!(
             read(&path(&scene, "results.csv.partial")),
             kept,
@@ -170,17 +173,17 @@ fn a_run_goes_on_only_with_the_same_question() {
 }
 
 #[test]
-fn nothing_to_resume_is_no_failure() {
+fn resuming_without_an_interrupted_run_starts_a_new_one() {
     let scene = fresh("nothing-to-resume");
     let one = "a_pz\n4\n";
     let output = finished(query(&scene, &["--resume"]), one);
     assert!(output.status.success(), "{}", stderr(&output));
-    assert!(stderr(&output).contains("nothing to go on with"));
+    assert!(stderr(&output).contains("found no interrupted run"));
     let output = finished(query(&scene, &["--resume", "--out", "-"]), one);
     assert_eq!(output.status.code(), Some(2));
 }
 
-/// The tables with the times at which they were last written.
+/// Returns the tables with their times of modification.
 fn tables(scene: &Scene) -> Vec<(String, std::time::SystemTime)> {
     let table = |name: &&str| {
         let path = path(scene, name);
@@ -191,7 +194,7 @@ fn tables(scene: &Scene) -> Vec<(String, std::time::SystemTime)> {
 }
 
 #[test]
-fn a_finished_run_is_left_as_it_is() {
+fn a_finished_run_is_left_unchanged() {
     for (name, table, code) in [
         ("finished", "id,a_pz,a_vz\nx,4,-4\ny,9,-1\n", 0),
         ("finished-bad", "id,a_pz,a_vz\nx,4,-4\ny,9,z\n", 2),
@@ -203,19 +206,19 @@ fn a_finished_run_is_left_as_it_is() {
         let before = tables(&scene);
         let output = finished(query(&scene, &["--resume"]), table);
         assert_eq!(output.status.code(), Some(code), "{}", stderr(&output));
-        let told = stderr(&output);
+        let message = stderr(&output);
         assert!(
-            told.contains("results.csv has all rows of this query already and is left as it is"),
-            "{told}"
+            message.contains("results.csv already has all rows of this query; it is unchanged"),
+            "{message}"
         );
         assert_eq!(
-            told.contains("2 rows: "),
+            message.contains("2 rows: "),
             !name.ends_with("empty"),
-            "{told}"
+            "{message}"
         );
-        assert!(!told.contains("median"), "{told}");
+        assert!(!message.contains("median"), "{message}");
         assert_eq!(tables(&scene), before);
-        // Without the option it is a new run.
+        // Without the option, a new run starts.
         let output = finished(query(&scene, &[]), table);
         assert_eq!(output.status.code(), Some(code));
         assert_ne!(tables(&scene)[0].1, before[0].1);
@@ -223,7 +226,7 @@ fn a_finished_run_is_left_as_it_is() {
 }
 
 #[test]
-fn a_finished_run_of_another_question_is_neither_overwritten_nor_taken() {
+fn a_finished_run_with_other_options_is_refused() {
     let table = "id,a_pz,a_vz\nx,4,-4\ny,9,-1\n";
     let scene = fresh("finished-other");
     let output = finished(query(&scene, &[]), table);
@@ -233,43 +236,46 @@ fn a_finished_run_of_another_question_is_neither_overwritten_nor_taken() {
         (
             &["--tolerance", "1e-6"][..],
             table,
-            "the finished run was asked something else: --tolerance was 0.001 and is 1e-6 now",
+            "the finished run had other options: --tolerance was 0.001 and is now 1e-6",
         ),
         (
             &["--contacts", "other.csv"],
             table,
-            "--contacts was contacts.csv and is other.csv now",
+            "--contacts was contacts.csv and is now other.csv",
         ),
-        (&["--rows", "..1"], table, "--rows was 0.. and is 0..1 now"),
-        (&[], "id,a_pz,a_vz\nx,4,-4\ny,9,-2\n", "not the rows that"),
-        (&[], "id,a_pz,a_vz\nx,4,-4\n", "not the rows that"),
-        (&[], &format!("{table}z,9,-1\n"), "not the rows that"),
+        (&["--rows", "..1"], table, "--rows was 0.. and is now 0..1"),
+        (&[], "id,a_pz,a_vz\nx,4,-4\ny,9,-2\n", "not the rows of the"),
+        (&[], "id,a_pz,a_vz\nx,4,-4\n", "not the rows of the"),
+        (&[], &format!("{table}z,9,-1\n"), "not the rows of the"),
     ] {
         let mut command = query(&scene, options);
         command.arg("--resume");
         let output = finished(command, input);
         assert_eq!(output.status.code(), Some(2), "{options:?}");
-        let told = stderr(&output);
-        assert!(told.contains(expected), "{expected}: {told}");
+        let message = stderr(&output);
+        assert!(message.contains(expected), "{expected}: {message}");
         assert_eq!(tables(&scene), before);
     }
-    // What somebody else has written there is not taken for it.
+    // A file that another program has written is not taken for the table.
     fs::write(path(&scene, "results.csv"), "mine").unwrap();
     let output = finished(query(&scene, &["--resume"]), table);
     assert_eq!(output.status.code(), Some(2));
-    let told = stderr(&output);
-    assert!(told.contains("not as the finished run left it"), "{told}");
+    let message = stderr(&output);
+    assert!(
+        message.contains("has changed since the run finished"),
+        "{message}"
+    );
     assert_eq!(read(&path(&scene, "results.csv")), "mine");
-    // Where there is no table, there is all to do.
+    // Without a table, all rows are answered.
     fs::remove_file(path(&scene, "results.csv")).unwrap();
     let output = finished(query(&scene, &["--resume"]), table);
     assert!(output.status.success(), "{}", stderr(&output));
     assert_eq!(read(&path(&scene, "results.csv")), before[0].0);
 }
 
-/// A run that ends between its last row and the names of its tables has but these to give.
+/// A run may be killed after its last row, before it renames its tables.
 #[test]
-fn tables_that_are_whole_get_their_names() {
+fn complete_tables_are_renamed() {
     let table = "id,a_pz,a_vz\nx,4,-4\ny,9,-1\n";
     let scene = fresh("nameless");
     let output = finished(query(&scene, &[]), table);
@@ -287,7 +293,7 @@ fn tables_that_are_whole_get_their_names() {
 }
 
 #[test]
-fn a_mesh_that_has_changed_is_told_by_its_option() {
+fn a_changed_mesh_is_reported_with_its_option() {
     let scene = fresh("changed-mesh");
     let mesh = path(&scene, "part.obj");
     let options = ["--a", "part.obj"];
@@ -299,15 +305,15 @@ fn a_mesh_that_has_changed_is_told_by_its_option() {
     command.arg("--resume");
     let output = finished(command, table);
     assert_eq!(output.status.code(), Some(2));
-    let told = stderr(&output);
+    let message = stderr(&output);
     assert!(
-        told.contains(": the file of --a has changed since; ask"),
-        "{told}"
+        message.contains(": the file of --a has changed since; give"),
+        "{message}"
     );
 }
 
 #[test]
-fn tables_take_the_place_of_files_alone() {
+fn folders_and_inputs_are_never_overwritten() {
     let scene = fresh("no-files");
     let one = "a_pz\n4\n";
     fs::create_dir(path(&scene, "folder")).unwrap();
@@ -327,7 +333,7 @@ fn tables_take_the_place_of_files_alone() {
 
 #[cfg(unix)]
 #[test]
-fn devices_stay_what_they_are() {
+fn devices_are_not_replaced() {
     use std::os::unix::fs::FileTypeExt;
     let scene = fresh("devices");
     let output = finished(query(&scene, &["--out", "/dev/null"]), "a_pz\n4\n");

@@ -1,7 +1,7 @@
-//! What a run notes of itself beside its tables: what it was asked, and how far it has come.
+//! The journal of a run: its options, and a checkpoint after each batch of rows.
 //!
-//! The options stand first, then a line for each batch of rows. The file stays when the run is finished, so
-//! that the same command with `--resume` finds nothing left to do.
+//! The file is next to the tables. It stays when the run has finished, so that the same command with
+//! `--resume` finds nothing left to do.
 
 use crate::command::files::CannotWrite;
 use crate::table::results::Status;
@@ -11,44 +11,45 @@ use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-/// How far a run has come.
+/// The progress of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub(super) struct Mark {
-    /// Rows of motions that are done with, all before the first one asked for included.
+pub(super) struct Checkpoint {
+    /// The number of rows of motions that are done, with those skipped before the first one selected.
     pub(super) rows: usize,
-    /// The checksum of these.
+    /// The checksum of these rows.
     pub(super) checksum: u32,
-    /// How many of them have no complete answer.
+    /// The number of these rows without a complete answer.
     pub(super) bad: usize,
-    /// How many rows of each status the results have.
+    /// The number of rows of each status in the results.
     #[serde(default)]
     pub(super) counts: [usize; Status::ALL.len()],
-    /// How long the tables are: known once they are handed on.
+    /// The length of the results, set when they are flushed.
     pub(super) results_bytes: u64,
+    /// The length of the contacts, set when they are flushed.
     pub(super) contacts_bytes: u64,
-    /// Whether these are all rows there are.
-    #[serde(default)]
-    pub(super) whole: bool,
+    /// True when these are all rows.
+    #[serde(default, rename = "whole")]
+    pub(super) finished: bool,
 }
 
-/// All that the tables of a run depend on: options, and what they are.
+/// Everything that the tables of a run depend on: options with their values.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Settings(pub(super) Vec<(String, String)>);
+pub(super) struct Recorded(pub(super) Vec<(String, String)>);
 
-/// What is said of the checksum of a file that an option names, and of no option.
+/// The prefix of an entry that holds the checksum of the file that an option names.
 pub(super) const CONTENT: &str = "content-of:";
 
-/// The file of the options and the marks.
+/// The file of the options and the checkpoints.
 pub(super) struct Journal {
     path: PathBuf,
     file: File,
 }
 
-/// Stands in the journal between the options and the marks.
-const MARKS: &str = "\nmarks:\n";
+/// The separator in the journal between the options and the checkpoints.
+const CHECKPOINTS: &str = "\nmarks:\n";
 
-impl Settings {
-    /// One a line; what values are never ends one.
+impl Recorded {
+    /// Returns one line for each option; line ends within values are escaped.
     fn to_text(&self) -> String {
         let mut text = String::new();
         for (option, value) in &self.0 {
@@ -57,7 +58,7 @@ impl Settings {
         text.trim_end().to_owned()
     }
 
-    /// What is not as it was, in words; none where all is.
+    /// Describes the options that have changed; returns none when all are the same.
     fn changes(&self, before: &str) -> Option<String> {
         let now = self.to_text();
         if before == now {
@@ -73,8 +74,8 @@ impl Settings {
         let mut changes = Vec::new();
         for ((option, then), (_, now)) in then.iter().zip(&now).filter(|(then, now)| then != now) {
             match option.strip_prefix(CONTENT) {
-                None => changes.push(format!("{option} was {then} and is {now} now")),
-                // Another file has another content.
+                None => changes.push(format!("{option} was {then} and is now {now}")),
+                // Another file has another content: one message is enough.
                 Some(_) if !changes.is_empty() => {}
                 Some(option) => changes.push(format!("the file of {option} has changed since")),
             }
@@ -84,10 +85,10 @@ impl Settings {
 }
 
 impl Journal {
-    pub(super) fn create(path: PathBuf, settings: &Settings) -> Result<Self, CannotWrite> {
+    pub(super) fn create(path: PathBuf, recorded: &Recorded) -> Result<Self, CannotWrite> {
         let create = || {
             let mut file = File::create(&path)?;
-            write!(file, "{}{MARKS}", settings.to_text())?;
+            write!(file, "{}{CHECKPOINTS}", recorded.to_text())?;
             Ok(file)
         };
         match create() {
@@ -96,13 +97,13 @@ impl Journal {
         }
     }
 
-    /// Adds a mark.
-    pub(super) fn note(&mut self, mark: Mark) -> Result<(), CannotWrite> {
-        let mut note = || {
-            let line = serde_json::to_string(&mark)? + "\n";
+    /// Appends a checkpoint.
+    pub(super) fn append(&mut self, checkpoint: Checkpoint) -> Result<(), CannotWrite> {
+        let mut append = || {
+            let line = serde_json::to_string(&checkpoint)? + "\n";
             self.file.write_all(line.as_bytes())
         };
-        note().map_err(|source| Journal::failed(&self.path, source))
+        append().map_err(|source| Journal::failed(&self.path, source))
     }
 
     fn failed(path: &Path, source: io::Error) -> CannotWrite {
@@ -113,41 +114,42 @@ impl Journal {
     }
 }
 
-/// What an earlier run has left.
-pub(super) struct Left {
-    settings: String,
-    /// How many rows it answered.
+/// The journal of an earlier run.
+pub(super) struct Earlier {
+    recorded: String,
+    /// The number of rows that it answered.
     pub(super) rows: usize,
-    pub(super) mark: Mark,
-    /// How much of the journal is whole.
+    /// The last checkpoint.
+    pub(super) checkpoint: Checkpoint,
+    /// The length of the journal without an incomplete last line.
     bytes: u64,
 }
 
-impl Left {
-    /// None when it did not come to its first mark.
+impl Earlier {
+    /// Reads a journal; returns none for a run without a checkpoint.
     pub(super) fn read(journal: &Path) -> Option<Self> {
         let text = fs::read_to_string(journal).ok()?;
-        let (settings, marks) = text.split_once(MARKS)?;
-        // A line without its end may be cut.
-        let whole = &marks[..marks.rfind('\n')? + 1];
-        let mut lines = whole.lines().map(serde_json::from_str::<Mark>);
+        let (recorded, checkpoints) = text.split_once(CHECKPOINTS)?;
+        // A line without its end may be incomplete.
+        let complete = &checkpoints[..checkpoints.rfind('\n')? + 1];
+        let mut lines = complete.lines().map(serde_json::from_str::<Checkpoint>);
         let first = lines.next()?.ok()?;
-        let mark = lines.next_back().unwrap_or(Ok(first)).ok()?;
-        Some(Left {
-            settings: settings.to_owned(),
-            rows: mark.rows.saturating_sub(first.rows),
-            mark,
-            bytes: (settings.len() + MARKS.len() + whole.len()) as u64,
+        let checkpoint = lines.next_back().unwrap_or(Ok(first)).ok()?;
+        Some(Earlier {
+            recorded: recorded.to_owned(),
+            rows: checkpoint.rows.saturating_sub(first.rows),
+            checkpoint,
+            bytes: (recorded.len() + CHECKPOINTS.len() + complete.len()) as u64,
         })
     }
 
-    /// What it was asked otherwise, in words: rows of one table are answers to one question.
-    pub(super) fn changes(&self, settings: &Settings) -> Option<String> {
-        settings.changes(&self.settings)
+    /// Describes the options that differ from those of the earlier run.
+    pub(super) fn changes(&self, recorded: &Recorded) -> Option<String> {
+        recorded.changes(&self.recorded)
     }
 
-    /// Its journal, to go on with.
-    pub(super) fn continued(&self, path: PathBuf) -> Result<Journal, CannotWrite> {
+    /// Opens the journal to append to it.
+    pub(super) fn reopen(&self, path: PathBuf) -> Result<Journal, CannotWrite> {
         let open = || {
             let file = File::options().append(true).open(&path)?;
             file.set_len(self.bytes)?;
@@ -164,10 +166,10 @@ impl Left {
 mod tests {
     use super::*;
 
-    fn settings(values: [&str; 3]) -> Settings {
+    fn with(values: [&str; 3]) -> Recorded {
         let options = ["ccd", "--a", "content-of:--a"];
         let pairs = options.iter().zip(values);
-        Settings(
+        Recorded(
             pairs
                 .map(|(o, v)| ((*o).to_owned(), v.to_owned()))
                 .collect(),
@@ -175,13 +177,13 @@ mod tests {
     }
 
     #[test]
-    fn what_has_changed_is_told_in_words() {
-        let before = settings(["1", "a \nb.obj", "12"]).to_text();
-        for (values, told) in [
+    fn changes_are_described() {
+        let before = with(["1", "a \nb.obj", "12"]).to_text();
+        for (values, expected) in [
             (["1", "a \nb.obj", "12"], None),
             (
                 ["1", "c.obj", "13"],
-                Some("--a was a \\nb.obj and is c.obj now"),
+                Some("--a was a \\nb.obj and is now c.obj"),
             ),
             (
                 ["1", "a \nb.obj", "13"],
@@ -192,11 +194,11 @@ mod tests {
                 Some("another version of ccd wrote it"),
             ),
         ] {
-            let changes = settings(values).changes(&before);
-            assert_eq!(changes.as_deref(), told, "{values:?}");
+            let changes = with(values).changes(&before);
+            assert_eq!(changes.as_deref(), expected, "{values:?}");
         }
         let older = "ccd 1\nQueryArgs {\n    a: \"x\",\n}";
-        let changes = settings(["1", "x", "12"]).changes(older).unwrap();
+        let changes = with(["1", "x", "12"]).changes(older).unwrap();
         assert_eq!(changes, "another version of ccd wrote it");
     }
 }

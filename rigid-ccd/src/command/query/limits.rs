@@ -1,40 +1,37 @@
-//! What ends a query early, in words.
+//! The limits that end a query early, with advice.
 
 use ccd_core::Limit;
 
-/// A limit, and what to do about it.
+/// Each limit with its advice.
 const LIMITS: [(Limit, &str); 5] = [
-    (Limit::Budget, "the budget was spent; --budget raises it"),
-    (
-        Limit::Deadline,
-        "the deadline was passed; --deadline gives more time",
-    ),
+    (Limit::Budget, "the budget was spent; raise --budget"),
+    (Limit::Deadline, "the deadline has passed; raise --deadline"),
     (
         Limit::Stalled,
-        "no step forward could be certified; a larger --tolerance may help",
+        "no further step could be certified; a larger --tolerance may help",
     ),
     (
         Limit::OracleGaveUp,
-        "the oracle gave up; another --oracle may not",
+        "the distance backend gave up; try another --oracle",
     ),
     (
         Limit::Undecided,
-        "at the start it cannot be told whether the bodies overlap; move one of them a little",
+        "too close at the start to decide whether the bodies overlap; move one of them a little",
     ),
 ];
 
-/// How often each limit ended a query.
+/// The number of queries that each limit ended.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Reached([usize; LIMITS.len()]);
 
 impl Reached {
-    /// One more query ended by it.
+    /// Counts a query.
     pub(crate) fn add(&mut self, limit: Limit) {
         let place = LIMITS.iter().position(|(known, _)| *known == limit);
         place.into_iter().for_each(|k| self.0[k] += 1);
     }
 
-    /// Those that were reached: how often, and what to do about it.
+    /// Returns the number of queries and the advice for each limit that was reached.
     pub(crate) fn advice(&self) -> impl Iterator<Item = (usize, &'static str)> {
         let counts = self.0.iter().zip(LIMITS);
         counts

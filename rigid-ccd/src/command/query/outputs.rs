@@ -1,13 +1,12 @@
-//! Where results and contacts go, and what an earlier run has left of them.
+//! The tables of results and contacts, new or continued from an earlier run.
 //!
-//! Beside the tables a [journal](super::journal) says with what options they were begun and how far they
-//! have come. What stands in the tables behind that, a half-written row for instance, is dropped when a
-//! run goes on.
+//! A [journal](super::journal) records the options and the last checkpoint. Rows after that checkpoint,
+//! a half-written one for instance, are dropped when a run continues.
 
 use super::args::QueryArgs;
-use super::journal::{Journal, Left, Mark, Settings};
+use super::journal::{Checkpoint, Earlier, Journal, Recorded};
 use crate::command::files::CannotWrite;
-use crate::command::files::{Beside, RESUME, Table};
+use crate::command::files::{PendingFile, RESUME, Table};
 use crate::table::contacts;
 use crate::table::results;
 use anyhow::{Result, bail};
@@ -20,105 +19,104 @@ pub(super) struct Outputs {
     journal: Option<Journal>,
 }
 
-/// What there is to do.
+/// The tables of a run, and the rows left to answer.
 pub(super) enum Opened {
-    /// All rows.
-    Begun(Outputs),
-    /// Those behind the ones that an interrupted run of the same settings came to.
-    GoesOn(Outputs, Mark),
-    /// Nothing: a run of the same settings has finished.
-    Whole(Mark),
+    /// New tables: all rows.
+    New(Outputs),
+    /// The tables of an interrupted run with the same options: the rows after this checkpoint.
+    Resumed(Outputs, Checkpoint),
+    /// The tables of a finished run with the same options: no rows.
+    Finished(Checkpoint),
 }
 
-/// Where the parts of the tables are that are files.
-struct Places {
-    results: Option<Beside>,
-    contacts: Option<Beside>,
+/// The tables that are files; none where an output is a stream.
+struct PendingTables {
+    results: Option<PendingFile>,
+    contacts: Option<PendingFile>,
 }
 
 impl Opened {
-    /// Begins tables, or goes on with those of a run of the same settings; says how far they are.
-    pub(super) fn new(args: &QueryArgs, settings: &Settings) -> Result<Self> {
-        let places = Places::find(args)?;
-        let all = args.contacts.is_some() == places.contacts.is_some();
-        if args.resume && !(all && places.results.is_some()) {
-            bail!("--resume goes on with files; give --out (and --contacts) the name of one");
+    /// Creates the tables, or opens those of an earlier run with the same options.
+    pub(super) fn new(args: &QueryArgs, recorded: &Recorded) -> Result<Self> {
+        let pending = PendingTables::find(args)?;
+        let all = args.contacts.is_some() == pending.contacts.is_some();
+        if args.resume && !(all && pending.results.is_some()) {
+            bail!("--resume needs files; give --out (and --contacts) a file name");
         }
-        let Places {
+        let PendingTables {
             results: Some(results),
             contacts,
-        } = places
+        } = pending
         else {
-            return Ok(Opened::Begun(Outputs::create(args, settings, None)?));
+            return Ok(Opened::New(Outputs::create(args, recorded, None)?));
         };
-        let journal = results.with_ending(RESUME);
-        let left = Left::read(&journal);
-        if let Some(whole) = left.as_ref().filter(|left| args.resume && left.mark.whole)
-            && results.name_whole(whole.mark.results_bytes)?
+        let journal = results.sibling(RESUME);
+        let earlier = Earlier::read(&journal);
+        if let Some(finished) = earlier
+            .as_ref()
+            .filter(|earlier| args.resume && earlier.checkpoint.finished)
+            && results.give_final_name(finished.checkpoint.results_bytes)?
         {
-            refuse_other(
-                whole,
-                settings,
+            check_options(
+                finished,
+                recorded,
                 "finished",
-                "leave out --resume to begin again",
+                "omit --resume to start over",
             )?;
             let contacts = contacts.as_ref();
-            let named = contacts.map(|table| table.name_whole(whole.mark.contacts_bytes));
+            let named =
+                contacts.map(|table| table.give_final_name(finished.checkpoint.contacts_bytes));
             if named.transpose()?.unwrap_or(true) {
-                return Ok(Opened::Whole(whole.mark));
+                return Ok(Opened::Finished(finished.checkpoint));
             }
         }
-        match left.filter(|_| results.partial().exists()) {
-            Some(left) if args.resume => {
-                let advice = format!("delete {} to begin again", results.partial().display());
-                refuse_other(&left, settings, "interrupted", &advice)?;
+        match earlier.filter(|_| results.partial().exists()) {
+            Some(earlier) if args.resume => {
+                let advice = format!("delete {} to start over", results.partial().display());
+                check_options(&earlier, recorded, "interrupted", &advice)?;
                 let contacts = contacts
-                    .map(|beside| Table::resume(beside, left.mark.contacts_bytes))
+                    .map(|file| Table::resume(file, earlier.checkpoint.contacts_bytes))
                     .transpose()?;
                 let outputs = Outputs {
-                    results: Table::resume(results, left.mark.results_bytes)?,
+                    results: Table::resume(results, earlier.checkpoint.results_bytes)?,
                     contacts,
-                    journal: Some(left.continued(journal)?),
+                    journal: Some(earlier.reopen(journal)?),
                 };
-                Ok(Opened::GoesOn(outputs, left.mark))
+                Ok(Opened::Resumed(outputs, earlier.checkpoint))
             }
-            Some(left) if left.rows > 0 => bail!(
-                "{} has {} rows of an interrupted run; --resume goes on behind them, to begin again \
-                 delete it",
+            Some(earlier) if earlier.rows > 0 => bail!(
+                "{} has {} rows of an interrupted run; add --resume to continue it, or delete the file \
+                 to start over",
                 results.partial().display(),
-                left.rows
+                earlier.rows
             ),
-            _ => Ok(Opened::Begun(Outputs::create(
-                args,
-                settings,
-                Some(journal),
-            )?)),
+            _ => Ok(Opened::New(Outputs::create(args, recorded, Some(journal))?)),
         }
     }
 }
 
-/// Refuses to go on with other settings: rows of one table are answers to one question.
-fn refuse_other(left: &Left, settings: &Settings, run: &str, advice: &str) -> Result<()> {
-    match left.changes(settings) {
+/// Refuses to continue with other options: all rows of a table answer the same question.
+fn check_options(earlier: &Earlier, recorded: &Recorded, run: &str, advice: &str) -> Result<()> {
+    match earlier.changes(recorded) {
         Some(changes) => bail!(
-            "--resume: the {run} run was asked something else: {changes}; ask the same, or {advice}"
+            "--resume: the {run} run had other options: {changes}; give the same options, or {advice}"
         ),
         None => Ok(()),
     }
 }
 
-impl Places {
+impl PendingTables {
     fn find(args: &QueryArgs) -> Result<Self, CannotWrite> {
-        let beside = |path: &Path| {
-            Beside::find(path).map_err(|source| CannotWrite {
+        let pending = |path: &Path| {
+            PendingFile::find(path).map_err(|source| CannotWrite {
                 place: path.display().to_string(),
                 source,
             })
         };
         let contacts = args.contacts.as_deref();
-        Ok(Places {
-            results: beside(&args.out)?,
-            contacts: contacts.map(beside).transpose()?.flatten(),
+        Ok(PendingTables {
+            results: pending(&args.out)?,
+            contacts: contacts.map(pending).transpose()?.flatten(),
         })
     }
 }
@@ -126,12 +124,12 @@ impl Places {
 impl Outputs {
     fn create(
         args: &QueryArgs,
-        settings: &Settings,
+        recorded: &Recorded,
         journal: Option<PathBuf>,
     ) -> Result<Self, CannotWrite> {
-        // First of all, as the one of an earlier run says nothing of these tables.
+        // First of all: the journal of an earlier run does not describe these tables.
         let journal = journal
-            .map(|path| Journal::create(path, settings))
+            .map(|path| Journal::create(path, recorded))
             .transpose()?;
         let results = Table::create(&args.out, &results::columns(args.extent()))?;
         let contacts = args.contacts.as_deref();
@@ -144,24 +142,24 @@ impl Outputs {
         })
     }
 
-    /// Hands on what has been written, and notes how far that is.
-    pub(super) fn keep(&mut self, mut mark: Mark) -> Result<(), CannotWrite> {
-        mark.results_bytes = self.results.flush()?;
+    /// Flushes the tables, and appends a checkpoint to the journal.
+    pub(super) fn save(&mut self, mut checkpoint: Checkpoint) -> Result<(), CannotWrite> {
+        checkpoint.results_bytes = self.results.flush()?;
         if let Some(contacts) = &mut self.contacts {
-            mark.contacts_bytes = contacts.flush()?;
+            checkpoint.contacts_bytes = contacts.flush()?;
         }
         match &mut self.journal {
-            Some(journal) => journal.note(mark),
+            Some(journal) => journal.append(checkpoint),
             None => Ok(()),
         }
     }
 
-    /// Gives the tables their names: they are whole.
-    pub(super) fn finish(mut self, mark: Mark) -> Result<(), CannotWrite> {
-        // Whoever goes on behind here has but the names to give.
-        self.keep(Mark {
-            whole: true,
-            ..mark
+    /// Gives the tables their final names.
+    pub(super) fn finish(mut self, checkpoint: Checkpoint) -> Result<(), CannotWrite> {
+        // A run that is resumed after this only renames the tables.
+        self.save(Checkpoint {
+            finished: true,
+            ..checkpoint
         })?;
         self.results.finish()?;
         match self.contacts {

@@ -12,11 +12,11 @@ use std::fs::File;
 use std::io::{self, Write};
 use std::path::Path;
 
-/// Both bodies; B is none of its own when it comes from where A comes from.
+/// Both bodies; `b` is none when both come from the same file or primitive.
 pub(super) struct Pair {
     a: Body,
     b: Option<Body>,
-    /// Checksums of the files that they come from, by option.
+    /// Checksums of their files, by option.
     pub(super) checksums: [(&'static str, String); 2],
 }
 
@@ -54,7 +54,7 @@ fn load(args: &QueryArgs, (option, text): (&str, &str), source: &BodySource) -> 
     };
     let Prepared { mut body, report } = source.load(detail).with_context(|| option.to_owned())?;
     if args.schedule.uses_hull_trees() && body.hull_tree().is_none() {
-        body = grow_hull_tree(body).with_context(|| format!("{option} {text}"))?;
+        body = with_hull_tree(body).with_context(|| format!("{option} {text}"))?;
     }
     drop(progress);
     if !args.quiet {
@@ -64,7 +64,7 @@ fn load(args: &QueryArgs, (option, text): (&str, &str), source: &BodySource) -> 
     Ok(body)
 }
 
-fn grow_hull_tree(body: Body) -> Result<Body> {
+fn with_hull_tree(body: Body) -> Result<Body> {
     let tree = build_hull_tree(body.pieces())?;
     Ok(body.with_hull_tree(tree)?)
 }
@@ -76,7 +76,7 @@ fn same(a: &BodySource, b: &BodySource) -> bool {
     }
 }
 
-/// The file that a body comes from.
+/// Returns the file that a body comes from; none for a primitive.
 pub(super) fn file(source: &BodySource) -> Option<&Path> {
     match source {
         BodySource::Mesh(path) | BodySource::Stored(path) => Some(path),
@@ -84,9 +84,9 @@ pub(super) fn file(source: &BodySource) -> Option<&Path> {
     }
 }
 
-/// Of what is read; 0 of what is not, and of a file that is gone since.
+/// Returns the checksum of the file of a body; 0 for a primitive or a file that cannot be read.
 fn checksum(source: &BodySource) -> u32 {
-    let mut sum = Sum(crc32fast::Hasher::new());
+    let mut sum = Crc(crc32fast::Hasher::new());
     let file = file(source).and_then(|path| File::open(path).ok());
     match file.map(|mut file| io::copy(&mut file, &mut sum)) {
         Some(Ok(_)) => sum.0.finalize(),
@@ -94,9 +94,9 @@ fn checksum(source: &BodySource) -> u32 {
     }
 }
 
-struct Sum(crc32fast::Hasher);
+struct Crc(crc32fast::Hasher);
 
-impl Write for Sum {
+impl Write for Crc {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         self.0.update(bytes);
         Ok(bytes.len())

@@ -1,4 +1,4 @@
-//! What many answers come to.
+//! The summary of many answers.
 
 #[cfg(test)]
 mod tests;
@@ -11,33 +11,33 @@ use ccd_core::order::greater;
 use std::collections::BTreeMap;
 use std::fmt;
 
-/// Counts and times of many answers, of which none is kept.
+/// Counts and times of many answers. Its size does not depend on their number.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Summary {
-    /// How many of each status, in the order of [`Status::ALL`].
+    /// The number of rows of each status, in the order of [`Status::ALL`].
     counts: [usize; Status::ALL.len()],
-    /// How many of them an earlier run answered: nothing else is known of these.
+    /// The number of rows that an earlier run answered; only their status is known.
     earlier: usize,
     times: Times,
-    /// Pairs of nodes visited, all queries together.
+    /// The sum of the pairs of nodes visited.
     pub(super) iterations: u64,
-    /// How often the oracle was asked, all queries together.
+    /// The sum of the calls of the distance backend.
     pub(super) oracle_calls: u64,
-    /// How often all pairs were advanced together, all queries together.
+    /// The sum of the steps that advanced all pairs together.
     pub(super) advancements: u64,
-    /// Steps of the oracle's search, all queries together.
+    /// The sum of the steps of the distance backend's search.
     pub(super) oracle_steps: u64,
-    /// The tolerance asked for.
-    asked: f64,
+    /// The tolerance of the queries.
+    tolerance: f64,
     limits: Reached,
-    /// How many answers had to keep a larger tolerance.
+    /// The number of answers with a larger tolerance.
     pub(super) raised: usize,
-    /// The largest tolerance kept.
+    /// The largest tolerance of an answer.
     pub(super) largest_tolerance: f64,
 }
 
 impl Summary {
-    /// Of no answers yet, to queries with that tolerance.
+    /// Creates an empty summary of queries with that tolerance.
     pub(super) fn new(tolerance: f64) -> Self {
         Summary {
             counts: [0; Status::ALL.len()],
@@ -47,15 +47,15 @@ impl Summary {
             oracle_calls: 0,
             advancements: 0,
             oracle_steps: 0,
-            asked: tolerance,
+            tolerance,
             limits: Reached::default(),
             raised: 0,
             largest_tolerance: tolerance,
         }
     }
 
-    /// With the rows of an earlier run, so many of each status in the order of [`Status::ALL`].
-    pub(super) fn going_on(mut self, counts: [usize; Status::ALL.len()]) -> Self {
+    /// Adds the rows of an earlier run, counted by status in the order of [`Status::ALL`].
+    pub(super) fn with_earlier(mut self, counts: [usize; Status::ALL.len()]) -> Self {
         for (count, more) in self.counts.iter_mut().zip(counts) {
             *count += more;
         }
@@ -63,7 +63,7 @@ impl Summary {
         self
     }
 
-    /// One more answer.
+    /// Adds an answer.
     pub(super) fn add(&mut self, timed: &Timed) {
         let answer = &timed.answer;
         self.counts[Status::from(&answer.outcome) as usize] += 1;
@@ -74,42 +74,42 @@ impl Summary {
         self.oracle_calls += answer.stats.oracle_calls;
         self.advancements += answer.stats.advancements;
         self.oracle_steps += answer.stats.effort.steps;
-        self.raised += usize::from(answer.tolerance > self.asked);
+        self.raised += usize::from(answer.tolerance > self.tolerance);
         self.largest_tolerance = greater(self.largest_tolerance, answer.tolerance);
         self.times.add(timed.micros);
     }
 
-    /// One more row that could not be asked.
+    /// Adds a row of status `error`.
     pub(super) fn add_error(&mut self) {
         self.counts[Status::Error as usize] += 1;
     }
 
-    /// How many were answered here.
+    /// Returns the number of rows answered in this run.
     fn answered(&self) -> u64 {
         self.times.count
     }
 
-    /// How many there are of each status, in the order of [`Status::ALL`].
+    /// Returns the number of rows of each status, in the order of [`Status::ALL`].
     pub(super) fn counts(&self) -> [usize; Status::ALL.len()] {
         self.counts
     }
 
-    /// Median time of a query, in microseconds, to a thousandth; NaN of none, as the mean.
+    /// Returns the median time of a query in microseconds, to a thousandth; NaN without queries.
     pub(super) fn median_micros(&self) -> f64 {
         self.times.median()
     }
 
-    /// Mean time of a query, in microseconds.
+    /// Returns the mean time of a query in microseconds; NaN without queries.
     pub(super) fn mean_micros(&self) -> f64 {
         self.times.total / self.times.count as f64
     }
 
-    /// How many there are of a status.
+    /// Returns the number of rows of a status.
     pub(super) fn count(&self, status: Status) -> usize {
         self.counts[status as usize]
     }
 
-    /// The means of what is counted, as one line; none of no rows.
+    /// Returns the means of the counters as one line; none without answers.
     pub(super) fn means(&self) -> Option<String> {
         let mean = |total: u64| total as f64 / self.answered() as f64;
         (self.answered() > 0).then(|| {
@@ -122,22 +122,22 @@ impl Summary {
         })
     }
 
-    /// How many there are.
+    /// Returns the number of rows.
     pub(super) fn rows(&self) -> usize {
         self.counts.iter().sum()
     }
 }
 
-/// How many times there are of each size, to a thousandth: as small for many as for few.
+/// A histogram of times, each to a thousandth: its size does not grow with their number.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Times {
-    /// By the leading bits of the time, which are in the order of the times.
+    /// The counts by the leading bits of the time, which have the order of the times.
     counts: BTreeMap<u64, u64>,
     count: u64,
     total: f64,
 }
 
-/// The bits of a time that are not kept: all but 10 of its fraction.
+/// The number of bits of a time that are dropped: all except 10 of its fraction.
 const DROPPED: u32 = f64::MANTISSA_DIGITS - 1 - 10;
 
 impl Times {
@@ -151,12 +151,12 @@ impl Times {
         0.5 * (self.nth(self.count.saturating_sub(1) / 2) + self.nth(self.count / 2))
     }
 
-    /// The one that so many are not greater than, itself left out.
-    fn nth(&self, before: u64) -> f64 {
+    /// Returns the time at an index in ascending order.
+    fn nth(&self, index: u64) -> f64 {
         let mut passed = 0;
         for (&bits, &count) in &self.counts {
             passed += count;
-            if passed > before {
+            if passed > index {
                 return f64::from_bits(bits << DROPPED);
             }
         }
@@ -178,15 +178,15 @@ impl fmt::Display for Summary {
         write!(f, ": {}", counts.join(", "))?;
         match self.rows() - self.earlier {
             _ if self.earlier == 0 => {}
-            0 => write!(f, "; none of them in this run")?,
-            here => write!(f, "; {here} of them in this run")?,
+            0 => write!(f, "; 0 in this run")?,
+            here => write!(f, "; {here} in this run")?,
         }
         if self.answered() == 0 {
             return Ok(());
         }
         write!(
             f,
-            "; median {:.1} µs, mean {:.1} µs; {} node visits, {} oracle calls",
+            "; median {:.1} µs, mean {:.1} µs; {} iterations, {} oracle calls",
             self.median_micros(),
             self.mean_micros(),
             self.iterations,
@@ -198,9 +198,9 @@ impl fmt::Display for Summary {
         if self.raised > 0 {
             write!(
                 f,
-                "\ntolerance {:e} cannot be certified at these coordinates: raised in {} rows, to \
+                "\n--tolerance {:e} cannot be certified at these coordinates: raised for {} rows, to \
                  at most {:.2e}",
-                self.asked, self.raised, self.largest_tolerance
+                self.tolerance, self.raised, self.largest_tolerance
             )?;
         }
         Ok(())

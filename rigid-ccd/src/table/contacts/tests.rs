@@ -38,7 +38,7 @@ fn a_pair_fills_a_row() {
 }
 
 #[test]
-fn what_ends_without_a_contact_has_no_rows() {
+fn outcomes_without_a_contact_have_no_rows() {
     let body = ccd_core::Body::ball(1.0).unwrap();
     let bodies = Bodies { a: &body, b: &body };
     let still = ccd_core::Motion::still(ccd_core::Pose::IDENTITY);

@@ -1,4 +1,4 @@
-//! Which columns there are, and where a table has them.
+//! The columns of the table of motions.
 
 use super::error::TableError;
 use super::foreign;
@@ -11,7 +11,7 @@ pub(super) enum Side {
     B,
 }
 
-/// Quantities of a body, each a run of neighbouring columns.
+/// A quantity of a body, held by consecutive columns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Quantity {
     Position,
@@ -23,13 +23,13 @@ pub(super) enum Quantity {
     Centre,
 }
 
-/// The columns of a body, without its letter, in the order of [`Quantity`].
+/// The columns of a body, without its prefix.
 const OF_BODY: [&str; 23] = [
     "px", "py", "pz", "qw", "qx", "qy", "qz", "end_px", "end_py", "end_pz", "end_qw", "end_qx",
     "end_qy", "end_qz", "vx", "vy", "vz", "wx", "wy", "wz", "cx", "cy", "cz",
 ];
 
-/// All columns in order: the id, A's, B's, the duration.
+/// Returns all columns in order: the id, A's, B's, the duration.
 pub(super) fn known() -> Vec<String> {
     let of = |letter| OF_BODY.iter().map(move |name| format!("{letter}_{name}"));
     std::iter::once("id".to_owned())
@@ -39,11 +39,11 @@ pub(super) fn known() -> Vec<String> {
         .collect()
 }
 
-/// Where a table has its columns.
+/// The columns of a table.
 #[derive(Debug)]
 pub(super) struct Columns {
     names: Vec<String>,
-    /// For each known column the cell that holds it.
+    /// The cell of each known column.
     cells: Vec<Option<usize>>,
     len: usize,
 }
@@ -85,7 +85,7 @@ impl Columns {
         })
     }
 
-    /// How many columns the table has.
+    /// Returns the number of columns of the table.
     pub(super) fn len(&self) -> usize {
         self.len
     }
@@ -94,25 +94,25 @@ impl Columns {
         &self.names[slot]
     }
 
-    /// Which cell of a row holds a column.
-    pub(super) fn place(&self, slot: usize) -> Option<usize> {
+    /// Returns the index of the cell of a column.
+    pub(super) fn index(&self, slot: usize) -> Option<usize> {
         self.cells[slot]
     }
 
-    /// What the column is called that a cell belongs to.
-    pub(super) fn name_at(&self, place: usize) -> &str {
-        let slot = self.cells.iter().position(|&cell| cell == Some(place));
+    /// Returns the name of the column of a cell.
+    pub(super) fn name_at(&self, index: usize) -> &str {
+        let slot = self.cells.iter().position(|&cell| cell == Some(index));
         slot.map_or("", |slot| self.name(slot))
     }
 
-    /// What a row says of a column; an empty cell says nothing.
+    /// Returns the cell of a column; none where it is empty or missing.
     pub(super) fn cell<'r>(&self, row: &[&'r str], slot: usize) -> Option<&'r str> {
         let cell = row.get(self.cells[slot]?).copied();
         cell.filter(|cell| !cell.is_empty())
     }
 }
 
-/// A number in a header that names no column: such a line is a row.
+/// Returns a number in a header without any known column: such a line is a row of numbers.
 fn number_without_names(header: &[&str], names: &[String]) -> Option<String> {
     if header
         .iter()
@@ -128,7 +128,7 @@ fn number_without_names(header: &[&str], names: &[String]) -> Option<String> {
     header.iter().find(is_number).map(|&cell| cell.to_owned())
 }
 
-/// What is wrong with a header that has a column of no known name.
+/// Returns the error of a header with an unknown column.
 fn unknown(header: &[&str], column: &str, names: &[String]) -> TableError {
     if let ([only], Some(separator)) = (header, foreign::separator(column)) {
         return TableError::Separator {
@@ -137,13 +137,13 @@ fn unknown(header: &[&str], column: &str, names: &[String]) -> TableError {
         };
     }
     let lower = column.to_ascii_lowercase();
-    let likeness = |name: &&String| strsim::damerau_levenshtein(name, &lower);
-    let nearest = names.iter().min_by_key(likeness);
+    let edit_distance = |name: &&String| strsim::damerau_levenshtein(name, &lower);
+    let nearest = names.iter().min_by_key(edit_distance);
     TableError::UnknownColumn {
         column: column.to_owned(),
-        // Of so short names, those that differ by more are others.
+        // Names are short: a larger distance means another name.
         nearest: nearest
-            .filter(|name| likeness(name) <= 2 && likeness(name) < lower.chars().count())
+            .filter(|name| edit_distance(name) <= 2 && edit_distance(name) < lower.chars().count())
             .cloned(),
     }
 }

@@ -1,75 +1,72 @@
-//! What can be wrong with a table of motions.
+//! Errors of a table of motions.
 
 use super::RowPosition;
 use crate::text::Number;
 use ccd_core::InputError;
 use std::fmt;
 
-/// Why a table cannot be used at all.
+/// An error that makes a whole table unusable.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum TableError {
-    /// It could not be read.
+    /// The table cannot be read.
     #[error("cannot be read: {0}")]
     Unreadable(String),
-    /// It is something else.
+    /// The file has another format.
     #[error("is {format}, not CSV; export it as CSV, in UTF-8")]
     NotCsv {
-        /// What it is.
+        /// The format.
         format: &'static str,
     },
-    /// Git stands for it with a few lines.
-    #[error(
-        "is a Git LFS pointer, a few lines that stand for the table; run `git lfs pull` to fetch the table \
-         itself"
-    )]
+    /// The file is a Git LFS pointer.
+    #[error("is a Git LFS pointer, not the table itself; run `git lfs pull` to fetch the table")]
     LfsPointer,
-    /// A quoted cell has no end: it would hold all rows that follow.
-    #[error("{}(line {line}): a quote opens a cell here and nothing closes it; close it, or remove it", RowOrHeader(.row))]
+    /// A quoted cell is not closed: it would hold all rows that follow.
+    #[error("{}(line {line}): a quote opens a cell here and is never closed; close it or remove it", RowOrHeader(.row))]
     UnclosedQuote {
-        /// The row that the cell is of, from 0; none when it is of the header.
+        /// The row of the cell, from 0; none for the header.
         row: Option<usize>,
-        /// The line that the quote opens on, from 1.
+        /// The line of the quote, from 1.
         line: u64,
     },
-    /// Its first line has numbers where names have to be.
+    /// The first line has numbers instead of names.
     #[error(
-        "header: `{number}` is a number: the first line has to name the columns, such as id,a_px,a_vx; {}",
+        "header: `{number}` is a number: the first line must name the columns, such as id,a_px,a_vx; {}",
         Known(None)
     )]
     NoHeader {
-        /// The first one.
+        /// The first number.
         number: String,
     },
-    /// Its header is no text.
+    /// The header is not text.
     #[error("is not text in UTF-8; export it as CSV, in UTF-8")]
     NotText,
-    /// Its cells are not separated by commas.
+    /// The cells are not separated by commas.
     #[error(
-        "header: cells are separated by {found:?}; separate them by commas, and have numbers with a decimal point: {header}"
+        "header: cells are separated by {found:?}; use commas, and numbers with a decimal point: {header}"
     )]
     Separator {
-        /// What separates them.
+        /// The separator.
         found: char,
         /// The header.
         header: String,
     },
-    /// A column that means nothing here; left alone it would be a motion silently not made.
+    /// A column is unknown. To ignore it could silently drop a motion.
     #[error("header: unknown column `{column}`; {}", Known(.nearest.as_deref()))]
     UnknownColumn {
-        /// Its name.
+        /// The name of the column.
         column: String,
-        /// The known column that is spelt nearly so.
+        /// The known column with the most similar name.
         nearest: Option<String>,
     },
-    /// A column that is there twice.
+    /// A column appears twice.
     #[error("header: column `{column}` appears twice")]
     RepeatedColumn {
-        /// Its name.
+        /// The name of the column.
         column: String,
     },
-    /// Not even a header.
-    #[error("is empty: the first line has to name the columns")]
+    /// The table is empty.
+    #[error("is empty: the first line must name the columns")]
     Empty,
 }
 
@@ -90,7 +87,7 @@ impl fmt::Display for RowOrHeader<'_> {
     }
 }
 
-/// Which columns there are, or which one is meant.
+/// The most similar column, or a list of all columns.
 struct Known<'a>(Option<&'a str>);
 
 impl fmt::Display for Known<'_> {
@@ -99,77 +96,77 @@ impl fmt::Display for Known<'_> {
             Some(nearest) => write!(f, "did you mean `{nearest}`?"),
             None => write!(
                 f,
-                "known are id, duration, and after a_ or b_: px py pz, qw qx qy qz, vx vy vz, wx wy wz, \
+                "known columns are id, duration, and with the prefix a_ or b_: px py pz, qw qx qy qz, vx vy vz, wx wy wz, \
                  end_px end_py end_pz, end_qw end_qx end_qy end_qz, cx cy cz"
             ),
         }
     }
 }
 
-/// A row that cannot be asked.
+/// The error of a row.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("row {} (line {}): {problem}", .place.row, .place.line)]
+#[error("row {} (line {}): {problem}", .position.row, .position.line)]
 pub struct RowError {
-    /// Which row.
-    pub place: RowPosition,
-    /// What the row is called.
+    /// The position of the row.
+    pub position: RowPosition,
+    /// The id of the row.
     pub id: String,
-    /// What is wrong with it.
+    /// The problem.
     pub problem: RowProblem,
 }
 
-/// What is wrong with a row.
+/// A problem of a row.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum RowProblem {
     /// A cell is not text in UTF-8.
     NotText {
-        /// Its column.
+        /// The column of the cell.
         column: String,
     },
-    /// It has more or fewer cells than the header.
+    /// The row has more or fewer cells than the header.
     WrongLength {
-        /// Its cells.
+        /// The number of cells of the row.
         cells: usize,
-        /// The header's.
+        /// The number of columns of the header.
         columns: usize,
     },
-    /// A cell holds no finite number.
+    /// A cell is not a finite number.
     NotANumber {
-        /// Its column.
+        /// The column of the cell.
         column: String,
-        /// What it holds.
+        /// The content of the cell.
         value: String,
     },
-    /// A column is given that says nothing without another one.
+    /// A column has a value, and another one that it needs has none.
     MissingColumn {
-        /// The one that is there.
+        /// The column with a value.
         given: String,
-        /// The one that is not.
+        /// The column without one.
         missing: String,
     },
-    /// A quaternion that names no orientation.
+    /// A quaternion is zero, or too small to normalise.
     ZeroQuaternion {
-        /// Its four columns.
+        /// The four columns.
         columns: Vec<String>,
-        /// Its four values.
+        /// The four values.
         value: [f64; 4],
     },
-    /// Both ways of saying how a body moves.
+    /// A row gives both the end pose and a velocity of a body.
     EndPoseAndVelocity {
         /// A column of the end pose.
         end: String,
         /// A column of a velocity.
         velocity: String,
     },
-    /// A duration that no motion can take.
+    /// The duration is out of range.
     BadDuration {
-        /// What it is.
+        /// The duration.
         value: f64,
-        /// What it would have to be.
+        /// The allowed values.
         allowed: &'static str,
     },
-    /// The numbers are good, the query is not.
+    /// The numbers are valid, the query is not.
     Input(InputError),
 }
 
@@ -178,21 +175,17 @@ impl fmt::Display for RowProblem {
         match self {
             Self::NotText { column } => write!(f, "column {column}: is not text in UTF-8"),
             Self::WrongLength { cells, columns } => {
-                write!(
-                    f,
-                    "has {cells} cells where the header names {columns} columns"
-                )
+                write!(f, "has {cells} cells, but the header has {columns} columns")
             }
             Self::NotANumber { column, value } => {
                 write!(f, "column {column}: `{value}` is not a finite number")
             }
-            Self::MissingColumn { given, missing } => write!(
-                f,
-                "column {missing}: no value, but {given} has one and needs it"
-            ),
+            Self::MissingColumn { given, missing } => {
+                write!(f, "column {missing}: no value, but column {given} needs it")
+            }
             Self::ZeroQuaternion { columns, value } => write!(
                 f,
-                "columns {}: ({} {} {} {}) is a quaternion of length zero, it names no orientation",
+                "columns {}: ({} {} {} {}) is a zero quaternion, not an orientation",
                 columns.join(" "),
                 Number(value[0]),
                 Number(value[1]),
@@ -201,7 +194,7 @@ impl fmt::Display for RowProblem {
             ),
             Self::EndPoseAndVelocity { end, velocity } => write!(
                 f,
-                "columns {end} and {velocity}: give the end pose or the velocities, not both"
+                "columns {end} and {velocity}: give either the end pose or the velocities"
             ),
             Self::BadDuration { value, allowed } => {
                 write!(f, "column duration: {} is not {allowed}", Number(*value))

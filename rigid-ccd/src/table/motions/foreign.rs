@@ -1,6 +1,6 @@
-//! What is given for a table of motions, and is none: told by how it begins.
+//! Files that are not CSV, recognised by their first bytes.
 
-/// How files begin that are no CSV, and what they are.
+/// The first bytes of other formats, with their names.
 const BEGINNINGS: [(&[u8], &str); 8] = [
     (b"PAR1", "Parquet"),
     (b"ARROW1", "Arrow"),
@@ -12,15 +12,15 @@ const BEGINNINGS: [(&[u8], &str); 8] = [
     (b"\xfe\xff", "text in UTF-16"),
 ];
 
-/// How a file begins that Git LFS has in the place of one that is not fetched yet.
+/// The first bytes of a Git LFS pointer, which stands for a file that is not fetched yet.
 const LFS_BEGINNING: &[u8] = b"version https://git-lfs";
 
-/// Whether a header is that of a pointer of Git LFS.
+/// Returns whether a header is that of a Git LFS pointer.
 pub(super) fn is_lfs_pointer(header: &csv::ByteRecord) -> bool {
     header.as_slice().starts_with(LFS_BEGINNING)
 }
 
-/// Which format a header belongs to, when it is not that of a text.
+/// Returns the format of a file that is not text, from its header.
 pub(super) fn format(header: &csv::ByteRecord) -> Option<&'static str> {
     let bytes = header.as_slice();
     let known = BEGINNINGS
@@ -31,7 +31,7 @@ pub(super) fn format(header: &csv::ByteRecord) -> Option<&'static str> {
         .or_else(|| bytes.contains(&0).then_some("binary"))
 }
 
-/// What separates the cells of a header that has no commas.
+/// Returns the separator of a header without commas.
 pub(super) fn separator(header: &str) -> Option<char> {
     [';', '\t', '|']
         .into_iter()

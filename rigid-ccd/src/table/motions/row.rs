@@ -1,4 +1,4 @@
-//! One row of the table, as the motions of two bodies.
+//! One row of the table, parsed as the motions of two bodies.
 
 use super::Query;
 use super::columns::{Columns, DURATION, ID, Quantity, Side, slots};
@@ -7,7 +7,7 @@ use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{InputError, Motion, Pose};
 use std::ops::Range;
 
-/// What a row asks; `index` names a row that has no id.
+/// Parses a row; `index` is the id of a row without one.
 pub(super) fn query(
     columns: &Columns,
     record: &csv::ByteRecord,
@@ -41,9 +41,9 @@ pub(super) fn query(
     })
 }
 
-/// What a row is called of which nothing else may be readable.
+/// Returns the id of a row, which may be unreadable otherwise.
 pub(super) fn id(columns: &Columns, record: &csv::ByteRecord, index: usize) -> String {
-    let cell = columns.place(ID).and_then(|place| record.get(place));
+    let cell = columns.index(ID).and_then(|index| record.get(index));
     let id = String::from_utf8_lossy(cell.unwrap_or_default());
     match id.trim() {
         "" => index.to_string(),
@@ -51,12 +51,12 @@ pub(super) fn id(columns: &Columns, record: &csv::ByteRecord, index: usize) -> S
     }
 }
 
-/// The cells, without the blanks about them.
+/// Returns the cells, trimmed.
 fn texts<'r>(columns: &Columns, record: &'r csv::ByteRecord) -> Result<Vec<&'r str>, RowProblem> {
-    let text = |(place, cell)| match str::from_utf8(cell) {
+    let text = |(index, cell)| match str::from_utf8(cell) {
         Ok(text) => Ok(text.trim()),
         Err(_) => Err(RowProblem::NotText {
-            column: columns.name_at(place).to_owned(),
+            column: columns.name_at(index).to_owned(),
         }),
     };
     record.iter().enumerate().map(text).collect()
@@ -78,7 +78,7 @@ impl Row<'_> {
         let velocity = self.vector(side, Quantity::Velocity)?;
         let spin = self.vector(side, Quantity::Spin)?;
         let centre = self.vector(side, Quantity::Centre)?.unwrap_or(DVec3::ZERO);
-        self.one_way_only(side)?;
+        self.check_end_or_velocity(side)?;
         let end_position = self.full_vector(side, Quantity::EndPosition)?;
         let end_orientation = self.quaternion(side, Quantity::EndOrientation)?;
         if end_position.is_none() && end_orientation.is_none() {
@@ -92,8 +92,8 @@ impl Row<'_> {
         Ok(Motion::between(start, end, centre, duration)?)
     }
 
-    /// Refuses an end pose along with velocities: either would silently be ignored.
-    fn one_way_only(&self, side: Side) -> Result<(), RowProblem> {
+    /// Refuses an end pose together with velocities.
+    fn check_end_or_velocity(&self, side: Side) -> Result<(), RowProblem> {
         let end = self.first_given(side, Quantity::EndPosition, Quantity::EndOrientation);
         let velocity = self.first_given(side, Quantity::Velocity, Quantity::Spin);
         match (end, velocity) {
@@ -109,20 +109,20 @@ impl Row<'_> {
             .map(|slot| self.columns.name(slot).to_owned())
     }
 
-    /// A vector of which components may be left out; none when all are.
+    /// Returns a vector whose missing components are 0; none when all are missing.
     fn vector(&self, side: Side, quantity: Quantity) -> Result<Option<DVec3>, RowProblem> {
         let parts = self.numbers::<3>(slots(side, quantity))?;
         let given = parts.iter().any(Option::is_some);
         Ok(given.then(|| DVec3::from(parts.map(Option::unwrap_or_default))))
     }
 
-    /// A vector of which all components are given, or none: 0 is no natural place to end at.
+    /// Returns a vector with all components or none: 0 is no natural default for an end position.
     fn full_vector(&self, side: Side, quantity: Quantity) -> Result<Option<DVec3>, RowProblem> {
         let parts = self.all_or_none::<3>(slots(side, quantity))?;
         Ok(parts.map(DVec3::from))
     }
 
-    /// All four components or none; not normalised yet, but able to be.
+    /// Returns a quaternion that is not normalised yet, but can be; all four components or none.
     fn quaternion(&self, side: Side, quantity: Quantity) -> Result<Option<DQuat>, RowProblem> {
         let slots = slots(side, quantity);
         let Some([w, x, y, z]) = self.all_or_none(slots.clone())? else {

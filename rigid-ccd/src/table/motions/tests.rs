@@ -1,3 +1,6 @@
+mod header;
+mod lines;
+
 use super::*;
 use ccd_core::Pose;
 use ccd_core::glam::{DQuat, DVec3};
@@ -30,7 +33,7 @@ fn a_row_without_motion_is_at_rest_for_a_unit_of_time() {
 }
 
 #[test]
-fn rows_without_id_go_by_their_index() {
+fn the_default_id_is_the_number_of_the_row() {
     let table = read("a_px\n1\n2\n");
     let ids: Vec<&str> = table.rows.iter().map(|(_, q)| q.id.as_str()).collect();
     assert_eq!(ids, ["0", "1"]);
@@ -106,7 +109,7 @@ fn an_end_pose_is_reached_at_the_end_of_the_duration() {
 }
 
 #[test]
-fn empty_cells_say_nothing() {
+fn empty_cells_have_defaults() {
     let table = read("a_vx,a_end_px,a_end_py,a_end_pz\n1,,,\n,1,2,3\n");
     assert_eq!(table.errors, []);
     assert_eq!(table.rows[0].1.a.velocity(), DVec3::X);
@@ -114,7 +117,7 @@ fn empty_cells_say_nothing() {
 }
 
 #[test]
-fn numbers_have_to_be_finite() {
+fn numbers_must_be_finite() {
     for bad in ["abc", "NaN", "inf", "1,5", "1e999", "0x10"] {
         let problem = only_problem(&format!("id,b_wz\n1,\"{bad}\"\n"));
         let expected = RowProblem::NotANumber {
@@ -144,7 +147,7 @@ fn an_end_position_needs_all_three() {
 }
 
 #[test]
-fn a_zero_quaternion_is_named() {
+fn a_zero_quaternion_is_refused() {
     for zero in ["0,0,0,0", "0,-0,0,1e-320"] {
         let problem = only_problem(&format!("b_end_qw,b_end_qx,b_end_qy,b_end_qz\n{zero}\n"));
         assert!(
@@ -164,12 +167,12 @@ fn end_pose_and_velocity_exclude_each_other() {
         };
         assert_eq!(problem, expected);
     }
-    // Each body on its own may do it its own way, and the centre goes with both.
+    // The two bodies may differ, and a centre goes with both.
     only_query("a_end_px,a_end_py,a_end_pz,a_cx,b_vx,b_cx\n1,0,0,1,1,1\n");
 }
 
 #[test]
-fn durations_have_to_be_possible() {
+fn durations_must_be_possible() {
     assert_eq!(
         only_problem("duration\n-1\n"),
         RowProblem::BadDuration {
@@ -185,160 +188,19 @@ fn durations_have_to_be_possible() {
 }
 
 #[test]
-fn rows_have_the_length_of_the_header() {
-    let table = read("id,a_px\n1\n2,0,3\n3,0\n");
-    assert_eq!(table.rows.len(), 1);
-    let places: Vec<(usize, u64)> = table
-        .errors
-        .iter()
-        .map(|e| (e.place.row, e.place.line))
-        .collect();
-    assert_eq!(places, [(0, 2), (1, 3)]);
-}
-
-#[test]
-fn bytes_that_are_no_text_spoil_their_row_only() {
-    let table = MotionTable::read(&b"id,a_px\n\xff,1\ngood,1\n"[..]).unwrap();
-    assert_eq!(table.rows.len(), 1);
-    let expected = RowProblem::NotText {
-        column: "id".into(),
-    };
-    assert_eq!(table.errors[0].problem, expected);
-}
-
-#[test]
-fn headers_are_held_to_what_is_known() {
-    let twice = MotionTable::read("id,a_px,id\n".as_bytes()).unwrap_err();
-    assert!(matches!(twice, TableError::RepeatedColumn { column } if column == "id"));
-    let empty = MotionTable::read(&b""[..]).unwrap_err();
-    assert!(matches!(empty, TableError::Empty));
-    assert_eq!(read("id,a_px\n"), MotionTable::default());
-}
-
-#[test]
-fn a_byte_order_mark_is_no_column() {
-    assert_eq!(only_query("\u{feff}id\nx\n").id, "x");
-}
-
-fn refused(bytes: &[u8]) -> String {
-    MotionTable::read(bytes).unwrap_err().to_string()
-}
-
-#[test]
-fn the_column_that_is_meant_is_named() {
-    for (column, meant) in [
-        ("a_pX", "a_px"),
-        ("ID", "id"),
-        ("b_endpx", "b_end_px"),
-        ("durration", "duration"),
-        ("a_xv", "a_vx"),
-    ] {
-        let told = refused(format!("{column}\n").as_bytes());
-        assert!(told.contains(&format!("did you mean `{meant}`?")), "{told}");
-    }
-    let told = refused(b"id,colour\n");
-    assert!(
-        told.contains("`colour`") && told.contains("end_qz"),
-        "{told}"
-    );
-    assert!(!told.contains("did you mean"), "{told}");
-}
-
-#[test]
-fn what_is_no_csv_is_told_for_what_it_is() {
-    for (bytes, told) in [
-        (&b"PAR1\x15\x04\x15\xff\n"[..], "is Parquet, not CSV"),
-        (b"\x1f\x8b\x08\x00\x00", "is gzip"),
-        (b"\xff\xfei\x00d\x00", "is text in UTF-16"),
-        (b"abc\x00\xff", "is binary"),
-        (b"i\xe9d\n1\n", "is not text in UTF-8"),
-        (b"id;a_px\n1;2\n", "separated by ';'"),
-        (b"id\ta_px\n1\t2\n", "separated by '\\t'"),
-    ] {
-        assert!(refused(bytes).contains(told), "{}", refused(bytes));
-    }
-}
-
-/// Neither are the rows before it lost, nor does it take those that follow for one cell.
-#[test]
-fn a_quote_that_nobody_closes_is_told_where_it_opens() {
-    for (text, rows, expected) in [
-        ("id,a_px\n0,1\n\n1,\"2\n2,3\n", 1, (Some(1), 4)),
-        ("id,a_px\n\"a\nb\",1\n\"c\n\n,2\n", 1, (Some(1), 4)),
-        ("id,a_px\n0,1\n1,\"", 1, (Some(1), 3)),
-        ("id,a_px\n0,\"1\"\"\n1,2\n", 0, (Some(0), 2)),
-        ("\u{feff}\n\"id,a_px\n0,1\n", 0, (None, 2)),
-    ] {
-        for end in ["\n", "\r\n", "\r"] {
-            let text = text.replace('\n', end);
-            let mut read = 0;
-            let told = MotionRows::new(text.as_bytes()).and_then(|mut table| {
-                read = table.by_ref().take(rows).filter(Result::is_ok).count();
-                table.next().transpose()
-            });
-            let Err(TableError::UnclosedQuote { row, line }) = told else {
-                panic!("{text:?}: {told:?}");
-            };
-            assert_eq!((read, (row, line)), (rows, expected), "{text:?}");
-        }
-    }
-    // Rows that are passed over are rows all the same.
-    let mut passing = MotionRows::new(&b"id\n0\n\"1\n2\n"[..]).unwrap();
-    assert!(matches!(
-        passing.pass(9),
-        Err(TableError::UnclosedQuote {
-            row: Some(1),
-            line: 3
-        })
-    ));
-}
-
-/// However many rows wait in memory behind the one that is read.
-#[test]
-fn quotes_that_are_closed_are_legal() {
-    let mut text = "id,a_px\n".to_owned();
-    for k in 0..5000 {
-        text += &format!("\"{k}\n, \"\"x\"\"\",\"{k}\"\n");
-    }
-    let table = read(&text);
-    assert_eq!((table.rows.len(), table.errors.len()), (5000, 0));
-    assert_eq!(table.rows[7].1.id, "7\n, \"x\"");
-}
-
-#[test]
-fn a_first_line_of_numbers_is_no_header() {
-    for text in ["1,2,3\n", "drop,4,-4\n", " 1e-3\n", "-.5,x\n"] {
-        let told = refused(text.as_bytes());
-        assert!(
-            told.contains("the first line has to name the columns"),
-            "{told}"
-        );
-    }
-    // With a name among them it is one, and a wrong one.
-    let told = refused(b"id,4\n");
-    assert!(told.contains("unknown column `4`"), "{told}");
-}
-
-#[test]
-fn a_pointer_of_git_lfs_is_no_table() {
-    let told = refused(b"version https://git-lfs.github.com/spec/v1\noid sha256:0\n");
-    assert!(told.contains("git lfs pull"), "{told}");
-}
-
-#[test]
-fn numbers_of_many_digits_are_told_in_few() {
+fn large_numbers_have_few_digits_in_messages() {
     for (text, expected) in [
         ("duration\n-1e308\n", "column duration: -1e308 is not"),
         ("a_qw,a_qx,a_qy,a_qz\n1e-320,0,-0,0\n", "(1e-320 0 -0 0)"),
     ] {
-        let told = only_problem(text).to_string();
-        assert!(told.contains(expected), "{told}");
+        let message = only_problem(text).to_string();
+        assert!(message.contains(expected), "{message}");
     }
 }
 
-/// Of two ways as short the sign of the quaternion says which.
+/// Two rotations have the same length: the sign of the quaternion decides.
 #[test]
-fn half_a_turn_goes_the_way_that_its_axis_points() {
+fn half_a_turn_is_about_the_axis_as_given() {
     let spin = |end: &str| {
         let text = format!("a_end_qw,a_end_qx,a_end_qy,a_end_qz\n{end}\n");
         only_query(&text).a.spin()
@@ -346,63 +208,6 @@ fn half_a_turn_goes_the_way_that_its_axis_points() {
     let half = std::f64::consts::PI;
     assert_eq!(spin("0,0,0,1"), half * DVec3::Z);
     assert_eq!(spin("0,0,0,-1"), -half * DVec3::Z);
-    // Elsewhere both signs are one orientation, and one way.
+    // For other angles, both signs are the same rotation.
     assert_eq!(spin("1,0,0,1"), spin("-1,0,0,-1"));
-}
-
-/// Whatever ends the lines: every row is told by the line that an editor shows it on.
-#[test]
-fn lines_are_counted_as_editors_count_them() {
-    let text = "\u{feff}\nid,a_px\n\nx1,x\n\n\n\"a\nb\",x\nx3,x\n  ,x\n\"c\n\n\",\"\n1\n\"\nlast,x";
-    let expected = [(0, 4), (1, 7), (2, 9), (3, 10), (5, 16)];
-    for end in ["\n", "\r\n", "\r"] {
-        for last in ["", end] {
-            let text = text.replace('\n', end) + last;
-            let table = read(&text);
-            let places: Vec<(usize, u64)> = table
-                .errors
-                .iter()
-                .map(|error| (error.place.row, error.place.line))
-                .collect();
-            assert_eq!(places, expected, "{end:?} {last:?}");
-            let ids: Vec<&str> = table.errors.iter().map(|error| error.id.as_str()).collect();
-            assert_eq!(ids, ["x1", "a\nb", "x3", "3", "last"]);
-            assert_eq!(table.rows[0].1.a.start().translation(), DVec3::X);
-        }
-    }
-}
-
-/// One byte at a time, so that every pair of a return and a line feed is split.
-struct Drip<'a>(&'a [u8]);
-
-impl io::Read for Drip<'_> {
-    fn read(&mut self, out: &mut [u8]) -> io::Result<usize> {
-        let some = out.len().min(1);
-        self.0.read(&mut out[..some])
-    }
-}
-
-#[test]
-fn lines_split_anywhere_are_the_same_lines() {
-    let text = "id,a_px\r\n\r\n1,x\r\n2,2\r\n";
-    let mut rows = MotionRows::new(Drip(text.as_bytes())).unwrap();
-    let error = rows.next().unwrap().unwrap().unwrap_err();
-    assert_eq!((error.place.row, error.place.line), (0, 3));
-    assert!(rows.next().unwrap().unwrap().is_ok());
-    assert!(rows.next().is_none());
-    assert_eq!(rows.bytes(), text.len() as u64);
-}
-
-#[test]
-fn rows_that_are_passed_over_are_counted() {
-    let text = "id,a_px\n1,1\n2,x\n3,x\n";
-    let rows = || MotionRows::new(text.as_bytes()).unwrap();
-    let (mut passing, mut reading) = (rows(), rows());
-    assert_eq!(passing.pass(2).unwrap(), 2);
-    reading.by_ref().take(2).for_each(drop);
-    assert_eq!(passing.checksum(), reading.checksum());
-    let error = passing.next().unwrap().unwrap().unwrap_err();
-    assert_eq!((error.place.row, error.place.line), (2, 4));
-    assert_ne!(passing.checksum(), reading.checksum());
-    assert_eq!(rows().pass(9).unwrap(), 3);
 }

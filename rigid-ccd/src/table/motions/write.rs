@@ -1,15 +1,16 @@
-//! The table of motions written: what [`read`](super::MotionTable::read) reads back.
+//! The table of motions, written.
 
 use super::Query;
 use super::columns::{DURATION, ID, Quantity, Side, known, slots};
 use ccd_core::Motion;
 use std::io;
 
-/// Writes queries as start poses and velocities, leaving out columns that have their default in every
-/// row; numbers read back to the same bits, orientations to rounding.
+/// Writes queries as start poses and velocities; columns with their default in every row are omitted.
+///
+/// Numbers read back to the same bits, orientations up to rounding.
 ///
 /// # Errors
-/// When `output` cannot be written to.
+/// `output` cannot be written to.
 pub fn write(output: impl io::Write, queries: &[Query]) -> Result<(), csv::Error> {
     let names = known();
     let defaults = cells(&Query {
@@ -19,8 +20,8 @@ pub fn write(output: impl io::Write, queries: &[Query]) -> Result<(), csv::Error
         duration: 1.0,
     });
     let rows: Vec<Vec<String>> = queries.iter().map(cells).collect();
-    // Parts of an orientation stand or fall together.
-    let said = |slot: usize| rows.iter().any(|row| row[slot] != defaults[slot]);
+    // The parts of an orientation are kept or omitted together.
+    let differs = |slot: usize| rows.iter().any(|row| row[slot] != defaults[slot]);
     let orientation = |side| slots(side, Quantity::Orientation);
     let kept: Vec<usize> = (0..names.len())
         .filter(|&slot| {
@@ -28,7 +29,7 @@ pub fn write(output: impl io::Write, queries: &[Query]) -> Result<(), csv::Error
                 .map(orientation)
                 .into_iter()
                 .find(|range| range.contains(&slot));
-            slot == ID || whole.map_or_else(|| said(slot), |mut range| range.any(said))
+            slot == ID || whole.map_or_else(|| differs(slot), |mut range| range.any(differs))
         })
         .collect();
     let mut writer = csv::Writer::from_writer(output);
@@ -40,7 +41,7 @@ pub fn write(output: impl io::Write, queries: &[Query]) -> Result<(), csv::Error
     Ok(())
 }
 
-/// A cell for every known column.
+/// Returns a cell for every known column.
 fn cells(query: &Query) -> Vec<String> {
     let mut cells = vec![String::new(); known().len()];
     cells[ID].clone_from(&query.id);

@@ -1,7 +1,7 @@
 use super::*;
 
-/// Where a quote is left open, of a text read in pieces of that size.
-fn open(text: &str, size: usize) -> Option<u64> {
+/// Returns the line of an unclosed quote in a text that is read in pieces of that size.
+fn unclosed_line(text: &str, size: usize) -> Option<u64> {
     let mut quotes = Quotes::new(text.as_bytes());
     let mut piece = vec![0; size];
     while quotes.read(&mut piece).unwrap() > 0 {}
@@ -9,14 +9,14 @@ fn open(text: &str, size: usize) -> Option<u64> {
 }
 
 #[test]
-fn only_quotes_that_nobody_closes_are_open() {
+fn only_unclosed_quotes_are_reported() {
     for (text, expected) in [
         ("", None),
         ("a,b\n1,2\n", None),
         ("a,\"b\nc\"\n", None),
         ("a,\"b\"\"c\"\n", None),
         ("\"a\"", None),
-        // Within a cell, and behind the closing one, a quote is a letter.
+        // Within a cell, and after the closing quote, a quote is an ordinary character.
         ("a\"b,c\n", None),
         (" \"a\n", None),
         ("\"a\" \"b\n", None),
@@ -27,7 +27,7 @@ fn only_quotes_that_nobody_closes_are_open() {
         ("\u{feff}\"a\"\n\n\"b", Some(3)),
     ] {
         for size in [1, 2, 64] {
-            assert_eq!(open(text, size), expected, "{text:?}");
+            assert_eq!(unclosed_line(text, size), expected, "{text:?}");
         }
     }
 }

@@ -80,7 +80,7 @@ fn a_contact_fills_every_cell() {
 }
 
 #[test]
-fn free_lasts_the_duration_with_its_clearance() {
+fn a_free_row_has_the_duration_and_the_proven_gap() {
     let row = written(Outcome::Free { proven_gap: 0.25 });
     assert_eq!(cell(&row, "status"), "free");
     assert_eq!(cell(&row, "time"), "2.5");
@@ -92,7 +92,7 @@ fn free_lasts_the_duration_with_its_clearance() {
 }
 
 #[test]
-fn what_happens_at_the_start_happens_at_0() {
+fn contacts_at_the_start_have_time_0() {
     let touching = written(Outcome::Touching { contact: contact() });
     assert_eq!(
         (cell(&touching, "status"), cell(&touching, "time")),
@@ -111,7 +111,7 @@ fn what_happens_at_the_start_happens_at_0() {
 }
 
 #[test]
-fn unresolved_is_safe_until_its_time() {
+fn an_unresolved_row_has_its_safe_time_and_its_limit() {
     let row = written(Outcome::Unresolved {
         safe_until: 0.75,
         reason: Limit::Budget,
@@ -125,7 +125,7 @@ fn unresolved_is_safe_until_its_time() {
 }
 
 #[test]
-fn names_are_those_that_are_written() {
+fn status_names_are_as_written() {
     for status in Status::ALL {
         let mut writer = csv::Writer::from_writer(Vec::new());
         writer.serialize(status).unwrap();
@@ -135,7 +135,7 @@ fn names_are_those_that_are_written() {
 }
 
 #[test]
-fn a_row_that_asks_nothing_has_its_reason_alone() {
+fn an_error_row_has_only_its_reason() {
     let problem = RowProblem::NotANumber {
         column: "a_px".into(),
         value: "x".into(),
@@ -147,7 +147,6 @@ fn a_row_that_asks_nothing_has_its_reason_alone() {
     assert_eq!(cells, format!("bad,error{},{reason},,,,,", ",".repeat(17)));
 }
 
-/// By name and by place, after all that is there without them.
 #[test]
 fn counters_follow_the_other_columns() {
     let answer = Answer {

@@ -29,7 +29,7 @@ fn timed(micros: f64, tolerance: f64) -> Timed {
 }
 
 #[test]
-fn times_and_visits_are_summed_up() {
+fn times_and_visits_are_summed() {
     let answers: Vec<Timed> = (1..=100)
         .rev()
         .map(|micros| timed(f64::from(micros), 1e-3))
@@ -44,7 +44,7 @@ fn times_and_visits_are_summed_up() {
     assert_eq!((summary.iterations, summary.oracle_calls), (1000, 200));
     assert_eq!(
         summary.to_string(),
-        "100 rows: 100 free; median 50.5 µs, mean 50.5 µs; 1000 node visits, 200 oracle calls"
+        "100 rows: 100 free; median 50.5 µs, mean 50.5 µs; 1000 iterations, 200 oracle calls"
     );
 }
 
@@ -62,7 +62,7 @@ fn raised_tolerances_are_counted() {
     assert_eq!((summary.raised, summary.largest_tolerance), (2, 4e-8));
     let text = summary.to_string();
     assert!(
-        text.contains("raised in 2 rows, to at most 4.00e-8"),
+        text.contains("raised for 2 rows, to at most 4.00e-8"),
         "{text}"
     );
 }
@@ -78,40 +78,43 @@ fn means_are_per_row() {
 }
 
 #[test]
-fn no_rows_have_no_times() {
+fn a_summary_without_rows_has_no_times() {
     assert_eq!(sum([], 1e-3).to_string(), "0 rows");
 }
 
 #[test]
-fn medians_of_many_times_are_right_to_a_thousandth() {
+fn the_median_of_many_times_has_a_relative_error_below_a_thousandth() {
     let mut times: Vec<f64> = (0..9999).map(|k| 0.37 * 1.003_f64.powi(k % 4001)).collect();
     let answers: Vec<Timed> = times.iter().map(|&micros| timed(micros, 1e-3)).collect();
     let exact = median(&mut times);
-    let told = sum(&answers, 1e-3).median_micros();
-    assert!((0.999 * exact..=exact).contains(&told), "{told} {exact}");
+    let reported = sum(&answers, 1e-3).median_micros();
+    assert!(
+        (0.999 * exact..=exact).contains(&reported),
+        "{reported} {exact}"
+    );
 }
 
 #[test]
-fn rows_of_earlier_runs_are_counted_and_told_apart() {
+fn rows_of_earlier_runs_are_counted_separately() {
     let mut earlier = sum(&[timed(3.0, 1e-3)], 1e-3);
     earlier.add_error();
-    let mut summary = Summary::new(1e-3).going_on(earlier.counts());
+    let mut summary = Summary::new(1e-3).with_earlier(earlier.counts());
     assert_eq!(
         summary.to_string(),
-        "2 rows: 1 free, 1 error; none of them in this run"
+        "2 rows: 1 free, 1 error; 0 in this run"
     );
     assert_eq!(summary.means(), None);
     summary.add(&timed(5.0, 1e-3));
     assert_eq!((summary.rows(), summary.median_micros()), (3, 5.0));
     let text = summary.to_string();
-    let begin = "3 rows: 2 free, 1 error; 1 of them in this run; median 5.0";
+    let begin = "3 rows: 2 free, 1 error; 1 in this run; median 5.0";
     assert!(text.starts_with(begin), "{text}");
     let means = "means: 3.0 advancements, 2.0 oracle calls, 7.0 oracle steps";
     assert_eq!(summary.means().as_deref(), Some(means));
 }
 
 #[test]
-fn rows_that_were_not_asked_take_no_time() {
+fn invalid_rows_take_no_time() {
     let mut summary = sum(&[timed(3.0, 1e-3)], 1e-3);
     summary.add_error();
     assert_eq!((summary.rows(), summary.median_micros()), (2, 3.0));

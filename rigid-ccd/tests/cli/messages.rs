@@ -1,11 +1,11 @@
-//! What is said of input that is not what it should be, and of bodies that hardly belong together.
+//! Messages about input, and about bodies of different size.
 
 use crate::command::{Run, Scene, parse, stderr};
 
 const SPHERES: [&str; 4] = ["--a", "sphere:1", "--b", "sphere:1"];
 
-/// What a query of such a table says.
-fn told_of(table: &str) -> String {
+/// Returns the messages of a query with that table.
+fn messages_of(table: &str) -> String {
     let output = Run::query(&SPHERES)
         .args(&["--quiet"])
         .stdin(table)
@@ -18,13 +18,16 @@ fn told_of(table: &str) -> String {
 fn lines_are_counted_whatever_ends_them() {
     for end in ["\n", "\r\n", "\r"] {
         let table = "\u{feff}a_px\n1\n2\n\n3\nx\n".replace('\n', end);
-        let told = told_of(&table);
-        assert!(told.contains("row 3 (line 6): column a_px: `x`"), "{told}");
+        let message = messages_of(&table);
+        assert!(
+            message.contains("row 3 (line 6): column a_px: `x`"),
+            "{message}"
+        );
     }
 }
 
 #[test]
-fn everything_is_said_once() {
+fn every_cause_is_reported_once() {
     let scene = Scene::new("said-once");
     let table = scene.directory.join("motions.csv");
     std::fs::write(&table, b"PAR1\x15\x04\xff\xfe\n").unwrap();
@@ -37,23 +40,23 @@ fn everything_is_said_once() {
         let run = Run::bare(&["query", "--motions", motions, "--a", a, "--b", "sphere:1"]);
         let output = run.stdin("id\n1\n").output();
         assert_eq!(output.status.code(), Some(2));
-        let told = stderr(&output);
-        let lines: Vec<&str> = told
+        let message = stderr(&output);
+        let lines: Vec<&str> = message
             .lines()
             .filter(|line| line.starts_with("ccd: "))
             .collect();
-        assert_eq!(lines.len(), 1, "{told}");
-        assert_eq!(lines[0].matches(expected).count(), 1, "{told}");
+        assert_eq!(lines.len(), 1, "{message}");
+        assert_eq!(lines[0].matches(expected).count(), 1, "{message}");
         assert!(
-            !told.contains("os error") && !told.contains("utf-8"),
-            "{told}"
+            !message.contains("os error") && !message.contains("utf-8"),
+            "{message}"
         );
     }
 }
 
-/// By their names and in words, without the numbers that the system has for them.
+/// With their names, and without error numbers of the operating system.
 #[test]
-fn what_is_not_there_is_told_once() {
+fn missing_files_are_reported_once() {
     let scene = Scene::new("not-there");
     let there = scene.file("there.csv", "id\n1\n");
     let there = there.to_str().unwrap();
@@ -67,68 +70,71 @@ fn what_is_not_there_is_told_once() {
         let run = Run::bare(&["query", "--quiet", "--motions", motions, "--out", out]);
         let output = run.args(&["--a", a, "--b", "sphere:1"]).stdin("").output();
         assert!(!output.status.success());
-        let told = stderr(&output);
+        let message = stderr(&output);
         assert!(
-            told.contains("gone") && !told.contains("os error"),
-            "{told}"
+            message.contains("gone") && !message.contains("os error"),
+            "{message}"
         );
-        let mut parts: Vec<&str> = told.trim().split(": ").collect();
+        let mut parts: Vec<&str> = message.trim().split(": ").collect();
         let all = parts.len();
         parts.sort_unstable();
         parts.dedup();
-        assert_eq!(parts.len(), all, "{told}");
+        assert_eq!(parts.len(), all, "{message}");
     }
 }
 
 #[test]
-fn a_table_without_a_header_is_told_so() {
-    let told = told_of("1,2,3\n4,5,6\n");
+fn a_table_without_a_header_is_reported() {
+    let message = messages_of("1,2,3\n4,5,6\n");
     assert!(
-        told.contains("`1` is a number: the first line has to name the columns"),
-        "{told}"
+        message.contains("`1` is a number: the first line must name the columns"),
+        "{message}"
     );
 }
 
 #[test]
-fn help_says_how_rows_count_and_which_way_half_a_turn_goes() {
+fn help_explains_row_numbers_and_half_turns() {
     let output = Run::bare(&["query", "--help"]).stdin("").output();
     let text = String::from_utf8(output.stdout).unwrap();
-    for words in ["Rows count from 0 everywhere", "Half a turn can go either"] {
+    for words in ["Rows count from 0", "Two rotations by half a turn"] {
         assert!(text.contains(words), "{words}");
     }
 }
 
 #[test]
-fn other_separators_are_told() {
-    let told = told_of("id;a_px\n1;2,5\n");
+fn other_separators_are_reported() {
+    let message = messages_of("id;a_px\n1;2,5\n");
     assert!(
-        told.contains("separated by ';'; separate them by commas"),
-        "{told}"
+        message.contains("separated by ';'; use commas"),
+        "{message}"
     );
 }
 
 #[test]
-fn sizes_are_told_and_compared() {
+fn sizes_are_reported_and_compared() {
     let motions = "a_px\n3\n";
     let output = Run::query(&["--a", "box:.5,1,2", "--b", "sphere:1"])
         .stdin(motions)
         .output();
-    let told = stderr(&output);
+    let message = stderr(&output);
     assert!(
-        told.contains("--a box:.5,1,2: 1 primitive, solid, size 1 × 2 × 4\n"),
-        "{told}"
+        message.contains("--a box:.5,1,2: 1 primitive, solid, size 1 × 2 × 4\n"),
+        "{message}"
     );
-    assert!(!told.contains("times as large"), "{told}");
+    assert!(!message.contains("times as large"), "{message}");
     let output = Run::query(&["--a", "box:150,50,50", "--b", "sphere:1"])
         .stdin(motions)
         .output();
     assert!(output.status.success());
-    let told = stderr(&output);
-    assert!(told.contains("--a is 150 times as large as --b"), "{told}");
+    let message = stderr(&output);
+    assert!(
+        message.contains("--a is 150 times as large as --b"),
+        "{message}"
+    );
 }
 
 #[test]
-fn some_rows_are_answered_as_among_all() {
+fn selected_rows_have_the_same_answers() {
     let motions = "a_px\n5\n6\nbad\n8\n9\n";
     let answers = |rows: &str| {
         let run = Run::query(&SPHERES).args(&["--no-micros", "--rows", rows]);
@@ -146,7 +152,7 @@ fn some_rows_are_answered_as_among_all() {
         .args(&["--rows", "7.."])
         .stdin(motions)
         .output();
-    assert!(stderr(&none).contains("none of its 5 rows is in --rows 7.."));
+    assert!(stderr(&none).contains("has 5 rows, and --rows 7.. selects none of them"));
     for bad in ["3", "4..4", "a..b", "-1..2"] {
         let output = Run::query(&SPHERES).args(&["--rows", bad]).output();
         assert_eq!(output.status.code(), Some(2), "{bad}");

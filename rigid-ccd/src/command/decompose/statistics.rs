@@ -1,4 +1,4 @@
-//! What a mesh has become, in figures.
+//! Statistics of a prepared mesh.
 
 use ccd_core::{Body, Volume};
 use ccd_decomp::Model;
@@ -6,9 +6,9 @@ use indicatif::HumanCount;
 use serde::Serialize;
 use std::fmt;
 
-/// What a mesh has become. Prints as aligned lines for people.
+/// Statistics of a prepared mesh; displayed as aligned lines.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub(super) struct Figures {
+pub(super) struct Statistics {
     mesh: String,
     pieces_kind: String,
     why: String,
@@ -27,10 +27,10 @@ pub(super) struct Figures {
     remarks: String,
 }
 
-impl Figures {
+impl Statistics {
     pub(super) fn new(mesh: String, model: &Model, body: &Body, build_ms: f64) -> Self {
         let report = &model.report;
-        Figures {
+        Statistics {
             mesh,
             pieces_kind: report.kind.to_string(),
             why: report.why.to_string(),
@@ -42,7 +42,7 @@ impl Figures {
                 .hull_tree
                 .as_ref()
                 .map_or(0, |tree| tree.hulls().len()),
-            // To the microsecond: more digits say nothing.
+            // To the microsecond.
             build_ms: (build_ms * 1e3).round() / 1e3,
             bytes: body.bytes(),
             exact: report.is_exact(),
@@ -58,11 +58,11 @@ impl Figures {
     }
 }
 
-impl fmt::Display for Figures {
+impl fmt::Display for Statistics {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let line = |f: &mut fmt::Formatter<'_>, name: &str, what: &str| match what {
+        let line = |f: &mut fmt::Formatter<'_>, name: &str, value: &str| match value {
             "" => Ok(()),
-            what => writeln!(f, "{name:<14}{what}"),
+            value => writeln!(f, "{name:<14}{value}"),
         };
         let triangles = count(self.triangles);
         line(f, "mesh", &format!("{}: {triangles} triangles", self.mesh))?;
@@ -81,12 +81,12 @@ impl fmt::Display for Figures {
     }
 }
 
-impl Figures {
+impl Statistics {
     fn pieces_text(&self) -> String {
         let pieces = format!("{} {}", count(self.pieces), self.pieces_kind);
         match self.exact {
             true => format!("{pieces}, {}", self.volume),
-            // Every one of them is filled, whatever the mesh bounds.
+            // Approximate pieces are all solid.
             false => pieces,
         }
     }
@@ -101,7 +101,7 @@ impl Figures {
 
     fn error_text(&self) -> String {
         match self.exact {
-            true => "none: the pieces are the mesh".to_owned(),
+            true => "none: the pieces are exact".to_owned(),
             false => format!("the pieces stick out by at most {:.3e}", self.sticks_out),
         }
     }

@@ -1,0 +1,152 @@
+//! The rows of a query: answered batch by batch, written in order.
+
+use super::args::QueryArgs;
+use super::journal::Checkpoint;
+use super::outputs::Outputs;
+use super::summary::Summary;
+use crate::batch::{Bodies, PairSolver, Threads, Timed};
+use crate::command::bad_rows::BadRows;
+use crate::command::files::{CannotWrite, Motions, input_name};
+use crate::command::progress::Progress;
+use crate::table::contacts;
+use crate::table::motions::{MotionRow, Query, RowError, RowPosition, RowProblem, TableError};
+use crate::table::results::{self, ResultRow};
+use anyhow::{Context, Result};
+use ccd_core::Config;
+
+/// A run that answers rows batch by batch.
+pub(super) struct Answering<'a> {
+    pub(super) args: &'a QueryArgs,
+    pub(super) bodies: Bodies<'a>,
+    pub(super) config: Config,
+    pub(super) solver: PairSolver<'a>,
+    pub(super) threads: Threads,
+    pub(super) outputs: Outputs,
+    pub(super) summary: Summary,
+    pub(super) bad_rows: BadRows,
+    pub(super) progress: Progress,
+}
+
+impl Answering<'_> {
+    /// Answers the selected rows from `start` on, and returns where they end.
+    pub(super) fn answer_all(
+        &mut self,
+        rows: &mut Motions,
+        start: Checkpoint,
+    ) -> Result<Checkpoint> {
+        let mut done = start;
+        loop {
+            let end = self.args.rows.end;
+            let remaining = end.map_or(usize::MAX, |end| end.saturating_sub(done.rows));
+            let size = self.threads.batch().min(remaining);
+            let (batch, broken) = read_batch(rows, size);
+            if batch.is_empty() && broken.is_none() {
+                return Ok(done);
+            }
+            self.answer(&batch)?;
+            self.progress.read(rows.bytes());
+            done = Checkpoint {
+                rows: done.rows + batch.len(),
+                checksum: rows.checksum(),
+                bad: start.bad + self.bad_rows.count(),
+                counts: self.summary.counts(),
+                ..done
+            };
+            self.outputs.save(done)?;
+            if let Some(error) = broken {
+                return Err(error).with_context(|| input_name(&self.args.motions));
+            }
+        }
+    }
+
+    /// Answers a batch of rows, and writes their results and contacts.
+    fn answer(&mut self, batch: &[MotionRow]) -> Result<(), CannotWrite> {
+        let (solver, progress) = (&self.solver, &self.progress);
+        let answers = self.threads.work(batch, |thread, row| {
+            let answer = match row {
+                Ok((_, query)) => solver.answer(thread, query).map_err(RowProblem::from),
+                Err(error) => Err(error.problem.clone()),
+            };
+            progress.step();
+            answer
+        });
+        let mut answered = Vec::new();
+        for (row, answer) in batch.iter().zip(&answers) {
+            let (position, id) = match row {
+                Ok((position, query)) => (*position, &query.id),
+                Err(error) => (error.position, &error.id),
+            };
+            let row = match (row, answer) {
+                (Ok((_, query)), Ok(timed)) => {
+                    self.summary.add(timed);
+                    answered.push((position, query, timed));
+                    self.result(query, timed)
+                }
+                (_, Err(problem)) | (Err(RowError { problem, .. }), _) => {
+                    self.summary.add_error();
+                    self.bad_rows.report(position, problem, &self.progress);
+                    ResultRow::error(id, problem)
+                }
+            };
+            let extent = self.args.extent();
+            let results = &mut self.outputs.results;
+            results.write(|writer| results::write(writer, extent, &row))?;
+        }
+        self.write_contacts(&answered)
+    }
+
+    /// Returns the row of the results for an answer.
+    fn result(&self, query: &Query, timed: &Timed) -> ResultRow {
+        let row = ResultRow::new(&query.id, query.duration, &timed.answer, timed.micros);
+        ResultRow {
+            micros: row.micros.filter(|_| !self.args.no_micros),
+            ..row
+        }
+    }
+
+    /// Writes the contacts of rows that are answered; rows with too many contacts are bad rows.
+    fn write_contacts(
+        &mut self,
+        answered: &[(RowPosition, &Query, &Timed)],
+    ) -> Result<(), CannotWrite> {
+        let Some(table) = &mut self.outputs.contacts else {
+            return Ok(());
+        };
+        let (bodies, config) = (self.bodies, &self.config);
+        // A row may have very many contacts.
+        for few in answered.chunks(ROWS_OF_CONTACTS) {
+            let all = self.threads.map(few, |_, (_, query, timed)| {
+                contacts::rows(bodies, query, config, &timed.answer.outcome)
+            });
+            for ((position, ..), rows) in few.iter().zip(all) {
+                match rows {
+                    Ok(rows) => {
+                        for row in rows {
+                            table.write(|writer| writer.serialize(row))?;
+                        }
+                    }
+                    Err(error) => {
+                        let problem = format!("contacts: {error}");
+                        self.bad_rows.report(*position, &problem, &self.progress);
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The number of rows whose contacts are in memory at one time.
+const ROWS_OF_CONTACTS: usize = 64;
+
+/// Reads up to `count` rows, and the error that ended the table early, if any.
+fn read_batch(rows: &mut Motions, count: usize) -> (Vec<MotionRow>, Option<TableError>) {
+    let mut batch = Vec::new();
+    for row in rows.take(count) {
+        match row {
+            Ok(row) => batch.push(row),
+            Err(error) => return (batch, Some(error)),
+        }
+    }
+    (batch, None)
+}

@@ -1,0 +1,93 @@
+//! The texts that follow the options in the help of `ccd query`.
+
+/// The end of `ccd query -h`.
+pub(super) const AFTER_HELP: &str = "\
+Examples:
+  ccd query --a knot.obj --b knot.obj --motions motions.csv --out results.csv
+  printf 'a_pz,a_vz\\n3,-4\\n' | ccd query --a box:.5,.5,.5 --b box:9,9,1 --motions -
+
+See `ccd query --help` for the columns of all tables and the exit codes.";
+
+/// The end of `ccd query --help`.
+pub(super) const AFTER_LONG_HELP: &str = "\
+Table of motions:
+  Columns go by name, in any order. Every column and every cell is optional. Rows count from 0: in
+  ids, in --rows and in messages. Lines of a file count from 1.
+  id                        name of the row in the results [default: its number]
+  a_px a_py a_pz            position of A at the start [default: 0]
+  a_qw a_qx a_qy a_qz       orientation of A at the start, a quaternion [default: identity]
+  a_vx a_vy a_vz            velocity of A's centre, world frame, per unit of time [default: 0]
+  a_wx a_wy a_wz            angular velocity of A, world frame, radians per unit of time [default: 0]
+  a_end_px a_end_py a_end_pz a_end_qw a_end_qx a_end_qy a_end_qz
+                            instead of velocities: pose of A at the end, reached by the shortest
+                            rotation; without a position or an orientation, that of the start is kept
+  a_cx a_cy a_cz            centre of rotation of A, in A's frame; it moves in a straight line
+                            [default: A's origin]
+  b_px, ...                 the same columns for B
+  duration                  end of the motion, at least 0 [default: 1]
+
+  Two rotations by half a turn lead to the same end pose. The command takes the one that is
+  counterclockwise about the vector part (x, y, z) of end * start^-1, so the signs of the quaternions
+  decide. Within 1e-15 of half a turn, rounding decides. Give velocities where the direction matters.
+
+  Coordinates of meshes, positions and centres are from -1e12 to 1e12. --tolerance, --margin and the
+  distance from B's position at the start to either centre, at all times, are at most 1e12. Rotations
+  are at most 1e6 radians. A row outside these ranges has status `error`.
+
+Table of results:
+  id                        as in the table of motions
+  status    contact         within margin + tolerance at `time`, no contact before
+            free            no contact during the whole duration
+            touching        within margin + tolerance at the start
+            overlapping     intersecting at the start, or one body inside the other, a solid
+            unresolved      a limit was reached; no contact before `time`, not known after
+            error           the row is not a valid query; most cells are empty
+  time                      certified: no contact before it; from 0 to the duration
+  distance_lower, distance_upper
+                            bounds of the distance at `time`; of `free`: distance_lower holds at all
+                            times
+  normal_x ... normal_z     unit vector from A to B, world frame, at `time`
+  witness_a_x ... witness_b_z
+                            a pair of nearest points, world frame, at `time`
+  feature_a, feature_b      v7, e3-7, f12: vertex, edge or face of the mesh, numbered from 0; p0: a
+                            whole piece
+  iterations, oracle_calls  pairs of nodes visited; calls of the distance backend
+  micros                    time of this query in microseconds; for accurate times use --threads 1
+  reason                    of `error`: what is wrong; of `unresolved`: the limit, one of budget,
+                            deadline, stalled, oracle gave up, undecided
+  With --counters also:
+  advancements              steps that advanced all pairs together; 0 for best-first
+  oracle_steps, cycles      steps of the distance backend's search; returns to an earlier step
+  fallbacks                 pairs that the distance backend gave up on and another one answered
+  front                     largest number of pairs that waited at one time
+
+Table of contacts (--contacts):
+  For each row of status `contact` or `touching`, all pairs of features within margin + tolerance at
+  that time, nearest first: a vertex and a face, or two edges that cross. Where there is no such
+  pair, a vertex and an edge, or two vertices.
+  id, time                  as in the table of results
+  feature_a, feature_b, distance_lower, distance_upper, normal_x ... witness_b_z
+                            as in the table of results, for the two features
+
+Long runs:
+  Rows are written in order, batch by batch, to files that end in .partial. They are renamed when all
+  rows are there; existing files are kept until then. Repeat the same command with --resume to
+  continue an interrupted run. A file that ends in .resume, next to --out, records the options and
+  the progress. The number of threads, --rows and interruptions change no byte of a row, except in
+  column `micros` (see --no-micros) and with --deadline.
+
+With --bound published, times are not certified: contacts may be late or missed.
+
+Exit codes:
+  0  every row has an answer; `unresolved` is an answer
+  1  the results or the contacts cannot be written
+  2  bad input: a file or an option that cannot be used, rows of status `error`, or a row with more
+     contacts than --budget allows
+
+Examples:
+  ccd query --a knot.obj --b knot.obj --motions motions.csv --out results.csv
+  ccd query --a part.stl --b box:1,1,.1 --motions - --tolerance 1e-6 < motions.csv
+  ccd query --a part.stl --b part.stl --motions motions.csv --out results.csv --contacts contacts.csv
+  ccd query --a part.stl --b part.stl --motions motions.csv --out results.csv \\
+      --schedule fast --oracle vmarch --pieces patches --counters    # the method as published
+  printf 'a_pz,a_vz\\n3,-4\\n' | ccd query --a box:.5,.5,.5 --b box:9,9,1 --motions -";

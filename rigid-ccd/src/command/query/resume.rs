@@ -1,0 +1,71 @@
+//! `ccd query --resume`: the rows that an earlier run has answered.
+
+use super::args::QueryArgs;
+use super::journal::Checkpoint;
+use super::summary::Summary;
+use super::{exit, print_summary};
+use crate::command::files::{Motions, input_name};
+use crate::command::{Exit, complain};
+use anyhow::{Context, Result, bail};
+
+/// Prints where the run continues.
+pub(super) fn report(args: &QueryArgs, earlier: Option<Checkpoint>) {
+    match earlier {
+        Some(_) if args.quiet => {}
+        Some(Checkpoint { rows, .. }) => {
+            complain(&format!("--resume: continues at row {rows} of the motions"));
+        }
+        None => complain("--resume: found no interrupted run; starts at the first row"),
+    }
+}
+
+/// Skips the rows that are answered or not selected, and returns where the run starts.
+pub(super) fn skip_rows(
+    args: &QueryArgs,
+    rows: &mut Motions,
+    earlier: Option<Checkpoint>,
+) -> Result<Checkpoint> {
+    let input = || input_name(&args.motions);
+    let wanted = earlier.map_or(args.rows.start, |earlier| earlier.rows);
+    let skipped = rows.skip_rows(wanted).with_context(input)?;
+    let checksum = rows.checksum();
+    match earlier {
+        Some(earlier) if (skipped, checksum) != (earlier.rows, earlier.checksum) => bail!(
+            "--resume: {}: not the rows of the interrupted run; give the same table, or delete \
+             {}.partial to start over",
+            input(),
+            args.out.display()
+        ),
+        Some(earlier) => Ok(earlier),
+        None => Ok(Checkpoint {
+            rows: skipped,
+            checksum,
+            ..Checkpoint::default()
+        }),
+    }
+}
+
+/// Leaves the tables of a finished run unchanged, if the motions are those of that run.
+pub(super) fn leave_finished(
+    args: &QueryArgs,
+    rows: &mut Motions,
+    end: Checkpoint,
+) -> Result<Exit> {
+    let (input, out) = (input_name(&args.motions), args.out.display());
+    let skipped = rows.skip_rows(end.rows).with_context(|| input.clone())?;
+    let same = (skipped, rows.checksum()) == (end.rows, end.checksum);
+    let more = args.rows.end.is_none_or(|last| end.rows < last);
+    if !same || more && rows.skip_rows(1).with_context(|| input.clone())? > 0 {
+        bail!(
+            "--resume: {input}: not the rows of the finished run; give the same table, or omit \
+             --resume to start over"
+        );
+    }
+    if !args.quiet {
+        complain(&format!(
+            "--resume: {out} already has all rows of this query; it is unchanged"
+        ));
+        print_summary(args, &Summary::new(args.tolerance).with_earlier(end.counts));
+    }
+    Ok(exit(end))
+}

@@ -1,0 +1,74 @@
+//! Headers, and files that are not tables.
+
+use super::*;
+
+#[test]
+fn repeated_columns_and_empty_tables_are_refused() {
+    let twice = MotionTable::read("id,a_px,id\n".as_bytes()).unwrap_err();
+    assert!(matches!(twice, TableError::RepeatedColumn { column } if column == "id"));
+    let empty = MotionTable::read(&b""[..]).unwrap_err();
+    assert!(matches!(empty, TableError::Empty));
+    assert_eq!(read("id,a_px\n"), MotionTable::default());
+}
+
+fn refused(bytes: &[u8]) -> String {
+    MotionTable::read(bytes).unwrap_err().to_string()
+}
+
+#[test]
+fn the_most_similar_column_is_named() {
+    for (column, meant) in [
+        ("a_pX", "a_px"),
+        ("ID", "id"),
+        ("b_endpx", "b_end_px"),
+        ("durration", "duration"),
+        ("a_xv", "a_vx"),
+    ] {
+        let message = refused(format!("{column}\n").as_bytes());
+        assert!(
+            message.contains(&format!("did you mean `{meant}`?")),
+            "{message}"
+        );
+    }
+    let message = refused(b"id,colour\n");
+    assert!(
+        message.contains("`colour`") && message.contains("end_qz"),
+        "{message}"
+    );
+    assert!(!message.contains("did you mean"), "{message}");
+}
+
+#[test]
+fn other_formats_are_recognised() {
+    for (bytes, message) in [
+        (&b"PAR1\x15\x04\x15\xff\n"[..], "is Parquet, not CSV"),
+        (b"\x1f\x8b\x08\x00\x00", "is gzip"),
+        (b"\xff\xfei\x00d\x00", "is text in UTF-16"),
+        (b"abc\x00\xff", "is binary"),
+        (b"i\xe9d\n1\n", "is not text in UTF-8"),
+        (b"id;a_px\n1;2\n", "separated by ';'"),
+        (b"id\ta_px\n1\t2\n", "separated by '\\t'"),
+    ] {
+        assert!(refused(bytes).contains(message), "{}", refused(bytes));
+    }
+}
+
+#[test]
+fn a_first_line_of_numbers_is_not_a_header() {
+    for text in ["1,2,3\n", "drop,4,-4\n", " 1e-3\n", "-.5,x\n"] {
+        let message = refused(text.as_bytes());
+        assert!(
+            message.contains("the first line must name the columns"),
+            "{message}"
+        );
+    }
+    // With a known name, it is a header with a wrong column.
+    let message = refused(b"id,4\n");
+    assert!(message.contains("unknown column `4`"), "{message}");
+}
+
+#[test]
+fn a_git_lfs_pointer_is_not_a_table() {
+    let message = refused(b"version https://git-lfs.github.com/spec/v1\noid sha256:0\n");
+    assert!(message.contains("git lfs pull"), "{message}");
+}

@@ -1,0 +1,133 @@
+//! Lines, quotes and row numbers.
+
+use super::*;
+
+#[test]
+fn rows_have_the_length_of_the_header() {
+    let table = read("id,a_px\n1\n2,0,3\n3,0\n");
+    assert_eq!(table.rows.len(), 1);
+    let positions: Vec<(usize, u64)> = table
+        .errors
+        .iter()
+        .map(|e| (e.position.row, e.position.line))
+        .collect();
+    assert_eq!(positions, [(0, 2), (1, 3)]);
+}
+
+#[test]
+fn bytes_that_are_not_text_affect_only_their_row() {
+    let table = MotionTable::read(&b"id,a_px\n\xff,1\ngood,1\n"[..]).unwrap();
+    assert_eq!(table.rows.len(), 1);
+    let expected = RowProblem::NotText {
+        column: "id".into(),
+    };
+    assert_eq!(table.errors[0].problem, expected);
+}
+
+#[test]
+fn a_byte_order_mark_is_ignored() {
+    assert_eq!(only_query("\u{feff}id\nx\n").id, "x");
+}
+
+/// The rows before it are read, and those after it are not read as its cell.
+#[test]
+fn an_unclosed_quote_is_reported_where_it_opens() {
+    for (text, rows, expected) in [
+        ("id,a_px\n0,1\n\n1,\"2\n2,3\n", 1, (Some(1), 4)),
+        ("id,a_px\n\"a\nb\",1\n\"c\n\n,2\n", 1, (Some(1), 4)),
+        ("id,a_px\n0,1\n1,\"", 1, (Some(1), 3)),
+        ("id,a_px\n0,\"1\"\"\n1,2\n", 0, (Some(0), 2)),
+        ("\u{feff}\n\"id,a_px\n0,1\n", 0, (None, 2)),
+    ] {
+        for end in ["\n", "\r\n", "\r"] {
+            let text = text.replace('\n', end);
+            let mut read = 0;
+            let message = MotionRows::new(text.as_bytes()).and_then(|mut table| {
+                read = table.by_ref().take(rows).filter(Result::is_ok).count();
+                table.next().transpose()
+            });
+            let Err(TableError::UnclosedQuote { row, line }) = message else {
+                panic!("{text:?}: {message:?}");
+            };
+            assert_eq!((read, (row, line)), (rows, expected), "{text:?}");
+        }
+    }
+    // Skipped rows count as rows.
+    let mut passing = MotionRows::new(&b"id\n0\n\"1\n2\n"[..]).unwrap();
+    assert!(matches!(
+        passing.skip_rows(9),
+        Err(TableError::UnclosedQuote {
+            row: Some(1),
+            line: 3
+        })
+    ));
+}
+
+/// With many rows in the buffer after the current one.
+#[test]
+fn closed_quotes_are_legal() {
+    let mut text = "id,a_px\n".to_owned();
+    for k in 0..5000 {
+        text += &format!("\"{k}\n, \"\"x\"\"\",\"{k}\"\n");
+    }
+    let table = read(&text);
+    assert_eq!((table.rows.len(), table.errors.len()), (5000, 0));
+    assert_eq!(table.rows[7].1.id, "7\n, \"x\"");
+}
+
+/// Whatever ends the lines: every row is message by the line that an editor shows it on.
+#[test]
+fn lines_are_counted_as_editors_count_them() {
+    let text = "\u{feff}\nid,a_px\n\nx1,x\n\n\n\"a\nb\",x\nx3,x\n  ,x\n\"c\n\n\",\"\n1\n\"\nlast,x";
+    let expected = [(0, 4), (1, 7), (2, 9), (3, 10), (5, 16)];
+    for end in ["\n", "\r\n", "\r"] {
+        for last in ["", end] {
+            let text = text.replace('\n', end) + last;
+            let table = read(&text);
+            let positions: Vec<(usize, u64)> = table
+                .errors
+                .iter()
+                .map(|error| (error.position.row, error.position.line))
+                .collect();
+            assert_eq!(positions, expected, "{end:?} {last:?}");
+            let ids: Vec<&str> = table.errors.iter().map(|error| error.id.as_str()).collect();
+            assert_eq!(ids, ["x1", "a\nb", "x3", "3", "last"]);
+            assert_eq!(table.rows[0].1.a.start().translation(), DVec3::X);
+        }
+    }
+}
+
+/// One byte at a time, so that every pair of a return and a line feed is split.
+struct Drip<'a>(&'a [u8]);
+
+impl io::Read for Drip<'_> {
+    fn read(&mut self, out: &mut [u8]) -> io::Result<usize> {
+        let some = out.len().min(1);
+        self.0.read(&mut out[..some])
+    }
+}
+
+#[test]
+fn lines_split_anywhere_are_the_same_lines() {
+    let text = "id,a_px\r\n\r\n1,x\r\n2,2\r\n";
+    let mut rows = MotionRows::new(Drip(text.as_bytes())).unwrap();
+    let error = rows.next().unwrap().unwrap().unwrap_err();
+    assert_eq!((error.position.row, error.position.line), (0, 3));
+    assert!(rows.next().unwrap().unwrap().is_ok());
+    assert!(rows.next().is_none());
+    assert_eq!(rows.bytes(), text.len() as u64);
+}
+
+#[test]
+fn skipped_rows_are_counted() {
+    let text = "id,a_px\n1,1\n2,x\n3,x\n";
+    let rows = || MotionRows::new(text.as_bytes()).unwrap();
+    let (mut passing, mut reading) = (rows(), rows());
+    assert_eq!(passing.skip_rows(2).unwrap(), 2);
+    reading.by_ref().take(2).for_each(drop);
+    assert_eq!(passing.checksum(), reading.checksum());
+    let error = passing.next().unwrap().unwrap().unwrap_err();
+    assert_eq!((error.position.row, error.position.line), (2, 4));
+    assert_ne!(passing.checksum(), reading.checksum());
+    assert_eq!(rows().skip_rows(9).unwrap(), 3);
+}

@@ -1,0 +1,66 @@
+//! `ccd completions` and `ccd man`.
+
+use crate::command::{Run, Scene, stderr};
+use rstest::rstest;
+use std::fs;
+
+#[rstest]
+#[case("bash")]
+#[case("elvish")]
+#[case("fish")]
+#[case("powershell")]
+#[case("zsh")]
+fn every_shell_completes_commands_and_options(#[case] shell: &str) {
+    let output = Run::bare(&["completions", shell]).output();
+    assert!(output.status.success(), "{}", stderr(&output));
+    let script = String::from_utf8(output.stdout).unwrap();
+    // A fish script names long options without their dashes.
+    let option = if shell == "fish" {
+        "-l motions"
+    } else {
+        "--motions"
+    };
+    for word in ["query", option] {
+        assert!(script.contains(word), "{shell}: {word}");
+    }
+}
+
+#[test]
+fn an_unknown_shell_is_refused() {
+    let output = Run::bare(&["completions", "cmd"]).output();
+    assert_eq!(output.status.code(), Some(2));
+    assert!(
+        stderr(&output).contains("powershell"),
+        "{}",
+        stderr(&output)
+    );
+}
+
+#[test]
+fn the_command_and_every_subcommand_have_a_man_page() {
+    let scene = Scene::new("man");
+    let output = Run::bare(&["man", scene.directory.to_str().unwrap()]).output();
+    assert!(output.status.success(), "{}", stderr(&output));
+    for (page, word) in [
+        ("ccd", "query"),
+        ("ccd-query", "motions"),
+        ("ccd-decompose", "pieces"),
+        ("ccd-completions", "shell"),
+        ("ccd-man", "FOLDER"),
+    ] {
+        let text = fs::read_to_string(scene.directory.join(format!("{page}.1"))).unwrap();
+        assert!(text.contains(".TH") && text.contains(word), "{page}");
+    }
+}
+
+#[test]
+fn man_pages_need_an_existing_folder() {
+    let folder = Scene::new("man-missing").directory.join("gone");
+    let output = Run::bare(&["man", folder.to_str().unwrap()]).output();
+    assert_eq!(output.status.code(), Some(1));
+    let message = stderr(&output);
+    assert!(
+        message.contains("cannot write") && message.contains("gone"),
+        "{message}"
+    );
+}
