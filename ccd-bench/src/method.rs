@@ -1,4 +1,5 @@
-//! The methods that are compared, by name: this project's, published rivals built here, peer libraries.
+//! The methods that are compared, by name: this project's, published rivals built here, peer
+//! libraries.
 
 pub mod peer;
 pub mod rival;
@@ -17,15 +18,15 @@ use std::fmt;
 /// A method that answers queries.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Method {
-    /// One of this project, over bodies made of such pieces.
+    /// A solver of this project, on bodies made of the given kind of pieces.
     Ours(SolverKind, Pieces),
     /// A published rival, built here.
     Rival(RivalKind),
-    /// A library.
+    /// A peer library.
     Peer(PeerKind),
 }
 
-/// The rivals there are.
+/// The published rivals.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum RivalKind {
     /// Continuous tests of oriented boxes.
@@ -38,12 +39,12 @@ pub enum RivalKind {
     Stepping,
 }
 
-/// Which motion somebody moves the bodies along.
+/// The motion along which a method moves the bodies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MotionKind {
-    /// As the query says: a centre straight, the body turning about it.
+    /// The motion of the query: the centre moves straight, and the body turns about it.
     Given,
-    /// From the same pose at the start to the same at the end, along a screw.
+    /// The screw motion between the same start and end poses.
     Screw,
 }
 
@@ -55,7 +56,7 @@ const RIVALS: [RivalKind; 4] = [
 ];
 
 impl Method {
-    /// All of them, the default kind first.
+    /// Returns all methods, the default kind first.
     pub fn all() -> Vec<Method> {
         let kind = |schedule, oracle| SolverKind {
             schedule,
@@ -79,8 +80,9 @@ impl Method {
         ours.into_iter().chain(rivals).chain(peers).collect()
     }
 
-    /// Whether it is measured at every tolerance: not where none changes its answers, nor for models of
-    /// the bodies that are compared with each other alone.
+    /// Returns true if the method is measured at every tolerance. Methods whose answers do not
+    /// depend on the tolerance are not, nor are models of the bodies that are only compared with
+    /// each other.
     pub fn takes_tolerances(self) -> bool {
         match self {
             Method::Ours(..) => !self.is_model(),
@@ -89,7 +91,7 @@ impl Method {
         }
     }
 
-    /// Whether it is the default kind over pieces that it would not choose itself.
+    /// Returns true for the default kind on pieces that it would not choose itself.
     pub fn is_model(self) -> bool {
         match self {
             Method::Ours(kind, pieces) => {
@@ -103,7 +105,7 @@ impl Method {
         }
     }
 
-    /// Which motion it moves the bodies along.
+    /// Returns the motion along which the method moves the bodies.
     pub fn motion_kind(self) -> MotionKind {
         match self {
             Method::Rival(RivalKind::Contact) => MotionKind::Screw,
@@ -113,7 +115,7 @@ impl Method {
 }
 
 impl RivalKind {
-    /// Takes a session at a scene.
+    /// Opens a session of the method on a scene.
     pub fn enter(self, scene: &Scene, tolerance: f64) -> Box<dyn Adjustable> {
         let (a, b) = (scene.a.mesh(), scene.b.mesh());
         match self {
@@ -125,7 +127,7 @@ impl RivalKind {
     }
 }
 
-/// One of this project's methods as a solver.
+/// A solver of this project.
 pub struct Ours<'s> {
     bodies: Bodies<'s>,
     kind: SolverKind,
@@ -134,7 +136,7 @@ pub struct Ours<'s> {
 }
 
 impl<'s> Ours<'s> {
-    /// A kind on two bodies.
+    /// Returns a solver of the given kind on two bodies.
     pub fn new(kind: SolverKind, bodies: Bodies<'s>, tolerance: f64) -> Self {
         Ours {
             bodies,
@@ -155,10 +157,10 @@ impl Adjustable for Ours<'_> {
 }
 
 impl Solver for Ours<'_> {
-    /// Steps are advancements of all pairs where there is such a thing, else pairs of nodes visited.
+    /// Steps are advancements of all pairs if the schedule has them, else pairs of nodes visited.
     fn answer(&mut self, query: &Query) -> Reply {
         let Ok(answer) = solve(self.bodies, query, &self.config, self.solver.as_mut()) else {
-            // A query that cannot be posed is not answered.
+            // An invalid query is not answered.
             return Reply {
                 claim: Claim::Unresolved { safe_until: 0.0 },
                 steps: 0,

@@ -1,4 +1,4 @@
-//! Whatever backend, schedule and kind of piece: the same answer, within the tolerance.
+//! Every backend, schedule and kind of piece gives the same answer, within the tolerance.
 
 use ccd_core::Outcome;
 use ccd_tests::backends::for_each_setup;
@@ -7,11 +7,11 @@ use ccd_tests::strategies::{cases, check_cases};
 use std::cell::Cell;
 
 #[test]
-fn all_setups_say_the_same_unless_it_is_within_the_tolerance() {
+fn all_setups_agree_unless_the_distance_is_within_the_tolerance() {
     let (hits, misses) = (Cell::new(0), Cell::new(0));
     check_cases(500, cases(), |case| {
         let query = case.query();
-        // As soon as the distance is the tolerance, contact is right; until it is 0, free is.
+        // Contact is right as soon as the distance is the tolerance. Free is right until it is 0.
         let first = Referee::with_margin(&query, case.tolerance).verdict();
         let last = Referee::new(&query).verdict();
         let mut seen = Vec::new();

@@ -14,7 +14,7 @@ use ccd_tests::strategies::{cases, check_cases, remote_cases};
 use std::cell::Cell;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// When and how near the bodies touch, if they do.
+/// Returns the time and distance of the contact, if any.
 fn touch(problem: &Problem<'_>) -> Option<(f64, f64)> {
     match Backend::DEFAULT.solve(problem).outcome {
         Outcome::Contact { time, contact } => Some((time, contact.separation.upper)),
@@ -23,7 +23,7 @@ fn touch(problem: &Problem<'_>) -> Option<(f64, f64)> {
     }
 }
 
-/// The contacts of a scene, for every kind of pieces.
+/// Returns the contacts of a scene, for every kind of pieces.
 fn contacts_of(name: &str) -> Vec<([Kind; 2], Vec<FeaturePair>)> {
     let scenes = scenes_named(name);
     let query = &scenes[0].query;
@@ -36,7 +36,8 @@ fn contacts_of(name: &str) -> Vec<([Kind; 2], Vec<FeaturePair>)> {
     bodies.iter().map(of_kind).collect()
 }
 
-/// Every upright edge of the peg, which goes through the plate, meets both rims of one of its walls.
+/// Every upright edge of the peg, which goes through the plate, meets both rims of one of its
+/// walls.
 #[test]
 fn t12_a_peg_touches_four_walls_at_once() {
     for (kinds, pairs) in contacts_of("T12 ") {
@@ -68,7 +69,7 @@ fn t12_a_peg_touches_four_walls_at_once() {
     }
 }
 
-/// Four corners of every tooth of either comb come down on the other's base.
+/// Four corners of every tooth of either comb meet the other comb's base.
 #[test]
 fn t19_all_tips_of_two_combs_touch() {
     for (kinds, pairs) in contacts_of("T19 combs of 4") {
@@ -82,7 +83,7 @@ fn t19_all_tips_of_two_combs_touch() {
 }
 
 #[test]
-fn t1_a_cube_stands_on_its_corners() {
+fn t1_a_cube_rests_on_its_corners() {
     for (kinds, pairs) in contacts_of("T1 ") {
         assert_eq!(pairs.len(), 4, "{kinds:?}: {pairs:?}");
         for pair in &pairs {
@@ -95,7 +96,7 @@ fn t1_a_cube_stands_on_its_corners() {
     }
 }
 
-/// Of two plates of 512 triangles that cover each other, vertices meet vertices.
+/// In two plates of 512 triangles that cover each other, vertices meet vertices.
 #[test]
 fn plates_meet_vertex_by_vertex() {
     for (kinds, pairs) in contacts_of("plates") {
@@ -111,7 +112,8 @@ fn plates_meet_vertex_by_vertex() {
     }
 }
 
-/// What touches is among the contacts, the same whatever the pieces, and each is as told.
+/// The touching features are among the contacts, for all kinds of pieces, and each contact is as
+/// described.
 #[test]
 fn contacts_of_random_cases_hold() {
     let (told, same, coarser) = (Cell::new(0), Cell::new(0), Cell::new(0));
@@ -160,8 +162,8 @@ fn contacts_of_random_cases_hold() {
 
 type Names = [Feature; 2];
 
-/// Whether names are those of the mesh, or, of a corner or an edge to which a patch has no number, that
-/// of a face with it.
+/// Returns true if names are those of the mesh, or, for a corner or an edge without a number in a
+/// patch, that of a face with it.
 fn matches(query: &Query, names: &BTreeSet<Names>, exact: &BTreeSet<Names>) -> bool {
     let meshes = [&query.a, &query.b].map(|actor| &actor.shape.mesh);
     let fits = |name: &Names, exact: &Names| {
@@ -184,7 +186,7 @@ fn matches(query: &Query, names: &BTreeSet<Names>, exact: &BTreeSet<Names>) -> b
             .all(|it| names.iter().any(|name| fits(name, it)))
 }
 
-/// Holds every pair against the mesh, and the nearest against the contact that was reported.
+/// Checks every pair against the mesh, and the nearest against the reported contact.
 fn check_pairs(
     query: &Query,
     pairs: &[FeaturePair],
@@ -219,7 +221,7 @@ fn check_pairs(
     Ok(())
 }
 
-/// How far a point is off a feature of the mesh at a time.
+/// Returns the distance of a point from a feature of the mesh at a time.
 fn off(actor: &Actor, time: f64, feature: Feature, point: DVec3) -> f64 {
     let (pose, mesh) = (actor.motion.pose(time), &actor.shape.mesh);
     let at = |v: u32| pose.transform_point(mesh.vertices[v as usize]);

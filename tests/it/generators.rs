@@ -1,4 +1,4 @@
-//! Random cases are worth running: each kind of outcome has its share of them.
+//! Random cases cover every kind of outcome.
 
 use ccd_tests::case::Case;
 use ccd_tests::checks::Judge;
@@ -34,7 +34,7 @@ fn remote_cases_hit_and_miss() {
     assert!(shares.hits >= 60 && shares.misses >= 50, "{shares:?}");
 }
 
-/// How many of 200 cases end how.
+/// The numbers of outcomes in 200 cases.
 #[derive(Debug, Default)]
 struct Shares {
     hits: u32,

@@ -1,4 +1,4 @@
-//! The referee itself, against closed forms: it is the yardstick of everything else.
+//! Compares the referee, which judges everything else, with closed forms.
 
 use ccd_core::glam::DVec3;
 use ccd_tests::analytic::{Expect, scenes};
@@ -29,11 +29,11 @@ fn it_brackets_every_closed_form() {
                     "{name}: {seen} < {gap}"
                 );
             }
-            // Within the referee's own resolution of touching.
+            // Within the distance at which the referee cannot exclude touching.
             (Expect::Free { gap }, Verdict::Near { .. }) => assert!(*gap <= 2e-9, "{name}"),
-            // Sliding along closely takes the referee more steps than it has patience for.
+            // Sliding at a small distance takes the referee more steps than its limit.
             (Expect::Free { gap }, Verdict::Undecided { .. }) => assert!(*gap < 2e-6, "{name}"),
-            // Grazes in so short a time that it is not seen to intersect.
+            // The contact grazes so briefly that intersection is not seen.
             (Expect::Hit { latest, .. }, Verdict::Near { lo }) => {
                 assert!(lo <= latest + 1e-12, "{name}: {lo} > {latest}");
             }
@@ -89,7 +89,7 @@ fn distances_of_boxes() {
 }
 
 #[test]
-fn winding_tells_inside_from_outside() {
+fn winding_separates_inside_from_outside() {
     let Mesh { vertices, .. } = cuboid(DVec3::ONE).mesh;
     let mesh = cuboid(DVec3::ONE).mesh;
     for (p, inside) in [

@@ -10,7 +10,7 @@ use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 use ccd_core::{Answer, Body, Config, Contact, Feature, Outcome, Overlap, Piece, Separation};
 
-/// Holds answers to one query against what the referee saw of it.
+/// Judges answers to one query by the referee's findings.
 pub struct Judge<'a> {
     query: &'a Query,
     config: Config,
@@ -21,10 +21,10 @@ pub struct Judge<'a> {
     samples: Vec<(f64, f64)>,
 }
 
-/// The law holds, or the reason why not.
+/// `Ok` if the law holds, else the reason why not.
 pub type Law = Result<(), String>;
 
-/// Returns the reason unless the condition holds; comparisons with NaN do not.
+/// Returns the reason unless the condition holds; comparisons with NaN do not hold.
 macro_rules! law {
     ($holds:expr, $($why:tt)*) => {{
         let holds: bool = $holds;
@@ -35,7 +35,7 @@ macro_rules! law {
 }
 
 impl<'a> Judge<'a> {
-    /// Lets the referee look at a query.
+    /// Runs the referee on a query.
     pub fn new(query: &'a Query, config: &Config) -> Self {
         let referee = Referee::with_margin(query, config.margin);
         let time = |k: u32| query.duration * f64::from(k) / 16.0;
@@ -49,7 +49,7 @@ impl<'a> Judge<'a> {
         }
     }
 
-    /// The same judge of another tolerance; the referee need not look again.
+    /// Returns the same judge for another tolerance, without running the referee again.
     pub fn with_tolerance(self, tolerance: f64) -> Self {
         let config = Config {
             tolerance,
@@ -58,12 +58,12 @@ impl<'a> Judge<'a> {
         Judge { config, ..self }
     }
 
-    /// The referee's verdict.
+    /// Returns the referee's verdict.
     pub fn verdict(&self) -> Verdict {
         self.verdict
     }
 
-    /// Whether one solid holds the other at the start.
+    /// Returns true if one solid contains the other at the start.
     pub fn nested(&self) -> bool {
         self.nested
     }
@@ -72,7 +72,7 @@ impl<'a> Judge<'a> {
     /// its contact as claimed.
     ///
     /// # Errors
-    /// Which law the answer breaks.
+    /// The law that the answer breaks.
     pub fn check(&self, answer: &Answer, bodies: &Bodies) -> Law {
         self.check_time(answer, 0.0)?;
         let reach = self.config.margin + answer.tolerance + self.query.rounding();
@@ -87,11 +87,11 @@ impl<'a> Judge<'a> {
         }
     }
 
-    /// Checks the time of an answer alone, which may be that to this query in another guise that rounds by
+    /// Checks only the time of an answer. The answer may be to an equivalent query that rounds by
     /// `more` than this one.
     ///
     /// # Errors
-    /// Which law the answer breaks.
+    /// The law that the answer breaks.
     pub fn check_time(&self, answer: &Answer, more: f64) -> Law {
         let rounding = self.query.rounding() + more;
         law!(
@@ -111,7 +111,7 @@ impl<'a> Judge<'a> {
                     "missed: {:?}",
                     self.verdict
                 );
-                law!(!self.nested, "missed: one body is inside of the other");
+                law!(!self.nested, "missed: one body is inside the other");
                 let less = self.samples.iter().find(|s| s.1 < proven_gap - rounding);
                 law!(
                     less.is_none(),
@@ -128,10 +128,10 @@ impl<'a> Judge<'a> {
         Ok(())
     }
 
-    /// Checks that a time is not past a contact that the referee is sure of.
+    /// Checks that a time is not after a contact that the referee is sure of.
     ///
     /// # Errors
-    /// When it is.
+    /// If it is.
     pub fn never_late(&self, time: f64) -> Law {
         let in_range = (0.0..=self.query.duration).contains(&time);
         law!(in_range, "the time {time} is not within the duration");
@@ -143,8 +143,8 @@ impl<'a> Judge<'a> {
         Ok(())
     }
 
-    /// Whether a point of a piece of body A (0) or B (1) at the start is in the solid, or on the mesh. Parts
-    /// are believed, as they need not be closed together.
+    /// Returns true if a point of a piece of body A (0) or B (1) at the start is in the solid, or
+    /// on the mesh. Parts are not checked, as they need not be closed together.
     fn fills(&self, body: usize, point: DVec3, kind: Kind) -> bool {
         let places = Placement::pair(self.query);
         let place = |p| places[body].at(0.0, p) + places[0].origin();
@@ -171,11 +171,11 @@ impl<'a> Judge<'a> {
                 check_contact(self.query, 0.0, contact, bodies, f64::INFINITY)
             }
             Overlap::AInsideB(p) => {
-                law!(self.referee.holds(1, *p), "{p} is not inside of B");
+                law!(self.referee.holds(1, *p), "{p} is not inside B");
                 Ok(())
             }
             Overlap::BInsideA(p) => {
-                law!(self.referee.holds(0, *p), "{p} is not inside of A");
+                law!(self.referee.holds(0, *p), "{p} is not inside A");
                 Ok(())
             }
         }
@@ -185,7 +185,7 @@ impl<'a> Judge<'a> {
 /// Checks witnesses, normal, bounds and features of a contact.
 ///
 /// # Errors
-/// Which of them is wrong.
+/// The one that is wrong.
 pub fn check_contact(
     query: &Query,
     time: f64,
@@ -222,7 +222,7 @@ pub fn check_contact(
         "the normal {normal} does not point from A to B"
     );
     let places = Placement::pair(query);
-    // Placements are relative to A's centre, witnesses are not.
+    // Placements are relative to A's centre, but witnesses are not.
     let drift = places[0].origin() + time * query.a.motion.velocity();
     let side_a = Side {
         actor: &query.a,
@@ -271,7 +271,7 @@ impl Side<'_> {
         Ok(self.body.pieces().get(self.piece as usize))
     }
 
-    /// The farthest that the touched piece reaches along an axis.
+    /// Returns the largest coordinate of the touched piece along an axis.
     fn support(&self, axis: DVec3) -> Result<f64, String> {
         let piece = self.piece()?;
         let along = piece.points.iter().map(|&p| (self.place)(p).dot(axis));
@@ -284,7 +284,7 @@ impl Side<'_> {
         let shape = &self.actor.shape;
         let off = match self.kind {
             Kind::Patches | Kind::Hull if matches!(feature, Feature::Piece(_)) => {
-                // On a virtual facet: behind the surface, which is then nearer to the other body.
+                // A virtual facet is inside the surface, which is then nearer to the other body.
                 let off = distance_to_mesh(witness, &shape.mesh, self.place);
                 law!(
                     off <= reach + rounding,

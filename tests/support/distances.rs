@@ -1,4 +1,4 @@
-//! Distances of points from pieces, from meshes, and from features of these.
+//! Distances of points from pieces, from meshes, and from their features.
 
 use crate::models::Mesh;
 use crate::referee::{point_segment, point_triangle};
@@ -6,7 +6,7 @@ use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 use ccd_core::{Feature, Origin, Piece, Polytope};
 
-/// The distance of a point from a piece; 0 inside.
+/// Returns the distance of a point from a piece; 0 inside.
 pub(crate) fn distance_to_piece(
     p: DVec3,
     piece: &Piece<'_>,
@@ -28,7 +28,7 @@ pub(crate) fn distance_to_piece(
                 fan.map(|e| (e[0] - l[0]).cross(e[1] - l[0])).sum()
             };
             let height = |l: &Vec<DVec3>| normal(l).dot(p - l[0]);
-            // A polygon has two facets, and no inside.
+            // A polygon has two facets and no interior.
             if loops.len() != 2 && loops.iter().all(|l| height(l) <= 0.0) {
                 0.0
             } else {
@@ -42,7 +42,7 @@ pub(crate) fn distance_to_piece(
     greater(0.0, core - piece.radius)
 }
 
-/// The distance of a point from the surface.
+/// Returns the distance of a point from the surface.
 pub(crate) fn distance_to_mesh(p: DVec3, mesh: &Mesh, place: impl Fn(DVec3) -> DVec3) -> f64 {
     let off = |k| {
         let corners = mesh.triangle(k).map(&place);
@@ -96,7 +96,7 @@ pub(crate) fn distance_to_part_feature(
                 let corners: Vec<DVec3> = corners.into_iter().map(&place).collect();
                 distance_to_polygon(p, &corners)
             }),
-            // The inside: that the witness lies in the piece is checked elsewhere.
+            // The interior: another check ensures that the witness lies in the piece.
             Feature::Piece(_) => Some(0.0),
         };
         if let Some(distance) = distance {
@@ -110,7 +110,7 @@ pub(crate) fn distance_to_part_feature(
     }
 }
 
-/// The corners of the face that a part has by a number.
+/// Returns the corners of the face with this number in a part.
 fn face_of(part: &Polytope, face: u32) -> Option<Vec<DVec3>> {
     let mut facets = part.facets.iter();
     let whole = facets.find(|facet| facet.origin == Origin::Face(face));

@@ -1,7 +1,7 @@
-//! An independent judge of when two moving meshes first touch: slow and obvious.
+//! An independent judge of the first contact of two moving meshes: slow and obvious.
 //!
-//! It shares no code with the engine: poses from the formula of the motion, distances by trying all
-//! pairs of vertices, edges and faces, times by undirected conservative advancement.
+//! It shares no code with the engine. Poses come from the formula of the motion, distances from all
+//! pairs of vertices, edges and faces, times from undirected conservative advancement.
 
 mod placement;
 mod triangles;
@@ -22,14 +22,14 @@ pub enum Verdict {
     Start,
     /// Apart until `lo`, in contact at `hi`.
     Hit {
-        /// Proven free until then.
+        /// The bodies are proven free until this time.
         lo: f64,
-        /// Seen in contact then.
+        /// They are in contact at this time.
         hi: f64,
     },
-    /// Apart until `lo`, when they are so near that it is hard to tell.
+    /// They are apart until `lo`, and then too near to decide.
     Near {
-        /// Proven free until then.
+        /// The bodies are proven free until this time.
         lo: f64,
     },
     /// Apart over the whole duration.
@@ -37,9 +37,9 @@ pub enum Verdict {
         /// The least distance seen.
         gap: f64,
     },
-    /// The referee lost patience.
+    /// The step limit was reached.
     Undecided {
-        /// Proven free until then.
+        /// The bodies are proven free until this time.
         lo: f64,
     },
 }
@@ -51,7 +51,7 @@ pub struct Referee<'a> {
     margin: f64,
 }
 
-/// Steps of advancement before the referee loses patience.
+/// The limit of steps of advancement.
 const MAX_STEPS: u32 = 20_000;
 
 impl<'a> Referee<'a> {
@@ -69,13 +69,13 @@ impl<'a> Referee<'a> {
         }
     }
 
-    /// The distance of the two surfaces at a time; 0 where they intersect.
+    /// Returns the distance of the two surfaces at a time; 0 if they intersect.
     pub fn gap(&self, time: f64) -> f64 {
         let [a, b] = self.posed(time);
         a.distance(&b)
     }
 
-    /// Whether one closed solid holds the first vertex of the other at a time.
+    /// Returns true if one closed solid contains the first vertex of the other at a time.
     pub fn nested(&self, time: f64) -> bool {
         let [a, b] = self.posed(time);
         let solid = |k: usize| [&self.query.a, &self.query.b][k].shape.is_solid();
@@ -87,7 +87,7 @@ impl<'a> Referee<'a> {
         (solid(1) && inside(&b, &a)) || (solid(0) && inside(&a, &b))
     }
 
-    /// Whether a point in world coordinates lies inside of body A (0) or B (1) at the start.
+    /// Returns true if a point in world coordinates lies inside body A (0) or B (1) at the start.
     pub fn holds(&self, body: usize, point: DVec3) -> bool {
         let posed = &self.posed(0.0)[body];
         contains(
@@ -97,7 +97,7 @@ impl<'a> Referee<'a> {
         )
     }
 
-    /// Finds when the bodies first touch.
+    /// Finds the first contact of the bodies.
     pub fn verdict(&self) -> Verdict {
         let speed = self.speed();
         let close = CLOSE * self.size();
@@ -119,7 +119,7 @@ impl<'a> Referee<'a> {
         Verdict::Undecided { lo: time }
     }
 
-    /// Bounds how fast the distance can change.
+    /// Returns a bound of the rate of change of the distance.
     pub fn speed(&self) -> f64 {
         let [a, b] = &self.places;
         (b.velocity() - a.velocity()).length() + a.rim_speed() + b.rim_speed()
@@ -170,7 +170,7 @@ impl<'a> Referee<'a> {
 }
 
 impl Verdict {
-    /// The time at which contact is certain, if any.
+    /// Returns a time at which contact is certain, if any.
     pub fn latest(self) -> Option<f64> {
         match self {
             Verdict::Start => Some(0.0),

@@ -1,4 +1,4 @@
-//! Scenes for programs elsewhere, and what those measured on them.
+//! Exports scenes to other programs, and joins the trials that those measured.
 
 use crate::method::solver::Claim;
 use crate::method::{Method, MotionKind};
@@ -27,19 +27,19 @@ pub struct Foreign {
     time: Option<f64>,
 }
 
-/// What a program elsewhere says of a query.
+/// The result of another program for a query.
 enum Said {
     Claim(Claim),
     CutOff,
     Died,
-    /// That it measured something else, such as a single distance: there is nothing to judge.
+    /// It measured something else, such as a single distance, and is not judged.
     Nothing,
 }
 
 /// Writes each scene into a folder of its name: `a.obj`, `b.obj`, `motions.csv`.
 ///
 /// # Errors
-/// When a scene cannot be made or a file not be written.
+/// If a scene cannot be made or a file cannot be written.
 pub fn export(
     listings: &[Listing],
     models: Option<path::PathBuf>,
@@ -65,7 +65,7 @@ pub fn export(
 /// Reads a table of trials measured elsewhere.
 ///
 /// # Errors
-/// When the file is none, or names a method of this program.
+/// If the file is no such table, or names a method of this program.
 pub fn read_trials(file: &path::Path) -> Result<Vec<Foreign>> {
     let foreign: Vec<Foreign> = read(file)?;
     let own: Vec<String> = Method::all().iter().map(ToString::to_string).collect();
@@ -80,10 +80,10 @@ pub fn read_trials(file: &path::Path) -> Result<Vec<Foreign>> {
     Ok(foreign)
 }
 
-/// Judges trials and puts them in the place of what was known of their methods.
+/// Judges trials. They replace earlier trials of the same methods.
 ///
 /// # Errors
-/// When they are about scenes or queries that there are not.
+/// If a trial names an unknown scene or query.
 pub fn join(evaluated: &mut Evaluated, mut foreign: Vec<Foreign>) -> Result<()> {
     for trial in &foreign {
         if evaluated

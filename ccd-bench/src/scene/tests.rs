@@ -49,7 +49,7 @@ fn scenes_are_the_same_every_time_and_differ_by_seed() {
 }
 
 #[test]
-fn boards_lie_across_the_way_or_just_beside_it() {
+fn boards_lie_across_the_path_or_just_next_to_it() {
     let queries = drops_past_board(40, 1).unwrap();
     let places = queries.iter().map(|query| query.b.start().translation());
     let (beside, across): (Vec<DVec3>, Vec<DVec3>) = places.partition(|p| p.x != 0.0);

@@ -1,4 +1,4 @@
-//! How far two surfaces are apart at one time.
+//! The distance of two surfaces at one time.
 
 use super::Bracket;
 use super::moment::{Moment, Span};
@@ -7,8 +7,8 @@ use super::search::{Pair, Search};
 use super::triangle::{gap, nearest_or_common, normals};
 use ccd_core::order::{greater, lesser};
 
-/// A bracket of the least distance between the surfaces at a time: the nearer part first, what is farther
-/// than the nearest points known is left out.
+/// Brackets the least distance between the surfaces at a time. The nearer part comes first, and
+/// parts farther than the nearest points known are left out.
 pub(super) fn distance(mut search: Search<'_>, time: f64) -> Bracket {
     let mut bracket = Bracket {
         lower: f64::INFINITY,
@@ -27,7 +27,7 @@ pub(super) fn distance(mut search: Search<'_>, time: f64) -> Bracket {
             continue;
         }
         if search.budget == 0 {
-            // What waits may be nearer by all that is known.
+            // The remaining pairs may be nearer, as far as is known.
             return Bracket {
                 lower: 0.0,
                 ..bracket
@@ -38,7 +38,7 @@ pub(super) fn distance(mut search: Search<'_>, time: f64) -> Bracket {
             let mut parts = split
                 .parts
                 .map(|part| (bound_of(&search, &moment, part), part));
-            // The last one is looked at first.
+            // The last one is examined first.
             if parts[0].0 < parts[1].0 {
                 parts.swap(0, 1);
             }
@@ -49,7 +49,7 @@ pub(super) fn distance(mut search: Search<'_>, time: f64) -> Bracket {
             bracket.upper = lesser(bracket.upper, found.upper);
         }
     }
-    // All that was left out is at least as far as `upper`.
+    // Everything left out is at least as far as `upper`.
     bracket.lower = greater(0.0, lesser(bracket.lower, bracket.upper));
     bracket
 }
@@ -59,7 +59,7 @@ fn bound_of(search: &Search<'_>, moment: &Moment, pair: Pair) -> f64 {
     moment.boxes_distance(a, b)
 }
 
-/// Any two points bound the distance from above, the gap along any direction does from below.
+/// Any two points bound the distance from above; the gap along any direction bounds it from below.
 fn of_triangles(search: &Search<'_>, moment: &Moment, pair: Pair) -> Bracket {
     let Some([a, b]) = search.triangles(pair) else {
         return Bracket {

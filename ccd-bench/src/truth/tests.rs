@@ -12,7 +12,7 @@ use ccd_decomp::TriangleMesh;
 use rand::{Rng, RngExt};
 use rigid_ccd::table::motions::Query;
 
-/// A box about the origin by its half extents.
+/// Returns a box about the origin by its half extents.
 fn cuboid(x: f64, y: f64, z: f64) -> Surface {
     let half_extents = DVec3::new(x, y, z);
     Surface::new(&Board { half_extents }.mesh().unwrap())
@@ -44,7 +44,7 @@ fn random_vector(rng: &mut impl Rng, reach: f64) -> DVec3 {
     DVec3::new(coordinate(), coordinate(), coordinate())
 }
 
-/// Triangles anywhere in a cube, that may share corners or cross each other.
+/// Returns random triangles in a cube, which may share corners or cross each other.
 fn soup(rng: &mut impl Rng, triangles: u32) -> TriangleMesh {
     let vertices = (0..3 * triangles).map(|_| random_vector(rng, 1.0));
     let faces: Vec<_> = (0..triangles)

@@ -1,4 +1,4 @@
-//! `ccd truth`.
+//! Tests `ccd-bench truth`.
 
 use crate::TETRAHEDRON;
 use crate::command::{Run, Scene, parse, stderr};
@@ -38,7 +38,7 @@ fn brackets_hold_the_exact_first_contact() {
 }
 
 #[test]
-fn good_rows_are_judged_and_bad_ones_told() {
+fn good_rows_are_judged_and_bad_ones_reported() {
     let scene = Scene::new("truth-bad");
     let mesh = scene.file("tetrahedron.obj", TETRAHEDRON);
     let mesh = mesh.to_str().unwrap();
@@ -69,7 +69,7 @@ fn good_rows_are_judged_and_bad_ones_told() {
 }
 
 #[test]
-fn what_cannot_be_done_is_refused() {
+fn impossible_requests_are_refused() {
     let scene = Scene::new("truth-refused");
     let mesh = scene.file("tetrahedron.obj", TETRAHEDRON);
     let mesh = mesh.to_str().unwrap();

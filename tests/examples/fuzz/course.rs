@@ -1,4 +1,4 @@
-//! How a body moves, as it is asked for; and where that takes its points, in [`Double`].
+//! The motion of a body as input, and the positions of its points in [`Double`].
 
 use crate::double::Double;
 use crate::vector::{Number, Vector};
@@ -17,7 +17,7 @@ pub struct Course {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Place {
     pub position: [f64; 3],
-    /// w, x, y, z; of any length.
+    /// The components w, x, y, z; any length.
     pub quaternion: [f64; 4],
 }
 
@@ -40,7 +40,7 @@ impl Place {
         Pose::new(self.position, DQuat::from_xyzw(x, y, z, w))
     }
 
-    /// The unit quaternion.
+    /// Returns the unit quaternion.
     fn turn(&self) -> [Double; 4] {
         let q = self.quaternion.map(Double::new);
         let square = q.iter().fold(Double::default(), |sum, &x| sum + x * x);
@@ -64,7 +64,7 @@ impl Course {
         }
     }
 
-    /// As the engine is told of it.
+    /// Returns the motion in the engine's form.
     pub fn motion(&self, duration: f64) -> Result<Motion, InputError> {
         let (start, centre) = (self.start.pose()?, DVec3::from(self.centre));
         match self.goal {
@@ -73,7 +73,7 @@ impl Course {
         }
     }
 
-    /// About how far it turns, in radians.
+    /// Returns the approximate angle of rotation, in radians.
     pub fn turn(&self, duration: f64) -> f64 {
         match self.goal {
             Goal::Velocities { spin, .. } => Vector(spin).length() * duration,
@@ -81,8 +81,8 @@ impl Course {
         }
     }
 
-    /// The exact motion, over a duration: for end poses the centre's straight way between its places,
-    /// and the shortest turn between the unit quaternions.
+    /// Returns the exact motion over a duration. Between end poses, the centre moves straight, and
+    /// the rotation is the shortest turn between the unit quaternions.
     pub fn track(&self, duration: f64) -> Track {
         let centre = Vector::of(self.centre);
         let start = self.start.point(centre);
@@ -119,7 +119,7 @@ impl Course {
     }
 }
 
-/// The axis and the angle of `end · start⁻¹`.
+/// Returns the axis and the angle of `end · start⁻¹`.
 fn shortest_turn([w, x, y, z]: [Double; 4], end: [Double; 4]) -> (Vector<Double>, Double) {
     let (u, v) = (Vector([x, y, z]), Vector([end[1], end[2], end[3]]));
     let cos = end[0] * w + v.dot(u);
@@ -132,7 +132,7 @@ fn shortest_turn([w, x, y, z]: [Double; 4], end: [Double; 4]) -> (Vector<Double>
     (axis, Double::angle(sin.length(), cos) * Double::new(2.0))
 }
 
-/// A motion, exact but for the rounding of [`Double`].
+/// A motion, exact except for the rounding of [`Double`].
 #[derive(Clone, Debug)]
 pub struct Track {
     pub start: Vector<Double>,
@@ -144,7 +144,7 @@ pub struct Track {
     pub centre: Vector<Double>,
 }
 
-/// Where a body is at a time.
+/// The placement of a body at a time.
 #[derive(Clone, Copy, Debug)]
 pub struct Moment {
     columns: [Vector<Double>; 3],
@@ -170,14 +170,14 @@ impl Track {
         Moment { columns, centre }
     }
 
-    /// How fast a point at an arm from the centre moves; rounded.
+    /// Returns the speed of a point at an arm from the centre, rounded.
     pub fn velocity_of(&self, arm: Vector<f64>) -> Vector<f64> {
         self.velocity.rounded() + self.axis.rounded().cross(arm) * self.rate.rounded()
     }
 }
 
 impl Moment {
-    /// From the centre to a point that is at `x` from it in the body's frame.
+    /// Returns the vector from the centre to the point at `x` from it in the body's frame.
     pub fn arm(&self, x: Vector<Double>) -> Vector<Double> {
         let [a, b, c] = x.0;
         self.columns[0] * a + self.columns[1] * b + self.columns[2] * c

@@ -5,8 +5,9 @@ use ccd_core::glam::DVec3;
 use rand::RngExt;
 use std::collections::HashMap;
 
-/// A pile of cubes in a corner: columns of random heights up to `size` that do not grow away from it.
-/// Its sides are coplanar regions of any outline; no two touch each other at an edge.
+/// Returns a pile of cubes in a corner: columns of random heights up to `size` that do not grow
+/// away from it. Its sides are coplanar regions of any outline. No two cubes touch each other at an
+/// edge.
 pub fn pile(size: usize, seed: u64) -> Shape {
     let mut dice = dice(seed);
     let mut heights = vec![vec![0; size]; size];
@@ -30,7 +31,7 @@ pub fn pile(size: usize, seed: u64) -> Shape {
     cubes(size as i64, full)
 }
 
-/// The surface of the cubes of a grid that are full; two triangles for each of their sides.
+/// Returns the surface of the filled cubes of a grid, two triangles for each side.
 fn cubes(size: i64, full: impl Fn([i64; 3]) -> bool) -> Shape {
     let mut numbers = HashMap::new();
     let mut mesh = Mesh {

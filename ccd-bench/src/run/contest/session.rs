@@ -1,4 +1,5 @@
-//! Where an method sits while it is asked: in this process, or in one of its own that can be stopped.
+//! A method that is ready for queries about a scene: in this process, or in one of its own that can
+//! be stopped.
 
 use super::MOST_PAIRS_FOR_NAIVE;
 use crate::method::peer::{Asked, Guarded};
@@ -10,7 +11,7 @@ use rigid_ccd::table::motions::Query;
 use std::io;
 use std::time::{Duration, Instant};
 
-/// An method that can be asked about one scene.
+/// A method that is ready for queries about one scene.
 pub struct Session<'s> {
     method: Method,
     tolerance: f64,
@@ -22,13 +23,13 @@ enum Place<'s> {
     Guarded(Box<Guarded>),
 }
 
-/// What came of a question.
+/// The outcome of a query.
 pub(super) enum Answered {
     InTime {
         reply: Reply,
         micros: f64,
     },
-    /// Stopped after that.
+    /// The peer was stopped after this time.
     CutOff {
         patience: Duration,
     },
@@ -36,7 +37,7 @@ pub(super) enum Answered {
 }
 
 impl<'s> Session<'s> {
-    /// None where the scene is none for this method.
+    /// Opens a session, or returns `None` if the method does not support the scene.
     pub(super) fn take(
         method: Method,
         scene: &'s Scene,
@@ -64,20 +65,20 @@ impl<'s> Session<'s> {
         }))
     }
 
-    /// Who sits here.
+    /// Returns the method.
     pub fn method(&self) -> Method {
         self.method
     }
 
-    /// With which tolerance it answers.
+    /// Returns the tolerance of the answers.
     pub fn tolerance(&self) -> f64 {
         self.tolerance
     }
 
-    /// Tells it another tolerance.
+    /// Sets the tolerance.
     ///
     /// # Errors
-    /// When a peer's process does not start again.
+    /// If a peer's process does not restart.
     pub fn set_tolerance(&mut self, tolerance: f64) -> io::Result<()> {
         self.tolerance = tolerance;
         match &mut self.place {
@@ -89,8 +90,8 @@ impl<'s> Session<'s> {
         }
     }
 
-    /// Lets a kind that prepares what it meets do so with some queries, for so long; says with how many
-    /// it has.
+    /// Lets a kind that prepares what it meets do so on some queries, for a limited time. Returns
+    /// the number of prepared queries.
     pub(super) fn rehearse<'q>(
         &mut self,
         queries: impl ExactSizeIterator<Item = &'q Query>,
@@ -109,7 +110,7 @@ impl<'s> Session<'s> {
     /// Asks one query.
     ///
     /// # Errors
-    /// When a peer's process does not start again.
+    /// If a peer's process does not restart.
     pub(super) fn ask(&mut self, query: &Query, patience: Duration) -> io::Result<Answered> {
         Ok(match &mut self.place {
             Place::Here(solver) => {

@@ -1,4 +1,4 @@
-//! The truth about the scenes: kept, so that it is found once.
+//! Keeps the truth about the scenes, so that it is computed once.
 
 use super::Contest;
 use crate::method::MotionKind;
@@ -10,13 +10,13 @@ use std::collections::BTreeMap;
 use std::fs::{self, File};
 use std::path;
 
-/// What is known of the first contacts of all scenes, by scene, meshes and motions, and row.
+/// The known first contacts of all scenes, by scene, meshes and motions, and row.
 #[derive(Debug, Default)]
 pub struct Truths {
     known: BTreeMap<String, TruthRow>,
 }
 
-/// Why truths cannot be had.
+/// Truths cannot be read or written.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum TruthsError {
@@ -26,10 +26,10 @@ pub enum TruthsError {
 }
 
 impl Truths {
-    /// Those of a file, if there is one.
+    /// Reads the truths of a file, if it exists.
     ///
     /// # Errors
-    /// When it is no table of truths.
+    /// If the file is no table of truths.
     pub fn read(file: &path::Path) -> Result<Self, TruthsError> {
         let mut truths = Truths::default();
         if file.exists() {
@@ -39,19 +39,19 @@ impl Truths {
         Ok(truths)
     }
 
-    /// Writes all that is known.
+    /// Writes all known truths.
     ///
     /// # Errors
-    /// When the file cannot be written.
+    /// If the file cannot be written.
     pub fn write(&self, file: &path::Path) -> Result<(), TruthsError> {
-        // Under another name first: half a table would still be a table.
+        // Under another name first, since half a table would still be a valid table.
         let part = file.with_extension("part");
         let whole = File::create(&part).map_err(csv::Error::from)?;
         write_truths(whole, self.known.values().cloned())?;
         Ok(fs::rename(part, file).map_err(csv::Error::from)?)
     }
 
-    /// Finds what is not known yet of some rows of a scene, on all processors; says how many it found.
+    /// Finds the unknown truths of some rows of a scene, on all processors. Returns their number.
     pub fn find(
         &mut self,
         contest: &Contest<'_>,
@@ -81,7 +81,7 @@ impl Truths {
         count
     }
 
-    /// The truth of each row of a scene; undecided where it has not been found.
+    /// Returns the truth of each row of a scene; undecided if it has not been found.
     pub fn of<'t>(
         &'t self,
         contest: &'t Contest<'_>,
@@ -100,14 +100,15 @@ impl Truths {
     }
 }
 
-/// What a row is called in the table: its truth is that of these meshes and motions.
+/// Returns the name of a row in the table. It includes the meshes and motions, since the truth
+/// depends on them.
 fn key(contest: &Contest<'_>, fingerprint: u32, path: MotionKind, row: usize) -> String {
     let scene = &contest.scene().name;
     let id = &contest.queries(path)[row].id;
     format!("{scene}/{fingerprint:08x}/{id}")
 }
 
-/// Tells meshes and motions apart, to the bit.
+/// Returns a hash of the meshes and motions, to the bit.
 fn fingerprint(contest: &Contest<'_>, path: MotionKind) -> u32 {
     let mut hash = crc32fast::Hasher::new();
     for body in [&contest.scene().a, &contest.scene().b] {

@@ -1,4 +1,4 @@
-//! The same mesh as other models: what they cost, and how far off they are.
+//! The costs and errors of several models of the same mesh.
 
 use super::axis::Axis;
 use super::grid::{HEAD, foot, foot_height, head};
@@ -14,16 +14,16 @@ use indicatif::HumanCount;
 use plotters::style::text_anchor::HPos;
 
 const NAME: &str = "models";
-/// Height of a scene's row.
+/// The height of a scene's row.
 const ROW: f64 = 26.0;
-/// Between the two panels.
+/// The gap between the two panels.
 const GUTTER: f64 = 44.0;
 
 type Shown<'a> = (&'a MethodFacts<'a>, Look);
-/// What a panel shows of a cell.
+/// The value of a cell that a panel shows.
 type Value = fn(&Cell) -> f64;
 
-/// Two panels side by side, a row for each scene, a marker for each model.
+/// Draws two panels side by side, with a row for each scene and a marker for each model.
 pub(super) fn chart(charts: &Charts<'_>) -> Result<Option<Drawing>, ChartError> {
     let shown = charts.shown(&[Family::Model]);
     let mut scenes = charts.measured_scenes();

@@ -6,30 +6,30 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use std::io;
 
-/// The width of every chart, which fits beside the text of a README.
+/// The width of every chart, for the text width of a README.
 pub(super) const WIDTH: f64 = 840.0;
 /// The margin around everything.
 pub(super) const MARGIN: f64 = 10.0;
 
-/// What drawing fails with.
+/// An error of the drawing library.
 pub(super) type DrawError = DrawingAreaErrorKind<io::Error>;
 
-/// Units of the drawing in a pixel: the library places things on whole units.
+/// The units of the drawing in a pixel; the library places things on whole units.
 const UNITS: f64 = 10.0;
-/// The library writes a font size divided by this.
+/// The library divides a font size by this when it writes it.
 const FONT_RATIO: f64 = 1.24;
-/// Width of a character over the font size, on average, with some to spare.
+/// The average width of a character over the font size, with some reserve.
 const CHARACTER: f64 = 0.58;
-/// Text.
+/// The colour of text.
 pub(super) const INK: RGBColor = RGBColor(0x22, 0x22, 0x22);
-/// Frames of panels.
+/// The colour of frames of panels.
 pub(super) const FRAME: RGBColor = RGBColor(0x88, 0x88, 0x88);
-/// Lines behind the data.
+/// The colour of lines under the data.
 pub(super) const RULE: RGBColor = RGBColor(0xe4, 0xe4, 0xe4);
-/// The ordinary size of text, in pixels.
+/// The usual size of text, in pixels.
 pub(super) const TEXT: f64 = 12.0;
 
-/// A place in pixels, from the upper left corner.
+/// A position in pixels, from the upper left corner.
 pub(super) type Spot = (f64, f64);
 
 /// A rectangle in pixels.
@@ -51,13 +51,13 @@ impl Rect {
     }
 }
 
-/// How a line is drawn.
+/// The style of a line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Pen {
     pub(super) colour: RGBColor,
     pub(super) width: f64,
     pub(super) opacity: f64,
-    /// Lengths of a dash and of a gap, in pixels; none where the line is solid.
+    /// The lengths of a dash and of a gap, in pixels; `None` for a solid line.
     pub(super) dash: Option<(f64, f64)>,
 }
 
@@ -80,7 +80,7 @@ impl Pen {
     }
 }
 
-/// How a text is written.
+/// The style of a text.
 #[derive(Clone, Copy)]
 pub(super) struct Hand {
     pub(super) size: f64,
@@ -91,7 +91,7 @@ pub(super) struct Hand {
     pub(super) turn: Turn,
 }
 
-/// Which way a text runs.
+/// The direction of a text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Turn {
     Across,
@@ -111,13 +111,13 @@ impl Default for Hand {
     }
 }
 
-/// What is drawn on.
+/// The drawing surface.
 pub(super) struct Sheet<'s> {
     area: DrawingArea<SVGBackend<'s>, Shift>,
 }
 
 impl Sheet<'_> {
-    /// The text of an SVG file, drawn by `body` on a white sheet of a size in pixels.
+    /// Returns the SVG file that `body` draws on a white sheet of the given size in pixels.
     pub(super) fn draw(
         title: &str,
         size: Spot,
@@ -208,12 +208,12 @@ impl Sheet<'_> {
     }
 }
 
-/// How wide a text is, in pixels, about.
+/// Returns the approximate width of a text, in pixels.
 pub(super) fn text_width(text: &str, size: f64) -> f64 {
     text.chars().map(|_| CHARACTER * size).sum()
 }
 
-/// A width in units, for shapes of several parts.
+/// Returns a style with a width in units, for shapes of several parts.
 pub(super) fn stroke(colour: RGBColor, width: f64) -> ShapeStyle {
     Pen::solid(colour, width).style()
 }
@@ -222,13 +222,13 @@ fn place(spot: Spot) -> (i32, i32) {
     (units(spot.0), units(spot.1))
 }
 
-/// Pixels in units of the drawing; NaN is 0.
-// Saturates, and a sheet is some thousand pixels wide.
+/// Converts pixels to units of the drawing; NaN becomes 0.
+// The cast saturates, and a sheet is some thousand pixels wide.
 fn units(pixels: f64) -> i32 {
     (pixels * UNITS).round() as i32
 }
 
-/// A text as it may stand in XML.
+/// Escapes a text for XML.
 fn escape(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for character in text.chars() {

@@ -6,12 +6,12 @@ use crate::double::Double;
 use crate::nearest::{Triangle, depth, distance};
 use crate::vector::{Number, larger, smaller};
 
-/// Steps of one pair, and of all, before the rest is sampled.
+/// The largest number of steps of one pair, and of all pairs, before the rest is sampled.
 const PAIR_STEPS: usize = 300;
 const ALL_STEPS: usize = 60_000;
 const SAMPLES: usize = 24;
 
-/// Looks for the first time at which two bodies are too near.
+/// Searches for the first time at which two bodies are too near.
 pub(super) struct Search<'a> {
     scene: &'a Scene,
     limit: Limit,
@@ -22,14 +22,14 @@ pub(super) struct Search<'a> {
     proven: bool,
 }
 
-/// A gap, how fast it can close, and how much that can change.
+/// A gap, its closing rate, and a bound of the change of the rate.
 struct Near {
     gap: f64,
     rate: f64,
     bend: f64,
 }
 
-/// gap = rate τ + bend τ²/2, in the form that does not cancel.
+/// Solves gap = rate τ + bend τ²/2, in the form without cancellation.
 fn free_time(gap: f64, rate: f64, bend: f64) -> f64 {
     (1.0 - 1e-9) * 2.0 * gap / (rate + (rate * rate + 2.0 * bend * gap).sqrt())
 }
@@ -66,7 +66,7 @@ impl<'a> Search<'a> {
         (self.found, self.proven)
     }
 
-    /// A time until which balls about the two centres of rotation are certainly apart.
+    /// Returns a time until which balls around the two centres of rotation are certainly apart.
     fn balls_meet(&self, reaches: f64) -> f64 {
         let [a, b] = &self.scene.sides;
         let way = (b.track.start - a.track.start).rounded();
@@ -80,7 +80,7 @@ impl<'a> Search<'a> {
         } else if along >= 0.0 || root < 0.0 {
             self.until
         } else {
-            // The smaller root, in the form that does not cancel.
+            // The smaller root, in the form without cancellation.
             smaller(
                 self.until,
                 larger(0.0, 0.999_999 * excess / (-along + root.sqrt())),
@@ -118,7 +118,8 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// A time from `begin` on until which the bodies are well apart, all pairs taken together.
+    /// Returns a time after `begin` until which the bodies are well apart, all pairs taken
+    /// together.
     fn together(&self, begin: f64) -> f64 {
         let mut t = begin;
         for _ in 0..PAIR_STEPS {
@@ -130,7 +131,7 @@ impl<'a> Search<'a> {
             let whole = self.scene.sides.each_ref().map(|side| &side.whole);
             let Near { rate, bend, .. } = self.near(whole, &self.scene.moments(t));
             let tau = free_time(least - self.threshold, rate, bend);
-            // A hundred more such steps would not get there: pair by pair it is faster.
+            // A hundred more such steps would not reach the end, so it is faster pair by pair.
             if !(tau > 0.003 * (self.until - t)) {
                 break;
             }
@@ -142,7 +143,7 @@ impl<'a> Search<'a> {
         t
     }
 
-    /// A time from `begin` on until which two balls are well apart.
+    /// Returns a time after `begin` until which two balls are well apart.
     fn balls_apart(&self, [p, q]: [&Ball; 2], begin: f64) -> f64 {
         let mut t = begin;
         for _ in 0..PAIR_STEPS {
@@ -158,7 +159,8 @@ impl<'a> Search<'a> {
         t
     }
 
-    /// How far two balls are from the threshold, and how fast it can come nearer, with how much change.
+    /// Returns the gap of two balls above the threshold, its closing rate, and a bound of its
+    /// change.
     fn near(&self, [p, q]: [&Ball; 2], moments: &[Moment; 2]) -> Near {
         let [a, b] = &self.scene.sides;
         let between = moments[1].centre - moments[0].centre;
@@ -201,7 +203,7 @@ impl<'a> Search<'a> {
         ]
     }
 
-    /// Whether the pair truly is below the threshold: then nothing later is of interest.
+    /// Checks whether the pair really is below the threshold. If so, nothing later is of interest.
     fn judge(&mut self, i: usize, j: usize, t: f64) -> bool {
         let [s, o] = self.triangles(i, j, &self.scene.moments(t));
         let (distance, error) = (distance(&s, &o).rounded(), self.scene.error());

@@ -11,7 +11,8 @@ fn random_vec(rng: &mut Pcg64, size: f64) -> DVec3 {
     size * DVec3::from_array([0; 3].map(|_| rng.random_range(-1.0..1.0)))
 }
 
-/// Of rectangles, a side may be zero, and a turn a multiple of a right angle, exactly or nearly.
+/// Returns random rectangles. A side may be zero, and a turn may be a multiple of a right angle,
+/// exactly or nearly.
 fn random_pair(rng: &mut Pcg64) -> (DVec2, DVec2, Placement) {
     let mut lengths = || {
         DVec2::from_array([0, 1].map(|_| match rng.random_range(0..6) {
@@ -47,7 +48,7 @@ const HERE: Placement = Placement {
     translation: DVec3::ZERO,
 };
 
-/// A twin: each rectangle as two triangles.
+/// Computes the distance another way: each rectangle as two triangles.
 fn by_triangles(a: DVec2, b: DVec2, place: &Placement) -> f64 {
     let halves = |[p, q, r, s]: [DVec3; 4]| [[p, q, r], [q, r, s]];
     let mut least = f64::INFINITY;
@@ -59,8 +60,8 @@ fn by_triangles(a: DVec2, b: DVec2, place: &Placement) -> f64 {
     least
 }
 
-/// Another twin: each of the four coordinates of two points in turn is set to where their distance is
-/// least, until nothing moves.
+/// Computes the distance a third way: it sets each of the four coordinates of the two points in
+/// turn to where their distance is least, until nothing moves.
 fn by_descent(a: DVec2, b: DVec2, place: &Placement) -> f64 {
     let axes = [
         DVec3::X,
@@ -99,7 +100,7 @@ fn the_vector_is_the_shortest() {
             (distance - twin).abs() < 1e-9,
             "{distance} {twin} {a} {b} {place:?}"
         );
-        // It is slow to arrive where edges are all but parallel.
+        // This converges slowly if edges are nearly parallel.
         let twin = by_descent(a, b, &place);
         assert!(
             distance < twin + 1e-12,
@@ -110,7 +111,8 @@ fn the_vector_is_the_shortest() {
             "{distance} {twin} {a} {b} {place:?}"
         );
         if distance > 1e-6 {
-            // No plane could part them farther than they are apart, so this proves the distance.
+            // No plane could separate them by more than their distance, so this proves the
+            // distance.
             let n = vector / distance;
             let low = corners(b, &place)
                 .map(|p| n.dot(p))
@@ -147,7 +149,7 @@ fn a_crossing_inside_both_is_a_meeting() {
 }
 
 #[test]
-fn what_is_no_number_is_no_distance() {
+fn invalid_numbers_give_no_distance() {
     let place = Placement {
         rotation: DMat3::IDENTITY,
         translation: DVec3::splat(f64::NAN),

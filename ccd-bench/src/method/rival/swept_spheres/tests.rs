@@ -19,7 +19,7 @@ fn random_place(rng: &mut Pcg64) -> Placement {
     }
 }
 
-/// The triangles below a node.
+/// Returns the triangles below a node.
 fn triangles(tree: &SphereTree, node: u32) -> Vec<u32> {
     match tree.nodes[node as usize].below {
         Below::Triangle(k) => vec![k],
@@ -63,7 +63,7 @@ fn nodes_hold_their_triangles_and_are_tight() {
 
 #[test]
 fn no_split_is_lopsided() {
-    // A strip of little triangles and one far away, so that the mean is beyond all but this one.
+    // A strip of small triangles and one far away: the mean is beyond all except this one.
     let at = |k: u32| if k == 0 { 1e6 } else { 1e-3 * f64::from(k) };
     let corners = |k| [DVec3::ZERO, DVec3::X, DVec3::Y].map(|p| 1e-3 * p + at(k) * DVec3::X);
     let faces: Vec<_> = (0..400).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect();
