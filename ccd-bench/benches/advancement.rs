@@ -88,8 +88,8 @@ fn is_right(contest: &Contest<'_>, method: Method, truths: &Truths) -> bool {
         .session(method, USUAL_TOLERANCE)
         .expect("no peer is asked");
     session.is_some_and(|mut session| {
-        let heard = contest.run(&mut session, &allowance, truths);
-        let (cell, _) = heard
+        let measured = contest.run(&mut session, &allowance, truths);
+        let (cell, _) = measured
             .expect("no peer is asked")
             .expect("all queries can be asked");
         let wrong = cell.late + cell.missed + cell.false_contacts + cell.early;

@@ -115,8 +115,8 @@ impl Method {
 }
 
 impl RivalKind {
-    /// Opens a session of the method on a scene.
-    pub fn enter(self, scene: &Scene, tolerance: f64) -> Box<dyn Adjustable> {
+    /// Returns a solver of this kind on the bodies of a scene.
+    pub fn solver(self, scene: &Scene, tolerance: f64) -> Box<dyn Adjustable> {
         let (a, b) = (scene.a.mesh(), scene.b.mesh());
         match self {
             RivalKind::Contact => Box::new(Contact::new(a, b, tolerance)),

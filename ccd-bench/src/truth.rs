@@ -6,17 +6,17 @@
 //! | to … | see |
 //! |---|---|
 //! | enclose rotations and placements by interval arithmetic | `enclosure`, `track` |
-//! | show that boxes or triangles stay apart over a span of time | `moment`, `triangle` |
+//! | show that boxes or triangles stay apart over a span of time | `snapshot`, `triangle` |
 //! | prove that two triangles share a point at an instant | `pierce` |
 //! | search in time, earliest first | `search` |
 //! | bracket the distance at one time | `gap` |
 
 mod enclosure;
 mod gap;
-mod moment;
 mod pierce;
 mod rounding;
 mod search;
+mod snapshot;
 mod surface;
 mod table;
 #[cfg(test)]

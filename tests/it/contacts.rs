@@ -116,7 +116,7 @@ fn plates_meet_vertex_by_vertex() {
 /// described.
 #[test]
 fn contacts_of_random_cases_hold() {
-    let (told, same, coarser) = (Cell::new(0), Cell::new(0), Cell::new(0));
+    let (reported, same, coarser) = (Cell::new(0), Cell::new(0), Cell::new(0));
     let law = |case: &Case| -> Law {
         let query = case.query();
         let mut at = None;
@@ -132,7 +132,7 @@ fn contacts_of_random_cases_hold() {
                 .map_err(|error| error.to_string())?;
             let apart = case.config().margin + problem.tolerance();
             check_pairs(&query, &pairs, [time, upper, apart], bodies.kinds)?;
-            told.set(told.get() + pairs.len());
+            reported.set(reported.get() + pairs.len());
             let names = pairs.iter().map(|pair| [pair.feature_a, pair.feature_b]);
             let names: BTreeSet<Names> = names.collect();
             let exact = match &exact {
@@ -153,10 +153,10 @@ fn contacts_of_random_cases_hold() {
     };
     check_cases(400, cases(), law);
     check_cases(200, remote_cases(), law);
-    let (told, same, coarser) = (told.get(), same.get(), coarser.get());
+    let (reported, same, coarser) = (reported.get(), same.get(), coarser.get());
     assert!(
-        told > 1_000 && same > 500 && 20 * coarser < same,
-        "{told} {same} {coarser}"
+        reported > 1_000 && same > 500 && 20 * coarser < same,
+        "{reported} {same} {coarser}"
     );
 }
 

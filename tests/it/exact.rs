@@ -51,8 +51,8 @@ fn points_a_rounding_off_the_surface_are_not_on_it() {
     let solid = Solid::new(&mesh);
     for axis in DVec3::AXES {
         // In the middle of a face, on its diagonal, and off it.
-        for beside in [DVec3::ZERO, DVec3::splat(0.3), DVec3::new(0.1, 0.2, 0.7)] {
-            let p = |x: f64| at(beside - axis * beside.dot(axis) + x * axis);
+        for offset in [DVec3::ZERO, DVec3::splat(0.3), DVec3::new(0.1, 0.2, 0.7)] {
+            let p = |x: f64| at(offset - axis * offset.dot(axis) + x * axis);
             assert_eq!(solid.locate(&p(1.0)), Location::Surface);
             assert_eq!(solid.locate(&p(1.0_f64.next_down())), Location::Inside(1));
             assert_eq!(solid.locate(&p(1.0_f64.next_up())), Location::Outside);
@@ -121,7 +121,7 @@ fn cavities_are_outside_and_windings_add_up() {
     let mut twice = big.mesh.clone();
     twice.append(&small.mesh);
     let flipped = big.mesh.clone().flipped();
-    for (mesh, p, place) in [
+    for (mesh, p, location) in [
         (&cavity, 0.1, Location::Outside),
         (&cavity, 0.7, Location::Inside(1)),
         (&cavity, 0.5, Location::Surface),
@@ -129,7 +129,11 @@ fn cavities_are_outside_and_windings_add_up() {
         (&twice, 0.7, Location::Inside(1)),
         (&flipped, 0.7, Location::Inside(-1)),
     ] {
-        assert_eq!(Solid::new(mesh).locate(&at(DVec3::splat(p))), place, "{p}");
+        assert_eq!(
+            Solid::new(mesh).locate(&at(DVec3::splat(p))),
+            location,
+            "{p}"
+        );
     }
 }
 

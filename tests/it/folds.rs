@@ -19,7 +19,7 @@ fn no_element_is_lost() {
         };
     }
     let lost = at_lengths![1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16];
-    assert!(lost.is_empty(), "lost, as (length, place): {lost:?}");
+    assert!(lost.is_empty(), "lost, as (length, position): {lost:?}");
 }
 
 /// Returns the positions that are not found, each with the length.

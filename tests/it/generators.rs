@@ -2,7 +2,7 @@
 
 use ccd_tests::case::Case;
 use ccd_tests::checks::Judge;
-use ccd_tests::referee::Verdict;
+use ccd_tests::referee::Finding;
 use ccd_tests::strategies::{cases, convex_cases, crowded_cases, remote_cases, runner};
 use proptest::strategy::{Strategy, ValueTree};
 
@@ -53,13 +53,13 @@ impl Shares {
             let case = strategy.new_tree(&mut runner).expect("a case").current();
             let query = case.query();
             let judge = Judge::new(&query, &case.config());
-            let share = match judge.verdict() {
+            let share = match judge.finding() {
                 _ if judge.nested() => &mut shares.nested,
-                Verdict::Start => &mut shares.starts,
-                Verdict::Hit { .. } => &mut shares.hits,
-                Verdict::Free { .. } => &mut shares.misses,
-                Verdict::Near { .. } => &mut shares.near,
-                Verdict::Undecided { .. } => &mut shares.undecided,
+                Finding::Start => &mut shares.starts,
+                Finding::Hit { .. } => &mut shares.hits,
+                Finding::Free { .. } => &mut shares.misses,
+                Finding::Near { .. } => &mut shares.near,
+                Finding::Undecided { .. } => &mut shares.undecided,
             };
             *share += 1;
         }

@@ -9,7 +9,7 @@ use ccd_distance_gjk::Gjk;
 use ccd_tests::analytic::{Expect, scenes_named};
 use ccd_tests::models::{Kind, cuboid};
 use ccd_tests::query::{Actor, Bodies, Query};
-use ccd_tests::referee::{Referee, Verdict};
+use ccd_tests::referee::{Finding, Referee};
 use rand::RngExt;
 use rand_pcg::Pcg64;
 
@@ -66,10 +66,10 @@ fn rods(rng: &mut Pcg64) -> Query {
         let mut coordinate = || rng.random_range(-size..size);
         DVec3::new(coordinate(), coordinate(), coordinate())
     };
-    let mut rod = |place: DVec3, velocity: DVec3, turns: f64| Actor {
+    let mut rod = |position: DVec3, velocity: DVec3, turns: f64| Actor {
         shape: cuboid(DVec3::new(1.0, 0.05, 0.05)),
         motion: Motion::new(
-            Pose::new(place, DQuat::from_scaled_axis(vector(3.0))).expect("a pose"),
+            Pose::new(position, DQuat::from_scaled_axis(vector(3.0))).expect("a pose"),
             velocity,
             vector(1.0).normalize() * turns * std::f64::consts::TAU,
         )
@@ -88,7 +88,7 @@ fn some_fast_rods_are_late_with_the_published_bound_and_none_with_the_sound_one(
     let (mut hits, mut late) = (0, [0; 2]);
     for _ in 0..600 {
         let query = rods(&mut rng);
-        let Verdict::Hit { hi, .. } = Referee::new(&query).verdict() else {
+        let Finding::Hit { hi, .. } = Referee::new(&query).finding() else {
             continue;
         };
         hits += 1;

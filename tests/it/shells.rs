@@ -99,8 +99,8 @@ fn a_body_inside_overlaps_for_any_winding_of_shells() {
                 let (near, _) = &shells[rng.random_range(0..shells.len())];
                 let at = near.vertices[0].lerp(near.vertices[1], rng.random())
                     + direction(&mut rng) * 0.1;
-                let places = solids.iter().map(|solid| solid.locate(&Blend::mean([at])));
-                let around = places.filter(|place| matches!(place, Location::Inside(_)));
+                let locations = solids.iter().map(|solid| solid.locate(&Blend::mean([at])));
+                let around = locations.filter(|location| matches!(location, Location::Inside(_)));
                 let inside = around.count() % 2 == 1;
                 let speck = body(
                     &cuboid(DVec3::splat(1e-7)).moved(at).mesh,
@@ -124,7 +124,7 @@ fn a_body_inside_overlaps_for_any_winding_of_shells() {
 #[test]
 fn a_body_resting_on_a_face_may_leave_it_outside_only() {
     let mut rng = Pcg64::seed_from_u64(2);
-    let mut let_go = 0;
+    let mut released = 0;
     for case in 0..60 {
         let shells = nests(&mut rng);
         let mesh = wound(&shells, &mut rng);
@@ -159,15 +159,9 @@ fn a_body_resting_on_a_face_may_leave_it_outside_only() {
                 !matches!(away, Outcome::Contact { time, .. } if at_once(time)),
                 "case {case} {away:?}"
             );
-            let_go += usize::from(matches!(away, Outcome::Free { .. }));
-            let tetrahedron = |tip: DVec3| {
-                let mesh = Mesh {
-                    vertices: [small.as_slice(), &[tip]].concat(),
-                    faces: vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]],
-                };
-                body(&mesh, DETAILS[case % 3])
-            };
-            let outside = solve(&tetrahedron(middle + 0.01 * size * out), 1.0);
+            released += usize::from(matches!(away, Outcome::Free { .. }));
+            let thick = |tip: DVec3| solve(&tetrahedron(small, tip, DETAILS[case % 3]), 1.0);
+            let outside = thick(middle + 0.01 * size * out);
             assert!(
                 !matches!(
                     outside,
@@ -175,14 +169,23 @@ fn a_body_resting_on_a_face_may_leave_it_outside_only() {
                 ),
                 "case {case} {outside:?}"
             );
-            let inside = solve(&tetrahedron(middle - 0.01 * size * out), 1.0);
+            let inside = thick(middle - 0.01 * size * out);
             assert!(
                 matches!(inside, Outcome::Overlapping { .. }),
                 "case {case} {inside:?}"
             );
         }
     }
-    assert!(let_go > 200, "{let_go}");
+    assert!(released > 200, "{released}");
+}
+
+/// Returns the body of a triangle and a tip on one side of it.
+fn tetrahedron(triangle: [DVec3; 3], tip: DVec3, detail: Detail) -> Body {
+    let mesh = Mesh {
+        vertices: [triangle.as_slice(), &[tip]].concat(),
+        faces: vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]],
+    };
+    body(&mesh, detail)
 }
 
 /// Every corner of equal bodies is on the other one's surface.

@@ -179,11 +179,11 @@ fn inside_the_margin_sliding_is_free_and_approaching_is_a_contact() {
             let across = DVec3::new(-1.12, 0.63, 0.0);
             let query = at(across);
             for_each_setup(&query, &config(margin), |_, setup, answer| {
-                let told = matches!(
+                let expected = matches!(
                     answer.outcome,
                     Outcome::Free { .. } | Outcome::Contact { .. }
                 );
-                assert!(told, "{gap} {setup:?}\n{answer:?}");
+                assert!(expected, "{gap} {setup:?}\n{answer:?}");
             });
             let query = at(across - 0.01 * DVec3::Z);
             let allowed = 2.0 * RESTING * query.rounding() / 0.01;

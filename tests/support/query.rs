@@ -145,7 +145,7 @@ impl Actor {
     /// # Panics
     /// If a number is not finite.
     pub fn moving(shape: Shape, at: DVec3, velocity: DVec3, spin: DVec3) -> Self {
-        let start = Pose::at(at).expect("a finite place");
+        let start = Pose::at(at).expect("a finite position");
         Actor {
             shape,
             motion: Motion::new(start, velocity, spin).expect("finite velocities"),
@@ -181,8 +181,8 @@ impl Actor {
     fn seen_from(&self, frame: &Pose) -> Actor {
         let motion = &self.motion;
         let (start, turn) = (motion.start(), frame.rotation());
-        let place = frame.transform_point(start.translation());
-        let start = Pose::new(place, turn * start.rotation()).expect("a pose");
+        let position = frame.transform_point(start.translation());
+        let start = Pose::new(position, turn * start.rotation()).expect("a pose");
         Actor {
             shape: self.shape.clone(),
             motion: Motion::about(

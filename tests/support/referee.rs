@@ -17,7 +17,7 @@ use triangles::Posed;
 
 /// The referee's finding.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Verdict {
+pub enum Finding {
     /// The surfaces are within the margin at the start.
     Start,
     /// Apart until `lo`, in contact at `hi`.
@@ -47,7 +47,7 @@ pub enum Verdict {
 /// Judges one query.
 pub struct Referee<'a> {
     query: &'a Query,
-    places: [Placement; 2],
+    placements: [Placement; 2],
     margin: f64,
 }
 
@@ -64,7 +64,7 @@ impl<'a> Referee<'a> {
     pub fn with_margin(query: &'a Query, margin: f64) -> Self {
         Referee {
             query,
-            places: Placement::pair(query),
+            placements: Placement::pair(query),
             margin,
         }
     }
@@ -93,12 +93,12 @@ impl<'a> Referee<'a> {
         contains(
             posed.mesh(),
             posed.points(),
-            point - self.places[0].origin(),
+            point - self.placements[0].origin(),
         )
     }
 
     /// Finds the first contact of the bodies.
-    pub fn verdict(&self) -> Verdict {
+    pub fn finding(&self) -> Finding {
         let speed = self.speed();
         let close = CLOSE * self.size();
         let (mut time, mut least) = (0.0, f64::INFINITY);
@@ -111,34 +111,34 @@ impl<'a> Referee<'a> {
             // The distance falls no faster than `speed`.
             time += KEPT * gap / speed;
             if time >= self.query.duration {
-                return Verdict::Free {
+                return Finding::Free {
                     gap: least + self.margin,
                 };
             }
         }
-        Verdict::Undecided { lo: time }
+        Finding::Undecided { lo: time }
     }
 
     /// Returns a bound of the rate of change of the distance.
     pub fn speed(&self) -> f64 {
-        let [a, b] = &self.places;
+        let [a, b] = &self.placements;
         (b.velocity() - a.velocity()).length() + a.rim_speed() + b.rim_speed()
     }
 
     /// Searches for a contact soon after a time at which the bodies nearly touch.
-    fn find_contact(&self, lo: f64, first_step: f64) -> Verdict {
+    fn find_contact(&self, lo: f64, first_step: f64) -> Finding {
         if lo == 0.0 && self.touches(0.0) {
-            return Verdict::Start;
+            return Finding::Start;
         }
         let mut step = first_step;
         while step <= 1e-2 * self.query.duration {
             let hi = lesser(lo + step, self.query.duration);
             if self.touches(hi) {
-                return Verdict::Hit { lo, hi };
+                return Finding::Hit { lo, hi };
             }
             step *= 1.5;
         }
-        Verdict::Near { lo }
+        Finding::Near { lo }
     }
 
     fn touches(&self, time: f64) -> bool {
@@ -151,30 +151,33 @@ impl<'a> Referee<'a> {
     }
 
     fn size(&self) -> f64 {
-        self.places.iter().map(Placement::radius).fold(0.0, greater)
+        self.placements
+            .iter()
+            .map(Placement::radius)
+            .fold(0.0, greater)
     }
 
     fn posed(&self, time: f64) -> [Posed<'a>; 2] {
-        let place = |k: usize, actor: &'a crate::query::Actor| {
+        let posed = |k: usize, actor: &'a crate::query::Actor| {
             let mesh = &actor.shape.mesh;
             Posed::new(
                 mesh,
                 mesh.vertices
                     .iter()
-                    .map(|&p| self.places[k].at(time, p))
+                    .map(|&p| self.placements[k].at(time, p))
                     .collect(),
             )
         };
-        [place(0, &self.query.a), place(1, &self.query.b)]
+        [posed(0, &self.query.a), posed(1, &self.query.b)]
     }
 }
 
-impl Verdict {
+impl Finding {
     /// Returns a time at which contact is certain, if any.
     pub fn latest(self) -> Option<f64> {
         match self {
-            Verdict::Start => Some(0.0),
-            Verdict::Hit { hi, .. } => Some(hi),
+            Finding::Start => Some(0.0),
+            Finding::Hit { hi, .. } => Some(hi),
             _ => None,
         }
     }

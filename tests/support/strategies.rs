@@ -104,10 +104,10 @@ fn aimed(
     );
     (part(a), part(b), aim, tolerance, drift()).prop_map(|(a, mut b, aim, tolerance, drift)| {
         let (towards, apart, side, miss, haste) = aim;
-        let place = apart * towards;
+        let position = apart * towards;
         // From the start of B to a point that misses A's centre by up to `miss`.
-        let travel = haste * (miss * side - place);
-        b.position = place.into();
+        let travel = haste * (miss * side - position);
+        b.position = position.into();
         let mut case = Case {
             name: String::new(),
             why: String::new(),

@@ -96,8 +96,8 @@ impl<'s> Contest<'s> {
     }
 
     /// Returns the queries with motions of the given kind.
-    pub fn queries(&self, path: MotionKind) -> &[Query] {
-        match path {
+    pub fn queries(&self, motion: MotionKind) -> &[Query] {
+        match motion {
             MotionKind::Given => &self.given,
             MotionKind::Screw => &self.screws,
         }
@@ -130,7 +130,7 @@ impl<'s> Contest<'s> {
         method: Method,
         tolerance: f64,
     ) -> Result<Option<Session<'s>>, ContestError> {
-        Session::take(method, self.scene, tolerance).map_err(not_started(method))
+        Session::open(method, self.scene, tolerance).map_err(not_started(method))
     }
 
     /// Sets the tolerance of a session.

@@ -91,14 +91,18 @@ impl Plan {
         let mut truths = Truths::read(&truths_file)?;
         let mut models = Models::new(self.models.clone());
         let scenes = self.scenes(&mut models)?;
-        let cells: usize = self.methods.iter().map(|&e| self.told(e).count()).sum();
+        let cells: usize = self
+            .methods
+            .iter()
+            .map(|&method| self.tolerances_of(method).count())
+            .sum();
         let progress = Progress::new(Total::Steps(scenes.len() * cells));
         for scene in &scenes {
             let contest = Contest::new(scene)?;
             progress.say(&format!("{}: the truth", scene.name));
             let rows = contest.order(self.allowance.rows);
-            for path in self.paths() {
-                if truths.find(&contest, path, &rows, &progress) > 0 {
+            for motion in self.motions() {
+                if truths.find(&contest, motion, &rows, &progress) > 0 {
                     truths.write(&truths_file)?;
                 }
             }
@@ -127,7 +131,7 @@ impl Plan {
                 Method::Ours(..) | Method::Rival(_) => &self.allowance,
             };
             let mut session = None;
-            for tolerance in self.told(method) {
+            for tolerance in self.tolerances_of(method) {
                 progress.step();
                 if journal.has(scene, &name, tolerance) {
                     continue;
@@ -185,7 +189,7 @@ impl Plan {
     }
 
     /// Returns the tolerances for a method: all, or the usual one if it takes none.
-    fn told(&self, method: Method) -> impl Iterator<Item = f64> {
+    fn tolerances_of(&self, method: Method) -> impl Iterator<Item = f64> {
         self.tolerances
             .iter()
             .copied()
@@ -193,14 +197,14 @@ impl Plan {
     }
 
     /// Returns the kinds of motion that some method uses.
-    fn paths(&self) -> Vec<MotionKind> {
-        let mut paths = Vec::new();
-        for path in self.methods.iter().map(|method| method.motion_kind()) {
-            if !paths.contains(&path) {
-                paths.push(path);
+    fn motions(&self) -> Vec<MotionKind> {
+        let mut motions = Vec::new();
+        for motion in self.methods.iter().map(|method| method.motion_kind()) {
+            if !motions.contains(&motion) {
+                motions.push(motion);
             }
         }
-        paths
+        motions
     }
 
     /// Describes the settings that all measurements depend on: this program, and the allowances.

@@ -150,12 +150,12 @@ mod tests {
             from: 0,
             to: 10_000,
         });
-        let told = listing.queries().unwrap_err().to_string();
-        assert!(told.contains("santa.csv: rows 0 to 10000"), "{told}");
+        let error = listing.queries().unwrap_err().to_string();
+        assert!(error.contains("santa.csv: rows 0 to 10000"), "{error}");
         listing.motions = "nowhere.csv".to_owned();
-        let told = listing.queries().unwrap_err().to_string();
-        assert!(told.contains("nowhere.csv"), "{told}");
-        let told = listing.model("unicorn").unwrap_err().to_string();
-        assert!(told.contains("unicorn"), "{told}");
+        let error = listing.queries().unwrap_err().to_string();
+        assert!(error.contains("nowhere.csv"), "{error}");
+        let error = listing.model("unicorn").unwrap_err().to_string();
+        assert!(error.contains("unicorn"), "{error}");
     }
 }

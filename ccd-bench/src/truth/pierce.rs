@@ -1,7 +1,7 @@
 //! Proves that two triangles share a point at an instant.
 
 use super::enclosure::{Matrix, Vector};
-use super::moment::Enclosed;
+use super::snapshot::Enclosed;
 use super::surface::Triangle;
 use super::track::Track;
 use inari::{Interval, const_interval};
@@ -14,7 +14,7 @@ pub(super) struct Instant {
 
 impl Instant {
     pub(super) fn new(a: &Track, b: &Track, time: f64) -> Self {
-        let (rotation, offset) = Enclosed::new(a, b, time).place;
+        let (rotation, offset) = Enclosed::new(a, b, time).placement;
         Instant { rotation, offset }
     }
 

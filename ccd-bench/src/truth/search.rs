@@ -1,8 +1,8 @@
 //! The search for the first contact. Time is halved, earliest first, and each half starts from the
 //! pairs of nodes that could not be excluded over the whole.
 
-use super::moment::{Boxes, Moment, Span};
 use super::pierce::Instant;
+use super::snapshot::{Boxes, Snapshot, Span};
 use super::surface::{Content, Node, Surface, Triangle};
 use super::track::Track;
 use super::triangle::{gap, nearest, normals};
@@ -104,8 +104,8 @@ impl<'a> Search<'a> {
             let Some(span) = span.from(doubt.over) else {
                 continue;
             };
-            let moment = self.moment(span);
-            let left = match self.sift(&moment, &pairs) {
+            let snapshot = self.snapshot(span);
+            let left = match self.sift(&snapshot, &pairs) {
                 Sifted::Left(left) if left.is_empty() => continue,
                 Sifted::Left(left) => left,
                 Sifted::Spent => {
@@ -134,15 +134,15 @@ impl<'a> Search<'a> {
         }
     }
 
-    pub(super) fn moment(&self, span: Span) -> Moment {
+    pub(super) fn snapshot(&self, span: Span) -> Snapshot {
         let [a, b] = &self.tracks;
-        Moment::new([a, b], self.farthest, span)
+        Snapshot::new([a, b], self.farthest, span)
     }
 
     /// Returns the pairs that may meet within the span, of nodes no larger than their travel.
-    fn sift(&mut self, moment: &Moment, pairs: &[Pair]) -> Sifted {
+    fn sift(&mut self, snapshot: &Snapshot, pairs: &[Pair]) -> Sifted {
         let mut left = Vec::new();
-        if moment.is_far() {
+        if snapshot.is_far() {
             return Sifted::Left(left);
         }
         let mut stack = pairs.to_vec();
@@ -152,14 +152,14 @@ impl<'a> Search<'a> {
             }
             self.budget -= 1;
             let [a, b] = self.nodes(pair);
-            let Boxes::Near { travel } = moment.boxes(a, b) else {
+            let Boxes::Near { travel } = snapshot.boxes(a, b) else {
                 continue;
             };
             match self.split(pair) {
                 Some(Split { size, parts }) if size > COARSE * travel => stack.extend(parts),
                 Some(_) => left.push(pair),
                 None if greater(a.size, b.size) < SMALL * travel => left.push(pair),
-                None if self.triangles_apart(moment, pair) => {}
+                None if self.triangles_apart(snapshot, pair) => {}
                 None => left.push(pair),
             }
         }
@@ -167,17 +167,17 @@ impl<'a> Search<'a> {
     }
 
     /// Returns true if the triangles of two leaves certainly stay apart within the span.
-    fn triangles_apart(&self, moment: &Moment, pair: Pair) -> bool {
+    fn triangles_apart(&self, snapshot: &Snapshot, pair: Pair) -> bool {
         let Some([a, b]) = self.triangles(pair) else {
             return false;
         };
-        let [start, end] = moment.ends(a, b);
+        let [start, end] = snapshot.ends(a, b);
         let apart = |n| {
             let least = lesser(gap(n, &start[0], &start[1]), gap(n, &end[0], &end[1]));
             // Also false for NaN: `min` drops it, so the direction itself is tested.
-            n.is_finite() && least > moment.slack()
+            n.is_finite() && least > snapshot.slack()
         };
-        let placed = moment.placed(a);
+        let placed = snapshot.placed(a);
         let mut normals = normals(&placed, b);
         if normals.by_ref().take(FACES).any(apart) {
             return true;
@@ -225,10 +225,10 @@ impl<'a> Search<'a> {
             start: time,
             end: time,
         };
-        let moment = self.moment(span);
+        let snapshot = self.snapshot(span);
         let [a, b] = &self.tracks;
         let instant = Instant::new(a, b, time);
-        self.descend(&moment, roots, |search, pair| {
+        self.descend(&snapshot, roots, |search, pair| {
             let touches = match proof {
                 Proof::NotApart => true,
                 Proof::Pierced => {
@@ -246,7 +246,7 @@ impl<'a> Search<'a> {
     /// Passes on all leaves that are not certainly apart, until the callback stops the descent.
     fn descend(
         &mut self,
-        moment: &Moment,
+        snapshot: &Snapshot,
         roots: Pair,
         mut leaf: impl FnMut(&Self, Pair) -> ControlFlow<()>,
     ) -> Touch {
@@ -257,12 +257,12 @@ impl<'a> Search<'a> {
             }
             self.budget -= 1;
             let [a, b] = self.nodes(pair);
-            if moment.boxes(a, b) == Boxes::Apart {
+            if snapshot.boxes(a, b) == Boxes::Apart {
                 continue;
             }
             if let Some(Split { parts, .. }) = self.split(pair) {
                 stack.extend(parts);
-            } else if !self.triangles_apart(moment, pair) && leaf(self, pair).is_break() {
+            } else if !self.triangles_apart(snapshot, pair) && leaf(self, pair).is_break() {
                 return Touch::Yes;
             }
         }

@@ -22,8 +22,8 @@ fn still(x: f64, y: f64, z: f64) -> Motion {
     Motion::still(at(DVec3::new(x, y, z), DQuat::IDENTITY))
 }
 
-fn at(place: DVec3, rotation: DQuat) -> Pose {
-    Pose::new(place, rotation).unwrap()
+fn at(position: DVec3, rotation: DQuat) -> Pose {
+    Pose::new(position, rotation).unwrap()
 }
 
 fn query(a: Motion, b: Motion, duration: f64) -> Query {

@@ -26,8 +26,8 @@ fn an_evaluation_writes_tables_charts_and_a_page_and_does_not_measure_twice() {
     let folder = scene.directory.join("report");
     let output = chart(&folder).output();
     assert!(output.status.success(), "{}", stderr(&output));
-    let told = String::from_utf8(output.stdout).unwrap();
-    assert!(told.contains("best-first direct") && told.contains("The report: "));
+    let output_text = String::from_utf8(output.stdout).unwrap();
+    assert!(output_text.contains("best-first direct") && output_text.contains("The report: "));
     let table = fs::read(folder.join("chart.csv")).unwrap();
     let rows = parse(&table);
     assert_eq!(rows.len(), 4);
@@ -122,8 +122,11 @@ fn unknown_names_are_answered_with_the_known_ones() {
     for (option, name) in [("--scenes", "knot216"), ("--methods", "C2A")] {
         let output = Run::bare(&["chart", option, "atlantis"]).output();
         assert_eq!(output.status.code(), Some(2));
-        let told = stderr(&output);
-        assert!(told.contains("atlantis") && told.contains(name), "{told}");
+        let output_text = stderr(&output);
+        assert!(
+            output_text.contains("atlantis") && output_text.contains(name),
+            "{output_text}"
+        );
     }
     let output = Run::bare(&["chart", "--tolerances", "-1"]).output();
     assert_eq!(output.status.code(), Some(2));

@@ -1,6 +1,6 @@
 //! A query in plain numbers, and its text form.
 
-use crate::course::{Course, Goal, Place};
+use crate::course::{Course, Goal, RawPose};
 use crate::nearest::Triangle;
 use crate::vector::Vector;
 use ccd_core::{Config, StartPolicy};
@@ -104,7 +104,7 @@ impl Case {
             }
         };
         for (letter, course) in ['a', 'b'].into_iter().zip(&self.courses) {
-            let Place {
+            let RawPose {
                 position,
                 quaternion,
             } = course.start;
@@ -116,7 +116,7 @@ impl Case {
                     put(letter, "vx vy vz", &linear);
                     put(letter, "wx wy wz", &spin);
                 }
-                Goal::End(Place {
+                Goal::End(RawPose {
                     position,
                     quaternion,
                 }) => {

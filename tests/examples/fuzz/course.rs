@@ -8,14 +8,14 @@ use ccd_core::{InputError, Motion, Pose};
 /// A motion in the numbers that the engine is given.
 #[derive(Clone, Copy, Debug)]
 pub struct Course {
-    pub start: Place,
+    pub start: RawPose,
     pub goal: Goal,
     /// The point of the body that moves straight.
     pub centre: [f64; 3],
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Place {
+pub struct RawPose {
     pub position: [f64; 3],
     /// The components w, x, y, z; any length.
     pub quaternion: [f64; 4],
@@ -24,12 +24,12 @@ pub struct Place {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Goal {
     Velocities { linear: [f64; 3], spin: [f64; 3] },
-    End(Place),
+    End(RawPose),
 }
 
-impl Place {
+impl RawPose {
     pub fn at(position: [f64; 3]) -> Self {
-        Place {
+        RawPose {
             position,
             quaternion: [1.0, 0.0, 0.0, 0.0],
         }
@@ -56,7 +56,7 @@ impl Place {
 }
 
 impl Course {
-    pub fn velocities(start: Place, linear: [f64; 3], spin: [f64; 3]) -> Self {
+    pub fn velocities(start: RawPose, linear: [f64; 3], spin: [f64; 3]) -> Self {
         Course {
             start,
             goal: Goal::Velocities { linear, spin },
@@ -102,11 +102,11 @@ impl Course {
         let columns = [0, 1, 2].map(|k| {
             let mut unit = [0.0; 3];
             unit[k] = 1.0;
-            let place = Place {
+            let rotation = RawPose {
                 position: [0.0; 3],
                 ..self.start
             };
-            place.point(Vector::of(unit))
+            rotation.point(Vector::of(unit))
         });
         Track {
             start,
@@ -146,13 +146,13 @@ pub struct Track {
 
 /// The placement of a body at a time.
 #[derive(Clone, Copy, Debug)]
-pub struct Moment {
+pub struct Snapshot {
     columns: [Vector<Double>; 3],
     pub centre: Vector<Double>,
 }
 
 impl Track {
-    pub fn at(&self, t: f64) -> Moment {
+    pub fn at(&self, t: f64) -> Snapshot {
         let centre = self.start + self.velocity * Double::new(t);
         let columns = match self.rate.rounded() > 0.0 {
             true => {
@@ -167,7 +167,7 @@ impl Track {
             }
             false => self.columns,
         };
-        Moment { columns, centre }
+        Snapshot { columns, centre }
     }
 
     /// Returns the speed of a point at an arm from the centre, rounded.
@@ -176,7 +176,7 @@ impl Track {
     }
 }
 
-impl Moment {
+impl Snapshot {
     /// Returns the vector from the centre to the point at `x` from it in the body's frame.
     pub fn arm(&self, x: Vector<Double>) -> Vector<Double> {
         let [a, b, c] = x.0;

@@ -1,6 +1,6 @@
 //! Draws random inputs.
 
-use crate::course::Place;
+use crate::course::RawPose;
 use crate::vector::Vector;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
@@ -56,12 +56,12 @@ impl Draw {
         [(); 4].map(|()| self.within(-1.0..1.0))
     }
 
-    pub fn place(&mut self, position: [f64; 3]) -> Place {
+    pub fn pose(&mut self, position: [f64; 3]) -> RawPose {
         let quaternion = match self.chance(0.3) {
             true => [1.0, 0.0, 0.0, 0.0],
             false => self.quaternion(),
         };
-        Place {
+        RawPose {
             position,
             quaternion,
         }

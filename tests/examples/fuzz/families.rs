@@ -12,7 +12,7 @@ mod shells;
 mod turns;
 
 use crate::case::{Case, Expect, Shape};
-use crate::course::{Course, Place};
+use crate::course::{Course, RawPose};
 use crate::draw::{Draw, plus, times};
 use ccd_core::Config;
 use clap::ValueEnum;
@@ -69,7 +69,7 @@ fn pass(draw: &mut Draw, shapes: [Shape; 2], turn: f64, config: Config) -> Case 
     let spin = |draw: &mut Draw| times(draw.direction(), turn * draw.within(0.2..1.0));
     let half = times(way, 0.5 * travel);
     let course = |draw: &mut Draw, side: f64, at: [f64; 3]| {
-        let start = draw.place(plus(times(half, -side), at));
+        let start = draw.pose(plus(times(half, -side), at));
         let moved = plus(times(half, 2.0 * side), common);
         Course::velocities(start, moved, spin(draw))
     };
@@ -85,7 +85,7 @@ fn pass(draw: &mut Draw, shapes: [Shape; 2], turn: f64, config: Config) -> Case 
 
 /// Returns a body at rest at the origin.
 fn still() -> Course {
-    Course::velocities(Place::at([0.0; 3]), [0.0; 3], [0.0; 3])
+    Course::velocities(RawPose::at([0.0; 3]), [0.0; 3], [0.0; 3])
 }
 
 fn tolerance(draw: &mut Draw) -> Config {

@@ -22,6 +22,7 @@ mod double;
 mod draw;
 mod engine;
 mod families;
+mod judge;
 mod nearest;
 mod referee;
 mod shapes;
@@ -29,7 +30,6 @@ mod solid;
 mod tally;
 mod trial;
 mod vector;
-mod verdict;
 
 use clap::{Parser, ValueEnum};
 use families::Family;

@@ -7,7 +7,7 @@
 mod search;
 
 use crate::case::Case;
-use crate::course::{Moment, Track};
+use crate::course::{Snapshot, Track};
 use crate::double::Double;
 use crate::nearest::{Triangle, depth, distance};
 use crate::vector::{Number, Vector, larger, smaller};
@@ -69,9 +69,13 @@ impl Side {
         }
     }
 
-    fn triangle(&self, k: usize, moment: &Moment, origin: Vector<Double>) -> Triangle<Double> {
-        let ([p, q, r], to) = (self.triangles[k], moment.centre - origin);
-        [moment.arm(p) + to, moment.arm(q) + to, moment.arm(r) + to]
+    fn triangle(&self, k: usize, snapshot: &Snapshot, origin: Vector<Double>) -> Triangle<Double> {
+        let ([p, q, r], to) = (self.triangles[k], snapshot.centre - origin);
+        [
+            snapshot.arm(p) + to,
+            snapshot.arm(q) + to,
+            snapshot.arm(r) + to,
+        ]
     }
 }
 
@@ -125,15 +129,15 @@ impl Scene {
         ERROR * self.scale + 1e-29 * far.fold(0.0, larger)
     }
 
-    pub fn moments(&self, t: f64) -> [Moment; 2] {
+    pub fn snapshots(&self, t: f64) -> [Snapshot; 2] {
         [self.sides[0].track.at(t), self.sides[1].track.at(t)]
     }
 
     /// Returns all triangles of a body at a time, seen from A's centre.
     pub fn placed(&self, side: usize, t: f64) -> Vec<Triangle<Double>> {
-        let moments = self.moments(t);
+        let snapshots = self.snapshots(t);
         let all = 0..self.sides[side].triangles.len();
-        all.map(|k| self.sides[side].triangle(k, &moments[side], moments[0].centre))
+        all.map(|k| self.sides[side].triangle(k, &snapshots[side], snapshots[0].centre))
             .collect()
     }
 

@@ -137,8 +137,8 @@ fn parts(triangles: &[Triangle<Double>]) -> Vec<usize> {
         let mut changed = false;
         for (k, t) in triangles.iter().enumerate() {
             for p in t {
-                let place = p.0.map(|x| (x.rounded() + 0.0).to_bits());
-                let first = at.entry(place).or_insert(group[k]);
+                let position = p.0.map(|x| (x.rounded() + 0.0).to_bits());
+                let first = at.entry(position).or_insert(group[k]);
                 changed |= *first != group[k];
                 group[k] = group[k].min(*first);
                 *first = group[k];
@@ -157,7 +157,7 @@ pub fn clearance(p: Vector<Double>, triangles: &[Triangle<Double>]) -> f64 {
 }
 
 /// Returns points just off either side of every triangle, by a fraction of its size.
-pub fn beside(triangles: &[Triangle<Double>]) -> Vec<Vector<Double>> {
+pub fn points_near(triangles: &[Triangle<Double>]) -> Vec<Vector<Double>> {
     let mut points = Vec::new();
     for t in triangles {
         let Some(n) = normal(t) else { continue };

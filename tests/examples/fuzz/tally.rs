@@ -1,7 +1,7 @@
 //! Counts outcomes.
 
+use crate::judge::Fault;
 use crate::trial::{Failure, Trial};
-use crate::verdict::Fault;
 use ccd_core::Outcome;
 use std::collections::BTreeMap;
 use std::fmt;

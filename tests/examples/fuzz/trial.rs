@@ -4,7 +4,7 @@ use crate::case::{Case, Form, Shape};
 use crate::draw::Draw;
 use crate::engine::{Bodies, Kind, Method, Trees};
 use crate::families::Family;
-use crate::verdict::{Fault, Given, Judge};
+use crate::judge::{Fault, Given, Judge};
 use ccd_core::{Config, Outcome};
 use std::collections::HashMap;
 use std::fmt;

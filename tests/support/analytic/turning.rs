@@ -68,10 +68,10 @@ fn upright_rod(name: &str, half_turns: f64, wall: f64) -> Scene {
     )
 }
 
-fn upright(speed: f64, wall: f64, place: Pose) -> [Actor; 2] {
+fn upright(speed: f64, wall: f64, pose: Pose) -> [Actor; 2] {
     let shape = cuboid(DVec3::new(WIDTH, 0.3, LENGTH));
-    let motion = Motion::new(place, DVec3::ZERO, place.rotation() * (speed * DVec3::Y));
-    let still = Motion::still(place);
+    let motion = Motion::new(pose, DVec3::ZERO, pose.rotation() * (speed * DVec3::Y));
+    let still = Motion::still(pose);
     [
         Actor {
             shape,
@@ -165,10 +165,10 @@ fn two_rods() -> Scene {
 
 /// T20: T4 far away; the offsets are powers of two, so that the scene itself is not rounded.
 fn far_rod(offset: f64) -> Scene {
-    let place = Pose::at(DVec3::new(offset, -offset, offset)).expect("finite");
+    let pose = Pose::at(DVec3::new(offset, -offset, offset)).expect("finite");
     Scene::new(
         format!("T20 rod at {offset}"),
-        upright(PI, 1.25, place),
+        upright(PI, 1.25, pose),
         Expect::hit(|g| corner_time(1.25 - g, PI)),
     )
 }

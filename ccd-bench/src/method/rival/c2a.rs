@@ -61,7 +61,7 @@ struct Found {
 /// The placement of the bodies, and the limits of a descent.
 struct Look<'a> {
     /// Body B as seen from body A.
-    place: &'a Placement,
+    placement: &'a Placement,
     /// The time until the end of the duration.
     remaining: f64,
     /// The fraction of its distance by which a pair that is not opened may be nearer than the
@@ -112,7 +112,7 @@ impl Solver for C2a {
         for steps in 1..=self.patience.steps {
             let frame = a.at(time);
             let look = Look {
-                place: &b.at(time).seen_from(&frame),
+                placement: &b.at(time).seen_from(&frame),
                 remaining: query.duration - time,
                 excess: self.excess(steps, last.as_ref(), query.duration),
             };
@@ -175,7 +175,7 @@ impl C2a {
         if let Some((leaves, pair)) = last.and_then(|last| last.nearest) {
             self.measure(&mut found, look, leaves, pair);
         }
-        let Some(roots) = self.trees.roots(look.place) else {
+        let Some(roots) = self.trees.roots(look.placement) else {
             return Descent::Done(found);
         };
         self.pairs.clear();
@@ -224,7 +224,7 @@ impl C2a {
 
     /// Measures the distance of two triangles, and the time until they may touch.
     fn measure(&mut self, found: &mut Found, look: &Look<'_>, leaves: Leaves, pair: Pair) {
-        let between = self.trees.nearest(leaves, look.place).between();
+        let between = self.trees.nearest(leaves, look.placement).between();
         let distance = between.length();
         let gap = Gap {
             distance,

@@ -192,7 +192,7 @@ impl Search<'_> {
         let Pair { nodes, slice } = pair;
         let a = self.trees[0].node(nodes[0]);
         let b = self.trees[1].node(nodes[1]);
-        let spread = match boxes(&a.bounds, &b.bounds, self.clock.places(slice)) {
+        let spread = match boxes(&a.bounds, &b.bounds, self.clock.placements(slice)) {
             Boxes::Apart => return Touch::Never,
             Boxes::Near { spread } => spread,
         };

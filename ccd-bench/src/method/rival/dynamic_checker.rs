@@ -215,8 +215,8 @@ impl DynamicChecker {
 
     /// Returns the least distance of nodes at which a descent of both trees stops.
     fn bound(&mut self, time: f64, wanted: Wanted, task: &mut Task) -> LowerBound {
-        let place = task.b.at(time).seen_from(&task.a.at(time));
-        let Some(roots) = self.trees.roots(&place) else {
+        let placement = task.b.at(time).seen_from(&task.a.at(time));
+        let Some(roots) = self.trees.roots(&placement) else {
             return LowerBound::Apart(f64::INFINITY);
         };
         self.pairs.clear();
@@ -237,7 +237,7 @@ impl DynamicChecker {
             match self.trees.under(&pair) {
                 Under::Pairs(pairs) => self.push(pairs, least),
                 Under::Triangles(leaves) => {
-                    let apart = self.trees.nearest(leaves, &place).between().length();
+                    let apart = self.trees.nearest(leaves, &placement).between().length();
                     if apart.is_nan() {
                         return LowerBound::GaveUp;
                     }

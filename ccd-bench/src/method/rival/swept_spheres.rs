@@ -28,7 +28,7 @@ pub(super) struct SphereTree {
 #[derive(Clone, Copy, Debug)]
 struct Node {
     /// The rectangle's frame, as seen from its parent's.
-    place: Placement,
+    placement: Placement,
     /// The lengths of the rectangle along x and y.
     lengths: DVec2,
     radius: f64,
@@ -55,7 +55,7 @@ pub(super) struct Pair {
     pub(super) a: u32,
     pub(super) b: u32,
     /// B's rectangle as seen from A's.
-    place: Placement,
+    placement: Placement,
 }
 
 /// The content of a pair of nodes.
@@ -124,12 +124,12 @@ impl Node {
 
 impl Trees {
     /// Returns both roots, body B placed as seen from body A, or `None` if a mesh has no triangles.
-    pub(super) fn roots(&self, place: &Placement) -> Option<Pair> {
+    pub(super) fn roots(&self, placement: &Placement) -> Option<Pair> {
         let (a, b) = (self.a.frames.first()?, self.b.frames.first()?);
         Some(Pair {
             a: 0,
             b: 0,
-            place: after(place, b).seen_from(a),
+            placement: after(placement, b).seen_from(a),
         })
     }
 
@@ -140,7 +140,7 @@ impl Trees {
             &self.a.nodes[pair.a as usize],
             &self.b.nodes[pair.b as usize],
         );
-        let between = rectangles::between(a.lengths, b.lengths, &pair.place);
+        let between = rectangles::between(a.lengths, b.lengths, &pair.placement);
         // NaN becomes zero.
         greater(0.0, between.length() - (a.radius + b.radius))
     }
@@ -152,7 +152,7 @@ impl Trees {
             &self.a.nodes[pair.a as usize],
             &self.b.nodes[pair.b as usize],
         );
-        let between = rectangles::between(a.lengths, b.lengths, &pair.place);
+        let between = rectangles::between(a.lengths, b.lengths, &pair.placement);
         let length = between.length();
         let distance = greater(0.0, length - (a.radius + b.radius));
         if !(distance > 0.0) {
@@ -175,8 +175,8 @@ impl Trees {
     /// Returns the nearest points of two triangles in the frame of body A, body B placed as seen
     /// from there.
     #[inline]
-    pub(super) fn nearest(&self, leaves: Leaves, place: &Placement) -> Nearest {
-        let moved = self.b.triangles[leaves.b as usize].map(|corner| place.apply(corner));
+    pub(super) fn nearest(&self, leaves: Leaves, placement: &Placement) -> Nearest {
+        let moved = self.b.triangles[leaves.b as usize].map(|corner| placement.apply(corner));
         nearest(&self.a.triangles[leaves.a as usize], &moved)
     }
 
@@ -203,10 +203,14 @@ impl Trees {
 
     #[inline]
     fn split_a(&self, pair: &Pair, first: u32) -> Under {
-        Under::Pairs([first, first + 1].map(|a| Pair {
-            a,
-            b: pair.b,
-            place: pair.place.seen_from(&self.a.nodes[a as usize].place),
+        Under::Pairs([first, first + 1].map(|a| {
+            Pair {
+                a,
+                b: pair.b,
+                placement: pair
+                    .placement
+                    .seen_from(&self.a.nodes[a as usize].placement),
+            }
         }))
     }
 
@@ -215,7 +219,7 @@ impl Trees {
         Under::Pairs([first, first + 1].map(|b| Pair {
             a: pair.a,
             b,
-            place: after(&pair.place, &self.b.nodes[b as usize].place),
+            placement: after(&pair.placement, &self.b.nodes[b as usize].placement),
         }))
     }
 }

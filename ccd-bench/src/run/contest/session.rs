@@ -1,5 +1,4 @@
-//! A method that is ready for queries about a scene: in this process, or in one of its own that can
-//! be stopped.
+//! A method that is ready for queries about a scene.
 
 use super::MOST_PAIRS_FOR_NAIVE;
 use crate::method::peer::{Asked, Guarded};
@@ -15,11 +14,12 @@ use std::time::{Duration, Instant};
 pub struct Session<'s> {
     method: Method,
     tolerance: f64,
-    place: Place<'s>,
+    runner: Runner<'s>,
 }
 
-enum Place<'s> {
-    Here(Box<dyn Adjustable + 's>),
+/// The solver of a session: in this process, or in one of its own that can be stopped.
+enum Runner<'s> {
+    InProcess(Box<dyn Adjustable + 's>),
     Guarded(Box<Guarded>),
 }
 
@@ -38,30 +38,30 @@ pub(super) enum Answered {
 
 impl<'s> Session<'s> {
     /// Opens a session, or returns `None` if the method does not support the scene.
-    pub(super) fn take(
+    pub(super) fn open(
         method: Method,
         scene: &'s Scene,
         tolerance: f64,
     ) -> io::Result<Option<Self>> {
-        let place = match method {
+        let runner = match method {
             Method::Ours(kind, pieces) => {
                 let too_many = scene.pairs() > MOST_PAIRS_FOR_NAIVE;
                 let suits = kind.schedule != ScheduleKind::Naive || !too_many;
                 let Some(bodies) = scene.bodies_of(pieces).filter(|_| suits) else {
                     return Ok(None);
                 };
-                Place::Here(Box::new(Ours::new(kind, bodies, tolerance)))
+                Runner::InProcess(Box::new(Ours::new(kind, bodies, tolerance)))
             }
-            Method::Rival(kind) => Place::Here(kind.enter(scene, tolerance)),
+            Method::Rival(kind) => Runner::InProcess(kind.solver(scene, tolerance)),
             Method::Peer(kind) => {
                 let (a, b) = (scene.a.mesh(), scene.b.mesh());
-                Place::Guarded(Box::new(Guarded::start(kind, a, b, tolerance)?))
+                Runner::Guarded(Box::new(Guarded::start(kind, a, b, tolerance)?))
             }
         };
         Ok(Some(Session {
             method,
             tolerance,
-            place,
+            runner,
         }))
     }
 
@@ -81,12 +81,12 @@ impl<'s> Session<'s> {
     /// If a peer's process does not restart.
     pub fn set_tolerance(&mut self, tolerance: f64) -> io::Result<()> {
         self.tolerance = tolerance;
-        match &mut self.place {
-            Place::Here(solver) => {
+        match &mut self.runner {
+            Runner::InProcess(solver) => {
                 solver.set_tolerance(tolerance);
                 Ok(())
             }
-            Place::Guarded(guarded) => guarded.restart_with(tolerance),
+            Runner::Guarded(guarded) => guarded.restart_with(tolerance),
         }
     }
 
@@ -98,8 +98,10 @@ impl<'s> Session<'s> {
         time: Duration,
     ) -> usize {
         let start = Instant::now();
-        match (&mut self.place, self.method) {
-            (Place::Here(solver), Method::Ours(kind, _)) if kind.schedule.uses_hull_trees() => {
+        match (&mut self.runner, self.method) {
+            (Runner::InProcess(solver), Method::Ours(kind, _))
+                if kind.schedule.uses_hull_trees() =>
+            {
                 let rehearsed = queries.take_while(|_| start.elapsed() < time);
                 rehearsed.map(|query| solver.answer(query)).count()
             }
@@ -112,12 +114,12 @@ impl<'s> Session<'s> {
     /// # Errors
     /// If a peer's process does not restart.
     pub(super) fn ask(&mut self, query: &Query, patience: Duration) -> io::Result<Answered> {
-        Ok(match &mut self.place {
-            Place::Here(solver) => {
+        Ok(match &mut self.runner {
+            Runner::InProcess(solver) => {
                 let TimedReply { reply, micros } = timed(solver.as_mut(), query);
                 Answered::InTime { reply, micros }
             }
-            Place::Guarded(guarded) => match guarded.ask(query, patience)? {
+            Runner::Guarded(guarded) => match guarded.ask(query, patience)? {
                 Asked::Answered { reply, micros } => Answered::InTime { reply, micros },
                 Asked::CutOff => Answered::CutOff { patience },
                 Asked::Died => Answered::Died,

@@ -117,8 +117,8 @@ fn this_project_is_right_on_the_small_scene_and_its_cell_says_so() {
     assert_eq!(found, scene.queries.len());
     let method = Method::Ours(SolverKind::default(), Pieces::Least);
     let mut session = contest.session(method, 1e-6).unwrap().unwrap();
-    let heard = contest.run(&mut session, &EVERYTHING, &truths).unwrap();
-    let (cell, trials) = heard.unwrap();
+    let measured = contest.run(&mut session, &EVERYTHING, &truths).unwrap();
+    let (cell, trials) = measured.unwrap();
     assert_eq!(cell.rows, scene.queries.len());
     assert_eq!(trials.len(), cell.rows);
     assert!(trials.iter().all(|t| t.verdict == "right"), "{trials:?}");

@@ -8,7 +8,7 @@ use rayon::iter::{IntoParallelIterator, ParallelIterator};
 use rigid_ccd::command::Progress;
 use std::collections::BTreeMap;
 use std::fs::{self, File};
-use std::path;
+use std::path::Path;
 
 /// The known first contacts of all scenes, by scene, meshes and motions, and row.
 #[derive(Debug, Default)]
@@ -30,7 +30,7 @@ impl Truths {
     ///
     /// # Errors
     /// If the file is no table of truths.
-    pub fn read(file: &path::Path) -> Result<Self, TruthsError> {
+    pub fn read(file: &Path) -> Result<Self, TruthsError> {
         let mut truths = Truths::default();
         if file.exists() {
             let file = File::open(file).map_err(csv::Error::from)?;
@@ -43,7 +43,7 @@ impl Truths {
     ///
     /// # Errors
     /// If the file cannot be written.
-    pub fn write(&self, file: &path::Path) -> Result<(), TruthsError> {
+    pub fn write(&self, file: &Path) -> Result<(), TruthsError> {
         // Under another name first, since half a table would still be a valid table.
         let part = file.with_extension("part");
         let whole = File::create(&part).map_err(csv::Error::from)?;
@@ -55,12 +55,12 @@ impl Truths {
     pub fn find(
         &mut self,
         contest: &Contest<'_>,
-        path: MotionKind,
+        motion: MotionKind,
         rows: &[usize],
         progress: &Progress,
     ) -> usize {
-        let fingerprint = fingerprint(contest, path);
-        let key = |row: usize| key(contest, fingerprint, path, row);
+        let fingerprint = fingerprint(contest, motion);
+        let key = |row: usize| key(contest, fingerprint, motion, row);
         let unknown: Vec<usize> = rows
             .iter()
             .copied()
@@ -70,7 +70,7 @@ impl Truths {
         let found: Vec<TruthRow> = unknown
             .into_par_iter()
             .map(|row| {
-                let query = &contest.queries(path)[row];
+                let query = &contest.queries(motion)[row];
                 let truth = referee.first_contact(query);
                 progress.tick();
                 TruthRow::new(key(row), query.duration, truth)
@@ -85,11 +85,11 @@ impl Truths {
     pub fn of<'t>(
         &'t self,
         contest: &'t Contest<'_>,
-        path: MotionKind,
+        motion: MotionKind,
     ) -> impl Fn(usize) -> Truth + 't {
-        let fingerprint = fingerprint(contest, path);
+        let fingerprint = fingerprint(contest, motion);
         move |row| {
-            let known = self.known.get(&key(contest, fingerprint, path, row));
+            let known = self.known.get(&key(contest, fingerprint, motion, row));
             known.map_or(Truth::Undecided { lo: 0.0 }, TruthRow::truth)
         }
     }
@@ -102,19 +102,19 @@ impl Truths {
 
 /// Returns the name of a row in the table. It includes the meshes and motions, since the truth
 /// depends on them.
-fn key(contest: &Contest<'_>, fingerprint: u32, path: MotionKind, row: usize) -> String {
+fn key(contest: &Contest<'_>, fingerprint: u32, motion: MotionKind, row: usize) -> String {
     let scene = &contest.scene().name;
-    let id = &contest.queries(path)[row].id;
+    let id = &contest.queries(motion)[row].id;
     format!("{scene}/{fingerprint:08x}/{id}")
 }
 
 /// Returns a hash of the meshes and motions, to the bit.
-fn fingerprint(contest: &Contest<'_>, path: MotionKind) -> u32 {
+fn fingerprint(contest: &Contest<'_>, motion: MotionKind) -> u32 {
     let mut hash = crc32fast::Hasher::new();
     for body in [&contest.scene().a, &contest.scene().b] {
         hash_mesh(body.mesh(), &mut hash);
     }
-    for query in contest.queries(path) {
+    for query in contest.queries(motion) {
         for motion in [&query.a, &query.b] {
             let start = motion.start();
             let vectors = [

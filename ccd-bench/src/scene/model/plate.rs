@@ -20,13 +20,13 @@ impl Plate {
     pub fn mesh(&self) -> Result<TriangleMesh, MeshError> {
         let n = self.squares;
         let step = 2.0 * self.half_side / f64::from(n);
-        let place = |k: u32| f64::from(k) * step - self.half_side;
+        let coordinate = |k: u32| f64::from(k) * step - self.half_side;
         let vertices = (0..=n).flat_map(|i| (0..=n).map(move |j| (i, j)));
         let faces: Vec<[u32; 3]> = (0..n)
             .flat_map(|i| (0..n).map(move |j| i * (n + 1) + j))
             .flat_map(|a| [[a, a + n + 1, a + 1], [a + 1, a + n + 1, a + n + 2]])
             .collect();
-        let vertices = vertices.map(|(i, j)| DVec3::new(place(i), place(j), 0.0));
+        let vertices = vertices.map(|(i, j)| DVec3::new(coordinate(i), coordinate(j), 0.0));
         TriangleMesh::new(vertices.collect(), &faces)
     }
 }

@@ -86,8 +86,8 @@ fn draw(charts: &Charts<'_>, figure: u8) -> Result<Option<Drawing>, ChartError> 
     let svg = Sheet::draw(&title, size, |sheet| {
         head(sheet, &title, subtitle)?;
         for (index, column) in columns.iter().enumerate() {
-            let place = place(index, columns.len());
-            draw_column(charts, sheet, (column, place), [&time, &steps], &shown)?;
+            let upper = upper_rect(index, columns.len());
+            draw_column(charts, sheet, (column, upper), [&time, &steps], &shown)?;
         }
         legend.draw(sheet, (MARGIN, legend_top))?;
         foot(sheet, &remarks, remarks_top)
@@ -163,7 +163,7 @@ fn numbered<'a>(
 }
 
 /// Returns the rectangle of the upper panel of a column.
-fn place(index: usize, columns: usize) -> Rect {
+fn upper_rect(index: usize, columns: usize) -> Rect {
     let inside = WIDTH - 2.0 * MARGIN - LEFT_MARGIN;
     let pitch = (inside + GUTTER) / columns.max(1) as f64;
     Rect {

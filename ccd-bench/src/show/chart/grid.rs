@@ -27,7 +27,7 @@ pub(super) struct Grid<'a> {
     /// The height of a panel's axes.
     pub(super) height: f64,
     /// The space to the right of a panel's axes.
-    pub(super) beside: f64,
+    pub(super) right_margin: f64,
 }
 
 impl Grid<'_> {
@@ -48,7 +48,7 @@ impl Grid<'_> {
             for (number, title) in titles.iter().enumerate() {
                 let (row, column) = (number / columns, number % columns);
                 let panel = Panel {
-                    rect: self.place(row, column),
+                    rect: self.rect_of(row, column),
                     title,
                     x: &self.x,
                     y: &self.y,
@@ -65,14 +65,14 @@ impl Grid<'_> {
         })
     }
 
-    fn place(&self, row: usize, column: usize) -> Rect {
+    fn rect_of(&self, row: usize, column: usize) -> Rect {
         let columns = self.columns.max(1) as f64;
         let inside = WIDTH - LEFT_MARGIN - 2.0 * MARGIN;
         let pitch = (inside + GUTTER) / columns;
         Rect {
             left: MARGIN + LEFT_MARGIN + pitch * column as f64,
             top: HEAD + TOP_MARGIN + (self.height + TOP_MARGIN + GUTTER) * row as f64,
-            width: pitch - GUTTER - self.beside,
+            width: pitch - GUTTER - self.right_margin,
             height: self.height,
         }
     }

@@ -92,7 +92,7 @@ fn draw(
         y,
         columns: layout.columns,
         height: layout.height,
-        beside: strip,
+        right_margin: strip,
     };
     let titles: Vec<_> = scenes.iter().map(|scene| scene.name).collect();
     let svg = grid.draw(&titles, |sheet, number, panel| {

@@ -144,7 +144,7 @@ impl Sheet<'_> {
     }
 
     pub(super) fn line(&self, spots: &[Spot], pen: Pen) -> Result<(), DrawError> {
-        let path: Vec<_> = spots.iter().map(|&spot| place(spot)).collect();
+        let path: Vec<_> = spots.iter().map(|&spot| to_units(spot)).collect();
         match pen.dash {
             None => self.area.draw(&PathElement::new(path, pen.style())),
             Some((dash, gap)) => self.area.draw(&DashedPathElement::new(
@@ -157,14 +157,14 @@ impl Sheet<'_> {
     }
 
     pub(super) fn polygon(&self, spots: &[Spot], fill: RGBAColor) -> Result<(), DrawError> {
-        let corners: Vec<_> = spots.iter().map(|&spot| place(spot)).collect();
+        let corners: Vec<_> = spots.iter().map(|&spot| to_units(spot)).collect();
         self.area.draw(&Polygon::new(corners, fill.filled()))
     }
 
     pub(super) fn rect(&self, rect: Rect, style: ShapeStyle) -> Result<(), DrawError> {
         let corners = [
-            place((rect.left, rect.top)),
-            place((rect.right(), rect.bottom())),
+            to_units((rect.left, rect.top)),
+            to_units((rect.right(), rect.bottom())),
         ];
         self.area.draw(&Rectangle::new(corners, style))
     }
@@ -187,7 +187,7 @@ impl Sheet<'_> {
         style: ShapeStyle,
     ) -> Result<(), DrawError> {
         self.area
-            .draw(&Circle::new(place(centre), units(radius), style))
+            .draw(&Circle::new(to_units(centre), units(radius), style))
     }
 
     pub(super) fn text(&self, text: &str, spot: Spot, hand: Hand) -> Result<(), DrawError> {
@@ -204,7 +204,7 @@ impl Sheet<'_> {
             .transform(turn)
             .color(&hand.colour)
             .pos(Pos::new(hand.across, hand.down));
-        self.area.draw(&Text::new(text, place(spot), style))
+        self.area.draw(&Text::new(text, to_units(spot), style))
     }
 }
 
@@ -218,7 +218,7 @@ pub(super) fn stroke(colour: RGBColor, width: f64) -> ShapeStyle {
     Pen::solid(colour, width).style()
 }
 
-fn place(spot: Spot) -> (i32, i32) {
+fn to_units(spot: Spot) -> (i32, i32) {
     (units(spot.0), units(spot.1))
 }
 

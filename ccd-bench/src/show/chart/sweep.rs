@@ -67,7 +67,7 @@ impl Sweep {
             y,
             columns: 3,
             height: 190.0,
-            beside: 0.0,
+            right_margin: 0.0,
         };
         let titles: Vec<_> = scenes.iter().map(|scene| scene.name).collect();
         let svg = grid.draw(&titles, |sheet, number, panel| {

@@ -54,7 +54,7 @@ pub(super) fn chart(charts: &Charts<'_>) -> Result<Option<Drawing>, ChartError> 
         y,
         columns: 1,
         height: 400.0,
-        beside: 0.0,
+        right_margin: 0.0,
     };
     let svg = grid.draw(&[""], |sheet, _, panel| {
         name_sizes(sheet, panel, &sizes)?;

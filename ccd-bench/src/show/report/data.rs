@@ -182,8 +182,8 @@ pub(super) fn views(views: &[View<'_>]) -> Result<String, serde_json::Error> {
 
 fn mesh_data(mesh: &TriangleMesh) -> MeshData {
     // Single precision is finer than any screen.
-    let places = mesh.vertices().iter().flat_map(|v| v.as_vec3().to_array());
-    let vertices: Vec<u8> = places.flat_map(f32::to_le_bytes).collect();
+    let positions = mesh.vertices().iter().flat_map(|v| v.as_vec3().to_array());
+    let vertices: Vec<u8> = positions.flat_map(f32::to_le_bytes).collect();
     let corners = mesh.faces().iter().flatten();
     let faces: Vec<u8> = corners.flat_map(|corner| corner.to_le_bytes()).collect();
     MeshData {

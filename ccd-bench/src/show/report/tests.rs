@@ -120,7 +120,7 @@ fn meshes_are_stored_once_and_decode_to_their_numbers() {
         (&0.into(), &0.into())
     );
     let mesh = mesh();
-    let places: Vec<f32> = decoded(&meshes[0]["vertices"])
+    let positions: Vec<f32> = decoded(&meshes[0]["vertices"])
         .into_iter()
         .map(f32::from_le_bytes)
         .collect();
@@ -129,7 +129,7 @@ fn meshes_are_stored_once_and_decode_to_their_numbers() {
         .iter()
         .flat_map(|v| v.as_vec3().to_array())
         .collect();
-    assert_eq!(places, expected);
+    assert_eq!(positions, expected);
     let corners: Vec<u32> = decoded(&meshes[0]["faces"])
         .into_iter()
         .map(u32::from_le_bytes)

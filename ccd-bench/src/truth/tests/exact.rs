@@ -38,8 +38,8 @@ fn falling(rotation: DQuat, height: f64, spin: DVec3) -> Motion {
     Motion::new(start, -4.0 * DVec3::Z, spin).unwrap()
 }
 
-fn spinning(place: DVec3, spin: DVec3) -> Motion {
-    Motion::new(at(place, DQuat::IDENTITY), DVec3::ZERO, spin).unwrap()
+fn spinning(position: DVec3, spin: DVec3) -> Motion {
+    Motion::new(at(position, DQuat::IDENTITY), DVec3::ZERO, spin).unwrap()
 }
 
 #[test]
@@ -139,8 +139,8 @@ fn an_edge_meets_a_parallel_edge() {
         DVec3::new(-psi.sin(), psi.cos(), 0.0),
         DVec3::new(psi.cos(), psi.sin(), 0.0),
     );
-    let place = r * edge + 0.1 * f64::sqrt(2.0) * ahead;
-    let post_motion = Motion::still(at(place, DQuat::from_rotation_z(psi + FRAC_PI_4)));
+    let position = r * edge + 0.1 * f64::sqrt(2.0) * ahead;
+    let post_motion = Motion::still(at(position, DQuat::from_rotation_z(psi + FRAC_PI_4)));
     let turn = spinning(DVec3::ZERO, 1.5 * DVec3::Z);
     assert_hit([&rod, &post], &query(turn, post_motion, 1.0), exact);
 }

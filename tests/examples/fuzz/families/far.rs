@@ -2,7 +2,7 @@
 
 use super::pass;
 use crate::case::Case;
-use crate::course::{Course, Goal, Place};
+use crate::course::{Course, Goal, RawPose};
 use crate::draw::{Draw, plus, times};
 use crate::shapes;
 use ccd_core::Config;
@@ -38,7 +38,7 @@ fn ended(draw: &mut Draw, course: &Course, far: [f64; 3], duration: f64) -> Cour
     let Goal::Velocities { linear, .. } = course.goal else {
         return *course;
     };
-    let start = Place {
+    let start = RawPose {
         position: plus(course.start.position, far),
         ..course.start
     };
@@ -68,7 +68,7 @@ fn ended(draw: &mut Draw, course: &Course, far: [f64; 3], duration: f64) -> Cour
             [0, 1, 2, 3].map(|k| start.quaternion[k] + turn * by[k])
         }
     };
-    let end = Place {
+    let end = RawPose {
         position: plus(start.position, linear),
         quaternion,
     };

@@ -28,7 +28,7 @@ pub(super) fn draw(draw: &mut Draw) -> Case {
         true => draw.pick(&several.vertices),
         false => times(draw.point(), several.radius()),
     };
-    let start = draw.place(at);
+    let start = draw.pose(at);
     let velocity = times(draw.direction(), draw.within(0.0..4.0));
     let spin = times(draw.direction(), turn);
     let courses = [still(), Course::velocities(start, velocity, spin)];

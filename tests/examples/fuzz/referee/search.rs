@@ -1,7 +1,7 @@
 //! Conservative advancement over all pairs of triangles, in f64, judged in [`Double`].
 
 use super::{Ball, Evidence, Limit, NOISE, Scene};
-use crate::course::Moment;
+use crate::course::Snapshot;
 use crate::double::Double;
 use crate::nearest::{Triangle, depth, distance};
 use crate::vector::{Number, larger, smaller};
@@ -129,7 +129,7 @@ impl<'a> Search<'a> {
                 .iter()
                 .fold(f64::INFINITY, |least, &(d, ..)| smaller(least, d));
             let whole = self.scene.sides.each_ref().map(|side| &side.whole);
-            let Near { rate, bend, .. } = self.near(whole, &self.scene.moments(t));
+            let Near { rate, bend, .. } = self.near(whole, &self.scene.snapshots(t));
             let tau = free_time(least - self.threshold, rate, bend);
             // A hundred more such steps would not reach the end, so it is faster pair by pair.
             if !(tau > 0.003 * (self.until - t)) {
@@ -147,7 +147,7 @@ impl<'a> Search<'a> {
     fn balls_apart(&self, [p, q]: [&Ball; 2], begin: f64) -> f64 {
         let mut t = begin;
         for _ in 0..PAIR_STEPS {
-            let Near { gap, rate, bend } = self.near([p, q], &self.scene.moments(t));
+            let Near { gap, rate, bend } = self.near([p, q], &self.scene.snapshots(t));
             if !(gap > 0.25 * smaller(p.radius, q.radius) && gap > NOISE * self.scene.scale) {
                 break;
             }
@@ -161,10 +161,10 @@ impl<'a> Search<'a> {
 
     /// Returns the gap of two balls above the threshold, its closing rate, and a bound of its
     /// change.
-    fn near(&self, [p, q]: [&Ball; 2], moments: &[Moment; 2]) -> Near {
+    fn near(&self, [p, q]: [&Ball; 2], snapshots: &[Snapshot; 2]) -> Near {
         let [a, b] = &self.scene.sides;
-        let between = moments[1].centre - moments[0].centre;
-        let middles = [moments[0].arm(p.middle), moments[1].arm(q.middle)];
+        let between = snapshots[1].centre - snapshots[0].centre;
+        let middles = [snapshots[0].arm(p.middle), snapshots[1].arm(q.middle)];
         let apart = (middles[1] + between - middles[0]).length().rounded();
         let rates = [a.track.rate.rounded(), b.track.rate.rounded()];
         let velocity =
@@ -180,12 +180,12 @@ impl<'a> Search<'a> {
 
     fn look(&self, i: usize, j: usize, t: f64) -> Near {
         let (p, q) = (&self.scene.sides[0].balls[i], &self.scene.sides[1].balls[j]);
-        let moments = self.scene.moments(t);
-        let near = self.near([p, q], &moments);
+        let snapshots = self.scene.snapshots(t);
+        let near = self.near([p, q], &snapshots);
         if near.gap > 0.5 * (p.radius + q.radius) {
             return near;
         }
-        let [[a, b, c], [d, e, f]] = self.triangles(i, j, &moments);
+        let [[a, b, c], [d, e, f]] = self.triangles(i, j, &snapshots);
         let s = [a.rounded(), b.rounded(), c.rounded()];
         let t = [d.rounded(), e.rounded(), f.rounded()];
         Near {
@@ -194,18 +194,18 @@ impl<'a> Search<'a> {
         }
     }
 
-    fn triangles(&self, i: usize, j: usize, moments: &[Moment; 2]) -> [Triangle<Double>; 2] {
+    fn triangles(&self, i: usize, j: usize, snapshots: &[Snapshot; 2]) -> [Triangle<Double>; 2] {
         let [a, b] = &self.scene.sides;
-        let origin = moments[0].centre;
+        let origin = snapshots[0].centre;
         [
-            a.triangle(i, &moments[0], origin),
-            b.triangle(j, &moments[1], origin),
+            a.triangle(i, &snapshots[0], origin),
+            b.triangle(j, &snapshots[1], origin),
         ]
     }
 
     /// Checks whether the pair really is below the threshold. If so, nothing later is of interest.
     fn judge(&mut self, i: usize, j: usize, t: f64) -> bool {
-        let [s, o] = self.triangles(i, j, &self.scene.moments(t));
+        let [s, o] = self.triangles(i, j, &self.scene.snapshots(t));
         let (distance, error) = (distance(&s, &o).rounded(), self.scene.error());
         let depth = match distance > error {
             true => 0.0,

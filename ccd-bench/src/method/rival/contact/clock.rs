@@ -20,7 +20,7 @@ pub(super) struct Clock {
     relative: Relative,
     resolution: f64,
     most_halvings: u64,
-    places: Vec<Kept>,
+    placements: Vec<Kept>,
     rates: Vec<Kept>,
     /// The number of halvings so far.
     pub(super) halvings: u64,
@@ -69,7 +69,7 @@ impl Clock {
             relative,
             resolution,
             most_halvings,
-            places: vec![nothing; MAX_LEVEL + 1],
+            placements: vec![nothing; MAX_LEVEL + 1],
             rates: vec![nothing; MAX_LEVEL + 1],
             halvings: 0,
         }
@@ -96,8 +96,8 @@ impl Clock {
     }
 
     /// Returns the enclosure of all placements over an interval.
-    pub(super) fn places(&mut self, slice: Slice) -> &Enclosure {
-        let kept = &mut self.places[slice.level];
+    pub(super) fn placements(&mut self, slice: Slice) -> &Enclosure {
+        let kept = &mut self.placements[slice.level];
         if kept.span != slice.span {
             kept.span = slice.span;
             kept.enclosure = self.relative.over(slice.span);

@@ -33,7 +33,7 @@ pub(super) fn first_touch(triangles: &Triangles, slice: Slice, clock: &mut Clock
         if !(slice.span.width() > 0.0 || first == Touch::Never) {
             continue;
         }
-        let open = triangles.open(open, clock.places(slice));
+        let open = triangles.open(open, clock.placements(slice));
         if open.is_empty() {
             continue;
         }
@@ -81,7 +81,7 @@ enum Root {
 /// Returns the root of a function that is monotone over the interval, if it is known to be.
 fn root(triangles: &Triangles, test: Test, slice: Slice, clock: &mut Clock) -> Root {
     let rates = *clock.rates(slice);
-    let rate = triangles.rate(test, clock.places(slice), &rates);
+    let rate = triangles.rate(test, clock.placements(slice), &rates);
     if !rate.excludes_zero() {
         return Root::Several;
     }

@@ -10,14 +10,14 @@ use ccd_core::glam::{DMat3, DVec3};
 /// is the same point relative to the reference point of the second body, along that body's axes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Relative {
-    first: Path,
-    second: Path,
+    first: BodyMotion,
+    second: BodyMotion,
 }
 
 /// The motion of one body: `rotation(t) = fixed + cos(ωt) cos + sin(ωt) sin`. The reference point
 /// moves likewise, plus a straight part.
 #[derive(Clone, Copy, Debug)]
-struct Path {
+struct BodyMotion {
     fixed: DMat3,
     cos: DMat3,
     sin: DMat3,
@@ -60,8 +60,8 @@ impl Relative {
         // no rotation back.
         let axes = second.0.orientation.transpose();
         let mut relative = Relative {
-            first: Path::new(first.0, first.1, axes),
-            second: Path::new(second.0, second.1, axes),
+            first: BodyMotion::new(first.0, first.1, axes),
+            second: BodyMotion::new(second.0, second.1, axes),
         };
         // Only the difference of the straight parts matters. Separate parts would be enclosed
         // separately.
@@ -87,7 +87,7 @@ impl Relative {
     pub(super) fn over(&self, span: Span) -> Enclosure {
         let (first, place_first) = self.first.over(span);
         if self.second.rate == 0.0 {
-            let offset = place_first.minus_point(self.second.still_place());
+            let offset = place_first.minus_point(self.second.still_position());
             return Enclosure {
                 rotation: first,
                 offset,
@@ -122,7 +122,7 @@ impl Relative {
     }
 }
 
-impl Path {
+impl BodyMotion {
     fn new(course: &Course, reference: DVec3, axes: DMat3) -> Self {
         let axis = axes * course.axis;
         let orientation = axes * course.orientation;
@@ -134,7 +134,7 @@ impl Path {
         };
         let fixed = columns(orientation, along);
         let cos = orientation - fixed;
-        Path {
+        BodyMotion {
             fixed,
             cos,
             sin: columns(cos, |column| axis.cross(column)),
@@ -147,15 +147,15 @@ impl Path {
 
     /// Returns the position of the reference point of a body that does not turn, without its
     /// straight part.
-    fn still_place(&self) -> DVec3 {
+    fn still_position(&self) -> DVec3 {
         self.from + self.fixed * self.lever
     }
 
     fn at(&self, time: f64) -> (DMat3, DVec3) {
         let (sin, cos) = (self.rate * time).sin_cos();
         let rotation = self.fixed + self.cos * cos + self.sin * sin;
-        let place = self.from + self.velocity * time + rotation * self.lever;
-        (rotation, place)
+        let position = self.from + self.velocity * time + rotation * self.lever;
+        (rotation, position)
     }
 
     fn over(&self, span: Span) -> (IntervalMat, IntervalVec) {
@@ -169,11 +169,11 @@ impl Path {
         };
         let straight = self.from + self.velocity * span.middle() + self.fixed * self.lever;
         let round = swing_vec(cos * self.lever, sin * self.lever, arc);
-        let place = IntervalVec {
+        let position = IntervalVec {
             middle: straight + round.middle,
             radius: self.velocity.abs() * half + round.radius,
         };
-        (rotation, place)
+        (rotation, position)
     }
 
     fn rates_over(&self, span: Span) -> (IntervalMat, IntervalVec) {

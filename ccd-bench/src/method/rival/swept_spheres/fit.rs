@@ -52,7 +52,7 @@ impl SphereTree {
     fn push(&mut self, triangles: &[Triangle], parent: &Placement) -> Placement {
         let (frame, lengths, radius) = fit(triangles);
         self.nodes.push(Node {
-            place: frame.seen_from(parent),
+            placement: frame.seen_from(parent),
             lengths,
             radius,
             below: Below::Triangle(0),

@@ -11,7 +11,7 @@ fn knot() -> TriangleMesh {
     Model::Knot216.generate().unwrap()
 }
 
-fn random_place(rng: &mut Pcg64) -> Placement {
+fn random_placement(rng: &mut Pcg64) -> Placement {
     let mut vec = |size: f64| size * DVec3::from_array([0; 3].map(|_| rng.random_range(-1.0..1.0)));
     Placement {
         rotation: DMat3::from_quat(DQuat::from_scaled_axis(vec(3.0))),
@@ -90,8 +90,8 @@ fn no_node_is_farther_than_its_triangles_or_nearer_than_its_size() {
     let mut rng = Pcg64::seed_from_u64(4);
     let (mut checked, mut apart) = (0, 0);
     for _ in 0..60 {
-        let place = random_place(&mut rng);
-        let mut pair: Pair = trees.roots(&place).unwrap();
+        let placement = random_placement(&mut rng);
+        let mut pair: Pair = trees.roots(&placement).unwrap();
         while let Under::Pairs(pairs) = trees.under(&pair) {
             pair = pairs[rng.random_range(0..2)];
             let (a, b) = (triangles(&trees.a, pair.a), triangles(&trees.b, pair.b));
@@ -101,7 +101,7 @@ fn no_node_is_farther_than_its_triangles_or_nearer_than_its_size() {
             let mut true_distance = f64::INFINITY;
             for &i in &a {
                 for &j in &b {
-                    let nearest = trees.nearest(super::Leaves { a: i, b: j }, &place);
+                    let nearest = trees.nearest(super::Leaves { a: i, b: j }, &placement);
                     true_distance = lesser(true_distance, nearest.between().length());
                 }
             }
@@ -115,7 +115,7 @@ fn no_node_is_farther_than_its_triangles_or_nearer_than_its_size() {
                     .iter()
                     .flat_map(|&i| along(&trees.a.triangles[i as usize]));
                 let low = b.iter().flat_map(|&j| {
-                    along(&trees.b.triangles[j as usize].map(|corner| place.apply(corner)))
+                    along(&trees.b.triangles[j as usize].map(|corner| placement.apply(corner)))
                 });
                 let parted =
                     low.fold(f64::INFINITY, lesser) - high.fold(f64::NEG_INFINITY, greater);

@@ -57,16 +57,16 @@ pub(in crate::method::rival) fn query(a: Motion, b: Motion) -> Query {
 }
 
 pub(in crate::method::rival) fn moving(
-    place: DVec3,
+    position: DVec3,
     rotation: DQuat,
     velocity: DVec3,
     spin: DVec3,
 ) -> Motion {
-    Motion::new(Pose::new(place, rotation).unwrap(), velocity, spin).unwrap()
+    Motion::new(Pose::new(position, rotation).unwrap(), velocity, spin).unwrap()
 }
 
-pub(in crate::method::rival) fn still(place: DVec3) -> Motion {
-    moving(place, DQuat::IDENTITY, DVec3::ZERO, DVec3::ZERO)
+pub(in crate::method::rival) fn still(position: DVec3) -> Motion {
+    moving(position, DQuat::IDENTITY, DVec3::ZERO, DVec3::ZERO)
 }
 
 pub(in crate::method::rival) fn cuboid(x: f64, y: f64, z: f64) -> TriangleMesh {

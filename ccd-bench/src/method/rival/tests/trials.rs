@@ -156,13 +156,18 @@ fn turning_rods() -> Vec<Exact> {
         time: angle(0.5 * apart) / speed,
         closing_speed: 2.0 * speed * rise(0.5 * apart),
     });
-    // An edge along z and an edge of the post turn towards each other.
+    scenes.push(rod_on_post());
+    scenes
+}
+
+/// Returns a rod with an edge along z that meets an edge of a post; the rod turns.
+fn rod_on_post() -> Exact {
     let (length, width, distance, at) = (2.0, 0.05_f64, 1.3, 1.0_f64);
     let near = DVec3::new(at.cos(), at.sin(), 0.0);
     let outward = DMat3::from_rotation_z(at + FRAC_PI_4);
     // The edge of the post faces the rod: its diagonal points against the rod's velocity.
     let facing = DVec3::new(-at.sin(), at.cos(), 0.0);
-    scenes.push(Exact {
+    Exact {
         name: "rod on post",
         a: boxed(DVec3::new(length, width, 0.1)),
         b: turned_box(DVec3::new(0.1, 0.1, 0.5), outward),
@@ -172,8 +177,7 @@ fn turning_rods() -> Vec<Exact> {
         ),
         time: (at - (width / distance).asin()) / 1.5,
         closing_speed: 1.5 * (distance * distance - width * width).sqrt(),
-    });
-    scenes
+    }
 }
 
 /// Asserts that times are never late, and not earlier than the time to close the tolerance at half
@@ -229,16 +233,16 @@ impl BruteForce {
         }
     }
 
-    fn distance(&self, place: &Placement) -> f64 {
+    fn distance(&self, placement: &Placement) -> f64 {
         let moved: Vec<Triangle> = self
             .triangles
             .iter()
-            .map(|t| t.map(|p| place.apply(p)))
+            .map(|t| t.map(|p| placement.apply(p)))
             .collect();
         let balls: Vec<_> = self
             .balls
             .iter()
-            .map(|&(p, r)| (place.apply(p), r))
+            .map(|&(p, r)| (placement.apply(p), r))
             .collect();
         let mut least = f64::INFINITY;
         for (a, (p, r)) in self.triangles.iter().zip(&self.balls) {

@@ -70,10 +70,10 @@ fn enclosures_contain_all_placements_and_rates_between() {
             relative = Relative::new((&a, samples.vector(1.0)), (&b, samples.vector(1.0)));
         }
         let span = span(&mut samples);
-        let (places, rates) = (relative.over(span), relative.rates_over(span));
+        let (placements, rates) = (relative.over(span), relative.rates_over(span));
         for time in times(span, 20) {
             let at = relative.at(time);
-            assert!(outside(&places, at.rotation, at.translation) < 1e-12);
+            assert!(outside(&placements, at.rotation, at.translation) < 1e-12);
             let (before, after) = (relative.at(time - 1e-5), relative.at(time + 1e-5));
             let rotation = (after.rotation - before.rotation) * 0.5e5;
             let offset = (after.translation - before.translation) * 0.5e5;

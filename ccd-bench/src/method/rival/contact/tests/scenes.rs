@@ -181,8 +181,8 @@ fn work_is_limited() {
     let tilted: Vec<DVec3> = slab.vertices().iter().map(|&v| tilt * v).collect();
     let tilted = TriangleMesh::new(tilted, slab.faces()).unwrap();
     // The body slides over the slab at a distance of a millionth.
-    let place = tilt * DVec3::new(0.0, 0.0, 1.0 + 1e-6);
-    let slide = moving(place, tilt, tilt * DVec3::X, DVec3::ZERO);
+    let position = tilt * DVec3::new(0.0, 0.0, 1.0 + 1e-6);
+    let slide = moving(position, tilt, tilt * DVec3::X, DVec3::ZERO);
     let slide = query(slide, still(DVec3::ZERO));
     let fall = moving(
         3.0 * DVec3::Z,

@@ -244,7 +244,7 @@ impl<'a> Judge<'a> {
     /// Returns the distance by which witnesses are off the contact's claims, if that is more than
     /// rounding.
     fn off_surface(&self, contact: &Contact, time: f64) -> Option<f64> {
-        let origin = self.scene.moments(time)[0].centre;
+        let origin = self.scene.snapshots(time)[0].centre;
         let found = contact.separation;
         let witnesses = [found.witness_a, found.witness_b].map(|w| Vector(w.to_array()));
         let far = witnesses.iter().fold(0.0, |m, w| larger(m, w.largest()));
@@ -285,15 +285,20 @@ impl<'a> Judge<'a> {
         contact: &Contact,
         time: f64,
     ) -> Option<[Vec<Triangle<Double>>; 2]> {
-        let moments = self.scene.moments(time);
+        let snapshots = self.scene.snapshots(time);
         let side = |k: usize, piece: u32| {
             let piece = bodies.bodies[k].pieces().get(piece as usize);
             let track = &self.scene.sides[k].track;
-            let place = |p: [f64; 3]| {
-                moments[k].arm(Vector::of(p) - track.centre)
-                    + (moments[k].centre - moments[0].centre)
+            let to_world = |p: [f64; 3]| {
+                snapshots[k].arm(Vector::of(p) - track.centre)
+                    + (snapshots[k].centre - snapshots[0].centre)
             };
-            Some(surface(&piece)?.into_iter().map(|t| t.map(place)).collect())
+            Some(
+                surface(&piece)?
+                    .into_iter()
+                    .map(|t| t.map(to_world))
+                    .collect(),
+            )
         };
         Some([side(0, contact.piece_a)?, side(1, contact.piece_b)?])
     }
@@ -333,7 +338,7 @@ impl<'a> Judge<'a> {
     }
 
     fn is_inside(&self, p: [f64; 3], outer: usize) -> bool {
-        let point = Vector::of(p) - self.scene.moments(0.0)[0].centre;
+        let point = Vector::of(p) - self.scene.snapshots(0.0)[0].centre;
         let solid = &self.placed[outer];
         // Points are given in world coordinates, rounded.
         let near = 1e-12 * larger(self.scene.scale, Vector(p).largest());

@@ -28,9 +28,9 @@ pub(super) struct Span {
 
 /// Bodies A and B over a span of time.
 #[derive(Clone, Debug)]
-pub(super) struct Moment {
+pub(super) struct Snapshot {
     /// The map from A's body frame to the common one.
-    place: Affine,
+    placement: Affine,
     /// The velocity of A's points, relative to B's centre.
     rate_a: Affine,
     /// The velocity of B's points, relative to B's centre.
@@ -67,21 +67,21 @@ pub(super) enum Boxes {
     Near { travel: f64 },
 }
 
-impl Moment {
+impl Snapshot {
     pub(super) fn new([a, b]: [&Track; 2], [size_a, size_b]: [f64; 2], span: Span) -> Self {
         let time = span.start.midpoint(span.end);
         let half = greater(time - span.start, span.end - time) * ROUNDED_UP;
         let exactly = Enclosed::new(a, b, time);
-        let place = Affine::new(&exactly.place, size_a);
+        let placement = Affine::new(&exactly.placement, size_a);
         let rate_a = Affine::new(&exactly.rate_a, size_a);
         let rate_b = Affine::new(&exactly.rate_b, size_b);
         let bend = 0.5 * half * half * (a.acceleration + b.acceleration) * ROUNDED_UP;
-        let errors = place.error + half * (rate_a.error + rate_b.error);
-        let sizes = place.size + size_b + half * (rate_a.size + rate_b.size);
+        let errors = placement.error + half * (rate_a.error + rate_b.error);
+        let sizes = placement.size + size_b + half * (rate_a.size + rate_b.size);
         let centre = |v: &Vector| DVec3::from_array(v.0.map(Interval::mid));
-        let (r, w_a, w_b) = (place.matrix, rate_a.matrix * half, rate_b.matrix * half);
+        let (r, w_a, w_b) = (placement.matrix, rate_a.matrix * half, rate_b.matrix * half);
         let back = r.transpose();
-        Moment {
+        Snapshot {
             half,
             bend,
             slack: bend * ROUNDED_UP + errors * ROUNDED_UP + ROUNDINGS * UNIT_ROUNDOFF * sizes,
@@ -93,7 +93,7 @@ impl Moment {
                 a: largest(back * r, back * w_a),
                 b: largest(back, back * w_b),
             },
-            place,
+            placement,
             rate_a,
             rate_b,
             centres: centre(&exactly.centres),
@@ -116,7 +116,7 @@ impl Moment {
 
     /// Tests whether two boxes stay apart, by the six directions of their faces.
     pub(super) fn boxes(&self, a: &Node, b: &Node) -> Boxes {
-        let apart = self.place.apply(a.centre) - b.centre;
+        let apart = self.placement.apply(a.centre) - b.centre;
         let moved = self.half * (self.rate_a.apply(a.centre) - self.rate_b.apply(b.centre));
         let gaps_b = self.along_b.gaps(apart, moved, a, b);
         if gaps_b.max_element() > self.slack {
@@ -133,7 +133,7 @@ impl Moment {
 
     /// Returns a lower bound of the distance of two boxes at the instant, invalid for a span.
     pub(super) fn boxes_distance(&self, a: &Node, b: &Node) -> f64 {
-        let apart = self.place.apply(a.centre) - b.centre;
+        let apart = self.placement.apply(a.centre) - b.centre;
         let none = DVec3::ZERO;
         let gaps_b = self.along_b.gaps(apart, none, a, b).max(none);
         let gaps_a = self.along_a.gaps(self.back(apart), none, a, b).max(none);
@@ -145,7 +145,7 @@ impl Moment {
     pub(super) fn ends(&self, a: &Triangle, b: &Triangle) -> [[Triangle; 2]; 2] {
         let moved_a = a.map(|p| self.half * self.rate_a.apply(p));
         let moved_b = b.map(|q| self.half * self.rate_b.apply(q));
-        let a = a.map(|p| self.place.apply(p));
+        let a = a.map(|p| self.placement.apply(p));
         let at = |end: f64, from: &Triangle, moved: &Triangle| {
             [0, 1, 2].map(|i| from[i] + end * moved[i])
         };
@@ -154,7 +154,7 @@ impl Moment {
 
     /// Returns A's triangle in the common frame at the instant.
     pub(super) fn placed(&self, a: &Triangle) -> Triangle {
-        a.map(|p| self.place.apply(p))
+        a.map(|p| self.placement.apply(p))
     }
 
     /// Returns the bound that a gap computed along a unit direction must exceed to be certain.
@@ -163,7 +163,7 @@ impl Moment {
     }
 
     fn back(&self, v: DVec3) -> DVec3 {
-        self.place.matrix.transpose() * v
+        self.placement.matrix.transpose() * v
     }
 }
 
@@ -227,7 +227,7 @@ impl Affine {
 
 /// The affine maps, to within intervals.
 pub(super) struct Enclosed {
-    pub(super) place: (Matrix, Vector),
+    pub(super) placement: (Matrix, Vector),
     rate_a: (Matrix, Vector),
     rate_b: (Matrix, Vector),
     centres: Vector,
@@ -248,7 +248,7 @@ impl Enclosed {
         let swirl_b = (&back * &b.spin).cross_matrix();
         let drift = velocity - &swirl_a * &a.centre + &swirl_b * &b.centre;
         Enclosed {
-            place: (rotation, offset),
+            placement: (rotation, offset),
             rate_a: (swirl_a, drift),
             rate_b: (swirl_b, Vector([exact(0.0); 3])),
             centres,

@@ -2,7 +2,7 @@
 
 use crate::double::Double;
 use crate::referee::Scene;
-use crate::solid::{Solid, Where, beside, clearance};
+use crate::solid::{Solid, Where, clearance, points_near};
 use crate::vector::Vector;
 use ccd_core::Volume;
 
@@ -62,7 +62,7 @@ fn shared_inside(placed: &[Solid; 2], volumes: [Volume; 2], far: f64) -> Where {
         let inner = &placed[1 - outer];
         let mut points: Vec<_> = inner.triangles.iter().map(|t| t[0]).collect();
         if volumes[1 - outer] == Volume::Solid {
-            let near = beside(&inner.triangles).into_iter();
+            let near = points_near(&inner.triangles).into_iter();
             points.extend(near.filter(|&p| well_inside(p, inner)));
         }
         if points.into_iter().any(|p| well_inside(p, &placed[outer])) {
