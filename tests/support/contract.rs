@@ -43,13 +43,14 @@ impl Hull {
 
     /// Combines points and the facets of their hull; without facets they are points alone.
     pub fn with_facets(points: Vec<DVec3>, facets: Vec<Facet>) -> Self {
-        let polytope = || Polytope {
-            points: points.clone(),
-            facets: facets.clone(),
-            ..Polytope::default()
-        };
-        let with_facets =
-            (!facets.is_empty()).then(|| Pieces::polytopes(&[polytope()]).expect("a polytope"));
+        let with_facets = (!facets.is_empty()).then(|| {
+            let polytope = Polytope {
+                points: points.clone(),
+                facets,
+                ..Polytope::default()
+            };
+            Pieces::polytopes(&[polytope]).expect("a polytope")
+        });
         Hull {
             points,
             with_facets,

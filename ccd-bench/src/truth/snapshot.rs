@@ -4,7 +4,7 @@
 //! with B's centre in a straight line and does not turn. There, for |s| ≤ h,
 //!
 //! - a point p of A is at a(m) + s ȧ(m) to within ½|ω|²ρh², the deviation of a circle from its
-//! tangent,
+//!   tangent,
 //! - and the same holds for a point of B, with q itself at m.
 //!
 //! For any fixed direction n, n·(a(m) + s ȧ(m)) is linear in s, so over the span it is least at an
