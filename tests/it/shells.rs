@@ -40,7 +40,7 @@ fn nests(rng: &mut Pcg64) -> Vec<(Mesh, usize)> {
     shells
 }
 
-fn wound(shells: &[(Mesh, usize)], rng: &mut Pcg64) -> Mesh {
+fn with_random_windings(shells: &[(Mesh, usize)], rng: &mut Pcg64) -> Mesh {
     let mut all = Mesh {
         vertices: Vec::new(),
         faces: Vec::new(),
@@ -91,7 +91,7 @@ fn a_body_inside_overlaps_for_any_winding_of_shells() {
     let mut counts = [0; 2];
     for case in 0..40 {
         let shells = nests(&mut rng);
-        let mesh = wound(&shells, &mut rng);
+        let mesh = with_random_windings(&shells, &mut rng);
         let solids: Vec<Solid<'_>> = shells.iter().map(|(mesh, _)| Solid::new(mesh)).collect();
         for detail in DETAILS {
             let outer = body(&mesh, detail);
@@ -127,7 +127,7 @@ fn a_body_resting_on_a_face_may_leave_it_outside_only() {
     let mut released = 0;
     for case in 0..60 {
         let shells = nests(&mut rng);
-        let mesh = wound(&shells, &mut rng);
+        let mesh = with_random_windings(&shells, &mut rng);
         let outer = body(&mesh, DETAILS[case % 3]);
         for _ in 0..5 {
             let (shell, depth) = &shells[rng.random_range(0..shells.len())];

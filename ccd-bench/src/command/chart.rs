@@ -152,7 +152,7 @@ pub(super) fn run(args: &ChartArgs) -> Result<Exit> {
         for tolerance in &args.tolerances {
             ensure!(
                 *tolerance > 0.0 && tolerance.is_finite(),
-                "--tolerances: {tolerance} is no positive length"
+                "--tolerances: {tolerance} is not a positive length"
             );
         }
         plan.tolerances.clone_from(&args.tolerances);
@@ -200,16 +200,16 @@ fn present(
             .with_context(|| format!("splicing {}", readme.display()))?;
     }
     let mut out = io::stdout().lock();
-    let mut say = |text: &dyn Display| {
+    let mut print = |text: &dyn Display| {
         writeln!(out, "{text}").map_err(|source| CannotWrite {
             place: "the tables".to_owned(),
             source,
         })
     };
     for table in &presentation.summary {
-        say(&format_args!("{}\n{}", table.title, table.for_terminal()))?;
+        print(&format_args!("{}\n{}", table.title, table.for_terminal()))?;
     }
-    say(&format_args!("The report: {}", page.display()))?;
+    print(&format_args!("The report: {}", page.display()))?;
     Ok(Exit::AllAnswered)
 }
 
@@ -231,7 +231,7 @@ fn plan(common: &CommonArgs, extent: Extent) -> Result<Plan> {
         Extent::Glance => &FEW_TOLERANCES,
     };
     let methods = Method::all().into_iter();
-    let methods = methods.filter(|method| extent == Extent::Full || takes_no_long(*method));
+    let methods = methods.filter(|method| extent == Extent::Full || is_fast_to_run(*method));
     Ok(Plan {
         listings: listings()?,
         methods: methods.collect(),
@@ -243,9 +243,9 @@ fn plan(common: &CommonArgs, extent: Extent) -> Result<Plan> {
     })
 }
 
-/// Returns true if a few rows of a method take no long time; peers, which run in other processes,
-/// take time to start.
-fn takes_no_long(method: Method) -> bool {
+/// Returns true if a few rows of a method are fast to run. Peers take time to start, since they run
+/// in other processes, so only one of them is included.
+fn is_fast_to_run(method: Method) -> bool {
     match method {
         Method::Ours(..) | Method::Rival(_) => true,
         Method::Peer(kind) => kind == PeerKind::ParryF64,

@@ -50,9 +50,9 @@ Examples:
 See `ccd-bench truth --help` for the columns of the table and the exit code.";
 
 const AFTER_LONG_HELP: &str = "\
-The bodies are surfaces: a body inside another is apart from it. The method is none of those that
-`ccd query` has, and is made to be right, not fast: bisection in time, each step certified against
-rounding.
+The bodies are surfaces: a body inside another is apart from it. The method is
+independent of those of `ccd query`, and made to be right, not fast: bisection in time, each step
+certified against rounding.
 
 Table of truths:
   id        as in the table of motions (see `ccd query --help` for its columns)
@@ -62,12 +62,12 @@ Table of truths:
             graze      apart before lo, in contact or nearly so at lo, never shown to intersect
             undecided  apart before lo, unknown after it: the work limit of a row was reached
             error      the row is no valid query
-  reason    what is wrong with a row of status error
+  reason    the problem of a row of status error
 
-Rows are written in order as they are judged, to a file that ends in .partial until all are there.
+Rows are written in order as they are judged, to a file that ends in .partial until all rows are judged.
 
-Exit code: 0 when every row is judged, 2 when there are rows of status error, or on other bad input; 1
-when the table cannot be written.
+Exit code: 0 if every row is judged, 2 if there are rows of status error or other invalid input, 1 if
+the table cannot be written.
 
 Examples:
   ccd-bench truth --a knot.obj --b knot.obj --motions motions.csv --out truth.csv

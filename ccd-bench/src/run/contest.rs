@@ -49,7 +49,7 @@ pub struct Allowance {
     pub rows: usize,
     /// The least number of queries, regardless of time.
     pub least_rows: usize,
-    /// The time for preparation, for a method that prepares what it meets first: only queries that
+    /// The time for preparation, for a method that prepares pieces on first use. Only queries that
     /// are prepared by then are asked.
     pub rehearsal: Duration,
 }

@@ -207,11 +207,11 @@ fn ratio(base: &HashMap<&str, &Trial>, other: &HashMap<&str, &Trial>) -> String 
     if ratios.is_empty() {
         return NOTHING.to_owned();
     }
-    let said = |verdict: Verdict| {
+    let occurs = |verdict: Verdict| {
         let name = verdict.to_string();
         other.values().any(|trial| trial.verdict == name)
     };
-    let given_up = match said(Verdict::CutOff) || said(Verdict::Unresolved) {
+    let given_up = match occurs(Verdict::CutOff) || occurs(Verdict::Unresolved) {
         true => "> ",
         false => "",
     };
@@ -219,7 +219,7 @@ fn ratio(base: &HashMap<&str, &Trial>, other: &HashMap<&str, &Trial>) -> String 
         few @ ..FEW => format!(" [{few}]"),
         _ => String::new(),
     };
-    let mark = match said(Verdict::Late) || said(Verdict::Missed) {
+    let mark = match occurs(Verdict::Late) || occurs(Verdict::Missed) {
         true => " †",
         false => "",
     };

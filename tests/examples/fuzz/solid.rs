@@ -62,11 +62,11 @@ impl Solid {
             .values()
             .filter(|(_, crossed)| crossed % 2 == 1)
             .count();
-        let twofold = seen
+        let repeated = seen
             .values()
             .any(|&(winding, crossed)| winding != 0 && crossed % 2 == 0);
         match around {
-            _ if twofold || self.crossing && around > 1 => Where::Doubtful,
+            _ if repeated || self.crossing && around > 1 => Where::Doubtful,
             around if around % 2 == 1 => Where::Inside,
             _ => Where::Outside,
         }

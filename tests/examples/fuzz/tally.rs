@@ -112,7 +112,7 @@ impl fmt::Display for Tally {
             ("by the default", &self.statuses),
             ("asked", &self.by_method),
             ("unresolved", &self.unresolved),
-            ("of which --only", &self.examples),
+            ("first query, for --only", &self.examples),
             ("refused", &self.refused),
         ];
         for (name, map) in maps.into_iter().filter(|(_, map)| !map.is_empty()) {

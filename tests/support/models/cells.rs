@@ -1,7 +1,7 @@
 //! Solids of cells: sheets of four-sided cells, some of them cut out, with a thickness. Their tops
 //! and bottoms are large regions of coplanar triangles, rarely convex.
 
-use super::{Line, Mesh, Shape, lumps::dice};
+use super::{Line, Mesh, Shape, lumps::seeded_rng};
 use ccd_core::glam::{DQuat, DVec2, DVec3};
 use rand::RngExt;
 use std::collections::HashMap;
@@ -97,12 +97,12 @@ pub fn divided_cube(cells: usize) -> Shape {
 
 /// Returns a block under random heights, flat at its sides and at its bottom.
 pub fn terrain(cells: usize, seed: u64) -> Shape {
-    let mut dice = dice(seed);
+    let mut rng = seeded_rng(seed);
     let unit = 1.0 / cells as f64;
     let mut heights: HashMap<(usize, usize), f64> = HashMap::new();
     for i in 0..=cells {
         for j in 0..=cells {
-            heights.insert((i, j), dice.random_range(0.2..0.5));
+            heights.insert((i, j), rng.random_range(0.2..0.5));
         }
     }
     let at = |i: usize, j: usize, z: f64| DVec3::new(unit * i as f64, unit * j as f64, z);

@@ -6,15 +6,15 @@ use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 
 /// Returns random numbers, the same for the same seed.
-pub(super) fn dice(seed: u64) -> Pcg64 {
+pub(super) fn seeded_rng(seed: u64) -> Pcg64 {
     Pcg64::seed_from_u64(seed)
 }
 
 /// Returns an icosahedron divided `levels` times, its vertices at random distances between `1 −
 /// roughness` and 1 from the origin.
 pub fn boulder(levels: u32, roughness: f64, seed: u64) -> Shape {
-    let mut dice = dice(seed);
-    star(levels, |_| 1.0 - roughness * dice.random_range(0.0..1.0))
+    let mut rng = seeded_rng(seed);
+    star(levels, |_| 1.0 - roughness * rng.random_range(0.0..1.0))
 }
 
 /// Returns a smooth lump with bumps and two ears.

@@ -1,6 +1,6 @@
 //! Solids of unit cubes.
 
-use super::{Mesh, Shape, lumps::dice};
+use super::{Mesh, Shape, lumps::seeded_rng};
 use ccd_core::glam::DVec3;
 use rand::RngExt;
 use std::collections::HashMap;
@@ -9,7 +9,7 @@ use std::collections::HashMap;
 /// away from it. Its sides are coplanar regions of any outline. No two cubes touch each other at an
 /// edge.
 pub fn pile(size: usize, seed: u64) -> Shape {
-    let mut dice = dice(seed);
+    let mut rng = seeded_rng(seed);
     let mut heights = vec![vec![0; size]; size];
     for x in 0..size {
         for y in 0..size {
@@ -18,7 +18,7 @@ pub fn pile(size: usize, seed: u64) -> Shape {
             let behind = before(y.checked_sub(1).map(|y| heights[x][y]));
             let most = left.min(behind);
             let least = usize::from(x + y == 0);
-            heights[x][y] = dice.random_range(least.min(most)..=most);
+            heights[x][y] = rng.random_range(least.min(most)..=most);
         }
     }
     let full = |[x, y, z]: [i64; 3]| {

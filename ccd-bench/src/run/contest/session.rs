@@ -90,8 +90,8 @@ impl<'s> Session<'s> {
         }
     }
 
-    /// Lets a kind that prepares what it meets do so on some queries, for a limited time. Returns
-    /// the number of prepared queries.
+    /// Lets a solver that prepares pieces on first use do so on some queries, for a limited time.
+    /// Returns the number of prepared queries.
     pub(super) fn rehearse<'q>(
         &mut self,
         queries: impl ExactSizeIterator<Item = &'q Query>,

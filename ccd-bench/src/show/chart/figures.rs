@@ -21,8 +21,8 @@ const EVERY: [usize; 2] = [25, 100];
 const FEW: usize = 150;
 
 /// The remark on the order of trials.
-const REMARK: &str = "Trials in the order of their scene. Neighbours have nothing in common: the \
-                      lines only lead the eye.";
+const REMARK: &str = "Trials in the order of their scene. Neighbours are independent: the lines only \
+                      lead the eye.";
 
 /// Scenes of one body, one after the other.
 struct Column<'a> {

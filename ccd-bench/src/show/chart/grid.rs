@@ -3,7 +3,7 @@
 use super::axis::Axis;
 use super::legend::Legend;
 use super::panel::{BOTTOM_MARGIN, LEFT_MARGIN, Label, Labelled, Panel, TOP_MARGIN, remark};
-use super::sheet::{DrawError, Hand, MARGIN, Rect, Sheet, TEXT, WIDTH};
+use super::sheet::{DrawError, MARGIN, Rect, Sheet, TEXT, TextFormat, WIDTH};
 use plotters::style::FontStyle;
 
 /// The height of the chart's title and of the line below it.
@@ -80,13 +80,13 @@ impl Grid<'_> {
 
 /// Draws a chart's title, and the line below it.
 pub(super) fn head(sheet: &Sheet<'_>, title: &str, subtitle: &str) -> Result<(), DrawError> {
-    let hand = Hand {
+    let format = TextFormat {
         size: 16.0,
         weight: FontStyle::Bold,
-        ..Hand::default()
+        ..TextFormat::default()
     };
-    sheet.text(title, (MARGIN, 16.0), hand)?;
-    sheet.text(subtitle, (MARGIN, 36.0), Hand::default())
+    sheet.text(title, (MARGIN, 16.0), format)?;
+    sheet.text(subtitle, (MARGIN, 36.0), TextFormat::default())
 }
 
 /// Draws remarks, one below the other.

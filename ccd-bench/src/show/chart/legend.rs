@@ -1,7 +1,7 @@
 //! The legend, below the data and never on it.
 
 use super::look::{Fill, Look};
-use super::sheet::{DrawError, Hand, MARGIN, Sheet, Spot, TEXT, WIDTH, text_width};
+use super::sheet::{DrawError, MARGIN, Sheet, Spot, TEXT, TextFormat, WIDTH, text_width};
 use super::{Family, MethodFacts};
 use ccd_core::order::greater;
 use plotters::style::FontStyle;
@@ -68,9 +68,9 @@ impl<'a> Legend<'a> {
     pub(super) fn draw(&self, sheet: &Sheet<'_>, (left, mut top): Spot) -> Result<(), DrawError> {
         let head = head_width(&self.groups);
         for (title, group) in &self.groups {
-            let bold = Hand {
+            let bold = TextFormat {
                 weight: FontStyle::Bold,
-                ..Hand::default()
+                ..TextFormat::default()
             };
             sheet.text(title, (left, top + 0.5 * LINE), bold)?;
             for (index, (text, look)) in group.iter().enumerate() {
@@ -79,7 +79,7 @@ impl<'a> Legend<'a> {
                 let middle = top + LINE * (row as f64 + 0.5);
                 sheet.line(&[(left, middle), (left + SAMPLE, middle)], look.pen(1.5))?;
                 sheet.marker((left + 0.5 * SAMPLE, middle), look)?;
-                sheet.text(text, (left + SAMPLE + GAP, middle), Hand::default())?;
+                sheet.text(text, (left + SAMPLE + GAP, middle), TextFormat::default())?;
             }
             top += LINE * group.len().div_ceil(self.columns) as f64;
         }

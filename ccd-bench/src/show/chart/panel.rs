@@ -2,7 +2,7 @@
 
 use super::axis::Axis;
 use super::look::{Look, MARKER};
-use super::sheet::{DrawError, FRAME, Hand, Pen, RULE, Rect, Sheet, Spot, TEXT, Turn};
+use super::sheet::{DrawError, FRAME, Pen, RULE, Rect, Sheet, Spot, TEXT, TextFormat, Turn};
 use plotters::style::FontStyle;
 use plotters::style::text_anchor::{HPos, VPos};
 
@@ -69,11 +69,11 @@ impl Panel<'_> {
         self.draw_x_axis(sheet)?;
         self.draw_y_axis(sheet)?;
         sheet.frame(self.rect, FRAME)?;
-        let hand = Hand {
+        let format = TextFormat {
             weight: FontStyle::Bold,
-            ..Hand::default()
+            ..TextFormat::default()
         };
-        sheet.text(self.title, (self.rect.left, self.rect.top - 9.0), hand)
+        sheet.text(self.title, (self.rect.left, self.rect.top - 9.0), format)
     }
 
     /// Draws a line through values, with a marker on each.
@@ -115,10 +115,10 @@ impl Panel<'_> {
 
     fn draw_x_axis(&self, sheet: &Sheet<'_>) -> Result<(), DrawError> {
         let (top, bottom) = (self.rect.top, self.rect.bottom());
-        let hand = Hand {
+        let format = TextFormat {
             across: HPos::Center,
             down: VPos::Top,
-            ..Hand::default()
+            ..TextFormat::default()
         };
         for tick in self.x.ticks() {
             let x = self.rect.left + tick.share * self.rect.width;
@@ -128,25 +128,25 @@ impl Panel<'_> {
                 .as_deref()
                 .filter(|_| self.labelled.x == Label::Written);
             if let Some(text) = written {
-                sheet.text(text, (x, bottom + TICK_GAP), hand)?;
+                sheet.text(text, (x, bottom + TICK_GAP), format)?;
             }
         }
         let middle = self.rect.left + 0.5 * self.rect.width;
-        let hand = Hand {
+        let format = TextFormat {
             down: VPos::Center,
-            ..hand
+            ..format
         };
         match self.labelled.x {
-            Label::Written => sheet.text(self.x.label(), (middle, bottom + X_LABEL), hand),
+            Label::Written => sheet.text(self.x.label(), (middle, bottom + X_LABEL), format),
             Label::Left => Ok(()),
         }
     }
 
     fn draw_y_axis(&self, sheet: &Sheet<'_>) -> Result<(), DrawError> {
         let (left, right) = (self.rect.left, self.rect.right());
-        let hand = Hand {
+        let format = TextFormat {
             across: HPos::Right,
-            ..Hand::default()
+            ..TextFormat::default()
         };
         for tick in self.y.ticks() {
             let y = self.rect.bottom() - tick.share * self.rect.height;
@@ -156,17 +156,17 @@ impl Panel<'_> {
                 .as_deref()
                 .filter(|_| self.labelled.y == Label::Written);
             if let Some(text) = written {
-                sheet.text(text, (left - TICK_GAP, y), hand)?;
+                sheet.text(text, (left - TICK_GAP, y), format)?;
             }
         }
         let middle = self.rect.top + 0.5 * self.rect.height;
-        let hand = Hand {
+        let format = TextFormat {
             across: HPos::Center,
             turn: Turn::Upwards,
-            ..hand
+            ..format
         };
         match self.labelled.y {
-            Label::Written => sheet.text(self.y.label(), (left - Y_LABEL, middle), hand),
+            Label::Written => sheet.text(self.y.label(), (left - Y_LABEL, middle), format),
             Label::Left => Ok(()),
         }
     }
@@ -190,9 +190,9 @@ pub(super) fn mark(
 }
 
 /// Returns the style of a panel's remarks.
-pub(super) fn remark() -> Hand {
-    Hand {
+pub(super) fn remark() -> TextFormat {
+    TextFormat {
         size: TEXT - 1.0,
-        ..Hand::default()
+        ..TextFormat::default()
     }
 }

@@ -5,7 +5,7 @@ use super::grid::Grid;
 use super::legend::Legend;
 use super::look::{Fill, Look, WARNING};
 use super::panel::{Kind, Panel, Point, mark, remark};
-use super::sheet::{DrawError, FRAME, Hand, Rect, Sheet};
+use super::sheet::{DrawError, FRAME, Rect, Sheet, TextFormat};
 use super::{ChartError, Charts, Drawing, Family, MethodFacts, SceneFacts, failed};
 use crate::run::measured::Cell;
 use ccd_core::order::greater;
@@ -182,13 +182,13 @@ fn draw_strip(
     };
     sheet.rect(strip, WARNING.mix(0.08).filled())?;
     sheet.frame(strip, FRAME)?;
-    let hand = Hand {
+    let format = TextFormat {
         colour: WARNING,
         across: HPos::Center,
         ..remark()
     };
     let middle = strip.left + 0.5 * strip.width;
-    sheet.text("unsafe", (middle, strip.top - 9.0), hand)?;
+    sheet.text("unsafe", (middle, strip.top - 9.0), format)?;
     let unsafe_ones: Vec<_> = shown
         .iter()
         .filter(|(_, look)| look.fill == Fill::Hollow)

@@ -82,7 +82,7 @@ impl Pen {
 
 /// The style of a text.
 #[derive(Clone, Copy)]
-pub(super) struct Hand {
+pub(super) struct TextFormat {
     pub(super) size: f64,
     pub(super) colour: RGBColor,
     pub(super) weight: FontStyle,
@@ -98,9 +98,9 @@ pub(super) enum Turn {
     Upwards,
 }
 
-impl Default for Hand {
+impl Default for TextFormat {
     fn default() -> Self {
-        Hand {
+        TextFormat {
             size: TEXT,
             colour: INK,
             weight: FontStyle::Normal,
@@ -190,20 +190,20 @@ impl Sheet<'_> {
             .draw(&Circle::new(to_units(centre), units(radius), style))
     }
 
-    pub(super) fn text(&self, text: &str, spot: Spot, hand: Hand) -> Result<(), DrawError> {
+    pub(super) fn text(&self, text: &str, spot: Spot, format: TextFormat) -> Result<(), DrawError> {
         let font = FontDesc::new(
             FontFamily::SansSerif,
-            hand.size * UNITS * FONT_RATIO,
-            hand.weight,
+            format.size * UNITS * FONT_RATIO,
+            format.weight,
         );
-        let turn = match hand.turn {
+        let turn = match format.turn {
             Turn::Across => FontTransform::None,
             Turn::Upwards => FontTransform::Rotate270,
         };
         let style = font
             .transform(turn)
-            .color(&hand.colour)
-            .pos(Pos::new(hand.across, hand.down));
+            .color(&format.colour)
+            .pos(Pos::new(format.across, format.down));
         self.area.draw(&Text::new(text, to_units(spot), style))
     }
 }

@@ -201,8 +201,8 @@ fn an_unsafe_method_is_in_the_strip_only() {
 fn empty_tables_are_an_error_and_strange_ones_do_not_panic() {
     let empty = charts(&[], &[]).drawings();
     assert!(matches!(empty, Err(ChartError::NothingToDraw)), "{empty:?}");
-    let strangers = [cell("elsewhere", "nobody", 1e-3)];
-    let unknown = charts(&strangers, &[]).drawings();
+    let unknown_cells = [cell("elsewhere", "nobody", 1e-3)];
+    let unknown = charts(&unknown_cells, &[]).drawings();
     assert!(
         matches!(unknown, Err(ChartError::NothingToDraw)),
         "{unknown:?}"
@@ -259,11 +259,11 @@ fn axes_cover_their_values() {
     assert!(axis.share(3e-7) < axis.share(0.5));
     assert!(Axis::logarithmic("", [0.0, f64::NAN].into_iter()).is_none());
     let fitted = Axis::fitted("", [2_880.0, 69_664.0].into_iter()).unwrap();
-    let said: Vec<_> = fitted
+    let labels: Vec<_> = fitted
         .ticks()
         .iter()
         .filter_map(|t| t.text.as_deref())
         .collect();
-    assert_eq!(said, ["5,000", "10,000", "20,000", "50,000"]);
+    assert_eq!(labels, ["5,000", "10,000", "20,000", "50,000"]);
     assert_eq!(power_of_ten(-12), "10⁻¹²");
 }

@@ -4,7 +4,7 @@ use super::axis::Axis;
 use super::grid::Grid;
 use super::legend::Legend;
 use super::panel::{Kind, Panel, Point, remark};
-use super::sheet::{DrawError, Hand, Sheet};
+use super::sheet::{DrawError, Sheet, TextFormat};
 use super::{ChartError, Charts, Drawing, Family, MethodFacts, SceneFacts, failed, is_papers};
 use plotters::style::text_anchor::{HPos, VPos};
 
@@ -138,7 +138,7 @@ fn name_sizes(sheet: &Sheet<'_>, panel: &Panel<'_>, sizes: &[Size<'_>]) -> Resul
         let Some(share) = panel.x.share(size.triangles as f64) else {
             continue;
         };
-        let hand = Hand {
+        let format = TextFormat {
             // Large meshes are close together on a logarithmic axis, so their names end at their
             // points.
             across: if share > CROWDED {
@@ -152,7 +152,7 @@ fn name_sizes(sheet: &Sheet<'_>, panel: &Panel<'_>, sizes: &[Size<'_>]) -> Resul
         let x = panel.rect.left + share * panel.rect.width;
         // Neighbours may be close, so they alternate between two lines.
         let y = panel.rect.top - 21.0 + 13.0 * (number % 2) as f64;
-        sheet.text(size.shape, (x, y), hand)?;
+        sheet.text(size.shape, (x, y), format)?;
     }
     Ok(())
 }

@@ -17,8 +17,8 @@ const PREFACE: &str = "\
 When do two moving bodies first touch? Methods of this project, published rivals and peer libraries were \
 given the same queries, timed one query at a time, and compared with brackets of the exact first contact.
 
-A method that was late, or missed a contact, anywhere is drawn as unsafe everywhere: it has no place on \
-the plane of speed and accuracy.";
+A method that was late or missed a contact anywhere is drawn as unsafe everywhere, without a point on the \
+plane of time and error.";
 
 /// The page cannot be made.
 #[derive(Debug, thiserror::Error)]

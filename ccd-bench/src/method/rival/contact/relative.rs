@@ -74,50 +74,50 @@ impl Relative {
 
     /// Returns the placement at a time.
     pub(super) fn at(&self, time: f64) -> Placement {
-        let (first, place_first) = self.first.at(time);
-        let (second, place_second) = self.second.at(time);
+        let (first, position_first) = self.first.at(time);
+        let (second, position_second) = self.second.at(time);
         let back = second.transpose();
         Placement {
             rotation: back * first,
-            translation: back * (place_first - place_second),
+            translation: back * (position_first - position_second),
         }
     }
 
     /// Returns an enclosure of all placements between two times.
     pub(super) fn over(&self, span: Span) -> Enclosure {
-        let (first, place_first) = self.first.over(span);
+        let (first, position_first) = self.first.over(span);
         if self.second.rate == 0.0 {
-            let offset = place_first.minus_point(self.second.still_position());
+            let offset = position_first.minus_point(self.second.still_position());
             return Enclosure {
                 rotation: first,
                 offset,
             };
         }
-        let (second, place_second) = self.second.over(span);
+        let (second, position_second) = self.second.over(span);
         let back = second.transpose();
         Enclosure {
             rotation: back * first,
-            offset: back * (place_first - place_second),
+            offset: back * (position_first - position_second),
         }
     }
 
     /// Returns an enclosure of all rates of change of the placements between two times.
     pub(super) fn rates_over(&self, span: Span) -> Enclosure {
-        let (first_rate, place_first_rate) = self.first.rates_over(span);
+        let (first_rate, position_first_rate) = self.first.rates_over(span);
         if self.second.rate == 0.0 {
             return Enclosure {
                 rotation: first_rate,
-                offset: place_first_rate,
+                offset: position_first_rate,
             };
         }
-        let (first, place_first) = self.first.over(span);
-        let (second, place_second) = self.second.over(span);
-        let (second_rate, place_second_rate) = self.second.rates_over(span);
+        let (first, position_first) = self.first.over(span);
+        let (second, position_second) = self.second.over(span);
+        let (second_rate, position_second_rate) = self.second.rates_over(span);
         let (back, back_rate) = (second.transpose(), second_rate.transpose());
         Enclosure {
             rotation: back_rate * first + back * first_rate,
-            offset: back_rate * (place_first - place_second)
-                + back * (place_first_rate - place_second_rate),
+            offset: back_rate * (position_first - position_second)
+                + back * (position_first_rate - position_second_rate),
         }
     }
 }
