@@ -39,8 +39,7 @@ enum Start {
     Cold,
 }
 
-/// The coherence of a sequence: its name, the radians from one pose to the next, the start of a
-/// call.
+/// The coherence of a sequence: its name, the radians from one pose to the next, the start of a call.
 const COHERENCE: [(&str, f64, Start); 3] = [
     ("close", 0.01, Start::Warm),
     ("apart", 0.3, Start::Warm),

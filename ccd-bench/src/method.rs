@@ -1,5 +1,4 @@
-//! The methods that are compared, by name: this project's, published rivals built here, peer
-//! libraries.
+//! The methods that are compared, by name: this project's, published rivals built here, peer libraries.
 
 pub mod peer;
 pub mod rival;
@@ -80,9 +79,8 @@ impl Method {
         ours.into_iter().chain(rivals).chain(peers).collect()
     }
 
-    /// Returns true if the method is measured at every tolerance. Methods whose answers do not
-    /// depend on the tolerance are not, nor are models of the bodies that are only compared with
-    /// each other.
+    /// Returns true if the method is measured at every tolerance. Methods whose answers do not depend on
+    /// the tolerance are not, nor are models of the bodies that are only compared with each other.
     pub fn takes_tolerances(self) -> bool {
         match self {
             Method::Ours(..) => !self.is_model(),

@@ -36,8 +36,7 @@ fn contacts_of(name: &str) -> Vec<([Kind; 2], Vec<FeaturePair>)> {
     bodies.iter().map(of_kind).collect()
 }
 
-/// Every upright edge of the peg, which goes through the plate, meets both rims of one of its
-/// walls.
+/// Every upright edge of the peg, which goes through the plate, meets both rims of one of its walls.
 #[test]
 fn t12_a_peg_touches_four_walls_at_once() {
     for (kinds, pairs) in contacts_of("T12 ") {

@@ -132,8 +132,7 @@ fn patches_of_random_solids() {
 fn coplanar_triangles_go_together() {
     for model in flat_solids() {
         let faces = model.shape.mesh.faces.len();
-        // Around a cavity every side is a patch of its own, and a dent has few triangles to begin
-        // with.
+        // Around a cavity every side is a patch of its own, and a dent has few triangles to begin with.
         if model.name.ends_with(" cube") {
             continue;
         }

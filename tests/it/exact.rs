@@ -84,8 +84,7 @@ fn triangles_without_an_area_hold_their_segment() {
     ));
 }
 
-/// The points are on the same grid as the mesh, so that rays go upwards from below edges and
-/// vertices.
+/// The points are on the same grid as the mesh, so that rays go upwards from below edges and vertices.
 #[test]
 fn rays_through_edges_and_vertices_count_once() {
     let mesh = l_prism().mesh;

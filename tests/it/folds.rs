@@ -1,10 +1,8 @@
-//! A fold with the least or the greatest of two numbers loses none, whatever the compiler does with
-//! it.
+//! A fold with the least or the greatest of two numbers loses none, whatever the compiler does with it.
 //!
-//! Some compilers lose the last elements of a fold with `f64::min`: those that are left over when
-//! the loop is cut into vectors and its length is known and small. These are two affected loops:
-//! one over consecutive numbers (AVX2 is enough), one over corners of edges (by gathers, with
-//! AVX-512).
+//! Some compilers lose the last elements of a fold with `f64::min`: those that are left over when the
+//! loop is cut into vectors and its length is known and small. These are two affected loops: one over
+//! consecutive numbers (AVX2 is enough), one over corners of edges (by gathers, with AVX-512).
 
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};

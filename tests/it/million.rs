@@ -1,5 +1,4 @@
-//! Handles over a million pairs of pieces at once, and tens of millions that must not all be
-//! examined.
+//! Handles over a million pairs of pieces at once, and tens of millions that must not all be examined.
 
 use ccd_core::glam::DVec3;
 use ccd_core::{Answer, Config, Outcome};

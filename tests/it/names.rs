@@ -10,10 +10,9 @@ use ccd_tests::strategies::{cases, check_cases};
 use std::cell::Cell;
 use std::collections::BTreeSet;
 
-/// A witness lies on the named feature, which is the least feature of the mesh that holds it: a
-/// vertex rather than an edge, an edge rather than a face. For an edge between facets of several
-/// faces, a patch names a face with it. On a virtual facet, inside the surface, no feature of the
-/// mesh is named.
+/// A witness lies on the named feature, which is the least feature of the mesh that holds it: a vertex
+/// rather than an edge, an edge rather than a face. For an edge between facets of several faces, a patch
+/// names a face with it. On a virtual facet, inside the surface, no feature of the mesh is named.
 #[test]
 fn contacts_of_patches_name_the_mesh() {
     let counts: [Cell<u32>; 3] = Default::default();

@@ -127,8 +127,7 @@ fn leaving(mesh: &Mesh, leaves: impl Fn([u32; 2]) -> Option<bool>) -> usize {
     found
 }
 
-/// The L is the union of two boxes, and a hull that leaves it passes over the inner corner at (1,
-/// 1).
+/// The L is the union of two boxes, and a hull that leaves it passes over the inner corner at (1, 1).
 #[test]
 fn a_hull_across_the_inner_corner_of_an_l_is_found() {
     let mesh = l_prism().mesh;

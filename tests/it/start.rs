@@ -103,8 +103,7 @@ fn touching_and_approaching_is_a_contact_at_once() {
         let query = sliding(gap, -DVec3::Z).query;
         outcomes(&query, &report(1e-3), is_touching);
         outcomes(&query, &leave(1e-3), |outcome| match outcome {
-            // An approach at speed 1 is visible once the distance has decreased by more than
-            // rounding.
+            // An approach at speed 1 is visible once the distance has decreased by more than rounding.
             Outcome::Contact { time, .. } => {
                 (0.0..=gap + RESTING * query.rounding()).contains(&time)
             }

@@ -1,5 +1,4 @@
-//! Scenes with a first contact in closed form, and near misses with a least distance in closed
-//! form.
+//! Scenes with a first contact in closed form, and near misses with a least distance in closed form.
 
 mod linear;
 mod rounded;

@@ -133,12 +133,10 @@ impl Pair {
         })
     }
 
-    /// Computes the distance of the two hulls by brute force: the nearest two of all their
-    /// triangles.
+    /// Computes the distance of the two hulls by brute force: the nearest two of all their triangles.
     ///
     /// The result is exact up to rounding for hulls that are apart: then, and only then, the line
-    /// between the two nearest points is an axis that separates the hulls. It is 0 for hulls that
-    /// meet.
+    /// between the two nearest points is an axis that separates the hulls. It is 0 for hulls that meet.
     pub fn distance(&self) -> f64 {
         let b = self.b_in_a();
         let (all_a, all_b) = (simplices(&self.a.points), simplices(&b));
@@ -312,8 +310,7 @@ pub fn bounds_law<O: DistanceOracle>(
     Ok(Met::Apart)
 }
 
-/// Checks the law of caches: a cache left by another pair, of any size, changes nothing beyond
-/// `slack`.
+/// Checks the law of caches: a cache left by another pair, of any size, changes nothing beyond `slack`.
 ///
 /// # Errors
 /// The change by the stale cache.
@@ -349,8 +346,7 @@ pub fn cache_law<O: DistanceOracle>(
     Ok(Met::Apart)
 }
 
-/// Checks the law of ends: the answer names points of the pieces, or is a typed refusal, for any
-/// points.
+/// Checks the law of ends: the answer names points of the pieces, or is a typed refusal, for any points.
 ///
 /// # Errors
 /// The named point that a piece lacks.

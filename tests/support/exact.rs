@@ -161,8 +161,7 @@ impl Columns {
             count,
             faces: vec![Vec::new(); count * count],
         };
-        // Far more than the rounding of points, so that a face is in the cell of every point over
-        // it.
+        // Far more than the rounding of points, so that a face is in the cell of every point over it.
         let spare = 1e-3 * columns.cell;
         for (k, _) in mesh.faces.iter().enumerate() {
             let [a, b, c] = mesh.triangle(k).map(DVec3::truncate);

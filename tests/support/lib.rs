@@ -1,6 +1,5 @@
 //! The parts of the property suite: models by code, an independent referee, scenes with closed-form
-//! answers, and the machinery that runs one property over every backend, schedule and kind of
-//! piece.
+//! answers, and the machinery that runs one property over every backend, schedule and kind of piece.
 
 pub mod analytic;
 pub mod backends;

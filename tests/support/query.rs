@@ -152,8 +152,7 @@ impl Actor {
         }
     }
 
-    /// Returns an upper bound of all its points' coordinates, with the angle of rotation as a
-    /// factor.
+    /// Returns an upper bound of all its points' coordinates, with the angle of rotation as a factor.
     pub fn reach(&self, duration: f64) -> f64 {
         let motion = &self.motion;
         let points = self.shape.parts.iter().flat_map(|part| &part.points);

@@ -14,9 +14,8 @@ pub fn rounding(scale: f64) -> f64 {
 /// of the closed form itself, a few units in the last place after its subtractions.
 pub const CLOSED_FORM: f64 = 1e-13;
 
-/// The fraction of a scene's size below which the referee considers bodies as touching unless it
-/// sees them intersect: 2²³ times the rounding of its distances, and less than any tolerance
-/// tested.
+/// The fraction of a scene's size below which the referee considers bodies as touching unless it sees
+/// them intersect: 2²³ times the rounding of its distances, and less than any tolerance tested.
 pub const CLOSE: f64 = 1e-10;
 
 /// The fraction of each step that the referee keeps: rounding takes less than the rest.

@@ -1,5 +1,4 @@
-//! The commands `ccd-bench chart` and `ccd-bench demo`: they plan the measurements and present
-//! them.
+//! The commands `ccd-bench chart` and `ccd-bench demo`: they plan the measurements and present them.
 
 use crate::method::Method;
 use crate::method::peer::PeerKind;
@@ -34,8 +33,7 @@ pub(super) struct ChartArgs {
     /// Only these tolerances
     #[arg(long, value_name = "LENGTH", value_delimiter = ',')]
     tolerances: Vec<f64>,
-    /// Seconds for each method on each scene at each tolerance; after that, no more rows are
-    /// started
+    /// Seconds for each method on each scene at each tolerance; after that, no more rows are started
     #[arg(long, value_name = "SECONDS")]
     cell: Option<f64>,
     /// Seconds after which a peer is stopped in the middle of a row
@@ -44,8 +42,7 @@ pub(super) struct ChartArgs {
     /// Rows of trials measured elsewhere: scene,method,tolerance,id,micros,steps,status,time
     #[arg(long, value_name = "FILE.csv")]
     join: Vec<PathBuf>,
-    /// Insert the tables between the markers `<!-- ccd chart: NAME -->` and `<!-- end -->` of this
-    /// file
+    /// Insert the tables between the markers `<!-- ccd chart: NAME -->` and `<!-- end -->` of this file
     #[arg(long, value_name = "FILE.md")]
     splice: Vec<PathBuf>,
     /// Draw the measurements that the folder holds, and measure nothing

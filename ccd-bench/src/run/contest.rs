@@ -1,5 +1,4 @@
-//! Runs methods on a scene: each method gets the same queries, is timed, and is judged by the
-//! referee.
+//! Runs methods on a scene: each method gets the same queries, is timed, and is judged by the referee.
 
 mod journal;
 mod session;
@@ -40,8 +39,7 @@ pub struct Contest<'s> {
 /// The limits of a measurement.
 #[derive(Clone, Copy, Debug)]
 pub struct Allowance {
-    /// The time for one method on one scene at one tolerance; after that, no more queries are
-    /// asked.
+    /// The time for one method on one scene at one tolerance; after that, no more queries are asked.
     pub cell: Duration,
     /// The time for one query of a peer, which is stopped after that.
     pub patience: Duration,

@@ -65,8 +65,7 @@ const TRUTHS: &str = "truth.csv";
 pub const USUAL_TOLERANCE: f64 = PAPER_TOLERANCE;
 
 impl Plan {
-    /// Returns the measurements in the folder, whatever they were measured with, and measures
-    /// nothing.
+    /// Returns the measurements in the folder, whatever they were measured with, and measures nothing.
     ///
     /// # Errors
     /// [`EvaluationError`].

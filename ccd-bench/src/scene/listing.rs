@@ -68,8 +68,7 @@ impl Listing {
     /// Makes the scene.
     ///
     /// # Errors
-    /// If the data names something unknown, or a model's file is no mesh that a body can be made
-    /// of.
+    /// If the data names something unknown, or a model's file is no mesh that a body can be made of.
     pub fn make(&self, models: &mut Models) -> Result<Scene, SceneError> {
         Ok(Scene {
             name: self.name.clone(),

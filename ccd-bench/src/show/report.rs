@@ -169,8 +169,7 @@ fn filled(template: &str, parts: &[(&str, String)]) -> String {
     text
 }
 
-/// Returns the first of the library's scripts. The other one renders formulas, and the page has
-/// none.
+/// Returns the first of the library's scripts. The other one renders formulas, and the page has none.
 fn plotly_script() -> String {
     const END: &str = "</script>";
     let scripts = Plot::offline_js_sources();

@@ -43,8 +43,7 @@ const SMALL: f64 = 0.25;
 
 /// The number of normals that belong to faces.
 const FACES: usize = 2;
-/// Triangles nearer than this fraction of their edges are also tested along the normals of their
-/// edges.
+/// Triangles nearer than this fraction of their edges are also tested along the normals of their edges.
 const CLOSE: f64 = 1e-3;
 
 /// The remainder of a span.
@@ -184,8 +183,7 @@ impl<'a> Search<'a> {
         }
         let (p, q) = nearest(&placed, b);
         let (between, size) = (p - q, (b[1] - b[0]).length() + (a[1] - a[0]).length());
-        // The direction between two points is only useful if their distance is larger than
-        // rounding.
+        // The direction between two points is only useful if their distance is larger than rounding.
         apart(between.normalize()) || (between.length() < CLOSE * size && normals.any(apart))
     }
 

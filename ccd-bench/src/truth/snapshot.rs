@@ -174,8 +174,7 @@ impl Extents {
     }
 }
 
-/// Returns, entry by entry, the larger of |m + w| and |m − w|; the absolute value is convex in
-/// between.
+/// Returns, entry by entry, the larger of |m + w| and |m − w|; the absolute value is convex in between.
 fn largest(m: DMat3, w: DMat3) -> DMat3 {
     let entry = |m: DVec3, w: DVec3| m.abs() + w.abs();
     DMat3::from_cols(

@@ -9,9 +9,8 @@ pub const TRUTH_COLUMNS: [&str; 5] = ["id", "status", "lo", "hi", "reason"];
 
 /// One row of the table, without a reason.
 ///
-/// For a hit, `lo` and `hi` bracket the first contact. Free rows have the duration for both, rows
-/// that touch at the start 0. In the other rows nothing touches before `lo`, and `hi` is the
-/// duration.
+/// For a hit, `lo` and `hi` bracket the first contact. Free rows have the duration for both, rows that
+/// touch at the start 0. In the other rows nothing touches before `lo`, and `hi` is the duration.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TruthRow {
     /// The name of the query.

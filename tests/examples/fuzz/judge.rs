@@ -324,8 +324,7 @@ impl<'a> Judge<'a> {
             .collect()
     }
 
-    /// Returns true if two pieces that are reported to overlap are triangles with disjoint
-    /// interiors.
+    /// Returns true if two pieces that are reported to overlap are triangles with disjoint interiors.
     fn only_touch(&self, bodies: &Bodies, contact: &Contact) -> bool {
         match self
             .piece_triangles(bodies, contact, 0.0)

@@ -4,9 +4,8 @@ use crate::vector::{Number, Vector};
 
 pub type Triangle<N> = [Vector<N>; 3];
 
-/// Returns the distance of two triangles, the least over all pairs of points that could be nearest,
-/// so it is never too small except for rounding. It is 0 if an edge of one passes through the
-/// other.
+/// Returns the distance of two triangles, the least over all pairs of points that could be nearest, so
+/// it is never too small except for rounding. It is 0 if an edge of one passes through the other.
 pub fn distance<N: Number>(s: &Triangle<N>, t: &Triangle<N>) -> N {
     let (edges_s, edges_t) = (Edge::all(s), Edge::all(t));
     let (face_s, face_t) = (normal(s), normal(t));

@@ -7,8 +7,7 @@ use rand::RngExt;
 use std::collections::HashMap;
 use std::f64::consts::TAU;
 
-/// Returns a gear about z: a bore, a hole between each two spokes, and twice as many teeth as
-/// spokes.
+/// Returns a gear about z: a bore, a hole between each two spokes, and twice as many teeth as spokes.
 pub fn gear(spokes: usize) -> Shape {
     let radii = [0.2, 0.35, 0.6, 0.8, 1.0];
     let columns = 8 * spokes;
@@ -38,8 +37,7 @@ pub fn perforated_plate(n: usize, m: usize) -> Shape {
     .thick(|i, j| 0.25 * DVec2::new(i as f64, j as f64), 0.125)
 }
 
-/// Returns the L of [`l_prism`](super::l_prism) with the tops of its bars divided into `cells²`
-/// squares.
+/// Returns the L of [`l_prism`](super::l_prism) with the tops of its bars divided into `cells²` squares.
 pub fn l_block(cells: usize) -> Shape {
     let unit = 1.0 / cells as f64;
     Sheet {
@@ -127,8 +125,7 @@ impl Sheet<'_> {
         self.between(|i, j| at(i, j).extend(-half), |i, j| at(i, j).extend(half))
     }
 
-    /// Returns the solid between two sheets; seen from above, rows run to the right and columns
-    /// upwards.
+    /// Returns the solid between two sheets; seen from above, rows run to the right and columns upwards.
     fn between(
         &self,
         low: impl Fn(usize, usize) -> DVec3,

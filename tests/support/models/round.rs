@@ -6,8 +6,7 @@ use ccd_core::order::lesser;
 use std::collections::HashMap;
 use std::f64::consts::TAU;
 
-/// Returns an icosahedron divided `levels` times, every vertex at distance `radius` from the
-/// origin.
+/// Returns an icosahedron divided `levels` times, every vertex at distance `radius` from the origin.
 pub fn icosphere(radius: f64, levels: u32) -> Shape {
     let g = (1.0 + 5.0_f64.sqrt()) / 2.0;
     let mut vertices = Vec::new();

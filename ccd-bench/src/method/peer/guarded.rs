@@ -90,8 +90,7 @@ impl Guarded {
         self.running().map(|_| ())
     }
 
-    /// Asks one query. A process that was stopped or has died is restarted first; that is not
-    /// timed.
+    /// Asks one query. A process that was stopped or has died is restarted first; that is not timed.
     ///
     /// # Errors
     /// If the process does not start.

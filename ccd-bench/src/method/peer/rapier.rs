@@ -16,19 +16,17 @@ use rigid_ccd::table::motions::Query;
 /// Simulates A as a free body and B as a fixed one in one step, and takes the pose in which the
 /// step stops A.
 ///
-/// The engine does not sweep meshes, only convex bodies and compounds of them. A is therefore a
-/// compound of its triangles here; B stays a mesh. Each triangle is swept against B's by [parry's
-/// sweeps](crate::method::peer::parry::double::sweep), from the start pose to the end pose, the
-/// shorter way and not at a constant rate. A turn of more than half a circle becomes another
-/// motion. Large turns are rough, since the step of a game is expected to be short. The time is
-/// that of the whole step.
+/// The engine does not sweep meshes, only convex bodies and compounds of them. A is therefore a compound
+/// of its triangles here; B stays a mesh. Each triangle is swept against B's by [parry's
+/// sweeps](crate::method::peer::parry::double::sweep), from the start pose to the end pose, the shorter
+/// way and not at a constant rate. A turn of more than half a circle becomes another motion. Large turns
+/// are rough, since the step of a game is expected to be short. The time is that of the whole step.
 ///
 /// # Tolerance
 /// `allowed_linear_error`. The sweeps stop at a gap of up to 1.25 times that.
 ///
 /// # Guarantee
-/// None. A triangle that overlaps one of B's at the start is swept as a small ball about its
-/// centre.
+/// None. A triangle that overlaps one of B's at the start is swept as a small ball about its centre.
 pub struct Simulated {
     world: PhysicsWorld,
     a: RigidBodyHandle,

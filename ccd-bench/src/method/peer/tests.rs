@@ -1,5 +1,4 @@
-//! Tests every peer on meshes with exact answers: where it is right, and where it is known to be
-//! wrong.
+//! Tests every peer on meshes with exact answers: where it is right, and where it is known to be wrong.
 
 use super::PeerKind;
 use super::wire::{format_query, format_reply, parse_query, parse_reply};
@@ -156,8 +155,7 @@ fn rod_on_wall(turns: f64) -> Exact {
     }
 }
 
-/// Returns an octahedron with each face cut in 16; its corners are on the unit ball and on the
-/// axes.
+/// Returns an octahedron with each face cut in 16; its corners are on the unit ball and on the axes.
 fn ball() -> TriangleMesh {
     let axes = [DVec3::X, DVec3::Y, DVec3::Z];
     let mut triangles = Vec::new();
@@ -219,8 +217,7 @@ fn more_than_half_a_turn_is_late_with_casts(#[values(2.0, 7.0)] turns: f64) {
     }
 }
 
-/// Known: a step turns by a mix of quaternions, not at a constant rate, and a whole turn is no
-/// turn.
+/// Known: a step turns by a mix of quaternions, not at a constant rate, and a whole turn is no turn.
 #[test]
 fn large_turns_are_wrong_with_a_whole_step() {
     let half = rod_on_wall(1.0);

@@ -1,5 +1,4 @@
-//! The protocol between a guard and the process it guards: one line for each query, one for each
-//! reply.
+//! The protocol between a guard and the process it guards: one line for each query, one for each reply.
 
 use crate::method::solver::{Claim, Reply, Solver, TimedReply, timed};
 use ccd_core::glam::{DQuat, DVec3};

@@ -28,12 +28,11 @@ mod tests;
 /// length of the path over the tolerance.
 ///
 /// # Choices
-/// The paper asks whether a path is free. Here the question is when it stops being free, so
-/// segments are taken in order of time and not by likelihood of a hit. The paper's greedy descent
-/// stops at any two nodes that do not overlap. Here it goes on while nodes are many times larger
-/// than their distance, unless that is enough for the segments, which takes fewer halvings and far
-/// less time. The longest path of a body is that of a point as far from its centre of rotation as
-/// its farthest corner.
+/// The paper asks whether a path is free. Here the question is when it stops being free, so segments are
+/// taken in order of time and not by likelihood of a hit. The paper's greedy descent stops at any two
+/// nodes that do not overlap. Here it goes on while nodes are many times larger than their distance,
+/// unless that is enough for the segments, which takes fewer halvings and far less time. The longest
+/// path of a body is that of a point as far from its centre of rotation as its farthest corner.
 #[derive(Clone, Debug)]
 pub struct DynamicChecker {
     trees: Trees,
@@ -161,8 +160,7 @@ impl DynamicChecker {
         Claim::Free
     }
 
-    /// Drops a free segment, and halves one that may not be free. Returns a claim if the search
-    /// ends.
+    /// Drops a free segment, and halves one that may not be free. Returns a claim if the search ends.
     fn look_at(&mut self, segment: Segment, task: &mut Task) -> Option<Claim> {
         let Segment {
             from,

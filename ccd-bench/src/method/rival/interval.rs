@@ -154,8 +154,7 @@ impl IntervalVec {
     }
 }
 
-/// Returns a cross product with plus instead of minus, by which the radii of a cross product add
-/// up.
+/// Returns a cross product with plus instead of minus, by which the radii of a cross product add up.
 #[inline]
 pub(super) fn cross_sum(a: DVec3, b: DVec3) -> DVec3 {
     DVec3::new(

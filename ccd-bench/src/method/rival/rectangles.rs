@@ -8,8 +8,7 @@ use wide::f64x4;
 #[cfg(test)]
 mod tests;
 
-/// Returns the shortest vector from rectangle A to rectangle B in the frame of A; zero if they
-/// meet.
+/// Returns the shortest vector from rectangle A to rectangle B in the frame of A; zero if they meet.
 ///
 /// A rectangle spans the x and y axes of its frame, from the origin to the given lengths, either of
 /// which may be zero. `placement` is the frame of B as seen from that of A.
@@ -58,8 +57,7 @@ fn corners(lengths: DVec2, placement: &Placement) -> Vectors {
         .plus(y, placement.rotation.y_axis)
 }
 
-/// Returns the vectors from the nearest points of a rectangle, in its own frame, to the given
-/// points.
+/// Returns the vectors from the nearest points of a rectangle, in its own frame, to the given points.
 #[inline(always)]
 fn off_face(Vectors([x, y, z]): Vectors, face: DVec2) -> Vectors {
     let zero = f64x4::splat(0.0);
@@ -70,8 +68,7 @@ fn off_face(Vectors([x, y, z]): Vectors, face: DVec2) -> Vectors {
     ])
 }
 
-/// Computes the vectors between the four pairs of edges of A along axis `I` and of B along axis
-/// `J`.
+/// Computes the vectors between the four pairs of edges of A along axis `I` and of B along axis `J`.
 #[inline(always)]
 fn edges_apart<const I: usize, const J: usize>(
     shortest: Shortest,
@@ -84,14 +81,12 @@ fn edges_apart<const I: usize, const J: usize>(
     let (along, aside) = (axes_b.col(J), axes_b.col(1 - J));
     let aside_a = f64x4::new([0.0, a[1 - I], 0.0, a[1 - I]]);
     let aside_b = f64x4::new([0.0, 0.0, b[1 - J], b[1 - J]]);
-    // From the start of A's edge to that of B's; s and t are the positions of the points along
-    // them.
+    // From the start of A's edge to that of B's; s and t are the positions of the points along them.
     let mut apart = Vectors::splat(placement.translation).plus(aside_b, aside);
     apart.0[1 - I] -= aside_a;
     let (ahead_a, ahead_b) = (apart.0[I], apart.dot(along));
     let cosine = f64x4::splat(along.dot(axes_a[I]));
-    // By the sine, not by 1 − cos²: edges a hundred millionth of a radian apart still cross
-    // somewhere.
+    // By the sine, not by 1 − cos²: edges a hundred millionth of a radian apart still cross somewhere.
     let sine = axes_a[I].cross(along);
     let sine_squared = sine.length_squared();
     let square_to_b = if sine_squared > 0.0 {

@@ -173,8 +173,7 @@ impl Face {
         inside(a, u) & inside(b, v) & inside(c, w)
     }
 
-    /// Returns the lowest of the points above the triangle: its squared height, its foot and its
-    /// index.
+    /// Returns the lowest of the points above the triangle: its squared height, its foot and its index.
     #[inline(always)]
     fn least_height(&self, heights: f64x4, points: &Triangle) -> Option<(f64, DVec3, usize)> {
         if self.is_needle() {
@@ -190,8 +189,7 @@ impl Face {
     }
 }
 
-/// Returns the point where an edge of a triangle runs through a face, from the heights of its
-/// corners.
+/// Returns the point where an edge of a triangle runs through a face, from the heights of its corners.
 fn pierced(face: &Face, heights: f64x4, corners: &Triangle) -> Option<DVec3> {
     let [h, i, j, _] = heights.to_array();
     let next = f64x4::new([i, j, h, i]);

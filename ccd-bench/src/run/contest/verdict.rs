@@ -49,8 +49,7 @@ const SLACK: f64 = 1e-12;
 /// The widest bracket that counts as a time, as a fraction of the duration.
 const WIDEST: f64 = 1e-9;
 
-/// The excess over the tolerance, as a fraction of it, that a solver's distance may have from
-/// rounding.
+/// The excess over the tolerance, as a fraction of it, that a solver's distance may have from rounding.
 const ROUNDING: f64 = 1e-6;
 
 impl Judged {

@@ -88,8 +88,7 @@ impl Blob {
         TriangleMesh::new(points, &faces)
     }
 
-    /// Returns the radius of the surface in a direction: a sum of terms that are smooth over the
-    /// sphere.
+    /// Returns the radius of the surface in a direction: a sum of terms that are smooth over the sphere.
     fn radius(&self, direction: DVec3, ripples: &[Ripple]) -> f64 {
         let lobes: f64 = self
             .lobes

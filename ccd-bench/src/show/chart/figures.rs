@@ -1,5 +1,4 @@
-//! The paper's figures, redrawn: time and steps of every trial, one above the other `[FAST06
-//! §6.2]`.
+//! The paper's figures, redrawn: time and steps of every trial, one above the other `[FAST06 §6.2]`.
 
 use super::axis::Axis;
 use super::grid::{HEAD, foot, foot_height, head};

@@ -20,8 +20,7 @@ struct Size<'a> {
     scenes: Vec<&'a str>,
 }
 
-/// Draws one panel of all shapes: a line over the sizes of one shape, a marker for a shape of one
-/// size.
+/// Draws one panel of all shapes: a line over the sizes of one shape, a marker for a shape of one size.
 pub(super) fn chart(charts: &Charts<'_>) -> Result<Option<Drawing>, ChartError> {
     let shown = charts.shown(&Family::COMPARED);
     let sizes = sizes(&charts.measured_scenes());
@@ -139,8 +138,7 @@ fn name_sizes(sheet: &Sheet<'_>, panel: &Panel<'_>, sizes: &[Size<'_>]) -> Resul
             continue;
         };
         let format = TextFormat {
-            // Large meshes are close together on a logarithmic axis, so their names end at their
-            // points.
+            // Large meshes are close together on a logarithmic axis, so their names end at their points.
             across: if share > CROWDED {
                 HPos::Right
             } else {

@@ -9,8 +9,7 @@ use std::path::Path;
 /// that name, for every table that the file has a marker for.
 ///
 /// # Errors
-/// If the file cannot be read or written, has no marker of any table, or has a marker without an
-/// end.
+/// If the file cannot be read or written, has no marker of any table, or has a marker without an end.
 pub fn splice(file: &Path, tables: &[TextTable]) -> Result<()> {
     let text = fs::read_to_string(file)?;
     let spliced = spliced(&text, tables)?;

@@ -118,8 +118,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Returns a time after `begin` until which the bodies are well apart, all pairs taken
-    /// together.
+    /// Returns a time after `begin` until which the bodies are well apart, all pairs taken together.
     fn together(&self, begin: f64) -> f64 {
         let mut t = begin;
         for _ in 0..PAIR_STEPS {
@@ -159,8 +158,7 @@ impl<'a> Search<'a> {
         t
     }
 
-    /// Returns the gap of two balls above the threshold, its closing rate, and a bound of its
-    /// change.
+    /// Returns the gap of two balls above the threshold, its closing rate, and a bound of its change.
     fn near(&self, [p, q]: [&Ball; 2], snapshots: &[Snapshot; 2]) -> Near {
         let [a, b] = &self.scene.sides;
         let between = snapshots[1].centre - snapshots[0].centre;

@@ -16,8 +16,7 @@ pub(in crate::method::peer) fn tri_mesh(mesh: &TriangleMesh) -> Result<TriMesh, 
     })
 }
 
-/// Returns the same motion: each body turns about a centre that moves straight, both at constant
-/// rates.
+/// Returns the same motion: each body turns about a centre that moves straight, both at constant rates.
 pub(in crate::method::peer) fn rigid_motion(motion: &Motion) -> NonlinearRigidMotion {
     NonlinearRigidMotion::new(
         pose(motion, 0.0),

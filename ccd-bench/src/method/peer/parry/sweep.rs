@@ -82,9 +82,8 @@ impl SweptPairs {
 
     /// Returns the largest turn of a body in a stretch.
     fn turn_within(&self, reach: f64) -> f64 {
-        // The mix misses a turn θ by 2 (atan(s tan(θ/4)) − s θ/4) for s of −1 to 1, which is at
-        // most 4/(9 √3) (θ/4)³ to leading order; the next term of tan adds less than a tenth up to
-        // π/4.
+        // The mix misses a turn θ by 2 (atan(s tan(θ/4)) − s θ/4) for s of −1 to 1, which is at most
+        // 4/(9 √3) (θ/4)³ to leading order; the next term of tan adds less than a tenth up to π/4.
         let off = SHARE_OF_TURN * self.tolerance / (0.2567 * 1.1 * reach);
         lesser(LARGEST_TURN, 4.0 * off.cbrt())
     }
@@ -93,8 +92,7 @@ impl SweptPairs {
     fn first_hit(&self, query: &Query, from: f64, to: f64) -> Option<Real> {
         let a = self.a.stretch(&query.a, from, to);
         let b = self.b.stretch(&query.b, from, to);
-        // Boxes are compared in B's frame at the start, where B needs no second box when it is at
-        // rest.
+        // Boxes are compared in B's frame at the start, where B needs no second box when it is at rest.
         let frame = b.poses[0].inverse();
         let (in_frame_a, in_frame_b) = (a.poses.map(|p| frame * p), b.poses.map(|p| frame * p));
         let still = b.poses[0] == b.poses[1];

@@ -16,8 +16,7 @@ pub(super) enum Boxes {
     Apart,
     /// No axis separates them over the whole interval.
     Near {
-        /// The width of the enclosure of the motion, as a length: the radius of a corner's
-        /// position.
+        /// The width of the enclosure of the motion, as a length: the radius of a corner's position.
         spread: f64,
     },
 }

@@ -13,8 +13,7 @@ pub(super) struct Slice {
     pub(super) level: usize,
 }
 
-/// Keeps the last enclosure of every level, since the search stays within one interval for many
-/// pairs.
+/// Keeps the last enclosure of every level, since the search stays within one interval for many pairs.
 #[derive(Clone, Debug)]
 pub(super) struct Clock {
     relative: Relative,

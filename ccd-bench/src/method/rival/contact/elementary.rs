@@ -189,10 +189,9 @@ impl Triangles {
 
     /// Returns true if two edges may have a point in common.
     ///
-    /// With the points `p + s e` and `q + u g`, `w = q − p` and `c = e × g`, a common point needs
-    /// `w · c = 0`, `w × g = s c`, `w × e = u c` and `w · g = s e·g − u g·g`, where s and u are
-    /// between 0 and 1. The last three conditions also separate parallel edges, for which `c` and
-    /// `w · c` vanish.
+    /// With the points `p + s e` and `q + u g`, `w = q − p` and `c = e × g`, a common point needs `w · c
+    /// = 0`, `w × g = s c`, `w × e = u c` and `w · g = s e·g − u g·g`, where s and u are between 0 and
+    /// 1. The last three conditions also separate parallel edges, for which `c` and `w · c` vanish.
     fn may_cross(&self, edges: (usize, usize), p: IntervalVec, now: &Enclosure) -> bool {
         let g = self.b.edges[edges.1];
         let w = from_point(self.b.corners[edges.1], p);

@@ -114,8 +114,7 @@ fn the_vector_is_the_shortest() {
             "{distance} {twin} {a} {b} {placement:?}"
         );
         if distance > 1e-6 {
-            // No plane could separate them by more than their distance, so this proves the
-            // distance.
+            // No plane could separate them by more than their distance, so this proves the distance.
             let n = vector / distance;
             let low = corners(b, &placement)
                 .map(|p| n.dot(p))

@@ -62,8 +62,7 @@ impl SphereTree {
     }
 }
 
-/// Moves triangles whose centres are below the mean along an axis to the front. Returns their
-/// number.
+/// Moves triangles whose centres are below the mean along an axis to the front. Returns their number.
 fn part(triangles: &mut [Triangle], range: Range<usize>, axis: DVec3) -> usize {
     /// The fraction of all triangles that is too few for one side.
     const LOPSIDED: f64 = 1.0 / 16.0;

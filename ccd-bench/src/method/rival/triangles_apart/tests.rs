@@ -57,8 +57,7 @@ fn the_points_are_nearest() {
             assert!(off < 1e-9, "{off} off: {a:?} {b:?}");
         }
         if distance > 1e-6 {
-            // No plane could separate them by more than their distance, so this proves the
-            // distance.
+            // No plane could separate them by more than their distance, so this proves the distance.
             let n = found.between() / distance;
             let low = b.map(|p| n.dot(p)).into_iter().fold(f64::INFINITY, lesser);
             let high = a
