@@ -1,5 +1,5 @@
-//! Whole queries: schedules and backends over scenes, the first rows of each, held against the truth
-//! before they are timed.
+//! Times whole queries: schedules and backends on the first rows of each scene. Every answer is
+//! checked against the truth before it is timed.
 //!
 //! ```sh
 //! cargo bench -p ccd-bench --bench advancement
@@ -18,9 +18,9 @@ use rigid_ccd::batch::ScheduleKind;
 use rigid_ccd::command::Progress;
 use std::time::Duration;
 
-/// How many rows of a scene, spread over it.
+/// The number of rows of a scene, spread over it.
 const ROWS: usize = 32;
-/// Each mesh once.
+/// The scenes; each mesh occurs once.
 const SCENES: [&str; 7] = [
     "santa",
     "bunny turning",
@@ -30,7 +30,7 @@ const SCENES: [&str; 7] = [
     "falling rings",
     SMALL,
 ];
-/// The one small enough for the slowest schedule.
+/// The only scene small enough for the slowest schedule.
 const SMALL: &str = "knot216";
 
 fn advancement(criterion: &mut Criterion) {
@@ -51,16 +51,18 @@ fn advancement(criterion: &mut Criterion) {
             let Method::Ours(kind, pieces @ (Pieces::Least | Pieces::Patches)) = method else {
                 continue;
             };
-            // Of all pairs in every step one scene's worth is enough.
+            // The schedule that advances all pairs in every step runs on one scene only.
             if kind.schedule == ScheduleKind::Naive && scene.name != SMALL {
                 continue;
             }
             truths.find(&contest, method.motion_kind(), &rows, &Progress::hidden());
-            // Nothing is timed that is wrong, or that cannot enter.
+            // A method that is wrong, or that cannot open a session, is not timed.
             if !is_right(&contest, method, &truths) {
                 continue;
             }
-            let bodies = scene.bodies_of(pieces).expect("it has just entered");
+            let bodies = scene
+                .bodies_of(pieces)
+                .expect("it has just opened a session");
             let mut solver = Ours::new(kind, bodies, USUAL_TOLERANCE);
             group.bench_function(BenchmarkId::from_parameter(method), |bencher| {
                 bencher.iter(|| {
@@ -73,7 +75,7 @@ fn advancement(criterion: &mut Criterion) {
     }
 }
 
-/// False where it cannot enter.
+/// Returns true if the method opens a session and all its answers are right.
 fn is_right(contest: &Contest<'_>, method: Method, truths: &Truths) -> bool {
     let allowance = Allowance {
         cell: Duration::MAX,
@@ -86,8 +88,8 @@ fn is_right(contest: &Contest<'_>, method: Method, truths: &Truths) -> bool {
         .session(method, USUAL_TOLERANCE)
         .expect("no peer is asked");
     session.is_some_and(|mut session| {
-        let heard = contest.run(&mut session, &allowance, truths);
-        let (cell, _) = heard
+        let measured = contest.run(&mut session, &allowance, truths);
+        let (cell, _) = measured
             .expect("no peer is asked")
             .expect("all queries can be asked");
         let wrong = cell.late + cell.missed + cell.false_contacts + cell.early;
@@ -96,7 +98,7 @@ fn is_right(contest: &Contest<'_>, method: Method, truths: &Truths) -> bool {
     })
 }
 
-/// Enough for a median; the default takes longer than the calls.
+/// Enough for a median. The default takes longer than the calls.
 const RESAMPLES: usize = 2_000;
 
 fn settings() -> Criterion {

@@ -1,5 +1,5 @@
-//! How long meshes take to become bodies: the decomposition alone, and everything up to the first
-//! query.
+//! Times how long meshes take to become bodies: the decomposition alone, and everything up to the
+//! first query.
 //!
 //! ```sh
 //! cargo bench -p ccd-bench --bench decomposition
@@ -13,7 +13,7 @@ use criterion::{
 use std::hint::black_box;
 use std::time::Duration;
 
-/// Torus knots, which differ in nothing but their size.
+/// Torus knots that differ in size only.
 const KNOTS: [Model; 3] = [Model::Knot2880, Model::Knot11520, Model::Knot34560];
 
 fn meshes() -> Vec<(&'static str, TriangleMesh)> {
@@ -28,7 +28,7 @@ fn meshes() -> Vec<(&'static str, TriangleMesh)> {
         .collect()
 }
 
-/// Surfaces in convex patches, in every order of growth.
+/// Decomposes surfaces into convex patches, in every order of growth.
 fn decompositions(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("decompose");
     group.sample_size(10).sampling_mode(SamplingMode::Flat);
@@ -48,7 +48,7 @@ fn decompositions(criterion: &mut Criterion) {
     group.finish();
 }
 
-/// Nothing is timed that is wrong: every triangle has to be in one patch.
+/// Asserts that every triangle is in exactly one patch before anything is timed.
 fn assert_covered(mesh: &TriangleMesh, order: Order) {
     let patches = decompose(mesh, order)
         .expect("a knot bounds a solid")
@@ -62,7 +62,7 @@ fn assert_covered(mesh: &TriangleMesh, order: Order) {
     assert!(faces.iter().copied().eq(0..mesh.faces().len() as u32));
 }
 
-/// Meshes into bodies ready for queries.
+/// Turns meshes into bodies that are ready for queries.
 fn bodies(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("body");
     group.sample_size(10).sampling_mode(SamplingMode::Flat);
@@ -81,7 +81,7 @@ fn bodies(criterion: &mut Criterion) {
     group.finish();
 }
 
-/// Enough for a median; the default takes longer than the calls.
+/// Enough for a median. The default takes longer than the calls.
 const RESAMPLES: usize = 2_000;
 
 fn settings() -> Criterion {

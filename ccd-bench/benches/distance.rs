@@ -1,5 +1,5 @@
-//! Distances of two convex pieces: every backend, over what they are, how far apart they are, and how
-//! much they turn from call to call.
+//! Times the distance of two convex pieces with every backend, over the kind of piece, the
+//! separation and the turn from call to call.
 //!
 //! ```sh
 //! cargo bench -p ccd-bench --bench distance
@@ -19,10 +19,10 @@ use rand_pcg::Pcg64;
 use std::hint::black_box;
 use std::time::Duration;
 
-/// How many poses a sequence has.
+/// The number of poses in a sequence.
 const POSES: usize = 256;
 
-/// Two pieces of one shape, and the poses they go through.
+/// Two pieces of one shape, and the sequence of their poses.
 struct Course {
     a: Pieces,
     b: Pieces,
@@ -30,23 +30,23 @@ struct Course {
     start: Start,
 }
 
-/// Where a call starts from.
+/// The state that a call starts from.
 #[derive(Clone, Copy)]
 enum Start {
-    /// From what the call for the pose before left behind.
+    /// The result of the call for the previous pose.
     Warm,
-    /// From nothing.
+    /// No state.
     Cold,
 }
 
-/// How poses follow each other: its name, radians from one to the next, where a call starts.
+/// The coherence of a sequence: its name, the radians from one pose to the next, the start of a call.
 const COHERENCE: [(&str, f64, Start); 3] = [
     ("close", 0.01, Start::Warm),
     ("apart", 0.3, Start::Warm),
     ("cold", 0.01, Start::Cold),
 ];
 
-/// How far the centres are apart beyond where they may touch, in radii.
+/// The distance of the centres beyond the one at which the pieces may touch, in radii.
 const SEPARATIONS: [(&str, f64); 3] = [("near", 1e-3), ("middle", 1.0), ("far", 20.0)];
 
 fn distances(criterion: &mut Criterion) {
@@ -64,7 +64,7 @@ fn distances(criterion: &mut Criterion) {
                 group.throughput(Throughput::Elements(POSES as u64));
                 let distances = course.distances::<Gjk>();
                 let id = |oracle| BenchmarkId::new(oracle, coherence);
-                // Nothing is timed that is wrong.
+                // The backends must agree before they are timed.
                 assert_alike(&distances, &course.distances::<Vmarch>());
                 group.bench_function(id("vmarch"), |b| b.iter(|| run::<Vmarch>(&course)));
                 group.bench_function(id("gjk"), |b| b.iter(|| run::<Gjk>(&course)));
@@ -78,7 +78,7 @@ fn distances(criterion: &mut Criterion) {
     }
 }
 
-/// Pieces within the unit ball that reach its surface.
+/// Returns pieces that lie within the unit ball and touch its surface.
 fn shapes(rng: &mut Pcg64) -> Vec<(String, Pieces, Pieces)> {
     let side = DVec3::splat(3f64.sqrt().recip());
     let cube = Body::cuboid(side).expect("a box").pieces().clone();
@@ -102,7 +102,7 @@ fn shapes(rng: &mut Pcg64) -> Vec<(String, Pieces, Pieces)> {
     shapes
 }
 
-/// The axes of a whole sequence, added up, so that nothing is left out.
+/// Returns the sum of the axes of a whole sequence, so that the compiler cannot drop a call.
 fn run<O: DistanceOracle + Default>(course: &Course) -> f64 {
     let mut oracle = O::default();
     let mut cache = O::Cache::default();
@@ -126,7 +126,7 @@ impl Course {
         }
     }
 
-    /// How far apart an oracle says they are in each pose.
+    /// Returns the distance that an oracle reports for each pose.
     fn distances<O: DistanceOracle + Default>(&self) -> Vec<f64> {
         let (mut oracle, mut cache) = (O::default(), O::Cache::default());
         let distance = |&pose: &Frame| {
@@ -140,8 +140,8 @@ impl Course {
     }
 }
 
-/// The largest difference between the distances of two backends: far above their rounding at the
-/// largest distance here.
+/// The largest difference allowed between the distances of two backends. It is far above their
+/// rounding at the largest distance here.
 const ALIKE: f64 = 1e-9;
 
 fn assert_alike(one: &[f64], other: &[f64]) {
@@ -150,7 +150,7 @@ fn assert_alike(one: &[f64], other: &[f64]) {
     }
 }
 
-/// Turning on from pose to pose, the centres always as far apart.
+/// Returns poses that keep turning, with a constant distance of the centres.
 fn poses(rng: &mut Pcg64, clearance: f64, turn: f64) -> Vec<Frame> {
     let (way, turn) = (direction(rng), turn * direction(rng));
     let pose = |k: usize| {
@@ -161,7 +161,7 @@ fn poses(rng: &mut Pcg64, clearance: f64, turn: f64) -> Vec<Frame> {
     (0..POSES).map(pose).collect()
 }
 
-/// Enough for a median; the default takes longer than the calls.
+/// Enough for a median. The default takes longer than the calls.
 const RESAMPLES: usize = 2_000;
 
 fn settings() -> Criterion {

@@ -1,5 +1,5 @@
-//! Extremal corners: looking at every corner against climbing, cold and warm, over the size of the
-//! piece; decides `ccd_core::tolerance::CLIMBED_POINTS`.
+//! Times the search for extremal corners: a scan of all corners against climbing, cold and warm,
+//! over the size of the piece. The result decides `ccd_core::tolerance::CLIMBED_POINTS`.
 //!
 //! `cargo bench -p ccd-bench --bench support`
 
@@ -14,7 +14,7 @@ use rand_pcg::Pcg64;
 use std::hint::black_box;
 use std::time::Duration;
 
-/// How many directions a sample asks for.
+/// The number of directions in a sample.
 const LOOKS: usize = 256;
 
 fn support(criterion: &mut Criterion) {
@@ -58,7 +58,7 @@ fn support(criterion: &mut Criterion) {
     group.finish();
 }
 
-/// Directions a hundredth of a radian apart, as a step of a query sees them.
+/// Returns directions a hundredth of a radian apart, as in the steps of a query.
 fn turning(rng: &mut Pcg64) -> Vec<DVec3> {
     let turn = DQuat::from_scaled_axis(0.01 * direction(rng));
     let first = direction(rng);
@@ -68,7 +68,7 @@ fn turning(rng: &mut Pcg64) -> Vec<DVec3> {
         .collect()
 }
 
-/// Enough for a median; the default takes longer than the calls.
+/// Enough for a median. The default takes longer than the calls.
 const RESAMPLES: usize = 2_000;
 
 fn settings() -> Criterion {

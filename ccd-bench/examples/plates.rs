@@ -1,8 +1,8 @@
-//! Two parallel plates of 8,192 triangles each, falling flat onto each other: every triangle of one
-//! meets some of the other at the same time.
+//! Drops a plate of 8,192 triangles flat onto a parallel one: every triangle of one plate meets
+//! some triangle of the other at the same time.
 //!
-//! Prints the time of a query, median of many, for several tolerances:
-//! `cargo run --release -p ccd-bench --example plates`.
+//! Prints the median time of a query for several tolerances: `cargo run --release -p ccd-bench
+//! --example plates`.
 
 use anyhow::ensure;
 use ccd_bench::scene::model::Plate;
@@ -26,7 +26,7 @@ fn main() -> anyhow::Result<()> {
     writeln!(out, "tolerance,turned,time,node_visits,oracle_calls,micros")?;
     for tolerance in [1e-3, 1e-6] {
         for turned in [0.0, 0.3] {
-            // Beside each other by a little, so that no edge lies on another.
+            // The plates are shifted a little against each other, so that no edge lies on another.
             let above = Pose::new(
                 DVec3::new(0.013, 0.007, 1.0),
                 DQuat::from_rotation_z(turned),
@@ -56,7 +56,8 @@ fn main() -> anyhow::Result<()> {
             let Some((answer, Outcome::Contact { time, .. })) = last.map(|a| (a, a.outcome)) else {
                 anyhow::bail!("no contact: {last:?}");
             };
-            // They meet after half the time; nothing later, and no earlier than the tolerance.
+            // They meet after half the time. The answer must not be later, nor earlier than the
+            // tolerance allows.
             ensure!(time <= 0.5 && time >= 0.5 - 0.5 * tolerance, "{time}");
             writeln!(
                 out,

@@ -1,5 +1,5 @@
-//! Writes the motions of the scenes that are shots and drops, as stored in `scenes/`:
-//! `cargo run --example record_shots -- ccd-bench/scenes`.
+//! Writes the motions of the scenes of shots and drops, as stored in `scenes/`: `cargo run
+//! --example record_shots -- ccd-bench/scenes`.
 
 use ccd_bench::scene::{Shots, drops_past_board};
 use rigid_ccd::table::motions::{Query, write};
@@ -17,13 +17,13 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     put("bunnies.csv", &bunnies().queries()?)?;
     let knots = knots().queries()?;
     put("knots.csv", &knots)?;
-    // Both kinds of motion, in the same proportion.
+    // Every tenth row keeps the proportion of both kinds of motion.
     let few: Vec<Query> = knots.into_iter().step_by(10).collect();
     put("small-knots.csv", &few)?;
     Ok(())
 }
 
-/// A bunny is shot past or at a resting one.
+/// Returns shots of a bunny past or at a resting one.
 fn bunnies() -> Shots {
     Shots {
         count: 250,
@@ -34,7 +34,7 @@ fn bunnies() -> Shots {
     }
 }
 
-/// A torus knot is shot past, at or through a resting one.
+/// Returns shots of a torus knot past, at or through a resting one.
 fn knots() -> Shots {
     Shots {
         count: 250,

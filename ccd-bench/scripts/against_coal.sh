@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# Times full queries, each row once and cold, against one static distance query of Coal on the same
-# rows, in one run on one core.
+# Compares the times of full queries, each row once and cold, with those of one static distance query of
+# Coal on the same rows, in one run on one core.
 #
 # usage: against_coal.sh SCENES PEER [OUT] [extra options of `ccd query` ...]
 #   SCENES   folder with meshes (*.obj) and motions (*.csv)
 #   PEER     a program that is called as `PEER a.obj b.obj motions.csv` and prints a column distance_us
-#   OUT      folder for the results, default a new one
+#   OUT      folder for the results, a new one by default
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 . "$here/pairs.sh"

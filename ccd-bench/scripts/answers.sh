@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# Holds the answers of `ccd query` against certified brackets of the first contact, for every pair of
+# Compares the answers of `ccd query` with certified brackets of the first contact, for every pair of
 # meshes, oracle and tolerance.
 #
 # usage: answers.sh SCENES VERDICT [OUT] [extra options of `ccd query` ...]
 #   SCENES   folder with meshes (*.obj), motions (*.csv) and brackets (truth_*.csv)
 #   VERDICT  a program that is called as `VERDICT truth.csv result.csv` and prints the counts
-#   OUT      folder for the results, default a new one
-# environment: ORACLES="gjk vmarch" and TOLERANCES="1e-3" take these only, CCD=… is the command
+#   OUT      folder for the results, a new one by default
+# environment: ORACLES="gjk vmarch" and TOLERANCES="1e-3" select oracles and tolerances, CCD=… is the command
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 . "$here/pairs.sh"

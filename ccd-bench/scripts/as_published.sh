@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
-# Times the paper's own way (one step for all over hull trees of patches, Voronoi marching) against the
-# default schedule and against one static distance query of Coal, in one run on one core, with the mean
-# number of advancement steps.
+# Compares the times of the paper's own method (one step for all pairs over hull trees of patches, Voronoi
+# marching) with those of the default schedule and of one static distance query of Coal, in one run on one
+# core. Prints the mean number of advancement steps, too.
 #
 # usage: as_published.sh SCENES PEER [OUT]
 #   SCENES   folder with meshes (*.obj) and motions (*.csv)
 #   PEER     a program that is called as `PEER a.obj b.obj motions.csv` and prints a column distance_us
-#   OUT      folder for the results, default a new one
-# environment: CCD=… is the command, CORE=… the core, REPEAT=… how often each row is answered, default 3:
-# its time is the median, so that what is prepared when a piece is first looked at is not in it
+#   OUT      folder for the results, a new one by default
+# environment: CCD=… is the command, CORE=… the core, REPEAT=… the number of answers to each row, 3 by
+# default; the time is their median, which excludes preparation on first use
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 . "$here/pairs.sh"
@@ -26,7 +26,7 @@ while read -r name a b motions; do
     files=("$scenes/$a.obj" "$scenes/$b.obj" "$scenes/$motions.csv")
     taskset -c "$core" python3 "$peer" "${files[@]}" >"$out/$name-coal.csv"
     while read -r method options; do
-        # Options are words.
+        # Options are split at spaces.
         # shellcheck disable=SC2086
         taskset -c "$core" "$ccd" query --quiet --threads 1 --a "${files[0]}" --b "${files[1]}" \
             --motions "${files[2]}" --tolerance 1e-3 --repeat "${REPEAT:-3}" --counters \

@@ -1,10 +1,10 @@
 #!/bin/sh
-# Opens a page in a headless browser: nothing may be said on the console, and the page has to have
-# drawn its plane and its view in three dimensions. Takes a picture of it.
+# Opens a page in a headless browser and takes a screenshot. The console must stay empty, and the page has
+# to draw its plane and its view in three dimensions.
 #
 #   check_page.sh PAGE.html SHOT.png [WIDTH,HEIGHT]
 #
-# Exit code 0: all well; 1: the page is at fault; 2: wrong arguments; 3: no browser here.
+# Exit code 0: success; 1: the page is wrong; 2: wrong arguments; 3: no browser found.
 set -eu
 
 if [ $# -lt 2 ] || [ $# -gt 3 ] || [ ! -f "$1" ]; then
@@ -30,8 +30,8 @@ fi
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-# A profile of its own each time; WebGL by software, since a headless machine has nothing else. The
-# budget is of the page's own clock: enough for scripts to come to rest.
+# Each call has a new profile. WebGL runs in software, since a headless machine has no other. The budget is
+# in the page's virtual time: enough for the scripts to finish.
 browse() {
     timeout 180 "$browser" --headless --no-sandbox --disable-quic --no-first-run \
         --disable-background-networking --disable-component-update --disable-sync \
@@ -47,7 +47,7 @@ browse --dump-dom >"$work/dom" 2>"$work/log" || {
 }
 fault=0
 if grep 'CONSOLE' "$work/log" >&2; then
-    echo "$0: the page says something on the console" >&2
+    echo "$0: the page writes to the console" >&2
     fault=1
 fi
 root=$(grep -o -m1 '<html[^>]*>' "$work/dom" | head -n 1)
@@ -63,7 +63,7 @@ done
 browse --screenshot="$shot" >/dev/null 2>"$work/log" || true
 if [ ! -s "$shot" ]; then
     cat "$work/log" >&2
-    echo "$0: no picture was taken" >&2
+    echo "$0: no screenshot was taken" >&2
     fault=1
 fi
 exit $fault

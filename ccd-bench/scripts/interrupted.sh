@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# Kills `ccd query` twice in the midst of a long table and has it go on, beside a run that nobody
-# disturbs: both have to end with the same bytes. Prints the peak memory of each run.
+# Kills `ccd query` twice in the middle of a long table, resumes it, and compares the result with that of an
+# undisturbed run: both must have the same bytes. Prints the peak memory of each run.
 #
 # usage: interrupted.sh [CCD] [ROWS] [OUT]
 #   CCD    the command, default target/release/ccd
-#   ROWS   how many rows, default 10000000
-#   OUT    folder for the tables (1 GB for 10 million rows, and as much for each result), default a new one
+#   ROWS   the number of rows, default 10000000
+#   OUT    folder for the tables (1 GB for 10 million rows, and as much for each result), a new one by default
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 ccd=$(realpath "${1:-$here/../../target/release/ccd}")
@@ -13,7 +13,7 @@ rows=${2:-10000000}
 out=${3:-$(mktemp -d)}
 mkdir -p "$out"
 cd "$out"
-# Boxes that fly at a ball from all over, some past it, one in 99,991 not a number.
+# Boxes fly at a ball from various sides, some miss it; one row in 99,991 is not a number.
 [ -s motions.csv ] || awk -v rows="$rows" 'BEGIN {
     print "id,a_px,a_py,a_vx,a_wz"
     for (k = 0; k < rows; k++)

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# Keeps the figures of an evaluation: chart.csv as dated rows with machine and commit, in results/, and the
-# charts that the README shows, in charts/.
+# Stores the measurements of an evaluation: chart.csv as dated rows with machine and commit in results/, and
+# the charts of the root README in charts/.
 #
 # usage: keep.sh [REPORT [COMMIT]]
 #   REPORT   the folder that `ccd-bench chart --out` wrote to, default target/ccd-report
-#   COMMIT   what the program that measured was built from, default the one checked out
+#   COMMIT   the commit of the program that measured, default the one checked out
 set -euo pipefail
 here=$(cd "$(dirname "$0")/.." && pwd)
 report=${1:-$here/../target/ccd-report}

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Keeps what `cargo bench -p ccd-bench` measured: dated rows with machine and commit, in results/.
+"""Stores the results of `cargo bench -p ccd-bench` as dated rows with machine and commit in results/.
 
 usage: keep_bench.py [CRITERION_FOLDER]      default target/criterion
 
-Rows: date,machine,commit,benchmark,elements,median_ns, the time being that of the whole sequence of
-`elements` calls or queries where there is such a thing.
+The columns are date,machine,commit,benchmark,elements,median_ns. The time is that of the whole sequence of
+`elements` calls or queries, if there are any.
 """
 import csv
 import datetime

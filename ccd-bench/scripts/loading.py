@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""How long `ccd decompose` takes, and how much memory, on meshes of slivers and of large plane parts.
+"""Measures time and memory of `ccd decompose` on meshes of slivers and of large planar parts.
 
 usage: loading.py CCD [--triangles N,N,…] [--limit SECONDS] [--only WORD] [MESH…]
 
-Makes prisms, combs, tents, cones and stars of about so many triangles in a temporary folder, and prepares
-each, or the meshes given, in every way. Prints a row for each: seconds that preparing took, as `build_ms`
-says; seconds of processor time and the peak of the resident memory in MB, reading and all, as the system
-says; and what came out.
+Makes prisms, combs, tents, cones and stars of about the given numbers of triangles in a temporary folder,
+and prepares each of them, or the given meshes, in every way. Prints a row for each: the seconds of
+preparation (from `build_ms`); the seconds of processor time and the peak of the resident memory in MB,
+including reading, as measured by the system; and the outcome.
 """
 import argparse
 import json
@@ -32,7 +32,7 @@ def ring(n, radius=lambda k: 1.0, z=0.0):
 
 
 def prism(outline, height):
-    """A polygon along z: two polygons as caps, which are read as fans."""
+    """Extrudes a polygon along z; the caps are two polygons, which are read as fans."""
     n = len(outline)
     vertices = [(x, y, 0.0) for x, y, *_ in outline] + [(x, y, height) for x, y, *_ in outline]
     sides = [[k, (k + 1) % n, n + (k + 1) % n, n + k] for k in range(n)]
@@ -44,7 +44,7 @@ def cylinder(triangles):
 
 
 def comb(triangles):
-    """Teeth on a bar; the fans of its caps overlap, so that it bounds no solid."""
+    """Makes teeth on a bar; the fans of its caps overlap, so that it bounds no solid."""
     outline = [(0.0, 0.0)]
     for tooth in range(triangles // 16, 0, -1):
         x = 2.0 * tooth
@@ -54,7 +54,7 @@ def comb(triangles):
 
 
 def slanted(triangles):
-    """Teeth that lean away from the first corner, which sees all of them: a solid."""
+    """Makes teeth that lean away from the first corner, which sees all of them: a solid."""
     n = max(triangles // 8, 2)
     outline = [(0.0, 0.0)]
     for k in range(2 * n):
@@ -64,7 +64,7 @@ def slanted(triangles):
 
 
 def notched(triangles):
-    """A cylinder under a step: large caps on what no point sees all of."""
+    """Makes a cylinder with a step: large caps that no point sees completely."""
     n = triangles // 8
     low, high, top = ring(n), ring(n, z=1.0), ring(n, lambda _: 0.3, 1.0)
     end = ring(n, lambda _: 0.3, 21.0)
@@ -77,7 +77,7 @@ def notched(triangles):
 
 
 def tent(triangles):
-    """A convex roof over a grid, its floor one polygon."""
+    """Makes a convex roof over a grid, with one polygon as floor."""
     n = max(int(math.sqrt(triangles / 2)), 2)
     grid = lambda i, j: i * (n + 1) + j
     arch = lambda t: t * (1.0 - t)
@@ -127,7 +127,7 @@ def write(path, vertices, faces):
 
 
 def run(command, limit):
-    """Processor time in seconds, peak memory in MB, exit code (None where stopped), and both outputs."""
+    """Returns processor time in seconds, peak memory in MB, exit code (None if stopped), and both outputs."""
     with tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as err:
         start = time.monotonic()
         child = subprocess.Popen(command, stdout=out, stderr=err)
@@ -169,11 +169,11 @@ def main():
                     continue
                 command = [args.ccd, "decompose", "-q", "--format", "json", *options, path]
                 cpu, peak, code, out, err = run(command, args.limit)
-                told = json.loads(out) if code == 0 else {}
-                outcome = f"{told['pieces']} {told['pieces_kind']}: {told['why']}" if told else err
+                report = json.loads(out) if code == 0 else {}
+                outcome = f"{report['pieces']} {report['pieces_kind']}: {report['why']}" if report else err
                 outcome = "stopped" if code is None else outcome.strip().splitlines()[0][-90:]
-                build = told.get("build_ms", math.nan) / 1000
-                count = told.get("triangles", 0)
+                build = report.get("build_ms", math.nan) / 1000
+                count = report.get("triangles", 0)
                 print(f"{name:24} {way:10} {count:9} {build:8.3f} {cpu:8.3f} {peak:7.0f}  {outcome}")
                 sys.stdout.flush()
 

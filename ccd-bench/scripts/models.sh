@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
-# What each model of the meshes costs and how true it is: for every pair of meshes and every model the
-# pieces, the time to prepare them, the memory, the median time of a query, and how far its times of
-# contact are from certified brackets. Prints a table in Markdown.
+# Prints the cost and the error of each model of the meshes as a table in Markdown. For every pair of meshes
+# and every model it has the number of pieces, the time to prepare them, the memory, the median time of a
+# query, and the distance of the times of contact from certified brackets.
 #
 # usage: models.sh SCENES VERDICT [OUT] [extra options of `ccd query` ...]
 #   SCENES   folder with meshes (*.obj), motions (*.csv) and brackets (truth_*.csv)
 #   VERDICT  a program that is called as `VERDICT truth.csv result.csv` and prints the counts
-#   OUT      folder for the results, default a new one
-# environment: PAIRS="ring santa" takes these pairs only, CORE=1 is the core to run on, CCD=… the command
+#   OUT      folder for the results, a new one by default
+# environment: PAIRS="ring santa" selects pairs, CORE=1 is the core to run on, CCD=… the command
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 . "$here/pairs.sh"
@@ -19,7 +19,7 @@ mkdir -p "$out"
 ccd=${CCD:-$here/../../target/release/ccd}
 core=${CORE:-1}
 
-# Name, how `ccd decompose` makes it, how `ccd query` uses it.
+# The name, the options of `ccd decompose`, the options of `ccd query`.
 models="triangles|--pieces triangles|
 patches|--pieces patches|
 vhacd 32|--pieces vhacd --hulls 32|
@@ -35,7 +35,7 @@ while read -r name a b motions; do
         result=$out/$name-${model// /-}
         : >"$result.json"
         for body in "${bodies[@]}"; do
-            # Options are words apart.
+            # Options are split at spaces.
             # shellcheck disable=SC2086
             taskset -c "$core" "$ccd" decompose "$scenes/$body.obj" $make --quiet --format json \
                 --out "$out/$body-${model// /-}.ccd" >>"$result.json"
@@ -53,7 +53,7 @@ bodies = [json.loads(line) for line in open(result + ".json") if line.strip()]
 answers, truth = rows(result + ".csv"), rows(truth)
 
 def error(row, bracket):
-    """How far a time of contact is from the bracket, in units of time."""
+    """Returns the distance of a time of contact from the bracket."""
     time, lo, hi = float(row["time"]), float(bracket["lo"]), float(bracket["hi"])
     return max(lo - time, time - hi, 0.0)
 

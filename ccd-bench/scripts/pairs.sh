@@ -1,4 +1,4 @@
-# The pairs of meshes that are measured: name, body A, body B, motions. Sourced by the other scripts.
+# The pairs of meshes to measure: name, body A, body B, motions. Sourced by the other scripts.
 pairs="knot2880 knot2880 knot2880 knots
 knot11520 knot11520 knot11520 knots
 knot34560 knot34560 knot34560 knots

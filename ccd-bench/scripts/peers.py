@@ -1,33 +1,32 @@
 #!/usr/bin/env python3
-"""Asks Coal and FCL, through their Python packages, what `ccd query` is asked.
+"""Runs the queries of `ccd query` with Coal and FCL, through their Python packages.
 
 A scene is a folder in SCENES_DIR with `motions.csv` (the columns of `ccd query`) and the meshes `a.obj`
 and `b.obj` (without the second, A meets itself). Methods:
 
-  coal-distance  one static distance at the start: what any method pays at least once; its row has the
-                 status `static` and no time
-  coal-steps     a static collision test every so often, that no point moves farther than the tolerance
-                 between two; what is reported is the first test that collides, so that contacts are late
-                 by up to a step, and grazing ones missed. At most --cap tests: a motion longer than cap
-                 tolerances is tested that much more coarsely
+  coal-distance  one static distance at the start, the least cost of any method; its row has the status
+                 `static` and no time
+  coal-steps     static collision tests at equal steps, such that no point moves farther than the tolerance
+                 in a step. It reports the first test that collides, so contacts are late by up to a step,
+                 and grazing contacts are missed. There are at most --cap tests: longer motions have
+                 longer steps
   fcl-ca         FCL's continuousCollide, conservative advancement
-  fcl-naive      FCL's continuousCollide, tests at equal intervals, as many as coal-steps would make
+  fcl-naive      FCL's continuousCollide, tests at equal steps, as many as for coal-steps
 
-FCL moves a body as `ccd` does (CCDM_LINEAR: its origin straight, turning about it at a constant rate, the
-shorter way), so that meshes are moved to have the centre of rotation for their origin, and motions are cut
-into stretches of less than half a turn. Of the other motions that it has, screws move otherwise and splines
-take no poses. Its meshes are BVHs of OBBRSS; the package makes no others, and offers neither its ray
-shooting (not implemented) nor its polynomial solver (which needs vertices of two frames, and leaves the
-meshes changed) for them. `toc_err` is a share of the stretch: the tolerance over the way that no point
-exceeds in it.
+FCL moves a body as `ccd` does: with CCDM_LINEAR its origin moves straight, and the body turns about it at a
+constant rate, the shorter way. The meshes are therefore shifted so that their origin is the centre of
+rotation, and motions are cut into stretches of less than half a turn. FCL's screws are other motions, and its
+splines take no poses. Its meshes are BVHs of OBBRSS, the only kind that the package makes. Ray shooting is
+not implemented for them, and the polynomial solver needs vertices of two frames and changes the meshes.
+`toc_err` is a fraction of the stretch: the tolerance over a bound of the travel of all points.
 
-Known of fcl-ca on meshes: boxes that fall flat onto each other are reported free (bounds of two motions are
-added with their signs, so that they cancel), times of turning ones come early, and `toc_err` changes none
-of it. Known of coal-steps and fcl-naive: nothing but their steps.
+Known faults of fcl-ca on meshes: boxes that fall flat onto each other are reported free (the bounds of two
+motions are added with their signs, so that they cancel), and contacts of turning boxes are early. `toc_err`
+does not change this. Apart from their steps, coal-steps and fcl-naive have no known faults.
 
-Rows of OUT: scene,method,tolerance,id,micros,steps,status,time. `micros` is the calls' alone, with what
-Python adds to a call (about a microsecond); `steps` counts tests, or stretches of fcl-ca; `status` is
-contact, free, static, `cut off` (--patience exceeded) or died; `time` is in the motion's unit of time.
+The columns of OUT are scene,method,tolerance,id,micros,steps,status,time. `micros` is the time of the calls
+alone, including Python's overhead (about a microsecond per call). `steps` counts tests, or stretches for
+fcl-ca. `status` is contact, free, static, `cut off` (--patience exceeded) or died. `time` is in the motion's unit of time.
 """
 import argparse
 import csv
@@ -42,9 +41,9 @@ import numpy as np
 METHODS = ["coal-distance", "coal-steps", "fcl-ca", "fcl-naive"]
 EXAMPLE = """example:
   scripts/peers.py scenes peers.csv --tolerance 1e-2 1e-3 --rows 20 --patience 10"""
-# Of a turn, what FCL is given at once: it turns the shorter way.
+# The largest turn of a stretch, since FCL turns the shorter way.
 LONGEST_TURN = 0.9 * math.pi
-# Seconds a worker may take to load its meshes.
+# The seconds that a worker may take to load its meshes.
 LOADING = 120
 
 
@@ -56,8 +55,8 @@ def main():
     parser.add_argument("out", type=Path, metavar="OUT.csv")
     parser.add_argument("--tolerance", type=float, nargs="+", default=[1e-3], metavar="LENGTH")
     parser.add_argument("--methods", nargs="+", choices=METHODS, default=METHODS)
-    parser.add_argument("--rows", type=int, help="of each scene, the first so many")
-    parser.add_argument("--cap", type=int, default=100_000, help="tests of a query, at most [100000]")
+    parser.add_argument("--rows", type=int, help="only the first ROWS rows of each scene")
+    parser.add_argument("--cap", type=int, default=100_000, help="the largest number of tests of a query [100000]")
     parser.add_argument("--patience", type=float, default=30, help="seconds a query may take [30]")
     options = parser.parse_args()
     if not all(t > 0 for t in options.tolerance) or options.cap < 1:
@@ -70,7 +69,7 @@ def main():
         out.writerow(["scene", "method", "tolerance", "id", "micros", "steps", "status", "time"])
         for folder in folders:
             for method in options.methods:
-                # The static query knows no tolerance.
+                # The static query has no tolerance.
                 tolerances = options.tolerance[:1] if method == "coal-distance" else options.tolerance
                 for tolerance in tolerances:
                     run(folder, method, tolerance, options, out)
@@ -78,7 +77,7 @@ def main():
 
 
 def run(folder, method, tolerance, options, out):
-    """All rows of a scene by one method; a query that hangs is cut off, and the worker started anew."""
+    """Runs all rows of a scene by one method. A query that hangs is cut off, and the worker is restarted."""
     rows = read_motions(folder / "motions.csv")[: options.rows]
     worker = None
     for row in rows:
@@ -108,7 +107,7 @@ class Worker:
             sys.exit(f"{folder}: {method} does not start")
 
     def ask(self, question, patience):
-        """The answer; none in time, or `died`."""
+        """Returns the answer, None if it exceeds the time limit, or `died`."""
         try:
             self.pipe.send(question)
         except OSError:
@@ -144,7 +143,7 @@ def work(pipe, folder, method):
 
 
 class Motion:
-    """A centre at constant velocity, the body turning about it at a constant rate."""
+    """A motion: the centre has a constant velocity, and the body turns about it at a constant rate."""
 
     def __init__(self, row, letter, duration):
         part = lambda names, default: vector(row, letter, names, default)
@@ -164,12 +163,12 @@ class Motion:
             self.spin = shortest_turn(product(end_rotation, conjugate(rotation))) / duration
 
     def at(self, when):
-        """Rotation and the place of the centre."""
+        """Returns the rotation and the position of the centre."""
         return product(exponential(self.spin * when), self.rotation), self.start + when * self.velocity
 
 
 class Query:
-    """A row's motions, and how far any point moves towards the other body, at most."""
+    """The motions of a row, and a bound of the travel of any point towards the other body."""
 
     def __init__(self, row, reach):
         self.duration = float(row.get("duration") or 1)
@@ -181,7 +180,7 @@ class Query:
         self.way = (np.linalg.norm(self.a.velocity - self.b.velocity) + turning) * self.duration
 
     def tests(self, tolerance, cap):
-        """How many steps of the tolerance there are."""
+        """Returns the number of steps of the tolerance."""
         return int(min(max(math.ceil(self.way / tolerance), 1), cap))
 
 
@@ -244,7 +243,7 @@ class Fcl:
         self.models = {}
 
     def model(self, k, centre):
-        """The mesh with the centre for its origin, made once for each centre."""
+        """Returns the mesh with the centre as its origin, made once for each centre."""
         key = (k, *centre)
         if key not in self.models:
             vertices, faces = self.meshes[k]
@@ -314,7 +313,7 @@ def read_obj(path):
 
 
 def reach_of(vertices):
-    """How far the body's points are from a centre, at most."""
+    """Returns a bound of the distance of the body's points from a centre."""
     low, high = vertices.min(axis=0), vertices.max(axis=0)
     return lambda centre: np.linalg.norm(np.maximum(abs(low - centre), abs(high - centre)))
 

@@ -1,10 +1,11 @@
-"""What queries take over each kind of pieces, beside what `auto` picks: one run, one table.
+"""Compares the times of queries over each kind of pieces with the choice of `auto`: one run, one table.
 
     python3 ccd-bench/scripts/pieces.py target/release/ccd [--meshes FOLDER --pairs N --seed S]
 
-Icospheres of 320 to 81,920 triangles against a torus of 4,096 and against each other; with --meshes,
-random pairs of the folder's meshes as well. Every pair makes three motions. Per kind the mean over the
-motions of the median time of a query, in microseconds; then auto's ratio to the least of them.
+Measures icospheres of 320 to 81,920 triangles against a torus of 4,096 and against each other; with
+--meshes, also random pairs of the folder's meshes. Every pair makes three motions. A row has, per kind, the
+mean over the motions of the median time of a query, in microseconds; then the ratio of auto's time to the
+least of them.
 """
 
 import argparse
@@ -68,7 +69,7 @@ def write(path, mesh):
 
 
 def extent(ccd, mesh, folder):
-    """The middle and half the diagonal of a mesh's box, from the pieces that the program writes."""
+    """Returns the middle and half the diagonal of a mesh's box, from the pieces that the program writes."""
     out = folder / "extent.obj"
     run = subprocess.run([ccd, "decompose", mesh, "--pieces", "triangles", "--out", out], capture_output=True)
     if run.returncode != 0:
@@ -90,7 +91,7 @@ def motions(path, rows):
 
 
 def towards(rng, a, b):
-    """From beside the other body through it, turning about the own middle."""
+    """Returns motions from outside the other body through it, turning about the own middle."""
     (middle_a, size_a), (middle_b, size_b) = a, b
     rows = []
     for _ in range(3):
@@ -105,7 +106,7 @@ def towards(rng, a, b):
 
 
 def prepared(ccd, mesh, kind, folder):
-    """The mesh as that kind; none where it cannot be."""
+    """Returns the mesh as pieces of this kind, or None if that is impossible."""
     out = folder / f"{mesh.stem}.{kind}.ccd"
     if not out.exists():
         subprocess.run([ccd, "decompose", mesh, "--pieces", kind, "--out", out], capture_output=True)
@@ -128,7 +129,7 @@ def line(ccd, name, a, b, table, tolerance, options, folder):
     for kind in KINDS:
         of_a, of_b = prepared(ccd, a, kind, folder), prepared(ccd, b, kind, folder)
         if kind == "hull":
-            # A hull of one of them is of interest as well.
+            # A hull of only one of them is of interest as well.
             of_b = of_b or (of_a and prepared(ccd, b, "triangles", folder))
             of_a = of_a or (of_b and prepared(ccd, a, "triangles", folder))
         if of_a and of_b:

@@ -1,4 +1,4 @@
-//! What compares methods: scenes, exact answers, rivals, peers, measurements, charts.
+//! Compares methods: scenes, exact answers, rivals, peers, measurements, charts.
 //!
 //! | to … | see |
 //! |---|---|

@@ -17,15 +17,15 @@ use std::fmt;
 /// A method that answers queries.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Method {
-    /// One of this project, over bodies made of such pieces.
+    /// A solver of this project, on bodies made of the given kind of pieces.
     Ours(SolverKind, Pieces),
     /// A published rival, built here.
     Rival(RivalKind),
-    /// A library.
+    /// A peer library.
     Peer(PeerKind),
 }
 
-/// The rivals there are.
+/// The published rivals.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum RivalKind {
     /// Continuous tests of oriented boxes.
@@ -38,12 +38,12 @@ pub enum RivalKind {
     Stepping,
 }
 
-/// Which motion somebody moves the bodies along.
+/// The motion along which a method moves the bodies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MotionKind {
-    /// As the query says: a centre straight, the body turning about it.
+    /// The motion of the query: the centre moves straight, and the body turns about it.
     Given,
-    /// From the same pose at the start to the same at the end, along a screw.
+    /// The screw motion between the same start and end poses.
     Screw,
 }
 
@@ -55,7 +55,7 @@ const RIVALS: [RivalKind; 4] = [
 ];
 
 impl Method {
-    /// All of them, the default kind first.
+    /// Returns all methods, the default kind first.
     pub fn all() -> Vec<Method> {
         let kind = |schedule, oracle| SolverKind {
             schedule,
@@ -79,8 +79,8 @@ impl Method {
         ours.into_iter().chain(rivals).chain(peers).collect()
     }
 
-    /// Whether it is measured at every tolerance: not where none changes its answers, nor for models of
-    /// the bodies that are compared with each other alone.
+    /// Returns true if the method is measured at every tolerance. Methods whose answers do not depend on
+    /// the tolerance are not, nor are models of the bodies that are only compared with each other.
     pub fn takes_tolerances(self) -> bool {
         match self {
             Method::Ours(..) => !self.is_model(),
@@ -89,7 +89,7 @@ impl Method {
         }
     }
 
-    /// Whether it is the default kind over pieces that it would not choose itself.
+    /// Returns true for the default kind on pieces that it would not choose itself.
     pub fn is_model(self) -> bool {
         match self {
             Method::Ours(kind, pieces) => {
@@ -103,7 +103,7 @@ impl Method {
         }
     }
 
-    /// Which motion it moves the bodies along.
+    /// Returns the motion along which the method moves the bodies.
     pub fn motion_kind(self) -> MotionKind {
         match self {
             Method::Rival(RivalKind::Contact) => MotionKind::Screw,
@@ -113,8 +113,8 @@ impl Method {
 }
 
 impl RivalKind {
-    /// Takes a session at a scene.
-    pub fn enter(self, scene: &Scene, tolerance: f64) -> Box<dyn Adjustable> {
+    /// Returns a solver of this kind on the bodies of a scene.
+    pub fn solver(self, scene: &Scene, tolerance: f64) -> Box<dyn Adjustable> {
         let (a, b) = (scene.a.mesh(), scene.b.mesh());
         match self {
             RivalKind::Contact => Box::new(Contact::new(a, b, tolerance)),
@@ -125,7 +125,7 @@ impl RivalKind {
     }
 }
 
-/// One of this project's methods as a solver.
+/// A solver of this project.
 pub struct Ours<'s> {
     bodies: Bodies<'s>,
     kind: SolverKind,
@@ -134,7 +134,7 @@ pub struct Ours<'s> {
 }
 
 impl<'s> Ours<'s> {
-    /// A kind on two bodies.
+    /// Returns a solver of the given kind on two bodies.
     pub fn new(kind: SolverKind, bodies: Bodies<'s>, tolerance: f64) -> Self {
         Ours {
             bodies,
@@ -155,10 +155,10 @@ impl Adjustable for Ours<'_> {
 }
 
 impl Solver for Ours<'_> {
-    /// Steps are advancements of all pairs where there is such a thing, else pairs of nodes visited.
+    /// Steps are advancements of all pairs if the schedule has them, else pairs of nodes visited.
     fn answer(&mut self, query: &Query) -> Reply {
         let Ok(answer) = solve(self.bodies, query, &self.config, self.solver.as_mut()) else {
-            // A query that cannot be posed is not answered.
+            // An invalid query is not answered.
             return Reply {
                 claim: Claim::Unresolved { safe_until: 0.0 },
                 steps: 0,

@@ -1,4 +1,4 @@
-//! Methods on scenes: each asked the same queries, timed and judged.
+//! Runs methods on scenes: each method gets the same queries, is timed and judged.
 
 pub mod contest;
 pub mod evaluation;

@@ -21,7 +21,7 @@ use std::sync::{Arc, OnceLock};
 /// Two bodies, and many motions of them.
 #[derive(Clone, Debug)]
 pub struct Scene {
-    /// What it is called.
+    /// The name.
     pub name: String,
     /// The figure of the paper that shows it.
     pub figure: Option<u8>,
@@ -33,18 +33,18 @@ pub struct Scene {
     pub queries: Vec<Query>,
 }
 
-/// A body of a scene, shared with others.
+/// A body of a scene, shared between scenes.
 #[derive(Clone, Debug)]
 pub struct SceneBody {
-    /// The body, of the least pieces that are exact.
+    /// The body, of the fewest pieces that are exact.
     pub body: Arc<Body>,
-    /// Where its mesh comes from.
+    /// The origin of its mesh.
     pub origin: Origin,
     mesh: Arc<TriangleMesh>,
     others: Arc<Others>,
 }
 
-/// The same body of other pieces, each made when it is first asked for; none where it cannot be.
+/// The same body of other pieces. Each is made on first use; `None` if it cannot be made.
 #[derive(Debug, Default)]
 struct Others {
     triangles: OnceLock<Option<Body>>,
@@ -52,36 +52,36 @@ struct Others {
     hulls: OnceLock<Option<Body>>,
 }
 
-/// What pieces a body of a scene is made of.
+/// The kind of pieces that a body of a scene is made of.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Pieces {
-    /// The least that is exact.
+    /// The fewest pieces that are exact.
     #[default]
     Least,
-    /// A piece per triangle.
+    /// One piece per triangle.
     Triangles,
-    /// Patches of the surface under a hull tree, as the paper has them.
+    /// Patches of the surface under a hull tree, as in the paper.
     Patches,
-    /// Hulls that stick out of it.
+    /// Convex hulls that contain the body and are larger than it.
     ApproximateHulls,
 }
 
-/// How many approximate hulls a body becomes at most.
+/// The largest number of approximate hulls of a body.
 const HULLS: u32 = 32;
 
 impl SceneBody {
-    /// Its mesh.
+    /// Returns the mesh.
     pub fn mesh(&self) -> &TriangleMesh {
         &self.mesh
     }
 
-    /// How many triangles its mesh has.
+    /// Returns the number of triangles of the mesh.
     pub fn triangles(&self) -> usize {
         self.mesh.faces().len()
     }
 
-    /// The same body made of such pieces, when it is first asked for; none where the mesh does not
-    /// allow them.
+    /// Returns the same body made of the given pieces, which are made on first use, or `None` if
+    /// the mesh does not allow them.
     pub fn of(&self, pieces: Pieces) -> Option<&Body> {
         let make = |detail| body_from_mesh(&self.mesh, detail).ok().map(|p| p.body);
         let patches = || {
@@ -101,32 +101,32 @@ impl SceneBody {
     }
 }
 
-/// Why a scene cannot be made.
+/// A scene cannot be made.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SceneError {
-    /// A model is no body.
+    /// A model cannot be made into a body.
     #[error("model {name}: {source}")]
     Model {
-        /// Its name.
+        /// The model's name.
         name: &'static str,
-        /// Why.
+        /// The cause.
         source: BodyError,
     },
-    /// A motion is none.
+    /// A motion is invalid.
     #[error(transparent)]
     Input(#[from] InputError),
-    /// The data of the scenes is not as it has to be.
+    /// The data of the scenes is invalid.
     #[error("{what}: {problem}")]
     Data {
-        /// Which part of it.
+        /// The part that is invalid.
         what: String,
-        /// Why.
+        /// The problem.
         problem: String,
     },
 }
 
-/// Models made into bodies, each once.
+/// The bodies of models, each made once.
 #[derive(Debug, Default)]
 pub struct Models {
     directory: Option<PathBuf>,
@@ -134,7 +134,7 @@ pub struct Models {
 }
 
 impl Scene {
-    /// Both bodies.
+    /// Returns both bodies.
     pub fn bodies(&self) -> Bodies<'_> {
         Bodies {
             a: &self.a.body,
@@ -142,7 +142,7 @@ impl Scene {
         }
     }
 
-    /// Both bodies made of such pieces; none where they cannot be had so.
+    /// Returns both bodies made of the given pieces, or `None` if a mesh does not allow them.
     pub fn bodies_of(&self, pieces: Pieces) -> Option<Bodies<'_>> {
         Some(Bodies {
             a: self.a.of(pieces)?,
@@ -150,14 +150,14 @@ impl Scene {
         })
     }
 
-    /// How many pairs of pieces there are: what a schedule without a tree has to look at.
+    /// Returns the number of pairs of pieces, which a schedule without a tree has to process.
     pub fn pairs(&self) -> u64 {
         self.a.body.pieces().len() as u64 * self.b.body.pieces().len() as u64
     }
 }
 
 impl Models {
-    /// Models made by code, but for those that have a file in the directory.
+    /// Uses models made by code, except those that have a file in the directory.
     pub fn new(directory: Option<PathBuf>) -> Self {
         Models {
             directory,
@@ -165,10 +165,10 @@ impl Models {
         }
     }
 
-    /// The body of a model.
+    /// Returns the body of a model.
     ///
     /// # Errors
-    /// When its file is none that a body can be made of.
+    /// If the model's file is no mesh that a body can be made of.
     pub fn body(&mut self, model: Model) -> Result<SceneBody, SceneError> {
         if let Some(body) = self.bodies.get(&model) {
             return Ok(body.clone());

@@ -1,4 +1,4 @@
-//! Tables, charts and the page that show measurements.
+//! Shows measurements as tables, charts and a page.
 
 pub mod chart;
 pub mod presentation;

@@ -1,27 +1,27 @@
-//! Whatever backend, schedule and kind of piece: the same answer, within the tolerance.
+//! Every backend, schedule and kind of piece gives the same answer, within the tolerance.
 
 use ccd_core::Outcome;
 use ccd_tests::backends::for_each_setup;
-use ccd_tests::referee::{Referee, Verdict};
+use ccd_tests::referee::{Finding, Referee};
 use ccd_tests::strategies::{cases, check_cases};
 use std::cell::Cell;
 
 #[test]
-fn all_setups_say_the_same_unless_it_is_within_the_tolerance() {
+fn all_setups_agree_unless_the_distance_is_within_the_tolerance() {
     let (hits, misses) = (Cell::new(0), Cell::new(0));
     check_cases(500, cases(), |case| {
         let query = case.query();
-        // As soon as the distance is the tolerance, contact is right; until it is 0, free is.
-        let first = Referee::with_margin(&query, case.tolerance).verdict();
-        let last = Referee::new(&query).verdict();
+        // Contact is right as soon as the distance is the tolerance. Free is right until it is 0.
+        let first = Referee::with_margin(&query, case.tolerance).finding();
+        let last = Referee::new(&query).finding();
         let mut seen = Vec::new();
         for_each_setup(&query, &case.config(), |_, setup, answer| {
             seen.push((setup, answer.outcome));
         });
         let clear = match (first, last) {
-            (Verdict::Start, _) => None,
-            (Verdict::Free { .. }, _) => Some(&misses),
-            (_, Verdict::Hit { .. }) => Some(&hits),
+            (Finding::Start, _) => None,
+            (Finding::Free { .. }, _) => Some(&misses),
+            (_, Finding::Hit { .. }) => Some(&hits),
             _ => None,
         };
         if let Some(count) = clear {

@@ -1,6 +1,6 @@
-//! Bad input is a typed error that names the offending element; nothing panics.
+//! Invalid input is a typed error that names the offending element; nothing panics.
 //!
-//! `InputError::TooManyPieces` alone is missing: it takes a billion points.
+//! `InputError::TooManyPieces` alone is missing: it needs a billion points.
 
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::limits::MAX_COORDINATE;
@@ -11,7 +11,7 @@ use ccd_core::{
 
 const BAD: [f64; 3] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
 
-/// What no length of time or of space is, and how messages write it.
+/// Values that are no valid time or length, with their text in messages.
 const OUT_OF_RANGE: [(f64, &str); 5] = [
     (-1.0, "-1"),
     (-1e-300, "-1e-300"),
@@ -43,7 +43,7 @@ fn poses_and_motions_are_finite() {
 }
 
 #[test]
-fn a_zero_quaternion_is_no_rotation() {
+fn a_zero_quaternion_is_refused() {
     for tiny in [0.0, 1e-320] {
         let pose = Pose::new(DVec3::ZERO, DQuat::from_xyzw(0.0, tiny, 0.0, 0.0));
         assert_eq!(pose, Err(InputError::ZeroQuaternion));

@@ -14,7 +14,7 @@ use ccd_tests::strategies::{cases, check_cases, remote_cases};
 use std::cell::Cell;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// When and how near the bodies touch, if they do.
+/// Returns the time and distance of the contact, if any.
 fn touch(problem: &Problem<'_>) -> Option<(f64, f64)> {
     match Backend::DEFAULT.solve(problem).outcome {
         Outcome::Contact { time, contact } => Some((time, contact.separation.upper)),
@@ -23,7 +23,7 @@ fn touch(problem: &Problem<'_>) -> Option<(f64, f64)> {
     }
 }
 
-/// The contacts of a scene, for every kind of pieces.
+/// Returns the contacts of a scene, for every kind of pieces.
 fn contacts_of(name: &str) -> Vec<([Kind; 2], Vec<FeaturePair>)> {
     let scenes = scenes_named(name);
     let query = &scenes[0].query;
@@ -68,7 +68,7 @@ fn t12_a_peg_touches_four_walls_at_once() {
     }
 }
 
-/// Four corners of every tooth of either comb come down on the other's base.
+/// Four corners of every tooth of either comb meet the other comb's base.
 #[test]
 fn t19_all_tips_of_two_combs_touch() {
     for (kinds, pairs) in contacts_of("T19 combs of 4") {
@@ -82,7 +82,7 @@ fn t19_all_tips_of_two_combs_touch() {
 }
 
 #[test]
-fn t1_a_cube_stands_on_its_corners() {
+fn t1_a_cube_rests_on_its_corners() {
     for (kinds, pairs) in contacts_of("T1 ") {
         assert_eq!(pairs.len(), 4, "{kinds:?}: {pairs:?}");
         for pair in &pairs {
@@ -95,7 +95,7 @@ fn t1_a_cube_stands_on_its_corners() {
     }
 }
 
-/// Of two plates of 512 triangles that cover each other, vertices meet vertices.
+/// In two plates of 512 triangles that cover each other, vertices meet vertices.
 #[test]
 fn plates_meet_vertex_by_vertex() {
     for (kinds, pairs) in contacts_of("plates") {
@@ -111,10 +111,11 @@ fn plates_meet_vertex_by_vertex() {
     }
 }
 
-/// What touches is among the contacts, the same whatever the pieces, and each is as told.
+/// The touching features are among the contacts, for all kinds of pieces, and each contact is as
+/// described.
 #[test]
 fn contacts_of_random_cases_hold() {
-    let (told, same, coarser) = (Cell::new(0), Cell::new(0), Cell::new(0));
+    let (reported, same, coarser) = (Cell::new(0), Cell::new(0), Cell::new(0));
     let law = |case: &Case| -> Law {
         let query = case.query();
         let mut at = None;
@@ -130,7 +131,7 @@ fn contacts_of_random_cases_hold() {
                 .map_err(|error| error.to_string())?;
             let apart = case.config().margin + problem.tolerance();
             check_pairs(&query, &pairs, [time, upper, apart], bodies.kinds)?;
-            told.set(told.get() + pairs.len());
+            reported.set(reported.get() + pairs.len());
             let names = pairs.iter().map(|pair| [pair.feature_a, pair.feature_b]);
             let names: BTreeSet<Names> = names.collect();
             let exact = match &exact {
@@ -151,17 +152,17 @@ fn contacts_of_random_cases_hold() {
     };
     check_cases(400, cases(), law);
     check_cases(200, remote_cases(), law);
-    let (told, same, coarser) = (told.get(), same.get(), coarser.get());
+    let (reported, same, coarser) = (reported.get(), same.get(), coarser.get());
     assert!(
-        told > 1_000 && same > 500 && 20 * coarser < same,
-        "{told} {same} {coarser}"
+        reported > 1_000 && same > 500 && 20 * coarser < same,
+        "{reported} {same} {coarser}"
     );
 }
 
 type Names = [Feature; 2];
 
-/// Whether names are those of the mesh, or, of a corner or an edge to which a patch has no number, that
-/// of a face with it.
+/// Returns true if names are those of the mesh, or, for a corner or an edge without a number in a
+/// patch, that of a face with it.
 fn matches(query: &Query, names: &BTreeSet<Names>, exact: &BTreeSet<Names>) -> bool {
     let meshes = [&query.a, &query.b].map(|actor| &actor.shape.mesh);
     let fits = |name: &Names, exact: &Names| {
@@ -184,7 +185,7 @@ fn matches(query: &Query, names: &BTreeSet<Names>, exact: &BTreeSet<Names>) -> b
             .all(|it| names.iter().any(|name| fits(name, it)))
 }
 
-/// Holds every pair against the mesh, and the nearest against the contact that was reported.
+/// Checks every pair against the mesh, and the nearest against the reported contact.
 fn check_pairs(
     query: &Query,
     pairs: &[FeaturePair],
@@ -219,7 +220,7 @@ fn check_pairs(
     Ok(())
 }
 
-/// How far a point is off a feature of the mesh at a time.
+/// Returns the distance of a point from a feature of the mesh at a time.
 fn off(actor: &Actor, time: f64, feature: Feature, point: DVec3) -> f64 {
     let (pose, mesh) = (actor.motion.pose(time), &actor.shape.mesh);
     let at = |v: u32| pose.transform_point(mesh.vertices[v as usize]);

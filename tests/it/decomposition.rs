@@ -29,7 +29,7 @@ fn claims(decomposition: &Decomposition) -> Vec<Claim<'_>> {
         .collect()
 }
 
-/// Every law of a decomposition; says how many points were looked at.
+/// Checks every law of a decomposition. Returns the number of points checked.
 fn check(mesh: &Mesh, decomposition: &Decomposition, effort: Effort) -> Result<usize, String> {
     let solid = Solid::new(mesh);
     let claims = claims(decomposition);
@@ -42,7 +42,7 @@ fn check(mesh: &Mesh, decomposition: &Decomposition, effort: Effort) -> Result<u
     Ok(points)
 }
 
-/// Of a model that has no faults, in every order.
+/// Checks a model without faults, in every order.
 fn check_model(model: &Model, effort: Effort) {
     for order in ORDERS {
         let (name, mesh) = (&model.name, &model.shape.mesh);
@@ -80,7 +80,7 @@ fn patches_of_thousands_of_faces() {
     }
 }
 
-/// Where coordinates are rounded to a coarse grid much is coplanar, in line, or folded over.
+/// On a coarse grid, many features are coplanar, collinear, or folded over.
 #[test]
 fn patches_of_random_solids() {
     // Solids as they are; and some whose cavity may reach through their surface.
@@ -110,7 +110,7 @@ fn patches_of_random_solids() {
             let snap = |p: &mut DVec3| *p = (cells * *p).round() / cells;
             shape.mesh.vertices.iter_mut().for_each(snap);
         }
-        // Faces that rounding has made a segment or a point of are dropped.
+        // Faces that rounding has reduced to a segment or a point are dropped.
         shape.mesh.faces = shape.mesh.for_decomposition().faces().to_vec();
         match decomposed(&shape, order) {
             Ok(it) => {
@@ -138,7 +138,7 @@ fn patches_of_random_solids() {
 fn coplanar_triangles_go_together() {
     for model in flat_solids() {
         let faces = model.shape.mesh.faces.len();
-        // About a cavity every side is a patch of its own, and a dent has few triangles to begin with.
+        // Around a cavity every side is a patch of its own, and a dent has few triangles to begin with.
         if model.name.ends_with(" cube") {
             continue;
         }
@@ -180,7 +180,7 @@ fn the_same_mesh_gives_the_same_patches() {
 }
 
 #[test]
-fn a_mesh_that_is_inside_out_gives_the_patches_of_its_twin() {
+fn an_inside_out_mesh_gives_the_patches_of_its_twin() {
     for model in solids() {
         let flipped = Shape::closed(model.shape.mesh.clone().flipped());
         for order in ORDERS {

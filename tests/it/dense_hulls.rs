@@ -1,4 +1,5 @@
-//! Convex solids of many corners: one piece, its triangles, and one piece against triangles answer alike.
+//! Convex solids of many corners: one piece, its triangles, and one piece against triangles give
+//! the same answer.
 
 use ccd_core::glam::DVec3;
 use ccd_core::schedule::BestFirst;
@@ -79,9 +80,9 @@ fn a_dense_solid_answers_like_its_triangles() {
     assert!(contacts >= 9, "{contacts}");
 }
 
-/// What made one piece slow: near a mesh it was measured against nearly every triangle.
+/// Near a mesh, one piece was once measured against nearly every triangle, which was slow.
 #[test]
-fn a_solid_against_many_triangles_is_looked_at_like_triangles() {
+fn a_solid_against_many_triangles_costs_as_much_as_triangles() {
     let ball = icosphere(1.0, 4).mesh;
     let ring = body(&torus(1.0, 0.4, 32, 16).mesh, Detail::Triangles);
     let spin = DVec3::new(0.5, 1.0, 0.0);

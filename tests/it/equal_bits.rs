@@ -1,4 +1,4 @@
-//! The same call gives the same bits, from a fresh schedule as from a used one.
+//! The same call gives the same bits, from a fresh schedule and from a used one.
 
 use ccd_core::schedule::{BestFirst, Naive};
 use ccd_core::{DistanceOracle, OrElse, Schedule};
@@ -30,7 +30,7 @@ fn every_setup_repeats_itself() {
     });
 }
 
-/// Every oracle, kept with its schedule from query to query, against fresh ones.
+/// Compares every oracle, kept with its schedule from query to query, with fresh ones.
 macro_rules! used_as_fresh {
     ($($test:ident: $schedule:ident, $oracle:ty;)*) => {$(
         #[test]
@@ -53,7 +53,7 @@ fn used_as_fresh<O: DistanceOracle + Default, S: Schedule<O> + Default>() {
     let (mut schedule, mut oracle) = (S::default(), O::default());
     for case in sample(200) {
         let query = case.query();
-        // Patches have facets, over which marching keeps its place from call to call.
+        // Patches have facets, over which marching keeps its position from call to call.
         let shapes = [&query.a.shape, &query.b.shape];
         let solid = shapes.iter().all(|shape| shape.can_be(Kind::Patches));
         let as_patches = solid.then(|| query.bodies([Kind::Patches; 2]));

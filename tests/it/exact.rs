@@ -1,4 +1,4 @@
-//! The exact inside test itself: it is the yardstick of decompositions.
+//! Tests the exact inside test itself, which is the reference for decompositions.
 
 use ccd_core::Polytope;
 use ccd_core::glam::DVec3;
@@ -15,7 +15,7 @@ fn at(p: DVec3) -> Blend {
     Blend::mean([p])
 }
 
-/// The mesh's vertices as one polytope, which reaches far out of a mesh that is not convex.
+/// Returns the mesh's vertices as one polytope, which extends far out of a mesh that is not convex.
 fn hull(mesh: &Mesh) -> Polytope {
     Polytope {
         points: mesh.vertices.clone(),
@@ -44,15 +44,15 @@ fn points_of_faces_edges_and_vertices_are_on_the_surface() {
     }
 }
 
-/// A difference in the last place tells inside from outside.
+/// A difference in the last place separates inside from outside.
 #[test]
 fn points_a_rounding_off_the_surface_are_not_on_it() {
     let mesh = cuboid(DVec3::ONE).mesh;
     let solid = Solid::new(&mesh);
     for axis in DVec3::AXES {
-        // In the middle of a face, on its diagonal, beside that.
-        for beside in [DVec3::ZERO, DVec3::splat(0.3), DVec3::new(0.1, 0.2, 0.7)] {
-            let p = |x: f64| at(beside - axis * beside.dot(axis) + x * axis);
+        // In the middle of a face, on its diagonal, and off it.
+        for offset in [DVec3::ZERO, DVec3::splat(0.3), DVec3::new(0.1, 0.2, 0.7)] {
+            let p = |x: f64| at(offset - axis * offset.dot(axis) + x * axis);
             assert_eq!(solid.locate(&p(1.0)), Location::Surface);
             assert_eq!(solid.locate(&p(1.0_f64.next_down())), Location::Inside(1));
             assert_eq!(solid.locate(&p(1.0_f64.next_up())), Location::Outside);
@@ -60,7 +60,7 @@ fn points_a_rounding_off_the_surface_are_not_on_it() {
     }
 }
 
-/// The mean of three has no last binary digit.
+/// The mean of three numbers has no last binary digit.
 #[test]
 fn thirds_are_exact() {
     let [a, b, c] = [DVec3::ZERO, DVec3::X, DVec3::new(0.1, 1.0, 1.0)];
@@ -84,7 +84,7 @@ fn triangles_without_an_area_hold_their_segment() {
     ));
 }
 
-/// Rays go upwards from below edges and vertices on purpose: points on a grid that the mesh is on.
+/// The points are on the same grid as the mesh, so that rays go upwards from below edges and vertices.
 #[test]
 fn rays_through_edges_and_vertices_count_once() {
     let mesh = l_prism().mesh;
@@ -98,12 +98,12 @@ fn rays_through_edges_and_vertices_count_once() {
                     (false, v) if v == low || v == high => 1,
                     _ => 0,
                 };
-                // Two bars; on the surface of the union where inside of neither.
+                // Two bars: a point is on the surface of the union if it is inside neither.
                 let bars = [
                     lesser(within(0.0, x, 2.0), within(0.0, y, 1.0)),
                     lesser(within(0.0, x, 1.0), within(0.0, y, 2.0)),
                 ];
-                // Where the bars meet, the one's side is in the other.
+                // Where the bars meet, one bar's side is in the other.
                 let flat = lesser(greater(bars[0], bars[1]), within(-0.5, z, 0.5));
                 let expected = [Location::Outside, Location::Surface, Location::Inside(1)][flat];
                 let p = at(DVec3::new(x, y, z));
@@ -120,7 +120,7 @@ fn cavities_are_outside_and_windings_add_up() {
     let mut twice = big.mesh.clone();
     twice.append(&small.mesh);
     let flipped = big.mesh.clone().flipped();
-    for (mesh, p, place) in [
+    for (mesh, p, location) in [
         (&cavity, 0.1, Location::Outside),
         (&cavity, 0.7, Location::Inside(1)),
         (&cavity, 0.5, Location::Surface),
@@ -128,13 +128,17 @@ fn cavities_are_outside_and_windings_add_up() {
         (&twice, 0.7, Location::Inside(1)),
         (&flipped, 0.7, Location::Inside(-1)),
     ] {
-        assert_eq!(Solid::new(mesh).locate(&at(DVec3::splat(p))), place, "{p}");
+        assert_eq!(
+            Solid::new(mesh).locate(&at(DVec3::splat(p))),
+            location,
+            "{p}"
+        );
     }
 }
 
-/// Two ways to wind, one by solid angles in floating point: they differ next to the surface only.
+/// Winding numbers by solid angles in floating point differ next to the surface only.
 #[test]
-fn solid_angles_say_the_same() {
+fn solid_angles_give_the_same_locations() {
     let mut all_outside = 0;
     for model in solids().into_iter().chain(convex_solids()) {
         let mesh = &model.shape.mesh;
@@ -171,21 +175,21 @@ fn solid_angles_say_the_same() {
     assert!(all_outside > 1_000, "{all_outside}");
 }
 
-/// Whether a point is so near to a triangle that rounding might move it to the other side.
+/// Returns true if a point is so near to a triangle that rounding might move it to the other side.
 fn nearby(p: DVec3, triangle: [DVec3; 3]) -> bool {
     point_triangle(p, triangle).distance(p) <= 1e-9
 }
 
-/// Of a slanted face, rounded points on it are off it: some inside, some outside.
+/// Rounded points of a slanted face are off the face: some inside, some outside.
 #[test]
-fn rounded_points_of_a_face_are_told_by_its_plane() {
+fn rounded_points_of_a_face_are_located_by_its_plane() {
     let inputs = (direction(), 1..64u32, 1..64u32);
     let (inside, outside) = (Cell::new(0), Cell::new(0));
     runner(500)
         .run(&inputs, |(normal, u, v)| {
             let tangent = normal.any_orthogonal_vector();
             let other = normal.cross(tangent);
-            // A tetrahedron, its base seen from outside along any direction.
+            // A tetrahedron whose base is seen from outside along any direction.
             let [a, b, c] = [tangent, other, -tangent - other];
             let mesh = Mesh {
                 vertices: vec![a, b, c, -normal],

@@ -19,7 +19,7 @@ fn topology(mesh: &Mesh) -> Topology {
     }
 }
 
-/// The pairs of faces that are said to intersect.
+/// Returns the pairs of faces that are reported to intersect.
 fn crossings(mesh: &Mesh) -> Vec<[u32; 2]> {
     match error(mesh) {
         DecomposeError::SelfIntersecting { pairs } => {
@@ -54,7 +54,7 @@ fn a_flipped_face_names_its_edges() {
 }
 
 #[test]
-fn a_fin_names_the_edge_it_stands_on() {
+fn a_fin_names_its_edge() {
     let mut mesh = cube();
     let [a, b, _] = mesh.faces[5];
     mesh.vertices.push(3.0 * DVec3::ONE);
@@ -85,7 +85,7 @@ fn crossing_solids_name_pairs_that_cross() {
 }
 
 #[test]
-fn solids_that_touch_are_told() {
+fn touching_solids_are_reported() {
     for offset in [
         // Flush, an edge on a face, a corner on a face, an edge across an edge.
         DVec3::new(2.0, 0.3, 0.4),
@@ -109,9 +109,9 @@ fn solids_that_touch_are_told() {
     assert!(!crossings(&mesh).is_empty());
 }
 
-/// A vertex pulled through the far side.
+/// A vertex is pulled through the far side.
 #[test]
-fn a_surface_through_itself_names_its_faces() {
+fn a_self_intersecting_surface_names_its_faces() {
     let mut mesh = icosphere(1.0, 1).mesh;
     mesh.vertices[0] *= -1.5;
     for [face, other] in crossings(&mesh) {
@@ -120,14 +120,14 @@ fn a_surface_through_itself_names_its_faces() {
     }
 }
 
-/// A tube thicker than the ring that it goes round meets itself about the axis.
+/// A tube thicker than its ring meets itself at the axis.
 #[test]
 fn a_ring_without_a_hole_names_its_faces() {
     assert!(!crossings(&torus(0.5, 0.8, 12, 8).mesh).is_empty());
 }
 
 #[test]
-fn a_sheet_of_two_sides_names_them() {
+fn a_two_sided_sheet_is_named() {
     let sheet = Mesh {
         vertices: vec![DVec3::ZERO, DVec3::X, DVec3::Y],
         faces: vec![[0, 1, 2], [0, 2, 1]],
@@ -138,7 +138,7 @@ fn a_sheet_of_two_sides_names_them() {
 #[test]
 fn a_face_without_area_is_named() {
     let mut mesh = cube();
-    // The face with the edge (a, b) is cut in two at a new vertex in the middle of that edge; a
+    // The face with the edge (a, b) is cut in two at a new vertex in the middle of that edge. A
     // triangle of no area keeps it closed.
     let [a, b, c] = mesh.faces[4];
     let middle = 0.5 * (mesh.vertices[a as usize] + mesh.vertices[b as usize]);
@@ -151,10 +151,10 @@ fn a_face_without_area_is_named() {
     }
 }
 
-/// A cavity's shell looks into the cavity; if it looks out, the solid is on both sides of it, and if
-/// the outer shell looks inward besides, on neither side of that.
+/// A cavity's shell faces into the cavity. If it faces out, the solid is on both sides of it; if
+/// the outer shell also faces inward, the solid is on neither side of that.
 #[test]
-fn a_shell_that_is_inside_out_is_named() {
+fn an_inside_out_shell_is_named() {
     let (big, small) = (cuboid(DVec3::ONE), cuboid(DVec3::splat(0.5)));
     let apart = hollow(&big, &small.clone().moved(5.0 * DVec3::X)).mesh;
     match error(&apart) {

@@ -1,14 +1,14 @@
-//! A fold with the least or the greatest of two numbers loses none, whatever the compiler makes of it.
+//! A fold with the least or the greatest of two numbers loses none, whatever the compiler does with it.
 //!
-//! Some lose the last elements of a fold with `f64::min`: those that are left over when the loop is cut
-//! into vectors, where its length is known and small. These are two loops that were seen to, one over
-//! numbers in a row (AVX2 is enough), one over corners of edges (by gathers, with AVX-512).
+//! Some compilers lose the last elements of a fold with `f64::min`: those that are left over when the
+//! loop is cut into vectors and its length is known and small. These are two affected loops: one over
+//! consecutive numbers (AVX2 is enough), one over corners of edges (by gathers, with AVX-512).
 
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 use std::hint::black_box;
 
-/// At every length up to 16 every element has its turn to be the one that is looked for.
+/// At every length up to 16 every element is the searched one once.
 #[test]
 fn no_element_is_lost() {
     macro_rules! at_lengths {
@@ -17,10 +17,10 @@ fn no_element_is_lost() {
         };
     }
     let lost = at_lengths![1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16];
-    assert!(lost.is_empty(), "lost, as (length, place): {lost:?}");
+    assert!(lost.is_empty(), "lost, as (length, position): {lost:?}");
 }
 
-/// The places that are not found, each with the length.
+/// Returns the positions that are not found, each with the length.
 fn lost_of<const N: usize>(lost: impl Fn(usize) -> bool) -> Vec<(usize, usize)> {
     (0..N).filter(|&at| lost(at)).map(|at| (N, at)).collect()
 }
@@ -59,7 +59,7 @@ fn in_a_row<const N: usize>(
         .fold(start, |best, &x| better(best, roots(x)))
 }
 
-/// So long that the loop around it is not unrolled.
+/// The code is long enough that the loop around it is not unrolled.
 #[inline(always)]
 fn roots(x: f64) -> f64 {
     let root = |x: f64| x.sqrt().sqrt().sqrt().sqrt();

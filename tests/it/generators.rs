@@ -1,8 +1,8 @@
-//! Random cases are worth running: each kind of outcome has its share of them.
+//! Random cases cover every kind of outcome.
 
 use ccd_tests::case::Case;
 use ccd_tests::checks::Judge;
-use ccd_tests::referee::Verdict;
+use ccd_tests::referee::Finding;
 use ccd_tests::strategies::{cases, convex_cases, crowded_cases, remote_cases, runner};
 use proptest::strategy::{Strategy, ValueTree};
 
@@ -34,7 +34,7 @@ fn remote_cases_hit_and_miss() {
     assert!(shares.hits >= 60 && shares.misses >= 50, "{shares:?}");
 }
 
-/// How many of 200 cases end how.
+/// The numbers of outcomes in 200 cases.
 #[derive(Debug, Default)]
 struct Shares {
     hits: u32,
@@ -53,13 +53,13 @@ impl Shares {
             let case = strategy.new_tree(&mut runner).expect("a case").current();
             let query = case.query();
             let judge = Judge::new(&query, &case.config());
-            let share = match judge.verdict() {
+            let share = match judge.finding() {
                 _ if judge.nested() => &mut shares.nested,
-                Verdict::Start => &mut shares.starts,
-                Verdict::Hit { .. } => &mut shares.hits,
-                Verdict::Free { .. } => &mut shares.misses,
-                Verdict::Near { .. } => &mut shares.near,
-                Verdict::Undecided { .. } => &mut shares.undecided,
+                Finding::Start => &mut shares.starts,
+                Finding::Hit { .. } => &mut shares.hits,
+                Finding::Free { .. } => &mut shares.misses,
+                Finding::Near { .. } => &mut shares.near,
+                Finding::Undecided { .. } => &mut shares.undecided,
             };
             *share += 1;
         }

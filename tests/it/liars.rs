@@ -12,7 +12,7 @@ use ccd_tests::strategies::{cases, check_cases, crowded_cases};
 use proptest::strategy::Strategy;
 use std::cell::Cell;
 
-/// Enough for an honest oracle; lies are allowed to spend it.
+/// A budget that is enough for an honest oracle; lies may exhaust it.
 const BUDGET: u64 = 20_000;
 
 #[test]
@@ -66,7 +66,7 @@ fn every_lie(case: &Case, count: impl Fn(&Answer)) -> Law {
 }
 
 #[test]
-fn nobody_to_ask_is_said_so() {
+fn a_missing_oracle_is_reported() {
     let cube = || cuboid(DVec3::splat(0.5));
     let query = Query {
         a: Actor::still(cube(), DVec3::ZERO),
@@ -82,7 +82,7 @@ fn nobody_to_ask_is_said_so() {
                 assert!(safe_until <= 0.5, "{answer:?}");
                 assert!(answer.stats.give_ups > 0, "{answer:?}");
             }
-            // Boxes around single triangles are proof enough of a contact, if they are.
+            // Boxes around single triangles are proof enough of a contact.
             other => panic!("{other:?}"),
         }
     }

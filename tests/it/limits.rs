@@ -1,4 +1,4 @@
-//! Every query ends: a spent budget leaves it unresolved, up to a certified time.
+//! Every query ends: an exhausted budget leaves it unresolved, up to a certified time.
 
 use ccd_core::{Config, Limit, Outcome};
 use ccd_tests::backends::for_each_setup;

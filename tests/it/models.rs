@@ -1,4 +1,4 @@
-//! The models are what they are called: closed where they should be, convex parts within.
+//! The models have their properties: closed where they should be, with convex parts within.
 
 use ccd_core::glam::DVec3;
 use ccd_tests::models::{Shape, convex_solids, gear, l_block, l_prism, solids};
@@ -37,7 +37,7 @@ fn closed_models_are_not_inside_out() {
 }
 
 #[test]
-fn parts_have_their_points_behind_their_facets() {
+fn parts_have_their_points_below_their_facets() {
     for (name, shape) in closed_models() {
         for part in &shape.parts {
             for facet in &part.facets {
@@ -53,7 +53,7 @@ fn parts_have_their_points_behind_their_facets() {
     }
 }
 
-/// Vertices less edges plus faces is 2 less two for each hole through a solid of one shell.
+/// For a solid of one shell, vertices minus edges plus faces is 2 minus two for each hole.
 #[test]
 fn gears_have_a_bore_and_holes() {
     let mesh = gear(5).mesh;

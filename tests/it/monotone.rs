@@ -30,7 +30,7 @@ fn a_smaller_tolerance_is_never_earlier() {
     assert!(later.get() > 1_000, "{later:?}");
 }
 
-/// When a contact is reported; never, for free.
+/// Returns the time of a reported contact, and infinity for free.
 fn contact_time(answer: &Answer) -> Result<f64, String> {
     match answer.outcome {
         Outcome::Contact { time, .. } => Ok(time),

@@ -1,4 +1,4 @@
-//! Never late, never false, tight: random cases against the independent referee.
+//! Random cases against the independent referee: never late, never false, tight.
 
 use ccd_tests::backends::{Backend, for_each_setup};
 use ccd_tests::case::Case;

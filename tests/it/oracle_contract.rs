@@ -1,4 +1,4 @@
-//! The contract of oracles, over every oracle and every size of piece.
+//! The contract of oracles, for every oracle and every size of piece.
 
 use ccd_core::DistanceOracle;
 use ccd_core::glam::{DQuat, DVec3};
@@ -11,7 +11,7 @@ use proptest::prelude::*;
 use std::cell::Cell;
 use std::f64::consts::FRAC_PI_4;
 
-/// Runs the contract over an oracle and the sizes of piece that it is made for.
+/// Runs the contract for an oracle and the sizes of piece that it supports.
 macro_rules! contract {
     ($($name:ident: $oracle:ty, $sizes:expr;)*) => {$(
         mod $name {
@@ -47,13 +47,13 @@ contract! {
     vmarch: Vmarch, [1, 2, 3, 8, 20];
 }
 
-/// How far a claim may be from the distance, as a part of the pair's size: a tenth of the least
+/// The largest error of a claim's distance, as a fraction of the pair's size: a tenth of the least
 /// tolerance that the engine is tested with.
 const SLACK: f64 = 1e-10;
 
 fn points(sizes: &'static [usize]) -> impl Strategy<Value = Vec<DVec3>> {
     let coordinates = || [-1.0..1.0f64, -1.0..1.0, -1.0..1.0];
-    // From cubes to needles and plates.
+    // The shapes range from cubes to needles and plates.
     let stretch = [-2.0..0.0f64, -2.0..0.0, -2.0..0.0];
     let size = prop::sample::select(sizes);
     let all = size.prop_flat_map(move |n| prop::collection::vec(coordinates(), n));
@@ -64,7 +64,7 @@ fn points(sizes: &'static [usize]) -> impl Strategy<Value = Vec<DVec3>> {
 }
 
 fn pairs(sizes: &'static [usize]) -> impl Strategy<Value = (Pair, f64)> {
-    // None lays the middles of the pieces' points on each other.
+    // `None` puts the middles of the pieces' points on each other.
     let apart = prop_oneof![
         (0.0..4.0f64).prop_map(Some),
         (1.0..2.0f64).prop_map(Some),
@@ -92,7 +92,7 @@ fn pairs(sizes: &'static [usize]) -> impl Strategy<Value = (Pair, f64)> {
         })
 }
 
-/// How often a law met pieces that are apart, that meet, and that an oracle refuses.
+/// The numbers of pairs that are apart, that meet, and that an oracle refuses.
 #[derive(Debug, Default)]
 struct Tally([Cell<u32>; 3]);
 
@@ -102,7 +102,7 @@ impl Tally {
         count.set(count.get() + 1);
     }
 
-    /// Most pieces are apart, many meet, and hardly any is refused.
+    /// Asserts that most pieces are apart, many meet, and very few are refused.
     fn check(&self) {
         let [apart, meeting, refused] = [0, 1, 2].map(|k| self.0[k].get());
         let all = apart + meeting + refused;
@@ -140,7 +140,7 @@ fn degenerate<O: DistanceOracle + Default>(sizes: &'static [usize]) {
     let size = || prop::sample::select(sizes);
     let all = move || size().prop_flat_map(move |n| prop::collection::vec(point(), n));
     run(2_000, &(all(), all(), point()), |(a, b, offset)| {
-        // Coordinates beyond what pieces of a list may have: points alone.
+        // The coordinates exceed those allowed for pieces of a list: points alone.
         let [a, b] = [a, b].map(|points| Hull::with_facets(points, Vec::new()));
         let same = Pair::new(a.clone(), a.clone(), DQuat::IDENTITY, DVec3::ZERO);
         ends_law(&mut O::default(), &same)?;
@@ -152,7 +152,7 @@ fn degenerate<O: DistanceOracle + Default>(sizes: &'static [usize]) {
 fn parallel<O: DistanceOracle + Default>(sizes: &'static [usize]) {
     let count = *sizes.iter().filter(|&&n| n <= 8).max().expect("a size");
     let cube = &cuboid(DVec3::splat(0.5)).parts[0];
-    // Fewer than all corners have no facets.
+    // Shapes with fewer than all corners have no facets.
     let shape = match count {
         8 => Hull::with_facets(cube.points.clone(), cube.facets.clone()),
         _ => Hull::new(cube.points[..count].to_vec()),

@@ -1,4 +1,4 @@
-//! The laws of patches find wrong patches: each kind of lie is found by the law that it breaks.
+//! The laws of patches detect wrong patches: each kind of lie is found by the law that it breaks.
 
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
@@ -7,7 +7,7 @@ use ccd_tests::exact::{Effort, Solid};
 use ccd_tests::models::{Mesh, cuboid, l_prism, torus};
 use ccd_tests::patches::{Claim, check_cover, check_inside, check_polytope};
 
-/// The cube as its only patch: an honest one.
+/// Returns the cube as its only patch, an honest one.
 fn cube() -> (Mesh, Polytope) {
     let shape = cuboid(DVec3::ONE);
     let vertex_ids = (0..8).collect();
@@ -74,7 +74,7 @@ fn lies_about_a_polytope_are_found() {
 }
 
 #[test]
-fn a_cover_that_is_none_is_found() {
+fn an_invalid_cover_is_found() {
     let (mesh, polytope) = cube();
     let claim = |faces| Claim {
         faces,
@@ -91,7 +91,7 @@ fn a_cover_that_is_none_is_found() {
     }
 }
 
-/// Two faces as one patch: the hull of their corners.
+/// Returns two faces as one patch: the hull of their corners.
 fn pair(mesh: &Mesh, faces: [u32; 2]) -> Polytope {
     let mut vertex_ids: Vec<u32> = faces.iter().flat_map(|&f| mesh.faces[f as usize]).collect();
     vertex_ids.sort_unstable();
@@ -106,8 +106,8 @@ fn pair(mesh: &Mesh, faces: [u32; 2]) -> Polytope {
     }
 }
 
-/// Of all pairs of faces of a shape, says how many have a hull that is found to leave the solid, and
-/// checks that they are those which do.
+/// Counts the pairs of faces of a shape whose hull is found to leave the solid, and checks that
+/// they are those which do.
 fn leaving(mesh: &Mesh, leaves: impl Fn([u32; 2]) -> Option<bool>) -> usize {
     let solid = Solid::new(mesh);
     let mut found = 0;
@@ -127,7 +127,7 @@ fn leaving(mesh: &Mesh, leaves: impl Fn([u32; 2]) -> Option<bool>) -> usize {
     found
 }
 
-/// The L is the union of two boxes, and what leaves it passes over the inner corner at (1, 1).
+/// The L is the union of two boxes, and a hull that leaves it passes over the inner corner at (1, 1).
 #[test]
 fn a_hull_across_the_inner_corner_of_an_l_is_found() {
     let mesh = l_prism().mesh;
@@ -135,7 +135,7 @@ fn a_hull_across_the_inner_corner_of_an_l_is_found() {
         let corners = faces.map(|f| mesh.triangle(f as usize));
         let all = || corners.iter().flatten();
         let in_bar = |wide: fn(&DVec3) -> f64| all().all(|p| wide(p) <= 1.0);
-        // On or beyond the line from (2, 1) to (1, 2) there is nothing of the L but the line's ends.
+        // On or beyond the line from (2, 1) to (1, 2) there are only the line's ends of the L.
         let sum = |corner: &[DVec3; 3]| corner.iter().map(|p| p.x + p.y).fold(0.0, greater);
         match in_bar(|p| p.x) || in_bar(|p| p.y) {
             true => Some(false),
@@ -154,13 +154,13 @@ fn a_hull_across_the_hole_of_a_torus_is_found() {
             let corners = mesh.triangle(f as usize);
             (corners[0] + corners[1] + corners[2]) / 3.0
         });
-        // On opposite sides of the hole.
+        // The faces are on opposite sides of the hole.
         (f.truncate().dot(g.truncate()) < -0.5).then_some(true)
     });
     assert!(found > 500, "{found}");
 }
 
-/// A hair's breadth out is out: a facet that dips below the bottom of a dent by a rounding.
+/// The smallest excess counts: a facet lies below the bottom of a dent by a rounding.
 #[test]
 fn a_hull_a_rounding_out_of_the_solid_is_found() {
     let mut mesh = cuboid(DVec3::ONE).mesh;

@@ -1,4 +1,5 @@
-//! The paper's own bound looks at one moment only: it is late where arms turn, and the sound one is not.
+//! The paper's own bound uses the present pose only: it is late where arms turn, and the sound
+//! bound is not.
 
 use ccd_core::Bound;
 use ccd_core::glam::{DQuat, DVec3};
@@ -8,11 +9,11 @@ use ccd_distance_gjk::Gjk;
 use ccd_tests::analytic::{Expect, scenes_named};
 use ccd_tests::models::{Kind, cuboid};
 use ccd_tests::query::{Actor, Bodies, Query};
-use ccd_tests::referee::{Referee, Verdict};
+use ccd_tests::referee::{Finding, Referee};
 use rand::RngExt;
 use rand_pcg::Pcg64;
 
-/// The schedules that divide a distance by a bound, with one.
+/// Returns the schedules that divide a distance by a bound, with the given bound.
 fn schedules(bound: Bound) -> [Box<dyn Schedule<Gjk>>; 2] {
     [Box::new(Fast::new(bound)), Box::new(Naive::new(bound))]
 }
@@ -21,7 +22,7 @@ fn answers(problem: &Problem<'_>, bound: Bound) -> [Answer; 2] {
     schedules(bound).map(|mut schedule| schedule.solve(problem, &mut Gjk))
 }
 
-/// By how much an answer comes after the contact, infinite where it misses that.
+/// Returns the delay of an answer after the contact, infinite if it misses the contact.
 fn lateness(answer: &Answer, contact: f64) -> f64 {
     match answer.outcome {
         Outcome::Contact { time, .. } => time - contact,
@@ -42,7 +43,7 @@ fn bodies(query: &Query) -> Bodies {
 }
 
 #[test]
-fn the_mace_passes_the_wall_that_the_sound_bound_stops_it_at() {
+fn the_mace_passes_the_wall_with_the_published_bound_and_stops_with_the_sound_one() {
     let scenes = scenes_named("T9 ");
     let Expect::Hit { latest, .. } = scenes[0].expect else {
         panic!("the mace meets the wall");
@@ -58,16 +59,17 @@ fn the_mace_passes_the_wall_that_the_sound_bound_stops_it_at() {
     }
 }
 
-/// A rod of 1 : 20 in any pose, at some distance, that flies at another one and turns as it does.
+/// Returns a query of a rod of 1 : 20 in any pose, at some distance, that flies at another one and
+/// turns.
 fn rods(rng: &mut Pcg64) -> Query {
     let mut vector = |size: f64| {
         let mut coordinate = || rng.random_range(-size..size);
         DVec3::new(coordinate(), coordinate(), coordinate())
     };
-    let mut rod = |place: DVec3, velocity: DVec3, turns: f64| Actor {
+    let mut rod = |position: DVec3, velocity: DVec3, turns: f64| Actor {
         shape: cuboid(DVec3::new(1.0, 0.05, 0.05)),
         motion: Motion::new(
-            Pose::new(place, DQuat::from_scaled_axis(vector(3.0))).expect("a pose"),
+            Pose::new(position, DQuat::from_scaled_axis(vector(3.0))).expect("a pose"),
             velocity,
             vector(1.0).normalize() * turns * std::f64::consts::TAU,
         )
@@ -81,12 +83,12 @@ fn rods(rng: &mut Pcg64) -> Query {
 }
 
 #[test]
-fn some_fast_rods_are_seen_late_by_the_published_bound_and_none_by_the_sound_one() {
+fn some_fast_rods_are_late_with_the_published_bound_and_none_with_the_sound_one() {
     let mut rng = Pcg64::new(9, 0);
     let (mut hits, mut late) = (0, [0; 2]);
     for _ in 0..600 {
         let query = rods(&mut rng);
-        let Verdict::Hit { hi, .. } = Referee::new(&query).verdict() else {
+        let Finding::Hit { hi, .. } = Referee::new(&query).finding() else {
             continue;
         };
         hits += 1;

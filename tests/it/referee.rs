@@ -1,20 +1,20 @@
-//! The referee itself, against closed forms: it is the yardstick of everything else.
+//! Compares the referee, which judges everything else, with closed forms.
 
 use ccd_core::glam::DVec3;
 use ccd_tests::analytic::{Expect, scenes};
 use ccd_tests::models::{Mesh, cuboid};
 use ccd_tests::query::{Actor, Query};
-use ccd_tests::referee::{Referee, Verdict, contains};
+use ccd_tests::referee::{Finding, Referee, contains};
 
 #[test]
 fn it_brackets_every_closed_form() {
     let meshed = |scene: &ccd_tests::analytic::Scene| !scene.query.a.shape.mesh.faces.is_empty();
     for scene in scenes().iter().filter(|scene| meshed(scene)) {
         let referee = Referee::new(&scene.query);
-        let verdict = referee.verdict();
+        let finding = referee.finding();
         let name = &scene.name;
-        match (&scene.expect, verdict) {
-            (Expect::Hit { earliest, latest }, Verdict::Hit { lo, hi }) => {
+        match (&scene.expect, finding) {
+            (Expect::Hit { earliest, latest }, Finding::Hit { lo, hi }) => {
                 assert!(lo <= latest + 1e-12, "{name}: {lo} > {latest}");
                 assert!(
                     hi >= earliest(0.0) - 1e-12,
@@ -23,23 +23,23 @@ fn it_brackets_every_closed_form() {
                 );
                 assert!(hi - lo <= 1e-4, "{name}: {lo} to {hi}");
             }
-            (Expect::Free { gap }, Verdict::Free { gap: seen }) => {
+            (Expect::Free { gap }, Finding::Free { gap: seen }) => {
                 assert!(
                     seen >= gap - scene.query.rounding(),
                     "{name}: {seen} < {gap}"
                 );
             }
-            // Within the referee's own resolution of touching.
-            (Expect::Free { gap }, Verdict::Near { .. }) => assert!(*gap <= 2e-9, "{name}"),
-            // Sliding along closely takes the referee more steps than it has patience for.
-            (Expect::Free { gap }, Verdict::Undecided { .. }) => assert!(*gap < 2e-6, "{name}"),
-            // Grazes in so short a time that it is not seen to intersect.
-            (Expect::Hit { latest, .. }, Verdict::Near { lo }) => {
+            // Within the distance at which the referee cannot exclude touching.
+            (Expect::Free { gap }, Finding::Near { .. }) => assert!(*gap <= 2e-9, "{name}"),
+            // Sliding at a small distance takes the referee more steps than its limit.
+            (Expect::Free { gap }, Finding::Undecided { .. }) => assert!(*gap < 2e-6, "{name}"),
+            // The contact grazes so briefly that intersection is not seen.
+            (Expect::Hit { latest, .. }, Finding::Near { lo }) => {
                 assert!(lo <= latest + 1e-12, "{name}: {lo} > {latest}");
             }
-            (Expect::Overlap, Verdict::Start) | (Expect::Unknown, _) => {}
-            (Expect::Overlap, _) => assert!(referee.nested(0.0), "{name}: {verdict:?}"),
-            (_, verdict) => panic!("{name}: {verdict:?}"),
+            (Expect::Overlap, Finding::Start) | (Expect::Unknown, _) => {}
+            (Expect::Overlap, _) => assert!(referee.nested(0.0), "{name}: {finding:?}"),
+            (_, finding) => panic!("{name}: {finding:?}"),
         }
     }
 }
@@ -50,12 +50,12 @@ fn the_screw_turns_freely_by_its_own_pitch_only() {
         .iter()
         .filter(|scene| scene.name.starts_with("T18"))
     {
-        let verdict = Referee::new(&scene.query).verdict();
-        let free = matches!(verdict, Verdict::Free { .. });
+        let finding = Referee::new(&scene.query).finding();
+        let free = matches!(finding, Finding::Free { .. });
         assert_eq!(
             free,
             scene.name.contains("right"),
-            "{}: {verdict:?}",
+            "{}: {finding:?}",
             scene.name
         );
     }
@@ -67,8 +67,8 @@ fn the_cuboids_in_the_distance_collide() {
         .into_iter()
         .find(|scene| scene.name.starts_with("T26"))
         .expect("T26");
-    let verdict = Referee::new(&scene.query).verdict();
-    assert!(matches!(verdict, Verdict::Hit { .. }), "{verdict:?}");
+    let finding = Referee::new(&scene.query).finding();
+    assert!(matches!(finding, Finding::Hit { .. }), "{finding:?}");
 }
 
 #[test]
@@ -89,7 +89,7 @@ fn distances_of_boxes() {
 }
 
 #[test]
-fn winding_tells_inside_from_outside() {
+fn winding_separates_inside_from_outside() {
     let Mesh { vertices, .. } = cuboid(DVec3::ONE).mesh;
     let mesh = cuboid(DVec3::ONE).mesh;
     for (p, inside) in [

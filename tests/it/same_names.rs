@@ -1,4 +1,4 @@
-//! What is in contact has the same names, whatever a mesh is made into.
+//! Contacts have the same names for every kind of pieces.
 
 use ccd_core::glam::{DQuat, DVec2};
 use ccd_core::order::{greater, lesser};
@@ -6,7 +6,7 @@ use ccd_core::{Config, Feature, Motion, Moving, Pose, Problem};
 use ccd_decomp::{Detail, Order, Prepared, TriangleMesh, body_from_mesh};
 use ccd_tests::models::{Mesh, divided_cube, l_block};
 
-/// A mesh of which no two faces share a vertex, as an STL file brings it.
+/// Returns a mesh in which no two faces share a vertex, as from an STL file.
 fn torn(mesh: &Mesh) -> Mesh {
     let corners = mesh.faces.iter().flatten();
     Mesh {
@@ -35,7 +35,7 @@ impl Body {
         self.mesh.vertices.iter().map(|p| p.z)
     }
 
-    /// A little above another one, shifted and turned about the upright axis.
+    /// Returns a pose slightly above another body, shifted and turned about the upright axis.
     fn resting_on(&self, other: &Body, shift: DVec2, turn: f64) -> Pose {
         let top = other.heights().fold(f64::NEG_INFINITY, greater);
         let bottom = self.heights().fold(f64::INFINITY, lesser);
@@ -44,7 +44,7 @@ impl Body {
     }
 }
 
-/// The names of what is in contact, in order.
+/// Returns the names of the features in contact, in order.
 fn names([a, b]: [&Prepared; 2], pose: Pose) -> Vec<[Feature; 2]> {
     let still = |made, pose| Moving {
         body: made,
@@ -58,8 +58,8 @@ fn names([a, b]: [&Prepared; 2], pose: Pose) -> Vec<[Feature; 2]> {
     names
 }
 
-/// Vertices in the middle of an edge or a side, which no patch has for a corner, and vertices that
-/// lie on one another.
+/// The meshes have vertices in the middle of an edge or a side, which are no corners of a patch,
+/// and vertices at the same position.
 #[test]
 fn triangles_and_patches_have_the_same_names() {
     let shapes = [divided_cube(1), divided_cube(3), l_block(2)];

@@ -8,7 +8,7 @@ use ccd_tests::checks::{Judge, Law, check_contact};
 use ccd_tests::query::Bodies;
 use ccd_tests::tolerance::CLOSED_FORM;
 
-/// One test per group of scenes, by the beginning of their names.
+/// Defines one test per group of scenes, by the beginning of their names.
 macro_rules! groups {
     ($($test:ident: $prefix:literal,)*) => {$(
         #[test]
@@ -65,7 +65,7 @@ fn check_group(prefix: &str) {
 }
 
 fn check_scene(scene: &Scene, expect: &Expect) {
-    // A scene that is smaller than a unit gets a tolerance that is, too.
+    // A scene smaller than a unit gets a tolerance in proportion.
     let size = lesser(1.0, scene.query.a.reach(0.0));
     let mut judge = Judge::new(&scene.query, &Config::default());
     for tolerance in [1e-3, 1e-6, 1e-9].map(|tolerance| tolerance * size) {
@@ -118,7 +118,7 @@ fn check_answer(
                 ));
             }
         }
-        // Nearer than the tolerance is as good as touching.
+        // Contact is right at a distance below the tolerance.
         (Expect::Free { gap }, Outcome::Contact { .. } | Outcome::Touching { .. })
             if *gap <= answer.tolerance + rounding => {}
         (Expect::Overlap, Outcome::Overlapping { .. }) | (Expect::Unknown, _) => {}

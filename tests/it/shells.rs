@@ -1,4 +1,4 @@
-//! Shells beside and within each other, wound at random: what is inside, and which side is out.
+//! Shells next to and within each other, wound at random: tests the inside, and the outer side.
 
 use ccd_core::glam::DVec3;
 use ccd_core::schedule::{BestFirst, Schedule};
@@ -16,7 +16,8 @@ const DETAILS: [Detail; 3] = [
     Detail::Auto,
 ];
 
-/// A random closed shell about the origin that fits into one of radius 1 and holds one of radius 0.4.
+/// Returns a random closed shell around the origin that fits into one of radius 1 and holds one of
+/// radius 0.4.
 fn shell(rng: &mut Pcg64) -> Shape {
     match rng.random_range(0..3) {
         0 => icosphere(1.0, rng.random_range(0..2)),
@@ -25,7 +26,7 @@ fn shell(rng: &mut Pcg64) -> Shape {
     }
 }
 
-/// Shells with how many there are around each.
+/// Returns shells with the number of shells around each.
 fn nests(rng: &mut Pcg64) -> Vec<(Mesh, usize)> {
     let mut shells = Vec::new();
     for k in 0..rng.random_range(1..4) {
@@ -39,7 +40,7 @@ fn nests(rng: &mut Pcg64) -> Vec<(Mesh, usize)> {
     shells
 }
 
-fn wound(shells: &[(Mesh, usize)], rng: &mut Pcg64) -> Mesh {
+fn with_random_windings(shells: &[(Mesh, usize)], rng: &mut Pcg64) -> Mesh {
     let mut all = Mesh {
         vertices: Vec::new(),
         faces: Vec::new(),
@@ -83,14 +84,14 @@ fn direction(rng: &mut Pcg64) -> DVec3 {
         .normalize()
 }
 
-/// A point is inside when an odd number of shells is around it, one by one and exactly.
+/// A point is inside if an odd number of shells is around it, checked one by one and exactly.
 #[test]
-fn a_body_inside_overlaps_however_shells_are_wound() {
+fn a_body_inside_overlaps_for_any_winding_of_shells() {
     let mut rng = Pcg64::seed_from_u64(1);
     let mut counts = [0; 2];
     for case in 0..40 {
         let shells = nests(&mut rng);
-        let mesh = wound(&shells, &mut rng);
+        let mesh = with_random_windings(&shells, &mut rng);
         let solids: Vec<Solid<'_>> = shells.iter().map(|(mesh, _)| Solid::new(mesh)).collect();
         for detail in DETAILS {
             let outer = body(&mesh, detail);
@@ -98,8 +99,8 @@ fn a_body_inside_overlaps_however_shells_are_wound() {
                 let (near, _) = &shells[rng.random_range(0..shells.len())];
                 let at = near.vertices[0].lerp(near.vertices[1], rng.random())
                     + direction(&mut rng) * 0.1;
-                let places = solids.iter().map(|solid| solid.locate(&Blend::mean([at])));
-                let around = places.filter(|place| matches!(place, Location::Inside(_)));
+                let locations = solids.iter().map(|solid| solid.locate(&Blend::mean([at])));
+                let around = locations.filter(|location| matches!(location, Location::Inside(_)));
                 let inside = around.count() % 2 == 1;
                 let speck = body(
                     &cuboid(DVec3::splat(1e-7)).moved(at).mesh,
@@ -118,21 +119,21 @@ fn a_body_inside_overlaps_however_shells_are_wound() {
     assert!(counts[0] > 200 && counts[1] > 200, "{counts:?}");
 }
 
-/// A triangle that rests on a face is let go on one side only, and something thick on its other side
+/// A triangle that rests on a face is released on one side only, and a thick body on its other side
 /// overlaps.
 #[test]
-fn what_rests_on_a_face_may_leave_it_on_the_outside_only() {
+fn a_body_resting_on_a_face_may_leave_it_outside_only() {
     let mut rng = Pcg64::seed_from_u64(2);
-    let mut let_go = 0;
+    let mut released = 0;
     for case in 0..60 {
         let shells = nests(&mut rng);
-        let mesh = wound(&shells, &mut rng);
+        let mesh = with_random_windings(&shells, &mut rng);
         let outer = body(&mesh, DETAILS[case % 3]);
         for _ in 0..5 {
             let (shell, depth) = &shells[rng.random_range(0..shells.len())];
             let triangle = shell.triangle(rng.random_range(0..shell.faces.len()));
             let [a, b, c] = triangle;
-            // Faces look away from the middle; shells at odd depths are of cavities.
+            // Faces point away from the middle; shells at odd depths bound cavities.
             let normal = (b - a).cross(c - a).normalize();
             let out = if depth % 2 == 0 { normal } else { -normal };
             let middle = (a + b + c) / 3.0;
@@ -147,7 +148,7 @@ fn what_rests_on_a_face_may_leave_it_on_the_outside_only() {
             let solve =
                 |b: &Body, way: f64| solve(&outer, b, way * speed * out, StartPolicy::Leave);
             let into = solve(&sheet, -1.0);
-            // What rests may come nearer by a few roundings.
+            // A resting body may come nearer by a few roundings.
             let at_once = |time: f64| time * speed < 3e-12;
             assert!(
                 matches!(into, Outcome::Contact { time, .. } if at_once(time)),
@@ -158,15 +159,9 @@ fn what_rests_on_a_face_may_leave_it_on_the_outside_only() {
                 !matches!(away, Outcome::Contact { time, .. } if at_once(time)),
                 "case {case} {away:?}"
             );
-            let_go += usize::from(matches!(away, Outcome::Free { .. }));
-            let tetrahedron = |tip: DVec3| {
-                let mesh = Mesh {
-                    vertices: [small.as_slice(), &[tip]].concat(),
-                    faces: vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]],
-                };
-                body(&mesh, DETAILS[case % 3])
-            };
-            let outside = solve(&tetrahedron(middle + 0.01 * size * out), 1.0);
+            released += usize::from(matches!(away, Outcome::Free { .. }));
+            let thick = |tip: DVec3| solve(&tetrahedron(small, tip, DETAILS[case % 3]), 1.0);
+            let outside = thick(middle + 0.01 * size * out);
             assert!(
                 !matches!(
                     outside,
@@ -174,17 +169,26 @@ fn what_rests_on_a_face_may_leave_it_on_the_outside_only() {
                 ),
                 "case {case} {outside:?}"
             );
-            let inside = solve(&tetrahedron(middle - 0.01 * size * out), 1.0);
+            let inside = thick(middle - 0.01 * size * out);
             assert!(
                 matches!(inside, Outcome::Overlapping { .. }),
                 "case {case} {inside:?}"
             );
         }
     }
-    assert!(let_go > 200, "{let_go}");
+    assert!(released > 200, "{released}");
 }
 
-/// Of equal bodies every corner of one is on the other one's surface.
+/// Returns the body of a triangle and a tip on one side of it.
+fn tetrahedron(triangle: [DVec3; 3], tip: DVec3, detail: Detail) -> Body {
+    let mesh = Mesh {
+        vertices: [triangle.as_slice(), &[tip]].concat(),
+        faces: vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]],
+    };
+    body(&mesh, detail)
+}
+
+/// Every corner of equal bodies is on the other one's surface.
 #[test]
 fn equal_bodies_overlap() {
     for shape in [
@@ -203,7 +207,7 @@ fn equal_bodies_overlap() {
     }
 }
 
-/// One tooth of many that every other piece of its body is far from: no sample may miss it.
+/// One tooth of many is far from every other piece of its body, so no sample may miss it.
 #[test]
 fn one_part_of_many_that_is_inside_is_found() {
     let outer = cuboid(DVec3::ONE);

@@ -1,4 +1,4 @@
-//! What becomes of a contact at the start: reported, or let go for as long as it does not close.
+//! A contact at the start is reported, or released for as long as it does not close.
 
 use ccd_core::glam::DVec3;
 use ccd_core::schedule::{BestFirst, Schedule};
@@ -27,7 +27,7 @@ fn report(tolerance: f64) -> Config {
     }
 }
 
-/// Calls `check` with every setup's outcome, of the query and of the query with bodies swapped.
+/// Calls `check` with every setup's outcome, for the query and for the query with bodies swapped.
 fn outcomes(query: &Query, config: &Config, check: impl Fn(Outcome) -> bool) {
     for query in [query.clone(), query.swapped()] {
         for_each_setup(&query, config, |_, setup, answer| {
@@ -44,10 +44,10 @@ fn is_touching(outcome: Outcome) -> bool {
     matches!(outcome, Outcome::Touching { .. })
 }
 
-/// T10. Along the diagonal on which the slab's two triangles meet, no triangle comes upon another,
-/// so that even without a gap nothing is met.
+/// T10. Along the diagonal on which the slab's two triangles meet, no triangle passes onto another,
+/// so that even without a gap there is no contact.
 #[test]
-fn sliding_along_at_less_than_the_tolerance_is_left_alone() {
+fn sliding_within_the_tolerance_is_free() {
     for gap in [1e-6, 1e-9, 0.0] {
         let query = sliding(gap, DVec3::new(1.0, 1.0, 0.0)).query;
         outcomes(&query, &report(1e-3), is_touching);
@@ -59,13 +59,13 @@ fn sliding_along_at_less_than_the_tolerance_is_left_alone() {
 
 /// T10.
 #[test]
-fn sliding_onto_another_piece_is_left_alone_where_there_is_a_gap() {
+fn sliding_onto_another_piece_with_a_gap_is_free() {
     for gap in [1e-6, 1e-9] {
         outcomes(&sliding(gap, -DVec3::X).query, &leave(1e-3), is_free);
     }
 }
 
-/// T10. At a gap of nothing but rounding, the edge of the next triangle is met.
+/// T10. At a gap of mere rounding, the edge of the next triangle is in contact.
 #[test]
 fn sliding_onto_another_piece_without_a_gap_is_a_contact_or_free() {
     let query = sliding(0.0, -DVec3::X).query;
@@ -103,7 +103,7 @@ fn touching_and_approaching_is_a_contact_at_once() {
         let query = sliding(gap, -DVec3::Z).query;
         outcomes(&query, &report(1e-3), is_touching);
         outcomes(&query, &leave(1e-3), |outcome| match outcome {
-            // Approaching shows once it has come nearer by more than what rounding may do, at speed 1.
+            // An approach at speed 1 is visible once the distance has decreased by more than rounding.
             Outcome::Contact { time, .. } => {
                 (0.0..=gap + RESTING * query.rounding()).contains(&time)
             }
@@ -112,7 +112,7 @@ fn touching_and_approaching_is_a_contact_at_once() {
     }
 }
 
-/// Triangles in one plane are kept apart by it on either side; solids only on the outside.
+/// A plane separates coplanar triangles on either side, but solids only on the outside.
 #[test]
 fn flush_solids_that_dive_into_each_other_are_in_contact_at_once() {
     let cube = || cuboid(DVec3::splat(0.5));
@@ -129,21 +129,21 @@ fn flush_solids_that_dive_into_each_other_are_in_contact_at_once() {
                 _ => false,
             });
         }
-        // Away, they are free.
+        // Away from each other, they are free.
         outcomes(&dive(0.5 * side), &leave(1e-3), is_free);
     }
 }
 
-/// What is left of resting is used up in a few steps, not in one for every bit of it.
+/// The allowance of a resting contact is used up in a few steps, not in one for every bit of it.
 #[test]
-fn approaching_ever_so_slowly_takes_no_longer() {
+fn a_very_slow_approach_takes_few_steps() {
     for approach in [1e-5, 1e-7, 1e-9, 1e-11] {
         let query = sliding(0.0, -approach * DVec3::Z).query;
         for_each_setup(&query, &leave(1e-3), |_, setup, answer| {
             let Outcome::Contact { time, .. } = answer.outcome else {
                 panic!("{approach:e} {setup:?}\n{answer:?}");
             };
-            // Half of the least tolerance is what rounding makes of resting.
+            // Half of the least tolerance is the allowance for rounding of a resting contact.
             assert!(time * approach <= 0.5 * answer.tolerance, "{time:e}");
             let calls = answer.stats.oracle_calls;
             assert!(calls < 5_000, "{approach:e}: {calls} {setup:?}");
@@ -151,10 +151,11 @@ fn approaching_ever_so_slowly_takes_no_longer() {
     }
 }
 
-/// A box inside of the margin of a floor eighty times its size: across so small a gap the nearest points'
-/// way is not exact enough to tell sliding from approaching, the features' normals are.
+/// A box is inside the margin of a floor eighty times its size. Across so small a gap, the
+/// direction of the nearest points is not exact enough to separate sliding from approaching; the
+/// features' normals are.
 #[test]
-fn inside_the_margin_sliding_is_told_and_approaching_at_once() {
+fn inside_the_margin_sliding_is_free_and_approaching_is_a_contact() {
     let floor = cuboid(DVec3::new(8.0, 8.0, 0.5)).moved(-0.5 * DVec3::Z);
     let half = DVec3::new(0.11, 0.06, 0.05);
     let config = |margin: f64| Config {
@@ -177,11 +178,11 @@ fn inside_the_margin_sliding_is_told_and_approaching_at_once() {
             let across = DVec3::new(-1.12, 0.63, 0.0);
             let query = at(across);
             for_each_setup(&query, &config(margin), |_, setup, answer| {
-                let told = matches!(
+                let expected = matches!(
                     answer.outcome,
                     Outcome::Free { .. } | Outcome::Contact { .. }
                 );
-                assert!(told, "{gap} {setup:?}\n{answer:?}");
+                assert!(expected, "{gap} {setup:?}\n{answer:?}");
             });
             let query = at(across - 0.01 * DVec3::Z);
             let allowed = 2.0 * RESTING * query.rounding() / 0.01;
@@ -193,9 +194,9 @@ fn inside_the_margin_sliding_is_told_and_approaching_at_once() {
     }
 }
 
-/// What a backend claims of a pair at the start is no licence to let it pass.
+/// A backend's claim about a pair at the start must not release the pair without proof.
 #[test]
-fn a_liar_cannot_have_a_pair_let_go() {
+fn a_liar_cannot_release_a_pair() {
     let spike = Shape::open(Mesh {
         vertices: vec![
             DVec3::ZERO,
@@ -225,7 +226,7 @@ fn a_liar_cannot_have_a_pair_let_go() {
     }
 }
 
-/// The right points, along an axis of its own.
+/// Returns the right points, with a wrong axis.
 struct AxisLiar(DVec3, ClosedForm);
 
 impl DistanceOracle for AxisLiar {
@@ -245,8 +246,8 @@ impl DistanceOracle for AxisLiar {
 }
 
 #[test]
-fn what_is_left_alone_may_come_back() {
-    // Slides off to the side, against a post a unit away.
+fn a_released_contact_may_come_back() {
+    // It slides off to the side, against a post a unit away.
     let post = cuboid(DVec3::new(0.1, 1.0, 1.0)).moved(DVec3::new(-1.6, 0.0, 0.5));
     let slab = cuboid(DVec3::new(3.0, 3.0, 0.5)).moved(-0.5 * DVec3::Z);
     let query = Query {
@@ -266,7 +267,7 @@ fn what_is_left_alone_may_come_back() {
 }
 
 #[test]
-fn where_nothing_touches_at_the_start_both_policies_say_the_same() {
+fn without_contact_at_the_start_both_policies_agree() {
     let (hits, misses) = (Cell::new(0), Cell::new(0));
     check_cases(500, cases(), |case| {
         let query = case.query();

@@ -1,4 +1,4 @@
-//! Touching, overlapping, inside of: what holds at the start decides.
+//! Touching, overlapping, inside: the state at the start decides.
 
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{Config, Outcome, Overlap};
@@ -25,8 +25,8 @@ fn outcomes_by_kind(query: &Query, check: impl Fn([Kind; 2], Outcome) -> bool) {
     });
 }
 
-/// Whether a body is reported inside the other; where pieces may fill the inside, they may also be
-/// reported as overlapping.
+/// Returns true if a body is reported inside the other. If pieces may fill the inside, they may
+/// also be reported as overlapping.
 fn nested(kinds: [Kind; 2], outcome: Outcome, check: impl Fn(Overlap) -> bool) -> bool {
     match outcome {
         Outcome::Overlapping {
@@ -55,7 +55,7 @@ fn cube(half: f64) -> Shape {
 }
 
 #[test]
-fn faces_edges_and_corners_that_meet_are_touching() {
+fn touching_faces_edges_and_corners_are_reported() {
     let touching = |o| matches!(o, Outcome::Touching { .. });
     for at in [
         DVec3::X,
@@ -83,7 +83,7 @@ fn overlaps_in_any_way(outcome: Outcome) -> bool {
     matches!(outcome, Outcome::Overlapping { .. })
 }
 
-/// No triangle crosses another: all that meets is flush.
+/// No triangle crosses another: all contacts are flush.
 #[test]
 fn flush_solids_overlap() {
     let inscribed = octahedron(0.5);
@@ -98,22 +98,22 @@ fn flush_solids_overlap() {
     }
 }
 
-/// Of polytopes with more pairs of edges than are tried as axes, the oracle's word is taken: trying all
-/// takes a thousand times as long.
+/// For polytopes with more pairs of edges than are tried as axes, the oracle's claim is taken:
+/// trying all takes a thousand times as long.
 #[test]
 fn polytopes_of_many_facets_overlap() {
     let ball = || icosphere(1.0, 3);
     outcomes(&query(ball(), ball(), 0.5 * DVec3::X), overlaps);
 }
 
-/// An octahedron about the origin.
+/// Returns an octahedron around the origin.
 fn octahedron(radius: f64) -> Shape {
     let points: Vec<DVec3> = (0..6)
         .map(|k| DVec3::AXES[k / 2] * if k % 2 == 0 { radius } else { -radius })
         .collect();
     let face = |k: u32| {
         let [x, y, z] = [k & 1, 2 + (k >> 1 & 1), 4 + (k >> 2 & 1)];
-        // An odd number of negative corners turns the face round.
+        // An odd number of negative corners reverses the face.
         match (k.count_ones()) % 2 {
             0 => [x, y, z],
             _ => [x, z, y],
@@ -125,7 +125,7 @@ fn octahedron(radius: f64) -> Shape {
     })
 }
 
-/// Needles that cross at their middles: an oracle's common point is known no better than to 1e-12.
+/// Needles cross at their middles: an oracle's common point is known to 1e-12 at best.
 #[test]
 fn needles_that_cross_overlap() {
     let needle = |thickness: f64| {
@@ -146,7 +146,7 @@ fn needles_that_cross_overlap() {
             );
             let b = needle(thickness).placed(turn, DVec3::ZERO);
             let query = query(needle(thickness), b, DVec3::ZERO);
-            // As triangles: as polytopes without facets the oracle's word is taken.
+            // The needles are triangles: for polytopes without facets the oracle's claim is taken.
             let config = Config {
                 tolerance: 1e-9,
                 ..Config::default()
@@ -157,7 +157,7 @@ fn needles_that_cross_overlap() {
     }
 }
 
-/// Bodies far smaller than the tolerance are looked at once, not again and again.
+/// Bodies far smaller than the tolerance are examined once, not repeatedly.
 #[test]
 fn bodies_far_smaller_than_the_tolerance_are_answered() {
     for (size, tolerance) in [(3e-5, 1e-3), (1e-6, 1e-3), (1.0, 1e6)] {
@@ -187,7 +187,7 @@ fn bodies_far_smaller_than_the_tolerance_are_answered() {
 }
 
 #[test]
-fn a_solid_inside_of_a_solid_overlaps() {
+fn a_solid_inside_a_solid_overlaps() {
     let (small, big) = (
         || Shape::closed(cube(0.5).mesh),
         || Shape::closed(cube(2.0).mesh),
@@ -208,7 +208,7 @@ fn a_solid_inside_of_a_solid_overlaps() {
 }
 
 #[test]
-fn a_surface_inside_of_a_solid_overlaps_but_not_in_a_surface() {
+fn a_surface_inside_a_solid_overlaps_but_not_inside_a_surface() {
     let (small, big) = (Shape::open(cube(0.5).mesh), cube(2.0).mesh);
     let in_solid = query(Shape::closed(big.clone()), small.clone(), DVec3::ZERO);
     outcomes_by_kind(&in_solid, b_in_a);
@@ -233,9 +233,9 @@ fn the_second_of_two_shells_is_found_inside() {
     outcomes_by_kind(&query(big, two, DVec3::ZERO), b_in_a);
 }
 
-/// Patches of a rough surface leave the middle of its solid empty.
+/// The patches of a rough surface leave the middle of its solid empty.
 #[test]
-fn a_body_inside_of_a_solid_that_its_patches_do_not_fill_overlaps() {
+fn a_body_inside_a_solid_that_its_patches_do_not_fill_overlaps() {
     let found = Cell::new(0);
     for seed in 0..4 {
         let rough = boulder(2, 0.4, seed);

@@ -1,4 +1,4 @@
-//! What must not matter: the order of the bodies, the frame they are seen from, the arrow of time.
+//! The order of the bodies, the frame of reference and the direction of time must not matter.
 
 use ccd_core::glam::DVec3;
 use ccd_core::{Outcome, Pose};
@@ -43,10 +43,10 @@ fn both_may_be_seen_from_any_frame() {
     }
 }
 
-/// Free run backwards is free, or a contact where bodies that passed each other are within the tolerance,
-/// which is seldom.
+/// A free motion in reverse is free, or, seldom, a contact where the bodies passed each other
+/// within the tolerance.
 #[test]
-fn free_run_backwards_is_free() {
+fn a_free_motion_in_reverse_is_free() {
     let (free, grazing) = (Cell::new(0), Cell::new(0));
     check_cases(1_000, cases(), |case| {
         let query = case.query();

@@ -1,16 +1,16 @@
-//! Unit vectors come from `ccd_core::vector` alone: glam's are not of unit length where squares underflow,
-//! and nothing that is measured along them is proven.
+//! Unit vectors come from `ccd_core::vector` alone. Those of glam are not of unit length if squares
+//! underflow, and a distance along them is not proven.
 
 use std::path::{Path, PathBuf};
 
-/// Of files that may: where it is, and why what it normalises is no axis.
+/// Files that may normalise: the path, and why the result is no axis.
 const ELSEWHERE: [(&str, &str); 2] = [
     ("ccd-core/src/motion/pose.rs", "a quaternion, scaled first"),
     ("ccd-core/src/motion/interop.rs", "a quaternion of nalgebra"),
 ];
 
 #[test]
-fn no_proof_leans_on_a_vector_normalised_elsewhere() {
+fn no_proof_uses_a_vector_normalised_elsewhere() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let mut files = Vec::new();
     for member in [
@@ -25,11 +25,11 @@ fn no_proof_leans_on_a_vector_normalised_elsewhere() {
     let mut allowed = 0;
     for file in files {
         let text = std::fs::read_to_string(&file).expect("a source file");
-        // Unit tests at the end of a file are no part of a proof.
+        // Unit tests at the end of a file are not part of a proof.
         let code = text.split("#[cfg(test)]").next().unwrap_or_default();
         let normalises = |line: &&str| {
             let line = line.trim_start();
-            // What takes a vector as normalised does not normalise it.
+            // A function that takes a normalised vector does not normalise it.
             let code = line.replace("normalized", "");
             !line.starts_with("//") && (code.contains("normalize") || code.contains("length_recip"))
         };

@@ -1,4 +1,4 @@
-//! Scenes whose first contact is known in closed form, and near misses whose least distance is.
+//! Scenes with a first contact in closed form, and near misses with a least distance in closed form.
 
 mod linear;
 mod rounded;
@@ -24,12 +24,12 @@ pub struct Scene {
 pub enum Expect {
     /// The bodies touch.
     Hit {
-        /// No earlier than when this says the distance first comes down to its argument.
+        /// A lower bound of the time: the time at which the distance first falls to the argument.
         earliest: Distance,
-        /// No later than this.
+        /// An upper bound of the time.
         latest: f64,
     },
-    /// They stay this far apart, and no farther.
+    /// They stay at least this far apart, and the bound is attained.
     Free {
         /// The least distance.
         gap: f64,
@@ -56,7 +56,7 @@ pub fn scenes() -> Vec<Scene> {
     .collect()
 }
 
-/// The scenes whose name begins so.
+/// Returns the scenes whose name begins with the prefix.
 pub fn scenes_named(prefix: &str) -> Vec<Scene> {
     scenes()
         .into_iter()
@@ -80,7 +80,7 @@ impl Scene {
 }
 
 impl Expect {
-    /// A contact at a time known exactly, as the distance is at all times before it.
+    /// Returns a contact at a time known exactly, with the known distance at all earlier times.
     fn hit(distance: impl Fn(f64) -> f64 + Send + Sync + 'static) -> Self {
         Expect::Hit {
             latest: distance(0.0),

@@ -12,16 +12,16 @@ use ccd_distance_vmarch::Vmarch;
 pub enum Order {
     /// A queue of clocks.
     BestFirst,
-    /// One step for all, over the front of a descent through hull trees.
+    /// One step for all pairs, over the front of a descent through hull trees.
     Fast,
-    /// All pairs, one step for all.
+    /// One step for all pairs, without trees.
     Naive,
 }
 
 /// The oracles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Oracle {
-    /// Closed forms, up to triangles.
+    /// Closed forms, for pieces up to triangles.
     ClosedForm,
     /// GJK in f64.
     Gjk,
@@ -40,26 +40,26 @@ pub struct Backend {
     pub oracle: Oracle,
 }
 
-/// The backend and the pieces of an answer: print it when an assertion fails.
+/// The backend and the pieces of an answer, to print if an assertion fails.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Setup {
-    /// The backend that answered.
+    /// The backend.
     pub backend: Backend,
-    /// The pieces that the bodies were built of.
+    /// The kinds of pieces of the bodies.
     pub kinds: [Kind; 2],
 }
 
-/// More pairs of pieces than this are too many for the slow schedule.
+/// The largest number of pairs of pieces for the slow schedule.
 const NAIVE_PAIRS: usize = 400;
 
 impl Backend {
-    /// The default of a query.
+    /// The default backend.
     pub const DEFAULT: Backend = Backend {
         order: Order::BestFirst,
         oracle: Oracle::Direct,
     };
 
-    /// Every schedule with every oracle.
+    /// Returns every schedule with every oracle.
     pub fn all() -> impl Iterator<Item = Backend> {
         use Oracle::{ClosedForm, Direct, Gjk, Vmarch};
         let oracles = [ClosedForm, Gjk, Direct, Vmarch];
@@ -69,11 +69,11 @@ impl Backend {
             .flat_map(move |order| oracles.map(|oracle| Backend { order, oracle }))
     }
 
-    /// Whether it is made for such bodies, and answers within a test's patience.
+    /// Returns true if the backend supports the bodies and is fast enough for a test.
     pub fn suits(self, bodies: &Bodies) -> bool {
         let fit = match self.order {
             Order::BestFirst => true,
-            // Without trees it is another schedule's answer.
+            // Without trees it would be another schedule's answer.
             Order::Fast => bodies.pairs() > 1 && [bodies.a(), bodies.b()].iter().all(has_tree),
             Order::Naive => bodies.pairs() <= NAIVE_PAIRS,
         };
@@ -126,7 +126,7 @@ pub fn for_each_setup(
     }
 }
 
-/// The answer of the default backend about triangles.
+/// Returns the answer of the default backend for triangles.
 pub fn default_answer(query: &Query, config: &Config) -> Answer {
     let bodies = query.triangles();
     Backend::DEFAULT.solve(&query.problem(&bodies, config))

@@ -6,17 +6,17 @@ use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{Config, Motion, Pose, StartPolicy};
 use serde::{Deserialize, Serialize};
 
-/// A query with its settings, and why it is worth asking.
+/// A query with its settings, and the reason for testing it.
 #[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Case {
-    /// Its name.
+    /// The name.
     #[serde(default)]
     pub name: String,
-    /// The fault that it showed, or could show.
+    /// The fault that it revealed, or might reveal.
     #[serde(default)]
     pub why: String,
-    /// The end of the time, which begins at 0.
+    /// The end of the time interval, which begins at 0.
     pub duration: f64,
     /// The same as [`Config::tolerance`].
     #[serde(default = "default_tolerance")]
@@ -65,7 +65,7 @@ pub struct Part {
     /// The angular velocity, in radians per unit of time.
     #[serde(default)]
     pub spin: [f64; 3],
-    /// The point that it turns about, in its own frame.
+    /// The centre of rotation, in the body's frame.
     #[serde(default)]
     pub centre: [f64; 3],
 }
@@ -127,7 +127,7 @@ pub enum Model {
 }
 
 impl Case {
-    /// The query.
+    /// Returns the query.
     pub fn query(&self) -> Query {
         Query {
             a: self.a.actor(),
@@ -136,7 +136,7 @@ impl Case {
         }
     }
 
-    /// The settings of the query.
+    /// Returns the settings of the query.
     pub fn config(&self) -> Config {
         Config {
             tolerance: self.tolerance,
@@ -149,14 +149,14 @@ impl Case {
         }
     }
 
-    /// Writes the case as it goes into the corpus.
+    /// Formats the case for the corpus.
     pub fn to_toml(&self) -> String {
         toml::to_string(self).unwrap_or_else(|error| format!("# {error}\n{self:?}"))
     }
 }
 
 impl Part {
-    /// A shape at rest at the origin.
+    /// Returns a shape at rest at the origin.
     pub fn new(shape: Model) -> Self {
         Part {
             shape,

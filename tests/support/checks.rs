@@ -5,26 +5,26 @@ use crate::distances::{
 };
 use crate::models::Kind;
 use crate::query::{Actor, Bodies, Query};
-use crate::referee::{Placement, Referee, Verdict};
+use crate::referee::{Finding, Placement, Referee};
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 use ccd_core::{Answer, Body, Config, Contact, Feature, Outcome, Overlap, Piece, Separation};
 
-/// Holds answers to one query against what the referee saw of it.
+/// Judges answers to one query by the referee's findings.
 pub struct Judge<'a> {
     query: &'a Query,
     config: Config,
     referee: Referee<'a>,
-    verdict: Verdict,
+    finding: Finding,
     nested: bool,
     /// The least distance at a few sampled times.
     samples: Vec<(f64, f64)>,
 }
 
-/// The law holds, or the reason why not.
+/// `Ok` if the law holds, else the reason why not.
 pub type Law = Result<(), String>;
 
-/// Returns the reason unless the condition holds; comparisons with NaN do not.
+/// Returns the reason unless the condition holds; comparisons with NaN do not hold.
 macro_rules! law {
     ($holds:expr, $($why:tt)*) => {{
         let holds: bool = $holds;
@@ -35,21 +35,21 @@ macro_rules! law {
 }
 
 impl<'a> Judge<'a> {
-    /// Lets the referee look at a query.
+    /// Runs the referee on a query.
     pub fn new(query: &'a Query, config: &Config) -> Self {
         let referee = Referee::with_margin(query, config.margin);
         let time = |k: u32| query.duration * f64::from(k) / 16.0;
         Judge {
             query,
             config: *config,
-            verdict: referee.verdict(),
+            finding: referee.finding(),
             nested: referee.nested(0.0),
             samples: (0..=16).map(|k| (time(k), referee.gap(time(k)))).collect(),
             referee,
         }
     }
 
-    /// The same judge of another tolerance; the referee need not look again.
+    /// Returns the same judge for another tolerance, without running the referee again.
     pub fn with_tolerance(self, tolerance: f64) -> Self {
         let config = Config {
             tolerance,
@@ -58,12 +58,12 @@ impl<'a> Judge<'a> {
         Judge { config, ..self }
     }
 
-    /// The referee's verdict.
-    pub fn verdict(&self) -> Verdict {
-        self.verdict
+    /// Returns the referee's finding.
+    pub fn finding(&self) -> Finding {
+        self.finding
     }
 
-    /// Whether one solid holds the other at the start.
+    /// Returns true if one solid contains the other at the start.
     pub fn nested(&self) -> bool {
         self.nested
     }
@@ -72,7 +72,7 @@ impl<'a> Judge<'a> {
     /// its contact as claimed.
     ///
     /// # Errors
-    /// Which law the answer breaks.
+    /// The law that the answer breaks.
     pub fn check(&self, answer: &Answer, bodies: &Bodies) -> Law {
         self.check_time(answer, 0.0)?;
         let reach = self.config.margin + answer.tolerance + self.query.rounding();
@@ -87,11 +87,11 @@ impl<'a> Judge<'a> {
         }
     }
 
-    /// Checks the time of an answer alone, which may be that to this query in another guise that rounds by
+    /// Checks only the time of an answer. The answer may be to an equivalent query that rounds by
     /// `more` than this one.
     ///
     /// # Errors
-    /// Which law the answer breaks.
+    /// The law that the answer breaks.
     pub fn check_time(&self, answer: &Answer, more: f64) -> Law {
         let rounding = self.query.rounding() + more;
         law!(
@@ -107,11 +107,11 @@ impl<'a> Judge<'a> {
             }
             Outcome::Free { proven_gap } => {
                 law!(
-                    self.verdict.latest().is_none(),
+                    self.finding.latest().is_none(),
                     "missed: {:?}",
-                    self.verdict
+                    self.finding
                 );
-                law!(!self.nested, "missed: one body is inside of the other");
+                law!(!self.nested, "missed: one body is inside the other");
                 let less = self.samples.iter().find(|s| s.1 < proven_gap - rounding);
                 law!(
                     less.is_none(),
@@ -128,30 +128,30 @@ impl<'a> Judge<'a> {
         Ok(())
     }
 
-    /// Checks that a time is not past a contact that the referee is sure of.
+    /// Checks that a time is not after a contact that the referee is sure of.
     ///
     /// # Errors
-    /// When it is.
+    /// If it is.
     pub fn never_late(&self, time: f64) -> Law {
         let in_range = (0.0..=self.query.duration).contains(&time);
         law!(in_range, "the time {time} is not within the duration");
-        match self.verdict {
-            Verdict::Hit { hi, .. } => law!(time <= hi, "late: {time} > {hi}"),
-            Verdict::Start => law!(time == 0.0, "late: {time} > 0"),
+        match self.finding {
+            Finding::Hit { hi, .. } => law!(time <= hi, "late: {time} > {hi}"),
+            Finding::Start => law!(time == 0.0, "late: {time} > 0"),
             _ => {}
         }
         Ok(())
     }
 
-    /// Whether a point of a piece of body A (0) or B (1) at the start is in the solid, or on the mesh. Parts
-    /// are believed, as they need not be closed together.
+    /// Returns true if a point of a piece of body A (0) or B (1) at the start is in the solid, or
+    /// on the mesh. Parts are not checked, as they need not be closed together.
     fn fills(&self, body: usize, point: DVec3, kind: Kind) -> bool {
-        let places = Placement::pair(self.query);
-        let place = |p| places[body].at(0.0, p) + places[0].origin();
+        let placements = Placement::pair(self.query);
+        let to_world = |p| placements[body].at(0.0, p) + placements[0].origin();
         let mesh = &[&self.query.a, &self.query.b][body].shape.mesh;
         kind == Kind::Parts
             || kind != Kind::Triangles && self.referee.holds(body, point)
-            || distance_to_mesh(point, mesh, place) <= self.query.rounding()
+            || distance_to_mesh(point, mesh, to_world) <= self.query.rounding()
     }
 
     fn check_overlap(&self, overlap: &Overlap, bodies: &Bodies) -> Law {
@@ -171,11 +171,11 @@ impl<'a> Judge<'a> {
                 check_contact(self.query, 0.0, contact, bodies, f64::INFINITY)
             }
             Overlap::AInsideB(p) => {
-                law!(self.referee.holds(1, *p), "{p} is not inside of B");
+                law!(self.referee.holds(1, *p), "{p} is not inside B");
                 Ok(())
             }
             Overlap::BInsideA(p) => {
-                law!(self.referee.holds(0, *p), "{p} is not inside of A");
+                law!(self.referee.holds(0, *p), "{p} is not inside A");
                 Ok(())
             }
         }
@@ -185,7 +185,7 @@ impl<'a> Judge<'a> {
 /// Checks witnesses, normal, bounds and features of a contact.
 ///
 /// # Errors
-/// Which of them is wrong.
+/// The one that is wrong.
 pub fn check_contact(
     query: &Query,
     time: f64,
@@ -194,13 +194,54 @@ pub fn check_contact(
     reach: f64,
 ) -> Law {
     let rounding = query.rounding();
+    check_separation(&contact.separation, [reach, rounding])?;
+    let Separation {
+        lower,
+        normal,
+        witness_a,
+        witness_b,
+        ..
+    } = contact.separation;
+    let placements = Placement::pair(query);
+    // Placements are relative to A's centre, but witnesses are not.
+    let drift = placements[0].origin() + time * query.a.motion.velocity();
+    let side_a = Side {
+        actor: &query.a,
+        body: bodies.a(),
+        kind: bodies.kinds[0],
+        piece: contact.piece_a,
+        to_world: &|p| placements[0].at(time, p) + drift,
+    };
+    let side_b = Side {
+        actor: &query.b,
+        body: bodies.b(),
+        kind: bodies.kinds[1],
+        piece: contact.piece_b,
+        to_world: &|p| placements[1].at(time, p) + drift,
+    };
+    side_a
+        .check_witness(witness_a, contact.feature_a, [reach, rounding])
+        .map_err(|e| format!("A: {e}"))?;
+    side_b
+        .check_witness(witness_b, contact.feature_b, [reach, rounding])
+        .map_err(|e| format!("B: {e}"))?;
+    let gap = -side_a.support(normal)? - side_b.support(-normal)?;
+    law!(
+        gap >= lower - rounding,
+        "lower {lower}, but the gap along the normal is {gap}"
+    );
+    Ok(())
+}
+
+/// Checks the bounds, the normal and the distance of the witnesses of a separation.
+fn check_separation(separation: &Separation, [reach, rounding]: [f64; 2]) -> Law {
     let Separation {
         lower,
         upper,
         normal,
         witness_a,
         witness_b,
-    } = contact.separation;
+    } = *separation;
     law!(
         (normal.length() - 1.0).abs() <= 1e-12,
         "no unit normal: {normal}"
@@ -221,34 +262,6 @@ pub fn check_contact(
         along >= lower - rounding,
         "the normal {normal} does not point from A to B"
     );
-    let places = Placement::pair(query);
-    // Placements are relative to A's centre, witnesses are not.
-    let drift = places[0].origin() + time * query.a.motion.velocity();
-    let side_a = Side {
-        actor: &query.a,
-        body: bodies.a(),
-        kind: bodies.kinds[0],
-        piece: contact.piece_a,
-        place: &|p| places[0].at(time, p) + drift,
-    };
-    let side_b = Side {
-        actor: &query.b,
-        body: bodies.b(),
-        kind: bodies.kinds[1],
-        piece: contact.piece_b,
-        place: &|p| places[1].at(time, p) + drift,
-    };
-    side_a
-        .check_witness(witness_a, contact.feature_a, [reach, rounding])
-        .map_err(|e| format!("A: {e}"))?;
-    side_b
-        .check_witness(witness_b, contact.feature_b, [reach, rounding])
-        .map_err(|e| format!("B: {e}"))?;
-    let gap = -side_a.support(normal)? - side_b.support(-normal)?;
-    law!(
-        gap >= lower - rounding,
-        "lower {lower}, but the gap along the normal is {gap}"
-    );
     Ok(())
 }
 
@@ -258,7 +271,7 @@ struct Side<'a> {
     body: &'a Body,
     kind: Kind,
     piece: u32,
-    place: &'a dyn Fn(DVec3) -> DVec3,
+    to_world: &'a dyn Fn(DVec3) -> DVec3,
 }
 
 impl Side<'_> {
@@ -271,21 +284,21 @@ impl Side<'_> {
         Ok(self.body.pieces().get(self.piece as usize))
     }
 
-    /// The farthest that the touched piece reaches along an axis.
+    /// Returns the largest coordinate of the touched piece along an axis.
     fn support(&self, axis: DVec3) -> Result<f64, String> {
         let piece = self.piece()?;
-        let along = piece.points.iter().map(|&p| (self.place)(p).dot(axis));
+        let along = piece.points.iter().map(|&p| (self.to_world)(p).dot(axis));
         Ok(along.fold(f64::NEG_INFINITY, greater) + piece.radius)
     }
 
     fn check_witness(&self, witness: DVec3, feature: Feature, [reach, rounding]: [f64; 2]) -> Law {
-        let off = distance_to_piece(witness, &self.piece()?, self.place);
+        let off = distance_to_piece(witness, &self.piece()?, self.to_world);
         law!(off <= rounding, "the witness is {off} off its piece");
         let shape = &self.actor.shape;
         let off = match self.kind {
             Kind::Patches | Kind::Hull if matches!(feature, Feature::Piece(_)) => {
-                // On a virtual facet: behind the surface, which is then nearer to the other body.
-                let off = distance_to_mesh(witness, &shape.mesh, self.place);
+                // A virtual facet is inside the surface, which is then nearer to the other body.
+                let off = distance_to_mesh(witness, &shape.mesh, self.to_world);
                 law!(
                     off <= reach + rounding,
                     "the surface is {off} from {feature}"
@@ -293,9 +306,9 @@ impl Side<'_> {
                 0.0
             }
             Kind::Triangles | Kind::Patches | Kind::Hull => {
-                distance_to_mesh_feature(witness, feature, &shape.mesh, self.place)?
+                distance_to_mesh_feature(witness, feature, &shape.mesh, self.to_world)?
             }
-            Kind::Parts => distance_to_part_feature(witness, feature, &shape.parts, self.place)?,
+            Kind::Parts => distance_to_part_feature(witness, feature, &shape.parts, self.to_world)?,
         };
         law!(
             off <= rounding,

@@ -1,4 +1,4 @@
-//! The laws of [`DistanceOracle`], to be run over any oracle.
+//! The laws of [`DistanceOracle`], for any oracle.
 
 use crate::referee::{point_segment, point_triangle};
 use crate::tolerance::rounding;
@@ -17,7 +17,7 @@ pub struct Pair {
     b_to_a: Frame,
 }
 
-/// The points of a piece, with the facets of their hull where those are known.
+/// The points of a piece, with the facets of their hull if those are known.
 #[derive(Clone, Debug)]
 pub struct Hull {
     points: Vec<DVec3>,
@@ -25,7 +25,7 @@ pub struct Hull {
     with_facets: Option<Pieces>,
 }
 
-/// The bounds that a claim gives when it is checked.
+/// The bounds that follow from a claim.
 #[derive(Clone, Copy, Debug)]
 pub struct Checked {
     /// The gap of the supports along the claimed axis: a lower bound of the distance.
@@ -35,13 +35,13 @@ pub struct Checked {
 }
 
 impl Hull {
-    /// Takes points, and finds the facets of their hull unless some are coplanar.
+    /// Finds the facets of the points' hull, unless some points are coplanar.
     pub fn new(points: Vec<DVec3>) -> Self {
         let facets = facets(&points);
         Hull::with_facets(points, facets)
     }
 
-    /// Takes points and the facets of their hull; without facets they are points alone.
+    /// Combines points and the facets of their hull; without facets they are points alone.
     pub fn with_facets(points: Vec<DVec3>, facets: Vec<Facet>) -> Self {
         let known = !facets.is_empty();
         let polytope = Polytope {
@@ -56,7 +56,7 @@ impl Hull {
         }
     }
 
-    /// The mean of the points.
+    /// Returns the mean of the points.
     pub fn middle(&self) -> DVec3 {
         self.points.iter().sum::<DVec3>() / self.points.len() as f64
     }
@@ -68,14 +68,14 @@ impl Hull {
         }
     }
 
-    /// Whether a backend that needs facets may refuse it.
+    /// Returns true if a backend that needs facets may refuse it.
     fn lacks_facets(&self) -> bool {
         self.points.len() > 3 && self.with_facets.is_none()
     }
 }
 
 impl Pair {
-    /// Takes two hulls and a placement of B's frame in A's.
+    /// Combines two hulls and a placement of B's frame in A's.
     pub fn new(a: Hull, b: Hull, rotation: DQuat, translation: DVec3) -> Self {
         Pair {
             a,
@@ -100,7 +100,7 @@ impl Pair {
         points.map(|&p| self.b_to_a.point(p)).collect()
     }
 
-    /// Whether an oracle may give up for a reason: for missing facets alone.
+    /// Returns true if an oracle may give up for this reason: only for missing facets.
     fn excuses(&self, why: GiveUp) -> bool {
         why == GiveUp::BadFacets && (self.a.lacks_facets() || self.b.lacks_facets())
     }
@@ -111,10 +111,11 @@ impl Pair {
         rounding(largest(&self.a.points) + largest(&self.b_in_a()) + largest(&self.b.points))
     }
 
-    /// Computes the bounds that a claim about this pair gives; a claim that names no points is an error.
+    /// Computes the bounds that follow from a claim about this pair; a claim that names no points
+    /// is an error.
     ///
     /// # Errors
-    /// What the claim lacks.
+    /// The part that the claim lacks.
     pub fn check(&self, claim: &Claim) -> Result<Checked, String> {
         let b = self.b_in_a();
         let point_a = claim.a.of(&self.a.points).ok_or("names no point of A")?;
@@ -131,10 +132,10 @@ impl Pair {
         })
     }
 
-    /// The distance of the two hulls by brute force: the nearest two of all their triangles.
+    /// Computes the distance of the two hulls by brute force: the nearest two of all their triangles.
     ///
-    /// Exact up to rounding for hulls that are apart: then, and only then, the line between the two
-    /// nearest points is an axis that separates the hulls. 0 for hulls that meet.
+    /// The result is exact up to rounding for hulls that are apart: then, and only then, the line
+    /// between the two nearest points is an axis that separates the hulls. It is 0 for hulls that meet.
     pub fn distance(&self) -> f64 {
         let b = self.b_in_a();
         let (all_a, all_b) = (simplices(&self.a.points), simplices(&b));
@@ -151,8 +152,8 @@ impl Pair {
     }
 }
 
-/// The triangles of more than three points that have all others behind them; none unless they close a
-/// surface, which they do where no four points are coplanar.
+/// Returns the triangles of more than three points that have all others below them. Returns none
+/// unless they close a surface, which they do if no four points are coplanar.
 fn facets(points: &[DVec3]) -> Vec<Facet> {
     let size = points.iter().map(|p| p.length()).fold(0.0, greater);
     let slack = rounding(size.powi(3));
@@ -187,20 +188,20 @@ fn facets(points: &[DVec3]) -> Vec<Facet> {
     }
 }
 
-/// All ways to take three of so many, in order.
+/// Returns all ways to choose three of `count` indices, in order.
 fn triples(count: u32) -> impl Iterator<Item = [u32; 3]> {
     let pairs = (0..count).flat_map(move |i| (i + 1..count).map(move |j| [i, j]));
     pairs.flat_map(move |[i, j]| (j + 1..count).map(move |k| [i, j, k]))
 }
 
-/// All triangles among some points that have the rest on one side (or what there is, for fewer than
-/// three points): they cover the hull's surface.
+/// Returns all triangles among some points that have the rest on one side, or all points if there
+/// are fewer than three. They cover the hull's surface.
 fn simplices(points: &[DVec3]) -> Vec<Vec<DVec3>> {
     if points.len() <= 3 {
         return vec![points.to_vec()];
     }
     let size = points.iter().map(|p| p.length()).fold(0.0, greater);
-    // More triangles than needed do no harm: they lie inside of the hull.
+    // Additional triangles do no harm: they lie inside the hull.
     let slack = rounding(size.powi(3));
     let mut out = Vec::new();
     for triple in triples(points.len() as u32) {
@@ -217,7 +218,7 @@ fn simplices(points: &[DVec3]) -> Vec<Vec<DVec3>> {
     out
 }
 
-/// Keeps the shortest vector from `s` to `t` if it is shorter than the best so far.
+/// Replaces the best vector by the shortest vector from `s` to `t` if that is shorter.
 fn simplex_distance(s: &[DVec3], t: &[DVec3], best: &mut DVec3) {
     let mut offer = |vector: DVec3| {
         if vector.length_squared() < best.length_squared() {
@@ -252,7 +253,7 @@ fn edges(simplex: &[DVec3]) -> &'static [(usize, usize)] {
     }
 }
 
-/// The shortest vector between two lines, where its ends lie inside of the segments.
+/// Returns the shortest vector between two lines, if its ends lie inside the segments.
 fn crossing(e: [DVec3; 2], f: [DVec3; 2]) -> Option<DVec3> {
     let (u, v, w) = (e[1] - e[0], f[1] - f[0], f[0] - e[0]);
     let n = u.cross(v);
@@ -262,21 +263,21 @@ fn crossing(e: [DVec3; 2], f: [DVec3; 2]) -> Option<DVec3> {
         .then(|| n * (w.dot(n) / n.length_squared()))
 }
 
-/// The kind of pair that a law was checked with.
+/// The kind of pair for which a law was checked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Met {
-    /// They are apart.
+    /// The pieces are apart.
     Apart,
     /// They have a common point, or are apart by no more than rounding.
     Meeting,
-    /// The oracle gave up for a reason that its documentation names.
+    /// The oracle gave up for a documented reason.
     Refused,
 }
 
-/// The law of bounds: those of a claim enclose the true distance closely.
+/// Checks the law of bounds: those of a claim enclose the true distance closely.
 ///
 /// # Errors
-/// What the oracle got wrong.
+/// The mistake of the oracle.
 pub fn bounds_law<O: DistanceOracle>(
     oracle: &mut O,
     pair: &Pair,
@@ -289,7 +290,7 @@ pub fn bounds_law<O: DistanceOracle>(
     };
     let (checked, distance) = (pair.check(&claim)?, pair.distance());
     let rounding = pair.rounding();
-    // The two enclosing inequalities hold for any claim; they check the brute force, too.
+    // The two enclosing inequalities hold for any claim; they check the brute force too.
     if !(checked.lower <= distance + rounding && distance <= checked.upper + rounding) {
         return Err(format!("{checked:?} does not enclose {distance}"));
     }
@@ -308,17 +309,17 @@ pub fn bounds_law<O: DistanceOracle>(
     Ok(Met::Apart)
 }
 
-/// The law of caches: one left by another pair, whatever its size, changes nothing beyond `slack`.
+/// Checks the law of caches: a cache left by another pair, of any size, changes nothing beyond `slack`.
 ///
 /// # Errors
-/// What the stale cache changed.
+/// The change by the stale cache.
 pub fn cache_law<O: DistanceOracle>(
     oracle: &mut O,
     pairs: [&Pair; 2],
     slack: f64,
 ) -> Result<Met, String> {
     let mut cache = O::Cache::default();
-    // Whatever it says of the first pair, the second one is what counts.
+    // The answer for the first pair is ignored; the second one counts.
     let _ = oracle.separation(&pairs[0].as_pieces(), &mut cache);
     let pair = pairs[1];
     let stale = oracle.separation(&pair.as_pieces(), &mut cache);
@@ -344,10 +345,10 @@ pub fn cache_law<O: DistanceOracle>(
     Ok(Met::Apart)
 }
 
-/// The law of ends: an answer that names points of the pieces, or a typed refusal, whatever the points.
+/// Checks the law of ends: the answer names points of the pieces, or is a typed refusal, for any points.
 ///
 /// # Errors
-/// Which point is named that a piece lacks.
+/// The named point that a piece lacks.
 pub fn ends_law<O: DistanceOracle>(oracle: &mut O, pair: &Pair) -> Result<(), String> {
     let mut cache = O::Cache::default();
     for _ in 0..3 {

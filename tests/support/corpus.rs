@@ -1,12 +1,12 @@
-//! Cases kept because they once went wrong, or would: `corpus/*.toml`.
+//! Cases that once failed, or might fail: `corpus/*.toml`.
 
 use crate::case::Case;
 use std::path::PathBuf;
 
-/// Every case of the corpus, by the name of its file.
+/// Returns every case of the corpus, by the name of its file.
 ///
 /// # Panics
-/// When a file cannot be read or is not a [`Case`].
+/// If a file cannot be read or is not a [`Case`].
 pub fn cases() -> Vec<Case> {
     let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("corpus");
     let entries = std::fs::read_dir(&folder).expect("the corpus");

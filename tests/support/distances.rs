@@ -1,4 +1,4 @@
-//! Distances of points from pieces, from meshes, and from features of these.
+//! Distances of points from pieces, from meshes, and from their features.
 
 use crate::models::Mesh;
 use crate::referee::{point_segment, point_triangle};
@@ -6,13 +6,13 @@ use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 use ccd_core::{Feature, Origin, Piece, Polytope};
 
-/// The distance of a point from a piece; 0 inside.
+/// Returns the distance of a point from a piece; 0 inside.
 pub(crate) fn distance_to_piece(
     p: DVec3,
     piece: &Piece<'_>,
-    place: impl Fn(DVec3) -> DVec3,
+    to_world: impl Fn(DVec3) -> DVec3,
 ) -> f64 {
-    let points: Vec<DVec3> = piece.points.iter().map(|&q| place(q)).collect();
+    let points: Vec<DVec3> = piece.points.iter().map(|&q| to_world(q)).collect();
     let core = match points[..] {
         [a] => a.distance(p),
         [a, b] => point_segment(p, [a, b]).distance(p),
@@ -28,7 +28,7 @@ pub(crate) fn distance_to_piece(
                 fan.map(|e| (e[0] - l[0]).cross(e[1] - l[0])).sum()
             };
             let height = |l: &Vec<DVec3>| normal(l).dot(p - l[0]);
-            // A polygon has two facets, and no inside.
+            // A polygon has two facets and no interior.
             if loops.len() != 2 && loops.iter().all(|l| height(l) <= 0.0) {
                 0.0
             } else {
@@ -42,10 +42,10 @@ pub(crate) fn distance_to_piece(
     greater(0.0, core - piece.radius)
 }
 
-/// The distance of a point from the surface.
-pub(crate) fn distance_to_mesh(p: DVec3, mesh: &Mesh, place: impl Fn(DVec3) -> DVec3) -> f64 {
+/// Returns the distance of a point from the surface.
+pub(crate) fn distance_to_mesh(p: DVec3, mesh: &Mesh, to_world: impl Fn(DVec3) -> DVec3) -> f64 {
     let off = |k| {
-        let corners = mesh.triangle(k).map(&place);
+        let corners = mesh.triangle(k).map(&to_world);
         point_triangle(p, corners).distance(p)
     };
     (0..mesh.faces.len()).map(off).fold(f64::INFINITY, lesser)
@@ -55,9 +55,9 @@ pub(crate) fn distance_to_mesh_feature(
     p: DVec3,
     feature: Feature,
     mesh: &Mesh,
-    place: impl Fn(DVec3) -> DVec3,
+    to_world: impl Fn(DVec3) -> DVec3,
 ) -> Result<f64, String> {
-    let vertex = |v: u32| mesh.vertices.get(v as usize).map(|&q| place(q));
+    let vertex = |v: u32| mesh.vertices.get(v as usize).map(|&q| to_world(q));
     let bad = || format!("the mesh has no {feature}");
     match feature {
         Feature::Vertex(v) => Ok(vertex(v).ok_or_else(bad)?.distance(p)),
@@ -69,7 +69,7 @@ pub(crate) fn distance_to_mesh_feature(
         }
         Feature::Face(f) => {
             mesh.faces.get(f as usize).ok_or_else(bad)?;
-            let corners = mesh.triangle(f as usize).map(place);
+            let corners = mesh.triangle(f as usize).map(to_world);
             Ok(point_triangle(p, corners).distance(p))
         }
         Feature::Piece(_) => Err("a triangle's feature has a better name".into()),
@@ -80,23 +80,23 @@ pub(crate) fn distance_to_part_feature(
     p: DVec3,
     feature: Feature,
     parts: &[Polytope],
-    place: impl Fn(DVec3) -> DVec3,
+    to_world: impl Fn(DVec3) -> DVec3,
 ) -> Result<f64, String> {
     let mut nearest = f64::INFINITY;
     for part in parts {
         let id = |k: usize| part.vertex_ids.get(k).copied().unwrap_or(k as u32);
         let named = |v: u32| (0..part.points.len()).find(|&k| id(k) == v);
-        let vertex = |v: u32| named(v).map(|k| place(part.points[k]));
+        let vertex = |v: u32| named(v).map(|k| to_world(part.points[k]));
         let distance = match feature {
             Feature::Vertex(v) => vertex(v).map(|q| q.distance(p)),
             Feature::Edge(v, w) => vertex(v)
                 .zip(vertex(w))
                 .map(|(v, w)| point_segment(p, [v, w]).distance(p)),
             Feature::Face(f) => face_of(part, f).map(|corners| {
-                let corners: Vec<DVec3> = corners.into_iter().map(&place).collect();
+                let corners: Vec<DVec3> = corners.into_iter().map(&to_world).collect();
                 distance_to_polygon(p, &corners)
             }),
-            // The inside: that the witness lies in the piece is checked elsewhere.
+            // The interior: another check ensures that the witness lies in the piece.
             Feature::Piece(_) => Some(0.0),
         };
         if let Some(distance) = distance {
@@ -110,7 +110,7 @@ pub(crate) fn distance_to_part_feature(
     }
 }
 
-/// The corners of the face that a part has by a number.
+/// Returns the corners of the face with this number in a part.
 fn face_of(part: &Polytope, face: u32) -> Option<Vec<DVec3>> {
     let mut facets = part.facets.iter();
     let whole = facets.find(|facet| facet.origin == Origin::Face(face));

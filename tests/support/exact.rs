@@ -1,6 +1,6 @@
-//! Points inside, on and outside closed meshes, without rounding: the judge of decompositions.
+//! Locates points relative to closed meshes, without rounding: the judge of decompositions.
 //!
-//! It shares no code with what it judges.
+//! It shares no code with the code under test.
 
 mod blend;
 mod number;
@@ -17,35 +17,35 @@ use ccd_core::glam::{DVec2, DVec3};
 use predicates::{VIEWS, holds, side, turn};
 use std::cmp::Ordering;
 
-/// The location of a point next to a closed mesh.
+/// The location of a point relative to a closed mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Location {
-    /// The mesh does not wind about it.
+    /// The winding number is zero.
     Outside,
     /// The point is on a face.
     Surface,
-    /// The mesh winds about it this many times; negative for a mesh that is inside out.
+    /// The winding number; negative for a mesh that is inside out.
     Inside(i32),
 }
 
-/// Tells where points are of one closed mesh.
+/// Locates points relative to one closed mesh.
 pub struct Solid<'a> {
     mesh: &'a Mesh,
     columns: Columns,
 }
 
-/// Whether a point is above (greater), below (less) or in the plane of a triangle that is
-/// counter-clockwise seen from above; exactly.
+/// Returns, exactly, whether a point is above (greater), below (less) or in the plane of a triangle
+/// that is counter-clockwise seen from above.
 pub fn side_of(triangle: [DVec3; 3], point: &Blend) -> Ordering {
     side(triangle, &Spot::new(point))
 }
 
-/// Whether a closed triangle holds a point; exactly.
+/// Returns, exactly, whether a closed triangle contains a point.
 pub fn triangle_holds(triangle: [DVec3; 3], point: &Blend) -> bool {
     holds(triangle, &Spot::new(point))
 }
 
-/// Whether a triangle has no area; exactly.
+/// Returns, exactly, whether a triangle has no area.
 pub fn is_degenerate([a, b, c]: [DVec3; 3]) -> bool {
     let point = Blend::mean([c]);
     let spot = Spot::new(&point);
@@ -53,8 +53,8 @@ pub fn is_degenerate([a, b, c]: [DVec3; 3]) -> bool {
     VIEWS.iter().all(in_line)
 }
 
-/// Whether a loop of coplanar points is a convex polygon, seen from one side or the other; corners may
-/// be in line. Exactly.
+/// Returns, exactly, whether a loop of coplanar points is a convex polygon, seen from one side or
+/// the other. Corners may be collinear.
 pub fn is_convex_polygon(corners: &[DVec3]) -> bool {
     let spots: Vec<Blend> = corners.iter().map(|&p| Blend::mean([p])).collect();
     VIEWS.iter().any(|&view| {
@@ -68,7 +68,7 @@ pub fn is_convex_polygon(corners: &[DVec3]) -> bool {
 }
 
 impl<'a> Solid<'a> {
-    /// Takes a mesh that is closed: every edge has as many faces that run along it one way as the other.
+    /// Prepares a closed mesh: every edge has the same number of faces in either direction.
     pub fn new(mesh: &'a Mesh) -> Self {
         Solid {
             mesh,
@@ -76,10 +76,10 @@ impl<'a> Solid<'a> {
         }
     }
 
-    /// Locates a point by the faces that a ray from it upwards crosses.
+    /// Locates a point by the faces that an upward ray from it crosses.
     ///
-    /// The ray is moved by (ε, ε²) sideways, with ε smaller than any number, so that it meets no edge
-    /// and no upright face, and no case is special.
+    /// The ray is moved sideways by (ε, ε²), with ε smaller than any number. It therefore meets no
+    /// edge and no upright face, and there are no special cases.
     pub fn locate(&self, point: &Blend) -> Location {
         let p = Spot::new(point);
         let mut windings = 0;
@@ -101,7 +101,7 @@ impl<'a> Solid<'a> {
     }
 }
 
-/// Whether a point is certainly beside a triangle as seen from above.
+/// Returns true if a point is certainly outside a triangle as seen from above.
 fn apart_from_above([a, b, c]: [DVec3; 3], p: &Spot<'_>) -> bool {
     (0..2).any(|axis| {
         let (lo, hi) = (
@@ -112,19 +112,19 @@ fn apart_from_above([a, b, c]: [DVec3; 3], p: &Spot<'_>) -> bool {
     })
 }
 
-/// 1 where the moved ray upwards from a point leaves through a triangle, −1 where it enters, else 0;
-/// of a triangle that does not hold the point.
+/// Returns 1 if the moved upward ray from a point leaves through a triangle, −1 if it enters, else
+/// 0. The triangle must not contain the point.
 fn crossing(triangle: [DVec3; 3], p: &Spot<'_>) -> i32 {
     let [a, b, c] = triangle;
     let turns = [[a, b], [b, c], [c, a]].map(|edge| match turn(VIEWS[0], edge, p) {
-        // Moving by (ε, ε²) changes (b − a) × (p − a) by ε (a − b).y + ε² (b − a).x.
+        // The shift by (ε, ε²) changes (b − a) × (p − a) by ε (a − b).y + ε² (b − a).x.
         Ordering::Equal => {
             let [a, b] = edge;
             ordered(a.y, b.y).then(ordered(b.x, a.x))
         }
         turn => turn,
     });
-    // A triangle that is upright is a segment as seen from above: its turns are never all one.
+    // An upright triangle is a segment as seen from above: its turns are never all equal.
     if turns[0] == Ordering::Equal || turns[0] != turns[1] || turns[1] != turns[2] {
         return 0;
     }
@@ -135,12 +135,12 @@ fn crossing(triangle: [DVec3; 3], p: &Spot<'_>) -> i32 {
     }
 }
 
-/// The order of two finite numbers.
+/// Returns the order of two finite numbers.
 fn ordered(x: f64, y: f64) -> Ordering {
     x.partial_cmp(&y).expect("finite coordinates")
 }
 
-/// A mesh's faces by what lies over and under each cell of a grid in the xy-plane.
+/// The faces of a mesh, by the cells of a grid in the xy-plane that they cover.
 struct Columns {
     lo: DVec2,
     cell: DVec2,
@@ -161,7 +161,7 @@ impl Columns {
             count,
             faces: vec![Vec::new(); count * count],
         };
-        // Far more than points are rounded by, so that a face is in the cell of every point over it.
+        // Far more than the rounding of points, so that a face is in the cell of every point over it.
         let spare = 1e-3 * columns.cell;
         for (k, _) in mesh.faces.iter().enumerate() {
             let [a, b, c] = mesh.triangle(k).map(DVec3::truncate);
@@ -180,7 +180,7 @@ impl Columns {
 
     fn cell_of(&self, p: DVec2) -> [usize; 2] {
         let cell = (p - self.lo) / self.cell;
-        // Conversion cuts off below 0.
+        // The conversion clamps negative numbers to 0.
         cell.to_array().map(|x| (x as usize).min(self.count - 1))
     }
 

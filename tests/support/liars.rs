@@ -1,4 +1,4 @@
-//! Oracles that break their contract in every way: none of them may make an answer late.
+//! Oracles that break their contract in every way, none of which may make an answer late.
 
 use ccd_core::glam::DVec3;
 use ccd_core::{Claim, Combination, DistanceOracle, GiveUp, PiecePair};
@@ -6,19 +6,19 @@ use ccd_core::{Claim, Combination, DistanceOracle, GiveUp, PiecePair};
 /// A way to lie.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Lie {
-    /// Any axis, any points.
+    /// Returns any axis and any points.
     Random,
-    /// An axis that is NaN.
+    /// Returns an axis that is NaN.
     NanAxis,
-    /// An axis of length zero, and no points.
+    /// Returns an axis of length zero, and no points.
     Nothing,
-    /// An infinite axis.
+    /// Returns an infinite axis.
     Infinite,
-    /// Points that the pieces lack.
+    /// Returns points that the pieces lack.
     OutOfRange,
-    /// The axis from B to A.
+    /// Returns the axis from B to A.
     Backwards,
-    /// Gives up, always.
+    /// Always gives up.
     GivesUp,
 }
 
@@ -35,7 +35,7 @@ impl Lie {
     ];
 }
 
-/// An oracle that lies in one way, the same each time it is made anew.
+/// An oracle that lies in one way, reproducibly.
 #[derive(Clone, Debug)]
 pub struct Liar {
     lie: Lie,
@@ -43,12 +43,13 @@ pub struct Liar {
 }
 
 impl Liar {
-    /// Makes an oracle that lies so.
+    /// Returns an oracle that lies in this way.
     pub fn new(lie: Lie) -> Self {
         Liar { lie, state: 1 }
     }
 
-    /// A number from −1 to 1: a linear congruential generator's upper bits `[Knuth TAOCP 3.3.4]`.
+    /// Returns a number from −1 to 1: a linear congruential generator's upper bits `[Knuth TAOCP
+    /// 3.3.4]`.
     fn number(&mut self) -> f64 {
         self.state = self
             .state

@@ -1,6 +1,5 @@
-//! The parts of the property suite: models by code, an independent referee, scenes with
-//! closed-form answers, and the machinery that runs one property over every backend, schedule and
-//! kind of piece.
+//! The parts of the property suite: models by code, an independent referee, scenes with closed-form
+//! answers, and the machinery that runs one property over every backend, schedule and kind of piece.
 
 pub mod analytic;
 pub mod backends;
@@ -18,7 +17,7 @@ pub mod referee;
 pub mod strategies;
 pub mod tolerance;
 
-/// The code that the README shows.
+/// The code in the README.
 #[cfg(doctest)]
 #[doc = include_str!("../../README.md")]
 pub struct Readme;

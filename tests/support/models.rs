@@ -1,4 +1,4 @@
-//! Shapes by code: triangle meshes, and the convex parts they are made of where those are known.
+//! Shapes by code: triangle meshes, and their convex parts where those are known.
 
 mod boxes;
 mod catalog;
@@ -26,27 +26,27 @@ use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{Body, Facet, InputError, Origin, Pieces, Polytope, Volume};
 use ccd_decomp::{Detail, Order, TriangleMesh, build_hull_tree, prepare};
 
-/// A triangle mesh: what the referee looks at, and what the engine is given.
+/// A triangle mesh, the input of the referee and of the engine.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mesh {
     /// The vertices in the body's own frame.
     pub vertices: Vec<DVec3>,
-    /// Counter-clockwise seen from outside, where there is an outside.
+    /// The faces, counter-clockwise seen from outside, if there is an outside.
     pub faces: Vec<[u32; 3]>,
 }
 
-/// A shape in every form that the engine takes.
+/// A shape in every form that the engine accepts.
 #[derive(Clone, Debug)]
 pub struct Shape {
-    /// Its surface.
+    /// The surface.
     pub mesh: Mesh,
-    /// Convex parts whose union has that surface; empty where none are known.
+    /// Convex parts whose union has that surface; empty if unknown.
     pub parts: Vec<Polytope>,
-    /// Whether the mesh is closed and its inside counts.
+    /// States whether the mesh is closed and its inside counts.
     pub volume: Volume,
 }
 
-/// The kind of pieces that a body is built of.
+/// The kind of pieces of a body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// One piece per triangle.
@@ -60,17 +60,17 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// Every kind.
+    /// All kinds.
     pub const ALL: [Kind; 4] = [Kind::Triangles, Kind::Parts, Kind::Patches, Kind::Hull];
 
-    /// Whether pieces may reach into the inside of the mesh.
+    /// Returns true if pieces may extend into the inside of the mesh.
     pub fn is_filled(self) -> bool {
         self != Kind::Triangles
     }
 }
 
 impl Shape {
-    /// A closed mesh, of no known parts.
+    /// Returns a closed mesh without known parts.
     pub fn closed(mesh: Mesh) -> Self {
         Shape {
             mesh,
@@ -79,7 +79,7 @@ impl Shape {
         }
     }
 
-    /// A mesh without an inside.
+    /// Returns a mesh without an inside.
     pub fn open(mesh: Mesh) -> Self {
         Shape {
             volume: Volume::Surface,
@@ -87,7 +87,7 @@ impl Shape {
         }
     }
 
-    /// A closed convex mesh: it is its own only part.
+    /// Returns a closed convex mesh, which is its own only part.
     pub fn convex(mesh: Mesh) -> Self {
         let facets = mesh.faces.iter().enumerate();
         let part = Polytope {
@@ -106,7 +106,7 @@ impl Shape {
         }
     }
 
-    /// The union of shapes, as a surface; vertices and faces are numbered on.
+    /// Returns the union of shapes, as a surface; vertices and faces are numbered consecutively.
     pub fn union(shapes: impl IntoIterator<Item = Shape>) -> Self {
         let mut out = Shape::open(Mesh {
             vertices: Vec::new(),
@@ -136,40 +136,40 @@ impl Shape {
         out
     }
 
-    /// Turned, then moved, within the body's frame.
+    /// Rotates, then moves, within the body's frame.
     pub fn placed(mut self, rotation: DQuat, offset: DVec3) -> Self {
         self.each_point(|p| rotation * p + offset);
         self
     }
 
-    /// Moved within the body's frame.
+    /// Moves within the body's frame.
     pub fn moved(self, offset: DVec3) -> Self {
         self.placed(DQuat::IDENTITY, offset)
     }
 
-    /// Every coordinate times a positive factor.
+    /// Multiplies every coordinate by a positive factor.
     pub fn scaled(mut self, factor: f64) -> Self {
         self.each_point(|p| factor * p);
         self
     }
 
-    /// Each coordinate times a positive factor of its own.
+    /// Multiplies each coordinate by a positive factor of its own.
     pub fn stretched(mut self, factors: DVec3) -> Self {
         self.each_point(|p| factors * p);
         self
     }
 
-    /// Whether its mesh is closed and its inside counts.
+    /// Returns true if the mesh is closed and its inside counts.
     pub fn is_solid(&self) -> bool {
         self.volume == Volume::Solid
     }
 
-    /// Whether it is convex, and known to be.
+    /// Returns true if the shape is known to be convex.
     pub fn is_convex(&self) -> bool {
         matches!(&self.parts[..], [part] if part.radius == 0.0) && self.is_solid()
     }
 
-    /// The kinds of pieces it can be built of.
+    /// Returns the kinds of pieces that it can be built of.
     pub fn kinds(&self) -> impl Iterator<Item = Kind> {
         Kind::ALL.into_iter().filter(|kind| match kind {
             Kind::Triangles => !self.mesh.faces.is_empty(),
@@ -179,15 +179,15 @@ impl Shape {
         })
     }
 
-    /// Whether it can be built of such pieces.
+    /// Returns true if it can be built of the given pieces.
     pub fn can_be(&self, kind: Kind) -> bool {
         self.kinds().any(|known| known == kind)
     }
 
-    /// The engine's body; parts are filled by themselves, so that only the other kinds can be hollow.
+    /// Returns the engine's body. Parts are filled, so only the other kinds can be hollow.
     ///
     /// # Panics
-    /// When the shape cannot be built so.
+    /// If the shape cannot be built of these pieces.
     pub fn body(&self, kind: Kind) -> Body {
         match kind {
             Kind::Triangles => core_body(self.mesh.pieces(), self.volume),
@@ -220,7 +220,7 @@ impl Shape {
 }
 
 impl Mesh {
-    /// Takes another mesh in; its vertices and faces are numbered on.
+    /// Appends another mesh; vertices and faces are numbered consecutively.
     pub fn append(&mut self, other: &Mesh) {
         let base = self.vertices.len() as u32;
         self.vertices.extend_from_slice(&other.vertices);
@@ -228,12 +228,12 @@ impl Mesh {
             .extend(other.faces.iter().map(|f| f.map(|v| v + base)));
     }
 
-    /// The corners of a face.
+    /// Returns the corners of a face.
     pub fn triangle(&self, face: usize) -> [DVec3; 3] {
         self.faces[face].map(|v| self.vertices[v as usize])
     }
 
-    /// The largest distance of a vertex from a point.
+    /// Returns the largest distance of a vertex from a point.
     pub fn radius_about(&self, centre: DVec3) -> f64 {
         self.vertices
             .iter()
@@ -241,7 +241,7 @@ impl Mesh {
             .fold(0.0, greater)
     }
 
-    /// The volume within, negative where faces look inward.
+    /// Returns the enclosed volume, negative if faces are oriented inward.
     pub fn signed_volume(&self) -> f64 {
         let of_face = |face| {
             let [a, b, c] = self.triangle(face);
@@ -250,16 +250,16 @@ impl Mesh {
         (0..self.faces.len()).map(of_face).sum()
     }
 
-    /// The same surface with every face seen from the other side.
+    /// Returns the same surface with every face reversed.
     pub fn flipped(mut self) -> Self {
         self.faces.iter_mut().for_each(|f| f.swap(1, 2));
         self
     }
 
-    /// The mesh as the preparation takes it.
+    /// Returns the mesh in the form for the preparation.
     ///
     /// # Panics
-    /// When it has no faces, or a number that is not finite.
+    /// If it has no faces, or a number that is not finite.
     pub fn for_decomposition(&self) -> TriangleMesh {
         TriangleMesh::new(self.vertices.clone(), &self.faces).expect("a mesh")
     }
@@ -274,8 +274,8 @@ fn core_body(pieces: Result<Pieces, InputError>, volume: Volume) -> Body {
     Body::new(&pieces.expect("good pieces"), volume).expect("a good body")
 }
 
-/// The faces of a grid of `rows × columns` vertices, row by row; a closed direction wraps around.
-/// Seen from where rows run to the right and columns upwards, faces are counter-clockwise.
+/// Returns the faces of a grid of `rows × columns` vertices, row by row; a closed direction wraps
+/// around. Faces are counter-clockwise seen from where rows run to the right and columns upwards.
 fn grid_faces(rows: Line, columns: Line) -> Vec<[u32; 3]> {
     let vertex =
         |i: usize, j: usize| ((i % rows.count()) * columns.count() + j % columns.count()) as u32;

@@ -1,5 +1,5 @@
-//! The laws of a convex patch of a closed surface: its hull is in the solid, its faces are on its hull,
-//! and its names are right; all of it exactly.
+//! The laws of a convex patch of a closed surface, checked exactly: its hull is in the solid, its
+//! faces are on its hull, and its names are right.
 
 use crate::exact::{
     Blend, Effort, Location, Solid, is_convex_polygon, is_degenerate, samples, side_of,
@@ -11,10 +11,10 @@ use ccd_core::{Facet, Origin, Polytope};
 use std::cmp::Ordering;
 use std::collections::HashMap;
 
-/// The law holds, or the reason why not.
+/// `Ok` if the law holds, else the reason why not.
 pub type Law = Result<(), String>;
 
-/// A convex patch: faces of a mesh, and the polytope that stands for them.
+/// A convex patch: faces of a mesh, and the polytope that represents them.
 #[derive(Clone, Debug)]
 pub struct Claim<'a> {
     /// The faces of the mesh, by number.
@@ -23,10 +23,10 @@ pub struct Claim<'a> {
     pub polytope: &'a Polytope,
 }
 
-/// Every face of a mesh is of exactly one patch.
+/// Checks that every face of a mesh is in exactly one patch.
 ///
 /// # Errors
-/// Which face is not.
+/// The face that is not.
 pub fn check_cover(mesh: &Mesh, claims: &[Claim<'_>]) -> Law {
     let mut count = vec![0; mesh.faces.len()];
     for &face in claims.iter().flat_map(|claim| claim.faces) {
@@ -40,10 +40,11 @@ pub fn check_cover(mesh: &Mesh, claims: &[Claim<'_>]) -> Law {
     }
 }
 
-/// Points sampled of a patch's hull are inside the solid or on its surface; says how many there were.
+/// Checks that sampled points of a patch's hull are inside the solid or on its surface. Returns
+/// their number.
 ///
 /// # Errors
-/// Which point is outside.
+/// The point that is outside.
 pub fn check_inside(
     solid: &Solid<'_>,
     claim: &Claim<'_>,
@@ -60,10 +61,10 @@ pub fn check_inside(
     }
 }
 
-/// A patch's points, facets and faces are those of the mesh, and its hull's.
+/// Checks that a patch's points, facets and faces are those of the mesh, and of its hull.
 ///
 /// # Errors
-/// Which of them is not.
+/// The one that is not.
 pub fn check_polytope(mesh: &Mesh, claim: &Claim<'_>) -> Law {
     check_points(mesh, claim.polytope)?;
     check_hull(claim.polytope)?;
@@ -85,7 +86,8 @@ fn check_points(mesh: &Mesh, polytope: &Polytope) -> Law {
     Ok(())
 }
 
-/// Facets are convex polygons with every point behind them, that together are closed.
+/// Checks that facets are convex polygons with every point below them, and that together they are
+/// closed.
 fn check_hull(polytope: &Polytope) -> Law {
     let points = &polytope.points;
     let spots: Vec<Blend> = points.iter().map(|&p| Blend::mean([p])).collect();
@@ -116,7 +118,7 @@ fn check_hull(polytope: &Polytope) -> Law {
     }
 }
 
-/// Triangles that make up a polygon, those without an area left out.
+/// Returns triangles that make up a polygon, without those of no area.
 fn triangles<'a>(
     polytope: &'a Polytope,
     corners: &'a [u32],
@@ -126,7 +128,8 @@ fn triangles<'a>(
     fan.filter(|triangle| !is_degenerate(*triangle))
 }
 
-/// Every face of the patch is named once, by a facet that it is or that it lies on, seen from outside.
+/// Checks that every face of the patch is named once, by a facet that it is or that it lies on,
+/// seen from outside.
 fn check_names(mesh: &Mesh, claim: &Claim<'_>) -> Law {
     let polytope = claim.polytope;
     let mut named = Vec::new();
@@ -163,7 +166,7 @@ fn check_names(mesh: &Mesh, claim: &Claim<'_>) -> Law {
     }
 }
 
-/// A facet that consists of several faces has no point that is on none of them.
+/// Checks that a facet of several faces has no point that is on none of them.
 fn check_merged(polytope: &Polytope) -> Law {
     let merged = |facet: &&Facet| facet.origin == Origin::Faces;
     for facet in polytope.facets.iter().filter(merged) {
@@ -172,7 +175,7 @@ fn check_merged(polytope: &Polytope) -> Law {
             .iter()
             .map(|&c| polytope.points[c as usize])
             .collect();
-        // Between the middle and each edge, and nearer to each corner.
+        // Points between the middle and each edge, and nearer to each corner.
         let inner = (0..2 * corners.len()).map(|k| {
             let drawn = [k / 2, k.div_ceil(2)].map(|k| (5, corners[k % corners.len()]));
             Blend::new(corners.iter().map(|&p| (1, p)).chain(drawn))
@@ -188,7 +191,7 @@ fn check_merged(polytope: &Polytope) -> Law {
     Ok(())
 }
 
-/// The corners of a face, counter-clockwise seen from outside.
+/// Returns the corners of a face, counter-clockwise seen from outside.
 fn outward(mesh: &Mesh, id: u32) -> Result<[DVec3; 3], String> {
     if id as usize >= mesh.faces.len() {
         return Err(format!("there is no face {id}"));
@@ -200,14 +203,14 @@ fn outward(mesh: &Mesh, id: u32) -> Result<[DVec3; 3], String> {
     })
 }
 
-/// Whether a loop is that of a triangle, wherever it begins.
+/// Returns true if a loop is that of a triangle, with any start.
 fn is_loop(corners: &[DVec3], [a, b, c]: [DVec3; 3]) -> bool {
     [[a, b, c], [b, c, a], [c, a, b]]
         .iter()
         .any(|it| corners == it)
 }
 
-/// Whether a convex polygon holds a point.
+/// Returns true if a convex polygon contains a point.
 fn lies_on(polytope: &Polytope, corners: &[u32], p: DVec3) -> bool {
     let spot = Blend::mean([p]);
     triangles(polytope, corners).any(|triangle| triangle_holds(triangle, &spot))

@@ -1,4 +1,4 @@
-//! A query in terms that both the engine and the referee understand.
+//! A query in a form for both the engine and the referee.
 
 use crate::models::{Kind, Shape};
 use crate::tolerance::rounding;
@@ -7,7 +7,7 @@ use ccd_core::order::greater;
 use ccd_core::{Body, Config, Motion, Moving, Pose, Problem};
 use std::rc::Rc;
 
-/// A shape and how it moves.
+/// A shape and its motion.
 #[derive(Clone, Debug)]
 pub struct Actor {
     /// The shape that moves.
@@ -23,7 +23,7 @@ pub struct Query {
     pub a: Actor,
     /// Body B.
     pub b: Actor,
-    /// The end of the time, which begins at 0.
+    /// The end of the time interval, which begins at 0.
     pub duration: f64,
 }
 
@@ -31,12 +31,12 @@ pub struct Query {
 pub struct Bodies {
     a: Rc<Body>,
     b: Rc<Body>,
-    /// The pieces that they were built of.
+    /// The kinds of pieces of the bodies.
     pub kinds: [Kind; 2],
 }
 
 impl Query {
-    /// The same with the bodies' roles exchanged.
+    /// Returns the query with the bodies' roles exchanged.
     pub fn swapped(&self) -> Query {
         Query {
             a: self.b.clone(),
@@ -45,7 +45,7 @@ impl Query {
         }
     }
 
-    /// The same seen from another frame.
+    /// Returns the query as seen from another frame.
     pub fn seen_from(&self, frame: &Pose) -> Query {
         Query {
             a: self.a.seen_from(frame),
@@ -54,7 +54,7 @@ impl Query {
         }
     }
 
-    /// The same run backwards.
+    /// Returns the query in reverse.
     pub fn reversed(&self) -> Query {
         Query {
             a: self.a.reversed(self.duration),
@@ -63,13 +63,13 @@ impl Query {
         }
     }
 
-    /// The rounding that any distance in this scene may suffer.
+    /// Returns a bound of the rounding of any distance in this scene.
     pub fn rounding(&self) -> f64 {
         rounding(self.a.reach(self.duration) + self.b.reach(self.duration))
     }
 
-    /// Combinations of kinds of pieces: each kind with itself and with triangles, and of the shapes'
-    /// other kinds those with the fewest pieces.
+    /// Returns combinations of kinds of pieces: each kind with itself and with triangles, and of
+    /// the shapes' other kinds those with the fewest pieces.
     pub fn all_bodies(&self) -> Vec<Bodies> {
         let (all_a, all_b) = (self.a.bodies(), self.b.bodies());
         let fewest = [&all_a, &all_b].map(|all| all.last().map(|it| it.0));
@@ -86,12 +86,12 @@ impl Query {
         all_a.iter().flat_map(with_a).collect()
     }
 
-    /// The bodies built of triangles.
+    /// Returns the bodies built of triangles.
     pub fn triangles(&self) -> Bodies {
         self.bodies([Kind::Triangles; 2])
     }
 
-    /// The bodies built of given kinds of pieces.
+    /// Returns the bodies built of given kinds of pieces.
     pub fn bodies(&self, kinds: [Kind; 2]) -> Bodies {
         Bodies {
             a: Rc::new(self.a.shape.body(kinds[0])),
@@ -103,7 +103,7 @@ impl Query {
     /// Poses the query to the engine.
     ///
     /// # Panics
-    /// When the engine refuses it.
+    /// If the engine refuses it.
     pub fn problem<'a>(&self, bodies: &'a Bodies, config: &Config) -> Problem<'a> {
         let a = Moving {
             body: &bodies.a,
@@ -118,41 +118,41 @@ impl Query {
 }
 
 impl Bodies {
-    /// The number of pairs of pieces.
+    /// Returns the number of pairs of pieces.
     pub fn pairs(&self) -> usize {
         self.a.pieces().len() * self.b.pieces().len()
     }
 
-    /// Body A.
+    /// Returns body A.
     pub fn a(&self) -> &Body {
         &self.a
     }
 
-    /// Body B.
+    /// Returns body B.
     pub fn b(&self) -> &Body {
         &self.b
     }
 }
 
 impl Actor {
-    /// A shape at rest.
+    /// Returns a shape at rest.
     pub fn still(shape: Shape, at: DVec3) -> Self {
         Actor::moving(shape, at, DVec3::ZERO, DVec3::ZERO)
     }
 
-    /// A shape that starts unturned at a place, with velocities.
+    /// Returns a shape that starts unrotated at a position, with velocities.
     ///
     /// # Panics
-    /// When a number is not finite.
+    /// If a number is not finite.
     pub fn moving(shape: Shape, at: DVec3, velocity: DVec3, spin: DVec3) -> Self {
-        let start = Pose::at(at).expect("a finite place");
+        let start = Pose::at(at).expect("a finite position");
         Actor {
             shape,
             motion: Motion::new(start, velocity, spin).expect("finite velocities"),
         }
     }
 
-    /// An upper bound of all its points' coordinates, the angle that it turns by as a factor.
+    /// Returns an upper bound of all its points' coordinates, with the angle of rotation as a factor.
     pub fn reach(&self, duration: f64) -> f64 {
         let motion = &self.motion;
         let points = self.shape.parts.iter().flat_map(|part| &part.points);
@@ -171,7 +171,7 @@ impl Actor {
         motion.start().translation().length() + travel + turn * (radius + radii)
     }
 
-    /// Its body of every kind of pieces.
+    /// Returns its body of every kind of pieces.
     fn bodies(&self) -> Vec<(Kind, Rc<Body>)> {
         let built = |kind| (kind, Rc::new(self.shape.body(kind)));
         self.shape.kinds().map(built).collect()
@@ -180,8 +180,8 @@ impl Actor {
     fn seen_from(&self, frame: &Pose) -> Actor {
         let motion = &self.motion;
         let (start, turn) = (motion.start(), frame.rotation());
-        let place = frame.transform_point(start.translation());
-        let start = Pose::new(place, turn * start.rotation()).expect("a pose");
+        let position = frame.transform_point(start.translation());
+        let start = Pose::new(position, turn * start.rotation()).expect("a pose");
         Actor {
             shape: self.shape.clone(),
             motion: Motion::about(

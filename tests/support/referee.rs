@@ -1,7 +1,7 @@
-//! An independent judge of when two moving meshes first touch: slow and obvious.
+//! An independent judge of the first contact of two moving meshes: slow and obvious.
 //!
-//! It shares no code with the engine: poses from the formula of the motion, distances by trying all
-//! pairs of vertices, edges and faces, times by undirected conservative advancement.
+//! It shares no code with the engine. Poses come from the formula of the motion, distances from all
+//! pairs of vertices, edges and faces, times from undirected conservative advancement.
 
 mod placement;
 mod triangles;
@@ -17,19 +17,19 @@ use triangles::Posed;
 
 /// The referee's finding.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Verdict {
+pub enum Finding {
     /// The surfaces are within the margin at the start.
     Start,
     /// Apart until `lo`, in contact at `hi`.
     Hit {
-        /// Proven free until then.
+        /// The bodies are proven free until this time.
         lo: f64,
-        /// Seen in contact then.
+        /// They are in contact at this time.
         hi: f64,
     },
-    /// Apart until `lo`, when they are so near that it is hard to tell.
+    /// They are apart until `lo`, and then too near to decide.
     Near {
-        /// Proven free until then.
+        /// The bodies are proven free until this time.
         lo: f64,
     },
     /// Apart over the whole duration.
@@ -37,9 +37,9 @@ pub enum Verdict {
         /// The least distance seen.
         gap: f64,
     },
-    /// The referee lost patience.
+    /// The step limit was reached.
     Undecided {
-        /// Proven free until then.
+        /// The bodies are proven free until this time.
         lo: f64,
     },
 }
@@ -47,11 +47,11 @@ pub enum Verdict {
 /// Judges one query.
 pub struct Referee<'a> {
     query: &'a Query,
-    places: [Placement; 2],
+    placements: [Placement; 2],
     margin: f64,
 }
 
-/// Steps of advancement before the referee loses patience.
+/// The limit of steps of advancement.
 const MAX_STEPS: u32 = 20_000;
 
 impl<'a> Referee<'a> {
@@ -64,18 +64,18 @@ impl<'a> Referee<'a> {
     pub fn with_margin(query: &'a Query, margin: f64) -> Self {
         Referee {
             query,
-            places: Placement::pair(query),
+            placements: Placement::pair(query),
             margin,
         }
     }
 
-    /// The distance of the two surfaces at a time; 0 where they intersect.
+    /// Returns the distance of the two surfaces at a time; 0 if they intersect.
     pub fn gap(&self, time: f64) -> f64 {
         let [a, b] = self.posed(time);
         a.distance(&b)
     }
 
-    /// Whether one closed solid holds the first vertex of the other at a time.
+    /// Returns true if one closed solid contains the first vertex of the other at a time.
     pub fn nested(&self, time: f64) -> bool {
         let [a, b] = self.posed(time);
         let solid = |k: usize| [&self.query.a, &self.query.b][k].shape.is_solid();
@@ -87,18 +87,18 @@ impl<'a> Referee<'a> {
         (solid(1) && inside(&b, &a)) || (solid(0) && inside(&a, &b))
     }
 
-    /// Whether a point in world coordinates lies inside of body A (0) or B (1) at the start.
+    /// Returns true if a point in world coordinates lies inside body A (0) or B (1) at the start.
     pub fn holds(&self, body: usize, point: DVec3) -> bool {
         let posed = &self.posed(0.0)[body];
         contains(
             posed.mesh(),
             posed.points(),
-            point - self.places[0].origin(),
+            point - self.placements[0].origin(),
         )
     }
 
-    /// Finds when the bodies first touch.
-    pub fn verdict(&self) -> Verdict {
+    /// Finds the first contact of the bodies.
+    pub fn finding(&self) -> Finding {
         let speed = self.speed();
         let close = CLOSE * self.size();
         let (mut time, mut least) = (0.0, f64::INFINITY);
@@ -111,34 +111,34 @@ impl<'a> Referee<'a> {
             // The distance falls no faster than `speed`.
             time += KEPT * gap / speed;
             if time >= self.query.duration {
-                return Verdict::Free {
+                return Finding::Free {
                     gap: least + self.margin,
                 };
             }
         }
-        Verdict::Undecided { lo: time }
+        Finding::Undecided { lo: time }
     }
 
-    /// Bounds how fast the distance can change.
+    /// Returns a bound of the rate of change of the distance.
     pub fn speed(&self) -> f64 {
-        let [a, b] = &self.places;
+        let [a, b] = &self.placements;
         (b.velocity() - a.velocity()).length() + a.rim_speed() + b.rim_speed()
     }
 
     /// Searches for a contact soon after a time at which the bodies nearly touch.
-    fn find_contact(&self, lo: f64, first_step: f64) -> Verdict {
+    fn find_contact(&self, lo: f64, first_step: f64) -> Finding {
         if lo == 0.0 && self.touches(0.0) {
-            return Verdict::Start;
+            return Finding::Start;
         }
         let mut step = first_step;
         while step <= 1e-2 * self.query.duration {
             let hi = lesser(lo + step, self.query.duration);
             if self.touches(hi) {
-                return Verdict::Hit { lo, hi };
+                return Finding::Hit { lo, hi };
             }
             step *= 1.5;
         }
-        Verdict::Near { lo }
+        Finding::Near { lo }
     }
 
     fn touches(&self, time: f64) -> bool {
@@ -151,30 +151,33 @@ impl<'a> Referee<'a> {
     }
 
     fn size(&self) -> f64 {
-        self.places.iter().map(Placement::radius).fold(0.0, greater)
+        self.placements
+            .iter()
+            .map(Placement::radius)
+            .fold(0.0, greater)
     }
 
     fn posed(&self, time: f64) -> [Posed<'a>; 2] {
-        let place = |k: usize, actor: &'a crate::query::Actor| {
+        let posed = |k: usize, actor: &'a crate::query::Actor| {
             let mesh = &actor.shape.mesh;
             Posed::new(
                 mesh,
                 mesh.vertices
                     .iter()
-                    .map(|&p| self.places[k].at(time, p))
+                    .map(|&p| self.placements[k].at(time, p))
                     .collect(),
             )
         };
-        [place(0, &self.query.a), place(1, &self.query.b)]
+        [posed(0, &self.query.a), posed(1, &self.query.b)]
     }
 }
 
-impl Verdict {
-    /// The time at which contact is certain, if any.
+impl Finding {
+    /// Returns a time at which contact is certain, if any.
     pub fn latest(self) -> Option<f64> {
         match self {
-            Verdict::Start => Some(0.0),
-            Verdict::Hit { hi, .. } => Some(hi),
+            Finding::Start => Some(0.0),
+            Finding::Hit { hi, .. } => Some(hi),
             _ => None,
         }
     }

@@ -1,4 +1,4 @@
-//! Random cases: shapes, poses, motions, aimed so that hits, misses and overlaps all occur.
+//! Random cases: shapes, poses and motions, aimed so that hits, misses and overlaps all occur.
 
 use crate::case::{Case, Model, Part, Start};
 use ccd_core::glam::{DQuat, DVec3};
@@ -6,9 +6,9 @@ use proptest::prelude::*;
 use proptest::test_runner::{RngSeed, TestRunner};
 use std::f64::consts::{PI, TAU};
 
-/// A runner of `cases` cases, times `CCD_TEST_CASES` where that is set.
+/// Returns a runner of `cases` cases, times `CCD_TEST_CASES` if that is set.
 ///
-/// The cases are always the same ones, unless `CCD_TEST_SEED` names another seed.
+/// The cases are always the same, unless `CCD_TEST_SEED` gives another seed.
 pub fn runner(cases: u32) -> TestRunner {
     TestRunner::new(ProptestConfig {
         cases: cases * setting("CCD_TEST_CASES", 1),
@@ -26,10 +26,10 @@ fn setting(name: &str, default: u32) -> u32 {
         .unwrap_or(default)
 }
 
-/// Runs a law over random cases; a failure prints the shrunk case as it goes into the corpus.
+/// Runs a law over random cases. A failure prints the shrunk case in the format of the corpus.
 ///
 /// # Panics
-/// When the law fails for a case.
+/// If the law fails for a case.
 pub fn check_cases(
     cases: u32,
     strategy: impl Strategy<Value = Case>,
@@ -43,18 +43,18 @@ pub fn check_cases(
     }
 }
 
-/// Two small bodies aimed at each other, about a unit in size and a few units apart; either, both
-/// or none may move and turn, up to three turns.
+/// Returns two small bodies aimed at each other, about a unit in size and a few units apart. Each
+/// may move and turn, up to three turns.
 pub fn cases() -> impl Strategy<Value = Case> {
     aimed(model(), model())
 }
 
-/// The same as [`cases`], of convex shapes only.
+/// Does the same as [`cases`] with convex shapes only.
 pub fn convex_cases() -> impl Strategy<Value = Case> {
     aimed(convex_model(), convex_model())
 }
 
-/// The same as [`cases`], far from the origin, and from very small to very large.
+/// Does the same as [`cases`] far from the origin, and from very small to very large.
 pub fn remote_cases() -> impl Strategy<Value = Case> {
     (
         cases(),
@@ -65,7 +65,7 @@ pub fn remote_cases() -> impl Strategy<Value = Case> {
         .prop_map(|(mut case, scale, offset, towards)| {
             let scale = 10.0f64.powf(scale);
             case.tolerance *= scale;
-            // Offsets are relative to the size: that is what costs digits.
+            // Offsets are relative to the size, since that costs digits.
             let offset = if offset > 0.0 {
                 10.0f64.powf(offset)
             } else {
@@ -82,7 +82,7 @@ pub fn remote_cases() -> impl Strategy<Value = Case> {
         })
 }
 
-/// The same as [`cases`], so close together that many overlap at the start.
+/// Does the same as [`cases`] so close together that many overlap at the start.
 pub fn crowded_cases() -> impl Strategy<Value = Case> {
     (cases(), 0.0..0.4f64).prop_map(|(mut case, nearer)| {
         case.b.position = (nearer * DVec3::from(case.b.position)).into();
@@ -104,10 +104,10 @@ fn aimed(
     );
     (part(a), part(b), aim, tolerance, drift()).prop_map(|(a, mut b, aim, tolerance, drift)| {
         let (towards, apart, side, miss, haste) = aim;
-        let place = apart * towards;
-        // From where B starts to a point that misses A's centre by up to `miss`.
-        let travel = haste * (miss * side - place);
-        b.position = place.into();
+        let position = apart * towards;
+        // From the start of B to a point that misses A's centre by up to `miss`.
+        let travel = haste * (miss * side - position);
+        b.position = position.into();
         let mut case = Case {
             name: String::new(),
             why: String::new(),
@@ -148,7 +148,7 @@ fn part(model: impl Strategy<Value = Model>) -> impl Strategy<Value = Part> {
     })
 }
 
-/// No spin, a part of a turn, or up to three turns per unit of time.
+/// Returns no spin, a part of a turn, or up to three turns per unit of time.
 fn spin() -> impl Strategy<Value = DVec3> {
     prop_oneof![
         2 => Just(DVec3::ZERO),
@@ -162,12 +162,12 @@ fn centre() -> impl Strategy<Value = DVec3> {
     prop_oneof![2 => Just(DVec3::ZERO), 1 => turn(1.0)]
 }
 
-/// A vector of up to a length, in any direction.
+/// Returns a vector of up to a length, in any direction.
 fn turn(most: f64) -> impl Strategy<Value = DVec3> {
     (direction(), 0.0..=most).prop_map(|(n, length)| length * n)
 }
 
-/// A unit vector; the axes occur more often.
+/// Returns a unit vector; the axes occur more often.
 pub fn direction() -> impl Strategy<Value = DVec3> {
     let any = (-1.0..1.0f64, 0.0..TAU).prop_map(|(z, angle)| {
         let r = (1.0 - z * z).sqrt();
@@ -176,17 +176,17 @@ pub fn direction() -> impl Strategy<Value = DVec3> {
     prop_oneof![4 => any, 1 => prop::sample::select(&DVec3::AXES[..])]
 }
 
-/// A rotation.
+/// Returns a rotation.
 pub fn rotation() -> impl Strategy<Value = DQuat> {
     turn(PI).prop_map(DQuat::from_scaled_axis)
 }
 
-/// A half extent between 0.05 and 1.
+/// Returns a half extent between 0.05 and 1.
 fn half() -> impl Strategy<Value = f64> {
     (-1.3..0.0f64).prop_map(|x| 10.0f64.powf(x))
 }
 
-/// A convex shape of at most about a unit.
+/// Returns a convex shape of at most about a unit.
 pub fn convex_model() -> impl Strategy<Value = Model> {
     let extents = || [half(), half(), half()];
     prop_oneof![
@@ -195,7 +195,7 @@ pub fn convex_model() -> impl Strategy<Value = Model> {
     ]
 }
 
-/// Any shape of at most about a unit, of at most about 100 triangles.
+/// Returns any shape of at most about a unit, of at most about 100 triangles.
 pub fn model() -> impl Strategy<Value = Model> {
     let ring =
         (4..9usize, 3..6usize, 0.05..0.3f64).prop_map(|(rings, sides, minor)| Model::Torus {
@@ -216,7 +216,7 @@ pub fn model() -> impl Strategy<Value = Model> {
     ]
 }
 
-/// A solid that is not convex.
+/// Returns a solid that is not convex.
 fn solid_model() -> impl Strategy<Value = Model> {
     prop_oneof![
         1 => (0.2..0.6f64, 0.1..0.9f64)
@@ -230,7 +230,7 @@ fn solid_model() -> impl Strategy<Value = Model> {
     ]
 }
 
-/// Small and large triangles, some of them degenerate to a segment or a point.
+/// Returns small and large triangles, some of them degenerate to a segment or a point.
 fn triangle() -> impl Strategy<Value = [[f64; 3]; 3]> {
     let point = || prop::array::uniform3(-0.7..0.7f64);
     let size = prop_oneof![Just(0.05), Just(0.4), Just(1.0)];

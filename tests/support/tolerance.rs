@@ -1,22 +1,22 @@
-//! Every literal tolerance of the suite, and why it is what it is.
+//! All tolerances of the suite, and their derivations.
 
 /// Bounds the rounding of a distance that is measured twice, by the engine and here, in a scene
 /// whose largest coordinate is `scale`.
 ///
-/// Either side evaluates a pose (sine, cosine, nine products, sums: fewer than 40 roundings relative
-/// to the coordinate, and to the angle that the pose turned by, which `scale` has as a factor) and
-/// a distance (fewer than 40). 2⁻⁵³ · 2 · 80 · 1.6.
+/// Each side evaluates a pose (sine, cosine, nine products, sums: fewer than 40 roundings relative
+/// to the coordinate, and to the angle of rotation, which is a factor of `scale`) and a distance
+/// (fewer than 40). 2⁻⁵³ · 2 · 80 · 1.6.
 pub fn rounding(scale: f64) -> f64 {
     256.0 * 0.5 * f64::EPSILON * scale
 }
 
-/// The delay of a reported time after a closed form that is allowed, relative to the duration: the rounding
-/// of the closed form itself, a few units in the last place after the subtractions in it.
+/// The allowed delay of a reported time after a closed form, relative to the duration: the rounding
+/// of the closed form itself, a few units in the last place after its subtractions.
 pub const CLOSED_FORM: f64 = 1e-13;
 
-/// The part of a scene's size below which the referee takes bodies for touching unless it sees them
-/// intersect: 2²³ times the rounding of its distances, and less than any tolerance tested.
+/// The fraction of a scene's size below which the referee considers bodies as touching unless it sees
+/// them intersect: 2²³ times the rounding of its distances, and less than any tolerance tested.
 pub const CLOSE: f64 = 1e-10;
 
-/// The part of each step that the referee keeps: rounding takes less than the rest.
+/// The fraction of each step that the referee keeps: rounding takes less than the rest.
 pub const KEPT: f64 = 1.0 - 1e-9;

@@ -1,15 +1,15 @@
-//! Records the paper's two scenes of rigid body dynamics \[FAST06 §6.2\]: bunnies and rings that fall,
-//! tumbling, onto one that lies on the ground, simulated by rapier.
+//! Records the paper's two scenes of rigid body dynamics \[FAST06 §6.2\]: bunnies and rings tumble
+//! onto one that lies on the ground, simulated by rapier.
 //!
-//! A row is one step of the simulation, 1/60 s, as the motions of both bodies from one pose to the next;
-//! its unit of time is the step. The simulation keeps bodies apart, so that, as in the paper, the pose at
-//! the end of steps close to a contact is pushed into the other body. Rows that begin in contact are left
-//! out, and so are most that a broad phase would; all of that is so for the models recorded, of others the
-//! same rows may begin in contact.
+//! A row is one step of the simulation, 1/60 s: the motions of both bodies from one pose to the
+//! next, with the step as unit of time. The simulation keeps bodies apart. As in the paper, the end
+//! pose of steps close to a contact is therefore pushed into the other body. Rows that begin in
+//! contact are left out, and so are most rows that a broad phase would reject. This holds for the
+//! recorded models only: other models may begin in contact in the same rows.
 //!
-//! Writes `falling-bunnies.csv` and `falling-rings.csv`, the same on every run; with a directory of models,
-//! for the `bunny26k.obj` and `ring.obj` found there:
-//! `cargo run --release -p ccd-bench --example record_falls -- [--models DIR] [--out DIR]`.
+//! Writes `falling-bunnies.csv` and `falling-rings.csv`, the same on every run. With a directory of
+//! models it uses the `bunny26k.obj` and `ring.obj` found there: `cargo run --release -p ccd-bench
+//! --example record_falls -- [--models DIR] [--out DIR]`.
 
 mod simulation;
 
@@ -30,11 +30,11 @@ use simulation::{convex_parts, sectors, simulate};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-/// What is recorded.
+/// A scene to record.
 struct Recording {
     file: &'static str,
     model: Model,
-    /// What the simulation knows of the model: convex parts.
+    /// The convex parts of the model that the simulation works with.
     parts: fn(&TriangleMesh) -> Result<SharedShape>,
     drops: usize,
     seed: u64,
@@ -59,14 +59,16 @@ const RECORDINGS: [Recording; 2] = [
 
 /// Steps that end with parts closer than this are pushed into contact.
 const NEAR: f64 = 0.08;
-/// How far parts are pushed into each other; up to three times that until the meshes are, too.
+/// The depth by which parts are pushed into each other; up to three times that until the meshes
+/// intersect too.
 const DEPTH: std::ops::Range<f64> = 0.02..0.12;
-/// Of a fall, at most so many steps far from a contact, the last ones before it, and so many pushed ones.
+/// The largest number of rows per fall that are far from a contact (the last ones before it), and
+/// of pushed rows.
 const FREE_ROWS: usize = 8;
 const PUSHED_ROWS: usize = 7;
-/// Of the steps close to a contact, which are alike, every so many are taken.
+/// Steps close to a contact are alike, so only every third one is taken.
 const PUSHED_EVERY: usize = 3;
-/// Poses are rounded to a multiple of one in so many, so that they are short to write.
+/// Poses are rounded to multiples of 1/`GRAINS`, so that they are short to write.
 const GRAINS: f64 = 1e9;
 
 fn main() -> Result<()> {
@@ -107,7 +109,7 @@ impl Options {
     }
 }
 
-/// The rows, and what they came to.
+/// The rows, with counts of their outcomes.
 struct Table {
     text: String,
     rows: usize,
@@ -144,15 +146,15 @@ fn record(recording: &Recording, models: Option<&Path>) -> Result<Table> {
     Ok(table)
 }
 
-/// What rows are tried on.
+/// The bodies that rows are tried on.
 struct Subject<'a> {
     body: &'a Body,
-    /// That it turns about.
+    /// The centre of rotation.
     centre: DVec3,
     solver: Box<dyn Solve>,
 }
 
-/// What comes of a row.
+/// The outcome of a row.
 #[derive(Clone, Copy, PartialEq)]
 enum Hit {
     Contact,
@@ -160,7 +162,7 @@ enum Hit {
 }
 
 impl Subject<'_> {
-    /// What comes of a row; none where it is of no use, since it begins in contact.
+    /// Returns the outcome of a row, or `None` if it begins in contact and is of no use.
     fn ask(&mut self, query: &Query) -> Result<Option<Hit>> {
         let bodies = Bodies {
             a: self.body,
@@ -180,13 +182,13 @@ struct Step {
     index: usize,
     start: [At; 2],
     end: [At; 2],
-    /// By what A is pushed at the end; none where the step is left as it is.
+    /// The displacement of A at the end; `None` leaves the step unchanged.
     push: Option<Vector>,
 }
 
 impl Step {
-    /// The row that it makes, as it is, or pushed until there is a contact, a little or a little more;
-    /// none where it begins in contact, or where none comes of pushing.
+    /// Returns the row of this step: unchanged, or pushed until there is a contact, sometimes a
+    /// little deeper. Returns `None` if it begins in contact, or if pushing leads to no contact.
     fn row(&self, id: &str, subject: &mut Subject<'_>) -> Result<Option<(Ends, Hit)>> {
         let pushes = match self.push {
             None => vec![Vector::ZERO],
@@ -207,7 +209,8 @@ impl Step {
     }
 }
 
-/// The steps of a fall that make rows: the last free ones before an approach, and some close to it.
+/// Returns the steps of a fall that make rows: the last free ones before an approach, and some
+/// close to it.
 fn chosen(fall: &[[At; 2]], shape: &SharedShape, rng: &mut impl Rng) -> Vec<Step> {
     let mut rows = Vec::new();
     let (mut free, mut frees, mut pushed, mut near) = (Vec::new(), 0, 0, 0);
@@ -241,13 +244,13 @@ fn chosen(fall: &[[At; 2]], shape: &SharedShape, rng: &mut impl Rng) -> Vec<Step
     rows
 }
 
-/// Whether the boxes around the motions meet: a broad phase would ask.
+/// Returns true if the boxes around the motions meet, so that a broad phase would pass the pair on.
 fn boxes_meet(shape: &SharedShape, start: [At; 2], end: [At; 2]) -> bool {
     let swept = |k: usize| shape.compute_swept_aabb(&start[k], &end[k]);
     swept(0).intersects(&swept(1))
 }
 
-/// How far the parts are from each other, and the direction from A to B.
+/// Returns the distance of the parts, and the direction from A to B.
 fn nearest(shape: &SharedShape, [a, b]: [At; 2]) -> (f64, Vector) {
     let points = closest_points(&a, &**shape, &b, &**shape, f64::MAX);
     let between = match points {
@@ -263,7 +266,7 @@ fn nearest(shape: &SharedShape, [a, b]: [At; 2]) -> (f64, Vector) {
     }
 }
 
-/// Both bodies at the start and the end of a step, rounded to what is written.
+/// Both bodies at the start and the end of a step, rounded as they are written.
 struct Ends {
     start: [(DVec3, DQuat); 2],
     end: [(DVec3, DQuat); 2],
@@ -277,7 +280,7 @@ impl Ends {
         }
     }
 
-    /// As the row is read back.
+    /// Returns the query that the written row is read back as.
     fn query(&self, id: String, centre: DVec3) -> Result<Query> {
         let motion = |k: usize| -> Result<Motion> {
             let [start, end] =

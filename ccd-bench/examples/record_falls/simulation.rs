@@ -1,4 +1,4 @@
-//! What falls, simulated by rapier.
+//! Simulates falling bodies with rapier.
 
 use crate::rounded;
 use anyhow::{Context, Result};
@@ -11,26 +11,27 @@ use rapier3d_f64::prelude::{
 };
 use std::f64::consts::TAU;
 
-/// Steps in which the lower body comes to rest.
+/// The number of steps in which the lower body comes to rest.
 const SETTLING_STEPS: usize = 180;
-/// Steps of a fall and what follows it: two and a half seconds.
+/// The number of steps of a fall and its aftermath: two and a half seconds.
 const FALL_STEPS: usize = 150;
-/// How far above the ground the falling body starts.
+/// The height at which the falling body starts.
 const HEIGHT: f64 = 3.2;
-/// How far off the vertical through the resting one, at most.
+/// The largest offset of the falling body from the vertical through the resting one.
 const ASIDE: f64 = 0.7;
-/// The fastest it tumbles at first, in radians per second.
+/// The largest initial spin, in radians per second.
 const SPIN: f64 = 8.0;
-/// How far around its parts a body is kept from others: poses then are clear of contact, as meshes.
+/// The margin around the parts that the simulation keeps free, so that the meshes do not touch in
+/// its poses.
 const SKIN: f64 = 0.01;
-/// Both bodies' poses after each step, the first one before any.
+/// The poses of both bodies after each step; the first entry is the initial state.
 pub(crate) struct Simulated {
     pub(crate) poses: Vec<[At; 2]>,
-    /// Of their mass, in their own frame.
+    /// The centre of mass, in each body's own frame.
     pub(crate) centre: DVec3,
 }
 
-/// One drop.
+/// Simulates one drop.
 pub(crate) fn simulate(shape: &SharedShape, rng: &mut impl Rng) -> Simulated {
     let mut world = PhysicsWorld::new();
     world.gravity = Vector::Z * -9.81;
@@ -71,16 +72,17 @@ fn insert(
     world.insert(body, collider).0
 }
 
-/// The convex parts that rapier's own decomposition makes of a mesh.
+/// Returns the convex parts that rapier's own decomposition makes of a mesh.
 pub(crate) fn convex_parts(mesh: &TriangleMesh) -> Result<SharedShape> {
     let vertices: Vec<Vector> = mesh.vertices().iter().map(|&v| vector(v)).collect();
     Ok(SharedShape::convex_decomposition(&vertices, mesh.faces()))
 }
 
-/// Hulls of what lies in each of many sectors about the z axis, which a ring stands around.
+/// Returns the hulls of the parts of a mesh in each of many sectors about the z axis, the axis of a
+/// ring.
 pub(crate) fn sectors(mesh: &TriangleMesh) -> Result<SharedShape> {
     const SECTORS: usize = 24;
-    /// Sectors overlap, so that no gap is between them.
+    /// Sectors overlap, so that there is no gap between them.
     const OVERLAP: f64 = 0.1;
     let width = TAU / SECTORS as f64;
     let hull = |k: usize| {
@@ -109,7 +111,7 @@ fn rotation(q: DQuat) -> Rotation {
     Rotation::from_array(q.to_array())
 }
 
-/// Any orientation, all alike.
+/// Returns a uniformly distributed orientation.
 fn orientation(rng: &mut impl Rng) -> DQuat {
     loop {
         let q = [0; 4].map(|_| rng.random_range(-1.0..=1.0));
@@ -120,7 +122,7 @@ fn orientation(rng: &mut impl Rng) -> DQuat {
     }
 }
 
-/// Any direction, all alike.
+/// Returns a uniformly distributed direction.
 fn unit_vector(rng: &mut impl Rng) -> DVec3 {
     orientation(rng) * DVec3::Z
 }

@@ -1,4 +1,4 @@
-//! `ccd-bench chart` and `ccd-bench demo`: what is to be measured, and what is to be made of it.
+//! The commands `ccd-bench chart` and `ccd-bench demo`: they plan the measurements and present them.
 
 use crate::method::Method;
 use crate::method::peer::PeerKind;
@@ -15,7 +15,7 @@ use std::io::{self, Write};
 use std::path::PathBuf;
 use std::time::Duration;
 
-/// What to measure, and where to.
+/// The choice of measurements and of the outputs.
 #[derive(Debug, Args)]
 #[command(after_help = AFTER_HELP)]
 pub(super) struct ChartArgs {
@@ -33,7 +33,7 @@ pub(super) struct ChartArgs {
     /// Only these tolerances
     #[arg(long, value_name = "LENGTH", value_delimiter = ',')]
     tolerances: Vec<f64>,
-    /// Seconds for each method on each scene at each tolerance; then no further row is asked
+    /// Seconds for each method on each scene at each tolerance; after that, no more rows are started
     #[arg(long, value_name = "SECONDS")]
     cell: Option<f64>,
     /// Seconds after which a peer is stopped in the middle of a row
@@ -42,26 +42,27 @@ pub(super) struct ChartArgs {
     /// Rows of trials measured elsewhere: scene,method,tolerance,id,micros,steps,status,time
     #[arg(long, value_name = "FILE.csv")]
     join: Vec<PathBuf>,
-    /// Put the tables between the markers `<!-- ccd chart: NAME -->` and `<!-- end -->` of this file
+    /// Insert the tables between the markers `<!-- ccd chart: NAME -->` and `<!-- end -->` of this file
     #[arg(long, value_name = "FILE.md")]
     splice: Vec<PathBuf>,
-    /// Draw what the folder holds, and measure nothing
+    /// Draw the measurements that the folder holds, and measure nothing
     #[arg(long, conflicts_with_all = ["full", "export"])]
     redraw: bool,
-    /// Write the meshes and motions of the scenes to this folder, for programs elsewhere, and measure
-    /// nothing
+    /// Write the meshes and motions of the scenes to this folder, for programs elsewhere, and
+    /// measure nothing
     #[arg(long, value_name = "DIR")]
     export: Option<PathBuf>,
 }
 
-/// What the demo can be told, too.
+/// Options that `demo` takes as well.
 #[derive(Clone, Debug, Args)]
 pub(super) struct CommonArgs {
-    /// Use the meshes found here (bunny70k.obj, bunny26k.obj, santa.obj, knot2880.obj, …) in place
+    /// Use the meshes found here (bunny70k.obj, bunny26k.obj, santa.obj, knot2880.obj, …) instead
     /// of the models made by code
     #[arg(long, value_name = "DIR")]
     models: Option<PathBuf>,
-    /// Where tables, charts and the page go; what is there already is not measured again
+    /// Write tables, charts and the page to this folder; measurements that it holds already are not
+    /// repeated
     #[arg(long, value_name = "DIR", default_value = REPORT)]
     out: PathBuf,
 }
@@ -78,8 +79,8 @@ impl Default for CommonArgs {
 }
 
 const AFTER_HELP: &str = "\
-Figures of the same program and settings are kept, so that an interrupted run goes on where it
-stopped. A name that is not known is answered with those that are.
+Measurements of the same program and settings are kept, so that an interrupted run resumes where it
+stopped. An unknown name is answered with the list of known ones.
 
 Examples:
   ccd-bench chart                                       a few rows of everything, in a minute
@@ -87,21 +88,21 @@ Examples:
   ccd-bench chart --scenes santa --tolerances 1e-3,1e-6
   ccd-bench chart --export scenes                       meshes and motions, for other programs";
 
-/// From coarse to fine, as shares of a body of size 1.
+/// The tolerances from coarse to fine, as fractions of a body of size 1.
 const TOLERANCES: [f64; 9] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9];
-/// Where methods are compared at equal accuracy.
+/// The tolerances at which methods are compared at equal accuracy.
 const FEW_TOLERANCES: [f64; 2] = [USUAL_TOLERANCE, 1e-6];
 
-/// How much is measured.
+/// The amount of measurement.
 #[derive(Clone, Copy, PartialEq)]
 enum Extent {
-    /// A few rows of everything that takes no long.
+    /// A few rows of the methods that are fast to run.
     Glance,
     /// Everything.
     Full,
 }
 
-/// What runs in this process, and what in one of its own: for everything in half an hour,
+/// Allowances in this process and in a process of its own, for everything in half an hour.
 const AT_LENGTH: (Allowance, Allowance) = (
     Allowance {
         cell: Duration::from_millis(600),
@@ -118,7 +119,7 @@ const AT_LENGTH: (Allowance, Allowance) = (
         rehearsal: Duration::ZERO,
     },
 );
-/// and for a few rows of everything in a minute.
+/// Allowances for a few rows of everything in a minute.
 const AT_A_GLANCE: (Allowance, Allowance) = (
     Allowance {
         cell: Duration::from_millis(40),
@@ -148,7 +149,7 @@ pub(super) fn run(args: &ChartArgs) -> Result<Exit> {
         for tolerance in &args.tolerances {
             ensure!(
                 *tolerance > 0.0 && tolerance.is_finite(),
-                "--tolerances: {tolerance} is no positive length"
+                "--tolerances: {tolerance} is not a positive length"
             );
         }
         plan.tolerances.clone_from(&args.tolerances);
@@ -163,7 +164,7 @@ pub(super) fn run(args: &ChartArgs) -> Result<Exit> {
         joined::export(&plan.listings, plan.models, folder)?;
         return Ok(Exit::AllAnswered);
     }
-    // Before the work, not after it, is when to learn that a file is no table.
+    // A file that is no table should be found before the work, not after it.
     let mut foreign = Vec::new();
     for file in &args.join {
         let trials = joined::read_trials(file);
@@ -181,7 +182,7 @@ pub(super) fn run_demo(args: &CommonArgs) -> Result<Exit> {
     present(&plan, plan.run()?, Vec::new(), &[])
 }
 
-/// Tables, charts and the page.
+/// Writes tables, charts and the page.
 fn present(
     plan: &Plan,
     mut evaluated: Evaluated,
@@ -196,25 +197,25 @@ fn present(
             .with_context(|| format!("splicing {}", readme.display()))?;
     }
     let mut out = io::stdout().lock();
-    let mut say = |text: &dyn Display| {
+    let mut print = |text: &dyn Display| {
         writeln!(out, "{text}").map_err(|source| CannotWrite {
             place: "the tables".to_owned(),
             source,
         })
     };
     for table in &presentation.summary {
-        say(&format_args!("{}\n{}", table.title, table.for_terminal()))?;
+        print(&format_args!("{}\n{}", table.title, table.for_terminal()))?;
     }
-    say(&format_args!("The report: {}", page.display()))?;
+    print(&format_args!("The report: {}", page.display()))?;
     Ok(Exit::AllAnswered)
 }
 
-/// Everything, or a few rows of everything that takes no long.
+/// Returns the plan for everything, or for a few rows of the methods that are fast to run.
 fn plan(common: &CommonArgs, extent: Extent) -> Result<Plan> {
     if let Some(directory) = &common.models {
         ensure!(
             directory.is_dir(),
-            "{} is no directory; give --models one that holds meshes such as bunny70k.obj",
+            "{} is not a directory; --models takes one that holds meshes such as bunny70k.obj",
             directory.display()
         );
     }
@@ -227,7 +228,7 @@ fn plan(common: &CommonArgs, extent: Extent) -> Result<Plan> {
         Extent::Glance => &FEW_TOLERANCES,
     };
     let methods = Method::all().into_iter();
-    let methods = methods.filter(|method| extent == Extent::Full || takes_no_long(*method));
+    let methods = methods.filter(|method| extent == Extent::Full || is_fast_to_run(*method));
     Ok(Plan {
         listings: listings()?,
         methods: methods.collect(),
@@ -239,15 +240,16 @@ fn plan(common: &CommonArgs, extent: Extent) -> Result<Plan> {
     })
 }
 
-/// Whether a few rows of an method are there at once: other processes take time to start.
-fn takes_no_long(method: Method) -> bool {
+/// Returns true if a few rows of a method are fast to run. Peers take time to start, since they run
+/// in other processes, so only one of them is included.
+fn is_fast_to_run(method: Method) -> bool {
     match method {
         Method::Ours(..) | Method::Rival(_) => true,
         Method::Peer(kind) => kind == PeerKind::ParryF64,
     }
 }
 
-/// Those of the names asked for; all where none is.
+/// Returns the items with the given names, or all items if no names are given.
 fn chosen<T>(
     all: Vec<T>,
     names: &[String],

@@ -1,4 +1,5 @@
-//! `ccd-bench peer`: a peer library behind standard input and output, to be stopped from outside.
+//! The command `ccd-bench peer`: runs a peer library on standard input and output, so that it can
+//! be stopped from outside.
 
 use crate::method::peer::{PeerKind, wire};
 use anyhow::{Context, Result};
@@ -15,7 +16,7 @@ use std::{thread, time::Duration};
 /// Answer queries with a peer library, line by line: motions and durations in, times out
 #[derive(Debug, Args)]
 pub(super) struct PeerArgs {
-    /// Which one
+    /// The peer library
     #[arg(long, value_enum)]
     kind: PeerKind,
     /// The mesh of body A
@@ -24,7 +25,7 @@ pub(super) struct PeerArgs {
     /// The mesh of body B
     #[arg(long, value_name = "MESH")]
     b: PathBuf,
-    /// Where the peer takes one, in the scene's unit of length
+    /// The tolerance, for peers that take one, in the scene's unit of length
     #[arg(long, value_name = "LENGTH")]
     tolerance: f64,
 }
@@ -48,11 +49,11 @@ pub(super) fn run(args: &PeerArgs) -> Result<Exit> {
     }
 }
 
-/// How long this process may outlive the one that started it.
+/// The time that this process may outlive its parent.
 #[cfg(unix)]
 const WITHOUT_PARENT: Duration = Duration::from_secs(1);
 
-/// Ends this process, in whatever call it is, once the one that started it is gone.
+/// Ends this process, in whatever call it is, once its parent has ended.
 #[cfg(unix)]
 fn end_with_parent() {
     let parent = parent_id();

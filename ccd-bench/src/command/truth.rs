@@ -1,4 +1,5 @@
-//! `ccd-bench truth`: two meshes and a table of motions in, a table of brackets of the exact first contacts out.
+//! The command `ccd-bench truth`: reads two meshes and a table of motions, and writes a table of
+//! brackets of the exact first contacts.
 
 use crate::truth::{Referee, Surface, TRUTH_COLUMNS, Truth, TruthRow};
 use anyhow::{Context, Result};
@@ -27,16 +28,16 @@ pub(super) struct TruthArgs {
     /// Body B, as body A; the same file is loaded once
     #[arg(long, value_name = "MESH")]
     b: PathBuf,
-    /// The table of motions, CSV, as of `ccd query`; - reads standard input
+    /// The table of motions, CSV, in the format of `ccd query`; - reads standard input
     #[arg(long, value_name = "CSV")]
     motions: PathBuf,
-    /// Threads to work on; any number gives the same brackets [default: all there are]
+    /// Threads to work on; the brackets do not depend on their number [default: all there are]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
     /// The table of truths, CSV; - writes to standard output
     #[arg(long, value_name = "CSV", default_value = "-")]
     out: PathBuf,
-    /// Say nothing on standard error but what is wrong
+    /// Print only errors on standard error
     #[arg(long, short)]
     quiet: bool,
 }
@@ -49,31 +50,31 @@ Examples:
 See `ccd-bench truth --help` for the columns of the table and the exit code.";
 
 const AFTER_LONG_HELP: &str = "\
-The bodies are surfaces: what is inside one is apart from it. The method is none of those that
-`ccd query` has, and is made to be right, not fast: bisection in time, each step certified against
-rounding.
+The bodies are surfaces: a body inside another is apart from it. The method is
+independent of those of `ccd query`, and made to be right, not fast: bisection in time, each step
+certified against rounding.
 
 Table of truths:
   id        as in the table of motions (see `ccd query --help` for its columns)
   status    hit        the first contact is not before lo and not after hi, usually 1e-13 apart
             free       apart for the whole duration; lo and hi are the duration
-            initial    they touch at the start, or all but touch; lo and hi are 0
-            graze      apart before lo, at lo in touch or all but, never shown to intersect
-            undecided  apart before lo, nothing known after: the work for a row was spent
-            error      the row asks nothing that could be judged
-  reason    what is wrong with a row of status error
+            initial    they touch at the start, or nearly so; lo and hi are 0
+            graze      apart before lo, in contact or nearly so at lo, never shown to intersect
+            undecided  apart before lo, unknown after it: the work limit of a row was reached
+            error      the row is no valid query
+  reason    the problem of a row of status error
 
-Rows are written in order as they are judged, to a file that ends in .partial until all are there.
+Rows are written in order as they are judged, to a file that ends in .partial until all rows are judged.
 
-Exit code: 0 when every row is judged, 2 when there are rows of status error, or on other bad input; 1
-when the table cannot be written.
+Exit code: 0 if every row is judged, 2 if there are rows of status error or other invalid input, 1 if
+the table cannot be written.
 
 Examples:
   ccd-bench truth --a knot.obj --b knot.obj --motions motions.csv --out truth.csv
   ccd-bench truth --a part.stl --b part.stl --motions motions.csv --threads 1 --out truth.csv
   printf 'a_pz,a_vz\\n3,-4\\n' | ccd-bench truth --a part.stl --b slab.obj --motions -";
 
-/// Judges all rows that can be; of the others the table says why not.
+/// Judges all valid rows; the table gives the reason for the others.
 pub(super) fn run(args: &TruthArgs) -> Result<Exit> {
     for (option, path) in [
         ("--motions", &args.motions),
@@ -129,7 +130,7 @@ pub(super) fn run(args: &TruthArgs) -> Result<Exit> {
     })
 }
 
-/// The surfaces; B is none of its own when it comes from where A comes from.
+/// Returns both surfaces. B is `None` if it comes from the same file as A.
 fn load(args: &TruthArgs) -> Result<(Surface, Option<Surface>)> {
     let surface = |option: &str, path: &Path| -> Result<(Surface, Size)> {
         let progress = match args.quiet {
@@ -152,7 +153,7 @@ fn load(args: &TruthArgs) -> Result<(Surface, Option<Surface>)> {
     Ok((a, Some(b)))
 }
 
-/// The truths of rows, none of bad ones.
+/// Returns the truth of every row, `None` for invalid ones.
 fn judge(
     threads: &mut Threads,
     referee: &Referee<'_>,
@@ -181,7 +182,7 @@ fn write(table: &mut Table, row: &MotionRow, truth: Option<Truth>) -> Result<(),
     })
 }
 
-/// How many truths there are of each kind, and the widest bracket.
+/// The number of truths of each kind, and the widest bracket.
 #[derive(Default)]
 struct Seen {
     hit: usize,

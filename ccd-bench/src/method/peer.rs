@@ -1,10 +1,11 @@
 //! Peer libraries behind the interface of solvers.
 //!
-//! They answer the same queries about the same meshes, each by the call that its makers offer for that;
-//! what a call takes, and what it cannot be told, stands with its type. Since some of them take minutes
-//! for a query, or for ever, they are asked through [`Guarded`], in a process that can be stopped.
+//! They answer the same queries about the same meshes, each by the call that its makers offer for
+//! that. The docs of each type say which parameters the call takes and which it does not offer.
+//! Some peers take minutes for a query, or never return. They are therefore called through
+//! [`Guarded`], in a process that can be stopped.
 //!
-//! | peer | what is called |
+//! | peer | call |
 //! |---|---|
 //! | [`parry::double::cast`], [`parry::single::cast`] | parry's nonlinear cast of one mesh against another |
 //! | [`parry::double::sweep`], [`parry::single::sweep`] | parry's swept convex bodies, over pairs of triangles |
@@ -23,7 +24,7 @@ use crate::method::solver::{Claim, Solver};
 use ccd_decomp::TriangleMesh;
 use clap::ValueEnum;
 
-/// The peers there are.
+/// The peer libraries.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, ValueEnum)]
 pub enum PeerKind {
     /// [`parry::double::cast`].
@@ -36,15 +37,15 @@ pub enum PeerKind {
     ParrySweepF32,
     /// [`rapier::Simulated`].
     RapierStepF64,
-    /// Never answers: what a guard is tried on.
+    /// Never answers: tests the guard.
     #[value(hide = true)]
     Hanging,
-    /// Dies of every query.
+    /// Ends its process at every query: tests the guard.
     #[value(hide = true)]
     Dying,
 }
 
-/// A mesh that a peer cannot use.
+/// A peer cannot use a mesh.
 #[derive(Clone, Debug, thiserror::Error)]
 #[error("the peer refuses the mesh: {why}")]
 pub struct PeerError {
@@ -52,7 +53,7 @@ pub struct PeerError {
 }
 
 impl PeerKind {
-    /// All of them, but for those that tests are made with.
+    /// All peers, except those made for tests.
     pub const ALL: [PeerKind; 5] = [
         PeerKind::ParryF64,
         PeerKind::ParryF32,
@@ -61,7 +62,7 @@ impl PeerKind {
         PeerKind::RapierStepF64,
     ];
 
-    /// What the command line and the tables call it.
+    /// Returns the name used on the command line and in the tables.
     pub fn name(self) -> &'static str {
         match self {
             PeerKind::ParryF64 => "parry-f64",
@@ -74,7 +75,8 @@ impl PeerKind {
         }
     }
 
-    /// Whether a tolerance changes its answers: of the others one tolerance is as good as any.
+    /// Returns true if the answers depend on the tolerance. The other peers are run at one
+    /// tolerance only.
     pub fn takes_tolerance(self) -> bool {
         match self {
             PeerKind::ParrySweepF64 | PeerKind::ParrySweepF32 | PeerKind::RapierStepF64 => true,
@@ -82,10 +84,10 @@ impl PeerKind {
         }
     }
 
-    /// The peer itself, in this process: its calls may last for ever.
+    /// Returns the peer itself, in this process; its calls may never return.
     ///
     /// # Errors
-    /// When it refuses a mesh.
+    /// If the peer refuses a mesh.
     pub fn solver(
         self,
         a: &TriangleMesh,
@@ -105,7 +107,8 @@ impl PeerKind {
     }
 }
 
-/// A contact at a time, which rounding may have moved out of the query; a time that is none is no answer.
+/// Returns a contact at `time`, clamped to the query since rounding may have moved it out. An
+/// invalid time is no answer.
 fn contact_at(time: f64, duration: f64) -> Claim {
     if time.is_finite() {
         let time = time.clamp(0.0, duration);

@@ -1,14 +1,14 @@
-//! Published rivals, built here from their descriptions to be compared with.
+//! Published rivals, built here from their descriptions for comparison.
 //!
-//! They share no code with the engine that they are compared with: meshes, distances, bounding volumes
-//! and motions are their own.
+//! They share no code with the engine that they are compared with: they have their own meshes,
+//! distances, bounding volumes and motions.
 //!
 //! | rival | source |
 //! |---|---|
 //! | [`Contact`]: continuous OBB test, interval arithmetic, bisection | \[CONTACT02\] |
 //! | [`DynamicChecker`]: adaptive bisection by undirected bounds | \[DCC02\] |
 //! | [`C2a`]: controlled conservative advancement over swept spheres | \[C2A09\] |
-//! | [`Stepping`]: a static test at every step | what is done without any of them |
+//! | [`Stepping`]: a static test at every step | the usual practice without continuous methods |
 
 mod c2a;
 mod contact;

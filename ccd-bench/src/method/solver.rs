@@ -1,4 +1,5 @@
-//! Whoever answers queries: this project's methods, published rivals built here, peer libraries.
+//! The interface of all that answers queries: this project's methods, published rivals built here,
+//! peer libraries.
 
 use rigid_ccd::batch::median;
 use rigid_ccd::table::motions::Query;
@@ -6,26 +7,26 @@ use std::time::{Duration, Instant};
 
 /// Answers one query after another about the same two bodies, with the same tolerance.
 pub trait Solver {
-    /// When the bodies first touch, as far as it can tell.
+    /// Returns the first contact of the bodies, as far as the solver finds it.
     fn answer(&mut self, query: &Query) -> Reply;
 }
 
-/// A reply, and how long it took.
+/// A reply and its time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TimedReply {
     /// The reply.
     pub reply: Reply,
-    /// In microseconds.
+    /// The time in microseconds.
     pub micros: f64,
 }
 
-/// A query is answered up to so often, and its time is the median of all answers but the first, which
-/// finds caches cold, since clocks and caches make short times unsure,
+/// The largest number of answers to one query. The time is the median of all answers except the
+/// first, which finds cold caches; clocks and caches make short times uncertain.
 const REPEATS: usize = 4;
-/// unless that has taken so long already.
+/// A query is not repeated once its answers have taken this long.
 const REPEATED_WITHIN: Duration = Duration::from_millis(40);
 
-/// Asks a query, and times it: alike for all solvers.
+/// Asks a query and times it, in the same way for all solvers.
 pub fn timed(solver: &mut dyn Solver, query: &Query) -> TimedReply {
     let mut micros = Vec::with_capacity(REPEATS);
     let first = Instant::now();
@@ -41,36 +42,36 @@ pub fn timed(solver: &mut dyn Solver, query: &Query) -> TimedReply {
     }
 }
 
-/// Can be told another tolerance, without being made anew.
+/// A solver whose tolerance can be changed without a new solver.
 pub trait Adjustable: Solver {
-    /// From now on queries are answered with this tolerance, a length.
+    /// Sets the tolerance, a length, of the queries that follow.
     fn set_tolerance(&mut self, tolerance: f64);
 }
 
-/// What a solver says of one query.
+/// The reply of a solver to one query.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reply {
-    /// Its answer.
+    /// The answer.
     pub claim: Claim,
-    /// How many steps in time it took to find it: advancements, halvings or samples, as it goes.
+    /// The number of steps in time: advancements, halvings or samples, depending on the solver.
     pub steps: u64,
 }
 
-/// What a solver says happens.
+/// The answer of a solver.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Claim {
-    /// The bodies come within its tolerance at that time, and not before.
+    /// The bodies come within the tolerance at that time, and not before.
     Contact {
-        /// From 0 to the query's duration.
+        /// The time, from 0 to the query's duration.
         time: f64,
     },
-    /// They do not over the whole duration.
+    /// The bodies do not come within the tolerance over the whole duration.
     Free,
-    /// It gave up.
+    /// The solver gave up.
     Unresolved {
-        /// Until when it says that they do not.
+        /// The time before which there is no contact, according to the solver.
         safe_until: f64,
     },
-    /// It has no way to be asked this.
+    /// The solver does not support the query.
     Refused,
 }

@@ -1,4 +1,4 @@
-//! Methods on scenes: each asked the same queries, timed, and judged by the referee.
+//! Runs methods on a scene: each method gets the same queries, is timed, and is judged by the referee.
 
 mod journal;
 mod session;
@@ -27,35 +27,36 @@ use std::io;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// A scene with what it takes to judge answers on it.
+/// A scene, prepared for judging answers.
 pub struct Contest<'s> {
     scene: &'s Scene,
     surfaces: [Arc<Surface>; 2],
     given: Vec<Query>,
-    /// The same queries as screws.
+    /// The same queries with screw motions.
     screws: Vec<Query>,
 }
 
-/// How long anybody is listened to.
+/// The limits of a measurement.
 #[derive(Clone, Copy, Debug)]
 pub struct Allowance {
-    /// For one method on one scene at one tolerance: no further query is asked after that.
+    /// The time for one method on one scene at one tolerance; after that, no more queries are asked.
     pub cell: Duration,
-    /// For one query of a peer, which is stopped after that.
+    /// The time for one query of a peer, which is stopped after that.
     pub patience: Duration,
-    /// How many queries are asked at most.
+    /// The largest number of queries.
     pub rows: usize,
-    /// How many queries are asked at least, however long they take.
+    /// The least number of queries, regardless of time.
     pub least_rows: usize,
-    /// For a method that prepares what it meets first: only what it has met by then is asked.
+    /// The time for preparation, for a method that prepares pieces on first use. Only queries that
+    /// are prepared by then are asked.
     pub rehearsal: Duration,
 }
 
-/// A schedule without a tree is only run where pairs of pieces come to at most this; it looks at all
+/// The largest number of pairs of pieces for a schedule without a tree, since it processes all
 /// pairs in every step.
 const MOST_PAIRS_FOR_NAIVE: u64 = 100_000;
 
-/// Why an method could not be heard.
+/// A method could not be run.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ContestError {
@@ -67,7 +68,7 @@ pub enum ContestError {
     Peer {
         /// The peer.
         name: String,
-        /// Why.
+        /// The cause.
         source: io::Error,
     },
 }
@@ -76,7 +77,7 @@ impl<'s> Contest<'s> {
     /// Opens a scene.
     ///
     /// # Errors
-    /// When a motion has no screw between its ends.
+    /// If a motion has no screw between its ends.
     pub fn new(scene: &'s Scene) -> Result<Self, ContestError> {
         let a = Arc::new(Surface::new(scene.a.mesh()));
         let b = match Arc::ptr_eq(&scene.a.body, &scene.b.body) {
@@ -92,57 +93,58 @@ impl<'s> Contest<'s> {
         })
     }
 
-    /// The queries, along one path or the other.
-    pub fn queries(&self, path: MotionKind) -> &[Query] {
-        match path {
+    /// Returns the queries with motions of the given kind.
+    pub fn queries(&self, motion: MotionKind) -> &[Query] {
+        match motion {
             MotionKind::Given => &self.given,
             MotionKind::Screw => &self.screws,
         }
     }
 
-    /// Judges answers on this scene.
+    /// Returns the referee of this scene.
     pub fn referee(&self) -> Referee<'_> {
         Referee::new(&self.surfaces[0], &self.surfaces[1])
     }
 
-    /// Which rows are asked when there are to be that many: spread evenly, in an order such that any
-    /// number of the first ones is spread, too.
+    /// Returns the rows to ask for if at most `most` are asked. The rows are spread evenly, and so
+    /// is any number of the first ones.
     pub fn order(&self, most: usize) -> Vec<usize> {
         let count = self.given.len();
         let stride = (1..=count)
             .rev()
             .find(|&stride| 1618 * stride <= 1000 * count && coprime(stride, count))
             .unwrap_or(1);
-        // The first row of a scene may be of a kind of its own: the middle comes first.
+        // The first row of a scene may be of a special kind, so the middle row comes first.
         let rows = (0..count).map(|k| (count / 2 + k * stride) % count.max(1));
         rows.take(most).collect()
     }
 
-    /// Gives an method a session; none where it cannot enter.
+    /// Opens a session of a method, or returns `None` if the method does not support the scene.
     ///
     /// # Errors
-    /// When a peer cannot be started.
+    /// If a peer cannot be started.
     pub fn session(
         &self,
         method: Method,
         tolerance: f64,
     ) -> Result<Option<Session<'s>>, ContestError> {
-        Session::take(method, self.scene, tolerance).map_err(not_started(method))
+        Session::open(method, self.scene, tolerance).map_err(not_started(method))
     }
 
-    /// Tells an method another tolerance.
+    /// Sets the tolerance of a session.
     ///
     /// # Errors
-    /// When a peer cannot be started again.
+    /// If a peer cannot be restarted.
     pub fn adjust(&self, session: &mut Session<'_>, tolerance: f64) -> Result<(), ContestError> {
         let failed = not_started(session.method());
         session.set_tolerance(tolerance).map_err(failed)
     }
 
-    /// Asks an method, and judges what it says; none where it can be asked none of the queries.
+    /// Asks a method the queries, and judges its answers. Returns `None` if it can be asked none of
+    /// the queries.
     ///
     /// # Errors
-    /// When a peer that was stopped cannot be started again.
+    /// If a stopped peer cannot be restarted.
     pub fn run(
         &self,
         session: &mut Session<'_>,
@@ -203,7 +205,7 @@ impl<'s> Contest<'s> {
         }
     }
 
-    /// The scene.
+    /// Returns the scene.
     pub fn scene(&self) -> &'s Scene {
         self.scene
     }
@@ -216,13 +218,13 @@ fn not_started(method: Method) -> impl Fn(io::Error) -> ContestError {
     }
 }
 
-/// What trials of one method on one scene come to; there is at least one.
+/// Summarises the trials of one method on one scene, at least one.
 pub fn sum_up(trials: &[Trial]) -> Cell {
     let count = |verdict: Verdict| {
         let name = verdict.to_string();
         trials.iter().filter(|t| t.verdict == name).count()
     };
-    // Of what a peer died of there is no time.
+    // A query at which a peer died has no time.
     let known = trials.iter().map(|t| t.micros).filter(|m| !m.is_nan());
     let mut micros: Vec<f64> = known.collect();
     let errors: Vec<f64> = trials

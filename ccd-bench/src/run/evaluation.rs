@@ -1,4 +1,4 @@
-//! Methods, scenes and tolerances: all combinations measured, one after another, into a journal.
+//! Measures all combinations of methods, scenes and tolerances, one after another, into a journal.
 
 use crate::method::{Method, MotionKind};
 use crate::run::contest::{
@@ -11,61 +11,61 @@ use rigid_ccd::command::{Progress, Total};
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// What to measure.
+/// The measurements to make.
 #[derive(Clone, Debug)]
 pub struct Plan {
-    /// On what.
+    /// The scenes.
     pub listings: Vec<Listing>,
-    /// Whom.
+    /// The methods.
     pub methods: Vec<Method>,
-    /// With which tolerances.
+    /// The tolerances.
     pub tolerances: Vec<f64>,
-    /// How long what runs in this process is listened to.
+    /// The limits of methods that run in this process.
     pub allowance: Allowance,
-    /// How long a peer is listened to.
+    /// The limits of peers.
     pub peer_allowance: Allowance,
-    /// Where to look for mesh files in place of the models made by code.
+    /// The folder of mesh files that replace the models made by code.
     pub models: Option<PathBuf>,
-    /// Where the figures go.
+    /// The folder of the measurements.
     pub folder: PathBuf,
 }
 
-/// What was measured, and on what.
+/// The measurements, with their scenes and truths.
 pub struct Evaluated {
     /// The scenes.
     pub scenes: Vec<Scene>,
-    /// Cells and trials.
+    /// The cells and trials.
     pub journal: Journal,
-    /// What they were held against.
+    /// The truths that the answers were compared with.
     pub truths: Truths,
 }
 
-/// Why an evaluation ended early.
+/// An evaluation ended early.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum EvaluationError {
     /// A scene cannot be made.
     #[error(transparent)]
     Scene(#[from] SceneError),
-    /// An method cannot be heard.
+    /// A method cannot be run.
     #[error(transparent)]
     Contest(#[from] ContestError),
     /// The truth cannot be kept.
     #[error(transparent)]
     Truths(#[from] TruthsError),
-    /// Figures cannot be kept.
+    /// Measurements cannot be kept.
     #[error(transparent)]
     Journal(#[from] JournalError),
 }
 
-/// What has been found of the truth, in the folder of the figures.
+/// The known truths, in the folder of the measurements.
 const TRUTHS: &str = "truth.csv";
 
-/// The tolerance of methods that have none to be told.
+/// The tolerance of methods without a tolerance of their own.
 pub const USUAL_TOLERANCE: f64 = PAPER_TOLERANCE;
 
 impl Plan {
-    /// What the folder holds, whatever it was measured with; measures nothing.
+    /// Returns the measurements in the folder, whatever they were measured with, and measures nothing.
     ///
     /// # Errors
     /// [`EvaluationError`].
@@ -80,24 +80,28 @@ impl Plan {
         })
     }
 
-    /// Measures what the folder does not hold yet.
+    /// Measures whatever is missing in the folder.
     ///
     /// # Errors
-    /// [`EvaluationError`]; what was measured before it is kept.
+    /// [`EvaluationError`]; earlier measurements are kept.
     pub fn run(&self) -> Result<Evaluated, EvaluationError> {
         let mut journal = Journal::open(&self.folder, &self.stamp(), &[TRUTHS])?;
         let truths_file = self.folder.join(TRUTHS);
         let mut truths = Truths::read(&truths_file)?;
         let mut models = Models::new(self.models.clone());
         let scenes = self.scenes(&mut models)?;
-        let cells: usize = self.methods.iter().map(|&e| self.told(e).count()).sum();
+        let cells: usize = self
+            .methods
+            .iter()
+            .map(|&method| self.tolerances_of(method).count())
+            .sum();
         let progress = Progress::new(Total::Steps(scenes.len() * cells));
         for scene in &scenes {
             let contest = Contest::new(scene)?;
             progress.say(&format!("{}: the truth", scene.name));
             let rows = contest.order(self.allowance.rows);
-            for path in self.paths() {
-                if truths.find(&contest, path, &rows, &progress) > 0 {
+            for motion in self.motions() {
+                if truths.find(&contest, motion, &rows, &progress) > 0 {
                     truths.write(&truths_file)?;
                 }
             }
@@ -126,7 +130,7 @@ impl Plan {
                 Method::Ours(..) | Method::Rival(_) => &self.allowance,
             };
             let mut session = None;
-            for tolerance in self.told(method) {
+            for tolerance in self.tolerances_of(method) {
                 progress.step();
                 if journal.has(scene, &name, tolerance) {
                     continue;
@@ -162,7 +166,7 @@ impl Plan {
         Ok(scenes)
     }
 
-    /// Makes all bodies of all pieces that some method wants, on all processors.
+    /// Makes the pieces of all bodies that some method needs, on all processors.
     fn make_pieces(&self, scenes: &[Scene]) {
         let mut wanted: Vec<(&SceneBody, Pieces)> = Vec::new();
         for body in scenes.iter().flat_map(|scene| [&scene.a, &scene.b]) {
@@ -183,26 +187,26 @@ impl Plan {
         });
     }
 
-    /// The tolerances that an method is told: all, or the usual one where it cannot be told any.
-    fn told(&self, method: Method) -> impl Iterator<Item = f64> {
+    /// Returns the tolerances for a method: all, or the usual one if it takes none.
+    fn tolerances_of(&self, method: Method) -> impl Iterator<Item = f64> {
         self.tolerances
             .iter()
             .copied()
             .filter(move |&tolerance| method.takes_tolerances() || tolerance == USUAL_TOLERANCE)
     }
 
-    /// The paths that some method moves bodies along.
-    fn paths(&self) -> Vec<MotionKind> {
-        let mut paths = Vec::new();
-        for path in self.methods.iter().map(|method| method.motion_kind()) {
-            if !paths.contains(&path) {
-                paths.push(path);
+    /// Returns the kinds of motion that some method uses.
+    fn motions(&self) -> Vec<MotionKind> {
+        let mut motions = Vec::new();
+        for motion in self.methods.iter().map(|method| method.motion_kind()) {
+            if !motions.contains(&motion) {
+                motions.push(motion);
             }
         }
-        paths
+        motions
     }
 
-    /// What figures depend on beside the cell that they stand in: this program, and the allowances.
+    /// Describes the settings that all measurements depend on: this program, and the allowances.
     fn stamp(&self) -> String {
         let program = std::env::current_exe().and_then(std::fs::read);
         let program = program.map_or(0, |bytes| crc32fast::hash(&bytes));

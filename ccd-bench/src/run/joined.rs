@@ -1,4 +1,4 @@
-//! Scenes for programs elsewhere, and what those measured on them.
+//! Exports scenes to other programs, and joins the trials that those measured.
 
 use crate::method::solver::Claim;
 use crate::method::{Method, MotionKind};
@@ -12,7 +12,7 @@ use rigid_ccd::table::motions;
 use serde::Deserialize;
 use std::fs::{self, File};
 use std::io::BufWriter;
-use std::path;
+use std::path::{Path, PathBuf};
 
 /// A trial measured elsewhere.
 #[derive(Clone, Debug, Deserialize)]
@@ -27,31 +27,27 @@ pub struct Foreign {
     time: Option<f64>,
 }
 
-/// What a program elsewhere says of a query.
-enum Said {
+/// The result of another program for a query.
+enum Reported {
     Claim(Claim),
     CutOff,
     Died,
-    /// That it measured something else, such as a single distance: there is nothing to judge.
-    Nothing,
+    /// It measured something else, such as a single distance, and is not judged.
+    Static,
 }
 
 /// Writes each scene into a folder of its name: `a.obj`, `b.obj`, `motions.csv`.
 ///
 /// # Errors
-/// When a scene cannot be made or a file not be written.
-pub fn export(
-    listings: &[Listing],
-    models: Option<path::PathBuf>,
-    folder: &path::Path,
-) -> Result<()> {
+/// If a scene cannot be made or a file cannot be written.
+pub fn export(listings: &[Listing], models: Option<PathBuf>, folder: &Path) -> Result<()> {
     let mut models = Models::new(models);
     for listing in listings {
         let scene = listing.make(&mut models)?;
-        let place = folder.join(&scene.name);
-        fs::create_dir_all(&place).with_context(|| place.display().to_string())?;
+        let directory = folder.join(&scene.name);
+        fs::create_dir_all(&directory).with_context(|| directory.display().to_string())?;
         let file = |name: &str| {
-            let path = place.join(name);
+            let path = directory.join(name);
             let file = File::create(&path).with_context(|| path.display().to_string());
             file.map(BufWriter::new)
         };
@@ -65,8 +61,8 @@ pub fn export(
 /// Reads a table of trials measured elsewhere.
 ///
 /// # Errors
-/// When the file is none, or names a method of this program.
-pub fn read_trials(file: &path::Path) -> Result<Vec<Foreign>> {
+/// If the file is no such table, or names a method of this program.
+pub fn read_trials(file: &Path) -> Result<Vec<Foreign>> {
     let foreign: Vec<Foreign> = read(file)?;
     let own: Vec<String> = Method::all().iter().map(ToString::to_string).collect();
     for trial in &foreign {
@@ -75,15 +71,15 @@ pub fn read_trials(file: &path::Path) -> Result<Vec<Foreign>> {
             "{} is measured here; give it another name",
             trial.method
         );
-        said(trial)?;
+        reported(trial)?;
     }
     Ok(foreign)
 }
 
-/// Judges trials and puts them in the place of what was known of their methods.
+/// Judges trials. They replace earlier trials of the same methods.
 ///
 /// # Errors
-/// When they are about scenes or queries that there are not.
+/// If a trial names an unknown scene or query.
 pub fn join(evaluated: &mut Evaluated, mut foreign: Vec<Foreign>) -> Result<()> {
     for trial in &foreign {
         if evaluated
@@ -129,17 +125,17 @@ fn judged(scene: &Scene, group: &[Foreign], truths: &mut Truths) -> Result<Vec<T
     let truth = truths.of(&contest, MotionKind::Given);
     let mut trials = Vec::new();
     for (foreign, &row) in group.iter().zip(&rows) {
-        let judged = match said(foreign)? {
-            Said::Claim(claim) => judge(
+        let judged = match reported(foreign)? {
+            Reported::Claim(claim) => judge(
                 &contest.referee(),
                 &scene.queries[row],
                 truth(row),
                 claim,
                 foreign.tolerance,
             ),
-            Said::CutOff => Judged::plain(Verdict::CutOff),
-            Said::Died => Judged::plain(Verdict::Died),
-            Said::Nothing => Judged::plain(Verdict::NotJudged),
+            Reported::CutOff => Judged::plain(Verdict::CutOff),
+            Reported::Died => Judged::plain(Verdict::Died),
+            Reported::Static => Judged::plain(Verdict::NotJudged),
         };
         trials.push(Trial {
             scene: scene.name.clone(),
@@ -156,20 +152,20 @@ fn judged(scene: &Scene, group: &[Foreign], truths: &mut Truths) -> Result<Vec<T
     Ok(trials)
 }
 
-fn said(foreign: &Foreign) -> Result<Said> {
+fn reported(foreign: &Foreign) -> Result<Reported> {
     let time = || {
         let time = foreign.time.filter(|time| time.is_finite());
         time.with_context(|| format!("{} of {} has no time", foreign.status, foreign.id))
     };
     Ok(match foreign.status.as_str() {
-        "contact" => Said::Claim(Claim::Contact { time: time()? }),
-        "free" => Said::Claim(Claim::Free),
-        "unresolved" => Said::Claim(Claim::Unresolved {
+        "contact" => Reported::Claim(Claim::Contact { time: time()? }),
+        "free" => Reported::Claim(Claim::Free),
+        "unresolved" => Reported::Claim(Claim::Unresolved {
             safe_until: foreign.time.unwrap_or(0.0),
         }),
-        "cut off" => Said::CutOff,
-        "died" => Said::Died,
-        "static" => Said::Nothing,
+        "cut off" => Reported::CutOff,
+        "died" => Reported::Died,
+        "static" => Reported::Static,
         other => {
             bail!("status {other}: it has to be contact, free, unresolved, cut off, died or static")
         }

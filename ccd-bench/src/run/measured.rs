@@ -1,4 +1,4 @@
-//! What was measured: the table behind the charts, and the trials behind the table.
+//! The table of cells, from which the charts are drawn, and the table of trials that it summarises.
 
 #[cfg(test)]
 mod tests;
@@ -17,15 +17,15 @@ pub struct Cell {
     pub scene: String,
     /// The method's name.
     pub method: String,
-    /// As a length.
+    /// The tolerance, a length.
     pub tolerance: f64,
-    /// How many queries were asked.
+    /// The number of queries.
     pub rows: usize,
-    /// Of one query, in microseconds, as the two below.
+    /// The median time of a query, in microseconds, as the two times below.
     pub median_us: f64,
-    /// The mean.
+    /// The mean time.
     pub mean_us: f64,
-    /// What 95 of 100 queries stay within.
+    /// The 95th percentile of the times.
     pub p95_us: f64,
     /// Contacts reported after the exact first one.
     pub late: usize,
@@ -34,22 +34,22 @@ pub struct Cell {
     /// Contacts reported that do not happen, not even within the tolerance.
     #[serde(rename = "false")]
     pub false_contacts: usize,
-    /// Queries given up, those cut off included.
+    /// Queries given up, including those cut off.
     pub unresolved: usize,
-    /// Of the times of contact, by how much they are off, as a share of the duration; NaN (an empty
-    /// cell) of none.
+    /// The mean error of the times of contact, as a fraction of the duration; NaN (an empty cell)
+    /// if there are none.
     #[serde(with = "optional")]
     pub mean_error: f64,
-    /// The largest of these.
+    /// The largest of these errors.
     #[serde(with = "optional")]
     pub max_error: f64,
     /// Contacts reported while the bodies are farther apart than the tolerance.
     pub early: usize,
-    /// Queries that took longer than anybody would wait, and were stopped, or that the peer died of.
+    /// Queries that exceeded the time limit and were stopped, or at which the peer died.
     pub cut_off: usize,
-    /// Queries of which the truth is not known well enough to judge the answer.
+    /// Queries whose truth is not known well enough to judge the answer.
     pub undecided: usize,
-    /// Steps in time of a query, as the method counts them.
+    /// The mean number of steps in time of a query, as the method counts them.
     pub mean_steps: f64,
 }
 
@@ -60,25 +60,25 @@ pub struct Trial {
     pub scene: String,
     /// The method's name.
     pub method: String,
-    /// As a length.
+    /// The tolerance, a length.
     pub tolerance: f64,
-    /// The query's place in its scene, from 0.
+    /// The index of the query in its scene, from 0.
     pub row: usize,
     /// The query's name.
     pub id: String,
-    /// Of this query, in microseconds.
+    /// The time of this query, in microseconds.
     pub micros: f64,
     /// Steps in time.
     pub steps: u64,
-    /// How the claim stands against the truth.
+    /// The verdict on the claim.
     pub verdict: String,
-    /// By how much a time of contact is off, as a share of the duration; NaN where there is none.
+    /// The error of the time of contact, as a fraction of the duration; NaN if there is no time.
     #[serde(with = "optional")]
     pub error: f64,
 }
 
 impl Cell {
-    /// Whether some contact was reported too late, or not at all.
+    /// Returns true if some contact was reported too late, or not at all.
     pub fn is_unsafe(&self) -> bool {
         self.late + self.missed > 0
     }
@@ -87,7 +87,7 @@ impl Cell {
 /// Writes a table with a header.
 ///
 /// # Errors
-/// When the file cannot be written.
+/// If the file cannot be written.
 pub fn write<T: Serialize>(path: &Path, rows: &[T]) -> Result<(), csv::Error> {
     let mut writer = csv::Writer::from_path(path)?;
     for row in rows {
@@ -100,9 +100,9 @@ pub fn write<T: Serialize>(path: &Path, rows: &[T]) -> Result<(), csv::Error> {
 /// Reads a table with a header.
 ///
 /// # Errors
-/// When the file cannot be read, or a row is none of this table.
+/// If the file cannot be read, or a row does not fit the table.
 pub fn read<T: for<'de> Deserialize<'de>>(path: &Path) -> Result<Vec<T>, csv::Error> {
-    // Errors tell the line, which is counted rightly where all lines end alike.
+    // Errors give the line, which is counted correctly if all lines end alike.
     let mut reader =
         csv::Reader::from_reader(Quotes::new(Lines::new(File::open(path)?)).chain(&b"\n"[..]));
     let rows: Result<Vec<T>, csv::Error> = reader.deserialize().collect();
@@ -116,7 +116,7 @@ pub fn read<T: for<'de> Deserialize<'de>>(path: &Path) -> Result<Vec<T>, csv::Er
     }
 }
 
-/// NaN as an empty cell.
+/// Writes NaN as an empty cell.
 mod optional {
     use serde::{Deserialize, Deserializer, Serialize, Serializer};
 

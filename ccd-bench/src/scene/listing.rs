@@ -1,15 +1,15 @@
-//! The scenes as data: which models, which rows of which motions.
+//! The scenes as data: their models, and their rows in tables of motions.
 
 use super::{Models, Scene, SceneError};
 use crate::scene::model::Model;
 use rigid_ccd::table::motions::{MotionTable, Query};
 use serde::Deserialize;
 
-/// A scene before it is made.
+/// The description of a scene.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Listing {
-    /// What the tables call it.
+    /// The name in the tables.
     pub name: String,
     /// The figure of the paper that shows it.
     pub figure: Option<u8>,
@@ -52,10 +52,10 @@ const MOTIONS: [(&str, &str); 6] = [
     ),
 ];
 
-/// All scenes, in the order in which they are reported.
+/// Returns all scenes, in the order of the report.
 ///
 /// # Errors
-/// [`SceneError::Data`] when the data file is none.
+/// [`SceneError::Data`] if the data file is invalid.
 pub fn listings() -> Result<Vec<Listing>, SceneError> {
     let file: File = toml::from_str(SCENES).map_err(|error| SceneError::Data {
         what: "scenes.toml".to_owned(),
@@ -65,10 +65,10 @@ pub fn listings() -> Result<Vec<Listing>, SceneError> {
 }
 
 impl Listing {
-    /// The scene itself.
+    /// Makes the scene.
     ///
     /// # Errors
-    /// When its data names what is not there, or a model's file is none that a body can be made of.
+    /// If the data names something unknown, or a model's file is no mesh that a body can be made of.
     pub fn make(&self, models: &mut Models) -> Result<Scene, SceneError> {
         Ok(Scene {
             name: self.name.clone(),
@@ -119,7 +119,7 @@ mod tests {
     use std::collections::HashSet;
 
     #[test]
-    fn every_scene_names_what_there_is_and_tells_its_rows_apart() {
+    fn every_scene_refers_to_existing_data_and_has_distinct_rows() {
         let listings = listings().unwrap();
         let names: HashSet<&str> = listings.iter().map(|l| l.name.as_str()).collect();
         assert_eq!(names.len(), listings.len());
@@ -143,18 +143,18 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_there_is_named() {
+    fn missing_data_is_named_in_the_error() {
         let mut listing = listings().unwrap().remove(0);
         listing.rows = Some(Rows {
             from: 0,
             to: 10_000,
         });
-        let told = listing.queries().unwrap_err().to_string();
-        assert!(told.contains("santa.csv: rows 0 to 10000"), "{told}");
+        let error = listing.queries().unwrap_err().to_string();
+        assert!(error.contains("santa.csv: rows 0 to 10000"), "{error}");
         listing.motions = "nowhere.csv".to_owned();
-        let told = listing.queries().unwrap_err().to_string();
-        assert!(told.contains("nowhere.csv"), "{told}");
-        let told = listing.model("unicorn").unwrap_err().to_string();
-        assert!(told.contains("unicorn"), "{told}");
+        let error = listing.queries().unwrap_err().to_string();
+        assert!(error.contains("nowhere.csv"), "{error}");
+        let error = listing.model("unicorn").unwrap_err().to_string();
+        assert!(error.contains("unicorn"), "{error}");
     }
 }

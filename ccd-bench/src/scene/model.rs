@@ -35,36 +35,37 @@ pub enum Model {
     Ring,
     /// A thin board of 12 triangles.
     Board,
-    /// A stand-in of the bunny with 69,664 triangles.
+    /// A stand-in for the bunny with 69,664 triangles.
     Bunny70k,
-    /// A stand-in of the bunny with 26,000 triangles.
+    /// A stand-in for the bunny with 26,000 triangles.
     Bunny26k,
-    /// A stand-in of Santa with 37,888 triangles.
+    /// A stand-in for Santa with 37,888 triangles.
     Santa,
 }
 
-/// A mesh, and whether it is the model itself or a stand-in made by code.
+/// A mesh and its origin: the model itself or a stand-in made by code.
 #[derive(Clone, Debug)]
 pub struct LoadedModel {
     /// The mesh.
     pub mesh: TriangleMesh,
-    /// Where it comes from.
+    /// The origin of the mesh.
     pub origin: Origin,
 }
 
-/// Where a mesh comes from.
+/// The origin of a mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Origin {
     /// A file.
     File,
     /// Made by code: the same surface, triangles of the same size.
     Code,
-    /// Made by code in place of a scanned model: as large, as many triangles, another shape.
+    /// Made by code instead of a scanned model: the same size and number of triangles, but another
+    /// shape.
     StandIn,
 }
 
 impl Model {
-    /// All of them.
+    /// All models.
     pub const ALL: [Model; 9] = [
         Model::Knot216,
         Model::Knot2880,
@@ -77,7 +78,7 @@ impl Model {
         Model::Santa,
     ];
 
-    /// What its file is called, without the extension.
+    /// Returns the name of its file, without the extension.
     pub fn name(self) -> &'static str {
         match self {
             Model::Knot216 => "knot216",
@@ -92,10 +93,10 @@ impl Model {
         }
     }
 
-    /// The mesh in `NAME.obj` of a directory where there is one, else the one made by code.
+    /// Returns the mesh in `NAME.obj` of a directory if that exists, else the one made by code.
     ///
     /// # Errors
-    /// When there is a file that is no mesh.
+    /// If the file exists but is no mesh.
     pub fn load(self, directory: Option<&Path>) -> Result<LoadedModel, MeshError> {
         let file = directory.map(|directory| directory.join(self.name()).with_extension("obj"));
         if let Some(file) = file.filter(|file| file.exists()) {
@@ -112,10 +113,10 @@ impl Model {
         Ok(LoadedModel { mesh, origin })
     }
 
-    /// The mesh made by code.
+    /// Returns the mesh made by code.
     ///
     /// # Errors
-    /// None, since every model is one that can be made.
+    /// None, since every model has a valid size.
     pub fn generate(self) -> Result<TriangleMesh, MeshError> {
         match self {
             Model::Knot216 => knot(27, 4),

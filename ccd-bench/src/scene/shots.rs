@@ -11,23 +11,23 @@ use std::ops::Range;
 /// Straight flights from somewhere around a resting body to the far side of it.
 #[derive(Clone, Debug)]
 pub struct Shots {
-    /// How many.
+    /// The number of flights.
     pub count: usize,
-    /// How many of them, the first ones, do not turn on their way.
+    /// The number of the first flights, which do not turn.
     pub translations: usize,
-    /// How far from the resting body's origin they start.
+    /// The range of starting distances from the resting body's origin.
     pub distance: Range<f64>,
-    /// How far off that origin they are aimed, at most.
+    /// The largest distance of a flight's path from that origin.
     pub aside: f64,
-    /// Draws them.
+    /// The random seed.
     pub seed: u64,
 }
 
 impl Shots {
-    /// The motions, of duration 1; B rests at the origin.
+    /// Returns the motions, of duration 1; B rests at the origin.
     ///
     /// # Errors
-    /// When a distance is not finite.
+    /// If a distance is not finite.
     pub fn queries(&self) -> Result<Vec<Query>, InputError> {
         let mut rng = Pcg64::seed_from_u64(self.seed);
         (0..self.count)
@@ -47,9 +47,9 @@ impl Shots {
     }
 }
 
-/// A body of radius 1 falls from height 5 to −5, turning by 3/8 of a turn; a board that reaches 1.5
-/// to either side lies across its way, each time a little lower, or, one time in four, so far aside
-/// that the body hardly passes it.
+/// Returns drops of a body of radius 1 from height 5 to −5 with 3/8 of a turn. A board that reaches
+/// 1.5 to either side lies across its way, each time a little lower, or in one of four drops so far
+/// aside that the body hardly passes it.
 ///
 /// # Errors
 /// None: all motions are finite.
@@ -80,7 +80,7 @@ fn at_rest(row: usize, a: Motion, b: DVec3) -> Result<Query, InputError> {
     })
 }
 
-/// A point of the unit sphere, all alike likely.
+/// Returns a uniformly distributed point of the unit sphere.
 fn unit_vector(rng: &mut impl Rng) -> DVec3 {
     let z: f64 = rng.random_range(-1.0..1.0);
     let (sin, cos) = rng.random_range(0.0..TAU).sin_cos();
@@ -88,13 +88,13 @@ fn unit_vector(rng: &mut impl Rng) -> DVec3 {
     DVec3::new(radius * cos, radius * sin, z)
 }
 
-/// A point of the unit ball, all alike likely.
+/// Returns a uniformly distributed point of the unit ball.
 fn in_unit_ball(rng: &mut impl Rng) -> DVec3 {
     let radius = rng.random_range(0.0f64..1.0).cbrt();
     radius * unit_vector(rng)
 }
 
-/// A rotation, all alike likely: a point of the sphere in four dimensions.
+/// Returns a uniformly distributed rotation: a point of the sphere in four dimensions.
 fn orientation(rng: &mut impl Rng) -> DQuat {
     let share: f64 = rng.random_range(0.0..1.0);
     let (sin_a, cos_a) = rng.random_range(0.0..TAU).sin_cos();

@@ -49,13 +49,13 @@ fn scenes_are_the_same_every_time_and_differ_by_seed() {
 }
 
 #[test]
-fn boards_lie_across_the_way_or_just_beside_it() {
+fn boards_lie_across_the_path_or_just_next_to_it() {
     let queries = drops_past_board(40, 1).unwrap();
-    let places = queries.iter().map(|query| query.b.start().translation());
-    let (beside, across): (Vec<DVec3>, Vec<DVec3>) = places.partition(|p| p.x != 0.0);
-    assert_eq!((beside.len(), across.len()), (10, 30));
+    let positions = queries.iter().map(|query| query.b.start().translation());
+    let (next_to, across): (Vec<DVec3>, Vec<DVec3>) = positions.partition(|p| p.x != 0.0);
+    assert_eq!((next_to.len(), across.len()), (10, 30));
     // The board reaches 1.5 towards a body of radius 1.
-    assert!(beside.iter().all(|p| (2.4..2.6).contains(&p.x)));
+    assert!(next_to.iter().all(|p| (2.4..2.6).contains(&p.x)));
     assert!(across.windows(2).all(|pair| pair[0].z > pair[1].z));
 }
 

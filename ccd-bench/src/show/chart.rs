@@ -1,4 +1,4 @@
-//! Charts of what was measured: SVG files drawn from the tables alone.
+//! Charts of measurements: SVG files drawn from the tables alone.
 //!
 //! | chart | shows |
 //! |---|---|
@@ -8,8 +8,8 @@
 //! | `models` | models of the same mesh: time and error |
 //! | `figure-N` | the paper's figures, trial by trial |
 //!
-//! A method that was late or missed a contact anywhere has hollow markers everywhere, and no point on
-//! a plane of time and error: how accurate it is when it is right is no merit.
+//! A method that was late or missed a contact anywhere has hollow markers everywhere, and no point
+//! on a plane of time and error: its accuracy when it is right is no merit.
 
 mod axis;
 mod figures;
@@ -31,104 +31,104 @@ use plotters::style::Color;
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
-/// The paper's tolerance `[FAST06 §6.2]`, that charts of one tolerance are drawn at.
+/// The paper's tolerance `[FAST06 §6.2]`, at which charts of one tolerance are drawn.
 pub const PAPER_TOLERANCE: f64 = 1e-3;
 
-/// What charts are drawn from.
+/// The data of all charts.
 #[derive(Clone, Copy, Debug)]
 pub struct Charts<'a> {
     /// Every method on every scene at every tolerance.
     pub cells: &'a [Cell],
     /// Single queries, in the order of their scene.
     pub trials: &'a [Trial],
-    /// The scenes, in the order in which they are shown; cells of others are left out.
+    /// The scenes in display order; cells of other scenes are left out.
     pub scenes: &'a [SceneFacts<'a>],
-    /// The methods, in the order in which they are shown; cells of others are left out.
+    /// The methods in display order; cells of other methods are left out.
     pub methods: &'a [MethodFacts<'a>],
-    /// The scenes that the small chart of time against error shows.
+    /// The scenes of the small chart of time against error.
     pub headline: &'a [&'a str],
-    /// The methods that the paper's figures are redrawn for.
+    /// The methods for which the paper's figures are redrawn.
     pub published: &'a [&'a str],
 }
 
-/// What has to be known of a scene to draw it.
+/// The facts about a scene that charts need.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SceneFacts<'a> {
-    /// As in the tables.
+    /// The name in the tables.
     pub name: &'a str,
-    /// What moves: scenes of one shape are joined by a line over its sizes.
+    /// The moving shape; scenes of one shape are joined by a line over its sizes.
     pub shape: &'a str,
-    /// The triangles of the mesh that moves.
+    /// The number of triangles of the moving mesh.
     pub triangles: usize,
     /// The paper's figure that shows it.
     pub figure: Option<u8>,
 }
 
-/// What has to be known of a method to draw it.
+/// The facts about a method that charts need.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MethodFacts<'a> {
-    /// As in the tables.
+    /// The name in the tables.
     pub name: &'a str,
-    /// Whose it is.
+    /// The family.
     pub family: Family,
-    /// What the legend calls it.
+    /// The label in the legend.
     pub label: &'a str,
 }
 
-/// Whose a method is.
+/// The origin of a method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Family {
-    /// This project's.
+    /// This project.
     Ours,
-    /// Published, built here to be compared with.
+    /// A published method, built here for comparison.
     Rival,
     /// A library in use.
     Peer,
-    /// This project's, over another model of the same mesh: in the chart of models only.
+    /// This project's method on another model of the same mesh; only in the chart of models.
     Model,
 }
 
 /// A chart.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Drawing {
-    /// What its file is called, without the extension.
+    /// The name of its file, without the extension.
     pub name: String,
-    /// What it shows, in a sentence.
+    /// The description, a sentence.
     pub title: String,
-    /// The text of its file.
+    /// The content of its file.
     pub svg: String,
 }
 
-/// Why charts cannot be had.
+/// Charts cannot be made.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ChartError {
     /// The table has no row of a known scene and a known method.
     #[error("nothing to draw: no row of the table is of a known scene and a known method")]
     NothingToDraw,
-    /// The drawing library gave up.
+    /// The drawing library failed.
     #[error("chart {name}: {reason}")]
     Drawing {
-        /// Which chart.
+        /// The chart.
         name: String,
-        /// As the library says it.
+        /// The library's message.
         reason: String,
     },
     /// A file cannot be written.
     #[error("cannot write {}: {source}", path.display())]
     Write {
-        /// Which.
+        /// The file.
         path: PathBuf,
-        /// Why.
+        /// The cause.
         source: io::Error,
     },
 }
 
 impl Charts<'_> {
-    /// Writes `NAME.svg` of every chart there is something to draw for; returns their paths.
+    /// Writes `NAME.svg` of every chart that has data. Returns their paths.
     ///
     /// # Errors
-    /// [`ChartError::NothingToDraw`] of empty tables, [`ChartError::Write`] when a file cannot be
+    /// [`ChartError::NothingToDraw`] for empty tables, [`ChartError::Write`] if a file cannot be
     /// written.
     pub fn write(&self, directory: &Path) -> Result<Vec<PathBuf>, ChartError> {
         self.drawings()?
@@ -143,10 +143,10 @@ impl Charts<'_> {
             .collect()
     }
 
-    /// Every chart there is something to draw for.
+    /// Returns every chart that has data.
     ///
     /// # Errors
-    /// [`ChartError::NothingToDraw`] of empty tables.
+    /// [`ChartError::NothingToDraw`] for empty tables.
     pub fn drawings(&self) -> Result<Vec<Drawing>, ChartError> {
         if self.measured_scenes().is_empty() {
             return Err(ChartError::NothingToDraw);
@@ -162,14 +162,14 @@ impl Charts<'_> {
         Ok(drawings)
     }
 
-    /// Whether the method was late or missed a contact anywhere.
+    /// Returns true if the method was late or missed a contact anywhere.
     pub fn is_unsafe(&self, method: &str) -> bool {
         self.cells
             .iter()
             .any(|cell| cell.method == method && cell.is_unsafe())
     }
 
-    /// The methods, each with the colour it has in every chart, as HTML writes it.
+    /// Returns the methods, each with its colour in all charts, in HTML notation.
     pub fn colours(&self) -> Vec<(MethodFacts<'_>, String)> {
         let looks = look::looks(self.methods, |_| Fill::Solid);
         let written = |look: &Look| {
@@ -180,7 +180,7 @@ impl Charts<'_> {
         methods.zip(looks.iter().map(written)).collect()
     }
 
-    /// The scenes that there are cells of.
+    /// Returns the scenes that have cells.
     fn measured_scenes(&self) -> Vec<&SceneFacts<'_>> {
         let of_known = |scene: &str| {
             let known = |cell: &&Cell| self.methods.iter().any(|m| m.name == cell.method);
@@ -192,7 +192,7 @@ impl Charts<'_> {
         self.scenes.iter().filter(|s| of_known(s.name)).collect()
     }
 
-    /// A method's cells of a scene, the coarsest tolerance first.
+    /// Returns the cells of a method on a scene, the coarsest tolerance first.
     fn cells_of(&self, scene: &str, method: &str) -> Vec<&Cell> {
         let mut cells: Vec<_> = self
             .cells
@@ -203,7 +203,7 @@ impl Charts<'_> {
         cells
     }
 
-    /// Methods of some families that there are cells of, each with its look.
+    /// Returns the methods of some families that have cells, each with its look.
     fn shown(&self, families: &[Family]) -> Vec<(&MethodFacts<'_>, Look)> {
         let measured = |name: &str| {
             let known = |cell: &&Cell| self.scenes.iter().any(|s| s.name == cell.scene);
@@ -225,10 +225,10 @@ impl Charts<'_> {
 }
 
 impl Family {
-    /// Those that are compared with each other.
+    /// The families that are compared with each other.
     const COMPARED: [Family; 3] = [Family::Ours, Family::Rival, Family::Peer];
 
-    /// What the legend calls it.
+    /// Returns the heading in the legend.
     fn title(self) -> &'static str {
         match self {
             Family::Ours => "this project",
@@ -239,12 +239,12 @@ impl Family {
     }
 }
 
-/// Whether a tolerance is the paper's, but for how a table writes it.
+/// Returns true if a tolerance is the paper's, up to its rounding in a table.
 fn is_papers(tolerance: f64) -> bool {
     (tolerance / PAPER_TOLERANCE - 1.0).abs() < 1e-9
 }
 
-/// Names the chart that the library gave up on.
+/// Returns a constructor of the error for a chart that the library failed to draw.
 fn failed(name: &str) -> impl Fn(sheet::DrawError) -> ChartError {
     move |error| ChartError::Drawing {
         name: name.to_owned(),

@@ -1,4 +1,4 @@
-//! What was measured, made into tables, charts and a page.
+//! Turns measurements into tables, charts and a page.
 
 mod readme;
 mod views;
@@ -16,9 +16,9 @@ use std::path::{Path, PathBuf};
 /// Tables, charts and views of one evaluation.
 pub struct Presentation<'e> {
     evaluated: &'e Evaluated,
-    /// For the terminal.
+    /// The tables for the terminal.
     pub summary: Vec<TextTable>,
-    /// For readers of a page or a README.
+    /// The tables for a page or a README.
     pub comparisons: Vec<TextTable>,
     methods: Vec<(String, Family)>,
 }
@@ -27,15 +27,15 @@ pub struct Presentation<'e> {
 const FINE_TOLERANCE: f64 = 1e-6;
 /// The method that others are compared with.
 const DEFAULT: &str = "best-first direct";
-/// The paper's own.
+/// The paper's own method.
 const AS_PUBLISHED: &str = "fast vmarch";
-/// What the paper compares itself with; by what factors, stands beside.
+/// The methods that the paper compares itself with; the factors are in the table's title.
 const PAPERS_RIVALS: [&str; 2] = ["CONTACT", "Dynamic Collision Checker"];
 /// The scenes of the small chart.
 const HEADLINE: [&str; 2] = ["knot34560 turning", "bunny turning"];
 
 impl<'e> Presentation<'e> {
-    /// Sums up what was measured.
+    /// Summarises the measurements.
     pub fn new(evaluated: &'e Evaluated) -> Self {
         let journal = &evaluated.journal;
         let methods = families(&tables::methods(journal.cells()));
@@ -70,10 +70,10 @@ impl<'e> Presentation<'e> {
         }
     }
 
-    /// Writes charts and the page into a folder; returns the page's path.
+    /// Writes charts and the page into a folder. Returns the page's path.
     ///
     /// # Errors
-    /// When there is nothing to draw, or a file cannot be written.
+    /// If there is nothing to draw, or a file cannot be written.
     pub fn write(&self, folder: &Path) -> Result<PathBuf> {
         let shapes: Vec<String> = self.evaluated.scenes.iter().map(shape).collect();
         let scenes: Vec<SceneFacts<'_>> = self
@@ -115,7 +115,7 @@ impl<'e> Presentation<'e> {
     }
 }
 
-/// Whose each method is; one that is not known was measured elsewhere.
+/// Returns the family of each method; an unknown method was measured elsewhere.
 fn families(names: &[&str]) -> Vec<(String, Family)> {
     let known: Vec<(String, Family)> = Method::all()
         .into_iter()
@@ -142,7 +142,7 @@ fn family(method: Method) -> Family {
     }
 }
 
-/// What moves in a scene, and how, whatever its size and whether it turns.
+/// Returns the moving shape of a scene and its kind of motion, without size and turn.
 fn shape(scene: &Scene) -> String {
     let plain: String = scene.name.chars().filter(|c| !c.is_ascii_digit()).collect();
     let plain = plain.trim_end_matches(" translating");

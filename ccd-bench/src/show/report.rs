@@ -1,4 +1,4 @@
-//! One page that shows what was measured: charts, tables, scenes in three dimensions; works offline.
+//! One page that shows measurements: charts, tables, scenes in three dimensions. It works offline.
 
 mod data;
 #[cfg(test)]
@@ -14,22 +14,22 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
-/// What the page shows.
+/// The content of the page.
 #[derive(Clone, Copy, Debug)]
 pub struct Page<'a> {
-    /// What it is called.
+    /// The title.
     pub title: &'a str,
-    /// What is said first: paragraphs, an empty line between two.
+    /// The introduction: paragraphs, separated by empty lines.
     pub preface: &'a str,
-    /// The charts, which the plane of time and error is drawn from as well.
+    /// The charts; the interactive plane of time and error is drawn from them too.
     pub charts: Charts<'a>,
-    /// The scenes to be looked at.
+    /// The scenes to view.
     pub views: &'a [View<'a>],
     /// The tables.
     pub tables: &'a [TextTable],
 }
 
-/// A scene to be looked at.
+/// A scene to view.
 #[derive(Clone, Debug)]
 pub struct View<'a> {
     /// The scene's name.
@@ -38,11 +38,11 @@ pub struct View<'a> {
     pub a: &'a TriangleMesh,
     /// The mesh of body B; equal meshes are stored once, for all views.
     pub b: &'a TriangleMesh,
-    /// Motions of both.
+    /// The motions of both bodies.
     pub shots: Vec<Shot>,
 }
 
-/// A motion of a view, and what happens in it.
+/// A motion of a view, and its answer.
 #[derive(Clone, Debug)]
 pub struct Shot {
     /// The motions.
@@ -51,28 +51,28 @@ pub struct Shot {
     pub answer: Answer,
 }
 
-/// Why there is no page.
+/// The page cannot be made.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum PageError {
     /// A chart cannot be drawn.
     #[error(transparent)]
     Chart(#[from] ChartError),
-    /// What the page's scripts read cannot be written down.
+    /// The data for the page's scripts cannot be serialised.
     #[error("the page's data: {0}")]
     Data(#[from] serde_json::Error),
     /// The file cannot be written.
     #[error("cannot write {}: {source}", path.display())]
     Write {
-        /// Which.
+        /// The file.
         path: PathBuf,
-        /// Why.
+        /// The cause.
         source: io::Error,
     },
 }
 
 impl Page<'_> {
-    /// Writes the page as one file that needs nothing else.
+    /// Writes the page as one self-contained file.
     ///
     /// # Errors
     /// [`PageError`].
@@ -83,10 +83,10 @@ impl Page<'_> {
         })
     }
 
-    /// The text of the page.
+    /// Returns the text of the page.
     ///
     /// # Errors
-    /// [`PageError`], but for [`PageError::Write`].
+    /// [`PageError`], except [`PageError::Write`].
     pub fn html(&self) -> Result<String, PageError> {
         let parts = [
             ("title", escape(self.title)),
@@ -115,7 +115,7 @@ impl Page<'_> {
     fn charts_html(&self) -> Result<String, PageError> {
         let drawings = self.charts.drawings()?;
         let mut html = String::new();
-        // The small one is for where there is no room for all scenes.
+        // The small chart is for places without room for all scenes.
         for drawing in drawings.iter().filter(|d| d.name != "pareto-small") {
             // Writing to a string does not fail.
             let _ = writeln!(html, "<figure>{}</figure>", drawing.svg);
@@ -155,7 +155,7 @@ fn table_html(table: &TextTable) -> String {
     )
 }
 
-/// The template with every `{{name}}` replaced; what is put in is not looked at again.
+/// Returns the template with every `{{name}}` replaced. Inserted text is not searched again.
 fn filled(template: &str, parts: &[(&str, String)]) -> String {
     let mut pieces = template.split("{{");
     let mut text = pieces.next().unwrap_or_default().to_owned();
@@ -169,8 +169,7 @@ fn filled(template: &str, parts: &[(&str, String)]) -> String {
     text
 }
 
-/// The first of the scripts that the library brings: the other one sets formulas, of which there are
-/// none.
+/// Returns the first of the library's scripts. The other one renders formulas, and the page has none.
 fn plotly_script() -> String {
     const END: &str = "</script>";
     let scripts = Plot::offline_js_sources();
@@ -180,7 +179,7 @@ fn plotly_script() -> String {
     }
 }
 
-/// A text as it may stand in HTML.
+/// Escapes a text for HTML.
 fn escape(text: &str) -> String {
     text.replace('&', "&amp;")
         .replace('<', "&lt;")

@@ -1,4 +1,4 @@
-//! What the measurements come to, as tables of words.
+//! Summaries of the measurements, as tables of text.
 
 #[cfg(test)]
 mod tests;
@@ -14,20 +14,20 @@ use std::collections::HashMap;
 /// A table as text.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TextTable {
-    /// What markers in a README call it.
+    /// The name in the markers of a README.
     pub name: String,
-    /// What it shows.
+    /// The title.
     pub title: String,
-    /// What its columns are called.
+    /// The names of the columns.
     pub header: Vec<String>,
     /// Its rows.
     pub rows: Vec<Vec<String>>,
 }
 
-/// Of fewer rows than this, a median is told with their number.
+/// A median of fewer rows than this is shown with their number.
 const FEW: usize = 10;
 
-/// What a table says where there is nothing to say.
+/// The text of a cell without a value.
 const NOTHING: &str = "–";
 
 impl TextTable {
@@ -40,7 +40,7 @@ impl TextTable {
         }
     }
 
-    /// The same, by a name.
+    /// Returns the same table with a name.
     pub fn named(self, name: &str) -> Self {
         TextTable {
             name: name.to_owned(),
@@ -48,12 +48,12 @@ impl TextTable {
         }
     }
 
-    /// For a terminal.
+    /// Lays out the table for a terminal.
     pub fn for_terminal(&self) -> String {
         self.laid_out(UTF8_BORDERS_ONLY)
     }
 
-    /// For a README.
+    /// Lays out the table for a README.
     pub fn as_markdown(&self) -> String {
         self.laid_out(ASCII_MARKDOWN)
     }
@@ -62,7 +62,7 @@ impl TextTable {
         let mut table = Table::new();
         table.load_style(style).set_header(&self.header);
         for (index, column) in table.column_iter_mut().enumerate() {
-            // Words to the left, numbers to the right.
+            // Words are aligned left, numbers right.
             let is_words = |row: &Vec<String>| {
                 row.get(index)
                     .is_some_and(|cell| cell.starts_with(char::is_alphabetic))
@@ -78,7 +78,7 @@ impl TextTable {
     }
 }
 
-/// Every method on every scene at one tolerance.
+/// Compares every method on every scene at one tolerance.
 pub fn at_tolerance(cells: &[Cell], tolerance: f64) -> TextTable {
     let mut table = TextTable::new(
         format!("Tolerance {tolerance:e}"),
@@ -122,8 +122,8 @@ pub fn at_tolerance(cells: &[Cell], tolerance: f64) -> TextTable {
     table
 }
 
-/// How often each method was late, missed a contact, or reported a false one, over all scenes and
-/// tolerances; without those that answer no query.
+/// Counts how often each method was late, missed a contact, or reported a false one, over all
+/// scenes and tolerances. Methods that answer no query are left out.
 pub fn safety(cells: &[Cell], trials: &[Trial]) -> TextTable {
     let not_judged = Verdict::NotJudged.to_string();
     let answers = |method: &str| {
@@ -131,7 +131,7 @@ pub fn safety(cells: &[Cell], trials: &[Trial]) -> TextTable {
         trials.iter().any(judged)
     };
     let mut table = TextTable::new(
-        "Answers held against the truth, all scenes and tolerances",
+        "Answers compared with the truth, all scenes and tolerances",
         &[
             "method",
             "queries",
@@ -162,8 +162,9 @@ pub fn safety(cells: &[Cell], trials: &[Trial]) -> TextTable {
     table
 }
 
-/// How many times longer others take than one method, scene by scene: the median of the ratios query by
-/// query (the ratio of the total times) over the queries that both were asked, and whether the other was late or missed a contact there.
+/// Compares the times of other methods with those of a reference, scene by scene. A cell has the
+/// median of the ratios query by query (and the ratio of the total times) over the queries that
+/// both were asked, and a mark if the other method was late or missed a contact there.
 pub fn ratios(trials: &[Trial], reference: &str, others: &[&str], tolerance: f64) -> TextTable {
     let mut header = vec!["scene"];
     header.extend(others);
@@ -206,11 +207,11 @@ fn ratio(base: &HashMap<&str, &Trial>, other: &HashMap<&str, &Trial>) -> String 
     if ratios.is_empty() {
         return NOTHING.to_owned();
     }
-    let said = |verdict: Verdict| {
+    let occurs = |verdict: Verdict| {
         let name = verdict.to_string();
         other.values().any(|trial| trial.verdict == name)
     };
-    let given_up = match said(Verdict::CutOff) || said(Verdict::Unresolved) {
+    let given_up = match occurs(Verdict::CutOff) || occurs(Verdict::Unresolved) {
         true => "> ",
         false => "",
     };
@@ -218,7 +219,7 @@ fn ratio(base: &HashMap<&str, &Trial>, other: &HashMap<&str, &Trial>) -> String 
         few @ ..FEW => format!(" [{few}]"),
         _ => String::new(),
     };
-    let mark = match said(Verdict::Late) || said(Verdict::Missed) {
+    let mark = match occurs(Verdict::Late) || occurs(Verdict::Missed) {
         true => " †",
         false => "",
     };
@@ -237,7 +238,7 @@ fn three_digits(value: f64) -> String {
     }
 }
 
-/// The methods of a table, in their order, by name.
+/// Returns the methods of a table by name, in the usual order.
 pub fn methods(cells: &[Cell]) -> Vec<&str> {
     let order: Vec<String> = Method::all().iter().map(ToString::to_string).collect();
     let mut methods: Vec<&str> = Vec::new();
@@ -246,7 +247,7 @@ pub fn methods(cells: &[Cell]) -> Vec<&str> {
             methods.push(&cell.method);
         }
     }
-    // Those joined from elsewhere come last, in the order in which they came.
+    // Methods joined from elsewhere come last, in the order in which they were joined.
     methods.sort_by_key(|name| order.iter().position(|o| o == name).unwrap_or(order.len()));
     methods
 }

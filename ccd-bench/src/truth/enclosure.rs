@@ -4,7 +4,7 @@ use ccd_core::glam::{DQuat, DVec3};
 use inari::{Interval, const_interval, interval};
 use std::ops::{Add, Mul, Neg, Sub};
 
-/// The real number that a float stands for; anything at all where it is not finite.
+/// Returns the real number of a float; the whole line if it is not finite.
 pub(super) fn exact(x: f64) -> Interval {
     interval!(x, x).unwrap_or(Interval::ENTIRE)
 }
@@ -20,7 +20,7 @@ pub(super) struct Matrix(pub(super) [[Interval; 3]; 3]);
 const ZERO: Interval = const_interval!(0.0, 0.0);
 const ONE: Interval = const_interval!(1.0, 1.0);
 const TWO: Interval = const_interval!(2.0, 2.0);
-/// Where every sine and cosine lies.
+/// The range of every sine and cosine.
 const UNIT: Interval = const_interval!(-1.0, 1.0);
 
 impl Vector {
@@ -40,7 +40,7 @@ impl Vector {
         Vector([y * w - z * v, z * u - x * w, x * v - y * u])
     }
 
-    /// The matrix that forms the cross product with this vector on its left.
+    /// Returns the matrix that forms the cross product with this vector on its left.
     pub(super) fn cross_matrix(&self) -> Matrix {
         let [x, y, z] = self.0;
         Matrix([[ZERO, -z, y], [z, ZERO, -x], [-y, x, ZERO]])
@@ -59,7 +59,7 @@ impl Matrix {
         Matrix([0, 1, 2].map(|i| [m[0][i], m[1][i], m[2][i]]))
     }
 
-    /// The rotation of the direction that a quaternion has, be it a unit one or nearly.
+    /// Returns the rotation in the direction of a quaternion, a unit one or nearly.
     pub(super) fn from_quaternion(q: DQuat) -> Self {
         let [x, y, z, w] = q.to_array().map(exact);
         let [xx, yy, zz, ww] = [x.sqr(), y.sqr(), z.sqr(), w.sqr()];
@@ -74,7 +74,7 @@ impl Matrix {
         Matrix(rows.map(|row| row.map(|entry| entry / square)))
     }
 
-    /// The rotation that an angular velocity comes to within a time, any number of turns.
+    /// Returns the rotation by an angular velocity over a time, for any number of turns.
     ///
     /// With θ = |ω|t: R = cos θ I + (sin θ / |ω|) \[ω\]× + (2 sin²(θ/2) / |ω|²) ω ωᵀ.
     pub(super) fn turn(spin: DVec3, time: f64) -> Self {
@@ -83,7 +83,7 @@ impl Matrix {
         let rate = square.sqrt();
         let angle = rate * exact(time);
         if !(square.inf() > FAINTEST_SPIN) {
-            // |R − I| ≤ θ, which is all there is to say where the squares underflow.
+            // The bound |R − I| ≤ θ is all that remains if the squares underflow.
             let off = UNIT * angle;
             return Matrix([0, 1, 2].map(|i| [0, 1, 2].map(|j| delta(i, j) + off)));
         }
@@ -98,7 +98,7 @@ impl Matrix {
     }
 }
 
-/// Radians per unit of time, squared: well above where squares lose digits.
+/// The square of radians per unit of time, well above where squares lose digits.
 const FAINTEST_SPIN: f64 = 1e-250;
 
 fn delta(i: usize, j: usize) -> Interval {
@@ -149,15 +149,15 @@ impl Neg for Vector {
     }
 }
 
-/// Enclosures of sine and cosine over an interval; tight for narrow ones.
+/// Returns enclosures of sine and cosine over an interval, tight for narrow ones.
 ///
-/// x = kπ/2 + r by interval arithmetic, which holds for any k and keeps |r| below 0.79 for the k
-/// nearest. Then Taylor's polynomials about 0, with Lagrange's remainder |r|ⁿ⁺¹/(n+1)!: r²¹/21! of the
-/// sine, r²²/22! of the cosine, below 2e-22.
+/// The argument is x = kπ/2 + r by interval arithmetic, which holds for any k and keeps |r| below
+/// 0.79 for the nearest k. Then come Taylor's polynomials about 0, with Lagrange's remainder
+/// |r|ⁿ⁺¹/(n+1)!: r²¹/21! for the sine, r²²/22! for the cosine, below 2e-22.
 pub(super) fn sin_cos(x: Interval) -> (Interval, Interval) {
     let quarters = (x.mid() * std::f64::consts::FRAC_2_PI).round();
     let rest = x - exact(quarters) * Interval::FRAC_PI_2;
-    // Also false of NaN: an empty or boundless interval.
+    // The comparison is false for NaN too: an empty or unbounded interval.
     if !(rest.mag() <= WIDEST_REST && quarters.abs() <= MOST_QUARTERS) {
         return (UNIT, UNIT);
     }
@@ -170,9 +170,9 @@ pub(super) fn sin_cos(x: Interval) -> (Interval, Interval) {
     }
 }
 
-/// Radians beyond π/4; wider arguments are not worth a polynomial.
+/// Radians beyond π/4; for wider arguments a polynomial is useless.
 const WIDEST_REST: f64 = 1.6;
-/// 2⁵⁰: multiples of π/2 up to here are exact integers, and so is their number modulo 4.
+/// 2⁵⁰: multiples of π/2 up to this one are exact integers, and so is their number modulo 4.
 const MOST_QUARTERS: f64 = 1_125_899_906_842_624.0;
 /// 21!, an odd number below 2⁵³ times 2¹⁸, hence exact.
 const FACTORIAL_21: Interval =

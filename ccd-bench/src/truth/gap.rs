@@ -1,14 +1,14 @@
-//! How far two surfaces are apart at one time.
+//! The distance of two surfaces at one time.
 
 use super::Bracket;
-use super::moment::{Moment, Span};
 use super::rounding::ROUNDED;
 use super::search::{Pair, Search};
+use super::snapshot::{Snapshot, Span};
 use super::triangle::{gap, nearest_or_common, normals};
 use ccd_core::order::{greater, lesser};
 
-/// A bracket of the least distance between the surfaces at a time: the nearer part first, what is farther
-/// than the nearest points known is left out.
+/// Brackets the least distance between the surfaces at a time. The nearer part comes first, and
+/// parts farther than the nearest points known are left out.
 pub(super) fn distance(mut search: Search<'_>, time: f64) -> Bracket {
     let mut bracket = Bracket {
         lower: f64::INFINITY,
@@ -17,7 +17,7 @@ pub(super) fn distance(mut search: Search<'_>, time: f64) -> Bracket {
     let Some(roots) = search.roots() else {
         return bracket;
     };
-    let moment = search.moment(Span {
+    let snapshot = search.snapshot(Span {
         start: time,
         end: time,
     });
@@ -27,7 +27,7 @@ pub(super) fn distance(mut search: Search<'_>, time: f64) -> Bracket {
             continue;
         }
         if search.budget == 0 {
-            // What waits may be nearer by all that is known.
+            // The remaining pairs may be nearer, as far as is known.
             return Bracket {
                 lower: 0.0,
                 ..bracket
@@ -37,44 +37,44 @@ pub(super) fn distance(mut search: Search<'_>, time: f64) -> Bracket {
         if let Some(split) = search.split(pair) {
             let mut parts = split
                 .parts
-                .map(|part| (bound_of(&search, &moment, part), part));
-            // The last one is looked at first.
+                .map(|part| (bound_of(&search, &snapshot, part), part));
+            // The last one is examined first.
             if parts[0].0 < parts[1].0 {
                 parts.swap(0, 1);
             }
             stack.extend(parts);
         } else {
-            let found = of_triangles(&search, &moment, pair);
+            let found = of_triangles(&search, &snapshot, pair);
             bracket.lower = lesser(bracket.lower, greater(found.lower, bound));
             bracket.upper = lesser(bracket.upper, found.upper);
         }
     }
-    // All that was left out is at least as far as `upper`.
+    // Everything left out is at least as far as `upper`.
     bracket.lower = greater(0.0, lesser(bracket.lower, bracket.upper));
     bracket
 }
 
-fn bound_of(search: &Search<'_>, moment: &Moment, pair: Pair) -> f64 {
+fn bound_of(search: &Search<'_>, snapshot: &Snapshot, pair: Pair) -> f64 {
     let [a, b] = search.nodes(pair);
-    moment.boxes_distance(a, b)
+    snapshot.boxes_distance(a, b)
 }
 
-/// Any two points bound the distance from above, the gap along any direction does from below.
-fn of_triangles(search: &Search<'_>, moment: &Moment, pair: Pair) -> Bracket {
+/// Any two points bound the distance from above; the gap along any direction bounds it from below.
+fn of_triangles(search: &Search<'_>, snapshot: &Snapshot, pair: Pair) -> Bracket {
     let Some([a, b]) = search.triangles(pair) else {
         return Bracket {
             lower: 0.0,
             upper: f64::INFINITY,
         };
     };
-    let placed = moment.placed(a);
+    let placed = snapshot.placed(a);
     let (p, q) = nearest_or_common(&placed, b);
     let directions = normals(&placed, b).chain([(p - q).normalize()]);
     let gaps = directions
         .filter(|n| n.is_finite())
         .map(|n| gap(n, &placed, b));
     Bracket {
-        lower: gaps.fold(0.0, greater) * (1.0 - ROUNDED) - moment.slack(),
-        upper: (p - q).length() + moment.slack(),
+        lower: gaps.fold(0.0, greater) * (1.0 - ROUNDED) - snapshot.slack(),
+        upper: (p - q).length() + snapshot.slack(),
     }
 }

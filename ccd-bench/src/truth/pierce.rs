@@ -1,7 +1,7 @@
-//! Proof that two triangles share a point at an instant.
+//! Proves that two triangles share a point at an instant.
 
 use super::enclosure::{Matrix, Vector};
-use super::moment::Enclosed;
+use super::snapshot::Enclosed;
 use super::surface::Triangle;
 use super::track::Track;
 use inari::{Interval, const_interval};
@@ -14,11 +14,11 @@ pub(super) struct Instant {
 
 impl Instant {
     pub(super) fn new(a: &Track, b: &Track, time: f64) -> Self {
-        let (rotation, offset) = Enclosed::new(a, b, time).place;
+        let (rotation, offset) = Enclosed::new(a, b, time).placement;
         Instant { rotation, offset }
     }
 
-    /// Whether an edge of one triangle certainly passes through the inside of the other.
+    /// Returns true if an edge of one triangle certainly passes through the interior of the other.
     pub(super) fn certainly_meet(&self, a: &Triangle, b: &Triangle) -> bool {
         let a = a.map(|p| &self.rotation * &Vector::from(p) + self.offset);
         let b = b.map(Vector::from);
@@ -29,8 +29,8 @@ impl Instant {
     }
 }
 
-/// The ends lie on two sides of the triangle's plane, the line passes its edges on one and the same side:
-/// five signs, each certain.
+/// Checks five signs, each of which must be certain: the ends lie on two sides of the triangle's
+/// plane, and the line passes all its edges on the same side.
 fn pierces([from, to]: [&Vector; 2], [a, b, c]: &[Vector; 3]) -> bool {
     let normal = (*b - *a).cross(&(*c - *a));
     let before = sign(normal.dot(&(*from - *a)));
@@ -62,7 +62,7 @@ impl Sign {
 
 fn sign(x: Interval) -> Sign {
     const ZERO: Interval = const_interval!(0.0, 0.0);
-    // An empty interval, which nothing finite makes, precedes everything.
+    // An empty interval precedes everything; nothing finite makes one.
     match x {
         x if x.is_empty() => Sign::Unknown,
         x if ZERO.strict_precedes(x) => Sign::Positive,

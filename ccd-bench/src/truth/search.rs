@@ -1,8 +1,8 @@
-//! The search for the first contact: time is halved, earliest first, and each half starts from the pairs of
-//! nodes that could not be excluded over the whole.
+//! The search for the first contact. Time is halved, earliest first, and each half starts from the
+//! pairs of nodes that could not be excluded over the whole.
 
-use super::moment::{Boxes, Moment, Span};
 use super::pierce::Instant;
+use super::snapshot::{Boxes, Snapshot, Span};
 use super::surface::{Content, Node, Surface, Triangle};
 use super::track::Track;
 use super::triangle::{gap, nearest, normals};
@@ -15,42 +15,43 @@ use std::rc::Rc;
 /// A node of A and one of B.
 pub(super) type Pair = [u32; 2];
 
-/// One query under way.
+/// The search for the answer to one query.
 pub(super) struct Search<'a> {
     surfaces: [&'a Surface; 2],
     pub(super) tracks: [Track; 2],
     farthest: [f64; 2],
     duration: f64,
-    /// Tests of pairs left.
+    /// The remaining number of tests of pairs.
     pub(super) budget: u64,
 }
 
-/// Pairs tested before a query is left undecided: minutes would pass, where a hard one takes a second.
+/// The number of tests of pairs after which a query is left undecided. It would take minutes, while
+/// a hard query takes a second.
 pub(super) const BUDGET: u64 = 30_000_000;
-/// A span of this share of the duration is not halved any more: 2⁻⁴⁶, 1.4e-14.
+/// A span of this fraction of the duration is not halved any more: 2⁻⁴⁶, 1.4e-14.
 const SHORTEST: f64 = 1.0 / (1_u64 << 46) as f64;
-/// After a time that cannot be excluded, proof of contact is looked for as far ahead as that share of the
-/// duration times 2³⁶: about a thousandth of the duration.
+/// After a time that cannot be excluded, the search for a proof of contact extends to that fraction
+/// of the duration times 2³⁶: about a thousandth of the duration.
 const DOUBLINGS: u32 = 36;
-/// From here on, all triangles are looked at, not only those that came near first, at every so many
-/// doublings.
+/// From this doubling on, and at every multiple, all triangles are tested, not only those that came
+/// near first.
 const WIDER_EVERY: u32 = 6;
-/// Nodes are split while they are larger than this many times what they travel in the span.
+/// Nodes are split while they are larger than this multiple of their travel in the span.
 const COARSE: f64 = 1.0;
-/// Triangles smaller than this share of what they travel are told apart as well by their boxes.
+/// Triangles smaller than this fraction of their travel are separated as well by their boxes.
 const SMALL: f64 = 0.25;
 
-/// How many of the normals are those of faces.
+/// The number of normals that belong to faces.
 const FACES: usize = 2;
-/// Triangles nearer than this share of their edges are tried along the normals of their edges, too.
+/// Triangles nearer than this fraction of their edges are also tested along the normals of their edges.
 const CLOSE: f64 = 1e-3;
 
-/// What remains of a span.
+/// The remainder of a span.
 #[derive(Debug, PartialEq)]
 enum Sifted {
-    /// Pairs not excluded.
+    /// The pairs that are not excluded.
     Left(Vec<Pair>),
-    /// The budget is spent.
+    /// The budget is used up.
     Spent,
 }
 
@@ -69,7 +70,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// The pair of roots, unless a body has no triangles.
+    /// Returns the pair of roots, unless a body has no triangles.
     pub(super) fn roots(&self) -> Option<Pair> {
         let [a, b] = self.surfaces;
         Some([a.root()?, b.root()?])
@@ -102,8 +103,8 @@ impl<'a> Search<'a> {
             let Some(span) = span.from(doubt.over) else {
                 continue;
             };
-            let moment = self.moment(span);
-            let left = match self.sift(&moment, &pairs) {
+            let snapshot = self.snapshot(span);
+            let left = match self.sift(&snapshot, &pairs) {
                 Sifted::Left(left) if left.is_empty() => continue,
                 Sifted::Left(left) => left,
                 Sifted::Spent => {
@@ -132,15 +133,15 @@ impl<'a> Search<'a> {
         }
     }
 
-    pub(super) fn moment(&self, span: Span) -> Moment {
+    pub(super) fn snapshot(&self, span: Span) -> Snapshot {
         let [a, b] = &self.tracks;
-        Moment::new([a, b], self.farthest, span)
+        Snapshot::new([a, b], self.farthest, span)
     }
 
-    /// The pairs that may meet within the span, of nodes no larger than what they travel.
-    fn sift(&mut self, moment: &Moment, pairs: &[Pair]) -> Sifted {
+    /// Returns the pairs that may meet within the span, of nodes no larger than their travel.
+    fn sift(&mut self, snapshot: &Snapshot, pairs: &[Pair]) -> Sifted {
         let mut left = Vec::new();
-        if moment.is_far() {
+        if snapshot.is_far() {
             return Sifted::Left(left);
         }
         let mut stack = pairs.to_vec();
@@ -150,43 +151,43 @@ impl<'a> Search<'a> {
             }
             self.budget -= 1;
             let [a, b] = self.nodes(pair);
-            let Boxes::Near { travel } = moment.boxes(a, b) else {
+            let Boxes::Near { travel } = snapshot.boxes(a, b) else {
                 continue;
             };
             match self.split(pair) {
                 Some(Split { size, parts }) if size > COARSE * travel => stack.extend(parts),
                 Some(_) => left.push(pair),
                 None if greater(a.size, b.size) < SMALL * travel => left.push(pair),
-                None if self.triangles_apart(moment, pair) => {}
+                None if self.triangles_apart(snapshot, pair) => {}
                 None => left.push(pair),
             }
         }
         Sifted::Left(left)
     }
 
-    /// Whether the triangles of two leaves certainly stay apart within the span.
-    fn triangles_apart(&self, moment: &Moment, pair: Pair) -> bool {
+    /// Returns true if the triangles of two leaves certainly stay apart within the span.
+    fn triangles_apart(&self, snapshot: &Snapshot, pair: Pair) -> bool {
         let Some([a, b]) = self.triangles(pair) else {
             return false;
         };
-        let [start, end] = moment.ends(a, b);
+        let [start, end] = snapshot.ends(a, b);
         let apart = |n| {
             let least = lesser(gap(n, &start[0], &start[1]), gap(n, &end[0], &end[1]));
-            // False of NaN as well: `min` drops one, so ask for the direction itself.
-            n.is_finite() && least > moment.slack()
+            // Also false for NaN: `min` drops it, so the direction itself is tested.
+            n.is_finite() && least > snapshot.slack()
         };
-        let placed = moment.placed(a);
+        let placed = snapshot.placed(a);
         let mut normals = normals(&placed, b);
         if normals.by_ref().take(FACES).any(apart) {
             return true;
         }
         let (p, q) = nearest(&placed, b);
         let (between, size) = (p - q, (b[1] - b[0]).length() + (a[1] - a[0]).length());
-        // The direction between two points is only as good as their distance is larger than rounding.
+        // The direction between two points is only useful if their distance is larger than rounding.
         apart(between.normalize()) || (between.length() < CLOSE * size && normals.any(apart))
     }
 
-    /// A time soon after `from` at which the surfaces certainly share a point.
+    /// Returns a time soon after `from` at which the surfaces certainly share a point.
     fn proof_after(&mut self, from: f64, roots: Pair, near: &[Pair], met: u32) -> Option<f64> {
         let mut step = SHORTEST * self.duration;
         for doubling in 0..=DOUBLINGS {
@@ -194,7 +195,8 @@ impl<'a> Search<'a> {
             if self.certain_at(near, time) {
                 return Some(time);
             }
-            // All triangles only the first time, and then once: doubts that last are dear enough.
+            // All triangles are tested every time for the first doubt, and then only once, since
+            // lasting doubts cost much.
             let wider = doubling % WIDER_EVERY == WIDER_EVERY - 1 && (met == 0 || doubling == met);
             if wider && self.touch_at(roots, time, Proof::Pierced) == Touch::Yes {
                 return Some(time);
@@ -215,16 +217,16 @@ impl<'a> Search<'a> {
         triangles.any(|[a, b]| instant.certainly_meet(a, b))
     }
 
-    /// Whether the surfaces touch at a time.
+    /// Tests whether the surfaces touch at a time.
     fn touch_at(&mut self, roots: Pair, time: f64, proof: Proof) -> Touch {
         let span = Span {
             start: time,
             end: time,
         };
-        let moment = self.moment(span);
+        let snapshot = self.snapshot(span);
         let [a, b] = &self.tracks;
         let instant = Instant::new(a, b, time);
-        self.descend(&moment, roots, |search, pair| {
+        self.descend(&snapshot, roots, |search, pair| {
             let touches = match proof {
                 Proof::NotApart => true,
                 Proof::Pierced => {
@@ -239,10 +241,10 @@ impl<'a> Search<'a> {
         })
     }
 
-    /// Hands on all leaves that are not certainly apart, until told to stop.
+    /// Passes on all leaves that are not certainly apart, until the callback stops the descent.
     fn descend(
         &mut self,
-        moment: &Moment,
+        snapshot: &Snapshot,
         roots: Pair,
         mut leaf: impl FnMut(&Self, Pair) -> ControlFlow<()>,
     ) -> Touch {
@@ -253,12 +255,12 @@ impl<'a> Search<'a> {
             }
             self.budget -= 1;
             let [a, b] = self.nodes(pair);
-            if moment.boxes(a, b) == Boxes::Apart {
+            if snapshot.boxes(a, b) == Boxes::Apart {
                 continue;
             }
             if let Some(Split { parts, .. }) = self.split(pair) {
                 stack.extend(parts);
-            } else if !self.triangles_apart(moment, pair) && leaf(self, pair).is_break() {
+            } else if !self.triangles_apart(snapshot, pair) && leaf(self, pair).is_break() {
                 return Touch::Yes;
             }
         }
@@ -279,7 +281,8 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// A pair whose larger node is split, or the only one that can be; none of two triangles.
+    /// Splits the larger node of a pair, or the only one that can be split; returns `None` for two
+    /// triangles.
     pub(super) fn split(&self, [a, b]: Pair) -> Option<Split> {
         let [node_a, node_b] = self.nodes([a, b]);
         let of_a = |parts: [u32; 2]| Split {
@@ -301,19 +304,19 @@ impl<'a> Search<'a> {
     }
 }
 
-/// What becomes of a pair when a node is split.
+/// The result of splitting a node of a pair.
 pub(super) struct Split {
     /// The size of that node.
     size: f64,
     pub(super) parts: [Pair; 2],
 }
 
-/// What it takes for surfaces to be said to touch.
+/// The proof required for surfaces to count as touching.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Proof {
-    /// That they cannot be shown to be apart.
+    /// They cannot be shown to be apart.
     NotApart,
-    /// That an edge certainly passes through a triangle.
+    /// An edge certainly passes through a triangle.
     Pierced,
 }
 
@@ -327,17 +330,17 @@ enum Touch {
 /// Times that could neither be excluded nor shown to be after the first contact.
 #[derive(Debug, Default)]
 struct Doubt {
-    /// When they begin.
+    /// The first of these times.
     first: Option<f64>,
-    /// Until when nothing more is asked.
+    /// The end of the time that is skipped.
     over: f64,
-    /// How many there were.
+    /// The number of these times.
     met: u32,
 }
 
 impl Doubt {
-    /// Goes on after one of them, twice as far each time: surfaces that slide on each other all along are
-    /// left after as many steps as the duration has halvings.
+    /// Skips ahead after one of them, twice as far each time. Surfaces that slide on each other all
+    /// the time are left after about as many steps as the duration has halvings.
     fn pass(&mut self, span: Span, shortest: f64) {
         let ahead = shortest * 2.0_f64.powi(self.met.min(1000) as i32);
         self.over = span.end + ahead;
@@ -346,7 +349,7 @@ impl Doubt {
 }
 
 impl Span {
-    /// The part that is not over yet, if any.
+    /// Returns the part that is not skipped, if any.
     fn from(self, start: f64) -> Option<Self> {
         let start = greater(self.start, start);
         (start < self.end).then_some(Span { start, ..self })

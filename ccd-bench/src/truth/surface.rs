@@ -1,32 +1,32 @@
-//! A mesh's surface, under a tree of boxes along the axes of the body's frame.
+//! The surface of a mesh, under a tree of boxes along the axes of the body's frame.
 
 use super::rounding::{ROUNDED_UP, larger};
 use ccd_core::glam::DVec3;
 use ccd_decomp::TriangleMesh;
 
-/// The triangles of a mesh, prepared to be judged.
+/// The triangles of a mesh, prepared for the referee.
 #[derive(Clone, Debug)]
 pub struct Surface {
-    /// The root is the first; children follow their parents.
+    /// The nodes: the root is the first; children follow their parents.
     nodes: Vec<Node>,
     triangles: Vec<Triangle>,
 }
 
-/// Three corners, in the body's frame.
+/// The three corners, in the body's frame.
 pub(super) type Triangle = [DVec3; 3];
 
-/// A box about some triangles.
+/// A box around some triangles.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Node {
     pub(super) centre: DVec3,
-    /// Half its extents: all triangles lie within, whatever was rounded.
+    /// Half the extents; all triangles lie within, despite rounding.
     pub(super) half: DVec3,
-    /// Half its diagonal.
+    /// Half the diagonal.
     pub(super) size: f64,
     pub(super) content: Content,
 }
 
-/// What a box is about.
+/// The content of a box.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Content {
     /// Two nodes.
@@ -43,7 +43,7 @@ impl Surface {
     pub fn new(mesh: &TriangleMesh) -> Self {
         let corner = |&index: &u32| mesh.vertices().get(index as usize).copied();
         let triangles = mesh.faces().iter().map(|face| {
-            // A mesh's faces name vertices that there are.
+            // The faces of a mesh refer to existing vertices.
             face.each_ref().map(|i| corner(i).unwrap_or_default())
         });
         let mut surface = Surface {
@@ -57,7 +57,7 @@ impl Surface {
         surface
     }
 
-    /// The root's index, unless there are no triangles at all.
+    /// Returns the root's index, unless there are no triangles.
     pub(super) fn root(&self) -> Option<u32> {
         (!self.nodes.is_empty()).then_some(0)
     }
@@ -70,7 +70,7 @@ impl Surface {
         &self.triangles[index as usize]
     }
 
-    /// The corners of the box about the whole body; none of a body without triangles.
+    /// Returns the corners of the box around the whole body; none for a body without triangles.
     pub(super) fn corners(&self) -> impl Iterator<Item = DVec3> {
         let root = self.nodes.first().map(|node| (node.centre, node.half));
         root.into_iter().flat_map(|(centre, half)| {
@@ -81,14 +81,14 @@ impl Surface {
         })
     }
 
-    /// How far the body reaches from its origin, at most.
+    /// Returns an upper bound of the body's reach from its origin.
     pub(super) fn farthest(&self) -> f64 {
         let far = self.corners().map(DVec3::length).fold(0.0, larger);
         far * ROUNDED_UP
     }
 
-    /// Adds the node of some triangles, halved at the median along their longest extent, as deep as the
-    /// logarithm of their number.
+    /// Adds the node of some triangles. They are halved at the median along their longest extent,
+    /// so the depth is the logarithm of their number.
     fn grow(&mut self, order: &mut [u32]) -> u32 {
         let index = self.nodes.len();
         let node = self.about(order);

@@ -4,23 +4,23 @@ use super::Truth;
 use serde::{Deserialize, Serialize};
 use std::io;
 
-/// The columns, in order; the last one has what is wrong with a row of motions that cannot be judged.
+/// The columns, in order. The last one holds the reason why a row of motions cannot be judged.
 pub const TRUTH_COLUMNS: [&str; 5] = ["id", "status", "lo", "hi", "reason"];
 
 /// One row of the table, without a reason.
 ///
-/// Of a hit, `lo` and `hi` bracket the first contact. Free rows have the duration for both, rows that
-/// touch at the start 0; of others nothing touches before `lo`, and `hi` is the duration.
+/// For a hit, `lo` and `hi` bracket the first contact. Free rows have the duration for both, rows that
+/// touch at the start 0. In the other rows nothing touches before `lo`, and `hi` is the duration.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TruthRow {
-    /// What the query is called.
+    /// The name of the query.
     pub id: String,
     status: Status,
     lo: f64,
     hi: f64,
 }
 
-/// A [`Truth`] by its name alone.
+/// The kind of a [`Truth`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 enum Status {
@@ -32,7 +32,7 @@ enum Status {
 }
 
 impl TruthRow {
-    /// What is true of a query of that name and duration.
+    /// Returns the row of a query with this name and duration.
     pub fn new(id: String, duration: f64, truth: Truth) -> Self {
         let (status, lo, hi) = match truth {
             Truth::Hit { lo, hi } => (Status::Hit, lo, hi),
@@ -44,7 +44,7 @@ impl TruthRow {
         TruthRow { id, status, lo, hi }
     }
 
-    /// What it says.
+    /// Returns the truth.
     pub fn truth(&self) -> Truth {
         let (lo, hi) = (self.lo, self.hi);
         match self.status {
@@ -57,10 +57,10 @@ impl TruthRow {
     }
 }
 
-/// Writes a table of truths; numbers read back to the same bits.
+/// Writes a table of truths; numbers are read back to the same bits.
 ///
 /// # Errors
-/// When `output` cannot be written to.
+/// If `output` cannot be written to.
 pub fn write_truths(
     output: impl io::Write,
     rows: impl IntoIterator<Item = TruthRow>,
@@ -79,7 +79,7 @@ pub fn write_truths(
 /// Reads a table of truths.
 ///
 /// # Errors
-/// When `input` cannot be read, or a row is none of such a table.
+/// If `input` cannot be read, or a row does not fit the table.
 pub fn read_truths(input: impl io::Read) -> Result<Vec<TruthRow>, csv::Error> {
     csv::Reader::from_reader(input).deserialize().collect()
 }

@@ -12,7 +12,7 @@ use ccd_decomp::TriangleMesh;
 use rand::{Rng, RngExt};
 use rigid_ccd::table::motions::Query;
 
-/// A box about the origin by its half extents.
+/// Returns a box about the origin by its half extents.
 fn cuboid(x: f64, y: f64, z: f64) -> Surface {
     let half_extents = DVec3::new(x, y, z);
     Surface::new(&Board { half_extents }.mesh().unwrap())
@@ -22,8 +22,8 @@ fn still(x: f64, y: f64, z: f64) -> Motion {
     Motion::still(at(DVec3::new(x, y, z), DQuat::IDENTITY))
 }
 
-fn at(place: DVec3, rotation: DQuat) -> Pose {
-    Pose::new(place, rotation).unwrap()
+fn at(position: DVec3, rotation: DQuat) -> Pose {
+    Pose::new(position, rotation).unwrap()
 }
 
 fn query(a: Motion, b: Motion, duration: f64) -> Query {
@@ -44,7 +44,7 @@ fn random_vector(rng: &mut impl Rng, reach: f64) -> DVec3 {
     DVec3::new(coordinate(), coordinate(), coordinate())
 }
 
-/// Triangles anywhere in a cube, that may share corners or cross each other.
+/// Returns random triangles in a cube, which may share corners or cross each other.
 fn soup(rng: &mut impl Rng, triangles: u32) -> TriangleMesh {
     let vertices = (0..3 * triangles).map(|_| random_vector(rng, 1.0));
     let faces: Vec<_> = (0..triangles)

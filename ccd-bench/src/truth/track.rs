@@ -1,4 +1,4 @@
-//! Where a moving body is at an instant, to within intervals.
+//! The position of a moving body at an instant, to within intervals.
 
 use super::enclosure::{Matrix, Vector, exact};
 use super::rounding::{ROUNDED, ROUNDED_UP, larger};
@@ -15,19 +15,19 @@ pub(super) struct Track {
     pub(super) velocity: Vector,
     /// ω.
     pub(super) spin: Vector,
-    /// ω again.
+    /// ω as floats.
     turning: DVec3,
     /// R₀.
     orientation: Matrix,
     /// c₀: where c is at the start.
     from: Vector,
-    /// How far any point of the body is from c, at most.
+    /// An upper bound of the distance of the body's points from c.
     pub(super) reach: f64,
-    /// |ω|²ρ: the acceleration of the point that is farthest from the axis, at most.
+    /// |ω|²ρ: an upper bound of the acceleration of the point that is farthest from the axis.
     pub(super) acceleration: f64,
 }
 
-/// Where a body is: x = `centre` + `rotation` (p − c).
+/// A placement: x = `centre` + `rotation` (p − c).
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Placement {
     pub(super) rotation: Matrix,
@@ -49,8 +49,8 @@ impl Track {
             reach: 0.0,
             acceleration: 0.0,
         };
-        // The axis stands still in the body's frame, at which the distance from it is convex: largest at a
-        // corner of the box about the body.
+        // The axis is fixed in the body's frame. The distance from it is convex there, so it is
+        // largest at a corner of the box around the body.
         let axis = DMat3::from_quat(start.rotation()).transpose() * motion.spin();
         let rate = motion.spin().length();
         for corner in surface.corners() {

@@ -1,18 +1,19 @@
-//! Two triangles: where they are nearest, and along what they are apart.
+//! The nearest points of two triangles, and directions that separate them.
 
 use super::surface::Triangle;
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 
-/// How far two sets of corners are apart along a direction: negative where they are not.
+/// Returns the gap of two sets of corners along a direction; negative if they overlap.
 pub(super) fn gap(n: DVec3, a: &Triangle, b: &Triangle) -> f64 {
     let [p, q, r] = a.map(|corner| n.dot(corner));
     let [u, v, w] = b.map(|corner| n.dot(corner));
     lesser(lesser(p, q), r) - greater(greater(u, v), w)
 }
 
-/// The unit normals of both triangles, and then those of all pairs of an edge of each, from `b` towards `a`:
-/// disjoint triangles that are not in one plane are apart along one of them. NaN where there is none.
+/// Returns the unit normals of both triangles, and then those of all pairs of an edge of each, from
+/// `b` towards `a`. Disjoint triangles that are not in one plane are apart along one of them. A
+/// normal that does not exist is NaN.
 pub(super) fn normals(a: &Triangle, b: &Triangle) -> impl Iterator<Item = DVec3> {
     let [edges_a, edges_b] = [a, b].map(|t| [t[1] - t[0], t[2] - t[1], t[0] - t[2]]);
     let between = (a[0] + a[1] + a[2]) - (b[0] + b[1] + b[2]);
@@ -24,8 +25,8 @@ pub(super) fn normals(a: &Triangle, b: &Triangle) -> impl Iterator<Item = DVec3>
     })
 }
 
-/// A point of each of two triangles, nearest to each other as far as rounding can tell, whatever their
-/// shape: the same point where they intersect.
+/// Returns a point of each of two triangles of any shape, nearest to each other except for
+/// rounding; the same point if they intersect.
 pub(super) fn nearest(a: &Triangle, b: &Triangle) -> (DVec3, DVec3) {
     let mut best = nearest_of_edges(a, b);
     let mut consider = |p: DVec3, q: DVec3| {
@@ -44,7 +45,7 @@ pub(super) fn nearest(a: &Triangle, b: &Triangle) -> (DVec3, DVec3) {
     best
 }
 
-/// As [`nearest`], looking at whether an edge pierces the other triangle, too.
+/// Does the same as [`nearest`], and also checks whether an edge pierces the other triangle.
 pub(super) fn nearest_or_common(a: &Triangle, b: &Triangle) -> (DVec3, DVec3) {
     let mut best = nearest(a, b);
     let mut consider = |p: DVec3, q: DVec3| {
@@ -76,21 +77,22 @@ fn nearest_of_edges(a: &Triangle, b: &Triangle) -> (DVec3, DVec3) {
     best
 }
 
-/// Minimises |p + s u − q − t v| over s and t in 0..1: of the lines first, then of one held at its end.
+/// Minimises |p + s u − q − t v| over s and t in 0..1: first for the lines, then with one parameter
+/// held at its end.
 fn nearest_of_segments([p, p_end]: [DVec3; 2], [q, q_end]: [DVec3; 2]) -> (DVec3, DVec3) {
     let (u, v, r) = (p_end - p, q_end - q, p - q);
     let (uu, vv, uv) = (u.length_squared(), v.length_squared(), u.dot(v));
     let (ur, vr) = (u.dot(r), v.dot(r));
     let share = |x: f64| if x.is_nan() { 0.0 } else { x.clamp(0.0, 1.0) };
     let s = share((uv * vr - vv * ur) / (uu * vv - uv * uv));
-    // Each is the best for the other held; a second turn settles what a clamped first one leaves.
+    // Each is the best for the other held. A second round corrects what a clamped first one leaves.
     let t = share((uv * s + vr) / vv);
     let s = share((uv * t - ur) / uu);
     let t = share((uv * s + vr) / vv);
     (p + s * u, q + t * v)
 }
 
-/// The foot of the perpendicular from a point onto a triangle, where it has one.
+/// Returns the foot of the perpendicular from a point onto a triangle, if it lies in the triangle.
 fn foot(p: DVec3, [a, b, c]: &Triangle) -> Option<DVec3> {
     let (u, v, r) = (b - a, c - a, p - a);
     let n = u.cross(v);
@@ -100,7 +102,8 @@ fn foot(p: DVec3, [a, b, c]: &Triangle) -> Option<DVec3> {
     (beta >= 0.0 && gamma >= 0.0 && beta + gamma <= 1.0).then(|| a + beta * u + gamma * v)
 }
 
-/// Where a segment crosses a triangle: the point on the segment, and that on the triangle.
+/// Returns the crossing of a segment and a triangle: the point on the segment, and the one on the
+/// triangle.
 fn crossing([from, to]: [DVec3; 2], triangle: &Triangle) -> Option<(DVec3, DVec3)> {
     let [a, b, c] = triangle;
     let n = (b - a).cross(c - a);

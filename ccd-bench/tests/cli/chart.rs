@@ -1,10 +1,10 @@
-//! `ccd chart`.
+//! Tests `ccd-bench chart`.
 
 use crate::command::{Run, Scene, parse, stderr};
 use std::fs;
 use std::path::Path;
 
-/// One scene, two methods, whatever fits into a tenth of a second.
+/// Runs one scene with two methods, for a tenth of a second.
 fn chart(folder: &Path) -> Run {
     let options = [
         "chart",
@@ -26,8 +26,8 @@ fn an_evaluation_writes_tables_charts_and_a_page_and_does_not_measure_twice() {
     let folder = scene.directory.join("report");
     let output = chart(&folder).output();
     assert!(output.status.success(), "{}", stderr(&output));
-    let told = String::from_utf8(output.stdout).unwrap();
-    assert!(told.contains("best-first direct") && told.contains("The report: "));
+    let output_text = String::from_utf8(output.stdout).unwrap();
+    assert!(output_text.contains("best-first direct") && output_text.contains("The report: "));
     let table = fs::read(folder.join("chart.csv")).unwrap();
     let rows = parse(&table);
     assert_eq!(rows.len(), 4);
@@ -53,7 +53,7 @@ fn an_evaluation_writes_tables_charts_and_a_page_and_does_not_measure_twice() {
 }
 
 #[test]
-fn what_others_measured_is_judged_and_put_into_a_readme() {
+fn trials_measured_elsewhere_are_judged_and_put_into_a_readme() {
     let scene = Scene::new("chart-join");
     let folder = scene.directory.join("report");
     assert!(chart(&folder).output().status.success());
@@ -88,7 +88,7 @@ fn what_others_measured_is_judged_and_put_into_a_readme() {
     assert_eq!(output.status.code(), Some(2));
     assert!(stderr(&output).contains("atlantis"), "{}", stderr(&output));
 
-    // As Python's csv writes it.
+    // As Python's csv module writes it.
     let bad = rows.replace("1,free", "one,free").replace('\n', "\r\n");
     let bad = scene.file("bad.csv", &bad);
     let output = chart(&folder)
@@ -118,12 +118,15 @@ fn scenes_are_exported_as_queries_read_them() {
 }
 
 #[test]
-fn names_that_are_not_known_are_answered_with_those_that_are() {
+fn unknown_names_are_answered_with_the_known_ones() {
     for (option, name) in [("--scenes", "knot216"), ("--methods", "C2A")] {
         let output = Run::bare(&["chart", option, "atlantis"]).output();
         assert_eq!(output.status.code(), Some(2));
-        let told = stderr(&output);
-        assert!(told.contains("atlantis") && told.contains(name), "{told}");
+        let output_text = stderr(&output);
+        assert!(
+            output_text.contains("atlantis") && output_text.contains(name),
+            "{output_text}"
+        );
     }
     let output = Run::bare(&["chart", "--tolerances", "-1"]).output();
     assert_eq!(output.status.code(), Some(2));

@@ -1,4 +1,4 @@
-//! The `ccd-bench` command as its users run it.
+//! Tests the `ccd-bench` command as its users run it.
 
 mod chart;
 #[path = "../../../rigid-ccd/tests/cli/command.rs"]
@@ -8,7 +8,7 @@ mod truth;
 
 use command::{Run, stderr};
 
-/// The command that is run.
+/// The command under test.
 const PROGRAM: &str = env!("CARGO_BIN_EXE_ccd-bench");
 
 const TETRAHEDRON: &str =

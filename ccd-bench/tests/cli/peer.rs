@@ -1,4 +1,4 @@
-//! Peers behind a guard: what hangs is cut off, what dies is started again.
+//! Tests peers behind a guard: one that hangs is cut off, one that dies is restarted.
 
 use ccd_bench::method::peer::{Asked, Guarded, PeerKind};
 use ccd_bench::method::solver::Claim;
@@ -9,7 +9,7 @@ use ccd_decomp::TriangleMesh;
 use rigid_ccd::table::motions::Query;
 use std::time::{Duration, Instant};
 
-/// What nothing here takes.
+/// A time that no query here takes.
 const PATIENCE: Duration = Duration::from_secs(60);
 
 fn cube() -> TriangleMesh {
@@ -17,7 +17,7 @@ fn cube() -> TriangleMesh {
     Board { half_extents }.mesh().unwrap()
 }
 
-/// One cube falls onto another, 2 below it, at speed 4.
+/// Returns a query in which one cube falls onto another, 2 below it, at speed 4.
 fn drop() -> Query {
     let above = Pose::at(3.0 * DVec3::Z).unwrap();
     Query {
@@ -52,7 +52,7 @@ fn every_peer_answers_behind_a_guard() {
 }
 
 #[test]
-fn what_hangs_is_cut_off_and_asked_again() {
+fn a_hanging_peer_is_cut_off_and_asked_again() {
     let mut hanging = guarded(PeerKind::Hanging);
     let start = Instant::now();
     for _ in 0..2 {
@@ -63,7 +63,7 @@ fn what_hangs_is_cut_off_and_asked_again() {
 }
 
 #[test]
-fn the_query_after_one_cut_off_is_answered() {
+fn the_query_after_a_cut_off_one_is_answered() {
     let mut peer = guarded(PeerKind::ParryF64);
     assert_eq!(peer.ask(&drop(), Duration::ZERO).unwrap(), Asked::CutOff);
     assert_answered(peer.ask(&drop(), PATIENCE).unwrap());
@@ -71,7 +71,7 @@ fn the_query_after_one_cut_off_is_answered() {
 }
 
 #[test]
-fn what_dies_is_told_and_started_again() {
+fn a_dying_peer_is_reported_and_restarted() {
     let mut dying = guarded(PeerKind::Dying);
     for _ in 0..2 {
         assert_eq!(dying.ask(&drop(), PATIENCE).unwrap(), Asked::Died);
@@ -92,7 +92,7 @@ fn a_tolerance_is_passed_on() {
 }
 
 #[test]
-fn a_program_that_is_none_does_not_start() {
+fn a_program_that_is_no_peer_does_not_start() {
     let missing = "no/such/program".into();
     let mut peer = Guarded::with_program(missing, PeerKind::ParryF64, [&cube(), &cube()]).unwrap();
     assert!(peer.ask(&drop(), PATIENCE).is_err());

@@ -1,4 +1,4 @@
-//! `ccd truth`.
+//! Tests `ccd-bench truth`.
 
 use crate::TETRAHEDRON;
 use crate::command::{Run, Scene, parse, stderr};
@@ -20,11 +20,12 @@ fn brackets_hold_the_exact_first_contact() {
     let output = run.output();
     assert!(output.status.success(), "{}", stderr(&output));
     assert_eq!(output.stdout, b"");
-    let told = stderr(&output);
-    assert_eq!(told.lines().count(), 1, "{told}");
+    let message = stderr(&output);
+    assert_eq!(message.lines().count(), 1, "{message}");
     assert!(
-        told.starts_with("3 rows: 1 hit, 1 free, 1 initial, 0 graze, 0 undecided; widest bracket "),
-        "{told}"
+        message
+            .starts_with("3 rows: 1 hit, 1 free, 1 initial, 0 graze, 0 undecided; widest bracket "),
+        "{message}"
     );
     let rows = parse(&std::fs::read(&truth).unwrap());
     for row in &rows {
@@ -38,7 +39,7 @@ fn brackets_hold_the_exact_first_contact() {
 }
 
 #[test]
-fn good_rows_are_judged_and_bad_ones_told() {
+fn good_rows_are_judged_and_bad_ones_reported() {
     let scene = Scene::new("truth-bad");
     let mesh = scene.file("tetrahedron.obj", TETRAHEDRON);
     let mesh = mesh.to_str().unwrap();
@@ -61,15 +62,15 @@ fn good_rows_are_judged_and_bad_ones_told() {
     assert_eq!(statuses.collect::<Vec<_>>(), ["error", "hit"]);
     assert_eq!([rows[0].text("lo"), rows[1].text("reason")], ["", ""]);
     assert!(rows[0].text("reason").contains("`x`"));
-    let told = stderr(&output);
+    let message = stderr(&output);
     assert!(
-        told.contains("standard input, row 0 (line 2): column a_px"),
-        "{told}"
+        message.contains("standard input, row 0 (line 2): column a_px"),
+        "{message}"
     );
 }
 
 #[test]
-fn what_cannot_be_done_is_refused() {
+fn impossible_requests_are_refused() {
     let scene = Scene::new("truth-refused");
     let mesh = scene.file("tetrahedron.obj", TETRAHEDRON);
     let mesh = mesh.to_str().unwrap();

@@ -1,6 +1,6 @@
-//! A query in plain numbers, and how it is written down.
+//! A query in plain numbers, and its text form.
 
-use crate::course::{Course, Goal, Place};
+use crate::course::{Course, Goal, RawPose};
 use crate::nearest::Triangle;
 use crate::vector::Vector;
 use ccd_core::{Config, StartPolicy};
@@ -12,14 +12,14 @@ pub struct Case {
     pub courses: [Course; 2],
     pub duration: f64,
     pub config: Config,
-    /// What the generator knows of the answer.
+    /// The part of the answer that the generator knows.
     pub expect: Expect,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Expect {
     Nothing,
-    /// They part, or stay as they are.
+    /// They part, or keep their distance.
     Free,
     /// They come nearer than allowed, certainly before this time.
     ContactBy(f64),
@@ -33,16 +33,16 @@ pub struct Shape {
     pub form: Form,
 }
 
-/// What is known of a mesh by the way it was made.
+/// The properties of a mesh that are known from its construction.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Form {
     #[default]
     Soup,
-    /// Closed, turned outward, without flaws: patches can be made of it.
+    /// Closed, oriented outward, without flaws: patches can be made of it.
     Solid,
-    /// That, and convex.
+    /// A solid that is convex.
     Convex,
-    /// The hull of the vertices; the faces are its facets but for rounding.
+    /// The hull of the vertices; the faces are its facets except for rounding.
     Points,
 }
 
@@ -57,13 +57,13 @@ impl Shape {
         lengths.fold(0.0, crate::vector::larger)
     }
 
-    /// The same, with every vertex changed.
+    /// Returns the same shape with every vertex changed.
     pub fn map(mut self, change: impl Fn([f64; 3]) -> [f64; 3]) -> Self {
         self.vertices.iter_mut().for_each(|v| *v = change(*v));
         self
     }
 
-    /// Both, as one mesh.
+    /// Returns both shapes as one mesh.
     pub fn with(mut self, other: &Shape) -> Self {
         let base = self.vertices.len() as u32;
         self.vertices.extend(&other.vertices);
@@ -73,7 +73,7 @@ impl Shape {
         self
     }
 
-    /// With all faces turned the other way.
+    /// Returns the same shape with all faces reversed.
     pub fn flipped(mut self) -> Self {
         self.faces.iter_mut().for_each(|f| f.swap(1, 2));
         self.form = Form::Soup;
@@ -93,7 +93,7 @@ impl Shape {
 }
 
 impl Case {
-    /// Files and a command line that ask the same.
+    /// Returns files and a command line that pose the same query.
     pub fn reproducer(&self) -> String {
         let mut header = vec!["id".to_owned(), "duration".to_owned()];
         let mut row = vec!["0".to_owned(), format!("{:e}", self.duration)];
@@ -104,7 +104,7 @@ impl Case {
             }
         };
         for (letter, course) in ['a', 'b'].into_iter().zip(&self.courses) {
-            let Place {
+            let RawPose {
                 position,
                 quaternion,
             } = course.start;
@@ -116,7 +116,7 @@ impl Case {
                     put(letter, "vx vy vz", &linear);
                     put(letter, "wx wy wz", &spin);
                 }
-                Goal::End(Place {
+                Goal::End(RawPose {
                     position,
                     quaternion,
                 }) => {

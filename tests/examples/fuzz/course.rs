@@ -1,4 +1,4 @@
-//! How a body moves, as it is asked for; and where that takes its points, in [`Double`].
+//! The motion of a body as input, and the positions of its points in [`Double`].
 
 use crate::double::Double;
 use crate::vector::{Number, Vector};
@@ -8,28 +8,28 @@ use ccd_core::{InputError, Motion, Pose};
 /// A motion in the numbers that the engine is given.
 #[derive(Clone, Copy, Debug)]
 pub struct Course {
-    pub start: Place,
+    pub start: RawPose,
     pub goal: Goal,
     /// The point of the body that moves straight.
     pub centre: [f64; 3],
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Place {
+pub struct RawPose {
     pub position: [f64; 3],
-    /// w, x, y, z; of any length.
+    /// The components w, x, y, z; any length.
     pub quaternion: [f64; 4],
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Goal {
     Velocities { linear: [f64; 3], spin: [f64; 3] },
-    End(Place),
+    End(RawPose),
 }
 
-impl Place {
+impl RawPose {
     pub fn at(position: [f64; 3]) -> Self {
-        Place {
+        RawPose {
             position,
             quaternion: [1.0, 0.0, 0.0, 0.0],
         }
@@ -40,7 +40,7 @@ impl Place {
         Pose::new(self.position, DQuat::from_xyzw(x, y, z, w))
     }
 
-    /// The unit quaternion.
+    /// Returns the unit quaternion.
     fn turn(&self) -> [Double; 4] {
         let q = self.quaternion.map(Double::new);
         let square = q.iter().fold(Double::default(), |sum, &x| sum + x * x);
@@ -56,7 +56,7 @@ impl Place {
 }
 
 impl Course {
-    pub fn velocities(start: Place, linear: [f64; 3], spin: [f64; 3]) -> Self {
+    pub fn velocities(start: RawPose, linear: [f64; 3], spin: [f64; 3]) -> Self {
         Course {
             start,
             goal: Goal::Velocities { linear, spin },
@@ -64,7 +64,7 @@ impl Course {
         }
     }
 
-    /// As the engine is told of it.
+    /// Returns the motion in the engine's form.
     pub fn motion(&self, duration: f64) -> Result<Motion, InputError> {
         let (start, centre) = (self.start.pose()?, DVec3::from(self.centre));
         match self.goal {
@@ -73,7 +73,7 @@ impl Course {
         }
     }
 
-    /// About how far it turns, in radians.
+    /// Returns the approximate angle of rotation, in radians.
     pub fn turn(&self, duration: f64) -> f64 {
         match self.goal {
             Goal::Velocities { spin, .. } => Vector(spin).length() * duration,
@@ -81,8 +81,8 @@ impl Course {
         }
     }
 
-    /// The exact motion, over a duration: for end poses the centre's straight way between its places,
-    /// and the shortest turn between the unit quaternions.
+    /// Returns the exact motion over a duration. Between end poses, the centre moves straight, and
+    /// the rotation is the shortest turn between the unit quaternions.
     pub fn track(&self, duration: f64) -> Track {
         let centre = Vector::of(self.centre);
         let start = self.start.point(centre);
@@ -102,11 +102,11 @@ impl Course {
         let columns = [0, 1, 2].map(|k| {
             let mut unit = [0.0; 3];
             unit[k] = 1.0;
-            let place = Place {
+            let rotation = RawPose {
                 position: [0.0; 3],
                 ..self.start
             };
-            place.point(Vector::of(unit))
+            rotation.point(Vector::of(unit))
         });
         Track {
             start,
@@ -119,7 +119,7 @@ impl Course {
     }
 }
 
-/// The axis and the angle of `end · start⁻¹`.
+/// Returns the axis and the angle of `end · start⁻¹`.
 fn shortest_turn([w, x, y, z]: [Double; 4], end: [Double; 4]) -> (Vector<Double>, Double) {
     let (u, v) = (Vector([x, y, z]), Vector([end[1], end[2], end[3]]));
     let cos = end[0] * w + v.dot(u);
@@ -132,7 +132,7 @@ fn shortest_turn([w, x, y, z]: [Double; 4], end: [Double; 4]) -> (Vector<Double>
     (axis, Double::angle(sin.length(), cos) * Double::new(2.0))
 }
 
-/// A motion, exact but for the rounding of [`Double`].
+/// A motion, exact except for the rounding of [`Double`].
 #[derive(Clone, Debug)]
 pub struct Track {
     pub start: Vector<Double>,
@@ -144,15 +144,15 @@ pub struct Track {
     pub centre: Vector<Double>,
 }
 
-/// Where a body is at a time.
+/// The placement of a body at a time.
 #[derive(Clone, Copy, Debug)]
-pub struct Moment {
+pub struct Snapshot {
     columns: [Vector<Double>; 3],
     pub centre: Vector<Double>,
 }
 
 impl Track {
-    pub fn at(&self, t: f64) -> Moment {
+    pub fn at(&self, t: f64) -> Snapshot {
         let centre = self.start + self.velocity * Double::new(t);
         let columns = match self.rate.rounded() > 0.0 {
             true => {
@@ -167,17 +167,17 @@ impl Track {
             }
             false => self.columns,
         };
-        Moment { columns, centre }
+        Snapshot { columns, centre }
     }
 
-    /// How fast a point at an arm from the centre moves; rounded.
+    /// Returns the speed of a point at an arm from the centre, rounded.
     pub fn velocity_of(&self, arm: Vector<f64>) -> Vector<f64> {
         self.velocity.rounded() + self.axis.rounded().cross(arm) * self.rate.rounded()
     }
 }
 
-impl Moment {
-    /// From the centre to a point that is at `x` from it in the body's frame.
+impl Snapshot {
+    /// Returns the vector from the centre to the point at `x` from it in the body's frame.
     pub fn arm(&self, x: Vector<Double>) -> Vector<Double> {
         let [a, b, c] = x.0;
         self.columns[0] * a + self.columns[1] * b + self.columns[2] * c

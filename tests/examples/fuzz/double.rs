@@ -1,18 +1,18 @@
-//! Numbers of twice the digits of f64: the unevaluated sum of two [DEKKER71].
+//! Double-double numbers: the unevaluated sum of two f64 [DEKKER71].
 
 use crate::vector::Number;
 use std::cmp::Ordering;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 use std::sync::LazyLock;
 
-/// `hi + lo`, where `hi` is the sum rounded to f64: about 32 digits.
+/// The number `hi + lo`, where `hi` is the sum rounded to f64: about 32 digits.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Double {
     hi: f64,
     lo: f64,
 }
 
-/// The sum, rounded, and what rounding took off.
+/// Returns the rounded sum and its error.
 #[inline]
 fn two_sum(a: f64, b: f64) -> Double {
     let hi = a + b;
@@ -21,7 +21,7 @@ fn two_sum(a: f64, b: f64) -> Double {
     Double { hi, lo }
 }
 
-/// The same where `a` is the larger one.
+/// Returns the same if `a` is the larger one.
 #[inline]
 fn quick_two_sum(a: f64, b: f64) -> Double {
     let hi = a + b;
@@ -31,7 +31,7 @@ fn quick_two_sum(a: f64, b: f64) -> Double {
     }
 }
 
-/// The product, rounded, and what rounding took off, unless that underflows.
+/// Returns the rounded product and its error, unless the error underflows.
 #[inline]
 fn two_prod(a: f64, b: f64) -> Double {
     let hi = a * b;
@@ -46,7 +46,7 @@ impl Double {
         Double { hi, lo: 0.0 }
     }
 
-    /// Sine and cosine: reduced by quarter turns, then their series.
+    /// Computes sine and cosine: reduces by quarter turns, then sums their series.
     pub fn sin_cos(self) -> (Double, Double) {
         // π/2 in three parts.
         const HALF_PI: [f64; 3] = [
@@ -77,7 +77,7 @@ impl Double {
         }
     }
 
-    /// The angle of a point of the unit circle: that of f64, and one Newton step.
+    /// Returns the angle of a point of the unit circle: the f64 angle, improved by one Newton step.
     pub fn angle(sin: Double, cos: Double) -> Double {
         let near = Double::new(sin.hi.atan2(cos.hi));
         let (s, c) = near.sin_cos();

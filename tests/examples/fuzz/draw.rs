@@ -1,6 +1,6 @@
-//! Drawing at random.
+//! Draws random inputs.
 
-use crate::course::Place;
+use crate::course::RawPose;
 use crate::vector::Vector;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
@@ -9,7 +9,7 @@ use std::ops::Range;
 pub struct Draw(Pcg64);
 
 impl Draw {
-    /// One stream for every query, so that each can be asked alone.
+    /// Creates one stream per query, so that each query can be run alone.
     pub fn new(seed: u64, index: u64) -> Self {
         Draw(Pcg64::seed_from_u64(
             seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ index,
@@ -36,7 +36,7 @@ impl Draw {
         of[self.count(0..of.len())]
     }
 
-    /// In the cube from −1 to 1.
+    /// Returns a point in the cube from −1 to 1.
     pub fn point(&mut self) -> [f64; 3] {
         [(); 3].map(|()| self.within(-1.0..1.0))
     }
@@ -51,17 +51,17 @@ impl Draw {
         }
     }
 
-    /// Of any length.
+    /// Returns a quaternion of any length.
     pub fn quaternion(&mut self) -> [f64; 4] {
         [(); 4].map(|()| self.within(-1.0..1.0))
     }
 
-    pub fn place(&mut self, position: [f64; 3]) -> Place {
+    pub fn pose(&mut self, position: [f64; 3]) -> RawPose {
         let quaternion = match self.chance(0.3) {
             true => [1.0, 0.0, 0.0, 0.0],
             false => self.quaternion(),
         };
-        Place {
+        RawPose {
             position,
             quaternion,
         }

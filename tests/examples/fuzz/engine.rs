@@ -1,4 +1,4 @@
-//! The engine, asked through its public interface alone.
+//! Runs the engine through its public interface alone.
 
 use crate::case::{Case, Form, Shape};
 use ccd_core::glam::DVec3;
@@ -9,7 +9,7 @@ use ccd_distance_gjk::{Direct, Gjk};
 use ccd_distance_vmarch::Vmarch;
 use std::fmt;
 
-/// What the pieces of both bodies are, where their form allows it; else triangles.
+/// The kind of pieces of both bodies. Bodies whose form does not allow it use triangles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     Triangles,
@@ -26,7 +26,7 @@ pub enum Method {
     Fast,
 }
 
-/// Both bodies, of pieces of a kind.
+/// Both bodies, made of one kind of pieces.
 pub struct Bodies {
     pub bodies: [Body; 2],
     pub kind: Kind,
@@ -34,7 +34,7 @@ pub struct Bodies {
 
 impl Bodies {
     /// # Errors
-    /// What the engine has against the meshes.
+    /// The reason why the engine refuses the meshes.
     pub fn new(case: &Case, kind: Kind, trees: Trees) -> Result<Self, String> {
         let body = |shape: &Shape| body(shape, kind, trees);
         let [a, b] = &case.shapes;
@@ -45,7 +45,7 @@ impl Bodies {
     }
 
     /// # Errors
-    /// What the engine has against the query.
+    /// The reason why the engine refuses the query.
     pub fn problem(&self, case: &Case, config: &Config) -> Result<Problem<'_>, String> {
         let moving = |k: usize| -> Result<Moving<'_>, String> {
             let motion = case.courses[k]
@@ -60,7 +60,7 @@ impl Bodies {
     }
 }
 
-/// Whether trees of hulls are wanted.
+/// The choice of bodies with or without hull trees.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Trees {
     Without,
@@ -83,7 +83,7 @@ fn body(shape: &Shape, kind: Kind, trees: Trees) -> Result<Body, String> {
     };
     let mesh = TriangleMesh::new(vertices(), &shape.faces).map_err(|e| e.to_string())?;
     let model = prepare(&mesh, detail)
-        // Rounding may make of what was meant to be convex what is not, quite.
+        // Rounding may make a shape that was meant to be convex slightly concave.
         .or_else(|_| prepare(&mesh, Detail::Triangles))
         .map_err(|e| e.to_string())?;
     let model = match trees {

@@ -1,4 +1,4 @@
-//! What is asked: a family for each kind of hardship, its parameter drawn over many magnitudes.
+//! Families of queries, one for each kind of difficulty, with parameters over many magnitudes.
 
 mod budget;
 mod far;
@@ -12,7 +12,7 @@ mod shells;
 mod turns;
 
 use crate::case::{Case, Expect, Shape};
-use crate::course::{Course, Place};
+use crate::course::{Course, RawPose};
 use crate::draw::{Draw, plus, times};
 use ccd_core::Config;
 use clap::ValueEnum;
@@ -23,15 +23,15 @@ pub enum Family {
     Needles,
     /// End poses and centres of rotation far from the origin, and tight tolerances.
     Far,
-    /// Closed parts side by side and nested, turned outward or inward.
+    /// Closed parts side by side and nested, oriented outward or inward.
     Shells,
     /// Margins from a thousandth of the bodies to a hundred times their size.
     Margins,
     /// Every small budget.
     Budget,
-    /// Bodies in contact at the start that are let go.
+    /// Bodies in contact at the start that are released.
     Leave,
-    /// Up to a thousand radians.
+    /// Turns of up to a thousand radians.
     Turns,
     /// Bodies of very different size.
     Scales,
@@ -58,8 +58,8 @@ impl Family {
     }
 }
 
-/// Two shapes that pass each other half-way, or meet: their centres come within about the sum of
-/// their radii. Both move, and turn by up to `turn` over a duration of 1.
+/// Returns a case of two shapes that pass each other half-way, or meet: their centres come within
+/// about the sum of their radii. Both move, and turn by up to `turn` over a duration of 1.
 fn pass(draw: &mut Draw, shapes: [Shape; 2], turn: f64, config: Config) -> Case {
     let reach = shapes[0].radius() + shapes[1].radius() + config.margin;
     let (way, aside) = (draw.direction(), draw.point());
@@ -69,7 +69,7 @@ fn pass(draw: &mut Draw, shapes: [Shape; 2], turn: f64, config: Config) -> Case 
     let spin = |draw: &mut Draw| times(draw.direction(), turn * draw.within(0.2..1.0));
     let half = times(way, 0.5 * travel);
     let course = |draw: &mut Draw, side: f64, at: [f64; 3]| {
-        let start = draw.place(plus(times(half, -side), at));
+        let start = draw.pose(plus(times(half, -side), at));
         let moved = plus(times(half, 2.0 * side), common);
         Course::velocities(start, moved, spin(draw))
     };
@@ -83,9 +83,9 @@ fn pass(draw: &mut Draw, shapes: [Shape; 2], turn: f64, config: Config) -> Case 
     }
 }
 
-/// At rest, at the origin.
+/// Returns a body at rest at the origin.
 fn still() -> Course {
-    Course::velocities(Place::at([0.0; 3]), [0.0; 3], [0.0; 3])
+    Course::velocities(RawPose::at([0.0; 3]), [0.0; 3], [0.0; 3])
 }
 
 fn tolerance(draw: &mut Draw) -> Config {

@@ -1,12 +1,13 @@
-//! Breaks the engine, if it can be broken: queries drawn from families of hard cases, each answered by
-//! many methods, judged by a referee in numbers of twice the digits of f64.
+//! Tries to break the engine: draws queries from families of hard cases, answers each by many
+//! methods, and judges the answers by a referee in double-double numbers.
 //!
 //! ```sh
 //! cargo run --release -p ccd-tests --example fuzz -- --family needles --queries 100000 --seed 1
 //! ```
-//! Nothing here is shared with the engine, its property suite or its other referees, but the public
-//! interface that is asked: generators, arithmetic and verdicts are of their own. What fails is printed
-//! with its files and command line; `--only N` asks one query again. Exit code 1 if anything failed.
+//! The program shares nothing with the engine, its property suite or its other referees, except the
+//! public interface under test: it has its own generators, arithmetic and verdicts. Failures are
+//! printed with their files and command line; `--only N` runs one query again. The exit code is 1
+//! if anything failed.
 #![allow(
     missing_docs,
     unreachable_pub,
@@ -21,6 +22,7 @@ mod double;
 mod draw;
 mod engine;
 mod families;
+mod judge;
 mod nearest;
 mod referee;
 mod shapes;
@@ -28,7 +30,6 @@ mod solid;
 mod tally;
 mod trial;
 mod vector;
-mod verdict;
 
 use clap::{Parser, ValueEnum};
 use families::Family;
@@ -42,25 +43,25 @@ use trial::Watch;
 /// Random queries from families of hard cases, judged in double-double.
 #[derive(Parser)]
 struct Args {
-    /// Which kind of hard cases; all, one after another, if none is given
+    /// The family of hard cases; all, one after another, if none is given
     #[arg(long, value_enum)]
     family: Option<Family>,
-    /// How many queries of each family
+    /// The number of queries of each family
     #[arg(long, default_value_t = 1000)]
     queries: u64,
-    /// Another seed draws other queries
+    /// The random seed
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// On how many threads; 0 for all cores
+    /// The number of threads; 0 for all cores
     #[arg(long, default_value_t = 0)]
     threads: usize,
-    /// Only the query of this number
+    /// Only the query with this number
     #[arg(long)]
     only: Option<u64>,
-    /// Drop triangles of what failed for as long as it fails
+    /// Drop triangles of a failed case for as long as it fails
     #[arg(long)]
     shrink: bool,
-    /// How many failures of a kind to print
+    /// The number of failures of a kind to print
     #[arg(long, default_value_t = 2)]
     print: usize,
 }
@@ -90,7 +91,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// Whether anything failed.
+/// Runs a family. Returns true if anything failed.
 fn run(family: Family, args: &Args) -> bool {
     let numbers = match args.only {
         Some(one) => one..one + 1,

@@ -1,11 +1,11 @@
-//! Two triangles: how far apart, or how deep in each other.
+//! The distance or the depth of penetration of two triangles.
 
 use crate::vector::{Number, Vector};
 
 pub type Triangle<N> = [Vector<N>; 3];
 
-/// The distance of two triangles: that of the nearest of all pairs of points that could be nearest,
-/// so that it is never too small but by rounding; 0 where an edge of one passes through the other.
+/// Returns the distance of two triangles, the least over all pairs of points that could be nearest, so
+/// it is never too small except for rounding. It is 0 if an edge of one passes through the other.
 pub fn distance<N: Number>(s: &Triangle<N>, t: &Triangle<N>) -> N {
     let (edges_s, edges_t) = (Edge::all(s), Edge::all(t));
     let (face_s, face_t) = (normal(s), normal(t));
@@ -39,7 +39,7 @@ pub fn distance<N: Number>(s: &Triangle<N>, t: &Triangle<N>) -> N {
 struct Edge<N> {
     from: Vector<N>,
     way: Vector<N>,
-    /// The way, scaled so that its squares are numbers, and by how much it was.
+    /// The direction, scaled so that its squares neither overflow nor underflow, and the scale.
     along: Vector<N>,
     scale: N,
     square: N,
@@ -62,7 +62,8 @@ impl<N: Number> Edge<N> {
         [edge(t[0], t[1]), edge(t[1], t[2]), edge(t[2], t[0])]
     }
 
-    /// From a point to the nearest of the edge; of an edge without length NaN makes that its start.
+    /// Returns the vector from a point to the nearest point of the edge. For an edge without
+    /// length, NaN makes that its start.
     fn way_from(&self, p: Vector<N>) -> Vector<N> {
         let share = self.along.dot(p - self.from) / self.square * self.scale;
         self.from + self.way * clamped(share) - p
@@ -72,7 +73,7 @@ impl<N: Number> Edge<N> {
 #[inline]
 fn clamped<N: Number>(x: N) -> N {
     let (zero, one) = (N::of(0.0), N::of(1.0));
-    // NaN goes to 0.
+    // NaN becomes 0.
     if x > one {
         one
     } else if x > zero {
@@ -82,7 +83,7 @@ fn clamped<N: Number>(x: N) -> N {
     }
 }
 
-/// By how much `long` is longer than `short`, both along the same line.
+/// Returns the ratio of `long` to `short`, which are along the same line.
 #[inline]
 fn ratio<N: Number>(long: Vector<N>, short: Vector<N>) -> N {
     let ([x, y, z], [u, v, w]) = (long.0, short.0);
@@ -96,7 +97,8 @@ fn ratio<N: Number>(long: Vector<N>, short: Vector<N>) -> N {
     }
 }
 
-/// From the nearest point of one edge's line to that of another, where either is within its edge.
+/// Returns the vector from the nearest point of one edge's line to that of another, if either is
+/// within its edge.
 fn between_lines<N: Number>(p: &Edge<N>, q: &Edge<N>) -> Option<Vector<N>> {
     let n = p.along.cross(q.along);
     let square = n.dot(n);
@@ -108,11 +110,11 @@ fn between_lines<N: Number>(p: &Edge<N>, q: &Edge<N>) -> Option<Vector<N>> {
     let y = w.cross(p.along).dot(n) / square * q.scale;
     let (zero, one) = (N::of(0.0), N::of(1.0));
     let within = |x: N| x >= zero && x <= one;
-    // Clamped all the same: rounding may have put the other one a little beyond its end.
+    // Clamped anyway, since rounding may put the other point slightly beyond its end.
     (within(x) || within(y)).then(|| w + q.way * clamped(y) - p.way * clamped(x))
 }
 
-/// From a point to a triangle's plane, where it lands within the triangle.
+/// Returns the vector from a point to a triangle's plane, if its foot is within the triangle.
 fn on_face<N: Number>(p: Vector<N>, t: &Triangle<N>, face: Option<Vector<N>>) -> Option<Vector<N>> {
     let n = face?;
     let down = n * n.dot(t[0] - p);
@@ -126,22 +128,22 @@ fn within<N: Number>(x: Vector<N>, t: &Triangle<N>, n: Vector<N>) -> bool {
         (t[0] - t[2]).scaled(),
     ];
     (0..3).all(|k| n.dot(ways[k].cross(x - t[k])) >= N::of(0.0))
-        // Beyond the ends of a needle rounding alone decides on which side of it a point is.
+        // Beyond the ends of a needle, rounding alone decides the side of a point.
         && ways.iter().all(|way| {
             let heights = [way.dot(t[0] - x), way.dot(t[1] - x), way.dot(t[2] - x)];
             heights.iter().any(|&h| h >= N::of(0.0)) && heights.iter().any(|&h| h <= N::of(0.0))
         })
 }
 
-/// The unit normal; none where the triangle has no area that could be told from rounding.
+/// Returns the unit normal, or `None` if the area of the triangle is mere rounding.
 pub fn normal<N: Number>(t: &Triangle<N>) -> Option<Vector<N>> {
     let (u, v) = ((t[1] - t[0]).scaled(), (t[2] - t[0]).scaled());
     let n = u.cross(v);
-    // Of needles that are thinner than this nothing but the edges is left to the eye of an f64.
+    // For an f64, thinner needles consist of their edges alone.
     (n.largest() > 1e-30).then_some(n)?.unit()
 }
 
-/// Whether an edge passes through the inside of a triangle.
+/// Returns true if an edge passes through the interior of a triangle.
 fn pierces<N: Number>(edges: &[Edge<N>; 3], t: &Triangle<N>, face: Option<Vector<N>>) -> bool {
     let zero = N::of(0.0);
     let Some(n) = face else { return false };
@@ -154,8 +156,9 @@ fn pierces<N: Number>(edges: &[Edge<N>; 3], t: &Triangle<N>, face: Option<Vector
     })
 }
 
-/// How far one of two triangles would have to be moved for their insides to be apart, by the
-/// separating axes; negative where a gap shows that they are. 0 where one is flat in every axis.
+/// Returns the displacement by which one of two triangles would have to be moved to separate their
+/// interiors, by the separating axes. It is negative if a gap separates them, and 0 if one is flat
+/// along every axis.
 pub fn depth<N: Number>(s: &Triangle<N>, t: &Triangle<N>) -> N {
     let edges = |t: &Triangle<N>| [t[1] - t[0], t[2] - t[1], t[0] - t[2]].map(Vector::scaled);
     let (es, et, ns, nt) = (edges(s), edges(t), normal(s), normal(t));

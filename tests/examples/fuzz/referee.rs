@@ -1,32 +1,32 @@
-//! What truly happens: the bodies' distance at a time, and the first time found at which it is below
-//! a threshold, by conservative advancement over all pairs of triangles.
+//! The referee: the bodies' distance at a time, and the first time at which it is found below a
+//! threshold, by conservative advancement over all pairs of triangles.
 //!
-//! Places are computed in [`Double`] and differences taken there; distances are searched in f64 and
-//! judged in [`Double`]. What is found is evidence; what is not found may still exist.
+//! Positions and their differences are computed in [`Double`]. Distances are searched in f64 and
+//! judged in [`Double`]. A contact found is evidence; contacts may exist that are not found.
 
 mod search;
 
 use crate::case::Case;
-use crate::course::{Moment, Track};
+use crate::course::{Snapshot, Track};
 use crate::double::Double;
 use crate::nearest::{Triangle, depth, distance};
 use crate::vector::{Number, Vector, larger, smaller};
 use search::Search;
 
-/// How much of a scene's size the referee's own error may be.
+/// The largest error of the referee, as a fraction of a scene's size.
 const ERROR: f64 = 1e-25;
-/// Where what is searched in f64 is asked of [`Double`].
+/// The fraction of the size below which results of f64 are checked in [`Double`].
 const NOISE: f64 = 1e-13;
 
 /// A body's triangles on its track.
 pub struct Side {
     pub track: Track,
-    /// From the centre of rotation, in the body's frame.
+    /// The triangles relative to the centre of rotation, in the body's frame.
     pub triangles: Vec<Triangle<Double>>,
     balls: Vec<Ball>,
-    /// About all triangles.
+    /// The ball around all triangles.
     whole: Ball,
-    /// The same about the centre of rotation.
+    /// The radius of the ball around the centre of rotation.
     reach: f64,
 }
 
@@ -40,11 +40,11 @@ struct Ball {
 /// Two bodies on their tracks.
 pub struct Scene {
     pub sides: [Side; 2],
-    /// The largest length that plays a part.
+    /// The largest length in the scene.
     pub scale: f64,
 }
 
-/// A time at which the bodies are nearer than they may be.
+/// A time at which the bodies are nearer than allowed.
 #[derive(Clone, Copy, Debug)]
 pub struct Evidence {
     pub time: f64,
@@ -69,9 +69,13 @@ impl Side {
         }
     }
 
-    fn triangle(&self, k: usize, moment: &Moment, origin: Vector<Double>) -> Triangle<Double> {
-        let ([p, q, r], to) = (self.triangles[k], moment.centre - origin);
-        [moment.arm(p) + to, moment.arm(q) + to, moment.arm(r) + to]
+    fn triangle(&self, k: usize, snapshot: &Snapshot, origin: Vector<Double>) -> Triangle<Double> {
+        let ([p, q, r], to) = (self.triangles[k], snapshot.centre - origin);
+        [
+            snapshot.arm(p) + to,
+            snapshot.arm(q) + to,
+            snapshot.arm(r) + to,
+        ]
     }
 }
 
@@ -118,25 +122,26 @@ impl Scene {
         Scene { sides, scale }
     }
 
-    /// What the referee's distances may be off by. Places in the world are right to 1e-31 of them.
+    /// Returns a bound of the error of the referee's distances. Positions in the world have a
+    /// relative error of 1e-31.
     pub fn error(&self) -> f64 {
         let far = self.sides.iter().map(|s| s.track.start.largest());
         ERROR * self.scale + 1e-29 * far.fold(0.0, larger)
     }
 
-    pub fn moments(&self, t: f64) -> [Moment; 2] {
+    pub fn snapshots(&self, t: f64) -> [Snapshot; 2] {
         [self.sides[0].track.at(t), self.sides[1].track.at(t)]
     }
 
-    /// All triangles of a body at a time, seen from A's centre.
+    /// Returns all triangles of a body at a time, seen from A's centre.
     pub fn placed(&self, side: usize, t: f64) -> Vec<Triangle<Double>> {
-        let moments = self.moments(t);
+        let snapshots = self.snapshots(t);
         let all = 0..self.sides[side].triangles.len();
-        all.map(|k| self.sides[side].triangle(k, &moments[side], moments[0].centre))
+        all.map(|k| self.sides[side].triangle(k, &snapshots[side], snapshots[0].centre))
             .collect()
     }
 
-    /// The distance of the two surfaces at a time.
+    /// Returns the distance of the two surfaces at a time.
     pub fn distance(&self, t: f64) -> f64 {
         let [a, b] = [self.placed(0, t), self.placed(1, t)];
         let near = self.nearest(&a, &b);
@@ -149,7 +154,7 @@ impl Scene {
         exact.fold(f64::INFINITY, smaller)
     }
 
-    /// Pairs of triangles with their distances in f64, the least among them.
+    /// Returns pairs of triangles with their distances in f64, including the nearest pair.
     fn nearest(&self, a: &[Triangle<Double>], b: &[Triangle<Double>]) -> Vec<(f64, usize, usize)> {
         let rounded = |all: &[Triangle<Double>]| -> Vec<(Triangle<f64>, Vector<f64>)> {
             let middle = |t: &Triangle<f64>| (t[0] + t[1] + t[2]) * (1.0 / 3.0);
@@ -173,7 +178,8 @@ impl Scene {
         near
     }
 
-    /// The same with every pair in [`Double`]: to be asked before anything is called wrong.
+    /// Returns the same with every pair in [`Double`]. This is required before an answer is called
+    /// wrong.
     pub fn exact_distance(&self, t: f64) -> f64 {
         let [a, b] = [self.placed(0, t), self.placed(1, t)];
         let pairs = a
@@ -182,7 +188,7 @@ impl Scene {
         pairs.fold(f64::INFINITY, smaller)
     }
 
-    /// The deepest that two triangles are in each other at a time.
+    /// Returns the greatest penetration depth of two triangles at a time.
     pub fn depth(&self, t: f64) -> f64 {
         let [a, b] = [self.placed(0, t), self.placed(1, t)];
         let pairs = a.iter().flat_map(|s| {
@@ -197,18 +203,18 @@ impl Scene {
         pairs.fold(0.0, larger)
     }
 
-    /// A time up to `until` at which the distance is below `threshold`, the earliest that is found;
-    /// and whether none was missed, but for f64's rounding.
+    /// Returns the earliest time found, up to `until`, at which the distance is below `threshold`.
+    /// The flag is true if none was missed, except for f64's rounding.
     pub fn first_below(&self, limit: Limit, until: f64) -> (Option<Evidence>, bool) {
         Search::new(self, limit, until).run()
     }
 }
 
-/// What is too near.
+/// The conditions under which bodies are too near.
 #[derive(Clone, Copy, Debug)]
 pub struct Limit {
-    /// A distance below this.
+    /// The distance is below this.
     pub threshold: f64,
-    /// Triangles that are deeper than this in each other.
+    /// The triangles penetrate deeper than this.
     pub depth: f64,
 }

@@ -1,10 +1,10 @@
-//! Meshes made by code, about the origin and about 1 in size.
+//! Meshes made by code, around the origin and about 1 in size.
 
 use crate::case::{Form, Shape};
 use crate::draw::{Draw, times};
 use crate::vector::Vector;
 
-/// Triangles anywhere.
+/// Returns random triangles.
 pub fn soup(draw: &mut Draw, count: usize) -> Shape {
     let mut shape = Shape::default();
     for k in 0..count as u32 {
@@ -26,7 +26,7 @@ fn shape(vertices: Vec<[f64; 3]>, faces: Vec<[u32; 3]>, form: Form) -> Shape {
     }
 }
 
-/// Turned outward, as the others are.
+/// Returns a tetrahedron, oriented outward as the other shapes.
 pub fn tetrahedron(draw: &mut Draw) -> Shape {
     let corners = [(); 4].map(|()| Vector(draw.point()));
     let [a, b, c, d] = corners;
@@ -60,7 +60,7 @@ pub fn cuboid(half: [f64; 3]) -> Shape {
     shape((0..8).map(corner).collect(), faces.collect(), Form::Convex)
 }
 
-/// A tube about the z axis, of quads that are not flat: closed, and hollow in the middle.
+/// Returns a tube around the z axis, of quads that are not flat: closed, and hollow in the middle.
 pub fn ring(around: u32, across: u32, thickness: f64) -> Shape {
     let turn = |k: u32, n: u32| std::f64::consts::TAU * f64::from(k) / f64::from(n);
     let (mut vertices, mut faces) = (Vec::new(), Vec::new());
@@ -78,7 +78,7 @@ pub fn ring(around: u32, across: u32, thickness: f64) -> Shape {
     shape(vertices, faces, Form::Solid)
 }
 
-/// Corners around an axis, and two poles: convex, or a star.
+/// Returns corners around an axis and two poles: convex, or a star.
 pub fn bipyramid(draw: &mut Draw, corners: u32, waist: f64) -> Shape {
     let mut vertices = vec![
         [0.0, 0.0, draw.within(0.2..1.0)],
@@ -100,7 +100,7 @@ pub fn bipyramid(draw: &mut Draw, corners: u32, waist: f64) -> Shape {
     shape(vertices, faces, form)
 }
 
-/// The hull of points of a sphere that is stretched, facet by facet as points are added.
+/// Returns the hull of points on a stretched sphere, facet by facet as points are added.
 pub fn hull(draw: &mut Draw, count: usize) -> Shape {
     let stretch = [(); 3].map(|()| draw.log(0.2..1.0));
     let point = |draw: &mut Draw| {
@@ -128,7 +128,7 @@ pub fn hull(draw: &mut Draw, count: usize) -> Shape {
     shape(vertices, faces, Form::Points)
 }
 
-/// Any of the above, of up to about 30 triangles.
+/// Returns any of the above shapes, of up to about 30 triangles.
 pub fn any(draw: &mut Draw) -> Shape {
     match draw.count(0..7) {
         0 | 1 => {
@@ -145,7 +145,7 @@ pub fn any(draw: &mut Draw) -> Shape {
     }
 }
 
-/// A closed one.
+/// Returns a closed shape.
 pub fn solid(draw: &mut Draw) -> Shape {
     match draw.count(0..4) {
         0 => tetrahedron(draw),

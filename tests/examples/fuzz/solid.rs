@@ -1,11 +1,11 @@
-//! Inside or outside of closed triangles, by rays in [`Double`].
+//! Tests whether points are inside closed triangles, by rays in [`Double`].
 
 use crate::double::Double;
 use crate::nearest::{Triangle, distance, normal};
 use crate::vector::{Number, Vector, larger, smaller};
 use std::collections::HashMap;
 
-/// Where a point lies.
+/// The location of a point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Where {
     Outside,
@@ -19,9 +19,9 @@ pub enum Where {
 /// Closed triangles, part by part.
 pub struct Solid {
     pub triangles: Vec<Triangle<Double>>,
-    /// The connected part that each is of.
+    /// The connected part of each triangle.
     parts: Vec<usize>,
-    /// Whether parts cross each other: then what is in several of them is of no clear kind.
+    /// True if parts cross each other: then points in several of them are doubtful.
     crossing: bool,
 }
 
@@ -40,7 +40,7 @@ impl Solid {
         }
     }
 
-    /// A corner of every part.
+    /// Returns a corner of every part.
     pub fn corners(&self) -> impl Iterator<Item = Vector<Double>> {
         let firsts = self
             .parts
@@ -50,7 +50,7 @@ impl Solid {
         firsts.map(|(k, _)| self.triangles[k][0])
     }
 
-    /// Where a point lies that is on no triangle: of parts in each other every second one is a cavity.
+    /// Locates a point that is on no triangle. Every second part of nested parts is a cavity.
     pub fn locate(&self, p: Vector<Double>) -> Where {
         let seen = DIRECTIONS
             .iter()
@@ -62,18 +62,18 @@ impl Solid {
             .values()
             .filter(|(_, crossed)| crossed % 2 == 1)
             .count();
-        let twofold = seen
+        let repeated = seen
             .values()
             .any(|&(winding, crossed)| winding != 0 && crossed % 2 == 0);
         match around {
-            _ if twofold || self.crossing && around > 1 => Where::Doubtful,
+            _ if repeated || self.crossing && around > 1 => Where::Doubtful,
             around if around % 2 == 1 => Where::Inside,
             _ => Where::Outside,
         }
     }
 
-    /// The winding number and the number of crossings of a ray, for every part that it crosses; none
-    /// where it grazes.
+    /// Returns the winding number and the number of crossings of a ray, for every part that it
+    /// crosses, or `None` if it grazes.
     fn crossings(
         &self,
         p: Vector<Double>,
@@ -103,7 +103,8 @@ const DIRECTIONS: [[f64; 3]; 8] = [
     [0.02, 0.41, -0.89],
 ];
 
-/// Which way a triangle winds about a ray that crosses it, 0 where it does not; none where it grazes.
+/// Returns the direction in which a triangle winds about a ray that crosses it, 0 if it does not
+/// cross, or `None` if it grazes.
 fn crossing(p: Vector<Double>, ray: Vector<Double>, t: &Triangle<Double>) -> Option<i32> {
     let size = t.iter().fold(0.0, |m, &v| larger(m, (v - p).largest()));
     let grazing = 1e-18 * size * size;
@@ -115,7 +116,7 @@ fn crossing(p: Vector<Double>, ray: Vector<Double>, t: &Triangle<Double>) -> Opt
         return Some(0);
     }
     if sides.contains(&0) {
-        // Of a triangle that is seen edge-on, or whose rim the ray meets, nothing is known.
+        // A triangle seen edge-on, or whose rim the ray meets, decides nothing.
         return None;
     }
     let n = (t[1] - t[0]).cross(t[2] - t[0]);
@@ -127,17 +128,17 @@ fn crossing(p: Vector<Double>, ray: Vector<Double>, t: &Triangle<Double>) -> Opt
     })
 }
 
-/// For every triangle the first one that is connected to it.
+/// Returns for every triangle the first one that is connected to it.
 fn parts(triangles: &[Triangle<Double>]) -> Vec<usize> {
     let mut group: Vec<usize> = (0..triangles.len()).collect();
-    // The least of the groups that have a corner at a place.
+    // The least of the groups that have a corner at a position.
     let mut at: HashMap<[u64; 3], usize> = HashMap::new();
     loop {
         let mut changed = false;
         for (k, t) in triangles.iter().enumerate() {
             for p in t {
-                let place = p.0.map(|x| (x.rounded() + 0.0).to_bits());
-                let first = at.entry(place).or_insert(group[k]);
+                let position = p.0.map(|x| (x.rounded() + 0.0).to_bits());
+                let first = at.entry(position).or_insert(group[k]);
                 changed |= *first != group[k];
                 group[k] = group[k].min(*first);
                 *first = group[k];
@@ -149,14 +150,14 @@ fn parts(triangles: &[Triangle<Double>]) -> Vec<usize> {
     }
 }
 
-/// How far a point is from a surface.
+/// Returns the distance of a point from a surface.
 pub fn clearance(p: Vector<Double>, triangles: &[Triangle<Double>]) -> f64 {
     let apart = triangles.iter().map(|t| distance(&[p; 3], t).rounded());
     apart.fold(f64::INFINITY, smaller)
 }
 
-/// Points just off either side of every triangle, by a share of its size.
-pub fn beside(triangles: &[Triangle<Double>]) -> Vec<Vector<Double>> {
+/// Returns points just off either side of every triangle, by a fraction of its size.
+pub fn points_near(triangles: &[Triangle<Double>]) -> Vec<Vector<Double>> {
     let mut points = Vec::new();
     for t in triangles {
         let Some(n) = normal(t) else { continue };

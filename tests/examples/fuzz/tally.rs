@@ -1,7 +1,7 @@
-//! Counting what came out.
+//! Counts outcomes.
 
+use crate::judge::Fault;
 use crate::trial::{Failure, Trial};
-use crate::verdict::Fault;
 use ccd_core::Outcome;
 use std::collections::BTreeMap;
 use std::fmt;
@@ -11,20 +11,20 @@ pub struct Tally {
     queries: u64,
     answers: u64,
     by_method: BTreeMap<String, u64>,
-    /// Of the answers of the default method.
+    /// The counts of statuses, for the default method.
     statuses: BTreeMap<String, u64>,
-    /// Of all answers.
+    /// The counts of reasons, for all methods.
     unresolved: BTreeMap<String, u64>,
     /// The first query of every reason.
     examples: BTreeMap<String, u64>,
     refused: BTreeMap<String, u64>,
     faults: BTreeMap<Fault, u64>,
-    /// Queries of which the referee's search was not complete.
+    /// The number of queries for which the referee's search was not complete.
     sampled: u64,
 }
 
 impl Tally {
-    /// Counts a trial; those of its failures that are among the first of their kind are returned.
+    /// Counts a trial. Returns its failures that are among the first of their kind.
     pub fn add<'t>(&mut self, number: u64, trial: &'t Trial, print: usize) -> Vec<&'t Failure> {
         self.queries += 1;
         self.answers += trial.outcomes.len() as u64;
@@ -76,7 +76,7 @@ impl Tally {
     }
 
     /// # Panics
-    /// When hardly any query has, or lacks, a contact: then little is tried.
+    /// If almost no query has a contact, or almost all have one: then little is tested.
     pub fn assert_representative(&self) {
         let (hits, misses) = (self.share(&["contact"]), self.share(&["free"]));
         assert!(
@@ -112,7 +112,7 @@ impl fmt::Display for Tally {
             ("by the default", &self.statuses),
             ("asked", &self.by_method),
             ("unresolved", &self.unresolved),
-            ("of which --only", &self.examples),
+            ("first query, for --only", &self.examples),
             ("refused", &self.refused),
         ];
         for (name, map) in maps.into_iter().filter(|(_, map)| !map.is_empty()) {

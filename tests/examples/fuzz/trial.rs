@@ -1,10 +1,10 @@
-//! One query: drawn, asked of many methods, judged.
+//! One query: drawn, answered by many methods, judged.
 
 use crate::case::{Case, Form, Shape};
 use crate::draw::Draw;
 use crate::engine::{Bodies, Kind, Method, Trees};
 use crate::families::Family;
-use crate::verdict::{Fault, Given, Judge};
+use crate::judge::{Fault, Given, Judge};
 use ccd_core::{Config, Outcome};
 use std::collections::HashMap;
 use std::fmt;
@@ -14,18 +14,18 @@ use std::sync::{Arc, Mutex};
 use std::thread::{self, ThreadId};
 use std::time::{Duration, Instant};
 
-/// How long a query may take before it is called a hang.
+/// The time after which a query is called a hang.
 const PATIENCE: Duration = Duration::from_secs(20);
 
-/// What came of a query.
+/// The outcome of a query.
 pub struct Trial {
     pub case: Case,
     pub asked: Vec<(Kind, Method)>,
     pub outcomes: Vec<Outcome>,
-    /// What the engine, or the decomposition, did not take.
+    /// The reason why the engine, or the decomposition, refused the case.
     pub refused: Option<String>,
     pub failures: Vec<Failure>,
-    /// Whether the referee's search for an earlier contact was complete.
+    /// True if the referee's search for an earlier contact was complete.
     pub proven: bool,
 }
 
@@ -77,7 +77,7 @@ pub fn run(family: Family, seed: u64, number: u64, watch: &Watch) -> Trial {
     trial
 }
 
-/// By whom, over which pieces, a case is answered: always by the default, and by some others.
+/// Chooses the methods and pieces for a case: always the default, and some others.
 fn methods(draw: &mut Draw, case: &Case) -> Vec<(Kind, Method)> {
     let mut asked = vec![(Kind::Triangles, Method::Direct)];
     let form = |form: Form| case.shapes.iter().any(|s| s.form == form);
@@ -100,7 +100,7 @@ fn methods(draw: &mut Draw, case: &Case) -> Vec<(Kind, Method)> {
     if small && turn < 20.0 && draw.chance(0.15) {
         asked.push((draw.pick(&[Kind::Triangles, pieces]), Method::Naive));
     }
-    // Trees need exact predicates, which the finest coordinates have none of.
+    // Trees need exact predicates, which the finest coordinates do not allow.
     if small && turn < 20.0 && draw.chance(0.1) {
         asked.push((pieces, Method::Fast));
     }
@@ -124,7 +124,7 @@ fn ask(case: Case, asked: Vec<(Kind, Method)>) -> Trial {
     trial
 }
 
-/// Bodies of every kind that is asked for.
+/// Builds bodies of every kind that is needed.
 fn build(trial: &mut Trial, asked: &[(Kind, Method)]) -> Vec<((Kind, Trees), Bodies)> {
     let mut built: Vec<((Kind, Trees), Bodies)> = Vec::new();
     for (kind, method) in asked {
@@ -141,7 +141,7 @@ fn build(trial: &mut Trial, asked: &[(Kind, Method)]) -> Vec<((Kind, Trees), Bod
     built
 }
 
-/// What everyone says who takes the case.
+/// Returns the answers of all methods that accept the case.
 fn answers<'b>(
     trial: &mut Trial,
     built: &'b [((Kind, Trees), Bodies)],
@@ -170,7 +170,7 @@ fn answers<'b>(
     given
 }
 
-/// Notes what is wrong with the answers.
+/// Records what is wrong with the answers.
 fn judge(trial: &mut Trial, given: &[Given<'_>]) {
     let Some(first) = given.first() else { return };
     let volumes = [0, 1].map(|k| first.bodies.bodies[k].volume());
@@ -190,7 +190,7 @@ fn judge(trial: &mut Trial, given: &[Given<'_>]) {
     trial.proven = proven;
 }
 
-/// Schedules that take a step for all pairs together are not given all day.
+/// Returns the settings; schedules with one step for all pairs get a smaller budget.
 fn config_of(case: &Case, method: Method) -> Config {
     let most = match method {
         Method::Naive | Method::Fast => 200_000,
@@ -202,7 +202,7 @@ fn config_of(case: &Case, method: Method) -> Config {
     }
 }
 
-/// What the engine allows itself for rounding: the least tolerance that it takes.
+/// Returns the engine's allowance for rounding: the least tolerance that it accepts.
 fn rounding(case: &Case, bodies: &Bodies) -> f64 {
     let least = Config {
         tolerance: 1e-100,
@@ -222,7 +222,7 @@ fn panicked(panic: &(dyn std::any::Any + Send), by: (Kind, Method)) -> Failure {
     }
 }
 
-/// The same case with as few triangles as still fail in the same way.
+/// Returns the same case with as few triangles as still fail in the same way.
 pub fn shrunk(case: &Case, failure: &Failure) -> Case {
     let fails = |case: &Case| {
         let mut asked = vec![(Kind::Triangles, Method::Direct)];
@@ -250,7 +250,7 @@ pub fn shrunk(case: &Case, failure: &Failure) -> Case {
     case
 }
 
-/// Without the vertices that no face has.
+/// Returns the shape without unused vertices.
 fn used(shape: &Shape) -> Shape {
     let mut new = HashMap::new();
     let mut out = Shape {
@@ -268,7 +268,7 @@ fn used(shape: &Shape) -> Shape {
     out
 }
 
-/// Looks at what every thread is at, and ends the program when one does not end.
+/// Watches all threads, and ends the program if one of them hangs.
 #[derive(Clone)]
 pub struct Watch(Arc<Mutex<HashMap<ThreadId, (u64, Instant)>>>);
 

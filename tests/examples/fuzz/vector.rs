@@ -1,9 +1,9 @@
-//! Vectors over either kind of number.
+//! Vectors over both number types.
 
 use std::fmt::Debug;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// f64 to search with, [`Double`](crate::double::Double) to judge with.
+/// The scalar type: f64 to search with, [`Double`](crate::double::Double) to judge with.
 pub trait Number:
     Copy
     + Debug
@@ -50,7 +50,7 @@ impl<N: Number> Vector<N> {
         self.each(N::rounded)
     }
 
-    /// As `map` of arrays, which compilers leave a loop.
+    /// Does the same as `map` of arrays, which compilers do not unroll.
     #[inline]
     fn each<M>(self, change: impl Fn(N) -> M) -> Vector<M> {
         let [x, y, z] = self.0;
@@ -80,7 +80,7 @@ impl<N: Number> Vector<N> {
         v.dot(v).sqrt() * scale
     }
 
-    /// Scaled by a power of two to a largest component of about 1; zero stays zero.
+    /// Scales by a power of two to a largest component of about 1; zero stays zero.
     #[inline]
     pub fn scaled(self) -> Self {
         let size = self.largest();
@@ -95,7 +95,7 @@ impl<N: Number> Vector<N> {
         }
     }
 
-    /// Of length 1, or none.
+    /// Returns the vector of length 1, or `None`.
     #[inline]
     pub fn unit(self) -> Option<Self> {
         let v = self.scaled();
@@ -103,7 +103,7 @@ impl<N: Number> Vector<N> {
         (length.rounded() > 0.1).then(|| v * (N::of(1.0) / length))
     }
 
-    /// The largest component's size, rounded.
+    /// Returns the absolute value of the largest component, rounded.
     #[inline]
     pub fn largest(self) -> f64 {
         let Vector([x, y, z]) = self.each(|x| x.rounded().abs());
@@ -111,19 +111,19 @@ impl<N: Number> Vector<N> {
     }
 }
 
-/// The power of two at or below a normal number: its exponent alone.
+/// Returns the power of two at or below a normal number, from its exponent alone.
 #[inline]
 fn power_of_two(size: f64) -> f64 {
     f64::from_bits(size.to_bits() & 0x7ff0_0000_0000_0000)
 }
 
-/// The larger of two numbers.
+/// Returns the larger of two numbers.
 #[inline]
 pub fn larger(a: f64, b: f64) -> f64 {
     if b > a { b } else { a }
 }
 
-/// The smaller of two numbers.
+/// Returns the smaller of two numbers.
 #[inline]
 pub fn smaller(a: f64, b: f64) -> f64 {
     if b < a { b } else { a }

@@ -1,4 +1,4 @@
-//! Scenes of pure translation, where the distance falls at a constant rate.
+//! Scenes of pure translation, in which the distance falls at a constant rate.
 
 use super::{Expect, Scene};
 use crate::models::{
@@ -47,7 +47,7 @@ fn tilted_cubes() -> [Scene; 2] {
     let upper = cube().placed(DQuat::from_rotation_x(FRAC_PI_4), DVec3::ZERO);
     let lower = cube().placed(DQuat::from_rotation_y(FRAC_PI_4), DVec3::ZERO);
     let falls = |shape| Actor::moving(shape, 3.0 * DVec3::Z, -4.0 * DVec3::Z, DVec3::ZERO);
-    // Takes the diagonal to −z.
+    // Rotates the diagonal to −z.
     let down = DQuat::from_rotation_arc(DVec3::ONE.normalize(), -DVec3::Z);
     let corner_down = cube().placed(down, DVec3::ZERO);
     [
@@ -68,7 +68,7 @@ fn tilted_cubes() -> [Scene; 2] {
 pub fn sliding(gap: f64, velocity: DVec3) -> Scene {
     let cube = cuboid(DVec3::splat(0.5));
     let cube = Actor::moving(cube, (0.5 + gap) * DVec3::Z, velocity, DVec3::ZERO);
-    // Less the rounding of where the cube is: 0.5 + gap is a multiple of 2⁻⁵³.
+    // Accounts for the rounding of the cube's position: 0.5 + gap is a multiple of 2⁻⁵³.
     let gap = (0.5 + gap) - 0.5;
     Scene::new(
         format!("T10 sliding at {gap:.0e}"),
@@ -98,9 +98,9 @@ fn hooks_closing() -> Scene {
     )
 }
 
-/// T15, the other way: the slack grows. Leg beside leg is what stays nearest.
+/// T15 in the other direction: the slack grows. The neighbouring legs stay nearest.
 fn hooks_parting() -> Scene {
-    // A leg's inner face is at 0.3, the other's base beside it reaches to 0.1.
+    // A leg's inner face is at 0.3; the other hook's base reaches to 0.1.
     Scene::new(
         "T15 hooks parting",
         hooks(DVec3::Z),
@@ -149,7 +149,7 @@ fn linked_tori() -> Scene {
     let upright = DQuat::from_rotation_x(FRAC_PI_2) * DQuat::from_rotation_z(PI);
     let upright = torus(major, minor, rings, sides).placed(upright, DVec3::ZERO);
     let upright = Actor::moving(upright, major * DVec3::X, DVec3::X, DVec3::ZERO);
-    // Around each vertex the other's ring is a concave edge: it is nearer by the cosine of the turn
+    // Around each vertex the other ring is a concave edge: it is nearer by the cosine of the turn
     // from section to section, once for either ring.
     let nearer = (PI / rings as f64).cos().powi(2);
     let expect = Expect::Hit {
@@ -189,7 +189,7 @@ fn needles_on_slab(width: f64) -> Scene {
     )
 }
 
-/// Two equal plates, every pair of triangles touching at once.
+/// Two equal plates, of which every pair of triangles touches at once.
 fn parallel_plates() -> Scene {
     let falling = Actor::moving(parallel_plate(16), 0.5 * DVec3::Z, -DVec3::Z, DVec3::ZERO);
     let lying = Actor::still(parallel_plate(16), DVec3::ZERO);

@@ -1,4 +1,4 @@
-//! Scenes of rounded pieces: balls, capsules, rounded boxes. They have no mesh.
+//! Scenes of rounded pieces: balls, capsules, rounded boxes, which have no mesh.
 
 use super::{Expect, Scene};
 use crate::models::{Mesh, Shape, cuboid};
@@ -58,7 +58,7 @@ fn balls_passing() -> Scene {
         PI * DVec3::Z,
     );
     let still = Actor::still(ball(0.5), DVec3::ZERO);
-    // The least distance, as its centre passes at 1.1.
+    // The least distance, when its centre passes at 1.1.
     Scene::new(
         "balls passing",
         [moving, still],

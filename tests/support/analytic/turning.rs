@@ -7,7 +7,7 @@ use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{Motion, Pose};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
-/// A rod's half length and half thickness, and how far its corners reach.
+/// The half length and half thickness of a rod, and the distance of its corners.
 const LENGTH: f64 = 2.0;
 const WIDTH: f64 = 0.05;
 
@@ -35,8 +35,8 @@ pub(super) fn scenes() -> Vec<Scene> {
     out
 }
 
-/// The time at which the rod's corner, turning at `speed`, first comes to `height` from the plane
-/// through the axis.
+/// Returns the time at which the rod's corner, turning at `speed`, first comes to `height` from the
+/// plane through the axis.
 fn corner_time(height: f64, speed: f64) -> f64 {
     ((height / reach()).asin() - WIDTH.atan2(LENGTH)) / speed
 }
@@ -68,10 +68,10 @@ fn upright_rod(name: &str, half_turns: f64, wall: f64) -> Scene {
     )
 }
 
-fn upright(speed: f64, wall: f64, place: Pose) -> [Actor; 2] {
+fn upright(speed: f64, wall: f64, pose: Pose) -> [Actor; 2] {
     let shape = cuboid(DVec3::new(WIDTH, 0.3, LENGTH));
-    let motion = Motion::new(place, DVec3::ZERO, place.rotation() * (speed * DVec3::Y));
-    let still = Motion::still(place);
+    let motion = Motion::new(pose, DVec3::ZERO, pose.rotation() * (speed * DVec3::Y));
+    let still = Motion::still(pose);
     [
         Actor {
             shape,
@@ -84,7 +84,7 @@ fn upright(speed: f64, wall: f64, place: Pose) -> [Actor; 2] {
     ]
 }
 
-/// T3: the same scene, the rod's frame turned against the world's at the start.
+/// T3: the same scene with the rod's frame rotated against the world's at the start.
 fn pre_rotated_rod() -> Scene {
     let [rod, wall] = upright(PI, 1.25, Pose::IDENTITY);
     let turn = DQuat::from_rotation_z(FRAC_PI_2);
@@ -120,8 +120,8 @@ fn rod_on_post() -> Scene {
     Scene::new("T7 rod on post", [spinning, post], Expect::hit(time))
 }
 
-/// T9: a heavy head at the centre, a long arm whose end reaches the wall: no bound that looks at
-/// the present pose alone sees it come.
+/// T9: a heavy head at the centre, a long arm whose end reaches the wall. Bounds that use the
+/// present pose alone do not anticipate it.
 fn swinging_mace() -> Scene {
     let (length, width, speed) = (2.0_f64, 0.02, 3.0);
     let reach: f64 = length.hypot(width);
@@ -165,10 +165,10 @@ fn two_rods() -> Scene {
 
 /// T20: T4 far away; the offsets are powers of two, so that the scene itself is not rounded.
 fn far_rod(offset: f64) -> Scene {
-    let place = Pose::at(DVec3::new(offset, -offset, offset)).expect("finite");
+    let pose = Pose::at(DVec3::new(offset, -offset, offset)).expect("finite");
     Scene::new(
         format!("T20 rod at {offset}"),
-        upright(PI, 1.25, place),
+        upright(PI, 1.25, pose),
         Expect::hit(|g| corner_time(1.25 - g, PI)),
     )
 }
@@ -185,7 +185,7 @@ fn scaled_rod(scale: f64) -> Scene {
     )
 }
 
-/// Both bodies on one turntable, at rest to each other, a unit apart: free, however fast it turns.
+/// Both bodies on one turntable, at rest to each other, a unit apart: free at any speed.
 fn rigidly_turning_pair() -> Scene {
     let cube = || cuboid(DVec3::splat(0.5));
     let on_table = |x: f64| {

@@ -1,4 +1,4 @@
-//! Scenes that translate and turn at once, or are odd in some other way.
+//! Scenes that translate and turn at once, or are unusual in some other way.
 
 use super::{Expect, Scene};
 use crate::models::{Mesh, PITCH, Shape, cuboid, nut, screw};
@@ -38,13 +38,13 @@ pub fn screw_in_nut(name: &str, pitch: f64, fineness: usize) -> Scene {
         3.0 * pitch * DVec3::Z,
         3.0 * TAU * DVec3::Z,
     );
-    // Turned ahead by as much as the screw starts too low.
+    // Turned ahead by the angle that corresponds to the screw's low start.
     let turned = DQuat::from_rotation_z(LOW / PITCH * TAU);
     let still = Actor::still(nut(0.1, fineness).placed(turned, DVec3::ZERO), DVec3::ZERO);
     Scene::new(name, [turning, still], Expect::Unknown)
 }
 
-/// T21: T1 with faces of no area, repeated faces, and the rest seen from inside.
+/// T21: T1 with faces of no area, repeated faces, and the others reversed.
 fn dirty_cube() -> Scene {
     let mut mesh: Mesh = cuboid(DVec3::splat(0.5)).mesh.flipped();
     let clean = mesh.faces.clone();
@@ -85,8 +85,8 @@ fn two_shells() -> Scene {
     )
 }
 
-/// T26: cuboids at coordinates of some thousands, one flying and turning about a point of its own;
-/// the numbers of a bug report to parry (its issue 317).
+/// T26: cuboids at coordinates of some thousands, one of which flies and turns about a point of its
+/// own; the numbers are from a bug report to parry (its issue 317).
 fn cuboids_in_the_distance() -> Scene {
     let flying = Motion::about(
         Pose::new(

@@ -1,4 +1,4 @@
-//! Points between points, without rounding.
+//! Convex combinations of points, without rounding.
 
 use super::number::{Interval, Number};
 use ccd_core::glam::DVec3;
@@ -10,22 +10,22 @@ use std::cell::OnceCell;
 pub struct Blend(Vec<(u32, DVec3)>);
 
 impl Blend {
-    /// Blends some points, each with its weight.
+    /// Combines some points, each with its weight.
     ///
     /// # Panics
-    /// When all weights are 0.
+    /// If all weights are 0.
     pub fn new(parts: impl IntoIterator<Item = (u32, DVec3)>) -> Self {
         let parts: Vec<(u32, DVec3)> = parts.into_iter().collect();
         assert!(parts.iter().any(|part| part.0 > 0), "no weight");
         Blend(parts)
     }
 
-    /// The mean of some points.
+    /// Returns the mean of some points.
     pub fn mean(points: impl IntoIterator<Item = DVec3>) -> Self {
         Blend::new(points.into_iter().map(|p| (1, p)))
     }
 
-    /// The point, or one a rounding away from it.
+    /// Returns the point, or one a rounding away from it.
     pub fn rounded(&self) -> DVec3 {
         let [x, y, z] = self.coordinates::<Interval>().map(|x| x.lo);
         DVec3::new(x, y, z)
@@ -41,7 +41,7 @@ impl Blend {
     }
 }
 
-/// A point to ask predicates about; its fractions are worked out when first needed.
+/// A point for predicates; its fractions are computed on first use.
 pub(super) struct Spot<'a> {
     blend: &'a Blend,
     pub(super) near: [Interval; 3],

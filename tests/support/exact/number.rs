@@ -1,5 +1,4 @@
-//! Two kinds of number that predicates are evaluated in: intervals first, fractions where those
-//! cannot tell.
+//! The two kinds of number for predicates: intervals first, fractions if those are not certain.
 
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
@@ -8,17 +7,17 @@ use std::cmp::Ordering;
 
 /// The arithmetic that a predicate needs.
 pub(super) trait Number: Sized {
-    /// Any finite number, as it is.
+    /// Converts any finite number exactly.
     fn of(x: f64) -> Self;
     fn plus(&self, other: &Self) -> Self;
     fn minus(&self, other: &Self) -> Self;
     fn times(&self, other: &Self) -> Self;
-    /// Divided by a number that is not 0.
+    /// Divides by a number that is not 0.
     fn over(&self, divisor: u32) -> Self;
-    /// The sign, if it is certain.
+    /// Returns the sign, if it is certain.
     fn sign(&self) -> Option<Ordering>;
 
-    /// The coordinates of a point.
+    /// Returns the coordinates of a point.
     fn point(p: DVec3) -> [Self; 3] {
         p.to_array().map(Self::of)
     }
@@ -58,7 +57,7 @@ pub(super) struct Interval {
 }
 
 impl Interval {
-    /// A result of rounding; the error is 0 only where nothing was rounded.
+    /// Encloses a rounded result; the error is 0 only if nothing was rounded.
     fn rounded(result: f64, error: f64) -> Self {
         match error == 0.0 {
             true => Interval {
@@ -129,7 +128,7 @@ impl Number for Interval {
     }
 }
 
-/// Knuth's error of a sum is exact.
+/// Encloses a sum; Knuth's error of a sum is exact.
 fn sum(x: f64, y: f64) -> Interval {
     let sum = x + y;
     let back = sum - x;
@@ -147,8 +146,8 @@ fn quotient(x: f64, y: u32) -> Interval {
     Interval::rounded(quotient, residue(quotient, error))
 }
 
-/// The error of a product or quotient by a fused multiplication, which itself is lost where the
-/// result is so small that half its digits are subnormal.
+/// Returns the error of a product or quotient by a fused multiplication. It is itself inexact if
+/// the result is so small that half its digits are subnormal.
 fn residue(result: f64, error: f64) -> f64 {
     match result == 0.0 || result.abs() > 1e-200 {
         true => error,

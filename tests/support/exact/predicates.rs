@@ -1,4 +1,4 @@
-//! The side of a point: of an edge seen along an axis, and of a triangle.
+//! The side of a point relative to an edge seen along an axis, and to a triangle.
 
 use super::blend::Spot;
 use super::number::{Interval, Number};
@@ -6,17 +6,18 @@ use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 use std::cmp::Ordering;
 
-/// The pairs of coordinates that are left when one looks along z, x and y.
+/// The pairs of coordinates in the views along z, x and y.
 pub(super) const VIEWS: [[usize; 2]; 3] = [[0, 1], [1, 2], [2, 0]];
 
-/// Whether a point is left of (greater), right of (less) or on the line through an edge, in a view.
+/// Returns whether a point is left of (greater), right of (less) or on the line through an edge, in
+/// a view.
 pub(super) fn turn(view: [usize; 2], edge: [DVec3; 2], p: &Spot<'_>) -> Ordering {
     turn_in(view, edge, &p.near)
         .or_else(|| turn_in(view, edge, p.exact()))
         .expect("fractions have a sign")
 }
 
-/// Whether a point is above (greater), below (less) or in the plane of a triangle that is
+/// Returns whether a point is above (greater), below (less) or in the plane of a triangle that is
 /// counter-clockwise seen from above.
 pub(super) fn side(triangle: [DVec3; 3], p: &Spot<'_>) -> Ordering {
     side_in(triangle, &p.near)
@@ -24,10 +25,10 @@ pub(super) fn side(triangle: [DVec3; 3], p: &Spot<'_>) -> Ordering {
         .expect("fractions have a sign")
 }
 
-/// Whether a closed triangle, perhaps one without an area, holds a point.
+/// Returns true if a closed triangle, perhaps without area, contains a point.
 pub(super) fn holds(triangle: [DVec3; 3], p: &Spot<'_>) -> bool {
     let [a, b, c] = triangle;
-    // A triangle without an area is a segment in every view: its box bounds that.
+    // A triangle without area is a segment in every view, bounded by its box.
     let beyond = |axis: usize| {
         let [x, y, z] = [a[axis], b[axis], c[axis]];
         let within = |q: f64, order| compare(q, axis, p) == order;

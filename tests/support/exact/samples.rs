@@ -1,4 +1,4 @@
-//! Points to ask about of a polytope's hull.
+//! Sample points of a polytope's hull.
 
 use super::blend::Blend;
 use ccd_core::Polytope;
@@ -9,7 +9,7 @@ use rand_pcg::Pcg64;
 /// The numbers of random points to take.
 #[derive(Clone, Copy, Debug)]
 pub struct Effort {
-    /// The points of each facet, besides its mean and its edges' middles.
+    /// The points of each facet, in addition to its mean and its edges' middles.
     pub per_facet: usize,
     /// The points of each polytope between pairs of its points.
     pub chords: usize,
@@ -33,11 +33,11 @@ impl Effort {
     };
 }
 
-/// Weights add up to this, so that random points are as dyadic as the corners are.
+/// The sum of the weights, which keeps random points as dyadic as the corners.
 const WHOLE: u32 = 64;
 
-/// Points of a polytope's hull: means, middles, and random ones on facets, chords and inside; always
-/// the same for the same polytope and seed.
+/// Returns points of a polytope's hull: means, middles, and random ones on facets, chords and
+/// inside. The result depends only on the polytope and the seed.
 pub fn samples(polytope: &Polytope, effort: Effort, seed: u64) -> Vec<Blend> {
     let mut rng = Pcg64::seed_from_u64(seed);
     let points = &polytope.points;
@@ -56,7 +56,7 @@ pub fn samples(polytope: &Polytope, effort: Effort, seed: u64) -> Vec<Blend> {
     out
 }
 
-/// A combination of some points, perhaps of one several times.
+/// Returns a combination of some points, perhaps with repetition.
 fn random(rng: &mut Pcg64, points: &[DVec3], count: usize) -> Blend {
     let mut rest = WHOLE;
     let mut parts: Vec<(u32, DVec3)> = (1..count)

@@ -1,12 +1,12 @@
-//! Boxes, and what is made of boxes.
+//! Boxes, and shapes made of boxes.
 
 use super::{Line, Mesh, Shape, grid_faces, icosphere};
 use ccd_core::glam::DVec3;
 use ccd_core::{Face, Facet, Origin, Polytope, Volume};
 
-/// A box about the origin: 12 triangles, or one part of six quadrilaterals.
+/// Returns a box around the origin: 12 triangles, or one part of six quadrilaterals.
 ///
-/// Corner `k` has a positive x, y, z where bit 0, 1, 2 of `k` is set.
+/// Corner `k` has a positive x, y, z if bit 0, 1, 2 of `k` is set.
 pub fn cuboid(half: DVec3) -> Shape {
     let sign = |k: u32, bit: u32| if k >> bit & 1 == 1 { 1.0 } else { -1.0 };
     let corner = |k| half * DVec3::new(sign(k, 0), sign(k, 1), sign(k, 2));
@@ -45,27 +45,28 @@ pub fn cuboid(half: DVec3) -> Shape {
     }
 }
 
-/// A box by the coordinates of two opposite corners.
+/// Returns a box by the coordinates of two opposite corners.
 fn between(lo: [f64; 3], hi: [f64; 3]) -> Shape {
     let (lo, hi) = (DVec3::from(lo), DVec3::from(hi));
     cuboid(0.5 * (hi - lo)).moved(0.5 * (lo + hi))
 }
 
-/// A rod of half length `length` along x, half width 0.3 along y, half thickness `width` along z.
+/// Returns a rod of half length `length` along x, half width 0.3 along y, half thickness `width`
+/// along z.
 pub fn rod(length: f64, width: f64) -> Shape {
     cuboid(DVec3::new(length, 0.3, width))
 }
 
-/// A thick wall whose near face, towards −x, lies at `x`.
+/// Returns a thick wall whose near face, towards −x, lies at `x`.
 pub fn wall_at(x: f64) -> Shape {
     between([x, -4.0, -4.0], [x + 1.0, 4.0, 4.0])
 }
 
-/// A triangular post along z, one edge at the polar coordinates `(radius, angle)`, facing the
-/// origin's side from which a rod turning counter-clockwise comes.
+/// Returns a triangular post along z. One edge is at the polar coordinates `(radius, angle)` and
+/// faces a rod that turns counter-clockwise about the origin.
 pub fn post(radius: f64, angle: f64) -> Shape {
     let edge = radius * DVec3::new(angle.cos(), angle.sin(), 0.0);
-    // Behind the edge as the rod sees it: the way the rod moves, spread by a quarter turn.
+    // The post extends from the edge along the rod's motion, spread by a quarter turn.
     let along = DVec3::new(-angle.sin(), angle.cos(), 0.0);
     let across = DVec3::new(angle.cos(), angle.sin(), 0.0);
     let corners = [
@@ -91,13 +92,14 @@ pub fn post(radius: f64, angle: f64) -> Shape {
     })
 }
 
-/// A ball of radius 0.1 at the origin and an arm of half width `width` from there to `(0, −length, 0)`.
+/// Returns a ball of radius 0.1 at the origin and an arm of half width `width` from there to `(0,
+/// −length, 0)`.
 pub fn mace(length: f64, width: f64) -> Shape {
     let arm = between([-width, -length, -width], [width, 0.0, width]);
     Shape::union([icosphere(0.1, 1), arm])
 }
 
-/// An L of two bars: 20 triangles, many of them coplanar, as one closed surface.
+/// Returns an L of two bars: 20 triangles, many of them coplanar, as one closed surface.
 pub fn l_prism() -> Shape {
     let outline: [[f64; 2]; 6] = [
         [0.0, 0.0],
@@ -121,7 +123,7 @@ pub fn l_prism() -> Shape {
     Shape::closed(Mesh { vertices, faces })
 }
 
-/// A plate in the xy-plane with a square hole of half width `hole`: four boxes.
+/// Returns a plate in the xy-plane with a square hole of half width `hole`: four boxes.
 pub fn frame_plate(hole: f64) -> Shape {
     let (outer, z) = (hole + 1.0, 0.25);
     Shape::union([
@@ -132,7 +134,7 @@ pub fn frame_plate(hole: f64) -> Shape {
     ])
 }
 
-/// Two halves of a wall at `x` in `[0, 0.5]`, leaving a slit `|z| < half_height`.
+/// Returns two halves of a wall at `x` in `[0, 0.5]`, with a slit `|z| < half_height`.
 pub fn slit_plate(half_height: f64) -> Shape {
     Shape::union([
         between([0.0, -3.0, half_height], [0.5, 3.0, half_height + 2.0]),
@@ -140,7 +142,7 @@ pub fn slit_plate(half_height: f64) -> Shape {
     ])
 }
 
-/// A U open towards −z: a base along x, centred at the origin, and two legs `length` long.
+/// Returns a U open towards −z: a base along x, centred at the origin, and two legs `length` long.
 pub fn u_hook(bar: f64, gap: f64, length: f64) -> Shape {
     let (half, inner) = (0.5 * bar, 0.5 * gap);
     let outer = inner + bar;
@@ -151,15 +153,15 @@ pub fn u_hook(bar: f64, gap: f64, length: f64) -> Shape {
     ])
 }
 
-/// A base in the xy-plane, its top at z = 0, and `teeth` teeth of height 1 and width 0.4, a unit
-/// apart along x.
+/// Returns a base in the xy-plane, its top at z = 0, and `teeth` teeth of height 1 and width 0.4, a
+/// unit apart along x.
 pub fn comb(teeth: usize) -> Shape {
     let tooth = |k: usize| between([k as f64, -0.2, 0.0], [k as f64 + 0.4, 0.2, 1.0]);
     let base = between([-1.0, -0.2, -0.3], [teeth as f64 + 1.0, 0.2, 0.0]);
     Shape::union((0..teeth).map(tooth).chain([base]))
 }
 
-/// A square plate `[0, 1]²` at z = 0 of `2·cells²` triangles.
+/// Returns a square plate `[0, 1]²` at z = 0 of `2·cells²` triangles.
 pub fn parallel_plate(cells: usize) -> Shape {
     let at = |k: usize| k as f64 / cells as f64;
     let line = Line::Open(cells + 1);
@@ -171,8 +173,8 @@ pub fn parallel_plate(cells: usize) -> Shape {
     })
 }
 
-/// Unit-sized triangles of height `width`, side by side over the unit cube's bottom, their tips
-/// down.
+/// Returns unit-sized triangles of height `width`, side by side over the unit cube's bottom, with
+/// their tips down.
 pub fn needles(count: usize, width: f64) -> Shape {
     let mut mesh = Mesh {
         vertices: Vec::new(),

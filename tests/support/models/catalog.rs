@@ -1,4 +1,4 @@
-//! The solids that decompositions are tried on.
+//! The solids for tests of decompositions.
 
 use super::{
     Shape, blob, both, boulder, cuboid, dented_cube, divided_cube, gear, hollow, icosphere,
@@ -7,7 +7,7 @@ use super::{
 };
 use ccd_core::glam::{DQuat, DVec3};
 
-/// A solid and what it is called.
+/// A solid and its name.
 pub struct Model {
     /// Its name.
     pub name: String,
@@ -23,7 +23,7 @@ impl Model {
         }
     }
 
-    /// The same in general position, where rounding breaks what was coplanar.
+    /// Returns the solid in general position, where rounding breaks coplanarity.
     #[must_use]
     pub fn turned(&self) -> Self {
         let turn = DQuat::from_scaled_axis(DVec3::new(0.3, -0.7, 1.1));
@@ -37,7 +37,7 @@ impl Model {
     }
 }
 
-/// Solids that are not convex, of every kind; most of up to a thousand faces.
+/// Returns solids that are not convex, of every kind; most have up to a thousand faces.
 pub fn solids() -> Vec<Model> {
     let mut all = flat_solids();
     all.extend(curved_solids());
@@ -51,7 +51,7 @@ pub fn solids() -> Vec<Model> {
     all
 }
 
-/// Solids with large regions of coplanar triangles.
+/// Returns solids with large regions of coplanar triangles.
 pub fn flat_solids() -> Vec<Model> {
     let far = 0.2 * DVec3::X;
     vec![
@@ -95,7 +95,7 @@ fn curved_solids() -> Vec<Model> {
     ]
 }
 
-/// Solids that are convex.
+/// Returns solids that are convex.
 pub fn convex_solids() -> Vec<Model> {
     vec![
         Model::new("cube", cuboid(DVec3::ONE)),

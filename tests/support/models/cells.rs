@@ -1,13 +1,13 @@
-//! Solids of cells: sheets of four-sided cells, some of them cut out, made thick. Their tops and
-//! bottoms are large regions of coplanar triangles, rarely convex.
+//! Solids of cells: sheets of four-sided cells, some of them cut out, with a thickness. Their tops
+//! and bottoms are large regions of coplanar triangles, rarely convex.
 
-use super::{Line, Mesh, Shape, lumps::dice};
+use super::{Line, Mesh, Shape, lumps::seeded_rng};
 use ccd_core::glam::{DQuat, DVec2, DVec3};
 use rand::RngExt;
 use std::collections::HashMap;
 use std::f64::consts::TAU;
 
-/// A gear about z: a bore, a hole between each two spokes, and teeth twice as many as spokes.
+/// Returns a gear about z: a bore, a hole between each two spokes, and twice as many teeth as spokes.
 pub fn gear(spokes: usize) -> Shape {
     let radii = [0.2, 0.35, 0.6, 0.8, 1.0];
     let columns = 8 * spokes;
@@ -27,7 +27,7 @@ pub fn gear(spokes: usize) -> Shape {
     .thick(at, 0.15)
 }
 
-/// A plate of `n × m` square holes, each of its sides as long as the bridges between them.
+/// Returns a plate of `n × m` square holes, whose sides are as long as the bridges between them.
 pub fn perforated_plate(n: usize, m: usize) -> Shape {
     Sheet {
         rows: Line::Open(2 * n + 2),
@@ -37,7 +37,7 @@ pub fn perforated_plate(n: usize, m: usize) -> Shape {
     .thick(|i, j| 0.25 * DVec2::new(i as f64, j as f64), 0.125)
 }
 
-/// The L of [`l_prism`](super::l_prism) with the tops of its bars divided into `cells²` squares.
+/// Returns the L of [`l_prism`](super::l_prism) with the tops of its bars divided into `cells²` squares.
 pub fn l_block(cells: usize) -> Shape {
     let unit = 1.0 / cells as f64;
     Sheet {
@@ -48,7 +48,7 @@ pub fn l_block(cells: usize) -> Shape {
     .thick(|i, j| unit * DVec2::new(i as f64, j as f64), 0.5)
 }
 
-/// One closed plate with a slit of some width through its middle.
+/// Returns one closed plate with a slit of some width through its middle.
 pub fn slotted_plate(width: f64) -> Shape {
     let (x, y) = (
         [-2.0, -1.5, 1.5, 2.0],
@@ -62,7 +62,7 @@ pub fn slotted_plate(width: f64) -> Shape {
     .thick(|i, j| DVec2::new(x[i], y[j]), 0.25)
 }
 
-/// Two combs in one mesh, the teeth of either between those of the other.
+/// Returns two combs in one mesh, the teeth of either between those of the other.
 pub fn meshed_combs(teeth: usize) -> Shape {
     let x = |i: usize| (i / 2) as f64 + if i % 2 == 1 { 0.4 } else { 0.0 };
     let y = [0.0, 0.3, 1.3];
@@ -82,7 +82,7 @@ pub fn meshed_combs(teeth: usize) -> Shape {
     Shape::closed(mesh)
 }
 
-/// A unit cube, its top and its bottom divided into `cells²` squares.
+/// Returns a unit cube, its top and its bottom divided into `cells²` squares.
 pub fn divided_cube(cells: usize) -> Shape {
     let unit = 1.0 / cells as f64;
     Sheet {
@@ -93,14 +93,14 @@ pub fn divided_cube(cells: usize) -> Shape {
     .thick(|i, j| unit * DVec2::new(i as f64, j as f64), 0.5)
 }
 
-/// A block under random heights, flat at its sides and at its bottom.
+/// Returns a block under random heights, flat at its sides and at its bottom.
 pub fn terrain(cells: usize, seed: u64) -> Shape {
-    let mut dice = dice(seed);
+    let mut rng = seeded_rng(seed);
     let unit = 1.0 / cells as f64;
     let mut heights: HashMap<(usize, usize), f64> = HashMap::new();
     for i in 0..=cells {
         for j in 0..=cells {
-            heights.insert((i, j), dice.random_range(0.2..0.5));
+            heights.insert((i, j), rng.random_range(0.2..0.5));
         }
     }
     let at = |i: usize, j: usize, z: f64| DVec3::new(unit * i as f64, unit * j as f64, z);
@@ -120,12 +120,12 @@ struct Sheet<'a> {
 }
 
 impl Sheet<'_> {
-    /// The solid that reaches `half` to either side of a sheet in the xy-plane.
+    /// Returns the solid that extends by `half` to either side of a sheet in the xy-plane.
     fn thick(&self, at: impl Fn(usize, usize) -> DVec2, half: f64) -> Shape {
         self.between(|i, j| at(i, j).extend(-half), |i, j| at(i, j).extend(half))
     }
 
-    /// The solid between two sheets; seen from above, rows run to the right and columns upwards.
+    /// Returns the solid between two sheets; seen from above, rows run to the right and columns upwards.
     fn between(
         &self,
         low: impl Fn(usize, usize) -> DVec3,
@@ -137,7 +137,7 @@ impl Sheet<'_> {
         for i in 0..self.rows.steps() {
             for j in (0..self.columns.steps()).filter(|&j| (self.keeps)(i, j)) {
                 let corners = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)];
-                // Above vertex k of the bottom is vertex k + 1.
+                // Vertex k + 1 is above vertex k of the bottom.
                 let [a, b, c, d] = corners.map(|(i, j)| {
                     let key = (i % self.rows.count(), j % self.columns.count());
                     *numbers.entry(key).or_insert_with(|| {
@@ -157,7 +157,7 @@ impl Sheet<'_> {
     }
 }
 
-/// The directed edges of some faces that no other face runs along the other way, in order.
+/// Returns the directed edges of some faces without a face in the opposite direction, in order.
 fn rims(faces: &[[u32; 3]]) -> Vec<[u32; 2]> {
     let edges = |&[a, b, c]: &[u32; 3]| [[a, b], [b, c], [c, a]];
     let all: Vec<[u32; 2]> = faces.iter().flat_map(edges).collect();

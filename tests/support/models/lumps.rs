@@ -5,19 +5,19 @@ use ccd_core::glam::DVec3;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 
-/// Random numbers, the same for the same seed.
-pub(super) fn dice(seed: u64) -> Pcg64 {
+/// Returns random numbers, the same for the same seed.
+pub(super) fn seeded_rng(seed: u64) -> Pcg64 {
     Pcg64::seed_from_u64(seed)
 }
 
-/// An icosahedron divided `levels` times, its vertices at random distances between `1 − roughness`
-/// and 1 from the origin.
+/// Returns an icosahedron divided `levels` times, its vertices at random distances between `1 −
+/// roughness` and 1 from the origin.
 pub fn boulder(levels: u32, roughness: f64, seed: u64) -> Shape {
-    let mut dice = dice(seed);
-    star(levels, |_| 1.0 - roughness * dice.random_range(0.0..1.0))
+    let mut rng = seeded_rng(seed);
+    star(levels, |_| 1.0 - roughness * rng.random_range(0.0..1.0))
 }
 
-/// A smooth lump with bumps and two ears.
+/// Returns a smooth lump with bumps and two ears.
 pub fn blob(levels: u32) -> Shape {
     let ears = [DVec3::new(0.4, 0.2, 1.0), DVec3::new(-0.4, 0.2, 1.0)].map(DVec3::normalize);
     star(levels, |n| {
@@ -27,7 +27,7 @@ pub fn blob(levels: u32) -> Shape {
     })
 }
 
-/// A cube with a pyramid cut into its top: 14 triangles.
+/// Returns a cube with a pyramid cut into its top: 14 triangles.
 pub fn dented_cube(half: f64, depth: f64) -> Shape {
     let mut mesh = cuboid(DVec3::splat(half)).mesh;
     let top = |face: &[u32; 3]| face.iter().all(|&v| v & 4 != 0);
@@ -38,21 +38,22 @@ pub fn dented_cube(half: f64, depth: f64) -> Shape {
     Shape::closed(mesh)
 }
 
-/// A solid with a cavity: two shells, the inner one seen from within.
+/// Returns a solid with a cavity: two shells, the inner one reversed.
 pub fn hollow(outer: &Shape, inner: &Shape) -> Shape {
     let mut mesh = outer.mesh.clone();
     mesh.append(&inner.mesh.clone().flipped());
     Shape::closed(mesh)
 }
 
-/// Two solids apart from each other, in one mesh.
+/// Returns two solids apart from each other, in one mesh.
 pub fn both(one: &Shape, other: &Shape) -> Shape {
     let mut mesh = one.mesh.clone();
     mesh.append(&other.mesh);
     Shape::closed(mesh)
 }
 
-/// Moves the vertices of a divided icosahedron to distances from the origin by their directions.
+/// Moves the vertices of a divided icosahedron to distances from the origin that depend on their
+/// directions.
 fn star(levels: u32, mut radius: impl FnMut(DVec3) -> f64) -> Shape {
     let Mesh {
         mut vertices,

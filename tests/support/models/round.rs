@@ -6,7 +6,7 @@ use ccd_core::order::lesser;
 use std::collections::HashMap;
 use std::f64::consts::TAU;
 
-/// An icosahedron divided `levels` times, every vertex at distance `radius` from the origin.
+/// Returns an icosahedron divided `levels` times, every vertex at distance `radius` from the origin.
 pub fn icosphere(radius: f64, levels: u32) -> Shape {
     let g = (1.0 + 5.0_f64.sqrt()) / 2.0;
     let mut vertices = Vec::new();
@@ -65,8 +65,8 @@ pub fn icosphere(radius: f64, levels: u32) -> Shape {
     Shape::convex(Mesh { vertices, faces })
 }
 
-/// The least distance of the origin from a face's plane: the radius of the largest ball inside of a
-/// convex mesh about the origin.
+/// Returns the least distance of the origin from a face's plane: the radius of the largest ball in
+/// a convex mesh around the origin.
 pub fn inradius(mesh: &Mesh) -> f64 {
     let distance = |face| {
         let [a, b, c] = mesh.triangle(face);
@@ -77,8 +77,8 @@ pub fn inradius(mesh: &Mesh) -> f64 {
         .fold(f64::INFINITY, lesser)
 }
 
-/// A torus about z: `rings` tubes' sections on a circle of radius `major`, each of `sides` vertices
-/// at distance `minor`, one of them nearest to the axis; the first section lies on +x.
+/// Returns a torus about z: `rings` sections on a circle of radius `major`, each of `sides`
+/// vertices at distance `minor`, one of them nearest to the axis. The first section lies on +x.
 pub fn torus(major: f64, minor: f64, rings: usize, sides: usize) -> Shape {
     let angle = |k: usize, n: usize| TAU * k as f64 / n as f64;
     let vertex = |i: usize, j: usize| {
@@ -95,7 +95,7 @@ pub fn torus(major: f64, minor: f64, rings: usize, sides: usize) -> Shape {
     Shape::closed(mesh.flipped())
 }
 
-/// A trefoil's tube: `rings` sections of `sides` vertices, a unit in size.
+/// Returns a trefoil's tube of unit size: `rings` sections of `sides` vertices.
 pub fn torus_knot(rings: usize, sides: usize) -> Shape {
     let curve = |u: f64| {
         let r = 0.5 + 0.2 * (3.0 * u).cos();

@@ -7,23 +7,23 @@ use std::f64::consts::TAU;
 /// The height that the thread climbs in one turn.
 pub const PITCH: f64 = 0.5;
 
-/// Around the axis, and along it for each pitch, of the coarsest thread.
+/// The number of segments around the axis, and along it for each pitch, of the coarsest thread.
 const SEGMENTS: usize = 16;
 const ROWS_PER_PITCH: usize = 6;
 
-/// The screw's surface about z: four pitches of a wavy thread of mean radius 1, depth 0.1; its
-/// triangles grow in number as the square of `fineness`.
+/// Returns the screw's surface about z: four pitches of a wavy thread of mean radius 1, depth 0.1.
+/// The number of triangles grows as the square of `fineness`.
 pub fn screw(fineness: usize) -> Shape {
     Shape::open(thread(4, 0.0, fineness))
 }
 
-/// The nut's inner surface, one pitch high, its bottom a pitch above the origin, `clearance`
-/// farther from the axis everywhere.
+/// Returns the nut's inner surface, one pitch high, its bottom a pitch above the origin,
+/// `clearance` farther from the axis everywhere.
 pub fn nut(clearance: f64, fineness: usize) -> Shape {
     Shape::open(thread(1, clearance, fineness)).moved(PITCH * DVec3::Z)
 }
 
-/// A helical surface: turning it by an angle and lifting it by that part of the pitch maps it to
+/// Returns a helical surface: a turn by an angle and a lift by that fraction of the pitch map it to
 /// itself, up to its facets.
 fn thread(pitches: usize, clearance: f64, fineness: usize) -> Mesh {
     let (segments, rows_per_pitch) = (SEGMENTS * fineness, ROWS_PER_PITCH * fineness);

@@ -1,14 +1,14 @@
 //! Solids of unit cubes.
 
-use super::{Mesh, Shape, lumps::dice};
+use super::{Mesh, Shape, lumps::seeded_rng};
 use ccd_core::glam::DVec3;
 use rand::RngExt;
 use std::collections::HashMap;
 
-/// A pile of cubes in a corner: columns of random heights up to `size` that do not grow away from it.
-/// Its sides are coplanar regions of any outline; no two touch each other at an edge.
+/// Returns a pile of cubes in a corner: columns of random heights up to `size` that do not grow away
+/// from it. Its sides are coplanar regions of any outline. No two cubes touch each other at an edge.
 pub fn pile(size: usize, seed: u64) -> Shape {
-    let mut dice = dice(seed);
+    let mut rng = seeded_rng(seed);
     let mut heights = vec![vec![0; size]; size];
     for x in 0..size {
         for y in 0..size {
@@ -17,7 +17,7 @@ pub fn pile(size: usize, seed: u64) -> Shape {
             let behind = before(y.checked_sub(1).map(|y| heights[x][y]));
             let most = left.min(behind);
             let least = usize::from(x + y == 0);
-            heights[x][y] = dice.random_range(least.min(most)..=most);
+            heights[x][y] = rng.random_range(least.min(most)..=most);
         }
     }
     let full = |[x, y, z]: [i64; 3]| {
@@ -30,7 +30,7 @@ pub fn pile(size: usize, seed: u64) -> Shape {
     cubes(size as i64, full)
 }
 
-/// The surface of the cubes of a grid that are full; two triangles for each of their sides.
+/// Returns the surface of the filled cubes of a grid, two triangles for each side.
 fn cubes(size: i64, full: impl Fn([i64; 3]) -> bool) -> Shape {
     let mut numbers = HashMap::new();
     let mut mesh = Mesh {

@@ -1,12 +1,12 @@
-//! Positions of a moving body's points, straight from the definition of the motion.
+//! Positions of a moving body's points, directly from the definition of the motion.
 
 use crate::query::{Actor, Query};
 use ccd_core::glam::DVec3;
 
-/// `x(t) = R(t) R₀ (x − c) + d + v t`, relative to where body A's centre is at the start.
+/// The map `x(t) = R(t) R₀ (x − c) + d + v t`, relative to the start of body A's centre.
 ///
-/// Offsets are subtracted before anything is rounded at their size, and A's velocity is taken off
-/// both bodies, so that far and fast scenes keep their digits.
+/// Offsets are subtracted before anything is rounded at their size, and A's velocity is subtracted
+/// from both bodies, so that far and fast scenes keep their digits.
 #[derive(Clone, Debug)]
 pub struct Placement {
     start: [DVec3; 3],
@@ -19,7 +19,7 @@ pub struct Placement {
 }
 
 impl Placement {
-    /// The placements of both bodies of a query, A first.
+    /// Returns the placements of both bodies of a query, A first.
     pub fn pair(query: &Query) -> [Placement; 2] {
         let (mut a, mut b) = (Placement::new(&query.a), Placement::new(&query.b));
         let (pa, pb) = (
@@ -48,34 +48,34 @@ impl Placement {
         }
     }
 
-    /// The position of a point of the body.
+    /// Returns the position of a point of the body.
     pub fn at(&self, time: f64, point: DVec3) -> DVec3 {
         let arm = apply(self.start, point - self.centre);
         turned(arm, time * self.spin) + self.offset + time * self.velocity
     }
 
-    /// The origin of positions, in the world, at time 0.
+    /// Returns the origin of positions, in the world, at time 0.
     pub fn origin(&self) -> DVec3 {
         self.origin
     }
 
-    /// The velocity relative to body A's centre.
+    /// Returns the velocity relative to body A's centre.
     pub fn velocity(&self) -> DVec3 {
         self.velocity
     }
 
-    /// The fastest that turning moves any point.
+    /// Returns the largest speed of a point by rotation.
     pub fn rim_speed(&self) -> f64 {
         self.spin.length() * self.radius
     }
 
-    /// The farthest that a point is from the centre.
+    /// Returns the largest distance of a point from the centre.
     pub fn radius(&self) -> f64 {
         self.radius
     }
 }
 
-/// Rodrigues' formula.
+/// Rotates by Rodrigues' formula.
 fn turned(p: DVec3, turn: DVec3) -> DVec3 {
     let angle = turn.length();
     if angle == 0.0 {
@@ -83,11 +83,11 @@ fn turned(p: DVec3, turn: DVec3) -> DVec3 {
     }
     let n = turn / angle;
     let half = (0.5 * angle).sin();
-    // 1 − cos written as 2 sin² of the half: small turns keep their digits.
+    // 1 − cos is written as 2 sin² of the half angle: small turns keep their digits.
     p + angle.sin() * n.cross(p) + 2.0 * half * half * n.cross(n.cross(p))
 }
 
-/// The columns of the rotation that a unit quaternion `x y z w` stands for.
+/// Returns the columns of the rotation of a unit quaternion `x y z w`.
 fn rotation([x, y, z, w]: [f64; 4]) -> [DVec3; 3] {
     let q = DVec3::new(x, y, z);
     let column = |e: DVec3| e + 2.0 * q.cross(q.cross(e) + w * e);

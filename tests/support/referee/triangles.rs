@@ -1,11 +1,11 @@
-//! Distances of triangles by trying everything, with a box test in front.
+//! Distances of triangles by brute force, after a box test.
 
 use crate::models::Mesh;
 use ccd_core::glam::DVec3;
 use ccd_core::order::lesser;
 use std::f64::consts::PI;
 
-/// A mesh whose vertices have been moved to where they are at some time.
+/// A mesh with its vertices at some time.
 pub(super) struct Posed<'a> {
     mesh: &'a Mesh,
     points: Vec<DVec3>,
@@ -13,7 +13,7 @@ pub(super) struct Posed<'a> {
     group_boxes: Vec<Bounds>,
 }
 
-/// Faces that share a box in the coarser of two levels.
+/// The number of faces that share a box in the coarser of two levels.
 const GROUP: usize = 8;
 
 impl<'a> Posed<'a> {
@@ -44,7 +44,7 @@ impl<'a> Posed<'a> {
         self.points.first().copied()
     }
 
-    /// The least distance of any two faces; 0 where two intersect.
+    /// Returns the least distance of any two faces; 0 if two intersect.
     pub(super) fn distance(&self, other: &Posed<'_>) -> f64 {
         let mut pairs: Vec<(f64, usize, usize)> = Vec::new();
         for (i, a) in self.group_boxes.iter().enumerate() {
@@ -84,8 +84,8 @@ fn members(group: usize, count: usize) -> std::ops::Range<usize> {
     group * GROUP..((group + 1) * GROUP).min(count)
 }
 
-/// The squared distance of two triangles: all vertices against the other's face, all edges against
-/// the other's edges; 0 when an edge pierces a face.
+/// Returns the squared distance of two triangles: all vertices against the other's face, all edges
+/// against the other's edges; 0 if an edge pierces a face.
 fn distance_squared(a: [DVec3; 3], b: [DVec3; 3]) -> f64 {
     let edges = |t: [DVec3; 3]| [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]];
     let pierced = |e: &[DVec3; 2], t| pierces(*e, t);
@@ -105,7 +105,7 @@ fn distance_squared(a: [DVec3; 3], b: [DVec3; 3]) -> f64 {
     best
 }
 
-/// Whether an edge passes through the inside of a triangle.
+/// Returns true if an edge passes through the interior of a triangle.
 fn pierces([p, q]: [DVec3; 2], [a, b, c]: [DVec3; 3]) -> bool {
     let volume = |u: DVec3, v: DVec3, w: DVec3| (u - p).dot((v - p).cross(w - p));
     let normal = (b - a).cross(c - a);
@@ -114,7 +114,7 @@ fn pierces([p, q]: [DVec3; 2], [a, b, c]: [DVec3; 3]) -> bool {
     s * t < 0.0 && (sides.iter().all(|&v| v > 0.0) || sides.iter().all(|&v| v < 0.0))
 }
 
-/// The squared distance of two edges: their inner feet where both have one, else end points.
+/// Returns the squared distance of two edges: their inner feet if both have one, else end points.
 fn edge_edge_squared(e: [DVec3; 2], f: [DVec3; 2]) -> f64 {
     let mut best = f64::INFINITY;
     for k in 0..2 {
@@ -134,7 +134,7 @@ fn edge_edge_squared(e: [DVec3; 2], f: [DVec3; 2]) -> f64 {
     best
 }
 
-/// The nearest point of a segment.
+/// Returns the nearest point of a segment.
 pub fn point_segment(p: DVec3, [a, b]: [DVec3; 2]) -> DVec3 {
     let along = b - a;
     let t = (p - a).dot(along) / along.length_squared();
@@ -146,11 +146,12 @@ pub fn point_segment(p: DVec3, [a, b]: [DVec3; 2]) -> DVec3 {
     }
 }
 
-/// The nearest point of a triangle: the foot on its plane where that lies inside, else on an edge.
+/// Returns the nearest point of a triangle: the foot on its plane if that lies inside, else a point
+/// on an edge.
 pub fn point_triangle(p: DVec3, corners: [DVec3; 3]) -> DVec3 {
     let [a, b, c] = longest_edge_first(corners);
-    // Along the longest edge and across it: of a needle, whose normal is mostly rounding, these two
-    // are right to the last digits that matter.
+    // Along the longest edge and across it. For a needle, whose normal is mostly rounding, these
+    // two are accurate to the last relevant digits.
     let length = b.distance(a);
     let along = (b - a) / length;
     let apex = (c - a).dot(along);
@@ -160,7 +161,7 @@ pub fn point_triangle(p: DVec3, corners: [DVec3; 3]) -> DVec3 {
     let height = (c - a).dot(across);
     let (x, y) = ((p - a).dot(along), (p - a).dot(across));
     let (left, right) = (apex * y / height, length + (apex - length) * y / height);
-    // False for NaN, as of a triangle without an area.
+    // False for NaN, as for a triangle without area.
     let inside = y >= 0.0 && y <= height && x >= left && x <= right;
     let foot = if inside {
         a + x * along + y * across
@@ -186,8 +187,8 @@ fn longest_edge_first([a, b, c]: [DVec3; 3]) -> [DVec3; 3] {
     }
 }
 
-/// Whether a closed mesh winds around a point: the solid angles of its faces add up to more than
-/// half the sphere.
+/// Returns true if a closed mesh winds around a point: the solid angles of its faces add up to more
+/// than half the sphere.
 pub fn contains(mesh: &Mesh, points: &[DVec3], p: DVec3) -> bool {
     let angle = |face: &[u32; 3]| {
         let [a, b, c] = face.map(|v| points[v as usize] - p);

@@ -1,4 +1,4 @@
-//! A peer in a process of its own, which is stopped when it takes too long.
+//! Runs a peer in a process of its own, which is stopped when it takes too long.
 
 use super::PeerKind;
 use super::wire::{READY, format_query, parse_reply};
@@ -14,41 +14,41 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::thread;
 use std::time::Duration;
 
-/// Asks a peer one query at a time, and stops and restarts it when it hangs or dies.
+/// Asks a peer one query at a time. Stops and restarts it when it hangs or dies.
 #[derive(Debug)]
 pub struct Guarded {
     kind: PeerKind,
     program: PathBuf,
     tolerance: f64,
     meshes: Meshes,
-    /// None where the last one was stopped and no other started yet.
+    /// `None` after the last process was stopped, until the next one starts.
     process: Option<Process>,
 }
 
-/// What became of a query.
+/// The outcome of a query.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Asked {
     /// The peer answered.
     Answered {
-        /// What it said.
+        /// The peer's reply.
         reply: Reply,
-        /// Its own call alone, in microseconds.
+        /// The time of the peer's call alone, in microseconds.
         micros: f64,
     },
-    /// It took longer than one would wait, and was stopped.
+    /// The call exceeded the time limit, and the process was stopped.
     CutOff,
-    /// Its process ended: a panic, or out of memory.
+    /// The process ended: a panic, or out of memory.
     Died,
 }
 
-/// How long a process may take to load its meshes.
+/// The time that a process may take to load its meshes.
 const PATIENCE_AT_START: Duration = Duration::from_secs(120);
 
 impl Guarded {
-    /// Starts a peer with its two meshes, by this program's own command.
+    /// Starts a peer on two meshes, with this program's own command.
     ///
     /// # Errors
-    /// When the meshes cannot be written, or the process does not start.
+    /// If the meshes cannot be written, or the process does not start.
     pub fn start(
         kind: PeerKind,
         a: &TriangleMesh,
@@ -60,12 +60,12 @@ impl Guarded {
         Ok(guarded)
     }
 
-    /// A peer by another program with the command `peer`, not started yet: the first query starts it, at
-    /// a tolerance of [`ccd_core::limits::DEFAULT_TOLERANCE`] unless it is
-    /// [told another](Self::restart_with).
+    /// Prepares a peer that runs another program with the command `peer`. The first query starts
+    /// it, at a tolerance of [`ccd_core::limits::DEFAULT_TOLERANCE`] unless [another one is
+    /// set](Self::restart_with).
     ///
     /// # Errors
-    /// When the meshes cannot be written.
+    /// If the meshes cannot be written.
     pub fn with_program(
         program: PathBuf,
         kind: PeerKind,
@@ -80,20 +80,20 @@ impl Guarded {
         })
     }
 
-    /// Goes on at another tolerance, with the same meshes.
+    /// Restarts the peer at another tolerance, with the same meshes.
     ///
     /// # Errors
-    /// When the process does not start.
+    /// If the process does not start.
     pub fn restart_with(&mut self, tolerance: f64) -> io::Result<()> {
         self.tolerance = tolerance;
         self.process = None;
         self.running().map(|_| ())
     }
 
-    /// Asks one query; a process that was stopped or has died before is started anew, which is not timed.
+    /// Asks one query. A process that was stopped or has died is restarted first; that is not timed.
     ///
     /// # Errors
-    /// When the process does not start.
+    /// If the process does not start.
     pub fn ask(&mut self, query: &Query, patience: Duration) -> io::Result<Asked> {
         let asked = self.running()?.ask(query, patience);
         if !matches!(asked, Asked::Answered { .. }) {
@@ -123,7 +123,7 @@ impl Guarded {
     }
 }
 
-/// A process that answers lines with lines; it ends with this.
+/// A process that answers lines with lines. It ends when this is dropped.
 #[derive(Debug)]
 struct Process {
     child: Child,
@@ -140,7 +140,7 @@ impl Process {
             .spawn()?;
         let input = child.stdin.take();
         let output = child.stdout.take();
-        // From here on, the process is stopped when this is dropped.
+        // From here on, dropping `self` stops the process.
         let (sender, lines) = channel();
         let process = Process {
             child,
@@ -148,7 +148,7 @@ impl Process {
             lines,
         };
         let output = output.ok_or_else(|| io::Error::other("no output of the peer"))?;
-        // Ends with the output, which ends with the process.
+        // This thread ends with the output, which ends with the process.
         thread::spawn(move || {
             for line in BufReader::new(output).lines().map_while(Result::ok) {
                 if sender.send(line).is_err() {
@@ -182,13 +182,13 @@ impl Process {
 
 impl Drop for Process {
     fn drop(&mut self) {
-        // That it has ended already is no failure.
+        // It is no error if the process has ended already.
         let _ = self.child.kill();
         let _ = self.child.wait();
     }
 }
 
-/// Two meshes as files, which are removed with this.
+/// Two meshes as files, which are removed when this is dropped.
 #[derive(Debug)]
 struct Meshes {
     directory: PathBuf,
@@ -216,7 +216,7 @@ impl Meshes {
 
 impl Drop for Meshes {
     fn drop(&mut self) {
-        // Nobody needs them any more; a folder left behind harms nobody.
+        // A folder left behind does no harm.
         let _ = fs::remove_dir_all(&self.directory);
     }
 }

@@ -1,9 +1,9 @@
-//! parry in both of its precisions, from one source: its two crates differ by their number alone.
+//! parry in both precisions, from one source: its two crates differ only in their number type.
 //!
-//! It has two answers to the question, [`double::cast`] and [`double::sweep`], which share no code.
+//! It has two calls for the question, [`double::cast`] and [`double::sweep`], which share no code.
 
 /// In double precision.
-// Casts that one precision does not need, the other one does.
+// Some casts are needed in one precision only.
 #[expect(clippy::unnecessary_cast, clippy::useless_conversion)]
 #[path = "parry"]
 pub mod double {

@@ -13,35 +13,37 @@ use rapier3d_f64::prelude::{
 };
 use rigid_ccd::table::motions::Query;
 
-/// A as a body that flies freely, B as a fixed one, and where the step stops A; one step.
+/// Simulates A as a free body and B as a fixed one in one step, and takes the pose in which the
+/// step stops A.
 ///
-/// The engine sweeps no meshes (they rely on contacts found in time), only convex bodies and compounds of
-/// them, so that A is a compound of its triangles here; B stays the mesh it is. Each triangle is swept
-/// against B's by [parry's sweeps](crate::method::peer::parry::double::sweep), from the pose at the start to that at
-/// the end, the shorter way and at no constant rate: a turn of more than half a circle is another motion,
-/// and large turns are rough, as a step of a game's is expected to be short. The whole step is timed.
+/// The engine does not sweep meshes, only convex bodies and compounds of them. A is therefore a compound
+/// of its triangles here; B stays a mesh. Each triangle is swept against B's by [parry's
+/// sweeps](crate::method::peer::parry::double::sweep), from the start pose to the end pose, the shorter
+/// way and not at a constant rate. A turn of more than half a circle becomes another motion. Large turns
+/// are rough, since the step of a game is expected to be short. The time is that of the whole step.
 ///
 /// # Tolerance
-/// `allowed_linear_error`; the sweeps stop at a gap of up to 1.25 times that.
+/// `allowed_linear_error`. The sweeps stop at a gap of up to 1.25 times that.
 ///
 /// # Guarantee
-/// None. A triangle that overlaps B's at the start is swept on as a small ball about its centre.
+/// None. A triangle that overlaps one of B's at the start is swept as a small ball about its centre.
 pub struct Simulated {
     world: PhysicsWorld,
     a: RigidBodyHandle,
     b: RigidBodyHandle,
 }
 
-/// A hit is reported up to this many times the allowed error.
+/// A hit is reported at up to this multiple of the allowed error.
 const ERRORS_AT_HIT: f64 = 1.25;
-/// A step that goes this share of its way is held to have gone all of it: what poses round by.
+/// A step that covers this fraction of its motion counts as complete; poses are rounded by about as
+/// much.
 const WHOLE: f64 = 1.0 - 1e-9;
 
 impl Simulated {
-    /// Of two meshes.
+    /// Prepares two meshes.
     ///
     /// # Errors
-    /// When parry takes one for no mesh.
+    /// If parry refuses a mesh.
     pub fn new(a: &TriangleMesh, b: &TriangleMesh, tolerance: f64) -> Result<Self, PeerError> {
         let mut world = PhysicsWorld::new();
         world.gravity = Vector::ZERO;
@@ -51,7 +53,7 @@ impl Simulated {
             .triangles()
             .map(|t| (Pose::IDENTITY, SharedShape::triangle(t.a, t.b, t.c)))
             .collect();
-        // Without density: the mass is set for each query, about its centre.
+        // The density is zero: the mass is set for each query, about its centre.
         let flying = ColliderBuilder::new(SharedShape::compound(triangles)).density(0.0);
         let fixed = ColliderBuilder::new(SharedShape::new(tri_mesh(b)?));
         let (a, _) = world.insert(RigidBodyBuilder::dynamic().can_sleep(false), flying);
@@ -59,7 +61,7 @@ impl Simulated {
         Ok(Simulated { world, a, b })
     }
 
-    /// Sets both bodies on their way.
+    /// Sets the start poses and velocities of both bodies.
     fn pose(&mut self, query: &Query) {
         self.world.integration_parameters.dt = query.duration;
         if let Some(b) = self.world.bodies.get_mut(self.b) {
@@ -67,7 +69,7 @@ impl Simulated {
         }
         if let Some(a) = self.world.bodies.get_mut(self.a) {
             let centre = vector(query.a.centre());
-            // The same inertia about all axes, so that it keeps turning about the one it turns about.
+            // The inertia is equal about all axes, so that the axis of rotation stays fixed.
             let mass = MassProperties::new(centre, 1.0, Vector::splat(1.0));
             a.set_additional_mass_properties(mass, true);
             a.recompute_mass_properties_from_colliders(&self.world.colliders);
@@ -98,7 +100,7 @@ impl Solver for Simulated {
     }
 }
 
-/// How much of its way a body has gone; NaN or 1 of no way.
+/// Returns the fraction of its motion that a body has covered, or NaN or 1 if there is no motion.
 fn share(query: &Query, end: &Pose) -> f64 {
     let motion = &query.a;
     let way = query.duration * (motion.velocity() - query.b.velocity());
@@ -110,7 +112,8 @@ fn share(query: &Query, end: &Pose) -> f64 {
     (centre - start).dot(way) / way.length_squared()
 }
 
-/// The same where the body turns only, as a sweep mixes two orientations: the shorter way.
+/// Returns the same fraction for a body that only turns. A sweep mixes two orientations, the
+/// shorter way.
 fn share_of_turn(motion: &Motion, duration: f64, end: &Pose) -> f64 {
     let turn_to = |rotation: DQuat| {
         let turn = rotation * motion.start().rotation().conjugate();
@@ -119,7 +122,7 @@ fn share_of_turn(motion: &Motion, duration: f64, end: &Pose) -> f64 {
     };
     let whole = turn_to(motion.pose(duration).rotation());
     let angle = whole.length();
-    // A whole number of turns leads nowhere; what rounding leaves of it is no way either.
+    // A whole number of turns ends in the same orientation, except for rounding.
     if angle < 1e-12 {
         return 1.0;
     }

@@ -1,4 +1,4 @@
-//! Every peer on scenes of meshes with exact answers: what it gets right, and what it is known to get wrong.
+//! Tests every peer on meshes with exact answers: where it is right, and where it is known to be wrong.
 
 use super::PeerKind;
 use super::wire::{format_query, format_reply, parse_query, parse_reply};
@@ -20,7 +20,7 @@ struct Exact {
     b: TriangleMesh,
     query: Query,
     time: f64,
-    /// How fast the bodies close there.
+    /// The closing speed at the contact.
     speed: f64,
 }
 
@@ -30,7 +30,7 @@ impl Exact {
         peer.answer(&self.query)
     }
 
-    /// Asserts that a contact is reported within what the peer may be off by.
+    /// Asserts that a contact is reported within the error allowed for the peer.
     fn assert_right(&self, kind: PeerKind) {
         let reply = self.ask(kind);
         let Claim::Contact { time } = reply.claim else {
@@ -46,11 +46,11 @@ impl Exact {
     }
 }
 
-/// How early, as a length, and how late, as a time, a right answer may be.
+/// Returns the allowed error of a right answer: early as a length, late as a time.
 fn allowed(kind: PeerKind) -> (f64, f64) {
     match kind {
         PeerKind::ParryF64 => (1e-9, 1e-9),
-        // Sixteen roundings of coordinates between 8 and 16: the largest are 9.
+        // Sixteen roundings of coordinates between 8 and 16; the largest are 9.
         PeerKind::ParryF32 => (16.0 * f64::from(8.0 * f32::EPSILON), 1e-5),
         PeerKind::ParrySweepF32 => (1.01 * TOLERANCE, 1e-6),
         PeerKind::ParrySweepF64 | PeerKind::RapierStepF64 => (1.01 * TOLERANCE, 1e-12),
@@ -115,7 +115,7 @@ fn edge_on_edge() -> Exact {
     }
 }
 
-/// Two balls meet corner on corner, both moving.
+/// Two balls meet corner on corner; both move.
 fn ball_on_ball() -> Exact {
     let left = motion(
         -2.5 * DVec3::X,
@@ -133,7 +133,7 @@ fn ball_on_ball() -> Exact {
     }
 }
 
-/// T4: an upright rod turns by `turns` half circles, and strikes a wall with an edge.
+/// T4: an upright rod turns by `turns` half circles and hits a wall with an edge.
 fn rod_on_wall(turns: f64) -> Exact {
     let (length, width, wall) = (2.0_f64, 0.05_f64, 1.2);
     let spin = turns * PI;
@@ -150,12 +150,12 @@ fn rod_on_wall(turns: f64) -> Exact {
         b: cuboid(1.0, 9.0, 9.0),
         query: query(rod, far),
         time,
-        // Of the edge, across the wall: it stands length · cos off the axis there.
+        // The speed of the edge across the wall; the edge is at length · cos from the axis there.
         speed: spin * (length.hypot(width).powi(2) - wall * wall).sqrt(),
     }
 }
 
-/// An octahedron with each face cut in 16, its corners on the unit ball and on the axes.
+/// Returns an octahedron with each face cut in 16; its corners are on the unit ball and on the axes.
 fn ball() -> TriangleMesh {
     let axes = [DVec3::X, DVec3::Y, DVec3::Z];
     let mut triangles = Vec::new();
@@ -181,7 +181,7 @@ fn quarters([a, b, c]: [DVec3; 3]) -> [[DVec3; 3]; 4] {
 }
 
 #[rstest]
-fn what_flies_straight_is_right_with_every_peer(
+fn straight_motions_are_right_with_every_peer(
     #[values(face_on_face(), edge_on_edge(), ball_on_ball())] exact: Exact,
 ) {
     for kind in PeerKind::ALL {
@@ -190,7 +190,7 @@ fn what_flies_straight_is_right_with_every_peer(
 }
 
 #[rstest]
-fn half_a_turn_is_right_with_all_but_a_whole_step(#[values(0.5, 1.0)] turns: f64) {
+fn half_a_turn_is_right_except_with_a_whole_step(#[values(0.5, 1.0)] turns: f64) {
     for kind in PeerKind::ALL {
         if kind != PeerKind::RapierStepF64 {
             rod_on_wall(turns).assert_right(kind);
@@ -205,7 +205,7 @@ fn more_than_half_a_turn_is_right_with_sweeps(#[values(1.9, 2.0, 7.0)] turns: f6
     }
 }
 
-/// Known: a gap that is not monotone is bisected over all the time there is, and a later root found.
+/// Known: a gap that is not monotone is bisected over all the time, and a later root is found.
 #[rstest]
 fn more_than_half_a_turn_is_late_with_casts(#[values(2.0, 7.0)] turns: f64) {
     let exact = rod_on_wall(turns);
@@ -217,7 +217,7 @@ fn more_than_half_a_turn_is_late_with_casts(#[values(2.0, 7.0)] turns: f64) {
     }
 }
 
-/// Known: a step turns by a mix of quaternions, not at a constant rate, and a whole turn is none.
+/// Known: a step turns by a mix of quaternions, not at a constant rate, and a whole turn is no turn.
 #[test]
 fn large_turns_are_wrong_with_a_whole_step() {
     let half = rod_on_wall(1.0);
@@ -230,7 +230,7 @@ fn large_turns_are_wrong_with_a_whole_step() {
 }
 
 #[test]
-fn what_passes_is_free_with_every_peer() {
+fn a_near_miss_is_free_with_every_peer() {
     let mut passing = face_on_face();
     let aside = Pose::new(DVec3::new(9.6, 0.0, 3.0), DQuat::IDENTITY).unwrap();
     passing.query.a = Motion::new(aside, -4.0 * DVec3::Z, DVec3::ZERO).unwrap();
@@ -253,7 +253,7 @@ fn a_second_query_is_answered_as_the_first() {
 }
 
 #[test]
-fn what_rapier_holds_still_does_not_turn() {
+fn a_body_at_rest_in_rapier_does_not_turn() {
     let mut exact = edge_on_edge();
     exact.query.b = motion(DVec3::ZERO, DQuat::IDENTITY, DVec3::ZERO, DVec3::X);
     assert_eq!(exact.ask(PeerKind::RapierStepF64).claim, Claim::Refused);

@@ -1,4 +1,4 @@
-//! What is said between a guard and the process it guards: one line for each query, one for each reply.
+//! The protocol between a guard and the process it guards: one line for each query, one for each reply.
 
 use crate::method::solver::{Claim, Reply, Solver, TimedReply, timed};
 use ccd_core::glam::{DQuat, DVec3};
@@ -7,13 +7,13 @@ use rigid_ccd::table::motions::Query;
 use std::io::{self, BufRead, Write};
 use std::time::Duration;
 
-/// What the process says once it has its meshes.
+/// The line that the process writes once it has loaded its meshes.
 pub const READY: &str = "ready";
 
 /// Answers queries as they are read, until there are no more.
 ///
 /// # Errors
-/// When a line is no query, or nobody reads the replies.
+/// If a line is no query, or if the reader of the replies is gone.
 pub fn serve(
     solver: &mut dyn Solver,
     input: impl BufRead,
@@ -32,7 +32,7 @@ pub fn serve(
     Ok(())
 }
 
-/// A query as one line; it is read back to the same bits, but for its name, which stays behind.
+/// Formats a query as one line, which is read back to the same bits; the name is left out.
 pub fn format_query(query: &Query) -> String {
     let motion = |motion: &Motion| {
         let start = motion.start();
@@ -50,10 +50,10 @@ pub fn format_query(query: &Query) -> String {
     texts.join(" ")
 }
 
-/// Numbers of a motion on the line.
+/// The number of values of a motion on the line.
 const OF_MOTION: usize = 16;
 
-/// The query of a line; none of a line that is no query.
+/// Parses a line as a query; returns `None` if it is invalid.
 pub fn parse_query(line: &str) -> Option<Query> {
     let numbers: Vec<f64> = line
         .split(' ')
@@ -79,7 +79,7 @@ fn motion(numbers: &[f64]) -> Option<Motion> {
     Motion::about(start, vector(7), vector(10), vector(13)).ok()
 }
 
-/// A reply as one line: `time,status,steps,micros`.
+/// Formats a reply as one line: `time,status,steps,micros`.
 pub fn format_reply(timed: &TimedReply) -> String {
     let (time, status) = match timed.reply.claim {
         Claim::Contact { time } => (time, "contact"),
@@ -90,7 +90,7 @@ pub fn format_reply(timed: &TimedReply) -> String {
     format!("{time},{status},{},{}", timed.reply.steps, timed.micros)
 }
 
-/// The reply of a line; none of a line that is no reply.
+/// Parses a line as a reply; returns `None` if it is invalid.
 pub fn parse_reply(line: &str) -> Option<TimedReply> {
     let mut cells = line.split(',');
     let time: f64 = cells.next()?.parse().ok()?;

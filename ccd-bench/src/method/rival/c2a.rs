@@ -15,20 +15,20 @@ mod tests;
 
 /// Controlled conservative advancement \[C2A09\].
 ///
-/// Every step descends both trees as a distance query does, and is as long as the least of (distance) /
-/// (bound of the speed at which it closes) over the pairs of nodes and triangles at which the descent
-/// stops. It stops at pairs that are farther apart than the nearest triangles found, or that allow as
-/// long a step as is left; in the first steps, far from contact, already at pairs that are nearly as far
-/// apart. The triangles that were nearest at the last step are measured first.
+/// Every step descends both trees as a distance query does. The step is the least (distance) /
+/// (bound of the closing speed) over the pairs of nodes and triangles at which the descent stops.
+/// It stops at pairs that are farther apart than the nearest triangles found, or that allow a step
+/// of all the remaining time. In the first steps, far from contact, it also stops at pairs that are
+/// nearly as far apart. The triangles that were nearest at the last step are measured first.
 ///
 /// # Guarantee
-/// No contact is missed or late. At a time reported the bodies are within the tolerance, a length.
+/// No contact is missed or late. At a reported time the bodies are within the tolerance, a length.
 ///
 /// # Choices
-/// The authors' program skips the step of a pair of triangles farther apart than the nearest ones, and
-/// stops at steps that are short as well as at distances, either of which may make a contact late or
-/// early; here no pair is skipped, and distance alone decides. Speeds of both bodies along a direction
-/// are summed before they are bounded from below by zero. Pure translations are no special case.
+/// The authors' program skips the step of a pair of triangles farther apart than the nearest ones,
+/// and stops at short steps as well as at short distances. Either may make a contact late or early.
+/// Here no pair is skipped, and distance alone decides. Speeds of both bodies along a direction are
+/// summed before they are bounded from below by zero. Pure translations are no special case.
 #[derive(Clone, Debug)]
 pub struct C2a {
     trees: Trees,
@@ -38,44 +38,44 @@ pub struct C2a {
     pairs: Vec<Candidate>,
 }
 
-/// A pair of nodes to look into.
+/// A pair of nodes to descend into.
 #[derive(Clone, Copy, Debug)]
 struct Candidate {
     pair: Pair,
     distance: f64,
-    /// For how long they do not touch.
+    /// The time during which they do not touch.
     step: f64,
 }
 
-/// What a descent has found so far.
+/// The results of a descent so far.
 #[derive(Clone, Copy, Debug)]
 struct Found {
-    /// Of the nearest triangles.
+    /// The distance of the nearest triangles.
     distance: f64,
-    /// These triangles.
+    /// The nearest triangles.
     nearest: Option<(Leaves, Pair)>,
     /// The least step.
     step: f64,
 }
 
-/// Where the bodies are, and how far a descent goes.
+/// The placement of the bodies, and the limits of a descent.
 struct Look<'a> {
     /// Body B as seen from body A.
-    place: &'a Placement,
-    /// Until the end of the duration.
+    placement: &'a Placement,
+    /// The time until the end of the duration.
     remaining: f64,
-    /// By how much, of its distance, a pair that is not looked into may be nearer than the nearest
-    /// triangles found.
+    /// The fraction of its distance by which a pair that is not opened may be nearer than the
+    /// nearest triangles found.
     excess: f64,
 }
 
-/// How a descent ends.
+/// The result of a descent.
 enum Descent {
-    /// At all pairs where it may stop.
+    /// The descent stopped at all pairs where it may stop.
     Done(Found),
-    /// At triangles within the tolerance.
+    /// It found triangles within the tolerance.
     Within,
-    /// For want of patience, or of numbers.
+    /// It ran out of patience, or numbers are not finite.
     GaveUp,
 }
 
@@ -112,7 +112,7 @@ impl Solver for C2a {
         for steps in 1..=self.patience.steps {
             let frame = a.at(time);
             let look = Look {
-                place: &b.at(time).seen_from(&frame),
+                placement: &b.at(time).seen_from(&frame),
                 remaining: query.duration - time,
                 excess: self.excess(steps, last.as_ref(), query.duration),
             };
@@ -126,7 +126,7 @@ impl Solver for C2a {
                 return reply(Claim::Free, steps);
             }
             let next = time + found.step;
-            // Neither NaN nor a step too short for the clock goes on.
+            // Neither NaN nor a step below the resolution of time goes on.
             if !(next > time) {
                 return reply(Claim::Unresolved { safe_until: time }, steps);
             }
@@ -142,15 +142,16 @@ fn reply(claim: Claim, steps: u64) -> Reply {
 }
 
 impl C2a {
-    /// The control: how coarse a step may be, by how many there were and how near contact is.
+    /// Returns the excess allowed in a step, from the number of steps so far and the distance to
+    /// contact.
     fn excess(&self, step: u64, last: Option<&Found>, duration: f64) -> f64 {
-        /// Coarse steps at first, with their excess.
+        /// The number of coarse steps at the start, and their excess.
         const FIRST: (u64, f64) = (3, 3.0);
-        /// And after them.
+        /// The number of steps after those, and their excess.
         const THEN: (u64, f64) = (6, 0.5);
-        /// Of the duration: after a step below, all are exact.
+        /// A fraction of the duration: after a shorter step, all steps are exact.
         const SHORT: f64 = 0.005;
-        /// In tolerances: nearer than this, all are exact.
+        /// A multiple of the tolerance: at a smaller distance, all steps are exact.
         const NEAR: f64 = 16.0;
 
         let exact = last.is_some_and(|last| {
@@ -164,7 +165,7 @@ impl C2a {
         }
     }
 
-    /// One step's descent of both trees, nearest pairs first.
+    /// Descends both trees once, nearest pairs first.
     fn descend(&mut self, look: &Look<'_>, last: Option<&Found>, pairs_left: &mut u64) -> Descent {
         let mut found = Found {
             distance: f64::INFINITY,
@@ -174,7 +175,7 @@ impl C2a {
         if let Some((leaves, pair)) = last.and_then(|last| last.nearest) {
             self.measure(&mut found, look, leaves, pair);
         }
-        let Some(roots) = self.trees.roots(look.place) else {
+        let Some(roots) = self.trees.roots(look.placement) else {
             return Descent::Done(found);
         };
         self.pairs.clear();
@@ -221,9 +222,9 @@ impl C2a {
         }
     }
 
-    /// What two triangles are apart, and for how long.
+    /// Measures the distance of two triangles, and the time until they may touch.
     fn measure(&mut self, found: &mut Found, look: &Look<'_>, leaves: Leaves, pair: Pair) {
-        let between = self.trees.nearest(leaves, look.place).between();
+        let between = self.trees.nearest(leaves, look.placement).between();
         let distance = between.length();
         let gap = Gap {
             distance,
@@ -242,7 +243,7 @@ impl C2a {
 }
 
 impl Candidate {
-    /// Whether a pair need not be looked into; then its step counts.
+    /// Returns true if a pair need not be opened; then its step counts.
     #[inline]
     fn may_stop(&self, found: &mut Found, look: &Look<'_>) -> bool {
         if self.step >= lesser(found.step, look.remaining) {

@@ -22,27 +22,28 @@ use leaf::{Touch, first_touch};
 use relative::Relative;
 use rigid_ccd::table::motions::Query;
 
-/// Time is halved while the enclosure of a box's place is this much wider, by its radius, than the half
-/// length of the longer box; else the boxes are opened.
+/// Time is halved while the radius of the enclosure of a box's placement exceeds this multiple of
+/// the half length of the longer box. Otherwise the boxes are opened.
 ///
-/// Measured: from 0.1 to 2 the fastest, on knots of 2,880 and 11,520 triangles and a bunny of 26,000.
+/// Values from 0.1 to 2 were measured; this one is the fastest, on knots of 2,880 and 11,520
+/// triangles and a bunny of 26,000.
 const SPREAD_TO_HALVE: f64 = 0.2;
 
-/// The first contact of two triangle meshes, each of which moves by the [screw](super::screw()) between
-/// the start and the end pose of its motion.
+/// Finds the first contact of two triangle meshes, each of which moves by the
+/// [screw](super::screw()) between the start and the end pose of its motion.
 ///
 /// # Guarantee
-/// Up to rounding, no contact of the screw motions is missed or reported late; at the time reported the
-/// surfaces are within about the tolerance. Surfaces that cross at the start touch at time 0; a surface
-/// inside another one that it does not touch is free.
+/// Except for rounding, no contact of the screw motions is missed or reported late. At the reported
+/// time the surfaces are within about the tolerance. Surfaces that cross at the start touch at time
+/// 0. A surface inside another one that it does not touch is free.
 ///
 /// # Source
-/// \[CONTACT02\] over \[OBBTREE96\]. Left open there and chosen here: time is halved while the
-/// motion's enclosure is wide against the larger box, and the larger box is opened first otherwise; the
-/// body that turns less lends its frame; both bodies' motions are enclosed apart and multiplied; the
-/// elementary tests of two triangles share the halving of time; roots of contact functions that are seen
-/// to be monotone are found by signs and false position; one static test tells surfaces that cross at the
-/// start, which the method takes for granted that they do not.
+/// \[CONTACT02\] on \[OBBTREE96\]. The paper leaves open, and here is chosen: time is halved while
+/// the enclosure of the motion is wide against the larger box, and otherwise the larger box is
+/// opened first. The frame is that of the body that turns less. The motions of both bodies are
+/// enclosed separately and multiplied. The elementary tests of two triangles share the halving of
+/// time. The roots of monotone contact functions are found by signs and false position. The method
+/// assumes that surfaces do not cross at the start; a static test checks it.
 #[derive(Clone, Debug)]
 pub struct Contact {
     trees: [ObbTree; 2],
@@ -52,13 +53,13 @@ pub struct Contact {
     static_stack: Vec<(u32, u32)>,
 }
 
-/// How much work one query may be, some seconds' worth.
+/// A limit of the work for one query, some seconds.
 #[derive(Clone, Copy, Debug)]
 struct Limits {
-    /// Pairs of boxes looked at.
+    /// The number of pairs of boxes examined.
     pairs: u64,
-    /// Halvings of time: surfaces that slide past each other at a distance g are told apart only over
-    /// intervals in which they move by about g.
+    /// The number of halvings of time. Surfaces that slide past each other at a distance g are only
+    /// separated over intervals in which they move by about g.
     halvings: u64,
 }
 
@@ -75,7 +76,7 @@ struct Pair {
 }
 
 impl Contact {
-    /// For two meshes; the tolerance is a length.
+    /// Builds both trees; the tolerance is a length.
     pub fn new(a: &TriangleMesh, b: &TriangleMesh, tolerance: f64) -> Self {
         Contact {
             trees: [a, b].map(ObbTree::new),
@@ -86,7 +87,7 @@ impl Contact {
         }
     }
 
-    /// When bodies first touch that move as given, screws or not.
+    /// Returns the first contact of bodies that move as given, along screws or not.
     fn first_contact(&mut self, query: &Query) -> Reply {
         let courses = [Course::new(&query.a), Course::new(&query.b)];
         let resolution = resolution(&courses, &self.trees, self.tolerance);
@@ -137,13 +138,13 @@ impl Solver for Contact {
     }
 }
 
-/// One query being answered.
+/// The search for the answer to one query.
 struct Search<'a> {
     trees: [&'a ObbTree; 2],
     clock: Clock,
     most_pairs: u64,
     stack: &'a mut Vec<Pair>,
-    /// Until when contacts matter: the first one known, or the duration.
+    /// The end of the relevant time: the first known contact, or the duration.
     end: f64,
 }
 
@@ -185,12 +186,13 @@ impl Search<'_> {
         }
     }
 
-    /// Looks at a pair: drops it, puts its halves or children on the stack, or finds when it touches.
+    /// Examines a pair: drops it, pushes its halves or children onto the stack, or finds when it
+    /// touches.
     fn visit(&mut self, pair: Pair) -> Touch {
         let Pair { nodes, slice } = pair;
         let a = self.trees[0].node(nodes[0]);
         let b = self.trees[1].node(nodes[1]);
-        let spread = match boxes(&a.bounds, &b.bounds, self.clock.places(slice)) {
+        let spread = match boxes(&a.bounds, &b.bounds, self.clock.placements(slice)) {
             Boxes::Apart => return Touch::Never,
             Boxes::Near { spread } => spread,
         };

@@ -1,20 +1,20 @@
-//! Where a moving body is, by the formula of its motion.
+//! The position of a moving body, from the formula of its motion.
 
 use ccd_core::Motion;
 use ccd_core::glam::{DMat3, DQuat, DVec3};
 
-/// A body's motion as the rivals see it: its centre moves straight, the body turns about it.
+/// A body's motion as the rivals see it: its centre moves straight, and the body turns about it.
 #[derive(Clone, Copy, Debug)]
 pub struct Course {
     /// The centre of rotation in the body's frame.
     pub centre: DVec3,
-    /// Where the centre is at the start.
+    /// The centre at the start.
     pub from: DVec3,
-    /// Its velocity.
+    /// The velocity of the centre.
     pub velocity: DVec3,
     /// The orientation at the start.
     pub orientation: DMat3,
-    /// The unit axis that the body turns about; any one where it does not turn.
+    /// The unit axis of rotation; any axis if the body does not turn.
     pub axis: DVec3,
     /// Radians per unit of time.
     pub rate: f64,
@@ -30,7 +30,7 @@ pub struct Placement {
 }
 
 impl Course {
-    /// The same motion; its parameters are read, no formula is shared.
+    /// Returns the same motion. Its parameters are read, but no formula is shared.
     pub fn new(motion: &Motion) -> Self {
         let orientation = DMat3::from_quat(motion.start().rotation());
         let rate = motion.spin().length();
@@ -44,7 +44,7 @@ impl Course {
         }
     }
 
-    /// Where the body is at a time.
+    /// Returns the placement of the body at a time.
     pub fn at(&self, time: f64) -> Placement {
         let turn = DMat3::from_quat(DQuat::from_axis_angle(self.axis, self.rate * time));
         let rotation = turn * self.orientation;
@@ -56,12 +56,12 @@ impl Course {
 }
 
 impl Placement {
-    /// A point of the body in the world.
+    /// Returns a point of the body in the world.
     pub fn apply(&self, point: DVec3) -> DVec3 {
         self.rotation * point + self.translation
     }
 
-    /// This placement as seen from the frame of another: `other⁻¹ ∘ self`.
+    /// Returns this placement as seen from the frame of another: `other⁻¹ ∘ self`.
     pub fn seen_from(&self, other: &Placement) -> Placement {
         let back = other.rotation.transpose();
         Placement {

@@ -1,4 +1,5 @@
-//! The rival that halves time until undirected bounds on both ends' distances prove each part free.
+//! The rival that halves time until undirected bounds on the distances at both ends prove each part
+//! free.
 
 use super::Course;
 use super::patience::Patience;
@@ -12,26 +13,26 @@ use rigid_ccd::table::motions::Query;
 #[cfg(test)]
 mod tests;
 
-/// Adaptive dynamic collision checking \[DCC02\], two rigid bodies at a time.
+/// Adaptive dynamic collision checking \[DCC02\] of two rigid bodies at a time.
 ///
-/// A segment of time is free when no point of one body travels as far, as seen from the other, as the
-/// bodies are apart at both of its ends together; else it is halved, the earlier half first, until it
-/// is so short that nothing in it travels farther than the tolerance. Distances are lower bounds from a
-/// greedy descent of both trees, which stops at pairs of nodes that are far enough apart.
+/// A segment of time is free if no point of one body, as seen from the other, travels as far as the
+/// sum of the distances at both ends. Otherwise it is halved, the earlier half first, until nothing
+/// in it travels farther than the tolerance. Distances are lower bounds from a greedy descent of
+/// both trees, which stops at pairs of nodes that are far enough apart.
 ///
 /// # Guarantee
-/// No contact is missed or late. At a time reported the bodies are within the tolerance.
+/// No contact is missed or late. At a reported time the bodies are within the tolerance.
 ///
 /// # Complexity
-/// Steps are segments looked at: in the worst case the path's length by the tolerance, wherever the
-/// bodies stay close.
+/// Steps are segments examined. In the worst case, where the bodies stay close, their number is the
+/// length of the path over the tolerance.
 ///
 /// # Choices
-/// The description asks whether a path is free; here it is asked when it is not, so that segments are
-/// taken in their order of time and not by which is likely to hit. Its greedy descent stops at any two
-/// nodes that do not overlap; here it goes on while nodes are many times larger than they are far apart,
-/// unless they are as far apart as the segments need, which takes fewer halvings and far less time. A
-/// body's longest path is that of a point as far from its centre of rotation as its farthest corner.
+/// The paper asks whether a path is free. Here the question is when it stops being free, so segments are
+/// taken in order of time and not by likelihood of a hit. The paper's greedy descent stops at any two
+/// nodes that do not overlap. Here it goes on while nodes are many times larger than their distance,
+/// unless that is enough for the segments, which takes fewer halvings and far less time. The longest
+/// path of a body is that of a point as far from its centre of rotation as its farthest corner.
 #[derive(Clone, Debug)]
 pub struct DynamicChecker {
     trees: Trees,
@@ -43,7 +44,7 @@ pub struct DynamicChecker {
     pairs: Vec<(Pair, f64)>,
 }
 
-/// How far a body's points are from its centre of rotation, for the last centre asked.
+/// The distances of a body's points from its centre of rotation, for the last centre asked.
 #[derive(Clone, Copy, Debug, Default)]
 struct Reach(Option<(DVec3, f64)>);
 
@@ -56,12 +57,12 @@ struct Segment {
     at_to: f64,
 }
 
-/// How closely a distance is wanted.
+/// The precision required of a distance.
 #[derive(Clone, Copy, Debug)]
 struct Wanted {
-    /// More than this is not needed.
+    /// A larger distance is not needed.
     enough: f64,
-    /// Of nodes' distance, how large nodes may be that are not looked into.
+    /// The largest size of nodes that are not opened, as a multiple of their distance.
     coarseness: f64,
 }
 
@@ -70,15 +71,15 @@ struct Wanted {
 enum LowerBound {
     Apart(f64),
     Meet,
-    /// For want of patience, or of numbers.
+    /// It ran out of patience, or numbers are not finite.
     GaveUp,
 }
 
-/// One query's motions, what they allow, and the work that is left.
+/// The motions of one query, their bounds, and the remaining work.
 struct Task {
     a: Course,
     b: Course,
-    /// No two points of the bodies move faster relative to each other.
+    /// A bound of the relative speed of any two points of the bodies.
     speed: f64,
     steps: u64,
     pairs_left: u64,
@@ -129,7 +130,8 @@ impl Solver for DynamicChecker {
 }
 
 impl DynamicChecker {
-    /// Halves the duration until all of it is free, or its earliest part that is not is short enough.
+    /// Halves the duration until all of it is free, or until the earliest part that is not free is
+    /// short enough.
     fn search(&mut self, duration: f64, task: &mut Task) -> Claim {
         let path = task.speed * duration;
         let at_from = match self.bound(0.0, Wanted::at_least(path), task) {
@@ -158,7 +160,7 @@ impl DynamicChecker {
         Claim::Free
     }
 
-    /// Drops a segment that is free and halves one that may not be; a claim where that has an end.
+    /// Drops a free segment, and halves one that may not be free. Returns a claim if the search ends.
     fn look_at(&mut self, segment: Segment, task: &mut Task) -> Option<Claim> {
         let Segment {
             from,
@@ -194,7 +196,7 @@ impl DynamicChecker {
                 distance
             }
             LowerBound::Meet => {
-                // They touch by then: what comes later is no first contact.
+                // They touch by then, so nothing later can be the first contact.
                 self.segments.clear();
                 0.0
             }
@@ -209,10 +211,10 @@ impl DynamicChecker {
         None
     }
 
-    /// The least distance of nodes at which a descent of both trees stops.
+    /// Returns the least distance of nodes at which a descent of both trees stops.
     fn bound(&mut self, time: f64, wanted: Wanted, task: &mut Task) -> LowerBound {
-        let place = task.b.at(time).seen_from(&task.a.at(time));
-        let Some(roots) = self.trees.roots(&place) else {
+        let placement = task.b.at(time).seen_from(&task.a.at(time));
+        let Some(roots) = self.trees.roots(&placement) else {
             return LowerBound::Apart(f64::INFINITY);
         };
         self.pairs.clear();
@@ -233,7 +235,7 @@ impl DynamicChecker {
             match self.trees.under(&pair) {
                 Under::Pairs(pairs) => self.push(pairs, least),
                 Under::Triangles(leaves) => {
-                    let apart = self.trees.nearest(leaves, &place).between().length();
+                    let apart = self.trees.nearest(leaves, &placement).between().length();
                     if apart.is_nan() {
                         return LowerBound::GaveUp;
                     }
@@ -247,7 +249,7 @@ impl DynamicChecker {
         LowerBound::Apart(least)
     }
 
-    /// Leaves the nearer one of two pairs on top, and pairs that cannot matter out.
+    /// Pushes two pairs, the nearer one on top, and leaves out pairs that cannot matter.
     fn push(&mut self, [first, second]: [Pair; 2], least: f64) {
         let (first, second) = (
             (first, self.trees.distance(&first)),
@@ -268,8 +270,9 @@ impl DynamicChecker {
 
 impl Wanted {
     fn at_least(enough: f64) -> Self {
-        /// What takes least time on the scenes. At 0 three times as much goes into distances better
-        /// than they need be; without bound, as published, up to twenty times as much into halvings.
+        /// The fastest value on the scenes. At 0, three times as much work goes into distances that
+        /// are better than needed. Without a bound, as published, up to twenty times as much work
+        /// goes into halvings.
         const COARSENESS: f64 = 16.0;
         Wanted {
             enough,
@@ -284,7 +287,7 @@ impl Wanted {
         }
     }
 
-    /// Whether nodes at a distance, of the sizes given, need not be looked into.
+    /// Returns true if nodes at a distance, of the given sizes, need not be opened.
     fn is_met(self, distance: f64, sizes: impl Fn() -> f64) -> bool {
         distance > 0.0 && (distance > self.enough || sizes() <= self.coarseness * distance)
     }

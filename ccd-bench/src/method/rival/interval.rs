@@ -1,6 +1,6 @@
 //! Intervals, as a middle and a radius, of numbers, vectors and matrices.
 //!
-//! Plain rounding: enclosures are those of exact arithmetic up to a few units in the last place.
+//! Rounding is plain: enclosures are those of exact arithmetic up to a few units in the last place.
 
 use ccd_core::glam::{DMat3, DVec3};
 use std::ops::{Add, Mul, Sub};
@@ -26,16 +26,16 @@ pub(super) struct IntervalMat {
     pub(super) radius: DMat3,
 }
 
-/// The cosine and the sine of all angles between −h and h.
+/// The ranges of cosine and sine over all angles between −h and h.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Arc {
     pub(super) cos: Interval,
-    /// About zero.
+    /// The radius of the range of the sine, which is centred at zero.
     pub(super) sin: f64,
 }
 
 impl Arc {
-    /// Both ranges, exactly.
+    /// Returns both ranges, exactly.
     #[inline]
     pub(super) fn new(half_angle: f64) -> Self {
         use std::f64::consts::{FRAC_PI_2, PI};
@@ -62,7 +62,7 @@ impl Interval {
         self.middle + self.radius
     }
 
-    /// Whether no number in it is zero; not so if it is NaN.
+    /// Returns true if no number in the interval is zero; false for NaN.
     #[inline]
     pub(super) fn excludes_zero(self) -> bool {
         self.middle.abs() > self.radius
@@ -94,7 +94,7 @@ impl Sub for Interval {
 }
 
 impl IntervalVec {
-    /// The dot product with a vector.
+    /// Returns the dot product with a vector.
     #[inline]
     pub(super) fn dot_point(self, other: DVec3) -> Interval {
         Interval {
@@ -103,7 +103,7 @@ impl IntervalVec {
         }
     }
 
-    /// The dot product.
+    /// Returns the dot product.
     #[inline]
     pub(super) fn dot(self, other: IntervalVec) -> Interval {
         Interval {
@@ -113,7 +113,7 @@ impl IntervalVec {
         }
     }
 
-    /// The cross product with a vector.
+    /// Returns the cross product with a vector.
     #[inline]
     pub(super) fn cross_point(self, other: DVec3) -> IntervalVec {
         IntervalVec {
@@ -122,7 +122,7 @@ impl IntervalVec {
         }
     }
 
-    /// The cross product.
+    /// Returns the cross product.
     #[inline]
     pub(super) fn cross(self, other: IntervalVec) -> IntervalVec {
         IntervalVec {
@@ -132,7 +132,7 @@ impl IntervalVec {
         }
     }
 
-    /// The difference from a vector.
+    /// Returns the difference from a vector.
     #[inline]
     pub(super) fn minus_point(self, other: DVec3) -> IntervalVec {
         IntervalVec {
@@ -141,20 +141,20 @@ impl IntervalVec {
         }
     }
 
-    /// The largest absolute values of the coordinates.
+    /// Returns the largest absolute values of the coordinates.
     #[inline]
     pub(super) fn largest(self) -> DVec3 {
         self.middle.abs() + self.radius
     }
 
-    /// The smallest absolute values of the coordinates, negative where zero lies well inside.
+    /// Returns the smallest absolute values of the coordinates, negative where zero is well inside.
     #[inline]
     pub(super) fn smallest(self) -> DVec3 {
         self.middle.abs() - self.radius
     }
 }
 
-/// A cross product with plus in place of minus: how radii add up in one.
+/// Returns a cross product with plus instead of minus, by which the radii of a cross product add up.
 #[inline]
 pub(super) fn cross_sum(a: DVec3, b: DVec3) -> DVec3 {
     DVec3::new(
@@ -236,7 +236,7 @@ impl Add for IntervalMat {
 }
 
 impl IntervalMat {
-    /// All transposes.
+    /// Returns the transpose.
     pub(super) fn transpose(self) -> IntervalMat {
         IntervalMat {
             middle: self.middle.transpose(),

@@ -1,13 +1,13 @@
-//! Four vectors at a time, and the shortest of many.
+//! Arithmetic on four vectors at a time, and the shortest of many vectors.
 
 use ccd_core::glam::DVec3;
 use wide::f64x4;
 
-/// Four vectors, by coordinates.
+/// Four vectors, stored by coordinates.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Vectors(pub(super) [f64x4; 3]);
 
-/// Of vectors that come four at a time, the shortest of each lane.
+/// The shortest vector of each lane, among vectors that come four at a time.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Shortest {
     squared: f64x4,
@@ -15,7 +15,7 @@ pub(super) struct Shortest {
 }
 
 impl Vectors {
-    /// Four vectors; the last one may repeat another.
+    /// Packs four vectors; the last one may repeat another.
     #[inline(always)]
     pub(super) fn new([a, b, c, d]: [DVec3; 4]) -> Self {
         Vectors([
@@ -25,19 +25,19 @@ impl Vectors {
         ])
     }
 
-    /// The same vector four times.
+    /// Returns the same vector four times.
     #[inline(always)]
     pub(super) fn splat(v: DVec3) -> Self {
         Vectors([f64x4::splat(v.x), f64x4::splat(v.y), f64x4::splat(v.z)])
     }
 
-    /// `self + factors · direction`.
+    /// Returns `self + factors · direction`.
     #[inline(always)]
     pub(super) fn plus(self, factors: f64x4, direction: DVec3) -> Self {
         self.plus_each(factors, Vectors::splat(direction))
     }
 
-    /// `self + factors · directions`, lane by lane.
+    /// Returns `self + factors · directions`, lane by lane.
     #[inline(always)]
     pub(super) fn plus_each(self, factors: f64x4, Vectors(d): Vectors) -> Self {
         let Vectors([x, y, z]) = self;
@@ -48,27 +48,27 @@ impl Vectors {
         ])
     }
 
-    /// `self − other`, lane by lane.
+    /// Returns `self − other`, lane by lane.
     #[inline(always)]
     pub(super) fn minus(self, Vectors(o): Vectors) -> Self {
         let Vectors([x, y, z]) = self;
         Vectors([x - o[0], y - o[1], z - o[2]])
     }
 
-    /// Inner products with one vector.
+    /// Returns the inner products with one vector.
     #[inline(always)]
     pub(super) fn dot(self, v: DVec3) -> f64x4 {
         self.dot_each(Vectors::splat(v))
     }
 
-    /// Inner products, lane by lane.
+    /// Returns the inner products, lane by lane.
     #[inline(always)]
     pub(super) fn dot_each(self, Vectors(o): Vectors) -> f64x4 {
         let Vectors([x, y, z]) = self;
         x.mul_add(o[0], y.mul_add(o[1], z * o[2]))
     }
 
-    /// Cross products, lane by lane.
+    /// Returns the cross products, lane by lane.
     #[inline(always)]
     pub(super) fn cross_each(self, Vectors(o): Vectors) -> Self {
         let Vectors([x, y, z]) = self;
@@ -79,7 +79,7 @@ impl Vectors {
         ])
     }
 
-    /// One of the four.
+    /// Returns one of the four vectors.
     pub(super) fn lane(self, k: usize) -> DVec3 {
         let Vectors(v) = self;
         DVec3::from_array(v.map(|lanes| lanes.to_array()[k]))
@@ -87,7 +87,7 @@ impl Vectors {
 }
 
 impl Shortest {
-    /// Of no vectors.
+    /// Returns the minimum of no vectors.
     #[inline(always)]
     pub(super) fn of_none() -> Self {
         Shortest {
@@ -96,7 +96,7 @@ impl Shortest {
         }
     }
 
-    /// With four more; NaN is never shorter.
+    /// Adds four more vectors; NaN is never shorter.
     #[inline(always)]
     pub(super) fn and(self, more: Vectors) -> Self {
         let squared = more.dot_each(more);
@@ -108,7 +108,7 @@ impl Shortest {
         }
     }
 
-    /// The shortest of all, its squared length first.
+    /// Returns the shortest of all vectors, its squared length first.
     #[inline(always)]
     pub(super) fn of_all(self) -> (f64, DVec3) {
         let (lane, squared) = least(self.squared);
@@ -116,7 +116,7 @@ impl Shortest {
     }
 }
 
-/// The least of four numbers and its lane.
+/// Returns the least of four numbers and its lane.
 #[inline(always)]
 pub(super) fn least(numbers: f64x4) -> (usize, f64) {
     let n = numbers.to_array();

@@ -11,30 +11,30 @@ use super::principal_axes::principal_axes;
 use ccd_core::glam::{DMat3, DVec3};
 use ccd_decomp::TriangleMesh;
 
-/// A binary tree of boxes, each fitted to the spread of its triangles' corners \[OBBTREE96 §4\] and split
-/// at their mean.
+/// A binary tree of boxes. Each box is fitted to the spread of its triangles' corners \[OBBTREE96
+/// §4\] and split at their mean.
 ///
-/// Corners and boxes are given relative to [`ObbTree::origin`], the middle of the root's box, so that what
-/// turns about it moves little.
+/// Corners and boxes are relative to [`ObbTree::origin`], the middle of the root's box, so that
+/// rotation about it moves them little.
 #[derive(Clone, Debug)]
 pub(super) struct ObbTree {
-    /// In the mesh's frame.
+    /// The origin in the mesh's frame.
     pub(super) origin: DVec3,
-    /// How far from it corners are, at most.
+    /// The largest distance of a corner from the origin.
     radius: f64,
-    /// The root comes first.
+    /// The nodes; the root comes first.
     nodes: Vec<Node>,
     triangles: Vec<[DVec3; 3]>,
 }
 
-/// A box, and what is in it.
+/// A box and its content.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Node {
     pub(super) bounds: Obb,
     pub(super) content: Content,
 }
 
-/// What a box holds.
+/// The content of a box.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Content {
     /// Two nodes.
@@ -46,14 +46,14 @@ pub(super) enum Content {
 /// A box in any orientation.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Obb {
-    /// Its axes as columns, the longest first as long as the box is fitted well.
+    /// The axes as columns. The longest is first if the box is fitted well.
     pub(super) axes: DMat3,
     pub(super) centre: DVec3,
     pub(super) half: DVec3,
 }
 
 impl ObbTree {
-    /// Fits a tree to a mesh; a leaf per triangle.
+    /// Builds the tree of a mesh, with one leaf per triangle.
     pub(super) fn new(mesh: &TriangleMesh) -> Self {
         let corners = |face: &[u32; 3]| face.map(|v| mesh.vertices()[v as usize]);
         let mut triangles: Vec<[DVec3; 3]> = mesh.faces().iter().map(corners).collect();
@@ -72,19 +72,19 @@ impl ObbTree {
         tree
     }
 
-    /// The node of a number.
+    /// Returns the node with this index.
     #[inline]
     pub(super) fn node(&self, index: u32) -> &Node {
         &self.nodes[index as usize]
     }
 
-    /// The corners of the triangle of a number.
+    /// Returns the corners of the triangle with this index.
     #[inline]
     pub(super) fn triangle(&self, index: u32) -> &[DVec3; 3] {
         &self.triangles[index as usize]
     }
 
-    /// How far a point of the mesh is from a point of its frame, at most.
+    /// Returns an upper bound of the distance of the mesh's points from a point in its frame.
     pub(super) fn reach(&self, from: DVec3) -> f64 {
         self.origin.distance(from) + self.radius
     }
@@ -125,7 +125,7 @@ impl Node {
 }
 
 impl Obb {
-    /// The mean of the corners, and the box about them along their principal axes.
+    /// Returns the mean of the corners, and the box around them along their principal axes.
     fn around(triangles: &[[DVec3; 3]]) -> (DVec3, Self) {
         let points = triangles.iter().flatten().copied();
         let (mean, axes) = principal_axes(points.clone());
@@ -144,8 +144,9 @@ impl Obb {
     }
 }
 
-/// Orders triangles by the side of the mean on which their middles lie along the longest axis, or the next
-/// one where they all lie on one side, and by halves where nothing splits them; tells how many come first.
+/// Partitions triangles by the side of the mean on which their middles lie along the longest axis,
+/// or along the next axis if all lie on one side, or by halves if no axis splits them. Returns the
+/// number of triangles in the first part.
 fn split(triangles: &mut [[DVec3; 3]], mean: DVec3, axes: DMat3) -> usize {
     for axis in [axes.x_axis, axes.y_axis, axes.z_axis] {
         let before = |t: &[DVec3; 3]| (t[0] + t[1] + t[2] - 3.0 * mean).dot(axis) < 0.0;

@@ -1,16 +1,16 @@
-//! How long a rival goes on.
+//! A limit of a rival's work.
 
-/// What a query may cost before it is given up.
+/// The largest work for one query before it is given up.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Patience {
-    /// Steps in time.
+    /// The number of steps in time.
     pub(super) steps: u64,
-    /// Pairs of nodes whose distance is measured.
+    /// The number of pairs of nodes whose distance is measured.
     pub(super) pairs: u64,
 }
 
 impl Default for Patience {
-    /// Some ten seconds, thousands of times what a query takes.
+    /// About ten seconds, thousands of times the cost of a usual query.
     fn default() -> Self {
         Patience {
             steps: 1_000_000,

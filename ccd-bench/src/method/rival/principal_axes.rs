@@ -1,11 +1,11 @@
-//! Axes that a set of triangles is thinnest and longest along.
+//! The axes along which a set of triangles is thinnest and longest.
 
 use ccd_core::glam::{DMat3, DVec3};
 use ccd_core::order::greater;
 use nalgebra::{Matrix3, SymmetricEigen};
 
-/// The mean of points and the principal axes of their spread as columns, the longest first, right-handed
-/// \[OBBTREE96 §4\].
+/// Returns the mean of points and the principal axes of their spread as columns, the longest first,
+/// right-handed \[OBBTREE96 §4\].
 pub(super) fn principal_axes(points: impl Iterator<Item = DVec3> + Clone) -> (DVec3, DMat3) {
     let (sum, count) = points
         .clone()

@@ -8,23 +8,23 @@ use wide::f64x4;
 #[cfg(test)]
 mod tests;
 
-/// The shortest vector from rectangle A to rectangle B in the frame of A; zero where they meet.
+/// Returns the shortest vector from rectangle A to rectangle B in the frame of A; zero if they meet.
 ///
-/// A rectangle spans its frame's x and y axes from the origin to the lengths given, either of which
-/// may be zero; `place` is the frame of B seen from that of A.
+/// A rectangle spans the x and y axes of its frame, from the origin to the given lengths, either of
+/// which may be zero. `placement` is the frame of B as seen from that of A.
 ///
 /// # Guarantee
-/// Exact but for rounding; zero where coordinates are not finite.
+/// Exact except for rounding; zero if coordinates are not finite.
 ///
 /// # Complexity
-/// Constant: the least of the 16 pairs of edges and the 8 pairs of a corner and a face \[PQP99 §4\],
-/// four at a time. PQP asks pair by pair whether it is the nearest, and stops there; with four at a
-/// time it is faster to look at all.
-pub(super) fn between(a: DVec2, b: DVec2, place: &Placement) -> DVec3 {
-    let corners_b = corners(b, place);
+/// Constant: the least of the 16 pairs of edges and the 8 pairs of a corner and a face \[PQP99
+/// §4\], four at a time. PQP tests pair by pair whether it is the nearest and stops there. Four at
+/// a time, it is faster to compute all.
+pub(super) fn between(a: DVec2, b: DVec2, placement: &Placement) -> DVec3 {
+    let corners_b = corners(b, placement);
     let back = Placement {
-        rotation: place.rotation.transpose(),
-        translation: -place.rotation.transpose_mul_vec3(place.translation),
+        rotation: placement.rotation.transpose(),
+        translation: -placement.rotation.transpose_mul_vec3(placement.translation),
     };
     let corners_a = corners(a, &back);
     if straddle(corners_a)
@@ -34,30 +34,30 @@ pub(super) fn between(a: DVec2, b: DVec2, place: &Placement) -> DVec3 {
         return DVec3::ZERO;
     }
     let mut shortest = Shortest::of_none().and(off_face(corners_b, a));
-    shortest = edges_apart::<0, 0>(shortest, a, b, place);
-    shortest = edges_apart::<0, 1>(shortest, a, b, place);
-    shortest = edges_apart::<1, 0>(shortest, a, b, place);
-    shortest = edges_apart::<1, 1>(shortest, a, b, place);
+    shortest = edges_apart::<0, 0>(shortest, a, b, placement);
+    shortest = edges_apart::<0, 1>(shortest, a, b, placement);
+    shortest = edges_apart::<1, 0>(shortest, a, b, placement);
+    shortest = edges_apart::<1, 1>(shortest, a, b, placement);
     let (squared, to_b) = shortest.of_all();
     let (squared_off_b, off_b) = Shortest::of_none().and(off_face(corners_a, b)).of_all();
     if squared_off_b < squared {
-        -(place.rotation * off_b)
+        -(placement.rotation * off_b)
     } else {
         to_b
     }
 }
 
-/// The corners of a rectangle, in turn.
+/// Returns the corners of a rectangle, in turn.
 #[inline(always)]
-fn corners(lengths: DVec2, place: &Placement) -> Vectors {
+fn corners(lengths: DVec2, placement: &Placement) -> Vectors {
     let x = f64x4::new([0.0, lengths.x, lengths.x, 0.0]);
     let y = f64x4::new([0.0, 0.0, lengths.y, lengths.y]);
-    Vectors::splat(place.translation)
-        .plus(x, place.rotation.x_axis)
-        .plus(y, place.rotation.y_axis)
+    Vectors::splat(placement.translation)
+        .plus(x, placement.rotation.x_axis)
+        .plus(y, placement.rotation.y_axis)
 }
 
-/// From the nearest point of a rectangle in its own frame to each point.
+/// Returns the vectors from the nearest points of a rectangle, in its own frame, to the given points.
 #[inline(always)]
 fn off_face(Vectors([x, y, z]): Vectors, face: DVec2) -> Vectors {
     let zero = f64x4::splat(0.0);
@@ -68,25 +68,25 @@ fn off_face(Vectors([x, y, z]): Vectors, face: DVec2) -> Vectors {
     ])
 }
 
-/// With the four pairs of edges of A along axis `I` and of B along axis `J`.
+/// Computes the vectors between the four pairs of edges of A along axis `I` and of B along axis `J`.
 #[inline(always)]
 fn edges_apart<const I: usize, const J: usize>(
     shortest: Shortest,
     a: DVec2,
     b: DVec2,
-    place: &Placement,
+    placement: &Placement,
 ) -> Shortest {
     let zero = f64x4::splat(0.0);
-    let (axes_a, axes_b) = ([DVec3::X, DVec3::Y], &place.rotation);
+    let (axes_a, axes_b) = ([DVec3::X, DVec3::Y], &placement.rotation);
     let (along, aside) = (axes_b.col(J), axes_b.col(1 - J));
     let aside_a = f64x4::new([0.0, a[1 - I], 0.0, a[1 - I]]);
     let aside_b = f64x4::new([0.0, 0.0, b[1 - J], b[1 - J]]);
-    // From the start of A's edge to that of B's; s and t are how far along them the points are.
-    let mut apart = Vectors::splat(place.translation).plus(aside_b, aside);
+    // From the start of A's edge to that of B's; s and t are the positions of the points along them.
+    let mut apart = Vectors::splat(placement.translation).plus(aside_b, aside);
     apart.0[1 - I] -= aside_a;
     let (ahead_a, ahead_b) = (apart.0[I], apart.dot(along));
     let cosine = f64x4::splat(along.dot(axes_a[I]));
-    // Through the sine, not 1 − cos²: edges a hundred millionth of a radian apart still cross somewhere.
+    // By the sine, not by 1 − cos²: edges a hundred millionth of a radian apart still cross somewhere.
     let sine = axes_a[I].cross(along);
     let sine_squared = sine.length_squared();
     let square_to_b = if sine_squared > 0.0 {
@@ -103,14 +103,14 @@ fn edges_apart<const I: usize, const J: usize>(
     shortest.and(vectors)
 }
 
-/// Whether points are on both sides of the plane z = 0.
+/// Returns true if there are points on both sides of the plane z = 0.
 #[inline(always)]
 fn straddle(Vectors([_, _, z]): Vectors) -> bool {
     let zero = f64x4::splat(0.0);
     z.simd_lt(zero).any() && z.simd_gt(zero).any()
 }
 
-/// Whether an edge between corners in turn runs through a rectangle in its own frame.
+/// Returns true if an edge between successive corners runs through a rectangle in its own frame.
 fn edges_pierce(Vectors([x, y, z]): Vectors, face: DVec2) -> bool {
     let next = |v: f64x4| {
         let [a, b, c, d] = v.to_array();

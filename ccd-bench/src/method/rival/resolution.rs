@@ -1,12 +1,13 @@
-//! How long bodies take to move by a tolerance.
+//! The time in which bodies move by a tolerance.
 
 use super::Course;
 use super::obb_tree::ObbTree;
 
-/// A time in which no point of one body moves by more than the tolerance as seen from any of the other:
-/// the tolerance over the relative speed of the centres and both bodies' turning at their farthest points.
+/// Returns a time in which no point of one body moves by more than the tolerance as seen from the
+/// other. It is the tolerance over the relative speed of the centres plus the speeds of rotation of
+/// both bodies at their farthest points.
 ///
-/// Infinite for bodies at rest.
+/// The result is infinite for bodies at rest.
 pub(super) fn resolution(courses: &[Course; 2], trees: &[ObbTree; 2], tolerance: f64) -> f64 {
     let straight = (courses[0].velocity - courses[1].velocity).length();
     let turning = |k: usize| courses[k].rate * trees[k].reach(courses[k].centre);

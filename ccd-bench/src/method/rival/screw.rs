@@ -4,20 +4,22 @@ use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{InputError, Motion};
 use rigid_ccd::table::motions::Query;
 
-/// How far a turn has to be from a multiple of 2π for its screw axis to be placed, as |sin(turn / 2)|.
+/// The least |sin(turn / 2)| for which the screw axis is computed, since turns near a multiple of
+/// 2π have no stable axis.
 ///
-/// The axis lies up to travel / (2 · this) away, and what rounding does to a unit of it, 2⁻⁵³, is what the
-/// end pose is off by: at 2⁻¹² about 3e-13 of the travel.
+/// The axis lies up to travel / (2 · this) away, and rounding moves the end pose by 2⁻⁵³ of that:
+/// at 2⁻¹² about 3e-13 of the travel.
 const LEAST_HALF_SINE: f64 = 1.0 / 4096.0;
 
-/// The query with every motion replaced by the screw from its start to its end pose \[CONTACT02\].
+/// Returns the query with every motion replaced by the screw from its start pose to its end pose
+/// \[CONTACT02\].
 ///
-/// The turn is the same, whole turns included; the centre moves to the screw axis and its velocity along
-/// it. A motion without turn stays as it is, as does one whose turn is too near to a multiple of 2π for
-/// the axis to be placed.
+/// The turn is the same, whole turns included. The centre moves to the screw axis, and its velocity
+/// is along the axis. A motion without turn is unchanged, and so is one whose turn is too near to a
+/// multiple of 2π for the axis to be computed.
 ///
 /// # Errors
-/// When a screw's parameters overflow.
+/// If a screw's parameters overflow.
 pub fn screw(query: &Query) -> Result<Query, InputError> {
     Ok(Query {
         id: query.id.clone(),
@@ -37,8 +39,8 @@ fn screw_motion(motion: &Motion, duration: f64) -> Result<Motion, InputError> {
     }
     let along = motion.velocity().dot(axis) * axis;
     let across = (motion.velocity() - along) * duration;
-    // The turn by 2h about the axis at `offset` from the centre moves the centre by `across`:
-    // the centre, its image and the axis are an isosceles triangle with the angle 2h at the axis.
+    // The turn by 2h about the axis at `offset` from the centre moves the centre by `across`: the
+    // centre, its image and the axis are an isosceles triangle with the angle 2h at the axis.
     let offset = 0.5 * (across + axis.cross(across) * (half_turn.cos() / half_turn.sin()));
     let centre = motion.centre() + into_body(motion.start().rotation(), offset);
     Motion::about(motion.start(), along, motion.spin(), centre)

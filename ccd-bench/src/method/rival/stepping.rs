@@ -1,4 +1,4 @@
-//! A static test at every step, what is done without any continuous method.
+//! A static test at every step, the usual practice without a continuous method.
 
 use super::Course;
 use super::obb_tree::{Crossing, ObbTree, crossing};
@@ -7,15 +7,15 @@ use crate::method::solver::{Adjustable, Claim, Reply, Solver};
 use ccd_decomp::TriangleMesh;
 use rigid_ccd::table::motions::Query;
 
-/// Samples of one query, at most: some seconds' worth.
+/// The largest number of samples of one query, some seconds' worth.
 const MAX_SAMPLES: u64 = 1 << 20;
 
 /// Tests two triangle meshes for intersection at equal steps in time.
 ///
 /// # Guarantee
-/// None. The steps are so short that no point moves by more than the tolerance from one to the next; a
-/// contact is reported up to a step late, and one that begins and ends between two steps is missed. More
-/// than 2²⁰ steps are not made; what is left is unresolved.
+/// None. The steps are so short that no point moves by more than the tolerance from one to the
+/// next. A contact is reported up to a step late, and one that begins and ends between two steps is
+/// missed. After 2²⁰ steps the rest is unresolved.
 ///
 /// # Source
 /// Boxes and their tests: \[OBBTREE96\].
@@ -27,7 +27,7 @@ pub struct Stepping {
 }
 
 impl Stepping {
-    /// For two meshes; the tolerance is a length.
+    /// Builds both trees; the tolerance is a length.
     pub fn new(a: &TriangleMesh, b: &TriangleMesh, tolerance: f64) -> Self {
         Stepping {
             trees: [a, b].map(ObbTree::new),
@@ -54,7 +54,7 @@ impl Solver for Stepping {
     fn answer(&mut self, query: &Query) -> Reply {
         let courses = [Course::new(&query.a), Course::new(&query.b)];
         let step = resolution(&courses, &self.trees, self.tolerance);
-        // Bodies at rest are looked at twice; the cast saturates, and takes NaN for none.
+        // Bodies at rest are tested twice. The cast saturates, and turns NaN into zero.
         let steps = ((query.duration / step).ceil() as u64).max(1);
         let mut before = 0.0;
         for k in 0..=steps.min(MAX_SAMPLES - 1) {

@@ -11,15 +11,15 @@ mod fit;
 #[cfg(test)]
 mod tests;
 
-/// A tree over all triangles of a mesh, one to a leaf \[PQP99 §3\].
+/// A tree over all triangles of a mesh, one per leaf \[PQP99 §3\].
 ///
-/// A node splits at the mean of its triangles' centres along its longest axis; as its authors leave
-/// open what becomes of a lopsided split, that is made one of two halves, so that no tree is deep.
+/// A node splits at the mean of its triangles' centres along its longest axis. The authors leave
+/// the case of a lopsided split open. Here it becomes a split into halves, so that no tree is deep.
 #[derive(Clone, Debug)]
 pub(super) struct SphereTree {
-    /// The root first, two children side by side.
+    /// The nodes: the root first, two children side by side.
     nodes: Vec<Node>,
-    /// Where their rectangles are in the body.
+    /// The frames of their rectangles in the body.
     frames: Vec<Placement>,
     triangles: Vec<Triangle>,
 }
@@ -28,8 +28,8 @@ pub(super) struct SphereTree {
 #[derive(Clone, Copy, Debug)]
 struct Node {
     /// The rectangle's frame, as seen from its parent's.
-    place: Placement,
-    /// The rectangle's, along x and y.
+    placement: Placement,
+    /// The lengths of the rectangle along x and y.
     lengths: DVec2,
     radius: f64,
     below: Below,
@@ -37,12 +37,12 @@ struct Node {
 
 #[derive(Clone, Copy, Debug)]
 enum Below {
-    /// This node and the next one.
+    /// The children are this node and the next one.
     Children(u32),
     Triangle(u32),
 }
 
-/// Two trees that are looked at together.
+/// Two trees that are descended together.
 #[derive(Clone, Debug)]
 pub(super) struct Trees {
     pub(super) a: SphereTree,
@@ -55,10 +55,10 @@ pub(super) struct Pair {
     pub(super) a: u32,
     pub(super) b: u32,
     /// B's rectangle as seen from A's.
-    place: Placement,
+    placement: Placement,
 }
 
-/// What is below a pair of nodes.
+/// The content of a pair of nodes.
 pub(super) enum Under {
     /// The children of one of them, each with the other node.
     Pairs([Pair; 2]),
@@ -73,12 +73,12 @@ pub(super) struct Leaves {
     b: u32,
 }
 
-/// How far two nodes are apart, at least.
+/// A lower bound of the distance of two nodes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Gap {
-    /// Zero where they overlap.
+    /// The distance, zero if they overlap.
     pub(super) distance: f64,
-    /// From A towards B in the frame of body A, a unit vector; zero where their rectangles meet.
+    /// The unit vector from A towards B in the frame of body A; zero if their rectangles meet.
     pub(super) direction: DVec3,
 }
 
@@ -89,9 +89,9 @@ impl SphereTree {
         fit::tree(mesh.faces().iter().map(triangle).collect())
     }
 
-    /// How far points of a node are from an axis in the body, at most.
+    /// Returns an upper bound of the distance of a node's points from an axis in the body.
     ///
-    /// The farthest corner of the rectangle and the radius \[C2A09 §4\].
+    /// It is attained at the farthest corner of the rectangle, plus the radius \[C2A09 §4\].
     pub(super) fn lever(&self, node: u32, centre: DVec3, axis: DVec3) -> f64 {
         let (node, frame) = (&self.nodes[node as usize], &self.frames[node as usize]);
         let corner = (frame.translation - centre).cross(axis);
@@ -104,55 +104,55 @@ impl SphereTree {
         farthest.sqrt() + node.radius
     }
 
-    /// How many nodes there are.
+    /// Returns the number of nodes.
     pub(super) fn len(&self) -> usize {
         self.nodes.len()
     }
 
-    /// All triangles' corners.
+    /// Returns the corners of all triangles.
     pub(super) fn points(&self) -> impl Iterator<Item = DVec3> + '_ {
         self.triangles.iter().flatten().copied()
     }
 }
 
 impl Node {
-    /// No two of its points are farther apart.
+    /// Returns an upper bound of the diameter.
     fn size(&self) -> f64 {
         self.lengths.length() + 2.0 * self.radius
     }
 }
 
 impl Trees {
-    /// Both roots, body B placed as seen from body A; none where a mesh has no triangles.
-    pub(super) fn roots(&self, place: &Placement) -> Option<Pair> {
+    /// Returns both roots, body B placed as seen from body A, or `None` if a mesh has no triangles.
+    pub(super) fn roots(&self, placement: &Placement) -> Option<Pair> {
         let (a, b) = (self.a.frames.first()?, self.b.frames.first()?);
         Some(Pair {
             a: 0,
             b: 0,
-            place: after(place, b).seen_from(a),
+            placement: after(placement, b).seen_from(a),
         })
     }
 
-    /// How far they are apart.
+    /// Returns their distance.
     #[inline]
     pub(super) fn distance(&self, pair: &Pair) -> f64 {
         let (a, b) = (
             &self.a.nodes[pair.a as usize],
             &self.b.nodes[pair.b as usize],
         );
-        let between = rectangles::between(a.lengths, b.lengths, &pair.place);
-        // NaN as zero.
+        let between = rectangles::between(a.lengths, b.lengths, &pair.placement);
+        // NaN becomes zero.
         greater(0.0, between.length() - (a.radius + b.radius))
     }
 
-    /// How far they are apart, and along which direction.
+    /// Returns their distance and its direction.
     #[inline]
     pub(super) fn gap(&self, pair: &Pair) -> Gap {
         let (a, b) = (
             &self.a.nodes[pair.a as usize],
             &self.b.nodes[pair.b as usize],
         );
-        let between = rectangles::between(a.lengths, b.lengths, &pair.place);
+        let between = rectangles::between(a.lengths, b.lengths, &pair.placement);
         let length = between.length();
         let distance = greater(0.0, length - (a.radius + b.radius));
         if !(distance > 0.0) {
@@ -167,19 +167,20 @@ impl Trees {
         }
     }
 
-    /// By how much the distance of what is in the nodes may exceed that of the nodes.
+    /// Returns the largest excess of the distance of the nodes' contents over that of the nodes.
     pub(super) fn slack(&self, pair: &Pair) -> f64 {
         self.a.nodes[pair.a as usize].size() + self.b.nodes[pair.b as usize].size()
     }
 
-    /// The nearest points of two triangles in the frame of body A, body B placed as seen from there.
+    /// Returns the nearest points of two triangles in the frame of body A, body B placed as seen
+    /// from there.
     #[inline]
-    pub(super) fn nearest(&self, leaves: Leaves, place: &Placement) -> Nearest {
-        let moved = self.b.triangles[leaves.b as usize].map(|corner| place.apply(corner));
+    pub(super) fn nearest(&self, leaves: Leaves, placement: &Placement) -> Nearest {
+        let moved = self.b.triangles[leaves.b as usize].map(|corner| placement.apply(corner));
         nearest(&self.a.triangles[leaves.a as usize], &moved)
     }
 
-    /// The children of the larger node \[PQP99 §5\], or the triangles of two leaves.
+    /// Returns the children of the larger node \[PQP99 §5\], or the triangles of two leaves.
     #[inline]
     pub(super) fn under(&self, pair: &Pair) -> Under {
         let (a, b) = (
@@ -202,10 +203,14 @@ impl Trees {
 
     #[inline]
     fn split_a(&self, pair: &Pair, first: u32) -> Under {
-        Under::Pairs([first, first + 1].map(|a| Pair {
-            a,
-            b: pair.b,
-            place: pair.place.seen_from(&self.a.nodes[a as usize].place),
+        Under::Pairs([first, first + 1].map(|a| {
+            Pair {
+                a,
+                b: pair.b,
+                placement: pair
+                    .placement
+                    .seen_from(&self.a.nodes[a as usize].placement),
+            }
         }))
     }
 
@@ -214,12 +219,12 @@ impl Trees {
         Under::Pairs([first, first + 1].map(|b| Pair {
             a: pair.a,
             b,
-            place: after(&pair.place, &self.b.nodes[b as usize].place),
+            placement: after(&pair.placement, &self.b.nodes[b as usize].placement),
         }))
     }
 }
 
-/// `outer ∘ inner`.
+/// Returns `outer ∘ inner`.
 #[inline]
 fn after(outer: &Placement, inner: &Placement) -> Placement {
     Placement {

@@ -1,4 +1,4 @@
-//! What the rivals' tests share.
+//! Helpers of the rivals' tests.
 
 pub(super) mod samples;
 pub(super) mod trials;

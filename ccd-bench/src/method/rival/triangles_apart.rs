@@ -11,34 +11,34 @@ mod tests;
 /// A triangle, by its corners.
 pub(super) type Triangle = [DVec3; 3];
 
-/// A pair of nearest points, the same point twice where the triangles meet.
+/// A pair of nearest points; the same point twice if the triangles meet.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Nearest {
-    /// On triangle A.
+    /// The point on triangle A.
     pub(super) on_a: DVec3,
-    /// On triangle B.
+    /// The point on triangle B.
     pub(super) on_b: DVec3,
 }
 
 impl Nearest {
-    /// From A to B.
+    /// Returns the vector from A to B.
     pub(super) fn between(&self) -> DVec3 {
         self.on_b - self.on_a
     }
 }
 
-/// Nearest points of two triangles in one frame.
+/// Returns nearest points of two triangles in one frame.
 ///
 /// # Guarantee
-/// Exact but for rounding; triangles without area are segments or points.
+/// Exact except for rounding; triangles without area are segments or points.
 ///
 /// # Complexity
 /// Constant: the nearest of the nine pairs of edges and the six pairs of a corner and a face
-/// \[PQP99 §4\], the pairs with the three features of one triangle at a time.
+/// \[PQP99 §4\], with the three features of one triangle at a time.
 pub(super) fn nearest(a: &Triangle, b: &Triangle) -> Nearest {
     let (face_a, face_b) = (Face::new(a), Face::new(b));
     let (over_a, over_b) = (face_a.heights(b), face_b.heights(a));
-    // Nothing is above or below a needle's plane, which has no normal.
+    // Nothing is above or below the plane of a needle, which has no normal.
     let cut = |face: &Face, heights| face.is_needle() || straddle(heights);
     if cut(&face_a, over_a) && cut(&face_b, over_b) {
         let meeting = pierced(&face_a, over_a, b).or_else(|| pierced(&face_b, over_b, a));
@@ -66,7 +66,7 @@ pub(super) fn nearest(a: &Triangle, b: &Triangle) -> Nearest {
     best
 }
 
-/// The nearest points of the edges and their squared distance.
+/// Returns the nearest points of the edges and their squared distance.
 #[inline(always)]
 fn edges_apart(a: &Triangle, b: &Triangle) -> (f64, Nearest) {
     let (from_b, along_b) = (lanes(b), lanes(&edges(b)));
@@ -77,12 +77,12 @@ fn edges_apart(a: &Triangle, b: &Triangle) -> (f64, Nearest) {
     let mut squared = f64x4::splat(f64::INFINITY);
     let [mut s_best, mut t_best, mut edge] = [zero; 3];
     for (i, along) in edges_a.into_iter().enumerate() {
-        // The points are at s of A's edge and at t of B's edges.
+        // The points are at s on A's edge and at t on B's edges.
         let apart = from_b.minus(Vectors::splat(a[i]));
         let long_a = f64x4::splat(along.length_squared());
         let both = along_b.dot(along);
         let (ahead_a, ahead_b) = (apart.dot(along), apart.dot_each(along_b));
-        // Through the sine, not 1 − cos²: edges that are all but parallel still cross somewhere.
+        // By the sine, not by 1 − cos²: edges that are nearly parallel still cross somewhere.
         let sine = Vectors::splat(along).cross_each(along_b);
         let sine_squared = sine.dot_each(sine);
         let s = apart.dot_each(along_b.cross_each(sine)) / sine_squared;
@@ -114,16 +114,16 @@ fn edges_apart(a: &Triangle, b: &Triangle) -> (f64, Nearest) {
     (squared, nearest)
 }
 
-/// Of a triangle's height to its longest edge: below, its edges stand for it, since its normal is
-/// little but rounding.
+/// A bound on the ratio of a triangle's height to its longest edge. Below it, the edges represent
+/// the triangle, since its normal is mostly rounding.
 const NEEDLE: f64 = 1e-12;
 
-/// A triangle as seen from points off it.
+/// A triangle with its normal, for distances of points from it.
 struct Face {
     corners: Triangle,
-    /// No unit vector; zero of a needle.
+    /// The normal, not of unit length; zero for a needle.
     normal: DVec3,
-    /// 1 / |normal|²; zero of a needle.
+    /// 1 / |normal|²; zero for a needle.
     scale: f64,
 }
 
@@ -150,7 +150,7 @@ impl Face {
         !(self.scale > 0.0)
     }
 
-    /// Of points above its plane, times |normal|; all zero of a needle.
+    /// Returns the heights of points above the plane, times |normal|; all zero for a needle.
     #[inline(always)]
     fn heights(&self, points: &Triangle) -> f64x4 {
         lanes(points)
@@ -158,7 +158,7 @@ impl Face {
             .dot(self.normal)
     }
 
-    /// Which points are above the triangle itself, as a mask.
+    /// Returns a mask of the points that are above the triangle itself.
     #[inline(always)]
     fn covers(&self, points: Vectors) -> f64x4 {
         let [u, v, w] = edges(&self.corners).map(|edge| self.normal.cross(edge));
@@ -173,7 +173,7 @@ impl Face {
         inside(a, u) & inside(b, v) & inside(c, w)
     }
 
-    /// Of points above it, the lowest: its squared height, its foot and which one it is.
+    /// Returns the lowest of the points above the triangle: its squared height, its foot and its index.
     #[inline(always)]
     fn least_height(&self, heights: f64x4, points: &Triangle) -> Option<(f64, DVec3, usize)> {
         if self.is_needle() {
@@ -189,7 +189,7 @@ impl Face {
     }
 }
 
-/// Where an edge of a triangle runs through a face, the heights of its corners above it given.
+/// Returns the point where an edge of a triangle runs through a face, from the heights of its corners.
 fn pierced(face: &Face, heights: f64x4, corners: &Triangle) -> Option<DVec3> {
     let [h, i, j, _] = heights.to_array();
     let next = f64x4::new([i, j, h, i]);
@@ -200,7 +200,7 @@ fn pierced(face: &Face, heights: f64x4, corners: &Triangle) -> Option<DVec3> {
     (hits != 0).then(|| points.lane(hits.trailing_zeros() as usize))
 }
 
-/// Whether heights are above and below zero.
+/// Returns true if there are heights above and below zero.
 #[inline(always)]
 fn straddle(heights: f64x4) -> bool {
     let zero = f64x4::splat(0.0);
@@ -212,13 +212,13 @@ fn edges([a, b, c]: &Triangle) -> Triangle {
     [*b - *a, *c - *b, *a - *c]
 }
 
-/// Three vectors, the first one twice.
+/// Packs three vectors, the first one twice.
 #[inline(always)]
 fn lanes([a, b, c]: &Triangle) -> Vectors {
     Vectors::new([*a, *b, *c, *a])
 }
 
-/// Zero of zero: a point on an edge without length is its start.
+/// Returns the reciprocal, and zero for zero: a point on an edge without length is its start.
 #[inline(always)]
 fn reciprocal(x: f64x4) -> f64x4 {
     let zero = f64x4::splat(0.0);

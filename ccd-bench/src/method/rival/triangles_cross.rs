@@ -1,15 +1,15 @@
-//! Whether two triangles have a point in common.
+//! Tests whether two triangles have a point in common.
 
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 
-/// Whether two triangles touch or cross, by the axes that separate two that do not: the normals, the cross
-/// products of edges, and, for triangles in one plane, the edges' normals in it.
+/// Returns true if two triangles touch or cross. It searches for an axis that separates them: the
+/// normals, the cross products of edges, and, for triangles in one plane, the edges' normals in it.
 ///
-/// Plain arithmetic: what is closer than rounding may be told either way. Degenerate triangles are the
-/// segments or points that they look like.
+/// The arithmetic is plain: triangles closer than rounding may go either way. Degenerate triangles
+/// are treated as segments or points.
 pub(super) fn triangles_cross(a: &[DVec3; 3], b: &[DVec3; 3]) -> bool {
-    // From one corner, so that what lies far from the origin loses no digits.
+    // Relative to one corner, so that triangles far from the origin lose no digits.
     let a = a.map(|p| p - b[0]);
     let b = b.map(|p| p - b[0]);
     let [edges_a, edges_b] = [edges(&a), edges(&b)];
@@ -34,7 +34,7 @@ fn edges(t: &[DVec3; 3]) -> [DVec3; 3] {
     [t[1] - t[0], t[2] - t[1], t[0] - t[2]]
 }
 
-/// Whether all corners of one lie before all of the other along an axis.
+/// Returns true if all corners of one triangle lie before all of the other along an axis.
 #[inline]
 fn separates(axis: DVec3, a: &[DVec3; 3], b: &[DVec3; 3]) -> bool {
     let [a, b] = [a, b].map(|t| t.map(|p| p.dot(axis)));

@@ -1,4 +1,4 @@
-//! What has been measured so far, on disk, so that an interrupted evaluation goes on where it stopped.
+//! Keeps measurements on disk, so that an interrupted evaluation resumes where it stopped.
 
 use crate::run::measured::{Cell, Trial, write};
 use serde::Serialize;
@@ -7,7 +7,7 @@ use std::collections::{HashMap, HashSet};
 use std::fs::{self, OpenOptions};
 use std::path::{Path, PathBuf};
 
-/// `chart.csv` and `trials.csv` in a folder, grown by one cell at a time.
+/// The files `chart.csv` and `trials.csv` in a folder, to which one cell is added at a time.
 pub struct Journal {
     cells: Vec<Cell>,
     trials: Vec<Trial>,
@@ -15,7 +15,7 @@ pub struct Journal {
     folder: PathBuf,
 }
 
-/// Why a journal cannot be kept.
+/// A journal cannot be kept.
 #[derive(Debug, thiserror::Error)]
 #[error("{}: {source}", path.display())]
 pub struct JournalError {
@@ -23,20 +23,20 @@ pub struct JournalError {
     source: csv::Error,
 }
 
-/// Says what the figures of a folder were measured with.
+/// The file that describes the program and settings of the measurements in a folder.
 const STAMP: &str = "measured-with.txt";
 const CHART: &str = "chart.csv";
 const TRIALS: &str = "trials.csv";
 
-/// A cell's scene, method and tolerance.
+/// The scene, method and tolerance of a cell.
 type Key = (String, String, u64);
 
 impl Journal {
-    /// Opens the one in a folder, and keeps what it holds when that was measured with the same stamp;
-    /// else that is moved aside, with what else there is of these names.
+    /// Opens the journal in a folder. Keeps its content if it was measured with the same stamp, and
+    /// otherwise moves it aside together with the files named in `others`.
     ///
     /// # Errors
-    /// [`JournalError`] when the folder cannot be written to.
+    /// [`JournalError`] if the folder cannot be written to.
     pub fn open(folder: &Path, stamp: &str, others: &[&str]) -> Result<Self, JournalError> {
         fs::create_dir_all(folder).map_err(|e| failed(folder)(e.into()))?;
         let stamp_file = folder.join(STAMP);
@@ -55,11 +55,11 @@ impl Journal {
         Ok(journal)
     }
 
-    /// What a folder holds, whatever it was measured with.
+    /// Reads the journal of a folder, whatever it was measured with.
     pub fn read(folder: &Path) -> Self {
         let mut cells: Vec<Cell> = whole_rows(&folder.join(CHART));
         let mut trials: Vec<Trial> = whole_rows(&folder.join(TRIALS));
-        // Trials are written before their cell, and a cell stands for all of its trials.
+        // Trials are written before their cell, so a cell implies all of its trials.
         let mut counts: HashMap<Key, usize> = HashMap::new();
         for trial in &trials {
             *counts.entry(key_of(trial)).or_default() += 1;
@@ -75,7 +75,7 @@ impl Journal {
         }
     }
 
-    /// Whether a cell has been measured.
+    /// Returns true if a cell has been measured.
     pub fn has(&self, scene: &str, method: &str, tolerance: f64) -> bool {
         let key = (scene.to_owned(), method.to_owned(), tolerance.to_bits());
         self.done.contains(&key)
@@ -84,7 +84,7 @@ impl Journal {
     /// Adds a cell and its trials, on disk too.
     ///
     /// # Errors
-    /// When they cannot be written.
+    /// If they cannot be written.
     pub fn add(&mut self, cell: Cell, trials: Vec<Trial>) -> Result<(), JournalError> {
         let (trials_file, chart_file) = (self.folder.join(TRIALS), self.folder.join(CHART));
         append(&trials_file, &trials).map_err(failed(&trials_file))?;
@@ -95,10 +95,10 @@ impl Journal {
         Ok(())
     }
 
-    /// Forgets all of a method, on disk too.
+    /// Removes all measurements of a method, on disk too.
     ///
     /// # Errors
-    /// When the files cannot be written.
+    /// If the files cannot be written.
     pub fn forget(&mut self, method: &str) -> Result<(), JournalError> {
         self.cells.retain(|cell| cell.method != method);
         self.trials.retain(|trial| trial.method != method);
@@ -112,12 +112,12 @@ impl Journal {
         write(&chart_file, &self.cells).map_err(failed(&chart_file))
     }
 
-    /// All cells so far, in the order in which they were measured.
+    /// Returns all cells so far, in the order of measurement.
     pub fn cells(&self) -> &[Cell] {
         &self.cells
     }
 
-    /// All trials so far.
+    /// Returns all trials so far.
     pub fn trials(&self) -> &[Trial] {
         &self.trials
     }
@@ -133,7 +133,8 @@ fn key_of(trial: &Trial) -> Key {
     (trial.scene.clone(), trial.method.clone(), tolerance)
 }
 
-/// The rows of a table up to the first that is none: one that was being written when the power went.
+/// Reads the rows of a table up to the first invalid one, which an interruption may have left
+/// incomplete.
 fn whole_rows<T: DeserializeOwned>(path: &Path) -> Vec<T> {
     let Ok(reader) = csv::Reader::from_path(path) else {
         return Vec::new();

@@ -1,4 +1,4 @@
-//! Where an method sits while it is asked: in this process, or in one of its own that can be stopped.
+//! A method that is ready for queries about a scene.
 
 use super::MOST_PAIRS_FOR_NAIVE;
 use crate::method::peer::{Asked, Guarded};
@@ -10,25 +10,26 @@ use rigid_ccd::table::motions::Query;
 use std::io;
 use std::time::{Duration, Instant};
 
-/// An method that can be asked about one scene.
+/// A method that is ready for queries about one scene.
 pub struct Session<'s> {
     method: Method,
     tolerance: f64,
-    place: Place<'s>,
+    runner: Runner<'s>,
 }
 
-enum Place<'s> {
-    Here(Box<dyn Adjustable + 's>),
+/// The solver of a session: in this process, or in one of its own that can be stopped.
+enum Runner<'s> {
+    InProcess(Box<dyn Adjustable + 's>),
     Guarded(Box<Guarded>),
 }
 
-/// What came of a question.
+/// The outcome of a query.
 pub(super) enum Answered {
     InTime {
         reply: Reply,
         micros: f64,
     },
-    /// Stopped after that.
+    /// The peer was stopped after this time.
     CutOff {
         patience: Duration,
     },
@@ -36,69 +37,71 @@ pub(super) enum Answered {
 }
 
 impl<'s> Session<'s> {
-    /// None where the scene is none for this method.
-    pub(super) fn take(
+    /// Opens a session, or returns `None` if the method does not support the scene.
+    pub(super) fn open(
         method: Method,
         scene: &'s Scene,
         tolerance: f64,
     ) -> io::Result<Option<Self>> {
-        let place = match method {
+        let runner = match method {
             Method::Ours(kind, pieces) => {
                 let too_many = scene.pairs() > MOST_PAIRS_FOR_NAIVE;
                 let suits = kind.schedule != ScheduleKind::Naive || !too_many;
                 let Some(bodies) = scene.bodies_of(pieces).filter(|_| suits) else {
                     return Ok(None);
                 };
-                Place::Here(Box::new(Ours::new(kind, bodies, tolerance)))
+                Runner::InProcess(Box::new(Ours::new(kind, bodies, tolerance)))
             }
-            Method::Rival(kind) => Place::Here(kind.enter(scene, tolerance)),
+            Method::Rival(kind) => Runner::InProcess(kind.solver(scene, tolerance)),
             Method::Peer(kind) => {
                 let (a, b) = (scene.a.mesh(), scene.b.mesh());
-                Place::Guarded(Box::new(Guarded::start(kind, a, b, tolerance)?))
+                Runner::Guarded(Box::new(Guarded::start(kind, a, b, tolerance)?))
             }
         };
         Ok(Some(Session {
             method,
             tolerance,
-            place,
+            runner,
         }))
     }
 
-    /// Who sits here.
+    /// Returns the method.
     pub fn method(&self) -> Method {
         self.method
     }
 
-    /// With which tolerance it answers.
+    /// Returns the tolerance of the answers.
     pub fn tolerance(&self) -> f64 {
         self.tolerance
     }
 
-    /// Tells it another tolerance.
+    /// Sets the tolerance.
     ///
     /// # Errors
-    /// When a peer's process does not start again.
+    /// If a peer's process does not restart.
     pub fn set_tolerance(&mut self, tolerance: f64) -> io::Result<()> {
         self.tolerance = tolerance;
-        match &mut self.place {
-            Place::Here(solver) => {
+        match &mut self.runner {
+            Runner::InProcess(solver) => {
                 solver.set_tolerance(tolerance);
                 Ok(())
             }
-            Place::Guarded(guarded) => guarded.restart_with(tolerance),
+            Runner::Guarded(guarded) => guarded.restart_with(tolerance),
         }
     }
 
-    /// Lets a kind that prepares what it meets do so with some queries, for so long; says with how many
-    /// it has.
+    /// Lets a solver that prepares pieces on first use do so on some queries, for a limited time.
+    /// Returns the number of prepared queries.
     pub(super) fn rehearse<'q>(
         &mut self,
         queries: impl ExactSizeIterator<Item = &'q Query>,
         time: Duration,
     ) -> usize {
         let start = Instant::now();
-        match (&mut self.place, self.method) {
-            (Place::Here(solver), Method::Ours(kind, _)) if kind.schedule.uses_hull_trees() => {
+        match (&mut self.runner, self.method) {
+            (Runner::InProcess(solver), Method::Ours(kind, _))
+                if kind.schedule.uses_hull_trees() =>
+            {
                 let rehearsed = queries.take_while(|_| start.elapsed() < time);
                 rehearsed.map(|query| solver.answer(query)).count()
             }
@@ -109,14 +112,14 @@ impl<'s> Session<'s> {
     /// Asks one query.
     ///
     /// # Errors
-    /// When a peer's process does not start again.
+    /// If a peer's process does not restart.
     pub(super) fn ask(&mut self, query: &Query, patience: Duration) -> io::Result<Answered> {
-        Ok(match &mut self.place {
-            Place::Here(solver) => {
+        Ok(match &mut self.runner {
+            Runner::InProcess(solver) => {
                 let TimedReply { reply, micros } = timed(solver.as_mut(), query);
                 Answered::InTime { reply, micros }
             }
-            Place::Guarded(guarded) => match guarded.ask(query, patience)? {
+            Runner::Guarded(guarded) => match guarded.ask(query, patience)? {
                 Asked::Answered { reply, micros } => Answered::InTime { reply, micros },
                 Asked::CutOff => Answered::CutOff { patience },
                 Asked::Died => Answered::Died,

@@ -22,7 +22,7 @@ fn cube() -> TriangleMesh {
     TriangleMesh::from_reader(Format::Obj, obj.as_bytes()).unwrap()
 }
 
-/// A cube flies at another from 4 away with speed 8: contact at 3/8.
+/// Returns a query in which a cube flies at another from 4 away with speed 8, with contact at 3/8.
 fn flight() -> Query {
     let start = Pose::at(-4.0 * DVec3::X).unwrap();
     Query {
@@ -89,7 +89,7 @@ const EVERYTHING: Allowance = Allowance {
 };
 
 #[test]
-fn any_number_of_first_rows_is_spread_over_all() {
+fn every_prefix_of_the_order_is_spread_over_all_rows() {
     let scene = small_scene();
     let contest = Contest::new(&scene).unwrap();
     let count = scene.queries.len();
@@ -117,8 +117,8 @@ fn this_project_is_right_on_the_small_scene_and_its_cell_says_so() {
     assert_eq!(found, scene.queries.len());
     let method = Method::Ours(SolverKind::default(), Pieces::Least);
     let mut session = contest.session(method, 1e-6).unwrap().unwrap();
-    let heard = contest.run(&mut session, &EVERYTHING, &truths).unwrap();
-    let (cell, trials) = heard.unwrap();
+    let measured = contest.run(&mut session, &EVERYTHING, &truths).unwrap();
+    let (cell, trials) = measured.unwrap();
     assert_eq!(cell.rows, scene.queries.len());
     assert_eq!(trials.len(), cell.rows);
     assert!(trials.iter().all(|t| t.verdict == "right"), "{trials:?}");
@@ -127,7 +127,7 @@ fn this_project_is_right_on_the_small_scene_and_its_cell_says_so() {
     errors.sort_by(f64::total_cmp);
     let hits = errors.len();
     assert!((8..25).contains(&hits), "{hits} of 25 hit");
-    // The tolerance over how fast they close in; few of these flights graze.
+    // The error is the tolerance over the closing speed; few of these flights graze.
     assert!(errors[hits / 2] < 1e-6, "{errors:?}");
     assert_eq!(cell.max_error, errors[hits - 1]);
     assert!(cell.mean_error <= cell.max_error);
@@ -136,7 +136,7 @@ fn this_project_is_right_on_the_small_scene_and_its_cell_says_so() {
 }
 
 #[test]
-fn truths_outlast_the_program_and_are_those_of_one_motion_only() {
+fn truths_are_kept_on_disk_and_apply_to_one_motion_only() {
     let scene = small_scene();
     let contest = Contest::new(&scene).unwrap();
     let folder = std::env::temp_dir().join(format!("ccd-truths-{}", std::process::id()));
@@ -171,7 +171,7 @@ fn truths_outlast_the_program_and_are_those_of_one_motion_only() {
 }
 
 #[test]
-fn an_interrupted_journal_goes_on_where_it_stopped() {
+fn an_interrupted_journal_resumes_where_it_stopped() {
     let folder = std::env::temp_dir().join(format!("ccd-journal-{}", std::process::id()));
     let trial = |method: &str, id: &str| Trial {
         scene: "santa".to_owned(),
@@ -191,7 +191,7 @@ fn an_interrupted_journal_goes_on_where_it_stopped() {
     let mut journal = Journal::open(&folder, "one", &[]).unwrap();
     add(&mut journal, "C2A");
     add(&mut journal, "CONTACT");
-    // The last trial is lost, as if the power had gone.
+    // The last trial is lost, as after a power failure.
     let trials = std::fs::read_to_string(folder.join("trials.csv")).unwrap();
     let cut = trials.trim_end().rfind('\n').unwrap();
     std::fs::write(folder.join("trials.csv"), &trials[..=cut]).unwrap();

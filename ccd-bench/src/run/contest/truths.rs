@@ -1,4 +1,4 @@
-//! The truth about the scenes: kept, so that it is found once.
+//! Keeps the truth about the scenes, so that it is computed once.
 
 use super::Contest;
 use crate::method::MotionKind;
@@ -8,15 +8,15 @@ use rayon::iter::{IntoParallelIterator, ParallelIterator};
 use rigid_ccd::command::Progress;
 use std::collections::BTreeMap;
 use std::fs::{self, File};
-use std::path;
+use std::path::Path;
 
-/// What is known of the first contacts of all scenes, by scene, meshes and motions, and row.
+/// The known first contacts of all scenes, by scene, meshes and motions, and row.
 #[derive(Debug, Default)]
 pub struct Truths {
     known: BTreeMap<String, TruthRow>,
 }
 
-/// Why truths cannot be had.
+/// Truths cannot be read or written.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum TruthsError {
@@ -26,11 +26,11 @@ pub enum TruthsError {
 }
 
 impl Truths {
-    /// Those of a file, if there is one.
+    /// Reads the truths of a file, if it exists.
     ///
     /// # Errors
-    /// When it is no table of truths.
-    pub fn read(file: &path::Path) -> Result<Self, TruthsError> {
+    /// If the file is no table of truths.
+    pub fn read(file: &Path) -> Result<Self, TruthsError> {
         let mut truths = Truths::default();
         if file.exists() {
             let file = File::open(file).map_err(csv::Error::from)?;
@@ -39,28 +39,28 @@ impl Truths {
         Ok(truths)
     }
 
-    /// Writes all that is known.
+    /// Writes all known truths.
     ///
     /// # Errors
-    /// When the file cannot be written.
-    pub fn write(&self, file: &path::Path) -> Result<(), TruthsError> {
-        // Under another name first: half a table would still be a table.
+    /// If the file cannot be written.
+    pub fn write(&self, file: &Path) -> Result<(), TruthsError> {
+        // Under another name first, since half a table would still be a valid table.
         let part = file.with_extension("part");
         let whole = File::create(&part).map_err(csv::Error::from)?;
         write_truths(whole, self.known.values().cloned())?;
         Ok(fs::rename(part, file).map_err(csv::Error::from)?)
     }
 
-    /// Finds what is not known yet of some rows of a scene, on all processors; says how many it found.
+    /// Finds the unknown truths of some rows of a scene, on all processors. Returns their number.
     pub fn find(
         &mut self,
         contest: &Contest<'_>,
-        path: MotionKind,
+        motion: MotionKind,
         rows: &[usize],
         progress: &Progress,
     ) -> usize {
-        let fingerprint = fingerprint(contest, path);
-        let key = |row: usize| key(contest, fingerprint, path, row);
+        let fingerprint = fingerprint(contest, motion);
+        let key = |row: usize| key(contest, fingerprint, motion, row);
         let unknown: Vec<usize> = rows
             .iter()
             .copied()
@@ -70,7 +70,7 @@ impl Truths {
         let found: Vec<TruthRow> = unknown
             .into_par_iter()
             .map(|row| {
-                let query = &contest.queries(path)[row];
+                let query = &contest.queries(motion)[row];
                 let truth = referee.first_contact(query);
                 progress.tick();
                 TruthRow::new(key(row), query.duration, truth)
@@ -81,15 +81,15 @@ impl Truths {
         count
     }
 
-    /// The truth of each row of a scene; undecided where it has not been found.
+    /// Returns the truth of each row of a scene; undecided if it has not been found.
     pub fn of<'t>(
         &'t self,
         contest: &'t Contest<'_>,
-        path: MotionKind,
+        motion: MotionKind,
     ) -> impl Fn(usize) -> Truth + 't {
-        let fingerprint = fingerprint(contest, path);
+        let fingerprint = fingerprint(contest, motion);
         move |row| {
-            let known = self.known.get(&key(contest, fingerprint, path, row));
+            let known = self.known.get(&key(contest, fingerprint, motion, row));
             known.map_or(Truth::Undecided { lo: 0.0 }, TruthRow::truth)
         }
     }
@@ -100,20 +100,21 @@ impl Truths {
     }
 }
 
-/// What a row is called in the table: its truth is that of these meshes and motions.
-fn key(contest: &Contest<'_>, fingerprint: u32, path: MotionKind, row: usize) -> String {
+/// Returns the name of a row in the table. It includes the meshes and motions, since the truth
+/// depends on them.
+fn key(contest: &Contest<'_>, fingerprint: u32, motion: MotionKind, row: usize) -> String {
     let scene = &contest.scene().name;
-    let id = &contest.queries(path)[row].id;
+    let id = &contest.queries(motion)[row].id;
     format!("{scene}/{fingerprint:08x}/{id}")
 }
 
-/// Tells meshes and motions apart, to the bit.
-fn fingerprint(contest: &Contest<'_>, path: MotionKind) -> u32 {
+/// Returns a hash of the meshes and motions, to the bit.
+fn fingerprint(contest: &Contest<'_>, motion: MotionKind) -> u32 {
     let mut hash = crc32fast::Hasher::new();
     for body in [&contest.scene().a, &contest.scene().b] {
         hash_mesh(body.mesh(), &mut hash);
     }
-    for query in contest.queries(path) {
+    for query in contest.queries(motion) {
         for motion in [&query.a, &query.b] {
             let start = motion.start();
             let vectors = [

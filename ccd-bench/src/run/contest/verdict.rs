@@ -1,4 +1,4 @@
-//! How a claim stands against the truth.
+//! Judges a claim against the truth.
 
 use crate::method::solver::Claim;
 use crate::truth::{Referee, Truth};
@@ -6,54 +6,54 @@ use ccd_core::order::greater;
 use rigid_ccd::table::motions::Query;
 use std::fmt;
 
-/// What a claim is.
+/// The judgement of a claim.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Verdict {
-    /// As it has to be.
+    /// The claim is correct.
     Right,
-    /// A contact after the exact first one.
+    /// It is a contact after the exact first one.
     Late,
-    /// Free, though there is a contact.
+    /// It is free, but there is a contact.
     Missed,
-    /// A contact where there is none, the bodies being farther apart than the tolerance.
+    /// It is a contact, but there is none, and the bodies are farther apart than the tolerance.
     False,
-    /// A contact while the bodies are still farther apart than the tolerance.
+    /// It is a contact while the bodies are still farther apart than the tolerance.
     Early,
-    /// Nothing but a time until which nothing touches.
+    /// It is only a time until which nothing touches.
     Unresolved,
-    /// Stopped: it took longer than anybody would wait.
+    /// The query exceeded the time limit and was stopped.
     CutOff,
     /// The peer's process ended instead of answering.
     Died,
     /// The truth is not known well enough.
     Undecided,
-    /// It is no answer to the query, such as a single distance that others are compared with.
+    /// The reply is no answer to the query, such as a single distance measured for comparison.
     NotJudged,
 }
 
-/// A verdict, and by how much the time is off.
+/// A verdict and the error of the time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Judged {
     /// The verdict.
     pub verdict: Verdict,
-    /// How far the time of contact lies outside of the bracket of the true one, as a share of the
-    /// duration; none where there is no time, or no true one.
+    /// The distance of the reported time of contact from the bracket of the true one, as a fraction
+    /// of the duration; `None` if either time is missing.
     pub error: Option<f64>,
 }
 
-/// How much later than the end of the bracket a time may be before it counts as late, as a share of
-/// the duration: poses by two formulas of one motion differ by some 1e-15 of the coordinates, and the
-/// slowest of the scenes moves by a hundredth of these during its duration; ten times over.
+/// The time after the end of the bracket from which a contact is late, as a fraction of the
+/// duration. Poses by two formulas of one motion differ by about 1e-15 of the coordinates, and the
+/// slowest scene moves by a hundredth of these during its duration; the value is ten times that.
 const SLACK: f64 = 1e-12;
 
-/// The widest bracket that is taken for a time, as a share of the duration.
+/// The widest bracket that counts as a time, as a fraction of the duration.
 const WIDEST: f64 = 1e-9;
 
-/// How much more than its tolerance, as a share of it, a solver may round a distance to.
+/// The excess over the tolerance, as a fraction of it, that a solver's distance may have from rounding.
 const ROUNDING: f64 = 1e-6;
 
 impl Judged {
-    /// A verdict where there is no time to be off.
+    /// Returns a verdict without an error of the time.
     pub fn plain(verdict: Verdict) -> Self {
         Judged {
             verdict,
@@ -92,14 +92,14 @@ pub fn judge(
     let time = match claim {
         Claim::Contact { time } => time,
         Claim::Free => return plain(Verdict::Missed),
-        // Also a proof, which may be wrong.
+        // This claim is a proof too, and may be wrong.
         Claim::Unresolved { safe_until } if safe_until > hi + SLACK * query.duration => {
             return plain(Verdict::Late);
         }
         Claim::Unresolved { .. } | Claim::Refused => return plain(Verdict::Unresolved),
     };
     let off = greater(0.0, greater(lo - time, time - hi)) / query.duration;
-    // Written so that NaN is late.
+    // The comparison treats NaN as late.
     let verdict = if !(time <= hi + SLACK * query.duration) {
         Verdict::Late
     } else if time < lo && !near(time) {
@@ -109,7 +109,7 @@ pub fn judge(
     };
     Judged {
         verdict,
-        // Of a time that is none there is no error: `max` has passed over the NaN.
+        // An invalid time has no error: `max` has dropped the NaN.
         error: Some(off).filter(|_| !time.is_nan()),
     }
 }

@@ -1,7 +1,7 @@
 use super::*;
 
 #[test]
-fn a_quote_that_nobody_closes_is_told_where_it_opens() {
+fn an_unclosed_quote_is_reported_at_its_line() {
     let name = format!("ccd-measured-{}.csv", std::process::id());
     let file = std::env::temp_dir().join(name);
     for (text, expected) in [

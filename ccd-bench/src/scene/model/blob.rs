@@ -10,23 +10,23 @@ use std::f64::consts::TAU;
 
 /// A sphere pushed outwards by lobes and covered with ripples, scaled to bounding radius 1.
 ///
-/// Every ray from the origin leaves it once, so that it never intersects itself.
+/// Every ray from the origin crosses the surface once, so that it never intersects itself.
 #[derive(Clone, Copy, Debug)]
 pub struct Blob {
     /// The large features, on a core of radius 1.
     pub lobes: &'static [Lobe],
-    /// How high the ripples are.
+    /// The height of the ripples.
     pub ripple: f64,
-    /// Draws the ripples.
+    /// The seed of the ripples.
     pub seed: u64,
 }
 
-/// A feature that stands out of a [`Blob`].
+/// A bump on a [`Blob`].
 #[derive(Clone, Copy, Debug)]
 pub struct Lobe {
-    /// Where to; any length.
+    /// The direction of the bump; any length.
     pub towards: [f64; 3],
-    /// How far it stands out of the core.
+    /// The height of the bump above the core.
     pub height: f64,
     /// How slender it is: it is about `1/√sharpness` radians wide.
     pub sharpness: f64,
@@ -70,10 +70,11 @@ impl Blob {
         seed: 38,
     };
 
-    /// Its closed mesh of that many vertices, at least 12, and `2 · vertices − 4` triangles.
+    /// Returns the closed mesh with this number of vertices, at least 12, and `2 · vertices − 4`
+    /// triangles.
     ///
     /// # Errors
-    /// When a number of parts is too small or too large for a mesh.
+    /// If the number of vertices is too small or too large for a mesh.
     pub fn mesh(&self, vertices: usize) -> Result<TriangleMesh, MeshError> {
         let (mut points, faces) = sphere(vertices);
         let ripples = self.ripples();
@@ -87,7 +88,7 @@ impl Blob {
         TriangleMesh::new(points, &faces)
     }
 
-    /// How far the surface is out in a direction: a sum of terms that are smooth over the sphere.
+    /// Returns the radius of the surface in a direction: a sum of terms that are smooth over the sphere.
     fn radius(&self, direction: DVec3, ripples: &[Ripple]) -> f64 {
         let lobes: f64 = self
             .lobes
@@ -118,13 +119,13 @@ impl Blob {
     }
 }
 
-/// A plane wave through space, seen where it crosses the sphere.
+/// A plane wave in space, evaluated on the sphere.
 struct Ripple {
     wave: DVec3,
     phase: f64,
 }
 
-/// How many waves are laid over each other.
+/// The number of superposed waves.
 const RIPPLES: usize = 24;
 /// The highest wave number along each axis, in radians per core radius.
 const SHORTEST_RIPPLE: f64 = 20.0;

@@ -1,4 +1,4 @@
-//! A board: two triangles a side, the coarsest mesh there is.
+//! A board: two triangles per side, the coarsest closed mesh.
 
 use ccd_core::glam::DVec3;
 use ccd_decomp::{MeshError, TriangleMesh};
@@ -10,8 +10,8 @@ pub struct Board {
     pub half_extents: DVec3,
 }
 
-/// Corner `k` has a positive x, y, z where bit 2, 1, 0 of `k` is set; two triangles a side, along
-/// −x, +x, −y, +y, −z, +z.
+/// Corner `k` has a positive x, y, z if bit 2, 1, 0 of `k` is set; two triangles per side, for −x,
+/// +x, −y, +y, −z, +z.
 const FACES: [[u32; 3]; 12] = [
     [0, 1, 3],
     [0, 3, 2],
@@ -28,10 +28,10 @@ const FACES: [[u32; 3]; 12] = [
 ];
 
 impl Board {
-    /// Its closed mesh.
+    /// Returns the closed mesh.
     ///
     /// # Errors
-    /// When an extent is not finite or too large.
+    /// If an extent is not finite or too large.
     pub fn mesh(&self) -> Result<TriangleMesh, MeshError> {
         let sign = |corner: u32, bit: u32| if corner >> bit & 1 == 1 { 1.0 } else { -1.0 };
         let corner = |k| self.half_extents * DVec3::new(sign(k, 2), sign(k, 1), sign(k, 0));

@@ -1,10 +1,10 @@
-//! Surfaces that close up in both parameters.
+//! Surfaces that are periodic in both parameters.
 
 use ccd_core::glam::DVec3;
 use ccd_decomp::{MeshError, TriangleMesh};
 
-/// The mesh of `2 · columns · rows` triangles over a surface with period 1 in both `u` and `v`;
-/// ∂u × ∂v has to point inwards.
+/// Returns the mesh of `2 · columns · rows` triangles over a surface with period 1 in both `u` and
+/// `v`. The product ∂u × ∂v has to point inwards.
 pub(super) fn closed_grid(
     columns: usize,
     rows: usize,

@@ -1,4 +1,4 @@
-//! A flat square of many triangles: where two of them meet flat, everything touches at once.
+//! A flat square of many triangles: if two of them meet flat, everything touches at once.
 
 use ccd_core::glam::DVec3;
 use ccd_decomp::{MeshError, TriangleMesh};
@@ -6,27 +6,27 @@ use ccd_decomp::{MeshError, TriangleMesh};
 /// A square across z about the origin, cut into squares of two triangles each.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plate {
-    /// Half of a side's length.
+    /// Half the length of a side.
     pub half_side: f64,
-    /// How many squares a side has.
+    /// The number of squares per side.
     pub squares: u32,
 }
 
 impl Plate {
-    /// Its mesh of `2 · squares²` triangles, which is open.
+    /// Returns the open mesh of `2 · squares²` triangles.
     ///
     /// # Errors
-    /// When it has no squares, or its size is not finite or too large.
+    /// If it has no squares, or its size is not finite or too large.
     pub fn mesh(&self) -> Result<TriangleMesh, MeshError> {
         let n = self.squares;
         let step = 2.0 * self.half_side / f64::from(n);
-        let place = |k: u32| f64::from(k) * step - self.half_side;
+        let coordinate = |k: u32| f64::from(k) * step - self.half_side;
         let vertices = (0..=n).flat_map(|i| (0..=n).map(move |j| (i, j)));
         let faces: Vec<[u32; 3]> = (0..n)
             .flat_map(|i| (0..n).map(move |j| i * (n + 1) + j))
             .flat_map(|a| [[a, a + n + 1, a + 1], [a + 1, a + n + 1, a + n + 2]])
             .collect();
-        let vertices = vertices.map(|(i, j)| DVec3::new(place(i), place(j), 0.0));
+        let vertices = vertices.map(|(i, j)| DVec3::new(coordinate(i), coordinate(j), 0.0));
         TriangleMesh::new(vertices.collect(), &faces)
     }
 }

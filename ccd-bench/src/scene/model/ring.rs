@@ -1,4 +1,4 @@
-//! A ring: a torus, whose hole only exact methods can pass.
+//! A ring: a torus, through whose hole only exact methods let a body pass.
 
 use super::grid::closed_grid;
 use ccd_core::glam::DVec3;
@@ -8,21 +8,21 @@ use std::f64::consts::TAU;
 /// A torus about the z axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ring {
-    /// Tube cross-sections around the axis, at least 3.
+    /// The number of tube cross-sections around the axis, at least 3.
     pub segments: usize,
-    /// Corners of each, at least 3.
+    /// The number of corners of each cross-section, at least 3.
     pub sides: usize,
-    /// From the axis to the middle of the tube.
+    /// The distance from the axis to the middle of the tube.
     pub radius: f64,
     /// The tube's radius, below `radius`.
     pub tube: f64,
 }
 
 impl Ring {
-    /// Its closed mesh of `2 · segments · sides` triangles.
+    /// Returns the closed mesh of `2 · segments · sides` triangles.
     ///
     /// # Errors
-    /// When a number of parts is too small or too large for a mesh.
+    /// If a number of parts is too small or too large for a mesh.
     pub fn mesh(&self) -> Result<TriangleMesh, MeshError> {
         closed_grid(self.segments, self.sides, |u, v| {
             let (sin_u, cos_u) = (TAU * u).sin_cos();

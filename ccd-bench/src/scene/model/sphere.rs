@@ -3,10 +3,10 @@
 use ccd_core::glam::DVec3;
 use std::f64::consts::{PI, TAU};
 
-/// The unit vectors of a sphere's vertices, and its `2 · vertices − 4` triangles, outward.
+/// Returns the unit vectors of a sphere's vertices, and its `2 · vertices − 4` triangles, outward.
 ///
-/// Circles of latitude at equal spacing hold as many vertices each as their length demands, and are
-/// joined by strips of triangles; that works from about 12 vertices on.
+/// Circles of latitude at equal spacing hold vertices in proportion to their length, and are joined
+/// by strips of triangles. The construction needs about 12 vertices.
 pub(super) fn sphere(vertices: usize) -> (Vec<DVec3>, Vec<[u32; 3]>) {
     let counts = ring_counts(vertices);
     let mut points = vec![DVec3::Z];
@@ -46,16 +46,16 @@ impl Ring {
         self.first + (i % self.count) as u32
     }
 
-    /// Steps it takes to go round: a pole has no edge.
+    /// Returns the number of edges of the circle; a pole has none.
     fn steps(&self) -> usize {
         if self.count == 1 { 0 } else { self.count }
     }
 }
 
-/// How many vertices each circle gets, poles left out.
+/// Returns the number of vertices of each circle, without the poles.
 fn ring_counts(vertices: usize) -> Vec<usize> {
     let between_poles = vertices.saturating_sub(2) as f64;
-    // Equilateral triangles of area 4π / (2 · vertices) have this height.
+    // The height of equilateral triangles of area 4π / (2 · vertices).
     let height = (2.0 * PI * 3f64.sqrt() / vertices as f64).sqrt();
     let rings = ((PI / height).round() as usize).max(2) - 1;
     let length = |k: usize| (PI * (k + 1) as f64 / (rings + 1) as f64).sin();
@@ -73,13 +73,13 @@ fn ring_counts(vertices: usize) -> Vec<usize> {
         .collect()
 }
 
-/// The strip of triangles between two circles, the northern one first: always the step whose middle
-/// comes first, which keeps the triangles well shaped.
+/// Adds the strip of triangles between two circles, the northern one first. The next step is always
+/// the one whose middle comes first, which keeps the triangles well shaped.
 fn join(north: Ring, south: Ring, faces: &mut Vec<[u32; 3]>) {
     let (n, s) = (north.steps(), south.steps());
     let (mut i, mut j) = (0, 0);
     while i < n || j < s {
-        // Middles (2i + 1)/2n and (2j + 1)/2s, compared without rounding.
+        // The middles (2i + 1)/2n and (2j + 1)/2s, compared without rounding.
         if j == s || (i < n && (2 * i + 1) * s <= (2 * j + 1) * n) {
             faces.push([north.vertex(i), south.vertex(j), north.vertex(i + 1)]);
             i += 1;

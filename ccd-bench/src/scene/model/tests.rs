@@ -2,7 +2,7 @@ use super::*;
 use ccd_core::order::greater;
 use std::collections::HashSet;
 
-/// Six times the volume that a mesh encloses, if it is closed.
+/// Returns six times the volume that a closed mesh encloses.
 fn volume(mesh: &TriangleMesh) -> f64 {
     let v = mesh.vertices();
     let tetrahedron =
@@ -10,7 +10,7 @@ fn volume(mesh: &TriangleMesh) -> f64 {
     mesh.faces().iter().map(tetrahedron).sum()
 }
 
-/// Panics unless every directed edge appears once, and its opposite too.
+/// Asserts that every directed edge appears once, and its opposite too.
 fn assert_closed(mesh: &TriangleMesh, name: &str) {
     let mut edges = HashSet::new();
     for &[a, b, c] in mesh.faces() {
@@ -92,7 +92,7 @@ fn volumes_approach_the_closed_forms() {
 #[test]
 fn a_knot_is_a_tube_about_its_curve() {
     let mesh = Model::Knot2880.generate().unwrap();
-    // The curve's points are the means of opposite corners of each ring of twelve.
+    // The points of the curve are the means of opposite corners of each ring of twelve.
     for ring in mesh.vertices().chunks(12) {
         let centre = 0.5 * (ring[0] + ring[6]);
         for corner in ring {
@@ -103,8 +103,8 @@ fn a_knot_is_a_tube_about_its_curve() {
     }
 }
 
-/// Triangles that all face away from the origin, in a closed mesh of one part that winds about it
-/// once, meet every ray from the origin exactly once: no two of them intersect.
+/// If all triangles face away from the origin, and the mesh is closed, of one part, and winds about the
+/// origin once, then every ray from the origin meets it exactly once, so no two triangles intersect.
 #[test]
 fn blobs_are_star_shaped_and_so_free_of_self_intersection() {
     for model in [Model::Bunny70k, Model::Bunny26k, Model::Santa] {
@@ -122,7 +122,7 @@ fn blobs_are_star_shaped_and_so_free_of_self_intersection() {
 }
 
 #[test]
-fn blobs_are_neither_convex_nor_larger_than_1() {
+fn blobs_are_not_convex_and_have_radius_1() {
     for model in [Model::Bunny70k, Model::Bunny26k, Model::Santa] {
         let mesh = model.generate().unwrap();
         assert!((bounding_radius(&mesh) - 1.0).abs() < 1e-12);
@@ -146,7 +146,7 @@ fn blobs_are_neither_convex_nor_larger_than_1() {
 }
 
 #[test]
-fn files_come_before_models_made_by_code() {
+fn files_take_precedence_over_models_made_by_code() {
     let directory = std::env::temp_dir().join(format!("ccd-models-{}", std::process::id()));
     std::fs::create_dir_all(&directory).unwrap();
     let file = directory.join("board.obj");

@@ -1,4 +1,4 @@
-//! Torus knots: long, thin, interlocked with themselves.
+//! Torus knots: long, thin tubes that interlock with themselves.
 
 use super::grid::closed_grid;
 use ccd_core::glam::DVec3;
@@ -8,26 +8,26 @@ use std::f64::consts::TAU;
 /// A tube around the (2, 3) torus knot, the trefoil.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TorusKnot {
-    /// Rings along the tube, at least 3.
+    /// The number of rings along the tube, at least 3.
     pub segments: usize,
-    /// Corners of each ring, at least 3.
+    /// The number of corners of each ring, at least 3.
     pub sides: usize,
-    /// The tube's radius, below the 0.33 at which it would touch itself in the middle.
+    /// The radius of the tube, below 0.33, at which it would touch itself in the middle.
     pub tube: f64,
 }
 
-/// Turns around the torus' axis.
+/// The number of turns around the torus' axis.
 const TURNS: f64 = 2.0;
-/// Turns around the torus' tube meanwhile.
+/// The number of turns around the torus' tube in the same period.
 const WINDINGS: f64 = 3.0;
-/// The torus that the knot lies on: its radius, and that of its tube.
+/// The torus that the knot lies on: its radius and that of its tube.
 const TORUS: (f64, f64) = (2.0 / 3.0, 1.0 / 3.0);
 
 impl TorusKnot {
-    /// Its closed mesh of `2 · segments · sides` triangles, centred on the torus' centre.
+    /// Returns the closed mesh of `2 · segments · sides` triangles, centred at the torus' centre.
     ///
     /// # Errors
-    /// When a number of parts is too small or too large for a mesh.
+    /// If a number of parts is too small or too large for a mesh.
     pub fn mesh(&self) -> Result<TriangleMesh, MeshError> {
         closed_grid(self.segments, self.sides, |u, v| {
             let (on_curve, tangent, normal) = frame(TAU * u);
@@ -37,8 +37,8 @@ impl TorusKnot {
     }
 }
 
-/// A point of the knot, the unit tangent there, and the unit normal of the torus that it lies on:
-/// perpendicular to the tangent, and back to itself after one period.
+/// Returns a point of the knot, the unit tangent there, and the unit normal of the torus that it
+/// lies on. The normal is perpendicular to the tangent and periodic.
 fn frame(t: f64) -> (DVec3, DVec3, DVec3) {
     let (sin_a, cos_a) = (TURNS * t).sin_cos();
     let (sin_b, cos_b) = (WINDINGS * t).sin_cos();

@@ -1,15 +1,15 @@
-//! Axes: what is shown of a quantity, and where.
+//! Axes: the range of a quantity, and the positions of values and lines.
 
 use ccd_core::order::{greater, lesser};
 use indicatif::HumanCount;
 
-/// The decades an axis has a label for, at most.
+/// The largest number of labelled decades of an axis.
 const LABELS: i32 = 5;
-/// A logarithmic axis of no more decades than this has lines between them.
+/// A logarithmic axis of at most this many decades has lines between them.
 const FINE: i32 = 2;
-/// What a fitted axis has on either side, in decades.
+/// The margin of a fitted axis on either side, in decades.
 const FRINGE: f64 = 0.06;
-/// The least and the largest exponent of ten that an axis reaches.
+/// The least and the largest exponent of ten on an axis.
 const EXPONENTS: (i32, i32) = (-30, 30);
 
 /// An axis of a panel.
@@ -22,7 +22,7 @@ pub(super) struct Axis {
     ticks: Vec<Tick>,
 }
 
-/// How values are laid out.
+/// The scale of an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Scale {
     Logarithmic,
@@ -32,18 +32,18 @@ enum Scale {
 /// A line across the panel.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Tick {
-    /// How far along the axis, from 0 to 1.
+    /// The position along the axis, from 0 to 1.
     pub(super) share: f64,
-    /// What it says; nothing for the finer ones.
+    /// The label; `None` for the finer lines.
     pub(super) text: Option<String>,
 }
 
 impl Axis {
-    /// Whole decades around positive values; none where there are none.
+    /// Returns an axis of whole decades around positive values, or `None` if there are none.
     pub(super) fn logarithmic(label: &str, values: impl Iterator<Item = f64>) -> Option<Self> {
         let (low, high) = extent(values.filter(|v| *v > 0.0).map(f64::log10))?;
         let low = exponent(low.floor());
-        // At least one decade.
+        // The axis has at least one decade.
         let high = exponent(high.ceil()).max(low + 1);
         let span = f64::from(high - low);
         let step = (high - low + LABELS - 1) / LABELS;
@@ -70,8 +70,8 @@ impl Axis {
         })
     }
 
-    /// Little more than what positive counts take, with a line at 1, 2 and 5 of every decade; none
-    /// where there are none.
+    /// Returns an axis slightly longer than the range of positive counts, with a line at 1, 2 and 5
+    /// of every decade, or `None` if there are no counts.
     pub(super) fn fitted(label: &str, values: impl Iterator<Item = f64>) -> Option<Self> {
         let (low, high) = extent(values.filter(|v| *v > 0.0).map(f64::log10))?;
         let (low, high) = (low - FRINGE, high + FRINGE);
@@ -93,7 +93,7 @@ impl Axis {
         })
     }
 
-    /// From 0 to a number of things, with a line every so many.
+    /// Returns an axis from 0 to a count, with a line at every multiple of `every`.
     pub(super) fn counting(label: &str, count: usize, every: usize) -> Self {
         let high = count.max(1) as f64;
         let ticks = (0..=count).step_by(every.max(1)).map(|number| Tick {
@@ -109,21 +109,22 @@ impl Axis {
         }
     }
 
-    /// What it shows, with the unit.
+    /// Returns the label, with the unit.
     pub(super) fn label(&self) -> &str {
         &self.label
     }
 
-    /// The lines across.
+    /// Returns the lines across.
     pub(super) fn ticks(&self) -> &[Tick] {
         &self.ticks
     }
 
-    /// How far along the axis a value is: from 0 to 1, those beyond at the edge; none for NaN.
+    /// Returns the position of a value along the axis, from 0 to 1. Values beyond are at the edge;
+    /// NaN has no position.
     pub(super) fn share(&self, value: f64) -> Option<f64> {
         let value = match self.scale {
             Scale::Linear => value,
-            // What is 0 is beyond the lower edge, not lost.
+            // The value 0 is beyond the lower edge, and still drawn.
             Scale::Logarithmic => value.log10(),
         };
         let share = (value - self.low) / (self.high - self.low);
@@ -131,7 +132,7 @@ impl Axis {
     }
 }
 
-/// `10⁻³`.
+/// Returns a text such as `10⁻³`.
 pub(super) fn power_of_ten(exponent: i32) -> String {
     const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
     let plain = exponent.to_string();

@@ -1,4 +1,4 @@
-//! The paper's figures, redrawn: every trial, above its time and below its steps `[FAST06 §6.2]`.
+//! The paper's figures, redrawn: time and steps of every trial, one above the other `[FAST06 §6.2]`.
 
 use super::axis::Axis;
 use super::grid::{HEAD, foot, foot_height, head};
@@ -10,18 +10,18 @@ use super::{ChartError, Charts, Drawing, Family, MethodFacts, SceneFacts, failed
 use crate::run::measured::Trial;
 use indicatif::HumanCount;
 
-/// Heights of the upper and the lower panel.
+/// The heights of the upper and the lower panel.
 const HEIGHTS: [f64; 2] = [200.0, 150.0];
-/// Between columns, and between the two rows of panels.
+/// The gap between columns, and between the two rows of panels.
 const GUTTER: f64 = 16.0;
-/// Lines across every so many trials: of a few, and of more than these few.
+/// The spacing of lines across, in trials: for few trials, and for more.
 const EVERY: [usize; 2] = [25, 100];
-/// See above.
+/// The largest number of trials that counts as few.
 const FEW: usize = 150;
 
-/// What a chart of these trials is called.
-const REMARK: &str = "Trials in the order of their scene. Neighbours have nothing in common: the \
-                      lines only lead the eye.";
+/// The remark on the order of trials.
+const REMARK: &str = "Trials in the order of their scene. Neighbours are independent: the lines only \
+                      lead the eye.";
 
 /// Scenes of one body, one after the other.
 struct Column<'a> {
@@ -29,16 +29,16 @@ struct Column<'a> {
     scenes: Vec<(&'a SceneFacts<'a>, usize)>,
 }
 
-/// A panel of a column: where, its title, its axes, and what it shows of a trial.
+/// A panel of a column: its rectangle, title and axes, and the value of a trial that it shows.
 type Row<'a> = (Rect, &'a str, &'a Axis, Label, fn(&Trial) -> f64);
 
-/// One trial of a method, at its place among all of its column.
+/// A trial of a method, with its index among all trials of its column.
 struct Numbered<'a> {
     number: f64,
     trial: &'a Trial,
 }
 
-/// A chart for every figure that a scene is of.
+/// Draws a chart for every figure that has scenes.
 pub(super) fn charts(charts: &Charts<'_>) -> Result<Vec<Drawing>, ChartError> {
     let mut figures: Vec<_> = charts.scenes.iter().filter_map(|s| s.figure).collect();
     figures.sort_unstable();
@@ -55,7 +55,7 @@ fn draw(charts: &Charts<'_>, figure: u8) -> Result<Option<Drawing>, ChartError> 
     let mut shown = charts.shown(&[Family::Ours, Family::Rival, Family::Peer]);
     shown.retain(|(method, _)| charts.published.contains(&method.name));
     for (_, look) in &mut shown {
-        // Dashes of some pixels are lost on lines that go up and down at every pixel.
+        // Dashes of a few pixels would be lost on lines that go up and down at every pixel.
         look.dash = None;
     }
     let columns = columns(charts, figure, &shown);
@@ -85,8 +85,8 @@ fn draw(charts: &Charts<'_>, figure: u8) -> Result<Option<Drawing>, ChartError> 
     let svg = Sheet::draw(&title, size, |sheet| {
         head(sheet, &title, subtitle)?;
         for (index, column) in columns.iter().enumerate() {
-            let place = place(index, columns.len());
-            draw_column(charts, sheet, (column, place), [&time, &steps], &shown)?;
+            let upper = upper_rect(index, columns.len());
+            draw_column(charts, sheet, (column, upper), [&time, &steps], &shown)?;
         }
         legend.draw(sheet, (MARGIN, legend_top))?;
         foot(sheet, &remarks, remarks_top)
@@ -161,8 +161,8 @@ fn numbered<'a>(
     trials
 }
 
-/// Where the upper panel of a column is.
-fn place(index: usize, columns: usize) -> Rect {
+/// Returns the rectangle of the upper panel of a column.
+fn upper_rect(index: usize, columns: usize) -> Rect {
     let inside = WIDTH - 2.0 * MARGIN - LEFT_MARGIN;
     let pitch = (inside + GUTTER) / columns.max(1) as f64;
     Rect {
@@ -188,7 +188,7 @@ fn draw_column(
         height: HEIGHTS[1],
         ..upper
     };
-    // The first column says what all of them show.
+    // Only the first column has labels.
     let left = match upper.left > MARGIN + LEFT_MARGIN {
         true => Label::Left,
         false => Label::Written,
@@ -214,7 +214,7 @@ fn draw_column(
     name_scenes(sheet, column, &trial, (upper, lower))
 }
 
-/// One line for each scene, so that none leads from one to the next.
+/// Draws one line for each scene, so that no line connects two scenes.
 fn draw_trials(
     sheet: &Sheet<'_>,
     panel: &Panel<'_>,
@@ -240,7 +240,7 @@ fn draw_trials(
     Ok(())
 }
 
-/// Which trials are of which scene: a line between, and names where there is more than one.
+/// Separates the trials of scenes by lines, and names the scenes if there is more than one.
 fn name_scenes(
     sheet: &Sheet<'_>,
     column: &Column<'_>,
@@ -267,7 +267,7 @@ fn name_scenes(
     Ok(())
 }
 
-/// What tells a scene from others of its body: the last word of its name.
+/// Returns the last word of a scene's name, which distinguishes it from others of its body.
 fn motion_of<'a>(scene: &SceneFacts<'a>) -> &'a str {
     scene.name.rsplit(' ').next().unwrap_or(scene.name)
 }

@@ -3,35 +3,35 @@
 use super::axis::Axis;
 use super::legend::Legend;
 use super::panel::{BOTTOM_MARGIN, LEFT_MARGIN, Label, Labelled, Panel, TOP_MARGIN, remark};
-use super::sheet::{DrawError, Hand, MARGIN, Rect, Sheet, TEXT, WIDTH};
+use super::sheet::{DrawError, MARGIN, Rect, Sheet, TEXT, TextFormat, WIDTH};
 use plotters::style::FontStyle;
 
-/// Height of the chart's title and of the line below it.
+/// The height of the chart's title and of the line below it.
 pub(super) const HEAD: f64 = 50.0;
-/// Height of a line of remarks.
+/// The height of a line of remarks.
 const REMARK: f64 = 16.0;
-/// Between two panels.
+/// The gap between two panels.
 const GUTTER: f64 = 14.0;
 
-/// What panels have in common.
+/// The common properties of panels.
 pub(super) struct Grid<'a> {
     pub(super) title: &'a str,
-    /// What is better, and whatever else the title does not say.
+    /// The direction that is better, and other information that the title lacks.
     pub(super) subtitle: &'a str,
-    /// Below the legend, a line each.
+    /// The remarks below the legend, one per line.
     pub(super) remarks: Vec<String>,
     pub(super) legend: Legend<'a>,
     pub(super) x: Axis,
     pub(super) y: Axis,
     pub(super) columns: usize,
-    /// Height of a panel's axes.
+    /// The height of a panel's axes.
     pub(super) height: f64,
-    /// Room to the right of a panel's axes.
-    pub(super) beside: f64,
+    /// The space to the right of a panel's axes.
+    pub(super) right_margin: f64,
 }
 
 impl Grid<'_> {
-    /// The SVG of panels with these titles, whose data `body` draws by their number.
+    /// Returns the SVG of panels with these titles; `body` draws the data of a panel by its index.
     pub(super) fn draw(
         &self,
         titles: &[&str],
@@ -48,7 +48,7 @@ impl Grid<'_> {
             for (number, title) in titles.iter().enumerate() {
                 let (row, column) = (number / columns, number % columns);
                 let panel = Panel {
-                    rect: self.place(row, column),
+                    rect: self.rect_of(row, column),
                     title,
                     x: &self.x,
                     y: &self.y,
@@ -65,31 +65,31 @@ impl Grid<'_> {
         })
     }
 
-    fn place(&self, row: usize, column: usize) -> Rect {
+    fn rect_of(&self, row: usize, column: usize) -> Rect {
         let columns = self.columns.max(1) as f64;
         let inside = WIDTH - LEFT_MARGIN - 2.0 * MARGIN;
         let pitch = (inside + GUTTER) / columns;
         Rect {
             left: MARGIN + LEFT_MARGIN + pitch * column as f64,
             top: HEAD + TOP_MARGIN + (self.height + TOP_MARGIN + GUTTER) * row as f64,
-            width: pitch - GUTTER - self.beside,
+            width: pitch - GUTTER - self.right_margin,
             height: self.height,
         }
     }
 }
 
-/// A chart's title, and the line below it.
+/// Draws a chart's title, and the line below it.
 pub(super) fn head(sheet: &Sheet<'_>, title: &str, subtitle: &str) -> Result<(), DrawError> {
-    let hand = Hand {
+    let format = TextFormat {
         size: 16.0,
         weight: FontStyle::Bold,
-        ..Hand::default()
+        ..TextFormat::default()
     };
-    sheet.text(title, (MARGIN, 16.0), hand)?;
-    sheet.text(subtitle, (MARGIN, 36.0), Hand::default())
+    sheet.text(title, (MARGIN, 16.0), format)?;
+    sheet.text(subtitle, (MARGIN, 36.0), TextFormat::default())
 }
 
-/// Remarks, one below the other.
+/// Draws remarks, one below the other.
 pub(super) fn foot(sheet: &Sheet<'_>, remarks: &[String], top: f64) -> Result<(), DrawError> {
     for (line, remark_text) in remarks.iter().enumerate() {
         let middle = top + REMARK * line as f64;
@@ -98,7 +98,7 @@ pub(super) fn foot(sheet: &Sheet<'_>, remarks: &[String], top: f64) -> Result<()
     Ok(())
 }
 
-/// How high remarks are.
+/// Returns the height of remarks.
 pub(super) fn foot_height(remarks: &[String]) -> f64 {
     REMARK * remarks.len() as f64 + TEXT
 }

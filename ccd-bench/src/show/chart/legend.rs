@@ -1,19 +1,19 @@
-//! The legend, below the data: never on it.
+//! The legend, below the data and never on it.
 
 use super::look::{Fill, Look};
-use super::sheet::{DrawError, Hand, MARGIN, Sheet, Spot, TEXT, WIDTH, text_width};
+use super::sheet::{DrawError, MARGIN, Sheet, Spot, TEXT, TextFormat, WIDTH, text_width};
 use super::{Family, MethodFacts};
 use ccd_core::order::greater;
 use plotters::style::FontStyle;
 
-/// Height of a line of the legend.
+/// The height of a line of the legend.
 const LINE: f64 = 18.0;
-/// Length of the sample of a line.
+/// The length of the sample of a line.
 const SAMPLE: f64 = 30.0;
-/// Between a sample and its text, and between two columns.
+/// The gap between a sample and its text, and between two columns.
 const GAP: f64 = 6.0;
 
-/// Names and looks, by family.
+/// The names and looks, by family.
 pub(super) struct Legend<'a> {
     groups: Vec<(&'static str, Vec<(String, &'a Look)>)>,
     column: f64,
@@ -21,7 +21,7 @@ pub(super) struct Legend<'a> {
 }
 
 impl<'a> Legend<'a> {
-    /// Of methods, on a sheet of the usual width.
+    /// Returns the legend of methods, on a sheet of the usual width.
     pub(super) fn of(shown: &'a [(&MethodFacts<'_>, Look)]) -> Self {
         let entries = shown.iter().map(|(method, look)| {
             let text = match look.fill {
@@ -33,7 +33,7 @@ impl<'a> Legend<'a> {
         Legend::new(entries, WIDTH - 2.0 * MARGIN)
     }
 
-    /// Of entries in their order, so wide.
+    /// Returns a legend of entries in their order, of the given width.
     fn new(entries: impl Iterator<Item = (Family, String, &'a Look)>, width: f64) -> Self {
         let mut groups: Vec<(&'static str, Vec<(String, &'a Look)>)> = Vec::new();
         for (family, text, look) in entries {
@@ -49,7 +49,7 @@ impl<'a> Legend<'a> {
             .map(|(text, _)| text_width(text, TEXT))
             .fold(0.0, greater);
         let column = widest + SAMPLE + 3.0 * GAP;
-        // At least one, at most as many as anybody wants to read across.
+        // At least one, and at most as many as are readable.
         let columns = ((width - head_width(&groups)) / column).clamp(1.0, 6.0) as usize;
         Legend {
             groups,
@@ -58,19 +58,19 @@ impl<'a> Legend<'a> {
         }
     }
 
-    /// How high it is.
+    /// Returns the height.
     pub(super) fn height(&self) -> f64 {
         let lines = |(_, group): &(_, Vec<_>)| group.len().div_ceil(self.columns);
         LINE * self.groups.iter().map(lines).sum::<usize>() as f64
     }
 
-    /// Draws it with its upper left corner there, in pixels.
+    /// Draws it with its upper left corner at the given spot, in pixels.
     pub(super) fn draw(&self, sheet: &Sheet<'_>, (left, mut top): Spot) -> Result<(), DrawError> {
         let head = head_width(&self.groups);
         for (title, group) in &self.groups {
-            let bold = Hand {
+            let bold = TextFormat {
                 weight: FontStyle::Bold,
-                ..Hand::default()
+                ..TextFormat::default()
             };
             sheet.text(title, (left, top + 0.5 * LINE), bold)?;
             for (index, (text, look)) in group.iter().enumerate() {
@@ -79,7 +79,7 @@ impl<'a> Legend<'a> {
                 let middle = top + LINE * (row as f64 + 0.5);
                 sheet.line(&[(left, middle), (left + SAMPLE, middle)], look.pen(1.5))?;
                 sheet.marker((left + 0.5 * SAMPLE, middle), look)?;
-                sheet.text(text, (left + SAMPLE + GAP, middle), Hand::default())?;
+                sheet.text(text, (left + SAMPLE + GAP, middle), TextFormat::default())?;
             }
             top += LINE * group.len().div_ceil(self.columns) as f64;
         }

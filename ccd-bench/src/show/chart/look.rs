@@ -1,12 +1,12 @@
-//! What a method looks like: the same in every chart.
+//! The look of a method, the same in every chart.
 
 use super::sheet::{DrawError, Pen, Sheet, Spot, stroke};
 use super::{Family, MethodFacts};
 use plotters::style::{Color, RGBColor, ShapeStyle, WHITE};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-/// Okabe and Ito's colours, which colour-blind people tell apart, but for the yellow, which a white
-/// sheet swallows.
+/// Okabe and Ito's colours, which colour-blind people can distinguish, without the yellow, which is
+/// invisible on white.
 pub(super) const COLOURS: [RGBColor; 7] = [
     RGBColor(0x00, 0x72, 0xb2),
     RGBColor(0xd5, 0x5e, 0x00),
@@ -16,12 +16,12 @@ pub(super) const COLOURS: [RGBColor; 7] = [
     RGBColor(0x56, 0xb4, 0xe9),
     RGBColor(0x00, 0x00, 0x00),
 ];
-/// What is unsafe.
+/// The colour of unsafe results.
 pub(super) const WARNING: RGBColor = COLOURS[1];
 /// Half the size of a marker, in pixels.
 pub(super) const MARKER: f64 = 4.0;
 
-/// Colour, marker and dash of a method.
+/// The colour, marker and dash of a method.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Look {
     pub(super) colour: RGBColor,
@@ -30,12 +30,12 @@ pub(super) struct Look {
     pub(super) fill: Fill,
 }
 
-/// What a marker looks like inside.
+/// The interior of a marker.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Fill {
-    /// Of a method that was never late.
+    /// For a method that was never late.
     Solid,
-    /// Of a method that is unsafe.
+    /// For a method that is unsafe.
     Hollow,
 }
 
@@ -63,7 +63,8 @@ const MARKERS: [Marker; 8] = [
     Marker::Bar,
 ];
 
-/// One for each method, in their order: no two of a family alike, families told apart by the dash.
+/// Returns a look for each method, in their order. Looks within a family differ; families differ by
+/// the dash.
 pub(super) fn looks(methods: &[MethodFacts<'_>], fill: impl Fn(&str) -> Fill) -> Vec<Look> {
     let mut taken = [0; 4];
     let look = |method: &MethodFacts<'_>| {
@@ -95,7 +96,7 @@ impl Look {
 }
 
 impl Sheet<'_> {
-    /// A marker with its middle there.
+    /// Draws a marker with its middle at a spot.
     pub(super) fn marker(&self, at: Spot, look: &Look) -> Result<(), DrawError> {
         let inside = match look.fill {
             Fill::Solid => look.colour,
@@ -113,7 +114,7 @@ impl Sheet<'_> {
 }
 
 impl Sheet<'_> {
-    /// A marker of one trial among hundreds.
+    /// Draws the marker of one trial among hundreds.
     pub(super) fn speck(&self, at: Spot, look: &Look) -> Result<(), DrawError> {
         match look.fill {
             Fill::Solid => self.disc(at, SPECK, look.colour.filled()),
@@ -122,16 +123,16 @@ impl Sheet<'_> {
     }
 }
 
-/// Radius of a speck.
+/// The radius of a speck.
 const SPECK: f64 = 1.4;
-/// Width of a marker's edge.
+/// The width of a marker's edge.
 const OUTLINE: f64 = 1.3;
 
 fn outline(colour: RGBColor) -> ShapeStyle {
     stroke(colour, OUTLINE)
 }
 
-/// Around the middle, at least three.
+/// Returns the corners around the middle, at least three.
 fn corners(marker: Marker, (x, y): Spot) -> Vec<Spot> {
     let around = |count: u32, first: f64, radius: fn(u32) -> f64| {
         (0..count)

@@ -1,4 +1,4 @@
-//! The same mesh as other models: what they cost, and how far off they are.
+//! The costs and errors of several models of the same mesh.
 
 use super::axis::Axis;
 use super::grid::{HEAD, foot, foot_height, head};
@@ -6,7 +6,7 @@ use super::legend::Legend;
 use super::look::Look;
 use super::panel::{BOTTOM_MARGIN, Label, Labelled, Panel, TOP_MARGIN};
 use super::pareto::kind;
-use super::sheet::{DrawError, Hand, MARGIN, Pen, RULE, Rect, Sheet, WIDTH, text_width};
+use super::sheet::{DrawError, MARGIN, Pen, RULE, Rect, Sheet, TextFormat, WIDTH, text_width};
 use super::{ChartError, Charts, Drawing, Family, MethodFacts, SceneFacts, failed, is_papers};
 use crate::run::measured::Cell;
 use ccd_core::order::greater;
@@ -14,16 +14,16 @@ use indicatif::HumanCount;
 use plotters::style::text_anchor::HPos;
 
 const NAME: &str = "models";
-/// Height of a scene's row.
+/// The height of a scene's row.
 const ROW: f64 = 26.0;
-/// Between the two panels.
+/// The gap between the two panels.
 const GUTTER: f64 = 44.0;
 
 type Shown<'a> = (&'a MethodFacts<'a>, Look);
-/// What a panel shows of a cell.
+/// The value of a cell that a panel shows.
 type Value = fn(&Cell) -> f64;
 
-/// Two panels side by side, a row for each scene, a marker for each model.
+/// Draws two panels side by side, with a row for each scene and a marker for each model.
 pub(super) fn chart(charts: &Charts<'_>) -> Result<Option<Drawing>, ChartError> {
     let shown = charts.shown(&[Family::Model]);
     let mut scenes = charts.measured_scenes();
@@ -54,7 +54,7 @@ pub(super) fn chart(charts: &Charts<'_>) -> Result<Option<Drawing>, ChartError> 
     .into_iter()
     .flatten()
     .collect();
-    let title = "Models of the same mesh: what they cost, how far off they are; left is better";
+    let title = "Models of the same mesh, cost and error: left is better";
     let legend = Legend::of(&shown);
     let remarks = ["In brackets: triangles of the body that moves.".to_owned()];
     let height = ROW * scenes.len() as f64;
@@ -135,11 +135,11 @@ impl Rows<'_> {
         }
         for (row, name) in names.iter().enumerate() {
             let y = HEAD + TOP_MARGIN + ROW * (row as f64 + 0.5);
-            let hand = Hand {
+            let format = TextFormat {
                 across: HPos::Right,
-                ..Hand::default()
+                ..TextFormat::default()
             };
-            sheet.text(name, (left - 0.8 * MARGIN, y), hand)?;
+            sheet.text(name, (left - 0.8 * MARGIN, y), format)?;
         }
         Ok(())
     }

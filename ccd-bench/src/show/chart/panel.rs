@@ -1,45 +1,45 @@
-//! One pair of axes with data on it.
+//! A pair of axes with data.
 
 use super::axis::Axis;
 use super::look::{Look, MARKER};
-use super::sheet::{DrawError, FRAME, Hand, Pen, RULE, Rect, Sheet, Spot, TEXT, Turn};
+use super::sheet::{DrawError, FRAME, Pen, RULE, Rect, Sheet, Spot, TEXT, TextFormat, Turn};
 use plotters::style::FontStyle;
 use plotters::style::text_anchor::{HPos, VPos};
 
-/// Between an axis and its numbers.
+/// The gap between an axis and its numbers.
 const TICK_GAP: f64 = 5.0;
-/// From the left edge of a panel to the middle of its axis' label.
+/// The distance from the left edge of a panel to the middle of its axis' label.
 const Y_LABEL: f64 = 44.0;
-/// From the lower edge of a panel to the middle of its axis' label.
+/// The distance from the lower edge of a panel to the middle of its axis' label.
 const X_LABEL: f64 = 32.0;
-/// What a panel needs to its left for numbers and label.
+/// The space to the left of a panel for numbers and label.
 pub(super) const LEFT_MARGIN: f64 = Y_LABEL + 10.0;
-/// What it needs below for both.
+/// The space below a panel for numbers and label.
 pub(super) const BOTTOM_MARGIN: f64 = X_LABEL + 18.0;
-/// What it needs above for its title.
+/// The space above a panel for its title.
 pub(super) const TOP_MARGIN: f64 = 20.0;
-/// Height of the arrow on a value that is a lower bound.
+/// The height of the arrow on a value that is a lower bound.
 const ARROW: f64 = 12.0;
 
-/// Where, and along which axes.
+/// A rectangle with its axes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Panel<'a> {
     pub(super) rect: Rect,
     pub(super) title: &'a str,
     pub(super) x: &'a Axis,
     pub(super) y: &'a Axis,
-    /// Which of its axes say what they are: those that have no neighbour to say it.
+    /// The axes with labels: those without a neighbour that has them.
     pub(super) labelled: Labelled,
 }
 
-/// Which axes of a panel have numbers and a label.
+/// The axes of a panel that have numbers and a label.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Labelled {
     pub(super) x: Label,
     pub(super) y: Label,
 }
 
-/// Whether an axis has numbers and a label.
+/// The presence of numbers and a label on an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Label {
     Written,
@@ -54,29 +54,29 @@ pub(super) struct Point {
     pub(super) kind: Kind,
 }
 
-/// What a value stands for.
+/// The meaning of a value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
-    /// The quantity itself.
+    /// The value is the quantity itself.
     Measured,
-    /// No more than it, since measuring was cut off.
+    /// The quantity is at least this, since the measurement was cut off.
     AtLeast,
 }
 
 impl Panel<'_> {
-    /// Frame, title, lines across and what the axes say.
+    /// Draws the frame, title, lines across and labels of the axes.
     pub(super) fn draw(&self, sheet: &Sheet<'_>) -> Result<(), DrawError> {
         self.draw_x_axis(sheet)?;
         self.draw_y_axis(sheet)?;
         sheet.frame(self.rect, FRAME)?;
-        let hand = Hand {
+        let format = TextFormat {
             weight: FontStyle::Bold,
-            ..Hand::default()
+            ..TextFormat::default()
         };
-        sheet.text(self.title, (self.rect.left, self.rect.top - 9.0), hand)
+        sheet.text(self.title, (self.rect.left, self.rect.top - 9.0), format)
     }
 
-    /// A line through values, with a marker on each.
+    /// Draws a line through values, with a marker on each.
     pub(super) fn series(
         &self,
         sheet: &Sheet<'_>,
@@ -90,7 +90,7 @@ impl Panel<'_> {
         self.markers(sheet, points, look)
     }
 
-    /// The markers alone.
+    /// Draws the markers alone.
     pub(super) fn markers(
         &self,
         sheet: &Sheet<'_>,
@@ -106,7 +106,7 @@ impl Panel<'_> {
         Ok(())
     }
 
-    /// Where a value is; none where it is NaN.
+    /// Returns the spot of a value, or `None` for NaN.
     pub(super) fn spot(&self, x: f64, y: f64) -> Option<Spot> {
         let across = self.rect.left + self.x.share(x)? * self.rect.width;
         let down = self.rect.bottom() - self.y.share(y)? * self.rect.height;
@@ -115,10 +115,10 @@ impl Panel<'_> {
 
     fn draw_x_axis(&self, sheet: &Sheet<'_>) -> Result<(), DrawError> {
         let (top, bottom) = (self.rect.top, self.rect.bottom());
-        let hand = Hand {
+        let format = TextFormat {
             across: HPos::Center,
             down: VPos::Top,
-            ..Hand::default()
+            ..TextFormat::default()
         };
         for tick in self.x.ticks() {
             let x = self.rect.left + tick.share * self.rect.width;
@@ -128,25 +128,25 @@ impl Panel<'_> {
                 .as_deref()
                 .filter(|_| self.labelled.x == Label::Written);
             if let Some(text) = written {
-                sheet.text(text, (x, bottom + TICK_GAP), hand)?;
+                sheet.text(text, (x, bottom + TICK_GAP), format)?;
             }
         }
         let middle = self.rect.left + 0.5 * self.rect.width;
-        let hand = Hand {
+        let format = TextFormat {
             down: VPos::Center,
-            ..hand
+            ..format
         };
         match self.labelled.x {
-            Label::Written => sheet.text(self.x.label(), (middle, bottom + X_LABEL), hand),
+            Label::Written => sheet.text(self.x.label(), (middle, bottom + X_LABEL), format),
             Label::Left => Ok(()),
         }
     }
 
     fn draw_y_axis(&self, sheet: &Sheet<'_>) -> Result<(), DrawError> {
         let (left, right) = (self.rect.left, self.rect.right());
-        let hand = Hand {
+        let format = TextFormat {
             across: HPos::Right,
-            ..Hand::default()
+            ..TextFormat::default()
         };
         for tick in self.y.ticks() {
             let y = self.rect.bottom() - tick.share * self.rect.height;
@@ -156,23 +156,23 @@ impl Panel<'_> {
                 .as_deref()
                 .filter(|_| self.labelled.y == Label::Written);
             if let Some(text) = written {
-                sheet.text(text, (left - TICK_GAP, y), hand)?;
+                sheet.text(text, (left - TICK_GAP, y), format)?;
             }
         }
         let middle = self.rect.top + 0.5 * self.rect.height;
-        let hand = Hand {
+        let format = TextFormat {
             across: HPos::Center,
             turn: Turn::Upwards,
-            ..hand
+            ..format
         };
         match self.labelled.y {
-            Label::Written => sheet.text(self.y.label(), (left - Y_LABEL, middle), hand),
+            Label::Written => sheet.text(self.y.label(), (left - Y_LABEL, middle), format),
             Label::Left => Ok(()),
         }
     }
 }
 
-/// A marker, with an arrow upwards where the value is a lower bound.
+/// Draws a marker, with an arrow upwards if the value is a lower bound.
 pub(super) fn mark(
     sheet: &Sheet<'_>,
     (x, y): Spot,
@@ -189,10 +189,10 @@ pub(super) fn mark(
     sheet.marker((x, y), look)
 }
 
-/// The hand that a panel's remarks are written in.
-pub(super) fn remark() -> Hand {
-    Hand {
+/// Returns the style of a panel's remarks.
+pub(super) fn remark() -> TextFormat {
+    TextFormat {
         size: TEXT - 1.0,
-        ..Hand::default()
+        ..TextFormat::default()
     }
 }

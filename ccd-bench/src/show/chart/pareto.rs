@@ -1,41 +1,41 @@
-//! Time against error: one panel for each scene, with a strip for what is unsafe.
+//! Time against error: one panel for each scene, with a strip for unsafe methods.
 
 use super::axis::Axis;
 use super::grid::Grid;
 use super::legend::Legend;
 use super::look::{Fill, Look, WARNING};
 use super::panel::{Kind, Panel, Point, mark, remark};
-use super::sheet::{DrawError, FRAME, Hand, Rect, Sheet};
+use super::sheet::{DrawError, FRAME, Rect, Sheet, TextFormat};
 use super::{ChartError, Charts, Drawing, Family, MethodFacts, SceneFacts, failed};
 use crate::run::measured::Cell;
 use ccd_core::order::greater;
 use plotters::style::Color;
 use plotters::style::text_anchor::HPos;
 
-/// Errors below this are rounding, and drawn at the edge.
+/// Smaller errors are rounding, and are drawn at the edge.
 const LEAST_ERROR: f64 = 1e-12;
-/// Room for a method in the strip.
+/// The width of a method's lane in the strip.
 const LANE: f64 = 10.0;
-/// Between a panel and its strip.
+/// The gap between a panel and its strip.
 const STRIP_GAP: f64 = 4.0;
-/// What the strip is called needs this much.
+/// The least width of the strip, for its title.
 const LEAST_STRIP: f64 = 46.0;
 
 type Shown<'a> = (&'a MethodFacts<'a>, Look);
 
-/// All scenes.
+/// Draws all scenes.
 pub(super) fn all_scenes(charts: &Charts<'_>) -> Result<Option<Drawing>, ChartError> {
     draw(charts, "pareto", &charts.measured_scenes(), Layout::DENSE)
 }
 
-/// The scenes to show first.
+/// Draws the scenes of the headline.
 pub(super) fn headline(charts: &Charts<'_>) -> Result<Option<Drawing>, ChartError> {
     let mut scenes = charts.measured_scenes();
     scenes.retain(|scene| charts.headline.contains(&scene.name));
     draw(charts, "pareto-small", &scenes, Layout::ROOMY)
 }
 
-/// How many panels side by side, and how high.
+/// The number of panels side by side, and their height.
 #[derive(Clone, Copy, Debug)]
 struct Layout {
     columns: usize,
@@ -92,7 +92,7 @@ fn draw(
         y,
         columns: layout.columns,
         height: layout.height,
-        beside: strip,
+        right_margin: strip,
     };
     let titles: Vec<_> = scenes.iter().map(|scene| scene.name).collect();
     let svg = grid.draw(&titles, |sheet, number, panel| {
@@ -113,7 +113,7 @@ fn axes(cells: &[(&Cell, Fill)]) -> Option<(Axis, Axis)> {
     let times = cells.iter().map(|(cell, _)| cell.median_us);
     let safe = cells.iter().filter(|(_, fill)| *fill == Fill::Solid);
     let errors = safe.map(|(cell, _)| greater(LEAST_ERROR, cell.mean_error));
-    // A plane with nothing on it is still one: the strip says what there is.
+    // A plane without points is still drawn: the strip shows the methods.
     let errors = errors.chain([LEAST_ERROR]);
     Some((
         Axis::logarithmic("mean error, share of duration", errors)?,
@@ -121,7 +121,7 @@ fn axes(cells: &[(&Cell, Fill)]) -> Option<(Axis, Axis)> {
     ))
 }
 
-/// None where nothing is unsafe.
+/// Returns the width of the strip, or zero if nothing is unsafe.
 fn strip_width(shown: &[Shown<'_>]) -> f64 {
     let lanes = shown.iter().filter(|(_, look)| look.fill == Fill::Hollow);
     match lanes.count() {
@@ -167,7 +167,7 @@ fn draw_scene(
     Ok(())
 }
 
-/// What is unsafe, by its time alone: one lane for each method.
+/// Draws unsafe methods by their time alone, one lane for each.
 fn draw_strip(
     charts: &Charts<'_>,
     sheet: &Sheet<'_>,
@@ -182,13 +182,13 @@ fn draw_strip(
     };
     sheet.rect(strip, WARNING.mix(0.08).filled())?;
     sheet.frame(strip, FRAME)?;
-    let hand = Hand {
+    let format = TextFormat {
         colour: WARNING,
         across: HPos::Center,
         ..remark()
     };
     let middle = strip.left + 0.5 * strip.width;
-    sheet.text("unsafe", (middle, strip.top - 9.0), hand)?;
+    sheet.text("unsafe", (middle, strip.top - 9.0), format)?;
     let unsafe_ones: Vec<_> = shown
         .iter()
         .filter(|(_, look)| look.fill == Fill::Hollow)
@@ -205,7 +205,7 @@ fn draw_strip(
     Ok(())
 }
 
-/// Whether a cell's median is the time of queries that were given up or cut off.
+/// Returns `AtLeast` if the median of a cell is the time of queries that were given up or cut off.
 pub(super) fn kind(cell: &Cell) -> Kind {
     match cell.rows > 0 && 2 * cell.unresolved >= cell.rows {
         true => Kind::AtLeast,

@@ -6,30 +6,30 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use std::io;
 
-/// The width of every chart, which fits beside the text of a README.
+/// The width of every chart, for the text width of a README.
 pub(super) const WIDTH: f64 = 840.0;
 /// The margin around everything.
 pub(super) const MARGIN: f64 = 10.0;
 
-/// What drawing fails with.
+/// An error of the drawing library.
 pub(super) type DrawError = DrawingAreaErrorKind<io::Error>;
 
-/// Units of the drawing in a pixel: the library places things on whole units.
+/// The units of the drawing in a pixel; the library places things on whole units.
 const UNITS: f64 = 10.0;
-/// The library writes a font size divided by this.
+/// The library divides a font size by this when it writes it.
 const FONT_RATIO: f64 = 1.24;
-/// Width of a character over the font size, on average, with some to spare.
+/// The average width of a character over the font size, with some reserve.
 const CHARACTER: f64 = 0.58;
-/// Text.
+/// The colour of text.
 pub(super) const INK: RGBColor = RGBColor(0x22, 0x22, 0x22);
-/// Frames of panels.
+/// The colour of frames of panels.
 pub(super) const FRAME: RGBColor = RGBColor(0x88, 0x88, 0x88);
-/// Lines behind the data.
+/// The colour of lines under the data.
 pub(super) const RULE: RGBColor = RGBColor(0xe4, 0xe4, 0xe4);
-/// The ordinary size of text, in pixels.
+/// The usual size of text, in pixels.
 pub(super) const TEXT: f64 = 12.0;
 
-/// A place in pixels, from the upper left corner.
+/// A position in pixels, from the upper left corner.
 pub(super) type Spot = (f64, f64);
 
 /// A rectangle in pixels.
@@ -51,13 +51,13 @@ impl Rect {
     }
 }
 
-/// How a line is drawn.
+/// The style of a line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Pen {
     pub(super) colour: RGBColor,
     pub(super) width: f64,
     pub(super) opacity: f64,
-    /// Lengths of a dash and of a gap, in pixels; none where the line is solid.
+    /// The lengths of a dash and of a gap, in pixels; `None` for a solid line.
     pub(super) dash: Option<(f64, f64)>,
 }
 
@@ -80,9 +80,9 @@ impl Pen {
     }
 }
 
-/// How a text is written.
+/// The style of a text.
 #[derive(Clone, Copy)]
-pub(super) struct Hand {
+pub(super) struct TextFormat {
     pub(super) size: f64,
     pub(super) colour: RGBColor,
     pub(super) weight: FontStyle,
@@ -91,16 +91,16 @@ pub(super) struct Hand {
     pub(super) turn: Turn,
 }
 
-/// Which way a text runs.
+/// The direction of a text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Turn {
     Across,
     Upwards,
 }
 
-impl Default for Hand {
+impl Default for TextFormat {
     fn default() -> Self {
-        Hand {
+        TextFormat {
             size: TEXT,
             colour: INK,
             weight: FontStyle::Normal,
@@ -111,13 +111,13 @@ impl Default for Hand {
     }
 }
 
-/// What is drawn on.
+/// The drawing surface.
 pub(super) struct Sheet<'s> {
     area: DrawingArea<SVGBackend<'s>, Shift>,
 }
 
 impl Sheet<'_> {
-    /// The text of an SVG file, drawn by `body` on a white sheet of a size in pixels.
+    /// Returns the SVG file that `body` draws on a white sheet of the given size in pixels.
     pub(super) fn draw(
         title: &str,
         size: Spot,
@@ -144,7 +144,7 @@ impl Sheet<'_> {
     }
 
     pub(super) fn line(&self, spots: &[Spot], pen: Pen) -> Result<(), DrawError> {
-        let path: Vec<_> = spots.iter().map(|&spot| place(spot)).collect();
+        let path: Vec<_> = spots.iter().map(|&spot| to_units(spot)).collect();
         match pen.dash {
             None => self.area.draw(&PathElement::new(path, pen.style())),
             Some((dash, gap)) => self.area.draw(&DashedPathElement::new(
@@ -157,14 +157,14 @@ impl Sheet<'_> {
     }
 
     pub(super) fn polygon(&self, spots: &[Spot], fill: RGBAColor) -> Result<(), DrawError> {
-        let corners: Vec<_> = spots.iter().map(|&spot| place(spot)).collect();
+        let corners: Vec<_> = spots.iter().map(|&spot| to_units(spot)).collect();
         self.area.draw(&Polygon::new(corners, fill.filled()))
     }
 
     pub(super) fn rect(&self, rect: Rect, style: ShapeStyle) -> Result<(), DrawError> {
         let corners = [
-            place((rect.left, rect.top)),
-            place((rect.right(), rect.bottom())),
+            to_units((rect.left, rect.top)),
+            to_units((rect.right(), rect.bottom())),
         ];
         self.area.draw(&Rectangle::new(corners, style))
     }
@@ -187,48 +187,48 @@ impl Sheet<'_> {
         style: ShapeStyle,
     ) -> Result<(), DrawError> {
         self.area
-            .draw(&Circle::new(place(centre), units(radius), style))
+            .draw(&Circle::new(to_units(centre), units(radius), style))
     }
 
-    pub(super) fn text(&self, text: &str, spot: Spot, hand: Hand) -> Result<(), DrawError> {
+    pub(super) fn text(&self, text: &str, spot: Spot, format: TextFormat) -> Result<(), DrawError> {
         let font = FontDesc::new(
             FontFamily::SansSerif,
-            hand.size * UNITS * FONT_RATIO,
-            hand.weight,
+            format.size * UNITS * FONT_RATIO,
+            format.weight,
         );
-        let turn = match hand.turn {
+        let turn = match format.turn {
             Turn::Across => FontTransform::None,
             Turn::Upwards => FontTransform::Rotate270,
         };
         let style = font
             .transform(turn)
-            .color(&hand.colour)
-            .pos(Pos::new(hand.across, hand.down));
-        self.area.draw(&Text::new(text, place(spot), style))
+            .color(&format.colour)
+            .pos(Pos::new(format.across, format.down));
+        self.area.draw(&Text::new(text, to_units(spot), style))
     }
 }
 
-/// How wide a text is, in pixels, about.
+/// Returns the approximate width of a text, in pixels.
 pub(super) fn text_width(text: &str, size: f64) -> f64 {
     text.chars().map(|_| CHARACTER * size).sum()
 }
 
-/// A width in units, for shapes of several parts.
+/// Returns a style with a width in units, for shapes of several parts.
 pub(super) fn stroke(colour: RGBColor, width: f64) -> ShapeStyle {
     Pen::solid(colour, width).style()
 }
 
-fn place(spot: Spot) -> (i32, i32) {
+fn to_units(spot: Spot) -> (i32, i32) {
     (units(spot.0), units(spot.1))
 }
 
-/// Pixels in units of the drawing; NaN is 0.
-// Saturates, and a sheet is some thousand pixels wide.
+/// Converts pixels to units of the drawing; NaN becomes 0.
+// The cast saturates, and a sheet is some thousand pixels wide.
 fn units(pixels: f64) -> i32 {
     (pixels * UNITS).round() as i32
 }
 
-/// A text as it may stand in XML.
+/// Escapes a text for XML.
 fn escape(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for character in text.chars() {

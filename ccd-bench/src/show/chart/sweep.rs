@@ -1,4 +1,4 @@
-//! What a tighter tolerance costs: one panel for each scene.
+//! The cost of a tighter tolerance: one panel for each scene.
 
 use super::axis::Axis;
 use super::grid::Grid;
@@ -8,7 +8,7 @@ use super::pareto::kind;
 use super::{ChartError, Charts, Drawing, Family, failed};
 use crate::run::measured::Cell;
 
-/// Time against tolerance.
+/// Draws time against tolerance.
 pub(super) fn tolerance(charts: &Charts<'_>) -> Result<Option<Drawing>, ChartError> {
     Sweep {
         name: "tolerance",
@@ -20,7 +20,7 @@ pub(super) fn tolerance(charts: &Charts<'_>) -> Result<Option<Drawing>, ChartErr
     .draw(charts)
 }
 
-/// Steps against tolerance.
+/// Draws steps against tolerance.
 pub(super) fn steps(charts: &Charts<'_>) -> Result<Option<Drawing>, ChartError> {
     Sweep {
         name: "steps",
@@ -67,7 +67,7 @@ impl Sweep {
             y,
             columns: 3,
             height: 190.0,
-            beside: 0.0,
+            right_margin: 0.0,
         };
         let titles: Vec<_> = scenes.iter().map(|scene| scene.name).collect();
         let svg = grid.draw(&titles, |sheet, number, panel| {

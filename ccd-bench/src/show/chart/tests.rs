@@ -66,7 +66,7 @@ fn cell(scene: &str, method: &str, tolerance: f64) -> Cell {
     }
 }
 
-/// Three methods on two scenes; the careless one misses a contact in one cell.
+/// Returns cells of three methods on two scenes; the careless method misses a contact in one cell.
 fn cells() -> Vec<Cell> {
     let mut cells = Vec::new();
     for scene in &SCENES[..2] {
@@ -118,7 +118,7 @@ fn charts<'a>(cells: &'a [Cell], trials: &'a [Trial]) -> Charts<'a> {
     }
 }
 
-/// The text of one chart.
+/// Returns the text of one chart.
 fn svg(drawings: &[Drawing], name: &str) -> String {
     let drawing = drawings.iter().find(|drawing| drawing.name == name);
     drawing
@@ -171,7 +171,7 @@ fn names_are_escaped_and_no_number_is_lost() {
 }
 
 #[test]
-fn an_unsafe_method_stands_in_the_strip_only() {
+fn an_unsafe_method_is_in_the_strip_only() {
     let (safe, trials) = (cells(), trials());
     let mut careful = safe.clone();
     for cell in &mut careful {
@@ -198,11 +198,11 @@ fn an_unsafe_method_stands_in_the_strip_only() {
 }
 
 #[test]
-fn empty_tables_are_an_error_and_strange_ones_no_panic() {
+fn empty_tables_are_an_error_and_strange_ones_do_not_panic() {
     let empty = charts(&[], &[]).drawings();
     assert!(matches!(empty, Err(ChartError::NothingToDraw)), "{empty:?}");
-    let strangers = [cell("elsewhere", "nobody", 1e-3)];
-    let unknown = charts(&strangers, &[]).drawings();
+    let unknown_cells = [cell("elsewhere", "nobody", 1e-3)];
+    let unknown = charts(&unknown_cells, &[]).drawings();
     assert!(
         matches!(unknown, Err(ChartError::NothingToDraw)),
         "{unknown:?}"
@@ -215,7 +215,7 @@ fn empty_tables_are_an_error_and_strange_ones_no_panic() {
 }
 
 #[test]
-fn files_are_written_and_a_folder_that_is_not_there_is_an_error() {
+fn files_are_written_and_a_missing_folder_is_an_error() {
     let (cells, trials) = (cells(), trials());
     let charts = charts(&cells, &trials);
     let folder = std::env::temp_dir().join(format!("ccd-charts-{}", std::process::id()));
@@ -259,11 +259,11 @@ fn axes_cover_their_values() {
     assert!(axis.share(3e-7) < axis.share(0.5));
     assert!(Axis::logarithmic("", [0.0, f64::NAN].into_iter()).is_none());
     let fitted = Axis::fitted("", [2_880.0, 69_664.0].into_iter()).unwrap();
-    let said: Vec<_> = fitted
+    let labels: Vec<_> = fitted
         .ticks()
         .iter()
         .filter_map(|t| t.text.as_deref())
         .collect();
-    assert_eq!(said, ["5,000", "10,000", "20,000", "50,000"]);
+    assert_eq!(labels, ["5,000", "10,000", "20,000", "50,000"]);
     assert_eq!(power_of_ten(-12), "10⁻¹²");
 }

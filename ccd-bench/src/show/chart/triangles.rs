@@ -4,13 +4,13 @@ use super::axis::Axis;
 use super::grid::Grid;
 use super::legend::Legend;
 use super::panel::{Kind, Panel, Point, remark};
-use super::sheet::{DrawError, Hand, Sheet};
+use super::sheet::{DrawError, Sheet, TextFormat};
 use super::{ChartError, Charts, Drawing, Family, MethodFacts, SceneFacts, failed, is_papers};
 use plotters::style::text_anchor::{HPos, VPos};
 
 const NAME: &str = "triangles";
 
-/// From which share of the axis on names may not reach beyond their place.
+/// The position on the axis from which names must not extend to the right of their point.
 const CROWDED: f64 = 0.75;
 
 /// Scenes of one shape and size, which make one point of a line.
@@ -20,7 +20,7 @@ struct Size<'a> {
     scenes: Vec<&'a str>,
 }
 
-/// One panel of all shapes: a line over the sizes of one shape, a marker for a shape of one size.
+/// Draws one panel of all shapes: a line over the sizes of one shape, a marker for a shape of one size.
 pub(super) fn chart(charts: &Charts<'_>) -> Result<Option<Drawing>, ChartError> {
     let shown = charts.shown(&Family::COMPARED);
     let sizes = sizes(&charts.measured_scenes());
@@ -53,7 +53,7 @@ pub(super) fn chart(charts: &Charts<'_>) -> Result<Option<Drawing>, ChartError> 
         y,
         columns: 1,
         height: 400.0,
-        beside: 0.0,
+        right_margin: 0.0,
     };
     let svg = grid.draw(&[""], |sheet, _, panel| {
         name_sizes(sheet, panel, &sizes)?;
@@ -72,7 +72,7 @@ pub(super) fn chart(charts: &Charts<'_>) -> Result<Option<Drawing>, ChartError> 
     }))
 }
 
-/// What a method takes for each size of a shape.
+/// Returns the time of a method for each size of a shape.
 fn points(
     charts: &Charts<'_>,
     method: &MethodFacts<'_>,
@@ -115,8 +115,8 @@ fn shapes<'a>(sizes: &[Size<'a>]) -> Vec<&'a str> {
     shapes
 }
 
-/// The geometric mean of the medians of a size's scenes; none where one of them was not measured, or
-/// half of its queries were given up or cut off.
+/// Returns the geometric mean of the medians of a size's scenes. Returns `None` if one of them was
+/// not measured, or if half of its queries were given up or cut off.
 fn mean_cost(charts: &Charts<'_>, method: &MethodFacts<'_>, size: &Size<'_>) -> Option<f64> {
     let mut sum = 0.0;
     for scene in &size.scenes {
@@ -131,14 +131,14 @@ fn mean_cost(charts: &Charts<'_>, method: &MethodFacts<'_>, size: &Size<'_>) -> 
     mean.is_finite().then_some(mean)
 }
 
-/// Which body stands where, along the upper edge.
+/// Writes the names of bodies along the upper edge.
 fn name_sizes(sheet: &Sheet<'_>, panel: &Panel<'_>, sizes: &[Size<'_>]) -> Result<(), DrawError> {
     for (number, size) in sizes.iter().enumerate() {
         let Some(share) = panel.x.share(size.triangles as f64) else {
             continue;
         };
-        let hand = Hand {
-            // Large meshes crowd on a logarithmic axis: their names end where they stand.
+        let format = TextFormat {
+            // Large meshes are close together on a logarithmic axis, so their names end at their points.
             across: if share > CROWDED {
                 HPos::Right
             } else {
@@ -148,9 +148,9 @@ fn name_sizes(sheet: &Sheet<'_>, panel: &Panel<'_>, sizes: &[Size<'_>]) -> Resul
             ..remark()
         };
         let x = panel.rect.left + share * panel.rect.width;
-        // Neighbours, which may be close, on two lines.
+        // Neighbours may be close, so they alternate between two lines.
         let y = panel.rect.top - 21.0 + 13.0 * (number % 2) as f64;
-        sheet.text(size.shape, (x, y), hand)?;
+        sheet.text(size.shape, (x, y), format)?;
     }
     Ok(())
 }

@@ -1,15 +1,15 @@
-//! Tables put into a README, between markers.
+//! Inserts tables into a README, between markers.
 
 use crate::show::tables::TextTable;
 use anyhow::{Context, Result, ensure};
 use std::fs;
 use std::path::Path;
 
-/// Replaces what stands between `<!-- ccd chart: NAME -->` and the next `<!-- end -->` by the table of
+/// Replaces the text between `<!-- ccd chart: NAME -->` and the next `<!-- end -->` by the table of
 /// that name, for every table that the file has a marker for.
 ///
 /// # Errors
-/// When the file cannot be read or written, has no marker of any table, or one without an end.
+/// If the file cannot be read or written, has no marker of any table, or has a marker without an end.
 pub fn splice(file: &Path, tables: &[TextTable]) -> Result<()> {
     let text = fs::read_to_string(file)?;
     let spliced = spliced(&text, tables)?;
@@ -54,7 +54,7 @@ mod tests {
     }
 
     #[test]
-    fn what_stands_between_the_markers_is_replaced_and_nothing_else() {
+    fn text_between_the_markers_is_replaced_and_nothing_else() {
         let text = "a\n<!-- ccd chart: usual -->\nold\n<!-- end -->\nb\n";
         let once = spliced(text, &[table("fine"), table("usual")]).unwrap();
         assert!(once.starts_with("a\n<!-- ccd chart: usual -->\nTitle:\n\n| scene"));
@@ -64,7 +64,7 @@ mod tests {
     }
 
     #[test]
-    fn a_file_without_a_place_for_tables_is_refused() {
+    fn a_file_without_markers_is_refused() {
         assert!(spliced("nothing", &[table("usual")]).is_err());
         assert!(spliced("<!-- ccd chart: usual -->\n", &[table("usual")]).is_err());
     }

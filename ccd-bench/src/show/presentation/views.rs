@@ -1,4 +1,4 @@
-//! The page: charts, tables, and a few motions of each scene to be looked at.
+//! The page: charts, tables, and a few motions of each scene to view.
 
 use crate::scene::Scene;
 use crate::show::chart::Charts;
@@ -9,22 +9,22 @@ use rigid_ccd::batch::SolverKind;
 use rigid_ccd::batch::solve;
 use std::path::{Path, PathBuf};
 
-/// How many motions of a scene can be looked at: contacts, and others.
+/// The numbers of motions of a scene to view: contacts, and others.
 const CONTACTS: usize = 6;
 const OTHERS: usize = 2;
 
 const PREFACE: &str = "\
 When do two moving bodies first touch? Methods of this project, published rivals and peer libraries were \
-asked the same, timed one query at a time, and held against brackets of the exact first contact.
+given the same queries, timed one query at a time, and compared with brackets of the exact first contact.
 
-A method that was late, or missed a contact, anywhere is drawn as unsafe everywhere: it has no place on \
-the plane of speed and accuracy.";
+A method that was late or missed a contact anywhere is drawn as unsafe everywhere, without a point on the \
+plane of time and error.";
 
-/// Why there is no page.
+/// The page cannot be made.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub(super) enum ViewsError {
-    /// A query of a scene cannot be posed.
+    /// A query of a scene is invalid.
     #[error(transparent)]
     Input(#[from] InputError),
     /// The page cannot be written.
@@ -32,7 +32,7 @@ pub(super) enum ViewsError {
     Page(#[from] PageError),
 }
 
-/// Writes the page into a folder; returns its path.
+/// Writes the page into a folder. Returns its path.
 ///
 /// # Errors
 /// [`ViewsError`].
@@ -55,7 +55,7 @@ pub(super) fn write_page(
     Ok(path)
 }
 
-/// The first motions of each kind.
+/// Returns the view of a scene with the first motions of each kind.
 fn view(scene: &Scene) -> Result<View<'_>, InputError> {
     let mut solver = SolverKind::default().solver();
     let mut shots = Vec::new();

@@ -1,4 +1,4 @@
-// The plane of time and error of one scene, with a strip for what is unsafe.
+// The plane of time and error of one scene, with a strip for unsafe methods.
 "use strict";
 (() => {
   const measured = JSON.parse(document.getElementById("measured").textContent);

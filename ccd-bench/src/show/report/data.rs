@@ -1,4 +1,4 @@
-//! What the page's scripts read: JSON that may stand between two tags.
+//! The data for the page's scripts: JSON that is safe between two tags.
 
 use super::{Shot, View};
 use crate::run::measured::Cell;
@@ -34,7 +34,7 @@ struct CellData<'a> {
     rows: usize,
     median_us: f64,
     mean_us: f64,
-    /// None of no contact.
+    /// `None` if there is no contact.
     error: Option<f64>,
     late: usize,
     missed: usize,
@@ -49,12 +49,12 @@ struct Views<'a> {
     views: Vec<ViewData<'a>>,
 }
 
-/// Little-endian numbers in base64.
+/// A mesh as little-endian numbers in base64.
 #[derive(PartialEq, Serialize)]
 struct MeshData {
-    /// Three `f32` for each.
+    /// Three `f32` per vertex.
     vertices: String,
-    /// Three `u32` for each.
+    /// Three `u32` per face.
     faces: String,
 }
 
@@ -86,17 +86,17 @@ struct ContactData {
 
 #[derive(Serialize)]
 struct MotionData {
-    /// Of rotation, in the body's frame.
+    /// The centre of rotation, in the body's frame.
     centre: [f64; 3],
-    /// Where it is at the start.
+    /// The centre at the start.
     from: [f64; 3],
     velocity: [f64; 3],
     spin: [f64; 3],
-    /// At the start, by rows.
+    /// The rotation at the start, by rows.
     rotation: [f64; 9],
 }
 
-/// The table behind the plane of time and error.
+/// Serialises the table for the plane of time and error.
 pub(super) fn measured(charts: &Charts<'_>) -> Result<String, serde_json::Error> {
     let compared: Vec<_> = charts
         .colours()
@@ -154,7 +154,7 @@ fn cell_data(cell: &Cell) -> CellData<'_> {
     }
 }
 
-/// Meshes, motions and answers of the views; equal meshes once.
+/// Serialises the meshes, motions and answers of the views; equal meshes once.
 pub(super) fn views(views: &[View<'_>]) -> Result<String, serde_json::Error> {
     let mut meshes = Vec::new();
     let mut stored = |mesh: &TriangleMesh| {
@@ -182,8 +182,8 @@ pub(super) fn views(views: &[View<'_>]) -> Result<String, serde_json::Error> {
 
 fn mesh_data(mesh: &TriangleMesh) -> MeshData {
     // Single precision is finer than any screen.
-    let places = mesh.vertices().iter().flat_map(|v| v.as_vec3().to_array());
-    let vertices: Vec<u8> = places.flat_map(f32::to_le_bytes).collect();
+    let positions = mesh.vertices().iter().flat_map(|v| v.as_vec3().to_array());
+    let vertices: Vec<u8> = positions.flat_map(f32::to_le_bytes).collect();
     let corners = mesh.faces().iter().flatten();
     let faces: Vec<u8> = corners.flat_map(|corner| corner.to_le_bytes()).collect();
     MeshData {
@@ -215,7 +215,7 @@ fn shot_data(shot: &Shot) -> ShotData {
     }
 }
 
-/// What happens, in a sentence.
+/// Describes an outcome in a sentence.
 fn status(outcome: &Outcome, duration: f64) -> String {
     let at = |contact: &Contact| {
         let Contact {
@@ -269,7 +269,7 @@ fn motion_data(motion: &Motion) -> MotionData {
     }
 }
 
-/// JSON in which no tag can begin.
+/// Serialises as JSON in which no tag can begin.
 fn json(value: &impl Serialize) -> Result<String, serde_json::Error> {
     Ok(serde_json::to_string(value)?.replace('<', "\\u003c"))
 }

@@ -1,9 +1,9 @@
-// Tables that sort by the column whose name is clicked.
+// Sorts tables by the column whose name is clicked.
 "use strict";
 (() => {
   const collator = new Intl.Collator("en", { numeric: true });
 
-  // Numbers by value, whatever stands around them; words by the alphabet, after all numbers.
+  // Numbers are sorted by value, despite other characters around them; words follow, in alphabetical order.
   function compare(a, b) {
     const [x, y] = [a, b].map((text) => parseFloat(text.replace(/[,>\s]/g, "")));
     if (Number.isNaN(x) && Number.isNaN(y)) return collator.compare(a, b);

@@ -15,7 +15,7 @@ fn mesh() -> TriangleMesh {
     Model::Knot216.generate().unwrap()
 }
 
-/// A knot turning past a resting one, so far aside.
+/// Returns a shot of a knot that turns past a resting one at the given distance.
 fn shot(mesh: &TriangleMesh, aside: f64) -> Shot {
     let body = body_from_mesh(mesh, Detail::Auto).unwrap().body;
     let start = Pose::new(DVec3::new(3.0, aside, 0.0), DQuat::from_rotation_y(0.3)).unwrap();
@@ -120,7 +120,7 @@ fn meshes_are_stored_once_and_decode_to_their_numbers() {
         (&0.into(), &0.into())
     );
     let mesh = mesh();
-    let places: Vec<f32> = decoded(&meshes[0]["vertices"])
+    let positions: Vec<f32> = decoded(&meshes[0]["vertices"])
         .into_iter()
         .map(f32::from_le_bytes)
         .collect();
@@ -129,7 +129,7 @@ fn meshes_are_stored_once_and_decode_to_their_numbers() {
         .iter()
         .flat_map(|v| v.as_vec3().to_array())
         .collect();
-    assert_eq!(places, expected);
+    assert_eq!(positions, expected);
     let corners: Vec<u32> = decoded(&meshes[0]["faces"])
         .into_iter()
         .map(u32::from_le_bytes)
@@ -138,7 +138,7 @@ fn meshes_are_stored_once_and_decode_to_their_numbers() {
 }
 
 #[test]
-fn shots_say_what_happens_and_where() {
+fn shots_describe_their_outcome_and_contact() {
     let html = with_page(|page| page.html().unwrap());
     let data = script(&html, "views");
     let shots = data["views"][0]["shots"].as_array().unwrap();
@@ -160,7 +160,7 @@ fn shots_say_what_happens_and_where() {
     assert!(time > 0.0 && time < 2.0);
     assert!(shots[1]["time"].is_null() && shots[1]["contact"].is_null());
     assert!(shots[0]["contact"]["normal"].is_array());
-    // The formula that the page moves bodies by gives the pose of the motion.
+    // The formula by which the page moves bodies gives the pose of the motion.
     let numbers = |value: &Value| -> Vec<f64> {
         value
             .as_array()
@@ -188,7 +188,7 @@ fn shots_say_what_happens_and_where() {
 }
 
 #[test]
-fn the_page_needs_nothing_else_and_escapes_what_it_is_given() {
+fn the_page_is_self_contained_and_escapes_its_input() {
     let html = with_page(|page| page.html().unwrap());
     assert!(html.contains("<title>Of &quot;knots&quot;</title>"));
     assert!(html.contains("<p>Two &lt; three.</p>"));
@@ -225,7 +225,7 @@ fn a_quantity_without_a_value_is_null() {
 }
 
 #[test]
-fn a_page_of_nothing_is_an_error() {
+fn an_empty_page_is_an_error() {
     let error = with_page(|page| {
         let charts = Charts {
             cells: &[],

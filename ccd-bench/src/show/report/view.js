@@ -1,4 +1,4 @@
-// Both bodies of a scene, moved by the formula of their motions.
+// Shows both bodies of a scene, moved by the formula of their motions.
 "use strict";
 (() => {
   const data = JSON.parse(document.getElementById("views").textContent);
@@ -10,7 +10,7 @@
   const decoded = new Map();
   let state = null;
 
-  // A mesh's places and corners, read when it is first shown.
+  // The positions and faces of a mesh, decoded when it is first shown.
   function mesh(index) {
     if (!decoded.has(index)) {
       const { vertices, faces } = data.meshes[index];
@@ -24,7 +24,7 @@
 
   const times = (m, v) => [0, 3, 6].map((r) => m[r] * v[0] + m[r + 1] * v[1] + m[r + 2] * v[2]);
 
-  // The turn by a rotation vector, as a matrix by rows (Rodrigues).
+  // The rotation by a rotation vector, as a matrix by rows (Rodrigues).
   function turn(vector) {
     const angle = Math.hypot(...vector);
     if (!(angle > 0)) return [1, 0, 0, 0, 1, 0, 0, 0, 1];
@@ -84,7 +84,7 @@
     ];
   }
 
-  // All that is shown fits in, from start to end.
+  // The axes contain everything from start to end.
   function extent(traces) {
     const low = [Infinity, Infinity, Infinity];
     const high = [-Infinity, -Infinity, -Infinity];
@@ -132,7 +132,7 @@
     now.textContent = state.t.toPrecision(5);
   }
 
-  // The next pose is drawn when the last one is: a large mesh drops frames instead of piling them up.
+  // The next pose is drawn after the last one is complete, so a large mesh drops frames instead of queueing them.
   let drawing = false;
   async function move(t) {
     state.t = t;

@@ -34,10 +34,10 @@ fn trials() -> Vec<Trial> {
 }
 
 #[test]
-fn ratios_are_of_the_rows_that_both_were_asked() {
+fn ratios_are_over_the_rows_common_to_both_methods() {
     let others = ["C2A", "discrete stepping", "parry-f64", "naive direct"];
     let table = ratios(&trials(), "best-first direct", &others, 1e-3);
-    // Over rows 0 and 1. The row that took 1000 was asked of one only.
+    // Over rows 0 and 1. The row with time 1000 was asked of one method only.
     assert_eq!(
         table.rows,
         [[
@@ -56,7 +56,7 @@ fn ratios_are_of_the_rows_that_both_were_asked() {
 }
 
 #[test]
-fn answers_are_counted_per_method_and_distances_are_none() {
+fn answers_are_counted_per_method_without_distances() {
     let all = trials();
     let mut cells: Vec<Cell> = Vec::new();
     for method in ["C2A", "discrete stepping", "parry-f64", "coal-distance"] {

@@ -1,4 +1,4 @@
-//! Distances against all pairs, and those of two triangles against a grid of points.
+//! Compares distances with all pairs, and those of two triangles with a grid of points.
 
 use super::super::triangle::{nearest, nearest_or_common};
 use super::super::{Referee, Surface};
@@ -69,7 +69,7 @@ fn nearest_points_are_as_near_as_a_grid_finds() {
         let found = (p - q).length();
         let grid = grid(&a, STEPS).flat_map(|p| grid(&b, STEPS).map(move |q| (p - q).length()));
         let least = grid.fold(f64::INFINITY, lesser);
-        // Each point has one of the grid within an edge over the steps.
+        // Each point has a grid point within an edge divided by the steps.
         let spacing = 2.0 * 2.0 * f64::sqrt(3.0) / f64::from(STEPS) * 2.0;
         assert!(
             found <= least + 1e-14 && least - spacing <= found,

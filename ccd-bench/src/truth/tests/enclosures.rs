@@ -1,10 +1,10 @@
-//! Sines, cosines and rotations against known values.
+//! Compares sines, cosines and rotations with known values.
 
 use super::super::enclosure::{Matrix, exact, sin_cos};
 use ccd_core::glam::{DMat3, DQuat, DVec3};
 use inari::{Interval, interval};
 
-/// Argument, sine, cosine: each of the latter as an unevaluated sum of two floats, from 120 decimals.
+/// Argument, sine, cosine. Sine and cosine are unevaluated sums of two floats, from 120 decimals.
 #[rustfmt::skip]
 #[expect(clippy::approx_constant, reason = "floats, not the constants near them")]
 const KNOWN: [(f64, [f64; 2], [f64; 2]); 11] = [

@@ -7,7 +7,7 @@ use ccd_core::glam::{DQuat, DVec3};
 use rigid_ccd::table::motions::Query;
 use std::f64::consts::{FRAC_PI_4, PI};
 
-/// A share of the duration: how far the numbers of a scene, rounded, move its contact.
+/// The change of a contact by the rounded numbers of a scene, as a fraction of the duration.
 const SCENE_ROUNDED: f64 = 1e-14;
 
 fn assert_hit(bodies: [&Surface; 2], query: &Query, exact: f64) {
@@ -25,7 +25,7 @@ fn assert_hit(bodies: [&Surface; 2], query: &Query, exact: f64) {
         "{lo} {hi}: {:e}",
         hi - lo
     );
-    // The roles are alike.
+    // The roles of the bodies are symmetric.
     let swapped = super::query(query.b, query.a, query.duration);
     let Truth::Hit { lo: l, hi: h } = judge([bodies[1], bodies[0]], &swapped) else {
         panic!("no hit with the roles swapped");
@@ -38,8 +38,8 @@ fn falling(rotation: DQuat, height: f64, spin: DVec3) -> Motion {
     Motion::new(start, -4.0 * DVec3::Z, spin).unwrap()
 }
 
-fn spinning(place: DVec3, spin: DVec3) -> Motion {
-    Motion::new(at(place, DQuat::IDENTITY), DVec3::ZERO, spin).unwrap()
+fn spinning(position: DVec3, spin: DVec3) -> Motion {
+    Motion::new(at(position, DQuat::IDENTITY), DVec3::ZERO, spin).unwrap()
 }
 
 #[test]
@@ -53,7 +53,7 @@ fn a_cube_falls_flat_on_a_slab() {
             0.625,
         );
     }
-    // Corners fall on the diagonal that the slab's top is divided by.
+    // Corners fall on the diagonal that divides the slab's top.
     let straight = Motion::new(
         at(3.0 * DVec3::Z, DQuat::IDENTITY),
         -4.0 * DVec3::Z,
@@ -118,7 +118,7 @@ fn a_rod_all_but_misses_a_wall_or_just_misses_it() {
         let Truth::Hit { lo, hi } = judge([&rod, &wall], &near) else {
             panic!("no hit at {part}");
         };
-        // The wall's place is rounded, and met at a shallow angle.
+        // The wall's position is rounded, and it is met at a shallow angle.
         let off = 1e-15 / part.sqrt();
         assert!(
             lo - off <= exact && exact <= hi + off && hi - lo < 1e-9,
@@ -139,8 +139,8 @@ fn an_edge_meets_a_parallel_edge() {
         DVec3::new(-psi.sin(), psi.cos(), 0.0),
         DVec3::new(psi.cos(), psi.sin(), 0.0),
     );
-    let place = r * edge + 0.1 * f64::sqrt(2.0) * ahead;
-    let post_motion = Motion::still(at(place, DQuat::from_rotation_z(psi + FRAC_PI_4)));
+    let position = r * edge + 0.1 * f64::sqrt(2.0) * ahead;
+    let post_motion = Motion::still(at(position, DQuat::from_rotation_z(psi + FRAC_PI_4)));
     let turn = spinning(DVec3::ZERO, 1.5 * DVec3::Z);
     assert_hit([&rod, &post], &query(turn, post_motion, 1.0), exact);
 }
@@ -173,7 +173,7 @@ fn two_rods_turn_towards_each_other() {
 }
 
 #[test]
-fn what_slides_or_goes_along_is_free_and_flush_is_a_graze() {
+fn parallel_motions_are_free_and_flush_ones_graze() {
     let (cube, slab) = (cuboid(0.5, 0.5, 0.5), cuboid(9.0, 9.0, 1.0));
     let slide = |height: f64| {
         let start = at(DVec3::new(-10.5, 0.0, height), DQuat::IDENTITY);
@@ -201,7 +201,7 @@ fn what_slides_or_goes_along_is_free_and_flush_is_a_graze() {
 }
 
 #[test]
-fn the_start_is_told_and_the_inside_is_free() {
+fn contact_at_the_start_is_found_and_the_inside_is_free() {
     let (cube, shell) = (cuboid(0.5, 0.5, 0.5), cuboid(2.0, 2.0, 2.0));
     let start = |x: f64| {
         judge(
@@ -224,7 +224,7 @@ fn the_start_is_told_and_the_inside_is_free() {
 }
 
 #[test]
-fn durations_that_are_none_are_undecided() {
+fn invalid_durations_are_undecided() {
     let cube = cuboid(0.5, 0.5, 0.5);
     for duration in [f64::NAN, f64::INFINITY, -1.0] {
         let query = query(still(3.0, 0.0, 0.0), still(0.0, 0.0, 0.0), duration);

@@ -1,4 +1,4 @@
-//! Random soups against the obvious: all pairs of triangles at many times.
+//! Compares random soups with brute force: all pairs of triangles at many times.
 
 use super::super::{Referee, Surface, Truth};
 use super::{query, random_motion, random_vector, soup};
@@ -17,11 +17,11 @@ fn brackets_agree_with_all_pairs_at_many_times() {
     let (mut hits, mut free, mut initial) = (0, 0, 0);
     for round in 0..300 {
         let meshes = [soup(&mut rng, 1 + round % 5), soup(&mut rng, 1 + round % 3)];
-        // Every eighth starts where it may be in contact.
+        // Every eighth case starts where it may be in contact.
         let far = if round % 8 == 0 { 0.6 } else { 2.4 };
         let from = far * random_vector(&mut rng, 1.0).normalize();
         let aim = random_vector(&mut rng, 1.2) - from;
-        // Every third turns a few times.
+        // Every third case turns a few times.
         let spin = if round % 3 == 0 { 15.0 } else { 2.0 };
         let a = random_motion(&mut rng, from, aim + DVec3::X, spin);
         let b = random_motion(&mut rng, DVec3::ZERO, DVec3::X, spin);
@@ -45,7 +45,7 @@ fn brackets_agree_with_all_pairs_at_many_times() {
                     "{round}"
                 );
                 assert!(referee.distance(&query, hi).upper < 1e-10, "{round}");
-                // Shortly after, as plain floats see it.
+                // Contact is visible shortly afterwards in plain floats.
                 assert!((1..40).any(|k| meet(&meshes, [&a, &b], hi + 1e-9 * 1.3_f64.powi(k))));
             }
             (Truth::Free, None) => free += 1,
@@ -59,7 +59,7 @@ fn brackets_agree_with_all_pairs_at_many_times() {
     );
 }
 
-/// Whether an edge passes through a triangle, of any two, by the engine's own placement.
+/// Returns true if an edge of any triangle passes through another, by the engine's own placement.
 fn meet(meshes: &[TriangleMesh; 2], motions: [&Motion; 2], time: f64) -> bool {
     let placed = [0, 1].map(|body| {
         let pose = motions[body].pose(time);
@@ -77,7 +77,8 @@ fn meet(meshes: &[TriangleMesh; 2], motions: [&Motion; 2], time: f64) -> bool {
         .any(|a| b.iter().any(|b| through(a, b) || through(b, a)))
 }
 
-/// Whether p + s (q − p) = a + β (b − a) + γ (c − a) has a solution with all shares in range.
+/// Returns true if p + s (q − p) = a + β (b − a) + γ (c − a) has a solution with all parameters in
+/// range.
 fn passes([p, q]: [DVec3; 2], [a, b, c]: &[DVec3; 3]) -> bool {
     let columns = ccd_core::glam::DMat3::from_cols(p - q, b - a, c - a);
     let shares = columns.inverse() * (p - a);

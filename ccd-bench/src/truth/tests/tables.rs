@@ -1,4 +1,4 @@
-//! Tables written and read.
+//! Writes and reads tables.
 
 use super::super::{Truth, TruthRow, read_truths, write_truths};
 
@@ -24,7 +24,7 @@ const TRUTHS: [(&str, Truth); 5] = [
 ];
 
 #[test]
-fn what_is_written_is_read() {
+fn a_written_table_is_read_back() {
     let row = |&(id, truth): &(&str, Truth)| TruthRow::new(id.to_owned(), 2.0, truth);
     let mut table = Vec::new();
     write_truths(&mut table, TRUTHS.iter().map(row)).unwrap();
@@ -38,7 +38,7 @@ fn what_is_written_is_read() {
 }
 
 #[test]
-fn rows_that_are_none_are_refused() {
+fn invalid_rows_are_refused() {
     for row in ["a,sure,0,1", "a,hit,x,1", "a,hit,0"] {
         let table = format!("id,status,lo,hi\n{row}\n");
         assert!(read_truths(table.as_bytes()).is_err(), "{row}");

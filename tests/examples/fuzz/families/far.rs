@@ -2,7 +2,7 @@
 
 use super::pass;
 use crate::case::Case;
-use crate::course::{Course, Goal, Place};
+use crate::course::{Course, Goal, RawPose};
 use crate::draw::{Draw, plus, times};
 use crate::shapes;
 use ccd_core::Config;
@@ -33,12 +33,12 @@ pub(super) fn draw(draw: &mut Draw) -> Case {
     case
 }
 
-/// The same between end poses, about any centre, far from the origin.
+/// Returns the same motion between end poses, about any centre, far from the origin.
 fn ended(draw: &mut Draw, course: &Course, far: [f64; 3], duration: f64) -> Course {
     let Goal::Velocities { linear, .. } = course.goal else {
         return *course;
     };
-    let start = Place {
+    let start = RawPose {
         position: plus(course.start.position, far),
         ..course.start
     };
@@ -62,13 +62,13 @@ fn ended(draw: &mut Draw, course: &Course, far: [f64; 3], duration: f64) -> Cour
     let quaternion = match draw.count(0..3) {
         0 => start.quaternion,
         1 => draw.quaternion(),
-        // A little turned.
+        // The turn is small.
         _ => {
             let (by, turn) = (draw.quaternion(), draw.log(1e-9..1.0));
             [0, 1, 2, 3].map(|k| start.quaternion[k] + turn * by[k])
         }
     };
-    let end = Place {
+    let end = RawPose {
         position: plus(start.position, linear),
         quaternion,
     };

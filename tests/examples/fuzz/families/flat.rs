@@ -2,7 +2,7 @@
 
 use super::{still, tolerance};
 use crate::case::{Case, Expect, Shape};
-use crate::course::{Course, Place};
+use crate::course::{Course, RawPose};
 use crate::draw::{Draw, plus, times};
 use crate::shapes;
 
@@ -26,15 +26,15 @@ pub(super) fn draw(draw: &mut Draw) -> Case {
     ];
     let spin = match draw.chance(0.7) {
         true => [0.0; 3],
-        // Tipping over, or round in the plane.
+        // Tips over, or turns in the plane.
         false => times(
             draw.pick(&[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]),
             draw.within(-2.0..2.0),
         ),
     };
-    let mut courses = [still(), Course::velocities(Place::at(start), along, spin)];
+    let mut courses = [still(), Course::velocities(RawPose::at(start), along, spin)];
     if draw.chance(0.3) {
-        // The same seen from elsewhere.
+        // The same scene in another frame.
         let far = times(draw.point(), draw.log(1.0..1e4));
         for course in &mut courses {
             course.start.position = plus(course.start.position, far);
@@ -49,7 +49,7 @@ pub(super) fn draw(draw: &mut Draw) -> Case {
     }
 }
 
-/// A polygon in the plane z = 0, or a box with its lower face there.
+/// Returns a polygon in the plane z = 0, or a box with its lower face there.
 fn level(draw: &mut Draw) -> Shape {
     if draw.chance(0.4) {
         let half = [(); 3].map(|()| draw.pick(&[0.25, 0.5, 1.0]));

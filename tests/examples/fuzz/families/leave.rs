@@ -1,8 +1,8 @@
-//! Bodies in contact at the start that are let go: they part, slide, approach, turn.
+//! Bodies in contact at the start that are released: they part, slide, approach, turn.
 
 use super::{still, tolerance};
 use crate::case::{Case, Expect, Shape};
-use crate::course::{Course, Place};
+use crate::course::{Course, RawPose};
 use crate::draw::{Draw, plus, times};
 use crate::shapes;
 use ccd_core::StartPolicy;
@@ -29,7 +29,7 @@ pub(super) fn draw(draw: &mut Draw) -> Case {
     if draw.chance(0.3) {
         config.margin = draw.log(1e-3..1.0);
     }
-    // On the floor, within the tolerance of it, or within the margin.
+    // The body is on the floor, within the tolerance of it, or within the margin.
     let gap = match draw.count(0..4) {
         0 | 1 => 0.0,
         2 => config.tolerance * draw.within(0.01..1.0),
@@ -41,9 +41,9 @@ pub(super) fn draw(draw: &mut Draw) -> Case {
         half_height + gap,
     ];
     let (velocity, spin, expect) = way(draw, gap, config.margin);
-    let mut courses = [still(), Course::velocities(Place::at(at), velocity, spin)];
+    let mut courses = [still(), Course::velocities(RawPose::at(at), velocity, spin)];
     if draw.chance(0.3) {
-        // Not upward: the gap is to stay what it is.
+        // The drift has no upward part, so that the gap is unchanged.
         let by = [draw.within(-1e3..1e3), draw.within(-1e3..1e3), 0.0];
         courses
             .iter_mut()
@@ -63,7 +63,7 @@ pub(super) fn draw(draw: &mut Draw) -> Case {
     }
 }
 
-/// A shape with its lowest corner in the plane z = 0.
+/// Returns a shape with its lowest corner in the plane z = 0.
 fn resting(shape: Shape) -> (Shape, f64) {
     let lowest = shape
         .vertices
@@ -72,12 +72,12 @@ fn resting(shape: Shape) -> (Shape, f64) {
     (shape.map(|[x, y, z]| [x, y, z - lowest]), 0.0)
 }
 
-/// How it leaves, if it does: velocity, spin, and what has to come of it.
+/// Returns the velocity and spin of the departure, and the expected result.
 fn way(draw: &mut Draw, gap: f64, margin: f64) -> ([f64; 3], [f64; 3], Expect) {
     let along = times(draw.point(), draw.within(0.0..3.0));
     match draw.count(0..5) {
         0 => ([0.0, 0.0, draw.within(0.0..3.0)], [0.0; 3], Expect::Free),
-        // Inside the margin, what comes over the next triangle of the floor is a contact.
+        // Inside the margin, motion over the next triangle of the floor is a contact.
         1 if margin == 0.0 => (
             [along[0], along[1], draw.within(0.1..2.0)],
             [0.0; 3],
@@ -86,7 +86,7 @@ fn way(draw: &mut Draw, gap: f64, margin: f64) -> ([f64; 3], [f64; 3], Expect) {
         2 => ([along[0], along[1], 0.0], [0.0; 3], Expect::Nothing),
         3 => {
             let down = draw.log(1e-3..3.0);
-            // By then all of the gap is gone.
+            // All of the gap is closed by then.
             let by = (1.001 * gap + 1e-6) / down;
             let expect = if by < 1.0 {
                 Expect::ContactBy(by)

@@ -16,7 +16,7 @@ pub(super) fn draw(draw: &mut Draw) -> Case {
     };
     let mut case = pass(draw, bodies, turn, config);
     if draw.chance(0.3) {
-        // From inside the margin.
+        // The start is inside the margin.
         let near = draw.within(0.0..1.0);
         for course in &mut case.courses {
             course.start.position = times(course.start.position, near);

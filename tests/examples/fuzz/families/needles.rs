@@ -33,7 +33,7 @@ pub(super) fn draw(draw: &mut Draw) -> Case {
         }
     }
     if draw.chance(0.3) {
-        // Straight at the other one, across a plane that holds needles.
+        // The body moves straight at the other one, across a plane that holds needles.
         let reach = case.shapes[0].radius() + case.shapes[1].radius() + config.margin;
         let way = lattice(draw);
         case.courses = [still(), still()];
@@ -47,11 +47,11 @@ pub(super) fn draw(draw: &mut Draw) -> Case {
     case
 }
 
-/// Triangles that are thin, each in its own way, in one plane or about one axis or anywhere.
+/// Returns thin triangles of several kinds, in one plane or about one axis or anywhere.
 fn thin(draw: &mut Draw) -> Shape {
     let width = match draw.count(0..3) {
         0 => draw.log(1e-300..1e-140),
-        // Where squares are denormal.
+        // The squares are denormal.
         1 => draw.log(1e-163..1e-160),
         _ => draw.log(1e-14..1e-1),
     };
@@ -65,7 +65,7 @@ fn thin(draw: &mut Draw) -> Shape {
         let aside = times(lattice(draw), width);
         let share = draw.pick(&[0.0, 0.5, 1.0, 0.3, -0.7]);
         let third = match draw.count(0..5) {
-            // Of no area at all.
+            // The area is zero.
             0 => plus(at, times(along, share)),
             1 => at,
             2 => plus(at, plus(along, aside)),
@@ -83,7 +83,7 @@ fn thin(draw: &mut Draw) -> Shape {
     shape
 }
 
-/// A direction of small whole numbers, or any.
+/// Returns a direction of small whole numbers, or any direction.
 fn lattice(draw: &mut Draw) -> [f64; 3] {
     if draw.chance(0.3) {
         return draw.direction();

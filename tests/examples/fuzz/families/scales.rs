@@ -25,7 +25,7 @@ pub(super) fn draw(draw: &mut Draw) -> Case {
     let target = draw.pick(&bodies[0].vertices);
     let mut case = pass(draw, bodies, turn, config);
     if draw.chance(0.5) && turn == 0.0 {
-        // A corner of one straight towards the other: small ones would never be hit.
+        // A corner of one flies straight at the other, since small ones would never be hit otherwise.
         case.courses[0].start.quaternion = [1.0, 0.0, 0.0, 0.0];
         let start = plus(
             case.courses[1].start.position,

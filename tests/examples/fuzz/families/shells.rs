@@ -1,4 +1,4 @@
-//! Closed parts side by side and nested, turned outward or inward.
+//! Closed parts side by side and nested, oriented outward or inward.
 
 use super::{pass, still, tolerance};
 use crate::case::{Case, Expect, Form, Shape};
@@ -23,12 +23,12 @@ pub(super) fn draw(draw: &mut Draw) -> Case {
     if draw.chance(0.5) {
         return pass(draw, [several, other], turn, config);
     }
-    // From somewhere within, or on, the parts.
+    // The position is somewhere within, or on, the parts.
     let at = match draw.chance(0.3) {
         true => draw.pick(&several.vertices),
         false => times(draw.point(), several.radius()),
     };
-    let start = draw.place(at);
+    let start = draw.pose(at);
     let velocity = times(draw.direction(), draw.within(0.0..4.0));
     let spin = times(draw.direction(), turn);
     let courses = [still(), Course::velocities(start, velocity, spin)];
@@ -41,7 +41,7 @@ pub(super) fn draw(draw: &mut Draw) -> Case {
     }
 }
 
-/// One to four closed parts, some of them inside out, some in each other.
+/// Returns one to four closed parts, some of them inside out, some nested.
 fn several(draw: &mut Draw) -> Shape {
     let count = draw.count(1..5);
     let mut all = Shape::default();
@@ -60,7 +60,7 @@ fn several(draw: &mut Draw) -> Shape {
         };
         all = all.with(&part);
         match draw.count(0..3) {
-            // Within the last one, beside it, or flush beside it.
+            // The part is within the last one, next to it, or flush with it.
             0 => size *= draw.within(0.1..0.8),
             1 => at = plus(at, times(draw.direction(), draw.within(2.0..4.0) * size)),
             _ => at[draw.count(0..3)] += size,

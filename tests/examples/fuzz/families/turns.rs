@@ -1,4 +1,4 @@
-//! Up to a thousand radians.
+//! Turns of up to a thousand radians.
 
 use super::{pass, tolerance};
 use crate::case::Case;

@@ -1,17 +1,17 @@
 //! Conservative advancement over all pairs of triangles, in f64, judged in [`Double`].
 
 use super::{Ball, Evidence, Limit, NOISE, Scene};
-use crate::course::Moment;
+use crate::course::Snapshot;
 use crate::double::Double;
 use crate::nearest::{Triangle, depth, distance};
 use crate::vector::{Number, larger, smaller};
 
-/// Steps of one pair, and of all, before the rest is sampled.
+/// The largest number of steps of one pair, and of all pairs, before the rest is sampled.
 const PAIR_STEPS: usize = 300;
 const ALL_STEPS: usize = 60_000;
 const SAMPLES: usize = 24;
 
-/// Looks for the first time at which two bodies are too near.
+/// Searches for the first time at which two bodies are too near.
 pub(super) struct Search<'a> {
     scene: &'a Scene,
     limit: Limit,
@@ -22,14 +22,14 @@ pub(super) struct Search<'a> {
     proven: bool,
 }
 
-/// A gap, how fast it can close, and how much that can change.
+/// A gap, its closing rate, and a bound of the change of the rate.
 struct Near {
     gap: f64,
     rate: f64,
     bend: f64,
 }
 
-/// gap = rate τ + bend τ²/2, in the form that does not cancel.
+/// Solves gap = rate τ + bend τ²/2, in the form without cancellation.
 fn free_time(gap: f64, rate: f64, bend: f64) -> f64 {
     (1.0 - 1e-9) * 2.0 * gap / (rate + (rate * rate + 2.0 * bend * gap).sqrt())
 }
@@ -66,7 +66,7 @@ impl<'a> Search<'a> {
         (self.found, self.proven)
     }
 
-    /// A time until which balls about the two centres of rotation are certainly apart.
+    /// Returns a time until which balls around the two centres of rotation are certainly apart.
     fn balls_meet(&self, reaches: f64) -> f64 {
         let [a, b] = &self.scene.sides;
         let way = (b.track.start - a.track.start).rounded();
@@ -80,7 +80,7 @@ impl<'a> Search<'a> {
         } else if along >= 0.0 || root < 0.0 {
             self.until
         } else {
-            // The smaller root, in the form that does not cancel.
+            // The smaller root, in the form without cancellation.
             smaller(
                 self.until,
                 larger(0.0, 0.999_999 * excess / (-along + root.sqrt())),
@@ -118,7 +118,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// A time from `begin` on until which the bodies are well apart, all pairs taken together.
+    /// Returns a time after `begin` until which the bodies are well apart, all pairs taken together.
     fn together(&self, begin: f64) -> f64 {
         let mut t = begin;
         for _ in 0..PAIR_STEPS {
@@ -128,9 +128,9 @@ impl<'a> Search<'a> {
                 .iter()
                 .fold(f64::INFINITY, |least, &(d, ..)| smaller(least, d));
             let whole = self.scene.sides.each_ref().map(|side| &side.whole);
-            let Near { rate, bend, .. } = self.near(whole, &self.scene.moments(t));
+            let Near { rate, bend, .. } = self.near(whole, &self.scene.snapshots(t));
             let tau = free_time(least - self.threshold, rate, bend);
-            // A hundred more such steps would not get there: pair by pair it is faster.
+            // A hundred more such steps would not reach the end, so it is faster pair by pair.
             if !(tau > 0.003 * (self.until - t)) {
                 break;
             }
@@ -142,11 +142,11 @@ impl<'a> Search<'a> {
         t
     }
 
-    /// A time from `begin` on until which two balls are well apart.
+    /// Returns a time after `begin` until which two balls are well apart.
     fn balls_apart(&self, [p, q]: [&Ball; 2], begin: f64) -> f64 {
         let mut t = begin;
         for _ in 0..PAIR_STEPS {
-            let Near { gap, rate, bend } = self.near([p, q], &self.scene.moments(t));
+            let Near { gap, rate, bend } = self.near([p, q], &self.scene.snapshots(t));
             if !(gap > 0.25 * smaller(p.radius, q.radius) && gap > NOISE * self.scene.scale) {
                 break;
             }
@@ -158,11 +158,11 @@ impl<'a> Search<'a> {
         t
     }
 
-    /// How far two balls are from the threshold, and how fast it can come nearer, with how much change.
-    fn near(&self, [p, q]: [&Ball; 2], moments: &[Moment; 2]) -> Near {
+    /// Returns the gap of two balls above the threshold, its closing rate, and a bound of its change.
+    fn near(&self, [p, q]: [&Ball; 2], snapshots: &[Snapshot; 2]) -> Near {
         let [a, b] = &self.scene.sides;
-        let between = moments[1].centre - moments[0].centre;
-        let middles = [moments[0].arm(p.middle), moments[1].arm(q.middle)];
+        let between = snapshots[1].centre - snapshots[0].centre;
+        let middles = [snapshots[0].arm(p.middle), snapshots[1].arm(q.middle)];
         let apart = (middles[1] + between - middles[0]).length().rounded();
         let rates = [a.track.rate.rounded(), b.track.rate.rounded()];
         let velocity =
@@ -178,12 +178,12 @@ impl<'a> Search<'a> {
 
     fn look(&self, i: usize, j: usize, t: f64) -> Near {
         let (p, q) = (&self.scene.sides[0].balls[i], &self.scene.sides[1].balls[j]);
-        let moments = self.scene.moments(t);
-        let near = self.near([p, q], &moments);
+        let snapshots = self.scene.snapshots(t);
+        let near = self.near([p, q], &snapshots);
         if near.gap > 0.5 * (p.radius + q.radius) {
             return near;
         }
-        let [[a, b, c], [d, e, f]] = self.triangles(i, j, &moments);
+        let [[a, b, c], [d, e, f]] = self.triangles(i, j, &snapshots);
         let s = [a.rounded(), b.rounded(), c.rounded()];
         let t = [d.rounded(), e.rounded(), f.rounded()];
         Near {
@@ -192,18 +192,18 @@ impl<'a> Search<'a> {
         }
     }
 
-    fn triangles(&self, i: usize, j: usize, moments: &[Moment; 2]) -> [Triangle<Double>; 2] {
+    fn triangles(&self, i: usize, j: usize, snapshots: &[Snapshot; 2]) -> [Triangle<Double>; 2] {
         let [a, b] = &self.scene.sides;
-        let origin = moments[0].centre;
+        let origin = snapshots[0].centre;
         [
-            a.triangle(i, &moments[0], origin),
-            b.triangle(j, &moments[1], origin),
+            a.triangle(i, &snapshots[0], origin),
+            b.triangle(j, &snapshots[1], origin),
         ]
     }
 
-    /// Whether the pair truly is below the threshold: then nothing later is of interest.
+    /// Checks whether the pair really is below the threshold. If so, nothing later is of interest.
     fn judge(&mut self, i: usize, j: usize, t: f64) -> bool {
-        let [s, o] = self.triangles(i, j, &self.scene.moments(t));
+        let [s, o] = self.triangles(i, j, &self.scene.snapshots(t));
         let (distance, error) = (distance(&s, &o).rounded(), self.scene.error());
         let depth = match distance > error {
             true => 0.0,

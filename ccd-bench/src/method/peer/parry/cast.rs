@@ -1,20 +1,20 @@
 //! Nonlinear casts: `query::cast_shapes_nonlinear` of one `TriMesh` against another.
 //!
-//! The library's own path for two composites: over the nodes of A's hierarchy, bounding balls are cast
-//! against B's whole bounding ball, the node hit earliest first; each triangle of A that is reached is
-//! cast against B the same way, and two triangles advance along the axis between their nearest points,
-//! by bisection of its gap over *all* the time that is left.
+//! This is the library's own method for two composites. It walks the nodes of A's hierarchy and
+//! casts bounding balls against the bounding ball of all of B, the node hit earliest first. It
+//! casts each triangle of A that is reached against B in the same way. Two triangles advance along
+//! the axis between their nearest points, by bisection of its gap over *all* the remaining time.
 //!
 //! # Tolerance
-//! None is taken. What stops the advance is ten units of rounding (`gjk::eps_tol`, 2.2e-15, or 1.2e-6 in
-//! single precision), held against a gap as a length and against a step as a time; neither the call, nor
-//! its dispatcher, nor the shapes lead to it.
+//! None can be set. The advance stops at ten units of rounding (`gjk::eps_tol`, 2.2e-15, or 1.2e-6
+//! in single precision), compared with a gap as a length and with a step as a time. Neither the
+//! call, nor its dispatcher, nor the shapes give access to it.
 //!
 //! # Guarantee
-//! None: the bisection of a gap that is not monotone (a turn of more than about half a circle) may skip
-//! its first root and so be late; the library says so itself. The casts of balls have the same flaw and
-//! prune by it, so that contacts may be missed. What it calls `Failed` carries a time, which is taken:
-//! its documents advise so, and flat contacts end that way.
+//! None. The bisection of a gap that is not monotone (a turn of more than about half a circle) may
+//! skip the first root and so be late, as the library's documentation says. The casts of balls have
+//! the same flaw and prune by it, so that contacts may be missed. The status `Failed` carries a
+//! time, which is taken: the documentation advises it, and flat contacts end that way.
 
 use super::library::math::Real;
 use super::library::query::cast_shapes_nonlinear;
@@ -25,7 +25,7 @@ use crate::method::solver::{Claim, Reply, Solver};
 use ccd_decomp::TriangleMesh;
 use rigid_ccd::table::motions::Query;
 
-/// Two meshes to cast; it tells no steps.
+/// Two meshes to cast. It does not report steps.
 #[derive(Clone, Debug)]
 pub struct Cast {
     a: TriMesh,
@@ -33,10 +33,10 @@ pub struct Cast {
 }
 
 impl Cast {
-    /// Of two meshes.
+    /// Prepares two meshes.
     ///
     /// # Errors
-    /// When the library takes one for no mesh.
+    /// If the library refuses a mesh.
     pub fn new(a: &TriangleMesh, b: &TriangleMesh) -> Result<Self, PeerError> {
         Ok(Cast {
             a: tri_mesh(a)?,
@@ -47,7 +47,7 @@ impl Cast {
 
 impl Solver for Cast {
     fn answer(&mut self, query: &Query) -> Reply {
-        // True: bodies that penetrate at the start are reported at once.
+        // `true`: bodies that penetrate at the start are reported at once.
         let hit = cast_shapes_nonlinear(
             &rigid_motion(&query.a),
             &self.a,

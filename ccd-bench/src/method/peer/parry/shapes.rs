@@ -1,4 +1,4 @@
-//! Meshes, poses and motions as the library has them.
+//! Converts meshes, poses and motions to the library's types.
 
 use super::library::math::{Pose, Real, Rotation, Vector};
 use super::library::query::NonlinearRigidMotion;
@@ -8,7 +8,7 @@ use ccd_core::Motion;
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_decomp::TriangleMesh;
 
-/// The same triangles in the same order.
+/// Returns the same triangles in the same order.
 pub(in crate::method::peer) fn tri_mesh(mesh: &TriangleMesh) -> Result<TriMesh, PeerError> {
     let vertices = mesh.vertices().iter().map(|&v| vector(v)).collect();
     TriMesh::new(vertices, mesh.faces().to_vec()).map_err(|error| PeerError {
@@ -16,7 +16,7 @@ pub(in crate::method::peer) fn tri_mesh(mesh: &TriangleMesh) -> Result<TriMesh, 
     })
 }
 
-/// The same motion: both turn about a centre that moves straight, each at a constant rate.
+/// Returns the same motion: each body turns about a centre that moves straight, both at constant rates.
 pub(in crate::method::peer) fn rigid_motion(motion: &Motion) -> NonlinearRigidMotion {
     NonlinearRigidMotion::new(
         pose(motion, 0.0),
@@ -26,13 +26,13 @@ pub(in crate::method::peer) fn rigid_motion(motion: &Motion) -> NonlinearRigidMo
     )
 }
 
-/// Where a body is at a time.
+/// Returns the pose of a body at a time.
 pub(in crate::method::peer) fn pose(motion: &Motion, time: f64) -> Pose {
     let pose = motion.pose(time);
     Pose::from_parts(vector(pose.translation()), rotation(pose.rotation()))
 }
 
-/// Each part rounded to the library's number.
+/// Rounds each coordinate to the library's number type.
 pub(in crate::method::peer) fn vector(v: DVec3) -> Vector {
     Vector::new(v.x as Real, v.y as Real, v.z as Real)
 }

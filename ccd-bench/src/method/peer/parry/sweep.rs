@@ -1,24 +1,24 @@
 //! Swept triangles: `query::sweep_time_of_impact` over the pairs of triangles that may meet.
 //!
-//! The library sweeps convex bodies from one pose to another. Against a composite it has a composition of
-//! its own, which holds that composite still; here both may move, so that the same composition is made
-//! once more, over the library's hierarchies of both meshes: boxes swept from start to end lead to pairs
-//! of triangles, each is swept until the earliest hit so far, and any hit counts that comes before it, as
-//! the library and the physics engine on top of it have it, be its status `Hit` or `Failed`.
+//! The library sweeps convex bodies from one pose to another. Its own composition for composites
+//! holds the composite still. Here both bodies may move, so the same composition is made again,
+//! over the library's hierarchies of both meshes. Boxes swept from start to end lead to pairs of
+//! triangles. Each pair is swept until the earliest hit so far. Every earlier hit counts, whether
+//! its status is `Hit` or `Failed`, as in the library and in the physics engine on top of it.
 //!
-//! Its sweeps turn by a normalised mix of two quaternions, the shorter way, which is no constant rate. A
-//! motion is therefore cut into stretches, all of a length, short enough for the mix to stay within a
-//! quarter of the tolerance of it, and for no body to travel far beyond the smaller one's size, which
-//! keeps swept boxes small. Unlike in the library's own composition, boxes are widened by what arcs
-//! stick out of them.
+//! Its sweeps interpolate two quaternions by a normalised mix, the shorter way, which does not turn
+//! at a constant rate. A motion is therefore cut into stretches of equal length. A stretch is short
+//! enough for the mix to stay within a quarter of the tolerance of the motion, and for no body to
+//! travel far beyond the size of the smaller one, which keeps swept boxes small. Unlike in the
+//! library's own composition, boxes are widened by the bulge of the arcs.
 //!
 //! # Tolerance
-//! It reports a hit at a gap of at most 1.25 times its `linear_slop`, which is chosen to make that the
-//! tolerance.
+//! It reports a hit at a gap of at most 1.25 times its `linear_slop`, which is set so that this is
+//! the tolerance.
 //!
 //! # Guarantee
-//! None: its root finder may miss roots that lie between two poses, it gives up after 25 axes, and then
-//! tells the last time that it holds safe, which is taken for a contact.
+//! None. The root finder may miss roots that lie between two poses. It gives up after 25 axes and
+//! then returns the last time that it considers safe, which is taken for a contact.
 
 use super::library::bounding_volume::{Aabb, BoundingVolume};
 use super::library::math::{Pose, Real};
@@ -34,7 +34,7 @@ use ccd_decomp::TriangleMesh;
 use rigid_ccd::table::motions::Query;
 use std::f64::consts::FRAC_PI_4;
 
-/// Two meshes to sweep; its steps are the stretches looked at.
+/// Two meshes to sweep. Steps are the stretches examined.
 #[derive(Clone, Debug)]
 pub struct SweptPairs {
     a: Swept,
@@ -42,22 +42,22 @@ pub struct SweptPairs {
     tolerance: f64,
 }
 
-/// A hit is reported up to this many times the library's `linear_slop`.
+/// A hit is reported at up to this multiple of the library's `linear_slop`.
 const SLOPS_AT_HIT: f64 = 1.25;
-/// How far off a stretch may turn, as a share of the tolerance.
+/// The largest error of a stretch's turn, as a fraction of the tolerance.
 const SHARE_OF_TURN: f64 = 0.25;
-/// The largest turn that the library calls its sweeps a good approximation for, in radians.
+/// The largest turn, in radians, for which the library calls its sweeps a good approximation.
 const LARGEST_TURN: f64 = FRAC_PI_4;
-/// How far the bodies may move in a stretch, as a multiple of the smaller one's radius.
+/// The largest travel of the bodies in a stretch, as a multiple of the smaller one's radius.
 const LONGEST_TRAVEL: f64 = 0.5;
-/// A motion of more stretches is not followed.
+/// Motions of more stretches are refused.
 const MOST_STRETCHES: f64 = 65_536.0;
 
 impl SweptPairs {
-    /// Of two meshes.
+    /// Prepares two meshes.
     ///
     /// # Errors
-    /// When the library takes one for no mesh.
+    /// If the library refuses a mesh.
     pub fn new(a: &TriangleMesh, b: &TriangleMesh, tolerance: f64) -> Result<Self, PeerError> {
         Ok(SweptPairs {
             a: Swept::new(a)?,
@@ -66,7 +66,7 @@ impl SweptPairs {
         })
     }
 
-    /// How many stretches a query is cut into; none for too many.
+    /// Returns the number of stretches of a query, or `None` if there are too many.
     fn stretches(&self, query: &Query) -> Option<u64> {
         let bodies = [(&self.a, &query.a), (&self.b, &query.b)];
         let turns = bodies.map(|(body, motion)| {
@@ -80,19 +80,19 @@ impl SweptPairs {
         (count <= MOST_STRETCHES).then_some(count as u64)
     }
 
-    /// How far a body may turn in a stretch.
+    /// Returns the largest turn of a body in a stretch.
     fn turn_within(&self, reach: f64) -> f64 {
-        // Of a turn θ the mix is off by 2 (atan(s tan(θ/4)) − s θ/4) for s of −1 to 1, which is at most
-        // 4/(9 √3) (θ/4)³ to leading order; tan's next term adds less than a tenth up to π/4.
+        // The mix misses a turn θ by 2 (atan(s tan(θ/4)) − s θ/4) for s of −1 to 1, which is at most
+        // 4/(9 √3) (θ/4)³ to leading order; the next term of tan adds less than a tenth up to π/4.
         let off = SHARE_OF_TURN * self.tolerance / (0.2567 * 1.1 * reach);
         lesser(LARGEST_TURN, 4.0 * off.cbrt())
     }
 
-    /// When in a stretch triangles first meet, as a share of it.
+    /// Returns the time in a stretch at which triangles first meet, as a fraction of it.
     fn first_hit(&self, query: &Query, from: f64, to: f64) -> Option<Real> {
         let a = self.a.stretch(&query.a, from, to);
         let b = self.b.stretch(&query.b, from, to);
-        // Boxes are held against each other in B's frame at the start, where B needs no second box at rest.
+        // Boxes are compared in B's frame at the start, where B needs no second box when it is at rest.
         let frame = b.poses[0].inverse();
         let (in_frame_a, in_frame_b) = (a.poses.map(|p| frame * p), b.poses.map(|p| frame * p));
         let still = b.poses[0] == b.poses[1];
@@ -151,20 +151,20 @@ impl Solver for SweptPairs {
     }
 }
 
-/// A mesh, and how large it is.
+/// A mesh and its bounding box.
 #[derive(Clone, Debug)]
 struct Swept {
     mesh: TriMesh,
-    /// The corners of its box.
+    /// The corners of the box.
     corners: [DVec3; 2],
     radius: f64,
 }
 
-/// A body over a stretch.
+/// The motion of a body over a stretch.
 struct Stretch {
     poses: [Pose; 2],
     sweep: Sweep,
-    /// How far its points leave the straight line from start to end.
+    /// The largest distance of its points from the straight line between start and end.
     bulge: Real,
 }
 
@@ -183,7 +183,7 @@ impl Swept {
         })
     }
 
-    /// No point is farther from the centre of its motion.
+    /// Returns a bound of the distance of all points from the centre of the motion.
     fn reach(&self, motion: &Motion) -> f64 {
         let [low, high] = self.corners.map(|c| (c - motion.centre()).abs());
         low.max(high).length()
@@ -195,8 +195,8 @@ impl Swept {
         Stretch {
             sweep: Sweep::from_poses(&poses[0], &poses[1], vector(motion.centre())),
             poses,
-            // Half of the second derivative's bound, ρ θ²/8, is for a constant rate; the mix adds less
-            // than as much again.
+            // Half of the bound of the second derivative, ρ θ²/8, is for a constant rate. The mix
+            // adds less than that again.
             bulge: (0.25 * self.reach(motion) * turn * turn) as Real,
         }
     }
@@ -207,7 +207,7 @@ impl Swept {
     }
 }
 
-/// The box of a box at the start and the end.
+/// Returns the box around a box at the start and at the end.
 fn boxed(aabb: &Aabb, poses: &[Pose; 2]) -> Aabb {
     aabb.transform_by(&poses[0])
         .merged(&aabb.transform_by(&poses[1]))

@@ -1,32 +1,32 @@
-//! How fast nodes of two moving bodies can close along a direction.
+//! Bounds the closing speed of nodes of two moving bodies along a direction.
 
 use crate::method::rival::swept_spheres::{Gap, Pair, SphereTree, Trees};
 use crate::method::rival::{Course, Placement};
 use ccd_core::glam::{DMat3, DVec3};
 
-/// Both motions of a query as seen from body A at one time, and bounds of nodes' speeds.
+/// Both motions of a query as seen from body A at one time, and bounds of the speeds of nodes.
 #[derive(Clone, Debug)]
 pub(super) struct Closing {
     a: Spin,
     b: Spin,
-    /// Of A's centre relative to B's, in the world.
+    /// The velocity of A's centre relative to B's, in the world.
     velocity_w: DVec3,
-    /// The same as seen from A.
+    /// The same velocity as seen from A.
     velocity: DVec3,
     /// B's axis in the world.
     axis_b_w: DVec3,
-    /// The same as seen from A.
+    /// The same axis as seen from A.
     axis_b: DVec3,
 }
 
-/// A body's turning, and how far its nodes are from the axis.
+/// The rotation of a body, and the distances of its nodes from the axis.
 #[derive(Clone, Debug)]
 struct Spin {
     centre: DVec3,
-    /// In the body, where it stays.
+    /// The axis in the body's frame, where it is fixed.
     axis: DVec3,
     rate: f64,
-    /// Of each node, with the number of the motion that it was computed for.
+    /// The lever of each node, with the number of the motion that it was computed for.
     levers: Vec<(u64, f64)>,
     motion: u64,
 }
@@ -43,7 +43,7 @@ impl Closing {
         }
     }
 
-    /// Takes up the motions of a query.
+    /// Sets the motions of a query.
     pub(super) fn begin(&mut self, a: &Course, b: &Course) {
         self.a.begin(a);
         self.b.begin(b);
@@ -51,20 +51,20 @@ impl Closing {
         self.axis_b_w = b.axis;
     }
 
-    /// Takes body A's placement as the frame of directions.
+    /// Sets body A's placement as the frame of directions.
     pub(super) fn look_from(&mut self, frame_a: &Placement) {
         let to_a: DMat3 = frame_a.rotation.transpose();
         self.velocity = to_a * self.velocity_w;
         self.axis_b = to_a * self.axis_b_w;
     }
 
-    /// For how long two nodes, or triangles in them, do not touch: until their gap has closed along its
-    /// direction, which stays as it is, at the speed
+    /// Returns a time during which two nodes, or triangles in them, do not touch. It is the time to
+    /// close their gap along its direction, which is fixed, at the speed
     ///
     /// `v·n + |n × ω_A| l_A + |n × ω_B| l_B`
     ///
-    /// of the centres and of points at the ends of both levers \[C2A09 §4\]. It holds however far the
-    /// bodies turn, since a point's distance from the axis does not change.
+    /// of the centres and of points at the ends of both levers \[C2A09 §4\]. It holds for turns of
+    /// any size, since the distance of a point from the axis does not change.
     #[inline]
     pub(super) fn step(&mut self, trees: &Trees, pair: &Pair, gap: &Gap) -> f64 {
         if !(gap.distance > 0.0) {
@@ -103,7 +103,8 @@ impl Spin {
         }
     }
 
-    /// Of a node's points along a direction, its cross product with the axis given.
+    /// Returns a bound of the speed of a node's points along a direction, from its cross product
+    /// with the axis.
     #[inline]
     fn speed(&mut self, tree: &SphereTree, node: u32, across: DVec3) -> f64 {
         if self.rate == 0.0 {

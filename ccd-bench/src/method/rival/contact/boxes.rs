@@ -5,24 +5,24 @@ use crate::method::rival::interval::cross_sum;
 use crate::method::rival::obb_tree::Obb;
 use ccd_core::glam::{DMat3, DVec3};
 
-/// Added to the cosines between two boxes' axes: their rounding, without which the cross product of
-/// parallel axes would separate anything.
+/// Added to the cosines between the axes of two boxes: their rounding. Without it the cross product
+/// of parallel axes would separate anything.
 const COSINE_SLACK: f64 = 1e-14;
 
-/// What is known of two boxes over an interval of time.
+/// The relation of two boxes over an interval of time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Boxes {
     /// They do not meet.
     Apart,
-    /// No axis separates them all the time.
+    /// No axis separates them over the whole interval.
     Near {
-        /// By how much the enclosure of the motion is wide, as a length: the radius of a corner's place.
+        /// The width of the enclosure of the motion, as a length: the radius of a corner's position.
         spread: f64,
     },
 }
 
-/// Whether one of the 15 axes separates the boxes over all of the interval, both sides of every inequality
-/// enclosed by interval arithmetic \[CONTACT02\].
+/// Tests whether one of the 15 axes separates the boxes over all of the interval. Both sides of
+/// every inequality are enclosed by interval arithmetic \[CONTACT02\].
 pub(super) fn boxes(a: &Obb, b: &Obb, enclosure: &Enclosure) -> Boxes {
     let into = b.axes.transpose();
     let centre = enclosure.rotation * a.centre + enclosure.offset;
@@ -37,7 +37,7 @@ pub(super) fn boxes(a: &Obb, b: &Obb, enclosure: &Enclosure) -> Boxes {
     if (t.abs() - t_radius - hb - high * ha).max_element() > 0.0 {
         return Boxes::Apart;
     }
-    // Those of A. Of |Σ t_i c_i| the middle is |Σ t c|, the radius Σ (|t|+r)(|c|+s) − |t||c|.
+    // The axes of A. |Σ t_i c_i| has the middle |Σ t c| and the radius Σ (|t|+r)(|c|+s) − |t||c|.
     let low = cos.abs();
     let along = cos.transpose_mul_vec3(t).abs() + low.transpose_mul_vec3(t.abs());
     let width = high.transpose_mul_vec3(t_high + hb) + ha;
@@ -65,7 +65,7 @@ pub(super) fn boxes(a: &Obb, b: &Obb, enclosure: &Enclosure) -> Boxes {
     }
 }
 
-/// The largest absolute values of cosines.
+/// Returns upper bounds of the absolute values of cosines.
 fn upper_cosines(cos: DMat3, radius: DMat3) -> DMat3 {
     let upper =
         |c: DVec3, r: DVec3| (c.abs() + r + COSINE_SLACK).min(DVec3::splat(1.0 + COSINE_SLACK));

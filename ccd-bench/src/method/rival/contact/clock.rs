@@ -1,27 +1,27 @@
-//! Halving time, and the enclosures of the motion over each interval that comes out of it.
+//! Halves time, and encloses the motion over each of the intervals.
 
 use super::relative::{Enclosure, Relative, Span};
 
-/// How often time is halved at most: intervals of 2⁻⁵² of the duration are what numbers resolve.
+/// The largest number of halvings: intervals of 2⁻⁵² of the duration are the resolution of numbers.
 pub(super) const MAX_LEVEL: usize = 52;
 
-/// An interval out of repeated halving, perhaps cut short at its end.
+/// An interval from repeated halving, perhaps cut short at its end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Slice {
     pub(super) span: Span,
-    /// How often time was halved for it.
+    /// The number of halvings that led to it.
     pub(super) level: usize,
 }
 
-/// Keeps the last enclosure of every level: the search stays within one interval for many pairs.
+/// Keeps the last enclosure of every level, since the search stays within one interval for many pairs.
 #[derive(Clone, Debug)]
 pub(super) struct Clock {
     relative: Relative,
     resolution: f64,
     most_halvings: u64,
-    places: Vec<Kept>,
+    placements: Vec<Kept>,
     rates: Vec<Kept>,
-    /// How often time was halved.
+    /// The number of halvings so far.
     pub(super) halvings: u64,
 }
 
@@ -32,7 +32,7 @@ struct Kept {
 }
 
 impl Slice {
-    /// All of the time until an end.
+    /// Returns the interval from 0 to `end`.
     pub(super) fn whole(end: f64) -> Self {
         Slice {
             span: Span { start: 0.0, end },
@@ -40,7 +40,7 @@ impl Slice {
         }
     }
 
-    /// The first half and the second.
+    /// Returns the first half and the second.
     pub(super) fn halves(self) -> [Slice; 2] {
         let Span { start, end } = self.span;
         let middle = self.span.middle();
@@ -52,7 +52,7 @@ impl Slice {
 }
 
 impl Clock {
-    /// Of a motion, with the width and the number at which halving ends.
+    /// Starts the clock of a motion, with the width and the number at which halving ends.
     pub(super) fn new(relative: Relative, resolution: f64, most_halvings: u64) -> Self {
         let nothing = Kept {
             span: Span {
@@ -68,35 +68,35 @@ impl Clock {
             relative,
             resolution,
             most_halvings,
-            places: vec![nothing; MAX_LEVEL + 1],
+            placements: vec![nothing; MAX_LEVEL + 1],
             rates: vec![nothing; MAX_LEVEL + 1],
             halvings: 0,
         }
     }
 
-    /// The motion.
+    /// Returns the motion.
     pub(super) fn relative(&self) -> &Relative {
         &self.relative
     }
 
-    /// The width at which halving ends.
+    /// Returns the width at which halving ends.
     pub(super) fn resolution(&self) -> f64 {
         self.resolution
     }
 
-    /// Whether an interval is not to be halved.
+    /// Returns true if an interval must not be halved.
     pub(super) fn is_short(&self, slice: Slice) -> bool {
         !(slice.span.width() > self.resolution) || slice.level >= MAX_LEVEL
     }
 
-    /// Whether time was halved as often as is allowed.
+    /// Returns true if the limit of halvings is reached.
     pub(super) fn is_spent(&self) -> bool {
         self.halvings >= self.most_halvings
     }
 
-    /// The enclosure of all placements over an interval.
-    pub(super) fn places(&mut self, slice: Slice) -> &Enclosure {
-        let kept = &mut self.places[slice.level];
+    /// Returns the enclosure of all placements over an interval.
+    pub(super) fn placements(&mut self, slice: Slice) -> &Enclosure {
+        let kept = &mut self.placements[slice.level];
         if kept.span != slice.span {
             kept.span = slice.span;
             kept.enclosure = self.relative.over(slice.span);
@@ -104,7 +104,7 @@ impl Clock {
         &kept.enclosure
     }
 
-    /// The enclosure of all rates of change over an interval.
+    /// Returns the enclosure of all rates of change over an interval.
     pub(super) fn rates(&mut self, slice: Slice) -> &Enclosure {
         let kept = &mut self.rates[slice.level];
         if kept.span != slice.span {

@@ -6,14 +6,14 @@ use crate::method::rival::interval::{Interval, IntervalVec};
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 
-/// A triangle with what the tests need of it.
+/// A triangle with the vectors that the tests need.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Facet {
     corners: [DVec3; 3],
     /// Edge k leads from corner k to the next.
     edges: [DVec3; 3],
     normal: DVec3,
-    /// Along the plane, away from edge k towards the third corner.
+    /// Vectors in the plane, away from edge k towards the third corner.
     inward: [DVec3; 3],
 }
 
@@ -28,11 +28,11 @@ pub(super) enum Test {
     EdgeEdge(usize, usize),
 }
 
-/// Which tests may still have a root.
+/// The set of tests that may still have a root.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Open(u16);
 
-/// Two triangles, the second at rest in the frame of the enclosures.
+/// Two triangles; the second is at rest in the frame of the enclosures.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Triangles {
     pub(super) a: Facet,
@@ -52,14 +52,15 @@ impl Facet {
         }
     }
 
-    /// A triangle without area has no face that anything could hit; its edges and corners are tested.
+    /// Returns true for a triangle without area: nothing can hit its face, but its edges and
+    /// corners are tested.
     fn is_flat(&self) -> bool {
         self.normal == DVec3::ZERO
     }
 }
 
 impl Test {
-    /// All fifteen.
+    /// All fifteen tests.
     const ALL: [Test; 15] = [
         Test::CornerFace(0),
         Test::CornerFace(1),
@@ -80,18 +81,18 @@ impl Test {
 }
 
 impl Open {
-    /// None of them.
+    /// The empty set.
     const NONE: Open = Open(0);
 
-    /// All tests.
+    /// The set of all tests.
     pub(super) const ALL: Open = Open((1 << Test::ALL.len()) - 1);
 
-    /// Whether none is left.
+    /// Returns true if the set is empty.
     pub(super) fn is_empty(self) -> bool {
         self.0 == 0
     }
 
-    /// Those of them that hold.
+    /// Returns the tests of the set for which `holds` is true.
     pub(super) fn keep(self, mut holds: impl FnMut(Test) -> bool) -> Open {
         let (mut kept, mut left) = (0, self.0);
         while left != 0 {
@@ -106,7 +107,8 @@ impl Open {
 }
 
 impl Triangles {
-    /// The contact function of a test at a placement: zero where corner and plane, or both lines, meet.
+    /// Returns the contact function of a test at a placement. It is zero where the corner meets the
+    /// plane, or where both lines meet.
     pub(super) fn value(&self, test: Test, at: &Placement) -> f64 {
         let (a, b) = (&self.a, &self.b);
         match test {
@@ -121,7 +123,8 @@ impl Triangles {
         }
     }
 
-    /// All rates of change of a contact function over the interval of the enclosures.
+    /// Returns the enclosure of the rate of change of a contact function over the interval of the
+    /// enclosures.
     pub(super) fn rate(&self, test: Test, now: &Enclosure, rates: &Enclosure) -> Interval {
         let (a, b) = (&self.a, &self.b);
         match test {
@@ -140,9 +143,9 @@ impl Triangles {
         }
     }
 
-    /// The tests that may have a root over the interval of the enclosure, out of those given.
+    /// Returns the given tests that may have a root over the interval of the enclosure.
     ///
-    /// None when all corners of one triangle stay on one side of the other's plane.
+    /// The result is empty if all corners of one triangle stay on one side of the other's plane.
     pub(super) fn open(&self, tests: Open, now: &Enclosure) -> Open {
         let (a, b) = (&self.a, &self.b);
         let corners = a.corners.map(|corner| now.point(corner));
@@ -167,7 +170,7 @@ impl Triangles {
         })
     }
 
-    /// Whether a corner of the first may be above the second's face.
+    /// Returns true if a corner of the first triangle may be above the second's face.
     fn may_be_in_b(&self, corner: IntervalVec) -> bool {
         let b = &self.b;
         (0..3).all(|k| {
@@ -176,7 +179,7 @@ impl Triangles {
         })
     }
 
-    /// Whether a corner of the second may be above the first's face.
+    /// Returns true if a corner of the second triangle may be above the first's face.
     fn may_be_in_a(&self, corner: DVec3, corners: &[IntervalVec; 3], now: &Enclosure) -> bool {
         (0..3).all(|k| {
             let inward = now.rotation * self.a.inward[k];
@@ -184,11 +187,11 @@ impl Triangles {
         })
     }
 
-    /// Whether two edges may have a point in common.
+    /// Returns true if two edges may have a point in common.
     ///
-    /// With the points `p + s e` and `q + u g`, `w = q − p` and `c = e × g`, a common point needs
-    /// `w · c = 0`, `w × g = s c`, `w × e = u c` and `w · g = s e·g − u g·g`, where s and u are between 0
-    /// and 1. The last three also tell parallel edges apart, for which `c` and with it `w · c` vanish.
+    /// With the points `p + s e` and `q + u g`, `w = q − p` and `c = e × g`, a common point needs `w · c
+    /// = 0`, `w × g = s c`, `w × e = u c` and `w · g = s e·g − u g·g`, where s and u are between 0 and
+    /// 1. The last three conditions also separate parallel edges, for which `c` and `w · c` vanish.
     fn may_cross(&self, edges: (usize, usize), p: IntervalVec, now: &Enclosure) -> bool {
         let g = self.b.edges[edges.1];
         let w = from_point(self.b.corners[edges.1], p);
@@ -220,14 +223,15 @@ impl Triangles {
 }
 
 impl Enclosure {
-    /// All places of a point of the first body; of rates, all its velocities.
+    /// Returns all positions of a point of the first body, or all its velocities if `self` encloses
+    /// rates.
     #[inline]
     pub(super) fn point(&self, point: DVec3) -> IntervalVec {
         self.rotation * point + self.offset
     }
 }
 
-/// A point less all others.
+/// Returns the difference of a point and an interval vector.
 #[inline]
 fn from_point(point: DVec3, from: IntervalVec) -> IntervalVec {
     IntervalVec {
@@ -236,12 +240,12 @@ fn from_point(point: DVec3, from: IntervalVec) -> IntervalVec {
     }
 }
 
-/// Whether all three are positive or all three negative.
+/// Returns true if all three are positive or all three negative.
 fn one_side(values: [Interval; 3]) -> bool {
     values.iter().all(|value| value.low() > 0.0) || values.iter().all(|value| value.high() < 0.0)
 }
 
-/// Whether no share between 0 and 1 of some vector in `whole` can be in `part`.
+/// Returns true if `part` cannot contain a multiple between 0 and 1 of any vector in `whole`.
 fn exceeds(part: IntervalVec, whole: IntervalVec) -> bool {
     (part.smallest() - whole.largest()).max_element() > 0.0
 }

@@ -1,27 +1,27 @@
-//! When two triangles first touch over an interval of time.
+//! Finds the first contact of two triangles in an interval of time.
 
 use super::clock::{Clock, MAX_LEVEL, Slice};
 use super::elementary::{Open, Test, Triangles};
 use super::relative::Span;
 use ccd_core::order::{greater, lesser};
 
-/// What is known of two triangles over an interval of time.
+/// The result for two triangles over an interval of time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Touch {
-    /// They touch, and not before.
+    /// They touch at this time, and not before.
     At(f64),
-    /// They do not.
+    /// They do not touch.
     Never,
-    /// The work ran out.
+    /// The work limit was reached.
     Unknown,
 }
 
-/// The first root of all elementary tests: time is halved, the first half first, until every test is
-/// excluded, or its contact function is seen to rise or fall all the time, so that signs find its root, or
-/// the interval is as short as the resolution \[CONTACT02\].
+/// Returns the first root of all elementary tests. Time is halved, the first half first, until
+/// every test is excluded, or its contact function is monotone so that signs find its root, or the
+/// interval is as short as the resolution \[CONTACT02\].
 pub(super) fn first_touch(triangles: &Triangles, slice: Slice, clock: &mut Clock) -> Touch {
     let mut first = Touch::Never;
-    // Of every level at most one second half waits, and both of the last.
+    // The stack holds at most one second half of every level, and both halves of the last.
     let mut stack = [(slice, Open::ALL); MAX_LEVEL + 2];
     let mut height = 1;
     while let Some(below) = usize::checked_sub(height, 1) {
@@ -33,7 +33,7 @@ pub(super) fn first_touch(triangles: &Triangles, slice: Slice, clock: &mut Clock
         if !(slice.span.width() > 0.0 || first == Touch::Never) {
             continue;
         }
-        let open = triangles.open(open, clock.places(slice));
+        let open = triangles.open(open, clock.placements(slice));
         if open.is_empty() {
             continue;
         }
@@ -70,25 +70,25 @@ fn earlier(first: Touch, time: f64) -> Touch {
     }
 }
 
-/// What is known of a contact function's roots where the features meet.
+/// The roots of a contact function at which the features meet.
 enum Root {
     None,
     At(f64),
-    /// Any number.
+    /// There may be any number of roots.
     Several,
 }
 
-/// The root of a function that rises or falls over all of the interval, where it is known to.
+/// Returns the root of a function that is monotone over the interval, if it is known to be.
 fn root(triangles: &Triangles, test: Test, slice: Slice, clock: &mut Clock) -> Root {
     let rates = *clock.rates(slice);
-    let rate = triangles.rate(test, clock.places(slice), &rates);
+    let rate = triangles.rate(test, clock.placements(slice), &rates);
     if !rate.excludes_zero() {
         return Root::Several;
     }
     let Some(found) = bracket(triangles, test, slice.span, clock) else {
         return Root::None;
     };
-    // As wide as the resolution: features that meet at their borders do so up to rounding only.
+    // As wide as the resolution: features that meet at their borders do so except for rounding.
     let slack = 0.5 * greater(0.0, clock.resolution() - found.width());
     let around = Span {
         start: found.start - slack,
@@ -104,11 +104,12 @@ fn root(triangles: &Triangles, test: Test, slice: Slice, clock: &mut Clock) -> R
     }
 }
 
-/// How often a bracket is narrowed at most; halving every other time, 2·53 leave neighbouring numbers.
+/// The largest number of narrowings of a bracket. Every other one halves it, so 2·53 lead to
+/// neighbouring numbers.
 const MAX_NARROWINGS: usize = 110;
 
-/// The root of a monotone function between two times, to within the resolution: false position, and
-/// halves where it leaves more than half.
+/// Returns the root of a monotone function between two times, to within the resolution. Uses false
+/// position, and bisection after a step that leaves more than half.
 fn bracket(triangles: &Triangles, test: Test, span: Span, clock: &Clock) -> Option<Span> {
     let value = |time: f64| triangles.value(test, &clock.relative().at(time));
     let (mut span, mut ends) = (span, [value(span.start), value(span.end)]);

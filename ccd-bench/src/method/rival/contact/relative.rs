@@ -1,4 +1,4 @@
-//! Where one moving body is as seen from the other: at a time, and enclosed over an interval of time.
+//! The motion of one body as seen from the other: at a time, and enclosed over an interval of time.
 
 use crate::method::rival::interval::{Arc, Interval, IntervalMat, IntervalVec};
 use crate::method::rival::{Course, Placement};
@@ -6,29 +6,30 @@ use ccd_core::glam::{DMat3, DVec3};
 
 /// The motion of the first body as seen from the second, both about their reference points.
 ///
-/// For a point `x` of the first body from its reference point, `rotation(t) x + offset(t)` is the same
-/// point from the reference point of the second, along the second body's axes.
+/// For a point `x` of the first body relative to its reference point, `rotation(t) x + offset(t)`
+/// is the same point relative to the reference point of the second body, along that body's axes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Relative {
-    first: Path,
-    second: Path,
+    first: BodyMotion,
+    second: BodyMotion,
 }
 
-/// One body: `rotation(t) = fixed + cos(ωt) cos + sin(ωt) sin`, the reference point alike, but for a
-/// straight part.
+/// The motion of one body: `rotation(t) = fixed + cos(ωt) cos + sin(ωt) sin`. The reference point
+/// moves likewise, plus a straight part.
 #[derive(Clone, Copy, Debug)]
-struct Path {
+struct BodyMotion {
     fixed: DMat3,
     cos: DMat3,
     sin: DMat3,
     rate: f64,
     from: DVec3,
     velocity: DVec3,
-    /// The reference point's offset from the centre, in the body's frame.
+    /// The offset of the reference point from the centre, in the body's frame.
     lever: DVec3,
 }
 
-/// All placements of one body as seen from another over an interval of time; or their rates of change.
+/// An enclosure of all placements of one body as seen from another over an interval of time, or of
+/// their rates of change.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Enclosure {
     pub(super) rotation: IntervalMat,
@@ -53,15 +54,17 @@ impl Span {
 }
 
 impl Relative {
-    /// From two motions and the bodies' reference points, each in its body's frame.
+    /// Combines two motions; the reference points are given in each body's frame.
     pub(super) fn new(first: (&Course, DVec3), second: (&Course, DVec3)) -> Self {
-        // Along the second body's axes at the start, so that one that does not turn needs no turning back.
+        // The axes are those of the second body at the start: a body that does not turn then needs
+        // no rotation back.
         let axes = second.0.orientation.transpose();
         let mut relative = Relative {
-            first: Path::new(first.0, first.1, axes),
-            second: Path::new(second.0, second.1, axes),
+            first: BodyMotion::new(first.0, first.1, axes),
+            second: BodyMotion::new(second.0, second.1, axes),
         };
-        // Only the difference of the straight parts matters; apart they would be enclosed apart.
+        // Only the difference of the straight parts matters. Separate parts would be enclosed
+        // separately.
         relative.first.from -= relative.second.from;
         relative.first.velocity -= relative.second.velocity;
         relative.second.from = DVec3::ZERO;
@@ -69,69 +72,69 @@ impl Relative {
         relative
     }
 
-    /// The placement at a time.
+    /// Returns the placement at a time.
     pub(super) fn at(&self, time: f64) -> Placement {
-        let (first, place_first) = self.first.at(time);
-        let (second, place_second) = self.second.at(time);
+        let (first, position_first) = self.first.at(time);
+        let (second, position_second) = self.second.at(time);
         let back = second.transpose();
         Placement {
             rotation: back * first,
-            translation: back * (place_first - place_second),
+            translation: back * (position_first - position_second),
         }
     }
 
-    /// All placements between two times.
+    /// Returns an enclosure of all placements between two times.
     pub(super) fn over(&self, span: Span) -> Enclosure {
-        let (first, place_first) = self.first.over(span);
+        let (first, position_first) = self.first.over(span);
         if self.second.rate == 0.0 {
-            let offset = place_first.minus_point(self.second.still_place());
+            let offset = position_first.minus_point(self.second.still_position());
             return Enclosure {
                 rotation: first,
                 offset,
             };
         }
-        let (second, place_second) = self.second.over(span);
+        let (second, position_second) = self.second.over(span);
         let back = second.transpose();
         Enclosure {
             rotation: back * first,
-            offset: back * (place_first - place_second),
+            offset: back * (position_first - position_second),
         }
     }
 
-    /// All rates of change of the placements between two times.
+    /// Returns an enclosure of all rates of change of the placements between two times.
     pub(super) fn rates_over(&self, span: Span) -> Enclosure {
-        let (first_rate, place_first_rate) = self.first.rates_over(span);
+        let (first_rate, position_first_rate) = self.first.rates_over(span);
         if self.second.rate == 0.0 {
             return Enclosure {
                 rotation: first_rate,
-                offset: place_first_rate,
+                offset: position_first_rate,
             };
         }
-        let (first, place_first) = self.first.over(span);
-        let (second, place_second) = self.second.over(span);
-        let (second_rate, place_second_rate) = self.second.rates_over(span);
+        let (first, position_first) = self.first.over(span);
+        let (second, position_second) = self.second.over(span);
+        let (second_rate, position_second_rate) = self.second.rates_over(span);
         let (back, back_rate) = (second.transpose(), second_rate.transpose());
         Enclosure {
             rotation: back_rate * first + back * first_rate,
-            offset: back_rate * (place_first - place_second)
-                + back * (place_first_rate - place_second_rate),
+            offset: back_rate * (position_first - position_second)
+                + back * (position_first_rate - position_second_rate),
         }
     }
 }
 
-impl Path {
+impl BodyMotion {
     fn new(course: &Course, reference: DVec3, axes: DMat3) -> Self {
         let axis = axes * course.axis;
         let orientation = axes * course.orientation;
         let still = course.rate == 0.0;
-        // What lies along the axis stays; the rest goes round.
+        // The part along the axis is fixed; the rest rotates.
         let along = |column: DVec3| match still {
             true => column,
             false => axis * axis.dot(column),
         };
         let fixed = columns(orientation, along);
         let cos = orientation - fixed;
-        Path {
+        BodyMotion {
             fixed,
             cos,
             sin: columns(cos, |column| axis.cross(column)),
@@ -142,16 +145,17 @@ impl Path {
         }
     }
 
-    /// Where the reference point of a body that does not turn is, but for its straight part.
-    fn still_place(&self) -> DVec3 {
+    /// Returns the position of the reference point of a body that does not turn, without its
+    /// straight part.
+    fn still_position(&self) -> DVec3 {
         self.from + self.fixed * self.lever
     }
 
     fn at(&self, time: f64) -> (DMat3, DVec3) {
         let (sin, cos) = (self.rate * time).sin_cos();
         let rotation = self.fixed + self.cos * cos + self.sin * sin;
-        let place = self.from + self.velocity * time + rotation * self.lever;
-        (rotation, place)
+        let position = self.from + self.velocity * time + rotation * self.lever;
+        (rotation, position)
     }
 
     fn over(&self, span: Span) -> (IntervalMat, IntervalVec) {
@@ -165,11 +169,11 @@ impl Path {
         };
         let straight = self.from + self.velocity * span.middle() + self.fixed * self.lever;
         let round = swing_vec(cos * self.lever, sin * self.lever, arc);
-        let place = IntervalVec {
+        let position = IntervalVec {
             middle: straight + round.middle,
             radius: self.velocity.abs() * half + round.radius,
         };
-        (rotation, place)
+        (rotation, position)
     }
 
     fn rates_over(&self, span: Span) -> (IntervalMat, IntervalVec) {
@@ -184,7 +188,7 @@ impl Path {
         (swing(cos, sin, arc), velocity)
     }
 
-    /// The coefficients of cosine and sine when the angle is counted from that at a time.
+    /// Returns the coefficients of cosine and sine for an angle counted from the angle at `time`.
     fn turned(&self, time: f64) -> (DMat3, DMat3) {
         let (sin, cos) = (self.rate * time).sin_cos();
         (
@@ -198,7 +202,7 @@ fn columns(matrix: DMat3, map: impl Fn(DVec3) -> DVec3) -> DMat3 {
     DMat3::from_cols(map(matrix.x_axis), map(matrix.y_axis), map(matrix.z_axis))
 }
 
-/// All values of `cos(φ) cos + sin(φ) sin` for φ in the arc.
+/// Returns an enclosure of `cos(φ) cos + sin(φ) sin` for φ in the arc.
 fn swing(cos: DMat3, sin: DMat3, arc: Arc) -> IntervalMat {
     let Interval { middle, radius } = arc.cos;
     IntervalMat {
@@ -207,7 +211,7 @@ fn swing(cos: DMat3, sin: DMat3, arc: Arc) -> IntervalMat {
     }
 }
 
-/// As [`swing`], for vectors.
+/// Does the same as [`swing`] for vectors.
 fn swing_vec(cos: DVec3, sin: DVec3, arc: Arc) -> IntervalVec {
     let Interval { middle, radius } = arc.cos;
     IntervalVec {

@@ -1,4 +1,4 @@
-//! Whether two meshes cross as they stand.
+//! Tests whether two meshes at rest cross.
 
 use super::{Content, Obb, ObbTree};
 use crate::method::rival::Placement;
@@ -6,11 +6,11 @@ use crate::method::rival::interval::cross_sum;
 use crate::method::rival::triangles_cross::triangles_cross;
 use ccd_core::glam::{DMat3, DVec3};
 
-/// Added to the cosines between two boxes' axes, so that the cross product of parallel ones, which is
-/// nothing but rounding, separates nothing \[OBBTREE96 §5\].
+/// Added to the cosines between the axes of two boxes, so that the cross product of parallel axes,
+/// which is mere rounding, separates nothing \[OBBTREE96 §5\].
 const COSINE_SLACK: f64 = 1e-14;
 
-/// Whether two surfaces have a point in common.
+/// The result of the search for a common point of two surfaces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::method::rival) enum Crossing {
     /// They do.
@@ -19,12 +19,12 @@ pub(in crate::method::rival) enum Crossing {
     None,
 }
 
-/// Whether the triangles of two trees touch or cross, A placed in B's frame.
+/// Tests whether the triangles of two trees touch or cross, A placed in B's frame.
 ///
-/// `stack` is scratch, kept by the caller so that nothing is allocated from one call to the next.
+/// `stack` is scratch space of the caller, which avoids allocations.
 ///
 /// # Complexity
-/// Of the pairs of boxes that overlap, at most all pairs of nodes.
+/// Linear in the pairs of boxes that overlap, at most all pairs of nodes.
 pub(in crate::method::rival) fn crossing(
     a: &ObbTree,
     b: &ObbTree,
@@ -63,14 +63,14 @@ pub(in crate::method::rival) fn crossing(
     Crossing::None
 }
 
-/// Whether A's node is the one to open: B's cannot be, or is smaller.
+/// Returns true if A's node is the one to open, since B's is a leaf or smaller.
 fn other_is_smaller(other: Content, a: &Obb, b: &Obb) -> bool {
     matches!(other, Content::Triangle(_)) || a.half.max_element() > b.half.max_element()
 }
 
 impl Obb {
-    /// Whether one of the 15 axes separates this box, placed in the other's frame, from the other
-    /// \[OBBTREE96 §5\].
+    /// Returns true if one of the 15 axes separates this box, placed in the other's frame, from the
+    /// other \[OBBTREE96 §5\].
     fn apart(&self, other: &Obb, placement: &Placement) -> bool {
         let into = other.axes.transpose();
         let t = into * (placement.apply(self.centre) - other.centre);

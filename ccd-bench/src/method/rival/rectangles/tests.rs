@@ -11,7 +11,8 @@ fn random_vec(rng: &mut Pcg64, size: f64) -> DVec3 {
     size * DVec3::from_array([0; 3].map(|_| rng.random_range(-1.0..1.0)))
 }
 
-/// Of rectangles, a side may be zero, and a turn a multiple of a right angle, exactly or nearly.
+/// Returns random rectangles. A side may be zero, and a turn may be a multiple of a right angle,
+/// exactly or nearly.
 fn random_pair(rng: &mut Pcg64) -> (DVec2, DVec2, Placement) {
     let mut lengths = || {
         DVec2::from_array([0, 1].map(|_| match rng.random_range(0..6) {
@@ -30,16 +31,16 @@ fn random_pair(rng: &mut Pcg64) -> (DVec2, DVec2, Placement) {
         }
         _ => DQuat::from_scaled_axis(random_vec(rng, 3.0)),
     };
-    let place = Placement {
+    let placement = Placement {
         rotation: DMat3::from_quat(turn),
         translation: random_vec(rng, 1.0),
     };
-    (a, b, place)
+    (a, b, placement)
 }
 
-fn corners(lengths: DVec2, place: &Placement) -> [DVec3; 4] {
+fn corners(lengths: DVec2, placement: &Placement) -> [DVec3; 4] {
     [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)]
-        .map(|(x, y)| place.apply(DVec3::new(x * lengths.x, y * lengths.y, 0.0)))
+        .map(|(x, y)| placement.apply(DVec3::new(x * lengths.x, y * lengths.y, 0.0)))
 }
 
 const HERE: Placement = Placement {
@@ -47,32 +48,35 @@ const HERE: Placement = Placement {
     translation: DVec3::ZERO,
 };
 
-/// A twin: each rectangle as two triangles.
-fn by_triangles(a: DVec2, b: DVec2, place: &Placement) -> f64 {
+/// Computes the distance another way: each rectangle as two triangles.
+fn by_triangles(a: DVec2, b: DVec2, placement: &Placement) -> f64 {
     let halves = |[p, q, r, s]: [DVec3; 4]| [[p, q, r], [q, r, s]];
     let mut least = f64::INFINITY;
     for half_a in halves(corners(a, &HERE)) {
-        for half_b in halves(corners(b, place)) {
+        for half_b in halves(corners(b, placement)) {
             least = lesser(least, nearest(&half_a, &half_b).between().length());
         }
     }
     least
 }
 
-/// Another twin: each of the four coordinates of two points in turn is set to where their distance is
-/// least, until nothing moves.
-fn by_descent(a: DVec2, b: DVec2, place: &Placement) -> f64 {
+/// Computes the distance a third way: it sets each of the four coordinates of the two points in
+/// turn to where their distance is least, until nothing moves.
+fn by_descent(a: DVec2, b: DVec2, placement: &Placement) -> f64 {
     let axes = [
         DVec3::X,
         DVec3::Y,
-        place.rotation.x_axis,
-        place.rotation.y_axis,
+        placement.rotation.x_axis,
+        placement.rotation.y_axis,
     ];
     let signs = [-1.0, -1.0, 1.0, 1.0];
     let longest = [a.x, a.y, b.x, b.y];
     let mut at = [0.5 * a.x, 0.5 * a.y, 0.5 * b.x, 0.5 * b.y];
-    let vector =
-        |at: &[f64; 4]| (0..4).fold(place.translation, |sum, k| sum + signs[k] * at[k] * axes[k]);
+    let vector = |at: &[f64; 4]| {
+        (0..4).fold(placement.translation, |sum, k| {
+            sum + signs[k] * at[k] * axes[k]
+        })
+    };
     for _ in 0..20_000 {
         let before = at;
         for k in 0..4 {
@@ -91,28 +95,28 @@ fn the_vector_is_the_shortest() {
     let mut rng = Pcg64::seed_from_u64(1);
     let (mut apart, mut meeting) = (0, 0);
     for _ in 0..20_000 {
-        let (a, b, place) = random_pair(&mut rng);
-        let vector = between(a, b, &place);
+        let (a, b, placement) = random_pair(&mut rng);
+        let vector = between(a, b, &placement);
         let distance = vector.length();
-        let twin = by_triangles(a, b, &place);
+        let twin = by_triangles(a, b, &placement);
         assert!(
             (distance - twin).abs() < 1e-9,
-            "{distance} {twin} {a} {b} {place:?}"
+            "{distance} {twin} {a} {b} {placement:?}"
         );
-        // It is slow to arrive where edges are all but parallel.
-        let twin = by_descent(a, b, &place);
+        // This converges slowly if edges are nearly parallel.
+        let twin = by_descent(a, b, &placement);
         assert!(
             distance < twin + 1e-12,
-            "{distance} {twin} {a} {b} {place:?}"
+            "{distance} {twin} {a} {b} {placement:?}"
         );
         assert!(
             twin < distance + 1e-3,
-            "{distance} {twin} {a} {b} {place:?}"
+            "{distance} {twin} {a} {b} {placement:?}"
         );
         if distance > 1e-6 {
-            // No plane could part them farther than they are apart, so this proves the distance.
+            // No plane could separate them by more than their distance, so this proves the distance.
             let n = vector / distance;
-            let low = corners(b, &place)
+            let low = corners(b, &placement)
                 .map(|p| n.dot(p))
                 .into_iter()
                 .fold(f64::INFINITY, lesser);
@@ -122,7 +126,7 @@ fn the_vector_is_the_shortest() {
                 .fold(f64::NEG_INFINITY, greater);
             assert!(
                 low - high > distance - 1e-9,
-                "{distance} {} {a} {b} {place:?}",
+                "{distance} {} {a} {b} {placement:?}",
                 low - high
             );
             apart += 1;
@@ -138,19 +142,19 @@ fn the_vector_is_the_shortest() {
 
 #[test]
 fn a_crossing_inside_both_is_a_meeting() {
-    let place = Placement {
+    let placement = Placement {
         rotation: DMat3::from_rotation_x(FRAC_PI_2),
         translation: DVec3::new(0.4, 0.5, -0.3),
     };
-    let cross = between(DVec2::ONE, DVec2::new(0.2, 1.0), &place);
+    let cross = between(DVec2::ONE, DVec2::new(0.2, 1.0), &placement);
     assert_eq!(cross, DVec3::ZERO);
 }
 
 #[test]
-fn what_is_no_number_is_no_distance() {
-    let place = Placement {
+fn invalid_numbers_give_no_distance() {
+    let placement = Placement {
         rotation: DMat3::IDENTITY,
         translation: DVec3::splat(f64::NAN),
     };
-    assert_eq!(between(DVec2::ONE, DVec2::ONE, &place), DVec3::ZERO);
+    assert_eq!(between(DVec2::ONE, DVec2::ONE, &placement), DVec3::ZERO);
 }

@@ -12,7 +12,7 @@ fn screws_start_and_end_where_the_motion_does() {
     let mut samples = Samples::new(1);
     let mut between = 0;
     for _ in 0..2000 {
-        // Up to 2.7 turns.
+        // The turn is at most 2.7 circles.
         let query = samples.query(3.0, 10.0);
         let screw = screw(&query).unwrap();
         assert_eq!((screw.duration, &screw.id), (query.duration, &query.id));
@@ -60,14 +60,14 @@ fn translations_and_turns_about_the_centre_stay_as_they_are() {
 }
 
 #[test]
-fn whole_turns_have_no_axis_and_stay_straight() {
+fn whole_turns_have_no_axis_and_are_unchanged() {
     let whole = std::f64::consts::TAU * DVec3::Z;
     for spin in [whole, 2.0 * whole, 1e-16 * DVec3::Z, whole * (1.0 + 1e-5)] {
         let motion = Motion::new(Pose::IDENTITY, DVec3::X, spin).unwrap();
         let given = query(motion, still(DVec3::ZERO));
         assert_eq!(screw(&given).unwrap(), given);
     }
-    // A little more turn, and there is an axis, far away.
+    // With a little more turn there is an axis, far away.
     let motion = Motion::new(Pose::IDENTITY, DVec3::X, 1e-3 * DVec3::Z).unwrap();
     let screw = screw(&query(motion, still(DVec3::ZERO))).unwrap();
     assert!((screw.a.centre().length() - 1e3).abs() < 1.0);

@@ -2,7 +2,7 @@ use super::*;
 use crate::method::rival::tests::samples::{cuboid, moving, query, still};
 use ccd_core::glam::{DQuat, DVec3};
 
-/// A cube of side 1 at height 3 falls by 4 on a slab whose top is at height 0.
+/// A cube of side 1 at height 3 falls by 4 onto a slab whose top is at height 0.
 fn fall() -> Query {
     let a = moving(
         3.0 * DVec3::Z,
@@ -34,7 +34,7 @@ fn contacts_are_reported_at_the_next_sample() {
 }
 
 #[test]
-fn what_begins_and_ends_between_samples_is_missed() {
+fn a_contact_between_samples_is_missed() {
     let mut query = fall();
     let (a, b) = (cuboid(0.5, 0.5, 0.01), cuboid(3.0, 3.0, 0.01));
     let ask = |tolerance: f64| Stepping::new(&a, &b, tolerance).answer(&query);
@@ -47,7 +47,7 @@ fn what_begins_and_ends_between_samples_is_missed() {
 }
 
 #[test]
-fn bodies_at_rest_are_tested_as_they_stand() {
+fn bodies_at_rest_are_tested() {
     let apart = query(still(1.1 * DVec3::Z), still(DVec3::ZERO));
     assert_eq!(stepping(1e-3).answer(&apart).claim, Claim::Free);
     let across = query(still(0.9 * DVec3::Z), still(DVec3::ZERO));
@@ -56,7 +56,7 @@ fn bodies_at_rest_are_tested_as_they_stand() {
 }
 
 #[test]
-fn more_samples_than_anybody_waits_for_are_not_taken() {
+fn the_number_of_samples_is_limited() {
     let reply = stepping(1e-9).answer(&fall());
     assert_eq!(reply.steps, MAX_SAMPLES);
     let Claim::Unresolved { safe_until } = reply.claim else {

@@ -1,4 +1,4 @@
-//! How a tree is built: which sphere over which rectangle holds triangles, and where they are parted.
+//! Builds a tree: fits swept spheres to triangles, and splits sets of triangles.
 
 use super::{Below, Node, SphereTree, principal_axes};
 use crate::method::rival::Placement;
@@ -7,11 +7,11 @@ use ccd_core::glam::{DMat3, DVec2, DVec3};
 use ccd_core::order::greater;
 use std::ops::Range;
 
-/// Of a coordinate: by how much radii grow, so that no rounding, of this or of what is computed with
-/// the tree, leaves a point outside.
+/// A fraction of the coordinates by which radii grow, so that no rounding, here or in computations
+/// with the tree, leaves a point outside.
 const ROUNDING: f64 = 1e-14;
 
-/// The tree over triangles; their order is its leaves'.
+/// Returns the tree over triangles, whose order becomes that of the leaves.
 pub(super) fn tree(mut triangles: Vec<Triangle>) -> SphereTree {
     let mut tree = SphereTree {
         nodes: Vec::with_capacity(2 * triangles.len()),
@@ -52,7 +52,7 @@ impl SphereTree {
     fn push(&mut self, triangles: &[Triangle], parent: &Placement) -> Placement {
         let (frame, lengths, radius) = fit(triangles);
         self.nodes.push(Node {
-            place: frame.seen_from(parent),
+            placement: frame.seen_from(parent),
             lengths,
             radius,
             below: Below::Triangle(0),
@@ -62,10 +62,9 @@ impl SphereTree {
     }
 }
 
-/// Puts triangles whose centres are less far along an axis than the mean before the others, and says
-/// how many they are.
+/// Moves triangles whose centres are below the mean along an axis to the front. Returns their number.
 fn part(triangles: &mut [Triangle], range: Range<usize>, axis: DVec3) -> usize {
-    /// Of all triangles, what is too few for one side.
+    /// The fraction of all triangles that is too few for one side.
     const LOPSIDED: f64 = 1.0 / 16.0;
 
     let part = &mut triangles[range.clone()];
@@ -83,8 +82,8 @@ fn part(triangles: &mut [Triangle], range: Range<usize>, axis: DVec3) -> usize {
     range.start + below
 }
 
-/// A rectangle across the direction in which triangles are thinnest, and the radius that it takes
-/// \[PQP99 §3\].
+/// Returns a rectangle across the direction in which triangles are thinnest, and the radius that it
+/// needs \[PQP99 §3\].
 fn fit(triangles: &[Triangle]) -> (Placement, DVec2, f64) {
     let (_, axes) = principal_axes(triangles.iter().flatten().copied());
     let to_axes = axes.transpose();
@@ -115,7 +114,7 @@ fn fit(triangles: &[Triangle]) -> (Placement, DVec2, f64) {
     (frame, shape.high - shape.low, farthest + ROUNDING * extent)
 }
 
-/// A rectangle in a plane z = `middle` that grows until it is within the radius of all points.
+/// A rectangle in a plane z = `middle` that grows until all points are within the radius.
 struct Stadium {
     low: DVec2,
     high: DVec2,
@@ -124,27 +123,28 @@ struct Stadium {
 }
 
 impl Stadium {
-    /// How far off a point's foot in the plane it can be reached from.
+    /// Returns the distance from a point's foot in the plane at which the point is still within the
+    /// radius.
     fn reach(&self, point: DVec3) -> f64 {
         let up = point.z - self.middle;
         greater(0.0, self.radius * self.radius - up * up).sqrt()
     }
 
-    /// Lets each side, as a line, reach a point.
+    /// Extends each side, as a line, to reach a point.
     fn reach_sides(&mut self, point: DVec3) {
         let reach = self.reach(point);
         self.low = self.low.min(point.truncate() + reach);
         self.high = self.high.max(point.truncate() - reach);
     }
 
-    /// Where sides have passed each other, all between them reaches all points.
+    /// Repairs sides that have passed each other: everything between them reaches all points.
     fn straighten(&mut self) {
         let middle = 0.5 * (self.low + self.high);
         self.low = self.low.min(middle);
         self.high = self.high.max(middle);
     }
 
-    /// Pushes the corner nearest to a point outwards along its diagonal until it reaches the point.
+    /// Moves the corner nearest to a point outwards along its diagonal until it reaches the point.
     fn reach_corner(&mut self, point: DVec3) {
         let flat = point.truncate();
         let side = DVec2::select(

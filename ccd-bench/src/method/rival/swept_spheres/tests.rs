@@ -11,7 +11,7 @@ fn knot() -> TriangleMesh {
     Model::Knot216.generate().unwrap()
 }
 
-fn random_place(rng: &mut Pcg64) -> Placement {
+fn random_placement(rng: &mut Pcg64) -> Placement {
     let mut vec = |size: f64| size * DVec3::from_array([0; 3].map(|_| rng.random_range(-1.0..1.0)));
     Placement {
         rotation: DMat3::from_quat(DQuat::from_scaled_axis(vec(3.0))),
@@ -19,7 +19,7 @@ fn random_place(rng: &mut Pcg64) -> Placement {
     }
 }
 
-/// The triangles below a node.
+/// Returns the triangles below a node.
 fn triangles(tree: &SphereTree, node: u32) -> Vec<u32> {
     match tree.nodes[node as usize].below {
         Below::Triangle(k) => vec![k],
@@ -63,7 +63,7 @@ fn nodes_hold_their_triangles_and_are_tight() {
 
 #[test]
 fn no_split_is_lopsided() {
-    // A strip of little triangles and one far away, so that the mean is beyond all but this one.
+    // A strip of small triangles and one far away: the mean is beyond all except this one.
     let at = |k: u32| if k == 0 { 1e6 } else { 1e-3 * f64::from(k) };
     let corners = |k| [DVec3::ZERO, DVec3::X, DVec3::Y].map(|p| 1e-3 * p + at(k) * DVec3::X);
     let faces: Vec<_> = (0..400).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect();
@@ -90,8 +90,8 @@ fn no_node_is_farther_than_its_triangles_or_nearer_than_its_size() {
     let mut rng = Pcg64::seed_from_u64(4);
     let (mut checked, mut apart) = (0, 0);
     for _ in 0..60 {
-        let place = random_place(&mut rng);
-        let mut pair: Pair = trees.roots(&place).unwrap();
+        let placement = random_placement(&mut rng);
+        let mut pair: Pair = trees.roots(&placement).unwrap();
         while let Under::Pairs(pairs) = trees.under(&pair) {
             pair = pairs[rng.random_range(0..2)];
             let (a, b) = (triangles(&trees.a, pair.a), triangles(&trees.b, pair.b));
@@ -101,7 +101,7 @@ fn no_node_is_farther_than_its_triangles_or_nearer_than_its_size() {
             let mut true_distance = f64::INFINITY;
             for &i in &a {
                 for &j in &b {
-                    let nearest = trees.nearest(super::Leaves { a: i, b: j }, &place);
+                    let nearest = trees.nearest(super::Leaves { a: i, b: j }, &placement);
                     true_distance = lesser(true_distance, nearest.between().length());
                 }
             }
@@ -115,7 +115,7 @@ fn no_node_is_farther_than_its_triangles_or_nearer_than_its_size() {
                     .iter()
                     .flat_map(|&i| along(&trees.a.triangles[i as usize]));
                 let low = b.iter().flat_map(|&j| {
-                    along(&trees.b.triangles[j as usize].map(|corner| place.apply(corner)))
+                    along(&trees.b.triangles[j as usize].map(|corner| placement.apply(corner)))
                 });
                 let parted =
                     low.fold(f64::INFINITY, lesser) - high.fold(f64::NEG_INFINITY, greater);

@@ -1,4 +1,4 @@
-//! Random vectors, triangles and motions for the rivals' tests, and distances the slow way.
+//! Random vectors, triangles and motions for the rivals' tests, and distances by brute force.
 
 use crate::scene::model::Board;
 use ccd_core::glam::{DQuat, DVec3};
@@ -9,7 +9,7 @@ use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use rigid_ccd::table::motions::Query;
 
-/// Draws what tests need.
+/// Draws random inputs.
 pub(in crate::method::rival) struct Samples(Pcg64);
 
 impl Samples {
@@ -21,7 +21,7 @@ impl Samples {
         self.0.random_range(low..high)
     }
 
-    /// Of a cube.
+    /// Returns a vector in a cube.
     pub(in crate::method::rival) fn vector(&mut self, half: f64) -> DVec3 {
         DVec3::from_array([(); 3].map(|()| self.number(-half, half)))
     }
@@ -34,7 +34,7 @@ impl Samples {
         [(); 3].map(|()| self.vector(1.0))
     }
 
-    /// With a turn of up to `spin` about any centre.
+    /// Returns a motion with a turn of up to `spin` about any centre.
     pub(in crate::method::rival) fn motion(&mut self, speed: f64, spin: f64) -> Motion {
         let start = Pose::new(self.vector(2.0), self.rotation()).unwrap();
         let (velocity, spin) = (self.vector(speed), self.vector(spin));
@@ -46,7 +46,7 @@ impl Samples {
     }
 }
 
-/// Of duration 1.
+/// Returns a query of duration 1.
 pub(in crate::method::rival) fn query(a: Motion, b: Motion) -> Query {
     Query {
         id: String::new(),
@@ -57,16 +57,16 @@ pub(in crate::method::rival) fn query(a: Motion, b: Motion) -> Query {
 }
 
 pub(in crate::method::rival) fn moving(
-    place: DVec3,
+    position: DVec3,
     rotation: DQuat,
     velocity: DVec3,
     spin: DVec3,
 ) -> Motion {
-    Motion::new(Pose::new(place, rotation).unwrap(), velocity, spin).unwrap()
+    Motion::new(Pose::new(position, rotation).unwrap(), velocity, spin).unwrap()
 }
 
-pub(in crate::method::rival) fn still(place: DVec3) -> Motion {
-    moving(place, DQuat::IDENTITY, DVec3::ZERO, DVec3::ZERO)
+pub(in crate::method::rival) fn still(position: DVec3) -> Motion {
+    moving(position, DQuat::IDENTITY, DVec3::ZERO, DVec3::ZERO)
 }
 
 pub(in crate::method::rival) fn cuboid(x: f64, y: f64, z: f64) -> TriangleMesh {
@@ -74,7 +74,8 @@ pub(in crate::method::rival) fn cuboid(x: f64, y: f64, z: f64) -> TriangleMesh {
     Board { half_extents }.mesh().unwrap()
 }
 
-/// The distance of two triangles that do not cross: of corners from triangles and of edges.
+/// Returns the distance of two triangles that do not cross: the least over corners and triangles,
+/// and over edges.
 pub(in crate::method::rival) fn distance(a: &[DVec3; 3], b: &[DVec3; 3]) -> f64 {
     let edge = |t: &[DVec3; 3], k: usize| [t[k], t[(k + 1) % 3]];
     let mut least = f64::INFINITY;
@@ -87,7 +88,7 @@ pub(in crate::method::rival) fn distance(a: &[DVec3; 3], b: &[DVec3; 3]) -> f64 
     least
 }
 
-/// The distance from a triangle's plane where the foot lies in the triangle.
+/// Returns the distance from a triangle's plane if the foot lies in the triangle.
 fn from_inside(p: DVec3, t: &[DVec3; 3]) -> f64 {
     let normal = (t[1] - t[0]).cross(t[2] - t[0]).normalize();
     let inside = |k: usize| normal.cross(t[(k + 1) % 3] - t[k]).dot(p - t[k]) >= 0.0;
@@ -97,7 +98,8 @@ fn from_inside(p: DVec3, t: &[DVec3; 3]) -> f64 {
     }
 }
 
-/// The distance of two segments: of their ends, and of the lines where the feet are inside.
+/// Returns the distance of two segments: the least over their ends, and over the lines if the feet
+/// are inside.
 fn edge_distance([p, p2]: [DVec3; 2], [q, q2]: [DVec3; 2]) -> f64 {
     let to_segment = |x: DVec3, a: DVec3, b: DVec3| {
         let s = ((x - a).dot(b - a) / (b - a).length_squared()).clamp(0.0, 1.0);

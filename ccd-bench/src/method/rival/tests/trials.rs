@@ -1,4 +1,4 @@
-//! What the rivals' tests ask them: scenes with exact answers, and shots held against brute force.
+//! The common trials of the rivals: scenes with exact answers, and shots checked by brute force.
 
 use crate::method::rival::patience::Patience;
 use crate::method::rival::triangles_apart::{Triangle, nearest};
@@ -20,7 +20,7 @@ struct Exact {
     b: TriangleMesh,
     query: Query,
     time: f64,
-    /// Of the points that meet, at contact, towards each other.
+    /// The closing speed at contact of the points that meet.
     closing_speed: f64,
 }
 
@@ -71,10 +71,11 @@ fn query(a: Motion, b: Motion) -> Query {
     }
 }
 
-/// The half extents of a slab whose near face is at the origin's height when it is sunk by its third.
+/// The half extents of a slab. Its near face is at the origin's height if it is lowered by its
+/// third half extent.
 const SLAB: DVec3 = DVec3::new(10.0, 10.0, 1.0);
 
-/// Where that slab is.
+/// The position of that slab.
 const SUNK: DVec3 = DVec3::new(0.0, 0.0, -1.0);
 
 fn falling_boxes() -> Vec<Exact> {
@@ -110,12 +111,13 @@ fn falling_boxes() -> Vec<Exact> {
     ]
 }
 
-/// Rods of half length 2 and half width 0.05 whose corner meets a plane at a height, or another one.
+/// Returns rods of half length 2 and half width 0.05 whose corner meets a plane at a height, or
+/// another rod.
 fn turning_rods() -> Vec<Exact> {
     let (length, width, height) = (2.0_f64, 0.05_f64, 1.2);
     let radius = length.hypot(width);
     let angle = |height: f64| (height / radius).asin() - width.atan2(length);
-    // A corner at the radius rises as fast as it is far along.
+    // A corner at the radius rises as fast as its distance along.
     let rise = |height: f64| (radius * radius - height * height).sqrt();
     let mut scenes = vec![Exact {
         name: "rod on slab",
@@ -154,13 +156,18 @@ fn turning_rods() -> Vec<Exact> {
         time: angle(0.5 * apart) / speed,
         closing_speed: 2.0 * speed * rise(0.5 * apart),
     });
-    // An edge along z and the post's, turning towards each other.
+    scenes.push(rod_on_post());
+    scenes
+}
+
+/// Returns a rod with an edge along z that meets an edge of a post; the rod turns.
+fn rod_on_post() -> Exact {
     let (length, width, distance, at) = (2.0, 0.05_f64, 1.3, 1.0_f64);
     let near = DVec3::new(at.cos(), at.sin(), 0.0);
     let outward = DMat3::from_rotation_z(at + FRAC_PI_4);
-    // The post's edge faces the rod: its diagonal points against the rod's way.
+    // The edge of the post faces the rod: its diagonal points against the rod's velocity.
     let facing = DVec3::new(-at.sin(), at.cos(), 0.0);
-    scenes.push(Exact {
+    Exact {
         name: "rod on post",
         a: boxed(DVec3::new(length, width, 0.1)),
         b: turned_box(DVec3::new(0.1, 0.1, 0.5), outward),
@@ -170,16 +177,16 @@ fn turning_rods() -> Vec<Exact> {
         ),
         time: (at - (width / distance).asin()) / 1.5,
         closing_speed: 1.5 * (distance * distance - width * width).sqrt(),
-    });
-    scenes
+    }
 }
 
-/// Times are never late, and as early as it takes to close the tolerance, half as fast as at contact.
+/// Asserts that times are never late, and not earlier than the time to close the tolerance at half
+/// the contact speed.
 pub(in crate::method::rival) fn assert_exact_scenes<C: Solver>(
     tolerance: f64,
     rival: impl Fn(&TriangleMesh, &TriangleMesh) -> C,
 ) {
-    /// Of the duration: what rounding may make late.
+    /// A fraction of the duration: the lateness allowed for rounding.
     const ROUNDING: f64 = 1e-12;
 
     for scene in falling_boxes().into_iter().chain(turning_rods()) {
@@ -203,7 +210,7 @@ pub(in crate::method::rival) fn assert_exact_scenes<C: Solver>(
     }
 }
 
-/// Distances of two knots by all pairs of triangles.
+/// The distances of two knots by all pairs of triangles.
 struct BruteForce {
     triangles: Vec<Triangle>,
     balls: Vec<(DVec3, f64)>,
@@ -226,16 +233,16 @@ impl BruteForce {
         }
     }
 
-    fn distance(&self, place: &Placement) -> f64 {
+    fn distance(&self, placement: &Placement) -> f64 {
         let moved: Vec<Triangle> = self
             .triangles
             .iter()
-            .map(|t| t.map(|p| place.apply(p)))
+            .map(|t| t.map(|p| placement.apply(p)))
             .collect();
         let balls: Vec<_> = self
             .balls
             .iter()
-            .map(|&(p, r)| (place.apply(p), r))
+            .map(|&(p, r)| (placement.apply(p), r))
             .collect();
         let mut least = f64::INFINITY;
         for (a, (p, r)) in self.triangles.iter().zip(&self.balls) {
@@ -249,10 +256,11 @@ impl BruteForce {
     }
 }
 
-/// Shots of small knots: until the time reported nothing touches, and at that time the bodies are
-/// within the tolerance.
+/// Asserts for shots of small knots that nothing touches until the reported time, and that the
+/// bodies are within the tolerance at that time.
 pub(in crate::method::rival) fn assert_shots(tolerance: f64, rival: &mut impl Solver) {
-    /// Of the duration: samples are no farther apart than what closes the distance, or this.
+    /// A fraction of the duration: the spacing of samples is at most the time to close the
+    /// distance, or this.
     const SAMPLE: f64 = 5e-4;
 
     let shots = Shots {
@@ -330,7 +338,8 @@ pub(in crate::method::rival) fn assert_gives_up<C: Solver>(
     }
 }
 
-/// Two boxes that turn past each other, never touching, so close that it takes many steps to tell.
+/// Returns two boxes that turn past each other without touching, so close that it takes many steps
+/// to decide.
 pub(in crate::method::rival) fn hovering() -> (TriangleMesh, TriangleMesh, Query) {
     // Its upright edges are at a distance of 1 from its axis.
     let turning = boxed(DVec3::new(FRAC_1_SQRT_2, FRAC_1_SQRT_2, 0.5));

@@ -8,7 +8,7 @@ fn random_vec(rng: &mut Pcg64) -> DVec3 {
     DVec3::from_array([0; 3].map(|_| rng.random_range(-1.0..1.0)))
 }
 
-/// Corners in the plane, on a grid, the same twice, or anywhere.
+/// Returns triangles with corners in the plane, on a grid, the same twice, or anywhere.
 fn random_pair(rng: &mut Pcg64) -> (Triangle, Triangle) {
     let kind = rng.random_range(0..5);
     let mut triangle = |shift: DVec3| {
@@ -28,7 +28,8 @@ fn random_pair(rng: &mut Pcg64) -> (Triangle, Triangle) {
     (a, b.map(|corner| corner + shift))
 }
 
-/// How far a point is from the triangle, by points of the triangle `1/steps` of an edge apart.
+/// Returns the distance of a point from a triangle, by points of the triangle `1/steps` of an edge
+/// apart.
 fn sampled(point: DVec3, [a, b, c]: &Triangle, steps: u32) -> f64 {
     let mut least = f64::INFINITY;
     for i in 0..=steps {
@@ -56,7 +57,7 @@ fn the_points_are_nearest() {
             assert!(off < 1e-9, "{off} off: {a:?} {b:?}");
         }
         if distance > 1e-6 {
-            // No plane could part them farther than they are apart, so this proves the distance.
+            // No plane could separate them by more than their distance, so this proves the distance.
             let n = found.between() / distance;
             let low = b.map(|p| n.dot(p)).into_iter().fold(f64::INFINITY, lesser);
             let high = a

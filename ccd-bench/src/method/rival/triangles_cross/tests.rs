@@ -1,7 +1,8 @@
 use super::*;
 use crate::method::rival::tests::samples::Samples;
 
-/// Triangles in general position cross exactly when an edge of one passes through the other.
+/// Returns true if an edge of one triangle passes through the other, the condition for a crossing
+/// in general position.
 fn pierced(a: &[DVec3; 3], b: &[DVec3; 3]) -> bool {
     let pierces = |edge: [DVec3; 2], t: &[DVec3; 3]| {
         let normal = (t[1] - t[0]).cross(t[2] - t[0]);
@@ -19,7 +20,7 @@ fn pierced(a: &[DVec3; 3], b: &[DVec3; 3]) -> bool {
 }
 
 #[test]
-fn agrees_with_edges_through_triangles() {
+fn the_test_agrees_with_edges_through_triangles() {
     let mut samples = Samples::new(1);
     let mut crossings = 0;
     for _ in 0..20_000 {

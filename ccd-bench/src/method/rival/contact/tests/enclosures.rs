@@ -1,4 +1,4 @@
-//! Enclosures, boxes and triangles against samples of the motion.
+//! Compares enclosures, boxes and triangles with samples of the motion.
 
 use crate::method::rival::contact::boxes::{Boxes, boxes};
 use crate::method::rival::contact::clock::{Clock, Slice};
@@ -18,7 +18,7 @@ fn relative(samples: &mut Samples, speed: f64, spin: f64) -> Relative {
     Relative::new((&a, samples.vector(1.0)), (&b, samples.vector(1.0)))
 }
 
-/// By how much a placement, or a rate, lies outside of an enclosure.
+/// Returns the distance by which a placement, or a rate, lies outside an enclosure.
 fn outside(enclosure: &Enclosure, rotation: DMat3, offset: DVec3) -> f64 {
     let column = |k: usize| {
         let off = (rotation.col(k) - enclosure.rotation.middle.col(k)).abs();
@@ -61,7 +61,7 @@ fn placements_are_those_of_the_motions() {
 fn enclosures_contain_all_placements_and_rates_between() {
     let mut samples = Samples::new(2);
     for k in 0..2000 {
-        // Some with the second body at rest, some with whole turns.
+        // Some cases have the second body at rest, some have whole turns.
         let mut relative = relative(&mut samples, 3.0, if k % 3 == 0 { 30.0 } else { 3.0 });
         if k % 2 == 0 {
             let query = samples.query(3.0, 3.0);
@@ -70,10 +70,10 @@ fn enclosures_contain_all_placements_and_rates_between() {
             relative = Relative::new((&a, samples.vector(1.0)), (&b, samples.vector(1.0)));
         }
         let span = span(&mut samples);
-        let (places, rates) = (relative.over(span), relative.rates_over(span));
+        let (placements, rates) = (relative.over(span), relative.rates_over(span));
         for time in times(span, 20) {
             let at = relative.at(time);
-            assert!(outside(&places, at.rotation, at.translation) < 1e-12);
+            assert!(outside(&placements, at.rotation, at.translation) < 1e-12);
             let (before, after) = (relative.at(time - 1e-5), relative.at(time + 1e-5));
             let rotation = (after.rotation - before.rotation) * 0.5e5;
             let offset = (after.translation - before.translation) * 0.5e5;
@@ -111,7 +111,7 @@ fn random_box(samples: &mut Samples) -> Obb {
     }
 }
 
-/// Whether a point of a grid over one box lies in the other.
+/// Returns true if a point of a grid over one box lies in the other.
 fn boxes_meet(a: &Obb, b: &Obb, at: &Placement) -> bool {
     const STEPS: [f64; 5] = [-1.0, -0.5, 0.0, 0.5, 1.0];
     let grid = |o: &Obb| {
@@ -131,7 +131,7 @@ fn boxes_meet(a: &Obb, b: &Obb, at: &Placement) -> bool {
 }
 
 #[test]
-fn boxes_told_apart_never_meet() {
+fn separated_boxes_never_meet() {
     let mut samples = Samples::new(4);
     let (mut apart, mut near, mut met) = (0, 0, 0);
     for _ in 0..6000 {
@@ -155,7 +155,7 @@ fn boxes_told_apart_never_meet() {
             }
         }
     }
-    // Most pairs that do not meet are told apart.
+    // Most pairs that do not meet are separated.
     assert!(
         apart > 3000 && met > 50,
         "{apart} apart, {near} near, {met} met"
@@ -164,7 +164,7 @@ fn boxes_told_apart_never_meet() {
 }
 
 #[test]
-fn boxes_at_rest_are_told_apart_exactly_where_a_face_separates_them() {
+fn boxes_at_rest_are_separated_exactly_where_a_face_separates_them() {
     let at = Placement {
         rotation: DMat3::IDENTITY,
         translation: DVec3::ZERO,
@@ -193,11 +193,11 @@ fn boxes_at_rest_are_told_apart_exactly_where_a_face_separates_them() {
     }
 }
 
-/// No point of one triangle moves faster as seen from the other below: centres by √3 (2 + 4), points up to
-/// 3 √3 from them by √3 times as much, twice.
+/// A bound of the speed of a triangle's points as seen from the other below: centres move by √3 (2
+/// + 4), points up to 3 √3 from them by √3 times as much, twice.
 const MAX_SPEED: f64 = 30.0;
 
-/// The first body is on its way to the second one's start.
+/// Returns a motion of the first body towards the second one's start.
 fn approach(samples: &mut Samples) -> Relative {
     let query = samples.query(1.0, 1.0);
     let (mut a, b) = (Course::new(&query.a), Course::new(&query.b));

@@ -1,4 +1,4 @@
-//! Torus knots against samples of their screw motions.
+//! Compares answers for torus knots with samples of their screw motions.
 
 use super::super::*;
 use crate::method::rival::Placement;
@@ -10,7 +10,7 @@ use ccd_core::Motion;
 use ccd_core::glam::DVec3;
 use ccd_core::order::lesser;
 
-/// How many samples of a motion the truth is taken from.
+/// The number of samples of a motion for the reference answer.
 const SAMPLES: u32 = 1000;
 
 fn placement(query: &Query, time: f64) -> Placement {
@@ -18,7 +18,7 @@ fn placement(query: &Query, time: f64) -> Placement {
     a.seen_from(&b)
 }
 
-/// The first sample at which the meshes cross.
+/// Returns the first sample at which the meshes cross.
 fn first_crossing(tree: &ObbTree, query: &Query) -> Option<f64> {
     let mut stack = Vec::new();
     (0..=SAMPLES)
@@ -26,7 +26,7 @@ fn first_crossing(tree: &ObbTree, query: &Query) -> Option<f64> {
         .find(|&time| crossing(tree, tree, &placement(query, time), &mut stack) == Crossing::Found)
 }
 
-/// The distance of two meshes that do not cross, by all pairs of triangles.
+/// Returns the distance of two meshes that do not cross, by all pairs of triangles.
 fn gap(mesh: &TriangleMesh, at: &Placement) -> f64 {
     let triangles = || {
         let corner = |v: u32| mesh.vertices()[v as usize];
@@ -38,7 +38,7 @@ fn gap(mesh: &TriangleMesh, at: &Placement) -> f64 {
         .fold(f64::INFINITY, lesser)
 }
 
-/// Holds answers against samples; tells how many queries hit.
+/// Compares answers with samples. Returns the number of hits.
 fn judge(queries: &[Query], tolerance: f64) -> usize {
     let mesh = Model::Knot216.generate().unwrap();
     let tree = ObbTree::new(&mesh);
@@ -90,7 +90,7 @@ fn both_bodies_may_move_and_turn_far() {
         .map(|query| {
             let (spin, far) = (samples.vector(1.0), samples.vector(5.0));
             Query {
-                // With a drift along the axis, so that the screw is another motion.
+                // A drift along the axis makes the screw another motion.
                 a: turned(&query.a, query.a.velocity() + 0.1 * spin, spin),
                 b: turned(&query.b, DVec3::ZERO, far),
                 ..query
@@ -101,7 +101,7 @@ fn both_bodies_may_move_and_turn_far() {
     assert!((6..20).contains(&hits), "{hits} of 20 hit");
 }
 
-/// Another motion from the same start.
+/// Returns another motion from the same start.
 fn turned(motion: &Motion, velocity: DVec3, spin: DVec3) -> Motion {
     Motion::new(motion.start(), velocity, spin).unwrap()
 }

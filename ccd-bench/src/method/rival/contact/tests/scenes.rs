@@ -1,4 +1,4 @@
-//! Scenes with exact answers, in which the screw is the motion.
+//! Scenes with exact answers, whose motions are screws.
 
 use super::super::*;
 use crate::method::rival::tests::samples::{cuboid, moving, query, still};
@@ -6,7 +6,7 @@ use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::order::lesser;
 use std::f64::consts::{FRAC_PI_4, PI};
 
-/// The rod's half length and half width.
+/// The half length and half width of the rod.
 const LENGTH: f64 = 2.0;
 const WIDTH: f64 = 0.05;
 
@@ -14,7 +14,8 @@ fn ask(a: &TriangleMesh, b: &TriangleMesh, tolerance: f64, query: &Query) -> Cla
     Contact::new(a, b, tolerance).answer(query).claim
 }
 
-/// At three tolerances: never late, and early by no more than the approach takes for the tolerance.
+/// Asserts at three tolerances that the answer is not late, and not earlier than the approach takes
+/// to close the tolerance.
 fn assert_contact(meshes: [&TriangleMesh; 2], query: &Query, exact: f64, speed: f64) {
     for tolerance in [1e-2, 1e-4, 1e-8] {
         let swapped = Query {
@@ -28,7 +29,7 @@ fn assert_contact(meshes: [&TriangleMesh; 2], query: &Query, exact: f64, speed: 
         ];
         for claim in claims {
             let Claim::Contact { time } = claim else {
-                panic!("{claim:?} in place of {exact}")
+                panic!("{claim:?} instead of {exact}")
             };
             let early = exact - time;
             assert!(
@@ -39,7 +40,7 @@ fn assert_contact(meshes: [&TriangleMesh; 2], query: &Query, exact: f64, speed: 
     }
 }
 
-/// From a height of 3 with speed 4 onto what has its top at 0.
+/// Returns a fall from a height of 3 with speed 4 onto a body whose top is at 0.
 fn falling_flat() -> Query {
     let down = -4.0 * DVec3::Z;
     let a = moving(3.0 * DVec3::Z, DQuat::IDENTITY, down, DVec3::ZERO);
@@ -55,7 +56,7 @@ fn a_cube_falls_flat_on_a_slab() {
 
 #[test]
 fn a_corner_falls_on_a_slab() {
-    // The cube's diagonal points down.
+    // The diagonal of the cube points down.
     let upright = DQuat::from_rotation_arc(DVec3::ONE.normalize(), -DVec3::Z);
     let a = moving(3.0 * DVec3::Z, upright, -4.0 * DVec3::Z, DVec3::ZERO);
     let query = query(a, still(-0.5 * DVec3::Z));
@@ -89,7 +90,7 @@ fn a_rod_turns_into_a_wall() {
         let query = query(a, still((height + 0.5) * DVec3::X));
         let angle = (height / radius).asin();
         let exact = (angle - WIDTH.atan2(LENGTH)) / spin;
-        // The corner moves along its circle, towards the wall by this much of it.
+        // The corner moves along its circle, with this part of its speed towards the wall.
         let speed = spin * radius * angle.cos();
         assert_contact(
             [&rod, &wall],
@@ -179,9 +180,9 @@ fn work_is_limited() {
     let tilt = DQuat::from_scaled_axis(DVec3::new(0.5, 0.3, 0.2));
     let tilted: Vec<DVec3> = slab.vertices().iter().map(|&v| tilt * v).collect();
     let tilted = TriangleMesh::new(tilted, slab.faces()).unwrap();
-    // Slides over the slab at a distance of a millionth.
-    let place = tilt * DVec3::new(0.0, 0.0, 1.0 + 1e-6);
-    let slide = moving(place, tilt, tilt * DVec3::X, DVec3::ZERO);
+    // The body slides over the slab at a distance of a millionth.
+    let position = tilt * DVec3::new(0.0, 0.0, 1.0 + 1e-6);
+    let slide = moving(position, tilt, tilt * DVec3::X, DVec3::ZERO);
     let slide = query(slide, still(DVec3::ZERO));
     let fall = moving(
         3.0 * DVec3::Z,
@@ -208,7 +209,7 @@ fn work_is_limited() {
 }
 
 #[test]
-fn tolerances_that_are_none_are_never_late() {
+fn invalid_tolerances_are_never_late() {
     let query = falling_flat();
     let (cube, slab) = (cuboid(0.5, 0.5, 0.5), cuboid(3.0, 3.0, 0.5));
     for tolerance in [0.0, -1.0, f64::NAN, f64::INFINITY] {

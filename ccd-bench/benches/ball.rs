@@ -1,4 +1,4 @@
-//! Hulls of any number of corners.
+//! Builds convex hulls with any number of corners.
 
 use ccd_core::glam::DVec3;
 use ccd_core::{HullTree, Pieces, Polytope};
@@ -6,7 +6,7 @@ use ccd_decomp::build_hull_tree;
 use rand::RngExt;
 use rand_pcg::Pcg64;
 
-/// The hull of points spread at random over a sphere.
+/// Returns the hull of random points on a sphere.
 pub(crate) fn ball(rng: &mut Pcg64, corners: usize) -> HullTree {
     let points: Vec<DVec3> = (0..corners).map(|_| direction(rng)).collect();
     let half = |points: &[DVec3]| Polytope {
@@ -18,7 +18,7 @@ pub(crate) fn ball(rng: &mut Pcg64, corners: usize) -> HullTree {
     build_hull_tree(&pieces).expect("points of a sphere have a hull")
 }
 
-/// A unit vector, any as likely as any other.
+/// Returns a uniformly distributed unit vector.
 pub(crate) fn direction(rng: &mut Pcg64) -> DVec3 {
     loop {
         let cube = DVec3::from_array([(); 3].map(|()| rng.random_range(-1.0..1.0)));

@@ -1,17 +1,17 @@
-//! What is known of the bodies at the start: how near, and whether one is inside of the other.
+//! The state of the bodies at the start: their distance, and whether one is inside the other.
 
 use crate::double::Double;
 use crate::referee::Scene;
-use crate::solid::{Solid, Where, beside, clearance};
+use crate::solid::{Solid, Where, clearance, points_near};
 use crate::vector::Vector;
 use ccd_core::Volume;
 
-/// What is known of the start.
+/// The known facts about the start.
 pub(super) struct Start {
     pub(super) distance: f64,
-    /// Triangles are deeper in each other than rounding explains, or one body is inside the other.
+    /// Triangles penetrate deeper than rounding explains, or one body is inside the other.
     pub(super) overlaps: bool,
-    /// Whether one could be called inside of the other.
+    /// An answer may report one body inside the other.
     pub(super) may_contain: bool,
 }
 
@@ -23,7 +23,7 @@ impl Start {
         rounding: f64,
     ) -> Self {
         let distance = scene.distance(0.0);
-        // Nearer than this, inside and outside are a matter of rounding.
+        // At a smaller distance, inside and outside depend on rounding.
         let touching = distance <= rounding;
         let deep = touching && scene.depth(0.0) > rounding;
         let inside = match touching {
@@ -38,7 +38,7 @@ impl Start {
     }
 }
 
-/// Whether a part of one body is inside the other one, where the surfaces are apart.
+/// Locates the parts of each body relative to the other, if the surfaces are apart.
 fn contained(placed: &[Solid; 2], volumes: [Volume; 2]) -> Where {
     let mut doubtful = Where::Outside;
     for outer in [0, 1].into_iter().filter(|&k| volumes[k] == Volume::Solid) {
@@ -53,7 +53,7 @@ fn contained(placed: &[Solid; 2], volumes: [Volume; 2]) -> Where {
     doubtful
 }
 
-/// Whether a point is well inside of one body and on, or inside of, the other, where they touch.
+/// Searches for a point well inside one body and on, or inside, the other, if they touch.
 fn shared_inside(placed: &[Solid; 2], volumes: [Volume; 2], far: f64) -> Where {
     let well_inside = |p: Vector<Double>, solid: &Solid| {
         solid.locate(p) == Where::Inside && clearance(p, &solid.triangles) > far
@@ -62,7 +62,7 @@ fn shared_inside(placed: &[Solid; 2], volumes: [Volume; 2], far: f64) -> Where {
         let inner = &placed[1 - outer];
         let mut points: Vec<_> = inner.triangles.iter().map(|t| t[0]).collect();
         if volumes[1 - outer] == Volume::Solid {
-            let near = beside(&inner.triangles).into_iter();
+            let near = points_near(&inner.triangles).into_iter();
             points.extend(near.filter(|&p| well_inside(p, inner)));
         }
         if points.into_iter().any(|p| well_inside(p, &placed[outer])) {

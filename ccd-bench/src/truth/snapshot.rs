@@ -1,14 +1,15 @@
-//! Both bodies about an instant: where their points are, how fast, and what rounding leaves open.
+//! The state of both bodies around an instant: positions, velocities, and bounds of rounding.
 //!
-//! All is seen from a frame that has B's place and orientation at the instant m, and from then on moves
-//! along straight with B's centre but does not turn. There, for |s| ≤ h,
+//! All is relative to a frame that has B's position and orientation at the instant m, moves along
+//! with B's centre in a straight line and does not turn. There, for |s| ≤ h,
 //!
-//! - a point p of A is at a(m) + s ȧ(m) to within ½|ω|²ρh², the deviation of a circle from its tangent,
-//! - and so is a point of B, with q itself at m.
+//! - a point p of A is at a(m) + s ȧ(m) to within ½|ω|²ρh², the deviation of a circle from its
+//!   tangent,
+//! - and the same holds for a point of B, with q itself at m.
 //!
-//! For any fixed direction n, n·(a(m) + s ȧ(m)) is linear in s: over the span it is least at an end. So
-//! two sets are apart over the whole span when along one n they are apart at both its ends, by more than
-//! `slack`. No direction need be right for that, as long as one is found.
+//! For any fixed direction n, n·(a(m) + s ȧ(m)) is linear in s, so over the span it is least at an
+//! end. So two sets are apart over the whole span if along one n they are apart at both of its
+//! ends, by more than `slack`. The direction n need not be exact.
 
 use super::enclosure::{Matrix, Vector, exact};
 use super::rounding::{ROUNDED, ROUNDED_UP, UNIT_ROUNDOFF, larger};
@@ -18,69 +19,69 @@ use ccd_core::glam::{DMat3, DVec3};
 use ccd_core::order::greater;
 use inari::Interval;
 
-/// A stretch of time.
+/// A span of time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Span {
     pub(super) start: f64,
     pub(super) end: f64,
 }
 
-/// A and B over a span of time.
+/// Bodies A and B over a span of time.
 #[derive(Clone, Debug)]
-pub(super) struct Moment {
-    /// A's body frame to the common one.
-    place: Affine,
+pub(super) struct Snapshot {
+    /// The map from A's body frame to the common one.
+    placement: Affine,
     /// The velocity of A's points, relative to B's centre.
     rate_a: Affine,
     /// The velocity of B's points, relative to B's centre.
     rate_b: Affine,
     /// h: the time to either end of the span.
     half: f64,
-    /// What all gaps must exceed: rounding, and what the motion departs from a straight one.
+    /// The least certain gap: rounding, and the deviation of the motion from a straight one.
     slack: f64,
-    /// How much of it is due to the motion.
+    /// The part of `slack` that is due to the motion.
     bend: f64,
-    /// The same, by boxes along the axes of B, and of A.
+    /// The same for boxes, along the axes of B, and of A.
     along_b: Extents,
     along_a: Extents,
-    /// From B's centre of rotation to A's, and how fast it changes.
+    /// The vector from B's centre of rotation to A's, and its rate of change.
     centres: DVec3,
     centres_rate: DVec3,
-    /// How far the bodies reach from these centres, together.
+    /// The sum of the bodies' reaches from these centres.
     reaches: f64,
 }
 
-/// How far a box reaches along the axes of a frame, at most, over the span: `A halfₐ + B half_b`.
+/// An upper bound of a box's reach along the axes of a frame over the span: `A halfₐ + B half_b`.
 #[derive(Clone, Copy, Debug)]
 struct Extents {
     a: DMat3,
     b: DMat3,
 }
 
-/// What two boxes do over the span.
+/// The relation of two boxes over the span.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Boxes {
     /// They stay apart.
     Apart,
-    /// They may meet; by how much they move relative to each other.
+    /// They may meet; `travel` bounds their relative motion.
     Near { travel: f64 },
 }
 
-impl Moment {
+impl Snapshot {
     pub(super) fn new([a, b]: [&Track; 2], [size_a, size_b]: [f64; 2], span: Span) -> Self {
         let time = span.start.midpoint(span.end);
         let half = greater(time - span.start, span.end - time) * ROUNDED_UP;
         let exactly = Enclosed::new(a, b, time);
-        let place = Affine::new(&exactly.place, size_a);
+        let placement = Affine::new(&exactly.placement, size_a);
         let rate_a = Affine::new(&exactly.rate_a, size_a);
         let rate_b = Affine::new(&exactly.rate_b, size_b);
         let bend = 0.5 * half * half * (a.acceleration + b.acceleration) * ROUNDED_UP;
-        let errors = place.error + half * (rate_a.error + rate_b.error);
-        let sizes = place.size + size_b + half * (rate_a.size + rate_b.size);
+        let errors = placement.error + half * (rate_a.error + rate_b.error);
+        let sizes = placement.size + size_b + half * (rate_a.size + rate_b.size);
         let centre = |v: &Vector| DVec3::from_array(v.0.map(Interval::mid));
-        let (r, w_a, w_b) = (place.matrix, rate_a.matrix * half, rate_b.matrix * half);
+        let (r, w_a, w_b) = (placement.matrix, rate_a.matrix * half, rate_b.matrix * half);
         let back = r.transpose();
-        Moment {
+        Snapshot {
             half,
             bend,
             slack: bend * ROUNDED_UP + errors * ROUNDED_UP + ROUNDINGS * UNIT_ROUNDOFF * sizes,
@@ -92,7 +93,7 @@ impl Moment {
                 a: largest(back * r, back * w_a),
                 b: largest(back, back * w_b),
             },
-            place,
+            placement,
             rate_a,
             rate_b,
             centres: centre(&exactly.centres),
@@ -101,10 +102,11 @@ impl Moment {
         }
     }
 
-    /// Whether the bodies stay apart wherever they turn, since their centres are far from each other.
+    /// Returns true if the bodies stay apart for any rotation, since their centres are far from
+    /// each other.
     pub(super) fn is_far(&self) -> bool {
         let (d, w) = (self.centres, self.half * self.centres_rate);
-        // The nearest that 0 comes to the segment d − w, d + w.
+        // The point of the segment from d − w to d + w that is nearest to 0.
         let s = (-d.dot(w) / w.length_squared()).clamp(-1.0, 1.0);
         let nearest = if s.is_nan() { d } else { d + s * w };
         nearest.length() * (1.0 - ROUNDED)
@@ -112,9 +114,9 @@ impl Moment {
                 + ROUNDED * (d.length() + w.length())
     }
 
-    /// Whether two boxes stay apart, by the six directions of their faces.
+    /// Tests whether two boxes stay apart, by the six directions of their faces.
     pub(super) fn boxes(&self, a: &Node, b: &Node) -> Boxes {
-        let apart = self.place.apply(a.centre) - b.centre;
+        let apart = self.placement.apply(a.centre) - b.centre;
         let moved = self.half * (self.rate_a.apply(a.centre) - self.rate_b.apply(b.centre));
         let gaps_b = self.along_b.gaps(apart, moved, a, b);
         if gaps_b.max_element() > self.slack {
@@ -129,9 +131,9 @@ impl Moment {
         }
     }
 
-    /// What two boxes are apart at least, at the instant; of no use for a span.
+    /// Returns a lower bound of the distance of two boxes at the instant, invalid for a span.
     pub(super) fn boxes_distance(&self, a: &Node, b: &Node) -> f64 {
-        let apart = self.place.apply(a.centre) - b.centre;
+        let apart = self.placement.apply(a.centre) - b.centre;
         let none = DVec3::ZERO;
         let gaps_b = self.along_b.gaps(apart, none, a, b).max(none);
         let gaps_a = self.along_a.gaps(self.back(apart), none, a, b).max(none);
@@ -139,40 +141,40 @@ impl Moment {
         distance * (1.0 - ROUNDED) - 2.0 * self.slack
     }
 
-    /// The corners of two triangles in the common frame, at both ends of the span.
+    /// Returns the corners of two triangles in the common frame, at both ends of the span.
     pub(super) fn ends(&self, a: &Triangle, b: &Triangle) -> [[Triangle; 2]; 2] {
         let moved_a = a.map(|p| self.half * self.rate_a.apply(p));
         let moved_b = b.map(|q| self.half * self.rate_b.apply(q));
-        let a = a.map(|p| self.place.apply(p));
+        let a = a.map(|p| self.placement.apply(p));
         let at = |end: f64, from: &Triangle, moved: &Triangle| {
             [0, 1, 2].map(|i| from[i] + end * moved[i])
         };
         [-1.0, 1.0].map(|end| [at(end, &a, &moved_a), at(end, b, &moved_b)])
     }
 
-    /// A's triangle in the common frame at the instant.
+    /// Returns A's triangle in the common frame at the instant.
     pub(super) fn placed(&self, a: &Triangle) -> Triangle {
-        a.map(|p| self.place.apply(p))
+        a.map(|p| self.placement.apply(p))
     }
 
-    /// What a gap computed along a unit direction must exceed to be one.
+    /// Returns the bound that a gap computed along a unit direction must exceed to be certain.
     pub(super) fn slack(&self) -> f64 {
         self.slack
     }
 
     fn back(&self, v: DVec3) -> DVec3 {
-        self.place.matrix.transpose() * v
+        self.placement.matrix.transpose() * v
     }
 }
 
 impl Extents {
-    /// By how much two boxes are apart along each axis, at the end of the span where that is less.
+    /// Returns the gap of two boxes along each axis, at the end of the span where it is less.
     fn gaps(&self, apart: DVec3, moved: DVec3, a: &Node, b: &Node) -> DVec3 {
         apart.abs() - moved.abs() - self.a * a.half - self.b * b.half
     }
 }
 
-/// Entry by entry the larger of |m + w| and |m − w|, which is convex in between.
+/// Returns, entry by entry, the larger of |m + w| and |m − w|; the absolute value is convex in between.
 fn largest(m: DMat3, w: DMat3) -> DMat3 {
     let entry = |m: DVec3, w: DVec3| m.abs() + w.abs();
     DMat3::from_cols(
@@ -182,20 +184,20 @@ fn largest(m: DMat3, w: DMat3) -> DMat3 {
     )
 }
 
-/// `p ↦ matrix p + offset`, rounded, and by how much that can be wrong.
+/// The map `p ↦ matrix p + offset`, rounded, and a bound of its error.
 #[derive(Clone, Copy, Debug)]
 struct Affine {
     matrix: DMat3,
     offset: DVec3,
-    /// As a length, for points no farther than the body reaches from its origin.
+    /// The error as a length, for points within the body's reach of its origin.
     error: f64,
     /// The length of the largest image.
     size: f64,
 }
 
 impl Affine {
-    /// Each coordinate of an image is Σⱼ mⱼpⱼ + o, four roundings deep: off by at most 4u(|m||p| + |o|),
-    /// to which the widths of the intervals add √3 rad(m)|p| + rad(o).
+    /// Each coordinate of an image is Σⱼ mⱼpⱼ + o with four roundings in sequence. Its error is at
+    /// most 4u(|m||p| + |o|), plus √3 rad(m)|p| + rad(o) for the widths of the intervals.
     fn new((matrix, offset): &(Matrix, Vector), farthest: f64) -> Self {
         let rows = matrix
             .0
@@ -222,9 +224,9 @@ impl Affine {
     }
 }
 
-/// What the affine maps are, to within intervals.
+/// The affine maps, to within intervals.
 pub(super) struct Enclosed {
-    pub(super) place: (Matrix, Vector),
+    pub(super) placement: (Matrix, Vector),
     rate_a: (Matrix, Vector),
     rate_b: (Matrix, Vector),
     centres: Vector,
@@ -240,12 +242,12 @@ impl Enclosed {
         // a = R (p − c_a) + (C_a − C_b) + c_b
         let offset = centres - &rotation * &a.centre + b.centre;
         let velocity = &back * &(a.velocity - b.velocity);
-        // ȧ = v + ω_a × R (p − c_a), ḃ = ω_b × (q − c_b); the constant of B goes to A's side.
+        // ȧ = v + ω_a × R (p − c_a), ḃ = ω_b × (q − c_b); the constant of B is moved to A's side.
         let swirl_a = &(&back * &a.spin).cross_matrix() * &rotation;
         let swirl_b = (&back * &b.spin).cross_matrix();
         let drift = velocity - &swirl_a * &a.centre + &swirl_b * &b.centre;
         Enclosed {
-            place: (rotation, offset),
+            placement: (rotation, offset),
             rate_a: (swirl_a, drift),
             rate_b: (swirl_b, Vector([exact(0.0); 3])),
             centres,
@@ -254,10 +256,11 @@ impl Enclosed {
     }
 }
 
-/// How often, at most, a gap is rounded relative to the sizes that enter it: the sum of position and
-/// motion (3), the dot product with n (3 products and 2 sums: 3 deep), its difference (1), for each of A
-/// and B; n itself, of length 1 to 4 roundings; for boxes √3 times the 4 roundings of an extent on each
-/// side and twice as much along A's axes, which are rounded themselves. Doubled.
+/// An upper bound of the number of roundings of a gap relative to the sizes that enter it: the sum
+/// of position and motion (3), the dot product with n (3 products and 2 sums: 3 deep) and its
+/// difference (1), for each of A and B; n itself, of length 1 to 4 roundings; for boxes √3 times
+/// the 4 roundings of an extent on each side, and twice as many along A's axes, which are rounded
+/// themselves. The total is doubled.
 const ROUNDINGS: f64 = 96.0;
 /// √3, rounded up.
 const SQRT_3: f64 = 1.732_050_807_568_878;

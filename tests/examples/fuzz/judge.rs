@@ -1,4 +1,4 @@
-//! Judging answers.
+//! Judges answers.
 
 mod start;
 
@@ -12,52 +12,52 @@ use crate::vector::{Number, Vector, larger, smaller};
 use ccd_core::{Answer, Contact, Outcome, Overlap, Piece, StartPolicy, Volume};
 use start::Start;
 
-/// How much nearer than at the start bodies that are let go may come unseen, in units of rounding.
+/// The decrease of the distance of released bodies that may go unnoticed, in units of rounding.
 const RESTING: f64 = 1.0;
 
-/// What may be wrong with an answer.
+/// A fault of an answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Fault {
-    /// The bodies were too near before the time that was reported.
+    /// The bodies were too near before the reported time.
     Late,
-    /// The same, and no contact was reported at all.
+    /// The bodies were too near, and no contact was reported at all.
     Missed,
-    /// A contact where the bodies are farther apart than margin and tolerance.
+    /// A contact is reported although the bodies are farther apart than margin and tolerance.
     FalseContact,
-    /// Touching, or overlapping, where the bodies are apart.
+    /// Touching or overlap is reported although the bodies are apart.
     FalseStart,
-    /// No overlap reported where there is one.
+    /// An overlap is not reported.
     NotOverlapping,
-    /// A lower bound above the distance.
+    /// A lower bound is above the distance.
     LowerBound,
-    /// An upper bound below the distance.
+    /// An upper bound is below the distance.
     UpperBound,
-    /// A witness that is not on its body.
+    /// A witness is not on its body.
     Witness,
-    /// A proven gap that is not kept.
+    /// A proven gap is wrong.
     Clearance,
-    /// An unresolved query that was safe for less time than it says.
+    /// An unresolved query was safe for less time than claimed.
     NotSafe,
-    /// Two answers that cannot both be right.
+    /// Two answers contradict each other.
     Disagreement,
     Panic,
     Hang,
 }
 
-/// An answer and who gave it.
+/// An answer and its method.
 pub struct Given<'a> {
     pub bodies: &'a Bodies,
     pub method: Method,
     pub answer: Answer,
 }
 
-/// Judges answers to one case; `rounding` bounds what the engine allows itself for rounding.
+/// Judges answers to one case; `rounding` bounds the engine's allowance for rounding.
 pub struct Judge<'a> {
     case: &'a Case,
     scene: Scene,
     rounding: f64,
     start: Start,
-    /// At the start.
+    /// The solids at the start.
     placed: [Solid; 2],
     volumes: [Volume; 2],
 }
@@ -79,8 +79,8 @@ impl<'a> Judge<'a> {
         }
     }
 
-    /// What is wrong with the answers, with who gave them; and whether nothing earlier than their
-    /// times was left unsearched.
+    /// Returns the faults of the answers, with the index of the answer. The flag is true if the
+    /// search for earlier contacts was complete.
     pub fn all(&self, given: &[Given<'_>]) -> (Vec<(usize, Fault, String)>, bool) {
         let times = given.iter().map(|g| self.proven(&g.answer.outcome));
         let until = times.fold(0.0, larger);
@@ -94,7 +94,7 @@ impl<'a> Judge<'a> {
         (faults, proven)
     }
 
-    /// Until when an answer says that nothing touches.
+    /// Returns the time until which an answer claims that nothing touches.
     fn proven(&self, outcome: &Outcome) -> f64 {
         match *outcome {
             Outcome::Contact { time, .. } => time,
@@ -104,7 +104,7 @@ impl<'a> Judge<'a> {
         }
     }
 
-    /// What would be too near.
+    /// Returns the conditions under which the bodies are too near.
     fn limit(&self, given: &[Given<'_>]) -> Limit {
         let margin = self.case.config.margin;
         let tolerance = given
@@ -182,7 +182,7 @@ impl<'a> Judge<'a> {
         faults
     }
 
-    /// The distance below which the bodies are too near.
+    /// Returns the distance below which the bodies are too near.
     fn kept(&self, margin: f64) -> f64 {
         match self.case.config.start {
             StartPolicy::Leave => smaller(margin, self.start.distance - RESTING * self.rounding),
@@ -205,7 +205,7 @@ impl<'a> Judge<'a> {
         wrong.into_iter().map(|fault| (fault, text())).collect()
     }
 
-    /// A contact at a time: is it one, and are its bounds and witnesses right?
+    /// Checks a contact at a time, its bounds and its witnesses.
     fn near(&self, given: &Given<'_>, contact: &Contact, time: f64) -> Faults {
         let mut faults = Vec::new();
         let (scene, error) = (&self.scene, self.scene.error());
@@ -227,7 +227,7 @@ impl<'a> Judge<'a> {
         if d > found.upper + error {
             faults.push((Fault::UpperBound, text(d)));
         }
-        // The bodies' distance at the start; later that of the pair.
+        // At the start this is the distance of the bodies, later that of the pair.
         let lower = match time > 0.0 {
             true => self.piece_distance(given.bodies, contact, time),
             false => Some(d),
@@ -241,9 +241,10 @@ impl<'a> Judge<'a> {
         faults
     }
 
-    /// How far the witnesses are off what the contact says, where that is more than rounding.
+    /// Returns the distance by which witnesses are off the contact's claims, if that is more than
+    /// rounding.
     fn off_surface(&self, contact: &Contact, time: f64) -> Option<f64> {
-        let origin = self.scene.moments(time)[0].centre;
+        let origin = self.scene.snapshots(time)[0].centre;
         let found = contact.separation;
         let witnesses = [found.witness_a, found.witness_b].map(|w| Vector(w.to_array()));
         let far = witnesses.iter().fold(0.0, |m, w| larger(m, w.largest()));
@@ -253,7 +254,7 @@ impl<'a> Judge<'a> {
             let placed = self.scene.placed(k, time);
             let point = Vector::of(witnesses[k].0) - origin;
             let off = clearance(point, &placed);
-            // A piece may stick through the inside of its solid.
+            // A piece may extend through the interior of its solid.
             let may = self.volumes[k] == Volume::Solid && off > allowed;
             if may && Solid::new(placed).locate(point) != Where::Outside {
                 0.0
@@ -284,15 +285,20 @@ impl<'a> Judge<'a> {
         contact: &Contact,
         time: f64,
     ) -> Option<[Vec<Triangle<Double>>; 2]> {
-        let moments = self.scene.moments(time);
+        let snapshots = self.scene.snapshots(time);
         let side = |k: usize, piece: u32| {
             let piece = bodies.bodies[k].pieces().get(piece as usize);
             let track = &self.scene.sides[k].track;
-            let place = |p: [f64; 3]| {
-                moments[k].arm(Vector::of(p) - track.centre)
-                    + (moments[k].centre - moments[0].centre)
+            let to_world = |p: [f64; 3]| {
+                snapshots[k].arm(Vector::of(p) - track.centre)
+                    + (snapshots[k].centre - snapshots[0].centre)
             };
-            Some(surface(&piece)?.into_iter().map(|t| t.map(place)).collect())
+            Some(
+                surface(&piece)?
+                    .into_iter()
+                    .map(|t| t.map(to_world))
+                    .collect(),
+            )
         };
         Some([side(0, contact.piece_a)?, side(1, contact.piece_b)?])
     }
@@ -318,7 +324,7 @@ impl<'a> Judge<'a> {
             .collect()
     }
 
-    /// Whether two pieces that are said to overlap are triangles with disjoint insides.
+    /// Returns true if two pieces that are reported to overlap are triangles with disjoint interiors.
     fn only_touch(&self, bodies: &Bodies, contact: &Contact) -> bool {
         match self
             .piece_triangles(bodies, contact, 0.0)
@@ -331,14 +337,14 @@ impl<'a> Judge<'a> {
     }
 
     fn is_inside(&self, p: [f64; 3], outer: usize) -> bool {
-        let point = Vector::of(p) - self.scene.moments(0.0)[0].centre;
+        let point = Vector::of(p) - self.scene.snapshots(0.0)[0].centre;
         let solid = &self.placed[outer];
         // Points are given in world coordinates, rounded.
         let near = 1e-12 * larger(self.scene.scale, Vector(p).largest());
         solid.locate(point) != Where::Outside || clearance(point, &solid.triangles) < near
     }
 
-    /// A contact so near that another answer's proof should have ended there, too.
+    /// Finds contacts so near that another answer's proof should have ended there, too.
     fn disagreements(&self, given: &[Given<'_>]) -> Vec<(usize, Fault, String)> {
         let mut faults = Vec::new();
         if self.case.config.start == StartPolicy::Leave {
@@ -362,7 +368,7 @@ impl<'a> Judge<'a> {
     }
 }
 
-/// The triangles that bound a piece.
+/// Returns the triangles that bound a piece.
 fn surface(piece: &Piece<'_>) -> Option<Vec<[[f64; 3]; 3]>> {
     let at = |k: u32| piece.points[k as usize].to_array();
     if let Some(last) = (piece.points.len() as u32)
