@@ -15,7 +15,7 @@ use std::path::Path;
 ///
 /// ```
 /// let part = rigid_ccd::load("examples/bracket.obj")?;
-/// assert!(!part.pieces().is_empty());
+/// assert_eq!(part.volume(), rigid_ccd::Volume::Solid);
 /// # Ok::<(), rigid_ccd::Error>(())
 /// ```
 pub fn load(path: impl AsRef<Path>) -> Result<Body, BodyError> {

@@ -20,7 +20,7 @@ pub struct CannotWrite {
 /// A table that is written row by row.
 ///
 /// A file gets its final name once it is complete. Until then its rows are in a file next to it, whose
-/// name ends in [`PARTIAL`]. A pipe, a terminal or a device is written directly.
+/// name ends in `.partial`. A pipe, a terminal or a device is written directly.
 pub struct Table {
     name: String,
     writer: csv::Writer<CountingWriter>,

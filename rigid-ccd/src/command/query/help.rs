@@ -39,7 +39,7 @@ Table of results:
   status    contact         within margin + tolerance at `time`, no contact before
             free            no contact during the whole duration
             touching        within margin + tolerance at the start
-            overlapping     intersecting at the start, or one body inside the other, a solid
+            overlapping     intersecting at the start, or one body inside the other, which is a solid
             unresolved      a limit was reached; no contact before `time`, not known after
             error           the row is not a valid query; most cells are empty
   time                      certified: no contact before it; from 0 to the duration
