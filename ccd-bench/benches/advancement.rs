@@ -6,6 +6,8 @@
 //! cargo bench -p ccd-bench --bench advancement -- santa
 //! ```
 
+mod settings;
+
 use ccd_bench::method::solver::Solver;
 use ccd_bench::method::{Method, Ours};
 use ccd_bench::run::contest::{Allowance, Contest, Truths};
@@ -16,6 +18,7 @@ use criterion::{
 };
 use rigid_ccd::batch::ScheduleKind;
 use rigid_ccd::command::Progress;
+use settings::settings;
 use std::time::Duration;
 
 /// The number of rows of a scene, spread over it.
@@ -82,7 +85,7 @@ fn is_right(contest: &Contest<'_>, method: Method, truths: &Truths) -> bool {
         patience: Duration::MAX,
         rows: ROWS,
         least_rows: ROWS,
-        rehearsal: Duration::MAX,
+        preparation: Duration::MAX,
     };
     let session = contest
         .session(method, USUAL_TOLERANCE)
@@ -98,16 +101,5 @@ fn is_right(contest: &Contest<'_>, method: Method, truths: &Truths) -> bool {
     })
 }
 
-/// Enough for a median. The default takes longer than the calls.
-const RESAMPLES: usize = 2_000;
-
-fn settings() -> Criterion {
-    Criterion::default()
-        .nresamples(RESAMPLES)
-        .sample_size(10)
-        .warm_up_time(Duration::from_millis(300))
-        .measurement_time(Duration::from_secs(1))
-}
-
-criterion_group!(name = benches; config = settings(); targets = advancement);
+criterion_group!(name = benches; config = settings(10, 300, 1000); targets = advancement);
 criterion_main!(benches);

@@ -5,13 +5,15 @@
 //! cargo bench -p ccd-bench --bench decomposition
 //! ```
 
+mod settings;
+
 use ccd_bench::scene::model::Model;
 use ccd_decomp::{Detail, Order, TriangleMesh, body_from_mesh, decompose};
 use criterion::{
     BenchmarkId, Criterion, SamplingMode, Throughput, criterion_group, criterion_main,
 };
+use settings::settings;
 use std::hint::black_box;
-use std::time::Duration;
 
 /// Torus knots that differ in size only.
 const KNOTS: [Model; 3] = [Model::Knot2880, Model::Knot11520, Model::Knot34560];
@@ -81,15 +83,5 @@ fn bodies(criterion: &mut Criterion) {
     group.finish();
 }
 
-/// Enough for a median. The default takes longer than the calls.
-const RESAMPLES: usize = 2_000;
-
-fn settings() -> Criterion {
-    Criterion::default()
-        .nresamples(RESAMPLES)
-        .warm_up_time(Duration::from_millis(500))
-        .measurement_time(Duration::from_secs(2))
-}
-
-criterion_group!(name = benches; config = settings(); targets = decompositions, bodies);
+criterion_group!(name = benches; config = settings(100, 500, 2000); targets = decompositions, bodies);
 criterion_main!(benches);

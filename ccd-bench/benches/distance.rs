@@ -7,6 +7,7 @@
 //! ```
 
 mod ball;
+mod settings;
 
 use ball::{ball, direction};
 use ccd_core::glam::{DQuat, DVec3};
@@ -16,8 +17,8 @@ use ccd_distance_vmarch::Vmarch;
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
+use settings::settings;
 use std::hint::black_box;
-use std::time::Duration;
 
 /// The number of poses in a sequence.
 const POSES: usize = 256;
@@ -161,16 +162,5 @@ fn poses(rng: &mut Pcg64, clearance: f64, turn: f64) -> Vec<Frame> {
     (0..POSES).map(pose).collect()
 }
 
-/// Enough for a median. The default takes longer than the calls.
-const RESAMPLES: usize = 2_000;
-
-fn settings() -> Criterion {
-    Criterion::default()
-        .nresamples(RESAMPLES)
-        .sample_size(10)
-        .warm_up_time(Duration::from_millis(100))
-        .measurement_time(Duration::from_millis(300))
-}
-
-criterion_group!(name = benches; config = settings(); targets = distances);
+criterion_group!(name = benches; config = settings(10, 100, 300); targets = distances);
 criterion_main!(benches);

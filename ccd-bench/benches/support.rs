@@ -4,6 +4,7 @@
 //! `cargo bench -p ccd-bench --bench support`
 
 mod ball;
+mod settings;
 
 use ball::{ball, direction};
 use ccd_core::glam::{DQuat, DVec3};
@@ -11,8 +12,8 @@ use ccd_core::{SupportScan, SupportTable};
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
+use settings::settings;
 use std::hint::black_box;
-use std::time::Duration;
 
 /// The number of directions in a sample.
 const LOOKS: usize = 256;
@@ -68,16 +69,5 @@ fn turning(rng: &mut Pcg64) -> Vec<DVec3> {
         .collect()
 }
 
-/// Enough for a median. The default takes longer than the calls.
-const RESAMPLES: usize = 2_000;
-
-fn settings() -> Criterion {
-    Criterion::default()
-        .nresamples(RESAMPLES)
-        .sample_size(20)
-        .warm_up_time(Duration::from_millis(200))
-        .measurement_time(Duration::from_millis(500))
-}
-
-criterion_group!(name = benches; config = settings(); targets = support);
+criterion_group!(name = benches; config = settings(20, 200, 500); targets = support);
 criterion_main!(benches);

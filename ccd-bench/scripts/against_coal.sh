@@ -8,20 +8,14 @@
 #   OUT      folder for the results, a new one by default
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
+# shellcheck source=pairs.sh
 . "$here/pairs.sh"
-scenes=$1
-peer=$2
-out=${3:-$(mktemp -d)}
-shift $(($# < 3 ? $# : 3))
-mkdir -p "$out"
-ccd=${CCD:-$here/../../target/release/ccd}
-core=${CORE:-1}
 echo "pair,median_us,mean_us,coal_median_us,coal_mean_us,median_ratio,mean_ratio"
 while read -r name a b motions; do
     files=("$scenes/$a.obj" "$scenes/$b.obj" "$scenes/$motions.csv")
     taskset -c "$core" "$ccd" query --quiet --threads 1 --a "${files[0]}" --b "${files[1]}" \
         --motions "${files[2]}" --tolerance 1e-3 --repeat 1 --out "$out/$name.csv" "$@"
-    taskset -c "$core" python3 "$peer" "${files[@]}" >"$out/$name-coal.csv"
+    taskset -c "$core" python3 "$program" "${files[@]}" >"$out/$name-coal.csv"
     python3 - "$name" "$out/$name.csv" "$out/$name-coal.csv" <<'PY'
 import csv, statistics, sys
 name, ours, coal = sys.argv[1:]

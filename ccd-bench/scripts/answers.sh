@@ -9,13 +9,8 @@
 # environment: ORACLES="gjk vmarch" and TOLERANCES="1e-3" select oracles and tolerances, CCD=… is the command
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
+# shellcheck source=pairs.sh
 . "$here/pairs.sh"
-scenes=$1
-verdict=$2
-out=${3:-$(mktemp -d)}
-shift $(($# < 3 ? $# : 3))
-mkdir -p "$out"
-ccd=${CCD:-$here/../../target/release/ccd}
 for tolerance in ${TOLERANCES:-1e-3 1e-6}; do
     for oracle in ${ORACLES:-direct gjk}; do
         while read -r name a b motions; do
@@ -23,7 +18,7 @@ for tolerance in ${TOLERANCES:-1e-3 1e-6}; do
             "$ccd" query --quiet --a "$scenes/$a.obj" --b "$scenes/$b.obj" \
                 --motions "$scenes/$motions.csv" --oracle "$oracle" --tolerance "$tolerance" \
                 --out "$result" "$@"
-            echo "$name $oracle $tolerance $(python3 "$verdict" "$scenes/truth_$name.csv" "$result")"
+            echo "$name $oracle $tolerance $(python3 "$program" "$scenes/truth_$name.csv" "$result")"
         done <<<"$pairs"
     done
 done

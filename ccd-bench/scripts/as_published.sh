@@ -11,20 +11,15 @@
 # default; the time is their median, which excludes preparation on first use
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
+# shellcheck source=pairs.sh
 . "$here/pairs.sh"
-scenes=$1
-peer=$2
-out=${3:-$(mktemp -d)}
-mkdir -p "$out"
-ccd=${CCD:-$here/../../target/release/ccd}
-core=${CORE:-1}
 methods="best-first --schedule best-first
 fast-vmarch --schedule fast --oracle vmarch --pieces patches
 fast-gjk --schedule fast --oracle gjk --pieces patches"
 echo "pair,method,median_us,mean_us,of_best_first,of_best_first_mean,of_coal,of_coal_mean,advancements,oracle_calls,oracle_steps"
 while read -r name a b motions; do
     files=("$scenes/$a.obj" "$scenes/$b.obj" "$scenes/$motions.csv")
-    taskset -c "$core" python3 "$peer" "${files[@]}" >"$out/$name-coal.csv"
+    taskset -c "$core" python3 "$program" "${files[@]}" >"$out/$name-coal.csv"
     while read -r method options; do
         # Options are split at spaces.
         # shellcheck disable=SC2086

@@ -10,14 +10,8 @@
 # environment: PAIRS="ring santa" selects pairs, CORE=1 is the core to run on, CCD=… the command
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
+# shellcheck source=pairs.sh
 . "$here/pairs.sh"
-scenes=$1
-verdict=$2
-out=${3:-$(mktemp -d)}
-shift $(($# < 3 ? $# : 3))
-mkdir -p "$out"
-ccd=${CCD:-$here/../../target/release/ccd}
-core=${CORE:-1}
 
 # The name, the options of `ccd decompose`, the options of `ccd query`.
 models="triangles|--pieces triangles|
@@ -44,7 +38,7 @@ while read -r name a b motions; do
         taskset -c "$core" "$ccd" query --quiet --threads 1 --a "$out/$a-${model// /-}.ccd" \
             --b "$out/$b-${model// /-}.ccd" --motions "$scenes/$motions.csv" $use \
             --tolerance 1e-3 --out "$result.csv" "$@"
-        python3 "$verdict" "$scenes/truth_$name.csv" "$result.csv" >"$result.verdict"
+        python3 "$program" "$scenes/truth_$name.csv" "$result.csv" >"$result.verdict"
         python3 - "$name" "$model" "$result" "$scenes/truth_$name.csv" <<'PY'
 import csv, json, re, statistics, sys
 name, model, result, truth = sys.argv[1:]

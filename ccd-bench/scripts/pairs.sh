@@ -1,4 +1,13 @@
-# The pairs of meshes to measure: name, body A, body B, motions. Sourced by the other scripts.
+# Sourced by the scripts that measure pairs of meshes: their arguments, and the pairs.
+# The arguments are SCENES PROGRAM [OUT] [extra options ...]; the extra options remain in "$@".
+scenes=$1
+program=$2
+out=${3:-$(mktemp -d)}
+shift $(($# < 3 ? $# : 3))
+mkdir -p "$out"
+ccd=${CCD:-$here/../../target/release/ccd}
+core=${CORE:-1}
+# Name, body A, body B, motions.
 pairs="knot2880 knot2880 knot2880 knots
 knot11520 knot11520 knot11520 knots
 knot34560 knot34560 knot34560 knots

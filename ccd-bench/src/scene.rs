@@ -62,7 +62,7 @@ pub enum Pieces {
     Triangles,
     /// Patches of the surface under a hull tree, as in the paper.
     Patches,
-    /// Convex hulls that contain the body and are larger than it.
+    /// Convex hulls of parts, which extend beyond the body.
     ApproximateHulls,
 }
 

@@ -83,8 +83,8 @@ impl<'a> Referee<'a> {
     ///
     /// # Guarantee
     /// The [`Truth`] holds exactly for the motion x(t) = c₀ + v t + exp(t \[ω\]×) R₀ (p − c) with
-    /// c₀ = T + R₀ c, with the numbers of the query taken as exact. R₀ is the rotation in the
-    /// direction of the quaternion. Quaternions of the engine are units to within 4e-16, so its own
+    /// c₀ = T + R₀ c, with the numbers of the query taken as exact. R₀ is the rotation of the
+    /// normalised quaternion. Quaternions of the engine are units to within 4e-16, so its own
     /// placement departs from this one by up to 4e-16 of |p|.
     ///
     /// Surfaces that only touch, or slide on each other, can be graze or hit. Their `hi` may be

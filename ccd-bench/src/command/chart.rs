@@ -109,14 +109,14 @@ const AT_LENGTH: (Allowance, Allowance) = (
         patience: Duration::from_secs(4),
         rows: usize::MAX,
         least_rows: 10,
-        rehearsal: Duration::from_secs(20),
+        preparation: Duration::from_secs(20),
     },
     Allowance {
         cell: Duration::from_millis(600),
         patience: Duration::from_secs(4),
         rows: usize::MAX,
         least_rows: 1,
-        rehearsal: Duration::ZERO,
+        preparation: Duration::ZERO,
     },
 );
 /// Allowances for a few rows of everything in a minute.
@@ -126,14 +126,14 @@ const AT_A_GLANCE: (Allowance, Allowance) = (
         patience: Duration::from_millis(200),
         rows: 40,
         least_rows: 3,
-        rehearsal: Duration::from_millis(400),
+        preparation: Duration::from_millis(400),
     },
     Allowance {
         cell: Duration::from_millis(40),
         patience: Duration::from_millis(200),
         rows: 40,
         least_rows: 1,
-        rehearsal: Duration::ZERO,
+        preparation: Duration::ZERO,
     },
 );
 

@@ -49,7 +49,7 @@ pub struct Allowance {
     pub least_rows: usize,
     /// The time for preparation, for a method that prepares pieces on first use. Only queries that
     /// are prepared by then are asked.
-    pub rehearsal: Duration,
+    pub preparation: Duration,
 }
 
 /// The largest number of pairs of pieces for a schedule without a tree, since it processes all
@@ -154,10 +154,10 @@ impl<'s> Contest<'s> {
         let (method, tolerance) = (session.method(), session.tolerance());
         let queries = self.queries(method.motion_kind());
         let order = self.order(allowance.rows);
-        let rehearsed = session.rehearse(order.iter().map(|&r| &queries[r]), allowance.rehearsal);
+        let prepared = session.prepare(order.iter().map(|&r| &queries[r]), allowance.preparation);
         let mut asked: Vec<(usize, Answered)> = Vec::new();
         let start = Instant::now();
-        for &row in &order[..rehearsed] {
+        for &row in &order[..prepared] {
             let enough = asked.len() >= allowance.least_rows;
             if start.elapsed() > allowance.cell && enough {
                 break;

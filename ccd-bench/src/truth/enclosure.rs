@@ -59,7 +59,7 @@ impl Matrix {
         Matrix([0, 1, 2].map(|i| [m[0][i], m[1][i], m[2][i]]))
     }
 
-    /// Returns the rotation in the direction of a quaternion, a unit one or nearly.
+    /// Returns the rotation of the normalised quaternion; `q` is a unit one or nearly.
     pub(super) fn from_quaternion(q: DQuat) -> Self {
         let [x, y, z, w] = q.to_array().map(exact);
         let [xx, yy, zz, ww] = [x.sqr(), y.sqr(), z.sqr(), w.sqr()];

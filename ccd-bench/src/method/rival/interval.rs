@@ -5,26 +5,15 @@
 use ccd_core::glam::{DMat3, DVec3};
 use std::ops::{Add, Mul, Sub};
 
-/// All numbers within `radius` of `middle`.
+/// All numbers within `radius` of `middle`; for vectors and matrices, an interval for every entry.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Interval {
-    pub(super) middle: f64,
-    pub(super) radius: f64,
+pub(super) struct Interval<T = f64> {
+    pub(super) middle: T,
+    pub(super) radius: T,
 }
 
-/// An interval for every coordinate.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct IntervalVec {
-    pub(super) middle: DVec3,
-    pub(super) radius: DVec3,
-}
-
-/// An interval for every entry.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct IntervalMat {
-    pub(super) middle: DMat3,
-    pub(super) radius: DMat3,
-}
+pub(super) type IntervalVec = Interval<DVec3>;
+pub(super) type IntervalMat = Interval<DMat3>;
 
 /// The ranges of cosine and sine over all angles between −h and h.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -69,11 +58,11 @@ impl Interval {
     }
 }
 
-impl Add for Interval {
-    type Output = Interval;
+impl<T: Add<Output = T>> Add for Interval<T> {
+    type Output = Self;
 
     #[inline]
-    fn add(self, other: Interval) -> Interval {
+    fn add(self, other: Self) -> Self {
         Interval {
             middle: self.middle + other.middle,
             radius: self.radius + other.radius,
@@ -81,11 +70,11 @@ impl Add for Interval {
     }
 }
 
-impl Sub for Interval {
-    type Output = Interval;
+impl<T: Add<Output = T> + Sub<Output = T>> Sub for Interval<T> {
+    type Output = Self;
 
     #[inline]
-    fn sub(self, other: Interval) -> Interval {
+    fn sub(self, other: Self) -> Self {
         Interval {
             middle: self.middle - other.middle,
             radius: self.radius + other.radius,
@@ -164,30 +153,6 @@ pub(super) fn cross_sum(a: DVec3, b: DVec3) -> DVec3 {
     )
 }
 
-impl Add for IntervalVec {
-    type Output = IntervalVec;
-
-    #[inline]
-    fn add(self, other: IntervalVec) -> IntervalVec {
-        IntervalVec {
-            middle: self.middle + other.middle,
-            radius: self.radius + other.radius,
-        }
-    }
-}
-
-impl Sub for IntervalVec {
-    type Output = IntervalVec;
-
-    #[inline]
-    fn sub(self, other: IntervalVec) -> IntervalVec {
-        IntervalVec {
-            middle: self.middle - other.middle,
-            radius: self.radius + other.radius,
-        }
-    }
-}
-
 impl Mul<DVec3> for IntervalMat {
     type Output = IntervalVec;
 
@@ -220,17 +185,6 @@ impl Mul for IntervalMat {
             middle: self.middle * other.middle,
             radius: self.middle.abs() * other.radius
                 + self.radius * (other.middle.abs() + other.radius),
-        }
-    }
-}
-
-impl Add for IntervalMat {
-    type Output = IntervalMat;
-
-    fn add(self, other: IntervalMat) -> IntervalMat {
-        IntervalMat {
-            middle: self.middle + other.middle,
-            radius: self.radius + other.radius,
         }
     }
 }

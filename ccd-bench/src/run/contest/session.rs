@@ -92,7 +92,7 @@ impl<'s> Session<'s> {
 
     /// Lets a solver that prepares pieces on first use do so on some queries, for a limited time.
     /// Returns the number of prepared queries.
-    pub(super) fn rehearse<'q>(
+    pub(super) fn prepare<'q>(
         &mut self,
         queries: impl ExactSizeIterator<Item = &'q Query>,
         time: Duration,
@@ -102,8 +102,8 @@ impl<'s> Session<'s> {
             (Runner::InProcess(solver), Method::Ours(kind, _))
                 if kind.schedule.uses_hull_trees() =>
             {
-                let rehearsed = queries.take_while(|_| start.elapsed() < time);
-                rehearsed.map(|query| solver.answer(query)).count()
+                let prepared = queries.take_while(|_| start.elapsed() < time);
+                prepared.map(|query| solver.answer(query)).count()
             }
             _ => queries.len(),
         }

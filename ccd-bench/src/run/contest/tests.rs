@@ -85,7 +85,7 @@ const EVERYTHING: Allowance = Allowance {
     patience: Duration::MAX,
     rows: usize::MAX,
     least_rows: 1,
-    rehearsal: Duration::MAX,
+    preparation: Duration::MAX,
 };
 
 #[test]

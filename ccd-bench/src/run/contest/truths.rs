@@ -55,12 +55,12 @@ impl Truths {
     pub fn find(
         &mut self,
         contest: &Contest<'_>,
-        motion: MotionKind,
+        kind: MotionKind,
         rows: &[usize],
         progress: &Progress,
     ) -> usize {
-        let fingerprint = fingerprint(contest, motion);
-        let key = |row: usize| key(contest, fingerprint, motion, row);
+        let fingerprint = fingerprint(contest, kind);
+        let key = |row: usize| key(contest, fingerprint, kind, row);
         let unknown: Vec<usize> = rows
             .iter()
             .copied()
@@ -70,7 +70,7 @@ impl Truths {
         let found: Vec<TruthRow> = unknown
             .into_par_iter()
             .map(|row| {
-                let query = &contest.queries(motion)[row];
+                let query = &contest.queries(kind)[row];
                 let truth = referee.first_contact(query);
                 progress.tick();
                 TruthRow::new(key(row), query.duration, truth)
@@ -85,11 +85,11 @@ impl Truths {
     pub fn of<'t>(
         &'t self,
         contest: &'t Contest<'_>,
-        motion: MotionKind,
+        kind: MotionKind,
     ) -> impl Fn(usize) -> Truth + 't {
-        let fingerprint = fingerprint(contest, motion);
+        let fingerprint = fingerprint(contest, kind);
         move |row| {
-            let known = self.known.get(&key(contest, fingerprint, motion, row));
+            let known = self.known.get(&key(contest, fingerprint, kind, row));
             known.map_or(Truth::Undecided { lo: 0.0 }, TruthRow::truth)
         }
     }
@@ -102,19 +102,19 @@ impl Truths {
 
 /// Returns the name of a row in the table. It includes the meshes and motions, since the truth
 /// depends on them.
-fn key(contest: &Contest<'_>, fingerprint: u32, motion: MotionKind, row: usize) -> String {
+fn key(contest: &Contest<'_>, fingerprint: u32, kind: MotionKind, row: usize) -> String {
     let scene = &contest.scene().name;
-    let id = &contest.queries(motion)[row].id;
+    let id = &contest.queries(kind)[row].id;
     format!("{scene}/{fingerprint:08x}/{id}")
 }
 
 /// Returns a hash of the meshes and motions, to the bit.
-fn fingerprint(contest: &Contest<'_>, motion: MotionKind) -> u32 {
+fn fingerprint(contest: &Contest<'_>, kind: MotionKind) -> u32 {
     let mut hash = crc32fast::Hasher::new();
     for body in [&contest.scene().a, &contest.scene().b] {
         hash_mesh(body.mesh(), &mut hash);
     }
-    for query in contest.queries(motion) {
+    for query in contest.queries(kind) {
         for motion in [&query.a, &query.b] {
             let start = motion.start();
             let vectors = [
