@@ -54,7 +54,6 @@ fn bottom_up_in<T: Default + Send>(
 }
 
 /// Nodes in postorder: the subtree of the first child, then that of the second, then the node.
-/// second.
 struct Row<'a, F> {
     hierarchy: &'a Hierarchy,
     order: &'a [usize],
