@@ -8,7 +8,7 @@ const MENDED: u32 = 23;
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");
     println!("cargo::rustc-check-cfg=cfg(faulty_avx512)");
-    // A version that cannot be told counts as faulty.
+    // An unknown version counts as faulty.
     if llvm().is_none_or(|major| major < MENDED) {
         println!("cargo::rustc-cfg=faulty_avx512");
     }

@@ -51,35 +51,36 @@ pub struct Body {
     tree: Tree,
     volume: Volume,
     shells: Vec<Shell>,
-    /// Its leaves name the pieces in the order of the tree.
+    /// The hull tree's leaves name the pieces in the order of the tree.
     #[cfg(feature = "hull-tree")]
     hull_tree: Option<HullTree>,
     surface: Option<Box<Surface>>,
 }
 
-/// The triangles of a convex body's surface, which take its place against a body of many triangles.
+/// The triangles of a convex body's surface. They replace the body against a body of many
+/// triangles.
 #[derive(Clone, Debug)]
 struct Surface {
     triangles: Body,
-    /// Whether the convex body is about the box that the tree keeps of it.
+    /// True if the convex body is about the box that the tree keeps of it.
     is_box: bool,
 }
 
-/// Whether being inside of a body counts as touching it.
+/// The meaning of a body's inside: whether being in it counts as touching.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Volume {
-    /// The triangles, or the [mesh's triangles](crate::Piece::mesh_triangles) on the pieces, bound a solid:
-    /// together they are closed. It is where they wind about a point, whichever way: of shells within each
-    /// other each has to be wound the other way than what is around it. A body inside it overlaps it. A
-    /// single piece is solid by itself.
+    /// The triangles, or the [mesh's triangles](crate::Piece::mesh_triangles) on the pieces, bound
+    /// a solid: together they are closed. The solid is where they wind about a point, in either
+    /// direction. Of nested shells, each has to be wound opposite to the one around it. A body
+    /// inside the solid overlaps it. A single piece is solid by itself.
     Solid,
-    /// Only the pieces themselves are there to be touched.
+    /// Only the pieces themselves can be touched.
     Surface,
 }
 
 impl Body {
-    /// A body over a hierarchy of the core's own, split at medians.
+    /// Creates a body over a hierarchy that the core builds, split at medians.
     ///
     /// # Errors
     /// [`InputError::TooManyPieces`].
@@ -88,11 +89,11 @@ impl Body {
         Body::with_hierarchy(pieces, &hierarchy, volume)
     }
 
-    /// A body over a given hierarchy. The body keeps the pieces in the hierarchy's order; features
-    /// are named by the numbers that the pieces carry.
+    /// Creates a body over a given hierarchy. The body keeps the pieces in the hierarchy's order;
+    /// features have the numbers that the pieces carry.
     ///
     /// # Errors
-    /// [`InputError::BadHierarchy`] when it is not one over these pieces.
+    /// [`InputError::BadHierarchy`] when it is no hierarchy over these pieces.
     pub fn with_hierarchy(
         pieces: &Pieces,
         hierarchy: &Hierarchy,
@@ -115,15 +116,16 @@ impl Body {
         })
     }
 
-    /// The same body of one piece with the triangles of its surface, for queries against bodies of many
-    /// triangles: near each of these only a few of its own are. Against other bodies it stays one piece.
+    /// Returns the body of one piece with the triangles of its surface, for queries against bodies
+    /// of many triangles: near each of those, only a few of its own are. Against other bodies it
+    /// stays one piece.
     ///
     /// # Guarantee
-    /// That of queries holds when the triangles bound the same solid as the piece; this is not checked.
-    /// Answers name the same features, and the one piece.
+    /// That of queries holds when the triangles bound the same solid as the piece; this is not
+    /// checked. Answers name the same features, and the one piece.
     ///
     /// # Errors
-    /// [`InputError::BadSurface`] unless the body has one piece, without rounding, and is solid, and the
+    /// [`InputError::BadSurface`] unless the body is a solid of one piece without rounding, and the
     /// surface is a solid of triangles.
     pub fn with_surface(mut self, surface: Body) -> Result<Self, InputError> {
         let solid = |body: &Body| body.volume == Volume::Solid;
@@ -140,7 +142,7 @@ impl Body {
         Ok(self)
     }
 
-    /// The same body with a hull tree over its pieces, for the schedules that use one.
+    /// Returns the body with a hull tree over its pieces, for the schedules that use one.
     ///
     /// # Errors
     /// [`HullFault::NotAPiece`](crate::HullFault::NotAPiece) unless its leaves are the body's pieces,
@@ -156,20 +158,20 @@ impl Body {
         &self.pieces
     }
 
-    /// A piece, with what finds its extremal points where they are many.
+    /// Returns a piece, with a search structure for extremal points if it has many points.
     #[inline]
     pub(crate) fn piece(&self, index: u32) -> Piece<'_> {
         self.pieces.get(index as usize).supported(support_of)
     }
 
-    /// Whether it is solid.
+    /// The meaning of the body's inside.
     pub fn volume(&self) -> Volume {
         self.volume
     }
 
-    /// Returns what takes the body's place against another one: its surface, where it was given one
-    /// and the other body has many triangles. A box that is larger than the other body stays one: its
-    /// own triangles would hardly be nearer to anything than it is.
+    /// Returns the body that replaces this one against another: its surface, if it has one and the
+    /// other body has many triangles. A box that is larger than the other body is not replaced: its
+    /// own triangles would hardly be nearer to anything than the box is.
     pub(crate) fn against(&self, other: &Body) -> &Body {
         let many = other.pieces.all_triangles() && other.pieces.len() > 1;
         let larger = self.tree.radius() >= other.tree.radius();
@@ -179,13 +181,13 @@ impl Body {
         }
     }
 
-    /// The hull tree over its pieces, if it was given one; its leaves name [`Body::pieces`].
+    /// The hull tree over its pieces, if it has one; its leaves name [`Body::pieces`].
     #[cfg(feature = "hull-tree")]
     pub fn hull_tree(&self) -> Option<&HullTree> {
         self.hull_tree.as_ref()
     }
 
-    /// Bytes held, about.
+    /// The approximate number of bytes held.
     pub fn bytes(&self) -> usize {
         #[cfg(feature = "hull-tree")]
         let hulls = self.hull_tree.as_ref().map_or(0, HullTree::bytes);
@@ -196,10 +198,10 @@ impl Body {
         self.pieces.bytes() + self.tree.bytes() + hulls + surface
     }
 
-    /// Returns the name of a point of a piece in the mesh.
+    /// Returns the mesh's feature at a point of a piece.
     ///
-    /// A virtual facet may lie within the surface, over faces that belong to other pieces: these are
-    /// asked where the piece has no name for the point.
+    /// A virtual facet may be within the surface, over faces of other pieces. If the piece has no
+    /// feature for the point, these pieces are searched.
     pub(crate) fn feature(&self, piece: u32, point: &Combination) -> Feature {
         let feature = self.pieces.feature(piece as usize, point);
         let Feature::Piece(_) = feature else {
@@ -224,7 +226,7 @@ impl Body {
         &self.tree
     }
 
-    /// Some points of every connected part: inside another solid either all of a part is, or its
+    /// Some points of every connected part. Either all of a part is inside another solid, or its
     /// surface crosses the solid's.
     pub(crate) fn shells(&self) -> &[Shell] {
         &self.shells
@@ -237,8 +239,8 @@ fn support_of(piece: &Piece<'_>) -> Support {
     Support::of_points(piece.points)
 }
 
-/// Six times the volume that a closed surface of triangles bounds, negative where their normals point
-/// inward.
+/// Returns six times the volume bounded by a closed surface of triangles, negative where their
+/// normals point inward.
 fn signed_volume(pieces: &Pieces) -> f64 {
     let cone = |[a, b, c]: [DVec3; 3]| (b - a).cross(c - a).dot(a);
     (0..pieces.len()).map(|k| cone(pieces.triangle(k))).sum()

@@ -1,4 +1,4 @@
-//! The features that are in contact at a time, all of them `[FAST06 §5.2]`.
+//! All features that are in contact at a time `[FAST06 §5.2]`.
 
 mod boxes;
 mod candidate;
@@ -17,20 +17,20 @@ use near::near_faces;
 use skin::Skin;
 use std::fmt;
 
-/// Why there is no list of contacts.
+/// The reason why there is no list of contacts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum ContactsError {
     /// The time is NaN, or not within the duration.
     NotInDuration {
-        /// The time that was asked for.
+        /// The requested time.
         time: f64,
         /// The problem's duration.
         duration: f64,
     },
     /// More pairs are near, of nodes, of boxes of faces, or of features, than the problem's
-    /// [budget](crate::Config::budget) allows: the bodies are small for the margin and the tolerance,
-    /// or one lies deep in the other.
+    /// [budget](crate::Config::budget) allows. Either the bodies are small for the margin and the
+    /// tolerance, or one is deep in the other.
     TooMany {
         /// The budget.
         budget: u64,
@@ -38,43 +38,43 @@ pub enum ContactsError {
 }
 
 impl Problem<'_> {
-    /// All features that are in contact at a time: what a physics engine calls the contact manifold
-    /// `[FAST06 §5.2]`.
+    /// Returns all features that are in contact at a time, the contact manifold `[FAST06 §5.2]`.
     ///
-    /// A pair is one of two things; nearest first, each pair once:
-    /// - a vertex and the part of a face that is nearest to it: mostly the inside of the face, with the
-    ///   vertex's foot, or else an edge or a vertex of it, unless a larger part that has these on its
-    ///   boundary makes a pair with the same vertex, being as near;
-    /// - two edges whose nearest points are inside of both. Edges that are parallel up to
-    ///   rounding do not cross: their ends make the pairs.
+    /// There are two kinds of pairs. Each pair is listed once, nearest first:
+    /// - a vertex and the nearest part of a face: usually the face's inside, at the vertex's foot,
+    ///   otherwise an edge or a vertex of the face. An edge or vertex is left out if a larger part
+    ///   with it on its boundary makes a pair with the same vertex at the same distance;
+    /// - two edges whose nearest points are inside of both. Edges that are parallel up to rounding
+    ///   do not cross: their ends make the pairs.
     ///
-    /// The edge between two triangles that share its vertices and lie in one plane, up to rounding,
-    /// is not of the shape: it crosses nothing, and a point on it is of the face of smaller number, in
-    /// a pair only where neither triangle comes nearer. So a cube that lies flat on a slab has four
-    /// pairs, however the faces are cut into triangles.
+    /// The edge between two triangles that share its vertices and are in one plane, up to rounding,
+    /// is not part of the shape. It crosses nothing. A point on it belongs to the face of smaller
+    /// number, and is in a pair only if neither triangle comes nearer. A cube that lies flat on a
+    /// slab therefore has four pairs, however the faces are cut into triangles.
     ///
-    /// Features have the names that outcomes have. What has no number of its own has the name of the face or
-    /// the piece that it is on: all features of approximate hulls, and what lies where the mesh has no
-    /// vertex. Such a pair of names may come more than once, for different places. The same mesh has
-    /// the same names in triangles, patches and hulls.
-    /// Virtual facets make no pairs on pieces that have faces of the mesh; of a piece of more than
-    /// three points whose facets are not known there are only the vertices.
+    /// Features have the same names as in outcomes. A feature without a number has the name of its
+    /// face or piece: all features of approximate hulls, and corners where the mesh has no vertex.
+    /// Such a pair of names may be listed more than once, for different places. The same mesh has
+    /// the same names in triangles, patches and hulls. Virtual facets make no pairs on pieces that
+    /// have faces of the mesh. A piece of more than three points without known facets has vertices
+    /// only.
     ///
-    /// Distances take no side: of bodies that overlap at that time these are the features whose
+    /// Distances are unsigned: for bodies that overlap at that time, these are the features whose
     /// boundaries are near each other.
     ///
     /// # Guarantee
-    /// No such pair is missed whose distance is within margin + tolerance, and
-    /// [`Separation::lower`](crate::Separation::lower) is within it for every pair. Lower and upper bound are of the two
-    /// features, rounding included. The same call gives the same bits.
+    /// No pair within margin + tolerance is missed, and
+    /// [`Separation::lower`](crate::Separation::lower) of every pair is within that. Lower and
+    /// upper bound are those of the two features, rounding included. The same call gives the same
+    /// bits.
     ///
     /// # Errors
     /// [`ContactsError`].
     ///
     /// # Complexity
-    /// Near-linear in the pairs of pieces and of faces whose boxes are within margin + tolerance, and in
-    /// all faces of these pieces: a descent over both bodies' trees finds the pieces, and one over
-    /// their faces, which are put in order once, the faces. The budget holds for either.
+    /// Near-linear in the pairs of pieces and of faces whose boxes are within margin + tolerance,
+    /// and in all faces of these pieces. A descent over both bodies' trees finds the pieces.
+    /// Another one finds the faces, which are sorted once. The budget limits each of them.
     ///
     /// ```
     /// use ccd_core::{glam::DVec3, Body, Config, Motion, Moving, Pose, Problem};
@@ -105,7 +105,8 @@ impl Problem<'_> {
         ];
         let budget = self.budget;
         let too_many = ContactsError::TooMany { budget };
-        // Two measured distances may be off, either way: that of the boxes and that of the features.
+        // Two measured distances may be off in either direction: that of the boxes and that of the
+        // features.
         let reach = self.margin + self.tolerance + 2.0 * self.rounding;
         let near = near_faces(self, &mut skins, &b_to_a, reach).ok_or(too_many)?;
         for skin in &mut skins {

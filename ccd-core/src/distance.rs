@@ -1,4 +1,4 @@
-//! The distance of two pieces: what a backend claims, and what is proven of it.
+//! The distance of two pieces: the claim of a backend, and the bounds proven from it.
 
 pub(crate) mod oracle;
 pub(crate) mod overlap;

@@ -3,7 +3,7 @@
 use crate::limits::MAX_COORDINATE;
 use std::fmt;
 
-/// An input that no query can be posed with, naming the offending element.
+/// An invalid input, with the offending element.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum InputError {
@@ -14,7 +14,7 @@ pub enum InputError {
     },
     /// A quaternion of length zero names no orientation.
     ZeroQuaternion,
-    /// A quantity lies outside of what it may be.
+    /// A quantity is out of range.
     OutOfRange {
         /// The quantity.
         what: &'static str,

@@ -36,7 +36,7 @@
 //! assert!(contact.separation.upper <= 1e-6);
 //! # Ok::<(), InputError>(())
 //! ```
-//! Crates beside this one have backends for all convex pieces.
+//! Other crates have backends for all convex pieces.
 //!
 //! # Guarantee
 //! 1. **Never late.** For every time reported, no contact happens before it: for every mesh, motion

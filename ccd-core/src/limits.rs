@@ -1,14 +1,14 @@
 //! The defaults of a query, and the numbers that are accepted.
 
-/// The tolerance of a query that names none, in the scene's unit of length `[FAST06 §6.2]`.
+/// The default tolerance of a query, in the scene's unit of length `[FAST06 §6.2]`.
 pub const DEFAULT_TOLERANCE: f64 = 1e-3;
 
-/// The [work](crate::Stats::work) that a query may take that names no budget: a few seconds, and less
-/// than a gigabyte of pairs that wait (0.6 at worst, seen with the schedule `Fast`).
+/// The default limit of a query's [work](crate::Stats::work): a few seconds, and less than a
+/// gigabyte of waiting pairs (0.6 at worst, seen with the schedule `Fast`).
 pub const DEFAULT_BUDGET: u64 = 1 << 22;
 
-/// The least tolerance that can be asked for, in the scene's unit of length: squares of distances
-/// that matter stay above the underflow of f64 (2.2e-308).
+/// The least accepted tolerance, in the scene's unit of length: squares of relevant distances stay
+/// above the underflow of f64 (2.2e-308).
 pub const LEAST_TOLERANCE: f64 = 1e-100;
 
 /// The largest coordinate of points, positions and centres, and the longest travel, margin and tolerance,
@@ -16,10 +16,10 @@ pub const LEAST_TOLERANCE: f64 = 1e-100;
 /// stay below the overflow of f32 (3.4e38).
 pub const MAX_COORDINATE: f64 = 1e12;
 
-/// Coordinates nearer to 0 than this, 0 itself excepted, are too fine for exact predicates.
+/// Coordinates nearer to 0 than this, except 0 itself, are too fine for exact predicates.
 ///
-/// The last bit of a coordinate c is at least 2⁻⁵³ |c|, the error terms of a determinant are multiples
-/// of the product of three such bits, and that has to be a number: (2⁻⁵³ · 1e-90)³ > 2⁻¹⁰⁷⁴.
+/// The last bit of a coordinate c is at least 2⁻⁵³ |c|. The error terms of a determinant are
+/// multiples of the product of three such bits, which must not underflow: (2⁻⁵³ · 1e-90)³ > 2⁻¹⁰⁷⁴.
 pub const LEAST_COORDINATE: f64 = 1e-90;
 
 /// The largest turn of one motion, in radians. Beyond it the rounding of the angle alone moves a

@@ -1,4 +1,4 @@
-//! Numbers and vectors: what rounds, what underflows, and what is exact.
+//! Numbers and vectors: rounding, underflow, and exact signs.
 
 #[cfg(feature = "exact")]
 pub mod exact;

@@ -15,12 +15,12 @@ use crate::math::vector::length;
 use glam::{DQuat, DVec3};
 use pose::{Frame, Pose};
 
-/// A motion with constant linear velocity of a chosen centre and constant angular velocity, any
+/// A motion with constant linear velocity of a chosen centre and constant angular velocity; any
 /// number of turns `[FAST06 §4.1]`.
 ///
 /// `x(t) = R(t)(x − c) + C₀ + v t`, with `R(t) = exp(t [ω]×) R₀`, `c` the centre in the body's
-/// frame and `C₀` its place in the world at `t = 0`. Angular velocity is in radians per unit of
-/// time, along the world's axes; all else in the scene's unit of length.
+/// frame and `C₀` its position in the world at `t = 0`. Angular velocity is in radians per unit of
+/// time, along the world's axes; lengths are in the scene's unit.
 ///
 /// ```
 /// use ccd_core::{glam::DVec3, Motion, Pose};
@@ -36,7 +36,7 @@ pub struct Motion {
 }
 
 impl Motion {
-    /// At rest in the world's frame.
+    /// Rest, with the body's frame equal to the world's.
     pub const STILL: Motion = Motion {
         start: Pose::IDENTITY,
         velocity: DVec3::ZERO,
@@ -44,7 +44,7 @@ impl Motion {
         centre: DVec3::ZERO,
     };
 
-    /// At rest.
+    /// Creates a motion at rest.
     pub fn still(pose: Pose) -> Self {
         Motion {
             start: pose,
@@ -52,10 +52,10 @@ impl Motion {
         }
     }
 
-    /// From the pose at `t = 0` and the velocities, per unit of time, turning about the body's
-    /// origin.
+    /// Creates a motion from the pose at `t = 0` and the velocities, per unit of time. The body
+    /// turns about its origin.
     ///
-    /// Velocities are arrays, or whatever turns into them: vectors of `glam` and `nalgebra`.
+    /// Velocities are arrays, or types that convert to arrays: vectors of `glam` and `nalgebra`.
     ///
     /// # Errors
     /// [`InputError::NotFinite`].
@@ -67,8 +67,8 @@ impl Motion {
         Motion::about(start, velocity, spin, DVec3::ZERO)
     }
 
-    /// As [`Motion::new`], turning about `centre`, a point in the body's frame, whose velocity
-    /// `velocity` is.
+    /// Like [`Motion::new`], but turns about `centre`, a point in the body's frame; `velocity` is
+    /// the velocity of that point.
     ///
     /// # Errors
     /// [`InputError::NotFinite`].
@@ -91,17 +91,18 @@ impl Motion {
         })
     }
 
-    /// From the poses at `t = 0` and `t = duration` by the shortest turn, about `centre`, a point in
-    /// the body's frame that moves on a straight line.
+    /// Creates a motion from the poses at `t = 0` and `t = duration` by the shortest turn about
+    /// `centre`, a point in the body's frame that moves on a straight line.
     ///
-    /// Velocities are derived from the poses and rounded. A query over no more than `duration` allows for
-    /// that: what it certifies holds for the motion between the poses as given
+    /// Velocities are derived from the poses and rounded. A query over at most `duration` allows
+    /// for that: its certificate holds for the motion between the poses as given
     /// ([`tolerance::distance_rounding`](crate::tolerance::distance_rounding)).
     ///
-    /// At half a turn both ways are shortest. The one taken is counterclockwise about the vector part of
-    /// `end · start⁻¹`, of the quaternions as they are given: the negative of either one, though the same
-    /// orientation, turns the other way. Where the scalar part of that product is 0 up to rounding
-    /// (within about 1e-15), rounding decides; the same numbers always give the same way.
+    /// At half a turn both directions are shortest. The motion turns counterclockwise about the
+    /// vector part of `end · start⁻¹`, computed from the quaternions as given: the negative of
+    /// either one represents the same orientation, but turns the other way. If the scalar part of
+    /// that product is 0 up to rounding (within about 1e-15), rounding decides; the same numbers
+    /// always give the same direction.
     ///
     /// # Errors
     /// [`InputError::OutOfRange`] when `duration` is not positive and finite,
@@ -120,7 +121,7 @@ impl Motion {
                 allowed: "positive and finite",
             });
         }
-        // Differences first: places far from the world's origin are no less exact than others.
+        // Differences first: positions far from the world's origin lose no accuracy.
         let turned = Frame::from(end).rotation - Frame::from(start).rotation;
         let travel = (end.translation() - start.translation()) + turned * centre;
         let turn = shortest_turn(end.rotation() * start.rotation().conjugate());
@@ -150,7 +151,7 @@ impl Motion {
     /// The pose at time `t`.
     pub fn pose(&self, t: f64) -> Pose {
         let rotation = DQuat::from_scaled_axis(t * self.spin) * self.start.rotation();
-        // What the centre moves by, less what the origin is turned about it by.
+        // The centre's displacement, less the origin's displacement by the turn about it.
         let turned = rotation * self.centre - self.start.rotation() * self.centre;
         Pose::from_unit(
             self.start.translation() + (t * self.velocity - turned),

@@ -10,7 +10,7 @@ use std::fmt;
 /// The answer to "when do they first touch?".
 ///
 /// # Guarantee
-/// Whatever the time in it, nothing touched before that time, in floating point as well.
+/// Nothing touched before the time in it, in floating point as well.
 ///
 /// ```
 /// use ccd_core::Outcome;
@@ -29,14 +29,14 @@ use std::fmt;
 pub enum Outcome {
     /// The bodies come within margin + tolerance at `time`, and never touched before.
     Contact {
-        /// When, in the motions' unit of time.
+        /// The time, in the motions' unit.
         time: f64,
         /// The separation at that time: `lower` and `upper` bound the distance of the bodies.
         contact: Contact,
     },
     /// The bodies stay apart over the whole duration.
     Free {
-        /// The gap, a lower bound of the distance at all times.
+        /// A lower bound of the distance at all times.
         proven_gap: f64,
     },
     /// The bodies are within margin + tolerance at the start, without overlapping.
@@ -49,7 +49,7 @@ pub enum Outcome {
         /// The proof.
         overlap: Overlap,
     },
-    /// A limit was reached before an answer was.
+    /// A limit was reached before an answer.
     Unresolved {
         /// The bodies do not touch before this time, certified.
         safe_until: f64,
@@ -61,11 +61,11 @@ pub enum Outcome {
 /// The proof of an overlap at the start.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Overlap {
-    /// Two pieces intersect, and no axis separates them; the contact's witnesses lie in both.
+    /// Two pieces intersect, and no axis separates them; the contact's witnesses are in both.
     Pieces(Contact),
-    /// This point of body A, in world coordinates, lies inside the solid body B.
+    /// This point of body A, in world coordinates, is inside the solid body B.
     AInsideB(DVec3),
-    /// This point of body B, in world coordinates, lies inside the solid body A.
+    /// This point of body B, in world coordinates, is inside the solid body A.
     BInsideA(DVec3),
 }
 
@@ -79,10 +79,10 @@ pub enum Limit {
     Deadline,
     /// A pair's proof could not be prolonged: the next step is below the time's resolution.
     Stalled,
-    /// The oracle gave up on a pair, and nobody else was there to ask.
+    /// The oracle gave up on a pair, and no other oracle was available.
     OracleGaveUp,
-    /// Bodies that touch at the start, or one of which may be inside the other, are too near to each
-    /// other to decide whether they overlap.
+    /// Bodies that touch at the start, or one of which may be inside the other, are too near to
+    /// each other to decide whether they overlap.
     Undecided,
 }
 
@@ -136,7 +136,8 @@ pub struct Contact {
 }
 
 impl Contact {
-    /// The same, where a part of the bodies is only known to be this far apart.
+    /// Returns the contact with a lower bound of at most `least`, which bounds a part of the
+    /// bodies.
     pub(crate) fn no_nearer_than(self, least: f64) -> Self {
         Contact {
             separation: Separation {
@@ -148,11 +149,11 @@ impl Contact {
     }
 }
 
-/// A checked claim: two pieces are no nearer than `lower` and no farther than `upper`.
+/// A checked claim: two pieces are at least `lower` and at most `upper` apart.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Separation {
-    /// A lower bound of the distance: the support gap along `normal`, less rounding. Negative when
-    /// no axis was found that separates the pieces.
+    /// A lower bound of the distance: the support gap along `normal`, minus rounding. Negative if
+    /// no separating axis was found.
     pub lower: f64,
     /// An upper bound of the distance: that of the witnesses, plus rounding.
     pub upper: f64,
@@ -169,26 +170,25 @@ pub struct Separation {
 pub struct Stats {
     /// The number of pairs of nodes that were bounded or split, pairs of pieces included.
     pub iterations: u64,
-    /// About how often a point of a piece was looked at: in each step of an oracle's search, and each
-    /// time that a gap is followed.
+    /// The approximate number of looks at points of pieces: in each step of an oracle's search, and
+    /// each time a gap is followed.
     pub point_looks: u64,
-    /// The number of times that the oracle was asked.
+    /// The number of calls of the oracle.
     pub oracle_calls: u64,
     /// The number of times that the oracle gave up.
     pub give_ups: u64,
-    /// The most pairs that waited at one time.
+    /// The largest number of pairs that waited at one time.
     pub peak_front: u64,
     /// The number of times that all pairs were advanced together: the steps of conservative
-    /// advancement, the first distance included. 0 for schedules under which every pair has a clock
-    /// of its own.
+    /// advancement, the first distance included. 0 for schedules with a clock for every pair.
     pub advancements: u64,
     /// The effort of the oracle.
     pub effort: Effort,
 }
 
 impl Stats {
-    /// Returns what the [budget](crate::Config::budget) is spent on: iterations, and as much again
-    /// for every [`LOOKS_PER_VISIT`] looks at points.
+    /// Returns the work that the [budget](crate::Config::budget) limits: iterations, plus one for
+    /// every [`LOOKS_PER_VISIT`] looks at points.
     #[inline]
     pub fn work(&self) -> u64 {
         self.iterations + self.point_looks / LOOKS_PER_VISIT
@@ -200,9 +200,9 @@ impl Stats {
 pub struct Answer {
     /// The outcome.
     pub outcome: Outcome,
-    /// The tolerance that was kept: the one asked for; or the least one that can be certified at the
-    /// coordinates of the scene, if that is larger; or a smaller one for bodies that were
-    /// [let go](crate::StartPolicy::Leave).
+    /// The tolerance of the answer. It is the requested one, unless only a larger one can be
+    /// certified at the coordinates of the scene, or the bodies were [let
+    /// go](crate::StartPolicy::Leave) with a smaller one.
     pub tolerance: f64,
     /// The cost.
     pub stats: Stats,

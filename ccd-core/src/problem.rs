@@ -1,4 +1,4 @@
-//! A query: two moving bodies, a duration, and how accurately to answer.
+//! A query: two moving bodies, a duration, and the accuracy of the answer.
 
 use crate::body::Body;
 use crate::body::piece::Piece;
@@ -12,7 +12,7 @@ use crate::tolerance::{self, NODE_GAP};
 use glam::DVec3;
 use std::time::Duration;
 
-/// The accuracy of an answer, and what counts as a contact.
+/// The accuracy of an answer, and the definition of a contact.
 ///
 /// ```
 /// use ccd_core::Config;
@@ -30,14 +30,14 @@ pub struct Config {
     pub margin: f64,
     /// The treatment of a contact at the start.
     pub start: StartPolicy,
-    /// The most [work](crate::Stats::work) before the query is left unresolved: iterations over pairs
-    /// of nodes, and what costs as much. Each takes about a microsecond or less, and up to about 150
-    /// bytes.
+    /// The most [work](crate::Stats::work) before the query is left unresolved: iterations over
+    /// pairs of nodes, and other steps of the same cost. Each takes about a microsecond or less,
+    /// and up to about 150 bytes.
     pub budget: u64,
-    /// The longest time before the query is left unresolved; none reads no clock.
+    /// The longest time before the query is left unresolved; with none no clock is read.
     ///
-    /// Looked at every few hundred visits, so that it is overstepped by less than a millisecond
-    /// where pieces are small; one call of an oracle is never interrupted. Whether it is reached
+    /// It is checked every few hundred visits, and therefore exceeded by less than a millisecond if
+    /// pieces are small. A call of an oracle is never interrupted. Whether the deadline is reached
     /// depends on the machine: answers that it ends differ from one call to the next.
     pub deadline: Option<Duration>,
 }
@@ -80,22 +80,22 @@ impl Default for Config {
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum StartPolicy {
-    /// It is the answer: [`Touching`](crate::Outcome::Touching).
+    /// The answer is [`Touching`](crate::Outcome::Touching).
     #[default]
     Report,
     /// Bodies that are within the tolerance at the start are let go for as long as they do not
-    /// approach: the answer is when they come within half the gap that they began with, which is the
-    /// tolerance from then on.
+    /// approach. The answer is the time at which they come within half the gap that they began
+    /// with; from then on that is the tolerance.
     ///
-    /// Where that gap is no more than rounding, or the bodies begin inside the margin, pieces that rest
-    /// on each other are let go until they approach; pieces that come to touch only later are a
-    /// contact, also where one slides on flat ground from one piece of it onto the next. That takes a
-    /// look at every pair of pieces that begins inside the margin: a margin as large as the bodies may
+    /// If that gap is no more than rounding, or the bodies begin inside the margin, pieces that
+    /// rest on each other are let go until they approach. Pieces that touch only later are a
+    /// contact, even if one slides on flat ground from one piece onto the next. This takes a look
+    /// at every pair of pieces that begins inside the margin: a margin as large as the bodies may
     /// cost the whole budget.
     Leave,
 }
 
-/// A body and how it moves.
+/// A body and its motion.
 ///
 /// ```
 /// use ccd_core::{Body, Motion, Moving};
@@ -108,7 +108,7 @@ pub enum StartPolicy {
 pub struct Moving<'a> {
     /// The body.
     pub body: &'a Body,
-    /// How.
+    /// The motion of the body.
     pub motion: Motion,
 }
 
@@ -135,9 +135,9 @@ pub struct Problem<'a> {
     pub(crate) a: Side<'a>,
     pub(crate) b: Side<'a>,
     duration: f64,
-    /// Subtracted from world coordinates, so that both bodies are near the origin.
+    /// The origin of the problem's coordinates in the world, near both bodies.
     origin: DVec3,
-    /// At least the least tolerance that can be certified.
+    /// The tolerance, at least the least one that can be certified.
     pub(crate) tolerance: f64,
     pub(crate) margin: f64,
     pub(crate) start: StartPolicy,
@@ -151,7 +151,7 @@ pub struct Problem<'a> {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Side<'a> {
     pub(crate) body: &'a Body,
-    /// The body that was given, of one piece, where `body` is its surface.
+    /// The given body, of one piece, if `body` is its surface.
     pub(crate) given: Option<&'a Body>,
     pub(crate) path: Path,
 }
@@ -180,13 +180,14 @@ impl Which {
 }
 
 impl<'a> Problem<'a> {
-    /// Poses a query over two moving bodies, which may be given as pairs of a body and its motion.
+    /// Poses a query over two moving bodies, given as [`Moving`] or as pairs of a body and its
+    /// motion.
     ///
     /// # Errors
-    /// [`InputError::OutOfRange`] for a duration or margin that is negative, a tolerance that is not
-    /// positive, and what exceeds [`MAX_COORDINATE`] or [`MAX_TURN`]: tolerance and margin; of either
-    /// body a coordinate of the position at the start or of the centre, or the distance from B's position
-    /// to the centre and on along its travel; its turn.
+    /// [`InputError::OutOfRange`] for a negative duration or margin, a tolerance that is not
+    /// positive, and quantities that exceed [`MAX_COORDINATE`] or [`MAX_TURN`]: tolerance and
+    /// margin; each body's coordinates of the position at the start and of the centre, its distance
+    /// from B's position to the centre and on along its travel, and its turn.
     pub fn new(
         a: impl Into<Moving<'a>>,
         b: impl Into<Moving<'a>>,
@@ -234,13 +235,13 @@ impl<'a> Problem<'a> {
         })
     }
 
-    /// The tolerance that will be kept: the one asked for, or the least that can be certified in
-    /// f64 at the scene's coordinates.
+    /// The tolerance of the answer: the requested one, or the least that can be certified in f64 at
+    /// the scene's coordinates.
     pub fn tolerance(&self) -> f64 {
         self.tolerance
     }
 
-    /// A piece of A and one of B.
+    /// Returns a piece of A and one of B.
     pub(crate) fn pieces(&self, [a, b]: [u32; 2]) -> [Piece<'a>; 2] {
         let piece = |side: &Side<'a>, k: u32| side.body.piece(k);
         [piece(&self.a, a), piece(&self.b, b)]
@@ -251,19 +252,19 @@ impl<'a> Problem<'a> {
         self.margin + self.tolerance
     }
 
-    /// The gap that the clocks of pairs of pieces prove: half the tolerance beyond the margin, so
-    /// that a pair whose clock runs out is well within the tolerance.
+    /// The gap that the clocks of pairs of pieces prove: half the tolerance beyond the margin. A
+    /// pair whose clock runs out is well within the tolerance.
     pub(crate) fn gap(&self) -> f64 {
         self.margin + 0.5 * self.tolerance
     }
 
-    /// The gap that the clocks of pairs of nodes prove: the same for all sizes of nodes, so that
-    /// clocks that run out at a common contact run out together, however large the nodes.
+    /// The gap that the clocks of pairs of nodes prove. It is the same for all sizes of nodes, so
+    /// that clocks that run out at a common contact run out together.
     pub(crate) fn node_gap(&self) -> f64 {
         self.margin + NODE_GAP * self.tolerance
     }
 
-    /// The clock of a time that the motions are at, to within rounding.
+    /// Returns the clock of a time of the motions, up to rounding.
     pub(crate) fn clock(&self, time: f64) -> f64 {
         match self.duration > 0.0 {
             true => time / self.duration,
@@ -271,8 +272,7 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// The same of the bodies that were given, where surfaces are looked at in their place; none where
-    /// these are what is looked at.
+    /// Returns the problem of the given bodies, if surfaces replace them here; none otherwise.
     pub(crate) fn given(&self) -> Option<Self> {
         let of = |side: &Side<'a>| Side {
             body: side.given.unwrap_or(side.body),
@@ -287,7 +287,7 @@ impl<'a> Problem<'a> {
         })
     }
 
-    /// The same, with a contact at the start for an answer.
+    /// Returns the problem with a contact at the start as an answer.
     pub(crate) fn reporting(&self) -> Self {
         Problem {
             start: StartPolicy::Report,
@@ -295,8 +295,9 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// The same, with bodies let go that begin at a gap beyond the margin: what parts or slides keeps
-    /// more than half of it. Only where there is no gap to speak of, pairs of pieces are let go.
+    /// Returns the problem with bodies let go that begin at a gap beyond the margin: pairs that
+    /// part or slide keep more than half of it. Only if there is no gap worth the name, pairs of
+    /// pieces are let go.
     pub(crate) fn leaving(&self, gap: f64) -> Self {
         let least = tolerance::least_tolerance(self.rounding);
         let (tolerance, start) = match 0.5 * gap > least {
@@ -310,17 +311,17 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// The distance that is kept at all times by bodies that are found free, when no gap of nodes was
-    /// proven to less than `proven`.
+    /// Returns the distance that free bodies keep at all times; `proven` is the least gap proven
+    /// for nodes.
     pub(crate) fn proven_gap(&self, proven: f64) -> f64 {
         match self.start {
             StartPolicy::Report => greater(lesser(self.gap(), proven), self.margin),
-            // Pieces that rest on each other keep none.
+            // Pieces that rest on each other keep no gap.
             StartPolicy::Leave => 0.0,
         }
     }
 
-    /// A clock as a time of the motions, rounded so that it is never late.
+    /// Returns a clock as a time of the motions, rounded so that it is never late.
     pub(crate) fn time(&self, s: f64) -> f64 {
         if s >= 1.0 {
             self.duration
@@ -329,24 +330,25 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// A point in the world's coordinates, in the problem's.
+    /// Converts a point from the world's coordinates to the problem's.
     pub(crate) fn local(&self, point: DVec3) -> DVec3 {
         point - self.origin
     }
 
-    /// A point in the problem's coordinates, in the world's.
+    /// Converts a point from the problem's coordinates to the world's.
     pub(crate) fn world(&self, point: DVec3) -> DVec3 {
         point + self.origin
     }
 }
 
 impl Side<'_> {
-    /// The number of a piece in the body that was given.
+    /// Returns the number of a piece in the given body.
     pub(crate) fn number(&self, piece: u32) -> u32 {
         if self.given.is_some() { 0 } else { piece }
     }
 
-    /// The largest coordinate of the body, and that of its centre, in the body's frame.
+    /// Returns the sum of the largest coordinates of the body and of its centre, in the body's
+    /// frame.
     fn span(&self) -> f64 {
         self.body.tree().span() + 2.0 * length(self.path.centre)
     }
@@ -401,7 +403,7 @@ fn check_coordinates(what: &'static str, point: DVec3) -> Result<(), InputError>
     )
 }
 
-/// `allowed` must have been computed so that NaN makes it false.
+/// `allowed` must be computed so that NaN makes it false.
 fn check(
     what: &'static str,
     value: f64,

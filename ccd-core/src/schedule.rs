@@ -1,9 +1,9 @@
 //! Schedules: the order in which the clocks of pairs are advanced.
 //!
-//! A pair is of two nodes (`nodes/`: eight at once, in f32) or of two pieces (`pieces/`: one at a time,
-//! in f64). A schedule keeps the pairs that wait (`queue.rs`, `fast/front.rs`) and the facts that are
-//! proven (`proven.rs`). Bodies in contact at the start are measured by `start.rs`; `answer.rs` runs the
-//! schedule as the policy for the start demands.
+//! A pair consists of two nodes (`nodes/`: eight at once, in f32) or of two pieces (`pieces/`: one
+//! at a time, in f64). A schedule keeps the waiting pairs (`queue.rs`, `fast/front.rs`) and the
+//! proven facts (`proven.rs`). `start.rs` measures bodies in contact at the start; `answer.rs` runs
+//! the schedule as the policy for the start demands.
 
 mod answer;
 mod best_first;

@@ -1,8 +1,9 @@
-//! Every numeric tolerance of the engine: its unit, why it is what it is, what breaks without it.
+//! Every numeric tolerance of the engine: its unit, the reason for its value, and what breaks
+//! without it.
 //!
-//! `u` stands for half a unit in the last place of 1: [`U64`] in f64, [`U32`] in f32. An operation
-//! rounds with a relative error of at most `u`. The counts below take every operation's error at
-//! its worst and add them up; the test suite samples each allowance against exact references.
+//! `u` is half a unit in the last place of 1: [`U64`] in f64, [`U32`] in f32. An operation rounds
+//! with a relative error of at most `u`. The counts below add up the worst error of every
+//! operation. The test suite samples each allowance against exact references.
 
 use glam::DVec3;
 
@@ -12,71 +13,76 @@ pub const U64: f64 = f64::EPSILON / 2.0;
 /// Relative rounding error of one operation in f32.
 pub const U32: f32 = f32::EPSILON / 2.0;
 
-/// The number of looks at points of pieces that cost as much as an iteration over a pair of nodes. A
-/// look is a projection onto an axis, or a track and its rate there.
+/// The number of looks at points of pieces that cost as much as an iteration over a pair of nodes.
+/// A look projects a point onto an axis, or evaluates its track and rate.
 pub const LOOKS_PER_VISIT: u64 = 128;
 
-/// The number of steps that an oracle is taken to need that does not count them; in each it looks at
-/// every point of two pieces. Searches take 3 to 10 steps.
+/// The assumed number of steps of an oracle that does not count them. Each step looks at every
+/// point of two pieces. Searches take 3 to 10 steps.
 pub const USUAL_STEPS: u64 = 8;
 
-/// The [work](crate::Stats::work) between two looks at the clock, where there is a deadline. A look
-/// takes about 25 ns.
+/// The [work](crate::Stats::work) between two readings of the clock, if there is a deadline. A
+/// reading takes about 25 ns.
 pub const WORK_BETWEEN_LOOKS: u64 = 256;
 
-/// The most that a pair which is not looked at may be nearer than the nearest pair of pieces,
-/// relative to its distance. Bounds of nodes are rounded by this much and less ([`CLOCK_F32`]); one
-/// is enough of pairs that share a corner, or lie in two planes.
+/// The largest share of its distance by which a skipped pair may be nearer than the nearest
+/// measured pair of pieces. Bounds of nodes are rounded by at most this ([`CLOCK_F32`]). It makes
+/// one pair enough where many share a corner, or lie in two planes.
 pub const NEAREST_SHARE: f64 = 1.0 / 65536.0;
 
-/// Squares of lengths within this have a relative error of a few `u`: a component whose own square underflows, below
-/// 2.2e-308, is no part of them.
+/// Squares of lengths in this range have a relative error of a few `u`. A component whose own
+/// square underflows, below 2.2e-308, is negligible there.
 pub const SQUARES: std::ops::RangeInclusive<f64> = 1e-200..=1e200;
 
-/// The factor that vectors outside of [`SQUARES`] are multiplied with, or divided by: 2⁷⁰⁰ = 5.3e210.
+/// The factor that scales vectors outside of [`SQUARES`], up or down: 2⁷⁰⁰ = 5.3e210.
 ///
-/// The least number, 4.9e-324, comes to 2.6e-113, whose square is right, and 1e-100 to 5.3e110; the
-/// greatest, 1.8e308, comes down to 3.4e97, and 1e100 to 1.9e-111.
+/// It takes the least number, 4.9e-324, to 2.6e-113, whose square is exact enough, and 1e-100 to
+/// 5.3e110. Its inverse takes the greatest, 1.8e308, to 3.4e97, and 1e100 to 1.9e-111.
 pub const SCALE: f64 = f64::from_bits((1023 + 700) << 52);
 
-/// Bounds the error of any support gap or witness distance that is computed in f64, beside the exact one
-/// of the bodies as they were posed: points, poses, centres and velocities, or end poses, as given.
+/// Bounds the difference between a support gap or witness distance computed in f64 and the exact
+/// one of the bodies as posed: the given points, poses, centres and velocities, or end poses.
 ///
-/// In units of `u`; matrices by how far they take a unit vector from where it belongs. A point `x` of a
-/// body is placed at `R(s)(x − c) + C(s)`, with `R = cos·A + sin·B + C`:
-/// - the given quaternion is normalised to 2 in direction, which turns by 4, and to 4.5 in length, which
-///   scales by up to 18; its matrix is evaluated to 9;
-/// - the axis of rotation is off by 4.5, so that `C` is off by 15, `B` by 8, and their share in `R` by 31;
-///   sine and cosine add 3, the angle `ω s` adds `5ω`, the four operations of an entry 6;
-/// - `R x`, `R c` and the sums add 7 of `|x|` and of `|c|` each, and 6 of the centre's way;
-/// - into A's frame leads another rotation, which is off the inverse of A's by 67 at most, not counting
-///   what only turns A; its products and sums add 12, of the way and of both bodies;
-/// - a support value `n·x` with a rounded unit axis adds 4 of `|x|`, and so does a distance; heights along
-///   a fixed axis, whose differences alone are used, add 16; a support point that edges are climbed to
-///   may be lower than the farthest one by two heights, `2 · 4 |n|₁ |x|`, which is 14 ([`HEIGHT_F64`]).
+/// All numbers are in units of `u`. The error of a matrix is the largest displacement of a unit
+/// vector. A point `x` of a body is placed at `R(s)(x − c) + C(s)`, with `R = cos·A + sin·B + C`:
+/// - the given quaternion is normalised with an error of 2 in direction, which turns by 4, and of
+///   4.5 in length, which scales by up to 18; its matrix is evaluated with an error of 9;
+/// - the axis of rotation is off by 4.5, so that `C` is off by 15, `B` by 8, and their share in `R`
+///   by 31; sine and cosine add 3, the angle `ω s` adds `5ω`, the four operations of an entry add
+///   6;
+/// - `R x`, `R c` and the sums add 7 of `|x|` and of `|c|` each, and 6 of the centre's
+///   displacement;
+/// - another rotation leads into A's frame; it differs from the inverse of A's by at most 67, apart
+///   from an error that only turns A; its products and sums add 12, of the displacement and of both
+///   bodies;
+/// - a support value `n·x` with a rounded unit axis adds 4 of `|x|`, and so does a distance;
+///   heights along a fixed axis, of which only differences are used, add 16; a support point found
+///   by climbing edges may be lower than the farthest one by two heights, `2 · 4 |n|₁ |x|`, which
+///   is 14 ([`HEIGHT_F64`]).
 ///
-/// Velocities may have been derived from poses at both ends:
-/// - the travel `(T₁ − T₀) + (R₁ − R₀) c` adds 4 of its length, and 46 of `|c|`;
-/// - the turn adds 12 of a quaternion, which are 45 as an angle, and 9 of its size, which is at most π: 73.
+/// Velocities may be derived from poses at both ends:
+/// - the displacement `(T₁ − T₀) + (R₁ − R₀) c` adds 4 of its length, and 46 of `|c|`;
+/// - the turn adds 12 of a quaternion, which is 45 as an angle, and 9 of its size, which is at most
+///   π: 73.
 ///
-/// That is at most `300 + 5ω` of a body's span, which counts `|c|` twice, and 96 of the way between the
-/// bodies. Coordinates are so small in the end that their squares underflow: a length is then off by 3e-162,
-/// rates squared may take that times 1e12, and 1e-130 is far above. Without all that a touching pair could
-/// be certified apart.
+/// The sum is at most `300 + 5ω` of a body's span, which counts `|c|` twice, and 96 of the distance
+/// between the bodies. The constant term covers coordinates so small that their squares underflow:
+/// a length is then off by 3e-162, squared rates may multiply that by 1e12, and 1e-130 is far
+/// above. Without this allowance a touching pair could be certified apart.
 pub fn distance_rounding(spans: [f64; 2], turns: [f64; 2], way: f64) -> f64 {
     let body = |k: usize| (300.0 + 5.0 * turns[k]) * spans[k];
     U64 * (body(0) + body(1) + 96.0 * way) + LEAST_ROUNDING
 }
 
-/// The error of lengths because squares underflow, in the scene's unit of length: see
+/// The error of lengths due to squares that underflow, in the scene's unit of length: see
 /// [`distance_rounding`].
 pub const LEAST_ROUNDING: f64 = 1e-130;
 
 /// The least tolerance that can be certified when distances are off by up to `rounding`.
 ///
 /// A pair is in contact when its upper bound is within the tolerance, and advances while its lower
-/// bound exceeds half of it. Between the two lie `2 × rounding` for the two bounds, which leaves
-/// `tolerance/2 − 2 × rounding` to advance by: twice the rounding, here.
+/// bound exceeds half of it. The two bounds differ by `2 × rounding`, which leaves `tolerance/2 − 2
+/// × rounding` to advance by. Here that is twice the rounding.
 pub fn least_tolerance(rounding: f64) -> f64 {
     8.0 * rounding
 }
@@ -93,24 +99,26 @@ pub const WAY_F32: f32 = 12.0 * U32;
 /// node's.
 ///
 /// A box's half sizes are measured along axes rounded to f32, which are orthogonal to 2u (3.5u of
-/// its radius); three products with three half sizes, each of them projected by three
-/// operations, add `√3 (3 + 3)u`; the other node's axes are rotated by a matrix rounded once, with
-/// five operations, which adds `√3 · 7u`. Together with the way to a child (6u): 20u of the split
-/// side, 28u of the other one; 32u are taken. Triangles come to less.
+/// its radius). Three products with three half sizes, each projected by three operations, add `√3
+/// (3 + 3)u`. The other node's axes are rotated by a matrix rounded once, with five operations,
+/// which adds `√3 · 7u`. Together with the vector to a child (6u) that is 20u of the split side,
+/// 28u of the other one; 32u are taken. Triangles need less.
 pub const REACH_F32: f32 = 32.0 * U32;
 
 /// Relative allowance on the largest speed in a rate of approach that is computed in f32.
 ///
 /// Velocities, arms and spins are rounded once (1u each), crossed (3u), rotated with the box (9u)
-/// and projected (4u), so that a rate is off by at most 32u = 1.9e-6 of the largest speed.
+/// and projected (4u). A rate is therefore off by at most 32u = 1.9e-6 of the largest speed.
 pub const RATE_F32: f32 = 2e-6;
 
-/// The share of the distances, from the split group's origin, of a node and of its body's centre of
-/// rotation that counts as an arm when the largest speed is taken: the arm is the difference of the
-/// two places, which are rounded by 1u each and subtracted. That is 4u of the 33u of [`RATE_F32`].
+/// The share of two distances from the split group's origin that is added to an arm when the
+/// largest speed is taken: a node's, and that of its body's centre of rotation. The arm is the
+/// difference of these two positions, each rounded by 1u. The share is 4u of the 33u of
+/// [`RATE_F32`].
 pub const PLACES_F32: f32 = 1.0 / 8.0;
 
-/// Factor on a free time that is computed in f32 from a gap and a rate that are safe already.
+/// Factor on a free time that is computed in f32 from a gap and a rate that are already
+/// conservative.
 ///
 /// Square, product, sum, root, sum and quotient: at most 8u; 32u are taken.
 pub const CLOCK_F32: f32 = 1.0 - 32.0 * U32;
@@ -120,85 +128,86 @@ pub const CLOCK_F32: f32 = 1.0 - 32.0 * U32;
 pub const BEND_F32: f32 = 1.0 + 64.0 * U32;
 
 /// Absolute allowance on `|n × ω|`, in units of `|ω|`: both vectors are rounded (1u each) and
-/// crossed (3u), which is all there is when they are parallel.
+/// crossed (3u). For parallel vectors the computed product is nothing but this error.
 pub const ACROSS_F32: f32 = 8.0 * U32;
 
-/// Vectors shorter than this are no axes in f32. Above it squares that underflow, each by at most 7e-46,
-/// are less than `u` of their sum; below 1e-22 they would leave a vector that is off by a fifth. Nothing
-/// is lost: ways that are shorter lead across gaps below [`LEAST_GAP_F32`].
+/// Vectors shorter than this are not used as axes in f32. Above it, squares that underflow, each by
+/// at most 7e-46, are less than `u` of their sum; below 1e-22 they would leave a vector that is off
+/// by a fifth. Nothing is lost: shorter vectors cross gaps below [`LEAST_GAP_F32`].
 pub const LEAST_AXIS_F32: f32 = 1e-18;
 
-/// Gaps below this are no gaps in f32, in the scene's unit of length. Above it, a bending whose
+/// Gaps below this count as closed in f32, in the scene's unit of length. Above it, a bending whose
 /// product with the gap underflows (1.2e-38) takes less than 1e-8 of the gap in the whole duration.
 pub const LEAST_GAP_F32: f32 = 1e-15;
 
 /// Keeps a division by a path's bending finite when it does not bend, in units of length over time
-/// squared; it only ever makes a path bend more.
+/// squared. It can only increase the bending.
 pub const LEAST_BEND_F32: f32 = 1e-30;
 
-/// Relative allowance on speeds and free times computed in f64: the axis is off by 2u, the arm by 5u,
-/// products and sums add 7u; quotient and root of a free time come to less.
+/// Relative allowance on speeds and free times computed in f64: the axis is off by 2u, the arm by
+/// 5u, products and sums add 7u. Quotient and root of a free time need less.
 pub const RATE_F64: f64 = 16.0 * U64;
 
-/// Relative allowance on heights and rates along an axis that turns with a body, computed in f64 for
-/// points of the other body, beside what their places are off by: of the farthest distance from the
-/// turning body's centre, and of the largest speed past it. `turns` is the sum of both bodies' turns.
+/// Allowance on heights and rates along an axis that turns with a body, computed in f64 for points
+/// of the other body, in addition to the error of their positions. It is relative to the farthest
+/// distance from the turning body's centre, and to the largest speed past it. `turns` is the sum of
+/// both bodies' turns.
 ///
 /// In units of `u`: an angle is off by `4ω` (its rate by 3, a product adds 1), sine and cosine by 4
-/// more, and the axis that they turn to 8 more (3 terms, and 2 of its own). It is turned with its body
-/// and back with the other one, `24 + 4 turns`, and into that one's frame, 4; the way takes 6, and the
-/// products with the axis and their sum 5. Differences of two heights take twice as much, at most
-/// `78 + 8 turns`; `96 + 8 turns` is taken.
+/// more, and the turned axis by 8 more (3 terms, and 2 of its own). Turning it with its body and
+/// back with the other one adds `24 + 4 turns`, the change to that body's frame 4, the displacement
+/// 6, and the products with the axis and their sum 5. Differences of two heights take twice as
+/// much, at most `78 + 8 turns`; `96 + 8 turns` is taken.
 pub fn attached_rounding(turns: f64) -> f64 {
     U64 * (96.0 + 8.0 * turns)
 }
 
-/// The share of a gap that the turning of one of the pieces about a plane that stands still has to
-/// use up before a plane that turns with it is tried. Measured: pieces as small as those of common
-/// meshes stay far below, large ones that turn past small ones are far above.
+/// The share of a gap that a piece's turning past a fixed plane has to use up before a plane that
+/// turns with the piece is tried. Measured: pieces as small as those of common meshes stay far
+/// below, large ones that turn past small ones are far above.
 pub const TURNED_SHARE: f64 = 0.5;
 
 /// The number of rounds in which an axis is followed along the exact path of the pieces before the
-/// oracle is asked again. Each round is a Newton step that cannot overstep, so that few suffice.
+/// oracle is asked again. Each round is a Newton step that cannot overstep, so a few suffice.
 pub const AXIS_ROUNDS: usize = 16;
 
-/// The least growth of a free time, relative to what is there, that is worth another Newton step.
+/// The least relative growth of a free time that is worth another Newton step.
 pub const WORTHWHILE: f64 = 1.0 / 64.0;
 
-/// The distance, in units of the distance's rounding, that a pair which began in contact may come
-/// beyond its distance at the start before it counts as approaching. Four cover the rounding of both
-/// distances, and what a rate of zero picks up by rounding over the whole duration.
+/// How far beyond its distance at the start a pair that began in contact may come before it counts
+/// as approaching, in units of the distance's rounding. Four cover the rounding of both distances,
+/// and the rounding that a rate of zero accumulates over the whole duration.
 pub const RESTING: f64 = 4.0;
 
-/// The part of what [`RESTING`] grants that has to be left, in units of the distance's rounding,
-/// before a pair that rests is followed on. Less is what heights were rounded to: each look would
-/// find some of it again, and a pair that approaches slowly would be looked at a million times before
-/// it is in contact.
+/// The part of [`RESTING`] that must be left for a resting pair to be followed further, in units of
+/// the distance's rounding. Below it is the rounding of heights: each look would find some of it
+/// again, and a slowly approaching pair would be looked at a million times before it is in contact.
 pub const RESTED: f64 = 1.0 / 16.0;
 
-/// The distance of two nodes, in units of their radii, from which on a second look at them is worth
-/// more than a split. Measured: 0.5 suits meshes on meshes as well as meshes on a thin board; less
-/// makes large nodes creep past each other, more splits what only passes.
+/// The distance of two nodes, in units of their radii, beyond which a second look at them is worth
+/// more than a split. Measured: 0.5 suits meshes on meshes as well as meshes on a thin board. A
+/// smaller value makes large nodes creep past each other, a larger one splits nodes that only pass.
 pub const LOOK_AGAIN: f32 = 0.5;
 
-/// The share of a node's radius that counts as thickness along any axis when the thicker one of two
-/// nodes is chosen to be split: flat nodes that are seen edge-on are to be split as well.
+/// The share of a node's radius that counts as thickness along any axis when the thicker of two
+/// nodes is chosen to be split. It lets flat nodes that are seen edge-on be split as well.
 pub const THICKNESS: f32 = 0.1;
 
-/// The longest time for which a plane that turns with a body is followed at once, in units of the
-/// duration; its bound has to assume how far things get in that time.
+/// The longest step for which a plane that turns with a body is followed, in units of the duration.
+/// Its bound has to assume how far the bodies get in that time.
 pub const ATTACHED_TIME: f32 = 1.0 / 16.0;
 
-/// From which ratio of the nodes' radii on a plane that turns with the larger one is tried.
+/// The ratio of the nodes' radii from which on a plane that turns with the larger one is tried.
 pub const MUCH_LARGER: f32 = 3.0;
 
-/// The part of a large turning node, in units of its radius, that has to sweep past a small one while
-/// it is certain to stay apart for a second look to be worth more than a split: what is split off
-/// would be swept past all the same. Measured on discs and on soups of large triangles.
+/// The part of a large turning node, in units of its radius, that must sweep past a small one
+/// during its certified time for a second look to be worth more than a split: its children would be
+/// swept past all the same. Measured on discs and on soups of large triangles.
 pub const SWEPT: f32 = 1.0 / 128.0;
 
-/// Bounds the rounding of the determinant of three vectors, relative to the product of their 1-norms,
-/// where two of them, or all, are differences of points; and that of a product of two, relative to theirs.
+/// Bounds the rounding of the determinant of three vectors, at least two of them differences of
+/// points, relative to the product of their 1-norms. Also bounds that of a product of two vectors,
+/// relative to theirs.
 ///
 /// Each difference is rounded (1u), the products of three components take 2 more, the six of them are
 /// summed in 3: at most 8u; 16u are taken.
@@ -228,51 +237,51 @@ pub const NODE_GAP: f64 = 7.0 / 8.0;
 /// and a pair that inherits its parent's clock is looked at before all others.
 pub const CLOSED_GAP: f64 = 1.0 / 16.0;
 
-/// The weights that a convex combination may have before they are divided by their sum: no product
-/// of one with a coordinate, and no sum of four, overflows or underflows.
+/// The range of weights of a convex combination before they are divided by their sum: no product of
+/// one with a coordinate, and no sum of four, overflows or underflows.
 pub const WEIGHTS: std::ops::RangeInclusive<f64> = 1e-100..=1e100;
 
-/// The most corners that are added to a polytope within the difference of two pieces before it is given
-/// up to decide whether it holds the origin. Each brings the least depth found nearer to the true one;
-/// of pieces of a thousand corners that begin to overlap a few tens were seen to be enough.
+/// The most corners that are added to a polytope within the difference of two pieces before the
+/// search for the origin in it is given up. Each corner improves the least depth found. A few tens
+/// were enough for pieces of a thousand corners that begin to overlap.
 pub const MAX_CORNERS: usize = 256;
 
-/// The distance of a point from a surface, in units of the rounding of distances, from which on it is
-/// known to be inside or outside: its place is rounded, and so is the surface's.
+/// The least distance of a point from a surface, in units of the rounding of distances, at which it
+/// is known to be inside or outside: the positions of both are rounded.
 pub const INSIDE: f64 = 4.0;
 
-/// The distance from an edge on a flat piece at which points of the piece are looked at, in units of
-/// the length of what lies on it: far above rounding, below the distance to what else is there.
+/// The distance from an edge on a flat piece at which points of the piece are examined, in units of
+/// the edge's part on it: far above rounding, below the distance to other features.
 pub const BESIDE_EDGE: f64 = 1e-3;
 
-/// The depths below a flat piece at which a point of its solid is looked for, one after the other, in
-/// units of the piece's size: first far above what distinguishes it from the surface, then within
-/// walls that are thinner.
+/// The depths below a flat piece at which a point of its solid is sought, in this order, in units
+/// of the piece's size. The first is far above what separates it from the surface; the others reach
+/// inside thinner walls.
 pub const BELOW_SURFACE: [f64; 4] = [1e-4, 1e-6, 1e-9, 1e-12];
 
 /// Bounds the rounding of a height `n·x`, relative to `|n|₁` and the largest coordinate: three
 /// products and two sums, at most 3u; 4u are taken.
 pub const HEIGHT_F64: f64 = 4.0 * U64;
 
-/// The ratio of the distance of two pairs of the front of a descent to that of the bodies from which
-/// on the pair that covers both is tried in their place, and by which the bodies have to have come
-/// nearer for it to be tried again. It saves measuring both of them, and costs measuring one more.
+/// A descent tries to join two pairs of its front when their distance exceeds that of the bodies by
+/// this factor. It tries again once the bodies' distance has shrunk by the same factor. Joining
+/// saves measuring both pairs, and costs measuring one more.
 pub const JOIN_BEYOND: f64 = 2.0;
 
-/// Up to this many points of a piece are all looked at for the farthest one; of more, edges are
-/// climbed. Measured on hulls of random points of a sphere, in directions at random, by
-/// `cargo bench -p ccd-bench --bench support`: 46 ns against 40 ns for 16 corners, 56 against 48 for
-/// 32, 90 against 51 for 64, 255 against 50 for 256, 4,400 against 116 for 4,096; from the last
-/// corner, climbing takes 30 to 47 ns throughout. Up to 32 a table is not worth its memory.
+/// Up to this many points of a piece are scanned for the farthest one; for more, edges are climbed.
+/// Measured on hulls of random points of a sphere, in random directions, by `cargo bench -p
+/// ccd-bench --bench support`: 46 ns against 40 ns for 16 corners, 56 against 48 for 32, 90 against
+/// 51 for 64, 255 against 50 for 256, 4,400 against 116 for 4,096. Climbing from the last corner
+/// takes 30 to 47 ns throughout. Up to 32 a table is not worth its memory.
 pub const CLIMBED_POINTS: usize = 32;
 
-/// Allowance on how far a disc about points reaches, computed in f32 in units of the piece's size,
+/// Allowance on the reach of a disc about points, computed in f32 in units of the piece's size,
 /// along a direction whose largest component is 1.
 ///
-/// In units of `u = 2⁻²⁴`, lengths of points and of the direction being at most √3: the direction is
-/// rounded (3u); the centre projected by five operations (12u); radius and thickness are multiplied
-/// with lengths of at most √3 (6u and 12u), the normal is not exactly perpendicular to what is across
-/// it (12u), and the sums add 14u: 59u; 96u are taken.
+/// In units of `u = 2⁻²⁴`, with lengths of points and of the direction at most √3: the direction is
+/// rounded (3u); the centre is projected by five operations (12u); radius and thickness are
+/// multiplied by lengths of at most √3 (6u and 12u); the normal is not exactly perpendicular to the
+/// part across it (12u); the sums add 14u. That is 59u; 96u are taken.
 pub const DISC_F32: f32 = 96.0 * U32;
 
 /// Allowance on the square of a direction's part across a disc's normal, relative to the direction's
@@ -280,37 +289,39 @@ pub const DISC_F32: f32 = 96.0 * U32;
 /// the difference (3u) come to 45u; 64u are taken.
 pub const DISC_TILT_F32: f32 = 64.0 * U32;
 
-/// By how much the lowest of many points along an axis may be missed while their body turns, in units
-/// of their farthest distances from the centre of rotation and from the body's origin.
+/// The error of the lowest height of many points along an axis while their body turns, in units of
+/// their farthest distances from the centre of rotation and from the body's origin.
 ///
-/// The axis as the body sees it is off by the direction of the spin (2u), two products with it (6u),
-/// sine and cosine (4u), their products and sums (4u), and the rotation into the body's frame (7u):
-/// 23u, which two points see with opposite signs: 46u. The search itself adds the rounding of two
+/// The axis in the body's frame is off by the direction of the spin (2u), two products with it
+/// (6u), sine and cosine (4u), their products and sums (4u), and the rotation into that frame (7u):
+/// 23u. Two points see it with opposite signs: 46u. The search itself adds the rounding of two
 /// heights, at most 14u ([`HEIGHT_F64`]): 60u; 64u are taken.
 pub const TURNED_SUPPORT: f64 = 64.0 * U64;
 
-/// The share of its box that a convex body has to fill to count as one. Measured: a board of 8 corners
-/// under 38,000 triangles takes 29 visits as one box and 41 as twelve triangles; a tetrahedron, a third
-/// of its box, against 26,000 takes 7,500 as one piece and 130 as four triangles.
+/// The share of its box that a convex body has to fill to count as one piece. Measured: a board of
+/// 8 corners under 38,000 triangles takes 29 visits as one box and 41 as twelve triangles; a
+/// tetrahedron, a third of its box, against 26,000 triangles takes 7,500 as one piece and 130 as
+/// four triangles.
 pub const BOX_SHARE: f64 = 0.9;
 
-/// The number of corners, level up to rounding, that are gone through one by one before all corners
-/// of the piece are looked at.
+/// The number of corners, level up to rounding, that are visited one by one before all corners of
+/// the piece are scanned.
 pub const PLATEAU_POINTS: usize = 32;
 
-/// A witness lies on a facet when it is this near to it, in multiples of its piece's size; decides
-/// which name a contact gets, and nothing else. Witnesses are combinations of corners, off by a
-/// few [`U64`] of that size, times what a flat piece makes of them.
+/// The distance from a facet, in units of its piece's size, within which a witness counts as on it.
+/// It decides only which feature a contact names. Witnesses are combinations of corners, off by a
+/// few [`U64`] of that size, which a flat piece magnifies.
 pub const ON_FACET: f64 = 1e-9;
 
-/// Bounds the error of the height `n·x − n·a`, with `n = u × v`, of a point over a plane, when all
-/// three are rounded differences of points and no coordinate of `x` or `a` exceeds `reach`.
+/// Bounds the error of the height `n·x − n·a`, with `n = u × v`, of a point above a plane. All
+/// three vectors are rounded differences of points, and no coordinate of `x` or `a` exceeds
+/// `reach`.
 ///
 /// With `u` half a unit in the last place and `m` the product of the largest coordinates of `u` and
 /// `v`: a component of `n` is at most `2m` and off by `8u m`, which a height of two terms of three
-/// products sees with `2 · 3 · 8u m reach`; coordinates are off by `u reach` (`2 · 3 · 2u m reach`);
-/// two dot products and their difference round by `4u` of `2 · 3 · 2m reach`. That is 108u; 128u are
-/// taken, and what may underflow.
+/// products multiplies to `2 · 3 · 8u m reach`; coordinates are off by `u reach` (`2 · 3 · 2u m
+/// reach`); two dot products and their difference round by `4u` of `2 · 3 · 2m reach`. That is
+/// 108u; 128u are taken, plus an allowance for underflow.
 pub fn height_rounding(sides: [DVec3; 2], reach: f64) -> f64 {
     let [u, v] = sides.map(|side| side.abs().max_element());
     128.0 * U64 * u * v * reach + f64::MIN_POSITIVE

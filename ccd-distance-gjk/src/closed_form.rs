@@ -14,14 +14,14 @@ use nearest::{Corners, Nearest};
 
 /// The distance of two points, segments or triangles in closed form, degenerate ones included.
 ///
-/// Edges against edges and corners against faces, all at once; whether the pieces intersect is
-/// asked only when the axis found does not separate them. Nothing is kept between calls.
+/// Compares edges with edges and corners with faces, all at once. Whether the pieces intersect is
+/// tested only when the axis found does not separate them. Nothing is kept between calls.
 ///
 /// # Guarantee
-/// Of separated pieces of size s, both moved near the origin, the witnesses are within about
-/// 1e-15 s of the nearest pair's distance, and the axis certifies at least half of it down to
-/// distances of about 1e-15 s. Needles thinner than 1e-7 s may lose up to their width
-/// when the distance is no larger than that.
+/// For separated pieces of size s, both moved near the origin, the witnesses are within about 1e-15
+/// s of the nearest pair's distance. The axis certifies at least half of it down to distances of
+/// about 1e-15 s. Needles thinner than 1e-7 s may lose up to their width when the distance is no
+/// larger than that.
 ///
 /// # Errors
 /// [`GiveUp::TooManyPoints`] for pieces that do not have one, two or three points.
@@ -67,8 +67,8 @@ impl DistanceOracle for ClosedForm {
     }
 }
 
-/// Returns the best axis of all for pieces that nearly touch or intersect, and a common point if there
-/// is one.
+/// Returns the best axis of all for pieces that nearly touch or intersect, and a common point if
+/// there is one.
 #[cold]
 #[inline(never)]
 fn examine(p: &Corners, q: &Corners, near: Nearest) -> (DVec3, Nearest) {
@@ -81,7 +81,7 @@ fn examine(p: &Corners, q: &Corners, near: Nearest) -> (DVec3, Nearest) {
 }
 
 /// Moves both pieces to A's axes, with the origin in A's first point: rounding is then that of the
-/// pieces' size wherever they lie.
+/// pieces' size, not of their position.
 #[inline]
 fn local(pair: &PiecePair<'_>) -> Option<(Corners, Corners)> {
     let (a, b) = (corners(&pair.a)?, corners(&pair.b)?);

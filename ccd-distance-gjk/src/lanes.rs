@@ -38,7 +38,7 @@ impl Lanes3 {
         DVec3::new(at(self.x), at(self.y), at(self.z))
     }
 
-    /// `self − other`.
+    /// Returns `self − other`.
     #[inline(always)]
     pub(crate) fn minus(self, other: Self) -> Self {
         Lanes3 {
@@ -48,7 +48,7 @@ impl Lanes3 {
         }
     }
 
-    /// `self + t · direction`.
+    /// Returns `self + t · direction`.
     #[inline(always)]
     pub(crate) fn along(self, t: f64x4, direction: Self) -> Self {
         Lanes3 {
@@ -58,7 +58,7 @@ impl Lanes3 {
         }
     }
 
-    /// `self − t · direction`.
+    /// Returns `self − t · direction`.
     #[inline(always)]
     pub(crate) fn back(self, t: f64x4, direction: Self) -> Self {
         Lanes3 {
@@ -85,7 +85,8 @@ impl Lanes3 {
         }
     }
 
-    /// The part of each vector that is perpendicular to `direction`; itself where that is zero.
+    /// Returns the part of each vector that is perpendicular to `direction`; the vector itself if
+    /// that is zero.
     #[inline(always)]
     pub(crate) fn perpendicular_to(self, direction: Self) -> Self {
         let t = self.dot(direction) * reciprocal(direction.dot(direction));
@@ -93,7 +94,7 @@ impl Lanes3 {
     }
 }
 
-/// `1 / x`, or 0 where x is not positive: projections onto nothing stay where they are.
+/// Returns `1 / x`, or 0 where x is not positive: projections onto zero vectors are zero.
 #[inline(always)]
 pub(crate) fn reciprocal(x: f64x4) -> f64x4 {
     x.simd_gt(f64x4::ZERO).select(f64x4::ONE / x, f64x4::ZERO)

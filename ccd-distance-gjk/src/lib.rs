@@ -31,18 +31,19 @@
 //!
 //! # Guarantee
 //! All backends promise, for pieces whose size and distance are together s:
-//! - Separated pieces: the witnesses' distance is right to 1e-13 s. Beside needles thinner than 1e-7 s,
-//!   and nearer than that, it is right to their width. The axis certifies that distance to 1e-12 s where
-//!   it exceeds 1e-3 s, and at least half of it down to 1e-11 s: where the witnesses' difference is
-//!   mostly rounding, the axis is made of the features that hold them.
-//! - Intersecting pieces: both witnesses are the same point, to 1e-12 s. For pieces pressed flat, down to
-//!   1e-12 of their size, they are to 1e-6 s.
+//! - Separated pieces: the error of the witnesses' distance is at most 1e-13 s. Next to needles
+//!   thinner than 1e-7 s, and nearer than that, it is at most their width. The axis certifies that
+//!   distance to 1e-12 s if it exceeds 1e-3 s, and at least half of it down to 1e-11 s. If the
+//!   witnesses' difference is mostly rounding, the axis is computed from the features that contain
+//!   them.
+//! - Intersecting pieces: both witnesses are the same point, to 1e-12 s. For pieces flattened down
+//!   to 1e-12 of their size, they are the same to 1e-6 s.
 //! - Touching pieces: their insides are apart along the axis, to 1e-14 s.
-//! - The size s is that of the pieces, not of their coordinates, which only bring the rounding they
-//!   were given with.
+//! - The size s is that of the pieces, not of their coordinates, which only have their input
+//!   rounding.
 //! - Every input ends after a bounded number of steps, and the same input gives the same bits.
 //!
-//! That holds for sizes and distances from 1e-45 to 1e15; smaller ones run into underflow.
+//! This holds for sizes and distances from 1e-45 to 1e15; smaller ones underflow.
 //!
 //! # How the files follow the method
 //!
@@ -77,10 +78,10 @@ mod tolerance;
 pub use closed_form::ClosedForm;
 pub use gjk::{Cache, Gjk};
 
-/// The closed form where there is one, GJK elsewhere.
+/// The closed form for up to three points, GJK otherwise.
 pub type Direct = ccd_core::OrElse<ClosedForm, Gjk>;
 
-/// The code that the README shows.
+/// The code in the README.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;

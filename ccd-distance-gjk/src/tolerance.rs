@@ -1,25 +1,26 @@
-//! Every numeric tolerance of this crate: its unit, why it is what it is, what breaks without it.
+//! Every numeric tolerance of this crate: its unit, the reason for its value, and what breaks
+//! without it.
 
-/// The share of the witnesses' distance that an axis has to certify to be claimed unexamined.
+/// The share of the witnesses' distance that an axis has to certify to be claimed as it is.
 ///
-/// Witnesses of pieces of size s carry rounding of about u·s, so that their difference, of length d,
-/// is tilted by u·s/d, and loses u·s²/d of the support gap: a share u·(s/d)² of d. Above
-/// d = 1e-7 s that is less than 1/64 and the difference serves as the axis; below, the axis is
-/// made of the features instead. A larger share would examine axes that are good enough; without
-/// it, pieces closer than 1e-8 s appear to intersect.
+/// Witnesses of pieces of size s carry rounding of about u·s. Their difference, of length d, is
+/// therefore tilted by u·s/d, and loses u·s²/d of the support gap: a share u·(s/d)² of d. Above d =
+/// 1e-7 s that is less than 1/64 and the difference is a good axis. Below, the axis is computed
+/// from the features instead. A larger share would replace good axes; without it, pieces closer
+/// than 1e-8 s appear to intersect.
 pub(crate) const KEEP: f64 = 63.0 / 64.0;
 
-/// The share of the witnesses' distance below which an axis shows that the pieces may intersect: the
-/// nearest features' own axes keep [`KEEP`]; a half is far from it and from 0 alike.
+/// The share of the witnesses' distance below which an axis suggests that the pieces intersect. The
+/// nearest features' own axes keep [`KEEP`]; a half is far from it and from 0.
 pub(crate) const SUSPECT: f64 = 0.5;
 
 /// The cap of a GJK search's steps.
 ///
 /// Hulls take 3 to 10 steps, finely tessellated spheres up to about 30; beyond, a search only
-/// shuffles rounding. The claim at the cap is as true as any other, only less sharp.
+/// shuffles rounding. The claim at the cap is valid, only less sharp.
 pub(crate) const STEP_CAP: u32 = 64;
 
-/// The number of times that a GJK search goes on from the features' axis after its own axis turned out
+/// The number of times that a GJK search continues from the features' axis after its own axis was
 /// too poor.
 pub(crate) const ROUND_CAP: u32 = 4;
 
@@ -27,8 +28,9 @@ pub(crate) const ROUND_CAP: u32 = 4;
 /// distance.
 pub(crate) const CONVERGED_ULPS: f64 = 16.0;
 
-/// The difference of support gap and distance above which a stalled GJK search goes on, in units in the
-/// last place of the distance (1e-12 of it): less would spend steps on digits that nobody sees.
+/// The difference of support gap and distance above which a stalled GJK search continues, in units
+/// in the last place of the distance (1e-12 of it). A smaller value would spend steps on irrelevant
+/// digits.
 pub(crate) const CERTIFIED_ULPS: f64 = 4096.0;
 
 /// The distance at which GJK calls pieces touching, in units in the last place of the coordinates'
@@ -37,20 +39,21 @@ pub(crate) const CERTIFIED_ULPS: f64 = 4096.0;
 pub(crate) const TOUCHING_ULPS: f64 = 4.0;
 
 /// The rounding of a signed volume of a tetrahedron, in units in the last place of the product of
-/// its three edges' lengths: 3 for the cross product, 3 for the scalar product, 2 for the edges.
-/// A volume below it has no sign; without this a flat tetrahedron beside the origin may pass for
-/// one around it.
+/// its three edges' lengths: 3 for the cross product, 3 for the scalar product, 2 for the edges. A
+/// volume below it has no sign. Without it, a flat tetrahedron next to the origin may pass for one
+/// around it.
 pub(crate) const VOLUME_ULPS: f64 = 8.0;
 
-/// The number of vertices of the difference that are weighed against each other when an axis is made
-/// of features: three hold the nearest point, the others are those that an axis tried before ran into.
-/// Corners of meshes join 3 to 10 edges.
+/// The number of vertices of the difference that are combined when an axis is computed from
+/// features. Three contain the nearest point, the others are those that earlier axes met. Corners
+/// of meshes join 3 to 10 edges.
 pub(crate) const SHARPEN_CAP: usize = 12;
 
-/// The number of times that the weights of a point inside a tetrahedron are corrected by their error.
-/// A tetrahedron that is flat by a factor f loses f·u; two rounds make good what f = 1e10 lost.
+/// The number of times that the weights of a point inside a tetrahedron are corrected by their
+/// error. A tetrahedron that is flat by a factor f loses f·u; two rounds recover the loss for f =
+/// 1e10.
 pub(crate) const INSIDE_ROUNDS: u32 = 2;
 
-/// The number of points up to which all are looked at for the farthest one. A piece of more is asked,
-/// which need not look at all of them.
+/// The number of points up to which all are scanned for the farthest one. A piece with more is
+/// asked, which need not scan all of them.
 pub(crate) const SCANNED_POINTS: usize = ccd_core::tolerance::CLIMBED_POINTS;

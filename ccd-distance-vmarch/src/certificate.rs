@@ -16,7 +16,7 @@ pub(crate) struct Axis {
 }
 
 impl Axis {
-    /// Measures the gap along a direction of any length; one of no length separates nothing.
+    /// Measures the gap along a direction of any length; a zero direction separates nothing.
     pub(crate) fn along(placed: &PlacedPair<'_>, direction: DVec3) -> Self {
         let direction = unit(direction);
         let known = direction != DVec3::ZERO;
@@ -30,9 +30,9 @@ impl Axis {
         }
     }
 
-    /// Whether the distance is certified along it, to rounding.
+    /// Whether the distance is certified along it, up to rounding.
     ///
-    /// Written so that NaN is not.
+    /// Written so that NaN is not certified.
     pub(crate) fn certifies(&self, distance: f64, placed: &PlacedPair<'_>) -> bool {
         let slack = CERTIFIED * placed.scale.size + CERTIFIED_SHARE * distance;
         self.direction != DVec3::ZERO && distance - self.gap <= slack
@@ -48,15 +48,15 @@ pub(crate) fn gap(placed: &PlacedPair<'_>, n: DVec3) -> f64 {
         - highest.fold(f64::NEG_INFINITY, greater)
 }
 
-/// Bounds the gap along a direction of any length from above: by the gap between two corners, found by
-/// climbing where there are many.
+/// Bounds the gap along a direction of any length from above: by the gap between two corners, found
+/// by climbing if there are many.
 fn most(placed: &PlacedPair<'_>, direction: DVec3) -> f64 {
     let n = unit(direction);
     let highest = placed.a.0.vertex(placed.a.0.extremal(n)).point;
     let shape = placed.b.shape();
     let own = -placed.b.own_vector(n);
     let lowest = placed.b.vertex(shape.extremal(own));
-    // The axis of no direction separates nothing.
+    // The axis of a zero direction separates nothing.
     let known = n != DVec3::ZERO;
     if known {
         n.dot(lowest - highest) + placed.scale.rounding()
@@ -67,10 +67,9 @@ fn most(placed: &PlacedPair<'_>, direction: DVec3) -> f64 {
 
 /// Returns the best axis for nearest features whose difference is tied, or is rounding.
 ///
-/// The directions along which features are the extremal ones make up a cone; a way that is rounded
-/// may fall out of it. Its borders are tried too: the normals of the faces around, the cross products
-/// of edges, the way across each edge; and for what lies in one plane or on one line, directions
-/// within.
+/// The directions along which features are extremal form a cone; a rounded vector may fall out of
+/// it. Its borders are tried too: the normals of the faces around, the cross products of edges, the
+/// vector across each edge; and for features in one plane or on one line, directions within.
 pub(crate) fn best_axis(placed: &PlacedPair<'_>, pair: Pair, witness: &Witness) -> Axis {
     let (distance, way) = (witness.distance(), witness.way());
     let mut best = Axis::along(placed, witness.axis);
@@ -79,7 +78,7 @@ pub(crate) fn best_axis(placed: &PlacedPair<'_>, pair: Pair, witness: &Witness) 
     }
     let mut offer = |direction: DVec3| {
         for direction in [direction, -direction] {
-            // Written so that NaN is no better.
+            // Written so that NaN is not better.
             if !(most(placed, direction) > best.gap) {
                 continue;
             }

@@ -1,4 +1,4 @@
-//! Certifies the end of a march: ties, cycles, and marches taken up again from elsewhere.
+//! Certifies the end of a march: ties, cycles, and marches restarted from elsewhere.
 
 use crate::certificate::best_axis;
 use crate::counters::Counters;
@@ -15,7 +15,7 @@ use crate::witness::Witness;
 use ccd_core::glam::DVec3;
 use ccd_core::{Claim, GiveUp};
 
-/// A claim, and the pair to start from the next time.
+/// A claim, and the pair from which the next call starts.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Certified {
     pub(crate) pair: Pair,
@@ -25,8 +25,8 @@ pub(crate) struct Certified {
 /// Certifies, or proves, an answer from the end of a march that is not certain by itself.
 ///
 /// # Errors
-/// When, from several starts, none is: [`GiveUp::Cycle`] or [`GiveUp::StepCap`] where a march ended so,
-/// [`GiveUp::Uncertified`] where none did.
+/// If no start succeeds: [`GiveUp::Cycle`] or [`GiveUp::StepCap`] if a march ended so,
+/// [`GiveUp::Uncertified`] otherwise.
 #[cold]
 #[inline(never)]
 pub(crate) fn certify(
@@ -58,12 +58,12 @@ pub(crate) fn certify(
     found.ok_or(why)
 }
 
-/// The worth of an end.
+/// The assessment of an end.
 enum Finding {
     Certified(Certified),
-    /// There is a pair around it that is nearer.
+    /// A pair around it is nearer.
     Nearer(Pair),
-    /// It is not certified; this is the best axis so far.
+    /// It is not certified; with the best axis so far.
     Doubtful(DVec3),
 }
 
@@ -83,7 +83,7 @@ fn examine(placed: &PlacedPair<'_>, end: End, counters: &mut Counters) -> Findin
     }
 }
 
-/// Certifies a stop where it has to be.
+/// Certifies a stop if necessary.
 fn examine_stop(placed: &PlacedPair<'_>, pair: Pair, certainty: Certainty) -> Finding {
     let witness = Witness::of(placed, pair);
     if certainty == Certainty::Sure || witness.distance() >= FAR * placed.scale.size {
@@ -112,8 +112,7 @@ fn examine_cycle(placed: &PlacedPair<'_>, start: Pair) -> Finding {
     certify_tie(placed, nearest)
 }
 
-/// Certifies a pair, or one that is nearer around it: a march back from there might end at the same
-/// tie.
+/// Certifies a pair, or a nearer one around it: a march back from there might end at the same tie.
 fn certify_tie(placed: &PlacedPair<'_>, start: Pair) -> Finding {
     let mut pair = start;
     for _ in 0..ROUNDS {
@@ -125,7 +124,7 @@ fn certify_tie(placed: &PlacedPair<'_>, start: Pair) -> Finding {
         }
         match neighbourhood::nearer(placed, pair, distance) {
             Some(nearer) => pair = nearer,
-            // As near as it gets: what is left of doubt is the axis'.
+            // The pair is as near as possible: the remaining doubt is about the axis.
             None if axis.gap >= 0.5 * distance => {
                 return certified(placed, pair, &witness, axis.direction);
             }

@@ -14,11 +14,11 @@ pub(crate) struct Clipped {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Cut {
     pub(crate) parameter: f64,
-    /// The edge of the face whose plane made the cut; none where the edge ends by itself.
+    /// The edge of the face whose plane made the cut; none at the edge's own end.
     pub(crate) by: Option<u32>,
 }
 
-/// Cuts an edge by the face-edge planes of a face; nothing may be left.
+/// Cuts an edge by the face-edge planes of a face; none if no part is left.
 #[inline]
 pub(crate) fn to_prism<Y: Placed>(line: &Line, end: DVec3, y: &Y, face: u32) -> Option<Clipped> {
     let mut out = Clipped {
@@ -52,12 +52,11 @@ pub(crate) fn to_prism<Y: Placed>(line: &Line, end: DVec3, y: &Y, face: u32) -> 
             out.to = cut;
         }
     }
-    // Written so that NaN leaves nothing.
+    // Written so that no part is left with NaN.
     (out.from.parameter <= out.to.parameter).then_some(out)
 }
 
-/// The middle of the part of a segment beside another one that is parallel to it, or the end that is
-/// nearest to it.
+/// Returns the middle of a segment's overlap with a parallel one, or the end that is nearest to it.
 #[inline]
 pub(crate) fn beside(one: &Line, other: &Line) -> f64 {
     let start = one.nearest(other.start);

@@ -7,11 +7,11 @@ pub struct Counters {
     pub calls: u64,
     /// Pairs of features that were tested.
     pub steps: u64,
-    /// Pairs that came up again.
+    /// Pairs that occurred again.
     pub cycles: u64,
-    /// Features found behind a face, for which all faces were looked at.
+    /// Features found behind a face, for which all faces were examined.
     pub local_minima: u64,
-    /// Marches taken up again from other features.
+    /// Marches restarted from other features.
     pub restarts: u64,
     /// Common points, each proven by exact signs.
     pub penetrations: u64,

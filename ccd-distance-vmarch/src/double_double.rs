@@ -1,13 +1,13 @@
-//! Numbers of twice the digits: double-double arithmetic `[SHE97]`.
+//! Double-double arithmetic: numbers with twice the digits `[SHE97]`.
 //!
-//! The normal of a sliver is the small difference of large products: in f64 it would be right to no
-//! digit where the sliver is thinner than 1e-16 of its length, and wrong by as much as it is thin
-//! elsewhere. Sums of pairs of f64 leave 106 bits for it.
+//! The normal of a sliver is the small difference of large products. In f64 it would have no
+//! correct digit if the sliver is thinner than 1e-16 of its length, and lose accuracy in proportion
+//! to its thinness otherwise. Sums of pairs of f64 have 106 bits.
 
 use ccd_core::glam::DVec3;
 use std::ops::{Add, Mul, Sub};
 
-/// A number held as the unevaluated sum of two.
+/// A number, as the unevaluated sum of two.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct DoubleDouble {
     high: f64,
@@ -23,7 +23,7 @@ impl DoubleDouble {
         DoubleDouble { high, low }
     }
 
-    /// Rounded to f64.
+    /// Rounds to f64.
     pub(crate) fn value(self) -> f64 {
         self.high + self.low
     }
@@ -89,7 +89,7 @@ impl DoubleDoubleVector {
         a * d + b * e + c * f
     }
 
-    /// Rounded to f64.
+    /// Rounds to f64.
     pub(crate) fn value(self) -> DVec3 {
         DVec3::from_array(self.0.map(DoubleDouble::value))
     }
@@ -103,7 +103,8 @@ impl Add for DoubleDoubleVector {
     }
 }
 
-/// Six times the volume of a tetrahedron, positive where `d` sees the triangle counter-clockwise.
+/// Returns six times the volume of a tetrahedron, positive where `d` sees the triangle
+/// counterclockwise.
 pub(crate) fn volume([a, b, c]: [DVec3; 3], d: DVec3) -> f64 {
     let from = |p: DVec3| DoubleDoubleVector::difference(p, a);
     from(b).cross(from(c)).dot(from(d)).value()

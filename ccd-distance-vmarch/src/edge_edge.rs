@@ -10,8 +10,8 @@ use ccd_core::glam::DVec3;
 
 /// Tests the nearest points of both edges against the other edge's planes, vertex-edge planes first.
 ///
-/// The march goes on to a corner where a nearest point is an end, and to a face on whose side the other
-/// edge's point lies.
+/// The march goes on to a corner if a nearest point is an end, or to a face if the other edge's
+/// point is on its side.
 #[inline]
 pub(crate) fn next<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32, scale: Scale) -> Next {
     let (one, other) = (x.line(e), y.line(f));
@@ -51,14 +51,14 @@ pub(crate) fn next<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32, scale: Sc
 pub(crate) struct Near {
     /// Their parameters along either.
     pub(crate) parameters: [f64; 2],
-    /// The cross product of the directions; its length is the sine of the angle between them.
+    /// The cross product of the directions; its length is the sine of their angle.
     pub(crate) across: DVec3,
 }
 
-/// The nearest points, an end exactly where an end is nearest.
+/// Returns the nearest points, with an end exactly where it is nearest.
 ///
-/// Where the segments are nearly parallel, the first parameter is off by rounding over the sine; as
-/// the second one is found from it, the points are no farther apart for that than by rounding.
+/// If the segments are nearly parallel, the first parameter is off by rounding over the sine. The
+/// second one is computed from it, so the distance of the points is off by rounding only.
 #[inline(always)]
 pub(crate) fn nearest(one: &Line, other: &Line) -> Near {
     let across = one.along.cross(other.along);
@@ -71,7 +71,7 @@ pub(crate) fn nearest(one: &Line, other: &Line) -> Near {
     };
     let free = (one.at(s) - other.start).dot(other.along);
     let t = clamped(free, other.length);
-    // Where the line's point is beyond the segment's end, that end's foot is nearest.
+    // If the line's point is beyond the segment's end, that end's foot is nearest.
     let s = if free == t {
         s
     } else {
@@ -83,7 +83,7 @@ pub(crate) fn nearest(one: &Line, other: &Line) -> Near {
     }
 }
 
-/// The end that a parameter is at.
+/// Returns the end at a parameter.
 #[inline(always)]
 fn end_of(edge: &Edge, parameter: f64) -> Option<u32> {
     if !(parameter > 0.0) {
@@ -99,7 +99,7 @@ fn end_of(edge: &Edge, parameter: f64) -> Option<u32> {
 #[derive(Clone, Copy)]
 struct Facing {
     way: DVec3,
-    /// That vector, or the direction across both edges: whichever rounding turns less.
+    /// That vector, or the direction across both edges: the one that rounding turns less.
     axis: DVec3,
     /// The rounding of a product with the axis.
     slack: f64,
@@ -134,8 +134,8 @@ impl Facing {
         }
     }
 
-    /// The face of an edge on whose side the other point lies; of two, the one that it is higher
-    /// above, or less far below.
+    /// Returns the face of an edge on the side of the other point; of two, the one with the larger
+    /// height of the point.
     #[inline(always)]
     fn side<P: Placed>(self, p: &P, edge: &Edge, slopes: [f64; 2]) -> Option<Side> {
         let one = |face| Some(Side::Before(face));
@@ -158,16 +158,16 @@ impl Facing {
     }
 }
 
-/// The side of an edge on which a point outside its region lies.
+/// The side of an edge with a point outside its region.
 enum Side {
-    /// The side of this face.
+    /// On the side of this face.
     Before(u32),
     /// Behind both faces that meet in the edge, less far behind this one.
     Behind(u32),
 }
 
 impl Side {
-    /// X's face, and Y's feature that has the point.
+    /// Returns X's face, and Y's feature with the point.
     fn reached_by(&self, feature: Feature, point: DVec3) -> Next {
         match *self {
             Side::Before(face) => Next::To(Feature::Face(face), feature),

@@ -6,8 +6,9 @@ use crate::feature::{Behind, Feature, Next, Whose};
 use crate::penetration;
 use crate::placed::{Line, Placed, Scale};
 
-/// Goes on from the lowest point of the edge above the face, within its prism: to the edge's end, or to
-/// the side of the face that bounds it there. An edge outside the prism leads to the nearest side.
+/// Continues from the lowest point of the edge above the face, within its prism: to the edge's end,
+/// or to the side of the face that bounds it there. An edge outside the prism leads to the nearest
+/// side.
 ///
 /// An edge that has points on both sides of the plane goes through the face if exact signs say so
 /// ([`penetration`]); otherwise it passes by the nearest side, however close.
@@ -23,7 +24,8 @@ pub(crate) fn next<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32, scale: Sc
     let Some(side) = y.shape().sides_of(f).first() else {
         return to_nearest_side(e, &line, y, f);
     };
-    // The product by which `vertex_face` sees the corner's edges fall towards a face, to the bit.
+    // The product by which `vertex_face` computes the fall of the corner's edges towards a face, to
+    // the bit.
     let slope = line.along.dot(normal);
     let base = normal.dot(line.start - y.point(side.start));
     let rounding = scale.rounding();
@@ -54,7 +56,7 @@ pub(crate) fn next<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32, scale: Sc
     }
 }
 
-/// Goes on to the side of the face that is nearest to the edge.
+/// Continues to the side of the face that is nearest to the edge.
 fn to_nearest_side<Y: Placed>(e: u32, line: &Line, y: &Y, f: u32) -> Next {
     let sides = y.shape().sides_of(f);
     let (mut least, mut nearest) = (f64::INFINITY, sides.first().map_or(0, |side| side.edge));

@@ -5,14 +5,14 @@ use crate::penetration;
 use crate::placed::{Placed, Scale};
 use ccd_core::glam::DVec3;
 
-/// The way on from behind a face.
+/// The continuation from behind a face.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Escape {
-    /// The feature is before that face, farther than before any other one.
+    /// The feature is in front of that face, farther than of any other one.
     Face(Feature, u32),
-    /// It is behind all faces, and has a point of the other polytope.
+    /// It is behind all faces, and contains a point of the other polytope.
     Inside(Crossing),
-    /// It is behind all faces, or so near to them that rounding decides, and exact signs show no
+    /// It is behind all faces, or so near to them that rounding decides, and exact signs prove no
     /// common point.
     Unclear,
 }
@@ -30,7 +30,7 @@ pub(crate) fn escape<X: Placed, Y: Placed>(x: &X, behind: Behind, y: &Y, scale: 
         Feature::Edge(e) => {
             let mut faces = 0..y.shape().faces.len() as u32;
             let through = faces.find_map(|f| penetration::pierced(x, e, y, f));
-            // An edge with an inner point and no way through the surface is inside as a whole.
+            // An edge with an inner point that does not cross the surface is entirely inside.
             through.or_else(|| penetration::contained(x, x.shape().edge(e).ends[0], y))
         }
         Feature::Face(_) => None,
@@ -38,7 +38,7 @@ pub(crate) fn escape<X: Placed, Y: Placed>(x: &X, behind: Behind, y: &Y, scale: 
     inside.map_or(Escape::Unclear, Escape::Inside)
 }
 
-/// The face that a point is highest above, or least far below.
+/// Returns the face with the largest height of a point.
 fn farthest<Y: Placed>(point: DVec3, y: &Y) -> Option<(u32, f64)> {
     let faces = 0..y.shape().faces.len() as u32;
     let heights = faces.filter_map(|f| {

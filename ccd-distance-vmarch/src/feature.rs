@@ -17,15 +17,15 @@ pub(crate) struct Pair {
     pub(crate) b: Feature,
 }
 
-/// The outcome of a test of one pair: of features of polytopes X and Y, in that order.
+/// The result of a test of one pair: of features of polytopes X and Y, in that order.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Next {
-    /// A pair that is nearer, or as near and made of less.
+    /// A nearer pair, or one as near and of lower dimension.
     To(Feature, Feature),
-    /// Each feature's nearest point is in the Voronoi region of the other: no others are nearer.
+    /// Each feature's nearest point is in the Voronoi region of the other: no pair is nearer.
     Stop(Certainty),
-    /// A feature of one polytope lies behind a face of the other: a local minimum, from which an
-    /// [escape](crate::escape) over all faces has to be found.
+    /// A feature of one polytope is behind a face of the other: a local minimum, which needs an
+    /// [escape](crate::escape) over all faces.
     Behind(Whose, Behind),
     /// An edge of one polytope goes through a face of the other.
     Pierced(Whose, Crossing),
@@ -39,7 +39,7 @@ pub(crate) enum Whose {
 }
 
 impl Next {
-    /// The same outcome for Y and X.
+    /// Returns the same result for Y and X.
     #[inline(always)]
     pub(crate) fn swapped(self) -> Next {
         match self {
@@ -64,33 +64,32 @@ impl Whose {
 /// The certainty of a stop.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Certainty {
-    /// Every Voronoi plane was passed on its inner side, clear of rounding.
+    /// The point is on the inner side of every Voronoi plane, by more than rounding.
     Sure,
-    /// Some Voronoi plane was met within rounding, or the features touch: the stop is to be
-    /// certified.
+    /// The point is on some Voronoi plane up to rounding, or the features touch: the stop needs a
+    /// certificate.
     Tied,
 }
 
-/// A feature that lies behind a face of the other polytope, where it is within that face's prism.
+/// A feature behind a face of the other polytope, in the part within that face's prism.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Behind {
     /// A corner or an edge.
     pub(crate) feature: Feature,
-    /// The point of it that is least far behind.
+    /// Its point that is least far behind.
     pub(crate) point: DVec3,
-    /// The face it was found to be behind of.
+    /// The face that it is behind.
     pub(crate) face: u32,
 }
 
-/// A common point of an edge of one polytope, or of a corner, and the other polytope, proven by exact
-/// signs.
+/// A common point of the other polytope and an edge or a corner of one, proven by exact signs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Crossing {
     /// The edge's two ends; a corner has no other end.
     pub(crate) on_edge: Corners<2>,
-    /// Three of the face's corners; and one more, if the point is inside.
+    /// Three of the face's corners, and one more if the point is inside.
     pub(crate) on_face: Corners<4>,
-    /// The face that is gone through, or one that the point is behind of.
+    /// The face that is crossed, or one with the point behind it.
     pub(crate) face: u32,
 }
 

@@ -2,13 +2,13 @@
 //! last `[LINCANNY91, VCLIP98, SWIFT01]`.
 //!
 //! [`Vmarch`] is a [`DistanceOracle`](ccd_core::DistanceOracle) for pieces whose facets are known.
-//! Two features, one of either piece, are the nearest ones if the nearest point of each lies in the
-//! Voronoi region of the other, which a handful of planes bound. Where a plane is violated, the feature
-//! behind it is nearer, and the march goes on to that. Little moves from call to call: the last pair is
-//! still nearest, or next to it, and a call takes a step or two whatever the pieces' size.
+//! Two features, one of either piece, are the nearest ones if the nearest point of each is in the
+//! Voronoi region of the other, which a handful of planes bound. If a plane is violated, the
+//! feature on its other side is nearer, and the march goes on to that. Pieces move little from call
+//! to call: the last pair is still nearest, or next to it, and a call takes a step or two for
+//! pieces of any size.
 //!
-//! Choose it for hulls with facets that are asked about again and again. Two boxes come nearer, one
-//! corner ahead:
+//! Choose it for repeated queries of hulls with facets. Two boxes come nearer, one corner ahead:
 //!
 //! ```
 //! use ccd_core::glam::{DMat3, DQuat, DVec3};
@@ -30,26 +30,26 @@
 //!     let distance = on_a.distance(b_to_a.point(on_b));
 //!     assert!((distance - (height - 1.0 - 3f64.sqrt())).abs() < 1e-15);
 //! }
-//! // The later calls found the nearest features where the first one had left them.
+//! // The later calls found the nearest features where the first one left them.
 //! assert!(oracle.counters().steps < 10);
 //! # Ok::<(), InputError>(())
 //! ```
 //!
-//! It gives up, typed, on pieces whose facets are missing or wrong. Another backend then takes over:
-//! `Vmarch::default().or_else(Gjk)`.
+//! It gives up, with a reason, on pieces whose facets are missing or wrong. Another backend then
+//! takes over: `Vmarch::default().or_else(Gjk)`.
 //!
 //! # Guarantee
 //! For pieces whose size and distance are together s:
-//! - Separated pieces: the witnesses' distance is right, and the axis certifies it, to 1e-14 s either,
-//!   however near the pieces are: the axis is made of the features that hold the witnesses.
-//! - Intersecting pieces: both witnesses name the same point, to 1e-14 s. Exact signs prove that the
-//!   pieces, as they are placed, have one in common. Pieces that come within 2e-15 s of each other may be
-//!   claimed to touch instead: at the witnesses they do, to that distance.
-//! - A pair that can be shown to be neither is given up, never claimed.
+//! - Separated pieces: the witnesses' distance is accurate, and the axis certifies it, to 1e-14 s
+//!   each, at any distance: the axis is computed from the features that contain the witnesses.
+//! - Intersecting pieces: both witnesses name the same point, to 1e-14 s. Exact signs prove that
+//!   the pieces, as placed, have a common point. Pieces that come within 2e-15 s of each other may
+//!   be claimed to touch instead: at the witnesses they do, to that distance.
+//! - A pair for which neither can be shown is given up, never claimed.
 //! - Every input ends after a bounded number of steps, and the same input gives the same bits.
 //!
-//! The size s is that of the pieces, not of their coordinates, which only bring the rounding they were
-//! given with. That holds for sizes and distances from 1e-45 to 1e12.
+//! The size s is that of the pieces, not of their coordinates, which only have their input
+//! rounding. This holds for sizes and distances from 1e-45 to 1e12.
 //!
 //! # States and transitions
 //! A state is a pair of features, V, E or F; every test is made in A's frame.
@@ -63,8 +63,8 @@
 //! | E-F | never | V-F, E-E where E is lowest; E-E at the nearest side | `edge_face.rs` |
 //! | F-F | never met | | |
 //!
-//! A V or E that is found below an F is in a local minimum. It goes on to the face it is highest
-//! above, or is inside the other piece.
+//! A V or E that is found below an F is in a local minimum. It goes on to the face with the largest
+//! height, or is inside the other piece.
 //!
 //! # How the files follow the method
 //!
@@ -86,15 +86,16 @@
 //! | ties, cycles, the cap of steps | `certify.rs`, with `certificate.rs` and `neighbourhood.rs` |
 //! | every tolerance | `tolerance.rs` |
 //!
-//! # What rounding makes of it
-//! In exact arithmetic no pair is met twice. In floating point:
+//! # The effect of rounding
+//! In exact arithmetic no pair occurs twice. In floating point:
 //! - A plane's side is the same product of the same numbers from either feature, so that two states
 //!   never both refuse a point. Only edges against edges differ. There a point within rounding of a
-//!   plane stays, where rounding is measured by what a step along both edges can win.
-//! - A stop within rounding of a plane is certified by a support gap before it is believed, with the
-//!   best axis that the features around allow. If that fails, all features around are compared by
-//!   their distance, which is right to rounding, not by the direction in which it falls, which is not.
-//! - A cycle is noticed, and its best pair certified likewise, or the march is taken up from elsewhere.
+//!   plane stays, where rounding is measured by the possible gain of a step along both edges.
+//! - A stop within rounding of a plane is certified by a support gap, with the best axis of the
+//!   features around. If that fails, all features around are compared by their distance, which is
+//!   accurate up to rounding, not by its direction of decrease, which is not.
+//! - A cycle is noticed, and its best pair certified likewise, or the march restarts from
+//!   elsewhere.
 
 #![allow(
     clippy::neg_cmp_op_on_partial_ord,
@@ -131,7 +132,7 @@ pub use counters::Counters;
 pub use oracle::Vmarch;
 pub use start::Cache;
 
-/// The code that the README shows.
+/// The code in the README.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;

@@ -11,7 +11,7 @@ use crate::{edge_edge, edge_face, vertex_edge, vertex_face, vertex_vertex};
 /// Marches from a pair of features to the nearest one.
 ///
 /// In exact arithmetic every step leads to features that are nearer, or as near and of a lower
-/// dimension, so that none is met twice. In floating point one may be: [`Brent`] notices.
+/// dimension, so that no pair occurs twice. In floating point one may: [`Brent`] notices.
 pub(crate) fn march(placed: &PlacedPair<'_>, start: Pair, counters: &mut Counters) -> End {
     let features = placed.a.shape().features() + placed.b.shape().features();
     let mut pair = start;
@@ -48,7 +48,7 @@ fn escaped(placed: &PlacedPair<'_>, whose: Whose, behind: Behind) -> Escape {
     }
 }
 
-/// Tests one pair, in the order A, B. Two faces are never tested: an edge of one is taken.
+/// Tests one pair, in the order A, B. Two faces are never tested: an edge of one replaces it.
 #[inline]
 pub(crate) fn step(placed: &PlacedPair<'_>, pair: Pair) -> Next {
     let PlacedPair { a, b, scale } = placed;

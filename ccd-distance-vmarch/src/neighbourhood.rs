@@ -1,4 +1,5 @@
-//! All features around a tie, compared pair by pair: rounding may have hidden a nearer pair from the march.
+//! Compares all features around a tie, pair by pair: rounding may have hidden a nearer pair from
+//! the march.
 
 use crate::edge_edge;
 use crate::feature::{Feature, Pair};
@@ -7,12 +8,12 @@ use crate::polytope::NO_FACE;
 use crate::tolerance::AROUND;
 use ccd_core::glam::DVec3;
 
-/// The nearest pair of features of the faces around a pair, if it is nearer than that by more than
-/// `rounding`.
+/// Returns the nearest pair of features of the faces around a pair, if it is nearer than that by
+/// more than `rounding`.
 ///
-/// What is convex has no distance that is least around one pair and not everywhere: where nothing
-/// around is nearer, nothing is. Unlike a march this does not ask in which direction the distance
-/// falls, which is rounding at a tie, but how large it is, which is not.
+/// The distance of convex sets has no local minimum that is not global: if nothing around is
+/// nearer, nothing is. Unlike a march, this does not compare directions of decreasing distance,
+/// which are rounding at a tie, but distances, which are accurate.
 pub(crate) fn nearer(placed: &PlacedPair<'_>, pair: Pair, distance: f64) -> Option<Pair> {
     let (a, b) = (Star::new(&placed.a, pair.a), Star::new(&placed.b, pair.b));
     if a.edges.len() * b.edges.len() > AROUND {
@@ -112,7 +113,7 @@ impl Star {
     }
 }
 
-/// The end of an edge at a parameter, or the edge.
+/// Returns the end of an edge at a parameter, or the edge.
 fn end_or_edge<P: Placed>(polytope: &P, e: u32, parameter: f64) -> Feature {
     let edge = polytope.shape().edge(e);
     if !(parameter > 0.0) {
@@ -124,7 +125,7 @@ fn end_or_edge<P: Placed>(polytope: &P, e: u32, parameter: f64) -> Feature {
     }
 }
 
-/// The height of a point above a face, infinite beside it and behind it.
+/// Returns the height of a point above a face, infinite outside of its prism and behind its plane.
 fn height<P: Placed>(point: DVec3, polytope: &P, f: u32) -> f64 {
     let mut height = f64::INFINITY;
     let normal = polytope.vector(polytope.shape().face(f).normal);

@@ -14,21 +14,21 @@ use ccd_core::{Claim, DistanceOracle, Effort, GiveUp, Piece, PiecePair};
 /// The distance of two convex polytopes with known facets, by Voronoi marching
 /// `[LINCANNY91, VCLIP98]`.
 ///
-/// A piece of a list ([`ccd_core::Pieces`]) is prepared when it is first asked about, and kept with
-/// the list; a loose one ([`Piece::from_points`]) is prepared for every call anew. Pieces of up to
-/// three points, and such as lie on one line, need no facets.
+/// A piece of a list ([`ccd_core::Pieces`]) is prepared at its first query, and kept with the list.
+/// A loose one ([`Piece::from_points`]) is prepared anew for every call. Pieces of up to three
+/// points, and those on one line, need no facets.
 ///
 /// # Guarantee
-/// As the crate says; it gives up with [`GiveUp::BadFacets`] on pieces whose facets are
-/// missing, or are not those of something convex. Seldom, rounding leads it in circles from several
+/// That of the crate. It gives up with [`GiveUp::BadFacets`] on pieces whose facets are missing, or
+/// are not those of a convex polytope. In rare cases, rounding leads it in circles from several
 /// starts ([`GiveUp::Cycle`], [`GiveUp::StepCap`]), or leaves nothing that can be certified
-/// ([`GiveUp::Uncertified`]): not once in a million pairs of this crate's own tests, but in 4 of
-/// 38,334 others. Have [another oracle](DistanceOracle::or_else) behind it.
+/// ([`GiveUp::Uncertified`]): never in a million pairs of this crate's own tests, but in 4 of
+/// 38,334 others. Combine it with [another oracle](DistanceOracle::or_else).
 ///
 /// # Complexity
 /// From a warm [`Cache`] a step or two, each linear in the edges that meet in a corner, or around a
-/// face, without allocation; from a cold one, about the root of the number of features. A common
-/// point inside is looked for among all faces.
+/// face, without allocation; from a cold one, about the root of the number of features. The search
+/// for a common point inside visits all faces.
 ///
 /// ```
 /// use ccd_core::{glam::DVec3, DistanceOracle, Facet, Frame, Origin, PiecePair, Pieces, Polytope};
@@ -49,7 +49,7 @@ use ccd_core::{Claim, DistanceOracle, Effort, GiveUp, Piece, PiecePair};
 ///     assert_eq!(claim.a.of(pair.a.points), Some(DVec3::Z));
 ///     assert!(claim.axis.normalize().distance(DVec3::Z) < 1e-15);
 /// }
-/// // The second call found the nearest features where the first one had left them.
+/// // The second call found the nearest features where the first one left them.
 /// let counters = oracle.counters();
 /// assert!(counters.calls == 2 && counters.steps < 8);
 /// # Ok::<(), ccd_core::InputError>(())
@@ -96,10 +96,10 @@ impl DistanceOracle for Vmarch {
     }
 }
 
-/// A prepared piece, or why it can't be.
+/// A prepared piece, or the reason why there is none.
 type Prepared = Box<Result<Polytope, GiveUp>>;
 
-/// Returns what is kept of a piece; a piece of no list is prepared now, and kept by the caller.
+/// Returns the prepared piece; a piece of no list is prepared now, and kept by the caller.
 #[inline]
 fn prepared<'p>(piece: &Piece<'p>, own: &'p mut Option<Prepared>) -> Result<&'p Polytope, GiveUp> {
     let make = |piece: &Piece<'_>| -> Prepared { Box::new(Polytope::new(piece)) };

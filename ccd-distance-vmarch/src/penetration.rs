@@ -1,4 +1,4 @@
-//! Common points, proven by exact signs before they are believed `[SHE97]`.
+//! Common points, proven by exact signs `[SHE97]`.
 
 use crate::double_double::volume;
 use crate::feature::{Corners, Crossing};
@@ -11,8 +11,8 @@ use ccd_core::order::lesser;
 /// Finds the point where an edge goes through a face, or ends on it.
 ///
 /// # Guarantee
-/// The signs are those of the placed points, whatever rounding placed them: some is given only if the
-/// edge and one of the triangles that the face's corners span do have a point in common.
+/// The signs are those of the placed points, which are rounded. A crossing is returned only if the
+/// edge and one of the triangles spanned by the face's corners do have a common point.
 pub(crate) fn pierced<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32) -> Option<Crossing> {
     let ends = x.shape().edge(e).ends;
     let edge = ends.map(|v| x.vertex(v));
@@ -38,11 +38,11 @@ pub(crate) fn pierced<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32) -> Opt
     None
 }
 
-/// Finds a corner inside the other polytope: within a tetrahedron that one of its corners
-/// spans with a triangle of one of its faces.
+/// Finds a corner inside the other polytope: within a tetrahedron of one of its corners and a
+/// triangle of one of its faces.
 ///
 /// # Guarantee
-/// As [`pierced`].
+/// Like [`pierced`].
 pub(crate) fn contained<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y) -> Option<Crossing> {
     let point = x.vertex(v);
     let shape = y.shape();
@@ -84,7 +84,7 @@ pub(crate) fn searched<X: Placed, Y: Placed>(x: &X, y: &Y, scale: Scale) -> Opti
         return None;
     }
     let through = (0..faces).find_map(|f| (0..edges).find_map(|e| straddled(x, e, y, f, scale)));
-    // If no edge goes through the surface, X is inside as a whole, or not at all.
+    // If no edge goes through the surface, X is either entirely inside or entirely outside.
     through.or_else(|| contained(x, 0, y))
 }
 
@@ -101,7 +101,7 @@ fn straddled<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32, scale: Scale) -
     pierced(x, e, y, f)
 }
 
-/// Whether a segment and a triangle that is not in one plane with it have a point in common.
+/// Whether a segment and a triangle that is not in one plane with it have a common point.
 fn passes([start, end]: [DVec3; 2], triangle: [DVec3; 3]) -> bool {
     let (first, last) = (side(triangle, start), side(triangle, end));
     let beside = first == last && first.is_ne();
@@ -124,9 +124,10 @@ fn weights([start, end]: [DVec3; 2], [a, b, c]: [DVec3; 3]) -> ([f64; 2], [f64; 
     )
 }
 
-/// The weights of a triangle's corners and an apex behind it in a point of the tetrahedron.
+/// Returns the weights of a triangle's corners and an apex behind its plane in a point of the
+/// tetrahedron.
 fn enclosed(point: DVec3, apex: DVec3, [a, b, c]: [DVec3; 3]) -> Option<[f64; 4]> {
-    // Every face of it, seen from outside.
+    // Every face of the tetrahedron, seen from outside.
     let faces = [[apex, c, b], [apex, a, c], [apex, b, a], [a, b, c]];
     let behind = faces.iter().all(|face| side(*face, point).is_le());
     let solid = side([a, b, c], apex).is_lt();

@@ -1,4 +1,4 @@
-//! Two polytopes in one frame: A as it is, B mapped there feature by feature.
+//! Two polytopes in one frame: A unchanged, B mapped feature by feature.
 
 use crate::polytope::{Edge, Polytope};
 use crate::tolerance::PLACING;
@@ -8,7 +8,7 @@ use ccd_core::order::{greater, lesser};
 
 /// A polytope that is placed in the frame of A's polytope.
 ///
-/// A test of two features is written once, for any two of these.
+/// A test of two features is written once, for both orders of the polytopes.
 pub(crate) trait Placed {
     fn shape(&self) -> &Polytope;
     /// Places a point.
@@ -33,7 +33,7 @@ pub(crate) trait Placed {
         }
     }
 
-    /// The components of a vector into either of the faces that meet in an edge.
+    /// Returns the components of a vector into either of the faces that meet in an edge.
     #[inline(always)]
     fn inward(&self, edge: &Edge, way: DVec3) -> [f64; 2] {
         edge.inward.map(|inward| self.vector(inward).dot(way))
@@ -52,7 +52,7 @@ pub(crate) struct PlacedB<'a> {
     translation: DVec3,
 }
 
-/// Both polytopes, and the rounding of their places.
+/// Both polytopes, and the rounding of their positions.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PlacedPair<'a> {
     pub(crate) a: PlacedA<'a>,

@@ -18,11 +18,11 @@ use ccd_core::glam::DVec3;
 
 /// A piece with the planes that bound the Voronoi regions of its features.
 ///
-/// Coordinates are relative to [`Polytope::origin`], so that what is computed with them is rounded
-/// according to the piece's size, not its place. Every list is flat, and features are numbers.
+/// Coordinates are relative to [`Polytope::origin`], so that their rounding depends on the piece's
+/// size, not its position. Every list is flat, and features are numbers.
 ///
 /// # Guarantee
-/// - Coplanar facets are one face; corners within an edge, or within a face, are none.
+/// - Coplanar facets are one face; points within an edge, or within a face, are no corners.
 /// - A piece of one point is one corner without edges, one of two points an edge without faces, a
 ///   flat one has two faces, front and back.
 /// - Otherwise the faces close a surface that is convex up to rounding, once around.
@@ -54,7 +54,7 @@ pub(crate) struct Vertex {
     end_spoke: u32,
 }
 
-/// An edge as its corner sees it: the normal of a vertex-edge plane.
+/// An edge as seen from its corner: the normal of a vertex-edge plane.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Spoke {
     /// The direction away from the corner, of length one.
@@ -71,11 +71,11 @@ pub(crate) struct Edge {
     /// The direction towards the end, of length one.
     pub(crate) along: DVec3,
     pub(crate) length: f64,
-    /// The direction from the edge into either face that meets here, of length one: the normal of the
-    /// face-edge plane. Zero where there is no face.
+    /// The direction from the edge into either face that meets here, of length one: the normal of
+    /// the face-edge plane. Zero for a missing face.
     pub(crate) inward: [DVec3; 2],
     pub(crate) ends: [u32; 2],
-    /// [`NO_FACE`] where there is none.
+    /// [`NO_FACE`] for a missing face.
     pub(crate) faces: [u32; 2],
 }
 
@@ -91,7 +91,7 @@ pub(crate) struct Face {
     end_side: u32,
 }
 
-/// A side of a face, in the face's order, counter-clockwise seen from outside.
+/// A side of a face, in the face's order, counterclockwise seen from outside.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Side {
     /// The same as [`Edge::inward`] for this face.
@@ -105,7 +105,7 @@ pub(crate) struct Side {
 }
 
 impl Edge {
-    /// Whether the edge's region holds what leads so far into either face, clear of rounding.
+    /// Whether a point with these components into either face is certainly in the edge's region.
     #[inline(always)]
     pub(crate) fn is_clear(&self, inward: [f64; 2], slack: f64) -> bool {
         let alone = self.faces == [NO_FACE; 2];
@@ -143,7 +143,7 @@ impl Polytope {
         &self.sides[face.first_side as usize..face.end_side as usize]
     }
 
-    /// Whether there is such a feature.
+    /// Whether the polytope has such a feature.
     #[inline]
     pub(crate) fn has(&self, feature: Feature) -> bool {
         let (number, count) = match feature {

@@ -5,10 +5,10 @@ use crate::placed::{Placed, PlacedPair};
 use crate::polytope::Polytope;
 use ccd_core::glam::DVec3;
 
-/// The features that were nearest, and their axis, for the next call to start from.
+/// The nearest features and their axis, as a start for the next call.
 ///
-/// Features serve the polytope that they are of; for any other one, such as a part of that, the axis
-/// says where to start. Whatever a cache holds, it only decides where a march begins.
+/// Features are valid for their own polytope only. For any other one, such as a part of it, the
+/// axis determines the start. A cache only affects the start of a march.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Cache(Option<Last>);
 
@@ -16,7 +16,7 @@ pub struct Cache(Option<Last>);
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Last {
     pair: Pair,
-    /// The names of both polytopes.
+    /// The identifiers of both polytopes.
     names: [u64; 2],
     axis: DVec3,
 }
@@ -32,8 +32,8 @@ impl Cache {
         });
     }
 
-    /// The pair to start from: the last one; or corners that are extremal along the last axis, or along
-    /// the way from one middle to the other where there is none.
+    /// Returns the start pair: the last one, or else corners that are extremal along the last axis,
+    /// or, without an axis, along the vector between the middles.
     #[inline]
     pub(crate) fn start(self, placed: &PlacedPair<'_>) -> Pair {
         let Some(last) = self.0 else {
@@ -44,7 +44,7 @@ impl Cache {
             return last.pair;
         }
         let corners = extremal(placed, last.axis);
-        // What one polytope has kept is nearer than a corner.
+        // A feature that one polytope has kept is nearer than a corner.
         let kept = Pair {
             a: if names[0] == last.names[0] {
                 last.pair.a
@@ -65,7 +65,7 @@ impl Cache {
     }
 }
 
-/// Numbers that hardly any two polytopes have in common.
+/// Returns numbers that are almost certainly different for any two polytopes.
 #[inline]
 fn names(placed: &PlacedPair<'_>) -> [u64; 2] {
     let name = |polytope: &Polytope| {
@@ -78,14 +78,14 @@ fn names(placed: &PlacedPair<'_>) -> [u64; 2] {
     [name(placed.a.shape()), name(placed.b.shape())]
 }
 
-/// Whether a march can begin there: never at two faces.
+/// Whether a march can begin at a pair: never at two faces.
 #[inline]
 fn is_state(placed: &PlacedPair<'_>, pair: Pair) -> bool {
     let two_faces = matches!((pair.a, pair.b), (Feature::Face(_), Feature::Face(_)));
     !two_faces && placed.a.shape().has(pair.a) && placed.b.shape().has(pair.b)
 }
 
-/// The corners that face each other along an axis from A to B.
+/// Returns the corners that face each other along an axis from A to B.
 pub(crate) fn extremal(placed: &PlacedPair<'_>, axis: DVec3) -> Pair {
     let a = placed.a.shape().extremal(axis);
     let b = placed.b.shape().extremal(-placed.b.own_vector(axis));

@@ -7,20 +7,19 @@ use crate::feature::{Certainty, Crossing, Pair, Whose};
 pub(crate) enum End {
     /// Nearest features.
     Nearest(Pair, Certainty),
-    /// A common point of A's and B's features; the polytope whose edge it is comes with it.
+    /// A common point of A's and B's features, with the polytope of the edge.
     Common(Pair, Whose, Crossing),
-    /// A pair that was met before.
+    /// A pair that occurred before.
     Cycle(Pair),
-    /// A pair behind all faces, without a common point that could be proven.
+    /// A pair behind all faces, without a proven common point.
     Unclear(Pair),
     /// The pair at the cap of steps.
     Cap(Pair),
 }
 
 /// Brent's detection of cycles.
-///
-/// Each state is compared with one that was left behind, which is replaced after 1, 2, 4, … steps. A
-/// cycle is noticed within three times the sum of its length and of the steps before it.
+/// Each state is compared with a remembered one, which is replaced after 1, 2, 4, … steps. A cycle
+/// is noticed within three times the sum of its length and of the steps before it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Brent {
     left: Pair,
@@ -37,7 +36,7 @@ impl Brent {
         }
     }
 
-    /// Whether the march has come back to the state that was left behind.
+    /// Whether the march has returned to the remembered state.
     #[inline]
     pub(crate) fn returned(&mut self, pair: Pair) -> bool {
         if pair == self.left {

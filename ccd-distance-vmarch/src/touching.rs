@@ -9,8 +9,8 @@ use ccd_core::Claim;
 
 /// Makes the claim of a proven common point.
 ///
-/// Its axis is the normal of the face that shows it; or, where the point is on the border of what it
-/// was found in, that of the axes around which keeps the pieces apart best: they may only touch.
+/// Its axis is the normal of the face that shows it. If the point is on the border of its feature,
+/// the axis is the one around that separates the pieces best: they may only touch.
 pub(crate) fn common(placed: &PlacedPair<'_>, whose: Whose, crossing: &Crossing) -> Claim {
     let claim = witness::common(placed, whose, crossing);
     let Some(pair) = border(placed, whose, crossing) else {
@@ -28,8 +28,8 @@ pub(crate) fn common(placed: &PlacedPair<'_>, whose: Whose, crossing: &Crossing)
     claim
 }
 
-/// Returns the features that hold a common point, unless that shows that insides meet: where an edge
-/// goes through the inside of a face, and where a point is inside a polytope.
+/// Returns the features that contain a common point, unless the insides certainly meet: where an
+/// edge goes through the inside of a face, and where a point is inside a polytope.
 fn border(placed: &PlacedPair<'_>, whose: Whose, crossing: &Crossing) -> Option<Pair> {
     let PlacedPair { a, b, scale } = placed;
     let found = match whose {

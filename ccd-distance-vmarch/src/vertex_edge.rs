@@ -9,10 +9,11 @@ use ccd_core::glam::DVec3;
 /// Tests the corner against the edge's two vertex-edge planes and two face-edge planes, then the edge
 /// against the corner's vertex-edge planes.
 ///
-/// V-Clip cuts the edge with those planes and asks at both ends of what remains in which direction
-/// the distance falls. It falls towards the corner's foot on the edge: the foot is within what
-/// remains just when it is on the inner side of every plane. So the planes are asked about the foot,
-/// which needs no quotient, and is right to rounding however flat an edge meets a plane.
+/// V-Clip cuts the edge with those planes and computes the direction of decreasing distance at both
+/// ends of the rest. The distance decreases towards the corner's foot on the edge. The foot is
+/// within the rest exactly when it is on the inner side of every plane. Therefore the planes are
+/// tested with the foot, which needs no quotient and is exact up to rounding even if an edge meets
+/// a plane at a small angle.
 #[inline]
 pub(crate) fn next<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y, e: u32, scale: Scale) -> Next {
     let corner = x.vertex(v);
@@ -43,8 +44,8 @@ pub(crate) fn next<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y, e: u32, scale: Sc
     Next::Stop(if clear { Sure } else { Tied })
 }
 
-/// The face of an edge on whose side a point lies, if any; of two, the one that it is higher above, or
-/// less far below.
+/// Returns the face of an edge on the side of a point, if any; of two, the one with the larger
+/// height of the point.
 #[inline(always)]
 pub(crate) fn side_faced<Y: Placed>(
     y: &Y,
@@ -68,15 +69,15 @@ struct Bent {
     edge: u32,
     /// The gain in distance, beyond rounding.
     by: f64,
-    /// Whether some edge is neither clearly bent towards the line nor away from it.
+    /// True if the sign of some edge's bend towards the line is unclear.
     tied: bool,
 }
 
-/// Finds the corner's edge that leads nearest to the line, which `way` leads to.
+/// Finds the corner's edge that leads nearest to the line; `way` leads to the line.
 ///
-/// A step along the corner's edge is answered by one along the line: what counts is the edge's part
-/// across the line. Of nearly parallel edges that is small, and so has to be what rounding is taken
-/// for; else their slow approach would be missed.
+/// A step along the corner's edge is matched by one along the line, so only the edge's part across
+/// the line counts. It is small for nearly parallel edges, and the allowance for rounding has to be
+/// small as well; otherwise their slow approach would be missed.
 #[inline(always)]
 fn bent_towards<X: Placed>(x: &X, v: u32, line: &Line, way: DVec3, scale: Scale) -> Bent {
     let mut out = Bent {

@@ -5,10 +5,11 @@ use crate::feature::{Behind, Feature, Next, Whose};
 use crate::placed::{Placed, Scale};
 use crate::tolerance::LEVEL;
 
-/// Tests the corner against all face-edge planes; the march goes on to the edge of the one it violates
-/// most. Above the face, it goes on to the corner's edge that falls towards the face most steeply.
+/// Tests the corner against all face-edge planes; the march goes on to the edge of the most
+/// violated one. Above the face, it goes on to the corner's edge that falls towards the face most
+/// steeply.
 ///
-/// The nearest violated plane would not do: the edge it belongs to need not be nearer.
+/// The nearest violated plane would be wrong: its edge need not be nearer.
 #[inline]
 pub(crate) fn next<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y, f: u32, scale: Scale) -> Next {
     let corner = x.vertex(v);
@@ -49,7 +50,7 @@ pub(crate) fn next<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y, f: u32, scale: Sc
     }
     match falling {
         Some(edge) => Next::To(Feature::Edge(edge), Feature::Face(f)),
-        // The face's normal is right to rounding, however near the corner is.
+        // The face's normal is accurate up to rounding, however near the corner is.
         None => Next::Stop(Sure),
     }
 }

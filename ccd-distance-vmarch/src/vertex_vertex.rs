@@ -9,7 +9,7 @@ use ccd_core::glam::DVec3;
 /// nearest to the other corner.
 ///
 /// No slack is needed: [`vertex_edge`](crate::vertex_edge) tests the same plane by the same product
-/// of the same numbers, so that no pair comes back from there.
+/// of the same numbers, so that no pair returns from there.
 #[inline]
 pub(crate) fn next<X: Placed, Y: Placed>(x: &X, v: u32, y: &Y, w: u32, scale: Scale) -> Next {
     let way = y.vertex(w) - x.vertex(v);
@@ -34,7 +34,7 @@ struct Steepest {
     slope: f64,
 }
 
-/// The edge of a corner that leads farthest along a way, for the same length of edge.
+/// Returns the edge of a corner that leads farthest along a vector, for the same length of edge.
 #[inline(always)]
 fn steepest<P: Placed>(polytope: &P, v: u32, way: DVec3) -> Steepest {
     let mut best = Steepest {

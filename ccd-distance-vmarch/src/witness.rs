@@ -7,19 +7,19 @@ use crate::polytope::Polytope;
 use ccd_core::glam::DVec3;
 use ccd_core::{Claim, Combination};
 
-/// A point of either polytope, and the direction from A's to B's as their features have it.
+/// A point of either polytope, and the direction from A's to B's by their features.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Witness {
     pub(crate) points: [DVec3; 2],
-    /// The corners that they are combined of.
+    /// The corners that they combine.
     spots: [Corners<3>; 2],
     /// The direction from A to B, of any length.
     pub(crate) axis: DVec3,
 }
 
 impl Witness {
-    /// Computes the nearest points of a pair at which a march may stop. A march never stops at an edge or
-    /// face and a face; two of their corners stand for them.
+    /// Computes the nearest points of a pair at which a march may stop. A march never stops at a
+    /// face and an edge or face; for these, two corners are used.
     #[inline]
     pub(crate) fn of(placed: &PlacedPair<'_>, pair: Pair) -> Self {
         let PlacedPair { a, b, scale } = placed;
@@ -111,11 +111,12 @@ fn edge_edge<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32, scale: Scale) -
     let [s, t] = near.parameters;
     let points = [one.at(s), other.at(t)];
     let way = points[1] - points[0];
-    // Rounding turns the cross product by its own over the sine, the way by the places' over the
-    // distance. What of that is along the edges, where it would cost their length, is taken off.
+    // Rounding turns the cross product by its own rounding over the sine, and the difference vector
+    // by that of the positions over the distance. The part of it along the edges, where it would
+    // cost their length, is removed.
     let sine = near.across.length();
     let axis = if sine * scale.size > way.length() {
-        // Written so that NaN is no reason to turn.
+        // Written so that NaN does not turn it.
         let turned = if near.across.dot(way) < 0.0 {
             -1.0
         } else {
@@ -160,7 +161,7 @@ fn first_corner(shape: &Polytope, feature: Feature) -> u32 {
     }
 }
 
-/// Corners under the numbers that the piece's points have.
+/// Converts corners to the numbers of the piece's points.
 #[inline]
 fn named<const N: usize>(shape: &Polytope, corners: &Corners<N>) -> Combination {
     let mut out = Combination::EMPTY;
@@ -196,7 +197,7 @@ fn on_face<Y: Placed>(point: DVec3, y: &Y, f: u32, normal: DVec3) -> (DVec3, Cor
     let at = |k: usize| y.vertex(sides[k].vertex);
     let first = at(0);
     let to_point = point - first;
-    // The fan's triangle on whose side of all diagonals before it the point is.
+    // The fan's triangle that has the point on the inner side of all diagonals before it.
     let left_of = |k: usize| normal.cross(at(k) - first).dot(to_point) >= 0.0;
     let past = (2..sides.len().saturating_sub(1)).take_while(|&k| left_of(k));
     let k = 1 + past.count();
@@ -216,8 +217,9 @@ fn on_face<Y: Placed>(point: DVec3, y: &Y, f: u32, normal: DVec3) -> (DVec3, Cor
 
 /// The weights of a triangle's corners in the foot of a point that is above it.
 ///
-/// They are taken across the longest side first, and along it so that they make good what that has
-/// left: of a needle, the one is as good as rounding lets it, and the other as the needle is wide.
+/// The weights are computed across the longest side first, then along it with the residual
+/// corrected. For a needle, the first is as accurate as rounding permits, and the second as the
+/// needle's width.
 fn foot(point: DVec3, triangle: [DVec3; 3], normal: DVec3) -> [f64; 3] {
     let square = |k: usize| triangle[(k + 1) % 3].distance_squared(triangle[k]);
     let start = (1..3).fold(0, |best, k| if square(k) > square(best) { k } else { best });

@@ -1,4 +1,4 @@
-//! A point of a piece, by the piece's points.
+//! A point of a piece, as a combination of the piece's points.
 
 use crate::tolerance::WEIGHTS;
 use glam::DVec3;
@@ -12,21 +12,21 @@ pub struct Combination {
 }
 
 impl Combination {
-    /// The combination of no points, to which terms are [pushed](Combination::push).
+    /// The combination of no points; terms can be [pushed](Combination::push).
     pub const EMPTY: Combination = Combination {
         indices: [0; 4],
         weights: [0.0; 4],
         len: 0,
     };
 
-    /// One point alone.
+    /// Creates a combination of one point.
     pub fn point(index: u32) -> Self {
         let mut out = Self::EMPTY;
         out.push(index, 1.0);
         out
     }
 
-    /// `(1 − t)` of one point and `t` of another.
+    /// Creates `(1 − t)` of one point plus `t` of another.
     pub fn segment(indices: [u32; 2], t: f64) -> Self {
         let mut out = Self::EMPTY;
         out.push(indices[0], 1.0 - t);
@@ -34,8 +34,8 @@ impl Combination {
         out
     }
 
-    /// Adds a term; weights that are not positive, or outside of [`WEIGHTS`], are dropped, equal
-    /// indices are merged, terms beyond four distinct indices are dropped.
+    /// Adds a term. Weights that are not positive, or outside of [`WEIGHTS`], are dropped. Equal
+    /// indices are merged. Terms beyond four distinct indices are dropped.
     pub fn push(&mut self, index: u32, weight: f64) {
         // NaN is in no range.
         if !WEIGHTS.contains(&weight) {
@@ -56,14 +56,15 @@ impl Combination {
         &self.indices[..self.len as usize]
     }
 
-    /// The point that it names, or none when it is empty or names a point that `points` lacks.
+    /// Returns the point, or none when the combination is empty or has an index that `points`
+    /// lacks.
     ///
-    /// Weights are divided by their sum, so that the result lies in the hull up to rounding.
+    /// Weights are divided by their sum, so that the result is in the hull up to rounding.
     pub fn of(&self, points: &[DVec3]) -> Option<DVec3> {
         let (mut sum, mut total) = (DVec3::ZERO, 0.0);
         let first = *points.get(*self.support().first()? as usize)?;
         for (&index, &weight) in self.support().iter().zip(&self.weights) {
-            // Relative to the first point: rounding stays that of the piece's size.
+            // Relative to the first point: the rounding is that of the piece's size.
             sum += weight * (*points.get(index as usize)? - first);
             total += weight;
         }

@@ -3,11 +3,11 @@
 use super::polytope::{Face, Origin};
 
 /// The facets of a piece: convex polygons, each a loop of indices into the piece's points,
-/// counter-clockwise seen from outside; and the mesh's faces that are on them.
+/// counterclockwise seen from outside; and the mesh's faces on them.
 #[derive(Clone, Copy, Debug)]
 pub struct Facets<'a> {
     pub(crate) origins: &'a [Origin],
-    /// `ends[k]` is where the corners of facet `k` end in `corners`, counted from `base`.
+    /// The end of each facet's corners in `corners`, counted from `base`.
     pub(crate) ends: &'a [u32],
     pub(crate) corners: &'a [u32],
     pub(crate) base: u32,
@@ -40,7 +40,7 @@ impl<'a> Facets<'a> {
         (0..facets.ends.len()).map(move |k| facets.get(k))
     }
 
-    /// One corner loop.
+    /// Returns one corner loop.
     pub(crate) fn get(&self, k: usize) -> &'a [u32] {
         let start = if k == 0 { self.base } else { self.ends[k - 1] };
         &self.corners[start as usize..self.ends[k] as usize]
@@ -52,7 +52,7 @@ impl<'a> Facets<'a> {
     }
 }
 
-/// The `k`-th range of a list given by the ends of its ranges.
+/// Returns the `k`-th range of a list given by the ends of its ranges.
 #[inline]
 pub(crate) fn range(ends: &[u32], k: usize) -> std::ops::Range<usize> {
     let start = if k == 0 { 0 } else { ends[k - 1] };

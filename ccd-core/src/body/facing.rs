@@ -1,4 +1,4 @@
-//! On which side of a flat piece the solid is.
+//! Finds the side of a flat piece on which the solid is.
 
 use super::tree::ray::crossings;
 use super::{Body, Volume};
@@ -6,36 +6,37 @@ use crate::math::order::greater;
 use crate::tolerance::{BELOW_SURFACE, U64};
 use glam::DVec3;
 
-/// On which side of a flat piece the solid is that the body's faces bound.
+/// The side of a flat piece on which the solid is, which the body's faces bound.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Facing {
-    /// On one only: the unit normal that points out of it.
+    /// On one side only: the unit normal that points out of the solid.
     Out(DVec3),
-    /// On neither, as far as is known: of a surface, a piece with a volume or no area, two faces back
-    /// to back.
+    /// On neither side, or unknown: a piece of a surface, a piece with a volume or no area, two
+    /// faces back to back.
     Neither,
-    /// On one side here and on the other there, or too near to other faces to know.
+    /// On one side here and on the other there, or too near to other faces to decide.
     Unclear,
 }
 
-/// The knowledge about a piece that is kept beside it.
+/// The facts that are stored about a piece.
 struct Kept {
     facing: Facing,
     inside: Option<DVec3>,
 }
 
 impl Body {
-    /// On which side of a piece the solid is.
+    /// Returns the side of a piece on which the solid is.
     ///
     /// # Guarantee
-    /// [`Facing::Out`] and [`Facing::Neither`] of a solid's flat piece hold, exactly, where they were
-    /// looked for: at four points of it. They hold for all of it that no other face passes through.
+    /// [`Facing::Out`] and [`Facing::Neither`] of a solid's flat piece hold, exactly, at the four
+    /// examined points of the piece. They hold for its whole part that no other face passes
+    /// through.
     pub(crate) fn facing(&self, piece: u32) -> Facing {
         self.kept(piece).map_or(Facing::Neither, |kept| kept.facing)
     }
 
-    /// The unit normal of a flat piece that points out of the solid which the body's faces bound;
-    /// none where there is no such thing.
+    /// Returns the unit normal of a flat piece that points out of the solid bounded by the body's
+    /// faces; none if there is none.
     pub(crate) fn outward_normal(&self, piece: u32) -> Option<DVec3> {
         match self.facing(piece) {
             Facing::Out(normal) => Some(normal),
@@ -43,7 +44,8 @@ impl Body {
         }
     }
 
-    /// A point of the solid next to the middle of a piece, or within it; none where there is none.
+    /// Returns a point of the solid next to the middle of a piece, or within it; none if there is
+    /// none.
     pub(crate) fn point_inside(&self, piece: u32) -> Option<DVec3> {
         if !self.pieces().get(piece as usize).is_flat() {
             return Some(self.middle(piece));
@@ -51,13 +53,13 @@ impl Body {
         self.kept(piece)?.inside
     }
 
-    /// The mean of a piece's points.
+    /// Returns the mean of a piece's points.
     pub(crate) fn middle(&self, piece: u32) -> DVec3 {
         let points = self.pieces().get(piece as usize).points;
         points.iter().sum::<DVec3>() / points.len() as f64
     }
 
-    /// Returns the knowledge about a solid's flat piece, which is made when it is first asked for.
+    /// Returns the facts about a solid's flat piece, which are computed at the first request.
     fn kept(&self, piece: u32) -> Option<&Kept> {
         let of = self.pieces().get(piece as usize);
         if self.volume() == Volume::Surface || !of.is_flat() {
@@ -95,7 +97,8 @@ impl Body {
         Kept { facing, inside }
     }
 
-    /// On which side of a face with that normal the surface winds about a point of it.
+    /// Returns the side of a face with that normal on which the surface winds about a point of the
+    /// face.
     fn facing_at(&self, at: DVec3, normal: DVec3) -> Facing {
         // A mean is rounded in units of the coordinates.
         let slack = 4.0 * U64 * at.abs().element_sum();

@@ -1,8 +1,8 @@
-//! Features that touch: vertices, edges and faces in the numbering of the mesh they came from.
+//! Features that touch: vertices, edges and faces, numbered as in the mesh.
 
 use std::fmt;
 
-/// A feature of a body, numbered from 0 as in the mesh that the body was made of.
+/// A feature of a body, numbered from 0 as in the body's mesh.
 ///
 /// Prints as `v7`, `e3-7`, `f12` or `p0`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -13,12 +13,12 @@ pub enum Feature {
     Edge(u32, u32),
     /// A face.
     Face(u32),
-    /// The inside of a piece, or a piece whose facets are not known.
+    /// The inside of a piece, or a piece without known facets.
     Piece(u32),
 }
 
 impl Feature {
-    /// The edge between two vertices, or the vertex when both are the same one.
+    /// Returns the edge between two vertices, or the vertex when both are the same one.
     pub fn edge(v: u32, w: u32) -> Self {
         if v == w {
             Feature::Vertex(v)

@@ -1,4 +1,4 @@
-//! Finds the feature of a mesh that a point of a polytope lies on.
+//! Finds the feature of a mesh that contains a point of a polytope.
 
 use super::combination::Combination;
 use super::facets::range;
@@ -18,10 +18,10 @@ pub(crate) enum MeshFeature {
     Nothing,
 }
 
-/// Names a combination of corners.
+/// Returns the feature of a combination of corners.
 ///
-/// Corners that no facet of the mesh holds together may still name a point on the mesh: a virtual
-/// facet may lie within the surface, and so may a chord of two coplanar faces.
+/// Even if no facet of the mesh contains all of the corners, the point may be on the mesh: a
+/// virtual facet may be within the surface, and so may a chord of two coplanar faces.
 pub(crate) fn look_up(piece: &Piece<'_>, point: &Combination) -> MeshFeature {
     let (facets, support) = (piece.facets, point.support());
     if !facets.is_empty() && !is_on_mesh(piece) {
@@ -64,7 +64,7 @@ pub(crate) fn look_up(piece: &Piece<'_>, point: &Combination) -> MeshFeature {
     }
 }
 
-/// Whether anything of the mesh is on the piece.
+/// Whether any part of the mesh is on the piece.
 fn is_on_mesh(piece: &Piece<'_>) -> bool {
     match FacetsByCorner::of(piece) {
         Some(by_corner) => by_corner.is_on_mesh,
@@ -76,13 +76,13 @@ fn is_on_mesh(piece: &Piece<'_>) -> bool {
 struct FacetsByCorner {
     is_on_mesh: bool,
     facets: Vec<u32>,
-    /// Where those of each corner end.
+    /// The end of each corner's facets.
     ends: Vec<u32>,
 }
 
 impl FacetsByCorner {
-    /// That of a piece of many facets, made once and kept; none where there are few, or nowhere to keep
-    /// it.
+    /// Returns the table of a piece of many facets, made once and stored; none for few facets, or a
+    /// piece outside of a list.
     fn of<'a>(piece: &Piece<'a>) -> Option<&'a FacetsByCorner> {
         let many = piece.facets.len() > CLIMBED_POINTS;
         let kept = many.then(|| piece.kept(|piece| Box::new(FacetsByCorner::new(piece))))?;
@@ -103,18 +103,18 @@ impl FacetsByCorner {
         }
     }
 
-    /// In ascending order.
+    /// Returns the facets of a corner in ascending order.
     fn at(&self, corner: u32) -> &[u32] {
         &self.facets[range(&self.ends, corner as usize)]
     }
 }
 
-/// Makes what naming points of a piece takes, so that no query waits for it.
+/// Prepares the lookup for points of a piece, so that no query waits for it.
 pub(crate) fn prepare(piece: &Piece<'_>) {
     FacetsByCorner::of(piece);
 }
 
-/// The face of the mesh that a point lies on, up to rounding.
+/// Returns the face of the mesh that contains a point, up to rounding.
 pub(crate) fn face_under(piece: &Piece<'_>, point: DVec3) -> Option<u32> {
     if !is_on_mesh(piece) {
         return None;
@@ -133,7 +133,7 @@ pub(crate) fn face_under(piece: &Piece<'_>, point: DVec3) -> Option<u32> {
     (off <= reach).then_some(face)
 }
 
-/// Returns how far a point is off a triangle's plane, or beyond one of its edges, whichever is more.
+/// Returns the larger of a point's distances from a triangle's plane, and beyond its edges.
 fn distance_off([a, b, c]: [DVec3; 3], point: DVec3) -> f64 {
     let Some(normal) = normal([a, b, c]) else {
         return f64::INFINITY;

@@ -1,4 +1,4 @@
-//! A binary hierarchy over pieces, as any BVH builder yields it.
+//! A binary hierarchy over pieces, the output of any BVH builder.
 
 use super::pieces::Pieces;
 use crate::error::InputError;
@@ -6,8 +6,8 @@ use glam::DVec3;
 
 /// A binary tree whose leaves are the pieces of a body, each exactly once.
 ///
-/// It only says which pieces belong together; all bounds are computed from the pieces, so that a
-/// poor hierarchy makes a query slow, never wrong.
+/// It only groups pieces; all bounds are computed from the pieces. A poor hierarchy therefore makes
+/// a query slow, never wrong.
 #[derive(Clone, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(
@@ -29,11 +29,11 @@ pub enum HierarchyNode {
 }
 
 impl Hierarchy {
-    /// Takes the nodes of a tree over `pieces` pieces.
+    /// Creates a hierarchy from the nodes of a tree over `pieces` pieces.
     ///
     /// # Errors
     /// [`InputError::BadHierarchy`] when a piece is missing, repeated or out of range, or a node is
-    /// reached twice or not at all.
+    /// reached twice or never.
     pub fn new(nodes: Vec<HierarchyNode>, pieces: usize) -> Result<Self, InputError> {
         let (mut seen_node, mut seen_piece) = (vec![false; nodes.len()], vec![false; pieces]);
         let mut stack = vec![0u32];
@@ -58,7 +58,7 @@ impl Hierarchy {
         }
     }
 
-    /// Splits the pieces at the median of their centres along the longest side, again and again.
+    /// Splits the pieces recursively, at the median of their centres along the longest side.
     pub fn median_split(pieces: &Pieces) -> Self {
         let centres: Vec<DVec3> = pieces
             .iter()
@@ -100,7 +100,7 @@ impl Hierarchy {
 impl TryFrom<Vec<HierarchyNode>> for Hierarchy {
     type Error = InputError;
 
-    /// Makes a hierarchy of stored nodes, whose leaves are counted to get the number of pieces.
+    /// Makes a hierarchy of stored nodes; the number of leaves is the number of pieces.
     fn try_from(nodes: Vec<HierarchyNode>) -> Result<Self, InputError> {
         let leaf = |node: &&HierarchyNode| matches!(node, HierarchyNode::Leaf(_));
         let pieces = nodes.iter().filter(leaf).count();
@@ -115,7 +115,7 @@ impl From<Hierarchy> for Vec<HierarchyNode> {
     }
 }
 
-/// The corners of the smallest box, along the coordinate axes, that holds all points.
+/// Returns the corners of the smallest axis-aligned box that contains all points.
 pub(crate) fn bounds(points: impl Iterator<Item = DVec3>) -> (DVec3, DVec3) {
     points.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(lo, hi), p| {
         (lo.min(p), hi.max(p))

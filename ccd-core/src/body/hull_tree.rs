@@ -27,16 +27,15 @@ use super::pieces::Pieces;
 use convex::support_of;
 use std::sync::Arc;
 
-/// A binary tree over the pieces of a body with the convex hull of what is below at every node
+/// A binary tree over the pieces of a body. Every node has the convex hull of all pieces below
 /// `[SWIFT01]`.
 ///
 /// # Guarantee
 /// - A leaf's hull is its piece.
-/// - An inner hull is that of its children's points, exactly: each of its points is one of theirs,
-///   and each of theirs is inside of it. Both are checked when the tree is made, with exact
-///   arithmetic `[SHE97]`, so that the distance of two nodes never exceeds that of any two pieces
-///   below them.
-/// - Where the nearest features of two nodes are [not free](FacetClass::Free), their distance is that
+/// - An inner hull is exactly that of its children's points: each of its points is one of theirs,
+///   and each of theirs is inside of it. Construction checks both with exact arithmetic `[SHE97]`.
+///   The distance of two nodes therefore never exceeds that of any two pieces below them.
+/// - If the nearest features of two nodes are [not free](FacetClass::Free), their distance is that
 ///   of the pieces below them.
 ///
 /// A node is grown by the largest rounding radius of the pieces below.
@@ -48,7 +47,7 @@ use std::sync::Arc;
 )]
 pub struct HullTree {
     hierarchy: Hierarchy,
-    /// Clones share them, whatever their leaves call the pieces.
+    /// Clones share the hulls, even if their leaves number the pieces differently.
     hulls: Arc<Hulls>,
 }
 
@@ -58,15 +57,15 @@ struct Hulls {
     pieces: Pieces,
     /// The classes of the facets of all hulls, in order.
     classes: Vec<FacetClass>,
-    /// Where each hull's facets end.
+    /// The end of each hull's facets.
     class_ends: Vec<u32>,
-    /// Whether all pieces below a node have the node's rounding radius.
+    /// True if all pieces below a node have the node's rounding radius.
     evenly_rounded: Vec<bool>,
     /// Half the diagonal of each hull's box, rounding included.
     sizes: Vec<f64>,
     /// The facets that meet in each point of all hulls, counted within its hull, in order.
     meeting: Vec<u32>,
-    /// Where each point's facets end.
+    /// The end of each point's facets.
     meeting_ends: Vec<u32>,
 }
 
@@ -76,8 +75,8 @@ impl HullTree {
         &self.hierarchy
     }
 
-    /// The hulls of all nodes, in their order: whatever works on pieces works on nodes. Features of an
-    /// inner hull have the names that they have in the mesh, as far as they are of it.
+    /// The hulls of all nodes, in their order, usable like pieces. Features of an inner hull have
+    /// their names in the mesh if they are part of it.
     pub fn hulls(&self) -> &Pieces {
         &self.hulls.pieces
     }
@@ -90,11 +89,12 @@ impl HullTree {
         &self.hulls.classes[range(&self.hulls.class_ends, node as usize)]
     }
 
-    /// Returns the class of the feature that holds a combination of a node's points: the best of the
-    /// facets that meet there `[SWIFT01]`.
+    /// Returns the class of the feature that contains a combination of a node's points: the best of
+    /// the facets that meet there `[SWIFT01]`.
     ///
     /// # Guarantee
-    /// Unless [`FacetClass::Free`], the combination lies on a piece below the node, or within one.
+    /// Unless the class is [`FacetClass::Free`], the combination is on or in a piece below the
+    /// node.
     ///
     /// # Panics
     /// When there is no such node.
@@ -122,13 +122,13 @@ impl HullTree {
         holding.map(class).min().unwrap_or(inside)
     }
 
-    /// A node's hull; where it has many points, these are found along a direction by climbing edges,
-    /// once these are proven to be those of the hull, else by searching a tree.
+    /// Returns a node's hull. If it has many points, extremal ones are found by climbing edges that
+    /// are proven to be those of the hull, otherwise by searching a tree.
     pub(crate) fn hull(&self, node: u32) -> Piece<'_> {
         self.hulls.pieces.get(node as usize).supported(support_of)
     }
 
-    /// The nodes that the tree can be [made](HullTree::new) of again.
+    /// Returns nodes from which the tree can be [built](HullTree::new) again.
     pub fn to_nodes(&self) -> Vec<HullNode> {
         let inner = |at: usize, children: [u32; 2]| {
             let hull = self.hulls.pieces.get(at);
@@ -151,14 +151,15 @@ impl HullTree {
         self.hulls.sizes[node as usize]
     }
 
-    /// Bytes held, about.
+    /// The approximate number of bytes held.
     pub(crate) fn bytes(&self) -> usize {
         self.hulls.bytes()
     }
 }
 
 impl Hulls {
-    /// The facets of a node's hull that meet in one of its points; none when there is no such point.
+    /// Returns the facets of a node's hull that meet in one of its points; empty when there is no
+    /// such point.
     fn meeting(&self, node: usize, point: u32) -> &[u32] {
         let points = self.pieces.point_range(node);
         let at = points.start + point as usize;

@@ -1,4 +1,4 @@
-//! Convex pieces: what bodies are made of and what oracles measure between.
+//! Convex pieces: the parts of bodies, and the operands of oracles.
 
 use super::facets::Facets;
 use super::polytope::Origin;
@@ -21,13 +21,13 @@ pub struct Piece<'a> {
     pub radius: f64,
     /// The facets of the hull, where known: empty for up to three points.
     pub facets: Facets<'a>,
-    /// Finds extremal points, where that is prepared, and proven to find the right ones.
+    /// A search for extremal points, if one is prepared and proven correct.
     pub(crate) support: Option<&'a Support>,
-    /// Where backends keep what they make of it.
+    /// The place for the values that backends store with it.
     pub(crate) slot: Option<Slot<'a>>,
 }
 
-/// The row of a side table that belongs to a piece.
+/// The entry of a side table that belongs to a piece.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Slot<'a> {
     pub(crate) side_table: &'a SideTable,
@@ -36,7 +36,7 @@ pub(crate) struct Slot<'a> {
 }
 
 impl<'a> Piece<'a> {
-    /// A piece without known facets, e.g. to try an oracle on.
+    /// Creates a piece without known facets, e.g. to try an oracle.
     pub fn from_points(points: &'a [DVec3]) -> Self {
         Piece {
             points,
@@ -47,15 +47,14 @@ impl<'a> Piece<'a> {
         }
     }
 
-    /// Returns what a backend makes of the piece and keeps for the next time: made when it is first
-    /// asked for, dropped with the list that the piece belongs to. None for a piece that belongs to
-    /// no list.
+    /// Returns a value that a backend derives from the piece. It is made at the first request and
+    /// kept as long as the list of the piece. None for a piece that belongs to no list.
     ///
-    /// It belongs to the piece as the list has it, whatever has become of the public fields since.
-    /// `make` must not ask for the same type of the same piece: it would wait for itself.
+    /// The value belongs to the piece as the list has it, regardless of later changes of the public
+    /// fields. `make` must not request the same type of the same piece: it would wait for itself.
     ///
-    /// Types are kept apart, so that every backend has a type of its own, and one entry for each
-    /// piece, which costs memory for all pieces of the list from the first one on: box what is large.
+    /// Each type has its own values, so that every backend should have a type of its own. The first
+    /// request takes memory for one entry for every piece of the list: box large values.
     ///
     /// ```
     /// use ccd_core::{glam::DVec3, Piece, Pieces};
@@ -75,7 +74,7 @@ impl<'a> Piece<'a> {
         Some(entry.get_or_init(|| make(self)))
     }
 
-    /// The same piece with what finds its extremal points where they are many, made once and kept.
+    /// Returns the piece with a search for extremal points if it has many, made once and kept.
     #[inline]
     pub(crate) fn supported(self, make: impl FnOnce(&Self) -> Support) -> Self {
         if self.points.len() <= CLIMBED_POINTS || self.support.is_some() {
@@ -88,8 +87,8 @@ impl<'a> Piece<'a> {
         }
     }
 
-    /// The mesh's triangles that are on the piece, with the numbers of their faces; polygons are fans
-    /// about their first corner.
+    /// Returns the mesh's triangles that are on the piece, with the numbers of their faces;
+    /// polygons are fans about their first corner.
     pub fn mesh_triangles(&self) -> impl Iterator<Item = (u32, [DVec3; 3])> {
         let facets = self.facets.origins.iter().zip(self.facets.iter());
         let fans = facets.flat_map(|(origin, corners)| {
@@ -107,11 +106,11 @@ impl<'a> Piece<'a> {
         fans.chain(faces.map(|face| (face.id, face.corners)))
     }
 
-    /// The index of a point that is farthest along a direction of any length; of a piece of a body,
-    /// without looking at all points where they are many.
+    /// Returns the index of a point that is farthest along a direction of any length. For a piece
+    /// of a body with many points, it does not look at all of them.
     ///
     /// # Guarantee
-    /// As [`Support::extremal`].
+    /// Like [`Support::extremal`].
     pub fn extremal(&self, direction: DVec3) -> u32 {
         if let Some(support) = self.support {
             return support.extremal(direction);
@@ -126,18 +125,18 @@ impl<'a> Piece<'a> {
         found
     }
 
-    /// A point that is farthest along a direction.
+    /// Returns a point that is farthest along a direction.
     pub(crate) fn farthest(&self, direction: DVec3) -> DVec3 {
         self.points[self.extremal(direction) as usize]
     }
 
-    /// A ball about the points, where they are many and [`Piece::extremal`] is fast.
+    /// Returns a ball about the points, if there are many and [`Piece::extremal`] is fast.
     #[inline]
     pub(crate) fn ball(&self) -> Option<(DVec3, f64)> {
         self.support.and_then(Support::ball)
     }
 
-    /// Returns the largest distance of the points from one, or a little more than that.
+    /// Returns an upper bound of the points' distances from a point, as tight as rounding allows.
     pub(crate) fn farthest_from(&self, from: DVec3) -> f64 {
         if let Some((middle, radius)) = self.ball() {
             return (distance(middle, from) + radius) * (1.0 + RATE_F64);
@@ -146,7 +145,7 @@ impl<'a> Piece<'a> {
         squares.fold(0.0, greater).sqrt()
     }
 
-    /// Returns about how many points are looked at to find an extremal one.
+    /// Returns the approximate number of looks at points to find an extremal one.
     pub(crate) fn looks(&self) -> u64 {
         let few = self.points.len().min(CLIMBED_POINTS);
         match self.support {
@@ -155,7 +154,7 @@ impl<'a> Piece<'a> {
         }
     }
 
-    /// Whether it lies in a plane: a polytope of volume has more than two facets.
+    /// Whether it is in a plane: a polytope of volume has more than two facets.
     pub(crate) fn is_flat(&self) -> bool {
         self.points.len() <= 3 || self.facets.len() == 2
     }

@@ -16,7 +16,7 @@ use crate::error::InputError;
 use crate::limits::MAX_COORDINATE;
 use glam::DVec3;
 
-/// The pieces of one body, flat in memory, with the numbers of the mesh they came from.
+/// The pieces of one body, flat in memory, with the numbers of the mesh that they came from.
 #[derive(Clone, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(
@@ -26,15 +26,15 @@ use glam::DVec3;
 pub struct Pieces {
     points: Vec<DVec3>,
     vertex_ids: Vec<u32>,
-    /// Where each piece's points end.
+    /// The end of each piece's points.
     point_ends: Vec<u32>,
     radii: Radii,
     shape: Shape,
-    /// The values that backends keep beside the pieces.
+    /// The values that backends store with the pieces.
     side_table: SideTable,
 }
 
-/// Indices are kept in 32 bits: a quarter of their range names points, the rest has room for nodes.
+/// Indices have 32 bits: a quarter of their range names points, the rest leaves room for nodes.
 const MAX_POINTS: usize = u32::MAX as usize / 4;
 
 #[derive(Clone, Debug)]
@@ -45,7 +45,7 @@ enum Radii {
 
 #[derive(Clone, Debug)]
 enum Shape {
-    /// Every piece is a triangle; the mesh's number of each.
+    /// Every piece is a triangle; with the mesh's number of each.
     Triangles {
         face_ids: Vec<u32>,
     },
@@ -55,19 +55,19 @@ enum Shape {
 /// The facets and mesh faces of all pieces.
 #[derive(Clone, Debug, Default)]
 struct Surfaces {
-    /// Where each piece's facets end in `corner_ends` and `origins`.
+    /// The end of each piece's facets in `corner_ends` and `origins`.
     facet_ends: Vec<u32>,
     origins: Vec<Origin>,
-    /// Where each facet's corners end.
+    /// The end of each facet's corners.
     corner_ends: Vec<u32>,
     corners: Vec<u32>,
-    /// Where each piece's faces end.
+    /// The end of each piece's faces.
     face_ends: Vec<u32>,
     faces: Vec<Face>,
 }
 
 impl Pieces {
-    /// One piece per triangle of a mesh or soup; `face_ids[k]` is the number of `faces[k]`.
+    /// Creates one piece per triangle of a mesh or soup; `face_ids[k]` is the number of `faces[k]`.
     ///
     /// # Errors
     /// [`InputError::VertexOutOfRange`], [`InputError::BadPoint`], [`InputError::NoPieces`],
@@ -149,7 +149,7 @@ impl Pieces {
         matches!(self.shape, Shape::Triangles { .. })
     }
 
-    /// One piece.
+    /// Returns one piece.
     ///
     /// # Panics
     /// When `index` is not below [`Pieces::len`].
@@ -168,7 +168,7 @@ impl Pieces {
         }
     }
 
-    /// All pieces in order.
+    /// Returns all pieces in order.
     pub fn iter(&self) -> impl Iterator<Item = Piece<'_>> {
         (0..self.len()).map(|k| self.get(k))
     }
@@ -178,7 +178,7 @@ impl Pieces {
         &self.points
     }
 
-    /// Bytes held, about.
+    /// The approximate number of bytes held.
     pub(crate) fn bytes(&self) -> usize {
         let facets = match &self.shape {
             Shape::Triangles { .. } => 0,
@@ -187,14 +187,15 @@ impl Pieces {
         size_of_val(self.points.as_slice()) + 4 * (self.vertex_ids.len() + 2 * self.len()) + facets
     }
 
-    /// The three corners of a piece, where [`Pieces::all_triangles`] holds.
+    /// Returns the three corners of a piece, if [`Pieces::all_triangles`] holds.
     #[inline]
     pub(crate) fn triangle(&self, index: usize) -> [DVec3; 3] {
         let corners = &self.points[3 * index..3 * index + 3];
         [corners[0], corners[1], corners[2]]
     }
 
-    /// The corners of a piece that is a triangle, or of the first of the mesh's triangles on it.
+    /// Returns the corners of a piece that is a triangle, or of the first of the mesh's triangles
+    /// on it.
     pub(crate) fn first_triangle(&self, index: usize) -> Option<[DVec3; 3]> {
         match self.all_triangles() {
             true => Some(self.triangle(index)),
@@ -202,13 +203,13 @@ impl Pieces {
         }
     }
 
-    /// All points of consecutive pieces.
+    /// Returns all points of consecutive pieces.
     pub(crate) fn points_of(&self, pieces: std::ops::Range<usize>) -> &[DVec3] {
         let start = self.point_range(pieces.start).start;
         &self.points[start..self.point_ends[pieces.end - 1] as usize]
     }
 
-    /// The same pieces in another order: piece `k` of the result is piece `order[k]` of this.
+    /// Returns the pieces in another order: piece `k` of the result is piece `order[k]` of this.
     pub(crate) fn reordered(&self, order: &[u32]) -> Pieces {
         let mut out = Pieces {
             points: Vec::with_capacity(self.points.len()),
@@ -232,9 +233,9 @@ impl Pieces {
         out
     }
 
-    /// Returns the name of a point of a piece in the mesh: the vertex, edge or face that holds the
-    /// corners it is combined of, or the face that it lies on all the same; [`Feature::Piece`]
-    /// inside, and on a polytope whose facets are all virtual.
+    /// Returns the mesh's feature at a point of a piece: the vertex, edge or face that contains the
+    /// corners that the point combines, or the face that contains the point all the same;
+    /// [`Feature::Piece`] inside, and on a polytope whose facets are all virtual.
     pub fn feature(&self, piece: usize, point: &Combination) -> Feature {
         let id = |corner: u32| self.vertex_ids[self.point_range(piece).start + corner as usize];
         match (&self.shape, point.support()) {

@@ -1,14 +1,14 @@
-//! A piece as it is handed in.
+//! A piece, as input.
 
 use glam::DVec3;
 
-/// A convex polytope as it is handed to [`Pieces::polytopes`](crate::Pieces::polytopes).
+/// A convex polytope, as input of [`Pieces::polytopes`](crate::Pieces::polytopes).
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Polytope {
     /// The points whose hull it is.
     pub points: Vec<DVec3>,
-    /// The number of each point in the mesh that it came from; empty numbers them from 0.
+    /// The number of each point in its mesh; empty numbers them from 0.
     pub vertex_ids: Vec<u32>,
     /// The hull's facets, where known: they tile its boundary; a flat polygon has two.
     pub facets: Vec<Facet>,
@@ -22,13 +22,13 @@ pub struct Polytope {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Facet {
-    /// The part of the mesh that it is.
+    /// Its origin in the mesh.
     pub origin: Origin,
-    /// Indices into the polytope's points, counter-clockwise seen from outside.
+    /// Indices into the polytope's points, counterclockwise seen from outside.
     pub corners: Vec<u32>,
 }
 
-/// The part of the mesh that a facet of its polytope is.
+/// The origin of a polytope's facet in the mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Origin {
@@ -36,7 +36,7 @@ pub enum Origin {
     Face(u32),
     /// Several coplanar faces, listed in [`Polytope::faces`].
     Faces,
-    /// No part of the mesh, or not as a whole: it closes the polytope.
+    /// No part of the mesh, or only partly: it closes the polytope.
     Virtual,
 }
 
@@ -48,6 +48,6 @@ pub struct Face {
     pub id: u32,
     /// The numbers of its corners in the mesh.
     pub vertices: [u32; 3],
-    /// Counter-clockwise seen from outside; not necessarily points of the polytope.
+    /// Counterclockwise seen from outside; not necessarily points of the polytope.
     pub corners: [DVec3; 3],
 }

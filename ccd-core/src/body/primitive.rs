@@ -19,7 +19,8 @@ impl Body {
         })
     }
 
-    /// All points within `radius` of the segment from `−half_height` to `half_height` along z.
+    /// Returns all points within `radius` of the segment from `−half_height` to `half_height` along
+    /// z.
     ///
     /// # Errors
     /// [`InputError::BadRadius`], [`InputError::BadPoint`].
@@ -33,8 +34,8 @@ impl Body {
 
     /// A box about the origin, given by half of each side.
     ///
-    /// Corner `k` has a positive x, y, z where bit 0, 1, 2 of `k` is set, and faces 0 to 5 look along −x,
-    /// +x, −y, +y, −z, +z.
+    /// Corner `k` has a positive x, y, z if bit 0, 1, 2 of `k` is set. Faces 0 to 5 have the
+    /// outward normals −x, +x, −y, +y, −z, +z.
     ///
     /// # Errors
     /// [`InputError::BadPoint`].
@@ -67,7 +68,7 @@ impl Body {
     /// A body of one convex piece, filled.
     ///
     /// # Errors
-    /// As [`Pieces::polytopes`].
+    /// Those of [`Pieces::polytopes`].
     pub fn polytope(polytope: Polytope) -> Result<Self, InputError> {
         Body::new(&Pieces::polytopes(&[polytope])?, Volume::Solid)
     }

@@ -6,7 +6,7 @@ use glam::DVec3;
 /// The points of a connected part that are farthest along x, y, z, −x, −y, −z.
 pub(crate) type Shell = [DVec3; 6];
 
-/// The extreme points of every connected part; pieces are connected where they share a point.
+/// Returns the extreme points of every connected part; pieces that share a point are connected.
 pub(crate) fn shells(pieces: &Pieces) -> Vec<Shell> {
     let points = pieces.points();
     let mut parts = Parts((0..points.len() as u32).collect());
@@ -16,7 +16,7 @@ pub(crate) fn shells(pieces: &Pieces) -> Vec<Shell> {
             parts.join(k - 1, k);
         }
     }
-    // Equal points are next to each other once sorted by a number that their place determines.
+    // Equal points are adjacent after sorting by a hash of their coordinates.
     let place = |k: u32| points[k as usize].to_array().map(|x| (x + 0.0).to_bits());
     let mut by_place: Vec<(u64, u32)> = (0..points.len() as u32)
         .map(|k| (scatter(place(k)), k))
@@ -44,20 +44,20 @@ pub(crate) fn shells(pieces: &Pieces) -> Vec<Shell> {
     shells
 }
 
-/// A number that few places share.
+/// Returns a hash of coordinates.
 fn scatter(place: [u64; 3]) -> u64 {
     place.into_iter().fold(0, |mixed: u64, bits| {
         (mixed.rotate_left(23) ^ bits).wrapping_mul(0x9e37_79b9_7f4a_7c15)
     })
 }
 
-/// Sets that are joined: every element names another one of its set, the root itself.
+/// Disjoint sets: every element names another one of its set, a root itself.
 struct Parts(Vec<u32>);
 
 impl Parts {
     fn root(&mut self, mut k: usize) -> usize {
         while self.0[k] as usize != k {
-            // Halving the way keeps later ones short.
+            // Path halving shortens later searches.
             self.0[k] = self.0[self.0[k] as usize];
             k = self.0[k] as usize;
         }

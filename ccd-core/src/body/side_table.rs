@@ -1,14 +1,14 @@
-//! Values that backends keep beside the pieces.
+//! Values that backends store with the pieces.
 
 use std::any::Any;
 use std::fmt;
 use std::sync::OnceLock;
 
-/// One list for every type that was asked for, with an entry for each piece, made when it is first
-/// asked for.
+/// One list for every requested type, with an entry for each piece that is made at its first
+/// request.
 ///
-/// It lives and dies with the pieces, and is shared by all threads that share them; a copy of the
-/// pieces starts with an empty one.
+/// It lives as long as the pieces, and is shared by all threads that share them. A copy of the
+/// pieces starts with an empty table.
 #[derive(Default)]
 pub(crate) struct SideTable(OnceLock<Box<Column>>);
 
@@ -20,7 +20,7 @@ struct Column {
 }
 
 impl SideTable {
-    /// The entry of one of `len` pieces.
+    /// Returns the entry of one of `len` pieces.
     #[inline]
     pub(crate) fn entry<T: Any + Send + Sync>(&self, len: usize, index: usize) -> &OnceLock<T> {
         let mut side_table = self;

@@ -14,12 +14,12 @@ use super::facets::Facets;
 use crate::tolerance::CLIMBED_POINTS;
 use glam::DVec3;
 
-/// Finds extremal corners of one piece: all corners are looked at, eight at once, while they are few.
-/// Where they are many, a tree over them is searched, or, from a start that a table of directions
-/// gives, an edge is climbed after the other.
+/// Finds extremal corners of one piece. Few corners are all scanned, eight at once. For many
+/// corners, a tree over them is searched, or edges are climbed from a start in a table of
+/// directions.
 ///
-/// A [`Body`](crate::Body) keeps trees for its pieces of many points; they serve any points. Climbing
-/// takes half the time and relies on the facets.
+/// A [`Body`](crate::Body) keeps trees for its pieces of many points; they suit any points.
+/// Climbing takes half the time and relies on the facets.
 ///
 /// ```
 /// use ccd_core::{glam::DVec3, Facets, Support};
@@ -38,8 +38,8 @@ pub enum Support {
 }
 
 impl Support {
-    /// Prepares a piece of these points. Where there are more than [`CLIMBED_POINTS`] of them, the
-    /// facets must be those of their hull; without facets, every point is looked at.
+    /// Prepares a piece of these points. If there are more than [`CLIMBED_POINTS`] of them, the
+    /// facets must be those of their hull; without facets, every point is scanned.
     pub fn new(points: &[DVec3], facets: Facets<'_>) -> Self {
         let climbed = points.len() > CLIMBED_POINTS;
         match climbed.then(|| SupportTable::new(points, facets)).flatten() {
@@ -48,17 +48,17 @@ impl Support {
         }
     }
 
-    /// Prepares a piece whatever its facets are.
+    /// Prepares a piece without its facets.
     pub(crate) fn of_points(points: &[DVec3]) -> Self {
         Support::Tree(Box::new(SupportTree::new(points)))
     }
 
-    /// The index of a point that is farthest along a direction of any length.
+    /// Returns the index of a point that is farthest along a direction of any length.
     ///
     /// # Guarantee
-    /// No point of the piece is farther by more than the rounding of two heights, which is
+    /// No point of the piece is farther by more than the rounding of two heights, each of which is
     /// [`HEIGHT_F64`](crate::tolerance::HEIGHT_F64) of the direction's 1-norm and the largest
-    /// coordinate each. A direction that is not finite gives some point.
+    /// coordinate. A direction that is not finite gives some point.
     #[inline]
     pub fn extremal(&self, direction: DVec3) -> u32 {
         match self {
@@ -68,7 +68,7 @@ impl Support {
         }
     }
 
-    /// The same, for a direction along which a corner may be known to be about as far.
+    /// Returns the same, for a direction along which a corner may be known to be nearly extreme.
     #[inline]
     pub(crate) fn extremal_near(&self, corner: Option<u32>, direction: DVec3) -> u32 {
         match (self, corner) {
@@ -77,7 +77,7 @@ impl Support {
         }
     }
 
-    /// A ball about the points, where one is known.
+    /// Returns a ball about the points, if one is known.
     #[inline]
     pub(crate) fn ball(&self) -> Option<(DVec3, f64)> {
         match self {

@@ -16,8 +16,9 @@ use glam::DVec3;
 /// An immutable tree in the body's frame. Node 0 is the root; ids beyond the nodes name triangles.
 ///
 /// # Invariants
-/// A node's box and ball hold all its pieces, rounding radii included, in exact arithmetic on the
-/// stored numbers; every piece is below exactly one child of every group on its way from the root.
+/// A node's box and ball contain all its pieces, rounding radii included, in exact arithmetic on
+/// the stored numbers. Every piece is below exactly one child of every group on its path from the
+/// root.
 #[derive(Clone, Debug)]
 pub(crate) struct Tree {
     nodes: Vec<Node>,
@@ -47,7 +48,7 @@ impl Tree {
         }
     }
 
-    /// The piece that an id names, if it names a single one.
+    /// Returns the piece that an id names, if it names a single one.
     #[inline]
     pub(crate) fn piece(&self, id: NodeId) -> Option<u32> {
         match self.get(id) {

@@ -1,11 +1,11 @@
-//! Faces in boxes under binary trees, one for each piece: which faces of two pieces are near.
+//! Binary trees of boxes over the faces of each piece, to find the near faces of two pieces.
 
 use super::skin::Skin;
 use glam::DVec3;
 use std::collections::HashMap;
 
-/// The trees over the faces of one body's pieces, each made when its piece is first asked for: a piece
-/// of many faces may be near many others, and is to be put in order once.
+/// The trees over the faces of one body's pieces. Each is made at the first request for its piece:
+/// a piece of many faces may be near many others, and is sorted once.
 pub(super) struct FaceTrees {
     nodes: Vec<Boxed>,
     roots: HashMap<u32, u32>,
@@ -22,12 +22,12 @@ struct Boxed {
 #[derive(Clone, Copy)]
 enum Below {
     Face(u32),
-    /// The next node, and this one.
+    /// Two children: the node after this one, and the given one.
     Halves(u32),
 }
 
-/// The pairs of faces that are nearer than `reach`, as far as boxes show, and how many pairs of
-/// boxes may be looked at to find them.
+/// The pairs of faces that are nearer than `reach`, by their boxes, and the number of pairs of
+/// boxes that may be visited to find them.
 pub(super) struct NearFaces {
     pub(super) pairs: Vec<[u32; 2]>,
     pub(super) budget: u64,
@@ -35,7 +35,7 @@ pub(super) struct NearFaces {
 }
 
 impl NearFaces {
-    /// Adds the pairs under two roots. None when the budget is spent.
+    /// Adds the pairs below two roots. Returns none when the budget is spent.
     pub(super) fn among(&mut self, trees: &[FaceTrees; 2], roots: [u32; 2]) -> Option<()> {
         let mut stack = vec![roots];
         while let Some([at_a, at_b]) = stack.pop() {
@@ -67,7 +67,7 @@ impl FaceTrees {
         }
     }
 
-    /// The root over a piece's faces; none of a piece that has no faces.
+    /// Returns the root over a piece's faces; none for a piece without faces.
     pub(super) fn root(&mut self, skin: &mut Skin<'_>, piece: u32) -> Option<u32> {
         if let Some(&root) = self.roots.get(&piece) {
             return Some(root);
@@ -83,7 +83,7 @@ impl FaceTrees {
         &self.nodes[at as usize]
     }
 
-    /// Adds a node around some faces, and those below it: halves, so that it is no deeper than the
+    /// Adds a node around some faces, and the nodes below it, by halving: the depth is the
     /// logarithm of their number.
     fn add(&mut self, faces: &mut [Boxed]) -> Option<u32> {
         let around = faces.iter().copied().reduce(Boxed::around)?;
@@ -108,7 +108,7 @@ impl Boxed {
         }
     }
 
-    /// Around both; what is below is the first one's.
+    /// Returns the box around both, with the first one's children.
     fn around(self, other: Boxed) -> Boxed {
         Boxed {
             low: self.low.min(other.low),
@@ -128,7 +128,7 @@ impl Boxed {
     }
 }
 
-/// Two halves of at least two faces, by their middles along the longest side.
+/// Splits at least two faces into halves, by their middles along the longest side.
 fn halves(faces: &mut [Boxed], size: DVec3) -> (&mut [Boxed], &mut [Boxed]) {
     let (axis, half) = (size.max_position(), faces.len() / 2);
     let middle = |face: &Boxed| face.low[axis] + face.high[axis];

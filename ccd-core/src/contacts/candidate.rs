@@ -2,12 +2,13 @@
 
 use glam::DVec3;
 
-/// Two nearest points, in A's frame, and a face that each is on.
+/// Two nearest points, in A's frame, and a face with each.
 #[derive(Clone, Copy)]
 pub(super) struct Candidate {
     pub(super) points: [DVec3; 2],
     pub(super) faces: [u32; 2],
-    /// Both faces' rounding radii: faces that share an edge or a corner may have others.
+    /// The sum of both faces' rounding radii: faces that share an edge or a corner may have other
+    /// radii.
     pub(super) radii: f64,
 }
 

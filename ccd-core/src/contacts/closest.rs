@@ -1,5 +1,5 @@
-//! Nearest points in closed form: of a corner on a triangle, of two edges that cross
-//! `[ERICSON05 §5.1]`.
+//! Nearest points in closed form: of a triangle to a corner, and of two crossing edges `[ERICSON05
+//! §5.1]`.
 
 use crate::math::order::lesser;
 use glam::DVec3;
@@ -13,17 +13,17 @@ pub(super) enum Part {
     Inside,
 }
 
-/// The nearest point of a triangle, and the least part of the triangle that is as near up to
-/// `rounding`; also of a triangle that is a segment or a point.
+/// Returns the nearest point of a triangle, and the smallest part of the triangle that is as near,
+/// up to `rounding`. The triangle may be a segment or a point.
 ///
-/// Whatever cancellation does to a weight, the point is one of the triangle, so that its distance is
+/// Even if a weight suffers cancellation, the point is in the triangle, so that its distance is
 /// never too small.
 pub(super) fn on_triangle(from: DVec3, corners: [DVec3; 3], rounding: f64) -> (Part, DVec3) {
     let next = |k: usize| corners[(k + 1) % 3];
     let corner = |k| (Part::Corner(k), corners[k]);
     let edge = |k| Some((Part::Edge(k), inner_foot(from, [corners[k], next(k)])?));
     let inside = inside(from, corners).map(|foot| (Part::Inside, foot));
-    // The least part comes first: it is taken where a larger one is no nearer.
+    // The smallest part comes first: it is taken if no larger one is nearer.
     let parts = [
         Some(corner(0)),
         Some(corner(1)),
@@ -47,14 +47,14 @@ pub(super) fn on_triangle(from: DVec3, corners: [DVec3; 3], rounding: f64) -> (P
     best
 }
 
-/// The nearest points of two edges where these are inside of both, and nearer than the end of either
-/// by more than `rounding`: edges that are parallel, or meet at an end, do not cross.
+/// Returns the nearest points of two edges if these are inside of both, and nearer than the end of
+/// either by more than `rounding`. Edges that are parallel, or meet at an end, do not cross.
 pub(super) fn crossing(e: [DVec3; 2], f: [DVec3; 2], rounding: f64) -> Option<[DVec3; 2]> {
     let (along_e, along_f, way) = (e[1] - e[0], f[1] - f[0], f[0] - e[0]);
     let across = along_e.cross(along_f);
     let start = way.cross(along_f).dot(across) / across.length_squared();
     let inner = |p: DVec3, edge: [DVec3; 2]| inner_foot(p, edge);
-    // Two projections mend what cancellation did to the share; NaN is in no range.
+    // Two projections correct the share after cancellation; NaN is in no range.
     if !(start > 0.0 && start < 1.0) {
         return None;
     }
@@ -75,15 +75,15 @@ fn same_kind(one: Part, other: Part) -> bool {
     std::mem::discriminant(&one) == std::mem::discriminant(&other)
 }
 
-/// The foot of a point on a segment, where it is between the ends.
+/// Returns the foot of a point on a segment, if it is between the ends.
 fn inner_foot(from: DVec3, [a, b]: [DVec3; 2]) -> Option<DVec3> {
     let along = b - a;
     let share = (from - a).dot(along) / along.length_squared();
-    // False for NaN, as of a segment of no length.
+    // False for NaN, and for a segment of no length.
     (share > 0.0 && share < 1.0).then(|| a + share * along)
 }
 
-/// The nearest point of a segment.
+/// Returns the nearest point of a segment.
 fn nearest_on(from: DVec3, edge: [DVec3; 2]) -> DVec3 {
     let nearer_end = match from.distance_squared(edge[1]) < from.distance_squared(edge[0]) {
         true => edge[1],
@@ -92,7 +92,7 @@ fn nearest_on(from: DVec3, edge: [DVec3; 2]) -> DVec3 {
     inner_foot(from, edge).unwrap_or(nearer_end)
 }
 
-/// The foot of a point in a triangle's plane, where it is inside of the triangle.
+/// Returns the foot of a point in a triangle's plane, if it is inside of the triangle.
 fn inside(from: DVec3, [a, b, c]: [DVec3; 3]) -> Option<DVec3> {
     let (u, v) = (b - a, c - a);
     let normal = u.cross(v);
@@ -103,7 +103,7 @@ fn inside(from: DVec3, [a, b, c]: [DVec3; 3]) -> Option<DVec3> {
         (of_u, of_v)
     };
     let (s, t) = weights(from - a);
-    // What is left of the way, projected once more, mends what cancellation did to the weights.
+    // Projecting the residual once more corrects the weights after cancellation.
     let (more_s, more_t) = weights(from - (a + s * u + t * v));
     let (s, t) = (s + more_s, t + more_t);
     (s > 0.0 && t > 0.0 && s + t < 1.0).then(|| a + s * u + t * v)

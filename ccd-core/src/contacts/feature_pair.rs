@@ -3,7 +3,7 @@
 use crate::body::feature::Feature;
 use crate::outcome::Separation;
 
-/// A feature of A and one of B that are in contact, and how near they are.
+/// A feature of A and one of B that are in contact, and their distance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FeaturePair {
     /// The feature of body A.

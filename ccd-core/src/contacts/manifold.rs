@@ -1,4 +1,4 @@
-//! All pairs of features in contact, and the choice of those that are reported.
+//! All pairs of features in contact, and the choice of the reported ones.
 
 use super::candidate::Candidate;
 use super::closest::{Part, crossing, on_triangle};
@@ -10,7 +10,7 @@ use crate::problem::Problem;
 use glam::DVec3;
 use std::collections::{HashMap, HashSet};
 
-/// All that is found in contact, by what it is of each body.
+/// All features found in contact, by their kinds on each body.
 pub(super) struct Manifold<'a> {
     problem: &'a Problem<'a>,
     skins: [&'a Skin<'a>; 2],
@@ -26,12 +26,12 @@ impl<'a> Manifold<'a> {
         }
     }
 
-    /// Returns how many pairs are found so far.
+    /// Returns the number of pairs found so far.
     pub(super) fn len(&self) -> usize {
         self.found.len()
     }
 
-    /// Adds what two faces, of A and of B, have in contact.
+    /// Adds the contacts of two faces, of A and of B.
     pub(super) fn meet(&mut self, faces: [u32; 2]) {
         let [a, b] = self.skins;
         let rounding = self.problem.rounding;
@@ -55,7 +55,7 @@ impl<'a> Manifold<'a> {
         }
     }
 
-    /// Keeps a pair that is within reach, the nearest of several places.
+    /// Keeps a pair within reach; of several places, the nearest.
     fn offer(&mut self, spots: [Spot; 2], points: [DVec3; 2], faces: [u32; 2]) {
         let radius = |k: usize| self.skins[k].face(faces[k]).radius;
         let Problem {
@@ -74,7 +74,8 @@ impl<'a> Manifold<'a> {
         }
     }
 
-    /// The pairs, nearest first; `a_to_world` is where A is, apart from the problem's origin.
+    /// Returns the pairs, nearest first; `a_to_world` is A's frame, relative to the problem's
+    /// origin.
     pub(super) fn pairs(&self, a_to_world: &Frame) -> Vec<FeaturePair> {
         let covered = self.covered();
         let mut told = HashMap::new();
@@ -102,9 +103,9 @@ impl<'a> Manifold<'a> {
         pairs
     }
 
-    /// Whether a point on an edge or corner within a plane is nearest only on the triangle from which
-    /// it was found, while another one around comes nearer elsewhere. That it is a point of its own is
-    /// due to the cut; the nearer place makes a pair, or one that is nearer still.
+    /// Whether a point on an edge or corner within a plane is nearest only on the triangle on which
+    /// it was found, while another triangle around comes nearer elsewhere. Such a point exists only
+    /// because of the cut: the nearer place makes a pair, or one that is nearer still.
     fn nearer_beside(&self, spots: [Spot; 2], candidate: &Candidate) -> bool {
         let rounding = self.problem.rounding;
         (0..2).any(|k| {
@@ -116,8 +117,8 @@ impl<'a> Manifold<'a> {
         })
     }
 
-    /// Returns what is no pair by itself: a corner with a part of the boundary of a face or an edge
-    /// whose inside holds its foot, which is as near.
+    /// Returns the pairs that do not count by themselves: a corner and a boundary part of a face or
+    /// an edge, if the corner's foot inside that face or edge is as near.
     fn covered(&self) -> HashSet<[Spot; 2]> {
         let [a, b] = self.skins;
         let mut covered = HashSet::new();
@@ -133,7 +134,7 @@ impl<'a> Manifold<'a> {
     }
 }
 
-/// The part of a face.
+/// Returns the part of a face.
 fn spot(skin: &Skin<'_>, face: u32, part: Part) -> Spot {
     let corners = skin.face(face).corners;
     match part {
@@ -150,7 +151,7 @@ fn keep_nearest(pairs: &mut HashMap<[Spot; 2], Candidate>, spots: [Spot; 2], can
     }
 }
 
-/// In an order that does not depend on the map, which has none.
+/// Returns the pairs in an order that does not depend on that of the map.
 fn sorted(pairs: &HashMap<[Spot; 2], Candidate>) -> Vec<([Spot; 2], Candidate)> {
     let mut list: Vec<_> = pairs.iter().map(|(&spots, &it)| (spots, it)).collect();
     list.sort_unstable_by_key(|&(spots, _)| spots);

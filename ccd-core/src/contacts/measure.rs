@@ -1,4 +1,4 @@
-//! Measures how near two features are, checked as every separation is.
+//! Measures the distance of two features, checked like every separation.
 
 use super::candidate::Candidate;
 use super::feature_pair::FeaturePair;
@@ -10,12 +10,12 @@ use crate::outcome::Separation;
 use crate::problem::Problem;
 use glam::DVec3;
 
-/// Bounds the distance of two features whose nearest points are known, in the world's
-/// coordinates; `a_to_world` is where A is, apart from the problem's origin.
+/// Bounds the distance of two features with known nearest points, in the world's coordinates;
+/// `a_to_world` is A's frame, relative to the problem's origin.
 ///
 /// # Guarantee
-/// `lower ≤ distance ≤ upper`, wherever the points were found: the gap of the features' corners along
-/// any axis bounds their distance from below, any two points bound it from above.
+/// `lower ≤ distance ≤ upper` for any points: the gap of the features' corners along any axis
+/// bounds their distance from below, any two points bound it from above.
 pub(super) fn measure(
     problem: &Problem<'_>,
     skins: [&Skin<'_>; 2],
@@ -60,7 +60,7 @@ pub(super) fn measure(
     }
 }
 
-/// `min_B n·y − max_A n·x`
+/// Returns `min_B n·y − max_A n·x`.
 fn gap([a, b]: &[[DVec3; 3]; 2], n: DVec3) -> f64 {
     let from = a[0];
     let highest = a
@@ -74,8 +74,8 @@ fn gap([a, b]: &[[DVec3; 3]; 2], n: DVec3) -> f64 {
     lowest - highest
 }
 
-/// The normals of features: of a face, of two edges that cross. Those of a face are exact to the last
-/// digits where the way to its foot is mostly rounding.
+/// Returns the normals of features: of a face, of two crossing edges. The normal of a face is exact
+/// to the last digits, even if the vector to its foot is mostly rounding.
 fn across([a, b]: &[[DVec3; 3]; 2]) -> [Option<DVec3>; 3] {
     let along = |of: &[DVec3; 3]| of[1] - of[0];
     [
@@ -85,8 +85,9 @@ fn across([a, b]: &[[DVec3; 3]; 2]) -> [Option<DVec3>; 3] {
     ]
 }
 
-/// About where B is, seen from A, for features that touch: out of the one and into the other, or, of
-/// surfaces that have no outside, from the middle of one piece to that of the other.
+/// Returns the approximate direction from A to B for features that touch: out of the one and into
+/// the other. For surfaces without an outside it leads from the middle of one piece to that of the
+/// other.
 fn outward(skins: [&Skin<'_>; 2], spots: &[Spot; 2], candidate: &Candidate) -> DVec3 {
     let out = |k: usize| {
         let out = skins[k].outward(spots[k], candidate.faces[k]);

@@ -1,5 +1,4 @@
-//! The pieces of two bodies that are near each other, and their faces that are, found without a look
-//! at most that are not.
+//! Finds the near pieces of two bodies, and the near faces of these, without a look at most others.
 
 use super::boxes::{FaceTrees, NearFaces};
 use super::skin::Skin;
@@ -11,8 +10,8 @@ use crate::problem::{Problem, Side};
 use crate::tolerance::BOX_F64;
 use glam::DVec3;
 
-/// All pairs of faces, of A and of B, that may be nearer than `reach`; none when that takes more than
-/// the problem's budget of pairs of nodes, or of boxes of faces.
+/// Returns all pairs of faces, of A and of B, that may be nearer than `reach`; none when that
+/// exceeds the problem's budget of pairs of nodes, or of boxes of faces.
 pub(super) fn near_faces(
     problem: &Problem<'_>,
     skins: &mut [Skin<'_>; 2],
@@ -34,7 +33,7 @@ pub(super) fn near_faces(
     Some(near.pairs)
 }
 
-/// The pairs of pieces whose nodes above may all be nearer than `reach`.
+/// Returns the pairs of pieces with all nodes above them possibly nearer than `reach`.
 fn near_pieces(problem: &Problem<'_>, b_to_a: &Frame, reach: f64) -> Option<Vec<[u32; 2]>> {
     let (a, b) = (problem.a.body.tree(), problem.b.body.tree());
     let (mut near, mut visits) = (Vec::new(), 0);
@@ -47,7 +46,7 @@ fn near_pieces(problem: &Problem<'_>, b_to_a: &Frame, reach: f64) -> Option<Vec<
         if apart(&extents, reach) {
             continue;
         }
-        // As in a schedule, what counts is a pair that is split, or looked at, not what it is split into.
+        // As in a schedule, a pair counts when it is split, or examined, not when it is created.
         visits += 1;
         if visits > problem.budget {
             return None;
@@ -65,7 +64,7 @@ fn near_pieces(problem: &Problem<'_>, b_to_a: &Frame, reach: f64) -> Option<Vec<
     Some(near)
 }
 
-/// The children of a node.
+/// Returns the children of a node.
 fn below(tree: &Tree, at: NodeId) -> std::ops::Range<NodeId> {
     let members = match tree.get(at) {
         Named::Triangle(_) => return 0..0,
@@ -82,13 +81,13 @@ fn below(tree: &Tree, at: NodeId) -> std::ops::Range<NodeId> {
 struct Extent {
     centre: DVec3,
     radius: f64,
-    /// Directions along which it is thin.
+    /// Directions along which the node is thin.
     axes: [DVec3; 3],
     shape: Shape,
 }
 
 enum Shape {
-    /// By how far it reaches along each axis.
+    /// The reach along each axis.
     Box([f64; 3]),
     Triangle([DVec3; 3]),
 }
@@ -122,7 +121,7 @@ impl Extent {
         }
     }
 
-    /// From where to where it reaches along a direction.
+    /// Returns the interval that the node occupies along a direction.
     fn along(&self, n: DVec3) -> [f64; 2] {
         match &self.shape {
             Shape::Box(half) => {
@@ -138,8 +137,8 @@ impl Extent {
     }
 }
 
-/// Whether two nodes are certainly farther apart than `reach`: by their balls, or along the axes of
-/// either or the way between them. Written so that NaN is near.
+/// Whether two nodes are certainly farther apart than `reach`: by their balls, along the axes of
+/// either, or along the vector between them. Written so that NaN counts as near.
 fn apart([a, b]: &[Extent; 2], reach: f64) -> bool {
     let way = b.centre - a.centre;
     let distance = length(way);

@@ -11,7 +11,7 @@ use glam::DVec3;
 use std::collections::HashMap;
 use std::ops::Range;
 
-/// The unpacked part of a body's surface, where it is at a time, in A's frame.
+/// The unpacked part of a body's surface at a time, in A's frame.
 pub(super) struct Skin<'a> {
     body: &'a Body,
     to_a: Frame,
@@ -19,10 +19,10 @@ pub(super) struct Skin<'a> {
     faces: Vec<Face>,
     /// Corners by place and number.
     known: HashMap<(PointBits, Option<u32>), u32>,
-    /// The edges within a plane, and the faces on either side: first that to which a point on it
-    /// belongs.
+    /// The edges within a plane, and the faces on either side. The first is the one to which points
+    /// on the edge belong.
     within: HashMap<[u32; 2], [u32; 2]>,
-    /// Corners without a number, within a plane.
+    /// Marks corners within a plane that have no number.
     hidden: Vec<bool>,
     /// The faces around each of these.
     faces_around: HashMap<u32, Vec<u32>>,
@@ -36,7 +36,7 @@ pub(super) struct Skin<'a> {
 struct Corner {
     at: DVec3,
     place: PointBits,
-    /// Its number in the mesh, where its piece has it.
+    /// Its number in the mesh, if its piece has it.
     id: Option<u32>,
 }
 
@@ -48,7 +48,7 @@ pub(super) struct Face {
     name: Feature,
 }
 
-/// A corner, an edge or a face of the surface, whatever it is called.
+/// A corner, an edge or a face of the surface, regardless of its name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(super) enum Spot {
     Corner(u32),
@@ -60,7 +60,7 @@ pub(super) enum Spot {
 type PointBits = [u64; 3];
 
 impl<'a> Skin<'a> {
-    /// Nothing yet of a body that lies so in A's frame.
+    /// Creates an empty skin of a body in A's frame.
     pub(super) fn new(body: &'a Body, to_a: Frame) -> Self {
         Skin {
             body,
@@ -76,15 +76,15 @@ impl<'a> Skin<'a> {
         }
     }
 
-    /// The faces of a piece, to be asked for once.
+    /// Returns the faces of a piece; to be called once a piece.
     pub(super) fn of_piece(&mut self, piece: u32) -> Range<u32> {
         let first = self.faces.len() as u32;
         self.unpack(piece);
         first..self.faces.len() as u32
     }
 
-    /// To be called once all that is needed is unpacked: finds the edges and corners that are not of
-    /// the shape, but of how it is cut into triangles. Heights of up to `rounding` are none.
+    /// Finds the edges and corners that are due to the cut into triangles, not to the shape. To be
+    /// called after all needed pieces are unpacked. Heights of up to `rounding` count as flat.
     pub(super) fn hide_cuts(&mut self, rounding: f64) {
         self.share_numbers();
         self.add_normals();
@@ -136,7 +136,7 @@ impl<'a> Skin<'a> {
         self.corners[corner as usize].at
     }
 
-    /// The points of a spot on a face, some more than once: it is their hull.
+    /// Returns points of a face, possibly repeated, whose hull is the spot.
     pub(super) fn points(&self, spot: Spot, face: u32) -> [DVec3; 3] {
         match spot {
             Spot::Corner(corner) => [self.at(corner); 3],
@@ -145,8 +145,8 @@ impl<'a> Skin<'a> {
         }
     }
 
-    /// About which way is out of the body at a spot of a face: the sum of the normals around; zero
-    /// where none is known.
+    /// Returns the approximate outward direction at a spot of a face: the sum of the normals
+    /// around; zero if none is known.
     pub(super) fn outward(&self, spot: Spot, face: u32) -> DVec3 {
         let at = |corner: u32| self.outward[corner as usize];
         match spot {
@@ -156,7 +156,7 @@ impl<'a> Skin<'a> {
         }
     }
 
-    /// The unit normal of a face that points out of the body; zero where it is not known.
+    /// Returns the unit normal of a face that points out of the body; zero if it is unknown.
     fn normal(&self, face: u32) -> DVec3 {
         let piece = self.face(face).piece;
         if let Some(normal) = self.body.outward_normal(piece) {
@@ -170,14 +170,14 @@ impl<'a> Skin<'a> {
         }
     }
 
-    /// The middle of a piece's points.
+    /// Returns the middle of a piece's points.
     pub(super) fn middle(&self, piece: u32) -> DVec3 {
         let points = self.body.pieces().get(piece as usize).points;
         self.to_a
             .point(points.iter().sum::<DVec3>() / points.len() as f64)
     }
 
-    /// The edges and corners on the boundary of a spot.
+    /// Returns the edges and corners on the boundary of a spot.
     pub(super) fn boundary(&self, spot: Spot) -> Vec<Spot> {
         match spot {
             Spot::Corner(_) => Vec::new(),
@@ -190,7 +190,8 @@ impl<'a> Skin<'a> {
         }
     }
 
-    /// The faces that a spot is within, where it is within a plane: none of a spot that is reported as itself.
+    /// Returns the coplanar faces around a spot within a plane; empty for a spot that is reported
+    /// as itself.
     pub(super) fn sharing(&self, spot: Spot) -> &[u32] {
         let faces = match spot {
             Spot::Corner(corner) => self.faces_around.get(&corner).map(Vec::as_slice),
@@ -200,8 +201,8 @@ impl<'a> Skin<'a> {
         faces.unwrap_or_default()
     }
 
-    /// Returns the spot that a spot on a face is reported as, and the face that it is on: what is
-    /// within a plane belongs to a face, and triangles that share one number are one face.
+    /// Returns the spot to report for a spot on a face, and its face. Spots within a plane belong
+    /// to a face, and triangles that share one number are one face.
     pub(super) fn named(&self, spot: Spot, face: u32) -> (Spot, u32) {
         let face = match spot {
             Spot::Corner(corner) if self.hidden[corner as usize] => face,
@@ -216,8 +217,8 @@ impl<'a> Skin<'a> {
         (Spot::Face(first.copied().unwrap_or(face)), face)
     }
 
-    /// Returns the name of a spot on a face: one that has no number of its own has the name of the
-    /// face, or of the piece.
+    /// Returns the name of a spot on a face. A spot without a number has the name of the face, or
+    /// of the piece.
     pub(super) fn name(&self, spot: Spot, face: u32) -> Feature {
         let id = |corner: u32| self.number_of(corner);
         let own = match spot {
@@ -228,8 +229,7 @@ impl<'a> Skin<'a> {
         own.unwrap_or(self.face(face).name)
     }
 
-    /// The corners of a face, each once, except those within a plane that no number distinguishes from
-    /// any other point of it.
+    /// Returns the corners of a face, each once, except those within a plane that have no number.
     pub(super) fn corners_of(&self, face: u32) -> impl Iterator<Item = u32> + use<'_> {
         let corners = self.face(face).corners;
         let first = (0..3).filter(move |&k| !corners[..k].contains(&corners[k]));
@@ -237,12 +237,13 @@ impl<'a> Skin<'a> {
         first.map(move |k| corners[k]).filter(shown)
     }
 
-    /// The edges of a face, except those within a plane.
+    /// Returns the edges of a face, except those within a plane.
     pub(super) fn edges_of(&self, face: u32) -> impl Iterator<Item = [u32; 2]> + use<'_> {
         edges(self.face(face).corners).filter(|&ends| self.across(ends).is_none())
     }
 
-    /// The face to which a point on an edge within a plane belongs; none of an edge of the shape.
+    /// Returns the face to which a point on an edge within a plane belongs; none for an edge of the
+    /// shape.
     pub(super) fn across(&self, ends: [u32; 2]) -> Option<u32> {
         self.within.get(&ends).map(|faces| faces[0])
     }
@@ -258,7 +259,7 @@ impl<'a> Skin<'a> {
         self.outward = outward;
     }
 
-    /// Corners whose piece has no number for them take the one that another piece has.
+    /// Gives corners without a number the number that another piece has there.
     fn share_numbers(&mut self) {
         let mut numbered: HashMap<PointBits, (u32, u32)> = HashMap::new();
         for (k, corner) in (0u32..).zip(&self.corners) {
@@ -275,11 +276,11 @@ impl<'a> Skin<'a> {
         }
     }
 
-    /// Whether two faces lie in one plane, on either side of the edge that they share: neither sticks
-    /// out of the other's plane, or they are cut from one facet.
+    /// Whether two faces are in one plane, on either side of the edge that they share: neither
+    /// sticks out of the other's plane, or they are cut from one facet.
     fn in_one_plane(&self, ends: [u32; 2], faces: [u32; 2], rounding: f64) -> bool {
         let [one, other] = faces.map(|face| self.face(face));
-        // Their surfaces are as far from the plane as they are rounded.
+        // Rounding moves their surfaces off the plane by their radii.
         if one.radius.to_bits() != other.radius.to_bits() {
             return false;
         }
@@ -303,21 +304,22 @@ impl<'a> Skin<'a> {
     }
 }
 
-/// The first two faces at an edge, and how many there are.
+/// The first two faces at an edge, and the number of all.
 #[derive(Default)]
 struct Sides {
     faces: [u32; 2],
     count: usize,
 }
 
-/// The edges of a triangle, the smaller end first, each once: a segment has one, a point none.
+/// Returns the edges of a triangle, the smaller end first, each once: a segment has one, a point
+/// none.
 pub(super) fn edges(corners: [u32; 3]) -> impl Iterator<Item = [u32; 2]> {
     let ends = move |k: usize| edge(corners, k);
     let proper = move |&k: &usize| ends(k)[0] != ends(k)[1] && !(0..k).any(|j| ends(j) == ends(k));
     (0..3).filter(proper).map(ends)
 }
 
-/// The edge of a triangle from one of its corners to the next.
+/// Returns the edge of a triangle from one of its corners to the next.
 pub(super) fn edge(corners: [u32; 3], k: usize) -> [u32; 2] {
     let (v, w) = (corners[k], corners[(k + 1) % 3]);
     [v.min(w), v.max(w)]

@@ -1,38 +1,38 @@
-//! The contract between the engine and whatever measures the distance of two pieces.
+//! The contract between the engine and the backends that measure the distance of two pieces.
 
 use crate::body::combination::Combination;
 use crate::body::piece::Piece;
 use crate::motion::pose::Frame;
 use glam::DVec3;
 
-/// A backend: finds how far two convex pieces are apart.
+/// A backend: finds the distance of two convex pieces.
 ///
 /// # Contract
 /// For pieces P and Q, given in frame A (Q through [`PiecePair::b_to_a`]), radii ignored:
-/// 1. The [`Claim::axis`] points from P to Q; the better it is, the closer the pieces'
-///    support along it comes to their distance. It need not be a unit vector, nor finite.
+/// 1. The [`Claim::axis`] points from P to Q. The better it is, the closer the support gap along it
+///   comes to the distance. It need not be a unit vector, nor finite.
 /// 2. The [`Claim::a`] and [`Claim::b`] name points of P and Q as convex combinations of their
 ///    points; the nearer they are to the closest pair, the better.
 /// 3. When the pieces intersect, both combinations name (nearly) the same point.
-/// 4. It ends, after a bounded number of steps, on every input; when it can't say, it
-///    [gives up](GiveUp).
-/// 5. A cache that belongs to another pair, or to none, changes the time it takes, not the answer's
-///    worth.
+/// 4. It ends, after a bounded number of steps, on every input. If it has no answer, it [gives
+///   up](GiveUp).
+/// 5. A cache that belongs to another pair, or to none, changes the time a call takes, not the
+///   quality of its answer.
 ///
 /// # Guarantee
-/// The engine believes nothing of this unseen: along any axis n, `min_Q n·y − max_P n·x` bounds the
-/// distance from below, and any two points of P and Q bound it from above, whatever the oracle did
+/// The engine checks every claim: along any axis n, `min_Q n·y − max_P n·x` bounds the distance
+/// from below, and any two points of P and Q bound it from above, no matter what the oracle did
 /// ([`Separation`](crate::Separation)). A poor claim makes a query slow or
 /// [unresolved](crate::Outcome::Unresolved), never late.
 pub trait DistanceOracle {
-    /// The memory that a call leaves for the next one on the same pair; the default is a cold start.
+    /// The memory that a call leaves for the next one on the same pair. The default is a cold
+    /// start.
     type Cache: Clone + Default;
 
-    /// Claims how far the pair is apart.
+    /// Claims the axis and the nearest points of a pair.
     ///
-    /// # Errors
-    /// A [`GiveUp`] says why the oracle has no answer; the caller may ask another one
-    /// ([`OrElse`]).
+    /// Returns a [`GiveUp`] with the reason if the oracle has no answer; the caller may ask another
+    /// one ([`OrElse`]).
     fn separation(
         &mut self,
         pair: &PiecePair<'_>,
@@ -57,10 +57,10 @@ pub trait DistanceOracle {
     }
 }
 
-/// Two pieces, each in its own body's frame, and how those frames lie to each other.
+/// Two pieces, each in its own body's frame, and the relation of the frames.
 #[derive(Clone, Copy, Debug)]
 pub struct PiecePair<'a> {
-    /// A piece of body A; A's frame is where claims are made.
+    /// A piece of body A. Claims are in A's frame.
     pub a: Piece<'a>,
     /// A piece of body B, in B's frame.
     pub b: Piece<'a>,
@@ -69,7 +69,7 @@ pub struct PiecePair<'a> {
 }
 
 impl PiecePair<'_> {
-    /// Returns how many points there are to look at.
+    /// Returns the number of points of both pieces.
     pub(crate) fn points(&self) -> u64 {
         self.a.looks() + self.b.looks()
     }
@@ -91,7 +91,7 @@ pub struct Claim {
 pub struct Effort {
     /// Steps of its search: from features to neighbouring features, from simplex to simplex.
     pub steps: u64,
-    /// The number of times that it came back to where it had been.
+    /// The number of times that a search returned to an earlier state.
     pub cycles: u64,
     /// The number of times that it gave up and another oracle was asked.
     pub fallbacks: u64,
@@ -112,7 +112,7 @@ impl std::ops::Add for Effort {
 impl std::ops::Sub for Effort {
     type Output = Effort;
 
-    /// Returns what was added since `earlier`.
+    /// Returns the effort since `earlier`.
     fn sub(self, earlier: Effort) -> Effort {
         Effort {
             steps: self.steps - earlier.steps,
@@ -122,23 +122,24 @@ impl std::ops::Sub for Effort {
     }
 }
 
-/// Why an oracle has no answer.
+/// The reason why an oracle has no answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum GiveUp {
-    /// It is made for pieces of fewer points.
+    /// The oracle supports fewer points per piece.
     TooManyPoints,
-    /// It needs the facets of the pieces' hulls, and they are not known, or do not close a hull.
+    /// The oracle needs the facets of the pieces' hulls, and they are not known or do not close a
+    /// hull.
     BadFacets,
-    /// It ran into its cap of steps.
+    /// The search reached its cap of steps.
     StepCap,
-    /// It came back to where it had been.
+    /// The search returned to an earlier state.
     Cycle,
-    /// It could not certify what it found, from wherever it started.
+    /// The oracle could not certify its result from any start.
     Uncertified,
 }
 
-/// Two oracles, the second asked wherever the first one gives up; made by
+/// Two oracles; the second is asked wherever the first one gives up. Made by
 /// [`DistanceOracle::or_else`].
 #[derive(Clone, Debug, Default)]
 pub struct OrElse<First, Second> {
@@ -148,14 +149,14 @@ pub struct OrElse<First, Second> {
 }
 
 impl<First, Second> OrElse<First, Second> {
-    /// Returns how often the second oracle was asked.
+    /// Returns the number of calls of the second oracle.
     pub fn fallbacks(&self) -> u64 {
         self.fallbacks
     }
 }
 
 impl<First: DistanceOracle, Second: DistanceOracle> DistanceOracle for OrElse<First, Second> {
-    /// The second oracle's is only made once it is asked: most pairs never need it.
+    /// The second oracle's cache is made at its first call: most pairs never need it.
     type Cache = (First::Cache, Option<Box<Second::Cache>>);
 
     fn separation(

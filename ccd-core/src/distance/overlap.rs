@@ -1,5 +1,5 @@
-//! Whether two pieces truly intersect: a penetration is confirmed before it is believed, and so is that
-//! there is none.
+//! Decides whether two pieces truly intersect. A claimed penetration is confirmed before it is
+//! believed, and so is its absence.
 
 use super::oracle::PiecePair;
 use super::separation::Checked;
@@ -9,28 +9,29 @@ use crate::math::vector::unit_or_any;
 use crate::tolerance::MAX_CORNERS;
 use glam::DVec3;
 
-/// Whether two pieces intersect by more than rounding.
+/// The decision whether two pieces intersect by more than rounding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Intersection {
-    /// They certainly do: moved by less than rounding any way, they still have points in common.
+    /// They certainly intersect: they still do after any move by less than rounding.
     Certain,
-    /// They do not: an axis keeps them apart, or would after so small a move.
+    /// They do not: an axis separates them, or would after so small a move.
     None,
     /// Neither could be shown.
     Undecided,
 }
 
-/// Tells intersecting pieces from touching ones; `rounding` bounds the error of their points' places.
+/// Distinguishes intersecting pieces from touching ones; `rounding` bounds the error of their
+/// points' positions.
 ///
 /// # Guarantee
-/// Without rounding radii the claim is not believed either way: the origin is in the hull of
-/// differences of the pieces' points, by more than `rounding`, or an axis shows that it is not. With
-/// rounding radii the claim's witnesses prove an intersection, and its axis that there is none; where
-/// it offers neither, the pieces count as touching.
+/// Without rounding radii the claim is not believed either way: either the origin is in the hull of
+/// differences of the pieces' points by more than `rounding`, or an axis shows that it is not. With
+/// rounding radii the claim's witnesses prove an intersection, and its axis disproves it. If
+/// neither succeeds, the pieces count as touching.
 pub(crate) fn intersects(pair: &PiecePair<'_>, checked: &Checked, rounding: f64) -> Intersection {
     let radii = pair.a.radius + pair.b.radius;
     if radii > 0.0 {
-        // Witnesses of the cores that are nearer than the radii are proof enough.
+        // Witnesses of the cores that are nearer than the radii are a proof.
         return match checked.core_distance + rounding < radii {
             true => Intersection::Certain,
             false => Intersection::None,
@@ -40,7 +41,7 @@ pub(crate) fn intersects(pair: &PiecePair<'_>, checked: &Checked, rounding: f64)
         return Intersection::None;
     }
     let Some(mut inner) = Inner::tetrahedron(pair, rounding) else {
-        // The differences are flat, to within rounding.
+        // The differences are flat, up to rounding.
         return Intersection::None;
     };
     for _ in 0..MAX_CORNERS {
@@ -53,7 +54,7 @@ pub(crate) fn intersects(pair: &PiecePair<'_>, checked: &Checked, rounding: f64)
         let corner = farthest_difference(pair, face.normal);
         match face.normal.dot(corner) {
             height if height <= rounding => return Intersection::None,
-            // It is no farther than the face: rounding is in the way.
+            // The farthest difference is no farther than the face: rounding prevents progress.
             height if !(height > face.height) => return Intersection::Undecided,
             _ => inner.add(corner, face.corners),
         }
@@ -67,12 +68,13 @@ fn farthest_difference(pair: &PiecePair<'_>, along: DVec3) -> DVec3 {
     pair.a.farthest(along) - pair.b_to_a.point(of_b)
 }
 
-/// A polytope with corners among the differences of the pieces' points `[GJK88]`: where it holds the
-/// origin, the pieces intersect.
+/// A polytope with corners among the differences of the pieces' points `[GJK88]`: if it contains
+/// the origin, the pieces intersect.
 ///
-/// It grows as in the expanding polytope algorithm `[BERGEN01]`, but need not hold the origin to begin
-/// with. Its faces are a closed surface whatever rounding makes of their normals: what a new corner
-/// sees is replaced by a cone to the rim of that. Once all look away from the origin it winds about it.
+/// It grows as in the expanding polytope algorithm `[BERGEN01]`, but need not contain the origin
+/// initially. Its faces form a closed surface even where their normals are rounded: the faces that
+/// a new corner sees are replaced by a cone to their rim. Once all faces look away from the origin,
+/// the surface winds about it.
 struct Inner {
     corners: Vec<DVec3>,
     faces: Vec<Face>,
@@ -80,7 +82,7 @@ struct Inner {
 
 #[derive(Clone, Copy)]
 struct Face {
-    /// Counter-clockwise seen from outside.
+    /// Counterclockwise seen from outside.
     corners: [usize; 3],
     /// Unit.
     normal: DVec3,
@@ -91,8 +93,8 @@ struct Face {
 }
 
 impl Inner {
-    /// Four differences far from one another; none when all differences are, to within rounding, in a
-    /// plane, so that nothing is deeper than that.
+    /// Returns four differences far from one another, or none when all differences are in a plane
+    /// up to rounding, so that no point is deeper than that.
     fn tetrahedron(pair: &PiecePair<'_>, rounding: f64) -> Option<Self> {
         let both = |along: DVec3| [along, -along].map(|along| farthest_difference(pair, along));
         let farther = |best: (f64, DVec3), next: (f64, DVec3)| match next.0 > best.0 {
@@ -141,7 +143,7 @@ impl Inner {
         });
     }
 
-    /// The face that is nearest to the origin, or farthest on its wrong side.
+    /// Returns the face that is nearest to the origin, or farthest on its wrong side.
     fn shallowest(&self) -> Option<&Face> {
         self.faces.iter().min_by(|f, g| f.depth.total_cmp(&g.depth))
     }
@@ -155,7 +157,7 @@ impl Inner {
             let sees = face.corners == seen || face.normal.dot(corner) > face.height;
             for k in (0..3).filter(|_| sees) {
                 let [from, to] = [face.corners[k], face.corners[(k + 1) % 3]];
-                // An edge of two faces that go is none of the rim.
+                // An edge of two removed faces is not part of the rim.
                 match rim.iter().position(|&edge| edge == [to, from]) {
                     Some(other) => drop(rim.swap_remove(other)),
                     None => rim.push([from, to]),
@@ -169,8 +171,8 @@ impl Inner {
     }
 }
 
-/// The unit normal of a triangle, with which even the corners of a needle are level: of the rounding of
-/// the cross product it is what is along the needle that would tilt it.
+/// The unit normal of a triangle, along which even the corners of a needle are level. The part of
+/// the cross product's rounding that lies along the needle would tilt the normal.
 fn normal([a, b, c]: [DVec3; 3]) -> DVec3 {
     let edges = [b - a, c - b, a - c];
     let longest = |e: DVec3, f: DVec3| match f.length_squared() > e.length_squared() {

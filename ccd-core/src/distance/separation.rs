@@ -1,4 +1,4 @@
-//! Checking what an oracle claims: nothing of it is believed unseen.
+//! Checks the claims of oracles: none is believed unchecked.
 
 pub(crate) mod sharp;
 
@@ -11,7 +11,7 @@ use glam::DVec3;
 /// A checked claim, in A's frame.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Checked {
-    /// The claim; its combinations name points that exist.
+    /// The claim; its combinations name existing points.
     pub(crate) claim: Claim,
     /// Bounds the distance from below, rounding deducted; negative when no axis separates.
     pub(crate) lower: f64,
@@ -30,7 +30,7 @@ pub(crate) struct Checked {
 /// error of either.
 ///
 /// # Guarantee
-/// `lower ≤ distance ≤ upper`, whatever was claimed.
+/// `lower ≤ distance ≤ upper`, for any claim.
 pub(crate) fn check(pair: &PiecePair<'_>, claim: &Claim, rounding: f64) -> Checked {
     let (a, on_a) = named(claim.a, pair.a.points);
     let (b, on_b) = named(claim.b, pair.b.points);
@@ -42,7 +42,7 @@ pub(crate) fn check(pair: &PiecePair<'_>, claim: &Claim, rounding: f64) -> Check
     let mut axis = unit_or_any(claim.axis);
     let near = [&a, &b].map(|claimed| claimed.support().first().copied());
     let mut gap = support_gap_near(pair, axis, on_a, near);
-    // Written so that NaN asks for the second axis.
+    // Written so that NaN tries the second axis.
     if !(gap > 0.5 * distance) {
         let second = unit_or_any(way);
         let second_gap = support_gap_near(pair, second, on_a, near);
@@ -66,13 +66,13 @@ pub(crate) fn check(pair: &PiecePair<'_>, claim: &Claim, rounding: f64) -> Check
     }
 }
 
-/// `min_B n·y − max_A n·x` of the unrounded pieces, with heights measured from `from`.
+/// Returns `min_B n·y − max_A n·x` of the unrounded pieces, with heights measured from `from`.
 #[inline]
 pub(crate) fn support_gap(pair: &PiecePair<'_>, n: DVec3, from: DVec3) -> f64 {
     support_gap_near(pair, n, from, [None; 2])
 }
 
-/// The same; where edges are climbed, from corners that may be known to be about as far as any.
+/// Like [`support_gap`]; climbs edges from corners that may be known to be nearly extreme.
 #[inline]
 fn support_gap_near(pair: &PiecePair<'_>, n: DVec3, from: DVec3, near: [Option<u32>; 2]) -> f64 {
     let highest = match pair.a.support {
@@ -100,7 +100,8 @@ fn support_gap_near(pair: &PiecePair<'_>, n: DVec3, from: DVec3, near: [Option<u
     lowest + origin_b - highest
 }
 
-/// The point that a combination names; one that names none of the piece's is replaced.
+/// Returns the point that a combination names. A combination with points outside of the piece is
+/// replaced.
 fn named(combination: Combination, points: &[DVec3]) -> (Combination, DVec3) {
     match combination.of(points) {
         Some(point) => (combination, point),

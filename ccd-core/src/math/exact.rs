@@ -1,15 +1,15 @@
-//! Exact signs: on which side of a plane or a line a point lies, by the crate `robust` `[SHE97]`.
+//! Exact signs: the side of a plane or a line on which a point is, by the crate `robust` `[SHE97]`.
 //!
-//! One convention: `Greater` is in front of a triangle, where its corners are seen counter-clockwise,
-//! and to the left of a line.
+//! One convention: `Greater` is in front of a triangle, where its corners are seen
+//! counterclockwise, and to the left of a line.
 
 use crate::limits::LEAST_COORDINATE;
 use glam::DVec3;
 use robust::{Coord, Coord3D, orient2d, orient3d};
 use std::cmp::Ordering;
 
-/// The side of a triangle's plane on which a point lies: `Greater` in front, `Less` behind, `Equal` in
-/// the plane and for a triangle without area.
+/// Returns the side of a triangle's plane on which a point is: `Greater` in front, `Less` behind,
+/// `Equal` in the plane and for a triangle without area.
 ///
 /// # Guarantee
 /// Exact, unless a coordinate is [too fine](too_fine).
@@ -25,18 +25,19 @@ pub fn side(triangle: [DVec3; 3], point: DVec3) -> Ordering {
     let [p, q, r] = triangle;
     let level = p.cmpeq(q) & p.cmpeq(r) & p.cmpeq(point);
     if level.any() {
-        // In a plane across a coordinate axis, which would take the predicate its longest computation.
+        // The points are in a plane across a coordinate axis. This case would take the predicate
+        // its longest computation.
         return Ordering::Equal;
     }
     // Shewchuk's determinant is positive behind.
     sign(-orient3d(coord3(p), coord3(q), coord3(r), coord3(point)))
 }
 
-/// The side of a line on which a point lies, seen against a coordinate axis along the way from `a` to
+/// Returns the side of a line on which a point is, seen against a coordinate axis, from `a` towards
 /// `b`: `Greater` to the left.
 ///
 /// # Guarantee
-/// As [`side`].
+/// Like [`side`].
 #[inline]
 pub fn turn_along(axis: usize, [a, b]: [DVec3; 2], point: DVec3) -> Ordering {
     let [a, b, point] = [a, b, point].map(|p| coord2(p, axis));
@@ -46,12 +47,13 @@ pub fn turn_along(axis: usize, [a, b]: [DVec3; 2], point: DVec3) -> Ordering {
 /// Whether a triangle has no area: its corners are on one line.
 ///
 /// # Guarantee
-/// As [`side`].
+/// Like [`side`].
 pub fn is_degenerate([a, b, c]: [DVec3; 3]) -> bool {
     (0..3).all(|axis| turn_along(axis, [a, b], c).is_eq())
 }
 
-/// The first point with a coordinate that is [too near to 0](LEAST_COORDINATE) for exact signs.
+/// Returns the first point with a coordinate that is [too near to 0](LEAST_COORDINATE) for exact
+/// signs.
 pub fn too_fine(points: &[DVec3]) -> Option<usize> {
     let fine = |x: f64| x != 0.0 && x.abs() < LEAST_COORDINATE;
     points
@@ -61,7 +63,7 @@ pub fn too_fine(points: &[DVec3]) -> Option<usize> {
 
 #[inline]
 fn sign(determinant: f64) -> Ordering {
-    // Coordinates are finite and within bounds, so that the determinant is no NaN.
+    // Coordinates are finite and within bounds, so the determinant is not NaN.
     determinant.partial_cmp(&0.0).unwrap_or(Ordering::Equal)
 }
 

@@ -1,13 +1,13 @@
 //! The lesser and the greater of two numbers, written out as comparisons.
 //!
-//! `f64::min` and `f64::max` are not used in this project: some compilers lose the last elements of a
-//! loop that folds with them (rustc 1.95, LLVM 22.1.2). A comparison and a choice are compiled as they
-//! stand.
+//! `f64::min` and `f64::max` are not used in this project: some compilers lose the last elements of
+//! a loop that folds with them (rustc 1.95, LLVM 22.1.2). They compile a comparison and a choice
+//! correctly.
 
 /// The lesser of two numbers: the first one, unless the second is less.
 ///
-/// A NaN is never chosen over a first argument that is a number, so that `fold(f64::INFINITY, lesser)`
-/// passes NaN by; a NaN that comes first stays.
+/// A NaN is never chosen over a first argument that is a number: `fold(f64::INFINITY, lesser)`
+/// skips NaN. A NaN as the first argument stays.
 ///
 /// ```
 /// use ccd_core::order::lesser;

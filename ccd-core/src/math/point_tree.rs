@@ -1,4 +1,4 @@
-//! Points by where they are, to find those in front of planes.
+//! A tree of points, to find those in front of planes.
 
 use super::order::greater;
 use crate::tolerance::height_rounding;
@@ -7,8 +7,8 @@ use std::ops::Range;
 
 /// Points in a binary tree of boxes.
 ///
-/// Many planes that each have few of many points in front, or on them, such as the facets of a hull, are
-/// separated from the rest in about O(log n) each.
+/// It suits many planes, such as the facets of a hull, that each have few of many points in front
+/// or on them. Each query takes about O(log n).
 ///
 /// ```
 /// use ccd_core::glam::DVec3;
@@ -21,9 +21,9 @@ use std::ops::Range;
 /// ```
 #[derive(Clone, Debug)]
 pub struct PointTree {
-    /// All places are relative to this one.
+    /// The origin of all stored coordinates.
     base: DVec3,
-    /// In the order of the leaves, with the numbers that they were given by.
+    /// The points in the order of the leaves, with their original indices.
     points: Vec<(DVec3, u32)>,
     /// Every node before those below it, the left ones first.
     nodes: Vec<Node>,
@@ -35,9 +35,9 @@ pub struct PointTree {
 struct Node {
     middle: DVec3,
     half: DVec3,
-    /// The points of a leaf; none of an inner node.
+    /// The points of a leaf; empty for an inner node.
     points: Range<u32>,
-    /// The first node that is not below it.
+    /// The first node that is not below this one.
     next: u32,
 }
 
@@ -45,7 +45,7 @@ struct Node {
 const LEAF: usize = 8;
 
 impl PointTree {
-    /// O(n log n).
+    /// Builds the tree in O(n log n).
     pub fn new(points: &[DVec3]) -> Self {
         let base = points.first().copied().unwrap_or(DVec3::ZERO);
         let mut tree = PointTree {
@@ -57,20 +57,20 @@ impl PointTree {
         if !points.is_empty() {
             tree.build(0..points.len());
         }
-        // Of the boxes rather than of the points, as it is their corners that heights are taken of.
+        // The bound is that of the boxes, not of the points: heights are taken of boxes' corners.
         let corner = |node: &Node| (node.middle.abs() + node.half).max_element();
         tree.reach = tree.nodes.iter().map(corner).fold(0.0, greater);
         tree
     }
 
-    /// Halves the count each time, so that it is at most as deep as a count has bits.
+    /// Halves the range recursively: the depth is at most the number of bits of its length.
     fn build(&mut self, range: Range<usize>) {
         let points = &mut self.points[range.clone()];
         let (mut lo, mut hi) = (points[0].0, points[0].0);
         for &(p, _) in points.iter() {
             (lo, hi) = (lo.min(p), hi.max(p));
         }
-        // Widened by what halving rounds off; the sum of two products in place of one is within the
+        // Widened by the rounding of halving. The sum of two products in place of one is within the
         // allowance for heights.
         let (middle, half) = ((lo + hi) / 2.0, (hi - lo) / 2.0);
         let half = half + (lo.abs().max(hi.abs())) * f64::EPSILON;
@@ -95,11 +95,11 @@ impl PointTree {
         self.nodes[at].next = self.nodes.len() as u32;
     }
 
-    /// Calls back with the number of every point that is not certainly behind the plane of a triangle,
-    /// whose front is where it is seen counter-clockwise from.
+    /// Visits every point that is not certainly behind the plane of a triangle. The front is the
+    /// side from which the triangle is seen counterclockwise.
     ///
     /// # Guarantee
-    /// Points that it passes over are behind the plane in exact arithmetic. Coordinates are at most
+    /// Skipped points are behind the plane in exact arithmetic. Coordinates are at most
     /// [`MAX_COORDINATE`](crate::limits::MAX_COORDINATE).
     pub fn for_each_not_behind(&self, plane: [DVec3; 3], mut visit: impl FnMut(u32)) {
         let [a, b, c] = plane;
@@ -110,7 +110,7 @@ impl PointTree {
         let mut at = 0;
         // Every step leads to a later node.
         while let Some(node) = self.nodes.get(at) {
-            // Written so that NaN goes on.
+            // Written so that NaN descends.
             if normal.dot(node.middle) + normal.abs().dot(node.half) < least {
                 at = node.next as usize;
                 continue;

@@ -1,8 +1,8 @@
-//! The directions along which points spread most and least.
+//! The directions of the largest and smallest spread of points.
 
 use glam::{DMat3, DVec3};
 
-/// Eigenvectors of the weighted points' covariance, by Jacobi's rotations.
+/// Returns the eigenvectors of the weighted points' covariance, by Jacobi rotations.
 pub(crate) fn principal_axes<I: Iterator<Item = (DVec3, f64)>>(points: impl Fn() -> I) -> DMat3 {
     let (sum, total) = points().fold((DVec3::ZERO, 0.0), |(s, w), (p, weight)| {
         (s + p * weight, w + weight)
@@ -33,7 +33,7 @@ pub(crate) fn principal_axes<I: Iterator<Item = (DVec3, f64)>>(points: impl Fn()
     axes
 }
 
-/// `m ← Jᵀ m J` for the rotation by (s, c) in the plane of `i` and `j`.
+/// Computes `m ← Jᵀ m J` for the rotation by (s, c) in the plane of `i` and `j`.
 fn rotate(m: &mut [[f64; 3]; 3], i: usize, j: usize, s: f64, c: f64) {
     for row in m.iter_mut() {
         let (x, y) = (row[i], row[j]);

@@ -1,16 +1,17 @@
 //! Lengths and directions of vectors of any size.
 //!
-//! A length is the root of a sum of squares, and squares of components below about 1e-154 lose their
-//! digits, then vanish; above 1e154 they overflow. A vector divided by such a length is no unit vector,
-//! and what is measured along it is no distance. Whatever is proven along an axis takes it from here.
+//! A length is the root of a sum of squares. Squares of components below about 1e-154 lose their
+//! digits, then vanish; above 1e154 they overflow. A vector divided by such a length is no unit
+//! vector, and a height along it is no distance. Every proof along an axis takes the axis from
+//! here.
 
 use crate::tolerance::{SCALE, SQUARES};
 use glam::DVec3;
 
-/// The unit vector along `v`; none along zero, and where a component is NaN or infinite.
+/// Returns the unit vector along `v`; none for zero, and for a NaN or infinite component.
 ///
 /// # Guarantee
-/// Its length is 1 to within `4u`, however short or long the vector is: three squares and their sum (3u,
+/// Its length is 1 to within `4u`, for vectors of any length: three squares and their sum (3u,
 /// halved by the root), the root and the quotient (1u each).
 ///
 /// ```
@@ -36,13 +37,14 @@ fn unit_of_extreme(v: DVec3) -> Option<DVec3> {
     (length > 0.0 && length.is_finite()).then(|| v / length)
 }
 
-/// The unit vector, or an arbitrary one where there is none: a support gap is a bound along any.
+/// Returns the unit vector, or an arbitrary one if there is none: a support gap is a bound along
+/// any.
 #[inline]
 pub(crate) fn unit_or_any(v: DVec3) -> DVec3 {
     unit(v).unwrap_or(DVec3::X)
 }
 
-/// The length of a vector.
+/// Returns the length of a vector.
 ///
 /// # Guarantee
 /// Its relative error is at most `4u`; a denormal number is exact to its last bit.
@@ -52,35 +54,36 @@ pub fn length(v: DVec3) -> f64 {
     v.length() * back
 }
 
-/// The distance of two points: the [length] of what leads from one to the other.
+/// Returns the distance of two points: the [length] of their difference.
 #[inline]
 pub fn distance(a: DVec3, b: DVec3) -> f64 {
     length(b - a)
 }
 
-/// A vector across two others, of any length; zero where they are parallel up to rounding.
+/// Returns a vector across two others, of any length; zero if they are parallel up to rounding.
 ///
-/// The components of a cross product are products, which vanish where the vectors are short; so either
-/// is brought to a length near 1 first.
+/// The components of a cross product are products, which vanish for short vectors. Both vectors are
+/// therefore scaled to a length near 1 first.
 #[inline]
 pub fn across(a: DVec3, b: DVec3) -> DVec3 {
     scaled(a).0.cross(scaled(b).0)
 }
 
-/// The unit normal of a triangle, from which its corners turn left; none where they are on one line.
+/// Returns the unit normal of a triangle, on the side from which its corners turn left; none if
+/// they are on one line.
 #[inline]
 pub fn normal([a, b, c]: [DVec3; 3]) -> Option<DVec3> {
     let across_both = (b - a).cross(c - a);
     let square = across_both.length_squared();
-    // Products that underflowed or overflowed leave a square that is neither.
+    // Products that underflowed or overflowed leave a square outside of this range.
     match SQUARES.contains(&square) {
         true => Some(across_both / square.sqrt()),
         false => unit_of_extreme(across(b - a, c - a)),
     }
 }
 
-/// The vector times a power of two that makes its square an ordinary number, and the inverse of that
-/// power.
+/// Returns the vector times a power of two that makes its square an ordinary number, and the
+/// inverse of that power.
 #[inline]
 fn scaled(v: DVec3) -> (DVec3, f64) {
     let square = v.length_squared();

@@ -13,15 +13,15 @@ use glam::DVec3;
 pub(crate) struct Velocities {
     /// The velocity of the centre.
     pub(crate) linear: DVec3,
-    /// About the centre, radians per unit of time.
+    /// Angular velocity about the centre, in radians per unit of time.
     pub(crate) spin: DVec3,
 }
 
 /// The bound of a body's advance along an axis by which a schedule divides distances.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Bound {
-    /// `max (n×ω)·r + |v·n|` over the arms r, as the paper prints it `[FAST06 §4.2 Eq. 5]`. It holds at
-    /// one instant only. **Unsound** over a step: times may be late, and contacts missed.
+    /// `max (n×ω)·r + |v·n|` over the arms r, as printed in the paper `[FAST06 §4.2 Eq. 5]`. It
+    /// holds at one instant only. **Unsound** over a step: times may be late, and contacts missed.
     Published,
     /// `v·n + |n×ω| ρ`, where ρ is the largest distance from the axis of rotation: it holds over any
     /// interval `[C2A09]`.
@@ -29,11 +29,11 @@ pub enum Bound {
     Sound,
 }
 
-/// `maxᵢ (n×ω)·rᵢ + |v·n|`: the fastest advance along `n` at this very instant, over the arms `rᵢ`
-/// from the centre; `farthest` returns the one that is farthest along a direction
+/// Returns `maxᵢ (n×ω)·rᵢ + |v·n|`: the fastest advance along `n` at this very instant, over the
+/// arms `rᵢ` from the centre; `farthest` returns the arm that is farthest along a direction
 /// `[FAST06 §4.2 Eq. 5]`.
 ///
-/// **Unsound over a step**: the arms turn with the body. It is here to be compared with.
+/// **Unsound over a step**: the arms turn with the body. For comparison only.
 pub(crate) fn published(
     motion: &Velocities,
     n: DVec3,
@@ -43,11 +43,11 @@ pub(crate) fn published(
     greater(0.0, c.dot(farthest(c))) + motion.linear.dot(n).abs()
 }
 
-/// `v·n + |n×ω| ρ`: an upper bound of the rate of advance along `n` at any time, for points no
-/// farther than `reach` from the axis of rotation `[C2A09]`, signed.
+/// Returns `v·n + |n×ω| ρ`: a signed upper bound of the rate of advance along `n` at any time, for
+/// points no farther than `reach` from the axis of rotation `[C2A09]`.
 ///
 /// # Guarantee
-/// Holds over any interval; exact arithmetic up to a few units in the last place.
+/// Holds over any interval, up to a few units in the last place.
 pub(crate) fn sound(motion: &Velocities, n: DVec3, reach: f64) -> f64 {
     motion.linear.dot(n) + length(n.cross(motion.spin)) * reach
 }

@@ -1,8 +1,8 @@
-//! The time for which a gap stays open.
+//! Computes the time for which a gap stays open.
 
 use crate::tolerance::{RATE_F64, WORTHWHILE};
 
-/// A gap that closes: at most by `rate τ + bend τ²/2` within `τ`.
+/// A gap that closes by at most `rate τ + bend τ²/2` within `τ`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Gap {
     pub(crate) gap: f64,
@@ -11,8 +11,7 @@ pub(crate) struct Gap {
 }
 
 impl Gap {
-    /// The longest time for which the gap stays open for certain; 0 when it is not open, NaN
-    /// included.
+    /// Returns the longest time for which the gap certainly stays open; 0 when it is closed or NaN.
     #[inline]
     pub(crate) fn free_time(&self) -> f64 {
         let (gap, rate, bend) = (self.gap, self.rate, self.bend);
@@ -20,7 +19,7 @@ impl Gap {
             return 0.0;
         }
         let root = (rate * rate + 2.0 * bend * gap).sqrt();
-        // Where the squares underflow, the root is no less than the rate still; NaN stays NaN.
+        // If the squares underflow, the root is still at least the rate; NaN stays NaN.
         let root = if root < rate.abs() { rate.abs() } else { root };
         let tau = if rate > 0.0 {
             2.0 * gap / (rate + root)
@@ -29,7 +28,7 @@ impl Gap {
         } else {
             f64::INFINITY
         };
-        // A pair that is not apart gets no free time, also when it recedes.
+        // A pair that is not apart gets no free time, even if it recedes.
         if gap > 0.0 && tau > 0.0 {
             tau * (1.0 - RATE_F64)
         } else {
@@ -38,8 +37,8 @@ impl Gap {
     }
 }
 
-/// The first time within `[0, horizon]` at which a gap may close, or a lower bound of it, or none
-/// if it stays open; `free_time(τ)` is a time for which it stays open from `τ` on.
+/// Returns the first time within `[0, horizon]` at which a gap may close, or a lower bound of it,
+/// or none if it stays open; `free_time(τ)` is a time for which it stays open from `τ` on.
 #[inline]
 pub(crate) fn first_crossing(
     horizon: f64,
@@ -53,7 +52,7 @@ pub(crate) fn first_crossing(
         if tau >= horizon {
             return None;
         }
-        // Steps shrink from here on: what is left is not worth a round.
+        // Steps shrink from here on: the rest is not worth a round.
         if step <= tau * WORTHWHILE {
             break;
         }

@@ -1,5 +1,5 @@
-//! A motion in a problem's own units: time runs from 0 to 1, and the origin is where both bodies
-//! are near, so that neither a far world nor a long duration costs digits.
+//! A motion in a problem's own units: time runs from 0 to 1, and the origin is near both bodies.
+//! Neither a far origin of the world nor a long duration costs digits.
 
 use super::Motion;
 use super::bound::Velocities;
@@ -20,17 +20,17 @@ pub(crate) struct Path {
     constant: DMat3,
     /// The rotation's centre, in the body's frame.
     pub(crate) centre: DVec3,
-    /// The centre's place at `s = 0`.
+    /// The centre's position at `s = 0`.
     start: DVec3,
     /// The centre's velocity, per unit of `s`.
     pub(crate) velocity: DVec3,
     /// The angular velocity along the world's axes, per unit of `s`.
     pub(crate) spin: DVec3,
-    /// The same along the body's axes; it does not change.
+    /// The angular velocity along the body's axes; it is constant.
     pub(crate) spin_local: DVec3,
     /// `|spin|`
     pub(crate) rate: f64,
-    /// The direction of `spin`; zero where the body does not turn.
+    /// The direction of `spin`; zero if the body does not turn.
     pub(crate) axis: DVec3,
 }
 
@@ -55,7 +55,7 @@ impl Path {
         }
     }
 
-    /// Where the body is at `s`.
+    /// Returns the body's frame at `s`.
     #[inline]
     pub(crate) fn frame(&self, s: f64) -> Frame {
         let rotation = if self.rate > 0.0 {
@@ -70,19 +70,19 @@ impl Path {
         }
     }
 
-    /// Where the centre of rotation is at `s`.
+    /// Returns the position of the centre of rotation at `s`.
     #[inline]
     pub(crate) fn centre_at(&self, s: f64) -> DVec3 {
         self.start + self.velocity * s
     }
 
-    /// Returns the velocity of the point of the body that is at `x`.
+    /// Returns the velocity of the body's point at `x`.
     #[inline]
     pub(crate) fn velocity_at(&self, x: DVec3, s: f64) -> DVec3 {
         self.velocity + self.spin.cross(x - self.centre_at(s))
     }
 
-    /// Per unit of `s`.
+    /// Returns the velocities per unit of `s`.
     pub(crate) fn velocities(&self) -> Velocities {
         Velocities {
             linear: self.velocity,
@@ -90,8 +90,8 @@ impl Path {
         }
     }
 
-    /// Returns the distance from the axis of rotation of the farthest of some points of the body,
-    /// which does not change; 0 where the body does not turn.
+    /// Returns the largest distance of the body's given points from the axis of rotation. It is
+    /// constant; 0 if the body does not turn.
     pub(crate) fn reach(&self, points: &[DVec3]) -> f64 {
         if !self.turns() {
             return 0.0;

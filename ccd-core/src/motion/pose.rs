@@ -18,20 +18,20 @@ pub struct Pose {
 }
 
 impl Pose {
-    /// The body's own frame is the world's.
+    /// The body's own frame equals the world's.
     pub const IDENTITY: Pose = Pose {
         translation: DVec3::ZERO,
         rotation: DQuat::IDENTITY,
     };
 
-    /// A pose from its parts, the quaternion as x, y, z, w; it is normalised.
+    /// Creates a pose from its parts. The quaternion has the order x, y, z, w, and is normalised.
     ///
-    /// Both take arrays, and whatever turns into them: vectors of `glam` and `nalgebra`, quaternions of
-    /// `glam`; of `nalgebra` their `coords`.
+    /// Both parts are arrays, or types that convert to arrays: vectors of `glam` and `nalgebra`,
+    /// quaternions of `glam`, the `coords` of quaternions of `nalgebra`.
     ///
     /// # Errors
-    /// [`InputError::NotFinite`] for a NaN or infinite part, [`InputError::ZeroQuaternion`] when the
-    /// quaternion's length cannot be divided by.
+    /// [`InputError::NotFinite`] for a NaN or infinite part, [`InputError::ZeroQuaternion`] when
+    /// the quaternion's length is no valid divisor.
     pub fn new(
         translation: impl Into<[f64; 3]>,
         rotation: impl Into<[f64; 4]>,
@@ -51,7 +51,7 @@ impl Pose {
         })
     }
 
-    /// From a quaternion that is a unit one already.
+    /// Creates a pose from a unit quaternion.
     pub(crate) fn from_unit(translation: DVec3, rotation: DQuat) -> Self {
         Pose {
             translation,
@@ -59,7 +59,7 @@ impl Pose {
         }
     }
 
-    /// At a position, oriented as the world.
+    /// Creates a pose at a position, oriented as the world.
     ///
     /// # Errors
     /// [`InputError::NotFinite`].
@@ -67,7 +67,7 @@ impl Pose {
         Pose::new(translation, DQuat::IDENTITY)
     }
 
-    /// Where the body's origin lies in the world.
+    /// The position of the body's origin in the world.
     pub fn translation(&self) -> DVec3 {
         self.translation
     }
@@ -77,13 +77,13 @@ impl Pose {
         self.rotation
     }
 
-    /// A point of the body, in world coordinates.
+    /// Returns a point of the body in world coordinates.
     pub fn transform_point(&self, point: DVec3) -> DVec3 {
         self.rotation * point + self.translation
     }
 }
 
-/// A pose in the form that is cheapest to apply: a rotation matrix and an offset.
+/// A pose in the form that is cheapest to apply: a rotation matrix and a translation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frame {
     /// Columns are the images of the axes.
@@ -99,19 +99,19 @@ impl Frame {
         translation: DVec3::ZERO,
     };
 
-    /// `rotation · point + translation`.
+    /// Returns `rotation · point + translation`.
     #[inline]
     pub fn point(&self, point: DVec3) -> DVec3 {
         self.rotation * point + self.translation
     }
 
-    /// `rotationᵀ · (point − translation)`: undoes [`Frame::point`].
+    /// Returns `rotationᵀ · (point − translation)`: undoes [`Frame::point`].
     #[inline]
     pub fn inverse_point(&self, point: DVec3) -> DVec3 {
         self.inverse_vector(point - self.translation)
     }
 
-    /// `rotationᵀ · vector`.
+    /// Returns `rotationᵀ · vector`.
     #[inline]
     pub fn inverse_vector(&self, vector: DVec3) -> DVec3 {
         DVec3::new(
@@ -121,7 +121,7 @@ impl Frame {
         )
     }
 
-    /// The frame that maps `other`'s coordinates into this one's: `self⁻¹ ∘ other`.
+    /// Returns the frame that maps `other`'s coordinates into this one's: `self⁻¹ ∘ other`.
     #[inline]
     pub fn from_frame(&self, other: &Frame) -> Frame {
         Frame {

@@ -25,7 +25,7 @@ impl Track {
         self.drift + self.omega * (angle.cos * self.q - angle.sin * self.p)
     }
 
-    /// A bound of the second derivative.
+    /// Returns a bound of the second derivative.
     #[inline]
     pub(crate) fn bend(&self) -> f64 {
         self.omega * self.omega * (self.p * self.p + self.q * self.q).sqrt()
@@ -44,7 +44,7 @@ pub(crate) struct AxisMotion {
 }
 
 impl AxisMotion {
-    /// `unit` is the direction of the axis of rotation, zero if there is none.
+    /// Here `unit` is the direction of the axis of rotation, or zero if there is none.
     #[inline]
     pub(crate) fn new(linear: DVec3, unit: DVec3, omega: f64, n: DVec3) -> Self {
         AxisMotion {
@@ -55,14 +55,14 @@ impl AxisMotion {
         }
     }
 
-    /// The rate of points that go straight.
+    /// The rate of points that move straight.
     #[inline]
     pub(crate) fn drift(&self) -> f64 {
         self.drift
     }
 
-    /// A bound of the second derivative of the height of points at most so far from the axis of
-    /// rotation.
+    /// Returns a bound of the second derivative of heights, for points at most `distance` from the
+    /// axis of rotation.
     #[inline]
     pub(crate) fn bend(&self, distance: f64) -> f64 {
         self.omega * self.omega * length(self.across) * distance
@@ -80,7 +80,7 @@ impl AxisMotion {
     }
 }
 
-/// Sine, cosine, and cosine less one without cancellation.
+/// The sine, the cosine, and the cosine minus one without cancellation.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Angle {
     sin: f64,
@@ -118,7 +118,7 @@ pub(crate) struct Spinning {
 }
 
 impl Spinning {
-    /// `unit` is the direction of the axis, zero if there is none.
+    /// Here `unit` is the direction of the axis, or zero if there is none.
     #[inline]
     pub(crate) fn new(unit: DVec3, start: DVec3) -> Self {
         Spinning {
@@ -133,13 +133,13 @@ impl Spinning {
         self.start + self.across * angle.cos_minus_one + self.beside * angle.sin
     }
 
-    /// Its derivative, per radian.
+    /// Returns the derivative, per radian.
     #[inline]
     pub(crate) fn slope_at(&self, angle: Angle) -> DVec3 {
         self.beside * angle.cos - self.across * angle.sin
     }
 
-    /// The length of the derivative, which does not change.
+    /// The length of the derivative, which is constant.
     #[inline]
     pub(crate) fn slope(&self) -> f64 {
         self.beside.length()

@@ -1,16 +1,16 @@
-//! Sine and cosine without a table: the same bits on every machine, nothing to fetch.
+//! Sine and cosine without a table: the same bits on every machine.
 
 use std::f64::consts::FRAC_2_PI;
 
-/// π/2 in three parts; products of the first two with a whole number below 2²⁰ are exact.
+/// π/2 in three parts; products of the first two with an integer below 2²⁰ are exact.
 const HALF_PI: [f64; 3] = [
     f64::from_bits(0x3ff9_21fb_5440_0000),
     f64::from_bits(0x3dd0_b461_1a60_0000),
     f64::from_bits(0x3ba3_198a_2e03_7073),
 ];
 
-/// Taylor's coefficients of `(sin r − r)/r³` and of `(cos r − 1 + r²/2)/r⁴` in r²; on |r| ≤ π/4 the
-/// first ones left out are below 2⁻⁵⁶.
+/// Taylor coefficients of `(sin r − r)/r³` and of `(cos r − 1 + r²/2)/r⁴` in r². On |r| ≤ π/4 the
+/// first omitted terms are below 2⁻⁵⁶.
 const SINE: [f64; 7] = [
     -1.0 / 6.0,
     1.0 / 120.0,
@@ -30,7 +30,7 @@ const COSINE: [f64; 7] = [
     1.0 / 20_922_789_888_000.0,
 ];
 
-/// Sine and cosine of an angle from 0 up to [`MAX_TURN`](crate::limits::MAX_TURN).
+/// Computes sine and cosine of an angle from 0 up to [`MAX_TURN`](crate::limits::MAX_TURN).
 ///
 /// # Guarantee
 /// Each is off by at most 2u, as [`distance_rounding`](crate::tolerance::distance_rounding) counts.

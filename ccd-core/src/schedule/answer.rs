@@ -1,4 +1,4 @@
-//! A search run as the problem's policy for the start demands.
+//! Runs a search as the problem's policy for the start demands.
 
 mod given;
 
@@ -11,10 +11,10 @@ use given::of_given;
 /// Searches as the problem's policy for the start demands.
 ///
 /// Bodies that begin in contact and are to be let go are searched again at half the gap that they
-/// began with: what parts or slides keeps more than that, what approaches does not. Where there is
-/// no gap to speak of, it is the pairs that rest on each other that are let go, each on its own.
+/// began with: pairs that part or slide keep more than that, pairs that approach do not. If there
+/// is no gap worth the name, the pairs that rest on each other are let go, each on its own.
 ///
-/// A search adds to the meter what it took.
+/// A search adds its work to the meter.
 pub(crate) fn answer<O: DistanceOracle>(
     problem: &Problem<'_>,
     oracle: &mut O,

@@ -1,4 +1,4 @@
-//! Every pair keeps its own clock; the pair whose proof expires first is looked at next.
+//! Every pair has its own clock; the pair whose proof expires first is examined next.
 
 use super::answer::answer;
 use super::contract::Schedule;
@@ -15,11 +15,11 @@ use std::ops::ControlFlow;
 
 /// Best-first search by time, the default.
 ///
-/// A pair of nodes carries the time until which it is proven apart. The pair of least clock is split
-/// at the pose of that time, and each of its children proven apart further, eight at once. The
+/// A pair of nodes carries the time until which it is proven apart. The pair of least clock is
+/// split at the pose of that time, and its children are proven apart further, eight at once. The
 /// first pair of pieces found within the tolerance is the answer: every other pair is certified
-/// beyond its time. No pass over all pairs ever happens, and no distance is computed but between
-/// pieces.
+/// beyond its time. There is never a pass over all pairs, and distances are computed between pieces
+/// only.
 ///
 /// Keep it between queries: it owns the queue's memory.
 ///
@@ -62,7 +62,7 @@ enum Item<C> {
     Pieces(Pair<C>),
 }
 
-/// The next thing to look at: a pair of pieces, or a pair of nodes one of which is split.
+/// The next item to examine: a pair of pieces, or a pair of nodes with one to be split.
 enum Found<C> {
     Pieces(Pair<C>),
     Split(Split),
@@ -132,7 +132,7 @@ impl<O: DistanceOracle> BestFirst<O> {
         }
     }
 
-    /// Takes out the pair of least clock, and lets the rest of its siblings wait for theirs.
+    /// Takes out the pair of least clock; the rest of its siblings wait for their own clocks.
     fn next(&mut self, problem: &Problem<'_>) -> Option<(f64, Found<O::Cache>)> {
         let visit = self.queue.visit()?;
         let s = visit.clock;

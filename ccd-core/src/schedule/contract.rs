@@ -6,7 +6,7 @@ use crate::problem::Problem;
 
 /// An order in which to advance the pairs of two bodies until the first contact is certain.
 ///
-/// A schedule owns the memory that it works in: keep it, and the oracle, between queries.
+/// A schedule owns its working memory: keep it, and the oracle, between queries.
 ///
 /// ```
 /// use ccd_core::{schedule::{BestFirst, Naive, Schedule}, *};

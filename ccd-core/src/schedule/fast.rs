@@ -1,4 +1,4 @@
-//! The paper's schedule: one step for all, over the front of the bounding volume traversal tree.
+//! The paper's schedule: one common step, over the front of the bounding volume traversal tree.
 
 mod descent;
 mod front;
@@ -23,27 +23,26 @@ use std::ops::ControlFlow;
 /// Hierarchical conservative advancement over [hull trees](crate::HullTree), as published
 /// `[FAST06 Alg. 2]`.
 ///
-/// The distance of the bodies is computed by a descent through pairs of nodes `[FAST06 Alg. 3]`; the
-/// pairs at which it stops, the *front*, cover all pairs of pieces. Each keeps apart for its distance
-/// divided by a [bound](Bound) of its rate of approach; all are advanced by the least of these times,
-/// and the distance is computed again, until it is within the tolerance. The next descent starts from
-/// the front that the last one left `[SWIFT01]`: the pieces that were nearest are in it, so that the
-/// distance is bounded before anything is split, and the nearest pair is always split first. Pairs that
-/// have become far are joined again.
+/// A descent through pairs of nodes computes the distance of the bodies `[FAST06 Alg. 3]`. The
+/// pairs at which it stops, the *front*, cover all pairs of pieces. Each keeps apart for its
+/// distance divided by a [bound](Bound) of its rate of approach. All are advanced by the least of
+/// these times, and the distance is computed again, until it is within the tolerance. The next
+/// descent starts from the front of the last one `[SWIFT01]`: it contains the pieces that were
+/// nearest, so that the distance is bounded before anything is split, and the nearest pair is
+/// always split first. Pairs that have become far are joined again.
 ///
-/// It is here to be compared with: [`BestFirst`] does away with the common step.
+/// For comparison: [`BestFirst`] needs no common step.
 ///
-/// Bodies of one piece need no tree. If another body has [none](crate::Body::hull_tree), the query is
-/// answered by [`BestFirst`].
+/// Bodies of one piece need no tree. If another body has [none](crate::Body::hull_tree),
+/// [`BestFirst`] answers the query.
 ///
 /// # Guarantee
 /// That of [`Schedule::solve`] with [`Bound::Sound`]; with [`Bound::Published`] times may be late and
 /// contacts missed.
 ///
-/// # Complexity
-/// The bodies come nearer by a share of their distance in every step, so that grazing passes and fast
-/// turning cost many steps, and bodies that are [let go](crate::StartPolicy::Leave) from flush contact
-/// and turn may cost the whole budget, where [`BestFirst`] follows the points' paths.
+/// The bodies come nearer by a share of their distance in every step. Grazing passes and fast
+/// turning therefore cost many steps. Bodies that are [let go](crate::StartPolicy::Leave) from
+/// flush contact and turn may cost the whole budget, where [`BestFirst`] follows the points' paths.
 #[derive(Debug)]
 pub struct Fast<O: DistanceOracle> {
     bound: Bound,
@@ -53,7 +52,7 @@ pub struct Fast<O: DistanceOracle> {
 }
 
 impl<O: DistanceOracle> Fast<O> {
-    /// A schedule that divides distances by a bound.
+    /// Creates a schedule that divides distances by a bound.
     pub fn new(bound: Bound) -> Self {
         Fast {
             bound,
@@ -83,7 +82,8 @@ impl<O: DistanceOracle> Schedule<O> for Fast<O> {
 }
 
 impl<O: DistanceOracle> Fast<O> {
-    /// Alg. 2: computes the distance, and advances both bodies by what it allows for, again and again.
+    /// Alg. 2: repeatedly computes the distance, and advances both bodies by the time that it
+    /// allows.
     fn advance(
         &mut self,
         problem: &Problem<'_>,

@@ -1,25 +1,25 @@
-//! The work that a query may do, and the work that it did.
+//! The limits of a query's work, and the work done.
 
 use crate::outcome::{Limit, Stats};
 use crate::problem::Problem;
 use crate::tolerance::WORK_BETWEEN_LOOKS;
 use std::time::Instant;
 
-/// Counts what a query takes, and ends it when that is as much as it may.
+/// Counts the work of a query, and ends the query at its limit.
 #[derive(Debug)]
 pub(crate) struct Meter {
     pub(crate) stats: Stats,
     budget: u64,
-    /// None where there is no end, and no clock is read.
+    /// None if there is no deadline; then no clock is read.
     end: Option<Instant>,
     /// The work at which the clock is read next.
     next_look: u64,
 }
 
 impl Meter {
-    /// Begins now.
+    /// Starts the meter now.
     pub(crate) fn new(problem: &Problem<'_>) -> Self {
-        // An end that no clock will ever show is none.
+        // A deadline that no clock can represent counts as none.
         let end = |deadline| Instant::now().checked_add(deadline);
         Meter {
             stats: Stats::default(),
@@ -29,7 +29,7 @@ impl Meter {
         }
     }
 
-    /// One more pair is about to be visited.
+    /// Counts a pair that is about to be visited.
     #[inline]
     pub(crate) fn visit(&mut self) -> Result<(), Limit> {
         self.stats.iterations += 1;

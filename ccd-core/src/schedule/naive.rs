@@ -1,4 +1,4 @@
-//! All pairs of pieces, one common clock: Alg. 1 of the paper, the slow and obvious twin.
+//! All pairs of pieces, one common clock: Alg. 1 of the paper, a slow and obvious reference.
 
 use super::answer::answer;
 use super::contract::Schedule;
@@ -16,9 +16,9 @@ use std::ops::ControlFlow;
 /// Advances all pairs of pieces together by the least of their free times `[FAST06 Alg. 1]`: the
 /// distance of each pair, divided by a [bound](Bound) of its rate of approach.
 ///
-/// Every step costs one distance for each pair of pieces, and grazing passes, fast turning and bodies
-/// that are let go from flush contact cost many steps: only for bodies of few pieces, and to check the
-/// other schedules by.
+/// Every step costs one distance for each pair of pieces. Grazing passes, fast turning and bodies
+/// that are let go from flush contact cost many steps. It suits only bodies of few pieces, and
+/// checks of the other schedules.
 ///
 /// # Guarantee
 /// That of [`Schedule::solve`] with [`Bound::Sound`]; with [`Bound::Published`] times may be late.
@@ -29,7 +29,7 @@ pub struct Naive<O: DistanceOracle> {
 }
 
 impl<O: DistanceOracle> Naive<O> {
-    /// A schedule that divides distances by a bound.
+    /// Creates a schedule that divides distances by a bound.
     pub fn new(bound: Bound) -> Self {
         Naive {
             bound,

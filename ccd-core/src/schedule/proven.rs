@@ -9,12 +9,12 @@ use crate::outcome::{Contact, Limit, Outcome};
 use crate::problem::{Problem, StartPolicy};
 use std::ops::ControlFlow;
 
-/// The facts that are proven of the bodies, whatever becomes of pairs that still wait.
+/// The facts proven of the bodies, independent of pairs that still wait.
 #[derive(Debug)]
 pub(crate) struct Proven {
-    /// At the start no pair of pieces is in contact, and no body inside the other.
+    /// True if at the start no pair of pieces is in contact, and no body inside the other.
     apart_at_start: bool,
-    /// The least gap that pairs of nodes were proven to keep.
+    /// The least gap that pairs of nodes are proven to keep.
     kept: f64,
 }
 
@@ -28,13 +28,13 @@ impl Default for Proven {
 }
 
 impl Proven {
-    /// Pairs of nodes keep a gap until their clocks.
+    /// Records a gap that pairs of nodes keep until their clocks.
     pub(crate) fn keep(&mut self, gap: f64) {
         self.kept = lesser(self.kept, gap);
     }
 
-    /// Concludes from the advance of a pair of pieces at clock `s`: the clock to wait for, or the
-    /// answer.
+    /// Concludes from the advance of a pair of pieces at clock `s`: returns the clock to wait for,
+    /// or the answer.
     ///
     /// A pair that touches at the start is not the answer yet: another one may be nearer, or overlap.
     pub(crate) fn conclude<O: DistanceOracle>(
@@ -59,8 +59,8 @@ impl Proven {
         })
     }
 
-    /// A pair is in contact at clock `s`. Others may be nearer: they are known to keep what clocks
-    /// prove, and no more.
+    /// Returns the outcome for a pair in contact at clock `s`. Other pairs may be nearer: they keep
+    /// only what their clocks prove.
     pub(crate) fn contact(&self, problem: &Problem<'_>, contact: Contact, s: f64) -> Outcome {
         Outcome::Contact {
             time: problem.time(s),
@@ -68,20 +68,20 @@ impl Proven {
         }
     }
 
-    /// All pairs are past the start, and none was in contact there: the answer, if one body is inside
-    /// the other.
+    /// Records that all pairs are past the start without contact there. Returns the answer if one
+    /// body is inside the other.
     pub(crate) fn past_start(&mut self, problem: &Problem<'_>) -> Option<Outcome> {
         if std::mem::replace(&mut self.apart_at_start, true) {
             return None;
         }
-        // Bodies that are let go were looked at when their contact was found.
+        // Bodies that are let go were examined when their contact was found.
         match problem.start {
             StartPolicy::Leave => None,
             StartPolicy::Report => contained(problem, &[]),
         }
     }
 
-    /// All pairs are apart to the end.
+    /// Returns the outcome if all pairs are apart to the end.
     pub(crate) fn end(&mut self, problem: &Problem<'_>) -> Outcome {
         self.past_start(problem).unwrap_or(Outcome::Free {
             proven_gap: problem.proven_gap(self.kept),

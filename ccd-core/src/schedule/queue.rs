@@ -5,8 +5,8 @@ use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 use std::collections::binary_heap::PeekMut;
 
-/// Items ordered by their clocks; among equal clocks pairs of pieces come first, then the newest,
-/// so that the search dives.
+/// Items ordered by their clocks. Among equal clocks pairs of pieces come first, then the newest,
+/// for a depth-first search.
 #[derive(Debug)]
 pub(crate) struct Queue<T> {
     heap: BinaryHeap<Reverse<Key>>,
@@ -16,8 +16,8 @@ pub(crate) struct Queue<T> {
     peak: usize,
 }
 
-/// 64 bits of clock (which order as the numbers do, as clocks are not negative), 1 bit of rank, 31
-/// bits of age, 32 bits of index.
+/// 64 bits of clock (clocks are not negative, so their bits order as the numbers do), 1 bit of
+/// rank, 31 bits of age, 32 bits of index.
 type Key = u128;
 
 /// The order of items with equal clocks.
@@ -27,10 +27,10 @@ pub(crate) enum Rank {
     Siblings = 1,
 }
 
-/// More items than this cannot wait at once.
+/// The most items that can wait at once.
 const MAX_ITEMS: usize = u32::MAX as usize;
 
-/// The queue holds as many items as it can name.
+/// The error of a queue that holds as many items as its indices allow.
 #[derive(Debug)]
 pub(crate) struct Full;
 
@@ -47,7 +47,7 @@ impl<T> Default for Queue<T> {
 }
 
 impl<T> Queue<T> {
-    /// Forgets everything but the memory.
+    /// Removes all items, and keeps the memory.
     pub(crate) fn clear(&mut self) {
         self.heap.clear();
         self.items.clear();
@@ -56,7 +56,7 @@ impl<T> Queue<T> {
         self.peak = 0;
     }
 
-    /// Lets an item wait for its clock, which is not negative.
+    /// Adds an item that waits for its clock, which is not negative.
     pub(crate) fn push(&mut self, clock: f64, rank: Rank, item: T) -> Result<(), Full> {
         let index = match self.vacant.pop() {
             Some(index) => {
@@ -76,7 +76,7 @@ impl<T> Queue<T> {
         Ok(())
     }
 
-    /// The item of the least clock, which stays in the queue until the visit ends it.
+    /// Returns the item of the least clock, which stays in the queue until the visit ends.
     pub(crate) fn visit(&mut self) -> Option<Visit<'_, T>> {
         let top = self.heap.peek_mut()?;
         let index = top.0 as u32;
@@ -88,7 +88,7 @@ impl<T> Queue<T> {
         })
     }
 
-    /// The most items that waited at once.
+    /// Returns the largest number of items that waited at once.
     pub(crate) fn peak(&self) -> u64 {
         self.peak as u64
     }

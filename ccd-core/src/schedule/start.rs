@@ -1,4 +1,4 @@
-//! Measures how near bodies are that touch at the start: nearest pairs first.
+//! Measures the distance of bodies that touch at the start: nearest pairs first.
 
 mod containment;
 
@@ -17,15 +17,15 @@ use crate::tolerance::NEAREST_SHARE;
 use containment::Containment;
 use std::ops::ControlFlow;
 
-/// The answer for bodies with two pieces that were seen in contact at the start: how near the bodies
-/// are, or that they overlap.
+/// Returns the answer for bodies with two pieces seen in contact at the start: the distance of the
+/// bodies, or that they overlap.
 ///
 /// # Guarantee
-/// Touching bodies are no nearer than the contact's lower bound, and its pieces show the upper one.
-/// The same whichever pieces were `seen`, if the oracle is honest.
+/// Touching bodies are at least the contact's lower bound apart, and its pieces show the upper one.
+/// If the oracle is honest, the answer does not depend on which pieces were `seen`.
 ///
 /// # Complexity
-/// One distance of the bodies, whatever the margin, and a look at every pair of pieces that may
+/// One distance of the bodies, for any margin, and a look at every pair of pieces that may
 /// intersect.
 pub(super) fn touching<O: DistanceOracle>(
     problem: &Problem<'_>,
@@ -51,26 +51,27 @@ pub(super) fn touching<O: DistanceOracle>(
     contained(problem, &search.touching).unwrap_or(Outcome::Touching { contact })
 }
 
-/// Splits the pair of nodes that may hold the nearest pieces, until no pair that waits can hold any
-/// that are nearer than those found.
+/// Splits the pair of nodes that may contain the nearest pieces, until no waiting pair can contain
+/// any that are nearer than those found.
 ///
-/// Pairs that may intersect are bounded by no distance at all, and therefore come before all others.
+/// Pairs that may intersect have no lower bound of their distance, and therefore come before all
+/// others.
 struct Nearest<'p> {
     problem: &'p Problem<'p>,
-    /// By lower bounds of their distance.
+    /// Ordered by lower bounds of their distances.
     waiting: Queue<Siblings>,
     /// The pieces of least upper bound.
     nearest: Option<Contact>,
     /// Bounds the distance of all pieces that were measured or given up.
     lower: f64,
-    /// The pairs of pieces that no axis keeps apart; all of them, as none has a distance.
+    /// All pairs of pieces without a separating axis; none of them has a distance.
     touching: Vec<[u32; 2]>,
-    /// Some pair could not be shown to intersect or not.
+    /// True if some pair could not be shown to intersect or not.
     undecided: bool,
 }
 
 impl Nearest<'_> {
-    /// Finds the nearest pieces; breaks with the answer when two overlap, or a limit is reached.
+    /// Finds the nearest pieces. Breaks with the answer when two overlap, or a limit is reached.
     fn run<O: DistanceOracle>(
         &mut self,
         oracle: &mut O,
@@ -104,11 +105,12 @@ impl Nearest<'_> {
         }
     }
 
-    /// The pair that may be the nearest; none when no pair can be nearer than what is found.
+    /// Returns the pair that may be the nearest; none when no pair can be nearer than the one
+    /// found.
     fn next(&mut self) -> Option<Next> {
         let (upper, near_enough) = (self.upper(), self.near_enough());
         let visit = self.waiting.visit()?;
-        // What has no distance may intersect.
+        // Pairs without a distance may intersect.
         if visit.clock > 0.0 && visit.clock >= near_enough {
             self.lower = lesser(self.lower, visit.clock);
             return None;
@@ -157,7 +159,7 @@ impl Nearest<'_> {
         self.nearest.map_or(f64::INFINITY, upper)
     }
 
-    /// Pairs that are no nearer need not be looked at.
+    /// Pairs at least this far apart are not examined.
     fn near_enough(&self) -> f64 {
         let upper = self.upper();
         match upper <= self.problem.contact_distance() {
@@ -166,10 +168,10 @@ impl Nearest<'_> {
         }
     }
 
-    /// The nearest pieces, with a lower bound that holds for all.
+    /// Returns the nearest pieces, with a lower bound that holds for all.
     fn contact(&self, seen: Contact) -> Contact {
         let nearest = self.nearest.unwrap_or(seen);
-        // An oracle may take back what it said.
+        // A later claim of an oracle may contradict an earlier one.
         let contact = match nearest.separation.upper <= self.problem.contact_distance() {
             true => nearest,
             false => seen,
@@ -178,8 +180,8 @@ impl Nearest<'_> {
     }
 }
 
-/// The answer, if one body is inside the other or that cannot be decided. No two pieces intersect;
-/// `touching` are those that no axis keeps apart.
+/// Returns the answer if one body is inside the other, or if that is undecided. No two pieces
+/// intersect; `touching` are those without a separating axis.
 pub(super) fn contained(problem: &Problem<'_>, touching: &[[u32; 2]]) -> Option<Outcome> {
     match containment::at_start(problem, touching) {
         Containment::Inside(overlap) => Some(Outcome::Overlapping { overlap }),
@@ -191,7 +193,7 @@ pub(super) fn contained(problem: &Problem<'_>, touching: &[[u32; 2]]) -> Option<
     }
 }
 
-/// Two pieces overlap.
+/// Returns the outcome for two pieces that overlap.
 pub(super) fn overlapping(contact: Contact) -> Outcome {
     Outcome::Overlapping {
         overlap: Overlap::Pieces(contact),

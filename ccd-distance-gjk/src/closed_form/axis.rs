@@ -1,4 +1,5 @@
-//! Separating axes made of features, for pieces so near that their witnesses' difference is rounding.
+//! Separating axes computed from features, for pieces so near that their witnesses' difference is
+//! rounding.
 
 use super::nearest::Corners;
 use crate::lanes::{Lanes3, reciprocal};
@@ -32,10 +33,10 @@ pub(crate) fn support_gap(p: &Corners, q: &Corners, n: DVec3) -> f64 {
 
 /// The axes that may separate two triangles.
 ///
-/// Nearest points differ by a vector `w` that is exact to rounding only, so that it may fall out of
-/// the cone of normals it belongs to. The borders of that cone are candidates too: where a vertex
-/// meets an edge, `w` made perpendicular to the edge; where edges meet, their cross product; where a
-/// face does, its normal; and for what lies in one plane, the normals of the edges within it.
+/// Nearest points differ by a vector `w` that is exact only up to rounding, so it may fall out of
+/// the cone of normals that it belongs to. The borders of that cone are candidates too: for a
+/// vertex and an edge, `w` made perpendicular to the edge; for two edges, their cross product; for
+/// a face, its normal; and in one plane, the normals of the edges within it.
 #[derive(Debug)]
 pub(crate) struct Candidates {
     directions: [Lanes3; GROUPS],
@@ -46,12 +47,12 @@ pub(crate) struct Candidates {
 const GROUPS: usize = 8;
 
 impl Candidates {
-    /// All axes of two triangles whose nearest points differ by about `w`.
+    /// Computes all axes of two triangles whose nearest points differ by about `w`.
     pub(crate) fn new(p: &Corners, q: &Corners, w: DVec3) -> Self {
         let (edges_p, edges_q) = (edges(p), edges(q));
         let (normal_p, normal_q) = (normal(&edges_p), normal(&edges_q));
         let lanes_q = with(edges_q, DVec3::ZERO);
-        // Nearly parallel edges leave a cross product that rounding tilts along them.
+        // Nearly parallel edges have a cross product that rounding tilts along them.
         let cross = |e: DVec3| {
             let e = Lanes3::splat(e);
             let n = e.cross(lanes_q);
@@ -77,7 +78,7 @@ impl Candidates {
         out
     }
 
-    /// The axis with the largest gap.
+    /// Returns the axis with the largest gap.
     pub(crate) fn best(&self) -> Axis {
         let gaps = self.gaps.map(f64x4::to_array);
         let gap = |k: usize| gaps[k / 4][k % 4];
@@ -97,7 +98,7 @@ impl Candidates {
     }
 }
 
-/// Turns each direction the way the larger gap lies, and states that gap along the unit vector.
+/// Turns each direction towards the larger gap, and returns that gap along the unit vector.
 #[inline]
 fn oriented(p: &Corners, q: &Corners, n: Lanes3) -> (Lanes3, f64x4) {
     let [a, b, c] = p.map(|x| n.dot(Lanes3::splat(x)));
@@ -121,8 +122,8 @@ fn edges([a, b, c]: &Corners) -> [DVec3; 3] {
     [b - a, c - b, a - c]
 }
 
-/// The normal of a triangle, made perpendicular to its longest edge: what rounding leaves for a
-/// needle is a turn about that edge, across the needle's width.
+/// The normal of a triangle, made perpendicular to its longest edge. For a needle, the remaining
+/// rounding is a turn about that edge, across the needle's width.
 fn normal(edges: &[DVec3; 3]) -> DVec3 {
     let n = edges[0].cross(edges[1]);
     let long = longest(edges);

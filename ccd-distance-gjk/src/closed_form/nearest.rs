@@ -15,7 +15,7 @@ pub(crate) struct Nearest {
 }
 
 impl Nearest {
-    /// The point of the second triangle minus that of the first.
+    /// Returns the point of the second triangle minus that of the first.
     #[inline]
     pub(crate) fn difference(&self, p: &Corners, q: &Corners) -> DVec3 {
         at(q, self.b) - at(p, self.a)
@@ -25,8 +25,8 @@ impl Nearest {
 /// Returns the nearest points of two triangles that do not intersect `[ERICSON05 §5.1]`: those of their
 /// boundaries, and of corners and faces.
 ///
-/// Every candidate is a pair of points of the triangles, however ill-conditioned; the least of
-/// their distances decides.
+/// Every candidate is a pair of points of the triangles, however ill-conditioned; the least
+/// distance decides.
 #[inline]
 pub(crate) fn nearest(p: &Corners, q: &Corners) -> Nearest {
     let edges = edges_to_edges(p, q);
@@ -88,11 +88,11 @@ fn edges_to_edges(p: &Corners, q: &Corners) -> EdgeEdge {
         let e = Lanes3::splat(p[(i + 1) % 3] - p[i]);
         let per_e = reciprocal(e.dot(e));
         let w = starts.minus(Lanes3::splat(p[i]));
-        // Where the lines cross, s = ((w×f)·n) / n² with n = e×f: unlike the determinant of scalar
-        // products, it stays good to rounding / angle when the edges are nearly parallel.
+        // The lines cross at s = ((w×f)·n) / n² with n = e×f. Unlike the determinant of scalar
+        // products, this keeps an error of rounding / angle when the edges are nearly parallel.
         let n = e.cross(f);
         let s = clamp_unit(w.cross(f).dot(n) * reciprocal(n.dot(n)));
-        // Nearest to that, nearest to this again: exact where the first or second was clamped, and
+        // Projects to the other edge, and back: exact where the first or second was clamped, and
         // where the lines are parallel.
         let t = clamp_unit(e_minus_w(e, s, w).dot(f) * per_f);
         let reached = w.along(t, f);
@@ -108,7 +108,7 @@ fn edges_to_edges(p: &Corners, q: &Corners) -> EdgeEdge {
     best
 }
 
-/// `s e − w`.
+/// Returns `s e − w`.
 #[inline(always)]
 fn e_minus_w(e: Lanes3, s: f64x4, w: Lanes3) -> Lanes3 {
     Lanes3 {
@@ -118,9 +118,9 @@ fn e_minus_w(e: Lanes3, s: f64x4, w: Lanes3) -> Lanes3 {
     }
 }
 
-/// The corners of one triangle above the face of the other.
+/// The corners of one triangle over the face of the other.
 struct CornerFace {
-    /// Infinite where the corner's foot lies outside of the face.
+    /// Infinite if the corner's foot is outside of the face.
     square: f64x4,
     u: f64x4,
     v: f64x4,
@@ -158,7 +158,7 @@ fn corners_to_face(face: &Corners, corners: &Corners) -> CornerFace {
     }
 }
 
-/// The least lane and which it is.
+/// Returns the least value and its lane.
 #[inline(always)]
 fn least(x: f64x4) -> (f64, usize) {
     let x = x.to_array();

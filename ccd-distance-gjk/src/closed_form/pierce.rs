@@ -4,13 +4,13 @@ use super::nearest::{Corners, Nearest, at};
 use ccd_core::glam::DVec3;
 use ccd_core::order::lesser;
 
-/// The pair of points with the least distance among `near` and the six places where an edge's line
-/// meets the other triangle's plane.
+/// Returns the pair of points with the least distance among `near` and the six places where an
+/// edge's line meets the other triangle's plane.
 ///
 /// Two triangles that intersect across each other share a segment, which ends where an edge of one
-/// meets the other; those in one plane have crossing edges or a corner inside, which `near` knows.
-/// Clamping to the edge and to the face replaces any test of what lies inside: a point that falls
-/// out by rounding is moved back by as much.
+/// meets the other. Triangles in one plane have crossing edges or a corner inside, which `near`
+/// covers. Clamping to the edge and to the face replaces any inside test: a point that rounding
+/// moved out is moved back by as much.
 pub(crate) fn common_point(p: &Corners, q: &Corners, near: Nearest) -> Nearest {
     let through_p = pierces(q, p).map(|(b, a)| Nearest { a, b });
     let through_q = pierces(p, q).map(|(a, b)| Nearest { a, b });

@@ -1,4 +1,4 @@
-//! The axes that a few vertices of the Minkowski difference span.
+//! The axes spanned by a few vertices of the Minkowski difference.
 
 use super::search::Found;
 use super::simplex::{Simplex, Vertex};
@@ -7,7 +7,7 @@ use ccd_core::glam::DVec3;
 use ccd_core::order::lesser;
 use ccd_core::vector::unit;
 
-/// Vertices of the difference, as seen from the one that weighs most in the nearest point.
+/// Vertices of the difference, relative to the one with the largest weight in the nearest point.
 pub(crate) struct Fan {
     /// The nearest point.
     point: DVec3,
@@ -16,7 +16,7 @@ pub(crate) struct Fan {
 }
 
 impl Fan {
-    /// Takes the vertices that hold the nearest point; none without one.
+    /// Takes the vertices of the nearest point; none without one.
     pub(crate) fn new(found: &Found) -> Option<Self> {
         let held = found.simplex.vertices();
         let mut out = Fan {
@@ -51,10 +51,10 @@ impl Fan {
         room
     }
 
-    /// Returns the axis along which these vertices are farthest from the origin, and how far.
+    /// Returns the axis along which these vertices are farthest from the origin, and that distance.
     ///
-    /// The candidates are the nearest point, a known axis, and any one, as they are or made
-    /// perpendicular to an edge, and the perpendiculars of two edges.
+    /// The candidates are the nearest point, a known axis, and an arbitrary one, as they are or
+    /// made perpendicular to an edge, and the perpendiculars of two edges.
     pub(crate) fn best(&self, known: DVec3) -> (DVec3, f64) {
         let mut edges = [DVec3::ZERO; SHARPEN_CAP];
         for (edge, vertex) in edges.iter_mut().zip(self.vertices()) {
@@ -92,7 +92,7 @@ impl Fan {
         best
     }
 
-    /// The four vertices that are least along an axis.
+    /// Returns the four vertices that are least along an axis.
     pub(crate) fn least(mut self, axis: DVec3) -> Simplex {
         let height = |v: &Vertex| axis.dot(v.point);
         self.vertices[..self.len].sort_by(|v, w| height(v).total_cmp(&height(w)));

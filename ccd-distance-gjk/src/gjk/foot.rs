@@ -2,15 +2,15 @@
 
 use ccd_core::glam::DVec3;
 
-/// A point of a simplex's hull, meant to be the one nearest to the origin.
+/// A point of a simplex's hull, usually the nearest to the origin.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Foot {
     /// One weight per vertex, none negative, of sum one.
     pub(crate) weights: [f64; 4],
     /// The vertices' combination by these weights.
     pub(crate) point: DVec3,
-    /// The direction of `point`, of any length; none when the origin is inside. It is made of the
-    /// feature, so that it stays sharp where the point is short.
+    /// The direction of `point`, of any length; none when the origin is inside. It is computed from
+    /// the feature, so that it stays exact for a short `point`.
     pub(crate) direction: Option<DVec3>,
 }
 
@@ -35,7 +35,7 @@ impl Foot {
         Foot { weights, ..self }
     }
 
-    /// The nearer one, `other` if they are equal.
+    /// Returns the nearer one, `other` if they are equal.
     pub(crate) fn or_nearer(self, other: Option<Self>) -> Self {
         match other {
             Some(other) if !(self.point.length_squared() < other.point.length_squared()) => other,

@@ -7,8 +7,8 @@ use ccd_core::{Piece, PiecePair};
 
 /// The difference of a pair's hulls in A's axes.
 ///
-/// Each piece's points are taken relative to its own first one: rounding is that of the pieces' sizes
-/// and of their distance, wherever they lie.
+/// Each piece's points are taken relative to its own first one: rounding is that of the pieces'
+/// sizes and of their distance, not of their positions.
 pub(crate) struct Difference<'a> {
     pair: &'a PiecePair<'a>,
     first_a: DVec3,
@@ -18,7 +18,7 @@ pub(crate) struct Difference<'a> {
 }
 
 impl<'a> Difference<'a> {
-    /// Takes a pair; none if a piece has no points.
+    /// Creates the difference of a pair; none if a piece has no points.
     pub(crate) fn new(pair: &'a PiecePair<'a>) -> Option<Self> {
         let (&first_a, &first_b) = (pair.a.points.first()?, pair.b.points.first()?);
         Some(Difference {
@@ -42,7 +42,7 @@ impl<'a> Difference<'a> {
         Some(self.pair.b_to_a.rotation * turned + self.between)
     }
 
-    /// The vertex that is least along `direction`.
+    /// Returns the vertex that is least along `direction`.
     pub(crate) fn support(&self, direction: DVec3) -> Vertex {
         let a = farthest(&self.pair.a, self.first_a, direction);
         let turned = self.pair.b_to_a.inverse_vector(direction);
@@ -54,7 +54,7 @@ impl<'a> Difference<'a> {
         })
     }
 
-    /// The vertex of the given points, if both pieces have them.
+    /// Returns the vertex of the given points, if both pieces have them.
     #[inline]
     pub(crate) fn vertex(&self, a: u32, b: u32) -> Option<Vertex> {
         let point = self.point_b(b)? - self.point_a(a)?;
@@ -64,7 +64,7 @@ impl<'a> Difference<'a> {
 
 /// Returns the index of a point of a piece that is farthest along a direction; points are never empty.
 ///
-/// A few are all looked at, relative to the first one. More are left to the piece.
+/// Scans a few points relative to the first one; more are left to the piece.
 #[inline]
 fn farthest(piece: &Piece<'_>, first: DVec3, direction: DVec3) -> u32 {
     if piece.points.len() > SCANNED_POINTS {

@@ -14,14 +14,15 @@ use ccd_core::{Claim, Combination, DistanceOracle, GiveUp, PiecePair};
 /// The distance of two hulls of any number of points, by GJK `[GJK88]`.
 ///
 /// # Guarantee
-/// Of separated pieces of size s, both moved near the origin, the witnesses are within about
-/// 1e-13 s of the nearest pair's distance, and where that is less than 1e-7 s the axis is made of
-/// the features that hold them. Ends after at most about 300 steps with the best seen on the way; it never
-/// gives up on pieces that have points, and claims nothing of those that have none.
+/// For separated pieces of size s, both moved near the origin, the witnesses are within about 1e-13
+/// s of the nearest pair's distance. If that is less than 1e-7 s, the axis is computed from the
+/// features that contain them. The search ends after at most about 300 steps with the best result
+/// on the way. It never gives up on pieces that have points, and claims nothing for pieces without
+/// any.
 ///
 /// # Complexity
-/// About 3 to 10 steps, 1 to 2 from a warm [`Cache`], without allocation. Each step looks at every point
-/// once.
+/// About 3 to 10 steps, 1 to 2 from a warm [`Cache`], without allocation. Each step scans every
+/// point once.
 ///
 /// ```
 /// use ccd_core::{DistanceOracle, Frame, Piece, PiecePair, glam::DVec3};
@@ -60,10 +61,10 @@ pub(crate) const NOTHING: Claim = Claim {
     b: Combination::EMPTY,
 };
 
-/// Searches for the nearest point, again and again where rounding stalls the search.
+/// Searches for the nearest point, repeatedly if rounding stalls the search.
 ///
-/// A search that stalls short of the distance that its axis certifies goes on from the vertices that
-/// the features' axes run into.
+/// A search that stalls short of the distance that its axis certifies continues from the vertices
+/// that the features' axes meet.
 pub(crate) fn solve(difference: &Difference<'_>, mut simplex: Simplex) -> Found {
     let mut found = Found::nothing();
     for _ in 0..ROUND_CAP {
@@ -90,12 +91,12 @@ pub(crate) fn solve(difference: &Difference<'_>, mut simplex: Simplex) -> Found 
     found
 }
 
-/// Whether the axis certifies the distance as well as rounding lets it.
+/// Whether the axis certifies the distance as well as rounding permits.
 fn certified(found: &Found) -> bool {
     found.gap > 0.0 && meets(found.gap, found.square, &found.simplex, CERTIFIED_ULPS)
 }
 
-/// Makes a claim of what was found.
+/// Makes a claim of the result.
 pub(crate) fn claim(found: &Found) -> Claim {
     let mut out = Claim {
         axis: found.axis,

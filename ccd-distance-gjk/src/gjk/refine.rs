@@ -1,4 +1,4 @@
-//! Nearer witnesses than the search's, in closed form.
+//! Finds nearer witnesses than those of the search, in closed form.
 
 use super::minkowski::Difference;
 use super::search::Found;
@@ -7,11 +7,11 @@ use crate::closed_form::nearest::{Corners, nearest};
 use ccd_core::glam::DVec3;
 use ccd_core::order::lesser;
 
-/// Replaces the witnesses by the nearest points of what a simplex spans on either side, if those are
-/// nearer.
+/// Replaces the witnesses by the nearest points of the parts that a simplex spans on either side,
+/// if those are nearer.
 ///
-/// They are found in closed form, which rounding that stalls a search on nearly parallel edges does not
-/// reach. If one side has four points, the first three are looked at.
+/// The closed form is immune to the rounding that stalls a search on nearly parallel edges. If one
+/// side has four points, the first three are used.
 pub(crate) fn witnesses(difference: &Difference<'_>, simplex: Simplex, found: &mut Found) {
     let vertices = simplex.vertices();
     let p = Points::new(vertices.iter().map(|v| (v.a, difference.point_a(v.a))));
@@ -35,7 +35,7 @@ struct Points {
 }
 
 impl Points {
-    /// The different ones among the given points.
+    /// Returns the distinct ones of the given points.
     fn new(points: impl Iterator<Item = (u32, Option<DVec3>)>) -> Option<Self> {
         let mut out = Points {
             corners: [DVec3::ZERO; 3],
@@ -53,8 +53,8 @@ impl Points {
     }
 }
 
-/// Returns vertices of the difference, and weights, whose combination is that of the points on either
-/// side.
+/// Returns vertices of the difference, and weights. Their combination is that of the points on
+/// either side.
 fn coupled(
     difference: &Difference<'_>,
     p: &Points,
@@ -71,7 +71,7 @@ fn coupled(
     (simplex, weights)
 }
 
-/// Pairs the weights of two sides off against each other, in order.
+/// Couples the weights of two sides, in order.
 ///
 /// `m` and `n` positive weights make at most `m + n − 1` pairs: three for corner and face, and for edge
 /// and edge.

@@ -6,7 +6,7 @@ use super::termination::{Stop, meets, touches};
 use crate::tolerance::{CONVERGED_ULPS, STEP_CAP};
 use ccd_core::glam::DVec3;
 
-/// The best that is known of a pair.
+/// The best results for a pair so far.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Found {
     /// The simplex of the nearest point, and its weights.
@@ -32,7 +32,7 @@ impl Found {
         }
     }
 
-    /// Looks along an axis; returns the vertex that is least along it, and the support gap.
+    /// Evaluates an axis; returns the vertex that is least along it, and the support gap.
     pub(crate) fn probe(&mut self, difference: &Difference<'_>, axis: DVec3) -> (Vertex, f64) {
         let vertex = difference.support(axis);
         let gap = axis.dot(vertex.point) / axis.length_squared().sqrt();
@@ -43,8 +43,8 @@ impl Found {
     }
 }
 
-/// Searches for the point of the difference that is nearest to the origin, from `simplex` on, each step
-/// nearer; `found` keeps the best, whatever stops it.
+/// Searches for the point of the difference that is nearest to the origin, starting from `simplex`;
+/// each step gets nearer. `found` keeps the best, however the search stops.
 pub(crate) fn search(difference: &Difference<'_>, mut simplex: Simplex, found: &mut Found) -> Stop {
     for _ in 0..STEP_CAP {
         let Some(foot) = simplex.foot() else {

@@ -3,7 +3,7 @@
 use super::foot::Foot;
 use ccd_core::glam::DVec3;
 
-/// The foot of the origin on the segment from `a` to `b`, which may be equal.
+/// Returns the foot of the origin on the segment from `a` to `b`, which may be equal.
 pub(crate) fn foot(a: DVec3, b: DVec3) -> Foot {
     let d = b - a;
     let (along, square) = (-a.dot(d), d.length_squared());
@@ -19,7 +19,7 @@ pub(crate) fn foot(a: DVec3, b: DVec3) -> Foot {
     Foot {
         weights: [1.0 - t, t, 0.0, 0.0],
         point,
-        // Made perpendicular once more: that is what rounding takes from a short difference.
+        // Made perpendicular once more: rounding takes that from a short difference.
         direction: Some(point - d * (point.dot(d) / square)),
     }
 }

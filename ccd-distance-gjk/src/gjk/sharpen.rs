@@ -1,4 +1,4 @@
-//! Better axes than the difference of the nearest points: those of the features they lie on.
+//! Better axes than the difference of the nearest points: those of the features that contain them.
 
 use super::fan::Fan;
 use super::minkowski::Difference;
@@ -8,28 +8,28 @@ use crate::tolerance::SHARPEN_CAP;
 use ccd_core::glam::DVec3;
 use ccd_core::vector::unit;
 
-/// Searches for an axis that certifies the distance, among those that the difference's vertices near
-/// the origin span.
+/// Searches for an axis that certifies the distance, among those spanned by the difference's
+/// vertices near the origin.
 ///
-/// Returns the four vertices seen that are least along the best axis: the nearest point should be a
+/// Returns the four vertices seen that are least along the best axis. The nearest point should be a
 /// combination of them.
 ///
 /// An axis in the cone of normals at the nearest vertex f has f as its least vertex. Rounding tilts
-/// the nearest point's direction out of that cone when the point is short; so the axis is made
-/// perpendicular to one or two of the edges `x − f` that lead to vertices it ran into, again and
-/// again, until it runs into none.
+/// the nearest point's direction out of that cone when the point is short. The axis is therefore
+/// made perpendicular to one or two of the edges `x − f` towards vertices x below it, repeatedly,
+/// until no vertex is below it.
 pub(crate) fn to_features(difference: &Difference<'_>, found: &mut Found) -> Simplex {
     let Some(mut fan) = Fan::new(found) else {
         return Simplex::EMPTY;
     };
     if found.axis == DVec3::ZERO {
-        // They touched at once: any axis will do to run into the first vertices.
+        // The pieces touched at once: any axis will do to find the first vertices.
         let axis = unit(difference.between).unwrap_or(DVec3::X);
         fan.push(found.probe(difference, axis).0);
     }
     for _ in 0..SHARPEN_CAP {
         let (axis, promise) = fan.best(found.axis);
-        // Written so that NaN stops it. What is promised is no less than what the hulls keep.
+        // Written so that NaN stops it. The promised gap is at least the gap of the hulls.
         if !(promise > found.gap) {
             break;
         }
@@ -41,7 +41,7 @@ pub(crate) fn to_features(difference: &Difference<'_>, found: &mut Found) -> Sim
     fan.least(found.axis)
 }
 
-/// Tries the faces of a simplex that encloses the origin: the axes of the least way out of it.
+/// Tries the faces of a simplex that encloses the origin: the axes of the shortest way out of it.
 pub(crate) fn to_faces(difference: &Difference<'_>, found: &mut Found) {
     let corners = found.simplex.vertices();
     let Ok([a, b, c, d]) = <[Vertex; 4]>::try_from(corners) else {

@@ -4,7 +4,7 @@ use super::foot::Foot;
 use super::{segment, tetrahedron, triangle};
 use ccd_core::glam::DVec3;
 
-/// A point `b − a` of the Minkowski difference, with the points it is made of.
+/// A point `b − a` of the Minkowski difference, with its two points.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Vertex {
     pub(crate) point: DVec3,
@@ -12,7 +12,7 @@ pub(crate) struct Vertex {
     pub(crate) b: u32,
 }
 
-/// Up to four vertices, no pair of points twice.
+/// Up to four vertices, all with different pairs of points.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Simplex {
     vertices: [Vertex; 4],
@@ -46,7 +46,7 @@ impl Simplex {
         room
     }
 
-    /// The point of the hull that is nearest to the origin; none of the empty simplex.
+    /// Returns the point of the hull that is nearest to the origin; none for the empty simplex.
     pub(crate) fn foot(&self) -> Option<Foot> {
         let point = |k: usize| self.vertices[k].point;
         match self.len {
@@ -58,7 +58,7 @@ impl Simplex {
         }
     }
 
-    /// The vertices whose weight is positive, and those weights.
+    /// Returns the vertices with positive weights, and those weights.
     pub(crate) fn reduced(&self, foot: &Foot) -> (Self, [f64; 4]) {
         let (mut kept, mut weights) = (Self::EMPTY, [0.0; 4]);
         for (&vertex, &weight) in self.vertices().iter().zip(&foot.weights) {

@@ -1,4 +1,4 @@
-//! The first simplex: where the last call on the pair ended, or the vertex along an axis.
+//! The first simplex: the end of the last call on the pair, or the vertex along an axis.
 
 use super::minkowski::Difference;
 use super::search::Found;
@@ -6,10 +6,10 @@ use super::simplex::Simplex;
 use ccd_core::glam::DVec3;
 use ccd_core::vector::unit;
 
-/// The end of a search, for the next one on the same pair to start from.
+/// The end of a search, as a start for the next one on the same pair.
 ///
-/// Its vertices are looked up anew wherever the pieces are by then, so that what another pair left
-/// behind, or an index out of range, costs steps, not accuracy.
+/// Its vertices are recomputed from the pieces' current positions. The end of another pair's
+/// search, or an index out of range, costs steps, not accuracy.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Cache {
     axis: DVec3,
@@ -18,7 +18,7 @@ pub struct Cache {
 }
 
 impl Cache {
-    /// Keeps the end of a search.
+    /// Creates a cache from the end of a search.
     pub(crate) fn of(found: &Found) -> Self {
         let mut cache = Cache {
             axis: found.axis,
@@ -31,7 +31,7 @@ impl Cache {
         cache
     }
 
-    /// The simplex to start from, never empty.
+    /// Returns the simplex to start from, never empty.
     pub(crate) fn simplex(&self, difference: &Difference<'_>) -> Simplex {
         let mut simplex = Simplex::EMPTY;
         for &[a, b] in self.pairs.iter().take(usize::from(self.len)) {

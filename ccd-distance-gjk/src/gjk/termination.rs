@@ -14,9 +14,9 @@ pub(crate) enum Stop {
     Touching,
     /// The simplex encloses the origin: the hulls intersect.
     Enclosed,
-    /// No vertex brings it nearer.
+    /// No vertex brings the nearest point nearer.
     Stalled,
-    /// It took too many steps.
+    /// The search took too many steps.
     Capped,
 }
 
@@ -28,14 +28,15 @@ pub(crate) fn touches(foot: &Foot, simplex: &Simplex) -> bool {
 
 /// Whether a support gap has met the distance of the nearest point, whose square is given.
 ///
-/// They meet up to `share` units in the last place of the distance, and rounding.
+/// They meet if they differ by at most `share` units in the last place of the distance, and
+/// rounding.
 pub(crate) fn meets(gap: f64, square: f64, simplex: &Simplex, share: f64) -> bool {
     let distance = square.sqrt();
     let rounding = TOUCHING_ULPS * f64::EPSILON * reach(simplex).sqrt();
     distance - gap <= share * f64::EPSILON * distance + rounding
 }
 
-/// The square of the largest vertex: what rounding is relative to.
+/// The square of the largest vertex, to which rounding is relative.
 fn reach(simplex: &Simplex) -> f64 {
     let squares = simplex.vertices().iter().map(|v| v.point.length_squared());
     squares.fold(f64::MIN_POSITIVE, greater)

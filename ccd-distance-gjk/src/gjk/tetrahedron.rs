@@ -6,11 +6,11 @@ use crate::tolerance::{INSIDE_ROUNDS, TOUCHING_ULPS, VOLUME_ULPS};
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 
-/// The foot of the origin on the tetrahedron, which may be flat.
+/// Returns the foot of the origin on the tetrahedron, which may be flat.
 ///
-/// The origin is called inside only where it is certainly on the inner side of every face, and the
-/// corners do make it up; else all faces are looked at: those it seems to be inside of may hold the
-/// nearest point, if the tetrahedron is flat.
+/// The origin counts as inside only if it is certainly on the inner side of every face, and is a
+/// combination of the corners. Otherwise all faces are examined: if the tetrahedron is flat, even a
+/// face with the origin on its inner side may contain the nearest point.
 pub(crate) fn foot(corners: [DVec3; 4]) -> Foot {
     let heights = FACES
         .map(|[apex, a, b, c]| Height::certain(corners[a], corners[b], corners[c], corners[apex]));
@@ -27,10 +27,10 @@ pub(crate) fn foot(corners: [DVec3; 4]) -> Foot {
         .fold(first, |best, foot| foot.or_nearer(Some(best)))
 }
 
-/// Each corner with those of the face opposite of it.
+/// Each corner with those of the opposite face.
 const FACES: [[usize; 4]; 4] = [[0, 1, 2, 3], [1, 0, 2, 3], [2, 0, 1, 3], [3, 0, 1, 2]];
 
-/// The weights that make up the origin, if rounding lets them.
+/// Returns the weights of the origin, if rounding permits.
 fn inside(corners: [DVec3; 4], heights: [Height; 4]) -> Option<Foot> {
     let combined = |weights: [f64; 4]| {
         let terms = corners.iter().zip(weights);
@@ -42,8 +42,8 @@ fn inside(corners: [DVec3; 4], heights: [Height; 4]) -> Option<Foot> {
         weights.map(|weight| weight / total)
     };
     let mut weights = normalised(heights.map(|height| height.of_origin / height.of_apex));
-    // Heights over a flat tetrahedron's faces are good to few digits; what the weights miss the
-    // origin by is known to all, and each round of making it good wins as many digits again.
+    // Heights over a flat tetrahedron's faces have few correct digits. The residual of the weights
+    // is known exactly enough, and each round of correcting it gains as many digits again.
     for _ in 0..INSIDE_ROUNDS {
         let missed = combined(weights);
         let correction = heights.map(|height| height.normal.dot(missed) / height.of_apex);
@@ -79,7 +79,7 @@ impl Height {
         let (of_origin, of_apex) = (-a.dot(normal), up.dot(normal));
         let rounding = VOLUME_ULPS * f64::EPSILON;
         let unit = rounding * rounding * ab.length_squared() * ac.length_squared();
-        // Squares, to do without roots. Written so that NaN is on no side.
+        // Squares avoid roots. Written so that NaN is on no side.
         let certain = of_origin * of_apex > 0.0
             && of_origin * of_origin > unit * a.length_squared()
             && of_apex * of_apex > unit * up.length_squared();

@@ -5,17 +5,17 @@ use super::segment;
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 
-/// The foot of the origin on the triangle `a`, `b`, `c`, which may be degenerate.
+/// Returns the foot of the origin on the triangle `a`, `b`, `c`, which may be degenerate.
 ///
-/// Inside of the face where the origin is inside of all three edges; else the nearest foot on the
-/// edges it is outside of. A triangle so flat that rounding may decide the sides is also compared
-/// with all of its edges.
+/// The foot is inside of the face if the origin is inside of all three edges. Otherwise it is the
+/// nearest foot on the edges that the origin is outside of. A triangle so flat that rounding may
+/// decide the sides is also compared with all of its edges.
 pub(crate) fn foot(a: DVec3, b: DVec3, c: DVec3) -> Foot {
     let corners = [a, b, c];
     let (ab, ac, bc) = (b - a, c - a, c - b);
     let n = ab.cross(ac);
     // Twice the areas, times |n|², that the origin's foot spans with each edge; each edge's weight
-    // goes to the corner opposite of it.
+    // belongs to the opposite corner.
     let areas = [b.cross(bc).dot(n), -c.cross(ac).dot(n), a.cross(ab).dot(n)];
     let inside = areas.iter().all(|&area| area > 0.0);
     // sin² of the angle at `a` below which areas lose half of their digits.
@@ -32,14 +32,14 @@ pub(crate) fn foot(a: DVec3, b: DVec3, c: DVec3) -> Foot {
     best.unwrap_or(Foot::corner(a, 0))
 }
 
-/// The foot inside of the face, by the areas opposite of each corner.
+/// Returns the foot inside of the face, by the area opposite of each corner.
 fn face(corners: [DVec3; 3], n: DVec3, areas: [f64; 3]) -> Foot {
     let square = |k: usize| (corners[(k + 1) % 3] - corners[k]).length_squared();
     let start = (1..3).fold(0, |best, k| if square(k) > square(best) { k } else { best });
     let end = (start + 1) % 3;
     let (edge, length2) = (corners[end] - corners[start], square(start));
-    // In a needle rounding turns normal and areas. Along the longest edge that is made good; across
-    // it the needle has no width to err by.
+    // In a needle, rounding turns normal and areas. That is corrected along the longest edge;
+    // across it the needle has no width to err by.
     let n = n - edge * (n.dot(edge) / length2);
     let total = areas[0] + areas[1] + areas[2];
     let mut weights = areas.map(|area| area / total);
@@ -56,7 +56,8 @@ fn face(corners: [DVec3; 3], n: DVec3, areas: [f64; 3]) -> Foot {
     }
 }
 
-/// Returns the normal, on the face's side of the origin, or the foot: whichever rounding turns less.
+/// Returns the normal, on the face's side of the origin, or the foot: the one that rounding turns
+/// less.
 ///
 /// Rounding turns the normal by its share of the triangle's height relative to the longest edge, and the
 /// foot by its share of the foot's length relative to the corners'.

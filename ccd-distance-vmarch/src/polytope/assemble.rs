@@ -5,7 +5,7 @@ use super::{Edge, Face, NO_FACE, Polytope, Side, Spoke, Vertex};
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 
-/// Lays a polytope out: the faces of a closed surface, or, where there are none, the edge between two
+/// Assembles a polytope: the faces of a closed surface, or, without faces, the edge between two
 /// points, or a point.
 pub(crate) fn assemble(points: &[DVec3], ends: &[u32], loops: &[Vec<u32>]) -> Polytope {
     let mut numbers: Vec<u32> = loops.iter().flatten().copied().collect();
@@ -75,7 +75,7 @@ fn middle(points: &[DVec3], numbers: &[u32]) -> DVec3 {
     low + 0.5 * (high - low)
 }
 
-/// Every side once, from its lower corner to its higher one, in order.
+/// Returns every side once, from its lower corner to its higher one, in order.
 fn edges_of(loops: &[Vec<u32>]) -> impl Iterator<Item = (u32, u32)> {
     let sides = loops.iter().flat_map(|outline| turn(outline));
     let mut edges: Vec<(u32, u32)> = sides.filter(|(v, w)| v < w).collect();
@@ -91,7 +91,7 @@ fn add_sides(out: &mut Polytope, loops: &[Vec<u32>]) {
             let found = out
                 .edges
                 .binary_search_by_key(&key, |e| (e.ends[0], e.ends[1]));
-            // Every side has its twin, so that the edge is there.
+            // Every side has its twin, so the edge exists.
             let Ok(number) = found else { continue };
             let normal = out.faces[face as usize].normal;
             let edge = &mut out.edges[number];

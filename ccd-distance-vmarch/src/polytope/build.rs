@@ -12,9 +12,9 @@ impl Polytope {
     /// Prepares a piece.
     ///
     /// # Errors
-    /// [`GiveUp::BadFacets`] for a piece that has no points, or points that are not finite; and for
-    /// one of more than three points, not all on a line, whose facets are missing, do not close a
-    /// surface, or are not those of something convex.
+    /// [`GiveUp::BadFacets`] for a piece without points, or with points that are not finite. Also
+    /// for a piece of more than three points, not all on a line, whose facets are missing, do not
+    /// close a surface, or are not those of a convex polytope.
     ///
     /// # Complexity
     /// n log n of the corners of all facets.
@@ -36,8 +36,8 @@ impl Polytope {
             _ => Facets::new(points, piece.facets.iter()),
         };
         let facets = facets.ok_or(GiveUp::BadFacets)?;
-        // Of needles thinner than 1e-10, facets within rounding of one plane need not make up a
-        // convex polygon; they are faces of their own then.
+        // For needles thinner than 1e-10, facets within rounding of one plane need not form a
+        // convex polygon; they are then faces of their own.
         let merged = [rounding, 0.0].into_iter().find_map(|coplanar| {
             let loops = merge::merge(points, &facets, coplanar)?;
             let polytope = Self::assembled(points, &ends, &loops);

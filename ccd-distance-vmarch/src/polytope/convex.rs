@@ -1,4 +1,4 @@
-//! Whether faces enclose something convex, once.
+//! Decides whether faces enclose a convex polytope, once.
 
 use super::{NO_FACE, Polytope, Side, unit};
 use crate::tolerance::{CONVEX, COPLANAR, LINES};
@@ -8,9 +8,9 @@ use ccd_core::order::greater;
 
 /// Whether a closed surface is that of a convex polytope, up to the rounding of its corners.
 ///
-/// It is if it is in one, locally convex, and goes around once `[TIE28]`: polygons turn left at every
-/// corner, and once; across every edge the neighbour falls away; and a line from inside leaves through
-/// one face.
+/// It is if it is connected, locally convex, and goes around once `[TIE28]`: polygons turn left at
+/// every corner, and once; across every edge the neighbour falls away; and a line from inside
+/// leaves through one face.
 pub(crate) fn is_convex(points: &[DVec3], polytope: &Polytope, rounding: f64) -> bool {
     let edges = &polytope.edges;
     if polytope.faces.len() < 2 || edges.iter().any(|edge| edge.faces.contains(&NO_FACE)) {
@@ -28,7 +28,7 @@ pub(crate) fn is_convex(points: &[DVec3], polytope: &Polytope, rounding: f64) ->
 struct Check<'a> {
     points: &'a [DVec3],
     polytope: &'a Polytope,
-    /// The largest distance off each face's plane that rounding may have moved corners to.
+    /// The allowance for rounded corners off each face's plane.
     slacks: Vec<f64>,
     /// The position of each edge among the sides of either of its faces.
     positions: Vec<[usize; 2]>,
@@ -55,7 +55,7 @@ impl<'a> Check<'a> {
         }
     }
 
-    /// Plane, and turning left all the way around, once.
+    /// Whether a face is plane, and turns left all the way around, once.
     fn is_polygon(&self, face: u32) -> bool {
         let normal = self.polytope.face(face).normal;
         let sides = self.polytope.sides_of(face);
@@ -68,7 +68,7 @@ impl<'a> Check<'a> {
         (0..sides.len()).all(|k| {
             let (here, next, over) = (at(k), at(k + 1), at(k + 2));
             let inward = normal.cross(unit(next - here));
-            // A fan from the first corner has no triangle turned over.
+            // No triangle of the fan about the first corner is reversed.
             let fan = (here - first).cross(next - first).dot(normal);
             let longest = greater((here - first).length(), (next - first).length());
             normal.dot(here - first).abs() <= slack
@@ -77,7 +77,7 @@ impl<'a> Check<'a> {
         })
     }
 
-    /// Behind a face lie the corners of its neighbours that are next to their common edges.
+    /// Whether the neighbours' corners next to the common edges are behind a face.
     fn falls_away(&self, face: u32) -> bool {
         let normal = self.polytope.face(face).normal;
         self.polytope.sides_of(face).iter().all(|side| {
@@ -95,7 +95,7 @@ impl<'a> Check<'a> {
         })
     }
 
-    /// Whether every face is reached from the first one, over edges.
+    /// Whether every face is connected to the first one over edges.
     fn is_in_one(&self) -> bool {
         let mut reached = vec![false; self.polytope.faces.len()];
         reached[0] = true;
@@ -113,14 +113,14 @@ impl<'a> Check<'a> {
     }
 
     /// Whether a line from the middle of all corners leaves through no more than one face, by exact
-    /// signs; lines that meet an edge are not asked.
+    /// signs; lines that meet an edge are skipped.
     fn goes_around_once(&self) -> bool {
         let vertices = 0..self.polytope.vertices.len() as u32;
         let middle =
             vertices.clone().map(|v| self.corner(v)).sum::<DVec3>() / vertices.len() as f64;
         let targets = (0..self.polytope.faces.len() as u32).map(|f| {
             let sides = self.polytope.sides_of(f);
-            // Off the lines that regular shapes have through their middles.
+            // Avoids the lines that regular shapes have through their middles.
             let parts = [0.47, 0.33, 0.2].into_iter().zip(sides);
             parts
                 .map(|(part, side)| part * self.corner(side.vertex))
@@ -132,8 +132,8 @@ impl<'a> Check<'a> {
         layers.is_none_or(|layers| layers <= 1)
     }
 
-    /// Counts the faces through which the line from one point towards another one leaves; none where it
-    /// meets the edge of one.
+    /// Counts the faces through which the line from one point towards another one leaves; none if
+    /// it meets the edge of one.
     fn left_through(&self, from: DVec3, to: DVec3) -> Option<usize> {
         let mut layers = 0;
         for face in 0..self.polytope.faces.len() as u32 {
@@ -158,7 +158,7 @@ impl<'a> Check<'a> {
     }
 }
 
-/// A face's area over how far it extends from its first corner: at least a quarter of its width.
+/// A face's area over its extent from its first corner: at least a quarter of its width.
 fn width(polytope: &Polytope, face: u32) -> f64 {
     let sides = polytope.sides_of(face);
     let first = polytope.vertex(sides[0].vertex).point;

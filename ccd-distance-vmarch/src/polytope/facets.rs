@@ -1,4 +1,4 @@
-//! A piece's facets as they are given: welded, with their planes, and joined along their sides.
+//! A piece's facets as given: welded, with their planes, and joined along their sides.
 
 use crate::double_double::DoubleDoubleVector;
 use ccd_core::glam::DVec3;
@@ -25,8 +25,8 @@ pub(crate) struct Plane {
 }
 
 impl Facets {
-    /// Welds points that are equal, leaves out what that leaves of less than three corners, and joins
-    /// the rest; none where that is no closed surface.
+    /// Welds equal points, drops facets that are left with fewer than three corners, and joins the
+    /// rest; none if they are no closed surface.
     pub(crate) fn new<'a>(
         points: &[DVec3],
         loops: impl Iterator<Item = &'a [u32]>,
@@ -81,7 +81,7 @@ impl Facets {
 }
 
 impl Plane {
-    /// The plane whose normal is the polygon's vector of area, from exact differences of corners.
+    /// Computes the plane from the polygon's area vector, with exact differences of corners.
     pub(crate) fn of(points: &[DVec3], corners: &[u32]) -> Self {
         let at = |k: usize| points[corners[k] as usize];
         let mut sum = DoubleDoubleVector::default();
@@ -107,7 +107,7 @@ pub(crate) fn turn(corners: &[u32]) -> impl Iterator<Item = (u32, u32)> {
     corners.iter().copied().zip(next.copied())
 }
 
-/// The unit vector, or zero where there is none.
+/// Returns the unit vector, or zero if there is none.
 pub(crate) fn unit(v: DVec3) -> DVec3 {
     vector::unit(v).unwrap_or(DVec3::ZERO)
 }

@@ -1,14 +1,14 @@
-//! Coplanar facets become one face.
+//! Merges coplanar facets into faces.
 
 use super::facets::{Facets, off_line, turn};
 use ccd_core::glam::DVec3;
 
-/// The outlines of the faces that facets make up; none where one of them has more than one outline, or
-/// an outline of less than three corners.
+/// Returns the outlines of the faces that facets form; none if one of them has more than one
+/// outline, or an outline of less than three corners.
 ///
-/// A face grows from its largest facet over neighbours all of whose corners are within `rounding` of
-/// that facet's plane, so that it never drifts off it. Corners where only two faces meet are dropped,
-/// unless there are but two: of a flat polygon those that are within `rounding` of a side are.
+/// A face grows from its largest facet over neighbours with all corners within `rounding` of that
+/// facet's plane, so that it never drifts off it. Corners where only two faces meet are dropped. In
+/// a flat polygon, which has only two faces, only those within `rounding` of a side are.
 pub(crate) fn merge(points: &[DVec3], facets: &Facets, rounding: f64) -> Option<Vec<Vec<u32>>> {
     let (faces, count) = grouped(points, facets, rounding);
     let mut outlines = outlines(facets, &faces, count, points.len())?;
@@ -51,7 +51,7 @@ fn grouped(points: &[DVec3], facets: &Facets, rounding: f64) -> (Vec<u32>, u32) 
         let base = points[facets.loops[seed as usize][0] as usize];
         let joins = |facet: u32| {
             let plane = &facets.planes[facet as usize];
-            // What is no wider than rounding has no direction of its own.
+            // A facet no wider than rounding has no direction of its own.
             let alike = plane.normal.dot(normal) > 0.0 || !(plane.width > rounding);
             let near = |&v: &u32| normal.dot(points[v as usize] - base).abs() <= rounding;
             alike && facets.loops[facet as usize].iter().all(near)
@@ -111,7 +111,7 @@ fn outlines(facets: &Facets, faces: &[u32], count: u32, points: usize) -> Option
 fn without_straight(points: &[DVec3], outline: &[u32], rounding: f64) -> Vec<u32> {
     let at = |v: u32| points[v as usize];
     let mut kept: Vec<u32> = Vec::with_capacity(outline.len());
-    // From an extreme corner on, which certainly is one.
+    // Starts from an extreme corner, which is certainly a corner.
     let far = |v: &&u32| at(**v).distance_squared(at(outline[0]));
     let start = outline.iter().max_by(|v, w| far(v).total_cmp(&far(w)));
     let first = outline.iter().position(|v| Some(v) == start).unwrap_or(0);

@@ -3,10 +3,10 @@
 use super::Polytope;
 use ccd_core::glam::DVec3;
 
-/// The corner that is farthest along each of the directions all around.
+/// The corners that are farthest along directions all around.
 ///
-/// A direction belongs to one of sixteen squares on one of six sides of a cube: it is found by
-/// comparing, and the corner is one or two edges away from the extremal one in most polytopes.
+/// A direction belongs to one of sixteen squares on one of six sides of a cube, which comparisons
+/// find. In most polytopes the square's corner is one or two edges away from the extremal one.
 #[derive(Clone, Debug)]
 pub(crate) struct DirectionTable([u32; 6 * SQUARES * SQUARES]);
 
@@ -25,7 +25,7 @@ impl DirectionTable {
         DirectionTable(corners)
     }
 
-    /// The corner for a direction of any length; some corner for one that is not finite.
+    /// Returns the corner for a direction of any length; some corner if it is not finite.
     fn of(&self, direction: DVec3) -> u32 {
         self.0[square_of(direction)]
     }
@@ -42,7 +42,7 @@ fn square_of(direction: DVec3) -> usize {
     let side = 2 * axis + usize::from(direction[axis] < 0.0);
     let step = |across: f64| {
         let part = 0.5 * SQUARES as f64 * (1.0 + across / size[axis]);
-        // What is no number is cast to 0.
+        // NaN is cast to 0.
         (part as usize).min(SQUARES - 1)
     };
     let (u, v) = (direction[(axis + 1) % 3], direction[(axis + 2) % 3]);
@@ -84,7 +84,7 @@ impl Polytope {
 
     /// Climbs to the highest neighbour until none is higher.
     ///
-    /// It may stop short of corners that are level except for rounding: a march goes on from there.
+    /// It may stop short of corners that are level up to rounding: a march goes on from there.
     fn climbed(&self, start: u32, direction: DVec3) -> u32 {
         let height = |v: u32| self.vertex(v).point.dot(direction);
         let (mut at, mut highest) = (start, height(start));

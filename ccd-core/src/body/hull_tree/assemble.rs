@@ -1,4 +1,4 @@
-//! Nodes checked and put together, children before their parents.
+//! Checks and assembles nodes, children before their parents.
 
 use super::bottom_up::bottom_up;
 use super::edges::check_facets;
@@ -21,13 +21,14 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 impl HullTree {
-    /// Makes a tree over pieces; node 0 is the root.
+    /// Builds a tree over pieces; node 0 is the root.
     ///
     /// # Errors
-    /// [`HullTreeError`] names the node, and what of the [guarantee](HullTree) fails there.
+    /// [`HullTreeError`] names the node, and the part of the [guarantee](HullTree) that fails
+    /// there.
     ///
     /// # Complexity
-    /// O(n log n) in all points and facets, where few of the points that a hull hides are near each of
+    /// O(n log n) in all points and facets, if few of the points that a hull hides are near each of
     /// its facets.
     pub fn new(pieces: &Pieces, nodes: &[HullNode]) -> Result<Self, HullTreeError> {
         let hierarchy = hierarchy(pieces, nodes)?;
@@ -68,7 +69,7 @@ impl HullTree {
     }
 }
 
-/// The hulls of all nodes; each node's memory is given back once its hull is in.
+/// Returns the hulls of all nodes; each node's memory is freed once its hull is copied.
 fn flattened(nodes: Vec<Node<'_>>) -> Result<Pieces, InputError> {
     let mut capacity = Capacity::default();
     for node in &nodes {
@@ -94,13 +95,14 @@ fn flattened(nodes: Vec<Node<'_>>) -> Result<Pieces, InputError> {
     builder.into_pieces()
 }
 
-/// The facets that meet in each point of all hulls, in ascending order, and where each point's end.
+/// Returns the facets that meet in each point of all hulls, in ascending order, and the end of each
+/// point's facets.
 fn meeting(nodes: &[Node<'_>]) -> (Vec<u32>, Vec<u32>) {
     let (mut meeting, mut ends) = (Vec::new(), Vec::new());
     for Node { points, loops, .. } in nodes {
         let start = ends.len();
         let first = meeting.len() as u32;
-        // First how many there are, then where the next one goes, which at last is where they end.
+        // First counts, then the next free positions, finally the ends.
         ends.resize(start + points.len(), 0);
         let next = &mut ends[start..];
         let corners = loops.corners().iter();
@@ -120,7 +122,7 @@ fn meeting(nodes: &[Node<'_>]) -> (Vec<u32>, Vec<u32>) {
     (meeting, ends)
 }
 
-/// The node of a piece.
+/// Returns the node of a piece.
 fn leaf(at: usize, piece: Polytope) -> Result<Node<'static>, HullTreeError> {
     if let Some(point) = too_fine(&piece.points) {
         let point = point as u32;
@@ -140,7 +142,7 @@ fn leaf(at: usize, piece: Polytope) -> Result<Node<'static>, HullTreeError> {
     })
 }
 
-/// The node of a hull over two children, which it holds.
+/// Returns the node of a hull over its two children.
 fn inner<'a>(
     at: usize,
     hull: &'a Hull,

@@ -1,4 +1,4 @@
-//! Nodes made children first, subtrees beside each other on all cores.
+//! Builds nodes children first, with parallel subtrees on all cores.
 
 use super::error::HullTreeError;
 use crate::body::hierarchy::{Hierarchy, HierarchyNode};
@@ -8,20 +8,20 @@ use std::panic::resume_unwind;
 use std::sync::{Mutex, PoisonError};
 use std::thread::{Builder, available_parallelism, scope};
 
-/// Makes a value for every node from the values of its children; leaves are given any two.
+/// Makes a value for every node from the values of its children. Leaves get two arbitrary ones.
 ///
 /// # Guarantee
-/// The same for any number of cores, also where it fails: of several errors it is that of the node that
-/// comes first when one node is made after the other.
+/// The result does not depend on the number of cores. Of several errors it is the one of the node
+/// that comes first in sequential order.
 ///
 /// # Errors
-/// Those of making a node.
+/// Those of the function that makes a node.
 pub(super) fn bottom_up<T: Default + Send>(
     hierarchy: &Hierarchy,
     make: impl Fn(usize, [&T; 2]) -> Result<T, HullTreeError> + Sync,
 ) -> Result<Vec<T>, HullTreeError> {
     let cores = available_parallelism().map_or(1, NonZero::get);
-    // Several parts for each of many cores, as they are not all of one size.
+    // Several parts for each of many cores, as their sizes differ.
     let parts = if cores > 1 { 4 * cores } else { 1 };
     bottom_up_in(parts, hierarchy, make)
 }
@@ -53,7 +53,7 @@ fn bottom_up_in<T: Default + Send>(
     Ok(sorted)
 }
 
-/// Nodes in a row, each right after the subtree of its first child and then that of its second.
+/// Nodes in postorder: the subtree of the first child, then that of the second, then the node.
 struct Row<'a, F> {
     hierarchy: &'a Hierarchy,
     order: &'a [usize],
@@ -66,8 +66,9 @@ struct Row<'a, F> {
 const WORTHWHILE: usize = 1024;
 
 impl<F> Row<'_, F> {
-    /// Makes a range of the row that is one subtree, in at most so many parts: they are shared out by
-    /// size, and either side gets fewer, so that no chain of nodes takes it deeper than there are parts.
+    /// Makes a range of the row that is one subtree, in at most `parts` parts. The parts are
+    /// divided by size, and either side gets fewer, so that the depth of recursion is at most their
+    /// number.
     fn fill<T: Default + Send>(
         &self,
         range: Range<usize>,
@@ -93,7 +94,7 @@ impl<F> Row<'_, F> {
         }
     }
 
-    /// Makes two subtrees, beside each other where both are worth it and there is a thread to be had.
+    /// Makes two subtrees, in parallel if both are worth it and a thread is free.
     fn fill_both<T: Default + Send>(
         &self,
         [one, other]: [Range<usize>; 2],
@@ -127,7 +128,7 @@ impl<F> Row<'_, F> {
         first.and(second)
     }
 
-    /// Makes a node of the row once its children are made; what is made starts at a place of the row.
+    /// Makes a node of the row after its children; the made values start at a position of the row.
     fn fill_one<T>(&self, at: usize, start: usize, done: &mut [T]) -> Result<(), HullTreeError>
     where
         F: Fn(usize, [&T; 2]) -> Result<T, HullTreeError> + Sync,
@@ -143,7 +144,7 @@ impl<F> Row<'_, F> {
     }
 }
 
-/// All nodes, each after its children, every subtree in one go.
+/// Returns all nodes, each after its children; every subtree is contiguous.
 fn children_first(hierarchy: &Hierarchy) -> Vec<usize> {
     let mut order = Vec::with_capacity(hierarchy.nodes().len());
     let mut stack = vec![0];

@@ -1,4 +1,4 @@
-//! Whether facets are those of a convex polytope, exactly.
+//! Decides whether facets are those of a convex polytope, exactly.
 
 use super::edges::edges_of;
 use crate::body::piece::Piece;
@@ -7,8 +7,8 @@ use crate::math::exact::{side, too_fine};
 use glam::DVec3;
 use std::cmp::Ordering;
 
-/// Prepares the search for extremal points of a hull of many points: edges are climbed once they are
-/// proven to be those of the hull; else a tree is searched, which relies on nothing.
+/// Prepares the search for extremal points of a hull of many points. Edges are climbed if they are
+/// proven to be those of the hull. Otherwise a tree is searched, which relies on no facets.
 pub(crate) fn support_of(hull: &Piece<'_>) -> Support {
     match is_convex(hull) {
         true => Support::new(hull.points, hull.facets),
@@ -16,15 +16,15 @@ pub(crate) fn support_of(hull: &Piece<'_>) -> Support {
     }
 }
 
-/// Whether the facets close a convex polytope that has all points for corners.
+/// Whether the facets close a convex polytope that has all points as corners.
 ///
 /// # Guarantee
-/// Exact where it says so. The facets are seen as fans of triangles, no two of which have a side the
-/// same way round. A point behind all of them sees their surface spread over all directions, each
-/// covered equally often; once, if a single one is. Such a surface is that of a convex polytope when
-/// it bends inward at no edge `[MEHLHORN96]`. Where the triangles of each facet are coplanar and its
-/// outline turns one way only, the facet is a part of a face that is convex itself, so that from every
-/// corner of it an edge leads up along any direction that goes up from there in that face.
+/// A positive answer is exact. The facets are treated as fans of triangles, no two of which have a
+/// side in the same direction. From a point behind all of them, their surface covers all directions
+/// equally often; once, if a single direction is. Such a surface is that of a convex polytope when
+/// it bends inward at no edge `[MEHLHORN96]`. If the triangles of each facet are coplanar and its
+/// outline turns one way only, the facet is a convex part of a face. From every corner of the facet
+/// an edge then leads up along any direction that goes up from there in that face.
 fn is_convex(hull: &Piece<'_>) -> bool {
     if hull.facets.is_empty() || too_fine(hull.points).is_some() {
         return false;
@@ -47,7 +47,7 @@ fn is_convex(hull: &Piece<'_>) -> bool {
         && covers_once(&triangles, place, middle)
 }
 
-/// Whether the corners lie in the plane of the first three.
+/// Whether the corners are in the plane of the first three.
 fn is_plane(points: &[DVec3], corners: &[u32]) -> bool {
     let place = |&v: &u32| points[v as usize];
     let first = [0, 1, 2].map(|k| place(&corners[k]));
@@ -62,7 +62,7 @@ fn turns_one_way(points: &[DVec3], corners: &[u32], middle: DVec3) -> bool {
     (0..corners.len()).all(|k| side(fan(k), middle).is_le())
 }
 
-/// Whether across every edge the next triangle is not in front of a triangle.
+/// Whether no triangle has a neighbour across an edge in front of its plane.
 fn bends_outward(triangles: &[[u32; 3]], place: impl Fn(&[u32; 3]) -> [DVec3; 3]) -> bool {
     let mut sides: Vec<((u32, u32), &[u32; 3])> = triangles
         .iter()
@@ -84,7 +84,7 @@ fn bends_outward(triangles: &[[u32; 3]], place: impl Fn(&[u32; 3]) -> [DVec3; 3]
     once && sides.iter().all(bends)
 }
 
-/// Whether a direction from the middle, past all edges, meets one triangle.
+/// Whether a direction from the middle that avoids all edges meets exactly one triangle.
 fn covers_once(
     triangles: &[[u32; 3]],
     place: impl Fn(&[u32; 3]) -> [DVec3; 3],
@@ -102,7 +102,7 @@ fn covers_once(
         if past.into_iter().all(Ordering::is_lt) {
             met += 1;
         } else if !past.into_iter().any(Ordering::is_gt) {
-            // Through an edge: how often is unknown.
+            // The direction passes through an edge: the count is unknown.
             return false;
         }
     }

@@ -1,10 +1,10 @@
-//! Edges of loops of corners, found again without hashing.
+//! Edges of loops of corners, and a lookup of them without hashing.
 
 use super::error::HullFault;
 use super::hull::Hull;
 use std::collections::HashSet;
 
-/// The edges of a loop of corners.
+/// Returns the edges of a loop of corners.
 pub(super) fn edges_of(corners: &[u32]) -> impl Iterator<Item = (u32, u32)> + Clone {
     let next = corners.iter().cycle().skip(1);
     corners.iter().copied().zip(next.copied())
@@ -18,7 +18,7 @@ pub(super) fn check_facets(hull: &Hull) -> Result<(), HullFault> {
     }
 }
 
-/// Whether every edge of the facets is there once in either direction.
+/// Whether every edge of the facets occurs once in either direction.
 fn is_closed(hull: &Hull) -> bool {
     let exists = |&v: &u32| (v as usize) < hull.points.len();
     let mut edges: Vec<u64> = Vec::with_capacity(hull.facets.corners().len());
@@ -28,7 +28,7 @@ fn is_closed(hull: &Hull) -> bool {
         }
         edges.extend(edges_of(corners).map(|(from, to)| {
             let (low, high) = (from.min(to), from.max(to));
-            // The last bit is left to the direction: the highest corner leaves none over.
+            // The last bit is the direction: the highest corner leaves no other bit.
             u64::from(low) << 33 | u64::from(high) << 1 | u64::from(from > to)
         }));
     }
@@ -43,7 +43,7 @@ fn is_closed(hull: &Hull) -> bool {
         && edges.iter().all(proper)
 }
 
-/// The first thing that is wrong with the facets, if anything.
+/// Finds the first fault of the facets.
 fn find_fault(hull: &Hull) -> Result<(), HullFault> {
     let exists = |&v: &u32| (v as usize) < hull.points.len();
     let mut edges = HashSet::new();
@@ -65,19 +65,19 @@ fn find_fault(hull: &Hull) -> Result<(), HullFault> {
     Ok(())
 }
 
-/// Values by directed edge, between points of so many numbers.
+/// Values by directed edge, between points numbered from 0.
 pub(super) struct EdgeMap {
-    /// Where the edges from each point start, and at last where those of the last one end.
+    /// The start of each point's edges, and at last the end of those of the last point.
     starts: Vec<u32>,
-    /// To which point they lead, and what belongs to them; in ascending order where they are many.
+    /// Each edge's end point, and its value; in ascending order if there are many.
     edges: Vec<(u32, u32)>,
 }
 
-/// From one point lead so many edges before they are sorted.
+/// Edges from one point are sorted from this many on.
 const MANY: usize = 8;
 
 impl EdgeMap {
-    /// Makes the map; of edges that come more than once the last one counts. O(n log n).
+    /// Creates the map. The last of repeated edges counts. O(n log n).
     pub(super) fn new(
         points: usize,
         edges: impl Iterator<Item = ((u32, u32), u32)> + Clone,

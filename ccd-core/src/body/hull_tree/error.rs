@@ -1,15 +1,15 @@
-//! Why nodes make no hull tree.
+//! The reasons why nodes are no hull tree.
 
 use crate::error::InputError;
 use std::fmt;
 
-/// Why there is no hull tree, naming the offending node.
+/// The reason why there is no hull tree, with the offending node.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum HullTreeError {
-    /// The nodes are no hierarchy over the pieces, or are too many.
+    /// The nodes are no hierarchy over the pieces, or too many.
     Input(InputError),
-    /// A node is not what it has to be.
+    /// A node is invalid.
     Node {
         /// Its index.
         node: u32,
@@ -22,7 +22,7 @@ pub enum HullTreeError {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum HullFault {
-    /// A corner of the hull is none of its children's points.
+    /// A corner of the hull is not one of its children's points.
     ForeignPoint {
         /// The corner's index.
         point: u32,
@@ -32,7 +32,7 @@ pub enum HullFault {
         /// The facet's index.
         facet: u32,
     },
-    /// An edge of a facet is not met by exactly one other facet the other way round.
+    /// An edge of a facet does not occur exactly once in reverse in another facet.
     Open {
         /// The facet's index.
         facet: u32,
@@ -44,13 +44,12 @@ pub enum HullFault {
         /// The point's index in the child's hull.
         point: u32,
     },
-    /// A point has a coordinate so near to 0 that no exact predicate can decide its side.
+    /// A point has a coordinate too close to 0 for exact predicates.
     TooFine {
         /// The point's index.
         point: u32,
     },
-    /// The leaf is none of the pieces of the body that the tree was given to, or one of them that
-    /// another leaf is already.
+    /// The leaf is not one of the body's pieces, or another leaf is already that piece.
     NotAPiece,
 }
 

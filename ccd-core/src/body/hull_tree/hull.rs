@@ -1,9 +1,9 @@
-//! A node of a hull tree as it is handed in.
+//! A node of a hull tree, as input.
 
 use super::loops::Loops;
 use glam::DVec3;
 
-/// A node as it is handed in.
+/// A node, as input.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum HullNode {
@@ -19,9 +19,9 @@ pub enum HullNode {
 pub struct Hull {
     /// Its corners.
     pub points: Vec<DVec3>,
-    /// Loops of indices into the points, counter-clockwise seen from outside: convex polygons, no
-    /// two of them coplanar, that close the hull. A flat polygon has two; a hull of one or two points
-    /// has none.
+    /// Loops of indices into the points, counterclockwise seen from outside: convex polygons, no
+    /// two of them coplanar, that close the hull. A flat polygon has two; a hull of one or two
+    /// points has none.
     pub facets: Loops,
 }
 
@@ -33,8 +33,8 @@ pub struct Hull {
 pub enum FacetClass {
     /// A part of the mesh.
     Original,
-    /// A part of pieces that is not of the mesh: it closes a piece inside the solid.
+    /// A part of pieces, but not of the mesh: it closes a piece inside the solid.
     Contained,
-    /// A bridge between pieces, with nothing behind it.
+    /// A bridge between pieces, outside of all of them.
     Free,
 }

@@ -1,24 +1,24 @@
-//! Points of two children and of their parent's hull that are at one place.
+//! Identifies points of two children and of their parent's hull that are at the same place.
 
 use super::error::HullFault;
 use super::hull::Hull;
 use super::node::Node;
 use glam::DVec3;
 
-/// The points of the children that are the same, and those of them that are the hull's.
+/// The identified points of the children and of the hull.
 ///
 /// Numbers below the hull's count of points name those; the others name hidden points.
 pub(super) struct Identity {
     pub(super) of_left: Vec<u32>,
     pub(super) of_right: Vec<u32>,
-    /// Where they are.
+    /// The position of each.
     pub(super) places: Vec<DVec3>,
-    /// In the mesh, of the hull's points.
+    /// The numbers of the hull's points in the mesh.
     pub(super) vertex_ids: Vec<u32>,
 }
 
 impl Identity {
-    /// O(n log n).
+    /// Runs in O(n log n).
     pub(super) fn new(hull: &Hull, [left, right]: [&Node<'_>; 2]) -> Result<Self, HullFault> {
         let own = hull.points.len();
         let all = [&hull.points[..], &left.points, &right.points];
@@ -57,10 +57,10 @@ impl Identity {
     }
 }
 
-/// For every point of some lists in a row the one that stands for its place: of the first `own` the last
-/// one there, else the first one.
+/// Returns the representative of each point of some concatenated lists: the last point at its place
+/// among the first `own` points, or else the first one there.
 fn representatives(lists: [&[DVec3]; 3], own: usize) -> Vec<u32> {
-    // Adding zero makes −0 a 0.
+    // Adding zero turns −0 into 0.
     let place = |p: &DVec3| p.to_array().map(|x| (x + 0.0).to_bits());
     let points = lists.into_iter().flatten();
     let mut sorted: Vec<([u64; 3], u32)> = points.map(place).zip(0..).collect();

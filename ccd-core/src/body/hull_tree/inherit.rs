@@ -1,7 +1,7 @@
 //! The facets that an inner hull inherits from its children.
 //!
-//! A child's hull meets the plane of a facet of its parent in at most one facet of its own. So a facet
-//! of the parent is a child's, or is tiled by one of either child, or is a bridge.
+//! A child's hull meets the plane of a facet of its parent in at most one facet of its own. A facet
+//! of the parent is therefore a child's, or is tiled by one of either child, or is a bridge.
 
 use super::edges::{EdgeMap, edges_of};
 use super::hull::{FacetClass, Hull};
@@ -19,7 +19,7 @@ impl FacetData {
         faces: Vec::new(),
     };
 
-    /// The data of a piece's facets.
+    /// Returns the data of a piece's facets.
     pub(super) fn of_piece(piece: &Polytope) -> Vec<FacetData> {
         let mut facet_data = Vec::with_capacity(piece.facets.len());
         let starts: Vec<DVec3> = piece.faces.iter().map(|face| face.corners[0]).collect();
@@ -45,7 +45,7 @@ impl FacetData {
         facet_data
     }
 
-    /// The data of a facet that two others tile.
+    /// Returns the data of a facet that two others tile.
     fn joined(parts: [&Part<'_>; 2]) -> FacetData {
         let class = parts[0].facet.class.max(parts[1].facet.class);
         FacetData {
@@ -59,7 +59,7 @@ impl FacetData {
     }
 }
 
-/// A child whose points are numbered together with those of its parent, which come first.
+/// A child with its points numbered together with those of its parent, which come first.
 #[derive(Clone, Copy)]
 pub(super) struct Child<'a> {
     node: &'a Node<'a>,
@@ -73,7 +73,7 @@ impl<'a> Child<'a> {
     }
 }
 
-/// Returns the data of a hull's facets, given its children and the places of all their points.
+/// Returns the data of a hull's facets, given its children and the positions of all their points.
 pub(super) fn inherit(hull: &Hull, places: &[DVec3], children: [Child<'_>; 2]) -> Vec<FacetData> {
     let triangles = children.map(|child| lone_triangle(&child));
     let sides = [0, 1].map(|k| Side::new(children[k], triangles[k].as_ref(), places.len()));
@@ -93,13 +93,13 @@ pub(super) fn inherit(hull: &Hull, places: &[DVec3], children: [Child<'_>; 2]) -
 /// A facet of a child.
 struct Part<'a> {
     child: Child<'a>,
-    /// By the child's numbers.
+    /// The corners by the child's numbers.
     corners: &'a [u32],
     facet: &'a FacetData,
 }
 
 impl Part<'_> {
-    /// Its corners by the common numbers.
+    /// Returns its corners by the common numbers.
     fn ids(&self) -> impl ExactSizeIterator<Item = u32> + Clone {
         self.corners.iter().map(|&v| self.child.ids[v as usize])
     }
@@ -129,17 +129,17 @@ impl Part<'_> {
 /// A child's facets.
 struct Side<'a> {
     child: Child<'a>,
-    /// The data of either side of a triangle by itself.
+    /// The data of either side of a child that is a single triangle.
     lone: Option<&'a FacetData>,
-    /// The part that an edge belongs to.
+    /// The part of each edge.
     by_edge: EdgeMap,
 }
 
-/// The two sides of a triangle by itself.
+/// The two sides of a single triangle.
 const SIDES: [[u32; 3]; 2] = [[0, 1, 2], [2, 1, 0]];
 
 impl<'a> Side<'a> {
-    /// The side of a child whose points have numbers below `places`.
+    /// Creates the side of a child whose points have numbers below `places`.
     fn new(child: Child<'a>, lone: Option<&'a FacetData>, places: usize) -> Self {
         let sides = SIDES.iter().map(|corners| &corners[..]);
         let loops = child
@@ -177,7 +177,7 @@ impl<'a> Side<'a> {
     }
 }
 
-/// Returns the data of front and back of a triangle by itself, which lists no facets.
+/// Returns the data of front and back of a single triangle, which lists no facets.
 fn lone_triangle(child: &Child<'_>) -> Option<FacetData> {
     let alone = child.node.loops.is_empty() && child.node.points.len() == 3;
     alone.then(|| FacetData {
@@ -190,7 +190,7 @@ fn lone_triangle(child: &Child<'_>) -> Option<FacetData> {
     })
 }
 
-/// The number of a point in the mesh.
+/// Returns the number of a point in the mesh.
 fn vertex_of(node: &Node<'_>, point: u32) -> u32 {
     let known = node.vertex_ids.get(point as usize);
     known.copied().unwrap_or(point)
@@ -201,7 +201,7 @@ fn points_of(polytope: &Polytope, corners: &[u32]) -> Vec<DVec3> {
     corners.iter().map(point).collect()
 }
 
-/// Whether a part's loop is another one, wherever it begins.
+/// Whether two loops are the same up to their first corner.
 fn same_loop(part: &Part<'_>, other: &[u32]) -> bool {
     if part.corners.len() != other.len() {
         return false;
@@ -214,11 +214,11 @@ fn same_loop(part: &Part<'_>, other: &[u32]) -> bool {
     part.ids().eq(begin.iter().chain(end).copied())
 }
 
-/// Whether two convex polygons together are a facet of the hull: what is left of their edges, once
-/// those are gone that run both ways, is the facet's loop, except for corners within its edges.
+/// Whether two convex polygons together are a facet of the hull: without the edges that run both
+/// ways, the rest of their edges is the facet's loop, except for corners within its edges.
 ///
-/// A part has the facet's corners and the two ends of the cut, at most; of many more it is not even looked
-/// at, as it may share an edge with each of many facets.
+/// A part has at most the facet's corners and the two ends of the cut. A part of many more is
+/// skipped, as it may share an edge with each of many facets.
 fn tile(places: &[DVec3], corners: &[u32], parts: [&Part<'_>; 2]) -> bool {
     let most = 2 * corners.len() + 8;
     if parts.iter().any(|part| part.corners.len() > most) {
@@ -228,7 +228,7 @@ fn tile(places: &[DVec3], corners: &[u32], parts: [&Part<'_>; 2]) -> bool {
     edges.sort_unstable();
     let border = |&(from, to): &(u32, u32)| edges.binary_search(&(to, from)).is_err();
     let next: Vec<(u32, u32)> = edges.iter().copied().filter(border).collect();
-    // Edges that both have, and corners where they only touch, are no border.
+    // Common edges, and corners where the parts only touch, are no border.
     let twice = edges.windows(2).any(|e| e[0] == e[1]);
     if twice || next.windows(2).any(|e| e[0].0 == e[1].0) {
         return false;

@@ -1,4 +1,4 @@
-//! Whether a point lies in a hull, exactly `[SHE97]`.
+//! Decides whether a point is in a hull, exactly `[SHE97]`.
 
 use super::loops::Loops;
 use crate::math::exact::{is_degenerate, side, turn_along};
@@ -6,7 +6,7 @@ use crate::math::point_tree::PointTree;
 use glam::DVec3;
 use std::cmp::Ordering;
 
-/// A hull that points are held against.
+/// A hull for containment tests of points.
 pub(super) struct Container<'a> {
     points: &'a [DVec3],
     /// The facets as fans of triangles.
@@ -16,7 +16,7 @@ pub(super) struct Container<'a> {
 }
 
 impl<'a> Container<'a> {
-    /// Every edge of the facets must be met by exactly one facet the other way round.
+    /// Every edge of the facets must occur exactly once in reverse in another facet.
     pub(super) fn new(points: &'a [DVec3], facets: &Loops) -> Self {
         let at = |&v: &u32| points[v as usize];
         let fan = |corners: &[u32]| {
@@ -33,16 +33,17 @@ impl<'a> Container<'a> {
         }
     }
 
-    /// The first of some points that the hull of the points does not certainly hold.
+    /// Returns the first of some points that is not certainly in the hull of the container's
+    /// points.
     ///
     /// # Guarantee
-    /// Exact, and none only if so, whatever the facets: about a point outside of the hull a closed
-    /// surface with its corners in the hull winds 0 times. Where no facet has the point in front, the
-    /// solid angles at which it sees them all have one sign, so that they are all 0: no facet has it
-    /// behind.
+    /// The test is exact, and sound for any facets. A closed surface with its corners in the hull
+    /// winds 0 times about a point outside of the hull. If no facet has the point in front, the
+    /// solid angles of all facets at the point have one sign. They must then all be 0: no facet has
+    /// the point behind.
     ///
     /// # Complexity
-    /// O(n log n) for n points and facets in all that few points are near each.
+    /// O(n log n) for n points and facets in all, if few points are near each facet.
     pub(super) fn left_out(&self, places: &[DVec3]) -> Option<usize> {
         if self.fans.is_empty() {
             return places.iter().position(|&p| !in_simplex(self.points, p));
@@ -52,7 +53,7 @@ impl<'a> Container<'a> {
         }
         let tree = PointTree::new(places);
         let mut outside = vec![false; places.len()];
-        // Facets in whose planes it lies; all others have it behind.
+        // The facets whose planes contain the point; it is behind all others.
         let mut level = vec![0; places.len()];
         for &triangle in &self.fans {
             tree.for_each_not_behind(triangle, |k| match side(triangle, places[k as usize]) {
@@ -86,7 +87,7 @@ fn on_segment(a: DVec3, b: DVec3, point: DVec3) -> bool {
     between && is_degenerate([a, b, point])
 }
 
-/// Whether a triangle lies in the plane of a polygon and is seen from the same side.
+/// Whether a triangle is in the plane of a polygon and is seen from the same side.
 pub(super) fn is_coplanar(polygon: &[DVec3], triangle: [DVec3; 3]) -> bool {
     plane(polygon).is_some_and(|(fan, axis)| {
         let in_plane = |&p: &DVec3| side(fan, p).is_eq();
@@ -96,13 +97,13 @@ pub(super) fn is_coplanar(polygon: &[DVec3], triangle: [DVec3; 3]) -> bool {
     })
 }
 
-/// Three corners of a polygon that are not on one line.
+/// Returns three corners of a polygon that are not on one line.
 pub(super) fn spanning(polygon: &[DVec3]) -> Option<[DVec3; 3]> {
     plane(polygon).map(|(corners, _)| corners)
 }
 
-/// Three corners of a polygon that are not on one line, and a coordinate axis along which they are
-/// not, either.
+/// Returns three corners of a polygon that are not on one line, not even when seen along a
+/// coordinate axis; and that axis.
 fn plane(polygon: &[DVec3]) -> Option<([DVec3; 3], usize)> {
     (1..polygon.len().saturating_sub(1)).find_map(|k| {
         let fan = [0, k, k + 1].map(|k| polygon[k]);
@@ -112,7 +113,7 @@ fn plane(polygon: &[DVec3]) -> Option<([DVec3; 3], usize)> {
     })
 }
 
-/// Whether a point lies in the plane of a polygon and in the hull of its corners: on no edge's outer
+/// Whether a point is in the plane of a polygon and in the hull of its corners: on no edge's outer
 /// side and on the inner side of one, by the same count of windings.
 fn in_polygon(corners: &[DVec3], point: DVec3) -> bool {
     let Some((fan, axis)) = plane(corners) else {

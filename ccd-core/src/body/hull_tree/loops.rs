@@ -14,12 +14,12 @@
 #[cfg_attr(feature = "serde", serde(from = "Vec<Vec<u32>>"))]
 pub struct Loops {
     corners: Vec<u32>,
-    /// Where each loop ends.
+    /// The end of each loop.
     ends: Vec<usize>,
 }
 
 impl Loops {
-    /// With room for so many loops, and so many corners in all.
+    /// Creates an empty list with capacity for a number of loops, and of corners in all.
     pub fn with_capacity(loops: usize, corners: usize) -> Self {
         Loops {
             corners: Vec::with_capacity(corners),
@@ -50,17 +50,17 @@ impl Loops {
         Some(&self.corners[start..end])
     }
 
-    /// The loops in a row.
+    /// Returns the loops in order.
     pub fn iter(&self) -> impl ExactSizeIterator<Item = &[u32]> + DoubleEndedIterator + Clone {
         (0..self.len()).map(|k| self.get(k).unwrap_or_default())
     }
 
-    /// The corners of all loops in a row.
+    /// The corners of all loops in order.
     pub fn corners(&self) -> &[u32] {
         &self.corners
     }
 
-    /// The same, to be renamed.
+    /// The corners of all loops, to be renumbered.
     pub fn corners_mut(&mut self) -> &mut [u32] {
         &mut self.corners
     }
@@ -82,7 +82,7 @@ impl From<Vec<Vec<u32>>> for Loops {
     }
 }
 
-/// As a list of lists.
+/// Serialises as a list of lists.
 #[cfg(feature = "serde")]
 impl serde::Serialize for Loops {
     fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {

@@ -1,4 +1,4 @@
-//! A node of a hull tree while the tree is put together.
+//! A node of a hull tree during assembly.
 
 use super::hull::FacetClass;
 use super::loops::Loops;
@@ -6,16 +6,16 @@ use crate::body::polytope::{Face, Origin};
 use glam::DVec3;
 use std::borrow::Cow;
 
-/// A node that is checked.
+/// A checked node.
 #[derive(Debug, Default)]
 pub(super) struct Node<'a> {
     pub(super) points: Cow<'a, [DVec3]>,
-    /// In the mesh, of its points.
+    /// The numbers of its points in the mesh.
     pub(super) vertex_ids: Vec<u32>,
     pub(super) loops: Cow<'a, Loops>,
     /// The data of its facets.
     pub(super) facet_data: Vec<FacetData>,
-    /// The mesh's faces on a leaf; an inner node has those of its skins.
+    /// The mesh's faces on a leaf; the faces of an inner node are those of its facets.
     pub(super) own_faces: Option<Vec<Face>>,
     pub(super) radius: f64,
     pub(super) evenly_rounded: bool,
@@ -27,7 +27,7 @@ pub(super) struct Node<'a> {
 pub(super) struct FacetData {
     pub(super) origin: Origin,
     pub(super) class: FacetClass,
-    /// The triangles of the mesh that lie in it, unless it is one face by itself.
+    /// The mesh's triangles in the facet, unless it is one face by itself.
     pub(super) faces: Vec<Face>,
 }
 

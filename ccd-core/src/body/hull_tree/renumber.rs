@@ -1,4 +1,4 @@
-//! Leaves found again in another list of the same pieces.
+//! Finds leaves again in another list of the same pieces.
 
 use super::HullTree;
 use super::error::{HullFault, HullTreeError};
@@ -7,18 +7,18 @@ use crate::body::pieces::Pieces;
 use std::cmp::Ordering;
 
 impl HullTree {
-    /// The same tree with leaves that name the same pieces in another list.
+    /// Returns the tree with leaves that name the same pieces in another list.
     ///
     /// # Errors
-    /// [`HullFault::NotAPiece`] at a leaf that is none of them.
+    /// [`HullFault::NotAPiece`] at a leaf that is not in the list.
     pub(crate) fn renumbered(self, pieces: &Pieces) -> Result<Self, HullTreeError> {
         let hierarchy = renumber(&self, pieces)?;
         Ok(HullTree { hierarchy, ..self })
     }
 }
 
-/// The tree's hierarchy, with leaves that name the pieces of a list that they are to the bit: of several, the
-/// first leaf names the first.
+/// Returns the tree's hierarchy, with leaves that name the bitwise equal pieces of a list. Among
+/// equal pieces, the first leaf names the first.
 fn renumber(tree: &HullTree, pieces: &Pieces) -> Result<Hierarchy, HullTreeError> {
     let hulls = tree.hulls();
     let mut renamed = tree.hierarchy.nodes().to_vec();
@@ -33,7 +33,7 @@ fn renumber(tree: &HullTree, pieces: &Pieces) -> Result<Hierarchy, HullTreeError
     let mut found = Vec::with_capacity(leaves.len());
     for at in leaves {
         let to_leaf = |&k: &usize| order([pieces, hulls], [k, at]);
-        // What is less than this leaf is no leaf.
+        // A piece less than this leaf is no leaf.
         while known.next_if(|k| to_leaf(k) == Ordering::Less).is_some() {}
         let same = known.next_if(|k| to_leaf(k) == Ordering::Equal);
         found.push((at, same));
@@ -43,17 +43,17 @@ fn renumber(tree: &HullTree, pieces: &Pieces) -> Result<Hierarchy, HullTreeError
         let piece = same.ok_or(HullFault::NotAPiece.at(at))?;
         renamed[at] = HierarchyNode::Leaf(piece as u32);
     }
-    // Also fails where the list has a piece that no leaf is.
+    // This also fails if a piece of the list is no leaf.
     Ok(Hierarchy::new(renamed, pieces.len())?)
 }
 
-/// In the order of what they are, and of their numbers.
+/// Sorts pieces by content, then by number.
 fn sorted(mut numbers: Vec<usize>, order: impl Fn(usize, usize) -> Ordering) -> Vec<usize> {
     numbers.sort_unstable_by(|&one, &other| order(one, other).then(one.cmp(&other)));
     numbers
 }
 
-/// An order by points, rounding and numbers in the mesh, to the bit.
+/// Orders by points, rounding and numbers in the mesh, bit by bit.
 fn order(of: [&Pieces; 2], at: [usize; 2]) -> Ordering {
     let [one, other] = [0, 1].map(|k| of[k].get(at[k]));
     let bits = |p: &glam::DVec3| p.to_array().map(f64::to_bits);

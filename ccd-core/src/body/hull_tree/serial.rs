@@ -1,4 +1,4 @@
-//! Hull trees as they are stored; what is read is checked like what is made.
+//! Stored hull trees. A tree that is read is checked like one that is built.
 
 use super::{HullNode, HullTree, HullTreeError};
 use crate::body::hierarchy::HierarchyNode;

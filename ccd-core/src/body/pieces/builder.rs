@@ -1,4 +1,4 @@
-//! Pieces put together one by one.
+//! Builds a list of pieces one by one.
 
 use super::{Pieces, Radii, Shape, Surfaces};
 use crate::body::polytope::{Face, Origin, Polytope};
@@ -6,11 +6,11 @@ use crate::body::side_table::SideTable;
 use crate::error::InputError;
 use glam::DVec3;
 
-/// A polytope by its parts, as those of [`Polytope`](crate::Polytope).
+/// The parts of a polytope, as in [`Polytope`](crate::Polytope).
 pub(crate) struct PolytopeParts<'a, A, B> {
     pub(crate) points: &'a [DVec3],
     pub(crate) vertex_ids: &'a [u32],
-    /// Corners, and what the facet is of the mesh.
+    /// Corners and origin of each facet.
     pub(crate) facets: A,
     pub(crate) faces: B,
     pub(crate) radius: f64,
@@ -37,11 +37,11 @@ pub(crate) struct Capacity {
 }
 
 impl Pieces {
-    /// Convex polytopes, balls and capsules among them.
+    /// Creates pieces from convex polytopes, including balls and capsules.
     ///
     /// # Guarantee
-    /// The piece is the hull of the points; facets only serve to name features and to confirm
-    /// overlaps, so that a wrong facet list cannot make a query late.
+    /// A piece is the hull of its points. Facets only serve to name features and to confirm
+    /// overlaps, so a wrong facet list cannot make a query late.
     ///
     /// # Errors
     /// [`InputError::EmptyPiece`], [`InputError::BadPoint`], [`InputError::BadRadius`],
@@ -88,7 +88,7 @@ impl PiecesBuilder {
         }
     }
 
-    /// Adds one.
+    /// Adds a piece.
     ///
     /// # Errors
     /// [`InputError::FacetOutOfRange`], [`InputError::BadFace`].
@@ -129,10 +129,10 @@ impl PiecesBuilder {
         Ok(())
     }
 
-    /// All of them.
+    /// Returns all pieces.
     ///
     /// # Errors
-    /// As [`Pieces::polytopes`].
+    /// Those of [`Pieces::polytopes`].
     pub(crate) fn into_pieces(self) -> Result<Pieces, InputError> {
         Pieces {
             points: self.points,

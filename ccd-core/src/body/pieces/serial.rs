@@ -1,4 +1,4 @@
-//! Pieces as they are stored; what is read is checked like what is made.
+//! Stored pieces. Pieces that are read are checked like pieces that are built.
 
 use super::{Pieces, Radii, Shape};
 use crate::body::polytope::Polytope;
@@ -45,7 +45,7 @@ impl TryFrom<Stored> for Pieces {
             } => (corners, vertex_ids, face_ids),
         };
         let triangles = face_ids.len();
-        // Three corners each, and a number for every corner.
+        // Three corners each, with a number for every corner.
         if points.len() % 3 != 0 || points.len() / 3 != triangles {
             return Err(InputError::FaceIds {
                 faces: points.len() / 3,

@@ -1,10 +1,10 @@
-//! Pieces taken apart again.
+//! Converts pieces back to polytopes.
 
 use super::{Pieces, Shape};
 use crate::body::polytope::{Face, Facet, Polytope};
 
 impl Pieces {
-    /// A piece as it could be handed to [`Pieces::polytopes`] again; a triangle lists its face.
+    /// Returns a piece as an input for [`Pieces::polytopes`]; a triangle lists its face.
     ///
     /// # Panics
     /// When `index` is not below [`Pieces::len`].
@@ -31,7 +31,7 @@ impl Pieces {
         }
     }
 
-    /// The numbers that a piece's points go by in the mesh.
+    /// The numbers of a piece's points in the mesh.
     pub(crate) fn vertex_ids(&self, index: usize) -> &[u32] {
         &self.vertex_ids[self.point_range(index)]
     }

@@ -22,7 +22,7 @@ const TAN: [f64; 4] = [
     5.027339492125846,
 ];
 
-/// All directions, by their numbers.
+/// Returns all directions, by their numbers.
 pub(super) fn all() -> impl Iterator<Item = DVec3> {
     let circle = |latitude: u32| {
         let (sin, cos) = (f64::from(latitude) * FRAC_PI_8).sin_cos();
@@ -36,8 +36,8 @@ pub(super) fn all() -> impl Iterator<Item = DVec3> {
     north.chain((1..8).flat_map(circle)).chain(south)
 }
 
-/// The number of the direction whose latitude and longitude are nearest, for a vector of any length;
-/// some number for one that is not finite.
+/// Returns the number of the direction with the nearest latitude and longitude, for a vector of any
+/// length; some number if it is not finite.
 #[inline]
 pub(super) fn nearest(v: DVec3) -> usize {
     let square = v.length_squared();

@@ -1,12 +1,12 @@
-//! All points looked at, several at once.
+//! Scans all points, several at once.
 
 use crate::math::order::greater;
 use glam::DVec3;
 
-/// The number of points that are looked at together: two vectors of 256 bits hold as many.
+/// The number of points that are scanned together: two vectors of 256 bits hold as many.
 const LANES: usize = 8;
 
-/// The points of a piece laid out for the vector units: the slow way of many, the fast way of few.
+/// The points of a piece in a layout for vector units: slow for many points, fast for few.
 #[derive(Clone, Debug)]
 pub struct SupportScan {
     /// x, y and z of eight points; the last point is repeated to fill the last block.
@@ -28,10 +28,10 @@ impl SupportScan {
         }
     }
 
-    /// The index of a point that is farthest along a direction; of several, the first.
+    /// Returns the index of a point that is farthest along a direction; of several, the first.
     ///
     /// # Guarantee
-    /// As [`Support::extremal`](crate::Support::extremal).
+    /// Like [`Support::extremal`](crate::Support::extremal).
     ///
     /// # Complexity
     /// Linear in the points.

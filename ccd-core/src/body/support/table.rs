@@ -1,4 +1,4 @@
-//! A table of starts, and edges to climb along.
+//! A table of starts, and the edges to climb along.
 
 use super::directions::{self, DIRECTIONS};
 use super::tree::ball_about;
@@ -7,7 +7,7 @@ use crate::math::order::greater;
 use crate::tolerance::{HEIGHT_F64, PLATEAU_POINTS};
 use glam::DVec3;
 
-/// The corners of a convex polytope, which of them are joined by an edge, and which are farthest
+/// The corners of a convex polytope, the edges between them, and the corners that are farthest
 /// along 114 directions.
 ///
 /// # Memory
@@ -19,21 +19,21 @@ pub struct SupportTable {
     reach: f64,
     ball: (DVec3, f64),
     neighbours: Vec<u32>,
-    /// Where each point's neighbours end.
+    /// The end of each point's neighbours.
     ends: Vec<u32>,
     starts: [u32; DIRECTIONS],
 }
 
 impl SupportTable {
-    /// Prepares points with the facets of their hull; none where no facets are known.
+    /// Prepares points with the facets of their hull; none if no facets are known.
     pub fn new(points: &[DVec3], facets: Facets<'_>) -> Option<Self> {
         let first = *facets.iter().next()?.first()?;
         let edges = facets.iter().flat_map(|corners| {
             let next = corners.iter().cycle().skip(1);
             corners.iter().copied().zip(next.copied())
         });
-        // Of both facets that meet in an edge, either one names one of its two directions; where
-        // facets are wrong, both are still there.
+        // Each of the two facets that meet in an edge names one of its directions. Both directions
+        // are added, so that wrong facets lose neither.
         let mut edges: Vec<(u32, u32)> = edges.flat_map(|(v, w)| [(v, w), (w, v)]).collect();
         edges.sort_unstable();
         edges.dedup();
@@ -55,18 +55,18 @@ impl SupportTable {
         Some(table)
     }
 
-    /// The index of a point that is farthest along a direction.
+    /// Returns the index of a point that is farthest along a direction.
     ///
     /// # Guarantee
-    /// As [`Support::extremal`](crate::Support::extremal), provided that the facets are those of the
-    /// hull.
+    /// Like [`Support::extremal`](crate::Support::extremal), provided that the facets are those of
+    /// the hull.
     #[inline]
     pub fn extremal(&self, direction: DVec3) -> u32 {
         self.climb(self.starts[directions::nearest(direction)], direction)
     }
 
-    /// The same from a known corner, e.g. the last answer; from one that is on no facet, the table's
-    /// start is taken.
+    /// Returns the same from a known corner, e.g. the last answer. If that corner is on no facet,
+    /// the table's start is taken.
     #[inline]
     pub fn extremal_from(&self, start: u32, direction: DVec3) -> u32 {
         match self.neighbours(start) {
@@ -75,7 +75,7 @@ impl SupportTable {
         }
     }
 
-    /// The corners that share an edge with one; none for a point that is on no facet.
+    /// Returns the corners that share an edge with one; empty for a point that is on no facet.
     #[inline]
     pub fn neighbours(&self, corner: u32) -> &[u32] {
         let at = corner as usize;
@@ -86,19 +86,19 @@ impl SupportTable {
         &self.neighbours[start as usize..end as usize]
     }
 
-    /// A ball about the points.
+    /// Returns a ball about the points.
     #[inline]
     pub(crate) fn ball(&self) -> (DVec3, f64) {
         self.ball
     }
 
-    /// Goes to the highest neighbour, again and again, until none is higher.
+    /// Moves to the highest neighbour repeatedly, until none is higher.
     ///
-    /// From every corner edges lead upward to the highest one, so that a corner none of whose
-    /// neighbours is higher is the highest, in exact arithmetic. Heights are rounded: on such a way a
-    /// corner may seem lower than the one before, but never by more than twice the rounding than any
-    /// before. So all corners are gone through that are joined by corners no lower than that; one of
-    /// them is the highest, or one that is higher than here.
+    /// In exact arithmetic, edges lead upward from every corner to the highest one: a corner
+    /// without a higher neighbour is the highest. Heights are rounded: on such a path a corner may
+    /// seem lower than an earlier one, by at most twice the rounding. The search therefore visits
+    /// all corners connected by corners no lower than that. One of them is the highest, or higher
+    /// than the current one.
     fn climb(&self, start: u32, direction: DVec3) -> u32 {
         let slack = 2.0 * HEIGHT_F64 * self.reach * direction.abs().element_sum();
         let (mut at, mut height) = (start, self.height(start, direction));
@@ -125,7 +125,7 @@ impl SupportTable {
         at
     }
 
-    /// A corner that is higher, beyond corners that are level up to rounding.
+    /// Returns a corner that is higher, beyond corners that are level up to rounding.
     fn beyond_level(
         &self,
         at: u32,

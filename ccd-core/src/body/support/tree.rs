@@ -1,5 +1,5 @@
-//! A tree over the points of a piece. A search looks at only those parts that may hold the
-//! farthest one.
+//! A tree over the points of a piece. A search visits only the parts that may contain the farthest
+//! one.
 
 use crate::math::order::{greater, lesser};
 use crate::math::principal::principal_axes;
@@ -10,9 +10,9 @@ use glam::{DMat3, DVec3, Vec3};
 /// The number of points in a block, and of children in a group.
 const LANES: usize = 8;
 
-/// The points of a piece in blocks of eight, and discs about the points of every block, of every eight
-/// blocks, and so on up to one group. Of a curved surface, discs shrink with the square of their
-/// width, so that few of them reach farther than the farthest point.
+/// The points of a piece in blocks of eight, and discs about the points of every block, of every
+/// eight blocks, and so on up to one group. On a curved surface, discs shrink with the square of
+/// their width, so that few of them reach farther than the farthest point.
 ///
 /// # Memory
 /// About 70 bytes for each point.
@@ -20,12 +20,12 @@ const LANES: usize = 8;
 pub struct SupportTree {
     blocks: Vec<Block>,
     groups: Vec<Discs>,
-    /// Where the groups of each level begin, those over blocks first; the last level is one group.
+    /// The start of each level's groups, those over blocks first; the last level is one group.
     levels: Vec<usize>,
     ball: (DVec3, f64),
 }
 
-/// Eight points less the middle, in units of the piece's size; the last one is repeated.
+/// Eight points minus the middle, in units of the piece's size; the last one is repeated.
 #[derive(Clone, Debug)]
 #[repr(align(32))]
 struct Block {
@@ -34,8 +34,8 @@ struct Block {
     numbers: [u32; LANES],
 }
 
-/// Eight discs, each of which holds the points below it: those at most `thickness` to either side
-/// along `normal` from `centre`, and at most `radius` across.
+/// Eight discs. Each contains the points below it: those at most `thickness` to either side along
+/// `normal` from `centre`, and at most `radius` across.
 #[derive(Clone, Debug)]
 #[repr(align(32))]
 struct Discs {
@@ -43,7 +43,8 @@ struct Discs {
     normal: [[f32; LANES]; 3],
     radius: [f32; LANES],
     thickness: [f32; LANES],
-    /// The most that rounding takes; of lanes without a disc so little that nothing is below.
+    /// The allowance for rounding; in lanes without a disc it is low enough that the lane is never
+    /// visited.
     rounding: [f32; LANES],
 }
 
@@ -79,26 +80,26 @@ impl SupportTree {
         tree
     }
 
-    /// The index of a point that is farthest along a direction.
+    /// Returns the index of a point that is farthest along a direction.
     ///
     /// # Guarantee
-    /// As [`Support::extremal`](crate::Support::extremal), whatever the points are.
+    /// Like [`Support::extremal`](crate::Support::extremal), for any points.
     ///
     /// # Complexity
-    /// About logarithmic in the points of a curved surface; linear where all are equally far.
+    /// About logarithmic in the points of a curved surface; linear if all are equally far.
     pub fn extremal(&self, direction: DVec3) -> u32 {
         let mut look = Look::new(direction);
         self.descend(self.levels.len(), 0, &mut look);
         look.found
     }
 
-    /// A ball about the points.
+    /// Returns a ball about the points.
     #[inline]
     pub(crate) fn ball(&self) -> (DVec3, f64) {
         self.ball
     }
 
-    /// Returns how many nodes are looked at for the farthest point.
+    /// Returns the number of nodes visited for the farthest point.
     #[cfg(test)]
     pub(super) fn visits(&self, direction: DVec3) -> usize {
         let mut look = Look::new(direction);
@@ -106,7 +107,7 @@ impl SupportTree {
         look.visits
     }
 
-    /// Looks at what is below one node of a level, what may be farthest first.
+    /// Visits the children of a node of a level, in descending order of their bounds.
     fn descend(&self, level: usize, at: usize, look: &mut Look) {
         #[cfg(test)]
         {
@@ -131,11 +132,11 @@ impl SupportTree {
 /// A direction, and the farthest point so far.
 struct Look {
     direction: DVec3,
-    /// Its largest component is 1.
+    /// Scaled so that its largest component is 1.
     unit: Vec3,
     size: f64,
     highest: f64,
-    /// The height that a disc has to reach beyond to matter.
+    /// The height that a disc has to exceed to be visited.
     floor: f32,
     found: u32,
     #[cfg(test)]
@@ -186,7 +187,7 @@ impl Block {
 }
 
 impl Discs {
-    /// Builds the group of at most eight times so many points.
+    /// Builds the group over at most eight blocks of `width` points.
     fn new(points: &[DVec3], width: usize) -> Self {
         let mut discs = Discs {
             centre: [[0.0; LANES]; 3],
@@ -226,7 +227,7 @@ impl Discs {
     }
 }
 
-/// A disc about some points; its numbers are as they are stored.
+/// A disc about some points, with its numbers as stored.
 struct Disc {
     centre: Vec3,
     normal: Vec3,
@@ -235,10 +236,10 @@ struct Disc {
 }
 
 impl Disc {
-    /// Its normal is the direction in which the points spread least.
+    /// Creates a disc with the direction of least spread of the points as its normal.
     fn about(points: &[DVec3]) -> Self {
         let frame = principal_axes(|| points.iter().map(|&p| (p, 1.0)));
-        // What is no frame, for rounding or underflow, would make no disc.
+        // An axis that is not of unit length, due to rounding or underflow, makes no disc.
         let is_unit = |axis: DVec3| (axis.length_squared() - 1.0).abs() <= FRAME_F64;
         let frame = match [0, 1, 2].into_iter().all(|k| is_unit(frame.col(k))) {
             true => frame,
@@ -267,7 +268,7 @@ impl Disc {
     }
 }
 
-/// Brings points into an order in which each block, each eight blocks, and so on, are near each other.
+/// Orders points so that each block, each eight blocks, and so on, are near each other.
 fn arrange(points: &[DVec3], order: &mut [u32]) {
     if order.len() <= LANES {
         return;
@@ -286,7 +287,7 @@ fn arrange(points: &[DVec3], order: &mut [u32]) {
     arrange(points, after);
 }
 
-/// The middle of the box of at least one point, and how far they are from it at most.
+/// Returns the middle of the box of at least one point, and the largest distance from it.
 pub(super) fn ball_about(points: &[DVec3]) -> (DVec3, f64) {
     let (low, high) = extent(points.iter().copied());
     let middle = low + 0.5 * (high - low);
@@ -294,7 +295,7 @@ pub(super) fn ball_about(points: &[DVec3]) -> (DVec3, f64) {
     (middle, ways.fold(0.0, greater).next_up())
 }
 
-/// The box of at least one point.
+/// Returns the box of at least one point.
 fn extent(points: impl Iterator<Item = DVec3>) -> (DVec3, DVec3) {
     let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     for point in points {
@@ -306,7 +307,7 @@ fn extent(points: impl Iterator<Item = DVec3>) -> (DVec3, DVec3) {
     (low, high)
 }
 
-/// The power of two above a number; 1 of one too small to divide by.
+/// Returns the power of two above a number; 1 for a number too small to divide by.
 fn power_of_two_above(x: f64) -> f64 {
     const EXPONENT: u64 = 0x7ff << 52;
     match f64::from_bits(x.to_bits() & EXPONENT) {
@@ -315,7 +316,7 @@ fn power_of_two_above(x: f64) -> f64 {
     }
 }
 
-/// The first lane of the highest value.
+/// Returns the first lane of the highest value.
 #[inline]
 fn highest<T: PartialOrd + Copy>(values: &[T; LANES]) -> usize {
     let (mut best, mut most) = (0, values[0]);

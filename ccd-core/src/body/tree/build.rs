@@ -1,4 +1,4 @@
-//! From a binary hierarchy to the wide tree.
+//! Builds the wide tree from a binary hierarchy.
 
 use super::fit::{Cloud, fit};
 use super::{Below, BoxGroup, LANES, Node, Tree, TriangleGroup};
@@ -10,10 +10,10 @@ use crate::math::vector::length;
 use glam::DVec3;
 
 impl Tree {
-    /// Builds the tree, and brings the pieces into its order.
+    /// Builds the tree, and sorts the pieces into its order.
     ///
-    /// A binary node opens its largest descendants until there are eight; triangles stop at clusters of
-    /// up to eight, other pieces at one.
+    /// A binary node opens its largest descendants until there are eight. The smallest clusters
+    /// have up to eight triangles, or one other piece.
     pub(crate) fn build(
         pieces: &Pieces,
         hierarchy: &Hierarchy,
@@ -34,7 +34,7 @@ impl Tree {
         while let Some((id, at)) = waiting.pop() {
             builder.fill(id, at, &mut waiting);
         }
-        // Triangles are named by ids beyond the nodes, whose number is known only now.
+        // Ids of triangles follow those of the nodes, whose number is known only now.
         let nodes = builder.nodes.len() as u32;
         for group in &mut builder.triangles {
             group.members.first += nodes;
@@ -54,10 +54,10 @@ impl Tree {
     }
 }
 
-/// Where the pieces below each node of a hierarchy stand when all are listed depth first.
+/// The range of each node's pieces in a depth-first list.
 struct Ranges {
     order: Vec<u32>,
-    /// By node of the hierarchy: start and end in `order`.
+    /// Start and end in `order`, by node of the hierarchy.
     of: Vec<(u32, u32)>,
 }
 
@@ -66,7 +66,7 @@ impl Ranges {
         let nodes = hierarchy.nodes();
         let mut order = Vec::with_capacity(pieces);
         let mut of = vec![(0, 0); nodes.len()];
-        // Every node is met twice: on the way down, and when all below it is listed.
+        // Every node is met twice: on the way down, and after all pieces below it are listed.
         let mut stack = vec![(0u32, false)];
         while let Some((at, listed)) = stack.pop() {
             let range = &mut of[at as usize];
@@ -104,14 +104,14 @@ struct Builder<'a> {
     triangles: Vec<TriangleGroup>,
     hierarchy: &'a Hierarchy,
     ranges: &'a Ranges,
-    /// In the order of the ranges.
+    /// The pieces in the order of the ranges.
     pieces: &'a Pieces,
     /// Nodes of up to this many pieces are not opened.
     whole: usize,
 }
 
 impl Builder<'_> {
-    /// Fits a node of the tree to a node of the hierarchy; what is below it is filled in later.
+    /// Fits a node of the tree to a node of the hierarchy; its children are filled in later.
     fn push_node(&mut self, at: u32) {
         let (start, end) = self.ranges.of[at as usize];
         let range = start as usize..end as usize;
@@ -129,7 +129,7 @@ impl Builder<'_> {
         self.nodes.push(fit(&cloud, below));
     }
 
-    /// Makes the group below a node, and lists the nodes in it that want one of their own.
+    /// Makes the group below a node, and lists its nodes that need a group of their own.
     fn fill(&mut self, id: usize, at: u32, waiting: &mut Vec<(usize, u32)>) {
         let origin = self.nodes[id].centre;
         let (start, end) = self.ranges.of[at as usize];
@@ -153,8 +153,8 @@ impl Builder<'_> {
         }
     }
 
-    /// The descendants that become a node's children: the one of most pieces is opened, again and
-    /// again.
+    /// Returns the descendants that become a node's children: repeatedly opens the one with the
+    /// most pieces.
     fn open(&self, at: u32) -> Vec<u32> {
         let mut members = vec![at];
         while members.len() < LANES {

@@ -1,4 +1,4 @@
-//! The box and the ball of a node.
+//! Fits the box and the ball of a node.
 
 use super::group::up;
 use super::node::{Below, Node};
@@ -8,22 +8,24 @@ use crate::math::vector::{length, unit};
 use crate::tolerance::FRAME_F64;
 use glam::{DMat3, DVec3, Vec3};
 
-/// The pieces below a node as a fit sees them.
+/// The pieces below a node, as input of a fit.
 pub(crate) struct Cloud<'a> {
     pub(crate) points: &'a [DVec3],
     /// The largest rounding radius among the pieces.
     pub(crate) radius: f64,
-    /// Whether the points are corners of triangles, three each.
+    /// True if the points are corners of triangles, three each.
     pub(crate) triangles: bool,
 }
 
-/// The number of frames about the mean normal that are tried, a right angle apart in total.
+/// The number of tried frames about the mean normal, over a right angle in total.
 const TURNS: usize = 6;
 
-/// Fits the node that holds all points: of several frames the one whose box has the least surface.
+/// Fits the node to all points: tries several frames, and takes the one whose box has the least
+/// surface.
 pub(crate) fn fit(cloud: &Cloud<'_>, below: Below) -> Node {
     let mut best = Fitted::along(DMat3::IDENTITY, cloud.points);
-    // What is dropped costs a box its tightness, what is kept out of true would make it too small.
+    // A dropped frame only makes the box less tight; a frame that is not orthonormal would make it
+    // too small.
     for frame in candidates(cloud).into_iter().filter(is_frame) {
         let fitted = Fitted::along(frame, cloud.points);
         // Written so that a frame with NaN loses.
@@ -34,10 +36,11 @@ pub(crate) fn fit(cloud: &Cloud<'_>, below: Below) -> Node {
     best.node(cloud, below)
 }
 
-/// Whether the columns are orthonormal up to rounding: along others no box holds its points.
+/// Whether the columns are orthonormal up to rounding: otherwise the box may not contain its
+/// points.
 fn is_frame(frame: &DMat3) -> bool {
     let off = frame.transpose() * *frame - DMat3::IDENTITY;
-    // Written so that NaN is none.
+    // Written so that NaN is rejected.
     let within = |v: DVec3| v.abs().cmple(DVec3::splat(FRAME_F64)).all();
     within(off.x_axis) && within(off.y_axis) && within(off.z_axis)
 }
@@ -61,7 +64,8 @@ impl Fitted {
         size.x * size.y + size.y * size.z + size.z * size.x
     }
 
-    /// The node with the axes rounded to f32, longest first, and the sizes measured along those.
+    /// Returns the node with the axes rounded to f32, longest first, and the sizes measured along
+    /// these.
     fn node(&self, cloud: &Cloud<'_>, below: Below) -> Node {
         let size = self.high - self.low;
         let mut order = [0, 1, 2];
@@ -76,7 +80,7 @@ impl Fitted {
             }
             radius = greater(radius, way.length_squared());
         }
-        // Rounding in f64 is far below that of `up`, which one more step up covers.
+        // Rounding in f64 is far below that of `up`; one more step up covers it.
         let outward = |x: f64| up(x).next_up();
         Node {
             centre,
@@ -89,8 +93,8 @@ impl Fitted {
     }
 }
 
-/// The frames worth trying: principal axes of the points, and, for triangles, principal axes by
-/// area and frames about the mean normal.
+/// Returns the candidate frames: principal axes of the points, and, for triangles, principal axes
+/// by area and frames about the mean normal.
 fn candidates(cloud: &Cloud<'_>) -> Vec<DMat3> {
     let weights = || cloud.points.iter().map(|&p| (p, 1.0));
     let mut frames = vec![principal_axes(weights)];

@@ -1,4 +1,4 @@
-//! Children in groups of eight, one array per coordinate, so that eight are bounded at once.
+//! Children in groups of eight, one array per coordinate, for eight bounds at once.
 
 use super::node::{Below, Node};
 use crate::math::order::greater;
@@ -31,9 +31,9 @@ pub(crate) struct BoxGroup {
 #[repr(align(32))]
 pub(crate) struct TriangleGroup {
     pub(crate) corners: [Rows3; 3],
-    /// Unit normals; zero where there is none.
+    /// Unit normals; zero for a triangle without one.
     pub(crate) normal: Rows3,
-    /// About the mean of the corners.
+    /// The radius about the mean of the corners.
     pub(crate) radius: [f32; LANES],
     pub(crate) members: Members,
 }
@@ -41,9 +41,9 @@ pub(crate) struct TriangleGroup {
 /// The fields that every group has.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Members {
-    /// In the body's frame; rows are relative to it.
+    /// The origin in the body's frame; rows are relative to it.
     pub(crate) origin: DVec3,
-    /// No child reaches farther from the origin.
+    /// An upper bound of the children's reach from the origin.
     pub(crate) reach: f32,
     /// The id of the first child; the others follow.
     pub(crate) first: u32,
@@ -121,18 +121,18 @@ impl TriangleGroup {
     }
 }
 
-/// The unit normal of a triangle, or zero when it has none.
+/// Returns the unit normal of a triangle, or zero when it has none.
 pub(crate) fn unit_normal(corners: [DVec3; 3]) -> Vec3 {
     let across = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
     let square = across.length_squared();
     match SQUARES.contains(&square) {
-        // In f32 a reciprocal will do.
+        // In f32 a reciprocal is accurate enough.
         true => (across * square.sqrt().recip()).as_vec3(),
         false => normal(corners).unwrap_or(DVec3::ZERO).as_vec3(),
     }
 }
 
-/// The nearest f32 that is not below.
+/// Returns the nearest f32 that is not below.
 pub(crate) fn up(x: f64) -> f32 {
     let near = x as f32;
     if f64::from(near) < x {

@@ -1,10 +1,10 @@
-//! A node: a box, a ball, and what is below.
+//! A node: a box, a ball, and its children.
 
 use crate::tolerance::{BOX_F64, U64};
 use glam::{DVec3, Vec3};
 
-/// An oriented box, grown by the pieces' rounding, and a ball about the same centre; both hold all
-/// pieces below.
+/// An oriented box, grown by the pieces' rounding, and a ball about the same centre. Both contain
+/// all pieces below.
 #[derive(Clone, Debug)]
 pub(crate) struct Node {
     pub(crate) centre: DVec3,
@@ -12,7 +12,7 @@ pub(crate) struct Node {
     pub(crate) axes: [Vec3; 3],
     pub(crate) half: [f32; 3],
     pub(crate) radius: f32,
-    /// The largest rounding radius of the pieces below, which the half sizes leave out.
+    /// The largest rounding radius of the pieces below, which the half sizes do not include.
     pub(crate) rounding: f32,
     pub(crate) below: Below,
 }
@@ -29,12 +29,12 @@ pub(crate) enum Below {
 }
 
 impl Node {
-    /// Returns the reach of the box along one of its axes, and a little more: the axes are rounded.
+    /// Returns the reach of the box along one of its axes, widened because the axes are rounded.
     pub(super) fn reach_f64(&self, axis: usize) -> f64 {
         f64::from(self.half[axis]) + f64::from(self.rounding) + BOX_F64 * f64::from(self.radius)
     }
 
-    /// Whether a point is within the box, or no farther than `reach` from it, or near that.
+    /// Whether a point is in the box, or at most about `reach` from it.
     pub(super) fn holds(&self, point: DVec3, reach: f64) -> bool {
         let way = point - self.centre;
         let reach = reach + 8.0 * U64 * way.abs().element_sum();

@@ -5,7 +5,7 @@ use crate::body::pieces::Pieces;
 use crate::tolerance::SIGN_F64;
 use glam::DVec3;
 
-/// The pieces that are no triangles and whose boxes hold a point, or nearly.
+/// Returns the pieces that are no triangles and whose boxes contain a point, or nearly.
 pub(crate) fn pieces_at(tree: &Tree, point: DVec3) -> Vec<u32> {
     let mut found = Vec::new();
     let mut stack = vec![0u32];
@@ -59,8 +59,8 @@ pub(crate) fn is_clear(tree: &Tree, pieces: &Pieces, point: DVec3, reach: f64) -
     true
 }
 
-/// Whether an axis shows that a point is farther than `reach` from a triangle: across the plane, or
-/// from an edge or a corner.
+/// Whether an axis shows that a point is farther than `reach` from a triangle: the normal of its
+/// plane, or the direction from an edge or a corner.
 fn is_past(triangle: [DVec3; 3], point: DVec3, reach: f64) -> bool {
     let corners = triangle.map(|corner| corner - point);
     let size = |v: DVec3| v.abs().element_sum();

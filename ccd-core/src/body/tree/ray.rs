@@ -1,4 +1,4 @@
-//! Counts how often the surface of a body winds about a point, along a ray.
+//! Computes the winding number of a body's surface about a point, along a ray.
 
 use super::{Below, Node, Tree};
 use crate::body::pieces::Pieces;
@@ -7,26 +7,28 @@ use crate::tolerance::{RAYS, SIGN_F64, U64};
 use glam::DVec3;
 use std::f64::consts::TAU;
 
-/// The crossings of a ray with a surface, by the normals of its triangles: 1 where it leaves through
-/// one, −1 where it enters.
+/// The crossings of a ray with a surface, by the normals of its triangles: 1 where it leaves, −1
+/// where it enters.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Crossings {
-    /// Away from the ray's start: the winding number of a closed surface about points just ahead of it.
+    /// The crossings beyond the ray's start: the winding number of a closed surface about points
+    /// just ahead of it.
     pub(crate) beyond: i32,
-    /// At the start, to within rounding.
+    /// The crossings at the start, up to rounding.
     pub(crate) at_start: i32,
-    /// The number of triangles that the start is on.
+    /// The number of triangles that contain the start.
     pub(crate) on: u32,
     /// The direction of the ray.
     pub(crate) along: DVec3,
 }
 
-/// Counts along the first ray from a point that certainly passes all edges; none when there is no such
-/// ray. Triangles hold the point that it is no farther from than `slack`.
+/// Counts along the first ray from a point that certainly passes all edges; none when there is no
+/// such ray. A triangle contains the point if it is no farther than `slack` from it.
 ///
 /// # Guarantee
-/// Counts as in exact arithmetic what is ahead of the point by more than rounding, and nothing that
-/// is behind it. The surface of pieces that are no triangles is the mesh's faces on them.
+/// The count of crossings ahead of the point by more than rounding is that of exact arithmetic, and
+/// none behind the point is counted. The surface of pieces that are no triangles consists of the
+/// mesh's faces on them.
 pub(crate) fn crossings(
     tree: &Tree,
     pieces: &Pieces,
@@ -37,14 +39,14 @@ pub(crate) fn crossings(
     (0..RAYS).find_map(|k| along(tree, pieces, start, direction(k)))
 }
 
-/// Where a ray starts, and how well that is known.
+/// The start of a ray, and the accuracy of its position.
 #[derive(Clone, Copy)]
 struct Start {
     from: DVec3,
     slack: f64,
 }
 
-/// Directions all over the sphere, in no special relation to anything.
+/// Returns directions spread over the sphere, in general position.
 fn direction(k: u32) -> DVec3 {
     // Multiples of these two fractions are spread evenly over a square.
     let [x, y] = [0.754_877_666_246_693, 0.569_840_290_998_053].map(|f| (f64::from(k) + 0.5) * f);
@@ -95,18 +97,18 @@ fn meets(node: &Node, from: DVec3, along: DVec3) -> bool {
     let (mut enter, mut leave) = (0.0f64, f64::INFINITY);
     for k in 0..3 {
         let axis = node.axes[k].as_dvec3();
-        // Places along the ray are as far off as the way is rounded, where it meets the box.
+        // Positions along the ray are off by the rounding of the distance to the box.
         let half = node.reach_f64(k) + 32.0 * U64 * way.abs().element_sum();
         let (start, speed) = (axis.dot(way), axis.dot(along));
         let (near, far) = ((-half - start) / speed, (half - start) / speed);
-        // A ray within a slab, parallel to it, gives an infinity on either side; NaN counts as met.
+        // A ray parallel to a slab, within it, gives an infinity on either side; NaN counts as met.
         enter = greater(enter, lesser(near, far));
         leave = lesser(leave, greater(near, far));
     }
     !(enter > leave)
 }
 
-/// The certain part of a sign.
+/// A sign, if it is certain.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Sign {
     Negative,
@@ -115,9 +117,10 @@ enum Sign {
 }
 
 impl Sign {
-    /// The sign of a number whose error is at most [`SIGN_F64`] of a size.
+    /// Returns the sign of a number whose error is at most [`SIGN_F64`] of a size.
     fn of(number: f64, size: f64) -> Sign {
-        // Written so that NaN is unclear; products that underflow are off by less than what is added.
+        // Written so that NaN is unclear. Products that underflow are off by less than the added
+        // term.
         let rounding = SIGN_F64 * size + f64::MIN_POSITIVE;
         match () {
             () if number > rounding => Sign::Positive,
@@ -128,7 +131,7 @@ impl Sign {
 }
 
 impl Crossings {
-    /// Adds what the ray does at a triangle; none when that is not certain.
+    /// Adds the ray's crossing of a triangle; none when that is not certain.
     fn add(&mut self, triangle: [DVec3; 3], start: Start) -> Option<()> {
         let along = self.along;
         let corners = triangle.map(|p| p - start.from);
@@ -138,14 +141,14 @@ impl Crossings {
             return Some(());
         }
         let [a, b, c] = corners;
-        // Volumes of the ray with each edge: all of one sign where the line passes inside.
+        // Volumes of the ray with each edge: all of one sign if the line passes inside.
         let sides = [(a, b), (b, c), (c, a)]
             .map(|(p, q)| Sign::of(along.dot(p.cross(q)), size(p) * size(q)));
         if sides.contains(&Sign::Positive) && sides.contains(&Sign::Negative) {
             return Some(());
         }
         if sides.contains(&Sign::Unclear) {
-            // Past a triangle that is too small or too thin for its edges to decide.
+            // The ray may pass a triangle that is too small or too thin for its edges to decide.
             let reach =
                 greater(size(b - a), size(c - a)) + SIGN_F64 * (size(a) + size(b) + size(c));
             return (a.cross(along).abs().max_element() > 2.0 * reach).then_some(());

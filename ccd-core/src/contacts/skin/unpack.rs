@@ -1,4 +1,4 @@
-//! From a piece to triangles with names.
+//! Unpacks a piece into named triangles.
 
 use super::{Corner, Face, PointBits, Skin};
 use crate::body::combination::Combination;
@@ -12,7 +12,7 @@ use std::collections::HashMap;
 type Unpacked = (Feature, [(DVec3, Option<u32>); 3]);
 
 impl Skin<'_> {
-    /// Adds the faces of a piece that it does not have yet.
+    /// Adds the faces of a piece, unless they are there already.
     pub(super) fn unpack(&mut self, index: u32) {
         let piece = self.body.pieces().get(index as usize);
         for (name, corners) in self.triangles(index, &piece) {
@@ -26,8 +26,8 @@ impl Skin<'_> {
         }
     }
 
-    /// The mesh's triangles on a piece; where there are none, those of its facets, or what it is the
-    /// hull of: up to three points, or more of them, each alone.
+    /// Returns the mesh's triangles on a piece. If there are none, returns those of its facets, or
+    /// its points: up to three as one triangle, more of them each alone.
     fn triangles(&self, index: u32, piece: &Piece<'_>) -> Vec<Unpacked> {
         let mesh: Vec<Unpacked> = self.on_the_mesh(index, piece);
         if !mesh.is_empty() {
@@ -35,7 +35,8 @@ impl Skin<'_> {
         }
         let whole = |corners: [u32; 3]| {
             let point = |k: u32| piece.points[k as usize];
-            // Facets without one of the mesh name nothing; to find that out takes a look at all of them.
+            // Facets that are not of the mesh have no name; finding that out takes a look at all of
+            // them.
             if !piece.facets.is_empty() {
                 let nameless = corners.map(|k| (point(k), None));
                 return (Feature::Piece(index), nameless);
@@ -62,7 +63,7 @@ impl Skin<'_> {
         hull.into_iter().map(whole).collect()
     }
 
-    /// The mesh's triangles on a polytope.
+    /// Returns the mesh's triangles on a polytope.
     fn on_the_mesh(&self, index: u32, piece: &Piece<'_>) -> Vec<Unpacked> {
         let mut triangles = piece.mesh_triangles().peekable();
         if triangles.peek().is_none() {
@@ -85,7 +86,7 @@ impl Skin<'_> {
         named.collect()
     }
 
-    /// The number of a corner: its piece's own, or that of another piece which is there.
+    /// Returns the number of a corner: its own piece's, or that of another piece there.
     pub(super) fn number_of(&self, corner: u32) -> Option<u32> {
         let Corner {
             place: here, id, ..
@@ -101,7 +102,7 @@ impl Skin<'_> {
         })
     }
 
-    /// The number of a point of a piece in the mesh.
+    /// Returns the number of a point of a piece in the mesh.
     fn number(&self, piece: u32, point: u32) -> Option<u32> {
         let pieces = self.body.pieces();
         match pieces.feature(piece as usize, &Combination::point(point)) {
@@ -123,7 +124,7 @@ impl Skin<'_> {
     }
 }
 
-/// Both zeros are one place.
+/// Both zeros are the same place.
 fn place(point: DVec3) -> PointBits {
     point.to_array().map(|x| (x + 0.0).to_bits())
 }

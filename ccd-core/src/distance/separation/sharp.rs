@@ -1,4 +1,4 @@
-//! Better axes than the one that was claimed: those of the features that the nearest points lie on.
+//! Better axes than the claimed one: those of the features that contain the nearest points.
 
 use super::{Checked, support_gap};
 use crate::body::combination::Combination;
@@ -7,11 +7,11 @@ use crate::distance::oracle::PiecePair;
 use crate::math::vector::{across, unit};
 use glam::{DMat3, DVec3};
 
-/// Checks again, along the best axis that the claim's features have.
+/// Checks again, along the best axis of the claim's features.
 ///
-/// The way between nearest points is as exact as their coordinates: along it two pieces that are near,
-/// for their size, lose some of their distance. The normal of a face, or of two edges, is exact to its
-/// last bits.
+/// The vector between nearest points is only as exact as their coordinates: along it, two pieces
+/// that are near for their size lose some of their distance. The normal of a face, or of two edges,
+/// is exact to its last bits.
 pub(crate) fn sharpened(pair: &PiecePair<'_>, checked: &Checked, rounding: f64) -> Checked {
     let radii = pair.a.radius + pair.b.radius;
     let mut best = *checked;
@@ -30,7 +30,8 @@ pub(crate) fn sharpened(pair: &PiecePair<'_>, checked: &Checked, rounding: f64) 
     best
 }
 
-/// The way between the witnesses; across it and a single edge; the normals of faces, and of two edges.
+/// The vector between the witnesses; the one across it and a single edge; the normals of faces, and
+/// of two edges.
 fn axes(pair: &PiecePair<'_>, checked: &Checked) -> [DVec3; 4] {
     let way = checked.witness_b - checked.witness_a;
     let on_a = Feature::of(&pair.a, &checked.claim.a);
@@ -43,15 +44,15 @@ fn axes(pair: &PiecePair<'_>, checked: &Checked) -> [DVec3; 4] {
     [way, edges, on_a.normal, on_b.normal]
 }
 
-/// The feature that a nearest point lies on.
+/// The feature that contains a nearest point.
 struct Feature {
     edge: Option<DVec3>,
-    /// The normal of its face, or of the piece where that is a triangle; zero where there is none.
+    /// The normal of its face, or of the piece if that is a triangle; zero if there is none.
     normal: DVec3,
 }
 
 impl Feature {
-    /// In the piece's frame.
+    /// Returns the feature in the piece's frame.
     fn of(piece: &Piece<'_>, combination: &Combination) -> Self {
         let points = piece.points;
         let way = |from: u32, to: u32| points[to as usize] - points[from as usize];

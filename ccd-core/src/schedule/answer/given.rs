@@ -8,10 +8,10 @@ use crate::schedule::meter::Meter;
 use crate::schedule::pieces::pair;
 use crate::schedule::pieces::snapshot::Snapshot;
 
-/// The outcome for the bodies that were given: of a contact the normal, the witnesses and the bounds are
-/// those of the pieces that it names.
+/// Returns the outcome for the given bodies. The normal, the witnesses and the bounds of a contact
+/// are those of the pieces that it names.
 ///
-/// `within` is the distance at which a contact was to be found.
+/// Here `within` is the distance at which a contact was to be found.
 pub(super) fn of_given<O: DistanceOracle>(
     problem: &Problem<'_>,
     oracle: &mut O,
@@ -54,8 +54,8 @@ fn of_pieces<O: DistanceOracle>(
     let checked = snapshot.ask(oracle, &mut O::Cache::default(), meter);
     match checked.filter(|checked| checked.upper <= within) {
         Some(checked) => pair::contact(&snapshot, ids, &checked).no_nearer_than(bound),
-        // The oracle sees less of the pieces: what was found on their surfaces stands, with what its
-        // normal proves of them.
+        // The oracle finds less for the pieces: the result on their surfaces remains, with the
+        // bounds that its normal proves for them.
         None => {
             let axis = snapshot.frames[0].inverse_vector(contact.separation.normal);
             let from = snapshot.frames[0].inverse_point(given.local(contact.separation.witness_a));

@@ -1,4 +1,4 @@
-//! The distance of the bodies at one clock, and what it leaves of the front `[FAST06 Alg. 3]`.
+//! Computes the distance of the bodies at one clock, and the front that is left `[FAST06 Alg. 3]`.
 
 use super::front::{Front, Item};
 use super::hull_pair::{HullPair, Near};
@@ -17,7 +17,7 @@ use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 use std::ops::ControlFlow;
 
-/// Computes distances, nearest pairs first, from the front that the last descent left.
+/// Computes distances, nearest pairs first, from the front of the last descent.
 pub(super) struct Descent<'s, 'p, C> {
     pub(super) problem: &'p Problem<'p>,
     pub(super) hulls: HullPair<'p>,
@@ -28,7 +28,7 @@ pub(super) struct Descent<'s, 'p, C> {
     pub(super) meter: &'s mut Meter,
 }
 
-/// The knowledge at a clock so far.
+/// The results at a clock so far.
 struct Found {
     /// Bounds the distance of the bodies from above.
     distance: f64,
@@ -45,8 +45,8 @@ struct Open {
 }
 
 impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
-    /// Looks at all pairs of the front at clock `s`, splits those that may hold the least distance,
-    /// joins those that don't any more, and returns until when all of them keep apart.
+    /// Visits all pairs of the front at clock `s`, splits those that may have the least distance,
+    /// joins those that no longer may, and returns the time until which all of them keep apart.
     pub(super) fn step<O>(&mut self, oracle: &mut O, s: f64) -> ControlFlow<Outcome, f64>
     where
         O: DistanceOracle<Cache = C>,
@@ -61,7 +61,7 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
             self.look(oracle, &snapshot, at, &mut found)?;
         }
         while let Some(Open { lower, at }) = found.open.pop() {
-            // Written so that NaN is split.
+            // Written so that a pair with NaN is split.
             if lower >= found.distance {
                 break;
             }
@@ -133,7 +133,7 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
         node.near = self.hulls.near(node.pair, &checked.claim);
         node.clock = free.map_or(f64::INFINITY, |free| (s + free).next_down());
         let contact = problem.contact_distance();
-        // What is in contact at the start is known there, or not at all.
+        // Contacts at the start are found there, or never.
         let reach = if s > 0.0 { problem.gap() } else { contact };
         // The distance is that of the pieces below, which are not in contact.
         let settled = node.near == Near::Pieces && checked.upper > contact;
@@ -162,7 +162,7 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
         };
         let snapshot = snapshot.with(problem.pieces([pair.a, pair.b]));
         let reaches = self.reaches.each(problem, node.pair, &snapshot);
-        // Pairs that rest on each other have no say in how near the bodies are.
+        // Pairs that rest on each other do not count for the distance of the bodies.
         node.lower = f64::NEG_INFINITY;
         let step = pair.advance_by(&snapshot, oracle, self.meter, |snapshot, checked, kept| {
             node.lower = checked.lower;
@@ -179,8 +179,8 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
         ControlFlow::Continue(())
     }
 
-    /// Joins pairs of the front that are far away by now, where that costs nothing: the pair that
-    /// covers both is as far as the bodies are, and apart until the next clock.
+    /// Joins pairs of the front that have become far away, if that costs nothing: the pair that
+    /// covers both is as far apart as the bodies, and apart until the next clock.
     fn join<O>(
         &mut self,
         oracle: &mut O,
@@ -191,7 +191,7 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
     where
         O: DistanceOracle<Cache = C>,
     {
-        // Pairs that were let go at the start are not to be forgotten.
+        // Pairs that were let go at the start must not be forgotten.
         if self.problem.start == StartPolicy::Leave {
             return ControlFlow::Continue(());
         }
@@ -226,7 +226,7 @@ impl Found {
     }
 }
 
-/// The nearest pair is the greatest; of several, the one that came first.
+/// The nearest pair is the greatest; among equals, the one that came first.
 impl Ord for Open {
     fn cmp(&self, other: &Self) -> Ordering {
         let nearer = other.lower.total_cmp(&self.lower);

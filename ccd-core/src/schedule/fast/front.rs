@@ -4,15 +4,16 @@ use super::hull_pair::{Below, HullPair, Near};
 use crate::math::order::lesser;
 use crate::schedule::pieces::pair::Pair;
 
-/// Pairs of nodes of two hull trees, from the pair of roots down to those at which a descent stopped.
+/// Pairs of nodes of two hull trees, from the pair of roots down to those at which a descent
+/// stopped.
 ///
-/// Its leaves are the front: together they cover all pairs of pieces. Between two descents it is kept,
-/// and so are the caches of the oracle.
+/// Its leaves are the front: together they cover all pairs of pieces. It is kept between two
+/// descents, with the caches of the oracle.
 #[derive(Debug)]
 pub(super) struct Front<C> {
-    /// The root is the first; pairs of children stand side by side.
+    /// The root is the first; pairs of children are adjacent.
     nodes: Vec<Node<C>>,
-    /// Where pairs of children were that are gone.
+    /// Free slots of former pairs of children.
     vacant: Vec<u32>,
     leaves: usize,
     peak: usize,
@@ -25,19 +26,19 @@ pub(super) struct Node<C> {
     pub(super) item: Item<C>,
     /// The first of its two children, unless it is in the front.
     pub(super) children: Option<u32>,
-    /// Bounds its distance from below, when it was last looked at.
+    /// A lower bound of its distance, when it was last visited.
     pub(super) lower: f64,
-    /// Apart until then, when it was last looked at.
+    /// The time until which it was certified apart at its last visit.
     pub(super) clock: f64,
     /// The owners of its nearest features.
     pub(super) near: Near,
-    /// It is worth another try to join its children while the distance of the bodies is below this.
+    /// While the distance of the bodies is below this, joining its children is worth another try.
     pub(super) join_below: f64,
 }
 
 #[derive(Clone, Debug)]
 pub(super) enum Item<C> {
-    /// At least one is an inner node; what the oracle left.
+    /// At least one is an inner node; with the oracle's cache.
     Nodes(C),
     /// Two leaves.
     Pieces(Pair<C>),
@@ -55,7 +56,7 @@ impl<C> Default for Front<C> {
 }
 
 impl<C: Clone + Default> Front<C> {
-    /// Starts again with the pair of roots.
+    /// Restarts with the pair of roots.
     pub(super) fn plant(&mut self, hulls: HullPair<'_>) {
         self.nodes.clear();
         self.vacant.clear();
@@ -63,7 +64,7 @@ impl<C: Clone + Default> Front<C> {
         (self.leaves, self.peak) = (1, 1);
     }
 
-    /// The most pairs that were in it at once.
+    /// Returns the largest number of pairs that were in it at once.
     pub(super) fn peak(&self) -> u64 {
         self.peak as u64
     }
@@ -72,7 +73,7 @@ impl<C: Clone + Default> Front<C> {
         &mut self.nodes[at as usize]
     }
 
-    /// The pairs of the front, in the order of the tree.
+    /// Returns the pairs of the front, in the order of the tree.
     pub(super) fn leaves(&self) -> Vec<u32> {
         let mut leaves = Vec::with_capacity(self.leaves);
         self.walk(|at, node| {
@@ -83,7 +84,7 @@ impl<C: Clone + Default> Front<C> {
         leaves
     }
 
-    /// The least clock of the pairs in the front.
+    /// Returns the least clock of the pairs in the front.
     pub(super) fn clock(&self) -> f64 {
         let mut least = f64::INFINITY;
         self.walk(|_, node| {
@@ -94,7 +95,7 @@ impl<C: Clone + Default> Front<C> {
         least
     }
 
-    /// The pairs both of whose children are in the front, with the first of these.
+    /// Returns the pairs with both children in the front, and the first child of each.
     pub(super) fn above_leaves(&self) -> Vec<(u32, u32)> {
         let mut above = Vec::new();
         self.walk(|at, node| {
@@ -109,15 +110,15 @@ impl<C: Clone + Default> Front<C> {
         above
     }
 
-    /// Replaces a pair of the front by two that cover it, and returns the first of them; none where
-    /// it is of pieces.
+    /// Replaces a pair of the front by two that cover it, and returns the first of them; none for a
+    /// pair of pieces.
     pub(super) fn drop_below(&mut self, hulls: HullPair<'_>, at: u32) -> Option<u32> {
         let node = &self.nodes[at as usize];
         let Below::Pairs(pairs) = hulls.below(node.pair, node.near) else {
             return None;
         };
-        // Nearest points of what covers a pair are a good start for the pair. Not for pieces: what a
-        // warm start makes of their axis when they touch decides what they are said to do.
+        // Nearest points of a covering pair are a good start for the pair. This does not hold for
+        // pieces: when they touch, a warm start affects their axis, and so the answer.
         let cache = match &node.item {
             Item::Nodes(cache) => cache.clone(),
             Item::Pieces(_) => C::default(),

@@ -30,14 +30,14 @@ pub(super) enum Near {
 /// The pairs below a pair of nodes.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Below {
-    /// Both are leaves: of these pieces.
+    /// Both nodes are leaves, of these pieces.
     Pieces([u32; 2]),
     /// The pairs that cover this one.
     Pairs([[u32; 2]; 2]),
 }
 
 impl<'a> HullPair<'a> {
-    /// None when one of the bodies has more than one piece, and no tree.
+    /// Returns none when one of the bodies has more than one piece and no tree.
     pub(super) fn of(problem: &Problem<'a>) -> Option<Self> {
         Some(HullPair {
             a: Hulls::of(problem.a.body)?,
@@ -49,7 +49,7 @@ impl<'a> HullPair<'a> {
         [self.a.hull(a), self.b.hull(b)]
     }
 
-    /// Returns the owners of the nearest features, whose points a claim names.
+    /// Returns the owners of the nearest features; a claim names their points.
     pub(super) fn near(&self, [a, b]: [u32; 2], claim: &Claim) -> Near {
         match (self.a.is_bridge(a, &claim.a), self.b.is_bridge(b, &claim.b)) {
             (false, false) => Near::Pieces,
@@ -59,8 +59,8 @@ impl<'a> HullPair<'a> {
         }
     }
 
-    /// The pairs to look at instead: one node is a child, of the body that has a bridge where only one
-    /// has, of the larger node otherwise, of the one that has any if the other one has none.
+    /// Returns the pairs to examine instead. One node is replaced by its children: that of the only
+    /// body with a bridge, else the larger node, or the one with children if the other has none.
     pub(super) fn below(&self, [a, b]: [u32; 2], near: Near) -> Below {
         use HierarchyNode::{Inner, Leaf};
         let body = match near {
@@ -88,7 +88,7 @@ impl<'a> HullPair<'a> {
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Hulls<'a> {
     Tree(&'a HullTree),
-    /// The one node of a body of one piece, which is its own tree.
+    /// The single node of a body of one piece, which is its own tree.
     Single(&'a Body),
 }
 

@@ -6,17 +6,17 @@ use crate::schedule::pieces::snapshot::Snapshot;
 #[derive(Debug, Default)]
 pub(super) struct Reaches {
     query: u64,
-    /// By body and node: the query that it was computed for, and what came out.
+    /// The query and the result of each computation, by body and node.
     known: [Vec<(u64, f64)>; 2],
 }
 
 impl Reaches {
-    /// Begins another query.
+    /// Invalidates all results for another query.
     pub(super) fn forget(&mut self) {
         self.query += 1;
     }
 
-    /// Returns the reaches of both nodes of a pair, whose hulls are those of a snapshot.
+    /// Returns the reaches of both nodes of a pair; the snapshot has their hulls.
     pub(super) fn each(
         &mut self,
         problem: &Problem<'_>,

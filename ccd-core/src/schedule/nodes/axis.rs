@@ -1,10 +1,10 @@
-//! Axes to separate two nodes along.
+//! Separating axes of two nodes.
 
 use super::shape::{Children, OtherNode};
 use super::vector_f32::{TINY, choose, dot, max, min, unit};
 use glam::Vec3;
 
-/// An axis, the gap along it, and how far either side reaches towards the other.
+/// An axis, the gap along it, and each side's reach towards the other.
 #[derive(Clone, Copy)]
 pub(super) struct Axis {
     pub(super) n: Vec3,
@@ -13,10 +13,10 @@ pub(super) struct Axis {
     pub(super) other_reach: f32,
 }
 
-/// The best of three axes: between the centres, or the edges of triangles, and the two nodes' own
-/// normals.
+/// Returns the best of three axes: the one between the centres, or the edges of triangles, and the
+/// two nodes' own normals.
 ///
-/// Homogeneous in the axis: a zero vector gives no gap, and one of any length a sound gap.
+/// Homogeneous in the axis: a zero vector gives no gap, and any other length gives a sound one.
 #[inline(always)]
 pub(super) fn widest<C: Children, P: OtherNode>(
     children: &C,
@@ -35,7 +35,7 @@ pub(super) fn widest<C: Children, P: OtherNode>(
     )
 }
 
-/// The way between the centres when they are nearest, should they go on by `travel` at most.
+/// Returns the axis between the centres when they are nearest, if they move on by at most `travel`.
 #[inline(always)]
 pub(super) fn passing<C: Children, P: OtherNode>(
     children: &C,
@@ -67,7 +67,7 @@ fn along<C: Children, P: OtherNode>(
     }
 }
 
-/// `n` or `−n`, whichever points along `way`.
+/// Returns `n` or `−n`, whichever points along `way`.
 #[inline(always)]
 fn towards(n: Vec3, way: Vec3) -> Vec3 {
     let sign = if dot(n, way) < 0.0 { -1.0 } else { 1.0 };

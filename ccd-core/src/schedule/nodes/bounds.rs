@@ -1,8 +1,8 @@
-//! Eight pairs of nodes at once: how far apart they are, and until when that is certain.
+//! Bounds eight pairs of nodes at once: their distances, and the times for which they stay apart.
 //!
-//! Everything here is relative to the origin of the group that is split, in its body's frame, in
-//! f32, one array lane per child; loops over lanes are what the compiler turns into vector code.
-//! The rounding of every gap and rate is covered by the slacks of [`RelativeMotionF32`].
+//! Everything here is relative to the origin of the split group, in its body's frame, in f32, with
+//! one array lane per child. The compiler vectorises loops over lanes. The slacks of
+//! [`RelativeMotionF32`] cover the rounding of every gap and rate.
 
 use super::axis;
 use super::eight_pairs::{EightPairs, RelativeMotionF32};
@@ -15,21 +15,21 @@ use crate::tolerance::{LOOK_AGAIN, SWEPT, THICKNESS};
 /// The bounds of eight pairs.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Bounds {
-    /// For how long each pair is certainly farther apart than the gap that is to be kept.
+    /// The time for which each pair certainly stays farther apart than the gap to be kept.
     pub(crate) free: [f32; LANES],
-    /// Positive when a pair is so far apart for its size that looking at it again, once its time is
-    /// over, is worth more than splitting it.
+    /// Positive when a pair is so far apart for its size that a second look after its time is worth
+    /// more than a split.
     pub(crate) waits: [f32; LANES],
     /// The thickness of the child along the axis, less that of the other node.
     pub(crate) thicker: [f32; LANES],
-    /// The gap that the free times prove to be kept.
+    /// The gap that the pairs keep for their free times.
     pub(crate) kept: f32,
 }
 
-/// Bounds eight pairs along planes that stand still.
+/// Bounds eight pairs along fixed planes.
 ///
-/// Two axes are tried: the one with the widest gap now, and the one along which the centres are
-/// apart when they are nearest. The first suits pairs that approach, the second pairs that pass.
+/// It tries two axes: the one with the widest gap now, and the one between the centres when they
+/// are nearest. The first suits approaching pairs, the second passing ones.
 #[inline(always)]
 pub(crate) fn bound<C: Children, P: OtherNode, S: Turn, O: Turn>(
     children: &C,
@@ -62,8 +62,8 @@ pub(crate) fn bound<C: Children, P: OtherNode, S: Turn, O: Turn>(
     out
 }
 
-/// Bounds eight pairs along planes that turn with the body of the larger nodes, where those of
-/// [`bound`] do not last as long.
+/// Bounds eight pairs along planes that turn with the body of the larger nodes, for pairs whose
+/// times from [`bound`] run out.
 #[inline(always)]
 pub(crate) fn bound_attached<C: Children, P: OtherNode, S: Turn, O: Turn>(
     children: &C,
@@ -103,18 +103,19 @@ pub(crate) fn bound_attached<C: Children, P: OtherNode, S: Turn, O: Turn>(
     }
 }
 
-/// A small node past a much larger one that turns.
+/// A small node that passes a much larger, turning one.
 struct Past {
-    /// For how long a plane that turns with the large one keeps it apart.
+    /// The time for which a plane that turns with the large node keeps the pair apart.
     attached: f32,
-    /// The rate at which the large one turns, and the distance of the small one from its body's
+    /// The rate at which the large node turns, and the distance of the small one from its body's
     /// centre.
     spin: f32,
     arm: f32,
     /// The radii.
     large: f32,
     small: f32,
-    /// The large one cannot be split, so that only the small one's size decides whether it is far.
+    /// True if the large node cannot be split: then only the small one's size decides whether it is
+    /// far.
     whole: bool,
 }
 

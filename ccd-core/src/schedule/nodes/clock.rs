@@ -1,16 +1,16 @@
-//! For how long a gap stays open.
+//! Computes the time for which a gap stays open, in f32.
 
 use crate::tolerance::CLOCK_F32;
 
-/// The largest τ with `apart ≥ rate τ + bend τ²/2`; 0 for a pair that is not apart by more than
-/// `closed`, also when it recedes, and for NaN.
+/// Returns the largest τ with `apart ≥ rate τ + bend τ²/2`; 0 for NaN and for a pair that is not
+/// apart by more than `closed`, even if it recedes.
 #[inline(always)]
 pub(super) fn free_time(apart: f32, closed: f32, rate: f32, bend: f32) -> f32 {
     let root = (rate * rate + 2.0 * bend * apart).sqrt();
     let approaching = 2.0 * apart / (rate + root);
     let receding = (root - rate) / bend;
     let tau = if rate > 0.0 { approaching } else { receding };
-    // A root that overflowed says nothing.
+    // An overflowed root proves nothing.
     if apart > closed && tau > 0.0 && root <= f32::MAX {
         tau * CLOCK_F32
     } else {
@@ -18,7 +18,7 @@ pub(super) fn free_time(apart: f32, closed: f32, rate: f32, bend: f32) -> f32 {
     }
 }
 
-/// The same on a straight path.
+/// Returns the same on a straight path.
 #[inline(always)]
 pub(super) fn straight_free_time(apart: f32, closed: f32, rate: f32) -> f32 {
     let tau = apart / rate;

@@ -1,4 +1,4 @@
-//! The children of a group, each with one node of the other body, and how fast they close in.
+//! The children of a group, each paired with one node of the other body, and their closing rates.
 
 use super::axis::Axis;
 use super::clock;
@@ -11,19 +11,19 @@ use glam::Vec3;
 /// The relative motion that all lanes share, in f32, with allowances for rounding.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RelativeMotionF32<S, O> {
-    /// The velocity of the split side's centre less that of the other side's.
+    /// The velocity of the split side's centre minus that of the other side's.
     pub(crate) velocity: Vec3,
     pub(crate) split: S,
     pub(crate) other: O,
     /// The time left.
     pub(crate) horizon: f32,
-    /// The gap that is to be kept, and what rounding may do to a gap.
+    /// The gap to be kept, plus the rounding of a gap.
     pub(crate) slack: f32,
-    /// The gap that is kept for certain: the slack less what rounding may do to it.
+    /// The gap that is certainly kept: the slack minus the rounding of a gap.
     pub(crate) kept: f32,
-    /// A gap beyond the slack that is no larger counts as none.
+    /// A gap that exceeds the slack by no more than this counts as closed.
     pub(crate) closed: f32,
-    /// A bound of what rounding may do to a rate.
+    /// A bound of the rounding of a rate.
     pub(crate) rate_slack: f32,
 }
 
@@ -34,7 +34,7 @@ pub(super) struct EightPairs<'a, C, P, S, O> {
     pub(super) motion: &'a RelativeMotionF32<S, O>,
     /// The velocity of the other node's centre due to turning.
     pub(super) other_turning: Vec3,
-    /// No point of the other node moves faster due to turning.
+    /// An upper bound of the other node's points' speeds due to turning.
     pub(super) other_speed: f32,
 }
 
@@ -46,7 +46,7 @@ pub(super) struct Lane {
     pub(super) way: Vec3,
     /// The velocity of the child's centre relative to the other's.
     pub(super) velocity: Vec3,
-    /// No point of the child moves faster due to turning.
+    /// An upper bound of the child's points' speeds due to turning.
     pub(super) speed: f32,
 }
 
@@ -59,7 +59,7 @@ impl<'a, C: Children, P: OtherNode, S: Turn, O: Turn> EightPairs<'a, C, P, S, O>
             other,
             motion,
             other_turning,
-            // A slack on the speeds covers what rounding takes off the bends.
+            // A slack on the speeds covers the rounding of the bends.
             other_speed: length(other_turning)
                 + motion.other.rate() * other.radius()
                 + motion.rate_slack,
@@ -80,11 +80,11 @@ impl<'a, C: Children, P: OtherNode, S: Turn, O: Turn> EightPairs<'a, C, P, S, O>
         }
     }
 
-    /// For how long a plane across the axis, standing still, keeps the pair apart.
+    /// Returns the time for which a fixed plane across the axis keeps the pair apart.
     #[inline(always)]
     pub(super) fn free(&self, pair: &Lane, axis: Axis) -> f32 {
         let motion = self.motion;
-        // n·(v + ω×arm) of the centres, and what the points around them add.
+        // n·(v + ω×arm) of the centres, plus the share of the points around them.
         let mut rate = dot(axis.n, pair.velocity) + motion.rate_slack;
         let mut bend = LEAST_BEND_F32;
         if S::TURNS {

@@ -1,5 +1,5 @@
-//! Splitting one node of a pair: its children against the other node, at the pose of the pair's
-//! clock.
+//! Splits one node of a pair and bounds its children against the other node, at the pose of the
+//! pair's clock.
 
 use super::bounds::Bounds;
 use super::bounds::{Larger, bound, bound_attached};
@@ -29,16 +29,16 @@ pub(crate) struct Expansion {
 /// A node to be split, and the other body's node that its children are paired with.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Split {
-    /// Whose node is split.
+    /// The body of the split node.
     pub(crate) body: Which,
     pub(crate) node: NodeId,
     pub(crate) other: NodeId,
-    /// The children that are wanted.
+    /// The children to be paired.
     pub(crate) lanes: u8,
 }
 
 impl Split {
-    /// A split whose children are all wanted.
+    /// Creates a split with all children.
     pub(crate) fn all(body: Which, node: NodeId, other: NodeId) -> Self {
         Split {
             body,
@@ -57,8 +57,8 @@ pub(crate) fn expand(problem: &Problem<'_>, split: &Split, s: f64) -> Expansion 
     split_node::<AsTheyMove>(&RelativeMotion::new(problem, split, s), split)
 }
 
-/// Splits a node at the start, to measure: what stands for the time for which a pair keeps apart is a
-/// lower bound of its distance.
+/// Splits a node at the start and measures its pairs: their free times are lower bounds of their
+/// distances.
 ///
 /// # Panics
 /// When the node is a single piece.
@@ -95,7 +95,7 @@ fn split_node<P: Pace>(motion: &RelativeMotion<'_>, split: &Split) -> Expansion 
     }
 }
 
-/// The motion of the two bodies past each other at a clock, along the axes of the one whose node is
+/// The relative motion of the two bodies at a clock, along the axes of the body whose node is
 /// split.
 struct RelativeMotion<'p> {
     problem: &'p Problem<'p>,
@@ -104,7 +104,7 @@ struct RelativeMotion<'p> {
     /// The other body's node.
     other: NodeId,
     other_to_split: Frame,
-    /// The velocity of the split body's centre less that of the other one's.
+    /// The velocity of the split body's centre minus that of the other one's.
     velocity: DVec3,
     /// The angular velocity of the other body.
     other_spin: DVec3,
@@ -114,14 +114,14 @@ struct RelativeMotion<'p> {
 
 /// The rate at which gaps close.
 trait Pace {
-    /// For how long members of a group keep apart from the other body's node.
+    /// Bounds the time for which members of a group keep apart from the other body's node.
     fn bound<C: Children, O: OtherNode>(view: &GroupView<'_>, group: &C, other: &O) -> Bounds;
 }
 
-/// As the bodies move.
+/// The bodies' motion.
 struct AsTheyMove;
 
-/// By one unit of length in one of time, along every axis: the time that takes is the distance.
+/// A rate of one unit of length per unit of time, along every axis: the free time is the distance.
 struct UnitRate;
 
 impl Pace for AsTheyMove {
@@ -138,7 +138,7 @@ impl Pace for UnitRate {
 }
 
 impl<'p> RelativeMotion<'p> {
-    // Half of a kilobyte, made once a visit: built where it is used, not moved there.
+    // Half of a kilobyte, made once a visit: built in place, not moved.
     #[inline(always)]
     fn new(problem: &'p Problem<'_>, split: &Split, s: f64) -> Self {
         let (split_side, other_side) = (split.body.of(problem), split.body.other().of(problem));
@@ -177,13 +177,13 @@ impl<'p> RelativeMotion<'p> {
     }
 }
 
-/// The relative motion as a group of the split body sees it.
+/// The relative motion as seen from a group of the split body.
 struct GroupView<'m> {
     motion: &'m RelativeMotion<'m>,
     members: &'m Members,
     /// Relative to the group's origin.
     other_to_split: Frame,
-    /// The same rotation in f32: columns.
+    /// The same rotation in f32, by columns.
     turn: [Vec3; 3],
 }
 
@@ -253,7 +253,7 @@ impl GroupView<'_> {
     ) -> Bounds {
         let velocity = self.motion.velocity.as_vec3();
         let reach = self.members.reach;
-        // An arm is the difference of two places, each rounded where it is.
+        // An arm is the difference of two positions, each rounded in its place.
         let places = other.centre().length() + other_turn.arm(Vec3::ZERO);
         let speed = velocity.length()
             + split_turn.rate() * (reach + split_turn.arm(Vec3::ZERO))
@@ -285,7 +285,8 @@ impl GroupView<'_> {
         bounds
     }
 
-    /// Lower bounds of distances: for how long pairs keep apart that close in at a rate of 1.
+    /// Returns lower bounds of distances: the times for which pairs keep apart at a closing rate of
+    /// 1.
     fn distances<C: Children, P: OtherNode>(&self, group: &C, other: &P) -> Bounds {
         let rounding = self.rounding(other);
         let motion = RelativeMotionF32 {
@@ -299,13 +300,13 @@ impl GroupView<'_> {
             rate_slack: 1.0,
         };
         Bounds {
-            // A second look would see the same.
+            // A second look would give the same result.
             waits: [0.0; LANES],
             ..bound(group, other, &motion)
         }
     }
 
-    /// Bounds what rounding may do to a gap.
+    /// Bounds the rounding of a gap.
     fn rounding<P: OtherNode>(&self, other: &P) -> f32 {
         let [x, y, z] = other.centre().abs().to_array();
         let rounding = WAY_F32 * (x + y + z) + REACH_F32 * (other.radius() + self.members.reach);

@@ -1,4 +1,4 @@
-//! The shapes of nodes, as seen from the group that is split.
+//! The shapes of nodes, as seen from the split group.
 
 use super::vector_f32::{TINY, choose, dot, fused, length, max, min};
 use crate::body::tree::{BoxGroup, LANES, TriangleGroup};
@@ -7,13 +7,13 @@ use glam::Vec3;
 /// The children of a group.
 pub(crate) trait Children {
     fn centre(&self, lane: usize) -> Vec3;
-    /// A unit vector that is likely to separate the child from others, or zero.
+    /// Returns a unit vector that is likely to separate the child from others, or zero.
     fn normal(&self, lane: usize) -> Vec3;
-    /// No point of the child is farther from its centre.
+    /// Returns an upper bound of its points' distances from its centre.
     fn radius(&self, lane: usize) -> f32;
-    /// `max n·(x − centre)` over the child's points.
+    /// Returns `max n·(x − centre)` over the child's points.
     fn reach(&self, lane: usize, n: Vec3) -> f32;
-    /// A point of the child to look from towards `to`.
+    /// Returns a point of the child from which to look towards `to`.
     fn near(&self, lane: usize, to: Vec3) -> Vec3;
     /// Whether the child cannot be split.
     fn is_piece(&self, lane: usize) -> bool;
@@ -22,19 +22,20 @@ pub(crate) trait Children {
 /// The node that all children of a group are paired with.
 pub(crate) trait OtherNode {
     fn centre(&self) -> Vec3;
-    /// A unit vector that is likely to separate the node from others, or zero.
+    /// Returns a unit vector that is likely to separate the node from others, or zero.
     fn normal(&self) -> Vec3;
-    /// No point of the node is farther from its centre.
+    /// Returns an upper bound of its points' distances from its centre.
     fn radius(&self) -> f32;
-    /// `max n·(centre − y)` over the node's points: how far it comes towards −n.
+    /// Returns `max n·(centre − y)` over the node's points: its reach towards −n.
     fn reach(&self, n: Vec3) -> f32;
-    /// A point of the node to look at from `from`.
+    /// Returns a point of the node to look at from `from`.
     fn near(&self, from: Vec3) -> Vec3;
     /// Whether the node cannot be split.
     fn is_piece(&self) -> bool;
 }
 
-/// `min(Σ hₖ |n·uₖ| + r |n|, R |n|)`: of a box grown by its pieces' rounding r, and a ball.
+/// Returns `min(Σ hₖ |n·uₖ| + r |n|, R |n|)`: the reach of a box grown by its pieces' rounding r,
+/// and of a ball.
 #[inline(always)]
 fn box_reach(n: Vec3, axes: [Vec3; 3], half: [f32; 3], [rounding, radius]: [f32; 2]) -> f32 {
     let x = half[0] * dot(n, axes[0]).abs();
@@ -123,7 +124,7 @@ pub(crate) struct OtherBox {
     pub(crate) half: [f32; 3],
     pub(crate) rounding: f32,
     pub(crate) radius: f32,
-    /// Whether it is that of a single piece.
+    /// True if it is the box of a single piece.
     pub(crate) piece: bool,
 }
 
@@ -199,8 +200,8 @@ impl OtherNode for OtherTriangle {
     }
 }
 
-/// The point of a triangle's edges that is nearest to `to`. Where one inside is nearer, the triangle's
-/// normal is the better axis anyway.
+/// Returns the point of a triangle's edges that is nearest to `to`. If an interior point is nearer,
+/// the triangle's normal is the better axis anyway.
 #[inline(always)]
 fn nearest_of_edges(a: Vec3, b: Vec3, c: Vec3, to: Vec3) -> Vec3 {
     let (p, q, r) = (foot(a, b, to), foot(b, c, to), foot(c, a, to));
@@ -208,7 +209,7 @@ fn nearest_of_edges(a: Vec3, b: Vec3, c: Vec3, to: Vec3) -> Vec3 {
     nearer(first, r, to)
 }
 
-/// The point of a segment that is nearest to `to`.
+/// Returns the point of a segment that is nearest to `to`.
 #[inline(always)]
 fn foot(a: Vec3, b: Vec3, to: Vec3) -> Vec3 {
     let edge = b - a;

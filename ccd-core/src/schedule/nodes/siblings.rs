@@ -1,4 +1,4 @@
-//! Pairs that came of one split wait together, and are taken out one by one.
+//! The pairs of one split wait together, and are taken out one by one.
 
 use super::expand::{Expansion, Split};
 use crate::body::tree::{LANES, NodeId};
@@ -9,15 +9,15 @@ use crate::problem::Which;
 /// Up to eight pairs: the children of a node, each with one node of the other body.
 #[derive(Debug)]
 pub(crate) struct Siblings {
-    /// For how long after `since` each pair is certified; infinite once it is done with.
+    /// The time after `since` for which each pair is certified; infinite once the pair is finished.
     free: FreeTimes,
     since: f64,
-    /// The split that the pairs came of.
+    /// The split that created the pairs.
     split: Split,
     first: NodeId,
-    /// The children that are thicker than the other node and are to be split next.
+    /// The children that are thicker than the other node and will be split next.
     thicker: u8,
-    /// The children that are better looked at again than split.
+    /// The children for which a second look is better than a split.
     waits: u8,
 }
 
@@ -31,8 +31,8 @@ pub(crate) enum Next {
 }
 
 impl Next {
-    /// The pair of both roots: of two that can be split the smaller one is, as a large one is best kept
-    /// whole until it matters.
+    /// Creates the pair of both roots. Of two nodes that can be split, the smaller one is: a large
+    /// one is best kept whole until it matters.
     pub(crate) fn roots(problem: &Problem<'_>) -> Self {
         let (a, b) = (problem.a.body.tree(), problem.b.body.tree());
         let body = match (a.piece(0), b.piece(0)) {
@@ -46,7 +46,7 @@ impl Next {
 }
 
 impl Siblings {
-    /// The pair of both roots; that of the given body is to be split.
+    /// Creates the pair of both roots; the given body's root is to be split.
     pub(crate) fn roots(body: Which) -> Self {
         Siblings {
             free: FreeTimes::new(&[0.0; LANES], 1),
@@ -58,7 +58,7 @@ impl Siblings {
         }
     }
 
-    /// The pairs that came of a split at a clock.
+    /// Creates the pairs of a split at a clock.
     pub(crate) fn new(problem: &Problem<'_>, expansion: &Expansion, split: Split, s: f64) -> Self {
         let bounds = &expansion.bounds;
         let (mut thicker, mut waits) = (0, 0);
@@ -81,8 +81,8 @@ impl Siblings {
         }
     }
 
-    /// The least clock among the pairs, never later than what is certified; infinite when all are
-    /// done with.
+    /// Returns the least clock among the pairs, never later than certified; infinite when all are
+    /// finished.
     #[inline]
     pub(crate) fn clock(&self) -> f64 {
         let free = self.free.least();
@@ -103,7 +103,7 @@ impl Siblings {
             body, node, other, ..
         } = self.split;
         let child = self.first + lane as NodeId;
-        // A second look at the same instant would see the same.
+        // A second look at the same instant would give the same result.
         if advanced && self.waits >> lane & 1 == 1 {
             return Next::Split(Split {
                 lanes: 1 << lane,
@@ -122,20 +122,20 @@ impl Siblings {
     }
 }
 
-/// A mask of the first lanes.
+/// Returns a mask of the first `count` lanes.
 fn lanes_below(count: u32) -> u8 {
     u8::MAX >> (LANES as u32 - count)
 }
 
-/// The free times of eight pairs, rounded down to bits that end in the pair's lane: bits of numbers
-/// that are not negative order as the numbers do, so that the least of them names its lane too.
+/// The free times of eight pairs. Each is rounded down to bits that end in the pair's lane. Bits of
+/// non-negative numbers order as the numbers do, so the least of them also names its lane.
 #[derive(Clone, Copy, Debug)]
 struct FreeTimes([u32; LANES]);
 
 const LANE_BITS: u32 = LANES as u32 - 1;
 
 impl FreeTimes {
-    /// Lanes that are not used are done with.
+    /// Lanes that are not used count as finished.
     fn new(free: &[f32; LANES], used: u8) -> Self {
         let mut bits = [0; LANES];
         for (lane, bits) in bits.iter_mut().enumerate() {
@@ -148,17 +148,17 @@ impl FreeTimes {
         FreeTimes(bits)
     }
 
-    /// The least of the times.
+    /// Returns the least of the times.
     #[inline]
     fn least(&self) -> f32 {
         f32::from_bits(self.least_bits() & !LANE_BITS)
     }
 
-    /// Ends the pair of least time; which one it was.
+    /// Finishes the pair of least time, and returns its lane.
     #[inline]
     fn take_least(&mut self) -> usize {
         let least = self.least_bits();
-        // All lanes are written at once: the next look at them need not wait for a single one.
+        // All lanes are written at once: the next read need not wait for a single store.
         self.0 = self.0.map(|bits| match bits == least {
             true => f32::INFINITY.to_bits() | LANE_BITS,
             false => bits,

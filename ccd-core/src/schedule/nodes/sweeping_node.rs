@@ -1,12 +1,12 @@
 //! Planes that turn with one of the bodies.
 //!
-//! A plane that stands still takes the full speed of a turning body's far rim, however small the
-//! other body is. A plane that turns with the body does not: the body's own extent along its normal
-//! stays as it is, and only the other node sweeps towards it.
+//! For a fixed plane the full speed of a turning body's far rim counts, however small the other
+//! body is. For a plane that turns with the body it does not: the body's own extent along its
+//! normal is constant, and only the other node sweeps towards it.
 //!
 //! With `n' = ω×n` and `d` from the turning body's centre to a point of the other node, the height
-//! `f = n·d` has `f' = n·ḋ − (n×ω)·d` and, over a time of at most `H`,
-//! `|f''| ≤ |n×ω|(|ω|(|d| + |ḋ| H) + 2|ḋ|) + |d̈|`.
+//! `f = n·d` has `f' = n·ḋ − (n×ω)·d` and, over a time of at most `H`, `|f''| ≤ |n×ω|(|ω|(|d| + |ḋ|
+//! H) + 2|ḋ|) + |d̈|`.
 
 use super::axis::Axis;
 use super::clock;
@@ -18,18 +18,19 @@ use crate::tolerance::{ATTACHED_TIME, BEND_F32, LEAST_BEND_F32, RATE_F32};
 
 /// The node that sweeps towards a plane attached to the other body.
 struct SweepingNode {
-    /// `n·(v_S − v_O)` at its centre, both taken at that point, and what its points around add.
+    /// `n·(v_S − v_O)` at its centre, with both velocities taken at that point, plus the share of
+    /// the points around.
     rate: f32,
     /// The largest distance of its points from the turning body's centre.
     distance: f32,
-    /// No point of it moves faster due to its own turning.
+    /// An upper bound of its points' speeds due to its own turning.
     speed: f32,
     /// `|ω|` of its own turning.
     own_rate: f32,
 }
 
 impl<C: Children, P: OtherNode, S: Turn, O: Turn> EightPairs<'_, C, P, S, O> {
-    /// For how long a plane that turns with the split body keeps the pair apart.
+    /// Returns the time for which a plane that turns with the split body keeps the pair apart.
     #[inline(always)]
     pub(super) fn free_with_split(&self, axis: Axis) -> f32 {
         let (motion, other) = (self.motion, self.other);
@@ -50,7 +51,7 @@ impl<C: Children, P: OtherNode, S: Turn, O: Turn> EightPairs<'_, C, P, S, O> {
         )
     }
 
-    /// For how long a plane that turns with the other body keeps the pair apart.
+    /// Returns the time for which a plane that turns with the other body keeps the pair apart.
     #[inline(always)]
     pub(super) fn free_with_other(&self, pair: &Lane, axis: Axis) -> f32 {
         let (motion, children) = (self.motion, self.children);
@@ -78,7 +79,7 @@ impl<C: Children, P: OtherNode, S: Turn, O: Turn> EightPairs<'_, C, P, S, O> {
         let speed = straight + sweep.speed;
         let far = sweep.distance + speed * ATTACHED_TIME;
         let bend = across * (spin * far + 2.0 * speed) + sweep.own_rate * sweep.speed;
-        // The sweep takes place at its own distance from the turning body's centre.
+        // The sweep happens at its own distance from the turning body's centre.
         let rate_slack = motion.rate_slack + RATE_F32 * spin * sweep.distance;
         let free = clock::free_time(
             axis.gap - motion.slack,

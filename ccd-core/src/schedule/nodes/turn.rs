@@ -3,14 +3,14 @@
 use super::vector_f32::{cross, length};
 use glam::Vec3;
 
-/// A body's turning; nothing is computed for one that does not turn.
+/// A body's rotation; a body that does not turn costs nothing.
 pub(crate) trait Turn: Copy {
     const TURNS: bool;
-    /// The velocity, due to turning, of the point `x`.
+    /// Returns the velocity of the point `x` due to turning.
     fn velocity(&self, x: Vec3) -> Vec3;
-    /// `n × ω`
+    /// Returns `n × ω`.
     fn across(&self, n: Vec3) -> Vec3;
-    /// `|ω|`, rounded up.
+    /// Returns `|ω|`, rounded up.
     fn rate(&self) -> f32;
     /// Returns the distance of `x` from the rotation's centre.
     fn arm(&self, x: Vec3) -> f32;
@@ -20,7 +20,7 @@ pub(crate) trait Turn: Copy {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Straight;
 
-/// A body that does.
+/// A body that turns.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Turning {
     pub(crate) spin: Vec3,

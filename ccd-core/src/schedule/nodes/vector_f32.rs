@@ -3,7 +3,7 @@
 use crate::tolerance::LEAST_AXIS_F32;
 use glam::Vec3;
 
-/// The least normal number, to divide by instead of zero.
+/// The least normal number, a divisor in place of zero.
 pub(super) const TINY: f32 = f32::MIN_POSITIVE;
 
 #[inline(always)]
@@ -44,7 +44,8 @@ pub(super) fn max(a: f32, b: f32) -> f32 {
     if a > b { a } else { b }
 }
 
-/// The unit vector, or zero for a vector that is too short to have one in f32: along zero there is no gap.
+/// The unit vector, or zero for a vector that is too short to have one in f32: no gap exists along
+/// zero.
 #[inline(always)]
 pub(super) fn unit(a: Vec3) -> Vec3 {
     let length = length(a);

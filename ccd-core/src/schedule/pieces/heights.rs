@@ -1,4 +1,4 @@
-//! The points of a piece seen along an axis that stands still.
+//! The points of a piece seen along a fixed axis.
 
 use crate::body::piece::Piece;
 use crate::math::order::{greater, lesser};
@@ -12,29 +12,29 @@ use std::ops::Deref;
 
 /// The heights of a piece's points along an axis while their body moves.
 ///
-/// Few points are followed one by one. Of many only the lowest one is looked for, along the axis as
-/// the body sees it by then, and so is the one that sinks fastest: heights after a while, and rates,
-/// are products of a vector with the points as they are in the body's frame.
+/// Few points are followed one by one. Of many, only the lowest one is sought, along the axis as
+/// the body then sees it, and the one that sinks fastest. Heights after some time, and rates, are
+/// products of a vector with the points in the body's frame.
 pub(super) struct Heights<'a> {
     piece: &'a Piece<'a>,
     frame: &'a Frame,
-    /// Where the centre is in the body's frame.
+    /// The centre's position in the body's frame.
     centre: DVec3,
     normal: DVec3,
-    /// About which the body turns.
+    /// The axis about which the body turns.
     axis: DVec3,
     along: AxisMotion,
     omega: f64,
     speed: f64,
     least: f64,
     few: Few,
-    /// The bound for all points, where there are many.
+    /// The bound for all points, if there are many.
     bend: f64,
-    /// By how much the lowest of many points may be missed, and how fast that may change.
+    /// The error of the lowest height of many points, and of its rate.
     missed: f64,
 }
 
-/// One point's height, how fast it rises, and how much that may change; or what bounds these of all
+/// One point's height, its rate, and a bound of the second derivative; or bounds of these over all
 /// points from below, and from above.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Point {
@@ -43,7 +43,7 @@ pub(super) struct Point {
     pub(super) bend: f64,
 }
 
-/// Pieces of up to this many points are followed pair of points by pair of points.
+/// Pieces of up to this many points are followed by pairs of points.
 const FEW: usize = 3;
 
 /// The tracks of the first few points; unused ones repeat the last.
@@ -51,7 +51,7 @@ const FEW: usize = 3;
 pub(super) struct Few([(Track, f64); FEW]);
 
 impl Few {
-    /// Where they are after `tau`.
+    /// Returns their states after `tau`.
     #[inline]
     pub(super) fn at(&self, angle: Angle, tau: f64) -> [Point; FEW] {
         self.0.map(|(track, bend)| Point {
@@ -62,7 +62,7 @@ impl Few {
     }
 }
 
-/// Points among which is the lowest, or one that bounds them all.
+/// A set of points that contains the lowest, or one that bounds them all.
 pub(super) enum Lowest {
     Few([Point; FEW]),
     Bound([Point; 1]),
@@ -133,12 +133,12 @@ impl<'a> Heights<'a> {
         self.missed = TURNED_SUPPORT * (farthest + length(middle) + radius);
     }
 
-    /// The fastest that any point moves, in any direction.
+    /// Returns the fastest speed of any point, in any direction.
     pub(super) fn speed(&self) -> f64 {
         self.speed
     }
 
-    /// The least height now.
+    /// Returns the least height now.
     pub(super) fn least(&self) -> f64 {
         self.least
     }
@@ -192,7 +192,7 @@ impl<'a> Heights<'a> {
                 bend: 0.0,
             };
         }
-        // The normal as the turning body sees it.
+        // The normal in the turning body's frame.
         let seen = Spinning::new(-self.axis, self.normal);
         let (axis, slope) = (seen.at(angle), seen.slope_at(angle));
         Point {
@@ -202,13 +202,13 @@ impl<'a> Heights<'a> {
         }
     }
 
-    /// The track of the point that is lowest along a direction in which the body as it is now is seen.
+    /// Returns the track of the point that is lowest along a direction in the body's current frame.
     fn lowest_of(&self, direction: DVec3) -> Track {
         let index = self.piece.extremal(self.frame.inverse_vector(-direction));
         self.track(self.piece.points[index as usize]).0
     }
 
-    /// The points' tracks, and their arms from the centre.
+    /// Returns the points' tracks, and their arms from the centre.
     fn tracks(&self) -> impl Iterator<Item = (Track, DVec3)> {
         self.piece.points.iter().map(|&x| self.track(x))
     }

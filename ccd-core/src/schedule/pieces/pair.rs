@@ -13,7 +13,7 @@ use crate::schedule::meter::Meter;
 use crate::tolerance::RESTING;
 use glam::DVec3;
 
-/// A pair of pieces that is being advanced.
+/// A pair of pieces with its own clock.
 #[derive(Clone, Debug)]
 pub(crate) struct Pair<C> {
     pub(crate) a: u32,
@@ -23,26 +23,28 @@ pub(crate) struct Pair<C> {
     cache: C,
 }
 
-/// The gap that a pair's clock proves, which decides when the pair is in contact; distances beyond
-/// the margin.
+/// The gap that a pair's clock proves, which decides when the pair is in contact. Distances are
+/// measured beyond the margin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Goal {
-    /// In contact at the query's tolerance; half of it is proven kept.
+    /// In contact at the query's tolerance; the clock proves half of it.
     Apart,
-    /// The same for a pair that began in contact and has come apart since.
+    /// The same for a pair that began in contact and has parted since.
     Parted,
-    /// Began in contact to within rounding: in contact once it cannot be proven above this.
+    /// Began in contact, up to rounding: in contact again once it cannot be proven above the floor.
     Resting { floor: f64 },
 }
 
 /// The result of a pair's advance at its clock.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Step {
-    /// Certified apart until this clock, which is past the present one; beyond 1 is forever.
+    /// Certified apart until this clock, which is past the present one; a clock beyond 1 means
+    /// forever.
     FreeUntil(f64),
-    /// Within the tolerance; at the start it may intersect, which the search for the nearest pieces decides.
+    /// Within the tolerance. At the start it may intersect; the search for the nearest pieces
+    /// decides.
     Contact(Contact),
-    /// Intersecting; only at the start.
+    /// Intersecting; at the start only.
     Overlap(Contact),
     /// The next clock is not past the present one.
     Stalled,
@@ -60,7 +62,7 @@ impl<C: Default + Clone> Pair<C> {
         }
     }
 
-    /// Looks at the pair at clock `s`, until which it is certified apart, and certifies it further.
+    /// Examines the pair at clock `s`, until which it is certified apart, and certifies it further.
     pub(crate) fn advance<O: DistanceOracle<Cache = C>>(
         &mut self,
         problem: &Problem<'_>,
@@ -74,8 +76,8 @@ impl<C: Default + Clone> Pair<C> {
         })
     }
 
-    /// The same in a snapshot of the pair, with another rule for how long it keeps a gap;
-    /// pairs that rest on each other are followed as ever.
+    /// Like [`Pair::advance`] in a snapshot of the pair, with another rule for the time for which
+    /// it keeps a gap. Pairs that rest on each other are followed as usual.
     pub(crate) fn advance_by<O: DistanceOracle<Cache = C>>(
         &mut self,
         snapshot: &Snapshot<'_>,
@@ -96,7 +98,7 @@ impl<C: Default + Clone> Pair<C> {
                     Intersection::Certain => {
                         return Step::Overlap(contact(snapshot, ids, &checked));
                     }
-                    // The search for the nearest pieces sees what it comes to.
+                    // The search for the nearest pieces resolves it.
                     Intersection::Undecided => return in_contact(&checked),
                     Intersection::None => {}
                 }
@@ -116,7 +118,8 @@ impl<C: Default + Clone> Pair<C> {
             Goal::Apart | Goal::Parted => (problem.gap(), false),
             Goal::Resting { floor } => (floor, true),
         };
-        // What the axis loses may be all that there is to advance by. Written so that NaN is that, too.
+        // The axis may lose all of the gap that is left to advance by. Written so that NaN counts
+        // as that.
         let checked = match is_resting || !(checked.lower > kept + problem.rounding) {
             true => sharpened(&snapshot.pieces, &checked, problem.rounding),
             false => checked,
@@ -148,7 +151,7 @@ impl<C: Default + Clone> Pair<C> {
         let snapshot = Snapshot::new(problem, self.a, self.b, 0.0);
         let start = snapshot.ask(oracle, &mut C::default(), meter)?;
         let start = sharpened(&snapshot.pieces, &start, problem.rounding);
-        // Written so that NaN is a contact, and so is a pair that no axis was found to keep apart.
+        // Written so that NaN is a contact, as is a pair without a separating axis.
         let resting =
             start.upper <= problem.contact_distance() && start.lower >= -RESTING * problem.rounding;
         if !resting {
@@ -160,7 +163,7 @@ impl<C: Default + Clone> Pair<C> {
     }
 }
 
-/// A checked pair in the world's coordinates, with its features.
+/// Converts a checked pair to the world's coordinates, with its features.
 pub(crate) fn contact(snapshot: &Snapshot<'_>, [a, b]: [u32; 2], checked: &Checked) -> Contact {
     let (problem, a_to_world) = (snapshot.problem, &snapshot.frames[0]);
     let world = |x: DVec3| problem.world(a_to_world.point(x));

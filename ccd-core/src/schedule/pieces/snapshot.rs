@@ -1,4 +1,4 @@
-//! Two pieces at one instant, and for how long an axis keeps them apart from then on.
+//! Two pieces at one instant, and the time for which an axis keeps them apart from then on.
 
 use super::heights::{Heights, Point};
 use super::sweeping_piece::{Member, SweepingPiece};
@@ -18,24 +18,24 @@ use glam::DVec3;
 use std::cell::Cell;
 use std::iter;
 
-/// Two pieces where they are at a clock.
+/// Two pieces at a clock.
 pub(crate) struct Snapshot<'p> {
     pub(crate) problem: &'p Problem<'p>,
     /// The frames of A and B, in the problem's coordinates.
     pub(crate) frames: [Frame; 2],
     pub(crate) pieces: PiecePair<'p>,
     pub(crate) clock: f64,
-    /// The number of times that a gap was followed past a point.
+    /// The number of evaluations of a gap at a point.
     looks: Cell<u64>,
 }
 
 impl<'p> Snapshot<'p> {
-    /// Piece `a` of A and piece `b` of B at a clock.
+    /// Creates the snapshot of piece `a` of A and piece `b` of B at a clock.
     pub(crate) fn new(problem: &'p Problem<'_>, a: u32, b: u32, clock: f64) -> Self {
         Snapshot::of(problem, problem.pieces([a, b]), clock)
     }
 
-    /// Any two convex hulls, of A and of B, at a clock.
+    /// Creates the snapshot of any two convex hulls, of A and of B, at a clock.
     pub(crate) fn of(problem: &'p Problem<'_>, [a, b]: [Piece<'p>; 2], clock: f64) -> Self {
         let frames = [problem.a.path.frame(clock), problem.b.path.frame(clock)];
         let b_to_a = frames[0].from_frame(&frames[1]);
@@ -48,7 +48,7 @@ impl<'p> Snapshot<'p> {
         }
     }
 
-    /// Two other hulls at the same clock.
+    /// Creates the snapshot of two other hulls at the same clock.
     pub(crate) fn with(&self, [a, b]: [Piece<'p>; 2]) -> Self {
         Snapshot {
             pieces: PiecePair {
@@ -61,7 +61,7 @@ impl<'p> Snapshot<'p> {
         }
     }
 
-    /// Asks the oracle and checks what it says; none when it gave up.
+    /// Asks the oracle and checks its claim; none when it gave up.
     pub(crate) fn ask<O: DistanceOracle>(
         &self,
         oracle: &mut O,
@@ -89,9 +89,9 @@ impl<'p> Snapshot<'p> {
         }
     }
 
-    /// A time for which the pieces certainly stay farther apart than `kept`, or none when that is
-    /// for good: across the axis of the claim, or the one on which the witnesses pass each other,
-    /// by a plane that stands still or turns with one of the bodies.
+    /// Returns a time for which the pieces certainly stay farther apart than `kept`, or none when
+    /// they do for good. It tries the axis of the claim, and the one along which the witnesses pass
+    /// each other, with planes that are fixed or turn with one of the bodies.
     pub(crate) fn free_time(&self, checked: &Checked, kept: f64) -> Option<f64> {
         let direct = Plane {
             normal: self.frames[0].rotation * checked.axis,
@@ -109,12 +109,12 @@ impl<'p> Snapshot<'p> {
         Some(free)
     }
 
-    /// As [`Snapshot::free_time`], across the axis of the claim alone, by a bound of how fast either body
-    /// advances along it `[FAST06 §4.2]`; `reaches` are those of the pieces' points from their body's
-    /// axis of rotation.
+    /// Like [`Snapshot::free_time`], along the axis of the claim alone, by a bound of each body's
+    /// advance along it `[FAST06 §4.2]`; `reaches` are those of the pieces' points from their
+    /// body's axis of rotation.
     ///
     /// # Guarantee
-    /// None at all with [`Bound::Published`].
+    /// No guarantee with [`Bound::Published`].
     pub(crate) fn directed_time(
         &self,
         checked: &Checked,
@@ -146,14 +146,15 @@ impl<'p> Snapshot<'p> {
             bend: 0.0,
         };
         let free = gap.free_time();
-        // Written so that NaN is no time at all.
+        // Written so that NaN gives no time.
         (!(free >= self.horizon())).then_some(free)
     }
 
-    /// As [`Snapshot::free_time`] for two pieces, of these indices, that rest on each other.
+    /// Like [`Snapshot::free_time`] for two pieces, of these indices, that rest on each other.
     ///
-    /// Triangles that lie in one plane are kept apart by it on either side, and may still be about to
-    /// pass into each other: where one of them bounds a solid, it is only kept apart on the outside.
+    /// Triangles in one plane are kept apart by it on either side, and may still be about to pass
+    /// into each other. If one of them bounds a solid, the plane keeps them apart on the outside
+    /// only.
     pub(crate) fn resting_time(
         &self,
         checked: &Checked,
@@ -165,13 +166,13 @@ impl<'p> Snapshot<'p> {
             let radii = self.pieces.a.radius + self.pieces.b.radius;
             separation::support_gap(&self.pieces, axis, checked.witness_a) - radii - rounding - kept
         };
-        // Written so that NaN is nothing left.
+        // Written so that NaN counts as nothing left.
         let is_left = |slack: f64| slack > RESTED * rounding;
         let anyhow = || match is_left(checked.lower - kept) {
             true => self.free_time(checked, kept),
             false => Some(0.0),
         };
-        // Also when they have just passed the plane by what rounding makes of resting.
+        // This includes pieces that have just passed the plane by the rounding of resting.
         let in_one_plane = slack(-checked.axis) >= -RESTING * rounding;
         if !in_one_plane {
             return anyhow();
@@ -182,7 +183,7 @@ impl<'p> Snapshot<'p> {
             _ => Some(0.0),
         };
         match (self.problem.a.body.facing(a), self.problem.b.body.facing(b)) {
-            // Which side to keep to is not known: they are not let go.
+            // The side to keep to is unknown: they are not let go.
             (Facing::Unclear, _) | (_, Facing::Unclear) => Some(0.0),
             (Facing::Out(n), Facing::Out(m)) => match -(turn * m) {
                 // Solids on one side of the plane: their faces slide, and cannot meet.
@@ -195,8 +196,8 @@ impl<'p> Snapshot<'p> {
         }
     }
 
-    /// The plane across the way between the witnesses when they are nearest, should they go on as
-    /// they do; none when it does not keep the pieces apart now.
+    /// Returns the plane across the vector between the witnesses when they are nearest, assuming
+    /// constant velocities; none when it does not keep the pieces apart now.
     fn passing(&self, checked: &Checked, kept: f64) -> Option<Plane> {
         let [a, b] = [checked.witness_a, checked.witness_b].map(|w| self.frames[0].point(w));
         let velocity = self.problem.a.path.velocity_at(a, self.clock)
@@ -211,8 +212,8 @@ impl<'p> Snapshot<'p> {
         (slack > 0.0).then_some(Plane { normal, slack })
     }
 
-    /// The same as [`Snapshot::free_along`] by planes that turn with one of the bodies, where it is its
-    /// turning that uses up the slack within `free`; 0 where it is not.
+    /// Like [`Snapshot::free_along`], with planes that turn with one of the bodies, if that body's
+    /// turning uses up the slack within `free`; 0 otherwise.
     pub(super) fn free_attached(
         &self,
         members: &[Member<'_>; 2],
@@ -233,7 +234,7 @@ impl<'p> Snapshot<'p> {
         Some(longest)
     }
 
-    /// Both pieces, of A and of B.
+    /// Returns both pieces, of A and of B.
     pub(super) fn members(&self) -> [Member<'_>; 2] {
         let Problem { a, b, .. } = self.problem;
         let [frame_a, frame_b] = &self.frames;
@@ -243,7 +244,7 @@ impl<'p> Snapshot<'p> {
         ]
     }
 
-    /// Returns how often a gap was followed past a point so far.
+    /// Returns the number of evaluations of a gap at a point so far.
     pub(crate) fn looks(&self) -> u64 {
         self.looks.get()
     }
@@ -256,15 +257,15 @@ impl<'p> Snapshot<'p> {
         1.0 - self.clock
     }
 
-    /// A time for which a fixed axis certainly separates the pieces by what it must, or none when it
-    /// does so for good; `slack` is by how much more than that it separates them now.
+    /// Returns a time for which a fixed axis certainly keeps the required gap, or none when it does
+    /// for good; `slack` is the excess over that gap now.
     ///
     /// Every point's height along the axis is known exactly
-    /// ([`Track`](crate::motion::track::Track)); the least gap between any two of them is followed by
-    /// Newton's method with a bound on its curvature.
+    /// ([`Track`](crate::motion::track::Track)). Newton's method follows the least gap between any
+    /// two points, with a bound on its curvature.
     pub(super) fn free_along(&self, normal: DVec3, slack: f64) -> Option<f64> {
         let (problem, [frame_a, frame_b]) = (self.problem, &self.frames);
-        // What is highest along an axis is lowest the other way round.
+        // The highest point along an axis is the lowest along its opposite.
         let a = Heights::new(&problem.a, &self.pieces.a, frame_a, -normal);
         let b = Heights::new(&problem.b, &self.pieces.b, frame_b, normal);
         let rounding = RATE_F64 * (a.speed() + b.speed());
@@ -272,7 +273,7 @@ impl<'p> Snapshot<'p> {
             true => 1,
             false => AXIS_ROUNDS,
         };
-        // Heights are measured so that the nearest two points are `slack` apart.
+        // The offset of heights makes the nearest two points `slack` apart.
         let free = |above: &Point, below: &Point| {
             let gap = Gap {
                 gap: slack + (above.height - b.least()) + (below.height - a.least()),
@@ -300,7 +301,7 @@ impl<'p> Snapshot<'p> {
     }
 }
 
-/// The least free time of any two points.
+/// Returns the least free time of any two points.
 #[inline]
 fn least_free(above: &[Point], below: &[Point], free: impl Fn(&Point, &Point) -> f64) -> f64 {
     let free = &free;
@@ -314,11 +315,11 @@ fn least_free(above: &[Point], below: &[Point], free: impl Fn(&Point, &Point) ->
 pub(super) struct Plane {
     /// From A to B, in the problem's coordinates.
     pub(super) normal: DVec3,
-    /// By how much more than it must it keeps them apart now.
+    /// The excess over the gap that it must keep, now.
     pub(super) slack: f64,
 }
 
-/// The longer of two free times; none is for good.
+/// Returns the longer of two free times; none is for good.
 fn longer(one: Option<f64>, other: Option<f64>) -> Option<f64> {
     Some(greater(one?, other?))
 }

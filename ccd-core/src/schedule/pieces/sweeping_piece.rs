@@ -1,14 +1,13 @@
 //! A plane that turns with the body of one of the pieces.
 //!
-//! A plane that stands still takes the full speed of a turning piece's far rim, however small the
-//! other piece is. A plane that turns with the body does not: the heights of the body's own piece
-//! stay as they are, and only the other piece sweeps towards it.
+//! For a fixed plane the full speed of a turning piece's far rim counts, however small the other
+//! piece is. For a plane that turns with the body it does not: the heights of the body's own piece
+//! are constant, and only the other piece sweeps towards it.
 //!
 //! A point of the other piece is at `D + r` from the turning body's centre: `D` leads to a point of
-//! reference that moves straight at `V`, `r` turns about it at `ω_s`. With `n' = ω×n` and
-//! `Δ = ω − ω_s` its height `f = n·(D + r)` has
-//! `f' = (ω×n)·D + n·V + (Δ×n)·r` and
-//! `|f''| ≤ |ω×n|(|ω||u×D| + 2|V|) + |Δ|(|ω×n| + |ω_s|)|r|`, where `u` is the direction of `ω`.
+//! reference that moves straight at `V`, and `r` turns about that point at `ω_s`. With `n' = ω×n`
+//! and `Δ = ω − ω_s`, the height `f = n·(D + r)` has `f' = (ω×n)·D + n·V + (Δ×n)·r` and `|f''| ≤
+//! |ω×n|(|ω||u×D| + 2|V|) + |Δ|(|ω×n| + |ω_s|)|r|`, where `u` is the direction of `ω`.
 
 use crate::body::piece::Piece;
 use crate::math::order::lesser;
@@ -20,12 +19,12 @@ use crate::tolerance::{ATTACHED_TIME, AXIS_ROUNDS, RATE_F64, attached_rounding};
 use glam::DVec3;
 use std::cell::Cell;
 
-/// A piece of a body, and where the body is.
+/// A piece of a body, and the body's position.
 pub(super) struct Member<'p> {
     pub(super) side: &'p Side<'p>,
     pub(super) frame: &'p Frame,
     pub(super) piece: Piece<'p>,
-    /// No point rises faster than this relative to the first one, along any axis that stands still.
+    /// An upper bound of how fast any point rises relative to the first one, along any fixed axis.
     pub(super) swing: f64,
 }
 
@@ -43,16 +42,16 @@ impl<'p> Member<'p> {
         }
     }
 
-    /// The same along one axis.
+    /// Returns the same bound along one axis.
     pub(super) fn swing_about(&self, normal: DVec3) -> f64 {
         let path = &self.side.path;
         self.swing * path.spin.cross(normal).length() / path.rate
     }
 }
 
-/// The piece of one body on its way, seen from a plane that turns with the other body.
+/// The moving piece of one body, seen from a plane that turns with the other body.
 pub(super) struct SweepingPiece<'p> {
-    /// `n`, and the `ω` that it turns at.
+    /// `n`, and the `ω` at which it turns.
     normal: Spinning,
     unit: DVec3,
     omega: f64,
@@ -67,18 +66,18 @@ pub(super) struct SweepingPiece<'p> {
     relative: DVec3,
     piece: Piece<'p>,
     frame: &'p Frame,
-    /// Where `D` leads to, in the points' frame, and how far they are from it at most.
+    /// The end of `D` in the points' frame, and the largest distance of the points from it.
     reference: DVec3,
     radius: f64,
-    /// No point is ever farther from the turning body's centre.
+    /// An upper bound of the points' distances from the turning body's centre, at any time.
     reach: f64,
-    /// The displacement of points by rounding, both bodies' together.
+    /// The displacement of points by rounding, for both bodies together.
     misplaced: f64,
     /// The number of times that the plane was followed past a point.
     pub(super) looks: Cell<u64>,
 }
 
-/// The terms of the points' heights and rates after a while: `height + axis·arm` and `rate +
+/// The terms of the points' heights and rates after some time: `height + axis·arm` and `rate +
 /// closing·arm`, with arms in their body's frame.
 struct Turned {
     height: f64,
@@ -88,8 +87,8 @@ struct Turned {
 }
 
 impl<'p> SweepingPiece<'p> {
-    /// Prepares what sweeps past a plane that turns with the body of `holder`; `normal` points from
-    /// there to the other piece, and `rounding` is the problem's.
+    /// Prepares the piece that sweeps past a plane that turns with the body of `holder`; `normal`
+    /// points from there to the other piece, and `rounding` is the problem's.
     pub(super) fn new(
         holder: &Member<'_>,
         other: &Member<'p>,
@@ -97,7 +96,7 @@ impl<'p> SweepingPiece<'p> {
         rounding: f64,
     ) -> Self {
         let (path, own) = (&holder.side.path, &other.side.path);
-        // All points of a body that does not turn go straight: one of the piece's own is nearest.
+        // All points of a body that does not turn move straight: one of the piece's own is nearest.
         let reference = match own.turns() {
             true => own.centre,
             false => other.piece.points[0],
@@ -125,8 +124,8 @@ impl<'p> SweepingPiece<'p> {
         }
     }
 
-    /// A time for which the plane certainly separates the pieces by what it must, or none when it
-    /// does so up to the horizon; `slack` is by how much more than that it separates them now.
+    /// Returns a time for which the plane certainly keeps the required gap, or none when it does up
+    /// to the horizon; `slack` is the excess over that gap now.
     pub(super) fn free_time(&self, slack: f64, horizon: f64) -> Option<f64> {
         let (height, rate) = self.allowances();
         let apart = slack - height - self.least();
@@ -149,12 +148,12 @@ impl<'p> SweepingPiece<'p> {
                     .map(|arm| free(turned.axis.dot(arm), turned.closing.dot(arm)))
                     .fold(f64::INFINITY, lesser),
             };
-            // The bend holds for no longer.
+            // The bend is a bound for that long only.
             lesser(f64::from(ATTACHED_TIME), least)
         })
     }
 
-    /// Bounds what rounding may do to changes of height, and to rates.
+    /// Bounds the rounding of changes of height, and of rates.
     fn allowances(&self) -> (f64, f64) {
         let turns = self.omega + self.own_omega;
         let rounding = attached_rounding(turns);
@@ -165,13 +164,13 @@ impl<'p> SweepingPiece<'p> {
         )
     }
 
-    /// The least of the points' heights at first.
+    /// Returns the least of the points' initial heights.
     fn least(&self) -> f64 {
         let Turned { height, axis, .. } = self.turned(0.0);
         height + self.lowest(axis)
     }
 
-    /// Returns the least reach of the arms along a direction.
+    /// Returns the least height of the arms along a direction.
     fn lowest(&self, direction: DVec3) -> f64 {
         if self.piece.ball().is_some() {
             let lowest = self.piece.points[self.piece.extremal(-direction) as usize];
@@ -181,7 +180,7 @@ impl<'p> SweepingPiece<'p> {
         heights.fold(f64::INFINITY, lesser)
     }
 
-    /// From the point of reference to the points.
+    /// Returns the vectors from the point of reference to the points.
     fn arms(&self) -> impl Iterator<Item = DVec3> {
         let reference = self.reference;
         self.piece.points.iter().map(move |&y| y - reference)
@@ -193,7 +192,7 @@ impl<'p> SweepingPiece<'p> {
         let axis = self.normal.at(angle);
         let way = self.way + self.velocity * tau;
         let turning = self.normal.slope_at(angle) * self.omega;
-        // Rather than every arm, what it is multiplied with is turned, the other way round.
+        // Turns the vectors that the arms are multiplied with backwards, rather than every arm.
         let back = |v| {
             let turned = Spinning::new(-self.own_unit, v).at(own);
             self.frame.inverse_vector(turned)
@@ -206,7 +205,7 @@ impl<'p> SweepingPiece<'p> {
         }
     }
 
-    /// Bounds how heights bend, from `tau` on for as long as [`ATTACHED_TIME`].
+    /// Bounds the second derivative of heights, for [`ATTACHED_TIME`] from `tau` on.
     fn bend(&self, tau: f64) -> f64 {
         let way = self.way + self.velocity * tau;
         let arm = self.unit.cross(way).length() + self.speed * f64::from(ATTACHED_TIME);

@@ -1,4 +1,4 @@
-//! Whether one body lies inside the other's solid at the start, where no two pieces intersect.
+//! Decides whether one body is inside the other's solid at the start, if no two pieces intersect.
 
 mod beside;
 
@@ -16,30 +16,30 @@ use glam::DVec3;
 /// The result for bodies without two pieces that intersect.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Containment {
-    /// A point of one is inside the other one's solid.
+    /// A point of one body is inside the other's solid.
     Inside(Overlap),
-    /// Nothing of either that was looked at is.
+    /// No examined point of either body is inside the other.
     Outside,
     /// Some part could not be decided.
     Undecided,
 }
 
-/// Looks for a point of one body that is inside the other one's solid at the start. `touching` are the
-/// pairs of pieces that no axis keeps apart; no pair intersects.
+/// Searches for a point of one body inside the other one's solid at the start. `touching` are the
+/// pairs of pieces without a separating axis; no pair intersects.
 ///
 /// # Guarantee
-/// A point that is found is inside, by more than rounding. When nothing is found, then nothing is inside
-/// of
+/// A point that is found is inside, by more than rounding. If none is found, the following parts
+/// are not inside:
 /// - any connected part of a body that touches the other nowhere: one point decides for all of it;
-/// - the rest of the other parts, the pieces that touch left out: what is left of a part is in pieces
-///   that each have a corner in common with one that touches, and all their corners are looked at;
+/// - the rest of the other parts, without the pieces that touch: it consists of pieces that each
+///   share a corner with one that touches, and all corners of those are examined;
 /// - pieces that touch and have a volume: the middle decides, as no face passes through;
-/// - and flat ones that touch: at their corners, at the middle, there on the side where their own solid
-///   is, and beside every edge of the other body that lies on them, which is where a surface passes
+/// - flat pieces that touch: examined at their corners, at the middle on the side of their own
+///   solid, and next to every edge of the other body that is on them, where a surface can pass
 ///   through a piece without a face that intersects it.
 ///
-/// A part that is inside by less than rounding is not distinguished from one that touches, nor is
-/// what is beside an edge by less than a thousandth of it.
+/// A part that is inside by less than rounding is not distinguished from one that touches. The same
+/// holds for a part within a thousandth of an edge's length from that edge.
 ///
 /// O((parts + pairs that touch) · log n) where rays meet few triangles.
 pub(crate) fn at_start(problem: &Problem<'_>, touching: &[[u32; 2]]) -> Containment {
@@ -65,7 +65,7 @@ pub(crate) fn at_start(problem: &Problem<'_>, touching: &[[u32; 2]]) -> Containm
     }
 }
 
-/// A body where it is at the start.
+/// A body at its position at the start.
 struct Placed<'a> {
     body: &'a Body,
     frame: Frame,
@@ -84,7 +84,7 @@ impl Placed<'_> {
 struct Search<'a> {
     outer: &'a Placed<'a>,
     inner: &'a Placed<'a>,
-    /// Points nearer to the outer surface than that are neither inside nor outside.
+    /// Points nearer to the outer surface than this are neither inside nor outside.
     reach: f64,
 }
 
@@ -97,7 +97,7 @@ enum Found {
 }
 
 impl Search<'_> {
-    /// `touching` names pieces of the inner and of the outer body.
+    /// Returns the result; `touching` names pieces of the inner and of the outer body.
     fn answer(&self, touching: impl Iterator<Item = [u32; 2]> + Clone) -> Found {
         let mut pieces: Vec<u32> = touching.clone().map(|[inner, _]| inner).collect();
         pieces.sort_unstable();
@@ -117,7 +117,7 @@ impl Search<'_> {
         found
     }
 
-    /// Asks of a point in the inner body's frame.
+    /// Examines a point in the inner body's frame.
     fn point(&self, point: DVec3) -> Found {
         let placed = self.inner.frame.point(point);
         let there = self.outer.frame.inverse_point(placed);
@@ -128,15 +128,15 @@ impl Search<'_> {
         }
     }
 
-    /// Asks of points in turn, until one decides.
+    /// Examines points in turn, until one decides.
     fn any_of(&self, points: impl IntoIterator<Item = DVec3>) -> Found {
         let mut answers = points.into_iter().map(|p| self.point(p));
         let told = answers.find(|found| !matches!(found, Found::Undecided));
         told.unwrap_or(Found::Undecided)
     }
 
-    /// Asks of the extreme points of a part. A part that has all of them on the outer surface is left to the
-    /// pieces that touch.
+    /// Examines the extreme points of a part. A part with all of them on the outer surface is left
+    /// to the pieces that touch.
     fn part(&self, shell: &Shell, touching: &[u32]) -> Found {
         let found = self.any_of(*shell);
         let pieces = self.inner.body.pieces();
@@ -147,8 +147,8 @@ impl Search<'_> {
         }
     }
 
-    /// Asks of a piece that touches: of its corners, which it shares with pieces that do not touch, and
-    /// of a point of the solid below or in it.
+    /// Examines a piece that touches: its corners, which it shares with pieces that do not touch,
+    /// and a point of the solid below or in it.
     fn piece(&self, piece: u32) -> Found {
         let body = self.inner.body;
         let corners = match body.pieces().len() {
@@ -161,7 +161,7 @@ impl Search<'_> {
         }
         match body.point_inside(piece) {
             Some(point) => self.any_of([point]),
-            // Of a surface that lies on the other's nothing is inside.
+            // No point of a surface that is on the other's surface is inside.
             None => match self.point(body.middle(piece)) {
                 Found::Undecided => Found::Nothing,
                 found => found,
@@ -169,7 +169,8 @@ impl Search<'_> {
         }
     }
 
-    /// Asks of points of a flat piece beside edges that lie on it. Some of them are next to faces.
+    /// Examines points of a flat piece next to edges that are on it. Some of them are next to
+    /// faces.
     fn edges(&self, [inner, outer]: [u32; 2]) -> Found {
         let piece = self.inner.body.pieces().get(inner as usize);
         if !piece.is_flat() {

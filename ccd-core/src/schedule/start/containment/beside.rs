@@ -1,4 +1,4 @@
-//! Points of a flat piece on either side of where edges of another piece lie on it.
+//! Points of a flat piece on either side of another piece's edges on it.
 
 use crate::body::piece::Piece;
 use crate::math::order::{greater, lesser};
@@ -7,11 +7,13 @@ use crate::math::vector::unit_or_any;
 use crate::tolerance::BESIDE_EDGE;
 use glam::DVec3;
 
-/// For every edge of `other` that lies on a flat piece, points of the piece beside the middle of what of
-/// the edge is on it. Edges are level that leave the piece's plane by no more than `reach`.
+/// For every edge of `other` that is on a flat piece, returns points of the piece on either side of
+/// the middle of their common part. An edge counts as on the piece if it leaves its plane by at
+/// most `reach`.
 ///
-/// A surface that passes through a piece's inside without any of its faces intersecting it does so along
-/// such edges. For what lies in the plane as a whole, the faces beyond its edges decide.
+/// A surface that passes through a piece's inside, without any of its faces intersecting it, does
+/// so along such edges. For a part that is entirely in the plane, the faces beyond its edges
+/// decide.
 pub(super) fn beside_edges(
     piece: &Piece<'_>,
     other: &Piece<'_>,
@@ -31,7 +33,7 @@ pub(super) fn beside_edges(
     if (0..placed.len() as u32).all(|k| is_level(&k)) {
         return Vec::new();
     }
-    // Of the sides of the piece: a point on each, and the way in.
+    // For each side of the piece: a point on it, and the inward direction.
     let sides: Vec<(DVec3, DVec3)> = (0..corners.len())
         .map(|k| (corners[k], corners[(k + 1) % corners.len()]))
         .map(|(from, to)| (from, normal.cross(to - from)))
@@ -73,7 +75,7 @@ pub(super) fn beside_edges(
     found
 }
 
-/// The edges of a piece, by its points, each at least once.
+/// Returns the edges of a piece, by its points, each at least once.
 fn edges(piece: &Piece<'_>) -> Vec<[u32; 2]> {
     let around = |corners: &[u32]| -> Vec<[u32; 2]> {
         let ends = |k: usize| [corners[k], corners[(k + 1) % corners.len()]];
