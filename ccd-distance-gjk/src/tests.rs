@@ -151,7 +151,7 @@ fn random<O: DistanceOracle + Default>(a: usize, b: usize) {
 }
 
 fn near_contact<O: DistanceOracle + Default>(meeting: Meeting, gap: f64) {
-    // Tilted faces are nearest at a corner, which may lie beside the other face.
+    // Tilted faces are nearest at a corner, which may be outside of the other face's prism.
     let slack = match meeting {
         Meeting::ParallelFaces => 1e-8,
         _ => 0.0,
@@ -185,7 +185,7 @@ fn degenerate<O: DistanceOracle + Default>() {
     over(scene::degenerate, law);
 }
 
-/// Coordinates of 1e6 cost the rounding of where the pieces are, not that of what they are.
+/// Coordinates of 1e6 cost the rounding of the pieces' positions, not of their shapes.
 fn far_from_the_origin<O: DistanceOracle + Default>() {
     let draw =
         |rng: &mut Pcg64| scene::near_contact(rng, Meeting::CornerFace, 1e-6).reframed(rng, 1e6);

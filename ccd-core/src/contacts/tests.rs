@@ -46,7 +46,7 @@ fn names(pairs: &[FeaturePair]) -> Vec<String> {
     names
 }
 
-/// How many pairs there are of vertices with faces, of edges, and of anything else.
+/// Counts the pairs of vertices with faces, of edges, and all others.
 fn kinds(pairs: &[FeaturePair]) -> [usize; 3] {
     let mut counts = [0; 3];
     for pair in pairs {
@@ -83,7 +83,7 @@ fn check_bounds(pairs: &[FeaturePair], distance: f64, normal: DVec3) {
 fn a_cube_flat_on_a_slab_has_its_four_corners_on_the_face() {
     for cube in cuboids(DVec3::splat(0.5)) {
         for slab in cuboids(DVec3::new(3.0, 3.0, 1.0)) {
-            // Over the diagonals of the slab's triangulation, and beside them; touching as well.
+            // Over the diagonals of the slab's triangulation, and next to them; also in contact.
             for (x, y) in [(0.0, 0.0), (0.3, 0.1), (0.25, -0.75)] {
                 for gap in [5e-4, 1e-6, 0.0] {
                     let pairs = contacts(&cube, &slab, at(x, y, 1.5 + gap), 1e-3);
@@ -205,7 +205,7 @@ fn what_has_no_number_goes_by_its_piece() {
     }
 }
 
-/// What is kept apart by a margin is in contact at that distance.
+/// Bodies at the distance of the margin are in contact.
 #[test]
 fn a_margin_is_reached_across() {
     let cube = Mesh::cuboid(DVec3::splat(0.5)).body(Volume::Solid);
@@ -283,7 +283,7 @@ fn no_pair_of_meshes_that_nearly_rest_is_missed() {
     assert!(found[0] > 1000 && found[1] > 1000, "{found:?}");
 }
 
-/// Holds the pairs against the twin's, names and distances, both ways round.
+/// Compares the pairs with the twin's, names and distances, in both orders.
 fn compare(a: &Mesh, b: &Mesh, pose: Pose, tolerance: f64, found: &mut [usize; 3], round: usize) {
     let (body_a, body_b) = (a.body(Volume::Surface), b.body(Volume::Surface));
     let config = Config {
@@ -348,13 +348,13 @@ fn compare(a: &Mesh, b: &Mesh, pose: Pose, tolerance: f64, found: &mut [usize; 3
     assert_eq!(pairs, problem.contacts_at(0.0).unwrap());
 }
 
-/// Fine plates face to face: a million pairs of triangles, of which those near each other are looked at.
+/// Fine plates face to face: of a million pairs of triangles, only near ones are visited.
 #[test]
 fn fine_plates_face_to_face_are_no_trouble() {
     let rng = &mut rng(73);
     let plate = Mesh::terrain(rng, 60, 3.0, 0.0);
     let body = plate.body(Volume::Surface);
-    // By half a cell: every vertex is over a face, but for those beyond the other plate.
+    // Shifted by half a cell: every vertex is over a face, except those beyond the other plate.
     let cell = 6.0 / 60.0;
     let pairs = contacts(&body, &body, at(0.3 * cell, 0.2 * cell, 5e-4), 1e-3);
     // Along two sides, 61 and 60 vertices of either plate hang over.

@@ -1,4 +1,4 @@
-//! What makes a query, and in which units it is put.
+//! Inputs of a query, and its internal units.
 
 use super::*;
 use crate::motion::pose::Pose;

@@ -1,5 +1,5 @@
-//! Arithmetic with twice the digits of f64: the reference that allowances for rounding are sampled
-//! against. A number is the unevaluated sum of two f64, right to about 1e-31.
+//! Double-double arithmetic: the reference for samples of the allowances for rounding. A number is
+//! the unevaluated sum of two f64, with a relative error of about 1e-31.
 
 use crate::math::order::greater;
 use crate::motion::Motion;
@@ -180,7 +180,7 @@ impl Double3 {
         Double3(self.0.map(|x| x / length))
     }
 
-    /// Turned by the rotation that a quaternion names, of whatever length it is.
+    /// Turned by the rotation of a quaternion of any length.
     fn rotated(self, q: DQuat) -> Double3 {
         let v = Double3::from(q.xyz());
         let w = Double::from(q.w);
@@ -260,7 +260,7 @@ impl Ends {
         start + (end - start).scale(share) + arm
     }
 
-    /// The quaternion from the one to the other, of whatever length, its real part not negative.
+    /// The quaternion from the first to the second, of any length, with a non-negative real part.
     fn turn(&self) -> ([Double; 3], Double) {
         let [from, to] = self.turned;
         let [v, u] = [from.xyz(), to.xyz()].map(Double3::from);
@@ -282,7 +282,7 @@ fn has_twice_the_digits() {
     assert!((one - Double::from(1.0)).get().abs() < 1e-31);
     let root = Double::from(2.0).sqrt();
     assert!((root * root - Double::from(2.0)).get().abs() < 1e-31);
-    // sin² + cos² = 1, and the double angle by another way, also after many turns.
+    // sin² + cos² = 1, and the double angle by another formula, also after many turns.
     for angle in [1e-9, 0.3, 2.0, -7.5, 1e3, 1e6] {
         let (sin, cos) = Double::from(angle).sin_cos();
         let scale = 1e-30 * greater(1.0, angle.abs());

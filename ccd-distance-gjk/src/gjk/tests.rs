@@ -158,12 +158,13 @@ fn a_fan_finds_the_axis_between_its_edges() {
     {
         assert!(fan.push(vertex(x, y, 1e-3, k as u32 + 1)));
     }
-    // Every vertex lies above: with the axis z they would stand at 0, as with all axes they touch.
+    // Every vertex is above: along the axis z they would be at 0, as along all axes at which they
+    // touch.
     let (axis, low) = fan.best(DVec3::X);
     assert!(low >= -1e-15 && axis.z > 0.99, "{axis} stands at {low}");
 }
 
-/// The search alone does stall on nearly parallel edges, and what follows it makes that good.
+/// The search alone stalls on nearly parallel edges, and the next steps correct that.
 #[test]
 fn stalled_searches_are_taken_up_again() {
     let (mut stalled, mut short) = (0, 0);

@@ -108,8 +108,8 @@ pub(super) fn is_symmetric<O: DistanceOracle + Default>(scene: &Scene) {
     );
 }
 
-/// Whatever a cache holds, the answer is worth as much; and an oracle that has been used before
-/// says the very same as a new one.
+/// The quality of the answer does not depend on the cache, and a used oracle gives the same answer
+/// as a new one.
 pub(super) fn ignores_history<O: DistanceOracle + Default>(scenes: &[Scene]) {
     let (mut used, mut cache) = (O::default(), O::Cache::default());
     for scene in scenes {

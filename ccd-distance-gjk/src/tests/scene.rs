@@ -111,7 +111,7 @@ pub(crate) fn magnitude(rng: &mut Pcg64, low: f64, high: f64) -> f64 {
     10f64.powf(rng.random_range(low..high))
 }
 
-/// Hulls of so many random points at a random distance: apart, or intersecting, as it comes.
+/// Hulls of `a` and `b` random points at a random distance: apart or intersecting.
 pub(crate) fn random(rng: &mut Pcg64, a: usize, b: usize) -> Scene {
     let offset = rng.random_range(0.0..2.5) * vector(rng).normalize();
     let b = points(rng, b).iter().map(|y| *y + offset).collect();

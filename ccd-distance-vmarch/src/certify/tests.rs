@@ -80,7 +80,7 @@ fn what_makes_no_sense_is_given_up() {
         let cap = certify(&placed, End::Cap(pair), &mut counters);
         assert!(matches!(cycle.err(), None | Some(GiveUp::Cycle)));
         assert!(matches!(cap.err(), None | Some(GiveUp::StepCap)));
-        // What is said to be a cycle has been counted as one.
+        // An end reported as a cycle is counted as one.
         for end in [End::Unclear(pair), End::Nearest(pair, Certainty::Tied)] {
             let mut counters = Counters::default();
             let why = certify(&placed, end, &mut counters).err();

@@ -1,4 +1,4 @@
-//! Lines over the top of a cube, and beside each other.
+//! Lines over the top of a cube, and parallel to each other.
 
 use super::{beside, to_prism};
 use crate::placed::{Line, Placed};

@@ -98,7 +98,7 @@ fn nearest_points_are_nearest_at_every_angle() {
         };
         let [s, t] = nearest(&one, &other).parameters;
         let distance = one.at(s).distance(other.at(t));
-        // What alternating feet come to from there, and from every end.
+        // The limit of alternating feet from there, and from every end.
         let mut best = distance;
         for start in [s, 0.0, one.length, 0.5 * one.length] {
             let mut s = start;

@@ -1,4 +1,4 @@
-//! Needles over, through and beside the top of a cube.
+//! Needles over, through and next to the top of a cube.
 
 use super::next;
 use crate::feature::{Feature, Next, Whose};

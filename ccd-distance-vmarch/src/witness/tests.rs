@@ -1,4 +1,4 @@
-//! Nearest points on features, and what they are combined of.
+//! Nearest points on features, and their combinations.
 
 use super::{Witness, foot};
 use crate::feature::{Feature, Pair};
@@ -156,7 +156,7 @@ fn feet_beside_the_triangle_are_clamped_into_it() {
 }
 
 /// Needles that cross at a small angle, close by: rounding of the axis along them would cost a
-/// hundred times what their positions are rounded by.
+/// hundred times the rounding of their positions.
 #[test]
 fn axes_certify_what_crosses_at_any_angle() {
     let mut rng = Pcg64::seed_from_u64(9);

@@ -1,4 +1,4 @@
-//! Trees of few nodes, made by hand: what is inherited, what is refused.
+//! Small trees, made by hand: inherited data, and refused nodes.
 
 use super::*;
 use crate::body::feature::Feature;
@@ -274,7 +274,7 @@ fn hulls_that_are_none_are_refused() {
         refused(&|facets| facets.push(BOX[0].to_vec())),
         HullFault::Open { facet: 6 }
     );
-    // Inside out, too small, or none at all.
+    // Inside out, too small, or without facets.
     let outside = |child, point| HullFault::ChildOutside { child, point };
     assert_eq!(
         refused(&|facets| facets.iter_mut().for_each(|f| f.reverse())),
@@ -311,7 +311,7 @@ fn bodies_take_the_trees_of_their_pieces_only() {
     let tree = HullTree::new(&pieces, &nodes).unwrap();
     let body = Body::new(&pieces, Volume::Surface).unwrap();
     let body = body.with_hull_tree(tree.clone()).unwrap();
-    // Whatever order the body has its pieces in.
+    // The order of the body's pieces does not matter.
     let kept = body.hull_tree().unwrap();
     for (at, node) in kept.hierarchy().nodes().iter().enumerate() {
         if let HierarchyNode::Leaf(piece) = node {

@@ -1,4 +1,4 @@
-//! What pieces refuse, and what they call their features.
+//! Refused pieces, and the features of pieces.
 
 use super::*;
 use crate::body::Body;
@@ -116,7 +116,7 @@ fn boxes_name_corners_edges_and_facets() {
     assert_eq!(pieces.feature(0, &mean(&[5])), Feature::Vertex(5));
     // Corners 0 and 1 differ in x alone: an edge.
     assert_eq!(pieces.feature(0, &mean(&[1, 0])), Feature::Edge(0, 1));
-    // 0 and 3 lie across the face towards −z; 0 and 7 across the box.
+    // 0 and 3 are opposite in the face towards −z; 0 and 7 in the box.
     assert_eq!(pieces.feature(0, &mean(&[0, 3])), Feature::Face(4));
     assert_eq!(pieces.feature(0, &mean(&[0, 7])), Feature::Piece(0));
     assert_eq!(pieces.feature(0, &mean(&[1, 3, 7])), Feature::Face(1));

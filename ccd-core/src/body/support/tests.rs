@@ -1,5 +1,5 @@
-//! Polytopes whose facets are known by construction, in whole numbers: climbing against looking at
-//! every corner.
+//! Polytopes with facets known by construction, with integer coordinates: climbing against a scan
+//! of every corner.
 
 mod tree;
 

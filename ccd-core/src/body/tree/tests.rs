@@ -1,4 +1,4 @@
-//! What every tree must be, for bodies of every kind.
+//! Properties of every tree, for bodies of every kind.
 
 use super::*;
 use crate::body::pieces::Pieces;

@@ -1,4 +1,5 @@
-//! What is flat makes the same pairs however it is cut; pieces of many faces, or that share corners.
+//! The pairs of flat surfaces do not depend on the cut; pieces of many faces, or with shared
+//! corners.
 
 use super::*;
 use crate::body::pieces::Pieces;
@@ -25,7 +26,7 @@ fn hull_cut_about_its_middles(half: DVec3) -> Body {
     .unwrap()
 }
 
-/// A point's place on the inside of a flat side is its foot, whatever triangles the side is cut into.
+/// The place of a point on a flat side is its foot, for any triangulation of the side.
 #[test]
 fn no_place_on_a_side_but_the_foot_is_told() {
     let rng = &mut rng(74);
@@ -126,7 +127,7 @@ fn a_piece_of_many_faces_is_put_in_order_once() {
     assert!(of_hull.iter().zip(&of_triangles).all(same));
     let back = gaps(&socket, &hull, at(0.0, 0.0, -0.0099));
     assert_eq!(of_hull.len(), back.len());
-    // What is looked at is counted.
+    // Visits are counted.
     let config = Config {
         budget: 2 * count,
         ..config

@@ -1,4 +1,4 @@
-//! All pairs of features, the slow and obvious way.
+//! All pairs of features by brute force.
 
 use crate::body::feature::Feature;
 use crate::body::pieces::Pieces;
@@ -250,7 +250,7 @@ impl Offers {
         self.offer(names, distance, clear);
     }
 
-    /// Leaves out what a larger part covers, and gives points on edges within planes to faces.
+    /// Drops pairs that a larger part covers, and assigns points on edges within planes to faces.
     fn told(self, meshes: [&Mesh; 2]) -> Expected {
         let larger = |key: &Key, other: &Key| {
             (0..2).any(|k| {
@@ -270,7 +270,8 @@ impl Offers {
             };
             format!("{} {}", side(0), side(1))
         };
-        // How much nearer one of the faces beside an edge within a plane is than a point on it.
+        // The distance by which one of the faces at an edge within a plane is nearer than a point
+        // on it.
         let nearer = |key: &Key, distance: f64| -> f64 {
             let of_side = |k: usize| {
                 let Feature::Vertex(v) = key[1 - k] else {

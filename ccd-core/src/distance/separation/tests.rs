@@ -1,4 +1,4 @@
-//! Claims are checked, true ones and lies alike.
+//! Checks of true and false claims.
 
 use super::sharp::sharpened;
 use super::*;
@@ -131,7 +131,7 @@ fn weights_that_overflow_are_a_lie_like_any_other() {
         let checked = check(&pair, &claim, ROUNDING);
         assert!(checked.upper >= 5.0, "{weight:e}: {}", checked.upper);
         assert!(checked.witness_a.is_finite(), "{weight:e}");
-        // In the triangle's hull.
+        // The point is in the triangle's hull.
         let at = checked.witness_a;
         assert!(
             at.min_element() >= 0.0 && at.x + at.y <= 1.0 + 1e-12,
@@ -164,7 +164,7 @@ fn radii_are_taken_off_and_witnesses_lie_on_the_surface() {
     assert_eq!(checked.core_distance, 3.0);
 }
 
-/// The way between near points is rounded; large triangles lose what that tilts it by.
+/// The vector between near points is rounded; large triangles lose distance by its tilt.
 #[test]
 fn features_have_better_axes_than_near_points() {
     let mut rng = rng(3);

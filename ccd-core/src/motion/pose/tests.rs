@@ -1,4 +1,4 @@
-//! Poses and frames say the same, and refuse what is none.
+//! Poses and frames agree, and refuse invalid input.
 
 use super::{Frame, Pose};
 use crate::error::InputError;

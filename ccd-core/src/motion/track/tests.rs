@@ -1,4 +1,4 @@
-//! Tracks against the formula they stand for, and the three bounds against sampled truth.
+//! Tracks against their defining formula, and the three bounds against samples.
 
 use super::{Angle, AxisMotion, Track};
 use crate::math::order::{greater, lesser};
@@ -113,7 +113,7 @@ fn the_first_crossing_is_never_late_and_near() {
         let found = found.expect("a crossing that samples find");
         assert!(found <= at(k));
         crossings += 1;
-        // What is left is not worth a round.
+        // The rest is not worth a round.
         let (mut low, mut high) = (at(k - 1), at(k));
         for _ in 0..100 {
             let middle = 0.5 * (low + high);

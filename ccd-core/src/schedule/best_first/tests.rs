@@ -1,4 +1,4 @@
-//! Whole queries: against sampled truth, the naive twin, tiny budgets, and a million pairs at once.
+//! Whole queries: against samples, the naive schedule, tiny budgets, and a million pairs at once.
 
 use super::*;
 use crate::body::combination::Combination;
@@ -179,7 +179,7 @@ fn an_oracle_that_gives_up_or_lies_never_makes_an_answer_late() {
             Outcome::Contact { time, .. } => time,
             _ => 1.0,
         };
-        // A contact may be told within the tolerance of when it is: never after.
+        // A contact may be reported earlier than it happens, within the tolerance, but never later.
         let touch = (0..=64)
             .map(|k| truth + (1.0 - truth) * f64::from(k) / 64.0)
             .find(|&s| distance(&problem, s) <= problem.margin);
@@ -287,8 +287,8 @@ fn plates(rng: &mut Pcg64, count: usize, lowest: f64, step: f64) -> Body {
     Body::with_hierarchy(&pieces, &hierarchy, Volume::Surface).unwrap()
 }
 
-/// Each plate of one body is between two of the other: all ten million pairs have to be told apart
-/// at the start, and wait for their clocks.
+/// Each plate of one body is between two of the other: all ten million pairs have to be proven
+/// apart at the start, and wait for their clocks.
 #[test]
 fn a_million_groups_of_pairs_wait_at_once() {
     const COUNT: usize = 3_200;
@@ -320,7 +320,7 @@ fn a_million_groups_of_pairs_wait_at_once() {
         time <= exact && time >= exact - all.tolerance,
         "{time} of {exact}"
     );
-    // Not enough visits for all: what is certified until then is no later.
+    // Not enough visits for all: the certified time is then not later.
     let some = answer(1_000_000);
     let Outcome::Unresolved { safe_until, reason } = some.outcome else {
         panic!("a million visits are not enough: {some:?}");
@@ -329,8 +329,8 @@ fn a_million_groups_of_pairs_wait_at_once() {
     assert!(safe_until <= time);
 }
 
-/// A triangle of size 200 turns about a line below a thousand small ones: what is kept apart from it
-/// by a plane that turns with it need not be split, and stays so for a while at once.
+/// A triangle of size 200 turns about a line below a thousand small ones. Nodes that a plane which
+/// turns with it keeps apart need no split, and stay apart for a while.
 #[test]
 fn a_large_piece_turns_past_many_small_ones_at_little_cost() {
     let small = |k: u32| {

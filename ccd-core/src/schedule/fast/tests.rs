@@ -174,7 +174,7 @@ fn answers_are_right_and_those_of_the_other_schedules() {
         let boxes = BestFirst::default().solve(&problem, &mut Exhaustive);
         let twin = Naive::default().solve(&problem, &mut Exhaustive);
         let time = checked(&problem, &solve(&problem).outcome);
-        // Every schedule that looks at pieces at the start finds what is within the tolerance there.
+        // Every schedule that visits pieces at the start finds those within the tolerance there.
         let twin = checked(&problem, &twin.outcome);
         assert_eq!(time <= 0.0, twin <= 0.0, "{number}");
         for other in [twin, checked(&problem, &boxes.outcome)] {

@@ -1,5 +1,5 @@
-//! Bodies that begin within the margin: against all pairs of triangles, under every budget, under
-//! every schedule.
+//! Bodies that begin within the margin: against all pairs of triangles, with every budget and every
+//! schedule.
 
 use crate::body::Body;
 use crate::body::combination::Combination;
@@ -43,7 +43,7 @@ fn tori<R>(cuts: Cuts, x: f64, config: &Config, then: impl FnOnce(&Problem<'_>) 
     then(&Problem::new(moving(x), moving(0.0), 1.0, config).unwrap())
 }
 
-/// How often a torus is cut around its axis, and about its tube.
+/// The number of cuts of a torus around its axis, and about its tube.
 #[derive(Clone, Copy)]
 struct Cuts {
     around: usize,

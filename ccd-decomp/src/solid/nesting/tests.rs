@@ -87,7 +87,7 @@ fn shells_that_cross_are_one_solid_outside_and_unclear_within_another() {
     assert_eq!(counts(&cubes(&pair(false))), [0, 0]);
     assert_eq!(counts(&cubes(&pair(true))), [1, 0]);
     let around = |inward: bool| (0.1 * DVec3::ONE, 9.0, inward);
-    // Two that are wound as what is around them are part of it.
+    // Two shells with the same orientation as their surroundings are part of them.
     let part = [pair(false).as_slice(), &[around(false)]].concat();
     assert_eq!(counts(&cubes(&part)), [0, 0]);
     // Two cavities that cross, or a solid that crosses a cavity.

@@ -1,4 +1,4 @@
-//! What is stored is read again, and checked.
+//! Stored trees are read again, and checked.
 
 use super::*;
 use crate::body::hierarchy::Hierarchy;
@@ -71,7 +71,7 @@ fn what_is_read_is_checked() {
     assert!(read::<HullTree>(&bytes(&(&polytopes, &nodes))).is_none());
 }
 
-/// Whatever is amiss with the bytes, there is an error or a tree that holds.
+/// Damaged bytes give an error or a valid tree.
 #[test]
 fn no_bytes_make_it_panic() {
     let (_, tree) = sample();

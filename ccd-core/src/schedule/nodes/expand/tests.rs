@@ -1,14 +1,14 @@
-//! Every free time of every lane is checked against sampled truth, in f64, vertex by vertex.
+//! Every free time of every lane is checked against samples, in f64, vertex by vertex.
 
 use super::*;
 use crate::math::order::{greater, lesser};
 use crate::tests::nearest::{Triangle, nearest};
 use crate::tests::scene::{Kind, Pcg64, RngExt, Scene, rng, scene};
 
-/// At how many times within its free time a lane is looked at, ends included.
+/// The number of samples of a lane within its free time, ends included.
 const SAMPLES: usize = 17;
 
-/// What came of an audit, so that a test can tell that it tested something.
+/// The counts of an audit, which show that a test covers its cases.
 #[derive(Debug, Default)]
 struct Tally {
     /// Lanes with a free time, all checked, and lanes without.
@@ -21,7 +21,7 @@ struct Tally {
     /// Samples proven apart by one axis, and else by comparing all triangles.
     by_axis: usize,
     by_pieces: usize,
-    /// Which roles were split, of which kind, against what.
+    /// The split roles, by kind and by the other node.
     by_role: [usize; 2],
     boxes: usize,
     triangles: usize,
@@ -44,7 +44,7 @@ fn free_times_hold_for_what_slides_past() {
 fn free_times_hold_near_the_rim_of_a_turning_body() {
     let tally = audit(Kind::Rim, 3, 45_000);
     shares_are_substantial(&tally);
-    // Planes that turn with the larger body are what such scenes need.
+    // Such scenes need planes that turn with the larger body.
     assert!(20 * tally.attached > tally.free, "{tally:?}");
 }
 
@@ -67,7 +67,7 @@ fn shares_are_substantial(tally: &Tally) {
     assert!(20 * tally.against_triangle > tally.free, "{tally:?}");
 }
 
-/// Checks lanes of random scenes until enough had a free time.
+/// Checks lanes of random scenes until enough of them have a free time.
 fn audit(kind: Kind, seed: u64, lanes: usize) -> Tally {
     let mut rng = rng(seed);
     let mut tally = Tally::default();
@@ -107,7 +107,8 @@ struct Lane {
 }
 
 impl Audit<'_> {
-    /// From the roots to a pair of pieces, splitting either side, each time at another clock.
+    /// Descends from the roots to a pair of pieces, splitting either side, each time at another
+    /// clock.
     fn descend(&self, rng: &mut Pcg64, tally: &mut Tally) {
         let mut ids = [0, 0];
         let (a, b) = (self.problem.a.body.tree(), self.problem.b.body.tree());

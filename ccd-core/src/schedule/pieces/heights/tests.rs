@@ -1,4 +1,4 @@
-//! What is found of many points at once against following all of them.
+//! Bounds of many points at once against tracks of all of them.
 
 use super::*;
 use crate::body::Body;

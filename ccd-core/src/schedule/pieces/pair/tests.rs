@@ -89,9 +89,9 @@ fn what_touches_at_the_start_is_let_go_unless_it_approaches() {
     assert!(matches!(step, Step::FreeUntil(_)), "resting");
     let (s, step) = balls(x, 1.0, &config, run);
     assert!(matches!(step, Step::Contact(_)), "approaching");
-    // Never late but for what rounding makes of resting.
+    // Never late, except for the rounding of resting.
     assert!(s <= 1e-12, "{s}");
-    // Touching again after it came apart is a contact at the query's own tolerance.
+    // A second touch after parting is a contact at the query's own tolerance.
     let (s, step) = returning(&config, run);
     assert!(matches!(step, Step::Contact(_)));
     let exact = 1.0 - 2.0 * 0.2f64.atan2(0.9) / std::f64::consts::PI;
@@ -152,7 +152,7 @@ fn a_lying_oracle_cannot_make_a_pair_late() {
                 0.0,
             )
         });
-        // A pair of points has but one axis: the check finds it whatever was claimed.
+        // A pair of points has only one axis: the check finds it for any claim.
         match step {
             Step::FreeUntil(clock) => assert!(clock <= 0.5, "{axis}: {clock}"),
             Step::Stalled => {}

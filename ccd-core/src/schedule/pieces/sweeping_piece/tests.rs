@@ -1,4 +1,5 @@
-//! Planes that turn with a body against sampled truth, and their rounding against twice the digits.
+//! Planes that turn with a body against samples, and their rounding against double-double
+//! arithmetic.
 
 use super::*;
 use crate::body::Body;
@@ -15,14 +16,14 @@ use crate::tests::scene::{Kind, Pcg64, RngExt, Scene, direction, magnitude, rng,
 
 const SAMPLES: u32 = 48;
 
-/// What the samples came to.
+/// The counts of the samples.
 #[derive(Debug, Default)]
 struct Seen {
     some: usize,
     forever: usize,
     /// Free times at whose end most of the slack was used up.
     used: usize,
-    /// Of both bodies turning, of many turns, of more points than three.
+    /// The samples with both bodies turning, with many turns, with more points than three.
     both: usize,
     fast: usize,
     many: usize,

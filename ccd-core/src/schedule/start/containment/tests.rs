@@ -171,7 +171,7 @@ fn placement_and_size_do_not_matter() {
     }
 }
 
-/// Two pyramids on one square, the corners of which are on a large triangle: no face passes through it.
+/// Two pyramids on one square, with corners on a large triangle: no face passes through it.
 #[test]
 fn a_triangle_through_the_waist_of_an_octahedron_is_inside() {
     let tip = |k: usize| match k % 2 {
