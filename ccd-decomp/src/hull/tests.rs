@@ -44,7 +44,7 @@ impl Twin {
     }
 }
 
-/// Whether a point is in the hull of others in the same plane.
+/// Returns whether a point is in the hull of others in the same plane.
 fn is_amid(points: &[DVec3], distinct: &[usize], k: usize) -> bool {
     let others = || distinct.iter().filter(|&&l| l != k).map(|&l| points[l]);
     let point = points[k];

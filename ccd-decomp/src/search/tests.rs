@@ -73,7 +73,7 @@ fn a_hub_that_touches_is_not_left_out() {
     for touching in [amid, [a, b, DVec3::new(3.0, -1.0, 1.0)]] {
         assert_eq!(found(&boxes, &Region::triangle(touching)).len(), 64);
     }
-    // Beside the tip, in the plane that touches it.
+    // Next to the tip, in the plane that touches it.
     let beside = [a, b, DVec3::new(-1.0, 4.0, 1.0)].map(|p| p + DVec3::Y);
     assert!(found(&boxes, &Region::triangle(beside)).is_empty());
 }

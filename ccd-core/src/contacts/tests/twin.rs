@@ -126,7 +126,7 @@ impl Mesh {
         sides.into_iter().map(flat).collect()
     }
 
-    /// Whether a feature is on the boundary of another one.
+    /// Returns whether a feature is on the boundary of another one.
     fn bounds(&self, part: Feature, of: Feature) -> bool {
         match (part, of) {
             (Feature::Vertex(v), Feature::Edge(a, b)) => v == a || v == b,
@@ -182,7 +182,7 @@ struct Offers {
 }
 
 impl Offers {
-    /// Whether a pair that far apart is in reach, as far as that can be said.
+    /// Returns whether a pair that far apart is in reach, as far as that can be said.
     fn offer(&mut self, key: Key, distance: f64, clear: bool) {
         if distance > self.reach + 4.0 * self.rounding {
         } else if clear && distance <= self.reach {

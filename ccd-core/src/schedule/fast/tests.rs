@@ -132,7 +132,7 @@ fn distance(problem: &Problem<'_>, s: f64) -> f64 {
     pairs.fold(f64::INFINITY, lesser)
 }
 
-/// Whether an answer is right at sampled times; when the contact is, or infinity.
+/// Returns whether an answer is right at sampled times; when the contact is, or infinity.
 fn checked(problem: &Problem<'_>, outcome: &Outcome) -> f64 {
     let holds_until = |end: f64, least: f64| {
         for k in 0..=128 {

@@ -11,7 +11,7 @@ fn turn(p: DVec3, q: DVec3, r: DVec3) -> f64 {
     orient2d(a, b, c)
 }
 
-/// Whether two edges of an outline that are not neighbours meet: all pairs, exactly.
+/// Returns whether two edges of an outline that are not neighbours meet: all pairs, exactly.
 fn meets_itself(points: &[DVec3]) -> bool {
     let n = points.len();
     let at = |k: usize| points[k % n];

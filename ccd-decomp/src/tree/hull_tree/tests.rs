@@ -59,7 +59,7 @@ fn leaves(tree: &HullTree, at: usize) -> Vec<usize> {
     }
 }
 
-/// Whether a hull holds a point up to `slack`, by testing every facet.
+/// Returns whether a hull holds a point up to `slack`, by testing every facet.
 fn holds(hull: &ccd_core::Piece<'_>, point: DVec3, slack: f64) -> bool {
     let beyond = hull.facets.iter().map(|corners| {
         let at = |k: usize| hull.points[corners[k] as usize];
@@ -146,7 +146,8 @@ proptest! {
     }
 }
 
-/// Whether a point is so near to a common edge of two plates that rounding decides to which it belongs.
+/// Returns whether a point is so near to a common edge of two plates that rounding decides to which it
+/// belongs.
 fn between(tree: &HullTree, below: &[usize], point: DVec3) -> bool {
     let near = |&&leaf: &&usize| holds(&tree.hulls().get(leaf), point, 1e-6);
     below.iter().filter(near).count() > 1

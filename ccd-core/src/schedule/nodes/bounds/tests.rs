@@ -226,7 +226,7 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
         worst.attached += usize::from(self.check(lane, free, gap, worst));
     }
 
-    /// Whether there was a free time to check.
+    /// Returns whether there was a free time to check.
     fn check(&self, lane: usize, free: f32, gap: impl Fn(f64) -> f64, worst: &mut Worst) -> bool {
         assert!(free >= 0.0, "{:?}", self.motion);
         if free == 0.0 {

@@ -194,7 +194,7 @@ impl Audit<'_> {
         }
     }
 
-    /// Whether some pieces of a small lane are not farther apart than the gap to be kept.
+    /// Returns whether some pieces of a small lane are not farther apart than the gap to be kept.
     fn overlap(&self, lane: &Lane) -> bool {
         let (near, far) = self.at(lane, lane.from);
         near.len() * far.len() <= 64 && self.least_distance(&near, &far, 0.0) <= self.problem.gap()
