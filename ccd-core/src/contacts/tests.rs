@@ -180,7 +180,7 @@ fn balls_and_capsules_touch_with_their_surfaces() {
 
 /// Approximate hulls name nothing of a mesh, and hulls of unknown facets only their corners.
 #[test]
-fn what_has_no_number_goes_by_its_piece() {
+fn features_without_a_number_are_named_by_their_piece() {
     let slab = Body::cuboid(DVec3::new(3.0, 3.0, 1.0)).unwrap();
     let cube = Mesh::cuboid(DVec3::splat(0.5));
     let facet = |face: &[u32; 3]| Facet {
@@ -294,7 +294,7 @@ fn compare(a: &Mesh, b: &Mesh, pose: Pose, tolerance: f64, found: &mut [usize; 3
     let pairs = problem.contacts_at(0.0).unwrap();
     let placed = a.placed(&pose);
     let expected = twin::contacts(&placed, b, tolerance, problem.rounding);
-    let told: Vec<(String, f64)> = pairs
+    let reported: Vec<(String, f64)> = pairs
         .iter()
         .map(|pair| {
             (
@@ -304,7 +304,7 @@ fn compare(a: &Mesh, b: &Mesh, pose: Pose, tolerance: f64, found: &mut [usize; 3
         })
         .collect();
     for (name, distance) in &expected.sure {
-        let same = told.iter().find(|(other, _)| other == name);
+        let same = reported.iter().find(|(other, _)| other == name);
         let Some((_, upper)) = same else {
             panic!("round {round}: {name} at {distance} of {tolerance} is missed");
         };
@@ -314,7 +314,7 @@ fn compare(a: &Mesh, b: &Mesh, pose: Pose, tolerance: f64, found: &mut [usize; 3
             "{name} {off}"
         );
     }
-    for (name, distance) in &told {
+    for (name, distance) in &reported {
         assert!(
             expected.sure.contains_key(name) || expected.doubtful.contains(name),
             "round {round}: {name} at {distance} of {tolerance} is no pair"
@@ -343,7 +343,7 @@ fn compare(a: &Mesh, b: &Mesh, pose: Pose, tolerance: f64, found: &mut [usize; 3
     assert_eq!(
         unique.len(),
         pairs.len(),
-        "round {round}: a pair is told twice"
+        "round {round}: a pair is reported twice"
     );
     assert_eq!(pairs, problem.contacts_at(0.0).unwrap());
 }

@@ -91,7 +91,7 @@ fn a_body_at_rest_stays() {
 }
 
 #[test]
-fn what_is_not_finite_is_refused() {
+fn motions_that_are_not_finite_are_refused() {
     let mut rng = rng(4);
     for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         let mut vector = within(&mut rng, 1.0);

@@ -108,7 +108,7 @@ fn a_polygon_that_meets_itself_is_covered_and_reported() {
 }
 
 #[test]
-fn what_names_nothing_or_is_not_finite_is_refused() {
+fn invalid_vertices_and_faces_are_refused() {
     let fault = |points: Vec<DVec3>, faces: &[[u32; 3]]| {
         TriangleMesh::new(points, faces).unwrap_err().fault
     };

@@ -105,7 +105,7 @@ fn soup() -> impl Strategy<Value = (Vec<DVec3>, Vec<[u32; 3]>)> {
 /// All triangles are found that meet a triangle or a segment, or reach into a tetrahedron: compared with every
 /// triangle, exactly.
 #[test]
-fn what_is_left_out_meets_nothing() {
+fn skipped_triangles_meet_nothing() {
     let probes = prop::collection::vec([corner(), corner(), corner(), corner()], 20);
     let given = (soup(), probes);
     let mut runner = TestRunner::deterministic();

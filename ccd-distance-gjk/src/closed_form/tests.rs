@@ -76,7 +76,7 @@ fn finds_the_point_where_an_edge_passes_through() {
 
 /// A point on the plane's far side, whose nearest boundary is elsewhere, is no intersection.
 #[test]
-fn does_not_pierce_beside_the_face() {
+fn does_not_pierce_outside_of_the_face() {
     let spear = [v(9.0, 9.0, 5.0), v(9.0, 9.0, -5.0), v(9.1, 9.1, 5.0)];
     let near = nearest(&FLOOR, &spear);
     let before = near.difference(&FLOOR, &spear).length();

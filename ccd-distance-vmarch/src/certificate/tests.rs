@@ -53,7 +53,7 @@ fn touching_features_have_an_axis(
 }
 
 #[test]
-fn crossing_edges_and_what_is_flat_have_an_axis() {
+fn crossing_edges_and_flat_pieces_have_an_axis() {
     let (cube, across) = (cube(), needle(DVec3::new(0.5, 1.0, -1.0)));
     let placed = moved(&cube, &across, DVec3::new(0.0, 1.0, 1.0));
     let pair = Pair {

@@ -67,7 +67,7 @@ fn every_end_is_certified() {
 }
 
 #[test]
-fn what_makes_no_sense_is_given_up() {
+fn positions_that_are_not_finite_are_given_up() {
     let (cube, needle, point) = (cube(), needle(DVec3::X), point());
     for polytope in [&cube, &needle, &point] {
         let placed = moved(&cube, polytope, DVec3::NAN);

@@ -69,7 +69,7 @@ fn goes_on_to_the_face_on_whose_side_it_is() {
 }
 
 #[test]
-fn finds_what_is_below_both_faces() {
+fn finds_edges_below_both_faces() {
     let Next::Behind(whose, behind) = of_needle(ACROSS, DVec3::new(0.0, 0.9, 0.9)) else {
         panic!("it is within the cube");
     };

@@ -119,7 +119,7 @@ fn faces_are_pierced_anywhere() {
 #[case(DVec3::new(1.9, 0.0, 0.0), true)]
 #[case(DVec3::new(2.0 + 1e-15, 0.0, 0.0), false)]
 #[case(DVec3::new(9.0, 0.0, 0.0), false)]
-fn the_search_finds_what_there_is(#[case] at: DVec3, #[case] meets: bool) {
+fn the_search_finds_common_points(#[case] at: DVec3, #[case] meets: bool) {
     let (one, other) = (cube(), cube());
     let placed = moved(&one, &other, at);
     let found = searched(&placed.a, &placed.b, placed.scale)

@@ -36,7 +36,7 @@ fn prism() -> Pieces {
 }
 
 #[test]
-fn names_are_those_of_looking_at_all_facets() {
+fn names_agree_with_a_scan_of_all_facets() {
     let pieces = prism();
     let piece = pieces.get(0);
     // A piece of no list, so that nothing is stored.

@@ -21,7 +21,7 @@ fn a_tree_over_all_pieces_is_taken() {
 }
 
 #[test]
-fn whatever_is_none_is_refused_where_it_fails() {
+fn invalid_nodes_are_refused_by_index() {
     // No root, and no piece for it.
     assert_eq!(refused(&[], 1), 0);
     assert_eq!(refused(&[], 0), 0);

@@ -205,7 +205,7 @@ fn triangles_segments_and_points_join() {
 }
 
 #[test]
-fn flat_hulls_hold_what_is_in_their_plane_and_outline_only() {
+fn flat_hulls_contain_only_points_in_their_plane_and_outline() {
     let square = Hull {
         points: corners(DVec3::ZERO, DVec3::new(1.0, 1.0, 0.0))[..4].to_vec(),
         facets: Loops::from_iter([[0, 1, 3, 2], [2, 3, 1, 0]]),
@@ -242,7 +242,7 @@ fn containment_is_exact() {
 }
 
 #[test]
-fn hulls_that_are_none_are_refused() {
+fn invalid_hulls_are_refused() {
     let pieces = [block(0.0, 1.0, 0), block(1.0, 3.0, 6)];
     let good = hull_of(0.0, 3.0);
     let refused = |change: &dyn Fn(&mut Vec<Vec<u32>>)| {

@@ -17,7 +17,7 @@ fn ball(radius: f64) -> Polytope {
 }
 
 #[test]
-fn triangles_that_are_none_are_refused() {
+fn invalid_triangles_are_refused() {
     let made = |faces: &[[u32; 3]]| {
         let ids: Vec<u32> = (0..faces.len() as u32).collect();
         Pieces::triangles(&CORNERS, faces, &ids).map(|pieces| pieces.len())
@@ -35,7 +35,7 @@ fn triangles_that_are_none_are_refused() {
 }
 
 #[test]
-fn points_that_are_none_are_refused_by_piece_and_point() {
+fn invalid_points_are_refused_by_piece_and_point() {
     for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1.1e12, -1.1e12] {
         for axis in 0..3 {
             let mut points = CORNERS;
@@ -60,7 +60,7 @@ fn points_that_are_none_are_refused_by_piece_and_point() {
 }
 
 #[test]
-fn polytopes_that_are_none_are_refused() {
+fn invalid_polytopes_are_refused() {
     let refused = |polytope: Polytope| Pieces::polytopes(&[ball(1.0), polytope]).err();
     for bad in [-1.0, -f64::MIN_POSITIVE, f64::NAN, f64::INFINITY, 1.1e12] {
         assert_eq!(refused(ball(bad)), Some(InputError::BadRadius { piece: 1 }));

@@ -171,7 +171,7 @@ pub(super) fn contacts(a: &Mesh, b: &Mesh, reach: f64, rounding: f64) -> Expecte
             offers.edges(ends(a, e), ends(b, f), names);
         }
     }
-    offers.told([a, b])
+    offers.reported([a, b])
 }
 
 struct Offers {
@@ -251,7 +251,7 @@ impl Offers {
     }
 
     /// Drops pairs that a larger part covers, and assigns points on edges within planes to faces.
-    fn told(self, meshes: [&Mesh; 2]) -> Expected {
+    fn reported(self, meshes: [&Mesh; 2]) -> Expected {
         let larger = |key: &Key, other: &Key| {
             (0..2).any(|k| {
                 let corner = matches!(key[1 - k], Feature::Vertex(_)) && key[1 - k] == other[1 - k];

@@ -16,7 +16,7 @@ use glam::DVec3;
 const ROUNDING: f64 = 1e-13;
 
 /// The decision, which must not be open.
-fn told(pair: &PiecePair<'_>, claim: &Claim) -> bool {
+fn decided(pair: &PiecePair<'_>, claim: &Claim) -> bool {
     let checked = separation::check(pair, claim, ROUNDING);
     match intersects(pair, &checked, ROUNDING) {
         Intersection::Certain => true,
@@ -39,7 +39,7 @@ fn triangles(a: &Triangle, b: &Triangle) -> bool {
         b_to_a: Frame::IDENTITY,
     };
     let claim = Exhaustive.separation(&pair, &mut ()).unwrap();
-    told(&pair, &claim)
+    decided(&pair, &claim)
 }
 
 #[test]
@@ -119,7 +119,7 @@ fn boxes(b_to_a: Frame) -> bool {
         a: named(middle),
         b: named(b_to_a.inverse_point(middle)),
     };
-    told(&pair, &claim)
+    decided(&pair, &claim)
 }
 
 /// Weights of corners 0, 1, 3, 7 of a unit box, which name any point with x ≥ y ≥ z.
@@ -177,7 +177,7 @@ fn rounded_pieces_intersect_when_their_cores_are_near() {
             b_to_a: turn.into(),
         };
         let claim = Exhaustive.separation(&pair, &mut ()).unwrap();
-        told(&pair, &claim)
+        decided(&pair, &claim)
     };
     assert!(cross(0.0) && cross(0.5) && cross(1.0 - 1e-9));
     assert!(!cross(1.0) && !cross(1.0 + 1e-9) && !cross(2.0));
@@ -185,7 +185,7 @@ fn rounded_pieces_intersect_when_their_cores_are_near() {
 
 /// The decision does not depend on the claim.
 #[test]
-fn a_liar_is_believed_neither_way() {
+fn false_claims_do_not_change_the_decision() {
     let mut rng = rng(3);
     let body = Body::cuboid(DVec3::ONE).unwrap();
     let piece = body.pieces().get(0);
@@ -203,7 +203,7 @@ fn a_liar_is_believed_neither_way() {
             b: Combination::point(rng.random_range(0..8)),
         };
         let exact = overlap_by_axes(&pair);
-        assert_eq!(told(&pair, &lie), exact, "{pose:?}");
+        assert_eq!(decided(&pair, &lie), exact, "{pose:?}");
         overlaps += usize::from(exact);
         others += usize::from(!exact);
     }

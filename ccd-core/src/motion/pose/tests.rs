@@ -24,7 +24,7 @@ fn quaternions_of_any_length_name_the_same_orientation() {
 }
 
 #[test]
-fn what_names_no_pose_is_refused() {
+fn invalid_poses_are_refused() {
     let zero = DQuat::from_xyzw(0.0, 0.0, 0.0, 0.0);
     assert_eq!(
         Pose::new(DVec3::ZERO, zero),

@@ -155,7 +155,7 @@ fn budgets_end_a_query_with_a_time_that_is_safe_and_grows() {
 }
 
 #[test]
-fn the_same_query_gives_the_same_bits_whatever_came_before() {
+fn answers_do_not_depend_on_earlier_queries() {
     let mut rng = rng(3);
     let mut kept = BestFirst::default();
     for _ in 0..200 {
@@ -168,7 +168,7 @@ fn the_same_query_gives_the_same_bits_whatever_came_before() {
 }
 
 #[test]
-fn an_oracle_that_gives_up_or_lies_never_makes_an_answer_late() {
+fn false_claims_and_give_ups_never_make_an_answer_late() {
     let mut rng = rng(4);
     let (mut unresolved, mut others) = (0, 0);
     for _ in 0..300 {
@@ -211,7 +211,7 @@ fn an_oracle_that_gives_up_or_lies_never_makes_an_answer_late() {
 }
 
 #[test]
-fn touching_and_overlapping_at_the_start_are_told_and_let_go() {
+fn touching_and_overlapping_at_the_start_are_reported_and_let_go() {
     let flat = body(&[[DVec3::ZERO, DVec3::X, DVec3::Y]]);
     let spike = body(&[[
         DVec3::ZERO,

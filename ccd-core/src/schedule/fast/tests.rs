@@ -247,7 +247,7 @@ fn budgets_end_a_query_with_a_time_that_is_safe() {
 }
 
 #[test]
-fn oracles_that_give_up_or_lie_never_make_it_late() {
+fn false_claims_and_give_ups_never_make_it_late() {
     let mut rng = rng(24);
     for _ in 0..300 {
         let mut scene = Scene::new(&mut rng);
@@ -281,7 +281,7 @@ fn oracles_that_give_up_or_lie_never_make_it_late() {
 }
 
 #[test]
-fn the_same_query_gives_the_same_bits_whatever_came_before() {
+fn answers_do_not_depend_on_earlier_queries() {
     let mut rng = rng(25);
     let mut kept = Fast::default();
     for _ in 0..100 {
@@ -325,7 +325,7 @@ fn bodies_without_trees_are_searched_by_their_boxes() {
 }
 
 #[test]
-fn what_touches_at_the_start_is_told_or_let_go() {
+fn contacts_at_the_start_are_reported_or_let_go() {
     let mut rng = rng(26);
     let bodies = [20, 20].map(|count| chain(&mut rng, count));
     let ball = Body::ball(0.05).unwrap();

@@ -75,7 +75,7 @@ fn places_are_used_again() {
 }
 
 #[test]
-fn what_is_postponed_waits_in_its_place() {
+fn postponed_items_wait_in_order() {
     let mut queue = Queue::default();
     for (clock, item) in [(0.1, 0), (0.2, 1), (0.3, 2)] {
         queue.push(clock, Rank::Siblings, item).unwrap();

@@ -74,7 +74,7 @@ fn within_margin(rng: &mut Pcg64, most: usize) -> Scene {
 }
 
 #[test]
-fn a_start_within_the_margin_costs_one_distance_whatever_the_margin() {
+fn a_start_within_any_margin_costs_one_distance() {
     let mut visits = Vec::new();
     for margin in [0.41, 1.0, 2.0, 5.0, 100.0] {
         let config = Config {
@@ -209,7 +209,7 @@ fn a_deadline_ends_every_schedule_at_a_time_that_is_safe() {
 
 /// A pair that an oracle takes back, or gives up, is no licence to say that bodies touch.
 #[test]
-fn an_oracle_that_gives_up_or_lies_never_makes_bounds_that_do_not_hold() {
+fn false_claims_and_give_ups_never_make_wrong_bounds() {
     let mut rng = rng(34);
     let mut touching = 0;
     for _ in 0..300 {

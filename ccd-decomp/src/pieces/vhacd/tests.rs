@@ -173,7 +173,7 @@ fn approximated(mesh: &TriangleMesh, hulls: u32) -> Result<Approximation, VhacdE
 #[case::two(cubes(&[cubic(1.0), [DVec3::splat(1.5), DVec3::splat(2.0)]]), 4)]
 #[case::sheet(sheet(), 8)]
 #[case::far_off(far_off(), 8)]
-fn errors_bound_what_is_sampled(#[case] mesh: TriangleMesh, #[case] hulls: u32) {
+fn errors_bound_the_samples(#[case] mesh: TriangleMesh, #[case] hulls: u32) {
     let found = approximated(&mesh, hulls).expect("an approximation");
     assert!((1..=hulls as usize).contains(&found.polytopes.len()));
     let size = mesh

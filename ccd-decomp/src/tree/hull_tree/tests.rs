@@ -98,7 +98,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(200))]
 
     #[test]
-    fn every_hull_holds_exactly_what_is_below(pieces in prop::collection::vec(piece(), 1..24)) {
+    fn every_hull_is_exactly_that_of_the_points_below(pieces in prop::collection::vec(piece(), 1..24)) {
         let count = pieces.len();
         let tree = build_hull_tree(&Pieces::polytopes(&pieces).unwrap()).unwrap();
         prop_assert_eq!(tree.hierarchy().nodes().len(), 2 * count - 1);
@@ -117,7 +117,7 @@ proptest! {
     }
 
     #[test]
-    fn what_is_not_free_lies_on_a_piece(
+    fn features_that_are_not_free_are_on_a_piece(
         pieces in prop::collection::vec(piece(), 2..16),
         weights in [0.01..1.0f64, 0.01..1.0, 0.01..1.0],
     ) {

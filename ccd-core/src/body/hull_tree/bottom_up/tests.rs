@@ -18,7 +18,7 @@ fn hierarchy(pieces: usize) -> Hierarchy {
 }
 
 #[test]
-fn any_number_of_parts_makes_the_same() {
+fn results_do_not_depend_on_the_number_of_parts() {
     let hierarchy = hierarchy(5000);
     // Collects the pieces below every node, in order.
     let make = |at: usize, [left, right]: [&Vec<u32>; 2]| {

@@ -49,7 +49,7 @@ fn polytopes_are() {
 }
 
 #[test]
-fn what_is_dented_turned_or_open_is_not() {
+fn dented_turned_or_open_surfaces_are_not_convex() {
     let mut dented = ROOF;
     dented[2] = [0.75, 0.75, 0.0];
     assert!(!convex(&dented, &SLOPES));

@@ -20,7 +20,7 @@ fn sample() -> (Pieces, HullTree) {
 }
 
 #[test]
-fn what_is_stored_is_read_again() {
+fn stored_trees_are_read_again() {
     let (pieces, tree) = sample();
     let again: Pieces = read(&bytes(&pieces)).unwrap();
     assert!((0..2).all(|k| again.polytope(k) == pieces.polytope(k)));
@@ -38,7 +38,7 @@ fn what_is_stored_is_read_again() {
 }
 
 #[test]
-fn what_is_read_is_checked() {
+fn trees_are_checked_when_read() {
     let point = |x: f64| Polytope {
         points: vec![DVec3::splat(x)],
         ..Polytope::default()

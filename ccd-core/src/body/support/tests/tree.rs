@@ -23,7 +23,7 @@ fn cloud(rng: &mut Pcg64, kind: usize, count: usize) -> Vec<DVec3> {
 }
 
 #[test]
-fn searching_finds_what_looking_at_all_finds() {
+fn searching_agrees_with_a_scan() {
     let mut rng = rng(21);
     let counts = [
         1, 2, 7, 8, 9, 63, 64, 65, 100, 511, 513, 1_000, 4_097, 5_000,
@@ -58,7 +58,7 @@ fn searching_finds_what_looking_at_all_finds() {
 
 /// The benefit of the tree: a search visits few points of a ball's surface.
 #[test]
-fn of_a_curved_surface_little_is_looked_at() {
+fn few_points_of_a_curved_surface_are_visited() {
     let mut rng = rng(22);
     let points = cloud(&mut rng, 0, 32_768);
     let tree = SupportTree::new(&points);
@@ -68,7 +68,7 @@ fn of_a_curved_surface_little_is_looked_at() {
 }
 
 #[test]
-fn directions_that_are_none_give_some_point() {
+fn invalid_directions_give_some_point() {
     let mut rng = rng(23);
     let points = cloud(&mut rng, 1, 300);
     let support = Support::of_points(&points);

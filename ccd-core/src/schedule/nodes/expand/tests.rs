@@ -35,7 +35,7 @@ fn free_times_hold_for_any_bodies_and_motions() {
 }
 
 #[test]
-fn free_times_hold_for_what_slides_past() {
+fn free_times_hold_for_sliding_bodies() {
     let tally = audit(Kind::Sliding, 2, 30_000);
     shares_are_substantial(&tally);
 }

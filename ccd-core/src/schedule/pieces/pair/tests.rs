@@ -68,7 +68,7 @@ fn the_margin_is_kept() {
 }
 
 #[test]
-fn overlap_is_told_from_touching() {
+fn overlap_and_touching_are_distinguished() {
     let (s, step) = balls(1.9, 0.0, &Config::default(), run);
     assert!(s == 0.0 && matches!(step, Step::Overlap(_)));
     let (s, step) = balls(2.0, 0.0, &Config::default(), run);
@@ -76,7 +76,7 @@ fn overlap_is_told_from_touching() {
 }
 
 #[test]
-fn what_touches_at_the_start_is_let_go_unless_it_approaches() {
+fn pairs_that_touch_at_the_start_are_let_go_unless_they_approach() {
     let config = Config {
         start: StartPolicy::Leave,
         ..Config::default()
@@ -129,7 +129,7 @@ fn an_oracle_that_gives_up_is_counted() {
 }
 
 #[test]
-fn a_lying_oracle_cannot_make_a_pair_late() {
+fn a_dishonest_oracle_cannot_make_a_pair_late() {
     let directions = [
         DVec3::X,
         -DVec3::X,

@@ -3,7 +3,7 @@ use crate::test_meshes::star;
 
 /// Two cones: an apex sees up to half of all facets when it is inserted, and so does a point of the rim.
 #[test]
-fn few_facets_are_made_whatever_the_points() {
+fn few_facets_are_made_for_any_points() {
     for (corners, inner) in [(2_000, 1.0), (2_000, 0.5), (16_000, 1.0)] {
         let mesh = star(corners, inner);
         let hull = Growing::all(mesh.vertices(), [0, 2, 4, corners + 1]);

@@ -82,7 +82,7 @@ fn whoever_meets_is_reported() {
 
 /// Faces glued to a plate, or on its rim, are next to it: no triangle of the plate is examined.
 #[test]
-fn a_comb_is_beside_its_plates() {
+fn a_comb_is_next_to_its_plates() {
     let mesh = comb(&[5.0; 40]);
     let manifold = Manifold::unchecked(&mesh, &Topology::of(&mesh)).unwrap();
     let plates = Plates::of(&manifold).unwrap();
