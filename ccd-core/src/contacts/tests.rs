@@ -14,7 +14,7 @@ use twin::Mesh;
 mod cuts;
 mod twin;
 
-/// Two bodies at rest, A where it is put, B at the origin.
+/// Two bodies at rest, A at its pose, B at the origin.
 fn contacts(a: &Body, b: &Body, pose: Pose, tolerance: f64) -> Vec<FeaturePair> {
     let config = Config {
         tolerance,
@@ -138,7 +138,7 @@ fn flush_squares_cross_along_their_outlines() {
     check_bounds(&pairs, 0.0, -DVec3::Z);
 }
 
-/// Equal faces that cover each other: corners on corners, and nothing that follows from them.
+/// Equal faces that cover each other: corners on corners, and no pairs that follow from them.
 #[test]
 fn equal_faces_meet_in_their_corners() {
     for (a, b) in cuboids(DVec3::ONE).into_iter().zip(cuboids(DVec3::ONE)) {
@@ -178,7 +178,7 @@ fn balls_and_capsules_touch_with_their_surfaces() {
     check_bounds(&pairs, 5e-4, -DVec3::X);
 }
 
-/// Approximate hulls name nothing of a mesh, and hulls of unknown facets only their corners.
+/// Approximate hulls have no features of a mesh, and hulls of unknown facets only their corners.
 #[test]
 fn features_without_a_number_are_named_by_their_piece() {
     let slab = Body::cuboid(DVec3::new(3.0, 3.0, 1.0)).unwrap();
@@ -221,7 +221,7 @@ fn a_margin_is_reached_across() {
     }
 }
 
-/// Shapes whose numbers and places are at random, so that no pair is on the brink.
+/// Shapes with random numbers and places, so that no pair is on the brink.
 #[test]
 fn no_pair_of_random_soups_is_missed() {
     let rng = &mut rng(71);

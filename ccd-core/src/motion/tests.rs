@@ -1,4 +1,4 @@
-//! Motions pass through the poses they are made of.
+//! Motions pass through the poses from which they are made.
 
 use super::Motion;
 use super::pose::Pose;
@@ -52,7 +52,7 @@ fn half_turns_and_tiny_turns_keep_their_digits() {
     }
 }
 
-/// Both ways are as short: the signs of the quaternions decide.
+/// Both directions are as short: the signs of the quaternions decide.
 #[test]
 fn half_a_turn_goes_about_the_axis_as_it_is_given() {
     let turn = |start: DQuat, end: DQuat| {

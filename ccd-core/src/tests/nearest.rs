@@ -98,7 +98,7 @@ fn foot(t: &Triangle, from: DVec3) -> Option<[f64; 3]> {
     inside(weights_u, weights_v)
 }
 
-/// Where a segment meets a triangle.
+/// Returns the place where a segment meets a triangle.
 fn pierce(t: &Triangle, p: DVec3, q: DVec3) -> Option<(f64, [f64; 3])> {
     let normal = (t[1] - t[0]).cross(t[2] - t[0]);
     let (from, to) = (normal.dot(p - t[0]), normal.dot(q - t[0]));

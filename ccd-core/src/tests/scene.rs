@@ -17,9 +17,9 @@ pub(crate) enum Look {
     Plump,
     /// Each 1e-7 times as wide as long.
     Needles,
-    /// All in one plane, to within 1e-7 of their size.
+    /// All in one plane, up to 1e-7 of their size.
     Flat,
-    /// All along one line, to within 1e-7 of their size.
+    /// All along one line, up to 1e-7 of their size.
     Stretched,
     /// Sizes over six orders of magnitude.
     Mixed,
@@ -116,13 +116,13 @@ pub(crate) fn pieces(triangles: &[Triangle]) -> Pieces {
 pub(crate) struct Passage {
     pub(crate) clock: f64,
     pub(crate) rotation: DQuat,
-    /// Where the body's point `middle` is at that clock.
+    /// The position of the body's point `middle` at that clock.
     pub(crate) place: DVec3,
     pub(crate) middle: DVec3,
     /// The displacement of the centre over the whole duration.
     pub(crate) velocity: DVec3,
     pub(crate) spin: DVec3,
-    /// In the body's frame.
+    /// The centre in the body's frame.
     pub(crate) centre: DVec3,
 }
 
@@ -147,9 +147,9 @@ pub(crate) struct Scene {
     pub(crate) bodies: [Body; 2],
     pub(crate) motions: [Motion; 2],
     pub(crate) config: Config,
-    /// When they are near each other.
+    /// The clock at which they are near each other.
     pub(crate) clock: f64,
-    /// For about how long.
+    /// The approximate time for which they are.
     pub(crate) window: f64,
 }
 

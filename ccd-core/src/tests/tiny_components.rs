@@ -14,7 +14,7 @@ use crate::problem::{Config, Moving, Problem};
 use crate::schedule::{BestFirst, Schedule};
 use glam::DVec3;
 
-/// A vector of small whole numbers.
+/// A vector of small integers.
 fn whole(rng: &mut Pcg64) -> DVec3 {
     let v = DVec3::from_array([(); 3].map(|()| f64::from(rng.random_range(-2..3))));
     if v == DVec3::ZERO { DVec3::X } else { v }

@@ -1,4 +1,4 @@
-//! Every rescue, entered on purpose.
+//! Every recovery, entered on purpose.
 
 use super::certify;
 use crate::counters::Counters;
@@ -21,7 +21,7 @@ fn certifies(placed: &PlacedPair<'_>, a: &shape::Shape, b: &shape::Shape, truth:
                 continue;
             }
             let pair = Pair { a: one, b: other };
-            // A stop is only looked into where rounding could hide something nearer.
+            // A stop is only examined if rounding could hide a nearer pair.
             let close = Witness::of(placed, pair).distance() < FAR * placed.scale.size;
             let tie = close.then_some(End::Nearest(pair, Certainty::Tied));
             let ends = [End::Cycle(pair), End::Cap(pair), End::Unclear(pair)];

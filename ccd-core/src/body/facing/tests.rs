@@ -76,7 +76,7 @@ fn faces_back_to_back_and_surfaces_face_neither_way() {
     assert_eq!(surface.facing(0), Facing::Neither);
 }
 
-/// Two lobes of one shell, wound either way: the cross section is an eight.
+/// Two lobes of one shell with opposite windings: the cross section is an eight.
 #[test]
 fn a_face_on_which_the_sides_change_is_unclear() {
     let eight = [(-1.0, -1.0), (1.0, 1.0), (1.0, -1.0), (-1.0, 1.0)];

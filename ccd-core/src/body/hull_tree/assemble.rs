@@ -171,7 +171,7 @@ fn inner<'a>(
     })
 }
 
-/// Returns whether the hull holds all points of its children.
+/// Checks that the hull holds all points of its children.
 fn check_inside(
     hull: &Hull,
     identity: &Identity,

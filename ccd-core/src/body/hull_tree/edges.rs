@@ -10,7 +10,7 @@ pub(super) fn edges_of(corners: &[u32]) -> impl Iterator<Item = (u32, u32)> + Cl
     corners.iter().copied().zip(next.copied())
 }
 
-/// Returns whether the facets are loops of corners that close a surface. O(n log n).
+/// Checks that the facets are loops of corners that close a surface. O(n log n).
 pub(super) fn check_facets(hull: &Hull) -> Result<(), HullFault> {
     match is_closed(hull) {
         true => Ok(()),

@@ -86,8 +86,8 @@ fn globe(rings: u32, sectors: u32) -> Mesh {
     }
 }
 
-/// One piece that is near as many pieces as it has faces: the work is that of the faces that are near
-/// each other, not of all with all.
+/// One piece that is near as many pieces as it has faces: the work is that of the near pairs of
+/// faces, not of all pairs.
 #[test]
 fn a_piece_of_many_faces_is_sorted_once() {
     let ball = globe(32, 34);
@@ -137,7 +137,7 @@ fn a_piece_of_many_faces_is_sorted_once() {
     assert_eq!(refused, Err(ContactsError::TooMany { budget }));
 }
 
-/// Where pieces of different rounding share a corner, the one that is rounded more is the nearer.
+/// If pieces of different rounding share a corner, the one with the larger radius is the nearer.
 #[test]
 fn the_rounder_of_two_pieces_that_share_a_corner_is_reported() {
     let limb = |x: f64, id: u32, radius: f64| Polytope {

@@ -16,7 +16,7 @@ pub(super) struct Mesh {
     pub(super) faces: Vec<[u32; 3]>,
 }
 
-/// Pairs of names with their distance; and those that rounding decides about.
+/// Pairs of names with their distance, and those that depend on rounding.
 pub(super) struct Expected {
     pub(super) sure: BTreeMap<String, f64>,
     pub(super) doubtful: BTreeSet<String>,
@@ -182,7 +182,7 @@ struct Offers {
 }
 
 impl Offers {
-    /// Returns whether a pair that far apart is in reach, as far as that can be said.
+    /// Adds a pair at a distance, if it is in reach up to rounding.
     fn offer(&mut self, key: Key, distance: f64, clear: bool) {
         if distance > self.reach + 4.0 * self.rounding {
         } else if clear && distance <= self.reach {
@@ -210,7 +210,7 @@ impl Offers {
             (None, Some(k)) => edge_name(k),
             (None, None) => Feature::Face(face as u32),
         };
-        // As near, and not merely nearly so.
+        // As near, not merely up to rounding.
         let exact = |corners: Triangle| {
             nearest(&[v; 3], &corners).distance <= distance + 0.25 * self.rounding
         };

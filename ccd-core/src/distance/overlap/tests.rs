@@ -210,9 +210,9 @@ fn false_claims_do_not_change_the_decision() {
     assert!(overlaps > 200 && others > 200, "{overlaps} {others}");
 }
 
-/// The slow and obvious twin, with twice the digits: no axis of the separating-axis theorem keeps the
-/// pieces apart. The axes are the normals of both and the cross products of their edges; for flat pieces
-/// also the normals of their edges within either plane.
+/// A slow reference in double-double arithmetic: no axis of the separating-axis theorem separates
+/// the pieces. The axes are the normals of both and the cross products of their edges; for flat
+/// pieces also the normals of their edges within either plane.
 fn overlap_by_axes(pair: &PiecePair<'_>) -> bool {
     let a = Directions::of(&pair.a, |p| p);
     let b = Directions::of(&pair.b, |p| pair.b_to_a.point(p));

@@ -54,7 +54,8 @@ fn answers_hold_at_sampled_times_and_are_those_of_the_naive_twin() {
                     "{number}: {near:e}"
                 );
                 holds(&problem, time, &contact);
-                // Both stop within the tolerance of one contact: neither long before the other.
+                // Both stop within the tolerance of one contact: neither is much earlier than the
+                // other.
                 let (first, last) = (lesser(time, other), greater(time, other));
                 assert!(distance(&problem, first) <= margin + tolerance + problem.rounding);
                 assert!(distance(&problem, last) <= margin + tolerance + problem.rounding);
@@ -86,7 +87,7 @@ fn answers_hold_at_sampled_times_and_are_those_of_the_naive_twin() {
     assert!(grazes < 10, "{grazes}");
 }
 
-/// The pieces named are as far apart as it says.
+/// Checks that the named pieces are as far apart as claimed.
 fn holds(problem: &Problem<'_>, s: f64, contact: &Contact) {
     let placed = |side: &Side<'_>, piece: u32| {
         let frame = side.path.frame(s);
@@ -255,8 +256,8 @@ fn touching_and_overlapping_at_the_start_are_reported_and_let_go() {
     }
 }
 
-/// Large level plates at equal steps of height, in a hierarchy that takes them at random: below
-/// every node there are plates of all heights, so that only plate by plate anything is apart.
+/// Large level plates at equal steps of height, in a random hierarchy: below every node there are
+/// plates of all heights, so that only single plates are apart.
 fn plates(rng: &mut Pcg64, count: usize, lowest: f64, step: f64) -> Body {
     let plate = |k: usize| {
         let height = (lowest + step * k as f64) * DVec3::Z;

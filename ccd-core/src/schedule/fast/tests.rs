@@ -17,7 +17,7 @@ use crate::tests::oracle::{Always, Exhaustive};
 use crate::tests::scene::{Passage, Pcg64, RngExt, direction, magnitude, rng, rotation, within};
 use glam::DVec3;
 
-/// Balls on a line, in a tree that halves them; one tree in three has balls of several sizes.
+/// Balls on a line, in a tree of halves; one tree in three has balls of several sizes.
 fn chain(rng: &mut Pcg64, count: usize) -> Body {
     let step = DVec3::from_array([(); 3].map(|()| f64::from(rng.random_range(-4..=4))));
     let step = if step == DVec3::ZERO { DVec3::X } else { step };
@@ -132,7 +132,7 @@ fn distance(problem: &Problem<'_>, s: f64) -> f64 {
     pairs.fold(f64::INFINITY, lesser)
 }
 
-/// Returns whether an answer is right at sampled times; when the contact is, or infinity.
+/// Checks an answer at sampled times; returns the time of contact, or infinity.
 fn checked(problem: &Problem<'_>, outcome: &Outcome) -> f64 {
     let holds_until = |end: f64, least: f64| {
         for k in 0..=128 {

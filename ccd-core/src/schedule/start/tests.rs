@@ -33,7 +33,7 @@ fn solve(problem: &Problem<'_>) -> Answer {
     BestFirst::default().solve(problem, &mut Exhaustive)
 }
 
-/// Two tori of as many cuts, one at the origin, the other at `x`.
+/// Two tori with the same cuts, one at the origin, the other at `x`.
 fn tori<R>(cuts: Cuts, x: f64, config: &Config, then: impl FnOnce(&Problem<'_>) -> R) -> R {
     let torus = body(&torus(cuts.around, cuts.about));
     let moving = |x: f64| Moving {
@@ -207,7 +207,7 @@ fn a_deadline_ends_every_schedule_at_a_time_that_is_safe() {
     }
 }
 
-/// A pair that an oracle takes back, or gives up, is no licence to say that bodies touch.
+/// A pair with contradictory claims, or a give-up, does not make bodies touch.
 #[test]
 fn false_claims_and_give_ups_never_make_wrong_bounds() {
     let mut rng = rng(34);
@@ -236,7 +236,7 @@ fn false_claims_and_give_ups_never_make_wrong_bounds() {
     assert!(touching > 50, "{touching}");
 }
 
-/// One piece each: the pair is all there is.
+/// One piece each: there is only one pair.
 #[test]
 fn single_pieces_are_measured_once() {
     let ball = Body::ball(1.0).unwrap();

@@ -16,7 +16,7 @@ use crate::tolerance::{
 use glam::{DQuat, DVec3, Vec3};
 use setting::{Setting, Shape};
 
-/// Some points, and the body they belong to.
+/// Some points, and the motion of their body.
 struct Solid {
     points: Vec<DVec3>,
     /// The centre of rotation.
@@ -210,7 +210,7 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
         worst.still += usize::from(self.check(lane, free, gap, worst));
     }
 
-    /// So does a plane that turns with one of the bodies.
+    /// A plane that turns with one of the bodies does so too.
     fn check_attached(&self, lane: usize, axis: Axis, free: f32, with: Larger, worst: &mut Worst) {
         assert!(free <= ATTACHED_TIME);
         let child = &self.children[lane];

@@ -94,7 +94,7 @@ struct Audit<'a> {
     name: (Kind, u64, usize),
 }
 
-/// A lane of an expansion: the child, the other node, from when on and until when.
+/// A lane of an expansion: the child, the other node, and the interval of its free time.
 #[derive(Debug)]
 struct Lane {
     split: Which,
@@ -102,7 +102,7 @@ struct Lane {
     other: NodeId,
     from: f64,
     until: f64,
-    /// The gap that is promised until then.
+    /// The gap proven until then.
     kept: f64,
 }
 
@@ -133,7 +133,7 @@ impl Audit<'_> {
         }
     }
 
-    /// Near the clock at which the bodies are near each other, or anywhere.
+    /// Returns a clock at which the bodies are near each other, or any.
     fn clock(&self, rng: &mut Pcg64) -> f64 {
         let near = self.scene.clock + rng.random_range(-0.2..0.2) * self.scene.window;
         match rng.random_range(0..8) {
@@ -144,7 +144,7 @@ impl Audit<'_> {
         }
     }
 
-    /// The child to go on with: mostly the one of least free time.
+    /// Returns the child to continue with: mostly the one of least free time.
     fn next(&self, rng: &mut Pcg64, expansion: &Expansion) -> u32 {
         let free = |k: &u32| expansion.bounds.free[*k as usize];
         let least = (0..expansion.count).min_by(|i, j| free(i).total_cmp(&free(j)));
@@ -200,10 +200,10 @@ impl Audit<'_> {
         near.len() * far.len() <= 64 && self.least_distance(&near, &far, 0.0) <= self.problem.gap()
     }
 
-    /// Every triangle below the child stays farther than the kept gap from every one below the other
-    /// node, at every sampled time.
+    /// Checks that every triangle below the child stays farther than the kept gap from every one
+    /// below the other node, at every sampled time.
     fn verify(&self, lane: &Lane, tally: &mut Tally) {
-        // The reference is right to within the rounding that the bounds leave room for.
+        // The error of the reference is within the rounding that the bounds allow for.
         let kept = lane.kept - self.problem.rounding;
         let mut prover = Prover::default();
         for k in 0..SAMPLES {
@@ -237,7 +237,7 @@ impl Audit<'_> {
         least
     }
 
-    /// The triangles below both nodes, where they are at a clock.
+    /// Returns the triangles below both nodes, at a clock.
     fn at(&self, lane: &Lane, s: f64) -> (Vec<Triangle>, Vec<Triangle>) {
         let placed = |which: Which, id: NodeId| {
             let side = which.of(self.problem);
@@ -276,7 +276,7 @@ fn below(side: &Side<'_>, id: NodeId, visit: &mut impl FnMut(u32)) {
     }
 }
 
-/// Looks for one axis that separates two sets of triangles, starting with the one that last did.
+/// Searches for one axis that separates two sets of triangles, starting with the last one that did.
 #[derive(Default)]
 struct Prover {
     axis: Option<DVec3>,
@@ -347,8 +347,8 @@ fn planes_that_stand_still(
     }
 }
 
-/// Planes turn with much larger nodes only: a reach that is neither much larger nor much smaller than
-/// the other node's keeps them out.
+/// Planes turn with much larger nodes only: a reach that is neither much larger nor much smaller
+/// than the other node's excludes them.
 fn still<C: Children>(motion: &RelativeMotion<'_>, group: &C, members: &Members) -> Bounds {
     let far = motion.other_side;
     let radius = match far.body.tree().get(motion.other) {

@@ -1,4 +1,4 @@
-//! A pair of pieces on its own: the clock it earns, and when it is in contact.
+//! A pair of pieces on its own: its clock, and the time of its contact.
 
 use super::*;
 use crate::body::Body;
@@ -24,7 +24,7 @@ fn balls<R>(x: f64, speed: f64, config: &Config, then: impl FnOnce(&Problem<'_>)
     then(&Problem::new(a, b, 1.0, config).unwrap())
 }
 
-/// Advances a new pair, clock by clock, until something else comes of it.
+/// Advances a new pair, clock by clock, until any other step.
 fn run(problem: &Problem<'_>) -> (f64, Step) {
     let mut pair = Pair::new(0, 0);
     let mut s = 0.0;
@@ -81,7 +81,7 @@ fn pairs_that_touch_at_the_start_are_let_go_unless_they_approach() {
         start: StartPolicy::Leave,
         ..Config::default()
     };
-    // Pairs that begin with a gap are left to the search: it goes by half of that.
+    // Pairs that begin with a gap are left to the search, which uses half of it.
     let x = 2.0;
     let (_, step) = balls(x, -1.0, &config, run);
     assert!(matches!(step, Step::FreeUntil(_)), "parting");

@@ -102,7 +102,7 @@ fn pieces_stay_apart_for_as_long_as_the_better_axis_says() {
     assert!(some > 2_000 && forever > 2_000, "{some} {forever}");
 }
 
-/// Claims without slack, and without meaning, get no time.
+/// Claims without slack, or with invalid numbers, get no time.
 #[test]
 fn no_slack_is_no_time() {
     let mut rng = rng(3);

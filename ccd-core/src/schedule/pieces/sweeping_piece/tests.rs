@@ -85,7 +85,7 @@ fn check(rng: &mut Pcg64, problem: &Problem<'_>, clock: f64, holder: usize, seen
     if !own.side.path.turns() {
         return;
     }
-    // Where the axis is in its body's frame, it stays.
+    // The axis is constant in its body's frame.
     let towards = match rng.random_bool(0.5) {
         true => direction(rng),
         false => (other.frame.point(other.piece.points[0]) - own.frame.point(own.piece.points[0]))
@@ -168,12 +168,12 @@ fn rounding_along_an_axis_that_turns_is_allowed_for() {
         }
     }
     assert!(height < 1.0 && rate < 1.0, "{height} {rate}");
-    // An allowance that nothing comes near to would not be worth its derivation.
+    // An allowance that no sample comes near would be too large.
     assert!(height > 1e-3 && rate > 1e-3, "{height} {rate}");
 }
 
-/// The height of a point of the second body along an axis that turns with the first one, from its
-/// centre, and how fast it rises.
+/// Returns the height of a point of the second body along an axis that turns with the first one,
+/// from its centre, and its rate.
 fn exact(
     motions: [&Motion; 2],
     normal: DVec3,
@@ -195,7 +195,7 @@ fn exact(
 }
 
 /// A plate of size 200 turns about one of its edges' directions past a ball near that axis: its rim
-/// is fast, but comes nowhere near.
+/// is fast, but stays far away.
 #[test]
 fn a_large_plate_turns_past_a_small_ball_at_once() {
     let corner = |x: f64, y: f64| DVec3::new(x, y, 0.0);
@@ -240,7 +240,7 @@ fn a_large_plate_turns_past_a_small_ball_at_once() {
     }
 }
 
-/// Neither a lack of slack nor numbers without meaning get any time.
+/// Neither a lack of slack nor invalid numbers get any time.
 #[test]
 fn no_slack_is_no_time() {
     let mut rng = rng(3);

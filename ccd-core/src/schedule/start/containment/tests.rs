@@ -71,7 +71,7 @@ fn a_point_on_the_surface_is_not_inside() {
     }
 }
 
-/// Rays that pass exactly through corners and edges are not counted wrong.
+/// Rays that pass exactly through corners and edges are not miscounted.
 #[test]
 fn regular_points_in_line_with_edges_are_decided() {
     let body = solid(&cube(1.0, 8));
