@@ -241,7 +241,7 @@ fn history<O: DistanceOracle + Default>(count: usize) {
     laws::ignores_history::<O>(&scenes);
 }
 
-/// Frames with NaN, and pieces without points, end like all others.
+/// Degenerate and infinite frames, and pieces without points, end like all others.
 #[test]
 fn nonsense_ends() {
     fn law<O: DistanceOracle + Default>(pair: &PiecePair<'_>) {

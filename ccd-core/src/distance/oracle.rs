@@ -10,14 +10,14 @@ use glam::DVec3;
 /// # Contract
 /// For pieces P and Q, given in frame A (Q through [`PiecePair::b_to_a`]), radii ignored:
 /// 1. The [`Claim::axis`] points from P to Q. The better it is, the closer the support gap along it
-///   comes to the distance. It need not be a unit vector, nor finite.
+///    comes to the distance. It need not be a unit vector, nor finite.
 /// 2. The [`Claim::a`] and [`Claim::b`] name points of P and Q as convex combinations of their
 ///    points; the nearer they are to the closest pair, the better.
 /// 3. When the pieces intersect, both combinations name (nearly) the same point.
 /// 4. It ends, after a bounded number of steps, on every input. If it has no answer, it [gives
-///   up](GiveUp).
+///    up](GiveUp).
 /// 5. A cache that belongs to another pair, or to none, changes the time a call takes, not the
-///   quality of its answer.
+///    quality of its answer.
 ///
 /// # Guarantee
 /// The engine checks every claim: along any axis n, `min_Q n·y − max_P n·x` bounds the distance
