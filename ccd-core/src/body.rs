@@ -216,7 +216,7 @@ impl Body {
         .map_or(feature, Feature::Face)
     }
 
-    /// Whether its faces bound a solid that its pieces need not fill.
+    /// Returns whether its faces bound a solid that its pieces need not fill.
     pub(crate) fn may_be_hollow(&self) -> bool {
         self.volume == Volume::Solid && (self.pieces.all_triangles() || self.pieces.len() > 1)
     }

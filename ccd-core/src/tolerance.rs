@@ -174,7 +174,7 @@ pub const AXIS_ROUNDS: usize = 16;
 /// The least relative growth of a free time that is worth another Newton step.
 pub const WORTHWHILE: f64 = 1.0 / 64.0;
 
-/// How far beyond its distance at the start a pair that began in contact may come before it counts
+/// The decrease below its distance at the start from which on a pair that began in contact counts
 /// as approaching, in units of the distance's rounding. Four cover the rounding of both distances,
 /// and the rounding that a rate of zero accumulates over the whole duration.
 pub const RESTING: f64 = 4.0;

@@ -33,7 +33,7 @@ impl Bounds {
         }
     }
 
-    /// Whether two boxes have a point in common.
+    /// Returns whether two boxes have a point in common.
     pub(crate) fn meets(&self, other: &Bounds) -> bool {
         (self.lo.cmple(other.hi) & other.lo.cmple(self.hi)).all()
     }

@@ -9,7 +9,7 @@ impl DisjointSets {
         DisjointSets((0..count as u32).collect())
     }
 
-    /// The element that stands for its set.
+    /// The representative of an element's set.
     pub(crate) fn root(&mut self, mut k: u32) -> u32 {
         // Every element but the root points to a smaller one.
         while self.0[k as usize] != k {

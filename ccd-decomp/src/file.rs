@@ -113,7 +113,7 @@ impl Model {
         Ok(model)
     }
 
-    /// Checks that the parts, each of which is valid, belong together.
+    /// Checks that the parts, which are valid by themselves, belong together.
     fn check(&self) -> Result<(), &'static str> {
         let pieces = self.pieces.len();
         // A binary tree has one more leaf than inner nodes.

@@ -3,8 +3,8 @@
 /// The number of a half-edge: `3 f + k` runs along face `f` from its corner `k` to the next.
 pub(crate) type HalfEdge = u32;
 
-/// Finds the twin of every half-edge, which runs along the same edge the other way; none unless every half-edge has
-/// exactly one. O(n log n).
+/// Finds the twin of every half-edge, which runs along the same edge in the opposite direction; none unless
+/// every half-edge has exactly one. O(n log n).
 pub(crate) fn twins(triangles: &[[u32; 3]]) -> Option<Vec<HalfEdge>> {
     let mut edges: Vec<(u64, HalfEdge)> = Vec::with_capacity(3 * triangles.len());
     for (t, &[a, b, c]) in (0..).zip(triangles) {

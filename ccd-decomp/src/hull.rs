@@ -32,7 +32,7 @@ use span::Span;
 /// two of them, once in either direction, so that they tile the hull's boundary.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Hull {
-    /// The hull's corners in ascending order; the first point stands for all at its place.
+    /// The hull's corners in ascending order; the first of several points at one place represents them.
     pub(crate) vertices: Vec<u32>,
     /// Convex polygons, counter-clockwise seen from outside.
     pub(crate) facets: Loops,
@@ -88,7 +88,7 @@ pub enum HullError {
     Unproven(usize),
 }
 
-/// Computes the convex hull of points, several of which may be at one place.
+/// Computes the convex hull of points; several may be at one place.
 ///
 /// # Errors
 /// [`HullError`] when there is no hull with facets.

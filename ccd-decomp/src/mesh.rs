@@ -36,7 +36,7 @@ pub struct TriangleMesh {
     vertices: Vec<DVec3>,
     faces: Vec<[u32; 3]>,
     face_ids: Vec<u32>,
-    /// For every vertex the first one that lies at exactly the same point.
+    /// For every vertex the first one at exactly the same point.
     positions: Vec<u32>,
     repairs: Repairs,
 }

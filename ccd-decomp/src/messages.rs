@@ -22,7 +22,7 @@ const LFS_BEGINNING: &[u8] = b"version https://git-lfs";
 pub(crate) const LFS_ADVICE: &str = "is a Git LFS pointer, a few lines that stand for the file; run `git \
                                      lfs pull` to fetch the file itself";
 
-/// Whether bytes begin like a pointer of Git LFS.
+/// Returns whether bytes begin like a pointer of Git LFS.
 pub(crate) fn is_lfs_pointer(bytes: &[u8]) -> bool {
     bytes.starts_with(LFS_BEGINNING)
 }

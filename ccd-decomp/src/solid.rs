@@ -1,4 +1,4 @@
-//! Whether a mesh bounds a solid, and the surface of one that does.
+//! Decides whether a mesh bounds a solid, and holds the surface of one that does.
 //!
 //! ```text
 //! TriangleMesh ─► topology.rs ─► manifold.rs ─┬─ star_shaped.rs ───────────┬─► bounds a solid
@@ -38,8 +38,8 @@ pub(crate) fn bounding_solid(mesh: &TriangleMesh) -> Result<Manifold<'_>, Decomp
     Ok(manifold)
 }
 
-/// Checks what the edges alone do not decide: that faces share no more than their vertices and edges, and that
-/// the solid is behind all of them.
+/// Checks properties that the edges alone do not decide: faces share no more than their vertices and edges,
+/// and the solid is behind all of them.
 ///
 /// # Errors
 /// [`DecomposeError`]; [`TooLong`](DecomposeError::TooLong) when the work does not suffice to decide.

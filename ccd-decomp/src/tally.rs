@@ -24,7 +24,7 @@ impl<T> Tally<T> {
         &self.first
     }
 
-    /// Whether there are no elements.
+    /// Returns whether there are no elements.
     pub fn is_empty(&self) -> bool {
         self.count == 0
     }

@@ -24,9 +24,9 @@ pub(crate) const REINSERTED_SHARE: f32 = 0.02;
 /// Unit: rays. Each one grazes an edge only by accident.
 pub(crate) const RAY_TRIES: usize = 16;
 
-/// The distance on either side of a face within which no other shell may be, if the face's middle is to stand for
-/// the shell; in units of the mesh's size. Rounding moves the middle off the face by 8 [`U64`] at most, and the
-/// face's normal is accurate to a hundredth even for needles of an aspect of 1e6.
+/// The distance on either side of a face within which no other shell may be, for the face's middle to
+/// represent the shell; in units of the mesh's size. Rounding moves the middle off the face by 8 [`U64`] at
+/// most, and the face's normal is accurate to a hundredth even for needles of an aspect of 1e6.
 pub(crate) const FACE_ROUNDING: f64 = 1e-12;
 
 /// The number of polygons at which a patch stops growing.
@@ -72,9 +72,9 @@ pub(crate) fn on_edge(farthest: f64) -> f64 {
     64.0 * U64 * farthest
 }
 
-/// Bounds the error of the length of a difference of points along a direction, and of how far a box of
-/// [oriented box](crate::search) goes along it, when no coordinate exceeds `reach`; in its unit of
-/// length, for a direction about as long as 1.
+/// Bounds the error of the length of a difference of points along a direction, and of the reach of an
+/// [oriented box](crate::search) along it, when no coordinate exceeds `reach`; in its unit of length, for a
+/// direction of length about 1.
 ///
 /// With `u` half a unit in the last place, `d` the sum of the direction's coordinates and `m` the reach: a
 /// difference is off by `2u m` in every coordinate and its length along the direction by `8u d m`; twice, as
@@ -85,8 +85,8 @@ pub(crate) fn box_rounding(direction: DVec3, reach: f64) -> f64 {
     128.0 * U64 * direction.abs().element_sum() * reach + f64::MIN_POSITIVE
 }
 
-/// Bounds the error of the sum of so many products `a · (b × c)` of rounded differences of points, when
-/// `size` is the sum of `|a| |b| |c|` and what each addition rounds off is added up beside it; in the
+/// Bounds the error of the sum of `terms` products `a · (b × c)` of rounded differences of points. Here
+/// `size` is the sum of `|a| |b| |c|`, and the rounding error of each addition is summed separately; in the
 /// unit of the products.
 ///
 /// With `u` half a unit in the last place: of the six products of three coordinates each comes from three
@@ -163,7 +163,7 @@ pub(crate) const TRIANGLES_UNDER: usize = 64;
 /// The time of queries with one kind of pieces.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PieceCost {
-    /// The median time against a body of many triangles, whatever the number of pieces. Unit: µs.
+    /// The median time against a body of many triangles, for any number of pieces. Unit: µs.
     pub(crate) usual: f64,
     /// The time for every piece of a plane that rests flat on another one. Unit: µs.
     pub(crate) resting: f64,
@@ -232,7 +232,7 @@ pub(crate) const FAN_TRIANGLES: u32 = 32;
 /// The number of boxes along the coordinate axes that may meet that of a shape before oriented boxes are tested
 /// with the shape itself.
 ///
-/// Unit: boxes. Fewer: slower for triangles that are no slivers, which hardly ever meet so many.
+/// Unit: boxes. A smaller value is slower for triangles that are no slivers, which hardly ever meet as many.
 pub(crate) const BOXES_MET: usize = 32;
 
 /// The number of pairs of intersecting faces at which the search for more ends.

@@ -23,7 +23,7 @@ fn over(draw: impl Fn(&mut Pcg64) -> Scene, law: impl Fn(&Scene)) {
     }
 }
 
-/// Stamps the laws out for one backend.
+/// Generates the tests of all laws for one backend.
 macro_rules! obeys {
     ($backend:ident, $oracle:ty) => {
         mod $backend {
@@ -103,7 +103,7 @@ fn intersecting_hulls(#[values(4, 7, 30)] a: usize, #[values(4, 30)] b: usize) {
     });
 }
 
-/// A common point of flat pieces is known to fewer digits: the worst of these was 1.7e-7.
+/// A common point of flat pieces has fewer correct digits: the worst error of these was 1.7e-7.
 #[rstest]
 fn pressed_flat(#[values(3, 4, 8, 30)] a: usize, #[values(3, 4, 30)] b: usize) {
     let draw = |rng: &mut Pcg64| scene::pressed(rng, a, b);
@@ -129,8 +129,8 @@ fn balls_of_many_points(#[values(50, 500)] count: usize, #[values(1e-2, 1.0)] ga
     history::<Gjk>(count);
 }
 
-/// Random hulls: hulls apart are certified, agree with brute force and do not depend on the
-/// order; both outcomes are met often enough.
+/// Random hulls: separate hulls are certified, agree with brute force and do not depend on the
+/// order; both outcomes occur often enough.
 fn random<O: DistanceOracle + Default>(a: usize, b: usize) {
     let apart = std::cell::Cell::new(0);
     let law = |scene: &Scene| {
@@ -151,7 +151,7 @@ fn random<O: DistanceOracle + Default>(a: usize, b: usize) {
 }
 
 fn near_contact<O: DistanceOracle + Default>(meeting: Meeting, gap: f64) {
-    // Tilted faces are nearest at a corner, which may lie beside the other face.
+    // Tilted faces are nearest at a corner, which may be outside of the other face's prism.
     let slack = match meeting {
         Meeting::ParallelFaces => 1e-8,
         _ => 0.0,
@@ -185,7 +185,7 @@ fn degenerate<O: DistanceOracle + Default>() {
     over(scene::degenerate, law);
 }
 
-/// Coordinates of 1e6 cost the rounding of where the pieces are, not that of what they are.
+/// Coordinates of 1e6 cost the rounding of the pieces' positions, not of their shapes.
 fn far_from_the_origin<O: DistanceOracle + Default>() {
     let draw =
         |rng: &mut Pcg64| scene::near_contact(rng, Meeting::CornerFace, 1e-6).reframed(rng, 1e6);
@@ -207,7 +207,7 @@ fn any_scale<O: DistanceOracle + Default>() {
     let draw = |rng: &mut Pcg64| {
         let scale = scene::magnitude(rng, -45.0, 15.0);
         let mut scene = scene::random(rng, 3, 3).scaled(scale);
-        // One of the pieces may be as good as a point, or as a half-space.
+        // One of the pieces may be almost a point, or almost a half-space.
         let other = scene::magnitude(rng, -12.0, 0.0);
         if other < 1e-6 {
             scene.b.iter_mut().for_each(|y| *y *= other);
@@ -228,7 +228,7 @@ fn any_scale<O: DistanceOracle + Default>() {
 
 fn history<O: DistanceOracle + Default>(count: usize) {
     let mut rng = Pcg64::seed_from_u64(7);
-    // Pieces of changing sizes, so that the caches' indices go out of range again and again.
+    // Pieces of changing sizes, so that the caches' indices repeatedly go out of range.
     let scenes: Vec<Scene> = (0..200)
         .map(|k| match k % 4 {
             0 => scene::random(&mut rng, count, count),
@@ -241,7 +241,7 @@ fn history<O: DistanceOracle + Default>(count: usize) {
     laws::ignores_history::<O>(&scenes);
 }
 
-/// Frames that map nothing anywhere, and pieces without points, end like all others.
+/// Degenerate and infinite frames, and pieces without points, end like all others.
 #[test]
 fn nonsense_ends() {
     fn law<O: DistanceOracle + Default>(pair: &PiecePair<'_>) {

@@ -30,7 +30,7 @@ impl Axis {
         }
     }
 
-    /// Whether the distance is certified along it, up to rounding.
+    /// Returns whether the distance is certified along it, up to rounding.
     ///
     /// Written so that NaN is not certified.
     pub(crate) fn certifies(&self, distance: f64, placed: &PlacedPair<'_>) -> bool {

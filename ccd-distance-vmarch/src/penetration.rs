@@ -101,7 +101,7 @@ fn straddled<X: Placed, Y: Placed>(x: &X, e: u32, y: &Y, f: u32, scale: Scale) -
     pierced(x, e, y, f)
 }
 
-/// Whether a segment and a triangle that is not in one plane with it have a common point.
+/// Returns whether a segment and a triangle that is not in one plane with it have a common point.
 fn passes([start, end]: [DVec3; 2], triangle: [DVec3; 3]) -> bool {
     let (first, last) = (side(triangle, start), side(triangle, end));
     let beside = first == last && first.is_ne();

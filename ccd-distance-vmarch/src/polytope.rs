@@ -105,7 +105,8 @@ pub(crate) struct Side {
 }
 
 impl Edge {
-    /// Whether a point with these components into either face is certainly in the edge's region.
+    /// Returns whether a point with these components into either face is certainly in the edge's
+    /// region.
     #[inline(always)]
     pub(crate) fn is_clear(&self, inward: [f64; 2], slack: f64) -> bool {
         let alone = self.faces == [NO_FACE; 2];
@@ -143,7 +144,7 @@ impl Polytope {
         &self.sides[face.first_side as usize..face.end_side as usize]
     }
 
-    /// Whether the polytope has such a feature.
+    /// Returns whether the polytope has such a feature.
     #[inline]
     pub(crate) fn has(&self, feature: Feature) -> bool {
         let (number, count) = match feature {

@@ -78,7 +78,7 @@ fn names(placed: &PlacedPair<'_>) -> [u64; 2] {
     [name(placed.a.shape()), name(placed.b.shape())]
 }
 
-/// Whether a march can begin at a pair: never at two faces.
+/// Returns whether a march can begin at a pair: never at two faces.
 #[inline]
 fn is_state(placed: &PlacedPair<'_>, pair: Pair) -> bool {
     let two_faces = matches!((pair.a, pair.b), (Feature::Face(_), Feature::Face(_)));

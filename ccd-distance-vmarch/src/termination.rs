@@ -36,7 +36,7 @@ impl Brent {
         }
     }
 
-    /// Whether the march has returned to the remembered state.
+    /// Returns whether the march has returned to the remembered state.
     #[inline]
     pub(crate) fn returned(&mut self, pair: Pair) -> bool {
         if pair == self.left {

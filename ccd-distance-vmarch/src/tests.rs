@@ -1,6 +1,6 @@
 //! Pairs of every kind against brute force: cold, warm, and with caches of other pairs.
 //!
-//! What is found is printed: `CCD_TEST_SLOW=1 cargo test --release -p ccd-distance-vmarch agrees --
+//! To print the results: `CCD_TEST_SLOW=1 cargo test --release -p ccd-distance-vmarch agrees --
 //! --nocapture`.
 
 mod laws;
@@ -41,9 +41,9 @@ struct Tally {
     relative: f64,
     /// The largest error in units of the coordinates' rounding.
     rounding: f64,
-    /// The same of what an axis falls short of the distance by.
+    /// The same for the largest difference of the distance and the axis' gap.
     short: f64,
-    /// The largest distance claimed of what intersects, in the same units.
+    /// The largest distance claimed for intersecting pieces, in the same units.
     meeting_distance: f64,
 }
 

@@ -29,7 +29,7 @@ impl<'a> Facets<'a> {
         self.ends.len()
     }
 
-    /// Whether no facet is known.
+    /// Returns whether no facet is known.
     pub fn is_empty(&self) -> bool {
         self.ends.is_empty()
     }

@@ -118,7 +118,7 @@ impl Body {
         }
     }
 
-    /// Whether its surface certainly winds about a point.
+    /// Returns whether its surface certainly winds about a point.
     fn winds_about(&self, point: DVec3) -> bool {
         crossings(self.tree(), self.pieces(), point, 0.0)
             .is_some_and(|found| found.on == 0 && found.beyond != 0)

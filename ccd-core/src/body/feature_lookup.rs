@@ -64,7 +64,7 @@ pub(crate) fn look_up(piece: &Piece<'_>, point: &Combination) -> MeshFeature {
     }
 }
 
-/// Whether any part of the mesh is on the piece.
+/// Returns whether any part of the mesh is on the piece.
 fn is_on_mesh(piece: &Piece<'_>) -> bool {
     match FacetsByCorner::of(piece) {
         Some(by_corner) => by_corner.is_on_mesh,

@@ -154,7 +154,7 @@ impl<'a> Piece<'a> {
         }
     }
 
-    /// Whether it is in a plane: a polytope of volume has more than two facets.
+    /// Returns whether it is in a plane: a polytope of volume has more than two facets.
     pub(crate) fn is_flat(&self) -> bool {
         self.points.len() <= 3 || self.facets.len() == 2
     }

@@ -144,7 +144,7 @@ impl Pieces {
         self.point_ends.len()
     }
 
-    /// Whether every piece is a triangle without rounding.
+    /// Returns whether every piece is a triangle without rounding.
     pub fn all_triangles(&self) -> bool {
         matches!(self.shape, Shape::Triangles { .. })
     }

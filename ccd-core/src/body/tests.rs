@@ -90,7 +90,7 @@ fn a_surface_is_taken_against_many_triangles_only() {
 }
 
 #[test]
-fn what_is_no_surface_is_refused() {
+fn invalid_surfaces_are_refused() {
     let [one, triangles] = tetrahedron();
     let open = Body::new(triangles.pieces(), Volume::Surface).unwrap();
     let refused = [

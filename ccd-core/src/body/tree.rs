@@ -83,7 +83,7 @@ impl Tree {
         self.nodes[0].half
     }
 
-    /// Whether a point is within the root's box, or near it.
+    /// Returns whether a point is within the root's box, or near it.
     pub(crate) fn may_contain(&self, point: DVec3) -> bool {
         self.nodes[0].holds(point, 0.0)
     }

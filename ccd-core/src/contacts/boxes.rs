@@ -117,7 +117,7 @@ impl Boxed {
         }
     }
 
-    /// Whether they are certainly farther apart than `reach` along a coordinate.
+    /// Returns whether they are certainly farther apart than `reach` along a coordinate.
     fn apart(&self, other: &Boxed, reach: f64) -> bool {
         let gap = (other.low - self.high).max(self.low - other.high);
         gap.max_element() > reach

@@ -103,9 +103,9 @@ impl<'a> Manifold<'a> {
         pairs
     }
 
-    /// Whether a point on an edge or corner within a plane is nearest only on the triangle on which
-    /// it was found, while another triangle around comes nearer elsewhere. Such a point exists only
-    /// because of the cut: the nearer place makes a pair, or one that is nearer still.
+    /// Returns whether a point on an edge or corner within a plane is nearest only on the triangle
+    /// on which it was found, while another triangle around comes nearer elsewhere. Such a point
+    /// exists only because of the cut: the nearer place makes a pair, or one that is nearer still.
     fn nearer_beside(&self, spots: [Spot; 2], candidate: &Candidate) -> bool {
         let rounding = self.problem.rounding;
         (0..2).any(|k| {

@@ -137,8 +137,8 @@ impl Extent {
     }
 }
 
-/// Whether two nodes are certainly farther apart than `reach`: by their balls, along the axes of
-/// either, or along the vector between them. Written so that NaN counts as near.
+/// Returns whether two nodes are certainly farther apart than `reach`: by their balls, along the
+/// axes of either, or along the vector between them. Written so that NaN counts as near.
 fn apart([a, b]: &[Extent; 2], reach: f64) -> bool {
     let way = b.centre - a.centre;
     let distance = length(way);

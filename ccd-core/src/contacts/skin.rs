@@ -276,8 +276,8 @@ impl<'a> Skin<'a> {
         }
     }
 
-    /// Whether two faces are in one plane, on either side of the edge that they share: neither
-    /// sticks out of the other's plane, or they are cut from one facet.
+    /// Returns whether two faces are in one plane, on either side of the edge that they share:
+    /// neither sticks out of the other's plane, or they are cut from one facet.
     fn in_one_plane(&self, ends: [u32; 2], faces: [u32; 2], rounding: f64) -> bool {
         let [one, other] = faces.map(|face| self.face(face));
         // Rounding moves their surfaces off the plane by their radii.

@@ -14,7 +14,7 @@ use twin::Mesh;
 mod cuts;
 mod twin;
 
-/// Two bodies at rest, A where it is put, B at the origin.
+/// Two bodies at rest, A at its pose, B at the origin.
 fn contacts(a: &Body, b: &Body, pose: Pose, tolerance: f64) -> Vec<FeaturePair> {
     let config = Config {
         tolerance,
@@ -46,7 +46,7 @@ fn names(pairs: &[FeaturePair]) -> Vec<String> {
     names
 }
 
-/// How many pairs there are of vertices with faces, of edges, and of anything else.
+/// Counts the pairs of vertices with faces, of edges, and all others.
 fn kinds(pairs: &[FeaturePair]) -> [usize; 3] {
     let mut counts = [0; 3];
     for pair in pairs {
@@ -83,7 +83,7 @@ fn check_bounds(pairs: &[FeaturePair], distance: f64, normal: DVec3) {
 fn a_cube_flat_on_a_slab_has_its_four_corners_on_the_face() {
     for cube in cuboids(DVec3::splat(0.5)) {
         for slab in cuboids(DVec3::new(3.0, 3.0, 1.0)) {
-            // Over the diagonals of the slab's triangulation, and beside them; touching as well.
+            // Over the diagonals of the slab's triangulation, and next to them; also in contact.
             for (x, y) in [(0.0, 0.0), (0.3, 0.1), (0.25, -0.75)] {
                 for gap in [5e-4, 1e-6, 0.0] {
                     let pairs = contacts(&cube, &slab, at(x, y, 1.5 + gap), 1e-3);
@@ -138,7 +138,7 @@ fn flush_squares_cross_along_their_outlines() {
     check_bounds(&pairs, 0.0, -DVec3::Z);
 }
 
-/// Equal faces that cover each other: corners on corners, and nothing that follows from them.
+/// Equal faces that cover each other: corners on corners, and no pairs that follow from them.
 #[test]
 fn equal_faces_meet_in_their_corners() {
     for (a, b) in cuboids(DVec3::ONE).into_iter().zip(cuboids(DVec3::ONE)) {
@@ -178,9 +178,9 @@ fn balls_and_capsules_touch_with_their_surfaces() {
     check_bounds(&pairs, 5e-4, -DVec3::X);
 }
 
-/// Approximate hulls name nothing of a mesh, and hulls of unknown facets only their corners.
+/// Approximate hulls have no features of a mesh, and hulls of unknown facets only their corners.
 #[test]
-fn what_has_no_number_goes_by_its_piece() {
+fn features_without_a_number_are_named_by_their_piece() {
     let slab = Body::cuboid(DVec3::new(3.0, 3.0, 1.0)).unwrap();
     let cube = Mesh::cuboid(DVec3::splat(0.5));
     let facet = |face: &[u32; 3]| Facet {
@@ -205,7 +205,7 @@ fn what_has_no_number_goes_by_its_piece() {
     }
 }
 
-/// What is kept apart by a margin is in contact at that distance.
+/// Bodies at the distance of the margin are in contact.
 #[test]
 fn a_margin_is_reached_across() {
     let cube = Mesh::cuboid(DVec3::splat(0.5)).body(Volume::Solid);
@@ -221,7 +221,7 @@ fn a_margin_is_reached_across() {
     }
 }
 
-/// Shapes whose numbers and places are at random, so that no pair is on the brink.
+/// Shapes with random numbers and places, so that no pair is on the brink.
 #[test]
 fn no_pair_of_random_soups_is_missed() {
     let rng = &mut rng(71);
@@ -283,7 +283,7 @@ fn no_pair_of_meshes_that_nearly_rest_is_missed() {
     assert!(found[0] > 1000 && found[1] > 1000, "{found:?}");
 }
 
-/// Holds the pairs against the twin's, names and distances, both ways round.
+/// Compares the pairs with the twin's, names and distances, in both orders.
 fn compare(a: &Mesh, b: &Mesh, pose: Pose, tolerance: f64, found: &mut [usize; 3], round: usize) {
     let (body_a, body_b) = (a.body(Volume::Surface), b.body(Volume::Surface));
     let config = Config {
@@ -294,7 +294,7 @@ fn compare(a: &Mesh, b: &Mesh, pose: Pose, tolerance: f64, found: &mut [usize; 3
     let pairs = problem.contacts_at(0.0).unwrap();
     let placed = a.placed(&pose);
     let expected = twin::contacts(&placed, b, tolerance, problem.rounding);
-    let told: Vec<(String, f64)> = pairs
+    let reported: Vec<(String, f64)> = pairs
         .iter()
         .map(|pair| {
             (
@@ -304,7 +304,7 @@ fn compare(a: &Mesh, b: &Mesh, pose: Pose, tolerance: f64, found: &mut [usize; 3
         })
         .collect();
     for (name, distance) in &expected.sure {
-        let same = told.iter().find(|(other, _)| other == name);
+        let same = reported.iter().find(|(other, _)| other == name);
         let Some((_, upper)) = same else {
             panic!("round {round}: {name} at {distance} of {tolerance} is missed");
         };
@@ -314,7 +314,7 @@ fn compare(a: &Mesh, b: &Mesh, pose: Pose, tolerance: f64, found: &mut [usize; 3
             "{name} {off}"
         );
     }
-    for (name, distance) in &told {
+    for (name, distance) in &reported {
         assert!(
             expected.sure.contains_key(name) || expected.doubtful.contains(name),
             "round {round}: {name} at {distance} of {tolerance} is no pair"
@@ -343,18 +343,18 @@ fn compare(a: &Mesh, b: &Mesh, pose: Pose, tolerance: f64, found: &mut [usize; 3
     assert_eq!(
         unique.len(),
         pairs.len(),
-        "round {round}: a pair is told twice"
+        "round {round}: a pair is reported twice"
     );
     assert_eq!(pairs, problem.contacts_at(0.0).unwrap());
 }
 
-/// Fine plates face to face: a million pairs of triangles, of which those near each other are looked at.
+/// Fine plates face to face: of a million pairs of triangles, only near ones are visited.
 #[test]
 fn fine_plates_face_to_face_are_no_trouble() {
     let rng = &mut rng(73);
     let plate = Mesh::terrain(rng, 60, 3.0, 0.0);
     let body = plate.body(Volume::Surface);
-    // By half a cell: every vertex is over a face, but for those beyond the other plate.
+    // Shifted by half a cell: every vertex is over a face, except those beyond the other plate.
     let cell = 6.0 / 60.0;
     let pairs = contacts(&body, &body, at(0.3 * cell, 0.2 * cell, 5e-4), 1e-3);
     // Along two sides, 61 and 60 vertices of either plate hang over.

@@ -44,7 +44,7 @@ pub fn turn_along(axis: usize, [a, b]: [DVec3; 2], point: DVec3) -> Ordering {
     sign(orient2d(a, b, point))
 }
 
-/// Whether a triangle has no area: its corners are on one line.
+/// Returns whether a triangle has no area: its corners are on one line.
 ///
 /// # Guarantee
 /// Like [`side`].

@@ -1,4 +1,4 @@
-//! Motions pass through the poses they are made of.
+//! Motions pass through the poses from which they are made.
 
 use super::Motion;
 use super::pose::Pose;
@@ -8,7 +8,7 @@ use crate::tests::scene::{RngExt, direction, magnitude, rng, rotation, within};
 use glam::{DQuat, DVec3};
 use std::f64::consts::PI;
 
-/// How far apart two poses take points of about unit size.
+/// The distance to which two poses take points of about unit size.
 fn apart(a: &Pose, b: &Pose) -> f64 {
     let points = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
     let off = points.map(|p| a.transform_point(p).distance(b.transform_point(p)));
@@ -43,7 +43,7 @@ fn half_turns_and_tiny_turns_keep_their_digits() {
             let poses = [start, turn * start].map(|q| Pose::new(DVec3::ZERO, q).unwrap());
             let motion = Motion::between(poses[0], poses[1], DVec3::ZERO, 1.0).unwrap();
             assert!(apart(&motion.pose(1.0), &poses[1]) < 1e-14, "{angle}");
-            // Of a unit quaternion's rounding, 2e-16, what is left is the turn.
+            // The error of the turn is about the rounding of a unit quaternion, 2e-16.
             assert!((motion.spin().length() - angle).abs() < 2e-15, "{angle}");
         }
         let pose = Pose::new(DVec3::ONE, start).unwrap();
@@ -52,7 +52,7 @@ fn half_turns_and_tiny_turns_keep_their_digits() {
     }
 }
 
-/// Both ways are as short: the signs of the quaternions decide.
+/// Both directions are as short: the signs of the quaternions decide.
 #[test]
 fn half_a_turn_goes_about_the_axis_as_it_is_given() {
     let turn = |start: DQuat, end: DQuat| {
@@ -76,7 +76,7 @@ fn any_number_of_turns_is_a_motion() {
     let end = Pose::at(DVec3::X).unwrap();
     assert!(apart(&motion.pose(1.0), &end) < 1e-13);
     assert!(apart(&motion.pose(0.5), &Pose::at(0.5 * DVec3::X).unwrap()) < 1e-13);
-    // A quarter of a turn later it faces another way.
+    // A quarter of a turn later its orientation is different.
     assert!(apart(&motion.pose(1.0 / 24.0), &end) > 1.0);
 }
 
@@ -91,7 +91,7 @@ fn a_body_at_rest_stays() {
 }
 
 #[test]
-fn what_is_not_finite_is_refused() {
+fn motions_that_are_not_finite_are_refused() {
     let mut rng = rng(4);
     for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         let mut vector = within(&mut rng, 1.0);

@@ -1,4 +1,4 @@
-//! What makes a query, and in which units it is put.
+//! Inputs of a query, and its internal units.
 
 use super::*;
 use crate::motion::pose::Pose;
@@ -21,7 +21,7 @@ fn refused(result: Result<f64, InputError>) -> &'static str {
 }
 
 #[test]
-fn what_is_out_of_range_is_refused_by_name() {
+fn quantities_out_of_range_are_refused_by_name() {
     let still = Motion::still(Pose::IDENTITY);
     let config = Config::default();
     for bad in [-1.0, f64::NAN, f64::INFINITY] {

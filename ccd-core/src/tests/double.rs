@@ -1,5 +1,5 @@
-//! Arithmetic with twice the digits of f64: the reference that allowances for rounding are sampled
-//! against. A number is the unevaluated sum of two f64, right to about 1e-31.
+//! Double-double arithmetic: the reference for samples of the allowances for rounding. A number is
+//! the unevaluated sum of two f64, with a relative error of about 1e-31.
 
 use crate::math::order::greater;
 use crate::motion::Motion;
@@ -44,7 +44,7 @@ impl Double {
         (root + self / root) * Double::from(0.5)
     }
 
-    /// The angle whose sine and cosine are as these two, both at least 0.
+    /// Returns the angle with this sine and cosine, both at least 0.
     pub(crate) fn atan2(self, cosine: Double) -> Double {
         let angle = Double::from(self.high.atan2(cosine.high));
         // One Newton step doubles the digits of the f64 angle.
@@ -52,7 +52,8 @@ impl Double {
         angle + (self * cos - cosine * sin) / (self * sin + cosine * cos)
     }
 
-    /// Sine and cosine: Taylor's series of a small fraction of the angle, doubled again and again.
+    /// Computes sine and cosine: Taylor's series of a small fraction of the angle, doubled
+    /// repeatedly.
     pub(crate) fn sin_cos(self) -> (Double, Double) {
         let mut halvings = 0;
         let mut angle = self;
@@ -180,7 +181,7 @@ impl Double3 {
         Double3(self.0.map(|x| x / length))
     }
 
-    /// Turned by the rotation that a quaternion names, of whatever length it is.
+    /// Turned by the rotation of a quaternion of any length.
     fn rotated(self, q: DQuat) -> Double3 {
         let v = Double3::from(q.xyz());
         let w = Double::from(q.w);
@@ -212,7 +213,7 @@ impl Sub for Double3 {
     }
 }
 
-/// Where a motion takes a point of the body at `s · duration`, in the world: the formula of
+/// Returns the position of a point of the body at `s · duration`, in the world: the formula of
 /// [`Motion`] term by term.
 pub(crate) fn place(motion: &Motion, duration: f64, s: f64, point: DVec3) -> Double3 {
     let time = Double::from(duration) * Double::from(s);
@@ -223,7 +224,7 @@ pub(crate) fn place(motion: &Motion, duration: f64, s: f64, point: DVec3) -> Dou
     start + Double3::from(motion.velocity()).scale(time) + arm
 }
 
-/// Where a motion turns a vector of the body, in the world.
+/// Returns a vector of the body, turned into the world.
 fn turned(motion: &Motion, duration: f64, s: f64, vector: Double3) -> Double3 {
     let time = Double::from(duration) * Double::from(s);
     let vector = vector.rotated(motion.start().rotation());
@@ -234,17 +235,17 @@ fn turned(motion: &Motion, duration: f64, s: f64, vector: Double3) -> Double3 {
     vector.turned(spin.unit(), spin.length() * time)
 }
 
-/// Poses at both ends of a motion as they are given, the quaternions of any length.
+/// Poses at both ends of a motion as given, with quaternions of any length.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Ends {
     pub(crate) places: [DVec3; 2],
     pub(crate) turned: [DQuat; 2],
-    /// Moves straight, in the body's frame.
+    /// Moves on a straight line, in the body's frame.
     pub(crate) centre: DVec3,
 }
 
 impl Ends {
-    /// Where the motion between them takes a point of the body, at a share of the duration.
+    /// Returns the position of a point of the body at a share of the duration.
     pub(crate) fn place(&self, share: Double, point: DVec3) -> Double3 {
         let centre = Double3::from(self.centre);
         let [start, end] =
@@ -260,7 +261,7 @@ impl Ends {
         start + (end - start).scale(share) + arm
     }
 
-    /// The quaternion from the one to the other, of whatever length, its real part not negative.
+    /// The quaternion from the first to the second, of any length, with a non-negative real part.
     fn turn(&self) -> ([Double; 3], Double) {
         let [from, to] = self.turned;
         let [v, u] = [from.xyz(), to.xyz()].map(Double3::from);
@@ -282,7 +283,7 @@ fn has_twice_the_digits() {
     assert!((one - Double::from(1.0)).get().abs() < 1e-31);
     let root = Double::from(2.0).sqrt();
     assert!((root * root - Double::from(2.0)).get().abs() < 1e-31);
-    // sin² + cos² = 1, and the double angle by another way, also after many turns.
+    // sin² + cos² = 1, and the double angle by another formula, also after many turns.
     for angle in [1e-9, 0.3, 2.0, -7.5, 1e3, 1e6] {
         let (sin, cos) = Double::from(angle).sin_cos();
         let scale = 1e-30 * greater(1.0, angle.abs());

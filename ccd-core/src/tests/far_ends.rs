@@ -1,5 +1,5 @@
-//! Motions between poses far from the world's origin: answers hold for the motion that the poses say,
-//! not for the one that rounding makes of them.
+//! Motions between poses far from the world's origin: answers hold for the motion between the given
+//! poses, not for the rounded one.
 
 use super::double::{Double, Double3, Ends};
 use super::oracle::Exhaustive;
@@ -12,7 +12,7 @@ use crate::problem::{Config, Moving, Problem};
 use crate::schedule::{BestFirst, Naive, Schedule};
 use glam::DVec3;
 
-/// Poses at both ends about a place in the world, with quaternions of any length and at times the same.
+/// Poses at both ends about a point in the world, with quaternions of any length, sometimes equal.
 pub(crate) fn ends(rng: &mut Pcg64, world: DVec3, size: f64) -> Ends {
     let at = |rng: &mut Pcg64| world + within(rng, size);
     let start = rotation(rng) * magnitude(rng, -3.0, 3.0);
@@ -29,13 +29,13 @@ pub(crate) fn ends(rng: &mut Pcg64, world: DVec3, size: f64) -> Ends {
     }
 }
 
-/// The motion that the engine makes of them.
+/// Returns the engine's motion between them.
 pub(crate) fn between(ends: &Ends, duration: f64) -> Motion {
     let [start, end] = [0, 1].map(|k| Pose::new(ends.places[k], ends.turned[k]).unwrap());
     Motion::between(start, end, ends.centre, duration).unwrap()
 }
 
-/// Two balls, each off its body's origin.
+/// Two balls, each away from its body's origin.
 struct Scene {
     ends: [Ends; 2],
     centres: [DVec3; 2],

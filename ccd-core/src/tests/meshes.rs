@@ -50,7 +50,7 @@ fn turn(k: usize, n: usize) -> DVec2 {
     DVec2::from_angle(std::f64::consts::TAU * (k % n) as f64 / n as f64)
 }
 
-/// The same surface with its normals the other way.
+/// The same surface with opposite normals.
 pub(crate) fn inside_out(triangles: &[Triangle]) -> Vec<Triangle> {
     triangles.iter().map(|&[a, b, c]| [a, c, b]).collect()
 }

@@ -1,5 +1,5 @@
-//! The nearest points of two triangles, the slow and obvious way: every edge with every edge, every
-//! corner with the other's plane, and whether an edge pierces the other triangle.
+//! The nearest points of two triangles by brute force: every edge with every edge, every corner
+//! with the other's plane, and whether an edge pierces the other triangle.
 
 use crate::math::order::lesser;
 use glam::DVec3;
@@ -79,7 +79,7 @@ fn segments(p: DVec3, p_end: DVec3, q: DVec3, q_end: DVec3) -> (f64, f64) {
     let denominator = dd * ee - de * de;
     let mut s = clamp((de * e.dot(r) - d.dot(r) * ee) / denominator);
     let mut t = 0.0;
-    // Alternating projections mend what cancellation did to the first guess.
+    // Alternating projections correct the first guess after cancellation.
     for _ in 0..3 {
         t = clamp(e.dot(p + s * d - q) / ee);
         s = clamp(d.dot(q + t * e - p) / dd);
@@ -87,7 +87,7 @@ fn segments(p: DVec3, p_end: DVec3, q: DVec3, q_end: DVec3) -> (f64, f64) {
     (s, t)
 }
 
-/// The weights of a point's foot in the plane of a triangle, if it lies within the triangle.
+/// The weights of a point's foot in the plane of a triangle, if it is within the triangle.
 fn foot(t: &Triangle, from: DVec3) -> Option<[f64; 3]> {
     let (u, v) = (t[1] - t[0], t[2] - t[0]);
     let normal = u.cross(v);
@@ -98,7 +98,7 @@ fn foot(t: &Triangle, from: DVec3) -> Option<[f64; 3]> {
     inside(weights_u, weights_v)
 }
 
-/// Where a segment meets a triangle.
+/// Returns the place where a segment meets a triangle.
 fn pierce(t: &Triangle, p: DVec3, q: DVec3) -> Option<(f64, [f64; 3])> {
     let normal = (t[1] - t[0]).cross(t[2] - t[0]);
     let (from, to) = (normal.dot(p - t[0]), normal.dot(q - t[0]));

@@ -1,4 +1,4 @@
-//! A slow oracle for pieces of up to three points, and one that lies.
+//! A slow oracle for pieces of up to three points, and a dishonest one.
 
 use super::nearest::{Triangle, nearest, point};
 use crate::body::combination::Combination;
@@ -28,7 +28,8 @@ impl DistanceOracle for Exhaustive {
     }
 }
 
-/// Of the way between the witnesses, the normals and the products of edges the axis of widest gap.
+/// Returns the axis of widest gap among the vector between the witnesses, the normals and the
+/// products of edges.
 fn widest(pair: &PiecePair<'_>, way: DVec3, a: &Triangle, b: &Triangle) -> DVec3 {
     let edges = |t: &Triangle| [t[1] - t[0], t[2] - t[1], t[0] - t[2]];
     let normal = |t: &Triangle| (t[1] - t[0]).cross(t[2] - t[0]);

@@ -11,15 +11,15 @@ use glam::{DQuat, DVec3};
 pub(crate) use rand::{RngExt, SeedableRng};
 pub(crate) use rand_pcg::Pcg64;
 
-/// What the triangles of a soup look like.
+/// The shapes of a soup's triangles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Look {
     Plump,
     /// Each 1e-7 times as wide as long.
     Needles,
-    /// All in one plane, to within 1e-7 of their size.
+    /// All in one plane, up to 1e-7 of their size.
     Flat,
-    /// All along one line, to within 1e-7 of their size.
+    /// All along one line, up to 1e-7 of their size.
     Stretched,
     /// Sizes over six orders of magnitude.
     Mixed,
@@ -111,18 +111,18 @@ pub(crate) fn pieces(triangles: &[Triangle]) -> Pieces {
     Pieces::triangles(&points, &faces, &ids).unwrap()
 }
 
-/// How a body moves about the clock at which it is where it was put.
+/// The motion of a body about the clock at which it has its given pose.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Passage {
     pub(crate) clock: f64,
     pub(crate) rotation: DQuat,
-    /// Where the body's point `middle` is at that clock.
+    /// The position of the body's point `middle` at that clock.
     pub(crate) place: DVec3,
     pub(crate) middle: DVec3,
-    /// Of the centre, over the whole duration.
+    /// The displacement of the centre over the whole duration.
     pub(crate) velocity: DVec3,
     pub(crate) spin: DVec3,
-    /// In the body's frame.
+    /// The centre in the body's frame.
     pub(crate) centre: DVec3,
 }
 
@@ -147,9 +147,9 @@ pub(crate) struct Scene {
     pub(crate) bodies: [Body; 2],
     pub(crate) motions: [Motion; 2],
     pub(crate) config: Config,
-    /// When they are near each other.
+    /// The clock at which they are near each other.
     pub(crate) clock: f64,
-    /// For about how long.
+    /// The approximate time for which they are.
     pub(crate) window: f64,
 }
 
@@ -177,7 +177,7 @@ pub(crate) fn distance(problem: &Problem<'_>, s: f64) -> f64 {
     pairs.fold(f64::INFINITY, lesser)
 }
 
-/// What two bodies do when they are near each other.
+/// The behaviour of two bodies near each other.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Kind {
     /// Anything: still, translating, turning, one or both, about any centre.
@@ -206,7 +206,7 @@ pub(crate) fn scene(rng: &mut Pcg64, kind: Kind, most: usize) -> Scene {
     let clock = rng.random_range(0.0..1.0);
     let world = direction(rng) * offset(rng, size);
     let way = direction(rng);
-    // How far apart the middles are when they are near: overlapping to well apart.
+    // The distance of the middles when they are near: overlapping to well apart.
     let near = match kind {
         Kind::Receding => rng.random_range(0.0..0.3),
         _ => rng.random_range(0.0..1.4),

@@ -1,4 +1,5 @@
-//! Needles whose widths have no square in f64: what comes along their normals keeps its margin.
+//! Needles whose widths have no square in f64: bodies that approach along their normals keep the
+//! margin.
 
 use super::nearest::nearest;
 use super::oracle::Exhaustive;
@@ -13,7 +14,7 @@ use crate::problem::{Config, Moving, Problem};
 use crate::schedule::{BestFirst, Schedule};
 use glam::DVec3;
 
-/// A vector of small whole numbers.
+/// A vector of small integers.
 fn whole(rng: &mut Pcg64) -> DVec3 {
     let v = DVec3::from_array([(); 3].map(|()| f64::from(rng.random_range(-2..3))));
     if v == DVec3::ZERO { DVec3::X } else { v }
@@ -84,7 +85,7 @@ fn margins_are_kept_from_needles_of_widths_that_have_no_square() {
                 misses += 1;
                 (1.0, proven_gap)
             }
-            // The slow oracle squares what it should not, and names poor axes.
+            // The slow oracle squares tiny numbers, and claims poor axes.
             Outcome::Unresolved { safe_until, .. } => {
                 open += 1;
                 (safe_until, problem.margin)

@@ -1,4 +1,4 @@
-//! The f64 allowances against arithmetic of twice the digits.
+//! The f64 allowances against double-double arithmetic.
 
 use super::distance_rounding;
 use crate::body::combination::Combination;
@@ -22,7 +22,7 @@ struct Worst {
     place: f64,
     gap: f64,
     distance: f64,
-    /// Of problems at a million units from the body's or the world's origin, and of many turns.
+    /// Problems at a million units from the body's or the world's origin, and with many turns.
     far: usize,
     turns: usize,
 }
@@ -60,7 +60,8 @@ fn rounding_of_places_gaps_and_distances_is_allowed_for() {
     assert!(worst.distance < 1.0, "{worst:?}");
 }
 
-/// What is derived from poses at both ends is allowed for as well, against the motion between the poses.
+/// The allowance covers velocities derived from poses at both ends, against the motion between
+/// them.
 #[test]
 fn rounding_of_motions_between_poses_is_allowed_for() {
     let mut rng = rng(6);
@@ -163,8 +164,8 @@ fn sample(
         b: Combination::point(j),
     };
     let checked = separation::check(&pair, &claim, problem.rounding);
-    // A bound holds along any axis: the one it was computed along is where A's rounded frame takes
-    // what was claimed.
+    // A bound holds along any axis: the axis of this one is the image of the claimed one in A's
+    // rounded frame.
     let along = |column: DVec3, by: f64| Double3::from(column).scale(Double::from(by));
     let (turn, n) = (frames[0].rotation, checked.axis);
     let axis = along(turn.x_axis, n.x) + along(turn.y_axis, n.y) + along(turn.z_axis, n.z);

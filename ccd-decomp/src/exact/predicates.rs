@@ -1,4 +1,4 @@
-//! Exact signs for triangles of a list and in a projection `[SHE97]`, beside those of [`ccd_core::exact`].
+//! Exact signs for triangles of a list and in a projection `[SHE97]`, in addition to [`ccd_core::exact`].
 
 pub(crate) use ccd_core::exact::{is_degenerate, side, too_fine, turn_along};
 
@@ -39,7 +39,7 @@ impl Projection {
         })
     }
 
-    /// The side of a line in the triangle's plane on which a point of the plane lies: `Greater` to the left of
+    /// Returns the side of a line in the triangle's plane with a point of the plane: `Greater` to the left of
     /// the direction from `a` to `b`, seen from the triangle's front.
     #[inline]
     pub(crate) fn turn(self, a: DVec3, b: DVec3, point: DVec3) -> Ordering {
@@ -50,9 +50,9 @@ impl Projection {
     }
 }
 
-/// Whether a triangle has no area, with coordinates however near to 0. Each axis is first scaled by a power of
-/// two until its largest coordinate is about 1, which does not change the answer. Exact, unless coordinates
-/// along one axis differ by a factor of more than 1e90.
+/// Returns whether a triangle has no area, with coordinates however near to 0. Each axis is first scaled by a
+/// power of two until its largest coordinate is about 1, which does not change the answer. Exact, unless
+/// coordinates along one axis differ by a factor of more than 1e90.
 pub(crate) fn is_without_area(triangle: [DVec3; 3]) -> bool {
     let [a, b, c] = triangle.map(DVec3::abs);
     let scale = DVec3::from_array(a.max(b).max(c).to_array().map(scale_to_one));

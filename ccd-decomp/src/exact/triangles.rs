@@ -1,11 +1,11 @@
-//! Whether triangles and segments meet: exactly.
+//! Exact tests whether triangles and segments meet.
 
 use super::predicates::{Projection, side};
 use ccd_core::glam::DVec3;
 use std::cmp::Ordering;
 
-/// Whether two triangles with an area meet elsewhere than in the corners they share, by the numbers of their
-/// corners and by their points.
+/// Returns whether two triangles with an area meet elsewhere than in the corners they share, by the numbers
+/// of their corners and by their points.
 pub(crate) fn meet(corners: [[u32; 3]; 2], triangles: [[DVec3; 3]; 2]) -> bool {
     let is_shared = |which: usize, k: usize| corners[1 - which].contains(&corners[which][k]);
     let shared = (0..3).filter(|&k| is_shared(0, k)).count();
@@ -24,7 +24,7 @@ pub(crate) fn meet(corners: [[u32; 3]; 2], triangles: [[DVec3; 3]; 2]) -> bool {
     }
 }
 
-/// Whether two triangles of non-zero area have a point in common.
+/// Returns whether two triangles of non-zero area have a point in common.
 pub(crate) fn triangles_meet(triangles: [[DVec3; 3]; 2]) -> bool {
     let beyond = |which: usize| {
         let sides = triangles[1 - which].map(|p| side(triangles[which], p));
@@ -38,7 +38,7 @@ pub(crate) fn triangles_meet(triangles: [[DVec3; 3]; 2]) -> bool {
         })
 }
 
-/// Whether two triangles that share an edge lie in one plane, on one side of it.
+/// Returns whether two triangles that share an edge lie in one plane, on one side of it.
 fn folded(corners: [[u32; 3]; 2], [one, other]: [[DVec3; 3]; 2]) -> bool {
     let far = |which: usize| (0..3).find(|&k| !corners[1 - which].contains(&corners[which][k]));
     let (Some(k), Some(l)) = (far(0), far(1)) else {
@@ -51,7 +51,7 @@ fn folded(corners: [[u32; 3]; 2], [one, other]: [[DVec3; 3]; 2]) -> bool {
         && projection.turn(one[(k + 1) % 3], one[(k + 2) % 3], other[l]) == Ordering::Greater
 }
 
-/// Whether a segment meets a triangle; touching counts.
+/// Returns whether a segment meets a triangle; touching counts.
 fn meets([p, q]: [DVec3; 2], triangle: [DVec3; 3]) -> bool {
     let [a, b, c] = triangle;
     match (side(triangle, p), side(triangle, q)) {
@@ -65,7 +65,7 @@ fn meets([p, q]: [DVec3; 2], triangle: [DVec3; 3]) -> bool {
     }
 }
 
-/// Whether a segment in the triangle's plane meets the triangle; touching counts.
+/// Returns whether a segment in the triangle's plane meets the triangle; touching counts.
 fn meets_in_plane([p, q]: [DVec3; 2], triangle: [DVec3; 3]) -> bool {
     let Some(projection) = Projection::of(triangle) else {
         return true;

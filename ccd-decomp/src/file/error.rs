@@ -56,8 +56,8 @@ pub enum StoreFault {
 
 const PREPARE: &str = "prepare it again from its mesh: ccd decompose MESH --out FILE.ccd";
 
-/// The version that is written, and the only one that is read: what a body is prepared from is still
-/// there, so that an older file is not worth a second reader.
+/// The version that is written, and the only one that is read: a stored body can be prepared again from its
+/// source, so an older file is not worth a second reader.
 pub(super) const VERSION: u32 = 2;
 
 impl StoreFault {

@@ -33,7 +33,7 @@ pub(super) fn write(mut writer: impl Write, payload: &[u8]) -> io::Result<()> {
 /// Reads a payload, and checks that its frame is whole.
 ///
 /// # Complexity
-/// Linear in the bytes that are there, whatever length they announce.
+/// Linear in the bytes present, for any announced length.
 pub(super) fn read(mut reader: impl Read) -> Result<Vec<u8>, StoreFault> {
     let mut header = bytes(&mut reader, HEADER as u64)?;
     if !header.starts_with(&MAGIC) {

@@ -48,7 +48,7 @@ static FILES: LazyLock<Vec<Vec<u8>>> = LazyLock::new(|| {
 #[case(DENTED, Detail::Patches(Order::Cresting))]
 #[case(DENTED, Detail::Vhacd { hulls: 4 })]
 #[case(TETRAHEDRON, Detail::Hull)]
-fn what_is_stored_is_what_is_read(#[case] file: &str, #[case] detail: Detail) {
+fn stored_models_are_read_unchanged(#[case] file: &str, #[case] detail: Detail) {
     let model = model(file, detail);
     let bytes = stored(&model);
     let again = Model::read(&bytes[..]).unwrap();

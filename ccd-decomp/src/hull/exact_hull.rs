@@ -24,7 +24,7 @@ pub(crate) struct ExactHull {
 /// The change of a hull when a point is inserted.
 #[derive(Clone, Debug)]
 pub(crate) struct Growth {
-    /// Whether the point sees a facet from outside, and replaces it; by facet.
+    /// True if the point sees a facet from outside, and replaces it; by facet.
     seen: Vec<bool>,
     /// The new facets, about the point.
     fan: Vec<[u32; 3]>,
@@ -64,7 +64,7 @@ impl ExactHull {
         })
     }
 
-    /// Finds a triangle of points, and a point behind it; none when all lie in one plane. O(n).
+    /// Finds a triangle of points, and a point behind its plane; none when all are in one plane. O(n).
     fn simplex(points: &[DVec3]) -> Option<[u32; 4]> {
         let at = |k: u32| points[k as usize];
         let rest = 0..points.len() as u32;

@@ -209,7 +209,7 @@ impl<'a> Surface<'a> {
         group_of
     }
 
-    /// Whether a neighbour continues a triangle's plane, with the same normal.
+    /// Returns whether a neighbour continues a triangle's plane, with the same normal.
     fn goes_on(&self, triangle: usize, next: usize, l: usize) -> bool {
         let corners = self.triangles[triangle].map(|v| self.points[v as usize]);
         let beyond = self.triangles[next].map(|v| self.points[v as usize]);

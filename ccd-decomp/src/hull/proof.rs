@@ -19,10 +19,10 @@ pub(super) enum Refutation {
 
 /// Returns the polygons, if they are the facets of the hull of the points.
 ///
-/// No point is in front of a polygon, so that each is within a facet of the hull, the right way round.
-/// Beyond each of its edges the plane changes, so that the edge is on the facet's rim, and a convex
-/// polygon with all edges on the rim is the facet. As an edge is there once in either direction, no
-/// facet is there twice, and none is missing.
+/// No point is in front of a polygon, so that each is within a facet of the hull, in the facet's orientation.
+/// Beyond each of its edges the plane changes, so that the edge is on the facet's rim, and a convex polygon
+/// with all edges on the rim is the facet. As every edge occurs once in either direction, no facet is
+/// repeated, and none is missing.
 ///
 /// # Errors
 /// [`Refutation`].
@@ -46,7 +46,7 @@ pub(super) fn prove(points: &[DVec3], polygons: Loops) -> Result<Loops, Refutati
 /// [`Refutation`], except by points outside.
 ///
 /// # Complexity
-/// O(n log n), whatever the points. Where many are nearly in one plane, every polygon has many near it, which
+/// O(n log n) for any points. If many are nearly in one plane, every polygon has many near it, which
 /// [`prove`] would examine.
 pub(super) fn prove_convex(points: &[DVec3], polygons: Loops) -> Result<Loops, Refutation> {
     if let Some(bent) = polygons.iter().position(|p| !is_convex(points, p)) {
@@ -58,7 +58,7 @@ pub(super) fn prove_convex(points: &[DVec3], polygons: Loops) -> Result<Loops, R
     Ok(polygons)
 }
 
-/// Whether a loop is flat, turns left at every corner, and goes around once.
+/// Returns whether a loop is flat, turns left at every corner, and goes around once.
 fn is_convex(points: &[DVec3], corners: &[u32]) -> bool {
     let n = corners.len();
     let at = |k: usize| points[corners[k % n] as usize];
@@ -83,8 +83,8 @@ fn plane(points: &[DVec3], corners: &[u32]) -> [DVec3; 3] {
     [corners[0], corners[1], corners[2]].map(|v| points[v as usize])
 }
 
-/// Finds an edge that does not have one polygon on either side, each behind the other's plane (either is if the
-/// other is). No polygons at all count as such an edge.
+/// Finds an edge that does not have one polygon on either side, each behind the other's plane (either is if
+/// the other is). An empty list counts as such an edge.
 fn unmatched_edge(points: &[DVec3], polygons: &Loops) -> Option<(u32, u32)> {
     // Sorting puts the two directions of an edge side by side: the smaller end first, then the direction.
     let mut edges: Vec<(u64, bool, u32)> = Vec::with_capacity(polygons.corners().len());
@@ -113,7 +113,7 @@ fn unmatched_edge(points: &[DVec3], polygons: &Loops) -> Option<(u32, u32)> {
     odd.map(|edges| ends(edges[0].0))
 }
 
-/// Whether the polygon beyond an edge of a flat polygon continues behind its plane.
+/// Returns whether the polygon beyond an edge of a flat polygon continues behind its plane.
 fn folds(points: &[DVec3], edge: [u32; 2], polygon: &[u32], beyond: &[u32]) -> bool {
     let plane = plane(points, polygon);
     // The ends are in the plane, which the predicate would take longest to compute.

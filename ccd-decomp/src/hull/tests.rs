@@ -44,7 +44,7 @@ impl Twin {
     }
 }
 
-/// Whether a point is in the hull of others in the same plane.
+/// Returns whether a point is in the hull of others in the same plane.
 fn is_amid(points: &[DVec3], distinct: &[usize], k: usize) -> bool {
     let others = || distinct.iter().filter(|&&l| l != k).map(|&l| points[l]);
     let point = points[k];
@@ -248,7 +248,10 @@ fn without_a_candidate_the_hull_is_exact() {
 #[case(vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::NAN], HullError::OutOfRange(3))]
 #[case(vec![DVec3::ZERO, DVec3::X, DVec3::splat(1e13)], HullError::OutOfRange(2))]
 #[case(vec![DVec3::ZERO, DVec3::splat(1e-100)], HullError::OutOfRange(1))]
-fn what_has_no_facets(#[case] points: Vec<DVec3>, #[case] error: HullError) {
+fn degenerate_and_invalid_points_have_no_hull(
+    #[case] points: Vec<DVec3>,
+    #[case] error: HullError,
+) {
     assert_eq!(hull(&points), Err(error));
 }
 

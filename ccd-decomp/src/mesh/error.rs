@@ -29,7 +29,7 @@ pub enum MeshFault {
     /// The file's extension names no known format.
     #[error("{}; use .obj, .stl, .ply or .off", Extension(.extension))]
     UnknownExtension {
-        /// The text after the last dot; empty when there is none.
+        /// The text after the last dot; empty without a dot.
         extension: String,
     },
     /// The format is known, but this variant of it is not supported.

@@ -30,7 +30,7 @@ impl Format {
     /// Finds the format of a file by its extension, in capitals or not.
     ///
     /// # Errors
-    /// [`MeshFault::UnknownExtension`] when the extension is none of a known format.
+    /// [`MeshFault::UnknownExtension`] for any other extension.
     pub fn from_path(path: impl AsRef<Path>) -> Result<Self, MeshFault> {
         let extension = path.as_ref().extension().unwrap_or_default();
         let extension = extension.to_string_lossy().to_ascii_lowercase();

@@ -81,8 +81,8 @@ impl Polygons {
         })
     }
 
-    /// Cuts every polygon into the fan about its first corner. Where the fan has a triangle without area, or one
-    /// that lies beyond the polygon, the polygon is filled with other triangles.
+    /// Cuts every polygon into the fan about its first corner. If the fan has a triangle without area, or one
+    /// beyond the polygon, the polygon is filled with other triangles.
     ///
     /// The signed areas of the fan add up to the polygon's, so that the fan covers a planar polygon, convex or
     /// not. It covers more than a polygon that is not convex. That is reported where the polygon cannot be filled
@@ -122,13 +122,13 @@ impl Polygons {
     }
 }
 
-/// Whether a triangle of a fan has no area.
+/// Returns whether a triangle of a fan has no area.
 fn has_flat(vertices: &[DVec3], fan: &[[u32; 3]]) -> bool {
     fan.iter()
         .any(|face| is_without_area(face.map(|v| vertices[v as usize])))
 }
 
-/// Whether the normal of a triangle of a fan points away from the normal of the whole fan.
+/// Returns whether the normal of a triangle of a fan points away from the normal of the whole fan.
 fn overhangs(vertices: &[DVec3], fan: &[[u32; 3]]) -> bool {
     let normal = |face: &[u32; 3]| {
         let [a, b, c] = face.map(|v| vertices[v as usize]);

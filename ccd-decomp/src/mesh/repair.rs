@@ -20,7 +20,7 @@ pub struct Repairs {
     /// Faces dropped because another face has the same three points in the same orientation. The same points
     /// in the opposite orientation are kept: two faces back to back close what one would leave open.
     pub duplicates: Tally<u32>,
-    /// Faces dropped because two of their corners are the same point, and the remaining segment or point lies
+    /// Faces dropped because two of their corners are the same point, and the remaining segment or point is
     /// on an edge of another face. Otherwise they are kept.
     pub collapsed: Tally<u32>,
     /// Faces without area, which are kept: a segment or point can be touched, too.
@@ -30,7 +30,7 @@ pub struct Repairs {
 }
 
 impl Repairs {
-    /// Whether the mesh had no faults.
+    /// Returns whether the mesh had no faults.
     pub fn is_empty(&self) -> bool {
         self == &Repairs::default()
     }
@@ -86,7 +86,7 @@ pub(crate) fn duplicate_faces(faces: &[[u32; 3]], positions: &[u32]) -> Vec<bool
     duplicate
 }
 
-/// Marks every face with two corners at one point that lies on an edge of a face that is not marked.
+/// Marks every face with two corners at one point if that point is on an edge of a face that is not marked.
 pub(crate) fn collapsed_faces(faces: &[[u32; 3]], positions: &[u32]) -> Vec<bool> {
     let welded = |face: &[u32; 3]| face.map(|v| positions[v as usize]);
     let has_collapsed = |[a, b, c]: [u32; 3]| a == b || b == c || c == a;
@@ -94,7 +94,7 @@ pub(crate) fn collapsed_faces(faces: &[[u32; 3]], positions: &[u32]) -> Vec<bool
     if !faces.iter().any(|face| has_collapsed(welded(face))) {
         return marked;
     }
-    // An edge from a point to itself stands for the point.
+    // An edge from a point to itself represents the point.
     let mut covered = HashSet::new();
     let mut cover = |[a, b, c]: [u32; 3]| {
         let pairs = [(a, b), (b, c), (c, a), (a, a), (b, b), (c, c)];

@@ -82,7 +82,7 @@ fn the_finest_face_has_an_area() {
 fn a_concave_polygon_is_filled() {
     let file = "v 0 0 0\nv 4 0 0\nv 1 1 0\nv 0 4 0\nf 2 3 4 1\nf 3 4 1 2\n";
     let mesh = TriangleMesh::from_reader(crate::Format::Obj, file.as_bytes()).unwrap();
-    // From corner 4,0 one triangle of the fan lies the other way round; from the notch none does.
+    // From corner 4,0 one triangle of the fan is reversed; from the notch none is.
     assert_eq!(mesh.faces()[..2], [[1, 2, 0], [2, 3, 0]]);
     assert_eq!(mesh.face_ids()[..2], [0, 0]);
     assert_eq!(mesh.repairs().polygons.first(), [0, 1]);
@@ -108,7 +108,7 @@ fn a_polygon_that_meets_itself_is_covered_and_reported() {
 }
 
 #[test]
-fn what_names_nothing_or_is_not_finite_is_refused() {
+fn invalid_vertices_and_faces_are_refused() {
     let fault = |points: Vec<DVec3>, faces: &[[u32; 3]]| {
         TriangleMesh::new(points, faces).unwrap_err().fault
     };

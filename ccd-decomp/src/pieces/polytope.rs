@@ -8,7 +8,7 @@ pub(super) struct CoveredFacet {
     /// Its corners by vertex, counter-clockwise seen from outside.
     pub(super) corners: Vec<u32>,
     pub(super) faces: Vec<u32>,
-    /// Whether the faces cover the facet.
+    /// True if the faces cover the facet.
     pub(super) is_covered: bool,
 }
 

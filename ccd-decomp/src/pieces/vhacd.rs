@@ -144,7 +144,7 @@ pub(crate) fn approximate(
     })
 }
 
-/// Whether the mesh is known to be a convex solid, whose hull has no error.
+/// Returns whether the mesh is known to be a convex solid, whose hull has no error.
 fn is_convex(mesh: &TriangleMesh, topology: &Topology) -> bool {
     let manifold = Manifold::unchecked(mesh, topology);
     manifold.is_ok_and(|manifold| is_star_shaped(&manifold) && as_polytope(&manifold).is_ok())

@@ -12,11 +12,11 @@ pub struct Model {
     pub pieces: Pieces,
     /// A hierarchy over them.
     pub hierarchy: Hierarchy,
-    /// Whether a point inside the body counts as touching it.
+    /// True if a point inside the body counts as touching it.
     pub volume: Volume,
     /// The tree of hulls over the pieces, for the schedules that use one.
     pub hull_tree: Option<HullTree>,
-    /// The triangles of a convex solid's mesh, and a hierarchy over them. They stand for the solid against
+    /// The triangles of a convex solid's mesh, and a hierarchy over them. They replace the solid against
     /// bodies of many triangles.
     pub surface: Option<(Pieces, Hierarchy)>,
     /// The kind of the pieces, and why they are of that kind.

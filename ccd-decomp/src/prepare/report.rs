@@ -31,7 +31,7 @@ pub struct Report {
     /// The number of hulls of approximate pieces that the library got wrong, and that were computed exactly
     /// instead. 0 for all other kinds, whose hulls are exact from the start.
     pub rebuilt_hulls: usize,
-    /// Whether a point inside the body counts as touching it, which is so when its mesh is closed.
+    /// True if a point inside the body counts as touching it, which is so when its mesh is closed.
     pub volume: Volume,
     /// The edges of the mesh, which show why it is solid or not; none for a box, sphere or capsule.
     pub topology: Option<Topology>,
@@ -60,7 +60,7 @@ pub enum PiecesKind {
 pub enum Why {
     /// The caller asked for it.
     Asked,
-    /// The solid is convex: one piece is exact. Against a body of many triangles its own triangles are taken,
+    /// The solid is convex: one piece is exact. Against a body of many triangles its own triangles are used,
     /// because pairs of pieces as large as a solid are measured too often there.
     Convex,
     /// Only triangles are exact.
@@ -102,7 +102,7 @@ impl Report {
         }
     }
 
-    /// Whether the pieces cover the solid's surface, and nothing outside the solid.
+    /// Returns whether the pieces cover the solid's surface, and nothing outside the solid.
     pub fn is_exact(&self) -> bool {
         match self.kind {
             PiecesKind::Primitive

@@ -51,7 +51,7 @@ fn features_carry_the_numbers_of_the_file() {
 
 /// Many points of a plane up to rounding: every hull is still exact, as the core proves.
 #[test]
-fn hull_trees_of_what_is_nearly_flat_are_proven() {
+fn hull_trees_of_nearly_flat_meshes_are_proven() {
     use crate::test_meshes::{block, cubes, placed};
     let step = cubes(&block([4, 4, 2]));
     let vertices = placed(&step, 0.1, dvec3(0.3, 0.1, 0.7)).vertices().to_vec();

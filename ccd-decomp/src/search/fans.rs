@@ -76,7 +76,7 @@ impl Fan {
         (fan, others)
     }
 
-    /// Whether the fan is in a plane that has a hull on one side, so that none of it reaches inside.
+    /// Returns whether the fan is in a plane that has a hull on one side, so that none of it reaches inside.
     fn is_beside(&self, hull: &Hull) -> bool {
         self.plane.is_some_and(|plane| {
             let sides = hull.corners.iter().map(|&corner| side(plane, corner));
@@ -86,7 +86,7 @@ impl Fan {
         })
     }
 
-    /// Whether a triangle is in the plane of the fan, and the hub is none of its corners.
+    /// Returns whether a triangle is in the plane of the fan, and the hub is not one of its corners.
     fn has_beside_hub(&self, corners: &[DVec3; 3]) -> bool {
         let level = |plane: [DVec3; 3]| {
             let mut sides = corners.iter().map(|&corner| side(plane, corner));

@@ -56,8 +56,8 @@ impl OrientedBox {
         }
     }
 
-    /// The axis along which the middles of some elements are spread most: teeth stand side by side, however long
-    /// they are.
+    /// The axis along which the middles of some elements are spread most: the teeth of a comb are spread
+    /// across their length.
     pub(super) fn widest(&self, elements: &[Element]) -> DVec3 {
         let (mut lo, mut hi) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         for element in elements {
@@ -68,7 +68,7 @@ impl OrientedBox {
         self.axes[(hi - lo).max_position()]
     }
 
-    /// A bound on the dot product of a vector with the way from the centre to any point of the box.
+    /// A bound on the dot product of a vector with the vector from the centre to any point of the box.
     #[inline]
     pub(super) fn depth(&self, vector: DVec3) -> f64 {
         let along = along_each(&self.axes, vector).abs();
@@ -82,7 +82,7 @@ impl OrientedBox {
         (along - self.halves).max_element() - 2.0 * self.slack
     }
 
-    /// Whether one of its axes certainly separates the box from all of some points.
+    /// Returns whether one of its axes certainly separates the box from all of some points.
     pub(super) fn is_beside(&self, points: &[DVec3]) -> bool {
         let reach = points.iter().map(|p| p.abs().max_element());
         let reach = reach.fold(self.reach, greater);
@@ -90,7 +90,7 @@ impl OrientedBox {
             let axis = self.axes[k];
             let least = self.halves[k] + self.slack + box_rounding(axis, reach);
             let along = |&p: &DVec3| axis.dot(p - self.centre);
-            // Written so that NaN is not beside.
+            // Written so that NaN does not separate.
             points.iter().all(|p| along(p) > least) || points.iter().all(|p| along(p) < -least)
         })
     }
@@ -134,7 +134,7 @@ impl Extent {
         }
     }
 
-    /// Whether a box is certainly before the shape, or after it.
+    /// Returns whether a box is certainly before the shape, or after it.
     pub(super) fn misses(&self, oriented: &OrientedBox) -> bool {
         let along = self.direction.dot(oriented.centre - self.base);
         let reach = greater(self.reach, oriented.reach);

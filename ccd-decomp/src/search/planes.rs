@@ -33,7 +33,7 @@ impl Plane {
         Plane::new(a, [b - a, c - a])
     }
 
-    /// Whether a box is certainly in front.
+    /// Returns whether a box is certainly in front.
     #[inline]
     pub(super) fn has_in_front(&self, oriented: &OrientedBox) -> bool {
         let way = oriented.centre - self.foot;
@@ -59,7 +59,7 @@ pub(super) fn planes_beside(shape: &Shape, hub: DVec3) -> Vec<Plane> {
         }
         Shape::Triangle(corners) => {
             let mut planes = Vec::new();
-            // A hub within the triangle is a common point, whatever is in front.
+            // A hub within the triangle is a common point, for any planes.
             if !corners.contains(&hub) && holds(*corners, hub) {
                 return planes;
             }
@@ -159,7 +159,7 @@ fn upright(planes: &mut Vec<Plane>, [p, q]: [DVec3; 2], behind: &[DVec3], hub: D
     }
 }
 
-/// Whether a triangle holds a point.
+/// Returns whether a triangle holds a point.
 fn holds(triangle: [DVec3; 3], point: DVec3) -> bool {
     let within = |plane: Projection| {
         let mut edges = (0..3).map(|k| (triangle[k], triangle[(k + 1) % 3]));
@@ -168,7 +168,7 @@ fn holds(triangle: [DVec3; 3], point: DVec3) -> bool {
     side(triangle, point) == Ordering::Equal && Projection::of(triangle).is_none_or(within)
 }
 
-/// Adds the plane of the hub and an edge, if the rest of the triangle is behind it.
+/// Adds the plane of the hub and an edge, if the rest of the triangle is behind that plane.
 fn through(planes: &mut Vec<Plane>, hub: DVec3, [p, q]: [DVec3; 2], rest: DVec3) {
     for plane in [[hub, p, q], [hub, q, p]] {
         if side(plane, rest) != Ordering::Greater {

@@ -73,7 +73,7 @@ fn a_hub_that_touches_is_not_left_out() {
     for touching in [amid, [a, b, DVec3::new(3.0, -1.0, 1.0)]] {
         assert_eq!(found(&boxes, &Region::triangle(touching)).len(), 64);
     }
-    // Beside the tip, in the plane that touches it.
+    // Next to the tip, in the plane that touches it.
     let beside = [a, b, DVec3::new(-1.0, 4.0, 1.0)].map(|p| p + DVec3::Y);
     assert!(found(&boxes, &Region::triangle(beside)).is_empty());
 }
@@ -105,7 +105,7 @@ fn soup() -> impl Strategy<Value = (Vec<DVec3>, Vec<[u32; 3]>)> {
 /// All triangles are found that meet a triangle or a segment, or reach into a tetrahedron: compared with every
 /// triangle, exactly.
 #[test]
-fn what_is_left_out_meets_nothing() {
+fn skipped_triangles_meet_nothing() {
     let probes = prop::collection::vec([corner(), corner(), corner(), corner()], 20);
     let given = (soup(), probes);
     let mut runner = TestRunner::deterministic();

@@ -46,7 +46,7 @@ pub(crate) fn crossings(
 /// The number of predicates that a pair takes, about.
 const PAIR: usize = 4;
 
-/// Whether two triangles meet elsewhere than in the corners they share.
+/// Returns whether two triangles meet elsewhere than in the corners they share.
 fn cross(manifold: &Manifold<'_>, one: u32, other: u32) -> bool {
     let corners = [one, other].map(|f| manifold.faces()[f as usize]);
     meet(corners, [one, other].map(|f| manifold.triangle(f)))

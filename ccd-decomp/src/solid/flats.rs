@@ -32,8 +32,9 @@ impl Flats {
     /// Merges neighbours as long as their union is convex, those with the longest common edge first:
     /// a diagonal is removed before an edge of the outline `[HM83]`.
     ///
-    /// The triangles of the manifold may meet each other: two merged polygons lie on either side of the removed
-    /// line, so that every group is a convex polygon, covered once, whatever the rest of the mesh does.
+    /// The triangles of the manifold may meet each other: two merged polygons are on either side of the
+    /// removed line, so that every group is a convex polygon, covered once, independent of the rest of the
+    /// mesh.
     pub(crate) fn new(manifold: &Manifold<'_>) -> Self {
         let mut merger = Merger::new(manifold);
         let mut edges = merger.flat_edges();
@@ -87,8 +88,8 @@ impl<'a, 'm> Merger<'a, 'm> {
     }
 
     /// Collects one half-edge of every edge within a plane: the longest first, and equally long ones one
-    /// direction after the other. The cells of a grid thus become rows before rows become rectangles, whatever
-    /// the order of the mesh.
+    /// direction after the other. The cells of a grid thus become rows before rows become rectangles, for any
+    /// order of the mesh.
     fn flat_edges(&self) -> Vec<HalfEdge> {
         let manifold = self.manifold;
         let rank = |h: HalfEdge| {
@@ -166,7 +167,7 @@ impl<'a, 'm> Merger<'a, 'm> {
         }
     }
 
-    /// Whether a rim goes straight on or to the left from one half-edge to the next.
+    /// Returns whether a rim goes straight on or to the left from one half-edge to the next.
     fn turns_left(&self, (before, after): (HalfEdge, HalfEdge)) -> bool {
         let Some(plane) = Projection::of(self.manifold.triangle(before / 3)) else {
             return false;

@@ -19,8 +19,8 @@ use closed_parts::closed_parts;
 /// The shells of a closed mesh whose orientation does not fit their surroundings.
 ///
 /// A shell is a closed part that is connected over edges. Among shells that do not cross, the outermost bound
-/// solids, those next within bound cavities, and so on, whatever their orientation. Outermost shells that cross
-/// make up one solid together. Within another shell, shells that cross are part of its solid where they have its
+/// solids, those next within bound cavities, and so on, for any orientation. Outermost shells that cross make
+/// up one solid together. Within another shell, shells that cross are part of its solid where they have its
 /// orientation; otherwise they are unclear.
 #[derive(Debug, Default)]
 pub(crate) struct Nesting {
@@ -59,9 +59,9 @@ struct Shells<'m> {
 #[derive(Clone, Debug, Default)]
 struct Surroundings {
     shells: Vec<u32>,
-    /// Whether a surrounding shell crosses it.
+    /// True if a surrounding shell crosses it.
     crossed: bool,
-    /// Whether the surroundings could not be found.
+    /// True if the surroundings could not be found.
     unknown: bool,
 }
 
@@ -180,7 +180,7 @@ impl<'m> Shells<'m> {
         let face = |k: usize| self.mesh.triangle(faces[k * faces.len() / RAY_TRIES]);
         // Shells may touch at a corner, so that every try takes another one.
         let corners = (0..RAY_TRIES).map(|k| (k, face(k)[k % 3]));
-        // They may touch at all corners, as shells that share faces do.
+        // The shells may touch at all corners, as shells that share faces do.
         let middles = (0..RAY_TRIES).filter_map(|k| Some((k, self.middle(shell, face(k), size)?)));
         corners
             .chain(middles)
@@ -229,7 +229,7 @@ impl<'m> Shells<'m> {
     fn crossed_by(&self, shell: u32) -> Vec<u32> {
         let mut crossed = Vec::new();
         let flat = |face: u32| is_degenerate(self.mesh.triangle(face));
-        // A face without area lies in an edge of its neighbours.
+        // A face without area is in an edge of its neighbours.
         let faces = self.faces_of[shell as usize].iter();
         for &face in faces.filter(|&&face| !flat(face)) {
             let one = self.mesh.triangle(face);

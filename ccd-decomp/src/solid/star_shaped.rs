@@ -6,8 +6,8 @@ use ccd_core::glam::DVec3;
 use ccd_core::limits::LEAST_COORDINATE;
 use std::cmp::Ordering;
 
-/// Whether a point was found from which the whole surface is visible: it is behind every face, and no face hides
-/// another one.
+/// Returns whether a point was found from which the whole surface is visible: it is behind every face, and no
+/// face hides another one.
 ///
 /// # Guarantee
 /// Exact where the answer is yes: faces then share no more than their vertices and edges, and the solid is behind
@@ -50,7 +50,7 @@ fn predictable(p: DVec3) -> DVec3 {
     )
 }
 
-/// Whether a direction from the middle that avoids all edges meets exactly one triangle.
+/// Returns whether a direction from the middle that avoids all edges meets exactly one triangle.
 fn covers_once(triangles: impl Iterator<Item = [DVec3; 3]>, middle: DVec3) -> bool {
     let mut triangles = triangles.peekable();
     let Some(&[a, b, c]) = triangles.peek() else {

@@ -30,7 +30,8 @@ pub struct Topology {
     pub signed_volume: f64,
 }
 
-/// An edge by the numbers of its vertices, the smaller first. The first vertex stands for all at its point.
+/// An edge by the numbers of its vertices, the smaller first. The first of several vertices at one point
+/// represents them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct Edge(pub u32, pub u32);
 
@@ -88,18 +89,19 @@ impl Topology {
         (topology, turned)
     }
 
-    /// Whether the mesh bounds a solid: it is closed, and it is clear on which side of each shell the solid is.
+    /// Returns whether the mesh bounds a solid: it is closed, and it is clear on which side of each shell the
+    /// solid is.
     pub fn is_solid(&self) -> bool {
         self.is_closed() && self.unclear.is_empty()
     }
 
-    /// Whether along every edge as many faces run one way as the other. The winding number of a point off the
-    /// surface is then a whole number, which defines the inside.
+    /// Returns whether along every edge as many faces run one way as the other. The winding number of a point
+    /// off the surface is then a whole number, which defines the inside.
     pub fn is_closed(&self) -> bool {
         self.boundary.is_empty() && self.flipped.is_empty() && self.branching.is_empty()
     }
 
-    /// Whether the mesh is closed, and no edge has more than two faces.
+    /// Returns whether the mesh is closed, and no edge has more than two faces.
     pub fn is_manifold(&self) -> bool {
         self.is_closed() && self.shared.is_empty()
     }

@@ -43,7 +43,7 @@ pub enum SourceError {
     /// The text is empty.
     #[error("no body given; {EXAMPLES}")]
     Empty,
-    /// The word before the colon is none of the shapes.
+    /// The word before the colon is not a known shape.
     #[error("there is no shape {shape:?}; {EXAMPLES}")]
     UnknownShape {
         /// The word.

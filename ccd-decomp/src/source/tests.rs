@@ -67,7 +67,7 @@ fn primitives_are_single_solid_pieces() {
 }
 
 #[test]
-fn what_is_wrong_reaches_the_caller_typed() {
+fn faults_reach_the_caller_typed() {
     assert!(matches!(
         parse_body("cone:1", Detail::Auto),
         Err(BodyError::Source(SourceError::UnknownShape { .. }))

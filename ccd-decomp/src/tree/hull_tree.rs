@@ -50,7 +50,7 @@ struct Grower<'a> {
     splitter: Splitter,
 }
 
-/// The slot of a subtree: its root, and the nodes below, the first of which has a number.
+/// The slot of a subtree: its root, and the nodes below, with the number of the first one.
 struct Slot<'a> {
     node: &'a mut HullNode,
     below: &'a mut [HullNode],

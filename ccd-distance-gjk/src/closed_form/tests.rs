@@ -1,4 +1,4 @@
-//! The features named, the pieces refused, and the common point of triangles that intersect inside.
+//! The named features, the refused pieces, and the common point of triangles that intersect inside.
 
 use super::ClosedForm;
 use super::nearest::nearest;
@@ -26,7 +26,7 @@ fn v(x: f64, y: f64, z: f64) -> DVec3 {
     DVec3::new(x, y, z)
 }
 
-/// The points named are those of the features, no more: a corner has weight one.
+/// Only the features' points are named: a corner has weight one.
 #[rstest]
 #[case::corner_above_face([v(1.0, 1.0, 1.0), v(1.0, 2.0, 3.0), v(2.0, 1.0, 3.0)], &[0, 1, 2], &[0])]
 #[case::corner_beside_edge([v(1.0, -1.0, 0.0), v(1.0, -2.0, 1.0), v(2.0, -2.0, 1.0)], &[0, 1], &[0])]
@@ -60,7 +60,7 @@ fn refuses_other_numbers_of_points() {
     assert_eq!(claim(&FLOOR, &[]), Err(GiveUp::TooManyPoints));
 }
 
-/// Boundaries that are far apart, and yet the triangles intersect.
+/// The triangles intersect although their boundaries are far apart.
 #[test]
 fn finds_the_point_where_an_edge_passes_through() {
     let spear = [v(1.0, 1.0, 5.0), v(1.0, 1.0, -5.0), v(1.1, 1.1, 5.0)];
@@ -74,9 +74,9 @@ fn finds_the_point_where_an_edge_passes_through() {
     assert!(common.difference(&spear, &FLOOR).length() < 1e-15);
 }
 
-/// A point on the plane's far side, whose nearest boundary is elsewhere, is no intersection.
+/// A point on the plane's far side, with its nearest boundary elsewhere, is no intersection.
 #[test]
-fn does_not_pierce_beside_the_face() {
+fn does_not_pierce_outside_of_the_face() {
     let spear = [v(9.0, 9.0, 5.0), v(9.0, 9.0, -5.0), v(9.1, 9.1, 5.0)];
     let near = nearest(&FLOOR, &spear);
     let before = near.difference(&FLOOR, &spear).length();

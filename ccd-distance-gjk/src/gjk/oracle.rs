@@ -91,7 +91,7 @@ pub(crate) fn solve(difference: &Difference<'_>, mut simplex: Simplex) -> Found 
     found
 }
 
-/// Whether the axis certifies the distance as well as rounding permits.
+/// Returns whether the axis certifies the distance as well as rounding permits.
 fn certified(found: &Found) -> bool {
     found.gap > 0.0 && meets(found.gap, found.square, &found.simplex, CERTIFIED_ULPS)
 }

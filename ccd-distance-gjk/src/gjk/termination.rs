@@ -20,13 +20,13 @@ pub(crate) enum Stop {
     Capped,
 }
 
-/// Whether the nearest point is the origin, up to rounding.
+/// Returns whether the nearest point is the origin, up to rounding.
 pub(crate) fn touches(foot: &Foot, simplex: &Simplex) -> bool {
     let rounding = TOUCHING_ULPS * f64::EPSILON;
     foot.point.length_squared() <= rounding * rounding * reach(simplex)
 }
 
-/// Whether a support gap has met the distance of the nearest point, whose square is given.
+/// Returns whether a support gap has met the distance of the nearest point, whose square is given.
 ///
 /// They meet if they differ by at most `share` units in the last place of the distance, and
 /// rounding.

@@ -1,4 +1,4 @@
-//! Each sub-simplex alone; and the ways out of a stalled search.
+//! Each sub-simplex alone, and the recovery from a stalled search.
 
 use super::fan::Fan;
 use super::foot::Foot;
@@ -38,8 +38,8 @@ fn corners(rng: &mut Pcg64) -> [DVec3; 4] {
     out
 }
 
-/// A foot is a convex combination, and no corner is nearer along it than it is itself: that makes it
-/// the nearest point.
+/// Checks that a foot is a convex combination, and that no corner is nearer along it than the foot:
+/// it is then the nearest point.
 fn is_nearest(corners: &[DVec3], foot: &Foot) {
     let size = corners
         .iter()
@@ -140,7 +140,7 @@ fn a_simplex_takes_no_pair_twice_and_no_fifth() {
     assert!(!simplex.push(vertex(2, 2)));
 }
 
-/// The axis that all edges of a pyramid's apex allow is found edge by edge.
+/// The axis allowed by all edges of a pyramid's apex is found edge by edge.
 #[test]
 fn a_fan_finds_the_axis_between_its_edges() {
     let mut found = Found::nothing();
@@ -158,12 +158,13 @@ fn a_fan_finds_the_axis_between_its_edges() {
     {
         assert!(fan.push(vertex(x, y, 1e-3, k as u32 + 1)));
     }
-    // Every vertex lies above: with the axis z they would stand at 0, as with all axes they touch.
+    // Every vertex is above: along the axis z they would be at 0, as along all axes at which they
+    // touch.
     let (axis, low) = fan.best(DVec3::X);
     assert!(low >= -1e-15 && axis.z > 0.99, "{axis} stands at {low}");
 }
 
-/// The search alone does stall on nearly parallel edges, and what follows it makes that good.
+/// The search alone stalls on nearly parallel edges, and the next steps correct that.
 #[test]
 fn stalled_searches_are_taken_up_again() {
     let (mut stalled, mut short) = (0, 0);

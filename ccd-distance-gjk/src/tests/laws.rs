@@ -6,8 +6,8 @@ use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 use ccd_core::{Claim, Combination, DistanceOracle};
 
-/// A claim as anyone can check it: how far its witnesses are apart, and the support gap that its
-/// axis has.
+/// The checkable numbers of a claim: the distance of its witnesses, and the support gap of its
+/// axis.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Checked {
     pub(super) distance: f64,
@@ -62,7 +62,7 @@ pub(super) fn certifies_separation<O: DistanceOracle + Default>(scene: &Scene) -
     checked
 }
 
-/// The witnesses of separated pieces are as near as brute force says.
+/// The witnesses of separated pieces are as near as those of brute force.
 pub(super) fn agrees_with_twin<O: DistanceOracle + Default>(scene: &Scene) {
     let checked = check(scene, &cold::<O>(scene));
     let (a, b) = scene.local();
@@ -108,8 +108,8 @@ pub(super) fn is_symmetric<O: DistanceOracle + Default>(scene: &Scene) {
     );
 }
 
-/// Whatever a cache holds, the answer is worth as much; and an oracle that has been used before
-/// says the very same as a new one.
+/// The quality of the answer does not depend on the cache, and a used oracle gives the same answer
+/// as a new one.
 pub(super) fn ignores_history<O: DistanceOracle + Default>(scenes: &[Scene]) {
     let (mut used, mut cache) = (O::default(), O::Cache::default());
     for scene in scenes {

@@ -1,4 +1,4 @@
-//! Pairs of pieces that have upset distance routines, and their known distances.
+//! Pairs of pieces that are hard for distance routines, and their known distances.
 
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::order::{greater, lesser};
@@ -7,7 +7,7 @@ use rand::RngExt;
 pub(crate) use rand::SeedableRng;
 pub(crate) use rand_pcg::Pcg64;
 
-/// A pair, in the form that owns its points.
+/// A pair that owns its points.
 #[derive(Clone, Debug)]
 pub(crate) struct Scene {
     pub(crate) a: Vec<DVec3>,
@@ -111,7 +111,7 @@ pub(crate) fn magnitude(rng: &mut Pcg64, low: f64, high: f64) -> f64 {
     10f64.powf(rng.random_range(low..high))
 }
 
-/// Hulls of so many random points at a random distance: apart, or intersecting, as it comes.
+/// Hulls of `a` and `b` random points at a random distance: apart or intersecting.
 pub(crate) fn random(rng: &mut Pcg64, a: usize, b: usize) -> Scene {
     let offset = rng.random_range(0.0..2.5) * vector(rng).normalize();
     let b = points(rng, b).iter().map(|y| *y + offset).collect();
@@ -223,8 +223,7 @@ pub(crate) fn touching(rng: &mut Pcg64) -> Scene {
     Scene::new(base, b)
 }
 
-/// Points, segments and triangles that are less than they seem: coinciding corners, corners on one
-/// line, needles.
+/// Degenerate points, segments and triangles: coinciding corners, corners on one line, needles.
 pub(crate) fn degenerate(rng: &mut Pcg64) -> Scene {
     let offset = rng.random_range(0.5..3.0) * vector(rng).normalize();
     let piece = |rng: &mut Pcg64| -> Vec<DVec3> {

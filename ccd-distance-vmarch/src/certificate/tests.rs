@@ -1,4 +1,4 @@
-//! Support gaps of cubes, and axes where the way is rounding.
+//! Support gaps of cubes, and axes where the difference vector is rounding.
 
 use super::{Axis, best_axis, gap};
 use crate::feature::{Feature, Pair};
@@ -28,8 +28,8 @@ fn gaps_are_those_of_the_supports() {
     assert!(!Axis::along(&placed, DVec3::ZERO).certifies(0.0, &placed));
 }
 
-/// Cubes that touch in a corner, an edge, a face, or are a hair apart: the way is no direction, the
-/// axis separates all the same.
+/// Cubes that touch in a corner, an edge, a face, or nearly touch: the difference vector has no
+/// direction, but the axis separates.
 #[rstest]
 fn touching_features_have_an_axis(
     #[values(
@@ -53,7 +53,7 @@ fn touching_features_have_an_axis(
 }
 
 #[test]
-fn crossing_edges_and_what_is_flat_have_an_axis() {
+fn crossing_edges_and_flat_pieces_have_an_axis() {
     let (cube, across) = (cube(), needle(DVec3::new(0.5, 1.0, -1.0)));
     let placed = moved(&cube, &across, DVec3::new(0.0, 1.0, 1.0));
     let pair = Pair {

@@ -1,4 +1,4 @@
-//! Every rescue, entered on purpose.
+//! Every recovery, entered on purpose.
 
 use super::certify;
 use crate::counters::Counters;
@@ -21,7 +21,7 @@ fn certifies(placed: &PlacedPair<'_>, a: &shape::Shape, b: &shape::Shape, truth:
                 continue;
             }
             let pair = Pair { a: one, b: other };
-            // A stop is only looked into where rounding could hide something nearer.
+            // A stop is only examined if rounding could hide a nearer pair.
             let close = Witness::of(placed, pair).distance() < FAR * placed.scale.size;
             let tie = close.then_some(End::Nearest(pair, Certainty::Tied));
             let ends = [End::Cycle(pair), End::Cap(pair), End::Unclear(pair)];
@@ -67,7 +67,7 @@ fn every_end_is_certified() {
 }
 
 #[test]
-fn what_makes_no_sense_is_given_up() {
+fn positions_that_are_not_finite_are_given_up() {
     let (cube, needle, point) = (cube(), needle(DVec3::X), point());
     for polytope in [&cube, &needle, &point] {
         let placed = moved(&cube, polytope, DVec3::NAN);
@@ -80,7 +80,7 @@ fn what_makes_no_sense_is_given_up() {
         let cap = certify(&placed, End::Cap(pair), &mut counters);
         assert!(matches!(cycle.err(), None | Some(GiveUp::Cycle)));
         assert!(matches!(cap.err(), None | Some(GiveUp::StepCap)));
-        // What is said to be a cycle has been counted as one.
+        // An end reported as a cycle is counted as one.
         for end in [End::Unclear(pair), End::Nearest(pair, Certainty::Tied)] {
             let mut counters = Counters::default();
             let why = certify(&placed, end, &mut counters).err();

@@ -1,4 +1,4 @@
-//! Lines over the top of a cube, and beside each other.
+//! Lines over the top of a cube, and parallel to each other.
 
 use super::{beside, to_prism};
 use crate::placed::{Line, Placed};
@@ -17,7 +17,7 @@ fn clipped(half: DVec3, at: DVec3) -> Option<[(f64, Option<u32>); 2]> {
 }
 
 #[test]
-fn what_is_within_is_left() {
+fn edges_within_the_prism_are_not_cut() {
     let left = clipped(0.5 * DVec3::X, 3.0 * DVec3::Z);
     assert_eq!(left, Some([(0.0, None), (1.0, None)]));
 }
@@ -26,7 +26,7 @@ fn what_is_within_is_left() {
 #[case(4.0 * DVec3::X, 3.0 * DVec3::Z, [3.0, 5.0], [-DVec3::X, DVec3::X])]
 #[case(4.0 * DVec3::Y, 3.0 * DVec3::Z, [3.0, 5.0], [-DVec3::Y, DVec3::Y])]
 #[case(-4.0 * DVec3::X, -3.0 * DVec3::Z, [3.0, 5.0], [DVec3::X, -DVec3::X])]
-fn what_is_longer_is_cut(
+fn longer_edges_are_cut(
     #[case] half: DVec3,
     #[case] at: DVec3,
     #[case] parameters: [f64; 2],
@@ -42,7 +42,7 @@ fn what_is_longer_is_cut(
 #[case(0.5 * DVec3::X, DVec3::new(2.0, 0.0, 3.0))]
 #[case(DVec3::new(1.0, -1.0, 0.0), DVec3::new(1.5, 1.5, 1.0))]
 #[case(DVec3::NAN, DVec3::ZERO)]
-fn of_what_is_beside_nothing_is_left(#[case] half: DVec3, #[case] at: DVec3) {
+fn no_part_is_left_outside_of_the_prism(#[case] half: DVec3, #[case] at: DVec3) {
     if half.is_finite() {
         assert_eq!(clipped(half, at), None);
     } else {

@@ -69,7 +69,7 @@ fn goes_on_to_the_face_on_whose_side_it_is() {
 }
 
 #[test]
-fn finds_what_is_below_both_faces() {
+fn finds_edges_below_both_faces() {
     let Next::Behind(whose, behind) = of_needle(ACROSS, DVec3::new(0.0, 0.9, 0.9)) else {
         panic!("it is within the cube");
     };
@@ -98,7 +98,7 @@ fn nearest_points_are_nearest_at_every_angle() {
         };
         let [s, t] = nearest(&one, &other).parameters;
         let distance = one.at(s).distance(other.at(t));
-        // What alternating feet come to from there, and from every end.
+        // The limit of alternating feet from there, and from every end.
         let mut best = distance;
         for start in [s, 0.0, one.length, 0.5 * one.length] {
             let mut s = start;

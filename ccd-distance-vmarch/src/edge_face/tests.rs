@@ -1,4 +1,4 @@
-//! Needles over, through and beside the top of a cube.
+//! Needles over, through and next to the top of a cube.
 
 use super::next;
 use crate::feature::{Feature, Next, Whose};
@@ -42,7 +42,7 @@ fn goes_down_to_the_side_that_cuts_it(#[case] half: DVec3, #[case] side: DVec3) 
 }
 
 #[test]
-fn goes_on_to_the_nearest_side_from_beside() {
+fn goes_on_to_the_nearest_side_from_outside() {
     let edge = edge(&cube(), DVec3::X + DVec3::Z);
     let said = of_needle(DVec3::new(0.0, 0.5, 0.5), DVec3::new(2.0, 0.3, 1.8));
     assert_eq!(said, Next::To(Feature::Edge(0), Feature::Edge(edge)));
@@ -52,7 +52,7 @@ fn goes_on_to_the_nearest_side_from_beside() {
 #[case(DVec3::new(0.1, 0.2, 1.0), DVec3::Z)]
 // One end on the face, to the bit.
 #[case(DVec3::new(0.0, 0.0, 0.5), DVec3::new(0.25, 0.25, 1.5))]
-fn finds_what_goes_through(#[case] half: DVec3, #[case] at: DVec3) {
+fn finds_edges_that_go_through(#[case] half: DVec3, #[case] at: DVec3) {
     let Next::Pierced(whose, crossing) = of_needle(half, at) else {
         panic!("it goes through the top");
     };
@@ -60,7 +60,7 @@ fn finds_what_goes_through(#[case] half: DVec3, #[case] at: DVec3) {
 }
 
 #[test]
-fn finds_what_is_behind() {
+fn finds_features_behind() {
     let Next::Behind(whose, behind) = of_needle(DVec3::new(0.5, 0.0, 0.1), DVec3::ZERO) else {
         panic!("it is below the top");
     };

@@ -30,7 +30,7 @@ fn leads_to_the_face_it_is_highest_above() {
 }
 
 #[test]
-fn proves_what_is_inside() {
+fn proves_features_inside() {
     assert!(matches!(
         of_point(DVec3::new(0.2, 0.3, 0.4)),
         Escape::Inside(_)
@@ -38,7 +38,7 @@ fn proves_what_is_inside() {
 }
 
 #[test]
-fn leaves_open_what_exact_signs_do_not_show() {
+fn is_unclear_without_proof_by_exact_signs() {
     // Beyond a face by less than rounding.
     let at = DVec3::new(1.0 + f64::EPSILON, 0.3, 0.4);
     assert_eq!(of_point(at), Escape::Unclear);

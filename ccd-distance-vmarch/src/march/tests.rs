@@ -51,7 +51,7 @@ fn every_start_leads_to_the_nearest_features() {
                         let end = march(&placed, Pair { a, b }, &mut counters);
                         starts += 1;
                         let End::Nearest(pair, _) = end else {
-                            // A claim is made of these by what comes after.
+                            // A later step makes a claim for these.
                             others += 1;
                             continue;
                         };

@@ -9,7 +9,7 @@ use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::order::lesser;
 
 #[test]
-fn what_is_nearest_has_nothing_nearer_around() {
+fn the_nearest_pair_has_no_nearer_pair_around() {
     let cube = cube();
     let placed = moved(&cube, &cube, DVec3::new(3.0, 3.0, 3.0));
     let pair = Pair {

@@ -24,7 +24,7 @@ const BELOW: f64 = 0.25 - f64::EPSILON / 8.0;
 // Past the side x + y = 1/2 + 1/2, by one unit in the last place to either side.
 #[case(DVec3::new(0.75, ABOVE, 1.0), DVec3::new(0.75, ABOVE, -1.0), false)]
 #[case(DVec3::new(0.75, BELOW, 1.0), DVec3::new(0.75, BELOW, -1.0), true)]
-// Beside it, and within its plane.
+// Next to it, and within its plane.
 #[case(DVec3::new(2.0, 0.25, 1.0), DVec3::new(2.0, 0.25, -1.0), false)]
 #[case(DVec3::new(-1.0, 0.25, 0.0), DVec3::new(2.0, 0.25, 0.0), false)]
 fn signs_decide_to_the_last_bit(#[case] start: DVec3, #[case] end: DVec3, #[case] meets: bool) {
@@ -119,7 +119,7 @@ fn faces_are_pierced_anywhere() {
 #[case(DVec3::new(1.9, 0.0, 0.0), true)]
 #[case(DVec3::new(2.0 + 1e-15, 0.0, 0.0), false)]
 #[case(DVec3::new(9.0, 0.0, 0.0), false)]
-fn the_search_finds_what_there_is(#[case] at: DVec3, #[case] meets: bool) {
+fn the_search_finds_common_points(#[case] at: DVec3, #[case] meets: bool) {
     let (one, other) = (cube(), cube());
     let placed = moved(&one, &other, at);
     let found = searched(&placed.a, &placed.b, placed.scale)

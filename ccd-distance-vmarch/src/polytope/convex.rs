@@ -6,7 +6,8 @@ use ccd_core::exact::side;
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 
-/// Whether a closed surface is that of a convex polytope, up to the rounding of its corners.
+/// Returns whether a closed surface is that of a convex polytope, up to the rounding of its
+/// corners.
 ///
 /// It is if it is connected, locally convex, and goes around once `[TIE28]`: polygons turn left at
 /// every corner, and once; across every edge the neighbour falls away; and a line from inside
@@ -55,7 +56,7 @@ impl<'a> Check<'a> {
         }
     }
 
-    /// Whether a face is plane, and turns left all the way around, once.
+    /// Returns whether a face is plane, and turns left all the way around, once.
     fn is_polygon(&self, face: u32) -> bool {
         let normal = self.polytope.face(face).normal;
         let sides = self.polytope.sides_of(face);
@@ -77,7 +78,7 @@ impl<'a> Check<'a> {
         })
     }
 
-    /// Whether the neighbours' corners next to the common edges are behind a face.
+    /// Returns whether the neighbours' corners next to the common edges are behind a face.
     fn falls_away(&self, face: u32) -> bool {
         let normal = self.polytope.face(face).normal;
         self.polytope.sides_of(face).iter().all(|side| {
@@ -95,7 +96,7 @@ impl<'a> Check<'a> {
         })
     }
 
-    /// Whether every face is connected to the first one over edges.
+    /// Returns whether every face is connected to the first one over edges.
     fn is_in_one(&self) -> bool {
         let mut reached = vec![false; self.polytope.faces.len()];
         reached[0] = true;
@@ -112,8 +113,8 @@ impl<'a> Check<'a> {
         reached.into_iter().all(|reached| reached)
     }
 
-    /// Whether a line from the middle of all corners leaves through no more than one face, by exact
-    /// signs; lines that meet an edge are skipped.
+    /// Returns whether a line from the middle of all corners leaves through no more than one face,
+    /// by exact signs; lines that meet an edge are skipped.
     fn goes_around_once(&self) -> bool {
         let vertices = 0..self.polytope.vertices.len() as u32;
         let middle =

@@ -78,10 +78,7 @@ fn is_sound(polytope: &Polytope) {
 #[case(shape::few(&[DVec3::X, 2.0 * DVec3::X, 5.0 * DVec3::X]), [2, 1, 0])]
 #[case(shape::few(&[DVec3::X; 9]), [1, 0, 0])]
 #[case(shape::few(&[DVec3::X, 2.0 * DVec3::X, 3.0 * DVec3::X, DVec3::ZERO]), [2, 1, 0])]
-fn features_are_what_is_left_of_points_and_facets(
-    #[case] shape: Shape,
-    #[case] expected: [usize; 3],
-) {
+fn features_follow_from_points_and_facets(#[case] shape: Shape, #[case] expected: [usize; 3]) {
     let polytope = prepared(&shape);
     assert_eq!(counts(&polytope), expected);
     is_sound(&polytope);
@@ -133,7 +130,7 @@ fn coplanar_facets_are_one_face_and_corners_within_are_none() {
 
 /// Twin points, facets without area along an edge, and points inside are all left out.
 #[test]
-fn what_is_superfluous_is_left_out() {
+fn superfluous_points_are_left_out() {
     let mut cube = shape::cuboid(DVec3::ONE);
     cube.points.push(cube.points[0]);
     cube.points.push(0.5 * DVec3::X);
@@ -197,7 +194,7 @@ fn refused(points: &[DVec3], loops: &[&[u32]]) {
 const TETRAHEDRON: [DVec3; 4] = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
 
 #[test]
-fn what_is_not_closed_is_refused() {
+fn open_surfaces_are_refused() {
     refused(&TETRAHEDRON, &[]);
     refused(&TETRAHEDRON, &[&[0, 2, 1], &[0, 1, 3], &[0, 3, 2]]);
     refused(
@@ -216,7 +213,7 @@ fn what_is_not_closed_is_refused() {
 }
 
 #[test]
-fn what_is_not_convex_is_refused() {
+fn surfaces_that_are_not_convex_are_refused() {
     // Inside out.
     refused(
         &TETRAHEDRON,
@@ -252,7 +249,7 @@ fn what_is_not_convex_is_refused() {
 }
 
 #[test]
-fn what_goes_around_twice_is_refused() {
+fn surfaces_that_wind_twice_are_refused() {
     // Two tetrahedra in one place.
     let mut points = TETRAHEDRON.to_vec();
     points.extend(TETRAHEDRON.map(|p| 0.5 * p + DVec3::splat(0.05)));

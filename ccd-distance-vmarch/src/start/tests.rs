@@ -13,7 +13,7 @@ use rstest::rstest;
 #[case(Feature::Face(6), Feature::Vertex(0))]
 #[case(Feature::Face(0), Feature::Face(0))]
 #[case(Feature::Edge(u32::MAX), Feature::Vertex(u32::MAX))]
-fn what_is_no_state_is_not_begun_with(#[case] a: Feature, #[case] b: Feature) {
+fn invalid_states_are_no_start(#[case] a: Feature, #[case] b: Feature) {
     let cube = cube();
     let placed = moved(&cube, &cube, DVec3::new(3.0, 2.5, 2.2));
     let corners = Pair {
@@ -54,7 +54,7 @@ fn a_part_is_begun_with_along_the_last_axis() {
 }
 
 #[test]
-fn what_was_nearest_is_begun_with() {
+fn the_nearest_features_are_the_next_start() {
     let cube = cube();
     let placed = moved(&cube, &cube, 3.0 * DVec3::X);
     let pair = Pair {

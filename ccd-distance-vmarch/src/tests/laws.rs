@@ -13,7 +13,7 @@ use rstest::rstest;
 /// Claims about pieces that intersect by next to nothing, touch, or are apart by next to nothing are
 /// true to rounding.
 #[rstest]
-fn touching_is_told_to_rounding(
+fn touching_is_exact_up_to_rounding(
     #[values(-1e-9, -1e-13, -1e-16, 0.0, 1e-16, 1e-13, 1e-9)] gap: f64,
     #[values(
         DVec3::new(0.0, 0.0, 1.0),
@@ -30,7 +30,7 @@ fn touching_is_told_to_rounding(
         shape::few(&[-DVec3::Z, DVec3::Z]),
     ] {
         let other = Body::new(pointed);
-        // Beside the top of the cube by as much as above it, where it overhangs.
+        // As far outside of the cube's top as above it, where it overhangs.
         let beside = DVec3::new(greater(0.0, at.x - 1.0), greater(0.0, at.y - 1.0), 0.0) * gap;
         let b_to_a = Frame {
             translation: DVec3::new(at.x, at.y, 2.0 + gap) + beside,
@@ -67,7 +67,7 @@ fn touching_is_told_to_rounding(
 
 /// A small one inside of a large one has a common point with it, though their surfaces are apart.
 #[test]
-fn what_is_inside_intersects() {
+fn pieces_inside_intersect() {
     let (large, small) = (
         shape::globe(9, 16),
         shape::antiprism(5).mapped(|p| 0.05 * p),
@@ -197,10 +197,10 @@ fn spinning_balls_are_as_near_as_their_lowest_corner() {
     assert!(counters.steps < 4 * counters.calls, "{counters:?}");
 }
 
-/// Cubes moved to and fro across the place where their nearest features change, halving the way
-/// each time, until it is the last bit that decides: V-Clip's own hardest test.
+/// Cubes moved to and fro across the place where their nearest features change. The displacement is
+/// halved each time, until the last bit decides: V-Clip's own hardest test.
 #[test]
-fn changes_of_features_are_told_to_the_last_bit() {
+fn changes_of_features_are_exact_to_the_last_bit() {
     let mut rng = Pcg64::seed_from_u64(8);
     let cube = Body::new(shape::cuboid(DVec3::ONE));
     let (mut oracle, mut tally) = (Vmarch::default(), Tally::default());
@@ -353,7 +353,7 @@ fn other_oracles_take_over_and_counts_are_kept() {
     assert_eq!(counted.counters().steps, before + 1);
 }
 
-/// The same call gives the same bits, whatever was asked before.
+/// The same call gives the same bits, independent of earlier calls.
 #[test]
 fn answers_repeat() {
     let mut rng = Pcg64::seed_from_u64(12);

@@ -1,4 +1,4 @@
-//! Pairs of polytopes of every kind that upsets Voronoi marching, with what is known of them.
+//! Pairs of polytopes of every kind that is hard for Voronoi marching, with their known properties.
 
 use super::shape::{self, Pcg64, RngExt, Shape, direction, magnitude, vector};
 use ccd_core::glam::{DMat3, DQuat, DVec3};
@@ -71,7 +71,8 @@ pub(crate) fn pool(kind: Kind, rng: &mut Pcg64) -> Vec<Body> {
             out
         }
     };
-    // Most pieces in frames of their own; some lose what they are there for if they are turned.
+    // Most pieces are in frames of their own; some kinds lose their special property if they are
+    // turned.
     let kept = matches!(kind, Kind::Grid | Kind::Coplanar | Kind::Sliver);
     let placed = shapes.into_iter().map(|shape| {
         let (turn, shift) = (rotation(rng), vector(rng));
@@ -157,7 +158,7 @@ fn quarter_turns(rng: &mut Pcg64) -> DMat3 {
     DMat3::from_cols(x, y, x.cross(y))
 }
 
-/// Two bodies and how they lie to each other.
+/// Two bodies and their relative pose.
 pub(crate) struct Scene<'a> {
     pub(crate) a: &'a Body,
     pub(crate) b: &'a Body,
@@ -184,7 +185,7 @@ impl Scene<'_> {
     }
 }
 
-/// Draws a pair of a kind: how B is turned, along which direction it lies, and how far.
+/// Draws a pair of a kind: the orientation of B, its direction, and its distance.
 pub(crate) fn draw<'a>(kind: Kind, pool: &'a [Body], rng: &mut Pcg64) -> Scene<'a> {
     let (a, b) = (
         &pool[rng.random_range(0..pool.len())],
@@ -198,7 +199,7 @@ pub(crate) fn draw<'a>(kind: Kind, pool: &'a [Body], rng: &mut Pcg64) -> Scene<'
         0 => DMat3::IDENTITY,
         _ => quarter_turns(rng),
     };
-    // Turned so that a face of B looks at a face of A, then off that by next to nothing.
+    // Turned so that a face of B is towards a face of A, then off that by next to nothing.
     if kind == Kind::NearParallel {
         if let (Some(n), Some(m)) = (normal(a, rng), normal(b, rng)) {
             let facing = DMat3::from_quat(DQuat::from_rotation_arc(m, -n));

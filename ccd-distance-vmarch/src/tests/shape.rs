@@ -1,4 +1,4 @@
-//! Polytopes whose facets are known, by construction or by looking at all planes.
+//! Polytopes with known facets, by construction or by a scan of all planes.
 
 use ccd_core::exact::side;
 use ccd_core::glam::DVec3;
@@ -119,14 +119,15 @@ pub(crate) fn hull(points: &[DVec3]) -> Shape {
     }
 }
 
-/// The corners of the convex polygon that points in a plane have, counter-clockwise from the first.
+/// Returns the corners of the convex hull of points in a plane, counterclockwise from the first.
 fn around(points: &[DVec3], on: &[u32], [p, q, r]: [DVec3; 3]) -> Vec<u32> {
     let normal = (q - p).cross(r - p);
     let above = p + normal.normalize_or_zero() * (q - p).length();
     let is_side = |v: u32, w: u32| {
         let base = [points[v as usize], points[w as usize], above];
         let turns: Vec<Ordering> = on.iter().map(|&x| side(base, points[x as usize])).collect();
-        // Inside of the polygon is behind a plane that stands on the side; nothing within the side.
+        // The inside of the polygon is behind a plane through the side, across the polygon; no
+        // point is within the side.
         let [a, b] = [v, w].map(|x| points[x as usize]);
         let within = |&&x: &&u32| {
             let c = points[x as usize];

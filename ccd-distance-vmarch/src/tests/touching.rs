@@ -1,4 +1,4 @@
-//! Parts of cubes that stand face to face: what touches without an inside in common.
+//! Parts of cubes that are face to face: they touch without a common inside.
 
 use super::scene::{Body, Scene};
 use super::shape;
@@ -21,8 +21,8 @@ fn parts() -> Vec<Body> {
     parts
 }
 
-/// Another cube beside, above or before the first one, shifted along the common face, and turned by
-/// quarters, which are not quite quarters in floating point.
+/// Another cube next to, above or in front of the first one, shifted along the common face, and
+/// turned by quarters, which are inexact in floating point.
 fn frames() -> Vec<Frame> {
     let mut frames = Vec::new();
     for (side, shift) in [
@@ -44,7 +44,7 @@ fn frames() -> Vec<Frame> {
     frames
 }
 
-/// Whatever two of their parts touch in, the axis keeps them apart.
+/// The axis separates any two of their parts, in all kinds of contact.
 #[test]
 fn parts_of_flush_cubes_are_kept_apart() {
     let parts = parts();

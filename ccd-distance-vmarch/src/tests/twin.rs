@@ -146,7 +146,7 @@ fn crossing(e: &Segment, f: &Segment) -> f64 {
     );
     let n = d.cross(g);
     let t = w.cross(g).dot(n).value() / n.dot(n).value();
-    // Parallel segments have no such place; their ends' feet are looked at anyway.
+    // Parallel segments have no such place; their ends' feet are tested anyway.
     let t = if t > 0.0 { lesser(1.0, t) } else { 0.0 };
     let on_e = p + (q - p) * t;
     let on_f = foot(on_e, f);

@@ -67,7 +67,7 @@ fn goes_on_to_the_face_on_whose_side_it_is(#[case] at: DVec3, #[case] normal: DV
 fn goes_on_to_an_edge_that_falls(#[case] slope: f64, #[case] falls: Option<bool>) {
     let (cube, needle) = (cube(), needle(0.4 * DVec3::X));
     let turn = DQuat::from_rotation_y(-slope);
-    // The needle's first corner stands a millionth above the edge's bisector.
+    // The needle's first corner is a millionth above the edge's bisector.
     let up = DVec3::new(0.0, 1.0, 1.0) + 1e-6 * DVec3::new(0.0, 1.0, 1.0);
     let placed = turned(&cube, &needle, turn, up - turn * (-0.4 * DVec3::X));
     let edge = edge(&cube, DVec3::new(0.0, 1.0, 1.0));

@@ -49,7 +49,7 @@ fn goes_on_to_the_most_violated_plane(#[case] at: DVec3, #[case] middle: DVec3) 
 #[rstest]
 #[case(DVec3::new(0.0, 0.0, 0.9))]
 #[case(DVec3::new(0.0, 0.0, -7.0))]
-fn finds_what_is_behind(#[case] at: DVec3) {
+fn finds_features_behind(#[case] at: DVec3) {
     let Next::Behind(whose, behind) = of_point(at) else {
         panic!("it is below the top");
     };

@@ -13,7 +13,7 @@ fn of_point(at: DVec3) -> Next {
     let placed = moved(&cube, &point, at);
     let corner = vertex(&cube, DVec3::ONE);
     let there = next(&placed.a, corner, &placed.b, 0, placed.scale);
-    // The other way around, it is the point's corner against the cube's.
+    // In the other order, it is the point's corner against the cube's.
     let back = moved(&point, &cube, -at);
     let swapped = next(&back.a, 0, &back.b, corner, back.scale).swapped();
     assert_eq!(there, swapped);
@@ -37,7 +37,7 @@ fn stops_in_the_corners_region(#[case] at: DVec3, #[case] certainty: crate::feat
 #[rstest]
 #[case(DVec3::new(0.9, 2.0, 2.0), DVec3::new(0.0, 1.0, 1.0))]
 #[case(DVec3::new(1.0 - f64::EPSILON, 2.0, 2.0), DVec3::new(0.0, 1.0, 1.0))]
-// Of two planes the one violated more.
+// The more violated one of two planes.
 #[case(DVec3::new(0.5, 0.9, 2.0), DVec3::new(0.0, 1.0, 1.0))]
 #[case(DVec3::new(0.9, 0.5, 2.0), DVec3::new(1.0, 0.0, 1.0))]
 fn goes_on_to_the_edge_behind_a_plane(#[case] at: DVec3, #[case] middle: DVec3) {

@@ -1,4 +1,4 @@
-//! Nearest points on features, and what they are combined of.
+//! Nearest points on features, and their combinations.
 
 use super::{Witness, foot};
 use crate::feature::{Feature, Pair};
@@ -93,7 +93,7 @@ fn axes_are_those_of_the_features() {
 }
 
 #[test]
-fn what_is_never_a_stop_has_points_all_the_same() {
+fn pairs_that_are_never_a_stop_have_points() {
     let (cube, point) = (cube(), point());
     let placed = moved(&cube, &cube, 4.0 * DVec3::X);
     let pair = Pair {
@@ -137,7 +137,7 @@ fn feet_are_right_on_needles() {
 }
 
 #[test]
-fn feet_beside_the_triangle_are_clamped_into_it() {
+fn feet_outside_of_the_triangle_are_clamped_into_it() {
     let triangle = [DVec3::ZERO, 2.0 * DVec3::X, DVec3::Y];
     for (x, y) in [
         (9.0, 9.0),
@@ -156,9 +156,9 @@ fn feet_beside_the_triangle_are_clamped_into_it() {
 }
 
 /// Needles that cross at a small angle, close by: rounding of the axis along them would cost a
-/// hundred times what their positions are rounded by.
+/// hundred times the rounding of their positions.
 #[test]
-fn axes_certify_what_crosses_at_any_angle() {
+fn axes_certify_edges_that_cross_at_any_angle() {
     let mut rng = Pcg64::seed_from_u64(9);
     for _ in 0..5_000 {
         let (angle, gap) = (

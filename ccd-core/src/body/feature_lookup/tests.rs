@@ -1,11 +1,11 @@
-//! Names by what meets in a corner against looking at all facets.
+//! Lookups by the facets of a corner against a scan of all facets.
 
 use super::*;
 use crate::body::pieces::Pieces;
 use crate::body::polytope::{Facet, Polytope};
 use crate::tests::scene::{RngExt, rng};
 
-/// A prism of 60 sides, every third of which is no part of the mesh.
+/// A prism of 60 sides; every third side is virtual.
 fn prism() -> Pieces {
     let count = 60;
     let rim = |height: f64| {
@@ -36,10 +36,10 @@ fn prism() -> Pieces {
 }
 
 #[test]
-fn names_are_those_of_looking_at_all_facets() {
+fn names_agree_with_a_scan_of_all_facets() {
     let pieces = prism();
     let piece = pieces.get(0);
-    // Of no list, so that nothing is kept.
+    // A piece of no list, so that nothing is stored.
     let bare = Piece {
         slot: None,
         ..piece

@@ -1,4 +1,4 @@
-//! What a hierarchy must be, and every way in which it can fail to.
+//! Properties of every hierarchy, and all faults of nodes.
 
 use super::{Hierarchy, HierarchyNode::Inner, HierarchyNode::Leaf};
 use crate::body::{Body, Volume};
@@ -21,7 +21,7 @@ fn a_tree_over_all_pieces_is_taken() {
 }
 
 #[test]
-fn whatever_is_none_is_refused_where_it_fails() {
+fn invalid_nodes_are_refused_by_index() {
     // No root, and no piece for it.
     assert_eq!(refused(&[], 1), 0);
     assert_eq!(refused(&[], 0), 0);
@@ -30,7 +30,7 @@ fn whatever_is_none_is_refused_where_it_fails() {
     assert_eq!(refused(&[Leaf(0)], 2), 1);
     assert_eq!(refused(&[Inner(1, 2), Leaf(1), Leaf(1)], 2), 1);
     assert_eq!(refused(&[Inner(1, 2), Leaf(0), Leaf(9)], 2), 9);
-    // A node reached twice, from itself, or not at all, or out of range.
+    // A node reached twice, from itself, never, or out of range.
     assert_eq!(refused(&[Inner(1, 1), Leaf(0)], 1), 1);
     assert_eq!(refused(&[Inner(0, 1), Leaf(0)], 1), 0);
     assert_eq!(refused(&[Inner(1, 2), Leaf(0), Leaf(1), Leaf(2)], 2), 3);

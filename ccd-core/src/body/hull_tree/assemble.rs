@@ -171,7 +171,7 @@ fn inner<'a>(
     })
 }
 
-/// Whether the hull holds all points of its children.
+/// Checks that the hull holds all points of its children.
 fn check_inside(
     hull: &Hull,
     identity: &Identity,

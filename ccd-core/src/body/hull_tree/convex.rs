@@ -16,7 +16,7 @@ pub(crate) fn support_of(hull: &Piece<'_>) -> Support {
     }
 }
 
-/// Whether the facets close a convex polytope that has all points as corners.
+/// Returns whether the facets close a convex polytope that has all points as corners.
 ///
 /// # Guarantee
 /// A positive answer is exact. The facets are treated as fans of triangles, no two of which have a
@@ -47,7 +47,7 @@ fn is_convex(hull: &Piece<'_>) -> bool {
         && covers_once(&triangles, place, middle)
 }
 
-/// Whether the corners are in the plane of the first three.
+/// Returns whether the corners are in the plane of the first three.
 fn is_plane(points: &[DVec3], corners: &[u32]) -> bool {
     let place = |&v: &u32| points[v as usize];
     let first = [0, 1, 2].map(|k| place(&corners[k]));
@@ -55,14 +55,14 @@ fn is_plane(points: &[DVec3], corners: &[u32]) -> bool {
     others.all(|p| side(first, p).is_eq())
 }
 
-/// Whether no corner of a facet is reflex, seen from a point behind it.
+/// Returns whether no corner of a facet is reflex, seen from a point behind it.
 fn turns_one_way(points: &[DVec3], corners: &[u32], middle: DVec3) -> bool {
     let place = |k: usize| points[corners[k % corners.len()] as usize];
     let fan = |k: usize| [place(k), place(k + 1), place(k + 2)];
     (0..corners.len()).all(|k| side(fan(k), middle).is_le())
 }
 
-/// Whether no triangle has a neighbour across an edge in front of its plane.
+/// Returns whether no triangle has a neighbour across an edge in front of its plane.
 fn bends_outward(triangles: &[[u32; 3]], place: impl Fn(&[u32; 3]) -> [DVec3; 3]) -> bool {
     let mut sides: Vec<((u32, u32), &[u32; 3])> = triangles
         .iter()
@@ -84,7 +84,7 @@ fn bends_outward(triangles: &[[u32; 3]], place: impl Fn(&[u32; 3]) -> [DVec3; 3]
     once && sides.iter().all(bends)
 }
 
-/// Whether a direction from the middle that avoids all edges meets exactly one triangle.
+/// Returns whether a direction from the middle that avoids all edges meets exactly one triangle.
 fn covers_once(
     triangles: &[[u32; 3]],
     place: impl Fn(&[u32; 3]) -> [DVec3; 3],

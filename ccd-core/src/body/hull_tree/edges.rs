@@ -10,7 +10,7 @@ pub(super) fn edges_of(corners: &[u32]) -> impl Iterator<Item = (u32, u32)> + Cl
     corners.iter().copied().zip(next.copied())
 }
 
-/// Whether the facets are loops of corners that close a surface. O(n log n).
+/// Checks that the facets are loops of corners that close a surface. O(n log n).
 pub(super) fn check_facets(hull: &Hull) -> Result<(), HullFault> {
     match is_closed(hull) {
         true => Ok(()),
@@ -18,7 +18,7 @@ pub(super) fn check_facets(hull: &Hull) -> Result<(), HullFault> {
     }
 }
 
-/// Whether every edge of the facets occurs once in either direction.
+/// Returns whether every edge of the facets occurs once in either direction.
 fn is_closed(hull: &Hull) -> bool {
     let exists = |&v: &u32| (v as usize) < hull.points.len();
     let mut edges: Vec<u64> = Vec::with_capacity(hull.facets.corners().len());

@@ -201,7 +201,7 @@ fn points_of(polytope: &Polytope, corners: &[u32]) -> Vec<DVec3> {
     corners.iter().map(point).collect()
 }
 
-/// Whether two loops are the same up to their first corner.
+/// Returns whether two loops are the same up to their first corner.
 fn same_loop(part: &Part<'_>, other: &[u32]) -> bool {
     if part.corners.len() != other.len() {
         return false;
@@ -214,8 +214,8 @@ fn same_loop(part: &Part<'_>, other: &[u32]) -> bool {
     part.ids().eq(begin.iter().chain(end).copied())
 }
 
-/// Whether two convex polygons together are a facet of the hull: without the edges that run both
-/// ways, the rest of their edges is the facet's loop, except for corners within its edges.
+/// Returns whether two convex polygons together are a facet of the hull: without the edges that run
+/// both ways, the rest of their edges is the facet's loop, except for corners within its edges.
 ///
 /// A part has at most the facet's corners and the two ends of the cut. A part of many more is
 /// skipped, as it may share an edge with each of many facets.

@@ -69,7 +69,7 @@ impl<'a> Container<'a> {
     }
 }
 
-/// Whether a point is one of up to three, between two, or in their triangle.
+/// Returns whether a point is one of up to three, between two, or in their triangle.
 fn in_simplex(points: &[DVec3], point: DVec3) -> bool {
     match *points {
         [a] => a == point,
@@ -87,7 +87,7 @@ fn on_segment(a: DVec3, b: DVec3, point: DVec3) -> bool {
     between && is_degenerate([a, b, point])
 }
 
-/// Whether a triangle is in the plane of a polygon and is seen from the same side.
+/// Returns whether a triangle is in the plane of a polygon and is seen from the same side.
 pub(super) fn is_coplanar(polygon: &[DVec3], triangle: [DVec3; 3]) -> bool {
     plane(polygon).is_some_and(|(fan, axis)| {
         let in_plane = |&p: &DVec3| side(fan, p).is_eq();
@@ -113,8 +113,8 @@ fn plane(polygon: &[DVec3]) -> Option<([DVec3; 3], usize)> {
     })
 }
 
-/// Whether a point is in the plane of a polygon and in the hull of its corners: on no edge's outer
-/// side and on the inner side of one, by the same count of windings.
+/// Returns whether a point is in the plane of a polygon and in the hull of its corners: on no
+/// edge's outer side and on the inner side of one, by the same count of windings.
 fn in_polygon(corners: &[DVec3], point: DVec3) -> bool {
     let Some((fan, axis)) = plane(corners) else {
         return false;

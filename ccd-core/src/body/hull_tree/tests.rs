@@ -1,4 +1,4 @@
-//! Trees of few nodes, made by hand: what is inherited, what is refused.
+//! Small trees, made by hand: inherited data, and refused nodes.
 
 use super::*;
 use crate::body::feature::Feature;
@@ -205,7 +205,7 @@ fn triangles_segments_and_points_join() {
 }
 
 #[test]
-fn flat_hulls_hold_what_is_in_their_plane_and_outline_only() {
+fn flat_hulls_contain_only_points_in_their_plane_and_outline() {
     let square = Hull {
         points: corners(DVec3::ZERO, DVec3::new(1.0, 1.0, 0.0))[..4].to_vec(),
         facets: Loops::from_iter([[0, 1, 3, 2], [2, 3, 1, 0]]),
@@ -242,7 +242,7 @@ fn containment_is_exact() {
 }
 
 #[test]
-fn hulls_that_are_none_are_refused() {
+fn invalid_hulls_are_refused() {
     let pieces = [block(0.0, 1.0, 0), block(1.0, 3.0, 6)];
     let good = hull_of(0.0, 3.0);
     let refused = |change: &dyn Fn(&mut Vec<Vec<u32>>)| {
@@ -274,7 +274,7 @@ fn hulls_that_are_none_are_refused() {
         refused(&|facets| facets.push(BOX[0].to_vec())),
         HullFault::Open { facet: 6 }
     );
-    // Inside out, too small, or none at all.
+    // Inside out, too small, or without facets.
     let outside = |child, point| HullFault::ChildOutside { child, point };
     assert_eq!(
         refused(&|facets| facets.iter_mut().for_each(|f| f.reverse())),
@@ -311,7 +311,7 @@ fn bodies_take_the_trees_of_their_pieces_only() {
     let tree = HullTree::new(&pieces, &nodes).unwrap();
     let body = Body::new(&pieces, Volume::Surface).unwrap();
     let body = body.with_hull_tree(tree.clone()).unwrap();
-    // Whatever order the body has its pieces in.
+    // The order of the body's pieces does not matter.
     let kept = body.hull_tree().unwrap();
     for (at, node) in kept.hierarchy().nodes().iter().enumerate() {
         if let HierarchyNode::Leaf(piece) = node {

@@ -1,4 +1,4 @@
-//! What pieces refuse, and what they call their features.
+//! Refused pieces, and the features of pieces.
 
 use super::*;
 use crate::body::Body;
@@ -17,7 +17,7 @@ fn ball(radius: f64) -> Polytope {
 }
 
 #[test]
-fn triangles_that_are_none_are_refused() {
+fn invalid_triangles_are_refused() {
     let made = |faces: &[[u32; 3]]| {
         let ids: Vec<u32> = (0..faces.len() as u32).collect();
         Pieces::triangles(&CORNERS, faces, &ids).map(|pieces| pieces.len())
@@ -35,7 +35,7 @@ fn triangles_that_are_none_are_refused() {
 }
 
 #[test]
-fn points_that_are_none_are_refused_by_piece_and_point() {
+fn invalid_points_are_refused_by_piece_and_point() {
     for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1.1e12, -1.1e12] {
         for axis in 0..3 {
             let mut points = CORNERS;
@@ -60,7 +60,7 @@ fn points_that_are_none_are_refused_by_piece_and_point() {
 }
 
 #[test]
-fn polytopes_that_are_none_are_refused() {
+fn invalid_polytopes_are_refused() {
     let refused = |polytope: Polytope| Pieces::polytopes(&[ball(1.0), polytope]).err();
     for bad in [-1.0, -f64::MIN_POSITIVE, f64::NAN, f64::INFINITY, 1.1e12] {
         assert_eq!(refused(ball(bad)), Some(InputError::BadRadius { piece: 1 }));
@@ -116,7 +116,7 @@ fn boxes_name_corners_edges_and_facets() {
     assert_eq!(pieces.feature(0, &mean(&[5])), Feature::Vertex(5));
     // Corners 0 and 1 differ in x alone: an edge.
     assert_eq!(pieces.feature(0, &mean(&[1, 0])), Feature::Edge(0, 1));
-    // 0 and 3 lie across the face towards −z; 0 and 7 across the box.
+    // 0 and 3 are opposite in the face towards −z; 0 and 7 in the box.
     assert_eq!(pieces.feature(0, &mean(&[0, 3])), Feature::Face(4));
     assert_eq!(pieces.feature(0, &mean(&[0, 7])), Feature::Piece(0));
     assert_eq!(pieces.feature(0, &mean(&[1, 3, 7])), Feature::Face(1));

@@ -1,5 +1,5 @@
-//! Polytopes whose facets are known by construction, in whole numbers: climbing against looking at
-//! every corner.
+//! Polytopes with facets known by construction, with integer coordinates: climbing against a scan
+//! of every corner.
 
 mod tree;
 
@@ -99,7 +99,7 @@ fn looks(count: usize) -> Vec<DVec3> {
 }
 
 #[test]
-fn climbing_finds_what_looking_at_all_finds() {
+fn climbing_agrees_with_a_scan() {
     let mut rng = rng(12);
     for pieces in shapes() {
         let piece = pieces.get(0);
@@ -186,7 +186,7 @@ fn many_corners_with_facets_are_climbed_others_looked_at() {
 }
 
 #[test]
-fn directions_that_are_none_give_some_corner() {
+fn invalid_directions_give_some_corner() {
     let pieces = bowl(40);
     let table = SupportTable::new(pieces.get(0).points, pieces.get(0).facets).unwrap();
     let scan = SupportScan::new(pieces.points());

@@ -36,8 +36,8 @@ pub(crate) fn fit(cloud: &Cloud<'_>, below: Below) -> Node {
     best.node(cloud, below)
 }
 
-/// Whether the columns are orthonormal up to rounding: otherwise the box may not contain its
-/// points.
+/// Returns whether the columns are orthonormal up to rounding: otherwise the box may not contain
+/// its points.
 fn is_frame(frame: &DMat3) -> bool {
     let off = frame.transpose() * *frame - DMat3::IDENTITY;
     // Written so that NaN is rejected.

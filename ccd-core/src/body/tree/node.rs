@@ -34,7 +34,7 @@ impl Node {
         f64::from(self.half[axis]) + f64::from(self.rounding) + BOX_F64 * f64::from(self.radius)
     }
 
-    /// Whether a point is in the box, or at most about `reach` from it.
+    /// Returns whether a point is in the box, or at most about `reach` from it.
     pub(super) fn holds(&self, point: DVec3, reach: f64) -> bool {
         let way = point - self.centre;
         let reach = reach + 8.0 * U64 * way.abs().element_sum();

@@ -26,8 +26,8 @@ pub(crate) fn pieces_at(tree: &Tree, point: DVec3) -> Vec<u32> {
     found
 }
 
-/// Whether a point is certainly farther than `reach` from the surface: from the triangles, or the
-/// mesh's faces on the pieces.
+/// Returns whether a point is certainly farther than `reach` from the surface: from the triangles,
+/// or the mesh's faces on the pieces.
 pub(crate) fn is_clear(tree: &Tree, pieces: &Pieces, point: DVec3, reach: f64) -> bool {
     let mut stack = vec![0u32];
     while let Some(id) = stack.pop() {
@@ -59,8 +59,8 @@ pub(crate) fn is_clear(tree: &Tree, pieces: &Pieces, point: DVec3, reach: f64) -
     true
 }
 
-/// Whether an axis shows that a point is farther than `reach` from a triangle: the normal of its
-/// plane, or the direction from an edge or a corner.
+/// Returns whether an axis shows that a point is farther than `reach` from a triangle: the normal
+/// of its plane, or the direction from an edge or a corner.
 fn is_past(triangle: [DVec3; 3], point: DVec3, reach: f64) -> bool {
     let corners = triangle.map(|corner| corner - point);
     let size = |v: DVec3| v.abs().element_sum();

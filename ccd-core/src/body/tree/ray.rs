@@ -91,7 +91,7 @@ fn along(tree: &Tree, pieces: &Pieces, start: Start, along: DVec3) -> Option<Cro
     Some(found)
 }
 
-/// Whether a ray may meet a node's box.
+/// Returns whether a ray may meet a node's box.
 fn meets(node: &Node, from: DVec3, along: DVec3) -> bool {
     let way = from - node.centre;
     let (mut enter, mut leave) = (0.0f64, f64::INFINITY);

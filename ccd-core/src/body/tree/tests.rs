@@ -1,4 +1,4 @@
-//! What every tree must be, for bodies of every kind.
+//! Properties of every tree, for bodies of every kind.
 
 use super::*;
 use crate::body::pieces::Pieces;
@@ -13,7 +13,7 @@ use glam::DVec3;
 /// Boxes and balls hold the points to within the rounding of the f64 arithmetic that checks it.
 const CHECK: f64 = 1e-14;
 
-/// Checks all that holds of any tree; how many groups it has.
+/// Checks the properties of any tree; returns its number of groups.
 fn check(body: &Body) -> usize {
     let (tree, pieces) = (body.tree(), body.pieces());
     let mut seen = vec![0; pieces.len()];
@@ -31,7 +31,7 @@ fn farthest(pieces: &Pieces) -> f64 {
     pieces.iter().map(reach).fold(0.0, greater)
 }
 
-/// Checks a node and all below it; the pieces below.
+/// Checks a node and all below it; returns the pieces below.
 fn visit(tree: &Tree, pieces: &Pieces, id: NodeId, seen: &mut [u32]) -> Vec<u32> {
     let Named::Node(node) = tree.get(id) else {
         let piece = tree.piece(id).expect("a triangle");
@@ -103,7 +103,7 @@ fn check_node(node: &Node, pieces: &Pieces, below: &[u32]) {
     }
 }
 
-/// So does the row of a group, about the centre that is rounded there.
+/// The row of a group contains them too, about the centre that is rounded there.
 fn check_row(group: &BoxGroup, lane: usize, pieces: &Pieces, below: &[u32]) {
     let at =
         |rows: &[[f32; LANES]; 3]| DVec3::from_array([0, 1, 2].map(|k| f64::from(rows[k][lane])));
@@ -125,7 +125,7 @@ fn check_row(group: &BoxGroup, lane: usize, pieces: &Pieces, below: &[u32]) {
     }
 }
 
-/// Corners are rounded to f32 relative to the group's origin, and the ball holds the true ones.
+/// Corners are rounded to f32 relative to the group's origin, and the ball contains the true ones.
 fn check_triangle(group: &TriangleGroup, lane: usize, triangle: Triangle) {
     let mean = (triangle[0] + triangle[1] + triangle[2]) / 3.0;
     for (k, &corner) in triangle.iter().enumerate() {
@@ -162,7 +162,7 @@ fn soups_of_every_kind_and_count() {
     for count in (1..=80).chain([200, 511, 512, 513, 3_000]) {
         for _ in 0..3 {
             let groups = check(&body(&random_soup(&mut rng, count)));
-            // Eight lanes are put to use: not many more groups than clusters of eight.
+            // Eight lanes are used: the groups are not many more than the clusters of eight.
             assert!(groups <= 1 + count / 2, "{groups} for {count}");
         }
     }
@@ -212,7 +212,7 @@ fn components_whose_squares_are_no_numbers() {
             .collect();
         check(&body(&triangles));
     }
-    // Frames that such normals gave: their lengths were off by up to a third.
+    // Frames computed from such normals: their lengths were off by up to a third.
     for k in 0..2_000 {
         let tiny = 1e-163 * 1.002f64.powi(k);
         let across = DVec3::new(-tiny, tiny, 0.3 * tiny);

@@ -1,4 +1,5 @@
-//! What is flat makes the same pairs however it is cut; pieces of many faces, or that share corners.
+//! The pairs of flat surfaces do not depend on the cut; pieces of many faces, or with shared
+//! corners.
 
 use super::*;
 use crate::body::pieces::Pieces;
@@ -25,9 +26,9 @@ fn hull_cut_about_its_middles(half: DVec3) -> Body {
     .unwrap()
 }
 
-/// A point's place on the inside of a flat side is its foot, whatever triangles the side is cut into.
+/// The place of a point on a flat side is its foot, for any triangulation of the side.
 #[test]
-fn no_place_on_a_side_but_the_foot_is_told() {
+fn only_the_foot_on_a_side_is_reported() {
     let rng = &mut rng(74);
     let half = DVec3::new(1.0, 0.8, 0.3);
     let [cut, whole] = cuboids(half);
@@ -85,10 +86,10 @@ fn globe(rings: u32, sectors: u32) -> Mesh {
     }
 }
 
-/// One piece that is near as many pieces as it has faces: the work is that of the faces that are near
-/// each other, not of all with all.
+/// One piece that is near as many pieces as it has faces: the work is that of the near pairs of
+/// faces, not of all pairs.
 #[test]
-fn a_piece_of_many_faces_is_put_in_order_once() {
+fn a_piece_of_many_faces_is_sorted_once() {
     let ball = globe(32, 34);
     let count = ball.faces.len() as u64;
     let facet = |(k, corners): (u32, &[u32; 3])| Facet {
@@ -126,7 +127,7 @@ fn a_piece_of_many_faces_is_put_in_order_once() {
     assert!(of_hull.iter().zip(&of_triangles).all(same));
     let back = gaps(&socket, &hull, at(0.0, 0.0, -0.0099));
     assert_eq!(of_hull.len(), back.len());
-    // What is looked at is counted.
+    // Visits are counted.
     let config = Config {
         budget: 2 * count,
         ..config
@@ -136,9 +137,9 @@ fn a_piece_of_many_faces_is_put_in_order_once() {
     assert_eq!(refused, Err(ContactsError::TooMany { budget }));
 }
 
-/// Where pieces of different rounding share a corner, the one that is rounded more is the nearer.
+/// If pieces of different rounding share a corner, the one with the larger radius is the nearer.
 #[test]
-fn the_rounder_of_two_pieces_that_share_a_corner_is_told() {
+fn the_rounder_of_two_pieces_that_share_a_corner_is_reported() {
     let limb = |x: f64, id: u32, radius: f64| Polytope {
         points: vec![DVec3::ZERO, DVec3::new(x, 0.0, -1.0)],
         vertex_ids: vec![0, id],

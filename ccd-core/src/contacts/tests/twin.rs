@@ -1,4 +1,4 @@
-//! All pairs of features, the slow and obvious way.
+//! All pairs of features by brute force.
 
 use crate::body::feature::Feature;
 use crate::body::pieces::Pieces;
@@ -16,7 +16,7 @@ pub(super) struct Mesh {
     pub(super) faces: Vec<[u32; 3]>,
 }
 
-/// Pairs of names with their distance; and those that rounding decides about.
+/// Pairs of names with their distance, and those that depend on rounding.
 pub(super) struct Expected {
     pub(super) sure: BTreeMap<String, f64>,
     pub(super) doubtful: BTreeSet<String>,
@@ -126,7 +126,7 @@ impl Mesh {
         sides.into_iter().map(flat).collect()
     }
 
-    /// Whether a feature is on the boundary of another one.
+    /// Returns whether a feature is on the boundary of another one.
     fn bounds(&self, part: Feature, of: Feature) -> bool {
         match (part, of) {
             (Feature::Vertex(v), Feature::Edge(a, b)) => v == a || v == b,
@@ -171,7 +171,7 @@ pub(super) fn contacts(a: &Mesh, b: &Mesh, reach: f64, rounding: f64) -> Expecte
             offers.edges(ends(a, e), ends(b, f), names);
         }
     }
-    offers.told([a, b])
+    offers.reported([a, b])
 }
 
 struct Offers {
@@ -182,7 +182,7 @@ struct Offers {
 }
 
 impl Offers {
-    /// Whether a pair that far apart is in reach, as far as that can be said.
+    /// Adds a pair at a distance, if it is in reach up to rounding.
     fn offer(&mut self, key: Key, distance: f64, clear: bool) {
         if distance > self.reach + 4.0 * self.rounding {
         } else if clear && distance <= self.reach {
@@ -210,7 +210,7 @@ impl Offers {
             (None, Some(k)) => edge_name(k),
             (None, None) => Feature::Face(face as u32),
         };
-        // As near, and not merely nearly so.
+        // As near, not merely up to rounding.
         let exact = |corners: Triangle| {
             nearest(&[v; 3], &corners).distance <= distance + 0.25 * self.rounding
         };
@@ -250,8 +250,8 @@ impl Offers {
         self.offer(names, distance, clear);
     }
 
-    /// Leaves out what a larger part covers, and gives points on edges within planes to faces.
-    fn told(self, meshes: [&Mesh; 2]) -> Expected {
+    /// Drops pairs that a larger part covers, and assigns points on edges within planes to faces.
+    fn reported(self, meshes: [&Mesh; 2]) -> Expected {
         let larger = |key: &Key, other: &Key| {
             (0..2).any(|k| {
                 let corner = matches!(key[1 - k], Feature::Vertex(_)) && key[1 - k] == other[1 - k];
@@ -270,7 +270,8 @@ impl Offers {
             };
             format!("{} {}", side(0), side(1))
         };
-        // How much nearer one of the faces beside an edge within a plane is than a point on it.
+        // The distance by which one of the faces at an edge within a plane is nearer than a point
+        // on it.
         let nearer = |key: &Key, distance: f64| -> f64 {
             let of_side = |k: usize| {
                 let Feature::Vertex(v) = key[1 - k] else {

@@ -1,4 +1,4 @@
-//! Intersecting is told from touching.
+//! Distinguishes intersecting pieces from touching ones.
 
 use super::{Intersection, intersects};
 use crate::body::Body;
@@ -15,8 +15,8 @@ use glam::DVec3;
 
 const ROUNDING: f64 = 1e-13;
 
-/// What is found, which has to be decided.
-fn told(pair: &PiecePair<'_>, claim: &Claim) -> bool {
+/// The decision, which must not be open.
+fn decided(pair: &PiecePair<'_>, claim: &Claim) -> bool {
     let checked = separation::check(pair, claim, ROUNDING);
     match intersects(pair, &checked, ROUNDING) {
         Intersection::Certain => true,
@@ -39,7 +39,7 @@ fn triangles(a: &Triangle, b: &Triangle) -> bool {
         b_to_a: Frame::IDENTITY,
     };
     let claim = Exhaustive.separation(&pair, &mut ()).unwrap();
-    told(&pair, &claim)
+    decided(&pair, &claim)
 }
 
 #[test]
@@ -77,7 +77,7 @@ fn triangles_that_cross_intersect_and_those_that_touch_do_not() {
     assert!(!triangles(&flat, &beside));
 }
 
-/// Random triangles, needles among them, whatever an honest oracle makes of them.
+/// Random triangles, needles among them, with any claim of an honest oracle.
 #[test]
 fn the_same_as_all_axes_of_the_separating_axis_theorem() {
     let mut rng = rng(1);
@@ -95,7 +95,7 @@ fn the_same_as_all_axes_of_the_separating_axis_theorem() {
     assert!(counts[0] > 10_000 && counts[1] > 200, "{counts:?}");
 }
 
-/// A claim of the witnesses' being at one point, whatever the axis.
+/// A claim that the witnesses are at one point, with an arbitrary axis.
 fn boxes(b_to_a: Frame) -> bool {
     let body = Body::cuboid(DVec3::ONE).unwrap();
     let piece = body.pieces().get(0);
@@ -104,7 +104,7 @@ fn boxes(b_to_a: Frame) -> bool {
         b: piece,
         b_to_a,
     };
-    // The middle of what both boxes have in common, as a point of either.
+    // The middle of the boxes' intersection, as a point of either.
     let middle = 0.5 * b_to_a.translation;
     let named = |p: DVec3| -> Combination {
         // Four corners about the point: trilinear weights along the box's diagonal directions.
@@ -119,7 +119,7 @@ fn boxes(b_to_a: Frame) -> bool {
         a: named(middle),
         b: named(b_to_a.inverse_point(middle)),
     };
-    told(&pair, &claim)
+    decided(&pair, &claim)
 }
 
 /// Weights of corners 0, 1, 3, 7 of a unit box, which name any point with x ≥ y ≥ z.
@@ -145,7 +145,7 @@ fn boxes_overlap_by_more_than_rounding_or_not() {
             assert!(!boxes(at((2.0 + gap) * way)), "{gap} {way}");
         }
     }
-    // Edge to edge: no face normal tells the two apart.
+    // Edge to edge: no face normal separates the two.
     let turned = |axis: DVec3| glam::DQuat::from_axis_angle(axis, std::f64::consts::FRAC_PI_4);
     let crossed = |gap: f64| {
         let pose = Pose::new(
@@ -177,15 +177,15 @@ fn rounded_pieces_intersect_when_their_cores_are_near() {
             b_to_a: turn.into(),
         };
         let claim = Exhaustive.separation(&pair, &mut ()).unwrap();
-        told(&pair, &claim)
+        decided(&pair, &claim)
     };
     assert!(cross(0.0) && cross(0.5) && cross(1.0 - 1e-9));
     assert!(!cross(1.0) && !cross(1.0 + 1e-9) && !cross(2.0));
 }
 
-/// Whatever an oracle claims of them, pieces intersect or do not.
+/// The decision does not depend on the claim.
 #[test]
-fn a_liar_is_believed_neither_way() {
+fn false_claims_do_not_change_the_decision() {
     let mut rng = rng(3);
     let body = Body::cuboid(DVec3::ONE).unwrap();
     let piece = body.pieces().get(0);
@@ -203,16 +203,16 @@ fn a_liar_is_believed_neither_way() {
             b: Combination::point(rng.random_range(0..8)),
         };
         let exact = overlap_by_axes(&pair);
-        assert_eq!(told(&pair, &lie), exact, "{pose:?}");
+        assert_eq!(decided(&pair, &lie), exact, "{pose:?}");
         overlaps += usize::from(exact);
         others += usize::from(!exact);
     }
     assert!(overlaps > 200 && others > 200, "{overlaps} {others}");
 }
 
-/// The slow and obvious twin, with twice the digits: no axis of the separating-axis theorem keeps the
-/// pieces apart. The axes are the normals of both and the cross products of their edges; for flat pieces
-/// also the normals of their edges within either plane.
+/// A slow reference in double-double arithmetic: no axis of the separating-axis theorem separates
+/// the pieces. The axes are the normals of both and the cross products of their edges; for flat
+/// pieces also the normals of their edges within either plane.
 fn overlap_by_axes(pair: &PiecePair<'_>) -> bool {
     let a = Directions::of(&pair.a, |p| p);
     let b = Directions::of(&pair.b, |p| pair.b_to_a.point(p));
@@ -263,7 +263,7 @@ impl Directions {
         for corners in loops {
             let at = |k: usize| points[corners[k % corners.len()] as usize];
             for k in 0..corners.len() {
-                // Two facets share an edge, the other way round.
+                // Two facets share an edge, in opposite directions.
                 let once = piece.facets.is_empty() || corners[k] < corners[(k + 1) % corners.len()];
                 edges.extend(once.then(|| at(k + 1) - at(k)));
             }

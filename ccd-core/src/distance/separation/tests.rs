@@ -1,4 +1,4 @@
-//! Claims are checked, true ones and lies alike.
+//! Checks of true and false claims.
 
 use super::sharp::sharpened;
 use super::*;
@@ -46,7 +46,7 @@ fn claim_of(rng: &mut Pcg64) -> Claim {
 }
 
 #[test]
-fn bounds_hold_whatever_is_claimed() {
+fn bounds_hold_for_any_claim() {
     let mut rng = rng(1);
     let mut replaced = 0;
     for _ in 0..50_000 {
@@ -110,7 +110,7 @@ fn a_true_claim_is_tight() {
 
 /// Weights that overflow when they are summed must not make two distant pieces touch.
 #[test]
-fn weights_that_overflow_are_a_lie_like_any_other() {
+fn overflowing_weights_are_a_false_claim() {
     let a = [DVec3::ZERO, DVec3::X, DVec3::Y];
     let b = a.map(|p| p + 5.0 * DVec3::Z);
     let pair = PiecePair {
@@ -131,7 +131,7 @@ fn weights_that_overflow_are_a_lie_like_any_other() {
         let checked = check(&pair, &claim, ROUNDING);
         assert!(checked.upper >= 5.0, "{weight:e}: {}", checked.upper);
         assert!(checked.witness_a.is_finite(), "{weight:e}");
-        // In the triangle's hull.
+        // The point is in the triangle's hull.
         let at = checked.witness_a;
         assert!(
             at.min_element() >= 0.0 && at.x + at.y <= 1.0 + 1e-12,
@@ -141,7 +141,7 @@ fn weights_that_overflow_are_a_lie_like_any_other() {
 }
 
 #[test]
-fn radii_are_taken_off_and_witnesses_lie_on_the_surface() {
+fn radii_are_subtracted_and_witnesses_are_on_the_surface() {
     let (a, b) = ([DVec3::ZERO], [3.0 * DVec3::X]);
     let ball = |points, radius| Piece {
         radius,
@@ -164,7 +164,7 @@ fn radii_are_taken_off_and_witnesses_lie_on_the_surface() {
     assert_eq!(checked.core_distance, 3.0);
 }
 
-/// The way between near points is rounded; large triangles lose what that tilts it by.
+/// The vector between near points is rounded; large triangles lose distance by its tilt.
 #[test]
 fn features_have_better_axes_than_near_points() {
     let mut rng = rng(3);

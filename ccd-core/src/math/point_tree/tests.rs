@@ -12,7 +12,7 @@ fn noise() -> impl FnMut() -> f64 {
     }
 }
 
-/// Whoever looks at all points finds no other ones in front, and few more that are near.
+/// A scan of all points finds no other points in front, and few more that are near.
 #[test]
 fn nothing_in_front_is_passed_over() {
     let mut next = noise();
@@ -33,7 +33,7 @@ fn nothing_in_front_is_passed_over() {
     }
 }
 
-/// A plane that touches one end of a long row looks at a few of its points.
+/// A query with a plane that touches one end of a long row visits few of its points.
 #[test]
 fn most_points_are_passed_over_together() {
     let points: Vec<DVec3> = (0..100_000)

@@ -1,4 +1,4 @@
-//! Against arithmetic of twice the digits, over all sizes that numbers have.
+//! Compares with double-double arithmetic, over all sizes of numbers.
 
 use super::{across, distance, length, normal, unit};
 use crate::tests::double::Double3;
@@ -24,7 +24,7 @@ fn any(rng: &mut Pcg64) -> f64 {
     }
 }
 
-/// A vector of any size, of components that are alike or not at all.
+/// A vector of any size, with components of similar or different sizes.
 fn vector(rng: &mut Pcg64) -> DVec3 {
     match rng.random_range(0..2) {
         0 => DVec3::new(any(rng), any(rng), any(rng)),

@@ -36,7 +36,7 @@ fn frames_are_the_poses_of_the_motion_less_the_origin() {
                 "{motion:?} at {s}"
             );
             assert!(path.centre_at(s).distance(frame.point(motion.centre())) < scale);
-            // The velocity is the limit of what is covered in a short time.
+            // The velocity is the limit of displacement over time.
             let step = 1e-6;
             let moved = path.frame(s + step).point(point) - frame.point(point);
             let velocity = path.velocity_at(frame.point(point), s);

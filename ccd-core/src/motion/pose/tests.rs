@@ -1,4 +1,4 @@
-//! Poses and frames say the same, and refuse what is none.
+//! Poses and frames agree, and refuse invalid input.
 
 use super::{Frame, Pose};
 use crate::error::InputError;
@@ -24,7 +24,7 @@ fn quaternions_of_any_length_name_the_same_orientation() {
 }
 
 #[test]
-fn what_names_no_pose_is_refused() {
+fn invalid_poses_are_refused() {
     let zero = DQuat::from_xyzw(0.0, 0.0, 0.0, 0.0);
     assert_eq!(
         Pose::new(DVec3::ZERO, zero),

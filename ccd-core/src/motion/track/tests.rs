@@ -1,4 +1,4 @@
-//! Tracks against the formula they stand for, and the three bounds against sampled truth.
+//! Tracks against their defining formula, and the three bounds against samples.
 
 use super::{Angle, AxisMotion, Track};
 use crate::math::order::{greater, lesser};
@@ -77,7 +77,7 @@ fn highest(track: &Track, turns: f64, tau: f64) -> f64 {
     greater(track.at(0.5 * (low + high)), track.at(at(best)))
 }
 
-/// When a track may reach a limit, within a duration of 1.
+/// Returns the time at which a track may reach a limit, within a duration of 1.
 fn crossing(track: &Track, limit: f64) -> Option<f64> {
     first_crossing(1.0, 64, |tau| {
         let angle = Angle::new(track.omega * tau);
@@ -113,7 +113,7 @@ fn the_first_crossing_is_never_late_and_near() {
         let found = found.expect("a crossing that samples find");
         assert!(found <= at(k));
         crossings += 1;
-        // What is left is not worth a round.
+        // The rest is not worth a round.
         let (mut low, mut high) = (at(k - 1), at(k));
         for _ in 0..100 {
             let middle = 0.5 * (low + high);
@@ -199,8 +199,8 @@ fn the_sound_bound_holds_over_intervals() {
     assert!(beaten > 100, "{beaten}");
 }
 
-/// An arm of 2 that hangs down and turns about its end towards a wall above: the published bound
-/// sees its tip move sideways, and lets it turn through the wall.
+/// An arm of 2 that hangs down and turns about its end towards a wall above. The published bound
+/// counts only the sideways motion of its tip, and lets it turn through the wall.
 #[test]
 fn the_published_bound_lets_the_mace_through_the_wall() {
     let (length, width, wall) = (2.0, 0.02, 1.0);

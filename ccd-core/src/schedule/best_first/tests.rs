@@ -1,4 +1,4 @@
-//! Whole queries: against sampled truth, the naive twin, tiny budgets, and a million pairs at once.
+//! Whole queries: against samples, the naive schedule, tiny budgets, and a million pairs at once.
 
 use super::*;
 use crate::body::combination::Combination;
@@ -54,7 +54,8 @@ fn answers_hold_at_sampled_times_and_are_those_of_the_naive_twin() {
                     "{number}: {near:e}"
                 );
                 holds(&problem, time, &contact);
-                // Both stop within the tolerance of one contact: neither long before the other.
+                // Both stop within the tolerance of one contact: neither is much earlier than the
+                // other.
                 let (first, last) = (lesser(time, other), greater(time, other));
                 assert!(distance(&problem, first) <= margin + tolerance + problem.rounding);
                 assert!(distance(&problem, last) <= margin + tolerance + problem.rounding);
@@ -86,7 +87,7 @@ fn answers_hold_at_sampled_times_and_are_those_of_the_naive_twin() {
     assert!(grazes < 10, "{grazes}");
 }
 
-/// The pieces named are as far apart as it says.
+/// Checks that the named pieces are as far apart as claimed.
 fn holds(problem: &Problem<'_>, s: f64, contact: &Contact) {
     let placed = |side: &Side<'_>, piece: u32| {
         let frame = side.path.frame(s);
@@ -155,7 +156,7 @@ fn budgets_end_a_query_with_a_time_that_is_safe_and_grows() {
 }
 
 #[test]
-fn the_same_query_gives_the_same_bits_whatever_came_before() {
+fn answers_do_not_depend_on_earlier_queries() {
     let mut rng = rng(3);
     let mut kept = BestFirst::default();
     for _ in 0..200 {
@@ -168,7 +169,7 @@ fn the_same_query_gives_the_same_bits_whatever_came_before() {
 }
 
 #[test]
-fn an_oracle_that_gives_up_or_lies_never_makes_an_answer_late() {
+fn false_claims_and_give_ups_never_make_an_answer_late() {
     let mut rng = rng(4);
     let (mut unresolved, mut others) = (0, 0);
     for _ in 0..300 {
@@ -179,7 +180,7 @@ fn an_oracle_that_gives_up_or_lies_never_makes_an_answer_late() {
             Outcome::Contact { time, .. } => time,
             _ => 1.0,
         };
-        // A contact may be told within the tolerance of when it is: never after.
+        // A contact may be reported earlier than it happens, within the tolerance, but never later.
         let touch = (0..=64)
             .map(|k| truth + (1.0 - truth) * f64::from(k) / 64.0)
             .find(|&s| distance(&problem, s) <= problem.margin);
@@ -211,7 +212,7 @@ fn an_oracle_that_gives_up_or_lies_never_makes_an_answer_late() {
 }
 
 #[test]
-fn touching_and_overlapping_at_the_start_are_told_and_let_go() {
+fn touching_and_overlapping_at_the_start_are_reported_and_let_go() {
     let flat = body(&[[DVec3::ZERO, DVec3::X, DVec3::Y]]);
     let spike = body(&[[
         DVec3::ZERO,
@@ -255,8 +256,8 @@ fn touching_and_overlapping_at_the_start_are_told_and_let_go() {
     }
 }
 
-/// Large level plates at equal steps of height, in a hierarchy that takes them at random: below
-/// every node there are plates of all heights, so that only plate by plate anything is apart.
+/// Large level plates at equal steps of height, in a random hierarchy: below every node there are
+/// plates of all heights, so that only single plates are apart.
 fn plates(rng: &mut Pcg64, count: usize, lowest: f64, step: f64) -> Body {
     let plate = |k: usize| {
         let height = (lowest + step * k as f64) * DVec3::Z;
@@ -287,8 +288,8 @@ fn plates(rng: &mut Pcg64, count: usize, lowest: f64, step: f64) -> Body {
     Body::with_hierarchy(&pieces, &hierarchy, Volume::Surface).unwrap()
 }
 
-/// Each plate of one body is between two of the other: all ten million pairs have to be told apart
-/// at the start, and wait for their clocks.
+/// Each plate of one body is between two of the other: all ten million pairs have to be proven
+/// apart at the start, and wait for their clocks.
 #[test]
 fn a_million_groups_of_pairs_wait_at_once() {
     const COUNT: usize = 3_200;
@@ -320,7 +321,7 @@ fn a_million_groups_of_pairs_wait_at_once() {
         time <= exact && time >= exact - all.tolerance,
         "{time} of {exact}"
     );
-    // Not enough visits for all: what is certified until then is no later.
+    // Not enough visits for all: the certified time is then not later.
     let some = answer(1_000_000);
     let Outcome::Unresolved { safe_until, reason } = some.outcome else {
         panic!("a million visits are not enough: {some:?}");
@@ -329,8 +330,8 @@ fn a_million_groups_of_pairs_wait_at_once() {
     assert!(safe_until <= time);
 }
 
-/// A triangle of size 200 turns about a line below a thousand small ones: what is kept apart from it
-/// by a plane that turns with it need not be split, and stays so for a while at once.
+/// A triangle of size 200 turns about a line below a thousand small ones. Nodes that a plane which
+/// turns with it keeps apart need no split, and stay apart for a while.
 #[test]
 fn a_large_piece_turns_past_many_small_ones_at_little_cost() {
     let small = |k: u32| {

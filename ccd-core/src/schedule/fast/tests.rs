@@ -17,7 +17,7 @@ use crate::tests::oracle::{Always, Exhaustive};
 use crate::tests::scene::{Passage, Pcg64, RngExt, direction, magnitude, rng, rotation, within};
 use glam::DVec3;
 
-/// Balls on a line, in a tree that halves them; one tree in three has balls of several sizes.
+/// Balls on a line, in a tree of halves; one tree in three has balls of several sizes.
 fn chain(rng: &mut Pcg64, count: usize) -> Body {
     let step = DVec3::from_array([(); 3].map(|()| f64::from(rng.random_range(-4..=4))));
     let step = if step == DVec3::ZERO { DVec3::X } else { step };
@@ -132,7 +132,7 @@ fn distance(problem: &Problem<'_>, s: f64) -> f64 {
     pairs.fold(f64::INFINITY, lesser)
 }
 
-/// Whether an answer is right at sampled times; when the contact is, or infinity.
+/// Checks an answer at sampled times; returns the time of contact, or infinity.
 fn checked(problem: &Problem<'_>, outcome: &Outcome) -> f64 {
     let holds_until = |end: f64, least: f64| {
         for k in 0..=128 {
@@ -174,7 +174,7 @@ fn answers_are_right_and_those_of_the_other_schedules() {
         let boxes = BestFirst::default().solve(&problem, &mut Exhaustive);
         let twin = Naive::default().solve(&problem, &mut Exhaustive);
         let time = checked(&problem, &solve(&problem).outcome);
-        // Every schedule that looks at pieces at the start finds what is within the tolerance there.
+        // Every schedule that visits pieces at the start finds those within the tolerance there.
         let twin = checked(&problem, &twin.outcome);
         assert_eq!(time <= 0.0, twin <= 0.0, "{number}");
         for other in [twin, checked(&problem, &boxes.outcome)] {
@@ -247,7 +247,7 @@ fn budgets_end_a_query_with_a_time_that_is_safe() {
 }
 
 #[test]
-fn oracles_that_give_up_or_lie_never_make_it_late() {
+fn false_claims_and_give_ups_never_make_it_late() {
     let mut rng = rng(24);
     for _ in 0..300 {
         let mut scene = Scene::new(&mut rng);
@@ -281,7 +281,7 @@ fn oracles_that_give_up_or_lie_never_make_it_late() {
 }
 
 #[test]
-fn the_same_query_gives_the_same_bits_whatever_came_before() {
+fn answers_do_not_depend_on_earlier_queries() {
     let mut rng = rng(25);
     let mut kept = Fast::default();
     for _ in 0..100 {
@@ -325,7 +325,7 @@ fn bodies_without_trees_are_searched_by_their_boxes() {
 }
 
 #[test]
-fn what_touches_at_the_start_is_told_or_let_go() {
+fn contacts_at_the_start_are_reported_or_let_go() {
     let mut rng = rng(26);
     let bodies = [20, 20].map(|count| chain(&mut rng, count));
     let ball = Body::ball(0.05).unwrap();

@@ -1,4 +1,4 @@
-//! What a query may take: in work, and in time.
+//! The limits of a query: work and time.
 
 use super::*;
 use crate::body::Body;
@@ -53,7 +53,7 @@ fn a_deadline_is_seen_within_the_work_between_two_looks() {
         visits += 1;
     }
     assert!(visits < WORK_BETWEEN_LOOKS, "{visits}");
-    // What costs as much counts as much.
+    // Equal costs count equally.
     let mut meter = with_deadline(Duration::from_millis(1));
     assert_eq!(meter.visit(), Ok(()));
     std::thread::sleep(Duration::from_millis(2));
@@ -62,7 +62,7 @@ fn a_deadline_is_seen_within_the_work_between_two_looks() {
 }
 
 #[test]
-fn a_deadline_beyond_all_time_is_none() {
+fn an_unreachable_deadline_counts_as_none() {
     let mut meter = with_deadline(Duration::MAX);
     assert!((0..10_000).all(|_| meter.visit() == Ok(())));
 }

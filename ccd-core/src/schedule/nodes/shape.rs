@@ -15,7 +15,7 @@ pub(crate) trait Children {
     fn reach(&self, lane: usize, n: Vec3) -> f32;
     /// Returns a point of the child from which to look towards `to`.
     fn near(&self, lane: usize, to: Vec3) -> Vec3;
-    /// Whether the child cannot be split.
+    /// Returns whether the child cannot be split.
     fn is_piece(&self, lane: usize) -> bool;
 }
 
@@ -30,7 +30,7 @@ pub(crate) trait OtherNode {
     fn reach(&self, n: Vec3) -> f32;
     /// Returns a point of the node to look at from `from`.
     fn near(&self, from: Vec3) -> Vec3;
-    /// Whether the node cannot be split.
+    /// Returns whether the node cannot be split.
     fn is_piece(&self) -> bool;
 }
 

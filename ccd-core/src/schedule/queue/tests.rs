@@ -5,7 +5,7 @@ use crate::math::order::greater;
 use crate::tests::scene::{RngExt, rng};
 use proptest::prelude::*;
 
-/// Everything out, in order.
+/// Takes out all items, in order.
 fn drain(queue: &mut Queue<u32>) -> Vec<u32> {
     let mut out = Vec::new();
     while let Some(visit) = queue.visit() {
@@ -75,7 +75,7 @@ fn places_are_used_again() {
 }
 
 #[test]
-fn what_is_postponed_waits_in_its_place() {
+fn postponed_items_wait_in_order() {
     let mut queue = Queue::default();
     for (clock, item) in [(0.1, 0), (0.2, 1), (0.3, 2)] {
         queue.push(clock, Rank::Siblings, item).unwrap();
@@ -83,7 +83,7 @@ fn what_is_postponed_waits_in_its_place() {
     let visit = queue.visit().unwrap();
     *visit.item = 7;
     visit.postpone(0.25);
-    // Dropping a visit leaves the item where it is.
+    // A dropped visit leaves the item in its place.
     assert_eq!(*queue.visit().unwrap().item, 1);
     assert_eq!(drain(&mut queue), [1, 7, 2]);
 }

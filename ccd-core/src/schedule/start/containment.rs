@@ -185,8 +185,8 @@ impl Search<'_> {
     }
 }
 
-/// Whether the closed faces of a body wind about a point in its frame; none when the point is not
-/// certainly farther than `reach` from them.
+/// Returns whether the closed faces of a body wind about a point in its frame; none when the point
+/// is not certainly farther than `reach` from them.
 fn contains(body: &Body, point: DVec3, reach: f64) -> Option<bool> {
     if !body.tree().may_contain(point) {
         return Some(false);

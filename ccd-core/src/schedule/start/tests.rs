@@ -1,5 +1,5 @@
-//! Bodies that begin within the margin: against all pairs of triangles, under every budget, under
-//! every schedule.
+//! Bodies that begin within the margin: against all pairs of triangles, with every budget and every
+//! schedule.
 
 use crate::body::Body;
 use crate::body::combination::Combination;
@@ -33,7 +33,7 @@ fn solve(problem: &Problem<'_>) -> Answer {
     BestFirst::default().solve(problem, &mut Exhaustive)
 }
 
-/// Two tori of as many cuts, one at the origin, the other at `x`.
+/// Two tori with the same cuts, one at the origin, the other at `x`.
 fn tori<R>(cuts: Cuts, x: f64, config: &Config, then: impl FnOnce(&Problem<'_>) -> R) -> R {
     let torus = body(&torus(cuts.around, cuts.about));
     let moving = |x: f64| Moving {
@@ -43,7 +43,7 @@ fn tori<R>(cuts: Cuts, x: f64, config: &Config, then: impl FnOnce(&Problem<'_>) 
     then(&Problem::new(moving(x), moving(0.0), 1.0, config).unwrap())
 }
 
-/// How often a torus is cut around its axis, and about its tube.
+/// The number of cuts of a torus around its axis, and about its tube.
 #[derive(Clone, Copy)]
 struct Cuts {
     around: usize,
@@ -74,7 +74,7 @@ fn within_margin(rng: &mut Pcg64, most: usize) -> Scene {
 }
 
 #[test]
-fn a_start_within_the_margin_costs_one_distance_whatever_the_margin() {
+fn a_start_within_any_margin_costs_one_distance() {
     let mut visits = Vec::new();
     for margin in [0.41, 1.0, 2.0, 5.0, 100.0] {
         let config = Config {
@@ -207,9 +207,9 @@ fn a_deadline_ends_every_schedule_at_a_time_that_is_safe() {
     }
 }
 
-/// A pair that an oracle takes back, or gives up, is no licence to say that bodies touch.
+/// A pair with contradictory claims, or a give-up, does not make bodies touch.
 #[test]
-fn an_oracle_that_gives_up_or_lies_never_makes_bounds_that_do_not_hold() {
+fn false_claims_and_give_ups_never_make_wrong_bounds() {
     let mut rng = rng(34);
     let mut touching = 0;
     for _ in 0..300 {
@@ -236,7 +236,7 @@ fn an_oracle_that_gives_up_or_lies_never_makes_bounds_that_do_not_hold() {
     assert!(touching > 50, "{touching}");
 }
 
-/// One piece each: the pair is all there is.
+/// One piece each: there is only one pair.
 #[test]
 fn single_pieces_are_measured_once() {
     let ball = Body::ball(1.0).unwrap();

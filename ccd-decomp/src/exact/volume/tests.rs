@@ -1,7 +1,7 @@
 use super::*;
 use ccd_core::glam::dvec3;
 
-/// A square rod of unit cells: its volume is small beside the products that it is summed of.
+/// A square rod of unit cells: its volume is small compared to the products in its sum.
 fn rod(cells: u32) -> Vec<[DVec3; 3]> {
     let corner = |x: u32, k: usize| {
         let (y, z) = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)][k % 4];

@@ -54,7 +54,7 @@ fn facets_are_polygons_that_name_their_own_group_s_vertices() {
 }
 
 #[test]
-fn what_has_no_facets_is_a_segment_or_points() {
+fn pieces_without_facets_are_a_segment_or_points() {
     let segment = Polytope {
         points: vec![DVec3::ZERO, DVec3::X],
         ..Polytope::default()

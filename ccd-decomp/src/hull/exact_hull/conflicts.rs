@@ -3,11 +3,12 @@
 use super::local_points::{LocalPoints, Plane};
 use ccd_core::glam::DVec3;
 
-/// Computes the facets of the hull of points that span a volume, from a triangle and a point behind it.
+/// Computes the facets of the hull of points that span a volume, from a triangle and a point behind its
+/// plane.
 ///
-/// Points are inserted in rounds, each of about half of the remaining points, whatever their places. The expected
-/// work is O(n log n) for any points, and the memory O(n). Within a round they keep the given order, in which
-/// neighbours likely follow each other `[ACR03]`.
+/// Points are inserted in rounds, each of about half of the remaining points, chosen independently of their
+/// places. The expected work is O(n log n) for any points, and the memory O(n). Within a round they keep the
+/// given order, in which neighbours likely follow each other `[ACR03]`.
 pub(super) fn facets(points: &[DVec3], simplex: [u32; 4]) -> Vec<[u32; 3]> {
     let hull = Growing::all(points, simplex);
     let left = hull.facets.into_iter().filter(|facet| facet.is_there);

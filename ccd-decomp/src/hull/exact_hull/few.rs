@@ -3,7 +3,8 @@
 use super::local_points::{LocalPoints, Plane};
 use ccd_core::glam::DVec3;
 
-/// Computes the facets of the hull of points that span a volume, from a triangle and a point behind it.
+/// Computes the facets of the hull of points that span a volume, from a triangle and a point behind its
+/// plane.
 ///
 /// O(n²), with hardly any memory: the fastest method for few points.
 pub(super) fn facets(points: &[DVec3], simplex: [u32; 4]) -> Vec<[u32; 3]> {

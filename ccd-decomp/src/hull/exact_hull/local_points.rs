@@ -46,7 +46,7 @@ impl<'a> LocalPoints<'a> {
         }
     }
 
-    /// Whether a point is in front of the plane through some corners, exactly.
+    /// Returns whether a point is in front of the plane through some corners, exactly.
     #[inline]
     pub(super) fn is_in_front(&self, plane: &Plane, corners: [u32; 3], v: u32) -> bool {
         let height = plane.normal.dot(self.relative[v as usize]) - plane.height;

@@ -45,8 +45,8 @@ fn counts<'a>(mut line: Line<'a>, lines: &mut Lines<'a>) -> Result<(u64, u64), M
         let Some(prefix) = keyword.strip_suffix("OFF") else {
             return Err(line.problem(&format!("{keyword:?} instead of OFF")));
         };
-        // Texture coordinates, colours and normals follow the position and are passed over; a fourth
-        // coordinate (4) or a dimension (n) would change what it means.
+        // Texture coordinates, colours and normals follow the position and are skipped; a fourth coordinate
+        // (4) or a dimension (n) would change the meaning of the position.
         let known = ["", "ST", "C", "N", "STC", "STN", "CN", "STCN", "NC"];
         if !known.contains(&prefix) {
             return Err(MeshFault::Unsupported {

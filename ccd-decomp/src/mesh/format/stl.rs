@@ -25,7 +25,8 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Polygons, MeshFault> {
     }
 }
 
-/// Whether a file is binary. Many programs begin a binary file with `solid`, too; only a text has no zero byte.
+/// Returns whether a file is binary. Many programs begin a binary file with `solid`, too; only a text has no
+/// zero byte.
 fn is_binary(bytes: &[u8]) -> bool {
     let exact = announced(bytes).is_some_and(|facets| {
         (bytes.len() - HEADER_BYTES - COUNT_BYTES) as u64 == facets as u64 * FACET_BYTES as u64

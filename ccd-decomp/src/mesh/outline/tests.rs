@@ -11,7 +11,7 @@ fn turn(p: DVec3, q: DVec3, r: DVec3) -> f64 {
     orient2d(a, b, c)
 }
 
-/// Whether two edges of an outline that are not neighbours meet: all pairs, exactly.
+/// Returns whether two edges of an outline that are not neighbours meet: all pairs, exactly.
 fn meets_itself(points: &[DVec3]) -> bool {
     let n = points.len();
     let at = |k: usize| points[k % n];
@@ -98,7 +98,7 @@ fn outlines_are_filled_from_whichever_side() {
 }
 
 #[test]
-fn what_has_no_inside_is_not_filled() {
+fn outlines_without_an_inside_are_not_filled() {
     let line: Vec<DVec3> = (0..5).map(|k| DVec3::X * f64::from(k)).collect();
     assert_eq!(fill(&line), None);
     assert_eq!(fill(&[DVec3::ONE; 6]), None);

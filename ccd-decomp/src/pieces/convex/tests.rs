@@ -29,7 +29,7 @@ fn faces_keep_their_numbers() {
 }
 
 #[test]
-fn what_is_not_convex_is_told_where() {
+fn reflex_edges_are_named() {
     let step = cubes(&[[0, 0, 0], [1, 0, 0], [0, 0, 1]]);
     let Err(DecomposeError::NotConvex { edge }) = polytope(&step) else {
         panic!("a step is not convex");

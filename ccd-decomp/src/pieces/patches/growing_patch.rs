@@ -12,7 +12,7 @@ use crate::work::Work;
 use ccd_core::glam::DVec3;
 use std::cmp::Ordering;
 
-/// Polygons of a mesh on the boundary of their hull, which lies within the solid.
+/// Polygons of a mesh on the boundary of their hull, which is within the solid.
 pub(super) struct GrowingPatch {
     flats: Vec<u32>,
     hull: ExactHull,
@@ -25,7 +25,7 @@ pub(super) enum Join {
     Joined,
     /// The polygon cannot join, now or later.
     Refused,
-    /// The polygon lies in the plane of a patch that has no volume yet.
+    /// The polygon is in the plane of a patch that has no volume yet.
     InPlane,
 }
 
@@ -114,7 +114,7 @@ impl GrowingPatch {
         Join::Joined
     }
 
-    /// The side of a plane on which the highest of the hull's corners lies.
+    /// Returns the side of a plane with the highest of the hull's corners.
     fn highest_over(&self, points: &[DVec3], plane: [u32; 3]) -> Ordering {
         let corners = self.hull.corners().iter();
         let mut highest = Ordering::Less;

@@ -33,7 +33,7 @@ impl<'a> Obstacle<'a> {
         }
     }
 
-    /// Whether a triangle stays out of the open inside of the hull; touching is allowed.
+    /// Returns whether a triangle stays out of the open inside of the hull; touching is allowed.
     ///
     /// Exact. If the answer is yes, some plane has the hull on one side and the triangle on the other. Such planes form
     /// a cone. A plane on an extreme ray of the cone passes through three corners that span it: it is the plane of a
@@ -48,7 +48,7 @@ impl<'a> Obstacle<'a> {
             || (0..3).any(|k| self.is_apart_at(triangle, k))
     }
 
-    /// Whether the triangle is in front of a facet that has one of the triangle's corners.
+    /// Returns whether the triangle is in front of a facet that has one of the triangle's corners.
     fn is_in_front_at(&self, corner: u32, triangle: [u32; 3]) -> bool {
         let meeting = self.meeting.get_or_init(|| {
             let facets = (0..).zip(self.hull.facets());
@@ -67,7 +67,7 @@ impl<'a> Obstacle<'a> {
         !triangle.iter().any(behind)
     }
 
-    /// Whether a plane through corner `k` of the triangle separates.
+    /// Returns whether a plane through corner `k` of the triangle separates.
     fn is_apart_at(&self, triangle: [u32; 3], k: usize) -> bool {
         let p = triangle[k];
         let facets = self.hull.facets().iter();
@@ -85,8 +85,8 @@ impl<'a> Obstacle<'a> {
         })
     }
 
-    /// Whether a plane through three points has the hull on one side, and the triangle on the other one
-    /// or in the plane. Three points on a line span none: the whole hull would be in it.
+    /// Returns whether a plane through three points has the hull on one side, and the triangle on the other
+    /// one or in the plane. Three points on a line span none: the whole hull would be in it.
     fn separates(&self, plane: [u32; 3], triangle: [u32; 3]) -> bool {
         let mut hull_side = Ordering::Equal;
         for &v in self.hull.corners() {

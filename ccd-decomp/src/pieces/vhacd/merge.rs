@@ -12,7 +12,7 @@ use rayon::prelude::*;
 /// has the least volume beyond their own.
 ///
 /// # Complexity
-/// O(n²) hulls of few points each, whatever the number of a part's points. Boxes stand for the hulls of parts that
+/// O(n²) hulls of few points each, for any number of a part's points. Boxes replace the hulls of parts that
 /// are apart from each other.
 ///
 /// # Guarantee

@@ -148,8 +148,8 @@ impl<'a> Target<'a> {
         (if found.is_nan() { 0.0 } else { found }, far(reached))
     }
 
-    /// Whether the mesh winds about a point, by exact predicates. For a point on the surface, the answer is that of
-    /// a point next to it. An open mesh winds about no point.
+    /// Returns whether the mesh winds about a point, by exact predicates. For a point on the surface, the
+    /// answer is that of a point next to it. An open mesh winds about no point.
     pub(super) fn winds_about(&self, point: DVec3, work: &Work) -> bool {
         if !self.closed {
             return false;
@@ -165,7 +165,8 @@ impl<'a> Target<'a> {
     }
 }
 
-/// Counts how a ray from a point along z passes a triangle: 1 to the front, −1 to the back, 0 not at all.
+/// Counts the crossing of a ray from a point along z with a triangle: 1 to the front, −1 to the back, 0 if it
+/// misses.
 ///
 /// A point in line with an edge is moved a little in the direction of x, and less in that of y. This decides for
 /// each edge, and for all triangles at it alike, on which side the ray passes.

@@ -111,7 +111,7 @@ fn triangles(mesh: &TriangleMesh) -> Vec<[DVec3; 3]> {
         .collect()
 }
 
-/// Whether a mesh winds about a point, by the solid angles of its triangles.
+/// Returns whether a mesh winds about a point, by the solid angles of its triangles.
 fn is_seen_around(mesh: &TriangleMesh, point: DVec3) -> bool {
     let angle = |t: [DVec3; 3]| {
         let [a, b, c] = t.map(|p| p - point);
@@ -143,7 +143,7 @@ fn distance(triangles: &[[DVec3; 3]], point: DVec3) -> f64 {
         .fold(f64::INFINITY, lesser)
 }
 
-/// Whether a point is in a polytope, or at most `way` from it.
+/// Returns whether a point is in a polytope, or at most `way` from it.
 fn is_in(polytope: &Polytope, point: DVec3, way: f64) -> bool {
     let at = |v: u32| polytope.points[v as usize];
     let fan = |f: &Facet| -> Vec<_> {
@@ -173,7 +173,7 @@ fn approximated(mesh: &TriangleMesh, hulls: u32) -> Result<Approximation, VhacdE
 #[case::two(cubes(&[cubic(1.0), [DVec3::splat(1.5), DVec3::splat(2.0)]]), 4)]
 #[case::sheet(sheet(), 8)]
 #[case::far_off(far_off(), 8)]
-fn errors_bound_what_is_sampled(#[case] mesh: TriangleMesh, #[case] hulls: u32) {
+fn errors_bound_the_samples(#[case] mesh: TriangleMesh, #[case] hulls: u32) {
     let found = approximated(&mesh, hulls).expect("an approximation");
     assert!((1..=hulls as usize).contains(&found.polytopes.len()));
     let size = mesh

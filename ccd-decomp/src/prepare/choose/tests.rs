@@ -50,7 +50,7 @@ fn the_largest_plane_is_found_whole() {
 }
 
 #[test]
-fn what_bounds_no_solid_stays_triangles() {
+fn meshes_without_a_solid_stay_triangles() {
     let one = tetrahedron();
     let pierced = joined(&[&one, &placed(&one, 1.0, DVec3::splat(0.2))]);
     assert!(matches!(
@@ -65,7 +65,7 @@ fn what_bounds_no_solid_stays_triangles() {
 }
 
 #[test]
-fn what_takes_too_long_stays_triangles() {
+fn slow_decompositions_stay_triangles() {
     let in_corner = |c: &[i32; 3]| c[0] >= 8 && c[2] >= 8;
     let cells = block([16, 16, 16]).into_iter().filter(|c| !in_corner(c));
     let mesh = cubes(&cells.collect::<Vec<_>>());
@@ -78,7 +78,7 @@ fn what_takes_too_long_stays_triangles() {
 
 /// Meshes whose edges pair up, but that bound no solid: merging must end.
 #[test]
-fn what_is_folded_stays_triangles() {
+fn folded_meshes_stay_triangles() {
     let corners = vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::X + DVec3::Y];
     let faces = [[0, 1, 2], [1, 3, 2], [0, 2, 3], [0, 3, 1]];
     let flat = crate::test_meshes::mesh(corners.clone(), &faces);

@@ -56,7 +56,7 @@ struct Group {
     boxes: TriangleBoxes,
 }
 
-/// The number of predicates that it takes to prove that a face is beside a polygon, about.
+/// The approximate number of predicates that prove that a face is next to a polygon.
 const BESIDE: usize = 4;
 
 impl<'a, 'm> Plates<'a, 'm> {
@@ -143,7 +143,7 @@ impl<'a, 'm> Plates<'a, 'm> {
         })
     }
 
-    /// Whether a face shares no more with a plate than a corner, or an edge, of the rim and of both.
+    /// Returns whether a face shares no more with a plate than a corner, or an edge, of the rim and of both.
     ///
     /// The part of the face in the plate's plane is then out of the box about the plate; or it is on the other
     /// side of a line along the rim, and has only a common corner on that line, or the edge at which they are
@@ -185,7 +185,7 @@ impl<'a, 'm> Plates<'a, 'm> {
     }
 }
 
-/// Whether a vertex is a corner of many of these faces.
+/// Returns whether a vertex is a corner of many of these faces.
 fn has_fan(manifold: &Manifold<'_>, faces: &[u32]) -> bool {
     if faces.len() < FAN_TRIANGLES as usize {
         return false;

@@ -13,7 +13,7 @@ use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;
 use rstest::rstest;
 
-/// Whether two tetrahedra are reported to meet.
+/// Returns whether two tetrahedra are reported to meet.
 fn meet(offset: DVec3) -> bool {
     let solid = tetrahedron();
     let both = joined(&[&solid, &placed(&solid, 1.0, offset)]);

@@ -29,7 +29,7 @@ fn edges_of_a_step_bend_both_ways() {
     };
     // One reflex edge of unit length; each edge has two halves.
     assert_eq!(count(Dihedral::Reflex), 2);
-    // 14 squares have 14 diagonals and 28 edges between them, 6 of which are within a plane.
+    // 14 squares have 14 diagonals and 28 edges between them; 6 of these are within a plane.
     assert_eq!(count(Dihedral::Flat), 2 * (14 + 6));
     assert_eq!(count(Dihedral::Convex), 2 * (28 - 1 - 6));
 }

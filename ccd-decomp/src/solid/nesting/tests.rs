@@ -87,7 +87,7 @@ fn shells_that_cross_are_one_solid_outside_and_unclear_within_another() {
     assert_eq!(counts(&cubes(&pair(false))), [0, 0]);
     assert_eq!(counts(&cubes(&pair(true))), [1, 0]);
     let around = |inward: bool| (0.1 * DVec3::ONE, 9.0, inward);
-    // Two that are wound as what is around them are part of it.
+    // Two shells with the same orientation as their surroundings are part of them.
     let part = [pair(false).as_slice(), &[around(false)]].concat();
     assert_eq!(counts(&cubes(&part)), [0, 0]);
     // Two cavities that cross, or a solid that crosses a cavity.
@@ -107,7 +107,7 @@ fn shells_that_cross_are_one_solid_outside_and_unclear_within_another() {
 
 /// Cubes that share an edge, one of them inside out: every edge has as many faces one way as the other.
 #[test]
-fn shells_that_share_an_edge_are_told_apart() {
+fn shells_that_share_an_edge_are_distinguished() {
     for (one, other) in [(true, false), (false, true), (false, false)] {
         let mesh = cubes(&[(DVec3::ZERO, 0.5, one), (dvec3(1.0, 1.0, 0.0), 0.5, other)]);
         let topology = Topology::of(&mesh);
@@ -119,7 +119,7 @@ fn shells_that_share_an_edge_are_told_apart() {
 
 /// Random cubes of a lattice, each closed, that share faces, edges and corners: all are solids.
 #[test]
-fn shells_that_share_faces_are_told_apart() {
+fn shells_that_share_faces_are_distinguished() {
     let mut shared = 0;
     for seed in 1..120_u32 {
         let bits =

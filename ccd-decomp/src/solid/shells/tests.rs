@@ -5,7 +5,7 @@ use crate::test_meshes::{block, cubes, joined, placed, tetrahedron, turned};
 use ccd_core::glam::{DVec3, dvec3};
 
 #[test]
-fn parts_are_told_apart() {
+fn parts_are_distinguished() {
     let one = cubes(&block([2, 1, 1]));
     let two = joined(&[&one, &placed(&one, 1.0, dvec3(3.0, 0.0, 0.0))]);
     let shells = shells(&bounding_solid(&two).unwrap());

@@ -34,7 +34,7 @@ fn others_are_not() {
 
 /// A cone about an axis that goes around twice: every face turned outward, every edge convex.
 #[test]
-fn what_winds_twice_is_not_seen_whole() {
+fn a_surface_that_winds_twice_is_not_star_shaped() {
     let turns = 10;
     let mut vertices = vec![DVec3::Z, -DVec3::Z];
     for k in 0..turns {

@@ -130,7 +130,7 @@ fn a_klein_bottle_has_no_rim_and_is_not_closed() {
 }
 
 #[test]
-fn faces_without_area_close_what_they_join() {
+fn faces_without_area_close_the_mesh() {
     // The face 0 1 3 is split at a point of its side 0–1 that the face below does not know; the
     // triangle without area between them closes the seam.
     let points = vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z, 0.5 * DVec3::X];

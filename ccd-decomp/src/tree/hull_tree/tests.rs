@@ -59,7 +59,7 @@ fn leaves(tree: &HullTree, at: usize) -> Vec<usize> {
     }
 }
 
-/// Whether a hull holds a point up to `slack`, by testing every facet.
+/// Returns whether a hull holds a point up to `slack`, by testing every facet.
 fn holds(hull: &ccd_core::Piece<'_>, point: DVec3, slack: f64) -> bool {
     let beyond = hull.facets.iter().map(|corners| {
         let at = |k: usize| hull.points[corners[k] as usize];
@@ -98,7 +98,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(200))]
 
     #[test]
-    fn every_hull_holds_exactly_what_is_below(pieces in prop::collection::vec(piece(), 1..24)) {
+    fn every_hull_is_exactly_that_of_the_points_below(pieces in prop::collection::vec(piece(), 1..24)) {
         let count = pieces.len();
         let tree = build_hull_tree(&Pieces::polytopes(&pieces).unwrap()).unwrap();
         prop_assert_eq!(tree.hierarchy().nodes().len(), 2 * count - 1);
@@ -117,7 +117,7 @@ proptest! {
     }
 
     #[test]
-    fn what_is_not_free_lies_on_a_piece(
+    fn features_that_are_not_free_are_on_a_piece(
         pieces in prop::collection::vec(piece(), 2..16),
         weights in [0.01..1.0f64, 0.01..1.0, 0.01..1.0],
     ) {
@@ -146,7 +146,8 @@ proptest! {
     }
 }
 
-/// Whether a point is so near to a common edge of two plates that rounding decides to which it belongs.
+/// Returns whether a point is so near to a common edge of two plates that rounding decides to which it
+/// belongs.
 fn between(tree: &HullTree, below: &[usize], point: DVec3) -> bool {
     let near = |&&leaf: &&usize| holds(&tree.hulls().get(leaf), point, 1e-6);
     below.iter().filter(near).count() > 1

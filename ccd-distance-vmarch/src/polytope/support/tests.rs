@@ -1,4 +1,4 @@
-//! Climbing finds the corner that looking at all finds.
+//! Climbing finds the same corner as a scan.
 
 use super::{DirectionTable, SQUARES, middle_of, square_of};
 use crate::tests::setting::{cube, prepared};

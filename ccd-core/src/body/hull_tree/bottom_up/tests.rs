@@ -1,7 +1,7 @@
 use super::*;
 use crate::body::hull_tree::HullFault;
 
-/// A tree over so many pieces, each node before its children, split unevenly.
+/// A tree over `pieces` pieces, each node before its children, split unevenly.
 fn hierarchy(pieces: usize) -> Hierarchy {
     let mut nodes = vec![HierarchyNode::Leaf(0)];
     let mut stack = vec![(0, 0, pieces)];
@@ -18,9 +18,9 @@ fn hierarchy(pieces: usize) -> Hierarchy {
 }
 
 #[test]
-fn any_number_of_parts_makes_the_same() {
+fn results_do_not_depend_on_the_number_of_parts() {
     let hierarchy = hierarchy(5000);
-    // Of every node which pieces are below, as they come.
+    // Collects the pieces below every node, in order.
     let make = |at: usize, [left, right]: [&Vec<u32>; 2]| {
         Ok(match hierarchy.nodes()[at] {
             HierarchyNode::Leaf(piece) => vec![piece],

@@ -1,4 +1,4 @@
-//! Surfaces in whole numbers that are convex, or only nearly so.
+//! Surfaces with integer coordinates that are convex, or nearly so.
 
 use super::is_convex;
 use crate::body::pieces::Pieces;
@@ -49,7 +49,7 @@ fn polytopes_are() {
 }
 
 #[test]
-fn what_is_dented_turned_or_open_is_not() {
+fn dented_turned_or_open_surfaces_are_not_convex() {
     let mut dented = ROOF;
     dented[2] = [0.75, 0.75, 0.0];
     assert!(!convex(&dented, &SLOPES));
@@ -62,7 +62,7 @@ fn what_is_dented_turned_or_open_is_not() {
         SLOPES[4],
     ];
     let mut folded = ROOF;
-    // Across the square there is an edge now, which bends inward one way and outward the other way.
+    // The new edge across the square bends inward in one direction and outward in the other.
     folded[2] = [2.0, 2.0, -1e-60];
     assert!(!convex(&folded, &parts));
     folded[2] = [2.0, 2.0, 1e-60];
@@ -76,8 +76,8 @@ fn what_is_dented_turned_or_open_is_not() {
     assert!(!convex(&spare, &SLOPES));
 }
 
-/// A pyramid over a five-pointed star: at every edge it bends outward, but about its middle it goes
-/// round twice.
+/// A pyramid over a five-pointed star: it bends outward at every edge, but goes around its middle
+/// twice.
 #[test]
 fn a_star_that_winds_twice_is_not() {
     let rim = [

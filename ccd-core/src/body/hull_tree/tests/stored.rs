@@ -1,4 +1,4 @@
-//! What is stored is read again, and checked.
+//! Stored trees are read again, and checked.
 
 use super::*;
 use crate::body::hierarchy::Hierarchy;
@@ -20,7 +20,7 @@ fn sample() -> (Pieces, HullTree) {
 }
 
 #[test]
-fn what_is_stored_is_read_again() {
+fn stored_trees_are_read_again() {
     let (pieces, tree) = sample();
     let again: Pieces = read(&bytes(&pieces)).unwrap();
     assert!((0..2).all(|k| again.polytope(k) == pieces.polytope(k)));
@@ -38,7 +38,7 @@ fn what_is_stored_is_read_again() {
 }
 
 #[test]
-fn what_is_read_is_checked() {
+fn trees_are_checked_when_read() {
     let point = |x: f64| Polytope {
         points: vec![DVec3::splat(x)],
         ..Polytope::default()
@@ -71,7 +71,7 @@ fn what_is_read_is_checked() {
     assert!(read::<HullTree>(&bytes(&(&polytopes, &nodes))).is_none());
 }
 
-/// Whatever is amiss with the bytes, there is an error or a tree that holds.
+/// Damaged bytes give an error or a valid tree.
 #[test]
 fn no_bytes_make_it_panic() {
     let (_, tree) = sample();

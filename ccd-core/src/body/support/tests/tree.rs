@@ -1,4 +1,4 @@
-//! The tree against looking at every point.
+//! The tree against a scan of every point.
 
 use super::looks;
 use crate::body::support::{Support, SupportTree};
@@ -23,13 +23,13 @@ fn cloud(rng: &mut Pcg64, kind: usize, count: usize) -> Vec<DVec3> {
 }
 
 #[test]
-fn searching_finds_what_looking_at_all_finds() {
+fn searching_agrees_with_a_scan() {
     let mut rng = rng(21);
     let counts = [
         1, 2, 7, 8, 9, 63, 64, 65, 100, 511, 513, 1_000, 4_097, 5_000,
     ];
     for (number, count) in counts.into_iter().cycle().take(140).enumerate() {
-        // Of every size, and up to a million times their size away from the origin.
+        // All sizes, at up to a million times their size from the origin.
         let size = magnitude(&mut rng, -30.0, 11.0);
         let offset = direction(&mut rng) * size * magnitude(&mut rng, -3.0, 6.0);
         let offset = if number % 3 == 0 { DVec3::ZERO } else { offset };
@@ -56,9 +56,9 @@ fn searching_finds_what_looking_at_all_finds() {
     }
 }
 
-/// What makes it worth having: of a ball's surface few points are looked at.
+/// The benefit of the tree: a search visits few points of a ball's surface.
 #[test]
-fn of_a_curved_surface_little_is_looked_at() {
+fn few_points_of_a_curved_surface_are_visited() {
     let mut rng = rng(22);
     let points = cloud(&mut rng, 0, 32_768);
     let tree = SupportTree::new(&points);
@@ -68,7 +68,7 @@ fn of_a_curved_surface_little_is_looked_at() {
 }
 
 #[test]
-fn directions_that_are_none_give_some_point() {
+fn invalid_directions_give_some_point() {
     let mut rng = rng(23);
     let points = cloud(&mut rng, 1, 300);
     let support = Support::of_points(&points);
@@ -77,7 +77,7 @@ fn directions_that_are_none_give_some_point() {
     }
 }
 
-/// Points too close to each other to be told apart in f32, and points whose sizes are no numbers of f32.
+/// Points too close to each other to differ in f32, and points whose sizes are out of range of f32.
 #[test]
 fn the_finest_points_are_all_looked_at() {
     for size in [1e-320, 1e-300, 1e-60, 1e12] {

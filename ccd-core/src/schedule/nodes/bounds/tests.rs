@@ -1,4 +1,4 @@
-//! The planes themselves: every gap, rate and time in f32 against f64, along the very same axis.
+//! The planes alone: every gap, rate and time in f32 against f64, along the same axis.
 
 mod setting;
 
@@ -16,10 +16,10 @@ use crate::tolerance::{
 use glam::{DQuat, DVec3, Vec3};
 use setting::{Setting, Shape};
 
-/// Some points, and the body they belong to.
+/// Some points, and the motion of their body.
 struct Solid {
     points: Vec<DVec3>,
-    /// What it turns about, and how fast.
+    /// The centre of rotation.
     centre: DVec3,
     spin: DVec3,
 }
@@ -56,24 +56,25 @@ struct Sample<C, P> {
     group: C,
     other: P,
     motion: RelativeMotionF32<Turning, Turning>,
-    /// What rounding may do to a gap, as far as the slack allows for it.
+    /// The error of a gap for which the slack allows.
     allowed: f32,
     children: Vec<Solid>,
     far: Solid,
-    /// Of the children's centre of rotation relative to the other's.
+    /// The velocity of the children's centre of rotation relative to the other's.
     velocity: DVec3,
 }
 
-/// What the samples came to: the largest error found, as a share of what is allowed for.
+/// The largest error among the samples, as a share of its allowance.
 #[derive(Debug, Default)]
 struct Worst {
     support: f64,
     rate: f64,
     across: f64,
     clock: f64,
-    /// By how much a gap at the end of a free time exceeds what is kept, relative to the start.
+    /// The smallest excess of a gap over the kept one at the end of a free time, relative to the
+    /// start.
     tightest: f64,
-    /// How many free times of planes that stand still, and of such that turn.
+    /// The number of free times of fixed planes, and of turning ones.
     still: usize,
     attached: usize,
 }
@@ -115,7 +116,7 @@ impl Worst {
         assert!(self.rate < 1.0, "{self:?}");
         assert!(self.across < 1.0, "{self:?}");
         assert!(self.clock < 1.0, "{self:?}");
-        // Samples that come nowhere near the bounds would not tell.
+        // Samples that are nowhere near the bounds would prove nothing.
         assert!(self.tightest < 0.01, "{self:?}");
         assert!(self.still > 20_000 && self.attached > 2_000, "{self:?}");
     }
@@ -199,7 +200,7 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
         }
     }
 
-    /// A plane that stands still keeps the pair apart for as long as it says.
+    /// A fixed plane keeps the pair apart for its whole free time.
     fn check_still(&self, lane: usize, axis: Axis, free: f32, worst: &mut Worst) {
         let n = axis.n.as_dvec3();
         let gap = |tau: f64| {
@@ -209,7 +210,7 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
         worst.still += usize::from(self.check(lane, free, gap, worst));
     }
 
-    /// So does a plane that turns with one of the bodies.
+    /// A plane that turns with one of the bodies does so too.
     fn check_attached(&self, lane: usize, axis: Axis, free: f32, with: Larger, worst: &mut Worst) {
         assert!(free <= ATTACHED_TIME);
         let child = &self.children[lane];
@@ -225,7 +226,7 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
         worst.attached += usize::from(self.check(lane, free, gap, worst));
     }
 
-    /// Whether there was a free time to check.
+    /// Returns whether there was a free time to check.
     fn check(&self, lane: usize, free: f32, gap: impl Fn(f64) -> f64, worst: &mut Worst) -> bool {
         assert!(free >= 0.0, "{:?}", self.motion);
         if free == 0.0 {

@@ -1,14 +1,14 @@
-//! Every free time of every lane is checked against sampled truth, in f64, vertex by vertex.
+//! Every free time of every lane is checked against samples, in f64, vertex by vertex.
 
 use super::*;
 use crate::math::order::{greater, lesser};
 use crate::tests::nearest::{Triangle, nearest};
 use crate::tests::scene::{Kind, Pcg64, RngExt, Scene, rng, scene};
 
-/// At how many times within its free time a lane is looked at, ends included.
+/// The number of samples of a lane within its free time, ends included.
 const SAMPLES: usize = 17;
 
-/// What came of an audit, so that a test can tell that it tested something.
+/// The counts of an audit, which show that a test covers its cases.
 #[derive(Debug, Default)]
 struct Tally {
     /// Lanes with a free time, all checked, and lanes without.
@@ -21,7 +21,7 @@ struct Tally {
     /// Samples proven apart by one axis, and else by comparing all triangles.
     by_axis: usize,
     by_pieces: usize,
-    /// Which roles were split, of which kind, against what.
+    /// The split roles, by kind and by the other node.
     by_role: [usize; 2],
     boxes: usize,
     triangles: usize,
@@ -35,7 +35,7 @@ fn free_times_hold_for_any_bodies_and_motions() {
 }
 
 #[test]
-fn free_times_hold_for_what_slides_past() {
+fn free_times_hold_for_sliding_bodies() {
     let tally = audit(Kind::Sliding, 2, 30_000);
     shares_are_substantial(&tally);
 }
@@ -44,7 +44,7 @@ fn free_times_hold_for_what_slides_past() {
 fn free_times_hold_near_the_rim_of_a_turning_body() {
     let tally = audit(Kind::Rim, 3, 45_000);
     shares_are_substantial(&tally);
-    // Planes that turn with the larger body are what such scenes need.
+    // Such scenes need planes that turn with the larger body.
     assert!(20 * tally.attached > tally.free, "{tally:?}");
 }
 
@@ -67,7 +67,7 @@ fn shares_are_substantial(tally: &Tally) {
     assert!(20 * tally.against_triangle > tally.free, "{tally:?}");
 }
 
-/// Checks lanes of random scenes until enough had a free time.
+/// Checks lanes of random scenes until enough of them have a free time.
 fn audit(kind: Kind, seed: u64, lanes: usize) -> Tally {
     let mut rng = rng(seed);
     let mut tally = Tally::default();
@@ -94,7 +94,7 @@ struct Audit<'a> {
     name: (Kind, u64, usize),
 }
 
-/// A lane of an expansion: the child, the other node, from when on and until when.
+/// A lane of an expansion: the child, the other node, and the interval of its free time.
 #[derive(Debug)]
 struct Lane {
     split: Which,
@@ -102,12 +102,13 @@ struct Lane {
     other: NodeId,
     from: f64,
     until: f64,
-    /// The gap that is promised until then.
+    /// The gap proven until then.
     kept: f64,
 }
 
 impl Audit<'_> {
-    /// From the roots to a pair of pieces, splitting either side, each time at another clock.
+    /// Descends from the roots to a pair of pieces, splitting either side, each time at another
+    /// clock.
     fn descend(&self, rng: &mut Pcg64, tally: &mut Tally) {
         let mut ids = [0, 0];
         let (a, b) = (self.problem.a.body.tree(), self.problem.b.body.tree());
@@ -132,7 +133,7 @@ impl Audit<'_> {
         }
     }
 
-    /// Near the clock at which the bodies are near each other, or anywhere.
+    /// Returns a clock at which the bodies are near each other, or any.
     fn clock(&self, rng: &mut Pcg64) -> f64 {
         let near = self.scene.clock + rng.random_range(-0.2..0.2) * self.scene.window;
         match rng.random_range(0..8) {
@@ -143,7 +144,7 @@ impl Audit<'_> {
         }
     }
 
-    /// The child to go on with: mostly the one of least free time.
+    /// Returns the child to continue with: mostly the one of least free time.
     fn next(&self, rng: &mut Pcg64, expansion: &Expansion) -> u32 {
         let free = |k: &u32| expansion.bounds.free[*k as usize];
         let least = (0..expansion.count).min_by(|i, j| free(i).total_cmp(&free(j)));
@@ -193,16 +194,16 @@ impl Audit<'_> {
         }
     }
 
-    /// Whether some pieces of a small lane are not farther apart than the gap to be kept.
+    /// Returns whether some pieces of a small lane are not farther apart than the gap to be kept.
     fn overlap(&self, lane: &Lane) -> bool {
         let (near, far) = self.at(lane, lane.from);
         near.len() * far.len() <= 64 && self.least_distance(&near, &far, 0.0) <= self.problem.gap()
     }
 
-    /// Every triangle below the child stays farther than the kept gap from every one below the other
-    /// node, at every sampled time.
+    /// Checks that every triangle below the child stays farther than the kept gap from every one
+    /// below the other node, at every sampled time.
     fn verify(&self, lane: &Lane, tally: &mut Tally) {
-        // The reference is right to within the rounding that the bounds leave room for.
+        // The error of the reference is within the rounding that the bounds allow for.
         let kept = lane.kept - self.problem.rounding;
         let mut prover = Prover::default();
         for k in 0..SAMPLES {
@@ -236,7 +237,7 @@ impl Audit<'_> {
         least
     }
 
-    /// The triangles below both nodes, where they are at a clock.
+    /// Returns the triangles below both nodes, at a clock.
     fn at(&self, lane: &Lane, s: f64) -> (Vec<Triangle>, Vec<Triangle>) {
         let placed = |which: Which, id: NodeId| {
             let side = which.of(self.problem);
@@ -275,7 +276,7 @@ fn below(side: &Side<'_>, id: NodeId, visit: &mut impl FnMut(u32)) {
     }
 }
 
-/// Looks for one axis that separates two sets of triangles, starting with the one that last did.
+/// Searches for one axis that separates two sets of triangles, starting with the last one that did.
 #[derive(Default)]
 struct Prover {
     axis: Option<DVec3>,
@@ -346,8 +347,8 @@ fn planes_that_stand_still(
     }
 }
 
-/// Planes turn with much larger nodes only: a reach that is neither much larger nor much smaller than
-/// the other node's keeps them out.
+/// Planes turn with much larger nodes only: a reach that is neither much larger nor much smaller
+/// than the other node's excludes them.
 fn still<C: Children>(motion: &RelativeMotion<'_>, group: &C, members: &Members) -> Bounds {
     let far = motion.other_side;
     let radius = match far.body.tree().get(motion.other) {

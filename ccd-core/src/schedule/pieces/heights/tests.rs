@@ -1,4 +1,4 @@
-//! What is found of many points at once against following all of them.
+//! Bounds of many points at once against tracks of all of them.
 
 use super::*;
 use crate::body::Body;
@@ -60,7 +60,7 @@ fn many_points_are_bounded_like_all_of_them() {
         let twin = Heights::new(side, &bare, &frame, normal);
         many += usize::from(piece.ball().is_some());
         assert!(heights.speed() >= twin.speed() * (1.0 - 1e-15));
-        // Rounding of heights about the centre, and of the places they are computed from.
+        // Rounding of heights about the centre, and of the positions that they are computed from.
         let span = problem.a.body.tree().span() + side.path.centre.length();
         let slack = 128.0 * crate::tolerance::U64 * (span + velocity.length());
         assert!((heights.least() - twin.least()).abs() <= slack);
@@ -79,7 +79,7 @@ fn many_points_are_bounded_like_all_of_them() {
                 "{bound:?} {all:?}"
             );
             assert!(bound.bend >= all.bend * (1.0 - 1e-14), "{bound:?} {all:?}");
-            // Nothing is given away but rounding.
+            // Nothing is lost except rounding.
             assert!(
                 bound.height >= all.height - 4.0 * slack,
                 "{bound:?} {all:?}"

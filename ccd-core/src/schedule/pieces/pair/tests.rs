@@ -1,4 +1,4 @@
-//! A pair of pieces on its own: the clock it earns, and when it is in contact.
+//! A pair of pieces on its own: its clock, and the time of its contact.
 
 use super::*;
 use crate::body::Body;
@@ -24,7 +24,7 @@ fn balls<R>(x: f64, speed: f64, config: &Config, then: impl FnOnce(&Problem<'_>)
     then(&Problem::new(a, b, 1.0, config).unwrap())
 }
 
-/// Advances a new pair, clock by clock, until something else comes of it.
+/// Advances a new pair, clock by clock, until any other step.
 fn run(problem: &Problem<'_>) -> (f64, Step) {
     let mut pair = Pair::new(0, 0);
     let mut s = 0.0;
@@ -68,7 +68,7 @@ fn the_margin_is_kept() {
 }
 
 #[test]
-fn overlap_is_told_from_touching() {
+fn overlap_and_touching_are_distinguished() {
     let (s, step) = balls(1.9, 0.0, &Config::default(), run);
     assert!(s == 0.0 && matches!(step, Step::Overlap(_)));
     let (s, step) = balls(2.0, 0.0, &Config::default(), run);
@@ -76,12 +76,12 @@ fn overlap_is_told_from_touching() {
 }
 
 #[test]
-fn what_touches_at_the_start_is_let_go_unless_it_approaches() {
+fn pairs_that_touch_at_the_start_are_let_go_unless_they_approach() {
     let config = Config {
         start: StartPolicy::Leave,
         ..Config::default()
     };
-    // Pairs that begin with a gap are left to the search: it goes by half of that.
+    // Pairs that begin with a gap are left to the search, which uses half of it.
     let x = 2.0;
     let (_, step) = balls(x, -1.0, &config, run);
     assert!(matches!(step, Step::FreeUntil(_)), "parting");
@@ -89,9 +89,9 @@ fn what_touches_at_the_start_is_let_go_unless_it_approaches() {
     assert!(matches!(step, Step::FreeUntil(_)), "resting");
     let (s, step) = balls(x, 1.0, &config, run);
     assert!(matches!(step, Step::Contact(_)), "approaching");
-    // Never late but for what rounding makes of resting.
+    // Never late, except for the rounding of resting.
     assert!(s <= 1e-12, "{s}");
-    // Touching again after it came apart is a contact at the query's own tolerance.
+    // A second touch after parting is a contact at the query's own tolerance.
     let (s, step) = returning(&config, run);
     assert!(matches!(step, Step::Contact(_)));
     let exact = 1.0 - 2.0 * 0.2f64.atan2(0.9) / std::f64::consts::PI;
@@ -129,7 +129,7 @@ fn an_oracle_that_gives_up_is_counted() {
 }
 
 #[test]
-fn a_lying_oracle_cannot_make_a_pair_late() {
+fn a_dishonest_oracle_cannot_make_a_pair_late() {
     let directions = [
         DVec3::X,
         -DVec3::X,
@@ -152,7 +152,7 @@ fn a_lying_oracle_cannot_make_a_pair_late() {
                 0.0,
             )
         });
-        // A pair of points has but one axis: the check finds it whatever was claimed.
+        // A pair of points has only one axis: the check finds it for any claim.
         match step {
             Step::FreeUntil(clock) => assert!(clock <= 0.5, "{axis}: {clock}"),
             Step::Stalled => {}

@@ -1,4 +1,4 @@
-//! Free times of pieces against sampled truth, along the axis and in distance.
+//! Free times of pieces against samples, along the axis and in distance.
 
 use super::*;
 use crate::tests::nearest::nearest;
@@ -27,7 +27,7 @@ fn an_axis_separates_for_as_long_as_it_says() {
             normal = -normal;
         }
         let gap = heights(clock, normal);
-        // How much of what there is may be used up.
+        // The part of the gap that may be used up.
         let slack = gap.abs() * magnitude(&mut rng, -3.0, 0.0);
         let free = snapshot.free_along(normal, slack);
         let until = free.map_or(1.0, |free| clock + free);
@@ -102,7 +102,7 @@ fn pieces_stay_apart_for_as_long_as_the_better_axis_says() {
     assert!(some > 2_000 && forever > 2_000, "{some} {forever}");
 }
 
-/// Claims without slack, and without meaning, get no time.
+/// Claims without slack, or with invalid numbers, get no time.
 #[test]
 fn no_slack_is_no_time() {
     let mut rng = rng(3);

@@ -1,4 +1,5 @@
-//! Planes that turn with a body against sampled truth, and their rounding against twice the digits.
+//! Planes that turn with a body against samples, and their rounding against double-double
+//! arithmetic.
 
 use super::*;
 use crate::body::Body;
@@ -15,14 +16,14 @@ use crate::tests::scene::{Kind, Pcg64, RngExt, Scene, direction, magnitude, rng,
 
 const SAMPLES: u32 = 48;
 
-/// What the samples came to.
+/// The counts of the samples.
 #[derive(Debug, Default)]
 struct Seen {
     some: usize,
     forever: usize,
     /// Free times at whose end most of the slack was used up.
     used: usize,
-    /// Of both bodies turning, of many turns, of more points than three.
+    /// The samples with both bodies turning, with many turns, with more points than three.
     both: usize,
     fast: usize,
     many: usize,
@@ -84,7 +85,7 @@ fn check(rng: &mut Pcg64, problem: &Problem<'_>, clock: f64, holder: usize, seen
     if !own.side.path.turns() {
         return;
     }
-    // Where the axis is in its body's frame, it stays.
+    // The axis is constant in its body's frame.
     let towards = match rng.random_bool(0.5) {
         true => direction(rng),
         false => (other.frame.point(other.piece.points[0]) - own.frame.point(own.piece.points[0]))
@@ -167,12 +168,12 @@ fn rounding_along_an_axis_that_turns_is_allowed_for() {
         }
     }
     assert!(height < 1.0 && rate < 1.0, "{height} {rate}");
-    // An allowance that nothing comes near to would not be worth its derivation.
+    // An allowance that no sample comes near would be too large.
     assert!(height > 1e-3 && rate > 1e-3, "{height} {rate}");
 }
 
-/// The height of a point of the second body along an axis that turns with the first one, from its
-/// centre, and how fast it rises.
+/// Returns the height of a point of the second body along an axis that turns with the first one,
+/// from its centre, and its rate.
 fn exact(
     motions: [&Motion; 2],
     normal: DVec3,
@@ -194,7 +195,7 @@ fn exact(
 }
 
 /// A plate of size 200 turns about one of its edges' directions past a ball near that axis: its rim
-/// is fast, but comes nowhere near.
+/// is fast, but stays far away.
 #[test]
 fn a_large_plate_turns_past_a_small_ball_at_once() {
     let corner = |x: f64, y: f64| DVec3::new(x, y, 0.0);
@@ -239,7 +240,7 @@ fn a_large_plate_turns_past_a_small_ball_at_once() {
     }
 }
 
-/// Neither a lack of slack nor numbers without meaning get any time.
+/// Neither a lack of slack nor invalid numbers get any time.
 #[test]
 fn no_slack_is_no_time() {
     let mut rng = rng(3);

@@ -54,7 +54,7 @@ fn points_are_inside_or_outside_of_a_cube() {
 }
 
 #[test]
-fn a_point_on_the_surface_is_not_told_to_be_inside() {
+fn a_point_on_the_surface_is_not_inside() {
     for n in [1, 4] {
         let body = solid(&cube(1.0, n));
         let on = [
@@ -71,9 +71,9 @@ fn a_point_on_the_surface_is_not_told_to_be_inside() {
     }
 }
 
-/// Rays that pass exactly through corners and edges are not counted wrong.
+/// Rays that pass exactly through corners and edges are not miscounted.
 #[test]
-fn regular_points_that_line_up_with_edges_are_told() {
+fn regular_points_in_line_with_edges_are_decided() {
     let body = solid(&cube(1.0, 8));
     for i in -7..=7 {
         for j in -7..=7 {
@@ -111,7 +111,7 @@ fn a_cavity_is_outside_and_a_solid_in_it_inside() {
 }
 
 #[test]
-fn a_mesh_that_is_inside_out_contains_what_it_surrounds() {
+fn an_inside_out_mesh_contains_the_space_that_it_surrounds() {
     let body = solid(&inside_out(&cube(1.0, 3)));
     assert_eq!(contains(&body, DVec3::new(0.1, 0.2, 0.3)), Some(true));
     assert_eq!(contains(&body, DVec3::new(1.1, 0.2, 0.3)), Some(false));
@@ -171,7 +171,7 @@ fn placement_and_size_do_not_matter() {
     }
 }
 
-/// Two pyramids on one square, the corners of which are on a large triangle: no face passes through it.
+/// Two pyramids on one square, with corners on a large triangle: no face passes through it.
 #[test]
 fn a_triangle_through_the_waist_of_an_octahedron_is_inside() {
     let tip = |k: usize| match k % 2 {

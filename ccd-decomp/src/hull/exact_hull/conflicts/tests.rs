@@ -3,13 +3,13 @@ use crate::test_meshes::star;
 
 /// Two cones: an apex sees up to half of all facets when it is inserted, and so does a point of the rim.
 #[test]
-fn few_facets_are_made_whatever_the_points() {
+fn few_facets_are_made_for_any_points() {
     for (corners, inner) in [(2_000, 1.0), (2_000, 0.5), (16_000, 1.0)] {
         let mesh = star(corners, inner);
         let hull = Growing::all(mesh.vertices(), [0, 2, 4, corners + 1]);
         let made = hull.facets.len();
         assert!(made <= 8 * corners as usize, "{made} of {corners}");
-        // Nobody is left to see them, and what is gone holds nothing.
+        // No point is left to see them, and removed facets have no points.
         assert!(hull.facets.iter().all(|facet| facet.seen_by.is_empty()));
         let held: usize = hull.facets.iter().map(|f| f.seen_by.capacity()).sum();
         assert!(held <= 8 * corners as usize, "{held} of {corners}");

@@ -38,7 +38,7 @@ proptest! {
     /// A point of the triangle strictly inside all facets proves that it is not apart; the coordinates make the
     /// point exact.
     #[test]
-    fn what_is_inside_is_not_apart(
+    fn triangles_inside_are_not_apart(
         hull in prop::collection::vec(coarse(), 4..9),
         triangle in [coarse(), coarse(), coarse()],
         weights in [1..8i32, 1..8i32],

@@ -19,7 +19,7 @@ pub(super) struct PartPlanes<'a> {
     slack: f64,
 }
 
-/// A plane that has a whole part behind it.
+/// A plane with a whole part behind it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Plane {
     /// The normal, of length 1.
@@ -30,7 +30,7 @@ pub(super) struct Plane {
 
 /// The position of a box that may meet a part, relative to the part's planes.
 pub(super) struct Meeting {
-    /// Whether the centre is in the part.
+    /// True if the centre is in the part.
     pub(super) has_centre: bool,
     /// The planes that the box is not all behind, by number.
     pub(super) planes: Vec<u32>,

@@ -6,7 +6,7 @@ use proptest::test_runner::TestRunner;
 
 /// The hulls with and without inner points have the same corners; on a grid, in a ball and on a sphere.
 #[test]
-fn what_is_left_out_is_no_corner() {
+fn removed_points_are_no_corners() {
     let point = || [-1.0..1.0_f64, -1.0..1.0_f64, -1.0..1.0_f64];
     let given = (prop::collection::vec(point(), 40..400), 0..3_u8);
     let mut runner = TestRunner::deterministic();

@@ -8,7 +8,7 @@ use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;
 
-/// Combs of whole and of uneven numbers, upright and turned, with tetrahedra in, on and beside them.
+/// Combs of integer and of uneven numbers, upright and turned, with tetrahedra in, on and next to them.
 fn beset(heights: &[f64], places: &[[i32; 4]], turn: f64) -> TriangleMesh {
     let comb = comb(heights);
     let thorn = tetrahedron();
@@ -80,9 +80,9 @@ fn whoever_meets_is_reported() {
     assert!(asked < all / 100, "{asked} of {all}");
 }
 
-/// Faces glued to a plate, or standing on its rim, are beside it: no triangle of the plate is examined.
+/// Faces glued to a plate, or on its rim, are next to it: no triangle of the plate is examined.
 #[test]
-fn a_comb_is_beside_its_plates() {
+fn a_comb_is_next_to_its_plates() {
     let mesh = comb(&[5.0; 40]);
     let manifold = Manifold::unchecked(&mesh, &Topology::of(&mesh)).unwrap();
     let plates = Plates::of(&manifold).unwrap();

@@ -1,4 +1,4 @@
-//! Random groups and nodes that meet, in f64 and rounded as an expansion rounds them.
+//! Random groups and nodes that meet, in f64 and rounded as in an expansion.
 
 use super::{Sample, Solid};
 use crate::body::tree::{Below, BoxGroup, LANES, Node, TriangleGroup, unit_normal, up};
@@ -54,7 +54,7 @@ impl Shape {
         Shape { points, node }
     }
 
-    /// Three corners of it; the node stays about them.
+    /// Three corners of it; the node stays around them.
     pub(super) fn triangle(mut self) -> Self {
         self.points.truncate(3);
         let mean = (self.points[0] + self.points[1] + self.points[2]) / 3.0;
@@ -65,12 +65,12 @@ impl Shape {
     }
 }
 
-/// Where the other node is, and how both bodies move.
+/// The pose of the other node, and the motions of both bodies.
 pub(super) struct Setting {
     /// Takes the other body's frame to the split one's.
     turn: DMat3,
     place: DVec3,
-    /// The children's size, and where the group is in the split body's frame.
+    /// The children's size, and the position of the group in the split body's frame.
     size: f64,
     origin: DVec3,
     velocity: DVec3,
@@ -82,7 +82,7 @@ impl Setting {
     pub(super) fn new(rng: &mut Pcg64, other: &Shape) -> Self {
         let radius = f64::from(other.node.radius);
         let size = radius * magnitude(rng, -3.0, 3.0);
-        // Mostly near; else so near, or so far, that one kind of rounding is all there is.
+        // Mostly near; otherwise so near, or so far, that one kind of rounding dominates.
         let far = match rng.random_range(0..5) {
             0 => magnitude(rng, -3.0, 0.0),
             1 => magnitude(rng, 0.0, 4.0),
@@ -187,7 +187,7 @@ impl Setting {
         self.sample(group, triangle, reach, children, far)
     }
 
-    /// The allowances as an expansion makes them.
+    /// The allowances as in an expansion.
     fn sample<C, P: OtherNode>(
         &self,
         group: C,
