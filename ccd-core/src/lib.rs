@@ -87,6 +87,7 @@ compile_error!(
      or the feature `avx512` if your compiler is known to be free of it"
 );
 mod body;
+mod config;
 mod contacts;
 mod distance;
 mod error;
@@ -111,6 +112,7 @@ pub use body::pieces::Pieces;
 pub use body::polytope::{Face, Facet, Origin, Polytope};
 pub use body::support::{DIRECTIONS, Support, SupportScan, SupportTable, SupportTree};
 pub use body::{Body, Volume};
+pub use config::{Config, StartPolicy};
 pub use contacts::{ContactsError, FeaturePair};
 pub use distance::oracle::{Claim, DistanceOracle, Effort, GiveUp, OrElse, PiecePair};
 pub use error::InputError;
@@ -122,5 +124,5 @@ pub use motion::Motion;
 pub use motion::bound::Bound;
 pub use motion::pose::{Frame, Pose};
 pub use outcome::{Answer, Contact, Limit, Outcome, Overlap, Separation, Stats};
-pub use problem::{Config, Moving, Problem, StartPolicy};
+pub use problem::{Moving, Problem};
 pub use schedule::Schedule;

@@ -99,7 +99,7 @@ fn trials_measured_elsewhere_are_judged_and_put_into_a_readme() {
 }
 
 #[test]
-fn scenes_are_exported_as_queries_read_them() {
+fn exported_scenes_are_read_again() {
     let scene = Scene::new("chart-export");
     let folder = scene.directory.join("scenes");
     let options = ["chart", "--scenes", "knot216", "--export"];
@@ -108,12 +108,9 @@ fn scenes_are_exported_as_queries_read_them() {
     assert!(output.status.success(), "{}", stderr(&output));
     let at = |name: &str| folder.join("knot216").join(name).display().to_string();
     let (a, b, motions) = (at("a.obj"), at("b.obj"), at("motions.csv"));
-    let rows = Run::bare(&["query", "--a", &a, "--b", &b, "--motions", &motions]).succeeds();
+    let rows = Run::bare(&["truth", "--a", &a, "--b", &b, "--motions", &motions]).succeeds();
     assert_eq!(rows.len(), 25);
-    let hits = rows
-        .iter()
-        .filter(|r| r.text("status") == "contact")
-        .count();
+    let hits = rows.iter().filter(|r| r.text("status") == "hit").count();
     assert!((8..25).contains(&hits), "{hits}");
 }
 

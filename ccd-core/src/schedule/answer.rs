@@ -3,9 +3,10 @@
 mod given;
 
 use super::meter::Meter;
+use crate::config::StartPolicy;
 use crate::distance::oracle::DistanceOracle;
 use crate::outcome::{Answer, Outcome, Stats};
-use crate::problem::{Problem, StartPolicy};
+use crate::problem::Problem;
 use given::of_given;
 
 /// Searches as the problem's policy for the start demands.

@@ -3,10 +3,11 @@
 use super::meter::Meter;
 use super::pieces::pair::Step;
 use super::start::{contained, overlapping, touching};
+use crate::config::StartPolicy;
 use crate::distance::oracle::DistanceOracle;
 use crate::math::order::lesser;
 use crate::outcome::{Contact, Limit, Outcome};
-use crate::problem::{Problem, StartPolicy};
+use crate::problem::Problem;
 use std::ops::ControlFlow;
 
 /// The facts proven of the bodies, independent of pairs that still wait.

@@ -5,10 +5,11 @@ use super::double::{Double, Double3, Ends};
 use super::oracle::Exhaustive;
 use super::scene::{Pcg64, RngExt, direction, magnitude, rng, rotation, within};
 use crate::body::Body;
+use crate::config::Config;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::outcome::Outcome;
-use crate::problem::{Config, Moving, Problem};
+use crate::problem::{Moving, Problem};
 use crate::schedule::{BestFirst, Naive, Schedule};
 use glam::DVec3;
 

@@ -3,10 +3,11 @@
 use super::nearest::{Triangle, nearest};
 use crate::body::pieces::Pieces;
 use crate::body::{Body, Volume};
+use crate::config::Config;
 use crate::math::order::{greater, lesser};
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
-use crate::problem::{Config, Moving, Problem};
+use crate::problem::{Moving, Problem};
 use glam::{DQuat, DVec3};
 pub(crate) use rand::{RngExt, SeedableRng};
 pub(crate) use rand_pcg::Pcg64;

@@ -5,12 +5,13 @@ use super::nearest::nearest;
 use super::oracle::Exhaustive;
 use super::scene::{Pcg64, RngExt, body, direction, magnitude, rng, within};
 use crate::body::Body;
+use crate::config::Config;
 use crate::math::order::lesser;
 use crate::math::vector::unit;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::outcome::Outcome;
-use crate::problem::{Config, Moving, Problem};
+use crate::problem::{Moving, Problem};
 use crate::schedule::{BestFirst, Schedule};
 use glam::DVec3;
 

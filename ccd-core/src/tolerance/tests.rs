@@ -3,11 +3,12 @@
 use super::distance_rounding;
 use crate::body::combination::Combination;
 use crate::body::pieces::Pieces;
+use crate::config::Config;
 use crate::distance::oracle::{Claim, PiecePair};
 use crate::distance::separation;
 use crate::math::order::greater;
 use crate::motion::Motion;
-use crate::problem::{Config, Moving, Problem};
+use crate::problem::{Moving, Problem};
 use crate::tests::double::{Double, Double3, place};
 use crate::tests::far_ends::{between, ends};
 use crate::tests::scene::{

@@ -3,11 +3,12 @@
 use super::front::{Front, Item};
 use super::hull_pair::{HullPair, Near};
 use super::reach::Reaches;
+use crate::config::StartPolicy;
 use crate::distance::oracle::DistanceOracle;
 use crate::math::order::lesser;
 use crate::motion::bound::Bound;
 use crate::outcome::{Contact, Outcome};
-use crate::problem::{Problem, StartPolicy};
+use crate::problem::Problem;
 use crate::schedule::meter::Meter;
 use crate::schedule::pieces::pair::Step;
 use crate::schedule::pieces::snapshot::Snapshot;

@@ -2,9 +2,10 @@
 
 use super::*;
 use crate::body::Body;
+use crate::config::Config;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
-use crate::problem::{Config, Moving};
+use crate::problem::Moving;
 use crate::tolerance::LOOKS_PER_VISIT;
 use std::time::Duration;
 

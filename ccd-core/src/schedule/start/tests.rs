@@ -3,12 +3,13 @@
 
 use crate::body::Body;
 use crate::body::combination::Combination;
+use crate::config::{Config, StartPolicy};
 use crate::distance::oracle::{Claim, GiveUp};
 use crate::math::order::lesser;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::outcome::{Answer, Limit, Outcome};
-use crate::problem::{Config, Moving, Problem, StartPolicy};
+use crate::problem::{Moving, Problem};
 #[cfg(feature = "hull-tree")]
 use crate::schedule::Fast;
 use crate::schedule::{BestFirst, Naive, Schedule};

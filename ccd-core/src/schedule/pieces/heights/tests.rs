@@ -3,9 +3,10 @@
 use super::*;
 use crate::body::Body;
 use crate::body::polytope::Polytope;
+use crate::config::Config;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
-use crate::problem::{Config, Moving, Problem};
+use crate::problem::{Moving, Problem};
 use crate::tests::scene::{Pcg64, RngExt, direction, magnitude, rng, rotation, within};
 
 /// 4 to 5,000 points: in space, on a ball, in a plane, on a line.

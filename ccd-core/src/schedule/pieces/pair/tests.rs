@@ -3,10 +3,11 @@
 use super::*;
 use crate::body::Body;
 use crate::body::combination::Combination;
+use crate::config::Config;
 use crate::distance::oracle::{Claim, GiveUp};
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
-use crate::problem::{Config, Moving};
+use crate::problem::Moving;
 use crate::tests::oracle::{Always, Exhaustive};
 
 /// A ball of radius 1 at `x`, moving along −x by `speed`, and one at the origin at rest.

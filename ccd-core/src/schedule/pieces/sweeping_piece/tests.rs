@@ -4,12 +4,13 @@
 use super::*;
 use crate::body::Body;
 use crate::body::polytope::Polytope;
+use crate::config::Config;
 use crate::distance::oracle::PiecePair;
 use crate::distance::separation::support_gap;
 use crate::math::order::greater;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
-use crate::problem::{Config, Moving, Problem};
+use crate::problem::{Moving, Problem};
 use crate::schedule::pieces::snapshot::{Plane, Snapshot};
 use crate::tests::double::{Double, Double3, place};
 use crate::tests::scene::{Kind, Pcg64, RngExt, Scene, direction, magnitude, rng, scene, within};

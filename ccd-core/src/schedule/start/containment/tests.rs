@@ -2,10 +2,11 @@
 
 use super::{Containment, at_start};
 use crate::body::{Body, Volume};
+use crate::config::Config;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::outcome::Overlap;
-use crate::problem::{Config, Moving, Problem};
+use crate::problem::{Moving, Problem};
 use crate::tests::meshes::{cube, inside_out, moved};
 use crate::tests::nearest::Triangle;
 use crate::tests::scene::{RngExt, magnitude, pieces, rng, rotation, within};
