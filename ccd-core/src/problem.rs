@@ -265,7 +265,7 @@ impl Side<'_> {
         if self.given.is_some() { 0 } else { piece }
     }
 
-    /// Returns the sum of the largest coordinates of the body and of its centre, in the body's
+    /// Returns the span of the body plus twice the length of its centre of rotation, in the body's
     /// frame.
     fn span(&self) -> f64 {
         self.body.tree().span() + 2.0 * length(self.path.centre)

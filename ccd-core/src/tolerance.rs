@@ -65,8 +65,8 @@ pub const SCALE: f64 = f64::from_bits((1023 + 700) << 52);
 /// - the turn adds 12 of a quaternion, which is 45 as an angle, and 9 of its size, which is at most
 ///   π: 73.
 ///
-/// The sum is at most `300 + 5ω` of a body's span, which counts `|c|` twice, and 96 of the distance
-/// between the bodies. The constant term covers coordinates so small that their squares underflow:
+/// The sum is at most `300 + 5ω` of a body's span, which counts `|c|` twice, and 96 of `way`,
+/// the distance of the centres at the start and along their travel. The constant term covers coordinates so small that their squares underflow:
 /// a length is then off by 3e-162, squared rates may multiply that by 1e12, and 1e-130 is far
 /// above. Without this allowance a touching pair could be certified apart.
 pub fn distance_rounding(spans: [f64; 2], turns: [f64; 2], way: f64) -> f64 {
@@ -81,7 +81,7 @@ pub const LEAST_ROUNDING: f64 = 1e-130;
 /// The least tolerance that can be certified when distances are off by up to `rounding`.
 ///
 /// A pair is in contact when its upper bound is within the tolerance, and advances while its lower
-/// bound exceeds half of it. The two bounds differ by `2 × rounding`, which leaves `tolerance/2 − 2
+/// bound exceeds half of it. The two bounds differ by up to `2 × rounding`, which leaves `tolerance/2 − 2
 /// × rounding` to advance by. Here that is twice the rounding.
 pub fn least_tolerance(rounding: f64) -> f64 {
     8.0 * rounding

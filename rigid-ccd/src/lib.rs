@@ -42,7 +42,8 @@
 //! - *Witnesses* are a pair of nearest points of the two bodies.
 //!
 //! # Guarantee
-//! No contact happens before the time of a [`Hit`]. Without a hit, no contact happens at all. This holds
+//! No contact happens before the time of a [`Hit`]. Without a hit, no contact happens within the
+//! duration. This holds
 //! for every mesh, motion and backend, in floating point. A query that reaches a limit is an [`Error`]
 //! with a time before which no contact happens. Contacts at the start that [`StartPolicy::Leave`] ignores
 //! do not count.

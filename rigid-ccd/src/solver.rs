@@ -11,7 +11,7 @@ use ccd_distance_gjk::Direct;
 /// in radians. A contact is a distance of at most 0.001; a [`Solver`] takes another tolerance.
 ///
 /// # Guarantee
-/// No contact happens before the time of the hit. Without a hit, no contact happens at all.
+/// No contact happens before the time of the hit. Without a hit, no contact happens within the duration.
 ///
 /// # Errors
 /// [`Error::Input`] for a duration or a motion out of range, [`Error::Unresolved`] when a limit is reached

@@ -10,7 +10,7 @@ use crate::problem::Problem;
 use glam::DVec3;
 use std::collections::{HashMap, HashSet};
 
-/// All features found in contact, by their kinds on each body.
+/// All features found in contact, by the corner, edge or face on each body.
 pub(super) struct Manifold<'a> {
     problem: &'a Problem<'a>,
     skins: [&'a Skin<'a>; 2],

@@ -26,8 +26,8 @@ pub(crate) enum Intersection {
 /// # Guarantee
 /// Without rounding radii the claim is not believed either way: either the origin is in the hull of
 /// differences of the pieces' points by more than `rounding`, or an axis shows that it is not. With
-/// rounding radii the claim's witnesses prove an intersection, and its axis disproves it. If
-/// neither succeeds, the pieces count as touching.
+/// rounding radii either the claim's witnesses prove an intersection, or its axis disproves one. If
+/// neither does, the pieces count as touching.
 pub(crate) fn intersects(pair: &PiecePair<'_>, checked: &Checked, rounding: f64) -> Intersection {
     let radii = pair.a.radius + pair.b.radius;
     if radii > 0.0 {

@@ -100,8 +100,8 @@ fn support_gap_near(pair: &PiecePair<'_>, n: DVec3, from: DVec3, near: [Option<u
     lowest + origin_b - highest
 }
 
-/// Returns the point that a combination names. A combination with points outside of the piece is
-/// replaced.
+/// Returns the point that a combination names. A combination with numbers of points that the
+/// piece does not have is replaced.
 fn named(combination: Combination, points: &[DVec3]) -> (Combination, DVec3) {
     match combination.of(points) {
         Some(point) => (combination, point),

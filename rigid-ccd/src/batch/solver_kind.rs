@@ -51,7 +51,7 @@ impl From<BoundKind> for Bound {
 }
 
 impl ScheduleKind {
-    /// Returns whether the schedule needs bodies with a [hull tree](ccd_core::Body::hull_tree).
+    /// Returns whether the schedule makes use of a [hull tree](ccd_core::Body::hull_tree).
     pub fn uses_hull_trees(self) -> bool {
         match self {
             ScheduleKind::Fast => true,

@@ -73,7 +73,7 @@ pub(super) struct EdgeMap {
     edges: Vec<(u32, u32)>,
 }
 
-/// Edges from one point are sorted from this many on.
+/// Edges from one point are sorted if there are more than this.
 const MANY: usize = 8;
 
 impl EdgeMap {

@@ -62,8 +62,8 @@ pub(crate) fn bound<C: Children, P: OtherNode, S: Turn, O: Turn>(
     out
 }
 
-/// Bounds eight pairs along planes that turn with the body of the larger nodes, for pairs whose
-/// times from [`bound`] run out.
+/// Bounds eight pairs along planes that turn with the body of the larger nodes. Each pair keeps the
+/// later of this time and that of [`bound`].
 #[inline(always)]
 pub(crate) fn bound_attached<C: Children, P: OtherNode, S: Turn, O: Turn>(
     children: &C,

@@ -14,7 +14,7 @@ use crate::schedule::meter::Meter;
 use crate::tolerance::RESTING;
 use glam::DVec3;
 
-/// A pair of pieces with its own clock.
+/// A pair of pieces that is advanced.
 #[derive(Clone, Debug)]
 pub(crate) struct Pair<C> {
     pub(crate) a: u32,
@@ -24,7 +24,7 @@ pub(crate) struct Pair<C> {
     cache: C,
 }
 
-/// The gap that a pair's clock proves, which decides when the pair is in contact. Distances are
+/// The gap that a pair's clock proves, and the gap at which the pair is in contact. Distances are
 /// measured beyond the margin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Goal {

@@ -55,7 +55,7 @@ pub(in crate::command) struct QueryArgs {
     /// Leave a query unresolved after this time, in seconds [default: none]
     #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_hyphen_values = true)]
     pub(super) deadline: Option<Duration>,
-    /// Number of threads; it changes no answer, 1 gives the most accurate times [default: all
+    /// Number of threads; it changes no answer, and 1 gives the most accurate `micros` [default: all
     /// cores]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(super) threads: Option<u16>,
