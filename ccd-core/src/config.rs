@@ -15,7 +15,7 @@ use std::time::Duration;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Config {
     /// A contact is reported at a distance of at most margin + tolerance. In the scene's unit of
-    /// length, at least [`LEAST_TOLERANCE`].
+    /// length, at least [`LEAST_TOLERANCE`](limits::LEAST_TOLERANCE).
     pub tolerance: f64,
     /// The distance to keep; 0 reports touching. In the scene's unit of length.
     pub margin: f64,
