@@ -9,8 +9,7 @@ use crate::method::rival::{C2a, Contact, DynamicChecker, Stepping};
 use crate::method::solver::{Adjustable, Claim, Reply, Solver};
 use crate::scene::{Pieces, Scene};
 use ccd_core::{Config, Outcome};
-use rigid_ccd::batch::{Bodies, solve};
-use rigid_ccd::batch::{BoundKind, OracleKind, ScheduleKind, Solve, SolverKind};
+use rigid_ccd::batch::{Bodies, BoundKind, OracleKind, ScheduleKind, Solve, SolverKind, solve};
 use rigid_ccd::table::motions::Query;
 use std::fmt;
 

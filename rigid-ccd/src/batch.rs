@@ -136,9 +136,3 @@ pub fn median(values: &mut [f64]) -> f64 {
         _ => 0.5 * (values[upper - 1] + values[upper]),
     }
 }
-
-/// Returns a percentile of sorted values, for a share from 0 to 1; NaN without values.
-pub fn percentile(sorted: &[f64], share: f64) -> f64 {
-    let within = (share * sorted.len() as f64).ceil() as usize;
-    within.checked_sub(1).map_or(f64::NAN, |k| sorted[k])
-}

@@ -8,10 +8,9 @@ use ccd_decomp::TriangleMesh;
 use clap::Args;
 use rigid_ccd::batch::Threads;
 use rigid_ccd::command::{
-    BadRows, CannotWrite, Exit, Size, Table, complain, input_name, open_motions,
+    BadRows, CannotWrite, Exit, Progress, Size, Table, Total, complain, input_name, open_motions,
     refuse_overwriting, same_file,
 };
-use rigid_ccd::command::{Progress, Total};
 use rigid_ccd::table::motions::MotionRow;
 use std::io::{self, Write};
 use std::num::NonZeroUsize;

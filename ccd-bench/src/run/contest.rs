@@ -20,7 +20,7 @@ use crate::scene::Scene;
 use crate::truth::{Referee, Surface, Truth};
 use ccd_core::InputError;
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
-use rigid_ccd::batch::{median, percentile};
+use rigid_ccd::batch::median;
 use rigid_ccd::table::motions::Query;
 use session::Answered;
 use std::io;
@@ -265,4 +265,10 @@ fn coprime(a: usize, b: usize) -> bool {
         0 => a == 1,
         _ => coprime(b, a % b),
     }
+}
+
+/// Returns a percentile of sorted values, for a share from 0 to 1; NaN without values.
+fn percentile(sorted: &[f64], share: f64) -> f64 {
+    let within = (share * sorted.len() as f64).ceil() as usize;
+    within.checked_sub(1).map_or(f64::NAN, |k| sorted[k])
 }

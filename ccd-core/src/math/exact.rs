@@ -85,3 +85,6 @@ fn coord2(p: DVec3, axis: usize) -> Coord<f64> {
     };
     Coord { x, y }
 }
+
+#[cfg(test)]
+mod tests;

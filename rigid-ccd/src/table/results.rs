@@ -184,8 +184,16 @@ impl ResultRow {
     /// Creates the row of an invalid query.
     pub(crate) fn error(id: &str, why: &RowProblem) -> Self {
         ResultRow {
+            reason: Some(why.to_string()),
+            ..ResultRow::empty(id, Status::Error)
+        }
+    }
+
+    /// Creates a row of empty cells, except for the first two.
+    fn empty(id: &str, status: Status) -> Self {
+        ResultRow {
             id: id.to_owned(),
-            status: Status::Error,
+            status,
             time: None,
             distance_lower: None,
             distance_upper: None,
@@ -197,7 +205,7 @@ impl ResultRow {
             iterations: None,
             oracle_calls: None,
             micros: None,
-            reason: Some(why.to_string()),
+            reason: None,
             counters: Counters::default(),
         }
     }
@@ -205,21 +213,12 @@ impl ResultRow {
     /// Creates the row of an answer.
     pub(crate) fn new(id: &str, duration: f64, answer: &Answer, micros: f64) -> Self {
         let row = ResultRow {
-            id: id.to_owned(),
-            status: Status::from(&answer.outcome),
             time: Some(safe_time(&answer.outcome, duration)),
-            distance_lower: None,
-            distance_upper: None,
-            normal: [None; 3],
-            witness_a: [None; 3],
-            witness_b: [None; 3],
-            feature_a: None,
-            feature_b: None,
             iterations: Some(answer.stats.iterations),
             oracle_calls: Some(answer.stats.oracle_calls),
             micros: Some(micros),
-            reason: None,
             counters: Counters::from(&answer.stats),
+            ..ResultRow::empty(id, Status::from(&answer.outcome))
         };
         match answer.outcome {
             Outcome::Contact { contact, .. }

@@ -1,7 +1,7 @@
 //! The target of an approximation: its points, and the distances of other points.
 
 use crate::bounds::Bounds;
-use crate::exact::predicates::side;
+use crate::exact::predicates::{side, turn_along};
 use crate::mesh::TriangleMesh;
 use crate::search::box_tree::BoxTree;
 use crate::search::region::Region;
@@ -13,7 +13,6 @@ use ccd_core::order::{greater, lesser};
 use parry3d_f64::math::Vector;
 use parry3d_f64::query::PointQueryWithLocation;
 use parry3d_f64::shape::Triangle;
-use robust::{Coord, orient2d};
 use std::cmp::Ordering;
 
 /// The solid to be approximated, with its surface; the surface alone if the mesh is open.
@@ -175,10 +174,10 @@ fn crossing(triangle: [DVec3; 3], point: DVec3) -> i32 {
     let around: i32 = [(a, b), (b, c), (c, a)]
         .into_iter()
         .map(|(v, w)| {
-            let [q, r, p] = [v, w, point].map(|p| Coord { x: p.x, y: p.y });
+            let turn = || turn_along(2, [v, w], point);
             match (v.y <= point.y, w.y <= point.y) {
-                (true, false) => i32::from(orient2d(q, r, p) > 0.0),
-                (false, true) => -i32::from(orient2d(q, r, p) < 0.0),
+                (true, false) => i32::from(turn().is_gt()),
+                (false, true) => -i32::from(turn().is_lt()),
                 _ => 0,
             }
         })
