@@ -96,10 +96,8 @@ impl<'a, 'm> Merger<'a, 'm> {
             let [a, b] = manifold.ends(h).map(|v| manifold.point(v));
             let way = b - a;
             let length = (length(way).log2() * LENGTHS).round() as i32;
-            let way = (unit(way).unwrap_or(DVec3::ZERO) * DIRECTIONS)
-                .round()
-                .as_ivec3()
-                .to_array();
+            let way = unit(way).unwrap_or(DVec3::ZERO) * DIRECTIONS;
+            let way = way.to_array().map(|x| x.round() as i32);
             (Reverse(length), way.max(way.map(|x| -x)), h)
         };
         let mut edges: Vec<HalfEdge> = (0..3 * manifold.faces().len() as u32)

@@ -4,7 +4,10 @@ use crate::mesh::error::MeshFault;
 use crate::mesh::polygons::Polygons;
 use ccd_core::glam::DVec3;
 use ply_rs_bw::parser::{ParseError, Parser, Reader};
-use ply_rs_bw::ply::{Encoding, Header, Property, PropertyAccess, PropertyAccessResult};
+use ply_rs_bw::ply::{
+    ElementDef, Encoding, Header, Property, PropertyAccess, PropertyAccessResult, PropertyType,
+    ScalarType,
+};
 use std::io::ErrorKind;
 
 /// Reads the vertices and faces of a PLY.
@@ -13,42 +16,33 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Polygons, MeshFault> {
         return Err(MeshFault::NoVertices);
     }
     let mut reader = Reader::new(bytes);
-    let header = Parser::<Skipped>::new()
+    let header = Parser::<Element>::new()
         .read_header(&mut reader)
         .map_err(|error| fault(&error, Encoding::Ascii))?;
-    check_counts(&header, bytes.len())?;
+    check_header(&header, bytes.len())?;
     let fault = |error: ParseError| fault(&error, header.encoding);
     let mut polygons = Polygons::default();
     for element in header.elements.values() {
+        let read: Vec<Element> = Parser::new()
+            .read_payload_for_element(&mut reader, element, &header)
+            .map_err(fault)?;
         match element.name.as_str() {
-            "vertex" => {
-                let vertices = Parser::<Vertex>::new()
-                    .read_payload_for_element(&mut reader, element, &header)
-                    .map_err(fault)?;
-                polygons.vertices = vertices.into_iter().map(|v| v.0).collect();
-            }
+            "vertex" => polygons.vertices = read.into_iter().map(|vertex| vertex.point).collect(),
             "face" => {
-                let faces = Parser::<Face>::new()
-                    .read_payload_for_element(&mut reader, element, &header)
-                    .map_err(fault)?;
-                for Face(corners) in faces {
-                    polygons.corners.extend(corners);
+                for face in read {
+                    polygons.corners.extend(face.corners);
                     polygons.ends.push(polygons.corners.len());
                 }
             }
-            _ => {
-                Parser::<Skipped>::new()
-                    .read_payload_for_element(&mut reader, element, &header)
-                    .map_err(fault)?;
-            }
+            _ => {}
         }
     }
     Ok(polygons)
 }
 
-/// Checks that the header describes a mesh, and no more elements than the file has bytes: elements without
+/// Checks that the header describes a mesh of points and polygons, and no more elements than the file has bytes: elements without
 /// properties take no bytes, and would be read for ever.
-fn check_counts(header: &Header, bytes: usize) -> Result<(), MeshFault> {
+fn check_header(header: &Header, bytes: usize) -> Result<(), MeshFault> {
     for element in header.elements.values() {
         if element.count > bytes {
             let missing = format!("all {} elements {:?}", element.count, element.name);
@@ -61,26 +55,46 @@ fn check_counts(header: &Header, bytes: usize) -> Result<(), MeshFault> {
             instead: "faces",
         });
     }
-    let properties = [
-        ("vertex", ["x", "y", "z"].as_slice()),
-        ("face", &["vertex_indices", "vertex_index"]),
-    ];
-    for (element, names) in properties {
-        let Some(definition) = header.elements.get(element) else {
-            return Err(match element {
-                "vertex" => MeshFault::NoVertices,
-                _ => MeshFault::NoFaces,
-            });
-        };
-        let has = |name: &&&str| definition.properties.contains_key(**name);
-        let wanted = if element == "vertex" { names.len() } else { 1 };
-        if names.iter().filter(has).count() != wanted {
-            let names = names.join(if wanted == 1 { " or " } else { ", " });
-            let problem = format!("element {element:?} lacks the property {names}");
-            return Err(MeshFault::syntax(None, problem));
-        }
+    let Some(vertex) = header.elements.get("vertex") else {
+        return Err(MeshFault::NoVertices);
+    };
+    let Some(face) = header.elements.get("face") else {
+        return Err(MeshFault::NoFaces);
+    };
+    for coordinate in ["x", "y", "z"] {
+        check_property(vertex, &[coordinate], "a number", |kind| {
+            matches!(kind, PropertyType::Scalar(_))
+        })?;
     }
-    Ok(())
+    check_property(face, &CORNERS, "a list of integers", |kind| match kind {
+        PropertyType::List(_, number) => !matches!(number, ScalarType::Float | ScalarType::Double),
+        PropertyType::Scalar(_) => false,
+    })
+}
+
+/// Checks that an element has a property of one of some names, and of a kind.
+fn check_property(
+    element: &ElementDef,
+    names: &[&str],
+    kind: &str,
+    is_kind: impl Fn(&PropertyType) -> bool,
+) -> Result<(), MeshFault> {
+    let mut found = names
+        .iter()
+        .filter_map(|&name| element.properties.get(name));
+    let element = &element.name;
+    let problem = match found.next() {
+        None => {
+            let names = names.join(" or ");
+            format!("element {element:?} lacks the property {names}")
+        }
+        Some(property) if !is_kind(&property.data_type) => {
+            let name = &property.name;
+            format!("property {name:?} of element {element:?} is not {kind}")
+        }
+        Some(_) => return Ok(()),
+    };
+    Err(MeshFault::syntax(None, problem))
 }
 
 fn fault(error: &ParseError, encoding: Encoding) -> MeshFault {
@@ -101,27 +115,30 @@ fn fault(error: &ParseError, encoding: Encoding) -> MeshFault {
     }
 }
 
-/// An element that is passed over.
-struct Skipped;
-
-impl PropertyAccess for Skipped {
-    fn new() -> Self {
-        Skipped
-    }
+/// An element of a PLY: a vertex, a face, or one that is passed over. A single type, because the library compiles
+/// its readers of all kinds of properties anew for each.
+struct Element {
+    point: DVec3,
+    corners: Vec<i64>,
 }
 
-struct Vertex(DVec3);
+/// The names of the property of a face that lists its corners.
+const CORNERS: [&str; 2] = ["vertex_indices", "vertex_index"];
 
-impl PropertyAccess for Vertex {
+impl PropertyAccess for Element {
     fn new() -> Self {
-        Vertex(DVec3::NAN)
+        Element {
+            point: DVec3::NAN,
+            corners: Vec::new(),
+        }
     }
 
     fn set_property(&mut self, name: &str, property: Property) -> PropertyAccessResult {
         let coordinate = match name {
-            "x" => &mut self.0.x,
-            "y" => &mut self.0.y,
-            "z" => &mut self.0.z,
+            "x" => &mut self.point.x,
+            "y" => &mut self.point.y,
+            "z" => &mut self.point.z,
+            _ if CORNERS.contains(&name) => return self.set_corners(property),
             _ => return PropertyAccessResult::Ignored,
         };
         *coordinate = match property {
@@ -133,31 +150,22 @@ impl PropertyAccess for Vertex {
             Property::UInt(v) => v.into(),
             Property::Float(v) => v.into(),
             Property::Double(v) => v,
-            _ => return PropertyAccessResult::UnsupportedType,
+            _ => return PropertyAccessResult::Ignored,
         };
         PropertyAccessResult::Set
     }
 }
 
-struct Face(Vec<i64>);
-
-impl PropertyAccess for Face {
-    fn new() -> Self {
-        Face(Vec::new())
-    }
-
-    fn set_property(&mut self, name: &str, property: Property) -> PropertyAccessResult {
-        if !matches!(name, "vertex_indices" | "vertex_index") {
-            return PropertyAccessResult::Ignored;
-        }
-        self.0 = match property {
+impl Element {
+    fn set_corners(&mut self, property: Property) -> PropertyAccessResult {
+        self.corners = match property {
             Property::ListChar(list) => list.into_iter().map(i64::from).collect(),
             Property::ListUChar(list) => list.into_iter().map(i64::from).collect(),
             Property::ListShort(list) => list.into_iter().map(i64::from).collect(),
             Property::ListUShort(list) => list.into_iter().map(i64::from).collect(),
             Property::ListInt(list) => list.into_iter().map(i64::from).collect(),
             Property::ListUInt(list) => list.into_iter().map(i64::from).collect(),
-            _ => return PropertyAccessResult::UnsupportedType,
+            _ => return PropertyAccessResult::Ignored,
         };
         PropertyAccessResult::Set
     }

@@ -126,11 +126,20 @@ fn bad_input_is_named(#[case] format: Format, #[case] text: &str, #[case] expect
 #[case::corners("9 3 1 2 3\n", "9 2 1 2\n", "face 2 has 2 corners")]
 #[case::number("1 0 7 0\n", "1 x 7 0\n", "line 16: ")]
 #[case::list("3 2 0 3\n", "3 2 0\n", "line 22: ")]
-#[case::coordinate("property int z", "property int w", "lacks the property x, y, z")]
+#[case::coordinate(
+    "property int z",
+    "property int w",
+    "element \"vertex\" lacks the property z"
+)]
 #[case::text(
     "property int z",
     "property list int int z",
-    "is unsupported by the destination"
+    "property \"z\" of element \"vertex\" is not a number"
+)]
+#[case::float_indices(
+    "int vertex_indices",
+    "float vertex_indices",
+    "property \"vertex_indices\" of element \"face\" is not a list of integers"
 )]
 #[case::indices(
     "vertex_indices",

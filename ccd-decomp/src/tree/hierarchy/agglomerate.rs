@@ -1,0 +1,108 @@
+//! Agglomeration: nodes that are each other's best neighbours along a space-filling curve become siblings, pass by
+//! pass, until a single node is left (`[PLOC18]`).
+
+use super::nodes::{Below, Cuboid, Node};
+use crate::tolerance::{SEARCH_DEPTH, SEARCH_DISTANCE};
+use ccd_core::glam::DVec3;
+
+/// Returns the nodes of a tree over leaves: its root first, then pairs of siblings, parents before their children.
+///
+/// # Complexity
+/// O(n log n) if a fair share of the nodes finds a sibling in every pass; O(n²) if only one pair does, as among
+/// boxes with a common centre.
+pub(super) fn agglomerate(leaves: &[Node]) -> Vec<Node> {
+    let Some(&first) = leaves.first() else {
+        return Vec::new();
+    };
+    let mut tree = vec![first; 2 * leaves.len() - 1];
+    // The tree is filled from its end.
+    let mut free = tree.len();
+    let (mut row, mut next) = (along_curve(leaves), Vec::with_capacity(leaves.len()));
+    let mut best = Vec::with_capacity(leaves.len());
+    for pass in 0.. {
+        if row.len() == 1 {
+            break;
+        }
+        let reach = if pass < SEARCH_DEPTH {
+            1
+        } else {
+            SEARCH_DISTANCE
+        };
+        best_neighbours(&row, reach, &mut best);
+        next.clear();
+        for (index, &node) in row.iter().enumerate() {
+            let other = best[index];
+            if best[other] != index {
+                next.push(node);
+            } else if other < index {
+                free -= 2;
+                (tree[free], tree[free + 1]) = (node, row[other]);
+                next.push(Node {
+                    cuboid: node.cuboid.union(row[other].cuboid),
+                    below: Below::Children(free as u32),
+                });
+            }
+        }
+        std::mem::swap(&mut row, &mut next);
+    }
+    tree[0] = row[0];
+    tree
+}
+
+/// Finds the neighbour of every node in a row that gives the smallest box together with it, the last of equals.
+fn best_neighbours(row: &[Node], reach: usize, best: &mut Vec<usize>) {
+    best.clear();
+    // The prices of the pairs of a node with those after it.
+    let mut prices = vec![[0.0f32; SEARCH_DISTANCE]; row.len()];
+    for index in 0..row.len() {
+        let (mut least, mut other) = (f32::INFINITY, index);
+        for before in index.saturating_sub(reach)..index {
+            let price = prices[before][index - before - 1];
+            if price <= least {
+                (least, other) = (price, before);
+            }
+        }
+        for after in index + 1..row.len().min(index + 1 + reach) {
+            let price = row[index].cuboid.union(row[after].cuboid).half_area();
+            prices[index][after - index - 1] = price;
+            if price <= least {
+                (least, other) = (price, after);
+            }
+        }
+        best.push(other);
+    }
+}
+
+/// Sorts leaves along a curve through the box of them all, which keeps near ones together: by their Morton codes.
+fn along_curve(leaves: &[Node]) -> Vec<Node> {
+    let all = leaves
+        .iter()
+        .fold(Cuboid::EMPTY, |all, leaf| all.union(leaf.cuboid));
+    let mut order: Vec<(u64, u64)> = (leaves.iter().zip(0..))
+        .map(|(leaf, index)| (morton(all.place(leaf.cuboid)), index))
+        .collect();
+    order.sort_unstable_by_key(|&(code, _)| code);
+    order
+        .iter()
+        .map(|&(_, index)| leaves[index as usize])
+        .collect()
+}
+
+/// Interleaves the 21 leading bits of three coordinates in the unit interval.
+fn morton(point: DVec3) -> u64 {
+    let cell = point * f64::from(1 << 21);
+    spread(cell.x as u32) | spread(cell.y as u32) << 1 | spread(cell.z as u32) << 2
+}
+
+/// Moves bit k of 21 bits to place 3 k.
+fn spread(bits: u32) -> u64 {
+    let mut x = u64::from(bits) & 0x1f_ffff;
+    x = (x | x << 32) & 0x001f_0000_0000_ffff;
+    x = (x | x << 16) & 0x001f_0000_ff00_00ff;
+    x = (x | x << 8) & 0x100f_00f0_0f00_f00f;
+    x = (x | x << 4) & 0x10c3_0c30_c30c_30c3;
+    (x | x << 2) & 0x1249_2492_4924_9249
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,87 @@
+use super::super::agglomerate::agglomerate;
+use super::super::nodes::{Below, Cuboid, Node};
+use super::{Tree, reinsert};
+use ccd_core::glam::Vec3A;
+use proptest::prelude::*;
+
+fn leaves() -> impl Strategy<Value = Vec<Node>> {
+    let point = || prop::array::uniform3(0.0f32..1.0).prop_map(Vec3A::from);
+    let cuboid = (point(), 0.0f32..0.2).prop_map(|(lo, size)| Cuboid { lo, hi: lo + size });
+    prop::collection::vec(cuboid, 2..120).prop_map(|cuboids| {
+        let leaves = cuboids.into_iter().zip(0..);
+        leaves
+            .map(|(cuboid, piece)| Node::leaf(piece, cuboid))
+            .collect()
+    })
+}
+
+fn area(nodes: &[Node]) -> f64 {
+    nodes
+        .iter()
+        .map(|node| f64::from(node.cuboid.half_area()))
+        .sum()
+}
+
+/// Checks that every node but the root has one parent, and every box is that of the two below. Returns the pieces.
+fn check(nodes: &[Node]) -> Vec<u32> {
+    let mut pieces = Vec::new();
+    let mut stack = vec![0];
+    let mut seen = 0;
+    while let Some(node) = stack.pop() {
+        seen += 1;
+        let Node { cuboid, below } = nodes[node as usize];
+        match below {
+            Below::Piece(piece) => pieces.push(piece),
+            Below::Children(first) => {
+                let [left, right] = [first, first + 1].map(|k| nodes[k as usize].cuboid);
+                assert_eq!(cuboid, left.union(right));
+                stack.extend([first, first + 1]);
+            }
+        }
+    }
+    assert_eq!(seen, nodes.len());
+    pieces.sort_unstable();
+    pieces
+}
+
+/// The area of all boxes after a move.
+fn total_after(nodes: &[Node], from: u32, to: u32) -> f64 {
+    let mut copy = nodes.to_vec();
+    Tree::new(&mut copy).make(from, to);
+    check(&copy);
+    area(&copy)
+}
+
+proptest! {
+    #[test]
+    fn trees_stay_trees_and_their_boxes_shrink(leaves in leaves()) {
+        let mut nodes = agglomerate(&leaves);
+        let before = area(&nodes);
+        reinsert(&mut nodes);
+        prop_assert_eq!(check(&nodes), (0..leaves.len() as u32).collect::<Vec<_>>());
+        prop_assert!(area(&nodes) <= before * (1.0 + 1e-6));
+    }
+
+    #[test]
+    fn the_best_move_is_the_best_of_all(leaves in leaves()) {
+        let mut nodes = agglomerate(&leaves);
+        let all = nodes.clone();
+        let before = area(&all);
+        let tree = Tree::new(&mut nodes);
+        for from in (1..all.len() as u32).step_by(7) {
+            let is_above = |upper: u32, mut node: u32| {
+                while node != upper && node != 0 {
+                    node = tree.parents[node as usize];
+                }
+                node == upper
+            };
+            let beside = super::sibling(from);
+            let targets = (1..all.len() as u32)
+                .filter(|&to| to != beside && !is_above(from, to) && !is_above(to, from));
+            let gains = targets.map(|to| before - total_after(&all, from, to));
+            let best = gains.fold(0.0, ccd_core::order::greater);
+            let found = tree.best_move(from).map_or(0.0, |best| f64::from(best.gain));
+            prop_assert!((found - best).abs() <= 1e-4, "{from}: {found} instead of {best}");
+        }
+    }
+}
