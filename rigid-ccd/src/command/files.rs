@@ -315,8 +315,18 @@ pub(super) fn is_standard(path: &Path) -> bool {
     path.as_os_str() == "-"
 }
 
-/// Returns whether two paths lead to one file.
+/// Returns whether two paths lead to one file, or would if it existed.
 pub fn same_file(a: &Path, b: &Path) -> bool {
-    let real = |path: &Path| fs::canonicalize(path).ok();
-    a == b || real(a).is_some_and(|a| Some(a) == real(b))
+    a == b || real_path(a).is_some_and(|a| Some(a) == real_path(b))
+}
+
+fn real_path(path: &Path) -> Option<PathBuf> {
+    let missing = || {
+        let folder = match path.parent()? {
+            here if here.as_os_str().is_empty() => Path::new("."),
+            folder => folder,
+        };
+        Some(fs::canonicalize(folder).ok()?.join(path.file_name()?))
+    };
+    fs::canonicalize(path).ok().or_else(missing)
 }

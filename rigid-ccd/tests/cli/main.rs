@@ -263,6 +263,53 @@ fn results_never_overwrite_their_motions() {
 }
 
 #[test]
+fn tables_do_not_overwrite_each_other_by_any_spelling() {
+    let scene = Scene::new("spellings");
+    for [results, contacts] in [
+        ["new.csv", "./new.csv"],
+        ["./new.csv", "new.csv"],
+        ["new.csv", "../{}/new.csv"],
+        ["new.csv", "./new.csv.partial"],
+    ] {
+        let folder = scene.directory.file_name().unwrap().to_str().unwrap();
+        let contacts = contacts.replace("{}", folder);
+        let output = std::process::Command::new(PROGRAM)
+            .current_dir(&scene.directory)
+            .args([
+                "query",
+                "--a",
+                "box:1,1,1",
+                "--b",
+                "box:1,1,1",
+                "--motions",
+                "-",
+            ])
+            .args(["--out", results, "--contacts", &contacts])
+            .stdin(std::process::Stdio::null())
+            .output()
+            .unwrap();
+        assert_eq!(output.status.code(), Some(2), "{results} {contacts}");
+        let message = stderr(&output);
+        assert!(message.contains("another file"), "{message}");
+    }
+}
+
+#[test]
+fn tolerances_that_no_row_accepts_are_refused_at_once() {
+    for tolerance in ["1e-300", "0", "-1", "1e13", "nan"] {
+        let output = Run::query(&FALLING_CUBE)
+            .args(&["--tolerance", tolerance])
+            .stdin(DROP)
+            .output();
+        let message = stderr(&output);
+        assert!(
+            message.contains("give a number from 1e-100 to 1e12"),
+            "{message}"
+        );
+    }
+}
+
+#[test]
 fn the_summary_counts_rows_and_quiet_omits_it() {
     let loud = Run::query(&FALLING_CUBE).stdin(DROP).output();
     assert!(

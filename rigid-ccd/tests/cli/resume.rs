@@ -135,6 +135,39 @@ fn a_run_that_is_killed_twice_ends_with_the_same_bytes() {
 }
 
 #[test]
+fn rows_without_their_record_are_kept() {
+    let table = motions();
+    let scene = fresh("no-record");
+    let part = table.match_indices('\n').nth(ROWS / 3).unwrap().0;
+    killed(&scene, &[], &table[..part]);
+    let [rows, record] =
+        ["results.csv.partial", "results.csv.resume"].map(|name| path(&scene, name));
+    let kept = read(&rows);
+    let whole = read(&record);
+    let begun = &whole[..whole.find("marks:\n").unwrap() + "marks:\n".len()];
+    for (damage, refuses) in [
+        (None, true),
+        (Some(""), true),
+        (Some("not a record"), true),
+        // A run that was killed before its first checkpoint.
+        (Some(begun), false),
+    ] {
+        match damage {
+            None => fs::remove_file(&record).unwrap(),
+            Some(text) => fs::write(&record, text).unwrap(),
+        }
+        for more in [&[][..], &["--resume"]] {
+            let output = finished(query(&scene, more), &table[..part]);
+            let refused = stderr(&output).contains("is missing or damaged; delete the first");
+            assert_eq!(refused, refuses, "{damage:?}: {}", stderr(&output));
+            if refuses {
+                assert!(read(&rows) == kept);
+            }
+        }
+    }
+}
+
+#[test]
 fn a_run_continues_only_with_the_same_options_and_rows() {
     let table = motions();
     let scene = fresh("other-question");

@@ -6,7 +6,7 @@ use crate::command::pieces::{NOT_GIVEN, PiecesArgs, value_name};
 use crate::table::results::Extent;
 use crate::text::Number;
 use ccd_core::StartPolicy;
-use ccd_core::limits::{DEFAULT_BUDGET, DEFAULT_TOLERANCE, MAX_COORDINATE};
+use ccd_core::limits::{DEFAULT_BUDGET, DEFAULT_TOLERANCE, LEAST_TOLERANCE, MAX_COORDINATE};
 use clap::{Args, ValueEnum};
 use std::fmt;
 use std::path::PathBuf;
@@ -39,7 +39,7 @@ pub(in crate::command) struct QueryArgs {
     #[command(flatten)]
     pub(super) pieces: PiecesArgs,
     /// Report a contact at a distance of at most margin + tolerance, in the scene's unit of length
-    #[arg(long, value_name = "LENGTH", default_value_t = DEFAULT_TOLERANCE, value_parser = positive, allow_hyphen_values = true)]
+    #[arg(long, value_name = "LENGTH", default_value_t = DEFAULT_TOLERANCE, value_parser = tolerance, allow_hyphen_values = true)]
     pub(super) tolerance: f64,
     /// Distance to keep between the bodies, in the scene's unit of length
     #[arg(long, value_name = "LENGTH", default_value_t = 0.0, value_parser = not_negative, allow_hyphen_values = true)]
@@ -211,10 +211,12 @@ impl fmt::Display for RowRange {
     }
 }
 
-fn positive(text: &str) -> Result<f64, String> {
+fn tolerance(text: &str) -> Result<f64, String> {
     number(text)
-        .filter(|value| *value > 0.0 && *value <= MAX_COORDINATE)
-        .ok_or_else(|| format!("give a positive number up to {MAX_COORDINATE:e}, such as 1e-3"))
+        .filter(|value| (LEAST_TOLERANCE..=MAX_COORDINATE).contains(value))
+        .ok_or_else(|| {
+            format!("give a number from {LEAST_TOLERANCE:e} to {MAX_COORDINATE:e}, such as 1e-3")
+        })
 }
 
 fn not_negative(text: &str) -> Result<f64, String> {

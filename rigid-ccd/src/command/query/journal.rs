@@ -143,6 +143,13 @@ impl Earlier {
         })
     }
 
+    /// Returns whether a journal is whole, and of a run that ended before its first checkpoint.
+    pub(super) fn has_none(journal: &Path) -> bool {
+        let text = fs::read_to_string(journal).unwrap_or_default();
+        text.split_once(CHECKPOINTS)
+            .is_some_and(|(_, checkpoints)| !checkpoints.contains('\n'))
+    }
+
     /// Describes the options that differ from those of the earlier run.
     pub(super) fn changes(&self, recorded: &Recorded) -> Option<String> {
         recorded.changes(&self.recorded)

@@ -90,6 +90,12 @@ impl Opened {
                 results.partial().display(),
                 earlier.rows
             ),
+            None if results.partial().exists() && !Earlier::has_none(&journal) => bail!(
+                "{} holds rows of an interrupted run, but its record {} is missing or damaged; delete the \
+                 first to start over",
+                results.partial().display(),
+                journal.display()
+            ),
             _ => Ok(Opened::New(Outputs::create(args, recorded, Some(journal))?)),
         }
     }
