@@ -125,29 +125,31 @@ pub(super) struct Earlier {
     bytes: u64,
 }
 
+/// A journal that is missing or damaged.
+pub(super) struct Lost;
+
 impl Earlier {
-    /// Reads a journal; returns none for a run without a checkpoint.
-    pub(super) fn read(journal: &Path) -> Option<Self> {
-        let text = fs::read_to_string(journal).ok()?;
-        let (recorded, checkpoints) = text.split_once(CHECKPOINTS)?;
+    /// Reads a journal; returns none for a run that ended before its first checkpoint.
+    ///
+    /// # Errors
+    /// [`Lost`] when the journal is missing or damaged.
+    pub(super) fn read(journal: &Path) -> Result<Option<Self>, Lost> {
+        let text = fs::read_to_string(journal).map_err(|_| Lost)?;
+        let (recorded, checkpoints) = text.split_once(CHECKPOINTS).ok_or(Lost)?;
         // A line without its end may be incomplete.
-        let complete = &checkpoints[..checkpoints.rfind('\n')? + 1];
+        let Some(end) = checkpoints.rfind('\n') else {
+            return Ok(None);
+        };
+        let complete = &checkpoints[..end + 1];
         let mut lines = complete.lines().map(serde_json::from_str::<Checkpoint>);
-        let first = lines.next()?.ok()?;
-        let checkpoint = lines.next_back().unwrap_or(Ok(first)).ok()?;
-        Some(Earlier {
+        let first = lines.next().ok_or(Lost)?.map_err(|_| Lost)?;
+        let checkpoint = lines.next_back().unwrap_or(Ok(first)).map_err(|_| Lost)?;
+        Ok(Some(Earlier {
             recorded: recorded.to_owned(),
             rows: checkpoint.rows.saturating_sub(first.rows),
             checkpoint,
             bytes: (recorded.len() + CHECKPOINTS.len() + complete.len()) as u64,
-        })
-    }
-
-    /// Returns whether a journal is whole, and of a run that ended before its first checkpoint.
-    pub(super) fn has_none(journal: &Path) -> bool {
-        let text = fs::read_to_string(journal).unwrap_or_default();
-        text.split_once(CHECKPOINTS)
-            .is_some_and(|(_, checkpoints)| !checkpoints.contains('\n'))
+        }))
     }
 
     /// Describes the options that differ from those of the earlier run.

@@ -4,7 +4,7 @@
 //! a half-written one for instance, are dropped when a run continues.
 
 use super::args::QueryArgs;
-use super::journal::{Checkpoint, Earlier, Journal, Recorded};
+use super::journal::{Checkpoint, Earlier, Journal, Lost, Recorded};
 use crate::command::files::CannotWrite;
 use crate::command::files::{PendingFile, RESUME, Table};
 use crate::table::contacts;
@@ -51,7 +51,16 @@ impl Opened {
             return Ok(Opened::New(Outputs::create(args, recorded, None)?));
         };
         let journal = results.sibling(RESUME);
-        let earlier = Earlier::read(&journal);
+        let earlier = match Earlier::read(&journal) {
+            Ok(earlier) => earlier,
+            Err(Lost) if results.partial().exists() => bail!(
+                "{} holds rows of an interrupted run, but its record {} is missing or damaged; delete the \
+                 first to start over",
+                results.partial().display(),
+                journal.display()
+            ),
+            Err(Lost) => None,
+        };
         if let Some(finished) = earlier
             .as_ref()
             .filter(|earlier| args.resume && earlier.checkpoint.finished)
@@ -74,14 +83,7 @@ impl Opened {
             Some(earlier) if args.resume => {
                 let advice = format!("delete {} to start over", results.partial().display());
                 check_options(&earlier, recorded, "interrupted", &advice)?;
-                let contacts = contacts
-                    .map(|file| Table::resume(file, earlier.checkpoint.contacts_bytes))
-                    .transpose()?;
-                let outputs = Outputs {
-                    results: Table::resume(results, earlier.checkpoint.results_bytes)?,
-                    contacts,
-                    journal: Some(earlier.reopen(journal)?),
-                };
+                let outputs = Outputs::resume(results, contacts, &earlier, journal)?;
                 Ok(Opened::Resumed(outputs, earlier.checkpoint))
             }
             Some(earlier) if earlier.rows > 0 => bail!(
@@ -89,12 +91,6 @@ impl Opened {
                  to start over",
                 results.partial().display(),
                 earlier.rows
-            ),
-            None if results.partial().exists() && !Earlier::has_none(&journal) => bail!(
-                "{} holds rows of an interrupted run, but its record {} is missing or damaged; delete the \
-                 first to start over",
-                results.partial().display(),
-                journal.display()
             ),
             _ => Ok(Opened::New(Outputs::create(args, recorded, Some(journal))?)),
         }
@@ -128,6 +124,25 @@ impl PendingTables {
 }
 
 impl Outputs {
+    fn resume(
+        results: PendingFile,
+        contacts: Option<PendingFile>,
+        earlier: &Earlier,
+        journal: PathBuf,
+    ) -> Result<Self, CannotWrite> {
+        let Checkpoint {
+            results_bytes,
+            contacts_bytes,
+            ..
+        } = earlier.checkpoint;
+        let contacts = contacts.map(|file| Table::resume(file, contacts_bytes));
+        Ok(Outputs {
+            contacts: contacts.transpose()?,
+            results: Table::resume(results, results_bytes)?,
+            journal: Some(earlier.reopen(journal)?),
+        })
+    }
+
     fn create(
         args: &QueryArgs,
         recorded: &Recorded,
