@@ -5,7 +5,7 @@
 //!
 //! | to … | see |
 //! |---|---|
-//! | enclose rotations and placements by interval arithmetic | `enclosure`, `track` |
+//! | enclose numbers, rotations and placements by interval arithmetic | `interval`, `enclosure`, `track` |
 //! | show that boxes or triangles stay apart over a span of time | `snapshot`, `triangle` |
 //! | prove that two triangles share a point at an instant | `pierce` |
 //! | search in time, earliest first | `search` |
@@ -13,6 +13,7 @@
 
 mod enclosure;
 mod gap;
+mod interval;
 mod pierce;
 mod rounding;
 mod search;

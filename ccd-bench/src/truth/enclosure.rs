@@ -1,13 +1,8 @@
 //! Rotations, vectors and matrices known to within intervals.
 
+use super::interval::{Interval, exact};
 use ccd_core::glam::{DQuat, DVec3};
-use inari::{Interval, const_interval, interval};
 use std::ops::{Add, Mul, Neg, Sub};
-
-/// Returns the real number of a float; the whole line if it is not finite.
-pub(super) fn exact(x: f64) -> Interval {
-    interval!(x, x).unwrap_or(Interval::ENTIRE)
-}
 
 /// A vector, each coordinate within an interval.
 #[derive(Clone, Copy, Debug)]
@@ -17,11 +12,11 @@ pub(super) struct Vector(pub(super) [Interval; 3]);
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Matrix(pub(super) [[Interval; 3]; 3]);
 
-const ZERO: Interval = const_interval!(0.0, 0.0);
-const ONE: Interval = const_interval!(1.0, 1.0);
-const TWO: Interval = const_interval!(2.0, 2.0);
+const ZERO: Interval = exact(0.0);
+const ONE: Interval = exact(1.0);
+const TWO: Interval = exact(2.0);
 /// The range of every sine and cosine.
-const UNIT: Interval = const_interval!(-1.0, 1.0);
+const UNIT: Interval = Interval::new(-1.0, 1.0);
 
 impl Vector {
     pub(super) fn scaled(&self, by: Interval) -> Self {
@@ -157,7 +152,7 @@ impl Neg for Vector {
 pub(super) fn sin_cos(x: Interval) -> (Interval, Interval) {
     let quarters = (x.mid() * std::f64::consts::FRAC_2_PI).round();
     let rest = x - exact(quarters) * Interval::FRAC_PI_2;
-    // The comparison is false for NaN too: an empty or unbounded interval.
+    // The first comparison is false for an unbounded interval.
     if !(rest.mag() <= WIDEST_REST && quarters.abs() <= MOST_QUARTERS) {
         return (UNIT, UNIT);
     }
@@ -175,9 +170,8 @@ const WIDEST_REST: f64 = 1.6;
 /// 2⁵⁰: multiples of π/2 up to this one are exact integers, and so is their number modulo 4.
 const MOST_QUARTERS: f64 = 1_125_899_906_842_624.0;
 /// 21!, an odd number below 2⁵³ times 2¹⁸, hence exact.
-const FACTORIAL_21: Interval =
-    const_interval!(51_090_942_171_709_440_000.0, 51_090_942_171_709_440_000.0);
-const TWENTY_TWO: Interval = const_interval!(22.0, 22.0);
+const FACTORIAL_21: Interval = exact(51_090_942_171_709_440_000.0);
+const TWENTY_TWO: Interval = exact(22.0);
 
 fn taylor(r: Interval) -> (Interval, Interval) {
     let square = r.sqr();
@@ -192,7 +186,7 @@ fn taylor(r: Interval) -> (Interval, Interval) {
     }
     let mut power = r.abs();
     for _ in 0..10 {
-        power *= square;
+        power = power * square;
     }
     let sine_rest = power / FACTORIAL_21;
     let cosine_rest = sine_rest * r.abs() / TWENTY_TWO;

@@ -1,10 +1,10 @@
 //! Proves that two triangles share a point at an instant.
 
 use super::enclosure::{Matrix, Vector};
+use super::interval::Interval;
 use super::snapshot::Enclosed;
 use super::surface::Triangle;
 use super::track::Track;
-use inari::{Interval, const_interval};
 
 /// Both bodies at an instant, in B's frame.
 pub(super) struct Instant {
@@ -61,12 +61,11 @@ impl Sign {
 }
 
 fn sign(x: Interval) -> Sign {
-    const ZERO: Interval = const_interval!(0.0, 0.0);
-    // An empty interval precedes everything; nothing finite makes one.
-    match x {
-        x if x.is_empty() => Sign::Unknown,
-        x if ZERO.strict_precedes(x) => Sign::Positive,
-        x if x.strict_precedes(ZERO) => Sign::Negative,
-        _ => Sign::Unknown,
+    if x.inf() > 0.0 {
+        Sign::Positive
+    } else if x.sup() < 0.0 {
+        Sign::Negative
+    } else {
+        Sign::Unknown
     }
 }

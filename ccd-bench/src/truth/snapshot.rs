@@ -11,13 +11,13 @@
 //! end. So two sets are apart over the whole span if along one n they are apart at both of its
 //! ends, by more than `slack`. The direction n need not be exact.
 
-use super::enclosure::{Matrix, Vector, exact};
+use super::enclosure::{Matrix, Vector};
+use super::interval::{Interval, exact};
 use super::rounding::{ROUNDED, ROUNDED_UP, UNIT_ROUNDOFF, larger};
 use super::surface::{Node, Triangle};
 use super::track::Track;
 use ccd_core::glam::{DMat3, DVec3};
 use ccd_core::order::greater;
-use inari::Interval;
 
 /// A span of time.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,6 +1,7 @@
 mod distances;
 mod enclosures;
 mod exact;
+mod intervals;
 mod sampled;
 mod tables;
 

@@ -1,6 +1,7 @@
 //! The position of a moving body at an instant, to within intervals.
 
-use super::enclosure::{Matrix, Vector, exact};
+use super::enclosure::{Matrix, Vector};
+use super::interval::exact;
 use super::rounding::{ROUNDED, ROUNDED_UP, larger};
 use super::surface::Surface;
 use ccd_core::Motion;

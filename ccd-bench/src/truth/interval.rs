@@ -1,0 +1,294 @@
+//! Intervals of real numbers: each operation returns one that holds all results for numbers of its
+//! operands.
+//!
+//! Floats are computed to nearest, then moved outward if they are not exact. A result rounded to
+//! nearest has the exact one strictly between its two neighbours, or equals it: between f64::MAX and
+//! infinity if it overflows, around 0 and within the least float if it underflows. So the neighbours
+//! are bounds. The sign of what was rounded off, where it is certain, tells which of them is needed.
+//! None of this needs a rounding mode, a fused operation or any other feature of a processor beyond
+//! floats of IEEE 754.
+//!
+//! Everything doubtful becomes the whole line, which proves nothing: bounds that are not numbers,
+//! 0 times infinity, division by what may be 0, an operation that is left without operands.
+
+use super::rounding::larger;
+use ccd_core::order::{greater, lesser};
+use std::ops::{Add, Div, Mul, Neg, RangeInclusive, Sub};
+
+/// All real numbers between two bounds, which belong to it unless they are infinite.
+///
+/// The bounds are in order, neither is NaN, and a real number is between them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Interval {
+    inf: f64,
+    sup: f64,
+}
+
+/// Returns the real number of a float; the whole line if it is not finite.
+pub(super) const fn exact(x: f64) -> Interval {
+    Interval::new(x, x)
+}
+
+impl Interval {
+    /// All real numbers.
+    pub(super) const ENTIRE: Interval = Interval {
+        inf: f64::NEG_INFINITY,
+        sup: f64::INFINITY,
+    };
+    /// π/2, which is 6.1e-17 above the float that is nearest to it.
+    pub(super) const FRAC_PI_2: Interval = Interval {
+        inf: std::f64::consts::FRAC_PI_2,
+        sup: std::f64::consts::FRAC_PI_2.next_up(),
+    };
+
+    /// Returns the numbers from `inf` to `sup`; all numbers if there are none.
+    pub(super) const fn new(inf: f64, sup: f64) -> Self {
+        // False for NaN.
+        if inf <= sup && inf < f64::INFINITY && sup > f64::NEG_INFINITY {
+            Interval { inf, sup }
+        } else {
+            Interval::ENTIRE
+        }
+    }
+
+    /// Returns the lower bound, −∞ if there is none.
+    pub(super) fn inf(self) -> f64 {
+        self.inf
+    }
+
+    /// Returns the upper bound, ∞ if there is none.
+    pub(super) fn sup(self) -> f64 {
+        self.sup
+    }
+
+    /// Returns a float near the middle; 0 if a bound is infinite.
+    pub(super) fn mid(self) -> f64 {
+        let mid = self.inf.midpoint(self.sup);
+        if mid.is_finite() { mid } else { 0.0 }
+    }
+
+    /// Returns an upper bound of the distance of the numbers from `mid`, whatever `mid` rounds to.
+    pub(super) fn rad(self) -> f64 {
+        let mid = self.mid();
+        let ([_, below], [_, above]) = (sum(mid, -self.inf), sum(self.sup, -mid));
+        larger(below, above)
+    }
+
+    /// Returns the least upper bound of the absolute values.
+    pub(super) fn mag(self) -> f64 {
+        greater(self.inf.abs(), self.sup.abs())
+    }
+
+    /// Returns the absolute values. Nothing is rounded.
+    pub(super) fn abs(self) -> Self {
+        // At most one of the two is positive: the bound nearer to 0, if 0 is beyond it.
+        let least = greater(greater(self.inf, -self.sup), 0.0);
+        Interval::new(least, self.mag())
+    }
+
+    /// Returns the squares. They grow with the absolute value, and none is negative, not even where
+    /// the lower bound of a product is.
+    pub(super) fn sqr(self) -> Self {
+        let Interval { inf, sup } = self.abs();
+        let ([least, _], [_, most]) = (product(inf, inf), product(sup, sup));
+        Interval::new(greater(least, 0.0), most)
+    }
+
+    /// Returns the square roots of the numbers that have one; all numbers if none has. Roots grow
+    /// with their operand.
+    pub(super) fn sqrt(self) -> Self {
+        let ([least, _], [_, most]) = (root(greater(self.inf, 0.0)), root(self.sup));
+        // `most` is NaN if all numbers are negative.
+        Interval::new(least, most)
+    }
+
+    /// Returns the numbers of both; all numbers if there are none, since both should hold the number
+    /// that is sought. Nothing is rounded.
+    pub(super) fn intersection(self, other: Self) -> Self {
+        Interval::new(greater(self.inf, other.inf), lesser(self.sup, other.sup))
+    }
+
+    /// Multiplies by numbers that are not negative. The least product is of the lower bound: with the
+    /// least factor, or with the greatest if that bound is negative. The greatest product likewise.
+    fn times(self, factor: Self) -> Self {
+        let least = if self.inf >= 0.0 {
+            factor.inf
+        } else {
+            factor.sup
+        };
+        let most = if self.sup >= 0.0 {
+            factor.sup
+        } else {
+            factor.inf
+        };
+        let ([inf, _], [_, sup]) = (product(self.inf, least), product(self.sup, most));
+        Interval::new(inf, sup)
+    }
+
+    /// Divides by positive numbers, which is to multiply by their inverses: the greatest divisor takes
+    /// the place of the least factor.
+    fn over(self, divisor: Self) -> Self {
+        let least = if self.inf >= 0.0 {
+            divisor.sup
+        } else {
+            divisor.inf
+        };
+        let most = if self.sup >= 0.0 {
+            divisor.inf
+        } else {
+            divisor.sup
+        };
+        let ([inf, _], [_, sup]) = (quotient(self.inf, least), quotient(self.sup, most));
+        Interval::new(inf, sup)
+    }
+}
+
+impl Neg for Interval {
+    type Output = Interval;
+
+    /// Nothing is rounded.
+    fn neg(self) -> Interval {
+        Interval::new(-self.sup, -self.inf)
+    }
+}
+
+impl Add for Interval {
+    type Output = Interval;
+
+    /// A sum grows with both operands.
+    fn add(self, other: Interval) -> Interval {
+        let ([inf, _], [_, sup]) = (sum(self.inf, other.inf), sum(self.sup, other.sup));
+        Interval::new(inf, sup)
+    }
+}
+
+impl Sub for Interval {
+    type Output = Interval;
+
+    /// A difference grows with its first operand and falls with its second.
+    fn sub(self, other: Interval) -> Interval {
+        self + -other
+    }
+}
+
+impl Mul for Interval {
+    type Output = Interval;
+
+    /// A product is linear in each operand, so it is least and greatest at bounds: at two of them,
+    /// unless both operands have numbers on both sides of 0.
+    fn mul(self, other: Interval) -> Interval {
+        if other.inf >= 0.0 {
+            return self.times(other);
+        }
+        if other.sup <= 0.0 {
+            return -self.times(-other);
+        }
+        if self.inf >= 0.0 {
+            return other.times(self);
+        }
+        if self.sup <= 0.0 {
+            return -other.times(-self);
+        }
+        let ([x, _], [_, y]) = (product(self.inf, other.sup), product(self.inf, other.inf));
+        let ([u, _], [_, v]) = (product(self.sup, other.inf), product(self.sup, other.sup));
+        Interval::new(-larger(-x, -u), larger(y, v))
+    }
+}
+
+impl Div for Interval {
+    type Output = Interval;
+
+    /// A quotient is monotone in each operand while the divisor keeps its sign.
+    fn div(self, other: Interval) -> Interval {
+        if other.inf > 0.0 {
+            self.over(other)
+        } else if other.sup < 0.0 {
+            -self.over(-other)
+        } else {
+            Interval::ENTIRE
+        }
+    }
+}
+
+/// Returns bounds of an exact result: the rounded one, moved to the side that `rest` is on, which has
+/// the sign of the exact result less the rounded one. Moved to both sides if `rest` is NaN.
+fn outward(rounded: f64, rest: f64) -> [f64; 2] {
+    [
+        if rest >= 0.0 {
+            rounded
+        } else {
+            rounded.next_down()
+        },
+        if rest <= 0.0 {
+            rounded
+        } else {
+            rounded.next_up()
+        },
+    ]
+}
+
+/// Encloses a sum.
+///
+/// Knuth's error of a sum (TwoSum) is exact unless something overflows, and then it is not finite.
+/// Small sums are exact.
+fn sum(x: f64, y: f64) -> [f64; 2] {
+    let sum = x + y;
+    let back = sum - x;
+    let rest = (x - (sum - back)) + (y - back);
+    outward(sum, if rest.is_finite() { rest } else { f64::NAN })
+}
+
+/// Encloses a product; NaN for 0 times infinity.
+fn product(x: f64, y: f64) -> [f64; 2] {
+    let product = x * y;
+    if x == 0.0 || y == 0.0 {
+        return [product; 2];
+    }
+    outward(product, -remainder(product, x, y))
+}
+
+/// Encloses a quotient by a number that is not 0. A number over infinity stands for quotients that
+/// come near 0.
+fn quotient(x: f64, y: f64) -> [f64; 2] {
+    let quotient = x / y;
+    if x == 0.0 {
+        return [quotient; 2];
+    }
+    outward(quotient, remainder(x, quotient, y) * y.signum())
+}
+
+/// Encloses a square root, which `f64::sqrt` rounds to nearest; NaN for negative numbers.
+fn root(x: f64) -> [f64; 2] {
+    let root = x.sqrt();
+    if x == 0.0 {
+        return [root; 2];
+    }
+    outward(root, remainder(x, root, root))
+}
+
+/// Returns w − xy with the right sign, for a w within a factor of 2 of xy; NaN if the sign might be
+/// wrong.
+///
+/// Dekker's product is exact: xy is the rounded product and an error, without a fused operation. The
+/// halves have 26 bits, so their products are exact. w less the rounded product is exact by Sterbenz.
+fn remainder(w: f64, x: f64, y: f64) -> f64 {
+    if !(UNSCALED.contains(&x.abs()) && UNSCALED.contains(&y.abs())) {
+        return f64::NAN;
+    }
+    let ([x_high, x_low], [y_high, y_low]) = (halves(x), halves(y));
+    let product = x * y;
+    let error = ((x_high * y_high - product) + x_high * y_low + x_low * y_high) + x_low * y_low;
+    (w - product) - error
+}
+
+/// Factors for which no part of Dekker's product overflows or underflows: the lowest bit of the
+/// least product is at 1e-280 2⁻¹⁰⁴, above the least float.
+const UNSCALED: RangeInclusive<f64> = 1e-140..=1e140;
+
+/// Splits a float into two of at most 26 bits each, as Veltkamp does.
+fn halves(x: f64) -> [f64; 2] {
+    const SPLITTER: f64 = 134_217_729.0; // 2²⁷ + 1
+    let scaled = SPLITTER * x;
+    let high = scaled - (scaled - x);
+    [high, x - high]
+}

@@ -1,0 +1,266 @@
+//! Compares interval operations with exact fractions.
+
+use super::super::interval::{Interval, exact};
+use dashu_ratio::Relaxed;
+use rand::{Rng, RngExt, SeedableRng};
+use rand_pcg::Pcg64;
+
+/// Pairs of operands for each operation.
+const PAIRS: u32 = 20_000;
+
+/// The ends of the floats, of their normal ones, of those whose squares are finite and normal.
+const EXTREMES: [f64; 12] = [
+    0.0,
+    5e-324,
+    1e-323,
+    2.225_073_858_507_201e-308,
+    f64::MIN_POSITIVE,
+    1.49e-154,
+    1.0,
+    1.0 + f64::EPSILON,
+    3.0,
+    1.34e154,
+    f64::MAX / 2.0,
+    f64::MAX,
+];
+
+fn random_float(rng: &mut impl Rng) -> f64 {
+    let size = match rng.random_range(0..5) {
+        0 => EXTREMES[rng.random_range(0..EXTREMES.len())],
+        1 => f64::from(rng.random_range(0_u32..9)),
+        2 => rng.random_range(0.5..2.0),
+        // Denormal ones, and any.
+        3 => f64::from_bits(rng.random_range(0..1_u64 << 53)),
+        _ => f64::from_bits(rng.random_range(0..f64::INFINITY.to_bits())),
+    };
+    if rng.random() { size } else { -size }
+}
+
+/// Returns one number, two neighbours, or a wide interval.
+fn random_interval(rng: &mut impl Rng) -> Interval {
+    let x = random_float(rng);
+    let y = match rng.random_range(0..3) {
+        0 => x,
+        1 if x < f64::MAX => x.next_up(),
+        _ => random_float(rng),
+    };
+    if x <= y {
+        Interval::new(x, y)
+    } else {
+        Interval::new(y, x)
+    }
+}
+
+fn fraction(x: f64) -> Relaxed {
+    Relaxed::try_from(x).expect("a finite number")
+}
+
+/// The numbers that an operand is tried at: its bounds, and others between them.
+fn numbers(x: Interval) -> [Relaxed; 3] {
+    [x.inf(), x.mid(), x.sup()].map(fraction)
+}
+
+fn is_below(x: f64, exact: &Relaxed) -> bool {
+    x == f64::NEG_INFINITY || x < f64::INFINITY && fraction(x) < *exact
+}
+
+fn is_above(x: f64, exact: &Relaxed) -> bool {
+    is_below(-x, &-exact)
+}
+
+fn holds(found: Interval, exact: &Relaxed) -> bool {
+    !is_above(found.inf(), exact) && !is_below(found.sup(), exact)
+}
+
+/// Asserts that an interval holds the exact results and ends at most two floats outside of them.
+fn assert_tight(found: Interval, results: &[Relaxed], context: &str) {
+    for exact in results {
+        assert!(
+            holds(found, exact),
+            "{context}: {found:?} is without {exact}"
+        );
+    }
+    let [inf, sup] = [
+        found.inf().next_up().next_up(),
+        found.sup().next_down().next_down(),
+    ];
+    assert!(
+        results.iter().any(|exact| is_above(inf, exact))
+            && results.iter().any(|exact| is_below(sup, exact)),
+        "{context}: {found:?} is wide"
+    );
+}
+
+fn each_with_each(
+    x: Interval,
+    y: Interval,
+    law: impl Fn(&Relaxed, &Relaxed) -> Relaxed,
+) -> Vec<Relaxed> {
+    let pairs = |a: &Relaxed| numbers(y).map(|b| law(a, &b));
+    numbers(x).iter().flat_map(pairs).collect()
+}
+
+#[test]
+fn sums_products_and_quotients_hold_the_exact_ones_tightly() {
+    let mut rng = Pcg64::seed_from_u64(11);
+    let mut quotients = 0;
+    for _ in 0..PAIRS {
+        let [x, y] = [(); 2].map(|()| random_interval(&mut rng));
+        let named = |operation: &str| format!("{x:?} {operation} {y:?}");
+        assert_tight(x + y, &each_with_each(x, y, |a, b| a + b), &named("+"));
+        assert_tight(x - y, &each_with_each(x, y, |a, b| a - b), &named("-"));
+        assert_tight(x * y, &each_with_each(x, y, |a, b| a * b), &named("*"));
+        if holds(y, &Relaxed::ZERO) {
+            assert_eq!(x / y, Interval::ENTIRE);
+        } else {
+            quotients += 1;
+            assert_tight(x / y, &each_with_each(x, y, |a, b| a / b), &named("/"));
+        }
+    }
+    assert!(quotients > PAIRS / 3, "{quotients}");
+}
+
+#[test]
+fn squares_and_roots_hold_the_exact_ones_tightly_and_are_not_negative() {
+    let mut rng = Pcg64::seed_from_u64(12);
+    let mut roots = 0;
+    for _ in 0..PAIRS {
+        let x = random_interval(&mut rng);
+        let straddles = holds(x, &Relaxed::ZERO);
+        let mut squares = numbers(x).map(|a| &a * &a).to_vec();
+        let mut sizes = [x.inf(), x.sup()].map(f64::abs).to_vec();
+        if straddles {
+            squares.push(Relaxed::ZERO);
+            sizes.push(0.0);
+        }
+        assert_tight(x.sqr(), &squares, &format!("the square of {x:?}"));
+        assert!(x.sqr().inf() >= 0.0);
+        sizes.sort_by(f64::total_cmp);
+        let (least, most) = (sizes[0], sizes[sizes.len() - 1]);
+        assert_eq!(x.abs(), Interval::new(least, most));
+        assert_eq!(x.mag(), most);
+        if x.sup() < 0.0 {
+            assert_eq!(x.sqrt(), Interval::ENTIRE);
+            continue;
+        }
+        roots += 1;
+        // A root lies between two numbers as its square does between theirs.
+        let [inf, sup] = [x.sqrt().inf(), x.sqrt().sup()];
+        let [low, high] = [if straddles { 0.0 } else { x.inf() }, x.sup()].map(fraction);
+        let square = |root: f64| fraction(root) * fraction(root);
+        assert!(
+            inf >= 0.0 && square(inf) <= low && high <= square(sup),
+            "{x:?}"
+        );
+        assert!(low < square(inf.next_up().next_up()), "{x:?}");
+        assert!(
+            sup == 0.0 || square(sup.next_down().next_down()) < high,
+            "{x:?}"
+        );
+    }
+    assert!(roots > PAIRS / 3, "{roots}");
+}
+
+#[test]
+fn middles_and_radii_reach_both_bounds() {
+    let mut rng = Pcg64::seed_from_u64(13);
+    for _ in 0..PAIRS {
+        let x = random_interval(&mut rng);
+        let (mid, rad) = (x.mid(), x.rad());
+        assert!(x.inf() <= mid && mid <= x.sup(), "{x:?}");
+        let reached = [
+            fraction(mid) - fraction(x.inf()),
+            fraction(x.sup()) - fraction(mid),
+        ];
+        assert!(
+            reached.iter().all(|reach| !is_below(rad, reach)),
+            "{x:?} {rad}"
+        );
+        assert!(
+            reached.iter().any(|reach| is_below(rad.next_down(), reach)) || rad == 0.0,
+            "{x:?} {rad}"
+        );
+    }
+    for x in [Interval::ENTIRE, Interval::new(1.0, f64::INFINITY)] {
+        assert_eq!([x.mid(), x.rad()], [0.0, f64::INFINITY]);
+    }
+}
+
+#[test]
+fn results_that_are_floats_stay_exact_where_nothing_is_multiplied() {
+    let x = Interval::new(-3.0, 5.0);
+    assert_eq!(x + exact(0.25), Interval::new(-2.75, 5.25));
+    assert_eq!(x - exact(5.0), Interval::new(-8.0, 0.0));
+    assert_eq!(-x, Interval::new(-5.0, 3.0));
+    assert_eq!(x * exact(0.0), exact(0.0));
+    assert_eq!(exact(0.0) / exact(7.0), exact(0.0));
+    assert_eq!([exact(0.0).sqr(), exact(0.0).sqrt()], [exact(0.0); 2]);
+    assert_eq!(
+        x.intersection(Interval::new(-9.0, 2.0)),
+        Interval::new(-3.0, 2.0)
+    );
+    // 1/3 is not a float: both are neighbours of it.
+    let third = exact(1.0) / exact(3.0);
+    assert!(third.inf() < third.sup() && third.rad() < 1e-16);
+}
+
+#[test]
+fn half_of_pi_is_between_its_bounds() {
+    // 37 decimals; the next ones are 98.
+    let digits = Relaxed::from(15_707_963_267_948_966_192_313_216_916_397_514_420_u128);
+    let half_pi = digits / Relaxed::from(10_u128.pow(37));
+    assert_tight(Interval::FRAC_PI_2, &[half_pi], "π/2");
+}
+
+#[test]
+fn what_is_doubtful_is_the_whole_line() {
+    let infinity = f64::INFINITY;
+    for x in [f64::NAN, infinity, -infinity] {
+        assert_eq!(exact(x), Interval::ENTIRE);
+    }
+    for (inf, sup) in [(2.0, 1.0), (f64::NAN, 1.0), (0.0, f64::NAN)] {
+        assert_eq!(Interval::new(inf, sup), Interval::ENTIRE);
+    }
+    let half_line = Interval::new(1.0, infinity);
+    let doubtful = [
+        exact(0.0) * half_line,
+        exact(0.0) * Interval::ENTIRE,
+        half_line / exact(0.0),
+        exact(1.0) / exact(0.0),
+        exact(1.0) / exact(-0.0),
+        exact(1.0) / Interval::new(0.0, 1.0),
+        exact(-1.0).sqrt(),
+        exact(1.0).intersection(exact(2.0)),
+        Interval::ENTIRE + exact(1.0),
+        Interval::ENTIRE - Interval::ENTIRE,
+        half_line - half_line,
+    ];
+    assert_eq!(doubtful, [Interval::ENTIRE; 11]);
+}
+
+#[test]
+fn half_lines_hold_what_is_beyond_every_float() {
+    let half_line = Interval::new(1.0, f64::INFINITY);
+    let overflow = exact(f64::MAX) + exact(f64::MAX);
+    assert_eq!(overflow, Interval::new(f64::MAX, f64::INFINITY));
+    assert_eq!(exact(f64::MAX) * exact(-2.0), -overflow);
+    assert_eq!((half_line + half_line).sup(), f64::INFINITY);
+    assert_eq!((half_line * exact(-2.0)).inf(), f64::NEG_INFINITY);
+    assert!((half_line * exact(-2.0)).sup() >= -2.0);
+    assert_eq!(half_line.sqr().sup(), f64::INFINITY);
+    assert_eq!(half_line.sqrt().sup(), f64::INFINITY);
+    assert_eq!(Interval::ENTIRE.sqr(), Interval::new(0.0, f64::INFINITY));
+    assert_eq!(Interval::ENTIRE.sqrt(), Interval::new(0.0, f64::INFINITY));
+    assert_eq!(Interval::ENTIRE.abs(), Interval::new(0.0, f64::INFINITY));
+    // The quotients by ever larger numbers come near 0.
+    let small = exact(1.0) / half_line;
+    assert!(small.inf() <= 0.0 && 1.0 <= small.sup() && small.sup() < 1.1);
+    for quotient in [half_line / half_line, -half_line / -half_line] {
+        assert!(quotient.inf() <= 0.0 && quotient.sup() == f64::INFINITY);
+    }
+    let straddling = Interval::new(-1.0, 2.0);
+    assert_eq!(straddling * half_line, Interval::ENTIRE);
+    assert_eq!(straddling * Interval::ENTIRE, Interval::ENTIRE);
+    assert_eq!(Interval::ENTIRE / half_line, Interval::ENTIRE);
+    assert!((Interval::new(0.0, 1.0) * half_line).inf() >= 0.0);
+}
