@@ -15,6 +15,7 @@ mod primitive;
 pub(crate) mod shell;
 mod side_table;
 pub(crate) mod support;
+mod threads;
 pub(crate) mod tree;
 
 use crate::error::InputError;
@@ -33,8 +34,9 @@ use pieces::Pieces;
 use shell::{Shell, shells};
 #[cfg(not(feature = "hull-tree"))]
 use support::Support;
-use tree::Tree;
+use threads::join;
 use tree::point_query::pieces_at;
+use tree::{Layout, Tree};
 
 /// A moving thing: convex pieces in the body's own frame, ready for queries; immutable, shareable.
 ///
@@ -99,14 +101,17 @@ impl Body {
         hierarchy: &Hierarchy,
         volume: Volume,
     ) -> Result<Self, InputError> {
-        let (tree, pieces) = Tree::build(pieces, hierarchy)?;
-        // Made now, so that no query waits for it.
-        for piece in pieces.iter() {
-            piece.supported(support_of);
-            prepare(&piece);
+        let (layout, pieces) = Layout::of(pieces, hierarchy)?;
+        let (shells, tree) = join(pieces.len(), || shells(&pieces), || layout.fitted(&pieces));
+        if !pieces.all_triangles() {
+            // Made now, so that no query waits for it.
+            for piece in pieces.iter() {
+                piece.supported(support_of);
+                prepare(&piece);
+            }
         }
         Ok(Body {
-            shells: shells(&pieces),
+            shells,
             pieces,
             tree,
             volume,

@@ -329,3 +329,14 @@ pub fn height_rounding(sides: [DVec3; 2], reach: f64) -> f64 {
 
 #[cfg(test)]
 mod tests;
+
+/// The angle below which a rotation towards principal axes is left out.
+///
+/// Unit: one, radians. Axes are rounded to f32, which turns them by up to 6e-8.
+pub const LEAST_TURN: f64 = 1e-10;
+
+/// The most triangles of a node that choose the frame of its box; it then holds all of them.
+///
+/// Unit: triangles. Smaller: boxes grow; at 16 queries visit a percent more nodes. Larger: longer
+/// to build, boxes hardly shrink.
+pub const SAMPLED_TRIANGLES: usize = 64;

@@ -7,34 +7,33 @@ use glam::DVec3;
 pub(crate) type Shell = [DVec3; 6];
 
 /// Returns the extreme points of every connected part; pieces that share a point are connected.
+///
+/// # Complexity
+/// Linear in the number of points, about.
 pub(crate) fn shells(pieces: &Pieces) -> Vec<Shell> {
     let points = pieces.points();
-    let mut parts = Parts((0..points.len() as u32).collect());
+    let (mut parts, distinct) = by_number(pieces);
+    let mut count = distinct.len();
     for piece in 0..pieces.len() {
         let range = pieces.point_range(piece);
         for k in range.start + 1..range.end {
-            parts.join(k - 1, k);
+            count -= usize::from(parts.join(k - 1, k));
         }
     }
-    // Equal points are adjacent after sorting by a hash of their coordinates.
-    let place = |k: u32| points[k as usize].to_array().map(|x| (x + 0.0).to_bits());
-    let mut by_place: Vec<(u64, u32)> = (0..points.len() as u32)
-        .map(|k| (scatter(place(k)), k))
-        .collect();
-    by_place.sort_unstable();
-    for pair in by_place.windows(2) {
-        if place(pair[0].1) == place(pair[1].1) {
-            parts.join(pair[0].1 as usize, pair[1].1 as usize);
-        }
+    // A single part needs no more joining.
+    if count > 1 {
+        join_equal(points, &distinct, &mut parts);
     }
-    let mut shell_of = vec![None; points.len()];
+    let mut shell_of = vec![u32::MAX; points.len()];
     let mut shells: Vec<Shell> = Vec::new();
-    for (k, &point) in points.iter().enumerate() {
-        let shell = *shell_of[parts.root(k)].get_or_insert_with(|| {
+    for k in distinct {
+        let point = points[k as usize];
+        let shell = &mut shell_of[parts.root(k as usize)];
+        if *shell == u32::MAX {
+            *shell = shells.len() as u32;
             shells.push([point; 6]);
-            shells.len() - 1
-        });
-        for (side, extreme) in shells[shell].iter_mut().enumerate() {
+        }
+        for (side, extreme) in shells[*shell as usize].iter_mut().enumerate() {
             let sign = if side < 3 { 1.0 } else { -1.0 };
             if sign * (point[side % 3] - extreme[side % 3]) > 0.0 {
                 *extreme = point;
@@ -44,11 +43,69 @@ pub(crate) fn shells(pieces: &Pieces) -> Vec<Shell> {
     shells
 }
 
-/// Returns a hash of coordinates.
-fn scatter(place: [u64; 3]) -> u64 {
-    place.into_iter().fold(0, |mixed: u64, bits| {
-        (mixed.rotate_left(23) ^ bits).wrapping_mul(0x9e37_79b9_7f4a_7c15)
-    })
+/// Joins points with one number at one place. Returns the sets, and the first point of each.
+///
+/// The points of a mesh's vertex have its number, so that hardly any equal points remain. Numbers
+/// are not relied on: points count as equal by their coordinates.
+fn by_number(pieces: &Pieces) -> (Parts, Vec<u32>) {
+    const NONE: u32 = u32::MAX;
+    let (points, numbers) = (pieces.points(), pieces.all_vertex_ids());
+    let range = numbers.iter().max().map_or(0, |&last| last as usize + 1);
+    // Numbers may be anything: a table of them must not be larger than the points.
+    let range = if range <= 2 * points.len() { range } else { 0 };
+    let mut first = vec![NONE; range];
+    let (mut parts, mut distinct) = (Vec::with_capacity(points.len()), Vec::new());
+    for ((k, point), &number) in (0u32..).zip(points).zip(numbers) {
+        let known = match first.get_mut(number as usize) {
+            Some(known) if *known == NONE => {
+                *known = k;
+                NONE
+            }
+            Some(&mut known) => known,
+            None => NONE,
+        };
+        if known != NONE && points[known as usize] == *point {
+            parts.push(known);
+        } else {
+            parts.push(k);
+            distinct.push(k);
+        }
+    }
+    (Parts(parts), distinct)
+}
+
+/// Joins equal points, which a table finds by a hash of their coordinates.
+fn join_equal(points: &[DVec3], distinct: &[u32], parts: &mut Parts) {
+    const FREE: u32 = u32::MAX;
+    let size = (2 * distinct.len()).next_power_of_two();
+    let mut table = vec![FREE; size];
+    for &k in distinct {
+        let point = points[k as usize];
+        let mut slot = scatter(point) as usize & (size - 1);
+        // Half of the slots stay free.
+        loop {
+            match table[slot] {
+                FREE => {
+                    table[slot] = k;
+                    break;
+                }
+                other if points[other as usize] == point => {
+                    parts.join(other as usize, k as usize);
+                    break;
+                }
+                _ => slot = (slot + 1) & (size - 1),
+            }
+        }
+    }
+}
+
+/// Returns a hash of coordinates; 0 and −0 are the same.
+fn scatter(point: DVec3) -> u64 {
+    let mixed = point.to_array().into_iter().fold(0, |mixed: u64, x| {
+        (mixed.rotate_left(23) ^ (x + 0.0).to_bits()).wrapping_mul(0x9e37_79b9_7f4a_7c15)
+    });
+    // The upper bits of a product are the well mixed ones.
+    mixed ^ mixed >> 32
 }
 
 /// Disjoint sets: every element names another one of its set, a root itself.
@@ -64,9 +121,11 @@ impl Parts {
         k
     }
 
-    fn join(&mut self, a: usize, b: usize) {
+    /// Makes one set of two. Returns whether they were two.
+    fn join(&mut self, a: usize, b: usize) -> bool {
         let (a, b) = (self.root(a), self.root(b));
         self.0[a.max(b)] = a.min(b) as u32;
+        a != b
     }
 }
 

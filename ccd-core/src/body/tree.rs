@@ -8,6 +8,7 @@ mod node;
 pub(crate) mod point_query;
 pub(crate) mod ray;
 
+pub(crate) use build::Layout;
 pub(crate) use group::{BoxGroup, LANES, Members, TriangleGroup, unit_normal, up};
 pub(crate) use node::{Below, Node};
 

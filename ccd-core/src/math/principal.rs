@@ -1,5 +1,6 @@
 //! The directions of the largest and smallest spread of points.
 
+use crate::tolerance::{LEAST_TURN, SQUARES};
 use glam::{DMat3, DVec3};
 
 /// Returns the eigenvectors of the weighted points' covariance, by Jacobi rotations.
@@ -10,27 +11,48 @@ pub(crate) fn principal_axes<I: Iterator<Item = (DVec3, f64)>>(points: impl Fn()
     let mean = sum / total;
     let mut m = [[0.0f64; 3]; 3];
     for (p, weight) in points() {
-        let d = (p - mean).to_array();
-        for i in 0..3 {
-            for j in 0..3 {
-                m[i][j] += weight * d[i] * d[j];
-            }
-        }
+        let d = p - mean;
+        let of = d * weight;
+        m[0][0] += of.x * d.x;
+        m[0][1] += of.x * d.y;
+        m[0][2] += of.x * d.z;
+        m[1][1] += of.y * d.y;
+        m[1][2] += of.y * d.z;
+        m[2][2] += of.z * d.z;
     }
+    (m[1][0], m[2][0], m[2][1]) = (m[0][1], m[0][2], m[1][2]);
     let mut axes = DMat3::IDENTITY;
     for sweep in 0..12 {
         let (i, j) = [(0, 1), (0, 2), (1, 2)][sweep % 3];
-        if !(m[i][j].abs() > 0.0) {
+        // A smaller angle than this turns no box visibly.
+        if !(m[i][j].abs() > LEAST_TURN * (m[j][j] - m[i][i]).abs()) {
             continue;
         }
-        let theta = 0.5 * (2.0 * m[i][j]).atan2(m[j][j] - m[i][i]);
-        let (s, c) = theta.sin_cos();
+        let (s, c) = half_angle(2.0 * m[i][j], m[j][j] - m[i][i]);
         rotate(&mut m, i, j, s, c);
         let (x, y) = (axes.col(i), axes.col(j));
         *axes.col_mut(i) = x * c - y * s;
         *axes.col_mut(j) = x * s + y * c;
     }
     axes
+}
+
+/// Returns the sine and the cosine of half the angle of a vector (x, y), from −π/2 to π/2.
+fn half_angle(y: f64, x: f64) -> (f64, f64) {
+    let square = x * x + y * y;
+    // Squares of small numbers have lost their digits.
+    if !SQUARES.contains(&square) {
+        return (0.5 * y.atan2(x)).sin_cos();
+    }
+    let length = square.sqrt();
+    // The larger of the two is a root of a sum, in which nothing cancels.
+    let larger = (0.5 + 0.5 * x.abs() / length).sqrt();
+    let smaller = 0.5 * y.abs() / (length * larger);
+    let (sine, cosine) = match x > 0.0 {
+        true => (smaller, larger),
+        false => (larger, smaller),
+    };
+    (sine.copysign(y), cosine)
 }
 
 /// Computes `m ← Jᵀ m J` for the rotation by (s, c) in the plane of `i` and `j`.
@@ -43,3 +65,6 @@ fn rotate(m: &mut [[f64; 3]; 3], i: usize, j: usize, s: f64, c: f64) {
     m[i] = [0, 1, 2].map(|k| c * row_i[k] - s * row_j[k]);
     m[j] = [0, 1, 2].map(|k| s * row_i[k] + c * row_j[k]);
 }
+
+#[cfg(test)]
+mod tests;

@@ -31,6 +31,11 @@ impl Pieces {
         }
     }
 
+    /// The numbers of all points in the mesh.
+    pub(crate) fn all_vertex_ids(&self) -> &[u32] {
+        &self.vertex_ids
+    }
+
     /// The numbers of a piece's points in the mesh.
     pub(crate) fn vertex_ids(&self, index: usize) -> &[u32] {
         &self.vertex_ids[self.point_range(index)]

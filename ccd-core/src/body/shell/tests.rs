@@ -1,8 +1,9 @@
 //! Parts are connected where they share a point, and only there.
 
-use super::shells;
+use super::{Parts, Shell, shells};
+use crate::body::pieces::Pieces;
 use crate::tests::meshes::{cube, moved};
-use crate::tests::scene::{direction, pieces, rng};
+use crate::tests::scene::{RngExt, direction, pieces, rng};
 use glam::DVec3;
 
 #[test]
@@ -48,4 +49,62 @@ fn a_chain_of_many_is_one_part_in_any_order() {
     assert_eq!(shells(&pieces(&chain)).len(), 1);
     let every_other: Vec<_> = chain.iter().step_by(2).copied().collect();
     assert_eq!(shells(&pieces(&every_other)).len(), 1_000);
+}
+
+/// The same by comparing every point with every other one.
+fn slowly(pieces: &Pieces) -> Vec<Shell> {
+    let points = pieces.points();
+    let mut parts = Parts((0..points.len() as u32).collect());
+    for piece in 0..pieces.len() {
+        let range = pieces.point_range(piece);
+        (range.start..range.end).for_each(|k| _ = parts.join(range.start, k));
+    }
+    for (k, point) in points.iter().enumerate() {
+        (0..k)
+            .filter(|&j| points[j] == *point)
+            .for_each(|j| _ = parts.join(j, k));
+    }
+    let mut found: Vec<(usize, Shell)> = Vec::new();
+    for (k, &point) in points.iter().enumerate() {
+        let root = parts.root(k);
+        let known = found.iter().position(|shell| shell.0 == root);
+        let at = known.unwrap_or_else(|| {
+            found.push((root, [point; 6]));
+            found.len() - 1
+        });
+        for (side, extreme) in found[at].1.iter_mut().enumerate() {
+            let sign = if side < 3 { 1.0 } else { -1.0 };
+            if sign * point[side % 3] > sign * extreme[side % 3] {
+                *extreme = point;
+            }
+        }
+    }
+    found.into_iter().map(|shell| shell.1).collect()
+}
+
+#[test]
+fn numbers_of_any_kind_give_the_same_parts() {
+    let mut rng = rng(2);
+    for count in [1, 2, 5, 40, 120] {
+        let mut at = || f64::from(rng.random_range(-3i32..3)) * 0.5;
+        let vertices: Vec<DVec3> = (0..count).map(|_| DVec3::new(at(), at(), at())).collect();
+        let faces: Vec<[u32; 3]> = (0..count)
+            .map(|_| [(); 3].map(|()| rng.random_range(0..count)))
+            .collect();
+        let ids: Vec<u32> = (0..count).collect();
+        let pieces = Pieces::triangles(&vertices, &faces, &ids).unwrap();
+        assert_eq!(shells(&pieces), slowly(&pieces));
+        // One number for several places, and numbers far beyond the points.
+        for number in [&|k: u32| k % 2, &|k: u32| u32::MAX - k] as [&dyn Fn(u32) -> u32; 2] {
+            let polytopes: Vec<_> = (0..pieces.len())
+                .map(|k| pieces.polytope(k))
+                .map(|polytope| crate::Polytope {
+                    vertex_ids: (0..3).map(number).collect(),
+                    ..polytope
+                })
+                .collect();
+            let pieces = Pieces::polytopes(&polytopes).unwrap();
+            assert_eq!(shells(&pieces), slowly(&pieces));
+        }
+    }
 }

@@ -1,57 +1,30 @@
 //! Builds the wide tree from a binary hierarchy.
 
-use super::fit::{Cloud, fit};
+use super::fit::{Cloud, Sample, fit};
 use super::{Below, BoxGroup, LANES, Node, Tree, TriangleGroup};
 use crate::body::hierarchy::{Hierarchy, HierarchyNode};
+use crate::body::piece::Piece;
 use crate::body::pieces::Pieces;
+use crate::body::threads::for_each;
 use crate::error::InputError;
 use crate::math::order::greater;
 use crate::math::vector::length;
-use glam::DVec3;
 
-impl Tree {
-    /// Builds the tree, and sorts the pieces into its order.
-    ///
-    /// A binary node opens its largest descendants until there are eight. The smallest clusters
-    /// have up to eight triangles, or one other piece.
-    pub(crate) fn build(
-        pieces: &Pieces,
-        hierarchy: &Hierarchy,
-    ) -> Result<(Tree, Pieces), InputError> {
-        let ranges = Ranges::new(hierarchy, pieces.len())?;
-        let pieces = pieces.reordered(&ranges.order);
-        let mut builder = Builder {
-            nodes: Vec::new(),
-            boxes: Vec::new(),
-            triangles: Vec::new(),
-            hierarchy,
-            ranges: &ranges,
-            pieces: &pieces,
-            whole: if pieces.all_triangles() { LANES } else { 1 },
-        };
-        builder.push_node(0);
-        let mut waiting = vec![(0usize, 0u32)];
-        while let Some((id, at)) = waiting.pop() {
-            builder.fill(id, at, &mut waiting);
-        }
-        // Ids of triangles follow those of the nodes, whose number is known only now.
-        let nodes = builder.nodes.len() as u32;
-        for group in &mut builder.triangles {
-            group.members.first += nodes;
-        }
-        let reach = |k: usize| {
-            let piece = pieces.get(k);
-            let farthest = piece.points.iter().map(|&p| length(p)).fold(0.0, greater);
-            farthest + piece.radius
-        };
-        let tree = Tree {
-            span: (0..pieces.len()).map(reach).fold(0.0, greater),
-            nodes: builder.nodes,
-            boxes: builder.boxes,
-            triangles: builder.triangles,
-        };
-        Ok((tree, pieces))
-    }
+/// All nodes and groups of a tree, before they are fitted to their pieces.
+#[derive(Default)]
+pub(crate) struct Layout {
+    nodes: Vec<Slot>,
+    boxes: Vec<BoxesBelow>,
+    triangles: Vec<TrianglesBelow>,
+}
+
+/// Returns the largest distance of a point from the origin, rounding radii included.
+fn span(pieces: &Pieces) -> f64 {
+    let reach = |piece: Piece<'_>| {
+        let farthest = piece.points.iter().map(|&p| length(p)).fold(0.0, greater);
+        farthest + piece.radius
+    };
+    pieces.iter().map(reach).fold(0.0, greater)
 }
 
 /// The range of each node's pieces in a depth-first list.
@@ -98,67 +71,148 @@ impl Ranges {
     }
 }
 
-struct Builder<'a> {
-    nodes: Vec<Node>,
-    boxes: Vec<BoxGroup>,
-    triangles: Vec<TriangleGroup>,
+/// The place of a node: its pieces, and what is below it.
+struct Slot {
+    start: u32,
+    end: u32,
+    below: Below,
+}
+
+/// A group of nodes, by the number of the first.
+struct BoxesBelow {
+    parent: u32,
+    first: u32,
+    count: u32,
+}
+
+/// A group of triangles, by the number of the first.
+struct TrianglesBelow {
+    parent: u32,
+    start: u32,
+    end: u32,
+}
+
+impl Layout {
+    /// Lays out the tree, and sorts the pieces into its order.
+    ///
+    /// A binary node opens its largest descendants until there are eight. The smallest clusters
+    /// have up to eight triangles, or one other piece.
+    pub(crate) fn of(pieces: &Pieces, hierarchy: &Hierarchy) -> Result<(Self, Pieces), InputError> {
+        let ranges = Ranges::new(hierarchy, pieces.len())?;
+        let layout = Layout::over(hierarchy, &ranges, pieces.all_triangles());
+        Ok((layout, pieces.reordered(&ranges.order)))
+    }
+
+    fn over(hierarchy: &Hierarchy, ranges: &Ranges, triangles: bool) -> Self {
+        let opener = Opener {
+            hierarchy,
+            ranges,
+            whole: if triangles { LANES } else { 1 },
+        };
+        let mut layout = Layout::default();
+        layout.push_node(&opener, 0);
+        let mut waiting = vec![(0u32, 0u32)];
+        while let Some((parent, at)) = waiting.pop() {
+            let (start, end) = ranges.of[at as usize];
+            let below = if triangles && ranges.len(at) <= LANES {
+                layout.triangles.push(TrianglesBelow { parent, start, end });
+                Below::Triangles(layout.triangles.len() as u32 - 1)
+            } else if ranges.len(at) > 1 {
+                let (members, count) = opener.open(at);
+                let first = layout.nodes.len() as u32;
+                for (&member, child) in members[..count].iter().zip(first..) {
+                    layout.push_node(&opener, member);
+                    waiting.push((child, member));
+                }
+                let count = count as u32;
+                layout.boxes.push(BoxesBelow {
+                    parent,
+                    first,
+                    count,
+                });
+                Below::Boxes(layout.boxes.len() as u32 - 1)
+            } else {
+                Below::Piece(start)
+            };
+            layout.nodes[parent as usize].below = below;
+        }
+        layout
+    }
+
+    fn push_node(&mut self, opener: &Opener<'_>, at: u32) {
+        let (start, end) = opener.ranges.of[at as usize];
+        // Its group is made when the node's turn comes.
+        let below = Below::Piece(start);
+        self.nodes.push(Slot { start, end, below });
+    }
+
+    /// Fits the nodes to their pieces, and makes the groups. Each of them depends on its own pieces
+    /// alone, so that all can be made side by side.
+    pub(crate) fn fitted(&self, pieces: &Pieces) -> Tree {
+        let mut nodes = vec![Node::UNFITTED; self.nodes.len()];
+        for_each(&mut nodes, &Sample::EMPTY, |sample, k, node| {
+            *node = self.nodes[k].fitted(pieces, sample);
+        });
+        let mut boxes = vec![BoxGroup::EMPTY; self.boxes.len()];
+        for_each(&mut boxes, &(), |(), k, group| {
+            let BoxesBelow {
+                parent,
+                first,
+                count,
+            } = self.boxes[k];
+            let children = &nodes[first as usize..][..count as usize];
+            *group = BoxGroup::new(children, first, nodes[parent as usize].centre);
+        });
+        // Ids of triangles follow those of the nodes.
+        let after = nodes.len() as u32;
+        let mut triangles = vec![TriangleGroup::EMPTY; self.triangles.len()];
+        for_each(&mut triangles, &(), |(), k, group| {
+            let TrianglesBelow { parent, start, end } = self.triangles[k];
+            let corners = pieces.points_of(start as usize..end as usize).as_chunks().0;
+            *group = TriangleGroup::new(corners, after + start, nodes[parent as usize].centre);
+        });
+        Tree {
+            nodes,
+            boxes,
+            triangles,
+            span: span(pieces),
+        }
+    }
+}
+
+impl Slot {
+    fn fitted(&self, pieces: &Pieces, sample: &mut Sample) -> Node {
+        let range = self.start as usize..self.end as usize;
+        let triangles = pieces.all_triangles();
+        let radii = range.clone().map(|k| pieces.get(k).radius);
+        let cloud = Cloud {
+            points: pieces.points_of(range),
+            radius: if triangles {
+                0.0
+            } else {
+                radii.fold(0.0, greater)
+            },
+            triangles,
+        };
+        fit(&cloud, self.below, sample)
+    }
+}
+
+/// Finds the children of the wide tree's nodes.
+struct Opener<'a> {
     hierarchy: &'a Hierarchy,
     ranges: &'a Ranges,
-    /// The pieces in the order of the ranges.
-    pieces: &'a Pieces,
     /// Nodes of up to this many pieces are not opened.
     whole: usize,
 }
 
-impl Builder<'_> {
-    /// Fits a node of the tree to a node of the hierarchy; its children are filled in later.
-    fn push_node(&mut self, at: u32) {
-        let (start, end) = self.ranges.of[at as usize];
-        let range = start as usize..end as usize;
-        let radii = range.clone().map(|k| self.pieces.get(k).radius);
-        let cloud = Cloud {
-            points: self.pieces.points_of(range),
-            radius: radii.fold(0.0, greater),
-            triangles: self.pieces.all_triangles(),
-        };
-        let single = self.whole == 1 && self.ranges.len(at) == 1;
-        let below = match single {
-            true => Below::Piece(start),
-            false => Below::Boxes(u32::MAX),
-        };
-        self.nodes.push(fit(&cloud, below));
-    }
-
-    /// Makes the group below a node, and lists its nodes that need a group of their own.
-    fn fill(&mut self, id: usize, at: u32, waiting: &mut Vec<(usize, u32)>) {
-        let origin = self.nodes[id].centre;
-        let (start, end) = self.ranges.of[at as usize];
-        if self.pieces.all_triangles() && self.ranges.len(at) <= LANES {
-            let corners: Vec<[DVec3; 3]> = (start..end)
-                .map(|k| self.pieces.triangle(k as usize))
-                .collect();
-            self.nodes[id].below = Below::Triangles(self.triangles.len() as u32);
-            self.triangles
-                .push(TriangleGroup::new(&corners, start, origin));
-        } else if self.ranges.len(at) > 1 {
-            let members = self.open(at);
-            let first = self.nodes.len();
-            for (k, &member) in members.iter().enumerate() {
-                self.push_node(member);
-                waiting.push((first + k, member));
-            }
-            self.nodes[id].below = Below::Boxes(self.boxes.len() as u32);
-            self.boxes
-                .push(BoxGroup::new(&self.nodes[first..], first as u32, origin));
-        }
-    }
-
-    /// Returns the descendants that become a node's children: repeatedly opens the one with the
-    /// most pieces.
-    fn open(&self, at: u32) -> Vec<u32> {
-        let mut members = vec![at];
-        while members.len() < LANES {
-            let largest = (0..members.len()).max_by_key(|&k| self.ranges.len(members[k]));
+impl Opener<'_> {
+    /// Returns the descendants that become a node's children, and their number: repeatedly opens
+    /// the one with the most pieces.
+    fn open(&self, at: u32) -> ([u32; LANES], usize) {
+        let (mut members, mut count) = ([at; LANES], 1);
+        while count < LANES {
+            let largest = (0..count).max_by_key(|&k| self.ranges.len(members[k]));
             let Some(k) = largest.filter(|&k| self.ranges.len(members[k]) > self.whole) else {
                 break;
             };
@@ -166,9 +220,9 @@ impl Builder<'_> {
             else {
                 break;
             };
-            members[k] = left;
-            members.push(right);
+            (members[k], members[count]) = (left, right);
+            count += 1;
         }
-        members
+        (members, count)
     }
 }

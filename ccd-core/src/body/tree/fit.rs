@@ -1,5 +1,7 @@
 //! Fits the box and the ball of a node.
 
+mod sample;
+
 use super::group::up;
 use super::node::{Below, Node};
 use crate::math::order::greater;
@@ -7,6 +9,7 @@ use crate::math::principal::principal_axes;
 use crate::math::vector::{length, unit};
 use crate::tolerance::FRAME_F64;
 use glam::{DMat3, DVec3, Vec3};
+pub(crate) use sample::Sample;
 
 /// The pieces below a node, as input of a fit.
 pub(crate) struct Cloud<'a> {
@@ -17,23 +20,62 @@ pub(crate) struct Cloud<'a> {
     pub(crate) triangles: bool,
 }
 
-/// The number of tried frames about the mean normal, over a right angle in total.
-const TURNS: usize = 6;
+/// The sine and cosine of the turns of the tried frames about the mean normal, which are even steps
+/// over a right angle.
+const TURNS: [(f64, f64); 6] = [
+    (0.0, 1.0),
+    (0.258_819_045_102_520_74, 0.965_925_826_289_068_3),
+    (0.5, 0.866_025_403_784_438_6),
+    (
+        std::f64::consts::FRAC_1_SQRT_2,
+        std::f64::consts::FRAC_1_SQRT_2,
+    ),
+    (0.866_025_403_784_438_6, 0.5),
+    (0.965_925_826_289_068_3, 0.258_819_045_102_520_74),
+];
 
-/// Fits the node to all points: tries several frames, and takes the one whose box has the least
-/// surface.
-pub(crate) fn fit(cloud: &Cloud<'_>, below: Below) -> Node {
-    let mut best = Fitted::along(DMat3::IDENTITY, cloud.points);
-    // A dropped frame only makes the box less tight; a frame that is not orthonormal would make it
-    // too small.
-    for frame in candidates(cloud).into_iter().filter(is_frame) {
-        let fitted = Fitted::along(frame, cloud.points);
-        // Written so that a frame with NaN loses.
-        if fitted.surface() < best.surface() {
-            best = fitted;
+/// Fits the node to all points: tries several frames on a sample of them, and takes the one whose
+/// box has the least surface.
+///
+/// # Guarantee
+/// The box and the ball hold all points: the sample only chooses the frame.
+pub(crate) fn fit(cloud: &Cloud<'_>, below: Below, sample: &mut Sample) -> Node {
+    sample.take(cloud);
+    let frame = best_frame(sample, cloud.triangles);
+    Fitted::along(frame, cloud.points).node(cloud, below)
+}
+
+/// Returns the frame whose box about the sample has the least surface: along the coordinates, along
+/// principal axes of the points, and, for triangles, along principal axes by area or about the mean
+/// normal.
+fn best_frame(sample: &Sample, of_triangles: bool) -> DMat3 {
+    let mut best = DMat3::IDENTITY;
+    let mut least = sample.surface(&best);
+    let mut consider = |frame: DMat3| {
+        let surface = sample.surface(&frame);
+        // A dropped frame only makes the box less tight; a frame that is not orthonormal would make
+        // it too small. Written so that a frame with NaN loses.
+        if surface < least && is_frame(&frame) {
+            (best, least) = (frame, surface);
+        }
+    };
+    consider(principal_axes(|| sample.points().iter().map(|&p| (p, 1.0))));
+    if !of_triangles {
+        return best;
+    }
+    let triangles = || sample.points().as_chunks().0.iter().copied();
+    let across = |[a, b, c]: [DVec3; 3]| (b - a).cross(c - a);
+    consider(principal_axes(|| {
+        triangles().map(|t| ((t[0] + t[1] + t[2]) / 3.0, length(across(t))))
+    }));
+    if let Some(normal) = unit(triangles().map(across).sum()) {
+        let (x, y) = normal.any_orthonormal_pair();
+        for (sin, cos) in TURNS {
+            let turned = [x * cos + y * sin, y * cos - x * sin];
+            consider(DMat3::from_cols(turned[0], turned[1], normal));
         }
     }
-    best.node(cloud, below)
+    best
 }
 
 /// Returns whether the columns are orthonormal up to rounding: otherwise the box may not contain
@@ -59,11 +101,6 @@ impl Fitted {
         Fitted { frame, low, high }
     }
 
-    fn surface(&self) -> f64 {
-        let size = self.high - self.low;
-        size.x * size.y + size.y * size.z + size.z * size.x
-    }
-
     /// Returns the node with the axes rounded to f32, longest first, and the sizes measured along
     /// these.
     fn node(&self, cloud: &Cloud<'_>, below: Below) -> Node {
@@ -72,13 +109,14 @@ impl Fitted {
         order.sort_by(|&i, &j| size[j].total_cmp(&size[i]));
         let centre = self.frame * (0.5 * (self.low + self.high));
         let axes: [Vec3; 3] = order.map(|k| self.frame.col(k).as_vec3());
-        let (mut half, mut radius) = ([0.0f64; 3], 0.0f64);
+        let along = axes.map(Vec3::as_dvec3);
+        let (mut half, mut square) = ([0.0f64; 3], 0.0f64);
         for &point in cloud.points {
             let way = point - centre;
-            for (half, axis) in half.iter_mut().zip(axes) {
-                *half = greater(*half, way.dot(axis.as_dvec3()).abs());
+            for (half, axis) in half.iter_mut().zip(along) {
+                *half = greater(*half, way.dot(axis).abs());
             }
-            radius = greater(radius, way.length_squared());
+            square = greater(square, way.length_squared());
         }
         // Rounding in f64 is far below that of `up`; one more step up covers it.
         let outward = |x: f64| up(x).next_up();
@@ -86,36 +124,12 @@ impl Fitted {
             centre,
             axes,
             half: half.map(outward),
-            radius: outward(radius.sqrt() + cloud.radius),
+            radius: outward(square.sqrt() + cloud.radius),
             rounding: up(cloud.radius),
             below,
         }
     }
 }
 
-/// Returns the candidate frames: principal axes of the points, and, for triangles, principal axes
-/// by area and frames about the mean normal.
-fn candidates(cloud: &Cloud<'_>) -> Vec<DMat3> {
-    let weights = || cloud.points.iter().map(|&p| (p, 1.0));
-    let mut frames = vec![principal_axes(weights)];
-    if cloud.triangles {
-        let by_area = || {
-            cloud.points.chunks_exact(3).map(|t| {
-                let area = length((t[1] - t[0]).cross(t[2] - t[0]));
-                ((t[0] + t[1] + t[2]) / 3.0, area)
-            })
-        };
-        frames.push(principal_axes(by_area));
-        let normals = cloud.points.chunks_exact(3);
-        let sum: DVec3 = normals.map(|t| (t[1] - t[0]).cross(t[2] - t[0])).sum();
-        if let Some(normal) = unit(sum) {
-            let (x, y) = normal.any_orthonormal_pair();
-            frames.extend((0..TURNS).map(|k| {
-                let angle = k as f64 / TURNS as f64 * std::f64::consts::FRAC_PI_2;
-                let (sin, cos) = angle.sin_cos();
-                DMat3::from_cols(x * cos + y * sin, y * cos - x * sin, normal)
-            }));
-        }
-    }
-    frames
-}
+#[cfg(test)]
+mod tests;

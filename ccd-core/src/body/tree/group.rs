@@ -51,21 +51,27 @@ pub(crate) struct Members {
 }
 
 impl BoxGroup {
+    /// A place for a group.
+    pub(super) const EMPTY: BoxGroup = BoxGroup {
+        centre: [[0.0; LANES]; 3],
+        axes: [[[0.0; LANES]; 3]; 3],
+        half: [[0.0; LANES]; 3],
+        rounding: [0.0; LANES],
+        radius: [0.0; LANES],
+        members: Members::NONE,
+        leaves: 0,
+    };
+
     /// Lays out consecutive nodes; `first` is the id of the first one.
     pub(crate) fn new(nodes: &[Node], first: u32, origin: DVec3) -> Self {
         let mut group = BoxGroup {
-            centre: [[0.0; LANES]; 3],
-            axes: [[[0.0; LANES]; 3]; 3],
-            half: [[0.0; LANES]; 3],
-            rounding: [0.0; LANES],
-            radius: [0.0; LANES],
             members: Members {
                 origin,
                 reach: 0.0,
                 first,
                 count: nodes.len() as u32,
             },
-            leaves: 0,
+            ..BoxGroup::EMPTY
         };
         for lane in 0..LANES {
             let node = &nodes[lane.min(nodes.len() - 1)];
@@ -92,19 +98,34 @@ impl BoxGroup {
     }
 }
 
+impl Members {
+    const NONE: Members = Members {
+        origin: DVec3::ZERO,
+        reach: 0.0,
+        first: 0,
+        count: 0,
+    };
+}
+
 impl TriangleGroup {
+    /// A place for a group.
+    pub(super) const EMPTY: TriangleGroup = TriangleGroup {
+        corners: [[[0.0; LANES]; 3]; 3],
+        normal: [[0.0; LANES]; 3],
+        radius: [0.0; LANES],
+        members: Members::NONE,
+    };
+
     /// Lays out consecutive triangles; `first` is the id of the first one.
     pub(crate) fn new(triangles: &[[DVec3; 3]], first: u32, origin: DVec3) -> Self {
         let mut group = TriangleGroup {
-            corners: [[[0.0; LANES]; 3]; 3],
-            normal: [[0.0; LANES]; 3],
-            radius: [0.0; LANES],
             members: Members {
                 origin,
                 reach: 0.0,
                 first,
                 count: triangles.len() as u32,
             },
+            ..TriangleGroup::EMPTY
         };
         for lane in 0..LANES {
             let corners = triangles[lane.min(triangles.len() - 1)].map(|p| p - origin);

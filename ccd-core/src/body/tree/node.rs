@@ -29,6 +29,16 @@ pub(crate) enum Below {
 }
 
 impl Node {
+    /// A place for a node.
+    pub(super) const UNFITTED: Node = Node {
+        centre: DVec3::ZERO,
+        axes: [Vec3::ZERO; 3],
+        half: [0.0; 3],
+        radius: 0.0,
+        rounding: 0.0,
+        below: Below::Piece(0),
+    };
+
     /// Returns the reach of the box along one of its axes, widened because the axes are rounded.
     pub(super) fn reach_f64(&self, axis: usize) -> f64 {
         f64::from(self.half[axis]) + f64::from(self.rounding) + BOX_F64 * f64::from(self.radius)

@@ -1,0 +1,88 @@
+//! Work on all cores whose result does not depend on their number.
+
+use std::num::NonZero;
+use std::sync::{Mutex, PoisonError};
+use std::thread::{Builder, available_parallelism, scope};
+
+/// Lists of fewer elements are not worth a thread.
+const WORTHWHILE: usize = 1024;
+
+/// Consecutive elements that one thread takes at a time.
+const SHARE: usize = 64;
+
+/// Calls a function with every element and its index, each thread with a workspace of its own.
+pub(super) fn for_each<T: Send, W: Clone + Send>(
+    list: &mut [T],
+    workspace: &W,
+    work: impl Fn(&mut W, usize, &mut T) + Sync,
+) {
+    let threads = match list.len() < WORTHWHILE {
+        true => 1,
+        false => available_parallelism().map_or(1, NonZero::get),
+    };
+    for_each_in(threads, list, workspace, work);
+}
+
+fn for_each_in<T: Send, W: Clone + Send>(
+    threads: usize,
+    list: &mut [T],
+    workspace: &W,
+    work: impl Fn(&mut W, usize, &mut T) + Sync,
+) {
+    let shares = Mutex::new(list.chunks_mut(SHARE).enumerate());
+    let next = || {
+        let mut shares = shares.lock().unwrap_or_else(PoisonError::into_inner);
+        shares.next()
+    };
+    let take_shares = |mut workspace: W| {
+        while let Some((share, elements)) = next() {
+            for (k, element) in elements.iter_mut().enumerate() {
+                work(&mut workspace, share * SHARE + k, element);
+            }
+        }
+    };
+    scope(|threads_of| {
+        for _ in 1..threads {
+            let own = workspace.clone();
+            // Without a thread, the others take its shares.
+            let thread = Builder::new().spawn_scoped(threads_of, || take_shares(own));
+            if thread.is_err() {
+                break;
+            }
+        }
+        take_shares(workspace.clone());
+    });
+}
+
+/// Calls two functions, side by side if the work is worth a thread and there is one.
+pub(super) fn join<A: Send, B>(
+    size: usize,
+    aside: impl FnOnce() -> A + Send,
+    here: impl FnOnce() -> B,
+) -> (A, B) {
+    if size < WORTHWHILE || available_parallelism().is_ok_and(|cores| cores.get() == 1) {
+        return (aside(), here());
+    }
+    let aside = Mutex::new(Some(aside));
+    let take = || {
+        let taken = aside.lock().unwrap_or_else(PoisonError::into_inner).take();
+        taken.map(|work| work())
+    };
+    scope(|threads| {
+        let thread = Builder::new().spawn_scoped(threads, take);
+        let here = here();
+        let aside = match thread {
+            Ok(thread) => thread
+                .join()
+                .unwrap_or_else(|panic| std::panic::resume_unwind(panic)),
+            Err(_) => take(),
+        };
+        match aside {
+            Some(aside) => (aside, here),
+            None => unreachable!("taken once"),
+        }
+    })
+}
+
+#[cfg(test)]
+mod tests;

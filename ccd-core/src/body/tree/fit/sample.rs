@@ -1,0 +1,95 @@
+//! A sample of a node's points, on which many frames are tried at once.
+
+use super::Cloud;
+use crate::body::hierarchy::bounds;
+use crate::math::order::{greater, lesser};
+use crate::tolerance::SAMPLED_TRIANGLES;
+use glam::{DMat3, DVec3, Vec3};
+
+/// The numbers that are compared at once.
+const LANES: usize = 8;
+
+const POINTS: usize = 3 * SAMPLED_TRIANGLES;
+
+/// Points, moved and scaled so that they fill a unit. One sample after the other uses the same room.
+#[derive(Clone, Debug)]
+pub(crate) struct Sample {
+    list: [DVec3; POINTS],
+    count: usize,
+    /// The same by coordinate; the last block repeats the last point.
+    blocks: [[[f32; LANES]; 3]; POINTS / LANES],
+}
+
+impl Sample {
+    /// No points.
+    pub(crate) const EMPTY: Sample = Sample {
+        list: [DVec3::ZERO; POINTS],
+        count: 0,
+        blocks: [[[0.0; LANES]; 3]; POINTS / LANES],
+    };
+
+    /// Takes all points, or as many as there is room for at even steps; triangles are taken whole.
+    pub(super) fn take(&mut self, cloud: &Cloud<'_>) {
+        self.count = 0;
+        let size = if cloud.triangles { 3 } else { 1 };
+        let groups = cloud.points.len() / size;
+        let step = groups.div_ceil(POINTS / size).max(1);
+        for group in (0..groups).step_by(step) {
+            let points = &cloud.points[size * group..size * (group + 1)];
+            self.list[self.count..][..size].copy_from_slice(points);
+            self.count += size;
+        }
+        self.fill_unit();
+    }
+
+    /// The points.
+    pub(super) fn points(&self) -> &[DVec3] {
+        &self.list[..self.count]
+    }
+
+    /// Returns half the surface of the box about the points along the columns of a frame.
+    pub(super) fn surface(&self, frame: &DMat3) -> f32 {
+        let axes = [0, 1, 2].map(|k| frame.col(k).as_vec3());
+        let mut low = [[f32::INFINITY; LANES]; 3];
+        let mut high = [[f32::NEG_INFINITY; LANES]; 3];
+        for [x, y, z] in &self.blocks[..self.count.div_ceil(LANES)] {
+            for (k, Vec3 { x: a, y: b, z: c }) in axes.into_iter().enumerate() {
+                for lane in 0..LANES {
+                    let height = a * x[lane] + b * y[lane] + c * z[lane];
+                    low[k][lane] = lesser(low[k][lane], height);
+                    high[k][lane] = greater(high[k][lane], height);
+                }
+            }
+        }
+        let size = [0, 1, 2].map(|k| {
+            let low = low[k].into_iter().fold(f32::INFINITY, lesser);
+            high[k].into_iter().fold(f32::NEG_INFINITY, greater) - low
+        });
+        size[0] * size[1] + size[1] * size[2] + size[2] * size[0]
+    }
+
+    fn fill_unit(&mut self) {
+        let (low, high) = bounds(self.points().iter().copied());
+        let middle = 0.5 * (low + high);
+        // Too short a length has no reciprocal.
+        let scale = Some((high - low).max_element().recip()).filter(|s| s.is_finite());
+        for point in &mut self.list[..self.count] {
+            *point = (*point - middle) * scale.unwrap_or(1.0);
+        }
+        let Some(&last) = self.points().last() else {
+            return;
+        };
+        for (k, block) in self.blocks[..self.count.div_ceil(LANES)]
+            .iter_mut()
+            .enumerate()
+        {
+            for lane in 0..LANES {
+                let at = k * LANES + lane;
+                let point = if at < self.count { self.list[at] } else { last };
+                for (row, x) in block.iter_mut().zip(point.as_vec3().to_array()) {
+                    row[lane] = x;
+                }
+            }
+        }
+    }
+}

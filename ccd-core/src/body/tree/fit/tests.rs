@@ -1,0 +1,104 @@
+//! Boxes against those of a slow fit, which tries every frame on all points in f64.
+
+use super::*;
+use crate::math::order::lesser;
+use crate::tests::scene::{Pcg64, RngExt, direction, rng};
+use crate::tolerance::SAMPLED_TRIANGLES;
+use glam::DQuat;
+
+/// The least surface of the boxes along all frames.
+fn least_surface(points: &[DVec3], triangles: bool) -> f64 {
+    let mut frames = vec![DMat3::IDENTITY];
+    frames.push(principal_axes(|| points.iter().map(|&p| (p, 1.0))));
+    if triangles {
+        let of = || points.as_chunks().0.iter();
+        let across = |[a, b, c]: &[DVec3; 3]| (*b - *a).cross(*c - *a);
+        frames.push(principal_axes(|| {
+            of().map(|t| ((t[0] + t[1] + t[2]) / 3.0, length(across(t))))
+        }));
+        if let Some(normal) = unit(of().map(across).sum()) {
+            let (x, y) = normal.any_orthonormal_pair();
+            frames.extend((0..6).map(|k| {
+                let (sin, cos) = (f64::from(k) / 6.0 * std::f64::consts::FRAC_PI_2).sin_cos();
+                DMat3::from_cols(x * cos + y * sin, y * cos - x * sin, normal)
+            }));
+        }
+    }
+    let surface = |frame: DMat3| {
+        let Fitted { low, high, .. } = Fitted::along(frame, points);
+        let size = high - low;
+        size.x * size.y + size.y * size.z + size.z * size.x
+    };
+    frames.into_iter().map(surface).fold(f64::INFINITY, lesser)
+}
+
+/// Triangles of about a tenth of the size of a bent sheet.
+fn sheet(rng: &mut Pcg64, count: usize, size: f64) -> Vec<DVec3> {
+    let turn = DQuat::from_axis_angle(direction(rng), 1.0);
+    let middle = 3.0 * size * direction(rng);
+    (0..count)
+        .flat_map(|_| {
+            let (x, y) = (rng.random_range(-1.0..1.0), rng.random_range(-0.5..0.5));
+            let at = DVec3::new(x, y, 0.1 * x * x);
+            [(); 3].map(|()| middle + size * (turn * (at + 0.05 * direction(rng))))
+        })
+        .collect()
+}
+
+#[test]
+fn boxes_are_as_small_as_those_of_all_points() {
+    let mut rng = rng(7);
+    let mut sample = Sample::EMPTY;
+    for size in [1e-9, 1.0, 1e9] {
+        for count in [1, 2, 8, 40, SAMPLED_TRIANGLES, 4 * SAMPLED_TRIANGLES, 1_000] {
+            for triangles in [true, false] {
+                let points = sheet(&mut rng, count, size);
+                let cloud = Cloud {
+                    points: &points,
+                    radius: 0.0,
+                    triangles,
+                };
+                let node = fit(&cloud, Below::Piece(0), &mut sample);
+                let [x, y, z] = node.half.map(|half| 2.0 * f64::from(half));
+                let surface = x * y + y * z + z * x;
+                let least = least_surface(&points, triangles);
+                let most = match count {
+                    // The middles of two triangles are on a line: rounding chooses the axes across.
+                    1 | 2 => 1.5,
+                    _ if points.len() <= 3 * SAMPLED_TRIANGLES => 1.0 + 1e-4,
+                    _ => 1.05,
+                };
+                assert!(
+                    surface <= most * least,
+                    "{count}: {surface:e} for {least:e}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn degenerate_points_have_a_box() {
+    let mut sample = Sample::EMPTY;
+    let shapes = [
+        [0.0; 3],
+        [1e-310, 0.0, 3e-310],
+        [1e12, -1e12, 1e12],
+        [7.0; 3],
+    ];
+    for shape in shapes {
+        let points = shape.map(|x| DVec3::new(x, 2.0 * x, -x));
+        for triangles in [true, false] {
+            let cloud = Cloud {
+                points: &points,
+                radius: 0.0,
+                triangles,
+            };
+            let node = fit(&cloud, Below::Piece(0), &mut sample);
+            for (point, k) in points.iter().zip([0, 1, 2, 0]) {
+                let way = (*point - node.centre).dot(node.axes[k].as_dvec3());
+                assert!(way.abs() <= f64::from(node.half[k]));
+            }
+        }
+    }
+}
