@@ -1,32 +1,132 @@
-//! Half-edges of triangles.
+//! Half-edges of triangles, and the edges that they run along.
 
-/// The number of a half-edge: `3 f + k` runs along face `f` from its corner `k` to the next.
+/// The number of a half-edge: `3 f + k` runs along face `f` from its corner `k` to the next. Less than 2³¹.
 pub(crate) type HalfEdge = u32;
 
-/// Finds the twin of every half-edge, which runs along the same edge in the opposite direction; none unless
-/// every half-edge has exactly one. O(n log n).
-pub(crate) fn twins(triangles: &[[u32; 3]]) -> Option<Vec<HalfEdge>> {
-    let mut edges: Vec<(u64, HalfEdge)> = Vec::with_capacity(3 * triangles.len());
-    for (t, &[a, b, c]) in (0..).zip(triangles) {
-        for (k, (v, w)) in (0..).zip([(a, b), (b, c), (c, a)]) {
-            let (low, high) = (v.min(w), v.max(w));
-            edges.push((u64::from(low) << 32 | u64::from(high), 3 * t + k));
-        }
-    }
-    edges.sort_unstable();
-    let start = |edge: HalfEdge| triangles[edge as usize / 3][edge as usize % 3];
-    let mut twins = vec![0; edges.len()];
-    let mut last = None;
-    for pair in edges.chunks(2) {
-        match *pair {
-            [(key, one), (other_key, other)]
-                if key == other_key && last != Some(key) && start(one) != start(other) =>
-            {
-                (twins[one as usize], twins[other as usize]) = (other, one);
-                last = Some(key);
-            }
-            _ => return None,
-        }
-    }
-    Some(twins)
+/// The edges of triangles, in ascending order of their ends, the smaller end first.
+pub(crate) struct Edges {
+    /// The lower ends that are in use; empty where every vertex is numbered.
+    lower: Vec<u32>,
+    /// The end of the uses of each lower end.
+    ends: Vec<u32>,
+    uses: Vec<Use>,
 }
+
+/// The use of an edge by a half-edge: the edge's upper end, the half-edge, and in the lowest bit whether it starts
+/// at the upper end. In the order of these.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct Use(u64);
+
+impl Use {
+    fn new(upper: u32, half_edge: HalfEdge, backward: bool) -> Self {
+        Use(u64::from(upper) << 32 | u64::from(half_edge) << 1 | u64::from(backward))
+    }
+
+    fn upper(self) -> u32 {
+        (self.0 >> 32) as u32
+    }
+
+    pub(crate) fn half_edge(self) -> HalfEdge {
+        self.0 as u32 >> 1
+    }
+
+    /// Returns whether the half-edge runs from the upper end to the lower.
+    pub(crate) fn is_backward(self) -> bool {
+        self.0 & 1 == 1
+    }
+}
+
+impl Edges {
+    /// Finds all edges; one from a vertex to itself is none. Linear in the number of triangles, where few edges start
+    /// at any vertex.
+    pub(crate) fn of(triangles: &[[u32; 3]]) -> Self {
+        let last = triangles.iter().flatten().max();
+        let range = last.map_or(0, |&last| last as usize + 1);
+        // A table of all vertices must not be larger than the triangles.
+        match range <= 8 * triangles.len() {
+            true => Edges::by_slot(triangles, Vec::new(), range, |vertex| vertex as usize),
+            false => {
+                let mut lower: Vec<u32> = triangles.iter().flatten().copied().collect();
+                lower.sort_unstable();
+                lower.dedup();
+                let known = lower.clone();
+                let slot = |vertex: u32| known.partition_point(|&v| v < vertex);
+                Edges::by_slot(triangles, lower, known.len(), slot)
+            }
+        }
+    }
+
+    fn by_slot(
+        triangles: &[[u32; 3]],
+        lower: Vec<u32>,
+        slots: usize,
+        slot: impl Fn(u32) -> usize,
+    ) -> Self {
+        let mut ends = vec![0u32; slots];
+        for &[a, b, c] in triangles {
+            for (v, w) in [(a, b), (b, c), (c, a)] {
+                ends[slot(v.min(w))] += u32::from(v != w);
+            }
+        }
+        let mut end = 0;
+        for next in &mut ends {
+            end += std::mem::replace(next, end);
+        }
+        let mut uses = vec![Use(0); end as usize];
+        for (t, &[a, b, c]) in (0..).zip(triangles) {
+            for (k, (v, w)) in (0..).zip([(a, b), (b, c), (c, a)]) {
+                if v != w {
+                    let end = &mut ends[slot(v.min(w))];
+                    uses[*end as usize] = Use::new(v.max(w), 3 * t + k, v > w);
+                    *end += 1;
+                }
+            }
+        }
+        let mut start = 0;
+        for &end in &ends {
+            uses[start..end as usize].sort_unstable();
+            start = end as usize;
+        }
+        Edges { lower, ends, uses }
+    }
+
+    /// The edges: the lower and the upper end, and the uses in ascending order of the half-edges.
+    pub(crate) fn iter(&self) -> impl Iterator<Item = ([u32; 2], &[Use])> {
+        let mut start = 0;
+        self.ends.iter().enumerate().flat_map(move |(slot, &end)| {
+            let uses = &self.uses[start..end as usize];
+            start = end as usize;
+            let lower = self.lower.get(slot).copied().unwrap_or(slot as u32);
+            let edges = uses.chunk_by(|one, next| one.upper() == next.upper());
+            edges.map(move |edge| ([lower, edge[0].upper()], edge))
+        })
+    }
+
+    /// Finds the twin of every half-edge of so many triangles, which runs along the same edge in the opposite
+    /// direction; none unless every half-edge has exactly one.
+    pub(crate) fn twins(&self, triangles: usize) -> Option<Vec<HalfEdge>> {
+        // Every half-edge is the use of one edge.
+        if self.uses.len() != 3 * triangles {
+            return None;
+        }
+        let mut twins = vec![0; 3 * triangles];
+        for (_, uses) in self.iter() {
+            match *uses {
+                [one, other] if one.is_backward() != other.is_backward() => {
+                    twins[one.half_edge() as usize] = other.half_edge();
+                    twins[other.half_edge() as usize] = one.half_edge();
+                }
+                _ => return None,
+            }
+        }
+        Some(twins)
+    }
+}
+
+/// Finds the [twin](Edges::twins) of every half-edge.
+pub(crate) fn twins(triangles: &[[u32; 3]]) -> Option<Vec<HalfEdge>> {
+    Edges::of(triangles).twins(triangles.len())
+}
+
+#[cfg(test)]
+mod tests;

@@ -6,6 +6,7 @@ pub(crate) mod model;
 mod parts;
 pub(crate) mod report;
 
+use crate::half_edges::Edges;
 use crate::mesh::TriangleMesh;
 use crate::pieces::convex::as_polytope;
 use crate::pieces::patches::{Order, decompose};
@@ -89,10 +90,13 @@ pub fn body_from_mesh(mesh: &TriangleMesh, detail: Detail) -> Result<Prepared, P
 /// [`PrepareError::Vhacd`] when it cannot be approximated, [`PrepareError::Input`] when there are too many
 /// pieces.
 pub fn prepare(mesh: &TriangleMesh, detail: Detail) -> Result<Model, PrepareError> {
-    let (topology, turned) = Topology::and_turned(mesh);
+    let edges = Edges::of(&mesh.welded_faces());
+    let (topology, turned) = Topology::by_edges(mesh, &edges);
+    // The edges of a turned mesh have other half-edges.
+    let edges = turned.is_none().then_some(edges);
     let mesh = turned.as_ref().unwrap_or(mesh);
     let (parts, why) = match detail {
-        Detail::Auto => choose::choose(mesh, &topology),
+        Detail::Auto => choose::choose(mesh, &topology, edges),
         Detail::Triangles => (Parts::Triangles, Why::Asked),
         Detail::Patches(order) => (Parts::Patches(decompose(mesh, order)?), Why::Asked),
         Detail::Hull => {

@@ -8,6 +8,7 @@ use crate::hull::polygons::strict_corners;
 use crate::tolerance::{DIRECTIONS, LENGTHS};
 use ccd_core::glam::DVec3;
 use ccd_core::vector::{length, unit};
+use rayon::prelude::*;
 use std::cmp::{Ordering, Reverse};
 
 /// The faces of a mesh, in groups that are convex polygons.
@@ -29,24 +30,9 @@ pub(crate) struct Flat {
 }
 
 impl Flats {
-    /// Merges neighbours as long as their union is convex, those with the longest common edge first:
-    /// a diagonal is removed before an edge of the outline `[HM83]`.
-    ///
-    /// The triangles of the manifold may meet each other: two merged polygons are on either side of the
-    /// removed line, so that every group is a convex polygon, covered once, independent of the rest of the
-    /// mesh.
+    /// Merges neighbours, see [`Merger`].
     pub(crate) fn new(manifold: &Manifold<'_>) -> Self {
-        let mut merger = Merger::new(manifold);
-        let mut edges = merger.flat_edges();
-        // Each round leaves fewer edges.
-        loop {
-            let before = edges.len();
-            edges.retain(|&edge| !merger.merge_over(edge));
-            if edges.len() == before {
-                break;
-            }
-        }
-        merger.finish()
+        Merger::merged(manifold).finish()
     }
 
     pub(crate) fn len(&self) -> usize {
@@ -64,17 +50,62 @@ impl Flats {
     }
 }
 
+/// The size of a plane part of the surface.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct PlanarRegion {
+    pub(crate) triangles: usize,
+    /// The convex polygons that its triangles merge into: at least as many as there are patches in it.
+    pub(crate) polygons: usize,
+}
+
 /// Regions that grow together. Two convex ones that do not overlap have a single stretch of edges in common, so
 /// that the union is convex if it is at the two ends of the stretch.
-struct Merger<'a, 'm> {
+pub(crate) struct Merger<'a, 'm> {
     manifold: &'a Manifold<'m>,
     /// The half-edges after and before each one on the rim of its region.
     next: Vec<HalfEdge>,
     previous: Vec<HalfEdge>,
     regions: DisjointSets,
+    /// The plane parts of the surface, which merging leaves in one or more polygons each.
+    planes: DisjointSets,
 }
 
 impl<'a, 'm> Merger<'a, 'm> {
+    /// Merges neighbours as long as their union is convex, those with the longest common edge first:
+    /// a diagonal is removed before an edge of the outline `[HM83]`.
+    ///
+    /// The triangles of the manifold may meet each other: two merged polygons are on either side of the
+    /// removed line, so that every group is a convex polygon, covered once, independent of the rest of the
+    /// mesh.
+    pub(crate) fn merged(manifold: &'a Manifold<'m>) -> Self {
+        let mut merger = Merger::new(manifold);
+        let mut edges = merger.flat_edges();
+        for &edge in &edges {
+            merger.planes.join(edge / 3, manifold.twin(edge) / 3);
+        }
+        // Each round leaves fewer edges.
+        loop {
+            let before = edges.len();
+            edges.retain(|&edge| !merger.merge_over(edge));
+            if edges.len() == before {
+                break;
+            }
+        }
+        merger
+    }
+
+    /// Finds the plane part of most triangles.
+    pub(crate) fn largest_plane(&mut self) -> PlanarRegion {
+        let faces = self.manifold.faces().len();
+        let mut planes = vec![PlanarRegion::default(); faces];
+        for face in 0..faces as u32 {
+            let plane = &mut planes[self.planes.root(face) as usize];
+            plane.triangles += 1;
+            plane.polygons += usize::from(self.regions.root(face) == face);
+        }
+        planes.into_iter().max().unwrap_or_default()
+    }
+
     fn new(manifold: &'a Manifold<'m>) -> Self {
         let faces = manifold.faces().len() as u32;
         // The half-edges of a face are numbered from a multiple of 3.
@@ -84,6 +115,7 @@ impl<'a, 'm> Merger<'a, 'm> {
             next: turn(1).collect(),
             previous: turn(2).collect(),
             regions: DisjointSets::new(faces as usize),
+            planes: DisjointSets::new(faces as usize),
         }
     }
 
@@ -101,6 +133,7 @@ impl<'a, 'm> Merger<'a, 'm> {
             (Reverse(length), way.max(way.map(|x| -x)), h)
         };
         let mut edges: Vec<HalfEdge> = (0..3 * manifold.faces().len() as u32)
+            .into_par_iter()
             .filter(|&h| h < manifold.twin(h) && manifold.dihedral(h) == Dihedral::Flat)
             .collect();
         edges.sort_by_cached_key(|&h| rank(h));
@@ -175,7 +208,8 @@ impl<'a, 'm> Merger<'a, 'm> {
         plane.turn(a, b, c) != Ordering::Less
     }
 
-    fn finish(mut self) -> Flats {
+    /// Lists the polygons.
+    pub(crate) fn finish(mut self) -> Flats {
         const UNSEEN: u32 = u32::MAX;
         let faces = self.manifold.faces().len() as u32;
         let mut number_of = vec![UNSEEN; faces as usize];

@@ -3,13 +3,14 @@
 use super::error::DecomposeError;
 use super::topology::{Orientation, Topology};
 use crate::exact::predicates::{Projection, is_degenerate, side, too_fine};
-use crate::half_edges::{HalfEdge, twins};
+use crate::half_edges::{Edges, HalfEdge};
 use crate::mesh::TriangleMesh;
 use crate::search::TriangleBoxes;
 use crate::tally::Tally;
 use ccd_core::glam::DVec3;
-use std::cell::OnceCell;
+use rayon::prelude::*;
 use std::cmp::Ordering;
+use std::sync::OnceLock;
 
 /// A closed 2-manifold of triangles: every half-edge has one twin that runs the other way.
 ///
@@ -23,7 +24,7 @@ pub(crate) struct Manifold<'m> {
     /// The twin, by half-edge.
     twins: Vec<HalfEdge>,
     /// The boxes of the faces, made at the first use.
-    boxes: OnceCell<TriangleBoxes>,
+    boxes: OnceLock<TriangleBoxes>,
 }
 
 /// The kind of angle between two faces at an edge, seen from outside.
@@ -46,6 +47,15 @@ impl<'m> Manifold<'m> {
         mesh: &'m TriangleMesh,
         topology: &Topology,
     ) -> Result<Self, DecomposeError> {
+        Manifold::with_edges(mesh, topology, None)
+    }
+
+    /// Makes the manifold like [`Manifold::unchecked`], of a mesh whose edges between welded vertices may be known.
+    pub(crate) fn with_edges(
+        mesh: &'m TriangleMesh,
+        topology: &Topology,
+        edges: Option<Edges>,
+    ) -> Result<Self, DecomposeError> {
         if let Some(vertex) = too_fine(mesh.vertices()) {
             return Err(DecomposeError::TooFine { vertex });
         }
@@ -59,16 +69,21 @@ impl<'m> Manifold<'m> {
         if turned {
             faces.iter_mut().for_each(|face| face.swap(1, 2));
         }
+        let is_flat = |&face: &u32| is_degenerate(mesh.triangle(face));
+        let flat_faces = (0..faces.len() as u32).into_par_iter().filter(is_flat);
         let mut flat = Tally::default();
-        for face in (0..faces.len() as u32).filter(|&f| is_degenerate(mesh.triangle(f))) {
+        for face in flat_faces.collect::<Vec<u32>>() {
             flat.add(mesh.face_ids()[face as usize]);
         }
-        match twins(&faces) {
+        // The half-edges of faces that are turned have other numbers.
+        let edges = edges.filter(|_| !turned);
+        let edges = edges.unwrap_or_else(|| Edges::of(&faces));
+        match edges.twins(faces.len()) {
             Some(twins) if flat.is_empty() => Ok(Manifold {
                 mesh,
                 faces,
                 twins,
-                boxes: OnceCell::new(),
+                boxes: OnceLock::new(),
             }),
             _ => Err(DecomposeError::NoArea { faces: flat }),
         }

@@ -6,6 +6,7 @@ use crate::exact::predicates::{is_degenerate, too_fine};
 use crate::exact::rays::{crossing, probe};
 use crate::exact::triangles::meet;
 use crate::exact::volume::SignedVolume;
+use crate::half_edges::Edges;
 use crate::mesh::TriangleMesh;
 use crate::search::TriangleBoxes;
 use crate::search::region::Region;
@@ -33,12 +34,12 @@ pub(crate) struct Nesting {
 }
 
 impl Nesting {
-    /// Examines a closed mesh: along every edge as many faces run one way as the other. A mesh in one part
-    /// needs no turning.
+    /// Examines a closed mesh, given with its edges between welded vertices: along every edge as many faces run one
+    /// way as the other. A mesh in one part needs no turning.
     ///
     /// Exact. O(n log n) where few boxes of triangles of different shells meet.
-    pub(crate) fn of(mesh: &TriangleMesh) -> Self {
-        let shell_of = closed_parts(mesh);
+    pub(crate) fn of(mesh: &TriangleMesh, edges: &Edges) -> Self {
+        let shell_of = closed_parts(mesh, edges);
         let count = shell_of.iter().max().map_or(0, |&last| last as usize + 1);
         match count {
             0 | 1 => Nesting::default(),

@@ -1,6 +1,7 @@
 //! The edges of a mesh, and whether it is closed.
 
 use super::nesting::Nesting;
+use crate::half_edges::Edges;
 use crate::mesh::TriangleMesh;
 use crate::tally::Tally;
 use ccd_core::glam::DVec3;
@@ -62,24 +63,31 @@ impl Topology {
 
     /// Examines a mesh like [`Topology::of`], and turns the shells of the wrong orientation, if there are any.
     pub(crate) fn and_turned(mesh: &TriangleMesh) -> (Self, Option<TriangleMesh>) {
+        let edges = Edges::of(&mesh.welded_faces());
+        Topology::by_edges(mesh, &edges)
+    }
+
+    /// Examines a mesh like [`Topology::and_turned`], by its edges between welded vertices.
+    pub(crate) fn by_edges(mesh: &TriangleMesh, edges: &Edges) -> (Self, Option<TriangleMesh>) {
         let mut topology = Topology {
             signed_volume: signed_volume(mesh),
             ..Topology::default()
         };
-        for (edge, forward, backward) in edge_uses(mesh) {
-            let tally = match (forward + backward, forward == backward) {
+        for ([v, w], uses) in edges.iter() {
+            let backward = uses.iter().filter(|of| of.is_backward()).count();
+            let tally = match (uses.len(), 2 * backward == uses.len()) {
                 (2, true) => continue,
                 (1, _) => &mut topology.boundary,
                 (2, false) => &mut topology.flipped,
                 (_, false) => &mut topology.branching,
                 (_, true) => &mut topology.shared,
             };
-            tally.add(edge);
+            tally.add(Edge(v, w));
         }
         if !topology.is_closed() {
             return (topology, None);
         }
-        let nesting = Nesting::of(mesh);
+        let nesting = Nesting::of(mesh, edges);
         topology.wrong_way = nesting.wrong;
         topology.unclear = nesting.unclear;
         let turned = (!nesting.turned.is_empty()).then(|| mesh.turned(&nesting.turned));
@@ -127,38 +135,6 @@ impl Topology {
             Orientation::Neither
         }
     }
-}
-
-/// Iterates over every edge, with the number of faces that run from its smaller vertex to the larger, and back.
-fn edge_uses(mesh: &TriangleMesh) -> impl Iterator<Item = (Edge, usize, usize)> {
-    // The edge in the upper bits, the direction in the lowest; vertex numbers are below 2³¹.
-    let mut uses = Vec::new();
-    uses.reserve_exact(3 * mesh.faces().len());
-    for [a, b, c] in mesh.welded_faces() {
-        for (v, w) in [(a, b), (b, c), (c, a)] {
-            // An edge has two different ends.
-            if v != w {
-                uses.push((v.min(w), v.max(w) << 1 | u32::from(v > w)));
-            }
-        }
-    }
-    uses.sort_unstable();
-    let mut at = 0;
-    std::iter::from_fn(move || {
-        let &(v, w) = uses.get(at)?;
-        let same = uses[at..]
-            .iter()
-            .take_while(|u| u.0 == v && u.1 >> 1 == w >> 1);
-        let (mut forward, mut backward) = (0, 0);
-        for (_, w) in same {
-            match w & 1 {
-                0 => forward += 1,
-                _ => backward += 1,
-            }
-        }
-        at += forward + backward;
-        Some((Edge(v, w >> 1), forward, backward))
-    })
 }
 
 /// Sums the signed volumes of the tetrahedra between each face and a point near the mesh. The sum of a closed

@@ -1,10 +1,11 @@
 use super::*;
 use crate::solid::bounding_solid;
+use crate::solid::manifold::Dihedral;
 use crate::test_meshes::{block, cubes, joined, placed, tetrahedron};
 use ccd_core::glam::DVec3;
 
 fn why(mesh: &TriangleMesh) -> Why {
-    let (parts, why) = choose(mesh, &Topology::of(mesh));
+    let (parts, why) = choose(mesh, &Topology::of(mesh), None);
     let fits = match why {
         Why::Convex => matches!(parts, Parts::Hull(_)),
         Why::PatchesFaster(_) => matches!(parts, Parts::Patches(_)),
@@ -44,9 +45,52 @@ fn the_largest_plane_is_found_whole() {
         .collect();
     let mesh = cubes(&cells);
     let manifold = bounding_solid(&mesh).unwrap();
-    let plane = PlanarRegion::largest(&manifold, &Flats::new(&manifold));
+    let plane = Merger::merged(&manifold).largest_plane();
     assert_eq!(plane.triangles, 12);
     assert_eq!(plane.polygons, 1);
+}
+
+/// The largest plane by walking from polygon to polygon.
+fn largest_slowly(manifold: &Manifold<'_>) -> PlanarRegion {
+    let flats = Merger::merged(manifold).finish();
+    let mut seen = vec![false; flats.len()];
+    let mut largest = PlanarRegion::default();
+    for seed in 0..flats.len() as u32 {
+        let (mut plane, mut stack) = (PlanarRegion::default(), vec![seed]);
+        while let Some(flat) = stack.pop() {
+            if std::mem::replace(&mut seen[flat as usize], true) {
+                continue;
+            }
+            let flat = flats.get(flat);
+            plane.triangles += flat.faces.len();
+            plane.polygons += 1;
+            let level = flat
+                .rim
+                .iter()
+                .filter(|&&h| manifold.dihedral(h) == Dihedral::Flat);
+            stack.extend(level.map(|&h| flats.of_face(manifold.twin(h) / 3)));
+        }
+        largest = largest.max(plane);
+    }
+    largest
+}
+
+#[test]
+fn the_largest_plane_is_that_of_a_walk() {
+    let comb = block([9, 2, 3])
+        .into_iter()
+        .filter(|c| c[2] == 0 || c[0] % 2 == 0);
+    let plate = block([3, 3, 1]).into_iter().filter(|c| *c != [1, 1, 0]);
+    let solids = [
+        cubes(&comb.collect::<Vec<_>>()),
+        cubes(&plate.collect::<Vec<_>>()),
+        tetrahedron(),
+    ];
+    for mesh in &solids {
+        let manifold = bounding_solid(mesh).unwrap();
+        let plane = Merger::merged(&manifold).largest_plane();
+        assert_eq!(plane, largest_slowly(&manifold));
+    }
 }
 
 #[test]
@@ -70,7 +114,7 @@ fn slow_decompositions_stay_triangles() {
     let cells = block([16, 16, 16]).into_iter().filter(|c| !in_corner(c));
     let mesh = cubes(&cells.collect::<Vec<_>>());
     for steps in [1, 1000] {
-        let (parts, why) = within(&mesh, &Topology::of(&mesh), &Work::of(steps));
+        let (parts, why) = within(&mesh, &Topology::of(&mesh), None, &Work::of(steps));
         assert_eq!(why, Why::TooLong);
         assert!(matches!(parts, Parts::Triangles));
     }

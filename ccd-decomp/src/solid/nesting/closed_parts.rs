@@ -2,6 +2,7 @@
 
 use crate::disjoint_sets::DisjointSets;
 use crate::exact::predicates::{Projection, side, too_fine};
+use crate::half_edges::{self, Edges};
 use crate::mesh::TriangleMesh;
 use ccd_core::glam::DVec3;
 use std::cmp::Ordering;
@@ -10,18 +11,22 @@ use std::cmp::Ordering;
 ///
 /// Parts are connected over edges of two faces. At an edge of more faces, parts that would stay open are
 /// connected across the material that they bound, so that solids that share a face stay separate.
-pub(super) fn closed_parts(mesh: &TriangleMesh) -> Vec<u32> {
-    let mut uses = uses(mesh);
-    uses.sort_unstable_by_key(|u| (u.ends, u.face));
+pub(super) fn closed_parts(mesh: &TriangleMesh, edges: &Edges) -> Vec<u32> {
     let mut parts = DisjointSets::new(mesh.faces().len());
-    let edges = || uses.chunk_by(|one, next| one.ends == next.ends);
-    for edge in edges().filter(|edge| edge.len() == 2) {
-        parts.join(edge[0].face, edge[1].face);
+    let mut is_manifold = true;
+    for (_, uses) in edges.iter() {
+        match *uses {
+            [one, other] => parts.join(one.half_edge() / 3, other.half_edge() / 3),
+            _ => is_manifold = false,
+        }
     }
-    for edge in edges().filter(|edge| edge.len() > 2) {
-        let open = open_at(edge, &mut parts);
-        for (one, other) in across_material(mesh, &open) {
-            parts.join(one, other);
+    if !is_manifold {
+        for (ends, uses) in edges.iter().filter(|(_, uses)| uses.len() > 2) {
+            let edge: Vec<Use> = uses.iter().map(|&of| Use::new(ends, of)).collect();
+            let open = open_at(&edge, &mut parts);
+            for (one, other) in across_material(mesh, &open) {
+                parts.join(one, other);
+            }
         }
     }
     numbers(&mut parts, mesh.faces().len())
@@ -37,19 +42,14 @@ struct Use {
     way: i32,
 }
 
-/// Collects every edge of every face, except from a point to itself.
-fn uses(mesh: &TriangleMesh) -> Vec<Use> {
-    let mut uses = Vec::new();
-    uses.reserve_exact(3 * mesh.faces().len());
-    for face in 0..mesh.faces().len() as u32 {
-        let [a, b, c] = mesh.welded_face(face);
-        for (v, w) in [(a, b), (b, c), (c, a)] {
-            let ends = [v.min(w), v.max(w)];
-            let way = if v < w { 1 } else { -1 };
-            uses.extend((v != w).then_some(Use { ends, face, way }));
+impl Use {
+    fn new(ends: [u32; 2], of: half_edges::Use) -> Self {
+        Use {
+            ends,
+            face: of.half_edge() / 3,
+            way: if of.is_backward() { -1 } else { 1 },
         }
     }
-    uses
 }
 
 /// Finds the faces at an edge of those parts that run along it more often one way than the other.

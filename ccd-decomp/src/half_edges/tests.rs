@@ -1,0 +1,57 @@
+use super::{Edges, HalfEdge, twins};
+use proptest::prelude::*;
+
+/// Triangles over few vertices, whose numbers are far apart in half of the cases.
+fn triangles() -> impl Strategy<Value = Vec<[u32; 3]>> {
+    let corner = prop_oneof![0u32..6, 0u32..40];
+    let faces = prop::collection::vec(prop::array::uniform3(corner), 0..30);
+    (faces, prop_oneof![Just(1u32), Just(100_000_000)])
+        .prop_map(|(faces, step)| faces.into_iter().map(|f| f.map(|v| v * step)).collect())
+}
+
+/// All half-edges by their ends, sorted: lower end, upper end, half-edge, whether it starts at the upper end.
+fn sorted(triangles: &[[u32; 3]]) -> Vec<([u32; 2], HalfEdge, bool)> {
+    let mut all = Vec::new();
+    for (t, [a, b, c]) in (0..).zip(triangles.iter().copied()) {
+        for (k, (v, w)) in (0..).zip([(a, b), (b, c), (c, a)]) {
+            all.push(([v.min(w), v.max(w)], 3 * t + k, v > w));
+        }
+    }
+    all.sort_unstable();
+    all
+}
+
+proptest! {
+    #[test]
+    fn edges_are_those_of_a_sorted_list(triangles in triangles()) {
+        let mut listed = Vec::new();
+        for (ends, uses) in Edges::of(&triangles).iter() {
+            prop_assert!(!uses.is_empty());
+            listed.extend(uses.iter().map(|u| (ends, u.half_edge(), u.is_backward())));
+        }
+        let mut expected = sorted(&triangles);
+        expected.retain(|&([v, w], ..)| v != w);
+        prop_assert_eq!(listed, expected);
+    }
+
+    #[test]
+    fn twins_pair_all_half_edges_or_none(mut triangles in triangles(), mirrored: bool) {
+        if mirrored {
+            triangles.dedup();
+            let mirror: Vec<_> = triangles.iter().map(|&[a, b, c]| [a, c, b]).collect();
+            triangles.extend(mirror);
+        }
+        let all = sorted(&triangles);
+        let pairs = all.chunk_by(|one, next| one.0 == next.0);
+        let mut expected = Some(vec![0; all.len()]);
+        for pair in pairs {
+            match (pair, &mut expected) {
+                (&[(ends, one, from), (_, other, back)], Some(twins)) if from != back && ends[0] != ends[1] => {
+                    (twins[one as usize], twins[other as usize]) = (other, one);
+                }
+                _ => expected = None,
+            }
+        }
+        prop_assert_eq!(twins(&triangles), expected);
+    }
+}
