@@ -6,10 +6,11 @@ mod reinsert;
 
 use crate::bounds::Bounds;
 use crate::tolerance::AGGLOMERATED_PIECES;
-use agglomerate::agglomerate;
+use agglomerate::{Workspace, agglomerate};
 use ccd_core::glam::{DVec3, Vec3A};
 use ccd_core::{Hierarchy, HierarchyNode, InputError, Pieces};
 use nodes::{Below, Cuboid, Node};
+use rayon::prelude::*;
 use reinsert::reinsert;
 
 /// Builds a hierarchy over pieces: splits them at medians into clusters, agglomerates the clusters, and moves the
@@ -20,7 +21,7 @@ use reinsert::reinsert;
 /// both.
 ///
 /// # Guarantee
-/// The same pieces give the same hierarchy. Every piece appears once; no input panics.
+/// The same pieces give the same hierarchy, on any number of threads. Every piece appears once; no input panics.
 ///
 /// # Errors
 /// [`InputError::TooManyPieces`] when an index cannot name them.
@@ -39,85 +40,168 @@ pub fn build_hierarchy(pieces: &Pieces) -> Result<Hierarchy, InputError> {
         Below::Piece(piece) => HierarchyNode::Leaf(piece),
         Below::Children(first) => HierarchyNode::Inner(first, first + 1),
     };
-    Hierarchy::new(nodes.iter().map(node).collect(), pieces.len())
+    Hierarchy::new(
+        nodes.par_iter().with_min_len(SHARE).map(node).collect(),
+        pieces.len(),
+    )
 }
 
 /// Makes leaves of all pieces, with boxes in single precision, moved and scaled so that the whole fills a unit:
 /// single precision would not separate pieces that are far from the origin, or tiny.
 fn unit_leaves(pieces: &Pieces) -> Vec<Node> {
-    let boxes: Vec<Bounds> = pieces
-        .iter()
-        .map(|piece| {
-            let Bounds { lo, hi } = Bounds::of(piece.points.iter().copied());
-            Bounds {
-                lo: lo - piece.radius,
-                hi: hi + piece.radius,
-            }
-        })
+    let bounds = |piece: usize| {
+        let piece = pieces.get(piece);
+        let Bounds { lo, hi } = Bounds::of(piece.points.iter().copied());
+        Bounds {
+            lo: lo - piece.radius,
+            hi: hi + piece.radius,
+        }
+    };
+    let all = 0..pieces.len();
+    let boxes: Vec<Bounds> = all
+        .into_par_iter()
+        .with_min_len(SHARE)
+        .map(bounds)
         .collect();
-    let Bounds { lo, hi } = Bounds::of(boxes.iter().flat_map(|b| [b.lo, b.hi]));
+    // Shares of one size are the same for any number of threads.
+    let corners = |share: &[Bounds]| Bounds::of(share.iter().flat_map(|b| [b.lo, b.hi]));
+    let shares: Vec<Bounds> = boxes.par_chunks(SHARE).map(corners).collect();
+    let Bounds { lo, hi } = corners(&shares);
     // Too short a length has no reciprocal.
     let scale = Some((hi - lo).max_element().recip()).filter(|s| s.is_finite());
     let unit = |p: DVec3| -> Vec3A { ((p - lo) * scale.unwrap_or(1.0)).as_vec3a() };
-    let cuboid = |piece: &Bounds| Cuboid {
-        lo: unit(piece.lo),
-        hi: unit(piece.hi),
+    let leaf = |(piece, bounds): (usize, &Bounds)| {
+        let cuboid = Cuboid {
+            lo: unit(bounds.lo),
+            hi: unit(bounds.hi),
+        };
+        Node::leaf(piece as u32, cuboid)
     };
-    (boxes.iter().zip(0..))
-        .map(|(piece, index)| Node::leaf(index, cuboid(piece)))
-        .collect()
+    let leaves = boxes.par_iter().with_min_len(SHARE).enumerate();
+    leaves.map(leaf).collect()
 }
+
+/// The pieces that one thread takes at a time: with fewer, sharing takes as long as the work.
+const SHARE: usize = 4096;
 
 /// Splits leaves at medians of their centres down to clusters, and agglomerates these. Returns the root first.
 fn split(leaves: &[Node]) -> Vec<Node> {
-    let centre = |piece: u32| leaves[piece as usize].cuboid.centre();
-    let mut order: Vec<u32> = (0..leaves.len() as u32).collect();
-    let mut nodes = leaves[..1].to_vec();
-    let mut inner = Vec::new();
-    let mut stack = vec![(0, order.as_mut_slice())];
-    while let Some((node, range)) = stack.pop() {
-        if range.len() <= AGGLOMERATED_PIECES {
-            let cluster: Vec<Node> = range.iter().map(|&piece| leaves[piece as usize]).collect();
-            append(&mut nodes, node, &agglomerate(&cluster));
-            continue;
-        }
-        let spread = range.iter().fold(Cuboid::EMPTY, |all, &piece| {
-            all.union(Cuboid::of_point(centre(piece)))
-        });
-        let axis = spread.longest_axis();
-        let half = range.len() / 2;
-        range.select_nth_unstable_by(half, |&a, &b| {
-            let order = centre(a)[axis].total_cmp(&centre(b)[axis]);
-            order.then(a.cmp(&b))
-        });
-        let left = nodes.len();
-        nodes.extend_from_slice(&leaves[..2]);
-        nodes[node].below = Below::Children(left as u32);
-        inner.push(node);
-        let (low, high) = range.split_at_mut(half);
-        stack.extend([(left, low), (left + 1, high)]);
-    }
-    for &node in inner.iter().rev() {
-        let left = nodes[node].below.index() as usize;
-        nodes[node].cuboid = nodes[left].cuboid.union(nodes[left + 1].cuboid);
-    }
+    let mut centres: Vec<Centre> = leaves.iter().map(Centre::of).collect();
+    let mut nodes = vec![leaves[0]; 2 * leaves.len() - 1];
+    let (root, below) = nodes.split_at_mut(1);
+    let place = Place {
+        node: &mut root[0],
+        below,
+        first: 1,
+    };
+    Splitter { leaves }.side_by_side(&mut centres, place);
     nodes
 }
 
-/// Puts the root of a small tree at a node of a large one, and the other nodes at its end.
-fn append(nodes: &mut Vec<Node>, root: usize, tree: &[Node]) {
-    // Node k > 0 of the small tree becomes node k + offset of the large one.
-    let offset = nodes.len() as u32 - 1;
-    let moved = |node: &Node| Node {
-        below: match node.below {
-            Below::Children(first) => Below::Children(first + offset),
-            leaf => leaf,
-        },
-        ..*node
+/// The middle of a piece's box.
+#[derive(Clone, Copy)]
+struct Centre {
+    at: [f32; 3],
+    piece: u32,
+}
+
+impl Centre {
+    fn of(leaf: &Node) -> Self {
+        Centre {
+            at: leaf.cuboid.centre().to_array(),
+            piece: leaf.below.index(),
+        }
+    }
+}
+
+/// The place of a subtree in the list of all nodes.
+struct Place<'n> {
+    node: &'n mut Node,
+    /// The nodes below: the two children, all below the second, all below the first.
+    below: &'n mut [Node],
+    /// The index of the first node below.
+    first: u32,
+}
+
+struct Splitter<'l> {
+    leaves: &'l [Node],
+}
+
+impl Splitter<'_> {
+    /// Makes the subtree over some pieces, its two sides in parallel if there are many.
+    fn side_by_side(&self, centres: &mut [Centre], place: Place<'_>) {
+        if centres.len() <= SHARE {
+            return self.one_by_one(centres, place, &mut Workspace::default());
+        }
+        let grow = |centres: &mut [Centre], place: Place<'_>| self.side_by_side(centres, place);
+        halve(centres, place, |[left, right]| {
+            rayon::join(|| grow(left.0, left.1), || grow(right.0, right.1));
+        });
+    }
+
+    fn one_by_one(&self, centres: &mut [Centre], place: Place<'_>, workspace: &mut Workspace) {
+        if centres.len() > AGGLOMERATED_PIECES {
+            return halve(centres, place, |sides| {
+                for (centres, place) in sides {
+                    self.one_by_one(centres, place, workspace);
+                }
+            });
+        }
+        let leaf = |centre: &Centre| self.leaves[centre.piece as usize];
+        let Place { node, below, first } = place;
+        let [root, others @ ..] = agglomerate(centres.iter().map(leaf), workspace) else {
+            return;
+        };
+        // Node k > 0 of the small tree becomes node k + offset of the large one.
+        let moved = |node: &Node| Node {
+            below: match node.below {
+                Below::Children(child) => Below::Children(child - 1 + first),
+                leaf => leaf,
+            },
+            ..*node
+        };
+        *node = moved(root);
+        for (to, from) in below.iter_mut().zip(others) {
+            *to = moved(from);
+        }
+    }
+}
+
+/// Splits pieces at the median of their centres along the longest side, has both sides made, and joins them.
+fn halve<'n>(
+    centres: &mut [Centre],
+    place: Place<'n>,
+    make: impl FnOnce([(&mut [Centre], Place<'_>); 2]),
+) {
+    let Place { node, below, first } = place;
+    let spread = centres.iter().fold(Cuboid::EMPTY, |all, centre| {
+        all.union(Cuboid::of_point(centre.at.into()))
+    });
+    let axis = spread.longest_axis();
+    let half = centres.len() / 2;
+    centres.select_nth_unstable_by(half, |a, b| {
+        let order = a.at[axis].total_cmp(&b.at[axis]);
+        order.then(a.piece.cmp(&b.piece))
+    });
+    let (low, high) = centres.split_at_mut(half);
+    let (children, below) = below.split_at_mut(2);
+    let (left, right) = children.split_at_mut(1);
+    let (below_right, below_left) = below.split_at_mut(2 * (high.len() - 1));
+    let of_right = Place {
+        node: &mut right[0],
+        first: first + 2,
+        below: below_right,
     };
-    let mut all = tree.iter().map(moved);
-    nodes[root] = all.next().unwrap_or(nodes[root]);
-    nodes.extend(all);
+    let of_left = Place {
+        node: &mut left[0],
+        first: first + 2 + of_right.below.len() as u32,
+        below: below_left,
+    };
+    make([(low, of_left), (high, of_right)]);
+    *node = Node {
+        cuboid: left[0].cuboid.union(right[0].cuboid),
+        below: Below::Children(first),
+    };
 }
 
 #[cfg(test)]

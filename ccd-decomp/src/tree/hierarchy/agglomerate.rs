@@ -5,20 +5,40 @@ use super::nodes::{Below, Cuboid, Node};
 use crate::tolerance::{SEARCH_DEPTH, SEARCH_DISTANCE};
 use ccd_core::glam::DVec3;
 
+/// Memory that one agglomeration after the other uses.
+#[derive(Debug, Default)]
+pub(super) struct Workspace {
+    leaves: Vec<Node>,
+    order: Vec<(u64, u64)>,
+    row: Vec<Node>,
+    next: Vec<Node>,
+    prices: Vec<[f32; SEARCH_DISTANCE]>,
+    best: Vec<usize>,
+    tree: Vec<Node>,
+}
+
 /// Returns the nodes of a tree over leaves: its root first, then pairs of siblings, parents before their children.
 ///
 /// # Complexity
 /// O(n log n) if a fair share of the nodes finds a sibling in every pass; O(n²) if only one pair does, as among
 /// boxes with a common centre.
-pub(super) fn agglomerate(leaves: &[Node]) -> Vec<Node> {
-    let Some(&first) = leaves.first() else {
-        return Vec::new();
+pub(super) fn agglomerate(
+    leaves: impl Iterator<Item = Node>,
+    workspace: &mut Workspace,
+) -> &[Node] {
+    let Workspace {
+        row, next, tree, ..
+    } = workspace;
+    workspace.leaves.clear();
+    workspace.leaves.extend(leaves);
+    let Some(&first) = workspace.leaves.first() else {
+        return &[];
     };
-    let mut tree = vec![first; 2 * leaves.len() - 1];
+    tree.clear();
+    tree.resize(2 * workspace.leaves.len() - 1, first);
     // The tree is filled from its end.
     let mut free = tree.len();
-    let (mut row, mut next) = (along_curve(leaves), Vec::with_capacity(leaves.len()));
-    let mut best = Vec::with_capacity(leaves.len());
+    along_curve(&workspace.leaves, &mut workspace.order, row);
     for pass in 0.. {
         if row.len() == 1 {
             break;
@@ -28,7 +48,8 @@ pub(super) fn agglomerate(leaves: &[Node]) -> Vec<Node> {
         } else {
             SEARCH_DISTANCE
         };
-        best_neighbours(&row, reach, &mut best);
+        let best = &mut workspace.best;
+        best_neighbours(row, reach, &mut workspace.prices, best);
         next.clear();
         for (index, &node) in row.iter().enumerate() {
             let other = best[index];
@@ -43,17 +64,22 @@ pub(super) fn agglomerate(leaves: &[Node]) -> Vec<Node> {
                 });
             }
         }
-        std::mem::swap(&mut row, &mut next);
+        std::mem::swap(row, next);
     }
     tree[0] = row[0];
     tree
 }
 
 /// Finds the neighbour of every node in a row that gives the smallest box together with it, the last of equals.
-fn best_neighbours(row: &[Node], reach: usize, best: &mut Vec<usize>) {
+fn best_neighbours(
+    row: &[Node],
+    reach: usize,
+    prices: &mut Vec<[f32; SEARCH_DISTANCE]>,
+    best: &mut Vec<usize>,
+) {
     best.clear();
-    // The prices of the pairs of a node with those after it.
-    let mut prices = vec![[0.0f32; SEARCH_DISTANCE]; row.len()];
+    // The prices of the pairs of a node with those after it: those of an earlier row are overwritten before use.
+    prices.resize(prices.len().max(row.len()), [0.0; SEARCH_DISTANCE]);
     for index in 0..row.len() {
         let (mut least, mut other) = (f32::INFINITY, index);
         for before in index.saturating_sub(reach)..index {
@@ -74,18 +100,16 @@ fn best_neighbours(row: &[Node], reach: usize, best: &mut Vec<usize>) {
 }
 
 /// Sorts leaves along a curve through the box of them all, which keeps near ones together: by their Morton codes.
-fn along_curve(leaves: &[Node]) -> Vec<Node> {
+fn along_curve(leaves: &[Node], order: &mut Vec<(u64, u64)>, row: &mut Vec<Node>) {
     let all = leaves
         .iter()
         .fold(Cuboid::EMPTY, |all, leaf| all.union(leaf.cuboid));
-    let mut order: Vec<(u64, u64)> = (leaves.iter().zip(0..))
-        .map(|(leaf, index)| (morton(all.place(leaf.cuboid)), index))
-        .collect();
+    order.clear();
+    let codes = leaves.iter().zip(0..);
+    order.extend(codes.map(|(leaf, index)| (morton(all.place(leaf.cuboid)), index)));
     order.sort_unstable_by_key(|&(code, _)| code);
-    order
-        .iter()
-        .map(|&(_, index)| leaves[index as usize])
-        .collect()
+    row.clear();
+    row.extend(order.iter().map(|&(_, index)| leaves[index as usize]));
 }
 
 /// Interleaves the 21 leading bits of three coordinates in the unit interval.

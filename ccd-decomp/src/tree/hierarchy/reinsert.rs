@@ -2,6 +2,10 @@
 
 use super::nodes::{Below, Node, sibling};
 use crate::tolerance::REINSERTED_SHARE;
+use rayon::prelude::*;
+
+/// The subtrees that one thread takes at a time: with fewer, sharing takes as long as the work.
+const SHARE: usize = 32;
 
 /// Improves a tree in rounds. The first tries a share of the nodes, the later ones ever fewer, nearer to the root.
 pub(super) fn reinsert(nodes: &mut [Node]) {
@@ -49,10 +53,16 @@ impl<'a> Tree<'a> {
         // The first nodes are near the root, and most of the largest are among them.
         let first = self.nodes.len().min(2 * (count + 1));
         let mut largest: Vec<(f32, u32)> = (1..first as u32).map(|n| (self.area(n), n)).collect();
-        largest.sort_by(|a, b| b.0.total_cmp(&a.0));
-        let mut moves: Vec<Move> = largest[..count]
-            .iter()
-            .filter_map(|&(_, node)| self.best_move(node))
+        let by_area = |a: &(f32, u32), b: &(f32, u32)| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1));
+        if count < largest.len() {
+            largest.select_nth_unstable_by(count, by_area);
+            largest.truncate(count);
+        }
+        largest.sort_unstable_by(by_area);
+        // The tree stays as it is until all places are found, so that they can be searched side by side.
+        let mut moves: Vec<Move> = (largest.par_iter().with_min_len(SHARE))
+            .map_init(Vec::new, |stack, &(_, node)| self.best_move(node, stack))
+            .flatten_iter()
             .collect();
         moves.sort_unstable_by(|a, b| b.gain.total_cmp(&a.gain));
         self.touched.fill(false);
@@ -70,7 +80,7 @@ impl<'a> Tree<'a> {
 
     /// Finds the best place for a subtree: climbs to the root, and searches every subtree beside the way. A branch
     /// is left when its boxes grow by more than the best place gains.
-    fn best_move(&self, from: u32) -> Option<Move> {
+    fn best_move(&self, from: u32, stack: &mut Vec<(f32, u32)>) -> Option<Move> {
         let cuboid = self.nodes[from as usize].cuboid;
         let area = cuboid.half_area();
         let parent = self.parents[from as usize];
@@ -83,7 +93,6 @@ impl<'a> Tree<'a> {
         let mut gain = self.area(parent);
         let (mut pivot, mut beside) = (parent, sibling(from));
         let mut left = self.nodes[beside as usize].cuboid;
-        let mut stack = Vec::new();
         loop {
             stack.push((gain, beside));
             while let Some((gain, node)) = stack.pop() {
