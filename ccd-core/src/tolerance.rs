@@ -340,3 +340,7 @@ pub const LEAST_TURN: f64 = 1e-10;
 /// Unit: triangles. Smaller: boxes grow; at 16 queries visit a percent more nodes. Larger: longer
 /// to build, boxes hardly shrink.
 pub const SAMPLED_TRIANGLES: usize = 64;
+
+/// Squares of cross products below this, or above its inverse, are computed in f64: an f32 has lost
+/// digits from 1e-38 on.
+pub const SHORT_F32: f32 = 1e-30;

@@ -26,7 +26,7 @@ use glam::DVec3;
 pub struct Pieces {
     points: Vec<DVec3>,
     vertex_ids: Vec<u32>,
-    /// The end of each piece's points.
+    /// The end of each piece's points; empty for triangles, which have three each.
     point_ends: Vec<u32>,
     radii: Radii,
     shape: Shape,
@@ -101,7 +101,7 @@ impl Pieces {
         Pieces {
             points: vertex_ids.iter().map(|&v| vertices[v as usize]).collect(),
             vertex_ids,
-            point_ends: (1..=faces.len()).map(|k| 3 * k as u32).collect(),
+            point_ends: Vec::new(),
             radii: Radii::Zero,
             shape: Shape::Triangles {
                 face_ids: face_ids.to_vec(),
@@ -112,13 +112,11 @@ impl Pieces {
     }
 
     fn checked(self) -> Result<Self, InputError> {
-        if self.point_ends.is_empty() {
+        if self.len() == 0 {
             return Err(InputError::NoPieces);
         }
         if self.points.len() >= MAX_POINTS {
-            return Err(InputError::TooManyPieces {
-                pieces: self.point_ends.len(),
-            });
+            return Err(InputError::TooManyPieces { pieces: self.len() });
         }
         for piece in 0..self.len() {
             let points = &self.points[self.point_range(piece)];
@@ -141,7 +139,10 @@ impl Pieces {
     /// The number of pieces: at least one.
     #[allow(clippy::len_without_is_empty)]
     pub fn len(&self) -> usize {
-        self.point_ends.len()
+        match &self.shape {
+            Shape::Triangles { face_ids } => face_ids.len(),
+            Shape::Polytopes(_) => self.point_ends.len(),
+        }
     }
 
     /// Returns whether every piece is a triangle without rounding.
@@ -180,11 +181,12 @@ impl Pieces {
 
     /// The approximate number of bytes held.
     pub(crate) fn bytes(&self) -> usize {
-        let facets = match &self.shape {
-            Shape::Triangles { .. } => 0,
-            Shape::Polytopes(surfaces) => surfaces.bytes(),
+        let numbers = self.vertex_ids.len() + self.point_ends.len();
+        let others = match &self.shape {
+            Shape::Triangles { face_ids } => size_of_val(face_ids.as_slice()),
+            Shape::Polytopes(surfaces) => 4 * self.len() + surfaces.bytes(),
         };
-        size_of_val(self.points.as_slice()) + 4 * (self.vertex_ids.len() + 2 * self.len()) + facets
+        size_of_val(self.points.as_slice()) + 4 * numbers + others
     }
 
     /// Returns the three corners of a piece, if [`Pieces::all_triangles`] holds.
@@ -206,7 +208,7 @@ impl Pieces {
     /// Returns all points of consecutive pieces.
     pub(crate) fn points_of(&self, pieces: std::ops::Range<usize>) -> &[DVec3] {
         let start = self.point_range(pieces.start).start;
-        &self.points[start..self.point_ends[pieces.end - 1] as usize]
+        &self.points[start..self.point_range(pieces.end - 1).end]
     }
 
     /// Returns the pieces in another order: piece `k` of the result is piece `order[k]` of this.
@@ -214,7 +216,7 @@ impl Pieces {
         let mut out = Pieces {
             points: Vec::with_capacity(self.points.len()),
             vertex_ids: Vec::with_capacity(self.points.len()),
-            point_ends: Vec::with_capacity(self.len()),
+            point_ends: Vec::with_capacity(self.point_ends.len()),
             radii: match &self.radii {
                 Radii::Zero => Radii::Zero,
                 Radii::Each(radii) => {
@@ -228,7 +230,9 @@ impl Pieces {
             let range = self.point_range(k as usize);
             out.points.extend_from_slice(&self.points[range.clone()]);
             out.vertex_ids.extend_from_slice(&self.vertex_ids[range]);
-            out.point_ends.push(out.points.len() as u32);
+            if !self.all_triangles() {
+                out.point_ends.push(out.points.len() as u32);
+            }
         }
         out
     }
@@ -254,7 +258,10 @@ impl Pieces {
 
     #[inline]
     pub(crate) fn point_range(&self, piece: usize) -> std::ops::Range<usize> {
-        range(&self.point_ends, piece)
+        match &self.shape {
+            Shape::Triangles { .. } => 3 * piece..3 * piece + 3,
+            Shape::Polytopes(_) => range(&self.point_ends, piece),
+        }
     }
 
     #[inline]

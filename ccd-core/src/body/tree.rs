@@ -9,9 +9,10 @@ pub(crate) mod point_query;
 pub(crate) mod ray;
 
 pub(crate) use build::Layout;
-pub(crate) use group::{BoxGroup, LANES, Members, TriangleGroup, unit_normal, up};
+pub(crate) use group::{BoxGroup, LANES, Members, TriangleGroup, TriangleRow, unit_normal, up};
 pub(crate) use node::{Below, Node};
 
+use super::pieces::Pieces;
 use glam::DVec3;
 
 /// An immutable tree in the body's frame. Node 0 is the root; ids beyond the nodes name triangles.
@@ -24,7 +25,7 @@ use glam::DVec3;
 pub(crate) struct Tree {
     nodes: Vec<Node>,
     boxes: Vec<BoxGroup>,
-    triangles: Vec<TriangleGroup>,
+    triangles: Vec<TriangleRow>,
     /// The largest distance of a point from the body's origin, rounding radii included.
     span: f64,
 }
@@ -65,8 +66,18 @@ impl Tree {
         &self.boxes[index as usize]
     }
 
-    pub(crate) fn triangle_group(&self, index: u32) -> &TriangleGroup {
-        &self.triangles[index as usize]
+    /// Lays out a group of triangles, of the pieces that the tree is over.
+    #[inline]
+    pub(crate) fn triangle_group(&self, index: u32, pieces: &Pieces) -> TriangleGroup {
+        let row = &self.triangles[index as usize];
+        let first = row.members.first as usize - self.nodes.len();
+        let triangles = pieces.points_of(first..first + row.members.count as usize);
+        TriangleGroup::new(row, triangles.as_chunks().0)
+    }
+
+    /// The members of a group of triangles.
+    pub(crate) fn triangle_members(&self, index: u32) -> &Members {
+        &self.triangles[index as usize].members
     }
 
     /// The largest distance of a point from the body's origin.

@@ -70,7 +70,7 @@ fn below(tree: &Tree, at: NodeId) -> std::ops::Range<NodeId> {
         Named::Triangle(_) => return 0..0,
         Named::Node(node) => match node.below {
             Below::Boxes(group) => &tree.box_group(group).members,
-            Below::Triangles(group) => &tree.triangle_group(group).members,
+            Below::Triangles(group) => tree.triangle_members(group),
             Below::Piece(_) => return 0..0,
         },
     };

@@ -62,7 +62,7 @@ impl TryFrom<Stored> for Pieces {
         Pieces {
             points,
             vertex_ids,
-            point_ends: (1..=triangles).map(|k| 3 * k as u32).collect(),
+            point_ends: Vec::new(),
             radii: Radii::Zero,
             shape: Shape::Triangles { face_ids },
             side_table: SideTable::default(),

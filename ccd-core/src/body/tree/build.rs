@@ -1,7 +1,7 @@
 //! Builds the wide tree from a binary hierarchy.
 
 use super::fit::{Cloud, Sample, fit};
-use super::{Below, BoxGroup, LANES, Node, Tree, TriangleGroup};
+use super::{Below, BoxGroup, LANES, Node, Tree, TriangleRow};
 use crate::body::hierarchy::{Hierarchy, HierarchyNode};
 use crate::body::piece::Piece;
 use crate::body::pieces::Pieces;
@@ -165,11 +165,11 @@ impl Layout {
         });
         // Ids of triangles follow those of the nodes.
         let after = nodes.len() as u32;
-        let mut triangles = vec![TriangleGroup::EMPTY; self.triangles.len()];
+        let mut triangles = vec![TriangleRow::EMPTY; self.triangles.len()];
         for_each(&mut triangles, &(), |(), k, group| {
             let TrianglesBelow { parent, start, end } = self.triangles[k];
             let corners = pieces.points_of(start as usize..end as usize).as_chunks().0;
-            *group = TriangleGroup::new(corners, after + start, nodes[parent as usize].centre);
+            *group = TriangleRow::new(corners, after + start, nodes[parent as usize].centre);
         });
         Tree {
             nodes,

@@ -42,7 +42,7 @@ pub(crate) fn is_clear(tree: &Tree, pieces: &Pieces, point: DVec3, reach: f64) -
                 true
             }
             Below::Triangles(group) => {
-                let members = &tree.triangles[group as usize].members;
+                let members = tree.triangle_members(group);
                 let first = members.first as usize - tree.nodes.len();
                 (first..first + members.count as usize)
                     .all(|piece| is_past(pieces.triangle(piece), point, reach))

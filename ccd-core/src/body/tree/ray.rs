@@ -75,7 +75,7 @@ fn along(tree: &Tree, pieces: &Pieces, start: Start, along: DVec3) -> Option<Cro
                 stack.extend(members.first..members.first + members.count);
             }
             Below::Triangles(group) => {
-                let members = &tree.triangles[group as usize].members;
+                let members = tree.triangle_members(group);
                 let first = members.first - tree.nodes.len() as u32;
                 for piece in first..first + members.count {
                     found.add(pieces.triangle(piece as usize), start)?;

@@ -57,7 +57,7 @@ fn visit(tree: &Tree, pieces: &Pieces, id: NodeId, seen: &mut [u32]) -> Vec<u32>
             }
         }
         Below::Triangles(group) => {
-            let group = tree.triangle_group(group);
+            let group = &tree.triangle_group(group, pieces);
             for child in members(&group.members) {
                 let lane = (child - group.members.first) as usize;
                 let inside = visit(tree, pieces, child, seen);

@@ -83,7 +83,8 @@ fn split_node<P: Pace>(motion: &RelativeMotion<'_>, split: &Split) -> Expansion 
             }
         }
         Below::Triangles(group) => {
-            let group = tree.triangle_group(group);
+            let pieces = motion.split_side.body.pieces();
+            let group = &tree.triangle_group(group, pieces);
             Expansion {
                 bounds: motion.bound::<_, P>(group, &group.members),
                 first: group.members.first,

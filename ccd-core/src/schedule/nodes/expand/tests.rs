@@ -268,7 +268,7 @@ fn below(side: &Side<'_>, id: NodeId, visit: &mut impl FnMut(u32)) {
         Named::Node(node) => match node.below {
             Below::Piece(piece) => return visit(piece),
             Below::Boxes(group) => tree.box_group(group).members,
-            Below::Triangles(group) => tree.triangle_group(group).members,
+            Below::Triangles(group) => *tree.triangle_members(group),
         },
     };
     for k in 0..members.count {
@@ -340,7 +340,8 @@ fn planes_that_stand_still(
             still(&motion, group, &group.members)
         }
         Below::Triangles(group) => {
-            let group = tree.triangle_group(group);
+            let pieces = split.of(problem).body.pieces();
+            let group = &tree.triangle_group(group, pieces);
             still(&motion, group, &group.members)
         }
         Below::Piece(_) => panic!("a node to split"),

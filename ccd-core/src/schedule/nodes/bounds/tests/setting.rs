@@ -1,7 +1,9 @@
 //! Random groups and nodes that meet, in f64 and rounded as in an expansion.
 
 use super::{Sample, Solid};
-use crate::body::tree::{Below, BoxGroup, LANES, Node, TriangleGroup, unit_normal, up};
+use crate::body::tree::{
+    Below, BoxGroup, LANES, Node, TriangleGroup, TriangleRow, unit_normal, up,
+};
 use crate::math::order::greater;
 use crate::schedule::nodes::eight_pairs::RelativeMotionF32;
 use crate::schedule::nodes::shape::{OtherBox, OtherNode, OtherTriangle};
@@ -171,7 +173,8 @@ impl Setting {
             .iter()
             .map(|s| [s.points[0], s.points[1], s.points[6]])
             .collect();
-        let group = TriangleGroup::new(&corners, 0, self.origin);
+        let row = TriangleRow::new(&corners, 0, self.origin);
+        let group = TriangleGroup::new(&row, &corners);
         let children = corners.iter().map(|t| self.child(t)).collect();
         let far = self.far(other);
         let [a, b, c] = [far.points[0], far.points[1], far.points[2]];
