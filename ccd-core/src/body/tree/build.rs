@@ -92,6 +92,12 @@ struct TrianglesBelow {
     end: u32,
 }
 
+/// A group of nodes is full with this many groups' worth of triangles, as hardly any of those is.
+///
+/// Unit: groups. Less: more memory, as most groups of nodes are at the bottom. More: nodes that
+/// just exceed it are split into two.
+const FULL_LANES: u64 = 6;
+
 impl Layout {
     /// Lays out the tree, and sorts the pieces into its order.
     ///
@@ -108,6 +114,11 @@ impl Layout {
             hierarchy,
             ranges,
             whole: if triangles { LANES } else { 1 },
+            // Other pieces than triangles are no groups.
+            layers: match triangles {
+                true => layers(ranges.order.len()),
+                false => Vec::new(),
+            },
         };
         let mut layout = Layout::default();
         layout.push_node(&opener, 0);
@@ -204,16 +215,43 @@ struct Opener<'a> {
     ranges: &'a Ranges,
     /// Nodes of up to this many pieces are not opened.
     whole: usize,
+    /// The most pieces of a node by its layer, from the bottom.
+    layers: Vec<usize>,
+}
+
+/// Returns the most pieces of a node by its layer, from the bottom: full groups first, then by even
+/// ratios as many layers as it takes.
+fn layers(pieces: usize) -> Vec<usize> {
+    let (full, pieces) = (LANES as u64 * FULL_LANES, pieces as u64);
+    let mut count = 1;
+    while full * (LANES as u64).pow(count) < pieces {
+        count += 1;
+    }
+    // In quarters, so that rounding has no part in it.
+    let layer = |ratio: u64, k: u32| full * ratio.pow(k) / 4u64.pow(k);
+    let most = 4 * LANES as u64;
+    let even = (4..most).find(|&ratio| layer(ratio, count) >= pieces);
+    let below = (0..count).map(|k| layer(even.unwrap_or(most), k) as usize);
+    [LANES].into_iter().chain(below).collect()
 }
 
 impl Opener<'_> {
+    /// Returns the most pieces of a node that fits into the layer below that of a node.
+    fn layer_below(&self, pieces: usize) -> usize {
+        let lower = self.layers.iter().rev().find(|&&layer| layer < pieces);
+        lower.copied().unwrap_or(self.whole)
+    }
+
     /// Returns the descendants that become a node's children, and their number: repeatedly opens
-    /// the one with the most pieces.
+    /// the one with the most pieces, unless it fits into a lower layer of full groups.
+    ///
+    /// Groups are full at the bottom, where most of them are.
     fn open(&self, at: u32) -> ([u32; LANES], usize) {
         let (mut members, mut count) = ([at; LANES], 1);
+        let whole = self.layer_below(self.ranges.len(at));
         while count < LANES {
             let largest = (0..count).max_by_key(|&k| self.ranges.len(members[k]));
-            let Some(k) = largest.filter(|&k| self.ranges.len(members[k]) > self.whole) else {
+            let Some(k) = largest.filter(|&k| self.ranges.len(members[k]) > whole) else {
                 break;
             };
             let HierarchyNode::Inner(left, right) = self.hierarchy.nodes()[members[k] as usize]
