@@ -332,15 +332,11 @@ mod tests;
 
 /// The angle below which a rotation towards principal axes is left out.
 ///
-/// Unit: one, radians. Axes are rounded to f32, which turns them by up to 6e-8.
-pub const LEAST_TURN: f64 = 1e-10;
+/// Unit: radians. Axes are rounded to f32, which turns them by up to 6e-8.
+pub const LEAST_TURN: f64 = 1e-7;
 
 /// The most triangles of a node that choose the frame of its box; it then holds all of them.
 ///
 /// Unit: triangles. Smaller: boxes grow; at 16 queries visit a percent more nodes. Larger: longer
 /// to build, boxes hardly shrink.
 pub const SAMPLED_TRIANGLES: usize = 64;
-
-/// Squares of cross products below this, or above its inverse, are computed in f64: an f32 has lost
-/// digits from 1e-38 on.
-pub const SHORT_F32: f32 = 1e-30;

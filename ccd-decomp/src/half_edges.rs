@@ -91,15 +91,12 @@ impl Edges {
     }
 
     /// The edges: the lower and the upper end, and the uses in ascending order of the half-edges.
-    pub(crate) fn iter(&self) -> impl Iterator<Item = ([u32; 2], &[Use])> {
-        let mut start = 0;
-        self.ends.iter().enumerate().flat_map(move |(slot, &end)| {
-            let uses = &self.uses[start..end as usize];
-            start = end as usize;
-            let lower = self.lower.get(slot).copied().unwrap_or(slot as u32);
-            let edges = uses.chunk_by(|one, next| one.upper() == next.upper());
-            edges.map(move |edge| ([lower, edge[0].upper()], edge))
-        })
+    pub(crate) fn iter(&self) -> EdgesIter<'_> {
+        EdgesIter {
+            edges: self,
+            slot: 0,
+            at: 0,
+        }
     }
 
     /// Finds the twin of every half-edge of so many triangles, which runs along the same edge in the opposite
@@ -120,6 +117,35 @@ impl Edges {
             }
         }
         Some(twins)
+    }
+}
+
+/// The edges that are left.
+pub(crate) struct EdgesIter<'e> {
+    edges: &'e Edges,
+    /// The slot of the last edge's lower end, and the first use after that edge.
+    slot: usize,
+    at: usize,
+}
+
+impl<'e> Iterator for EdgesIter<'e> {
+    type Item = ([u32; 2], &'e [Use]);
+
+    #[inline]
+    fn next(&mut self) -> Option<Self::Item> {
+        let Edges { lower, ends, uses } = self.edges;
+        let start = self.at;
+        let upper = uses.get(start)?.upper();
+        while ends[self.slot] as usize <= start {
+            self.slot += 1;
+        }
+        let end = ends[self.slot] as usize;
+        while self.at < end && uses[self.at].upper() == upper {
+            self.at += 1;
+        }
+        let lower = lower.get(self.slot).copied();
+        let lower = lower.unwrap_or(self.slot as u32);
+        Some(([lower, upper], &uses[start..self.at]))
     }
 }
 

@@ -1,6 +1,7 @@
 //! Builds the wide tree from a binary hierarchy.
 
 use super::fit::{Cloud, Sample, fit};
+use super::group::longest;
 use super::{Below, BoxGroup, LANES, Node, Tree, TriangleRow};
 use crate::body::hierarchy::{Hierarchy, HierarchyNode};
 use crate::body::piece::Piece;
@@ -8,7 +9,7 @@ use crate::body::pieces::Pieces;
 use crate::body::threads::for_each;
 use crate::error::InputError;
 use crate::math::order::greater;
-use crate::math::vector::length;
+use glam::DVec3;
 
 /// All nodes and groups of a tree, before they are fitted to their pieces.
 #[derive(Default)]
@@ -20,10 +21,11 @@ pub(crate) struct Layout {
 
 /// Returns the largest distance of a point from the origin, rounding radii included.
 fn span(pieces: &Pieces) -> f64 {
-    let reach = |piece: Piece<'_>| {
-        let farthest = piece.points.iter().map(|&p| length(p)).fold(0.0, greater);
-        farthest + piece.radius
-    };
+    let farthest = |points: &[DVec3]| longest(points.iter().copied());
+    if pieces.all_triangles() {
+        return farthest(pieces.points());
+    }
+    let reach = |piece: Piece<'_>| farthest(piece.points) + piece.radius;
     pieces.iter().map(reach).fold(0.0, greater)
 }
 

@@ -3,7 +3,7 @@
 use super::node::{Below, Node};
 use crate::math::order::greater;
 use crate::math::vector::{length, normal};
-use crate::tolerance::{SHORT_F32, SQUARES};
+use crate::tolerance::SQUARES;
 use glam::{DVec3, Vec3};
 
 /// The number of children in a group.
@@ -140,12 +140,10 @@ impl TriangleRow {
         for (triangle, radius) in triangles.iter().zip(&mut row.radius) {
             let corners = triangle.map(|p| p - origin);
             let mean = (corners[0] + corners[1] + corners[2]) / 3.0;
-            for corner in corners {
-                let reach = up(length(corner));
-                row.members.reach = greater(row.members.reach, reach);
-                *radius = greater(*radius, up(length(corner - mean)));
-            }
+            *radius = up(longest(corners.into_iter().map(|corner| corner - mean)));
         }
+        let corners = triangles.as_flattened().iter();
+        row.members.reach = up(longest(corners.map(|&p| p - origin)));
         row
     }
 }
@@ -170,8 +168,8 @@ impl TriangleGroup {
         }
         group.normal = normals(&group.corners);
         for lane in 0..LANES {
-            // Products of short edges have lost their digits in f32.
-            if !(group.normal[0][lane].is_finite()) {
+            // Its edges are too short for f32, or it has no area.
+            if group.normal[0][lane].is_nan() {
                 set(
                     &mut group.normal,
                     lane,
@@ -183,27 +181,27 @@ impl TriangleGroup {
     }
 }
 
-/// Returns unit normals, with NaN or infinity where f32 is too short for one. They are only axes to
-/// try, so that their rounding matters to nobody.
+/// Returns unit normals of the rounded corners, NaN where there is none: axes to try, which the
+/// rounding of corners hardly turns. In f64, so that they are unit vectors as exactly as others.
 #[inline]
 fn normals(corners: &[Rows3; 3]) -> Rows3 {
     let mut normals = [[0.0; LANES]; 3];
     for lane in 0..LANES {
         let [a, b, c] = [0, 1, 2].map(|k| {
             let rows: &Rows3 = &corners[k];
-            Vec3::new(rows[0][lane], rows[1][lane], rows[2][lane])
+            DVec3::from_array([0, 1, 2].map(|axis| f64::from(rows[axis][lane])))
         });
         let across = (b - a).cross(c - a);
-        let square = across.dot(across);
-        let fits = square > SHORT_F32 && square < SHORT_F32.recip();
+        let square = across.length_squared();
+        let fits = square >= *SQUARES.start() && square <= *SQUARES.end();
         let scale = if fits {
             square.sqrt().recip()
         } else {
-            f32::NAN
+            f64::NAN
         };
-        normals[0][lane] = across.x * scale;
-        normals[1][lane] = across.y * scale;
-        normals[2][lane] = across.z * scale;
+        normals[0][lane] = (across.x * scale) as f32;
+        normals[1][lane] = (across.y * scale) as f32;
+        normals[2][lane] = (across.z * scale) as f32;
     }
     normals
 }
@@ -216,6 +214,17 @@ pub(crate) fn unit_normal(corners: [DVec3; 3]) -> Vec3 {
         // In f32 a reciprocal is accurate enough.
         true => (across * square.sqrt().recip()).as_vec3(),
         false => normal(corners).unwrap_or(DVec3::ZERO).as_vec3(),
+    }
+}
+
+/// Returns the greatest length of some vectors, as accurate as [`length`].
+pub(super) fn longest(vectors: impl Iterator<Item = DVec3> + Clone) -> f64 {
+    let squares = vectors.clone().map(DVec3::length_squared);
+    let square = squares.fold(0.0, greater);
+    // The square of a longer vector is no less, so that one root does for all.
+    match SQUARES.contains(&square) {
+        true => square.sqrt(),
+        false => vectors.map(length).fold(0.0, greater),
     }
 }
 

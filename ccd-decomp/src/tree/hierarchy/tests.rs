@@ -79,6 +79,25 @@ fn rounded_pieces_count_with_their_radius() {
 }
 
 #[test]
+fn any_number_of_threads_gives_the_same_hierarchy() {
+    // More than are shared out at once, in places without an order.
+    let place = |k: f64| {
+        dvec3(
+            (1.3 * k).sin(),
+            (1.7 * k).cos(),
+            (0.3 * k).sin() * (1.1 * k).cos(),
+        )
+    };
+    let pieces = triangles(20_000, |k| corner(0.01).map(|p| p + place(k)));
+    let built = [1, 2, 7].map(|threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+        pool.unwrap().install(|| build_hierarchy(&pieces).unwrap())
+    });
+    assert_eq!(built[0].nodes(), built[1].nodes());
+    assert_eq!(built[0].nodes(), built[2].nodes());
+}
+
+#[test]
 fn neighbours_are_siblings() {
     // Pairs of triangles at one place each, listed in two rounds: a leaf's sibling is its twin.
     let pieces = triangles(400, |k| corner(0.1).map(|p| p + (k % 200.0) * DVec3::X));
