@@ -266,3 +266,6 @@ impl Opener<'_> {
         (members, count)
     }
 }
+
+#[cfg(test)]
+mod tests;

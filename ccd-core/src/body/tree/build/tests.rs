@@ -1,0 +1,38 @@
+use super::*;
+use crate::tests::scene::{Look, body, rng, soup};
+
+#[test]
+fn layers_grow_evenly_up_to_all_pieces() {
+    for pieces in [1, 8, 9, 48, 49, 10_000, 69_664, 1_000_000, 1 << 30] {
+        let layers = layers(pieces);
+        assert_eq!(layers[..2], [LANES, 48]);
+        assert!(layers[layers.len() - 1] <= pieces.max(48));
+        for pair in layers.windows(2) {
+            assert!(
+                pair[0] < pair[1] && pair[1] <= LANES * pair[0],
+                "{layers:?}"
+            );
+        }
+        // A node of all pieces is at most one layer above the last.
+        assert!(layers[layers.len() - 1] * LANES >= pieces, "{layers:?}");
+    }
+}
+
+#[test]
+fn groups_are_half_full_at_least() {
+    let triangles = soup(&mut rng(5), Look::Mixed, 20_000, 0.02);
+    let body = body(&triangles);
+    let tree = body.tree();
+    let lanes: usize = tree
+        .boxes
+        .iter()
+        .map(|group| group.members.count as usize)
+        .sum();
+    assert!(
+        lanes >= 4 * tree.boxes.len(),
+        "{lanes}, {}",
+        tree.boxes.len()
+    );
+    assert_eq!(lanes + 1, tree.nodes.len());
+    assert_eq!(tree.nodes.capacity(), tree.nodes.len());
+}
