@@ -31,6 +31,8 @@ pub struct Config {
     /// pieces are small. A call of an oracle is never interrupted. Whether the deadline is reached
     /// depends on the machine: answers that it ends differ from one call to the next.
     pub deadline: Option<Duration>,
+    /// The vector instructions to compute with. Answers are the same, to the last bit.
+    pub instructions: Instructions,
 }
 
 impl Default for Config {
@@ -41,8 +43,21 @@ impl Default for Config {
             start: StartPolicy::default(),
             budget: limits::DEFAULT_BUDGET,
             deadline: None,
+            instructions: Instructions::default(),
         }
     }
+}
+
+/// The vector instructions to compute with.
+///
+/// On x86 these are AVX2 or SSE2. Other targets have one set each, NEON for instance.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Instructions {
+    /// The best of the machine, found at run time.
+    #[default]
+    Best,
+    /// Those of the target that the program was built for, which every machine of that target has.
+    Baseline,
 }
 
 /// The treatment of a contact at the start.

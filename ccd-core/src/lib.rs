@@ -83,8 +83,8 @@
 #[cfg(all(target_feature = "avx512f", faulty_avx512, not(feature = "avx512")))]
 compile_error!(
     "LLVM 22, which is behind this rustc, miscompiles AVX-512 (rust issue 158622), and a certificate is \
-     worth nothing then: add `-C target-cpu=x86-64-v3` to the rustflags, as .cargo/config.toml does here, \
-     or the feature `avx512` if your compiler is known to be free of it"
+     worth nothing then: remove `-C target-cpu=native` from the rustflags, or replace it by `x86-64-v3`; add \
+     the feature `avx512` if your compiler is known to be free of the fault"
 );
 mod body;
 mod config;
@@ -112,7 +112,7 @@ pub use body::pieces::Pieces;
 pub use body::polytope::{Face, Facet, Origin, Polytope};
 pub use body::support::{DIRECTIONS, Support, SupportScan, SupportTable, SupportTree};
 pub use body::{Body, Volume};
-pub use config::{Config, StartPolicy};
+pub use config::{Config, Instructions, StartPolicy};
 pub use contacts::{ContactsError, FeaturePair};
 pub use distance::oracle::{Claim, DistanceOracle, Effort, GiveUp, OrElse, PiecePair};
 pub use error::InputError;

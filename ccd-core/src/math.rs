@@ -2,6 +2,7 @@
 
 #[cfg(feature = "exact")]
 pub mod exact;
+pub(crate) mod instructions;
 pub mod order;
 pub mod point_tree;
 pub(crate) mod principal;

@@ -10,6 +10,7 @@ use crate::math::vector::{distance, length};
 use crate::motion::Motion;
 use crate::motion::path::Path;
 use crate::tolerance::{self, NODE_GAP};
+use fearless_simd::Level;
 use glam::DVec3;
 use std::time::Duration;
 
@@ -63,6 +64,8 @@ pub struct Problem<'a> {
     pub(crate) deadline: Option<Duration>,
     /// Bounds the rounding of any distance computed in f64: [`tolerance::distance_rounding`].
     pub(crate) rounding: f64,
+    /// The vector instructions to use.
+    pub(crate) level: Level,
 }
 
 /// A body on its path in the problem's units.
@@ -150,6 +153,7 @@ impl<'a> Problem<'a> {
             budget: config.budget,
             deadline: config.deadline,
             rounding,
+            level: config.instructions.level(),
         })
     }
 

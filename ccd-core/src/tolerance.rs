@@ -91,7 +91,7 @@ pub fn least_tolerance(rounding: f64) -> f64 {
 /// group's origin.
 ///
 /// In units of `u = 2⁻²⁴`: the distance is rounded once (1), the child's centre subtracted (1),
-/// projected by three fused operations (3) onto an axis whose length is off by a root, a quotient and
+/// projected by three operations (3) onto an axis whose length is off by a root, a quotient and
 /// a product (4), and the reaches subtracted (2): 11u; 12u are taken.
 pub const WAY_F32: f32 = 12.0 * U32;
 
@@ -327,9 +327,6 @@ pub fn height_rounding(sides: [DVec3; 2], reach: f64) -> f64 {
     128.0 * U64 * u * v * reach + f64::MIN_POSITIVE
 }
 
-#[cfg(test)]
-mod tests;
-
 /// The angle below which a rotation towards principal axes is left out.
 ///
 /// Unit: radians. Axes are rounded to f32, which turns them by up to 6e-8.
@@ -340,3 +337,6 @@ pub const LEAST_TURN: f64 = 1e-7;
 /// Unit: triangles. Smaller: boxes grow; at 16 queries visit a percent more nodes. Larger: longer
 /// to build, boxes hardly shrink.
 pub const SAMPLED_TRIANGLES: usize = 64;
+
+#[cfg(test)]
+mod tests;

@@ -52,9 +52,9 @@ impl Lanes3 {
     #[inline(always)]
     pub(crate) fn along(self, t: f64x4, direction: Self) -> Self {
         Lanes3 {
-            x: t.mul_add(direction.x, self.x),
-            y: t.mul_add(direction.y, self.y),
-            z: t.mul_add(direction.z, self.z),
+            x: self.x + t * direction.x,
+            y: self.y + t * direction.y,
+            z: self.z + t * direction.z,
         }
     }
 
@@ -62,26 +62,25 @@ impl Lanes3 {
     #[inline(always)]
     pub(crate) fn back(self, t: f64x4, direction: Self) -> Self {
         Lanes3 {
-            x: t.mul_neg_add(direction.x, self.x),
-            y: t.mul_neg_add(direction.y, self.y),
-            z: t.mul_neg_add(direction.z, self.z),
+            x: self.x - t * direction.x,
+            y: self.y - t * direction.y,
+            z: self.z - t * direction.z,
         }
     }
 
     /// Scalar products.
     #[inline(always)]
     pub(crate) fn dot(self, other: Self) -> f64x4 {
-        let yz = self.y.mul_add(other.y, self.z * other.z);
-        self.x.mul_add(other.x, yz)
+        self.x * other.x + (self.y * other.y + self.z * other.z)
     }
 
     /// Cross products.
     #[inline(always)]
     pub(crate) fn cross(self, other: Self) -> Self {
         Lanes3 {
-            x: self.y.mul_sub(other.z, self.z * other.y),
-            y: self.z.mul_sub(other.x, self.x * other.z),
-            z: self.x.mul_sub(other.y, self.y * other.x),
+            x: self.y * other.z - self.z * other.y,
+            y: self.z * other.x - self.x * other.z,
+            z: self.x * other.y - self.y * other.x,
         }
     }
 

@@ -74,9 +74,9 @@ pub use ccd_core::glam;
 pub use ccd_core::schedule;
 pub use ccd_core::{
     Answer, Body, Claim, Combination, Config, Contact, ContactsError, DistanceOracle, Effort, Face,
-    Facet, Feature, FeaturePair, Frame, GiveUp, Hierarchy, HierarchyNode, InputError, Limit,
-    Motion, Moving, OrElse, Origin, Outcome, Overlap, Piece, PiecePair, Pieces, Polytope, Pose,
-    Problem, Schedule, Separation, StartPolicy, Stats, Volume,
+    Facet, Feature, FeaturePair, Frame, GiveUp, Hierarchy, HierarchyNode, InputError, Instructions,
+    Limit, Motion, Moving, OrElse, Origin, Outcome, Overlap, Piece, PiecePair, Pieces, Polytope,
+    Pose, Problem, Schedule, Separation, StartPolicy, Stats, Volume,
 };
 /// Meshes, and bodies made from them.
 #[cfg(feature = "meshes")]

@@ -3,7 +3,7 @@
 use super::answer::answer;
 use super::contract::Schedule;
 use super::meter::Meter;
-use super::nodes::expand::{Split, expand};
+use super::nodes::expand::expand;
 use super::nodes::siblings::{Next, Siblings};
 use super::pieces::pair::Pair;
 use super::proven::Proven;
@@ -62,10 +62,13 @@ enum Item<C> {
     Pieces(Pair<C>),
 }
 
-/// The next item to examine: a pair of pieces, or a pair of nodes with one to be split.
-enum Found<C> {
-    Pieces(Pair<C>),
-    Split(Split),
+impl<C> Item<C> {
+    fn rank(&self) -> Rank {
+        match self {
+            Item::Siblings(_) => Rank::Siblings,
+            Item::Pieces(_) => Rank::PiecePair,
+        }
+    }
 }
 
 impl<O: DistanceOracle> Schedule<O> for BestFirst<O> {
@@ -87,91 +90,98 @@ impl<O: DistanceOracle> BestFirst<O> {
         oracle: &mut O,
         meter: &mut Meter,
     ) -> Outcome {
-        let mut proven = Proven::default();
-        let unresolved = |s: f64, reason| Outcome::Unresolved {
-            safe_until: problem.time(s),
-            reason,
-        };
         if self.open_roots(problem).is_err() {
-            return unresolved(0.0, Limit::Budget);
+            return unresolved(problem, 0.0, Limit::Budget);
         }
-        while let Some((s, found)) = self.next(problem) {
-            if s > 0.0
-                && let Some(outcome) = proven.past_start(problem)
-            {
+        let mut proven = Proven::default();
+        loop {
+            if let ControlFlow::Break(outcome) = self.visit(problem, oracle, meter, &mut proven) {
                 return outcome;
             }
-            if let Err(limit) = meter.visit() {
-                return unresolved(s, limit);
-            }
-            let pushed = match found {
-                Found::Split(split) => {
-                    let expansion = expand(problem, &split, s);
-                    proven.keep(f64::from(expansion.bounds.kept));
-                    self.push_siblings(Siblings::new(problem, &expansion, split, s))
-                }
-                Found::Pieces(mut pair) => {
-                    let step = pair.advance(problem, oracle, meter, s);
-                    match proven.conclude(problem, oracle, meter, step, s) {
-                        ControlFlow::Continue(clock) => self.push_pair(clock, pair),
-                        ControlFlow::Break(outcome) => return outcome,
-                    }
-                }
-            };
-            if pushed.is_err() {
-                return unresolved(s, Limit::Budget);
-            }
         }
-        proven.end(problem)
+    }
+
+    /// Examines the pair of least clock: proves it apart for longer, or splits it.
+    #[inline]
+    fn visit(
+        &mut self,
+        problem: &Problem<'_>,
+        oracle: &mut O,
+        meter: &mut Meter,
+        proven: &mut Proven,
+    ) -> ControlFlow<Outcome> {
+        let Some((s, item)) = self.queue.least() else {
+            return ControlFlow::Break(proven.end(problem));
+        };
+        if s > 0.0
+            && let Some(outcome) = proven.past_start(problem)
+        {
+            return ControlFlow::Break(outcome);
+        }
+        if let Err(limit) = meter.visit() {
+            return ControlFlow::Break(unresolved(problem, s, limit));
+        }
+        let (next, rest) = match item {
+            Item::Pieces(pair) => {
+                let step = pair.advance(problem, oracle, meter, s);
+                match proven.conclude(problem, oracle, meter, step, s)? {
+                    clock if clock < 1.0 => self.queue.renew(clock, Rank::PiecePair),
+                    _ => self.queue.remove(),
+                }
+                return ControlFlow::Continue(());
+            }
+            // The rest of the siblings wait for their own clocks.
+            Item::Siblings(siblings) => (siblings.take_least(problem, s), siblings.clock()),
+        };
+        let (clock, new) = match next {
+            Next::Split(split) => {
+                let expansion = expand(problem, &split, s);
+                proven.keep(f64::from(expansion.bounds.kept));
+                let siblings = Siblings::new(&expansion, split, s);
+                (siblings.clock(), Item::Siblings(siblings))
+            }
+            Next::Ask(a, b) => {
+                let mut pair = Pair::new(a, b);
+                let step = pair.advance(problem, oracle, meter, s);
+                let clock = proven.conclude(problem, oracle, meter, step, s)?;
+                (clock, Item::Pieces(pair))
+            }
+        };
+        match self.wait(rest, clock, new) {
+            Ok(()) => ControlFlow::Continue(()),
+            Err(Full) => ControlFlow::Break(unresolved(problem, s, Limit::Budget)),
+        }
+    }
+
+    /// Lets the siblings of a pair and what became of it wait for their clocks, if these are before
+    /// the end.
+    #[inline]
+    fn wait(&mut self, rest: f64, clock: f64, new: Item<O::Cache>) -> Result<(), Full> {
+        match (rest < 1.0, clock < 1.0) {
+            (true, true) => {
+                self.queue.postpone(rest);
+                return self.queue.push(clock, new.rank(), new);
+            }
+            (true, false) => self.queue.postpone(rest),
+            (false, true) => self.queue.replace(clock, new.rank(), new),
+            (false, false) => self.queue.remove(),
+        }
+        Ok(())
     }
 
     fn open_roots(&mut self, problem: &Problem<'_>) -> Result<(), Full> {
-        match Next::roots(problem) {
-            Next::Ask(a, b) => self.push_pair(0.0, Pair::new(a, b)),
-            Next::Split(split) => self.push_siblings(Siblings::roots(split.body)),
-        }
-    }
-
-    /// Takes out the pair of least clock; the rest of its siblings wait for their own clocks.
-    fn next(&mut self, problem: &Problem<'_>) -> Option<(f64, Found<O::Cache>)> {
-        let visit = self.queue.visit()?;
-        let s = visit.clock;
-        let found = match visit.item {
-            Item::Pieces(pair) => {
-                let found = Found::Pieces(pair.clone());
-                visit.remove();
-                found
-            }
-            Item::Siblings(siblings) => {
-                let next = siblings.take_least(problem);
-                match siblings.clock() {
-                    clock if clock < 1.0 => visit.postpone(clock),
-                    _ => visit.remove(),
-                }
-                match next {
-                    Next::Ask(a, b) => Found::Pieces(Pair::new(a, b)),
-                    Next::Split(split) => Found::Split(split),
-                }
-            }
+        let item = match Next::roots(problem) {
+            Next::Ask(a, b) => Item::Pieces(Pair::new(a, b)),
+            Next::Split(split) => Item::Siblings(Siblings::roots(split.body)),
         };
-        Some((s, found))
+        self.queue.push(0.0, item.rank(), item)
     }
+}
 
-    fn push_siblings(&mut self, siblings: Siblings) -> Result<(), Full> {
-        let clock = siblings.clock();
-        if clock < 1.0 {
-            self.queue
-                .push(clock, Rank::Siblings, Item::Siblings(siblings))?;
-        }
-        Ok(())
-    }
-
-    fn push_pair(&mut self, clock: f64, pair: Pair<O::Cache>) -> Result<(), Full> {
-        if clock < 1.0 {
-            self.queue
-                .push(clock, Rank::PiecePair, Item::Pieces(pair))?;
-        }
-        Ok(())
+fn unresolved(problem: &Problem<'_>, s: f64, reason: Limit) -> Outcome {
+    Outcome::Unresolved {
+        safe_until: problem.time(s),
+        reason,
     }
 }
 

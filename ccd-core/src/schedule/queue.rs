@@ -1,15 +1,13 @@
 //! Pairs that wait for their clocks, least clock first.
 
 use crate::math::order::greater;
-use std::cmp::Reverse;
-use std::collections::BinaryHeap;
-use std::collections::binary_heap::PeekMut;
 
 /// Items ordered by their clocks. Among equal clocks pairs of pieces come first, then the newest,
 /// for a depth-first search.
 #[derive(Debug)]
 pub(crate) struct Queue<T> {
-    heap: BinaryHeap<Reverse<Key>>,
+    /// A heap with four children to each key: half as many steps as with two.
+    heap: Vec<Key>,
     items: Vec<T>,
     vacant: Vec<u32>,
     serial: u32,
@@ -37,7 +35,7 @@ pub(crate) struct Full;
 impl<T> Default for Queue<T> {
     fn default() -> Self {
         Queue {
-            heap: BinaryHeap::new(),
+            heap: Vec::new(),
             items: Vec::new(),
             vacant: Vec::new(),
             serial: 0,
@@ -69,51 +67,126 @@ impl<T> Queue<T> {
             }
             None => return Err(Full),
         };
-        self.serial = self.serial.wrapping_add(1);
-        self.heap
-            .push(Reverse(key(clock, rank, self.serial, index)));
+        let key = self.newest(clock, rank, index);
+        self.heap.push(key);
         self.peak = self.peak.max(self.heap.len());
+        self.rise(key);
         Ok(())
     }
 
-    /// Returns the item of the least clock, which stays in the queue until the visit ends.
-    pub(crate) fn visit(&mut self) -> Option<Visit<'_, T>> {
-        let top = self.heap.peek_mut()?;
-        let index = top.0 as u32;
-        Some(Visit {
-            clock: f64::from_bits((top.0 >> 64) as u64),
-            item: &mut self.items[index as usize],
-            top,
-            vacant: &mut self.vacant,
-        })
+    /// Returns the least clock and its item.
+    #[inline]
+    pub(crate) fn least(&mut self) -> Option<(f64, &mut T)> {
+        let key = *self.heap.first()?;
+        Some((clock(key), &mut self.items[index(key)]))
+    }
+
+    /// Lets the least item wait for a later clock.
+    ///
+    /// # Panics
+    /// When the queue is empty.
+    pub(crate) fn postpone(&mut self, clock: f64) {
+        let low = self.heap[0] as u64;
+        self.sink(Key::from(clock.to_bits()) << 64 | Key::from(low));
+    }
+
+    /// Lets the least item wait for a later clock, as the newest of all.
+    ///
+    /// # Panics
+    /// When the queue is empty.
+    pub(crate) fn renew(&mut self, clock: f64, rank: Rank) {
+        let key = self.newest(clock, rank, self.heap[0] as u32);
+        self.sink(key);
+    }
+
+    /// Puts a new item in the place of the least one.
+    ///
+    /// # Panics
+    /// When the queue is empty.
+    pub(crate) fn replace(&mut self, clock: f64, rank: Rank, item: T) {
+        let place = index(self.heap[0]);
+        self.items[place] = item;
+        self.renew(clock, rank);
+    }
+
+    /// Takes out the least item, if there is one.
+    pub(crate) fn remove(&mut self) {
+        if let Some(last) = self.heap.pop() {
+            let removed = self.heap.first().copied().unwrap_or(last);
+            self.vacant.push(removed as u32);
+            if !self.heap.is_empty() {
+                self.sink(last);
+            }
+        }
     }
 
     /// Returns the largest number of items that waited at once.
     pub(crate) fn peak(&self) -> u64 {
         self.peak as u64
     }
-}
 
-/// The first item of a queue.
-pub(crate) struct Visit<'q, T> {
-    pub(crate) clock: f64,
-    pub(crate) item: &'q mut T,
-    top: PeekMut<'q, Reverse<Key>>,
-    vacant: &'q mut Vec<u32>,
-}
-
-impl<T> Visit<'_, T> {
-    /// Lets the item wait for a later clock.
-    pub(crate) fn postpone(mut self, clock: f64) {
-        let low = self.top.0 as u64;
-        self.top.0 = u128::from(clock.to_bits()) << 64 | u128::from(low);
+    fn newest(&mut self, clock: f64, rank: Rank, index: u32) -> Key {
+        self.serial = self.serial.wrapping_add(1);
+        key(clock, rank, self.serial, index)
     }
 
-    /// Takes the item out.
-    pub(crate) fn remove(self) {
-        self.vacant.push(self.top.0 as u32);
-        PeekMut::pop(self.top);
+    /// Moves the last key, which is this one, up to its place.
+    fn rise(&mut self, key: Key) {
+        let mut hole = self.heap.len() - 1;
+        while hole > 0 {
+            let parent = (hole - 1) / CHILDREN;
+            if self.heap[parent] <= key {
+                break;
+            }
+            self.heap[hole] = self.heap[parent];
+            hole = parent;
+        }
+        self.heap[hole] = key;
     }
+
+    /// Puts a key in the place of the least one, and moves it down to where it belongs.
+    fn sink(&mut self, key: Key) {
+        let mut hole = 0;
+        loop {
+            let first = CHILDREN * hole + 1;
+            let children = self.heap.get(first..).unwrap_or_default();
+            let least = match children.first_chunk() {
+                Some(all) => least_of(all),
+                None => (0..children.len())
+                    .min_by_key(|&k| children[k])
+                    .unwrap_or(0),
+            };
+            match children.get(least) {
+                Some(&child) if child < key => self.heap[hole] = child,
+                _ => break,
+            }
+            hole = first + least;
+        }
+        self.heap[hole] = key;
+    }
+}
+
+/// The number of keys below each one in the heap.
+const CHILDREN: usize = 4;
+
+/// Returns the index of the least key, without a branch.
+#[inline]
+fn least_of(keys: &[Key; CHILDREN]) -> usize {
+    let lower = usize::from(keys[1] < keys[0]);
+    let upper = 2 + usize::from(keys[3] < keys[2]);
+    if keys[upper] < keys[lower] {
+        upper
+    } else {
+        lower
+    }
+}
+
+fn clock(key: Key) -> f64 {
+    f64::from_bits((key >> 64) as u64)
+}
+
+fn index(key: Key) -> usize {
+    key as u32 as usize
 }
 
 fn key(clock: f64, rank: Rank, serial: u32, index: u32) -> Key {

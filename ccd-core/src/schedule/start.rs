@@ -85,7 +85,7 @@ impl Nearest<'_> {
             match pair {
                 Next::Split(split) => {
                     let expansion = measure(self.problem, &split);
-                    self.wait(Siblings::new(self.problem, &expansion, split, 0.0))?;
+                    self.wait(Siblings::new(&expansion, split, 0.0))?;
                 }
                 Next::Ask(a, b) => self.look([a, b], oracle, meter)?,
             }
@@ -109,16 +109,16 @@ impl Nearest<'_> {
     /// found.
     fn next(&mut self) -> Option<Next> {
         let (upper, near_enough) = (self.upper(), self.near_enough());
-        let visit = self.waiting.visit()?;
+        let (distance, siblings) = self.waiting.least()?;
         // Pairs without a distance may intersect.
-        if visit.clock > 0.0 && visit.clock >= near_enough {
-            self.lower = lesser(self.lower, visit.clock);
+        if distance > 0.0 && distance >= near_enough {
+            self.lower = lesser(self.lower, distance);
             return None;
         }
-        let next = visit.item.take_least(self.problem);
-        match visit.item.clock() {
-            distance if distance < upper => visit.postpone(distance),
-            _ => visit.remove(),
+        let next = siblings.take_least(self.problem, distance);
+        match siblings.clock() {
+            distance if distance < upper => self.waiting.postpone(distance),
+            _ => self.waiting.remove(),
         }
         Some(next)
     }

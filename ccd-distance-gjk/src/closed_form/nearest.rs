@@ -112,9 +112,9 @@ fn edges_to_edges(p: &Corners, q: &Corners) -> EdgeEdge {
 #[inline(always)]
 fn e_minus_w(e: Lanes3, s: f64x4, w: Lanes3) -> Lanes3 {
     Lanes3 {
-        x: s.mul_sub(e.x, w.x),
-        y: s.mul_sub(e.y, w.y),
-        z: s.mul_sub(e.z, w.z),
+        x: s * e.x - w.x,
+        y: s * e.y - w.y,
+        z: s * e.z - w.z,
     }
 }
 

@@ -134,6 +134,7 @@ fn settings(args: &QueryArgs) -> Settings {
             start: args.start.into(),
             budget: args.budget,
             deadline: args.deadline,
+            instructions: args.instructions.into(),
         },
         repeat: NonZeroUsize::new(args.repeat as usize).unwrap_or(NonZeroUsize::MIN),
     }

@@ -34,7 +34,7 @@ pub(crate) struct TriangleRow {
     radius: [f32; LANES],
 }
 
-/// Up to eight triangles, relative to an origin; unused lanes repeat the last one.
+/// Up to eight triangles, relative to an origin; those of unused lanes are points there.
 ///
 /// It is laid out when a node is split, which takes a tenth of the time of bounding it. Kept, the
 /// groups would be half of a body.
@@ -42,8 +42,6 @@ pub(crate) struct TriangleRow {
 #[repr(align(32))]
 pub(crate) struct TriangleGroup {
     pub(crate) corners: [Rows3; 3],
-    /// Unit normals; zero for a triangle without one.
-    pub(crate) normal: Rows3,
     /// The radius about the mean of the corners.
     pub(crate) radius: [f32; LANES],
     pub(crate) members: Members,
@@ -154,56 +152,17 @@ impl TriangleGroup {
     pub(crate) fn new(row: &TriangleRow, triangles: &[[DVec3; 3]]) -> Self {
         let mut group = TriangleGroup {
             corners: [[[0.0; LANES]; 3]; 3],
-            normal: [[0.0; LANES]; 3],
             radius: row.radius,
             members: row.members,
         };
-        let last = triangles.len() - 1;
-        for lane in 0..LANES {
-            let triangle = &triangles[lane.min(last)];
+        let origin = row.members.origin;
+        for (lane, triangle) in triangles.iter().enumerate() {
             for (rows, corner) in group.corners.iter_mut().zip(triangle) {
-                set(rows, lane, (*corner - row.members.origin).as_vec3());
-            }
-            group.radius[lane] = row.radius[lane.min(last)];
-        }
-        group.normal = normals(&group.corners);
-        for lane in 0..LANES {
-            // Its edges are too short for f32, or it has no area.
-            if group.normal[0][lane].is_nan() {
-                set(
-                    &mut group.normal,
-                    lane,
-                    unit_normal(triangles[lane.min(last)]),
-                );
+                set(rows, lane, (*corner - origin).as_vec3());
             }
         }
         group
     }
-}
-
-/// Returns unit normals of the rounded corners, NaN where there is none: axes to try, which the
-/// rounding of corners hardly turns. In f64, so that they are unit vectors as exactly as others.
-#[inline]
-fn normals(corners: &[Rows3; 3]) -> Rows3 {
-    let mut normals = [[0.0; LANES]; 3];
-    for lane in 0..LANES {
-        let [a, b, c] = [0, 1, 2].map(|k| {
-            let rows: &Rows3 = &corners[k];
-            DVec3::from_array([0, 1, 2].map(|axis| f64::from(rows[axis][lane])))
-        });
-        let across = (b - a).cross(c - a);
-        let square = across.length_squared();
-        let fits = square >= *SQUARES.start() && square <= *SQUARES.end();
-        let scale = if fits {
-            square.sqrt().recip()
-        } else {
-            f64::NAN
-        };
-        normals[0][lane] = (across.x * scale) as f32;
-        normals[1][lane] = (across.y * scale) as f32;
-        normals[2][lane] = (across.z * scale) as f32;
-    }
-    normals
 }
 
 /// Returns the unit normal of a triangle, or zero when it has none.

@@ -1,16 +1,16 @@
-//! Separating axes of two nodes.
+//! Separating axes of eight pairs of nodes.
 
+use super::lanes::{TINY, Vec3x8, choose, splat};
 use super::shape::{Children, OtherNode};
-use super::vector_f32::{TINY, choose, dot, max, min, unit};
-use glam::Vec3;
+use fearless_simd::{Simd, f32x8, prelude::*};
 
-/// An axis, the gap along it, and each side's reach towards the other.
+/// Axes, the gaps along them, and each side's reach towards the other.
 #[derive(Clone, Copy)]
-pub(super) struct Axis {
-    pub(super) n: Vec3,
-    pub(super) gap: f32,
-    pub(super) split_reach: f32,
-    pub(super) other_reach: f32,
+pub(super) struct Axis<L: Simd> {
+    pub(super) n: Vec3x8<L>,
+    pub(super) gap: f32x8<L>,
+    pub(super) split_reach: f32x8<L>,
+    pub(super) other_reach: f32x8<L>,
 }
 
 /// Returns the best of three axes: the one between the centres, or the edges of triangles, and the
@@ -18,50 +18,48 @@ pub(super) struct Axis {
 ///
 /// Homogeneous in the axis: a zero vector gives no gap, and any other length gives a sound one.
 #[inline(always)]
-pub(super) fn widest<C: Children, P: OtherNode>(
+pub(super) fn widest<L: Simd, C: Children, P: OtherNode>(
     children: &C,
     other: &P,
-    lane: usize,
-    way: Vec3,
-) -> Axis {
-    let ahead = other.near(children.centre(lane));
-    let between = unit(ahead - children.near(lane, ahead));
-    let between = along(children, other, lane, way, between);
-    let own = towards(children.normal(lane), way);
-    let others = towards(other.normal(), way);
+    way: Vec3x8<L>,
+) -> Axis<L> {
+    let level = way.level();
+    let ahead = other.near(children.centre(level));
+    let between = (ahead - children.near(ahead)).unit();
+    let between = along(children, other, way, between);
+    let own = towards(children.normal(level), way);
+    let others = towards(Vec3x8::splat(level, other.normal()), way);
     better(
-        better(between, along(children, other, lane, way, own)),
-        along(children, other, lane, way, others),
+        better(between, along(children, other, way, own)),
+        along(children, other, way, others),
     )
 }
 
 /// Returns the axis between the centres when they are nearest, if they move on by at most `travel`.
 #[inline(always)]
-pub(super) fn passing<C: Children, P: OtherNode>(
+pub(super) fn passing<L: Simd, C: Children, P: OtherNode>(
     children: &C,
     other: &P,
-    lane: usize,
-    way: Vec3,
-    travel: Vec3,
-) -> Axis {
-    let nearest = dot(way, travel) / max(dot(travel, travel), TINY);
-    let nearest = max(min(nearest, 1.0), 0.0);
-    along(children, other, lane, way, unit(way - travel * nearest))
+    way: Vec3x8<L>,
+    travel: Vec3x8<L>,
+) -> Axis<L> {
+    let nearest = way.dot(travel) / travel.dot(travel).max(TINY);
+    let nearest = nearest.min(1.0).max(0.0);
+    along(children, other, way, (way - travel * nearest).unit())
 }
 
 #[inline(always)]
-fn along<C: Children, P: OtherNode>(
+pub(super) fn along<L: Simd, C: Children, P: OtherNode>(
     children: &C,
     other: &P,
-    lane: usize,
-    way: Vec3,
-    n: Vec3,
-) -> Axis {
-    let split_reach = children.reach(lane, n);
+    way: Vec3x8<L>,
+    n: Vec3x8<L>,
+) -> Axis<L> {
+    let split_reach = children.reach(n);
     let other_reach = other.reach(n);
     Axis {
         n,
-        gap: dot(n, way) - split_reach - other_reach,
+        gap: n.dot(way) - split_reach - other_reach,
         split_reach,
         other_reach,
     }
@@ -69,22 +67,19 @@ fn along<C: Children, P: OtherNode>(
 
 /// Returns `n` or `−n`, whichever points along `way`.
 #[inline(always)]
-fn towards(n: Vec3, way: Vec3) -> Vec3 {
-    let sign = if dot(n, way) < 0.0 { -1.0 } else { 1.0 };
-    n * sign
+pub(super) fn towards<L: Simd>(n: Vec3x8<L>, way: Vec3x8<L>) -> Vec3x8<L> {
+    let level = n.level();
+    let away = n.dot(way).simd_lt(0.0);
+    n * away.select(splat(level, -1.0), splat(level, 1.0))
 }
 
 #[inline(always)]
-fn better(a: Axis, b: Axis) -> Axis {
-    let pick = b.gap > a.gap;
+fn better<L: Simd>(a: Axis<L>, b: Axis<L>) -> Axis<L> {
+    let pick = b.gap.simd_gt(a.gap);
     Axis {
-        n: Vec3::new(
-            choose(pick, b.n.x, a.n.x),
-            choose(pick, b.n.y, a.n.y),
-            choose(pick, b.n.z, a.n.z),
-        ),
-        gap: choose(pick, b.gap, a.gap),
-        split_reach: choose(pick, b.split_reach, a.split_reach),
-        other_reach: choose(pick, b.other_reach, a.other_reach),
+        n: choose(pick, b.n, a.n),
+        gap: pick.select(b.gap, a.gap),
+        split_reach: pick.select(b.split_reach, a.split_reach),
+        other_reach: pick.select(b.other_reach, a.other_reach),
     }
 }

@@ -1,129 +1,145 @@
 //! Bounds eight pairs of nodes at once: their distances, and the times for which they stay apart.
 //!
 //! Everything here is relative to the origin of the split group, in its body's frame, in f32, with
-//! one array lane per child. The compiler vectorises loops over lanes. The slacks of
-//! [`RelativeMotionF32`] cover the rounding of every gap and rate.
+//! one lane of a vector per child. The slacks of [`RelativeMotionF32`] cover the rounding of every gap
+//! and rate.
 
-use super::axis;
-use super::eight_pairs::{EightPairs, RelativeMotionF32};
+use super::axis::{self, Axis};
+use super::eight_pairs::{EightPairs, Larger, RelativeMotionF32};
+use super::free_times::FreeTimes;
+use super::lanes::splat;
 use super::shape::{Children, OtherNode};
 use super::turn::Turn;
-use super::vector_f32::max;
-use crate::body::tree::LANES;
+use crate::math::instructions::vectorize;
 use crate::tolerance::{LOOK_AGAIN, SWEPT, THICKNESS};
+use fearless_simd::{Level, Simd, f32x8, mask32x8, prelude::*};
 
 /// The bounds of eight pairs.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Bounds {
     /// The time for which each pair certainly stays farther apart than the gap to be kept.
-    pub(crate) free: [f32; LANES],
-    /// Positive when a pair is so far apart for its size that a second look after its time is worth
+    pub(crate) free: FreeTimes,
+    /// The pairs that are so far apart for their size that a second look after their time is worth
     /// more than a split.
-    pub(crate) waits: [f32; LANES],
-    /// The thickness of the child along the axis, less that of the other node.
-    pub(crate) thicker: [f32; LANES],
+    pub(crate) waits: u8,
+    /// The pairs whose child is thicker along the axis than the other node, and can be split.
+    pub(crate) thicker: u8,
     /// The gap that the pairs keep for their free times.
     pub(crate) kept: f32,
 }
 
-/// Bounds eight pairs along fixed planes.
+/// Bounds those of eight pairs that are in `lanes`.
 ///
-/// It tries two axes: the one with the widest gap now, and the one between the centres when they
-/// are nearest. The first suits approaching pairs, the second passing ones.
-#[inline(always)]
+/// Fixed planes are across two axes: the one with the widest gap now, and the one between the
+/// centres when they are nearest. The first suits approaching pairs, the second passing ones. Beside
+/// nodes that are much larger, planes that turn with their body are tried, too.
 pub(crate) fn bound<C: Children, P: OtherNode, S: Turn, O: Turn>(
+    level: Level,
     children: &C,
     other: &P,
     motion: &RelativeMotionF32<S, O>,
+    lanes: u8,
 ) -> Bounds {
-    let mut out = Bounds {
-        free: [0.0; LANES],
-        waits: [0.0; LANES],
-        thicker: [0.0; LANES],
-        kept: motion.kept,
-    };
-    let pairs = EightPairs::new(children, other, motion);
-    for lane in 0..LANES {
-        let pair = pairs.lane(lane);
-        let widest = axis::widest(children, other, lane, pair.way);
-        let passing = axis::passing(
-            children,
-            other,
-            lane,
-            pair.way,
-            pair.velocity * motion.horizon,
-        );
-        out.free[lane] = max(pairs.free(&pair, widest), pairs.free(&pair, passing));
-        let radius = children.radius(lane);
-        out.waits[lane] = widest.gap - motion.slack - LOOK_AGAIN * (radius + other.radius());
-        out.thicker[lane] = (widest.split_reach + THICKNESS * radius)
-            - (widest.other_reach + THICKNESS * other.radius());
-    }
-    out
+    vectorize!(level, level => bound_lanes(level, children, other, motion, lanes))
 }
 
-/// Bounds eight pairs along planes that turn with the body of the larger nodes. Each pair keeps the
-/// later of this time and that of [`bound`].
 #[inline(always)]
-pub(crate) fn bound_attached<C: Children, P: OtherNode, S: Turn, O: Turn>(
+fn bound_lanes<L: Simd, C: Children, P: OtherNode, S: Turn, O: Turn>(
+    level: L,
     children: &C,
     other: &P,
     motion: &RelativeMotionF32<S, O>,
-    larger: Larger,
-    out: &mut Bounds,
-) {
-    let pairs = EightPairs::new(children, other, motion);
-    for lane in 0..LANES {
-        let pair = pairs.lane(lane);
-        let widest = axis::widest(children, other, lane, pair.way);
-        let past = match larger {
-            Larger::Split => Past {
-                attached: pairs.free_with_split(widest),
-                spin: motion.split.rate(),
-                arm: motion.split.arm(other.centre()),
-                large: children.radius(lane),
-                small: other.radius(),
-                whole: children.is_piece(lane),
-            },
-            Larger::Other => Past {
-                attached: pairs.free_with_other(&pair, widest),
-                spin: motion.other.rate(),
-                arm: motion.other.arm(children.centre(lane)),
-                large: other.radius(),
-                small: children.radius(lane),
-                whole: other.is_piece(),
-            },
-        };
-        let free = max(out.free[lane], past.attached);
-        out.free[lane] = free;
-        let swept = free * past.spin * past.arm - past.large * SWEPT;
-        let clear = widest.gap - motion.slack - LOOK_AGAIN * past.small;
-        let waits = if past.whole { max(swept, clear) } else { swept };
-        out.waits[lane] = max(out.waits[lane], waits);
+    lanes: u8,
+) -> Bounds {
+    let pairs = EightPairs::new(level, children, other, motion);
+    let widest = axis::widest(children, other, pairs.way);
+    let travel = pairs.velocity * splat(level, motion.horizon);
+    let passing = axis::passing(children, other, pairs.way, travel);
+    let radius = children.radius(level);
+    let waits = widest.gap - motion.slack - (radius + other.radius()) * LOOK_AGAIN;
+    let thicker = (widest.split_reach + radius * THICKNESS)
+        - (widest.other_reach + THICKNESS * other.radius());
+    let mut free = pairs.free(widest).max(pairs.free(passing));
+    let mut waits = bits(waits.simd_gt(0.0));
+    if let Some(past) = Past::new(&pairs, widest) {
+        free = free.max(past.attached);
+        waits |= bits(past.waits(free, widest.gap - motion.slack));
     }
+    let thicker = match other.is_piece() {
+        true => u8::MAX,
+        false => bits(thicker.simd_gt(0.0)),
+    };
+    Bounds {
+        free: FreeTimes::pack(free, lanes),
+        waits,
+        thicker: thicker & !bits(children.pieces(level)),
+        kept: motion.kept,
+    }
+}
+
+#[inline(always)]
+fn bits<L: Simd>(mask: mask32x8<L>) -> u8 {
+    mask.to_bitmask() as u8
 }
 
 /// A small node that passes a much larger, turning one.
-struct Past {
+struct Past<L: Simd> {
     /// The time for which a plane that turns with the large node keeps the pair apart.
-    attached: f32,
+    attached: f32x8<L>,
     /// The rate at which the large node turns, and the distance of the small one from its body's
     /// centre.
     spin: f32,
-    arm: f32,
+    arm: f32x8<L>,
     /// The radii.
-    large: f32,
-    small: f32,
-    /// True if the large node cannot be split: then only the small one's size decides whether it is
+    large: f32x8<L>,
+    small: f32x8<L>,
+    /// Set if the large node cannot be split: then only the small one's size decides whether it is
     /// far.
-    whole: bool,
+    whole: mask32x8<L>,
 }
 
-/// The side whose nodes are much larger than the other's.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Larger {
-    Split,
-    Other,
+impl<L: Simd> Past<L> {
+    /// Returns none where neither side is much larger, or the larger one does not turn.
+    #[inline(always)]
+    fn new<C: Children, P: OtherNode, S: Turn, O: Turn>(
+        pairs: &EightPairs<'_, L, C, P, S, O>,
+        axis: Axis<L>,
+    ) -> Option<Self> {
+        let EightPairs {
+            children,
+            other,
+            motion,
+            ..
+        } = *pairs;
+        let level = pairs.level();
+        match motion.larger? {
+            Larger::Split if S::TURNS => Some(Past {
+                attached: pairs.free_with_split(axis),
+                spin: motion.split.rate(),
+                arm: splat(level, motion.split.arm(other.centre())),
+                large: children.radius(level),
+                small: splat(level, other.radius()),
+                whole: children.pieces(level),
+            }),
+            Larger::Other if O::TURNS => Some(Past {
+                attached: pairs.free_with_other(axis),
+                spin: motion.other.rate(),
+                arm: motion.other.arms(children.centre(level)),
+                large: splat(level, other.radius()),
+                small: children.radius(level),
+                whole: mask32x8::splat(level, other.is_piece()),
+            }),
+            _ => None,
+        }
+    }
+
+    /// Returns the pairs for which a second look is worth more than a split.
+    #[inline(always)]
+    fn waits(&self, free: f32x8<L>, apart: f32x8<L>) -> mask32x8<L> {
+        let swept = free * self.spin * self.arm - self.large * SWEPT;
+        let clear = apart - self.small * LOOK_AGAIN;
+        swept.simd_gt(0.0) | self.whole & clear.simd_gt(0.0)
+    }
 }
 
 #[cfg(test)]

@@ -1,31 +1,38 @@
-//! Computes the time for which a gap stays open, in f32.
+//! Computes the times for which gaps stay open, in f32.
 
+use super::lanes::splat;
 use crate::tolerance::CLOCK_F32;
+use fearless_simd::{ExtractToken, Simd, f32x8, prelude::*};
 
 /// Returns the largest τ with `apart ≥ rate τ + bend τ²/2`; 0 for NaN and for a pair that is not
 /// apart by more than `closed`, even if it recedes.
 #[inline(always)]
-pub(super) fn free_time(apart: f32, closed: f32, rate: f32, bend: f32) -> f32 {
-    let root = (rate * rate + 2.0 * bend * apart).sqrt();
-    let approaching = 2.0 * apart / (rate + root);
+pub(super) fn free_time<L: Simd>(
+    apart: f32x8<L>,
+    closed: f32,
+    rate: f32x8<L>,
+    bend: f32x8<L>,
+) -> f32x8<L> {
+    let root = (rate * rate + bend * 2.0 * apart).sqrt();
+    let approaching = apart * 2.0 / (rate + root);
     let receding = (root - rate) / bend;
-    let tau = if rate > 0.0 { approaching } else { receding };
+    let tau = rate.simd_gt(0.0).select(approaching, receding);
     // An overflowed root proves nothing.
-    if apart > closed && tau > 0.0 && root <= f32::MAX {
-        tau * CLOCK_F32
-    } else {
-        0.0
-    }
+    let proven = apart.simd_gt(closed) & tau.simd_gt(0.0) & root.simd_le(f32::MAX);
+    proven.select(tau * CLOCK_F32, splat(apart.token(), 0.0))
 }
 
 /// Returns the same on a straight path.
 #[inline(always)]
-pub(super) fn straight_free_time(apart: f32, closed: f32, rate: f32) -> f32 {
-    let tau = apart / rate;
-    let tau = if rate > 0.0 { tau } else { f32::INFINITY };
-    if apart > closed && tau > 0.0 {
-        tau * CLOCK_F32
-    } else {
-        0.0
-    }
+pub(super) fn straight_free_time<L: Simd>(
+    apart: f32x8<L>,
+    closed: f32,
+    rate: f32x8<L>,
+) -> f32x8<L> {
+    let level = apart.token();
+    let tau = rate
+        .simd_gt(0.0)
+        .select(apart / rate, splat(level, f32::INFINITY));
+    let proven = apart.simd_gt(closed) & tau.simd_gt(0.0);
+    proven.select(tau * CLOCK_F32, splat(level, 0.0))
 }

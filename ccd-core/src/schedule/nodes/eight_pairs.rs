@@ -2,10 +2,11 @@
 
 use super::axis::Axis;
 use super::clock;
+use super::lanes::{Vec3x8, splat};
 use super::shape::{Children, OtherNode};
 use super::turn::Turn;
-use super::vector_f32::{dot, length};
 use crate::tolerance::{ACROSS_F32, BEND_F32, LEAST_BEND_F32};
+use fearless_simd::{Simd, f32x8};
 use glam::Vec3;
 
 /// The relative motion that all lanes share, in f32, with allowances for rounding.
@@ -25,72 +26,78 @@ pub(crate) struct RelativeMotionF32<S, O> {
     pub(crate) closed: f32,
     /// A bound of the rounding of a rate.
     pub(crate) rate_slack: f32,
+    pub(crate) larger: Option<Larger>,
+}
+
+/// The side whose nodes are much larger than the other's.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Larger {
+    Split,
+    Other,
 }
 
 /// The children of a group, each with the other node.
-pub(super) struct EightPairs<'a, C, P, S, O> {
+pub(super) struct EightPairs<'a, L: Simd, C, P, S, O> {
     pub(super) children: &'a C,
     pub(super) other: &'a P,
     pub(super) motion: &'a RelativeMotionF32<S, O>,
+    /// From the children's centres to the other's.
+    pub(super) way: Vec3x8<L>,
+    /// The velocities of the children's centres relative to the other's.
+    pub(super) velocity: Vec3x8<L>,
+    /// Upper bounds of the children's points' speeds due to turning.
+    pub(super) speed: f32x8<L>,
     /// The velocity of the other node's centre due to turning.
-    pub(super) other_turning: Vec3,
+    pub(super) other_turning: Vec3x8<L>,
     /// An upper bound of the other node's points' speeds due to turning.
-    pub(super) other_speed: f32,
+    pub(super) other_speed: f32x8<L>,
 }
 
-/// One child and the other node.
-#[derive(Clone, Copy)]
-pub(super) struct Lane {
-    pub(super) lane: usize,
-    /// From the child's centre to the other's.
-    pub(super) way: Vec3,
-    /// The velocity of the child's centre relative to the other's.
-    pub(super) velocity: Vec3,
-    /// An upper bound of the child's points' speeds due to turning.
-    pub(super) speed: f32,
-}
-
-impl<'a, C: Children, P: OtherNode, S: Turn, O: Turn> EightPairs<'a, C, P, S, O> {
+impl<'a, L: Simd, C: Children, P: OtherNode, S: Turn, O: Turn> EightPairs<'a, L, C, P, S, O> {
     #[inline(always)]
-    pub(super) fn new(children: &'a C, other: &'a P, motion: &'a RelativeMotionF32<S, O>) -> Self {
-        let other_turning = motion.other.velocity(other.centre());
+    pub(super) fn level(&self) -> L {
+        self.way.level()
+    }
+
+    #[inline(always)]
+    pub(super) fn new(
+        level: L,
+        children: &'a C,
+        other: &'a P,
+        motion: &'a RelativeMotionF32<S, O>,
+    ) -> Self {
+        let (centre, other_centre) = (children.centre(level), Vec3x8::splat(level, other.centre()));
+        let turning = motion.split.velocity(centre);
+        let other_turning = motion.other.velocity(other_centre);
+        let velocity = Vec3x8::splat(level, motion.velocity);
         EightPairs {
             children,
             other,
             motion,
-            other_turning,
+            way: other_centre - centre,
+            velocity: velocity + turning - other_turning,
             // A slack on the speeds covers the rounding of the bends.
-            other_speed: length(other_turning)
+            speed: turning.length()
+                + children.radius(level) * motion.split.rate()
+                + motion.rate_slack,
+            other_turning,
+            other_speed: other_turning.length()
                 + motion.other.rate() * other.radius()
                 + motion.rate_slack,
         }
     }
 
+    /// Returns the times for which fixed planes across the axes keep the pairs apart.
     #[inline(always)]
-    pub(super) fn lane(&self, lane: usize) -> Lane {
-        let centre = self.children.centre(lane);
-        let turning = self.motion.split.velocity(centre);
-        Lane {
-            lane,
-            way: self.other.centre() - centre,
-            velocity: self.motion.velocity + turning - self.other_turning,
-            speed: length(turning)
-                + self.motion.split.rate() * self.children.radius(lane)
-                + self.motion.rate_slack,
-        }
-    }
-
-    /// Returns the time for which a fixed plane across the axis keeps the pair apart.
-    #[inline(always)]
-    pub(super) fn free(&self, pair: &Lane, axis: Axis) -> f32 {
+    pub(super) fn free(&self, axis: Axis<L>) -> f32x8<L> {
         let motion = self.motion;
         // n·(v + ω×arm) of the centres, plus the share of the points around them.
-        let mut rate = dot(axis.n, pair.velocity) + motion.rate_slack;
-        let mut bend = LEAST_BEND_F32;
+        let mut rate = axis.n.dot(self.velocity) + motion.rate_slack;
+        let mut bend = splat(axis.n.level(), LEAST_BEND_F32);
         if S::TURNS {
             let m = motion.split.across(axis.n);
-            rate += self.children.reach(pair.lane, m);
-            bend += bending(m, motion.split.rate(), pair.speed);
+            rate += self.children.reach(m);
+            bend += bending(m, motion.split.rate(), self.speed);
         }
         if O::TURNS {
             let m = motion.other.across(axis.n);
@@ -109,6 +116,6 @@ impl<'a, C: Children, P: OtherNode, S: Turn, O: Turn> EightPairs<'a, C, P, S, O>
 /// Bounds the bending along `n` of paths that turn at a rate of `|ω|`, at `speed` at most; `m` is
 /// `n × ω`.
 #[inline(always)]
-pub(super) fn bending(m: Vec3, rate: f32, speed: f32) -> f32 {
-    (length(m) * BEND_F32 + ACROSS_F32 * rate) * speed
+pub(super) fn bending<L: Simd>(m: Vec3x8<L>, rate: f32, speed: f32x8<L>) -> f32x8<L> {
+    (m.length() * BEND_F32 + ACROSS_F32 * rate) * speed
 }

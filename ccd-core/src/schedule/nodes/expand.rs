@@ -2,8 +2,8 @@
 //! pair's clock.
 
 use super::bounds::Bounds;
-use super::bounds::{Larger, bound, bound_attached};
-use super::eight_pairs::RelativeMotionF32;
+use super::bounds::bound;
+use super::eight_pairs::{Larger, RelativeMotionF32};
 use super::shape::{Children, OtherBox, OtherNode, OtherTriangle};
 use super::turn::Turning;
 use super::turn::{Straight, Turn};
@@ -21,9 +21,6 @@ use glam::{DMat3, DVec3, Vec3};
 pub(crate) struct Expansion {
     pub(crate) bounds: Bounds,
     pub(crate) first: NodeId,
-    pub(crate) count: u32,
-    /// The children that are single pieces.
-    pub(crate) leaves: u8,
 }
 
 /// A node to be split, and the other body's node that its children are paired with.
@@ -54,7 +51,7 @@ impl Split {
 /// # Panics
 /// When the node is a single piece.
 pub(crate) fn expand(problem: &Problem<'_>, split: &Split, s: f64) -> Expansion {
-    split_node::<AsTheyMove>(&RelativeMotion::new(problem, split, s), split)
+    split_node::<AsTheyMove>(&RelativeMotion::new(problem, split, s), split.node)
 }
 
 /// Splits a node at the start and measures its pairs: their free times are lower bounds of their
@@ -63,37 +60,30 @@ pub(crate) fn expand(problem: &Problem<'_>, split: &Split, s: f64) -> Expansion 
 /// # Panics
 /// When the node is a single piece.
 pub(crate) fn measure(problem: &Problem<'_>, split: &Split) -> Expansion {
-    split_node::<UnitRate>(&RelativeMotion::new(problem, split, 0.0), split)
+    split_node::<UnitRate>(&RelativeMotion::new(problem, split, 0.0), split.node)
 }
 
 #[inline(always)]
-fn split_node<P: Pace>(motion: &RelativeMotion<'_>, split: &Split) -> Expansion {
-    let tree = motion.split_side.body.tree();
-    let Named::Node(node) = tree.get(split.node) else {
+fn split_node<P: Pace>(motion: &RelativeMotion<'_>, node: NodeId) -> Expansion {
+    let body = motion.split_side.body;
+    let tree = body.tree();
+    let Named::Node(node) = tree.get(node) else {
         unreachable!("a triangle is a single piece");
     };
-    match node.below {
+    let (bounds, first) = match node.below {
         Below::Boxes(group) => {
             let group = tree.box_group(group);
-            Expansion {
-                bounds: motion.bound::<_, P>(group, &group.members),
-                first: group.members.first,
-                count: group.members.count,
-                leaves: group.leaves,
-            }
+            let members = &group.members;
+            (motion.bound::<_, P>(group, members), members.first)
         }
         Below::Triangles(group) => {
-            let pieces = motion.split_side.body.pieces();
-            let group = &tree.triangle_group(group, pieces);
-            Expansion {
-                bounds: motion.bound::<_, P>(group, &group.members),
-                first: group.members.first,
-                count: group.members.count,
-                leaves: u8::MAX,
-            }
+            let group = &tree.triangle_group(group, body.pieces());
+            let members = &group.members;
+            (motion.bound::<_, P>(group, members), members.first)
         }
         Below::Piece(_) => unreachable!("a single piece has no children"),
-    }
+    };
+    Expansion { bounds, first }
 }
 
 /// The relative motion of the two bodies at a clock, along the axes of the body whose node is
@@ -104,6 +94,8 @@ struct RelativeMotion<'p> {
     other_side: &'p Side<'p>,
     /// The other body's node.
     other: NodeId,
+    /// The children to be paired with it.
+    lanes: u8,
     other_to_split: Frame,
     /// The velocity of the split body's centre minus that of the other one's.
     velocity: DVec3,
@@ -149,6 +141,7 @@ impl<'p> RelativeMotion<'p> {
             split_side,
             other_side,
             other: split.other,
+            lanes: split.lanes,
             other_to_split: split_frame.from_frame(&other_frame),
             velocity: split_frame
                 .inverse_vector(split_side.path.velocity - other_side.path.velocity),
@@ -276,14 +269,20 @@ impl GroupView<'_> {
             kept: (slack - rounding).next_down(),
             closed: greater(LEAST_GAP_F32, closed),
             rate_slack: RATE_F32 * speed,
+            larger: if reach > MUCH_LARGER * other.radius() {
+                Some(Larger::Split)
+            } else if other.radius() > MUCH_LARGER * reach {
+                Some(Larger::Other)
+            } else {
+                None
+            },
         };
-        let mut bounds = bound(group, other, &motion);
-        if S::TURNS && reach > MUCH_LARGER * other.radius() {
-            bound_attached(group, other, &motion, Larger::Split, &mut bounds);
-        } else if O::TURNS && other.radius() > MUCH_LARGER * reach {
-            bound_attached(group, other, &motion, Larger::Other, &mut bounds);
-        }
-        bounds
+        bound(problem.level, group, other, &motion, self.lanes())
+    }
+
+    /// Returns the lanes of children that are to be paired.
+    fn lanes(&self) -> u8 {
+        self.motion.lanes & u8::MAX >> (LANES as u32 - self.members.count)
     }
 
     /// Returns lower bounds of distances: the times for which pairs keep apart at a closing rate of
@@ -299,11 +298,18 @@ impl GroupView<'_> {
             kept: 0.0,
             closed: 0.0,
             rate_slack: 1.0,
+            larger: None,
         };
         Bounds {
             // A second look would give the same result.
-            waits: [0.0; LANES],
-            ..bound(group, other, &motion)
+            waits: 0,
+            ..bound(
+                self.motion.problem.level,
+                group,
+                other,
+                &motion,
+                self.lanes(),
+            )
         }
     }
 

@@ -1,22 +1,23 @@
 //! The shapes of nodes, as seen from the split group.
 
-use super::vector_f32::{TINY, choose, dot, fused, length, max, min};
-use crate::body::tree::{BoxGroup, LANES, TriangleGroup};
+use super::lanes::{TINY, Vec3x8, choose, load, splat};
+use crate::body::tree::{BoxGroup, TriangleGroup};
+use fearless_simd::{Simd, f32x8, mask32x8, prelude::*};
 use glam::Vec3;
 
 /// The children of a group.
 pub(crate) trait Children {
-    fn centre(&self, lane: usize) -> Vec3;
-    /// Returns a unit vector that is likely to separate the child from others, or zero.
-    fn normal(&self, lane: usize) -> Vec3;
-    /// Returns an upper bound of its points' distances from its centre.
-    fn radius(&self, lane: usize) -> f32;
-    /// Returns `max n·(x − centre)` over the child's points.
-    fn reach(&self, lane: usize, n: Vec3) -> f32;
-    /// Returns a point of the child from which to look towards `to`.
-    fn near(&self, lane: usize, to: Vec3) -> Vec3;
-    /// Returns whether the child cannot be split.
-    fn is_piece(&self, lane: usize) -> bool;
+    fn centre<L: Simd>(&self, level: L) -> Vec3x8<L>;
+    /// Returns unit vectors that are likely to separate the children from others, or zeros.
+    fn normal<L: Simd>(&self, level: L) -> Vec3x8<L>;
+    /// Returns upper bounds of their points' distances from their centres.
+    fn radius<L: Simd>(&self, level: L) -> f32x8<L>;
+    /// Returns `max n·(x − centre)` over each child's points.
+    fn reach<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L>;
+    /// Returns points of the children from which to look towards `to`.
+    fn near<L: Simd>(&self, to: Vec3x8<L>) -> Vec3x8<L>;
+    /// Returns which children cannot be split.
+    fn pieces<L: Simd>(&self, level: L) -> mask32x8<L>;
 }
 
 /// The node that all children of a group are paired with.
@@ -27,9 +28,9 @@ pub(crate) trait OtherNode {
     /// Returns an upper bound of its points' distances from its centre.
     fn radius(&self) -> f32;
     /// Returns `max n·(centre − y)` over the node's points: its reach towards −n.
-    fn reach(&self, n: Vec3) -> f32;
-    /// Returns a point of the node to look at from `from`.
-    fn near(&self, from: Vec3) -> Vec3;
+    fn reach<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L>;
+    /// Returns points of the node to look at from points of the children.
+    fn near<L: Simd>(&self, from: Vec3x8<L>) -> Vec3x8<L>;
     /// Returns whether the node cannot be split.
     fn is_piece(&self) -> bool;
 }
@@ -37,82 +38,98 @@ pub(crate) trait OtherNode {
 /// Returns `min(Σ hₖ |n·uₖ| + r |n|, R |n|)`: the reach of a box grown by its pieces' rounding r,
 /// and of a ball.
 #[inline(always)]
-fn box_reach(n: Vec3, axes: [Vec3; 3], half: [f32; 3], [rounding, radius]: [f32; 2]) -> f32 {
-    let x = half[0] * dot(n, axes[0]).abs();
-    let xy = fused(half[1], dot(n, axes[1]).abs(), x);
-    let boxed = fused(half[2], dot(n, axes[2]).abs(), xy);
-    let length = length(n);
-    min(fused(rounding, length, boxed), radius * length)
-}
-
-#[inline(always)]
-fn at(rows: &[[f32; LANES]; 3], lane: usize) -> Vec3 {
-    Vec3::new(rows[0][lane], rows[1][lane], rows[2][lane])
+fn box_reach<L: Simd>(
+    n: Vec3x8<L>,
+    axes: [Vec3x8<L>; 3],
+    half: [f32x8<L>; 3],
+    [rounding, radius]: [f32x8<L>; 2],
+) -> f32x8<L> {
+    let x = half[0] * n.dot(axes[0]).abs();
+    let xy = half[1] * n.dot(axes[1]).abs() + x;
+    let boxed = half[2] * n.dot(axes[2]).abs() + xy;
+    let length = n.length();
+    (rounding * length + boxed).min(radius * length)
 }
 
 impl Children for BoxGroup {
     #[inline(always)]
-    fn centre(&self, lane: usize) -> Vec3 {
-        at(&self.centre, lane)
+    fn centre<L: Simd>(&self, level: L) -> Vec3x8<L> {
+        Vec3x8::load(level, &self.centre)
     }
     #[inline(always)]
-    fn normal(&self, lane: usize) -> Vec3 {
-        at(&self.axes[2], lane)
+    fn normal<L: Simd>(&self, level: L) -> Vec3x8<L> {
+        Vec3x8::load(level, &self.axes[2])
     }
     #[inline(always)]
-    fn radius(&self, lane: usize) -> f32 {
-        self.radius[lane]
+    fn radius<L: Simd>(&self, level: L) -> f32x8<L> {
+        load(level, &self.radius)
     }
     #[inline(always)]
-    fn near(&self, lane: usize, _: Vec3) -> Vec3 {
-        self.centre(lane)
+    fn near<L: Simd>(&self, to: Vec3x8<L>) -> Vec3x8<L> {
+        self.centre(to.level())
     }
     #[inline(always)]
-    fn reach(&self, lane: usize, n: Vec3) -> f32 {
+    fn reach<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {
+        let level = n.level();
+        let ([u, v, w], [x, y, z]) = (&self.axes, &self.half);
         let axes = [
-            at(&self.axes[0], lane),
-            at(&self.axes[1], lane),
-            at(&self.axes[2], lane),
+            Vec3x8::load(level, u),
+            Vec3x8::load(level, v),
+            Vec3x8::load(level, w),
         ];
-        let half = [self.half[0][lane], self.half[1][lane], self.half[2][lane]];
-        box_reach(n, axes, half, [self.rounding[lane], self.radius[lane]])
+        let half = [load(level, x), load(level, y), load(level, z)];
+        let grown = [load(level, &self.rounding), load(level, &self.radius)];
+        box_reach(n, axes, half, grown)
     }
     #[inline(always)]
-    fn is_piece(&self, lane: usize) -> bool {
-        self.leaves >> lane & 1 == 1
+    fn pieces<L: Simd>(&self, level: L) -> mask32x8<L> {
+        mask32x8::from_bitmask(level, self.leaves.into())
     }
 }
 
 impl Children for TriangleGroup {
     #[inline(always)]
-    fn centre(&self, lane: usize) -> Vec3 {
-        let sum = at(&self.corners[0], lane) + at(&self.corners[1], lane);
-        (sum + at(&self.corners[2], lane)) * (1.0 / 3.0)
+    fn centre<L: Simd>(&self, level: L) -> Vec3x8<L> {
+        let [a, b, c] = self.corners(level);
+        (a + b + c) * splat(level, 1.0 / 3.0)
     }
     #[inline(always)]
-    fn normal(&self, lane: usize) -> Vec3 {
-        at(&self.normal, lane)
+    fn normal<L: Simd>(&self, level: L) -> Vec3x8<L> {
+        // Relative to the radius: the square of a small area would be lost in f32.
+        let scale = splat(level, 1.0) / self.radius(level).max(TINY);
+        let [a, b, c] = self.corners(level);
+        ((b - a) * scale).cross((c - a) * scale).unit()
     }
     #[inline(always)]
-    fn radius(&self, lane: usize) -> f32 {
-        self.radius[lane]
+    fn radius<L: Simd>(&self, level: L) -> f32x8<L> {
+        load(level, &self.radius)
     }
     #[inline(always)]
-    fn near(&self, lane: usize, to: Vec3) -> Vec3 {
-        let corner = |k: usize| at(&self.corners[k], lane);
-        nearest_of_edges(corner(0), corner(1), corner(2), to)
+    fn near<L: Simd>(&self, to: Vec3x8<L>) -> Vec3x8<L> {
+        nearest_of_edges(self.corners(to.level()), to)
     }
     #[inline(always)]
-    fn reach(&self, lane: usize, n: Vec3) -> f32 {
-        let centre = self.centre(lane);
-        let a = dot(n, at(&self.corners[0], lane));
-        let b = dot(n, at(&self.corners[1], lane));
-        let c = dot(n, at(&self.corners[2], lane));
-        max(max(a, b), c) - dot(n, centre)
+    fn reach<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {
+        let level = n.level();
+        let [a, b, c] = self.corners(level);
+        let highest = n.dot(a).max(n.dot(b)).max(n.dot(c));
+        highest - n.dot(self.centre(level))
     }
     #[inline(always)]
-    fn is_piece(&self, _: usize) -> bool {
-        true
+    fn pieces<L: Simd>(&self, level: L) -> mask32x8<L> {
+        mask32x8::splat(level, true)
+    }
+}
+
+impl TriangleGroup {
+    #[inline(always)]
+    fn corners<L: Simd>(&self, level: L) -> [Vec3x8<L>; 3] {
+        let [a, b, c] = &self.corners;
+        [
+            Vec3x8::load(level, a),
+            Vec3x8::load(level, b),
+            Vec3x8::load(level, c),
+        ]
     }
 }
 
@@ -142,17 +159,23 @@ impl OtherNode for OtherBox {
         self.radius
     }
     #[inline(always)]
-    fn near(&self, from: Vec3) -> Vec3 {
-        let way = from - self.centre;
-        let clamp = |k: usize| {
-            let along = dot(way, self.axes[k]);
-            self.axes[k] * max(min(along, self.half[k]), -self.half[k])
-        };
-        self.centre + clamp(0) + clamp(1) + clamp(2)
+    fn near<L: Simd>(&self, from: Vec3x8<L>) -> Vec3x8<L> {
+        let level = from.level();
+        let centre = Vec3x8::splat(level, self.centre);
+        let [u, v, w] = splats(level, self.axes);
+        let way = from - centre;
+        centre
+            + u * way.dot(u).min(self.half[0]).max(-self.half[0])
+            + v * way.dot(v).min(self.half[1]).max(-self.half[1])
+            + w * way.dot(w).min(self.half[2]).max(-self.half[2])
     }
     #[inline(always)]
-    fn reach(&self, n: Vec3) -> f32 {
-        box_reach(n, self.axes, self.half, [self.rounding, self.radius])
+    fn reach<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {
+        let level = n.level();
+        let [x, y, z] = self.half;
+        let half = [splat(level, x), splat(level, y), splat(level, z)];
+        let grown = [splat(level, self.rounding), splat(level, self.radius)];
+        box_reach(n, splats(level, self.axes), half, grown)
     }
     #[inline(always)]
     fn is_piece(&self) -> bool {
@@ -183,16 +206,15 @@ impl OtherNode for OtherTriangle {
         self.radius
     }
     #[inline(always)]
-    fn near(&self, from: Vec3) -> Vec3 {
-        let [a, b, c] = self.corners;
-        self.centre + nearest_of_edges(a, b, c, from - self.centre)
+    fn near<L: Simd>(&self, from: Vec3x8<L>) -> Vec3x8<L> {
+        let level = from.level();
+        let centre = Vec3x8::splat(level, self.centre);
+        centre + nearest_of_edges(splats(level, self.corners), from - centre)
     }
     #[inline(always)]
-    fn reach(&self, n: Vec3) -> f32 {
-        let a = dot(n, self.corners[0]);
-        let b = dot(n, self.corners[1]);
-        let c = dot(n, self.corners[2]);
-        -min(min(a, b), c)
+    fn reach<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {
+        let [a, b, c] = splats(n.level(), self.corners);
+        -n.dot(a).min(n.dot(b)).min(n.dot(c))
     }
     #[inline(always)]
     fn is_piece(&self) -> bool {
@@ -200,29 +222,35 @@ impl OtherNode for OtherTriangle {
     }
 }
 
-/// Returns the point of a triangle's edges that is nearest to `to`. If an interior point is nearer,
+#[inline(always)]
+fn splats<L: Simd>(level: L, [a, b, c]: [Vec3; 3]) -> [Vec3x8<L>; 3] {
+    [
+        Vec3x8::splat(level, a),
+        Vec3x8::splat(level, b),
+        Vec3x8::splat(level, c),
+    ]
+}
+
+/// Returns the points of triangles' edges that are nearest to `to`. If an interior point is nearer,
 /// the triangle's normal is the better axis anyway.
 #[inline(always)]
-fn nearest_of_edges(a: Vec3, b: Vec3, c: Vec3, to: Vec3) -> Vec3 {
+fn nearest_of_edges<L: Simd>([a, b, c]: [Vec3x8<L>; 3], to: Vec3x8<L>) -> Vec3x8<L> {
     let (p, q, r) = (foot(a, b, to), foot(b, c, to), foot(c, a, to));
     let first = nearer(p, q, to);
     nearer(first, r, to)
 }
 
-/// Returns the point of a segment that is nearest to `to`.
+/// Returns the points of segments that are nearest to `to`.
 #[inline(always)]
-fn foot(a: Vec3, b: Vec3, to: Vec3) -> Vec3 {
+fn foot<L: Simd>(a: Vec3x8<L>, b: Vec3x8<L>, to: Vec3x8<L>) -> Vec3x8<L> {
     let edge = b - a;
-    let t = dot(to - a, edge) / max(dot(edge, edge), TINY);
-    a + edge * max(min(t, 1.0), 0.0)
+    let t = (to - a).dot(edge) / edge.dot(edge).max(TINY);
+    a + edge * t.min(1.0).max(0.0)
 }
 
 #[inline(always)]
-fn nearer(p: Vec3, q: Vec3, to: Vec3) -> Vec3 {
-    let pick = dot(p - to, p - to) < dot(q - to, q - to);
-    Vec3::new(
-        choose(pick, p.x, q.x),
-        choose(pick, p.y, q.y),
-        choose(pick, p.z, q.z),
-    )
+fn nearer<L: Simd>(p: Vec3x8<L>, q: Vec3x8<L>, to: Vec3x8<L>) -> Vec3x8<L> {
+    let (from_p, from_q) = (p - to, q - to);
+    let pick = from_p.dot(from_p).simd_lt(from_q.dot(from_q));
+    choose(pick, p, q)
 }

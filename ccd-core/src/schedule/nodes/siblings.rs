@@ -1,7 +1,8 @@
 //! The pairs of one split wait together, and are taken out one by one.
 
 use super::expand::{Expansion, Split};
-use crate::body::tree::{LANES, NodeId};
+use super::free_times::FreeTimes;
+use crate::body::tree::NodeId;
 use crate::math::order::greater;
 use crate::problem::Problem;
 use crate::problem::Which;
@@ -49,7 +50,7 @@ impl Siblings {
     /// Creates the pair of both roots; the given body's root is to be split.
     pub(crate) fn roots(body: Which) -> Self {
         Siblings {
-            free: FreeTimes::new(&[0.0; LANES], 1),
+            free: FreeTimes::one(),
             since: 0.0,
             split: Split::all(body, 0, 0),
             first: 0,
@@ -59,25 +60,15 @@ impl Siblings {
     }
 
     /// Creates the pairs of a split at a clock.
-    pub(crate) fn new(problem: &Problem<'_>, expansion: &Expansion, split: Split, s: f64) -> Self {
-        let bounds = &expansion.bounds;
-        let (mut thicker, mut waits) = (0, 0);
-        for lane in 0..LANES {
-            thicker |= u8::from(bounds.thicker[lane] > 0.0) << lane;
-            waits |= u8::from(bounds.waits[lane] > 0.0) << lane;
-        }
-        let other_tree = split.body.other().of(problem).body.tree();
-        if other_tree.piece(split.other).is_some() {
-            thicker = u8::MAX;
-        }
-        let used = split.lanes & lanes_below(expansion.count);
+    #[inline]
+    pub(crate) fn new(expansion: &Expansion, split: Split, s: f64) -> Self {
         Siblings {
-            free: FreeTimes::new(&bounds.free, used),
+            free: expansion.bounds.free,
             since: s,
             split,
             first: expansion.first,
-            thicker: thicker & !expansion.leaves,
-            waits,
+            thicker: expansion.bounds.thicker,
+            waits: expansion.bounds.waits,
         }
     }
 
@@ -94,10 +85,10 @@ impl Siblings {
         }
     }
 
-    /// Takes out the pair of least clock.
+    /// Takes out the pair of least clock, which is `s`.
     #[inline]
-    pub(crate) fn take_least(&mut self, problem: &Problem<'_>) -> Next {
-        let advanced = self.clock() > self.since;
+    pub(crate) fn take_least(&mut self, problem: &Problem<'_>, s: f64) -> Next {
+        let advanced = s > self.since;
         let lane = self.free.take_least();
         let Split {
             body, node, other, ..
@@ -119,55 +110,5 @@ impl Siblings {
             (Some(a), Some(b), Which::A) | (Some(b), Some(a), Which::B) => Next::Ask(a, b),
             _ => Next::Split(Split::all(body.other(), other, child)),
         }
-    }
-}
-
-/// Returns a mask of the first `count` lanes.
-fn lanes_below(count: u32) -> u8 {
-    u8::MAX >> (LANES as u32 - count)
-}
-
-/// The free times of eight pairs. Each is rounded down to bits that end in the pair's lane. Bits of
-/// non-negative numbers order as the numbers do, so the least of them also names its lane.
-#[derive(Clone, Copy, Debug)]
-struct FreeTimes([u32; LANES]);
-
-const LANE_BITS: u32 = LANES as u32 - 1;
-
-impl FreeTimes {
-    /// Lanes that are not used count as finished.
-    fn new(free: &[f32; LANES], used: u8) -> Self {
-        let mut bits = [0; LANES];
-        for (lane, bits) in bits.iter_mut().enumerate() {
-            let time = match used >> lane & 1 {
-                1 => free[lane],
-                _ => f32::INFINITY,
-            };
-            *bits = time.to_bits() & !LANE_BITS | lane as u32;
-        }
-        FreeTimes(bits)
-    }
-
-    /// Returns the least of the times.
-    #[inline]
-    fn least(&self) -> f32 {
-        f32::from_bits(self.least_bits() & !LANE_BITS)
-    }
-
-    /// Finishes the pair of least time, and returns its lane.
-    #[inline]
-    fn take_least(&mut self) -> usize {
-        let least = self.least_bits();
-        // All lanes are written at once: the next read need not wait for a single store.
-        self.0 = self.0.map(|bits| match bits == least {
-            true => f32::INFINITY.to_bits() | LANE_BITS,
-            false => bits,
-        });
-        (least & LANE_BITS) as usize
-    }
-
-    #[inline]
-    fn least_bits(&self) -> u32 {
-        self.0.iter().fold(u32::MAX, |least, &bits| least.min(bits))
     }
 }

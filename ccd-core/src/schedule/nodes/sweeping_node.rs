@@ -10,83 +10,94 @@
 
 use super::axis::Axis;
 use super::clock;
-use super::eight_pairs::{EightPairs, Lane, bending};
+use super::eight_pairs::{EightPairs, bending};
+use super::lanes::{Vec3x8, splat};
 use super::shape::{Children, OtherNode};
 use super::turn::Turn;
-use super::vector_f32::{dot, length, min};
 use crate::tolerance::{ATTACHED_TIME, BEND_F32, LEAST_BEND_F32, RATE_F32};
+use fearless_simd::{Simd, f32x8, prelude::*};
 
 /// The node that sweeps towards a plane attached to the other body.
-struct SweepingNode {
+struct SweepingNode<L: Simd> {
     /// `n·(v_S − v_O)` at its centre, with both velocities taken at that point, plus the share of
     /// the points around.
-    rate: f32,
+    rate: f32x8<L>,
     /// The largest distance of its points from the turning body's centre.
-    distance: f32,
+    distance: f32x8<L>,
     /// An upper bound of its points' speeds due to its own turning.
-    speed: f32,
+    speed: f32x8<L>,
     /// `|ω|` of its own turning.
     own_rate: f32,
 }
 
-impl<C: Children, P: OtherNode, S: Turn, O: Turn> EightPairs<'_, C, P, S, O> {
-    /// Returns the time for which a plane that turns with the split body keeps the pair apart.
+impl<L: Simd, C: Children, P: OtherNode, S: Turn, O: Turn> EightPairs<'_, L, C, P, S, O> {
+    /// Returns the times for which planes that turn with the split body keep the pairs apart.
     #[inline(always)]
-    pub(super) fn free_with_split(&self, axis: Axis) -> f32 {
+    pub(super) fn free_with_split(&self, axis: Axis<L>) -> f32x8<L> {
         let (motion, other) = (self.motion, self.other);
-        let at = other.centre();
-        let velocity = motion.velocity + motion.split.velocity(at) - self.other_turning;
+        let level = axis.n.level();
+        let at = Vec3x8::splat(level, other.centre());
+        let velocity = Vec3x8::splat(level, motion.velocity);
+        let velocity = velocity + motion.split.velocity(at) - self.other_turning;
         let across = motion.split.across(axis.n);
         let own = motion.other.across(axis.n);
         self.free_attached(
             axis,
-            bending(across, motion.split.rate(), 1.0),
+            bending(across, motion.split.rate(), splat(level, 1.0)),
             motion.split.rate(),
             &SweepingNode {
-                rate: dot(axis.n, velocity) + other.reach(own - across),
-                distance: motion.split.arm(at) + other.radius(),
+                rate: axis.n.dot(velocity) + other.reach(own - across),
+                distance: motion.split.arms(at) + other.radius(),
                 speed: self.other_speed,
                 own_rate: motion.other.rate(),
             },
         )
     }
 
-    /// Returns the time for which a plane that turns with the other body keeps the pair apart.
+    /// Returns the times for which planes that turn with the other body keep the pairs apart.
     #[inline(always)]
-    pub(super) fn free_with_other(&self, pair: &Lane, axis: Axis) -> f32 {
+    pub(super) fn free_with_other(&self, axis: Axis<L>) -> f32x8<L> {
         let (motion, children) = (self.motion, self.children);
-        let at = children.centre(pair.lane);
-        let velocity = motion.velocity + motion.split.velocity(at) - motion.other.velocity(at);
+        let level = axis.n.level();
+        let at = children.centre(level);
+        let velocity = Vec3x8::splat(level, motion.velocity);
+        let velocity = velocity + motion.split.velocity(at) - motion.other.velocity(at);
         let across = motion.other.across(axis.n);
         let own = motion.split.across(axis.n);
         self.free_attached(
             axis,
-            bending(across, motion.other.rate(), 1.0),
+            bending(across, motion.other.rate(), splat(level, 1.0)),
             motion.other.rate(),
             &SweepingNode {
-                rate: dot(axis.n, velocity) + children.reach(pair.lane, own - across),
-                distance: motion.other.arm(at) + children.radius(pair.lane),
-                speed: pair.speed,
+                rate: axis.n.dot(velocity) + children.reach(own - across),
+                distance: motion.other.arms(at) + children.radius(level),
+                speed: self.speed,
                 own_rate: motion.split.rate(),
             },
         )
     }
 
     #[inline(always)]
-    fn free_attached(&self, axis: Axis, across: f32, spin: f32, sweep: &SweepingNode) -> f32 {
+    fn free_attached(
+        &self,
+        axis: Axis<L>,
+        across: f32x8<L>,
+        spin: f32,
+        sweep: &SweepingNode<L>,
+    ) -> f32x8<L> {
         let motion = self.motion;
-        let straight = length(motion.velocity) + motion.rate_slack;
-        let speed = straight + sweep.speed;
+        let straight = motion.velocity.length() + motion.rate_slack;
+        let speed = sweep.speed + straight;
         let far = sweep.distance + speed * ATTACHED_TIME;
-        let bend = across * (spin * far + 2.0 * speed) + sweep.own_rate * sweep.speed;
+        let bend = across * (far * spin + speed * 2.0) + sweep.speed * sweep.own_rate;
         // The sweep happens at its own distance from the turning body's centre.
-        let rate_slack = motion.rate_slack + RATE_F32 * spin * sweep.distance;
+        let rate_slack = sweep.distance * (RATE_F32 * spin) + motion.rate_slack;
         let free = clock::free_time(
             axis.gap - motion.slack,
             motion.closed,
             sweep.rate + rate_slack,
             bend * BEND_F32 + LEAST_BEND_F32,
         );
-        min(free, ATTACHED_TIME)
+        free.min(ATTACHED_TIME)
     }
 }

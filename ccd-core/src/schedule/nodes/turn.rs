@@ -1,18 +1,21 @@
 //! The turning of a body, as seen from the group that is split.
 
-use super::vector_f32::{cross, length};
+use super::lanes::{Vec3x8, splat};
+use fearless_simd::{Simd, f32x8};
 use glam::Vec3;
 
 /// A body's rotation; a body that does not turn costs nothing.
 pub(crate) trait Turn: Copy {
     const TURNS: bool;
-    /// Returns the velocity of the point `x` due to turning.
-    fn velocity(&self, x: Vec3) -> Vec3;
+    /// Returns the velocities of points due to turning.
+    fn velocity<L: Simd>(&self, x: Vec3x8<L>) -> Vec3x8<L>;
     /// Returns `n × ω`.
-    fn across(&self, n: Vec3) -> Vec3;
+    fn across<L: Simd>(&self, n: Vec3x8<L>) -> Vec3x8<L>;
     /// Returns `|ω|`, rounded up.
     fn rate(&self) -> f32;
-    /// Returns the distance of `x` from the rotation's centre.
+    /// Returns the distances of points from the rotation's centre.
+    fn arms<L: Simd>(&self, x: Vec3x8<L>) -> f32x8<L>;
+    /// Returns the distance of a point from the rotation's centre.
     fn arm(&self, x: Vec3) -> f32;
 }
 
@@ -32,16 +35,20 @@ pub(crate) struct Turning {
 impl Turn for Straight {
     const TURNS: bool = false;
     #[inline(always)]
-    fn velocity(&self, _: Vec3) -> Vec3 {
-        Vec3::ZERO
+    fn velocity<L: Simd>(&self, x: Vec3x8<L>) -> Vec3x8<L> {
+        Vec3x8::splat(x.level(), Vec3::ZERO)
     }
     #[inline(always)]
-    fn across(&self, _: Vec3) -> Vec3 {
-        Vec3::ZERO
+    fn across<L: Simd>(&self, n: Vec3x8<L>) -> Vec3x8<L> {
+        Vec3x8::splat(n.level(), Vec3::ZERO)
     }
     #[inline(always)]
     fn rate(&self) -> f32 {
         0.0
+    }
+    #[inline(always)]
+    fn arms<L: Simd>(&self, x: Vec3x8<L>) -> f32x8<L> {
+        splat(x.level(), 0.0)
     }
     #[inline(always)]
     fn arm(&self, _: Vec3) -> f32 {
@@ -52,19 +59,24 @@ impl Turn for Straight {
 impl Turn for Turning {
     const TURNS: bool = true;
     #[inline(always)]
-    fn velocity(&self, x: Vec3) -> Vec3 {
-        cross(self.spin, x - self.centre)
+    fn velocity<L: Simd>(&self, x: Vec3x8<L>) -> Vec3x8<L> {
+        let level = x.level();
+        Vec3x8::splat(level, self.spin).cross(x - Vec3x8::splat(level, self.centre))
     }
     #[inline(always)]
-    fn across(&self, n: Vec3) -> Vec3 {
-        cross(n, self.spin)
+    fn across<L: Simd>(&self, n: Vec3x8<L>) -> Vec3x8<L> {
+        n.cross(Vec3x8::splat(n.level(), self.spin))
     }
     #[inline(always)]
     fn rate(&self) -> f32 {
         self.rate
     }
     #[inline(always)]
+    fn arms<L: Simd>(&self, x: Vec3x8<L>) -> f32x8<L> {
+        (x - Vec3x8::splat(x.level(), self.centre)).length()
+    }
+    #[inline(always)]
     fn arm(&self, x: Vec3) -> f32 {
-        length(x - self.centre)
+        (x - self.centre).length()
     }
 }

@@ -8,9 +8,9 @@ use proptest::prelude::*;
 /// Takes out all items, in order.
 fn drain(queue: &mut Queue<u32>) -> Vec<u32> {
     let mut out = Vec::new();
-    while let Some(visit) = queue.visit() {
-        out.push(*visit.item);
-        visit.remove();
+    while let Some((_, item)) = queue.least() {
+        out.push(*item);
+        queue.remove();
     }
     out
 }
@@ -32,7 +32,8 @@ fn least_clock_first_then_piece_pairs_then_the_newest() {
     }
     assert_eq!(drain(&mut queue), [0, 1, 2, 3, 4, 5, 6]);
     assert_eq!(queue.peak(), 7);
-    assert!(queue.visit().is_none());
+    assert!(queue.least().is_none());
+    queue.remove();
 }
 
 #[test]
@@ -51,9 +52,8 @@ fn clocks_keep_all_their_bits() {
         queue.push(clock, Rank::Siblings, item as u32).unwrap();
     }
     for &clock in &clocks {
-        let visit = queue.visit().unwrap();
-        assert_eq!(visit.clock, clock);
-        visit.remove();
+        assert_eq!(queue.least().unwrap().0, clock);
+        queue.remove();
     }
 }
 
@@ -71,7 +71,8 @@ fn places_are_used_again() {
     assert_eq!(queue.peak(), 10);
     queue.clear();
     assert_eq!(queue.peak(), 0);
-    assert!(queue.visit().is_none());
+    assert!(queue.least().is_none());
+    queue.remove();
 }
 
 #[test]
@@ -80,11 +81,9 @@ fn postponed_items_wait_in_order() {
     for (clock, item) in [(0.1, 0), (0.2, 1), (0.3, 2)] {
         queue.push(clock, Rank::Siblings, item).unwrap();
     }
-    let visit = queue.visit().unwrap();
-    *visit.item = 7;
-    visit.postpone(0.25);
-    // A dropped visit leaves the item in its place.
-    assert_eq!(*queue.visit().unwrap().item, 1);
+    *queue.least().unwrap().1 = 7;
+    queue.postpone(0.25);
+    assert_eq!(*queue.least().unwrap().1, 1);
     assert_eq!(drain(&mut queue), [1, 7, 2]);
 }
 
@@ -100,27 +99,34 @@ proptest! {
             // Few clocks, so that many are equal.
             let clock = f64::from(rng.random_range(0..8)) / 8.0;
             list.sort_by(|x, y| x.partial_cmp(y).unwrap());
-            match rng.random_range(0..4) {
-                0 | 1 => {
-                    let rank = [Rank::PiecePair, Rank::Siblings][rng.random_range(0..2)];
+            let rank = [Rank::PiecePair, Rank::Siblings][rng.random_range(0..2)];
+            let new = (clock, rank as u8, -step, step as u32);
+            let least = queue.least().map(|(clock, item)| (clock, *item));
+            prop_assert_eq!(least, list.first().map(|first| (first.0, first.3)));
+            match (rng.random_range(0..6), list.first_mut()) {
+                (0, Some(first)) => {
+                    first.0 = greater(first.0, clock);
+                    queue.postpone(first.0);
+                }
+                (1, Some(first)) => {
+                    *first = (clock, rank as u8, -step, first.3);
+                    queue.renew(clock, rank);
+                }
+                (2, Some(first)) => {
+                    *first = new;
+                    queue.replace(clock, rank, step as u32);
+                }
+                (3, first) => {
+                    if first.is_some() {
+                        list.remove(0);
+                    }
+                    queue.remove();
+                }
+                _ => {
                     queue.push(clock, rank, step as u32).unwrap();
-                    list.push((clock, rank as u8, -step, step as u32));
+                    list.push(new);
                     peak = peak.max(list.len());
                 }
-                2 => match queue.visit() {
-                    Some(visit) => {
-                        let first = list.remove(0);
-                        prop_assert_eq!((visit.clock, *visit.item), (first.0, first.3));
-                        visit.remove();
-                    }
-                    None => prop_assert!(list.is_empty()),
-                },
-                _ => if let Some(visit) = queue.visit() {
-                    prop_assert_eq!(*visit.item, list[0].3);
-                    let later = greater(visit.clock, clock);
-                    list[0].0 = later;
-                    visit.postpone(later);
-                },
             }
         }
         list.sort_by(|x, y| x.partial_cmp(y).unwrap());

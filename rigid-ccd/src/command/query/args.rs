@@ -5,8 +5,8 @@ use crate::batch::{BoundKind, OracleKind, ScheduleKind};
 use crate::command::pieces::{NOT_GIVEN, PiecesArgs, value_name};
 use crate::table::results::Extent;
 use crate::text::Number;
-use ccd_core::StartPolicy;
 use ccd_core::limits::{DEFAULT_BUDGET, DEFAULT_TOLERANCE, LEAST_TOLERANCE, MAX_COORDINATE};
+use ccd_core::{Instructions, StartPolicy};
 use clap::{Args, ValueEnum};
 use std::fmt;
 use std::path::PathBuf;
@@ -59,6 +59,9 @@ pub(in crate::command) struct QueryArgs {
     /// cores]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(super) threads: Option<u16>,
+    /// Vector instructions to compute with; they change the time alone, not the answers
+    #[arg(long, value_enum, default_value_t)]
+    pub(super) instructions: InstructionsArg,
     /// Answer only these rows, numbered from 0, TO excluded; either end may be omitted
     #[arg(
         long,
@@ -119,6 +122,7 @@ impl QueryArgs {
             budget,
             deadline,
             threads: _,
+            instructions,
             rows,
             repeat,
             out: _,
@@ -144,6 +148,7 @@ impl QueryArgs {
             ("--start", value_name(start)),
             ("--budget", budget.to_string()),
             ("--deadline", or_not(deadline)),
+            ("--instructions", value_name(instructions)),
             ("--rows", rows.to_string()),
             ("--repeat", repeat.to_string()),
             ("--contacts", or_not(contacts)),
@@ -163,6 +168,25 @@ pub(super) enum StartArg {
     Report,
     /// Ignore the contact as long as the bodies do not approach
     Leave,
+}
+
+/// The vector instructions to compute with.
+#[derive(Clone, Copy, Debug, Default, ValueEnum)]
+pub(super) enum InstructionsArg {
+    /// The best of this machine
+    #[default]
+    Best,
+    /// Those that every machine of this kind has
+    Baseline,
+}
+
+impl From<InstructionsArg> for Instructions {
+    fn from(arg: InstructionsArg) -> Self {
+        match arg {
+            InstructionsArg::Best => Instructions::Best,
+            InstructionsArg::Baseline => Instructions::Baseline,
+        }
+    }
 }
 
 /// A range of rows of a table, numbered from 0.

@@ -3,12 +3,13 @@
 mod setting;
 
 use super::*;
+use crate::body::tree::LANES;
+use crate::config::Instructions;
 use crate::math::order::{greater, lesser};
 use crate::schedule::nodes::axis::Axis;
 use crate::schedule::nodes::clock;
-use crate::schedule::nodes::eight_pairs::Lane;
-use crate::schedule::nodes::turn::Turning;
-use crate::schedule::nodes::vector_f32::{dot, length};
+use crate::schedule::nodes::lanes::{Vec3x8, load};
+use crate::schedule::nodes::turn::{Turn, Turning};
 use crate::tests::scene::{Pcg64, direction, rng};
 use crate::tolerance::{
     ACROSS_F32, ATTACHED_TIME, BEND_F32, CLOCK_F32, LEAST_BEND_F32, MUCH_LARGER,
@@ -103,6 +104,38 @@ fn planes_hold_and_allowances_suffice_for_triangles() {
     worst.assert();
 }
 
+/// What the bounds compute along one axis, before it becomes eight free times: one number for each child.
+#[derive(Clone, Copy, Debug)]
+struct Found {
+    axis: [[f32; LANES]; 3],
+    gap: [f32; LANES],
+    rate: [f32; LANES],
+    /// The lengths of `n × ω` for the split and the other body.
+    across: [[f32; LANES]; 2],
+    /// The free times of planes that are fixed, or turn with the split or the other body.
+    free: [[f32; LANES]; 3],
+}
+
+impl Found {
+    fn normal(&self, lane: usize) -> DVec3 {
+        DVec3::from_array(self.axis.map(|row| row[lane].into()))
+    }
+
+    /// Returns all numbers; those that are not numbers count as equal.
+    fn numbers(&self) -> Vec<Option<f32>> {
+        let rows = [
+            &self.axis[..],
+            &self.free,
+            &self.across,
+            &[self.gap, self.rate],
+        ];
+        let all = rows.concat().concat();
+        all.into_iter()
+            .map(|x| (!x.is_nan()).then_some(x))
+            .collect()
+    }
+}
+
 impl Worst {
     fn new() -> Self {
         Worst {
@@ -122,108 +155,212 @@ impl Worst {
     }
 }
 
+/// Computes along three axes: those that the bounds try, and some other one.
+///
+/// Nothing is inlined, as the compiler takes minutes for all of it in one function without vectors.
+fn find<L: Simd, C: Children, P: OtherNode>(
+    level: L,
+    sample: &Sample<C, P>,
+    some: Vec3,
+) -> [Found; 3] {
+    let pairs = sample.pairs(level);
+    let some = axis::towards(Vec3x8::splat(level, some), pairs.way);
+    let axes = [
+        widest(&pairs),
+        passing(&pairs),
+        axis::along(pairs.children, pairs.other, pairs.way, some),
+    ];
+    axes.map(|axis| along(&pairs, axis))
+}
+
+type Pairs<'a, L, C, P> = EightPairs<'a, L, C, P, Turning, Turning>;
+
+#[inline(never)]
+fn widest<L: Simd, C: Children, P: OtherNode>(pairs: &Pairs<'_, L, C, P>) -> Axis<L> {
+    axis::widest(pairs.children, pairs.other, pairs.way)
+}
+
+#[inline(never)]
+fn passing<L: Simd, C: Children, P: OtherNode>(pairs: &Pairs<'_, L, C, P>) -> Axis<L> {
+    let travel = pairs.velocity * splat(pairs.way.level(), pairs.motion.horizon);
+    axis::passing(pairs.children, pairs.other, pairs.way, travel)
+}
+
+#[inline(never)]
+fn along<L: Simd, C: Children, P: OtherNode>(pairs: &Pairs<'_, L, C, P>, axis: Axis<L>) -> Found {
+    let motion = pairs.motion;
+    let (m, o) = (motion.split.across(axis.n), motion.other.across(axis.n));
+    let rate = axis.n.dot(pairs.velocity) + pairs.children.reach(m) + pairs.other.reach(o);
+    Found {
+        axis: [*axis.n.x, *axis.n.y, *axis.n.z],
+        gap: *axis.gap,
+        rate: *rate,
+        across: [*m.length(), *o.length()],
+        free: [
+            free(pairs, axis),
+            free_with_split(pairs, axis),
+            free_with_other(pairs, axis),
+        ],
+    }
+}
+
+#[inline(never)]
+fn free<L: Simd, C: Children, P: OtherNode>(
+    pairs: &Pairs<'_, L, C, P>,
+    axis: Axis<L>,
+) -> [f32; LANES] {
+    *pairs.free(axis)
+}
+
+#[inline(never)]
+fn free_with_split<L: Simd, C: Children, P: OtherNode>(
+    pairs: &Pairs<'_, L, C, P>,
+    axis: Axis<L>,
+) -> [f32; LANES] {
+    *pairs.free_with_split(axis)
+}
+
+#[inline(never)]
+fn free_with_other<L: Simd, C: Children, P: OtherNode>(
+    pairs: &Pairs<'_, L, C, P>,
+    axis: Axis<L>,
+) -> [f32; LANES] {
+    *pairs.free_with_other(axis)
+}
+
+/// Returns the free times of the rates, for other bends.
+fn clocks(
+    level: Level,
+    aparts: &[f32; LANES],
+    rates: &[f32; LANES],
+    bends: &[f32; LANES],
+    closed: f32,
+) -> [f32; LANES] {
+    vectorize!(level, level => {
+        let [apart, rate, bend] = [load(level, aparts), load(level, rates), load(level, bends)];
+        *clock::free_time(apart, closed, rate, bend)
+    })
+}
+
 impl<C: Children, P: OtherNode> Sample<C, P> {
+    #[inline(never)]
+    fn pairs<L: Simd>(&self, level: L) -> Pairs<'_, L, C, P> {
+        EightPairs::new(level, &self.group, &self.other, &self.motion)
+    }
+
     fn audit(&self, rng: &mut Pcg64, worst: &mut Worst) {
-        let pairs = EightPairs::new(&self.group, &self.other, &self.motion);
-        let reach = (0..LANES)
-            .map(|k| self.group.centre(k).length() + self.group.radius(k))
-            .fold(0.0, greater);
-        for lane in 0..LANES {
-            let pair = pairs.lane(lane);
-            let travel = pair.velocity * self.motion.horizon;
-            let axes = [
-                axis::widest(&self.group, &self.other, lane, pair.way),
-                axis::passing(&self.group, &self.other, lane, pair.way, travel),
-                self.axis_along(lane, pair.way, direction(rng).as_vec3()),
-            ];
-            for axis in axes {
-                self.sample_allowances(&pair, axis, worst);
-                let free = pairs.free(&pair, axis);
-                self.check_still(lane, axis, free, worst);
-                if reach > MUCH_LARGER * self.other.radius() {
-                    let free = pairs.free_with_split(axis);
-                    self.check_attached(lane, axis, free, Larger::Split, worst);
-                } else if self.other.radius() > MUCH_LARGER * reach {
-                    let free = pairs.free_with_other(&pair, axis);
-                    self.check_attached(lane, axis, free, Larger::Other, worst);
-                }
+        let some = direction(rng).as_vec3();
+        let found = self.found_on_all_levels(some);
+        let reach = vectorize!(Instructions::Best.level(), level => {
+            *(self.group.centre(level).length() + self.group.radius(level))
+        });
+        let reach = reach.into_iter().fold(0.0, greater);
+        for found in &found {
+            self.sample_allowances(found, worst);
+            self.check_still(found, worst);
+            if reach > MUCH_LARGER * self.other.radius() {
+                self.check_attached(found, Larger::Split, worst);
+            } else if self.other.radius() > MUCH_LARGER * reach {
+                self.check_attached(found, Larger::Other, worst);
             }
         }
     }
 
-    fn axis_along(&self, lane: usize, way: Vec3, n: Vec3) -> Axis {
-        let n = if dot(n, way) < 0.0 { -n } else { n };
-        let (split_reach, other_reach) = (self.group.reach(lane, n), self.other.reach(n));
-        Axis {
-            n,
-            gap: dot(n, way) - split_reach - other_reach,
-            split_reach,
-            other_reach,
+    /// All vector instructions of this machine compute the same as none.
+    fn found_on_all_levels(&self, some: Vec3) -> [Found; 3] {
+        let [best, baseline] = [Instructions::Best, Instructions::Baseline]
+            .map(|instructions| vectorize!(instructions.level(), level => find(level, self, some)));
+        for (best, baseline) in best.iter().zip(&baseline) {
+            assert_eq!(best.numbers(), baseline.numbers(), "{:?}", self.motion);
         }
+        best
     }
 
     /// Each rounded quantity against the same in f64.
-    fn sample_allowances(&self, pair: &Lane, axis: Axis, worst: &mut Worst) {
-        let (motion, n) = (&self.motion, axis.n.as_dvec3());
-        let child = &self.children[pair.lane];
-        let [m, o] = [motion.split.across(axis.n), motion.other.across(axis.n)];
-        let rate =
-            dot(axis.n, pair.velocity) + self.group.reach(pair.lane, m) + self.other.reach(o);
-        let exact = n.dot(self.velocity) + child.fastest(n) + self.far.fastest(-n);
-        let below = exact - f64::from(rate);
-        worst.rate = greater(worst.rate, below / f64::from(motion.rate_slack));
+    fn sample_allowances(&self, found: &Found, worst: &mut Worst) {
+        let motion = &self.motion;
+        let aparts = found.gap.map(|gap| gap - motion.slack);
+        let bend = |lane: usize| {
+            let n = found.normal(lane);
+            (self.children[lane].bend(n) + self.far.bend(n)) as f32 + LEAST_BEND_F32
+        };
+        let bends = std::array::from_fn(bend);
+        let frees = clocks(
+            Instructions::Best.level(),
+            &aparts,
+            &found.rate,
+            &bends,
+            motion.closed,
+        );
+        for (lane, child) in self.children.iter().enumerate() {
+            let (n, rate) = (found.normal(lane), found.rate[lane]);
+            let exact = n.dot(self.velocity) + child.fastest(n) + self.far.fastest(-n);
+            let below = exact - f64::from(rate);
+            worst.rate = greater(worst.rate, below / f64::from(motion.rate_slack));
 
-        let gap = -self.far.highest(-n, 0.0) - child.highest(n, 0.0);
-        let above = f64::from(axis.gap) - gap;
-        worst.support = greater(worst.support, above / f64::from(self.allowed));
+            let gap = -self.far.highest(-n, 0.0) - child.highest(n, 0.0);
+            let above = f64::from(found.gap[lane]) - gap;
+            worst.support = greater(worst.support, above / f64::from(self.allowed));
 
-        for (turning, body) in [(motion.split, child), (motion.other, &self.far)] {
-            let across = n.cross(body.spin).length();
-            let below = across - f64::from(length(turning.across(axis.n)) * BEND_F32);
-            let allowed = f64::from(ACROSS_F32 * turning.rate);
-            worst.across = greater(worst.across, below / allowed);
-        }
+            for ((turning, body), length) in [(motion.split, child), (motion.other, &self.far)]
+                .iter()
+                .zip(found.across)
+            {
+                let across = n.cross(body.spin).length();
+                let found = length[lane] * BEND_F32;
+                let allowed = f64::from(ACROSS_F32 * turning.rate);
+                worst.across = greater(worst.across, (across - f64::from(found)) / allowed);
+            }
 
-        let apart = axis.gap - motion.slack;
-        let bend = (child.bend(n) + self.far.bend(n)) as f32 + LEAST_BEND_F32;
-        let free = f64::from(clock::free_time(apart, motion.closed, rate, bend));
-        if free > 0.0 && free < 1e30 {
-            let [apart, rate, bend] = [apart, rate, bend].map(f64::from);
-            let root = (rate * rate + 2.0 * bend * apart).sqrt();
-            let exact = match rate > 0.0 {
-                true => 2.0 * apart / (rate + root),
-                false => (root - rate) / bend,
-            };
-            let factor = f64::from(CLOCK_F32);
-            let above = free / factor / exact - 1.0;
-            worst.clock = greater(worst.clock, above / (1.0 - factor));
+            let free = frees[lane];
+            if free > 0.0 && free < 1e30 {
+                let [free, apart, rate, bend] =
+                    [free, aparts[lane], rate, bends[lane]].map(f64::from);
+                let root = (rate * rate + 2.0 * bend * apart).sqrt();
+                let exact = match rate > 0.0 {
+                    true => 2.0 * apart / (rate + root),
+                    false => (root - rate) / bend,
+                };
+                let factor = f64::from(CLOCK_F32);
+                let above = free / factor / exact - 1.0;
+                worst.clock = greater(worst.clock, above / (1.0 - factor));
+            }
         }
     }
 
     /// A fixed plane keeps the pair apart for its whole free time.
-    fn check_still(&self, lane: usize, axis: Axis, free: f32, worst: &mut Worst) {
-        let n = axis.n.as_dvec3();
-        let gap = |tau: f64| {
-            let child = self.children[lane].highest(n, tau) + n.dot(self.velocity) * tau;
-            (-self.far.highest(-n, tau) - child) / n.length()
-        };
-        worst.still += usize::from(self.check(lane, free, gap, worst));
+    fn check_still(&self, found: &Found, worst: &mut Worst) {
+        let [free, ..] = found.free;
+        for (lane, free) in free.into_iter().enumerate() {
+            let n = found.normal(lane);
+            let gap = |tau: f64| {
+                let child = self.children[lane].highest(n, tau) + n.dot(self.velocity) * tau;
+                (-self.far.highest(-n, tau) - child) / n.length()
+            };
+            worst.still += usize::from(self.check(lane, free, gap, worst));
+        }
     }
 
     /// A plane that turns with one of the bodies does so too.
-    fn check_attached(&self, lane: usize, axis: Axis, free: f32, with: Larger, worst: &mut Worst) {
-        assert!(free <= ATTACHED_TIME);
-        let child = &self.children[lane];
-        let spin = match with {
-            Larger::Split => child.spin,
-            Larger::Other => self.far.spin,
+    fn check_attached(&self, found: &Found, with: Larger, worst: &mut Worst) {
+        let [_, with_split, with_other] = found.free;
+        let free = match with {
+            Larger::Split => with_split,
+            Larger::Other => with_other,
         };
-        let gap = |tau: f64| {
-            let n = DQuat::from_scaled_axis(spin * tau) * axis.n.as_dvec3();
-            let top = child.highest(n, tau) + n.dot(self.velocity) * tau;
-            (-self.far.highest(-n, tau) - top) / n.length()
-        };
-        worst.attached += usize::from(self.check(lane, free, gap, worst));
+        for (lane, child) in self.children.iter().enumerate() {
+            assert!(free[lane] <= ATTACHED_TIME);
+            let spin = match with {
+                Larger::Split => child.spin,
+                Larger::Other => self.far.spin,
+            };
+            let gap = |tau: f64| {
+                let n = DQuat::from_scaled_axis(spin * tau) * found.normal(lane);
+                let top = child.highest(n, tau) + n.dot(self.velocity) * tau;
+                (-self.far.highest(-n, tau) - top) / n.length()
+            };
+            worst.attached += usize::from(self.check(lane, free[lane], gap, worst));
+        }
     }
 
     /// Returns whether there was a free time to check.

@@ -128,7 +128,8 @@ impl Audit<'_> {
             let s = self.clock(rng);
             let expansion = expand(self.problem, &super::Split::all(split, node, other), s);
             self.check(&expansion, split, node, other, s, tally);
-            let lane = self.next(rng, &expansion);
+            let count = self.below(split, node).0;
+            let lane = self.next(rng, &expansion, count);
             ids[split as usize] = expansion.first + lane;
         }
     }
@@ -145,12 +146,25 @@ impl Audit<'_> {
     }
 
     /// Returns the child to continue with: mostly the one of least free time.
-    fn next(&self, rng: &mut Pcg64, expansion: &Expansion) -> u32 {
-        let free = |k: &u32| expansion.bounds.free[*k as usize];
-        let least = (0..expansion.count).min_by(|i, j| free(i).total_cmp(&free(j)));
+    fn next(&self, rng: &mut Pcg64, expansion: &Expansion, count: u32) -> u32 {
+        let free = |k: &u32| expansion.bounds.free.of(*k as usize);
+        let least = (0..count).min_by(|i, j| free(i).total_cmp(&free(j)));
         match rng.random_bool(0.8) {
             true => least.unwrap_or(0),
-            false => rng.random_range(0..expansion.count),
+            false => rng.random_range(0..count),
+        }
+    }
+
+    /// Returns the number of a node's children, and whether they are triangles.
+    fn below(&self, split: Which, node: NodeId) -> (u32, bool) {
+        let tree = split.of(self.problem).body.tree();
+        match tree.get(node) {
+            Named::Node(node) => match node.below {
+                Below::Boxes(group) => (tree.box_group(group).members.count, false),
+                Below::Triangles(group) => (tree.triangle_members(group).count, true),
+                Below::Piece(_) => (0, false),
+            },
+            Named::Triangle(_) => (0, false),
         }
     }
 
@@ -164,8 +178,9 @@ impl Audit<'_> {
         tally: &mut Tally,
     ) {
         let still = planes_that_stand_still(self.problem, split, node, other, s);
-        for lane in 0..expansion.count {
-            let free = expansion.bounds.free[lane as usize];
+        let (count, triangles) = self.below(split, node);
+        for lane in 0..count {
+            let free = expansion.bounds.free.of(lane as usize);
             assert!(expansion.bounds.kept >= 0.0, "{:?}", self.name);
             assert!(free >= 0.0, "{:?}: {free}", self.name);
             let pair = Lane {
@@ -180,12 +195,12 @@ impl Audit<'_> {
                 self.verify(&pair, tally);
                 tally.free += 1;
                 tally.by_role[split as usize] += 1;
-                tally.attached += usize::from(free > 1.5 * still.free[lane as usize]);
+                tally.attached += usize::from(free > 1.5 * still.free.of(lane as usize));
                 let other_tree = split.other().of(self.problem).body.tree();
                 tally.against_triangle += usize::from(other_tree.piece(other).is_some());
-                match expansion.leaves {
-                    u8::MAX => tally.triangles += 1,
-                    _ => tally.boxes += 1,
+                match triangles {
+                    true => tally.triangles += 1,
+                    false => tally.boxes += 1,
                 }
             } else {
                 tally.none += 1;

@@ -224,6 +224,7 @@ impl Setting {
                 kept,
                 closed: LEAST_GAP_F32,
                 rate_slack: RATE_F32 * speed,
+                larger: None,
             },
             group,
             other,

@@ -1,0 +1,54 @@
+//! The vector instructions that kernels are compiled for, chosen at run time.
+
+use crate::config::Instructions;
+use fearless_simd::Level;
+
+impl Instructions {
+    pub(crate) fn level(self) -> Level {
+        match self {
+            Instructions::Best => Level::new(),
+            Instructions::Baseline => Level::baseline(),
+        }
+    }
+}
+
+/// Evaluates an expression with a token of the best of the instructions that pay: AVX2 and SSE2 on
+/// x86, the only ones elsewhere. All functions that it calls have to be `#[inline(always)]`, closures
+/// too: what is not inlined is compiled for the oldest machine.
+///
+/// AVX-512 is left out: eight lanes of f32 gain nothing by it, and rustc 1.95 miscompiles it. Every
+/// level more is a copy of the code.
+macro_rules! vectorize {
+    ($level:expr, $token:ident => $value:expr) => {{
+        #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+        {
+            use fearless_simd::Simd as _;
+            match $level.as_avx2() {
+                Some($token) => $token.vectorize(
+                    #[inline(always)]
+                    || $value,
+                ),
+                None => {
+                    let $token = $level.as_sse2().expect("an x86 target with SSE2");
+                    $token.vectorize(
+                        #[inline(always)]
+                        || $value,
+                    )
+                }
+            }
+        }
+        #[cfg(not(any(target_arch = "x86", target_arch = "x86_64")))]
+        {
+            fearless_simd::dispatch!($level, $token => $value)
+        }
+    }};
+}
+pub(crate) use vectorize;
+
+#[cfg(all(
+    any(target_arch = "x86", target_arch = "x86_64"),
+    not(target_feature = "sse2")
+))]
+compile_error!(
+    "ccd-core needs SSE2 on x86; build for a target that has it, such as i686 instead of i586"
+);

@@ -1,0 +1,86 @@
+//! The free times of eight pairs, from which the least is taken out again and again.
+
+use super::lanes::splat;
+use crate::body::tree::LANES;
+use crate::math::order::lesser;
+use fearless_simd::{ExtractToken, Simd, f32x8, mask32x8, prelude::*, u32x8};
+
+/// Free times, each rounded down to bits that end in the pair's lane: the least of them also names
+/// its lane.
+#[derive(Clone, Copy, Debug)]
+#[repr(align(32))]
+pub(crate) struct FreeTimes([f32; LANES]);
+
+const LANE_BITS: u32 = LANES as u32 - 1;
+
+/// The free time of a pair that is finished, later than all others. Not infinite: with the bits of a
+/// lane that would be no number.
+const FINISHED: f32 = f32::MAX;
+
+impl FreeTimes {
+    /// Creates the times of one pair, in the first lane, free until now.
+    pub(super) fn one() -> Self {
+        let mut times = [FINISHED; LANES];
+        times[0] = 0.0;
+        FreeTimes(times)
+    }
+
+    /// Packs times; lanes that are not used count as finished.
+    #[inline(always)]
+    pub(super) fn pack<L: Simd>(free: f32x8<L>, used: u8) -> Self {
+        let level = free.token();
+        let lanes: u32x8<L> = [0, 1, 2, 3, 4, 5, 6, 7].simd_into(level);
+        // Written so that NaN counts as zero.
+        let free = free
+            .simd_ge(0.0)
+            .select(free.min(FINISHED), splat(level, 0.0));
+        let used = mask32x8::from_bitmask(level, used.into());
+        let free: u32x8<L> = used.select(free, splat(level, FINISHED)).bitcast();
+        let free: f32x8<L> = (free & !LANE_BITS | lanes).bitcast();
+        FreeTimes(*free)
+    }
+
+    /// Returns the least of the times; infinity when all pairs are finished.
+    #[inline]
+    pub(super) fn least(&self) -> f32 {
+        time(self.least_time())
+    }
+
+    /// Finishes the pair of least time, and returns its lane.
+    #[inline]
+    pub(super) fn take_least(&mut self) -> usize {
+        let least = self.least_time();
+        // All lanes are written at once: the next read need not wait for a single store.
+        for time in &mut self.0 {
+            *time = if *time == least { FINISHED } else { *time };
+        }
+        (least.to_bits() & LANE_BITS) as usize
+    }
+
+    /// Halves the lanes until one is left.
+    #[inline]
+    fn least_time(&self) -> f32 {
+        let [a, b, c, d, e, f, g, h] = self.0;
+        let [a, b, c, d] = [lesser(a, e), lesser(b, f), lesser(c, g), lesser(d, h)];
+        lesser(lesser(a, c), lesser(b, d))
+    }
+
+    /// Returns the time of a lane.
+    #[cfg(test)]
+    pub(super) fn of(&self, lane: usize) -> f32 {
+        time(self.0[lane])
+    }
+}
+
+/// Removes the bits of the lane.
+#[inline]
+fn time(packed: f32) -> f32 {
+    let bits = packed.to_bits() & !LANE_BITS;
+    match bits < FINISHED.to_bits() & !LANE_BITS {
+        true => f32::from_bits(bits),
+        false => f32::INFINITY,
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,48 @@
+//! Free times against a sorted list.
+
+use super::super::lanes::load;
+use super::{FINISHED, FreeTimes, LANE_BITS};
+use crate::body::tree::LANES;
+use crate::config::Instructions;
+use crate::math::instructions::vectorize;
+use crate::tests::scene::{Pcg64, RngExt, rng};
+
+/// Times with many equal ones and extremes.
+fn time(rng: &mut Pcg64) -> f32 {
+    match rng.random_range(0..7) {
+        0 => 0.0,
+        6 => f32::NAN,
+        1 => f32::INFINITY,
+        2 => f32::MAX,
+        3 => f32::from_bits(rng.random_range(0..40)),
+        4 => 0.5,
+        _ => rng.random_range(0.0..2.0),
+    }
+}
+
+#[test]
+fn times_come_out_in_order_each_lane_once() {
+    let mut rng = rng(7);
+    let mut many = 0;
+    for _ in 0..20_000 {
+        let free: [f32; LANES] = std::array::from_fn(|_| time(&mut rng));
+        let used = rng.random();
+        let level = Instructions::Best.level();
+        let mut times = vectorize!(level, level => FreeTimes::pack(load(level, &free), used));
+        let rounded = |lane: usize| match free[lane].is_nan() {
+            true => 0.0,
+            false => f32::from_bits(free[lane].to_bits() & !LANE_BITS),
+        };
+        let last = f32::from_bits(FINISHED.to_bits() & !LANE_BITS);
+        let waits = |lane: &usize| used >> lane & 1 == 1 && rounded(*lane) < last;
+        let mut expected: Vec<usize> = (0..LANES).filter(waits).collect();
+        expected.sort_by(|&a, &b| rounded(a).total_cmp(&rounded(b)).then(a.cmp(&b)));
+        many += usize::from(expected.len() > 2);
+        for lane in expected {
+            assert_eq!(times.least(), rounded(lane), "{free:?} {used:b}");
+            assert_eq!(times.take_least(), lane, "{free:?} {used:b}");
+        }
+        assert_eq!(times.least(), f32::INFINITY, "{free:?} {used:b}");
+    }
+    assert!(many > 5_000, "{many}");
+}

@@ -1,0 +1,127 @@
+//! Eight numbers at once, and eight vectors, one of each for every child of a group.
+
+use crate::tolerance::LEAST_AXIS_F32;
+use fearless_simd::{ExtractToken, Simd, f32x8, mask32x8, prelude::*};
+use glam::Vec3;
+use std::ops::{Add, Mul, Sub};
+
+/// The least normal number, a divisor in place of zero.
+pub(super) const TINY: f32 = f32::MIN_POSITIVE;
+
+/// Eight vectors.
+#[derive(Clone, Copy)]
+pub(super) struct Vec3x8<L: Simd> {
+    pub(super) x: f32x8<L>,
+    pub(super) y: f32x8<L>,
+    pub(super) z: f32x8<L>,
+}
+
+impl<L: Simd> Vec3x8<L> {
+    #[inline(always)]
+    pub(super) fn splat(level: L, v: Vec3) -> Self {
+        Vec3x8 {
+            x: f32x8::splat(level, v.x),
+            y: f32x8::splat(level, v.y),
+            z: f32x8::splat(level, v.z),
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn load(level: L, rows: &[[f32; 8]; 3]) -> Self {
+        let [x, y, z] = rows;
+        Vec3x8 {
+            x: load(level, x),
+            y: load(level, y),
+            z: load(level, z),
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn level(&self) -> L {
+        self.x.token()
+    }
+
+    #[inline(always)]
+    pub(super) fn dot(self, other: Self) -> f32x8<L> {
+        self.x * other.x + (self.y * other.y + self.z * other.z)
+    }
+
+    #[inline(always)]
+    pub(super) fn length(self) -> f32x8<L> {
+        self.dot(self).sqrt()
+    }
+
+    #[inline(always)]
+    pub(super) fn cross(self, other: Self) -> Self {
+        Vec3x8 {
+            x: self.y * other.z - self.z * other.y,
+            y: self.z * other.x - self.x * other.z,
+            z: self.x * other.y - self.y * other.x,
+        }
+    }
+
+    /// The unit vectors; zero for a vector that is too short to have one in f32: no gap exists along
+    /// zero.
+    #[inline(always)]
+    pub(super) fn unit(self) -> Self {
+        let (zero, one) = (splat(self.level(), 0.0), splat(self.level(), 1.0));
+        let length = self.length();
+        self * length.simd_gt(LEAST_AXIS_F32).select(one / length, zero)
+    }
+}
+
+impl<L: Simd> Add for Vec3x8<L> {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        Vec3x8 {
+            x: self.x + other.x,
+            y: self.y + other.y,
+            z: self.z + other.z,
+        }
+    }
+}
+
+impl<L: Simd> Sub for Vec3x8<L> {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        Vec3x8 {
+            x: self.x - other.x,
+            y: self.y - other.y,
+            z: self.z - other.z,
+        }
+    }
+}
+
+impl<L: Simd> Mul<f32x8<L>> for Vec3x8<L> {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, factor: f32x8<L>) -> Self {
+        Vec3x8 {
+            x: self.x * factor,
+            y: self.y * factor,
+            z: self.z * factor,
+        }
+    }
+}
+
+#[inline(always)]
+pub(super) fn splat<L: Simd>(level: L, x: f32) -> f32x8<L> {
+    f32x8::splat(level, x)
+}
+
+#[inline(always)]
+pub(super) fn load<L: Simd>(level: L, row: &[f32; 8]) -> f32x8<L> {
+    (*row).simd_into(level)
+}
+
+/// Returns the vectors of `a` where the mask is set, and those of `b` elsewhere.
+#[inline(always)]
+pub(super) fn choose<L: Simd>(mask: mask32x8<L>, a: Vec3x8<L>, b: Vec3x8<L>) -> Vec3x8<L> {
+    Vec3x8 {
+        x: mask.select(a.x, b.x),
+        y: mask.select(a.y, b.y),
+        z: mask.select(a.z, b.z),
+    }
+}
