@@ -39,7 +39,11 @@ impl Path {
         let start = Frame::from(motion.start());
         let spin = motion.spin() * duration;
         let axis = unit(spin).unwrap_or(DVec3::ZERO);
-        let constant = outer(axis) * start.rotation;
+        // A body that does not turn has no other part.
+        let constant = match length(spin) > 0.0 {
+            true => outer(axis) * start.rotation,
+            false => start.rotation,
+        };
         let velocity = motion.velocity() * duration;
         Path {
             cosine: start.rotation - constant,
@@ -62,7 +66,7 @@ impl Path {
             let (sin, cos) = sin_cos(self.rate * s);
             self.cosine * cos + self.sine * sin + self.constant
         } else {
-            self.cosine + self.constant
+            self.constant
         };
         Frame {
             rotation,

@@ -36,14 +36,16 @@ const COSINE: [f64; 7] = [
 /// Each is off by at most 2u, as [`distance_rounding`](crate::tolerance::distance_rounding) counts.
 #[inline]
 pub(crate) fn sin_cos(angle: f64) -> (f64, f64) {
-    let quarter = (angle * FRAC_2_PI + 0.5).floor();
+    // Angles are not negative: cutting off is rounding down, and takes no call of a library.
+    let turns = (angle * FRAC_2_PI + 0.5) as i32;
+    let quarter = f64::from(turns);
     // Exact except in the last step: the relative error is at most 2⁻⁵³, the absolute one 2⁻⁷⁵.
     let r = (angle - quarter * HALF_PI[0]) - quarter * HALF_PI[1] - quarter * HALF_PI[2];
     let square = r * r;
     let sum = |terms: &[f64; 7]| terms.iter().rev().fold(0.0, |sum, t| sum * square + t);
     let sine = r + r * square * sum(&SINE);
     let cosine = 1.0 - (0.5 * square - square * square * sum(&COSINE));
-    match quarter as u64 & 3 {
+    match turns & 3 {
         0 => (sine, cosine),
         1 => (cosine, -sine),
         2 => (-sine, -cosine),

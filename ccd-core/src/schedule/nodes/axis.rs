@@ -28,11 +28,11 @@ pub(super) fn widest<L: Simd, C: Children, P: OtherNode>(
     let between = (ahead - children.near(ahead)).unit();
     let between = along(children, other, way, between);
     let own = towards(children.normal(level), way);
+    let own = Axis::new(own, way, children.reach_along_normal(own), other.reach(own));
     let others = towards(Vec3x8::splat(level, other.normal()), way);
-    better(
-        better(between, along(children, other, way, own)),
-        along(children, other, way, others),
-    )
+    let reach = other.reach_along_normal(others);
+    let others = Axis::new(others, way, children.reach(others), reach);
+    better(better(between, own), others)
 }
 
 /// Returns the axis between the centres when they are nearest, if they move on by at most `travel`.
@@ -55,13 +55,18 @@ pub(super) fn along<L: Simd, C: Children, P: OtherNode>(
     way: Vec3x8<L>,
     n: Vec3x8<L>,
 ) -> Axis<L> {
-    let split_reach = children.reach(n);
-    let other_reach = other.reach(n);
-    Axis {
-        n,
-        gap: n.dot(way) - split_reach - other_reach,
-        split_reach,
-        other_reach,
+    Axis::new(n, way, children.reach(n), other.reach(n))
+}
+
+impl<L: Simd> Axis<L> {
+    #[inline(always)]
+    fn new(n: Vec3x8<L>, way: Vec3x8<L>, split_reach: f32x8<L>, other_reach: f32x8<L>) -> Self {
+        Axis {
+            n,
+            gap: n.dot(way) - split_reach - other_reach,
+            split_reach,
+            other_reach,
+        }
     }
 }
 

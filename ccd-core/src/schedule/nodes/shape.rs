@@ -14,6 +14,11 @@ pub(crate) trait Children {
     fn radius<L: Simd>(&self, level: L) -> f32x8<L>;
     /// Returns `max n·(x − centre)` over each child's points.
     fn reach<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L>;
+    /// Returns the same for an axis that is their normal, or its opposite.
+    #[inline(always)]
+    fn reach_along_normal<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {
+        self.reach(n)
+    }
     /// Returns points of the children from which to look towards `to`.
     fn near<L: Simd>(&self, to: Vec3x8<L>) -> Vec3x8<L>;
     /// Returns which children cannot be split.
@@ -29,6 +34,11 @@ pub(crate) trait OtherNode {
     fn radius(&self) -> f32;
     /// Returns `max n·(centre − y)` over the node's points: its reach towards −n.
     fn reach<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L>;
+    /// Returns the same for an axis that is its normal, or its opposite.
+    #[inline(always)]
+    fn reach_along_normal<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {
+        self.reach(n)
+    }
     /// Returns points of the node to look at from points of the children.
     fn near<L: Simd>(&self, from: Vec3x8<L>) -> Vec3x8<L>;
     /// Returns whether the node cannot be split.
@@ -80,6 +90,11 @@ impl Children for BoxGroup {
         let half = [load(level, x), load(level, y), load(level, z)];
         let grown = [load(level, &self.rounding), load(level, &self.radius)];
         box_reach(n, axes, half, grown)
+    }
+    #[inline(always)]
+    fn reach_along_normal<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {
+        // This is how the half size was measured.
+        load(n.level(), &self.half[2]) + load(n.level(), &self.rounding)
     }
     #[inline(always)]
     fn pieces<L: Simd>(&self, level: L) -> mask32x8<L> {
@@ -176,6 +191,10 @@ impl OtherNode for OtherBox {
         let half = [splat(level, x), splat(level, y), splat(level, z)];
         let grown = [splat(level, self.rounding), splat(level, self.radius)];
         box_reach(n, splats(level, self.axes), half, grown)
+    }
+    #[inline(always)]
+    fn reach_along_normal<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {
+        splat(n.level(), self.half[2] + self.rounding)
     }
     #[inline(always)]
     fn is_piece(&self) -> bool {
