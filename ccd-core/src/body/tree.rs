@@ -42,7 +42,7 @@ pub(crate) enum Named<'a> {
 }
 
 impl Tree {
-    #[inline]
+    #[inline(always)]
     pub(crate) fn get(&self, id: NodeId) -> Named<'_> {
         match self.nodes.get(id as usize) {
             Some(node) => Named::Node(node),
@@ -67,7 +67,7 @@ impl Tree {
     }
 
     /// Lays out a group of triangles, of the pieces that the tree is over.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn triangle_group(&self, index: u32, pieces: &Pieces) -> TriangleGroup {
         let row = &self.triangles[index as usize];
         let first = row.members.first as usize - self.nodes.len();

@@ -60,7 +60,7 @@ impl Path {
     }
 
     /// Returns the body's frame at `s`.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn frame(&self, s: f64) -> Frame {
         let rotation = if self.rate > 0.0 {
             let (sin, cos) = sin_cos(self.rate * s);
@@ -75,7 +75,7 @@ impl Path {
     }
 
     /// Returns the position of the centre of rotation at `s`.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn centre_at(&self, s: f64) -> DVec3 {
         self.start + self.velocity * s
     }

@@ -100,19 +100,19 @@ impl Frame {
     };
 
     /// Returns `rotation · point + translation`.
-    #[inline]
+    #[inline(always)]
     pub fn point(&self, point: DVec3) -> DVec3 {
         self.rotation * point + self.translation
     }
 
     /// Returns `rotationᵀ · (point − translation)`: undoes [`Frame::point`].
-    #[inline]
+    #[inline(always)]
     pub fn inverse_point(&self, point: DVec3) -> DVec3 {
         self.inverse_vector(point - self.translation)
     }
 
     /// Returns `rotationᵀ · vector`.
-    #[inline]
+    #[inline(always)]
     pub fn inverse_vector(&self, vector: DVec3) -> DVec3 {
         DVec3::new(
             self.rotation.x_axis.dot(vector),
@@ -122,7 +122,7 @@ impl Frame {
     }
 
     /// Returns the frame that maps `other`'s coordinates into this one's: `self⁻¹ ∘ other`.
-    #[inline]
+    #[inline(always)]
     pub fn from_frame(&self, other: &Frame) -> Frame {
         Frame {
             rotation: self.rotation.transpose() * other.rotation,

@@ -34,7 +34,7 @@ const COSINE: [f64; 7] = [
 ///
 /// # Guarantee
 /// Each is off by at most 2u, as [`distance_rounding`](crate::tolerance::distance_rounding) counts.
-#[inline]
+#[inline(always)]
 pub(crate) fn sin_cos(angle: f64) -> (f64, f64) {
     // Angles are not negative: cutting off is rounding down, and takes no call of a library.
     let turns = (angle * FRAC_2_PI + 0.5) as i32;

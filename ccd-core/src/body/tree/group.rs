@@ -148,7 +148,7 @@ impl TriangleRow {
 
 impl TriangleGroup {
     /// Lays out the triangles of a row.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn new(row: &TriangleRow, triangles: &[[DVec3; 3]]) -> Self {
         let mut group = TriangleGroup {
             corners: [[[0.0; LANES]; 3]; 3],
@@ -197,6 +197,7 @@ pub(crate) fn up(x: f64) -> f32 {
     }
 }
 
+#[inline(always)]
 fn set(rows: &mut Rows3, lane: usize, v: Vec3) {
     for (row, value) in rows.iter_mut().zip(v.to_array()) {
         row[lane] = value;

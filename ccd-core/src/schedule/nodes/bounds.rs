@@ -9,10 +9,8 @@ use super::eight_pairs::{EightPairs, Larger, RelativeMotionF32};
 use super::free_times::FreeTimes;
 use super::lanes::splat;
 use super::shape::{Children, OtherNode};
-use super::turn::Turn;
-use crate::math::instructions::vectorize;
 use crate::tolerance::{LOOK_AGAIN, SWEPT, THICKNESS};
-use fearless_simd::{Level, Simd, f32x8, mask32x8, prelude::*};
+use fearless_simd::{Simd, f32x8, mask32x8, prelude::*};
 
 /// The bounds of eight pairs.
 #[derive(Clone, Copy, Debug)]
@@ -33,22 +31,12 @@ pub(crate) struct Bounds {
 /// Fixed planes are across two axes: the one with the widest gap now, and the one between the
 /// centres when they are nearest. The first suits approaching pairs, the second passing ones. Beside
 /// nodes that are much larger, planes that turn with their body are tried, too.
-pub(crate) fn bound<C: Children, P: OtherNode, S: Turn, O: Turn>(
-    level: Level,
-    children: &C,
-    other: &P,
-    motion: &RelativeMotionF32<S, O>,
-    lanes: u8,
-) -> Bounds {
-    vectorize!(level, level => bound_lanes(level, children, other, motion, lanes))
-}
-
 #[inline(always)]
-fn bound_lanes<L: Simd, C: Children, P: OtherNode, S: Turn, O: Turn>(
+pub(super) fn bound<L: Simd, C: Children, P: OtherNode>(
     level: L,
     children: &C,
     other: &P,
-    motion: &RelativeMotionF32<S, O>,
+    motion: &RelativeMotionF32,
     lanes: u8,
 ) -> Bounds {
     let pairs = EightPairs::new(level, children, other, motion);
@@ -99,10 +87,10 @@ struct Past<L: Simd> {
 }
 
 impl<L: Simd> Past<L> {
-    /// Returns none where neither side is much larger, or the larger one does not turn.
+    /// Returns none where neither side is much larger and turns.
     #[inline(always)]
-    fn new<C: Children, P: OtherNode, S: Turn, O: Turn>(
-        pairs: &EightPairs<'_, L, C, P, S, O>,
+    fn new<C: Children, P: OtherNode>(
+        pairs: &EightPairs<'_, L, C, P>,
         axis: Axis<L>,
     ) -> Option<Self> {
         let EightPairs {
@@ -113,23 +101,22 @@ impl<L: Simd> Past<L> {
         } = *pairs;
         let level = pairs.level();
         match motion.larger? {
-            Larger::Split if S::TURNS => Some(Past {
+            Larger::Split => Some(Past {
                 attached: pairs.free_with_split(axis),
-                spin: motion.split.rate(),
+                spin: motion.split.rate,
                 arm: splat(level, motion.split.arm(other.centre())),
                 large: children.radius(level),
                 small: splat(level, other.radius()),
                 whole: children.pieces(level),
             }),
-            Larger::Other if O::TURNS => Some(Past {
+            Larger::Other => Some(Past {
                 attached: pairs.free_with_other(axis),
-                spin: motion.other.rate(),
+                spin: motion.other.rate,
                 arm: motion.other.arms(children.centre(level)),
                 large: splat(level, other.radius()),
                 small: children.radius(level),
                 whole: mask32x8::splat(level, other.is_piece()),
             }),
-            _ => None,
         }
     }
 

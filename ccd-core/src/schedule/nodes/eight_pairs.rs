@@ -11,11 +11,11 @@ use glam::Vec3;
 
 /// The relative motion that all lanes share, in f32, with allowances for rounding.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct RelativeMotionF32<S, O> {
+pub(crate) struct RelativeMotionF32 {
     /// The velocity of the split side's centre minus that of the other side's.
     pub(crate) velocity: Vec3,
-    pub(crate) split: S,
-    pub(crate) other: O,
+    pub(crate) split: Turn,
+    pub(crate) other: Turn,
     /// The time left.
     pub(crate) horizon: f32,
     /// The gap to be kept, plus the rounding of a gap.
@@ -29,7 +29,7 @@ pub(crate) struct RelativeMotionF32<S, O> {
     pub(crate) larger: Option<Larger>,
 }
 
-/// The side whose nodes are much larger than the other's.
+/// The side that turns and whose nodes are much larger than the other's.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Larger {
     Split,
@@ -37,10 +37,10 @@ pub(crate) enum Larger {
 }
 
 /// The children of a group, each with the other node.
-pub(super) struct EightPairs<'a, L: Simd, C, P, S, O> {
+pub(super) struct EightPairs<'a, L: Simd, C, P> {
     pub(super) children: &'a C,
     pub(super) other: &'a P,
-    pub(super) motion: &'a RelativeMotionF32<S, O>,
+    pub(super) motion: &'a RelativeMotionF32,
     /// From the children's centres to the other's.
     pub(super) way: Vec3x8<L>,
     /// The velocities of the children's centres relative to the other's.
@@ -53,7 +53,7 @@ pub(super) struct EightPairs<'a, L: Simd, C, P, S, O> {
     pub(super) other_speed: f32x8<L>,
 }
 
-impl<'a, L: Simd, C: Children, P: OtherNode, S: Turn, O: Turn> EightPairs<'a, L, C, P, S, O> {
+impl<'a, L: Simd, C: Children, P: OtherNode> EightPairs<'a, L, C, P> {
     #[inline(always)]
     pub(super) fn level(&self) -> L {
         self.way.level()
@@ -64,7 +64,7 @@ impl<'a, L: Simd, C: Children, P: OtherNode, S: Turn, O: Turn> EightPairs<'a, L,
         level: L,
         children: &'a C,
         other: &'a P,
-        motion: &'a RelativeMotionF32<S, O>,
+        motion: &'a RelativeMotionF32,
     ) -> Self {
         let (centre, other_centre) = (children.centre(level), Vec3x8::splat(level, other.centre()));
         let turning = motion.split.velocity(centre);
@@ -78,11 +78,11 @@ impl<'a, L: Simd, C: Children, P: OtherNode, S: Turn, O: Turn> EightPairs<'a, L,
             velocity: velocity + turning - other_turning,
             // A slack on the speeds covers the rounding of the bends.
             speed: turning.length()
-                + children.radius(level) * motion.split.rate()
+                + children.radius(level) * motion.split.rate
                 + motion.rate_slack,
             other_turning,
             other_speed: other_turning.length()
-                + motion.other.rate() * other.radius()
+                + motion.other.rate * other.radius()
                 + motion.rate_slack,
         }
     }
@@ -94,18 +94,18 @@ impl<'a, L: Simd, C: Children, P: OtherNode, S: Turn, O: Turn> EightPairs<'a, L,
         // n·(v + ω×arm) of the centres, plus the share of the points around them.
         let mut rate = axis.n.dot(self.velocity) + motion.rate_slack;
         let mut bend = splat(axis.n.level(), LEAST_BEND_F32);
-        if S::TURNS {
+        if motion.split.turns {
             let m = motion.split.across(axis.n);
             rate += self.children.reach(m);
-            bend += bending(m, motion.split.rate(), self.speed);
+            bend += bending(m, motion.split.rate, self.speed);
         }
-        if O::TURNS {
+        if motion.other.turns {
             let m = motion.other.across(axis.n);
             rate += self.other.reach(m);
-            bend += bending(m, motion.other.rate(), self.other_speed);
+            bend += bending(m, motion.other.rate, self.other_speed);
         }
         let apart = axis.gap - motion.slack;
-        if S::TURNS || O::TURNS {
+        if motion.split.turns || motion.other.turns {
             clock::free_time(apart, motion.closed, rate, bend)
         } else {
             clock::straight_free_time(apart, motion.closed, rate)

@@ -13,7 +13,6 @@ use super::clock;
 use super::eight_pairs::{EightPairs, bending};
 use super::lanes::{Vec3x8, splat};
 use super::shape::{Children, OtherNode};
-use super::turn::Turn;
 use crate::tolerance::{ATTACHED_TIME, BEND_F32, LEAST_BEND_F32, RATE_F32};
 use fearless_simd::{Simd, f32x8, prelude::*};
 
@@ -30,7 +29,7 @@ struct SweepingNode<L: Simd> {
     own_rate: f32,
 }
 
-impl<L: Simd, C: Children, P: OtherNode, S: Turn, O: Turn> EightPairs<'_, L, C, P, S, O> {
+impl<L: Simd, C: Children, P: OtherNode> EightPairs<'_, L, C, P> {
     /// Returns the times for which planes that turn with the split body keep the pairs apart.
     #[inline(always)]
     pub(super) fn free_with_split(&self, axis: Axis<L>) -> f32x8<L> {
@@ -43,13 +42,13 @@ impl<L: Simd, C: Children, P: OtherNode, S: Turn, O: Turn> EightPairs<'_, L, C, 
         let own = motion.other.across(axis.n);
         self.free_attached(
             axis,
-            bending(across, motion.split.rate(), splat(level, 1.0)),
-            motion.split.rate(),
+            bending(across, motion.split.rate, splat(level, 1.0)),
+            motion.split.rate,
             &SweepingNode {
                 rate: axis.n.dot(velocity) + other.reach(own - across),
                 distance: motion.split.arms(at) + other.radius(),
                 speed: self.other_speed,
-                own_rate: motion.other.rate(),
+                own_rate: motion.other.rate,
             },
         )
     }
@@ -66,13 +65,13 @@ impl<L: Simd, C: Children, P: OtherNode, S: Turn, O: Turn> EightPairs<'_, L, C, 
         let own = motion.split.across(axis.n);
         self.free_attached(
             axis,
-            bending(across, motion.other.rate(), splat(level, 1.0)),
-            motion.other.rate(),
+            bending(across, motion.other.rate, splat(level, 1.0)),
+            motion.other.rate,
             &SweepingNode {
                 rate: axis.n.dot(velocity) + children.reach(own - across),
                 distance: motion.other.arms(at) + children.radius(level),
                 speed: self.speed,
-                own_rate: motion.split.rate(),
+                own_rate: motion.split.rate,
             },
         )
     }

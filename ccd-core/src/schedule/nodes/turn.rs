@@ -1,82 +1,61 @@
 //! The turning of a body, as seen from the group that is split.
 
-use super::lanes::{Vec3x8, splat};
+use super::lanes::Vec3x8;
 use fearless_simd::{Simd, f32x8};
 use glam::Vec3;
 
-/// A body's rotation; a body that does not turn costs nothing.
-pub(crate) trait Turn: Copy {
-    const TURNS: bool;
-    /// Returns the velocities of points due to turning.
-    fn velocity<L: Simd>(&self, x: Vec3x8<L>) -> Vec3x8<L>;
-    /// Returns `n × ω`.
-    fn across<L: Simd>(&self, n: Vec3x8<L>) -> Vec3x8<L>;
-    /// Returns `|ω|`, rounded up.
-    fn rate(&self) -> f32;
-    /// Returns the distances of points from the rotation's centre.
-    fn arms<L: Simd>(&self, x: Vec3x8<L>) -> f32x8<L>;
-    /// Returns the distance of a point from the rotation's centre.
-    fn arm(&self, x: Vec3) -> f32;
-}
-
-/// A body that does not turn.
+/// A body's rotation.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Straight;
-
-/// A body that turns.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Turning {
+pub(crate) struct Turn {
+    /// False for a body that does not turn: it costs nothing.
+    pub(crate) turns: bool,
     pub(crate) spin: Vec3,
+    /// `|ω|`, rounded up.
     pub(crate) rate: f32,
     /// A point on the axis of rotation.
     pub(crate) centre: Vec3,
 }
 
-impl Turn for Straight {
-    const TURNS: bool = false;
-    #[inline(always)]
-    fn velocity<L: Simd>(&self, x: Vec3x8<L>) -> Vec3x8<L> {
-        Vec3x8::splat(x.level(), Vec3::ZERO)
-    }
-    #[inline(always)]
-    fn across<L: Simd>(&self, n: Vec3x8<L>) -> Vec3x8<L> {
-        Vec3x8::splat(n.level(), Vec3::ZERO)
-    }
-    #[inline(always)]
-    fn rate(&self) -> f32 {
-        0.0
-    }
-    #[inline(always)]
-    fn arms<L: Simd>(&self, x: Vec3x8<L>) -> f32x8<L> {
-        splat(x.level(), 0.0)
-    }
-    #[inline(always)]
-    fn arm(&self, _: Vec3) -> f32 {
-        0.0
-    }
-}
+impl Turn {
+    /// A body that does not turn.
+    pub(crate) const NONE: Turn = Turn {
+        turns: false,
+        spin: Vec3::ZERO,
+        rate: 0.0,
+        centre: Vec3::ZERO,
+    };
 
-impl Turn for Turning {
-    const TURNS: bool = true;
+    /// Returns the velocities of points due to turning.
     #[inline(always)]
-    fn velocity<L: Simd>(&self, x: Vec3x8<L>) -> Vec3x8<L> {
+    pub(super) fn velocity<L: Simd>(&self, x: Vec3x8<L>) -> Vec3x8<L> {
         let level = x.level();
-        Vec3x8::splat(level, self.spin).cross(x - Vec3x8::splat(level, self.centre))
+        match self.turns {
+            true => Vec3x8::splat(level, self.spin).cross(x - Vec3x8::splat(level, self.centre)),
+            false => Vec3x8::splat(level, Vec3::ZERO),
+        }
     }
+
+    /// Returns `n × ω`.
     #[inline(always)]
-    fn across<L: Simd>(&self, n: Vec3x8<L>) -> Vec3x8<L> {
-        n.cross(Vec3x8::splat(n.level(), self.spin))
+    pub(super) fn across<L: Simd>(&self, n: Vec3x8<L>) -> Vec3x8<L> {
+        match self.turns {
+            true => n.cross(Vec3x8::splat(n.level(), self.spin)),
+            false => Vec3x8::splat(n.level(), Vec3::ZERO),
+        }
     }
+
+    /// Returns the distances of points from the rotation's centre.
     #[inline(always)]
-    fn rate(&self) -> f32 {
-        self.rate
-    }
-    #[inline(always)]
-    fn arms<L: Simd>(&self, x: Vec3x8<L>) -> f32x8<L> {
+    pub(super) fn arms<L: Simd>(&self, x: Vec3x8<L>) -> f32x8<L> {
         (x - Vec3x8::splat(x.level(), self.centre)).length()
     }
+
+    /// Returns the distance of a point from the rotation's centre, if there is one.
     #[inline(always)]
-    fn arm(&self, x: Vec3) -> f32 {
-        (x - self.centre).length()
+    pub(super) fn arm(&self, x: Vec3) -> f32 {
+        match self.turns {
+            true => (x - self.centre).length(),
+            false => 0.0,
+        }
     }
 }

@@ -5,15 +5,16 @@ mod setting;
 use super::*;
 use crate::body::tree::LANES;
 use crate::config::Instructions;
+use crate::math::instructions::vectorize;
 use crate::math::order::{greater, lesser};
 use crate::schedule::nodes::axis::Axis;
 use crate::schedule::nodes::clock;
 use crate::schedule::nodes::lanes::{Vec3x8, load};
-use crate::schedule::nodes::turn::{Turn, Turning};
 use crate::tests::scene::{Pcg64, direction, rng};
 use crate::tolerance::{
     ACROSS_F32, ATTACHED_TIME, BEND_F32, CLOCK_F32, LEAST_BEND_F32, MUCH_LARGER,
 };
+use fearless_simd::Level;
 use glam::{DQuat, DVec3, Vec3};
 use setting::{Setting, Shape};
 
@@ -56,7 +57,7 @@ impl Solid {
 struct Sample<C, P> {
     group: C,
     other: P,
-    motion: RelativeMotionF32<Turning, Turning>,
+    motion: RelativeMotionF32,
     /// The error of a gap for which the slack allows.
     allowed: f32,
     children: Vec<Solid>,
@@ -173,7 +174,7 @@ fn find<L: Simd, C: Children, P: OtherNode>(
     axes.map(|axis| along(&pairs, axis))
 }
 
-type Pairs<'a, L, C, P> = EightPairs<'a, L, C, P, Turning, Turning>;
+type Pairs<'a, L, C, P> = EightPairs<'a, L, C, P>;
 
 #[inline(never)]
 fn widest<L: Simd, C: Children, P: OtherNode>(pairs: &Pairs<'_, L, C, P>) -> Axis<L> {

@@ -348,7 +348,8 @@ fn planes_that_stand_still(
     let Named::Node(below) = tree.get(node) else {
         panic!("a node to split");
     };
-    let motion = RelativeMotion::new(problem, &Split::all(split, node, other), s);
+    let split_all = Split::all(split, node, other);
+    let motion = RelativeMotion::new(problem, &split_all, s, Pace::AsTheyMove);
     match below.below {
         Below::Boxes(group) => {
             let group = tree.box_group(group);
@@ -383,5 +384,5 @@ fn still<C: Children>(motion: &RelativeMotion<'_>, group: &C, members: &Members)
         reach: members.reach.clamp(radius / much, radius * much),
         ..*members
     };
-    motion.bound::<_, AsTheyMove>(group, &members)
+    vectorize!(motion.problem.level, level => motion.bound(level, group, &members))
 }

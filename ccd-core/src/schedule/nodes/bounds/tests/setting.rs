@@ -7,7 +7,7 @@ use crate::body::tree::{
 use crate::math::order::greater;
 use crate::schedule::nodes::eight_pairs::RelativeMotionF32;
 use crate::schedule::nodes::shape::{OtherBox, OtherNode, OtherTriangle};
-use crate::schedule::nodes::turn::{Turn, Turning};
+use crate::schedule::nodes::turn::Turn;
 use crate::tests::scene::{Pcg64, RngExt, direction, magnitude, rotation, within};
 use crate::tolerance::{LEAST_GAP_F32, PLACES_F32, RATE_F32, REACH_F32, WAY_F32};
 use glam::{DMat3, DVec3, Vec3};
@@ -199,7 +199,8 @@ impl Setting {
         children: Vec<Solid>,
         far: Solid,
     ) -> Sample<C, P> {
-        let turning = |k: usize| Turning {
+        let turning = |k: usize| Turn {
+            turns: true,
             spin: self.spins[k].as_vec3(),
             rate: up(self.spins[k].length()),
             centre: self.centres[k].as_vec3(),
