@@ -195,7 +195,7 @@ fn the_same_file_twice_is_loaded_once() {
 }
 
 #[test]
-fn threads_and_repetitions_change_no_bit() {
+fn threads_repetitions_and_instructions_change_no_bit() {
     let scene = Scene::new("threads");
     let mesh = scene.file("tetrahedron.obj", TETRAHEDRON);
     let bodies = ["--a", mesh.to_str().unwrap(), "--b", "capsule:0.2,0.7"];
@@ -215,6 +215,7 @@ fn threads_and_repetitions_change_no_bit() {
     assert!((10..60).contains(&contacts), "{contacts} of 64 hit");
     assert_eq!(one, answers(&["--threads", "2"]));
     assert_eq!(one, answers(&["--repeat", "3"]));
+    assert_eq!(one, answers(&["--instructions", "baseline"]));
 }
 
 #[test]
