@@ -52,7 +52,7 @@ impl Split {
 /// # Panics
 /// When the node is a single piece.
 pub(crate) fn expand(problem: &Problem<'_>, split: &Split, s: f64) -> Expansion {
-    vectorize!(problem.level, level => split_node(level, problem, split, s, Pace::AsTheyMove))
+    split_at(problem, split, s, Pace::AsTheyMove)
 }
 
 /// Splits a node at the start and measures its pairs: their free times are lower bounds of their
@@ -61,8 +61,7 @@ pub(crate) fn expand(problem: &Problem<'_>, split: &Split, s: f64) -> Expansion 
 /// # Panics
 /// When the node is a single piece.
 pub(crate) fn measure(problem: &Problem<'_>, split: &Split) -> Expansion {
-    let mut expansion =
-        vectorize!(problem.level, level => split_node(level, problem, split, 0.0, Pace::Unit));
+    let mut expansion = split_at(problem, split, 0.0, Pace::Unit);
     // A second look would give the same result.
     expansion.bounds.waits = 0;
     expansion
@@ -75,6 +74,12 @@ enum Pace {
     AsTheyMove,
     /// One unit of length per unit of time, along every axis: the free time is the distance.
     Unit,
+}
+
+/// The kernels are compiled here alone, once for each set of instructions.
+#[inline(never)]
+fn split_at(problem: &Problem<'_>, split: &Split, s: f64, pace: Pace) -> Expansion {
+    vectorize!(problem.level, level => split_node(level, problem, split, s, pace))
 }
 
 #[inline(always)]
