@@ -44,14 +44,15 @@ impl Edges {
         let range = last.map_or(0, |&last| last as usize + 1);
         // A table of all vertices must not be larger than the triangles.
         match range <= 8 * triangles.len() {
-            true => Edges::by_slot(triangles, Vec::new(), range, |vertex| vertex as usize),
+            true => Edges::by_slot(triangles, Vec::new(), range, |_, vertex| vertex as usize),
             false => {
                 let mut lower: Vec<u32> = triangles.iter().flatten().copied().collect();
                 lower.sort_unstable();
                 lower.dedup();
-                let known = lower.clone();
-                let slot = |vertex: u32| known.partition_point(|&v| v < vertex);
-                Edges::by_slot(triangles, lower, known.len(), slot)
+                let slots = lower.len();
+                Edges::by_slot(triangles, lower, slots, |lower, vertex| {
+                    lower.partition_point(|&v| v < vertex)
+                })
             }
         }
     }
@@ -60,8 +61,9 @@ impl Edges {
         triangles: &[[u32; 3]],
         lower: Vec<u32>,
         slots: usize,
-        slot: impl Fn(u32) -> usize,
+        slot: impl Fn(&[u32], u32) -> usize,
     ) -> Self {
+        let slot = |vertex: u32| slot(&lower, vertex);
         let mut ends = vec![0u32; slots];
         for &[a, b, c] in triangles {
             for (v, w) in [(a, b), (b, c), (c, a)] {

@@ -4,8 +4,8 @@ use std::num::NonZero;
 use std::sync::{Mutex, PoisonError};
 use std::thread::{Builder, available_parallelism, scope};
 
-/// Lists of fewer elements are not worth a thread.
-const WORTHWHILE: usize = 1024;
+/// Lists of fewer elements, and subtrees of fewer nodes, are not worth a thread.
+pub(super) const WORTHWHILE: usize = 1024;
 
 /// Consecutive elements that one thread takes at a time.
 const SHARE: usize = 64;

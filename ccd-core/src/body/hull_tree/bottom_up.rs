@@ -2,11 +2,10 @@
 
 use super::error::HullTreeError;
 use crate::body::hierarchy::{Hierarchy, HierarchyNode};
+use crate::body::threads::{WORTHWHILE, join};
 use std::num::NonZero;
 use std::ops::Range;
-use std::panic::resume_unwind;
-use std::sync::{Mutex, PoisonError};
-use std::thread::{Builder, available_parallelism, scope};
+use std::thread::available_parallelism;
 
 /// Makes a value for every node from the values of its children. Leaves get two arbitrary ones.
 ///
@@ -62,9 +61,6 @@ struct Row<'a, F> {
     make: F,
 }
 
-/// A subtree of fewer nodes is not worth a thread.
-const WORTHWHILE: usize = 1024;
-
 impl<F> Row<'_, F> {
     /// Makes a range of the row that is one subtree, in at most `parts` parts. The parts are
     /// divided by size, and either side gets fewer, so that the depth of recursion is at most their
@@ -104,27 +100,11 @@ impl<F> Row<'_, F> {
     where
         F: Fn(usize, [&T; 2]) -> Result<T, HullTreeError> + Sync,
     {
-        if one.len() < WORTHWHILE || other.len() < WORTHWHILE {
-            self.fill(one, first, of_first)?;
-            return self.fill(other, second, of_second);
-        }
-        let waiting = Mutex::new(Some((one, first)));
-        let fill_waiting = || {
-            let taken = waiting
-                .lock()
-                .unwrap_or_else(PoisonError::into_inner)
-                .take();
-            taken.map_or(Ok(()), |(range, done)| self.fill(range, done, of_first))
-        };
-        let (first, second) = scope(|threads| {
-            let thread = Builder::new().spawn_scoped(threads, fill_waiting);
-            let second = self.fill(other, second, of_second);
-            let first = match thread {
-                Ok(thread) => thread.join().unwrap_or_else(|panic| resume_unwind(panic)),
-                Err(_) => fill_waiting(),
-            };
-            (first, second)
-        });
+        let (first, second) = join(
+            one.len().min(other.len()),
+            || self.fill(one, first, of_first),
+            || self.fill(other, second, of_second),
+        );
         first.and(second)
     }
 
