@@ -2,6 +2,8 @@
 
 use super::pieces::Pieces;
 use glam::DVec3;
+use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 
 /// The points of a connected part that are farthest along x, y, z, −x, −y, −z.
 pub(crate) type Shell = [DVec3; 6];
@@ -50,7 +52,10 @@ pub(crate) fn shells(pieces: &Pieces) -> Vec<Shell> {
 fn by_number(pieces: &Pieces) -> (Parts, Vec<u32>) {
     const NONE: u32 = u32::MAX;
     let (points, numbers) = (pieces.points(), pieces.all_vertex_ids());
-    let range = numbers.iter().max().map_or(0, |&last| last as usize + 1);
+    let range = numbers
+        .iter()
+        .max()
+        .map_or(0, |&last| (last as usize).saturating_add(1));
     // Numbers may be anything: a table of them must not be larger than the points.
     let range = if range <= 2 * points.len() { range } else { 0 };
     let mut first = vec![NONE; range];
@@ -74,38 +79,23 @@ fn by_number(pieces: &Pieces) -> (Parts, Vec<u32>) {
     (Parts(parts), distinct)
 }
 
-/// Joins equal points, which a table finds by a hash of their coordinates.
+/// Joins equal points.
 fn join_equal(points: &[DVec3], distinct: &[u32], parts: &mut Parts) {
-    const FREE: u32 = u32::MAX;
-    let size = (2 * distinct.len()).next_power_of_two();
-    let mut table = vec![FREE; size];
+    let mut known = HashMap::with_capacity(distinct.len());
     for &k in distinct {
-        let point = points[k as usize];
-        let mut slot = scatter(point) as usize & (size - 1);
-        // Half of the slots stay free.
-        loop {
-            match table[slot] {
-                FREE => {
-                    table[slot] = k;
-                    break;
-                }
-                other if points[other as usize] == point => {
-                    parts.join(other as usize, k as usize);
-                    break;
-                }
-                _ => slot = (slot + 1) & (size - 1),
+        // 0 and −0 are the same.
+        let bits = (points[k as usize] + DVec3::ZERO)
+            .to_array()
+            .map(f64::to_bits);
+        match known.entry(bits) {
+            Entry::Vacant(entry) => {
+                entry.insert(k);
+            }
+            Entry::Occupied(entry) => {
+                parts.join(*entry.get() as usize, k as usize);
             }
         }
     }
-}
-
-/// Returns a hash of coordinates; 0 and −0 are the same.
-fn scatter(point: DVec3) -> u64 {
-    let mixed = point.to_array().into_iter().fold(0, |mixed: u64, x| {
-        (mixed.rotate_left(23) ^ (x + 0.0).to_bits()).wrapping_mul(0x9e37_79b9_7f4a_7c15)
-    });
-    // The upper bits of a product are the well mixed ones.
-    mixed ^ mixed >> 32
 }
 
 /// Disjoint sets: every element names another one of its set, a root itself.

@@ -18,7 +18,9 @@ pub(super) fn for_each<T: Send, W: Clone + Send>(
 ) {
     let threads = match list.len() < WORTHWHILE {
         true => 1,
-        false => available_parallelism().map_or(1, NonZero::get),
+        false => available_parallelism()
+            .map_or(1, NonZero::get)
+            .min(list.len() / WORTHWHILE + 1),
     };
     for_each_in(threads, list, workspace, work);
 }

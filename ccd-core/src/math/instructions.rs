@@ -37,7 +37,16 @@ macro_rules! vectorize {
                 }
             }
         }
-        #[cfg(not(any(target_arch = "x86", target_arch = "x86_64")))]
+        #[cfg(target_arch = "aarch64")]
+        {
+            use fearless_simd::Simd as _;
+            let $token = $level.as_neon().expect("64-bit ARM with NEON");
+            $token.vectorize(
+                #[inline(always)]
+                || $value,
+            )
+        }
+        #[cfg(not(any(target_arch = "x86", target_arch = "x86_64", target_arch = "aarch64")))]
         {
             fearless_simd::dispatch!($level, $token => $value)
         }

@@ -128,8 +128,8 @@ impl<O: DistanceOracle> BestFirst<O> {
             Item::Pieces(pair) => {
                 let step = pair.advance(problem, oracle, meter, s);
                 match proven.conclude(problem, oracle, meter, step, s)? {
-                    clock if clock < 1.0 => self.queue.renew(clock, Rank::PiecePair),
-                    _ => self.queue.remove(),
+                    clock if clock >= 1.0 => self.queue.remove(),
+                    clock => self.queue.renew(clock, Rank::PiecePair),
                 }
                 return ControlFlow::Continue(());
             }
@@ -160,14 +160,15 @@ impl<O: DistanceOracle> BestFirst<O> {
     /// the end.
     #[inline]
     fn wait(&mut self, rest: f64, clock: f64, new: Item<O::Cache>) -> Result<(), Full> {
-        match (rest < 1.0, clock < 1.0) {
-            (true, true) => {
+        // Written so that NaN is not the end.
+        match (rest >= 1.0, clock >= 1.0) {
+            (false, false) => {
                 self.queue.postpone(rest);
                 return self.queue.push(clock, new.rank(), new);
             }
-            (true, false) => self.queue.postpone(rest),
-            (false, true) => self.queue.replace(clock, new.rank(), new),
-            (false, false) => self.queue.remove(),
+            (false, true) => self.queue.postpone(rest),
+            (true, false) => self.queue.replace(clock, new.rank(), new),
+            (true, true) => self.queue.remove(),
         }
         Ok(())
     }

@@ -7,7 +7,7 @@ use super::node::{Below, Node};
 use crate::math::order::greater;
 use crate::math::principal::principal_axes;
 use crate::math::vector::{length, unit};
-use crate::tolerance::FRAME_F64;
+use crate::tolerance::{FRAME_F64, U64};
 use glam::{DMat3, DVec3, Vec3};
 pub(crate) use sample::Sample;
 
@@ -118,8 +118,9 @@ impl Fitted {
             }
             square = greater(square, way.length_squared());
         }
-        // Rounding in f64 is far below that of `up`; one more step up covers it.
-        let outward = |x: f64| up(x).next_up();
+        // A product that cancels is off by this much, which `up` does not cover in a flat box.
+        let rounding = 8.0 * U64 * square.sqrt();
+        let outward = |x: f64| up(x + rounding).next_up();
         Node {
             centre,
             axes,

@@ -30,9 +30,10 @@ pub(super) fn straight_free_time<L: Simd>(
     rate: f32x8<L>,
 ) -> f32x8<L> {
     let level = apart.token();
+    // Written so that NaN proves nothing.
     let tau = rate
-        .simd_gt(0.0)
-        .select(apart / rate, splat(level, f32::INFINITY));
+        .simd_le(0.0)
+        .select(splat(level, f32::INFINITY), apart / rate);
     let proven = apart.simd_gt(closed) & tau.simd_gt(0.0);
     proven.select(tau * CLOCK_F32, splat(level, 0.0))
 }

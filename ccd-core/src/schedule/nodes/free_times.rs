@@ -5,23 +5,23 @@ use crate::body::tree::LANES;
 use crate::math::order::lesser;
 use fearless_simd::{ExtractToken, Simd, f32x8, mask32x8, prelude::*, u32x8};
 
-/// Free times, each rounded down to bits that end in the pair's lane: the least of them also names
-/// its lane.
+/// Free times as bits, each rounded down to bits that end in the pair's lane: the least of them also
+/// names its lane. Bits of numbers that are not negative order as the numbers do. Compared as numbers,
+/// those next to zero would be one where the processor is set to take them for zero.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(32))]
-pub(crate) struct FreeTimes([f32; LANES]);
+pub(crate) struct FreeTimes([u32; LANES]);
 
 const LANE_BITS: u32 = LANES as u32 - 1;
 
-/// The free time of a pair that is finished, later than all others. Not infinite: with the bits of a
-/// lane that would be no number.
-const FINISHED: f32 = f32::MAX;
+/// The bits of a pair that is finished, later than all others.
+const FINISHED: u32 = f32::INFINITY.to_bits() | LANE_BITS;
 
 impl FreeTimes {
     /// Creates the times of one pair, in the first lane, free until now.
     pub(super) fn one() -> Self {
         let mut times = [FINISHED; LANES];
-        times[0] = 0.0;
+        times[0] = 0;
         FreeTimes(times)
     }
 
@@ -30,36 +30,33 @@ impl FreeTimes {
     pub(super) fn pack<L: Simd>(free: f32x8<L>, used: u8) -> Self {
         let level = free.token();
         let lanes: u32x8<L> = [0, 1, 2, 3, 4, 5, 6, 7].simd_into(level);
-        // Written so that NaN counts as zero.
-        let free = free
-            .simd_ge(0.0)
-            .select(free.min(FINISHED), splat(level, 0.0));
+        // Written so that NaN counts as zero, and so does a zero with a sign.
+        let free = free.simd_gt(0.0).select(free, splat(level, 0.0));
         let used = mask32x8::from_bitmask(level, used.into());
-        let free: u32x8<L> = used.select(free, splat(level, FINISHED)).bitcast();
-        let free: f32x8<L> = (free & !LANE_BITS | lanes).bitcast();
-        FreeTimes(*free)
+        let free: u32x8<L> = used.select(free, splat(level, f32::INFINITY)).bitcast();
+        FreeTimes(*(free & !LANE_BITS | lanes))
     }
 
     /// Returns the least of the times; infinity when all pairs are finished.
     #[inline]
     pub(super) fn least(&self) -> f32 {
-        time(self.least_time())
+        time(self.least_bits())
     }
 
     /// Finishes the pair of least time, and returns its lane.
     #[inline]
     pub(super) fn take_least(&mut self) -> usize {
-        let least = self.least_time();
+        let least = self.least_bits();
         // All lanes are written at once: the next read need not wait for a single store.
-        for time in &mut self.0 {
-            *time = if *time == least { FINISHED } else { *time };
+        for bits in &mut self.0 {
+            *bits = if *bits == least { FINISHED } else { *bits };
         }
-        (least.to_bits() & LANE_BITS) as usize
+        (least & LANE_BITS) as usize
     }
 
     /// Halves the lanes until one is left.
     #[inline]
-    fn least_time(&self) -> f32 {
+    fn least_bits(&self) -> u32 {
         let [a, b, c, d, e, f, g, h] = self.0;
         let [a, b, c, d] = [lesser(a, e), lesser(b, f), lesser(c, g), lesser(d, h)];
         lesser(lesser(a, c), lesser(b, d))
@@ -74,12 +71,8 @@ impl FreeTimes {
 
 /// Removes the bits of the lane.
 #[inline]
-fn time(packed: f32) -> f32 {
-    let bits = packed.to_bits() & !LANE_BITS;
-    match bits < FINISHED.to_bits() & !LANE_BITS {
-        true => f32::from_bits(bits),
-        false => f32::INFINITY,
-    }
+fn time(bits: u32) -> f32 {
+    f32::from_bits(bits & !LANE_BITS)
 }
 
 #[cfg(test)]
