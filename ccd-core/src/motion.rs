@@ -7,6 +7,7 @@ pub(crate) mod gap;
 mod interop;
 pub(crate) mod path;
 pub(crate) mod pose;
+pub(crate) mod relative;
 pub(crate) mod track;
 mod trig;
 

@@ -60,6 +60,14 @@ pub const SCALE: f64 = f64::from_bits((1023 + 700) << 52);
 ///   by climbing edges may be lower than the farthest one by two heights, `2 · 4 |n|₁ |x|`, which
 ///   is 14 ([`HEIGHT_F64`]).
 ///
+/// Pairs of nodes see one body from the other at once, by `RelativePath`, if at most one of the two
+/// turns:
+/// - products of the three parts of one rotation with the other rotation add 16 in place of 9; the
+///   rotation that does not turn saves the 40 of axis, sine, cosine and sums;
+/// - the parts that turn the way add 9 in place of 6, and 2 for the product with `s` and its sum.
+///
+/// That is 33 less of both bodies, and 5 more of the displacement, whose heights, 8, are f32 there.
+///
 /// Velocities may be derived from poses at both ends:
 /// - the displacement `(T₁ − T₀) + (R₁ − R₀) c` adds 4 of its length, and 46 of `|c|`;
 /// - the turn adds 12 of a quaternion, which is 45 as an angle, and 9 of its size, which is at most

@@ -59,6 +59,11 @@ impl Path {
         }
     }
 
+    /// Returns the factors of cosine, sine and one in the rotation.
+    pub(crate) fn rotations(&self) -> [DMat3; 3] {
+        [self.cosine, self.sine, self.constant]
+    }
+
     /// Returns the body's frame at `s`.
     #[inline(always)]
     pub(crate) fn frame(&self, s: f64) -> Frame {

@@ -3,6 +3,7 @@
 use super::answer::answer;
 use super::contract::Schedule;
 use super::meter::Meter;
+use super::nodes::common::Common;
 use super::nodes::expand::expand;
 use super::nodes::siblings::{Next, Siblings};
 use super::pieces::pair::Pair;
@@ -93,9 +94,10 @@ impl<O: DistanceOracle> BestFirst<O> {
         if self.open_roots(problem).is_err() {
             return unresolved(problem, 0.0, Limit::Budget);
         }
+        let common = Common::new(problem);
         let mut proven = Proven::default();
         loop {
-            if let ControlFlow::Break(outcome) = self.visit(problem, oracle, meter, &mut proven) {
+            if let ControlFlow::Break(outcome) = self.visit(&common, oracle, meter, &mut proven) {
                 return outcome;
             }
         }
@@ -105,11 +107,12 @@ impl<O: DistanceOracle> BestFirst<O> {
     #[inline]
     fn visit(
         &mut self,
-        problem: &Problem<'_>,
+        common: &Common<'_>,
         oracle: &mut O,
         meter: &mut Meter,
         proven: &mut Proven,
     ) -> ControlFlow<Outcome> {
+        let problem = common.problem;
         let Some((s, item)) = self.queue.least() else {
             return ControlFlow::Break(proven.end(problem));
         };
@@ -135,7 +138,7 @@ impl<O: DistanceOracle> BestFirst<O> {
         };
         let (clock, new) = match next {
             Next::Split(split) => {
-                let expansion = expand(problem, &split, s);
+                let expansion = expand(common, &split, s);
                 proven.keep(f64::from(expansion.bounds.kept));
                 let siblings = Siblings::new(&expansion, split, s);
                 (siblings.clock(), Item::Siblings(siblings))

@@ -6,6 +6,7 @@
 mod axis;
 mod bounds;
 mod clock;
+pub(super) mod common;
 mod eight_pairs;
 pub(super) mod expand;
 mod free_times;

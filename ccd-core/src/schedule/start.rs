@@ -3,6 +3,7 @@
 mod containment;
 
 use super::meter::Meter;
+use super::nodes::common::Common;
 use super::nodes::expand::measure;
 use super::nodes::siblings::{Next, Siblings};
 use super::pieces::pair::contact;
@@ -35,6 +36,7 @@ pub(super) fn touching<O: DistanceOracle>(
 ) -> Outcome {
     let mut search = Nearest {
         problem,
+        common: Common::new(problem),
         waiting: Queue::default(),
         nearest: None,
         lower: f64::INFINITY,
@@ -58,6 +60,7 @@ pub(super) fn touching<O: DistanceOracle>(
 /// others.
 struct Nearest<'p> {
     problem: &'p Problem<'p>,
+    common: Common<'p>,
     /// Ordered by lower bounds of their distances.
     waiting: Queue<Siblings>,
     /// The pieces of least upper bound.
@@ -84,7 +87,7 @@ impl Nearest<'_> {
             }
             match pair {
                 Next::Split(split) => {
-                    let expansion = measure(self.problem, &split);
+                    let expansion = measure(&self.common, &split);
                     self.wait(Siblings::new(&expansion, split, 0.0))?;
                 }
                 Next::Ask(a, b) => self.look([a, b], oracle, meter)?,

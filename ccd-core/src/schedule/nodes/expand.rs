@@ -1,8 +1,8 @@
 //! Splits one node of a pair and bounds its children against the other node, at the pose of the
 //! pair's clock.
 
-use super::bounds::Bounds;
-use super::bounds::bound;
+use super::bounds::{Bounds, bound};
+use super::common::Common;
 use super::eight_pairs::{Larger, RelativeMotionF32};
 use super::shape::{Children, OtherBox, OtherNode, OtherTriangle};
 use super::turn::Turn;
@@ -10,10 +10,9 @@ use crate::body::tree::{Below, LANES, Members, Named, Node, NodeId, unit_normal,
 use crate::math::instructions::vectorize;
 use crate::math::order::greater;
 use crate::motion::pose::Frame;
-use crate::problem::{Problem, Side, Which};
-use crate::tolerance::{
-    CLOSED_GAP, LEAST_GAP_F32, MUCH_LARGER, PLACES_F32, RATE_F32, REACH_F32, WAY_F32,
-};
+use crate::motion::relative::Seen;
+use crate::problem::{Side, Which};
+use crate::tolerance::{MUCH_LARGER, PLACES_F32, RATE_F32, REACH_F32, WAY_F32};
 use fearless_simd::Simd;
 use glam::{DMat3, DVec3, Vec3};
 
@@ -51,8 +50,8 @@ impl Split {
 ///
 /// # Panics
 /// When the node is a single piece.
-pub(crate) fn expand(problem: &Problem<'_>, split: &Split, s: f64) -> Expansion {
-    split_at(problem, split, s, Pace::AsTheyMove)
+pub(crate) fn expand(common: &Common<'_>, split: &Split, s: f64) -> Expansion {
+    split_at(common, split, s, Pace::AsTheyMove)
 }
 
 /// Splits a node at the start and measures its pairs: their free times are lower bounds of their
@@ -60,8 +59,8 @@ pub(crate) fn expand(problem: &Problem<'_>, split: &Split, s: f64) -> Expansion 
 ///
 /// # Panics
 /// When the node is a single piece.
-pub(crate) fn measure(problem: &Problem<'_>, split: &Split) -> Expansion {
-    let mut expansion = split_at(problem, split, 0.0, Pace::Unit);
+pub(crate) fn measure(common: &Common<'_>, split: &Split) -> Expansion {
+    let mut expansion = split_at(common, split, 0.0, Pace::Unit);
     // A second look would give the same result.
     expansion.bounds.waits = 0;
     expansion
@@ -78,19 +77,19 @@ enum Pace {
 
 /// The kernels are compiled here alone, once for each set of instructions.
 #[inline(never)]
-fn split_at(problem: &Problem<'_>, split: &Split, s: f64, pace: Pace) -> Expansion {
-    vectorize!(problem.level, level => split_node(level, problem, split, s, pace))
+fn split_at(common: &Common<'_>, split: &Split, s: f64, pace: Pace) -> Expansion {
+    vectorize!(common.problem.level, level => split_node(level, common, split, s, pace))
 }
 
 #[inline(always)]
 fn split_node<L: Simd>(
     level: L,
-    problem: &Problem<'_>,
+    common: &Common<'_>,
     split: &Split,
     s: f64,
     pace: Pace,
 ) -> Expansion {
-    let motion = RelativeMotion::new(problem, split, s, pace);
+    let motion = RelativeMotion::new(common, split, s, pace);
     let body = motion.split_side.body;
     let tree = body.tree();
     let Named::Node(node) = tree.get(split.node) else {
@@ -115,18 +114,15 @@ fn split_node<L: Simd>(
 /// The relative motion of the two bodies at a clock, along the axes of the body whose node is
 /// split.
 struct RelativeMotion<'p> {
-    problem: &'p Problem<'p>,
+    common: &'p Common<'p>,
     split_side: &'p Side<'p>,
     other_side: &'p Side<'p>,
     /// The other body's node.
     other: NodeId,
     /// The children to be paired with it.
     lanes: u8,
-    other_to_split: Frame,
-    /// The velocity of the split body's centre minus that of the other one's.
-    velocity: DVec3,
-    /// The angular velocity of the other body.
-    other_spin: DVec3,
+    /// The other body.
+    seen: Seen,
     /// The time left.
     horizon: f32,
     pace: Pace,
@@ -135,19 +131,14 @@ struct RelativeMotion<'p> {
 impl<'p> RelativeMotion<'p> {
     // Half of a kilobyte, made once a visit: built in place, not moved.
     #[inline(always)]
-    fn new(problem: &'p Problem<'_>, split: &Split, s: f64, pace: Pace) -> Self {
-        let (split_side, other_side) = (split.body.of(problem), split.body.other().of(problem));
-        let (split_frame, other_frame) = (split_side.path.frame(s), other_side.path.frame(s));
+    fn new(common: &'p Common<'_>, split: &Split, s: f64, pace: Pace) -> Self {
         RelativeMotion {
-            problem,
-            split_side,
-            other_side,
+            common,
+            split_side: split.body.of(common.problem),
+            other_side: split.body.other().of(common.problem),
             other: split.other,
             lanes: split.lanes,
-            other_to_split: split_frame.from_frame(&other_frame),
-            velocity: split_frame
-                .inverse_vector(split_side.path.velocity - other_side.path.velocity),
-            other_spin: split_frame.inverse_vector(other_side.path.spin),
+            seen: common.seen_from(split.body, s),
             horizon: (1.0 - s) as f32,
             pace,
         }
@@ -156,7 +147,8 @@ impl<'p> RelativeMotion<'p> {
     /// Bounds a group of the split body against the other body's node.
     #[inline(always)]
     fn bound<L: Simd, C: Children>(&self, level: L, group: &C, members: &Members) -> Bounds {
-        let mut other_to_split = self.other_to_split;
+        let (own, other) = (&self.split_side.path, &self.other_side.path);
+        let mut other_to_split = self.seen.frame(own, other);
         other_to_split.translation -= members.origin;
         let view = GroupView {
             turn: columns(&other_to_split.rotation),
@@ -238,8 +230,14 @@ impl GroupView<'_> {
             turns: true,
             spin: path.spin_local.as_vec3(),
             rate: up(path.rate),
-            centre: (path.centre - self.members.origin).as_vec3(),
+            centre: self.split_centre().as_vec3(),
         }
+    }
+
+    /// The split body's centre of rotation.
+    #[inline(always)]
+    fn split_centre(&self) -> DVec3 {
+        self.motion.split_side.path.centre - self.members.origin
     }
 
     #[inline(always)]
@@ -250,9 +248,9 @@ impl GroupView<'_> {
         }
         Turn {
             turns: true,
-            spin: self.motion.other_spin.as_vec3(),
+            spin: self.motion.seen.spin.as_vec3(),
             rate: up(path.rate),
-            centre: self.other_to_split.point(path.centre).as_vec3(),
+            centre: (self.split_centre() + self.motion.seen.way).as_vec3(),
         }
     }
 
@@ -260,20 +258,16 @@ impl GroupView<'_> {
     #[inline(always)]
     fn as_they_move(&self, centre: Vec3, radius: f32) -> RelativeMotionF32 {
         let (split, other) = (self.split_turn(), self.other_turn());
-        let velocity = self.motion.velocity.as_vec3();
+        let velocity = self.motion.seen.velocity.as_vec3();
         let reach = self.members.reach;
         // An arm is the difference of two positions, each rounded in its place.
         let places = centre.length() + other.arm(Vec3::ZERO);
         let speed = velocity.length()
             + split.rate * (reach + split.arm(Vec3::ZERO))
             + other.rate * (radius + other.arm(centre) + PLACES_F32 * places);
-        let problem = self.motion.problem;
+        let common = self.motion.common;
         let rounding = self.rounding(centre, radius);
-        let slack = greater(
-            (up(problem.margin) + rounding).next_up(),
-            up(problem.node_gap()),
-        );
-        let closed = (CLOSED_GAP * problem.tolerance) as f32;
+        let slack = greater((common.margin + rounding).next_up(), common.node_gap);
         RelativeMotionF32 {
             velocity,
             split,
@@ -281,7 +275,7 @@ impl GroupView<'_> {
             horizon: self.motion.horizon,
             slack,
             kept: (slack - rounding).next_down(),
-            closed: greater(LEAST_GAP_F32, closed),
+            closed: common.closed,
             rate_slack: RATE_F32 * speed,
             larger: if split.turns && reach > MUCH_LARGER * radius {
                 Some(Larger::Split)
@@ -314,7 +308,7 @@ impl GroupView<'_> {
     fn rounding(&self, centre: Vec3, radius: f32) -> f32 {
         let [x, y, z] = centre.abs().to_array();
         let rounding = WAY_F32 * (x + y + z) + REACH_F32 * (radius + self.members.reach);
-        (rounding + up(self.motion.problem.rounding)).next_up()
+        (rounding + self.motion.common.rounding).next_up()
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::math::order::{greater, lesser};
+use crate::problem::Problem;
 use crate::tests::nearest::{Triangle, nearest};
 use crate::tests::scene::{Kind, Pcg64, RngExt, Scene, rng, scene};
 
@@ -126,7 +127,11 @@ impl Audit<'_> {
                 Which::B => (ids[1], ids[0]),
             };
             let s = self.clock(rng);
-            let expansion = expand(self.problem, &super::Split::all(split, node, other), s);
+            let expansion = expand(
+                &Common::new(self.problem),
+                &Split::all(split, node, other),
+                s,
+            );
             self.check(&expansion, split, node, other, s, tally);
             let count = self.below(split, node).0;
             let lane = self.next(rng, &expansion, count);
@@ -348,8 +353,9 @@ fn planes_that_stand_still(
     let Named::Node(below) = tree.get(node) else {
         panic!("a node to split");
     };
+    let common = Common::new(problem);
     let split_all = Split::all(split, node, other);
-    let motion = RelativeMotion::new(problem, &split_all, s, Pace::AsTheyMove);
+    let motion = RelativeMotion::new(&common, &split_all, s, Pace::AsTheyMove);
     match below.below {
         Below::Boxes(group) => {
             let group = tree.box_group(group);
@@ -384,5 +390,5 @@ fn still<C: Children>(motion: &RelativeMotion<'_>, group: &C, members: &Members)
         reach: members.reach.clamp(radius / much, radius * much),
         ..*members
     };
-    vectorize!(motion.problem.level, level => motion.bound(level, group, &members))
+    vectorize!(motion.common.problem.level, level => motion.bound(level, group, &members))
 }
