@@ -3,7 +3,8 @@
 //! A pair consists of two nodes (`nodes/`: eight at once, in f32) or of two pieces (`pieces/`: one
 //! at a time, in f64). A schedule keeps the waiting pairs (`queue.rs`, `fast/front.rs`) and the
 //! proven facts (`proven.rs`). `start.rs` measures bodies in contact at the start; `answer.rs` runs
-//! the schedule as the policy for the start demands.
+//! the schedule as the policy for the start demands. `out_of_reach.rs` tells bodies apart that are far
+//! from each other all the time.
 
 mod answer;
 mod best_first;
@@ -13,6 +14,7 @@ mod fast;
 mod meter;
 mod naive;
 mod nodes;
+mod out_of_reach;
 mod pieces;
 mod proven;
 mod queue;

@@ -85,6 +85,11 @@ impl Tree {
         self.span
     }
 
+    /// A ball around all pieces: its centre and its radius.
+    pub(crate) fn ball(&self) -> (DVec3, f64) {
+        (self.nodes[0].centre, f64::from(self.nodes[0].radius))
+    }
+
     /// The radius of the root's ball.
     pub(crate) fn radius(&self) -> f32 {
         self.nodes[0].radius

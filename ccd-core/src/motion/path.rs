@@ -38,23 +38,28 @@ impl Path {
     pub(crate) fn new(motion: &Motion, origin: DVec3, duration: f64) -> Self {
         let start = Frame::from(motion.start());
         let spin = motion.spin() * duration;
+        let rate = length(spin);
         let axis = unit(spin).unwrap_or(DVec3::ZERO);
-        // A body that does not turn has no other part.
-        let constant = match length(spin) > 0.0 {
-            true => outer(axis) * start.rotation,
-            false => start.rotation,
+        // A body that does not turn has only the constant part.
+        let [cosine, sine, constant] = match rate > 0.0 {
+            true => {
+                let constant = outer(axis) * start.rotation;
+                let sine = cross_matrix(axis) * start.rotation;
+                [start.rotation - constant, sine, constant]
+            }
+            false => [DMat3::ZERO, DMat3::ZERO, start.rotation],
         };
         let velocity = motion.velocity() * duration;
         Path {
-            cosine: start.rotation - constant,
-            sine: cross_matrix(axis) * start.rotation,
+            cosine,
+            sine,
             constant,
             centre: motion.centre(),
             start: (start.translation - origin) + start.rotation * motion.centre(),
             velocity,
             spin,
             spin_local: start.inverse_vector(spin),
-            rate: length(spin),
+            rate,
             axis,
         }
     }
@@ -77,6 +82,11 @@ impl Path {
             rotation,
             translation: self.centre_at(s) - rotation * self.centre,
         }
+    }
+
+    /// Returns the position of the body's point `x` at the start.
+    pub(crate) fn start_of(&self, x: DVec3) -> DVec3 {
+        self.start + (self.cosine + self.constant) * (x - self.centre)
     }
 
     /// Returns the position of the centre of rotation at `s`.

@@ -6,6 +6,7 @@ use super::meter::Meter;
 use super::nodes::common::Common;
 use super::nodes::expand::expand;
 use super::nodes::siblings::{Next, Siblings};
+use super::out_of_reach::out_of_reach;
 use super::pieces::pair::Pair;
 use super::proven::Proven;
 use super::queue::{Full, Queue, Rank};
@@ -91,6 +92,10 @@ impl<O: DistanceOracle> BestFirst<O> {
         oracle: &mut O,
         meter: &mut Meter,
     ) -> Outcome {
+        if out_of_reach(problem) {
+            let proven_gap = problem.proven_gap(f64::INFINITY);
+            return Outcome::Free { proven_gap };
+        }
         if self.open_roots(problem).is_err() {
             return unresolved(problem, 0.0, Limit::Budget);
         }

@@ -43,6 +43,9 @@ pub(crate) enum Containment {
 ///
 /// O((parts + pairs that touch) · log n) where rays meet few triangles.
 pub(crate) fn at_start(problem: &Problem<'_>, touching: &[[u32; 2]]) -> Containment {
+    if !(problem.a.body.may_be_hollow() || problem.b.body.may_be_hollow()) {
+        return Containment::Outside;
+    }
     let (a, b) = (Placed::of(&problem.a), Placed::of(&problem.b));
     let reach = INSIDE * problem.rounding;
     let look = |outer: &Placed<'_>, inner: &Placed<'_>, side: usize| {
