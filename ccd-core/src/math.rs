@@ -4,6 +4,7 @@
 pub mod exact;
 pub(crate) mod instructions;
 pub mod order;
+pub(crate) mod packed;
 pub mod point_tree;
 pub(crate) mod principal;
 pub mod vector;

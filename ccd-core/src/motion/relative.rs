@@ -1,143 +1,186 @@
 //! The motion of one body as seen from another.
 
 use super::path::Path;
-use super::pose::Frame;
 use super::trig::sin_cos;
+use crate::math::packed::{Packed, PackedMatrix, Row, row, rows};
+use fearless_simd::Simd;
 use glam::{DMat3, DVec3};
 
-/// The motion of each body of a pair as seen from the other, where at most one of them turns.
+/// A body as seen from another, prepared once a query.
 ///
-/// The rotation that takes one body's frame to the other's is then `cos(ω s) P + sin(ω s) Q + K`, as
-/// that of a single path is. So is what turns the way between their centres.
+/// If only one of the two turns, all that changes is a sum of three constant parts: of cosine, of sine
+/// and of one, as in the rotation of a single [`Path`].
+#[derive(Clone, Debug)]
+pub(crate) struct View {
+    seen: Parts,
+    /// The centres of rotation in their bodies' frames: of the body that looks, and of the seen one.
+    centre: Row,
+    other_centre: Row,
+}
+
+#[derive(Clone, Debug)]
+enum Parts {
+    OneTurns {
+        rotation: Turning<[Row; 3]>,
+        /// From centre to centre at the start, and the change per unit of time.
+        way: Turning<Row>,
+        change: Turning<Row>,
+        spin: Row,
+    },
+    /// Along the axes of the world.
+    BothTurn {
+        /// The inverse of the rotation of the body that looks.
+        inverse: Turning<[Row; 3]>,
+        other: Turning<[Row; 3]>,
+        way: Row,
+        change: Row,
+        spin: Row,
+    },
+}
+
+/// `cos(ω s) P + sin(ω s) Q + K`
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct RelativePath {
-    /// The angular speed; zero if neither turns.
+struct Turning<T> {
     rate: f64,
-    /// `P`, `Q` and `K` for the rotation that takes B's frame to A's.
-    rotation: [DMat3; 3],
-    /// As seen from A, and from B.
-    ways: [Way; 2],
+    parts: [T; 3],
 }
 
 /// One body as seen from another at an instant, along the axes of the latter.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Seen {
+pub(crate) struct Seen<L: Simd> {
     /// Takes the seen body's frame to the seeing one's.
-    pub(crate) rotation: DMat3,
+    pub(crate) rotation: PackedMatrix<L>,
     /// From the seeing body's centre of rotation to the seen one's.
-    pub(crate) way: DVec3,
+    pub(crate) way: Packed<L>,
     /// The velocity of the seeing body's centre minus that of the seen one's.
-    pub(crate) velocity: DVec3,
+    pub(crate) velocity: Packed<L>,
     /// The angular velocity of the seen body.
-    pub(crate) spin: DVec3,
+    pub(crate) spin: Packed<L>,
 }
 
-/// The way to the other body's centre, and its spin, along the axes of the body that looks.
-#[derive(Clone, Copy, Debug)]
-struct Way {
-    /// The factors of cosine, sine and one, at the start.
-    start: [DVec3; 3],
-    /// The same for its change per unit of time.
-    change: [DVec3; 3],
-    spin: DVec3,
-}
-
-impl RelativePath {
-    /// Returns none when both bodies turn.
-    pub(crate) fn new(a: &Path, b: &Path) -> Option<Self> {
-        if a.turns() && b.turns() {
-            return None;
+impl View {
+    /// Returns the other body as `own` sees it.
+    pub(crate) fn new(own: &Path, other: &Path) -> Self {
+        let way = other.centre_at(0.0) - own.centre_at(0.0);
+        let change = other.velocity - own.velocity;
+        let inverse = own.rotations().map(|part| part.transpose());
+        let seen = match own.turns() && other.turns() {
+            true => Parts::BothTurn {
+                inverse: Turning::new(own.rate, inverse),
+                other: Turning::new(other.rate, other.rotations()),
+                way: row(way),
+                change: row(change),
+                spin: row(other.spin),
+            },
+            false => Parts::one_turns(own, other, inverse, [way, change]),
+        };
+        View {
+            seen,
+            centre: row(own.centre),
+            other_centre: row(other.centre),
         }
-        let (of_a, of_b) = (a.rotations(), b.rotations());
-        let rotation = [0, 1, 2].map(|k| match b.turns() {
-            true => of_a[2].transpose() * of_b[k],
-            false => of_a[k].transpose() * of_b[2],
+    }
+
+    #[inline(always)]
+    pub(crate) fn at<L: Simd>(&self, level: L, s: f64) -> Seen<L> {
+        match &self.seen {
+            Parts::OneTurns {
+                rotation,
+                way,
+                change,
+                spin,
+            } => {
+                let angle = sin_cos(rotation.rate * s);
+                let change = change.vector(level, angle);
+                Seen {
+                    rotation: rotation.matrix(level, angle),
+                    way: way.vector(level, angle) + change * s,
+                    velocity: -change,
+                    spin: Packed::load(level, spin),
+                }
+            }
+            Parts::BothTurn {
+                inverse,
+                other,
+                way,
+                change,
+                spin,
+            } => {
+                let inverse = inverse.matrix(level, sin_cos(inverse.rate * s));
+                let other = other.matrix(level, sin_cos(other.rate * s));
+                let change = Packed::load(level, change);
+                Seen {
+                    rotation: inverse * other,
+                    way: inverse * (Packed::load(level, way) + change * s),
+                    velocity: inverse * -change,
+                    spin: inverse * Packed::load(level, spin),
+                }
+            }
+        }
+    }
+
+    /// The centre of rotation of the body that looks, in its frame.
+    #[inline(always)]
+    pub(crate) fn centre<L: Simd>(&self, level: L) -> Packed<L> {
+        Packed::load(level, &self.centre)
+    }
+
+    /// The centre of rotation of the seen body, in its frame.
+    #[inline(always)]
+    pub(crate) fn other_centre<L: Simd>(&self, level: L) -> Packed<L> {
+        Packed::load(level, &self.other_centre)
+    }
+}
+
+impl Parts {
+    /// At most one of the two turns: of the other one's rotation there is only the constant part.
+    fn one_turns(own: &Path, other: &Path, inverse: [DMat3; 3], way: [DVec3; 2]) -> Self {
+        let others = other.rotations();
+        let rate = if other.turns() { other.rate } else { own.rate };
+        let rotation = [0, 1, 2].map(|k| match other.turns() {
+            true => inverse[2] * others[k],
+            false => inverse[k] * others[2],
         });
-        Some(RelativePath {
-            rate: if b.turns() { b.rate } else { a.rate },
-            rotation,
-            ways: [Way::new(a, b), Way::new(b, a)],
-        })
-    }
-}
-
-impl Way {
-    fn new(own: &Path, other: &Path) -> Self {
-        let (start, change) = (
-            other.centre_at(0.0) - own.centre_at(0.0),
-            other.velocity - own.velocity,
-        );
-        let rotations = own.rotations().map(|part| part.transpose());
-        Way {
-            start: rotations.map(|part| part * start),
-            change: rotations.map(|part| part * change),
-            // One of the two does not turn.
-            spin: rotations[2] * other.spin,
+        let [way, change] = way.map(|v| Turning {
+            rate,
+            parts: inverse.map(|part| row(part * v)),
+        });
+        Parts::OneTurns {
+            rotation: Turning::new(rate, rotation),
+            way,
+            change,
+            spin: row(inverse[2] * other.spin),
         }
     }
 }
 
-impl RelativePath {
-    /// Returns B as seen from A.
-    #[inline(always)]
-    pub(crate) fn seen_by_a(&self, s: f64) -> Seen {
-        let (sin, cos) = self.sin_cos(s);
-        let [p, q, k] = self.rotation;
-        let rotation = p * cos + q * sin + k;
-        self.ways[0].seen(rotation, s, (sin, cos))
-    }
-
-    /// Returns A as seen from B.
-    #[inline(always)]
-    pub(crate) fn seen_by_b(&self, s: f64) -> Seen {
-        let (sin, cos) = self.sin_cos(s);
-        let [p, q, k] = self.rotation;
-        let rotation = (p * cos + q * sin + k).transpose();
-        self.ways[1].seen(rotation, s, (sin, cos))
+impl Turning<[Row; 3]> {
+    fn new(rate: f64, parts: [DMat3; 3]) -> Self {
+        Turning {
+            rate,
+            parts: parts.map(rows),
+        }
     }
 
     #[inline(always)]
-    fn sin_cos(&self, s: f64) -> (f64, f64) {
-        sin_cos(self.rate * s)
+    fn matrix<L: Simd>(&self, level: L, angle: (f64, f64)) -> PackedMatrix<L> {
+        let [p, q, k] = &self.parts;
+        let column = |j: usize| sum(level, [&p[j], &q[j], &k[j]], angle);
+        PackedMatrix::new([column(0), column(1), column(2)])
     }
 }
 
-impl Way {
+impl Turning<Row> {
     #[inline(always)]
-    fn seen(&self, rotation: DMat3, s: f64, (sin, cos): (f64, f64)) -> Seen {
-        let [p, q, k] = self.change;
-        let change = p * cos + q * sin + k;
-        let [p, q, k] = self.start;
-        Seen {
-            rotation,
-            way: p * cos + q * sin + k + change * s,
-            velocity: -change,
-            spin: self.spin,
-        }
+    fn vector<L: Simd>(&self, level: L, angle: (f64, f64)) -> Packed<L> {
+        let [p, q, k] = &self.parts;
+        sum(level, [p, q, k], angle)
     }
 }
 
-impl Seen {
-    /// Returns a body as seen from another, for any motions.
-    #[inline(always)]
-    pub(crate) fn at(own: &Path, other: &Path, s: f64) -> Self {
-        let (frame, other_frame) = (own.frame(s), other.frame(s));
-        Seen {
-            rotation: frame.rotation.transpose() * other_frame.rotation,
-            way: frame.inverse_vector(other.centre_at(s) - own.centre_at(s)),
-            velocity: frame.inverse_vector(own.velocity - other.velocity),
-            spin: frame.inverse_vector(other.spin),
-        }
-    }
-
-    /// Returns the frame that takes coordinates of the seen body to those of the seeing one.
-    #[inline(always)]
-    pub(crate) fn frame(&self, own: &Path, other: &Path) -> Frame {
-        Frame {
-            rotation: self.rotation,
-            translation: self.way + own.centre - self.rotation * other.centre,
-        }
-    }
+#[inline(always)]
+fn sum<L: Simd>(level: L, [p, q, k]: [&Row; 3], (sin, cos): (f64, f64)) -> Packed<L> {
+    Packed::load(level, p) * cos + Packed::load(level, q) * sin + Packed::load(level, k)
 }
 
 #[cfg(test)]

@@ -1,10 +1,15 @@
 //! What a body sees of another, against the two frames.
 
-use super::{RelativePath, Seen};
+use super::{Seen, View};
+use crate::config::Instructions;
+use crate::math::instructions::vectorize;
+use crate::math::packed::{Packed, PackedMatrix, rows};
 use crate::motion::Motion;
 use crate::motion::path::Path;
 use crate::motion::pose::Pose;
 use crate::tests::scene::{Pcg64, RngExt, direction, magnitude, rng, rotation, within};
+use fearless_simd::Simd;
+use glam::DVec3;
 
 fn path(rng: &mut Pcg64) -> Path {
     let start = Pose::new(within(rng, 9.0), rotation(rng)).unwrap();
@@ -18,38 +23,67 @@ fn path(rng: &mut Pcg64) -> Path {
     Path::new(&motion, within(rng, 9.0), 1.0)
 }
 
+/// A body as seen from another: where it sees a point, its velocity and its spin.
+#[inline(always)]
+fn look<L: Simd>(level: L, view: &View, s: f64, point: DVec3) -> [DVec3; 3] {
+    let Seen {
+        rotation,
+        way,
+        velocity,
+        spin,
+    } = view.at(level, s);
+    let point = rotation * (Packed::new(level, point) - view.other_centre(level));
+    [way + point + view.centre(level), velocity, spin].map(Packed::unpacked)
+}
+
 #[test]
 fn each_body_sees_what_the_frames_of_both_say() {
     let mut rng = rng(3);
-    let (mut one, mut both) = (0, 0);
+    let mut counts = [0; 3];
     for _ in 0..2_000 {
-        let (a, b) = (path(&mut rng), path(&mut rng));
-        let relative = RelativePath::new(&a, &b);
-        for s in [0.0, 1.0, rng.random_range(0.0..1.0)] {
-            let seen = match &relative {
-                Some(path) => [path.seen_by_a(s), path.seen_by_b(s)],
-                None => [Seen::at(&a, &b, s), Seen::at(&b, &a, s)],
-            };
-            for (seen, own, other) in [(seen[0], &a, &b), (seen[1], &b, &a)] {
-                let frame = own.frame(s);
-                let expected = frame.from_frame(&other.frame(s));
-                let scale = 1e-14 * (30.0 + own.rate + other.rate);
+        let paths = (path(&mut rng), path(&mut rng));
+        counts[usize::from(paths.0.turns()) + usize::from(paths.1.turns())] += 1;
+        for (own, other) in [(&paths.0, &paths.1), (&paths.1, &paths.0)] {
+            let view = View::new(own, other);
+            for s in [0.0, 1.0, rng.random_range(0.0..1.0)] {
                 let x = within(&mut rng, 3.0);
-                let point = seen.frame(own, other).point(x);
-                assert!(
-                    point.distance(expected.point(x)) < scale,
-                    "{own:?} {other:?}"
-                );
-                let velocity = frame.inverse_vector(own.velocity - other.velocity);
-                assert!(seen.velocity.distance(velocity) < scale);
-                let spin = frame.inverse_vector(other.spin);
-                assert!(seen.spin.distance(spin) < scale * (1.0 + other.rate));
+                let [best, plain] = [Instructions::Best, Instructions::Baseline]
+                    .map(|set| vectorize!(set.level(), level => look(level, &view, s, x)));
+                assert_eq!(best, plain);
+                let frame = own.frame(s);
+                let expected = [
+                    frame.from_frame(&other.frame(s)).point(x),
+                    frame.inverse_vector(own.velocity - other.velocity),
+                    frame.inverse_vector(other.spin),
+                ];
+                let scale = 1e-14 * (30.0 + own.rate + other.rate);
+                let scales = [scale, scale, scale * (1.0 + other.rate)];
+                for k in 0..3 {
+                    let off = best[k].distance(expected[k]);
+                    assert!(off < scales[k], "{k}: {off:e} {own:?} {other:?}");
+                }
             }
         }
-        match relative {
-            Some(_) => one += 1,
-            None => both += 1,
-        }
     }
-    assert!(one > 500 && both > 500, "{one} {both}");
+    assert!(counts.iter().all(|&n| n > 200), "{counts:?}");
+}
+
+#[test]
+fn packed_products_are_those_of_the_library() {
+    let mut rng = rng(4);
+    for _ in 0..1_000 {
+        let frame = path(&mut rng).frame(rng.random_range(0.0..1.0));
+        let (v, w) = (within(&mut rng, 5.0), within(&mut rng, 5.0));
+        let products = |set: Instructions| {
+            vectorize!(set.level(), level => {
+                let columns = rows(frame.rotation).map(|column| Packed::load(level, &column));
+                let matrix = PackedMatrix::new(columns);
+                let (a, b) = (Packed::new(level, v), Packed::new(level, w));
+                [matrix * a, a + b, a - b, -a, a * w.x].map(Packed::unpacked)
+            })
+        };
+        let expected = [frame.rotation * v, v + w, v - w, -v, v * w.x];
+        assert_eq!(products(Instructions::Best), expected);
+        assert_eq!(products(Instructions::Baseline), expected);
+    }
 }

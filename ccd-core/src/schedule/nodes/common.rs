@@ -2,17 +2,21 @@
 
 use crate::body::tree::up;
 use crate::math::order::greater;
-use crate::motion::relative::{RelativePath, Seen};
+use crate::motion::relative::View;
 use crate::problem::{Problem, Which};
 use crate::tolerance::{CLOSED_GAP, LEAST_GAP_F32};
+use glam::Vec3;
 use std::cell::OnceCell;
 
 /// A query, with the numbers that every visit needs of it, rounded to f32 where it does.
 #[derive(Debug)]
 pub(crate) struct Common<'p> {
     pub(crate) problem: &'p Problem<'p>,
-    /// Made at the first visit: queries of a few pieces have none. None when both bodies turn.
-    relative: OnceCell<Option<RelativePath>>,
+    /// B as A sees it, and A as B does. Made at the first visit: queries of a few pieces have none.
+    views: OnceCell<[View; 2]>,
+    /// The spins of A and of B along their own axes, and the angular speeds, rounded up; none of a
+    /// body that does not turn.
+    spins: [Option<(Vec3, f32)>; 2],
     /// The margin, rounded up.
     pub(super) margin: f32,
     /// The gap that the clocks of pairs of nodes prove, rounded up.
@@ -27,7 +31,11 @@ impl<'p> Common<'p> {
     pub(crate) fn new(problem: &'p Problem<'_>) -> Self {
         Common {
             problem,
-            relative: OnceCell::new(),
+            views: OnceCell::new(),
+            spins: [&problem.a.path, &problem.b.path].map(|path| {
+                path.turns()
+                    .then(|| (path.spin_local.as_vec3(), up(path.rate)))
+            }),
             margin: up(problem.margin),
             node_gap: up(problem.node_gap()),
             rounding: up(problem.rounding),
@@ -37,14 +45,18 @@ impl<'p> Common<'p> {
 
     /// Returns the other body as seen from this one.
     #[inline(always)]
-    pub(super) fn seen_from(&self, body: Which, s: f64) -> Seen {
+    pub(super) fn view_from(&self, body: Which) -> &View {
         let (a, b) = (&self.problem.a.path, &self.problem.b.path);
-        let relative = self.relative.get_or_init(|| RelativePath::new(a, b));
-        match (relative, body) {
-            (Some(path), Which::A) => path.seen_by_a(s),
-            (Some(path), Which::B) => path.seen_by_b(s),
-            (None, Which::A) => Seen::at(a, b, s),
-            (None, Which::B) => Seen::at(b, a, s),
-        }
+        let views = self
+            .views
+            .get_or_init(|| [View::new(a, b), View::new(b, a)]);
+        &views[body as usize]
+    }
+
+    /// Returns the spin of a body along its own axes, and its angular speed, rounded up; none if it
+    /// does not turn.
+    #[inline(always)]
+    pub(super) fn spin(&self, body: Which) -> Option<(Vec3, f32)> {
+        self.spins[body as usize]
     }
 }

@@ -9,12 +9,12 @@ use super::turn::Turn;
 use crate::body::tree::{Below, LANES, Members, Named, Node, NodeId, unit_normal, up};
 use crate::math::instructions::vectorize;
 use crate::math::order::greater;
-use crate::motion::pose::Frame;
-use crate::motion::relative::Seen;
+use crate::math::packed::{Packed, PackedMatrix, as_vec3};
+use crate::motion::relative::{Seen, View};
 use crate::problem::{Side, Which};
 use crate::tolerance::{MUCH_LARGER, PLACES_F32, RATE_F32, REACH_F32, WAY_F32};
-use fearless_simd::Simd;
-use glam::{DMat3, DVec3, Vec3};
+use fearless_simd::{Simd, f32x4};
+use glam::{DVec3, Vec3};
 
 /// The children of the split node, each paired with the other node.
 #[derive(Clone, Copy, Debug)]
@@ -89,7 +89,7 @@ fn split_node<L: Simd>(
     s: f64,
     pace: Pace,
 ) -> Expansion {
-    let motion = RelativeMotion::new(common, split, s, pace);
+    let motion = RelativeMotion::new(level, common, split, s, pace);
     let body = motion.split_side.body;
     let tree = body.tree();
     let Named::Node(node) = tree.get(split.node) else {
@@ -99,12 +99,12 @@ fn split_node<L: Simd>(
         Below::Boxes(group) => {
             let group = tree.box_group(group);
             let members = &group.members;
-            (motion.bound(level, group, members), members.first)
+            (motion.bound(group, members), members.first)
         }
         Below::Triangles(group) => {
             let group = &tree.triangle_group(group, body.pieces());
             let members = &group.members;
-            (motion.bound(level, group, members), members.first)
+            (motion.bound(group, members), members.first)
         }
         Below::Piece(_) => unreachable!("a single piece has no children"),
     };
@@ -113,32 +113,33 @@ fn split_node<L: Simd>(
 
 /// The relative motion of the two bodies at a clock, along the axes of the body whose node is
 /// split.
-struct RelativeMotion<'p> {
+struct RelativeMotion<'p, L: Simd> {
+    level: L,
     common: &'p Common<'p>,
+    split: &'p Split,
     split_side: &'p Side<'p>,
     other_side: &'p Side<'p>,
-    /// The other body's node.
-    other: NodeId,
-    /// The children to be paired with it.
-    lanes: u8,
-    /// The other body.
-    seen: Seen,
+    /// What the split body sees of the other one, now and at any time.
+    seen: Seen<L>,
+    view: &'p View,
     /// The time left.
     horizon: f32,
     pace: Pace,
 }
 
-impl<'p> RelativeMotion<'p> {
+impl<'p, L: Simd> RelativeMotion<'p, L> {
     // Half of a kilobyte, made once a visit: built in place, not moved.
     #[inline(always)]
-    fn new(common: &'p Common<'_>, split: &Split, s: f64, pace: Pace) -> Self {
+    fn new(level: L, common: &'p Common<'_>, split: &'p Split, s: f64, pace: Pace) -> Self {
+        let view = common.view_from(split.body);
         RelativeMotion {
+            level,
             common,
+            split,
             split_side: split.body.of(common.problem),
             other_side: split.body.other().of(common.problem),
-            other: split.other,
-            lanes: split.lanes,
-            seen: common.seen_from(split.body, s),
+            seen: view.at(level, s),
+            view,
             horizon: (1.0 - s) as f32,
             pace,
         }
@@ -146,52 +147,59 @@ impl<'p> RelativeMotion<'p> {
 
     /// Bounds a group of the split body against the other body's node.
     #[inline(always)]
-    fn bound<L: Simd, C: Children>(&self, level: L, group: &C, members: &Members) -> Bounds {
-        let (own, other) = (&self.split_side.path, &self.other_side.path);
-        let mut other_to_split = self.seen.frame(own, other);
-        other_to_split.translation -= members.origin;
-        let view = GroupView {
-            turn: columns(&other_to_split.rotation),
-            other_to_split,
+    fn bound<C: Children>(&self, group: &C, members: &Members) -> Bounds {
+        let Seen { rotation, way, .. } = self.seen;
+        let centre = self.view.centre(self.level) - Packed::new(self.level, members.origin);
+        let other_centre = centre + way;
+        let group_view = GroupView {
+            rotation,
+            translation: other_centre - rotation * self.view.other_centre(self.level),
+            turn: rotation.narrow(),
+            centre: centre.as_vec3(),
+            other_centre: other_centre.as_vec3(),
             motion: self,
             members,
         };
-        match self.other_side.body.tree().get(self.other) {
-            Named::Node(node) => view.bound(level, group, &view.node(node)),
+        match self.other_side.body.tree().get(self.split.other) {
+            Named::Node(node) => group_view.bound(group, &group_view.node(node)),
             Named::Triangle(piece) => {
                 let corners = self.other_side.body.pieces().triangle(piece as usize);
-                view.bound(level, group, &view.triangle(corners))
+                group_view.bound(group, &group_view.triangle(corners))
             }
         }
     }
 }
 
 /// The relative motion as seen from a group of the split body.
-struct GroupView<'m> {
-    motion: &'m RelativeMotion<'m>,
+struct GroupView<'m, L: Simd> {
+    motion: &'m RelativeMotion<'m, L>,
     members: &'m Members,
-    /// Relative to the group's origin.
-    other_to_split: Frame,
+    /// These take the other body's frame to the split one's, relative to the group's origin.
+    rotation: PackedMatrix<L>,
+    translation: Packed<L>,
     /// The same rotation in f32, by columns.
-    turn: [Vec3; 3],
+    turn: [f32x4<L>; 3],
+    /// The bodies' centres of rotation, relative to the group's origin.
+    centre: Vec3,
+    other_centre: Vec3,
 }
 
-impl GroupView<'_> {
+impl<L: Simd> GroupView<'_, L> {
     #[inline(always)]
-    fn bound<L: Simd, C: Children, P: OtherNode>(&self, level: L, group: &C, other: &P) -> Bounds {
+    fn bound<C: Children, P: OtherNode>(&self, group: &C, other: &P) -> Bounds {
         let motion = match self.motion.pace {
             Pace::AsTheyMove => self.as_they_move(other.centre(), other.radius()),
             Pace::Unit => self.at_unit_rate(other.centre(), other.radius()),
         };
-        let lanes = self.motion.lanes & u8::MAX >> (LANES as u32 - self.members.count);
-        bound(level, group, other, &motion, lanes)
+        let lanes = self.motion.split.lanes & u8::MAX >> (LANES as u32 - self.members.count);
+        bound(self.motion.level, group, other, &motion, lanes)
     }
 
     #[inline(always)]
     fn node(&self, node: &Node) -> OtherBox {
         let [u, v, w] = node.axes;
         OtherBox {
-            centre: self.other_to_split.point(node.centre).as_vec3(),
+            centre: self.placed(node.centre).as_vec3(),
             axes: [self.turned(u), self.turned(v), self.turned(w)],
             half: node.half,
             rounding: node.rounding,
@@ -200,15 +208,22 @@ impl GroupView<'_> {
         }
     }
 
+    /// Takes a point of the other body to the split one's frame.
+    #[inline(always)]
+    fn placed(&self, point: DVec3) -> Packed<L> {
+        self.rotation * Packed::new(self.motion.level, point) + self.translation
+    }
+
     #[inline(always)]
     fn turned(&self, v: Vec3) -> Vec3 {
-        self.turn[0] * v.x + self.turn[1] * v.y + self.turn[2] * v.z
+        let [x, y, z] = self.turn;
+        as_vec3(x * v.x + y * v.y + z * v.z)
     }
 
     #[inline(always)]
     fn triangle(&self, [a, b, c]: [DVec3; 3]) -> OtherTriangle {
-        let place = &self.other_to_split;
-        let (a, b, c) = (place.point(a), place.point(b), place.point(c));
+        let (a, b, c) = (self.placed(a), self.placed(b), self.placed(c));
+        let (a, b, c) = (a.unpacked(), b.unpacked(), c.unpacked());
         let centre = (a + b + c) / 3.0;
         let (p, q, r) = (a - centre, b - centre, c - centre);
         let farthest = greater(p.length_squared(), q.length_squared());
@@ -222,35 +237,27 @@ impl GroupView<'_> {
 
     #[inline(always)]
     fn split_turn(&self) -> Turn {
-        let path = &self.motion.split_side.path;
-        if !path.turns() {
-            return Turn::NONE;
+        match self.motion.common.spin(self.motion.split.body) {
+            Some((spin, rate)) => Turn {
+                turns: true,
+                spin,
+                rate,
+                centre: self.centre,
+            },
+            None => Turn::NONE,
         }
-        Turn {
-            turns: true,
-            spin: path.spin_local.as_vec3(),
-            rate: up(path.rate),
-            centre: self.split_centre().as_vec3(),
-        }
-    }
-
-    /// The split body's centre of rotation.
-    #[inline(always)]
-    fn split_centre(&self) -> DVec3 {
-        self.motion.split_side.path.centre - self.members.origin
     }
 
     #[inline(always)]
     fn other_turn(&self) -> Turn {
-        let path = &self.motion.other_side.path;
-        if !path.turns() {
-            return Turn::NONE;
-        }
-        Turn {
-            turns: true,
-            spin: self.motion.seen.spin.as_vec3(),
-            rate: up(path.rate),
-            centre: (self.split_centre() + self.motion.seen.way).as_vec3(),
+        match self.motion.common.spin(self.motion.split.body.other()) {
+            Some((_, rate)) => Turn {
+                turns: true,
+                spin: self.motion.seen.spin.as_vec3(),
+                rate,
+                centre: self.other_centre,
+            },
+            None => Turn::NONE,
         }
     }
 
@@ -310,15 +317,6 @@ impl GroupView<'_> {
         let rounding = WAY_F32 * (x + y + z) + REACH_F32 * (radius + self.members.reach);
         (rounding + self.motion.common.rounding).next_up()
     }
-}
-
-#[inline(always)]
-fn columns(matrix: &DMat3) -> [Vec3; 3] {
-    [
-        matrix.x_axis.as_vec3(),
-        matrix.y_axis.as_vec3(),
-        matrix.z_axis.as_vec3(),
-    ]
 }
 
 #[cfg(test)]

@@ -355,26 +355,33 @@ fn planes_that_stand_still(
     };
     let common = Common::new(problem);
     let split_all = Split::all(split, node, other);
-    let motion = RelativeMotion::new(&common, &split_all, s, Pace::AsTheyMove);
-    match below.below {
-        Below::Boxes(group) => {
-            let group = tree.box_group(group);
-            still(&motion, group, &group.members)
+    vectorize!(problem.level, level => {
+        let motion = RelativeMotion::new(level, &common, &split_all, s, Pace::AsTheyMove);
+        match below.below {
+            Below::Boxes(group) => {
+                let group = tree.box_group(group);
+                still(&motion, group, &group.members)
+            }
+            Below::Triangles(group) => {
+                let pieces = split.of(problem).body.pieces();
+                let group = &tree.triangle_group(group, pieces);
+                still(&motion, group, &group.members)
+            }
+            Below::Piece(_) => panic!("a node to split"),
         }
-        Below::Triangles(group) => {
-            let pieces = split.of(problem).body.pieces();
-            let group = &tree.triangle_group(group, pieces);
-            still(&motion, group, &group.members)
-        }
-        Below::Piece(_) => panic!("a node to split"),
-    }
+    })
 }
 
 /// Planes turn with much larger nodes only: a reach that is neither much larger nor much smaller
 /// than the other node's excludes them.
-fn still<C: Children>(motion: &RelativeMotion<'_>, group: &C, members: &Members) -> Bounds {
+#[inline(always)]
+fn still<L: Simd, C: Children>(
+    motion: &RelativeMotion<'_, L>,
+    group: &C,
+    members: &Members,
+) -> Bounds {
     let far = motion.other_side;
-    let radius = match far.body.tree().get(motion.other) {
+    let radius = match far.body.tree().get(motion.split.other) {
         Named::Node(node) => node.radius,
         Named::Triangle(piece) => {
             let [a, b, c] = far.body.pieces().triangle(piece as usize);
@@ -390,5 +397,5 @@ fn still<C: Children>(motion: &RelativeMotion<'_>, group: &C, members: &Members)
         reach: members.reach.clamp(radius / much, radius * much),
         ..*members
     };
-    vectorize!(motion.common.problem.level, level => motion.bound(level, group, &members))
+    motion.bound(group, &members)
 }
