@@ -116,6 +116,8 @@ pub use config::{Config, Instructions, StartPolicy};
 pub use contacts::{ContactsError, FeaturePair};
 pub use distance::oracle::{Claim, DistanceOracle, Effort, GiveUp, OrElse, PiecePair};
 pub use error::InputError;
+#[doc(hidden)]
+pub use fearless_simd;
 pub use glam;
 #[cfg(feature = "exact")]
 pub use math::exact;

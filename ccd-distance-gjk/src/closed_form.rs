@@ -8,9 +8,12 @@ mod tests;
 
 use crate::tolerance::{KEEP, SUSPECT};
 use axis::{Candidates, support_gap};
+use ccd_core::fearless_simd::Level;
 use ccd_core::glam::DVec3;
-use ccd_core::{Claim, Combination, DistanceOracle, GiveUp, Piece, PiecePair};
-use nearest::{Corners, Nearest};
+use ccd_core::{
+    Claim, Combination, DistanceOracle, GiveUp, Instructions, Piece, PiecePair, vectorize,
+};
+use nearest::{Corners, Nearest, nearest};
 
 /// The distance of two points, segments or triangles in closed form, degenerate ones included.
 ///
@@ -42,8 +45,26 @@ use nearest::{Corners, Nearest};
 /// let claim = ClosedForm::default().separation(&pair, &mut ()).unwrap();
 /// assert_eq!(claim.a.of(&floor), Some(DVec3::new(1.0, 1.0, 0.0)));
 /// ```
-#[derive(Clone, Copy, Debug, Default)]
-pub struct ClosedForm;
+#[derive(Clone, Copy, Debug)]
+pub struct ClosedForm {
+    level: Level,
+}
+
+impl ClosedForm {
+    /// Computes with these instructions; the claims are the same, to the last bit.
+    pub fn new(instructions: Instructions) -> Self {
+        ClosedForm {
+            level: instructions.level(),
+        }
+    }
+}
+
+impl Default for ClosedForm {
+    /// Computes with the best instructions of the machine.
+    fn default() -> Self {
+        ClosedForm::new(Instructions::Best)
+    }
+}
 
 impl DistanceOracle for ClosedForm {
     type Cache = ();
@@ -51,13 +72,13 @@ impl DistanceOracle for ClosedForm {
     #[inline]
     fn separation(&mut self, pair: &PiecePair<'_>, (): &mut ()) -> Result<Claim, GiveUp> {
         let (p, q) = local(pair).ok_or(GiveUp::TooManyPoints)?;
-        let near = nearest::nearest(&p, &q);
+        let near = vectorize!(self.level, level => nearest(level, &p, &q));
         let w = near.difference(&p, &q);
         let separated = support_gap(&p, &q, w) >= KEEP * w.length_squared();
         let (axis, near) = if separated && w.length_squared().is_normal() {
             (w, near)
         } else {
-            examine(&p, &q, near)
+            examine(self.level, &p, &q, near)
         };
         Ok(Claim {
             axis,
@@ -71,9 +92,9 @@ impl DistanceOracle for ClosedForm {
 /// there is one.
 #[cold]
 #[inline(never)]
-fn examine(p: &Corners, q: &Corners, near: Nearest) -> (DVec3, Nearest) {
+fn examine(level: Level, p: &Corners, q: &Corners, near: Nearest) -> (DVec3, Nearest) {
     let w = near.difference(p, q);
-    let best = Candidates::new(p, q, w).best();
+    let best = vectorize!(level, level => Candidates::new(level, p, q, w).best());
     if best.gap >= SUSPECT * w.length() && best.gap > 0.0 {
         return (best.direction, near);
     }

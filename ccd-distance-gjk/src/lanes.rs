@@ -1,41 +1,45 @@
 //! Four vectors at once, coordinate by coordinate.
 
+use ccd_core::fearless_simd::{ExtractToken, Simd, f64x4, prelude::*};
 use ccd_core::glam::DVec3;
-use wide::f64x4;
 
 /// Four vectors.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Lanes3 {
-    pub(crate) x: f64x4,
-    pub(crate) y: f64x4,
-    pub(crate) z: f64x4,
+pub(crate) struct Lanes3<L: Simd> {
+    pub(crate) x: f64x4<L>,
+    pub(crate) y: f64x4<L>,
+    pub(crate) z: f64x4<L>,
 }
 
-impl Lanes3 {
+impl<L: Simd> Lanes3<L> {
     /// The same vector four times.
     #[inline(always)]
-    pub(crate) fn splat(v: DVec3) -> Self {
+    pub(crate) fn splat(level: L, v: DVec3) -> Self {
         Lanes3 {
-            x: f64x4::splat(v.x),
-            y: f64x4::splat(v.y),
-            z: f64x4::splat(v.z),
+            x: splat(level, v.x),
+            y: splat(level, v.y),
+            z: splat(level, v.z),
         }
     }
 
     /// Four vectors side by side.
     #[inline(always)]
-    pub(crate) fn new(v: [DVec3; 4]) -> Self {
+    pub(crate) fn new(level: L, [a, b, c, d]: [DVec3; 4]) -> Self {
         Lanes3 {
-            x: f64x4::new(v.map(|v| v.x)),
-            y: f64x4::new(v.map(|v| v.y)),
-            z: f64x4::new(v.map(|v| v.z)),
+            x: [a.x, b.x, c.x, d.x].simd_into(level),
+            y: [a.y, b.y, c.y, d.y].simd_into(level),
+            z: [a.z, b.z, c.z, d.z].simd_into(level),
         }
+    }
+
+    #[inline(always)]
+    pub(crate) fn level(&self) -> L {
+        self.x.token()
     }
 
     /// The vector in one lane.
     pub(crate) fn lane(self, k: usize) -> DVec3 {
-        let at = |c: f64x4| c.to_array()[k];
-        DVec3::new(at(self.x), at(self.y), at(self.z))
+        DVec3::new(self.x[k], self.y[k], self.z[k])
     }
 
     /// Returns `self − other`.
@@ -50,7 +54,7 @@ impl Lanes3 {
 
     /// Returns `self + t · direction`.
     #[inline(always)]
-    pub(crate) fn along(self, t: f64x4, direction: Self) -> Self {
+    pub(crate) fn along(self, t: f64x4<L>, direction: Self) -> Self {
         Lanes3 {
             x: self.x + t * direction.x,
             y: self.y + t * direction.y,
@@ -60,7 +64,7 @@ impl Lanes3 {
 
     /// Returns `self − t · direction`.
     #[inline(always)]
-    pub(crate) fn back(self, t: f64x4, direction: Self) -> Self {
+    pub(crate) fn back(self, t: f64x4<L>, direction: Self) -> Self {
         Lanes3 {
             x: self.x - t * direction.x,
             y: self.y - t * direction.y,
@@ -70,7 +74,7 @@ impl Lanes3 {
 
     /// Scalar products.
     #[inline(always)]
-    pub(crate) fn dot(self, other: Self) -> f64x4 {
+    pub(crate) fn dot(self, other: Self) -> f64x4<L> {
         self.x * other.x + (self.y * other.y + self.z * other.z)
     }
 
@@ -93,14 +97,21 @@ impl Lanes3 {
     }
 }
 
+#[inline(always)]
+pub(crate) fn splat<L: Simd>(level: L, x: f64) -> f64x4<L> {
+    f64x4::splat(level, x)
+}
+
 /// Returns `1 / x`, or 0 where x is not positive: projections onto zero vectors are zero.
 #[inline(always)]
-pub(crate) fn reciprocal(x: f64x4) -> f64x4 {
-    x.simd_gt(f64x4::ZERO).select(f64x4::ONE / x, f64x4::ZERO)
+pub(crate) fn reciprocal<L: Simd>(x: f64x4<L>) -> f64x4<L> {
+    let level = x.token();
+    x.simd_gt(0.0)
+        .select(splat(level, 1.0) / x, splat(level, 0.0))
 }
 
 /// Clamps to [0, 1].
 #[inline(always)]
-pub(crate) fn clamp_unit(x: f64x4) -> f64x4 {
-    x.fast_max(f64x4::ZERO).fast_min(f64x4::ONE)
+pub(crate) fn clamp_unit<L: Simd>(x: f64x4<L>) -> f64x4<L> {
+    x.max(0.0).min(1.0)
 }

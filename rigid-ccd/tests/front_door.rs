@@ -112,7 +112,7 @@ fn backends_agree() {
     let time = |found: Result<Option<rigid_ccd::Hit>, Error>| found.unwrap().unwrap().time;
     let by_default = time(first_contact(query.0, query.1, 1.0));
     let mut gjk = Solver::with_oracle(Gjk);
-    let mut both = Solver::with_oracle(rigid_ccd::ClosedForm.or_else(Gjk));
+    let mut both = Solver::with_oracle(rigid_ccd::ClosedForm::default().or_else(Gjk));
     for other in [
         time(gjk.first_contact(query.0, query.1, 1.0)),
         time(both.first_contact(query.0, query.1, 1.0)),

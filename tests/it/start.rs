@@ -221,7 +221,8 @@ fn a_liar_cannot_release_a_pair() {
     let bodies = query.triangles();
     let problem = query.problem(&bodies, &leave(1e-3));
     for axis in [DVec3::X, DVec3::Y, -DVec3::Y, -DVec3::Z, DVec3::NAN] {
-        let answer = BestFirst::default().solve(&problem, &mut AxisLiar(axis, ClosedForm));
+        let answer =
+            BestFirst::default().solve(&problem, &mut AxisLiar(axis, ClosedForm::default()));
         assert!(!is_free(answer.outcome), "{axis} {answer:?}");
     }
 }

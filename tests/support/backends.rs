@@ -87,7 +87,7 @@ impl Backend {
     /// Answers with a fresh schedule and a fresh oracle.
     pub fn solve(self, problem: &Problem<'_>) -> Answer {
         match self.oracle {
-            Oracle::ClosedForm => self.solve_with(problem, &mut ClosedForm),
+            Oracle::ClosedForm => self.solve_with(problem, &mut ClosedForm::default()),
             Oracle::Gjk => self.solve_with(problem, &mut Gjk),
             Oracle::Direct => self.solve_with(problem, &mut Direct::default()),
             Oracle::Vmarch => self.solve_with(problem, &mut Vmarch::default().or_else(Gjk)),

@@ -4,7 +4,9 @@ use crate::config::Instructions;
 use fearless_simd::Level;
 
 impl Instructions {
-    pub(crate) fn level(self) -> Level {
+    /// Returns these instructions as [`vectorize!`](crate::vectorize) takes them.
+    #[doc(hidden)]
+    pub fn level(self) -> Level {
         match self {
             Instructions::Best => Level::new(),
             Instructions::Baseline => Level::baseline(),
@@ -18,41 +20,41 @@ impl Instructions {
 ///
 /// AVX-512 is left out: eight lanes of f32 gain nothing by it, and rustc 1.95 miscompiles it. Every
 /// level more is a copy of the code.
+///
+/// For the distance backends of this project; no stable interface.
+#[doc(hidden)]
+#[macro_export]
 macro_rules! vectorize {
+    (@with $token:expr, $name:ident => $value:expr) => {{
+        use $crate::fearless_simd::Simd as _;
+        let $name = $token;
+        $name.vectorize(
+            #[inline(always)]
+            || $value,
+        )
+    }};
     ($level:expr, $token:ident => $value:expr) => {{
         #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
         {
-            use fearless_simd::Simd as _;
             match $level.as_avx2() {
-                Some($token) => $token.vectorize(
-                    #[inline(always)]
-                    || $value,
-                ),
+                Some(avx2) => $crate::vectorize!(@with avx2, $token => $value),
                 None => {
-                    let $token = $level.as_sse2().expect("an x86 target with SSE2");
-                    $token.vectorize(
-                        #[inline(always)]
-                        || $value,
-                    )
+                    let sse2 = $level.as_sse2().expect("an x86 target with SSE2");
+                    $crate::vectorize!(@with sse2, $token => $value)
                 }
             }
         }
         #[cfg(target_arch = "aarch64")]
         {
-            use fearless_simd::Simd as _;
-            let $token = $level.as_neon().expect("64-bit ARM with NEON");
-            $token.vectorize(
-                #[inline(always)]
-                || $value,
-            )
+            let neon = $level.as_neon().expect("64-bit ARM with NEON");
+            $crate::vectorize!(@with neon, $token => $value)
         }
         #[cfg(not(any(target_arch = "x86", target_arch = "x86_64", target_arch = "aarch64")))]
         {
-            fearless_simd::dispatch!($level, $token => $value)
+            $crate::fearless_simd::dispatch!($level, $token => $value)
         }
     }};
 }
-pub(crate) use vectorize;
 
 #[cfg(all(
     any(target_arch = "x86", target_arch = "x86_64"),

@@ -2,11 +2,11 @@
 //! rounding.
 
 use super::nearest::Corners;
-use crate::lanes::{Lanes3, reciprocal};
+use crate::lanes::{Lanes3, reciprocal, splat};
+use ccd_core::fearless_simd::{Simd, f64x4, prelude::*};
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 use ccd_core::vector::unit;
-use wide::f64x4;
 
 /// A unit vector and the support gap along it.
 #[derive(Clone, Copy, Debug)]
@@ -38,39 +38,40 @@ pub(crate) fn support_gap(p: &Corners, q: &Corners, n: DVec3) -> f64 {
 /// vertex and an edge, `w` made perpendicular to the edge; for two edges, their cross product; for
 /// a face, its normal; and in one plane, the normals of the edges within it.
 #[derive(Debug)]
-pub(crate) struct Candidates {
-    directions: [Lanes3; GROUPS],
+pub(crate) struct Candidates<L: Simd> {
+    directions: [Lanes3<L>; GROUPS],
     /// Support gaps along unit vectors, −∞ for directions that are zero.
-    gaps: [f64x4; GROUPS],
+    gaps: [f64x4<L>; GROUPS],
 }
 
 const GROUPS: usize = 8;
 
-impl Candidates {
+impl<L: Simd> Candidates<L> {
     /// Computes all axes of two triangles whose nearest points differ by about `w`.
-    pub(crate) fn new(p: &Corners, q: &Corners, w: DVec3) -> Self {
+    #[inline(always)]
+    pub(crate) fn new(level: L, p: &Corners, q: &Corners, w: DVec3) -> Self {
         let (edges_p, edges_q) = (edges(p), edges(q));
         let (normal_p, normal_q) = (normal(&edges_p), normal(&edges_q));
-        let lanes_q = with(edges_q, DVec3::ZERO);
+        let lanes_q = with(level, edges_q, DVec3::ZERO);
         // Nearly parallel edges have a cross product that rounding tilts along them.
         let cross = |e: DVec3| {
-            let e = Lanes3::splat(e);
+            let e = Lanes3::splat(level, e);
             let n = e.cross(lanes_q);
             n.perpendicular_to(e).perpendicular_to(lanes_q)
         };
-        let w = Lanes3::splat(w);
+        let w = Lanes3::splat(level, w);
         let mut out = Candidates {
             directions: [
                 cross(edges_p[0]),
                 cross(edges_p[1]),
                 cross(edges_p[2]),
-                w.perpendicular_to(with(edges_p, DVec3::ZERO)),
+                w.perpendicular_to(with(level, edges_p, DVec3::ZERO)),
                 w.perpendicular_to(lanes_q),
-                with(edges_p.map(|e| e.cross(normal_p)), normal_p),
-                with(edges_q.map(|e| e.cross(normal_q)), normal_q),
-                frame(&edges_p, &edges_q),
+                with(level, edges_p.map(|e| e.cross(normal_p)), normal_p),
+                with(level, edges_q.map(|e| e.cross(normal_q)), normal_q),
+                frame(level, &edges_p, &edges_q),
             ],
-            gaps: [f64x4::ZERO; GROUPS],
+            gaps: [splat(level, 0.0); GROUPS],
         };
         for (n, gap) in out.directions.iter_mut().zip(&mut out.gaps) {
             (*n, *gap) = oriented(p, q, *n);
@@ -80,15 +81,14 @@ impl Candidates {
 
     /// Returns the axis with the largest gap.
     pub(crate) fn best(&self) -> Axis {
-        let gaps = self.gaps.map(f64x4::to_array);
-        let gap = |k: usize| gaps[k / 4][k % 4];
+        let gap = |k: usize| self.gaps[k / 4][k % 4];
         let best = (0..4 * GROUPS).fold(0, |best, k| if gap(k) > gap(best) { k } else { best });
         self.axis(best)
     }
 
     fn axis(&self, k: usize) -> Axis {
         let direction = self.directions[k / 4].lane(k % 4);
-        let gap = self.gaps[k / 4].to_array()[k % 4];
+        let gap = self.gaps[k / 4][k % 4];
         if gap > f64::NEG_INFINITY {
             let direction = unit(direction).unwrap_or(DVec3::ZERO);
             Axis { direction, gap }
@@ -99,23 +99,24 @@ impl Candidates {
 }
 
 /// Turns each direction towards the larger gap, and returns that gap along the unit vector.
-#[inline]
-fn oriented(p: &Corners, q: &Corners, n: Lanes3) -> (Lanes3, f64x4) {
-    let [a, b, c] = p.map(|x| n.dot(Lanes3::splat(x)));
-    let [d, e, f] = q.map(|y| n.dot(Lanes3::splat(y)));
-    let ahead = d.fast_min(e).fast_min(f) - a.fast_max(b).fast_max(c);
-    let behind = a.fast_min(b).fast_min(c) - d.fast_max(e).fast_max(f);
+#[inline(always)]
+fn oriented<L: Simd>(p: &Corners, q: &Corners, n: Lanes3<L>) -> (Lanes3<L>, f64x4<L>) {
+    let level = n.level();
+    let [a, b, c] = p.map(|x| n.dot(Lanes3::splat(level, x)));
+    let [d, e, f] = q.map(|y| n.dot(Lanes3::splat(level, y)));
+    let ahead = d.min(e).min(f) - a.max(b).max(c);
+    let behind = a.min(b).min(c) - d.max(e).max(f);
     let flip = behind.simd_gt(ahead);
     let length2 = n.dot(n);
-    let gap = ahead.fast_max(behind) * reciprocal(length2.sqrt());
-    let sign = flip.select(-f64x4::ONE, f64x4::ONE);
+    let gap = ahead.max(behind) * reciprocal(length2.sqrt());
+    let sign = flip.select(splat(level, -1.0), splat(level, 1.0));
     let turned = Lanes3 {
         x: n.x * sign,
         y: n.y * sign,
         z: n.z * sign,
     };
-    let none = f64x4::splat(f64::NEG_INFINITY);
-    (turned, length2.simd_gt(f64x4::ZERO).select(gap, none))
+    let none = splat(level, f64::NEG_INFINITY);
+    (turned, length2.simd_gt(0.0).select(gap, none))
 }
 
 fn edges([a, b, c]: &Corners) -> [DVec3; 3] {
@@ -134,11 +135,12 @@ fn normal(edges: &[DVec3; 3]) -> DVec3 {
 }
 
 /// Returns axes along and across the longest edge of all, for segments on one line, and for points.
-fn frame(edges_p: &[DVec3; 3], edges_q: &[DVec3; 3]) -> Lanes3 {
+#[inline(always)]
+fn frame<L: Simd>(level: L, edges_p: &[DVec3; 3], edges_q: &[DVec3; 3]) -> Lanes3<L> {
     let edge = longest(&[longest(edges_p), longest(edges_q)]);
     let along = unit(edge).unwrap_or(DVec3::X);
     let (across, other) = along.any_orthonormal_pair();
-    with([along, across, other], DVec3::ZERO)
+    with(level, [along, across, other], DVec3::ZERO)
 }
 
 fn longest(edges: &[DVec3]) -> DVec3 {
@@ -151,6 +153,7 @@ fn longest(edges: &[DVec3]) -> DVec3 {
     })
 }
 
-fn with([a, b, c]: [DVec3; 3], d: DVec3) -> Lanes3 {
-    Lanes3::new([a, b, c, d])
+#[inline(always)]
+fn with<L: Simd>(level: L, [a, b, c]: [DVec3; 3], d: DVec3) -> Lanes3<L> {
+    Lanes3::new(level, [a, b, c, d])
 }

@@ -1,10 +1,10 @@
 //! The named features, the refused pieces, and the common point of triangles that intersect inside.
 
 use super::ClosedForm;
-use super::nearest::nearest;
+use super::nearest::{Corners, Nearest};
 use super::pierce::common_point;
 use ccd_core::glam::DVec3;
-use ccd_core::{Claim, DistanceOracle, Frame, GiveUp, Piece, PiecePair};
+use ccd_core::{Claim, DistanceOracle, Frame, GiveUp, Instructions, Piece, PiecePair, vectorize};
 use rstest::rstest;
 
 const FLOOR: [DVec3; 3] = [
@@ -19,7 +19,11 @@ fn claim(a: &[DVec3], b: &[DVec3]) -> Result<Claim, GiveUp> {
         b: Piece::from_points(b),
         b_to_a: Frame::IDENTITY,
     };
-    ClosedForm.separation(&pair, &mut ())
+    ClosedForm::default().separation(&pair, &mut ())
+}
+
+fn nearest(p: &Corners, q: &Corners) -> Nearest {
+    vectorize!(Instructions::Best.level(), level => super::nearest(level, p, q))
 }
 
 fn v(x: f64, y: f64, z: f64) -> DVec3 {

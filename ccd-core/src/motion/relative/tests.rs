@@ -2,12 +2,12 @@
 
 use super::{Seen, View};
 use crate::config::Instructions;
-use crate::math::instructions::vectorize;
 use crate::math::packed::{Packed, PackedMatrix, rows};
 use crate::motion::Motion;
 use crate::motion::path::Path;
 use crate::motion::pose::Pose;
 use crate::tests::scene::{Pcg64, RngExt, direction, magnitude, rng, rotation, within};
+use crate::vectorize;
 use fearless_simd::Simd;
 use glam::DVec3;
 

@@ -7,12 +7,12 @@ use super::eight_pairs::{Larger, RelativeMotionF32};
 use super::shape::{Children, OtherBox, OtherNode, OtherTriangle};
 use super::turn::Turn;
 use crate::body::tree::{Below, LANES, Members, Named, Node, NodeId, unit_normal, up};
-use crate::math::instructions::vectorize;
 use crate::math::order::greater;
 use crate::math::packed::{Packed, PackedMatrix, as_vec3};
 use crate::motion::relative::{Seen, View};
 use crate::problem::{Side, Which};
 use crate::tolerance::{MUCH_LARGER, PLACES_F32, RATE_F32, REACH_F32, WAY_F32};
+use crate::vectorize;
 use fearless_simd::{Simd, f32x4};
 use glam::{DVec3, Vec3};
 

@@ -5,7 +5,6 @@ mod setting;
 use super::*;
 use crate::body::tree::LANES;
 use crate::config::Instructions;
-use crate::math::instructions::vectorize;
 use crate::math::order::{greater, lesser};
 use crate::schedule::nodes::axis::Axis;
 use crate::schedule::nodes::clock;
@@ -14,6 +13,7 @@ use crate::tests::scene::{Pcg64, direction, rng};
 use crate::tolerance::{
     ACROSS_F32, ATTACHED_TIME, BEND_F32, CLOCK_F32, LEAST_BEND_F32, MUCH_LARGER,
 };
+use crate::vectorize;
 use fearless_simd::Level;
 use glam::{DQuat, DVec3, Vec3};
 use setting::{Setting, Shape};

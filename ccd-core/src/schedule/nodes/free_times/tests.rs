@@ -4,8 +4,8 @@ use super::super::lanes::load;
 use super::{FreeTimes, LANE_BITS};
 use crate::body::tree::LANES;
 use crate::config::Instructions;
-use crate::math::instructions::vectorize;
 use crate::tests::scene::{Pcg64, RngExt, rng};
+use crate::vectorize;
 
 /// Times with many equal ones and extremes.
 fn time(rng: &mut Pcg64) -> f32 {
