@@ -1,7 +1,6 @@
-//! A thousand queries on all cores, with a solver for each thread.
+//! A thousand queries on all cores, answered in order.
 
-use rayon::prelude::*;
-use rigid_ccd::{Body, Error, Hit, Motion, Pose, Solver};
+use rigid_ccd::{Body, Error, Hit, Motion, Pose, QueryError, first_contacts};
 
 /// Returns the motion of a capsule that flies past a box or into it, from another side for each `k`.
 fn motion(k: u32) -> Result<Motion, Error> {
@@ -12,16 +11,17 @@ fn motion(k: u32) -> Result<Motion, Error> {
 }
 
 #[allow(clippy::print_stdout, reason = "an example shows what comes out")]
-fn main() -> Result<(), Error> {
+fn main() -> Result<(), Box<dyn std::error::Error>> {
     let capsule = Body::capsule(0.1, 0.6)?;
     let wall = Body::cuboid([0.5, 1.0, 0.5])?;
 
-    let hits = (0..1000_u32)
-        .into_par_iter()
-        .map_init(Solver::new, |solver, k| {
-            solver.first_contact((&capsule, motion(k)?), (&wall, Motion::STILL), 1.0)
-        })
-        .collect::<Result<Vec<Option<Hit>>, Error>>()?;
+    let mut queries = Vec::new();
+    for k in 0..1000 {
+        queries.push(((&capsule, motion(k)?), (&wall, Motion::STILL), 1.0));
+    }
+    // The error of a query has its index.
+    let hits: Result<Vec<Option<Hit>>, QueryError> = first_contacts(&queries).into_iter().collect();
+    let hits = hits?;
 
     let times: Vec<f64> = hits.iter().flatten().map(|hit| hit.time).collect();
     let mean = times.iter().sum::<f64>() / times.len() as f64;

@@ -2,16 +2,16 @@
 //!
 //! Public only because `ccd-bench` shares it; no stable interface. Use [`Solver`](crate::Solver) instead.
 
+mod batch_size;
 mod solver_kind;
-mod threads;
 
+pub use batch_size::BatchSize;
 pub use solver_kind::{BoundKind, OracleKind, ScheduleKind, Solve, SolverKind};
-pub use threads::Threads;
 
+use crate::ParallelSolver;
 use crate::table::motions::Query;
 use ccd_core::{Answer, Body, Config, InputError, Moving, Problem};
 use std::num::NonZeroUsize;
-use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
 /// The two bodies of a query; both may be the same.
@@ -53,40 +53,22 @@ pub(crate) struct Timed {
     pub(crate) micros: f64,
 }
 
-/// A solver of queries on a pair of bodies, for several threads.
+/// Creates a solver for each thread that `--threads` asks for, by default one for each core.
+pub fn on_threads<S>(threads: Option<u16>, solver: impl FnMut() -> S) -> ParallelSolver<S> {
+    match threads.and_then(|threads| NonZeroUsize::new(threads.into())) {
+        Some(threads) => ParallelSolver::with_threads(threads, solver),
+        None => ParallelSolver::new(solver),
+    }
+}
+
+/// Answers a query as often as the settings say.
 ///
 /// On one thread, only the query runs between two readings of the clock. On all cores, queries share
 /// caches and memory, and each may take longer.
-pub(crate) struct PairSolver<'b> {
-    bodies: Bodies<'b>,
-    settings: Settings,
-    /// One solver for each thread, with the memory that queries work in.
-    solvers: Vec<Mutex<Box<dyn Solve>>>,
-}
-
-impl<'b> PairSolver<'b> {
-    /// Creates a solver for these threads.
-    pub(crate) fn new(bodies: Bodies<'b>, settings: Settings, threads: &Threads) -> Self {
-        let solver = |_| Mutex::new(settings.method.solver());
-        PairSolver {
-            bodies,
-            settings,
-            solvers: (0..threads.threads().get()).map(solver).collect(),
-        }
-    }
-
-    /// Answers a query on that thread; the answer does not depend on the thread.
-    ///
-    /// # Errors
-    /// The query is not valid.
-    pub(crate) fn answer(&self, thread: usize, query: &Query) -> Result<Timed, InputError> {
-        let solver = &self.solvers[thread % self.solvers.len()];
-        let mut solver = solver.lock().unwrap_or_else(PoisonError::into_inner);
-        time(self.bodies, query, &self.settings, solver.as_mut())
-    }
-}
-
-fn time(
+///
+/// # Errors
+/// The query is not valid.
+pub(crate) fn time(
     bodies: Bodies<'_>,
     query: &Query,
     settings: &Settings,

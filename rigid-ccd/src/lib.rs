@@ -18,7 +18,8 @@
 //! | to … | use |
 //! |---|---|
 //! | answer one query | [`first_contact`] |
-//! | answer many | [`Solver`], one for each thread |
+//! | answer many on all cores, in order | [`first_contacts`], [`ParallelSolver`] |
+//! | answer many one after another | [`Solver`] |
 //! | set a tolerance, a margin, a budget or a deadline | [`Solver::with_config`] |
 //! | make a body | [`Body::ball`], [`Body::capsule`], [`Body::cuboid`], `load` for a file |
 //! | make a body from vertices and faces in memory | `mesh::TriangleMesh::new`, then `mesh::body_from_mesh`; or [`Pieces::triangles`] |
@@ -64,6 +65,7 @@ mod error;
 mod hit;
 #[cfg(feature = "meshes")]
 mod load;
+mod parallel;
 mod solver;
 #[cfg(feature = "command")]
 pub mod table;
@@ -90,6 +92,7 @@ pub use error::Error;
 pub use hit::{Hit, HitKind};
 #[cfg(feature = "meshes")]
 pub use load::load;
+pub use parallel::{ParallelSolver, QueryError, first_contacts};
 pub use solver::{Solver, first_contact};
 
 /// The example in the README.

@@ -33,7 +33,8 @@ pub fn first_contact<'b>(
     Solver::new().first_contact(a, b, duration)
 }
 
-/// A solver for many queries, which reuses its memory. Use one for each thread.
+/// A solver for many queries, which reuses its memory. A [`ParallelSolver`](crate::ParallelSolver) has one
+/// for each thread.
 ///
 /// ```
 /// use rigid_ccd::{Body, Config, Motion, Pose, Solver};

@@ -6,14 +6,14 @@ use anyhow::{Context, Result};
 use ccd_core::order::greater;
 use ccd_decomp::TriangleMesh;
 use clap::Args;
-use rigid_ccd::batch::Threads;
+use rigid_ccd::ParallelSolver;
+use rigid_ccd::batch::{BatchSize, on_threads};
 use rigid_ccd::command::{
     BadRows, CannotWrite, Exit, Progress, Size, Table, Total, complain, input_name, open_motions,
     refuse_overwriting, same_file,
 };
 use rigid_ccd::table::motions::MotionRow;
 use std::io::{self, Write};
-use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -86,7 +86,9 @@ pub(super) fn run(args: &TruthArgs) -> Result<Exit> {
     let (a, b) = load(args)?;
     let referee = Referee::new(&a, b.as_ref().unwrap_or(&a));
     let mut table = Table::create(&args.out, &TRUTH_COLUMNS)?;
-    let mut threads = Threads::new(args.threads.and_then(|n| NonZeroUsize::new(n.into())))?;
+    // A referee has no memory to work in: all threads share one.
+    let mut referees = on_threads(args.threads, || &referee);
+    let mut size = BatchSize::new(referees.threads());
     let progress = match args.quiet {
         true => Progress::hidden(),
         false => Progress::new(length.map_or(Total::Unknown, Total::Bytes)),
@@ -94,12 +96,14 @@ pub(super) fn run(args: &TruthArgs) -> Result<Exit> {
     let mut bad_rows = BadRows::new(input_name(&args.motions));
     let (mut seen, start) = (Seen::default(), Instant::now());
     loop {
-        let batch: Result<Vec<MotionRow>, _> = rows.by_ref().take(threads.batch()).collect();
+        let batch: Result<Vec<MotionRow>, _> = rows.by_ref().take(size.items()).collect();
         let batch = batch.with_context(|| input_name(&args.motions))?;
         if batch.is_empty() {
             break;
         }
-        let truths = judge(&mut threads, &referee, &batch, &progress);
+        let started = Instant::now();
+        let truths = judge(&mut referees, &batch, &progress);
+        size.adapt(started.elapsed());
         progress.read(rows.bytes());
         for (row, truth) in batch.iter().zip(truths) {
             if let Err(error) = row {
@@ -154,12 +158,11 @@ fn load(args: &TruthArgs) -> Result<(Surface, Option<Surface>)> {
 
 /// Returns the truth of every row, `None` for invalid ones.
 fn judge(
-    threads: &mut Threads,
-    referee: &Referee<'_>,
+    referees: &mut ParallelSolver<&Referee<'_>>,
     batch: &[MotionRow],
     progress: &Progress,
 ) -> Vec<Option<Truth>> {
-    threads.work(batch, |_, row| {
+    referees.map(batch, |referee, row| {
         let query = row.as_ref().map(|(_, query)| query);
         let truth = query.ok().map(|query| referee.first_contact(query));
         progress.step();

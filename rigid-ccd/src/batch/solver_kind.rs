@@ -132,6 +132,8 @@ impl SolverKind {
     }
 }
 
+/// Solvers of several threads are on cache lines of their own, as a [`crate::ParallelSolver`] has them.
+#[repr(align(128))]
 struct Pairing<S, O> {
     schedule: S,
     oracle: O,

@@ -15,7 +15,7 @@ pub(super) use args::QueryArgs;
 use super::bad_rows::BadRows;
 use super::files::{input_name, is_standard, open_motions, refuse_overwriting};
 use super::{Exit, complain};
-use crate::batch::{BoundKind, PairSolver, Settings, SolverKind, Threads};
+use crate::batch::{BatchSize, BoundKind, Settings, SolverKind, on_threads};
 use crate::command::progress::{Progress, Total};
 use crate::table::results::Extent;
 use answering::Answering;
@@ -49,13 +49,13 @@ pub(super) fn run(args: &QueryArgs) -> Result<Exit> {
     if settings.method.bound == BoundKind::Published {
         complain("--bound published: times are not certified, contacts may be late or missed");
     }
-    let threads = Threads::new(args.threads.and_then(|n| NonZeroUsize::new(n.into())))?;
+    let solver = on_threads(args.threads, || settings.method.solver());
     let mut answering = Answering {
         args,
         bodies: pair.bodies(),
-        config: settings.config,
-        solver: PairSolver::new(pair.bodies(), settings, &threads),
-        threads,
+        settings,
+        batch: BatchSize::new(solver.threads()),
+        solver,
         outputs,
         summary: Summary::new(args.tolerance).with_earlier(start.counts),
         bad_rows: BadRows::new(input_name(&args.motions)),

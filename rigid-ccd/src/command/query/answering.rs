@@ -4,7 +4,8 @@ use super::args::QueryArgs;
 use super::journal::Checkpoint;
 use super::outputs::Outputs;
 use super::summary::Summary;
-use crate::batch::{Bodies, PairSolver, Threads, Timed};
+use crate::ParallelSolver;
+use crate::batch::{BatchSize, Bodies, Settings, Solve, Timed, time};
 use crate::command::bad_rows::BadRows;
 use crate::command::files::{CannotWrite, Motions, input_name};
 use crate::command::progress::Progress;
@@ -12,15 +13,15 @@ use crate::table::contacts;
 use crate::table::motions::{MotionRow, Query, RowError, RowPosition, RowProblem, TableError};
 use crate::table::results::{self, ResultRow};
 use anyhow::{Context, Result};
-use ccd_core::Config;
+use std::time::Instant;
 
 /// A run that answers rows batch by batch.
 pub(super) struct Answering<'a> {
     pub(super) args: &'a QueryArgs,
     pub(super) bodies: Bodies<'a>,
-    pub(super) config: Config,
-    pub(super) solver: PairSolver<'a>,
-    pub(super) threads: Threads,
+    pub(super) settings: Settings,
+    pub(super) solver: ParallelSolver<Box<dyn Solve>>,
+    pub(super) batch: BatchSize,
     pub(super) outputs: Outputs,
     pub(super) summary: Summary,
     pub(super) bad_rows: BadRows,
@@ -38,7 +39,7 @@ impl Answering<'_> {
         loop {
             let end = self.args.rows.end;
             let remaining = end.map_or(usize::MAX, |end| end.saturating_sub(done.rows));
-            let size = self.threads.batch().min(remaining);
+            let size = self.batch.items().min(remaining);
             let (batch, broken) = read_batch(rows, size);
             if batch.is_empty() && broken.is_none() {
                 return Ok(done);
@@ -61,15 +62,19 @@ impl Answering<'_> {
 
     /// Answers a batch of rows, and writes their results and contacts.
     fn answer(&mut self, batch: &[MotionRow]) -> Result<(), CannotWrite> {
-        let (solver, progress) = (&self.solver, &self.progress);
-        let answers = self.threads.work(batch, |thread, row| {
+        let (bodies, settings, progress) = (self.bodies, &self.settings, &self.progress);
+        let start = Instant::now();
+        let answers = self.solver.map(batch, |solver, row| {
             let answer = match row {
-                Ok((_, query)) => solver.answer(thread, query).map_err(RowProblem::from),
+                Ok((_, query)) => {
+                    time(bodies, query, settings, solver.as_mut()).map_err(RowProblem::from)
+                }
                 Err(error) => Err(error.problem.clone()),
             };
             progress.step();
             answer
         });
+        self.batch.adapt(start.elapsed());
         let mut answered = Vec::new();
         for (row, answer) in batch.iter().zip(&answers) {
             let (position, id) = match row {
@@ -112,10 +117,10 @@ impl Answering<'_> {
         let Some(table) = &mut self.outputs.contacts else {
             return Ok(());
         };
-        let (bodies, config) = (self.bodies, &self.config);
+        let (bodies, config) = (self.bodies, &self.settings.config);
         // A row may have very many contacts.
         for few in answered.chunks(ROWS_OF_CONTACTS) {
-            let all = self.threads.map(few, |_, (_, query, timed)| {
+            let all = self.solver.map(few, |_, (_, query, timed)| {
                 contacts::rows(bodies, query, config, &timed.answer.outcome)
             });
             for ((position, ..), rows) in few.iter().zip(all) {

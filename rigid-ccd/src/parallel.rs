@@ -1,0 +1,217 @@
+//! Many queries, side by side on several threads.
+
+use crate::{Error, Hit, Solver};
+use ccd_core::{DistanceOracle, Moving};
+use std::num::NonZeroUsize;
+use std::panic::resume_unwind;
+use std::sync::OnceLock;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread::{self, Builder, available_parallelism};
+
+/// Finds the first contact of each pair of moving bodies, on all cores.
+///
+/// A query has the arguments of [`first_contact`](crate::first_contact): both bodies with their motions,
+/// and the duration. The pairs may be of different bodies. The answers are in the order of the queries, and
+/// the same bits on any number of cores. A [`ParallelSolver`] takes a number of threads, a tolerance or a
+/// limit, and keeps its memory from call to call.
+///
+/// # Errors
+/// Each query has a result of its own; its error is that of [`first_contact`](crate::first_contact), with
+/// the index of the query.
+///
+/// ```
+/// use rigid_ccd::{Body, Motion, Pose, first_contacts};
+/// let (ball, wall) = (Body::ball(0.5)?, Body::cuboid([0.1, 5.0, 5.0])?);
+/// let left = Pose::at([-3.0, 0.0, 0.0])?;
+/// let mut queries = Vec::new();
+/// for speed in [1.0, 2.0, 4.0] {
+///     let flies = Motion::new(left, [speed, 0.0, 0.0], [0.0; 3])?;
+///     queries.push(((&ball, flies), (&wall, Motion::STILL), 1.0));
+/// }
+/// for (query, found) in queries.iter().zip(first_contacts(&queries)) {
+///     assert_eq!(found?.is_some(), query.0.1.velocity().x > 2.4);
+/// }
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn first_contacts<'b, A, B>(queries: &[(A, B, f64)]) -> Vec<Result<Option<Hit>, QueryError>>
+where
+    A: Into<Moving<'b>> + Copy + Sync,
+    B: Into<Moving<'b>> + Copy + Sync,
+{
+    ParallelSolver::new(Solver::new).first_contacts(queries)
+}
+
+/// The error of one query of many.
+#[derive(Debug, thiserror::Error)]
+#[error("query {query}: {error}")]
+pub struct QueryError {
+    /// The index of the query, counted from 0.
+    pub query: usize,
+    /// What is wrong with it.
+    #[source]
+    pub error: Error,
+}
+
+/// Solvers for many queries side by side, one on each thread. Keep it between calls: it reuses its memory.
+///
+/// Each thread takes the next query when it has answered one, so that a few slow queries do not hold up the
+/// others. No thread waits for a lock. Answers are in the order of the queries. They are the same bits on
+/// any number of threads, unless a [deadline](ccd_core::Config::deadline) ends a query.
+///
+/// A panic ends a call: the threads take no more queries, and the panic goes on in the caller.
+///
+/// ```
+/// use rigid_ccd::{Body, Config, Motion, ParallelSolver, Pose, Solver};
+/// use std::num::NonZeroUsize;
+///
+/// let config = Config { tolerance: 1e-6, ..Config::default() };
+/// let threads = NonZeroUsize::new(2).expect("not 0");
+/// let mut solver = ParallelSolver::with_threads(threads, || Solver::new().with_config(config));
+///
+/// // The edges of a planner, against both links of an arm.
+/// let (gripper, forearm) = (Body::ball(0.2)?, Body::capsule(0.1, 0.6)?);
+/// let shelf = Body::cuboid([1.0, 0.3, 0.05])?;
+/// let mut queries = Vec::new();
+/// for height in [0.0, 0.2, 0.4] {
+///     let reach = Motion::new(Pose::at([0.0, -2.0, height])?, [0.0, 2.0, 0.0], [0.0; 3])?;
+///     for link in [&gripper, &forearm] {
+///         queries.push(((link, reach), (&shelf, Motion::STILL), 1.0));
+///     }
+/// }
+/// let hits: Vec<bool> = solver
+///     .first_contacts(&queries)
+///     .into_iter()
+///     .map(|found| found.map(|hit| hit.is_some()))
+///     .collect::<Result<_, _>>()?;
+/// assert_eq!(hits, [true, true, true, true, false, true]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub struct ParallelSolver<S = Solver> {
+    /// Not empty.
+    solvers: Vec<Own<S>>,
+}
+
+/// A value on cache lines of its own: a thread that writes to a line slows down all others that use it.
+/// Processors fetch lines of 64 bytes in pairs.
+#[repr(align(128))]
+struct Own<S>(S);
+
+impl<S> ParallelSolver<S> {
+    /// Creates a solver for each core, such as `ParallelSolver::new(Solver::new)`.
+    pub fn new(solver: impl FnMut() -> S) -> Self {
+        let cores = available_parallelism().unwrap_or(NonZeroUsize::MIN);
+        ParallelSolver::with_threads(cores, solver)
+    }
+
+    /// Creates a solver for each of that many threads.
+    pub fn with_threads(threads: NonZeroUsize, mut solver: impl FnMut() -> S) -> Self {
+        let solvers = (0..threads.get()).map(|_| Own(solver())).collect();
+        ParallelSolver { solvers }
+    }
+
+    /// Returns the number of threads.
+    pub fn threads(&self) -> usize {
+        self.solvers.len()
+    }
+}
+
+impl<O> ParallelSolver<Solver<O>>
+where
+    O: DistanceOracle + Send,
+    O::Cache: Send,
+{
+    /// Finds the first contact of each pair, as the function [`first_contacts`] does.
+    ///
+    /// # Errors
+    /// The errors of [`first_contacts`], for each query alone.
+    pub fn first_contacts<'b, A, B>(
+        &mut self,
+        queries: &[(A, B, f64)],
+    ) -> Vec<Result<Option<Hit>, QueryError>>
+    where
+        A: Into<Moving<'b>> + Copy + Sync,
+        B: Into<Moving<'b>> + Copy + Sync,
+    {
+        let found = self.map(queries, |solver, &(a, b, duration)| {
+            solver.first_contact(a, b, duration)
+        });
+        let found = found.into_iter().enumerate();
+        found
+            .map(|(query, found)| found.map_err(|error| QueryError { query, error }))
+            .collect()
+    }
+}
+
+impl<S: Send> ParallelSolver<S> {
+    /// Calls a function with a solver and each query, and returns the results in the order of the queries.
+    ///
+    /// Queries and results may be of any type: [`Solver::answer`] gives statistics, for instance. All
+    /// results are in memory at one time; pass very many queries in parts.
+    ///
+    /// The caller's thread works as well. The others last for this call, and where one cannot be started,
+    /// the rest do its work.
+    ///
+    /// # Panics
+    /// `answer` panics.
+    ///
+    /// ```
+    /// use rigid_ccd::{Body, Motion, ParallelSolver, Pose, Solver};
+    /// let ball = Body::ball(0.5)?;
+    /// let flies = |speed| Motion::new(Pose::at([-3.0, 0.0, 0.0])?, [speed, 0.0, 0.0], [0.0; 3]);
+    /// let speeds: Vec<f64> = (1..100).map(f64::from).collect();
+    /// let answers = ParallelSolver::new(Solver::new).map(&speeds, |solver, &speed| {
+    ///     solver.answer((&ball, flies(speed)?), (&ball, Motion::STILL), 1.0)
+    /// });
+    /// for answer in answers {
+    ///     assert!(answer?.stats.iterations > 0);
+    /// }
+    /// # Ok::<(), rigid_ccd::Error>(())
+    /// ```
+    pub fn map<Q: Sync, R: Send + Sync>(
+        &mut self,
+        queries: &[Q],
+        answer: impl Fn(&mut S, &Q) -> R + Sync,
+    ) -> Vec<R> {
+        // The counter only shares out the queries: the end of a thread makes its results visible.
+        let next = Own(AtomicUsize::new(0));
+        let results: Vec<OnceLock<R>> = queries.iter().map(|_| OnceLock::new()).collect();
+        let work = |own: &mut Own<S>| {
+            let _stop = StopOnPanic(&next.0, queries.len());
+            loop {
+                let index = next.0.fetch_add(1, Ordering::Relaxed);
+                let Some(query) = queries.get(index) else {
+                    return;
+                };
+                // No other thread has this index: the cell is empty.
+                let _ = results[index].set(answer(&mut own.0, query));
+            }
+        };
+        let useful = self.solvers.len().min(queries.len());
+        if let Some((mine, others)) = self.solvers[..useful].split_first_mut() {
+            thread::scope(|scope| {
+                let start = |own| Builder::new().spawn_scoped(scope, || work(own)).ok();
+                let others: Vec<_> = others.iter_mut().map_while(start).collect();
+                work(mine);
+                for other in others {
+                    other.join().unwrap_or_else(|panic| resume_unwind(panic));
+                }
+            });
+        }
+        let results = results.into_iter().filter_map(OnceLock::into_inner);
+        results.collect()
+    }
+}
+
+/// Leaves no query to the other threads when this one panics.
+struct StopOnPanic<'c>(&'c AtomicUsize, usize);
+
+impl Drop for StopOnPanic<'_> {
+    fn drop(&mut self) {
+        if thread::panicking() {
+            self.0.store(self.1, Ordering::Relaxed);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

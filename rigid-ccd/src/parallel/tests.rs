@@ -1,0 +1,167 @@
+use super::*;
+use ccd_core::{Body, Config, InputError, Motion, Pose};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::atomic::AtomicBool;
+
+fn solver(threads: usize) -> ParallelSolver {
+    ParallelSolver::with_threads(NonZeroUsize::new(threads).unwrap(), Solver::new)
+}
+
+fn capsule() -> Body {
+    Body::capsule(0.1, 0.6).unwrap()
+}
+
+/// A turning motion that comes nearer than the one before.
+fn flies(k: u32) -> Motion {
+    let from = Pose::at([-3.0, 1.5 - 0.01 * f64::from(k), 0.1]).unwrap();
+    Motion::new(from, [5.0, 0.0, 0.0], [0.3, 2.0, f64::from(k)]).unwrap()
+}
+
+/// What identifies an answer to the last bit.
+fn bits(found: &[Result<Option<Hit>, QueryError>]) -> Vec<String> {
+    found.iter().map(|found| format!("{found:?}")).collect()
+}
+
+#[test]
+fn answers_are_the_same_bits_in_order_on_any_number_of_threads() {
+    let (capsule, cuboid, ball) = (
+        capsule(),
+        Body::cuboid([0.5, 0.4, 0.3]).unwrap(),
+        Body::ball(0.7).unwrap(),
+    );
+    let targets = [&cuboid, &ball, &capsule];
+    let queries: Vec<_> = (0..200)
+        .map(|k| {
+            let target = targets[k as usize % targets.len()];
+            ((&capsule, flies(k)), (target, Motion::STILL), 1.0)
+        })
+        .collect();
+    let mut one = Solver::new();
+    let alone: Vec<_> = queries
+        .iter()
+        .map(|&(a, b, duration)| Ok(one.first_contact(a, b, duration).unwrap()))
+        .collect();
+    let hits = alone.iter().flatten().flatten().count();
+    assert!((50..150).contains(&hits), "{hits} of 200 hit");
+    assert_eq!(bits(&first_contacts(&queries)), bits(&alone));
+    for threads in [1, 2, 5] {
+        let mut many = solver(threads);
+        assert_eq!(many.threads(), threads);
+        for _ in 0..2 {
+            assert_eq!(bits(&many.first_contacts(&queries)), bits(&alone));
+        }
+    }
+}
+
+#[test]
+fn results_are_in_order_when_queries_take_unlike_times() {
+    // The first queries take a thousand times as long as the others.
+    let queries: Vec<u64> = (0..5000).collect();
+    let work = |count: &mut u64, &query: &u64| {
+        let steps = if query < 10 { 100_000 } else { 100 };
+        *count += 1;
+        (0..steps).fold(query, |sum, step| std::hint::black_box(sum ^ step))
+    };
+    let expected: Vec<u64> = queries.iter().map(|query| work(&mut 0, query)).collect();
+    for threads in [1, 2, 5] {
+        let mut counts = ParallelSolver::with_threads(NonZeroUsize::new(threads).unwrap(), || 0);
+        assert_eq!(counts.map(&queries, work), expected);
+        let done: u64 = counts.solvers.iter().map(|own| own.0).sum();
+        assert_eq!(done, 5000, "each query is answered once");
+    }
+}
+
+#[test]
+fn no_queries_and_more_threads_than_queries() {
+    let capsule = capsule();
+    let query = |k| ((&capsule, flies(k)), (&capsule, Motion::STILL), 1.0);
+    for threads in [1, 2, 5] {
+        let queries = [query(130), query(0)];
+        assert!(solver(threads).first_contacts(&queries[..0]).is_empty());
+        let few = solver(threads).first_contacts(&queries);
+        assert_eq!(few.len(), 2);
+        assert!(matches!(few[..], [Ok(Some(_)), Ok(None)]), "{few:?}");
+    }
+}
+
+#[test]
+fn an_error_has_the_index_of_its_query() {
+    let capsule = capsule();
+    let query = |k, duration| ((&capsule, flies(k)), (&capsule, Motion::STILL), duration);
+    let mut queries = [query(130, 1.0); 40];
+    queries[7].2 = -1.0;
+    queries[31].2 = f64::NAN;
+    for threads in [1, 2, 5] {
+        let found = solver(threads).first_contacts(&queries);
+        for (index, found) in found.iter().enumerate() {
+            match found {
+                Ok(hit) => assert!(hit.is_some() && index != 7 && index != 31),
+                Err(error) => {
+                    assert_eq!(error.query, index);
+                    assert!([7, 31].contains(&index));
+                    let input = matches!(error.error, Error::Input(InputError::OutOfRange { .. }));
+                    assert!(input || index == 31, "{error}");
+                    assert!(error.to_string().starts_with(&format!("query {index}: ")));
+                }
+            }
+        }
+        let all: Result<Vec<_>, _> = found.into_iter().collect();
+        assert_eq!(all.unwrap_err().query, 7);
+    }
+}
+
+#[test]
+fn limits_are_those_of_each_solver() {
+    let (capsule, cuboid) = (capsule(), Body::cuboid([0.5, 0.4, 0.3]).unwrap());
+    let config = Config {
+        budget: 1,
+        ..Config::default()
+    };
+    let mut solver = ParallelSolver::new(|| Solver::new().with_config(config));
+    let query = ((&capsule, flies(130)), (&cuboid, Motion::STILL), 1.0);
+    for found in solver.first_contacts(&[query; 3]) {
+        let error = found.unwrap_err().error;
+        assert!(matches!(error, Error::Unresolved { .. }), "{error}");
+    }
+}
+
+/// Says that a panic is past its message, which may take long.
+struct Unwinds<'f>(&'f AtomicBool);
+
+impl Drop for Unwinds<'_> {
+    fn drop(&mut self) {
+        self.0.store(true, Ordering::SeqCst);
+    }
+}
+
+#[test]
+fn a_panic_reaches_the_caller_and_stops_the_other_threads() {
+    let queries: Vec<usize> = (0..1_000_000).collect();
+    for threads in [1, 2, 5] {
+        let panicked = AtomicBool::new(false);
+        let mut counts = ParallelSolver::with_threads(NonZeroUsize::new(threads).unwrap(), || 0);
+        let call = AssertUnwindSafe(|| {
+            counts.map(&queries, |count, &query| {
+                if query == 3 {
+                    let _unwinds = Unwinds(&panicked);
+                    panic!("query 3 is broken");
+                }
+                // The others wait until the panic is on its way.
+                while query > 3 && !panicked.load(Ordering::SeqCst) {
+                    thread::yield_now();
+                }
+                *count += 1;
+                thread::yield_now();
+            })
+        });
+        let panic = catch_unwind(call).unwrap_err();
+        assert_eq!(panic.downcast_ref(), Some(&"query 3 is broken"));
+        let done: usize = counts.solvers.iter().map(|own| own.0).sum();
+        assert!(done < queries.len() - 1, "{done} queries were answered");
+        // The solvers are there for the next call.
+        assert_eq!(
+            counts.map(&queries[..100], |_, &query| query),
+            queries[..100]
+        );
+    }
+}
