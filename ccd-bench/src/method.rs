@@ -8,7 +8,7 @@ use crate::method::peer::PeerKind;
 use crate::method::rival::{C2a, Contact, DynamicChecker, Stepping};
 use crate::method::solver::{Adjustable, Claim, Reply, Solver};
 use crate::scene::{Pieces, Scene};
-use ccd_core::{Config, Outcome};
+use ccd_core::{Config, Instructions, Outcome};
 use rigid_ccd::batch::{Bodies, BoundKind, OracleKind, ScheduleKind, Solve, SolverKind, solve};
 use rigid_ccd::table::motions::Query;
 use std::fmt;
@@ -138,7 +138,7 @@ impl<'s> Ours<'s> {
         Ours {
             bodies,
             kind,
-            solver: kind.solver(),
+            solver: kind.solver(Instructions::Best),
             config: Config {
                 tolerance,
                 ..Config::default()

@@ -16,7 +16,7 @@ mod simulation;
 use anyhow::{Context, Result, bail};
 use ccd_bench::scene::model::Model;
 use ccd_core::glam::{DQuat, DVec3};
-use ccd_core::{Body, Config, Motion, Outcome, Pose};
+use ccd_core::{Body, Config, Instructions, Motion, Outcome, Pose};
 use ccd_decomp::{Detail, TriangleMesh, body_from_mesh};
 use rand::{Rng, RngExt, SeedableRng};
 use rand_pcg::Pcg64;
@@ -124,7 +124,7 @@ fn record(recording: &Recording, models: Option<&Path>) -> Result<Table> {
     let mut subject = Subject {
         body: &body,
         centre: DVec3::ZERO,
-        solver: SolverKind::default().solver(),
+        solver: SolverKind::default().solver(Instructions::Best),
     };
     let mut table = Table {
         text: HEADER.to_owned(),

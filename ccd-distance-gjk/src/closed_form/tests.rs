@@ -5,6 +5,8 @@ use super::nearest::{Corners, Nearest};
 use super::pierce::common_point;
 use ccd_core::glam::DVec3;
 use ccd_core::{Claim, DistanceOracle, Frame, GiveUp, Instructions, Piece, PiecePair, vectorize};
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64;
 use rstest::rstest;
 
 const FLOOR: [DVec3; 3] = [
@@ -88,4 +90,31 @@ fn does_not_pierce_outside_of_the_face() {
         .difference(&FLOOR, &spear)
         .length();
     assert!((after - before).abs() < 1e-14);
+}
+
+#[test]
+fn all_instructions_give_the_same_bits() {
+    let mut rng = Pcg64::seed_from_u64(1);
+    let mut near = 0;
+    for _ in 0..20_000 {
+        // Some pairs touch, or lie in one plane: the axis is then computed from features.
+        let flat = rng.random_bool(0.2);
+        let mut triangle = |height: f64| {
+            [(); 3].map(|()| {
+                let [x, y, z] = [(); 3].map(|()| rng.random_range(-1.0..1.0));
+                v(x, y, if flat { height } else { z + height })
+            })
+        };
+        let (a, b) = (triangle(0.0), triangle(if flat { 1e-13 } else { 1.0 }));
+        let pair = PiecePair {
+            a: Piece::from_points(&a),
+            b: Piece::from_points(&b),
+            b_to_a: Frame::IDENTITY,
+        };
+        let claim = |set| ClosedForm::new(set).separation(&pair, &mut ());
+        let best = claim(Instructions::Best).expect("triangles");
+        assert_eq!(Ok(best), claim(Instructions::Baseline));
+        near += usize::from(best.axis.length() < 1e-6 || flat);
+    }
+    assert!(near > 2_000, "{near}");
 }

@@ -2,8 +2,8 @@
 
 use ccd_core::Bound;
 use ccd_core::schedule::{BestFirst, Fast, Naive};
-use ccd_core::{Answer, DistanceOracle, OrElse, Problem, Schedule};
-use ccd_distance_gjk::{Direct, Gjk};
+use ccd_core::{Answer, DistanceOracle, Instructions, Problem, Schedule};
+use ccd_distance_gjk::{ClosedForm, Gjk};
 use ccd_distance_vmarch::Vmarch;
 use clap::ValueEnum;
 use std::fmt;
@@ -100,21 +100,20 @@ impl SolverKind {
         })
     }
 
-    /// Creates a solver.
-    pub fn solver(self) -> Box<dyn Solve> {
+    /// Creates a solver whose backend computes with these instructions.
+    pub fn solver(self, instructions: Instructions) -> Box<dyn Solve> {
         match self.oracle {
-            OracleKind::Direct => self.with_oracle::<Direct>(),
-            OracleKind::Gjk => self.with_oracle::<Gjk>(),
-            OracleKind::Vmarch => self.with_oracle::<OrElse<Vmarch, Gjk>>(),
+            OracleKind::Direct => self.with_oracle(ClosedForm::new(instructions).or_else(Gjk)),
+            OracleKind::Gjk => self.with_oracle(Gjk),
+            OracleKind::Vmarch => self.with_oracle(Vmarch::default().or_else(Gjk)),
         }
     }
 
-    fn with_oracle<O>(self) -> Box<dyn Solve>
+    fn with_oracle<O>(self, oracle: O) -> Box<dyn Solve>
     where
-        O: DistanceOracle + Default + Send + 'static,
+        O: DistanceOracle + Send + 'static,
         O::Cache: Send,
     {
-        let oracle = O::default();
         match self.schedule {
             ScheduleKind::BestFirst => Box::new(Pairing {
                 schedule: BestFirst::<O>::default(),

@@ -49,7 +49,9 @@ pub(super) fn run(args: &QueryArgs) -> Result<Exit> {
     if settings.method.bound == BoundKind::Published {
         complain("--bound published: times are not certified, contacts may be late or missed");
     }
-    let solver = on_threads(args.threads, || settings.method.solver());
+    let solver = on_threads(args.threads, || {
+        settings.method.solver(settings.config.instructions)
+    });
     let mut answering = Answering {
         args,
         bodies: pair.bodies(),

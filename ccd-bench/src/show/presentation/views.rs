@@ -4,7 +4,7 @@ use crate::scene::Scene;
 use crate::show::chart::Charts;
 use crate::show::report::{Page, PageError, Shot, View};
 use crate::show::tables::TextTable;
-use ccd_core::{Config, InputError, Outcome};
+use ccd_core::{Config, InputError, Instructions, Outcome};
 use rigid_ccd::batch::SolverKind;
 use rigid_ccd::batch::solve;
 use std::path::{Path, PathBuf};
@@ -57,7 +57,7 @@ pub(super) fn write_page(
 
 /// Returns the view of a scene with the first motions of each kind.
 fn view(scene: &Scene) -> Result<View<'_>, InputError> {
-    let mut solver = SolverKind::default().solver();
+    let mut solver = SolverKind::default().solver(Instructions::Best);
     let mut shots = Vec::new();
     let (mut contacts, mut others) = (0, 0);
     for query in &scene.queries {

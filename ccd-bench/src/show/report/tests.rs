@@ -5,7 +5,7 @@ use crate::show::chart::{Family, MethodFacts, SceneFacts};
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 use ccd_core::glam::{DQuat, DVec3};
-use ccd_core::{Config, Motion, Pose};
+use ccd_core::{Config, Instructions, Motion, Pose};
 use ccd_decomp::{Detail, body_from_mesh};
 use rigid_ccd::batch::SolverKind;
 use rigid_ccd::batch::{Bodies, solve};
@@ -28,7 +28,7 @@ fn shot(mesh: &TriangleMesh, aside: f64) -> Shot {
         duration: 2.0,
     };
     let bodies = Bodies { a: &body, b: &body };
-    let mut solver = SolverKind::default().solver();
+    let mut solver = SolverKind::default().solver(Instructions::Best);
     let answer = solve(bodies, &query, &Config::default(), solver.as_mut()).unwrap();
     Shot { query, answer }
 }
