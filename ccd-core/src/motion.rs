@@ -8,7 +8,7 @@ mod interop;
 pub(crate) mod path;
 pub(crate) mod pose;
 pub(crate) mod track;
-mod trig;
+pub(crate) mod trig;
 
 use crate::error::InputError;
 use crate::math::vector::length;

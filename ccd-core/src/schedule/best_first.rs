@@ -3,6 +3,7 @@
 use super::answer::answer;
 use super::contract::Schedule;
 use super::meter::Meter;
+use super::nodes::closer_look::CloserLook;
 use super::nodes::expand::expand;
 use super::nodes::siblings::{Next, Siblings};
 use super::pieces::pair::Pair;
@@ -94,8 +95,10 @@ impl<O: DistanceOracle> BestFirst<O> {
             return unresolved(problem, 0.0, Limit::Budget);
         }
         let mut proven = Proven::default();
+        let mut look = CloserLook::new(problem);
         loop {
-            if let ControlFlow::Break(outcome) = self.visit(problem, oracle, meter, &mut proven) {
+            let visit = self.visit(problem, &mut look, oracle, meter, &mut proven);
+            if let ControlFlow::Break(outcome) = visit {
                 return outcome;
             }
         }
@@ -106,6 +109,7 @@ impl<O: DistanceOracle> BestFirst<O> {
     fn visit(
         &mut self,
         problem: &Problem<'_>,
+        look: &mut CloserLook,
         oracle: &mut O,
         meter: &mut Meter,
         proven: &mut Proven,
@@ -121,7 +125,8 @@ impl<O: DistanceOracle> BestFirst<O> {
         if let Err(limit) = meter.visit() {
             return ControlFlow::Break(unresolved(problem, s, limit));
         }
-        let (next, rest) = match item {
+        // The rest of the siblings wait for their own clocks.
+        let (rest, (clock, new)) = match item {
             Item::Pieces(pair) => {
                 let step = pair.advance(problem, oracle, meter, s);
                 match proven.conclude(problem, oracle, meter, step, s)? {
@@ -130,22 +135,17 @@ impl<O: DistanceOracle> BestFirst<O> {
                 }
                 return ControlFlow::Continue(());
             }
-            // The rest of the siblings wait for their own clocks.
-            Item::Siblings(siblings) => (siblings.take_least(problem, s), siblings.clock()),
-        };
-        let (clock, new) = match next {
-            Next::Split(split) => {
-                let expansion = expand(problem, &split, s);
-                proven.keep(f64::from(expansion.bounds.kept));
-                let siblings = Siblings::new(&expansion, split, s);
-                (siblings.clock(), Item::Siblings(siblings))
-            }
-            Next::Ask(a, b) => {
-                let mut pair = Pair::new(a, b);
-                let step = pair.advance(problem, oracle, meter, s);
-                let clock = proven.conclude(problem, oracle, meter, step, s)?;
-                (clock, Item::Pieces(pair))
-            }
+            Item::Siblings(siblings) => match look.clock(problem, siblings.least_pair(), s) {
+                Some(clock) => {
+                    let alone = siblings.part_least(clock);
+                    (siblings.clock(), (clock, Item::Siblings(alone)))
+                }
+                None => {
+                    let next = siblings.take_least(problem, s);
+                    let rest = siblings.clock();
+                    (rest, follow(problem, look, oracle, meter, proven, (next, s))?)
+                }
+            },
         };
         match self.wait(rest, clock, new) {
             Ok(()) => ControlFlow::Continue(()),
@@ -177,6 +177,33 @@ impl<O: DistanceOracle> BestFirst<O> {
         };
         self.queue.push(0.0, item.rank(), item)
     }
+}
+
+/// Splits a pair whose clock is `s`, or asks about it: returns what waits in its place, and its clock.
+#[inline]
+fn follow<O: DistanceOracle>(
+    problem: &Problem<'_>,
+    look: &mut CloserLook,
+    oracle: &mut O,
+    meter: &mut Meter,
+    proven: &mut Proven,
+    (next, s): (Next, f64),
+) -> ControlFlow<Outcome, (f64, Item<O::Cache>)> {
+    ControlFlow::Continue(match next {
+        Next::Split(split) => {
+            let expansion = expand(problem, &split, s);
+            proven.keep(f64::from(expansion.bounds.kept));
+            let mut siblings = Siblings::new(&expansion, split, s);
+            look.finish(problem, &split, s, &mut siblings);
+            (siblings.clock(), Item::Siblings(siblings))
+        }
+        Next::Ask(a, b) => {
+            let mut pair = Pair::new(a, b);
+            let step = pair.advance(problem, oracle, meter, s);
+            let clock = proven.conclude(problem, oracle, meter, step, s)?;
+            (clock, Item::Pieces(pair))
+        }
+    })
 }
 
 fn unresolved(problem: &Problem<'_>, s: f64, reason: Limit) -> Outcome {

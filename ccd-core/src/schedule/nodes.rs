@@ -6,10 +6,15 @@
 mod axis;
 mod bounds;
 mod clock;
+pub(super) mod closer_look;
 mod eight_pairs;
 pub(super) mod expand;
+mod flat_pair;
 mod free_times;
 mod lanes;
+mod placed;
+mod profile;
+mod screw;
 mod shape;
 pub(super) mod siblings;
 mod sweeping_node;
