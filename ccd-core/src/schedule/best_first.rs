@@ -143,7 +143,10 @@ impl<O: DistanceOracle> BestFirst<O> {
                 None => {
                     let next = siblings.take_least(problem, s);
                     let rest = siblings.clock();
-                    (rest, follow(problem, look, oracle, meter, proven, (next, s))?)
+                    (
+                        rest,
+                        follow(problem, look, oracle, meter, proven, (next, s))?,
+                    )
                 }
             },
         };

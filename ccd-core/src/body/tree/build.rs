@@ -207,7 +207,10 @@ impl Layout {
             let corners = pieces.points_of(slot.start as usize..slot.end as usize);
             Some((id, Slab::about(corners, node.centre)?))
         };
-        (0..).zip(self.nodes.iter().zip(nodes)).filter_map(slab).collect()
+        (0..)
+            .zip(self.nodes.iter().zip(nodes))
+            .filter_map(slab)
+            .collect()
     }
 }
 

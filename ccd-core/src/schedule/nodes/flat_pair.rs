@@ -107,3 +107,6 @@ fn free_along(problem: &Problem<'_>, a: &Flat<'_>, b: &Flat<'_>, n: DVec3, s: f6
     };
     lesser(f64::MAX, gap.free_time())
 }
+
+#[cfg(test)]
+mod tests;

@@ -62,7 +62,10 @@ impl<'p> Placed<'p> {
                 let (along, size) = (self.frame.inverse_vector(n), n.length());
                 let half = |k: usize| f64::from(node.half[k]) * along.dot(axis(node, k)).abs();
                 let rounding = f64::from(node.rounding) + BOX_AXES_F32 * self.radius;
-                lesser(half(0) + half(1) + half(2) + rounding * size, self.radius * size)
+                lesser(
+                    half(0) + half(1) + half(2) + rounding * size,
+                    self.radius * size,
+                )
             }
         }
     }

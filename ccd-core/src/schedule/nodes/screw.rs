@@ -144,3 +144,6 @@ fn profile(side: &Side<'_>, id: NodeId, axis: &ScrewAxis) -> Option<Profile> {
         _ => Profile::new(&place(id), axis),
     }
 }
+
+#[cfg(test)]
+mod tests;
