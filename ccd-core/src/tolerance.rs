@@ -360,7 +360,7 @@ pub const SCREW_DRIFT: f64 = 1.0 / 256.0;
 /// counts as sideways. Its pitch would be so small that nodes span many.
 pub const LEAST_ADVANCE: f64 = 1.0 / 65536.0;
 
-/// The number of visits after which nodes are compared along a screw: profiles of nodes are worth
+/// The number of splits after which nodes are compared along a screw: profiles of nodes are worth
 /// their cost to long queries only.
 pub const SCREW_AFTER: u64 = 512;
 

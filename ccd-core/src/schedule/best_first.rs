@@ -125,8 +125,7 @@ impl<O: DistanceOracle> BestFirst<O> {
         if let Err(limit) = meter.visit() {
             return ControlFlow::Break(unresolved(problem, s, limit));
         }
-        // The rest of the siblings wait for their own clocks.
-        let (rest, (clock, new)) = match item {
+        let (next, rest) = match item {
             Item::Pieces(pair) => {
                 let step = pair.advance(problem, oracle, meter, s);
                 match proven.conclude(problem, oracle, meter, step, s)? {
@@ -135,42 +134,56 @@ impl<O: DistanceOracle> BestFirst<O> {
                 }
                 return ControlFlow::Continue(());
             }
-            Item::Siblings(siblings) => match look.clock(problem, siblings.least_pair(), s) {
-                Some(clock) => {
-                    let alone = siblings.part_least(clock);
-                    (siblings.clock(), (clock, Item::Siblings(alone)))
-                }
-                None => {
-                    let next = siblings.take_least(problem, s);
+            Item::Siblings(siblings) => {
+                if let Some((clock, alone)) = look.part(problem, siblings, s) {
                     let rest = siblings.clock();
-                    (
-                        rest,
-                        follow(problem, look, oracle, meter, proven, (next, s))?,
-                    )
+                    return self.wait(problem, s, rest, (clock, Item::Siblings(alone)));
                 }
-            },
+                // The rest of the siblings wait for their own clocks.
+                (siblings.take_least(problem, s), siblings.clock())
+            }
         };
-        match self.wait(rest, clock, new) {
-            Ok(()) => ControlFlow::Continue(()),
-            Err(Full) => ControlFlow::Break(unresolved(problem, s, Limit::Budget)),
-        }
+        let new = match next {
+            Next::Split(split) => {
+                let expansion = expand(problem, &split, s);
+                proven.keep(f64::from(expansion.bounds.kept));
+                let mut siblings = Siblings::new(&expansion, split, s);
+                look.finish(problem, &split, s, &mut siblings);
+                (siblings.clock(), Item::Siblings(siblings))
+            }
+            Next::Ask(a, b) => {
+                let mut pair = Pair::new(a, b);
+                let step = pair.advance(problem, oracle, meter, s);
+                let clock = proven.conclude(problem, oracle, meter, step, s)?;
+                (clock, Item::Pieces(pair))
+            }
+        };
+        self.wait(problem, s, rest, new)
     }
 
-    /// Lets the siblings of a pair and what became of it wait for their clocks, if these are before
-    /// the end.
-    #[inline]
-    fn wait(&mut self, rest: f64, clock: f64, new: Item<O::Cache>) -> Result<(), Full> {
+    /// Lets the siblings of a pair and what became of it at clock `s` wait for their clocks, if these
+    /// are before the end.
+    #[inline(always)]
+    fn wait(
+        &mut self,
+        problem: &Problem<'_>,
+        s: f64,
+        rest: f64,
+        (clock, new): (f64, Item<O::Cache>),
+    ) -> ControlFlow<Outcome> {
         // Written so that NaN is not the end.
         match (rest >= 1.0, clock >= 1.0) {
             (false, false) => {
                 self.queue.postpone(rest);
-                return self.queue.push(clock, new.rank(), new);
+                if let Err(Full) = self.queue.push(clock, new.rank(), new) {
+                    return ControlFlow::Break(unresolved(problem, s, Limit::Budget));
+                }
             }
             (false, true) => self.queue.postpone(rest),
             (true, false) => self.queue.replace(clock, new.rank(), new),
             (true, true) => self.queue.remove(),
         }
-        Ok(())
+        ControlFlow::Continue(())
     }
 
     fn open_roots(&mut self, problem: &Problem<'_>) -> Result<(), Full> {
@@ -180,33 +193,6 @@ impl<O: DistanceOracle> BestFirst<O> {
         };
         self.queue.push(0.0, item.rank(), item)
     }
-}
-
-/// Splits a pair whose clock is `s`, or asks about it: returns what waits in its place, and its clock.
-#[inline]
-fn follow<O: DistanceOracle>(
-    problem: &Problem<'_>,
-    look: &mut CloserLook,
-    oracle: &mut O,
-    meter: &mut Meter,
-    proven: &mut Proven,
-    (next, s): (Next, f64),
-) -> ControlFlow<Outcome, (f64, Item<O::Cache>)> {
-    ControlFlow::Continue(match next {
-        Next::Split(split) => {
-            let expansion = expand(problem, &split, s);
-            proven.keep(f64::from(expansion.bounds.kept));
-            let mut siblings = Siblings::new(&expansion, split, s);
-            look.finish(problem, &split, s, &mut siblings);
-            (siblings.clock(), Item::Siblings(siblings))
-        }
-        Next::Ask(a, b) => {
-            let mut pair = Pair::new(a, b);
-            let step = pair.advance(problem, oracle, meter, s);
-            let clock = proven.conclude(problem, oracle, meter, step, s)?;
-            (clock, Item::Pieces(pair))
-        }
-    })
 }
 
 fn unresolved(problem: &Problem<'_>, s: f64, reason: Limit) -> Outcome {

@@ -6,7 +6,6 @@ use super::expand::Split;
 use super::flat_pair;
 use super::screw::Screw;
 use super::siblings::Siblings;
-use crate::body::tree::NodeId;
 use crate::problem::{Problem, Side};
 use crate::tolerance::{COARSE_F32, REACH_F32, SCREW_AFTER};
 
@@ -15,8 +14,8 @@ use crate::tolerance::{COARSE_F32, REACH_F32, SCREW_AFTER};
 pub(crate) struct CloserLook {
     /// True if the gaps of the largest nodes are rounded by more than they have to be known.
     fine: bool,
-    /// The visits left until it is asked whether the motion is a screw.
-    left: u64,
+    /// The splits so far.
+    splits: u64,
     screw: Option<Screw>,
 }
 
@@ -26,23 +25,28 @@ impl CloserLook {
         let rounding = f64::from(REACH_F32) * (radius(&problem.a) + radius(&problem.b));
         CloserLook {
             fine: rounding > COARSE_F32 * problem.node_gap(),
-            left: SCREW_AFTER,
+            splits: 0,
             screw: None,
         }
     }
 
-    /// Returns a later clock for two nodes, of A and of B, whose clock `s` has run out, if there is
-    /// one.
-    #[inline]
-    pub(crate) fn clock(&self, problem: &Problem<'_>, nodes: [NodeId; 2], s: f64) -> Option<f64> {
+    /// Takes the pair of least clock, which is `s`, out of siblings, if there is a later clock for
+    /// it; returns that clock and the pair, which is to wait alone.
+    #[inline(always)]
+    pub(crate) fn part(
+        &self,
+        problem: &Problem<'_>,
+        siblings: &mut Siblings,
+        s: f64,
+    ) -> Option<(f64, Siblings)> {
         match self.fine {
-            true => flat_clock(problem, nodes, s),
+            true => part_flat(problem, siblings, s),
             false => None,
         }
     }
 
     /// Finishes those pairs of a new split that stay apart for good.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn finish(
         &mut self,
         problem: &Problem<'_>,
@@ -50,11 +54,22 @@ impl CloserLook {
         s: f64,
         siblings: &mut Siblings,
     ) {
-        if self.left > 0 {
-            self.left -= 1;
-            if self.left == 0 {
-                self.screw = Screw::of(problem);
-            }
+        self.splits += 1;
+        if self.splits >= SCREW_AFTER {
+            self.finish_along_screw(problem, split, s, siblings);
+        }
+    }
+
+    #[cold]
+    fn finish_along_screw(
+        &mut self,
+        problem: &Problem<'_>,
+        split: &Split,
+        s: f64,
+        siblings: &mut Siblings,
+    ) {
+        if self.splits == SCREW_AFTER {
+            self.screw = Screw::of(problem);
         }
         // A second look at a single pair would give the same result.
         if let Some(screw) = &mut self.screw
@@ -65,8 +80,10 @@ impl CloserLook {
     }
 }
 
-fn flat_clock(problem: &Problem<'_>, nodes: [NodeId; 2], s: f64) -> Option<f64> {
+#[cold]
+fn part_flat(problem: &Problem<'_>, siblings: &mut Siblings, s: f64) -> Option<(f64, Siblings)> {
+    let free = flat_pair::free_time(problem, siblings.least_pair(), s);
     // One step down undoes the rounding of the sum. Written so that NaN is no clock.
-    let clock = (s + flat_pair::free_time(problem, nodes, s)).next_down();
-    (clock > s).then_some(clock)
+    let clock = (s + free).next_down();
+    (clock > s).then(|| (clock, siblings.part_least(clock)))
 }
