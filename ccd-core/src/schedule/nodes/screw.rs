@@ -11,12 +11,13 @@
 
 use super::placed::Placed;
 use super::profile::{Profile, ScrewAxis, Way, keep_apart};
-use crate::body::tree::{Below, Members, Named, Node, NodeId};
+use crate::body::tree::{Below, Members, Named, NodeId};
 use crate::math::order::lesser;
 use crate::math::vector::length;
 use crate::problem::{Problem, Side, Which};
 use crate::tolerance::{CLOSED_GAP, LEAST_ADVANCE, RATE_F64, SCREW_DRIFT, U64};
 use std::f64::consts::TAU;
+use std::ops::Range;
 
 /// The motion of one body relative to the other, along a screw, and the profiles of their nodes.
 #[derive(Debug)]
@@ -88,6 +89,30 @@ impl Screw {
         [a, b]: [NodeId; 2],
         s: f64,
     ) -> Option<bool> {
+        if self.keeps_whole_apart(problem, [a, b], s)? {
+            return Some(true);
+        }
+        let of_a = triangles(&problem.a, a);
+        let of_b = triangles(&problem.b, b);
+        let (Some(of_a), Some(of_b)) = (of_a, of_b) else {
+            return Some(false);
+        };
+        // Groups of triangles whose outlines overlap hardly ever have triangles that do. To compare
+        // these costs less than to split the groups.
+        let mut of_a = of_a;
+        Some(of_a.all(|x| {
+            let mut apart = |pair| self.keeps_whole_apart(problem, pair, s) == Some(true);
+            apart([x, b]) || of_b.clone().all(|y| apart([x, y]))
+        }))
+    }
+
+    /// The same, without a look at triangles below the nodes.
+    fn keeps_whole_apart(
+        &mut self,
+        problem: &Problem<'_>,
+        [a, b]: [NodeId; 2],
+        s: f64,
+    ) -> Option<bool> {
         let [of_a, of_b] = &mut self.profiles;
         let a = of_a.of(&problem.a, a, &self.axis)?;
         let b = of_b.of(&problem.b, b, &self.axis)?;
@@ -131,17 +156,25 @@ impl Profiles {
 /// Returns the profile of a node at the start. That of a few triangles is less than that of their
 /// box.
 fn profile(side: &Side<'_>, id: NodeId, axis: &ScrewAxis) -> Option<Profile> {
-    let tree = side.body.tree();
     let place = |id: NodeId| Placed::new(side, id, 0.0);
+    match triangles(side, id) {
+        Some(few) => Profile::about(few.map(place), axis),
+        None => Profile::new(&place(id), axis),
+    }
+}
+
+/// Returns the triangle that an id names, or those of a node of a few; none for other nodes.
+fn triangles(side: &Side<'_>, id: NodeId) -> Option<Range<NodeId>> {
+    let tree = side.body.tree();
     match tree.get(id) {
-        Named::Node(&Node {
-            below: Below::Triangles(group),
-            ..
-        }) => {
-            let &Members { first, count, .. } = tree.triangle_members(group);
-            Profile::about((first..first + count).map(place), axis)
-        }
-        _ => Profile::new(&place(id), axis),
+        Named::Triangle(_) => Some(id..id + 1),
+        Named::Node(node) => match node.below {
+            Below::Triangles(group) => {
+                let &Members { first, count, .. } = tree.triangle_members(group);
+                Some(first..first + count)
+            }
+            _ => None,
+        },
     }
 }
 
