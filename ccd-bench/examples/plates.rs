@@ -24,7 +24,7 @@ fn main() -> anyhow::Result<()> {
     let body = body_from_mesh(&plate.mesh()?, Detail::Triangles)?.body;
     let mut out = std::io::stdout().lock();
     writeln!(out, "tolerance,turned,time,iterations,oracle_calls,micros")?;
-    for tolerance in [1e-3, 1e-6] {
+    for tolerance in [1e-3, 1e-6, 1e-7, 1e-9] {
         for turned in [0.0, 0.3] {
             // The plates are shifted a little against each other, so that no edge lies on another.
             let above = Pose::new(

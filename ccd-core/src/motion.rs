@@ -9,7 +9,7 @@ pub(crate) mod path;
 pub(crate) mod pose;
 pub(crate) mod relative;
 pub(crate) mod track;
-mod trig;
+pub(crate) mod trig;
 
 use crate::error::InputError;
 use crate::math::vector::length;

@@ -340,6 +340,53 @@ pub fn height_rounding(sides: [DVec3; 2], reach: f64) -> f64 {
 /// Unit: radians. Axes are rounded to f32, which turns them by up to 6e-8.
 pub const LEAST_TURN: f64 = 1e-7;
 
+/// The error of the reach of a box along an axis computed in f64, relative to its radius: its axes
+/// are orthonormal to f32 only.
+///
+/// Half sizes are measured along the rounded axes. With `U` the matrix of these, `UᵀU` differs from
+/// 1 by at most `2√3 u`, as each axis is off by `u` in length: 3.5u; 4u are taken.
+pub const BOX_AXES_F32: f64 = 4.0 * U32 as f64;
+
+/// The thickness up to which a node's box may be that of a flat node, relative to its radius: its
+/// axis is rounded to f32 ([`BOX_AXES_F32`]), its size outward.
+pub const THIN_F32: f32 = 16.0 * U32;
+
+/// The thickness of a flat node, relative to its size: coordinates of a plane are rounded by about
+/// `u` of their own, which is larger far from the origin. A larger value adds slabs that prove
+/// little; a smaller one leaves flat contact to f32.
+pub const FLAT: f64 = 1e-9;
+
+/// The least rounding of the gap of nodes in f32 at which it is worth a look in f64, in units of the
+/// gap at which clocks of nodes stop. Below it f32 proves what f64 does.
+pub const COARSE_F32: f64 = 1.0;
+
+/// The largest speed at which the axis of a screw may move sideways, per unit of the duration and of
+/// the smaller body's radius. Surfaces that turn with the screw prove nothing for long beyond it.
+pub const SCREW_DRIFT: f64 = 1.0 / 256.0;
+
+/// The advance of a screw during the query, relative to the smaller body's radius, up to which it
+/// counts as sideways. Its pitch would be so small that nodes span many.
+pub const LEAST_ADVANCE: f64 = 1.0 / 65536.0;
+
+/// The number of splits after which nodes are compared along a screw: profiles of nodes are worth
+/// their cost to long queries only.
+pub const SCREW_AFTER: u64 = 512;
+
+/// Bounds the rounding of `f = a r + b ζ` of a node, with its reach, computed in f64 (see
+/// `schedule/nodes/profile.rs`): `n` are `|a|` and `|b|`, `arm` is the distance of the node's centre
+/// from the rotation's centre, and `tilt` its ratio to the distance from the axis, times the advance
+/// per radian.
+///
+/// In units of `u`: a centre's way is rounded (1), its height taken (4) and taken off (2), and the
+/// rest measured (4), which is 11 of an arm in `z` and in `r`. The azimuth is off by that in units
+/// of the distance from the axis, and by 8 of a half turn: 37 of a tilt. Products and sums add 4 of
+/// each. Gradients are off by 12 of a tilt, multiplied with a radius below half of the distance.
+/// That is below 64 of each.
+pub fn profile_rounding(n: [f64; 2], arm: f64, tilt: f64) -> f64 {
+    let [a, b] = n;
+    64.0 * U64 * ((a + b) * arm + b * tilt.abs())
+}
+
 /// The most triangles of a node that choose the frame of its box; it then holds all of them.
 ///
 /// Unit: triangles. Smaller: boxes grow; at 16 queries visit a percent more nodes. Larger: longer

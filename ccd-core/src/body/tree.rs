@@ -7,10 +7,12 @@ mod group;
 mod node;
 pub(crate) mod point_query;
 pub(crate) mod ray;
+mod slab;
 
 pub(crate) use build::Layout;
 pub(crate) use group::{BoxGroup, LANES, Members, TriangleGroup, TriangleRow, unit_normal, up};
 pub(crate) use node::{Below, Node};
+pub(crate) use slab::Slab;
 
 use super::pieces::Pieces;
 use glam::DVec3;
@@ -26,6 +28,8 @@ pub(crate) struct Tree {
     nodes: Vec<Node>,
     boxes: Vec<BoxGroup>,
     triangles: Vec<TriangleRow>,
+    /// The slabs about flat nodes, by the nodes' numbers.
+    slabs: Vec<(NodeId, Slab)>,
     /// The largest distance of a point from the body's origin, rounding radii included.
     span: f64,
 }
@@ -50,6 +54,11 @@ impl Tree {
         }
     }
 
+    /// Returns the number of nodes.
+    pub(crate) fn nodes(&self) -> usize {
+        self.nodes.len()
+    }
+
     /// Returns the piece that an id names, if it names a single one.
     #[inline]
     pub(crate) fn piece(&self, id: NodeId) -> Option<u32> {
@@ -64,6 +73,12 @@ impl Tree {
 
     pub(crate) fn box_group(&self, index: u32) -> &BoxGroup {
         &self.boxes[index as usize]
+    }
+
+    /// Returns the slab about a flat node.
+    pub(crate) fn slab(&self, id: NodeId) -> Option<&Slab> {
+        let place = self.slabs.binary_search_by_key(&id, |&(id, _)| id).ok()?;
+        Some(&self.slabs[place].1)
     }
 
     /// Lays out a group of triangles, of the pieces that the tree is over.
@@ -109,6 +124,7 @@ impl Tree {
         size_of_val(self.nodes.as_slice())
             + size_of_val(self.boxes.as_slice())
             + size_of_val(self.triangles.as_slice())
+            + size_of_val(self.slabs.as_slice())
     }
 }
 

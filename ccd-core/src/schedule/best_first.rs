@@ -3,6 +3,7 @@
 use super::answer::answer;
 use super::contract::Schedule;
 use super::meter::Meter;
+use super::nodes::closer_look::CloserLook;
 use super::nodes::common::Common;
 use super::nodes::expand::expand;
 use super::nodes::siblings::{Next, Siblings};
@@ -101,8 +102,10 @@ impl<O: DistanceOracle> BestFirst<O> {
         }
         let common = Common::new(problem);
         let mut proven = Proven::default();
+        let mut look = CloserLook::new(problem);
         loop {
-            if let ControlFlow::Break(outcome) = self.visit(&common, oracle, meter, &mut proven) {
+            let visit = self.visit(&common, &mut look, oracle, meter, &mut proven);
+            if let ControlFlow::Break(outcome) = visit {
                 return outcome;
             }
         }
@@ -113,6 +116,7 @@ impl<O: DistanceOracle> BestFirst<O> {
     fn visit(
         &mut self,
         common: &Common<'_>,
+        look: &mut CloserLook,
         oracle: &mut O,
         meter: &mut Meter,
         proven: &mut Proven,
@@ -138,14 +142,21 @@ impl<O: DistanceOracle> BestFirst<O> {
                 }
                 return ControlFlow::Continue(());
             }
-            // The rest of the siblings wait for their own clocks.
-            Item::Siblings(siblings) => (siblings.take_least(problem, s), siblings.clock()),
+            Item::Siblings(siblings) => {
+                if let Some((clock, alone)) = look.part(problem, siblings, s) {
+                    let rest = siblings.clock();
+                    return self.wait(problem, s, rest, (clock, Item::Siblings(alone)));
+                }
+                // The rest of the siblings wait for their own clocks.
+                (siblings.take_least(problem, s), siblings.clock())
+            }
         };
-        let (clock, new) = match next {
+        let new = match next {
             Next::Split(split) => {
                 let expansion = expand(common, &split, s);
                 proven.keep(f64::from(expansion.bounds.kept));
-                let siblings = Siblings::new(&expansion, split, s);
+                let mut siblings = Siblings::new(&expansion, split, s);
+                look.finish(problem, &split, s, &mut siblings);
                 (siblings.clock(), Item::Siblings(siblings))
             }
             Next::Ask(a, b) => {
@@ -155,27 +166,32 @@ impl<O: DistanceOracle> BestFirst<O> {
                 (clock, Item::Pieces(pair))
             }
         };
-        match self.wait(rest, clock, new) {
-            Ok(()) => ControlFlow::Continue(()),
-            Err(Full) => ControlFlow::Break(unresolved(problem, s, Limit::Budget)),
-        }
+        self.wait(problem, s, rest, new)
     }
 
-    /// Lets the siblings of a pair and what became of it wait for their clocks, if these are before
-    /// the end.
-    #[inline]
-    fn wait(&mut self, rest: f64, clock: f64, new: Item<O::Cache>) -> Result<(), Full> {
+    /// Lets the siblings of a pair and what became of it at clock `s` wait for their clocks, if these
+    /// are before the end.
+    #[inline(always)]
+    fn wait(
+        &mut self,
+        problem: &Problem<'_>,
+        s: f64,
+        rest: f64,
+        (clock, new): (f64, Item<O::Cache>),
+    ) -> ControlFlow<Outcome> {
         // Written so that NaN is not the end.
         match (rest >= 1.0, clock >= 1.0) {
             (false, false) => {
                 self.queue.postpone(rest);
-                return self.queue.push(clock, new.rank(), new);
+                if let Err(Full) = self.queue.push(clock, new.rank(), new) {
+                    return ControlFlow::Break(unresolved(problem, s, Limit::Budget));
+                }
             }
             (false, true) => self.queue.postpone(rest),
             (true, false) => self.queue.replace(clock, new.rank(), new),
             (true, true) => self.queue.remove(),
         }
-        Ok(())
+        ControlFlow::Continue(())
     }
 
     fn open_roots(&mut self, problem: &Problem<'_>) -> Result<(), Full> {

@@ -6,11 +6,16 @@
 mod axis;
 mod bounds;
 mod clock;
+pub(super) mod closer_look;
 pub(super) mod common;
 mod eight_pairs;
 pub(super) mod expand;
+mod flat_pair;
 mod free_times;
 mod lanes;
+mod placed;
+mod profile;
+mod screw;
 mod shape;
 pub(super) mod siblings;
 mod sweeping_node;

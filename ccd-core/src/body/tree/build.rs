@@ -2,7 +2,7 @@
 
 use super::fit::{Cloud, Sample, fit};
 use super::group::longest;
-use super::{Below, BoxGroup, LANES, Node, Tree, TriangleRow};
+use super::{Below, BoxGroup, LANES, Node, NodeId, Slab, Tree, TriangleRow};
 use crate::body::hierarchy::{Hierarchy, HierarchyNode};
 use crate::body::piece::Piece;
 use crate::body::pieces::Pieces;
@@ -185,11 +185,32 @@ impl Layout {
             *group = TriangleRow::new(corners, after + start, nodes[parent as usize].centre);
         });
         Tree {
+            slabs: self.slabs(pieces, &nodes),
             nodes,
             boxes,
             triangles,
             span: span(pieces),
         }
+    }
+}
+
+impl Layout {
+    /// Finds the slabs about flat nodes of triangles.
+    fn slabs(&self, pieces: &Pieces, nodes: &[Node]) -> Vec<(NodeId, Slab)> {
+        if !pieces.all_triangles() {
+            return Vec::new();
+        }
+        let slab = |(id, (slot, node)): (NodeId, (&Slot, &Node))| {
+            if !node.is_thin() {
+                return None;
+            }
+            let corners = pieces.points_of(slot.start as usize..slot.end as usize);
+            Some((id, Slab::about(corners, node.centre)?))
+        };
+        (0..)
+            .zip(self.nodes.iter().zip(nodes))
+            .filter_map(slab)
+            .collect()
     }
 }
 

@@ -1,6 +1,6 @@
 //! A node: a box, a ball, and its children.
 
-use crate::tolerance::{BOX_F64, U64};
+use crate::tolerance::{BOX_F64, THIN_F32, U64};
 use glam::{DVec3, Vec3};
 
 /// An oriented box, grown by the pieces' rounding, and a ball about the same centre. Both contain
@@ -38,6 +38,11 @@ impl Node {
         rounding: 0.0,
         below: Below::Piece(0),
     };
+
+    /// Returns whether the box is as thin as that of a flat node may be.
+    pub(crate) fn is_thin(&self) -> bool {
+        self.half[2] <= THIN_F32 * self.radius
+    }
 
     /// Returns the reach of the box along one of its axes, widened because the axes are rounded.
     pub(super) fn reach_f64(&self, axis: usize) -> f64 {

@@ -368,3 +368,5 @@ fn a_large_piece_turns_past_many_small_ones_at_little_cost() {
         assert!(iterations < 512 && oracle_calls < 10, "{answer:?}");
     }
 }
+
+mod many_near;

@@ -20,9 +20,7 @@ const FINISHED: u32 = f32::INFINITY.to_bits() | LANE_BITS;
 impl FreeTimes {
     /// Creates the times of one pair, in the first lane, free until now.
     pub(super) fn one() -> Self {
-        let mut times = [FINISHED; LANES];
-        times[0] = 0;
-        FreeTimes(times)
+        FreeTimes::of_lane(0)
     }
 
     /// Packs times; lanes that are not used count as finished.
@@ -41,6 +39,19 @@ impl FreeTimes {
     #[inline]
     pub(super) fn least(&self) -> f32 {
         time(self.least_bits())
+    }
+
+    /// Creates the times of one pair, in this lane, free until now.
+    pub(super) fn of_lane(lane: usize) -> Self {
+        let mut times = [FINISHED; LANES];
+        times[lane] = lane as u32;
+        FreeTimes(times)
+    }
+
+    /// Returns the lane of the pair of least time.
+    #[inline]
+    pub(super) fn least_lane(&self) -> usize {
+        (self.least_bits() & LANE_BITS) as usize
     }
 
     /// Finishes the pair of least time, and returns its lane.
@@ -62,8 +73,12 @@ impl FreeTimes {
         lesser(lesser(a, c), lesser(b, d))
     }
 
+    /// Finishes the pair of a lane.
+    pub(super) fn finish(&mut self, lane: usize) {
+        self.0[lane] = FINISHED;
+    }
+
     /// Returns the time of a lane.
-    #[cfg(test)]
     pub(super) fn of(&self, lane: usize) -> f32 {
         time(self.0[lane])
     }

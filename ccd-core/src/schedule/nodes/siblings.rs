@@ -2,7 +2,7 @@
 
 use super::expand::{Expansion, Split};
 use super::free_times::FreeTimes;
-use crate::body::tree::NodeId;
+use crate::body::tree::{LANES, NodeId};
 use crate::math::order::greater;
 use crate::problem::Problem;
 use crate::problem::Which;
@@ -82,6 +82,45 @@ impl Siblings {
             greater(self.since, (self.since + f64::from(free)).next_down())
         } else {
             self.since
+        }
+    }
+
+    /// Returns the pair of least clock: a node of A and one of B.
+    #[inline]
+    pub(crate) fn least_pair(&self) -> [NodeId; 2] {
+        self.pair(self.free.least_lane())
+    }
+
+    fn pair(&self, lane: usize) -> [NodeId; 2] {
+        let child = self.first + lane as NodeId;
+        match self.split.body {
+            Which::A => [child, self.split.other],
+            Which::B => [self.split.other, child],
+        }
+    }
+
+    /// Finishes the pairs that stay apart for good. Those that may not are better split than looked at
+    /// again: most of the pairs that they are split into do.
+    pub(crate) fn finish(&mut self, mut keeps_apart: impl FnMut([NodeId; 2]) -> Option<bool>) {
+        let horizon = (1.0 - self.since) as f32;
+        for lane in 0..LANES {
+            // Others are certified to the end as it is.
+            if self.free.of(lane) < horizon {
+                match keeps_apart(self.pair(lane)) {
+                    Some(true) => self.free.finish(lane),
+                    Some(false) => self.waits &= !(1 << lane),
+                    None => {}
+                }
+            }
+        }
+    }
+
+    /// Takes out the pair of least clock, to wait alone for a later one.
+    pub(crate) fn part_least(&mut self, clock: f64) -> Self {
+        Siblings {
+            free: FreeTimes::of_lane(self.free.take_least()),
+            since: clock,
+            ..*self
         }
     }
 

@@ -1,0 +1,37 @@
+//! Two parallel planes about a flat node, in f64.
+
+use crate::math::order::greater;
+use crate::math::vector::unit;
+use crate::tolerance::{FLAT, U64};
+use glam::DVec3;
+
+/// The space between two parallel planes, the same distance from a node's centre. It contains all
+/// triangles of the node.
+///
+/// The axes of a node's box are rounded to f32, and so the box of a flat node that is not parallel to
+/// the coordinates is thicker than the node by that rounding.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Slab {
+    /// A unit vector.
+    pub(crate) normal: DVec3,
+    /// Half of the planes' distance.
+    pub(crate) half: f64,
+}
+
+impl Slab {
+    /// Returns none unless the triangles are in one plane up to rounding.
+    pub(super) fn about(corners: &[DVec3], centre: DVec3) -> Option<Self> {
+        let triangles = corners.as_chunks().0.iter();
+        let normal = unit(triangles.map(|[a, b, c]| (b - a).cross(c - a)).sum())?;
+        let (mut half, mut size) = (0.0, 0.0);
+        for &corner in corners {
+            let way = corner - centre;
+            half = greater(half, normal.dot(way).abs());
+            size = greater(size, way.abs().max_element());
+        }
+        // Differences are off by 1u, products with a unit vector and their sum by 3u of √3.
+        half += 16.0 * U64 * size;
+        // Written so that NaN is not flat.
+        (half <= FLAT * size).then_some(Slab { normal, half })
+    }
+}

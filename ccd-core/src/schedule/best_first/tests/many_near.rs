@@ -1,0 +1,93 @@
+//! Very many pairs of triangles near each other at once, at few visits: flat contact, and threads.
+
+use super::*;
+use glam::DQuat;
+
+/// All pairs of triangles of two plates meet at the same time, at a tolerance that f32 cannot tell
+/// from contact: few of them are looked at.
+#[test]
+fn plates_that_fall_flat_meet_at_little_cost() {
+    const SQUARES: usize = 24;
+    let own = DQuat::from_axis_angle(DVec3::new(0.6, 0.0, 0.8), 0.7);
+    let corner = |i: usize, j: usize| {
+        let [x, y] = [i, j].map(|k| k as f64 / SQUARES as f64 - 0.5);
+        own * DVec3::new(x, y, 0.0)
+    };
+    let square = |k: usize| {
+        let (i, j) = (k / SQUARES, k % SQUARES);
+        let (b, d) = (corner(i + 1, j), corner(i, j + 1));
+        [[corner(i, j), b, d], [b, corner(i + 1, j + 1), d]]
+    };
+    let plate = body(&(0..SQUARES * SQUARES).flat_map(square).collect::<Vec<_>>());
+    for tolerance in [1e-3, 1e-7, 1e-9] {
+        let config = Config {
+            tolerance,
+            ..Config::default()
+        };
+        let above = Pose::new(
+            [0.013, 0.007, 1.0],
+            DQuat::from_rotation_z(0.3) * own.inverse(),
+        );
+        let falling = Motion::new(above.unwrap(), -2.0 * DVec3::Z, DVec3::ZERO).unwrap();
+        let lying = Motion::still(Pose::new([0.0; 3], own.inverse()).unwrap());
+        let problem = Problem::new((&plate, falling), (&plate, lying), 1.0, &config).unwrap();
+        let answer = solve(&problem);
+        let Outcome::Contact { time, .. } = answer.outcome else {
+            panic!("{answer:?}");
+        };
+        assert!(time <= 0.5 && time >= 0.5 - 0.5 * tolerance, "{time}");
+        assert!(answer.stats.iterations < 100, "{:?}", answer.stats);
+    }
+}
+
+/// The surface of a thread, right-handed about z: a pitch of 1, with root and crest at these
+/// distances from the axis.
+fn thread(root: f64, crest: f64, turns: usize) -> Vec<Triangle> {
+    const SEGMENTS: usize = 24;
+    let profile = [
+        (root, 0.0),
+        (root, 0.25),
+        (crest, 0.5),
+        (crest, 0.75),
+        (root, 1.0),
+    ];
+    let corner = |k: usize, p: usize| {
+        let turn = k as f64 / SEGMENTS as f64;
+        let (sin, cos) = (turn * std::f64::consts::TAU).sin_cos();
+        let (r, z) = profile[p];
+        DVec3::new(r * cos, r * sin, z + turn)
+    };
+    let strip = |k: usize| {
+        (0..profile.len() - 1).flat_map(move |p| {
+            let (b, d) = (corner(k + 1, p), corner(k, p + 1));
+            [[corner(k, p), b, d], [b, corner(k + 1, p + 1), d]]
+        })
+    };
+    (0..turns * SEGMENTS).flat_map(strip).collect()
+}
+
+/// A bolt in a nut stays as near as it is all the way.
+#[test]
+fn a_bolt_is_screwed_through_a_nut_at_little_cost() {
+    let (bolt, nut) = (body(&thread(2.0, 2.4, 5)), body(&thread(2.15, 2.55, 3)));
+    let config = Config {
+        tolerance: 1e-4,
+        ..Config::default()
+    };
+    let answer = |advance: f64| {
+        let spin = 2.0 * std::f64::consts::TAU * DVec3::Z;
+        let screwing = Motion::new(Pose::IDENTITY, advance * DVec3::Z, spin).unwrap();
+        solve(&Problem::new((&bolt, screwing), (&nut, Motion::STILL), 1.0, &config).unwrap())
+    };
+    // Two turns at its pitch. Without profiles it takes 680,000 visits.
+    let right = answer(2.0);
+    assert!(matches!(right.outcome, Outcome::Free { .. }), "{right:?}");
+    assert!(right.stats.iterations < 60_000, "{:?}", right.stats);
+    // A thread that gains on the other one meets it before long.
+    let wrong = answer(2.5);
+    let Outcome::Contact { time, .. } = wrong.outcome else {
+        panic!("{wrong:?}");
+    };
+    let problem = |s: f64| s * 0.5 * 0.25;
+    assert!(problem(time) < 0.15, "{time}");
+}

@@ -1,0 +1,89 @@
+//! Looks at pairs of nodes in f64 that are closer than the bounds of eight in f32.
+//!
+//! They are taken only where splits would prove little.
+
+use super::expand::Split;
+use super::flat_pair;
+use super::screw::Screw;
+use super::siblings::Siblings;
+use crate::problem::{Problem, Side};
+use crate::tolerance::{COARSE_F32, REACH_F32, SCREW_AFTER};
+
+/// The looks that a query has use for.
+#[derive(Debug)]
+pub(crate) struct CloserLook {
+    /// True if the gaps of the largest nodes are rounded by more than they have to be known.
+    fine: bool,
+    /// The splits so far.
+    splits: u64,
+    screw: Option<Screw>,
+}
+
+impl CloserLook {
+    pub(crate) fn new(problem: &Problem<'_>) -> Self {
+        let radius = |side: &Side<'_>| f64::from(side.body.tree().radius());
+        let rounding = f64::from(REACH_F32) * (radius(&problem.a) + radius(&problem.b));
+        CloserLook {
+            fine: rounding > COARSE_F32 * problem.node_gap(),
+            splits: 0,
+            screw: None,
+        }
+    }
+
+    /// Takes the pair of least clock, which is `s`, out of siblings, if there is a later clock for
+    /// it; returns that clock and the pair, which is to wait alone.
+    #[inline(always)]
+    pub(crate) fn part(
+        &self,
+        problem: &Problem<'_>,
+        siblings: &mut Siblings,
+        s: f64,
+    ) -> Option<(f64, Siblings)> {
+        match self.fine {
+            true => part_flat(problem, siblings, s),
+            false => None,
+        }
+    }
+
+    /// Finishes those pairs of a new split that stay apart for good.
+    #[inline(always)]
+    pub(crate) fn finish(
+        &mut self,
+        problem: &Problem<'_>,
+        split: &Split,
+        s: f64,
+        siblings: &mut Siblings,
+    ) {
+        self.splits += 1;
+        if self.splits >= SCREW_AFTER {
+            self.finish_along_screw(problem, split, s, siblings);
+        }
+    }
+
+    #[cold]
+    fn finish_along_screw(
+        &mut self,
+        problem: &Problem<'_>,
+        split: &Split,
+        s: f64,
+        siblings: &mut Siblings,
+    ) {
+        if self.splits == SCREW_AFTER {
+            self.screw = Screw::of(problem);
+        }
+        // A second look at a single pair would give the same result.
+        if let Some(screw) = &mut self.screw
+            && split.lanes == u8::MAX
+        {
+            siblings.finish(|pair| screw.keeps_apart(problem, pair, s));
+        }
+    }
+}
+
+#[cold]
+fn part_flat(problem: &Problem<'_>, siblings: &mut Siblings, s: f64) -> Option<(f64, Siblings)> {
+    let free = flat_pair::free_time(problem, siblings.least_pair(), s);
+    // One step down undoes the rounding of the sum. Written so that NaN is no clock.
+    let clock = (s + free).next_down();
+    (clock > s).then(|| (clock, siblings.part_least(clock)))
+}

@@ -1,0 +1,112 @@
+//! Flat nodes that approach each other face to face.
+//!
+//! In f32 the gap between two large plates is known no better than their size is. At a finer
+//! tolerance all of their nodes would be split before a single pair of pieces is near enough. Their
+//! slabs are known in f64.
+
+use super::placed::Placed;
+use crate::body::tree::{Named, NodeId, Slab};
+use crate::math::order::{greater, lesser};
+use crate::math::vector::{length, unit};
+use crate::motion::gap::Gap;
+use crate::problem::{Problem, Side};
+use crate::tolerance::{CLOSED_GAP, COARSE_F32, RATE_F64, REACH_F32};
+use glam::DVec3;
+
+/// Returns a time for which two flat nodes, of A and of B, certainly stay apart by the gap of nodes
+/// from clock `s` on; 0 if they are not flat, or if f32 is fine enough for them.
+pub(super) fn free_time(problem: &Problem<'_>, [a, b]: [NodeId; 2], s: f64) -> f64 {
+    let sides = [(&problem.a, a), (&problem.b, b)];
+    if !sides.iter().all(|(side, id)| may_be_flat(side, *id)) {
+        return 0.0;
+    }
+    let [Some(a), Some(b)] = sides.map(|(side, id)| Flat::new(side, id, s)) else {
+        return 0.0;
+    };
+    let rounding = f64::from(REACH_F32) * (a.node.radius + b.node.radius);
+    if !(rounding > COARSE_F32 * problem.node_gap()) {
+        return 0.0;
+    }
+    let along = |n: DVec3| free_along(problem, &a, &b, n, s);
+    greater(along(a.normal), along(b.normal))
+}
+
+/// Whether a node is a triangle, or as thin as flat nodes are.
+fn may_be_flat(side: &Side<'_>, id: NodeId) -> bool {
+    match side.body.tree().get(id) {
+        Named::Node(node) => node.is_thin(),
+        Named::Triangle(_) => true,
+    }
+}
+
+/// A flat node where its body is.
+struct Flat<'p> {
+    node: Placed<'p>,
+    /// None for a triangle, whose corners are known.
+    half: Option<f64>,
+    /// A unit vector.
+    normal: DVec3,
+}
+
+impl<'p> Flat<'p> {
+    fn new(side: &Side<'p>, id: NodeId, s: f64) -> Option<Self> {
+        let node = Placed::new(side, id, s);
+        let tree = side.body.tree();
+        let (normal, half) = match tree.get(id) {
+            Named::Node(_) => {
+                let &Slab { normal, half } = tree.slab(id)?;
+                (normal, Some(half))
+            }
+            Named::Triangle(piece) => {
+                let [a, b, c] = side.body.pieces().triangle(piece as usize);
+                (unit((b - a).cross(c - a))?, None)
+            }
+        };
+        Some(Flat {
+            node,
+            half,
+            normal: side.path.frame(s).rotation * normal,
+        })
+    }
+
+    /// Returns `max n·(x − centre)` over the points, for a unit vector.
+    fn reach(&self, n: DVec3) -> f64 {
+        match self.half {
+            Some(half) => {
+                let along = self.normal.dot(n).abs();
+                let across = length(n.cross(self.normal));
+                half * along + self.node.radius * (across + RATE_F64)
+            }
+            None => self.node.reach(n),
+        }
+    }
+}
+
+/// Returns the time for which a fixed plane keeps the nodes apart; `n` points along it either way.
+fn free_along(problem: &Problem<'_>, a: &Flat<'_>, b: &Flat<'_>, n: DVec3, s: f64) -> f64 {
+    let way = b.node.centre - a.node.centre;
+    let n = if n.dot(way) < 0.0 { -n } else { n };
+    let gap = n.dot(way) - a.reach(n) - b.reach(-n) - problem.rounding - problem.node_gap();
+    // Written so that NaN gives no time.
+    if !(gap > CLOSED_GAP * problem.tolerance) {
+        return 0.0;
+    }
+    let (mut rate, mut bend, mut speed) = (0.0, 0.0, 0.0);
+    for (side, flat, n) in [(&problem.a, a, n), (&problem.b, b, -n)] {
+        let path = &side.path;
+        let arm = length(flat.node.centre - path.centre_at(s)) + flat.node.radius;
+        let across = length(n.cross(path.spin)) + RATE_F64 * path.rate;
+        rate += n.dot(path.velocity_at(flat.node.centre, s)) + across * flat.node.radius;
+        bend += across * path.rate * arm * (1.0 + RATE_F64);
+        speed += length(path.velocity) + path.rate * arm;
+    }
+    let gap = Gap {
+        gap,
+        rate: rate + 2.0 * RATE_F64 * speed,
+        bend,
+    };
+    lesser(f64::MAX, gap.free_time())
+}
+
+#[cfg(test)]
+mod tests;

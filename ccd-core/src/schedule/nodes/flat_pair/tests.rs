@@ -1,0 +1,58 @@
+//! Times for which flat nodes are said to stay apart, against distances at sampled times.
+
+use super::*;
+use crate::config::Config;
+use crate::motion::Motion;
+use crate::motion::pose::Pose;
+use crate::tests::nearest::Triangle;
+use crate::tests::scene::{Pcg64, RngExt, body, distance, magnitude, rng, rotation, within};
+
+/// A few triangles in one plane, up to the rounding of their coordinates.
+fn plate(rng: &mut Pcg64, frame: glam::DQuat) -> Vec<Triangle> {
+    let count = rng.random_range(2..8);
+    let mut corner = || {
+        let at = within(rng, 1.0);
+        frame * DVec3::new(at.x, at.y, 0.0)
+    };
+    (0..count).map(|_| [corner(), corner(), corner()]).collect()
+}
+
+#[test]
+fn flat_nodes_stay_apart_for_their_free_time() {
+    let mut rng = rng(1);
+    let (mut proven, mut close) = (0, 0);
+    for number in 0..2_000 {
+        let own = [rotation(&mut rng), rotation(&mut rng)];
+        let bodies = own.map(|own| body(&plate(&mut rng, own)));
+        let height = magnitude(&mut rng, -9.0, 0.0);
+        let tilt = [0.0, 1e-6][rng.random_range(0..2)];
+        let tilt = glam::DQuat::from_rotation_x(tilt) * own[0].inverse();
+        let spin = [DVec3::ZERO, DVec3::Z, within(&mut rng, 1.0)][rng.random_range(0..3)];
+        let velocity =
+            -height * rng.random_range(-1.0..4.0) * DVec3::Z + [0.0, 0.1][number % 2] * DVec3::X;
+        let falling = Pose::new(height * DVec3::Z, tilt).unwrap();
+        let lying = Pose::new(DVec3::ZERO, own[1].inverse()).unwrap();
+        let config = Config {
+            tolerance: 1e-9,
+            ..Config::default()
+        };
+        let falling = (&bodies[0], Motion::new(falling, velocity, spin).unwrap());
+        let lying = (&bodies[1], Motion::still(lying));
+        let problem = Problem::new(falling, lying, 1.0, &config).unwrap();
+        let free = free_time(&problem, [0, 0], 0.0);
+        if free > 0.0 {
+            proven += 1;
+            close += usize::from(height < 1e-6);
+        }
+        for k in 0..=20 {
+            let s = lesser(1.0, free) * f64::from(k) / 20.0;
+            let least = distance(&problem, s);
+            assert!(
+                free == 0.0 || least > problem.gap(),
+                "{number}: {least:e} at {s}"
+            );
+        }
+    }
+    // Most of those that are near are known in f64 only.
+    assert!(proven > 800 && close > 200, "{proven} {close}");
+}

@@ -1,0 +1,180 @@
+//! Nodes said to stay apart along a screw, against distances at sampled times.
+
+use super::*;
+use crate::body::Body;
+use crate::config::Config;
+use crate::math::order::lesser;
+use crate::motion::Motion;
+use crate::motion::pose::Pose;
+use crate::tests::nearest::{Triangle, nearest};
+use crate::tests::scene::{Pcg64, RngExt, body, direction, magnitude, rng, rotation, within};
+use glam::{DQuat, DVec3};
+
+/// A few triangles, all near one point.
+fn patch(rng: &mut Pcg64, at: DVec3, size: f64) -> Vec<Triangle> {
+    let count = rng.random_range(1..6);
+    let mut corner = || at + within(rng, size);
+    (0..count).map(|_| [corner(), corner(), corner()]).collect()
+}
+
+/// A body that moves along a screw, and one beside its way: it passes by after a share of the turn.
+struct Passage {
+    bodies: [Body; 2],
+    screwing: Motion,
+    still: Motion,
+    /// The time at which they are near.
+    near: f64,
+}
+
+fn passage(rng: &mut Pcg64) -> Passage {
+    let (size, distance) = (magnitude(rng, -2.0, -0.5), rng.random_range(0.8..1.5));
+    let axis = direction(rng);
+    let out = axis.any_orthonormal_vector();
+    let turn = rng.random_range(0.1..20.0);
+    let advance = [0.0, rng.random_range(-0.3..0.3)][rng.random_range(0..2)];
+    let near = rng.random_range(0.0..1.0);
+    let at = distance * out;
+    let there = DQuat::from_axis_angle(axis, near * turn) * at + near * turn * advance * axis;
+    let beside = there + within(rng, 2.0 * size);
+    let (place, own) = (within(rng, 3.0), rotation(rng));
+    let moving = patch(rng, at, size);
+    // The body's own frame is turned about its origin, which is on the axis.
+    let moving = moving.map_all(|x| own.inverse() * x);
+    let still = patch(rng, beside + place, size);
+    let drift = [0.0, 1e-5][rng.random_range(0..2)] * out;
+    let velocity = turn * advance * axis + drift;
+    Passage {
+        bodies: [body(&moving), body(&still)],
+        screwing: Motion::new(Pose::new(place, own).unwrap(), velocity, turn * axis).unwrap(),
+        still: Motion::still(Pose::IDENTITY),
+        near,
+    }
+}
+
+trait MapAll {
+    fn map_all(self, f: impl Fn(DVec3) -> DVec3) -> Self;
+}
+
+impl MapAll for Vec<Triangle> {
+    fn map_all(self, f: impl Fn(DVec3) -> DVec3) -> Self {
+        self.into_iter().map(|t| t.map(&f)).collect()
+    }
+}
+
+/// Returns the pairs of the roots and of all triangles, in bodies whose only node is the root.
+fn all_pairs(problem: &Problem<'_>) -> Vec<[NodeId; 2]> {
+    let ids = |side: &Side<'_>| 0..=side.body.pieces().len() as NodeId;
+    let of_a = ids(&problem.a);
+    of_a.flat_map(|a| ids(&problem.b).map(move |b| [a, b]))
+        .collect()
+}
+
+/// Returns the least distance of two nodes at sampled times from `s` on, most of them near one.
+fn least_distance(problem: &Problem<'_>, [a, b]: [NodeId; 2], s: f64, near: f64) -> f64 {
+    let triangles = |side: &Side<'_>, id: NodeId, s: f64| -> Vec<Triangle> {
+        let (frame, pieces) = (side.path.frame(s), side.body.pieces());
+        let all = 0..pieces.len();
+        let below = all.filter(|&k| id == 0 || k + 1 == id as usize);
+        below
+            .map(|k| pieces.triangle(k).map(|x| frame.point(x)))
+            .collect()
+    };
+    let distance = |s: f64| {
+        let (a, b) = (triangles(&problem.a, a, s), triangles(&problem.b, b, s));
+        let pairs = a
+            .iter()
+            .flat_map(|x| b.iter().map(move |y| nearest(x, y).distance));
+        pairs.fold(f64::INFINITY, lesser)
+    };
+    let even = (0..200).map(|k| f64::from(k) / 199.0);
+    let dense = (-100..=100).map(|k| near + f64::from(k) * 2e-4);
+    let times = even.chain(dense).filter(|t| (s..=1.0).contains(t));
+    times.map(distance).fold(f64::INFINITY, lesser)
+}
+
+#[test]
+fn nodes_said_to_stay_apart_do_so_at_sampled_times() {
+    let mut rng = rng(1);
+    let (mut proven, mut missed) = (0, 0);
+    for number in 0..1_500 {
+        let passage = passage(&mut rng);
+        let [a, b] = &passage.bodies;
+        let config = Config {
+            tolerance: magnitude(&mut rng, -6.0, -2.0),
+            ..Config::default()
+        };
+        let (mut first, mut second) = ((a, passage.screwing), (b, passage.still));
+        if number % 2 == 1 {
+            std::mem::swap(&mut first, &mut second);
+        }
+        let problem = Problem::new(first, second, 1.0, &config).unwrap();
+        // The axis may move too fast for small bodies.
+        let Some(mut screw) = Screw::of(&problem) else {
+            continue;
+        };
+        let s = [0.0, 0.5 * passage.near][rng.random_range(0..2)];
+        for ids in all_pairs(&problem) {
+            match screw.keeps_apart(&problem, ids, s) {
+                Some(true) => {
+                    proven += 1;
+                    let least = least_distance(&problem, ids, s, passage.near);
+                    assert!(least > problem.node_gap(), "{number} {ids:?}: {least:e}");
+                }
+                _ => missed += 1,
+            }
+        }
+    }
+    assert!(
+        proven > 10_000 && missed > 1_000,
+        "{proven} of them proven, {missed} not"
+    );
+}
+
+/// The same point of a screw's way comes by after every turn.
+#[test]
+fn later_turns_count() {
+    let triangle = |at: DVec3| [at, at + 0.02 * DVec3::Z, at + 0.02 * DVec3::X];
+    let moving = body(&[triangle(DVec3::X)]);
+    // Where it is after a turn and a half.
+    let still = body(&[triangle(DVec3::new(-1.0, 0.0, 0.3))]);
+    let turn = |turns: f64| {
+        Motion::new(
+            Pose::IDENTITY,
+            0.2 * turns * DVec3::Z,
+            turns * TAU * DVec3::Z,
+        )
+        .unwrap()
+    };
+    for (turns, apart) in [(1.0, true), (2.0, false)] {
+        let config = Config::default();
+        let moving = (&moving, turn(turns));
+        let problem = Problem::new(moving, (&still, Motion::STILL), 1.0, &config).unwrap();
+        let mut screw = Screw::of(&problem).unwrap();
+        assert_eq!(
+            screw.keeps_apart(&problem, [1, 1], 0.0),
+            Some(apart),
+            "{turns}"
+        );
+    }
+}
+
+#[test]
+fn what_is_no_screw_has_no_profiles() {
+    let cube = body(&crate::tests::meshes::cube(0.5, 2));
+    let motion = |velocity: DVec3, spin: DVec3| {
+        Motion::new(Pose::at(3.0 * DVec3::X).unwrap(), velocity, spin).unwrap()
+    };
+    let config = Config::default();
+    let is_screw = |a: Motion, b: Motion| {
+        Screw::of(&Problem::new((&cube, a), (&cube, b), 1.0, &config).unwrap()).is_some()
+    };
+    let still = Motion::STILL;
+    assert!(is_screw(motion(DVec3::Z, DVec3::Z), still));
+    assert!(is_screw(still, motion(DVec3::ZERO, DVec3::X)));
+    assert!(!is_screw(motion(DVec3::X, DVec3::Z), still));
+    assert!(!is_screw(motion(DVec3::Z, DVec3::ZERO), still));
+    assert!(!is_screw(
+        motion(DVec3::Z, DVec3::Z),
+        motion(DVec3::ZERO, DVec3::Z)
+    ));
+}
