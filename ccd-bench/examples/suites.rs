@@ -30,24 +30,28 @@ use std::time::{Duration, Instant};
 
 fn main() -> Result<()> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let (path, rounds, hung) = match &arguments[..] {
-        [path] => (path, 9, None),
-        [path, rounds] => (path, rounds.parse()?, None),
-        [path, rounds, hung] => (path, rounds.parse()?, Some(hung)),
+    let (path, rounds) = match &arguments[..] {
+        [path] => (path, "9"),
+        [path, rounds] => (path, rounds.as_str()),
         _ => bail!("usage: suites SUITES.json [ROUNDS]"),
     };
     let file: Value = serde_json::from_str(&std::fs::read_to_string(path)?)?;
     let (bodies, mut suites) = read(&file)?;
-    // A thread that never returns cannot be stopped: its rows are found in a process of their own.
-    let Some(hung) = hung else {
-        let hung = find_hung(&bodies, &suites);
-        let again = std::env::current_exe()?;
-        let status = Command::new(again)
-            .args([path, &rounds.to_string(), &hung.join(",")])
-            .status()?;
-        std::process::exit(status.code().unwrap_or(1));
-    };
+    if rounds == SEARCH {
+        write!(
+            std::io::stdout(),
+            "{}",
+            find_hung(&bodies, &suites).join(",")
+        )?;
+        return Ok(());
+    }
+    // A thread that never returns ends with its process only.
+    let search = Command::new(std::env::current_exe()?)
+        .args([path, SEARCH])
+        .output()?;
+    let hung = String::from_utf8(search.stdout)?;
     let hung: HashSet<&str> = hung.split(',').collect();
+    let rounds = rounds.parse()?;
     let mut out = std::io::stdout().lock();
     writeln!(
         out,
@@ -73,6 +77,9 @@ fn main() -> Result<()> {
     }
     Ok(())
 }
+
+/// In place of the rounds: prints the rows for which the peer does not return.
+const SEARCH: &str = "search";
 
 /// Reads all bodies, and the rows of each suite.
 fn read(file: &Value) -> Result<(Bodies, BTreeMap<String, Vec<Row>>)> {
@@ -235,12 +242,7 @@ fn motion(case: &Value) -> Result<Option<Query>> {
 }
 
 fn mesh(value: &Value) -> Result<(Body, SharedShape)> {
-    let triple = |v: &Value| {
-        Ok(list(v)?
-            .iter()
-            .map(as_number)
-            .collect::<Result<Vec<f64>>>()?)
-    };
+    let triple = |v: &Value| list(v)?.iter().map(as_number).collect::<Result<Vec<f64>>>();
     let vertices: Vec<Vec<f64>> = list(&value["v"])?
         .iter()
         .map(triple)
