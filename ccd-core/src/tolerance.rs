@@ -373,18 +373,19 @@ pub const LEAST_ADVANCE: f64 = 1.0 / 65536.0;
 pub const SCREW_AFTER: u64 = 512;
 
 /// Bounds the rounding of `f = a r + b ζ` of a node, with its reach, computed in f64 (see
-/// `schedule/nodes/profile.rs`): `n` are `|a|` and `|b|`, `arm` is the distance of the node's centre
-/// from the rotation's centre, and `tilt` its ratio to the distance from the axis, times the advance
-/// per radian.
+/// `schedule/nodes/profile.rs`): `n` are `|a|` and `|b|`; `arm` is the distance of the node's centre
+/// from the rotation's centre, and `radius` that of its points from it; `tilt` is the advance per
+/// radian, divided by the distance from the axis.
 ///
 /// In units of `u`: a centre's way is rounded (1), its height taken (4) and taken off (2), and the
 /// rest measured (4), which is 11 of an arm in `z` and in `r`. The azimuth is off by that in units
-/// of the distance from the axis, and by 8 of a half turn: 37 of a tilt. Products and sums add 4 of
-/// each. Gradients are off by 12 of a tilt, multiplied with a radius below half of the distance.
+/// of the distance from the axis, and by 8 of a half turn: 37 of an arm times the tilt. Products and
+/// sums add 4 of each. Gradients are off by 12 of a radius, in their part along `ζ` times `1 + tilt`.
+/// Their part along the axis would be off by the height's rounding if that were not taken off twice.
 /// That is below 64 of each.
-pub fn profile_rounding(n: [f64; 2], arm: f64, tilt: f64) -> f64 {
+pub fn profile_rounding(n: [f64; 2], [arm, radius]: [f64; 2], tilt: f64) -> f64 {
     let [a, b] = n;
-    64.0 * U64 * ((a + b) * arm + b * tilt.abs())
+    64.0 * U64 * ((a + b) + b * tilt.abs()) * (arm + radius)
 }
 
 /// The most triangles of a node that choose the frame of its box; it then holds all of them.

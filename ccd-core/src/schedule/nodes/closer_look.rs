@@ -7,7 +7,7 @@ use super::flat_pair;
 use super::screw::Screw;
 use super::siblings::Siblings;
 use crate::problem::{Problem, Side};
-use crate::tolerance::{COARSE_F32, REACH_F32, SCREW_AFTER};
+use crate::tolerance::{AXIS_ROUNDS, COARSE_F32, REACH_F32, SCREW_AFTER};
 
 /// The looks that a query has use for.
 #[derive(Debug)]
@@ -39,7 +39,7 @@ impl CloserLook {
         siblings: &mut Siblings,
         s: f64,
     ) -> Option<(f64, Siblings)> {
-        match self.fine {
+        match self.fine && siblings.parted() < AXIS_ROUNDS {
             true => part_flat(problem, siblings, s),
             false => None,
         }
@@ -54,10 +54,10 @@ impl CloserLook {
         s: f64,
         siblings: &mut Siblings,
     ) {
-        self.splits += 1;
         if self.splits >= SCREW_AFTER {
             self.finish_along_screw(problem, split, s, siblings);
         }
+        self.splits += 1;
     }
 
     #[cold]

@@ -10,11 +10,12 @@ use crate::math::order::{greater, lesser};
 use crate::math::vector::{length, unit};
 use crate::motion::gap::Gap;
 use crate::problem::{Problem, Side};
-use crate::tolerance::{CLOSED_GAP, COARSE_F32, RATE_F64, REACH_F32};
+use crate::tolerance::{CLOSED_GAP, COARSE_F32, RATE_F64, REACH_F32, TURNED_SHARE};
 use glam::DVec3;
 
 /// Returns a time for which two flat nodes, of A and of B, certainly stay apart by the gap of nodes
-/// from clock `s` on; 0 if they are not flat, or if f32 is fine enough for them.
+/// from clock `s` on; 0 if they are not flat, if f32 is fine enough for them, or if it is more their
+/// turning than their approach that uses up the gap.
 pub(super) fn free_time(problem: &Problem<'_>, [a, b]: [NodeId; 2], s: f64) -> f64 {
     let sides = [(&problem.a, a), (&problem.b, b)];
     if !sides.iter().all(|(side, id)| may_be_flat(side, *id)) {
@@ -91,21 +92,31 @@ fn free_along(problem: &Problem<'_>, a: &Flat<'_>, b: &Flat<'_>, n: DVec3, s: f6
     if !(gap > CLOSED_GAP * problem.tolerance) {
         return 0.0;
     }
-    let (mut rate, mut bend, mut speed) = (0.0, 0.0, 0.0);
+    let (mut approach, mut turning, mut bend, mut speed) = (0.0, 0.0, 0.0, 0.0);
     for (side, flat, n) in [(&problem.a, a, n), (&problem.b, b, -n)] {
-        let path = &side.path;
-        let arm = length(flat.node.centre - path.centre_at(s)) + flat.node.radius;
-        let across = length(n.cross(path.spin)) + RATE_F64 * path.rate;
-        rate += n.dot(path.velocity_at(flat.node.centre, s)) + across * flat.node.radius;
-        bend += across * path.rate * arm * (1.0 + RATE_F64);
-        speed += length(path.velocity) + path.rate * arm;
+        let (path, radius) = (&side.path, flat.node.radius);
+        let arm = flat.node.centre - path.centre_at(s);
+        let across = n.cross(path.spin);
+        approach += n.dot(path.velocity_at(flat.node.centre, s));
+        // n·(ω×w) = w·(n×ω) of points at w from the centre.
+        turning += greater(0.0, flat.node.reach(across)) + RATE_F64 * path.rate * radius;
+        let from_axis = length(path.axis.cross(arm)) + radius + RATE_F64 * length(arm);
+        let across = length(across) + RATE_F64 * path.rate;
+        bend += across * path.rate * from_axis * (1.0 + RATE_F64);
+        speed += length(path.velocity) + path.rate * (length(arm) + radius);
     }
-    let gap = Gap {
+    let free = Gap {
         gap,
-        rate: rate + 2.0 * RATE_F64 * speed,
+        rate: approach + turning + 2.0 * RATE_F64 * speed,
         bend,
     };
-    lesser(f64::MAX, gap.free_time())
+    let free = lesser(f64::MAX, free.free_time());
+    // What the turning of the nodes uses up shrinks as they are split. Written so that NaN gives no
+    // time.
+    match free >= 1.0 - s || approach * free >= (1.0 - TURNED_SHARE) * gap {
+        true => free,
+        false => 0.0,
+    }
 }
 
 #[cfg(test)]

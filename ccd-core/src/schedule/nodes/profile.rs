@@ -96,6 +96,8 @@ impl Profile {
         let way = node.centre - axis.origin;
         let height = way.dot(axis.unit);
         let across = way - height * axis.unit;
+        // What rounding leaves of the height would tilt the gradients of tall nodes.
+        let across = across - across.dot(axis.unit) * axis.unit;
         let distance = length(across);
         let outward = across / distance;
         let onward = axis.unit.cross(outward);
@@ -124,7 +126,8 @@ impl Profile {
         for (k, &n) in axis.surfaces.iter().enumerate() {
             let at = n.x * distance + n.y * zeta;
             let gradient = n.x * outward + n.y * ahead;
-            let rounding = profile_rounding(n.abs().to_array(), arm, axis.advance * arm / distance);
+            let tilt = axis.advance / distance;
+            let rounding = profile_rounding(n.abs().to_array(), [arm, node.radius], tilt);
             let reach = |sign: f64| {
                 let bend = greater(0.0, sign * n.x) * bulge + n.y.abs() * twist;
                 node.reach(sign * gradient) + bend + rounding

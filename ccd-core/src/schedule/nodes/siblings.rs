@@ -20,6 +20,8 @@ pub(crate) struct Siblings {
     thicker: u8,
     /// The children for which a second look is better than a split.
     waits: u8,
+    /// The number of times that a pair was parted to wait alone.
+    parted: u8,
 }
 
 /// The next step for a pair whose clock has run out.
@@ -56,6 +58,7 @@ impl Siblings {
             first: 0,
             thicker: 1,
             waits: 0,
+            parted: 0,
         }
     }
 
@@ -69,6 +72,7 @@ impl Siblings {
             first: expansion.first,
             thicker: expansion.bounds.thicker,
             waits: expansion.bounds.waits,
+            parted: 0,
         }
     }
 
@@ -115,11 +119,18 @@ impl Siblings {
         }
     }
 
+    /// Returns the number of times that a pair was parted to wait alone.
+    #[inline]
+    pub(crate) fn parted(&self) -> usize {
+        usize::from(self.parted)
+    }
+
     /// Takes out the pair of least clock, to wait alone for a later one.
     pub(crate) fn part_least(&mut self, clock: f64) -> Self {
         Siblings {
             free: FreeTimes::of_lane(self.free.take_least()),
             since: clock,
+            parted: self.parted.saturating_add(1),
             ..*self
         }
     }

@@ -91,3 +91,42 @@ fn a_bolt_is_screwed_through_a_nut_at_little_cost() {
     let problem = |s: f64| s * 0.5 * 0.25;
     assert!(problem(time) < 0.15, "{time}");
 }
+
+/// Needles along the axis that they turn about: their turning uses up no gap, though they are long.
+#[test]
+fn long_needles_that_turn_about_their_own_direction_meet_at_little_cost() {
+    for (length, tolerance) in [(10.0, 1e-5), (1.0, 1e-9), (10.0, 1e-9)] {
+        let axis = DVec3::new(0.48, 0.6, 0.64);
+        let (x, y) = axis.any_orthonormal_pair();
+        let needle = |angle: f64, [low, high]: [f64; 2]| {
+            let at = |angle: f64, z: f64| angle.cos() * x + angle.sin() * y + z * axis;
+            [
+                at(angle - 1e-3, low),
+                at(angle + 1e-3, low),
+                at(angle, high),
+            ]
+        };
+        let steps = |k: u32| 0.02 * f64::from(k);
+        let needles =
+            |needle: &dyn Fn(u32) -> Triangle| body(&(0..8).map(needle).collect::<Vec<_>>());
+        let moving = needles(&|k| needle(-steps(k), [0.0, 2.0 * length]));
+        let still = needles(&|k| needle(1.0 + steps(k), [2.0 * length, 0.0]));
+        let config = Config {
+            tolerance,
+            ..Config::default()
+        };
+        let turning = Motion::new(Pose::IDENTITY, DVec3::ZERO, 1.5 * axis).unwrap();
+        let problem =
+            Problem::new((&moving, turning), (&still, Motion::STILL), 1.0, &config).unwrap();
+        let answer = solve(&problem);
+        let Outcome::Contact { time, .. } = answer.outcome else {
+            panic!("{answer:?}");
+        };
+        assert!((time - 1.0 / 1.5).abs() < 3e-3, "{time}");
+        assert!(
+            answer.stats.iterations < 1_000,
+            "{length} {tolerance}: {:?}",
+            answer.stats
+        );
+    }
+}

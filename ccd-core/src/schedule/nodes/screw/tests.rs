@@ -178,3 +178,59 @@ fn what_is_no_screw_has_no_profiles() {
         motion(DVec3::ZERO, DVec3::Z)
     ));
 }
+
+/// Rounding of the height of nodes far up an oblique axis must not tilt tall ones.
+#[test]
+fn tall_nodes_far_along_an_oblique_axis_meet_what_is_at_their_tips() {
+    const COUNT: usize = 8;
+    let mut rng = rng(5);
+    let mut pairs = 0;
+    for _ in 0..60 {
+        let axis = direction(&mut rng);
+        let (x, y) = axis.any_orthonormal_pair();
+        let (length, high) = (magnitude(&mut rng, 4.0, 6.0), magnitude(&mut rng, 4.0, 7.0));
+        let at = |angle: f64, r: f64, z: f64| {
+            r * (angle.cos() * x + angle.sin() * y) + (high + z * length) * axis
+        };
+        let azimuth = |k: usize| 0.3 * k as f64 / COUNT as f64;
+        // Their tips are at a distance of 1 from the axis, those of the others' bases a little less.
+        let tall = |k: usize| {
+            let angle = -azimuth(k);
+            let foot = |side: f64| at(angle + side * 1e-3, 0.99, -1.0);
+            [foot(-1.0), foot(1.0), at(angle, 1.0, 1.0)]
+        };
+        let depth = [0.0, 1e-5, 1e-4][rng.random_range(0..3)];
+        let beside = |k: usize| {
+            let at = |r: f64, z: f64| at(1.0 + azimuth(k), r, z);
+            [
+                at(1.0 - depth, 1.0 - 1e-7),
+                at(1.0 - depth, 1.0 + 1e-7),
+                at(1.05, 1.0 + 1e-7),
+            ]
+        };
+        let bodies = [
+            (0..COUNT).map(tall).collect::<Vec<_>>(),
+            (0..COUNT).map(beside).collect(),
+        ];
+        let [moving, still] = bodies.map(|triangles| body(&triangles));
+        let turning = Motion::new(Pose::IDENTITY, DVec3::ZERO, 1.7 * axis).unwrap();
+        let problem = Problem::new(
+            (&moving, turning),
+            (&still, Motion::STILL),
+            1.0,
+            &Config::default(),
+        );
+        let problem = problem.unwrap();
+        let mut screw = Screw::of(&problem).unwrap();
+        // Each of the tall ones passes each of the others on its way.
+        for pair in all_pairs(&problem) {
+            assert_ne!(
+                screw.keeps_apart(&problem, pair, 0.0),
+                Some(true),
+                "{length} {high} {depth}"
+            );
+            pairs += 1;
+        }
+    }
+    assert!(pairs > 3_000, "{pairs}");
+}
