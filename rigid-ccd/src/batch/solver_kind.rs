@@ -1,8 +1,8 @@
 //! Schedules and distance backends chosen at run time.
 
-use ccd_core::Bound;
 use ccd_core::schedule::{BestFirst, Fast, Naive};
 use ccd_core::{Answer, DistanceOracle, OrElse, Problem, Schedule};
+use ccd_core::{Body, Bound};
 use ccd_distance_gjk::{Direct, Gjk};
 use ccd_distance_vmarch::Vmarch;
 use clap::ValueEnum;
@@ -106,6 +106,15 @@ impl SolverKind {
             OracleKind::Direct => self.with_oracle::<Direct>(),
             OracleKind::Gjk => self.with_oracle::<Gjk>(),
             OracleKind::Vmarch => self.with_oracle::<OrElse<Vmarch, Gjk>>(),
+        }
+    }
+
+    /// Prepares a body for the backend, so that its first queries are not slower than later ones.
+    pub fn prepare(self, body: &Body) {
+        match self.oracle {
+            OracleKind::Direct => Direct::prepare(body),
+            OracleKind::Gjk => Gjk::prepare(body),
+            OracleKind::Vmarch => OrElse::<Vmarch, Gjk>::prepare(body),
         }
     }
 
