@@ -46,8 +46,9 @@ struct Open {
 }
 
 impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
-    /// Visits all pairs of the front at clock `s`, splits those that may have the least distance,
-    /// joins those that no longer may, and returns the time until which all of them keep apart.
+    /// Visits the pairs of the front at clock `s` that do not stay apart to the end, splits those that
+    /// may have the least distance, joins those that no longer may, and returns the time until which
+    /// all of them keep apart.
     pub(super) fn step<O>(&mut self, oracle: &mut O, s: f64) -> ControlFlow<Outcome, f64>
     where
         O: DistanceOracle<Cache = C>,
@@ -80,7 +81,7 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
         ControlFlow::Continue(next)
     }
 
-    /// Measures a pair of the front.
+    /// Measures a pair of the front, unless it is known to stay apart to the end.
     fn look<O>(
         &mut self,
         oracle: &mut O,
@@ -91,11 +92,17 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
     where
         O: DistanceOracle<Cache = C>,
     {
+        if self.front.node(at).clock == f64::INFINITY {
+            return ControlFlow::Continue(());
+        }
         if let Err(reason) = self.meter.visit() {
             return ControlFlow::Break(Outcome::Unresolved {
                 safe_until: self.problem.time(snapshot.clock),
                 reason,
             });
+        }
+        if self.stays_apart(snapshot, at) {
+            return ControlFlow::Continue(());
         }
         match self.front.node(at).item {
             Item::Nodes(_) => {
@@ -103,6 +110,44 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
                 ControlFlow::Continue(())
             }
             Item::Pieces(_) => self.look_at_pieces(oracle, snapshot, at, found),
+        }
+    }
+
+    /// Returns whether the gap of a pair along the axis that it has already lasts to the end.
+    ///
+    /// Two extremal points tell this, where the distance takes a search. Over a brief motion it spares
+    /// most pairs.
+    fn stays_apart(&mut self, snapshot: &Snapshot<'p>, at: u32) -> bool {
+        let (problem, bound) = (self.problem, self.bound);
+        let required = self.required(snapshot.clock);
+        let node = self.front.node(at);
+        let hulls = match &node.item {
+            Item::Nodes(_) => self.hulls.hulls(node.pair),
+            Item::Pieces(pair) => problem.pieces([pair.a, pair.b]),
+        };
+        let snapshot = snapshot.with(hulls);
+        let lower = snapshot.gap_along(node.axis);
+        self.meter.stats.point_looks += snapshot.pieces.points();
+        // Written so that NaN is measured.
+        if !(lower > required) {
+            return false;
+        }
+        let reaches = self.reaches.each(problem, node.pair, &snapshot);
+        let slack = lower - problem.gap();
+        let free = snapshot.directed_time(node.axis, slack, bound, reaches);
+        if free.is_some() {
+            return false;
+        }
+        (node.lower, node.near, node.clock) = (lower, Near::Bridges, f64::INFINITY);
+        true
+    }
+
+    /// Returns the distance that a pair has to exceed so that no contact below it is missed at a
+    /// clock. Contacts at the start are found there, or never.
+    fn required(&self, s: f64) -> f64 {
+        match s > 0.0 {
+            true => self.problem.gap(),
+            false => self.problem.contact_distance(),
         }
     }
 
@@ -116,6 +161,7 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
         O: DistanceOracle<Cache = C>,
     {
         let (problem, s) = (self.problem, snapshot.clock);
+        let required = self.required(s);
         let node = self.front.node(at);
         let Item::Nodes(cache) = &mut node.item else {
             return;
@@ -129,17 +175,18 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
             return;
         };
         let reaches = self.reaches.each(problem, node.pair, &snapshot);
-        let free = snapshot.directed_time(&checked, problem.gap(), self.bound, reaches);
-        node.lower = checked.lower;
+        let slack = checked.lower - problem.gap();
+        let free = snapshot.directed_time(checked.axis, slack, self.bound, reaches);
+        (node.lower, node.axis) = (checked.lower, checked.axis);
         node.near = self.hulls.near(node.pair, &checked.claim);
         node.clock = free.map_or(f64::INFINITY, |free| (s + free).next_down());
-        let contact = problem.contact_distance();
-        // Contacts at the start are found there, or never.
-        let reach = if s > 0.0 { problem.gap() } else { contact };
         // The distance is that of the pieces below, which are not in contact.
-        let settled = node.near == Near::Pieces && checked.upper > contact;
-        if settled && checked.lower > reach && node.clock > s {
+        let settled = node.near == Near::Pieces && checked.upper > problem.contact_distance();
+        let apart = checked.lower > required && node.clock > s;
+        if settled && apart {
             found.distance = lesser(found.distance, checked.upper);
+        } else if apart && node.clock == f64::INFINITY {
+            // What is below stays apart to the end, however far it is.
         } else if !(checked.lower >= found.distance) {
             let lower = checked.lower;
             found.open.push(Open { lower, at });
@@ -166,9 +213,9 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
         // Pairs that rest on each other do not count for the distance of the bodies.
         node.lower = f64::NEG_INFINITY;
         let step = pair.advance_by(&snapshot, oracle, self.meter, |snapshot, checked, kept| {
-            node.lower = checked.lower;
+            (node.lower, node.axis) = (checked.lower, checked.axis);
             found.distance = lesser(found.distance, checked.upper);
-            snapshot.directed_time(checked, kept, bound, reaches)
+            snapshot.directed_time(checked.axis, checked.lower - kept, bound, reaches)
         });
         if let Step::Contact(contact) = step
             && s > 0.0

@@ -3,6 +3,7 @@
 use super::hull_pair::{Below, HullPair, Near};
 use crate::math::order::lesser;
 use crate::schedule::pieces::pair::Pair;
+use glam::DVec3;
 
 /// Pairs of nodes of two hull trees, from the pair of roots down to those at which a descent
 /// stopped.
@@ -28,8 +29,12 @@ pub(super) struct Node<C> {
     pub(super) children: Option<u32>,
     /// A lower bound of its distance, when it was last visited.
     pub(super) lower: f64,
-    /// The time until which it was certified apart at its last visit.
+    /// The time until which it was certified apart at its last visit; infinite for one that stays
+    /// apart to the end.
     pub(super) clock: f64,
+    /// The axis between its nearest points, in A's frame, when it was last measured; until then that
+    /// of the pair that covered it.
+    pub(super) axis: DVec3,
     /// The owners of its nearest features.
     pub(super) near: Near,
     /// While the distance of the bodies is below this, joining its children is worth another try.
@@ -56,11 +61,12 @@ impl<C> Default for Front<C> {
 }
 
 impl<C: Clone + Default> Front<C> {
-    /// Restarts with the pair of roots.
-    pub(super) fn plant(&mut self, hulls: HullPair<'_>) {
+    /// Restarts with the pair of roots, and an axis to try.
+    pub(super) fn plant(&mut self, hulls: HullPair<'_>, axis: DVec3) {
         self.nodes.clear();
         self.vacant.clear();
-        self.nodes.push(Node::new(hulls, [0, 0], C::default()));
+        self.nodes
+            .push(Node::new(hulls, [0, 0], C::default(), axis));
         (self.leaves, self.peak) = (1, 1);
     }
 
@@ -95,14 +101,16 @@ impl<C: Clone + Default> Front<C> {
         least
     }
 
-    /// Returns the pairs with both children in the front, and the first child of each.
+    /// Returns the pairs whose children are both in the front and have a clock that runs out, and the
+    /// first child of each.
     pub(super) fn above_leaves(&self) -> Vec<(u32, u32)> {
         let mut above = Vec::new();
         self.walk(|at, node| {
             if let Some(first) = node.children
                 && [first, first + 1]
                     .iter()
-                    .all(|&child| self.nodes[child as usize].children.is_none())
+                    .map(|&child| &self.nodes[child as usize])
+                    .all(|child| child.children.is_none() && child.clock < f64::INFINITY)
             {
                 above.push((at, first));
             }
@@ -123,7 +131,7 @@ impl<C: Clone + Default> Front<C> {
             Item::Nodes(cache) => cache.clone(),
             Item::Pieces(_) => C::default(),
         };
-        let children = pairs.map(|pair| Node::new(hulls, pair, cache.clone()));
+        let children = pairs.map(|pair| Node::new(hulls, pair, cache.clone(), node.axis));
         let first = match self.vacant.pop() {
             Some(first) => {
                 for (child, at) in children.into_iter().zip(first as usize..) {
@@ -163,7 +171,7 @@ impl<C: Clone + Default> Front<C> {
 }
 
 impl<C: Default + Clone> Node<C> {
-    fn new(hulls: HullPair<'_>, pair: [u32; 2], cache: C) -> Self {
+    fn new(hulls: HullPair<'_>, pair: [u32; 2], cache: C, axis: DVec3) -> Self {
         Node {
             pair,
             item: match hulls.below(pair, Near::Bridges) {
@@ -173,6 +181,7 @@ impl<C: Default + Clone> Node<C> {
             children: None,
             lower: f64::NEG_INFINITY,
             clock: 0.0,
+            axis,
             near: Near::Bridges,
             join_below: f64::INFINITY,
         }

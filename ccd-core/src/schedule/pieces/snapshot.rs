@@ -109,21 +109,21 @@ impl<'p> Snapshot<'p> {
         Some(free)
     }
 
-    /// Like [`Snapshot::free_time`], along the axis of the claim alone, by a bound of each body's
-    /// advance along it `[FAST06 §4.2]`; `reaches` are those of the pieces' points from their
-    /// body's axis of rotation.
+    /// Like [`Snapshot::free_time`], along one axis of A's frame alone, by a bound of each body's advance
+    /// along it `[FAST06 §4.2]`; `slack` is the excess of the gap over what is kept, and `reaches` are
+    /// those of the pieces' points from their body's axis of rotation.
     ///
     /// # Guarantee
     /// No guarantee with [`Bound::Published`].
     pub(crate) fn directed_time(
         &self,
-        checked: &Checked,
-        kept: f64,
+        axis: DVec3,
+        slack: f64,
         bound: Bound,
         reaches: [f64; 2],
     ) -> Option<f64> {
         let Problem { a, b, .. } = self.problem;
-        let normal = self.frames[0].rotation * checked.axis;
+        let normal = self.frames[0].rotation * axis;
         let sides = [
             (a, normal, self.pieces.a, &self.frames[0], reaches[0]),
             (b, -normal, self.pieces.b, &self.frames[1], reaches[1]),
@@ -141,13 +141,20 @@ impl<'p> Snapshot<'p> {
             speed += length(motion.linear) + side.path.rate * reach;
         }
         let gap = Gap {
-            gap: checked.lower - kept,
+            gap: slack,
             rate: rate + RATE_F64 * speed,
             bend: 0.0,
         };
         let free = gap.free_time();
         // Written so that NaN gives no time.
         (!(free >= self.horizon())).then_some(free)
+    }
+
+    /// Returns a lower bound of the distance: the gap along a unit axis of A's frame.
+    pub(crate) fn gap_along(&self, axis: DVec3) -> f64 {
+        let pair = &self.pieces;
+        let radii = pair.a.radius + pair.b.radius;
+        separation::support_gap(pair, axis, pair.a.points[0]) - radii - self.problem.rounding
     }
 
     /// Like [`Snapshot::free_time`] for two pieces, of these indices, that rest on each other.
