@@ -13,7 +13,7 @@ use crate::schedule::meter::Meter;
 use crate::schedule::pieces::pair::Step;
 use crate::schedule::pieces::snapshot::Snapshot;
 use crate::schedule::proven::Proven;
-use crate::tolerance::JOIN_BEYOND;
+use crate::tolerance::{JOIN_BEYOND, OVERLAPPING};
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 use std::ops::ControlFlow;
@@ -101,7 +101,7 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
                 reason,
             });
         }
-        if self.stays_apart(snapshot, at) {
+        if self.stays_apart(snapshot, at) || self.overlaps(snapshot, at, found) {
             return ControlFlow::Continue(());
         }
         match self.front.node(at).item {
@@ -139,6 +139,30 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
             return false;
         }
         (node.lower, node.near, node.clock) = (lower, Near::Bridges, f64::INFINITY);
+        true
+    }
+
+    /// Returns whether two large nodes reach far into each other along the axis between their middles,
+    /// and leaves them to be split.
+    ///
+    /// They hardly have a distance, and the search for a common point takes longer than that for one.
+    fn overlaps(&mut self, snapshot: &Snapshot<'p>, at: u32, found: &mut Found) -> bool {
+        let node = self.front.node(at);
+        let Item::Nodes(_) = node.item else {
+            return false;
+        };
+        let snapshot = snapshot.with(self.hulls.hulls(node.pair));
+        let Some((axis, depth)) = snapshot.depth_between_middles() else {
+            return false;
+        };
+        self.meter.stats.point_looks += snapshot.pieces.points();
+        if !(depth > OVERLAPPING) {
+            return false;
+        }
+        (node.lower, node.axis) = (f64::NEG_INFINITY, axis);
+        (node.near, node.clock) = (Near::Bridges, snapshot.clock);
+        let lower = node.lower;
+        found.open.push(Open { lower, at });
         true
     }
 

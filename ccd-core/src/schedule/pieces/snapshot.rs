@@ -157,6 +157,15 @@ impl<'p> Snapshot<'p> {
         separation::support_gap(pair, axis, pair.a.points[0]) - radii - self.problem.rounding
     }
 
+    /// Returns the axis between the middles of two hulls of many points, and how far they reach into each
+    /// other along it, in units of the smaller one's radius.
+    pub(crate) fn depth_between_middles(&self) -> Option<(DVec3, f64)> {
+        let pair = &self.pieces;
+        let ((a, radius_a), (b, radius_b)) = (pair.a.ball()?, pair.b.ball()?);
+        let axis = unit(pair.b_to_a.point(b) - a)?;
+        Some((axis, -self.gap_along(axis) / lesser(radius_a, radius_b)))
+    }
+
     /// Like [`Snapshot::free_time`] for two pieces, of these indices, that rest on each other.
     ///
     /// Triangles in one plane are kept apart by it on either side, and may still be about to pass
