@@ -1,6 +1,6 @@
 //! Computes the distance of the bodies at one clock, and the front that is left `[FAST06 Alg. 3]`.
 
-use super::front::{Front, Item};
+use super::front::{Front, Item, Node};
 use super::hull_pair::{HullPair, Near};
 use super::reach::Reaches;
 use crate::config::StartPolicy;
@@ -60,6 +60,9 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
             open: BinaryHeap::new(),
         };
         for at in self.front.leaves() {
+            if self.front.node(at).stays_apart() {
+                continue;
+            }
             self.look(oracle, &snapshot, at, &mut found)?;
         }
         while let Some(Open { lower, at }) = found.open.pop() {
@@ -81,7 +84,7 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
         ControlFlow::Continue(next)
     }
 
-    /// Measures a pair of the front, unless it is known to stay apart to the end.
+    /// Measures a pair of the front.
     fn look<O>(
         &mut self,
         oracle: &mut O,
@@ -92,17 +95,11 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
     where
         O: DistanceOracle<Cache = C>,
     {
-        if self.front.node(at).clock == f64::INFINITY {
-            return ControlFlow::Continue(());
-        }
         if let Err(reason) = self.meter.visit() {
             return ControlFlow::Break(Outcome::Unresolved {
                 safe_until: self.problem.time(snapshot.clock),
                 reason,
             });
-        }
-        if self.stays_apart(snapshot, at) || self.overlaps(snapshot, at, found) {
-            return ControlFlow::Continue(());
         }
         match self.front.node(at).item {
             Item::Nodes(_) => {
@@ -110,68 +107,6 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
                 ControlFlow::Continue(())
             }
             Item::Pieces(_) => self.look_at_pieces(oracle, snapshot, at, found),
-        }
-    }
-
-    /// Returns whether the gap of a pair along the axis that it has already lasts to the end.
-    ///
-    /// Two extremal points tell this, where the distance takes a search. Over a brief motion it spares
-    /// most pairs.
-    fn stays_apart(&mut self, snapshot: &Snapshot<'p>, at: u32) -> bool {
-        let (problem, bound) = (self.problem, self.bound);
-        let required = self.required(snapshot.clock);
-        let node = self.front.node(at);
-        let hulls = match &node.item {
-            Item::Nodes(_) => self.hulls.hulls(node.pair),
-            Item::Pieces(pair) => problem.pieces([pair.a, pair.b]),
-        };
-        let snapshot = snapshot.with(hulls);
-        let lower = snapshot.gap_along(node.axis);
-        self.meter.stats.point_looks += snapshot.pieces.points();
-        // Written so that NaN is measured.
-        if !(lower > required) {
-            return false;
-        }
-        let reaches = self.reaches.each(problem, node.pair, &snapshot);
-        let slack = lower - problem.gap();
-        let free = snapshot.directed_time(node.axis, slack, bound, reaches);
-        if free.is_some() {
-            return false;
-        }
-        (node.lower, node.near, node.clock) = (lower, Near::Bridges, f64::INFINITY);
-        true
-    }
-
-    /// Returns whether two large nodes reach far into each other along the axis between their middles,
-    /// and leaves them to be split.
-    ///
-    /// They hardly have a distance, and the search for a common point takes longer than that for one.
-    fn overlaps(&mut self, snapshot: &Snapshot<'p>, at: u32, found: &mut Found) -> bool {
-        let node = self.front.node(at);
-        let Item::Nodes(_) = node.item else {
-            return false;
-        };
-        let snapshot = snapshot.with(self.hulls.hulls(node.pair));
-        let Some((axis, depth)) = snapshot.depth_between_middles() else {
-            return false;
-        };
-        self.meter.stats.point_looks += snapshot.pieces.points();
-        if !(depth > OVERLAPPING) {
-            return false;
-        }
-        (node.lower, node.axis) = (f64::NEG_INFINITY, axis);
-        (node.near, node.clock) = (Near::Bridges, snapshot.clock);
-        let lower = node.lower;
-        found.open.push(Open { lower, at });
-        true
-    }
-
-    /// Returns the distance that a pair has to exceed so that no contact below it is missed at a
-    /// clock. Contacts at the start are found there, or never.
-    fn required(&self, s: f64) -> f64 {
-        match s > 0.0 {
-            true => self.problem.gap(),
-            false => self.problem.contact_distance(),
         }
     }
 
@@ -185,33 +120,40 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
         O: DistanceOracle<Cache = C>,
     {
         let (problem, s) = (self.problem, snapshot.clock);
-        let required = self.required(s);
         let node = self.front.node(at);
         let Item::Nodes(cache) = &mut node.item else {
             return;
         };
         let snapshot = snapshot.with(self.hulls.hulls(node.pair));
+        let depth = snapshot.depth_between_middles();
+        // The search for a common point takes longer than that for a distance, and tells nothing.
+        if depth.is_some_and(|depth| depth > OVERLAPPING) {
+            self.meter.stats.point_looks += snapshot.pieces.points();
+            found.open.push(node.unmeasured(at, s));
+            return;
+        }
         let Some(checked) = snapshot.ask(oracle, cache, self.meter) else {
             // Smaller hulls may be easier.
-            (node.lower, node.near, node.clock) = (f64::NEG_INFINITY, Near::Bridges, s);
-            let lower = node.lower;
-            found.open.push(Open { lower, at });
+            found.open.push(node.unmeasured(at, s));
             return;
         };
         let reaches = self.reaches.each(problem, node.pair, &snapshot);
-        let slack = checked.lower - problem.gap();
-        let free = snapshot.directed_time(checked.axis, slack, self.bound, reaches);
-        (node.lower, node.axis) = (checked.lower, checked.axis);
+        let free = snapshot.directed_time(&checked, problem.gap(), self.bound, reaches);
+        node.lower = checked.lower;
         node.near = self.hulls.near(node.pair, &checked.claim);
         node.clock = free.map_or(f64::INFINITY, |free| (s + free).next_down());
+        let contact = problem.contact_distance();
+        // Contacts at the start are found there, or never.
+        let reach = if s > 0.0 { problem.gap() } else { contact };
+        let apart = checked.lower > reach && node.clock > s;
         // The distance is that of the pieces below, which are not in contact.
-        let settled = node.near == Near::Pieces && checked.upper > problem.contact_distance();
-        let apart = checked.lower > required && node.clock > s;
+        let settled = node.near == Near::Pieces && checked.upper > contact;
         if settled && apart {
             found.distance = lesser(found.distance, checked.upper);
-        } else if apart && node.clock == f64::INFINITY {
-            // What is below stays apart to the end, however far it is.
-        } else if !(checked.lower >= found.distance) {
+        }
+        // What is below a pair that stays apart does so as well, however far it is.
+        let done = apart && (settled || node.stays_apart());
+        if !(done || checked.lower >= found.distance) {
             let lower = checked.lower;
             found.open.push(Open { lower, at });
         }
@@ -237,9 +179,9 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
         // Pairs that rest on each other do not count for the distance of the bodies.
         node.lower = f64::NEG_INFINITY;
         let step = pair.advance_by(&snapshot, oracle, self.meter, |snapshot, checked, kept| {
-            (node.lower, node.axis) = (checked.lower, checked.axis);
+            node.lower = checked.lower;
             found.distance = lesser(found.distance, checked.upper);
-            snapshot.directed_time(checked.axis, checked.lower - kept, bound, reaches)
+            snapshot.directed_time(checked, kept, bound, reaches)
         });
         if let Step::Contact(contact) = step
             && s > 0.0
@@ -284,6 +226,15 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
             }
         }
         ControlFlow::Continue(())
+    }
+}
+
+impl<C> Node<C> {
+    /// Records that the pair is to be split, whatever its distance.
+    fn unmeasured(&mut self, at: u32, s: f64) -> Open {
+        (self.lower, self.near, self.clock) = (f64::NEG_INFINITY, Near::Bridges, s);
+        let lower = self.lower;
+        Open { lower, at }
     }
 }
 

@@ -3,7 +3,6 @@
 use super::hull_pair::{Below, HullPair, Near};
 use crate::math::order::lesser;
 use crate::schedule::pieces::pair::Pair;
-use glam::DVec3;
 
 /// Pairs of nodes of two hull trees, from the pair of roots down to those at which a descent
 /// stopped.
@@ -32,9 +31,6 @@ pub(super) struct Node<C> {
     /// The time until which it was certified apart at its last visit; infinite for one that stays
     /// apart to the end.
     pub(super) clock: f64,
-    /// The axis between its nearest points, in A's frame, when it was last measured; until then that
-    /// of the pair that covered it.
-    pub(super) axis: DVec3,
     /// The owners of its nearest features.
     pub(super) near: Near,
     /// While the distance of the bodies is below this, joining its children is worth another try.
@@ -61,12 +57,11 @@ impl<C> Default for Front<C> {
 }
 
 impl<C: Clone + Default> Front<C> {
-    /// Restarts with the pair of roots, and an axis to try.
-    pub(super) fn plant(&mut self, hulls: HullPair<'_>, axis: DVec3) {
+    /// Restarts with the pair of roots.
+    pub(super) fn plant(&mut self, hulls: HullPair<'_>) {
         self.nodes.clear();
         self.vacant.clear();
-        self.nodes
-            .push(Node::new(hulls, [0, 0], C::default(), axis));
+        self.nodes.push(Node::new(hulls, [0, 0], C::default()));
         (self.leaves, self.peak) = (1, 1);
     }
 
@@ -101,7 +96,7 @@ impl<C: Clone + Default> Front<C> {
         least
     }
 
-    /// Returns the pairs whose children are both in the front and have a clock that runs out, and the
+    /// Returns the pairs whose children are both in the front and do not stay apart to the end, with the
     /// first child of each.
     pub(super) fn above_leaves(&self) -> Vec<(u32, u32)> {
         let mut above = Vec::new();
@@ -110,7 +105,7 @@ impl<C: Clone + Default> Front<C> {
                 && [first, first + 1]
                     .iter()
                     .map(|&child| &self.nodes[child as usize])
-                    .all(|child| child.children.is_none() && child.clock < f64::INFINITY)
+                    .all(|child| child.children.is_none() && !child.stays_apart())
             {
                 above.push((at, first));
             }
@@ -131,7 +126,7 @@ impl<C: Clone + Default> Front<C> {
             Item::Nodes(cache) => cache.clone(),
             Item::Pieces(_) => C::default(),
         };
-        let children = pairs.map(|pair| Node::new(hulls, pair, cache.clone(), node.axis));
+        let children = pairs.map(|pair| Node::new(hulls, pair, cache.clone()));
         let first = match self.vacant.pop() {
             Some(first) => {
                 for (child, at) in children.into_iter().zip(first as usize..) {
@@ -170,8 +165,15 @@ impl<C: Clone + Default> Front<C> {
     }
 }
 
+impl<C> Node<C> {
+    /// Returns whether it is certified apart to the end of the query.
+    pub(super) fn stays_apart(&self) -> bool {
+        self.clock == f64::INFINITY
+    }
+}
+
 impl<C: Default + Clone> Node<C> {
-    fn new(hulls: HullPair<'_>, pair: [u32; 2], cache: C, axis: DVec3) -> Self {
+    fn new(hulls: HullPair<'_>, pair: [u32; 2], cache: C) -> Self {
         Node {
             pair,
             item: match hulls.below(pair, Near::Bridges) {
@@ -181,7 +183,6 @@ impl<C: Default + Clone> Node<C> {
             children: None,
             lower: f64::NEG_INFINITY,
             clock: 0.0,
-            axis,
             near: Near::Bridges,
             join_below: f64::INFINITY,
         }

@@ -109,21 +109,21 @@ impl<'p> Snapshot<'p> {
         Some(free)
     }
 
-    /// Like [`Snapshot::free_time`], along one axis of A's frame alone, by a bound of each body's advance
-    /// along it `[FAST06 §4.2]`; `slack` is the excess of the gap over what is kept, and `reaches` are
-    /// those of the pieces' points from their body's axis of rotation.
+    /// Like [`Snapshot::free_time`], along the axis of the claim alone, by a bound of each body's
+    /// advance along it `[FAST06 §4.2]`; `reaches` are those of the pieces' points from their
+    /// body's axis of rotation.
     ///
     /// # Guarantee
     /// No guarantee with [`Bound::Published`].
     pub(crate) fn directed_time(
         &self,
-        axis: DVec3,
-        slack: f64,
+        checked: &Checked,
+        kept: f64,
         bound: Bound,
         reaches: [f64; 2],
     ) -> Option<f64> {
         let Problem { a, b, .. } = self.problem;
-        let normal = self.frames[0].rotation * axis;
+        let normal = self.frames[0].rotation * checked.axis;
         let sides = [
             (a, normal, self.pieces.a, &self.frames[0], reaches[0]),
             (b, -normal, self.pieces.b, &self.frames[1], reaches[1]),
@@ -141,7 +141,7 @@ impl<'p> Snapshot<'p> {
             speed += length(motion.linear) + side.path.rate * reach;
         }
         let gap = Gap {
-            gap: slack,
+            gap: checked.lower - kept,
             rate: rate + RATE_F64 * speed,
             bend: 0.0,
         };
@@ -150,20 +150,15 @@ impl<'p> Snapshot<'p> {
         (!(free >= self.horizon())).then_some(free)
     }
 
-    /// Returns a lower bound of the distance: the gap along a unit axis of A's frame.
-    pub(crate) fn gap_along(&self, axis: DVec3) -> f64 {
-        let pair = &self.pieces;
-        let radii = pair.a.radius + pair.b.radius;
-        separation::support_gap(pair, axis, pair.a.points[0]) - radii - self.problem.rounding
-    }
-
-    /// Returns the axis between the middles of two hulls of many points, and how far they reach into each
-    /// other along it, in units of the smaller one's radius.
-    pub(crate) fn depth_between_middles(&self) -> Option<(DVec3, f64)> {
+    /// Returns how far two hulls of many points reach into each other along the axis between their
+    /// middles, in units of the smaller one's radius; negative when they are apart along it, none when a
+    /// hull has few points.
+    pub(crate) fn depth_between_middles(&self) -> Option<f64> {
         let pair = &self.pieces;
         let ((a, radius_a), (b, radius_b)) = (pair.a.ball()?, pair.b.ball()?);
         let axis = unit(pair.b_to_a.point(b) - a)?;
-        Some((axis, -self.gap_along(axis) / lesser(radius_a, radius_b)))
+        let gap = separation::support_gap(pair, axis, a) - pair.a.radius - pair.b.radius;
+        Some(-gap / lesser(radius_a, radius_b))
     }
 
     /// Like [`Snapshot::free_time`] for two pieces, of these indices, that rest on each other.
