@@ -153,6 +153,7 @@ impl<'p> Snapshot<'p> {
     /// Returns how far two hulls of many points reach into each other along the axis between their
     /// middles, in units of the smaller one's radius; negative when they are apart along it, none when a
     /// hull has few points.
+    #[cfg(feature = "hull-tree")]
     pub(crate) fn depth_between_middles(&self) -> Option<f64> {
         let pair = &self.pieces;
         let ((a, radius_a), (b, radius_b)) = (pair.a.ball()?, pair.b.ball()?);
