@@ -32,9 +32,10 @@ use hull_tree::{HullTree, HullTreeError};
 use piece::Piece;
 use pieces::Pieces;
 use shell::{Shell, shells};
+use std::any::Any;
 #[cfg(not(feature = "hull-tree"))]
 use support::Support;
-use threads::join;
+use threads::{for_each, join};
 use tree::point_query::pieces_at;
 use tree::{Layout, Tree};
 
@@ -167,6 +168,38 @@ impl Body {
     #[inline]
     pub(crate) fn piece(&self, index: u32) -> Piece<'_> {
         self.pieces.get(index as usize).supported(support_of)
+    }
+
+    /// Makes ahead what [`Piece::kept`] makes at the first request: for the pieces, for the hulls of the
+    /// hull tree, and for the triangles of the [surface](Body::with_surface), on all cores.
+    ///
+    /// Searches for extremal points of hulls are made ahead as well. What is there already stays.
+    ///
+    /// # Guarantee
+    /// `make` gets the pieces as oracles get them. Later requests for the type return these values.
+    ///
+    /// ```
+    /// use ccd_core::{Body, Piece};
+    /// struct Count(usize);
+    /// let cube = Body::cuboid([1.0; 3])?;
+    /// cube.keep(|piece| Count(piece.points.len()));
+    /// let never = |_: &Piece| -> Count { unreachable!("it is there") };
+    /// assert_eq!(cube.pieces().get(0).kept(never).map(|count| count.0), Some(8));
+    /// # Ok::<(), ccd_core::InputError>(())
+    /// ```
+    pub fn keep<T: Any + Send + Sync>(&self, make: impl Fn(&Piece<'_>) -> T + Sync) {
+        let mut pieces: Vec<Piece<'_>> = self.pieces.iter().collect();
+        if let Some(surface) = &self.surface {
+            pieces.extend(surface.triangles.pieces.iter());
+        }
+        #[cfg(feature = "hull-tree")]
+        if let Some(tree) = &self.hull_tree {
+            pieces.extend(tree.hulls().iter());
+        }
+        for_each(&mut pieces, &(), |(), _, piece| {
+            // Queries hand out pieces with this search, too.
+            let _ = piece.supported(support_of).kept(&make);
+        });
     }
 
     /// The meaning of the body's inside.

@@ -11,9 +11,9 @@ mod touching;
 pub(crate) mod twin;
 
 use crate::{Cache, Vmarch};
-use ccd_core::glam::{DQuat, DVec3};
+use ccd_core::glam::{DMat3, DQuat, DVec3};
 use ccd_core::order::{greater, lesser};
-use ccd_core::{Claim, DistanceOracle, Frame, GiveUp};
+use ccd_core::{Body, Claim, DistanceOracle, Frame, GiveUp, PiecePair};
 use rstest::rstest;
 use scene::{Kind, Scene};
 use shape::{Pcg64, SeedableRng, direction, magnitude};
@@ -171,4 +171,33 @@ fn report(kind: Kind, tally: &Tally, oracle: Vmarch) {
     let counters = oracle.counters();
     let steps = counters.steps as f64 / counters.calls as f64;
     println!("{kind:?}: {tally:?}, {steps:.2} steps, {counters:?}");
+}
+
+#[test]
+fn claims_are_the_same_bits_for_prepared_bodies() {
+    let mut rng = Pcg64::seed_from_u64(31);
+    let fresh = Body::cuboid([1.0, 0.5, 0.25]).expect("a box");
+    let prepared = fresh.clone();
+    Vmarch::prepare(&prepared);
+    for _ in 0..200 {
+        let translation = magnitude(&mut rng, -1.0, 1.0) * direction(&mut rng);
+        let turn = DQuat::from_rotation_arc(DVec3::Z, direction(&mut rng));
+        let b_to_a = Frame {
+            translation,
+            rotation: DMat3::from_quat(turn),
+        };
+        // A copy starts from nothing.
+        let claims = [&fresh.clone(), &prepared].map(|body| {
+            let piece = body.pieces().get(0);
+            let pair = PiecePair {
+                a: piece,
+                b: piece,
+                b_to_a,
+            };
+            let mut oracle = Vmarch::default();
+            let claim = oracle.separation(&pair, &mut Cache::default());
+            (claim, oracle.counters())
+        });
+        assert_eq!(claims[0], claims[1]);
+    }
 }

@@ -1,5 +1,6 @@
 //! The contract between the engine and the backends that measure the distance of two pieces.
 
+use crate::body::Body;
 use crate::body::combination::Combination;
 use crate::body::piece::Piece;
 use crate::motion::pose::Frame;
@@ -42,6 +43,17 @@ pub trait DistanceOracle {
     /// Returns the effort so far, over all calls; an oracle that does not count returns 0.
     fn effort(&self) -> Effort {
         Effort::default()
+    }
+
+    /// Prepares a body ahead, so that its first queries are not slower than later ones.
+    ///
+    /// # Guarantee
+    /// Answers are the same bits with and without it. An oracle that keeps nothing of pieces does
+    /// nothing here.
+    fn prepare(_body: &Body)
+    where
+        Self: Sized,
+    {
     }
 
     /// Asks `other` wherever this oracle gives up.
@@ -169,6 +181,11 @@ impl<First: DistanceOracle, Second: DistanceOracle> DistanceOracle for OrElse<Fi
             self.second
                 .separation(pair, cache.1.get_or_insert_default())
         })
+    }
+
+    fn prepare(body: &Body) {
+        First::prepare(body);
+        Second::prepare(body);
     }
 
     fn effort(&self) -> Effort {

@@ -31,6 +31,10 @@ use std::ops::ControlFlow;
 /// nearest, so that the distance is bounded before anything is split, and the nearest pair is
 /// always split first. Pairs that have become far are joined again.
 ///
+/// The paper measures the distance of the bodies whatever their motion. Here a pair that the bound keeps
+/// apart to the end of the duration is neither split nor visited again. Large nodes that reach far into
+/// each other are split unmeasured.
+///
 /// For comparison: [`BestFirst`] needs no common step.
 ///
 /// Bodies of one piece need no tree. If another body has [none](crate::Body::hull_tree),

@@ -1,9 +1,8 @@
 //! Schedules and distance backends chosen at run time.
 
-use ccd_core::Bound;
 use ccd_core::schedule::{BestFirst, Fast, Naive};
-use ccd_core::{Answer, DistanceOracle, Instructions, Problem, Schedule};
-use ccd_distance_gjk::{ClosedForm, Gjk};
+use ccd_core::{Answer, Body, Bound, DistanceOracle, Instructions, OrElse, Problem, Schedule};
+use ccd_distance_gjk::{ClosedForm, Direct, Gjk};
 use ccd_distance_vmarch::Vmarch;
 use clap::ValueEnum;
 use std::fmt;
@@ -109,6 +108,15 @@ impl SolverKind {
         }
     }
 
+    /// Prepares a body for the backend, so that its first queries are not slower than later ones.
+    pub fn prepare(self, body: &Body) {
+        match self.oracle {
+            OracleKind::Direct => Direct::prepare(body),
+            OracleKind::Gjk => Gjk::prepare(body),
+            OracleKind::Vmarch => OrElse::<Vmarch, Gjk>::prepare(body),
+        }
+    }
+
     fn with_oracle<O>(self, oracle: O) -> Box<dyn Solve>
     where
         O: DistanceOracle + Send + 'static,
@@ -173,3 +181,6 @@ fn write_value(value: &impl ValueEnum, f: &mut fmt::Formatter<'_>) -> fmt::Resul
         None => Ok(()),
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -123,13 +123,17 @@ fn recorded(args: &QueryArgs, pair: &Pair) -> Recorded {
     Recorded(recorded)
 }
 
+fn method(args: &QueryArgs) -> SolverKind {
+    SolverKind {
+        schedule: args.schedule,
+        oracle: args.oracle,
+        bound: args.bound.unwrap_or_default(),
+    }
+}
+
 fn settings(args: &QueryArgs) -> Settings {
     Settings {
-        method: SolverKind {
-            schedule: args.schedule,
-            oracle: args.oracle,
-            bound: args.bound.unwrap_or_default(),
-        },
+        method: method(args),
         config: Config {
             tolerance: args.tolerance,
             margin: args.margin,

@@ -6,6 +6,7 @@ use crate::body::polytope::{Facet, Origin, Polytope};
 use crate::body::{Body, Volume};
 use crate::error::InputError;
 use glam::DVec3;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// The facets of a box whose corner `k` has a positive x, y, z where bit 0, 1, 2 of `k` is set.
 const BOX: [[u32; 4]; 6] = [
@@ -329,6 +330,32 @@ fn bodies_take_the_trees_of_their_pieces_only() {
     );
     let refused = single.unwrap().with_hull_tree(tree).unwrap_err();
     assert_eq!(refused, HullFault::NotAPiece.at(2));
+}
+
+#[test]
+fn values_are_made_ahead_for_pieces_and_hulls_once() {
+    struct Points(usize);
+    let polytopes = [block(0.0, 1.0, 0), block(2.0, 3.0, 6)];
+    let pieces = Pieces::polytopes(&polytopes).unwrap();
+    let body = Body::new(&pieces, Volume::Surface).unwrap();
+    let tree = tree(&polytopes, hull_of(0.0, 3.0)).unwrap();
+    let body = body.with_hull_tree(tree).unwrap();
+    let made = AtomicUsize::new(0);
+    let make = |piece: &Piece<'_>| {
+        made.fetch_add(1, Ordering::Relaxed);
+        Points(piece.points.len())
+    };
+    body.keep(make);
+    assert_eq!(made.load(Ordering::Relaxed), 2 + 3);
+    body.keep(make);
+    assert_eq!(made.load(Ordering::Relaxed), 2 + 3);
+    let never = |_: &Piece<'_>| -> Points { panic!("it is there") };
+    for list in [body.pieces(), body.hull_tree().unwrap().hulls()] {
+        assert!(list.iter().all(|p| p.kept(never).unwrap().0 == 8));
+    }
+    // A copy has pieces of its own, and shares the hulls.
+    body.clone().keep(make);
+    assert_eq!(made.load(Ordering::Relaxed), 2 + 3 + 2);
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Computes the distance of the bodies at one clock, and the front that is left `[FAST06 Alg. 3]`.
 
-use super::front::{Front, Item};
+use super::front::{Front, Item, Node};
 use super::hull_pair::{HullPair, Near};
 use super::reach::Reaches;
 use crate::config::StartPolicy;
@@ -13,7 +13,7 @@ use crate::schedule::meter::Meter;
 use crate::schedule::pieces::pair::Step;
 use crate::schedule::pieces::snapshot::Snapshot;
 use crate::schedule::proven::Proven;
-use crate::tolerance::JOIN_BEYOND;
+use crate::tolerance::{JOIN_BEYOND, OVERLAPPING};
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 use std::ops::ControlFlow;
@@ -46,8 +46,9 @@ struct Open {
 }
 
 impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
-    /// Visits all pairs of the front at clock `s`, splits those that may have the least distance,
-    /// joins those that no longer may, and returns the time until which all of them keep apart.
+    /// Visits the pairs of the front at clock `s` that do not stay apart to the end, splits those that
+    /// may have the least distance, joins those that no longer may, and returns the time until which
+    /// all of them keep apart.
     pub(super) fn step<O>(&mut self, oracle: &mut O, s: f64) -> ControlFlow<Outcome, f64>
     where
         O: DistanceOracle<Cache = C>,
@@ -59,6 +60,9 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
             open: BinaryHeap::new(),
         };
         for at in self.front.leaves() {
+            if self.front.node(at).stays_apart() {
+                continue;
+            }
             self.look(oracle, &snapshot, at, &mut found)?;
         }
         while let Some(Open { lower, at }) = found.open.pop() {
@@ -121,11 +125,16 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
             return;
         };
         let snapshot = snapshot.with(self.hulls.hulls(node.pair));
+        let depth = snapshot.depth_between_middles();
+        // The search for a common point takes longer than that for a distance, and tells nothing.
+        if depth.is_some_and(|depth| depth > OVERLAPPING) {
+            self.meter.stats.point_looks += snapshot.pieces.points();
+            found.open.push(node.unmeasured(at, s));
+            return;
+        }
         let Some(checked) = snapshot.ask(oracle, cache, self.meter) else {
             // Smaller hulls may be easier.
-            (node.lower, node.near, node.clock) = (f64::NEG_INFINITY, Near::Bridges, s);
-            let lower = node.lower;
-            found.open.push(Open { lower, at });
+            found.open.push(node.unmeasured(at, s));
             return;
         };
         let reaches = self.reaches.each(problem, node.pair, &snapshot);
@@ -136,11 +145,15 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
         let contact = problem.contact_distance();
         // Contacts at the start are found there, or never.
         let reach = if s > 0.0 { problem.gap() } else { contact };
+        let apart = checked.lower > reach && node.clock > s;
         // The distance is that of the pieces below, which are not in contact.
         let settled = node.near == Near::Pieces && checked.upper > contact;
-        if settled && checked.lower > reach && node.clock > s {
+        if settled && apart {
             found.distance = lesser(found.distance, checked.upper);
-        } else if !(checked.lower >= found.distance) {
+        }
+        // What is below a pair that stays apart does so as well, however far it is.
+        let done = apart && (settled || node.stays_apart());
+        if !(done || checked.lower >= found.distance) {
             let lower = checked.lower;
             found.open.push(Open { lower, at });
         }
@@ -213,6 +226,15 @@ impl<'p, C: Clone + Default> Descent<'_, 'p, C> {
             }
         }
         ControlFlow::Continue(())
+    }
+}
+
+impl<C> Node<C> {
+    /// Records that the pair is to be split, whatever its distance.
+    fn unmeasured(&mut self, at: u32, s: f64) -> Open {
+        (self.lower, self.near, self.clock) = (f64::NEG_INFINITY, Near::Bridges, s);
+        let lower = self.lower;
+        Open { lower, at }
     }
 }
 

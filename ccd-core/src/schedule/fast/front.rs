@@ -28,7 +28,8 @@ pub(super) struct Node<C> {
     pub(super) children: Option<u32>,
     /// A lower bound of its distance, when it was last visited.
     pub(super) lower: f64,
-    /// The time until which it was certified apart at its last visit.
+    /// The time until which it was certified apart at its last visit; infinite for one that stays
+    /// apart to the end.
     pub(super) clock: f64,
     /// The owners of its nearest features.
     pub(super) near: Near,
@@ -95,14 +96,16 @@ impl<C: Clone + Default> Front<C> {
         least
     }
 
-    /// Returns the pairs with both children in the front, and the first child of each.
+    /// Returns the pairs whose children are both in the front and do not stay apart to the end, with the
+    /// first child of each.
     pub(super) fn above_leaves(&self) -> Vec<(u32, u32)> {
         let mut above = Vec::new();
         self.walk(|at, node| {
             if let Some(first) = node.children
                 && [first, first + 1]
                     .iter()
-                    .all(|&child| self.nodes[child as usize].children.is_none())
+                    .map(|&child| &self.nodes[child as usize])
+                    .all(|child| child.children.is_none() && !child.stays_apart())
             {
                 above.push((at, first));
             }
@@ -159,6 +162,13 @@ impl<C: Clone + Default> Front<C> {
                 stack.extend([first + 1, first]);
             }
         }
+    }
+}
+
+impl<C> Node<C> {
+    /// Returns whether it is certified apart to the end of the query.
+    pub(super) fn stays_apart(&self) -> bool {
+        self.clock == f64::INFINITY
     }
 }
 

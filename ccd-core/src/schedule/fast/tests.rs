@@ -219,6 +219,34 @@ fn trees_spare_most_pairs_of_pieces() {
 }
 
 #[test]
+fn a_brief_motion_splits_nothing_that_stays_apart() {
+    let mut rng = rng(27);
+    let bodies = [400, 400].map(|count| chain(&mut rng, count));
+    let still = Motion::still(Pose::IDENTITY);
+    let calls = |height: f64, speed: f64| {
+        let pose = Pose::at(height * DVec3::Z).unwrap();
+        let moving = Moving {
+            body: &bodies[0],
+            motion: Motion::new(pose, -speed * DVec3::Z, 1e-3 * DVec3::X).unwrap(),
+        };
+        let other = Moving {
+            body: &bodies[1],
+            motion: still,
+        };
+        let problem = Problem::new(moving, other, 1.0, &Config::default()).unwrap();
+        let answer = solve(&problem);
+        assert!(matches!(answer.outcome, Outcome::Free { .. }), "{answer:?}");
+        answer.stats.oracle_calls
+    };
+    let size = bodies
+        .iter()
+        .map(|body| body.tree().radius())
+        .fold(0.0, greater);
+    // Far from each other in their own terms, but not told apart by balls about them.
+    assert_eq!(calls(1.8 * f64::from(size), 1.0), 1);
+}
+
+#[test]
 fn budgets_end_a_query_with_a_time_that_is_safe() {
     let mut rng = rng(23);
     let mut ended = 0;

@@ -150,6 +150,18 @@ impl<'p> Snapshot<'p> {
         (!(free >= self.horizon())).then_some(free)
     }
 
+    /// Returns how far two hulls of many points reach into each other along the axis between their
+    /// middles, in units of the smaller one's radius; negative when they are apart along it, none when a
+    /// hull has few points.
+    #[cfg(feature = "hull-tree")]
+    pub(crate) fn depth_between_middles(&self) -> Option<f64> {
+        let pair = &self.pieces;
+        let ((a, radius_a), (b, radius_b)) = (pair.a.ball()?, pair.b.ball()?);
+        let axis = unit(pair.b_to_a.point(b) - a)?;
+        let gap = separation::support_gap(pair, axis, a) - pair.a.radius - pair.b.radius;
+        Some(-gap / lesser(radius_a, radius_b))
+    }
+
     /// Like [`Snapshot::free_time`] for two pieces, of these indices, that rest on each other.
     ///
     /// Triangles in one plane are kept apart by it on either side, and may still be about to pass

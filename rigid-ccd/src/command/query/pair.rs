@@ -56,6 +56,7 @@ fn load(args: &QueryArgs, (option, text): (&str, &str), source: &BodySource) -> 
     if args.schedule.uses_hull_trees() && body.hull_tree().is_none() {
         body = with_hull_tree(body).with_context(|| format!("{option} {text}"))?;
     }
+    super::method(args).prepare(&body);
     drop(progress);
     if !args.quiet {
         let size = Size::of(&body);
