@@ -4,19 +4,19 @@ use crate::math::vector::length;
 use crate::problem::{Problem, Side};
 use glam::DVec3;
 
-/// Returns whether the bodies keep the gap that clocks prove, by more than rounding, because balls
-/// around them do.
+/// Returns whether the bodies stay farther apart than a contact is, by more than rounding, because
+/// balls around them do.
 ///
 /// Most pairs of a simulation or of a plan are told apart here, in a few tens of nanoseconds.
 ///
 /// # Guarantee
-/// Only bodies that keep the gap are out of reach.
+/// Only bodies that are never in contact, up to the tolerance, are out of reach.
 pub(super) fn out_of_reach(problem: &Problem<'_>) -> bool {
     let (a, b) = (Ball::of(&problem.a), Ball::of(&problem.b));
     let distance = least_length(b.centre - a.centre, b.velocity - a.velocity);
     // The rounding of a distance of bodies is more than that of the places of their balls; twice
     // of it is more than that of this distance, too. Written so that NaN is within reach.
-    distance - a.radius - b.radius > problem.node_gap() + 2.0 * problem.rounding
+    distance - a.radius - b.radius > problem.contact_distance() + 2.0 * problem.rounding
 }
 
 /// A ball that moves straight and contains a body all the time.

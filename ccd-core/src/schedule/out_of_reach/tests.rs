@@ -39,7 +39,7 @@ fn bodies_out_of_reach_keep_their_gap_at_all_sampled_times() {
         }
         told += 1;
         for s in (0..=64).map(|k| f64::from(k) / 64.0) {
-            assert!(distance(&problem, s) > problem.node_gap());
+            assert!(distance(&problem, s) > problem.contact_distance());
         }
     }
     assert!(told > 400 && near > 400, "{told} {near}");
