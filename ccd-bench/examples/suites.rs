@@ -11,10 +11,10 @@
 //! Reading the clock takes some 20 to 40 ns of each.
 
 use anyhow::{Context, Result, anyhow, bail};
+use ccd_bench::method::peer::parry::double::shapes::{rigid_motion, vector};
 use ccd_core::glam::DVec3;
 use ccd_core::{Body, Config, StartPolicy};
 use ccd_decomp::{Detail, TriangleMesh, body_from_mesh, parse_body};
-use parry3d_f64::math::Vector;
 use parry3d_f64::query::{NonlinearRigidMotion, cast_shapes_nonlinear};
 use parry3d_f64::shape::SharedShape;
 use rigid_ccd::Solver;
@@ -164,7 +164,7 @@ impl Row {
             number,
             a: bodies.number_of(&case["a"], file)?,
             b: bodies.number_of(&case["b"], file)?,
-            motions: [peer_motion(&query.a), peer_motion(&query.b)],
+            motions: [rigid_motion(&query.a), rigid_motion(&query.b)],
             query,
             config,
         }))
@@ -284,22 +284,6 @@ fn primitive(text: &str) -> Result<SharedShape> {
         ("box", &[x, y, z]) => Ok(SharedShape::cuboid(x, y, z)),
         _ => Err(anyhow!("not a primitive: {text}")),
     }
-}
-
-fn peer_motion(motion: &ccd_core::Motion) -> NonlinearRigidMotion {
-    let start = motion.pose(0.0);
-    let q = start.rotation();
-    let rotation = parry3d_f64::math::Rotation::from_xyzw(q.x, q.y, q.z, q.w).normalize();
-    NonlinearRigidMotion::new(
-        parry3d_f64::math::Pose::from_parts(vector(start.translation()), rotation),
-        vector(motion.centre()),
-        vector(motion.velocity()),
-        vector(motion.spin()),
-    )
-}
-
-fn vector(v: DVec3) -> Vector {
-    Vector::new(v.x, v.y, v.z)
 }
 
 fn mean(values: &[f64]) -> f64 {

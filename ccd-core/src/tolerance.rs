@@ -60,8 +60,8 @@ pub const SCALE: f64 = f64::from_bits((1023 + 700) << 52);
 ///   by climbing edges may be lower than the farthest one by two heights, `2 · 4 |n|₁ |x|`, which
 ///   is 14 ([`HEIGHT_F64`]).
 ///
-/// Pairs of nodes see one body from the other at once, by `RelativePath`, if at most one of the two
-/// turns:
+/// Pairs of nodes see one body from the other at once (`motion/relative.rs`). If at most one of the
+/// two turns:
 /// - products of the three parts of one rotation with the other rotation add 16 in place of 9; the
 ///   rotation that does not turn saves the 40 of axis, sine, cosine and sums;
 /// - the parts that turn the way add 9 in place of 6, and 2 for the product with `s` and its sum.
@@ -374,6 +374,21 @@ pub const SCREW_DRIFT: f64 = 1.0 / 256.0;
 /// The advance of a screw during the query, relative to the smaller body's radius, up to which it
 /// counts as sideways. Its pitch would be so small that nodes span many.
 pub const LEAST_ADVANCE: f64 = 1.0 / 65536.0;
+
+/// The error of the advance along a screw, which counts as drift, relative to the velocity: the axis is
+/// off by 4.5u, twice, and products, sums and differences by 9u; 32u are taken.
+pub const ADVANCE_F64: f64 = 32.0 * U64;
+
+/// The least distance from the axis of a plane beyond which a node is, in units of the distance of the
+/// node's centre. Nodes that reach nearer have profiles too wide to prove anything.
+pub const LEAST_INNER: f64 = 0.25;
+
+/// The most turns for which surfaces are sought. Nodes that span more pitches hardly ever keep apart.
+pub const MAX_TURNS: f64 = 8.0;
+
+/// The widening of an interval of numbers of turns before its whole numbers are taken, in turns and
+/// relative to them: far above the rounding of a quotient of a few units in the last place.
+pub const TURNS_F64: f64 = 1e-9;
 
 /// The number of splits after which nodes are compared along a screw: profiles of nodes are worth
 /// their cost to long queries only.

@@ -72,7 +72,7 @@ impl DistanceOracle for ClosedForm {
     #[inline]
     fn separation(&mut self, pair: &PiecePair<'_>, (): &mut ()) -> Result<Claim, GiveUp> {
         let (p, q) = local(pair).ok_or(GiveUp::TooManyPoints)?;
-        let near = vectorize!(self.level, level => nearest(level, &p, &q));
+        let near = nearest(self.level, &p, &q);
         let w = near.difference(&p, &q);
         let separated = support_gap(&p, &q, w) >= KEEP * w.length_squared();
         let (axis, near) = if separated && w.length_squared().is_normal() {

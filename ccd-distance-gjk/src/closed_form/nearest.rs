@@ -1,8 +1,9 @@
 //! Nearest points of two triangles that do not intersect: edge against edge, corner against face.
 
 use crate::lanes::{Lanes3, clamp_unit, reciprocal, splat};
-use ccd_core::fearless_simd::{Simd, f64x4, prelude::*};
+use ccd_core::fearless_simd::{Level, Simd, f64x4, prelude::*};
 use ccd_core::glam::DVec3;
+use ccd_core::vectorize;
 
 /// The corners of a triangle, a segment or a point, the last one repeated.
 pub(crate) type Corners = [DVec3; 3];
@@ -27,8 +28,12 @@ impl Nearest {
 ///
 /// Every candidate is a pair of points of the triangles, however ill-conditioned; the least
 /// distance decides.
+pub(crate) fn nearest(level: Level, p: &Corners, q: &Corners) -> Nearest {
+    vectorize!(level, level => nearest_at(level, p, q))
+}
+
 #[inline(always)]
-pub(crate) fn nearest<L: Simd>(level: L, p: &Corners, q: &Corners) -> Nearest {
+fn nearest_at<L: Simd>(level: L, p: &Corners, q: &Corners) -> Nearest {
     let edges = edges_to_edges(level, p, q);
     let corners_q = corners_to_face(level, p, q);
     let corners_p = corners_to_face(level, q, p);

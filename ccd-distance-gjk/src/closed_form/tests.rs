@@ -4,7 +4,7 @@ use super::ClosedForm;
 use super::nearest::{Corners, Nearest};
 use super::pierce::common_point;
 use ccd_core::glam::DVec3;
-use ccd_core::{Claim, DistanceOracle, Frame, GiveUp, Instructions, Piece, PiecePair, vectorize};
+use ccd_core::{Claim, DistanceOracle, Frame, GiveUp, Instructions, Piece, PiecePair};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use rstest::rstest;
@@ -25,7 +25,7 @@ fn claim(a: &[DVec3], b: &[DVec3]) -> Result<Claim, GiveUp> {
 }
 
 fn nearest(p: &Corners, q: &Corners) -> Nearest {
-    vectorize!(Instructions::Best.level(), level => super::nearest(level, p, q))
+    super::nearest(Instructions::Best.level(), p, q)
 }
 
 fn v(x: f64, y: f64, z: f64) -> DVec3 {

@@ -4,9 +4,9 @@ use super::minkowski::Difference;
 use super::search::Found;
 use super::simplex::Simplex;
 use crate::closed_form::nearest::{Corners, nearest};
+use ccd_core::Instructions;
 use ccd_core::glam::DVec3;
 use ccd_core::order::lesser;
-use ccd_core::{Instructions, vectorize};
 
 /// Replaces the witnesses by the nearest points of the parts that a simplex spans on either side,
 /// if those are nearer.
@@ -20,8 +20,7 @@ pub(crate) fn witnesses(difference: &Difference<'_>, simplex: Simplex, found: &m
     let (Some(p), Some(q)) = (p, q) else {
         return;
     };
-    let near =
-        vectorize!(Instructions::Best.level(), level => nearest(level, &p.corners, &q.corners));
+    let near = nearest(Instructions::Best.level(), &p.corners, &q.corners);
     let square = near.difference(&p.corners, &q.corners).length_squared();
     if square < found.square {
         let shares = Couple::new(near.a, near.b);

@@ -12,7 +12,7 @@ pub mod double {
     #[path = "cast.rs"]
     pub mod cast;
     #[path = "shapes.rs"]
-    pub(in crate::method::peer) mod shapes;
+    pub mod shapes;
     #[path = "sweep.rs"]
     pub mod sweep;
 }

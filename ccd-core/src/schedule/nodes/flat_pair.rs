@@ -64,9 +64,9 @@ impl<'p> Flat<'p> {
             }
         };
         Some(Flat {
+            normal: node.turned(normal),
             node,
             half,
-            normal: side.path.frame(s).rotation * normal,
         })
     }
 

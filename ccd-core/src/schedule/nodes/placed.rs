@@ -50,6 +50,11 @@ impl<'p> Placed<'p> {
         }
     }
 
+    /// Turns a vector along with the body.
+    pub(super) fn turned(&self, vector: DVec3) -> DVec3 {
+        self.frame.rotation * vector
+    }
+
     /// Returns `max n·(x − centre)` over the points, for an axis of any length.
     #[inline]
     pub(super) fn reach(&self, n: DVec3) -> f64 {

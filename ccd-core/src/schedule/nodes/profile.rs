@@ -9,7 +9,7 @@ use super::placed::Placed;
 use crate::math::order::{greater, lesser};
 use crate::math::vector::length;
 use crate::motion::trig::sin_cos;
-use crate::tolerance::{RATE_F64, profile_rounding};
+use crate::tolerance::{LEAST_INNER, MAX_TURNS, RATE_F64, TURNS_F64, profile_rounding};
 use glam::{DVec2, DVec3};
 use std::f64::consts::{PI, TAU};
 
@@ -174,7 +174,7 @@ impl Profile {
 
 /// Rounds to the whole numbers in an interval, which is widened by far more than rounding.
 fn outward([least, most]: [f64; 2]) -> [f64; 2] {
-    let width = 1e-9 * (1.0 + greater(least.abs(), most.abs()));
+    let width = TURNS_F64 * (1.0 + greater(least.abs(), most.abs()));
     [(least - width).ceil(), (most + width).floor()]
 }
 
@@ -210,10 +210,3 @@ pub(super) fn keep_apart(turning: &Profile, still: &Profile, axis: &ScrewAxis, w
     }
     true
 }
-
-/// The least distance from the axis of a plane beyond which a node is, in units of the distance of the
-/// node's centre.
-const LEAST_INNER: f64 = 0.25;
-
-/// The most turns for which surfaces are sought. Nodes that span more pitches hardly ever keep apart.
-const MAX_TURNS: f64 = 8.0;

@@ -15,7 +15,7 @@ use crate::body::tree::{Below, Members, Named, NodeId};
 use crate::math::order::lesser;
 use crate::math::vector::length;
 use crate::problem::{Problem, Side, Which};
-use crate::tolerance::{CLOSED_GAP, LEAST_ADVANCE, RATE_F64, SCREW_DRIFT, U64};
+use crate::tolerance::{ADVANCE_F64, CLOSED_GAP, LEAST_ADVANCE, RATE_F64, SCREW_DRIFT};
 use std::f64::consts::TAU;
 use std::ops::Range;
 
@@ -62,7 +62,7 @@ impl Screw {
             false => 0.0,
         };
         // The advance is off by a few units in the last place, which counts as drift too.
-        let drift = length(velocity - along * unit) + 32.0 * U64 * length(velocity);
+        let drift = length(velocity - along * unit) + ADVANCE_F64 * length(velocity);
         // Written so that NaN is no screw.
         if !(drift <= SCREW_DRIFT * size) {
             return None;

@@ -9,7 +9,7 @@ use ccd_core::glam::{DQuat, DVec3};
 use ccd_decomp::TriangleMesh;
 
 /// Returns the same triangles in the same order.
-pub(in crate::method::peer) fn tri_mesh(mesh: &TriangleMesh) -> Result<TriMesh, PeerError> {
+pub fn tri_mesh(mesh: &TriangleMesh) -> Result<TriMesh, PeerError> {
     let vertices = mesh.vertices().iter().map(|&v| vector(v)).collect();
     TriMesh::new(vertices, mesh.faces().to_vec()).map_err(|error| PeerError {
         why: error.to_string(),
@@ -17,7 +17,7 @@ pub(in crate::method::peer) fn tri_mesh(mesh: &TriangleMesh) -> Result<TriMesh, 
 }
 
 /// Returns the same motion: each body turns about a centre that moves straight, both at constant rates.
-pub(in crate::method::peer) fn rigid_motion(motion: &Motion) -> NonlinearRigidMotion {
+pub fn rigid_motion(motion: &Motion) -> NonlinearRigidMotion {
     NonlinearRigidMotion::new(
         pose(motion, 0.0),
         vector(motion.centre()),
@@ -27,13 +27,13 @@ pub(in crate::method::peer) fn rigid_motion(motion: &Motion) -> NonlinearRigidMo
 }
 
 /// Returns the pose of a body at a time.
-pub(in crate::method::peer) fn pose(motion: &Motion, time: f64) -> Pose {
+pub fn pose(motion: &Motion, time: f64) -> Pose {
     let pose = motion.pose(time);
     Pose::from_parts(vector(pose.translation()), rotation(pose.rotation()))
 }
 
 /// Rounds each coordinate to the library's number type.
-pub(in crate::method::peer) fn vector(v: DVec3) -> Vector {
+pub fn vector(v: DVec3) -> Vector {
     Vector::new(v.x as Real, v.y as Real, v.z as Real)
 }
 
