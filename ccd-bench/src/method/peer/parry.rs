@@ -27,7 +27,7 @@ pub mod single {
     pub mod cast;
     #[path = "shapes.rs"]
     #[expect(clippy::duplicate_mod)]
-    mod shapes;
+    pub mod shapes;
     #[path = "sweep.rs"]
     #[expect(clippy::duplicate_mod)]
     pub mod sweep;
