@@ -99,8 +99,8 @@ pub fn least_tolerance(rounding: f64) -> f64 {
 /// group's origin.
 ///
 /// In units of `u = 2⁻²⁴`: the distance is rounded once (1), the child's centre subtracted (1),
-/// projected by three operations (3) onto an axis whose length is off by a root, a quotient and
-/// a product (4), and the reaches subtracted (2): 11u; 12u are taken.
+/// projected by three operations (3), the reaches subtracted (2), and the gap divided by the axis's
+/// length: a root and a quotient (3), and a product (1). That is 11u; 12u are taken.
 pub const WAY_F32: f32 = 12.0 * U32;
 
 /// Allowance on a support gap computed in f32, relative to the split group's radius and the other
@@ -141,7 +141,8 @@ pub const ACROSS_F32: f32 = 8.0 * U32;
 
 /// Vectors shorter than this are not used as axes in f32. Above it, squares that underflow, each by
 /// at most 7e-46, are less than `u` of their sum; below 1e-22 they would leave a vector that is off
-/// by a fifth. Nothing is lost: shorter vectors cross gaps below [`LEAST_GAP_F32`].
+/// by a fifth. Half sizes' products with it that underflow are less than 1e-27 of a unit vector's.
+/// Nothing is lost: shorter vectors cross gaps below [`LEAST_GAP_F32`].
 pub const LEAST_AXIS_F32: f32 = 1e-18;
 
 /// Gaps below this count as closed in f32, in the scene's unit of length. Above it, a bending whose

@@ -40,11 +40,16 @@ pub(crate) fn sin_cos(angle: f64) -> (f64, f64) {
     let turns = (angle * FRAC_2_PI + 0.5) as i32;
     let quarter = f64::from(turns);
     // Exact except in the last step: the relative error is at most 2⁻⁵³, the absolute one 2⁻⁷⁵.
-    let r = (angle - quarter * HALF_PI[0]) - quarter * HALF_PI[1] - quarter * HALF_PI[2];
+    let r = (angle - quarter * HALF_PI[0]) - (quarter * HALF_PI[1] + quarter * HALF_PI[2]);
     let square = r * r;
-    let sum = |terms: &[f64; 7]| terms.iter().rev().fold(0.0, |sum, t| sum * square + t);
+    let fourth = square * square;
+    // Few steps follow on each other: a visit waits for them.
+    let sum = |&[a, b, c, d, e, f, g]: &[f64; 7]| {
+        let low = (a + b * square) + (c + d * square) * fourth;
+        low + ((e + f * square) + g * fourth) * (fourth * fourth)
+    };
     let sine = r + r * square * sum(&SINE);
-    let cosine = 1.0 - (0.5 * square - square * square * sum(&COSINE));
+    let cosine = 1.0 - (0.5 * square - fourth * sum(&COSINE));
     match turns & 3 {
         0 => (sine, cosine),
         1 => (cosine, -sine),

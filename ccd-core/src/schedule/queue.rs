@@ -6,17 +6,25 @@ use crate::math::order::greater;
 /// for a depth-first search.
 #[derive(Debug)]
 pub(crate) struct Queue<T> {
-    /// A heap with four children to each key: half as many steps as with two.
-    heap: Vec<Key>,
     items: Vec<T>,
     vacant: Vec<u32>,
+    /// The least of all keys.
+    least: Key,
+    /// A tournament: the keys of the items, then the least of every four keys of the level before, up
+    /// to a single four. Its steps are the same for every change, so that no branch is unforeseen; a
+    /// heap's sink has one at each turn.
+    levels: Vec<Vec<[Key; 4]>>,
+    /// The number of levels in use.
+    depth: usize,
     serial: u32,
-    peak: usize,
 }
 
 /// 64 bits of clock (clocks are not negative, so their bits order as the numbers do), 1 bit of
 /// rank, 31 bits of age, 32 bits of index.
 type Key = u128;
+
+/// The key of a place without an item, later than all others.
+const VACANT: Key = Key::MAX;
 
 /// The order of items with equal clocks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -35,11 +43,12 @@ pub(crate) struct Full;
 impl<T> Default for Queue<T> {
     fn default() -> Self {
         Queue {
-            heap: Vec::new(),
             items: Vec::new(),
             vacant: Vec::new(),
+            least: VACANT,
+            levels: Vec::new(),
+            depth: 0,
             serial: 0,
-            peak: 0,
         }
     }
 }
@@ -47,38 +56,38 @@ impl<T> Default for Queue<T> {
 impl<T> Queue<T> {
     /// Removes all items, and keeps the memory.
     pub(crate) fn clear(&mut self) {
-        self.heap.clear();
         self.items.clear();
         self.vacant.clear();
+        self.least = VACANT;
+        self.levels.iter_mut().for_each(Vec::clear);
+        self.depth = 0;
         self.serial = 0;
-        self.peak = 0;
     }
 
     /// Adds an item that waits for its clock, which is not negative.
     pub(crate) fn push(&mut self, clock: f64, rank: Rank, item: T) -> Result<(), Full> {
-        let index = match self.vacant.pop() {
-            Some(index) => {
-                self.items[index as usize] = item;
-                index
+        let place = match self.vacant.pop() {
+            Some(place) => {
+                self.items[place as usize] = item;
+                place
             }
             None if self.items.len() < MAX_ITEMS => {
                 self.items.push(item);
+                self.grow();
                 (self.items.len() - 1) as u32
             }
             None => return Err(Full),
         };
-        let key = self.newest(clock, rank, index);
-        self.heap.push(key);
-        self.peak = self.peak.max(self.heap.len());
-        self.rise(key);
+        let key = self.newest(clock, rank, place);
+        self.set(place, key);
         Ok(())
     }
 
     /// Returns the least clock and its item.
     #[inline]
     pub(crate) fn least(&mut self) -> Option<(f64, &mut T)> {
-        let key = *self.heap.first()?;
-        Some((clock(key), &mut self.items[index(key)]))
+        let item = self.items.get_mut(place(self.least) as usize)?;
+        Some((clock(self.least), item))
     }
 
     /// Lets the least item wait for a later clock.
@@ -86,8 +95,9 @@ impl<T> Queue<T> {
     /// # Panics
     /// When the queue is empty.
     pub(crate) fn postpone(&mut self, clock: f64) {
-        let low = self.heap[0] as u64;
-        self.sink(Key::from(clock.to_bits()) << 64 | Key::from(low));
+        let low = self.least as u64;
+        let key = Key::from(clock.to_bits()) << 64 | Key::from(low);
+        self.set(place(self.least), key);
     }
 
     /// Lets the least item wait for a later clock, as the newest of all.
@@ -95,8 +105,9 @@ impl<T> Queue<T> {
     /// # Panics
     /// When the queue is empty.
     pub(crate) fn renew(&mut self, clock: f64, rank: Rank) {
-        let key = self.newest(clock, rank, self.heap[0] as u32);
-        self.sink(key);
+        let place = place(self.least);
+        let key = self.newest(clock, rank, place);
+        self.set(place, key);
     }
 
     /// Puts a new item in the place of the least one.
@@ -104,94 +115,89 @@ impl<T> Queue<T> {
     /// # Panics
     /// When the queue is empty.
     pub(crate) fn replace(&mut self, clock: f64, rank: Rank, item: T) {
-        let place = index(self.heap[0]);
-        self.items[place] = item;
+        self.items[place(self.least) as usize] = item;
         self.renew(clock, rank);
     }
 
     /// Takes out the least item, if there is one.
     pub(crate) fn remove(&mut self) {
-        if let Some(last) = self.heap.pop() {
-            let removed = self.heap.first().copied().unwrap_or(last);
-            self.vacant.push(removed as u32);
-            if !self.heap.is_empty() {
-                self.sink(last);
-            }
+        if self.least != VACANT {
+            let place = place(self.least);
+            self.vacant.push(place);
+            self.set(place, VACANT);
         }
     }
 
     /// Returns the largest number of items that waited at once.
     pub(crate) fn peak(&self) -> u64 {
-        self.peak as u64
+        self.items.len() as u64
     }
 
-    fn newest(&mut self, clock: f64, rank: Rank, index: u32) -> Key {
+    fn newest(&mut self, clock: f64, rank: Rank, place: u32) -> Key {
         self.serial = self.serial.wrapping_add(1);
-        key(clock, rank, self.serial, index)
+        key(clock, rank, self.serial, place)
     }
 
-    /// Moves the last key, which is this one, up to its place.
-    fn rise(&mut self, key: Key) {
-        let mut hole = self.heap.len() - 1;
-        while hole > 0 {
-            let parent = (hole - 1) / CHILDREN;
-            if self.heap[parent] <= key {
+    /// Sets the key of a place, and plays its games.
+    #[inline]
+    fn set(&mut self, place: u32, key: Key) {
+        let (mut at, mut least) = (place as usize, key);
+        for level in &mut self.levels[..self.depth] {
+            let four = &mut level[at / 4];
+            four[at % 4] = least;
+            least = least_of(four);
+            at /= 4;
+        }
+        self.least = least;
+    }
+
+    /// Makes room for the key of the last item.
+    #[inline]
+    fn grow(&mut self) {
+        let mut last = self.items.len() - 1;
+        if last == 0 || last == 1 << (2 * self.depth) {
+            self.deepen();
+        }
+        for level in &mut self.levels[..self.depth] {
+            if last % 4 != 0 {
                 break;
             }
-            self.heap[hole] = self.heap[parent];
-            hole = parent;
+            last /= 4;
+            if level.len() == last {
+                level.push([VACANT; 4]);
+            }
         }
-        self.heap[hole] = key;
     }
 
-    /// Puts a key in the place of the least one, and moves it down to where it belongs.
-    fn sink(&mut self, key: Key) {
-        let mut hole = 0;
-        loop {
-            let first = CHILDREN * hole + 1;
-            let children = self.heap.get(first..).unwrap_or_default();
-            let least = match children.first_chunk() {
-                Some(all) => least_of(all),
-                None => (0..children.len())
-                    .min_by_key(|&k| children[k])
-                    .unwrap_or(0),
-            };
-            match children.get(least) {
-                Some(&child) if child < key => self.heap[hole] = child,
-                _ => break,
-            }
-            hole = first + least;
+    #[cold]
+    fn deepen(&mut self) {
+        if self.levels.len() == self.depth {
+            self.levels.push(Vec::new());
         }
-        self.heap[hole] = key;
+        self.levels[self.depth].push([self.least, VACANT, VACANT, VACANT]);
+        self.depth += 1;
     }
 }
 
-/// The number of keys below each one in the heap.
-const CHILDREN: usize = 4;
-
-/// Returns the index of the least key, without a branch.
+/// Returns the least of four keys, without a branch.
 #[inline]
-fn least_of(keys: &[Key; CHILDREN]) -> usize {
-    let lower = usize::from(keys[1] < keys[0]);
-    let upper = 2 + usize::from(keys[3] < keys[2]);
-    if keys[upper] < keys[lower] {
-        upper
-    } else {
-        lower
-    }
+fn least_of(&[a, b, c, d]: &[Key; 4]) -> Key {
+    let lower = if b < a { b } else { a };
+    let upper = if d < c { d } else { c };
+    if upper < lower { upper } else { lower }
 }
 
 fn clock(key: Key) -> f64 {
     f64::from_bits((key >> 64) as u64)
 }
 
-fn index(key: Key) -> usize {
-    key as u32 as usize
+fn place(key: Key) -> u32 {
+    key as u32
 }
 
-fn key(clock: f64, rank: Rank, serial: u32, index: u32) -> Key {
+fn key(clock: f64, rank: Rank, serial: u32, place: u32) -> Key {
     let age = u64::from(!serial & (u32::MAX >> 1));
-    let low = (rank as u64) << 63 | age << 32 | u64::from(index);
+    let low = (rank as u64) << 63 | age << 32 | u64::from(place);
     // `max` also turns a negative zero into a zero, whose bits order first.
     u128::from(greater(0.0, clock).to_bits()) << 64 | u128::from(low)
 }

@@ -28,8 +28,8 @@ impl DistanceOracle for Exhaustive {
     }
 }
 
-/// Returns the axis of widest gap among the vector between the witnesses, the normals and the
-/// products of edges.
+/// Returns the axis of widest gap among the vector between the witnesses, its parts across an edge,
+/// the normals and the products of edges.
 fn widest(pair: &PiecePair<'_>, way: DVec3, a: &Triangle, b: &Triangle) -> DVec3 {
     let edges = |t: &Triangle| [t[1] - t[0], t[2] - t[1], t[0] - t[2]];
     let normal = |t: &Triangle| (t[1] - t[0]).cross(t[2] - t[0]);
@@ -37,6 +37,13 @@ fn widest(pair: &PiecePair<'_>, way: DVec3, a: &Triangle, b: &Triangle) -> DVec3
     for e in edges(a) {
         axes.extend(edges(b).map(|f| e.cross(f)));
     }
+    // The way of corners that are very near is rounded: tilted towards a long edge it has no gap.
+    axes.extend(
+        [edges(a), edges(b)]
+            .as_flattened()
+            .iter()
+            .map(|e| e.cross(way).cross(*e)),
+    );
     let gap = |n: DVec3| support_gap(pair, n, a[0]);
     let candidates = axes.iter().filter_map(|n| n.try_normalize());
     candidates

@@ -24,15 +24,15 @@ pub(super) fn widest<L: Simd, C: Children, P: OtherNode>(
     way: Vec3x8<L>,
 ) -> Axis<L> {
     let level = way.level();
-    let ahead = other.near(children.centre(level));
-    let between = (ahead - children.near(ahead)).unit();
+    let between = children.way_to(other.way_near(way));
     let between = along(children, other, way, between);
     let own = towards(children.normal(level), way);
     let own = Axis::new(own, way, children.reach_along_normal(own), other.reach(own));
     let others = towards(Vec3x8::splat(level, other.normal()), way);
     let reach = other.reach_along_normal(others);
     let others = Axis::new(others, way, children.reach(others), reach);
-    better(better(between, own), others)
+    // The one between them is known last.
+    better(better(own, others), between)
 }
 
 /// Returns the axis between the centres when they are nearest, if they move on by at most `travel`.
@@ -45,17 +45,27 @@ pub(super) fn passing<L: Simd, C: Children, P: OtherNode>(
 ) -> Axis<L> {
     let nearest = way.dot(travel) / travel.dot(travel).max(TINY);
     let nearest = nearest.min(1.0).max(0.0);
-    along(children, other, way, (way - travel * nearest).unit())
+    along(children, other, way, way - travel * nearest)
 }
 
+/// Returns axes along vectors of any length.
+///
+/// They are measured before they are made unit vectors: a root and a quotient take as long as that.
 #[inline(always)]
 pub(super) fn along<L: Simd, C: Children, P: OtherNode>(
     children: &C,
     other: &P,
     way: Vec3x8<L>,
-    n: Vec3x8<L>,
+    v: Vec3x8<L>,
 ) -> Axis<L> {
-    Axis::new(n, way, children.reach(n), other.reach(n))
+    let axis = Axis::new(v, way, children.reach(v), other.reach(v));
+    let unit = v.reciprocal_length();
+    Axis {
+        n: v * unit,
+        gap: axis.gap * unit,
+        split_reach: axis.split_reach * unit,
+        other_reach: axis.other_reach * unit,
+    }
 }
 
 impl<L: Simd> Axis<L> {

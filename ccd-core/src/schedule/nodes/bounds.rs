@@ -22,6 +22,8 @@ pub(crate) struct Bounds {
     pub(crate) waits: u8,
     /// The pairs whose child is thicker along the axis than the other node, and can be split.
     pub(crate) thicker: u8,
+    /// True if the other node is a single piece.
+    pub(crate) whole: bool,
     /// The gap that the pairs keep for their free times.
     pub(crate) kept: f32,
 }
@@ -61,6 +63,7 @@ pub(super) fn bound<L: Simd, C: Children, P: OtherNode>(
         free: FreeTimes::pack(free, lanes),
         waits,
         thicker: thicker & !bits(children.pieces(level)),
+        whole: other.is_piece(),
         kept: motion.kept,
     }
 }

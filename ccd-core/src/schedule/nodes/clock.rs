@@ -14,12 +14,12 @@ pub(super) fn free_time<L: Simd>(
     bend: f32x8<L>,
 ) -> f32x8<L> {
     let root = (rate * rate + bend * 2.0 * apart).sqrt();
-    let approaching = apart * 2.0 / (rate + root);
-    let receding = (root - rate) / bend;
+    let approaching = apart * (2.0 * CLOCK_F32) / (rate + root);
+    let receding = (root - rate) / (bend * (1.0 / CLOCK_F32));
     let tau = rate.simd_gt(0.0).select(approaching, receding);
     // An overflowed root proves nothing.
     let proven = apart.simd_gt(closed) & tau.simd_gt(0.0) & root.simd_le(f32::MAX);
-    proven.select(tau * CLOCK_F32, splat(apart.token(), 0.0))
+    proven.select(tau, splat(apart.token(), 0.0))
 }
 
 /// Returns the same on a straight path.

@@ -153,10 +153,9 @@ impl<'p, L: Simd> RelativeMotion<'p, L> {
         let other_centre = centre + way;
         let group_view = GroupView {
             rotation,
-            translation: other_centre - rotation * self.view.other_centre(self.level),
             turn: rotation.narrow(),
             centre: centre.as_vec3(),
-            other_centre: other_centre.as_vec3(),
+            other_centre,
             motion: self,
             members,
         };
@@ -174,14 +173,13 @@ impl<'p, L: Simd> RelativeMotion<'p, L> {
 struct GroupView<'m, L: Simd> {
     motion: &'m RelativeMotion<'m, L>,
     members: &'m Members,
-    /// These take the other body's frame to the split one's, relative to the group's origin.
+    /// Takes the other body's frame to the split one's.
     rotation: PackedMatrix<L>,
-    translation: Packed<L>,
     /// The same rotation in f32, by columns.
     turn: [f32x4<L>; 3],
     /// The bodies' centres of rotation, relative to the group's origin.
     centre: Vec3,
-    other_centre: Vec3,
+    other_centre: Packed<L>,
 }
 
 impl<L: Simd> GroupView<'_, L> {
@@ -211,7 +209,9 @@ impl<L: Simd> GroupView<'_, L> {
     /// Takes a point of the other body to the split one's frame.
     #[inline(always)]
     fn placed(&self, point: DVec3) -> Packed<L> {
-        self.rotation * Packed::new(self.motion.level, point) + self.translation
+        let level = self.motion.level;
+        let arm = Packed::new(level, point) - self.motion.view.other_centre(level);
+        self.rotation * arm + self.other_centre
     }
 
     #[inline(always)]
@@ -255,7 +255,7 @@ impl<L: Simd> GroupView<'_, L> {
                 turns: true,
                 spin: self.motion.seen.spin.as_vec3(),
                 rate,
-                centre: self.other_centre,
+                centre: self.other_centre.as_vec3(),
             },
             None => Turn::NONE,
         }

@@ -64,9 +64,15 @@ impl<L: Simd> Vec3x8<L> {
     /// zero.
     #[inline(always)]
     pub(super) fn unit(self) -> Self {
+        self * self.reciprocal_length()
+    }
+
+    /// The factors that make unit vectors; zero for a vector that is too short to be one in f32.
+    #[inline(always)]
+    pub(super) fn reciprocal_length(self) -> f32x8<L> {
         let (zero, one) = (splat(self.level(), 0.0), splat(self.level(), 1.0));
         let length = self.length();
-        self * length.simd_gt(LEAST_AXIS_F32).select(one / length, zero)
+        length.simd_gt(LEAST_AXIS_F32).select(one / length, zero)
     }
 }
 

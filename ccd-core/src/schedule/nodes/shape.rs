@@ -19,8 +19,9 @@ pub(crate) trait Children {
     fn reach_along_normal<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {
         self.reach(n)
     }
-    /// Returns points of the children from which to look towards `to`.
-    fn near<L: Simd>(&self, to: Vec3x8<L>) -> Vec3x8<L>;
+    /// Returns the ways to a point from the points of the children to look at it from; `to` leads to
+    /// it from their centres.
+    fn way_to<L: Simd>(&self, to: Vec3x8<L>) -> Vec3x8<L>;
     /// Returns which children cannot be split.
     fn pieces<L: Simd>(&self, level: L) -> mask32x8<L>;
 }
@@ -39,8 +40,9 @@ pub(crate) trait OtherNode {
     fn reach_along_normal<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {
         self.reach(n)
     }
-    /// Returns points of the node to look at from points of the children.
-    fn near<L: Simd>(&self, from: Vec3x8<L>) -> Vec3x8<L>;
+    /// Returns the ways from points to points of the node to look at; `way` leads from there to its
+    /// centre.
+    fn way_near<L: Simd>(&self, way: Vec3x8<L>) -> Vec3x8<L>;
     /// Returns whether the node cannot be split.
     fn is_piece(&self) -> bool;
 }
@@ -75,8 +77,8 @@ impl Children for BoxGroup {
         load(level, &self.radius)
     }
     #[inline(always)]
-    fn near<L: Simd>(&self, to: Vec3x8<L>) -> Vec3x8<L> {
-        self.centre(to.level())
+    fn way_to<L: Simd>(&self, to: Vec3x8<L>) -> Vec3x8<L> {
+        to
     }
     #[inline(always)]
     fn reach<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {
@@ -120,8 +122,10 @@ impl Children for TriangleGroup {
         load(level, &self.radius)
     }
     #[inline(always)]
-    fn near<L: Simd>(&self, to: Vec3x8<L>) -> Vec3x8<L> {
-        nearest_of_edges(self.corners(to.level()), to)
+    fn way_to<L: Simd>(&self, to: Vec3x8<L>) -> Vec3x8<L> {
+        let level = to.level();
+        let to = self.centre(level) + to;
+        to - nearest_of_edges(self.corners(level), to)
     }
     #[inline(always)]
     fn reach<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {
@@ -174,15 +178,12 @@ impl OtherNode for OtherBox {
         self.radius
     }
     #[inline(always)]
-    fn near<L: Simd>(&self, from: Vec3x8<L>) -> Vec3x8<L> {
-        let level = from.level();
-        let centre = Vec3x8::splat(level, self.centre);
-        let [u, v, w] = splats(level, self.axes);
-        let way = from - centre;
-        centre
-            + u * way.dot(u).min(self.half[0]).max(-self.half[0])
-            + v * way.dot(v).min(self.half[1]).max(-self.half[1])
-            + w * way.dot(w).min(self.half[2]).max(-self.half[2])
+    fn way_near<L: Simd>(&self, way: Vec3x8<L>) -> Vec3x8<L> {
+        let [u, v, w] = splats(way.level(), self.axes);
+        let x = way.dot(u).min(self.half[0]).max(-self.half[0]);
+        let y = way.dot(v).min(self.half[1]).max(-self.half[1]);
+        let z = way.dot(w).min(self.half[2]).max(-self.half[2]);
+        way - (u * x + v * y + w * z)
     }
     #[inline(always)]
     fn reach<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {
@@ -225,10 +226,10 @@ impl OtherNode for OtherTriangle {
         self.radius
     }
     #[inline(always)]
-    fn near<L: Simd>(&self, from: Vec3x8<L>) -> Vec3x8<L> {
-        let level = from.level();
-        let centre = Vec3x8::splat(level, self.centre);
-        centre + nearest_of_edges(splats(level, self.corners), from - centre)
+    fn way_near<L: Simd>(&self, way: Vec3x8<L>) -> Vec3x8<L> {
+        let level = way.level();
+        let from = Vec3x8::splat(level, Vec3::ZERO) - way;
+        way + nearest_of_edges(splats(level, self.corners), from)
     }
     #[inline(always)]
     fn reach<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {

@@ -4,8 +4,7 @@ use super::expand::{Expansion, Split};
 use super::free_times::FreeTimes;
 use crate::body::tree::{LANES, NodeId};
 use crate::math::order::greater;
-use crate::problem::Problem;
-use crate::problem::Which;
+use crate::problem::{Problem, Side, Which};
 
 /// Up to eight pairs: the children of a node, each with one node of the other body.
 #[derive(Debug)]
@@ -18,6 +17,8 @@ pub(crate) struct Siblings {
     first: NodeId,
     /// The children that are thicker than the other node and will be split next.
     thicker: u8,
+    /// True if the other node is a single piece.
+    whole: bool,
     /// The children for which a second look is better than a split.
     waits: u8,
     /// The number of times that a pair was parted to wait alone.
@@ -57,6 +58,7 @@ impl Siblings {
             split: Split::all(body, 0, 0),
             first: 0,
             thicker: 1,
+            whole: false,
             waits: 0,
             parted: 0,
         }
@@ -71,6 +73,7 @@ impl Siblings {
             split,
             first: expansion.first,
             thicker: expansion.bounds.thicker,
+            whole: expansion.bounds.whole,
             waits: expansion.bounds.waits,
             parted: 0,
         }
@@ -151,14 +154,22 @@ impl Siblings {
                 ..Split::all(body, node, other)
             });
         }
-        if self.thicker >> lane & 1 == 1 {
-            return Next::Split(Split::all(body, child, other));
+        let thicker = self.thicker >> lane & 1 == 1;
+        if self.whole && !thicker {
+            return ask(problem, self.pair(lane));
         }
-        let child_piece = body.of(problem).body.tree().piece(child);
-        let other_piece = body.other().of(problem).body.tree().piece(other);
-        match (child_piece, other_piece, body) {
-            (Some(a), Some(b), Which::A) | (Some(b), Some(a), Which::B) => Next::Ask(a, b),
-            _ => Next::Split(Split::all(body.other(), other, child)),
-        }
+        // Chosen without a branch: none could foresee it.
+        let (nodes, bodies) = ([other, child], [body.other(), body]);
+        let k = usize::from(thicker);
+        Next::Split(Split::all(bodies[k], nodes[k], nodes[1 - k]))
+    }
+}
+
+/// Asks about two nodes that cannot be split.
+fn ask(problem: &Problem<'_>, [a, b]: [NodeId; 2]) -> Next {
+    let piece = |side: &Side<'_>, node| side.body.tree().piece(node);
+    match (piece(&problem.a, a), piece(&problem.b, b)) {
+        (Some(a), Some(b)) => Next::Ask(a, b),
+        _ => unreachable!("only single pieces are thin beside a single piece"),
     }
 }

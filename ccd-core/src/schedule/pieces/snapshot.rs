@@ -97,8 +97,8 @@ impl<'p> Snapshot<'p> {
             normal: self.frames[0].rotation * checked.axis,
             slack: checked.lower - kept,
         };
-        let passing = self.passing(checked, kept);
         let mut free = self.free_along(direct.normal, direct.slack)?;
+        let passing = self.passing(checked, kept);
         if let Some(passing) = &passing {
             free = greater(free, self.free_along(passing.normal, passing.slack)?);
         }

@@ -9,7 +9,7 @@ use crate::math::order::{greater, lesser};
 use crate::schedule::nodes::axis::Axis;
 use crate::schedule::nodes::clock;
 use crate::schedule::nodes::lanes::{Vec3x8, load};
-use crate::tests::scene::{Pcg64, direction, rng};
+use crate::tests::scene::{Pcg64, RngExt, direction, rng};
 use crate::tolerance::{
     ACROSS_F32, ATTACHED_TIME, BEND_F32, CLOCK_F32, LEAST_BEND_F32, MUCH_LARGER,
 };
@@ -250,7 +250,8 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
     }
 
     fn audit(&self, rng: &mut Pcg64, worst: &mut Worst) {
-        let some = direction(rng).as_vec3();
+        // Axes may have any length.
+        let some = direction(rng).as_vec3() * 2f32.powi(rng.random_range(-40..40));
         let found = self.found_on_all_levels(some);
         let reach = vectorize!(Instructions::Best.level(), level => {
             *(self.group.centre(level).length() + self.group.radius(level))
