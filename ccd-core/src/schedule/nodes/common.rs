@@ -12,8 +12,9 @@ use std::cell::OnceCell;
 #[derive(Debug)]
 pub(crate) struct Common<'p> {
     pub(crate) problem: &'p Problem<'p>,
-    /// B as A sees it, and A as B does. Made at the first visit: queries of a few pieces have none.
-    views: OnceCell<[View; 2]>,
+    /// B as A sees it, and A as B does. Each is made at the first split of its body: queries of a few
+    /// pieces have none.
+    views: [OnceCell<View>; 2],
     /// The spins of A and of B along their own axes, and the angular speeds, rounded up; none of a
     /// body that does not turn.
     spins: [Option<(Vec3, f32)>; 2],
@@ -31,7 +32,7 @@ impl<'p> Common<'p> {
     pub(crate) fn new(problem: &'p Problem<'_>) -> Self {
         Common {
             problem,
-            views: OnceCell::new(),
+            views: [const { OnceCell::new() }; 2],
             spins: [&problem.a.path, &problem.b.path].map(|path| {
                 path.turns()
                     .then(|| (path.spin_local.as_vec3(), up(path.rate)))
@@ -46,11 +47,8 @@ impl<'p> Common<'p> {
     /// Returns the other body as seen from this one.
     #[inline(always)]
     pub(super) fn view_from(&self, body: Which) -> &View {
-        let (a, b) = (&self.problem.a.path, &self.problem.b.path);
-        let views = self
-            .views
-            .get_or_init(|| [View::new(a, b), View::new(b, a)]);
-        &views[body as usize]
+        let path = |body: Which| &body.of(self.problem).path;
+        self.views[body as usize].get_or_init(|| View::new(path(body), path(body.other())))
     }
 
     /// Returns the spin of a body along its own axes, and its angular speed, rounded up; none if it
