@@ -1,10 +1,11 @@
 //! What all pairs of nodes of a query have in common.
 
 use crate::body::tree::up;
-use crate::math::order::greater;
+use crate::math::order::{greater, lesser};
+use crate::math::vector::{distance, length};
 use crate::motion::relative::View;
-use crate::problem::{Problem, Which};
-use crate::tolerance::{CLOSED_GAP, LEAST_GAP_F32};
+use crate::problem::{Problem, Side, Which};
+use crate::tolerance::{CLOSED_GAP, LEAST_GAP_F32, PLACES, RATE_F32};
 use glam::Vec3;
 use std::cell::OnceCell;
 
@@ -24,8 +25,33 @@ pub(crate) struct Common<'p> {
     pub(super) node_gap: f32,
     /// The rounding of distances in f64, rounded up.
     pub(super) rounding: f32,
+    /// A bound of the rounding of a rate.
+    pub(super) rate_slack: f32,
     /// A gap that exceeds the slack by no more than this counts as closed.
     pub(super) closed: f32,
+}
+
+/// Bounds the speeds that a rate is the difference of, with the share that the places of arms have in
+/// its rounding.
+fn speed(a: &Side<'_>, b: &Side<'_>) -> f64 {
+    let straight = length(b.path.velocity - a.path.velocity);
+    let turning = |own: &Side<'_>, other: &Side<'_>| {
+        // An arm is the difference of two positions, each rounded in its place, as seen from a group
+        // of the other body. That is in a ball which moves straight, and turns with its body.
+        let (ball, radius) = other.body.tree().ball();
+        let turned = lesser(other.path.rate, 2.0) * ball.distance(other.path.centre);
+        let start = distance(other.path.start_of(ball), own.path.centre_at(0.0));
+        let places = 2.0 * (start + straight + turned + 4.0 * radius) + reach(own);
+        own.path.rate * (reach(own) + PLACES * places)
+    };
+    straight + turning(a, b) + turning(b, a)
+}
+
+/// Bounds the distance of any point of any node from the body's centre of rotation: a node's points
+/// are within the diameter of the whole body from its centre, and that is in a cube around it.
+fn reach(side: &Side<'_>) -> f64 {
+    let (centre, radius) = side.body.tree().ball();
+    centre.distance(side.path.centre) + 4.0 * radius
 }
 
 impl<'p> Common<'p> {
@@ -40,6 +66,7 @@ impl<'p> Common<'p> {
             margin: up(problem.margin),
             node_gap: up(problem.node_gap()),
             rounding: up(problem.rounding),
+            rate_slack: RATE_F32 * up(speed(&problem.a, &problem.b)),
             closed: greater(LEAST_GAP_F32, (CLOSED_GAP * problem.tolerance) as f32),
         }
     }
@@ -58,3 +85,6 @@ impl<'p> Common<'p> {
         self.spins[body as usize]
     }
 }
+
+#[cfg(test)]
+mod tests;

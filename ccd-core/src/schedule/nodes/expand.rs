@@ -11,7 +11,7 @@ use crate::math::order::greater;
 use crate::math::packed::{Packed, PackedMatrix, as_vec3};
 use crate::motion::relative::{Seen, View};
 use crate::problem::{Side, Which};
-use crate::tolerance::{MUCH_LARGER, PLACES_F32, RATE_F32, REACH_F32, WAY_F32};
+use crate::tolerance::{MUCH_LARGER, REACH_F32, WAY_F32};
 use crate::vectorize;
 use fearless_simd::{Simd, f32x4};
 use glam::{DVec3, Vec3};
@@ -265,25 +265,19 @@ impl<L: Simd> GroupView<'_, L> {
     #[inline(always)]
     fn as_they_move(&self, centre: Vec3, radius: f32) -> RelativeMotionF32 {
         let (split, other) = (self.split_turn(), self.other_turn());
-        let velocity = self.motion.seen.velocity.as_vec3();
         let reach = self.members.reach;
-        // An arm is the difference of two positions, each rounded in its place.
-        let places = centre.length() + other.arm(Vec3::ZERO);
-        let speed = velocity.length()
-            + split.rate * (reach + split.arm(Vec3::ZERO))
-            + other.rate * (radius + other.arm(centre) + PLACES_F32 * places);
         let common = self.motion.common;
         let rounding = self.rounding(centre, radius);
         let slack = greater((common.margin + rounding).next_up(), common.node_gap);
         RelativeMotionF32 {
-            velocity,
+            velocity: self.motion.seen.velocity.as_vec3(),
             split,
             other,
             horizon: self.motion.horizon,
             slack,
             kept: (slack - rounding).next_down(),
             closed: common.closed,
-            rate_slack: RATE_F32 * speed,
+            rate_slack: common.rate_slack,
             larger: if split.turns && reach > MUCH_LARGER * radius {
                 Some(Larger::Split)
             } else if other.turns && radius > MUCH_LARGER * reach {

@@ -20,6 +20,8 @@ pub(crate) struct Pair<C> {
     pub(crate) a: u32,
     pub(crate) b: u32,
     goal: Goal,
+    /// True once the pair was advanced.
+    known: bool,
     /// The memory that the oracle left for its next call.
     cache: C,
 }
@@ -59,6 +61,7 @@ impl<C: Default + Clone> Pair<C> {
             a,
             b,
             goal: Goal::Apart,
+            known: false,
             cache: C::default(),
         }
     }
@@ -72,9 +75,16 @@ impl<C: Default + Clone> Pair<C> {
         s: f64,
     ) -> Step {
         let snapshot = Snapshot::new(problem, self.a, self.b, s);
-        self.advance_by(&snapshot, oracle, meter, |snapshot, checked, kept| {
-            snapshot.free_time(checked, kept)
-        })
+        let known = std::mem::replace(&mut self.known, true);
+        self.advance_by(
+            &snapshot,
+            oracle,
+            meter,
+            |snapshot, checked, kept| match known {
+                true => snapshot.free_time(checked, kept),
+                false => snapshot.first_free_time(checked, kept),
+            },
+        )
     }
 
     /// Like [`Pair::advance`] in a snapshot of the pair, with another rule for the time for which

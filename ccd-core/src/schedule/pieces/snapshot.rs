@@ -13,7 +13,9 @@ use crate::motion::gap::{Gap, first_crossing};
 use crate::motion::pose::Frame;
 use crate::problem::Problem;
 use crate::schedule::meter::Meter;
-use crate::tolerance::{AXIS_ROUNDS, RATE_F64, RESTED, RESTING, TURNED_SHARE, USUAL_STEPS};
+use crate::tolerance::{
+    A_WHILE, AXIS_ROUNDS, RATE_F64, RESTED, RESTING, TURNED_SHARE, USUAL_STEPS,
+};
 use glam::DVec3;
 use std::cell::Cell;
 use std::iter;
@@ -89,14 +91,22 @@ impl<'p> Snapshot<'p> {
         }
     }
 
+    /// Like [`Snapshot::free_time`] for two pieces that are looked at for the first time: if a fixed
+    /// plane across the axis of the claim keeps them apart for a while, no other one is tried. Most
+    /// pairs are not looked at again.
+    pub(crate) fn first_free_time(&self, checked: &Checked, kept: f64) -> Option<f64> {
+        let direct = self.direct(checked, kept);
+        match self.free_along(direct.normal, direct.slack)? {
+            free if free >= A_WHILE => Some(free),
+            _ => self.free_time(checked, kept),
+        }
+    }
+
     /// Returns a time for which the pieces certainly stay farther apart than `kept`, or none when
     /// they do for good. It tries the axis of the claim, and the one along which the witnesses pass
     /// each other, with planes that are fixed or turn with one of the bodies.
     pub(crate) fn free_time(&self, checked: &Checked, kept: f64) -> Option<f64> {
-        let direct = Plane {
-            normal: self.frames[0].rotation * checked.axis,
-            slack: checked.lower - kept,
-        };
+        let direct = self.direct(checked, kept);
         let mut free = self.free_along(direct.normal, direct.slack)?;
         let passing = self.passing(checked, kept);
         if let Some(passing) = &passing {
@@ -205,6 +215,14 @@ impl<'p> Snapshot<'p> {
             (Facing::Out(n), Facing::Neither) => along(n),
             (Facing::Neither, Facing::Out(m)) => along(-(turn * m)),
             (Facing::Neither, Facing::Neither) => anyhow(),
+        }
+    }
+
+    /// Returns the plane across the axis of the claim.
+    fn direct(&self, checked: &Checked, kept: f64) -> Plane {
+        Plane {
+            normal: self.frames[0].rotation * checked.axis,
+            slack: checked.lower - kept,
         }
     }
 

@@ -9,7 +9,7 @@ use crate::schedule::nodes::eight_pairs::RelativeMotionF32;
 use crate::schedule::nodes::shape::{OtherBox, OtherNode, OtherTriangle};
 use crate::schedule::nodes::turn::Turn;
 use crate::tests::scene::{Pcg64, RngExt, direction, magnitude, rotation, within};
-use crate::tolerance::{LEAST_GAP_F32, PLACES_F32, RATE_F32, REACH_F32, WAY_F32};
+use crate::tolerance::{LEAST_GAP_F32, PLACES, RATE_F32, REACH_F32, WAY_F32};
 use glam::{DMat3, DVec3, Vec3};
 
 /// The points of a node in its body's frame.
@@ -210,7 +210,7 @@ impl Setting {
         let [x, y, z] = other.centre().abs().to_array();
         let allowed = WAY_F32 * (x + y + z) + REACH_F32 * (other.radius() + reach);
         let places = other.centre().length() + turning_far.arm(Vec3::ZERO);
-        let far_arm = turning_far.arm(other.centre()) + PLACES_F32 * places;
+        let far_arm = turning_far.arm(other.centre()) + PLACES as f32 * places;
         let speed = velocity.length()
             + split.rate * (reach + split.arm(Vec3::ZERO))
             + turning_far.rate * (other.radius() + far_arm);

@@ -1,0 +1,25 @@
+use super::reach;
+use crate::body::tree::Named;
+use crate::tests::scene::{Kind, rng, scene};
+
+#[test]
+fn no_point_of_a_node_is_beyond_the_reach() {
+    let mut rng = rng(41);
+    let mut nodes = 0;
+    for _ in 0..200 {
+        let scene = scene(&mut rng, Kind::Any, 60);
+        let problem = scene.problem();
+        for side in [&problem.a, &problem.b] {
+            let tree = side.body.tree();
+            for id in 0..tree.nodes() as u32 {
+                let Named::Node(node) = tree.get(id) else {
+                    continue;
+                };
+                let farthest = node.centre.distance(side.path.centre) + f64::from(node.radius);
+                assert!(farthest <= reach(side), "{farthest} {}", reach(side));
+                nodes += 1;
+            }
+        }
+    }
+    assert!(nodes > 1_000, "{nodes}");
+}
