@@ -175,6 +175,11 @@ pub fn attached_rounding(turns: f64) -> f64 {
 /// below, large ones that turn past small ones are far above.
 pub const TURNED_SHARE: f64 = 0.5;
 
+/// The number of projections between the boxes of two bodies that lead to their nearest points. Any
+/// axis is sound. Measured on 283 pairs of falling bodies: 1, 2, 3, 6 and 12 projections tell 19, 20,
+/// 22, 24 and 24 of them apart.
+pub const PROJECTIONS: usize = 3;
+
 /// The number of rounds in which an axis is followed along the exact path of the pieces before the
 /// oracle is asked again. Each round is a Newton step that cannot overstep, so a few suffice.
 pub const AXIS_ROUNDS: usize = 16;

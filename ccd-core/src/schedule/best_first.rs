@@ -6,6 +6,7 @@ use super::meter::Meter;
 use super::nodes::closer_look::CloserLook;
 use super::nodes::common::Common;
 use super::nodes::expand::expand;
+use super::nodes::roots::keep_apart;
 use super::nodes::siblings::{Next, Siblings};
 use super::out_of_reach::out_of_reach;
 use super::pieces::pair::Pair;
@@ -93,7 +94,7 @@ impl<O: DistanceOracle> BestFirst<O> {
         oracle: &mut O,
         meter: &mut Meter,
     ) -> Outcome {
-        if out_of_reach(problem) {
+        if out_of_reach(problem) || keep_apart(problem) {
             let proven_gap = problem.proven_gap(f64::INFINITY);
             return Outcome::Free { proven_gap };
         }

@@ -3,6 +3,7 @@
 //! `expand.rs` splits a node, `bounds.rs` bounds its children against the other node, and the pairs wait
 //! together in `siblings.rs`. Where f32 or fixed planes prove little, `closer_look.rs` looks in f64.
 
+mod approach;
 mod axis;
 mod bounds;
 mod clock;
@@ -15,6 +16,7 @@ mod free_times;
 mod lanes;
 mod placed;
 mod profile;
+pub(super) mod roots;
 mod screw;
 mod shape;
 pub(super) mod siblings;

@@ -4,11 +4,11 @@
 //! tolerance all of their nodes would be split before a single pair of pieces is near enough. Their
 //! slabs are known in f64.
 
+use super::approach::Approach;
 use super::placed::Placed;
 use crate::body::tree::{Named, NodeId, Slab};
-use crate::math::order::{greater, lesser};
+use crate::math::order::greater;
 use crate::math::vector::{length, unit};
-use crate::motion::gap::Gap;
 use crate::problem::{Problem, Side};
 use crate::tolerance::{CLOSED_GAP, COARSE_F32, RATE_F64, REACH_F32, TURNED_SHARE};
 use glam::DVec3;
@@ -87,33 +87,17 @@ impl<'p> Flat<'p> {
 fn free_along(problem: &Problem<'_>, a: &Flat<'_>, b: &Flat<'_>, n: DVec3, s: f64) -> f64 {
     let way = b.node.centre - a.node.centre;
     let n = if n.dot(way) < 0.0 { -n } else { n };
-    let gap = n.dot(way) - a.reach(n) - b.reach(-n) - problem.rounding - problem.node_gap();
+    let kept = problem.rounding + problem.node_gap();
+    let gap = n.dot(way) - a.reach(n) - b.reach(-n) - kept;
     // Written so that NaN gives no time.
     if !(gap > CLOSED_GAP * problem.tolerance) {
         return 0.0;
     }
-    let (mut approach, mut turning, mut bend, mut speed) = (0.0, 0.0, 0.0, 0.0);
-    for (side, flat, n) in [(&problem.a, a, n), (&problem.b, b, -n)] {
-        let (path, radius) = (&side.path, flat.node.radius);
-        let arm = flat.node.centre - path.centre_at(s);
-        let across = n.cross(path.spin);
-        approach += n.dot(path.velocity_at(flat.node.centre, s));
-        // n·(ω×w) = w·(n×ω) of points at w from the centre.
-        turning += greater(0.0, flat.node.reach(across)) + RATE_F64 * path.rate * radius;
-        let from_axis = length(path.axis.cross(arm)) + radius + RATE_F64 * length(arm);
-        let across = length(across) + RATE_F64 * path.rate;
-        bend += across * path.rate * from_axis * (1.0 + RATE_F64);
-        speed += length(path.velocity) + path.rate * (length(arm) + radius);
-    }
-    let free = Gap {
-        gap,
-        rate: approach + turning + 2.0 * RATE_F64 * speed,
-        bend,
-    };
-    let free = lesser(f64::MAX, free.free_time());
+    let approach = Approach::along(problem, [&a.node, &b.node], n, s);
+    let free = approach.free_time(gap);
     // What the turning of the nodes uses up shrinks as they are split. Written so that NaN gives no
     // time.
-    match free >= 1.0 - s || approach * free >= (1.0 - TURNED_SHARE) * gap {
+    match free >= 1.0 - s || approach.straight * free >= (1.0 - TURNED_SHARE) * gap {
         true => free,
         false => 0.0,
     }

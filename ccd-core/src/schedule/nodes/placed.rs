@@ -55,6 +55,20 @@ impl<'p> Placed<'p> {
         self.frame.rotation * vector
     }
 
+    /// Returns the nearest point of the box, up to rounding; the centre of a triangle.
+    #[inline]
+    pub(super) fn project(&self, point: DVec3) -> DVec3 {
+        let Shape::Box(node) = &self.shape else {
+            return self.centre;
+        };
+        let way = self.frame.inverse_vector(point - self.centre);
+        let along = |k: usize| {
+            let half = f64::from(node.half[k]) + f64::from(node.rounding);
+            axis(node, k) * greater(-half, lesser(half, way.dot(axis(node, k))))
+        };
+        self.centre + self.turned(along(0) + along(1) + along(2))
+    }
+
     /// Returns `max n·(x − centre)` over the points, for an axis of any length.
     #[inline]
     pub(super) fn reach(&self, n: DVec3) -> f64 {

@@ -6,13 +6,23 @@ use crate::config::Config;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::problem::Problem;
+use crate::schedule::nodes::roots::keep_apart;
 use crate::tests::scene::{
     Look, Passage, RngExt, body, direction, distance, magnitude, rng, rotation, soup, within,
 };
 use glam::DVec3;
 
 #[test]
-fn bodies_out_of_reach_keep_their_gap_at_all_sampled_times() {
+fn bodies_told_apart_by_balls_keep_their_gap_at_all_sampled_times() {
+    told_apart_keep_their_gap(out_of_reach);
+}
+
+#[test]
+fn bodies_told_apart_by_boxes_keep_their_gap_at_all_sampled_times() {
+    told_apart_keep_their_gap(keep_apart);
+}
+
+fn told_apart_keep_their_gap(tells: fn(&Problem<'_>) -> bool) {
     let mut rng = rng(1);
     let (mut told, mut near) = (0, 0);
     for _ in 0..4_000 {
@@ -33,7 +43,7 @@ fn bodies_out_of_reach_keep_their_gap_at_all_sampled_times() {
         });
         let [a, b] = [(&bodies[0], motions[0]), (&bodies[1], motions[1])];
         let problem = Problem::new(a, b, 1.0, &Config::default()).unwrap();
-        if !out_of_reach(&problem) {
+        if !tells(&problem) {
             near += 1;
             continue;
         }
