@@ -159,7 +159,7 @@ impl<T> Queue<T> {
             self.deepen();
         }
         for level in &mut self.levels[..self.depth] {
-            if last % 4 != 0 {
+            if !last.is_multiple_of(4) {
                 break;
             }
             last /= 4;

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::config::Config;
+use crate::math::order::lesser;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::tests::nearest::Triangle;
