@@ -95,9 +95,9 @@ impl<T> Queue<T> {
     /// # Panics
     /// When the queue is empty.
     pub(crate) fn postpone(&mut self, clock: f64) {
+        let place = self.place_of_least();
         let low = self.least as u64;
-        let key = Key::from(clock.to_bits()) << 64 | Key::from(low);
-        self.set(place(self.least), key);
+        self.set(place, Key::from(clock.to_bits()) << 64 | Key::from(low));
     }
 
     /// Lets the least item wait for a later clock, as the newest of all.
@@ -105,7 +105,7 @@ impl<T> Queue<T> {
     /// # Panics
     /// When the queue is empty.
     pub(crate) fn renew(&mut self, clock: f64, rank: Rank) {
-        let place = place(self.least);
+        let place = self.place_of_least();
         let key = self.newest(clock, rank, place);
         self.set(place, key);
     }
@@ -115,7 +115,8 @@ impl<T> Queue<T> {
     /// # Panics
     /// When the queue is empty.
     pub(crate) fn replace(&mut self, clock: f64, rank: Rank, item: T) {
-        self.items[place(self.least) as usize] = item;
+        let place = self.place_of_least();
+        self.items[place as usize] = item;
         self.renew(clock, rank);
     }
 
@@ -131,6 +132,11 @@ impl<T> Queue<T> {
     /// Returns the largest number of items that waited at once.
     pub(crate) fn peak(&self) -> u64 {
         self.items.len() as u64
+    }
+
+    fn place_of_least(&self) -> u32 {
+        assert!(self.least != VACANT, "no item waits");
+        place(self.least)
     }
 
     fn newest(&mut self, clock: f64, rank: Rank, place: u32) -> Key {

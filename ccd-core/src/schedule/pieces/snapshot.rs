@@ -98,7 +98,7 @@ impl<'p> Snapshot<'p> {
         let direct = self.direct(checked, kept);
         match self.free_along(direct.normal, direct.slack)? {
             free if free >= A_WHILE => Some(free),
-            _ => self.free_time(checked, kept),
+            free => self.longest_time(checked, kept, &direct, free),
         }
     }
 
@@ -107,13 +107,24 @@ impl<'p> Snapshot<'p> {
     /// each other, with planes that are fixed or turn with one of the bodies.
     pub(crate) fn free_time(&self, checked: &Checked, kept: f64) -> Option<f64> {
         let direct = self.direct(checked, kept);
-        let mut free = self.free_along(direct.normal, direct.slack)?;
+        let free = self.free_along(direct.normal, direct.slack)?;
+        self.longest_time(checked, kept, &direct, free)
+    }
+
+    /// Returns the longest time by any plane; `free` is that of the fixed one across the claim's axis.
+    fn longest_time(
+        &self,
+        checked: &Checked,
+        kept: f64,
+        direct: &Plane,
+        mut free: f64,
+    ) -> Option<f64> {
         let passing = self.passing(checked, kept);
         if let Some(passing) = &passing {
             free = greater(free, self.free_along(passing.normal, passing.slack)?);
         }
         let members = self.members();
-        for plane in iter::once(&direct).chain(&passing) {
+        for plane in iter::once(direct).chain(&passing) {
             free = greater(self.free_attached(&members, plane, free)?, free);
         }
         Some(free)
