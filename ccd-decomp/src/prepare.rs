@@ -15,7 +15,7 @@ use crate::solid::bounding_solid;
 use crate::solid::topology::Topology;
 use error::PrepareError;
 use model::{Model, Prepared};
-use parts::Parts;
+use parts::{Choice, Parts, PieceTree};
 use report::Why;
 
 /// The kind of pieces that a body is made of.
@@ -90,25 +90,55 @@ pub fn body_from_mesh(mesh: &TriangleMesh, detail: Detail) -> Result<Prepared, P
 /// [`PrepareError::Vhacd`] when it cannot be approximated, [`PrepareError::Input`] when there are too many
 /// pieces.
 pub fn prepare(mesh: &TriangleMesh, detail: Detail) -> Result<Model, PrepareError> {
-    let edges = Edges::of(&mesh.welded_faces());
-    let (topology, turned) = Topology::by_edges(mesh, &edges);
-    // The edges of a turned mesh have other half-edges.
-    let edges = turned.is_none().then_some(edges);
-    let mesh = turned.as_ref().unwrap_or(mesh);
-    let (parts, why) = match detail {
-        Detail::Auto => choose::choose(mesh, &topology, edges),
-        Detail::Triangles => (Parts::Triangles, Why::Asked),
-        Detail::Patches(order) => (Parts::Patches(decompose(mesh, order)?), Why::Asked),
-        Detail::Hull => {
-            let polytope = as_polytope(&bounding_solid(mesh)?)?;
-            (Parts::Hull(Box::new(polytope)), Why::Asked)
+    // The choice takes as long as the triangles' hierarchy, and hardly ever does without it.
+    let (choice, triangles) = rayon::join(
+        || Choice::of(mesh, detail),
+        || {
+            detail
+                .may_need_triangles()
+                .then(|| PieceTree::of_triangles(mesh))
+        },
+    );
+    choice?.into_model(mesh, triangles.transpose()?)
+}
+
+impl Detail {
+    /// Returns whether a model of this kind may hold the triangles of the mesh.
+    fn may_need_triangles(self) -> bool {
+        match self {
+            Detail::Auto | Detail::Triangles | Detail::Hull => true,
+            Detail::Patches(_) | Detail::Vhacd { .. } => false,
         }
-        Detail::Vhacd { hulls } => {
-            let approximation = approximate(mesh, &topology, hulls)?;
-            (Parts::Vhacd(approximation), Why::Asked)
-        }
-    };
-    parts.into_model(mesh, topology, why)
+    }
+}
+
+impl Choice {
+    fn of(mesh: &TriangleMesh, detail: Detail) -> Result<Self, PrepareError> {
+        let edges = Edges::of(&mesh.welded_faces());
+        let (topology, turned) = Topology::by_edges(mesh, &edges);
+        // The edges of a turned mesh have other half-edges.
+        let edges = turned.is_none().then_some(edges);
+        let mesh = turned.as_ref().unwrap_or(mesh);
+        let (parts, why) = match detail {
+            Detail::Auto => choose::choose(mesh, &topology, edges),
+            Detail::Triangles => (Parts::Triangles, Why::Asked),
+            Detail::Patches(order) => (Parts::Patches(decompose(mesh, order)?), Why::Asked),
+            Detail::Hull => {
+                let polytope = as_polytope(&bounding_solid(mesh)?)?;
+                (Parts::Hull(Box::new(polytope)), Why::Asked)
+            }
+            Detail::Vhacd { hulls } => {
+                let approximation = approximate(mesh, &topology, hulls)?;
+                (Parts::Vhacd(approximation), Why::Asked)
+            }
+        };
+        Ok(Choice {
+            parts,
+            why,
+            topology,
+            turned,
+        })
+    }
 }
 
 #[cfg(test)]

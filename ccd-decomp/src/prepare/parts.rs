@@ -18,53 +18,94 @@ pub(super) enum Parts {
     Vhacd(Approximation),
 }
 
-impl Parts {
+/// The pieces that were chosen for a mesh, and what was found on the way.
+pub(super) struct Choice {
+    pub(super) parts: Parts,
+    pub(super) why: Why,
+    pub(super) topology: Topology,
+    /// The mesh with all shells turned the right way, if some were not.
+    pub(super) turned: Option<TriangleMesh>,
+}
+
+/// Pieces, and a hierarchy over them.
+pub(super) struct PieceTree {
+    pieces: Pieces,
+    hierarchy: Hierarchy,
+}
+
+impl Choice {
+    /// Makes the model. The triangles are those of the mesh before any shell is turned, if they are there.
     pub(super) fn into_model(
         self,
         mesh: &TriangleMesh,
-        topology: Topology,
-        why: Why,
+        triangles: Option<PieceTree>,
     ) -> Result<Model, PrepareError> {
-        let volume = match topology.is_solid() {
+        let volume = match self.topology.is_solid() {
             true => Volume::Solid,
             false => Volume::Surface,
         };
-        let mut report = Report::new(self.kind(), why, volume);
-        let pieces = match self {
-            Parts::Triangles => triangles(mesh)?,
+        let mut report = Report::new(self.parts.kind(), self.why, volume);
+        let triangles = || match (triangles, &self.turned) {
+            (Some(triangles), None) => Ok(triangles),
+            (Some(triangles), Some(turned)) => triangles.with_corners_of(turned),
+            (None, turned) => PieceTree::of_triangles(turned.as_ref().unwrap_or(mesh)),
+        };
+        let (tree, surface) = match self.parts {
+            Parts::Triangles => (triangles()?, None),
             Parts::Patches(Decomposition { patches }) => {
                 report.virtual_faces = patches.iter().map(Patch::virtual_facets).sum();
                 let polytopes: Vec<Polytope> = patches.into_iter().map(|p| p.polytope).collect();
-                Pieces::polytopes(&polytopes)?
+                (PieceTree::of_polytopes(&polytopes)?, None)
             }
-            Parts::Hull(polytope) => Pieces::polytopes(&[*polytope])?,
+            Parts::Hull(polytope) => (PieceTree::of_polytopes(&[*polytope])?, Some(triangles()?)),
             Parts::Vhacd(approximation) => {
                 report.inflated_by = approximation.uncovered;
                 report.rebuilt_hulls = approximation.rebuilt;
                 report.sticks_out = approximation.sticks_out;
                 let polytopes = &approximation.polytopes;
                 report.virtual_faces = polytopes.iter().map(|p| p.facets.len()).sum();
-                Pieces::polytopes(polytopes)?
+                (PieceTree::of_polytopes(polytopes)?, None)
             }
         };
-        let hierarchy = build_hierarchy(&pieces)?;
-        let is_hull = report.kind == PiecesKind::Hull;
-        let surface = is_hull.then(|| surface_of(mesh)).transpose()?;
         report.triangles = mesh.faces().len();
-        report.pieces = pieces.len();
-        report.tree_nodes = hierarchy.nodes().len();
-        report.topology = Some(topology);
+        report.pieces = tree.pieces.len();
+        report.tree_nodes = tree.hierarchy.nodes().len();
+        report.topology = Some(self.topology);
         report.repairs = mesh.repairs().clone();
         Ok(Model {
-            pieces,
-            hierarchy,
+            pieces: tree.pieces,
+            hierarchy: tree.hierarchy,
             volume,
             hull_tree: None,
-            surface,
+            surface: surface.map(|tree| (tree.pieces, tree.hierarchy)),
             report,
         })
     }
+}
 
+impl PieceTree {
+    /// Makes one piece of every triangle of a mesh.
+    pub(super) fn of_triangles(mesh: &TriangleMesh) -> Result<Self, PrepareError> {
+        PieceTree::over(triangles(mesh)?)
+    }
+
+    fn of_polytopes(polytopes: &[Polytope]) -> Result<Self, PrepareError> {
+        PieceTree::over(Pieces::polytopes(polytopes)?)
+    }
+
+    fn over(pieces: Pieces) -> Result<Self, PrepareError> {
+        let hierarchy = build_hierarchy(&pieces)?;
+        Ok(PieceTree { pieces, hierarchy })
+    }
+
+    /// Takes the triangles of a mesh that differs in the order of their corners, which no hierarchy depends on.
+    fn with_corners_of(self, turned: &TriangleMesh) -> Result<Self, PrepareError> {
+        let pieces = triangles(turned)?;
+        Ok(PieceTree { pieces, ..self })
+    }
+}
+
+impl Parts {
     fn kind(&self) -> PiecesKind {
         match self {
             Parts::Triangles => PiecesKind::Triangles,
@@ -73,13 +114,6 @@ impl Parts {
             Parts::Vhacd(_) => PiecesKind::Vhacd,
         }
     }
-}
-
-/// Makes one piece of every triangle, and a hierarchy over them.
-fn surface_of(mesh: &TriangleMesh) -> Result<(Pieces, Hierarchy), PrepareError> {
-    let pieces = triangles(mesh)?;
-    let hierarchy = build_hierarchy(&pieces)?;
-    Ok((pieces, hierarchy))
 }
 
 fn triangles(mesh: &TriangleMesh) -> Result<Pieces, PrepareError> {
