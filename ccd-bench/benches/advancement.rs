@@ -13,6 +13,7 @@ use ccd_bench::method::{Method, Ours};
 use ccd_bench::run::contest::{Allowance, Contest, Truths};
 use ccd_bench::run::evaluation::USUAL_TOLERANCE;
 use ccd_bench::scene::{Models, Pieces, listings};
+use ccd_core::Config;
 use criterion::{
     BenchmarkId, Criterion, SamplingMode, Throughput, criterion_group, criterion_main,
 };
@@ -63,10 +64,14 @@ fn advancement(criterion: &mut Criterion) {
             if !is_right(&contest, method, &truths) {
                 continue;
             }
+            let config = Config {
+                tolerance: USUAL_TOLERANCE,
+                ..Config::default()
+            };
             let bodies = scene
                 .bodies_of(pieces)
                 .expect("it has just opened a session");
-            let mut solver = Ours::new(kind, bodies, USUAL_TOLERANCE);
+            let mut solver = Ours::new(kind, bodies, config);
             group.bench_function(BenchmarkId::from_parameter(method), |bencher| {
                 bencher.iter(|| {
                     let steps = |&row: &usize| solver.answer(&scene.queries[row]).steps;

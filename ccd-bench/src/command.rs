@@ -1,12 +1,12 @@
 //! The command `ccd-bench`: demo, charts, brackets of exact first contacts.
 
+mod answer;
 mod chart;
-mod peer;
 mod truth;
 
+use answer::AnswerArgs;
 use chart::{ChartArgs, CommonArgs};
 use clap::{Parser, Subcommand};
-use peer::PeerArgs;
 use rigid_ccd::command::exit_code;
 use std::process::ExitCode;
 use truth::TruthArgs;
@@ -36,7 +36,7 @@ enum Command {
     /// Bracket the exact first contacts of two meshes, to judge answers by
     Truth(TruthArgs),
     #[command(hide = true)]
-    Peer(PeerArgs),
+    Answer(AnswerArgs),
 }
 
 /// Runs the command that the process was started with.
@@ -47,7 +47,7 @@ pub fn main() -> ExitCode {
             Command::Demo(args) => chart::run_demo(&args),
             Command::Chart(args) => chart::run(&args),
             Command::Truth(args) => truth::run(&args),
-            Command::Peer(args) => peer::run(&args),
+            Command::Answer(args) => answer::run(&args),
         },
     )
 }

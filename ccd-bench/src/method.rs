@@ -1,14 +1,17 @@
 //! The methods that are compared, by name: this project's, published rivals built here, peer libraries.
 
+pub mod guarded;
 pub mod peer;
 pub mod rival;
 pub mod solver;
+pub mod wire;
 
 use crate::method::peer::PeerKind;
 use crate::method::rival::{C2a, Contact, DynamicChecker, Stepping};
 use crate::method::solver::{Adjustable, Claim, Reply, Solver};
-use crate::scene::{Pieces, Scene};
+use crate::scene::Pieces;
 use ccd_core::{Config, Instructions, Outcome};
+use ccd_decomp::TriangleMesh;
 use rigid_ccd::batch::{Bodies, BoundKind, OracleKind, ScheduleKind, Solve, SolverKind, solve};
 use rigid_ccd::table::motions::Query;
 use std::fmt;
@@ -78,6 +81,24 @@ impl Method {
         ours.into_iter().chain(rivals).chain(peers).collect()
     }
 
+    /// Returns FAST as published, whose bound does not hold over a step: its answers may be late.
+    pub fn published() -> Method {
+        let kind = SolverKind {
+            schedule: ScheduleKind::Fast,
+            oracle: OracleKind::Vmarch,
+            bound: BoundKind::Published,
+        };
+        Method::Ours(kind, Pieces::Patches)
+    }
+
+    /// Returns the method of a name.
+    pub fn named(name: &str) -> Option<Method> {
+        let hidden = [PeerKind::Hanging, PeerKind::Dying].map(Method::Peer);
+        let more = hidden.into_iter().chain([Method::published()]);
+        let mut all = Method::all().into_iter().chain(more);
+        all.find(|method| method.to_string() == name)
+    }
+
     /// Returns true if the method is measured at every tolerance. Methods whose answers do not depend on
     /// the tolerance are not, nor are models of the bodies that are only compared with each other.
     pub fn takes_tolerances(self) -> bool {
@@ -112,9 +133,8 @@ impl Method {
 }
 
 impl RivalKind {
-    /// Returns a solver of this kind on the bodies of a scene.
-    pub fn solver(self, scene: &Scene, tolerance: f64) -> Box<dyn Adjustable> {
-        let (a, b) = (scene.a.mesh(), scene.b.mesh());
+    /// Returns a solver of this kind on two meshes.
+    pub fn solver(self, a: &TriangleMesh, b: &TriangleMesh, tolerance: f64) -> Box<dyn Adjustable> {
         match self {
             RivalKind::Contact => Box::new(Contact::new(a, b, tolerance)),
             RivalKind::DynamicChecker => Box::new(DynamicChecker::new(a, b, tolerance)),
@@ -134,15 +154,12 @@ pub struct Ours<'s> {
 
 impl<'s> Ours<'s> {
     /// Returns a solver of the given kind on two bodies.
-    pub fn new(kind: SolverKind, bodies: Bodies<'s>, tolerance: f64) -> Self {
+    pub fn new(kind: SolverKind, bodies: Bodies<'s>, config: Config) -> Self {
         Ours {
             bodies,
             kind,
             solver: kind.solver(Instructions::Best),
-            config: Config {
-                tolerance,
-                ..Config::default()
-            },
+            config,
         }
     }
 }
@@ -159,7 +176,7 @@ impl Solver for Ours<'_> {
         let Ok(answer) = solve(self.bodies, query, &self.config, self.solver.as_mut()) else {
             // An invalid query is not answered.
             return Reply {
-                claim: Claim::Unresolved { safe_until: 0.0 },
+                claim: Claim::Refused,
                 steps: 0,
             };
         };
@@ -182,6 +199,9 @@ impl fmt::Display for Method {
         match self {
             Method::Ours(kind, pieces) => {
                 write!(f, "{} {}", kind.schedule, kind.oracle)?;
+                if kind.bound == BoundKind::Published {
+                    f.write_str(" published")?;
+                }
                 match (pieces, kind.schedule.uses_hull_trees()) {
                     (Pieces::Least, _) | (Pieces::Patches, true) => Ok(()),
                     (Pieces::Triangles, _) => f.write_str(" over triangles"),

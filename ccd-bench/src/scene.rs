@@ -11,7 +11,7 @@ pub use shots::{Shots, drops_past_board};
 
 use crate::scene::model::{Model, Origin};
 use ccd_core::{Body, InputError};
-use ccd_decomp::{BodyError, Detail, Order, TriangleMesh, body_from_mesh, prepare};
+use ccd_decomp::{BodyError, Detail, Order, PrepareError, TriangleMesh, body_from_mesh, prepare};
 use rigid_ccd::batch::Bodies;
 use rigid_ccd::table::motions::Query;
 use std::collections::HashMap;
@@ -83,21 +83,34 @@ impl SceneBody {
     /// Returns the same body made of the given pieces, which are made on first use, or `None` if
     /// the mesh does not allow them.
     pub fn of(&self, pieces: Pieces) -> Option<&Body> {
-        let make = |detail| body_from_mesh(&self.mesh, detail).ok().map(|p| p.body);
-        let patches = || {
-            let patches = prepare(&self.mesh, Detail::Patches(Order::Cresting)).ok()?;
-            patches.with_hull_tree().ok()?.body().ok()
-        };
-        let others = &self.others;
-        match pieces {
+        let others = match pieces {
             Pieces::Least => return Some(&self.body),
-            Pieces::Triangles => others.triangles.get_or_init(|| make(Detail::Triangles)),
-            Pieces::Patches => others.patches.get_or_init(patches),
-            Pieces::ApproximateHulls => others
-                .hulls
-                .get_or_init(|| make(Detail::Vhacd { hulls: HULLS })),
+            Pieces::Triangles => &self.others.triangles,
+            Pieces::Patches => &self.others.patches,
+            Pieces::ApproximateHulls => &self.others.hulls,
+        };
+        let made = others.get_or_init(|| pieces.body_of(&self.mesh).ok());
+        made.as_ref()
+    }
+}
+
+impl Pieces {
+    /// Makes the body of a mesh.
+    ///
+    /// # Errors
+    /// If the mesh does not allow such pieces.
+    pub fn body_of(self, mesh: &TriangleMesh) -> Result<Body, PrepareError> {
+        let detail = match self {
+            Pieces::Least => Detail::Auto,
+            Pieces::Triangles => Detail::Triangles,
+            Pieces::Patches => Detail::Patches(Order::Cresting),
+            Pieces::ApproximateHulls => Detail::Vhacd { hulls: HULLS },
+        };
+        let model = prepare(mesh, detail)?;
+        match self {
+            Pieces::Patches => model.with_hull_tree()?.body(),
+            Pieces::Least | Pieces::Triangles | Pieces::ApproximateHulls => model.body(),
         }
-        .as_ref()
     }
 }
 

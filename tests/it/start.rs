@@ -1,9 +1,12 @@
 //! A contact at the start is reported, or released for as long as it does not close.
 
-use ccd_core::glam::DVec3;
+use ccd_core::glam::{DQuat, DVec3, dvec3};
 use ccd_core::schedule::{BestFirst, Schedule};
 use ccd_core::tolerance::RESTING;
-use ccd_core::{Claim, Config, DistanceOracle, GiveUp, Outcome, PiecePair, StartPolicy};
+use ccd_core::{
+    Body, Claim, Config, DistanceOracle, GiveUp, Motion, Outcome, PiecePair, Pieces, Pose, Problem,
+    StartPolicy, Volume,
+};
 use ccd_distance_gjk::ClosedForm;
 use ccd_tests::analytic::sliding;
 use ccd_tests::backends::for_each_setup;
@@ -12,6 +15,7 @@ use ccd_tests::models::{Mesh, Shape, cuboid};
 use ccd_tests::query::{Actor, Query};
 use ccd_tests::strategies::{cases, check_cases};
 use std::cell::Cell;
+use std::f64::consts::FRAC_1_SQRT_2;
 
 fn leave(tolerance: f64) -> Config {
     Config {
@@ -308,4 +312,71 @@ fn without_contact_at_the_start_both_policies_agree() {
         hits.get() > 500 && misses.get() > 500,
         "{hits:?} {misses:?}"
     );
+}
+
+/// Two triangles that begin in contact, up to rounding, and close on each other: how exactly their distance
+/// is known depends on the last digits of their places.
+#[test]
+fn a_contact_that_came_back_is_within_the_tolerance_of_its_answer() {
+    let triangle = |corners: [DVec3; 3]| {
+        let pieces = Pieces::triangles(&corners, &[[0, 1, 2]], &[0]).unwrap();
+        Body::new(&pieces, Volume::Surface).unwrap()
+    };
+    let a = triangle([
+        dvec3(0.029279379471886524, 2.0151645759136314, 2.093708330440966),
+        dvec3(0.49437779244315594, 1.685502073259312, 1.0310849589058126),
+        dvec3(-0.8373660370339285, 2.710345564957067, 2.398562132033235),
+    ]);
+    let b = triangle([
+        dvec3(
+            0.10744495311621308,
+            0.03256789623258283,
+            0.10856365144018956,
+        ),
+        dvec3(
+            0.05600802251563977,
+            -0.00565033696736722,
+            0.04834691529652721,
+        ),
+        dvec3(
+            0.09144446912907266,
+            0.020679353899182573,
+            0.0898320190119848,
+        ),
+    ]);
+    let quarter = DQuat::from_xyzw(FRAC_1_SQRT_2, 0.0, 0.0, FRAC_1_SQRT_2);
+    let velocity = dvec3(
+        0.08858249309916147,
+        -0.18564792545337397,
+        -0.023889591860946035,
+    );
+    let of_b = Motion::new(
+        Pose::new(DVec3::ZERO, quarter).unwrap(),
+        velocity,
+        DVec3::ZERO,
+    )
+    .unwrap();
+    let mut contacts = 0;
+    for k in 0..400 {
+        let x = 0.9288105061630012 + f64::from(k) * 1.2e-14 - 2.4e-12;
+        let start = Pose::at(dvec3(x, -2.800177583969052, -2.3778827781340524)).unwrap();
+        let velocity = dvec3(-5.659310496272526, -10.04365391655141, -3.959265248611295);
+        let spin = dvec3(
+            0.010600519536307652,
+            0.03702523082603338,
+            0.018210892309690595,
+        );
+        let of_a = Motion::new(start, velocity, spin).unwrap();
+        let problem = Problem::new((&a, of_a), (&b, of_b), 1.0, &leave(1e-3)).unwrap();
+        let answer = BestFirst::default().solve(&problem, &mut ClosedForm::default());
+        if let Outcome::Contact { contact, .. } = answer.outcome {
+            contacts += 1;
+            let upper = contact.separation.upper;
+            assert!(
+                upper <= answer.tolerance && answer.tolerance < 1e-11,
+                "{answer:?}"
+            );
+        }
+    }
+    assert!(contacts > 100, "{contacts}");
 }

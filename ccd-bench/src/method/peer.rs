@@ -3,7 +3,7 @@
 //! They answer the same queries about the same meshes, each by the call that its makers offer for
 //! that. The docs of each type say which parameters the call takes and which it does not offer.
 //! Some peers take minutes for a query, or never return. They are therefore called through
-//! [`Guarded`], in a process that can be stopped.
+//! [`Guarded`](super::guarded::Guarded), in a process that can be stopped.
 //!
 //! | peer | call |
 //! |---|---|
@@ -11,21 +11,17 @@
 //! | [`parry::double::sweep`], [`parry::single::sweep`] | parry's swept convex bodies, over pairs of triangles |
 //! | [`rapier::Simulated`] | one step of rapier with its continuous collision detection |
 
-mod guarded;
 pub mod parry;
 pub mod rapier;
 #[cfg(test)]
 mod tests;
-pub mod wire;
-
-pub use guarded::{Asked, Guarded};
 
 use crate::method::solver::{Claim, Solver};
+use crate::method::wire;
 use ccd_decomp::TriangleMesh;
-use clap::ValueEnum;
 
 /// The peer libraries.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum PeerKind {
     /// [`parry::double::cast`].
     ParryF64,
@@ -38,10 +34,8 @@ pub enum PeerKind {
     /// [`rapier::Simulated`].
     RapierStepF64,
     /// Never answers: tests the guard.
-    #[value(hide = true)]
     Hanging,
     /// Ends its process at every query: tests the guard.
-    #[value(hide = true)]
     Dying,
 }
 

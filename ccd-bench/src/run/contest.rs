@@ -54,7 +54,7 @@ pub struct Allowance {
 
 /// The largest number of pairs of pieces for a schedule without a tree, since it processes all
 /// pairs in every step.
-const MOST_PAIRS_FOR_NAIVE: u64 = 100_000;
+pub const MOST_PAIRS_FOR_NAIVE: u64 = 100_000;
 
 /// A method could not be run.
 #[derive(Debug, thiserror::Error)]

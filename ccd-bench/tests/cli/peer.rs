@@ -1,12 +1,15 @@
 //! Tests peers behind a guard: one that hangs is cut off, one that dies is restarted.
 
-use ccd_bench::method::peer::{Asked, Guarded, PeerKind};
+use ccd_bench::method::Method;
+use ccd_bench::method::guarded::{Asked, Guarded, Setting};
+use ccd_bench::method::peer::PeerKind;
 use ccd_bench::method::solver::Claim;
 use ccd_bench::scene::model::Board;
 use ccd_core::glam::DVec3;
 use ccd_core::{Motion, Pose};
 use ccd_decomp::TriangleMesh;
 use rigid_ccd::table::motions::Query;
+use std::io::ErrorKind;
 use std::time::{Duration, Instant};
 
 /// A time that no query here takes.
@@ -29,8 +32,11 @@ fn drop() -> Query {
 }
 
 fn guarded(kind: PeerKind) -> Guarded {
-    let program = crate::PROGRAM.into();
-    Guarded::with_program(program, kind, [&cube(), &cube()]).unwrap()
+    guarded_with(Setting::new(Method::Peer(kind), 1e-3))
+}
+
+fn guarded_with(setting: Setting) -> Guarded {
+    Guarded::with_program(crate::PROGRAM.into(), setting, [&cube(), &cube()]).unwrap()
 }
 
 fn assert_answered(asked: Asked) {
@@ -45,9 +51,44 @@ fn assert_answered(asked: Asked) {
 }
 
 #[test]
-fn every_peer_answers_behind_a_guard() {
-    for kind in PeerKind::ALL {
-        assert_answered(guarded(kind).ask(&drop(), PATIENCE).unwrap());
+fn every_method_answers_behind_a_guard() {
+    for method in Method::all().into_iter().chain([Method::published()]) {
+        let mut guarded = guarded_with(Setting::new(method, 1e-3));
+        assert_answered(guarded.ask(&drop(), PATIENCE).unwrap());
+    }
+}
+
+#[test]
+fn a_margin_is_kept_or_refused() {
+    let ask = |method: Method| {
+        let mut guarded = guarded_with(Setting {
+            margin: 0.5,
+            ..Setting::new(method, 1e-3)
+        });
+        guarded.ask(&drop(), PATIENCE)
+    };
+    for method in Method::all() {
+        let asked = ask(method);
+        match method {
+            Method::Ours(..) => {
+                let Ok(Asked::Answered { reply, .. }) = asked else {
+                    panic!("{method}: {asked:?}");
+                };
+                let Claim::Contact { time } = reply.claim else {
+                    panic!("{method}: {reply:?}");
+                };
+                // The gap of 2 closes to 0.5 at speed 4.
+                assert!(
+                    (-2.6e-4..=1e-12).contains(&(time - 0.375)),
+                    "{method}: {time}"
+                );
+            }
+            Method::Rival(_) | Method::Peer(_) => {
+                let error = asked.unwrap_err();
+                assert_eq!(error.kind(), ErrorKind::Unsupported, "{method}");
+                assert!(error.to_string().contains("margin"), "{method}: {error}");
+            }
+        }
     }
 }
 
@@ -94,7 +135,8 @@ fn a_tolerance_is_passed_on() {
 #[test]
 fn a_program_that_is_no_peer_does_not_start() {
     let missing = "no/such/program".into();
-    let mut peer = Guarded::with_program(missing, PeerKind::ParryF64, [&cube(), &cube()]).unwrap();
+    let setting = Setting::new(Method::Peer(PeerKind::ParryF64), 1e-3);
+    let mut peer = Guarded::with_program(missing, setting, [&cube(), &cube()]).unwrap();
     assert!(peer.ask(&drop(), PATIENCE).is_err());
     assert!(peer.restart_with(1e-3).is_err());
 }

@@ -5,6 +5,7 @@ mod given;
 use super::meter::Meter;
 use crate::config::StartPolicy;
 use crate::distance::oracle::DistanceOracle;
+use crate::math::order::greater;
 use crate::outcome::{Answer, Outcome, Stats};
 use crate::problem::Problem;
 use given::of_given;
@@ -30,7 +31,8 @@ pub(crate) fn answer<O: DistanceOracle>(
     let (outcome, tolerance) = match (problem.start, outcome) {
         (StartPolicy::Leave, Outcome::Touching { contact }) => {
             let problem = problem.leaving(contact.separation.lower - problem.margin);
-            (search(&problem, oracle, &mut meter), problem.tolerance)
+            let outcome = search(&problem, oracle, &mut meter);
+            (outcome, shown(&problem, &outcome))
         }
         _ => (outcome, problem.tolerance),
     };
@@ -42,5 +44,18 @@ pub(crate) fn answer<O: DistanceOracle>(
             effort: oracle.effort() - before,
             ..meter.stats
         },
+    }
+}
+
+/// Returns the tolerance that the outcome of bodies let go shows. Pieces that rest on each other are in
+/// contact again once they cannot be proven apart, even if their distance is known less exactly than the
+/// least tolerance asks.
+fn shown(problem: &Problem<'_>, outcome: &Outcome) -> f64 {
+    match outcome {
+        Outcome::Contact { contact, .. } => {
+            let shown = (contact.separation.upper - problem.margin).next_up();
+            greater(problem.tolerance, shown)
+        }
+        _ => problem.tolerance,
     }
 }

@@ -1,8 +1,9 @@
 //! Tests every peer on meshes with exact answers: where it is right, and where it is known to be wrong.
 
 use super::PeerKind;
-use super::wire::{format_query, format_reply, parse_query, parse_reply};
+use crate::method::Method;
 use crate::method::solver::{Claim, Reply, TimedReply};
+use crate::method::wire::{format_query, format_reply, parse_query, parse_reply};
 use crate::scene::model::Board;
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{Motion, Pose};
@@ -277,11 +278,12 @@ fn tighter_tolerances_tighten_sweeps_alone() {
 }
 
 #[test]
-fn names_are_those_of_the_command_line() {
-    use clap::ValueEnum;
-    for kind in PeerKind::value_variants() {
-        assert_eq!(PeerKind::from_str(kind.name(), false), Ok(*kind));
+fn every_method_is_found_by_its_name() {
+    let more = [Method::published(), Method::Peer(PeerKind::Hanging)];
+    for method in Method::all().into_iter().chain(more) {
+        assert_eq!(Method::named(&method.to_string()), Some(method));
     }
+    assert_eq!(Method::named("unicorn"), None);
 }
 
 #[test]

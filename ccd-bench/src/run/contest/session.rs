@@ -1,10 +1,11 @@
 //! A method that is ready for queries about a scene.
 
 use super::MOST_PAIRS_FOR_NAIVE;
-use crate::method::peer::{Asked, Guarded};
+use crate::method::guarded::{Asked, Guarded, Setting};
 use crate::method::solver::{Adjustable, Claim, Reply, TimedReply, timed};
 use crate::method::{Method, Ours};
 use crate::scene::Scene;
+use ccd_core::Config;
 use rigid_ccd::batch::ScheduleKind;
 use rigid_ccd::table::motions::Query;
 use std::io;
@@ -50,12 +51,20 @@ impl<'s> Session<'s> {
                 let Some(bodies) = scene.bodies_of(pieces).filter(|_| suits) else {
                     return Ok(None);
                 };
-                Runner::InProcess(Box::new(Ours::new(kind, bodies, tolerance)))
+                let config = Config {
+                    tolerance,
+                    ..Config::default()
+                };
+                Runner::InProcess(Box::new(Ours::new(kind, bodies, config)))
             }
-            Method::Rival(kind) => Runner::InProcess(kind.solver(scene, tolerance)),
-            Method::Peer(kind) => {
+            Method::Rival(kind) => {
                 let (a, b) = (scene.a.mesh(), scene.b.mesh());
-                Runner::Guarded(Box::new(Guarded::start(kind, a, b, tolerance)?))
+                Runner::InProcess(kind.solver(a, b, tolerance))
+            }
+            Method::Peer(_) => {
+                let meshes = [scene.a.mesh(), scene.b.mesh()];
+                let setting = Setting::new(method, tolerance);
+                Runner::Guarded(Box::new(Guarded::start(setting, meshes)?))
             }
         };
         Ok(Some(Session {

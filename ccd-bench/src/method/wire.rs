@@ -1,14 +1,17 @@
 //! The protocol between a guard and the process it guards: one line for each query, one for each reply.
 
-use crate::method::solver::{Claim, Reply, Solver, TimedReply, timed};
+use super::solver::{Claim, Reply, Solver, TimedReply, timed};
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{Motion, Pose};
 use rigid_ccd::table::motions::Query;
 use std::io::{self, BufRead, Write};
 use std::time::Duration;
 
-/// The line that the process writes once it has loaded its meshes.
+/// The line that the process writes once it has prepared its bodies.
 pub const READY: &str = "ready";
+
+/// The start of the line that it writes instead if it refuses the bodies or the setting; the reason follows.
+pub const REFUSED: &str = "refused: ";
 
 /// Answers queries as they are read, until there are no more.
 ///

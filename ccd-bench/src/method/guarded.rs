@@ -1,8 +1,8 @@
-//! Runs a peer in a process of its own, which is stopped when it takes too long.
+//! Runs a method in a process of its own, which is stopped when it takes too long.
 
-use super::PeerKind;
-use super::wire::{READY, format_query, parse_reply};
-use crate::method::solver::{Reply, TimedReply};
+use super::Method;
+use super::solver::{Reply, TimedReply};
+use super::wire::{READY, REFUSED, format_query, parse_reply};
 use ccd_decomp::{TriangleMesh, write_obj};
 use rigid_ccd::table::motions::Query;
 use std::fs::{self, File};
@@ -14,25 +14,49 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::thread;
 use std::time::Duration;
 
-/// Asks a peer one query at a time. Stops and restarts it when it hangs or dies.
+/// Asks a method one query at a time. Stops and restarts it when it hangs or dies.
 #[derive(Debug)]
 pub struct Guarded {
-    kind: PeerKind,
     program: PathBuf,
-    tolerance: f64,
+    setting: Setting,
     meshes: Meshes,
     /// `None` after the last process was stopped, until the next one starts.
     process: Option<Process>,
 }
 
+/// A method, and what it is to answer with.
+#[derive(Clone, Copy, Debug)]
+pub struct Setting {
+    /// The method.
+    pub method: Method,
+    /// The tolerance, for methods that take one.
+    pub tolerance: f64,
+    /// The distance to keep; a method that keeps none refuses any other than 0.
+    pub margin: f64,
+    /// The time that the process may take to prepare its bodies.
+    pub preparation: Duration,
+}
+
+impl Setting {
+    /// Returns the usual setting of a method at a tolerance: no margin, two minutes of preparation.
+    pub fn new(method: Method, tolerance: f64) -> Self {
+        Setting {
+            method,
+            tolerance,
+            margin: 0.0,
+            preparation: Duration::from_secs(120),
+        }
+    }
+}
+
 /// The outcome of a query.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Asked {
-    /// The peer answered.
+    /// The method answered.
     Answered {
-        /// The peer's reply.
+        /// Its reply.
         reply: Reply,
-        /// The time of the peer's call alone, in microseconds.
+        /// The time of its call alone, in microseconds.
         micros: f64,
     },
     /// The call exceeded the time limit, and the process was stopped.
@@ -41,51 +65,42 @@ pub enum Asked {
     Died,
 }
 
-/// The time that a process may take to load its meshes.
-const PATIENCE_AT_START: Duration = Duration::from_secs(120);
-
 impl Guarded {
-    /// Starts a peer on two meshes, with this program's own command.
+    /// Starts a method on two meshes, with this program's own command.
     ///
     /// # Errors
-    /// If the meshes cannot be written, or the process does not start.
-    pub fn start(
-        kind: PeerKind,
-        a: &TriangleMesh,
-        b: &TriangleMesh,
-        tolerance: f64,
-    ) -> io::Result<Self> {
-        let mut guarded = Guarded::with_program(std::env::current_exe()?, kind, [a, b])?;
-        guarded.restart_with(tolerance)?;
+    /// If the meshes cannot be written, or the process does not start: of the kind
+    /// [`Unsupported`](io::ErrorKind::Unsupported) if the method refuses the meshes or the setting, of the
+    /// kind [`TimedOut`](io::ErrorKind::TimedOut) if it takes too long.
+    pub fn start(setting: Setting, meshes: [&TriangleMesh; 2]) -> io::Result<Self> {
+        let mut guarded = Guarded::with_program(std::env::current_exe()?, setting, meshes)?;
+        guarded.running()?;
         Ok(guarded)
     }
 
-    /// Prepares a peer that runs another program with the command `peer`. The first query starts
-    /// it, at a tolerance of [`ccd_core::limits::DEFAULT_TOLERANCE`] unless [another one is
-    /// set](Self::restart_with).
+    /// Prepares a method that runs another program with the command `answer`. The first query starts it.
     ///
     /// # Errors
     /// If the meshes cannot be written.
     pub fn with_program(
         program: PathBuf,
-        kind: PeerKind,
+        setting: Setting,
         meshes: [&TriangleMesh; 2],
     ) -> io::Result<Self> {
         Ok(Guarded {
-            kind,
             program,
-            tolerance: ccd_core::limits::DEFAULT_TOLERANCE,
+            setting,
             meshes: Meshes::write(meshes)?,
             process: None,
         })
     }
 
-    /// Restarts the peer at another tolerance, with the same meshes.
+    /// Restarts the method at another tolerance, with the same meshes.
     ///
     /// # Errors
-    /// If the process does not start.
+    /// Those of [`Guarded::start`].
     pub fn restart_with(&mut self, tolerance: f64) -> io::Result<()> {
-        self.tolerance = tolerance;
+        self.setting.tolerance = tolerance;
         self.process = None;
         self.running().map(|_| ())
     }
@@ -93,7 +108,7 @@ impl Guarded {
     /// Asks one query. A process that was stopped or has died is restarted first; that is not timed.
     ///
     /// # Errors
-    /// If the process does not start.
+    /// Those of [`Guarded::start`].
     pub fn ask(&mut self, query: &Query, patience: Duration) -> io::Result<Asked> {
         let asked = self.running()?.ask(query, patience);
         if !matches!(asked, Asked::Answered { .. }) {
@@ -113,13 +128,14 @@ impl Guarded {
     fn spawn(&self) -> io::Result<Process> {
         let mut command = Command::new(&self.program);
         command
-            .args(["peer", "--kind", self.kind.name()])
-            .arg(format!("--tolerance={}", self.tolerance))
+            .args(["answer", "--method", &self.setting.method.to_string()])
+            .arg(format!("--tolerance={}", self.setting.tolerance))
+            .arg(format!("--margin={}", self.setting.margin))
             .arg("--a")
             .arg(self.meshes.path(0))
             .arg("--b")
             .arg(self.meshes.path(1));
-        Process::start(&mut command)
+        Process::start(&mut command, self.setting.preparation)
     }
 }
 
@@ -132,7 +148,7 @@ struct Process {
 }
 
 impl Process {
-    fn start(command: &mut Command) -> io::Result<Self> {
+    fn start(command: &mut Command, preparation: Duration) -> io::Result<Self> {
         let mut child = command
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
@@ -147,7 +163,7 @@ impl Process {
             input,
             lines,
         };
-        let output = output.ok_or_else(|| io::Error::other("no output of the peer"))?;
+        let output = output.ok_or_else(|| io::Error::other("no output of the method"))?;
         // This thread ends with the output, which ends with the process.
         thread::spawn(move || {
             for line in BufReader::new(output).lines().map_while(Result::ok) {
@@ -156,9 +172,14 @@ impl Process {
                 }
             }
         });
-        match process.lines.recv_timeout(PATIENCE_AT_START) {
+        match process.lines.recv_timeout(preparation) {
             Ok(line) if line == READY => Ok(process),
-            _ => Err(io::Error::other("the peer does not start")),
+            Ok(line) if line.starts_with(REFUSED) => {
+                let why = &line[REFUSED.len()..];
+                Err(io::Error::new(io::ErrorKind::Unsupported, why))
+            }
+            Err(RecvTimeoutError::Timeout) => Err(io::ErrorKind::TimedOut.into()),
+            _ => Err(io::Error::other("the method does not start")),
         }
     }
 
@@ -198,7 +219,7 @@ impl Meshes {
     fn write(meshes: [&TriangleMesh; 2]) -> io::Result<Self> {
         static COUNT: AtomicU64 = AtomicU64::new(0);
         let count = COUNT.fetch_add(1, Ordering::Relaxed);
-        let name = format!("ccd-peer-{}-{count}", std::process::id());
+        let name = format!("ccd-bench-{}-{count}", std::process::id());
         let directory = std::env::temp_dir().join(name);
         fs::create_dir_all(&directory)?;
         let written = Meshes { directory };

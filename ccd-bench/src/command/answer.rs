@@ -1,0 +1,122 @@
+//! The command `ccd-bench answer`: runs a method on standard input and output, so that it can be stopped
+//! from outside.
+
+use crate::method::solver::Solver;
+use crate::method::wire::{REFUSED, serve};
+use crate::method::{Method, Ours};
+use crate::run::contest::MOST_PAIRS_FOR_NAIVE;
+use anyhow::{Context, Result, anyhow};
+use ccd_core::Config;
+use ccd_decomp::TriangleMesh;
+use clap::Args;
+use rigid_ccd::batch::{Bodies, ScheduleKind};
+use rigid_ccd::command::{CannotWrite, Exit};
+use std::io;
+#[cfg(unix)]
+use std::os::unix::process::parent_id;
+use std::path::{Path, PathBuf};
+#[cfg(unix)]
+use std::{thread, time::Duration};
+
+/// Answer queries with one method, line by line: motions and durations in, times out
+#[derive(Debug, Args)]
+pub(super) struct AnswerArgs {
+    /// The method, as the tables name it
+    #[arg(long)]
+    method: String,
+    /// The mesh of body A
+    #[arg(long, value_name = "MESH")]
+    a: PathBuf,
+    /// The mesh of body B
+    #[arg(long, value_name = "MESH")]
+    b: PathBuf,
+    /// The tolerance, for methods that take one, in the scene's unit of length
+    #[arg(long, value_name = "LENGTH")]
+    tolerance: f64,
+    /// The distance to keep
+    #[arg(long, value_name = "LENGTH", default_value_t = 0.0)]
+    margin: f64,
+}
+
+pub(super) fn run(args: &AnswerArgs) -> Result<Exit> {
+    end_with_parent();
+    let name = &args.method;
+    let method = Method::named(name).ok_or_else(|| anyhow!("there is no method `{name}`"))?;
+    let read = |path: &Path| TriangleMesh::read(path).with_context(|| path.display().to_string());
+    let meshes = [read(&args.a)?, read(&args.b)?];
+    if let Err(refusal) = answer(method, &meshes, args)? {
+        println!("{REFUSED}{refusal}");
+    }
+    Ok(Exit::AllAnswered)
+}
+
+/// Answers all queries, or returns why the method refuses the bodies or the setting.
+fn answer(
+    method: Method,
+    [a, b]: &[TriangleMesh; 2],
+    args: &AnswerArgs,
+) -> Result<Result<(), String>> {
+    let tolerance = args.tolerance;
+    if args.margin != 0.0 && !matches!(method, Method::Ours(..)) {
+        return Ok(Err("the method keeps no margin".to_owned()));
+    }
+    match method {
+        Method::Ours(kind, pieces) => {
+            let bodies = [a, b].map(|mesh| pieces.body_of(mesh));
+            let [a, b] = match bodies {
+                [Ok(a), Ok(b)] => [a, b],
+                [Err(error), _] | [_, Err(error)] => return Ok(Err(error.to_string())),
+            };
+            let pairs = a.pieces().len() as u64 * b.pieces().len() as u64;
+            if kind.schedule == ScheduleKind::Naive && pairs > MOST_PAIRS_FOR_NAIVE {
+                return Ok(Err(format!("{pairs} pairs are too many")));
+            }
+            let config = Config {
+                tolerance,
+                margin: args.margin,
+                ..Config::default()
+            };
+            serve_all(&mut Ours::new(kind, Bodies { a: &a, b: &b }, config))?;
+        }
+        Method::Rival(kind) => serve_all(kind.solver(a, b, tolerance).as_mut())?,
+        Method::Peer(kind) => match kind.solver(a, b, tolerance) {
+            Ok(mut solver) => serve_all(solver.as_mut())?,
+            Err(error) => return Ok(Err(error.to_string())),
+        },
+    }
+    Ok(Ok(()))
+}
+
+fn serve_all(solver: &mut dyn Solver) -> Result<()> {
+    let (input, output) = (io::stdin().lock(), io::stdout().lock());
+    match serve(solver, input, output) {
+        Ok(()) => Ok(()),
+        Err(error) if error.kind() == io::ErrorKind::InvalidData => {
+            Err(error).context("standard input: no query")
+        }
+        Err(source) => Err(CannotWrite {
+            place: "the replies".to_owned(),
+            source,
+        }
+        .into()),
+    }
+}
+
+/// The time that this process may outlive its parent.
+#[cfg(unix)]
+const WITHOUT_PARENT: Duration = Duration::from_secs(1);
+
+/// Ends this process, in whatever call it is, once its parent has ended.
+#[cfg(unix)]
+fn end_with_parent() {
+    let parent = parent_id();
+    thread::spawn(move || {
+        while parent_id() == parent {
+            thread::sleep(WITHOUT_PARENT);
+        }
+        std::process::exit(1);
+    });
+}
+
+#[cfg(not(unix))]
+fn end_with_parent() {}
