@@ -1,13 +1,15 @@
-//! The command `ccd-bench`: demo, charts, brackets of exact first contacts.
+//! The command `ccd-bench`: demo, charts, brackets of exact first contacts, stability.
 
 mod answer;
 mod chart;
+mod stability;
 mod truth;
 
 use answer::AnswerArgs;
 use chart::{ChartArgs, CommonArgs};
 use clap::{Parser, Subcommand};
 use rigid_ccd::command::exit_code;
+use stability::StabilityArgs;
 use std::process::ExitCode;
 use truth::TruthArgs;
 
@@ -35,6 +37,8 @@ enum Command {
     Chart(ChartArgs),
     /// Bracket the exact first contacts of two meshes, to judge answers by
     Truth(TruthArgs),
+    /// Find where each method fails: families of scenes that get harder step by step
+    Stability(StabilityArgs),
     #[command(hide = true)]
     Answer(AnswerArgs),
 }
@@ -47,6 +51,7 @@ pub fn main() -> ExitCode {
             Command::Demo(args) => chart::run_demo(&args),
             Command::Chart(args) => chart::run(&args),
             Command::Truth(args) => truth::run(&args),
+            Command::Stability(args) => stability::run(&args),
             Command::Answer(args) => answer::run(&args),
         },
     )

@@ -6,6 +6,7 @@
 //! | bracket the exact first contact | [`truth`] |
 //! | answer by this project, by published rivals, or by peer libraries | [`method`] |
 //! | time and judge every method on every scene | [`run`] |
+//! | find where each method fails | [`stability`] |
 //! | show the measurements | [`show`] |
 
 pub mod command;
@@ -13,4 +14,5 @@ pub mod method;
 pub mod run;
 pub mod scene;
 pub mod show;
+pub mod stability;
 pub mod truth;

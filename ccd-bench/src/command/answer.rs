@@ -11,7 +11,7 @@ use ccd_decomp::TriangleMesh;
 use clap::Args;
 use rigid_ccd::batch::{Bodies, ScheduleKind};
 use rigid_ccd::command::{CannotWrite, Exit};
-use std::io;
+use std::io::{self, Write};
 #[cfg(unix)]
 use std::os::unix::process::parent_id;
 use std::path::{Path, PathBuf};
@@ -45,7 +45,7 @@ pub(super) fn run(args: &AnswerArgs) -> Result<Exit> {
     let read = |path: &Path| TriangleMesh::read(path).with_context(|| path.display().to_string());
     let meshes = [read(&args.a)?, read(&args.b)?];
     if let Err(refusal) = answer(method, &meshes, args)? {
-        println!("{REFUSED}{refusal}");
+        writeln!(io::stdout(), "{REFUSED}{refusal}").map_err(unwritten)?;
     }
     Ok(Exit::AllAnswered)
 }
@@ -94,11 +94,14 @@ fn serve_all(solver: &mut dyn Solver) -> Result<()> {
         Err(error) if error.kind() == io::ErrorKind::InvalidData => {
             Err(error).context("standard input: no query")
         }
-        Err(source) => Err(CannotWrite {
-            place: "the replies".to_owned(),
-            source,
-        }
-        .into()),
+        Err(source) => Err(unwritten(source).into()),
+    }
+}
+
+fn unwritten(source: io::Error) -> CannotWrite {
+    CannotWrite {
+        place: "the replies".to_owned(),
+        source,
     }
 }
 

@@ -250,7 +250,7 @@ fn is_fast_to_run(method: Method) -> bool {
 }
 
 /// Returns the items with the given names, or all items if no names are given.
-fn chosen<T>(
+pub(super) fn chosen<T>(
     all: Vec<T>,
     names: &[String],
     what: &str,

@@ -11,7 +11,7 @@ use ccd_core::order::greater;
 pub use journal::{Journal, JournalError};
 pub use session::Session;
 pub use truths::{Truths, TruthsError};
-pub use verdict::{Judged, Verdict, judge};
+pub use verdict::{Judged, Verdict, judge, judge_contact};
 
 use crate::method::rival::screw;
 use crate::method::{Method, MotionKind};

@@ -5,7 +5,7 @@ mod board;
 mod grid;
 mod plate;
 mod ring;
-mod sphere;
+pub(crate) mod sphere;
 #[cfg(test)]
 mod tests;
 mod torus_knot;

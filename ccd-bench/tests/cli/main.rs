@@ -4,6 +4,7 @@ mod chart;
 #[path = "../../../rigid-ccd/tests/cli/command.rs"]
 mod command;
 mod peer;
+mod stability;
 mod truth;
 
 use command::{Run, stderr};

@@ -21,6 +21,8 @@ pub enum Verdict {
     Early,
     /// It is only a time until which nothing touches.
     Unresolved,
+    /// The method does not take the query or its bodies.
+    Refused,
     /// The query exceeded the time limit and was stopped.
     CutOff,
     /// The peer's process ended instead of answering.
@@ -72,35 +74,40 @@ pub fn judge(
 ) -> Judged {
     let near = |time: f64| referee.distance(query, time).lower <= tolerance * (1.0 + ROUNDING);
     let plain = Judged::plain;
-    let (lo, hi) = match truth {
-        Truth::Hit { lo, hi } if hi - lo > WIDEST * query.duration => {
-            return plain(Verdict::Undecided);
-        }
-        Truth::Hit { lo, hi } => (lo, hi),
-        Truth::Free => {
-            return plain(match claim {
-                Claim::Contact { time } if near(time) => Verdict::Right,
-                Claim::Contact { .. } => Verdict::False,
-                Claim::Free => Verdict::Right,
-                Claim::Unresolved { .. } | Claim::Refused => Verdict::Unresolved,
-            });
-        }
-        Truth::Start | Truth::Graze { .. } | Truth::Undecided { .. } => {
-            return plain(Verdict::Undecided);
-        }
-    };
+    match truth {
+        Truth::Hit { lo, hi } if hi - lo > WIDEST * query.duration => plain(Verdict::Undecided),
+        Truth::Hit { lo, hi } => judge_contact(query.duration, [lo, hi], claim, near),
+        Truth::Free => plain(match claim {
+            Claim::Contact { time } if near(time) => Verdict::Right,
+            Claim::Contact { .. } => Verdict::False,
+            Claim::Free => Verdict::Right,
+            Claim::Unresolved { .. } | Claim::Refused => Verdict::Unresolved,
+        }),
+        Truth::Start | Truth::Graze { .. } | Truth::Undecided { .. } => plain(Verdict::Undecided),
+    }
+}
+
+/// Judges a claim about bodies whose first contact is between `lo` and `hi`; `near` tells whether they are
+/// within the tolerance at a time.
+pub fn judge_contact(
+    duration: f64,
+    [lo, hi]: [f64; 2],
+    claim: Claim,
+    near: impl Fn(f64) -> bool,
+) -> Judged {
+    let plain = Judged::plain;
     let time = match claim {
         Claim::Contact { time } => time,
         Claim::Free => return plain(Verdict::Missed),
         // This claim is a proof too, and may be wrong.
-        Claim::Unresolved { safe_until } if safe_until > hi + SLACK * query.duration => {
+        Claim::Unresolved { safe_until } if safe_until > hi + SLACK * duration => {
             return plain(Verdict::Late);
         }
         Claim::Unresolved { .. } | Claim::Refused => return plain(Verdict::Unresolved),
     };
-    let off = greater(0.0, greater(lo - time, time - hi)) / query.duration;
+    let off = greater(0.0, greater(lo - time, time - hi)) / duration;
     // The comparison treats NaN as late.
-    let verdict = if !(time <= hi + SLACK * query.duration) {
+    let verdict = if !(time <= hi + SLACK * duration) {
         Verdict::Late
     } else if time < lo && !near(time) {
         Verdict::Early
@@ -123,6 +130,7 @@ impl fmt::Display for Verdict {
             Verdict::False => "false",
             Verdict::Early => "early",
             Verdict::Unresolved => "unresolved",
+            Verdict::Refused => "refused",
             Verdict::CutOff => "cut off",
             Verdict::Died => "died",
             Verdict::Undecided => "undecided",

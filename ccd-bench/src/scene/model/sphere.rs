@@ -7,7 +7,7 @@ use std::f64::consts::{PI, TAU};
 ///
 /// Circles of latitude at equal spacing hold vertices in proportion to their length, and are joined
 /// by strips of triangles. The construction needs about 12 vertices.
-pub(super) fn sphere(vertices: usize) -> (Vec<DVec3>, Vec<[u32; 3]>) {
+pub(crate) fn sphere(vertices: usize) -> (Vec<DVec3>, Vec<[u32; 3]>) {
     let counts = ring_counts(vertices);
     let mut points = vec![DVec3::Z];
     let mut faces = Vec::with_capacity(2 * vertices);

@@ -1,0 +1,78 @@
+//! The command `ccd-bench stability`: finds where each method fails.
+
+use super::chart::chosen;
+use crate::method::Method;
+use crate::stability::{Extent, Survey, families, limits, summary};
+use anyhow::Result;
+use clap::Args;
+use rigid_ccd::command::{CannotWrite, Exit};
+use std::fs;
+use std::io::{self, Write};
+use std::path::PathBuf;
+
+/// Find where each method fails: families of scenes that get harder step by step
+#[derive(Debug, Args)]
+#[command(after_help = AFTER_HELP)]
+pub(super) struct StabilityArgs {
+    /// Ask for all values of all families, not only for three of each
+    #[arg(long)]
+    full: bool,
+    /// Only these families
+    #[arg(long, value_name = "NAME", value_delimiter = ',')]
+    families: Vec<String>,
+    /// Only these methods
+    #[arg(long, value_name = "NAME", value_delimiter = ',')]
+    methods: Vec<String>,
+    /// Write the tables to this folder; answers that it holds already are not asked again
+    #[arg(long, value_name = "DIR", default_value = "target/ccd-stability")]
+    out: PathBuf,
+}
+
+const AFTER_HELP: &str = "\
+Each family has one parameter that makes it harder, and exact answers. Every method runs in a process of
+its own, which is stopped after 3 seconds on a query.
+
+Verdicts: right; early and false are contacts that are none, within reach or not; unresolved is a time
+until which nothing touches; refused; late and missed are contacts that were passed; died is a process
+that ended; cut off one that was stopped.
+
+Files: trials.csv has every answer, chart.csv every step, limits.md how far each method follows.
+
+Examples:
+  ccd-bench stability
+  ccd-bench stability --full --methods 'best-first direct,C2A'
+  ccd-bench stability --full --families 'bullet and paper,margin'";
+
+pub(super) fn run(args: &StabilityArgs) -> Result<Exit> {
+    let all = Method::all().into_iter().chain([Method::published()]);
+    let survey = Survey {
+        families: chosen(families(), &args.families, "family", |f| f.name.to_owned())?,
+        methods: chosen(all.collect(), &args.methods, "method", Method::to_string)?,
+        extent: match args.full {
+            true => Extent::Full,
+            false => Extent::Quick,
+        },
+        folder: args.out.clone(),
+    };
+    let journal = survey.run()?;
+    let limits = limits(&survey, &journal);
+    let file = args.out.join("limits.md");
+    let written = fs::write(
+        &file,
+        format!("{}\n\n{}\n", limits.title, limits.as_markdown()),
+    );
+    let place = file.display().to_string();
+    written.map_err(|source| CannotWrite { place, source })?;
+    let summary = summary(&survey, &journal);
+    let shown = writeln!(
+        io::stdout(),
+        "{}\n{}",
+        summary.title,
+        summary.for_terminal()
+    );
+    shown.map_err(|source| CannotWrite {
+        place: "the summary".to_owned(),
+        source,
+    })?;
+    Ok(Exit::AllAnswered)
+}

@@ -1,0 +1,22 @@
+//! Stability: families of scenes that get harder step by step, and how far each method follows.
+//!
+//! | to … | see |
+//! |---|---|
+//! | know what a family is, and its exact answers | [`Family`], [`Step`], [`Case`] |
+//! | list the families | [`families()`] |
+//! | judge an answer | [`judge`] |
+//! | ask all methods, each in a process that can be stopped | [`Survey`] |
+//! | see how far each method follows | [`summary`], [`limits`] |
+
+mod families;
+mod family;
+mod judge;
+mod shapes;
+mod summary;
+mod survey;
+
+pub use families::families;
+pub use family::{Case, Expected, Family, Step, StepError};
+pub use judge::judge;
+pub use summary::{limits, summary};
+pub use survey::{Extent, Survey, SurveyError};

@@ -1,0 +1,146 @@
+//! Contacts that hang on the last digits: nearly parallel parts, hardly any overlap.
+
+use super::super::family::{Course, Expected, Family, Step, StepError};
+use super::super::shapes::{cuboid, slab, torus};
+use super::tenths;
+use ccd_core::glam::{DQuat, DVec3, dvec3};
+use ccd_core::order::greater;
+use std::f64::consts::{FRAC_PI_4, PI, SQRT_2};
+
+pub(super) fn families() -> Vec<Family> {
+    let family = |name, parameter, values, make| Family {
+        name,
+        parameter,
+        values,
+        make,
+    };
+    vec![
+        family(
+            "face onto face",
+            "angle to parallel",
+            tenths(1..=15),
+            face_onto_face,
+        ),
+        family(
+            "edge across edge",
+            "angle to parallel",
+            tenths(1..=15),
+            edge_across_edge,
+        ),
+        family(
+            "flat approach",
+            "angle to the face",
+            tenths(1..=12),
+            flat_approach,
+        ),
+        family(
+            "cubes that hardly meet",
+            "overlap",
+            tenths(1..=15),
+            hardly_meeting,
+        ),
+        family(
+            "rod that hardly reaches",
+            "share of its reach",
+            tenths(1..=12),
+            hardly_reaching,
+        ),
+        family(
+            "linked rings",
+            "way to contact",
+            tenths(1..=12),
+            linked_rings,
+        ),
+    ]
+}
+
+/// The error of a time that was computed from coordinates of a few units, at speeds of at least 1.
+const SLACK: f64 = 1e-14;
+
+/// T1, tilted.
+fn face_onto_face(angle: f64) -> Result<Step, StepError> {
+    let reach = 0.5 * (angle.sin() + angle.cos());
+    let falling = Course {
+        turned: DQuat::from_rotation_y(angle),
+        ..Course::straight(3.0 * DVec3::Z, -4.0 * DVec3::Z)
+    };
+    let expected = Expected::at((3.0 - reach) / 4.0, SLACK);
+    let step = Step::new(cuboid(0.5, 0.5, 0.5)?, slab()?);
+    Ok(step.turned_too(falling, Course::rest(DVec3::NEG_Z), expected)?)
+}
+
+/// T8 with nearly parallel rods.
+fn edge_across_edge(angle: f64) -> Result<Step, StepError> {
+    let on_edge = DQuat::from_rotation_x(FRAC_PI_4);
+    let falling = Course {
+        turned: DQuat::from_rotation_z(angle) * on_edge,
+        ..Course::straight(3.0 * DVec3::Z, -4.0 * DVec3::Z)
+    };
+    let lying = Course {
+        turned: on_edge,
+        ..Course::STILL
+    };
+    let expected = Expected::at((3.0 - 0.2 * SQRT_2) / 4.0, SLACK);
+    let step = Step::new(cuboid(2.0, 0.1, 0.1)?, cuboid(2.0, 0.1, 0.1)?);
+    Ok(step.turned_too(falling, lying, expected)?)
+}
+
+/// A cube comes down on a slab at a small angle, half-way of its flight.
+fn flat_approach(angle: f64) -> Result<Step, StepError> {
+    let (sin, cos) = angle.sin_cos();
+    let height = 2.0 * sin;
+    let flying = Course::straight(dvec3(-2.0, 0.0, 0.5 + height), 4.0 * dvec3(cos, 0.0, -sin));
+    // The height is rounded in units of the cube, and the cube descends slowly.
+    let expected = Expected::at(0.5, 1e-15 / sin);
+    let step = Step::new(cuboid(0.5, 0.5, 0.5)?, slab()?);
+    let step = Step {
+        tolerance: greater(1e-3 * height, 1e-11),
+        ..step
+    };
+    Ok(step.turned_too(flying, Course::rest(DVec3::NEG_Z), expected)?)
+}
+
+fn hardly_meeting(overlap: f64) -> Result<Step, StepError> {
+    let flying = Course::straight(dvec3(-3.0, 0.0, 1.0 - overlap), 6.0 * DVec3::X);
+    let expected = Expected::at(1.0 / 3.0, SLACK);
+    let step = Step::new(cuboid(0.5, 0.5, 0.5)?, cuboid(0.5, 0.5, 0.5)?);
+    Ok(match overlap > 1e-12 {
+        true => step.turned_too(flying, Course::STILL, expected)?,
+        false => step.exactly(flying, Course::STILL, expected)?,
+    })
+}
+
+/// T5: a rod turns, and its corner reaches a wall shortly before it would turn past it.
+fn hardly_reaching(share: f64) -> Result<Step, StepError> {
+    let (long, thin) = (2.0f64, 0.05);
+    let wall = long.hypot(thin) * (1.0 - share);
+    let turning = Course {
+        spin: PI * DVec3::Y,
+        ..Course::STILL
+    };
+    let time = ((1.0 - share).asin() - thin.atan2(long)) / PI;
+    // The corner moves along the wall: its distance grows with the square of the time.
+    let expected = Expected::at(time, 1e-15 / share.sqrt());
+    let step = Step::new(cuboid(thin, 0.3, long)?, cuboid(1.0, 3.0, 3.0)?);
+    Ok(step.turned_too(turning, Course::rest((wall + 1.0) * DVec3::X), expected)?)
+}
+
+/// T17: one ring hangs in the other, a small way from it.
+fn linked_rings(way: f64) -> Result<Step, StepError> {
+    let (radius, tube) = (1.0, 0.25);
+    // At the start the rings are each in the middle of the other's hole; then one moves until their inner
+    // rims are a small way apart.
+    let rim = radius - 2.0 * tube;
+    let upright = DQuat::from_rotation_x(std::f64::consts::FRAC_PI_2);
+    let hanging = Course {
+        turned: upright,
+        ..Course::straight((radius + rim - way) * DVec3::X, DVec3::X)
+    };
+    let step = Step::new(torus(radius, tube)?, torus(radius, tube)?);
+    let step = Step {
+        tolerance: greater(0.1 * way, 1e-11),
+        ..step
+    };
+    let expected = Expected::at(way, SLACK);
+    Ok(step.exactly(hanging, Course::STILL, expected)?)
+}

@@ -1,0 +1,100 @@
+//! Bodies that never meet, by ever less.
+
+use super::super::family::{Course, Expected, Family, Step, StepError};
+use super::super::shapes::{ball, cone, cuboid, slab};
+use super::tenths;
+use ccd_core::glam::{DVec3, dvec3};
+use ccd_core::order::greater;
+
+pub(super) fn families() -> Vec<Family> {
+    let family = |name, make| Family {
+        name,
+        parameter: "gap",
+        values: tenths(1..=12),
+        make,
+    };
+    vec![
+        family("ball passing a box", ball_passing_a_box),
+        family("cubes passing", cubes_passing),
+        family("balls passing pole to pole", balls_passing),
+        family("cube sliding over a slab", sliding),
+        family("cube resting then leaving", leaving),
+        family("spinning top", spinning_top),
+        family("rod turning past a wall", rod_past_a_wall),
+    ]
+}
+
+/// Returns the tolerance for a gap: a quarter of it, as far as coordinates of a few units let it be
+/// certified.
+fn tolerance(gap: f64) -> f64 {
+    greater(0.25 * gap, 1e-11)
+}
+
+/// Returns a step with a gap that survives the rounding of turned worlds, or that is asked in its own alone.
+fn free(step: Step, gap: f64, a: Course, b: Course) -> Result<Step, StepError> {
+    let step = Step {
+        tolerance: tolerance(gap),
+        ..step
+    };
+    Ok(match gap >= 1e-12 {
+        true => step.turned_too(a, b, Expected::Free)?,
+        false => step.exactly(a, b, Expected::Free)?,
+    })
+}
+
+fn ball_passing_a_box(gap: f64) -> Result<Step, StepError> {
+    let step = Step::new(ball(0.5, 600)?, cuboid(1.0, 1.0, 1.0)?);
+    let flying = Course::straight(dvec3(-3.0, 0.0, 0.5 + gap), 6.0 * DVec3::X);
+    free(step, gap, flying, Course::rest(DVec3::NEG_Z))
+}
+
+fn cubes_passing(gap: f64) -> Result<Step, StepError> {
+    let step = Step::new(cuboid(0.5, 0.5, 0.5)?, cuboid(0.5, 0.5, 0.5)?);
+    let flying = Course::straight(dvec3(-3.0, 0.0, 1.0 + gap), 6.0 * DVec3::X);
+    free(step, gap, flying, Course::STILL)
+}
+
+fn balls_passing(gap: f64) -> Result<Step, StepError> {
+    let step = Step::new(ball(0.5, 600)?, ball(0.5, 600)?);
+    let flying = Course::straight(dvec3(-3.0, 0.0, 1.0 + gap), 6.0 * DVec3::X);
+    free(step, gap, flying, Course::STILL)
+}
+
+fn sliding(gap: f64) -> Result<Step, StepError> {
+    let step = Step::new(cuboid(0.5, 0.5, 0.5)?, slab()?);
+    let sliding = Course::straight(dvec3(-2.0, 0.3, 0.5 + gap), dvec3(4.0, 1.0, 0.0));
+    free(step, gap, sliding, Course::rest(DVec3::NEG_Z))
+}
+
+fn leaving(gap: f64) -> Result<Step, StepError> {
+    let step = Step::new(cuboid(0.5, 0.5, 0.5)?, slab()?);
+    let rising = Course::straight(dvec3(-2.0, 0.3, 0.5 + gap), dvec3(1.0, 0.0, 0.5));
+    free(step, gap, rising, Course::rest(DVec3::NEG_Z))
+}
+
+fn spinning_top(gap: f64) -> Result<Step, StepError> {
+    let spinning = Course {
+        spin: 50.0 * DVec3::Z,
+        ..Course::straight(gap * DVec3::Z, 0.5 * DVec3::X)
+    };
+    let step = Step::new(cone(24, 0.7)?, slab()?);
+    free(step, gap, spinning, Course::rest(DVec3::NEG_Z))
+}
+
+/// A rod of half length 2 turns by half a turn about its middle, past a wall that its corners just do not reach.
+fn rod_past_a_wall(gap: f64) -> Result<Step, StepError> {
+    let (long, thin) = (2.0, 0.05);
+    let reach = f64::hypot(long, thin);
+    let turning = Course {
+        spin: std::f64::consts::PI * DVec3::Y,
+        ..Course::STILL
+    };
+    let wall = Course::rest((reach + gap + 1.0) * DVec3::X);
+    let step = Step::new(cuboid(thin, 0.3, long)?, cuboid(1.0, 3.0, 3.0)?);
+    // The reach is rounded, and the gap with it.
+    let step = Step {
+        tolerance: greater(tolerance(gap), 1e-10),
+        ..step
+    };
+    Ok(step.turned_too(turning, wall, Expected::Free)?)
+}

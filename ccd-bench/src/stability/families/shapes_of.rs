@@ -1,0 +1,77 @@
+//! Many triangles, and bad ones.
+
+use super::super::family::{Course, Expected, Family, Step, StepError};
+use super::super::shapes::{TOOTH, ball, comb, cone, cuboid, slab, with_bad_faces};
+use super::tens;
+use ccd_core::glam::{DQuat, DVec3, dvec3};
+use std::f64::consts::PI;
+
+pub(super) fn families() -> Vec<Family> {
+    let family = |name, parameter, values, make| Family {
+        name,
+        parameter,
+        values,
+        make,
+    };
+    let doubled =
+        |exponents: std::ops::RangeInclusive<i32>| exponents.map(|k| 2f64.powi(k)).collect();
+    vec![
+        family("comb into comb", "teeth", doubled(2..=9), comb_into_comb),
+        family("ball onto a slab", "triangles", tens(2..=5), ball_onto_slab),
+        family(
+            "tip of many triangles",
+            "triangles at the tip",
+            tens(1..=4),
+            tip_onto_slab,
+        ),
+        family(
+            "repeated and collapsed faces",
+            "bad faces",
+            tens(0..=3),
+            bad_faces,
+        ),
+    ]
+}
+
+/// T19: the teeth of two combs pass between each other, until their tips meet the bars.
+fn comb_into_comb(teeth: f64) -> Result<Step, StepError> {
+    let step = Step::new(comb(teeth as u32)?, comb(teeth as u32)?);
+    // Turned over about y, a tooth ends where it began: in the middle of a gap, at 1/2 + TOOTH of the step.
+    let shift = 1.0 - (0.5 - TOOTH) / teeth;
+    let falling = Course {
+        turned: DQuat::from_rotation_y(PI),
+        ..Course::straight(dvec3(shift, 0.0, 5.0), -4.0 * DVec3::Z)
+    };
+    Ok(step.turned_too(falling, Course::STILL, Expected::at(0.5, 1e-14))?)
+}
+
+/// T22: a ball with a corner at its pole falls onto a slab.
+fn ball_onto_slab(triangles: f64) -> Result<Step, StepError> {
+    let step = Step::new(ball(0.5, triangles as usize / 2 + 2)?, slab()?);
+    let falling = Course {
+        spin: 2.0 * DVec3::Z,
+        ..Course::straight(3.0 * DVec3::Z, -4.0 * DVec3::Z)
+    };
+    let expected = Expected::at(0.625, 1e-14);
+    Ok(step.turned_too(falling, Course::rest(DVec3::NEG_Z), expected)?)
+}
+
+/// A cone falls onto a slab, tip first.
+fn tip_onto_slab(sides: f64) -> Result<Step, StepError> {
+    let step = Step::new(cone(sides as u32, 0.7)?, slab()?);
+    let falling = Course {
+        spin: 2.0 * DVec3::Z,
+        ..Course::straight(2.5 * DVec3::Z, -4.0 * DVec3::Z)
+    };
+    let expected = Expected::at(0.625, 1e-14);
+    Ok(step.turned_too(falling, Course::rest(DVec3::NEG_Z), expected)?)
+}
+
+/// T21: a cube with repeated and collapsed faces.
+fn bad_faces(count: f64) -> Result<Step, StepError> {
+    let cube = with_bad_faces(&cuboid(0.5, 0.5, 0.5)?, count as usize)?;
+    let step = Step::new(cube, slab()?);
+    let falling = Course::straight(3.0 * DVec3::Z, -4.0 * DVec3::Z);
+    let expected = Expected::at(0.625, 1e-14);
+    Ok(step.turned_too(falling, Course::rest(DVec3::NEG_Z), expected)?)
+}

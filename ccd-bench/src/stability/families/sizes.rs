@@ -1,0 +1,147 @@
+//! Sizes, distances and units far from 1.
+
+use super::super::family::{Course, Expected, Family, Step, StepError};
+use super::super::shapes::{cuboid, slab};
+use super::{tens, tenths};
+use ccd_core::glam::{DQuat, DVec3, dvec3};
+use ccd_core::order::greater;
+
+pub(super) fn families() -> Vec<Family> {
+    let family = |name, parameter, values, make| Family {
+        name,
+        parameter,
+        values,
+        make,
+    };
+    let sizes = |exponents: std::ops::RangeInclusive<i32>| {
+        exponents
+            .flat_map(|k| [10f64.powi(k), 10f64.powi(-k)])
+            .collect()
+    };
+    vec![
+        family(
+            "small against large",
+            "size against size",
+            sizes(1..=9),
+            size_against_size,
+        ),
+        family(
+            "unit of length",
+            "size of the scene",
+            sizes(2..=9),
+            unit_of_length,
+        ),
+        family(
+            "far from the origin",
+            "distance in sizes",
+            tens(0..=12),
+            far_from_the_origin,
+        ),
+        family(
+            "slender triangles",
+            "length against width",
+            tens(0..=12),
+            slender,
+        ),
+        family(
+            "bullet and paper",
+            "way against thickness",
+            tens(0..=9),
+            bullet_and_paper,
+        ),
+        family("margin", "margin against size", margins(), margin),
+        family(
+            "one inside the other",
+            "size against size",
+            tenths(0..=9),
+            inside,
+        ),
+    ]
+}
+
+fn margins() -> Vec<f64> {
+    let mut margins = tenths(-2..=6);
+    margins.sort_by(f64::total_cmp);
+    margins.insert(0, 0.0);
+    margins
+}
+
+/// A cube falls onto a larger or smaller one, half-way of its fall.
+fn size_against_size(size: f64) -> Result<Step, StepError> {
+    let way = greater(size, 1.0);
+    let falling = Course::straight((1.0 + size + way) * DVec3::Z, -2.0 * way * DVec3::Z);
+    let step = Step::new(cuboid(size, size, size)?, cuboid(1.0, 1.0, 1.0)?);
+    let step = Step {
+        tolerance: 1e-6 * way,
+        ..step
+    };
+    Ok(step.turned_too(falling, Course::STILL, Expected::at(0.5, 1e-14))?)
+}
+
+/// T1 in other units.
+fn unit_of_length(size: f64) -> Result<Step, StepError> {
+    let falling = Course::straight(3.0 * size * DVec3::Z, -4.0 * size * DVec3::Z);
+    let half = 0.5 * size;
+    let step = Step::new(
+        cuboid(half, half, half)?,
+        cuboid(9.0 * size, 9.0 * size, size)?,
+    );
+    let step = Step {
+        tolerance: 1e-6 * size,
+        ..step
+    };
+    let slab = Course::rest(-size * DVec3::Z);
+    Ok(step.turned_too(falling, slab, Expected::at(0.625, 1e-14))?)
+}
+
+/// T20: cubes of half extent 1/2 at a distance that adds to their way without rounding.
+fn far_from_the_origin(distance: f64) -> Result<Step, StepError> {
+    // All coordinates stay within the distance.
+    let origin = distance * dvec3(1.0, -1.0, -1.0);
+    let falling = Course::straight(origin + 3.0 * DVec3::Z, -4.0 * DVec3::Z);
+    let step = Step::new(cuboid(0.5, 0.5, 0.5)?, cuboid(0.5, 0.5, 0.5)?);
+    Ok(step.exactly(falling, Course::rest(origin), Expected::at(0.5, 1e-14))?)
+}
+
+/// A needle falls onto a slab: its sides are long and thin triangles.
+fn slender(ratio: f64) -> Result<Step, StepError> {
+    let thin = 1.0 / ratio;
+    let (sin, cos) = 0.3f64.sin_cos();
+    let falling = Course {
+        turned: DQuat::from_rotation_x(0.3),
+        ..Course::straight(3.0 * DVec3::Z, -4.0 * DVec3::Z)
+    };
+    let reach = thin * (sin + cos);
+    let expected = Expected::at((3.0 - reach) / 4.0, 1e-14);
+    let step = Step::new(cuboid(1.0, thin, thin)?, slab()?);
+    Ok(step.turned_too(falling, Course::rest(DVec3::NEG_Z), expected)?)
+}
+
+/// T13: a bullet flies a way of 1 at a thin sheet half-way.
+fn bullet_and_paper(ratio: f64) -> Result<Step, StepError> {
+    let (bullet, half) = (0.005, 0.05 / ratio);
+    let flying = Course::straight(DVec3::ZERO, DVec3::X);
+    let paper = Course::rest(0.5 * DVec3::X);
+    let step = Step::new(cuboid(bullet, bullet, bullet)?, cuboid(half, 0.5, 0.5)?);
+    let expected = Expected::at(0.5 - half - bullet, 1e-14);
+    Ok(step.turned_too(flying, paper, expected)?)
+}
+
+/// A cube falls onto a slab, and comes as near as the margin half-way.
+fn margin(margin: f64) -> Result<Step, StepError> {
+    let speed = 4.0 * greater(1.0, margin);
+    let height = 0.5 + margin + 0.5 * speed;
+    let falling = Course::straight(height * DVec3::Z, -speed * DVec3::Z);
+    let step = Step::new(cuboid(0.5, 0.5, 0.5)?, slab()?);
+    let step = Step { margin, ..step };
+    let slab = Course::rest(DVec3::NEG_Z);
+    Ok(step.turned_too(falling, slab, Expected::at(0.5, 1e-14))?)
+}
+
+/// T24: a cube inside another one, both closed.
+fn inside(size: f64) -> Result<Step, StepError> {
+    let half = 0.9 * size;
+    let step = Step::new(cuboid(half, half, half)?, cuboid(1.0, 1.0, 1.0)?);
+    let moving = Course::straight(DVec3::ZERO, 0.05 * DVec3::X);
+    Ok(step.turned_too(moving, Course::STILL, Expected::Start)?)
+}

@@ -1,0 +1,99 @@
+//! Holds the exact answers of the families against the referee.
+
+use super::families;
+use crate::stability::{Case, Expected, Family, Step};
+use crate::truth::{Referee, Surface, Truth};
+use rayon::prelude::*;
+use std::collections::HashSet;
+
+/// Larger meshes take the referee too long.
+const TRIANGLES: usize = 3000;
+
+/// The share of the values, from the easy ones, at which a family's answers are checked: the referee takes
+/// ever longer.
+const CHECKED: f64 = 0.5;
+
+#[test]
+fn families_have_names_and_steps_of_their_own() {
+    let families = families();
+    let names: HashSet<&str> = families.iter().map(|family| family.name).collect();
+    assert_eq!(names.len(), families.len());
+    for Family { name, values, .. } in &families {
+        let distinct: HashSet<u64> = values.iter().map(|value| value.to_bits()).collect();
+        assert!(
+            distinct.len() == values.len() && values.len() >= 4,
+            "{name}: {values:?}"
+        );
+    }
+}
+
+#[test]
+fn every_step_can_be_made() {
+    families().par_iter().for_each(|family| {
+        for &value in &family.values {
+            let step = (family.make)(value);
+            let step = step.unwrap_or_else(|error| panic!("{} {value:e}: {error}", family.name));
+            assert!(!step.cases.is_empty() && step.tolerance > 0.0);
+            for Case { expected, .. } in &step.cases {
+                if let Expected::Contact { lo, hi } = *expected {
+                    assert!(
+                        0.0 < hi && lo <= hi && lo < 1.0,
+                        "{} {value:e}",
+                        family.name
+                    );
+                }
+            }
+        }
+    });
+}
+
+#[test]
+fn the_referee_finds_the_answers_that_are_claimed() {
+    let checked: usize = families()
+        .par_iter()
+        .map(|family| {
+            let count = (CHECKED * family.values.len() as f64) as usize;
+            let steps = family.values[..count].iter();
+            steps.map(|&value| agree(family, value)).sum::<usize>()
+        })
+        .sum();
+    assert!(checked >= 250, "{checked}");
+}
+
+/// Asserts that the referee agrees on a step, and returns the number of queries that it decided.
+fn agree(family: &Family, value: f64) -> usize {
+    let step = (family.make)(value).unwrap();
+    let Step { meshes, cases, .. } = &step;
+    let many = meshes.iter().any(|mesh| mesh.faces().len() > TRIANGLES);
+    // The referee keeps no distance.
+    if many || step.margin > 0.0 {
+        return 0;
+    }
+    let [a, b] = meshes.each_ref().map(Surface::new);
+    let mut decided = 0;
+    for Case { query, expected } in cases {
+        let truth = Referee::new(&a, &b).first_contact(query);
+        // It places points in the world, whose origin may be far away.
+        let early = 1e-12 + 1e-15 * query.a.start().translation().length();
+        let at = format!(
+            "{} {value:e}, case {}: {expected:?} {truth:?}",
+            family.name, query.id
+        );
+        match (truth, *expected) {
+            (Truth::Undecided { .. }, _) => continue,
+            (Truth::Hit { lo, hi }, Expected::Contact { lo: from, hi: to }) => {
+                assert!(lo <= to && from <= hi, "{at}");
+            }
+            // Faces that meet flat touch without a proof of intersection.
+            (Truth::Graze { lo }, Expected::Contact { lo: from, hi: to }) => {
+                assert!((from - early..=to).contains(&lo), "{at}");
+            }
+            (Truth::Free, Expected::Free) => {}
+            // The referee knows surfaces, not solids.
+            (Truth::Free, Expected::Start) => {}
+            _ => panic!("{at}"),
+        }
+        decided += 1;
+    }
+    decided
+}

@@ -1,0 +1,71 @@
+//! Contacts next to the start and next to the end.
+
+use super::super::family::{Course, Expected, Family, Step, StepError};
+use super::super::shapes::{cuboid, sheet, slab};
+use super::tenths;
+use ccd_core::glam::DVec3;
+use ccd_core::order::greater;
+
+pub(super) fn families() -> Vec<Family> {
+    let family = |name, values, make| Family {
+        name,
+        parameter: "time to the limit",
+        values,
+        make,
+    };
+    vec![
+        family("contact after the start", tenths(1..=12), after_the_start),
+        family("contact before the end", tenths(1..=14), before_the_end),
+        family("contact after the end", tenths(1..=12), after_the_end),
+        family("sheet falling onto a sheet", tenths(1..=12), sheets),
+    ]
+}
+
+/// Returns a cube that falls at speed 1 onto a slab, and reaches it at a time.
+fn falling(time: f64) -> Result<(Step, Course), StepError> {
+    let step = Step::new(cuboid(0.5, 0.5, 0.5)?, slab()?);
+    Ok((
+        step,
+        Course::straight((0.5 + time) * DVec3::Z, DVec3::NEG_Z),
+    ))
+}
+
+fn after_the_start(time: f64) -> Result<Step, StepError> {
+    let (step, falling) = falling(time)?;
+    let step = Step {
+        tolerance: greater(0.1 * time, 1e-11),
+        ..step
+    };
+    let expected = Expected::at(time, 1e-14);
+    Ok(step.turned_too(falling, Course::rest(DVec3::NEG_Z), expected)?)
+}
+
+fn before_the_end(before: f64) -> Result<Step, StepError> {
+    let (step, falling) = falling(1.0 - before)?;
+    let expected = Expected::at(1.0 - before, 1e-14);
+    Ok(step.turned_too(falling, Course::rest(DVec3::NEG_Z), expected)?)
+}
+
+fn after_the_end(after: f64) -> Result<Step, StepError> {
+    let (step, falling) = falling(1.0 + after)?;
+    let step = Step {
+        tolerance: greater(0.25 * after, 1e-11),
+        ..step
+    };
+    let slab = Course::rest(DVec3::NEG_Z);
+    Ok(match after > 1e-12 {
+        true => step.turned_too(falling, slab, Expected::Free)?,
+        false => step.exactly(falling, slab, Expected::Free)?,
+    })
+}
+
+/// Two flat sheets without thickness, a small way apart, meet face to face.
+fn sheets(way: f64) -> Result<Step, StepError> {
+    let falling = Course::straight(way * DVec3::Z, DVec3::NEG_Z);
+    let step = Step::new(sheet(1.0)?, sheet(1.0)?);
+    let step = Step {
+        tolerance: greater(0.1 * way, 1e-11),
+        ..step
+    };
+    Ok(step.turned_too(falling, Course::STILL, Expected::at(way, 1e-14))?)
+}

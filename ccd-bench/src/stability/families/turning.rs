@@ -1,0 +1,64 @@
+//! Turns, from hardly any to thousands.
+
+use super::super::family::{Course, Expected, Family, Step, StepError};
+use super::super::shapes::{cuboid, slab};
+use super::tens;
+use ccd_core::glam::DVec3;
+use std::f64::consts::{PI, TAU};
+
+pub(super) fn families() -> Vec<Family> {
+    let family = |name, values, make| Family {
+        name,
+        parameter: "turns",
+        values,
+        make,
+    };
+    vec![
+        family("drilling cube", tens(-2..=4), drilling),
+        family("rod turning into a wall", tens(0..=4), rod_into_a_wall),
+        family("rods turning against each other", tens(0..=4), rods),
+    ]
+}
+
+/// A cube falls flat onto a slab while it turns about the vertical.
+fn drilling(turns: f64) -> Result<Step, StepError> {
+    let falling = Course {
+        spin: TAU * turns * DVec3::Z,
+        ..Course::straight(3.0 * DVec3::Z, -4.0 * DVec3::Z)
+    };
+    let step = Step::new(cuboid(0.5, 0.5, 0.5)?, slab()?);
+    let expected = Expected::at(0.625, 1e-14);
+    Ok(step.turned_too(falling, Course::rest(DVec3::NEG_Z), expected)?)
+}
+
+/// The half length and half thickness of a rod.
+const LONG: f64 = 2.0;
+const THIN: f64 = 0.05;
+
+/// T4: a rod stands upright, and turns; its corner meets a wall at 1.2 in the first quarter of a turn.
+fn rod_into_a_wall(turns: f64) -> Result<Step, StepError> {
+    let wall = 1.2;
+    let spin = TAU * turns;
+    let angle = (wall / LONG.hypot(THIN)).asin() - THIN.atan2(LONG);
+    let turning = Course {
+        spin: spin * DVec3::Y,
+        ..Course::STILL
+    };
+    let step = Step::new(cuboid(THIN, 0.3, LONG)?, cuboid(1.0, 3.0, 3.0)?);
+    let expected = Expected::at(angle / spin, 1e-15);
+    Ok(step.turned_too(turning, Course::rest((wall + 1.0) * DVec3::X), expected)?)
+}
+
+/// T14: two rods turn against each other, like in a mirror.
+fn rods(turns: f64) -> Result<Step, StepError> {
+    let (apart, spin) = (3.0, TAU * turns);
+    let turning = |spin: f64, x: f64| Course {
+        spin: spin * DVec3::Y,
+        ..Course::rest(x * DVec3::X)
+    };
+    let angle = (0.5 * apart / LONG.hypot(THIN)).asin() - THIN.atan2(LONG);
+    debug_assert!(angle < PI);
+    let step = Step::new(cuboid(THIN, 0.3, LONG)?, cuboid(THIN, 0.3, LONG)?);
+    let expected = Expected::at(angle / spin, 1e-15);
+    Ok(step.turned_too(turning(spin, 0.0), turning(-spin, apart), expected)?)
+}

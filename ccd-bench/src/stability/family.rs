@@ -1,0 +1,181 @@
+//! A family of scenes: one hard parameter in steps, with exact answers.
+
+use ccd_core::glam::{DQuat, DVec3};
+use ccd_core::{InputError, Motion, Pose};
+use ccd_decomp::{MeshError, TriangleMesh};
+use rigid_ccd::table::motions::Query;
+
+/// Scenes of one kind that a parameter makes harder.
+#[derive(Clone, Debug)]
+pub struct Family {
+    /// The name.
+    pub name: &'static str,
+    /// What the parameter is.
+    pub parameter: &'static str,
+    /// Its values, the easiest first.
+    pub values: Vec<f64>,
+    /// Makes the scene of a value.
+    pub make: fn(f64) -> Result<Step, StepError>,
+}
+
+/// Two meshes, and queries about them with known answers.
+#[derive(Clone, Debug)]
+pub struct Step {
+    /// The meshes of A and B.
+    pub meshes: [TriangleMesh; 2],
+    /// The tolerance of the queries.
+    pub tolerance: f64,
+    /// The distance to keep.
+    pub margin: f64,
+    /// The queries.
+    pub cases: Vec<Case>,
+}
+
+/// A query with its answer.
+#[derive(Clone, Debug)]
+pub struct Case {
+    /// The query.
+    pub query: Query,
+    /// Its answer.
+    pub expected: Expected,
+}
+
+/// The exact answer of a query, where contact means a distance of at most the margin.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Expected {
+    /// The first contact is between two times, after the start.
+    Contact {
+        /// No contact is before it.
+        lo: f64,
+        /// There is a contact by then.
+        hi: f64,
+    },
+    /// There is no contact.
+    Free,
+    /// The bodies overlap at the start, or one is inside the other.
+    Start,
+}
+
+/// A scene cannot be made.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum StepError {
+    /// A mesh is invalid.
+    #[error(transparent)]
+    Mesh(#[from] MeshError),
+    /// A motion is invalid.
+    #[error(transparent)]
+    Input(#[from] InputError),
+}
+
+/// The motion of one body during a duration of 1.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Course {
+    pub(super) at: DVec3,
+    pub(super) turned: DQuat,
+    pub(super) velocity: DVec3,
+    pub(super) spin: DVec3,
+}
+
+/// The turns of the world in which a scene is asked besides its own: about no axis of symmetry.
+const WORLDS: [(DVec3, f64); 2] = [
+    (DVec3::new(0.6, 0.0, 0.8), 1.1),
+    (DVec3::new(-0.48, 0.6, 0.64), 2.3),
+];
+
+/// The tolerance of a step that sets none.
+const TOLERANCE: f64 = 1e-6;
+
+impl Expected {
+    /// Returns a contact at a time that is known, and reached by the query's rounded numbers, to within a
+    /// slack.
+    pub(super) fn at(time: f64, slack: f64) -> Self {
+        Expected::Contact {
+            lo: time - slack,
+            hi: time + slack,
+        }
+    }
+}
+
+impl Course {
+    pub(super) const STILL: Course = Course {
+        at: DVec3::ZERO,
+        turned: DQuat::IDENTITY,
+        velocity: DVec3::ZERO,
+        spin: DVec3::ZERO,
+    };
+
+    /// Rests at a place.
+    pub(super) fn rest(at: DVec3) -> Self {
+        Course {
+            at,
+            ..Course::STILL
+        }
+    }
+
+    /// Moves straight.
+    pub(super) fn straight(at: DVec3, velocity: DVec3) -> Self {
+        Course {
+            at,
+            velocity,
+            ..Course::STILL
+        }
+    }
+
+    fn motion(self, world: DQuat) -> Result<Motion, InputError> {
+        let start = Pose::new(world * self.at, world * self.turned)?;
+        Motion::new(start, world * self.velocity, world * self.spin)
+    }
+}
+
+impl Step {
+    /// Returns a step without queries.
+    pub(super) fn new(a: TriangleMesh, b: TriangleMesh) -> Self {
+        Step {
+            meshes: [a, b],
+            tolerance: TOLERANCE,
+            margin: 0.0,
+            cases: Vec::new(),
+        }
+    }
+
+    /// Adds a query of duration 1 with exactly these numbers.
+    pub(super) fn exactly(
+        self,
+        a: Course,
+        b: Course,
+        expected: Expected,
+    ) -> Result<Self, InputError> {
+        self.in_world(DQuat::IDENTITY, [a, b], expected)
+    }
+
+    /// Adds the query, and the same one in worlds that are turned. The answer has to bear their rounding.
+    pub(super) fn turned_too(
+        mut self,
+        a: Course,
+        b: Course,
+        expected: Expected,
+    ) -> Result<Self, InputError> {
+        self = self.exactly(a, b, expected)?;
+        for (axis, angle) in WORLDS {
+            self = self.in_world(DQuat::from_axis_angle(axis, angle), [a, b], expected)?;
+        }
+        Ok(self)
+    }
+
+    fn in_world(
+        mut self,
+        world: DQuat,
+        [a, b]: [Course; 2],
+        expected: Expected,
+    ) -> Result<Self, InputError> {
+        let query = Query {
+            id: self.cases.len().to_string(),
+            a: a.motion(world)?,
+            b: b.motion(world)?,
+            duration: 1.0,
+        };
+        self.cases.push(Case { query, expected });
+        Ok(self)
+    }
+}

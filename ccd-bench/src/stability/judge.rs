@@ -1,0 +1,95 @@
+//! Judges the outcome of a query against its exact answer.
+
+use super::family::{Case, Expected, Step};
+use crate::method::guarded::Asked;
+use crate::method::solver::Claim;
+use crate::run::contest::{self, Judged, Verdict, judge_contact};
+use crate::truth::{Referee, Truth};
+
+/// The time up to which a contact at the start is reported at the start, as a fraction of the duration.
+const AT_START: f64 = 1e-12;
+
+/// The excess over the tolerance, as a fraction of it, that a method's distance may have from rounding.
+const ROUNDING: f64 = 1e-6;
+
+/// Judges the outcome of a case of a step. The referee measures distances; it is not asked for the answer.
+pub fn judge(step: &Step, case: &Case, referee: &Referee<'_>, asked: Asked) -> Judged {
+    let claim = match asked {
+        Asked::Answered { reply, .. } => reply.claim,
+        Asked::CutOff => return Judged::plain(Verdict::CutOff),
+        Asked::Died => return Judged::plain(Verdict::Died),
+    };
+    let query = &case.query;
+    let within = step.margin + step.tolerance;
+    match case.expected {
+        _ if claim == Claim::Refused => Judged::plain(Verdict::Refused),
+        Expected::Contact { lo, hi } => judge_contact(query.duration, [lo, hi], claim, |time| {
+            referee.distance(query, time).lower <= within * (1.0 + ROUNDING)
+        }),
+        Expected::Free => contest::judge(referee, query, Truth::Free, claim, within),
+        Expected::Start => Judged::plain(from_start(claim, query.duration)),
+    }
+}
+
+/// Judges a claim about bodies in contact from the start.
+fn from_start(claim: Claim, duration: f64) -> Verdict {
+    match claim {
+        Claim::Contact { time } if time <= AT_START * duration => Verdict::Right,
+        Claim::Unresolved { safe_until } if safe_until <= AT_START * duration => {
+            Verdict::Unresolved
+        }
+        Claim::Contact { .. } | Claim::Unresolved { .. } => Verdict::Late,
+        Claim::Free => Verdict::Missed,
+        Claim::Refused => Verdict::Refused,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::method::solver::Reply;
+    use crate::stability::families;
+    use crate::truth::Surface;
+    use rstest::rstest;
+
+    const FREE: Claim = Claim::Free;
+
+    fn contact(time: f64) -> Claim {
+        Claim::Contact { time }
+    }
+
+    fn safe(safe_until: f64) -> Claim {
+        Claim::Unresolved { safe_until }
+    }
+
+    /// The easiest step of a family: a contact at 0.5 with a margin of 0.01, a gap of 0.1, a start inside.
+    #[rstest]
+    #[case("margin", contact(0.5), Verdict::Right)]
+    #[case("margin", contact(0.5 - 1e-7), Verdict::Right)]
+    #[case("margin", contact(0.49), Verdict::Early)]
+    #[case("margin", contact(0.5001), Verdict::Late)]
+    #[case("margin", contact(f64::NAN), Verdict::Late)]
+    #[case("margin", FREE, Verdict::Missed)]
+    #[case("margin", safe(0.4), Verdict::Unresolved)]
+    #[case("margin", safe(0.6), Verdict::Late)]
+    #[case("margin", Claim::Refused, Verdict::Refused)]
+    #[case("cubes passing", FREE, Verdict::Right)]
+    #[case("cubes passing", contact(0.5), Verdict::False)]
+    #[case("cubes passing", safe(0.9), Verdict::Unresolved)]
+    #[case("one inside the other", contact(0.0), Verdict::Right)]
+    #[case("one inside the other", contact(0.1), Verdict::Late)]
+    #[case("one inside the other", FREE, Verdict::Missed)]
+    #[case("one inside the other", safe(0.0), Verdict::Unresolved)]
+    #[case("one inside the other", safe(0.1), Verdict::Late)]
+    fn claims_are_judged(#[case] family: &str, #[case] claim: Claim, #[case] verdict: Verdict) {
+        let family = families().into_iter().find(|f| f.name == family).unwrap();
+        let step = (family.make)(family.values[1]).unwrap();
+        let [a, b] = step.meshes.each_ref().map(Surface::new);
+        let reply = Reply { claim, steps: 1 };
+        for case in &step.cases {
+            let asked = Asked::Answered { reply, micros: 1.0 };
+            let judged = judge(&step, case, &Referee::new(&a, &b), asked);
+            assert_eq!(judged.verdict, verdict, "{claim:?}");
+        }
+    }
+}

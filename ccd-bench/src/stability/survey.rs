@@ -1,0 +1,234 @@
+//! Asks methods about all steps of families, each in a process that can be stopped, into a journal.
+
+use super::family::{Family, Step, StepError};
+use super::judge::judge;
+use crate::method::Method;
+use crate::method::guarded::{Asked, Guarded, Setting};
+use crate::run::contest::{Journal, JournalError, Judged, Verdict, sum_up};
+use crate::run::measured::Trial;
+use crate::truth::{Referee, Surface};
+use rayon::prelude::*;
+use rigid_ccd::command::{Progress, Total};
+use std::io;
+use std::path::PathBuf;
+use std::sync::{Mutex, PoisonError};
+use std::time::Duration;
+
+/// What is asked of whom.
+#[derive(Clone, Debug)]
+pub struct Survey {
+    /// The families.
+    pub families: Vec<Family>,
+    /// The methods.
+    pub methods: Vec<Method>,
+    /// How much is asked.
+    pub extent: Extent,
+    /// The folder of the journal.
+    pub folder: PathBuf,
+}
+
+/// How much of each family is asked.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Extent {
+    /// The easiest value, the hardest, and one between.
+    Quick,
+    /// All values.
+    Full,
+}
+
+/// A survey ended early.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum SurveyError {
+    /// A scene cannot be made.
+    #[error("{family} at {value:e}: {source}")]
+    Step {
+        /// The family.
+        family: &'static str,
+        /// The value.
+        value: f64,
+        /// The cause.
+        source: StepError,
+    },
+    /// A method's process cannot be started.
+    #[error("{method}: {source}")]
+    Start {
+        /// The method.
+        method: String,
+        /// The cause.
+        source: io::Error,
+    },
+    /// The journal cannot be kept.
+    #[error(transparent)]
+    Journal(#[from] JournalError),
+}
+
+/// The time for one query.
+const PATIENCE: Duration = Duration::from_secs(3);
+
+/// The time to prepare the bodies of a step.
+const PREPARATION: Duration = Duration::from_secs(20);
+
+/// The steps in a row at which a method is stopped before it is asked no harder ones.
+const CHANCES: usize = 2;
+
+impl Extent {
+    /// Returns the values of a family that are asked.
+    pub(super) fn values(self, family: &Family) -> Vec<f64> {
+        let all = &family.values;
+        match self {
+            Extent::Full => all.clone(),
+            Extent::Quick => {
+                let mut rows = vec![0, all.len() / 2, all.len() - 1];
+                rows.dedup();
+                rows.into_iter().map(|row| all[row]).collect()
+            }
+        }
+    }
+}
+
+/// Returns the name of a step, as the tables have it.
+pub(super) fn step_name(family: &Family, value: f64) -> String {
+    format!("{} {value:e}", family.name)
+}
+
+impl Survey {
+    /// Asks whatever is missing in the folder.
+    ///
+    /// # Errors
+    /// [`SurveyError`]; earlier answers are kept.
+    pub fn run(&self) -> Result<Journal, SurveyError> {
+        let journal = Mutex::new(Journal::open(&self.folder, &stamp(), &[])?);
+        let steps: usize = self
+            .families
+            .iter()
+            .map(|f| self.extent.values(f).len())
+            .sum();
+        let progress = Progress::new(Total::Steps(steps * self.methods.len()));
+        let asked: Result<(), SurveyError> = self
+            .families
+            .par_iter()
+            .try_for_each(|family| self.ask_family(family, &journal, &progress));
+        asked?;
+        drop(progress);
+        Ok(journal.into_inner().unwrap_or_else(PoisonError::into_inner))
+    }
+
+    fn ask_family(
+        &self,
+        family: &Family,
+        journal: &Mutex<Journal>,
+        progress: &Progress,
+    ) -> Result<(), SurveyError> {
+        let mut stopped = vec![0; self.methods.len()];
+        for value in self.extent.values(family) {
+            let failed = |source| SurveyError::Step {
+                family: family.name,
+                value,
+                source,
+            };
+            let step = (family.make)(value).map_err(failed)?;
+            let name = step_name(family, value);
+            let ready = Ready::new(&step, &name);
+            for (&method, stopped) in self.methods.iter().zip(&mut stopped) {
+                progress.say(&format!("{name}: {method}"));
+                progress.step();
+                let locked = || journal.lock().unwrap_or_else(PoisonError::into_inner);
+                let known = locked().has(&name, &method.to_string(), step.tolerance);
+                if *stopped >= CHANCES || known {
+                    continue;
+                }
+                let trials = ready.ask(method).map_err(|source| SurveyError::Start {
+                    method: method.to_string(),
+                    source,
+                })?;
+                let cut_off = Verdict::CutOff.to_string();
+                match trials.iter().any(|trial| trial.verdict == cut_off) {
+                    true => *stopped += 1,
+                    false => *stopped = 0,
+                }
+                locked().add(sum_up(&trials), trials)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// A step that is ready to be asked about.
+struct Ready<'s> {
+    step: &'s Step,
+    name: &'s str,
+    surfaces: [Surface; 2],
+}
+
+impl<'s> Ready<'s> {
+    fn new(step: &'s Step, name: &'s str) -> Self {
+        let surfaces = step.meshes.each_ref().map(Surface::new);
+        Ready {
+            step,
+            name,
+            surfaces,
+        }
+    }
+
+    /// Asks a method all queries of the step, up to the first at which it is stopped.
+    fn ask(&self, method: Method) -> io::Result<Vec<Trial>> {
+        let step = self.step;
+        let setting = Setting {
+            margin: step.margin,
+            preparation: PREPARATION,
+            ..Setting::new(method, step.tolerance)
+        };
+        let mut guarded = match Guarded::start(setting, step.meshes.each_ref()) {
+            Ok(guarded) => guarded,
+            Err(error) => return Ok(vec![self.trial(method, 0, None, not_started(error)?)]),
+        };
+        let [a, b] = &self.surfaces;
+        let mut trials = Vec::new();
+        for (row, case) in step.cases.iter().enumerate() {
+            let asked = guarded.ask(&case.query, PATIENCE)?;
+            let judged = judge(step, case, &Referee::new(a, b), asked);
+            trials.push(self.trial(method, row, Some(asked), judged));
+            if asked == Asked::CutOff {
+                break;
+            }
+        }
+        Ok(trials)
+    }
+
+    fn trial(&self, method: Method, row: usize, asked: Option<Asked>, judged: Judged) -> Trial {
+        let (steps, micros) = match asked {
+            Some(Asked::Answered { reply, micros }) => (reply.steps, micros),
+            Some(Asked::CutOff) => (0, PATIENCE.as_secs_f64() * 1e6),
+            Some(Asked::Died) | None => (0, f64::NAN),
+        };
+        Trial {
+            scene: self.name.to_owned(),
+            method: method.to_string(),
+            tolerance: self.step.tolerance,
+            row,
+            id: row.to_string(),
+            micros,
+            steps,
+            verdict: judged.verdict.to_string(),
+            error: judged.error.unwrap_or(f64::NAN),
+        }
+    }
+}
+
+/// Judges a method that does not get as far as the first query.
+fn not_started(error: io::Error) -> io::Result<Judged> {
+    Ok(Judged::plain(match error.kind() {
+        io::ErrorKind::Unsupported => Verdict::Refused,
+        io::ErrorKind::TimedOut => Verdict::CutOff,
+        io::ErrorKind::Other => Verdict::Died,
+        _ => return Err(error),
+    }))
+}
+
+/// Describes what all answers depend on.
+fn stamp() -> String {
+    let program = std::env::current_exe().and_then(std::fs::read);
+    let program = program.map_or(0, |bytes| crc32fast::hash(&bytes));
+    format!("program {program:08x}\npatience {PATIENCE:?} {PREPARATION:?}\n")
+}

@@ -1,0 +1,66 @@
+//! Tests `ccd-bench stability`: verdicts of methods that are known to be right or wrong, and resuming.
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+
+fn survey(folder: &Path, methods: &str) -> Output {
+    let mut command = Command::new(crate::PROGRAM);
+    command
+        .args(["stability", "--families", "bullet and paper,margin"])
+        .args(["--methods", methods, "--out"])
+        .arg(folder);
+    command.output().unwrap()
+}
+
+/// Returns the cells of a method's row: queries, right, and so on.
+fn row<'t>(table: &'t str, method: &str) -> Vec<&'t str> {
+    let line = table.lines().find(|line| line.contains(method)).unwrap();
+    line.rsplit(method)
+        .next()
+        .unwrap()
+        .split_whitespace()
+        .collect()
+}
+
+#[test]
+fn methods_are_judged_and_answers_are_kept() {
+    let folder = std::env::temp_dir().join(format!("ccd-stability-{}", std::process::id()));
+    let output = survey(&folder, "best-first direct,discrete stepping");
+    let table = String::from_utf8(output.stdout).unwrap();
+    assert!(output.status.success(), "{table}");
+    // Three values of two families, each in three worlds.
+    assert_eq!(
+        row(&table, "best-first direct")[..2],
+        ["18", "18"],
+        "{table}"
+    );
+    let limit = |family: &str| {
+        let limits = fs::read_to_string(folder.join("limits.md")).unwrap();
+        let line = limits.lines().find(|line| line.contains(family)).unwrap();
+        line.to_owned()
+    };
+    // Stepping sees thin paper only once it is in it.
+    let paper = limit("bullet and paper");
+    assert!(paper.contains("late"), "{paper}");
+    // A second run asks only what is missing.
+    let answers = fs::read_to_string(folder.join("trials.csv")).unwrap();
+    let again = survey(&folder, "best-first direct,discrete stepping,C2A");
+    assert!(again.status.success());
+    let more = fs::read_to_string(folder.join("trials.csv")).unwrap();
+    assert!(more.starts_with(&answers) && more.contains("C2A"));
+    // It keeps no margin.
+    let margin = limit("| margin");
+    assert!(margin.contains("1e-2 refused"), "{margin}");
+    fs::remove_dir_all(&folder).unwrap();
+}
+
+#[test]
+fn unknown_names_are_answered_with_the_known_ones() {
+    let output = survey(Path::new("never-made"), "unicorn");
+    let message = String::from_utf8(output.stderr).unwrap();
+    assert!(
+        !output.status.success() && message.contains("discrete stepping"),
+        "{message}"
+    );
+}
