@@ -2,9 +2,10 @@
 
 use super::chart::chosen;
 use crate::method::Method;
-use crate::stability::{Extent, Survey, families, limits, summary};
+use crate::stability::{Extent, Survey, families, heat_map, limits, summary};
 use anyhow::Result;
 use clap::Args;
+use rigid_ccd::batch::ScheduleKind;
 use rigid_ccd::command::{CannotWrite, Exit};
 use std::fs;
 use std::io::{self, Write};
@@ -23,6 +24,9 @@ pub(super) struct StabilityArgs {
     /// Only these methods
     #[arg(long, value_name = "NAME", value_delimiter = ',')]
     methods: Vec<String>,
+    /// Draw the answers that the folder holds, and ask nothing
+    #[arg(long)]
+    redraw: bool,
     /// Write the tables to this folder; answers that it holds already are not asked again
     #[arg(long, value_name = "DIR", default_value = "target/ccd-stability")]
     out: PathBuf,
@@ -36,33 +40,45 @@ Verdicts: right; early and false are contacts that are none, within reach or not
 until which nothing touches; refused; late and missed are contacts that were passed; died is a process
 that ended; cut off one that was stopped.
 
-Files: trials.csv has every answer, chart.csv every step, limits.md how far each method follows.
+Files: trials.csv has every answer, chart.csv every step, limits.md and
+stability.svg how far each method follows.
 
 Examples:
   ccd-bench stability
   ccd-bench stability --full --methods 'best-first direct,C2A'
   ccd-bench stability --full --families 'bullet and paper,margin'";
 
+/// Returns all methods; FAST as published comes after its sound forms.
+fn methods() -> Vec<Method> {
+    let mut methods = Method::all();
+    let is_fast = |method: &Method| matches!(method, Method::Ours(kind, _) if kind.schedule == ScheduleKind::Fast);
+    let last = methods.iter().rposition(is_fast);
+    methods.insert(last.map_or(0, |last| last + 1), Method::published());
+    methods
+}
+
 pub(super) fn run(args: &StabilityArgs) -> Result<Exit> {
-    let all = Method::all().into_iter().chain([Method::published()]);
     let survey = Survey {
         families: chosen(families(), &args.families, "family", |f| f.name.to_owned())?,
-        methods: chosen(all.collect(), &args.methods, "method", Method::to_string)?,
+        methods: chosen(methods(), &args.methods, "method", Method::to_string)?,
         extent: match args.full {
             true => Extent::Full,
             false => Extent::Quick,
         },
         folder: args.out.clone(),
     };
-    let journal = survey.run()?;
+    let journal = match args.redraw {
+        true => survey.recall(),
+        false => survey.run()?,
+    };
     let limits = limits(&survey, &journal);
-    let file = args.out.join("limits.md");
-    let written = fs::write(
-        &file,
-        format!("{}\n\n{}\n", limits.title, limits.as_markdown()),
-    );
-    let place = file.display().to_string();
-    written.map_err(|source| CannotWrite { place, source })?;
+    let map = heat_map(&survey, &journal).draw()?;
+    let limits = format!("{}\n\n{}\n", limits.title, limits.as_markdown());
+    for (name, text) in [("limits.md", &limits), ("stability.svg", &map.svg)] {
+        let file = args.out.join(name);
+        let place = file.display().to_string();
+        fs::write(&file, text).map_err(|source| CannotWrite { place, source })?;
+    }
     let summary = summary(&survey, &journal);
     let shown = writeln!(
         io::stdout(),

@@ -7,6 +7,7 @@
 //! | `triangles` | time against the size of the mesh |
 //! | `models` | models of the same mesh: time and error |
 //! | `figure-N` | the paper's figures, trial by trial |
+//! | `stability` | how far each method follows each family of scenes |
 //!
 //! A method that was late or missed a contact anywhere has hollow markers everywhere, and no point
 //! on a plane of time and error: its accuracy when it is right is no merit.
@@ -14,6 +15,7 @@
 mod axis;
 mod figures;
 mod grid;
+mod heat_map;
 mod legend;
 mod look;
 mod models;
@@ -24,6 +26,8 @@ mod sweep;
 #[cfg(test)]
 mod tests;
 mod triangles;
+
+pub use heat_map::{HeatCell, HeatMap, HeatRow};
 
 use crate::run::measured::{Cell, Trial};
 use look::{Fill, Look};

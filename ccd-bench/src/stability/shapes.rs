@@ -14,6 +14,12 @@ pub(super) fn cuboid(x: f64, y: f64, z: f64) -> Result<TriangleMesh, MeshError> 
     .mesh()
 }
 
+/// Returns a mesh with its origin elsewhere.
+pub(super) fn moved(mesh: &TriangleMesh, by: DVec3) -> Result<TriangleMesh, MeshError> {
+    let vertices = mesh.vertices().iter().map(|&p| p + by).collect();
+    TriangleMesh::new(vertices, mesh.faces())
+}
+
 /// Returns a wide box whose top is at z = 1 and contains all that falls here.
 pub(super) fn slab() -> Result<TriangleMesh, MeshError> {
     cuboid(9.0, 9.0, 1.0)

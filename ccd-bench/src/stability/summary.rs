@@ -1,8 +1,9 @@
-//! Tables of a survey: how often each method was right, and how far it followed each family.
+//! A survey in tables and a map: how often each method was right, and how far it followed each family.
 
 use super::family::Family;
 use super::survey::{Survey, step_name};
 use crate::run::contest::{Journal, Verdict};
+use crate::show::chart::{HeatCell, HeatMap, HeatRow};
 use crate::show::tables::TextTable;
 use std::collections::HashMap;
 
@@ -19,12 +20,6 @@ const VERDICTS: [Verdict; 10] = [
     Verdict::Died,
     Verdict::CutOff,
 ];
-
-/// Returns how bad a verdict is, from 0 for a right answer.
-fn badness(verdict: &str) -> usize {
-    let same = |known: &Verdict| known.to_string() == verdict;
-    VERDICTS.iter().position(same).unwrap_or(VERDICTS.len())
-}
 
 /// Counts the verdicts of each method over all queries.
 pub fn summary(survey: &Survey, journal: &Journal) -> TextTable {
@@ -55,33 +50,79 @@ pub fn summary(survey: &Survey, journal: &Journal) -> TextTable {
     }
 }
 
+/// The first step of a family at which a method was not right.
+struct Limit {
+    value: f64,
+    /// The worst verdict at that step.
+    verdict: Verdict,
+}
+
+/// How far a method followed a family.
+struct Reach {
+    /// The share of the steps, from the easiest, before the limit.
+    share: f64,
+    limit: Option<Limit>,
+    /// The worst verdict at any step.
+    worst: Verdict,
+}
+
+/// The worst verdict of each step and method.
+struct Worst<'j>(HashMap<(&'j str, &'j str), usize>);
+
+impl<'j> Worst<'j> {
+    fn of(journal: &'j Journal) -> Self {
+        let mut worst = HashMap::new();
+        for trial in journal.trials() {
+            let same = |known: &Verdict| known.to_string() == trial.verdict;
+            let bad = VERDICTS.iter().position(same).unwrap_or(VERDICTS.len() - 1);
+            let so_far = worst.entry((trial.scene.as_str(), trial.method.as_str()));
+            let so_far = so_far.or_insert(bad);
+            *so_far = bad.max(*so_far);
+        }
+        Worst(worst)
+    }
+
+    /// Returns how far a method followed a family; none if it was not asked.
+    fn reach(&self, values: &[f64], family: &Family, method: &str) -> Option<Reach> {
+        let asked: Vec<(f64, usize)> = values
+            .iter()
+            .filter_map(|&value| {
+                let step = step_name(family, value);
+                Some((value, *self.0.get(&(step.as_str(), method))?))
+            })
+            .collect();
+        let worst = asked.iter().map(|&(_, bad)| bad).max()?;
+        let right = asked.iter().take_while(|&&(_, bad)| bad == 0).count();
+        Some(Reach {
+            share: right as f64 / values.len() as f64,
+            limit: asked.get(right).map(|&(value, bad)| Limit {
+                value,
+                verdict: VERDICTS[bad],
+            }),
+            worst: VERDICTS[worst],
+        })
+    }
+}
+
 /// Lists for each family and method the first value, from the easiest, at which not all answers are right, and
 /// the worst verdict there.
 pub fn limits(survey: &Survey, journal: &Journal) -> TextTable {
-    let mut worst: HashMap<(&str, &str), &str> = HashMap::new();
-    for trial in journal.trials() {
-        let verdict = worst
-            .entry((&trial.scene, &trial.method))
-            .or_insert(&trial.verdict);
-        if badness(&trial.verdict) > badness(verdict) {
-            *verdict = &trial.verdict;
-        }
-    }
-    let right = Verdict::Right.to_string();
-    let limit = |family: &Family, method: &str| {
-        let values = survey.extent.values(family);
-        values.iter().find_map(|&value| {
-            let step = step_name(family, value);
-            let verdict = *worst.get(&(step.as_str(), method))?;
-            (verdict != right).then(|| format!("{value:e} {verdict}"))
-        })
-    };
+    let worst = Worst::of(journal);
     let methods: Vec<String> = survey.methods.iter().map(ToString::to_string).collect();
     let mut header = vec!["family".to_owned(), "parameter".to_owned()];
     header.extend(methods.iter().cloned());
     let rows = survey.families.iter().map(|family| {
+        let values = survey.extent.values(family);
+        let limit = |method: &String| {
+            let limit = worst.reach(&values, family, method)?.limit?;
+            Some(format!("{:e} {}", limit.value, limit.verdict))
+        };
         let mut row = vec![family.name.to_owned(), family.parameter.to_owned()];
-        row.extend(methods.iter().map(|m| limit(family, m).unwrap_or_default()));
+        row.extend(
+            methods
+                .iter()
+                .map(|method| limit(method).unwrap_or_default()),
+        );
         row
     });
     TextTable {
@@ -89,5 +130,33 @@ pub fn limits(survey: &Survey, journal: &Journal) -> TextTable {
         title: "The first value at which answers are not right, and how".to_owned(),
         header,
         rows: rows.collect(),
+    }
+}
+
+/// Returns the map of how far each method followed each family.
+pub fn heat_map(survey: &Survey, journal: &Journal) -> HeatMap {
+    let worst = Worst::of(journal);
+    let methods: Vec<String> = survey.methods.iter().map(ToString::to_string).collect();
+    let rows = survey.families.iter().map(|family| {
+        let values = survey.extent.values(family);
+        let cell = |method: &String| {
+            let reach = worst.reach(&values, family, method)?;
+            Some(HeatCell {
+                worst: reach.worst,
+                reached: reach.share,
+                limit: reach
+                    .limit
+                    .map_or(String::new(), |limit| format!("{:e}", limit.value)),
+            })
+        };
+        HeatRow {
+            name: family.name.to_owned(),
+            parameter: family.parameter.to_owned(),
+            cells: methods.iter().map(cell).collect(),
+        }
+    });
+    HeatMap {
+        rows: rows.collect(),
+        methods: methods.clone(),
     }
 }

@@ -93,6 +93,11 @@ pub(super) fn step_name(family: &Family, value: f64) -> String {
 }
 
 impl Survey {
+    /// Returns the answers in the folder, whatever they were asked with, and asks nothing.
+    pub fn recall(&self) -> Journal {
+        Journal::read(&self.folder)
+    }
+
     /// Asks whatever is missing in the folder.
     ///
     /// # Errors

@@ -81,6 +81,8 @@ struct Task {
     b: Course,
     /// A bound of the relative speed of any two points of the bodies.
     speed: f64,
+    /// The earliest time at which the bodies were seen to touch.
+    met: Option<f64>,
     steps: u64,
     pairs_left: u64,
 }
@@ -118,6 +120,7 @@ impl Solver for DynamicChecker {
             b,
             speed: speed(&a, self.reach_a.about(a.centre, &self.trees.a))
                 + speed(&b, self.reach_b.about(b.centre, &self.trees.b)),
+            met: None,
             steps: 0,
             pairs_left: self.patience.pairs,
         };
@@ -141,7 +144,10 @@ impl DynamicChecker {
         };
         let at_to = match self.bound(duration, Wanted::at_least(path - at_from), task) {
             LowerBound::Apart(distance) => distance,
-            LowerBound::Meet => 0.0,
+            LowerBound::Meet => {
+                task.met = Some(duration);
+                0.0
+            }
             LowerBound::GaveUp => return Claim::Unresolved { safe_until: 0.0 },
         };
         self.segments.clear();
@@ -157,7 +163,11 @@ impl DynamicChecker {
                 return claim;
             }
         }
-        Claim::Free
+        // All parts before the touch may be free: the bodies only just touch then.
+        match task.met {
+            Some(time) => Claim::Contact { time },
+            None => Claim::Free,
+        }
     }
 
     /// Drops a free segment, and halves one that may not be free. Returns a claim if the search ends.
@@ -198,6 +208,7 @@ impl DynamicChecker {
             LowerBound::Meet => {
                 // They touch by then, so nothing later can be the first contact.
                 self.segments.clear();
+                task.met = Some(middle);
                 0.0
             }
             LowerBound::GaveUp => return Some(gave_up),

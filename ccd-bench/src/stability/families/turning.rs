@@ -1,7 +1,7 @@
 //! Turns, from hardly any to thousands.
 
 use super::super::family::{Course, Expected, Family, Step, StepError};
-use super::super::shapes::{cuboid, slab};
+use super::super::shapes::{cuboid, moved, slab};
 use super::tens;
 use ccd_core::glam::DVec3;
 use std::f64::consts::{PI, TAU};
@@ -13,7 +13,16 @@ pub(super) fn families() -> Vec<Family> {
         values,
         make,
     };
+    let mace = Family {
+        parameter: "radians",
+        ..family(
+            "mace",
+            vec![2.2, 2.5, 3.0, 4.0, 5.0, 6.0, 10.0, 100.0],
+            mace,
+        )
+    };
     vec![
+        mace,
         family("drilling cube", tens(-2..=4), drilling),
         family("rod turning into a wall", tens(0..=4), rod_into_a_wall),
         family("rods turning against each other", tens(0..=4), rods),
@@ -47,6 +56,21 @@ fn rod_into_a_wall(turns: f64) -> Result<Step, StepError> {
     let step = Step::new(cuboid(THIN, 0.3, LONG)?, cuboid(1.0, 3.0, 3.0)?);
     let expected = Expected::at(angle / spin, 1e-15);
     Ok(step.turned_too(turning, Course::rest((wall + 1.0) * DVec3::X), expected)?)
+}
+
+/// T9: an arm hangs from the middle of its turn, and swings round to a wall above. At the start its tip moves
+/// along the wall, so that a bound on the speeds of that moment finds no approach.
+fn mace(spin: f64) -> Result<Step, StepError> {
+    let (arm, wall): (f64, f64) = (2.0, 1.0);
+    let hanging = moved(&cuboid(THIN, 0.5 * arm, THIN)?, -0.5 * arm * DVec3::Y)?;
+    let swinging = Course {
+        spin: spin * DVec3::Z,
+        ..Course::STILL
+    };
+    let angle = arm.atan2(THIN) + (wall / arm.hypot(THIN)).asin();
+    let step = Step::new(hanging, cuboid(3.0, 1.0, 3.0)?);
+    let expected = Expected::at(angle / spin, 1e-15);
+    Ok(step.turned_too(swinging, Course::rest((wall + 1.0) * DVec3::Y), expected)?)
 }
 
 /// T14: two rods turn against each other, like in a mirror.

@@ -3,8 +3,10 @@ use crate::method::rival::tests::trials::{
     assert_exact_scenes, assert_gives_up, assert_shots, hovering, knot_216,
 };
 use crate::method::solver::{Claim, Solver};
-use ccd_core::glam::DVec3;
+use crate::scene::model::Board;
+use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{Motion, Pose};
+use rigid_ccd::table::motions::Query;
 
 #[test]
 fn exact_times_are_met() {
@@ -36,4 +38,28 @@ fn motions_beyond_numbers_are_given_up() {
     query.duration = 1e10;
     let reply = DynamicChecker::new(&a, &b, 1e-3).answer(&query);
     assert_eq!(reply.claim, Claim::Unresolved { safe_until: 0.0 });
+}
+
+/// A touch seen at a halving, which all parts before it are free of, up to rounding.
+#[test]
+fn a_touch_at_a_halving_is_a_contact() {
+    let cuboid = |x, y, z| Board {
+        half_extents: DVec3::new(x, y, z),
+    };
+    let (cube, slab) = (cuboid(0.5, 0.5, 0.5), cuboid(9.0, 9.0, 1.0));
+    let mut rival = DynamicChecker::new(&cube.mesh().unwrap(), &slab.mesh().unwrap(), 1e-6);
+    for k in 0..20 {
+        let world = DQuat::from_rotation_x(0.1 * f64::from(k)) * DQuat::from_rotation_y(0.7);
+        let pose = |z: f64| Pose::new(world * (z * DVec3::Z), world).unwrap();
+        let query = Query {
+            id: String::new(),
+            a: Motion::new(pose(2.5), world * (-4.0 * DVec3::Z), DVec3::ZERO).unwrap(),
+            b: Motion::still(pose(-1.0)),
+            duration: 1.0,
+        };
+        let Claim::Contact { time } = rival.answer(&query).claim else {
+            panic!("turned {k} times");
+        };
+        assert!((0.5 - 1e-6..=0.5 + 1e-12).contains(&time), "{time}");
+    }
 }
