@@ -6,7 +6,7 @@
 //! | list the families | [`families()`] |
 //! | judge an answer | [`judge`] |
 //! | ask all methods, each in a process that can be stopped | [`Survey`] |
-//! | see how far each method follows | [`summary`], [`limits`], [`heat_map`] |
+//! | see how far each method follows | [`summary`], [`limits`], [`reach_map`], [`growth_map`] |
 
 mod families;
 mod family;
@@ -18,5 +18,5 @@ mod survey;
 pub use families::families;
 pub use family::{Case, Expected, Family, Step, StepError};
 pub use judge::judge;
-pub use summary::{heat_map, limits, summary};
+pub use summary::{growth_map, limits, reach_map, summary};
 pub use survey::{Extent, Survey, SurveyError};

@@ -2,7 +2,7 @@
 
 use super::chart::chosen;
 use crate::method::Method;
-use crate::stability::{Extent, Survey, families, heat_map, limits, summary};
+use crate::stability::{Extent, Survey, families, growth_map, limits, reach_map, summary};
 use anyhow::Result;
 use clap::Args;
 use rigid_ccd::batch::ScheduleKind;
@@ -41,7 +41,7 @@ until which nothing touches; refused; late and missed are contacts that were pas
 that ended; cut off one that was stopped.
 
 Files: trials.csv has every answer, chart.csv every step, limits.md and
-stability.svg how far each method follows.
+stability.svg show how far each method follows, growth.svg how its cost grows.
 
 Examples:
   ccd-bench stability
@@ -72,9 +72,15 @@ pub(super) fn run(args: &StabilityArgs) -> Result<Exit> {
         false => survey.run()?,
     };
     let limits = limits(&survey, &journal);
-    let map = heat_map(&survey, &journal).draw()?;
+    let reach = reach_map(&survey, &journal).draw()?;
+    let growth = growth_map(&survey, &journal).draw()?;
     let limits = format!("{}\n\n{}\n", limits.title, limits.as_markdown());
-    for (name, text) in [("limits.md", &limits), ("stability.svg", &map.svg)] {
+    let files = [
+        ("limits.md", &limits),
+        ("stability.svg", &reach.svg),
+        ("growth.svg", &growth.svg),
+    ];
+    for (name, text) in files {
         let file = args.out.join(name);
         let place = file.display().to_string();
         fs::write(&file, text).map_err(|source| CannotWrite { place, source })?;

@@ -7,7 +7,7 @@
 //! | `triangles` | time against the size of the mesh |
 //! | `models` | models of the same mesh: time and error |
 //! | `figure-N` | the paper's figures, trial by trial |
-//! | `stability` | how far each method follows each family of scenes |
+//! | `stability`, `growth` | how far each method follows each family of scenes, and how its cost grows |
 //!
 //! A method that was late or missed a contact anywhere has hollow markers everywhere, and no point
 //! on a plane of time and error: its accuracy when it is right is no merit.
@@ -27,7 +27,7 @@ mod sweep;
 mod tests;
 mod triangles;
 
-pub use heat_map::{HeatCell, HeatMap, HeatRow};
+pub use heat_map::{HeatCell, HeatKind, HeatMap, HeatRow};
 
 use crate::run::measured::{Cell, Trial};
 use look::{Fill, Look};

@@ -27,6 +27,8 @@ pub struct Step {
     pub tolerance: f64,
     /// The distance to keep.
     pub margin: f64,
+    /// The duration of the queries.
+    pub duration: f64,
     /// The queries.
     pub cases: Vec<Case>,
 }
@@ -68,13 +70,15 @@ pub enum StepError {
     Input(#[from] InputError),
 }
 
-/// The motion of one body during a duration of 1.
+/// The motion of one body, with its travel and its turn over the whole duration.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Course {
     pub(super) at: DVec3,
     pub(super) turned: DQuat,
     pub(super) velocity: DVec3,
     pub(super) spin: DVec3,
+    /// The centre of rotation, in the body's frame.
+    pub(super) centre: DVec3,
 }
 
 /// The turns of the world in which a scene is asked besides its own: about no axis of symmetry.
@@ -97,12 +101,26 @@ impl Expected {
     }
 }
 
+impl Expected {
+    /// Returns the answer of a query of another duration than 1.
+    fn over(self, duration: f64) -> Self {
+        match self {
+            Expected::Contact { lo, hi } => Expected::Contact {
+                lo: lo * duration,
+                hi: hi * duration,
+            },
+            Expected::Free | Expected::Start => self,
+        }
+    }
+}
+
 impl Course {
     pub(super) const STILL: Course = Course {
         at: DVec3::ZERO,
         turned: DQuat::IDENTITY,
         velocity: DVec3::ZERO,
         spin: DVec3::ZERO,
+        centre: DVec3::ZERO,
     };
 
     /// Rests at a place.
@@ -122,9 +140,11 @@ impl Course {
         }
     }
 
-    fn motion(self, world: DQuat) -> Result<Motion, InputError> {
+    fn motion(self, world: DQuat, duration: f64) -> Result<Motion, InputError> {
         let start = Pose::new(world * self.at, world * self.turned)?;
-        Motion::new(start, world * self.velocity, world * self.spin)
+        let velocity = world * self.velocity / duration;
+        let spin = world * self.spin / duration;
+        Motion::about(start, velocity, spin, self.centre)
     }
 }
 
@@ -135,11 +155,12 @@ impl Step {
             meshes: [a, b],
             tolerance: TOLERANCE,
             margin: 0.0,
+            duration: 1.0,
             cases: Vec::new(),
         }
     }
 
-    /// Adds a query of duration 1 with exactly these numbers.
+    /// Adds a query with exactly these numbers; the answer is that of a duration of 1.
     pub(super) fn exactly(
         self,
         a: Course,
@@ -171,10 +192,11 @@ impl Step {
     ) -> Result<Self, InputError> {
         let query = Query {
             id: self.cases.len().to_string(),
-            a: a.motion(world)?,
-            b: b.motion(world)?,
-            duration: 1.0,
+            a: a.motion(world, self.duration)?,
+            b: b.motion(world, self.duration)?,
+            duration: self.duration,
         };
+        let expected = expected.over(self.duration);
         self.cases.push(Case { query, expected });
         Ok(self)
     }

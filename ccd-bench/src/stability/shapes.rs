@@ -107,6 +107,34 @@ pub(super) fn comb(teeth: u32) -> Result<TriangleMesh, MeshError> {
     TriangleMesh::new(vertices.collect(), &faces)
 }
 
+/// Returns a plate from z = −0.1 to 0.1 that reaches to 3, with a square hole about the origin.
+pub(super) fn holed_plate(hole: f64) -> Result<TriangleMesh, MeshError> {
+    let corners = [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)];
+    // Four rings of four: the hole below and above, the rim below and above.
+    let rings = [(hole, -0.1), (hole, 0.1), (3.0, -0.1), (3.0, 0.1)];
+    let ring = |(half, z): (f64, f64)| corners.map(|(x, y)| dvec3(half * x, half * y, z));
+    let vertices = rings.map(ring).concat();
+    let mut faces = Vec::new();
+    for k in 0..4 {
+        let at = |ring: u32, next: u32| 4 * ring + (k + next) % 4;
+        for [from, to] in [[0, 1], [1, 3], [3, 2], [2, 0]] {
+            let [a, b, c, d] = [at(from, 0), at(to, 0), at(to, 1), at(from, 1)];
+            faces.extend([[a, b, c], [a, c, d]]);
+        }
+    }
+    TriangleMesh::new(vertices, &faces)
+}
+
+/// Returns open squares across z, the highest at z = 0, the lowest at z = −0.5.
+pub(super) fn layers(count: u32) -> Result<TriangleMesh, MeshError> {
+    let step = 0.5 / f64::from(count);
+    let corners = [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)];
+    let square = |k: u32| corners.map(|(x, y)| dvec3(x, y, -step * f64::from(k)));
+    let vertices: Vec<DVec3> = (0..count).flat_map(square).collect();
+    let faces = (0..count).flat_map(|k| [[0, 1, 2], [0, 2, 3]].map(|face| face.map(|v| 4 * k + v)));
+    TriangleMesh::new(vertices, &faces.collect::<Vec<_>>())
+}
+
 /// Returns a mesh with some of its faces repeated, every other time turned over, and as many without area.
 pub(super) fn with_bad_faces(mesh: &TriangleMesh, count: usize) -> Result<TriangleMesh, MeshError> {
     let mut faces = mesh.faces().to_vec();
@@ -131,6 +159,7 @@ mod tests {
             (cone(300, 1.0), third, 0.001),
             // The bar ends with the last tooth.
             (comb(3), 1.0 - 0.2 + 0.4, 1e-12),
+            (holed_plate(0.5), 0.2 * (36.0 - 1.0), 1e-12),
             (comb(64), 1.0 - 0.6 / 64.0 + 0.4, 1e-12),
         ];
         for (mesh, volume, slack) in cases {

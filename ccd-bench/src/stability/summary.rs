@@ -3,8 +3,10 @@
 use super::family::Family;
 use super::survey::{Survey, step_name};
 use crate::run::contest::{Journal, Verdict};
-use crate::show::chart::{HeatCell, HeatMap, HeatRow};
+use crate::run::measured::Cell;
+use crate::show::chart::{HeatCell, HeatKind, HeatMap, HeatRow};
 use crate::show::tables::TextTable;
+use ccd_core::order::greater;
 use std::collections::HashMap;
 
 /// The verdicts, from good to bad.
@@ -134,29 +136,60 @@ pub fn limits(survey: &Survey, journal: &Journal) -> TextTable {
 }
 
 /// Returns the map of how far each method followed each family.
-pub fn heat_map(survey: &Survey, journal: &Journal) -> HeatMap {
+pub fn reach_map(survey: &Survey, journal: &Journal) -> HeatMap {
     let worst = Worst::of(journal);
-    let methods: Vec<String> = survey.methods.iter().map(ToString::to_string).collect();
-    let rows = survey.families.iter().map(|family| {
-        let values = survey.extent.values(family);
-        let cell = |method: &String| {
-            let reach = worst.reach(&values, family, method)?;
-            Some(HeatCell {
-                worst: reach.worst,
-                reached: reach.share,
-                limit: reach
-                    .limit
-                    .map_or(String::new(), |limit| format!("{:e}", limit.value)),
-            })
+    map(survey, HeatKind::Reach, |family, values, method| {
+        let reach = worst.reach(values, family, method)?;
+        let limit = reach.limit.map(|limit| format!("{:e}", limit.value));
+        Some(HeatCell::Reach {
+            worst: reach.worst,
+            share: reach.share,
+            limit: limit.unwrap_or_default(),
+        })
+    })
+}
+
+/// Returns the map of how the cost of each method grew over each family.
+pub fn growth_map(survey: &Survey, journal: &Journal) -> HeatMap {
+    let cost = |cell: &Cell| ((cell.scene.clone(), cell.method.clone()), cell.mean_steps);
+    let answered = journal.cells().iter().filter(|cell| cell.mean_steps > 0.0);
+    let costs: HashMap<(String, String), f64> = answered.map(cost).collect();
+    map(survey, HeatKind::Growth, |family, values, method| {
+        let costs = values.iter().filter_map(|&value| {
+            let key = (step_name(family, value), method.to_owned());
+            costs.get(&key).copied()
+        });
+        let costs: Vec<f64> = costs.collect();
+        let [easiest, _, ..] = costs[..] else {
+            return None;
         };
+        Some(HeatCell::Growth(
+            costs.iter().copied().fold(0.0, greater) / easiest,
+        ))
+    })
+}
+
+/// Makes a map, with a function of the family, its values, and the method.
+fn map(
+    survey: &Survey,
+    kind: HeatKind,
+    cell: impl Fn(&Family, &[f64], &str) -> Option<HeatCell>,
+) -> HeatMap {
+    let methods: Vec<String> = survey.methods.iter().map(ToString::to_string).collect();
+    let row = |family: &Family| {
+        let values = survey.extent.values(family);
         HeatRow {
             name: family.name.to_owned(),
             parameter: family.parameter.to_owned(),
-            cells: methods.iter().map(cell).collect(),
+            cells: methods
+                .iter()
+                .map(|method| cell(family, &values, method))
+                .collect(),
         }
-    });
+    };
     HeatMap {
-        rows: rows.collect(),
-        methods: methods.clone(),
+        kind,
+        rows: survey.families.iter().map(row).collect(),
+        methods,
     }
 }

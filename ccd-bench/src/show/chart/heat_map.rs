@@ -1,4 +1,4 @@
-//! How far each method follows each family of scenes: families down, methods across.
+//! Maps of stability, families down and methods across: how far each method follows, and how its cost grows.
 
 use super::look::COLOURS;
 use super::sheet::{DrawError, INK, MARGIN, Rect, Sheet, TextFormat, Turn, WIDTH, text_width};
@@ -7,13 +7,24 @@ use crate::run::contest::Verdict;
 use plotters::style::text_anchor::{HPos, VPos};
 use plotters::style::{Color, RGBColor, WHITE};
 
-/// The data of the map.
+/// A map.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HeatMap {
+    /// What it shows.
+    pub kind: HeatKind,
     /// The names of the methods.
     pub methods: Vec<String>,
     /// The families.
     pub rows: Vec<HeatRow>,
+}
+
+/// What a map shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum HeatKind {
+    /// How far each method follows each family: cells [`HeatCell::Reach`].
+    Reach,
+    /// How its cost grows: cells [`HeatCell::Growth`].
+    Growth,
 }
 
 /// One family.
@@ -23,25 +34,69 @@ pub struct HeatRow {
     pub name: String,
     /// The parameter that makes it harder.
     pub parameter: String,
-    /// One cell for each method; `None` if it was not asked.
+    /// One cell for each method; `None` if nothing is known.
     pub cells: Vec<Option<HeatCell>>,
 }
 
 /// One method on one family.
 #[derive(Clone, Debug, PartialEq)]
-pub struct HeatCell {
-    /// The worst verdict.
-    pub worst: Verdict,
-    /// The share of the values, from the easiest, before the first that is not right.
-    pub reached: f64,
-    /// The first value that is not right; empty if all are.
-    pub limit: String,
+pub enum HeatCell {
+    /// How far it follows.
+    Reach {
+        /// The worst verdict.
+        worst: Verdict,
+        /// The share of the values, from the easiest, before the first that is not right.
+        share: f64,
+        /// The first value that is not right; empty if all are.
+        limit: String,
+    },
+    /// The largest cost of a step, as a multiple of that of the easiest one.
+    Growth(f64),
 }
 
-const NAME: &str = "stability";
-const TITLE: &str = "How far each method follows each family: bluer is better";
-const REMARK: &str = "A cell has the colour of the worst answer, and names the first value that is not right. \
-                      The bar shows the share of the steps, from the easy ones, before it.";
+/// The words of a map.
+struct Words {
+    name: &'static str,
+    title: &'static str,
+    remark: &'static str,
+    legend: &'static [(&'static str, RGBColor)],
+}
+
+const REACH: Words = Words {
+    name: "stability",
+    title: "How far each method follows each family: bluer is better",
+    remark: "A cell has the colour of the worst answer, and names the first value that is not right. \
+             The bar shows the share of the steps, from the easy ones, before it.",
+    legend: &[
+        ("right", RIGHT),
+        ("unresolved or refused", GREY),
+        ("early", EARLY),
+        ("false contact", FALSE),
+        ("late or missed", WARNING),
+        ("died or cut off", BLACK),
+    ],
+};
+
+const GROWTH: Words = Words {
+    name: "growth",
+    title: "How the cost of a query grows from the easy steps to the hard ones: lighter is better",
+    remark: "The largest mean number of steps in time of a query, as a multiple of that of the family's \
+             easiest value. Only answered queries count: a method that is stopped has no more than is shown.",
+    legend: &[
+        ("up to 3 times", GROWN[0]),
+        ("30", GROWN[1]),
+        ("1,000", GROWN[2]),
+        ("more", GROWN[3]),
+    ],
+};
+
+/// From light to dark, for costs that grow by up to 3, 30, 1000 times, and more.
+const GROWN: [RGBColor; 4] = [
+    RGBColor(0xea, 0xf2, 0xf8),
+    RGBColor(0x9e, 0xc4, 0xe0),
+    RGBColor(0x3b, 0x7d, 0xb3),
+    RGBColor(0x10, 0x2f, 0x54),
+];
 
 /// The width of the column of names.
 const NAMES: f64 = 196.0;
@@ -66,15 +121,61 @@ const FALSE: RGBColor = COLOURS[4];
 const WARNING: RGBColor = COLOURS[1];
 const BLACK: RGBColor = COLOURS[6];
 
-/// The kinds of answers in the legend.
-const KINDS: [(&str, RGBColor); 6] = [
-    ("right", RIGHT),
-    ("unresolved or refused", GREY),
-    ("early", EARLY),
-    ("false contact", FALSE),
-    ("late or missed", WARNING),
-    ("died or cut off", BLACK),
-];
+/// The look of a cell.
+struct Look {
+    fill: RGBColor,
+    ink: RGBColor,
+    /// Two lines of text.
+    lines: [String; 2],
+    /// The share of the width that a bar takes.
+    bar: f64,
+}
+
+impl HeatKind {
+    fn words(self) -> &'static Words {
+        match self {
+            HeatKind::Reach => &REACH,
+            HeatKind::Growth => &GROWTH,
+        }
+    }
+}
+
+impl HeatCell {
+    fn look(&self) -> Look {
+        match self {
+            HeatCell::Reach {
+                worst,
+                share,
+                limit,
+            } => {
+                let (fill, word, ink) = look_of(*worst);
+                Look {
+                    fill,
+                    ink,
+                    lines: [word.to_owned(), limit.clone()],
+                    bar: *share,
+                }
+            }
+            &HeatCell::Growth(factor) => {
+                let darkness = [3.0, 30.0, 1000.0]
+                    .iter()
+                    .filter(|&&most| factor > most)
+                    .count();
+                let number = match factor < 9.95 {
+                    true => format!("{factor:.1}"),
+                    false if factor < 99_999.0 => format!("{factor:.0}"),
+                    false => format!("{factor:.0e}"),
+                };
+                Look {
+                    fill: GROWN[darkness],
+                    ink: if darkness < 2 { INK } else { WHITE },
+                    lines: [String::new(), number],
+                    bar: 0.0,
+                }
+            }
+        }
+    }
+}
 
 impl HeatMap {
     /// Draws the map.
@@ -83,8 +184,9 @@ impl HeatMap {
     /// If the drawing library fails.
     pub fn draw(&self) -> Result<Drawing, ChartError> {
         let height = TOP + ROW * self.rows.len() as f64 + MARGIN;
-        let svg = Sheet::draw(TITLE, (WIDTH, height), |sheet| {
-            head(sheet)?;
+        let words = self.kind.words();
+        let svg = Sheet::draw(words.title, (WIDTH, height), |sheet| {
+            head(sheet, words)?;
             for (column, method) in self.methods.iter().enumerate() {
                 let format = TextFormat {
                     size: SMALL,
@@ -101,9 +203,9 @@ impl HeatMap {
             Ok(())
         });
         Ok(Drawing {
-            name: NAME.to_owned(),
-            title: TITLE.to_owned(),
-            svg: svg.map_err(failed(NAME))?,
+            name: words.name.to_owned(),
+            title: words.title.to_owned(),
+            svg: svg.map_err(failed(words.name))?,
         })
     }
 
@@ -137,29 +239,32 @@ impl HeatMap {
                 width: self.column() - 1.0,
                 height: ROW - 1.0,
             };
-            draw_cell(sheet, place, cell)?;
+            draw_cell(sheet, place, &cell.look())?;
         }
         Ok(())
     }
 }
 
 /// Draws title, remark and legend.
-fn head(sheet: &Sheet<'_>) -> Result<(), DrawError> {
+fn head(sheet: &Sheet<'_>, words: &Words) -> Result<(), DrawError> {
     let usual = TextFormat::default();
     let title = TextFormat {
         size: 15.0,
         ..usual
     };
-    sheet.text(TITLE, (MARGIN, 18.0), title)?;
+    sheet.text(words.title, (MARGIN, 18.0), title)?;
     let small = TextFormat {
         size: SMALL,
         ..usual
     };
-    for (line, text) in wrapped(REMARK, WIDTH - 2.0 * MARGIN).iter().enumerate() {
+    for (line, text) in wrapped(words.remark, WIDTH - 2.0 * MARGIN)
+        .iter()
+        .enumerate()
+    {
         sheet.text(text, (MARGIN, 38.0 + 14.0 * line as f64), small)?;
     }
     let (mut left, top) = (MARGIN, 72.0);
-    for (kind, colour) in KINDS {
+    for &(kind, colour) in words.legend {
         let square = Rect {
             left,
             top,
@@ -190,29 +295,30 @@ fn wrapped(text: &str, width: f64) -> Vec<String> {
     lines
 }
 
-fn draw_cell(sheet: &Sheet<'_>, place: Rect, cell: &HeatCell) -> Result<(), DrawError> {
-    let (colour, word, ink) = look(cell.worst);
-    sheet.rect(place, colour.filled())?;
+fn draw_cell(sheet: &Sheet<'_>, place: Rect, look: &Look) -> Result<(), DrawError> {
+    sheet.rect(place, look.fill.filled())?;
     let bar = Rect {
         top: place.bottom() - BAR,
-        width: place.width * cell.reached,
+        width: place.width * look.bar,
         height: BAR,
         ..place
     };
     sheet.rect(bar, RIGHT.filled())?;
     let format = TextFormat {
         size: SMALLEST,
-        colour: ink,
+        colour: look.ink,
         across: HPos::Center,
         ..TextFormat::default()
     };
     let middle = place.left + 0.5 * place.width;
-    sheet.text(word, (middle, place.top + 5.0), format)?;
-    sheet.text(&cell.limit, (middle, place.top + 13.5), format)
+    for (line, down) in look.lines.iter().zip([5.0, 13.5]) {
+        sheet.text(line, (middle, place.top + down), format)?;
+    }
+    Ok(())
 }
 
 /// Returns the colour of a verdict, a word for it, and the colour of text on it.
-fn look(verdict: Verdict) -> (RGBColor, &'static str, RGBColor) {
+fn look_of(verdict: Verdict) -> (RGBColor, &'static str, RGBColor) {
     match verdict {
         Verdict::Right => (RIGHT, "", WHITE),
         Verdict::Undecided | Verdict::NotJudged => (GREY, "?", INK),
@@ -231,28 +337,38 @@ fn look(verdict: Verdict) -> (RGBColor, &'static str, RGBColor) {
 mod tests {
     use super::*;
 
-    #[test]
-    fn a_map_has_all_names_and_the_colour_of_each_worst_answer() {
-        let cell = |worst, reached, limit: &str| {
-            Some(HeatCell {
-                worst,
-                reached,
-                limit: limit.to_owned(),
-            })
-        };
+    fn map(kind: HeatKind, cells: Vec<Option<HeatCell>>) -> String {
         let map = HeatMap {
+            kind,
             methods: vec!["ours".to_owned(), "theirs".to_owned(), "absent".to_owned()],
             rows: vec![HeatRow {
                 name: "bullet and paper".to_owned(),
                 parameter: "way against thickness".to_owned(),
-                cells: vec![
-                    cell(Verdict::Right, 1.0, ""),
-                    cell(Verdict::Missed, 0.25, "1e5"),
-                    None,
-                ],
+                cells,
             }],
         };
-        let svg = map.draw().unwrap().svg;
+        map.draw().unwrap().svg
+    }
+
+    fn count(svg: &str, colour: &str) -> usize {
+        svg.matches(&format!("fill=\"{colour}\"")).count()
+    }
+
+    #[test]
+    fn a_map_has_all_names_and_the_colour_of_each_worst_answer() {
+        let cell = |worst, share, limit: &str| {
+            let limit = limit.to_owned();
+            Some(HeatCell::Reach {
+                worst,
+                share,
+                limit,
+            })
+        };
+        let right = cell(Verdict::Right, 1.0, "");
+        let svg = map(
+            HeatKind::Reach,
+            vec![right, cell(Verdict::Missed, 0.25, "1e5"), None],
+        );
         for text in [
             "bullet and paper",
             "way against thickness",
@@ -262,9 +378,24 @@ mod tests {
         ] {
             assert!(svg.contains(text), "{text}");
         }
-        let count = |colour: &str| svg.matches(&format!("fill=\"{colour}\"")).count();
         // The legend, a cell that is right, and two bars; the legend, and a cell that is missed.
-        assert_eq!((count("#0072B2"), count("#D55E00")), (4, 2), "{svg}");
+        assert_eq!(
+            (count(&svg, "#0072B2"), count(&svg, "#D55E00")),
+            (4, 2),
+            "{svg}"
+        );
+    }
+
+    #[test]
+    fn costs_that_grow_are_darker() {
+        let cells = [1.0, 2000.0].map(|factor| Some(HeatCell::Growth(factor)));
+        let svg = map(HeatKind::Growth, cells.into_iter().chain([None]).collect());
+        assert_eq!(
+            (count(&svg, "#EAF2F8"), count(&svg, "#102F54")),
+            (2, 2),
+            "{svg}"
+        );
+        assert!(svg.contains("1.0") && svg.contains("2000"));
     }
 
     #[test]

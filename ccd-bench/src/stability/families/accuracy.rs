@@ -1,7 +1,7 @@
 //! Contacts that hang on the last digits: nearly parallel parts, hardly any overlap.
 
 use super::super::family::{Course, Expected, Family, Step, StepError};
-use super::super::shapes::{cuboid, slab, torus};
+use super::super::shapes::{cuboid, holed_plate, slab, torus};
 use super::tenths;
 use ccd_core::glam::{DQuat, DVec3, dvec3};
 use ccd_core::order::greater;
@@ -51,6 +51,19 @@ pub(super) fn families() -> Vec<Family> {
             tenths(1..=12),
             linked_rings,
         ),
+        family(
+            "corner onto face",
+            "angle to its diagonal",
+            tenths(1..=15),
+            corner_onto_face,
+        ),
+        family(
+            "peg turning in a hole",
+            "clearance",
+            tenths(1..=12),
+            peg_in_a_hole,
+        ),
+        family("hardly turning", "radians", tenths(1..=15), hardly_turning),
     ]
 }
 
@@ -83,6 +96,56 @@ fn edge_across_edge(angle: f64) -> Result<Step, StepError> {
     let expected = Expected::at((3.0 - 0.2 * SQRT_2) / 4.0, SLACK);
     let step = Step::new(cuboid(2.0, 0.1, 0.1)?, cuboid(2.0, 0.1, 0.1)?);
     Ok(step.turned_too(falling, lying, expected)?)
+}
+
+/// T8: a cube falls onto a slab, nearly upright on a corner.
+fn corner_onto_face(angle: f64) -> Result<Step, StepError> {
+    let upright = DQuat::from_rotation_arc(DVec3::ONE.normalize(), DVec3::Z);
+    let turned = DQuat::from_rotation_x(angle) * upright;
+    let falling = Course {
+        turned,
+        ..Course::straight(3.0 * DVec3::Z, -4.0 * DVec3::Z)
+    };
+    let reach = 0.5 * (turned.inverse() * DVec3::Z).abs().element_sum();
+    let expected = Expected::at((3.0 - reach) / 4.0, SLACK);
+    let step = Step::new(cuboid(0.5, 0.5, 0.5)?, slab()?);
+    Ok(step.turned_too(falling, Course::rest(DVec3::NEG_Z), expected)?)
+}
+
+/// T12: a square peg turns in a square hole that is a little wider; all four corners meet it at once.
+fn peg_in_a_hole(clearance: f64) -> Result<Step, StepError> {
+    let half = 0.5;
+    let hole = half + clearance;
+    let angle = (hole / (half * SQRT_2)).asin() - FRAC_PI_4;
+    let turning = Course {
+        spin: 2.0 * angle * DVec3::Z,
+        ..Course::STILL
+    };
+    let step = Step::new(cuboid(half, half, 1.0)?, holed_plate(hole)?);
+    let step = Step {
+        tolerance: greater(0.1 * clearance, 1e-11),
+        ..step
+    };
+    // The angle is as inexact as the clearance.
+    let expected = Expected::at(0.5, 1e-15 / clearance);
+    Ok(step.turned_too(turning, Course::STILL, expected)?)
+}
+
+/// T25: a cube falls flat onto a slab, and turns by next to nothing.
+fn hardly_turning(turn: f64) -> Result<Step, StepError> {
+    let falling = Course {
+        spin: turn * DVec3::Y,
+        ..Course::straight(3.0 * DVec3::Z, -4.0 * DVec3::Z)
+    };
+    // The lowest corner is lower by what the cube has turned: each round adds a digit.
+    let mut time = 0.625;
+    for _ in 0..40 {
+        let (sin, cos) = (turn * time).sin_cos();
+        time = (3.0 - 0.5 * (sin + cos)) / 4.0;
+    }
+    let step = Step::new(cuboid(0.5, 0.5, 0.5)?, slab()?);
+    let expected = Expected::at(time, SLACK);
+    Ok(step.turned_too(falling, Course::rest(DVec3::NEG_Z), expected)?)
 }
 
 /// A cube comes down on a slab at a small angle, half-way of its flight.

@@ -1,7 +1,7 @@
 //! Bodies that never meet, by ever less.
 
 use super::super::family::{Course, Expected, Family, Step, StepError};
-use super::super::shapes::{ball, cone, cuboid, slab};
+use super::super::shapes::{ball, cone, cuboid, holed_plate, slab};
 use super::tenths;
 use ccd_core::glam::{DVec3, dvec3};
 use ccd_core::order::greater;
@@ -21,6 +21,7 @@ pub(super) fn families() -> Vec<Family> {
         family("cube resting then leaving", leaving),
         family("spinning top", spinning_top),
         family("rod turning past a wall", rod_past_a_wall),
+        family("peg passing through a hole", peg_through_a_hole),
     ]
 }
 
@@ -70,6 +71,13 @@ fn leaving(gap: f64) -> Result<Step, StepError> {
     let step = Step::new(cuboid(0.5, 0.5, 0.5)?, slab()?);
     let rising = Course::straight(dvec3(-2.0, 0.3, 0.5 + gap), dvec3(1.0, 0.0, 0.5));
     free(step, gap, rising, Course::rest(DVec3::NEG_Z))
+}
+
+/// T16: a peg moves through a hole that is a gap wider on all four sides.
+fn peg_through_a_hole(gap: f64) -> Result<Step, StepError> {
+    let step = Step::new(cuboid(0.5, 0.5, 1.0)?, holed_plate(0.5 + gap)?);
+    let falling = Course::straight(2.0 * DVec3::Z, -4.0 * DVec3::Z);
+    free(step, gap, falling, Course::STILL)
 }
 
 fn spinning_top(gap: f64) -> Result<Step, StepError> {

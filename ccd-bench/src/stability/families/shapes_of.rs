@@ -1,7 +1,7 @@
 //! Many triangles, and bad ones.
 
 use super::super::family::{Course, Expected, Family, Step, StepError};
-use super::super::shapes::{TOOTH, ball, comb, cone, cuboid, slab, with_bad_faces};
+use super::super::shapes::{TOOTH, ball, comb, cone, cuboid, layers, slab, with_bad_faces};
 use super::tens;
 use ccd_core::glam::{DQuat, DVec3, dvec3};
 use std::f64::consts::PI;
@@ -29,6 +29,12 @@ pub(super) fn families() -> Vec<Family> {
             "bad faces",
             tens(0..=3),
             bad_faces,
+        ),
+        family(
+            "layers close behind each other",
+            "layers",
+            tens(0..=4),
+            layered,
         ),
     ]
 }
@@ -65,6 +71,13 @@ fn tip_onto_slab(sides: f64) -> Result<Step, StepError> {
     };
     let expected = Expected::at(0.625, 1e-14);
     Ok(step.turned_too(falling, Course::rest(DVec3::NEG_Z), expected)?)
+}
+
+/// A cube falls onto the first of many open sheets.
+fn layered(count: f64) -> Result<Step, StepError> {
+    let step = Step::new(cuboid(0.5, 0.5, 0.5)?, layers(count as u32)?);
+    let falling = Course::straight(3.0 * DVec3::Z, -4.0 * DVec3::Z);
+    Ok(step.turned_too(falling, Course::STILL, Expected::at(0.625, 1e-14))?)
 }
 
 /// T21: a cube with repeated and collapsed faces.

@@ -1,7 +1,7 @@
 //! Sizes, distances and units far from 1.
 
 use super::super::family::{Course, Expected, Family, Step, StepError};
-use super::super::shapes::{cuboid, slab};
+use super::super::shapes::{cone, cuboid, slab};
 use super::{tens, tenths};
 use ccd_core::glam::{DQuat, DVec3, dvec3};
 use ccd_core::order::greater;
@@ -56,6 +56,20 @@ pub(super) fn families() -> Vec<Family> {
             tenths(0..=9),
             inside,
         ),
+        family("unit of time", "duration", sizes(1..=9), unit_of_time),
+        family(
+            "moving together",
+            "common travel",
+            tens(0..=9),
+            moving_together,
+        ),
+        family(
+            "far centre of rotation",
+            "distance in sizes",
+            tens(0..=9),
+            far_centre,
+        ),
+        family("needle tip first", "width", tenths(0..=12), needle),
     ]
 }
 
@@ -92,6 +106,47 @@ fn unit_of_length(size: f64) -> Result<Step, StepError> {
     };
     let slab = Course::rest(-size * DVec3::Z);
     Ok(step.turned_too(falling, slab, Expected::at(0.625, 1e-14))?)
+}
+
+/// T1 in other units of time.
+fn unit_of_time(duration: f64) -> Result<Step, StepError> {
+    let falling = Course::straight(3.0 * DVec3::Z, -4.0 * DVec3::Z);
+    let step = Step::new(cuboid(0.5, 0.5, 0.5)?, slab()?);
+    let step = Step { duration, ..step };
+    let slab = Course::rest(DVec3::NEG_Z);
+    Ok(step.turned_too(falling, slab, Expected::at(0.625, 1e-14))?)
+}
+
+/// A cube falls onto another one, and both travel far to the side.
+fn moving_together(travel: f64) -> Result<Step, StepError> {
+    let falling = Course::straight(3.0 * DVec3::Z, dvec3(travel, 0.0, -4.0));
+    let fleeing = Course::straight(DVec3::ZERO, travel * DVec3::X);
+    let step = Step::new(cuboid(0.5, 0.5, 0.5)?, cuboid(0.5, 0.5, 0.5)?);
+    Ok(step.exactly(falling, fleeing, Expected::at(0.5, 1e-14))?)
+}
+
+/// A cube turns about a centre far below it, so that it moves nearly straight to a wall.
+fn far_centre(distance: f64) -> Result<Step, StepError> {
+    let spin = 1.0 / distance;
+    let turning = Course {
+        spin: spin * DVec3::Y,
+        centre: -distance * DVec3::Z,
+        ..Course::STILL
+    };
+    // Its upper corner is the first at the wall, which is at x = 1.
+    let (across, up) = (0.5f64, distance + 0.5);
+    let angle = (1.0 / up.hypot(across)).asin() - across.atan2(up);
+    let step = Step::new(cuboid(0.5, 0.5, 0.5)?, cuboid(1.0, 3.0, 3.0)?);
+    let expected = Expected::at(angle / spin, 1e-14);
+    Ok(step.exactly(turning, Course::rest(2.0 * DVec3::X), expected)?)
+}
+
+/// A cone falls onto a slab on its tip; its sides are long and thin triangles.
+fn needle(width: f64) -> Result<Step, StepError> {
+    let step = Step::new(cone(8, 0.5 * width)?, slab()?);
+    let falling = Course::straight(2.5 * DVec3::Z, -4.0 * DVec3::Z);
+    let expected = Expected::at(0.625, 1e-14);
+    Ok(step.turned_too(falling, Course::rest(DVec3::NEG_Z), expected)?)
 }
 
 /// T20: cubes of half extent 1/2 at a distance that adds to their way without rounding.
