@@ -21,6 +21,7 @@ mod models;
 mod monotone;
 mod motions;
 mod names;
+mod near_misses;
 mod never_late;
 mod oracle_contract;
 mod patch_liars;

@@ -8,7 +8,6 @@ use crate::motion::track::{Angle, AxisMotion, Spinning, Track};
 use crate::problem::Side;
 use crate::tolerance::{RATE_F64, TURNED_SUPPORT};
 use glam::DVec3;
-use std::ops::Deref;
 
 /// The heights of a piece's points along an axis while their body moves.
 ///
@@ -59,23 +58,6 @@ impl Few {
             rate: track.rate_at(angle),
             bend,
         })
-    }
-}
-
-/// A set of points that contains the lowest, or one that bounds them all.
-pub(super) enum Lowest {
-    Few([Point; FEW]),
-    Bound([Point; 1]),
-}
-
-impl Deref for Lowest {
-    type Target = [Point];
-
-    fn deref(&self) -> &[Point] {
-        match self {
-            Lowest::Few(points) => points,
-            Lowest::Bound(point) => point,
-        }
     }
 }
 
@@ -159,27 +141,40 @@ impl<'a> Heights<'a> {
     }
 
     /// Bounds all points from below after `tau`.
-    pub(super) fn lowest(&self, tau: f64) -> Lowest {
-        let angle = self.angle(tau);
-        if let Some(few) = self.few() {
-            return Lowest::Few(few.at(angle, tau));
-        }
-        Lowest::Bound([match self.piece.ball() {
-            Some(_) => self.bound_of_many(angle, tau),
-            None => self.bound_of_all(angle, tau),
-        }])
-    }
-
-    fn bound_of_all(&self, angle: Angle, tau: f64) -> Point {
+    pub(super) fn bound(&self, tau: f64) -> Point {
         let start = Point {
             height: f64::INFINITY,
             rate: f64::INFINITY,
             bend: 0.0,
         };
-        self.tracks().fold(start, |bound, (track, _)| Point {
-            height: lesser(bound.height, track.height_at(tau, angle)),
-            rate: lesser(bound.rate, track.rate_at(angle)),
-            bend: greater(bound.bend, track.bend()),
+        match self.piece.ball() {
+            Some(_) => self.bound_of_many(self.angle(tau), tau),
+            None => self.each(tau).fold(start, |bound, point| Point {
+                height: lesser(bound.height, point.height),
+                rate: lesser(bound.rate, point.rate),
+                bend: greater(bound.bend, point.bend),
+            }),
+        }
+    }
+
+    /// Returns the least value of a function of the points after `tau`: of each by itself, or of the bound if
+    /// there are many. The function falls with heights and rates.
+    pub(super) fn least_of(&self, tau: f64, of: impl Fn(&Point) -> f64) -> f64 {
+        match self.piece.ball() {
+            Some(_) => of(&self.bound(tau)),
+            None => self
+                .each(tau)
+                .map(|point| of(&point))
+                .fold(f64::INFINITY, lesser),
+        }
+    }
+
+    fn each(&self, tau: f64) -> impl Iterator<Item = Point> {
+        let angle = self.angle(tau);
+        self.tracks().map(move |(track, _)| Point {
+            height: track.height_at(tau, angle),
+            rate: track.rate_at(angle),
+            bend: track.bend(),
         })
     }
 

@@ -336,7 +336,7 @@ impl<'p> Snapshot<'p> {
             }),
             _ => first_crossing(self.horizon(), rounds, |tau| {
                 self.look(points);
-                least_free(&b.lowest(tau), &a.lowest(tau), free)
+                least_free_of_many(&b, &a, tau, free)
             }),
         }
     }
@@ -350,6 +350,30 @@ fn least_free(above: &[Point], below: &[Point], free: impl Fn(&Point, &Point) ->
         .iter()
         .flat_map(|x| above.iter().map(move |y| free(y, x)));
     times.fold(f64::INFINITY, lesser)
+}
+
+/// Returns a bound of the least free time of any two points: one body's points, each by itself, against a
+/// bound of the other's. The lowest point and the one that sinks fastest may be different ones, which a bound
+/// of both bodies takes for one. A body that does not turn loses nothing by its bound.
+fn least_free_of_many(
+    above: &Heights<'_>,
+    below: &Heights<'_>,
+    tau: f64,
+    free: impl Fn(&Point, &Point) -> f64,
+) -> f64 {
+    let of_below = || {
+        let bound = above.bound(tau);
+        below.least_of(tau, |x| free(&bound, x))
+    };
+    let of_above = || {
+        let bound = below.bound(tau);
+        above.least_of(tau, |y| free(y, &bound))
+    };
+    match (above.straight(), below.straight()) {
+        (true, _) => of_below(),
+        (false, true) => of_above(),
+        (false, false) => greater(of_below(), of_above()),
+    }
 }
 
 /// A plane that keeps two pieces apart.

@@ -66,8 +66,7 @@ fn many_points_are_bounded_like_all_of_them() {
         let slack = 128.0 * crate::tolerance::U64 * (span + velocity.length());
         assert!((heights.least() - twin.least()).abs() <= slack);
         for tau in [0.0, 1e-9, 0.01, 0.3, 1.0] {
-            let angle = twin.angle(tau);
-            let (bound, all) = (heights.lowest(tau)[0], twin.bound_of_all(angle, tau));
+            let (bound, all) = (heights.bound(tau), twin.bound(tau));
             if piece.points.len() <= FEW {
                 continue;
             }
