@@ -8,10 +8,10 @@ mod truths;
 mod verdict;
 
 use ccd_core::order::greater;
-pub use journal::{Journal, JournalError};
+pub use journal::{Journal, JournalError, program_stamp};
 pub use session::Session;
 pub use truths::{Truths, TruthsError};
-pub use verdict::{Judged, Verdict, judge, judge_contact};
+pub use verdict::{Judged, Verdict, is_near, judge, judge_contact};
 
 use crate::method::rival::screw;
 use crate::method::{Method, MotionKind};

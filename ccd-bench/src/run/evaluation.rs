@@ -2,7 +2,7 @@
 
 use crate::method::{Method, MotionKind};
 use crate::run::contest::{
-    Allowance, Contest, ContestError, Journal, JournalError, Truths, TruthsError,
+    Allowance, Contest, ContestError, Journal, JournalError, Truths, TruthsError, program_stamp,
 };
 use crate::scene::{Listing, Models, Pieces, Scene, SceneBody, SceneError};
 use crate::show::chart::PAPER_TOLERANCE;
@@ -208,10 +208,9 @@ impl Plan {
 
     /// Describes the settings that all measurements depend on: this program, and the allowances.
     fn stamp(&self) -> String {
-        let program = std::env::current_exe().and_then(std::fs::read);
-        let program = program.map_or(0, |bytes| crc32fast::hash(&bytes));
         format!(
-            "program {program:08x}\nmodels {}\nmethods {:?}\npeers {:?}\n",
+            "{}models {}\nmethods {:?}\npeers {:?}\n",
+            program_stamp(),
             self.models
                 .as_ref()
                 .map_or("by code".into(), |folder| folder.display().to_string()),

@@ -7,7 +7,7 @@ mod sizes;
 mod times;
 mod turning;
 
-use super::family::Family;
+use super::family::{Family, Step, StepError};
 
 /// Returns all families.
 pub fn families() -> Vec<Family> {
@@ -22,6 +22,20 @@ pub fn families() -> Vec<Family> {
     .into_iter()
     .flatten()
     .collect()
+}
+
+fn family(
+    name: &'static str,
+    parameter: &'static str,
+    values: Vec<f64>,
+    make: fn(f64) -> Result<Step, StepError>,
+) -> Family {
+    Family {
+        name,
+        parameter,
+        values,
+        make,
+    }
 }
 
 /// Returns 10⁻ᵏ for each k.

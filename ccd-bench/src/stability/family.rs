@@ -123,6 +123,19 @@ impl Course {
         centre: DVec3::ZERO,
     };
 
+    /// Falls from z = 3 by 4.
+    pub(super) const FALLING: Course = Course {
+        at: DVec3::new(0.0, 0.0, 3.0),
+        velocity: DVec3::new(0.0, 0.0, -4.0),
+        ..Course::STILL
+    };
+
+    /// Rests at z = −1, so that the top of a slab is at 0.
+    pub(super) const UNDER: Course = Course {
+        at: DVec3::NEG_Z,
+        ..Course::STILL
+    };
+
     /// Rests at a place.
     pub(super) fn rest(at: DVec3) -> Self {
         Course {

@@ -3,14 +3,11 @@
 use super::family::{Case, Expected, Step};
 use crate::method::guarded::Asked;
 use crate::method::solver::Claim;
-use crate::run::contest::{self, Judged, Verdict, judge_contact};
+use crate::run::contest::{self, Judged, Verdict, is_near, judge_contact};
 use crate::truth::{Referee, Truth};
 
 /// The time up to which a contact at the start is reported at the start, as a fraction of the duration.
 const AT_START: f64 = 1e-12;
-
-/// The excess over the tolerance, as a fraction of it, that a method's distance may have from rounding.
-const ROUNDING: f64 = 1e-6;
 
 /// Judges the outcome of a case of a step. The referee measures distances; it is not asked for the answer.
 pub fn judge(step: &Step, case: &Case, referee: &Referee<'_>, asked: Asked) -> Judged {
@@ -24,7 +21,7 @@ pub fn judge(step: &Step, case: &Case, referee: &Referee<'_>, asked: Asked) -> J
     match case.expected {
         _ if claim == Claim::Refused => Judged::plain(Verdict::Refused),
         Expected::Contact { lo, hi } => judge_contact(query.duration, [lo, hi], claim, |time| {
-            referee.distance(query, time).lower <= within * (1.0 + ROUNDING)
+            is_near(referee, query, time, within)
         }),
         Expected::Free => contest::judge(referee, query, Truth::Free, claim, within),
         Expected::Start => Judged::plain(from_start(claim, query.duration)),

@@ -20,6 +20,11 @@ pub(super) fn moved(mesh: &TriangleMesh, by: DVec3) -> Result<TriangleMesh, Mesh
     TriangleMesh::new(vertices, mesh.faces())
 }
 
+/// Returns a cube of side 1 about the origin.
+pub(super) fn cube() -> Result<TriangleMesh, MeshError> {
+    cuboid(0.5, 0.5, 0.5)
+}
+
 /// Returns a wide box whose top is at z = 1 and contains all that falls here.
 pub(super) fn slab() -> Result<TriangleMesh, MeshError> {
     cuboid(9.0, 9.0, 1.0)

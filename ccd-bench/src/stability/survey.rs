@@ -4,7 +4,7 @@ use super::family::{Family, Step, StepError};
 use super::judge::judge;
 use crate::method::Method;
 use crate::method::guarded::{Asked, Guarded, Setting};
-use crate::run::contest::{Journal, JournalError, Judged, Verdict, sum_up};
+use crate::run::contest::{Journal, JournalError, Judged, Verdict, program_stamp, sum_up};
 use crate::run::measured::Trial;
 use crate::truth::{Referee, Surface};
 use rayon::prelude::*;
@@ -233,7 +233,6 @@ fn not_started(error: io::Error) -> io::Result<Judged> {
 
 /// Describes what all answers depend on.
 fn stamp() -> String {
-    let program = std::env::current_exe().and_then(std::fs::read);
-    let program = program.map_or(0, |bytes| crc32fast::hash(&bytes));
-    format!("program {program:08x}\npatience {PATIENCE:?} {PREPARATION:?}\n")
+    let program = program_stamp();
+    format!("{program}patience {PATIENCE:?} {PREPARATION:?}\n")
 }

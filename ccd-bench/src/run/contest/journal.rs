@@ -123,6 +123,13 @@ impl Journal {
     }
 }
 
+/// Returns the line of a stamp that tells this program from others.
+pub fn program_stamp() -> String {
+    let program = std::env::current_exe().and_then(fs::read);
+    let program = program.map_or(0, |bytes| crc32fast::hash(&bytes));
+    format!("program {program:08x}\n")
+}
+
 fn key(cell: &Cell) -> Key {
     let tolerance = cell.tolerance.to_bits();
     (cell.scene.clone(), cell.method.clone(), tolerance)

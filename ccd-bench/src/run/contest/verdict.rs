@@ -72,7 +72,7 @@ pub fn judge(
     claim: Claim,
     tolerance: f64,
 ) -> Judged {
-    let near = |time: f64| referee.distance(query, time).lower <= tolerance * (1.0 + ROUNDING);
+    let near = |time: f64| is_near(referee, query, time, tolerance);
     let plain = Judged::plain;
     match truth {
         Truth::Hit { lo, hi } if hi - lo > WIDEST * query.duration => plain(Verdict::Undecided),
@@ -85,6 +85,11 @@ pub fn judge(
         }),
         Truth::Start | Truth::Graze { .. } | Truth::Undecided { .. } => plain(Verdict::Undecided),
     }
+}
+
+/// Returns whether the bodies are within a tolerance at a time.
+pub fn is_near(referee: &Referee<'_>, query: &Query, time: f64, tolerance: f64) -> bool {
+    referee.distance(query, time).lower <= tolerance * (1.0 + ROUNDING)
 }
 
 /// Judges a claim about bodies whose first contact is between `lo` and `hi`; `near` tells whether they are

@@ -1,19 +1,13 @@
 //! Contacts that hang on the last digits: nearly parallel parts, hardly any overlap.
 
 use super::super::family::{Course, Expected, Family, Step, StepError};
-use super::super::shapes::{cuboid, holed_plate, slab, torus};
-use super::tenths;
+use super::super::shapes::{cube, cuboid, holed_plate, slab, torus};
+use super::{family, tenths};
 use ccd_core::glam::{DQuat, DVec3, dvec3};
 use ccd_core::order::greater;
 use std::f64::consts::{FRAC_PI_4, PI, SQRT_2};
 
 pub(super) fn families() -> Vec<Family> {
-    let family = |name, parameter, values, make| Family {
-        name,
-        parameter,
-        values,
-        make,
-    };
     vec![
         family(
             "face onto face",
@@ -75,11 +69,11 @@ fn face_onto_face(angle: f64) -> Result<Step, StepError> {
     let reach = 0.5 * (angle.sin() + angle.cos());
     let falling = Course {
         turned: DQuat::from_rotation_y(angle),
-        ..Course::straight(3.0 * DVec3::Z, -4.0 * DVec3::Z)
+        ..Course::FALLING
     };
     let expected = Expected::at((3.0 - reach) / 4.0, SLACK);
-    let step = Step::new(cuboid(0.5, 0.5, 0.5)?, slab()?);
-    Ok(step.turned_too(falling, Course::rest(DVec3::NEG_Z), expected)?)
+    let step = Step::new(cube()?, slab()?);
+    Ok(step.turned_too(falling, Course::UNDER, expected)?)
 }
 
 /// T8 with nearly parallel rods.
@@ -87,7 +81,7 @@ fn edge_across_edge(angle: f64) -> Result<Step, StepError> {
     let on_edge = DQuat::from_rotation_x(FRAC_PI_4);
     let falling = Course {
         turned: DQuat::from_rotation_z(angle) * on_edge,
-        ..Course::straight(3.0 * DVec3::Z, -4.0 * DVec3::Z)
+        ..Course::FALLING
     };
     let lying = Course {
         turned: on_edge,
@@ -104,12 +98,12 @@ fn corner_onto_face(angle: f64) -> Result<Step, StepError> {
     let turned = DQuat::from_rotation_x(angle) * upright;
     let falling = Course {
         turned,
-        ..Course::straight(3.0 * DVec3::Z, -4.0 * DVec3::Z)
+        ..Course::FALLING
     };
     let reach = 0.5 * (turned.inverse() * DVec3::Z).abs().element_sum();
     let expected = Expected::at((3.0 - reach) / 4.0, SLACK);
-    let step = Step::new(cuboid(0.5, 0.5, 0.5)?, slab()?);
-    Ok(step.turned_too(falling, Course::rest(DVec3::NEG_Z), expected)?)
+    let step = Step::new(cube()?, slab()?);
+    Ok(step.turned_too(falling, Course::UNDER, expected)?)
 }
 
 /// T12: a square peg turns in a square hole that is a little wider; all four corners meet it at once.
@@ -135,7 +129,7 @@ fn peg_in_a_hole(clearance: f64) -> Result<Step, StepError> {
 fn hardly_turning(turn: f64) -> Result<Step, StepError> {
     let falling = Course {
         spin: turn * DVec3::Y,
-        ..Course::straight(3.0 * DVec3::Z, -4.0 * DVec3::Z)
+        ..Course::FALLING
     };
     // The lowest corner is lower by what the cube has turned: each round adds a digit.
     let mut time = 0.625;
@@ -143,9 +137,9 @@ fn hardly_turning(turn: f64) -> Result<Step, StepError> {
         let (sin, cos) = (turn * time).sin_cos();
         time = (3.0 - 0.5 * (sin + cos)) / 4.0;
     }
-    let step = Step::new(cuboid(0.5, 0.5, 0.5)?, slab()?);
+    let step = Step::new(cube()?, slab()?);
     let expected = Expected::at(time, SLACK);
-    Ok(step.turned_too(falling, Course::rest(DVec3::NEG_Z), expected)?)
+    Ok(step.turned_too(falling, Course::UNDER, expected)?)
 }
 
 /// A cube comes down on a slab at a small angle, half-way of its flight.
@@ -155,18 +149,18 @@ fn flat_approach(angle: f64) -> Result<Step, StepError> {
     let flying = Course::straight(dvec3(-2.0, 0.0, 0.5 + height), 4.0 * dvec3(cos, 0.0, -sin));
     // The height is rounded in units of the cube, and the cube descends slowly.
     let expected = Expected::at(0.5, 1e-15 / sin);
-    let step = Step::new(cuboid(0.5, 0.5, 0.5)?, slab()?);
+    let step = Step::new(cube()?, slab()?);
     let step = Step {
         tolerance: greater(1e-3 * height, 1e-11),
         ..step
     };
-    Ok(step.turned_too(flying, Course::rest(DVec3::NEG_Z), expected)?)
+    Ok(step.turned_too(flying, Course::UNDER, expected)?)
 }
 
 fn hardly_meeting(overlap: f64) -> Result<Step, StepError> {
     let flying = Course::straight(dvec3(-3.0, 0.0, 1.0 - overlap), 6.0 * DVec3::X);
     let expected = Expected::at(1.0 / 3.0, SLACK);
-    let step = Step::new(cuboid(0.5, 0.5, 0.5)?, cuboid(0.5, 0.5, 0.5)?);
+    let step = Step::new(cube()?, cube()?);
     Ok(match overlap > 1e-12 {
         true => step.turned_too(flying, Course::STILL, expected)?,
         false => step.exactly(flying, Course::STILL, expected)?,

@@ -1,7 +1,7 @@
 //! Bodies that never meet, by ever less.
 
 use super::super::family::{Course, Expected, Family, Step, StepError};
-use super::super::shapes::{ball, cone, cuboid, holed_plate, slab};
+use super::super::shapes::{ball, cone, cube, cuboid, holed_plate, slab};
 use super::tenths;
 use ccd_core::glam::{DVec3, dvec3};
 use ccd_core::order::greater;
@@ -46,11 +46,11 @@ fn free(step: Step, gap: f64, a: Course, b: Course) -> Result<Step, StepError> {
 fn ball_passing_a_box(gap: f64) -> Result<Step, StepError> {
     let step = Step::new(ball(0.5, 600)?, cuboid(1.0, 1.0, 1.0)?);
     let flying = Course::straight(dvec3(-3.0, 0.0, 0.5 + gap), 6.0 * DVec3::X);
-    free(step, gap, flying, Course::rest(DVec3::NEG_Z))
+    free(step, gap, flying, Course::UNDER)
 }
 
 fn cubes_passing(gap: f64) -> Result<Step, StepError> {
-    let step = Step::new(cuboid(0.5, 0.5, 0.5)?, cuboid(0.5, 0.5, 0.5)?);
+    let step = Step::new(cube()?, cube()?);
     let flying = Course::straight(dvec3(-3.0, 0.0, 1.0 + gap), 6.0 * DVec3::X);
     free(step, gap, flying, Course::STILL)
 }
@@ -62,15 +62,15 @@ fn balls_passing(gap: f64) -> Result<Step, StepError> {
 }
 
 fn sliding(gap: f64) -> Result<Step, StepError> {
-    let step = Step::new(cuboid(0.5, 0.5, 0.5)?, slab()?);
+    let step = Step::new(cube()?, slab()?);
     let sliding = Course::straight(dvec3(-2.0, 0.3, 0.5 + gap), dvec3(4.0, 1.0, 0.0));
-    free(step, gap, sliding, Course::rest(DVec3::NEG_Z))
+    free(step, gap, sliding, Course::UNDER)
 }
 
 fn leaving(gap: f64) -> Result<Step, StepError> {
-    let step = Step::new(cuboid(0.5, 0.5, 0.5)?, slab()?);
+    let step = Step::new(cube()?, slab()?);
     let rising = Course::straight(dvec3(-2.0, 0.3, 0.5 + gap), dvec3(1.0, 0.0, 0.5));
-    free(step, gap, rising, Course::rest(DVec3::NEG_Z))
+    free(step, gap, rising, Course::UNDER)
 }
 
 /// T16: a peg moves through a hole that is a gap wider on all four sides.
@@ -86,7 +86,7 @@ fn spinning_top(gap: f64) -> Result<Step, StepError> {
         ..Course::straight(gap * DVec3::Z, 0.5 * DVec3::X)
     };
     let step = Step::new(cone(24, 0.7)?, slab()?);
-    free(step, gap, spinning, Course::rest(DVec3::NEG_Z))
+    free(step, gap, spinning, Course::UNDER)
 }
 
 /// A rod of half length 2 turns by half a turn about its middle, past a wall that its corners just do not reach.

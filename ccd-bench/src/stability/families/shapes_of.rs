@@ -1,18 +1,12 @@
 //! Many triangles, and bad ones.
 
 use super::super::family::{Course, Expected, Family, Step, StepError};
-use super::super::shapes::{TOOTH, ball, comb, cone, cuboid, layers, slab, with_bad_faces};
-use super::tens;
+use super::super::shapes::{TOOTH, ball, comb, cone, cube, layers, slab, with_bad_faces};
+use super::{family, tens};
 use ccd_core::glam::{DQuat, DVec3, dvec3};
 use std::f64::consts::PI;
 
 pub(super) fn families() -> Vec<Family> {
-    let family = |name, parameter, values, make| Family {
-        name,
-        parameter,
-        values,
-        make,
-    };
     let doubled =
         |exponents: std::ops::RangeInclusive<i32>| exponents.map(|k| 2f64.powi(k)).collect();
     vec![
@@ -56,10 +50,10 @@ fn ball_onto_slab(triangles: f64) -> Result<Step, StepError> {
     let step = Step::new(ball(0.5, triangles as usize / 2 + 2)?, slab()?);
     let falling = Course {
         spin: 2.0 * DVec3::Z,
-        ..Course::straight(3.0 * DVec3::Z, -4.0 * DVec3::Z)
+        ..Course::FALLING
     };
     let expected = Expected::at(0.625, 1e-14);
-    Ok(step.turned_too(falling, Course::rest(DVec3::NEG_Z), expected)?)
+    Ok(step.turned_too(falling, Course::UNDER, expected)?)
 }
 
 /// A cone falls onto a slab, tip first.
@@ -70,21 +64,21 @@ fn tip_onto_slab(sides: f64) -> Result<Step, StepError> {
         ..Course::straight(2.5 * DVec3::Z, -4.0 * DVec3::Z)
     };
     let expected = Expected::at(0.625, 1e-14);
-    Ok(step.turned_too(falling, Course::rest(DVec3::NEG_Z), expected)?)
+    Ok(step.turned_too(falling, Course::UNDER, expected)?)
 }
 
 /// A cube falls onto the first of many open sheets.
 fn layered(count: f64) -> Result<Step, StepError> {
-    let step = Step::new(cuboid(0.5, 0.5, 0.5)?, layers(count as u32)?);
-    let falling = Course::straight(3.0 * DVec3::Z, -4.0 * DVec3::Z);
+    let step = Step::new(cube()?, layers(count as u32)?);
+    let falling = Course::FALLING;
     Ok(step.turned_too(falling, Course::STILL, Expected::at(0.625, 1e-14))?)
 }
 
 /// T21: a cube with repeated and collapsed faces.
 fn bad_faces(count: f64) -> Result<Step, StepError> {
-    let cube = with_bad_faces(&cuboid(0.5, 0.5, 0.5)?, count as usize)?;
+    let cube = with_bad_faces(&cube()?, count as usize)?;
     let step = Step::new(cube, slab()?);
-    let falling = Course::straight(3.0 * DVec3::Z, -4.0 * DVec3::Z);
+    let falling = Course::FALLING;
     let expected = Expected::at(0.625, 1e-14);
-    Ok(step.turned_too(falling, Course::rest(DVec3::NEG_Z), expected)?)
+    Ok(step.turned_too(falling, Course::UNDER, expected)?)
 }

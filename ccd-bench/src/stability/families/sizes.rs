@@ -1,18 +1,12 @@
 //! Sizes, distances and units far from 1.
 
 use super::super::family::{Course, Expected, Family, Step, StepError};
-use super::super::shapes::{cone, cuboid, slab};
-use super::{tens, tenths};
+use super::super::shapes::{cone, cube, cuboid, slab};
+use super::{family, tens, tenths};
 use ccd_core::glam::{DQuat, DVec3, dvec3};
 use ccd_core::order::greater;
 
 pub(super) fn families() -> Vec<Family> {
-    let family = |name, parameter, values, make| Family {
-        name,
-        parameter,
-        values,
-        make,
-    };
     let sizes = |exponents: std::ops::RangeInclusive<i32>| {
         exponents
             .flat_map(|k| [10f64.powi(k), 10f64.powi(-k)])
@@ -110,10 +104,10 @@ fn unit_of_length(size: f64) -> Result<Step, StepError> {
 
 /// T1 in other units of time.
 fn unit_of_time(duration: f64) -> Result<Step, StepError> {
-    let falling = Course::straight(3.0 * DVec3::Z, -4.0 * DVec3::Z);
-    let step = Step::new(cuboid(0.5, 0.5, 0.5)?, slab()?);
+    let falling = Course::FALLING;
+    let step = Step::new(cube()?, slab()?);
     let step = Step { duration, ..step };
-    let slab = Course::rest(DVec3::NEG_Z);
+    let slab = Course::UNDER;
     Ok(step.turned_too(falling, slab, Expected::at(0.625, 1e-14))?)
 }
 
@@ -121,7 +115,7 @@ fn unit_of_time(duration: f64) -> Result<Step, StepError> {
 fn moving_together(travel: f64) -> Result<Step, StepError> {
     let falling = Course::straight(3.0 * DVec3::Z, dvec3(travel, 0.0, -4.0));
     let fleeing = Course::straight(DVec3::ZERO, travel * DVec3::X);
-    let step = Step::new(cuboid(0.5, 0.5, 0.5)?, cuboid(0.5, 0.5, 0.5)?);
+    let step = Step::new(cube()?, cube()?);
     Ok(step.exactly(falling, fleeing, Expected::at(0.5, 1e-14))?)
 }
 
@@ -136,7 +130,7 @@ fn far_centre(distance: f64) -> Result<Step, StepError> {
     // Its upper corner is the first at the wall, which is at x = 1.
     let (across, up) = (0.5f64, distance + 0.5);
     let angle = (1.0 / up.hypot(across)).asin() - across.atan2(up);
-    let step = Step::new(cuboid(0.5, 0.5, 0.5)?, cuboid(1.0, 3.0, 3.0)?);
+    let step = Step::new(cube()?, cuboid(1.0, 3.0, 3.0)?);
     let expected = Expected::at(angle / spin, 1e-14);
     Ok(step.exactly(turning, Course::rest(2.0 * DVec3::X), expected)?)
 }
@@ -146,7 +140,7 @@ fn needle(width: f64) -> Result<Step, StepError> {
     let step = Step::new(cone(8, 0.5 * width)?, slab()?);
     let falling = Course::straight(2.5 * DVec3::Z, -4.0 * DVec3::Z);
     let expected = Expected::at(0.625, 1e-14);
-    Ok(step.turned_too(falling, Course::rest(DVec3::NEG_Z), expected)?)
+    Ok(step.turned_too(falling, Course::UNDER, expected)?)
 }
 
 /// T20: cubes of half extent 1/2 at a distance that adds to their way without rounding.
@@ -154,7 +148,7 @@ fn far_from_the_origin(distance: f64) -> Result<Step, StepError> {
     // All coordinates stay within the distance.
     let origin = distance * dvec3(1.0, -1.0, -1.0);
     let falling = Course::straight(origin + 3.0 * DVec3::Z, -4.0 * DVec3::Z);
-    let step = Step::new(cuboid(0.5, 0.5, 0.5)?, cuboid(0.5, 0.5, 0.5)?);
+    let step = Step::new(cube()?, cube()?);
     Ok(step.exactly(falling, Course::rest(origin), Expected::at(0.5, 1e-14))?)
 }
 
@@ -164,12 +158,12 @@ fn slender(ratio: f64) -> Result<Step, StepError> {
     let (sin, cos) = 0.3f64.sin_cos();
     let falling = Course {
         turned: DQuat::from_rotation_x(0.3),
-        ..Course::straight(3.0 * DVec3::Z, -4.0 * DVec3::Z)
+        ..Course::FALLING
     };
     let reach = thin * (sin + cos);
     let expected = Expected::at((3.0 - reach) / 4.0, 1e-14);
     let step = Step::new(cuboid(1.0, thin, thin)?, slab()?);
-    Ok(step.turned_too(falling, Course::rest(DVec3::NEG_Z), expected)?)
+    Ok(step.turned_too(falling, Course::UNDER, expected)?)
 }
 
 /// T13: a bullet flies a way of 1 at a thin sheet half-way.
@@ -187,9 +181,9 @@ fn margin(margin: f64) -> Result<Step, StepError> {
     let speed = 4.0 * greater(1.0, margin);
     let height = 0.5 + margin + 0.5 * speed;
     let falling = Course::straight(height * DVec3::Z, -speed * DVec3::Z);
-    let step = Step::new(cuboid(0.5, 0.5, 0.5)?, slab()?);
+    let step = Step::new(cube()?, slab()?);
     let step = Step { margin, ..step };
-    let slab = Course::rest(DVec3::NEG_Z);
+    let slab = Course::UNDER;
     Ok(step.turned_too(falling, slab, Expected::at(0.5, 1e-14))?)
 }
 

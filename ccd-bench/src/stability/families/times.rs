@@ -1,7 +1,7 @@
 //! Contacts next to the start and next to the end.
 
 use super::super::family::{Course, Expected, Family, Step, StepError};
-use super::super::shapes::{cuboid, sheet, slab};
+use super::super::shapes::{cube, sheet, slab};
 use super::tenths;
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
@@ -23,7 +23,7 @@ pub(super) fn families() -> Vec<Family> {
 
 /// Returns a cube that falls at speed 1 onto a slab, and reaches it at a time.
 fn falling(time: f64) -> Result<(Step, Course), StepError> {
-    let step = Step::new(cuboid(0.5, 0.5, 0.5)?, slab()?);
+    let step = Step::new(cube()?, slab()?);
     Ok((
         step,
         Course::straight((0.5 + time) * DVec3::Z, DVec3::NEG_Z),
@@ -37,13 +37,13 @@ fn after_the_start(time: f64) -> Result<Step, StepError> {
         ..step
     };
     let expected = Expected::at(time, 1e-14);
-    Ok(step.turned_too(falling, Course::rest(DVec3::NEG_Z), expected)?)
+    Ok(step.turned_too(falling, Course::UNDER, expected)?)
 }
 
 fn before_the_end(before: f64) -> Result<Step, StepError> {
     let (step, falling) = falling(1.0 - before)?;
     let expected = Expected::at(1.0 - before, 1e-14);
-    Ok(step.turned_too(falling, Course::rest(DVec3::NEG_Z), expected)?)
+    Ok(step.turned_too(falling, Course::UNDER, expected)?)
 }
 
 fn after_the_end(after: f64) -> Result<Step, StepError> {
@@ -52,7 +52,7 @@ fn after_the_end(after: f64) -> Result<Step, StepError> {
         tolerance: greater(0.25 * after, 1e-11),
         ..step
     };
-    let slab = Course::rest(DVec3::NEG_Z);
+    let slab = Course::UNDER;
     Ok(match after > 1e-12 {
         true => step.turned_too(falling, slab, Expected::Free)?,
         false => step.exactly(falling, slab, Expected::Free)?,

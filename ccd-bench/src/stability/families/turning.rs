@@ -1,7 +1,7 @@
 //! Turns, from hardly any to thousands.
 
 use super::super::family::{Course, Expected, Family, Step, StepError};
-use super::super::shapes::{cuboid, moved, slab};
+use super::super::shapes::{cube, cuboid, moved, slab};
 use super::tens;
 use ccd_core::glam::DVec3;
 use std::f64::consts::{PI, TAU};
@@ -33,11 +33,11 @@ pub(super) fn families() -> Vec<Family> {
 fn drilling(turns: f64) -> Result<Step, StepError> {
     let falling = Course {
         spin: TAU * turns * DVec3::Z,
-        ..Course::straight(3.0 * DVec3::Z, -4.0 * DVec3::Z)
+        ..Course::FALLING
     };
-    let step = Step::new(cuboid(0.5, 0.5, 0.5)?, slab()?);
+    let step = Step::new(cube()?, slab()?);
     let expected = Expected::at(0.625, 1e-14);
-    Ok(step.turned_too(falling, Course::rest(DVec3::NEG_Z), expected)?)
+    Ok(step.turned_too(falling, Course::UNDER, expected)?)
 }
 
 /// The half length and half thickness of a rod.

@@ -1,0 +1,68 @@
+use super::*;
+
+fn map(kind: HeatKind, cells: Vec<Option<HeatCell>>) -> String {
+    let map = HeatMap {
+        kind,
+        methods: vec!["ours".to_owned(), "theirs".to_owned(), "absent".to_owned()],
+        rows: vec![HeatRow {
+            name: "bullet and paper".to_owned(),
+            parameter: "way against thickness".to_owned(),
+            cells,
+        }],
+    };
+    map.draw().unwrap().svg
+}
+
+fn count(svg: &str, colour: &str) -> usize {
+    svg.matches(&format!("fill=\"{colour}\"")).count()
+}
+
+#[test]
+fn a_map_has_all_names_and_the_colour_of_each_worst_answer() {
+    let cell = |worst, share, limit: &str| {
+        let limit = limit.to_owned();
+        Some(HeatCell::Reach {
+            worst,
+            share,
+            limit,
+        })
+    };
+    let right = cell(Verdict::Right, 1.0, "");
+    let svg = map(
+        HeatKind::Reach,
+        vec![right, cell(Verdict::Missed, 0.25, "1e5"), None],
+    );
+    for text in [
+        "bullet and paper",
+        "way against thickness",
+        "theirs",
+        "missed",
+        "1e5",
+    ] {
+        assert!(svg.contains(text), "{text}");
+    }
+    // The legend, a cell that is right, and two bars; the legend, and a cell that is missed.
+    assert_eq!(
+        (count(&svg, "#0072B2"), count(&svg, "#D55E00")),
+        (4, 2),
+        "{svg}"
+    );
+}
+
+#[test]
+fn costs_that_grow_are_darker() {
+    let cells = [1.0, 2000.0].map(|factor| Some(HeatCell::Growth(factor)));
+    let svg = map(HeatKind::Growth, cells.into_iter().chain([None]).collect());
+    assert_eq!(
+        (count(&svg, "#EAF2F8"), count(&svg, "#102F54")),
+        (2, 2),
+        "{svg}"
+    );
+    assert!(svg.contains("1.0") && svg.contains("2000"));
+}
+
+#[test]
+fn long_remarks_are_wrapped() {
+    let lines = wrapped("one two three", text_width("one two", SMALL));
+    assert_eq!(lines, ["one two", "three"]);
+}
