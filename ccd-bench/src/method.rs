@@ -173,12 +173,15 @@ impl Adjustable for Ours<'_> {
 impl Solver for Ours<'_> {
     /// Steps are advancements of all pairs if the schedule has them, else pairs of nodes visited.
     fn answer(&mut self, query: &Query) -> Reply {
-        let Ok(answer) = solve(self.bodies, query, &self.config, self.solver.as_mut()) else {
+        let answer = match solve(self.bodies, query, &self.config, self.solver.as_mut()) {
+            Ok(answer) => answer,
             // An invalid query is not answered.
-            return Reply {
-                claim: Claim::Refused,
-                steps: 0,
-            };
+            Err(error) => {
+                return Reply {
+                    reason: Some(error.to_string()),
+                    ..Reply::new(Claim::Refused, 0)
+                };
+            }
         };
         let claim = match answer.outcome {
             Outcome::Contact { time, .. } => Claim::Contact { time },
@@ -190,7 +193,16 @@ impl Solver for Ours<'_> {
             true => answer.stats.advancements,
             false => answer.stats.iterations,
         };
-        Reply { claim, steps }
+        let reason = match answer.outcome {
+            Outcome::Unresolved { reason, .. } => Some(reason.to_string()),
+            _ => None,
+        };
+        Reply {
+            claim,
+            steps,
+            tolerance: Some(answer.tolerance),
+            reason,
+        }
     }
 }
 

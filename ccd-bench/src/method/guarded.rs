@@ -50,7 +50,7 @@ impl Setting {
 }
 
 /// The outcome of a query.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Asked {
     /// The method answered.
     Answered {

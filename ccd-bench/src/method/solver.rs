@@ -12,7 +12,7 @@ pub trait Solver {
 }
 
 /// A reply and its time.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct TimedReply {
     /// The reply.
     pub reply: Reply,
@@ -49,12 +49,28 @@ pub trait Adjustable: Solver {
 }
 
 /// The reply of a solver to one query.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Reply {
     /// The answer.
     pub claim: Claim,
     /// The number of steps in time: advancements, halvings or samples, depending on the solver.
     pub steps: u64,
+    /// The tolerance of the answer, if the solver states one.
+    pub tolerance: Option<f64>,
+    /// Why there is no better answer, if the solver says so.
+    pub reason: Option<String>,
+}
+
+impl Reply {
+    /// Returns a reply without a tolerance or a reason.
+    pub fn new(claim: Claim, steps: u64) -> Self {
+        Reply {
+            claim,
+            steps,
+            tolerance: None,
+            reason: None,
+        }
+    }
 }
 
 /// The answer of a solver.
@@ -74,4 +90,14 @@ pub enum Claim {
     },
     /// The solver does not support the query.
     Refused,
+}
+
+impl Claim {
+    /// Returns the time that is claimed, of a contact or until which there is none.
+    pub fn time(self) -> Option<f64> {
+        match self {
+            Claim::Contact { time } | Claim::Unresolved { safe_until: time } => Some(time),
+            Claim::Free | Claim::Refused => None,
+        }
+    }
 }

@@ -82,7 +82,7 @@ fn motion(numbers: &[f64]) -> Option<Motion> {
     Motion::about(start, vector(7), vector(10), vector(13)).ok()
 }
 
-/// Formats a reply as one line: `time,status,steps,micros`.
+/// Formats a reply as one line: `time,status,steps,micros,tolerance,reason`, where the last two may be empty.
 pub fn format_reply(timed: &TimedReply) -> String {
     let (time, status) = match timed.reply.claim {
         Claim::Contact { time } => (time, "contact"),
@@ -90,12 +90,24 @@ pub fn format_reply(timed: &TimedReply) -> String {
         Claim::Unresolved { safe_until } => (safe_until, "unresolved"),
         Claim::Refused => (0.0, "refused"),
     };
-    format!("{time},{status},{},{}", timed.reply.steps, timed.micros)
+    let Reply {
+        steps,
+        tolerance,
+        reason,
+        ..
+    } = &timed.reply;
+    let tolerance = tolerance.map_or(String::new(), |tolerance| tolerance.to_string());
+    let reason = reason.as_deref().unwrap_or_default().replace('\n', " ");
+    format!(
+        "{time},{status},{steps},{},{tolerance},{reason}",
+        timed.micros
+    )
 }
 
 /// Parses a line as a reply; returns `None` if it is invalid.
 pub fn parse_reply(line: &str) -> Option<TimedReply> {
-    let mut cells = line.split(',');
+    // The reason may have commas of its own.
+    let mut cells = line.splitn(6, ',');
     let time: f64 = cells.next()?.parse().ok()?;
     let claim = match cells.next()? {
         "contact" => Claim::Contact { time },
@@ -106,11 +118,18 @@ pub fn parse_reply(line: &str) -> Option<TimedReply> {
     };
     let steps = cells.next()?.parse().ok()?;
     let micros = cells.next()?.parse().ok()?;
-    let reply = Reply { claim, steps };
-    cells
-        .next()
-        .is_none()
-        .then_some(TimedReply { reply, micros })
+    let tolerance = match cells.next()? {
+        "" => None,
+        text => Some(text.parse().ok()?),
+    };
+    let reason = Some(cells.next()?.to_owned()).filter(|text| !text.is_empty());
+    let reply = Reply {
+        claim,
+        steps,
+        tolerance,
+        reason,
+    };
+    Some(TimedReply { reply, micros })
 }
 
 /// Never answers.

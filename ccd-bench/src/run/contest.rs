@@ -189,6 +189,8 @@ impl<'s> Contest<'s> {
                     steps: answered.steps(),
                     verdict: judged.verdict.to_string(),
                     error: judged.error.unwrap_or(f64::NAN),
+                    time: answered.time(),
+                    note: String::new(),
                 }
             })
             .collect();

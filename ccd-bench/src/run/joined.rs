@@ -147,6 +147,8 @@ fn judged(scene: &Scene, group: &[Foreign], truths: &mut Truths) -> Result<Vec<T
             steps: foreign.steps,
             verdict: judged.verdict.to_string(),
             error: judged.error.unwrap_or(f64::NAN),
+            time: foreign.time.unwrap_or(f64::NAN),
+            note: String::new(),
         });
     }
     Ok(trials)

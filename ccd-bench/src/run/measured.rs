@@ -75,6 +75,17 @@ pub struct Trial {
     /// The error of the time of contact, as a fraction of the duration; NaN if there is no time.
     #[serde(with = "optional")]
     pub error: f64,
+    /// The time of the claim: of the contact, or until which there is none; NaN if there is no time.
+    #[serde(with = "optional", default = "no_time")]
+    pub time: f64,
+    /// What the method says about its answer: a tolerance that it had to raise, why it is no better.
+    #[serde(default)]
+    pub note: String,
+}
+
+/// Earlier tables have no times.
+fn no_time() -> f64 {
+    f64::NAN
 }
 
 impl Cell {

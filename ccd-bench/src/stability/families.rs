@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod gaps;
+mod interlocked;
 mod shapes_of;
 mod sizes;
 mod times;
@@ -18,6 +19,7 @@ pub fn families() -> Vec<Family> {
         turning::families(),
         times::families(),
         shapes_of::families(),
+        interlocked::families(),
     ]
     .into_iter()
     .flatten()

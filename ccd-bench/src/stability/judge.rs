@@ -5,19 +5,22 @@ use crate::method::guarded::Asked;
 use crate::method::solver::Claim;
 use crate::run::contest::{self, Judged, Verdict, is_near, judge_contact};
 use crate::truth::{Referee, Truth};
+use ccd_core::order::greater;
 
 /// The time up to which a contact at the start is reported at the start, as a fraction of the duration.
 const AT_START: f64 = 1e-12;
 
-/// Judges the outcome of a case of a step. The referee measures distances; it is not asked for the answer.
-pub fn judge(step: &Step, case: &Case, referee: &Referee<'_>, asked: Asked) -> Judged {
-    let claim = match asked {
-        Asked::Answered { reply, .. } => reply.claim,
+/// Judges the outcome of a case of a step, by the tolerance that the method states for its answer if it had to
+/// raise the one of the step. The referee measures distances; it is not asked for the answer.
+pub fn judge(step: &Step, case: &Case, referee: &Referee<'_>, asked: &Asked) -> Judged {
+    let reply = match asked {
+        Asked::Answered { reply, .. } => reply,
         Asked::CutOff => return Judged::plain(Verdict::CutOff),
         Asked::Died => return Judged::plain(Verdict::Died),
     };
+    let claim = reply.claim;
     let query = &case.query;
-    let within = step.margin + step.tolerance;
+    let within = step.margin + greater(step.tolerance, reply.tolerance.unwrap_or(0.0));
     match case.expected {
         _ if claim == Claim::Refused => Judged::plain(Verdict::Refused),
         Expected::Contact { lo, hi } => judge_contact(query.duration, [lo, hi], claim, |time| {
@@ -82,11 +85,40 @@ mod tests {
         let family = families().into_iter().find(|f| f.name == family).unwrap();
         let step = (family.make)(family.values[1]).unwrap();
         let [a, b] = step.meshes.each_ref().map(Surface::new);
-        let reply = Reply { claim, steps: 1 };
+        let asked = Asked::Answered {
+            reply: Reply::new(claim, 1),
+            micros: 1.0,
+        };
         for case in &step.cases {
-            let asked = Asked::Answered { reply, micros: 1.0 };
-            let judged = judge(&step, case, &Referee::new(&a, &b), asked);
+            let judged = judge(&step, case, &Referee::new(&a, &b), &asked);
             assert_eq!(judged.verdict, verdict, "{claim:?}");
         }
+    }
+
+    /// The bodies approach each other by 4: 0.01 in time is 0.04 away.
+    #[rstest]
+    #[case(None, Verdict::Early)]
+    #[case(Some(0.02), Verdict::Early)]
+    #[case(Some(0.05), Verdict::Right)]
+    #[case(Some(f64::NAN), Verdict::Early)]
+    fn an_answer_is_judged_by_the_tolerance_that_it_states(
+        #[case] tolerance: Option<f64>,
+        #[case] verdict: Verdict,
+    ) {
+        let mut families = families().into_iter();
+        let family = families.find(|f| f.name == "margin").unwrap();
+        let step = (family.make)(0.0).unwrap();
+        let [a, b] = step.meshes.each_ref().map(Surface::new);
+        let case = &step.cases[0];
+        let Expected::Contact { lo, .. } = case.expected else {
+            panic!("{:?}", case.expected)
+        };
+        let reply = Reply {
+            tolerance,
+            ..Reply::new(contact(lo - 0.01), 1)
+        };
+        let asked = Asked::Answered { reply, micros: 1.0 };
+        let judged = judge(&step, case, &Referee::new(&a, &b), &asked);
+        assert_eq!(judged.verdict, verdict);
     }
 }

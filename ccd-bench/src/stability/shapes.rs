@@ -2,7 +2,7 @@
 
 use crate::scene::model::sphere::sphere;
 use crate::scene::model::{Board, Plate, Ring};
-use ccd_core::glam::{DVec3, dvec3};
+use ccd_core::glam::{DQuat, DVec3, dvec3};
 use ccd_decomp::{MeshError, TriangleMesh};
 use std::f64::consts::TAU;
 
@@ -72,44 +72,166 @@ pub(super) const TOOTH: f64 = 0.4;
 /// Returns a comb of depth 1 along y: a bar from z = 0 to 1 below teeth that reach to z = 2. The first tooth
 /// begins at x = 0, and the steps from tooth to tooth add up to 1.
 pub(super) fn comb(teeth: u32) -> Result<TriangleMesh, MeshError> {
-    let columns = 2 * teeth - 1;
-    let x = |k: u32| (f64::from(k / 2) + TOOTH * f64::from(k % 2)) / f64::from(teeth);
-    // Corners of the outline at column border k: at heights 0, 1 and 2, in front and behind.
-    let corner = |k: u32, height: u32, back: u32| (k * 3 + height) * 2 + back;
-    let vertices = (0..=columns).flat_map(|k| {
-        [(0, 0), (0, 1), (1, 0), (1, 1), (2, 0), (2, 1)]
-            .map(|(height, back)| dvec3(x(k), f64::from(back), f64::from(height)))
-    });
+    let border = |k: u32| (f64::from(k / 2) + TOOTH * f64::from(k % 2)) / f64::from(teeth);
+    let borders: Vec<f64> = (0..2 * teeth).map(border).collect();
+    extruded(&borders, &[0.0, 1.0, 2.0], 0.5, |column, level| {
+        level == 0 || column % 2 == 0
+    })
+}
+
+/// Returns the solid of the cells of a grid across y that are filled, of the given half depth.
+pub(super) fn extruded(
+    x: &[f64],
+    z: &[f64],
+    half: f64,
+    filled: impl Fn(usize, usize) -> bool,
+) -> Result<TriangleMesh, MeshError> {
+    // In front and behind of each corner of the grid.
+    let corner = |i: usize, j: usize, back: usize| (2 * (i * z.len() + j) + back) as u32;
+    let vertices: Vec<DVec3> = x
+        .iter()
+        .flat_map(|&x| z.iter().map(move |&z| (x, z)))
+        .flat_map(|(x, z)| [dvec3(x, -half, z), dvec3(x, half, z)])
+        .collect();
+    let (columns, levels) = (x.len() - 1, z.len() - 1);
+    let is = |i: usize, j: usize| i < columns && j < levels && filled(i, j);
     let mut faces = Vec::new();
     let mut quad = |[a, b, c, d]: [u32; 4]| faces.extend([[a, b, c], [a, c, d]]);
-    for k in 0..columns {
-        let at = |side: u32, height: u32, back: u32| corner(k + side, height, back);
-        let levels = if k % 2 == 0 { 2 } else { 1 };
-        for low in 0..levels {
-            let high = low + 1;
-            quad([at(0, low, 0), at(1, low, 0), at(1, high, 0), at(0, high, 0)]);
-            quad([at(1, low, 1), at(0, low, 1), at(0, high, 1), at(1, high, 1)]);
+    for (i, j) in (0..columns).flat_map(|i| (0..levels).map(move |j| (i, j))) {
+        if !is(i, j) {
+            continue;
         }
-        quad([at(0, 0, 1), at(1, 0, 1), at(1, 0, 0), at(0, 0, 0)]);
-        quad([
-            at(0, levels, 0),
-            at(1, levels, 0),
-            at(1, levels, 1),
-            at(0, levels, 1),
-        ]);
-        if k % 2 == 0 {
-            // The flanks of a tooth; at the ends of the comb, those of the bar below it too.
-            quad([at(0, 1, 1), at(0, 1, 0), at(0, 2, 0), at(0, 2, 1)]);
-            quad([at(1, 1, 0), at(1, 1, 1), at(1, 2, 1), at(1, 2, 0)]);
-        }
-        if k == 0 {
+        let at = |right: usize, up: usize, back: usize| corner(i + right, j + up, back);
+        quad([at(0, 0, 0), at(1, 0, 0), at(1, 1, 0), at(0, 1, 0)]);
+        quad([at(1, 0, 1), at(0, 0, 1), at(0, 1, 1), at(1, 1, 1)]);
+        // Sides without a neighbour; before the first cell, the number wraps to one that is not filled.
+        if !is(i.wrapping_sub(1), j) {
             quad([at(0, 0, 1), at(0, 0, 0), at(0, 1, 0), at(0, 1, 1)]);
         }
-        if k + 1 == columns {
+        if !is(i + 1, j) {
             quad([at(1, 0, 0), at(1, 0, 1), at(1, 1, 1), at(1, 1, 0)]);
         }
+        if !is(i, j.wrapping_sub(1)) {
+            quad([at(0, 0, 1), at(1, 0, 1), at(1, 0, 0), at(0, 0, 0)]);
+        }
+        if !is(i, j + 1) {
+            quad([at(0, 1, 0), at(1, 1, 0), at(1, 1, 1), at(0, 1, 1)]);
+        }
     }
-    TriangleMesh::new(vertices.collect(), &faces)
+    used(&vertices, faces)
+}
+
+/// Returns the mesh of the vertices that the faces use.
+fn used(vertices: &[DVec3], faces: Vec<[u32; 3]>) -> Result<TriangleMesh, MeshError> {
+    let mut numbers = vec![None; vertices.len()];
+    let mut kept = Vec::new();
+    let mut number = |v: u32| {
+        let v = v as usize;
+        *numbers[v].get_or_insert_with(|| {
+            kept.push(vertices[v]);
+            kept.len() as u32 - 1
+        })
+    };
+    let faces: Vec<[u32; 3]> = faces.into_iter().map(|f| f.map(&mut number)).collect();
+    TriangleMesh::new(kept, &faces)
+}
+
+/// Returns a plate across x, from x = −0.1 to 0.1 and 3 wide, with a slit across its middle by its half height.
+pub(super) fn slit_plate(slit: f64) -> Result<TriangleMesh, MeshError> {
+    let levels = [-3.0, -slit, slit, 3.0];
+    extruded(&[-0.1, 0.1], &levels, 3.0, |_, level| level != 1)
+}
+
+/// Returns a flank of a thread about z between two radii: an open ribbon that rises by the pitch a turn.
+pub(super) fn ribbon(
+    radii: [f64; 2],
+    pitch: f64,
+    sides: u32,
+    turns: u32,
+) -> Result<TriangleMesh, MeshError> {
+    let steps = sides * turns;
+    let vertices = (0..=steps).flat_map(|k| {
+        let (sin, cos) = (TAU * f64::from(k % sides) / f64::from(sides)).sin_cos();
+        let height = pitch * f64::from(k) / f64::from(sides);
+        radii.map(|r| dvec3(r * cos, r * sin, height))
+    });
+    let faces = (0..steps).flat_map(|k| {
+        let [a, b, c, d] = [2 * k, 2 * k + 1, 2 * k + 3, 2 * k + 2];
+        [[a, b, c], [a, c, d]]
+    });
+    TriangleMesh::new(vertices.collect(), &faces.collect::<Vec<_>>())
+}
+
+/// Returns open squares across z at two heights.
+pub(super) fn stacked(half_side: f64, heights: [f64; 2]) -> Result<TriangleMesh, MeshError> {
+    let sheet = sheet(half_side)?;
+    let sheets: Result<Vec<TriangleMesh>, MeshError> = heights
+        .into_iter()
+        .map(|z| moved(&sheet, z * DVec3::Z))
+        .collect();
+    together(&sheets?)
+}
+
+/// Returns all meshes as one.
+pub(super) fn together(meshes: &[TriangleMesh]) -> Result<TriangleMesh, MeshError> {
+    let mut vertices = Vec::new();
+    let mut faces = Vec::new();
+    for mesh in meshes {
+        let first = vertices.len() as u32;
+        vertices.extend_from_slice(mesh.vertices());
+        faces.extend(mesh.faces().iter().map(|face| face.map(|v| first + v)));
+    }
+    TriangleMesh::new(vertices, &faces)
+}
+
+/// Returns a mesh that is turned about its origin.
+pub(super) fn turned(mesh: &TriangleMesh, by: DQuat) -> Result<TriangleMesh, MeshError> {
+    let vertices = mesh.vertices().iter().map(|&p| by * p).collect();
+    TriangleMesh::new(vertices, mesh.faces())
+}
+
+/// Returns the wide box of [`slab`] with a vertex on its top, so near the diagonal of the two triangles there
+/// that one of the three triangles around it is a sliver.
+pub(super) fn sliver_slab(width: f64) -> Result<TriangleMesh, MeshError> {
+    let slab = slab()?;
+    let place = |v: u32| slab.vertices()[v as usize];
+    let is_top = |face: &[u32; 3]| face.iter().all(|&v| place(v).z == 1.0);
+    let mut faces = slab.faces().to_vec();
+    let at = faces.iter().position(is_top).unwrap_or_default();
+    let [a, b, c] = faces.swap_remove(at);
+    // The corner across from the diagonal shares a coordinate with both others.
+    let across = [a, b, c].map(place).into_iter().find(|p| {
+        let shares = |v: &u32| place(*v).x == p.x || place(*v).y == p.y;
+        [a, b, c].iter().all(shares)
+    });
+    let mut vertices = slab.vertices().to_vec();
+    let tip = vertices.len() as u32;
+    let towards = across.unwrap_or_default().signum();
+    vertices.push(dvec3(width * towards.x, width * towards.y, 1.0));
+    faces.extend([[a, b, tip], [b, c, tip], [c, a, tip]]);
+    TriangleMesh::new(vertices, &faces)
+}
+
+/// Returns cubes of side 1/4 in rows across z, every other one inside out, with all tops at z = 0.
+pub(super) fn field_of_cubes(count: u32) -> Result<TriangleMesh, MeshError> {
+    let cube = cuboid(0.125, 0.125, 0.125)?;
+    let wide = f64::from(count).sqrt().ceil() as u32;
+    let middle = 0.5 * f64::from(wide - 1);
+    let cubes: Result<Vec<TriangleMesh>, MeshError> = (0..count)
+        .map(|k| {
+            let place = |at: u32| 0.5 * (f64::from(at) - middle);
+            let cube = moved(&cube, dvec3(place(k % wide), place(k / wide), -0.125))?;
+            match k % 2 {
+                0 => Ok(cube),
+                _ => {
+                    let faces: Vec<[u32; 3]> =
+                        cube.faces().iter().map(|&[a, b, c]| [a, c, b]).collect();
+                    TriangleMesh::new(cube.vertices().to_vec(), &faces)
+                }
+            }
+        })
+        .collect();
+    together(&cubes?)
 }
 
 /// Returns a plate from z = −0.1 to 0.1 that reaches to 3, with a square hole about the origin.
@@ -166,6 +288,8 @@ mod tests {
             (comb(3), 1.0 - 0.2 + 0.4, 1e-12),
             (holed_plate(0.5), 0.2 * (36.0 - 1.0), 1e-12),
             (comb(64), 1.0 - 0.6 / 64.0 + 0.4, 1e-12),
+            (slit_plate(0.5), 0.2 * 6.0 * 5.0, 1e-12),
+            (sliver_slab(1e-6), 648.0, 1e-9),
         ];
         for (mesh, volume, slack) in cases {
             let topology = Topology::of(&mesh.unwrap());
@@ -175,6 +299,36 @@ mod tests {
                 "{volume}: {topology:?}"
             );
         }
+    }
+
+    #[test]
+    fn a_sliver_is_as_thin_as_it_should_be() {
+        let mesh = sliver_slab(1e-3).unwrap();
+        let height = |face: &[u32; 3]| {
+            let [a, b, c] = face.map(|v| mesh.vertices()[v as usize]);
+            let longest = (b - a).length().max((c - b).length()).max((a - c).length());
+            (b - a).cross(c - a).length() / longest
+        };
+        let thinnest = mesh.faces().iter().map(height).min_by(f64::total_cmp);
+        let expected = 1e-3 * std::f64::consts::SQRT_2;
+        assert!((thinnest.unwrap() - expected).abs() < 1e-9, "{thinnest:?}");
+    }
+
+    #[test]
+    fn cubes_in_a_field_are_turned_inside_out_one_by_one() {
+        let field = field_of_cubes(5).unwrap();
+        assert_eq!(field.faces().len(), 60);
+        let topology = Topology::of(&field);
+        assert_eq!(topology.wrong_way.count(), 2, "{topology:?}");
+        assert!(field.vertices().iter().all(|p| p.z <= 0.0));
+    }
+
+    #[test]
+    fn a_ribbon_rises_by_its_pitch() {
+        let ribbon = ribbon([0.9, 1.0], 0.2, 16, 3).unwrap();
+        assert_eq!(ribbon.faces().len(), 96);
+        let highest = ribbon.vertices().last().unwrap();
+        assert!((highest - dvec3(1.0, 0.0, 0.6)).length() < 1e-15);
     }
 
     #[test]

@@ -4,6 +4,7 @@ use super::family::{Family, Step, StepError};
 use super::judge::judge;
 use crate::method::Method;
 use crate::method::guarded::{Asked, Guarded, Setting};
+use crate::method::solver::{Claim, Reply};
 use crate::run::contest::{Journal, JournalError, Judged, Verdict, program_stamp, sum_up};
 use crate::run::measured::Trial;
 use crate::truth::{Referee, Surface};
@@ -186,14 +187,18 @@ impl<'s> Ready<'s> {
         };
         let mut guarded = match Guarded::start(setting, step.meshes.each_ref()) {
             Ok(guarded) => guarded,
-            Err(error) => return Ok(vec![self.trial(method, 0, None, not_started(error)?)]),
+            Err(error) => {
+                let note = error.to_string();
+                let trial = self.trial(method, 0, &Asked::Died, not_started(error)?);
+                return Ok(vec![Trial { note, ..trial }]);
+            }
         };
         let [a, b] = &self.surfaces;
         let mut trials = Vec::new();
         for (row, case) in step.cases.iter().enumerate() {
             let asked = guarded.ask(&case.query, PATIENCE)?;
-            let judged = judge(step, case, &Referee::new(a, b), asked);
-            trials.push(self.trial(method, row, Some(asked), judged));
+            let judged = judge(step, case, &Referee::new(a, b), &asked);
+            trials.push(self.trial(method, row, &asked, judged));
             if asked == Asked::CutOff {
                 break;
             }
@@ -201,11 +206,12 @@ impl<'s> Ready<'s> {
         Ok(trials)
     }
 
-    fn trial(&self, method: Method, row: usize, asked: Option<Asked>, judged: Judged) -> Trial {
-        let (steps, micros) = match asked {
-            Some(Asked::Answered { reply, micros }) => (reply.steps, micros),
-            Some(Asked::CutOff) => (0, PATIENCE.as_secs_f64() * 1e6),
-            Some(Asked::Died) | None => (0, f64::NAN),
+    fn trial(&self, method: Method, row: usize, asked: &Asked, judged: Judged) -> Trial {
+        let silent = Reply::new(Claim::Refused, 0);
+        let (reply, micros) = match asked {
+            Asked::Answered { reply, micros } => (reply, *micros),
+            Asked::CutOff => (&silent, PATIENCE.as_secs_f64() * 1e6),
+            Asked::Died => (&silent, f64::NAN),
         };
         Trial {
             scene: self.name.to_owned(),
@@ -214,10 +220,22 @@ impl<'s> Ready<'s> {
             row,
             id: row.to_string(),
             micros,
-            steps,
+            steps: reply.steps,
             verdict: judged.verdict.to_string(),
             error: judged.error.unwrap_or(f64::NAN),
+            time: reply.claim.time().unwrap_or(f64::NAN),
+            note: self.note(reply),
         }
+    }
+
+    /// Returns what the method says about its answer.
+    fn note(&self, reply: &Reply) -> String {
+        let raised = reply
+            .tolerance
+            .filter(|tolerance| *tolerance > self.step.tolerance);
+        let raised = raised.map(|tolerance| format!("tolerance raised to {tolerance:e}"));
+        let parts: Vec<String> = reply.reason.clone().into_iter().chain(raised).collect();
+        parts.join("; ")
     }
 }
 

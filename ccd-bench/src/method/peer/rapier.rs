@@ -85,7 +85,7 @@ impl Solver for Simulated {
         let turns = query.b.spin() != DVec3::ZERO;
         if turns || !(query.duration > 0.0) {
             let claim = Claim::Refused;
-            return Reply { claim, steps: 0 };
+            return Reply::new(claim, 0);
         }
         self.pose(query);
         self.world.step();
@@ -96,7 +96,7 @@ impl Solver for Simulated {
             },
             None => Claim::Unresolved { safe_until: 0.0 },
         };
-        Reply { claim, steps: 1 }
+        Reply::new(claim, 1)
     }
 }
 

@@ -295,9 +295,16 @@ fn queries_and_replies_survive_the_line() {
         Claim::Free,
         Claim::Unresolved { safe_until: 1e-300 },
     ] {
-        let reply = Reply { claim, steps: 7 };
-        let timed = TimedReply { reply, micros: 1.5 };
-        assert_eq!(parse_reply(&format_reply(&timed)), Some(timed));
+        let plain = Reply::new(claim, 7);
+        let full = Reply {
+            tolerance: Some(0.1 + 0.2),
+            reason: Some("a, b and c".to_owned()),
+            ..plain.clone()
+        };
+        for reply in [plain, full] {
+            let timed = TimedReply { reply, micros: 1.5 };
+            assert_eq!(parse_reply(&format_reply(&timed)), Some(timed));
+        }
     }
     for broken in ["", "1 2 3", "a b"] {
         assert_eq!(parse_query(broken), None);

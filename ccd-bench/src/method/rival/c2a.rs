@@ -119,26 +119,24 @@ impl Solver for C2a {
             self.closing.look_from(&frame);
             let found = match self.descend(&look, last.as_ref(), &mut pairs_left) {
                 Descent::Done(found) => found,
-                Descent::Within => return reply(Claim::Contact { time }, steps),
-                Descent::GaveUp => return reply(Claim::Unresolved { safe_until: time }, steps),
+                Descent::Within => return Reply::new(Claim::Contact { time }, steps),
+                Descent::GaveUp => {
+                    return Reply::new(Claim::Unresolved { safe_until: time }, steps);
+                }
             };
             if found.step >= look.remaining {
-                return reply(Claim::Free, steps);
+                return Reply::new(Claim::Free, steps);
             }
             let next = time + found.step;
             // Neither NaN nor a step below the resolution of time goes on.
             if !(next > time) {
-                return reply(Claim::Unresolved { safe_until: time }, steps);
+                return Reply::new(Claim::Unresolved { safe_until: time }, steps);
             }
             time = next;
             last = Some(found);
         }
-        reply(Claim::Unresolved { safe_until: time }, self.patience.steps)
+        Reply::new(Claim::Unresolved { safe_until: time }, self.patience.steps)
     }
-}
-
-fn reply(claim: Claim, steps: u64) -> Reply {
-    Reply { claim, steps }
 }
 
 impl C2a {

@@ -95,7 +95,7 @@ impl Contact {
         let start = courses[0].at(0.0).seen_from(&courses[1].at(0.0));
         if crossing(a, b, &start, &mut self.static_stack) == Crossing::Found {
             let claim = Claim::Contact { time: 0.0 };
-            return Reply { claim, steps: 0 };
+            return Reply::new(claim, 0);
         }
         // A body that does not turn encloses the other's motion in its frame without loss.
         let order = match courses[0].rate < courses[1].rate {
@@ -112,10 +112,7 @@ impl Contact {
             end: query.duration,
         };
         let claim = search.run();
-        Reply {
-            claim,
-            steps: search.clock.halvings,
-        }
+        Reply::new(claim, search.clock.halvings)
     }
 }
 
@@ -130,10 +127,7 @@ impl Solver for Contact {
     fn answer(&mut self, query: &Query) -> Reply {
         match screw(query) {
             Ok(query) => self.first_contact(&query),
-            Err(_) => Reply {
-                claim: Claim::Unresolved { safe_until: 0.0 },
-                steps: 0,
-            },
+            Err(_) => Reply::new(Claim::Unresolved { safe_until: 0.0 }, 0),
         }
     }
 }

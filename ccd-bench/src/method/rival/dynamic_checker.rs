@@ -125,10 +125,7 @@ impl Solver for DynamicChecker {
             pairs_left: self.patience.pairs,
         };
         let claim = self.search(query.duration, &mut task);
-        Reply {
-            claim,
-            steps: task.steps,
-        }
+        Reply::new(claim, task.steps)
     }
 }
 

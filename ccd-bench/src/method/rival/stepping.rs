@@ -61,10 +61,7 @@ impl Solver for Stepping {
             let time = query.duration * (k as f64 / steps as f64);
             if self.crosses(&courses, time) {
                 let claim = Claim::Contact { time };
-                return Reply {
-                    claim,
-                    steps: k + 1,
-                };
+                return Reply::new(claim, k + 1);
             }
             before = time;
         }
@@ -73,7 +70,7 @@ impl Solver for Stepping {
         } else {
             (Claim::Unresolved { safe_until: before }, MAX_SAMPLES)
         };
-        Reply { claim, steps }
+        Reply::new(claim, steps)
     }
 }
 

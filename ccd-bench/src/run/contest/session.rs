@@ -143,6 +143,14 @@ impl Answered {
         matches!(self, Answered::InTime { reply, .. } if refused(reply))
     }
 
+    /// Returns the time that is claimed, or NaN.
+    pub(super) fn time(&self) -> f64 {
+        match self {
+            Answered::InTime { reply, .. } => reply.claim.time().unwrap_or(f64::NAN),
+            Answered::CutOff { .. } | Answered::Died => f64::NAN,
+        }
+    }
+
     pub(super) fn micros(&self) -> f64 {
         match *self {
             Answered::InTime { micros, .. } => micros,

@@ -183,6 +183,8 @@ fn an_interrupted_journal_resumes_where_it_stopped() {
         steps: 3,
         verdict: "right".to_owned(),
         error: f64::NAN,
+        time: 0.5,
+        note: "a, \"b\"".to_owned(),
     };
     let add = |journal: &mut Journal, method: &str| {
         let trials = vec![trial(method, "0"), trial(method, "1")];

@@ -95,6 +95,8 @@ fn trials() -> Vec<Trial> {
             steps: 3,
             verdict: "right".to_owned(),
             error: f64::NAN,
+            time: f64::NAN,
+            note: String::new(),
         })
     };
     [

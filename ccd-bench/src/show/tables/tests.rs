@@ -16,6 +16,8 @@ fn trial(scene: &str, method: &str, id: &str, micros: f64, verdict: Verdict) -> 
         } else {
             f64::NAN
         },
+        time: f64::NAN,
+        note: String::new(),
     }
 }
 

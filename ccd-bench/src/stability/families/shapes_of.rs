@@ -1,9 +1,13 @@
 //! Many triangles, and bad ones.
 
 use super::super::family::{Course, Expected, Family, Step, StepError};
-use super::super::shapes::{TOOTH, ball, comb, cone, cube, layers, slab, with_bad_faces};
-use super::{family, tens};
+use super::super::shapes::{
+    TOOTH, ball, comb, cone, cube, field_of_cubes, layers, slab, sliver_slab, turned,
+    with_bad_faces,
+};
+use super::{family, tens, tenths};
 use ccd_core::glam::{DQuat, DVec3, dvec3};
+use ccd_core::order::greater;
 use std::f64::consts::PI;
 
 pub(super) fn families() -> Vec<Family> {
@@ -11,7 +15,7 @@ pub(super) fn families() -> Vec<Family> {
         |exponents: std::ops::RangeInclusive<i32>| exponents.map(|k| 2f64.powi(k)).collect();
     vec![
         family("comb into comb", "teeth", doubled(2..=9), comb_into_comb),
-        family("ball onto a slab", "triangles", tens(2..=5), ball_onto_slab),
+        family("ball onto a slab", "triangles", tens(2..=6), ball_onto_slab),
         family(
             "tip of many triangles",
             "triangles at the tip",
@@ -29,6 +33,24 @@ pub(super) fn families() -> Vec<Family> {
             "layers",
             tens(0..=4),
             layered,
+        ),
+        family(
+            "slab with a sliver",
+            "width of the sliver",
+            tenths(0..=12),
+            sliver,
+        ),
+        family(
+            "field of solids",
+            "solids",
+            doubled(2..=12),
+            field_of_solids,
+        ),
+        family(
+            "cones tip onto tip",
+            "way aside",
+            tenths(1..=12),
+            tip_onto_tip,
         ),
     ]
 }
@@ -81,4 +103,40 @@ fn bad_faces(count: f64) -> Result<Step, StepError> {
     let falling = Course::FALLING;
     let expected = Expected::at(0.625, 1e-14);
     Ok(step.turned_too(falling, Course::UNDER, expected)?)
+}
+
+/// A cube falls onto a slab, on a triangle that is next to none.
+fn sliver(width: f64) -> Result<Step, StepError> {
+    let step = Step::new(cube()?, sliver_slab(width)?);
+    let expected = Expected::at(0.625, 1e-14);
+    Ok(step.turned_too(Course::FALLING, Course::UNDER, expected)?)
+}
+
+/// A cube falls onto one mesh of many cubes, of which every other one is inside out.
+fn field_of_solids(count: f64) -> Result<Step, StepError> {
+    // The cube covers the middle of the field, where at least four others are.
+    let step = Step::new(cube()?, field_of_cubes(count as u32)?);
+    let expected = Expected::at(0.625, 1e-14);
+    Ok(step.turned_too(Course::FALLING, Course::STILL, expected)?)
+}
+
+/// Two cones meet beside their tips: where each has the other one's tip on a face.
+fn tip_onto_tip(aside: f64) -> Result<Step, StepError> {
+    let (sides, radius) = (8, 0.7);
+    // Turned by half a side, a face looks along x. It rises by 1 over the way to its middle.
+    let half_side = PI / f64::from(sides);
+    let cone = turned(&cone(sides, radius)?, DQuat::from_rotation_z(half_side))?;
+    let slope = 1.0 / (radius * half_side.cos());
+    let falling = Course::straight(dvec3(aside, 0.0, 2.0), -4.0 * DVec3::Z);
+    let upside_down = Course {
+        turned: DQuat::from_rotation_y(PI),
+        ..Course::STILL
+    };
+    let step = Step::new(cone.clone(), cone);
+    let step = Step {
+        tolerance: greater(0.1 * aside, 1e-11),
+        ..step
+    };
+    let expected = Expected::at((2.0 + aside * slope) / 4.0, 1e-14);
+    Ok(step.turned_too(falling, upside_down, expected)?)
 }

@@ -62,6 +62,6 @@ impl Solver for Cast {
             Ok(None) => Claim::Free,
             Err(_) => Claim::Unresolved { safe_until: 0.0 },
         };
-        Reply { claim, steps: 0 }
+        Reply::new(claim, 0)
     }
 }

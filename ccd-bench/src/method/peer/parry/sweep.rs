@@ -130,7 +130,7 @@ impl Solver for SweptPairs {
     fn answer(&mut self, query: &Query) -> Reply {
         let Some(count) = self.stretches(query) else {
             let claim = Claim::Unresolved { safe_until: 0.0 };
-            return Reply { claim, steps: 0 };
+            return Reply::new(claim, 0);
         };
         let time = |k: u64| query.duration * (k as f64 / count as f64);
         for k in 0..count {
@@ -138,16 +138,10 @@ impl Solver for SweptPairs {
             if let Some(share) = self.first_hit(query, from, to) {
                 let time = from + f64::from(share) * (to - from);
                 let claim = contact_at(time, query.duration);
-                return Reply {
-                    claim,
-                    steps: k + 1,
-                };
+                return Reply::new(claim, k + 1);
             }
         }
-        Reply {
-            claim: Claim::Free,
-            steps: count,
-        }
+        Reply::new(Claim::Free, count)
     }
 }
 

@@ -1,0 +1,158 @@
+//! Bodies that hold each other: hooks, threads, rings, slits.
+
+use super::super::family::{Course, Expected, Family, Step, StepError};
+use super::super::shapes::{cuboid, extruded, ribbon, sheet, slit_plate, stacked, torus, turned};
+use super::{family, tenths};
+use ccd_core::glam::{DQuat, DVec3, dvec3};
+use ccd_core::order::greater;
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+pub(super) fn families() -> Vec<Family> {
+    vec![
+        family("hooks pulled apart", "slack", tenths(1..=12), hooks),
+        family(
+            "ring onto a ring",
+            "way to contact",
+            tenths(1..=12),
+            ring_onto_ring,
+        ),
+        family(
+            "screw in its nut",
+            "turns",
+            vec![0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0],
+            screw,
+        ),
+        family(
+            "screw with little play",
+            "play against pitch",
+            vec![0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002],
+            tight_screw,
+        ),
+        family("sheet between two sheets", "gap", tenths(1..=12), between),
+        family("plate through a slit", "gap", tenths(1..=12), through_slit),
+        family(
+            "turned frames",
+            "degrees",
+            vec![0.0, 1.0, 10.0, 30.0, 45.0, 60.0, 80.0, 90.0, 120.0, 180.0],
+            turned_frame,
+        ),
+    ]
+}
+
+/// T15: two hooks, one in the other and turned across, are pulled apart until their bars meet.
+fn hooks(slack: f64) -> Result<Step, StepError> {
+    // A bar from z = 0 to 0.2 with an arm at either end.
+    let bar = 0.2;
+    let hook = extruded(
+        &[-0.5, -0.3, 0.3, 0.5],
+        &[0.0, bar, 2.0],
+        0.5 * bar,
+        |x, z| z == 0 || x != 1,
+    )?;
+    // Upside down, the other hook's bar is above this one's: its lower side is at 0.2 + slack.
+    let holding = Course {
+        turned: DQuat::from_rotation_z(FRAC_PI_2) * DQuat::from_rotation_x(PI),
+        ..Course::straight((2.0 * bar + slack) * DVec3::Z, DVec3::NEG_Z)
+    };
+    let step = Step::new(hook.clone(), hook);
+    let step = Step {
+        tolerance: greater(0.1 * slack, 1e-11),
+        ..step
+    };
+    Ok(step.turned_too(holding, Course::STILL, Expected::at(slack, 1e-14))?)
+}
+
+/// A ring falls flat onto an equal one; they meet all around.
+fn ring_onto_ring(way: f64) -> Result<Step, StepError> {
+    let (radius, tube) = (1.0, 0.25);
+    let falling = Course::straight((2.0 * tube + way) * DVec3::Z, DVec3::NEG_Z);
+    let step = Step::new(torus(radius, tube)?, torus(radius, tube)?);
+    let step = Step {
+        tolerance: greater(0.1 * way, 1e-11),
+        ..step
+    };
+    Ok(step.turned_too(falling, Course::STILL, Expected::at(way, 1e-14))?)
+}
+
+/// The pitch of the threads, and their inner and outer radii.
+const PITCH: f64 = 0.2;
+const THREAD: [f64; 2] = [0.9, 1.0];
+
+/// T18: the flank of a screw turns between those of its nut at the pitch of both.
+fn screw(turns: f64) -> Result<Step, StepError> {
+    threads(turns, 0.5)
+}
+
+/// T18: as above, by one turn, with one flank close to the other.
+fn tight_screw(play: f64) -> Result<Step, StepError> {
+    threads(1.0, play)
+}
+
+fn threads(turns: f64, play: f64) -> Result<Step, StepError> {
+    // A facet leaves its flank by a share of the pitch of (R − r) / (R + r) / (2 sides) at most, which is 4e-4
+    // here: the flanks keep more than half of their play.
+    let sides = 64;
+    let flank = ribbon(THREAD, PITCH, sides, 3)?;
+    let turning = Course {
+        spin: TAU * turns * DVec3::Z,
+        ..Course::straight(play * PITCH * DVec3::Z, turns * PITCH * DVec3::Z)
+    };
+    let step = Step::new(flank.clone(), flank);
+    let step = Step {
+        tolerance: 0.1 * play * PITCH,
+        ..step
+    };
+    Ok(step.turned_too(turning, Course::STILL, Expected::Free)?)
+}
+
+/// A sheet slides between two others, one on either side.
+fn between(gap: f64) -> Result<Step, StepError> {
+    let sliding = Course::straight(-3.0 * DVec3::X, 6.0 * DVec3::X);
+    free(
+        Step::new(sheet(1.0)?, stacked(1.0, [-gap, gap])?),
+        gap,
+        sliding,
+    )
+}
+
+/// T16: a plate, tilted, moves through a slit that is a gap wider than its edges reach.
+fn through_slit(gap: f64) -> Result<Step, StepError> {
+    let (long, thin, tilt) = (1.0f64, 0.1, 0.15f64);
+    let slit = long * tilt.sin() + thin * tilt.cos() + gap;
+    let moving = Course {
+        turned: DQuat::from_rotation_y(tilt),
+        ..Course::straight(-3.0 * DVec3::X, 6.0 * DVec3::X)
+    };
+    free(
+        Step::new(cuboid(long, 1.0, thin)?, slit_plate(slit)?),
+        gap,
+        moving,
+    )
+}
+
+fn free(step: Step, gap: f64, moving: Course) -> Result<Step, StepError> {
+    let step = Step {
+        tolerance: greater(0.25 * gap, 1e-11),
+        ..step
+    };
+    Ok(match gap >= 1e-12 {
+        true => step.turned_too(moving, Course::STILL, Expected::Free)?,
+        false => step.exactly(moving, Course::STILL, Expected::Free)?,
+    })
+}
+
+/// T3: a rod turns into a wall, and its mesh is turned in its frame, about the same axis or across it.
+fn turned_frame(degrees: f64) -> Result<Step, StepError> {
+    let (long, thin, wall) = (2.0f64, 0.05, 1.2);
+    let rod = cuboid(thin, 0.3, long)?;
+    let angle = (wall / long.hypot(thin)).asin() - thin.atan2(long);
+    let frame = DQuat::from_axis_angle(dvec3(0.48, 0.6, 0.64), degrees.to_radians());
+    let turning = Course {
+        turned: frame,
+        spin: PI * DVec3::Y,
+        ..Course::STILL
+    };
+    let step = Step::new(turned(&rod, frame.inverse())?, cuboid(1.0, 3.0, 3.0)?);
+    let expected = Expected::at(angle / PI, 1e-14);
+    Ok(step.turned_too(turning, Course::rest((wall + 1.0) * DVec3::X), expected)?)
+}
