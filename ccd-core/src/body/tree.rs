@@ -8,11 +8,13 @@ mod node;
 pub(crate) mod point_query;
 pub(crate) mod ray;
 mod slab;
+mod whole;
 
 pub(crate) use build::Layout;
 pub(crate) use group::{BoxGroup, LANES, Members, TriangleGroup, TriangleRow, unit_normal, up};
 pub(crate) use node::{Below, Node};
 pub(crate) use slab::Slab;
+pub(crate) use whole::Whole;
 
 use super::pieces::Pieces;
 use glam::DVec3;
@@ -30,6 +32,7 @@ pub(crate) struct Tree {
     triangles: Vec<TriangleRow>,
     /// The slabs about flat nodes, by the nodes' numbers.
     slabs: Vec<(NodeId, Slab)>,
+    whole: Whole,
     /// The largest distance of a point from the body's origin, rounding radii included.
     span: f64,
 }
@@ -108,6 +111,11 @@ impl Tree {
     /// The radius of the root's ball.
     pub(crate) fn radius(&self) -> f32 {
         self.nodes[0].radius
+    }
+
+    /// The box about all pieces.
+    pub(crate) fn whole(&self) -> &Whole {
+        &self.whole
     }
 
     /// The half sizes of the root's box.

@@ -1,7 +1,10 @@
 //! The exact height of a turning point along an axis.
 
+use crate::math::order::lesser;
 use crate::math::vector::length;
+use crate::tolerance::RATE_F64;
 use glam::DVec3;
+use std::f64::consts::{PI, TAU};
 
 /// The height of one moving point along a fixed axis:
 /// `height + drift τ + (cos ωτ − 1) p + sin ωτ q`.
@@ -23,6 +26,30 @@ impl Track {
     #[inline]
     pub(crate) fn rate_at(&self, angle: Angle) -> f64 {
         self.drift + self.omega * (angle.cos * self.q - angle.sin * self.p)
+    }
+
+    /// Returns the least height up to `horizon`, at which the body has turned by `end`, but for the drift that
+    /// all points of a body share; rounded down.
+    pub(crate) fn least_until(&self, horizon: f64, end: Angle) -> f64 {
+        let swing = (self.p * self.p + self.q * self.q).sqrt();
+        let turn = self.omega * horizon;
+        // Written so that NaN is a full turn.
+        let turned = match turn < TAU && !self.passes_trough(turn, end) {
+            true => lesser(0.0, end.cos_minus_one * self.p + end.sin * self.q),
+            false => -self.p - swing,
+        };
+        // The angle at the end is rounded, too.
+        self.height + (turned - RATE_F64 * swing * (1.0 + turn))
+    }
+
+    /// Returns whether the point is lowest on its circle before a turn by less than 2π ends.
+    fn passes_trough(&self, turn: f64, end: Angle) -> bool {
+        // The trough is at the angle of (−p, −q): compared to the start, and to the end.
+        let (after_start, before_end) = (-self.q, self.q * end.cos - self.p * end.sin);
+        match turn < PI {
+            true => after_start > 0.0 && before_end > 0.0,
+            false => after_start > 0.0 || before_end > 0.0,
+        }
     }
 
     /// Returns a bound of the second derivative.

@@ -2,7 +2,7 @@
 
 use super::fit::{Cloud, Sample, fit};
 use super::group::longest;
-use super::{Below, BoxGroup, LANES, Node, NodeId, Slab, Tree, TriangleRow};
+use super::{Below, BoxGroup, LANES, Node, NodeId, Slab, Tree, TriangleRow, Whole};
 use crate::body::hierarchy::{Hierarchy, HierarchyNode};
 use crate::body::piece::Piece;
 use crate::body::pieces::Pieces;
@@ -185,6 +185,7 @@ impl Layout {
             *group = TriangleRow::new(corners, after + start, nodes[parent as usize].centre);
         });
         Tree {
+            whole: Whole::about(&self.nodes[0].cloud(pieces), &mut Sample::EMPTY.clone()),
             slabs: self.slabs(pieces, &nodes),
             nodes,
             boxes,
@@ -216,10 +217,15 @@ impl Layout {
 
 impl Slot {
     fn fitted(&self, pieces: &Pieces, sample: &mut Sample) -> Node {
+        fit(&self.cloud(pieces), self.below, sample)
+    }
+
+    /// Returns what a box about the pieces has to hold.
+    fn cloud<'p>(&self, pieces: &'p Pieces) -> Cloud<'p> {
         let range = self.start as usize..self.end as usize;
         let triangles = pieces.all_triangles();
         let radii = range.clone().map(|k| pieces.get(k).radius);
-        let cloud = Cloud {
+        Cloud {
             points: pieces.points_of(range),
             radius: if triangles {
                 0.0
@@ -227,8 +233,7 @@ impl Slot {
                 radii.fold(0.0, greater)
             },
             triangles,
-        };
-        fit(&cloud, self.below, sample)
+        }
     }
 }
 

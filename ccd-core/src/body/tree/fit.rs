@@ -48,7 +48,7 @@ pub(crate) fn fit(cloud: &Cloud<'_>, below: Below, sample: &mut Sample) -> Node 
 /// Returns the frame whose box about the sample has the least surface: along the coordinates, along
 /// principal axes of the points, and, for triangles, along principal axes by area or about the mean
 /// normal.
-fn best_frame(sample: &Sample, of_triangles: bool) -> DMat3 {
+pub(super) fn best_frame(sample: &Sample, of_triangles: bool) -> DMat3 {
     let mut best = DMat3::IDENTITY;
     let mut least = sample.surface(&best);
     let mut consider = |frame: DMat3| {

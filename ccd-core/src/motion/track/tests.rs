@@ -233,3 +233,33 @@ fn the_published_bound_lets_the_mace_through_the_wall() {
         "{first} of {contact}"
     );
 }
+
+#[test]
+fn a_turning_point_is_never_below_its_least_height_and_reaches_it() {
+    let mut rng = rng(12);
+    let (mut past_trough, mut before_trough) = (0, 0);
+    for _ in 0..20_000 {
+        let (mut motion, n, arm) = setting(&mut rng);
+        motion.linear = DVec3::ZERO;
+        let track = Track::new(&motion, n, 0.3, arm);
+        let horizon = rng.random_range(0.0..1.0);
+        let least = track.least_until(horizon, Angle::new(track.omega * horizon));
+        let times = (0..=400).map(|k| horizon * f64::from(k) / 400.0);
+        let seen = times.map(|tau| track.at(tau)).fold(f64::INFINITY, lesser);
+        // Samples are rounded, too.
+        let rounding = 1e-15 * (1.0 + track.omega);
+        assert!(least <= seen + rounding, "{least} {seen} {track:?}");
+        // Between two samples the track bends by this much.
+        let step = horizon / 400.0;
+        let missed = track.bend() * step * step + 1e-13 * (1.0 + track.omega);
+        assert!(seen - least <= missed, "{seen} {least} {track:?}");
+        match least < track.at(horizon) - missed && least < track.at(0.0) - missed {
+            true => past_trough += 1,
+            false => before_trough += 1,
+        }
+    }
+    assert!(
+        past_trough > 1_000 && before_trough > 1_000,
+        "{past_trough} {before_trough}"
+    );
+}

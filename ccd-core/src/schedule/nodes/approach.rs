@@ -20,7 +20,7 @@ pub(super) struct Approach {
 
 impl Approach {
     /// Bounds it along a unit vector that points from A to B, at clock `s`.
-    pub(super) fn along(problem: &Problem<'_>, [a, b]: [&Placed<'_>; 2], n: DVec3, s: f64) -> Self {
+    pub(super) fn along(problem: &Problem<'_>, [a, b]: [&Placed; 2], n: DVec3, s: f64) -> Self {
         let (mut straight, mut turning, mut bend, mut speed) = (0.0, 0.0, 0.0, 0.0);
         for (side, node, n) in [(&problem.a, a, n), (&problem.b, b, -n)] {
             let (path, radius) = (&side.path, node.radius);

@@ -41,16 +41,16 @@ fn may_be_flat(side: &Side<'_>, id: NodeId) -> bool {
 }
 
 /// A flat node where its body is.
-struct Flat<'p> {
-    node: Placed<'p>,
+struct Flat {
+    node: Placed,
     /// None for a triangle, whose corners are known.
     half: Option<f64>,
     /// A unit vector.
     normal: DVec3,
 }
 
-impl<'p> Flat<'p> {
-    fn new(side: &Side<'p>, id: NodeId, s: f64) -> Option<Self> {
+impl Flat {
+    fn new(side: &Side<'_>, id: NodeId, s: f64) -> Option<Self> {
         let node = Placed::new(side, id, s);
         let tree = side.body.tree();
         let (normal, half) = match tree.get(id) {
@@ -84,7 +84,7 @@ impl<'p> Flat<'p> {
 }
 
 /// Returns the time for which a fixed plane keeps the nodes apart; `n` points along it either way.
-fn free_along(problem: &Problem<'_>, a: &Flat<'_>, b: &Flat<'_>, n: DVec3, s: f64) -> f64 {
+fn free_along(problem: &Problem<'_>, a: &Flat, b: &Flat, n: DVec3, s: f64) -> f64 {
     let way = b.node.centre - a.node.centre;
     let n = if n.dot(way) < 0.0 { -n } else { n };
     let kept = problem.rounding + problem.node_gap();

@@ -1,37 +1,64 @@
 //! Single nodes and triangles in f64, for looks closer than the eight bounds in f32.
 
-use crate::body::tree::{Named, Node, NodeId};
+use crate::body::tree::{Named, NodeId};
 use crate::math::order::{greater, lesser};
 use crate::math::vector::length;
 use crate::motion::pose::Frame;
 use crate::problem::Side;
 use crate::tolerance::BOX_AXES_F32;
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 
 /// A node or a triangle where its body is.
-pub(super) struct Placed<'p> {
+pub(super) struct Placed {
     frame: Frame,
-    shape: Shape<'p>,
+    shape: Shape,
     /// In the problem's coordinates, as everything that is handed in or out.
     pub(super) centre: DVec3,
     /// An upper bound of the points' distances from the centre.
     pub(super) radius: f64,
 }
 
-enum Shape<'p> {
-    Box(&'p Node),
+enum Shape {
+    Box {
+        /// Along the body's axes.
+        axes: [DVec3; 3],
+        half: [f64; 3],
+        /// The pieces' rounding radius, and the error of axes and half sizes.
+        slack: f64,
+    },
     /// The corners, relative to the centre.
     Triangle([DVec3; 3]),
 }
 
-impl<'p> Placed<'p> {
+impl Placed {
+    /// Places all of a body, by the box about it.
     #[inline]
-    pub(super) fn new(side: &Side<'p>, id: NodeId, s: f64) -> Self {
+    pub(super) fn whole(side: &Side<'_>, s: f64) -> Self {
+        let frame = side.path.frame(s);
+        let whole = side.body.tree().whole();
+        Placed {
+            frame,
+            shape: Shape::Box {
+                axes: [0, 1, 2].map(|k| whole.axes.col(k)),
+                half: whole.half.to_array(),
+                slack: whole.slack,
+            },
+            centre: frame.point(whole.centre),
+            radius: whole.radius,
+        }
+    }
+
+    #[inline]
+    pub(super) fn new(side: &Side<'_>, id: NodeId, s: f64) -> Self {
         let frame = side.path.frame(s);
         match side.body.tree().get(id) {
             Named::Node(node) => Placed {
                 frame,
-                shape: Shape::Box(node),
+                shape: Shape::Box {
+                    axes: node.axes.map(Vec3::as_dvec3),
+                    half: node.half.map(f64::from),
+                    slack: f64::from(node.rounding) + BOX_AXES_F32 * f64::from(node.radius),
+                },
                 centre: frame.point(node.centre),
                 radius: f64::from(node.radius),
             },
@@ -58,15 +85,28 @@ impl<'p> Placed<'p> {
     /// Returns the nearest point of the box, up to rounding; the centre of a triangle.
     #[inline]
     pub(super) fn project(&self, point: DVec3) -> DVec3 {
-        let Shape::Box(node) = &self.shape else {
+        let Shape::Box { axes, half, slack } = &self.shape else {
             return self.centre;
         };
         let way = self.frame.inverse_vector(point - self.centre);
         let along = |k: usize| {
-            let half = f64::from(node.half[k]) + f64::from(node.rounding);
-            axis(node, k) * greater(-half, lesser(half, way.dot(axis(node, k))))
+            let half = half[k] + slack;
+            axes[k] * greater(-half, lesser(half, way.dot(axes[k])))
         };
         self.centre + self.turned(along(0) + along(1) + along(2))
+    }
+
+    /// Returns the axis of the box that is nearest to a vector, pointing the same way; the vector itself for a
+    /// triangle.
+    pub(super) fn axis_along(&self, n: DVec3) -> DVec3 {
+        let Shape::Box { axes, .. } = &self.shape else {
+            return n;
+        };
+        let along = axes.map(|axis| self.turned(axis));
+        let nearest = along
+            .into_iter()
+            .max_by(|x, y| x.dot(n).abs().total_cmp(&y.dot(n).abs()));
+        nearest.map_or(n, |axis| if axis.dot(n) < 0.0 { -axis } else { axis })
     }
 
     /// Returns `max n·(x − centre)` over the points, for an axis of any length.
@@ -77,19 +117,14 @@ impl<'p> Placed<'p> {
                 let [a, b, c] = corners.map(|x| n.dot(x));
                 greater(a, greater(b, c))
             }
-            Shape::Box(node) => {
+            Shape::Box { axes, half, slack } => {
                 let (along, size) = (self.frame.inverse_vector(n), n.length());
-                let half = |k: usize| f64::from(node.half[k]) * along.dot(axis(node, k)).abs();
-                let rounding = f64::from(node.rounding) + BOX_AXES_F32 * self.radius;
+                let half = |k: usize| half[k] * along.dot(axes[k]).abs();
                 lesser(
-                    half(0) + half(1) + half(2) + rounding * size,
+                    half(0) + half(1) + half(2) + slack * size,
                     self.radius * size,
                 )
             }
         }
     }
-}
-
-fn axis(node: &Node, k: usize) -> DVec3 {
-    node.axes[k].as_dvec3()
 }

@@ -66,16 +66,13 @@ impl ScrewAxis {
 
 impl Profile {
     /// Returns the profile of a node; none if it surrounds the axis, or nearly.
-    pub(super) fn new(node: &Placed<'_>, axis: &ScrewAxis) -> Option<Self> {
+    pub(super) fn new(node: &Placed, axis: &ScrewAxis) -> Option<Self> {
         Profile::beside(node, axis, None)
     }
 
     /// Returns the profile that contains those of all parts, of which there is at least one; none if
     /// one of them surrounds the axis, or nearly.
-    pub(super) fn about<'p>(
-        mut parts: impl Iterator<Item = Placed<'p>>,
-        axis: &ScrewAxis,
-    ) -> Option<Self> {
+    pub(super) fn about(mut parts: impl Iterator<Item = Placed>, axis: &ScrewAxis) -> Option<Self> {
         let mut all = Profile::new(&parts.next()?, axis)?;
         for part in parts {
             let part = Profile::beside(&part, axis, Some(all.azimuth))?;
@@ -92,7 +89,7 @@ impl Profile {
     }
 
     /// Returns the profile with the azimuth that is nearest to a given one.
-    fn beside(node: &Placed<'_>, axis: &ScrewAxis, near: Option<f64>) -> Option<Self> {
+    fn beside(node: &Placed, axis: &ScrewAxis, near: Option<f64>) -> Option<Self> {
         let way = node.centre - axis.origin;
         let height = way.dot(axis.unit);
         let across = way - height * axis.unit;

@@ -157,6 +157,25 @@ impl<'a> Heights<'a> {
         }
     }
 
+    /// Returns how far the turning takes any of the points below [`Heights::least`] up to `horizon`; none if there
+    /// are many points.
+    pub(super) fn descent_until(&self, horizon: f64) -> Option<f64> {
+        if self.piece.ball().is_some() {
+            return None;
+        }
+        let end = self.angle(horizon);
+        let least = self
+            .tracks()
+            .map(|(track, _)| track.least_until(horizon, end))
+            .fold(f64::INFINITY, lesser);
+        Some(self.least - least)
+    }
+
+    /// Returns the rate at which all points rise, apart from what their turning does.
+    pub(super) fn drift(&self) -> f64 {
+        self.along.drift()
+    }
+
     /// Returns the least value of a function of the points after `tau`: of each by itself, or of the bound if
     /// there are many. The function falls with heights and rates.
     pub(super) fn least_of(&self, tau: f64, of: impl Fn(&Point) -> f64) -> f64 {
@@ -212,6 +231,44 @@ impl<'a> Heights<'a> {
     fn track(&self, point: DVec3) -> (Track, DVec3) {
         let arm = self.frame.rotation * (point - self.centre);
         (self.along.track(self.normal.dot(arm), arm), arm)
+    }
+}
+
+/// Returns the least free time of any two points.
+#[inline]
+pub(super) fn least_free(
+    above: &[Point],
+    below: &[Point],
+    free: impl Fn(&Point, &Point) -> f64,
+) -> f64 {
+    let free = &free;
+    let times = below
+        .iter()
+        .flat_map(|x| above.iter().map(move |y| free(y, x)));
+    times.fold(f64::INFINITY, lesser)
+}
+
+/// Returns a bound of the least free time of any two points: one body's points, each by itself, against a
+/// bound of the other's. The lowest point and the one that sinks fastest may be different ones, which a bound
+/// of both bodies takes for one. A body that does not turn loses nothing by its bound.
+pub(super) fn least_free_of_many(
+    above: &Heights<'_>,
+    below: &Heights<'_>,
+    tau: f64,
+    free: impl Fn(&Point, &Point) -> f64,
+) -> f64 {
+    let of_below = || {
+        let bound = above.bound(tau);
+        below.least_of(tau, |x| free(&bound, x))
+    };
+    let of_above = || {
+        let bound = below.bound(tau);
+        above.least_of(tau, |y| free(y, &bound))
+    };
+    match (above.straight(), below.straight()) {
+        (true, _) => of_below(),
+        (false, true) => of_above(),
+        (false, false) => greater(of_below(), of_above()),
     }
 }
 

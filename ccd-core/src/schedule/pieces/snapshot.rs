@@ -1,6 +1,6 @@
 //! Two pieces at one instant, and the time for which an axis keeps them apart from then on.
 
-use super::heights::{Heights, Point};
+use super::heights::{Heights, Point, least_free, least_free_of_many};
 use super::sweeping_piece::{Member, SweepingPiece};
 use crate::body::facing::Facing;
 use crate::body::piece::Piece;
@@ -325,7 +325,7 @@ impl<'p> Snapshot<'p> {
         };
         let points = self.pieces.points();
         self.look(points);
-        match (a.few(), b.few()) {
+        let crossing = match (a.few(), b.few()) {
             (Some(below), Some(above)) => first_crossing(self.horizon(), rounds, |tau| {
                 self.look(points);
                 least_free(
@@ -338,41 +338,25 @@ impl<'p> Snapshot<'p> {
                 self.look(points);
                 least_free_of_many(&b, &a, tau, free)
             }),
+        }?;
+        match self.turn_past(&a, &b, slack) {
+            true => None,
+            false => Some(crossing),
         }
     }
-}
 
-/// Returns the least free time of any two points.
-#[inline]
-fn least_free(above: &[Point], below: &[Point], free: impl Fn(&Point, &Point) -> f64) -> f64 {
-    let free = &free;
-    let times = below
-        .iter()
-        .flat_map(|x| above.iter().map(move |y| free(y, x)));
-    times.fold(f64::INFINITY, lesser)
-}
-
-/// Returns a bound of the least free time of any two points: one body's points, each by itself, against a
-/// bound of the other's. The lowest point and the one that sinks fastest may be different ones, which a bound
-/// of both bodies takes for one. A body that does not turn loses nothing by its bound.
-fn least_free_of_many(
-    above: &Heights<'_>,
-    below: &Heights<'_>,
-    tau: f64,
-    free: impl Fn(&Point, &Point) -> f64,
-) -> f64 {
-    let of_below = || {
-        let bound = above.bound(tau);
-        below.least_of(tau, |x| free(&bound, x))
-    };
-    let of_above = || {
-        let bound = below.bound(tau);
-        above.least_of(tau, |y| free(y, &bound))
-    };
-    match (above.straight(), below.straight()) {
-        (true, _) => of_below(),
-        (false, true) => of_above(),
-        (false, false) => greater(of_below(), of_above()),
+    /// Returns whether the points keep a slack for good although they turn: the steps towards the time at which
+    /// they are nearest become ever shorter.
+    fn turn_past(&self, a: &Heights<'_>, b: &Heights<'_>, slack: f64) -> bool {
+        let horizon = self.horizon();
+        let drift = (a.drift() + b.drift()) * horizon;
+        let left = slack + lesser(0.0, drift) - RATE_F64 * (a.speed() + b.speed()) * horizon;
+        // Written so that NaN is not past.
+        if (a.straight() && b.straight()) || !(left > 0.0) {
+            return false;
+        }
+        let descents = || Some(a.descent_until(horizon)? + b.descent_until(horizon)?);
+        descents().is_some_and(|descents| left - descents > 0.0)
     }
 }
 

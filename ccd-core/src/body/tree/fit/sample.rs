@@ -29,7 +29,7 @@ impl Sample {
     };
 
     /// Takes all points, or as many as there is room for at even steps; triangles are taken whole.
-    pub(super) fn take(&mut self, cloud: &Cloud<'_>) {
+    pub(in super::super) fn take(&mut self, cloud: &Cloud<'_>) {
         self.count = 0;
         let size = if cloud.triangles { 3 } else { 1 };
         let groups = cloud.points.len() / size;

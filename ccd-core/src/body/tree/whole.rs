@@ -1,0 +1,107 @@
+//! The box about all points of a body, in f64.
+
+use super::fit::{Cloud, Sample, best_frame};
+use crate::math::order::greater;
+use crate::math::vector::length;
+use crate::tolerance::U64;
+use glam::{DMat3, DVec3};
+
+/// The box about a body, as tight as f64 lets it be. The root's own box is rounded to f32: bodies that slide
+/// along each other closer than that would be taken for near each other everywhere.
+///
+/// # Guarantee
+/// For a unit vector n, no point of the body is farther along n from the centre than the sum of `half` times
+/// the parts of n along the axes, and `slack`.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Whole {
+    pub(crate) centre: DVec3,
+    /// The columns are orthonormal, up to what `slack` covers.
+    pub(crate) axes: DMat3,
+    pub(crate) half: DVec3,
+    /// An upper bound of the distances of the pieces' points from the centre.
+    pub(crate) radius: f64,
+    /// The pieces' rounding radius, and the error of axes and half sizes.
+    pub(crate) slack: f64,
+}
+
+impl Whole {
+    /// Fits the box to a body's points.
+    pub(super) fn about(cloud: &Cloud<'_>, sample: &mut Sample) -> Self {
+        sample.take(cloud);
+        let axes = best_frame(sample, cloud.triangles);
+        let turned = axes.transpose();
+        let (low, high) = crate::body::hierarchy::bounds(cloud.points.iter().map(|&p| turned * p));
+        let centre = axes * (0.5 * (low + high));
+        let (mut half, mut radius) = (DVec3::ZERO, 0.0);
+        for &point in cloud.points {
+            let way = point - centre;
+            let along = (turned * way).abs();
+            half = DVec3::new(
+                greater(half.x, along.x),
+                greater(half.y, along.y),
+                greater(half.z, along.z),
+            );
+            radius = greater(radius, length(way));
+        }
+        // A point's parts along the axes add up to it but for what the axes lack of an orthonormal frame: three
+        // times the largest entry. Differences, products and sums of parts are off by 8u of the radius each.
+        let off = turned * axes - DMat3::IDENTITY;
+        let largest = off
+            .to_cols_array()
+            .into_iter()
+            .fold(0.0, |sum, entry| greater(sum, entry.abs()));
+        Whole {
+            centre,
+            axes,
+            half,
+            radius: (radius + cloud.radius) * (1.0 + 8.0 * U64),
+            slack: cloud.radius + (3.0 * largest + 32.0 * U64) * radius,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tests::scene::{RngExt, direction, magnitude, rng, rotation};
+
+    #[test]
+    fn no_point_reaches_out_of_the_box_and_flat_faces_are_known_to_rounding() {
+        let mut rng = rng(5);
+        let mut sample = Sample::EMPTY;
+        for _ in 0..300 {
+            let size = magnitude(&mut rng, -9.0, 9.0);
+            let turn = rotation(&mut rng);
+            let count = rng.random_range(1..200);
+            // Points of a box's faces, which is turned and away from the origin.
+            let middle = 10.0 * size * direction(&mut rng);
+            let points: Vec<DVec3> = (0..3 * count)
+                .map(|k| {
+                    let mut at = direction(&mut rng);
+                    at[k % 3] = at[k % 3].signum();
+                    middle + turn * (size * at)
+                })
+                .collect();
+            let cloud = Cloud {
+                points: &points,
+                radius: 0.0,
+                triangles: rng.random_bool(0.5),
+            };
+            let whole = Whole::about(&cloud, &mut sample);
+            assert!(
+                whole.slack <= 1e-13 * size * 2.0,
+                "{} of {size}",
+                whole.slack
+            );
+            for _ in 0..20 {
+                let n = direction(&mut rng);
+                let along = (whole.axes.transpose() * n).abs();
+                let reach = along.dot(whole.half) + whole.slack;
+                for &point in &points {
+                    let height = n.dot(point - whole.centre);
+                    assert!(height <= reach, "{height} {reach}");
+                }
+            }
+        }
+    }
+}
