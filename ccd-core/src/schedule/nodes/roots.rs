@@ -2,13 +2,15 @@
 
 use super::approach::Approach;
 use super::placed::Placed;
+use crate::math::order::{greater, lesser};
 use crate::math::vector::unit;
 use crate::problem::{Problem, Side};
 use crate::tolerance::PROJECTIONS;
 use glam::DVec3;
 
 /// Returns whether a fixed plane between the boxes of both bodies keeps them farther apart than a
-/// contact is, all the time. It is across the way between the boxes' nearest points.
+/// contact is, all the time. It is across the way between the boxes' nearest points, across the way between
+/// their centres when these pass each other, or along a face of a box.
 ///
 /// # Guarantee
 /// Only bodies that are never in contact, up to the tolerance, nor inside each other, are told apart.
@@ -25,17 +27,24 @@ pub(crate) fn keep_apart(problem: &Problem<'_>) -> bool {
         on_a = a.project(on_b);
         on_b = b.project(on_a);
     }
-    let Some(n) = unit(on_b - on_a) else {
-        return false;
-    };
-    if keeps_apart(problem, [&a, &b], n) {
-        return true;
-    }
+    let nearest = unit(on_b - on_a);
+    let passing = unit(passing(problem, [&a, &b]));
+    let ways = [nearest, passing].into_iter().flatten();
     // Between faces that are next to each other the way is hardly known, but it is across them.
-    [&a, &b].into_iter().any(|whole| {
-        let along = whole.axis_along(n);
-        along != n && keeps_apart(problem, [&a, &b], along)
-    })
+    let along = ways
+        .clone()
+        .flat_map(|way| [&a, &b].map(|whole| whole.axis_along(way)));
+    ways.chain(along).any(|n| keeps_apart(problem, [&a, &b], n))
+}
+
+/// Returns the way from centre to centre when they are nearest, at their velocities of the start.
+fn passing(problem: &Problem<'_>, [a, b]: [&Placed; 2]) -> DVec3 {
+    let way = b.centre - a.centre;
+    let velocity =
+        problem.b.path.velocity_at(b.centre, 0.0) - problem.a.path.velocity_at(a.centre, 0.0);
+    let nearest = -way.dot(velocity) / velocity.length_squared();
+    // Without a velocity there is no such way.
+    way + velocity * greater(0.0, lesser(nearest, 1.0))
 }
 
 /// Returns whether a plane across a unit vector keeps the boxes apart.
