@@ -1,6 +1,9 @@
 //! Shows measurements as tables, charts and a page.
 
+pub mod atlas;
 pub mod chart;
+pub mod page;
 pub mod presentation;
 pub mod report;
 pub mod tables;
+pub mod view;

@@ -6,8 +6,9 @@
 //! | list the families | [`families()`] |
 //! | judge an answer | [`judge`] |
 //! | ask all methods, each in a process that can be stopped | [`Survey`] |
-//! | see how far each method follows | [`summary`], [`limits`], [`reach_map`], [`growth_map`] |
+//! | see how far each method follows | [`summary`], [`limits`], [`reach_map`], [`growth_map`], [`write_atlas`] |
 
+mod atlas;
 mod families;
 mod family;
 mod judge;
@@ -15,6 +16,7 @@ mod shapes;
 mod summary;
 mod survey;
 
+pub use atlas::write_atlas;
 pub use families::families;
 pub use family::{Case, Expected, Family, Step, StepError};
 pub use judge::judge;

@@ -2,7 +2,9 @@
 
 use super::chart::chosen;
 use crate::method::Method;
-use crate::stability::{Extent, Survey, families, growth_map, limits, reach_map, summary};
+use crate::stability::{
+    Extent, Survey, families, growth_map, limits, reach_map, summary, write_atlas,
+};
 use anyhow::Result;
 use clap::Args;
 use rigid_ccd::batch::ScheduleKind;
@@ -40,8 +42,8 @@ Verdicts: right; early and false are contacts that are none, within reach or not
 until which nothing touches; refused; late and missed are contacts that were passed; died is a process
 that ended; cut off one that was stopped.
 
-Files: trials.csv has every answer, chart.csv every step, limits.md and
-stability.svg show how far each method follows, growth.svg how its cost grows.
+Files: index.html is a page on which each cell of the maps opens; trials.csv has every answer, chart.csv
+every step; limits.md and stability.svg show how far each method follows, growth.svg how its cost grows.
 
 Examples:
   ccd-bench stability
@@ -85,6 +87,7 @@ pub(super) fn run(args: &StabilityArgs) -> Result<Exit> {
         let place = file.display().to_string();
         fs::write(&file, text).map_err(|source| CannotWrite { place, source })?;
     }
+    write_atlas(&survey, &journal, &args.out.join("index.html"))?;
     let summary = summary(&survey, &journal);
     let shown = writeln!(
         io::stdout(),

@@ -1,18 +1,13 @@
 //! One page that shows measurements: charts, tables, scenes in three dimensions. It works offline.
 
 mod data;
-#[cfg(test)]
-mod tests;
 
-use crate::show::chart::{ChartError, Charts};
+use crate::show::chart::Charts;
+use crate::show::page::{self, PageError, escape};
 use crate::show::tables::TextTable;
-use ccd_core::Answer;
-use ccd_decomp::TriangleMesh;
-use plotly::Plot;
-use rigid_ccd::table::motions::Query;
+use crate::show::view::{self, View};
 use std::fmt::Write;
-use std::path::{Path, PathBuf};
-use std::{fs, io};
+use std::path::Path;
 
 /// The content of the page.
 #[derive(Clone, Copy, Debug)]
@@ -29,58 +24,13 @@ pub struct Page<'a> {
     pub tables: &'a [TextTable],
 }
 
-/// A scene to view.
-#[derive(Clone, Debug)]
-pub struct View<'a> {
-    /// The scene's name.
-    pub scene: &'a str,
-    /// The mesh of body A.
-    pub a: &'a TriangleMesh,
-    /// The mesh of body B; equal meshes are stored once, for all views.
-    pub b: &'a TriangleMesh,
-    /// The motions of both bodies.
-    pub shots: Vec<Shot>,
-}
-
-/// A motion of a view, and its answer.
-#[derive(Clone, Debug)]
-pub struct Shot {
-    /// The motions.
-    pub query: Query,
-    /// The answer.
-    pub answer: Answer,
-}
-
-/// The page cannot be made.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum PageError {
-    /// A chart cannot be drawn.
-    #[error(transparent)]
-    Chart(#[from] ChartError),
-    /// The data for the page's scripts cannot be serialised.
-    #[error("the page's data: {0}")]
-    Data(#[from] serde_json::Error),
-    /// The file cannot be written.
-    #[error("cannot write {}: {source}", path.display())]
-    Write {
-        /// The file.
-        path: PathBuf,
-        /// The cause.
-        source: io::Error,
-    },
-}
-
 impl Page<'_> {
     /// Writes the page as one self-contained file.
     ///
     /// # Errors
     /// [`PageError`].
     pub fn write(&self, path: &Path) -> Result<(), PageError> {
-        fs::write(path, self.html()?).map_err(|source| PageError::Write {
-            path: path.to_owned(),
-            source,
-        })
+        page::write(path, &self.html()?)
     }
 
     /// Returns the text of the page.
@@ -90,18 +40,19 @@ impl Page<'_> {
     pub fn html(&self) -> Result<String, PageError> {
         let parts = [
             ("title", escape(self.title)),
-            ("style", include_str!("report/style.css").to_owned()),
+            ("style", page::STYLE.to_owned()),
             ("preface", self.preface_html()),
             ("charts", self.charts_html()?),
             ("tables", self.tables_html()),
+            ("view_controls", view::CONTROLS.to_owned()),
             ("measured", data::measured(&self.charts)?),
-            ("views", data::views(self.views)?),
-            ("plotly", plotly_script()),
+            ("views", view::data(self.views)?),
+            ("plotly", page::plotly()),
             ("charts_script", include_str!("report/charts.js").to_owned()),
-            ("view_script", include_str!("report/view.js").to_owned()),
+            ("view_script", view::SCRIPT.to_owned()),
             ("tables_script", include_str!("report/tables.js").to_owned()),
         ];
-        Ok(filled(include_str!("report/page.html"), &parts))
+        Ok(page::filled(include_str!("report/page.html"), &parts))
     }
 
     fn preface_html(&self) -> String {
@@ -155,34 +106,5 @@ fn table_html(table: &TextTable) -> String {
     )
 }
 
-/// Returns the template with every `{{name}}` replaced. Inserted text is not searched again.
-fn filled(template: &str, parts: &[(&str, String)]) -> String {
-    let mut pieces = template.split("{{");
-    let mut text = pieces.next().unwrap_or_default().to_owned();
-    for piece in pieces {
-        let (name, rest) = piece.split_once("}}").unwrap_or(("", piece));
-        if let Some((_, part)) = parts.iter().find(|(known, _)| *known == name) {
-            text.push_str(part);
-        }
-        text.push_str(rest);
-    }
-    text
-}
-
-/// Returns the first of the library's scripts. The other one renders formulas, and the page has none.
-fn plotly_script() -> String {
-    const END: &str = "</script>";
-    let scripts = Plot::offline_js_sources();
-    match scripts.split_once(END) {
-        Some((first, _)) => format!("{first}{END}"),
-        None => scripts,
-    }
-}
-
-/// Escapes a text for HTML.
-fn escape(text: &str) -> String {
-    text.replace('&', "&amp;")
-        .replace('<', "&lt;")
-        .replace('>', "&gt;")
-        .replace('"', "&quot;")
-}
+#[cfg(test)]
+mod tests;

@@ -275,6 +275,7 @@ pub(super) fn with_bad_faces(mesh: &TriangleMesh, count: usize) -> Result<Triang
 #[cfg(test)]
 mod tests {
     use super::*;
+    use ccd_core::order::greater;
     use ccd_decomp::Topology;
 
     #[test]
@@ -306,7 +307,8 @@ mod tests {
         let mesh = sliver_slab(1e-3).unwrap();
         let height = |face: &[u32; 3]| {
             let [a, b, c] = face.map(|v| mesh.vertices()[v as usize]);
-            let longest = (b - a).length().max((c - b).length()).max((a - c).length());
+            let sides = [b - a, c - b, a - c].map(DVec3::length);
+            let longest = sides.into_iter().fold(0.0, greater);
             (b - a).cross(c - a).length() / longest
         };
         let thinnest = mesh.faces().iter().map(height).min_by(f64::total_cmp);

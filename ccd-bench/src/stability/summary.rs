@@ -3,7 +3,7 @@
 use super::family::Family;
 use super::survey::{Survey, step_name};
 use crate::run::contest::{Journal, Verdict};
-use crate::run::measured::Cell;
+use crate::run::measured::{Cell, Trial};
 use crate::show::chart::{HeatCell, HeatKind, HeatMap, HeatRow};
 use crate::show::tables::TextTable;
 use ccd_core::order::greater;
@@ -68,20 +68,29 @@ struct Reach {
     worst: Verdict,
 }
 
-/// The worst verdict of each step and method.
-struct Worst<'j>(HashMap<(&'j str, &'j str), usize>);
+/// The worst answer to each step by each method, and how bad it is.
+pub(super) struct Answers<'j>(HashMap<(&'j str, &'j str), (usize, &'j Trial)>);
 
-impl<'j> Worst<'j> {
-    fn of(journal: &'j Journal) -> Self {
+impl<'j> Answers<'j> {
+    pub(super) fn of(journal: &'j Journal) -> Self {
         let mut worst = HashMap::new();
         for trial in journal.trials() {
             let same = |known: &Verdict| known.to_string() == trial.verdict;
             let bad = VERDICTS.iter().position(same).unwrap_or(VERDICTS.len() - 1);
             let so_far = worst.entry((trial.scene.as_str(), trial.method.as_str()));
-            let so_far = so_far.or_insert(bad);
-            *so_far = bad.max(*so_far);
+            let so_far = so_far.or_insert((bad, trial));
+            if bad > so_far.0 {
+                *so_far = (bad, trial);
+            }
         }
-        Worst(worst)
+        Answers(worst)
+    }
+
+    /// Returns the worst answer of a method to a step; none if it was not asked.
+    pub(super) fn worst(&self, family: &Family, value: f64, method: &str) -> Option<&'j Trial> {
+        let step = step_name(family, value);
+        let (_, trial) = self.0.get(&(step.as_str(), method))?;
+        Some(trial)
     }
 
     /// Returns how far a method followed a family; none if it was not asked.
@@ -90,7 +99,7 @@ impl<'j> Worst<'j> {
             .iter()
             .filter_map(|&value| {
                 let step = step_name(family, value);
-                Some((value, *self.0.get(&(step.as_str(), method))?))
+                Some((value, self.0.get(&(step.as_str(), method))?.0))
             })
             .collect();
         let worst = asked.iter().map(|&(_, bad)| bad).max()?;
@@ -109,14 +118,14 @@ impl<'j> Worst<'j> {
 /// Lists for each family and method the first value, from the easiest, at which not all answers are right, and
 /// the worst verdict there.
 pub fn limits(survey: &Survey, journal: &Journal) -> TextTable {
-    let worst = Worst::of(journal);
+    let answers = Answers::of(journal);
     let methods: Vec<String> = survey.methods.iter().map(ToString::to_string).collect();
     let mut header = vec!["family".to_owned(), "parameter".to_owned()];
     header.extend(methods.iter().cloned());
     let rows = survey.families.iter().map(|family| {
         let values = survey.extent.values(family);
         let limit = |method: &String| {
-            let limit = worst.reach(&values, family, method)?.limit?;
+            let limit = answers.reach(&values, family, method)?.limit?;
             Some(format!("{:e} {}", limit.value, limit.verdict))
         };
         let mut row = vec![family.name.to_owned(), family.parameter.to_owned()];
@@ -137,9 +146,9 @@ pub fn limits(survey: &Survey, journal: &Journal) -> TextTable {
 
 /// Returns the map of how far each method followed each family.
 pub fn reach_map(survey: &Survey, journal: &Journal) -> HeatMap {
-    let worst = Worst::of(journal);
+    let answers = Answers::of(journal);
     map(survey, HeatKind::Reach, |family, values, method| {
-        let reach = worst.reach(values, family, method)?;
+        let reach = answers.reach(values, family, method)?;
         let limit = reach.limit.map(|limit| format!("{:e}", limit.value));
         Some(HeatCell::Reach {
             worst: reach.worst,

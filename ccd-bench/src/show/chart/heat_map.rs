@@ -55,11 +55,11 @@ pub enum HeatCell {
 }
 
 /// The words of a map.
-struct Words {
+pub(in crate::show) struct Words {
     name: &'static str,
-    title: &'static str,
-    remark: &'static str,
-    legend: &'static [(&'static str, RGBColor)],
+    pub(in crate::show) title: &'static str,
+    pub(in crate::show) remark: &'static str,
+    pub(in crate::show) legend: &'static [(&'static str, RGBColor)],
 }
 
 const REACH: Words = Words {
@@ -122,17 +122,17 @@ const WARNING: RGBColor = COLOURS[1];
 const BLACK: RGBColor = COLOURS[6];
 
 /// The look of a cell.
-struct Look {
-    fill: RGBColor,
-    ink: RGBColor,
+pub(in crate::show) struct Look {
+    pub(in crate::show) fill: RGBColor,
+    pub(in crate::show) ink: RGBColor,
     /// Two lines of text.
-    lines: [String; 2],
+    pub(in crate::show) lines: [String; 2],
     /// The share of the width that a bar takes.
-    bar: f64,
+    pub(in crate::show) bar: f64,
 }
 
 impl HeatKind {
-    fn words(self) -> &'static Words {
+    pub(in crate::show) fn words(self) -> &'static Words {
         match self {
             HeatKind::Reach => &REACH,
             HeatKind::Growth => &GROWTH,
@@ -141,7 +141,7 @@ impl HeatKind {
 }
 
 impl HeatCell {
-    fn look(&self) -> Look {
+    pub(in crate::show) fn look(&self) -> Look {
         match self {
             HeatCell::Reach {
                 worst,

@@ -2,8 +2,10 @@
 
 use crate::scene::Scene;
 use crate::show::chart::Charts;
-use crate::show::report::{Page, PageError, Shot, View};
+use crate::show::page::PageError;
+use crate::show::report::Page;
 use crate::show::tables::TextTable;
+use crate::show::view::{Shot, View};
 use ccd_core::{Config, InputError, Instructions, Outcome};
 use rigid_ccd::batch::SolverKind;
 use rigid_ccd::batch::solve;
@@ -68,8 +70,7 @@ fn view(scene: &Scene) -> Result<View<'_>, InputError> {
         };
         if *seen < most {
             *seen += 1;
-            let query = query.clone();
-            shots.push(Shot { query, answer });
+            shots.push(Shot::answered(query.clone(), &answer));
         }
         if (contacts, others) == (CONTACTS, OTHERS) {
             break;

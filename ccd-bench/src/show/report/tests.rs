@@ -2,13 +2,16 @@ use super::*;
 use crate::run::measured::Cell;
 use crate::scene::model::Model;
 use crate::show::chart::{Family, MethodFacts, SceneFacts};
+use crate::show::view::Shot;
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{Config, Instructions, Motion, Pose};
+use ccd_decomp::TriangleMesh;
 use ccd_decomp::{Detail, body_from_mesh};
 use rigid_ccd::batch::SolverKind;
 use rigid_ccd::batch::{Bodies, solve};
+use rigid_ccd::table::motions::Query;
 use serde_json::Value;
 
 fn mesh() -> TriangleMesh {
@@ -30,7 +33,7 @@ fn shot(mesh: &TriangleMesh, aside: f64) -> Shot {
     let bodies = Bodies { a: &body, b: &body };
     let mut solver = SolverKind::default().solver(Instructions::Best);
     let answer = solve(bodies, &query, &Config::default(), solver.as_mut()).unwrap();
-    Shot { query, answer }
+    Shot::answered(query, &answer)
 }
 
 fn cell() -> Cell {

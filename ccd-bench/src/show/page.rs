@@ -1,0 +1,79 @@
+//! What all pages share: the template, the style, the library that draws.
+
+use super::chart::ChartError;
+use plotly::Plot;
+use serde::Serialize;
+use std::path::{Path, PathBuf};
+use std::{fs, io};
+
+/// The style of all pages.
+pub(super) const STYLE: &str = include_str!("page/style.css");
+
+/// A page cannot be made.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum PageError {
+    /// A chart cannot be drawn.
+    #[error(transparent)]
+    Chart(#[from] ChartError),
+    /// The data for the page's scripts cannot be serialised.
+    #[error("the page's data: {0}")]
+    Data(#[from] serde_json::Error),
+    /// The file cannot be written.
+    #[error("cannot write {}: {source}", path.display())]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// The cause.
+        source: io::Error,
+    },
+}
+
+/// Writes a page into a file.
+///
+/// # Errors
+/// [`PageError::Write`].
+pub(super) fn write(path: &Path, html: &str) -> Result<(), PageError> {
+    fs::write(path, html).map_err(|source| PageError::Write {
+        path: path.to_owned(),
+        source,
+    })
+}
+
+/// Returns the template with every `{{name}}` replaced. Inserted text is not searched again.
+pub(super) fn filled(template: &str, parts: &[(&str, String)]) -> String {
+    let mut pieces = template.split("{{");
+    let mut text = pieces.next().unwrap_or_default().to_owned();
+    for piece in pieces {
+        let (name, rest) = piece.split_once("}}").unwrap_or(("", piece));
+        if let Some((_, part)) = parts.iter().find(|(known, _)| *known == name) {
+            text.push_str(part);
+        }
+        text.push_str(rest);
+    }
+    text
+}
+
+/// Returns the library that draws, as a script. Its other script renders formulas, and no page has any.
+pub(super) fn plotly() -> String {
+    const END: &str = "</script>";
+    let scripts = Plot::offline_js_sources();
+    let first = match scripts.split_once(END) {
+        Some((first, _)) => format!("{first}{END}"),
+        None => scripts,
+    };
+    format!("{}{first}", include_str!("page/canvas.html"))
+}
+
+/// Escapes a text for HTML.
+pub(super) fn escape(text: &str) -> String {
+    text.replace('&', "&amp;")
+        .replace('<', "&lt;")
+        .replace('>', "&gt;")
+        .replace('"', "&quot;")
+}
+
+/// Serialises as JSON in which no tag can begin.
+pub(super) fn json(value: &impl Serialize) -> Result<String, serde_json::Error> {
+    Ok(serde_json::to_string(value)?.replace('<', "\\u003c"))
+}

@@ -1,0 +1,210 @@
+//! The page of the maps: what opens at each cell.
+
+use super::family::{Case, Expected, Family, Step};
+use super::summary::{Answers, growth_map, reach_map};
+use super::survey::{Extent, Survey};
+use crate::run::contest::{Journal, Verdict};
+use crate::run::measured::Trial;
+use crate::show::atlas::{Atlas, Detail, StepLine};
+use crate::show::page::PageError;
+use crate::show::view::{Shot, View};
+use ccd_core::glam::DVec3;
+use ccd_core::{InputError, Motion, Pose};
+use ccd_decomp::TriangleMesh;
+use rigid_ccd::table::motions::Query;
+use std::path::Path;
+
+/// Bodies of more triangles have no picture, which would make the page too large.
+const MOST_TRIANGLES: usize = 5_000;
+
+const PREFACE: &str = "\
+Each family is a scene with one parameter that makes it harder, and exact answers. Every method was asked \
+about every value. Click on a cell: it opens the answers, the scene at the time of the first wrong one, and \
+the command that asks again.";
+
+/// Writes the page of both maps.
+///
+/// # Errors
+/// [`PageError`].
+pub fn write_atlas(survey: &Survey, journal: &Journal, path: &Path) -> Result<(), PageError> {
+    let answers = Answers::of(journal);
+    let mut pictures = Vec::new();
+    let details: Vec<Vec<Option<Detail>>> = survey
+        .families
+        .iter()
+        .map(|family| details(survey, family, &answers, &mut pictures))
+        .collect();
+    let views: Vec<View<'_>> = pictures.iter().map(Picture::view).collect();
+    let page = Atlas {
+        title: "Where methods fail",
+        preface: PREFACE,
+        maps: &[reach_map(survey, journal), growth_map(survey, journal)],
+        details: &details,
+        views: &views,
+    };
+    page.write(path)
+}
+
+/// A step that is shown, and the answers that are.
+struct Picture {
+    name: String,
+    meshes: [TriangleMesh; 2],
+    shots: Vec<Shot>,
+}
+
+impl Picture {
+    fn view(&self) -> View<'_> {
+        View {
+            scene: &self.name,
+            a: &self.meshes[0],
+            b: &self.meshes[1],
+            shots: self.shots.clone(),
+        }
+    }
+}
+
+/// Returns what opens at the cells of a family; adds the pictures that they need.
+fn details(
+    survey: &Survey,
+    family: &Family,
+    answers: &Answers<'_>,
+    pictures: &mut Vec<Picture>,
+) -> Vec<Option<Detail>> {
+    let steps: Vec<(f64, Option<Step>)> = survey
+        .extent
+        .values(family)
+        .into_iter()
+        .map(|value| (value, (family.make)(value).ok()))
+        .collect();
+    survey
+        .methods
+        .iter()
+        .map(|method| {
+            let method = method.to_string();
+            let mut lines = Vec::new();
+            let mut view = None;
+            for (value, step) in &steps {
+                let (Some(trial), Some(step)) = (answers.worst(family, *value, &method), step)
+                else {
+                    continue;
+                };
+                let case = step.cases.get(trial.row);
+                lines.push(line(*value, trial, case));
+                let wrong = trial.verdict != Verdict::Right.to_string();
+                if let (true, None, Some(case)) = (wrong, view, case) {
+                    let name = format!("{} {value:e}", family.name);
+                    view = picture(pictures, &name, step)
+                        .and_then(|at| Some([at, pictures[at].add(&method, trial, case)?]));
+                }
+            }
+            let full = if survey.extent == Extent::Full {
+                " --full"
+            } else {
+                ""
+            };
+            (!lines.is_empty()).then(|| Detail {
+                command: format!(
+                    "ccd-bench stability{full} --families '{}' --methods '{method}'",
+                    family.name
+                ),
+                steps: lines,
+                view,
+            })
+        })
+        .collect()
+}
+
+/// Returns the number of the picture of a step, which is made on first use; none of large bodies.
+fn picture(pictures: &mut Vec<Picture>, name: &str, step: &Step) -> Option<usize> {
+    let triangles: usize = step.meshes.iter().map(|mesh| mesh.faces().len()).sum();
+    if triangles > MOST_TRIANGLES {
+        return None;
+    }
+    let known = pictures.iter().position(|picture| picture.name == name);
+    Some(known.unwrap_or_else(|| {
+        pictures.push(Picture {
+            name: name.to_owned(),
+            meshes: step.meshes.clone(),
+            shots: Vec::new(),
+        });
+        pictures.len() - 1
+    }))
+}
+
+impl Picture {
+    /// Adds an answer, and returns its number; none if the motion cannot be shown.
+    fn add(&mut self, method: &str, trial: &Trial, case: &Case) -> Option<usize> {
+        let duration = case.query.duration;
+        let exact = match case.expected {
+            Expected::Contact { hi, .. } => Some(hi),
+            Expected::Start => Some(0.0),
+            Expected::Free => None,
+        };
+        let claimed = Some(trial.time).filter(|time| (0.0..=duration).contains(time));
+        self.shots.push(Shot {
+            query: near_origin(&case.query).ok()?,
+            name: format!("{method}: {}", trial.verdict),
+            status: format!(
+                "{}: {}. Exact: {}.",
+                trial.verdict,
+                given(trial),
+                exactly(case)
+            ),
+            time: claimed.or(exact),
+            contact: None,
+        });
+        Some(self.shots.len() - 1)
+    }
+}
+
+/// Moves a query's world, so that body B starts at its origin: pictures are drawn in single precision.
+fn near_origin(query: &Query) -> Result<Query, InputError> {
+    let origin = query.b.start().translation();
+    let moved = |motion: &Motion| -> Result<Motion, InputError> {
+        let start = motion.start();
+        let place: DVec3 = start.translation() - origin;
+        let pose = Pose::new(place, start.rotation())?;
+        Motion::about(pose, motion.velocity(), motion.spin(), motion.centre())
+    };
+    Ok(Query {
+        a: moved(&query.a)?,
+        b: moved(&query.b)?,
+        ..query.clone()
+    })
+}
+
+fn line(value: f64, trial: &Trial, case: Option<&Case>) -> StepLine {
+    StepLine {
+        value: format!("{value:e}"),
+        verdict: trial.verdict.clone(),
+        exact: case.map_or_else(String::new, exactly),
+        given: given(trial),
+        cost: match trial.micros.is_nan() {
+            true => String::new(),
+            false => format!("{:.1} µs, {} steps", trial.micros, trial.steps),
+        },
+    }
+}
+
+/// Describes the exact answer of a query.
+fn exactly(case: &Case) -> String {
+    match case.expected {
+        Expected::Contact { lo, hi } => format!("contact at {:.15}", 0.5 * (lo + hi)),
+        Expected::Free => "free".to_owned(),
+        Expected::Start => "contact at the start".to_owned(),
+    }
+}
+
+/// Describes the answer of a method.
+fn given(trial: &Trial) -> String {
+    let time = match trial.time.is_nan() {
+        true => String::new(),
+        false => format!("{:.15}", trial.time),
+    };
+    let parts = [time, trial.note.clone()];
+    let parts: Vec<String> = parts.into_iter().filter(|part| !part.is_empty()).collect();
+    match parts.is_empty() {
+        true => "no time".to_owned(),
+        false => parts.join("; "),
+    }
+}
