@@ -7,7 +7,7 @@ mod source;
 use crate::case::Case;
 use crate::engine::{Bodies, Kind, Method, Trees};
 use crate::trial::ask;
-use ccd_core::{Config, Instructions, Outcome};
+use ccd_core::{Config, ContactsError, Instructions, Outcome};
 pub use encode::encode;
 
 /// A query, and whom to ask.
@@ -45,7 +45,8 @@ fn equal_bits(case: &Case) {
         let answer = Method::Direct.solve(&problem);
         if let Outcome::Contact { time, .. } = answer.outcome {
             let contacts = problem.contacts_at(time);
-            assert!(contacts.is_ok(), "{contacts:?}\n{}", case.reproducer());
+            let answered = matches!(contacts, Ok(_) | Err(ContactsError::TooMany { .. }));
+            assert!(answered, "{contacts:?}\n{}", case.reproducer());
         }
         // Its text tells all numbers apart, and NaN equals itself.
         Some(format!("{:?}", answer.outcome))

@@ -226,3 +226,17 @@ fn a_lone_needle_through_an_edge_is_inside() {
         Containment::Inside(Overlap::BInsideA(_))
     ));
 }
+
+/// Found by the fuzz target `query`: the ways to the corners are long, and the volumes of them are off by
+/// more than the height of the face.
+#[test]
+fn points_near_very_long_faces_are_decided() {
+    let long = cube(1.0, 1).into_iter().map(|face| {
+        let stretched = |p: DVec3| p * DVec3::new(4.0, 4.0e10, 0.125) + DVec3::Y;
+        face.map(stretched)
+    });
+    let beam = solid(&long.collect::<Vec<Triangle>>());
+    assert_eq!(contains(&beam, DVec3::Z * 1.875), Some(false));
+    assert_eq!(contains(&beam, DVec3::Z * 0.0625), Some(true));
+    assert_eq!(contains(&beam, DVec3::X * 3.75), Some(true));
+}
