@@ -16,29 +16,25 @@
     reason = "a program, not a library"
 )]
 
-mod case;
-mod course;
-mod double;
 mod draw;
-mod engine;
 mod families;
-mod judge;
-mod nearest;
-mod referee;
 mod shapes;
-mod solid;
 mod tally;
 mod trial;
-mod vector;
 
+use ccd_fuzz::targets::encode;
+use ccd_fuzz::{case, course, engine, judge, vector};
 use clap::{Parser, ValueEnum};
 use families::Family;
 use indicatif::{ProgressBar, ProgressStyle};
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Mutex;
 use tally::Tally;
-use trial::Watch;
+use trial::{Trial, Watch};
 
 /// Random queries from families of hard cases, judged in double-double.
 #[derive(Parser)]
@@ -61,6 +57,9 @@ struct Args {
     /// Drop triangles of a failed case for as long as it fails
     #[arg(long)]
     shrink: bool,
+    /// A folder to write the queries to, as seeds of the fuzz target `query`; those too large for it are left out
+    #[arg(long)]
+    seeds: Option<PathBuf>,
     /// The number of failures of a kind to print
     #[arg(long, default_value_t = 2)]
     print: usize,
@@ -105,6 +104,11 @@ fn run(family: Family, args: &Args) -> bool {
     let watch = Watch::start(family, args.seed);
     numbers.into_par_iter().for_each(|number| {
         let trial = trial::run(family, args.seed, number, &watch);
+        if let Some(folder) = &args.seeds
+            && let Err(error) = write_seed(folder, family, number, &trial)
+        {
+            bar.suspend(|| eprintln!("{}: {error}", folder.display()));
+        }
         if args.only.is_some() {
             bar.suspend(|| println!("{trial}"));
         }
@@ -114,7 +118,12 @@ fn run(family: Family, args: &Args) -> bool {
                     true => trial::shrunk(&trial.case, failure),
                     false => trial.case.clone(),
                 };
-                bar.suspend(|| println!("{}", failure.report(family, args.seed, number, &case)));
+                bar.suspend(|| {
+                    println!(
+                        "{}",
+                        trial::report(failure, family, args.seed, number, &case)
+                    )
+                });
             }
         }
         bar.inc(1);
@@ -126,4 +135,15 @@ fn run(family: Family, args: &Args) -> bool {
         tally.assert_representative();
     }
     tally.failed()
+}
+
+/// Writes the query of a trial as a seed of the fuzz target `query`, asked of a method that goes with its number.
+fn write_seed(folder: &Path, family: Family, number: u64, trial: &Trial) -> io::Result<()> {
+    match encode(&trial.case, (number % 15) as u8) {
+        Some(bytes) => fs::write(
+            folder.join(format!("{family:?}-{number}").to_lowercase()),
+            bytes,
+        ),
+        None => Ok(()),
+    }
 }

@@ -44,20 +44,7 @@ pub fn tetrahedron(draw: &mut Draw) -> Shape {
 }
 
 pub fn cuboid(half: [f64; 3]) -> Shape {
-    let sign = |k: usize, bit: usize| if k >> bit & 1 == 1 { 1.0 } else { -1.0 };
-    let corner = |k| [0, 1, 2].map(|bit| sign(k, bit) * half[bit]);
-    let sides = [
-        [0, 4, 6, 2],
-        [1, 3, 7, 5],
-        [0, 1, 5, 4],
-        [2, 6, 7, 3],
-        [0, 2, 3, 1],
-        [4, 5, 7, 6],
-    ];
-    let faces = sides
-        .iter()
-        .flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]);
-    shape((0..8).map(corner).collect(), faces.collect(), Form::Convex)
+    Shape::cuboid(half)
 }
 
 /// Returns a tube around the z axis, of quads that are not flat: closed, and hollow in the middle.

@@ -162,7 +162,10 @@ impl Crossings {
         let height = match ahead == [Sign::Positive; 3] {
             true => Sign::Positive,
             _ if height.abs() <= start.slack * normal => Sign::Unclear,
-            false => Sign::of(height, size(a) * size(b) * size(c)),
+            false => match Sign::of(height, size(a) * size(b) * size(c)) {
+                Sign::Unclear => by_edges(triangle, corners, sign),
+                clear => clear,
+            },
         };
         match height {
             Sign::Positive => self.beyond += sign,
@@ -174,4 +177,22 @@ impl Crossings {
         }
         Some(())
     }
+}
+
+/// Returns the sign of a triangle's height above the start, by its edges: they may be far shorter than the
+/// ways to its corners.
+fn by_edges(triangle: [DVec3; 3], corners: [DVec3; 3], sign: i32) -> Sign {
+    let size = |p: DVec3| p.abs().element_sum();
+    let signs = [0, 1, 2].map(|k| {
+        let (next, last) = ((k + 1) % 3, (k + 2) % 3);
+        let [way, p, q] = [
+            corners[k],
+            triangle[next] - triangle[k],
+            triangle[last] - triangle[k],
+        ];
+        let height = f64::from(sign) * way.dot(p.cross(q));
+        Sign::of(height, size(way) * size(p) * size(q))
+    });
+    let clear = signs.into_iter().find(|&sign| sign != Sign::Unclear);
+    clear.unwrap_or(Sign::Unclear)
 }

@@ -154,9 +154,10 @@ impl Search<'_> {
     /// and a point of the solid below or in it.
     fn piece(&self, piece: u32) -> Found {
         let body = self.inner.body;
-        let corners = match body.pieces().len() {
-            1 => &[][..],
-            _ => body.pieces().get(piece as usize).points,
+        let corners = match body.pieces().get(piece as usize) {
+            // A piece with a volume shares no corner if it is alone: its middle decides.
+            alone if body.pieces().len() == 1 && !alone.is_flat() => &[],
+            piece => piece.points,
         };
         let mut inside = corners.iter().map(|&p| self.point(p));
         if let Some(found) = inside.find(|found| matches!(found, Found::Inside(_))) {

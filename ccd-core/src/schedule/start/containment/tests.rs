@@ -207,3 +207,36 @@ fn a_triangle_through_the_waist_of_an_octahedron_is_inside() {
     let above = Body::new(&pieces(&moved(&[plate], DVec3::Z)), Volume::Surface).unwrap();
     assert_eq!(found(&above), Containment::Outside);
 }
+
+/// Found by the fuzz target `query`: no face meets it but at an edge, and its end is inside.
+#[test]
+fn a_lone_needle_through_an_edge_is_inside() {
+    let needle = [-4.0 * DVec3::Z, DVec3::ZERO, DVec3::ZERO];
+    let needle = Body::new(&pieces(&[needle]), Volume::Surface).unwrap();
+    let cube = cube(1.0, 1);
+    // The faces whose diagonal it passes through.
+    let below = |face: &Triangle| face.iter().all(|corner| corner.z < 0.0);
+    let touching: Vec<[u32; 2]> = (0..12)
+        .filter(|&k| below(&cube[k as usize]))
+        .map(|k| [k, 0])
+        .collect();
+    assert_eq!(touching.len(), 2);
+    assert!(matches!(
+        touching_at_start(&solid(&cube), &needle, &touching),
+        Containment::Inside(Overlap::BInsideA(_))
+    ));
+}
+
+/// Found by the fuzz target `query`: the ways to the corners are long, and the volumes of them are off by
+/// more than the height of the face.
+#[test]
+fn points_near_very_long_faces_are_decided() {
+    let long = cube(1.0, 1).into_iter().map(|face| {
+        let stretched = |p: DVec3| p * DVec3::new(4.0, 4.0e10, 0.125) + DVec3::Y;
+        face.map(stretched)
+    });
+    let beam = solid(&long.collect::<Vec<Triangle>>());
+    assert_eq!(contains(&beam, DVec3::Z * 1.875), Some(false));
+    assert_eq!(contains(&beam, DVec3::Z * 0.0625), Some(true));
+    assert_eq!(contains(&beam, DVec3::X * 3.75), Some(true));
+}

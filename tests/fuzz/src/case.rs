@@ -47,6 +47,28 @@ pub enum Form {
 }
 
 impl Shape {
+    /// Returns a box around the origin, by its half extents.
+    pub fn cuboid(half: [f64; 3]) -> Self {
+        let sign = |k: usize, bit: usize| if k >> bit & 1 == 1 { 1.0 } else { -1.0 };
+        let corner = |k| [0, 1, 2].map(|bit| sign(k, bit) * half[bit]);
+        let sides = [
+            [0, 4, 6, 2],
+            [1, 3, 7, 5],
+            [0, 1, 5, 4],
+            [2, 6, 7, 3],
+            [0, 2, 3, 1],
+            [4, 5, 7, 6],
+        ];
+        let faces = sides
+            .iter()
+            .flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]);
+        Shape {
+            vertices: (0..8).map(corner).collect(),
+            faces: faces.collect(),
+            form: Form::Convex,
+        }
+    }
+
     pub fn triangles(&self) -> Vec<Triangle<f64>> {
         let corner = |v: u32| Vector(self.vertices[v as usize]);
         self.faces.iter().map(|face| face.map(corner)).collect()

@@ -1,0 +1,74 @@
+//! Random changes of files.
+
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64;
+
+/// Makes files from those of a corpus: changed, cut, repeated, and joined with others.
+pub(crate) struct Mutator<'a> {
+    random: Pcg64,
+    corpus: &'a [Vec<u8>],
+}
+
+/// The most changes of a file.
+const CHANGES: usize = 6;
+/// Bytes that mean something to some format.
+const TELLING: &[u8] = b"\0\x01\x7f\x80\xff \n\r\",;#/\\-+.0123456789eEnN";
+
+impl<'a> Mutator<'a> {
+    pub(crate) fn new(seed: u64, corpus: &'a [Vec<u8>]) -> Self {
+        let random = Pcg64::seed_from_u64(seed);
+        Mutator { random, corpus }
+    }
+
+    pub(crate) fn next(&mut self) -> Vec<u8> {
+        let mut bytes = self.one().to_vec();
+        for _ in 0..1 + self.below(CHANGES) {
+            self.change(&mut bytes);
+        }
+        bytes
+    }
+
+    fn one(&mut self) -> &'a [u8] {
+        let at = self.below(self.corpus.len());
+        &self.corpus[at]
+    }
+
+    fn change(&mut self, bytes: &mut Vec<u8>) {
+        let at = self.below(bytes.len() + 1);
+        let end = at + self.below(bytes.len() - at + 1);
+        match self.below(7) {
+            0 => {
+                let byte = self.random.random();
+                bytes.splice(at..bytes.len().min(at + 1), [byte]);
+            }
+            1 => {
+                let byte = TELLING[self.below(TELLING.len())];
+                bytes.splice(at..bytes.len().min(at + 1), [byte]);
+            }
+            2 => bytes.insert(at, TELLING[self.below(TELLING.len())]),
+            3 => drop(bytes.drain(at..end.min(at + 16))),
+            4 => {
+                let copy = bytes[at..end.min(at + 64)].to_vec();
+                let to = self.below(bytes.len() + 1);
+                bytes.splice(to..to, copy);
+            }
+            5 => {
+                let other = self.one();
+                let from = self.below(other.len() + 1);
+                bytes.splice(at..end, other[from..].iter().copied().take(64));
+            }
+            _ => {
+                let bit = self.below(8);
+                bytes
+                    .iter_mut()
+                    .skip(at)
+                    .take(1)
+                    .for_each(|b| *b ^= 1 << bit);
+            }
+        }
+    }
+
+    fn below(&mut self, end: usize) -> usize {
+        self.random.random_range(0..end)
+    }
+}

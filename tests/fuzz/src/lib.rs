@@ -1,0 +1,26 @@
+//! Fuzz targets, and the judge of random queries.
+//!
+//! A target is a function of bytes that panics if the product has a fault. The same functions are run
+//! guided by coverage ([`libfuzzer/`](../libfuzzer)), and over the kept corpus in every `cargo test`.
+//!
+//! The judge shares nothing with the engine, its property suite or its other referees, except the public
+//! interface under test: it has its own arithmetic and verdicts. The program `fuzz` of `ccd-tests` uses
+//! it, too.
+#![allow(
+    missing_docs,
+    unreachable_pub,
+    reason = "parts of programs, not a library"
+)]
+
+pub mod case;
+pub mod course;
+pub mod double;
+pub mod engine;
+pub mod judge;
+mod memory;
+pub mod nearest;
+pub mod referee;
+pub mod solid;
+pub mod targets;
+pub mod trial;
+pub mod vector;

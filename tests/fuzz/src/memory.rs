@@ -1,0 +1,42 @@
+//! A limit of the memory that a target may use: memory out of proportion to the input is a fault.
+
+use cap::Cap;
+use std::alloc::System;
+use std::panic;
+use std::sync::Once;
+
+#[global_allocator]
+static HEAP: Cap<System> = Cap::new(System, usize::MAX);
+
+static UNLIMITED_PANICS: Once = Once::new();
+
+/// Runs a function. If it needs more bytes than given, all threads together, the process is aborted.
+pub(crate) fn within<T>(bytes: usize, run: impl FnOnce() -> T) -> T {
+    // The report of a panic takes more memory than most inputs.
+    UNLIMITED_PANICS.call_once(|| {
+        let hook = panic::take_hook();
+        panic::set_hook(Box::new(move |info| {
+            let _ = HEAP.set_limit(usize::MAX);
+            hook(info);
+        }));
+    });
+    let most = HEAP.allocated().saturating_add(bytes);
+    let _limit = Limit::of(most);
+    run()
+}
+
+struct Limit;
+
+impl Limit {
+    fn of(most: usize) -> Self {
+        // It fails only if other threads have allocated as much in the meantime; then there is no limit.
+        let _ = HEAP.set_limit(most);
+        Limit
+    }
+}
+
+impl Drop for Limit {
+    fn drop(&mut self) {
+        let _ = HEAP.set_limit(usize::MAX);
+    }
+}

@@ -1,0 +1,111 @@
+//! Laws of prepared bodies: they are stored without loss, and queries on them agree.
+
+use crate::engine::Method;
+use ccd_core::glam::DVec3;
+use ccd_core::{Answer, Body, Config, Motion, Moving, Outcome, Pose, Problem};
+use ccd_decomp::Model;
+
+/// The budget of each query.
+const BUDGET: u64 = 4000;
+
+/// Checks that a model that is stored reads back to the same bytes.
+pub(super) fn stored_and_read(model: &Model) {
+    let bytes = stored(model);
+    let again = Model::read(&bytes[..]).expect("a model that was stored");
+    assert!(stored(&again) == bytes, "stored again, it differs");
+    // A model that cannot be a body, for its number of pieces or their size, names the reason.
+    match (model.body(), again.body()) {
+        (Ok(body), Ok(_)) => queries_agree(&body),
+        (Err(one), Err(other)) => assert_eq!(one.to_string(), other.to_string()),
+        (one, other) => panic!("{:?} and {:?}", one.err(), other.err()),
+    }
+}
+
+pub(super) fn stored(model: &Model) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    model.write(&mut bytes).expect("memory takes all bytes");
+    bytes
+}
+
+/// Asks all methods about a ball that flies past the body, and checks that no answer excludes another.
+pub(super) fn queries_agree(body: &Body) {
+    let points = body.pieces().points();
+    let (Some(&first), Some(&last)) = (points.first(), points.last()) else {
+        panic!("a body without points");
+    };
+    let size = points.iter().fold(0.0, |size, p| {
+        let far = (*p - first).abs().max_element();
+        if far > size { far } else { size }
+    });
+    let Ok(ball) = Body::ball(0.125 * size + 1e-3) else {
+        return;
+    };
+    // From the side of no face in particular, at a point of the body, and on beyond it.
+    let way = DVec3::new(0.75, 0.5, 0.25) * (size + 1e-3);
+    let Some(falls) = moves(last - 2.0 * way, 4.0 * way) else {
+        return;
+    };
+    let config = Config {
+        tolerance: 1e-3 * size + 1e-6,
+        budget: BUDGET,
+        ..Config::default()
+    };
+    let ball = Moving {
+        body: &ball,
+        motion: falls,
+    };
+    let still = Moving {
+        body,
+        motion: Motion::STILL,
+    };
+    let Ok(problem) = Problem::new(ball, still, 1.0, &config) else {
+        return;
+    };
+    agree(&problem, body.hull_tree().is_some());
+}
+
+fn moves(from: DVec3, velocity: DVec3) -> Option<Motion> {
+    Motion::new(Pose::at(from).ok()?, velocity, DVec3::ZERO).ok()
+}
+
+fn agree(problem: &Problem<'_>, hull_tree: bool) {
+    let mut methods = vec![Method::Direct, Method::Gjk, Method::Vmarch, Method::Naive];
+    methods.extend(hull_tree.then_some(Method::Fast));
+    let answers: Vec<(Method, Answer)> = methods
+        .into_iter()
+        .map(|method| (method, method.solve(problem)))
+        .collect();
+    for (_, one) in &answers {
+        for (_, other) in &answers {
+            assert!(
+                !excludes(one, other),
+                "{answers:#?}",
+                answers = answers
+                    .iter()
+                    .map(|(m, a)| format!("{m}: {:?}", a.outcome))
+                    .collect::<Vec<_>>()
+            );
+        }
+    }
+}
+
+/// Returns whether the first answer proves that the second is false: a contact well within the tolerance
+/// at a time before which nothing is said to touch.
+fn excludes(free: &Answer, contact: &Answer) -> bool {
+    let safe_until = match free.outcome {
+        Outcome::Contact { time, .. } => time,
+        Outcome::Free { .. } => f64::INFINITY,
+        Outcome::Unresolved { safe_until, .. } => safe_until,
+        Outcome::Touching { .. } | Outcome::Overlapping { .. } => 0.0,
+    };
+    match contact.outcome {
+        Outcome::Contact { time, contact } => {
+            time < safe_until && contact.separation.upper < 0.25 * free.tolerance
+        }
+        Outcome::Overlapping { .. } => matches!(
+            free.outcome,
+            Outcome::Free { .. } | Outcome::Contact { .. } | Outcome::Touching { .. }
+        ),
+        _ => false,
+    }
+}

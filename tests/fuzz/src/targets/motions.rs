@@ -1,0 +1,104 @@
+//! Tables of motions.
+
+use crate::memory;
+use rigid_ccd::table::motions::{MotionRows, MotionTable, Query, RowPosition, write};
+use std::io::{self, Read};
+
+/// The most bytes that are tried.
+const MOST_BYTES: usize = 1 << 14;
+
+/// The memory that is allowed, and some for each byte: a row of one byte is a whole query.
+const MEMORY: usize = 1 << 24;
+const MEMORY_PER_BYTE: usize = 1 << 11;
+
+pub(super) fn run(bytes: &[u8]) {
+    if bytes.len() > MOST_BYTES {
+        return;
+    }
+    memory::within(MEMORY + MEMORY_PER_BYTE * bytes.len(), || {
+        let whole = MotionTable::read(bytes);
+        let slow = MotionTable::read(Dripping(bytes));
+        match (whole, slow) {
+            (Ok(whole), Ok(slow)) => {
+                assert_eq!(whole, slow, "read byte by byte, it differs");
+                check(bytes, &whole);
+            }
+            (Err(one), Err(other)) => assert_eq!(one.to_string(), other.to_string()),
+            (one, other) => panic!("at once {one:?}, byte by byte {other:?}"),
+        }
+    });
+}
+
+/// A reader that hands out one byte at a time.
+struct Dripping<'a>(&'a [u8]);
+
+impl Read for Dripping<'_> {
+    fn read(&mut self, out: &mut [u8]) -> io::Result<usize> {
+        let one = out.len().min(1);
+        self.0.read(&mut out[..one])
+    }
+}
+
+fn check(bytes: &[u8], table: &MotionTable) {
+    let rows = table.rows.iter().map(|(position, _)| *position);
+    let mut all: Vec<RowPosition> = rows
+        .chain(table.errors.iter().map(|e| e.position))
+        .collect();
+    all.sort_unstable_by_key(|position| position.row);
+    let lines = bytes.len() as u64 + 1;
+    for (k, position) in all.iter().enumerate() {
+        assert_eq!(position.row, k, "rows are counted from 0");
+        assert!((1..=lines).contains(&position.line), "{position:?}");
+    }
+    // An empty line is no row, and several rows are never on one line.
+    assert!(
+        all.windows(2).all(|two| two[0].line < two[1].line),
+        "{all:?}"
+    );
+    table.errors.iter().for_each(|error| {
+        assert!(!error.to_string().is_empty());
+    });
+    skipped(bytes, table, all.len());
+    written(table);
+}
+
+/// Checks that skipped rows change nothing of those after them.
+fn skipped(bytes: &[u8], table: &MotionTable, rows: usize) {
+    let half = rows / 2;
+    let mut rest = MotionRows::new(bytes).expect("a header that was read");
+    assert_eq!(rest.skip_rows(half).ok(), Some(half));
+    let rest: Vec<_> = rest.by_ref().filter_map(|row| row.ok()?.ok()).collect();
+    let expected: Vec<_> = table.rows.iter().filter(|row| row.0.row >= half).collect();
+    assert!(rest.iter().eq(expected.into_iter()));
+}
+
+/// Checks that rows that are written read back to the same numbers, orientations up to rounding.
+fn written(table: &MotionTable) {
+    let queries: Vec<Query> = table.rows.iter().map(|(_, query)| query.clone()).collect();
+    let mut bytes = Vec::new();
+    write(&mut bytes, &queries).expect("memory takes all bytes");
+    let again = MotionTable::read(&bytes[..]).expect("a table that was written");
+    assert_eq!(again.errors, [], "{}", String::from_utf8_lossy(&bytes));
+    assert_eq!(again.rows.len(), queries.len());
+    for (one, (_, other)) in queries.iter().zip(&again.rows) {
+        assert_eq!(exact(one), exact(other));
+        for (one, other) in [(one.a, other.a), (one.b, other.b)] {
+            let turn = one.start().rotation().dot(other.start().rotation());
+            assert!(turn.abs() > 1.0 - 1e-12, "{one:?} {other:?}");
+        }
+    }
+}
+
+/// The parts of a query that are written without loss.
+fn exact(query: &Query) -> (&str, f64, [[[f64; 3]; 4]; 2]) {
+    let numbers = [query.a, query.b].map(|motion| {
+        [
+            motion.start().translation(),
+            motion.velocity(),
+            motion.spin(),
+            motion.centre(),
+        ]
+        .map(|v| v.to_array())
+    });
+    (&query.id, query.duration, numbers)
+}

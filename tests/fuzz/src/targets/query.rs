@@ -1,0 +1,56 @@
+//! Queries in bytes, judged by the referee.
+
+mod decode;
+mod encode;
+mod source;
+
+use crate::case::Case;
+use crate::engine::{Bodies, Kind, Method, Trees};
+use crate::trial::ask;
+use ccd_core::{Config, ContactsError, Instructions, Outcome};
+pub use encode::encode;
+
+/// A query, and whom to ask.
+struct Question {
+    case: Case,
+    asked: Vec<(Kind, Method)>,
+    /// Asks for more than answers: equal bits, and the features in contact.
+    more: bool,
+}
+
+/// # Panics
+/// If an answer has a fault.
+pub(super) fn run(bytes: &[u8]) {
+    let question = decode::question(bytes);
+    let trial = ask(question.case.clone(), question.asked);
+    if let Some(failure) = trial.failures.first() {
+        panic!("{}", failure.report("", &trial.case));
+    }
+    if question.more && trial.refused.is_none() {
+        equal_bits(&question.case);
+    }
+}
+
+/// Checks that other vector instructions give the same bits, and that contacts can be listed.
+fn equal_bits(case: &Case) {
+    let Ok(bodies) = Bodies::new(case, Kind::Triangles, Trees::Without) else {
+        return;
+    };
+    let answer = |instructions| {
+        let config = Config {
+            instructions,
+            ..case.config
+        };
+        let problem = bodies.problem(case, &config).ok()?;
+        let answer = Method::Direct.solve(&problem);
+        if let Outcome::Contact { time, .. } = answer.outcome {
+            let contacts = problem.contacts_at(time);
+            let answered = matches!(contacts, Ok(_) | Err(ContactsError::TooMany { .. }));
+            assert!(answered, "{contacts:?}\n{}", case.reproducer());
+        }
+        // Its text tells all numbers apart, and NaN equals itself.
+        Some(format!("{:?}", answer.outcome))
+    };
+    let [best, baseline] = [Instructions::Best, Instructions::Baseline].map(answer);
+    assert_eq!(best, baseline, "{}", case.reproducer());
+}

@@ -1,0 +1,269 @@
+//! Bytes to a query of two small bodies.
+
+use super::Question;
+use super::source::Source;
+use crate::case::{Case, Expect, Form, Shape};
+use crate::course::{Course, Goal, RawPose};
+use crate::engine::{Kind, Method};
+use crate::vector::Vector;
+use ccd_core::{Config, StartPolicy};
+
+/// The most iterations of a query, so that thousands of queries are asked in a minute.
+const BUDGET: u64 = 20_000;
+/// The largest turn of a body, in radians. The referee takes a time that is proportional to it.
+const MOST_TURN: f64 = 40.0;
+
+/// The bits of the byte before a shape, next to its kind.
+pub(super) const KIND: u8 = 7;
+pub(super) const FLIPPED: u8 = 64;
+pub(super) const SCALED: u8 = 128;
+/// The bits of the byte before a course.
+pub(super) const TURNED: u8 = 1;
+pub(super) const MOVES: u8 = 2;
+pub(super) const SPINS: u8 = 4;
+pub(super) const CENTRED: u8 = 8;
+pub(super) const ENDS: u8 = 16;
+/// The bits of the byte before the settings.
+pub(super) const MARGIN: u8 = 1;
+pub(super) const LEAVE: u8 = 2;
+pub(super) const LASTS: u8 = 4;
+pub(super) const BUDGETED: u8 = 8;
+pub(super) const TOLERANCE: u8 = 16;
+pub(super) const AIMED: u8 = 32;
+pub(super) const MORE: u8 = 64;
+
+/// A mesh of any vertices and faces, by its number among the shapes.
+pub(super) const MESH: u8 = 0;
+
+pub(super) fn question(bytes: &[u8]) -> Question {
+    let mut source = Source::new(bytes);
+    let flags = source.byte();
+    let config = config(&mut source, flags);
+    let [duration] = source.numbers_if(flags & LASTS > 0, [1.0]);
+    let asked = methods(&mut source);
+    let shapes = [shape(&mut source), shape(&mut source)];
+    let mut courses = [course(&mut source), course(&mut source)];
+    let duration = duration.abs();
+    courses.iter_mut().for_each(|c| limit_turn(c, duration));
+    let mut case = Case {
+        shapes,
+        courses,
+        duration,
+        config,
+        expect: Expect::Nothing,
+    };
+    if flags & AIMED > 0 {
+        aim(&mut source, &mut case);
+    }
+    Question {
+        case,
+        asked,
+        more: flags & MORE > 0,
+    }
+}
+
+fn config(source: &mut Source<'_>, flags: u8) -> Config {
+    let tolerance = match flags & TOLERANCE > 0 {
+        true => source.number().abs(),
+        false => 1e-3,
+    };
+    let [margin] = source.numbers_if(flags & MARGIN > 0, [0.0]);
+    let budget = match flags & BUDGETED > 0 {
+        true => u64::from(source.byte()),
+        false => BUDGET,
+    };
+    Config {
+        tolerance,
+        margin: margin.abs(),
+        budget,
+        start: match flags & LEAVE > 0 {
+            true => StartPolicy::Leave,
+            false => StartPolicy::Report,
+        },
+        ..Config::default()
+    }
+}
+
+/// Always asks the default, and mostly another.
+fn methods(source: &mut Source<'_>) -> Vec<(Kind, Method)> {
+    const METHODS: [Method; 5] = [
+        Method::Direct,
+        Method::Gjk,
+        Method::Vmarch,
+        Method::Naive,
+        Method::Fast,
+    ];
+    const KINDS: [Kind; 3] = [Kind::Triangles, Kind::Patches, Kind::Hull];
+    let other = usize::from(source.byte());
+    let mut asked = vec![(Kind::Triangles, Method::Direct)];
+    let one = (KINDS[other / 5 % 3], METHODS[other % 5]);
+    asked.extend((one != asked[0]).then_some(one));
+    asked
+}
+
+fn shape(source: &mut Source<'_>) -> Shape {
+    let kind = source.byte();
+    let mut shape = match kind & KIND {
+        MESH => mesh(source),
+        1 => soup(source, 1),
+        2 => {
+            let triangles = source.count(1, 5);
+            soup(source, triangles)
+        }
+        3 => Shape::cuboid(source.numbers().map(f64::abs)),
+        4 => {
+            let inner = Shape::cuboid(source.numbers());
+            let at = Vector(source.numbers());
+            let outer = Shape::cuboid(source.numbers());
+            outer.with(&inner.map(|v| (Vector(v) + at).0))
+        }
+        5 => tetrahedron(source),
+        6 => bipyramid(source),
+        _ => grid(source),
+    };
+    // What it may be made of: the decomposition finds out whether that is possible.
+    shape.form = match kind >> 3 & 3 {
+        0 => Form::Convex,
+        1 => Form::Solid,
+        _ => Form::Soup,
+    };
+    if kind & FLIPPED > 0 {
+        shape = shape.flipped();
+    }
+    if kind & SCALED > 0 {
+        let scale = source.number();
+        shape = shape.map(|v| (Vector(v) * scale).0);
+    }
+    shape
+}
+
+fn mesh(source: &mut Source<'_>) -> Shape {
+    let (vertices, faces) = (source.count(1, 33), source.count(1, 49));
+    Shape {
+        vertices: (0..vertices).map(|_| source.numbers()).collect(),
+        faces: (0..faces)
+            .map(|_| [(); 3].map(|()| u32::from(source.count(0, vertices))))
+            .collect(),
+        form: Form::Soup,
+    }
+}
+
+fn soup(source: &mut Source<'_>, triangles: u8) -> Shape {
+    let triangles = u32::from(triangles);
+    Shape {
+        vertices: (0..3 * triangles).map(|_| source.numbers()).collect(),
+        faces: (0..triangles)
+            .map(|k| [3 * k, 3 * k + 1, 3 * k + 2])
+            .collect(),
+        form: Form::Soup,
+    }
+}
+
+fn tetrahedron(source: &mut Source<'_>) -> Shape {
+    Shape {
+        vertices: (0..4).map(|_| source.numbers()).collect(),
+        faces: vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]],
+        form: Form::Soup,
+    }
+}
+
+/// Corners around an axis, on two circles by turns, and two poles.
+fn bipyramid(source: &mut Source<'_>) -> Shape {
+    let corners = u32::from(source.count(3, 9));
+    let [top, bottom, even, odd] = source.numbers();
+    let mut vertices = vec![[0.0, 0.0, top], [0.0, 0.0, bottom]];
+    let mut faces = Vec::new();
+    for k in 0..corners {
+        let (s, c) = (std::f64::consts::TAU * f64::from(k) / f64::from(corners)).sin_cos();
+        let r = if k % 2 == 1 { odd } else { even };
+        vertices.push([r * c, r * s, 0.0]);
+        let (here, next) = (2 + k, 2 + (k + 1) % corners);
+        faces.extend([[0, here, next], [1, next, here]]);
+    }
+    Shape {
+        vertices,
+        faces,
+        form: Form::Soup,
+    }
+}
+
+/// A field of heights over a grid of squares.
+fn grid(source: &mut Source<'_>) -> Shape {
+    let side = u32::from(source.count(1, 5));
+    let at = |i: u32, j: u32| i * (side + 1) + j;
+    let mut shape = Shape::default();
+    for i in 0..=side {
+        for j in 0..=side {
+            let height = source.number();
+            shape.vertices.push([f64::from(i), f64::from(j), height]);
+        }
+    }
+    for i in 0..side {
+        for j in 0..side {
+            let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+            shape.faces.extend([[a, b, c], [a, c, d]]);
+        }
+    }
+    shape
+}
+
+fn course(source: &mut Source<'_>) -> Course {
+    let flags = source.byte();
+    let has = |bit: u8| flags & bit > 0;
+    let none = [0.0; 3];
+    let start = RawPose {
+        position: source.numbers(),
+        quaternion: source.numbers_if(has(TURNED), RawPose::at(none).quaternion),
+    };
+    let centre = source.numbers_if(has(CENTRED), none);
+    let goal = match has(ENDS) {
+        true => Goal::End(RawPose {
+            position: source.numbers(),
+            quaternion: source.numbers_if(has(SPINS), start.quaternion),
+        }),
+        false => Goal::Velocities {
+            linear: source.numbers_if(has(MOVES), none),
+            spin: source.numbers_if(has(SPINS), none),
+        },
+    };
+    Course {
+        start,
+        goal,
+        centre,
+    }
+}
+
+fn limit_turn(course: &mut Course, duration: f64) {
+    if let Goal::Velocities { spin, .. } = &mut course.goal {
+        let turn = Vector(*spin).length() * duration;
+        if turn > MOST_TURN {
+            *spin = (Vector(*spin) * (MOST_TURN / turn)).0;
+        }
+    }
+}
+
+/// Moves A so that one of its corners meets one of B's at some time, but for an offset: bodies at random
+/// places hardly ever meet.
+fn aim(source: &mut Source<'_>, case: &mut Case) {
+    let share = f64::from(source.byte()) / 255.0;
+    let time = share * case.duration;
+    let mut corner = |k: usize| {
+        let vertices = &case.shapes[k].vertices;
+        let corner = vertices[usize::from(source.byte()) % vertices.len()];
+        let track = case.courses[k].track(case.duration);
+        let placed = track.at(time);
+        let arm = placed.arm(Vector::of(corner) - track.centre);
+        arm + placed.centre
+    };
+    let [from, to] = [corner(0), corner(1)];
+    let way = (to - from).rounded() + Vector(source.numbers());
+    let course = &mut case.courses[0];
+    let shifted = |pose: RawPose| RawPose {
+        position: (Vector(pose.position) + way).0,
+        ..pose
+    };
+    course.start = shifted(course.start);
+    if let Goal::End(end) = course.goal {
+        course.goal = Goal::End(shifted(end));
+    }
+}

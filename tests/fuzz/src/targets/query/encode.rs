@@ -1,0 +1,95 @@
+//! A query to bytes: cases become seeds.
+
+use super::decode::{
+    BUDGETED, CENTRED, ENDS, LASTS, LEAVE, MARGIN, MESH, MOVES, SPINS, TOLERANCE, TURNED,
+};
+use super::source::{RAW, SIXTEENTHS};
+use crate::case::{Case, Form, Shape};
+use crate::course::{Course, Goal};
+use ccd_core::StartPolicy;
+
+/// Returns bytes that mean the case, asked of the method of a number from 0 to 14. The budget is only kept if it
+/// is small, and meshes must have fewer than 33 vertices and 49 faces.
+pub fn encode(case: &Case, method: u8) -> Option<Vec<u8>> {
+    let mut out = Writer(Vec::new());
+    let config = &case.config;
+    let mut flags = MARGIN | LASTS | TOLERANCE;
+    if config.start == StartPolicy::Leave {
+        flags |= LEAVE;
+    }
+    let budget = u8::try_from(config.budget).ok();
+    if budget.is_some() {
+        flags |= BUDGETED;
+    }
+    out.0.push(flags);
+    out.numbers(&[config.tolerance, config.margin]);
+    out.0.extend(budget);
+    out.numbers(&[case.duration]);
+    out.0.push(method);
+    for shape in &case.shapes {
+        out.shape(shape)?;
+    }
+    for course in &case.courses {
+        out.course(course);
+    }
+    Some(out.0)
+}
+
+struct Writer(Vec<u8>);
+
+impl Writer {
+    fn numbers(&mut self, numbers: &[f64]) {
+        for &x in numbers {
+            let tag = 16.0 * x + 64.0;
+            if tag >= 0.0
+                && tag < f64::from(SIXTEENTHS)
+                && tag.fract() == 0.0
+                && x.to_bits() != (-0.0f64).to_bits()
+            {
+                self.0.push(tag as u8);
+            } else {
+                self.0.push(RAW);
+                self.0.extend(x.to_le_bytes());
+            }
+        }
+    }
+
+    fn shape(&mut self, shape: &Shape) -> Option<()> {
+        let form = match shape.form {
+            Form::Convex => 0,
+            Form::Solid => 1,
+            Form::Soup | Form::Points => 2,
+        };
+        self.0.push(MESH | form << 3);
+        let (vertices, faces) = (shape.vertices.len(), shape.faces.len());
+        if !((1..33).contains(&vertices) && (1..49).contains(&faces)) {
+            return None;
+        }
+        self.0.extend([vertices as u8 - 1, faces as u8 - 1]);
+        self.numbers(shape.vertices.as_flattened());
+        self.0
+            .extend(shape.faces.iter().flatten().map(|&v| v as u8));
+        Some(())
+    }
+
+    fn course(&mut self, course: &Course) {
+        let goal = match course.goal {
+            Goal::Velocities { .. } => MOVES | SPINS,
+            Goal::End(_) => ENDS | SPINS,
+        };
+        self.0.push(TURNED | CENTRED | goal);
+        self.numbers(&course.start.position);
+        self.numbers(&course.start.quaternion);
+        self.numbers(&course.centre);
+        match course.goal {
+            Goal::Velocities { linear, spin } => {
+                self.numbers(&linear);
+                self.numbers(&spin);
+            }
+            Goal::End(end) => {
+                self.numbers(&end.position);
+                self.numbers(&end.quaternion);
+            }
+        }
+    }
+}

@@ -1,0 +1,84 @@
+//! Numbers from bytes.
+
+/// Reads numbers from bytes. Most take one byte, and often return, so that edges line up and gaps vanish.
+pub(super) struct Source<'a> {
+    bytes: &'a [u8],
+    seen: Vec<f64>,
+}
+
+/// The tag of a number that follows in eight bytes.
+pub(super) const RAW: u8 = 255;
+/// Tags below this are multiples of a sixteenth.
+pub(super) const SIXTEENTHS: u8 = 128;
+
+impl<'a> Source<'a> {
+    pub(super) fn new(bytes: &'a [u8]) -> Self {
+        Source {
+            bytes,
+            seen: Vec::new(),
+        }
+    }
+
+    /// Reads a byte; there are zeros after the last one.
+    pub(super) fn byte(&mut self) -> u8 {
+        let [byte] = self.array();
+        byte
+    }
+
+    fn array<const N: usize>(&mut self) -> [u8; N] {
+        let mut out = [0; N];
+        let there = self.bytes.len().min(N);
+        let (taken, rest) = self.bytes.split_at(there);
+        out[..there].copy_from_slice(taken);
+        self.bytes = rest;
+        out
+    }
+
+    pub(super) fn count(&mut self, from: u8, below: u8) -> u8 {
+        from + self.byte() % (below - from)
+    }
+
+    pub(super) fn number(&mut self) -> f64 {
+        let tag = if self.bytes.is_empty() {
+            64
+        } else {
+            self.byte()
+        };
+        let x = match tag {
+            0..SIXTEENTHS => (f64::from(tag) - 64.0) / 16.0,
+            SIXTEENTHS..192 => self.seen(tag - SIXTEENTHS),
+            192..208 => {
+                let power = 2f64.powi(i32::from(self.byte().cast_signed()));
+                if tag % 2 == 0 { power } else { -power }
+            }
+            208..224 => {
+                let ulps = i64::from(self.byte().cast_signed());
+                let bits = self.seen(tag - 208).to_bits();
+                f64::from_bits(bits.wrapping_add_signed(ulps))
+            }
+            224..240 => f64::from(i32::from_le_bytes(self.array())) / f64::from(1 << 31),
+            240..248 => {
+                let power = 10f64.powf(0.25 * f64::from(self.byte().cast_signed()));
+                if tag % 2 == 0 { power } else { -power }
+            }
+            248..=RAW => f64::from_le_bytes(self.array()),
+        };
+        self.seen.push(x);
+        x
+    }
+
+    /// Returns an earlier number, the last for 0.
+    fn seen(&self, back: u8) -> f64 {
+        let at = self.seen.len().checked_sub(1 + usize::from(back));
+        at.map_or(0.0, |at| self.seen[at])
+    }
+
+    pub(super) fn numbers<const N: usize>(&mut self) -> [f64; N] {
+        [(); N].map(|()| self.number())
+    }
+
+    /// Reads numbers if a bit is set; otherwise they are the given ones.
+    pub(super) fn numbers_if<const N: usize>(&mut self, bit: bool, or: [f64; N]) -> [f64; N] {
+        if bit { self.numbers() } else { or }
+    }
+}

@@ -1,0 +1,60 @@
+//! Stored bodies: a `.ccd` file whose frame is mended, so that changed payloads get past its checksum.
+
+use super::bodies;
+use crate::memory;
+use ccd_decomp::{Detail, Format, Model, TriangleMesh, prepare};
+use std::sync::LazyLock;
+
+/// The most bytes that are tried.
+const MOST_BYTES: usize = 1 << 14;
+
+/// The memory that is allowed: see the readers of meshes.
+const MEMORY: usize = 1 << 25;
+const MEMORY_PER_BYTE: usize = 1 << 10;
+
+/// The parts of the frame: a magic number and a version, the length of the payload, and its checksum.
+const START: usize = 12;
+const LENGTH: usize = 8;
+const CHECKSUM: usize = 4;
+
+/// The magic number and the version of this build.
+static HEAD: LazyLock<Vec<u8>> = LazyLock::new(|| {
+    let triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    let mesh = TriangleMesh::from_reader(Format::Obj, triangle.as_bytes()).expect("a triangle");
+    let model = prepare(&mesh, Detail::Triangles).expect("a body");
+    bodies::stored(&model)[..START].to_vec()
+});
+
+pub(super) fn run(bytes: &[u8]) {
+    if bytes.len() > MOST_BYTES {
+        return;
+    }
+    LazyLock::force(&HEAD);
+    memory::within(MEMORY + MEMORY_PER_BYTE * bytes.len(), || {
+        check(bytes);
+        check(&mended(bytes));
+    });
+}
+
+/// Returns the file with the head, the length and the checksum that belong to its payload.
+fn mended(bytes: &[u8]) -> Vec<u8> {
+    let end = bytes.len().saturating_sub(CHECKSUM);
+    let payload = bytes.get(START + LENGTH..end).unwrap_or_default();
+    let mut file = HEAD.clone();
+    file.extend((payload.len() as u64).to_le_bytes());
+    file.extend(payload);
+    let checksum = crc32fast::hash(&file);
+    file.extend(checksum.to_le_bytes());
+    file
+}
+
+fn check(bytes: &[u8]) {
+    let model = match Model::read(bytes) {
+        Ok(model) => model,
+        Err(error) => return assert!(!error.to_string().is_empty()),
+    };
+    let _ = model.report.to_string();
+    let body = model.body().expect("a model that was read is a body");
+    assert_eq!(body.pieces().len(), model.report.pieces);
+    bodies::stored_and_read(&model);
+}

@@ -1,0 +1,221 @@
+//! One query: answered by many methods, judged.
+
+use crate::case::{Case, Form, Shape};
+use crate::engine::{Bodies, Kind, Method, Trees};
+use crate::judge::{Fault, Given, Judge};
+use ccd_core::{Config, Outcome};
+use std::collections::HashMap;
+use std::fmt;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+/// The outcome of a query.
+pub struct Trial {
+    pub case: Case,
+    pub asked: Vec<(Kind, Method)>,
+    pub outcomes: Vec<Outcome>,
+    /// The reason why the engine, or the decomposition, refused the case.
+    pub refused: Option<String>,
+    pub failures: Vec<Failure>,
+    /// True if the referee's search for an earlier contact was complete.
+    pub proven: bool,
+}
+
+/// Something wrong with an answer.
+#[derive(Clone, Debug)]
+pub struct Failure {
+    pub fault: Fault,
+    pub by: (Kind, Method),
+    pub text: String,
+    pub others: String,
+}
+
+impl fmt::Display for Trial {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for ((kind, method), outcome) in self.asked.iter().zip(&self.outcomes) {
+            writeln!(f, "{kind} {method}: {outcome:?}")?;
+        }
+        f.write_str(&self.case.reproducer())
+    }
+}
+
+impl Failure {
+    /// Returns the text of the failure, with the command that runs its query again.
+    pub fn report(&self, command: &str, case: &Case) -> String {
+        let Failure {
+            fault,
+            by: (kind, method),
+            text,
+            others,
+        } = self;
+        let Config {
+            margin, tolerance, ..
+        } = case.config;
+        format!(
+            "{fault:?} {kind} {method}, margin {margin:e}, tolerance {tolerance:e}\n{text}\n{others}\
+             {command}\n{}",
+            case.reproducer()
+        )
+    }
+}
+
+/// Builds the bodies of a case, asks the methods, and judges their answers.
+pub fn ask(case: Case, asked: Vec<(Kind, Method)>) -> Trial {
+    let mut trial = Trial {
+        case,
+        asked: Vec::new(),
+        outcomes: Vec::new(),
+        refused: None,
+        failures: Vec::new(),
+        proven: true,
+    };
+    let built = build(&mut trial, &asked);
+    let given = answers(&mut trial, &built, asked);
+    trial.asked = given.iter().map(|g| (g.bodies.kind, g.method)).collect();
+    trial.outcomes = given.iter().map(|g| g.answer.outcome).collect();
+    judge(&mut trial, &given);
+    trial
+}
+
+/// Builds bodies of every kind that is needed.
+fn build(trial: &mut Trial, asked: &[(Kind, Method)]) -> Vec<((Kind, Trees), Bodies)> {
+    let mut built: Vec<((Kind, Trees), Bodies)> = Vec::new();
+    for (kind, method) in asked {
+        let key = (*kind, method.trees());
+        if built.iter().any(|(k, _)| *k == key) {
+            continue;
+        }
+        match catch_unwind(|| Bodies::new(&trial.case, key.0, key.1)) {
+            Ok(Ok(bodies)) => built.push((key, bodies)),
+            Ok(Err(why)) => trial.refused = Some(why),
+            Err(panic) => trial.failures.push(panicked(&*panic, (*kind, *method))),
+        }
+    }
+    built
+}
+
+/// Returns the answers of all methods that accept the case.
+fn answers<'b>(
+    trial: &mut Trial,
+    built: &'b [((Kind, Trees), Bodies)],
+    asked: Vec<(Kind, Method)>,
+) -> Vec<Given<'b>> {
+    let mut given = Vec::new();
+    for (kind, method) in asked {
+        let bodies = built.iter().find(|(k, _)| *k == (kind, method.trees()));
+        let Some((_, bodies)) = bodies else { continue };
+        let problem = match bodies.problem(&trial.case, &config_of(&trial.case, method)) {
+            Ok(problem) => problem,
+            Err(why) => {
+                trial.refused = Some(why);
+                continue;
+            }
+        };
+        match catch_unwind(AssertUnwindSafe(|| method.solve(&problem))) {
+            Ok(answer) => given.push(Given {
+                bodies,
+                method,
+                answer,
+            }),
+            Err(panic) => trial.failures.push(panicked(&*panic, (kind, method))),
+        }
+    }
+    given
+}
+
+/// Records what is wrong with the answers.
+fn judge(trial: &mut Trial, given: &[Given<'_>]) {
+    let Some(first) = given.first() else { return };
+    let volumes = [0, 1].map(|k| first.bodies.bodies[k].volume());
+    let judge = Judge::new(&trial.case, volumes, rounding(&trial.case, first.bodies));
+    let (faults, proven) = judge.all(given);
+    let others: String = given
+        .iter()
+        .map(|g| format!("  {} {}: {:?}\n", g.bodies.kind, g.method, g.answer.outcome))
+        .collect();
+    let failures = faults.into_iter().map(|(k, fault, text)| Failure {
+        fault,
+        by: (given[k].bodies.kind, given[k].method),
+        text,
+        others: others.clone(),
+    });
+    trial.failures.extend(failures);
+    trial.proven = proven;
+}
+
+/// Returns the settings; schedules with one step for all pairs get a smaller budget.
+fn config_of(case: &Case, method: Method) -> Config {
+    let most = match method {
+        Method::Naive | Method::Fast => 200_000,
+        _ => u64::MAX,
+    };
+    Config {
+        budget: case.config.budget.min(most),
+        ..case.config
+    }
+}
+
+/// Returns the engine's allowance for rounding: the least tolerance that it accepts.
+fn rounding(case: &Case, bodies: &Bodies) -> f64 {
+    let least = Config {
+        tolerance: 1e-100,
+        ..case.config
+    };
+    bodies.problem(case, &least).map_or(0.0, |p| p.tolerance())
+}
+
+fn panicked(panic: &(dyn std::any::Any + Send), by: (Kind, Method)) -> Failure {
+    let text = panic.downcast_ref::<String>().cloned();
+    let text = text.or_else(|| panic.downcast_ref::<&str>().map(|&s| s.to_owned()));
+    Failure {
+        fault: Fault::Panic,
+        by,
+        text: text.unwrap_or_default(),
+        others: String::new(),
+    }
+}
+
+/// Returns the same case with as few triangles as still fail in the same way.
+pub fn shrunk(case: &Case, failure: &Failure) -> Case {
+    let fails = |case: &Case| {
+        let mut asked = vec![(Kind::Triangles, Method::Direct)];
+        asked.push(failure.by);
+        let again = ask(case.clone(), asked);
+        again.failures.iter().any(|f| f.fault == failure.fault)
+    };
+    let mut case = case.clone();
+    if case.shapes.iter().any(|s| s.form == Form::Points) {
+        return case;
+    }
+    for side in [0, 1] {
+        let mut face = 0;
+        while face < case.shapes[side].faces.len() && case.shapes[side].faces.len() > 1 {
+            let mut fewer = case.clone();
+            fewer.shapes[side].faces.remove(face);
+            fewer.shapes[side].form = Form::Soup;
+            fewer.shapes[side] = used(&fewer.shapes[side]);
+            match fails(&fewer) {
+                true => case = fewer,
+                false => face += 1,
+            }
+        }
+    }
+    case
+}
+
+/// Returns the shape without unused vertices.
+fn used(shape: &Shape) -> Shape {
+    let mut new = HashMap::new();
+    let mut out = Shape {
+        form: shape.form,
+        ..Shape::default()
+    };
+    for face in &shape.faces {
+        out.faces.push(face.map(|v| {
+            *new.entry(v).or_insert_with(|| {
+                out.vertices.push(shape.vertices[v as usize]);
+                out.vertices.len() as u32 - 1
+            })
+        }));
+    }
+    out
+}
