@@ -93,3 +93,6 @@ impl<'p> Placed<'p> {
 fn axis(node: &Node, k: usize) -> DVec3 {
     node.axes[k].as_dvec3()
 }
+
+#[cfg(test)]
+mod tests;

@@ -210,3 +210,6 @@ pub(super) fn keep_apart(turning: &Profile, still: &Profile, axis: &ScrewAxis, w
     }
     true
 }
+
+#[cfg(test)]
+mod tests;
