@@ -5,5 +5,7 @@ pub(crate) mod far_ends;
 pub(crate) mod meshes;
 pub(crate) mod nearest;
 pub(crate) mod oracle;
+pub(crate) mod rational;
 pub(crate) mod scene;
 mod tiny_components;
+pub(crate) mod worst;

@@ -63,6 +63,9 @@ mod mesh;
 mod messages;
 mod pieces;
 mod prepare;
+#[cfg(test)]
+#[path = "../../ccd-core/src/tests/rational.rs"]
+mod rational;
 mod search;
 mod solid;
 mod source;
@@ -72,6 +75,10 @@ mod test_meshes;
 mod tolerance;
 mod tree;
 mod work;
+#[cfg(test)]
+#[allow(dead_code)]
+#[path = "../../ccd-core/src/tests/worst.rs"]
+mod worst;
 
 pub use file::STORED_EXTENSION;
 pub use file::error::{StoreError, StoreFault};

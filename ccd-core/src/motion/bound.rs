@@ -51,3 +51,6 @@ pub(crate) fn published(
 pub(crate) fn sound(motion: &Velocities, n: DVec3, reach: f64) -> f64 {
     motion.linear.dot(n) + length(n.cross(motion.spin)) * reach
 }
+
+#[cfg(test)]
+mod tests;

@@ -59,3 +59,6 @@ pub(crate) fn first_crossing(
     }
     Some(tau)
 }
+
+#[cfg(test)]
+mod tests;

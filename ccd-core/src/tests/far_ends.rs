@@ -14,8 +14,8 @@ use crate::schedule::{BestFirst, Naive, Schedule};
 use glam::DVec3;
 
 /// Poses at both ends about a point in the world, with quaternions of any length, sometimes equal.
-pub(crate) fn ends(rng: &mut Pcg64, world: DVec3, size: f64) -> Ends {
-    let at = |rng: &mut Pcg64| world + within(rng, size);
+pub(crate) fn ends<R: RngExt>(rng: &mut R, world: DVec3, size: f64) -> Ends {
+    let at = |rng: &mut R| world + within(rng, size);
     let start = rotation(rng) * magnitude(rng, -3.0, 3.0);
     let end = match rng.random_range(0..3) {
         0 => start,

@@ -1,6 +1,7 @@
 //! Random bodies and motions of every shape and size, the same for the same seed.
 
 use super::nearest::{Triangle, nearest};
+use super::worst::Tape;
 use crate::body::pieces::Pieces;
 use crate::body::{Body, Volume};
 use crate::config::Config;
@@ -9,8 +10,10 @@ use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::problem::{Moving, Problem};
 use glam::{DQuat, DVec3};
+use rand::TryRng;
 pub(crate) use rand::{RngExt, SeedableRng};
 pub(crate) use rand_pcg::Pcg64;
+use std::convert::Infallible;
 
 /// The shapes of a soup's triangles.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,32 +43,51 @@ pub(crate) fn rng(seed: u64) -> Pcg64 {
     Pcg64::seed_from_u64(seed)
 }
 
+/// What draws random scenes draws those of a search, too.
+impl TryRng for Tape {
+    type Error = Infallible;
+
+    fn try_next_u32(&mut self) -> Result<u32, Infallible> {
+        Ok((self.word() >> 32) as u32)
+    }
+
+    fn try_next_u64(&mut self) -> Result<u64, Infallible> {
+        Ok(self.word())
+    }
+
+    fn try_fill_bytes(&mut self, bytes: &mut [u8]) -> Result<(), Infallible> {
+        for byte in bytes {
+            *byte = self.word() as u8;
+        }
+        Ok(())
+    }
+}
+
 /// A power of ten.
-pub(crate) fn magnitude(rng: &mut Pcg64, low: f64, high: f64) -> f64 {
+pub(crate) fn magnitude(rng: &mut impl RngExt, low: f64, high: f64) -> f64 {
     10f64.powf(rng.random_range(low..=high))
 }
 
 /// A unit vector.
-pub(crate) fn direction(rng: &mut Pcg64) -> DVec3 {
-    let cube =
-        |rng: &mut Pcg64| DVec3::from_array(std::array::from_fn(|_| rng.random_range(-1.0..1.0)));
+pub(crate) fn direction(rng: &mut impl RngExt) -> DVec3 {
+    let mut cube = || DVec3::from_array(std::array::from_fn(|_| rng.random_range(-1.0..1.0)));
     let inside = (0..64)
-        .map(|_| cube(rng))
+        .map(|_| cube())
         .find(|v| (0.01..1.0).contains(&v.length()));
     inside.unwrap_or(DVec3::X).normalize()
 }
 
 /// A point within the ball of a radius.
-pub(crate) fn within(rng: &mut Pcg64, radius: f64) -> DVec3 {
+pub(crate) fn within(rng: &mut impl RngExt, radius: f64) -> DVec3 {
     direction(rng) * radius * rng.random_range(0.0..1.0f64).cbrt()
 }
 
-pub(crate) fn rotation(rng: &mut Pcg64) -> DQuat {
+pub(crate) fn rotation(rng: &mut impl RngExt) -> DQuat {
     DQuat::from_axis_angle(direction(rng), rng.random_range(-3.1..3.1))
 }
 
 /// Triangles about the origin, none reaching much beyond `size`.
-pub(crate) fn soup(rng: &mut Pcg64, look: Look, count: usize, size: f64) -> Vec<Triangle> {
+pub(crate) fn soup(rng: &mut impl RngExt, look: Look, count: usize, size: f64) -> Vec<Triangle> {
     let frame = rotation(rng);
     (0..count)
         .map(|_| {

@@ -1,5 +1,8 @@
 //! The f64 allowances against double-double arithmetic.
 
+mod distances;
+mod worst;
+
 use super::distance_rounding;
 use crate::body::combination::Combination;
 use crate::body::pieces::Pieces;
@@ -14,6 +17,7 @@ use crate::tests::far_ends::{between, ends};
 use crate::tests::scene::{
     Look, Pcg64, RngExt, body, direction, magnitude, rng, rotation, soup, within,
 };
+use crate::tests::worst::share;
 use crate::{Body, Pose};
 use glam::DVec3;
 
@@ -93,7 +97,7 @@ fn rounding_of_motions_between_poses_is_allowed_for() {
     assert!(worst < 1.0, "{worst}");
 }
 
-fn far_body(rng: &mut Pcg64, count: usize, size: f64) -> Body {
+fn far_body(rng: &mut impl RngExt, count: usize, size: f64) -> Body {
     let look = Look::ALL[rng.random_range(0..5)];
     let offset = match rng.random_range(0..3) {
         0 => 0.0,
@@ -105,7 +109,7 @@ fn far_body(rng: &mut Pcg64, count: usize, size: f64) -> Body {
     body(&moved)
 }
 
-fn motion(rng: &mut Pcg64, world: DVec3, size: f64, duration: f64) -> Motion {
+fn motion(rng: &mut impl RngExt, world: DVec3, size: f64, duration: f64) -> Motion {
     let start = Pose::new(world + within(rng, size), rotation(rng)).unwrap();
     let turn = match rng.random_range(0..4) {
         0 => 0.0,
@@ -133,6 +137,29 @@ fn sample(
     s: f64,
     worst: &mut Worst,
 ) {
+    let of = shares_of_a_look(rng, problem, motions, duration, s);
+    worst.place = greater(worst.place, of.place);
+    worst.gap = greater(worst.gap, of.gap);
+    worst.distance = greater(worst.distance, of.distance);
+}
+
+/// The errors of one look at two bodies, as shares of the rounding that is allowed for.
+#[derive(Clone, Copy, Debug, Default)]
+struct Shares {
+    place: f64,
+    gap: f64,
+    distance: f64,
+}
+
+/// Compares places, a support gap and a distance at one clock.
+fn shares_of_a_look(
+    rng: &mut impl RngExt,
+    problem: &Problem<'_>,
+    motions: &[Motion; 2],
+    duration: f64,
+    s: f64,
+) -> Shares {
+    let mut shares = Shares::default();
     let sides = [&problem.a, &problem.b];
     let frames = sides.map(|side| side.path.frame(s));
     let origin = Double3::from(motions[1].start().translation());
@@ -150,7 +177,7 @@ fn sample(
     for k in 0..2 {
         for (&p, &exact) in pieces[k].points.iter().zip(&exact[k]) {
             let off = (Double3::from(frames[k].point(p)) - exact).length();
-            worst.place = greater(worst.place, off.get() / problem.rounding);
+            shares.place = greater(shares.place, share(off.get(), problem.rounding));
         }
     }
     let pair = PiecePair {
@@ -177,11 +204,12 @@ fn sample(
     let highest = heights(&exact[0]).into_iter().reduce(Double::max).unwrap();
     let gap = (lowest - highest).get();
     let rounded = checked.lower + problem.rounding;
-    worst.gap = greater(worst.gap, (rounded - gap).abs() / problem.rounding);
+    shares.gap = share((rounded - gap).abs(), problem.rounding);
     let distance = (exact[1][j as usize] - exact[0][i as usize]).length();
     let rounded = Double::from(checked.upper - problem.rounding);
     let off = (rounded - distance).get().abs();
-    worst.distance = greater(worst.distance, off / problem.rounding);
+    shares.distance = share(off, problem.rounding);
+    shares
 }
 
 #[test]

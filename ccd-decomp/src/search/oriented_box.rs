@@ -143,3 +143,6 @@ impl Extent {
         along - depth > self.hi || along + depth < self.lo
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -327,3 +327,6 @@ fn highest<T: PartialOrd + Copy>(values: &[T; LANES]) -> usize {
     }
     best
 }
+
+#[cfg(test)]
+mod tests;

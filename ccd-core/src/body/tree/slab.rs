@@ -35,3 +35,6 @@ impl Slab {
         (half <= FLAT * size).then_some(Slab { normal, half })
     }
 }
+
+#[cfg(test)]
+mod tests;

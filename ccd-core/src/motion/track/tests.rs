@@ -5,7 +5,10 @@ use crate::math::order::{greater, lesser};
 use crate::math::vector::{length, unit};
 use crate::motion::bound::{Velocities, published, sound};
 use crate::motion::gap::{Gap, first_crossing};
+use crate::tests::double::Double;
 use crate::tests::scene::{Pcg64, RngExt, direction, magnitude, rng, within};
+use crate::tests::worst::{Worst, share};
+use crate::tolerance::RATE_F64;
 use glam::{DQuat, DVec3};
 
 impl Track {
@@ -262,4 +265,24 @@ fn a_turning_point_is_never_below_its_least_height_and_reaches_it() {
         past_trough > 1_000 && before_trough > 1_000,
         "{past_trough} {before_trough}"
     );
+}
+
+/// The bend of a track as it is kept. What rounds before is an error of heights: it moves none by more
+/// than twice as much, whatever the turn.
+#[test]
+fn worst_bend() {
+    let found = Worst::of("RATE_F64, bends of points", 40_000).search(|tape| {
+        let track = Track {
+            height: 0.0,
+            drift: 0.0,
+            p: tape.any(-100..=20),
+            q: tape.any(-100..=20),
+            omega: tape.size(-100..=20),
+        };
+        let [p, q, omega] = [track.p, track.q, track.omega].map(Double::from);
+        let exact = omega * omega * (p * p + q * q).sqrt();
+        let lost = exact - Double::from(track.bend());
+        (exact.get() > 0.0).then(|| share(lost.get(), RATE_F64 * exact.get()))
+    });
+    found.is_within(16.0);
 }

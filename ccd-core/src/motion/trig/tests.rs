@@ -1,6 +1,8 @@
 use super::sin_cos;
 use crate::limits::MAX_TURN;
 use crate::math::order::greater;
+use crate::tests::double::Double;
+use crate::tests::worst::{Worst, share};
 use crate::tolerance::U64;
 
 #[test]
@@ -16,4 +18,27 @@ fn agrees_with_the_standard_library() {
     // Either is off by half a unit in the last place at best.
     assert!(worst <= 2.0 * U64, "{}", worst / U64);
     assert_eq!(sin_cos(0.0), (0.0, 1.0));
+}
+
+/// The 2u of its guarantee, at angles next to multiples of a right angle and elsewhere.
+#[test]
+fn worst_sine_and_cosine() {
+    let found = Worst::of("sin_cos: 2u", 40_000).search(|tape| {
+        let angle = match tape.pick(2) {
+            0 => tape.size(-30..=19),
+            _ => {
+                tape.pick(600_000) as f64
+                    * std::f64::consts::FRAC_PI_2
+                    * (1.0 + tape.any(-53..=-20))
+            }
+        };
+        let (sin, cos) = sin_cos(angle.abs());
+        let exact = Double::from(angle.abs()).sin_cos();
+        let off = |rounded: f64, exact: Double| (Double::from(rounded) - exact).get().abs();
+        Some(share(
+            greater(off(sin, exact.0), off(cos, exact.1)),
+            2.0 * U64,
+        ))
+    });
+    found.is_within(3.0);
 }

@@ -51,3 +51,6 @@ impl Approach {
         lesser(f64::MAX, gap.free_time())
     }
 }
+
+#[cfg(test)]
+mod tests;

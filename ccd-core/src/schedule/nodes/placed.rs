@@ -128,3 +128,6 @@ impl Placed {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

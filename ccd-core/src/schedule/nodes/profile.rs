@@ -207,3 +207,6 @@ pub(super) fn keep_apart(turning: &Profile, still: &Profile, axis: &ScrewAxis, w
     }
     true
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,4 +1,6 @@
 use super::*;
+use crate::rational::{Exact3, error_of, exact};
+use crate::worst::{Worst, share};
 use ccd_core::glam::dvec3;
 
 /// A square rod of unit cells: its volume is small compared to the products in its sum.
@@ -47,4 +49,28 @@ fn the_sign_of_a_long_solids_volume_is_certain() {
     assert_eq!(sign(&mut both.map(|triangle| triangle.map(tilted))), None);
     let slanted = triangles.iter().map(|triangle| triangle.map(tilted));
     assert!(sign(&mut slanted.clone()).is_some());
+}
+
+/// The sum of a few volumes that may cancel, against fractions. What grows with the square of their number is
+/// less than all else for up to ten million of them, and is not reached here.
+#[test]
+fn worst_volume() {
+    let found = Worst::of("volume_rounding", 6_000).search(|tape| {
+        let scale = tape.size(-200..=39);
+        let mut point = |range| DVec3::from(tape.vector(range)) * scale;
+        let (near, far) = (point(-8..=0), point(-8..=0));
+        let corners: [DVec3; 5] = std::array::from_fn(|_| far + point(-30..=0));
+        let mut volume = SignedVolume::default();
+        let mut truth = exact(0.0);
+        for face in [[0, 1, 2], [2, 1, 3], [0, 2, 3], [4, 1, 0]] {
+            let [p, q, r] = face.map(|k| corners[k]);
+            volume.add([p, q, r], near);
+            let [near, p, q, r] = [near, p, q, r].map(Exact3::of);
+            truth += p.minus(&near).dot(&q.minus(&p).cross(&r.minus(&p)));
+        }
+        // The last sum is rounded as well.
+        let error = error_of(volume.sum + volume.lost, &truth);
+        Some(share(error, volume_rounding(volume.size, volume.terms)))
+    });
+    found.is_within(40.0);
 }

@@ -193,3 +193,6 @@ fn crossing(triangle: [DVec3; 3], point: DVec3) -> i32 {
 fn vector(p: DVec3) -> Vector {
     Vector::new(p.x, p.y, p.z)
 }
+
+#[cfg(test)]
+mod tests;

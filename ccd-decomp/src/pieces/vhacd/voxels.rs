@@ -235,3 +235,6 @@ fn cut_at(
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -141,3 +141,21 @@ fn shells_that_share_faces_are_distinguished() {
     }
     assert!(shared > 40, "{shared}");
 }
+
+/// The same at places where coordinates are coarse.
+#[test]
+fn shells_that_share_faces_are_distinguished_far_from_the_origin() {
+    for far in [0.0, 1e5 / 3.0, 1e9 / 3.0] {
+        let place = |x: f64, y: f64| (dvec3(far + x, far + y, far), 0.5, false);
+        let all = [
+            place(0.0, 0.0),
+            place(1.0, 0.0),
+            place(2.0, 0.0),
+            place(0.0, 1.0),
+            place(1.0, 1.0),
+            place(2.0, 1.0),
+        ];
+        let mesh = cubes(&all);
+        assert_eq!(counts(&mesh), [0, 0], "{far}");
+    }
+}

@@ -1,5 +1,7 @@
 //! Times for which flat nodes are said to stay apart, against distances at sampled times.
 
+mod worst;
+
 use super::*;
 use crate::config::Config;
 use crate::math::order::lesser;

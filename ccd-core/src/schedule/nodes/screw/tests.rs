@@ -1,5 +1,7 @@
 //! Nodes said to stay apart along a screw, against distances at sampled times.
 
+mod worst;
+
 use super::*;
 use crate::body::Body;
 use crate::config::Config;

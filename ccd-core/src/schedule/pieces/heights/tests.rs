@@ -1,5 +1,7 @@
 //! Bounds of many points at once against tracks of all of them.
 
+mod worst;
+
 use super::*;
 use crate::body::Body;
 use crate::body::polytope::Polytope;

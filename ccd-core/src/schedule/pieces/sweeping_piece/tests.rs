@@ -1,6 +1,8 @@
 //! Planes that turn with a body against samples, and their rounding against double-double
 //! arithmetic.
 
+mod worst;
+
 use super::*;
 use crate::body::Body;
 use crate::body::polytope::Polytope;

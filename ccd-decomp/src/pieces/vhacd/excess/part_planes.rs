@@ -144,3 +144,6 @@ impl Plane {
         self.normal.dot(point) - self.height
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -8,9 +8,25 @@ use crate::math::order::greater;
 use crate::schedule::nodes::eight_pairs::RelativeMotionF32;
 use crate::schedule::nodes::shape::{OtherBox, OtherNode, OtherTriangle};
 use crate::schedule::nodes::turn::Turn;
-use crate::tests::scene::{Pcg64, RngExt, direction, magnitude, rotation, within};
+use crate::tests::scene::{RngExt, direction, magnitude, rotation, within};
 use crate::tolerance::{LEAST_GAP_F32, PLACES, RATE_F32, REACH_F32, WAY_F32};
 use glam::{DMat3, DVec3, Vec3};
+
+fn spin(rng: &mut impl RngExt) -> DVec3 {
+    match rng.random_bool(0.7) {
+        true => direction(rng) * magnitude(rng, -3.0, 1.6),
+        false => DVec3::ZERO,
+    }
+}
+
+/// The centre of rotation of a body with nodes of this size at a place.
+fn centre(rng: &mut impl RngExt, at: DVec3, size: f64) -> DVec3 {
+    let reach = size * magnitude(rng, -1.0, 4.0);
+    match rng.random_bool(0.3) {
+        true => at,
+        false => at + within(rng, reach),
+    }
+}
 
 /// The points of a node in its body's frame.
 pub(super) struct Shape {
@@ -20,12 +36,12 @@ pub(super) struct Shape {
 
 impl Shape {
     /// A box of any proportions, or a needle, or next to nothing.
-    pub(super) fn new(rng: &mut Pcg64) -> Self {
+    pub(super) fn new(rng: &mut impl RngExt) -> Self {
         let size = magnitude(rng, -4.0, 4.0);
         Shape::of_size(rng, size, DVec3::ZERO)
     }
 
-    fn of_size(rng: &mut Pcg64, size: f64, centre: DVec3) -> Self {
+    fn of_size(rng: &mut impl RngExt, size: f64, centre: DVec3) -> Self {
         let frame = DMat3::from_quat(rotation(rng));
         let mut ratio = || match rng.random_range(0..3) {
             0 => 1e-7,
@@ -81,7 +97,7 @@ pub(super) struct Setting {
 }
 
 impl Setting {
-    pub(super) fn new(rng: &mut Pcg64, other: &Shape) -> Self {
+    pub(super) fn new(rng: &mut impl RngExt, other: &Shape) -> Self {
         let radius = f64::from(other.node.radius);
         let size = radius * magnitude(rng, -3.0, 3.0);
         // Mostly near; otherwise so near, or so far, that one kind of rounding dominates.
@@ -91,17 +107,6 @@ impl Setting {
             _ => rng.random_range(0.5..4.0),
         } * (radius + size);
         let place = direction(rng) * far;
-        let spin = |rng: &mut Pcg64| match rng.random_bool(0.7) {
-            true => direction(rng) * magnitude(rng, -3.0, 1.6),
-            false => DVec3::ZERO,
-        };
-        let centre = |rng: &mut Pcg64, at: DVec3, size: f64| {
-            let reach = size * magnitude(rng, -1.0, 4.0);
-            match rng.random_bool(0.3) {
-                true => at,
-                false => at + within(rng, reach),
-            }
-        };
         let fast = far * magnitude(rng, -3.0, 2.0);
         let offset = size * magnitude(rng, 0.0, 6.0);
         Setting {
@@ -115,6 +120,30 @@ impl Setting {
             },
             spins: [spin(rng), spin(rng)],
             centres: [centre(rng, DVec3::ZERO, size), centre(rng, place, radius)],
+        }
+    }
+
+    /// The size of the children.
+    pub(super) fn size(&self) -> f64 {
+        self.size
+    }
+
+    /// The same, with the other node at a distance in units of both sizes.
+    pub(super) fn at_distance(self, far: f64, other: &Shape) -> Self {
+        let far = far * (f64::from(other.node.radius) + self.size);
+        Setting {
+            place: self.place / self.place.length() * far,
+            ..self
+        }
+    }
+
+    /// The same, with nothing but the other node turning, about a point that is so far from its middle.
+    pub(super) fn turning_in_place(self, spin: DVec3, arm: DVec3) -> Self {
+        Setting {
+            velocity: DVec3::ZERO,
+            spins: [DVec3::ZERO, spin],
+            centres: [DVec3::ZERO, self.place + arm],
+            ..self
         }
     }
 
@@ -138,13 +167,13 @@ impl Setting {
         }
     }
 
-    fn child_shape(&self, rng: &mut Pcg64) -> Shape {
+    fn child_shape(&self, rng: &mut impl RngExt) -> Shape {
         let size = self.size * magnitude(rng, -2.0, 0.0);
         let centre = self.origin + within(rng, self.size);
         Shape::of_size(rng, size, centre)
     }
 
-    pub(super) fn boxes(&self, rng: &mut Pcg64, other: &Shape) -> Sample<BoxGroup, OtherBox> {
+    pub(super) fn boxes(&self, rng: &mut impl RngExt, other: &Shape) -> Sample<BoxGroup, OtherBox> {
         let shapes: Vec<Shape> = (0..LANES).map(|_| self.child_shape(rng)).collect();
         let nodes: Vec<Node> = shapes.iter().map(|s| s.node.clone()).collect();
         let group = BoxGroup::new(&nodes, 0, self.origin);
@@ -165,7 +194,7 @@ impl Setting {
 
     pub(super) fn triangles(
         &self,
-        rng: &mut Pcg64,
+        rng: &mut impl RngExt,
         other: &Shape,
     ) -> Sample<TriangleGroup, OtherTriangle> {
         let shapes: Vec<Shape> = (0..LANES).map(|_| self.child_shape(rng)).collect();

@@ -1,0 +1,63 @@
+//! Discs in f32 against the points in them, in f64: its error is a five hundred millionth of that of f32.
+
+use super::{Disc, Discs, LANES};
+use crate::math::order::greater;
+use crate::tests::scene::direction;
+use crate::tests::worst::{Tape, Worst, share};
+use crate::tolerance::{DISC_F32, DISC_TILT_F32};
+use glam::{DVec3, Vec3};
+
+/// Points in a ball of radius 1, and a direction along which one at the rim of their disc is farthest, or
+/// next to it.
+fn points(tape: &mut Tape) -> (Vec<DVec3>, DVec3) {
+    let half = direction(tape) * tape.size(-10..=-1);
+    let middle = direction(tape) * (tape.fraction() * (1.0 - half.length()));
+    let aside = direction(tape) * half.length() * tape.size(-40..=-2);
+    let along = (half + direction(tape) * half.length() * tape.size(-40..=0)).normalize();
+    let shares = [1.0, -1.0, 0.5, -0.5, 0.1, -0.1, 0.2, 0.0];
+    let point = |(k, share): (usize, f64)| middle + half * share + aside * ((k / 2 % 2) as f64);
+    (shares.into_iter().enumerate().map(point).collect(), along)
+}
+
+/// A direction whose largest component is 1, as it is and as it is rounded.
+fn unit(d: DVec3) -> (DVec3, Vec3) {
+    let d = d / d.abs().max_element();
+    (d, d.as_vec3())
+}
+
+#[test]
+fn worst_disc() {
+    let found = Worst::of("DISC_F32", 20_000).search(|tape| {
+        let (points, along) = points(tape);
+        let (exact, d) = unit(along);
+        let discs = Discs::new(&points, LANES);
+        let bound = f64::from(discs.bounds(d)[0]) - f64::from(DISC_F32);
+        let highest = points.iter().map(|p| p.dot(exact));
+        let highest = highest.fold(f64::NEG_INFINITY, greater);
+        Some(share(highest - bound, DISC_F32.into()))
+    });
+    found.is_within(100.0);
+}
+
+#[test]
+fn worst_tilt() {
+    let found = Worst::of("DISC_TILT_F32", 40_000).search(|tape| {
+        let (exact, d) = unit(direction(tape));
+        let aside = direction(tape) * tape.size(-30..=0);
+        // Near the direction itself: what is across it is a difference of equal squares.
+        let toward = (exact.normalize() + aside).normalize();
+        let Disc { normal: m, .. } = Disc::about(&[toward, DVec3::ZERO]);
+        let m = if tape.pick(2) == 0 {
+            toward.as_vec3()
+        } else {
+            m
+        };
+        let along = m.x * d.x + (m.y * d.y + m.z * d.z);
+        let across = f64::from(d.length_squared() - along * along);
+        let truth = m.as_dvec3();
+        let truth = (exact - truth * exact.dot(truth)).length_squared();
+        let allowed = f64::from(DISC_TILT_F32) * exact.length_squared();
+        Some(share(truth - across, allowed))
+    });
+    found.is_within(20.0);
+}

@@ -1,0 +1,35 @@
+use super::Slab;
+use crate::math::order::greater;
+use crate::tests::double::{Double, Double3};
+use crate::tests::worst::{Worst, share};
+use crate::tolerance::U64;
+use glam::DVec3;
+
+/// Half of the distance of the planes without the 16u that are added.
+#[test]
+fn worst_slab() {
+    let found = Worst::of("Slab::about: 16u", 20_000).search(|tape| {
+        let [u, v, centre] = [(); 3].map(|()| DVec3::from(tape.vector(-20..=10)));
+        let corners = [(); 6].map(|()| {
+            let at = centre + u * tape.any(-10..=0) + v * tape.any(-10..=0);
+            DVec3::from(at.to_array().map(|x| x + x * tape.any(-54..=-45)))
+        });
+        let slab = Slab::about(&corners, centre)?;
+        let normal = Double3::from(slab.normal);
+        let height = |&p: &DVec3| {
+            normal
+                .dot(Double3::from(p) - Double3::from(centre))
+                .get()
+                .abs()
+        };
+        let size = |&p: &DVec3| (p - centre).abs().max_element();
+        let size = corners.iter().map(size).fold(0.0, greater);
+        let highest = corners.iter().map(height).fold(0.0, greater);
+        let found = Double::from(slab.half) - Double::from(16.0 * U64 * size);
+        Some(share(
+            (Double::from(highest) - found).get(),
+            16.0 * U64 * size,
+        ))
+    });
+    found.is_within(30.0);
+}

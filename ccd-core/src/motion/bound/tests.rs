@@ -1,0 +1,25 @@
+use super::{Velocities, sound};
+use crate::math::vector::{length, unit};
+use crate::tests::double::{Double, Double3};
+use crate::tests::worst::{Worst, share};
+use crate::tolerance::RATE_F64;
+use glam::DVec3;
+
+/// Its rounding is part of the rates that are bounded with it.
+#[test]
+fn worst_sound_bound() {
+    let found = Worst::of("RATE_F64, the sound bound", 40_000).search(|tape| {
+        let n = unit(tape.vector(-40..=0).into())?;
+        let motion = Velocities {
+            linear: DVec3::from(tape.vector(-30..=10)),
+            spin: DVec3::from(tape.vector(-30..=10)),
+        };
+        let reach = tape.size(-20..=10);
+        let [n3, v, spin] = [n, motion.linear, motion.spin].map(Double3::from);
+        let exact = n3.dot(v) + n3.cross(spin).length() * Double::from(reach);
+        let lost = exact - Double::from(sound(&motion, n, reach));
+        let speed = length(motion.linear) + length(motion.spin) * reach;
+        Some(share(lost.get(), RATE_F64 * speed))
+    });
+    found.is_within(16.0);
+}

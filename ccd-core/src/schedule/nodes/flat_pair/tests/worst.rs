@@ -1,0 +1,35 @@
+//! The reach of a flat node against that of all that is between its planes and in its ball.
+
+use super::super::Flat;
+use crate::config::Config;
+use crate::motion::Motion;
+use crate::motion::pose::Pose;
+use crate::problem::Problem;
+use crate::tests::double::{Double, Double3};
+use crate::tests::scene::{body, direction, rotation};
+use crate::tests::worst::{Worst, share};
+use crate::tolerance::RATE_F64;
+use glam::DVec3;
+
+#[test]
+fn worst_reach() {
+    let plate = [[0.0, 1.0, 0.3], [1.0, 0.0, 0.4], [1.0, 1.0, 0.5]];
+    let triangle =
+        |k: usize| [0, 1, 2].map(|j| DVec3::new(plate[j][k], plate[(j + k) % 3][(k + 1) % 3], 0.0));
+    let flat = body(&[triangle(0), triangle(1)]);
+    let found = Worst::of("RATE_F64, the reach of flat nodes", 20_000).search(|tape| {
+        let still = Motion::still(Pose::new(DVec3::ZERO, rotation(tape)).ok()?);
+        let problem = Problem::new((&flat, still), (&flat, still), 1.0, &Config::default()).ok()?;
+        let node = Flat::new(&problem.a, 0, 0.0)?;
+        let n = (node.normal + direction(tape) * tape.size(-30..=4)).normalize();
+        let [exact, normal] = [n, node.normal].map(Double3::from);
+        let along = exact.dot(normal).get().abs();
+        let radius = node.node.radius;
+        let truth = Double::from(node.half?) * Double::from(along)
+            + Double::from(radius) * exact.cross(normal).length();
+        let allowed = RATE_F64 * radius;
+        let lost = truth - (Double::from(node.reach(n)) - Double::from(allowed));
+        Some(share(lost.get(), allowed))
+    });
+    found.is_within(20.0);
+}

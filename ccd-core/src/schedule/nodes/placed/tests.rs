@@ -1,0 +1,51 @@
+use super::Placed;
+use crate::body::Body;
+use crate::body::polytope::Polytope;
+use crate::config::Config;
+use crate::motion::Motion;
+use crate::motion::pose::Pose;
+use crate::problem::Problem;
+use crate::tests::double::{Double, Double3};
+use crate::tests::scene::{direction, rotation};
+use crate::tests::worst::{Tape, Worst, share};
+use crate::tolerance::BOX_AXES_F32;
+use glam::DVec3;
+
+/// A piece of four points or more: a long box, a flat one, or any.
+fn points(tape: &mut Tape) -> Vec<DVec3> {
+    let frame = glam::DMat3::from_quat(rotation(tape));
+    let half = DVec3::new(1.0, tape.size(-30..=-1), tape.size(-30..=-1));
+    let corner = |k: usize| {
+        let sign = |bit: usize| if k >> bit & 1 == 1 { 1.0 } else { -1.0 };
+        frame * (half * DVec3::new(sign(0), sign(1), sign(2)))
+    };
+    (0..8).map(corner).collect()
+}
+
+/// The reach of a box as it stands against its points, without the allowance.
+#[test]
+fn worst_reach_of_a_box() {
+    let still = Motion::still(Pose::IDENTITY);
+    let ball = Body::ball(0.1).unwrap();
+    let found = Worst::of("BOX_AXES_F32", 20_000).search(|tape| {
+        let points = points(tape);
+        let of = Polytope {
+            points: points.clone(),
+            ..Polytope::default()
+        };
+        let body = Body::polytope(of).ok()?;
+        let problem = Problem::new((&body, still), (&ball, still), 1.0, &Config::default()).ok()?;
+        let node = Placed::new(&problem.a, 0, 0.0);
+        let along = points[tape.pick(8)] - points[tape.pick(8)];
+        let n = (along.normalize_or_zero() + direction(tape) * tape.size(-30..=4)).normalize();
+        let height = |&p: &DVec3| {
+            let way = Double3::from(p) - Double3::from(node.centre);
+            Double3::from(n).dot(way)
+        };
+        let highest = points.iter().map(height).reduce(Double::max)?;
+        let allowed = BOX_AXES_F32 * node.radius;
+        let reach = Double::from(node.reach(n)) - Double::from(allowed);
+        Some(share((highest - reach).get(), allowed))
+    });
+    found.is_within(20.0);
+}

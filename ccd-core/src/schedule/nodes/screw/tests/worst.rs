@@ -1,0 +1,33 @@
+//! What the motion along a rounded screw differs from the given one, against double-double arithmetic.
+
+use crate::math::vector::length;
+use crate::motion::Motion;
+use crate::motion::path::Path;
+use crate::motion::pose::Pose;
+use crate::tests::double::{Double, Double3};
+use crate::tests::worst::{Worst, share};
+use crate::tolerance::ADVANCE_F64;
+use glam::DVec3;
+
+#[test]
+fn worst_advance() {
+    let found = Worst::of("ADVANCE_F64", 40_000).search(|tape| {
+        let spin = DVec3::from(tape.vector(-10..=6));
+        let advance = tape.any(-10..=4);
+        let velocity = spin * advance + DVec3::from(tape.vector(-70..=-5));
+        let motion = Motion::new(Pose::IDENTITY, velocity, spin).ok()?;
+        let path = Path::new(&motion, DVec3::ZERO, 1.0);
+        if !path.turns() {
+            return None;
+        }
+        // As a screw takes them: the advance along the axis, and what is left of the velocity.
+        let along = path.velocity.dot(path.axis);
+        let drift = length(path.velocity - along * path.axis);
+        let per_radian = along / path.rate;
+        let [v, w] = [velocity, spin].map(Double3::from);
+        let exact = v - w.scale(Double::from(per_radian));
+        let lost = exact.length() - Double::from(drift);
+        Some(share(lost.get(), ADVANCE_F64 * length(velocity)))
+    });
+    found.is_within(40.0);
+}

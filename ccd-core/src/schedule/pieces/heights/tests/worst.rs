@@ -1,0 +1,178 @@
+//! Heights along a fixed axis against double-double arithmetic, in the worst cases that a search finds.
+//!
+//! The reference takes the axis and the body's rounded frame as they are, and everything from there on
+//! exactly: what rounds before is the rounding of distances.
+
+use super::super::{Heights, Point};
+use crate::body::Body;
+use crate::body::polytope::Polytope;
+use crate::config::Config;
+use crate::math::order::greater;
+use crate::math::vector::{distance, length, unit};
+use crate::motion::Motion;
+use crate::motion::pose::{Frame, Pose};
+use crate::motion::track::{Angle, Spinning};
+use crate::problem::Problem;
+use crate::tests::double::{Double, Double3};
+use crate::tests::scene::{body, rotation};
+use crate::tests::worst::{Tape, Worst, share};
+use crate::tolerance::{RATE_F64, TURNED_SUPPORT};
+use glam::DVec3;
+
+/// A body's rotation from a frame on, exactly.
+struct Turning {
+    frame: Frame,
+    spin: Double3,
+    centre: Double3,
+}
+
+impl Turning {
+    /// The vector from the centre to a point after a turn by an angle.
+    fn arm(&self, point: DVec3, angle: f64) -> Double3 {
+        let local = Double3::from(point) - self.centre;
+        let rotation = self.frame.rotation;
+        let columns = [rotation.x_axis, rotation.y_axis, rotation.z_axis].map(Double3::from);
+        let [x, y, z] = [0, 1, 2].map(|k| columns[k].scale(local.0[k]));
+        (x + y + z).turned(self.spin.unit(), Double::from(angle))
+    }
+}
+
+/// A motion about the body's origin or a centre, over a time of 1; up to 1e5 radians.
+fn motion(tape: &mut Tape) -> Option<Motion> {
+    let [velocity, spin, centre] = [-20..=6, -20..=15, -20..=8].map(|range| tape.vector(range));
+    let start = Pose::new(DVec3::ZERO, rotation(tape)).ok()?;
+    Motion::about(start, velocity, spin, centre)
+        .ok()
+        .filter(|motion| motion.spin() != DVec3::ZERO)
+}
+
+/// Returns the share that the rates of a triangle's corners take.
+fn share_of_rates(tape: &mut Tape) -> Option<f64> {
+    let body = body(&[[(); 3].map(|()| DVec3::from(tape.vector(-20..=4)))]);
+    let (motion, ball) = (motion(tape)?, Body::ball(0.1).ok()?);
+    let still = Motion::still(Pose::IDENTITY);
+    let problem = Problem::new((&body, motion), (&ball, still), 1.0, &Config::default()).ok()?;
+    let (side, normal) = (&problem.a, unit(tape.vector(-40..=0).into())?);
+    let [clock, tau] = [0; 2].map(|_| tape.fraction());
+    let turning = Turning {
+        frame: side.path.frame(clock),
+        spin: Double3::from(motion.spin()),
+        centre: Double3::from(motion.centre()),
+    };
+    let piece = body.piece(0);
+    let heights = Heights::new(side, &piece, &turning.frame, normal);
+    let share_of = |(point, found): (&DVec3, Point)| {
+        let arm = turning.arm(*point, side.path.rate * tau);
+        let velocity = Double3::from(motion.velocity()) + turning.spin.cross(arm);
+        let exact = Double3::from(normal).dot(velocity);
+        let off = (Double::from(found.rate) - exact).get().abs();
+        share(off, RATE_F64 * heights.speed())
+    };
+    let shares = piece.points.iter().zip(heights.each(tau)).map(share_of);
+    Some(shares.fold(f64::NEG_INFINITY, greater))
+}
+
+#[test]
+fn worst_rate() {
+    let found = Worst::of("RATE_F64, rates of points", 10_000).search(share_of_rates);
+    found.is_within(10.0);
+}
+
+/// A bound of distances by a ball about many points.
+#[test]
+fn worst_farthest() {
+    let found = Worst::of("RATE_F64, a sum of lengths", 40_000).search(|tape| {
+        let [middle, from] = [(); 2].map(|()| DVec3::from(tape.vector(-20..=20)));
+        let radius = tape.size(-20..=20);
+        let exact = (Double3::from(middle) - Double3::from(from)).length() + Double::from(radius);
+        let found = Double::from(distance(middle, from) + radius);
+        Some(share((exact / found - Double::from(1.0)).get(), RATE_F64))
+    });
+    found.is_within(16.0);
+}
+
+/// Returns the shares of [`TURNED_SUPPORT`] by which the lowest of many points, and the one that sinks
+/// fastest, are missed: points that are equally low up to rounding, far from each other.
+fn missed(tape: &mut Tape) -> Option<[f64; 2]> {
+    let (motion, tau) = (motion(tape)?, tape.fraction());
+    let ball = Body::ball(0.1).ok()?;
+    let still = Motion::still(Pose::IDENTITY);
+    let alone = Problem::new((&ball, motion), (&ball, still), 1.0, &Config::default()).ok()?;
+    let path = alone.a.path;
+    let (frame, normal) = (
+        path.frame(tape.fraction()),
+        unit(tape.vector(-40..=0).into())?,
+    );
+    let turn = path.rate * tau;
+    let angle = (Angle::new(turn), turn);
+    let seen = Spinning::new(-path.axis, normal);
+    let along = match tape.pick(2) {
+        0 => seen.at(angle.0),
+        _ => seen.slope_at(angle.0),
+    };
+    let level = unit(frame.inverse_vector(along))?;
+    let (east, north) = level.any_orthonormal_pair();
+    let (middle, wide) = (DVec3::from(tape.vector(-20..=4)), tape.size(-10..=4));
+    let fixed = tape.pick(4);
+    let points = (0..COUNT).map(|k| {
+        // A few points are drawn, the others are between them.
+        let [x, y] = match k < 4 {
+            true => [tape.any(-3..=0), tape.any(-3..=0)],
+            false => [0.5 * ((k * fixed) as f64 / 64.0).sin(), 0.25],
+        };
+        let up = if k < 4 {
+            tape.any(-56..=-48).abs()
+        } else {
+            1e-3
+        };
+        middle + (east * x + north * y + level * up) * wide
+    });
+    let polytope = Polytope {
+        points: points.collect(),
+        ..Polytope::default()
+    };
+    let body = Body::polytope(polytope).ok()?;
+    let problem = Problem::new((&body, motion), (&ball, still), 1.0, &Config::default()).ok()?;
+    let (piece, side) = (body.piece(0), &problem.a);
+    let turning = Turning {
+        frame,
+        spin: Double3::from(motion.spin()),
+        centre: Double3::from(motion.centre()),
+    };
+    let heights = Heights::new(side, &piece, &frame, normal);
+    let (middle, radius) = piece.ball()?;
+    let farthest = length(frame.rotation * (middle - path.centre)) + radius;
+    let allowed = TURNED_SUPPORT * (farthest + length(middle) + radius);
+    let n = Double3::from(normal);
+    let arms: Vec<Double3> = piece
+        .points
+        .iter()
+        .map(|&p| turning.arm(p, angle.1))
+        .collect();
+    let miss = |direction: DVec3, of: &dyn Fn(&Double3) -> Double| {
+        let chosen = piece.extremal(frame.inverse_vector(-direction));
+        let least = arms.iter().map(of).reduce(Double::min)?;
+        Some((of(&arms[chosen as usize]) - least).get())
+    };
+    let height = miss(seen.at(angle.0), &|arm| n.dot(*arm))?;
+    let rate = miss(seen.slope_at(angle.0), &|arm| {
+        n.dot(turning.spin.cross(*arm))
+    })?;
+    assert!(heights.missed >= allowed);
+    Some([share(height, allowed), share(rate, path.rate * allowed)])
+}
+
+/// The points of a piece that has many: more than are scanned.
+const COUNT: usize = 36;
+
+#[test]
+fn worst_lowest_of_many() {
+    let found = Worst::of("TURNED_SUPPORT, heights", 6_000).search(|tape| Some(missed(tape)?[0]));
+    found.is_within(100.0);
+}
+
+#[test]
+fn worst_fastest_of_many() {
+    let found = Worst::of("TURNED_SUPPORT, rates", 6_000).search(|tape| Some(missed(tape)?[1]));
+    found.is_within(100.0);
+}

@@ -1,0 +1,258 @@
+//! A search for the cases in which an allowance for rounding is used up most.
+//!
+//! Random cases come nowhere near a bound that adds up the worst of every operation. Here each case is a
+//! tape of words, which become numbers when it is read. The search changes the words of the worst case so
+//! far, keeps what is no better, and starts anew when nothing is worse for long. The seed is fixed: the same
+//! test judges the same cases.
+//!
+//! `CCD_TEST_CASES` in the environment multiplies the number of cases. The results are printed:
+//!
+//! ```sh
+//! CCD_TEST_CASES=50 cargo test --release --workspace worst -- --nocapture --test-threads 1
+//! ```
+//!
+//! Other crates of the workspace include this file by its path: it uses the standard library alone.
+
+use std::ops::RangeInclusive;
+
+/// A case, as words that are made up as far as it is read.
+pub(crate) struct Tape {
+    words: Vec<u64>,
+    read: usize,
+    dice: Dice,
+}
+
+/// The search for the worst case of one allowance.
+pub(crate) struct Worst {
+    name: &'static str,
+    cases: f64,
+}
+
+/// The worst case that a search came upon.
+pub(crate) struct Found {
+    name: &'static str,
+    /// The largest share of the allowance that an error took.
+    share: f64,
+    /// Whether the search was not cut short.
+    whole: bool,
+}
+
+/// The number of cases without a worse one after which a search starts anew, and that for each word.
+const PATIENCE: [u64; 2] = [200, 10];
+
+/// The number of random cases that the next climb starts from the worst of.
+const DRAWN: u64 = 24;
+
+impl Worst {
+    /// Creates a search of so many cases, times `CCD_TEST_CASES`.
+    pub(crate) fn of(name: &'static str, cases: u32) -> Self {
+        let given = std::env::var("CCD_TEST_CASES").ok();
+        let times: f64 = given.and_then(|text| text.parse().ok()).unwrap_or(1.0);
+        Worst {
+            name,
+            cases: f64::from(cases) * times,
+        }
+    }
+
+    /// Searches for the case with the largest share; `judge` returns that of a case, or none if it is
+    /// not one that the allowance is for.
+    ///
+    /// # Panics
+    /// If a share is no number, or if most cases are none.
+    #[allow(clippy::print_stdout)]
+    pub(crate) fn search(self, mut judge: impl FnMut(&mut Tape) -> Option<f64>) -> Found {
+        let count = self.cases.ceil() as u64;
+        let mut dice = Dice(self.name.bytes().fold(7, |seed, byte| {
+            mixed(seed ^ u64::from(byte)) // A seed of its own for every name.
+        }));
+        let nothing = || (f64::NEG_INFINITY, Vec::new());
+        let (mut here, mut worst, mut number) = (nothing(), nothing(), 0);
+        let (mut drawn, mut stale, mut judged) = (0, 0, 0u64);
+        for case in 1..=count {
+            let words = match drawn < DRAWN {
+                true => Vec::new(),
+                false => dice.changed(&here.1),
+            };
+            drawn += 1;
+            let mut tape = Tape {
+                words,
+                read: 0,
+                dice: Dice(dice.next()),
+            };
+            let Some(share) = judge(&mut tape) else {
+                continue;
+            };
+            assert!(!share.is_nan(), "{}: {:?}", self.name, tape.words);
+            judged += 1;
+            stale += 1;
+            // As bad a case is taken as well: it may lead on where the last one does not.
+            if share >= here.0 {
+                stale = if share > here.0 { 0 } else { stale };
+                here = (share, tape.words);
+            }
+            if here.0 > worst.0 {
+                (worst, number) = (here.clone(), case);
+            }
+            if stale > PATIENCE[0] + PATIENCE[1] * here.1.len() as u64 {
+                // Every other climb goes on from the worst case of all.
+                let anew = dice.next() & 1 == 0;
+                here = if anew { nothing() } else { worst.clone() };
+                (drawn, stale) = (if anew { 0 } else { DRAWN }, 0);
+            }
+        }
+        let (name, share) = (self.name, worst.0);
+        let ratio = 1.0 / share;
+        let ratio = match ratio < 1e6 {
+            true => format!("{ratio:.3}"),
+            false => format!("{ratio:.1e}"),
+        };
+        println!("{name}: allowance / worst error = {ratio} at case {number} of {judged}");
+        assert!(4 * judged > count, "{name}: {judged} of {count} are cases");
+        Found {
+            name,
+            share,
+            whole: self.cases >= count as f64 && count > 1000,
+        }
+    }
+}
+
+impl Found {
+    /// Asserts that no error exceeded the allowance, and that one came as near to it as this factor.
+    pub(crate) fn is_within(&self, looseness: f64) {
+        let (name, ratio) = (self.name, 1.0 / self.share);
+        assert!(self.share <= 1.0, "{name}: only {ratio} of an error");
+        // A search that looks at nothing would prove nothing.
+        let near = self.share > 0.0 && ratio <= looseness;
+        assert!(near || !self.whole, "{name}: {ratio} times all errors");
+    }
+}
+
+/// Returns the share of an allowance that an error takes. Any error takes infinitely much of none.
+pub(crate) fn share(error: f64, allowance: f64) -> f64 {
+    match allowance > 0.0 {
+        true => error / allowance,
+        false if error > 0.0 => f64::INFINITY,
+        // Written so that NaN stays.
+        false => 0.0 * error,
+    }
+}
+
+impl Tape {
+    /// Returns the next word.
+    pub(crate) fn word(&mut self) -> u64 {
+        if self.read == self.words.len() {
+            self.words.push(self.dice.next());
+        }
+        self.read += 1;
+        self.words[self.read - 1]
+    }
+
+    /// Returns a number of any sign and mantissa, and of an exponent of two within a range; sometimes 0.
+    pub(crate) fn any(&mut self, exponents: RangeInclusive<i32>) -> f64 {
+        let word = self.word();
+        let (field, mantissa) = (word >> 52 & 0x7ff, word & MANTISSA);
+        if field < 32 {
+            return 0.0;
+        }
+        let (least, most) = exponents.into_inner();
+        let exponent = least + field as i32 % (most - least + 1);
+        let size = f64::from_bits(ONE | mantissa);
+        let signed = if word >> 63 == 1 { -size } else { size };
+        // Two steps, as 2⁻¹⁰⁷⁴ is no power that can be made in one.
+        let half = exponent / 2;
+        signed * 2f64.powi(half) * 2f64.powi(exponent - half)
+    }
+
+    /// Returns three such numbers.
+    pub(crate) fn vector(&mut self, exponents: RangeInclusive<i32>) -> [f64; 3] {
+        [(); 3].map(|()| self.any(exponents.clone()))
+    }
+
+    /// Returns a number that is positive.
+    pub(crate) fn size(&mut self, exponents: RangeInclusive<i32>) -> f64 {
+        let least = 2f64.powi(*exponents.start());
+        match self.any(exponents).abs() {
+            size if size > 0.0 => size,
+            _ => least,
+        }
+    }
+
+    /// Returns a number that differs from another one by anything from nothing to as much as it is.
+    pub(crate) fn near(&mut self, x: f64) -> f64 {
+        x + x * self.any(-54..=0)
+    }
+
+    /// Returns a number from 0 to 1, the latter excluded.
+    pub(crate) fn fraction(&mut self) -> f64 {
+        (self.word() >> 11) as f64 * 0.5f64.powi(53)
+    }
+
+    /// Returns a number below another one.
+    pub(crate) fn pick(&mut self, count: usize) -> usize {
+        (self.word() % count as u64) as usize
+    }
+}
+
+const MANTISSA: u64 = (1 << 52) - 1;
+const ONE: u64 = 1023 << 52;
+
+/// Splitmix: enough for a search.
+struct Dice(u64);
+
+impl Dice {
+    fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        mixed(self.0)
+    }
+
+    fn below(&mut self, count: usize) -> usize {
+        (self.next() % count as u64) as usize
+    }
+
+    /// Returns a case with one word changed, or a few.
+    fn changed(&mut self, words: &[u64]) -> Vec<u64> {
+        let mut words = words.to_vec();
+        if words.is_empty() {
+            return words;
+        }
+        let changes = 1 + self.next().trailing_zeros().min(5);
+        for _ in 0..changes {
+            let at = self.below(words.len());
+            words[at] = self.other(words[at], &words);
+        }
+        words
+    }
+
+    /// Returns another word in the place of one.
+    fn other(&mut self, word: u64, all: &[u64]) -> u64 {
+        let digits = self.next() & MANTISSA;
+        // A few units in the last place, where the word is a number.
+        let few = digits % 16;
+        match self.below(10) {
+            0 => self.next(),
+            1 => word & !MANTISSA | digits,
+            2 => word ^ 1 << self.below(64),
+            3 => word ^ 1 << self.below(52),
+            4 => word.wrapping_add(few),
+            5 => word.wrapping_sub(few),
+            // Just above a power of two, and just below one.
+            6 => word & !MANTISSA | few,
+            7 => word | MANTISSA ^ few,
+            // Equal to another number or opposite, up to a few last digits: sums of such cancel.
+            8 => {
+                let sign = (self.next() & 1) << 63;
+                let digits = if self.next() & 1 == 0 { few } else { 0 };
+                all[self.below(all.len())] ^ sign ^ digits
+            }
+            _ => word
+                .wrapping_add((self.next() % 5) << 52)
+                .wrapping_sub(2 << 52),
+        }
+    }
+}
+
+fn mixed(x: u64) -> u64 {
+    let x = (x ^ x >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    let x = (x ^ x >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
+    x ^ x >> 31
+}

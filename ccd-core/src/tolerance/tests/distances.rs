@@ -1,0 +1,140 @@
+//! The rounding of distances, in the worst cases that a search finds, against double-double arithmetic.
+//!
+//! Coordinates of about a unit, far from the origins of the bodies and of the world, and up to a million
+//! radians: each is a part of the bound.
+
+use super::{Shares, far_body, motion, shares_of_a_look};
+use crate::config::{Config, Instructions};
+use crate::math::order::greater;
+use crate::motion::relative::View;
+use crate::problem::{Moving, Problem};
+use crate::tests::double::{Double, Double3, place};
+use crate::tests::far_ends::{between, ends};
+use crate::tests::scene::{RngExt, direction, magnitude};
+use crate::tests::worst::{Tape, Worst, share};
+use crate::{Body, Motion};
+use glam::DVec3;
+
+/// Two bodies on their way.
+struct Scene {
+    bodies: [Body; 2],
+    motions: [Motion; 2],
+    duration: f64,
+}
+
+impl Scene {
+    fn new(tape: &mut Tape) -> Self {
+        let size = magnitude(tape, -6.0, 6.0);
+        let far = match tape.random_range(0..3) {
+            0 => 0.0,
+            _ => magnitude(tape, 0.0, 6.0),
+        };
+        let world = direction(tape) * far;
+        let duration = magnitude(tape, -3.0, 3.0);
+        Scene {
+            bodies: [(); 2].map(|()| far_body(tape, 1, size)),
+            motions: [(); 2].map(|()| motion(tape, world, size, duration)),
+            duration,
+        }
+    }
+
+    fn problem(&self) -> Option<Problem<'_>> {
+        let moving = |k: usize| Moving {
+            body: &self.bodies[k],
+            motion: self.motions[k],
+        };
+        Problem::new(moving(0), moving(1), self.duration, &Config::default()).ok()
+    }
+}
+
+/// Returns the shares of a random look at two bodies.
+fn look(tape: &mut Tape) -> Option<Shares> {
+    let scene = Scene::new(tape);
+    let problem = scene.problem()?;
+    let s = tape.random_range(0.0..1.0);
+    Some(shares_of_a_look(
+        tape,
+        &problem,
+        &scene.motions,
+        scene.duration,
+        s,
+    ))
+}
+
+#[test]
+fn worst_places() {
+    let found =
+        Worst::of("distance_rounding, places", 8_000).search(|tape| Some(look(tape)?.place));
+    found.is_within(100.0);
+}
+
+#[test]
+fn worst_gaps() {
+    let found = Worst::of("distance_rounding, gaps", 8_000).search(|tape| Some(look(tape)?.gap));
+    found.is_within(100.0);
+}
+
+#[test]
+fn worst_distances() {
+    let found =
+        Worst::of("distance_rounding, distances", 8_000).search(|tape| Some(look(tape)?.distance));
+    found.is_within(100.0);
+}
+
+/// Poses at both ends, from which velocities are derived.
+#[test]
+fn worst_places_between_poses() {
+    let found = Worst::of("distance_rounding, between poses", 8_000).search(|tape| {
+        let world = direction(tape) * magnitude(tape, 0.0, 11.9);
+        let (size, duration) = (magnitude(tape, -3.0, 3.0), magnitude(tape, -3.0, 3.0));
+        let bodies = [(); 2].map(|()| far_body(tape, 1, size));
+        let ends = [(); 2].map(|()| ends(tape, world, size));
+        let motions = ends.map(|ends| between(&ends, duration));
+        let scene = Scene {
+            bodies,
+            motions,
+            duration,
+        };
+        let problem = scene.problem()?;
+        let origin = Double3::from(ends[1].places[0]);
+        let s = tape.random_range(0.0..1.0);
+        let k = tape.pick(2);
+        let frame = [&problem.a, &problem.b][k].path.frame(s);
+        let off = |p: &DVec3| {
+            let exact = ends[k].place(Double::from(s), *p) - origin;
+            (Double3::from(frame.point(*p)) - exact).length().get()
+        };
+        let off = scene.bodies[k].pieces().points().iter().map(off);
+        Some(share(off.fold(0.0, greater), problem.rounding))
+    });
+    found.is_within(100.0);
+}
+
+/// One body as nodes of the other one see it.
+#[test]
+fn worst_views() {
+    let found = Worst::of("distance_rounding, views", 8_000).search(|tape| {
+        let scene = Scene::new(tape);
+        let problem = scene.problem()?;
+        let (s, time) = (tape.random_range(0.0..1.0), scene.duration);
+        let own = tape.pick(2);
+        let sides = [&problem.a, &problem.b];
+        let (from, to) = (sides[own], sides[1 - own]);
+        let view = View::new(&from.path, &to.path);
+        let level = Instructions::Baseline.level();
+        let [x, y] = [from, to].map(|side| side.body.pieces().points()[0]);
+        let arm = y - to.path.centre;
+        let found = crate::vectorize!(level, level => {
+            let seen = view.at(level, s);
+            let arm = crate::math::packed::Packed::new(level, arm);
+            (seen.rotation * arm + seen.way).unpacked()
+        });
+        let found = Double3::from(found) - (Double3::from(x) - Double3::from(from.path.centre));
+        let [at, there] = [(own, x), (1 - own, y)];
+        let exact = place(&scene.motions[there.0], time, s, there.1)
+            - place(&scene.motions[at.0], time, s, at.1);
+        let off = (found.length() - exact.length()).get().abs();
+        Some(share(off, problem.rounding))
+    });
+    found.is_within(100.0);
+}

@@ -1,0 +1,230 @@
+//! Allowances for sums of products, against fractions, in the worst cases that a search finds.
+
+use crate::math::order::greater;
+use crate::math::principal::principal_axes;
+use crate::math::vector::{length, unit};
+use crate::tests::double::{Double, Double3};
+use crate::tests::rational::{Exact3, error_of};
+use crate::tests::worst::{Tape, Worst, share};
+use crate::tolerance::{
+    FRAME_F64, HEIGHT_F64, LEAST_ROUNDING, SIGN_F64, SQUARES, TURNS_F64, U64, distance_rounding,
+    height_rounding,
+};
+use glam::{DMat3, DVec3};
+
+/// The accepted coordinates, and far smaller ones: 1e-100 to 1e12.
+const COORDINATES: std::ops::RangeInclusive<i32> = -332..=39;
+
+/// Some points that are near each other, compared to their distance from the origin, or not.
+fn corners<const N: usize>(tape: &mut Tape) -> [DVec3; N] {
+    let scale = tape.size(COORDINATES);
+    let first = DVec3::from(tape.vector(-8..=0));
+    let near = tape.size(-50..=0);
+    [(); N].map(|()| match tape.pick(4) {
+        0 => DVec3::from(tape.vector(-60..=0)) * scale,
+        1 => DVec3::from(first.to_array().map(|x| tape.near(x))) * scale,
+        _ => (first + DVec3::from(tape.vector(-8..=0)) * near) * scale,
+    })
+}
+
+/// A direction that is a unit vector up to rounding; none in place of zero.
+fn axis(tape: &mut Tape) -> Option<DVec3> {
+    unit(tape.vector(-60..=0).into())
+}
+
+fn size(v: DVec3) -> f64 {
+    v.abs().element_sum()
+}
+
+#[test]
+fn height_f64() {
+    let found = Worst::of("HEIGHT_F64", 40_000).search(|tape| {
+        let (n, x) = (axis(tape)?, DVec3::from(tape.vector(COORDINATES)));
+        let exact = Exact3::of(n).dot(&Exact3::of(x));
+        let allowed = HEIGHT_F64 * size(n) * x.abs().max_element();
+        Some(share(error_of(n.dot(x), &exact), allowed))
+    });
+    found.is_within(3.0);
+}
+
+/// Along a ray: how far ahead a corner is.
+#[test]
+fn sign_f64_of_a_product() {
+    let found = Worst::of("SIGN_F64, a product", 40_000).search(|tape| {
+        let ([from, corner], n) = (corners(tape), axis(tape)?);
+        let way = corner - from;
+        let exact = Exact3::of(n).dot(&Exact3::of(corner).minus(&Exact3::of(from)));
+        let allowed = SIGN_F64 * size(way) + f64::MIN_POSITIVE;
+        Some(share(error_of(n.dot(way), &exact), allowed))
+    });
+    found.is_within(12.0);
+}
+
+/// On which side of an edge a ray passes.
+#[test]
+fn sign_f64_of_a_ray_and_an_edge() {
+    let found = Worst::of("SIGN_F64, a ray and an edge", 40_000).search(|tape| {
+        let ([from, p, q], n) = (corners(tape), axis(tape)?);
+        let [a, b, c] = [from, p, q].map(Exact3::of);
+        let exact = Exact3::of(n).dot(&b.minus(&a).cross(&c.minus(&a)));
+        let (p, q) = (p - from, q - from);
+        let allowed = SIGN_F64 * (size(p) * size(q)) + f64::MIN_POSITIVE;
+        Some(share(error_of(n.dot(p.cross(q)), &exact), allowed))
+    });
+    found.is_within(9.0);
+}
+
+/// On which side of a triangle a ray starts.
+#[test]
+fn sign_f64_of_three_corners() {
+    let found = Worst::of("SIGN_F64, three corners", 30_000).search(|tape| {
+        let [from, of @ ..]: [DVec3; 4] = corners(tape);
+        let start = Exact3::of(from);
+        let [a, b, c] = of.map(|p| Exact3::of(p).minus(&start));
+        let exact = a.dot(&b.cross(&c));
+        let [a, b, c] = of.map(|p| p - from);
+        let allowed = SIGN_F64 * (size(a) * size(b) * size(c)) + f64::MIN_POSITIVE;
+        Some(share(error_of(a.dot(b.cross(c)), &exact), allowed))
+    });
+    found.is_within(9.0);
+}
+
+/// As a tree of points and hulls take heights above planes.
+#[test]
+fn height_rounding_of_points() {
+    let found = Worst::of("height_rounding, a point", 30_000).search(|tape| {
+        let [a, b, c, x, base] = corners(tape);
+        let [u, v] = [b - a, c - a];
+        let normal = u.cross(v);
+        let (point, foot) = (x - base, a - base);
+        let reach = greater(point.abs().max_element(), foot.abs().max_element());
+        let [a, b, c, x] = [a, b, c, x].map(Exact3::of);
+        let exact = b.minus(&a).cross(&c.minus(&a)).dot(&x.minus(&a));
+        let height = normal.dot(point) - normal.dot(foot);
+        Some(share(
+            error_of(height, &exact),
+            height_rounding([u, v], reach),
+        ))
+    });
+    found.is_within(30.0);
+}
+
+/// The height of a box is never less than that of a point in it, by more than is allowed.
+#[test]
+fn height_rounding_of_boxes() {
+    let found = Worst::of("height_rounding, a box", 30_000).search(|tape| {
+        let [a, b, c, x, y, base] = corners(tape);
+        let [u, v] = [b - a, c - a];
+        let normal = u.cross(v);
+        let (lo, hi) = ((x - base).min(y - base), (x - base).max(y - base));
+        let (middle, half) = ((lo + hi) / 2.0, (hi - lo) / 2.0);
+        let half = half + (lo.abs().max(hi.abs())) * f64::EPSILON;
+        let foot = a - base;
+        let reach = greater(
+            (middle.abs() + half).max_element(),
+            foot.abs().max_element(),
+        );
+        let height = normal.dot(middle) + normal.abs().dot(half) - normal.dot(foot);
+        let [a, b, c] = [a, b, c].map(Exact3::of);
+        let exact = b.minus(&a).cross(&c.minus(&a));
+        let lacks = |p: DVec3| {
+            let truth = exact.dot(&Exact3::of(p).minus(&a));
+            (truth - crate::tests::rational::exact(height))
+                .to_f64()
+                .value()
+        };
+        Some(share(
+            greater(lacks(x), lacks(y)),
+            height_rounding([u, v], reach),
+        ))
+    });
+    found.is_within(40.0);
+}
+
+/// The error of three columns from unit length and right angles.
+#[test]
+fn frame_f64() {
+    let found = Worst::of("FRAME_F64", 20_000).search(|tape| {
+        let points: [DVec3; 4] = [(); 4].map(|()| tape.vector(-40..=0).into());
+        let frame = principal_axes(|| points.iter().map(|&p| (p, 1.0)));
+        Some(share(off_frame(&frame), FRAME_F64))
+    });
+    found.is_within(200.0);
+}
+
+fn off_frame(frame: &DMat3) -> f64 {
+    let columns = [0, 1, 2].map(|k| Double3::from(frame.col(k)));
+    let one = |same: bool| Double::from(f64::from(u8::from(same)));
+    let pairs = (0..9).map(|k| (k / 3, k % 3));
+    let off = pairs.map(|(i, j)| (columns[i].dot(columns[j]) - one(i == j)).get().abs());
+    off.fold(0.0, greater)
+}
+
+/// `4u`, for a square within the range and for one beyond it.
+#[test]
+fn units_and_lengths() {
+    for (name, exponents, looseness) in [
+        ("unit and length: 4u", -300..=300, 3.0),
+        ("SQUARES and SCALE: 4u of lengths", -520..=-320, 3.0),
+    ] {
+        let found = Worst::of(name, 40_000).search(|tape| {
+            let v = DVec3::from(tape.vector(exponents.clone()));
+            let n = unit(v)?;
+            // Scaled by a power of two: the digits of double-double do not reach below 1e-290.
+            let up = 2f64.powi(*exponents.start() / -2);
+            let scaled = Double3::from(v * up);
+            let exact = scaled.length().get();
+            let off = Double::from(length(v) * up) - scaled.length();
+            let of_unit = Double3::from(n).length() - Double::from(1.0);
+            let error = greater(off.get().abs() / exact, of_unit.get().abs());
+            Some(share(error, 4.0 * U64))
+        });
+        found.is_within(looseness);
+    }
+}
+
+/// What an error is at all where the squares of all coordinates vanish: nothing but the last digit of the
+/// least numbers. A bound without a constant would vanish too.
+#[test]
+fn least_rounding() {
+    let found = Worst::of("LEAST_ROUNDING", 10_000).search(|tape| {
+        let v = DVec3::from(tape.vector(-1074..=-1000));
+        let bound = distance_rounding([length(v), 0.0], [0.0; 2], 0.0);
+        assert!(bound >= LEAST_ROUNDING && length(v).powi(2) < *SQUARES.start());
+        // A third of a length: a mean of corners.
+        let third = v / 3.0;
+        let exact = Exact3::of(v);
+        let off = [0, 1, 2].map(|k| {
+            let truth = &exact.0[k] / dashu_ratio::Relaxed::from(3);
+            // In units of 2⁻¹⁰⁰⁰, so that a part of the least number is a number.
+            let error = crate::tests::rational::exact(third[k]) - truth;
+            let unit = crate::tests::rational::exact(2f64.powi(-500));
+            (error / &unit / &unit).to_f64().value().abs()
+        });
+        let worst = off.into_iter().fold(0.0, greater);
+        Some(share(worst, bound * 2f64.powi(500) * 2f64.powi(500)))
+    });
+    // Far above, as its derivation says.
+    found.is_within(f64::INFINITY);
+}
+
+/// A number of turns is a quotient of an angle, which was computed in a few steps.
+#[test]
+fn turns_f64() {
+    // 2π to 107 bits: sine and cosine of the rounded angle correct it.
+    let tau = {
+        let rough = Double::from(std::f64::consts::TAU);
+        rough - rough.sin_cos().0
+    };
+    let found = Worst::of("TURNS_F64", 20_000).search(|tape| {
+        let [from, width, ahead] = [0; 3].map(|_| tape.any(-20..=20));
+        let turns = (from - width - ahead) / std::f64::consts::TAU;
+        let exact = (Double::from(from) - Double::from(width) - Double::from(ahead)) / tau;
+        let off = (Double::from(turns) - exact).get().abs();
+        // Angles that cancel are off by their own digits.
+        let most = [from, width, ahead].map(f64::abs).into_iter();
+        let allowed = TURNS_F64 * (1.0 + most.fold(turns.abs(), greater));
+        Some(share(off, allowed))
+    });
+    found.is_within(1e8);
+}

@@ -1,0 +1,29 @@
+use crate::rational::Exact3;
+use crate::tolerance::{NEAREST_SLACK, WELL_SHAPED};
+use crate::worst::{Worst, share};
+use ccd_core::glam::DVec3;
+use ccd_core::vector::unit;
+
+/// The error of the normal of a facet that is just wide enough, as a share of the error of distances.
+#[test]
+fn worst_normal() {
+    let found = Worst::of("WELL_SHAPED, a normal", 20_000).search(|tape| {
+        let along = DVec3::from(tape.vector(-20..=0));
+        let aside = DVec3::from(tape.vector(-8..=0)) * (2.0 * WELL_SHAPED * tape.size(0..=20));
+        let corners = [DVec3::ZERO, along, along * tape.any(-3..=0) + aside];
+        let far = DVec3::from(tape.vector(-20..=0));
+        let [a, b, c] = corners.map(|p| p + far);
+        let (u, v) = (b - a, c - a);
+        let across = u.cross(v);
+        // As a plane is accepted.
+        let good = across.length() > WELL_SHAPED * u.length() * v.length();
+        let found = unit(across).filter(|_| good)?;
+        let [a, b, c] = [a, b, c].map(Exact3::of);
+        let exact = b.minus(&a).cross(&c.minus(&a));
+        // Rounded once: far below what is looked for.
+        let exact = exact.0.map(|x| x.to_f64().value());
+        let exact = unit(DVec3::from_array(exact))?;
+        Some(share(exact.distance(found), NEAREST_SLACK))
+    });
+    found.is_within(60.0);
+}

@@ -1,0 +1,71 @@
+//! Distances to a triangle against fractions, in the worst cases that a search finds.
+
+use super::Target;
+use crate::mesh::TriangleMesh;
+use crate::rational::{Exact3, exact};
+use crate::solid::topology::Topology;
+use crate::work::Work;
+use crate::worst::{Tape, Worst, share};
+use ccd_core::glam::DVec3;
+use ccd_core::order::{greater, lesser};
+use dashu_ratio::Relaxed;
+
+/// The square of the distance of a point from a triangle.
+fn square([a, b, c]: [DVec3; 3], point: DVec3) -> Relaxed {
+    let [a, b, c] = [a, b, c].map(|v| Exact3::of(v).minus(&Exact3::of(point)));
+    let edges = [(&a, &b), (&b, &c), (&c, &a)].map(|(p, q)| {
+        let along = q.minus(p);
+        let length = along.dot(&along);
+        let toward = Relaxed::ZERO - p.dot(&along);
+        if toward <= Relaxed::ZERO || length <= Relaxed::ZERO {
+            p.dot(p)
+        } else if toward >= length {
+            q.dot(q)
+        } else {
+            p.dot(p) - &toward * &toward / length
+        }
+    });
+    let normal = b.minus(&a).cross(&c.minus(&a));
+    let inside =
+        [(&a, &b), (&b, &c), (&c, &a)].map(|(p, q)| p.cross(q).dot(&normal) >= Relaxed::ZERO);
+    let height = a.dot(&normal);
+    let of_plane = match normal.dot(&normal) {
+        size if size > Relaxed::ZERO && inside == [true; 3] => Some(&height * &height / size),
+        _ => None,
+    };
+    let all = edges.into_iter().chain(of_plane);
+    all.reduce(|x, y| if y < x { y } else { x })
+        .expect("three edges")
+}
+
+/// A triangle of an aspect of a million at most, and a point near it or not.
+fn setting(tape: &mut Tape) -> Option<([DVec3; 3], DVec3)> {
+    let (scale, offset) = (tape.size(-60..=30), DVec3::from(tape.vector(-8..=10)));
+    let [u, v] = [(); 2].map(|()| DVec3::from(tape.vector(-4..=0)));
+    let (narrow, share) = (tape.size(-20..=0), tape.any(-3..=0));
+    let corners = [DVec3::ZERO, u, u * share + v * narrow].map(|p| (p + offset) * scale);
+    let [a, b, c] = corners;
+    let [along, other] = [b - a, c - a];
+    let aspect = along.cross(other).length() / along.length_squared();
+    let near = tape.size(-40..=1);
+    let at = a + along * tape.fraction() + other * tape.fraction();
+    let point = at + DVec3::from(tape.vector(-8..=0)) * near * scale;
+    (aspect > 1e-6).then_some((corners, point))
+}
+
+#[test]
+fn worst_distance() {
+    let found = Worst::of("NEAREST_SLACK", 6_000).search(|tape| {
+        let (corners, point) = setting(tape)?;
+        let mesh = TriangleMesh::new(corners.to_vec(), &[[0, 1, 2]]).ok()?;
+        let target = Target::of(&mesh, &Topology::of(&mesh));
+        let (found, reached) = target.nearest(point, &Work::unbounded());
+        let scale = exact(2f64.powi(400));
+        let truth = (square(corners, point) * &scale).to_f64().value().sqrt() * 2f64.powi(-200);
+        // Inside, the lesser of the two counts as a depth; outside, the second as a distance.
+        let error = greater(lesser(found, reached) - truth, truth - reached);
+        Some(share(error, target.slack()))
+    });
+    // It is for needles; what is seen of them is far less.
+    found.is_within(1e9);
+}

@@ -1,0 +1,81 @@
+//! Cuts of an edge against fractions, in the worst cases that a search finds.
+
+use super::cut_at;
+use crate::rational::{Exact3, exact};
+use crate::tolerance::{clip_rounding, on_edge};
+use crate::worst::{Tape, Worst, share};
+use ccd_core::glam::DVec3;
+use ccd_core::order::greater;
+
+/// An edge, far from the origin or not.
+fn edge(tape: &mut Tape) -> [DVec3; 2] {
+    let scale = tape.size(-200..=39);
+    let middle = DVec3::from(tape.vector(-8..=0));
+    let small = tape.size(-50..=0);
+    [(); 2].map(|()| (middle + DVec3::from(tape.vector(-8..=0)) * small) * scale)
+}
+
+/// The distance of a point from the line of an edge. Its square is a fraction; the root of it rounds once.
+fn off_line(point: DVec3, [p, q]: [DVec3; 2]) -> f64 {
+    let [x, p, q] = [point, p, q].map(Exact3::of);
+    let along = q.minus(&p);
+    let across = x.minus(&p).cross(&along);
+    let square = across.dot(&across) / along.dot(&along);
+    // Scaled, because squares of small lengths are smaller than any number.
+    let scale = exact(2f64.powi(500));
+    let root = (square * &scale).to_f64().value().sqrt();
+    root * 2f64.powi(-250)
+}
+
+/// Cuts an edge by a plane between its ends, and leaves the part from the cut to one of them.
+fn cut(tape: &mut Tape, polygon: &mut Vec<DVec3>) -> Option<()> {
+    let (axis, keep) = (tape.pick(3), tape.pick(2) == 0);
+    let (p, q) = (polygon[0][axis], polygon[1][axis]);
+    let plane = p + (q - p) * tape.fraction();
+    let mut part = Vec::new();
+    cut_at(polygon, axis, |x| (x >= plane) == keep, plane, &mut part);
+    part.dedup();
+    part.truncate(2);
+    let more = part.len() == 2 && part[0] != part[1];
+    *polygon = part;
+    more.then_some(())
+}
+
+fn largest(of: [DVec3; 2]) -> f64 {
+    greater(of[0].abs().max_element(), of[1].abs().max_element())
+}
+
+/// A third of it is the most by which one cut moves a point.
+#[test]
+fn worst_cut() {
+    let found = Worst::of("on_edge / 3, one cut", 20_000).search(|tape| {
+        let edge = edge(tape);
+        let mut polygon = edge.to_vec();
+        cut(tape, &mut polygon)?;
+        let off = polygon.iter().map(|&x| off_line(x, edge));
+        Some(share(off.fold(0.0, greater), on_edge(largest(edge)) / 3.0))
+    });
+    found.is_within(40.0);
+}
+
+/// As many cuts as a grid of 128 layers makes, one after the other.
+#[test]
+fn worst_cuts() {
+    let found = Worst::of("clip_rounding, 21 cuts", 6_000).search(|tape| {
+        let edge = edge(tape);
+        let mut polygon = edge.to_vec();
+        let mut worst = 0.0f64;
+        for _ in 0..21 {
+            let before = polygon.clone();
+            if cut(tape, &mut polygon).is_none() {
+                polygon = before;
+                continue;
+            }
+        }
+        for &x in &polygon {
+            worst = greater(worst, off_line(x, edge));
+        }
+        Some(share(worst, clip_rounding(largest(edge))))
+    });
+    found.is_within(4_000.0);
+}
