@@ -1,19 +1,24 @@
 #!/bin/sh
 # Opens a page in a headless browser and takes a screenshot. The console must stay empty, and the page has
-# to draw its plane and its view in three dimensions.
+# to draw all its parts: the plane and the view in three dimensions, or those that are named.
 #
-#   check_page.sh PAGE.html SHOT.png [WIDTH,HEIGHT]
+#   check_page.sh PAGE.html SHOT.png [WIDTH,HEIGHT [PART...]]
 #
 # Exit code 0: success; 1: the page is wrong; 2: wrong arguments; 3: no browser found.
 set -eu
 
-if [ $# -lt 2 ] || [ $# -gt 3 ] || [ ! -f "$1" ]; then
-    echo "usage: $0 PAGE.html SHOT.png [WIDTH,HEIGHT]" >&2
+if [ $# -lt 2 ] || [ ! -f "$1" ]; then
+    echo "usage: $0 PAGE.html SHOT.png [WIDTH,HEIGHT [PART...]]" >&2
     exit 2
 fi
 page=$(realpath "$1")
 shot=$(realpath -m "$2")
 size=${3:-1200,1800}
+if [ $# -gt 3 ]; then
+    shift 3
+else
+    set -- plane view
+fi
 
 browser=
 for name in chromium chromium-browser google-chrome; do
@@ -51,7 +56,8 @@ if grep 'CONSOLE' "$work/log" >&2; then
     fault=1
 fi
 root=$(grep -o -m1 '<html[^>]*>' "$work/dom" | head -n 1)
-for marker in 'data-plane="drawn"' 'data-view="drawn"'; do
+for part in "$@"; do
+    marker="data-$part=\"drawn\""
     case $root in
     *"$marker"*) ;;
     *)

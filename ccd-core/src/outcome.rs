@@ -77,6 +77,8 @@ pub enum Limit {
     Budget,
     /// The [deadline](crate::Config::deadline) was passed.
     Deadline,
+    /// The caller [stopped](crate::Problem::stopped_by) the query.
+    Stopped,
     /// A pair's proof could not be prolonged: the next step is below the time's resolution.
     Stalled,
     /// The oracle gave up on a pair, and no other oracle was available.
@@ -91,6 +93,7 @@ impl fmt::Display for Limit {
         f.write_str(match self {
             Limit::Budget => "budget",
             Limit::Deadline => "deadline",
+            Limit::Stopped => "stopped",
             Limit::Stalled => "stalled",
             Limit::OracleGaveUp => "oracle gave up",
             Limit::Undecided => "undecided",

@@ -12,6 +12,8 @@ use crate::motion::path::Path;
 use crate::tolerance::{self, NODE_GAP};
 use fearless_simd::Level;
 use glam::DVec3;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
 /// A body and its motion.
@@ -62,6 +64,7 @@ pub struct Problem<'a> {
     pub(crate) start: StartPolicy,
     pub(crate) budget: u64,
     pub(crate) deadline: Option<Duration>,
+    pub(crate) stop: Option<Arc<AtomicBool>>,
     /// Bounds the rounding of any distance computed in f64: [`tolerance::distance_rounding`].
     pub(crate) rounding: f64,
     /// The vector instructions to use.
@@ -152,9 +155,32 @@ impl<'a> Problem<'a> {
             start: config.start,
             budget: config.budget,
             deadline: config.deadline,
+            stop: None,
             rounding,
             level: config.instructions.level(),
         })
+    }
+
+    /// Lets other threads stop the query: soon after the flag is set, it ends as
+    /// [`Limit::Stopped`](crate::Limit::Stopped), with a certified time.
+    ///
+    /// The flag is read as often as the clock is for a [deadline](Config::deadline).
+    ///
+    /// ```
+    /// use std::sync::{Arc, atomic::AtomicBool};
+    /// # use ccd_core::{Body, Config, Motion, Problem};
+    /// # let ball = Body::ball(0.5)?;
+    /// # let [a, b] = [(&ball, Motion::STILL); 2];
+    /// let stop = Arc::new(AtomicBool::new(false));
+    /// let problem = Problem::new(a, b, 1.0, &Config::default())?.stopped_by(&stop);
+    /// # Ok::<(), ccd_core::InputError>(())
+    /// ```
+    #[must_use]
+    pub fn stopped_by(self, stop: &Arc<AtomicBool>) -> Self {
+        Problem {
+            stop: Some(Arc::clone(stop)),
+            ..self
+        }
     }
 
     /// The tolerance of the answer: the requested one, or the least that can be certified in f64 at

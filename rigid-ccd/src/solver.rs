@@ -4,6 +4,8 @@ use crate::{Error, Hit};
 use ccd_core::schedule::{BestFirst, Schedule};
 use ccd_core::{Answer, Config, DistanceOracle, InputError, Moving, Problem};
 use ccd_distance_gjk::Direct;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 /// Finds the first contact of two moving bodies, from time 0 to `duration`; none when they stay apart.
 ///
@@ -53,6 +55,7 @@ pub struct Solver<O: DistanceOracle = Direct> {
     schedule: BestFirst<O>,
     oracle: O,
     config: Config,
+    stop: Option<Arc<AtomicBool>>,
 }
 
 impl Solver {
@@ -75,12 +78,35 @@ impl<O: DistanceOracle> Solver<O> {
             schedule: BestFirst::default(),
             oracle,
             config: Config::default(),
+            stop: None,
         }
     }
 
     /// Sets tolerance, margin, start policy, budget and deadline.
     pub fn with_config(self, config: Config) -> Self {
         Solver { config, ..self }
+    }
+
+    /// Changes tolerance, margin, start policy, budget and deadline of the queries that follow.
+    pub fn set_config(&mut self, config: Config) {
+        self.config = config;
+    }
+
+    /// Lets other threads stop queries: once the flag is set, each ends soon, unresolved, with a certified
+    /// time ([`Limit::Stopped`](crate::Limit::Stopped)).
+    ///
+    /// ```
+    /// use rigid_ccd::Solver;
+    /// use std::sync::{Arc, atomic::AtomicBool};
+    /// let stop = Arc::new(AtomicBool::new(false));
+    /// let solver = Solver::new().with_stop(&stop);
+    /// ```
+    #[must_use]
+    pub fn with_stop(self, stop: &Arc<AtomicBool>) -> Self {
+        Solver {
+            stop: Some(Arc::clone(stop)),
+            ..self
+        }
     }
 
     /// Finds the first contact of two moving bodies, as the function [`first_contact`] does.
@@ -120,6 +146,10 @@ impl<O: DistanceOracle> Solver<O> {
         duration: f64,
     ) -> Result<Answer, InputError> {
         let problem = Problem::new(a, b, duration, &self.config)?;
+        let problem = match &self.stop {
+            Some(stop) => problem.stopped_by(stop),
+            None => problem,
+        };
         Ok(self.schedule.solve(&problem, &mut self.oracle))
     }
 }

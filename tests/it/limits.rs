@@ -1,10 +1,14 @@
 //! Every query ends: an exhausted budget leaves it unresolved, up to a certified time.
 
-use ccd_core::{Config, Limit, Outcome};
+use ccd_core::schedule::BestFirst;
+use ccd_core::{Claim, Config, DistanceOracle, GiveUp, Limit, Outcome, PiecePair, Schedule};
+use ccd_distance_gjk::Gjk;
 use ccd_tests::backends::for_each_setup;
 use ccd_tests::checks::Judge;
 use ccd_tests::strategies::{cases, check_cases};
 use std::cell::Cell;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 #[test]
 fn a_small_budget_ends_in_a_certified_time() {
@@ -69,4 +73,53 @@ fn the_certified_time_grows_with_the_budget() {
         Ok(())
     });
     assert!(grown.get() > 100, "grew {} times", grown.get());
+}
+
+/// Answers a number of calls, then asks for the end of the query, and answers on.
+struct Stopping {
+    calls: u32,
+    stop: Arc<AtomicBool>,
+}
+
+impl DistanceOracle for Stopping {
+    type Cache = <Gjk as DistanceOracle>::Cache;
+
+    fn separation(
+        &mut self,
+        pair: &PiecePair<'_>,
+        cache: &mut Self::Cache,
+    ) -> Result<Claim, GiveUp> {
+        if self.calls == 0 {
+            self.stop.store(true, Ordering::Relaxed);
+        }
+        self.calls = self.calls.saturating_sub(1);
+        Gjk.separation(pair, cache)
+    }
+}
+
+#[test]
+fn a_stopped_query_keeps_what_it_has_proven() {
+    let (stopped, advanced) = (Cell::new(0), Cell::new(0));
+    check_cases(250, cases(), |case| {
+        let query = case.query();
+        let bodies = query.triangles();
+        let judge = Judge::new(&query, &case.config());
+        for calls in [0, 3, 30] {
+            let stop = Arc::new(AtomicBool::new(false));
+            let mut oracle = Stopping {
+                calls,
+                stop: Arc::clone(&stop),
+            };
+            let problem = query.problem(&bodies, &case.config()).stopped_by(&stop);
+            let answer = BestFirst::default().solve(&problem, &mut oracle);
+            if let Outcome::Unresolved { safe_until, reason } = answer.outcome {
+                stopped.set(stopped.get() + u32::from(reason == Limit::Stopped));
+                advanced.set(advanced.get() + u32::from(safe_until > 0.0));
+            }
+            judge.check_time(&answer, 0.0)?;
+        }
+        Ok(())
+    });
+    let (stopped, advanced) = (stopped.get(), advanced.get());
+    assert!(stopped >= 20 && advanced >= 5, "{stopped} {advanced}");
 }

@@ -10,6 +10,7 @@ pub mod corpus;
 mod distances;
 pub mod exact;
 pub mod liars;
+pub mod mixed;
 pub mod models;
 pub mod patches;
 pub mod query;

@@ -179,10 +179,7 @@ fn line(value: f64, trial: &Trial, case: Option<&Case>) -> StepLine {
         verdict: trial.verdict.clone(),
         exact: case.map_or_else(String::new, exactly),
         given: given(trial),
-        cost: match trial.micros.is_nan() {
-            true => String::new(),
-            false => format!("{:.1} µs, {} steps", trial.micros, trial.steps),
-        },
+        cost: cost(trial),
     }
 }
 
@@ -197,14 +194,30 @@ fn exactly(case: &Case) -> String {
 
 /// Describes the answer of a method.
 fn given(trial: &Trial) -> String {
-    let time = match trial.time.is_nan() {
-        true => String::new(),
+    let free = [Verdict::Right, Verdict::Missed].map(|verdict| verdict.to_string());
+    let answer = match trial.time.is_nan() {
         false => format!("{:.15}", trial.time),
+        true if free.contains(&trial.verdict) => "free".to_owned(),
+        true => String::new(),
     };
-    let parts = [time, trial.note.clone()];
+    let parts = [answer, trial.note.clone()];
     let parts: Vec<String> = parts.into_iter().filter(|part| !part.is_empty()).collect();
     match parts.is_empty() {
-        true => "no time".to_owned(),
+        true => "none".to_owned(),
         false => parts.join("; "),
+    }
+}
+
+/// Describes the cost of an answer.
+fn cost(trial: &Trial) -> String {
+    let time = match trial.micros {
+        micros if micros.is_nan() => return String::new(),
+        micros if micros < 1e3 => format!("{micros:.1} µs"),
+        micros if micros < 1e6 => format!("{:.1} ms", micros / 1e3),
+        micros => format!("{:.1} s", micros / 1e6),
+    };
+    match trial.steps {
+        0 => time,
+        steps => format!("{time}, {steps} steps"),
     }
 }

@@ -3,6 +3,8 @@
 use crate::outcome::{Limit, Stats};
 use crate::problem::Problem;
 use crate::tolerance::WORK_BETWEEN_LOOKS;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 /// Counts the work of a query, and ends the query at its limit.
@@ -12,7 +14,9 @@ pub(crate) struct Meter {
     budget: u64,
     /// None if there is no deadline; then no clock is read.
     end: Option<Instant>,
-    /// The work at which the clock is read next.
+    /// Set by another thread that wants no answer any more.
+    stop: Option<Arc<AtomicBool>>,
+    /// The work at which clock and flag are read next; never if there are none.
     next_look: u64,
 }
 
@@ -21,11 +25,17 @@ impl Meter {
     pub(crate) fn new(problem: &Problem<'_>) -> Self {
         // A deadline that no clock can represent counts as none.
         let end = |deadline| Instant::now().checked_add(deadline);
+        let end = problem.deadline.and_then(end);
+        let stop = problem.stop.clone();
         Meter {
             stats: Stats::default(),
             budget: problem.budget,
-            end: problem.deadline.and_then(end),
-            next_look: 0,
+            next_look: match end.is_some() || stop.is_some() {
+                true => 0,
+                false => u64::MAX,
+            },
+            end,
+            stop,
         }
     }
 
@@ -37,15 +47,22 @@ impl Meter {
         if work > self.budget {
             return Err(Limit::Budget);
         }
-        match self.end {
-            Some(end) if work >= self.next_look => {
-                self.next_look = work.saturating_add(WORK_BETWEEN_LOOKS);
-                match Instant::now() < end {
-                    true => Ok(()),
-                    false => Err(Limit::Deadline),
-                }
-            }
-            _ => Ok(()),
+        match work >= self.next_look {
+            true => self.look(work),
+            false => Ok(()),
+        }
+    }
+
+    #[cold]
+    fn look(&mut self, work: u64) -> Result<(), Limit> {
+        self.next_look = work.saturating_add(WORK_BETWEEN_LOOKS);
+        // What the other thread did before is no matter of this one.
+        if (self.stop.as_ref()).is_some_and(|stop| stop.load(Ordering::Relaxed)) {
+            return Err(Limit::Stopped);
+        }
+        match self.end.is_some_and(|end| Instant::now() >= end) {
+            true => Err(Limit::Deadline),
+            false => Ok(()),
         }
     }
 }

@@ -122,7 +122,7 @@ fn run(family: Family, args: &Args) -> bool {
                     println!(
                         "{}",
                         trial::report(failure, family, args.seed, number, &case)
-                    )
+                    );
                 });
             }
         }

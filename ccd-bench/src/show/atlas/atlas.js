@@ -24,14 +24,22 @@
     list.dispatchEvent(new Event("change"));
   }
 
+  function place(button) {
+    return button.dataset.cell.split(",").map(Number);
+  }
+
+  function detailOf(button) {
+    const [family, method] = place(button);
+    return details[family][method];
+  }
+
   function open(button) {
-    const [family, method] = button.dataset.cell.split(",").map(Number);
-    const detail = details[family][method];
+    const detail = detailOf(button);
     shown?.removeAttribute("aria-pressed");
     button.setAttribute("aria-pressed", "true");
     shown = button;
     element("cell-name").textContent = button.closest("tr").querySelector("th").firstChild.textContent
-      + ": " + button.closest("table").tHead.rows[0].cells[method + 1].textContent;
+      + ": " + button.closest("table").tHead.rows[0].cells[place(button)[1] + 1].textContent;
     element("cell-command").textContent = detail.command;
     element("cell-steps").replaceChildren(...detail.steps.map(line));
     element("cell-missing").hidden = detail.view !== null;
@@ -48,11 +56,10 @@
     button.addEventListener("click", () => { open(button); element("cell").scrollIntoView(); });
   }
   element("cell-copy").addEventListener("click", () => navigator.clipboard?.writeText(element("cell-command").textContent));
-  // The first cell with a picture is open from the start.
-  const first = buttons.find((button) => {
-    const [family, method] = button.dataset.cell.split(",").map(Number);
-    return details[family][method].view !== null;
-  });
-  if (first ?? buttons[0]) open(first ?? buttons[0]);
+  // A contact that was passed is open from the start, if there is a picture of one.
+  const pictures = buttons.filter((button) => detailOf(button).view !== null);
+  const isPassed = (step) => step.verdict === "late" || step.verdict === "missed";
+  const first = pictures.find((button) => detailOf(button).steps.some(isPassed)) ?? pictures[0] ?? buttons[0];
+  if (first) open(first);
   document.documentElement.dataset.map = buttons.length > 0 ? "drawn" : "empty";
 })();

@@ -63,6 +63,23 @@ fn a_deadline_is_seen_within_the_work_between_two_looks() {
 }
 
 #[test]
+fn a_flag_that_another_thread_sets_ends_the_query_within_the_work_between_two_looks() {
+    let ball = Body::ball(1.0).unwrap();
+    let still = (&ball, Motion::STILL);
+    let stop = Arc::new(AtomicBool::new(false));
+    let problem = Problem::new(still, still, 1.0, &Config::default()).unwrap();
+    let problem = problem.stopped_by(&stop);
+    let mut meter = Meter::new(&problem);
+    assert!((0..10_000).all(|_| meter.visit() == Ok(())));
+    std::thread::scope(|scope| {
+        scope.spawn(|| stop.store(true, Ordering::Relaxed));
+    });
+    let visits = (0..).take_while(|_| meter.visit() == Ok(())).count();
+    assert!(visits < WORK_BETWEEN_LOOKS as usize, "{visits}");
+    assert_eq!(Meter::new(&problem).visit(), Err(Limit::Stopped));
+}
+
+#[test]
 fn an_unreachable_deadline_counts_as_none() {
     let mut meter = with_deadline(Duration::MAX);
     assert!((0..10_000).all(|_| meter.visit() == Ok(())));

@@ -1,0 +1,112 @@
+//! Queries of all kinds mixed: bodies from balls to knots, motions from none to many turns, each made from its
+//! number alone.
+
+use crate::models::{
+    Kind, Shape, blob, boulder, comb, cuboid, icosphere, l_prism, needles, rod, torus, torus_knot,
+};
+use ccd_core::glam::{DQuat, DVec3};
+use ccd_core::{Body, Config, Motion, Moving, Pose, StartPolicy};
+use ccd_decomp::TriangleMesh;
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64;
+
+/// The bodies.
+pub struct Mixed {
+    shapes: Vec<Shape>,
+    bodies: Vec<Body>,
+}
+
+/// A query by its bodies' numbers.
+#[derive(Clone, Copy, Debug)]
+pub struct Posed {
+    /// The numbers of bodies A and B.
+    pub bodies: [usize; 2],
+    /// Their motions.
+    pub motions: [Motion; 2],
+    /// Accuracy and limits.
+    pub config: Config,
+}
+
+impl Mixed {
+    /// Makes the bodies.
+    pub fn new() -> Self {
+        let cube = || cuboid(DVec3::splat(0.5));
+        let shapes = vec![
+            (cube(), Kind::Triangles),
+            (cube(), Kind::Hull),
+            (rod(1.5, 0.1), Kind::Hull),
+            (l_prism(), Kind::Patches),
+            (comb(6), Kind::Triangles),
+            (needles(20, 1e-3), Kind::Triangles),
+            (icosphere(0.6, 1), Kind::Hull),
+            (icosphere(0.6, 3), Kind::Triangles),
+            (torus(0.7, 0.2, 24, 12), Kind::Triangles),
+            (torus_knot(60, 6), Kind::Triangles),
+            (blob(2), Kind::Triangles),
+            (boulder(2, 0.3, 7), Kind::Triangles),
+        ];
+        let bodies = shapes.iter().map(|(shape, kind)| shape.body(*kind));
+        Mixed {
+            bodies: bodies.collect(),
+            shapes: shapes.into_iter().map(|(shape, _)| shape).collect(),
+        }
+    }
+
+    /// Returns the query of a number.
+    pub fn posed(&self, number: u64) -> Posed {
+        let mut rng = Pcg64::seed_from_u64(number);
+        let mut body = || rng.random_range(0..self.bodies.len());
+        let bodies = [body(), body()];
+        let motions = [0.0, 3.0].map(|apart| motion(&mut rng, apart));
+        let config = Config {
+            tolerance: 10f64.powi(-rng.random_range(2..=7)),
+            margin: if rng.random_bool(0.2) { 0.05 } else { 0.0 },
+            start: match rng.random_bool(0.1) {
+                true => StartPolicy::Leave,
+                false => StartPolicy::Report,
+            },
+            ..Config::default()
+        };
+        Posed {
+            bodies,
+            motions,
+            config,
+        }
+    }
+
+    /// Returns a body of a query and its motion.
+    pub fn moving(&self, posed: &Posed, which: usize) -> Moving<'_> {
+        Moving {
+            body: &self.bodies[posed.bodies[which]],
+            motion: posed.motions[which],
+        }
+    }
+
+    /// Returns the bodies' meshes.
+    pub fn meshes(&self) -> Vec<TriangleMesh> {
+        let mesh = |shape: &Shape| shape.mesh.for_decomposition();
+        self.shapes.iter().map(mesh).collect()
+    }
+}
+
+impl Default for Mixed {
+    fn default() -> Self {
+        Mixed::new()
+    }
+}
+
+/// Returns a motion that begins `apart` along x, and mostly flies towards the origin.
+fn motion(rng: &mut Pcg64, apart: f64) -> Motion {
+    let mut vector = |size: f64| DVec3::from_array([0; 3].map(|_| rng.random_range(-size..=size)));
+    let (place, axis) = (apart * DVec3::X + vector(0.8), vector(1.0));
+    let towards = -place + vector(2.0);
+    let (turned, spin) = (vector(3.0), axis.normalize_or_zero());
+    let turns = match rng.random_range(0..10) {
+        0..3 => 0.0,
+        3..9 => rng.random_range(0.0..4.0),
+        _ => rng.random_range(0.0..60.0),
+    };
+    let speed = if rng.random_bool(0.1) { 0.0 } else { 1.0 };
+    let pose = Pose::new(place, DQuat::from_scaled_axis(turned)).expect("finite");
+    Motion::new(pose, speed * towards, turns * spin).expect("finite")
+}
