@@ -3,7 +3,8 @@
 //!
 //! `u` is half a unit in the last place of 1: [`U64`] in f64, [`U32`] in f32. An operation rounds
 //! with a relative error of at most `u`. The counts below add up the worst error of every
-//! operation. The test suite samples each allowance against exact references.
+//! operation. Tests hold each allowance against exact references, in the worst cases that a search finds:
+//! `docs/allowances.md` says how tight it is.
 
 use glam::DVec3;
 

@@ -30,7 +30,7 @@ pub(crate) const REINSERTED_SHARE: f32 = 0.02;
 pub(crate) const RAY_TRIES: usize = 16;
 
 /// The distance on either side of a face within which no other shell may be, for the face's middle to
-/// represent the shell; in units of the mesh's size. Rounding moves the middle off the face by 8 [`U64`] at
+/// represent the shell; in units of the mesh's size and of its distance from the origin. Rounding moves the middle off the face by 8 [`U64`] at
 /// most, and the face's normal is accurate to a hundredth even for needles of an aspect of 1e6.
 pub(crate) const FACE_ROUNDING: f64 = 1e-12;
 
@@ -144,8 +144,12 @@ pub(crate) const PRICED_POINTS: u32 = 96;
 pub(crate) const TOO_COARSE: f64 = 0.5;
 
 /// The error of a distance to the nearest triangle, in units of half the mesh's diagonal. Rounding makes 1e-15 for
-/// well-shaped triangles, and this much for needles of an aspect of 1e6.
+/// well-shaped triangles, and less than a tenth of this for those that are just no [needles](NEEDLE).
 pub(crate) const NEAREST_SLACK: f64 = 1e-9;
+
+/// The height of a triangle over its longest side, in units of that side, below which its distance is bounded by
+/// that of the side. The library's error grows with the inverse: it exceeds [`NEAREST_SLACK`] at 1e-6.
+pub(crate) const NEEDLE: f64 = 1e-4;
 
 /// The least sine at a corner of a facet whose plane is used. The error of its normal is then at most
 /// `4 U64 / 1e-6`, less than [`NEAREST_SLACK`].

@@ -72,8 +72,15 @@ mod closed_form;
 mod gjk;
 mod lanes;
 #[cfg(test)]
+#[path = "../../ccd-core/src/tests/rational.rs"]
+mod rational;
+#[cfg(test)]
 mod tests;
 mod tolerance;
+#[cfg(test)]
+#[allow(dead_code)]
+#[path = "../../ccd-core/src/tests/worst.rs"]
+mod worst;
 
 pub use closed_form::ClosedForm;
 pub use gjk::{Cache, Gjk};

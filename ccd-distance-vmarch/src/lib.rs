@@ -117,6 +117,10 @@ mod oracle;
 mod penetration;
 mod placed;
 mod polytope;
+#[cfg(test)]
+#[allow(dead_code)]
+#[path = "../../ccd-core/src/tests/rational.rs"]
+mod rational;
 mod start;
 mod termination;
 #[cfg(test)]
@@ -127,6 +131,10 @@ mod vertex_edge;
 mod vertex_face;
 mod vertex_vertex;
 mod witness;
+#[cfg(test)]
+#[allow(dead_code)]
+#[path = "../../ccd-core/src/tests/worst.rs"]
+mod worst;
 
 pub use counters::Counters;
 pub use oracle::Vmarch;

@@ -168,3 +168,6 @@ impl Placed for PlacedB<'_> {
         self.rotation * local
     }
 }
+
+#[cfg(test)]
+mod tests;

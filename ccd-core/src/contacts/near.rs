@@ -152,3 +152,6 @@ fn apart([a, b]: &[Extent; 2], reach: f64) -> bool {
     let mut axes = a.axes.iter().chain(&b.axes);
     separates(way / distance) || axes.any(|&n| separates(n))
 }
+
+#[cfg(test)]
+mod tests;

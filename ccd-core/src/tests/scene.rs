@@ -86,6 +86,17 @@ pub(crate) fn rotation(rng: &mut impl RngExt) -> DQuat {
     DQuat::from_axis_angle(direction(rng), rng.random_range(-3.1..3.1))
 }
 
+/// The corners of a box of half a length of 1: long, flat, or any.
+pub(crate) fn long_box(tape: &mut Tape) -> Vec<DVec3> {
+    let frame = glam::DMat3::from_quat(rotation(tape));
+    let half = DVec3::new(1.0, tape.size(-30..=-1), tape.size(-30..=-1));
+    let corner = |k: usize| {
+        let sign = |bit: usize| if k >> bit & 1 == 1 { 1.0 } else { -1.0 };
+        frame * (half * DVec3::new(sign(0), sign(1), sign(2)))
+    };
+    (0..8).map(corner).collect()
+}
+
 /// Triangles about the origin, none reaching much beyond `size`.
 pub(crate) fn soup(rng: &mut impl RngExt, look: Look, count: usize, size: f64) -> Vec<Triangle> {
     let frame = rotation(rng);

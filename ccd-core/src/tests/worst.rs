@@ -5,11 +5,8 @@
 //! far, keeps what is no better, and starts anew when nothing is worse for long. The seed is fixed: the same
 //! test judges the same cases.
 //!
-//! `CCD_TEST_CASES` in the environment multiplies the number of cases. The results are printed:
-//!
-//! ```sh
-//! CCD_TEST_CASES=50 cargo test --release --workspace worst -- --nocapture --test-threads 1
-//! ```
+//! `CCD_TEST_CASES` in the environment multiplies the number of cases. `docs/allowances.md` has the results,
+//! and the commands that print them.
 //!
 //! Other crates of the workspace include this file by its path: it uses the standard library alone.
 
@@ -120,10 +117,10 @@ impl Found {
     /// Asserts that no error exceeded the allowance, and that one came as near to it as this factor.
     pub(crate) fn is_within(&self, looseness: f64) {
         let (name, ratio) = (self.name, 1.0 / self.share);
-        assert!(self.share <= 1.0, "{name}: only {ratio} of an error");
+        assert!(self.share <= 1.0, "{name}: only {ratio:e} of an error");
         // A search that looks at nothing would prove nothing.
         let near = self.share > 0.0 && ratio <= looseness;
-        assert!(near || !self.whole, "{name}: {ratio} times all errors");
+        assert!(near || !self.whole, "{name}: {ratio:e} times all errors");
     }
 }
 
@@ -132,8 +129,8 @@ pub(crate) fn share(error: f64, allowance: f64) -> f64 {
     match allowance > 0.0 {
         true => error / allowance,
         false if error > 0.0 => f64::INFINITY,
-        // Written so that NaN stays.
-        false => 0.0 * error,
+        // No error, by so much. Written so that NaN stays.
+        false => error,
     }
 }
 

@@ -191,10 +191,7 @@ impl<'m> Shells<'m> {
     /// Computes the middle of a face, which is on the face up to rounding; none where another shell may come
     /// between.
     fn middle(&self, shell: u32, face: [DVec3; 3], size: f64) -> Option<DVec3> {
-        let [a, b, c] = face;
-        let middle = (a + b + c) / 3.0;
-        let off = unit((b - a).cross(c - a))? * FACE_ROUNDING * size;
-        let across = [middle - off, middle + off];
+        let (middle, across) = around_middle(face, size)?;
         let is_of_shell = |face: u32| self.shell_of[face as usize] == shell;
         let misses =
             |face: u32| is_of_shell(face) || crossing(across, self.mesh.triangle(face)) == Some(0);
@@ -248,6 +245,16 @@ impl<'m> Shells<'m> {
         }
         crossed
     }
+}
+
+/// Computes the middle of a face, and a point on either side of the face next to it; none for a face without
+/// a normal. The size is that of the mesh.
+fn around_middle([a, b, c]: [DVec3; 3], size: f64) -> Option<(DVec3, [DVec3; 2])> {
+    let middle = (a + b + c) / 3.0;
+    // Far from the origin, coordinates are rounded by more than the mesh's size tells.
+    let size = size + middle.abs().max_element();
+    let off = unit((b - a).cross(c - a))? * FACE_ROUNDING * size;
+    Some((middle, [middle - off, middle + off]))
 }
 
 #[cfg(test)]

@@ -90,3 +90,6 @@ impl Height {
         })
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -6,7 +6,7 @@ use crate::mesh::TriangleMesh;
 use crate::search::box_tree::BoxTree;
 use crate::search::region::Region;
 use crate::solid::topology::{Orientation, Topology};
-use crate::tolerance::NEAREST_SLACK;
+use crate::tolerance::{NEAREST_SLACK, NEEDLE};
 use crate::work::Work;
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
@@ -117,8 +117,9 @@ impl<'a> Target<'a> {
         }
     }
 
-    /// Computes the distance to the surface by the library, and the distance to a point that is certainly on a
-    /// triangle: the weights of its projection are clamped, because those of a needle may be anything.
+    /// Bounds the distance to the surface from below, up to the slack, and computes the distance to a point that is
+    /// certainly on a triangle: the weights of its projection by the library are clamped, because those of a needle
+    /// may be anything.
     fn nearest(&self, point: DVec3, work: &Work) -> (f64, f64) {
         let query = vector(point);
         let project = |corners: [DVec3; 3]| {
@@ -126,8 +127,10 @@ impl<'a> Target<'a> {
             Triangle::new(a, b, c).project_local_point_and_get_location(query, false)
         };
         let distance = |corners: [DVec3; 3]| {
-            let (found, _) = project(corners);
-            DVec3::from_array(found.point.to_array()).distance(point)
+            needle_distance(corners, point).unwrap_or_else(|| {
+                let (found, _) = project(corners);
+                DVec3::from_array(found.point.to_array()).distance(point)
+            })
         };
         let Some((face, found)) = self.search.nearest(point, work, distance) else {
             return (0.0, f64::INFINITY);
@@ -162,6 +165,26 @@ impl<'a> Target<'a> {
         });
         winding != 0
     }
+}
+
+/// Bounds the distance of a point from a needle: no point of it is farther from its longest side than its height.
+/// None for other triangles.
+fn needle_distance([a, b, c]: [DVec3; 3], point: DVec3) -> Option<f64> {
+    let longer = |one: &(DVec3, DVec3, DVec3), other: &(DVec3, DVec3, DVec3)| {
+        let square = |of: &(DVec3, DVec3, DVec3)| of.0.distance_squared(of.1);
+        square(one).total_cmp(&square(other))
+    };
+    let (from, to, apex) = [(a, b, c), (b, c, a), (c, a, b)]
+        .into_iter()
+        .max_by(longer)?;
+    let side = to - from;
+    let (square, area) = (side.length_squared(), side.cross(apex - from).length());
+    // Written so that NaN is no needle.
+    (area < NEEDLE * square).then(|| {
+        let way = from - point;
+        let share = (-way.dot(side) / square).clamp(0.0, 1.0);
+        greater(0.0, (way + side * share).length() - area / square.sqrt())
+    })
 }
 
 /// Counts the crossing of a ray from a point along z with a triangle: 1 to the front, −1 to the back, 0 if it

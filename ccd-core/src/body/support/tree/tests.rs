@@ -1,10 +1,11 @@
 //! Discs in f32 against the points in them, in f64: its error is a five hundred millionth of that of f32.
 
-use super::{Disc, Discs, LANES};
+use super::{Disc, Discs, LANES, SupportTree};
 use crate::math::order::greater;
+use crate::tests::rational::Exact3;
 use crate::tests::scene::direction;
 use crate::tests::worst::{Tape, Worst, share};
-use crate::tolerance::{DISC_F32, DISC_TILT_F32};
+use crate::tolerance::{DISC_F32, DISC_TILT_F32, HEIGHT_F64};
 use glam::{DVec3, Vec3};
 
 /// Points in a ball of radius 1, and a direction along which one at the rim of their disc is farthest, or
@@ -58,6 +59,32 @@ fn worst_tilt() {
         let truth = (exact - truth * exact.dot(truth)).length_squared();
         let allowed = f64::from(DISC_TILT_F32) * exact.length_squared();
         Some(share(truth - across, allowed))
+    });
+    found.is_within(20.0);
+}
+
+/// The farthest point of points that are level up to rounding, anywhere: two heights of the guarantee.
+#[test]
+fn worst_farthest() {
+    let found = Worst::of("HEIGHT_F64, twice: the farthest point", 6_000).search(|tape| {
+        let along = direction(tape);
+        let (east, north) = along.any_orthonormal_pair();
+        let (middle, wide) = (DVec3::from(tape.vector(-8..=2)), tape.size(-20..=2));
+        let points: [DVec3; 12] = std::array::from_fn(|_| {
+            let aside = east * tape.any(-2..=0) + north * tape.any(-2..=0);
+            middle + (aside + along * tape.any(-58..=-48)) * wide
+        });
+        let chosen = SupportTree::new(&points).extremal(along) as usize;
+        let exact = Exact3::of(along);
+        let above = |p: &DVec3| {
+            let way = Exact3::of(*p).minus(&Exact3::of(points[chosen]));
+            exact.dot(&way).to_f64().value()
+        };
+        let missed = points.iter().map(above).fold(0.0, greater);
+        let reach = points.iter().map(|p| p.abs().max_element());
+        let reach = reach.fold(0.0, greater);
+        let allowed = 2.0 * HEIGHT_F64 * along.abs().element_sum() * reach;
+        Some(share(missed, allowed))
     });
     found.is_within(20.0);
 }

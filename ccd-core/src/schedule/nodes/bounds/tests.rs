@@ -1,6 +1,7 @@
 //! The planes alone: every gap, rate and time in f32 against f64, along the same axis.
 
 mod setting;
+mod shares;
 mod worst;
 
 use super::*;
@@ -11,10 +12,7 @@ use crate::schedule::nodes::axis::Axis;
 use crate::schedule::nodes::clock;
 use crate::schedule::nodes::lanes::{Vec3x8, load};
 use crate::tests::scene::{Pcg64, RngExt, direction, rng};
-use crate::tests::worst::share;
-use crate::tolerance::{
-    ACROSS_F32, ATTACHED_TIME, BEND_F32, CLOCK_F32, LEAST_BEND_F32, MUCH_LARGER,
-};
+use crate::tolerance::{ATTACHED_TIME, MUCH_LARGER};
 use crate::vectorize;
 use fearless_simd::Level;
 use glam::{DQuat, DVec3, Vec3};
@@ -66,34 +64,6 @@ struct Sample<C, P> {
     far: Solid,
     /// The velocity of the children's centre of rotation relative to the other's.
     velocity: DVec3,
-}
-
-/// What an axis gives for eight pairs: the gaps, bends and free times.
-struct Clocks {
-    apart: [f32; LANES],
-    bend: [f32; LANES],
-    free: [f32; LANES],
-}
-
-/// The shares of the allowances that the errors of one pair take along one axis.
-#[derive(Clone, Copy, Debug, Default)]
-struct Shares {
-    support: f64,
-    rate: f64,
-    across: f64,
-    clock: f64,
-}
-
-/// Returns the share of [`CLOCK_F32`] that the error of a free time takes.
-fn share_of_clock(numbers: [f32; 4]) -> f64 {
-    let [free, apart, rate, bend] = numbers.map(f64::from);
-    let root = (rate * rate + 2.0 * bend * apart).sqrt();
-    let exact = match rate > 0.0 {
-        true => 2.0 * apart / (rate + root),
-        false => (root - rate) / bend,
-    };
-    let factor = f64::from(CLOCK_F32);
-    share(free / factor / exact - 1.0, 1.0 - factor)
 }
 
 /// The largest error among the samples, as a share of its allowance.
@@ -318,52 +288,6 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
             worst.across = greater(worst.across, of.across);
             worst.clock = greater(worst.clock, of.clock);
         }
-    }
-
-    /// The free times for the gaps and rates of an axis, and exact bends.
-    fn clocks(&self, found: &Found) -> Clocks {
-        let apart = found.gap.map(|gap| gap - self.motion.slack);
-        let bend = std::array::from_fn(|lane| {
-            let n = found.normal(lane);
-            (self.children[lane].bend(n) + self.far.bend(n)) as f32 + LEAST_BEND_F32
-        });
-        let closed = self.motion.closed;
-        let level = Instructions::Best.level();
-        Clocks {
-            free: clocks(level, &apart, &found.rate, &bend, closed),
-            apart,
-            bend,
-        }
-    }
-
-    /// Returns the shares of the allowances that the errors of a lane take.
-    fn shares(&self, found: &Found, clocks: &Clocks, lane: usize) -> Shares {
-        let (motion, child) = (&self.motion, &self.children[lane]);
-        let (n, rate) = (found.normal(lane), found.rate[lane]);
-        let exact = n.dot(self.velocity) + child.fastest(n) + self.far.fastest(-n);
-        let below = exact - f64::from(rate);
-        let gap = -self.far.highest(-n, 0.0) - child.highest(n, 0.0);
-        let above = f64::from(found.gap[lane]) - gap;
-        let mut shares = Shares {
-            support: share(above, self.allowed.into()),
-            rate: share(below, motion.rate_slack.into()),
-            ..Shares::default()
-        };
-        let turning = [(motion.split, child), (motion.other, &self.far)];
-        for ((turning, body), length) in turning.iter().zip(found.across) {
-            let across = n.cross(body.spin).length();
-            let found = length[lane] * BEND_F32;
-            let of = share(
-                across - f64::from(found),
-                (ACROSS_F32 * turning.rate).into(),
-            );
-            shares.across = greater(shares.across, of);
-        }
-        let free = clocks.free[lane];
-        if free > 0.0 && free < 1e30 {
-            shares.clock = share_of_clock([free, clocks.apart[lane], rate, clocks.bend[lane]]);
-        }
-        shares
     }
 
     /// A fixed plane keeps the pair apart for its whole free time.

@@ -6,21 +6,10 @@ use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::problem::Problem;
 use crate::tests::double::{Double, Double3};
-use crate::tests::scene::{direction, rotation};
-use crate::tests::worst::{Tape, Worst, share};
+use crate::tests::scene::{direction, long_box};
+use crate::tests::worst::{Worst, share};
 use crate::tolerance::BOX_AXES_F32;
 use glam::DVec3;
-
-/// A piece of four points or more: a long box, a flat one, or any.
-fn points(tape: &mut Tape) -> Vec<DVec3> {
-    let frame = glam::DMat3::from_quat(rotation(tape));
-    let half = DVec3::new(1.0, tape.size(-30..=-1), tape.size(-30..=-1));
-    let corner = |k: usize| {
-        let sign = |bit: usize| if k >> bit & 1 == 1 { 1.0 } else { -1.0 };
-        frame * (half * DVec3::new(sign(0), sign(1), sign(2)))
-    };
-    (0..8).map(corner).collect()
-}
 
 /// The reach of a box as it stands against its points, without the allowance.
 #[test]
@@ -28,7 +17,7 @@ fn worst_reach_of_a_box() {
     let still = Motion::still(Pose::IDENTITY);
     let ball = Body::ball(0.1).unwrap();
     let found = Worst::of("BOX_AXES_F32", 20_000).search(|tape| {
-        let points = points(tape);
+        let points = long_box(tape);
         let of = Polytope {
             points: points.clone(),
             ..Polytope::default()

@@ -38,25 +38,24 @@ fn square([a, b, c]: [DVec3; 3], point: DVec3) -> Relaxed {
         .expect("three edges")
 }
 
-/// A triangle of an aspect of a million at most, and a point near it or not.
-fn setting(tape: &mut Tape) -> Option<([DVec3; 3], DVec3)> {
+/// A triangle of any aspect, and a point near it or not.
+fn setting(tape: &mut Tape) -> ([DVec3; 3], DVec3) {
     let (scale, offset) = (tape.size(-60..=30), DVec3::from(tape.vector(-8..=10)));
     let [u, v] = [(); 2].map(|()| DVec3::from(tape.vector(-4..=0)));
-    let (narrow, share) = (tape.size(-20..=0), tape.any(-3..=0));
+    let (narrow, share) = (tape.size(-60..=0), tape.any(-3..=0));
     let corners = [DVec3::ZERO, u, u * share + v * narrow].map(|p| (p + offset) * scale);
     let [a, b, c] = corners;
     let [along, other] = [b - a, c - a];
-    let aspect = along.cross(other).length() / along.length_squared();
     let near = tape.size(-40..=1);
     let at = a + along * tape.fraction() + other * tape.fraction();
     let point = at + DVec3::from(tape.vector(-8..=0)) * near * scale;
-    (aspect > 1e-6).then_some((corners, point))
+    (corners, point)
 }
 
 #[test]
 fn worst_distance() {
     let found = Worst::of("NEAREST_SLACK", 6_000).search(|tape| {
-        let (corners, point) = setting(tape)?;
+        let (corners, point) = setting(tape);
         let mesh = TriangleMesh::new(corners.to_vec(), &[[0, 1, 2]]).ok()?;
         let target = Target::of(&mesh, &Topology::of(&mesh));
         let (found, reached) = target.nearest(point, &Work::unbounded());
@@ -66,6 +65,6 @@ fn worst_distance() {
         let error = greater(lesser(found, reached) - truth, truth - reached);
         Some(share(error, target.slack()))
     });
-    // It is for needles; what is seen of them is far less.
-    found.is_within(1e9);
+    // Of well-shaped triangles and of needles that are sides; between them it is nearer.
+    found.is_within(2e4);
 }

@@ -4,7 +4,8 @@
 //! References are in f64, whose own error is a five hundred millionth of that of f32.
 
 use super::setting::{Setting, Shape};
-use super::{Found, Sample, Shares, clocks, share_of_clock};
+use super::shares::{Shares, share_of_clock};
+use super::{Found, Sample, clocks};
 use crate::body::tree::LANES;
 use crate::config::Instructions;
 use crate::math::order::greater;

@@ -1,0 +1,43 @@
+use super::Extent;
+use crate::body::Body;
+use crate::body::polytope::Polytope;
+use crate::config::Config;
+use crate::math::order::greater;
+use crate::motion::Motion;
+use crate::motion::pose::{Frame, Pose};
+use crate::problem::Problem;
+use crate::tests::double::{Double, Double3};
+use crate::tests::scene::{direction, long_box};
+use crate::tests::worst::{Worst, share};
+use crate::tolerance::BOX_F64;
+
+/// The interval of a box along a direction against its points, without the widening.
+#[test]
+fn worst_box() {
+    let still = Motion::still(Pose::IDENTITY);
+    let ball = Body::ball(0.1).unwrap();
+    let found = Worst::of("BOX_F64", 10_000).search(|tape| {
+        let points = long_box(tape);
+        let of = Polytope {
+            points: points.clone(),
+            ..Polytope::default()
+        };
+        let body = Body::polytope(of).ok()?;
+        let problem = Problem::new((&body, still), (&ball, still), 1.0, &Config::default()).ok()?;
+        let node = Extent::new(&problem.a, 0, &Frame::IDENTITY);
+        let along = points[tape.pick(8)] - points[tape.pick(8)];
+        let n = (along.normalize_or_zero() + direction(tape) * tape.size(-30..=4)).normalize();
+        let [_, high] = node.along(n);
+        let axes = node.axes.map(|axis| axis.dot(n).abs());
+        let allowed = BOX_F64 * node.radius * (axes[0] + axes[1] + axes[2]);
+        let middle = Double3::from(n).dot(Double3::from(node.centre));
+        let lost = |p| {
+            let height = Double3::from(n).dot(Double3::from(p));
+            let reach = Double::from(high - node.centre.dot(n)) - Double::from(allowed);
+            (height - middle - reach).get()
+        };
+        let worst = points.iter().map(|&p| lost(p));
+        Some(share(worst.fold(f64::NEG_INFINITY, greater), allowed))
+    });
+    found.is_within(400.0);
+}

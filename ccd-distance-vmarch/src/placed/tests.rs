@@ -1,0 +1,63 @@
+use super::{Placed, PlacedPair};
+use crate::polytope::Polytope;
+use crate::rational::{Exact3, exact};
+use crate::tolerance::PLACING;
+use crate::worst::{Tape, Worst, share};
+use ccd_core::glam::{DMat3, DQuat, DVec3};
+use ccd_core::order::greater;
+use ccd_core::{Frame, Piece};
+
+/// A piece of three points, far from its origin or not.
+fn corners(tape: &mut Tape) -> [DVec3; 3] {
+    let (middle, small) = (DVec3::from(tape.vector(-8..=4)), tape.size(-30..=0));
+    [(); 3].map(|()| middle + DVec3::from(tape.vector(-8..=0)) * small)
+}
+
+/// The difference of two placed corners against fractions. The rotation and the way between the origins are as
+/// they are: an error of theirs moves all corners alike.
+#[test]
+fn worst_placing() {
+    let found = Worst::of("PLACING", 6_000).search(|tape| {
+        let points = [corners(tape), corners(tape)];
+        let turn = DVec3::from(tape.vector(-8..=1));
+        let frame = Frame {
+            rotation: DMat3::from_quat(DQuat::from_scaled_axis(turn)),
+            translation: DVec3::from(tape.vector(-8..=4)),
+        };
+        let pieces = points.each_ref().map(|points| Piece::from_points(points));
+        let [a, b] = pieces.map(|piece| Polytope::new(&piece).ok());
+        let (a, b) = (a?, b?);
+        let placed = PlacedPair::new(&a, &b, &frame);
+        // Corners keep the order of the points that have them.
+        let (i, j) = (tape.pick(a.vertices.len()), tape.pick(b.vertices.len()));
+        let way = placed.b.vertex(j as u32) - placed.a.vertex(i as u32);
+        let given = |of: &Polytope, k: usize, all: &[DVec3; 3]| {
+            let at = of.vertices[k].point + of.origin;
+            let nearer = |p: &&DVec3, q: &&DVec3| p.distance(at).total_cmp(&q.distance(at));
+            *all.iter().min_by(nearer).expect("three points")
+        };
+        let [x, y] = [given(&a, i, &points[0]), given(&b, j, &points[1])].map(Exact3::of);
+        let columns = [0, 1, 2].map(|k| Exact3::of(frame.rotation.col(k)));
+        let to = Exact3::of(placed.b.origin());
+        let [x, y] = [
+            x.minus(&Exact3::of(a.origin)),
+            y.minus(&Exact3::of(b.origin)),
+        ];
+        let truth = [0, 1, 2].map(|k| {
+            let row = Exact3([0, 1, 2].map(|l| columns[l].0[k].clone()));
+            row.dot(&y) + &to.0[k] - &x.0[k]
+        });
+        let off = [0, 1, 2].map(|k| (exact(way[k]) - &truth[k]).to_f64().value());
+        let off = DVec3::from(off).length();
+        // Points that coincide up to rounding may be named one for the other.
+        let size = placed.scale.size;
+        let apart = |p: [DVec3; 3]| [p[0] - p[1], p[1] - p[2], p[2] - p[0]].map(DVec3::length);
+        let least = points.map(|p| {
+            apart(p)
+                .into_iter()
+                .fold(f64::INFINITY, |a, b| -greater(-a, -b))
+        });
+        (least[0] > 1e-12 * size && least[1] > 1e-12 * size).then(|| share(off, PLACING * size))
+    });
+    found.is_within(40.0);
+}
