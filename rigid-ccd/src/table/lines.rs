@@ -3,6 +3,9 @@
 use std::io::{self, Read};
 
 /// A reader that turns every line end (`\n`, `\r\n`, `\r`) into `\n`, so that counting these counts lines.
+///
+/// Its first read holds a byte order mark whole, and a byte more: `csv` takes no other for one, and pipes may cut
+/// it.
 #[derive(Debug)]
 pub struct Lines<R> {
     input: R,
@@ -20,12 +23,30 @@ impl<R: Read> Lines<R> {
             bytes: 0,
         }
     }
+
+    /// Reads some bytes of the input; at its start more than a byte order mark has.
+    fn some(&mut self, out: &mut [u8]) -> io::Result<usize> {
+        const MARK: usize = 3;
+        let (start, least) = (self.bytes == 0, out.len().min(MARK + 1));
+        let mut read = 0;
+        loop {
+            match self.input.read(&mut out[read..]) {
+                Ok(0) => return Ok(read),
+                Ok(more) => read += more,
+                Err(error) if start && error.kind() == io::ErrorKind::Interrupted => {}
+                Err(error) => return Err(error),
+            }
+            if !start || read >= least {
+                return Ok(read);
+            }
+        }
+    }
 }
 
 impl<R: Read> Read for Lines<R> {
     fn read(&mut self, out: &mut [u8]) -> io::Result<usize> {
         loop {
-            let read = self.input.read(out)?;
+            let read = self.some(out)?;
             self.bytes += read as u64;
             // Most tables have no `\r`: a search for it is many times as fast as the loop below.
             if !self.after_return && !out[..read].contains(&b'\r') {

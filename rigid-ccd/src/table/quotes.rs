@@ -65,6 +65,10 @@ impl<R> Quotes<R> {
             if goes_on {
                 return;
             }
+            if (1..MARK.len()).contains(&seen) {
+                // A part of a mark is the start of a cell.
+                self.state = State::Plain;
+            }
         }
         self.state = match (self.state, byte) {
             (State::Start, b'"') => {

@@ -5,7 +5,7 @@ mod under;
 
 use super::part::Part;
 use super::target::{Location, Target};
-use crate::tolerance::{EXCESS_FLOOR, EXCESS_RATIO, EXCESS_WORK};
+use crate::tolerance::{EXCESS_BOXES, EXCESS_FLOOR, EXCESS_RATIO, EXCESS_WORK};
 use crate::work::Work;
 use ccd_core::glam::{BVec3, DVec3};
 use ccd_core::order::{greater, lesser};
@@ -19,7 +19,7 @@ use std::collections::BinaryHeap;
 /// The distance to the solid changes by no more than a point moves, so that its value at the centre of a box
 /// bounds it in the box. Where the surface is nearly flat, [`under`] gives a better bound. Boxes about the parts are
 /// split, the one with the largest bound first, until that bound is hardly more than a distance that was found,
-/// or the work is spent.
+/// the work is spent, or too many boxes wait.
 pub(super) fn bound(target: &Target<'_>, parts: &[Part]) -> f64 {
     let floor = EXCESS_FLOOR * target.reach();
     let parts: Vec<PartPlanes<'_>> = parts
@@ -110,7 +110,7 @@ impl Search<'_> {
     }
 
     /// Splits some boxes in eight, those with the largest bounds. Returns false once these are hardly more than the
-    /// largest distance found, or the work is spent.
+    /// largest distance found, the work is spent, or too many wait.
     fn split_worst(&mut self, floor: f64) -> bool {
         let target = greater(EXCESS_RATIO * self.found, self.found + floor);
         let worst: Vec<Cell> = (0..BATCH)
@@ -128,7 +128,7 @@ impl Search<'_> {
             .map(|(cell, bounds)| self.look(cell, *bounds))
             .collect();
         looks.into_iter().for_each(|look| self.note(look));
-        !worst.is_empty() && self.taken < EXCESS_WORK
+        !worst.is_empty() && self.taken < EXCESS_WORK && self.heap.len() < EXCESS_BOXES
     }
 
     fn note(&mut self, look: Look) {

@@ -1,8 +1,8 @@
 use super::*;
 
 /// Returns the line of an unclosed quote in a text that is read in pieces of that size.
-fn unclosed_line(text: &str, size: usize) -> Option<u64> {
-    let mut quotes = Quotes::new(text.as_bytes());
+fn unclosed_line(text: impl AsRef<[u8]>, size: usize) -> Option<u64> {
+    let mut quotes = Quotes::new(text.as_ref());
     let mut piece = vec![0; size];
     while quotes.read(&mut piece).unwrap() > 0 {}
     quotes.unclosed(u64::MAX)
@@ -29,6 +29,14 @@ fn only_unclosed_quotes_are_reported() {
         for size in [1, 2, 64] {
             assert_eq!(unclosed_line(text, size), expected, "{text:?}");
         }
+    }
+}
+
+/// Found by the fuzz target `motions`.
+#[test]
+fn a_part_of_a_mark_is_the_start_of_a_cell() {
+    for part in [&b"\xef\"a"[..], b"\xef\xbb\"a\n"] {
+        assert_eq!(unclosed_line(part, 64), None, "{part:?}");
     }
 }
 

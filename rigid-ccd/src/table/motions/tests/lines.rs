@@ -118,6 +118,13 @@ fn lines_split_anywhere_are_the_same_lines() {
     assert_eq!(rows.bytes(), text.len() as u64);
 }
 
+/// Found by the fuzz target `motions`.
+#[test]
+fn a_byte_order_mark_in_parts_is_ignored() {
+    let mut rows = MotionRows::new(Drip("\u{feff}id\nx\n".as_bytes())).unwrap();
+    assert_eq!(rows.next().unwrap().unwrap().unwrap().1.id, "x");
+}
+
 #[test]
 fn skipped_rows_are_counted() {
     let text = "id,a_px\n1,1\n2,x\n3,x\n";
