@@ -8,6 +8,7 @@ mod node;
 pub(crate) mod point_query;
 pub(crate) mod ray;
 mod slab;
+mod waiting;
 mod whole;
 
 pub(crate) use build::Layout;

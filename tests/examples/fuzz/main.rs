@@ -118,12 +118,8 @@ fn run(family: Family, args: &Args) -> bool {
                     true => trial::shrunk(&trial.case, failure),
                     false => trial.case.clone(),
                 };
-                bar.suspend(|| {
-                    println!(
-                        "{}",
-                        trial::report(failure, family, args.seed, number, &case)
-                    );
-                });
+                let report = trial::report(failure, family, args.seed, number, &case);
+                bar.suspend(|| println!("{report}"));
             }
         }
         bar.inc(1);

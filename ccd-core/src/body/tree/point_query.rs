@@ -1,5 +1,6 @@
 //! Queries for the pieces at a point, and for the surface near it.
 
+use super::waiting::Waiting;
 use super::{Below, Tree};
 use crate::body::pieces::Pieces;
 use crate::tolerance::SIGN_F64;
@@ -8,7 +9,7 @@ use glam::DVec3;
 /// Returns the pieces that are no triangles and whose boxes contain a point, or nearly.
 pub(crate) fn pieces_at(tree: &Tree, point: DVec3) -> Vec<u32> {
     let mut found = Vec::new();
-    let mut stack = vec![0u32];
+    let mut stack = Waiting::root();
     while let Some(id) = stack.pop() {
         let node = &tree.nodes[id as usize];
         if !node.holds(point, 0.0) {
@@ -29,7 +30,7 @@ pub(crate) fn pieces_at(tree: &Tree, point: DVec3) -> Vec<u32> {
 /// Returns whether a point is certainly farther than `reach` from the surface: from the triangles,
 /// or the mesh's faces on the pieces.
 pub(crate) fn is_clear(tree: &Tree, pieces: &Pieces, point: DVec3, reach: f64) -> bool {
-    let mut stack = vec![0u32];
+    let mut stack = Waiting::root();
     while let Some(id) = stack.pop() {
         let node = &tree.nodes[id as usize];
         if !node.holds(point, reach) {

@@ -1,5 +1,6 @@
 //! Computes the winding number of a body's surface about a point, along a ray.
 
+use super::waiting::Waiting;
 use super::{Below, Node, Tree};
 use crate::body::pieces::Pieces;
 use crate::math::order::{greater, lesser};
@@ -63,7 +64,7 @@ fn along(tree: &Tree, pieces: &Pieces, start: Start, along: DVec3) -> Option<Cro
         on: 0,
         along,
     };
-    let mut stack = vec![0u32];
+    let mut stack = Waiting::root();
     while let Some(id) = stack.pop() {
         let node = &tree.nodes[id as usize];
         if !meets(node, start.from, along) {

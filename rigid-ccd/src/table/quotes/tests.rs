@@ -43,9 +43,9 @@ fn a_part_of_a_mark_is_the_start_of_a_cell() {
 #[test]
 fn quotes_after_pieces_without_quotes_are_followed() {
     let rows = "1,2,3\n".repeat(40);
-    assert_eq!(unclosed_line(&format!("{rows}\"x\n"), 64), Some(41));
+    assert_eq!(unclosed_line(format!("{rows}\"x\n"), 64), Some(41));
     // The first piece ends after a separator, or within a cell.
     let cells = "1,".repeat(31);
-    assert_eq!(unclosed_line(&format!("{cells}1,\"x"), 64), Some(1));
-    assert_eq!(unclosed_line(&format!("{cells}11\"x"), 64), None);
+    assert_eq!(unclosed_line(format!("{cells}1,\"x"), 64), Some(1));
+    assert_eq!(unclosed_line(format!("{cells}11\"x"), 64), None);
 }

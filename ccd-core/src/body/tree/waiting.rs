@@ -1,0 +1,69 @@
+//! Nodes that wait on the way down a tree.
+
+use super::NodeId;
+
+/// A stack of nodes. It takes no memory from the heap, unless the tree is deeper than any that is balanced.
+pub(super) struct Waiting {
+    near: [NodeId; NEAR],
+    count: usize,
+    /// Above the others.
+    far: Vec<NodeId>,
+}
+
+/// Each level leaves up to seven nodes: enough for nine levels of eight children, 10⁸ pieces.
+const NEAR: usize = 64;
+
+impl Waiting {
+    /// Returns the stack with the root on it.
+    pub(super) fn root() -> Self {
+        Waiting {
+            near: [0; NEAR],
+            count: 1,
+            far: Vec::new(),
+        }
+    }
+
+    pub(super) fn pop(&mut self) -> Option<NodeId> {
+        self.far.pop().or_else(|| {
+            self.count = self.count.checked_sub(1)?;
+            Some(self.near[self.count])
+        })
+    }
+
+    pub(super) fn extend(&mut self, nodes: impl Iterator<Item = NodeId>) {
+        for node in nodes {
+            match self.near.get_mut(self.count) {
+                Some(place) => {
+                    *place = node;
+                    self.count += 1;
+                }
+                None => self.far.push(node),
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tests::scene::{RngExt, rng};
+
+    #[test]
+    fn nodes_come_back_as_from_a_list() {
+        let mut rng = rng(1);
+        let (mut waiting, mut list) = (Waiting::root(), vec![0]);
+        let mut most = 0;
+        for k in 0..20_000u32 {
+            let count = rng.random_range(0..9);
+            // It grows for a while, and shrinks again.
+            let pops = rng.random_range(0..9) + if k % 400 < 200 { 0 } else { 3 };
+            waiting.extend(k..k + count);
+            list.extend(k..k + count);
+            most = most.max(list.len());
+            for _ in 0..pops {
+                assert_eq!(waiting.pop(), list.pop());
+            }
+        }
+        assert!(most > 2 * NEAR, "{most}");
+    }
+}
