@@ -163,7 +163,7 @@ pub(crate) const EXCESS_WORK: u64 = 3 << 23;
 /// The most boxes that may wait in that search.
 ///
 /// Unit: boxes, of about 130 bytes each. Most meshes spend the work on fewer. On a mesh of two triangles a box takes
-/// only a few steps: millions of them took gigabytes.
+/// only a few steps: millions of them took hundreds of megabytes.
 pub(crate) const EXCESS_BOXES: usize = 1 << 19;
 
 /// The ratio to the largest distance found at which the bound on how far hulls stick out is good enough …
