@@ -38,9 +38,15 @@ from pathlib import Path
 
 import numpy as np
 
+ASKED = ["coal-steps", "fcl-ca", "fcl-naive"]
+# The numbers of a motion on a line of standard input.
+COLUMNS = "px py pz qx qy qz qw vx vy vz wx wy wz cx cy cz"
 METHODS = ["coal-distance", "coal-steps", "fcl-ca", "fcl-naive"]
 EXAMPLE = """example:
-  scripts/peers.py scenes peers.csv --tolerance 1e-2 1e-3 --rows 20 --patience 10"""
+  scripts/peers.py scenes peers.csv --tolerance 1e-2 1e-3 --rows 20 --patience 10
+
+`scripts/peers.py answer --method fcl-ca --a A.obj --b B.obj --tolerance 1e-3` is for other programs: it reads
+queries from standard input and replies to each, as `ccd-bench answer` does."""
 # The largest turn of a stretch, since FCL turns the shorter way.
 LONGEST_TURN = 0.9 * math.pi
 # The seconds that a worker may take to load its meshes.
@@ -48,6 +54,8 @@ LOADING = 120
 
 
 def main():
+    if sys.argv[1:2] == ["answer"]:
+        return answer(sys.argv[2:])
     parser = argparse.ArgumentParser(
         description=__doc__, epilog=EXAMPLE, formatter_class=argparse.RawDescriptionHelpFormatter
     )
@@ -94,6 +102,28 @@ def run(folder, method, tolerance, options, out):
         worker.stop()
 
 
+def answer(arguments):
+    """Answers lines of 33 numbers each: the start, velocity, spin and centre of A and of B, and the duration."""
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--method", choices=ASKED)
+    parser.add_argument("--a", type=Path)
+    parser.add_argument("--b", type=Path)
+    parser.add_argument("--tolerance", type=float)
+    parser.add_argument("--margin", type=float, default=0)
+    parser.add_argument("--cap", type=int, default=100_000)
+    options = parser.parse_args(arguments)
+    if options.margin:
+        print("refused: the method keeps no margin", flush=True)
+        return
+    bodies, ask = opened(options.method, options.a, options.b)
+    print("ready", flush=True)
+    columns = [f"{letter}_{name}" for letter in "ab" for name in COLUMNS.split()] + ["duration"]
+    for line in sys.stdin:
+        row = dict(zip(columns, line.split()))
+        micros, steps, status, when = ask(bodies, row, options.tolerance, options.cap)
+        print(f"{when or 0},{status},{steps},{micros},,", flush=True)
+
+
 class Worker:
     """A process with one method and its meshes loaded."""
 
@@ -128,6 +158,15 @@ class Worker:
 def work(pipe, folder, method):
     a = folder / "a.obj"
     b = folder / "b.obj"
+    bodies, ask = opened(method, a, b if b.exists() else a)
+    pipe.send("ready")
+    while True:
+        row, tolerance, cap = pipe.recv()
+        pipe.send(ask(bodies, row, tolerance, cap))
+
+
+def opened(method, a, b):
+    """Returns the bodies of a method, and the function that answers about them."""
     ask = {
         "coal-distance": Coal.distance,
         "coal-steps": Coal.steps,
@@ -135,11 +174,7 @@ def work(pipe, folder, method):
         "fcl-naive": Fcl.sample,
     }[method]
     library = Coal if method.startswith("coal") else Fcl
-    bodies = library(read_obj(a), read_obj(b if b.exists() else a))
-    pipe.send("ready")
-    while True:
-        row, tolerance, cap = pipe.recv()
-        pipe.send(ask(bodies, row, tolerance, cap))
+    return library(read_obj(a), read_obj(b)), ask
 
 
 class Motion:

@@ -1,13 +1,18 @@
-//! The command `ccd-bench`: demo, charts, brackets of exact first contacts, stability.
+//! The command `ccd-bench`: demo, charts, brackets of exact first contacts, stability,
+//! the smallest failures.
 
 mod answer;
 mod chart;
+mod falsify;
+mod judge;
 mod stability;
 mod truth;
 
 use answer::AnswerArgs;
 use chart::{ChartArgs, CommonArgs};
 use clap::{Parser, Subcommand};
+use falsify::FalsifyArgs;
+use judge::JudgeArgs;
 use rigid_ccd::command::exit_code;
 use stability::StabilityArgs;
 use std::process::ExitCode;
@@ -39,6 +44,10 @@ enum Command {
     Truth(TruthArgs),
     /// Find where each method fails: families of scenes that get harder step by step
     Stability(StabilityArgs),
+    /// Search for the smallest scene at which each method fails
+    Falsify(FalsifyArgs),
+    /// Ask one method about a table of motions, and judge its answers by exact ones
+    Judge(JudgeArgs),
     #[command(hide = true)]
     Answer(AnswerArgs),
 }
@@ -52,6 +61,8 @@ pub fn main() -> ExitCode {
             Command::Chart(args) => chart::run(&args),
             Command::Truth(args) => truth::run(&args),
             Command::Stability(args) => stability::run(&args),
+            Command::Falsify(args) => falsify::run(&args),
+            Command::Judge(args) => judge::run(&args),
             Command::Answer(args) => answer::run(&args),
         },
     )

@@ -3,11 +3,13 @@
 pub mod guarded;
 pub mod peer;
 pub mod rival;
+pub mod script;
 pub mod solver;
 pub mod wire;
 
 use crate::method::peer::PeerKind;
 use crate::method::rival::{C2a, Contact, DynamicChecker, Stepping};
+use crate::method::script::ScriptKind;
 use crate::method::solver::{Adjustable, Claim, Reply, Solver};
 use crate::scene::Pieces;
 use ccd_core::{Config, Instructions, Outcome};
@@ -25,6 +27,8 @@ pub enum Method {
     Rival(RivalKind),
     /// A peer library.
     Peer(PeerKind),
+    /// A peer library that a script runs.
+    Script(ScriptKind),
 }
 
 /// The published rivals.
@@ -57,7 +61,7 @@ const RIVALS: [RivalKind; 4] = [
 ];
 
 impl Method {
-    /// Returns all methods, the default kind first.
+    /// Returns all methods that this program runs, the default kind first.
     pub fn all() -> Vec<Method> {
         let kind = |schedule, oracle| SolverKind {
             schedule,
@@ -95,6 +99,7 @@ impl Method {
     pub fn named(name: &str) -> Option<Method> {
         let hidden = [PeerKind::Hanging, PeerKind::Dying].map(Method::Peer);
         let more = hidden.into_iter().chain([Method::published()]);
+        let more = more.chain(ScriptKind::ALL.map(Method::Script));
         let mut all = Method::all().into_iter().chain(more);
         all.find(|method| method.to_string() == name)
     }
@@ -104,7 +109,7 @@ impl Method {
     pub fn takes_tolerances(self) -> bool {
         match self {
             Method::Ours(..) => !self.is_model(),
-            Method::Rival(_) => true,
+            Method::Rival(_) | Method::Script(_) => true,
             Method::Peer(kind) => kind.takes_tolerance(),
         }
     }
@@ -119,7 +124,7 @@ impl Method {
                 };
                 pieces != own
             }
-            Method::Rival(_) | Method::Peer(_) => false,
+            Method::Rival(_) | Method::Peer(_) | Method::Script(_) => false,
         }
     }
 
@@ -226,6 +231,7 @@ impl fmt::Display for Method {
             Method::Rival(RivalKind::C2a) => f.write_str("C2A"),
             Method::Rival(RivalKind::Stepping) => f.write_str("discrete stepping"),
             Method::Peer(kind) => f.write_str(kind.name()),
+            Method::Script(kind) => f.write_str(kind.name()),
         }
     }
 }

@@ -247,8 +247,8 @@ impl Body {
         };
         let at = point.of(self.pieces.get(piece as usize).points);
         at.and_then(|at| {
-            let there = pieces_at(&self.tree, at).into_iter();
-            let mut faces = there.map(|k| face_under(&self.pieces.get(k as usize), at));
+            let mut faces =
+                pieces_at(&self.tree, at).map(|k| face_under(&self.pieces.get(k as usize), at));
             faces.find_map(|face| face)
         })
         .map_or(feature, Feature::Face)

@@ -83,6 +83,7 @@ fn answer(
             Ok(mut solver) => serve_all(solver.as_mut())?,
             Err(error) => return Ok(Err(error.to_string())),
         },
+        Method::Script(_) => return Ok(Err("the method is run by a script".to_owned())),
     }
     Ok(Ok(()))
 }

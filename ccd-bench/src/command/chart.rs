@@ -246,6 +246,7 @@ fn is_fast_to_run(method: Method) -> bool {
     match method {
         Method::Ours(..) | Method::Rival(_) => true,
         Method::Peer(kind) => kind == PeerKind::ParryF64,
+        Method::Script(_) => false,
     }
 }
 

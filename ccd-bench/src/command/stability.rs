@@ -2,6 +2,8 @@
 
 use super::chart::chosen;
 use crate::method::Method;
+use crate::method::guarded::Programs;
+use crate::method::script::ScriptKind;
 use crate::stability::{
     Extent, Survey, families, growth_map, limits, reach_map, summary, write_atlas,
 };
@@ -11,7 +13,7 @@ use rigid_ccd::batch::ScheduleKind;
 use rigid_ccd::command::{CannotWrite, Exit};
 use std::fs;
 use std::io::{self, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Find where each method fails: families of scenes that get harder step by step
 #[derive(Debug, Args)]
@@ -26,6 +28,9 @@ pub(super) struct StabilityArgs {
     /// Only these methods
     #[arg(long, value_name = "NAME", value_delimiter = ',')]
     methods: Vec<String>,
+    /// The script that runs Coal and FCL, which adds their methods: scripts/peers.py
+    #[arg(long, value_name = "SCRIPT")]
+    peers: Option<PathBuf>,
     /// Draw the answers that the folder holds, and ask nothing
     #[arg(long)]
     redraw: bool,
@@ -50,22 +55,33 @@ Examples:
   ccd-bench stability --full --methods 'best-first direct,C2A'
   ccd-bench stability --full --families 'bullet and paper,margin'";
 
-/// Returns all methods; FAST as published comes after its sound forms.
-fn methods() -> Vec<Method> {
+/// Returns all methods, without those of a script if there is none; FAST as published comes after its sound forms.
+pub(super) fn all_methods(script: Option<&Path>) -> Vec<Method> {
     let mut methods = Method::all();
     let is_fast = |method: &Method| matches!(method, Method::Ours(kind, _) if kind.schedule == ScheduleKind::Fast);
     let last = methods.iter().rposition(is_fast);
     methods.insert(last.map_or(0, |last| last + 1), Method::published());
+    if script.is_some() {
+        methods.extend(ScriptKind::ALL.map(Method::Script));
+    }
     methods
 }
 
 pub(super) fn run(args: &StabilityArgs) -> Result<Exit> {
     let survey = Survey {
         families: chosen(families(), &args.families, "family", |f| f.name.to_owned())?,
-        methods: chosen(methods(), &args.methods, "method", Method::to_string)?,
+        methods: chosen(
+            all_methods(args.peers.as_deref()),
+            &args.methods,
+            "method",
+            Method::to_string,
+        )?,
         extent: match args.full {
             true => Extent::Full,
             false => Extent::Quick,
+        },
+        programs: Programs {
+            script: args.peers.clone(),
         },
         folder: args.out.clone(),
     };

@@ -65,15 +65,40 @@ pub enum Asked {
     Died,
 }
 
+/// The programs that answer.
+#[derive(Clone, Debug, Default)]
+pub struct Programs {
+    /// The script that runs the methods of kind [`Method::Script`].
+    pub script: Option<PathBuf>,
+}
+
+impl Programs {
+    /// Returns the program that runs a method: this one, or the script.
+    fn of(&self, method: Method) -> io::Result<PathBuf> {
+        match (method, &self.script) {
+            (Method::Script(_), Some(script)) => Ok(script.clone()),
+            (Method::Script(_), None) => Err(io::Error::other(format!(
+                "{method} is run by a script, which is not given"
+            ))),
+            _ => std::env::current_exe(),
+        }
+    }
+}
+
 impl Guarded {
-    /// Starts a method on two meshes, with this program's own command.
+    /// Starts a method on two meshes, with the command `answer` of its program.
     ///
     /// # Errors
     /// If the meshes cannot be written, or the process does not start: of the kind
     /// [`Unsupported`](io::ErrorKind::Unsupported) if the method refuses the meshes or the setting, of the
     /// kind [`TimedOut`](io::ErrorKind::TimedOut) if it takes too long.
-    pub fn start(setting: Setting, meshes: [&TriangleMesh; 2]) -> io::Result<Self> {
-        let mut guarded = Guarded::with_program(std::env::current_exe()?, setting, meshes)?;
+    pub fn start(
+        programs: &Programs,
+        setting: Setting,
+        meshes: [&TriangleMesh; 2],
+    ) -> io::Result<Self> {
+        let program = programs.of(setting.method)?;
+        let mut guarded = Guarded::with_program(program, setting, meshes)?;
         guarded.running()?;
         Ok(guarded)
     }

@@ -33,5 +33,5 @@ pub use c2a::C2a;
 pub use contact::Contact;
 pub use course::{Course, Placement};
 pub use dynamic_checker::DynamicChecker;
-pub use screw::screw;
+pub use screw::{is_screw, screw};
 pub use stepping::Stepping;

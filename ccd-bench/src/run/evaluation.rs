@@ -126,7 +126,7 @@ impl Plan {
         for &method in &self.methods {
             let name = method.to_string();
             let allowance = match method {
-                Method::Peer(_) => &self.peer_allowance,
+                Method::Peer(_) | Method::Script(_) => &self.peer_allowance,
                 Method::Ours(..) | Method::Rival(_) => &self.allowance,
             };
             let mut session = None;

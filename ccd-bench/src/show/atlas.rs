@@ -69,6 +69,7 @@ impl Atlas<'_> {
             ("style", page::STYLE.to_owned()),
             ("atlas_style", include_str!("atlas/atlas.css").to_owned()),
             ("preface", escape(self.preface)),
+            ("links", self.links()),
             ("maps", maps.collect()),
             ("view_controls", view::CONTROLS.to_owned()),
             ("details", json(&self.details)?),
@@ -78,6 +79,17 @@ impl Atlas<'_> {
             ("atlas_script", include_str!("atlas/atlas.js").to_owned()),
         ];
         Ok(page::filled(include_str!("atlas/atlas.html"), &parts))
+    }
+}
+
+impl Atlas<'_> {
+    /// Returns links to the maps.
+    fn links(&self) -> String {
+        let maps = (0..).zip(self.maps).map(|(k, map)| {
+            let name = map.kind.words().link;
+            format!("<a href=\"#map-{k}\">{name}</a> ")
+        });
+        maps.collect()
     }
 }
 

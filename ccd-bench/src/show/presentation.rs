@@ -138,7 +138,7 @@ fn family(method: Method) -> Family {
         Method::Ours(..) if method.is_model() => Family::Model,
         Method::Ours(..) => Family::Ours,
         Method::Rival(_) => Family::Rival,
-        Method::Peer(_) => Family::Peer,
+        Method::Peer(_) | Method::Script(_) => Family::Peer,
     }
 }
 

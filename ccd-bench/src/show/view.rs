@@ -4,7 +4,7 @@ use super::page::json;
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 use ccd_core::glam::{DMat3, DVec3};
-use ccd_core::{Answer, Contact, Motion, Outcome, Overlap};
+use ccd_core::{Answer, Contact, InputError, Motion, Outcome, Overlap, Pose};
 use ccd_decomp::TriangleMesh;
 use rigid_ccd::table::motions::Query;
 use serde::Serialize;
@@ -62,6 +62,25 @@ impl Shot {
             contact,
         }
     }
+}
+
+/// Moves a query's world, so that body B starts at its origin: pictures are drawn in single precision.
+///
+/// # Errors
+/// If the numbers overflow.
+pub fn near_origin(query: &Query) -> Result<Query, InputError> {
+    let origin = query.b.start().translation();
+    let moved = |motion: &Motion| -> Result<Motion, InputError> {
+        let start = motion.start();
+        let place: DVec3 = start.translation() - origin;
+        let pose = Pose::new(place, start.rotation())?;
+        Motion::about(pose, motion.velocity(), motion.spin(), motion.centre())
+    };
+    Ok(Query {
+        a: moved(&query.a)?,
+        b: moved(&query.b)?,
+        ..query.clone()
+    })
 }
 
 #[derive(Serialize)]

@@ -7,11 +7,8 @@ use crate::run::contest::{Journal, Verdict};
 use crate::run::measured::Trial;
 use crate::show::atlas::{Atlas, Detail, StepLine};
 use crate::show::page::PageError;
-use crate::show::view::{Shot, View};
-use ccd_core::glam::DVec3;
-use ccd_core::{InputError, Motion, Pose};
+use crate::show::view::{Shot, View, near_origin};
 use ccd_decomp::TriangleMesh;
-use rigid_ccd::table::motions::Query;
 use std::path::Path;
 
 /// Bodies of more triangles have no picture, which would make the page too large.
@@ -155,22 +152,6 @@ impl Picture {
         });
         Some(self.shots.len() - 1)
     }
-}
-
-/// Moves a query's world, so that body B starts at its origin: pictures are drawn in single precision.
-fn near_origin(query: &Query) -> Result<Query, InputError> {
-    let origin = query.b.start().translation();
-    let moved = |motion: &Motion| -> Result<Motion, InputError> {
-        let start = motion.start();
-        let place: DVec3 = start.translation() - origin;
-        let pose = Pose::new(place, start.rotation())?;
-        Motion::about(pose, motion.velocity(), motion.spin(), motion.centre())
-    };
-    Ok(Query {
-        a: moved(&query.a)?,
-        b: moved(&query.b)?,
-        ..query.clone()
-    })
 }
 
 fn line(value: f64, trial: &Trial, case: Option<&Case>) -> StepLine {

@@ -2,9 +2,10 @@
 
 use super::family::{Family, Step, StepError};
 use super::judge::judge;
-use crate::method::Method;
-use crate::method::guarded::{Asked, Guarded, Setting};
+use crate::method::guarded::{Asked, Guarded, Programs, Setting};
+use crate::method::rival::is_screw;
 use crate::method::solver::{Claim, Reply};
+use crate::method::{Method, MotionKind};
 use crate::run::contest::{Journal, JournalError, Judged, Verdict, program_stamp, sum_up};
 use crate::run::measured::Trial;
 use crate::truth::{Referee, Surface};
@@ -24,6 +25,8 @@ pub struct Survey {
     pub methods: Vec<Method>,
     /// How much is asked.
     pub extent: Extent,
+    /// The programs that answer.
+    pub programs: Programs,
     /// The folder of the journal.
     pub folder: PathBuf,
 }
@@ -144,10 +147,13 @@ impl Survey {
                 if *stopped >= CHANCES || known {
                     continue;
                 }
-                let trials = ready.ask(method).map_err(|source| SurveyError::Start {
-                    method: method.to_string(),
-                    source,
-                })?;
+                let trials =
+                    ready
+                        .ask(method, &self.programs)
+                        .map_err(|source| SurveyError::Start {
+                            method: method.to_string(),
+                            source,
+                        })?;
                 let cut_off = Verdict::CutOff.to_string();
                 match trials.iter().any(|trial| trial.verdict == cut_off) {
                     true => *stopped += 1,
@@ -178,14 +184,14 @@ impl<'s> Ready<'s> {
     }
 
     /// Asks a method all queries of the step, up to the first at which it is stopped.
-    fn ask(&self, method: Method) -> io::Result<Vec<Trial>> {
+    fn ask(&self, method: Method, programs: &Programs) -> io::Result<Vec<Trial>> {
         let step = self.step;
         let setting = Setting {
             margin: step.margin,
             preparation: PREPARATION,
             ..Setting::new(method, step.tolerance)
         };
-        let mut guarded = match Guarded::start(setting, step.meshes.each_ref()) {
+        let mut guarded = match Guarded::start(programs, setting, step.meshes.each_ref()) {
             Ok(guarded) => guarded,
             Err(error) => {
                 let note = error.to_string();
@@ -196,6 +202,12 @@ impl<'s> Ready<'s> {
         let [a, b] = &self.surfaces;
         let mut trials = Vec::new();
         for (row, case) in step.cases.iter().enumerate() {
+            if method.motion_kind() == MotionKind::Screw && !is_screw(&case.query) {
+                let trial = self.trial(method, row, &Asked::Died, Judged::plain(Verdict::Refused));
+                let note = "bodies move along screws only".to_owned();
+                trials.push(Trial { note, ..trial });
+                continue;
+            }
             let asked = guarded.ask(&case.query, PATIENCE)?;
             let judged = judge(step, case, &Referee::new(a, b), &asked);
             trials.push(self.trial(method, row, &asked, judged));

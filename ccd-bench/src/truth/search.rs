@@ -66,7 +66,7 @@ impl<'a> Search<'a> {
             ],
             farthest: surfaces.map(Surface::farthest),
             duration: query.duration,
-            budget: BUDGET,
+            budget: referee.tests,
         }
     }
 

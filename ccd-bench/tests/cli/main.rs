@@ -3,6 +3,7 @@
 mod chart;
 #[path = "../../../rigid-ccd/tests/cli/command.rs"]
 mod command;
+mod falsify;
 mod peer;
 mod stability;
 mod truth;

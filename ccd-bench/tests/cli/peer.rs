@@ -83,7 +83,7 @@ fn a_margin_is_kept_or_refused() {
                     "{method}: {time}"
                 );
             }
-            Method::Rival(_) | Method::Peer(_) => {
+            Method::Rival(_) | Method::Peer(_) | Method::Script(_) => {
                 let error = asked.unwrap_err();
                 assert_eq!(error.kind(), ErrorKind::Unsupported, "{method}");
                 assert!(error.to_string().contains("margin"), "{method}: {error}");

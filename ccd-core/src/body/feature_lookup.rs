@@ -30,18 +30,16 @@ pub(crate) fn look_up(piece: &Piece<'_>, point: &Combination) -> MeshFeature {
     if let [v] = *support {
         return MeshFeature::Vertex(v);
     }
-    let all: Vec<u32>;
     let near = match (FacetsByCorner::of(piece), support.first()) {
-        (Some(by_corner), Some(&corner)) => by_corner.at(corner),
-        _ => {
-            all = (0..facets.len() as u32).collect();
-            &all
-        }
+        (Some(by_corner), Some(&corner)) => Some(by_corner.at(corner)),
+        _ => None,
     };
-    let whole = near
-        .iter()
-        .filter_map(|&k| match facets.origins()[k as usize] {
-            Origin::Face(id) => Some((id, facets.get(k as usize))),
+    let count = near.map_or(facets.len(), <[u32]>::len);
+    let facet = |k: usize| near.map_or(k, |near| near[k] as usize);
+    let whole = (0..count)
+        .map(facet)
+        .filter_map(|k| match facets.origins()[k] {
+            Origin::Face(id) => Some((id, facets.get(k))),
             Origin::Faces | Origin::Virtual => None,
         });
     if let [v, w] = *support {

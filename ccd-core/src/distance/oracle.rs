@@ -169,7 +169,7 @@ impl<First, Second> OrElse<First, Second> {
 
 impl<First: DistanceOracle, Second: DistanceOracle> DistanceOracle for OrElse<First, Second> {
     /// The second oracle's cache is made at its first call: most pairs never need it.
-    type Cache = (First::Cache, Option<Box<Second::Cache>>);
+    type Cache = (First::Cache, Option<Second::Cache>);
 
     fn separation(
         &mut self,

@@ -11,6 +11,9 @@ use rigid_ccd::table::motions::Query;
 /// at 2⁻¹² about 3e-13 of the travel.
 const LEAST_HALF_SINE: f64 = 1.0 / 4096.0;
 
+/// The difference of two courses of one point, as a share of its travel, that is rounding.
+const SAME: f64 = 1e-9;
+
 /// Returns the query with every motion replaced by the screw from its start pose to its end pose
 /// \[CONTACT02\].
 ///
@@ -27,6 +30,26 @@ pub fn screw(query: &Query) -> Result<Query, InputError> {
         b: screw_motion(&query.b, query.duration)?,
         duration: query.duration,
     })
+}
+
+/// Returns whether both motions of a query are screws already, up to rounding.
+pub fn is_screw(query: &Query) -> bool {
+    let same = |motion: &Motion| {
+        let Ok(screw) = screw_motion(motion, query.duration) else {
+            return false;
+        };
+        let travel = motion.velocity().length() * query.duration;
+        let apart = |share: f64| {
+            let time = share * query.duration;
+            let [given, along] =
+                [motion, &screw].map(|m| m.pose(time).transform_point(motion.centre()));
+            given.distance(along)
+        };
+        [0.25, 0.5, 0.75]
+            .into_iter()
+            .all(|share| apart(share) <= SAME * travel)
+    };
+    same(&query.a) && same(&query.b)
 }
 
 fn screw_motion(motion: &Motion, duration: f64) -> Result<Motion, InputError> {

@@ -1,7 +1,7 @@
 //! A method that is ready for queries about a scene.
 
 use super::MOST_PAIRS_FOR_NAIVE;
-use crate::method::guarded::{Asked, Guarded, Setting};
+use crate::method::guarded::{Asked, Guarded, Programs, Setting};
 use crate::method::solver::{Adjustable, Claim, Reply, TimedReply, timed};
 use crate::method::{Method, Ours};
 use crate::scene::Scene;
@@ -61,10 +61,14 @@ impl<'s> Session<'s> {
                 let (a, b) = (scene.a.mesh(), scene.b.mesh());
                 Runner::InProcess(kind.solver(a, b, tolerance))
             }
-            Method::Peer(_) => {
+            Method::Peer(_) | Method::Script(_) => {
                 let meshes = [scene.a.mesh(), scene.b.mesh()];
                 let setting = Setting::new(method, tolerance);
-                Runner::Guarded(Box::new(Guarded::start(setting, meshes)?))
+                Runner::Guarded(Box::new(Guarded::start(
+                    &Programs::default(),
+                    setting,
+                    meshes,
+                )?))
             }
         };
         Ok(Some(Session {

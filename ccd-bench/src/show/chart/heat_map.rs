@@ -25,6 +25,8 @@ pub enum HeatKind {
     Reach,
     /// How its cost grows: cells [`HeatCell::Growth`].
     Growth,
+    /// Its smallest failures: cells [`HeatCell::Failure`].
+    Failures,
 }
 
 /// One family.
@@ -52,12 +54,21 @@ pub enum HeatCell {
     },
     /// The largest cost of a step, as a multiple of that of the easiest one.
     Growth(f64),
+    /// The smallest failure.
+    Failure {
+        /// Its verdict; right if there is none.
+        verdict: Verdict,
+        /// Its number of triangles, if there is one.
+        triangles: Option<usize>,
+    },
 }
 
 /// The words of a map.
 pub(in crate::show) struct Words {
     name: &'static str,
     pub(in crate::show) title: &'static str,
+    /// A link to the map.
+    pub(in crate::show) link: &'static str,
     pub(in crate::show) remark: &'static str,
     pub(in crate::show) legend: &'static [(&'static str, RGBColor)],
 }
@@ -65,6 +76,7 @@ pub(in crate::show) struct Words {
 const REACH: Words = Words {
     name: "stability",
     title: "How far each method follows each family: bluer is better",
+    link: "How far",
     remark: "A cell has the colour of the worst answer, and names the first value that is not right. \
              The bar shows the share of the steps, from the easy ones, before it.",
     legend: &[
@@ -80,6 +92,7 @@ const REACH: Words = Words {
 const GROWTH: Words = Words {
     name: "growth",
     title: "How the cost of a query grows from the easy steps to the hard ones: lighter is better",
+    link: "At what cost",
     remark: "The largest mean number of steps in time of a query, as a multiple of that of the family's \
              easiest value. Only answered queries count: a method that is stopped has no more than is shown.",
     legend: &[
@@ -87,6 +100,20 @@ const GROWTH: Words = Words {
         ("30", GROWN[1]),
         ("1,000", GROWN[2]),
         ("more", GROWN[3]),
+    ],
+};
+
+const FAILURES: Words = Words {
+    name: "failures",
+    title: "The smallest failure that a search found: blue is none",
+    link: "The failures",
+    remark: "A cell has the colour of the failure, and the number of triangles of both bodies.",
+    legend: &[
+        ("none found", RIGHT),
+        ("early", EARLY),
+        ("false contact", FALSE),
+        ("late or missed", WARNING),
+        ("died or cut off", BLACK),
     ],
 };
 
@@ -136,6 +163,7 @@ impl HeatKind {
         match self {
             HeatKind::Reach => &REACH,
             HeatKind::Growth => &GROWTH,
+            HeatKind::Failures => &FAILURES,
         }
     }
 }
@@ -154,6 +182,16 @@ impl HeatCell {
                     ink,
                     lines: [word.to_owned(), limit.clone()],
                     bar: *share,
+                }
+            }
+            HeatCell::Failure { verdict, triangles } => {
+                let (fill, word, ink) = look_of(*verdict);
+                let size = triangles.map_or("none".to_owned(), |count| count.to_string());
+                Look {
+                    fill,
+                    ink,
+                    lines: [word.to_owned(), size],
+                    bar: 0.0,
                 }
             }
             &HeatCell::Growth(factor) => {

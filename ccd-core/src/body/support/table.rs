@@ -133,21 +133,24 @@ impl SupportTable {
         slack: f64,
         direction: DVec3,
     ) -> Option<(u32, f64)> {
-        let mut level = vec![at];
-        let mut next = 0;
-        while let Some(&from) = level.get(next) {
+        let mut level = [at; PLATEAU_POINTS];
+        let (mut next, mut count) = (0, 1);
+        while next < count {
+            let from = level[next];
             next += 1;
             for &neighbour in self.neighbours(from) {
                 let here = self.height(neighbour, direction);
                 if here > height {
                     return Some((neighbour, here));
                 }
-                if here >= height - slack && !level.contains(&neighbour) {
-                    level.push(neighbour);
+                if !(here >= height - slack) || level[..count].contains(&neighbour) {
+                    continue;
                 }
-            }
-            if level.len() > PLATEAU_POINTS {
-                return self.highest(direction).filter(|&(_, here)| here > height);
+                let Some(place) = level.get_mut(count) else {
+                    return self.highest(direction).filter(|&(_, here)| here > height);
+                };
+                *place = neighbour;
+                count += 1;
             }
         }
         None

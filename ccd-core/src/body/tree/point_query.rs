@@ -7,24 +7,25 @@ use crate::tolerance::SIGN_F64;
 use glam::DVec3;
 
 /// Returns the pieces that are no triangles and whose boxes contain a point, or nearly.
-pub(crate) fn pieces_at(tree: &Tree, point: DVec3) -> Vec<u32> {
-    let mut found = Vec::new();
+pub(crate) fn pieces_at(tree: &Tree, point: DVec3) -> impl Iterator<Item = u32> {
     let mut stack = Waiting::root();
-    while let Some(id) = stack.pop() {
-        let node = &tree.nodes[id as usize];
-        if !node.holds(point, 0.0) {
-            continue;
-        }
-        match node.below {
-            Below::Boxes(group) => {
-                let members = &tree.boxes[group as usize].members;
-                stack.extend(members.first..members.first + members.count);
+    std::iter::from_fn(move || {
+        while let Some(id) = stack.pop() {
+            let node = &tree.nodes[id as usize];
+            if !node.holds(point, 0.0) {
+                continue;
             }
-            Below::Piece(piece) => found.push(piece),
-            Below::Triangles(_) => {}
+            match node.below {
+                Below::Boxes(group) => {
+                    let members = &tree.boxes[group as usize].members;
+                    stack.extend(members.first..members.first + members.count);
+                }
+                Below::Piece(piece) => return Some(piece),
+                Below::Triangles(_) => {}
+            }
         }
-    }
-    found
+        None
+    })
 }
 
 /// Returns whether a point is certainly farther than `reach` from the surface: from the triangles,

@@ -93,7 +93,7 @@ impl Skin<'_> {
         } = &self.corners[corner as usize];
         let there = || pieces_at(self.body.tree(), here.map(f64::from_bits).into());
         id.or_else(|| {
-            let numbers = there().into_iter().filter_map(|piece| {
+            let numbers = there().filter_map(|piece| {
                 let points = self.body.pieces().get(piece as usize).points;
                 let point = points.iter().position(|&point| place(point) == *here)?;
                 self.number(piece, point as u32)

@@ -80,3 +80,14 @@ fn overflow_is_an_error() {
     let result = screw(&query(motion, still(DVec3::ZERO)));
     assert_eq!(result, Err(InputError::NotFinite { what: "motion" }));
 }
+
+#[test]
+fn screws_are_told_from_other_motions() {
+    let mut samples = Samples::new(4);
+    for _ in 0..200 {
+        let given = samples.query(3.0, 3.0);
+        assert!(!is_screw(&given));
+        assert!(is_screw(&screw(&given).unwrap()));
+    }
+    assert!(is_screw(&query(still(DVec3::X), still(DVec3::ZERO))));
+}

@@ -1,0 +1,100 @@
+//! The command `ccd-bench falsify`: searches for the smallest scene at which each method fails.
+
+use super::chart::chosen;
+use super::stability::all_methods;
+use crate::falsify::{Aim, Hunt, Report, table, write_gallery};
+use crate::method::Method;
+use crate::method::guarded::Programs;
+use anyhow::{Context, Result};
+use clap::Args;
+use rayon::prelude::*;
+use rigid_ccd::command::{CannotWrite, Exit, Progress, Total};
+use std::fs;
+use std::io::{self, Write};
+use std::path::PathBuf;
+use std::time::Duration;
+
+/// Search for the smallest scene at which each method fails
+#[derive(Debug, Args)]
+#[command(after_help = AFTER_HELP)]
+pub(super) struct FalsifyArgs {
+    /// Only these methods
+    #[arg(long, value_name = "NAME", value_delimiter = ',')]
+    methods: Vec<String>,
+    /// Only these kinds of failures
+    #[arg(long, value_delimiter = ',', default_values_t = Aim::ALL)]
+    aims: Vec<Aim>,
+    /// The scenes to try, for each method and kind of failure
+    #[arg(long, value_name = "N", default_value_t = 2_000)]
+    tries: usize,
+    /// The failures to make small; the smallest is kept
+    #[arg(long, value_name = "N", default_value_t = 5)]
+    finds: usize,
+    /// The seed of the search
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// The script that runs Coal and FCL, which adds their methods: scripts/peers.py
+    #[arg(long, value_name = "SCRIPT")]
+    peers: Option<PathBuf>,
+    /// Seconds that a query may take
+    #[arg(long, value_name = "SECONDS", default_value_t = 1)]
+    patience: u32,
+    /// Write the failures to this folder
+    #[arg(long, value_name = "DIR", default_value = "target/ccd-failures")]
+    out: PathBuf,
+}
+
+const AFTER_HELP: &str = "\
+The search draws two small meshes and their motions, and changes them step by step toward a failure: a
+contact that is late or missed, a contact that is early, a query without an end. What fails is made small:
+the fewest triangles and round numbers that still fail. Every answer is judged by an independent referee.
+
+Files: gallery.md has each failure and the command that repeats it, index.html shows it in three dimensions;
+each failure has a folder with its meshes and motions.
+
+Examples:
+  ccd-bench falsify
+  ccd-bench falsify --methods 'C2A,parry-f64' --aims late
+  ccd-bench falsify --methods 'best-first direct' --tries 1000000 --seed 7";
+
+pub(super) fn run(args: &FalsifyArgs) -> Result<Exit> {
+    let methods = chosen(
+        all_methods(args.peers.as_deref()),
+        &args.methods,
+        "method",
+        Method::to_string,
+    )?;
+    let hunts: Vec<Hunt> = methods
+        .iter()
+        .flat_map(|&method| args.aims.iter().map(move |&aim| (method, aim)))
+        .map(|(method, aim)| Hunt {
+            method,
+            aim,
+            tries: args.tries,
+            finds: args.finds,
+            seed: args.seed,
+            patience: Duration::from_secs(args.patience.into()),
+        })
+        .collect();
+    fs::create_dir_all(&args.out).with_context(|| args.out.display().to_string())?;
+    let progress = Progress::new(Total::Steps(args.tries * hunts.len()));
+    let programs = Programs {
+        script: args.peers.clone(),
+    };
+    let search = |hunt: &Hunt| {
+        let name = format!("{} {}", hunt.method, hunt.aim);
+        progress.say(&name);
+        hunt.run(&programs, &progress).context(name)
+    };
+    let reports: Result<Vec<Report>> = hunts.par_iter().map(search).collect();
+    let reports = reports?;
+    drop(progress);
+    write_gallery(&reports, &args.out)?;
+    let table = table(&reports);
+    let shown = writeln!(io::stdout(), "{}\n{}", table.title, table.for_terminal());
+    shown.map_err(|source| CannotWrite {
+        place: "the summary".to_owned(),
+        source,
+    })?;
+    Ok(Exit::AllAnswered)
+}

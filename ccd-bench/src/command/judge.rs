@@ -1,0 +1,122 @@
+//! The command `ccd-bench judge`: asks one method, and judges its answers by the exact ones.
+
+use crate::method::guarded::{Asked, Guarded, Programs, Setting};
+use crate::method::rival::screw;
+use crate::method::solver::Claim;
+use crate::method::{Method, MotionKind};
+use crate::run::contest::{Judged, Verdict, judge};
+use crate::truth::{Referee, Surface, TruthRow};
+use anyhow::{Context, Result, anyhow};
+use ccd_core::order::greater;
+use ccd_decomp::TriangleMesh;
+use clap::Args;
+use rigid_ccd::command::{BadRows, Exit, Progress, Table, input_name, open_motions};
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+/// Ask one method, and judge its answers by exact ones
+#[derive(Debug, Args)]
+#[command(after_help = AFTER_HELP)]
+pub(super) struct JudgeArgs {
+    /// The method, as the tables name it
+    #[arg(long, value_name = "NAME")]
+    method: String,
+    /// Body A: a mesh, .obj, .stl, .ply or .off
+    #[arg(long, value_name = "MESH")]
+    a: PathBuf,
+    /// Body B, as body A
+    #[arg(long, value_name = "MESH")]
+    b: PathBuf,
+    /// The table of motions, CSV, in the format of `ccd query`; - reads standard input
+    #[arg(long, value_name = "CSV")]
+    motions: PathBuf,
+    /// The tolerance, in the scene's unit of length
+    #[arg(long, value_name = "LENGTH", default_value_t = 1e-3)]
+    tolerance: f64,
+    /// The script that runs Coal and FCL, for their methods: scripts/peers.py
+    #[arg(long, value_name = "SCRIPT")]
+    peers: Option<PathBuf>,
+    /// Seconds that a query may take
+    #[arg(long, value_name = "SECONDS", default_value_t = 3)]
+    patience: u32,
+    /// The table of verdicts, CSV; - writes to standard output
+    #[arg(long, value_name = "CSV", default_value = "-")]
+    out: PathBuf,
+}
+
+const AFTER_HELP: &str = "\
+The method runs in a process of its own, which is stopped when its time is over. The exact answers are those
+of `ccd-bench truth`. The columns: id, status, lo and hi of the exact answer, the verdict, the answer, its time.
+
+Example:
+  ccd-bench judge --method C2A --a a.obj --b b.obj --motions motions.csv";
+
+const COLUMNS: [&str; 7] = ["id", "status", "lo", "hi", "verdict", "answer", "time"];
+
+pub(super) fn run(args: &JudgeArgs) -> Result<Exit> {
+    let name = &args.method;
+    let method = Method::named(name).ok_or_else(|| anyhow!("there is no method `{name}`"))?;
+    let read = |path: &Path| TriangleMesh::read(path).with_context(|| path.display().to_string());
+    let meshes = [read(&args.a)?, read(&args.b)?];
+    let surfaces = meshes.each_ref().map(Surface::new);
+    let referee = Referee::new(&surfaces[0], &surfaces[1]);
+    let setting = Setting::new(method, args.tolerance);
+    let programs = Programs {
+        script: args.peers.clone(),
+    };
+    let mut guarded =
+        Guarded::start(&programs, setting, meshes.each_ref()).context(name.clone())?;
+    let mut table = Table::create(&args.out, &COLUMNS)?;
+    let mut bad_rows = BadRows::new(input_name(&args.motions));
+    let (rows, _) = open_motions(&args.motions)?;
+    for row in rows {
+        let query = match row.with_context(|| input_name(&args.motions))? {
+            Ok((_, query)) => query,
+            Err(error) => {
+                bad_rows.report(error.position, &error.problem, &Progress::hidden());
+                continue;
+            }
+        };
+        let query = match method.motion_kind() {
+            MotionKind::Given => query,
+            MotionKind::Screw => screw(&query)?,
+        };
+        let truth = referee.first_contact(&query);
+        let asked = guarded.ask(&query, Duration::from_secs(args.patience.into()))?;
+        let verdict = verdict_of(&asked, |claim, stated| {
+            let tolerance = greater(args.tolerance, stated.unwrap_or(0.0));
+            judge(&referee, &query, truth, claim, tolerance)
+        });
+        let (answer, time) = words(&asked);
+        let truth = TruthRow::new(query.id.clone(), query.duration, truth);
+        table.write(|writer| writer.serialize((truth, verdict.to_string(), answer, time)))?;
+    }
+    table.finish()?;
+    bad_rows.close();
+    Ok(match bad_rows.count() {
+        0 => Exit::AllAnswered,
+        _ => Exit::SomeRowsBad,
+    })
+}
+
+/// Returns the verdict on an outcome; `judge` takes the claim and the tolerance that the method states.
+fn verdict_of(asked: &Asked, judge: impl Fn(Claim, Option<f64>) -> Judged) -> Verdict {
+    match asked {
+        Asked::Answered { reply, .. } => judge(reply.claim, reply.tolerance).verdict,
+        Asked::CutOff => Verdict::CutOff,
+        Asked::Died => Verdict::Died,
+    }
+}
+
+/// Returns the words for an outcome, and its time.
+fn words(asked: &Asked) -> (&'static str, Option<f64>) {
+    match asked {
+        Asked::Answered { reply, .. } => match reply.claim {
+            Claim::Contact { time } => ("contact", Some(time)),
+            Claim::Free => ("free", None),
+            Claim::Unresolved { safe_until } => ("unresolved", Some(safe_until)),
+            Claim::Refused => ("refused", None),
+        },
+        Asked::CutOff | Asked::Died => ("none", None),
+    }
+}
