@@ -11,6 +11,7 @@ mod best_first;
 mod contract;
 #[cfg(feature = "hull-tree")]
 mod fast;
+mod memory;
 mod meter;
 mod naive;
 mod nodes;

@@ -64,8 +64,9 @@ pub struct Failure {
 /// The neighbours in a row that are no better before the search starts anew.
 const STUCK: usize = 40;
 
-/// The attempts to shrink a failure.
+/// The attempts to shrink a failure, and one that takes all its time at each attempt.
 const SHRINKING: usize = 4_000;
+const SHRINKING_STUCK: usize = 200;
 
 /// A smaller failure is at least that bad, or as bad as the one that it is made of: late by a tenth of the
 /// duration, early by a tenth of the tolerance.
@@ -150,7 +151,11 @@ impl Hunt {
     ) -> io::Result<Failure> {
         let least = FAILURE + lesser(STILL_BAD, self.aim.score(&examined) - FAILURE);
         let mut smallest = examined;
-        let attempt = shrink(attempt, SHRINKING, |smaller| {
+        let most = match self.aim {
+            Aim::Late | Aim::Early => SHRINKING,
+            Aim::Stuck => SHRINKING_STUCK,
+        };
+        let attempt = shrink(attempt, most, |smaller| {
             let Some(examined) = examiner.examine(smaller)? else {
                 return Ok(false);
             };

@@ -28,7 +28,12 @@ pub(crate) enum Intersection {
 /// differences of the pieces' points by more than `rounding`, or an axis shows that it is not. With
 /// rounding radii either the claim's witnesses prove an intersection, or its axis disproves one. If
 /// neither does, the pieces count as touching.
-pub(crate) fn intersects(pair: &PiecePair<'_>, checked: &Checked, rounding: f64) -> Intersection {
+pub(crate) fn intersects(
+    pair: &PiecePair<'_>,
+    checked: &Checked,
+    rounding: f64,
+    inner: &mut Inner,
+) -> Intersection {
     let radii = pair.a.radius + pair.b.radius;
     if radii > 0.0 {
         // Witnesses of the cores that are nearer than the radii are a proof.
@@ -40,10 +45,10 @@ pub(crate) fn intersects(pair: &PiecePair<'_>, checked: &Checked, rounding: f64)
     if checked.lower >= -2.0 * rounding {
         return Intersection::None;
     }
-    let Some(mut inner) = Inner::tetrahedron(pair, rounding) else {
+    if !inner.begin(pair, rounding) {
         // The differences are flat, up to rounding.
         return Intersection::None;
-    };
+    }
     for _ in 0..MAX_CORNERS {
         let Some(&face) = inner.shallowest() else {
             return Intersection::Undecided;
@@ -75,12 +80,15 @@ fn farthest_difference(pair: &PiecePair<'_>, along: DVec3) -> DVec3 {
 /// initially. Its faces form a closed surface even where their normals are rounded: the faces that
 /// a new corner sees are replaced by a cone to their rim. Once all faces look away from the origin,
 /// the surface winds about it.
-struct Inner {
+#[derive(Debug, Default)]
+pub(crate) struct Inner {
     corners: Vec<DVec3>,
     faces: Vec<Face>,
+    /// The edges of the faces that the last corner saw, towards those that it did not see.
+    rim: Vec<[usize; 2]>,
 }
 
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 struct Face {
     /// Counterclockwise seen from outside.
     corners: [usize; 3],
@@ -93,42 +101,18 @@ struct Face {
 }
 
 impl Inner {
-    /// Returns four differences far from one another, or none when all differences are in a plane
-    /// up to rounding, so that no point is deeper than that.
-    fn tetrahedron(pair: &PiecePair<'_>, rounding: f64) -> Option<Self> {
-        let both = |along: DVec3| [along, -along].map(|along| farthest_difference(pair, along));
-        let farther = |best: (f64, DVec3), next: (f64, DVec3)| match next.0 > best.0 {
-            true => next,
-            false => best,
+    /// Begins anew with a tetrahedron; returns false if all differences are flat.
+    fn begin(&mut self, pair: &PiecePair<'_>, rounding: f64) -> bool {
+        self.corners.clear();
+        self.faces.clear();
+        let Some(corners) = tetrahedron(pair, rounding) else {
+            return false;
         };
-        let pick = |points: &[DVec3], measure: &dyn Fn(DVec3) -> f64| {
-            let measured = points.iter().map(|&p| (measure(p), p));
-            let (size, point) = measured.fold((0.0, DVec3::ZERO), farther);
-            (size > rounding).then_some(point)
-        };
-        let around = DVec3::AXES.map(both);
-        let a = around[0][0];
-        let b = pick(around.as_flattened(), &|p| p.distance(a))?;
-        let line = unit_or_any(b - a);
-        let aside = line.any_orthonormal_vector();
-        let around = [aside, line.cross(aside)].map(both);
-        let c = pick(around.as_flattened(), &|p| {
-            (p - a - line * line.dot(p - a)).length()
-        })?;
-        let normal = unit_or_any(across(b - a, c - a));
-        let d = pick(&both(normal), &|p| normal.dot(p - a).abs())?;
-        let corners = match normal.dot(d - a) < 0.0 {
-            true => vec![a, b, c, d],
-            false => vec![a, c, b, d],
-        };
-        let mut inner = Inner {
-            corners,
-            faces: Vec::new(),
-        };
+        self.corners.extend(corners);
         for face in [[0, 1, 2], [0, 3, 1], [1, 3, 2], [2, 3, 0]] {
-            inner.push(face);
+            self.push(face);
         }
-        Some(inner)
+        true
     }
 
     fn push(&mut self, corners: [usize; 3]) {
@@ -152,7 +136,8 @@ impl Inner {
     fn add(&mut self, corner: DVec3, seen: [usize; 3]) {
         let new = self.corners.len();
         self.corners.push(corner);
-        let mut rim: Vec<[usize; 2]> = Vec::new();
+        let rim = &mut self.rim;
+        rim.clear();
         self.faces.retain(|face| {
             let sees = face.corners == seen || face.normal.dot(corner) > face.height;
             for k in (0..3).filter(|_| sees) {
@@ -165,10 +150,41 @@ impl Inner {
             }
             !sees
         });
-        for [from, to] in rim {
+        for k in 0..self.rim.len() {
+            let [from, to] = self.rim[k];
             self.push([from, to, new]);
         }
     }
+}
+
+/// Returns four differences far from one another, or none when all differences are in a plane
+/// up to rounding, so that no point is deeper than that.
+fn tetrahedron(pair: &PiecePair<'_>, rounding: f64) -> Option<[DVec3; 4]> {
+    let both = |along: DVec3| [along, -along].map(|along| farthest_difference(pair, along));
+    let farther = |best: (f64, DVec3), next: (f64, DVec3)| match next.0 > best.0 {
+        true => next,
+        false => best,
+    };
+    let pick = |points: &[DVec3], measure: &dyn Fn(DVec3) -> f64| {
+        let measured = points.iter().map(|&p| (measure(p), p));
+        let (size, point) = measured.fold((0.0, DVec3::ZERO), farther);
+        (size > rounding).then_some(point)
+    };
+    let around = DVec3::AXES.map(both);
+    let a = around[0][0];
+    let b = pick(around.as_flattened(), &|p| p.distance(a))?;
+    let line = unit_or_any(b - a);
+    let aside = line.any_orthonormal_vector();
+    let around = [aside, line.cross(aside)].map(both);
+    let c = pick(around.as_flattened(), &|p| {
+        (p - a - line * line.dot(p - a)).length()
+    })?;
+    let normal = unit_or_any(across(b - a, c - a));
+    let d = pick(&both(normal), &|p| normal.dot(p - a).abs())?;
+    Some(match normal.dot(d - a) < 0.0 {
+        true => [a, b, c, d],
+        false => [a, c, b, d],
+    })
 }
 
 /// The unit normal of a triangle, along which even the corners of a needle are level. The part of

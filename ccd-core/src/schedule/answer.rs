@@ -2,6 +2,7 @@
 
 mod given;
 
+use super::memory::Kept;
 use super::meter::Meter;
 use crate::config::StartPolicy;
 use crate::distance::oracle::DistanceOracle;
@@ -16,14 +17,16 @@ use given::of_given;
 /// began with: pairs that part or slide keep more than that, pairs that approach do not. If there
 /// is no gap worth the name, the pairs that rest on each other are let go, each on its own.
 ///
-/// A search adds its work to the meter.
+/// A search adds its work to the meter, which lends it the memory.
 pub(crate) fn answer<O: DistanceOracle>(
     problem: &Problem<'_>,
     oracle: &mut O,
+    kept: &mut Kept,
     mut search: impl FnMut(&Problem<'_>, &mut O, &mut Meter) -> Outcome,
 ) -> Answer {
     let before = oracle.effort();
     let mut meter = Meter::new(problem);
+    meter.kept = kept.take();
     let outcome = match problem.start {
         StartPolicy::Report => search(problem, oracle, &mut meter),
         StartPolicy::Leave => search(&problem.reporting(), oracle, &mut meter),
@@ -37,8 +40,10 @@ pub(crate) fn answer<O: DistanceOracle>(
         _ => (outcome, problem.tolerance),
     };
     let within = problem.margin + tolerance;
+    let outcome = of_given(problem, oracle, &mut meter, outcome, within);
+    *kept = meter.kept.take();
     Answer {
-        outcome: of_given(problem, oracle, &mut meter, outcome, within),
+        outcome,
         tolerance,
         stats: Stats {
             effort: oracle.effort() - before,

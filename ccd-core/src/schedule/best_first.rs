@@ -2,6 +2,7 @@
 
 use super::answer::answer;
 use super::contract::Schedule;
+use super::memory::Kept;
 use super::meter::Meter;
 use super::nodes::closer_look::CloserLook;
 use super::nodes::common::Common;
@@ -50,12 +51,14 @@ use std::ops::ControlFlow;
 #[derive(Debug)]
 pub struct BestFirst<O: DistanceOracle> {
     queue: Queue<Item<O::Cache>>,
+    kept: Kept,
 }
 
 impl<O: DistanceOracle> Default for BestFirst<O> {
     fn default() -> Self {
         BestFirst {
             queue: Queue::default(),
+            kept: None,
         }
     }
 }
@@ -77,13 +80,16 @@ impl<C> Item<C> {
 
 impl<O: DistanceOracle> Schedule<O> for BestFirst<O> {
     fn solve(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer {
-        answer(problem, oracle, |problem, oracle, meter| {
+        let mut kept = self.kept.take();
+        let answer = answer(problem, oracle, &mut kept, |problem, oracle, meter| {
             self.queue.clear();
             let outcome = self.first_contact(problem, oracle, meter);
             let stats = &mut meter.stats;
             stats.peak_front = stats.peak_front.max(self.queue.peak());
             outcome
-        })
+        });
+        self.kept = kept;
+        answer
     }
 }
 
@@ -157,7 +163,7 @@ impl<O: DistanceOracle> BestFirst<O> {
                 let expansion = expand(common, &split, s);
                 proven.keep(f64::from(expansion.bounds.kept));
                 let mut siblings = Siblings::new(&expansion, split, s);
-                look.finish(problem, &split, s, &mut siblings);
+                look.finish(problem, &split, s, &mut siblings, meter);
                 (siblings.clock(), Item::Siblings(siblings))
             }
             Next::Ask(a, b) => {

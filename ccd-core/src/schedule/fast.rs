@@ -8,6 +8,7 @@ mod reach;
 use super::answer::answer;
 use super::best_first::BestFirst;
 use super::contract::Schedule;
+use super::memory::Kept;
 use super::meter::Meter;
 use super::proven::Proven;
 use crate::distance::oracle::DistanceOracle;
@@ -53,6 +54,7 @@ pub struct Fast<O: DistanceOracle> {
     front: Front<O::Cache>,
     reaches: Reaches,
     without_trees: BestFirst<O>,
+    kept: Kept,
 }
 
 impl<O: DistanceOracle> Fast<O> {
@@ -63,6 +65,7 @@ impl<O: DistanceOracle> Fast<O> {
             front: Front::default(),
             reaches: Reaches::default(),
             without_trees: BestFirst::default(),
+            kept: None,
         }
     }
 }
@@ -79,9 +82,12 @@ impl<O: DistanceOracle> Schedule<O> for Fast<O> {
             return self.without_trees.solve(problem, oracle);
         };
         self.reaches.forget();
-        answer(problem, oracle, |problem, oracle, meter| {
+        let mut kept = self.kept.take();
+        let answer = answer(problem, oracle, &mut kept, |problem, oracle, meter| {
             self.advance(problem, hulls, oracle, meter)
-        })
+        });
+        self.kept = kept;
+        answer
     }
 }
 

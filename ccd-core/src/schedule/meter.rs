@@ -1,5 +1,6 @@
-//! The limits of a query's work, and the work done.
+//! The limits of a query's work, the work done, and the memory for it.
 
+use super::memory::{Kept, Memory};
 use crate::outcome::{Limit, Stats};
 use crate::problem::Problem;
 use crate::tolerance::WORK_BETWEEN_LOOKS;
@@ -11,6 +12,7 @@ use std::time::Instant;
 #[derive(Debug)]
 pub(crate) struct Meter {
     pub(crate) stats: Stats,
+    pub(crate) kept: Kept,
     budget: u64,
     /// None if there is no deadline; then no clock is read.
     end: Option<Instant>,
@@ -29,6 +31,7 @@ impl Meter {
         let stop = problem.stop.clone();
         Meter {
             stats: Stats::default(),
+            kept: None,
             budget: problem.budget,
             next_look: match end.is_some() || stop.is_some() {
                 true => 0,
@@ -37,6 +40,11 @@ impl Meter {
             end,
             stop,
         }
+    }
+
+    /// Returns the memory for searches that need lists.
+    pub(crate) fn memory(&mut self) -> &mut Memory {
+        self.kept.get_or_insert_default()
     }
 
     /// Counts a pair that is about to be visited.

@@ -2,6 +2,7 @@
 
 use super::answer::answer;
 use super::contract::Schedule;
+use super::memory::Kept;
 use super::meter::Meter;
 use super::pieces::pair::Pair;
 use super::pieces::snapshot::Snapshot;
@@ -26,6 +27,7 @@ use std::ops::ControlFlow;
 pub struct Naive<O: DistanceOracle> {
     bound: Bound,
     pairs: Vec<Pair<O::Cache>>,
+    kept: Kept,
 }
 
 impl<O: DistanceOracle> Naive<O> {
@@ -34,6 +36,7 @@ impl<O: DistanceOracle> Naive<O> {
         Naive {
             bound,
             pairs: Vec::new(),
+            kept: None,
         }
     }
 }
@@ -46,11 +49,14 @@ impl<O: DistanceOracle> Default for Naive<O> {
 
 impl<O: DistanceOracle> Schedule<O> for Naive<O> {
     fn solve(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer {
-        answer(problem, oracle, |problem, oracle, meter| {
+        let mut kept = self.kept.take();
+        let answer = answer(problem, oracle, &mut kept, |problem, oracle, meter| {
             let outcome = self.search(problem, oracle, meter);
             meter.stats.peak_front = self.pairs.len() as u64;
             outcome
-        })
+        });
+        self.kept = kept;
+        answer
     }
 }
 

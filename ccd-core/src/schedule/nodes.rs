@@ -17,7 +17,7 @@ mod lanes;
 mod placed;
 mod profile;
 pub(super) mod roots;
-mod screw;
+pub(super) mod screw;
 mod shape;
 pub(super) mod siblings;
 mod sweeping_node;

@@ -78,7 +78,7 @@ impl Proven {
         // Bodies that are let go were examined when their contact was found.
         match problem.start {
             StartPolicy::Leave => None,
-            StartPolicy::Report => contained(problem, &[]),
+            StartPolicy::Report => contained(problem, &[], &mut Vec::new()),
         }
     }
 

@@ -34,23 +34,47 @@ pub(super) fn touching<O: DistanceOracle>(
     meter: &mut Meter,
     seen: Contact,
 ) -> Outcome {
+    let mut lists = std::mem::take(&mut meter.memory().start);
+    lists.clear();
     let mut search = Nearest {
         problem,
         common: Common::new(problem),
-        waiting: Queue::default(),
+        lists: &mut lists,
         nearest: None,
         lower: f64::INFINITY,
-        touching: Vec::new(),
         undecided: false,
     };
-    if let ControlFlow::Break(outcome) = search.run(oracle, meter) {
-        return outcome;
+    let outcome = match search.run(oracle, meter) {
+        ControlFlow::Break(outcome) => outcome,
+        ControlFlow::Continue(()) if search.undecided => unresolved(Limit::Undecided),
+        ControlFlow::Continue(()) => {
+            let contact = search.contact(seen);
+            let Lists {
+                touching, pieces, ..
+            } = &mut lists;
+            contained(problem, touching, pieces).unwrap_or(Outcome::Touching { contact })
+        }
+    };
+    meter.memory().start = lists;
+    outcome
+}
+
+/// The lists of a search, which keep their memory.
+#[derive(Debug, Default)]
+pub(crate) struct Lists {
+    /// Pairs of nodes, ordered by lower bounds of their distances.
+    waiting: Queue<Siblings>,
+    /// All pairs of pieces without a separating axis; none of them has a distance.
+    touching: Vec<[u32; 2]>,
+    /// For the search for one body inside the other.
+    pieces: Vec<u32>,
+}
+
+impl Lists {
+    fn clear(&mut self) {
+        self.waiting.clear();
+        self.touching.clear();
     }
-    if search.undecided {
-        return unresolved(Limit::Undecided);
-    }
-    let contact = search.contact(seen);
-    contained(problem, &search.touching).unwrap_or(Outcome::Touching { contact })
 }
 
 /// Splits the pair of nodes that may contain the nearest pieces, until no waiting pair can contain
@@ -61,14 +85,11 @@ pub(super) fn touching<O: DistanceOracle>(
 struct Nearest<'p> {
     problem: &'p Problem<'p>,
     common: Common<'p>,
-    /// Ordered by lower bounds of their distances.
-    waiting: Queue<Siblings>,
+    lists: &'p mut Lists,
     /// The pieces of least upper bound.
     nearest: Option<Contact>,
     /// Bounds the distance of all pieces that were measured or given up.
     lower: f64,
-    /// All pairs of pieces without a separating axis; none of them has a distance.
-    touching: Vec<[u32; 2]>,
     /// True if some pair could not be shown to intersect or not.
     undecided: bool,
 }
@@ -102,7 +123,7 @@ impl Nearest<'_> {
         if !(distance < self.upper()) {
             return ControlFlow::Continue(());
         }
-        match self.waiting.push(distance, Rank::Siblings, siblings) {
+        match self.lists.waiting.push(distance, Rank::Siblings, siblings) {
             Ok(()) => ControlFlow::Continue(()),
             Err(Full) => ControlFlow::Break(unresolved(Limit::Budget)),
         }
@@ -112,7 +133,7 @@ impl Nearest<'_> {
     /// found.
     fn next(&mut self) -> Option<Next> {
         let (upper, near_enough) = (self.upper(), self.near_enough());
-        let (distance, siblings) = self.waiting.least()?;
+        let (distance, siblings) = self.lists.waiting.least()?;
         // Pairs without a distance may intersect.
         if distance > 0.0 && distance >= near_enough {
             self.lower = lesser(self.lower, distance);
@@ -120,8 +141,8 @@ impl Nearest<'_> {
         }
         let next = siblings.take_least(self.problem, distance);
         match siblings.clock() {
-            distance if distance < upper => self.waiting.postpone(distance),
-            _ => self.waiting.remove(),
+            distance if distance < upper => self.lists.waiting.postpone(distance),
+            _ => self.lists.waiting.remove(),
         }
         Some(next)
     }
@@ -138,7 +159,8 @@ impl Nearest<'_> {
         let Some(checked) = snapshot.ask(oracle, &mut O::Cache::default(), meter) else {
             return ControlFlow::Break(unresolved(Limit::OracleGaveUp));
         };
-        match overlap::intersects(&snapshot.pieces, &checked, problem.rounding) {
+        let inner = &mut meter.memory().inner;
+        match overlap::intersects(&snapshot.pieces, &checked, problem.rounding, inner) {
             Intersection::Certain => {
                 return ControlFlow::Break(overlapping(contact(&snapshot, ids, &checked)));
             }
@@ -147,7 +169,7 @@ impl Nearest<'_> {
         }
         // Written so that NaN is not apart.
         if !(checked.lower > 0.0) {
-            self.touching.push(ids);
+            self.lists.touching.push(ids);
         }
         self.lower = lesser(self.lower, checked.lower);
         if checked.upper < self.upper() {
@@ -184,9 +206,13 @@ impl Nearest<'_> {
 }
 
 /// Returns the answer if one body is inside the other, or if that is undecided. No two pieces
-/// intersect; `touching` are those without a separating axis.
-pub(super) fn contained(problem: &Problem<'_>, touching: &[[u32; 2]]) -> Option<Outcome> {
-    match containment::at_start(problem, touching) {
+/// intersect; `touching` are those without a separating axis, and `pieces` is a list for use within.
+pub(super) fn contained(
+    problem: &Problem<'_>,
+    touching: &[[u32; 2]],
+    pieces: &mut Vec<u32>,
+) -> Option<Outcome> {
+    match containment::at_start(problem, touching, pieces) {
         Containment::Inside(overlap) => Some(Outcome::Overlapping { overlap }),
         Containment::Outside => None,
         Containment::Undecided => Some(Outcome::Unresolved {

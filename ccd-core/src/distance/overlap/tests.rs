@@ -1,6 +1,6 @@
 //! Distinguishes intersecting pieces from touching ones.
 
-use super::{Intersection, intersects};
+use super::{Inner, Intersection, intersects};
 use crate::body::Body;
 use crate::body::combination::Combination;
 use crate::body::piece::Piece;
@@ -18,7 +18,7 @@ const ROUNDING: f64 = 1e-13;
 /// The decision, which must not be open.
 fn decided(pair: &PiecePair<'_>, claim: &Claim) -> bool {
     let checked = separation::check(pair, claim, ROUNDING);
-    match intersects(pair, &checked, ROUNDING) {
+    match intersects(pair, &checked, ROUNDING, &mut Inner::default()) {
         Intersection::Certain => true,
         Intersection::None => false,
         Intersection::Undecided => panic!("{pair:?}"),

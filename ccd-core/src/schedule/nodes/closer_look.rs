@@ -7,6 +7,7 @@ use super::flat_pair;
 use super::screw::Screw;
 use super::siblings::Siblings;
 use crate::problem::{Problem, Side};
+use crate::schedule::meter::Meter;
 use crate::tolerance::{AXIS_ROUNDS, COARSE_F32, REACH_F32, SCREW_AFTER};
 
 /// The looks that a query has use for.
@@ -53,9 +54,10 @@ impl CloserLook {
         split: &Split,
         s: f64,
         siblings: &mut Siblings,
+        meter: &mut Meter,
     ) {
         if self.splits >= SCREW_AFTER {
-            self.finish_along_screw(problem, split, s, siblings);
+            self.finish_along_screw(problem, split, s, siblings, meter);
         }
         self.splits += 1;
     }
@@ -67,15 +69,17 @@ impl CloserLook {
         split: &Split,
         s: f64,
         siblings: &mut Siblings,
+        meter: &mut Meter,
     ) {
         if self.splits == SCREW_AFTER {
-            self.screw = Screw::of(problem);
+            self.screw = Screw::of(problem, &mut meter.memory().profiles);
         }
         // A second look at a single pair would give the same result.
-        if let Some(screw) = &mut self.screw
+        if let Some(screw) = &self.screw
             && split.lanes == u8::MAX
         {
-            siblings.finish(|pair| screw.keeps_apart(problem, pair, s));
+            let profiles = &mut meter.memory().profiles;
+            siblings.finish(|pair| screw.keeps_apart(problem, profiles, pair, s));
         }
     }
 }

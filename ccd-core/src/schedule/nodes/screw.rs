@@ -26,13 +26,14 @@ pub(super) struct Screw {
     axis: ScrewAxis,
     /// The whole way. On it, this distance on the screw keeps two nodes apart, whatever the drift.
     way: Way,
-    /// Of A and of B.
-    profiles: [Profiles; 2],
 }
 
-/// The profiles of a body's nodes and triangles, made when they are first asked for.
-#[derive(Debug)]
-struct Profiles {
+/// The profiles of both bodies' nodes and triangles, made when they are first asked for.
+#[derive(Debug, Default)]
+pub(crate) struct Profiles([OfBody; 2]);
+
+#[derive(Debug, Default)]
+struct OfBody {
     /// Where each node's profile is, by id.
     places: Vec<u32>,
     known: Vec<Profile>,
@@ -43,8 +44,8 @@ const UNKNOWN: u32 = u32::MAX;
 const NONE: u32 = u32::MAX - 1;
 
 impl Screw {
-    /// Returns none unless one body turns, and the axis hardly moves for the other.
-    pub(super) fn of(problem: &Problem<'_>) -> Option<Self> {
+    /// Returns none unless one body turns, and the axis hardly moves for the other. Forgets all profiles.
+    pub(super) fn of(problem: &Problem<'_>, profiles: &mut Profiles) -> Option<Self> {
         let turning = match (problem.a.path.turns(), problem.b.path.turns()) {
             (true, false) => Which::A,
             (false, true) => Which::B,
@@ -69,6 +70,8 @@ impl Screw {
         }
         // Rounding counts once for the positions, once for the axis.
         let kept = problem.node_gap() + 2.0 * problem.rounding + CLOSED_GAP * problem.tolerance;
+        profiles.0[0].forget(&problem.a);
+        profiles.0[1].forget(&problem.b);
         Some(Screw {
             turning,
             axis: ScrewAxis::new(side.path.centre_at(0.0), unit, along / side.path.rate),
@@ -77,19 +80,19 @@ impl Screw {
                 angles: [0.0, side.path.rate],
                 needed: kept + drift * (1.0 + RATE_F64),
             },
-            profiles: [Profiles::new(&problem.a), Profiles::new(&problem.b)],
         })
     }
 
     /// Returns whether two nodes, of A and of B, certainly stay apart by the gap of nodes from clock
     /// `s` to the end; none if one of them surrounds the axis, or nearly.
     pub(super) fn keeps_apart(
-        &mut self,
+        &self,
         problem: &Problem<'_>,
+        profiles: &mut Profiles,
         [a, b]: [NodeId; 2],
         s: f64,
     ) -> Option<bool> {
-        if self.keeps_whole_apart(problem, [a, b], s)? {
+        if self.keeps_whole_apart(problem, profiles, [a, b], s)? {
             return Some(true);
         }
         let of_a = triangles(&problem.a, a);
@@ -101,19 +104,19 @@ impl Screw {
         // these costs less than to split the groups.
         let mut of_a = of_a;
         Some(of_a.all(|x| {
-            let mut apart = |pair| self.keeps_whole_apart(problem, pair, s) == Some(true);
+            let mut apart = |pair| self.keeps_whole_apart(problem, profiles, pair, s) == Some(true);
             apart([x, b]) || of_b.clone().all(|y| apart([x, y]))
         }))
     }
 
     /// The same, without a look at triangles below the nodes.
     fn keeps_whole_apart(
-        &mut self,
+        &self,
         problem: &Problem<'_>,
+        Profiles([of_a, of_b]): &mut Profiles,
         [a, b]: [NodeId; 2],
         s: f64,
     ) -> Option<bool> {
-        let [of_a, of_b] = &mut self.profiles;
         let a = of_a.of(&problem.a, a, &self.axis)?;
         let b = of_b.of(&problem.b, b, &self.axis)?;
         let (turning, still) = match self.turning {
@@ -129,12 +132,12 @@ impl Screw {
     }
 }
 
-impl Profiles {
-    fn new(side: &Side<'_>) -> Self {
-        Profiles {
-            places: vec![UNKNOWN; side.body.tree().nodes() + side.body.pieces().len()],
-            known: Vec::new(),
-        }
+impl OfBody {
+    fn forget(&mut self, side: &Side<'_>) {
+        let count = side.body.tree().nodes() + side.body.pieces().len();
+        self.known.clear();
+        self.places.clear();
+        self.places.resize(count, UNKNOWN);
     }
 
     /// Returns the profile of a node or triangle; none if it surrounds the axis, or nearly.

@@ -105,7 +105,8 @@ impl<C: Default + Clone> Pair<C> {
         let apart = problem.contact_distance();
         if checked.upper <= apart {
             if s == 0.0 {
-                match overlap::intersects(&snapshot.pieces, &checked, problem.rounding) {
+                let inner = &mut meter.memory().inner;
+                match overlap::intersects(&snapshot.pieces, &checked, problem.rounding, inner) {
                     Intersection::Certain => {
                         return Step::Overlap(contact(snapshot, ids, &checked));
                     }

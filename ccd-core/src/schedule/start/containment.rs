@@ -25,7 +25,7 @@ pub(crate) enum Containment {
 }
 
 /// Searches for a point of one body inside the other one's solid at the start. `touching` are the
-/// pairs of pieces without a separating axis; no pair intersects.
+/// pairs of pieces without a separating axis; no pair intersects. The list `pieces` is for use within.
 ///
 /// # Guarantee
 /// A point that is found is inside, by more than rounding. If none is found, the following parts
@@ -42,20 +42,27 @@ pub(crate) enum Containment {
 /// holds for a part within a thousandth of an edge's length from that edge.
 ///
 /// O((parts + pairs that touch) · log n) where rays meet few triangles.
-pub(crate) fn at_start(problem: &Problem<'_>, touching: &[[u32; 2]]) -> Containment {
+pub(crate) fn at_start(
+    problem: &Problem<'_>,
+    touching: &[[u32; 2]],
+    pieces: &mut Vec<u32>,
+) -> Containment {
     if !(problem.a.body.may_be_hollow() || problem.b.body.may_be_hollow()) {
         return Containment::Outside;
     }
     let (a, b) = (Placed::of(&problem.a), Placed::of(&problem.b));
     let reach = INSIDE * problem.rounding;
-    let look = |outer: &Placed<'_>, inner: &Placed<'_>, side: usize| {
+    let mut look = |outer: &Placed<'_>, inner: &Placed<'_>, side: usize| {
         let search = Search {
             outer,
             inner,
             reach,
         };
         match outer.body.may_be_hollow() {
-            true => search.answer(touching.iter().map(|pair| [pair[side], pair[1 - side]])),
+            true => {
+                let pairs = touching.iter().map(|pair| [pair[side], pair[1 - side]]);
+                search.answer(pairs, pieces)
+            }
             false => Found::Nothing,
         }
     };
@@ -101,13 +108,18 @@ enum Found {
 
 impl Search<'_> {
     /// Returns the result; `touching` names pieces of the inner and of the outer body.
-    fn answer(&self, touching: impl Iterator<Item = [u32; 2]> + Clone) -> Found {
-        let mut pieces: Vec<u32> = touching.clone().map(|[inner, _]| inner).collect();
+    fn answer(
+        &self,
+        touching: impl Iterator<Item = [u32; 2]> + Clone,
+        pieces: &mut Vec<u32>,
+    ) -> Found {
+        pieces.clear();
+        pieces.extend(touching.clone().map(|[inner, _]| inner));
         pieces.sort_unstable();
         pieces.dedup();
         let mut found = Found::Nothing;
         let parts = self.inner.body.shells().iter();
-        let of_parts = parts.map(|shell| self.part(shell, &pieces));
+        let of_parts = parts.map(|shell| self.part(shell, pieces));
         let of_pieces = pieces.iter().map(|&piece| self.piece(piece));
         let of_pairs = touching.map(|pair| self.edges(pair));
         for one in of_parts.chain(of_pieces).chain(of_pairs) {
@@ -183,7 +195,7 @@ impl Search<'_> {
         let other = self.outer.body.pieces().get(outer as usize);
         let place = |p: DVec3| self.inner.frame.inverse_point(self.outer.frame.point(p));
         let points = beside_edges(&piece, &other, place, self.reach);
-        let mut found = points.into_iter().map(|p| self.point(p));
+        let mut found = points.map(|p| self.point(p));
         let inside = found.find(|found| matches!(found, Found::Inside(_)));
         inside.unwrap_or(Found::Nothing)
     }

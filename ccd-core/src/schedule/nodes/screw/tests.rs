@@ -111,12 +111,13 @@ fn nodes_said_to_stay_apart_do_so_at_sampled_times() {
         }
         let problem = Problem::new(first, second, 1.0, &config).unwrap();
         // The axis may move too fast for small bodies.
-        let Some(mut screw) = Screw::of(&problem) else {
+        let mut profiles = Profiles::default();
+        let Some(screw) = Screw::of(&problem, &mut profiles) else {
             continue;
         };
         let s = [0.0, 0.5 * passage.near][rng.random_range(0..2)];
         for ids in all_pairs(&problem) {
-            match screw.keeps_apart(&problem, ids, s) {
+            match screw.keeps_apart(&problem, &mut profiles, ids, s) {
                 Some(true) => {
                     proven += 1;
                     let least = least_distance(&problem, ids, s, passage.near);
@@ -151,9 +152,10 @@ fn later_turns_count() {
         let config = Config::default();
         let moving = (&moving, turn(turns));
         let problem = Problem::new(moving, (&still, Motion::STILL), 1.0, &config).unwrap();
-        let mut screw = Screw::of(&problem).unwrap();
+        let mut profiles = Profiles::default();
+        let screw = Screw::of(&problem, &mut profiles).unwrap();
         assert_eq!(
-            screw.keeps_apart(&problem, [1, 1], 0.0),
+            screw.keeps_apart(&problem, &mut profiles, [1, 1], 0.0),
             Some(apart),
             "{turns}"
         );
@@ -168,7 +170,8 @@ fn what_is_no_screw_has_no_profiles() {
     };
     let config = Config::default();
     let is_screw = |a: Motion, b: Motion| {
-        Screw::of(&Problem::new((&cube, a), (&cube, b), 1.0, &config).unwrap()).is_some()
+        let problem = Problem::new((&cube, a), (&cube, b), 1.0, &config).unwrap();
+        Screw::of(&problem, &mut Profiles::default()).is_some()
     };
     let still = Motion::STILL;
     assert!(is_screw(motion(DVec3::Z, DVec3::Z), still));
@@ -223,11 +226,12 @@ fn tall_nodes_far_along_an_oblique_axis_meet_what_is_at_their_tips() {
             &Config::default(),
         );
         let problem = problem.unwrap();
-        let mut screw = Screw::of(&problem).unwrap();
+        let mut profiles = Profiles::default();
+        let screw = Screw::of(&problem, &mut profiles).unwrap();
         // Each of the tall ones passes each of the others on its way.
         for pair in all_pairs(&problem) {
             assert_ne!(
-                screw.keeps_apart(&problem, pair, 0.0),
+                screw.keeps_apart(&problem, &mut profiles, pair, 0.0),
                 Some(true),
                 "{length} {high} {depth}"
             );

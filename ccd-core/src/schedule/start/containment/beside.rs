@@ -17,43 +17,84 @@ use glam::DVec3;
 pub(super) fn beside_edges(
     piece: &Piece<'_>,
     other: &Piece<'_>,
-    place: impl Fn(DVec3) -> DVec3,
+    place: impl Fn(DVec3) -> DVec3 + Copy,
     reach: f64,
-) -> Vec<DVec3> {
-    let corners: Vec<DVec3> = match piece.facets.iter().next() {
-        Some(corners) => corners.iter().map(|&k| piece.points[k as usize]).collect(),
-        None => piece.points.to_vec(),
+) -> impl Iterator<Item = DVec3> {
+    let flat = Flat::of(piece);
+    let placed = move |k: u32| place(other.points[k as usize]);
+    let is_level = move |flat: &Flat<'_>, at: DVec3| flat.height(at).abs() <= reach;
+    // The faces beyond the edges decide about a piece within the plane.
+    let passes = move |flat: &Flat<'_>| {
+        let mut all = 0..other.points.len() as u32;
+        !all.all(|k| is_level(flat, placed(k)))
     };
-    let [a, b, c, ..] = corners[..] else {
-        return Vec::new();
-    };
-    let normal = unit_or_any(across(b - a, c - a));
-    let placed: Vec<DVec3> = other.points.iter().map(|&p| place(p)).collect();
-    let is_level = |k: &u32| normal.dot(placed[*k as usize] - a).abs() <= reach;
-    if (0..placed.len() as u32).all(|k| is_level(&k)) {
-        return Vec::new();
-    }
-    // For each side of the piece: a point on it, and the inward direction.
-    let sides: Vec<(DVec3, DVec3)> = (0..corners.len())
-        .map(|k| (corners[k], corners[(k + 1) % corners.len()]))
-        .map(|(from, to)| (from, normal.cross(to - from)))
-        .collect();
-    let on_piece = |p: &DVec3| {
-        sides
-            .iter()
-            .all(|(from, inward)| inward.dot(*p - from) > 0.0)
-    };
-    let mut found = Vec::new();
-    for [from, to] in edges(other) {
-        if !(is_level(&from) && is_level(&to)) {
-            continue;
-        }
-        let (from, way) = {
-            let [from, to] = [from, to].map(|k| placed[k as usize]);
-            (from, to - from)
+    flat.filter(passes).into_iter().flat_map(move |flat| {
+        let ends = edges(other).map(move |edge| edge.map(placed));
+        let level = ends.filter(move |ends| ends.iter().all(|&at| is_level(&flat, at)));
+        level
+            .filter_map(move |ends| flat.beside(ends))
+            .flatten()
+            .filter(move |&point| flat.holds(point))
+    })
+}
+
+/// A flat piece: its first facet, or its points in their order.
+#[derive(Clone, Copy)]
+struct Flat<'a> {
+    points: &'a [DVec3],
+    /// The corners, by the points; none if they are all points in their order.
+    corners: Option<&'a [u32]>,
+    normal: DVec3,
+}
+
+impl<'a> Flat<'a> {
+    /// Returns none for a piece without three corners.
+    fn of(piece: &Piece<'a>) -> Option<Self> {
+        let mut flat = Flat {
+            points: piece.points,
+            corners: piece.facets.iter().next(),
+            normal: DVec3::ZERO,
         };
+        if flat.count() < 3 {
+            return None;
+        }
+        let [a, b, c] = [0, 1, 2].map(|k| flat.corner(k));
+        flat.normal = unit_or_any(across(b - a, c - a));
+        Some(flat)
+    }
+
+    fn count(&self) -> usize {
+        self.corners.map_or(self.points.len(), <[u32]>::len)
+    }
+
+    fn corner(&self, k: usize) -> DVec3 {
+        let k = self.corners.map_or(k, |corners| corners[k] as usize);
+        self.points[k]
+    }
+
+    fn height(&self, point: DVec3) -> f64 {
+        self.normal.dot(point - self.corner(0))
+    }
+
+    /// Returns for each side of the piece a point on it, and the inward direction.
+    fn sides(&self) -> impl Iterator<Item = (DVec3, DVec3)> {
+        let count = self.count();
+        (0..count).map(move |k| {
+            let (from, to) = (self.corner(k), self.corner((k + 1) % count));
+            (from, self.normal.cross(to - from))
+        })
+    }
+
+    fn holds(&self, point: DVec3) -> bool {
+        self.sides()
+            .all(|(from, inward)| inward.dot(point - from) > 0.0)
+    }
+
+    /// Returns points on either side of the middle of the common part with an edge.
+    fn beside(&self, [from, to]: [DVec3; 2]) -> Option<[DVec3; 2]> {
+        let way = to - from;
         let (mut enter, mut leave) = (0.0, 1.0);
-        for (side, inward) in &sides {
+        for (side, inward) in self.sides() {
             let (depth, speed) = (inward.dot(from - side), inward.dot(way));
             match () {
                 () if speed > 0.0 => enter = greater(enter, -depth / speed),
@@ -62,30 +103,26 @@ pub(super) fn beside_edges(
                 () => {}
             }
         }
-        if leave > enter {
+        (leave > enter).then(|| {
             let middle = from + way * (0.5 * (enter + leave));
-            let beside = normal.cross(way) * (BESIDE_EDGE * (leave - enter));
-            found.extend(
-                [middle + beside, middle - beside]
-                    .iter()
-                    .filter(|p| on_piece(p)),
-            );
-        }
+            let beside = self.normal.cross(way) * (BESIDE_EDGE * (leave - enter));
+            [middle + beside, middle - beside]
+        })
     }
-    found
 }
 
 /// Returns the edges of a piece, by its points, each at least once.
-fn edges(piece: &Piece<'_>) -> Vec<[u32; 2]> {
-    let around = |corners: &[u32]| -> Vec<[u32; 2]> {
-        let ends = |k: usize| [corners[k], corners[(k + 1) % corners.len()]];
-        (0..corners.len()).map(ends).collect()
+fn edges<'a>(piece: &Piece<'a>) -> impl Iterator<Item = [u32; 2]> + use<'a> {
+    let around = |corners: &'a [u32]| {
+        let ends = move |k: usize| [corners[k], corners[(k + 1) % corners.len()]];
+        (0..corners.len()).map(ends)
     };
-    match piece.facets.is_empty() {
-        true => around(&(0..piece.points.len() as u32).collect::<Vec<_>>()),
-        false => {
-            let all = piece.facets.iter().flat_map(around);
-            all.filter(|[from, to]| from < to).collect()
-        }
-    }
+    // Without facets, its points are in their order.
+    let points = match piece.facets.is_empty() {
+        true => piece.points.len() as u32,
+        false => 0,
+    };
+    let outline = (0..points).map(move |k| [k, (k + 1) % points]);
+    let shared = piece.facets.iter().flat_map(around);
+    outline.chain(shared.filter(|[from, to]| from < to))
 }

@@ -30,7 +30,7 @@ fn touching_at_start(a: &Body, b: &Body, touching: &[[u32; 2]]) -> Containment {
         motion: Motion::still(Pose::IDENTITY),
     };
     let problem = Problem::new(moving(a), moving(b), 1.0, &Config::default()).unwrap();
-    at_start(&problem, touching)
+    at_start(&problem, touching, &mut Vec::new())
 }
 
 fn contains(body: &Body, point: DVec3) -> Option<bool> {
