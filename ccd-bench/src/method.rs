@@ -14,6 +14,7 @@ use crate::method::solver::{Adjustable, Claim, Reply, Solver};
 use crate::scene::Pieces;
 use ccd_core::{Config, Instructions, Outcome};
 use ccd_decomp::TriangleMesh;
+use clap::ValueEnum;
 use rigid_ccd::batch::{Bodies, BoundKind, OracleKind, ScheduleKind, Solve, SolverKind, solve};
 use rigid_ccd::table::motions::Query;
 use std::fmt;
@@ -85,6 +86,32 @@ impl Method {
         ours.into_iter().chain(rivals).chain(peers).collect()
     }
 
+    /// Returns all combinations of this project's schedules, oracles, pieces and bounds, except for pieces on
+    /// which a schedule falls back to another.
+    pub fn combinations() -> Vec<Method> {
+        let mut all = Vec::new();
+        for &schedule in ScheduleKind::value_variants() {
+            let bounds = match schedule.uses_a_bound() {
+                true => BoundKind::value_variants(),
+                false => &[BoundKind::Sound],
+            };
+            let pieces: &[Pieces] = match schedule.uses_hull_trees() {
+                true => &[Pieces::Patches],
+                false => &Pieces::ALL,
+            };
+            for &oracle in OracleKind::value_variants() {
+                let kinds = bounds.iter().map(|&bound| SolverKind {
+                    schedule,
+                    oracle,
+                    bound,
+                });
+                let pairs = kinds.flat_map(|kind| pieces.iter().map(move |&of| (kind, of)));
+                all.extend(pairs.map(|(kind, of)| Method::Ours(kind, of)));
+            }
+        }
+        all
+    }
+
     /// Returns FAST as published, whose bound does not hold over a step: its answers may be late.
     pub fn published() -> Method {
         let kind = SolverKind {
@@ -98,7 +125,7 @@ impl Method {
     /// Returns the method of a name.
     pub fn named(name: &str) -> Option<Method> {
         let hidden = [PeerKind::Hanging, PeerKind::Dying].map(Method::Peer);
-        let more = hidden.into_iter().chain([Method::published()]);
+        let more = hidden.into_iter().chain(Method::combinations());
         let more = more.chain(ScriptKind::ALL.map(Method::Script));
         let mut all = Method::all().into_iter().chain(more);
         all.find(|method| method.to_string() == name)

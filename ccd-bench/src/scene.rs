@@ -66,6 +66,16 @@ pub enum Pieces {
     ApproximateHulls,
 }
 
+impl Pieces {
+    /// All kinds.
+    pub const ALL: [Pieces; 4] = [
+        Pieces::Least,
+        Pieces::Triangles,
+        Pieces::Patches,
+        Pieces::ApproximateHulls,
+    ];
+}
+
 /// The largest number of approximate hulls of a body.
 const HULLS: u32 = 32;
 

@@ -9,9 +9,11 @@ use anyhow::{Context, Result};
 use clap::Args;
 use rayon::prelude::*;
 use rigid_ccd::command::{CannotWrite, Exit, Progress, Total};
+use std::collections::BTreeMap;
 use std::fs;
 use std::io::{self, Write};
 use std::path::PathBuf;
+use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
 /// Search for the smallest scene at which each method fails
@@ -81,15 +83,21 @@ pub(super) fn run(args: &FalsifyArgs) -> Result<Exit> {
     let programs = Programs {
         script: args.peers.clone(),
     };
-    let search = |hunt: &Hunt| {
+    // In the order of the searches. Whatever is found is written at once, in case the rest takes too long.
+    let reports = Mutex::new(BTreeMap::new());
+    let searched: Result<()> = hunts.par_iter().enumerate().try_for_each(|(number, hunt)| {
         let name = format!("{} {}", hunt.method, hunt.aim);
         progress.say(&name);
-        hunt.run(&programs, &progress).context(name)
-    };
-    let reports: Result<Vec<Report>> = hunts.par_iter().map(search).collect();
-    let reports = reports?;
+        let report = hunt.run(&programs, &progress).context(name)?;
+        let mut reports = reports.lock().unwrap_or_else(PoisonError::into_inner);
+        reports.insert(number, report);
+        let so_far: Vec<Report> = reports.values().cloned().collect();
+        write_gallery(&so_far, &args.out)
+    });
+    searched?;
     drop(progress);
-    write_gallery(&reports, &args.out)?;
+    let reports = reports.into_inner().unwrap_or_else(PoisonError::into_inner);
+    let reports: Vec<Report> = reports.into_values().collect();
     let table = table(&reports);
     let shown = writeln!(io::stdout(), "{}\n{}", table.title, table.for_terminal());
     shown.map_err(|source| CannotWrite {

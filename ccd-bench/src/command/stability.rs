@@ -31,6 +31,9 @@ pub(super) struct StabilityArgs {
     /// The script that runs Coal and FCL, which adds their methods: scripts/peers.py
     #[arg(long, value_name = "SCRIPT")]
     peers: Option<PathBuf>,
+    /// Ask every combination of this project's schedules, oracles, pieces and bounds instead
+    #[arg(long)]
+    ours: bool,
     /// Draw the answers that the folder holds, and ask nothing
     #[arg(long)]
     redraw: bool,
@@ -68,14 +71,13 @@ pub(super) fn all_methods(script: Option<&Path>) -> Vec<Method> {
 }
 
 pub(super) fn run(args: &StabilityArgs) -> Result<Exit> {
+    let methods = match args.ours {
+        true => Method::combinations(),
+        false => all_methods(args.peers.as_deref()),
+    };
     let survey = Survey {
         families: chosen(families(), &args.families, "family", |f| f.name.to_owned())?,
-        methods: chosen(
-            all_methods(args.peers.as_deref()),
-            &args.methods,
-            "method",
-            Method::to_string,
-        )?,
+        methods: chosen(methods, &args.methods, "method", Method::to_string)?,
         extent: match args.full {
             true => Extent::Full,
             false => Extent::Quick,
