@@ -70,6 +70,17 @@ impl Attempt {
         self.bodies.iter().map(|body| body.faces.len()).sum()
     }
 
+    /// Returns the number of triangles without an area, which a method may refuse.
+    pub fn flat_faces(&self) -> usize {
+        let is_flat = |body: &Body, face: &[u32; 3]| {
+            let [a, b, c] = face.map(|corner| body.vertices[corner as usize]);
+            // Written so that NaN is flat.
+            !((b - a).cross(c - a).length() > 0.0)
+        };
+        let flat = |body: &Body| body.faces.iter().filter(|face| is_flat(body, face)).count();
+        self.bodies.iter().map(flat).sum()
+    }
+
     /// Returns all coordinates and all numbers of the motions.
     pub fn numbers(&mut self) -> Vec<&mut f64> {
         self.bodies.iter_mut().flat_map(Body::numbers).collect()

@@ -6,7 +6,7 @@ use std::io;
 /// The significant digits to which numbers are rounded, the fewest first.
 const DIGITS: [usize; 6] = [0, 1, 2, 3, 5, 8];
 
-/// Makes an attempt smaller in all ways, as long as it still fails. Ends at one that no single step makes
+/// Makes an attempt smaller in all ways, as long as it still fails, but no face flat that is not. Ends at one that no single step makes
 /// smaller, or after a number of tries.
 ///
 /// # Errors
@@ -35,6 +35,9 @@ pub(super) fn shrink(
                 let Some(next) = smaller.of(&best) else {
                     continue;
                 };
+                if next.flat_faces() > best.flat_faces() {
+                    continue;
+                }
                 tries -= 1;
                 if fails(&next)? {
                     best = next;

@@ -160,8 +160,12 @@ pub fn reach_map(survey: &Survey, journal: &Journal) -> HeatMap {
 
 /// Returns the map of how the cost of each method grew over each family.
 pub fn growth_map(survey: &Survey, journal: &Journal) -> HeatMap {
-    let cost = |cell: &Cell| ((cell.scene.clone(), cell.method.clone()), cell.mean_steps);
-    let answered = journal.cells().iter().filter(|cell| cell.mean_steps > 0.0);
+    // A query takes no step if a look at the whole bodies is enough.
+    let cost = |cell: &Cell| {
+        let key = (cell.scene.clone(), cell.method.clone());
+        (key, 1.0 + cell.mean_steps)
+    };
+    let answered = journal.cells().iter().filter(|cell| cell.cut_off == 0);
     let costs: HashMap<(String, String), f64> = answered.map(cost).collect();
     map(survey, HeatKind::Growth, |family, values, method| {
         let costs = values.iter().filter_map(|&value| {
@@ -172,9 +176,9 @@ pub fn growth_map(survey: &Survey, journal: &Journal) -> HeatMap {
         let [easiest, _, ..] = costs[..] else {
             return None;
         };
-        Some(HeatCell::Growth(
-            costs.iter().copied().fold(0.0, greater) / easiest,
-        ))
+        let most = costs.iter().copied().fold(0.0, greater);
+        // Some methods count no steps.
+        (most > 1.0).then_some(HeatCell::Growth(most / easiest))
     })
 }
 

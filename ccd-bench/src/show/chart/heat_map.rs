@@ -93,8 +93,8 @@ const GROWTH: Words = Words {
     name: "growth",
     title: "How the cost of a query grows from the easy steps to the hard ones: lighter is better",
     link: "At what cost",
-    remark: "The largest mean number of steps in time of a query, as a multiple of that of the family's \
-             easiest value. Only answered queries count: a method that is stopped has no more than is shown.",
+    remark: "The largest mean number of steps of a query and one for the query itself, as a multiple of that of \
+             the family's easiest value. Only answered queries count: a method that is stopped has no more than is shown.",
     legend: &[
         ("up to 3 times", GROWN[0]),
         ("30", GROWN[1]),

@@ -28,7 +28,7 @@ pub(super) fn families() -> Vec<Family> {
 /// Returns the tolerance for a gap: a quarter of it, as far as coordinates of a few units let it be
 /// certified.
 fn tolerance(gap: f64) -> f64 {
-    greater(0.25 * gap, 1e-11)
+    greater(0.25 * gap, 2.5e-13)
 }
 
 /// Returns a step with a gap that survives the rounding of turned worlds, or that is asked in its own alone.
@@ -101,7 +101,7 @@ fn rod_past_a_wall(gap: f64) -> Result<Step, StepError> {
     let step = Step::new(cuboid(thin, 0.3, long)?, cuboid(1.0, 3.0, 3.0)?);
     // The reach is rounded, and the gap with it.
     let step = Step {
-        tolerance: greater(tolerance(gap), 1e-10),
+        tolerance: greater(tolerance(gap), 1e-11),
         ..step
     };
     Ok(step.turned_too(turning, wall, Expected::Free)?)

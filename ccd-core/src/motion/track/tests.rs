@@ -10,6 +10,7 @@ use crate::tests::scene::{Pcg64, RngExt, direction, magnitude, rng, within};
 use crate::tests::worst::{Worst, share};
 use crate::tolerance::RATE_F64;
 use glam::{DQuat, DVec3};
+use std::f64::consts::TAU;
 
 impl Track {
     /// The track along `n` of a point that starts at `height` along it, at arm `arm` from the
@@ -265,6 +266,43 @@ fn a_turning_point_is_never_below_its_least_height_and_reaches_it() {
         past_trough > 1_000 && before_trough > 1_000,
         "{past_trough} {before_trough}"
     );
+}
+
+/// The least height of a point that turns. What rounds before is an error of heights, and is allowed for there.
+#[test]
+fn worst_least_until() {
+    let found = Worst::of("RATE_F64, least heights of points", 40_000).search(|tape| {
+        let track = Track {
+            height: 0.0,
+            drift: 0.0,
+            p: tape.any(-60..=10),
+            q: tape.any(-60..=10),
+            omega: tape.size(-40..=4),
+        };
+        // Anywhere, or next to the lowest point of the circle.
+        let trough = (-track.q).atan2(-track.p).rem_euclid(TAU);
+        let horizon = match tape.pick(2) {
+            0 => tape.fraction(),
+            _ => lesser(1.0, tape.near(trough / track.omega)),
+        };
+        let turn = track.omega * horizon;
+        let least = track.least_until(horizon, Angle::new(turn));
+        let [p, q, omega, time] = [track.p, track.q, track.omega, horizon].map(Double::from);
+        let swing = (p * p + q * q).sqrt();
+        let half = omega * time * Double::from(0.5);
+        let (sin, cos) = half.sin_cos();
+        let two = Double::from(2.0);
+        let at_end = two * sin * (cos * q - sin * p);
+        // A turn that all but reaches the lowest point comes as low.
+        let exact = match turn >= trough {
+            true => -p - swing,
+            false => at_end.min(Double::ZERO),
+        };
+        let allowance = RATE_F64 * swing.get() * (1.0 + turn);
+        let above = (Double::from(least) + Double::from(allowance) - exact).get();
+        (swing.get() > 0.0 && horizon > 0.0).then(|| share(above, allowance))
+    });
+    found.is_within(30.0);
 }
 
 /// The bend of a track as it is kept. What rounds before is an error of heights: it moves none by more
