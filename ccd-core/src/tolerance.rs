@@ -75,12 +75,18 @@ pub const SCALE: f64 = f64::from_bits((1023 + 700) << 52);
 ///   π: 73.
 ///
 /// The sum is at most `300 + 5ω` of a body's span, which counts `|c|` twice, and 96 of `way`,
-/// the distance of the centres at the start and along their travel. The constant term covers coordinates so small that their squares underflow:
+/// the distance of the centres at the start and along their travel. If neither body turns, the 40 of axis,
+/// sine, cosine and sums fall away twice, in `R` and in the rotation into A's frame, and so do 28 of the turn
+/// (a turn between poses may be lost in rounding): 192 of the 300 are left, and 56 of the 96. The constant term covers coordinates so small that their squares underflow:
 /// a length is then off by 3e-162, squared rates may multiply that by 1e12, and 1e-130 is far
 /// above. Without this allowance a touching pair could be certified apart.
 pub fn distance_rounding(spans: [f64; 2], turns: [f64; 2], way: f64) -> f64 {
-    let body = |k: usize| (300.0 + 5.0 * turns[k]) * spans[k];
-    U64 * (body(0) + body(1) + 96.0 * way) + LEAST_ROUNDING
+    let [of_span, of_way] = match turns {
+        [0.0, 0.0] => [192.0, 56.0],
+        _ => [300.0, 96.0],
+    };
+    let body = |k: usize| (of_span + 5.0 * turns[k]) * spans[k];
+    U64 * (body(0) + body(1) + of_way * way) + LEAST_ROUNDING
 }
 
 /// The error of lengths due to squares that underflow, in the scene's unit of length: see

@@ -216,7 +216,9 @@ impl<'a> Judge<'a> {
         if d > reported + error || d > found.upper + error {
             d = scene.exact_distance(time);
         }
-        if d > reported + error {
+        // A piece may extend through the interior of its solid, where the surfaces are farther apart.
+        let inside = || self.inside(contact, time);
+        if d > reported + error && !inside() {
             let fault = if time > 0.0 {
                 Fault::FalseContact
             } else {
@@ -224,8 +226,7 @@ impl<'a> Judge<'a> {
             };
             faults.push((fault, text(d)));
         }
-        // A piece may extend through the interior of its solid, where the surfaces are farther apart.
-        if d > found.upper + error && !self.inside(contact, time) {
+        if d > found.upper + error && !inside() {
             faults.push((Fault::UpperBound, text(d)));
         }
         // At the start this is the distance of the bodies, later that of the pair.

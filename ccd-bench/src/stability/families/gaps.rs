@@ -45,19 +45,19 @@ fn free(step: Step, gap: f64, a: Course, b: Course) -> Result<Step, StepError> {
 
 fn ball_passing_a_box(gap: f64) -> Result<Step, StepError> {
     let step = Step::new(ball(0.5, 600)?, cuboid(1.0, 1.0, 1.0)?);
-    let flying = Course::straight(dvec3(-3.0, 0.0, 0.5 + gap), 6.0 * DVec3::X);
+    let flying = Course::straight(dvec3(-2.0, 0.0, 0.5 + gap), 4.0 * DVec3::X);
     free(step, gap, flying, Course::UNDER)
 }
 
 fn cubes_passing(gap: f64) -> Result<Step, StepError> {
     let step = Step::new(cube()?, cube()?);
-    let flying = Course::straight(dvec3(-3.0, 0.0, 1.0 + gap), 6.0 * DVec3::X);
+    let flying = Course::straight(dvec3(-2.0, 0.0, 1.0 + gap), 4.0 * DVec3::X);
     free(step, gap, flying, Course::STILL)
 }
 
 fn balls_passing(gap: f64) -> Result<Step, StepError> {
     let step = Step::new(ball(0.5, 600)?, ball(0.5, 600)?);
-    let flying = Course::straight(dvec3(-3.0, 0.0, 1.0 + gap), 6.0 * DVec3::X);
+    let flying = Course::straight(dvec3(-2.0, 0.0, 1.0 + gap), 4.0 * DVec3::X);
     free(step, gap, flying, Course::STILL)
 }
 

@@ -38,6 +38,15 @@ impl Scene {
         }
     }
 
+    /// The same without a turn on the way.
+    fn unturning(mut self) -> Self {
+        self.motions = self.motions.map(|motion| {
+            let spin = DVec3::ZERO;
+            Motion::about(motion.start(), motion.velocity(), spin, motion.centre()).unwrap()
+        });
+        self
+    }
+
     fn problem(&self) -> Option<Problem<'_>> {
         let moving = |k: usize| Moving {
             body: &self.bodies[k],
@@ -50,6 +59,16 @@ impl Scene {
 /// Returns the shares of a random look at two bodies.
 fn look(tape: &mut Tape) -> Option<Shares> {
     let scene = Scene::new(tape);
+    look_at(tape, &scene)
+}
+
+/// The same of bodies that do not turn.
+fn look_without_turns(tape: &mut Tape) -> Option<Shares> {
+    let scene = Scene::new(tape).unturning();
+    look_at(tape, &scene)
+}
+
+fn look_at(tape: &mut Tape, scene: &Scene) -> Option<Shares> {
     let problem = scene.problem()?;
     let s = tape.random_range(0.0..1.0);
     Some(shares_of_a_look(
@@ -78,6 +97,27 @@ fn worst_gaps() {
 fn worst_distances() {
     let found =
         Worst::of("distance_rounding, distances", 8_000).search(|tape| Some(look(tape)?.distance));
+    found.is_within(100.0);
+}
+
+#[test]
+fn worst_places_without_turns() {
+    let found = Worst::of("distance_rounding, places, without turns", 8_000)
+        .search(|tape| Some(look_without_turns(tape)?.place));
+    found.is_within(100.0);
+}
+
+#[test]
+fn worst_gaps_without_turns() {
+    let found = Worst::of("distance_rounding, gaps, without turns", 8_000)
+        .search(|tape| Some(look_without_turns(tape)?.gap));
+    found.is_within(100.0);
+}
+
+#[test]
+fn worst_distances_without_turns() {
+    let found = Worst::of("distance_rounding, distances, without turns", 8_000)
+        .search(|tape| Some(look_without_turns(tape)?.distance));
     found.is_within(100.0);
 }
 
