@@ -1,4 +1,4 @@
-//! Double-double numbers: the unevaluated sum of two f64 [DEKKER71].
+//! Double-double numbers: the unevaluated sum of two f64 \[DEKKER71\].
 
 use crate::vector::Number;
 use std::cmp::Ordering;
