@@ -8,13 +8,15 @@ mod judge;
 mod stability;
 mod truth;
 
+use crate::show::tables::TextTable;
 use answer::AnswerArgs;
 use chart::{ChartArgs, CommonArgs};
 use clap::{Parser, Subcommand};
 use falsify::FalsifyArgs;
 use judge::JudgeArgs;
-use rigid_ccd::command::exit_code;
+use rigid_ccd::command::{CannotWrite, exit_code};
 use stability::StabilityArgs;
+use std::io::{self, Write};
 use std::process::ExitCode;
 use truth::TruthArgs;
 
@@ -66,4 +68,13 @@ pub fn main() -> ExitCode {
             Command::Answer(args) => answer::run(&args),
         },
     )
+}
+
+/// Prints a table that sums up what was found.
+fn print_summary(table: &TextTable) -> Result<(), CannotWrite> {
+    let text = table.for_terminal();
+    writeln!(io::stdout(), "{}\n{text}", table.title).map_err(|source| CannotWrite {
+        place: "the summary".to_owned(),
+        source,
+    })
 }

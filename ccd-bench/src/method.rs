@@ -8,11 +8,11 @@ pub mod solver;
 pub mod wire;
 
 use crate::method::peer::PeerKind;
-use crate::method::rival::{C2a, Contact, DynamicChecker, Stepping};
+use crate::method::rival::{C2a, Contact, DynamicChecker, Stepping, screw};
 use crate::method::script::ScriptKind;
 use crate::method::solver::{Adjustable, Claim, Reply, Solver};
 use crate::scene::Pieces;
-use ccd_core::{Config, Instructions, Outcome};
+use ccd_core::{Config, InputError, Instructions, Outcome};
 use ccd_decomp::TriangleMesh;
 use clap::ValueEnum;
 use rigid_ccd::batch::{Bodies, BoundKind, OracleKind, ScheduleKind, Solve, SolverKind, solve};
@@ -160,6 +160,19 @@ impl Method {
         match self {
             Method::Rival(RivalKind::Contact) => MotionKind::Screw,
             _ => MotionKind::Given,
+        }
+    }
+}
+
+impl MotionKind {
+    /// Returns the query along this kind of motion.
+    ///
+    /// # Errors
+    /// If a screw's parameters overflow.
+    pub fn of(self, query: Query) -> Result<Query, InputError> {
+        match self {
+            MotionKind::Given => Ok(query),
+            MotionKind::Screw => screw(&query),
         }
     }
 }

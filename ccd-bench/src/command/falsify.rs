@@ -1,6 +1,7 @@
 //! The command `ccd-bench falsify`: searches for the smallest scene at which each method fails.
 
 use super::chart::chosen;
+use super::print_summary;
 use super::stability::all_methods;
 use crate::falsify::{Aim, Hunt, Report, table, write_gallery};
 use crate::method::Method;
@@ -8,10 +9,9 @@ use crate::method::guarded::Programs;
 use anyhow::{Context, Result};
 use clap::Args;
 use rayon::prelude::*;
-use rigid_ccd::command::{CannotWrite, Exit, Progress, Total};
+use rigid_ccd::command::{Exit, Progress, Total};
 use std::collections::BTreeMap;
 use std::fs;
-use std::io::{self, Write};
 use std::path::PathBuf;
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
@@ -98,11 +98,6 @@ pub(super) fn run(args: &FalsifyArgs) -> Result<Exit> {
     drop(progress);
     let reports = reports.into_inner().unwrap_or_else(PoisonError::into_inner);
     let reports: Vec<Report> = reports.into_values().collect();
-    let table = table(&reports);
-    let shown = writeln!(io::stdout(), "{}\n{}", table.title, table.for_terminal());
-    shown.map_err(|source| CannotWrite {
-        place: "the summary".to_owned(),
-        source,
-    })?;
+    print_summary(&table(&reports))?;
     Ok(Exit::AllAnswered)
 }

@@ -1,13 +1,11 @@
 //! The command `ccd-bench judge`: asks one method, and judges its answers by the exact ones.
 
-use crate::method::guarded::{Asked, Guarded, Programs, Setting};
-use crate::method::rival::screw;
+use crate::method::Method;
+use crate::method::guarded::{Guarded, Programs, Setting};
 use crate::method::solver::Claim;
-use crate::method::{Method, MotionKind};
-use crate::run::contest::{Judged, Verdict, judge};
+use crate::run::contest::{judge, judge_asked};
 use crate::truth::{Referee, Surface, TruthRow};
 use anyhow::{Context, Result, anyhow};
-use ccd_core::order::greater;
 use ccd_decomp::TriangleMesh;
 use clap::Args;
 use rigid_ccd::command::{BadRows, Exit, Progress, Table, input_name, open_motions};
@@ -77,19 +75,21 @@ pub(super) fn run(args: &JudgeArgs) -> Result<Exit> {
                 continue;
             }
         };
-        let query = match method.motion_kind() {
-            MotionKind::Given => query,
-            MotionKind::Screw => screw(&query)?,
-        };
+        let query = method.motion_kind().of(query)?;
         let truth = referee.first_contact(&query);
         let asked = guarded.ask(&query, Duration::from_secs(args.patience.into()))?;
-        let verdict = verdict_of(&asked, |claim, stated| {
-            let tolerance = greater(args.tolerance, stated.unwrap_or(0.0));
-            judge(&referee, &query, truth, claim, tolerance)
+        let verdict = judge_asked(&asked, |reply| {
+            let tolerance = reply.judged_by(args.tolerance);
+            judge(&referee, &query, truth, reply.claim, tolerance)
         });
-        let (answer, time) = words(&asked);
+        let verdict = verdict.verdict.to_string();
+        let claim = asked.claim();
+        let (answer, time) = (
+            claim.map_or("none", Claim::status),
+            claim.and_then(Claim::time),
+        );
         let truth = TruthRow::new(query.id.clone(), query.duration, truth);
-        table.write(|writer| writer.serialize((truth, verdict.to_string(), answer, time)))?;
+        table.write(|writer| writer.serialize((truth, verdict, answer, time)))?;
     }
     table.finish()?;
     bad_rows.close();
@@ -97,26 +97,4 @@ pub(super) fn run(args: &JudgeArgs) -> Result<Exit> {
         0 => Exit::AllAnswered,
         _ => Exit::SomeRowsBad,
     })
-}
-
-/// Returns the verdict on an outcome; `judge` takes the claim and the tolerance that the method states.
-fn verdict_of(asked: &Asked, judge: impl Fn(Claim, Option<f64>) -> Judged) -> Verdict {
-    match asked {
-        Asked::Answered { reply, .. } => judge(reply.claim, reply.tolerance).verdict,
-        Asked::CutOff => Verdict::CutOff,
-        Asked::Died => Verdict::Died,
-    }
-}
-
-/// Returns the words for an outcome, and its time.
-fn words(asked: &Asked) -> (&'static str, Option<f64>) {
-    match asked {
-        Asked::Answered { reply, .. } => match reply.claim {
-            Claim::Contact { time } => ("contact", Some(time)),
-            Claim::Free => ("free", None),
-            Claim::Unresolved { safe_until } => ("unresolved", Some(safe_until)),
-            Claim::Refused => ("refused", None),
-        },
-        Asked::CutOff | Asked::Died => ("none", None),
-    }
 }

@@ -1,6 +1,7 @@
 //! The command `ccd-bench stability`: finds where each method fails.
 
 use super::chart::chosen;
+use super::print_summary;
 use crate::method::Method;
 use crate::method::guarded::Programs;
 use crate::method::script::ScriptKind;
@@ -12,7 +13,6 @@ use clap::Args;
 use rigid_ccd::batch::ScheduleKind;
 use rigid_ccd::command::{CannotWrite, Exit};
 use std::fs;
-use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 /// Find where each method fails: families of scenes that get harder step by step
@@ -106,16 +106,6 @@ pub(super) fn run(args: &StabilityArgs) -> Result<Exit> {
         fs::write(&file, text).map_err(|source| CannotWrite { place, source })?;
     }
     write_atlas(&survey, &journal, &args.out.join("index.html"))?;
-    let summary = summary(&survey, &journal);
-    let shown = writeln!(
-        io::stdout(),
-        "{}\n{}",
-        summary.title,
-        summary.for_terminal()
-    );
-    shown.map_err(|source| CannotWrite {
-        place: "the summary".to_owned(),
-        source,
-    })?;
+    print_summary(&summary(&survey, &journal))?;
     Ok(Exit::AllAnswered)
 }

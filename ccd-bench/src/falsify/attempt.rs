@@ -27,7 +27,7 @@ pub struct Body {
 }
 
 /// A motion in plain numbers.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Course {
     /// The place at the start.
     pub at: DVec3,
@@ -179,18 +179,6 @@ impl Body {
     pub(super) fn size(&self) -> f64 {
         let coordinates = self.vertices.iter().map(|v| v.abs().max_element());
         coordinates.fold(0.0, greater)
-    }
-}
-
-impl Default for Course {
-    fn default() -> Self {
-        Course {
-            at: DVec3::ZERO,
-            turned: DVec3::ZERO,
-            velocity: DVec3::ZERO,
-            spin: DVec3::ZERO,
-            centre: DVec3::ZERO,
-        }
     }
 }
 

@@ -1,13 +1,11 @@
 //! Asks a method about an attempt, and judges the answer by the exact one.
 
 use super::attempt::{Attempt, Body};
+use crate::method::Method;
 use crate::method::guarded::{Asked, Guarded, Programs, Setting};
-use crate::method::rival::screw;
 use crate::method::solver::Claim;
-use crate::method::{Method, MotionKind};
-use crate::run::contest::{Judged, Verdict, judge};
+use crate::run::contest::{Judged, Verdict, judge, judge_asked};
 use crate::truth::{Referee, Surface, Truth};
-use ccd_core::order::greater;
 use ccd_decomp::TriangleMesh;
 use rigid_ccd::table::motions::Query;
 use std::io;
@@ -129,11 +127,7 @@ pub(super) fn scene(method: Method, attempt: &Attempt) -> Option<([TriangleMesh;
 
 /// Returns the query of an attempt, along the motion that the method takes.
 fn query_of(method: Method, attempt: &Attempt) -> Option<Query> {
-    let query = attempt.query().ok()?;
-    match method.motion_kind() {
-        MotionKind::Given => Some(query),
-        MotionKind::Screw => screw(&query).ok(),
-    }
+    method.motion_kind().of(attempt.query().ok()?).ok()
 }
 
 fn judged(
@@ -144,17 +138,13 @@ fn judged(
     asked: Asked,
 ) -> Examined {
     let mut ratio = None;
-    let mut verdict = match &asked {
-        Asked::CutOff => Judged::plain(Verdict::CutOff),
-        Asked::Died => Judged::plain(Verdict::Died),
-        Asked::Answered { reply, .. } => {
-            let tolerance = greater(attempt.tolerance, reply.tolerance.unwrap_or(0.0));
-            if let Claim::Contact { time } = reply.claim {
-                ratio = Some(referee.distance(query, time).lower / tolerance);
-            }
-            judge(&referee, query, truth, reply.claim, tolerance)
+    let mut verdict = judge_asked(&asked, |reply| {
+        let tolerance = reply.judged_by(attempt.tolerance);
+        if let Claim::Contact { time } = reply.claim {
+            ratio = Some(referee.distance(query, time).lower / tolerance);
         }
-    };
+        judge(&referee, query, truth, reply.claim, tolerance)
+    });
     if verdict.verdict == Verdict::Late && !is_seen(attempt, query, truth, &asked) {
         verdict = Judged::plain(Verdict::Undecided);
     }
@@ -169,10 +159,7 @@ fn judged(
 
 /// Returns true unless a lateness is within what two formulas of one motion differ by.
 fn is_seen(attempt: &Attempt, query: &Query, truth: Truth, asked: &Asked) -> bool {
-    let (Truth::Hit { hi, .. }, Asked::Answered { reply, .. }) = (truth, asked) else {
-        return true;
-    };
-    let Some(time) = reply.claim.time() else {
+    let (Truth::Hit { hi, .. }, Some(time)) = (truth, asked.claim().and_then(Claim::time)) else {
         return true;
     };
     let (mut way, mut farthest) = (0.0, 0.0);
@@ -189,10 +176,7 @@ fn is_seen(attempt: &Attempt, query: &Query, truth: Truth, asked: &Asked) -> boo
 /// Returns true for a contact at the start of bodies of this project of which one is inside the other: they
 /// are solids, of which the referee knows only the surfaces.
 fn is_ours_inside(method: Method, examined: &Examined) -> bool {
-    let at_start = match &examined.asked {
-        Asked::Answered { reply, .. } => reply.claim == Claim::Contact { time: 0.0 },
-        Asked::CutOff | Asked::Died => false,
-    };
+    let at_start = examined.asked.claim() == Some(Claim::Contact { time: 0.0 });
     let is_ours = matches!(method, Method::Ours(..));
     is_ours && at_start && examined.ratio.is_some_and(|ratio| ratio > 1.0)
 }

@@ -121,10 +121,7 @@ impl Exhibit {
 
 /// Returns the time at which a failure is looked at: of the wrong answer, or of the contact that it passes.
 fn shown(examined: &Examined) -> Option<f64> {
-    let claimed = match &examined.asked {
-        Asked::Answered { reply, .. } => reply.claim.time(),
-        Asked::CutOff | Asked::Died => None,
-    };
+    let claimed = examined.asked.claim().and_then(Claim::time);
     let hit = match examined.truth {
         Truth::Hit { hi, .. } => Some(hi),
         _ => None,

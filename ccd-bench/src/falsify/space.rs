@@ -3,11 +3,11 @@
 use super::attempt::{Attempt, Body};
 use crate::scene::model::sphere::sphere;
 use crate::scene::model::{Board, Ring};
+use crate::scene::unit_vector;
 use ccd_core::glam::DVec3;
 use ccd_decomp::{MeshError, TriangleMesh};
 use rand::seq::IndexedRandom;
 use rand::{Rng, RngExt};
-use std::f64::consts::TAU;
 
 /// The tolerances that are drawn.
 const TOLERANCES: [f64; 4] = [1e-2, 1e-3, 1e-4, 1e-6];
@@ -21,17 +21,17 @@ pub(super) fn draw(rng: &mut impl Rng) -> Result<Attempt, MeshError> {
     let mut b = body(rng)?;
     b.motion.turned = DVec3::ZERO;
     if rng.random_bool(0.7) {
-        a.motion.spin = log(rng, 0.1, 30.0) * direction(rng);
+        a.motion.spin = log(rng, 0.1, 30.0) * unit_vector(rng);
     }
     if rng.random_bool(0.3) {
-        b.motion.spin = log(rng, 0.1, 10.0) * direction(rng);
+        b.motion.spin = log(rng, 0.1, 10.0) * unit_vector(rng);
     }
     if rng.random_bool(0.3) {
-        a.motion.centre = log(rng, 0.1, 3.0) * direction(rng);
+        a.motion.centre = log(rng, 0.1, 3.0) * unit_vector(rng);
     }
     let target = inside(rng, &b);
     let meets_at = rng.random_range(0.05..0.95);
-    a.motion.velocity = log(rng, 1.0, 30.0) * direction(rng);
+    a.motion.velocity = log(rng, 1.0, 30.0) * unit_vector(rng);
     a.motion.at = target - meets_at * a.motion.velocity;
     let tolerance = *TOLERANCES.choose(rng).unwrap_or(&TOLERANCES[0]);
     Ok(Attempt {
@@ -73,21 +73,21 @@ fn body(rng: &mut impl Rng) -> Result<Body, MeshError> {
 
 /// Draws triangles of corners in a ball, each on its own.
 fn soup(rng: &mut impl Rng, count: u32) -> Result<TriangleMesh, MeshError> {
-    let vertices = (0..3 * count).map(|_| direction(rng)).collect();
+    let vertices = (0..3 * count).map(|_| unit_vector(rng)).collect();
     let faces: Vec<[u32; 3]> = (0..count).map(|k| [0, 1, 2].map(|j| 3 * k + j)).collect();
     TriangleMesh::new(vertices, &faces)
 }
 
 fn tetrahedron(rng: &mut impl Rng) -> Result<TriangleMesh, MeshError> {
-    let vertices: Vec<DVec3> = (0..4).map(|_| direction(rng)).collect();
+    let vertices: Vec<DVec3> = (0..4).map(|_| unit_vector(rng)).collect();
     TriangleMesh::new(vertices, &[[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]])
 }
 
 /// Draws a triangle of which one side is short.
 fn needle(rng: &mut impl Rng) -> Result<TriangleMesh, MeshError> {
-    let tip = direction(rng);
-    let end = direction(rng);
-    let beside = end + log(rng, 1e-9, 1e-1) * direction(rng);
+    let tip = unit_vector(rng);
+    let end = unit_vector(rng);
+    let beside = end + log(rng, 1e-9, 1e-1) * unit_vector(rng);
     TriangleMesh::new(vec![tip, end, beside], &[[0, 1, 2]])
 }
 
@@ -124,7 +124,7 @@ fn change(rng: &mut impl Rng, attempt: &mut Attempt) {
             motion.spin = match rng.random_range(0..3) {
                 0 => DVec3::ZERO,
                 1 => motion.spin * log(rng, 0.1, 10.0),
-                _ => log(rng, 1e-3, 100.0) * direction(rng),
+                _ => log(rng, 1e-3, 100.0) * unit_vector(rng),
             };
         }
         5 => {
@@ -145,7 +145,7 @@ fn change(rng: &mut impl Rng, attempt: &mut Attempt) {
             }
         }
         8 => {
-            let by = log(rng, 1.0, 1e8) * direction(rng);
+            let by = log(rng, 1.0, 1e8) * unit_vector(rng);
             for body in &mut attempt.bodies {
                 body.motion.at += by;
             }
@@ -188,13 +188,10 @@ fn change_number(rng: &mut impl Rng, attempt: &mut Attempt) {
 
 /// Drops, repeats, turns or adds a face.
 fn change_faces(rng: &mut impl Rng, body: &mut Body) {
-    let Some(at) = (0..body.faces.len())
-        .collect::<Vec<_>>()
-        .choose(rng)
-        .copied()
-    else {
+    if body.faces.is_empty() {
         return;
-    };
+    }
+    let at = rng.random_range(0..body.faces.len());
     let [p, q, r] = body.faces[at];
     match rng.random_range(0..4) {
         0 if body.faces.len() > 1 => {
@@ -204,7 +201,7 @@ fn change_faces(rng: &mut impl Rng, body: &mut Body) {
         1 => body.faces.push([p, q, r]),
         2 => body.faces[at] = [p, r, q],
         _ => {
-            let beside = body.vertices[p as usize] + body.size() * direction(rng);
+            let beside = body.vertices[p as usize] + body.size() * unit_vector(rng);
             body.vertices.push(beside);
             body.faces.push([p, q, body.vertices.len() as u32 - 1]);
         }
@@ -214,12 +211,4 @@ fn change_faces(rng: &mut impl Rng, body: &mut Body) {
 /// Draws a number whose logarithm is uniform.
 fn log(rng: &mut impl Rng, least: f64, most: f64) -> f64 {
     (rng.random_range(least.ln()..most.ln())).exp()
-}
-
-/// Draws a unit vector.
-fn direction(rng: &mut impl Rng) -> DVec3 {
-    let z: f64 = rng.random_range(-1.0..1.0);
-    let (sin, cos) = rng.random_range(0.0..TAU).sin_cos();
-    let across = (1.0 - z * z).sqrt();
-    DVec3::new(across * cos, across * sin, z)
 }

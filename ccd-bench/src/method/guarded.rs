@@ -1,7 +1,7 @@
 //! Runs a method in a process of its own, which is stopped when it takes too long.
 
 use super::Method;
-use super::solver::{Reply, TimedReply};
+use super::solver::{Claim, Reply, TimedReply};
 use super::wire::{READY, REFUSED, format_query, parse_reply};
 use ccd_decomp::{TriangleMesh, write_obj};
 use rigid_ccd::table::motions::Query;
@@ -81,6 +81,16 @@ impl Programs {
                 "{method} is run by a script, which is not given"
             ))),
             _ => std::env::current_exe(),
+        }
+    }
+}
+
+impl Asked {
+    /// Returns the claim, if the method answered.
+    pub fn claim(&self) -> Option<Claim> {
+        match self {
+            Asked::Answered { reply, .. } => Some(reply.claim),
+            Asked::CutOff | Asked::Died => None,
         }
     }
 }

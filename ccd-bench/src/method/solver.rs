@@ -1,6 +1,7 @@
 //! The interface of all that answers queries: this project's methods, published rivals built here,
 //! peer libraries.
 
+use ccd_core::order::greater;
 use rigid_ccd::batch::median;
 use rigid_ccd::table::motions::Query;
 use std::time::{Duration, Instant};
@@ -71,6 +72,12 @@ impl Reply {
             reason: None,
         }
     }
+
+    /// Returns the tolerance by which the reply to a query with a tolerance is judged: that one, or the one that
+    /// the solver states if it had to raise it.
+    pub fn judged_by(&self, tolerance: f64) -> f64 {
+        greater(tolerance, self.tolerance.unwrap_or(0.0))
+    }
 }
 
 /// The answer of a solver.
@@ -93,6 +100,16 @@ pub enum Claim {
 }
 
 impl Claim {
+    /// Returns the name of its kind.
+    pub fn status(self) -> &'static str {
+        match self {
+            Claim::Contact { .. } => "contact",
+            Claim::Free => "free",
+            Claim::Unresolved { .. } => "unresolved",
+            Claim::Refused => "refused",
+        }
+    }
+
     /// Returns the time that is claimed, of a contact or until which there is none.
     pub fn time(self) -> Option<f64> {
         match self {

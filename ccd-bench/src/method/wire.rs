@@ -84,18 +84,13 @@ fn motion(numbers: &[f64]) -> Option<Motion> {
 
 /// Formats a reply as one line: `time,status,steps,micros,tolerance,reason`, where the last two may be empty.
 pub fn format_reply(timed: &TimedReply) -> String {
-    let (time, status) = match timed.reply.claim {
-        Claim::Contact { time } => (time, "contact"),
-        Claim::Free => (0.0, "free"),
-        Claim::Unresolved { safe_until } => (safe_until, "unresolved"),
-        Claim::Refused => (0.0, "refused"),
-    };
     let Reply {
+        claim,
         steps,
         tolerance,
         reason,
-        ..
     } = &timed.reply;
+    let (time, status) = (claim.time().unwrap_or(0.0), claim.status());
     let tolerance = tolerance.map_or(String::new(), |tolerance| tolerance.to_string());
     let reason = reason.as_deref().unwrap_or_default().replace('\n', " ");
     format!(

@@ -81,7 +81,7 @@ fn at_rest(row: usize, a: Motion, b: DVec3) -> Result<Query, InputError> {
 }
 
 /// Returns a uniformly distributed point of the unit sphere.
-fn unit_vector(rng: &mut impl Rng) -> DVec3 {
+pub(crate) fn unit_vector(rng: &mut impl Rng) -> DVec3 {
     let z: f64 = rng.random_range(-1.0..1.0);
     let (sin, cos) = rng.random_range(0.0..TAU).sin_cos();
     let radius = (1.0 - z * z).sqrt();

@@ -2,10 +2,9 @@
 
 use super::family::{Case, Expected, Step};
 use crate::method::guarded::Asked;
-use crate::method::solver::Claim;
+use crate::method::solver::{Claim, Reply};
 use crate::run::contest::{self, Judged, Verdict, is_near, judge_contact};
 use crate::truth::{Referee, Truth};
-use ccd_core::order::greater;
 
 /// The time up to which a contact at the start is reported at the start, as a fraction of the duration.
 const AT_START: f64 = 1e-12;
@@ -13,14 +12,13 @@ const AT_START: f64 = 1e-12;
 /// Judges the outcome of a case of a step, by the tolerance that the method states for its answer if it had to
 /// raise the one of the step. The referee measures distances; it is not asked for the answer.
 pub fn judge(step: &Step, case: &Case, referee: &Referee<'_>, asked: &Asked) -> Judged {
-    let reply = match asked {
-        Asked::Answered { reply, .. } => reply,
-        Asked::CutOff => return Judged::plain(Verdict::CutOff),
-        Asked::Died => return Judged::plain(Verdict::Died),
-    };
+    contest::judge_asked(asked, |reply| judge_reply(step, case, referee, reply))
+}
+
+fn judge_reply(step: &Step, case: &Case, referee: &Referee<'_>, reply: &Reply) -> Judged {
     let claim = reply.claim;
     let query = &case.query;
-    let within = step.margin + greater(step.tolerance, reply.tolerance.unwrap_or(0.0));
+    let within = step.margin + reply.judged_by(step.tolerance);
     match case.expected {
         _ if claim == Claim::Refused => Judged::plain(Verdict::Refused),
         Expected::Contact { lo, hi } => judge_contact(query.duration, [lo, hi], claim, |time| {
@@ -47,7 +45,6 @@ fn from_start(claim: Claim, duration: f64) -> Verdict {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::method::solver::Reply;
     use crate::stability::families;
     use crate::truth::Surface;
     use rstest::rstest;

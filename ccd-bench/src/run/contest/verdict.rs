@@ -1,6 +1,7 @@
 //! Judges a claim against the truth.
 
-use crate::method::solver::Claim;
+use crate::method::guarded::Asked;
+use crate::method::solver::{Claim, Reply};
 use crate::truth::{Referee, Truth};
 use ccd_core::order::greater;
 use rigid_ccd::table::motions::Query;
@@ -61,6 +62,15 @@ impl Judged {
             verdict,
             error: None,
         }
+    }
+}
+
+/// Judges the outcome of a query, with a function for replies.
+pub fn judge_asked(asked: &Asked, judge: impl FnOnce(&Reply) -> Judged) -> Judged {
+    match asked {
+        Asked::Answered { reply, .. } => judge(reply),
+        Asked::CutOff => Judged::plain(Verdict::CutOff),
+        Asked::Died => Judged::plain(Verdict::Died),
     }
 }
 
