@@ -88,6 +88,7 @@ impl<O: DistanceOracle> Schedule<O> for BestFirst<O> {
             stats.peak_front = stats.peak_front.max(self.queue.peak());
             outcome
         });
+        self.queue.clear();
         self.kept = kept;
         answer
     }

@@ -1,4 +1,4 @@
-//! Lists that some queries need, kept from query to query so that they take no memory from the heap.
+//! Lists kept from query to query, so that queries take no memory from the heap.
 
 use super::nodes::screw::Profiles;
 use super::start::Lists;
@@ -7,7 +7,7 @@ use crate::distance::overlap::Inner;
 /// The lists, made when they are first needed.
 pub(crate) type Kept = Option<Box<Memory>>;
 
-/// The lists; what they hold is of no use to the next query.
+/// The lists that some queries need; what they hold is of no use to the next query.
 #[derive(Debug, Default)]
 pub(crate) struct Memory {
     /// Of the search among bodies in contact at the start.
@@ -16,4 +16,30 @@ pub(crate) struct Memory {
     pub(crate) inner: Inner,
     /// Of the look along a screw.
     pub(crate) profiles: Profiles,
+}
+
+/// The most memory that a list keeps for the next query, in bytes: 120,000 waiting pairs, more than almost any
+/// query has. A query that needs more gives the rest back: a solver that once met its budget keeps no gigabyte.
+/// Common allocators return blocks above this size to the system.
+const MOST_KEPT: usize = 1 << 25;
+
+/// Empties a list for the next query, and gives back the memory beyond [`MOST_KEPT`].
+pub(crate) fn empty<T>(list: &mut Vec<T>) {
+    list.clear();
+    list.shrink_to(MOST_KEPT / size_of::<T>());
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_list_keeps_its_memory_up_to_the_bound() {
+        let most = MOST_KEPT / size_of::<[u32; 4]>();
+        for (needed, kept) in [(most / 2, most / 2), (most, most), (2 * most, most)] {
+            let mut list = vec![[1; 4]; needed];
+            empty(&mut list);
+            assert_eq!((list.len(), list.capacity()), (0, kept));
+        }
+    }
 }

@@ -2,7 +2,7 @@
 
 use super::answer::answer;
 use super::contract::Schedule;
-use super::memory::Kept;
+use super::memory::{Kept, empty};
 use super::meter::Meter;
 use super::pieces::pair::Pair;
 use super::pieces::snapshot::Snapshot;
@@ -67,7 +67,7 @@ impl<O: DistanceOracle> Naive<O> {
             safe_until: problem.time(s),
             reason,
         };
-        self.pairs.clear();
+        empty(&mut self.pairs);
         let all = a as u64 * b as u64;
         if all > problem.budget {
             return unresolved(0.0, Limit::Budget);

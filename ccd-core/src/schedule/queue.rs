@@ -1,5 +1,6 @@
 //! Pairs that wait for their clocks, least clock first.
 
+use super::memory::empty;
 use crate::math::order::greater;
 
 /// Items ordered by their clocks. Among equal clocks pairs of pieces come first, then the newest,
@@ -54,12 +55,12 @@ impl<T> Default for Queue<T> {
 }
 
 impl<T> Queue<T> {
-    /// Removes all items, and keeps the memory.
+    /// Removes all items, and keeps [some of the memory](empty).
     pub(crate) fn clear(&mut self) {
-        self.items.clear();
-        self.vacant.clear();
+        empty(&mut self.items);
+        empty(&mut self.vacant);
         self.least = VACANT;
-        self.levels.iter_mut().for_each(Vec::clear);
+        self.levels.iter_mut().for_each(empty);
         self.depth = 0;
         self.serial = 0;
     }

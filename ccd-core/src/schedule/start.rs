@@ -2,6 +2,7 @@
 
 mod containment;
 
+use super::memory::empty;
 use super::meter::Meter;
 use super::nodes::common::Common;
 use super::nodes::expand::measure;
@@ -35,7 +36,6 @@ pub(super) fn touching<O: DistanceOracle>(
     seen: Contact,
 ) -> Outcome {
     let mut lists = std::mem::take(&mut meter.memory().start);
-    lists.clear();
     let mut search = Nearest {
         problem,
         common: Common::new(problem),
@@ -55,6 +55,7 @@ pub(super) fn touching<O: DistanceOracle>(
             contained(problem, touching, pieces).unwrap_or(Outcome::Touching { contact })
         }
     };
+    lists.clear();
     meter.memory().start = lists;
     outcome
 }
@@ -73,7 +74,8 @@ pub(crate) struct Lists {
 impl Lists {
     fn clear(&mut self) {
         self.waiting.clear();
-        self.touching.clear();
+        empty(&mut self.touching);
+        empty(&mut self.pieces);
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::hull_pair::{Below, HullPair, Near};
 use crate::math::order::lesser;
+use crate::schedule::memory::empty;
 use crate::schedule::pieces::pair::Pair;
 
 /// Pairs of nodes of two hull trees, from the pair of roots down to those at which a descent
@@ -59,8 +60,8 @@ impl<C> Default for Front<C> {
 impl<C: Clone + Default> Front<C> {
     /// Restarts with the pair of roots.
     pub(super) fn plant(&mut self, hulls: HullPair<'_>) {
-        self.nodes.clear();
-        self.vacant.clear();
+        empty(&mut self.nodes);
+        empty(&mut self.vacant);
         self.nodes.push(Node::new(hulls, [0, 0], C::default()));
         (self.leaves, self.peak) = (1, 1);
     }

@@ -15,6 +15,7 @@ use crate::body::tree::{Below, Members, Named, NodeId};
 use crate::math::order::lesser;
 use crate::math::vector::length;
 use crate::problem::{Problem, Side, Which};
+use crate::schedule::memory::empty;
 use crate::tolerance::{ADVANCE_F64, CLOSED_GAP, LEAST_ADVANCE, RATE_F64, SCREW_DRIFT};
 use std::f64::consts::TAU;
 use std::ops::Range;
@@ -135,8 +136,8 @@ impl Screw {
 impl OfBody {
     fn forget(&mut self, side: &Side<'_>) {
         let count = side.body.tree().nodes() + side.body.pieces().len();
-        self.known.clear();
-        self.places.clear();
+        empty(&mut self.known);
+        empty(&mut self.places);
         self.places.resize(count, UNKNOWN);
     }
 
