@@ -30,16 +30,4 @@ pub(crate) fn empty<T>(list: &mut Vec<T>) {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_list_keeps_its_memory_up_to_the_bound() {
-        let most = MOST_KEPT / size_of::<[u32; 4]>();
-        for (needed, kept) in [(most / 2, most / 2), (most, most), (2 * most, most)] {
-            let mut list = vec![[1; 4]; needed];
-            empty(&mut list);
-            assert_eq!((list.len(), list.capacity()), (0, kept));
-        }
-    }
-}
+mod tests;

@@ -1,0 +1,13 @@
+//! Lists give back what is too much.
+
+use super::*;
+
+#[test]
+fn a_list_keeps_its_memory_up_to_the_bound() {
+    let most = MOST_KEPT / size_of::<[u32; 4]>();
+    for (needed, kept) in [(most / 2, most / 2), (most, most), (2 * most, most)] {
+        let mut list = vec![[1; 4]; needed];
+        empty(&mut list);
+        assert_eq!((list.len(), list.capacity()), (0, kept));
+    }
+}
