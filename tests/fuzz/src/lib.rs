@@ -24,3 +24,9 @@ pub mod solid;
 pub mod targets;
 pub mod trial;
 pub mod vector;
+
+/// Lets panics pass that the product catches, of libraries for instance: libFuzzer's hook aborts at every panic.
+/// It still aborts at those that no one catches.
+pub fn let_caught_panics_pass() {
+    drop(std::panic::take_hook());
+}

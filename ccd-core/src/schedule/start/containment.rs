@@ -6,6 +6,7 @@ use crate::body::Body;
 use crate::body::shell::Shell;
 use crate::body::tree::point_query::is_clear;
 use crate::body::tree::ray::crossings;
+use crate::math::vector::{across, unit_or_any};
 use crate::motion::pose::Frame;
 use crate::outcome::Overlap;
 use crate::problem::{Problem, Side};
@@ -33,9 +34,9 @@ pub(crate) enum Containment {
 /// - any connected part of a body that touches the other nowhere: one point decides for all of it;
 /// - the rest of the other parts, without the pieces that touch: it consists of pieces that each
 ///   share a corner with one that touches, and all corners of those are examined;
-/// - pieces that touch and have a volume: the middle decides, as no face passes through;
-/// - flat pieces that touch: examined at their corners, at the middle on the side of their own
-///   solid, and next to every edge of the other body that is on them, where a surface can pass
+/// - thick pieces that touch: the middle decides, as no face passes through;
+/// - thin and flat pieces that touch: examined at their corners, at the middle or a point on the side of
+///   their own solid, and next to every edge of the other body that is on them, where a surface can pass
 ///   through a piece without a face that intersects it.
 ///
 /// A part that is inside by less than rounding is not distinguished from one that touches. The same
@@ -167,8 +168,8 @@ impl Search<'_> {
     fn piece(&self, piece: u32) -> Found {
         let body = self.inner.body;
         let corners = match body.pieces().get(piece as usize) {
-            // A piece with a volume shares no corner if it is alone: its middle decides.
-            alone if body.pieces().len() == 1 && !alone.is_flat() => &[],
+            // A piece that is alone shares no corner: the middle of a thick one decides.
+            _ if body.pieces().len() == 1 && self.is_thick(piece) => &[],
             piece => piece.points,
         };
         let mut inside = corners.iter().map(|&p| self.point(p));
@@ -185,11 +186,24 @@ impl Search<'_> {
         }
     }
 
-    /// Examines points of a flat piece next to edges that are on it. Some of them are next to
+    /// Returns whether the middle of a piece is in its depth: a face that passes there would intersect it by more
+    /// than rounding.
+    fn is_thick(&self, piece: u32) -> bool {
+        let middle = self.inner.body.middle(piece);
+        let piece = self.inner.body.pieces().get(piece as usize);
+        let is_above = |corners: &[u32]| {
+            let [a, b, c] = [0, 1, 2].map(|k| piece.points[corners[k] as usize]);
+            unit_or_any(across(b - a, c - a)).dot(a - middle).abs() > self.reach
+        };
+        piece.facets.len() > 2 && piece.facets.iter().all(is_above)
+    }
+
+    /// Examines points of a thin piece next to edges that are on it. Some of them are next to
     /// faces.
     fn edges(&self, [inner, outer]: [u32; 2]) -> Found {
         let piece = self.inner.body.pieces().get(inner as usize);
-        if !piece.is_flat() {
+        let has_sides = piece.is_flat() || !piece.facets.is_empty();
+        if !has_sides || self.is_thick(inner) {
             return Found::Nothing;
         }
         let other = self.outer.body.pieces().get(outer as usize);

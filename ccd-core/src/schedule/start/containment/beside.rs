@@ -1,4 +1,4 @@
-//! Points of a flat piece on either side of another piece's edges on it.
+//! Points of a thin piece on either side of another piece's edges on it.
 
 use crate::body::piece::Piece;
 use crate::math::order::{greater, lesser};
@@ -7,7 +7,7 @@ use crate::math::vector::unit_or_any;
 use crate::tolerance::BESIDE_EDGE;
 use glam::DVec3;
 
-/// For every edge of `other` that is on a flat piece, returns points of the piece on either side of
+/// For every edge of `other` that is on a thin piece, returns points of the piece on either side of
 /// the middle of their common part. An edge counts as on the piece if it leaves its plane by at
 /// most `reach`.
 ///
@@ -38,7 +38,7 @@ pub(super) fn beside_edges(
     })
 }
 
-/// A flat piece: its first facet, or its points in their order.
+/// A thin piece: its largest facet, or its points in their order.
 #[derive(Clone, Copy)]
 struct Flat<'a> {
     points: &'a [DVec3],
@@ -50,17 +50,23 @@ struct Flat<'a> {
 impl<'a> Flat<'a> {
     /// Returns none for a piece without three corners.
     fn of(piece: &Piece<'a>) -> Option<Self> {
-        let mut flat = Flat {
-            points: piece.points,
-            corners: piece.facets.iter().next(),
-            normal: DVec3::ZERO,
-        };
-        if flat.count() < 3 {
-            return None;
-        }
-        let [a, b, c] = [0, 1, 2].map(|k| flat.corner(k));
-        flat.normal = unit_or_any(across(b - a, c - a));
-        Some(flat)
+        let facets = piece.facets.iter().map(Some);
+        let outline = piece.facets.is_empty().then_some(None);
+        let flats = facets.chain(outline).filter_map(|corners| {
+            let mut flat = Flat {
+                points: piece.points,
+                corners,
+                normal: DVec3::ZERO,
+            };
+            if flat.count() < 3 {
+                return None;
+            }
+            let [a, b, c] = [0, 1, 2].map(|k| flat.corner(k));
+            flat.normal = unit_or_any(across(b - a, c - a));
+            Some(((b - a).cross(c - a).length_squared(), flat))
+        });
+        let largest = flats.reduce(|one, other| if other.0 > one.0 { other } else { one });
+        largest.map(|(_, flat)| flat)
     }
 
     fn count(&self) -> usize {

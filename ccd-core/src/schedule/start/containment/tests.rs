@@ -240,3 +240,42 @@ fn points_near_very_long_faces_are_decided() {
     assert_eq!(contains(&beam, DVec3::Z * 0.0625), Some(true));
     assert_eq!(contains(&beam, DVec3::X * 3.75), Some(true));
 }
+
+/// A plate along the plane y = 0, of half extents x and z, so thin that no face shows it to intersect.
+fn plate_in_cube(n: usize, at: DVec3, [x, z]: [f64; 2]) -> Containment {
+    let cube = solid(&cube(1.0, n));
+    let plate = Body::cuboid([x, 1e-33, z]).unwrap();
+    let problem = Problem::new(
+        (&plate, Motion::still(Pose::at(at).unwrap())),
+        (&cube, Motion::STILL),
+        1.0,
+        &Config::default(),
+    )
+    .unwrap();
+    let touching: Vec<[u32; 2]> = (0..cube.pieces().len() as u32).map(|k| [0, k]).collect();
+    at_start(&problem, &touching, &mut Vec::new())
+}
+
+#[test]
+fn a_thin_piece_is_examined_at_its_corners() {
+    // Its middle is outside, and half of its corners are inside.
+    let found = plate_in_cube(1, 1.5 * DVec3::X, [1.5, 0.25]);
+    assert!(
+        matches!(found, Containment::Inside(Overlap::AInsideB(p)) if p.x == 0.0),
+        "{found:?}"
+    );
+    let beside = plate_in_cube(1, 3.0 * DVec3::X, [1.5, 0.25]);
+    assert_eq!(beside, Containment::Outside);
+}
+
+#[test]
+fn a_thin_piece_is_examined_beside_edges_on_it() {
+    // All of its corners are outside, and so is its middle: two faces of the cube meet on it.
+    let found = plate_in_cube(2, 2.0 * DVec3::X, [2.5, 3.0]);
+    assert!(
+        matches!(found, Containment::Inside(Overlap::AInsideB(p)) if p.abs().max_element() < 1.0),
+        "{found:?}"
+    );
+    let beside = plate_in_cube(2, 4.0 * DVec3::X, [2.5, 3.0]);
+    assert_eq!(beside, Containment::Outside);
+}
