@@ -48,7 +48,7 @@ impl DistanceOracle for Gjk {
         let Some(difference) = Difference::new(pair) else {
             return Ok(NOTHING);
         };
-        let found = solve(&difference, cache.simplex(&difference));
+        let found = solve_from(&difference, cache);
         *cache = Cache::of(&found);
         Ok(claim(&found))
     }
@@ -60,6 +60,17 @@ pub(crate) const NOTHING: Claim = Claim {
     a: Combination::EMPTY,
     b: Combination::EMPTY,
 };
+
+/// Searches for the nearest point, starting from what the last call left; anew if that leads to a poor result.
+///
+/// Faces that have turned out of one plane by rounding leave a simplex from which no step gets nearer.
+pub(crate) fn solve_from(difference: &Difference<'_>, cache: &Cache) -> Found {
+    let found = solve(difference, cache.simplex(difference));
+    match found.gap > 0.0 && !certified(&found) {
+        true => found.better(solve(difference, Cache::default().simplex(difference))),
+        false => found,
+    }
+}
 
 /// Searches for the nearest point, repeatedly if rounding stalls the search.
 ///
@@ -92,7 +103,7 @@ pub(crate) fn solve(difference: &Difference<'_>, mut simplex: Simplex) -> Found 
 }
 
 /// Returns whether the axis certifies the distance as well as rounding permits.
-fn certified(found: &Found) -> bool {
+pub(crate) fn certified(found: &Found) -> bool {
     found.gap > 0.0 && meets(found.gap, found.square, &found.simplex, CERTIFIED_ULPS)
 }
 

@@ -32,6 +32,21 @@ impl Found {
         }
     }
 
+    /// Returns the nearer of two results, with the axis of the larger gap.
+    pub(crate) fn better(self, other: Self) -> Self {
+        let nearer = if other.square < self.square {
+            other
+        } else {
+            self
+        };
+        let wider = if other.gap > self.gap { other } else { self };
+        Found {
+            axis: wider.axis,
+            gap: wider.gap,
+            ..nearer
+        }
+    }
+
     /// Evaluates an axis; returns the vertex that is least along it, and the support gap.
     pub(crate) fn probe(&mut self, difference: &Difference<'_>, axis: DVec3) -> (Vertex, f64) {
         let vertex = difference.support(axis);

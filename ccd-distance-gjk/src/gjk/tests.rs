@@ -3,7 +3,7 @@
 use super::fan::Fan;
 use super::foot::Foot;
 use super::minkowski::Difference;
-use super::oracle::solve;
+use super::oracle::{certified, solve, solve_from};
 use super::refine::Couple;
 use super::search::{Found, search};
 use super::simplex::{Simplex, Vertex};
@@ -11,8 +11,9 @@ use super::start::Cache;
 use super::termination::Stop;
 use super::{segment, tetrahedron, triangle};
 use crate::tests::scene::{self, Meeting, Pcg64, SeedableRng};
-use ccd_core::glam::DVec3;
+use ccd_core::glam::{DMat3, DQuat, DVec3};
 use ccd_core::order::greater;
+use ccd_core::{Body, Frame, PiecePair};
 use rand::RngExt;
 use rstest::rstest;
 
@@ -188,4 +189,34 @@ fn stalled_searches_are_taken_up_again() {
         stalled > 20 && short > 5,
         "{stalled} stalled, {short} fell short"
     );
+}
+
+/// A box that turns slowly above another one: faces that were parallel a moment ago.
+#[test]
+fn a_search_that_stalls_from_the_last_simplex_begins_anew() {
+    let a = Body::cuboid([0.5, 0.5, 1.0]).unwrap();
+    let b = Body::cuboid([0.5, 1.0, 1.5]).unwrap();
+    let (mut rng, mut stalled) = (Pcg64::seed_from_u64(3), 0);
+    for _ in 0..2_000 {
+        let (height, mut cache) = (rng.random_range(2.51..8.0), Cache::default());
+        let spin = DVec3::new(1e-7, 1e-3, rng.random_range(-1e-7..1e-7));
+        for t in [0.0, 10f64.powf(rng.random_range(-9.0..0.0))] {
+            let a_to_world = Frame {
+                rotation: DMat3::from_quat(DQuat::from_scaled_axis(spin * t)),
+                translation: DVec3::new(0.0, 0.0, height),
+            };
+            let pair = PiecePair {
+                a: a.pieces().get(0),
+                b: b.pieces().get(0),
+                b_to_a: a_to_world.from_frame(&Frame::IDENTITY),
+            };
+            let difference = Difference::new(&pair).unwrap();
+            let warm = solve(&difference, cache.simplex(&difference));
+            stalled += u32::from(!certified(&warm));
+            let found = solve_from(&difference, &cache);
+            assert!(certified(&found), "{height} {t}: {found:?}");
+            cache = Cache::of(&found);
+        }
+    }
+    assert!(stalled > 20, "{stalled}");
 }

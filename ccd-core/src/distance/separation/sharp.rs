@@ -34,8 +34,9 @@ pub(crate) fn sharpened(pair: &PiecePair<'_>, checked: &Checked, rounding: f64) 
 /// of two edges.
 fn axes(pair: &PiecePair<'_>, checked: &Checked) -> [DVec3; 4] {
     let way = checked.witness_b - checked.witness_a;
-    let on_a = Feature::of(&pair.a, &checked.claim.a);
-    let on_b = Feature::of(&pair.b, &checked.claim.b).seen(pair.b_to_a.rotation);
+    let axis_in_b = pair.b_to_a.inverse_vector(checked.axis);
+    let on_a = Feature::of(&pair.a, &checked.claim.a, checked.axis);
+    let on_b = Feature::of(&pair.b, &checked.claim.b, axis_in_b).seen(pair.b_to_a.rotation);
     let edges = match (on_a.edge, on_b.edge) {
         (Some(e), Some(f)) => across(e, f),
         (Some(e), None) | (None, Some(e)) => across(across(e, way), e),
@@ -47,13 +48,14 @@ fn axes(pair: &PiecePair<'_>, checked: &Checked) -> [DVec3; 4] {
 /// The feature that contains a nearest point.
 struct Feature {
     edge: Option<DVec3>,
-    /// The normal of its face, or of the piece if that is a triangle; zero if there is none.
+    /// The normal of its face, of the piece if that is a triangle, or of the facet at its corners that is most
+    /// across the claimed axis; zero if there is none.
     normal: DVec3,
 }
 
 impl Feature {
     /// Returns the feature in the piece's frame.
-    fn of(piece: &Piece<'_>, combination: &Combination) -> Self {
+    fn of(piece: &Piece<'_>, combination: &Combination, axis: DVec3) -> Self {
         let points = piece.points;
         let way = |from: u32, to: u32| points[to as usize] - points[from as usize];
         let support = combination.support();
@@ -64,7 +66,7 @@ impl Feature {
         let normal = match (support, points.len()) {
             (&[a, b, c, ..], _) => across(way(a, b), way(a, c)),
             (_, 3) => across(way(0, 1), way(0, 2)),
-            _ => DVec3::ZERO,
+            (support, _) => facet_normal(piece, support, axis).unwrap_or(DVec3::ZERO),
         };
         Feature { edge, normal }
     }
@@ -75,4 +77,22 @@ impl Feature {
             normal: turn * self.normal,
         }
     }
+}
+
+/// Returns the normal of the facet that holds the given corners and is most across an axis.
+///
+/// Two corners across a facet span no edge, and one corner of a facet may be nearest to a point on the other
+/// piece: then it is the facet that keeps the pieces apart.
+fn facet_normal(piece: &Piece<'_>, support: &[u32], axis: DVec3) -> Option<DVec3> {
+    let holds = |corners: &&[u32]| support.iter().all(|corner| corners.contains(corner));
+    let normal = |corners: &[u32]| {
+        let third = corners.len() / 3;
+        let [a, b, c] = [0, third, 2 * third].map(|k| piece.points[corners[k] as usize]);
+        unit(across(b - a, c - a))
+    };
+    let normals = piece.facets.iter().filter(holds).filter_map(normal);
+    normals.reduce(|one, other| {
+        let is_more_across = other.dot(axis).abs() > one.dot(axis).abs();
+        if is_more_across { other } else { one }
+    })
 }

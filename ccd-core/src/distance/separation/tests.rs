@@ -2,6 +2,8 @@
 
 use super::sharp::sharpened;
 use super::*;
+use crate::body::Body;
+use crate::body::combination::Combination;
 use crate::body::piece::Piece;
 use crate::distance::oracle::DistanceOracle;
 use crate::motion::pose::{Frame, Pose};
@@ -200,4 +202,50 @@ fn features_have_better_axes_than_near_points() {
         poor += usize::from(checked.lower < distance - 10.0 * ROUNDING);
     }
     assert!(poor > 2_000, "{poor}");
+}
+
+/// A corner over the face of a box, whose nearest point is told by two corners across the face: no edge.
+#[test]
+fn facets_have_better_axes_than_corners_across_them() {
+    let mut rng = rng(4);
+    let base = Body::cuboid([4.0, 4.0, 1.0]).unwrap();
+    let base = base.pieces().get(0);
+    let top = |x: f64| base.points.iter().position(|p| *p == DVec3::new(x, x, 1.0));
+    let [low, high] = [-4.0, 4.0].map(|x| top(x).unwrap() as u32);
+    let mut poor = 0;
+    for k in 0..1_000 {
+        let distance = magnitude(&mut rng, -4.0, 1.0);
+        let tip = [[0.0, 0.0, 0.0], [8.0, 1.0, 4.0], [-8.0, 1.0, 4.0]].map(DVec3::from);
+        let tip = tip.map(|p| p + (1.0 + distance) * DVec3::Z);
+        let a_to_b = Frame::from(Pose::new(DVec3::ZERO, rotation(&mut rng)).unwrap());
+        let turned = base.points.iter().map(|&p| a_to_b.inverse_vector(p));
+        let turned: Vec<DVec3> = turned.collect();
+        let b = Piece {
+            points: &turned,
+            ..base
+        };
+        let pair = PiecePair {
+            a: Piece::from_points(&tip),
+            b,
+            b_to_a: a_to_b,
+        };
+        let mut across = Combination::default();
+        across.push(low, 0.5);
+        across.push(high, 0.5);
+        let tilted = Claim {
+            axis: -DVec3::Z + within(&mut rng, 1e-9),
+            a: Combination::point(0),
+            b: across,
+        };
+        let checked = check(&pair, &tilted, ROUNDING);
+        let sharp = sharpened(&pair, &checked, ROUNDING);
+        assert!(sharp.lower <= distance, "{k}: {} {distance}", sharp.lower);
+        assert!(
+            sharp.lower >= distance - 2.0 * ROUNDING,
+            "{k}: {:e}",
+            distance - sharp.lower
+        );
+        poor += usize::from(checked.lower < distance - 10.0 * ROUNDING);
+    }
+    assert!(poor > 900, "{poor}");
 }
