@@ -166,6 +166,15 @@ fn radii_are_subtracted_and_witnesses_are_on_the_surface() {
     assert_eq!(checked.core_distance, 3.0);
 }
 
+/// Checks that a claim can be sharpened to the distance, and returns whether it was poor.
+fn is_sharpened(pair: &PiecePair<'_>, tilted: &Claim, distance: f64) -> bool {
+    let checked = check(pair, tilted, ROUNDING);
+    let lower = sharpened(pair, &checked, ROUNDING).lower;
+    assert!(lower <= distance, "{lower} {distance}");
+    assert!(lower >= distance - 2.0 * ROUNDING, "{:e}", distance - lower);
+    checked.lower < distance - 10.0 * ROUNDING
+}
+
 /// The vector between near points is rounded; large triangles lose distance by its tilt.
 #[test]
 fn features_have_better_axes_than_near_points() {
@@ -191,15 +200,7 @@ fn features_have_better_axes_than_near_points() {
             axis: DVec3::Z + within(&mut rng, 1e-11),
             ..claim
         };
-        let checked = check(&pair, &tilted, ROUNDING);
-        let sharp = sharpened(&pair, &checked, ROUNDING);
-        assert!(sharp.lower <= distance, "{k}: {} {distance}", sharp.lower);
-        assert!(
-            sharp.lower >= distance - 2.0 * ROUNDING,
-            "{k}: {:e}",
-            distance - sharp.lower
-        );
-        poor += usize::from(checked.lower < distance - 10.0 * ROUNDING);
+        poor += usize::from(is_sharpened(&pair, &tilted, distance));
     }
     assert!(poor > 2_000, "{poor}");
 }
@@ -213,7 +214,7 @@ fn facets_have_better_axes_than_corners_across_them() {
     let top = |x: f64| base.points.iter().position(|p| *p == DVec3::new(x, x, 1.0));
     let [low, high] = [-4.0, 4.0].map(|x| top(x).unwrap() as u32);
     let mut poor = 0;
-    for k in 0..1_000 {
+    for _ in 0..1_000 {
         let distance = magnitude(&mut rng, -4.0, 1.0);
         let tip = [[0.0, 0.0, 0.0], [8.0, 1.0, 4.0], [-8.0, 1.0, 4.0]].map(DVec3::from);
         let tip = tip.map(|p| p + (1.0 + distance) * DVec3::Z);
@@ -237,15 +238,7 @@ fn facets_have_better_axes_than_corners_across_them() {
             a: Combination::point(0),
             b: across,
         };
-        let checked = check(&pair, &tilted, ROUNDING);
-        let sharp = sharpened(&pair, &checked, ROUNDING);
-        assert!(sharp.lower <= distance, "{k}: {} {distance}", sharp.lower);
-        assert!(
-            sharp.lower >= distance - 2.0 * ROUNDING,
-            "{k}: {:e}",
-            distance - sharp.lower
-        );
-        poor += usize::from(checked.lower < distance - 10.0 * ROUNDING);
+        poor += usize::from(is_sharpened(&pair, &tilted, distance));
     }
     assert!(poor > 900, "{poor}");
 }

@@ -107,6 +107,12 @@ enum Found {
     Undecided,
 }
 
+impl Found {
+    fn is_inside(&self) -> bool {
+        matches!(self, Found::Inside(_))
+    }
+}
+
 impl Search<'_> {
     /// Returns the result; `touching` names pieces of the inner and of the outer body.
     fn answer(
@@ -122,15 +128,18 @@ impl Search<'_> {
         let parts = self.inner.body.shells().iter();
         let of_parts = parts.map(|shell| self.part(shell, pieces));
         let of_pieces = pieces.iter().map(|&piece| self.piece(piece));
-        let of_pairs = touching.map(|pair| self.edges(pair));
-        for one in of_parts.chain(of_pieces).chain(of_pairs) {
+        for one in of_parts.chain(of_pieces) {
             match one {
                 Found::Inside(_) => return one,
                 Found::Undecided => found = one,
                 Found::Nothing => {}
             }
         }
-        found
+        // Once for each piece: a hull of many facets may touch many pieces.
+        pieces.retain(|&piece| self.has_sides(piece) && !self.is_thick(piece));
+        let thin = touching.filter(|[inner, _]| pieces.binary_search(inner).is_ok());
+        let inside = thin.map(|pair| self.edges(pair)).find(Found::is_inside);
+        inside.unwrap_or(found)
     }
 
     /// Examines a point in the inner body's frame.
@@ -173,7 +182,7 @@ impl Search<'_> {
             piece => piece.points,
         };
         let mut inside = corners.iter().map(|&p| self.point(p));
-        if let Some(found) = inside.find(|found| matches!(found, Found::Inside(_))) {
+        if let Some(found) = inside.find(Found::is_inside) {
             return found;
         }
         match body.point_inside(piece) {
@@ -184,6 +193,12 @@ impl Search<'_> {
                 found => found,
             },
         }
+    }
+
+    /// Returns whether the outline of a piece, or of one of its facets, is known.
+    fn has_sides(&self, piece: u32) -> bool {
+        let piece = self.inner.body.pieces().get(piece as usize);
+        piece.is_flat() || !piece.facets.is_empty()
     }
 
     /// Returns whether the middle of a piece is in its depth: a face that passes there would intersect it by more
@@ -202,16 +217,11 @@ impl Search<'_> {
     /// faces.
     fn edges(&self, [inner, outer]: [u32; 2]) -> Found {
         let piece = self.inner.body.pieces().get(inner as usize);
-        let has_sides = piece.is_flat() || !piece.facets.is_empty();
-        if !has_sides || self.is_thick(inner) {
-            return Found::Nothing;
-        }
         let other = self.outer.body.pieces().get(outer as usize);
         let place = |p: DVec3| self.inner.frame.inverse_point(self.outer.frame.point(p));
         let points = beside_edges(&piece, &other, place, self.reach);
         let mut found = points.map(|p| self.point(p));
-        let inside = found.find(|found| matches!(found, Found::Inside(_)));
-        inside.unwrap_or(Found::Nothing)
+        found.find(Found::is_inside).unwrap_or(Found::Nothing)
     }
 }
 

@@ -50,23 +50,28 @@ struct Flat<'a> {
 impl<'a> Flat<'a> {
     /// Returns none for a piece without three corners.
     fn of(piece: &Piece<'a>) -> Option<Self> {
-        let facets = piece.facets.iter().map(Some);
-        let outline = piece.facets.is_empty().then_some(None);
-        let flats = facets.chain(outline).filter_map(|corners| {
-            let mut flat = Flat {
-                points: piece.points,
-                corners,
-                normal: DVec3::ZERO,
-            };
-            if flat.count() < 3 {
-                return None;
+        let spread = |corners: &[u32]| match *corners {
+            [a, b, c, ..] => {
+                let [a, b, c] = [a, b, c].map(|k| piece.points[k as usize]);
+                (b - a).cross(c - a).length_squared()
             }
-            let [a, b, c] = [0, 1, 2].map(|k| flat.corner(k));
-            flat.normal = unit_or_any(across(b - a, c - a));
-            Some(((b - a).cross(c - a).length_squared(), flat))
-        });
-        let largest = flats.reduce(|one, other| if other.0 > one.0 { other } else { one });
-        largest.map(|(_, flat)| flat)
+            _ => 0.0,
+        };
+        let larger = |one, other| {
+            let is_larger = spread(other) > spread(one);
+            if is_larger { other } else { one }
+        };
+        let mut flat = Flat {
+            points: piece.points,
+            corners: piece.facets.iter().reduce(larger),
+            normal: DVec3::ZERO,
+        };
+        if flat.count() < 3 {
+            return None;
+        }
+        let [a, b, c] = [0, 1, 2].map(|k| flat.corner(k));
+        flat.normal = unit_or_any(across(b - a, c - a));
+        Some(flat)
     }
 
     fn count(&self) -> usize {
