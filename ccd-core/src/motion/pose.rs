@@ -1,6 +1,7 @@
 //! Rigid placements.
 
 use crate::error::InputError;
+use crate::tolerance::{SCALE, SQUARES};
 use glam::{DMat3, DQuat, DVec3};
 
 /// A rigid placement of a body in the world: `x ↦ rotation · x + translation`.
@@ -30,8 +31,7 @@ impl Pose {
     /// quaternions of `glam`, the `coords` of quaternions of `nalgebra`.
     ///
     /// # Errors
-    /// [`InputError::NotFinite`] for a NaN or infinite part, [`InputError::ZeroQuaternion`] when
-    /// the quaternion's length is no valid divisor.
+    /// [`InputError::NotFinite`] for a NaN or infinite part, [`InputError::ZeroQuaternion`].
     pub fn new(
         translation: impl Into<[f64; 3]>,
         rotation: impl Into<[f64; 4]>,
@@ -41,14 +41,10 @@ impl Pose {
         if !(translation.is_finite() && rotation.is_finite()) {
             return Err(InputError::NotFinite { what: "pose" });
         }
-        let length = rotation.length();
-        if !(length.is_normal() && length.recip().is_normal()) {
-            return Err(InputError::ZeroQuaternion);
+        match unit(rotation) {
+            Some(rotation) => Ok(Pose::from_unit(translation, rotation)),
+            None => Err(InputError::ZeroQuaternion),
         }
-        Ok(Pose {
-            translation,
-            rotation: (rotation * length.recip()).normalize(),
-        })
     }
 
     /// Creates a pose from a unit quaternion.
@@ -81,6 +77,20 @@ impl Pose {
     pub fn transform_point(&self, point: DVec3) -> DVec3 {
         self.rotation * point + self.translation
     }
+}
+
+/// Returns the unit quaternion of the same orientation, for finite ones of any length; none for zero.
+fn unit(rotation: DQuat) -> Option<DQuat> {
+    let square = rotation.length_squared();
+    let scaled = if square < *SQUARES.start() {
+        rotation * SCALE
+    } else if square > *SQUARES.end() {
+        rotation * SCALE.recip()
+    } else {
+        rotation
+    };
+    let length = scaled.length();
+    (length > 0.0).then(|| (scaled * length.recip()).normalize())
 }
 
 /// A pose in the form that is cheapest to apply: a rotation matrix and a translation.

@@ -1,5 +1,6 @@
 //! The f64 allowances against double-double arithmetic.
 
+mod derivations;
 mod distances;
 mod worst;
 

@@ -145,7 +145,7 @@ pub enum RowProblem {
         /// The column without one.
         missing: String,
     },
-    /// A quaternion is zero, or too small to normalise.
+    /// A quaternion is zero.
     ZeroQuaternion {
         /// The four columns.
         columns: Vec<String>,

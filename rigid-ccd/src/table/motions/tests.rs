@@ -148,7 +148,7 @@ fn an_end_position_needs_all_three() {
 
 #[test]
 fn a_zero_quaternion_is_refused() {
-    for zero in ["0,0,0,0", "0,-0,0,1e-320"] {
+    for zero in ["0,0,0,0", "0,-0,0,0"] {
         let problem = only_problem(&format!("b_end_qw,b_end_qx,b_end_qy,b_end_qz\n{zero}\n"));
         assert!(
             matches!(&problem, RowProblem::ZeroQuaternion { columns, .. } if columns[0] == "b_end_qw"),
@@ -191,7 +191,7 @@ fn durations_must_be_possible() {
 fn large_numbers_have_few_digits_in_messages() {
     for (text, expected) in [
         ("duration\n-1e308\n", "column duration: -1e308 is not"),
-        ("a_qw,a_qx,a_qy,a_qz\n1e-320,0,-0,0\n", "(1e-320 0 -0 0)"),
+        ("a_qw,a_qx,a_qy,a_qz\n0,0,-0,0\n", "(0 0 -0 0)"),
     ] {
         let message = only_problem(text).to_string();
         assert!(message.contains(expected), "{message}");

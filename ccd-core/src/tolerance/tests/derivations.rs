@@ -1,0 +1,111 @@
+//! The allowances against the sums in their docs.
+
+use crate::tolerance::*;
+use glam::DVec3;
+
+/// Asserts that an allowance is at least the sum that its docs derive, and no more than four times as much.
+fn covers(name: &str, taken: f64, derived: f64) {
+    let ratio = taken / derived;
+    assert!(
+        (1.0..=4.0).contains(&ratio),
+        "{name}: {taken} for {derived}"
+    );
+}
+
+#[test]
+fn units_of_rounding_are_half_of_the_last_place() {
+    assert!(1.0 + U64 == 1.0 && 1.0 + U64.next_up() > 1.0);
+    assert!(1.0 + U32 == 1.0 && 1.0 + U32.next_up() > 1.0);
+}
+
+#[test]
+fn constants_cover_the_operations_that_they_count() {
+    let u = f64::from(U32);
+    for (name, taken, derived) in [
+        ("WAY_F32", WAY_F32, 11.0),
+        ("REACH_F32", REACH_F32, 28.0),
+        ("RATE_F32", RATE_F32, 32.0),
+        ("CLOCK_F32", 1.0 - CLOCK_F32, 8.0),
+        ("BEND_F32", BEND_F32 - 1.0, 16.0),
+        ("ACROSS_F32", ACROSS_F32, 5.0),
+        ("DISC_F32", DISC_F32, 59.0),
+        ("DISC_TILT_F32", DISC_TILT_F32, 45.0),
+        ("BOX_AXES_F32", BOX_AXES_F32 as f32, 3.5),
+        ("THIN_F32", THIN_F32, 4.0),
+    ] {
+        covers(name, f64::from(taken) / u, derived);
+    }
+    for (name, taken, derived) in [
+        ("RATE_F64", RATE_F64, 14.0),
+        ("SIGN_F64", SIGN_F64, 8.0),
+        ("HEIGHT_F64", HEIGHT_F64, 3.0),
+        ("TURNED_SUPPORT", TURNED_SUPPORT, 60.0),
+        ("ADVANCE_F64", ADVANCE_F64, 18.0),
+    ] {
+        covers(name, taken / U64, derived);
+    }
+}
+
+#[test]
+fn functions_cover_the_operations_that_they_count() {
+    for (turns, span, way) in [([0.0; 2], 192.0, 56.0), ([0.0, 3.0], 300.0, 96.0)] {
+        let derived = span * 7.0 + (span + 5.0 * turns[1]) * 11.0 + way * 13.0;
+        let taken = distance_rounding([7.0, 11.0], turns, 13.0);
+        covers("distance_rounding", taken / U64, derived);
+    }
+    assert!(distance_rounding([0.0; 2], [0.0; 2], 0.0) > 0.0);
+    covers("least_tolerance", least_tolerance(3.0), 4.0 * 3.0);
+    covers(
+        "attached_rounding",
+        attached_rounding(5.0) / U64,
+        78.0 + 8.0 * 5.0,
+    );
+    let sides = [DVec3::new(2.0, -3.0, 0.5), DVec3::new(0.0, 1.0, -5.0)];
+    let derived = 108.0 * 3.0 * 5.0 * 7.0;
+    covers(
+        "height_rounding",
+        height_rounding(sides, 7.0) / U64,
+        derived,
+    );
+    assert!(height_rounding(sides, 0.0) > 0.0);
+    for tilt in [0.0_f64, 11.0, -11.0] {
+        let derived = 41.0 * (0.25 + 0.25 + 0.25 * tilt.abs()) * (5.0 + 7.0);
+        let taken = profile_rounding([0.25; 2], [5.0, 7.0], tilt);
+        covers("profile_rounding", taken / U64, derived);
+    }
+}
+
+#[test]
+fn extreme_lengths_scale_to_ordinary_squares() {
+    assert_eq!(SCALE, 2f64.powi(700));
+    let least = f64::from_bits(1);
+    for length in [least, SQUARES.start().sqrt()] {
+        assert!((length * SCALE).powi(2).is_normal());
+    }
+    for length in [SQUARES.end().sqrt(), f64::MAX] {
+        assert!((length * SCALE.recip()).powi(2).is_normal());
+    }
+}
+
+#[test]
+fn shares_are_shares() {
+    for share in [
+        NEAREST_SHARE,
+        PLACES,
+        TURNED_SHARE,
+        A_WHILE,
+        WORTHWHILE,
+        RESTED,
+        NODE_GAP,
+        CLOSED_GAP,
+        BOX_SHARE,
+        SCREW_DRIFT,
+        LEAST_ADVANCE,
+        LEAST_INNER,
+        f64::from(ATTACHED_TIME),
+        f64::from(SWEPT),
+        f64::from(THICKNESS),
+    ] {
+        assert!(0.0 < share && share < 1.0, "{share}");
+    }
+}
