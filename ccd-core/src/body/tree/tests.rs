@@ -8,7 +8,7 @@ use crate::math::order::greater;
 use crate::math::vector::length;
 use crate::tests::nearest::Triangle;
 use crate::tests::scene::{Look, Pcg64, RngExt, body, direction, magnitude, rng, soup, within};
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 
 /// Boxes and balls hold the points to within the rounding of the f64 arithmetic that checks it.
 const CHECK: f64 = 1e-14;
@@ -231,5 +231,22 @@ fn polytopes_balls_and_capsules_are_held_with_their_radii() {
             .collect();
         let pieces = Pieces::polytopes(&polytopes).unwrap();
         check(&Body::new(&pieces, Volume::Surface).unwrap());
+    }
+}
+
+#[test]
+fn unit_normals_and_upper_numbers_are_those_of_f64_rounded() {
+    let mut rng = rng(9);
+    for size in [1e-160, 1e-9, 1.0, 1e9] {
+        for _ in 0..100 {
+            let corners = [(); 3].map(|()| size * within(&mut rng, 1.0));
+            let exact = crate::math::vector::normal(corners).unwrap();
+            let found = unit_normal(corners).as_dvec3();
+            assert!(found.distance(exact) < 2e-7, "{found} for {exact}");
+        }
+    }
+    assert_eq!(unit_normal([DVec3::ONE; 3]), Vec3::ZERO);
+    for (x, above) in [(0.5, 0.5), (0.1, 0.1_f32), (0.7, 0.7_f32.next_up())] {
+        assert_eq!(up(x), above, "{x}");
     }
 }

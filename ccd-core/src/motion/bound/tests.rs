@@ -1,4 +1,4 @@
-use super::{Velocities, sound};
+use super::{Velocities, published, sound};
 use crate::math::vector::{length, unit};
 use crate::tests::double::{Double, Double3};
 use crate::tests::worst::{Worst, share};
@@ -22,4 +22,20 @@ fn worst_sound_bound() {
         Some(share(lost.get(), RATE_F64 * speed))
     });
     found.is_within(16.0);
+}
+
+#[test]
+fn the_published_bound_is_the_speed_of_the_farthest_arm_at_this_instant() {
+    let motion = Velocities {
+        linear: DVec3::new(-1.0, 2.0, 3.0),
+        spin: DVec3::new(0.0, 0.0, 2.0),
+    };
+    // n × ω = −2 Y
+    for (arm, expected) in [(-3.0, 1.0 + 6.0), (3.0, 1.0)] {
+        let farthest = |along: DVec3| {
+            assert_eq!(along, DVec3::new(0.0, -2.0, 0.0));
+            DVec3::new(5.0, arm, 7.0)
+        };
+        assert_eq!(published(&motion, DVec3::X, farthest), expected);
+    }
 }

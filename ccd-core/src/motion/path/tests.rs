@@ -1,6 +1,7 @@
 //! A path is the motion less the origin, in units of the duration.
 
 use super::Path;
+use crate::math::order::greater;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::tests::scene::{RngExt, direction, magnitude, rng, rotation, within};
@@ -46,6 +47,16 @@ fn frames_are_the_poses_of_the_motion_less_the_origin() {
                 "{error:e}"
             );
         }
+        // Points turn at their distance from the axis, the farthest one the fastest.
+        let points = [point, within(&mut rng, 3.0)];
+        let place = |x| path.frame(0.4).point(x);
+        let fastest = points.map(|x| path.velocity_at(place(x), 0.4).distance(path.velocity));
+        let expected = greater(fastest[0], fastest[1]);
+        let found = path.rate * path.reach(&points);
+        assert!(
+            (found - expected).abs() <= 1e-13 * (1.0 + turn),
+            "{found} {expected}"
+        );
         assert_eq!(path.turns(), turn > 0.0);
         let spin = path.frame(0.7).rotation * path.spin_local;
         assert!(spin.distance(path.spin) < 1e-13 * (1.0 + turn));

@@ -54,6 +54,8 @@ fn functions_cover_the_operations_that_they_count() {
         covers("distance_rounding", taken / U64, derived);
     }
     assert!(distance_rounding([0.0; 2], [0.0; 2], 0.0) > 0.0);
+    let [still, turning] = [0.0, 1e-9].map(|turn| distance_rounding([7.0; 2], [turn; 2], 13.0));
+    assert!(still < 0.7 * turning);
     covers("least_tolerance", least_tolerance(3.0), 4.0 * 3.0);
     covers(
         "attached_rounding",

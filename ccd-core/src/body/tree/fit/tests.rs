@@ -45,6 +45,57 @@ fn sheet(rng: &mut Pcg64, count: usize, size: f64) -> Vec<DVec3> {
         .collect()
 }
 
+/// Equally wound triangles in a rectangle. In a square no principal axes stand out, so that turns about the normal
+/// fit best; where half of them are a cluster of tiny ones, principal axes by area do.
+fn rectangle(rng: &mut Pcg64, count: usize, [long, cluster]: [f64; 2]) -> Vec<DVec3> {
+    let turn = DQuat::from_axis_angle(direction(rng), 1.0);
+    let corner = DVec3::new(0.95 * long, 0.95, 0.0);
+    (0..count)
+        .flat_map(|k| {
+            let at = DVec3::new(
+                rng.random_range(-long..long),
+                rng.random_range(-1.0..1.0),
+                0.0,
+            );
+            let (at, edge) = match (k as f64) < cluster * count as f64 {
+                true => (corner + 0.01 * at, 1e-3),
+                false => (at, 0.05),
+            };
+            [DVec3::ZERO, DVec3::X, DVec3::Y].map(|corner| turn * (at + edge * corner))
+        })
+        .collect()
+}
+
+#[test]
+fn boxes_are_as_small_as_the_best_of_all_frames() {
+    let mut rng = rng(8);
+    let mut sample = Sample::EMPTY;
+    let [mut by_area, mut by_turn] = [0; 2];
+    for k in 0..60 {
+        let shape = [[1.0, 0.0], [2.0, 0.5]][k % 2];
+        let points = rectangle(&mut rng, SAMPLED_TRIANGLES, shape);
+        let cloud = Cloud {
+            points: &points,
+            radius: 0.0,
+            triangles: true,
+        };
+        sample.take(&cloud);
+        let surface = |frame: DMat3| {
+            let size = Fitted::along(frame, &points);
+            let size = size.high - size.low;
+            size.x * size.y + size.y * size.z + size.z * size.x
+        };
+        let found = surface(best_frame(&sample, true));
+        let least = least_surface(&points, true);
+        assert!(found <= (1.0 + 1e-4) * least, "{found} for {least}");
+        let of_points = least_surface(&points, false);
+        let better = found < 0.99 * of_points;
+        by_turn += usize::from(better && k % 2 == 0);
+        by_area += usize::from(better && k % 2 == 1);
+    }
+    assert!(by_area > 10 && by_turn > 10, "{by_area} {by_turn}");
+}
+
 #[test]
 fn boxes_are_as_small_as_those_of_all_points() {
     let mut rng = rng(7);
