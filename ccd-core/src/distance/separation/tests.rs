@@ -5,6 +5,7 @@ use super::*;
 use crate::body::Body;
 use crate::body::combination::Combination;
 use crate::body::piece::Piece;
+use crate::body::support::Support;
 use crate::distance::oracle::DistanceOracle;
 use crate::motion::pose::{Frame, Pose};
 use crate::tests::nearest::{Triangle, nearest};
@@ -241,4 +242,102 @@ fn facets_have_better_axes_than_corners_across_them() {
         poor += usize::from(is_sharpened(&pair, &tilted, distance));
     }
     assert!(poor > 900, "{poor}");
+}
+
+/// A piece of many points has the gap that a look at all of them has.
+#[test]
+fn searches_for_extremal_points_change_no_gap() {
+    let mut rng = rng(5);
+    let round = |rng: &mut Pcg64| -> Vec<DVec3> {
+        let middle = within(rng, 2.0);
+        (0..100).map(|_| middle + scene::direction(rng)).collect()
+    };
+    let mut apart = 0;
+    for _ in 0..500 {
+        let points = [round(&mut rng), round(&mut rng)];
+        let supports = [0, 1].map(|k| Support::of_points(&points[k]));
+        let pose = Pose::new(within(&mut rng, 3.0), rotation(&mut rng)).unwrap();
+        let pair = |is_searched: bool| {
+            let [a, b] = [0, 1].map(|k| Piece {
+                support: is_searched.then_some(&supports[k]),
+                ..Piece::from_points(&points[k])
+            });
+            let b_to_a = Frame::from(pose);
+            PiecePair { a, b, b_to_a }
+        };
+        let [n, from] = [scene::direction(&mut rng), within(&mut rng, 3.0)];
+        let scanned = support_gap(&pair(false), n, from);
+        let searched = support_gap(&pair(true), n, from);
+        assert!(
+            (scanned - searched).abs() < ROUNDING,
+            "{scanned} {searched}"
+        );
+        apart += usize::from(scanned > 0.0);
+    }
+    assert!(apart > 20, "{apart}");
+}
+
+/// A claim is as good as its better half: its axis, or the way between its points.
+#[test]
+fn the_better_one_of_axis_and_way_counts() {
+    let mut rng = rng(6);
+    let mut apart = 0;
+    for _ in 0..2_000 {
+        let (a, b, b_to_a, distance) = couple(&mut rng);
+        if distance < 1e-2 {
+            continue;
+        }
+        apart += 1;
+        let radius = 0.1 * distance;
+        let round = |points| Piece {
+            radius,
+            ..Piece::from_points(points)
+        };
+        let pair = PiecePair {
+            a: round(&a),
+            b: round(&b),
+            b_to_a,
+        };
+        let right = Exhaustive.separation(&pair, &mut ()).unwrap();
+        let corner = Combination::point(0);
+        let axis = scene::direction(&mut rng);
+        let wrong_axis = check(&pair, &Claim { axis, ..right }, ROUNDING);
+        let points = Claim {
+            a: corner,
+            b: corner,
+            ..right
+        };
+        let wrong_points = check(&pair, &points, ROUNDING);
+        // An axis that shows half of the way is good enough.
+        for (checked, share) in [(wrong_axis, 0.5), (wrong_points, 1.0)] {
+            assert!(checked.lower >= share * distance - 2.0 * radius - 1e-9);
+            // Witnesses are on the surfaces, on the way between the points, whatever the axis.
+            let between = checked.witness_a.distance(checked.witness_b);
+            assert!((between - (checked.core_distance - 2.0 * radius)).abs() < 1e-13);
+        }
+    }
+    assert!(apart > 500, "{apart}");
+}
+
+/// Points that coincide have no way between them: the axis tells on which side of it the surfaces are.
+#[test]
+fn witnesses_of_coinciding_points_are_along_the_axis() {
+    let points = [DVec3::ZERO];
+    let round = Piece {
+        radius: 2.0,
+        ..Piece::from_points(&points)
+    };
+    let pair = PiecePair {
+        a: round,
+        b: round,
+        b_to_a: Frame::IDENTITY,
+    };
+    let claim = Claim {
+        axis: 3.0 * DVec3::Y,
+        a: Combination::point(0),
+        b: Combination::point(0),
+    };
+    let checked = check(&pair, &claim, ROUNDING);
+    assert_eq!(checked.witness_a, 2.0 * DVec3::Y);
+    assert_eq!(checked.witness_b, -2.0 * DVec3::Y);
 }

@@ -111,6 +111,7 @@ fn boxes_are_as_small_as_those_of_all_points() {
                 };
                 let node = fit(&cloud, Below::Piece(0), &mut sample);
                 let [x, y, z] = node.half.map(|half| 2.0 * f64::from(half));
+                assert!(x >= y && y >= z, "the longest axis is first");
                 let surface = x * y + y * z + z * x;
                 let least = least_surface(&points, triangles);
                 let most = match count {
@@ -151,5 +152,27 @@ fn degenerate_points_have_a_box() {
                 assert!(way.abs() <= f64::from(node.half[k]));
             }
         }
+    }
+}
+
+/// A box along axes that are not orthonormal would not hold its points.
+#[test]
+fn only_orthonormal_frames_are_frames() {
+    let turned = DMat3::from_quat(DQuat::from_axis_angle(DVec3::new(0.6, 0.0, 0.8), 1.0));
+    assert!(is_frame(&turned));
+    for column in 0..3 {
+        for fault in [1e-9 * DVec3::ONE, DVec3::NAN, DVec3::splat(f64::INFINITY)] {
+            let mut columns = [turned.x_axis, turned.y_axis, turned.z_axis];
+            columns[column] += fault;
+            assert!(!is_frame(&DMat3::from_cols(
+                columns[0], columns[1], columns[2]
+            )));
+        }
+        // Of the right length, but tilted.
+        let mut columns = [turned.x_axis, turned.y_axis, turned.z_axis];
+        columns[column] = (columns[column] + 1e-6 * columns[(column + 1) % 3]).normalize();
+        assert!(!is_frame(&DMat3::from_cols(
+            columns[0], columns[1], columns[2]
+        )));
     }
 }
