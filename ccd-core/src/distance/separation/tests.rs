@@ -170,7 +170,14 @@ fn radii_are_subtracted_and_witnesses_are_on_the_surface() {
 /// Checks that a claim can be sharpened to the distance, and returns whether it was poor.
 fn is_sharpened(pair: &PiecePair<'_>, tilted: &Claim, distance: f64) -> bool {
     let checked = check(pair, tilted, ROUNDING);
-    let lower = sharpened(pair, &checked, ROUNDING).lower;
+    let Checked {
+        lower,
+        axis,
+        witness_a,
+        ..
+    } = sharpened(pair, &checked, ROUNDING);
+    // The axis is the one that shows the bound.
+    assert_eq!(support_gap(pair, axis, witness_a) - ROUNDING, lower);
     assert!(lower <= distance, "{lower} {distance}");
     assert!(lower >= distance - 2.0 * ROUNDING, "{:e}", distance - lower);
     checked.lower < distance - 10.0 * ROUNDING
@@ -206,7 +213,8 @@ fn features_have_better_axes_than_near_points() {
     assert!(poor > 2_000, "{poor}");
 }
 
-/// A corner over the face of a box, whose nearest point is told by two corners across the face: no edge.
+/// A corner over the face of a box, whose nearest point is told by two corners across the face, which are no edge,
+/// or is told to be one of the face's corners, which is a corner of other faces too.
 #[test]
 fn facets_have_better_axes_than_corners_across_them() {
     let mut rng = rng(4);
@@ -215,7 +223,8 @@ fn facets_have_better_axes_than_corners_across_them() {
     let top = |x: f64| base.points.iter().position(|p| *p == DVec3::new(x, x, 1.0));
     let [low, high] = [-4.0, 4.0].map(|x| top(x).unwrap() as u32);
     let mut poor = 0;
-    for _ in 0..1_000 {
+    let claims: [&[u32]; 2] = [&[low, high], &[low]];
+    for corners in claims.repeat(500) {
         let distance = magnitude(&mut rng, -4.0, 1.0);
         let tip = [[0.0, 0.0, 0.0], [8.0, 1.0, 4.0], [-8.0, 1.0, 4.0]].map(DVec3::from);
         let tip = tip.map(|p| p + (1.0 + distance) * DVec3::Z);
@@ -232,8 +241,9 @@ fn facets_have_better_axes_than_corners_across_them() {
             b_to_a: a_to_b,
         };
         let mut across = Combination::default();
-        across.push(low, 0.5);
-        across.push(high, 0.5);
+        for &corner in corners {
+            across.push(corner, 1.0 / corners.len() as f64);
+        }
         let tilted = Claim {
             axis: -DVec3::Z + within(&mut rng, 1e-9),
             a: Combination::point(0),

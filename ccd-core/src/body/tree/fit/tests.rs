@@ -176,3 +176,26 @@ fn only_orthonormal_frames_are_frames() {
         )));
     }
 }
+
+/// Samples fill a unit about the origin, and nothing is left of an earlier one.
+#[test]
+fn samples_fill_a_unit_and_forget_earlier_ones() {
+    let mut rng = rng(9);
+    let mut sample = Sample::EMPTY;
+    for (count, size) in [(40, 1.0), (3, 1e-9), (7, 1e9), (13, 1e3)] {
+        let points = sheet(&mut rng, count, size);
+        let cloud = Cloud {
+            points: &points,
+            radius: 0.0,
+            triangles: true,
+        };
+        sample.take(&cloud);
+        let (low, high) = crate::body::hierarchy::bounds(sample.points().iter().copied());
+        assert!((low + high).length() < 1e-9, "{low} {high}");
+        assert!(((high - low).max_element() - 1.0).abs() < 1e-9);
+        let mut fresh = Sample::EMPTY;
+        fresh.take(&cloud);
+        let turned = DMat3::from_quat(DQuat::from_axis_angle(direction(&mut rng), 1.0));
+        assert_eq!(sample.surface(&turned), fresh.surface(&turned));
+    }
+}
