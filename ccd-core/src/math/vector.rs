@@ -86,13 +86,20 @@ pub fn normal([a, b, c]: [DVec3; 3]) -> Option<DVec3> {
 /// inverse of that power.
 #[inline]
 fn scaled(v: DVec3) -> (DVec3, f64) {
-    let square = v.length_squared();
+    let (scale, back) = scale_of(v.length_squared());
+    (v * scale, back)
+}
+
+/// Returns the power of two that makes the square of a vector an ordinary number, and its inverse, by the square
+/// as computed.
+#[inline]
+pub(crate) fn scale_of(square: f64) -> (f64, f64) {
     if square < *SQUARES.start() {
-        (v * SCALE, SCALE.recip())
+        (SCALE, SCALE.recip())
     } else if square > *SQUARES.end() {
-        (v * SCALE.recip(), SCALE)
+        (SCALE.recip(), SCALE)
     } else {
-        (v, 1.0)
+        (1.0, 1.0)
     }
 }
 

@@ -1,7 +1,7 @@
 //! Rigid placements.
 
 use crate::error::InputError;
-use crate::tolerance::{SCALE, SQUARES};
+use crate::math::vector::scale_of;
 use glam::{DMat3, DQuat, DVec3};
 
 /// A rigid placement of a body in the world: `x ↦ rotation · x + translation`.
@@ -81,14 +81,8 @@ impl Pose {
 
 /// Returns the unit quaternion of the same orientation, for finite ones of any length; none for zero.
 fn unit(rotation: DQuat) -> Option<DQuat> {
-    let square = rotation.length_squared();
-    let scaled = if square < *SQUARES.start() {
-        rotation * SCALE
-    } else if square > *SQUARES.end() {
-        rotation * SCALE.recip()
-    } else {
-        rotation
-    };
+    let (scale, _) = scale_of(rotation.length_squared());
+    let scaled = rotation * scale;
     let length = scaled.length();
     (length > 0.0).then(|| (scaled * length.recip()).normalize())
 }

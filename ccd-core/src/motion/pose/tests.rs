@@ -4,6 +4,7 @@ use super::{Frame, Pose};
 use crate::error::InputError;
 use crate::tests::scene::{rng, rotation, within};
 use glam::{DQuat, DVec3};
+use std::f64::consts::FRAC_1_SQRT_2;
 
 #[test]
 fn quaternions_of_any_length_name_the_same_orientation() {
@@ -26,12 +27,14 @@ fn quaternions_of_any_length_name_the_same_orientation() {
 #[test]
 fn the_extremes_of_length_name_orientations_too() {
     let least = f64::from_bits(1);
-    for [a, b] in [[least; 2], [f64::MAX; 2], [least, 0.0], [0.0, -f64::MAX]] {
-        let pose = Pose::new(DVec3::ZERO, [a, 0.0, 0.0, b]).unwrap();
-        let length = a.signum().hypot(b.signum());
-        let [a, b] = [a, b].map(|c| if c == 0.0 { 0.0 } else { c.signum() / length });
-        let length = a.hypot(b);
-        let expected = DQuat::from_xyzw(a / length, 0.0, 0.0, b / length);
+    for ([x, w], unit) in [
+        ([least; 2], [FRAC_1_SQRT_2; 2]),
+        ([f64::MAX; 2], [FRAC_1_SQRT_2; 2]),
+        ([least, 0.0], [1.0, 0.0]),
+        ([0.0, -f64::MAX], [0.0, -1.0]),
+    ] {
+        let pose = Pose::new(DVec3::ZERO, [x, 0.0, 0.0, w]).unwrap();
+        let expected = DQuat::from_xyzw(unit[0], 0.0, 0.0, unit[1]);
         assert!((pose.rotation() - expected).length() < 1e-15, "{pose:?}");
     }
 }

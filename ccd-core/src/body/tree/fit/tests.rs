@@ -24,12 +24,24 @@ fn least_surface(points: &[DVec3], triangles: bool) -> f64 {
             }));
         }
     }
-    let surface = |frame: DMat3| {
-        let Fitted { low, high, .. } = Fitted::along(frame, points);
-        let size = high - low;
-        size.x * size.y + size.y * size.z + size.z * size.x
-    };
-    frames.into_iter().map(surface).fold(f64::INFINITY, lesser)
+    let surfaces = frames.into_iter().map(|frame| surface(frame, points));
+    surfaces.fold(f64::INFINITY, lesser)
+}
+
+/// Half the surface of the box along a frame.
+fn surface(frame: DMat3, points: &[DVec3]) -> f64 {
+    let Fitted { low, high, .. } = Fitted::along(frame, points);
+    let size = high - low;
+    size.x * size.y + size.y * size.z + size.z * size.x
+}
+
+/// The corners of triangles.
+fn triangles(points: &[DVec3]) -> Cloud<'_> {
+    Cloud {
+        points,
+        radius: 0.0,
+        triangles: true,
+    }
 }
 
 /// Triangles of about a tenth of the size of a bent sheet.
@@ -74,18 +86,8 @@ fn boxes_are_as_small_as_the_best_of_all_frames() {
     for k in 0..60 {
         let shape = [[1.0, 0.0], [2.0, 0.5]][k % 2];
         let points = rectangle(&mut rng, SAMPLED_TRIANGLES, shape);
-        let cloud = Cloud {
-            points: &points,
-            radius: 0.0,
-            triangles: true,
-        };
-        sample.take(&cloud);
-        let surface = |frame: DMat3| {
-            let size = Fitted::along(frame, &points);
-            let size = size.high - size.low;
-            size.x * size.y + size.y * size.z + size.z * size.x
-        };
-        let found = surface(best_frame(&sample, true));
+        sample.take(&triangles(&points));
+        let found = surface(best_frame(&sample, true), &points);
         let least = least_surface(&points, true);
         assert!(found <= (1.0 + 1e-4) * least, "{found} for {least}");
         let of_points = least_surface(&points, false);
@@ -161,19 +163,16 @@ fn only_orthonormal_frames_are_frames() {
     let turned = DMat3::from_quat(DQuat::from_axis_angle(DVec3::new(0.6, 0.0, 0.8), 1.0));
     assert!(is_frame(&turned));
     for column in 0..3 {
-        for fault in [1e-9 * DVec3::ONE, DVec3::NAN, DVec3::splat(f64::INFINITY)] {
-            let mut columns = [turned.x_axis, turned.y_axis, turned.z_axis];
-            columns[column] += fault;
-            assert!(!is_frame(&DMat3::from_cols(
-                columns[0], columns[1], columns[2]
-            )));
-        }
+        let next = turned.col((column + 1) % 3);
         // Of the right length, but tilted.
-        let mut columns = [turned.x_axis, turned.y_axis, turned.z_axis];
-        columns[column] = (columns[column] + 1e-6 * columns[(column + 1) % 3]).normalize();
-        assert!(!is_frame(&DMat3::from_cols(
-            columns[0], columns[1], columns[2]
-        )));
+        let tilted = (turned.col(column) + 1e-6 * next).normalize();
+        let [long, nan, infinite] =
+            [1e-9, f64::NAN, f64::INFINITY].map(|fault| turned.col(column) + DVec3::splat(fault));
+        for fault in [tilted, long, nan, infinite] {
+            let mut frame = turned;
+            *frame.col_mut(column) = fault;
+            assert!(!is_frame(&frame), "{frame}");
+        }
     }
 }
 
@@ -184,17 +183,12 @@ fn samples_fill_a_unit_and_forget_earlier_ones() {
     let mut sample = Sample::EMPTY;
     for (count, size) in [(40, 1.0), (3, 1e-9), (7, 1e9), (13, 1e3)] {
         let points = sheet(&mut rng, count, size);
-        let cloud = Cloud {
-            points: &points,
-            radius: 0.0,
-            triangles: true,
-        };
-        sample.take(&cloud);
+        sample.take(&triangles(&points));
         let (low, high) = crate::body::hierarchy::bounds(sample.points().iter().copied());
         assert!((low + high).length() < 1e-9, "{low} {high}");
         assert!(((high - low).max_element() - 1.0).abs() < 1e-9);
         let mut fresh = Sample::EMPTY;
-        fresh.take(&cloud);
+        fresh.take(&triangles(&points));
         let turned = DMat3::from_quat(DQuat::from_axis_angle(direction(&mut rng), 1.0));
         assert_eq!(sample.surface(&turned), fresh.surface(&turned));
     }
