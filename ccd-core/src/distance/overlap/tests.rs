@@ -6,6 +6,7 @@ use crate::body::combination::Combination;
 use crate::body::piece::Piece;
 use crate::distance::oracle::{Claim, DistanceOracle, PiecePair};
 use crate::distance::separation;
+use crate::math::order::greater;
 use crate::motion::pose::{Frame, Pose};
 use crate::tests::double::{Double, Double3};
 use crate::tests::nearest::Triangle;
@@ -208,6 +209,77 @@ fn false_claims_do_not_change_the_decision() {
         others += usize::from(!exact);
     }
     assert!(overlaps > 200 && others > 200, "{overlaps} {others}");
+}
+
+/// Clouds that are long, flat or both: each corner is about as far off as the differences allow.
+#[test]
+fn the_first_tetrahedron_is_as_large_as_the_differences_allow() {
+    let mut rng = rng(4);
+    for _ in 0..2_000 {
+        let stretch = [0; 3].map(|_| 10f64.powf(rng.random_range(-4.0..0.0)));
+        let turn = rotation(&mut rng);
+        let mut cloud = || [0; 8].map(|_| turn * (within(&mut rng, 1.0) * DVec3::from(stretch)));
+        let (ours, theirs) = (cloud(), cloud());
+        let pair = PiecePair {
+            a: Piece::from_points(&ours),
+            b: Piece::from_points(&theirs),
+            b_to_a: Frame::IDENTITY,
+        };
+        let differences = || {
+            ours.iter()
+                .flat_map(|&p| theirs.iter().map(move |&q| p - q))
+        };
+        let most = |measure: &dyn Fn(DVec3) -> f64| differences().map(measure).fold(0.0, greater);
+        let [a, mut b, mut c, d] = super::tetrahedron(&pair, ROUNDING).unwrap();
+        if a.distance(b) < a.distance(c) {
+            (b, c) = (c, b);
+        }
+        // Among the extremes along the axes.
+        let far = |p: DVec3| p.distance(a);
+        assert!(far(b) >= 0.28 * most(&far), "{pair:?}");
+        // Among the extremes along two directions across the line.
+        let line = (b - a).normalize();
+        let aside = |p: DVec3| (p - a).cross(line).length();
+        assert!(aside(c) >= 0.7 * most(&aside), "{pair:?}");
+        let normal = (b - a).cross(c - a).normalize();
+        let height = |p: DVec3| normal.dot(p - a).abs();
+        assert!(height(d) >= 0.99 * most(&height), "{pair:?}");
+    }
+}
+
+#[test]
+fn a_claim_that_shows_no_depth_needs_no_polytope() {
+    let flat = [DVec3::ZERO, DVec3::X, DVec3::Y];
+    let tip = flat.map(|p| DVec3::new(p.x, p.z, p.y));
+    let pair = PiecePair {
+        a: Piece::from_points(&flat),
+        b: Piece::from_points(&tip),
+        b_to_a: Frame::IDENTITY,
+    };
+    let claim = Claim {
+        axis: DVec3::Z,
+        a: Combination::point(0),
+        b: Combination::point(0),
+    };
+    let (checked, mut inner) = (separation::check(&pair, &claim, ROUNDING), Inner::default());
+    let decision = intersects(&pair, &checked, ROUNDING, &mut inner);
+    assert_eq!(decision, Intersection::None);
+    assert!(inner.corners.is_empty());
+}
+
+/// Exactly representable, so that the distance of the cores is exactly the sum of the radii.
+#[test]
+fn balls_that_touch_exactly_do_not_intersect() {
+    let ball = Body::ball(0.5).unwrap();
+    let pair = PiecePair {
+        a: ball.pieces().get(0),
+        b: ball.pieces().get(0),
+        b_to_a: at(DVec3::X),
+    };
+    let claim = Exhaustive.separation(&pair, &mut ()).unwrap();
+    let checked = separation::check(&pair, &claim, 0.0);
+    let decision = intersects(&pair, &checked, 0.0, &mut Inner::default());
+    assert_eq!(decision, Intersection::None);
 }
 
 /// A slow reference in double-double arithmetic: no axis of the separating-axis theorem separates

@@ -2,6 +2,7 @@
 
 mod setting;
 mod shares;
+mod splits;
 mod worst;
 
 use super::*;

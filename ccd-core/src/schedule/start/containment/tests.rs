@@ -1,6 +1,7 @@
 //! Inside and outside of solids, points on the surface, shells within shells.
 
 use super::{Containment, at_start};
+use crate::body::polytope::Polytope;
 use crate::body::{Body, Volume};
 use crate::config::Config;
 use crate::motion::Motion;
@@ -142,6 +143,19 @@ fn a_surface_contains_nothing() {
     assert!(matches!(overlap, Some(Overlap::BInsideA(_))));
 }
 
+/// All extreme points of the triangle are on the cube: the pieces that touch decide, if there are any.
+#[test]
+fn a_part_on_the_surface_is_left_to_its_pieces() {
+    let on_top = [[0.5, 0.0, 1.0], [0.75, 0.25, 1.0], [0.5, 0.25, 1.0]].map(DVec3::from);
+    let triangle = Body::new(&pieces(&[on_top]), Volume::Surface).unwrap();
+    let cube = solid(&cube(1.0, 1));
+    let all: Vec<[u32; 2]> = (0..cube.pieces().len() as u32).map(|k| [0, k]).collect();
+    let found = touching_at_start(&triangle, &cube, &all);
+    assert_eq!(found, Containment::Outside);
+    let found = touching_at_start(&triangle, &cube, &[]);
+    assert_eq!(found, Containment::Undecided);
+}
+
 #[test]
 fn placement_and_size_do_not_matter() {
     let mut rng = rng(2);
@@ -278,4 +292,28 @@ fn a_thin_piece_is_examined_beside_edges_on_it() {
     );
     let beside = plate_in_cube(2, 4.0 * DVec3::X, [2.5, 3.0]);
     assert_eq!(beside, Containment::Outside);
+}
+
+/// A thick piece is not: a face that passes through it intersects it. Nor is one without known sides.
+#[test]
+fn only_thin_pieces_are_examined_beside_edges() {
+    let cube = solid(&cube(1.0, 1));
+    let examined = |piece: Body| {
+        let motion = Motion::still(Pose::at(4.0 * DVec3::X).unwrap());
+        let (a, b) = ((&cube, Motion::STILL), (&piece, motion));
+        let problem = Problem::new(a, b, 1.0, &Config::default()).unwrap();
+        let mut pieces = Vec::new();
+        assert_eq!(
+            at_start(&problem, &[[0, 0]], &mut pieces),
+            Containment::Outside
+        );
+        pieces
+    };
+    assert_eq!(examined(Body::cuboid([1.5, 1e-33, 0.25]).unwrap()), [0]);
+    assert_eq!(examined(Body::cuboid([1.5, 0.25, 0.25]).unwrap()), []);
+    let corners = Polytope {
+        points: vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z],
+        ..Polytope::default()
+    };
+    assert_eq!(examined(Body::polytope(corners).unwrap()), []);
 }
