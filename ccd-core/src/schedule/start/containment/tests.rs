@@ -1,7 +1,7 @@
 //! Inside and outside of solids, points on the surface, shells within shells.
 
 use super::{Containment, at_start};
-use crate::body::polytope::Polytope;
+use crate::body::polytope::{Facet, Origin, Polytope};
 use crate::body::{Body, Volume};
 use crate::config::Config;
 use crate::motion::Motion;
@@ -309,8 +309,22 @@ fn only_thin_pieces_are_examined_beside_edges() {
         );
         pieces
     };
-    assert_eq!(examined(Body::cuboid([1.5, 1e-33, 0.25]).unwrap()), [0]);
-    assert_eq!(examined(Body::cuboid([1.5, 0.25, 0.25]).unwrap()), []);
+    let shifted = |half: [f64; 3]| {
+        let at_origin = Body::cuboid(half).unwrap();
+        let piece = at_origin.pieces().get(0);
+        let facets = piece.facets.iter().zip(piece.facets.origins());
+        let facet = |(corners, &origin): (&[u32], &Origin)| Facet {
+            origin,
+            corners: corners.to_vec(),
+        };
+        Body::polytope(Polytope {
+            points: piece.points.iter().map(|&p| p + 5.0).collect(),
+            facets: facets.map(facet).collect(),
+            ..Polytope::default()
+        })
+    };
+    assert_eq!(examined(shifted([1.5, 1e-15, 0.25]).unwrap()), [0]);
+    assert_eq!(examined(shifted([1.5, 0.25, 0.25]).unwrap()), []);
     let corners = Polytope {
         points: vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z],
         ..Polytope::default()
