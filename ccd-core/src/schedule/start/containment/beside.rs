@@ -137,3 +137,6 @@ fn edges<'a>(piece: &Piece<'a>) -> impl Iterator<Item = [u32; 2]> + use<'a> {
     let shared = piece.facets.iter().flat_map(around);
     outline.chain(shared.filter(|[from, to]| from < to))
 }
+
+#[cfg(test)]
+mod tests;

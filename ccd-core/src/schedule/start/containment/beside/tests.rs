@@ -1,0 +1,223 @@
+//! Points beside edges, against edges that are sampled densely. Coordinates are whole numbers, so that edges
+//! run along sides, and end on them, exactly.
+
+use super::beside_edges;
+use crate::body::Body;
+use crate::body::polytope::{Facet, Origin, Polytope};
+use crate::tests::scene::{Pcg64, RngExt, rng};
+use crate::tolerance::BESIDE_EDGE;
+use glam::{DVec2, DVec3};
+
+/// The samples of an edge.
+const SAMPLES: usize = 1 << 14;
+
+const REACH: f64 = 1e-9;
+
+/// A rigid motion that is exact for whole numbers.
+struct Placement {
+    axes: usize,
+    shift: DVec3,
+}
+
+impl Placement {
+    fn new(rng: &mut Pcg64) -> Self {
+        Placement {
+            axes: rng.random_range(0..3),
+            shift: whole(rng, 9),
+        }
+    }
+
+    fn place(&self, p: DVec3) -> DVec3 {
+        let p = p.to_array();
+        DVec3::from([0, 1, 2].map(|k| p[(k + self.axes) % 3])) + self.shift
+    }
+
+    /// Returns a point in the plate's plane, and its height.
+    fn unplace(&self, p: DVec3) -> (DVec2, f64) {
+        let p = (p - self.shift).to_array();
+        let [x, y, z] = [0, 1, 2].map(|k| p[(k + 3 - self.axes) % 3]);
+        (DVec2::new(x, y), z)
+    }
+}
+
+/// A vector of whole numbers below `most`.
+fn whole(rng: &mut Pcg64, most: i32) -> DVec3 {
+    DVec3::from([0; 3].map(|_| f64::from(rng.random_range(-most..=most))))
+}
+
+fn in_plane(rng: &mut Pcg64) -> DVec2 {
+    whole(rng, 7).truncate()
+}
+
+/// The corners of a plate, counterclockwise: a triangle, or the two large faces of a box of no height.
+fn outline(rng: &mut Pcg64) -> Vec<DVec2> {
+    loop {
+        let (a, b, c) = (in_plane(rng), in_plane(rng), in_plane(rng));
+        match rng.random_bool(0.5) {
+            true if (b - a).perp_dot(c - a) > 3.0 => return vec![a, b, c],
+            false if (b - a).min_element() > 0.0 => {
+                return vec![a, DVec2::new(b.x, a.y), b, DVec2::new(a.x, b.y)];
+            }
+            _ => {}
+        }
+    }
+}
+
+/// The ends of any edge, or of one along a side.
+fn ends(rng: &mut Pcg64, outline: &[DVec2]) -> [DVec2; 2] {
+    if rng.random_bool(0.2) {
+        let k = rng.random_range(0..outline.len());
+        let (from, to) = (outline[k], outline[(k + 1) % outline.len()]);
+        let beyond = f64::from(rng.random_range(0..2));
+        return [from, to + (to - from) * beyond];
+    }
+    loop {
+        let ends = [in_plane(rng), in_plane(rng)];
+        if ends[0] != ends[1] {
+            return ends;
+        }
+    }
+}
+
+fn plate(outline: &[DVec2], placement: &Placement) -> Body {
+    let corners = outline.iter().map(|p| placement.place(p.extend(0.0)));
+    let facets: &[&[u32]] = match outline.len() {
+        3 => &[&[0, 1, 2], &[2, 1, 0]],
+        // Sides of no area come first.
+        _ => &[
+            &[0, 1, 5, 4],
+            &[1, 2, 6, 5],
+            &[4, 5, 6, 7],
+            &[2, 3, 7, 6],
+            &[3, 0, 4, 7],
+            &[3, 2, 1, 0],
+        ],
+    };
+    let doubled = if outline.len() == 3 { 1 } else { 2 };
+    polytope(corners.collect::<Vec<_>>().repeat(doubled), facets)
+}
+
+fn polytope(points: Vec<DVec3>, facets: &[&[u32]]) -> Body {
+    let facet = |corners: &&[u32]| Facet {
+        origin: Origin::Virtual,
+        corners: corners.to_vec(),
+    };
+    Body::polytope(Polytope {
+        points,
+        facets: facets.iter().map(facet).collect(),
+        ..Polytope::default()
+    })
+    .unwrap()
+}
+
+/// A triangle or a tetrahedron with one edge; its other corners are not in the plane of the edge.
+fn with_edge(rng: &mut Pcg64, [from, to]: [DVec3; 2], placement: &Placement) -> Body {
+    let mut apex = |height: f64| in_plane(rng).extend(from.z + height);
+    let (mut points, facets): (Vec<DVec3>, &[&[u32]]) = match apex(0.0).x > 0.0 {
+        true => (vec![from, to, apex(3.0)], &[]),
+        false => (
+            vec![from, to, apex(2.0), apex(-1.0)],
+            &[&[0, 1, 2], &[1, 0, 3], &[2, 1, 3], &[0, 2, 3]],
+        ),
+    };
+    if facets.is_empty() {
+        points.rotate_left(rng.random_range(0..3));
+    }
+    polytope(
+        points.into_iter().map(|p| placement.place(p)).collect(),
+        facets,
+    )
+}
+
+/// The distance of a point from the nearest side; negative outside.
+fn depth(outline: &[DVec2], p: DVec2) -> f64 {
+    let side = |k: usize| {
+        let (from, to) = (outline[k], outline[(k + 1) % outline.len()]);
+        (to - from).normalize().perp_dot(p - from)
+    };
+    (0..outline.len())
+        .map(side)
+        .fold(f64::INFINITY, crate::math::order::lesser)
+}
+
+/// Returns the points that are expected, and by how much each may be off; none if samples cannot tell.
+fn sampled(outline: &[DVec2], [from, to]: [DVec2; 2]) -> Option<Vec<DVec2>> {
+    let at = |k: usize| from + (to - from) * (k as f64 / SAMPLES as f64);
+    let held: Vec<usize> = (0..=SAMPLES)
+        .filter(|&k| depth(outline, at(k)) >= -1e-12)
+        .collect();
+    let (Some(first), Some(last)) = (held.first(), held.last()) else {
+        return Some(Vec::new());
+    };
+    let share = (last - first) as f64 / SAMPLES as f64;
+    if share < 0.01 {
+        return (first == last).then(Vec::new);
+    }
+    let middle = 0.5 * (at(*first) + at(*last));
+    let aside = (to - from).perp() * (BESIDE_EDGE * share);
+    let off = accuracy([from, to]);
+    let both = [middle + aside, middle - aside];
+    let told = both.iter().all(|&p| depth(outline, p).abs() > off);
+    told.then(|| {
+        both.into_iter()
+            .filter(|&p| depth(outline, p) > 0.0)
+            .collect()
+    })
+}
+
+fn accuracy([from, to]: [DVec2; 2]) -> f64 {
+    from.distance(to) / SAMPLES as f64
+}
+
+#[test]
+fn points_are_beside_the_middle_of_what_the_piece_has_of_an_edge() {
+    let (mut rng, mut counts) = (rng(1), [0; 3]);
+    for _ in 0..1_500 {
+        let placement = Placement::new(&mut rng);
+        let outline = outline(&mut rng);
+        let ends = ends(&mut rng, &outline);
+        // One in ten is above the plane.
+        let height = if rng.random_bool(0.1) { 1.0 } else { 0.0 };
+        let edge = ends.map(|p| p.extend(height));
+        let plate = plate(&outline, &placement);
+        // The other body has a place of its own.
+        let elsewhere = Placement {
+            shift: whole(&mut rng, 9),
+            ..placement
+        };
+        let other = with_edge(&mut rng, edge, &elsewhere);
+        let back = placement.shift - elsewhere.shift;
+        let (a, b) = (plate.pieces().get(0), other.pieces().get(0));
+        let found: Vec<DVec3> = beside_edges(&a, &b, |p| p + back, REACH).collect();
+        let expected = match height > 0.0 {
+            true => Some(Vec::new()),
+            false => sampled(&outline, ends),
+        };
+        let Some(expected) = expected else { continue };
+        assert_eq!(found.len(), expected.len(), "{outline:?} {ends:?}");
+        for p in found {
+            let (p, height) = placement.unplace(p);
+            let near = |q: &DVec2| q.distance(p) <= 2.0 * accuracy(ends);
+            assert!(
+                height == 0.0 && expected.iter().any(near),
+                "{outline:?} {ends:?} {p}"
+            );
+        }
+        counts[expected.len()] += 1;
+    }
+    let [none, one, two] = counts;
+    assert!(none > 300 && one > 100 && two > 300, "{counts:?}");
+}
+
+/// The faces beyond its edges decide.
+#[test]
+fn pieces_in_one_plane_have_no_points() {
+    let [a, b] = [DVec3::ZERO, DVec3::ONE.with_z(0.0)].map(|p| {
+        let corners = [p, p + 4.0 * DVec3::X, p + 4.0 * DVec3::Y];
+        polytope(corners.to_vec(), &[&[0, 1, 2], &[2, 1, 0]])
+    });
+    let (a, b) = (a.pieces().get(0), b.pieces().get(0));
+    assert_eq!(beside_edges(&a, &b, |p| p, REACH).count(), 0);
+    let tilted = |p: DVec3| p.with_z(1.0 - p.y);
+    assert_eq!(beside_edges(&a, &b, tilted, REACH).count(), 2);
+}
