@@ -309,22 +309,30 @@ fn only_thin_pieces_are_examined_beside_edges() {
         );
         pieces
     };
-    let shifted = |half: [f64; 3]| {
-        let at_origin = Body::cuboid(half).unwrap();
-        let piece = at_origin.pieces().get(0);
-        let facets = piece.facets.iter().zip(piece.facets.origins());
-        let facet = |(corners, &origin): (&[u32], &Origin)| Facet {
-            origin,
+    // Aside of the origin; no corner of a facet is opposite to another one.
+    let prism = |height: f64| {
+        let corners = [[5.0, 5.0], [8.0, 5.0], [5.0, 7.0]];
+        let at = |y: f64| corners.map(|[x, z]| DVec3::new(x, y, z));
+        let facets: [&[u32]; 5] = [
+            &[0, 1, 2],
+            &[3, 5, 4],
+            &[0, 3, 4, 1],
+            &[1, 4, 5, 2],
+            &[2, 5, 3, 0],
+        ];
+        let facet = |corners: &[u32]| Facet {
+            origin: Origin::Virtual,
             corners: corners.to_vec(),
         };
-        Body::polytope(Polytope {
-            points: piece.points.iter().map(|&p| p + 5.0).collect(),
-            facets: facets.map(facet).collect(),
+        let prism = Polytope {
+            points: [at(5.0), at(5.0 + height)].concat(),
+            facets: facets.map(facet).to_vec(),
             ..Polytope::default()
-        })
+        };
+        Body::polytope(prism).unwrap()
     };
-    assert_eq!(examined(shifted([1.5, 1e-15, 0.25]).unwrap()), [0]);
-    assert_eq!(examined(shifted([1.5, 0.25, 0.25]).unwrap()), []);
+    assert_eq!(examined(prism(1e-15)), [0]);
+    assert_eq!(examined(prism(0.5)), []);
     let corners = Polytope {
         points: vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z],
         ..Polytope::default()
