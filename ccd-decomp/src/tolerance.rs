@@ -264,3 +264,6 @@ pub(crate) const AUTO_WORK: u64 = 1 << 24;
 ///
 /// Unit: points. At this many the library's memory peaks at 60 MB.
 pub(crate) const LIKELY_POINTS: usize = 256;
+
+#[cfg(test)]
+mod tests;

@@ -117,7 +117,8 @@ fn with_edge(rng: &mut Pcg64, [from, to]: [DVec3; 2], placement: &Placement) -> 
         true => (vec![from, to, apex(3.0)], &[]),
         false => (
             vec![from, to, apex(2.0), apex(-1.0)],
-            &[&[0, 1, 2], &[1, 0, 3], &[2, 1, 3], &[0, 2, 3]],
+            // The edge is the last one of its facets.
+            &[&[1, 2, 0], &[0, 3, 1], &[2, 1, 3], &[0, 2, 3]],
         ),
     };
     if facets.is_empty() {

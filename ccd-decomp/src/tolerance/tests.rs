@@ -1,0 +1,31 @@
+//! The allowances are those of their derivations, written down a second time.
+
+use super::*;
+
+/// Half a unit in the last place.
+const U: f64 = 1.0 / 9_007_199_254_740_992.0;
+
+#[test]
+fn allowances_are_those_of_their_derivations() {
+    assert_eq!(clip_rounding(3.0), 3_072.0 * U);
+    assert_eq!(on_edge(3.0), 192.0 * U);
+    let direction = DVec3::new(1.0, -2.0, 3.0);
+    assert_eq!(box_rounding(direction, 5.0), 3_840.0 * U);
+    assert_eq!(box_rounding(direction, 0.0), f64::MIN_POSITIVE);
+    assert_eq!(volume_rounding(7.0, 0.0), 224.0 * U);
+    // So many terms that their squares count.
+    let terms = 67_108_864.0;
+    assert_eq!(volume_rounding(7.0, terms), 7.0 * (32.0 + 2.0) * U);
+}
+
+#[test]
+fn more_hulls_take_finer_voxels() {
+    assert_eq!([1, 32, 33, 1_000].map(voxel_resolution), [64, 64, 96, 96]);
+}
+
+/// A tree that leaves so much to either child is at most so deep.
+#[test]
+fn a_tree_of_a_million_pieces_has_few_levels() {
+    let levels = 1e6_f64.ln() / -(1.0 - LEAST_SHARE).ln();
+    assert!((103.0..104.0).contains(&levels), "{levels}");
+}
