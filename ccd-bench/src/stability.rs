@@ -6,11 +6,13 @@
 //! | list the families | [`families()`] |
 //! | judge an answer | [`judge`] |
 //! | ask all methods, each in a process that can be stopped | [`Survey`] |
+//! | know what was asked and answered | [`Findings`] |
 //! | see how far each method follows | [`summary`], [`limits`], [`reach_map`], [`growth_map`], [`write_atlas`] |
 
 mod atlas;
 mod families;
 mod family;
+mod findings;
 mod judge;
 mod shapes;
 mod summary;
@@ -19,6 +21,7 @@ mod survey;
 pub use atlas::write_atlas;
 pub use families::families;
 pub use family::{Case, Expected, Family, Step, StepError};
+pub use findings::Findings;
 pub use judge::judge;
 pub use summary::{growth_map, limits, reach_map, summary};
 pub use survey::{Extent, Survey, SurveyError};

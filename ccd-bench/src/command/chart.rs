@@ -258,14 +258,15 @@ pub(super) fn chosen<T>(
     name_of: impl Fn(&T) -> String,
 ) -> Result<Vec<T>> {
     let known: Vec<String> = all.iter().map(&name_of).collect();
-    for name in names {
+    let names: Vec<&str> = names.iter().map(|name| name.trim()).collect();
+    for name in &names {
         ensure!(
-            known.contains(name),
+            known.iter().any(|known| known == name),
             "there is no {what} {name}; there are: {}",
             known.join(", ")
         );
     }
-    let wanted = |item: &T| names.is_empty() || names.contains(&name_of(item));
+    let wanted = |item: &T| names.is_empty() || names.contains(&name_of(item).as_str());
     Ok(all.into_iter().filter(wanted).collect())
 }
 

@@ -6,9 +6,11 @@ use crate::method::solver::Claim;
 use crate::run::contest::{judge, judge_asked};
 use crate::truth::{Referee, Surface, TruthRow};
 use anyhow::{Context, Result, anyhow};
+use ccd_core::limits::{LEAST_TOLERANCE, MAX_COORDINATE};
 use ccd_decomp::TriangleMesh;
 use clap::Args;
 use rigid_ccd::command::{BadRows, Exit, Progress, Table, input_name, open_motions};
+use std::num::NonZeroU32;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -29,14 +31,14 @@ pub(super) struct JudgeArgs {
     #[arg(long, value_name = "CSV")]
     motions: PathBuf,
     /// The tolerance, in the scene's unit of length
-    #[arg(long, value_name = "LENGTH", default_value_t = 1e-3)]
+    #[arg(long, value_name = "LENGTH", default_value = "1e-3", value_parser = tolerance)]
     tolerance: f64,
     /// The script that runs Coal and FCL, for their methods: scripts/peers.py
     #[arg(long, value_name = "SCRIPT")]
     peers: Option<PathBuf>,
     /// Seconds that a query may take
-    #[arg(long, value_name = "SECONDS", default_value_t = 3)]
-    patience: u32,
+    #[arg(long, value_name = "SECONDS", default_value = "3")]
+    patience: NonZeroU32,
     /// The table of verdicts, CSV; - writes to standard output
     #[arg(long, value_name = "CSV", default_value = "-")]
     out: PathBuf,
@@ -44,7 +46,7 @@ pub(super) struct JudgeArgs {
 
 const AFTER_HELP: &str = "\
 The method runs in a process of its own, which is stopped when its time is over. The exact answers are those
-of `ccd-bench truth`. The columns: id, status, lo and hi of the exact answer, the verdict, the answer, its time.
+of `ccd-bench truth`, with its statuses. The columns: id, status, lo and hi of the exact answer, the verdict, the answer, its time.
 
 Example:
   ccd-bench judge --method C2A --a a.obj --b b.obj --motions motions.csv";
@@ -54,7 +56,7 @@ const COLUMNS: [&str; 7] = ["id", "status", "lo", "hi", "verdict", "answer", "ti
 pub(super) fn run(args: &JudgeArgs) -> Result<Exit> {
     let name = &args.method;
     let method = Method::named(name).ok_or_else(|| anyhow!("there is no method `{name}`"))?;
-    let read = |path: &Path| TriangleMesh::read(path).with_context(|| path.display().to_string());
+    let read = |path: &Path| TriangleMesh::read(path);
     let meshes = [read(&args.a)?, read(&args.b)?];
     let surfaces = meshes.each_ref().map(Surface::new);
     let referee = Referee::new(&surfaces[0], &surfaces[1]);
@@ -77,7 +79,7 @@ pub(super) fn run(args: &JudgeArgs) -> Result<Exit> {
         };
         let query = method.motion_kind().of(query)?;
         let truth = referee.first_contact(&query);
-        let asked = guarded.ask(&query, Duration::from_secs(args.patience.into()))?;
+        let asked = guarded.ask(&query, Duration::from_secs(args.patience.get().into()))?;
         let verdict = judge_asked(&asked, |reply| {
             let tolerance = reply.judged_by(args.tolerance);
             judge(&referee, &query, truth, reply.claim, tolerance)
@@ -97,4 +99,13 @@ pub(super) fn run(args: &JudgeArgs) -> Result<Exit> {
         0 => Exit::AllAnswered,
         _ => Exit::SomeRowsBad,
     })
+}
+
+fn tolerance(text: &str) -> Result<f64, String> {
+    let number = text.parse().ok();
+    number
+        .filter(|value| (LEAST_TOLERANCE..=MAX_COORDINATE).contains(value))
+        .ok_or_else(|| {
+            format!("give a number from {LEAST_TOLERANCE:e} to {MAX_COORDINATE:e}, such as 1e-3")
+        })
 }

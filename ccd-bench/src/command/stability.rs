@@ -5,10 +5,11 @@ use super::print_summary;
 use crate::method::Method;
 use crate::method::guarded::Programs;
 use crate::method::script::ScriptKind;
+use crate::run::contest::Journal;
 use crate::stability::{
-    Extent, Survey, families, growth_map, limits, reach_map, summary, write_atlas,
+    Extent, Findings, Survey, families, growth_map, limits, reach_map, summary, write_atlas,
 };
-use anyhow::Result;
+use anyhow::{Result, ensure};
 use clap::Args;
 use rigid_ccd::batch::ScheduleKind;
 use rigid_ccd::command::{CannotWrite, Exit};
@@ -34,10 +35,11 @@ pub(super) struct StabilityArgs {
     /// Ask every combination of this project's schedules, oracles, pieces and bounds instead
     #[arg(long)]
     ours: bool,
-    /// Draw the answers that the folder holds, and ask nothing
+    /// Draw the answers that the folder holds, whoever asked, and ask nothing
     #[arg(long)]
     redraw: bool,
-    /// Write the tables to this folder; answers that it holds already are not asked again
+    /// Write the tables to this folder; answers that it holds already are not asked again, but drawn.
+    /// Those of another build are moved aside
     #[arg(long, value_name = "DIR", default_value = "target/ccd-stability")]
     out: PathBuf,
 }
@@ -47,8 +49,9 @@ Each family has one parameter that makes it harder, and exact answers. Every met
 its own, which is stopped after 3 seconds on a query.
 
 Verdicts: right; early and false are contacts that are none, within reach or not; unresolved is a time
-until which nothing touches; refused; late and missed are contacts that were passed; died is a process
-that ended; cut off one that was stopped.
+until which nothing touches; refused; late and missed are contacts that were passed; undecided, if the exact
+answer is not known that well; died is a process that ended; cut off one that was stopped, so that a busy
+machine cuts off more.
 
 Files: index.html is a page on which each cell of the maps opens; trials.csv has every answer, chart.csv
 every step; limits.md and stability.svg show how far each method follows, growth.svg how its cost grows.
@@ -58,22 +61,44 @@ Examples:
   ccd-bench stability --full --methods 'best-first direct,C2A'
   ccd-bench stability --full --families 'bullet and paper,margin'";
 
-/// Returns all methods, without those of a script if there is none; FAST as published comes after its sound forms.
+/// Returns all methods, without those of a script if there is none.
 pub(super) fn all_methods(script: Option<&Path>) -> Vec<Method> {
+    let mut methods = known_methods();
+    methods.retain(|method| script.is_some() || !matches!(method, Method::Script(_)));
+    methods
+}
+
+/// Returns all methods; FAST as published comes after its sound forms.
+fn known_methods() -> Vec<Method> {
     let mut methods = Method::all();
     let is_fast = |method: &Method| matches!(method, Method::Ours(kind, _) if kind.schedule == ScheduleKind::Fast);
     let last = methods.iter().rposition(is_fast);
     methods.insert(last.map_or(0, |last| last + 1), Method::published());
-    if script.is_some() {
-        methods.extend(ScriptKind::ALL.map(Method::Script));
-    }
+    methods.extend(ScriptKind::ALL.map(Method::Script));
     methods
+}
+
+impl StabilityArgs {
+    /// Returns the options that choose the methods.
+    fn options(&self) -> String {
+        let ours = if self.ours { " --ours" } else { "" };
+        let script = self.peers.iter();
+        let peers: String = script
+            .map(|p| format!(" --peers '{}'", p.display()))
+            .collect();
+        ours.to_owned() + &peers
+    }
 }
 
 pub(super) fn run(args: &StabilityArgs) -> Result<Exit> {
     let methods = match args.ours {
         true => Method::combinations(),
         false => all_methods(args.peers.as_deref()),
+    };
+    // The folder may hold more than what is asked.
+    let drawn = match args.ours {
+        true => methods.clone(),
+        false => known_methods(),
     };
     let survey = Survey {
         families: chosen(families(), &args.families, "family", |f| f.name.to_owned())?,
@@ -88,12 +113,18 @@ pub(super) fn run(args: &StabilityArgs) -> Result<Exit> {
         folder: args.out.clone(),
     };
     let journal = match args.redraw {
-        true => survey.recall(),
+        true => Journal::read(&args.out),
         false => survey.run()?,
     };
-    let limits = limits(&survey, &journal);
-    let reach = reach_map(&survey, &journal).draw()?;
-    let growth = growth_map(&survey, &journal).draw()?;
+    let findings = Findings::new(families(), drawn, &journal);
+    ensure!(
+        !findings.is_empty(),
+        "{} holds no answers to draw",
+        args.out.display()
+    );
+    let limits = limits(&findings);
+    let reach = reach_map(&findings).draw()?;
+    let growth = growth_map(&findings).draw()?;
     let limits = format!("{}\n\n{}\n", limits.title, limits.as_markdown());
     let files = [
         ("limits.md", &limits),
@@ -105,7 +136,7 @@ pub(super) fn run(args: &StabilityArgs) -> Result<Exit> {
         let place = file.display().to_string();
         fs::write(&file, text).map_err(|source| CannotWrite { place, source })?;
     }
-    write_atlas(&survey, &journal, &args.out.join("index.html"))?;
-    print_summary(&summary(&survey, &journal))?;
+    write_atlas(&findings, &args.options(), &args.out.join("index.html"))?;
+    print_summary(&summary(&findings))?;
     Ok(Exit::AllAnswered)
 }

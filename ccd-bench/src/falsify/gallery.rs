@@ -27,7 +27,8 @@ command that asks again.";
 /// # Errors
 /// If a file cannot be written.
 pub fn write_gallery(reports: &[Report], folder: &Path) -> Result<()> {
-    let scenes: Vec<Option<Exhibit>> = reports.iter().map(Exhibit::of).collect();
+    let of = |report| Exhibit::of(report, folder);
+    let scenes: Vec<Option<Exhibit>> = reports.iter().map(of).collect();
     for exhibit in scenes.iter().flatten() {
         exhibit.write(folder)?;
     }
@@ -57,7 +58,7 @@ struct Exhibit {
 }
 
 impl Exhibit {
-    fn of(report: &Report) -> Option<Exhibit> {
+    fn of(report: &Report, folder: &Path) -> Option<Exhibit> {
         let failure = report.smallest.as_ref()?;
         let Failure {
             attempt,
@@ -71,12 +72,15 @@ impl Exhibit {
         let (answer, exact) = (answer_of(examined), exact_of(examined.truth));
         let triangles = attempt.triangles();
         let tolerance = attempt.tolerance;
+        let patience = report.hunt.patience.as_secs();
+        let place = folder.join(&name);
+        let place = place.display();
         Some(Exhibit {
             title: format!("{method}: {verdict}, {triangles} triangles"),
             said: format!("Answer: {answer}. Exact: {exact}. Tolerance: {tolerance:e}."),
             command: format!(
-                "ccd-bench judge --method '{method}' --tolerance {tolerance} \\\n  \
-                 --a '{name}/a.obj' --b '{name}/b.obj' --motions '{name}/motions.csv'"
+                "ccd-bench judge --method '{method}' --tolerance {tolerance} --patience {patience} \\\n  \
+                 --a '{place}/a.obj' --b '{place}/b.obj' --motions '{place}/motions.csv'"
             ),
             meshes: meshes.clone(),
             shot: Shot {

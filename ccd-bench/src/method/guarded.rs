@@ -3,6 +3,7 @@
 use super::Method;
 use super::solver::{Claim, Reply, TimedReply};
 use super::wire::{READY, REFUSED, format_query, parse_reply};
+use ccd_core::glam::DVec3;
 use ccd_decomp::{TriangleMesh, write_obj};
 use rigid_ccd::table::motions::Query;
 use std::fs::{self, File};
@@ -73,6 +74,26 @@ pub struct Programs {
 }
 
 impl Programs {
+    /// Starts the script of a method, if it has one: libraries may be missing.
+    ///
+    /// # Errors
+    /// If it does not start.
+    pub fn check(&self, method: Method) -> io::Result<()> {
+        if !matches!(method, Method::Script(_)) {
+            return Ok(());
+        }
+        let corners = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
+        let faces = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
+        let mesh = TriangleMesh::new(corners.to_vec(), &faces).map_err(io::Error::other)?;
+        let setting = Setting::new(method, 1e-3);
+        match Guarded::start(self, setting, [&mesh, &mesh]) {
+            Ok(_) => Ok(()),
+            Err(error) => Err(io::Error::other(format!(
+                "{error}; its script needs Python with coal, python-fcl and numpy"
+            ))),
+        }
+    }
+
     /// Returns the program that runs a method: this one, or the script.
     fn of(&self, method: Method) -> io::Result<PathBuf> {
         match (method, &self.script) {

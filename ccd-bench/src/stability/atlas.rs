@@ -1,9 +1,9 @@
 //! The page of the maps: what opens at each cell.
 
 use super::family::{Case, Expected, Family, Step};
-use super::summary::{Answers, growth_map, reach_map};
-use super::survey::{Extent, Survey};
-use crate::run::contest::{Journal, Verdict};
+use super::findings::Findings;
+use super::summary::{growth_map, reach_map};
+use crate::run::contest::Verdict;
 use crate::run::measured::Trial;
 use crate::show::atlas::{Atlas, Detail, StepLine};
 use crate::show::page::PageError;
@@ -15,27 +15,26 @@ use std::path::Path;
 const MOST_TRIANGLES: usize = 5_000;
 
 const PREFACE: &str = "\
-Each family is a scene with one parameter that makes it harder, and exact answers. Every method was asked \
-about every value. Click on a cell: it opens the answers, the scene at the time of the first wrong one, and \
-the command that asks again.";
+Each family is a scene with one parameter that makes it harder, and exact answers. Cells of methods that were \
+not asked are empty; a method that was stopped at two values in a row is asked about no harder ones. Click on a \
+cell: it opens the answers, the scene at the time of the first wrong one, and the command that asks again.";
 
-/// Writes the page of both maps.
+/// Writes the page of both maps; `options` are those of the command that asked.
 ///
 /// # Errors
 /// [`PageError`].
-pub fn write_atlas(survey: &Survey, journal: &Journal, path: &Path) -> Result<(), PageError> {
-    let answers = Answers::of(journal);
+pub fn write_atlas(findings: &Findings<'_>, options: &str, path: &Path) -> Result<(), PageError> {
     let mut pictures = Vec::new();
-    let details: Vec<Vec<Option<Detail>>> = survey
+    let details: Vec<Vec<Option<Detail>>> = findings
         .families
         .iter()
-        .map(|family| details(survey, family, &answers, &mut pictures))
+        .map(|family| details(findings, family, options, &mut pictures))
         .collect();
     let views: Vec<View<'_>> = pictures.iter().map(Picture::view).collect();
     let page = Atlas {
         title: "Where methods fail",
         preface: PREFACE,
-        maps: &[reach_map(survey, journal), growth_map(survey, journal)],
+        maps: &[reach_map(findings), growth_map(findings)],
         details: &details,
         views: &views,
     };
@@ -62,18 +61,17 @@ impl Picture {
 
 /// Returns what opens at the cells of a family; adds the pictures that they need.
 fn details(
-    survey: &Survey,
+    findings: &Findings<'_>,
     family: &Family,
-    answers: &Answers<'_>,
+    options: &str,
     pictures: &mut Vec<Picture>,
 ) -> Vec<Option<Detail>> {
-    let steps: Vec<(f64, Option<Step>)> = survey
-        .extent
-        .values(family)
-        .into_iter()
-        .map(|value| (value, (family.make)(value).ok()))
+    let steps: Vec<(f64, Option<Step>)> = family
+        .values
+        .iter()
+        .map(|&value| (value, (family.make)(value).ok()))
         .collect();
-    survey
+    findings
         .methods
         .iter()
         .map(|method| {
@@ -81,7 +79,7 @@ fn details(
             let mut lines = Vec::new();
             let mut view = None;
             for (value, step) in &steps {
-                let (Some(trial), Some(step)) = (answers.worst(family, *value, &method), step)
+                let (Some(trial), Some(step)) = (findings.worst(family, *value, &method), step)
                 else {
                     continue;
                 };
@@ -94,14 +92,11 @@ fn details(
                         .and_then(|at| Some([at, pictures[at].add(&method, trial, case)?]));
                 }
             }
-            let full = if survey.extent == Extent::Full {
-                " --full"
-            } else {
-                ""
-            };
             (!lines.is_empty()).then(|| Detail {
+                // A folder of its own: the answers there are not known yet.
                 command: format!(
-                    "ccd-bench stability{full} --families '{}' --methods '{method}'",
+                    "ccd-bench stability --full{options} --families '{}' --methods '{method}' \
+                     --out target/ccd-again",
                     family.name
                 ),
                 steps: lines,

@@ -78,7 +78,7 @@ const CHANCES: usize = 2;
 
 impl Extent {
     /// Returns the values of a family that are asked.
-    pub(super) fn values(self, family: &Family) -> Vec<f64> {
+    fn values(self, family: &Family) -> Vec<f64> {
         let all = &family.values;
         match self {
             Extent::Full => all.clone(),
@@ -97,16 +97,18 @@ pub(super) fn step_name(family: &Family, value: f64) -> String {
 }
 
 impl Survey {
-    /// Returns the answers in the folder, whatever they were asked with, and asks nothing.
-    pub fn recall(&self) -> Journal {
-        Journal::read(&self.folder)
-    }
-
     /// Asks whatever is missing in the folder.
     ///
     /// # Errors
     /// [`SurveyError`]; earlier answers are kept.
     pub fn run(&self) -> Result<Journal, SurveyError> {
+        for &method in &self.methods {
+            let started = self.programs.check(method);
+            started.map_err(|source| SurveyError::Start {
+                method: method.to_string(),
+                source,
+            })?;
+        }
         let journal = Mutex::new(Journal::open(&self.folder, &stamp(), &[])?);
         let steps: usize = self
             .families

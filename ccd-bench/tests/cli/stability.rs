@@ -5,11 +5,14 @@ use std::path::Path;
 use std::process::{Command, Output};
 
 fn survey(folder: &Path, methods: &str) -> Output {
+    let families = ["--families", "bullet and paper, margin"];
+    stability(folder, &[&families[..], &["--methods", methods]].concat())
+}
+
+fn stability(folder: &Path, options: &[&str]) -> Output {
     let mut command = Command::new(crate::PROGRAM);
-    command
-        .args(["stability", "--families", "bullet and paper,margin"])
-        .args(["--methods", methods, "--out"])
-        .arg(folder);
+    command.arg("stability").args(options);
+    command.arg("--out").arg(folder);
     command.output().unwrap()
 }
 
@@ -52,7 +55,35 @@ fn methods_are_judged_and_answers_are_kept() {
     // It keeps no margin.
     let margin = limit("| margin");
     assert!(margin.contains("1e-2 refused"), "{margin}");
+    // All answers are drawn, though fewer are asked for.
+    let few = stability(&folder, &["--families", "margin", "--methods", "CONTACT"]);
+    assert!(few.status.success());
+    let paper = limit("bullet and paper");
+    assert!(
+        paper.contains("late") && paper.contains("not asked"),
+        "{paper}"
+    );
+    let drawn = fs::read_to_string(folder.join("limits.md")).unwrap();
+    assert!(stability(&folder, &["--redraw"]).status.success());
+    assert_eq!(fs::read_to_string(folder.join("limits.md")).unwrap(), drawn);
     fs::remove_dir_all(&folder).unwrap();
+}
+
+#[test]
+fn a_folder_without_answers_is_not_drawn() {
+    let output = stability(Path::new("never-made"), &["--redraw"]);
+    let message = String::from_utf8(output.stderr).unwrap();
+    assert!(message.contains("holds no answers"), "{message}");
+    assert!(!output.status.success() && !Path::new("never-made").exists());
+}
+
+#[test]
+fn a_script_that_does_not_run_is_an_error() {
+    let script = ["--peers", "never-made.py", "--methods", "coal-steps"];
+    let output = stability(Path::new("never-made"), &script);
+    let message = String::from_utf8(output.stderr).unwrap();
+    assert!(message.contains("python-fcl"), "{message}");
+    assert!(!output.status.success() && !Path::new("never-made").exists());
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! Progress on standard error, for work that takes a while.
 
+use super::program;
 use indicatif::{HumanCount, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::{self, IsTerminal, Write};
 use std::sync::Arc;
@@ -69,7 +70,7 @@ impl Progress {
                 return;
             }
             while still_working(LINE) {
-                let _ = writeln!(io::stderr(), "ccd: {}", line(&bar, total, &steps));
+                let _ = writeln!(io::stderr(), "{}: {}", program(), line(&bar, total, &steps));
             }
         };
         // Without a thread nothing is shown; the work is done all the same.

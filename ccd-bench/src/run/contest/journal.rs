@@ -1,6 +1,7 @@
 //! Keeps measurements on disk, so that an interrupted evaluation resumes where it stopped.
 
 use crate::run::measured::{Cell, Trial, write};
+use rigid_ccd::command::complain;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::collections::{HashMap, HashSet};
@@ -8,6 +9,7 @@ use std::fs::{self, OpenOptions};
 use std::path::{Path, PathBuf};
 
 /// The files `chart.csv` and `trials.csv` in a folder, to which one cell is added at a time.
+#[derive(Debug)]
 pub struct Journal {
     cells: Vec<Cell>,
     trials: Vec<Trial>,
@@ -45,7 +47,11 @@ impl Journal {
                 let path = folder.join(name);
                 if path.exists() {
                     let aside = folder.join(format!("{name}.old"));
-                    fs::rename(&path, aside).map_err(|e| failed(&path)(e.into()))?;
+                    fs::rename(&path, &aside).map_err(|e| failed(&path)(e.into()))?;
+                    let (path, aside) = (path.display(), aside.display());
+                    complain(&format!(
+                        "{path} is of another build, or of other settings: it is now {aside}"
+                    ));
                 }
             }
             fs::write(&stamp_file, stamp).map_err(|e| failed(&stamp_file)(e.into()))?;

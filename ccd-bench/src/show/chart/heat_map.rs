@@ -49,7 +49,7 @@ pub enum HeatCell {
         worst: Verdict,
         /// The share of the values, from the easiest, before the first that is not right.
         share: f64,
-        /// The first value that is not right; empty if all are.
+        /// The first value with the worst verdict; empty if all are right.
         limit: String,
     },
     /// The largest cost of a step, as a multiple of that of the easiest one.
@@ -77,8 +77,8 @@ const REACH: Words = Words {
     name: "stability",
     title: "How far each method follows each family: bluer is better",
     link: "How far",
-    remark: "A cell has the colour of the worst answer, and names the first value that is not right. \
-             The bar shows the share of the steps, from the easy ones, before it.",
+    remark: "A cell has the colour of the worst answer, and names the first value at which it came. \
+             The bar shows the share of the steps, from the easy ones, before the first that is not right.",
     legend: &[
         ("right", RIGHT),
         ("unresolved or refused", GREY),

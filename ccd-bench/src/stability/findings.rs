@@ -1,0 +1,119 @@
+//! What the folder of a survey holds: the families, values and methods that were asked about, and the worst
+//! answers.
+
+use super::family::Family;
+use super::survey::step_name;
+use crate::method::Method;
+use crate::run::contest::{Journal, Verdict};
+use crate::run::measured::Trial;
+use std::collections::{HashMap, HashSet};
+
+/// The verdicts, from good to bad.
+pub(super) const VERDICTS: [Verdict; 10] = [
+    Verdict::Right,
+    Verdict::Early,
+    Verdict::Undecided,
+    Verdict::Refused,
+    Verdict::Unresolved,
+    Verdict::False,
+    Verdict::Late,
+    Verdict::Missed,
+    Verdict::Died,
+    Verdict::CutOff,
+];
+
+/// The answers of a journal, by families and methods.
+#[derive(Debug)]
+pub struct Findings<'j> {
+    /// Those that were asked about, each with the values that were.
+    pub(super) families: Vec<Family>,
+    /// Those that were asked.
+    pub(super) methods: Vec<Method>,
+    pub(super) journal: &'j Journal,
+    /// The worst answer to each step by each method, and how bad it is.
+    worst: HashMap<(&'j str, &'j str), (usize, &'j Trial)>,
+}
+
+/// An answer to a step that is not right.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Limit {
+    pub(super) value: f64,
+    /// The worst verdict at that step.
+    pub(super) verdict: Verdict,
+}
+
+/// How far a method followed a family.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Reach {
+    /// The share of the steps, from the easiest, before the first limit.
+    pub(super) share: f64,
+    /// The first step that is not right.
+    pub(super) first: Option<Limit>,
+    /// The first step with the worst verdict of all.
+    pub(super) worst: Option<Limit>,
+}
+
+impl<'j> Findings<'j> {
+    /// Sorts the answers of a journal to `methods` and `families`; those without answers are left out.
+    pub fn new(families: Vec<Family>, methods: Vec<Method>, journal: &'j Journal) -> Self {
+        let mut worst = HashMap::new();
+        for trial in journal.trials() {
+            let same = |known: &Verdict| known.to_string() == trial.verdict;
+            let bad = VERDICTS.iter().position(same).unwrap_or(VERDICTS.len() - 1);
+            let so_far = worst.entry((trial.scene.as_str(), trial.method.as_str()));
+            let so_far = so_far.or_insert((bad, trial));
+            if bad > so_far.0 {
+                *so_far = (bad, trial);
+            }
+        }
+        let (steps, asked): (HashSet<&str>, HashSet<&str>) = worst.keys().copied().unzip();
+        let asked_about = |mut family: Family| {
+            let name = |value: f64| step_name(&family, value);
+            let values = family.values.iter().copied();
+            family.values = values
+                .filter(|&v| steps.contains(name(v).as_str()))
+                .collect();
+            (!family.values.is_empty()).then_some(family)
+        };
+        let was_asked = |method: &Method| asked.contains(method.to_string().as_str());
+        Findings {
+            families: families.into_iter().filter_map(asked_about).collect(),
+            methods: methods.into_iter().filter(was_asked).collect(),
+            journal,
+            worst,
+        }
+    }
+
+    /// Returns true if there are no answers.
+    pub fn is_empty(&self) -> bool {
+        self.families.is_empty() || self.methods.is_empty()
+    }
+
+    /// Returns the worst answer of a method to a step; none if it was not asked.
+    pub(super) fn worst(&self, family: &Family, value: f64, method: &str) -> Option<&'j Trial> {
+        let step = step_name(family, value);
+        let (_, trial) = self.worst.get(&(step.as_str(), method))?;
+        Some(trial)
+    }
+
+    /// Returns how far a method followed a family; none if it was not asked.
+    pub(super) fn reach(&self, family: &Family, method: &str) -> Option<Reach> {
+        let answer = |&value: &f64| {
+            let step = step_name(family, value);
+            Some((value, self.worst.get(&(step.as_str(), method))?.0))
+        };
+        let asked: Vec<(f64, usize)> = family.values.iter().filter_map(answer).collect();
+        let most = asked.iter().map(|&(_, bad)| bad).max()?;
+        let right = asked.iter().take_while(|&&(_, bad)| bad == 0).count();
+        let limit = |&(value, bad): &(f64, usize)| Limit {
+            value,
+            verdict: VERDICTS[bad],
+        };
+        let worst = asked.iter().find(|&&(_, bad)| bad == most && bad > 0);
+        Some(Reach {
+            share: right as f64 / family.values.len() as f64,
+            first: asked.get(right).map(limit),
+            worst: worst.map(limit),
+        })
+    }
+}
