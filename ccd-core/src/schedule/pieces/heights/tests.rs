@@ -10,6 +10,7 @@ use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::problem::{Moving, Problem};
 use crate::tests::scene::{Pcg64, RngExt, direction, magnitude, rng, rotation, within};
+use glam::DQuat;
 
 /// 4 to 5,000 points: in space, on a ball, in a plane, on a line.
 fn points(rng: &mut Pcg64, kind: usize, size: f64) -> Vec<DVec3> {
@@ -101,4 +102,120 @@ fn many_points_are_bounded_like_all_of_them() {
     }
     assert!(many > 200, "{many}");
     assert!(tight.into_iter().all(|count| count > 900), "{tight:?}");
+}
+
+/// Heights, rates and bends of few points and of many, against the points turned.
+#[test]
+fn points_rise_and_sink_as_their_body_turns() {
+    let mut rng = rng(32);
+    let ball = Body::ball(0.1).unwrap();
+    let mut many = 0;
+    for number in 0..400 {
+        let count = [1, 2, 3, 4, 400][number % 5];
+        let cloud = Polytope {
+            points: (0..count).map(|_| within(&mut rng, 1.0)).collect(),
+            ..Polytope::default()
+        };
+        let body = Body::polytope(cloud).unwrap();
+        let spin = direction(&mut rng) * [0.0, magnitude(&mut rng, -3.0, 1.0)][number / 5 % 2];
+        let start = Pose::new(within(&mut rng, 1.0), rotation(&mut rng)).unwrap();
+        let (velocity, centre) = (within(&mut rng, 1.0), within(&mut rng, 1.0));
+        let motion = Motion::about(start, velocity, spin, centre).unwrap();
+        let moving = Moving {
+            body: &body,
+            motion,
+        };
+        let problem =
+            Problem::new(moving, (&ball, Motion::STILL), 1.0, &Config::default()).unwrap();
+        let side = &problem.a;
+        let frame = side.path.frame(rng.random_range(0.0..1.0));
+        let (piece, normal) = (body.piece(0), direction(&mut rng));
+        let twin = Twin {
+            arms: piece
+                .points
+                .iter()
+                .map(|&x| frame.rotation * (x - side.path.centre))
+                .collect(),
+            normal,
+            velocity,
+            spin,
+        };
+        twin.check(&Heights::new(side, &piece, &frame, normal));
+        many += usize::from(piece.ball().is_some());
+    }
+    assert!(many > 50, "{many}");
+}
+
+/// The points, as seen from the centre.
+struct Twin {
+    arms: Vec<DVec3>,
+    normal: DVec3,
+    velocity: DVec3,
+    spin: DVec3,
+}
+
+impl Twin {
+    /// The height of a point, its rate, and its second derivative.
+    fn point(&self, k: usize, tau: f64) -> Point {
+        let arm = DQuat::from_scaled_axis(self.spin * tau) * self.arms[k];
+        let turning = self.spin.cross(arm);
+        Point {
+            height: self.normal.dot(arm + self.velocity * tau),
+            rate: self.normal.dot(self.velocity + turning),
+            bend: self.normal.dot(self.spin.cross(turning)).abs(),
+        }
+    }
+
+    fn least(&self, tau: f64, of: impl Fn(&Point) -> f64) -> f64 {
+        let each = (0..self.arms.len()).map(|k| of(&self.point(k, tau)));
+        each.fold(f64::INFINITY, lesser)
+    }
+
+    fn check(&self, heights: &Heights<'_>) {
+        let rate = self.spin.length();
+        let is = |one: f64, other: f64| (one - other).abs() < 1e-11 * (1.0 + rate * rate);
+        assert_eq!(heights.straight(), rate == 0.0);
+        assert!(is(heights.drift(), self.normal.dot(self.velocity)));
+        assert!(is(heights.least(), self.least(0.0, |p| p.height)));
+        let farthest = self.arms.iter().map(|arm| arm.length()).fold(0.0, greater);
+        assert!(heights.speed() >= (self.velocity.length() + rate * farthest) * (1.0 - 1e-14));
+        assert_eq!(heights.few().is_some(), self.arms.len() <= FEW);
+        for tau in [0.0, 0.1, 0.5, 1.0] {
+            let bound = heights.bound(tau);
+            assert!(is(bound.height, self.least(tau, |p| p.height)));
+            assert!(is(bound.rate, self.least(tau, |p| p.rate)));
+            assert!(-bound.bend <= self.least(tau, |p| -p.bend) + 1e-12);
+            let both = |p: &Point| p.height + p.rate;
+            let least = heights.least_of(tau, both);
+            assert!(least <= self.least(tau, both) + 1e-11 * (1.0 + rate * rate));
+            let Some(few) = heights.few() else { continue };
+            assert!(is(least, self.least(tau, both)));
+            for (k, point) in few.at(heights.angle(tau), tau).into_iter().enumerate() {
+                // The last one is repeated.
+                let twin = self.point(lesser(k as u32, self.arms.len() as u32 - 1) as usize, tau);
+                assert!(is(point.height, twin.height) && is(point.rate, twin.rate));
+            }
+        }
+        self.check_descent(heights, 0.7);
+    }
+
+    /// What their turning does to the lowest point, sampled.
+    fn check_descent(&self, heights: &Heights<'_>, horizon: f64) {
+        let many = heights.piece.ball().is_some();
+        let Some(descent) = heights.descent_until(horizon) else {
+            assert!(many);
+            return;
+        };
+        assert!(!many);
+        let samples = (0..=1_000).map(|k| horizon * f64::from(k) / 1e3);
+        let drift = self.normal.dot(self.velocity);
+        let lowest = samples
+            .map(|tau| self.least(tau, |p| p.height) - drift * tau)
+            .fold(f64::INFINITY, lesser);
+        let sampled = self.least(0.0, |p| p.height) - lowest;
+        assert!(
+            (-1e-12..1e-3).contains(&(descent - sampled)),
+            "{descent} {sampled}"
+        );
+    }
 }
