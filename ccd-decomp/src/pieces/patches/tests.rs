@@ -95,6 +95,56 @@ fn the_same_mesh_gives_the_same_patches() {
     }
 }
 
+/// The number of times that a surface winds about a point, by the solid angles of its triangles.
+fn winding(mesh: &TriangleMesh, point: DVec3) -> f64 {
+    let angle = |face: &[u32; 3]| {
+        let [a, b, c] = face.map(|v| mesh.vertices()[v as usize] - point);
+        let [x, y, z] = [a, b, c].map(DVec3::length);
+        let below = x * y * z + a.dot(b) * z + b.dot(c) * x + c.dot(a) * y;
+        2.0 * a.dot(b.cross(c)).atan2(below)
+    };
+    mesh.faces().iter().map(angle).sum::<f64>() / (4.0 * std::f64::consts::PI)
+}
+
+/// Points in a piece, spread evenly.
+fn inner_points(corners: &[DVec3]) -> impl Iterator<Item = DVec3> {
+    (1..=200).map(|k| {
+        let weight = |corner: usize| {
+            (f64::from(k) * (corner as f64 + 2.0).sqrt())
+                .fract()
+                .powi(3)
+        };
+        let weights: Vec<f64> = (0..corners.len()).map(weight).collect();
+        let sum: DVec3 = corners.iter().zip(&weights).map(|(&p, &w)| p * w).sum();
+        sum / weights.iter().sum::<f64>()
+    })
+}
+
+#[rstest]
+#[case::notched(notched(12))]
+#[case::star(star(9, 0.4))]
+#[case::teeth(prism(&teeth(7)))]
+#[case::stairs(cubes(&[[0, 0, 0], [1, 0, 0], [1, 1, 0], [1, 1, 1], [2, 1, 1]]))]
+#[case::ring(cubes(&[[0, 0, 0], [1, 0, 0], [2, 0, 0], [0, 1, 0], [2, 1, 0], [0, 2, 0], [1, 2, 0], [2, 2, 0]]))]
+fn patches_are_within_the_solid(#[case] mesh: TriangleMesh) {
+    let mut thick = 0;
+    for order in ORDERS {
+        let decomposition = decompose(&mesh, order).unwrap();
+        check(&mesh, &decomposition);
+        for patch in &decomposition.patches {
+            if patch.polytope.facets.len() <= 2 {
+                continue;
+            }
+            for point in inner_points(&patch.polytope.points) {
+                let winding = winding(&mesh, point);
+                assert!(winding > 0.9, "{order:?}: {point} of {patch:?}, {winding}");
+            }
+            thick += 1;
+        }
+    }
+    assert!(thick > 3, "{thick}");
+}
+
 /// A patch that could grow further ends where it would become slow: the flank of a cone on a disc.
 #[test]
 fn patches_are_capped() {
