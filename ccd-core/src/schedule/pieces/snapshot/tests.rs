@@ -1,5 +1,7 @@
 //! Free times of pieces against samples, along the axis and in distance.
 
+mod planes;
+
 use super::*;
 use crate::tests::nearest::nearest;
 use crate::tests::oracle::Exhaustive;

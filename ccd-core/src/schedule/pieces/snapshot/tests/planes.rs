@@ -1,0 +1,219 @@
+//! The planes that are tried, and what is counted.
+
+use super::super::*;
+use crate::body::Body;
+use crate::body::polytope::Polytope;
+use crate::config::Config;
+use crate::distance::oracle::{Claim, Effort, GiveUp};
+use crate::motion::Motion;
+use crate::motion::pose::Pose;
+use crate::tests::oracle::Exhaustive;
+use crate::tests::scene::{Kind, RngExt, rng, rotation, scene, within};
+
+/// An oracle that tells its steps.
+struct Telling {
+    steps: u64,
+}
+
+impl DistanceOracle for Telling {
+    type Cache = ();
+
+    fn separation(&mut self, pair: &PiecePair<'_>, cache: &mut ()) -> Result<Claim, GiveUp> {
+        self.steps += 5;
+        Exhaustive.separation(pair, cache)
+    }
+
+    fn effort(&self) -> Effort {
+        Effort {
+            steps: self.steps,
+            ..Effort::default()
+        }
+    }
+}
+
+/// An oracle that has no answer.
+struct Silent;
+
+impl DistanceOracle for Silent {
+    type Cache = ();
+
+    fn separation(&mut self, _: &PiecePair<'_>, _: &mut ()) -> Result<Claim, GiveUp> {
+        Err(GiveUp::TooManyPoints)
+    }
+}
+
+#[test]
+fn looks_of_an_oracle_are_its_steps_or_else_points() {
+    let scene = scene(&mut rng(4), Kind::Any, 1);
+    let problem = scene.problem();
+    let snapshot = Snapshot::new(&problem, 0, 0, 0.5);
+    let mut meter = Meter::new(&problem);
+    assert!(snapshot.ask(&mut Exhaustive, &mut (), &mut meter).is_some());
+    assert_eq!(
+        meter.stats.point_looks,
+        USUAL_STEPS * snapshot.pieces.points()
+    );
+    let mut meter = Meter::new(&problem);
+    let mut telling = Telling { steps: 7 };
+    assert!(snapshot.ask(&mut telling, &mut (), &mut meter).is_some());
+    assert_eq!(meter.stats.point_looks, USUAL_STEPS * 5);
+    assert_eq!((meter.stats.oracle_calls, meter.stats.give_ups), (1, 0));
+    assert!(snapshot.ask(&mut Silent, &mut (), &mut meter).is_none());
+    assert_eq!((meter.stats.oracle_calls, meter.stats.give_ups), (2, 1));
+}
+
+/// The time of a plane; infinite if it keeps the pieces apart for good.
+fn time(free: Option<f64>) -> f64 {
+    free.unwrap_or(f64::INFINITY)
+}
+
+#[test]
+fn the_plane_of_the_longest_time_counts() {
+    let mut rng = rng(5);
+    let (mut turning, mut passes, mut at_once) = (0, 0, [0; 2]);
+    for number in 0..6_000 {
+        let kind = [Kind::Any, Kind::Rim, Kind::Sliding][number % 3];
+        let scene = scene(&mut rng, kind, 2);
+        let problem = scene.problem();
+        let clock = scene.clock * rng.random_range(0.9..1.0);
+        let snapshot = Snapshot::new(&problem, 0, 0, clock);
+        let mut meter = Meter::new(&problem);
+        let checked = snapshot.ask(&mut Exhaustive, &mut (), &mut meter).unwrap();
+        let kept = problem.gap();
+        if checked.lower <= kept {
+            continue;
+        }
+        let direct = Plane {
+            normal: snapshot.frames[0].rotation * checked.axis,
+            slack: checked.lower - kept,
+        };
+        let passing = snapshot.passing(&checked, kept);
+        check_passing(&snapshot, &checked, kept, passing.as_ref());
+        let planes: Vec<&Plane> = iter::once(&direct).chain(&passing).collect();
+        let along = |plane: &&Plane| time(snapshot.free_along(plane.normal, plane.slack));
+        let members = snapshot.members();
+        let attached =
+            |plane: &&Plane| time(snapshot.free_attached(&members, plane, f64::INFINITY));
+        let fixed = planes.iter().map(along).fold(0.0, greater);
+        let all = planes.iter().map(attached).fold(fixed, greater);
+        // A plane that turns is tried only where a body's turning uses up the slack.
+        let free = snapshot.free_time(&checked, kept);
+        assert!(
+            (fixed..=all).contains(&time(free)),
+            "{free:?} of {fixed}, {all}"
+        );
+        turning += usize::from(time(free) > fixed);
+        passes += usize::from(fixed > along(&&direct));
+        let expected = match along(&&direct) {
+            first if first >= A_WHILE => first,
+            _ => time(free),
+        };
+        let first = time(snapshot.first_free_time(&checked, kept));
+        assert_eq!(first, expected, "{:?}", direct.normal);
+        at_once[usize::from(first < time(free))] += 1;
+    }
+    assert!(turning > 30 && passes > 300, "{turning} {passes}");
+    assert!(at_once.into_iter().all(|count| count > 300), "{at_once:?}");
+}
+
+/// The plane between the witnesses, as they are nearest on straight ways.
+fn check_passing(snapshot: &Snapshot<'_>, checked: &Checked, kept: f64, plane: Option<&Plane>) {
+    let Problem { a, b, .. } = snapshot.problem;
+    let [x, y] = [checked.witness_a, checked.witness_b].map(|p| snapshot.frames[0].point(p));
+    let [v, w] = [(a, x), (b, y)].map(|(side, p)| side.path.velocity_at(p, snapshot.clock));
+    let way = |tau: f64| (y + w * tau) - (x + v * tau);
+    // The distance of two points on straight ways falls, and then rises.
+    let (mut low, mut high) = (0.0, 1.0 - snapshot.clock);
+    for _ in 0..200 {
+        let [one, other] = [low + (high - low) / 3.0, high - (high - low) / 3.0];
+        match way(one).length() < way(other).length() {
+            true => high = other,
+            false => low = one,
+        }
+    }
+    let nearest = way(0.5 * (low + high));
+    // At rest relative to each other, the plane across the axis of the claim is all there is.
+    let travel = way(0.0).length() + way(1.0).length();
+    if v == w || nearest.length() < 1e-3 * travel {
+        return;
+    }
+    let exact = nearest.normalize();
+    // The slack is that of the plane's own normal.
+    let normal = plane.map_or(exact, |plane| plane.normal);
+    let tilt = 1e-4 + 4.0 * snapshot.problem.rounding / nearest.length();
+    assert!(normal.cross(exact).length() < tilt, "{normal} {exact}");
+    let height = |k: usize, p: &DVec3| normal.dot(snapshot.frames[k].point(*p));
+    let top = snapshot
+        .pieces
+        .a
+        .points
+        .iter()
+        .map(|p| height(0, p))
+        .fold(f64::NEG_INFINITY, greater);
+    let foot = snapshot
+        .pieces
+        .b
+        .points
+        .iter()
+        .map(|p| height(1, p))
+        .fold(f64::INFINITY, lesser);
+    let slack = foot - top - kept - snapshot.problem.rounding;
+    let [a, b] = [snapshot.pieces.a.points, snapshot.pieces.b.points];
+    let placed = a
+        .iter()
+        .map(|p| snapshot.frames[0].point(*p))
+        .chain(b.iter().map(|p| snapshot.frames[1].point(*p)));
+    let size = placed.map(DVec3::length).fold(0.0, greater);
+    match plane {
+        Some(plane) => assert!(
+            (plane.slack - slack).abs() <= snapshot.problem.rounding,
+            "{} {slack}",
+            plane.slack
+        ),
+        None => assert!(slack <= 1e-6 * size, "{slack}"),
+    }
+}
+
+#[cfg(feature = "hull-tree")]
+#[test]
+fn depth_is_measured_between_the_middles_of_many_points() {
+    let mut rng = rng(6);
+    let mut inside = 0;
+    for _ in 0..200 {
+        let mut cloud = |radius: f64| {
+            let points: Vec<DVec3> = (0..80).map(|_| within(&mut rng, radius)).collect();
+            let polytope = Polytope {
+                points,
+                ..Polytope::default()
+            };
+            Body::polytope(polytope).unwrap()
+        };
+        let (a, b) = (cloud(1.0), cloud(0.5));
+        let motion = Motion::still(Pose::new(within(&mut rng, 2.5), rotation(&mut rng)).unwrap());
+        let sides = ((&a, motion), (&b, Motion::STILL));
+        let problem = Problem::new(sides.0, sides.1, 1.0, &Config::default()).unwrap();
+        let snapshot = Snapshot::new(&problem, 0, 0, 0.0);
+        let pair = &snapshot.pieces;
+        let [(from, large), (to, small)] = [pair.a.ball().unwrap(), pair.b.ball().unwrap()];
+        let placed = |p: DVec3| pair.b_to_a.point(p);
+        let axis = (placed(to) - from).normalize();
+        let heights = |p: DVec3| axis.dot(p);
+        let top = pair
+            .a
+            .points
+            .iter()
+            .map(|&p| heights(p))
+            .fold(f64::NEG_INFINITY, greater);
+        let foot = pair
+            .b
+            .points
+            .iter()
+            .map(|&p| heights(placed(p)))
+            .fold(f64::INFINITY, lesser);
+        let expected = (top - foot) / lesser(large, small);
+        let depth = snapshot.depth_between_middles().unwrap();
+        assert!((depth - expected).abs() < 1e-9, "{depth} {expected}");
+        inside += usize::from(depth > 0.0);
+    }
+    assert!((20..180).contains(&inside), "{inside}");
+}
