@@ -1,5 +1,6 @@
 //! Free times of pieces against samples, along the axis and in distance.
 
+mod directed;
 mod planes;
 
 use super::*;

@@ -1,0 +1,69 @@
+//! Times by a bound of each body's advance, against the bounds of both bodies, added up.
+
+use super::super::*;
+use crate::tests::oracle::Exhaustive;
+use crate::tests::scene::{Kind, RngExt, rng, scene};
+
+/// The rate at which two pieces approach along a normal from A to B, by a bound.
+fn rate(snapshot: &Snapshot<'_>, normal: DVec3, bound: Bound, reaches: [f64; 2]) -> f64 {
+    let Problem { a, b, .. } = snapshot.problem;
+    let sides = [
+        (a, normal, snapshot.pieces.a),
+        (b, -normal, snapshot.pieces.b),
+    ];
+    let mut sum = 0.0;
+    for (k, (side, n, piece)) in sides.into_iter().enumerate() {
+        let motion = side.path.velocities();
+        let arms = piece
+            .points
+            .iter()
+            .map(|&x| snapshot.frames[k].rotation * (x - side.path.centre));
+        let farthest = |along: DVec3| {
+            let all = arms.clone();
+            all.max_by(|p, q| along.dot(*p).total_cmp(&along.dot(*q)))
+                .unwrap()
+        };
+        sum += match bound {
+            Bound::Sound => sound(&motion, n, reaches[k]),
+            Bound::Published => published(&motion, n, farthest),
+        };
+    }
+    sum
+}
+
+#[test]
+fn a_directed_time_is_the_gap_over_both_advances() {
+    let mut rng = rng(7);
+    let mut counts = [[0; 2]; 2];
+    for number in 0..3_000 {
+        let kind = [Kind::Any, Kind::Rim, Kind::Sliding][number % 3];
+        let scene = scene(&mut rng, kind, 2);
+        let problem = scene.problem();
+        let snapshot = Snapshot::new(&problem, 0, 0, scene.clock * rng.random_range(0.0..1.0));
+        let mut meter = Meter::new(&problem);
+        let checked = snapshot.ask(&mut Exhaustive, &mut (), &mut meter).unwrap();
+        let kept = problem.gap();
+        if checked.lower <= 2.0 * kept {
+            continue;
+        }
+        let reaches =
+            [&problem.a, &problem.b].map(|side| side.path.reach(side.body.pieces().points()));
+        let normal = snapshot.frames[0].rotation * checked.axis;
+        for (k, bound) in [Bound::Sound, Bound::Published].into_iter().enumerate() {
+            let rate = rate(&snapshot, normal, bound, reaches);
+            let expected = (checked.lower - kept) / rate;
+            let horizon = 1.0 - snapshot.clock;
+            let time = snapshot.directed_time(&checked, kept, bound, reaches);
+            match time {
+                Some(time) => assert!(
+                    (time - expected).abs() <= 1e-9 * expected,
+                    "{bound:?}: {time} {expected}"
+                ),
+                None => assert!(rate <= 0.0 || expected >= horizon * (1.0 - 1e-9)),
+            }
+            counts[k][usize::from(time.is_some())] += 1;
+        }
+    }
+    let each = counts.concat();
+    assert!(each.iter().all(|&count| count > 100), "{counts:?}");
+}
