@@ -2,6 +2,7 @@
 
 mod directed;
 mod planes;
+mod resting;
 
 use super::*;
 use crate::tests::nearest::nearest;

@@ -1,0 +1,160 @@
+//! Triangles in one plane: which side each is kept to, and for how long.
+
+use super::super::*;
+use crate::body::{Body, Volume};
+use crate::config::Config;
+use crate::distance::separation::sharp::sharpened;
+use crate::motion::Motion;
+use crate::motion::pose::Pose;
+use crate::tests::meshes::{cube, moved};
+use crate::tests::nearest::Triangle;
+use crate::tests::oracle::Exhaustive;
+use crate::tests::scene::{RngExt, pieces, rng, rotation};
+use glam::DQuat;
+
+/// A body with a triangle in the plane z = 0.
+struct Resting {
+    body: Body,
+    piece: u32,
+}
+
+impl Resting {
+    fn new(triangles: &[Triangle], volume: Volume) -> Self {
+        let body = Body::new(&pieces(triangles), volume).unwrap();
+        let flat = |points: &[DVec3]| points.iter().all(|p| p.z == 0.0);
+        let count = body.pieces().len();
+        let piece = (0..count).find(|&k| flat(body.pieces().get(k).points));
+        Resting {
+            piece: piece.unwrap() as u32,
+            body,
+        }
+    }
+
+    /// A solid on that side of the plane.
+    fn solid(side: f64) -> Self {
+        Resting::new(&moved(&cube(0.5, 1), 0.5 * side * DVec3::Z), Volume::Solid)
+    }
+
+    fn sheet() -> Self {
+        let triangle = [DVec3::ZERO, 0.4 * DVec3::X, 0.4 * DVec3::Y];
+        Resting::new(&[triangle], Volume::Surface)
+    }
+
+    /// A shell whose cross section is an eight: the solid is above one half of a face, and below the other.
+    fn unclear() -> Self {
+        let eight = [(-1.0, 0.0), (1.0, 0.0), (1.0, 1.0), (-1.0, -1.0)];
+        let at = |k: usize, y: f64| DVec3::new(eight[k % 4].0, y, eight[k % 4].1);
+        let mut shell = Vec::new();
+        for k in 0..4 {
+            let [a, b, c, d] = [at(k, 0.0), at(k + 1, 0.0), at(k + 1, 1.0), at(k, 1.0)];
+            shell.extend([[a, b, c], [a, c, d]]);
+        }
+        let caps = [[0, 2, 1], [0, 3, 2]].map(|t| t.map(|k| at(k, 0.0)));
+        shell.extend(caps);
+        shell.extend(caps.map(|[a, b, c]| [a, c, b].map(|p| p + DVec3::Y)));
+        Resting::new(&shell, Volume::Solid)
+    }
+}
+
+/// The time of B's triangle on A's, which keeps a gap of minus `k` roundings; B moves away along z by
+/// `speed` in the whole duration. Both are turned as a whole.
+fn time([a, b]: [&Resting; 2], whole: DQuat, speed: f64, k: f64) -> Option<f64> {
+    let pose = Pose::new(DVec3::ZERO, whole).unwrap();
+    // B's own frame is not A's.
+    let tilted = Pose::new(DVec3::ZERO, whole * DQuat::from_rotation_z(0.3)).unwrap();
+    let velocity = whole * DVec3::new(0.01, 0.02, speed);
+    let sides = (
+        (&a.body, Motion::still(pose)),
+        (&b.body, Motion::new(tilted, velocity, DVec3::ZERO).unwrap()),
+    );
+    let problem = Problem::new(sides.0, sides.1, 1.0, &Config::default()).unwrap();
+    let snapshot = Snapshot::new(&problem, a.piece, b.piece, 0.0);
+    let mut meter = Meter::new(&problem);
+    let checked = snapshot.ask(&mut Exhaustive, &mut (), &mut meter).unwrap();
+    let checked = sharpened(&snapshot.pieces, &checked, problem.rounding);
+    let free = snapshot.resting_time(&checked, -k * problem.rounding, [a.piece, b.piece]);
+    // In units of the time in which B moves by a rounding.
+    free.map(|free| free * speed.abs() / problem.rounding)
+}
+
+#[test]
+fn solids_keep_to_their_sides_of_the_plane() {
+    let mut rng = rng(8);
+    let (below, above, sheet) = (Resting::solid(-1.0), Resting::solid(1.0), Resting::sheet());
+    for _ in 0..200 {
+        let (whole, k) = (rotation(&mut rng), rng.random_range(1.5..3.0));
+        let ask = |a, b, speed: f64| time([a, b], whole, speed, k);
+        for (a, b) in [(&below, &above), (&below, &sheet), (&sheet, &above)] {
+            assert_eq!(ask(a, b, 0.5), None, "they part");
+            let free = ask(a, b, -0.5).unwrap();
+            assert!(
+                (free / (k - 1.0) - 1.0).abs() < 0.1,
+                "{free} of {}",
+                k - 1.0
+            );
+        }
+        for (a, b) in [(&above, &below), (&sheet, &below), (&above, &sheet)] {
+            assert_eq!(ask(a, b, -0.5), None, "they part");
+            let free = ask(a, b, 0.5).unwrap();
+            assert!(
+                (free / (k - 1.0) - 1.0).abs() < 0.1,
+                "{free} of {}",
+                k - 1.0
+            );
+        }
+        // Faces of solids on one side slide, whichever of them sinks.
+        for (side, speed) in [(&below, 0.5), (&below, -0.5), (&above, 0.5), (&above, -0.5)] {
+            assert_eq!(ask(side, side, speed), None);
+        }
+    }
+}
+
+#[test]
+fn what_is_left_of_the_rounding_is_no_time() {
+    let mut rng = rng(9);
+    let (below, above, sheet) = (Resting::solid(-1.0), Resting::solid(1.0), Resting::sheet());
+    for _ in 0..100 {
+        let whole = rotation(&mut rng);
+        for (pair, speeds) in [
+            ([&below, &above], &[-0.5][..]),
+            ([&sheet, &sheet], &[-0.5, 0.5]),
+        ] {
+            let ask = |left: f64| {
+                speeds
+                    .iter()
+                    .map(move |&v| time(pair, whole, v, 1.0 + left))
+            };
+            assert!(ask(0.5 * RESTED).all(|free| free == Some(0.0)));
+            let more: Vec<_> = ask(2.0 * RESTED).collect();
+            // The plane of two sheets lets one of both directions go.
+            assert!(more.iter().any(|free| *free > Some(RESTED)), "{more:?}");
+        }
+    }
+}
+
+#[test]
+fn surfaces_in_one_plane_are_kept_apart_by_it_on_either_side() {
+    let sheet = Resting::sheet();
+    let mut rng = rng(10);
+    for _ in 0..100 {
+        let (whole, k) = (rotation(&mut rng), rng.random_range(1.5..3.0));
+        for speed in [-0.5, 0.5] {
+            // The claim's axis is on one side. A plane through both lets one of them part.
+            match time([&sheet, &sheet], whole, speed, k) {
+                None => {}
+                Some(free) => assert!((free / (k - 1.0) - 1.0).abs() < 0.1, "{free} of {k}"),
+            }
+        }
+    }
+}
+
+#[test]
+fn a_piece_of_unknown_side_is_not_let_go() {
+    let (unclear, sheet) = (Resting::unclear(), Resting::sheet());
+    assert_eq!(unclear.body.facing(unclear.piece), Facing::Unclear);
+    for pair in [[&unclear, &sheet], [&sheet, &unclear]] {
+        for speed in [-0.5, 0.5] {
+            assert_eq!(time(pair, DQuat::IDENTITY, speed, 2.0), Some(0.0));
+        }
+    }
+}
