@@ -8,7 +8,8 @@ use crate::distance::oracle::{Claim, Effort, GiveUp};
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::tests::oracle::Exhaustive;
-use crate::tests::scene::{Kind, RngExt, rng, rotation, scene, within};
+use crate::tests::scene::{Kind, RngExt, body, direction, rng, rotation, scene, within};
+use glam::DQuat;
 
 /// An oracle that tells its steps.
 struct Telling {
@@ -116,6 +117,56 @@ fn the_plane_of_the_longest_time_counts() {
     assert!(at_once.into_iter().all(|count| count > 300), "{at_once:?}");
 }
 
+#[test]
+fn the_plane_between_rounded_pieces_leaves_room_for_their_radii() {
+    let (bar, ball) = (Body::capsule(0.1, 1.0).unwrap(), Body::ball(0.2).unwrap());
+    let mut rng = rng(11);
+    let mut planes = 0;
+    for _ in 0..500 {
+        let place = 2.0 * direction(&mut rng);
+        let pose = Pose::new(place, rotation(&mut rng)).unwrap();
+        let motion = Motion::new(pose, within(&mut rng, 2.0) - place, DVec3::ZERO).unwrap();
+        let sides = ((&bar, motion), (&ball, Motion::STILL));
+        let problem = Problem::new(sides.0, sides.1, 1.0, &Config::default()).unwrap();
+        let snapshot = Snapshot::new(&problem, 0, 0, 0.0);
+        let mut meter = Meter::new(&problem);
+        let checked = snapshot.ask(&mut Exhaustive, &mut (), &mut meter).unwrap();
+        let kept = problem.gap();
+        let plane = snapshot.passing(&checked, kept);
+        check_passing(&snapshot, &checked, kept, plane.as_ref());
+        planes += usize::from(plane.is_some());
+    }
+    assert!((100..500).contains(&planes), "{planes}");
+}
+
+/// The allowance is a share of all speeds, not of the rate of approach, of which little may be left.
+#[test]
+fn a_fixed_plane_allows_for_the_rounding_of_rates() {
+    let [a, b] = [0.5, 0.25].map(|size| body(&[[DVec3::ZERO, size * DVec3::X, size * DVec3::Y]]));
+    let mut rng = rng(12);
+    for _ in 0..500 {
+        let away = direction(&mut rng);
+        let velocity = within(&mut rng, 1.0) - 3.0 * away;
+        let moving = |place: DVec3, velocity: DVec3| {
+            let pose = Pose::new(place, DQuat::IDENTITY).unwrap();
+            Motion::new(pose, velocity, DVec3::ZERO).unwrap()
+        };
+        // A follows B, almost as fast.
+        let chased = velocity * rng.random_range(1.0..1.1);
+        let sides = ((&a, moving(away, chased)), (&b, moving(-away, velocity)));
+        let problem = Problem::new(sides.0, sides.1, 1.0, &Config::default()).unwrap();
+        let snapshot = Snapshot::new(&problem, 0, 0, 0.0);
+        let rate = -away.dot(chased - velocity);
+        let slack = 0.1 * rate;
+        let free = snapshot.free_along(-away, slack).unwrap();
+        let speed = chased.length() + velocity.length();
+        let allowed = (slack / free - rate) / (RATE_F64 * speed);
+        assert!((0.4..3.0).contains(&allowed), "{allowed} {rate} {speed}");
+        let points = snapshot.pieces.points();
+        assert_eq!(snapshot.looks(), 2 * points);
+    }
+}
+
 /// The plane between the witnesses, as they are nearest on straight ways.
 fn check_passing(snapshot: &Snapshot<'_>, checked: &Checked, kept: f64, plane: Option<&Plane>) {
     let Problem { a, b, .. } = snapshot.problem;
@@ -157,7 +208,8 @@ fn check_passing(snapshot: &Snapshot<'_>, checked: &Checked, kept: f64, plane: O
         .iter()
         .map(|p| height(1, p))
         .fold(f64::INFINITY, lesser);
-    let slack = foot - top - kept - snapshot.problem.rounding;
+    let radii = snapshot.pieces.a.radius + snapshot.pieces.b.radius;
+    let slack = foot - top - radii - kept - snapshot.problem.rounding;
     let [a, b] = [snapshot.pieces.a.points, snapshot.pieces.b.points];
     let placed = a
         .iter()
