@@ -167,6 +167,52 @@ fn a_fixed_plane_allows_for_the_rounding_of_rates() {
     }
 }
 
+/// The least slack with which turning points pass is what they descend by, and what drift and rounding take.
+#[test]
+fn points_that_turn_pass_with_all_the_slack_they_need() {
+    let mut rng = rng(13);
+    let mut counts = [0; 3];
+    for number in 0..3_000 {
+        let kind = [Kind::Any, Kind::Rim, Kind::Sliding][number % 3];
+        let mut scene = scene(&mut rng, kind, 2);
+        if number % 2 == 0 {
+            let (start, velocity) = (scene.motions[0].start(), scene.motions[0].velocity());
+            scene.motions[0] = Motion::new(start, velocity, DVec3::ZERO).unwrap();
+        }
+        let problem = scene.problem();
+        let snapshot = Snapshot::new(&problem, 0, 0, scene.clock * rng.random_range(0.0..1.0));
+        let (horizon, normal) = (snapshot.horizon(), direction(&mut rng));
+        let a = Heights::new(&problem.a, &snapshot.pieces.a, &snapshot.frames[0], -normal);
+        let b = Heights::new(&problem.b, &snapshot.pieces.b, &snapshot.frames[1], normal);
+        let passes = |slack: f64| snapshot.turn_past(&a, &b, slack);
+        let descents = a.descent_until(horizon).zip(b.descent_until(horizon));
+        let Some(descents) = descents.filter(|_| !(a.straight() && b.straight())) else {
+            assert!(!passes(f64::MAX));
+            counts[0] += 1;
+            continue;
+        };
+        let drift = (a.drift() + b.drift()) * horizon;
+        let needed = descents.0 + descents.1 - lesser(0.0, drift);
+        let allowance = RATE_F64 * (a.speed() + b.speed()) * horizon;
+        let (mut low, mut high) = (0.0, 2.0 * (needed + allowance));
+        assert!(!passes(low) && passes(high));
+        for _ in 0..200 {
+            let middle = 0.5 * (low + high);
+            match passes(middle) {
+                true => high = middle,
+                false => low = middle,
+            }
+        }
+        let allowed = (high - needed) / allowance;
+        assert!(
+            (0.5..1.5).contains(&allowed),
+            "{allowed} {needed} {allowance}"
+        );
+        counts[if drift < 0.0 { 1 } else { 2 }] += 1;
+    }
+    assert!(counts.iter().all(|&count| count > 100), "{counts:?}");
+}
+
 /// The plane between the witnesses, as they are nearest on straight ways.
 fn check_passing(snapshot: &Snapshot<'_>, checked: &Checked, kept: f64, plane: Option<&Plane>) {
     let Problem { a, b, .. } = snapshot.problem;
