@@ -220,14 +220,15 @@ fn the_first_tetrahedron_is_as_large_as_the_differences_allow() {
         let turn = rotation(&mut rng);
         let mut cloud = || [0; 8].map(|_| turn * (within(&mut rng, 1.0) * DVec3::from(stretch)));
         let (ours, theirs) = (cloud(), cloud());
+        let aside = within(&mut rng, 2.0);
         let pair = PiecePair {
             a: Piece::from_points(&ours),
             b: Piece::from_points(&theirs),
-            b_to_a: Frame::IDENTITY,
+            b_to_a: at(aside),
         };
         let differences = || {
             ours.iter()
-                .flat_map(|&p| theirs.iter().map(move |&q| p - q))
+                .flat_map(|&p| theirs.iter().map(move |&q| p - q - aside))
         };
         let most = |measure: &dyn Fn(DVec3) -> f64| differences().map(measure).fold(0.0, greater);
         let [a, mut b, mut c, d] = super::tetrahedron(&pair, ROUNDING).unwrap();
@@ -239,11 +240,28 @@ fn the_first_tetrahedron_is_as_large_as_the_differences_allow() {
         assert!(far(b) >= 0.28 * most(&far), "{pair:?}");
         // Among the extremes along two directions across the line.
         let line = (b - a).normalize();
-        let aside = |p: DVec3| (p - a).cross(line).length();
-        assert!(aside(c) >= 0.7 * most(&aside), "{pair:?}");
+        let off_line = |p: DVec3| (p - a).cross(line).length();
+        assert!(off_line(c) >= 0.7 * most(&off_line), "{pair:?}");
         let normal = (b - a).cross(c - a).normalize();
         let height = |p: DVec3| normal.dot(p - a).abs();
         assert!(height(d) >= 0.99 * most(&height), "{pair:?}");
+    }
+}
+
+#[test]
+fn flat_differences_have_no_tetrahedron() {
+    let mut rng = rng(5);
+    for _ in 0..200 {
+        let turn = rotation(&mut rng);
+        let mut flat = || [0; 3].map(|_| turn * within(&mut rng, 1.0).reject_from(DVec3::Z));
+        let (ours, theirs) = (flat(), flat());
+        let pair = PiecePair {
+            a: Piece::from_points(&ours),
+            b: Piece::from_points(&theirs),
+            b_to_a: at(turn * DVec3::Z),
+        };
+        assert_eq!(super::tetrahedron(&pair, ROUNDING), None);
+        assert!(!Inner::default().begin(&pair, ROUNDING));
     }
 }
 
