@@ -232,6 +232,8 @@ fn the_first_tetrahedron_is_as_large_as_the_differences_allow() {
         };
         let most = |measure: &dyn Fn(DVec3) -> f64| differences().map(measure).fold(0.0, greater);
         let [a, mut b, mut c, d] = super::tetrahedron(&pair, ROUNDING).unwrap();
+        let behind = (b - a).cross(c - a).dot(d - a);
+        assert!(behind < 0.0, "faces look outward: {behind}");
         if a.distance(b) < a.distance(c) {
             (b, c) = (c, b);
         }
