@@ -12,7 +12,7 @@ use crate::tests::oracle::Exhaustive;
 use crate::tests::scene::{RngExt, pieces, rng, rotation};
 use glam::DQuat;
 
-/// A body with a triangle in the plane z = 0.
+/// A body with a triangle, or an edge, in the plane z = 0.
 struct Resting {
     body: Body,
     piece: u32,
@@ -21,9 +21,12 @@ struct Resting {
 impl Resting {
     fn new(triangles: &[Triangle], volume: Volume) -> Self {
         let body = Body::new(&pieces(triangles), volume).unwrap();
-        let flat = |points: &[DVec3]| points.iter().all(|p| p.z == 0.0);
-        let count = body.pieces().len();
-        let piece = (0..count).find(|&k| flat(body.pieces().get(k).points));
+        let in_plane = |k: &usize| {
+            let points = body.pieces().get(*k).points;
+            points.iter().filter(|p| p.z == 0.0).count()
+        };
+        // The first of several.
+        let piece = (0..body.pieces().len()).rev().max_by_key(in_plane);
         Resting {
             piece: piece.unwrap() as u32,
             body,
@@ -33,6 +36,18 @@ impl Resting {
     /// A solid on that side of the plane.
     fn solid(side: f64) -> Self {
         Resting::new(&moved(&cube(0.5, 1), 0.5 * side * DVec3::Z), Volume::Solid)
+    }
+
+    /// A cube that stands on an edge, along an axis, on that side of the plane.
+    fn on_edge(side: f64, along: DVec3) -> Self {
+        let tilt = DQuat::from_axis_angle(along, std::f64::consts::FRAC_PI_4);
+        let level = |p: DVec3| {
+            let p = tilt * p + side * 0.5f64.sqrt() * DVec3::Z;
+            let z = if p.z.abs() < 1e-9 { 0.0 } else { p.z };
+            DVec3::new(p.x, p.y, z)
+        };
+        let cube: Vec<Triangle> = cube(0.5, 1).iter().map(|t| t.map(level)).collect();
+        Resting::new(&cube, Volume::Solid)
     }
 
     fn sheet() -> Self {
@@ -106,6 +121,23 @@ fn solids_keep_to_their_sides_of_the_plane() {
         for (side, speed) in [(&below, 0.5), (&below, -0.5), (&above, 0.5), (&above, -0.5)] {
             assert_eq!(ask(side, side, speed), None);
         }
+    }
+}
+
+#[test]
+fn crossed_edges_rest_on_the_plane_between_them() {
+    let below = Resting::on_edge(-1.0, DVec3::X);
+    let above = Resting::on_edge(1.0, DVec3::Y);
+    let mut rng = rng(14);
+    for _ in 0..100 {
+        let (whole, k) = (rotation(&mut rng), rng.random_range(1.5..3.0));
+        assert_eq!(time([&below, &above], whole, 0.5, k), None, "they part");
+        let free = time([&below, &above], whole, -0.5, k).unwrap();
+        assert!(
+            (free / (k - 1.0) - 1.0).abs() < 0.1,
+            "{free} of {}",
+            k - 1.0
+        );
     }
 }
 
