@@ -125,6 +125,16 @@ fn solids_keep_to_their_sides_of_the_plane() {
 }
 
 #[test]
+fn of_two_planes_the_one_of_the_longer_time_counts() {
+    assert_eq!(longer(Some(1.0), Some(2.0)), Some(2.0));
+    assert_eq!(longer(Some(2.0), Some(1.0)), Some(2.0));
+    assert_eq!(
+        (longer(None, Some(1.0)), longer(Some(1.0), None)),
+        (None, None)
+    );
+}
+
+#[test]
 fn crossed_edges_rest_on_the_plane_between_them() {
     let below = Resting::on_edge(-1.0, DVec3::X);
     let above = Resting::on_edge(1.0, DVec3::Y);
