@@ -200,9 +200,9 @@ impl Stats {
 
 /// An outcome with its accuracy and its cost.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Answer {
+pub struct Answer<T = Outcome> {
     /// The outcome.
-    pub outcome: Outcome,
+    pub outcome: T,
     /// The tolerance of the answer. It is the requested one, unless only a larger one can be
     /// certified at the coordinates of the scene, or the bodies were [let
     /// go](crate::StartPolicy::Leave) with a smaller one.

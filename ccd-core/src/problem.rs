@@ -259,6 +259,30 @@ impl<'a> Problem<'a> {
         }
     }
 
+    /// Returns the problem without a margin, and with a contact at the start as an answer: distances
+    /// are measured.
+    pub(crate) fn measuring(&self) -> Self {
+        Problem {
+            margin: 0.0,
+            ..self.reporting()
+        }
+    }
+
+    /// Returns the problem that asks for distances below the least one found: pairs in contact are
+    /// nearer than that, by a quarter of the tolerance at least, and pairs that keep the gap are within
+    /// the tolerance of it.
+    pub(crate) fn below(&self, upper: f64) -> Self {
+        // Distances may be off by more where they are measured beyond a margin.
+        let rounding = self.rounding + tolerance::margin_rounding(upper);
+        let tolerance = greater(0.5 * self.tolerance, tolerance::least_tolerance(rounding));
+        Problem {
+            margin: greater(0.0, upper - 1.5 * tolerance),
+            tolerance,
+            rounding,
+            ..self.clone()
+        }
+    }
+
     /// Returns the distance that free bodies keep at all times; `proven` is the least gap proven
     /// for nodes.
     pub(crate) fn proven_gap(&self, proven: f64) -> f64 {

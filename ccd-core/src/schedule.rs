@@ -7,22 +7,32 @@
 //! from each other all the time.
 
 mod answer;
+mod any_contact;
 mod best_first;
+mod closest_approach;
 mod contract;
+mod depth_first;
 #[cfg(feature = "hull-tree")]
 mod fast;
 mod memory;
 mod meter;
 mod naive;
+mod nearest;
 mod nodes;
 mod out_of_reach;
 mod pieces;
 mod proven;
 mod queue;
+mod search;
+mod stack;
 mod start;
+mod waiting;
 
+pub use any_contact::AnyContact;
 pub use best_first::BestFirst;
+pub use closest_approach::{Clearance, ClosestApproach};
 pub use contract::Schedule;
+pub use depth_first::DepthFirst;
 #[cfg(feature = "hull-tree")]
 pub use fast::Fast;
 pub use naive::Naive;

@@ -89,6 +89,11 @@ pub fn distance_rounding(spans: [f64; 2], turns: [f64; 2], way: f64) -> f64 {
     U64 * (body(0) + body(1) + of_way * way) + LEAST_ROUNDING
 }
 
+/// The part of [`distance_rounding`] that a margin adds, which counts as a way.
+pub fn margin_rounding(margin: f64) -> f64 {
+    96.0 * U64 * margin
+}
+
 /// The error of lengths due to squares that underflow, in the scene's unit of length: see
 /// [`distance_rounding`].
 pub const LEAST_ROUNDING: f64 = 1e-130;
@@ -195,6 +200,21 @@ pub const AXIS_ROUNDS: usize = 16;
 /// is sought, in units of the duration. Measured: pairs of knots are looked at 2 % more often, and a
 /// first look takes half of the time.
 pub const A_WHILE: f64 = 1.0 / 65536.0;
+
+/// The most looks at two pieces on the way to the time at which they are nearest, before that time is
+/// known to be between two clocks, and after that. Each look may halve the interval; a few suffice where
+/// distances are smooth. No answer depends on it.
+pub const FOLLOWING_LOOKS: usize = 16;
+
+/// The longest step along the distance of two pieces, in radians of both bodies' turns: they are nearest
+/// at most once in it, mostly.
+pub const FOLLOWED_TURN: f64 = 0.25;
+
+/// The most times at which the bodies are measured for a first guess of their closest approach.
+pub const GUESSES: usize = 4;
+
+/// The part of the tolerance that the least distance of two pieces is sought to.
+pub const FOLLOWED: f64 = 1.0 / 8.0;
 
 /// The least relative growth of a free time that is worth another Newton step.
 pub const WORTHWHILE: f64 = 1.0 / 64.0;

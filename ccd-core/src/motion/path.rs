@@ -125,6 +125,10 @@ impl Path {
     pub(crate) fn turns(&self) -> bool {
         self.rate > 0.0
     }
+
+    pub(crate) fn moves(&self) -> bool {
+        self.turns() || self.velocity != DVec3::ZERO
+    }
 }
 
 /// `u uᵀ`

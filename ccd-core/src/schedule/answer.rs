@@ -4,14 +4,16 @@ mod given;
 
 use super::memory::Kept;
 use super::meter::Meter;
+use super::start::at_start;
 use crate::config::StartPolicy;
 use crate::distance::oracle::DistanceOracle;
 use crate::math::order::greater;
 use crate::outcome::{Answer, Outcome, Stats};
 use crate::problem::Problem;
+pub(super) use given::contact_of_given;
 use given::of_given;
 
-/// Searches as the problem's policy for the start demands.
+/// Searches as the problem's policy for the start demands, in the order of time.
 ///
 /// Bodies that begin in contact and are to be let go are searched again at half the gap that they
 /// began with: pairs that part or slide keep more than that, pairs that approach do not. If there
@@ -24,23 +26,69 @@ pub(crate) fn answer<O: DistanceOracle>(
     kept: &mut Kept,
     mut search: impl FnMut(&Problem<'_>, &mut O, &mut Meter) -> Outcome,
 ) -> Answer {
-    let before = oracle.effort();
-    let mut meter = Meter::new(problem);
-    meter.kept = kept.take();
-    let outcome = match problem.start {
-        StartPolicy::Report => search(problem, oracle, &mut meter),
-        StartPolicy::Leave => search(&problem.reporting(), oracle, &mut meter),
-    };
+    metered(problem, oracle, kept, |oracle, meter| {
+        let outcome = match problem.start {
+            StartPolicy::Report => search(problem, oracle, meter),
+            StartPolicy::Leave => search(&problem.reporting(), oracle, meter),
+        };
+        let_go(problem, oracle, meter, outcome, search)
+    })
+}
+
+/// Like [`answer`] for a search in any order: it may pass over a contact at the start, for which bodies
+/// that are to be let go are examined first.
+pub(crate) fn answer_in_any_order<O: DistanceOracle>(
+    problem: &Problem<'_>,
+    oracle: &mut O,
+    kept: &mut Kept,
+    mut search: impl FnMut(&Problem<'_>, &mut O, &mut Meter) -> Outcome,
+) -> Answer {
+    metered(problem, oracle, kept, |oracle, meter| {
+        let outcome = match problem.start {
+            StartPolicy::Report => search(problem, oracle, meter),
+            StartPolicy::Leave => {
+                let problem = problem.reporting();
+                let beyond = problem.contact_distance().next_up();
+                let at_start = at_start(&problem, beyond, oracle, meter);
+                at_start.unwrap_or_else(|| search(&problem, oracle, meter))
+            }
+        };
+        let_go(problem, oracle, meter, outcome, search)
+    })
+}
+
+/// Returns the final outcome and its tolerance: bodies that are to be let go, and begin in contact, are
+/// searched again.
+fn let_go<O: DistanceOracle>(
+    problem: &Problem<'_>,
+    oracle: &mut O,
+    meter: &mut Meter,
+    outcome: Outcome,
+    mut search: impl FnMut(&Problem<'_>, &mut O, &mut Meter) -> Outcome,
+) -> (Outcome, f64) {
     let (outcome, tolerance) = match (problem.start, outcome) {
         (StartPolicy::Leave, Outcome::Touching { contact }) => {
             let problem = problem.leaving(contact.separation.lower - problem.margin);
-            let outcome = search(&problem, oracle, &mut meter);
+            let outcome = search(&problem, oracle, meter);
             (outcome, shown(&problem, &outcome))
         }
         _ => (outcome, problem.tolerance),
     };
     let within = problem.margin + tolerance;
-    let outcome = of_given(problem, oracle, &mut meter, outcome, within);
+    (of_given(problem, oracle, meter, outcome, within), tolerance)
+}
+
+/// Adds up the work for an outcome and its tolerance.
+pub(super) fn metered<O: DistanceOracle, T>(
+    problem: &Problem<'_>,
+    oracle: &mut O,
+    kept: &mut Kept,
+    solve: impl FnOnce(&mut O, &mut Meter) -> (T, f64),
+) -> Answer<T> {
+    let before = oracle.effort();
+    let mut meter = Meter::new(problem);
+    meter.kept = kept.take();
+    let (outcome, tolerance) = solve(oracle, &mut meter);
     *kept = meter.kept.take();
     Answer {
         outcome,

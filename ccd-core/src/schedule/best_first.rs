@@ -4,15 +4,12 @@ use super::answer::answer;
 use super::contract::Schedule;
 use super::memory::Kept;
 use super::meter::Meter;
-use super::nodes::closer_look::CloserLook;
-use super::nodes::common::Common;
-use super::nodes::expand::expand;
 use super::nodes::roots::keep_apart;
-use super::nodes::siblings::{Next, Siblings};
 use super::out_of_reach::out_of_reach;
-use super::pieces::pair::Pair;
+use super::pieces::pair::Step;
 use super::proven::Proven;
-use super::queue::{Full, Queue, Rank};
+use super::queue::Queue;
+use super::search::{Item, Question, Search};
 use crate::distance::oracle::DistanceOracle;
 use crate::outcome::{Answer, Limit, Outcome};
 use crate::problem::Problem;
@@ -63,21 +60,6 @@ impl<O: DistanceOracle> Default for BestFirst<O> {
     }
 }
 
-#[derive(Debug)]
-enum Item<C> {
-    Siblings(Siblings),
-    Pieces(Pair<C>),
-}
-
-impl<C> Item<C> {
-    fn rank(&self) -> Rank {
-        match self {
-            Item::Siblings(_) => Rank::Siblings,
-            Item::Pieces(_) => Rank::PiecePair,
-        }
-    }
-}
-
 impl<O: DistanceOracle> Schedule<O> for BestFirst<O> {
     fn solve(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer {
         let mut kept = self.kept.take();
@@ -105,116 +87,54 @@ impl<O: DistanceOracle> BestFirst<O> {
             let proven_gap = problem.proven_gap(f64::INFINITY);
             return Outcome::Free { proven_gap };
         }
-        if self.open_roots(problem).is_err() {
-            return unresolved(problem, 0.0, Limit::Budget);
-        }
-        let common = Common::new(problem);
-        let mut proven = Proven::default();
-        let mut look = CloserLook::new(problem);
-        loop {
-            let visit = self.visit(&common, &mut look, oracle, meter, &mut proven);
-            if let ControlFlow::Break(outcome) = visit {
-                return outcome;
-            }
-        }
-    }
-
-    /// Examines the pair of least clock: proves it apart for longer, or splits it.
-    #[inline]
-    fn visit(
-        &mut self,
-        common: &Common<'_>,
-        look: &mut CloserLook,
-        oracle: &mut O,
-        meter: &mut Meter,
-        proven: &mut Proven,
-    ) -> ControlFlow<Outcome> {
-        let problem = common.problem;
-        let Some((s, item)) = self.queue.least() else {
-            return ControlFlow::Break(proven.end(problem));
+        let mut search = Search {
+            waiting: &mut self.queue,
+            oracle,
+            meter,
         };
-        if s > 0.0
-            && let Some(outcome) = proven.past_start(problem)
-        {
-            return ControlFlow::Break(outcome);
-        }
-        if let Err(limit) = meter.visit() {
-            return ControlFlow::Break(unresolved(problem, s, limit));
-        }
-        let (next, rest) = match item {
-            Item::Pieces(pair) => {
-                let step = pair.advance(problem, oracle, meter, s);
-                match proven.conclude(problem, oracle, meter, step, s)? {
-                    clock if clock >= 1.0 => self.queue.remove(),
-                    clock => self.queue.renew(clock, Rank::PiecePair),
-                }
-                return ControlFlow::Continue(());
-            }
-            Item::Siblings(siblings) => {
-                if let Some((clock, alone)) = look.part(problem, siblings, s) {
-                    let rest = siblings.clock();
-                    return self.wait(problem, s, rest, (clock, Item::Siblings(alone)));
-                }
-                // The rest of the siblings wait for their own clocks.
-                (siblings.take_least(problem, s), siblings.clock())
-            }
-        };
-        let new = match next {
-            Next::Split(split) => {
-                let expansion = expand(common, &split, s);
-                proven.keep(f64::from(expansion.bounds.kept));
-                let mut siblings = Siblings::new(&expansion, split, s);
-                look.finish(problem, &split, s, &mut siblings, meter);
-                (siblings.clock(), Item::Siblings(siblings))
-            }
-            Next::Ask(a, b) => {
-                let mut pair = Pair::new(a, b);
-                let step = pair.advance(problem, oracle, meter, s);
-                let clock = proven.conclude(problem, oracle, meter, step, s)?;
-                (clock, Item::Pieces(pair))
-            }
-        };
-        self.wait(problem, s, rest, new)
-    }
-
-    /// Lets the siblings of a pair and what became of it at clock `s` wait for their clocks, if these
-    /// are before the end.
-    #[inline(always)]
-    fn wait(
-        &mut self,
-        problem: &Problem<'_>,
-        s: f64,
-        rest: f64,
-        (clock, new): (f64, Item<O::Cache>),
-    ) -> ControlFlow<Outcome> {
-        // Written so that NaN is not the end.
-        match (rest >= 1.0, clock >= 1.0) {
-            (false, false) => {
-                self.queue.postpone(rest);
-                if let Err(Full) = self.queue.push(clock, new.rank(), new) {
-                    return ControlFlow::Break(unresolved(problem, s, Limit::Budget));
-                }
-            }
-            (false, true) => self.queue.postpone(rest),
-            (true, false) => self.queue.replace(clock, new.rank(), new),
-            (true, true) => self.queue.remove(),
-        }
-        ControlFlow::Continue(())
-    }
-
-    fn open_roots(&mut self, problem: &Problem<'_>) -> Result<(), Full> {
-        let item = match Next::roots(problem) {
-            Next::Ask(a, b) => Item::Pieces(Pair::new(a, b)),
-            Next::Split(split) => Item::Siblings(Siblings::roots(split.body)),
-        };
-        self.queue.push(0.0, item.rank(), item)
+        search.run(problem, &mut Proven::default())
     }
 }
 
-fn unresolved(problem: &Problem<'_>, s: f64, reason: Limit) -> Outcome {
-    Outcome::Unresolved {
-        safe_until: problem.time(s),
-        reason,
+/// When do they first touch? All pairs are proven apart until the clock of the next one.
+impl<O: DistanceOracle> Question<O> for Proven {
+    type Found = Outcome;
+
+    #[inline]
+    fn arrive(&mut self, problem: &Problem<'_>, s: f64) -> ControlFlow<Outcome> {
+        match s > 0.0 {
+            true => self
+                .past_start(problem)
+                .map_or(ControlFlow::Continue(()), ControlFlow::Break),
+            false => ControlFlow::Continue(()),
+        }
+    }
+
+    #[inline]
+    fn keep(&mut self, gap: f64) {
+        Proven::keep(self, gap);
+    }
+
+    fn conclude(
+        &mut self,
+        problem: &Problem<'_>,
+        oracle: &mut O,
+        meter: &mut Meter,
+        step: Step,
+        s: f64,
+    ) -> ControlFlow<Outcome, f64> {
+        Proven::conclude(self, problem, oracle, meter, step, s)
+    }
+
+    fn stopped(&mut self, problem: &Problem<'_>, s: f64, reason: Limit) -> Outcome {
+        Outcome::Unresolved {
+            safe_until: problem.time(s),
+            reason,
+        }
+    }
+
+    fn done(&mut self, problem: &Problem<'_>) -> Outcome {
+        self.end(problem)
     }
 }
 

@@ -1,7 +1,7 @@
 //! Lists kept from query to query, so that queries take no memory from the heap.
 
+use super::nearest::Lists;
 use super::nodes::screw::Profiles;
-use super::start::Lists;
 use crate::distance::overlap::Inner;
 
 /// The lists, made when they are first needed.
@@ -10,8 +10,8 @@ pub(crate) type Kept = Option<Box<Memory>>;
 /// The lists that some queries need; what they hold is of no use to the next query.
 #[derive(Debug, Default)]
 pub(crate) struct Memory {
-    /// Of the search among bodies in contact at the start.
-    pub(crate) start: Lists,
+    /// Of the search for the nearest pieces.
+    pub(crate) nearest: Lists,
     /// Of the decision whether two pieces intersect.
     pub(crate) inner: Inner,
     /// Of the look along a screw.

@@ -19,6 +19,12 @@ pub(super) fn out_of_reach(problem: &Problem<'_>) -> bool {
     distance - a.radius - b.radius > problem.contact_distance() + 2.0 * problem.rounding
 }
 
+/// Returns the clock at which the balls are nearest.
+pub(super) fn nearest_clock(problem: &Problem<'_>) -> f64 {
+    let (a, b) = (Ball::of(&problem.a), Ball::of(&problem.b));
+    least_at(b.centre - a.centre, b.velocity - a.velocity)
+}
+
 /// A ball that moves straight and contains a body all the time.
 struct Ball {
     /// At the start.
@@ -46,12 +52,16 @@ impl Ball {
 
 /// Returns the least length of `from + s · change` for `s` from 0 to 1.
 fn least_length(from: DVec3, change: DVec3) -> f64 {
+    length(from + change * least_at(from, change))
+}
+
+/// Returns the `s` from 0 to 1 at which `from + s · change` is shortest.
+fn least_at(from: DVec3, change: DVec3) -> f64 {
     let square = change.length_squared();
-    let least = match square > 0.0 {
+    match square > 0.0 {
         true => (-from.dot(change) / square).clamp(0.0, 1.0),
         false => 0.0,
-    };
-    length(from + change * least)
+    }
 }
 
 #[cfg(test)]

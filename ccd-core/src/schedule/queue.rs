@@ -1,6 +1,7 @@
 //! Pairs that wait for their clocks, least clock first.
 
 use super::memory::empty;
+use super::waiting::{Full, Rank, Waiting};
 use crate::math::order::greater;
 
 /// Items ordered by their clocks. Among equal clocks pairs of pieces come first, then the newest,
@@ -27,19 +28,8 @@ type Key = u128;
 /// The key of a place without an item, later than all others.
 const VACANT: Key = Key::MAX;
 
-/// The order of items with equal clocks.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Rank {
-    PiecePair = 0,
-    Siblings = 1,
-}
-
 /// The most items that can wait at once.
 const MAX_ITEMS: usize = u32::MAX as usize;
-
-/// The error of a queue that holds as many items as its indices allow.
-#[derive(Debug)]
-pub(crate) struct Full;
 
 impl<T> Default for Queue<T> {
     fn default() -> Self {
@@ -63,71 +53,6 @@ impl<T> Queue<T> {
         self.levels.iter_mut().for_each(empty);
         self.depth = 0;
         self.serial = 0;
-    }
-
-    /// Adds an item that waits for its clock, which is not negative.
-    pub(crate) fn push(&mut self, clock: f64, rank: Rank, item: T) -> Result<(), Full> {
-        let place = match self.vacant.pop() {
-            Some(place) => {
-                self.items[place as usize] = item;
-                place
-            }
-            None if self.items.len() < MAX_ITEMS => {
-                self.items.push(item);
-                self.grow();
-                (self.items.len() - 1) as u32
-            }
-            None => return Err(Full),
-        };
-        let key = self.newest(clock, rank, place);
-        self.set(place, key);
-        Ok(())
-    }
-
-    /// Returns the least clock and its item.
-    #[inline]
-    pub(crate) fn least(&mut self) -> Option<(f64, &mut T)> {
-        let item = self.items.get_mut(place(self.least) as usize)?;
-        Some((clock(self.least), item))
-    }
-
-    /// Lets the least item wait for a later clock.
-    ///
-    /// # Panics
-    /// When the queue is empty.
-    pub(crate) fn postpone(&mut self, clock: f64) {
-        let place = self.place_of_least();
-        let low = self.least as u64;
-        self.set(place, Key::from(clock.to_bits()) << 64 | Key::from(low));
-    }
-
-    /// Lets the least item wait for a later clock, as the newest of all.
-    ///
-    /// # Panics
-    /// When the queue is empty.
-    pub(crate) fn renew(&mut self, clock: f64, rank: Rank) {
-        let place = self.place_of_least();
-        let key = self.newest(clock, rank, place);
-        self.set(place, key);
-    }
-
-    /// Puts a new item in the place of the least one.
-    ///
-    /// # Panics
-    /// When the queue is empty.
-    pub(crate) fn replace(&mut self, clock: f64, rank: Rank, item: T) {
-        let place = self.place_of_least();
-        self.items[place as usize] = item;
-        self.renew(clock, rank);
-    }
-
-    /// Takes out the least item, if there is one.
-    pub(crate) fn remove(&mut self) {
-        if self.least != VACANT {
-            let place = place(self.least);
-            self.vacant.push(place);
-            self.set(place, VACANT);
-        }
     }
 
     /// Returns the largest number of items that waited at once.
@@ -183,6 +108,58 @@ impl<T> Queue<T> {
         }
         self.levels[self.depth].push([self.least, VACANT, VACANT, VACANT]);
         self.depth += 1;
+    }
+}
+
+impl<T> Waiting<T> for Queue<T> {
+    fn push(&mut self, clock: f64, rank: Rank, item: T) -> Result<(), Full> {
+        let place = match self.vacant.pop() {
+            Some(place) => {
+                self.items[place as usize] = item;
+                place
+            }
+            None if self.items.len() < MAX_ITEMS => {
+                self.items.push(item);
+                self.grow();
+                (self.items.len() - 1) as u32
+            }
+            None => return Err(Full),
+        };
+        let key = self.newest(clock, rank, place);
+        self.set(place, key);
+        Ok(())
+    }
+
+    #[inline]
+    fn next(&mut self) -> Option<(f64, &mut T)> {
+        let item = self.items.get_mut(place(self.least) as usize)?;
+        Some((clock(self.least), item))
+    }
+
+    fn postpone(&mut self, clock: f64) {
+        let place = self.place_of_least();
+        let low = self.least as u64;
+        self.set(place, Key::from(clock.to_bits()) << 64 | Key::from(low));
+    }
+
+    fn renew(&mut self, clock: f64, rank: Rank) {
+        let place = self.place_of_least();
+        let key = self.newest(clock, rank, place);
+        self.set(place, key);
+    }
+
+    fn replace(&mut self, clock: f64, rank: Rank, item: T) {
+        let place = self.place_of_least();
+        self.items[place as usize] = item;
+        self.renew(clock, rank);
+    }
+
+    fn remove(&mut self) {
+        if self.least != VACANT {
+            let place = place(self.least);
+            self.vacant.push(place);
+            self.set(place, VACANT);
+        }
     }
 }
 

@@ -1,23 +1,13 @@
-//! Measures the distance of bodies that touch at the start: nearest pairs first.
+//! Bodies in contact at the start: their distance, or the proof that they overlap.
 
 mod containment;
 
-use super::memory::empty;
 use super::meter::Meter;
-use super::nodes::common::Common;
-use super::nodes::expand::measure;
-use super::nodes::siblings::{Next, Siblings};
-use super::pieces::pair::contact;
-use super::pieces::snapshot::Snapshot;
-use super::queue::{Full, Queue, Rank};
+use super::nearest::{Nearest, Stop};
 use crate::distance::oracle::DistanceOracle;
-use crate::distance::overlap::{self, Intersection};
-use crate::math::order::lesser;
 use crate::outcome::{Contact, Limit, Outcome, Overlap};
 use crate::problem::Problem;
-use crate::tolerance::NEAREST_SHARE;
 use containment::Containment;
-use std::ops::ControlFlow;
 
 /// Returns the answer for bodies with two pieces seen in contact at the start: the distance of the
 /// bodies, or that they overlap.
@@ -35,176 +25,46 @@ pub(super) fn touching<O: DistanceOracle>(
     meter: &mut Meter,
     seen: Contact,
 ) -> Outcome {
-    let mut lists = std::mem::take(&mut meter.memory().start);
-    let mut search = Nearest {
-        problem,
-        common: Common::new(problem),
-        lists: &mut lists,
-        nearest: None,
-        lower: f64::INFINITY,
-        undecided: false,
-    };
-    let outcome = match search.run(oracle, meter) {
-        ControlFlow::Break(outcome) => outcome,
-        ControlFlow::Continue(()) if search.undecided => unresolved(Limit::Undecided),
-        ControlFlow::Continue(()) => {
-            let contact = search.contact(seen);
-            let Lists {
-                touching, pieces, ..
-            } = &mut lists;
-            contained(problem, touching, pieces).unwrap_or(Outcome::Touching { contact })
+    let contact = |nearest: &Nearest<'_>| Some(nearest.contact(seen));
+    let outcome = measured(problem, f64::INFINITY, oracle, meter, contact);
+    outcome.unwrap_or(Outcome::Touching { contact: seen })
+}
+
+/// Returns the answer for bodies that begin nearer to each other than `beyond`, which then count as
+/// touching, or one inside the other; none for others.
+pub(super) fn at_start<O: DistanceOracle>(
+    problem: &Problem<'_>,
+    beyond: f64,
+    oracle: &mut O,
+    meter: &mut Meter,
+) -> Option<Outcome> {
+    measured(problem, beyond, oracle, meter, |nearest| nearest.nearest())
+}
+
+/// Measures the bodies at the start, and returns the answer if they overlap, or are in `contact`. Pieces
+/// at least as far apart as `beyond` are not measured.
+fn measured<O: DistanceOracle>(
+    problem: &Problem<'_>,
+    beyond: f64,
+    oracle: &mut O,
+    meter: &mut Meter,
+    contact: impl FnOnce(&Nearest<'_>) -> Option<Contact>,
+) -> Option<Outcome> {
+    let mut lists = std::mem::take(&mut meter.memory().nearest);
+    let mut nearest = Nearest::new(problem, 0.0, &mut lists).nearer_than(beyond);
+    let outcome = match nearest.search(oracle, meter) {
+        Some(Stop::Overlap(contact)) => Some(overlapping(contact)),
+        Some(Stop::Limit(limit)) => Some(unresolved(limit)),
+        None if nearest.undecided => Some(unresolved(Limit::Undecided)),
+        None => {
+            let touching = contact(&nearest).map(|contact| Outcome::Touching { contact });
+            let (pairs, pieces) = lists.touching();
+            contained(problem, pairs, pieces).or(touching)
         }
     };
     lists.clear();
-    meter.memory().start = lists;
+    meter.memory().nearest = lists;
     outcome
-}
-
-/// The lists of a search, which keep their memory.
-#[derive(Debug, Default)]
-pub(crate) struct Lists {
-    /// Pairs of nodes, ordered by lower bounds of their distances.
-    waiting: Queue<Siblings>,
-    /// All pairs of pieces without a separating axis; none of them has a distance.
-    touching: Vec<[u32; 2]>,
-    /// For the search for one body inside the other.
-    pieces: Vec<u32>,
-}
-
-impl Lists {
-    fn clear(&mut self) {
-        self.waiting.clear();
-        empty(&mut self.touching);
-        empty(&mut self.pieces);
-    }
-}
-
-/// Splits the pair of nodes that may contain the nearest pieces, until no waiting pair can contain
-/// any that are nearer than those found.
-///
-/// Pairs that may intersect have no lower bound of their distance, and therefore come before all
-/// others.
-struct Nearest<'p> {
-    problem: &'p Problem<'p>,
-    common: Common<'p>,
-    lists: &'p mut Lists,
-    /// The pieces of least upper bound.
-    nearest: Option<Contact>,
-    /// Bounds the distance of all pieces that were measured or given up.
-    lower: f64,
-    /// True if some pair could not be shown to intersect or not.
-    undecided: bool,
-}
-
-impl Nearest<'_> {
-    /// Finds the nearest pieces. Breaks with the answer when two overlap, or a limit is reached.
-    fn run<O: DistanceOracle>(
-        &mut self,
-        oracle: &mut O,
-        meter: &mut Meter,
-    ) -> ControlFlow<Outcome> {
-        let mut next = Some(Next::roots(self.problem));
-        while let Some(pair) = next {
-            if let Err(limit) = meter.visit() {
-                return ControlFlow::Break(unresolved(limit));
-            }
-            match pair {
-                Next::Split(split) => {
-                    let expansion = measure(&self.common, &split);
-                    self.wait(Siblings::new(&expansion, split, 0.0))?;
-                }
-                Next::Ask(a, b) => self.look([a, b], oracle, meter)?,
-            }
-            next = self.next();
-        }
-        ControlFlow::Continue(())
-    }
-
-    fn wait(&mut self, siblings: Siblings) -> ControlFlow<Outcome> {
-        let distance = siblings.clock();
-        if !(distance < self.upper()) {
-            return ControlFlow::Continue(());
-        }
-        match self.lists.waiting.push(distance, Rank::Siblings, siblings) {
-            Ok(()) => ControlFlow::Continue(()),
-            Err(Full) => ControlFlow::Break(unresolved(Limit::Budget)),
-        }
-    }
-
-    /// Returns the pair that may be the nearest; none when no pair can be nearer than the one
-    /// found.
-    fn next(&mut self) -> Option<Next> {
-        let (upper, near_enough) = (self.upper(), self.near_enough());
-        let (distance, siblings) = self.lists.waiting.least()?;
-        // Pairs without a distance may intersect.
-        if distance > 0.0 && distance >= near_enough {
-            self.lower = lesser(self.lower, distance);
-            return None;
-        }
-        let next = siblings.take_least(self.problem, distance);
-        match siblings.clock() {
-            distance if distance < upper => self.lists.waiting.postpone(distance),
-            _ => self.lists.waiting.remove(),
-        }
-        Some(next)
-    }
-
-    /// Measures two pieces.
-    fn look<O: DistanceOracle>(
-        &mut self,
-        ids: [u32; 2],
-        oracle: &mut O,
-        meter: &mut Meter,
-    ) -> ControlFlow<Outcome> {
-        let problem = self.problem;
-        let snapshot = Snapshot::new(problem, ids[0], ids[1], 0.0);
-        let Some(checked) = snapshot.ask(oracle, &mut O::Cache::default(), meter) else {
-            return ControlFlow::Break(unresolved(Limit::OracleGaveUp));
-        };
-        let inner = &mut meter.memory().inner;
-        match overlap::intersects(&snapshot.pieces, &checked, problem.rounding, inner) {
-            Intersection::Certain => {
-                return ControlFlow::Break(overlapping(contact(&snapshot, ids, &checked)));
-            }
-            Intersection::Undecided => self.undecided = true,
-            Intersection::None => {}
-        }
-        // Written so that NaN is not apart.
-        if !(checked.lower > 0.0) {
-            self.lists.touching.push(ids);
-        }
-        self.lower = lesser(self.lower, checked.lower);
-        if checked.upper < self.upper() {
-            self.nearest = Some(contact(&snapshot, ids, &checked));
-        }
-        ControlFlow::Continue(())
-    }
-
-    /// Bounds the distance of the bodies from above.
-    fn upper(&self) -> f64 {
-        let upper = |contact: Contact| contact.separation.upper;
-        self.nearest.map_or(f64::INFINITY, upper)
-    }
-
-    /// Pairs at least this far apart are not examined.
-    fn near_enough(&self) -> f64 {
-        let upper = self.upper();
-        match upper <= self.problem.contact_distance() {
-            true => upper * (1.0 - NEAREST_SHARE),
-            false => upper,
-        }
-    }
-
-    /// Returns the nearest pieces, with a lower bound that holds for all.
-    fn contact(&self, seen: Contact) -> Contact {
-        let nearest = self.nearest.unwrap_or(seen);
-        // A later claim of an oracle may contradict an earlier one.
-        let contact = match nearest.separation.upper <= self.problem.contact_distance() {
-            true => nearest,
-            false => seen,
-        };
-        contact.no_nearer_than(self.lower)
-    }
 }
 
 /// Returns the answer if one body is inside the other, or if that is undecided. No two pieces

@@ -19,14 +19,11 @@ pub(super) fn of_given<O: DistanceOracle>(
     outcome: Outcome,
     within: f64,
 ) -> Outcome {
-    let Some(given) = problem.given() else {
-        return outcome;
-    };
-    let mut told = |contact, s| of_pieces(&given, oracle, meter, contact, within, s);
+    let mut told = |contact, time| contact_of_given(problem, oracle, meter, contact, within, time);
     match outcome {
         Outcome::Contact { time, contact } => Outcome::Contact {
             time,
-            contact: told(contact, given.clock(time)),
+            contact: told(contact, time),
         },
         Outcome::Touching { contact } => Outcome::Touching {
             contact: told(contact, 0.0),
@@ -37,6 +34,21 @@ pub(super) fn of_given<O: DistanceOracle>(
             overlap: Overlap::Pieces(told(contact, 0.0)),
         },
         Outcome::Overlapping { .. } | Outcome::Free { .. } | Outcome::Unresolved { .. } => outcome,
+    }
+}
+
+/// Like [`of_given`] for the contact at a time.
+pub(in crate::schedule) fn contact_of_given<O: DistanceOracle>(
+    problem: &Problem<'_>,
+    oracle: &mut O,
+    meter: &mut Meter,
+    contact: Contact,
+    within: f64,
+    time: f64,
+) -> Contact {
+    match problem.given() {
+        Some(given) => of_pieces(&given, oracle, meter, contact, within, given.clock(time)),
+        None => contact,
     }
 }
 

@@ -54,13 +54,13 @@ pub(crate) fn expand(common: &Common<'_>, split: &Split, s: f64) -> Expansion {
     split_at(common, split, s, Pace::AsTheyMove)
 }
 
-/// Splits a node at the start and measures its pairs: their free times are lower bounds of their
+/// Splits a node at clock `s` and measures its pairs: their free times are lower bounds of their
 /// distances.
 ///
 /// # Panics
 /// When the node is a single piece.
-pub(crate) fn measure(common: &Common<'_>, split: &Split) -> Expansion {
-    let mut expansion = split_at(common, split, 0.0, Pace::Unit);
+pub(crate) fn measure(common: &Common<'_>, split: &Split, s: f64) -> Expansion {
+    let mut expansion = split_at(common, split, s, Pace::Unit);
     // A second look would give the same result.
     expansion.bounds.waits = 0;
     expansion

@@ -1,14 +1,15 @@
 //! The queue against a sorted list.
 
-use super::{Queue, Rank};
+use super::Queue;
 use crate::math::order::greater;
+use crate::schedule::waiting::{Rank, Waiting};
 use crate::tests::scene::{RngExt, rng};
 use proptest::prelude::*;
 
 /// Takes out all items, in order.
 fn drain(queue: &mut Queue<u32>) -> Vec<u32> {
     let mut out = Vec::new();
-    while let Some((_, item)) = queue.least() {
+    while let Some((_, item)) = queue.next() {
         out.push(*item);
         queue.remove();
     }
@@ -32,7 +33,7 @@ fn least_clock_first_then_piece_pairs_then_the_newest() {
     }
     assert_eq!(drain(&mut queue), [0, 1, 2, 3, 4, 5, 6]);
     assert_eq!(queue.peak(), 7);
-    assert!(queue.least().is_none());
+    assert!(queue.next().is_none());
     queue.remove();
 }
 
@@ -52,7 +53,7 @@ fn clocks_keep_all_their_bits() {
         queue.push(clock, Rank::Siblings, item as u32).unwrap();
     }
     for &clock in &clocks {
-        assert_eq!(queue.least().unwrap().0, clock);
+        assert_eq!(queue.next().unwrap().0, clock);
         queue.remove();
     }
 }
@@ -71,7 +72,7 @@ fn places_are_used_again() {
     assert_eq!(queue.peak(), 10);
     queue.clear();
     assert_eq!(queue.peak(), 0);
-    assert!(queue.least().is_none());
+    assert!(queue.next().is_none());
     queue.remove();
 }
 
@@ -81,9 +82,9 @@ fn postponed_items_wait_in_order() {
     for (clock, item) in [(0.1, 0), (0.2, 1), (0.3, 2)] {
         queue.push(clock, Rank::Siblings, item).unwrap();
     }
-    *queue.least().unwrap().1 = 7;
+    *queue.next().unwrap().1 = 7;
     queue.postpone(0.25);
-    assert_eq!(*queue.least().unwrap().1, 1);
+    assert_eq!(*queue.next().unwrap().1, 1);
     assert_eq!(drain(&mut queue), [1, 7, 2]);
 }
 
@@ -101,7 +102,7 @@ proptest! {
             list.sort_by(|x, y| x.partial_cmp(y).unwrap());
             let rank = [Rank::PiecePair, Rank::Siblings][rng.random_range(0..2)];
             let new = (clock, rank as u8, -step, step as u32);
-            let least = queue.least().map(|(clock, item)| (clock, *item));
+            let least = queue.next().map(|(clock, item)| (clock, *item));
             prop_assert_eq!(least, list.first().map(|first| (first.0, first.3)));
             match (rng.random_range(0..6), list.first_mut()) {
                 (0, Some(first)) => {

@@ -1,0 +1,154 @@
+//! The cost of every question over that of the first contact, row by row.
+//!
+//! Asks each row for the first contact, for any contact and for the closest approach in turn, several times,
+//! and compares the least times of each row. The verdicts have to agree.
+//!
+//! ```sh
+//! cargo run --release -p ccd-bench --example questions -- A.obj B.obj motions.csv [TOLERANCE [ROUNDS]]
+//! ```
+
+use anyhow::{Context, bail, ensure};
+use rigid_ccd::batch::median;
+use rigid_ccd::schedule::{AnyContact, BestFirst, ClosestApproach, DepthFirst};
+use rigid_ccd::table::motions::{MotionTable, Query};
+use rigid_ccd::{Body, Config, Direct, Outcome, Problem, Schedule, load};
+use std::fs::File;
+use std::io::Write;
+use std::time::{Duration, Instant};
+
+fn main() -> anyhow::Result<()> {
+    let args: Vec<String> = std::env::args().skip(1).collect();
+    let [a, b, motions, rest @ ..] = &args[..] else {
+        bail!("give A.obj B.obj motions.csv [TOLERANCE [ROUNDS]]");
+    };
+    let number =
+        |index: usize, default: f64| rest.get(index).map_or(Ok(default), |text| text.parse());
+    let (tolerance, rounds) = (number(0, 1e-3)?, number(1, 5.0)? as usize);
+    let bodies = (&load(a)?, &load(b)?);
+    let table = MotionTable::read(File::open(motions).context("motions")?)?;
+    ensure!(table.errors.is_empty(), "the table has bad rows");
+    let config = Config {
+        tolerance,
+        ..Config::default()
+    };
+    let mut solvers = Solvers::default();
+    let mut rows = Vec::new();
+    for (id, query) in &table.rows {
+        let row = solvers.row(bodies, query, &config, rounds)?;
+        row.check().with_context(|| format!("row {id:?}"))?;
+        rows.push(row);
+    }
+    print(&rows)
+}
+
+#[derive(Default)]
+struct Solvers {
+    best_first: BestFirst<Direct>,
+    depth_first: DepthFirst<Direct>,
+    oracle: Direct,
+}
+
+/// The answers to one row, with the least time of each.
+struct Row {
+    first: (Outcome, Duration),
+    any: (AnyContact, Duration),
+    closest: (ClosestApproach, Duration),
+    tolerance: f64,
+}
+
+impl Solvers {
+    fn row(
+        &mut self,
+        (a, b): (&Body, &Body),
+        query: &Query,
+        config: &Config,
+        rounds: usize,
+    ) -> anyhow::Result<Row> {
+        let problem = Problem::new((a, query.a), (b, query.b), query.duration, config)?;
+        let Solvers {
+            best_first,
+            depth_first,
+            oracle,
+        } = self;
+        Ok(Row {
+            first: least(rounds, || best_first.solve(&problem, oracle).outcome),
+            any: least(rounds, || depth_first.any_contact(&problem, oracle).outcome),
+            closest: least(rounds, || {
+                depth_first.closest_approach(&problem, oracle).outcome
+            }),
+            tolerance: problem.tolerance(),
+        })
+    }
+}
+
+/// Returns the answer and the least time of some calls, after one that is not timed.
+fn least<T>(rounds: usize, mut call: impl FnMut() -> T) -> (T, Duration) {
+    let mut answer = call();
+    let mut taken = Duration::MAX;
+    for _ in 0..rounds {
+        let start = Instant::now();
+        answer = call();
+        taken = taken.min(start.elapsed());
+    }
+    (answer, taken)
+}
+
+impl Row {
+    fn is_hit(&self) -> bool {
+        !matches!(self.first.0, Outcome::Free { .. })
+    }
+
+    fn check(&self) -> anyhow::Result<()> {
+        let any_hit = !matches!(self.any.0, AnyContact::Free { .. });
+        let closest = &self.closest.0;
+        let width = closest.upper() - closest.lower();
+        ensure!(
+            width <= self.tolerance,
+            "the bracket is {width:e} wide: {closest:?}"
+        );
+        // Near misses within the tolerance may be either.
+        let near_miss = closest.lower() > 0.0 && closest.upper() <= self.tolerance;
+        ensure!(
+            any_hit == self.is_hit() || near_miss,
+            "{:?} and {:?}",
+            self.first.0,
+            self.any.0
+        );
+        let apart = closest.lower() > 0.0;
+        ensure!(
+            apart != self.is_hit() || closest.upper() <= 2.0 * self.tolerance,
+            "{:?} and {closest:?}",
+            self.first.0
+        );
+        Ok(())
+    }
+}
+
+/// Prints the medians of the ratios of times.
+fn print(rows: &[Row]) -> anyhow::Result<()> {
+    let mut out = std::io::stdout().lock();
+    writeln!(
+        out,
+        "rows,count,any over first,closest over first,first micros"
+    )?;
+    let kinds: [(&str, fn(&Row) -> bool); 3] = [
+        ("all", |_| true),
+        ("contact", Row::is_hit),
+        ("free", |row| !row.is_hit()),
+    ];
+    for (name, is_kind) in kinds {
+        let some: Vec<&Row> = rows.iter().filter(|row| is_kind(row)).collect();
+        let middle = |value: fn(&Row) -> f64| {
+            median(&mut some.iter().map(|row| value(row)).collect::<Vec<_>>())
+        };
+        let any = middle(|row| row.any.1.div_duration_f64(row.first.1));
+        let closest = middle(|row| row.closest.1.div_duration_f64(row.first.1));
+        let first = middle(|row| row.first.1.as_secs_f64() * 1e6);
+        writeln!(
+            out,
+            "{name},{},{any:.3},{closest:.3},{first:.2}",
+            some.len()
+        )?;
+    }
+    Ok(())
+}

@@ -1,0 +1,172 @@
+//! Any contact against the first contact and against samples, with every budget and honest or lying
+//! oracles.
+
+use super::*;
+use crate::body::combination::Combination;
+use crate::config::StartPolicy;
+use crate::distance::oracle::{Claim, GiveUp};
+use crate::schedule::{BestFirst, Schedule};
+use crate::tests::oracle::{Always, Exhaustive};
+use crate::tests::scene::{Kind, RngExt, direction, distance, rng, scene};
+
+const KINDS: [Kind; 4] = [Kind::Any, Kind::Sliding, Kind::Rim, Kind::Receding];
+
+fn any(problem: &Problem<'_>) -> AnyContact {
+    let mut schedule = DepthFirst::default();
+    schedule.any_contact(problem, &mut Exhaustive).outcome
+}
+
+fn first(problem: &Problem<'_>) -> Outcome {
+    BestFirst::default().solve(problem, &mut Exhaustive).outcome
+}
+
+#[test]
+fn there_is_any_contact_where_there_is_a_first_one() {
+    let mut rng = rng(1);
+    let (mut hits, mut misses, mut starts, mut later, mut grazes) = (0, 0, 0, 0, 0);
+    for number in 0..4_000 {
+        let scene = scene(&mut rng, KINDS[number % 4], 12);
+        let problem = scene.problem();
+        let within = problem.contact_distance();
+        match (any(&problem), first(&problem)) {
+            (AnyContact::Contact { time, contact }, Outcome::Contact { time: first, .. }) => {
+                hits += 1;
+                later += u32::from(time > first);
+                // Neither is much earlier than the other is certain of.
+                assert!(time >= first || distance(&problem, time) <= within + problem.rounding);
+                assert!(contact.separation.upper <= within, "{number}: {contact:?}");
+                assert!(distance(&problem, time) <= within + problem.rounding);
+            }
+            (AnyContact::Free { proven_gap }, Outcome::Free { .. }) => {
+                misses += 1;
+                for k in 0..=32 {
+                    let found = distance(&problem, f64::from(k) / 32.0);
+                    assert!(
+                        found >= proven_gap - problem.rounding,
+                        "{number}: {found:e}"
+                    );
+                }
+            }
+            (
+                AnyContact::Contact { time, .. },
+                Outcome::Touching { .. } | Outcome::Overlapping { .. },
+            ) => {
+                starts += 1;
+                assert!(distance(&problem, time) <= within + problem.rounding);
+            }
+            (AnyContact::Overlapping { .. }, Outcome::Overlapping { .. }) => starts += 1,
+            // Nearest within the tolerance, but not within half of it: both answers are right.
+            (AnyContact::Free { .. }, Outcome::Contact { time, .. })
+            | (AnyContact::Contact { time, .. }, Outcome::Free { .. }) => {
+                grazes += 1;
+                let near = distance(&problem, time);
+                assert!(
+                    near >= problem.gap() - problem.rounding,
+                    "{number}: {near:e}"
+                );
+            }
+            (any, first) => panic!("{number}: {any:?}, {first:?}"),
+        }
+    }
+    assert!(hits > 200 && misses > 200, "{hits} {misses}");
+    assert!(starts > 10 && later > 50, "{starts} {later}");
+    assert!(grazes < 10, "{grazes}");
+}
+
+#[test]
+fn bodies_that_are_let_go_have_the_verdict_of_the_first_contact() {
+    let mut rng = rng(2);
+    let (mut free, mut contacts) = (0, 0);
+    for number in 0..600 {
+        let mut scene = scene(&mut rng, KINDS[number % 4], 6);
+        scene.config.start = StartPolicy::Leave;
+        let problem = scene.problem();
+        match (any(&problem), first(&problem)) {
+            (AnyContact::Free { .. }, Outcome::Free { .. }) => free += 1,
+            (AnyContact::Contact { .. }, Outcome::Contact { .. }) => contacts += 1,
+            (AnyContact::Overlapping { .. }, Outcome::Overlapping { .. }) => {}
+            (AnyContact::Unresolved { .. }, Outcome::Unresolved { .. }) => {}
+            (any, first) => panic!("{number}: {any:?}, {first:?}"),
+        }
+    }
+    assert!(free > 200 && contacts > 20, "{free} {contacts}");
+}
+
+#[test]
+fn budgets_end_a_search_with_a_time_that_is_safe() {
+    let mut rng = rng(3);
+    let mut ended = 0;
+    for number in 0..200 {
+        let mut scene = scene(&mut rng, KINDS[number % 3], 12);
+        let touch = match first(&scene.problem()) {
+            Outcome::Contact { time, .. } => time,
+            Outcome::Free { .. } => 1.0,
+            _ => continue,
+        };
+        for budget in 0..40 {
+            scene.config.budget = budget;
+            match any(&scene.problem()) {
+                AnyContact::Unresolved { safe_until, reason } => {
+                    assert_eq!(reason, Limit::Budget);
+                    assert!(safe_until <= touch, "{number}: {safe_until} of {touch}");
+                    ended += 1;
+                }
+                _ => break,
+            }
+        }
+    }
+    assert!(ended > 500, "{ended}");
+}
+
+#[test]
+fn false_claims_and_give_ups_never_make_bodies_free() {
+    let mut rng = rng(4);
+    let (mut unresolved, mut others) = (0, 0);
+    for number in 0..300 {
+        let mut scene = scene(&mut rng, KINDS[number % 3], 8);
+        scene.config.budget = 20_000;
+        let problem = scene.problem();
+        let touch = (0..=64)
+            .map(|k| f64::from(k) / 64.0)
+            .find(|&s| distance(&problem, s) <= 0.0);
+        let lie = Claim {
+            axis: direction(&mut rng),
+            a: Combination::point(rng.random_range(0..5)),
+            b: Combination::point(rng.random_range(0..5)),
+        };
+        for oracle in [Always(Ok(lie)), Always(Err(GiveUp::Cycle))] {
+            let answer = DepthFirst::default().any_contact(&problem, &mut { oracle });
+            match answer.outcome {
+                AnyContact::Unresolved { safe_until, .. } => {
+                    unresolved += 1;
+                    assert!(touch.is_none_or(|touch| safe_until <= touch));
+                }
+                AnyContact::Free { .. } => {
+                    others += 1;
+                    assert_eq!(touch, None);
+                }
+                AnyContact::Contact { time, .. } => {
+                    others += 1;
+                    let near = distance(&problem, time);
+                    assert!(near <= problem.contact_distance() + problem.rounding);
+                }
+                AnyContact::Overlapping { .. } => {}
+            }
+        }
+    }
+    assert!(unresolved > 50 && others > 50, "{unresolved} {others}");
+}
+
+#[test]
+fn answers_do_not_depend_on_earlier_searches() {
+    let mut rng = rng(5);
+    let mut kept = DepthFirst::default();
+    for number in 0..200 {
+        let scene = scene(&mut rng, KINDS[number % 4], 12);
+        let problem = scene.problem();
+        let fresh = DepthFirst::default().any_contact(&problem, &mut Exhaustive);
+        assert_eq!(kept.any_contact(&problem, &mut Exhaustive), fresh);
+        kept.closest_approach(&problem, &mut Exhaustive);
+        assert_eq!(kept.any_contact(&problem, &mut Exhaustive), fresh);
+    }
+}

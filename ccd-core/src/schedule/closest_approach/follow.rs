@@ -1,0 +1,136 @@
+//! Follows two pieces to the time at which they are nearest.
+
+use super::Best;
+use crate::distance::oracle::DistanceOracle;
+use crate::math::order::lesser;
+use crate::problem::Problem;
+use crate::schedule::meter::Meter;
+use crate::schedule::pieces::pair;
+use crate::schedule::pieces::snapshot::Snapshot;
+use crate::tolerance::{FOLLOWED, FOLLOWED_TURN, FOLLOWING_LOOKS};
+
+/// Follows the pieces of a contact to a time at which they are nearer, about a local minimum of their
+/// distance. Returns the nearest that was seen.
+pub(super) fn follow<O: DistanceOracle>(
+    problem: &Problem<'_>,
+    oracle: &mut O,
+    meter: &mut Meter,
+    seen: Best,
+) -> Best {
+    let ids = [seen.contact.piece_a, seen.contact.piece_b];
+    let mut descent = Descent {
+        problem,
+        oracle,
+        meter,
+        ids,
+        cache: O::Cache::default(),
+        best: seen,
+    };
+    if let Some([falling, other]) = descent.bracket(seen.clock) {
+        descent.narrow(falling, other);
+    }
+    descent.best
+}
+
+struct Descent<'d, O: DistanceOracle> {
+    problem: &'d Problem<'d>,
+    oracle: &'d mut O,
+    meter: &'d mut Meter,
+    ids: [u32; 2],
+    cache: O::Cache,
+    best: Best,
+}
+
+/// The rate of the distance of two pieces at a clock.
+#[derive(Clone, Copy)]
+struct Slope {
+    clock: f64,
+    distance: f64,
+    rate: f64,
+}
+
+impl<O: DistanceOracle> Descent<'_, O> {
+    /// Looks at the pieces at a clock; none if the oracle gives up, or if they are known to be as near
+    /// as matters.
+    fn look(&mut self, clock: f64) -> Option<Slope> {
+        if self.best.contact.separation.upper <= self.problem.tolerance {
+            return None;
+        }
+        let [a, b] = self.ids;
+        let snapshot = Snapshot::new(self.problem, a, b, clock);
+        let checked = snapshot.ask(self.oracle, &mut self.cache, self.meter)?;
+        if checked.upper < self.best.contact.separation.upper {
+            let contact = pair::contact(&snapshot, self.ids, &checked);
+            self.best = Best { clock, contact };
+        }
+        let frame = &snapshot.frames[0];
+        let [on_a, on_b] = [checked.witness_a, checked.witness_b].map(|w| frame.point(w));
+        let velocity = self.problem.b.path.velocity_at(on_b, clock)
+            - self.problem.a.path.velocity_at(on_a, clock);
+        Some(Slope {
+            clock,
+            distance: checked.upper,
+            rate: (frame.rotation * checked.axis).dot(velocity),
+        })
+    }
+
+    /// Goes down from a clock until the distance grows again: returns two clocks with a least distance in
+    /// between, that from which the distance falls first.
+    fn bracket(&mut self, from: f64) -> Option<[Slope; 2]> {
+        let mut here = self.look(from)?;
+        let forward = here.rate < 0.0;
+        let end = if forward { 1.0 } else { 0.0 };
+        // At this rate the pieces would meet. Bodies that turn further may pass a valley.
+        let turning = self.problem.a.path.rate + self.problem.b.path.rate;
+        let mut step = lesser((here.distance / here.rate).abs(), FOLLOWED_TURN / turning);
+        for _ in 0..FOLLOWING_LOOKS {
+            let next = match forward {
+                true => here.clock + step,
+                false => here.clock - step,
+            };
+            // Written so that NaN is beyond the end.
+            let next = if (0.0..=1.0).contains(&next) {
+                next
+            } else {
+                end
+            };
+            if next == here.clock {
+                return None;
+            }
+            let there = self.look(next)?;
+            let falls = (there.rate < 0.0) == forward;
+            if !(falls && there.distance < here.distance) {
+                return Some([here, there]);
+            }
+            here = there;
+            step = lesser(2.0 * step, FOLLOWED_TURN / turning);
+        }
+        None
+    }
+
+    /// Narrows the interval that holds a least distance, which falls from the first clock on.
+    fn narrow(&mut self, mut falling: Slope, mut other: Slope) {
+        for look in 0..FOLLOWING_LOOKS {
+            let width = other.clock - falling.clock;
+            // Written so that NaN is narrow enough.
+            if !((width * falling.rate).abs() > FOLLOWED * self.problem.tolerance) {
+                return;
+            }
+            // Where a straight line through both rates is zero; every other time in the middle, for
+            // rates that jump.
+            let zero = falling.rate / (falling.rate - other.rate);
+            let share = match look % 2 == 0 && (0.0..=1.0).contains(&zero) {
+                true => zero,
+                false => 0.5,
+            };
+            let Some(middle) = self.look(falling.clock + share * width) else {
+                return;
+            };
+            let falls = (middle.rate < 0.0) == (falling.rate < 0.0);
+            match falls && middle.distance < falling.distance {
+                true => falling = middle,
+                false => other = middle,
+            }
+        }
+    }
+}

@@ -1,0 +1,29 @@
+//! The newest pair is examined next, whatever its clock: for questions that do not ask for the first
+//! contact.
+
+use super::memory::Kept;
+use super::search::Item;
+use super::stack::Stack;
+use crate::distance::oracle::DistanceOracle;
+
+/// Depth-first search, for [any contact](DepthFirst::any_contact) and for the [closest
+/// approach](DepthFirst::closest_approach).
+///
+/// Pairs are split and followed like those of [`BestFirst`](super::BestFirst), but the newest is
+/// examined next. A search comes to pieces at once, and few pairs wait.
+///
+/// Keep it between queries: it owns the memory.
+#[derive(Debug)]
+pub struct DepthFirst<O: DistanceOracle> {
+    pub(super) stack: Stack<Item<O::Cache>>,
+    pub(super) kept: Kept,
+}
+
+impl<O: DistanceOracle> Default for DepthFirst<O> {
+    fn default() -> Self {
+        DepthFirst {
+            stack: Stack::default(),
+            kept: None,
+        }
+    }
+}

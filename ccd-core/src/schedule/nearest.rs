@@ -1,0 +1,214 @@
+//! The distance of two bodies at one clock: nearest pairs first.
+
+use super::memory::empty;
+use super::meter::Meter;
+use super::nodes::common::Common;
+use super::nodes::expand::measure;
+use super::nodes::siblings::{Next, Siblings};
+use super::pieces::pair::contact;
+use super::pieces::snapshot::Snapshot;
+use super::queue::Queue;
+use super::waiting::{Full, Rank, Waiting};
+use crate::distance::oracle::DistanceOracle;
+use crate::distance::overlap::{self, Intersection};
+use crate::math::order::lesser;
+use crate::outcome::{Contact, Limit};
+use crate::problem::Problem;
+use crate::tolerance::NEAREST_SHARE;
+use std::ops::ControlFlow;
+
+/// Splits the pair of nodes that may contain the nearest pieces, until no waiting pair can contain
+/// any that are nearer than those found.
+///
+/// Pairs that may intersect have no lower bound of their distance, and therefore come before all
+/// others.
+pub(super) struct Nearest<'p> {
+    problem: &'p Problem<'p>,
+    common: Common<'p>,
+    clock: f64,
+    lists: &'p mut Lists,
+    /// Pairs at least this far apart are of no interest.
+    beyond: f64,
+    /// The pieces of least upper bound.
+    nearest: Option<Contact>,
+    /// Bounds the distance of all pieces that were measured or given up.
+    lower: f64,
+    /// True if some pair could not be shown to intersect or not.
+    pub(super) undecided: bool,
+}
+
+/// The reason for which a search ends before it knows the distance.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Stop {
+    /// These pieces intersect.
+    Overlap(Contact),
+    /// A limit was reached.
+    Limit(Limit),
+}
+
+/// The lists of a search, which keep their memory.
+#[derive(Debug, Default)]
+pub(crate) struct Lists {
+    /// Pairs of nodes, ordered by lower bounds of their distances.
+    waiting: Queue<Siblings>,
+    /// All pairs of pieces without a separating axis; none of them has a distance.
+    touching: Vec<[u32; 2]>,
+    /// For the search for one body inside the other.
+    pieces: Vec<u32>,
+}
+
+impl Lists {
+    pub(super) fn clear(&mut self) {
+        self.waiting.clear();
+        empty(&mut self.touching);
+        empty(&mut self.pieces);
+    }
+
+    /// Returns all pairs of pieces that no axis separates, and a list of pieces for use elsewhere.
+    pub(super) fn touching(&mut self) -> (&[[u32; 2]], &mut Vec<u32>) {
+        (&self.touching, &mut self.pieces)
+    }
+}
+
+impl<'p> Nearest<'p> {
+    /// Creates the search at a clock.
+    pub(super) fn new(problem: &'p Problem<'p>, clock: f64, lists: &'p mut Lists) -> Self {
+        Nearest {
+            problem,
+            common: Common::new(problem),
+            clock,
+            lists,
+            beyond: f64::INFINITY,
+            nearest: None,
+            lower: f64::INFINITY,
+            undecided: false,
+        }
+    }
+
+    /// Seeks only pieces that are nearer than this to each other.
+    pub(super) fn nearer_than(self, beyond: f64) -> Self {
+        Nearest { beyond, ..self }
+    }
+
+    /// Finds the nearest pieces, unless something ends the search before.
+    ///
+    /// # Complexity
+    /// One distance of the bodies, and a look at every pair of pieces that may intersect.
+    pub(super) fn search<O: DistanceOracle>(
+        &mut self,
+        oracle: &mut O,
+        meter: &mut Meter,
+    ) -> Option<Stop> {
+        self.run(oracle, meter).break_value()
+    }
+
+    fn run<O: DistanceOracle>(&mut self, oracle: &mut O, meter: &mut Meter) -> ControlFlow<Stop> {
+        let mut next = Some(Next::roots(self.problem));
+        while let Some(pair) = next {
+            if let Err(limit) = meter.visit() {
+                return ControlFlow::Break(Stop::Limit(limit));
+            }
+            match pair {
+                Next::Split(split) => {
+                    let expansion = measure(&self.common, &split, self.clock);
+                    self.wait(Siblings::new(&expansion, split, 0.0))?;
+                }
+                Next::Ask(a, b) => self.look([a, b], oracle, meter)?,
+            }
+            next = self.next();
+        }
+        ControlFlow::Continue(())
+    }
+
+    fn wait(&mut self, siblings: Siblings) -> ControlFlow<Stop> {
+        let distance = siblings.clock();
+        if !(distance < self.upper()) {
+            return ControlFlow::Continue(());
+        }
+        match self.lists.waiting.push(distance, Rank::Siblings, siblings) {
+            Ok(()) => ControlFlow::Continue(()),
+            Err(Full) => ControlFlow::Break(Stop::Limit(Limit::Budget)),
+        }
+    }
+
+    /// Returns the pair that may be the nearest; none when no pair can be nearer than the one
+    /// found.
+    fn next(&mut self) -> Option<Next> {
+        let (upper, near_enough) = (self.upper(), self.near_enough());
+        let (distance, siblings) = self.lists.waiting.next()?;
+        // Pairs without a distance may intersect.
+        if distance > 0.0 && distance >= near_enough {
+            self.lower = lesser(self.lower, distance);
+            return None;
+        }
+        let next = siblings.take_least(self.problem, distance);
+        match siblings.clock() {
+            distance if distance < upper => self.lists.waiting.postpone(distance),
+            _ => self.lists.waiting.remove(),
+        }
+        Some(next)
+    }
+
+    /// Measures two pieces.
+    fn look<O: DistanceOracle>(
+        &mut self,
+        ids: [u32; 2],
+        oracle: &mut O,
+        meter: &mut Meter,
+    ) -> ControlFlow<Stop> {
+        let problem = self.problem;
+        let snapshot = Snapshot::new(problem, ids[0], ids[1], self.clock);
+        let Some(checked) = snapshot.ask(oracle, &mut O::Cache::default(), meter) else {
+            return ControlFlow::Break(Stop::Limit(Limit::OracleGaveUp));
+        };
+        let inner = &mut meter.memory().inner;
+        match overlap::intersects(&snapshot.pieces, &checked, problem.rounding, inner) {
+            Intersection::Certain => {
+                return ControlFlow::Break(Stop::Overlap(contact(&snapshot, ids, &checked)));
+            }
+            Intersection::Undecided => self.undecided = true,
+            Intersection::None => {}
+        }
+        // Written so that NaN is not apart.
+        if !(checked.lower > 0.0) {
+            self.lists.touching.push(ids);
+        }
+        self.lower = lesser(self.lower, checked.lower);
+        if checked.upper < self.upper() {
+            self.nearest = Some(contact(&snapshot, ids, &checked));
+        }
+        ControlFlow::Continue(())
+    }
+
+    /// Bounds the distances of interest from above.
+    fn upper(&self) -> f64 {
+        let upper = |contact: Contact| contact.separation.upper;
+        self.nearest.map_or(self.beyond, upper)
+    }
+
+    /// Pairs at least this far apart are not examined.
+    fn near_enough(&self) -> f64 {
+        let upper = self.upper();
+        match upper <= self.problem.contact_distance() {
+            true => upper * (1.0 - NEAREST_SHARE),
+            false => upper,
+        }
+    }
+
+    /// Returns the nearest pieces, with a lower bound that holds for all; none if there are none of
+    /// interest.
+    pub(super) fn nearest(&self) -> Option<Contact> {
+        self.nearest
+            .map(|contact| contact.no_nearer_than(self.lower))
+    }
+
+    /// Returns the nearest pieces, with a lower bound that holds for all; those `seen` in contact if a
+    /// later claim of an oracle contradicts an earlier one.
+    pub(super) fn contact(&self, seen: Contact) -> Contact {
+        let within = self.problem.contact_distance();
+        let nearest = self
+            .nearest
+            .filter(|nearest| nearest.separation.upper <= within);
+        nearest.unwrap_or(seen).no_nearer_than(self.lower)
+    }
+}

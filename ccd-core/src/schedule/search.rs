@@ -1,0 +1,183 @@
+//! The steps of every search: the next pair that waits is proven apart for longer, or split.
+
+use super::meter::Meter;
+use super::nodes::closer_look::CloserLook;
+use super::nodes::common::Common;
+use super::nodes::expand::expand;
+use super::nodes::siblings::{Next, Siblings};
+use super::pieces::pair::{Pair, Step};
+use super::waiting::{Full, Rank, Waiting};
+use crate::distance::oracle::DistanceOracle;
+use crate::outcome::Limit;
+use crate::problem::Problem;
+use std::ops::ControlFlow;
+
+/// The pairs that wait.
+#[derive(Debug)]
+pub(super) enum Item<C> {
+    Siblings(Siblings),
+    Pieces(Pair<C>),
+}
+
+impl<C> Item<C> {
+    fn rank(&self) -> Rank {
+        match self {
+            Item::Siblings(_) => Rank::Siblings,
+            Item::Pieces(_) => Rank::PiecePair,
+        }
+    }
+}
+
+/// What a search is for: it draws the conclusions from the steps.
+pub(super) trait Question<O: DistanceOracle> {
+    /// The answer.
+    type Found;
+
+    /// Concludes from the clock of the pair to be looked at next.
+    fn arrive(&mut self, problem: &Problem<'_>, s: f64) -> ControlFlow<Self::Found>;
+
+    /// Records a gap that pairs of nodes keep until their clocks.
+    fn keep(&mut self, gap: f64);
+
+    /// Concludes from the advance of a pair of pieces at clock `s`: returns the clock to wait for, or
+    /// the answer.
+    fn conclude(
+        &mut self,
+        problem: &Problem<'_>,
+        oracle: &mut O,
+        meter: &mut Meter,
+        step: Step,
+        s: f64,
+    ) -> ControlFlow<Self::Found, f64>;
+
+    /// Returns the answer if a limit is reached at clock `s`.
+    fn stopped(&mut self, problem: &Problem<'_>, s: f64, limit: Limit) -> Self::Found;
+
+    /// Returns the answer if all pairs are proven to the end.
+    fn done(&mut self, problem: &Problem<'_>) -> Self::Found;
+}
+
+/// A search, with what it works with.
+pub(super) struct Search<'s, O, W> {
+    pub(super) waiting: &'s mut W,
+    pub(super) oracle: &'s mut O,
+    pub(super) meter: &'s mut Meter,
+}
+
+impl<O: DistanceOracle, W: Waiting<Item<O::Cache>>> Search<'_, O, W> {
+    /// Searches from the pair of both roots on.
+    pub(super) fn run<Q: Question<O>>(
+        &mut self,
+        problem: &Problem<'_>,
+        question: &mut Q,
+    ) -> Q::Found {
+        if self.open(problem).is_err() {
+            return question.stopped(problem, 0.0, Limit::Budget);
+        }
+        let common = Common::new(problem);
+        let mut look = CloserLook::new(problem);
+        loop {
+            if let ControlFlow::Break(found) = self.visit(&common, &mut look, question) {
+                return found;
+            }
+        }
+    }
+
+    /// Lets the pair of both roots wait.
+    pub(super) fn open(&mut self, problem: &Problem<'_>) -> Result<(), Full> {
+        let item = match Next::roots(problem) {
+            Next::Ask(a, b) => Item::Pieces(Pair::new(a, b)),
+            Next::Split(split) => Item::Siblings(Siblings::roots(split.body)),
+        };
+        self.waiting.push(0.0, item.rank(), item)
+    }
+
+    /// Examines the next pair: proves it apart for longer, or splits it.
+    #[inline]
+    pub(super) fn visit<Q: Question<O>>(
+        &mut self,
+        common: &Common<'_>,
+        look: &mut CloserLook,
+        question: &mut Q,
+    ) -> ControlFlow<Q::Found> {
+        let problem = common.problem;
+        let Search {
+            waiting,
+            oracle,
+            meter,
+        } = self;
+        let Some((s, item)) = waiting.next() else {
+            return ControlFlow::Break(question.done(problem));
+        };
+        question.arrive(problem, s)?;
+        if let Err(limit) = meter.visit() {
+            return ControlFlow::Break(question.stopped(problem, s, limit));
+        }
+        let (next, rest) = match item {
+            Item::Pieces(pair) => {
+                let step = pair.advance(problem, *oracle, meter, s);
+                match question.conclude(problem, *oracle, meter, step, s)? {
+                    clock if clock >= 1.0 => waiting.remove(),
+                    clock => waiting.renew(clock, Rank::PiecePair),
+                }
+                return ControlFlow::Continue(());
+            }
+            Item::Siblings(siblings) => {
+                if let Some((clock, alone)) = look.part(problem, siblings, s) {
+                    let rest = siblings.clock();
+                    let waits = self.wait(rest, (clock, Item::Siblings(alone)));
+                    return unless_full(waits, problem, question, s);
+                }
+                // The rest of the siblings wait for their own clocks.
+                (siblings.take_least(problem, s), siblings.clock())
+            }
+        };
+        let new = match next {
+            Next::Split(split) => {
+                let expansion = expand(common, &split, s);
+                question.keep(f64::from(expansion.bounds.kept));
+                let mut siblings = Siblings::new(&expansion, split, s);
+                look.finish(problem, &split, s, &mut siblings, meter);
+                (siblings.clock(), Item::Siblings(siblings))
+            }
+            Next::Ask(a, b) => {
+                let mut pair = Pair::new(a, b);
+                let step = pair.advance(problem, *oracle, meter, s);
+                let clock = question.conclude(problem, *oracle, meter, step, s)?;
+                (clock, Item::Pieces(pair))
+            }
+        };
+        let waits = self.wait(rest, new);
+        unless_full(waits, problem, question, s)
+    }
+
+    /// Lets the siblings of the next pair, and what became of it, wait for their clocks, if these are
+    /// before the end.
+    #[inline(always)]
+    fn wait(&mut self, rest: f64, (clock, new): (f64, Item<O::Cache>)) -> Result<(), Full> {
+        // Written so that NaN is not the end.
+        match (rest >= 1.0, clock >= 1.0) {
+            (false, false) => {
+                self.waiting.postpone(rest);
+                self.waiting.push(clock, new.rank(), new)?;
+            }
+            (false, true) => self.waiting.postpone(rest),
+            (true, false) => self.waiting.replace(clock, new.rank(), new),
+            (true, true) => self.waiting.remove(),
+        }
+        Ok(())
+    }
+}
+
+#[inline(always)]
+fn unless_full<O: DistanceOracle, Q: Question<O>>(
+    waits: Result<(), Full>,
+    problem: &Problem<'_>,
+    question: &mut Q,
+    s: f64,
+) -> ControlFlow<Q::Found> {
+    match waits {
+        Ok(()) => ControlFlow::Continue(()),
+        Err(Full) => ControlFlow::Break(question.stopped(problem, s, Limit::Budget)),
+    }
+}

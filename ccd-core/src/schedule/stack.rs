@@ -1,0 +1,73 @@
+//! Pairs that wait for their clocks, the newest first.
+
+use super::memory::empty;
+use super::waiting::{Full, Rank, Waiting};
+use crate::math::order::lesser;
+
+/// Items in the order in which they came; the last one is next, whatever its clock.
+#[derive(Debug)]
+pub(crate) struct Stack<T> {
+    items: Vec<(f64, T)>,
+    peak: usize,
+}
+
+impl<T> Default for Stack<T> {
+    fn default() -> Self {
+        Stack {
+            items: Vec::new(),
+            peak: 0,
+        }
+    }
+}
+
+impl<T> Stack<T> {
+    /// Removes all items, and keeps [some of the memory](empty).
+    pub(crate) fn clear(&mut self) {
+        empty(&mut self.items);
+        self.peak = 0;
+    }
+
+    /// Returns the least clock of all items; infinite if there are none.
+    pub(crate) fn least_clock(&self) -> f64 {
+        let clocks = self.items.iter().map(|&(clock, _)| clock);
+        clocks.fold(f64::INFINITY, lesser)
+    }
+
+    /// Returns the largest number of items that waited at once.
+    pub(crate) fn peak(&self) -> u64 {
+        self.peak as u64
+    }
+
+    fn last(&mut self) -> &mut (f64, T) {
+        self.items.last_mut().expect("an item waits")
+    }
+}
+
+impl<T> Waiting<T> for Stack<T> {
+    fn push(&mut self, clock: f64, _: Rank, item: T) -> Result<(), Full> {
+        self.items.push((clock, item));
+        self.peak = self.peak.max(self.items.len());
+        Ok(())
+    }
+
+    fn next(&mut self) -> Option<(f64, &mut T)> {
+        let (clock, item) = self.items.last_mut()?;
+        Some((*clock, item))
+    }
+
+    fn postpone(&mut self, clock: f64) {
+        self.last().0 = clock;
+    }
+
+    fn renew(&mut self, clock: f64, _: Rank) {
+        self.last().0 = clock;
+    }
+
+    fn replace(&mut self, clock: f64, _: Rank, item: T) {
+        *self.last() = (clock, item);
+    }
+
+    fn remove(&mut self) {
+        self.items.pop();
+    }
+}
