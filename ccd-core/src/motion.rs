@@ -9,6 +9,7 @@ pub(crate) mod path;
 pub(crate) mod pose;
 pub(crate) mod relative;
 pub(crate) mod track;
+pub(crate) mod trajectory;
 pub(crate) mod trig;
 
 use crate::error::InputError;

@@ -339,7 +339,7 @@ impl Side<'_> {
 }
 
 /// Refuses a duration, a tolerance or a margin that is out of range.
-fn check_config(duration: f64, config: &Config) -> Result<(), InputError> {
+pub(crate) fn check_config(duration: f64, config: &Config) -> Result<(), InputError> {
     let finite = 0.0..=f64::MAX;
     check(
         "duration",

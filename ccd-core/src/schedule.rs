@@ -14,6 +14,7 @@ mod contract;
 mod depth_first;
 #[cfg(feature = "hull-tree")]
 mod fast;
+mod journey;
 mod memory;
 mod meter;
 mod naive;
@@ -35,4 +36,5 @@ pub use contract::Schedule;
 pub use depth_first::DepthFirst;
 #[cfg(feature = "hull-tree")]
 pub use fast::Fast;
+pub use journey::{Journey, Travelling};
 pub use naive::Naive;

@@ -8,4 +8,5 @@ pub(crate) mod oracle;
 pub(crate) mod rational;
 pub(crate) mod scene;
 mod tiny_components;
+pub(crate) mod trajectories;
 pub(crate) mod worst;

@@ -94,6 +94,15 @@ pub fn margin_rounding(margin: f64) -> f64 {
     96.0 * U64 * margin
 }
 
+/// The error of a pose that is computed for another time of a motion, relative to the lengths of its
+/// place, its centre and its travel, and as an angle relative to a radian more than its turn.
+///
+/// In units of `u`: the angle is off by 1 of the turn, its sine and cosine by 2, the product of two
+/// quaternions by 6, and normalising by 4: an angle of twice that, 24 and 2 of the turn. Turning the centre
+/// takes 18 of it, twice, and the sums 3 of all lengths: 39. As much again is left for the rounding of the
+/// pose that it is computed from: 80 are taken.
+pub const STRETCH_F64: f64 = 80.0 * U64;
+
 /// The error of lengths due to squares that underflow, in the scene's unit of length: see
 /// [`distance_rounding`].
 pub const LEAST_ROUNDING: f64 = 1e-130;
@@ -205,6 +214,14 @@ pub const A_WHILE: f64 = 1.0 / 65536.0;
 /// known to be between two clocks, and after that. Each look may halve the interval; a few suffice where
 /// distances are smooth. No answer depends on it.
 pub const FOLLOWING_LOOKS: usize = 16;
+
+/// The part of the tolerance by which bodies may stray from their motions where these are in contact. Twice
+/// of it is lost: for the margin that the motions keep, and for the contact that they show.
+pub const STRAY_SHARE: f64 = 0.25;
+
+/// The least part of a stretch that is cut off. Fewer cuts make it shorter than many halves do, but what they
+/// go by is a guess.
+pub const LEAST_CUT: f64 = 1.0 / 16.0;
 
 /// The longest step along the distance of two pieces, in radians of both bodies' turns: they are nearest
 /// at most once in it, mostly.

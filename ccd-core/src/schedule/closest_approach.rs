@@ -110,14 +110,30 @@ impl<O: DistanceOracle> DepthFirst<O> {
     ) -> Answer<ClosestApproach> {
         let mut kept = self.kept.take();
         let answer = metered(problem, oracle, &mut kept, |oracle, meter| {
-            self.stack.clear();
             let problem = problem.measuring();
-            let found = self.approach(&problem, oracle, meter);
-            meter.stats.peak_front = self.stack.peak();
+            let found = self.approach(&problem, f64::INFINITY, oracle, meter);
+            let found = found.unwrap_or_else(|Beyond { .. }| unresolved(Limit::OracleGaveUp));
             let told = told(&problem, oracle, meter, found);
             (told, tolerance(&problem, &told))
         });
-        self.stack.clear();
+        self.kept = kept;
+        answer
+    }
+
+    /// Like [`DepthFirst::closest_approach`], if the bodies come nearer than `beyond`.
+    pub(super) fn approach_below(
+        &mut self,
+        problem: &Problem<'_>,
+        beyond: f64,
+        oracle: &mut O,
+    ) -> Answer<Result<ClosestApproach, Beyond>> {
+        let mut kept = self.kept.take();
+        let answer = metered(problem, oracle, &mut kept, |oracle, meter| {
+            let problem = problem.measuring();
+            let found = self.approach(&problem, beyond, oracle, meter);
+            let told = found.map(|found| told(&problem, oracle, meter, found));
+            (told, problem.tolerance)
+        });
         self.kept = kept;
         answer
     }
@@ -125,18 +141,35 @@ impl<O: DistanceOracle> DepthFirst<O> {
     fn approach(
         &mut self,
         problem: &Problem<'_>,
+        beyond: f64,
         oracle: &mut O,
         meter: &mut Meter,
-    ) -> ClosestApproach {
+    ) -> Result<ClosestApproach, Beyond> {
+        self.stack.clear();
+        let found = self.search(problem, beyond, oracle, meter);
+        let stats = &mut meter.stats;
+        stats.peak_front = stats.peak_front.max(self.stack.peak());
+        self.stack.clear();
+        found
+    }
+
+    fn search(
+        &mut self,
+        problem: &Problem<'_>,
+        beyond: f64,
+        oracle: &mut O,
+        meter: &mut Meter,
+    ) -> Result<ClosestApproach, Beyond> {
         if !problem.a.path.moves() && !problem.b.path.moves() {
-            return at_one_pose(problem, oracle, meter);
+            return at_one_pose(problem, beyond, oracle, meter);
         }
-        let best = match guess(problem, oracle, meter) {
+        let best = match guess(problem, beyond, oracle, meter) {
             ControlFlow::Continue(best) => best,
-            ControlFlow::Break(found) => return found,
+            ControlFlow::Break(found) => return Ok(found),
         };
         let mut nearing = Nearing {
             best,
+            beyond,
             proven: Proven::default(),
             stuck: None,
         };
@@ -146,7 +179,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
             meter,
         };
         if search.open(problem).is_err() {
-            return nearing.unresolved(problem, Limit::Budget);
+            return Ok(nearing.unresolved(problem, Limit::Budget));
         }
         // Pairs that keep apart by more than the least distance do so by more than a lesser one.
         loop {
@@ -170,23 +203,33 @@ impl<O: DistanceOracle> DepthFirst<O> {
 /// Measures bodies that do not move.
 fn at_one_pose<O: DistanceOracle>(
     problem: &Problem<'_>,
+    beyond: f64,
     oracle: &mut O,
     meter: &mut Meter,
-) -> ClosestApproach {
-    let nearest = None;
-    match at_start(problem, f64::INFINITY, oracle, meter) {
+) -> Result<ClosestApproach, Beyond> {
+    Ok(match at_start(problem, beyond, oracle, meter) {
         Some(Outcome::Touching { contact }) => ClosestApproach::Nearest {
             lower: greater(0.0, contact.separation.lower),
             time: 0.0,
             contact,
         },
         Some(Outcome::Overlapping { overlap }) => ClosestApproach::Overlapping { overlap },
-        Some(Outcome::Unresolved { reason, .. }) => ClosestApproach::Unresolved { nearest, reason },
-        // Every distance is NaN: an oracle without an answer.
-        _ => ClosestApproach::Unresolved {
-            nearest,
-            reason: Limit::OracleGaveUp,
-        },
+        Some(Outcome::Unresolved { reason, .. }) => unresolved(reason),
+        _ => return Err(Beyond { lower: beyond }),
+    })
+}
+
+/// The bodies are at least as far apart as is of interest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Beyond {
+    /// A lower bound of the distance at all times.
+    pub(super) lower: f64,
+}
+
+fn unresolved(reason: Limit) -> ClosestApproach {
+    ClosestApproach::Unresolved {
+        nearest: None,
+        reason,
     }
 }
 
@@ -243,7 +286,9 @@ struct Best {
 
 /// How close do they come? Pairs are proven to keep the least distance found so far.
 struct Nearing {
-    best: Best,
+    best: Option<Best>,
+    /// Larger distances are of no interest.
+    beyond: f64,
     proven: Proven,
     /// The reason why some pair could not be proven to the end.
     stuck: Option<Limit>,
@@ -251,32 +296,35 @@ struct Nearing {
 
 impl Nearing {
     fn upper(&self) -> f64 {
-        self.best.contact.separation.upper
+        let upper = |best: Best| best.contact.separation.upper;
+        self.best.map_or(self.beyond, upper)
     }
 
-    fn found(&self, problem: &Problem<'_>, lower: f64) -> ClosestApproach {
-        ClosestApproach::Nearest {
+    fn found(&self, problem: &Problem<'_>, lower: f64) -> Result<ClosestApproach, Beyond> {
+        let best = self.best.ok_or(Beyond { lower })?;
+        Ok(ClosestApproach::Nearest {
             lower,
-            time: problem.time(self.best.clock),
-            contact: self.best.contact.no_nearer_than(lower),
-        }
+            time: problem.time(best.clock),
+            contact: best.contact.no_nearer_than(lower),
+        })
     }
 
     fn unresolved(&self, problem: &Problem<'_>, reason: Limit) -> ClosestApproach {
+        let seen = |best: Best| {
+            let contact = best.contact.no_nearer_than(0.0);
+            (problem.time(best.clock), contact)
+        };
         ClosestApproach::Unresolved {
-            nearest: Some((
-                problem.time(self.best.clock),
-                self.best.contact.no_nearer_than(0.0),
-            )),
+            nearest: self.best.map(seen),
             reason,
         }
     }
 }
 
 impl<O: DistanceOracle> Question<O> for Nearing {
-    type Found = ClosestApproach;
+    type Found = Result<ClosestApproach, Beyond>;
 
-    fn arrive(&mut self, _: &Problem<'_>, _: f64) -> ControlFlow<ClosestApproach> {
+    fn arrive(&mut self, _: &Problem<'_>, _: f64) -> ControlFlow<Self::Found> {
         ControlFlow::Continue(())
     }
 
@@ -292,18 +340,18 @@ impl<O: DistanceOracle> Question<O> for Nearing {
         meter: &mut Meter,
         step: Step,
         s: f64,
-    ) -> ControlFlow<ClosestApproach, f64> {
+    ) -> ControlFlow<Self::Found, f64> {
         match step {
             Step::FreeUntil(clock) => ControlFlow::Continue(clock),
             Step::Contact(contact) => {
                 let seen = Best { clock: s, contact };
-                self.best = follow(problem, oracle, meter, seen);
+                self.best = Some(follow(problem, oracle, meter, seen));
                 // The pair is looked at again: it keeps a lesser distance.
                 ControlFlow::Continue(s)
             }
-            Step::Overlap(contact) => ControlFlow::Break(ClosestApproach::Overlapping {
+            Step::Overlap(contact) => ControlFlow::Break(Ok(ClosestApproach::Overlapping {
                 overlap: Overlap::Pieces(contact),
-            }),
+            })),
             Step::Stalled => {
                 self.stuck = Some(Limit::Stalled);
                 ControlFlow::Continue(f64::INFINITY)
@@ -315,18 +363,18 @@ impl<O: DistanceOracle> Question<O> for Nearing {
         }
     }
 
-    fn stopped(&mut self, problem: &Problem<'_>, _: f64, limit: Limit) -> ClosestApproach {
-        self.unresolved(problem, limit)
+    fn stopped(&mut self, problem: &Problem<'_>, _: f64, limit: Limit) -> Self::Found {
+        Ok(self.unresolved(problem, limit))
     }
 
-    fn done(&mut self, problem: &Problem<'_>) -> ClosestApproach {
+    fn done(&mut self, problem: &Problem<'_>) -> Self::Found {
         if let Some(limit) = self.stuck {
-            return self.unresolved(problem, limit);
+            return Ok(self.unresolved(problem, limit));
         }
         match self.proven.end(problem) {
-            Outcome::Overlapping { overlap } => ClosestApproach::Overlapping { overlap },
+            Outcome::Overlapping { overlap } => Ok(ClosestApproach::Overlapping { overlap }),
             Outcome::Free { proven_gap } => self.found(problem, proven_gap),
-            Outcome::Unresolved { reason, .. } => self.unresolved(problem, reason),
+            Outcome::Unresolved { reason, .. } => Ok(self.unresolved(problem, reason)),
             Outcome::Contact { .. } | Outcome::Touching { .. } => {
                 unreachable!("pairs that waited are in no contact")
             }

@@ -2,7 +2,7 @@
 
 use super::{Best, ClosestApproach, follow};
 use crate::distance::oracle::DistanceOracle;
-use crate::outcome::{Contact, Limit, Overlap};
+use crate::outcome::{Limit, Overlap};
 use crate::problem::Problem;
 use crate::schedule::meter::Meter;
 use crate::schedule::nearest::{Nearest, Stop};
@@ -16,13 +16,16 @@ use std::ops::ControlFlow;
 /// Breaks with the answer if the bodies overlap at the start, or a limit is reached.
 pub(super) fn guess<O: DistanceOracle>(
     problem: &Problem<'_>,
+    beyond: f64,
     oracle: &mut O,
     meter: &mut Meter,
-) -> ControlFlow<ClosestApproach, Best> {
-    let mut best = None;
+) -> ControlFlow<ClosestApproach, Option<Best>> {
+    let mut best: Option<Best> = None;
     let mut clock = nearest_clock(problem);
     for _ in 0..GUESSES {
-        let Some(found) = nearest_at(problem, oracle, meter, clock, best)? else {
+        let upper = best.map_or(beyond, |best| best.contact.separation.upper);
+        let found = nearest_at(problem, clock, upper, oracle, meter);
+        let Some(found) = found.map_break(|stop| stopped(problem, best, stop))? else {
             break;
         };
         let followed = follow(problem, oracle, meter, found);
@@ -34,44 +37,45 @@ pub(super) fn guess<O: DistanceOracle>(
             break;
         }
     }
-    match best {
-        Some(best) => ControlFlow::Continue(best),
-        None => ControlFlow::Break(unresolved(None, Limit::OracleGaveUp)),
+    // Beyond all distances there is nothing to look for.
+    match best.is_none() && beyond == f64::INFINITY {
+        true => ControlFlow::Break(super::unresolved(Limit::OracleGaveUp)),
+        false => ControlFlow::Continue(best),
     }
 }
 
-/// Returns the nearest pieces at a clock, if they are nearer than the best so far.
+/// Returns the nearest pieces at a clock, if they are nearer than `beyond`.
 fn nearest_at<O: DistanceOracle>(
     problem: &Problem<'_>,
+    clock: f64,
+    beyond: f64,
     oracle: &mut O,
     meter: &mut Meter,
-    clock: f64,
-    best: Option<Best>,
-) -> ControlFlow<ClosestApproach, Option<Best>> {
+) -> ControlFlow<Stop, Option<Best>> {
     let mut lists = std::mem::take(&mut meter.memory().nearest);
-    let beyond = best.map_or(f64::INFINITY, |best| best.contact.separation.upper);
     let mut nearest = Nearest::new(problem, clock, &mut lists).nearer_than(beyond);
     let stopped = nearest.search(oracle, meter);
     let found = nearest.nearest();
     lists.clear();
     meter.memory().nearest = lists;
     let contact = match stopped {
-        Some(Stop::Limit(limit)) => {
-            let seen = best.map(|best| (problem.time(best.clock), best.contact));
-            return ControlFlow::Break(unresolved(seen, limit));
-        }
-        Some(Stop::Overlap(contact)) if clock == 0.0 => {
-            return ControlFlow::Break(ClosestApproach::Overlapping {
-                overlap: Overlap::Pieces(contact),
-            });
-        }
         // They meet before.
-        Some(Stop::Overlap(contact)) => Some(contact),
+        Some(Stop::Overlap(contact)) if clock > 0.0 => Some(contact),
+        Some(stop) => return ControlFlow::Break(stop),
         None => found,
     };
     ControlFlow::Continue(contact.map(|contact| Best { clock, contact }))
 }
 
-fn unresolved(nearest: Option<(f64, Contact)>, reason: Limit) -> ClosestApproach {
-    ClosestApproach::Unresolved { nearest, reason }
+/// Returns the answer for bodies that overlap at the start, or when a limit is reached.
+fn stopped(problem: &Problem<'_>, best: Option<Best>, stop: Stop) -> ClosestApproach {
+    match stop {
+        Stop::Overlap(contact) => ClosestApproach::Overlapping {
+            overlap: Overlap::Pieces(contact),
+        },
+        Stop::Limit(reason) => ClosestApproach::Unresolved {
+            nearest: best.map(|best| (problem.time(best.clock), best.contact.no_nearer_than(0.0))),
+            reason,
+        },
+    }
 }

@@ -1,0 +1,219 @@
+//! Motions of any kind, as stretches of the paper's motion that they stray from by a known amount.
+
+use super::Motion;
+use super::pose::Pose;
+use crate::error::InputError;
+use crate::math::vector::length;
+use crate::tolerance::STRETCH_F64;
+use glam::DQuat;
+
+/// A motion of any kind: between any two times it is near a [`Motion`], by a bound that it knows.
+///
+/// A query covers the time with stretches, long ones first. It takes shorter ones where the answer depends
+/// on it, so that bounds have to shrink with the stretch: with its square where the motion is smooth.
+///
+/// Implement [`Smooth`] instead, if velocities and bounds of accelerations are known.
+///
+/// ```
+/// use ccd_core::{glam::DVec3, InputError, Motion, Pose, Stretch, Trajectory};
+///
+/// /// Swings along x by the cosine of the time.
+/// struct Swing;
+///
+/// impl Trajectory for Swing {
+///     fn stretch(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
+///         let at = |t: f64| Pose::at(t.cos() * DVec3::X);
+///         let time = to - from;
+///         let motion = match time > 0.0 {
+///             true => Motion::between(at(from)?, at(to)?, DVec3::ZERO, time)?,
+///             false => Motion::still(at(from)?),
+///         };
+///         // A chord is off by at most an eighth of the square of its time, times the acceleration.
+///         Ok(Stretch { motion, shift: time * time / 8.0 + 1e-15, turn: 0.0 })
+///     }
+/// }
+///
+/// let stretch = Swing.stretch(1.0, 1.5)?;
+/// let middle = stretch.motion.pose(0.25).translation();
+/// assert!((middle.x - 1.25f64.cos()).abs() <= stretch.shift);
+/// # Ok::<(), InputError>(())
+/// ```
+pub trait Trajectory {
+    /// Returns a motion near this one from a time to a later one, or the same.
+    ///
+    /// # Errors
+    /// An [`InputError`] if there is no motion between these times.
+    fn stretch(&self, from: f64, to: f64) -> Result<Stretch, InputError>;
+
+    /// Returns a time between two others, if there is one, at which a velocity jumps: bounds of stretches
+    /// that end there are better. If there are several, one about the middle is best.
+    fn corner(&self, from: f64, to: f64) -> Option<f64> {
+        let _ = (from, to);
+        None
+    }
+
+    /// Returns the pose at a time, up to what the stretch of no length strays.
+    ///
+    /// # Errors
+    /// Those of [`Trajectory::stretch`].
+    fn pose(&self, time: f64) -> Result<Pose, InputError> {
+        Ok(self.stretch(time, time)?.motion.start())
+    }
+}
+
+/// A motion near a trajectory between two times.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stretch {
+    /// The motion; its time 0 is the first of the two.
+    pub motion: Motion,
+    /// The most by which the motion's centre, a point of the body, is off its place on the trajectory, in the
+    /// scene's unit of length.
+    pub shift: f64,
+    /// The largest angle by which the orientation is off, in radians.
+    pub turn: f64,
+}
+
+impl Stretch {
+    /// Creates a stretch of a trajectory that is the motion itself.
+    pub fn exact(motion: Motion) -> Self {
+        Stretch {
+            motion,
+            shift: 0.0,
+            turn: 0.0,
+        }
+    }
+
+    /// Bounds the distance by which points are off, no farther than `reach` from the motion's centre.
+    pub fn stray(&self, reach: f64) -> f64 {
+        match self.turn > 0.0 {
+            true => self.shift + self.turn * reach,
+            false => self.shift,
+        }
+    }
+}
+
+/// A trajectory without jumps of its velocities, known by bounds of its accelerations.
+///
+/// Between two times it is near the motion with the velocities of the middle. With bounds `a` and `α` of the
+/// accelerations, `|x(t) − x(m) − v(m) (t − m)| ≤ a (t − m)²/2`, and the angle between both orientations is at
+/// most `∫ |ω(s) − ω(m)| ds ≤ α (t − m)²/2`: the rotation that takes one to the other turns at the
+/// difference of their angular velocities.
+///
+/// ```
+/// use ccd_core::{glam::DVec3, Accelerations, InputError, Motion, Pose, Smooth, Trajectory};
+///
+/// /// Swings along x by the cosine of the time.
+/// struct Swing;
+///
+/// impl Smooth for Swing {
+///     fn tangent(&self, time: f64) -> Result<Motion, InputError> {
+///         Motion::new(Pose::at(time.cos() * DVec3::X)?, -time.sin() * DVec3::X, DVec3::ZERO)
+///     }
+///     fn accelerations(&self, _from: f64, _to: f64) -> Accelerations {
+///         Accelerations { linear: 1.0, angular: 0.0 }
+///     }
+/// }
+///
+/// let stretch = Swing.stretch(1.0, 1.5)?;
+/// assert!(stretch.shift > 0.03 && stretch.shift < 0.04 && stretch.turn < 1e-14);
+/// # Ok::<(), InputError>(())
+/// ```
+pub trait Smooth {
+    /// Returns the motion with the pose and the velocities of a time; its time 0 is that time.
+    ///
+    /// The linear velocity is that of the motion's [centre](Motion::centre).
+    ///
+    /// # Errors
+    /// An [`InputError`] if there is no pose at that time.
+    fn tangent(&self, time: f64) -> Result<Motion, InputError>;
+
+    /// Bounds the lengths of the accelerations from a time to a later one.
+    fn accelerations(&self, from: f64, to: f64) -> Accelerations;
+
+    /// Returns a time between two others, if there is one, at which an acceleration jumps: bounds of
+    /// stretches that end there are better.
+    fn corner(&self, from: f64, to: f64) -> Option<f64> {
+        let _ = (from, to);
+        None
+    }
+}
+
+/// Bounds of the lengths of accelerations, per unit of time squared.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Accelerations {
+    /// Of the tangents' centre, in the scene's unit of length.
+    pub linear: f64,
+    /// Of the orientation, in radians: the length of the derivative of the angular velocity.
+    pub angular: f64,
+}
+
+impl<S: Smooth + ?Sized> Trajectory for S {
+    fn stretch(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
+        let half = 0.5 * (to - from);
+        let tangent = self.tangent(from + half)?;
+        let Accelerations { linear, angular } = self.accelerations(from, to);
+        let motion = tangent.started(-half)?;
+        let rounding = motion.rounding_of_start(half);
+        // Twice the half is rounded, and so are the products.
+        let square = 0.5 * half * half * (1.0 + STRETCH_F64);
+        Ok(Stretch {
+            motion,
+            shift: linear * square + rounding.shift,
+            turn: angular * square + rounding.turn,
+        })
+    }
+
+    fn corner(&self, from: f64, to: f64) -> Option<f64> {
+        Smooth::corner(self, from, to)
+    }
+}
+
+/// Each stretch is the motion itself; those that do not begin at time 0 are off by rounding.
+impl Trajectory for Motion {
+    fn stretch(&self, from: f64, _to: f64) -> Result<Stretch, InputError> {
+        if from == 0.0 {
+            return Ok(Stretch::exact(*self));
+        }
+        let motion = self.started(from)?;
+        let Rounding { shift, turn } = motion.rounding_of_start(from);
+        Ok(Stretch {
+            motion,
+            shift,
+            turn,
+        })
+    }
+}
+
+/// The error of a pose that is computed from another one and velocities.
+struct Rounding {
+    shift: f64,
+    turn: f64,
+}
+
+impl Motion {
+    /// Returns the motion with another time as its time 0.
+    ///
+    /// # Errors
+    /// [`InputError::NotFinite`].
+    fn started(&self, at: f64) -> Result<Motion, InputError> {
+        let rotation = DQuat::from_scaled_axis(at * self.spin()) * self.start().rotation();
+        let turned = rotation * self.centre() - self.start().rotation() * self.centre();
+        let moved = self.start().translation() + (at * self.velocity() - turned);
+        let start = Pose::new(moved, rotation)?;
+        Motion::about(start, self.velocity(), self.spin(), self.centre())
+    }
+
+    /// Bounds the error of a start that was computed for another time.
+    fn rounding_of_start(&self, time: f64) -> Rounding {
+        let turned = length(self.spin()) * time.abs();
+        let travel = length(self.velocity()) * time.abs();
+        let place = length(self.start().translation()) + 2.0 * length(self.centre());
+        Rounding {
+            shift: STRETCH_F64 * (place + travel),
+            turn: STRETCH_F64 * (1.0 + turned),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,90 @@
+//! Strays of stretches against poses in between.
+
+use super::*;
+use crate::math::order::greater;
+use crate::tests::scene::{RngExt, direction, magnitude, rng, within};
+use crate::tests::trajectories::Swing;
+use glam::DVec3;
+
+/// The largest stray of points at a reach from the centre, over the bound, at some times of a stretch.
+fn worst(trajectory: &dyn Trajectory, from: f64, to: f64, reach: f64) -> f64 {
+    let stretch = trajectory.stretch(from, to).unwrap();
+    let bound = stretch.stray(reach);
+    let centre = stretch.motion.centre();
+    let mut rng = rng((1e6 * from) as u64);
+    let mut worst = 0.0;
+    for k in 0..=16 {
+        let t = from + (to - from) * f64::from(k) / 16.0;
+        let [true_pose, near] = [trajectory.pose(t).unwrap(), stretch.motion.pose(t - from)];
+        let x = centre + reach * direction(&mut rng);
+        let off = true_pose.transform_point(x) - near.transform_point(x);
+        worst = greater(worst, off.length() / bound);
+    }
+    worst
+}
+
+#[test]
+fn smooth_trajectories_stray_by_no_more_than_their_accelerations_allow() {
+    let mut rng = rng(1);
+    let mut tightest = 0.0;
+    for _ in 0..3_000 {
+        let swing = Swing::draw(&mut rng, 3.0);
+        let from = rng.random_range(0.0..2.0);
+        let to = from + magnitude(&mut rng, -6.0, 0.0);
+        let found = worst(&swing, from, to, rng.random_range(0.0..2.0));
+        assert!(found <= 1.0, "{found} of {swing:?} from {from} to {to}");
+        tightest = greater(tightest, found);
+    }
+    assert!(tightest > 0.5, "{tightest}");
+}
+
+#[test]
+fn motions_are_exact_from_the_start_and_off_by_rounding_later() {
+    let mut rng = rng(2);
+    for _ in 0..2_000 {
+        let start = Pose::new(
+            within(&mut rng, 9.0),
+            crate::tests::scene::rotation(&mut rng),
+        );
+        let spin = magnitude(&mut rng, -2.0, 3.0) * direction(&mut rng);
+        let [velocity, centre] = [(); 2].map(|()| within(&mut rng, 3.0));
+        let motion = Motion::about(start.unwrap(), velocity, spin, centre).unwrap();
+        let whole = motion.stretch(0.0, 1.0).unwrap();
+        assert_eq!(whole, Stretch::exact(motion));
+        let from = rng.random_range(0.0..1.0);
+        let later = motion.stretch(from, 1.0).unwrap();
+        assert!(later.stray(1.0) < 1e-10);
+        // The poses compared are rounded, too, by about as much.
+        assert!(worst(&motion, from, 1.0, 1.0) <= 2.0);
+    }
+}
+
+#[test]
+fn no_turn_is_no_stray_at_any_reach() {
+    let still = Stretch::exact(Motion::STILL);
+    assert_eq!(still.stray(f64::INFINITY), 0.0);
+    let shifted = Stretch {
+        shift: 2.0,
+        ..still
+    };
+    assert_eq!(shifted.stray(f64::INFINITY), 2.0);
+    let turned = Stretch {
+        turn: 0.5,
+        ..shifted
+    };
+    assert_eq!(turned.stray(4.0), 4.0);
+}
+
+#[test]
+fn trajectories_have_the_poses_of_their_tangents() {
+    let mut rng = rng(3);
+    let swing = Swing::draw(&mut rng, 3.0);
+    for k in 0..10 {
+        let t = f64::from(k) / 10.0;
+        let [pose, tangent] = [swing.pose(t), swing.tangent(t).map(|motion| motion.start())];
+        let [pose, tangent] = [pose.unwrap(), tangent.unwrap()];
+        assert!(pose.translation().distance(tangent.translation()) < 1e-14);
+        assert!(pose.rotation().dot(tangent.rotation()).abs() > 1.0 - 1e-15);
+    }
+    let _: DVec3 = swing.pose(0.5).unwrap().translation();
+}

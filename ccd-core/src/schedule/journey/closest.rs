@@ -1,0 +1,151 @@
+//! The closest approach along trajectories.
+
+use super::Journey;
+use super::stretches::Stretches;
+use crate::config::Config;
+use crate::distance::oracle::DistanceOracle;
+use crate::error::InputError;
+use crate::math::order::{greater, lesser};
+use crate::outcome::{Answer, Contact, Limit, Overlap};
+use crate::schedule::DepthFirst;
+use crate::schedule::closest_approach::{Beyond, ClosestApproach};
+
+impl<O: DistanceOracle> DepthFirst<O> {
+    /// Brackets the least distance of the bodies along their trajectories, to within the tolerance.
+    ///
+    /// # Guarantee
+    /// That of [`ClosestApproach`], for the trajectories themselves; ends on every input.
+    ///
+    /// # Errors
+    /// An [`InputError`] if a trajectory has no motion at some time, or one out of range.
+    pub fn closest_approach_along(
+        &mut self,
+        journey: &Journey<'_>,
+        oracle: &mut O,
+    ) -> Result<Answer<ClosestApproach>, InputError> {
+        let mut stretches = Stretches::new(journey);
+        let mut found = Found {
+            lower: f64::INFINITY,
+            best: None,
+        };
+        while let Some(span) = stretches.next() {
+            let config = match stretches.config() {
+                Ok(config) => Config {
+                    margin: 0.0,
+                    ..config
+                },
+                Err(reason) => return Ok(found.unresolved(journey, &stretches, reason)),
+            };
+            let leg = stretches.leg(span)?;
+            let problem = leg.problem(journey, &config)?;
+            let answer = self.approach_below(&problem, found.upper() + leg.stray, oracle);
+            stretches.add(&answer.stats);
+            let (lower, time) = match answer.outcome {
+                Err(Beyond { lower }) => (lower, 0.0),
+                Ok(ClosestApproach::Nearest {
+                    lower,
+                    time,
+                    contact,
+                }) => {
+                    found.take(leg.time(time), leg.contact(contact));
+                    (lower, time)
+                }
+                Ok(ClosestApproach::Overlapping { overlap }) => {
+                    if leg.span.from == 0.0 && stretches.is_fine(&leg)? {
+                        let overlapping = ClosestApproach::Overlapping { overlap };
+                        return Ok(found.answer(journey, &stretches, overlapping));
+                    }
+                    if let Overlap::Pieces(contact) = overlap {
+                        found.take(leg.span.from, leg.contact(contact));
+                    }
+                    (0.0, 0.0)
+                }
+                Ok(ClosestApproach::Unresolved { nearest, reason }) => {
+                    if let Some((time, contact)) = nearest {
+                        found.take(leg.time(time), leg.contact(contact));
+                    }
+                    return Ok(found.unresolved(journey, &stretches, reason));
+                }
+            };
+            let lower = greater(0.0, leg.at_least(lower));
+            let (upper, tolerance) = (found.upper(), journey.config.tolerance);
+            if lower >= upper - tolerance || stretches.is_fine(&leg)? {
+                found.lower = lesser(found.lower, lower);
+            } else if !stretches.cut_about(leg.span, leg.time(time)) {
+                return Ok(found.unresolved(journey, &stretches, Limit::Stalled));
+            }
+            if upper <= tolerance {
+                found.lower = 0.0;
+                break;
+            }
+        }
+        Ok(found.nearest(journey, &stretches))
+    }
+}
+
+/// The least distance found so far.
+struct Found {
+    /// A lower bound on all stretches that are done.
+    lower: f64,
+    best: Option<(f64, Contact)>,
+}
+
+impl Found {
+    fn upper(&self) -> f64 {
+        let upper = |(_, contact): (f64, Contact)| contact.separation.upper;
+        self.best.map_or(f64::INFINITY, upper)
+    }
+
+    fn take(&mut self, time: f64, contact: Contact) {
+        if contact.separation.upper < self.upper() {
+            self.best = Some((time, contact));
+        }
+    }
+
+    fn nearest(
+        &self,
+        journey: &Journey<'_>,
+        stretches: &Stretches<'_, '_>,
+    ) -> Answer<ClosestApproach> {
+        let Some((time, contact)) = self.best else {
+            return self.unresolved(journey, stretches, Limit::OracleGaveUp);
+        };
+        let lower = lesser(self.lower, contact.separation.upper);
+        let nearest = ClosestApproach::Nearest {
+            lower,
+            time,
+            contact: contact.no_nearer_than(lower),
+        };
+        self.answer(journey, stretches, nearest)
+    }
+
+    fn unresolved(
+        &self,
+        journey: &Journey<'_>,
+        stretches: &Stretches<'_, '_>,
+        reason: Limit,
+    ) -> Answer<ClosestApproach> {
+        let nearest = self
+            .best
+            .map(|(time, contact)| (time, contact.no_nearer_than(0.0)));
+        let unresolved = ClosestApproach::Unresolved { nearest, reason };
+        self.answer(journey, stretches, unresolved)
+    }
+
+    fn answer(
+        &self,
+        journey: &Journey<'_>,
+        stretches: &Stretches<'_, '_>,
+        outcome: ClosestApproach,
+    ) -> Answer<ClosestApproach> {
+        let width = match outcome {
+            ClosestApproach::Nearest { lower, contact, .. } => contact.separation.upper - lower,
+            _ => 0.0,
+        };
+        Answer {
+            outcome,
+            tolerance: greater(journey.config.tolerance, width),
+            stats: stretches.stats,
+        }
+    }
+}

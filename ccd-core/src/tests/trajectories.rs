@@ -1,0 +1,65 @@
+//! Smooth trajectories to test with.
+
+use crate::error::InputError;
+use crate::motion::Motion;
+use crate::motion::pose::Pose;
+use crate::motion::trajectory::{Accelerations, Smooth};
+use crate::tests::scene::{Pcg64, RngExt, direction, rotation, within};
+use glam::{DQuat, DVec3};
+
+/// Swings about a place and about an axis: `centre + drift t + Σ along sin(rate t + phase)`, turned by
+/// `turn sin(rate t + phase)` about a fixed axis.
+#[derive(Clone, Debug)]
+pub(crate) struct Swing {
+    pub(crate) place: DVec3,
+    pub(crate) drift: DVec3,
+    along: [DVec3; 2],
+    rates: [f64; 3],
+    phases: [f64; 3],
+    axis: DVec3,
+    turn: f64,
+    start: DQuat,
+    centre: DVec3,
+}
+
+impl Swing {
+    /// Draws a swing of a size.
+    pub(crate) fn draw(rng: &mut Pcg64, size: f64) -> Self {
+        Swing {
+            place: within(rng, size),
+            drift: within(rng, size),
+            along: [(); 2].map(|()| within(rng, size)),
+            rates: [(); 3].map(|()| rng.random_range(0.5..6.0)),
+            phases: [(); 3].map(|()| rng.random_range(0.0..6.0)),
+            axis: direction(rng),
+            turn: rng.random_range(0.0..3.0),
+            start: rotation(rng),
+            centre: within(rng, 1.0),
+        }
+    }
+}
+
+impl Smooth for Swing {
+    fn tangent(&self, t: f64) -> Result<Motion, InputError> {
+        let (mut at, mut velocity) = (self.place + self.drift * t, self.drift);
+        for k in 0..2 {
+            let angle = self.rates[k] * t + self.phases[k];
+            at += self.along[k] * angle.sin();
+            velocity += self.along[k] * (self.rates[k] * angle.cos());
+        }
+        let angle = self.rates[2] * t + self.phases[2];
+        let turned = DQuat::from_scaled_axis(self.axis * (self.turn * angle.sin())) * self.start;
+        let spin = self.axis * (self.turn * self.rates[2] * angle.cos());
+        // The centre is at the place, not the origin.
+        let start = Pose::new(at - turned * self.centre, turned)?;
+        Motion::about(start, velocity, spin, self.centre)
+    }
+
+    fn accelerations(&self, _: f64, _: f64) -> Accelerations {
+        let linear = |k: usize| self.along[k].length() * self.rates[k] * self.rates[k];
+        Accelerations {
+            linear: linear(0) + linear(1),
+            angular: self.turn * self.rates[2] * self.rates[2],
+        }
+    }
+}
