@@ -15,7 +15,7 @@ use glam::DQuat;
 /// Implement [`Smooth`] instead, if velocities and bounds of accelerations are known.
 ///
 /// ```
-/// use ccd_core::{glam::DVec3, InputError, Motion, Pose, Stretch, Trajectory};
+/// use ccd_core::{glam::DVec3, InputError, Motion, Pose, Stray, Stretch, Trajectory};
 ///
 /// /// Swings along x by the cosine of the time.
 /// struct Swing;
@@ -29,13 +29,14 @@ use glam::DQuat;
 ///             false => Motion::still(at(from)?),
 ///         };
 ///         // A chord is off by at most an eighth of the square of its time, times the acceleration.
-///         Ok(Stretch { motion, shift: time * time / 8.0 + 1e-15, turn: 0.0 })
+///         let stray = Stray { shift: time * time / 8.0 + 1e-15, turn: 0.0 };
+///         Ok(Stretch { motion, stray })
 ///     }
 /// }
 ///
 /// let stretch = Swing.stretch(1.0, 1.5)?;
 /// let middle = stretch.motion.pose(0.25).translation();
-/// assert!((middle.x - 1.25f64.cos()).abs() <= stretch.shift);
+/// assert!((middle.x - 1.25f64.cos()).abs() <= stretch.stray.shift);
 /// # Ok::<(), InputError>(())
 /// ```
 pub trait Trajectory {
@@ -66,11 +67,8 @@ pub trait Trajectory {
 pub struct Stretch {
     /// The motion; its time 0 is the first of the two.
     pub motion: Motion,
-    /// The most by which the motion's centre, a point of the body, is off its place on the trajectory, in the
-    /// scene's unit of length.
-    pub shift: f64,
-    /// The largest angle by which the orientation is off, in radians.
-    pub turn: f64,
+    /// How far the trajectory strays from it.
+    pub stray: Stray,
 }
 
 impl Stretch {
@@ -78,16 +76,45 @@ impl Stretch {
     pub fn exact(motion: Motion) -> Self {
         Stretch {
             motion,
-            shift: 0.0,
-            turn: 0.0,
+            stray: Stray::NONE,
         }
     }
+}
 
-    /// Bounds the distance by which points are off, no farther than `reach` from the motion's centre.
-    pub fn stray(&self, reach: f64) -> f64 {
+/// Bounds of the difference of two motions of a body.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Stray {
+    /// The largest distance between the two places of the motion's centre, a point of the body, in the
+    /// scene's unit of length.
+    pub shift: f64,
+    /// The largest angle between the two orientations, in radians.
+    pub turn: f64,
+}
+
+impl Stray {
+    /// The motions are the same.
+    pub const NONE: Stray = Stray {
+        shift: 0.0,
+        turn: 0.0,
+    };
+
+    /// Bounds the distance between the two places of a point that is no farther than `reach` from the motion's
+    /// centre.
+    pub fn at(&self, reach: f64) -> f64 {
         match self.turn > 0.0 {
             true => self.shift + self.turn * reach,
             false => self.shift,
+        }
+    }
+}
+
+impl std::ops::Add for Stray {
+    type Output = Stray;
+
+    fn add(self, other: Stray) -> Stray {
+        Stray {
+            shift: self.shift + other.shift,
+            turn: self.turn + other.turn,
         }
     }
 }
@@ -115,7 +142,7 @@ impl Stretch {
 /// }
 ///
 /// let stretch = Swing.stretch(1.0, 1.5)?;
-/// assert!(stretch.shift > 0.03 && stretch.shift < 0.04 && stretch.turn < 1e-14);
+/// assert!(stretch.stray.shift > 0.03 && stretch.stray.shift < 0.04 && stretch.stray.turn < 1e-13);
 /// # Ok::<(), InputError>(())
 /// ```
 pub trait Smooth {
@@ -129,6 +156,13 @@ pub trait Smooth {
 
     /// Bounds the lengths of the accelerations from a time to a later one.
     fn accelerations(&self, from: f64, to: f64) -> Accelerations;
+
+    /// Bounds the errors of the poses of tangents from a time to a later one, if they are off by more than
+    /// about 40 units in the last place, of their lengths and of a radian.
+    fn rounding(&self, from: f64, to: f64) -> Stray {
+        let _ = (from, to);
+        Stray::NONE
+    }
 
     /// Returns a time between two others, if there is one, at which an acceleration jumps: bounds of
     /// stretches that end there are better.
@@ -153,13 +187,16 @@ impl<S: Smooth + ?Sized> Trajectory for S {
         let tangent = self.tangent(from + half)?;
         let Accelerations { linear, angular } = self.accelerations(from, to);
         let motion = tangent.started(-half)?;
-        let rounding = motion.rounding_of_start(half);
         // Twice the half is rounded, and so are the products.
         let square = 0.5 * half * half * (1.0 + STRETCH_F64);
+        let curved = Stray {
+            shift: linear * square,
+            turn: angular * square,
+        };
+        let rounding = motion.rounding_of_start(half) + self.rounding(from, to);
         Ok(Stretch {
             motion,
-            shift: linear * square + rounding.shift,
-            turn: angular * square + rounding.turn,
+            stray: curved + rounding,
         })
     }
 
@@ -175,19 +212,9 @@ impl Trajectory for Motion {
             return Ok(Stretch::exact(*self));
         }
         let motion = self.started(from)?;
-        let Rounding { shift, turn } = motion.rounding_of_start(from);
-        Ok(Stretch {
-            motion,
-            shift,
-            turn,
-        })
+        let stray = motion.rounding_of_start(from);
+        Ok(Stretch { motion, stray })
     }
-}
-
-/// The error of a pose that is computed from another one and velocities.
-struct Rounding {
-    shift: f64,
-    turn: f64,
 }
 
 impl Motion {
@@ -204,11 +231,11 @@ impl Motion {
     }
 
     /// Bounds the error of a start that was computed for another time.
-    fn rounding_of_start(&self, time: f64) -> Rounding {
+    fn rounding_of_start(&self, time: f64) -> Stray {
         let turned = length(self.spin()) * time.abs();
         let travel = length(self.velocity()) * time.abs();
         let place = length(self.start().translation()) + 2.0 * length(self.centre());
-        Rounding {
+        Stray {
             shift: STRETCH_F64 * (place + travel),
             turn: STRETCH_F64 * (1.0 + turned),
         }

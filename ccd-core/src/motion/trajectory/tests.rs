@@ -9,7 +9,7 @@ use glam::DVec3;
 /// The largest stray of points at a reach from the centre, over the bound, at some times of a stretch.
 fn worst(trajectory: &dyn Trajectory, from: f64, to: f64, reach: f64) -> f64 {
     let stretch = trajectory.stretch(from, to).unwrap();
-    let bound = stretch.stray(reach);
+    let bound = stretch.stray.at(reach);
     let centre = stretch.motion.centre();
     let mut rng = rng((1e6 * from) as u64);
     let mut worst = 0.0;
@@ -53,7 +53,7 @@ fn motions_are_exact_from_the_start_and_off_by_rounding_later() {
         assert_eq!(whole, Stretch::exact(motion));
         let from = rng.random_range(0.0..1.0);
         let later = motion.stretch(from, 1.0).unwrap();
-        assert!(later.stray(1.0) < 1e-10);
+        assert!(later.stray.at(1.0) < 1e-10);
         // The poses compared are rounded, too, by about as much.
         assert!(worst(&motion, from, 1.0, 1.0) <= 2.0);
     }
@@ -61,18 +61,17 @@ fn motions_are_exact_from_the_start_and_off_by_rounding_later() {
 
 #[test]
 fn no_turn_is_no_stray_at_any_reach() {
-    let still = Stretch::exact(Motion::STILL);
-    assert_eq!(still.stray(f64::INFINITY), 0.0);
-    let shifted = Stretch {
+    assert_eq!(Stray::NONE.at(f64::INFINITY), 0.0);
+    let shifted = Stray {
         shift: 2.0,
-        ..still
+        turn: 0.0,
     };
-    assert_eq!(shifted.stray(f64::INFINITY), 2.0);
-    let turned = Stretch {
+    assert_eq!(shifted.at(f64::INFINITY), 2.0);
+    let turned = Stray {
         turn: 0.5,
         ..shifted
     };
-    assert_eq!(turned.stray(4.0), 4.0);
+    assert_eq!(turned.at(4.0), 4.0);
 }
 
 #[test]

@@ -31,7 +31,7 @@ impl Leg {
         let bodies = [&journey.a, &journey.b];
         let [a, b] = bodies.map(|body| body.trajectory.stretch(span.from, span.to));
         let motions = [a?, b?];
-        let stray = |k: usize| motions[k].stray(reach(bodies[k], &motions[k]));
+        let stray = |k: usize| motions[k].stray.at(reach(bodies[k], &motions[k]));
         Ok(Leg {
             stray: sum(stray(0), stray(1)),
             motions,

@@ -6,7 +6,6 @@ use crate::math::order::lesser;
 use crate::motion::Motion;
 use crate::motion::trajectory::{Accelerations, Smooth};
 use crate::outcome::{Limit, Outcome};
-use crate::problem::Problem;
 use crate::schedule::{AnyContact, BestFirst, ClosestApproach, DepthFirst, Schedule};
 use crate::tests::nearest::{Triangle, nearest};
 use crate::tests::oracle::Exhaustive;
@@ -212,7 +211,7 @@ fn plain_motions_have_their_own_answers() {
             _ => hits += 1,
         }
     }
-    assert!(hits > 50 && misses > 200, "{hits} {misses}");
+    assert!(hits > 30 && misses > 200, "{hits} {misses}");
 }
 
 #[test]
