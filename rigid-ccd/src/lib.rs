@@ -71,6 +71,7 @@ mod solver;
 pub mod table;
 #[cfg(feature = "command")]
 mod text;
+pub mod trajectory;
 
 pub use ccd_core::glam;
 pub use ccd_core::schedule;

@@ -73,6 +73,29 @@ impl Pose {
         self.rotation
     }
 
+    /// Returns the pose of a body that has the pose `inner` in this body's frame: `self ∘ inner`.
+    ///
+    /// ```
+    /// use ccd_core::{glam::{DQuat, DVec3}, Pose};
+    /// let arm = Pose::new(DVec3::X, DQuat::from_rotation_z(1.0))?;
+    /// let hand = Pose::at(2.0 * DVec3::X)?;
+    /// let point = arm.compose(&hand).transform_point(DVec3::Y);
+    /// assert!(point.distance(arm.transform_point(hand.transform_point(DVec3::Y))) < 1e-15);
+    /// # Ok::<(), ccd_core::InputError>(())
+    /// ```
+    pub fn compose(&self, inner: &Pose) -> Pose {
+        Pose::from_unit(
+            self.transform_point(inner.translation),
+            (self.rotation * inner.rotation).normalize(),
+        )
+    }
+
+    /// Returns the pose of the world in the body's frame.
+    pub fn inverse(&self) -> Pose {
+        let rotation = self.rotation.conjugate();
+        Pose::from_unit(rotation * -self.translation, rotation)
+    }
+
     /// Returns a point of the body in world coordinates.
     pub fn transform_point(&self, point: DVec3) -> DVec3 {
         self.rotation * point + self.translation

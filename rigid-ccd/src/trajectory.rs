@@ -1,0 +1,54 @@
+//! Motions beyond constant velocities, and the means to write one.
+//!
+//! Anything that implements [`Trajectory`] can carry a body. Queries along trajectories are as certain as those
+//! along motions: every stretch of a trajectory knows how far it strays from a [`Motion`].
+//!
+//! | a body that … | is moved by |
+//! |---|---|
+//! | turns and advances along an axis | [`screw`], exact |
+//! | hangs on a joint | [`Joint::motion`], exact |
+//! | follows the poses of a planner or of a simulator's log | [`Poses`], exact between two poses |
+//! | is thrown | [`Ballistic`] |
+//! | follows a Bézier curve or a B-spline | [`Spline`] of a [`Curve`] and of [`Turns`] |
+//! | is the link of an arm whose joints all move | [`Link`] of a [`Chain`] |
+//! | is carried by another one | [`Carried`] |
+//! | follows any of these at another pace | [`Timed`] |
+//! | moves in a way of your own | [`Smooth`], or [`Trajectory`] |
+//!
+//! [`worst_stray`] tests a trajectory of your own: it seeks the times and points at which it strays farther than
+//! it says.
+
+mod ballistic;
+mod bounded;
+mod carried;
+mod chain;
+mod curve;
+mod joint;
+mod link;
+mod poses;
+mod screw;
+mod spline;
+mod timed;
+mod turns;
+mod worst_stray;
+
+pub use ballistic::Ballistic;
+pub use bounded::{Bounded, Speeds};
+pub use carried::{Carried, Steady};
+pub use ccd_core::{Accelerations, Motion, Smooth, Stray, Stretch, Trajectory};
+pub use chain::Chain;
+pub use curve::Curve;
+pub use joint::Joint;
+pub use link::Link;
+pub use poses::Poses;
+pub use screw::screw;
+pub use spline::Spline;
+pub use timed::{Pace, Timed};
+pub use turns::Turns;
+pub use worst_stray::{Worst, worst_stray};
+
+/// The relative rounding error of one operation.
+const U: f64 = f64::EPSILON / 2.0;
+
+#[cfg(test)]
+mod tests;

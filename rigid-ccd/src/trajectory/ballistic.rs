@@ -1,0 +1,92 @@
+//! A thrown body.
+
+use super::U;
+use super::bounded::{Bounded, Speeds};
+use ccd_core::glam::DVec3;
+use ccd_core::order::greater;
+use ccd_core::{Accelerations, InputError, Motion, Pose, Smooth, Stray};
+
+/// A thrown body: constant acceleration of its centre, and constant spin about it.
+///
+/// The centre's place is `C + v t + a t²/2`. Its acceleration is constant, so that a stretch of time `h` strays
+/// by `|a| h²/8`.
+///
+/// ```
+/// use rigid_ccd::trajectory::{Ballistic, Trajectory};
+/// use rigid_ccd::{Motion, Pose};
+/// let thrown = Motion::new(Pose::IDENTITY, [3.0, 0.0, 4.0], [0.0, 9.0, 0.0])?;
+/// let ball = Ballistic::new(thrown, [0.0, 0.0, -9.81])?;
+/// let lands = ball.pose(2.0 * 4.0 / 9.81)?.translation();
+/// assert!(lands.z.abs() < 1e-12 && lands.x > 2.4);
+/// # Ok::<(), rigid_ccd::InputError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ballistic {
+    thrown: Motion,
+    acceleration: DVec3,
+}
+
+impl Ballistic {
+    /// Creates the trajectory of a body that is thrown with the pose and the velocities of a motion at time 0.
+    ///
+    /// # Errors
+    /// [`InputError::NotFinite`].
+    pub fn new(thrown: Motion, acceleration: impl Into<[f64; 3]>) -> Result<Self, InputError> {
+        let acceleration = DVec3::from_array(acceleration.into());
+        match acceleration.is_finite() {
+            true => Ok(Ballistic {
+                thrown,
+                acceleration,
+            }),
+            false => Err(InputError::NotFinite {
+                what: "acceleration",
+            }),
+        }
+    }
+}
+
+impl Smooth for Ballistic {
+    fn tangent(&self, time: f64) -> Result<Motion, InputError> {
+        let Ballistic {
+            thrown,
+            acceleration,
+        } = self;
+        let pose = thrown.pose(time);
+        let fallen = pose.translation() + 0.5 * time * time * *acceleration;
+        let start = Pose::new(fallen, pose.rotation())?;
+        let velocity = thrown.velocity() + time * *acceleration;
+        Motion::about(start, velocity, thrown.spin(), thrown.centre())
+    }
+
+    fn accelerations(&self, _: f64, _: f64) -> Accelerations {
+        Accelerations {
+            linear: self.acceleration.length(),
+            angular: 0.0,
+        }
+    }
+
+    /// The turn since the throw is rounded, and so is the way.
+    fn rounding(&self, _: f64, to: f64) -> Stray {
+        let Ballistic {
+            thrown,
+            acceleration,
+        } = self;
+        let turned = thrown.spin().length() * to;
+        let way = (thrown.velocity().length() + 0.5 * to * acceleration.length()) * to;
+        Stray {
+            shift: 16.0 * U * (thrown.start().translation().length() + way),
+            turn: 8.0 * U * turned,
+        }
+    }
+}
+
+impl Bounded for Ballistic {
+    fn speeds(&self, from: f64, to: f64) -> Speeds {
+        let at = |time: f64| (self.thrown.velocity() + time * self.acceleration).length();
+        Speeds {
+            // The length of a vector that changes linearly is largest at an end.
+            linear: greater(at(from), at(to)),
+            angular: self.thrown.spin().length(),
+        }
+    }
+}

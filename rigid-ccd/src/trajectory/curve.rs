@@ -1,0 +1,229 @@
+//! Curves in space: Bézier curves and B-splines.
+
+use super::U;
+use ccd_core::InputError;
+use ccd_core::glam::DVec3;
+use ccd_core::order::{greater, lesser};
+
+/// A curve of Bézier segments, from time 0 to its [duration](Curve::duration). It rests before and after.
+///
+/// A Bézier curve is within the convex hull of its points, and its derivatives are Bézier curves of the
+/// differences of its points. On a part of a segment, the second derivative is that of the middle, give or take
+/// the third derivative times half of the part's time.
+///
+/// ```
+/// use rigid_ccd::trajectory::Curve;
+/// let points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+/// let bend = Curve::bezier(&points, 2.0)?;
+/// assert_eq!(bend.position(1.0).to_array(), [0.75, 0.5, 0.0]);
+/// # Ok::<(), rigid_ccd::InputError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Curve {
+    segments: Vec<Segment>,
+}
+
+/// A Bézier curve between two times.
+#[derive(Clone, Debug, PartialEq)]
+struct Segment {
+    from: f64,
+    to: f64,
+    points: Vec<DVec3>,
+}
+
+impl Curve {
+    /// Creates a Bézier curve of any degree from its control points.
+    ///
+    /// # Errors
+    /// [`InputError::NotFinite`], and [`InputError::OutOfRange`] for no points or a duration that is not
+    /// positive.
+    pub fn bezier(points: &[[f64; 3]], duration: f64) -> Result<Self, InputError> {
+        let points = checked(points, 1, duration)?;
+        Ok(Curve {
+            segments: vec![Segment {
+                from: 0.0,
+                to: duration,
+                points,
+            }],
+        })
+    }
+
+    /// Creates a uniform cubic B-spline from its control points, at least four. Its acceleration does not jump;
+    /// it begins and ends near the second point and the last but one.
+    ///
+    /// # Errors
+    /// [`InputError::NotFinite`], and [`InputError::OutOfRange`] for less than four points or a duration that
+    /// is not positive.
+    pub fn b_spline(points: &[[f64; 3]], duration: f64) -> Result<Self, InputError> {
+        let points = checked(points, 4, duration)?;
+        let count = points.len() - 3;
+        let at = |k: usize| duration * (k as f64 / count as f64);
+        let segment = |k: usize| {
+            let [a, b, c, d] = [points[k], points[k + 1], points[k + 2], points[k + 3]];
+            let inner = [(2.0 * b + c) / 3.0, (b + 2.0 * c) / 3.0];
+            let ends = [(a + 4.0 * b + c) / 6.0, (b + 4.0 * c + d) / 6.0];
+            Segment {
+                from: at(k),
+                to: at(k + 1),
+                points: vec![ends[0], inner[0], inner[1], ends[1]],
+            }
+        };
+        Ok(Curve {
+            segments: (0..count).map(segment).collect(),
+        })
+    }
+
+    /// The time of the end.
+    pub fn duration(&self) -> f64 {
+        self.segments[self.segments.len() - 1].to
+    }
+
+    /// The position at a time.
+    pub fn position(&self, time: f64) -> DVec3 {
+        let segment = self.at(time);
+        segment.derivative(0, segment.share(time))
+    }
+
+    /// The velocity at a time.
+    pub fn velocity(&self, time: f64) -> DVec3 {
+        match (0.0..=self.duration()).contains(&time) {
+            true => {
+                let segment = self.at(time);
+                segment.derivative(1, segment.share(time))
+            }
+            false => DVec3::ZERO,
+        }
+    }
+
+    fn at(&self, time: f64) -> &Segment {
+        let next = self.segments.partition_point(|segment| segment.to < time);
+        &self.segments[next.min(self.segments.len() - 1)]
+    }
+
+    /// Bounds the acceleration between two times. A velocity that jumps counts as one that changes in half of
+    /// the time, by which a curve strays farther.
+    pub(super) fn acceleration(&self, from: f64, to: f64) -> f64 {
+        let half = 0.5 * (to - from);
+        let smooth = self.overlapping(from, to).map(|segment| {
+            let [from, to] = [greater(from, segment.from), lesser(to, segment.to)];
+            segment.most(2, from, to)
+        });
+        let jumps: f64 = self.jumps(from, to).sum();
+        let jump = if jumps > 0.0 { 2.0 * jumps / half } else { 0.0 };
+        smooth.fold(0.0, greater) + jump
+    }
+
+    /// Bounds the speed between two times.
+    pub(super) fn speed(&self, from: f64, to: f64) -> f64 {
+        let speeds = self.overlapping(from, to).map(|segment| {
+            let [from, to] = [greater(from, segment.from), lesser(to, segment.to)];
+            segment.most(1, from, to)
+        });
+        speeds.fold(0.0, greater)
+    }
+
+    /// Returns a time between two others at which two segments meet, about the middle.
+    pub(super) fn corner(&self, from: f64, to: f64) -> Option<f64> {
+        let inner: Vec<f64> = self
+            .knots()
+            .filter(|&knot| knot > from && knot < to)
+            .collect();
+        inner.get(inner.len() / 2).copied()
+    }
+
+    /// Bounds the rounding of a position.
+    pub(super) fn rounding(&self) -> f64 {
+        let lengths = self.segments.iter().flat_map(|segment| {
+            let degree = segment.points.len() as f64;
+            segment.points.iter().map(move |p| p.length() * degree)
+        });
+        8.0 * U * lengths.fold(0.0, greater)
+    }
+
+    fn knots(&self) -> impl Iterator<Item = f64> {
+        let starts = self.segments.iter().map(|segment| segment.from);
+        starts.chain([self.duration()])
+    }
+
+    fn overlapping(&self, from: f64, to: f64) -> impl Iterator<Item = &Segment> {
+        (self.segments.iter()).filter(move |segment| segment.from <= to && segment.to >= from)
+    }
+
+    /// The lengths of the changes of velocity strictly between two times.
+    fn jumps(&self, from: f64, to: f64) -> impl Iterator<Item = f64> {
+        let ends = self.segments.iter().enumerate().map(|(k, segment)| {
+            let before = k
+                .checked_sub(1)
+                .map_or(DVec3::ZERO, |k| self.segments[k].derivative(1, 1.0));
+            (segment.from, before.distance(segment.derivative(1, 0.0)))
+        });
+        let last = &self.segments[self.segments.len() - 1];
+        let end = (last.to, last.derivative(1, 1.0).length());
+        ends.chain([end])
+            .filter(move |&(knot, _)| knot > from && knot < to)
+            .map(|(_, jump)| jump)
+    }
+}
+
+impl Segment {
+    fn share(&self, time: f64) -> f64 {
+        ((time - self.from) / (self.to - self.from)).clamp(0.0, 1.0)
+    }
+
+    /// Returns a derivative after a share of the time, by time.
+    fn derivative(&self, order: usize, share: f64) -> DVec3 {
+        let mut points = self.differences(order);
+        // De Casteljau's algorithm.
+        while points.len() > 1 {
+            points = points.windows(2).map(|p| p[0].lerp(p[1], share)).collect();
+        }
+        points.first().copied().unwrap_or(DVec3::ZERO)
+    }
+
+    /// Returns the control points of a derivative by time; none if it is zero.
+    fn differences(&self, order: usize) -> Vec<DVec3> {
+        let mut points = self.points.clone();
+        for _ in 0..order {
+            let factor = points.len().saturating_sub(1) as f64 / (self.to - self.from);
+            points = points.windows(2).map(|p| factor * (p[1] - p[0])).collect();
+        }
+        points
+    }
+
+    /// Bounds the length of a derivative between two times of the segment.
+    fn most(&self, order: usize, from: f64, to: f64) -> f64 {
+        let hull = |order| {
+            let points = self.differences(order).into_iter();
+            points.map(DVec3::length).fold(0.0, greater)
+        };
+        let half = 0.5 * (to - from);
+        let middle = self.derivative(order, self.share(from + half)).length();
+        // Products and sums are rounded.
+        lesser(hull(order), middle + half * hull(order + 1)) * (1.0 + 1e-12)
+    }
+}
+
+fn checked(points: &[[f64; 3]], least: usize, duration: f64) -> Result<Vec<DVec3>, InputError> {
+    let refuse = |what, value, allowed| {
+        Err(InputError::OutOfRange {
+            what,
+            value,
+            allowed,
+        })
+    };
+    if points.len() < least {
+        return refuse(
+            "number of points",
+            points.len() as f64,
+            "at least 1; at least 4 of a B-spline",
+        );
+    }
+    if !(duration > 0.0 && duration.is_finite()) {
+        return refuse("duration", duration, "positive and finite");
+    }
+    let points: Vec<DVec3> = points.iter().map(|&p| DVec3::from_array(p)).collect();
+    match points.iter().all(|p| p.is_finite()) {
+        true => Ok(points),
+        false => Err(InputError::NotFinite { what: "point" }),
+    }
+}

@@ -1,0 +1,151 @@
+//! A joint, and the motion of a body that hangs on it.
+
+use super::screw::turn;
+use ccd_core::glam::DVec3;
+use ccd_core::{InputError, Motion, Pose};
+use std::ops::RangeInclusive;
+
+/// A joint of a serial chain, as in URDF: an origin in the frame of the link before it, and an axis in its own
+/// frame, about which or along which the link after it moves.
+///
+/// ```
+/// use rigid_ccd::trajectory::Joint;
+/// use rigid_ccd::Pose;
+/// let hinge = Joint::revolute(Pose::at([0.0, 0.0, 1.0])?, [0.0, 1.0, 0.0])?.within(-1.5..=1.5);
+/// // A door opens by one radian in two units of time.
+/// let opens = hinge.motion(0.0, 1.0, 2.0)?;
+/// assert_eq!(opens.spin().y, 0.5);
+/// assert!(hinge.motion(0.0, 3.0, 2.0).is_err());
+/// # Ok::<(), rigid_ccd::InputError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Joint {
+    origin: Pose,
+    kind: Kind,
+    limits: RangeInclusive<f64>,
+}
+
+/// The freedom of a joint, with an axis of unit length.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Kind {
+    Fixed,
+    Revolute(DVec3),
+    Prismatic(DVec3),
+}
+
+impl Joint {
+    /// Creates a joint without a freedom.
+    pub fn fixed(origin: Pose) -> Self {
+        Joint {
+            origin,
+            kind: Kind::Fixed,
+            limits: f64::NEG_INFINITY..=f64::INFINITY,
+        }
+    }
+
+    /// Creates a joint that turns about an axis; its position is an angle in radians, without limits.
+    ///
+    /// # Errors
+    /// [`InputError::NotFinite`] for an axis that is not finite, or has no length.
+    pub fn revolute(origin: Pose, axis: impl Into<[f64; 3]>) -> Result<Self, InputError> {
+        Ok(Joint {
+            kind: Kind::Revolute(unit(axis)?),
+            ..Joint::fixed(origin)
+        })
+    }
+
+    /// Creates a joint that slides along an axis; its position is a length, without limits.
+    ///
+    /// # Errors
+    /// [`InputError::NotFinite`] for an axis that is not finite, or has no length.
+    pub fn prismatic(origin: Pose, axis: impl Into<[f64; 3]>) -> Result<Self, InputError> {
+        Ok(Joint {
+            kind: Kind::Prismatic(unit(axis)?),
+            ..Joint::fixed(origin)
+        })
+    }
+
+    /// Refuses positions outside of limits.
+    #[must_use]
+    pub fn within(self, limits: RangeInclusive<f64>) -> Self {
+        Joint { limits, ..self }
+    }
+
+    /// The positions that are allowed.
+    pub fn limits(&self) -> &RangeInclusive<f64> {
+        &self.limits
+    }
+
+    /// Returns true if the joint has no freedom: it has no position, or any.
+    pub fn is_fixed(&self) -> bool {
+        self.kind == Kind::Fixed
+    }
+
+    /// Returns the pose of the link after the joint, in the frame of the link before it.
+    ///
+    /// # Errors
+    /// [`InputError::OutOfRange`] outside of the limits, [`InputError::NotFinite`].
+    pub fn pose(&self, position: f64) -> Result<Pose, InputError> {
+        self.check(position)?;
+        self.placed(position)
+    }
+
+    /// Like [`Joint::pose`] for a position that is known to be allowed, up to rounding.
+    pub(super) fn placed(&self, position: f64) -> Result<Pose, InputError> {
+        let moved = match self.kind {
+            Kind::Fixed => Pose::IDENTITY,
+            Kind::Revolute(axis) => Pose::new(DVec3::ZERO, turn(axis, position))?,
+            Kind::Prismatic(axis) => Pose::at(axis * position)?,
+        };
+        Ok(self.origin.compose(&moved))
+    }
+
+    /// Returns the motion of the link after the joint, in the frame of the link before it, at a constant rate
+    /// from one position to another.
+    ///
+    /// # Errors
+    /// [`InputError::OutOfRange`] outside of the limits, [`InputError::NotFinite`], also for a duration of 0
+    /// between different positions.
+    pub fn motion(&self, from: f64, to: f64, duration: f64) -> Result<Motion, InputError> {
+        self.check(to)?;
+        let start = self.pose(from)?;
+        let rate = match from == to {
+            true => 0.0,
+            false => (to - from) / duration,
+        };
+        let along = |axis: DVec3| self.origin.rotation() * axis * rate;
+        match self.kind {
+            Kind::Fixed => Ok(Motion::still(start)),
+            Kind::Revolute(axis) => Motion::new(start, DVec3::ZERO, along(axis)),
+            Kind::Prismatic(axis) => Motion::new(start, along(axis), DVec3::ZERO),
+        }
+    }
+
+    /// Refuses a position outside of the limits.
+    pub(super) fn check(&self, position: f64) -> Result<(), InputError> {
+        match self.is_fixed() || self.limits.contains(&position) {
+            true => Ok(()),
+            false => Err(InputError::OutOfRange {
+                what: "joint position",
+                value: position,
+                allowed: "within the limits of the joint",
+            }),
+        }
+    }
+
+    pub(super) fn kind(&self) -> Kind {
+        self.kind
+    }
+
+    pub(super) fn origin(&self) -> &Pose {
+        &self.origin
+    }
+}
+
+fn unit(axis: impl Into<[f64; 3]>) -> Result<DVec3, InputError> {
+    let axis = DVec3::from_array(axis.into()).normalize();
+    match axis.is_finite() {
+        true => Ok(axis),
+        false => Err(InputError::NotFinite { what: "axis" }),
+    }
+}

@@ -1,0 +1,231 @@
+//! A link of a serial chain whose joints all move at constant rates.
+
+use super::U;
+use super::bounded::{Bounded, Speeds};
+use super::chain::Chain;
+use super::joint::{Joint, Kind};
+use ccd_core::glam::DVec3;
+use ccd_core::order::{greater, lesser};
+use ccd_core::{Accelerations, InputError, Motion, Pose, Smooth, Stray};
+
+/// The trajectory of a link of a [`Chain`], in the world or as another link sees it.
+///
+/// With rates `q̇` about axes `z` and arms `r` from joint to joint: `ω = Σ q̇ z`, and the link's origin moves at
+/// `v = Σ ω × r`, summed over the joints below it. An axis turns with the links below it, `ż = ω × z`, so that
+/// `|ω̇| ≤ Σ |q̇| |ω × z|`; an arm has the acceleration `ω̇ × r + ω × (ω × r)`, at most `(|ω̇| + |ω|²) |r|`. A joint
+/// that slides by `s` along its axis is an arm of that length, which adds `2 |ω| |ṡ|`. As another link sees
+/// it, only the joints in between count.
+///
+/// Axes that are parallel add no `ω̇`.
+#[derive(Clone, Copy, Debug)]
+pub struct Link<'c> {
+    chain: &'c Chain,
+    /// The links between which it moves.
+    seen_from: Option<usize>,
+    link: usize,
+    from: &'c [f64],
+    to: &'c [f64],
+    duration: f64,
+}
+
+impl<'c> Link<'c> {
+    pub(super) fn new(
+        chain: &'c Chain,
+        link: usize,
+        from: &'c [f64],
+        to: &'c [f64],
+        duration: f64,
+    ) -> Result<Self, InputError> {
+        let out_of_range = |what, value, allowed| {
+            Err(InputError::OutOfRange {
+                what,
+                value,
+                allowed,
+            })
+        };
+        let joints = chain.joints();
+        if link > joints.len() {
+            return out_of_range("link", link as f64, "at most the number of joints");
+        }
+        for positions in [from, to] {
+            if positions.len() != joints.len() {
+                let given = positions.len() as f64;
+                return out_of_range("joint positions", given, "one for each joint");
+            }
+            for (joint, &position) in joints.iter().zip(positions) {
+                joint.check(position)?;
+            }
+        }
+        if !(duration > 0.0 && duration.is_finite()) {
+            return out_of_range("duration", duration, "positive and finite");
+        }
+        Ok(Link {
+            chain,
+            seen_from: None,
+            link,
+            from,
+            to,
+            duration,
+        })
+    }
+
+    /// Returns the trajectory in the frame of another link, to be asked against that link at rest. What both
+    /// links have in common costs nothing then.
+    ///
+    /// The other link is one below it in the chain. In the order of a query, the lower link comes to rest.
+    ///
+    /// # Panics
+    /// When the other link is above.
+    #[must_use]
+    pub fn seen_from(self, link: usize) -> Self {
+        assert!(link <= self.link, "link {link} is above link {}", self.link);
+        Link {
+            seen_from: Some(link),
+            ..self
+        }
+    }
+
+    /// The joints between both links, with their positions at a time and their rates.
+    fn joints(&self, time: f64) -> impl Iterator<Item = (&'c Joint, f64, f64)> {
+        let share = time / self.duration;
+        let (from, to, duration) = (self.from, self.to, self.duration);
+        let range = self.seen_from.unwrap_or(0)..self.link;
+        range.map(move |k| {
+            let joint = &self.chain.joints()[k];
+            let change = match joint.is_fixed() {
+                true => 0.0,
+                false => to[k] - from[k],
+            };
+            (joint, from[k] + change * share, change / duration)
+        })
+    }
+
+    /// The bounds of the link's velocities and accelerations between two times.
+    fn moved(&self, from: f64, to: f64) -> Moved {
+        let mut moved = Moved::default();
+        let starts = self.joints(from);
+        for ((joint, first, rate), (_, last, _)) in starts.zip(self.joints(to)) {
+            moved.pass(
+                joint,
+                lesser(first, last)..=greater(first, last),
+                rate.abs(),
+            );
+        }
+        moved
+    }
+}
+
+impl Smooth for Link<'_> {
+    fn tangent(&self, time: f64) -> Result<Motion, InputError> {
+        let mut pose = match self.seen_from {
+            Some(_) => Pose::IDENTITY,
+            None => self.chain.base(),
+        };
+        let (mut velocity, mut spin) = (DVec3::ZERO, DVec3::ZERO);
+        for (joint, position, rate) in self.joints(time) {
+            let before = pose.translation();
+            let held = pose.compose(joint.origin());
+            pose = pose.compose(&joint.placed(position)?);
+            velocity += spin.cross(pose.translation() - before);
+            match joint.kind() {
+                Kind::Fixed => {}
+                Kind::Revolute(axis) => spin += held.rotation() * axis * rate,
+                Kind::Prismatic(axis) => velocity += held.rotation() * axis * rate,
+            }
+        }
+        Motion::new(pose, velocity, spin)
+    }
+
+    fn accelerations(&self, from: f64, to: f64) -> Accelerations {
+        self.moved(from, to).accelerations
+    }
+
+    /// Each joint adds the rounding of a product of poses, and of its angle.
+    fn rounding(&self, from: f64, to: f64) -> Stray {
+        let Moved {
+            joints,
+            arms,
+            angles,
+            ..
+        } = self.moved(from, to);
+        let base = self.chain.base().translation().length();
+        let turn = U * (24.0 * joints + 4.0 * angles);
+        Stray {
+            shift: turn * arms + 8.0 * U * (base + arms),
+            turn,
+        }
+    }
+}
+
+impl Bounded for Link<'_> {
+    fn speeds(&self, from: f64, to: f64) -> Speeds {
+        self.moved(from, to).speeds
+    }
+}
+
+/// Bounds of the velocities and accelerations of a link, joint by joint.
+#[derive(Clone, Copy, Debug, Default)]
+struct Moved {
+    speeds: Speeds,
+    accelerations: Accelerations,
+    /// The axis of all turns so far in the link's frame, if they have a common one.
+    axis: Option<DVec3>,
+    /// The number of joints, the sum of the lengths of all arms, and of all angles.
+    joints: f64,
+    arms: f64,
+    angles: f64,
+}
+
+impl Moved {
+    /// Goes on to the link after a joint.
+    fn pass(&mut self, joint: &Joint, positions: std::ops::RangeInclusive<f64>, rate: f64) {
+        self.joints += 1.0;
+        self.arm(joint.origin().translation().length());
+        // Turned into the joint's frame.
+        let into = joint.origin().rotation().conjugate();
+        self.axis = self.axis.map(|axis| into * axis);
+        let largest = greater(positions.start().abs(), positions.end().abs());
+        match joint.kind() {
+            Kind::Fixed => {}
+            Kind::Prismatic(_) => {
+                self.arm(largest);
+                self.accelerations.linear += 2.0 * self.speeds.angular * rate;
+                self.speeds.linear += rate;
+            }
+            Kind::Revolute(axis) => {
+                self.angles += largest;
+                self.turn(axis, rate);
+            }
+        }
+    }
+
+    /// Adds an arm that turns with the link.
+    fn arm(&mut self, length: f64) {
+        let Speeds { angular, .. } = self.speeds;
+        self.arms += length;
+        self.accelerations.linear += (self.accelerations.angular + angular * angular) * length;
+        self.speeds.linear += angular * length;
+    }
+
+    /// Adds a turn about an axis of the joint's frame.
+    fn turn(&mut self, axis: DVec3, rate: f64) {
+        let (across, common) = match (self.speeds.angular > 0.0, self.axis) {
+            (false, _) => (0.0, Some(axis)),
+            (true, Some(common)) => {
+                let across = common.cross(axis).length();
+                // Axes that count as parallel are off by as much each.
+                let most = across + PARALLEL * self.joints;
+                (most, (across < PARALLEL).then_some(common))
+            }
+            (true, None) => (1.0, None),
+        };
+        if rate > 0.0 {
+            self.accelerations.angular += rate * self.speeds.angular * lesser(across, 1.0);
+            self.speeds.angular += rate;
+            self.axis = common;
+        }
+    }
+}
+
+/// The sine of the angle between axes that count as parallel: far above rounding.
+const PARALLEL: f64 = 1e-12;

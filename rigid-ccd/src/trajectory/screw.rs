@@ -1,0 +1,40 @@
+//! A screw.
+
+use ccd_core::glam::{DQuat, DVec3};
+use ccd_core::{InputError, Motion, Pose};
+
+/// Creates the motion of a body that turns about an axis in the world and advances along it, at constant rates:
+/// `turn` in radians and `advance`, both per unit of time.
+///
+/// The axis passes through `point` along `direction`, of any length but 0. The motion is exact.
+///
+/// # Errors
+/// [`InputError::NotFinite`], also for a direction of no length.
+///
+/// ```
+/// use rigid_ccd::trajectory::screw;
+/// use rigid_ccd::Pose;
+/// use std::f64::consts::TAU;
+/// // A nut, a turn for each 0.2 of the thread.
+/// let nut = screw(Pose::at([1.0, 0.0, 0.0])?, [0.0; 3], [0.0, 0.0, 1.0], TAU, 0.2)?;
+/// let half = nut.pose(0.5).translation();
+/// assert!(half.distance([-1.0, 0.0, 0.1].into()) < 1e-15);
+/// # Ok::<(), rigid_ccd::InputError>(())
+/// ```
+pub fn screw(
+    start: Pose,
+    point: impl Into<[f64; 3]>,
+    direction: impl Into<[f64; 3]>,
+    turn: f64,
+    advance: f64,
+) -> Result<Motion, InputError> {
+    let [point, direction] = [point.into(), direction.into()].map(DVec3::from_array);
+    let axis = direction.normalize();
+    let centre = start.inverse().transform_point(point);
+    Motion::about(start, axis * advance, axis * turn, centre)
+}
+
+/// Returns a turn by an angle about an axis of unit length.
+pub(super) fn turn(axis: DVec3, angle: f64) -> DQuat {
+    DQuat::from_axis_angle(axis, angle)
+}

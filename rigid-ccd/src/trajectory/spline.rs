@@ -1,0 +1,84 @@
+//! A body that follows a curve and turns.
+
+use super::bounded::{Bounded, Speeds};
+use super::curve::Curve;
+use super::turns::Turns;
+use ccd_core::glam::DVec3;
+use ccd_core::{Accelerations, InputError, Motion, Pose, Smooth, Stray};
+
+/// A body whose origin follows a [`Curve`], and which [turns](Turns) about it.
+///
+/// ```
+/// use rigid_ccd::trajectory::{Curve, Spline, Trajectory, Turns};
+/// let points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+/// let path = Spline::new(Curve::bezier(&points, 2.0)?, Turns::NONE);
+/// assert_eq!(path.pose(1.0)?.translation().to_array(), [0.75, 0.5, 0.0]);
+/// # Ok::<(), rigid_ccd::InputError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Spline {
+    curve: Curve,
+    turns: Turns,
+    centre: DVec3,
+}
+
+impl Spline {
+    /// Creates a trajectory from the curve of the body's origin and its turns.
+    pub fn new(curve: Curve, turns: Turns) -> Self {
+        Spline {
+            curve,
+            turns,
+            centre: DVec3::ZERO,
+        }
+    }
+
+    /// Lets another point of the body follow the curve.
+    ///
+    /// # Errors
+    /// [`InputError::NotFinite`].
+    pub fn about(self, centre: impl Into<[f64; 3]>) -> Result<Self, InputError> {
+        let centre = DVec3::from_array(centre.into());
+        match centre.is_finite() {
+            true => Ok(Spline { centre, ..self }),
+            false => Err(InputError::NotFinite { what: "centre" }),
+        }
+    }
+}
+
+impl Smooth for Spline {
+    fn tangent(&self, time: f64) -> Result<Motion, InputError> {
+        let (rotation, spin) = self.turns.at(time);
+        let origin = self.curve.position(time) - rotation * self.centre;
+        let start = Pose::new(origin, rotation)?;
+        Motion::about(start, self.curve.velocity(time), spin, self.centre)
+    }
+
+    fn accelerations(&self, from: f64, to: f64) -> Accelerations {
+        Accelerations {
+            linear: self.curve.acceleration(from, to),
+            angular: self.turns.acceleration(from, to),
+        }
+    }
+
+    fn rounding(&self, _: f64, _: f64) -> Stray {
+        Stray {
+            shift: self.curve.rounding(),
+            turn: self.turns.rounding(),
+        }
+    }
+
+    fn corner(&self, from: f64, to: f64) -> Option<f64> {
+        self.turns
+            .corner(from, to)
+            .or_else(|| self.curve.corner(from, to))
+    }
+}
+
+impl Bounded for Spline {
+    fn speeds(&self, from: f64, to: f64) -> Speeds {
+        Speeds {
+            linear: self.curve.speed(from, to),
+            angular: self.turns.speed(from, to),
+        }
+    }
+}

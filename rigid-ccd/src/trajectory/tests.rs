@@ -1,0 +1,276 @@
+//! Every trajectory against samples that seek the worst: none strays farther than it says.
+
+use super::*;
+use ccd_core::glam::{DQuat, DVec3};
+use ccd_core::{InputError, Pose};
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64;
+use std::io::Write;
+
+type Rng = Pcg64;
+
+fn vector(rng: &mut Rng, size: f64) -> DVec3 {
+    DVec3::from_array([(); 3].map(|()| rng.random_range(-size..size)))
+}
+
+fn orientation(rng: &mut Rng) -> DQuat {
+    DQuat::from_array([(); 4].map(|()| rng.random_range(-1.0..1.0))).normalize()
+}
+
+fn pose(rng: &mut Rng, size: f64) -> Pose {
+    Pose::new(vector(rng, size), orientation(rng)).unwrap()
+}
+
+/// The number of draws for each motion: `CCD_TEST_CASES` multiplies it; 200 makes a million.
+fn draws() -> u64 {
+    let cases = std::env::var("CCD_TEST_CASES").ok();
+    5_000 * cases.map_or(1, |cases| cases.parse().unwrap())
+}
+
+/// Draws some trajectories, and checks that the worst of all strays is within its bound, but not far within.
+fn check<T: Trajectory>(
+    name: &str,
+    at_least: f64,
+    make: impl Fn(&mut Rng) -> Result<T, InputError>,
+) {
+    const TRAJECTORIES: u64 = 50;
+    let mut rng = Rng::seed_from_u64(1);
+    let mut tightest = 0.0;
+    for number in 0..TRAJECTORIES {
+        let trajectory = make(&mut rng).unwrap();
+        let worst = worst_stray(&trajectory, 2.0, 1.5, draws() / TRAJECTORIES, number).unwrap();
+        assert!(worst.ratio <= 1.0, "{name} {number}: {worst:?}");
+        tightest = ccd_core::order::greater(tightest, worst.ratio);
+    }
+    let draws = draws();
+    writeln!(std::io::stderr(), "{name}: {tightest:.4} in {draws} draws").unwrap();
+    assert!(tightest >= at_least, "{name}: {tightest}");
+}
+
+fn motion(rng: &mut Rng) -> Result<Motion, InputError> {
+    let spin = vector(rng, 4.0);
+    Motion::about(pose(rng, 3.0), vector(rng, 3.0), spin, vector(rng, 1.0))
+}
+
+fn ballistic(rng: &mut Rng) -> Result<Ballistic, InputError> {
+    Ballistic::new(motion(rng)?, vector(rng, 10.0))
+}
+
+fn points(rng: &mut Rng, count: usize) -> Vec<[f64; 3]> {
+    (0..count).map(|_| vector(rng, 3.0).to_array()).collect()
+}
+
+/// Orientations that turn by less than 1 from one to the next.
+fn keys(rng: &mut Rng, count: usize) -> Vec<(f64, [f64; 4])> {
+    let mut at = orientation(rng);
+    let key = |k| {
+        at = DQuat::from_scaled_axis(vector(rng, 0.5)) * at;
+        (2.0 * k as f64 / (count - 1) as f64, at.to_array())
+    };
+    (0..count).map(key).collect()
+}
+
+fn arm(rng: &mut Rng, count: usize, parallel: bool) -> Chain {
+    let joint = |k: usize| {
+        let axis = if parallel { DVec3::Z } else { vector(rng, 1.0) };
+        let origin = match parallel {
+            true => Pose::at(vector(rng, 1.0)).unwrap(),
+            false => pose(rng, 1.0),
+        };
+        match k % 4 {
+            3 => Joint::prismatic(origin, vector(rng, 1.0)),
+            2 if !parallel => Ok(Joint::fixed(origin)),
+            _ => Joint::revolute(origin, axis),
+        }
+    };
+    let joints: Result<_, InputError> = (0..count).map(joint).collect();
+    Chain::new(Pose::IDENTITY, joints.unwrap())
+}
+
+#[test]
+fn steady() {
+    check("steady", 0.0, |rng| Ok(Steady(motion(rng)?)));
+}
+
+#[test]
+fn thrown() {
+    check("ballistic", 0.99, ballistic);
+}
+
+#[test]
+fn poses() {
+    check("poses", 0.3, |rng| {
+        let count = rng.random_range(2..12);
+        let mut time = -0.5;
+        let stops = (0..count).map(|_| {
+            time += rng.random_range(0.01..0.5);
+            (time, pose(rng, 3.0))
+        });
+        Poses::new(stops.collect())?.about(vector(rng, 1.0))
+    });
+}
+
+#[test]
+fn bezier() {
+    check("Bézier curve", 0.5, |rng| {
+        let count = rng.random_range(1..7);
+        Ok(Spline::new(
+            Curve::bezier(&points(rng, count), 2.0)?,
+            Turns::NONE,
+        ))
+    });
+}
+
+#[test]
+fn b_spline_and_slerp() {
+    check("B-spline, slerp", 0.3, |rng| {
+        let curve = Curve::b_spline(&points(rng, 8), 2.0)?;
+        Spline::new(curve, Turns::slerp(&keys(rng, 5))?).about(vector(rng, 1.0))
+    });
+}
+
+#[test]
+fn b_spline_and_squad() {
+    check("B-spline, squad", 0.05, |rng| {
+        let curve = Curve::b_spline(&points(rng, 8), 2.0)?;
+        Spline::new(curve, Turns::squad(&keys(rng, 5))?).about(vector(rng, 1.0))
+    });
+}
+
+#[test]
+fn squad_alone() {
+    check("squad", 0.05, |rng| {
+        let point = Curve::bezier(&[[0.0; 3]], 2.0)?;
+        Ok(Spline::new(point, Turns::squad(&keys(rng, 4))?))
+    });
+}
+
+/// A link that owns its chain.
+struct Owned {
+    chain: Chain,
+    positions: [Vec<f64>; 2],
+    link: usize,
+    seen_from: Option<usize>,
+}
+
+impl Owned {
+    fn draw(rng: &mut Rng, parallel: bool) -> Result<Self, InputError> {
+        let count = rng.random_range(1..8);
+        let chain = arm(rng, count, parallel);
+        let positions = [(); 2].map(|()| (0..count).map(|_| rng.random_range(-2.0..2.0)).collect());
+        let link = rng.random_range(0..=count);
+        Ok(Owned {
+            chain,
+            positions,
+            link,
+            seen_from: rng.random_bool(0.3).then_some(link / 2),
+        })
+    }
+}
+
+impl Trajectory for Owned {
+    fn stretch(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
+        let [first, last] = &self.positions;
+        let link = self.chain.link(self.link, first, last, 2.0)?;
+        match self.seen_from {
+            Some(other) => link.seen_from(other).stretch(from, to),
+            None => link.stretch(from, to),
+        }
+    }
+}
+
+#[test]
+fn links() {
+    check("link of a chain", 0.2, |rng| Owned::draw(rng, false));
+}
+
+#[test]
+fn links_with_parallel_axes() {
+    check("link, parallel axes", 0.5, |rng| Owned::draw(rng, true));
+}
+
+#[test]
+fn carried() {
+    check("carried", 0.3, |rng| {
+        Ok(Carried::new(ballistic(rng)?, ballistic(rng)?))
+    });
+}
+
+#[test]
+fn timed() {
+    check("timed", 0.3, |rng| {
+        let pace = [Pace::Even, Pace::Eased][rng.random_range(0..2)];
+        let first = rng.random_range(0.0..1.0);
+        Timed::new(
+            ballistic(rng)?,
+            first..first + 2.0,
+            rng.random_range(0.5..2.0),
+            pace,
+        )
+    });
+}
+
+/// The test is worth its name: it finds a trajectory that claims too little.
+#[test]
+fn a_false_bound_is_found() {
+    struct False(Ballistic);
+    impl Trajectory for False {
+        fn stretch(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
+            let mut stretch = self.0.stretch(from, to)?;
+            stretch.stray.shift *= 0.9;
+            Ok(stretch)
+        }
+    }
+    let mut rng = Rng::seed_from_u64(2);
+    let worst = worst_stray(&False(ballistic(&mut rng).unwrap()), 2.0, 1.0, 1_000, 1).unwrap();
+    assert!(worst.ratio > 1.05, "{worst:?}");
+}
+
+#[test]
+fn links_seen_from_links_are_where_they_are_in_the_world() {
+    let mut rng = Rng::seed_from_u64(3);
+    for _ in 0..200 {
+        let owned = Owned::draw(&mut rng, false).unwrap();
+        let other = owned.link / 2;
+        let [first, last] = &owned.positions;
+        let of = |link| owned.chain.link(link, first, last, 2.0).unwrap();
+        let time = rng.random_range(0.0..2.0);
+        let [tip, base] = [owned.link, other].map(|link| of(link).pose(time).unwrap());
+        let seen = of(owned.link).seen_from(other).pose(time).unwrap();
+        let x = vector(&mut rng, 1.0);
+        let twice = base.compose(&seen).transform_point(x);
+        assert!(twice.distance(tip.transform_point(x)) < 1e-13);
+    }
+}
+
+#[test]
+fn tangents_have_the_velocities_of_poses() {
+    let mut rng = Rng::seed_from_u64(4);
+    let step = 1e-6;
+    for _ in 0..100 {
+        let [first, last] = [(); 2].map(|()| [(); 5].map(|()| rng.random_range(-2.0..2.0)));
+        let chain = arm(&mut rng, 5, false);
+        let link = chain.link(5, &first, &last, 2.0).unwrap();
+        let squad = Turns::squad(&keys(&mut rng, 6)).unwrap();
+        let spline = Spline::new(Curve::b_spline(&points(&mut rng, 9), 2.0).unwrap(), squad);
+        let carried = Carried::new(ballistic(&mut rng).unwrap(), ballistic(&mut rng).unwrap());
+        let all: [&dyn Smooth; 3] = [&link, &spline, &carried];
+        let time = rng.random_range(0.1..1.9);
+        for (number, smooth) in all.into_iter().enumerate() {
+            let tangent = smooth.tangent(time).unwrap();
+            let x = vector(&mut rng, 1.0);
+            let [before, after] = [-step, step].map(|step| {
+                let pose = smooth.tangent(time + step).unwrap().start();
+                pose.transform_point(x)
+            });
+            let arm = tangent.start().rotation() * (x - tangent.centre());
+            let velocity = tangent.velocity() + tangent.spin().cross(arm);
+            let found = (after - before) / (2.0 * step);
+            let size = 1.0 + velocity.length();
+            assert!(
+                found.distance(velocity) < 1e-5 * size,
+                "{number}: {found} {velocity}"
+            );
+        }
+    }
+}

@@ -1,0 +1,196 @@
+//! A trajectory at another pace.
+
+use super::U;
+use super::bounded::{Bounded, Speeds};
+use ccd_core::order::greater;
+use ccd_core::{Accelerations, InputError, Motion, Smooth, Stray};
+use std::ops::Range;
+
+/// A smooth trajectory that is followed at another pace.
+///
+/// With the inner time `θ(t)`, the velocity is `v θ̇` and the acceleration `a θ̇² + v θ̈`; rotations alike.
+///
+/// ```
+/// use rigid_ccd::trajectory::{Ballistic, Pace, Timed, Trajectory};
+/// use rigid_ccd::{Motion, Pose};
+/// let throw = Ballistic::new(Motion::new(Pose::IDENTITY, [1.0, 0.0, 2.0], [0.0; 3])?, [0.0, 0.0, -1.0])?;
+/// // Slow motion, that begins and ends at rest.
+/// let slow = Timed::new(throw, 0.0..2.0, 10.0, Pace::Eased)?;
+/// assert_eq!(slow.pose(5.0)?.translation().x, 1.0);
+/// assert!(slow.pose(1.0)?.translation().x < 0.1);
+/// # Ok::<(), rigid_ccd::InputError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Timed<T> {
+    inner: T,
+    first: f64,
+    length: f64,
+    duration: f64,
+    pace: Pace,
+}
+
+/// How fast a trajectory is followed, between its first and its last time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Pace {
+    /// At a constant rate.
+    Even,
+    /// From rest to rest: `10 u³ − 15 u⁴ + 6 u⁵` of the way after a share `u` of the time.
+    Eased,
+}
+
+/// The largest slope of the eased pace, at half the time: `30/16`.
+const STEEPEST: f64 = 1.875;
+
+/// The largest second derivative of the eased pace: `10/√3`, rounded up.
+const MOST_CURVED: f64 = 5.774;
+
+impl Pace {
+    /// Returns the share of the way after a share of the time, and its derivative.
+    fn at(self, u: f64) -> [f64; 2] {
+        match self {
+            Pace::Even => [u, 1.0],
+            Pace::Eased => {
+                let v = 1.0 - u;
+                [
+                    u * u * u * (10.0 + u * (6.0 * u - 15.0)),
+                    30.0 * u * u * v * v,
+                ]
+            }
+        }
+    }
+
+    /// Bounds both derivatives.
+    fn most(self) -> [f64; 2] {
+        match self {
+            Pace::Even => [1.0, 0.0],
+            Pace::Eased => [STEEPEST, MOST_CURVED],
+        }
+    }
+}
+
+impl<T> Timed<T> {
+    /// Follows a trajectory through a range of its times, in a duration. It rests before and after.
+    ///
+    /// # Errors
+    /// [`InputError::OutOfRange`] for times that are not finite, or a duration that is not positive.
+    pub fn new(inner: T, times: Range<f64>, duration: f64, pace: Pace) -> Result<Self, InputError> {
+        let length = times.end - times.start;
+        let check = |what, value: f64, allowed: bool, words| match allowed {
+            true => Ok(()),
+            false => Err(InputError::OutOfRange {
+                what,
+                value,
+                allowed: words,
+            }),
+        };
+        check(
+            "length",
+            length,
+            (0.0..=f64::MAX).contains(&length),
+            "at least 0",
+        )?;
+        let positive = duration > 0.0 && duration.is_finite();
+        check("duration", duration, positive, "positive and finite")?;
+        Ok(Timed {
+            inner,
+            first: times.start,
+            length,
+            duration,
+            pace,
+        })
+    }
+
+    /// Returns the inner time at a time, and its rate.
+    fn time(&self, time: f64) -> [f64; 2] {
+        let u = time / self.duration;
+        match (0.0..=1.0).contains(&u) {
+            true => {
+                let [way, rate] = self.pace.at(u);
+                [
+                    self.first + self.length * way,
+                    self.length / self.duration * rate,
+                ]
+            }
+            false => [self.first + self.length * u.clamp(0.0, 1.0), 0.0],
+        }
+    }
+
+    /// The inner times between two times.
+    fn times(&self, from: f64, to: f64) -> [f64; 2] {
+        let [[first, _], [last, _]] = [self.time(from), self.time(to)];
+        [first, greater(first, last)]
+    }
+
+    /// Bounds the rate of the inner time, and its change.
+    fn rates(&self) -> [f64; 2] {
+        let [slope, curve] = self.pace.most();
+        let rate = self.length / self.duration;
+        [rate * slope, rate / self.duration * curve]
+    }
+}
+
+impl<T: Bounded> Smooth for Timed<T> {
+    fn tangent(&self, time: f64) -> Result<Motion, InputError> {
+        let [inner, rate] = self.time(time);
+        let tangent = self.inner.tangent(inner)?;
+        let (velocity, spin) = (tangent.velocity() * rate, tangent.spin() * rate);
+        Motion::about(tangent.start(), velocity, spin, tangent.centre())
+    }
+
+    fn accelerations(&self, from: f64, to: f64) -> Accelerations {
+        let [first, last] = self.times(from, to);
+        let [rate, change] = self.rates();
+        let speeds = self.inner.speeds(first, last);
+        let inner = self.inner.accelerations(first, last);
+        // An even pace jumps to rest at both ends.
+        let jump = match self.pace == Pace::Even && (from < 0.0 || to > self.duration) {
+            true => 2.0 * rate / (0.5 * (to - from)),
+            false => change,
+        };
+        Accelerations {
+            linear: inner.linear * rate * rate + speeds.linear * jump,
+            angular: inner.angular * rate * rate + speeds.angular * jump,
+        }
+    }
+
+    /// The inner time is rounded.
+    fn rounding(&self, from: f64, to: f64) -> Stray {
+        let [first, last] = self.times(from, to);
+        let speeds = self.inner.speeds(first, last);
+        let off = 64.0 * U * (self.first.abs() + self.length);
+        let inner = self.inner.rounding(first, last);
+        Stray {
+            shift: inner.shift + speeds.linear * off,
+            turn: inner.turn + speeds.angular * off,
+        }
+    }
+
+    fn corner(&self, from: f64, to: f64) -> Option<f64> {
+        let ends = [0.0, self.duration];
+        let end = ends.into_iter().find(|&end| end > from && end < to);
+        match self.pace {
+            Pace::Even => {
+                let [first, last] = self.times(from, to);
+                let inner = self.inner.corner(first, last);
+                let rate = self.duration / self.length;
+                inner
+                    .map(|corner| (corner - self.first) * rate)
+                    .filter(|_| self.length > 0.0)
+                    .or(end)
+            }
+            Pace::Eased => end,
+        }
+    }
+}
+
+impl<T: Bounded> Bounded for Timed<T> {
+    fn speeds(&self, from: f64, to: f64) -> Speeds {
+        let [first, last] = self.times(from, to);
+        let inner = self.inner.speeds(first, last);
+        let [rate, _] = self.rates();
+        Speeds {
+            linear: inner.linear * rate,
+            angular: inner.angular * rate,
+        }
+    }
+}

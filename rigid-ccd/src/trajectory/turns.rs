@@ -1,0 +1,223 @@
+//! Orientations in time: slerp and squad through given ones.
+
+mod squad;
+
+use super::U;
+use ccd_core::InputError;
+use ccd_core::glam::{DQuat, DVec3};
+use ccd_core::order::{greater, lesser};
+use squad::Squad;
+
+/// Orientations through given ones at given times. The body does not turn before the first and after the last.
+///
+/// ```
+/// use rigid_ccd::glam::DQuat;
+/// use rigid_ccd::trajectory::Turns;
+/// let keys = [0.0, 1.0, 2.0].map(|t| (t, DQuat::from_rotation_z(t * t / 4.0).to_array()));
+/// let (half, _) = Turns::slerp(&keys)?.at(0.5);
+/// assert!(half.angle_between(DQuat::from_rotation_z(1.0 / 8.0)) < 1e-7);
+/// # Ok::<(), rigid_ccd::InputError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Turns {
+    /// At increasing times.
+    pieces: Vec<Piece>,
+    /// The orientation before the first piece, and after the last.
+    ends: [DQuat; 2],
+}
+
+/// A turn between two times.
+#[derive(Clone, Debug, PartialEq)]
+struct Piece {
+    from: f64,
+    to: f64,
+    turn: Turn,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+enum Turn {
+    /// At a constant rate from an orientation on.
+    Slerp {
+        start: DQuat,
+        spin: DVec3,
+    },
+    Squad(Squad),
+}
+
+impl Turns {
+    /// The body does not turn, and is oriented as the world.
+    pub const NONE: Turns = Turns {
+        pieces: Vec::new(),
+        ends: [DQuat::IDENTITY; 2],
+    };
+
+    /// Turns from each orientation to the next at a constant rate, the shortest way. Quaternions have the order
+    /// x, y, z, w.
+    ///
+    /// # Errors
+    /// [`InputError::ZeroQuaternion`], [`InputError::NotFinite`], and [`InputError::OutOfRange`] for times that
+    /// do not increase.
+    pub fn slerp(keys: &[(f64, [f64; 4])]) -> Result<Self, InputError> {
+        let keys = checked(keys)?;
+        Ok(Turns::of(&keys, |k| {
+            let [(from, start), (to, end)] = [keys[k], keys[k + 1]];
+            Turn::Slerp {
+                start,
+                spin: (end * start.conjugate()).to_scaled_axis() / (to - from),
+            }
+        }))
+    }
+
+    /// Turns smoothly through all orientations: spherical quadrangles, whose spins do not jump if times are
+    /// equally far apart.
+    ///
+    /// # Errors
+    /// Those of [`Turns::slerp`], and [`InputError::OutOfRange`] if orientations are so far apart, about a quarter
+    /// of a turn, that the quadrangle between them is too large.
+    pub fn squad(keys: &[(f64, [f64; 4])]) -> Result<Self, InputError> {
+        let keys = checked(keys)?;
+        let at = |k: usize| keys[k.min(keys.len() - 1)].1;
+        let inner = |k: usize| squad::inner(at(k.saturating_sub(1)), at(k), at(k + 1));
+        let mut squads = Vec::new();
+        for k in 0..keys.len().saturating_sub(1) {
+            let squad = Squad::new(
+                [at(k), at(k + 1)],
+                [inner(k), inner(k + 1)],
+                keys[k + 1].0 - keys[k].0,
+            );
+            squads.push(squad.ok_or(InputError::OutOfRange {
+                what: "turn between orientations",
+                value: at(k).angle_between(at(k + 1)),
+                allowed: "small enough for a spherical quadrangle: give more orientations",
+            })?);
+        }
+        Ok(Turns::of(&keys, |k| Turn::Squad(squads[k].clone())))
+    }
+
+    fn of(keys: &[(f64, DQuat)], turn: impl Fn(usize) -> Turn) -> Self {
+        let piece = |k: usize| Piece {
+            from: keys[k].0,
+            to: keys[k + 1].0,
+            turn: turn(k),
+        };
+        Turns {
+            pieces: (0..keys.len() - 1).map(piece).collect(),
+            ends: [keys[0].1, keys[keys.len() - 1].1],
+        }
+    }
+
+    /// The orientation at a time, and the angular velocity along the world's axes.
+    pub fn at(&self, time: f64) -> (DQuat, DVec3) {
+        let next = self.pieces.partition_point(|piece| piece.to < time);
+        match self.pieces.get(next) {
+            Some(piece) if time >= piece.from => piece.at(time),
+            Some(_) => (self.ends[0], DVec3::ZERO),
+            None => (self.ends[1], DVec3::ZERO),
+        }
+    }
+
+    /// Bounds the angular acceleration between two times. A spin that jumps counts as one that changes in half
+    /// of the time, by which the orientation strays farther.
+    pub(super) fn acceleration(&self, from: f64, to: f64) -> f64 {
+        let smooth = self.overlapping(from, to).map(|piece| match &piece.turn {
+            Turn::Slerp { .. } => 0.0,
+            Turn::Squad(squad) => squad.acceleration(),
+        });
+        let jumps: f64 = self.jumps(from, to).sum();
+        let jump = match jumps > 0.0 {
+            true => 2.0 * jumps / (0.5 * (to - from)),
+            false => 0.0,
+        };
+        smooth.fold(0.0, greater) + jump
+    }
+
+    /// Bounds the angular speed between two times.
+    pub(super) fn speed(&self, from: f64, to: f64) -> f64 {
+        let speeds = self.overlapping(from, to).map(|piece| match &piece.turn {
+            Turn::Slerp { spin, .. } => spin.length(),
+            Turn::Squad(squad) => squad.speed(),
+        });
+        speeds.fold(0.0, greater)
+    }
+
+    /// Returns a time between two others at which two turns meet, about the middle.
+    pub(super) fn corner(&self, from: f64, to: f64) -> Option<f64> {
+        let last = self.pieces.last().map(|piece| piece.to);
+        let knots = self.pieces.iter().map(|piece| piece.from).chain(last);
+        let inner: Vec<f64> = knots.filter(|&knot| knot > from && knot < to).collect();
+        inner.get(inner.len() / 2).copied()
+    }
+
+    /// Bounds the rounding of an orientation.
+    pub(super) fn rounding(&self) -> f64 {
+        128.0 * U
+    }
+
+    fn overlapping(&self, from: f64, to: f64) -> impl Iterator<Item = &Piece> {
+        (self.pieces.iter()).filter(move |piece| piece.from <= to && piece.to >= from)
+    }
+
+    /// The lengths of the changes of spin strictly between two times.
+    fn jumps(&self, from: f64, to: f64) -> impl Iterator<Item = f64> {
+        let starts = self.pieces.iter().enumerate().map(|(k, piece)| {
+            let before = k.checked_sub(1).map_or(DVec3::ZERO, |k| {
+                let before = &self.pieces[k];
+                before.at(before.to).1
+            });
+            (piece.from, before.distance(piece.at(piece.from).1))
+        });
+        let end = (self.pieces.last()).map(|piece| (piece.to, piece.at(piece.to).1.length()));
+        starts
+            .chain(end)
+            .filter(move |&(knot, _)| knot > from && knot < to)
+            .map(|(_, jump)| jump)
+    }
+}
+
+impl Piece {
+    fn at(&self, time: f64) -> (DQuat, DVec3) {
+        let passed = greater(0.0, lesser(time, self.to) - self.from);
+        match &self.turn {
+            Turn::Slerp { start, spin } => {
+                let turned = DQuat::from_scaled_axis(*spin * passed) * *start;
+                (turned.normalize(), *spin)
+            }
+            Turn::Squad(squad) => squad.at(passed),
+        }
+    }
+}
+
+/// Returns unit quaternions, each the nearer one of two to that before it.
+fn checked(keys: &[(f64, [f64; 4])]) -> Result<Vec<(f64, DQuat)>, InputError> {
+    let refuse = |value| {
+        Err(InputError::OutOfRange {
+            what: "time of an orientation",
+            value,
+            allowed: "finite and later than the one before; at least one",
+        })
+    };
+    let mut units: Vec<(f64, DQuat)> = Vec::new();
+    for &(time, key) in keys {
+        let key = DQuat::from_array(key);
+        if !key.is_finite() {
+            return Err(InputError::NotFinite {
+                what: "orientation",
+            });
+        }
+        let unit = key.normalize();
+        if !unit.is_finite() {
+            return Err(InputError::ZeroQuaternion);
+        }
+        let last = units.last().copied();
+        // Written so that NaN is refused.
+        if !(time.is_finite() && last.is_none_or(|(before, _)| time > before)) {
+            return refuse(time);
+        }
+        let turned = last.is_some_and(|(_, before)| before.dot(unit) < 0.0);
+        units.push((time, if turned { -unit } else { unit }));
+    }
+    match units.is_empty() {
+        true => refuse(f64::NAN),
+        false => Ok(units),
+    }
+}

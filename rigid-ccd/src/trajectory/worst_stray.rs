@@ -1,0 +1,138 @@
+//! Tests a trajectory: does it stray no farther than it says?
+
+use ccd_core::glam::DVec3;
+use ccd_core::order::{greater, lesser};
+use ccd_core::{InputError, Stretch, Trajectory};
+
+/// The place at which a trajectory strays farthest from a stretch, in units of its bound.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Worst {
+    /// The distance over the bound: at most 1 for a sound trajectory.
+    pub ratio: f64,
+    /// The first time of the stretch.
+    pub from: f64,
+    /// The last time of the stretch.
+    pub to: f64,
+    /// The time in between.
+    pub time: f64,
+    /// The point, in the frame of the motion's centre, along the body's axes.
+    pub arm: DVec3,
+}
+
+/// Seeks the stretch, the time and the point of a body at which a trajectory strays farthest beyond its bounds.
+///
+/// It draws stretches within the duration, of all lengths, and points up to `reach` from the centre; then it
+/// changes the worst draw a little, again and again. The same seed makes the same draws. Poses are those of
+/// [`Trajectory::pose`], which have to be exact to a few units in the last place.
+///
+/// A ratio above 1 is a fault of the trajectory, at the place that is returned. A ratio far below 1 over all
+/// draws says that the bounds could be tighter.
+///
+/// # Errors
+/// Those of the trajectory.
+///
+/// ```
+/// use rigid_ccd::trajectory::{Ballistic, worst_stray};
+/// use rigid_ccd::{Motion, Pose};
+/// let thrown = Motion::new(Pose::IDENTITY, [3.0, 0.0, 4.0], [0.0, 9.0, 0.0])?;
+/// let ball = Ballistic::new(thrown, [0.0, 0.0, -9.81])?;
+/// let worst = worst_stray(&ball, 1.0, 0.5, 10_000, 1)?;
+/// assert!(worst.ratio <= 1.0, "{worst:?}");
+/// # Ok::<(), rigid_ccd::InputError>(())
+/// ```
+pub fn worst_stray(
+    trajectory: &dyn Trajectory,
+    duration: f64,
+    reach: f64,
+    draws: u64,
+    seed: u64,
+) -> Result<Worst, InputError> {
+    let mut search = Search {
+        trajectory,
+        duration,
+        reach,
+        state: seed,
+    };
+    let mut worst: Option<(Draw, Worst)> = None;
+    for number in 0..draws {
+        let draw = match &worst {
+            // Climbs after every fresh draw.
+            Some((draw, _)) if number % 4 != 0 => search.near(draw),
+            _ => search.fresh(),
+        };
+        let found = search.look(&draw)?;
+        if worst.is_none_or(|(_, worst)| found.ratio > worst.ratio) {
+            worst = Some((draw, found));
+        }
+    }
+    let none = Worst {
+        ratio: 0.0,
+        from: 0.0,
+        to: 0.0,
+        time: 0.0,
+        arm: DVec3::ZERO,
+    };
+    Ok(worst.map_or(none, |(_, worst)| worst))
+}
+
+/// Numbers from 0 to 1 that make a stretch, a time and a point.
+type Draw = [f64; 6];
+
+struct Search<'t> {
+    trajectory: &'t dyn Trajectory,
+    duration: f64,
+    reach: f64,
+    state: u64,
+}
+
+impl Search<'_> {
+    /// A number from 0 to 1: SplitMix64.
+    fn number(&mut self) -> f64 {
+        self.state = self.state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.state;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    fn fresh(&mut self) -> Draw {
+        [(); 6].map(|()| self.number())
+    }
+
+    fn near(&mut self, draw: &Draw) -> Draw {
+        let step = 10f64.powf(-6.0 * self.number());
+        draw.map(|x| (x + step * (self.number() - 0.5)).clamp(0.0, 1.0))
+    }
+
+    fn look(
+        &self,
+        &[length, from, time, arm, azimuth, height]: &Draw,
+    ) -> Result<Worst, InputError> {
+        // Lengths of all orders, down to a millionth.
+        let length = self.duration * 10f64.powf(-6.0 * length);
+        let from = from * (self.duration - length);
+        let to = lesser(from + length, self.duration);
+        let time = lesser(from + time * length, to);
+        let Stretch { motion, stray } = self.trajectory.stretch(from, to)?;
+        let z = 2.0 * height - 1.0;
+        let (sin, cos) = (std::f64::consts::TAU * azimuth).sin_cos();
+        let across = greater(0.0, 1.0 - z * z).sqrt();
+        let reach = self.reach * arm;
+        let arm = reach * DVec3::new(across * cos, across * sin, z);
+        let point = motion.centre() + arm;
+        let [pose, near] = [self.trajectory.pose(time)?, motion.pose(time - from)];
+        let off = pose
+            .transform_point(point)
+            .distance(near.transform_point(point));
+        // The poses that are compared are rounded themselves, by a unit or two in the last place.
+        let places = pose.translation().length() + point.length();
+        let rounding = 8.0 * f64::EPSILON * places;
+        Ok(Worst {
+            ratio: (off - rounding) / stray.at(reach),
+            from,
+            to,
+            time,
+            arm,
+        })
+    }
+}
