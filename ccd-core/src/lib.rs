@@ -62,10 +62,14 @@
 //! | Δt = d / μ `[FAST06 Eq. 2]` | `motion/gap.rs` |
 //! | distance of two pieces, and its check | `distance/oracle.rs`, `distance/separation.rs` |
 //! | conservative advancement, best first | `schedule/best_first.rs` |
+//! | the steps that all searches take | `schedule/search.rs` |
+//! | any contact, the closest approach | `schedule/depth_first.rs`, `schedule/any_contact.rs`, `schedule/closest_approach.rs` |
+//! | motions of any kind, stretch by stretch | `motion/trajectory.rs`, `schedule/journey.rs` |
 //! | conservative advancement, all pairs `[FAST06 Alg. 1]` | `schedule/naive.rs` |
 //! | conservative advancement over hull trees `[FAST06 Alg. 2, §5.1]` | `schedule/fast.rs` |
 //! | eight pairs of nodes at once | `schedule/nodes/expand.rs`, `schedule/nodes/bounds.rs` |
 //! | one pair of pieces at one instant | `schedule/pieces/pair.rs`, `schedule/pieces/snapshot.rs` |
+//! | distance at one clock, nearest pairs first | `schedule/nearest.rs` |
 //! | contact at the start, one body inside the other | `schedule/start.rs`, `schedule/start/containment.rs` |
 //! | features of all contacts at a time `[FAST06 §5.2]` | `contacts.rs` |
 //! | the answer | `outcome.rs` |

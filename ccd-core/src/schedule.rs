@@ -1,9 +1,12 @@
 //! Schedules: the order in which the clocks of pairs are advanced.
 //!
 //! A pair consists of two nodes (`nodes/`: eight at once, in f32) or of two pieces (`pieces/`: one
-//! at a time, in f64). A schedule keeps the waiting pairs (`queue.rs`, `fast/front.rs`) and the
-//! proven facts (`proven.rs`). `start.rs` measures bodies in contact at the start; `answer.rs` runs
-//! the schedule as the policy for the start demands. `out_of_reach.rs` tells bodies apart that are far
+//! at a time, in f64). A schedule keeps the waiting pairs (`queue.rs`, `stack.rs`, `fast/front.rs`) and
+//! the proven facts (`proven.rs`). `search.rs` has the steps, and each question draws its own conclusions
+//! from them: the first contact (`best_first.rs`), any contact (`any_contact.rs`), the closest approach
+//! (`closest_approach.rs`). `nearest.rs` measures bodies at one clock, `start.rs` those in contact at the
+//! start; `answer.rs` runs the schedule as the policy for the start demands. `journey.rs` asks along
+//! trajectories. `out_of_reach.rs` tells bodies apart that are far
 //! from each other all the time.
 
 mod answer;

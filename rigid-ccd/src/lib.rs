@@ -18,6 +18,9 @@
 //! | to … | use |
 //! |---|---|
 //! | answer one query | [`first_contact`] |
+//! | ask only whether two bodies stay apart | [`Solver::is_free`] |
+//! | ask how close they come, and when | [`Solver::closest_approach`], [`Solver::distance`] at rest |
+//! | follow a spline, a path of poses, a throw, an arm's link | [`trajectory`], [`Solver::first_contact_along`] |
 //! | answer many on all cores, in order | [`first_contacts`], [`ParallelSolver`] |
 //! | answer many one after another | [`Solver`] |
 //! | set a tolerance, a margin, a budget or a deadline | [`Solver::with_config`] |
@@ -78,8 +81,8 @@ pub use ccd_core::schedule;
 pub use ccd_core::{
     Answer, Body, Claim, Combination, Config, Contact, ContactsError, DistanceOracle, Effort, Face,
     Facet, Feature, FeaturePair, Frame, GiveUp, Hierarchy, HierarchyNode, InputError, Instructions,
-    Limit, Motion, Moving, OrElse, Origin, Outcome, Overlap, Piece, PiecePair, Pieces, Polytope,
-    Pose, Problem, Schedule, Separation, StartPolicy, Stats, Volume,
+    Journey, Limit, Motion, Moving, OrElse, Origin, Outcome, Overlap, Piece, PiecePair, Pieces,
+    Polytope, Pose, Problem, Schedule, Separation, StartPolicy, Stats, Travelling, Volume,
 };
 /// Meshes, and bodies made from them.
 #[cfg(feature = "meshes")]

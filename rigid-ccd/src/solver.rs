@@ -1,8 +1,10 @@
 //! Queries, one or many.
 
+mod questions;
+
 use crate::{Error, Hit};
-use ccd_core::schedule::{BestFirst, Schedule};
-use ccd_core::{Answer, Config, DistanceOracle, InputError, Moving, Problem};
+use ccd_core::schedule::{BestFirst, DepthFirst, Schedule};
+use ccd_core::{Answer, Config, DistanceOracle, InputError, Moving};
 use ccd_distance_gjk::Direct;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -53,6 +55,7 @@ pub fn first_contact<'b>(
 /// ```
 pub struct Solver<O: DistanceOracle = Direct> {
     schedule: BestFirst<O>,
+    depth_first: DepthFirst<O>,
     oracle: O,
     config: Config,
     stop: Option<Arc<AtomicBool>>,
@@ -76,6 +79,7 @@ impl<O: DistanceOracle> Solver<O> {
     pub fn with_oracle(oracle: O) -> Self {
         Solver {
             schedule: BestFirst::default(),
+            depth_first: DepthFirst::default(),
             oracle,
             config: Config::default(),
             stop: None,
@@ -129,7 +133,7 @@ impl<O: DistanceOracle> Solver<O> {
     /// the guarantee of [`first_contact`].
     ///
     /// # Errors
-    /// The errors of [`Problem::new`]: a duration or a motion out of range.
+    /// The errors of [`Problem::new`](crate::Problem::new): a duration or a motion out of range.
     ///
     /// ```
     /// use rigid_ccd::{Body, Motion, Outcome, Pose, Solver};
@@ -145,11 +149,7 @@ impl<O: DistanceOracle> Solver<O> {
         b: impl Into<Moving<'b>>,
         duration: f64,
     ) -> Result<Answer, InputError> {
-        let problem = Problem::new(a, b, duration, &self.config)?;
-        let problem = match &self.stop {
-            Some(stop) => problem.stopped_by(stop),
-            None => problem,
-        };
+        let problem = self.problem(a, b, duration)?;
         Ok(self.schedule.solve(&problem, &mut self.oracle))
     }
 }

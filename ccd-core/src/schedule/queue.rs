@@ -112,6 +112,7 @@ impl<T> Queue<T> {
 }
 
 impl<T> Waiting<T> for Queue<T> {
+    #[inline]
     fn push(&mut self, clock: f64, rank: Rank, item: T) -> Result<(), Full> {
         let place = match self.vacant.pop() {
             Some(place) => {
@@ -136,24 +137,28 @@ impl<T> Waiting<T> for Queue<T> {
         Some((clock(self.least), item))
     }
 
+    #[inline]
     fn postpone(&mut self, clock: f64) {
         let place = self.place_of_least();
         let low = self.least as u64;
         self.set(place, Key::from(clock.to_bits()) << 64 | Key::from(low));
     }
 
+    #[inline]
     fn renew(&mut self, clock: f64, rank: Rank) {
         let place = self.place_of_least();
         let key = self.newest(clock, rank, place);
         self.set(place, key);
     }
 
+    #[inline]
     fn replace(&mut self, clock: f64, rank: Rank, item: T) {
         let place = self.place_of_least();
         self.items[place as usize] = item;
         self.renew(clock, rank);
     }
 
+    #[inline]
     fn remove(&mut self) {
         if self.least != VACANT {
             let place = place(self.least);

@@ -93,7 +93,7 @@ impl<O: DistanceOracle, W: Waiting<Item<O::Cache>>> Search<'_, O, W> {
     }
 
     /// Examines the next pair: proves it apart for longer, or splits it.
-    #[inline]
+    #[inline(always)]
     pub(super) fn visit<Q: Question<O>>(
         &mut self,
         common: &Common<'_>,

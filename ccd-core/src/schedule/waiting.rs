@@ -38,5 +38,5 @@ pub(crate) enum Rank {
 }
 
 /// The error of a collection that holds as many items as its indices allow.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Full;

@@ -25,7 +25,7 @@ fn sampled(problem: &Problem<'_>, steps: u32) -> f64 {
 fn brackets_hold_the_least_of_sampled_distances_and_are_narrow() {
     let mut rng = rng(1);
     let (mut apart, mut touching, mut overlapping) = (0, 0, 0);
-    for number in 0..4_000 {
+    for number in 0..2_500 {
         let mut scene = scene(&mut rng, KINDS[number % 4], 12);
         scene.config.tolerance *= magnitude(&mut rng, -4.0, 0.0);
         let problem = scene.problem();
