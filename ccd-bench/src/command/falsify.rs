@@ -100,7 +100,7 @@ pub(super) fn run(args: &FalsifyArgs) -> Result<Exit> {
         let mut reports = reports.lock().unwrap_or_else(PoisonError::into_inner);
         reports.insert(number, report);
         let so_far: Vec<Report> = reports.values().cloned().collect();
-        write_gallery(&so_far, &args.out)
+        write_gallery(&so_far, &args.out, args.peers.as_deref())
     });
     searched?;
     drop(progress);

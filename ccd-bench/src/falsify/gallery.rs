@@ -3,6 +3,7 @@
 use super::aim::Aim;
 use super::climb::{Failure, Report};
 use super::examiner::Examined;
+use crate::method::Method;
 use crate::method::guarded::Asked;
 use crate::method::solver::Claim;
 use crate::run::contest::Verdict;
@@ -22,12 +23,13 @@ A search changes two meshes and their motions, step by step, until a method fail
 the failure does not need. Click on a cell: it opens the failure, the scene at the time of the answer, and the \
 command that asks again.";
 
-/// Writes the failures into a folder: their meshes and motions, `gallery.md`, `index.html`.
+/// Writes the failures into a folder: their meshes and motions, `gallery.md`, `index.html`; `script` is the
+/// one that runs the methods of other languages.
 ///
 /// # Errors
 /// If a file cannot be written.
-pub fn write_gallery(reports: &[Report], folder: &Path) -> Result<()> {
-    let of = |report| Exhibit::of(report, folder);
+pub fn write_gallery(reports: &[Report], folder: &Path, script: Option<&Path>) -> Result<()> {
+    let of = |report| Exhibit::of(report, folder, script);
     let scenes: Vec<Option<Exhibit>> = reports.iter().map(of).collect();
     for exhibit in scenes.iter().flatten() {
         exhibit.write(folder)?;
@@ -58,7 +60,7 @@ struct Exhibit {
 }
 
 impl Exhibit {
-    fn of(report: &Report, folder: &Path) -> Option<Exhibit> {
+    fn of(report: &Report, folder: &Path, script: Option<&Path>) -> Option<Exhibit> {
         let failure = report.smallest.as_ref()?;
         let Failure {
             attempt,
@@ -73,13 +75,17 @@ impl Exhibit {
         let triangles = attempt.triangles();
         let tolerance = attempt.tolerance;
         let patience = report.hunt.patience.as_secs();
+        let peers = match (method, script) {
+            (Method::Script(_), Some(script)) => format!(" --peers '{}'", script.display()),
+            _ => String::new(),
+        };
         let place = folder.join(&name);
         let place = place.display();
         Some(Exhibit {
             title: format!("{method}: {verdict}, {triangles} triangles"),
             said: format!("Answer: {answer}. Exact: {exact}. Tolerance: {tolerance:e}."),
             command: format!(
-                "ccd-bench judge --method '{method}' --tolerance {tolerance} --patience {patience} \\\n  \
+                "ccd-bench judge --method '{method}'{peers} --tolerance {tolerance} --patience {patience} \\\n  \
                  --a '{place}/a.obj' --b '{place}/b.obj' --motions '{place}/motions.csv'"
             ),
             meshes: meshes.clone(),

@@ -2,6 +2,7 @@
 
 use super::super::*;
 use crate::body::Body;
+#[cfg(feature = "hull-tree")]
 use crate::body::polytope::Polytope;
 use crate::config::Config;
 use crate::distance::oracle::{Claim, Effort, GiveUp};
