@@ -196,6 +196,17 @@ impl Stats {
     pub fn work(&self) -> u64 {
         self.iterations + self.point_looks / LOOKS_PER_VISIT
     }
+
+    /// Adds the cost of another answer.
+    pub(crate) fn add(&mut self, other: &Stats) {
+        self.iterations += other.iterations;
+        self.point_looks += other.point_looks;
+        self.oracle_calls += other.oracle_calls;
+        self.give_ups += other.give_ups;
+        self.peak_front = self.peak_front.max(other.peak_front);
+        self.advancements += other.advancements;
+        self.effort = self.effort + other.effort;
+    }
 }
 
 /// An outcome with its accuracy and its cost.

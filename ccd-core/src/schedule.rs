@@ -39,5 +39,5 @@ pub use contract::Schedule;
 pub use depth_first::DepthFirst;
 #[cfg(feature = "hull-tree")]
 pub use fast::Fast;
-pub use journey::{Journey, Travelling};
+pub use journey::{ContactInterval, Journey, Touch, Travelling};
 pub use naive::Naive;

@@ -222,7 +222,7 @@ impl Motion {
     ///
     /// # Errors
     /// [`InputError::NotFinite`].
-    fn started(&self, at: f64) -> Result<Motion, InputError> {
+    pub(crate) fn started(&self, at: f64) -> Result<Motion, InputError> {
         let rotation = DQuat::from_scaled_axis(at * self.spin()) * self.start().rotation();
         let turned = rotation * self.centre() - self.start().rotation() * self.centre();
         let moved = self.start().translation() + (at * self.velocity() - turned);
@@ -231,7 +231,7 @@ impl Motion {
     }
 
     /// Bounds the error of a start that was computed for another time.
-    fn rounding_of_start(&self, time: f64) -> Stray {
+    pub(crate) fn rounding_of_start(&self, time: f64) -> Stray {
         let turned = length(self.spin()) * time.abs();
         let travel = length(self.velocity()) * time.abs();
         let place = length(self.start().translation()) + 2.0 * length(self.centre());

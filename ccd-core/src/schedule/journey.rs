@@ -6,6 +6,7 @@
 
 mod closest;
 mod first;
+mod interval;
 mod leg;
 mod stretches;
 
@@ -17,6 +18,8 @@ use crate::problem::check_config;
 use std::fmt;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
+
+pub use interval::{ContactInterval, Touch};
 
 /// A body and the trajectory that carries it.
 ///

@@ -194,7 +194,7 @@ impl Kept {
     }
 }
 
-fn contact_of(overlap: &Overlap) -> Option<Contact> {
+pub(super) fn contact_of(overlap: &Overlap) -> Option<Contact> {
     match overlap {
         Overlap::Pieces(contact) => Some(*contact),
         Overlap::AInsideB(_) | Overlap::BInsideA(_) => None,

@@ -63,14 +63,9 @@ impl<'j, 'a> Stretches<'j, 'a> {
 
     /// Adds the work on a stretch.
     pub(super) fn add(&mut self, stats: &Stats) {
-        let all = &mut self.stats;
         // A stretch is worth a visit, even if it takes none.
-        all.iterations += stats.iterations + 1;
-        all.point_looks += stats.point_looks;
-        all.oracle_calls += stats.oracle_calls;
-        all.give_ups += stats.give_ups;
-        all.peak_front = all.peak_front.max(stats.peak_front);
-        all.effort = all.effort + stats.effort;
+        self.stats.iterations += 1;
+        self.stats.add(stats);
     }
 
     /// Returns the motions in a stretch, cut until the bodies stray from them by a length that queries

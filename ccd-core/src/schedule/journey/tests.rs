@@ -250,6 +250,42 @@ fn a_motion_as_a_trajectory_of_ones_own_has_the_same_answer_within_the_tolerance
 }
 
 #[test]
+fn no_contact_is_before_the_first_or_after_the_last() {
+    let mut rng = rng(8);
+    let (mut within, mut early) = (0, 0);
+    for number in 0..400 {
+        let swings = Swings::draw(&mut rng);
+        let Config {
+            margin, tolerance, ..
+        } = swings.config;
+        let answer =
+            BestFirst::default().contact_interval_along(&swings.journey(), &mut Exhaustive);
+        match (answer.unwrap().outcome, swings.first()) {
+            (ContactInterval::Free { .. }, Outcome::Free { .. }) => {}
+            (ContactInterval::Within { first, last }, first_contact) => {
+                within += 1;
+                if let Outcome::Contact { time, .. } = first_contact {
+                    assert_eq!(first.time, time);
+                }
+                assert!(first.time <= last.time && last.time <= 1.0);
+                early += u32::from(last.time < 1.0);
+                let near = swings.distance(last.time);
+                assert!(near <= margin + tolerance + ROUNDING, "{number}: {near:e}");
+                for k in 1..=100 {
+                    let after = last.time + (1.0 - last.time) * f64::from(k) / 100.0;
+                    if after > last.time {
+                        let found = swings.distance(after);
+                        assert!(found >= margin - ROUNDING, "{number}: {found:e} at {after}");
+                    }
+                }
+            }
+            (interval, first) => panic!("{number}: {interval:?}, {first:?}"),
+        }
+    }
+    assert!(within > 60 && early > 30, "{within} {early}");
+}
+
+#[test]
 fn budgets_end_a_journey_with_a_time_that_is_safe() {
     let mut rng = rng(6);
     let mut ended = 0;
