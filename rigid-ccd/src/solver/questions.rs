@@ -2,7 +2,7 @@
 
 use super::Solver;
 use crate::{Error, Hit};
-use ccd_core::schedule::{AnyContact, ClosestApproach};
+use ccd_core::schedule::{AnyContact, ClosestApproach, ContactInterval};
 use ccd_core::{
     Answer, Body, DistanceOracle, InputError, Journey, Motion, Moving, Pose, Problem, Travelling,
 };
@@ -157,6 +157,34 @@ impl<O: DistanceOracle> Solver<O> {
     ) -> Result<Answer<ClosestApproach>, InputError> {
         let journey = self.journey(a, b, duration)?;
         (self.depth_first).closest_approach_along(&journey, &mut self.oracle)
+    }
+
+    /// Returns when two bodies on [trajectories](crate::trajectory) first and last touch.
+    ///
+    /// # Guarantee
+    /// They do not touch before the first time nor after the last.
+    ///
+    /// # Errors
+    /// Those of [`Journey::new`], and those of the trajectories.
+    ///
+    /// ```
+    /// use rigid_ccd::schedule::ContactInterval;
+    /// use rigid_ccd::{Body, Motion, Pose, Solver};
+    /// let ball = Body::ball(0.5)?;
+    /// let flies = Motion::new(Pose::at([-3.0, 0.0, 0.0])?, [6.0, 0.0, 0.0], [0.0; 3])?;
+    /// let found = Solver::new().contact_interval_along((&ball, &flies), (&ball, &Motion::STILL), 1.0)?;
+    /// let ContactInterval::Within { first, last } = found.outcome else { panic!("it passes through") };
+    /// assert!((first.time - 2.0 / 6.0).abs() < 1e-3 && (last.time - 4.0 / 6.0).abs() < 1e-3);
+    /// # Ok::<(), rigid_ccd::Error>(())
+    /// ```
+    pub fn contact_interval_along<'b>(
+        &mut self,
+        a: impl Into<Travelling<'b>>,
+        b: impl Into<Travelling<'b>>,
+        duration: f64,
+    ) -> Result<Answer<ContactInterval>, InputError> {
+        let journey = self.journey(a, b, duration)?;
+        (self.schedule).contact_interval_along(&journey, &mut self.oracle)
     }
 
     pub(super) fn problem<'b>(

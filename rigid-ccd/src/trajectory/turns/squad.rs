@@ -1,4 +1,4 @@
-//! A spherical quadrangle `[Shoemake87]`, and bounds of its derivatives.
+//! A spherical quadrangle `[SHOEMAKE87]`, and bounds of its derivatives.
 //!
 //! With `p(u)` and `r(u)` at constant rates on the unit sphere of quaternions, and `h = 2u (1 − u)`, it is
 //! `σ = slerp(p, r, h) = E p + g d`, where `d = r − p`, `Ω` is the angle between `p` and `r`, and
