@@ -2,7 +2,7 @@
 
 use super::joint::Joint;
 use super::link::Link;
-use ccd_core::{InputError, Pose};
+use ccd_core::{InputError, Pose, Trajectory};
 
 /// A serial chain: joint `k` connects link `k` to link `k + 1`, and link 0 is the base.
 ///
@@ -40,6 +40,15 @@ impl Chain {
     /// The joints.
     pub fn joints(&self) -> &[Joint] {
         &self.joints
+    }
+
+    /// Returns the pose of a link at some positions of the joints.
+    ///
+    /// # Errors
+    /// Those of [`Chain::link`].
+    pub fn pose(&self, link: usize, positions: &[f64]) -> Result<Pose, InputError> {
+        let rests = self.link(link, positions, positions, 1.0)?;
+        Trajectory::pose(&rests, 0.0)
     }
 
     /// Returns the trajectory of a link while all joints move at constant rates from some positions to others.

@@ -1,0 +1,112 @@
+//! The arm of a URDF file, among obstacles.
+
+use rigid_ccd::glam::{DQuat, DVec3, EulerRot};
+use rigid_ccd::trajectory::{Chain, Joint};
+use rigid_ccd::{Body, Error, InputError, Motion, Pose, Solver, load};
+use std::path::Path;
+use urdf_rs::{Geometry, JointType, Robot};
+
+/// An arm, and what it may hit.
+pub(crate) struct Scene {
+    pub(crate) chain: Chain,
+    /// The bodies of the links, in the frames of the links.
+    pub(crate) links: Vec<Body>,
+    /// For each link, the links below it that it may hit: those that are apart from it at home.
+    pub(crate) others: Vec<Vec<usize>>,
+    pub(crate) obstacles: Vec<(Body, Motion)>,
+}
+
+impl Scene {
+    /// Reads an arm, and puts it among obstacles that are drawn.
+    pub(crate) fn load(urdf: &Path, obstacles: usize, random: &mut Random) -> anyhow::Result<Self> {
+        let robot = urdf_rs::read_file(urdf)?;
+        let chain = Chain::new(
+            Pose::IDENTITY,
+            robot.joints.iter().map(joint).collect::<Result<_, _>>()?,
+        );
+        let links: Vec<Body> = (0..robot.links.len())
+            .map(|k| body(&robot, k, urdf))
+            .collect::<anyhow::Result<_>>()?;
+        let mut scene = Scene {
+            others: vec![Vec::new(); links.len()],
+            chain,
+            links,
+            obstacles: Vec::new(),
+        };
+        scene.pair_links()?;
+        while scene.obstacles.len() < obstacles {
+            let size = [(); 3].map(|()| random.between(0.03, 0.12));
+            let at = [(); 3].map(|()| random.between(-1.6, 1.6));
+            let turned = DQuat::from_euler(
+                EulerRot::XYZ,
+                random.between(0.0, 3.0),
+                random.between(0.0, 3.0),
+                0.0,
+            );
+            // Nothing stands in the arm's foot.
+            if DVec3::from_array(at).length() > 0.5 {
+                let stands = Motion::still(Pose::new(at, turned)?);
+                scene.obstacles.push((Body::cuboid(size)?, stands));
+            }
+        }
+        Ok(scene)
+    }
+
+    pub(crate) fn home(&self) -> Vec<f64> {
+        vec![0.0; self.chain.joints().len()]
+    }
+
+    /// Finds the pairs of links that are apart at home: neighbours touch all the time.
+    fn pair_links(&mut self) -> Result<(), Error> {
+        let (home, mut solver) = (self.home(), Solver::new());
+        for high in 0..self.links.len() {
+            for low in 0..high.saturating_sub(1) {
+                let pose = |link| self.chain.pose(link, &home);
+                let [a, b] = [
+                    (&self.links[high], pose(high)?),
+                    (&self.links[low], pose(low)?),
+                ];
+                if solver.distance(a, b)?.outcome.lower() > 0.01 {
+                    self.others[high].push(low);
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+fn joint(joint: &urdf_rs::Joint) -> Result<Joint, InputError> {
+    let [roll, pitch, yaw] = joint.origin.rpy.0;
+    // URDF turns about fixed axes: first x, then y, then z.
+    let turned = DQuat::from_euler(EulerRot::ZYX, yaw, pitch, roll);
+    let origin = Pose::new(joint.origin.xyz.0, turned)?;
+    let limits = joint.limit.lower..=joint.limit.upper;
+    Ok(match joint.joint_type {
+        JointType::Revolute => Joint::revolute(origin, joint.axis.xyz.0)?.within(limits),
+        JointType::Continuous => Joint::revolute(origin, joint.axis.xyz.0)?,
+        JointType::Prismatic => Joint::prismatic(origin, joint.axis.xyz.0)?.within(limits),
+        _ => Joint::fixed(origin),
+    })
+}
+
+fn body(robot: &Robot, link: usize, urdf: &Path) -> anyhow::Result<Body> {
+    let collision = robot.links[link].collision.first();
+    match collision.map(|collision| &collision.geometry) {
+        Some(Geometry::Mesh { filename, .. }) => Ok(load(urdf.with_file_name(filename))?),
+        other => anyhow::bail!("link {link}: {other:?} is no mesh"),
+    }
+}
+
+/// Numbers that look random: SplitMix64.
+pub(crate) struct Random(pub(crate) u64);
+
+impl Random {
+    pub(crate) fn between(&mut self, low: f64, high: f64) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        let share = ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64;
+        low + share * (high - low)
+    }
+}
