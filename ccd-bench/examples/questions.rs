@@ -131,15 +131,15 @@ fn print(rows: &[Row]) -> anyhow::Result<()> {
         out,
         "rows,count,any over first,closest over first,first micros"
     )?;
-    let kinds: [(&str, fn(&Row) -> bool); 3] = [
-        ("all", |_| true),
-        ("contact", Row::is_hit),
-        ("free", |row| !row.is_hit()),
-    ];
-    for (name, is_kind) in kinds {
-        let some: Vec<&Row> = rows.iter().filter(|row| is_kind(row)).collect();
+    let (hits, free): (Vec<&Row>, Vec<&Row>) = rows.iter().partition(|row| row.is_hit());
+    for (name, some) in [
+        ("all", rows.iter().collect()),
+        ("contact", hits),
+        ("free", free),
+    ] {
         let middle = |value: fn(&Row) -> f64| {
-            median(&mut some.iter().map(|row| value(row)).collect::<Vec<_>>())
+            let mut values: Vec<f64> = some.iter().map(|row| value(row)).collect();
+            median(&mut values)
         };
         let any = middle(|row| row.any.1.div_duration_f64(row.first.1));
         let closest = middle(|row| row.closest.1.div_duration_f64(row.first.1));

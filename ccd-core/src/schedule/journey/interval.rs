@@ -17,6 +17,10 @@ use crate::tolerance::U64;
 /// # Guarantee
 /// The bodies do not touch before the first time nor after the last, in floating point as well.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[allow(
+    clippy::large_enum_variant,
+    reason = "one answer at a time: a box would cost more than the bytes"
+)]
 pub enum ContactInterval {
     /// The bodies stay apart over the whole duration.
     Free {
