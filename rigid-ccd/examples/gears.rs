@@ -1,0 +1,197 @@
+//! Two involute gears over a full turn: the least clearance of their teeth over the angle, proven.
+//!
+//! ```sh
+//! cargo run --release -p rigid-ccd --example gears -- [OUT.svg]
+//! ```
+//! The clearance is bracketed for each five degrees, so that nothing in between is missed. The picture shows
+//! the bracket of each window; by default it is written to `target/gears.svg`.
+
+use plotters::prelude::*;
+use rigid_ccd::glam::{DQuat, DVec3};
+use rigid_ccd::mesh::{Detail, TriangleMesh, body_from_mesh};
+use rigid_ccd::{Body, Config, Motion, Pose, Solver};
+use std::f64::consts::PI;
+use std::io::Write;
+use std::path::PathBuf;
+
+/// A spur gear in millimetres, with a pressure angle of 20 degrees.
+struct Gear {
+    teeth: u32,
+    module: f64,
+    /// By how much the teeth are thinner than their gaps, at the pitch circle.
+    backlash: f64,
+}
+
+const PRESSURE: f64 = PI / 9.0;
+const WIDTH: f64 = 4.0;
+
+impl Gear {
+    fn pitch_radius(&self) -> f64 {
+        0.5 * self.module * f64::from(self.teeth)
+    }
+
+    /// Returns the outline, counterclockwise; it begins at the root of the tooth at angle 0.
+    fn outline(&self) -> Vec<[f64; 2]> {
+        let pitch = self.pitch_radius();
+        let base = pitch * PRESSURE.cos();
+        let (root, tip) = (pitch - 1.25 * self.module, pitch + self.module);
+        // The angle by which an involute has turned at a pressure angle.
+        let involute = |angle: f64| angle.tan() - angle;
+        let half_at = |radius: f64| {
+            let at_pitch = 0.25 * (2.0 * PI / f64::from(self.teeth) - self.backlash / pitch);
+            at_pitch + involute(PRESSURE) - involute((base / radius).clamp(0.0, 1.0).acos())
+        };
+        let first = if base > root { base } else { root };
+        let radii = (0..=STEPS).map(|k| first + (tip - first) * f64::from(k) / f64::from(STEPS));
+        let flank: Vec<[f64; 2]> = [[root, half_at(first)]]
+            .into_iter()
+            .chain(radii.map(|radius| [radius, half_at(radius)]))
+            .collect();
+        let mut outline = Vec::new();
+        for tooth in 0..self.teeth {
+            let middle = 2.0 * PI * f64::from(tooth) / f64::from(self.teeth);
+            let right = flank.iter().map(|&[radius, half]| [radius, middle - half]);
+            let left = flank
+                .iter()
+                .rev()
+                .map(|&[radius, half]| [radius, middle + half]);
+            outline.extend(right.chain(left));
+        }
+        let flat = |[radius, angle]: [f64; 2]| [radius * angle.cos(), radius * angle.sin()];
+        outline.into_iter().map(flat).collect()
+    }
+
+    /// Returns the solid: the outline, drawn out along z.
+    fn body(&self) -> Result<Body, Box<dyn std::error::Error>> {
+        let outline = self.outline();
+        let count = outline.len() as u32;
+        let mut vertices = Vec::new();
+        for z in [-0.5 * WIDTH, 0.5 * WIDTH] {
+            vertices.extend(outline.iter().map(|&[x, y]| DVec3::new(x, y, z)));
+        }
+        // Every point of the outline is seen from the axis.
+        vertices.extend([-0.5, 0.5].map(|side| side * WIDTH * DVec3::Z));
+        let (bottom, top) = (2 * count, 2 * count + 1);
+        let mut faces = Vec::new();
+        for k in 0..count {
+            let next = (k + 1) % count;
+            faces.extend([[bottom, next, k], [top, count + k, count + next]]);
+            faces.extend([[k, next, count + next], [k, count + next, count + k]]);
+        }
+        let mesh = TriangleMesh::new(vertices, &faces)?;
+        Ok(body_from_mesh(&mesh, Detail::Auto)?.body)
+    }
+}
+
+/// The number of parts of a flank.
+const STEPS: u32 = 8;
+
+/// The angle of a window, in degrees of the first gear.
+const WINDOW: u32 = 5;
+
+/// A bracket of the least clearance in a window.
+struct Window {
+    angle: u32,
+    lower: f64,
+    upper: f64,
+}
+
+/// Turns both gears by a full turn of the first one, window by window.
+fn clearances(gears: [&Gear; 2]) -> Result<Vec<Window>, Box<dyn std::error::Error>> {
+    let [a, b] = gears;
+    let bodies = [a.body()?, b.body()?];
+    // A little farther apart than the pitch circles say.
+    let distance = a.pitch_radius() + b.pitch_radius() + 0.02 * a.module;
+    let ratio = f64::from(a.teeth) / f64::from(b.teeth);
+    let mut solver = Solver::new().with_config(Config {
+        tolerance: 1e-4,
+        ..Config::default()
+    });
+    let mut windows = Vec::new();
+    for angle in (0..360).step_by(WINDOW as usize) {
+        let [from, turn] = [angle, WINDOW].map(|degrees| f64::from(degrees).to_radians());
+        // A tooth of the first gear points to a gap of the second one.
+        let gap = PI + PI / f64::from(b.teeth);
+        let turned = DQuat::from_rotation_z;
+        let motion = |x: f64, at: f64, spin: f64| {
+            let start = Pose::new([x, 0.0, 0.0], turned(at))?;
+            Motion::new(start, [0.0; 3], [0.0, 0.0, spin])
+        };
+        let closest = solver.closest_approach(
+            (&bodies[0], motion(0.0, from, turn)?),
+            (
+                &bodies[1],
+                motion(distance, gap - ratio * from, -ratio * turn)?,
+            ),
+            1.0,
+        )?;
+        windows.push(Window {
+            angle,
+            lower: closest.outcome.lower(),
+            upper: closest.outcome.upper(),
+        });
+    }
+    Ok(windows)
+}
+
+fn draw(windows: &[Window], path: &std::path::Path) -> Result<(), Box<dyn std::error::Error>> {
+    let most = windows
+        .iter()
+        .map(|window| window.upper)
+        .fold(0.0, |a, b| if b > a { b } else { a });
+    let area = SVGBackend::new(path, (800, 360)).into_drawing_area();
+    area.fill(&WHITE)?;
+    let mut chart = ChartBuilder::on(&area)
+        .caption(
+            "Least clearance of two gears, in mm, per 5 degrees",
+            ("sans-serif", 18),
+        )
+        .margin(12)
+        .x_label_area_size(36)
+        .y_label_area_size(60)
+        .build_cartesian_2d(0.0..360.0, 0.0..1.2 * most)?;
+    chart
+        .configure_mesh()
+        .x_desc("angle of the first gear, degrees")
+        .draw()?;
+    for bound in [
+        |window: &Window| window.lower,
+        |window: &Window| window.upper,
+    ] {
+        let steps = windows.iter().flat_map(|window| {
+            let ends = [window.angle, window.angle + WINDOW];
+            ends.map(|angle| (f64::from(angle), bound(window)))
+        });
+        chart.draw_series(LineSeries::new(steps, &BLUE))?;
+    }
+    area.present()?;
+    Ok(())
+}
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let out = std::env::args()
+        .nth(1)
+        .map_or_else(|| PathBuf::from("target/gears.svg"), PathBuf::from);
+    let gear = |teeth| Gear {
+        teeth,
+        module: 1.0,
+        backlash: 0.1,
+    };
+    let windows = clearances([&gear(20), &gear(30)])?;
+    let mut print = std::io::stdout().lock();
+    writeln!(print, "degrees  clearance, mm")?;
+    for Window {
+        angle,
+        lower,
+        upper,
+    } in &windows
+    {
+        writeln!(print, "{angle:>7}  {lower:.4} to {upper:.4}")?;
+    }
+    if let Some(folder) = out.parent() {
+        std::fs::create_dir_all(folder)?;
+    }
+    draw(&windows, &out)?;
+    writeln!(print, "{}", out.display())?;
+    Ok(())
+}

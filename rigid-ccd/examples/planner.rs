@@ -1,0 +1,240 @@
+//! A planner's roadmap for a bracket that has to pass a slot in a wall: edges certified, beside checks at equal
+//! steps.
+//!
+//! ```sh
+//! cargo run --release -p rigid-ccd --example planner -- [OUT.svg]
+//! ```
+//! It draws places on both sides of the wall and in the slot, joins near ones by motions, and seeks a path. The
+//! picture shows the roadmap from above; by default it is written to `target/planner.svg`.
+
+use plotters::prelude::*;
+use rigid_ccd::glam::{DQuat, DVec3};
+use rigid_ccd::{Body, Config, Error, Motion, Pose, Solver, load};
+use std::collections::VecDeque;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+/// The walls: two of them, with a slot in between.
+struct Room {
+    walls: Vec<(Body, Motion)>,
+}
+
+const HALF_SLOT: f64 = 1.0;
+const PLACES: usize = 220;
+const NEIGHBOURS: usize = 10;
+
+impl Room {
+    fn new() -> Result<Self, Error> {
+        let mut walls = Vec::new();
+        for side in [-1.0, 1.0] {
+            let wall = Body::cuboid([0.3, 3.0, 3.0])?;
+            let place = Pose::at([0.0, side * (3.0 + HALF_SLOT), 0.0])?;
+            walls.push((wall, Motion::still(place)));
+        }
+        // A lintel and a sill: the bracket has to turn to pass.
+        for side in [-1.0, 1.0] {
+            let beam = Body::cuboid([0.3, HALF_SLOT, 1.5])?;
+            let place = Pose::at([0.0, 0.0, side * (1.5 + HALF_SLOT)])?;
+            walls.push((beam, Motion::still(place)));
+        }
+        Ok(Room { walls })
+    }
+}
+
+/// Returns whether a motion from pose to pose is free.
+fn edge_is_free(
+    solver: &mut Solver,
+    room: &Room,
+    body: &Body,
+    edge: [Pose; 2],
+) -> Result<bool, Error> {
+    let moves = Motion::between(edge[0], edge[1], MIDDLE, 1.0)?;
+    for (wall, stands) in &room.walls {
+        if !solver.is_free((body, moves), (wall, *stands), 1.0)? {
+            return Ok(false);
+        }
+    }
+    Ok(true)
+}
+
+/// About the middle of the bracket, which is not its origin.
+const MIDDLE: [f64; 3] = [0.8, 0.5, 0.4];
+
+/// Returns whether the body is free at equal steps of a motion.
+fn steps_are_free(
+    solver: &mut Solver,
+    room: &Room,
+    body: &Body,
+    edge: [Pose; 2],
+    steps: u32,
+) -> Result<bool, Error> {
+    let moves = Motion::between(edge[0], edge[1], MIDDLE, 1.0)?;
+    for step in 0..=steps {
+        let at = Motion::still(moves.pose(f64::from(step) / f64::from(steps)));
+        for (wall, stands) in &room.walls {
+            if !solver.is_free((body, at), (wall, *stands), 0.0)? {
+                return Ok(false);
+            }
+        }
+    }
+    Ok(true)
+}
+
+/// Numbers that look random: SplitMix64.
+struct Random(u64);
+
+impl Random {
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        let share = ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64;
+        low + share * (high - low)
+    }
+}
+
+/// Draws places at which the body is free: the first is the start, the second the goal.
+fn places(solver: &mut Solver, room: &Room, body: &Body) -> Result<Vec<Pose>, Error> {
+    let mut random = Random(7);
+    let mut places = vec![Pose::at([-4.0, 0.0, 0.0])?, Pose::at([3.0, 0.0, 0.0])?];
+    while places.len() < PLACES {
+        // A third of them are in the slot or near it.
+        let width = if places.len() % 3 == 0 { 1.2 } else { 4.0 };
+        let at = DVec3::new(
+            random.between(-width, width),
+            random.between(-2.0, 2.0),
+            random.between(-2.0, 2.0),
+        );
+        let turned = DQuat::from_scaled_axis(DVec3::new(
+            random.between(-1.6, 1.6),
+            random.between(-1.6, 1.6),
+            random.between(-1.6, 1.6),
+        ));
+        let pose = Pose::new(at - turned * DVec3::from_array(MIDDLE), turned)?;
+        if steps_are_free(solver, room, body, [pose, pose], 1)? {
+            places.push(pose);
+        }
+    }
+    Ok(places)
+}
+
+/// Joins each place with its nearest ones.
+fn edges(places: &[Pose]) -> Vec<[usize; 2]> {
+    let middle = |pose: &Pose| pose.transform_point(MIDDLE.into());
+    let apart = |a: &Pose, b: &Pose| {
+        middle(a).distance(middle(b)) + a.rotation().angle_between(b.rotation())
+    };
+    let mut edges = Vec::new();
+    for (k, place) in places.iter().enumerate() {
+        let mut others: Vec<usize> = (0..places.len()).filter(|&other| other != k).collect();
+        others.sort_by(|&a, &b| apart(place, &places[a]).total_cmp(&apart(place, &places[b])));
+        let near = others.into_iter().take(NEIGHBOURS);
+        edges.extend(near.filter(|&other| other > k).map(|other| [k, other]));
+    }
+    edges
+}
+
+/// Returns a path from the first place to the second one along free edges.
+fn path(count: usize, free: &[[usize; 2]]) -> Option<Vec<usize>> {
+    let mut before = vec![None; count];
+    let mut queue = VecDeque::from([0]);
+    while let Some(at) = queue.pop_front() {
+        for edge in free.iter().filter(|edge| edge.contains(&at)) {
+            let next = if edge[0] == at { edge[1] } else { edge[0] };
+            if next != 0 && before[next].is_none() {
+                before[next] = Some(at);
+                queue.push_back(next);
+            }
+        }
+    }
+    let mut path = vec![1];
+    while let Some(&at) = path.last().filter(|&&at| at != 0) {
+        path.push(before[at]?);
+    }
+    path.reverse();
+    Some(path)
+}
+
+fn draw(
+    places: &[Pose],
+    free: &[[usize; 2]],
+    path: &[usize],
+    out: &Path,
+) -> Result<(), Box<dyn std::error::Error>> {
+    let at = |k: usize| {
+        let middle = places[k].transform_point(MIDDLE.into());
+        (middle.x, middle.y)
+    };
+    let area = SVGBackend::new(out, (900, 560)).into_drawing_area();
+    area.fill(&WHITE)?;
+    let mut chart = ChartBuilder::on(&area)
+        .caption(
+            "Certified roadmap of a bracket through a slot, from above",
+            ("sans-serif", 18),
+        )
+        .margin(12)
+        .x_label_area_size(28)
+        .y_label_area_size(36)
+        .build_cartesian_2d(-4.5..4.5, -2.8..2.8)?;
+    chart.configure_mesh().disable_mesh().draw()?;
+    for side in [-1.0, 1.0] {
+        let wall = [(-0.3, side * HALF_SLOT), (0.3, side * 2.8)];
+        chart.draw_series([Rectangle::new(wall, BLACK.mix(0.5).filled())])?;
+    }
+    for &[a, b] in free {
+        chart.draw_series(LineSeries::new([at(a), at(b)], BLUE.mix(0.25)))?;
+    }
+    chart.draw_series((0..places.len()).map(|k| Circle::new(at(k), 2, BLUE.filled())))?;
+    let line = path.iter().map(|&k| at(k));
+    chart.draw_series(LineSeries::new(line, RED.stroke_width(3)))?;
+    area.present()?;
+    Ok(())
+}
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let out = std::env::args()
+        .nth(1)
+        .map_or_else(|| PathBuf::from("target/planner.svg"), PathBuf::from);
+    let body = load(Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/bracket.obj"))?;
+    let room = Room::new()?;
+    let mut solver = Solver::new().with_config(Config {
+        tolerance: 1e-4,
+        ..Config::default()
+    });
+    let places = places(&mut solver, &room, &body)?;
+    let edges = edges(&places);
+    let mut free = Vec::new();
+    for &edge in &edges {
+        if edge_is_free(&mut solver, &room, &body, edge.map(|k| places[k]))? {
+            free.push(edge);
+        }
+    }
+    let mut print = std::io::stdout().lock();
+    writeln!(
+        print,
+        "{} of {} edges are free, certified",
+        free.len(),
+        edges.len()
+    )?;
+    for steps in [5, 10, 20, 50, 100] {
+        let mut wrong = 0;
+        for &edge in edges.iter().filter(|edge| !free.contains(edge)) {
+            let poses = edge.map(|k| places[k]);
+            wrong += u32::from(steps_are_free(&mut solver, &room, &body, poses, steps)?);
+        }
+        writeln!(print, "{steps:>4} steps accept {wrong} edges that are not")?;
+    }
+    let path = path(places.len(), &free);
+    let path = path.unwrap_or_default();
+    match path.len() {
+        0 => writeln!(print, "no path")?,
+        count => writeln!(print, "a path of {} edges", count - 1)?,
+    }
+    if let Some(folder) = out.parent() {
+        std::fs::create_dir_all(folder)?;
+    }
+    draw(&places, &free, &path, &out)?;
+    writeln!(print, "{}", out.display())?;
+    Ok(())
+}
