@@ -3,8 +3,8 @@
 //! ```sh
 //! cargo run --release -p rigid-ccd --example gears -- [OUT.svg]
 //! ```
-//! The clearance is bracketed for each five degrees, so that nothing in between is missed. The picture shows
-//! the bracket of each window; by default it is written to `target/gears.svg`.
+//! The clearance is bracketed for each degree, so that nothing in between is missed. The picture shows the
+//! bracket of each window; by default it is written to `target/gears.svg`.
 
 use plotters::prelude::*;
 use rigid_ccd::glam::{DQuat, DVec3};
@@ -87,7 +87,7 @@ impl Gear {
 const STEPS: u32 = 8;
 
 /// The angle of a window, in degrees of the first gear.
-const WINDOW: u32 = 5;
+const WINDOW: u32 = 1;
 
 /// A bracket of the least clearance in a window.
 struct Window {
@@ -134,22 +134,33 @@ fn clearances(gears: [&Gear; 2]) -> Result<Vec<Window>, Box<dyn std::error::Erro
     Ok(windows)
 }
 
+/// The least lower bound and the greatest upper bound.
+fn range(windows: &[Window]) -> (f64, f64) {
+    let (mut least, mut most) = (f64::INFINITY, 0.0);
+    for &Window { lower, upper, .. } in windows {
+        if lower < least {
+            least = lower;
+        }
+        if upper > most {
+            most = upper;
+        }
+    }
+    (least, most)
+}
+
 fn draw(windows: &[Window], path: &std::path::Path) -> Result<(), Box<dyn std::error::Error>> {
-    let most = windows
-        .iter()
-        .map(|window| window.upper)
-        .fold(0.0, |a, b| if b > a { b } else { a });
+    let (least, most) = range(windows);
     let area = SVGBackend::new(path, (800, 360)).into_drawing_area();
     area.fill(&WHITE)?;
     let mut chart = ChartBuilder::on(&area)
         .caption(
-            "Least clearance of two gears, in mm, per 5 degrees",
+            "Least clearance of two gears, in mm, per degree",
             ("sans-serif", 18),
         )
         .margin(12)
         .x_label_area_size(36)
         .y_label_area_size(60)
-        .build_cartesian_2d(0.0..360.0, 0.0..1.2 * most)?;
+        .build_cartesian_2d(0.0..360.0, 0.9 * least..1.05 * most)?;
     chart
         .configure_mesh()
         .x_desc("angle of the first gear, degrees")
@@ -179,15 +190,17 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     };
     let windows = clearances([&gear(20), &gear(30)])?;
     let mut print = std::io::stdout().lock();
-    writeln!(print, "degrees  clearance, mm")?;
+    writeln!(print, "degrees  least clearance, mm")?;
     for Window {
         angle,
         lower,
         upper,
-    } in &windows
+    } in windows.iter().step_by(10)
     {
         writeln!(print, "{angle:>7}  {lower:.4} to {upper:.4}")?;
     }
+    let (least, most) = range(&windows);
+    writeln!(print, "over the full turn {least:.4} to {most:.4}")?;
     if let Some(folder) = out.parent() {
         std::fs::create_dir_all(folder)?;
     }
