@@ -221,3 +221,14 @@ pub struct Answer<T = Outcome> {
     /// The cost.
     pub stats: Stats,
 }
+
+impl<T> Answer<T> {
+    /// Returns the answer with another form of its outcome.
+    pub(crate) fn map<U>(self, told: impl FnOnce(T) -> U) -> Answer<U> {
+        Answer {
+            outcome: told(self.outcome),
+            tolerance: self.tolerance,
+            stats: self.stats,
+        }
+    }
+}

@@ -24,6 +24,7 @@ mod carried;
 mod chain;
 mod curve;
 mod joint;
+mod knots;
 mod link;
 mod poses;
 mod screw;

@@ -5,7 +5,6 @@ use super::pose::Pose;
 use crate::error::InputError;
 use crate::math::vector::length;
 use crate::tolerance::STRETCH_F64;
-use glam::DQuat;
 
 /// A motion of any kind: between any two times it is near a [`Motion`], by a bound that it knows.
 ///
@@ -223,10 +222,9 @@ impl Motion {
     /// # Errors
     /// [`InputError::NotFinite`].
     pub(crate) fn started(&self, at: f64) -> Result<Motion, InputError> {
-        let rotation = DQuat::from_scaled_axis(at * self.spin()) * self.start().rotation();
-        let turned = rotation * self.centre() - self.start().rotation() * self.centre();
-        let moved = self.start().translation() + (at * self.velocity() - turned);
-        let start = Pose::new(moved, rotation)?;
+        let pose = self.pose(at);
+        // Checked, and normalised once more.
+        let start = Pose::new(pose.translation(), pose.rotation())?;
         Motion::about(start, self.velocity(), self.spin(), self.centre())
     }
 

@@ -24,15 +24,10 @@ pub(crate) fn answer<O: DistanceOracle>(
     problem: &Problem<'_>,
     oracle: &mut O,
     kept: &mut Kept,
-    mut search: impl FnMut(&Problem<'_>, &mut O, &mut Meter) -> Outcome,
+    search: impl FnMut(&Problem<'_>, &mut O, &mut Meter) -> Outcome,
 ) -> Answer {
-    metered(problem, oracle, kept, |oracle, meter| {
-        let outcome = match problem.start {
-            StartPolicy::Report => search(problem, oracle, meter),
-            StartPolicy::Leave => search(&problem.reporting(), oracle, meter),
-        };
-        let_go(problem, oracle, meter, outcome, search)
-    })
+    let as_found = |_: &Problem<'_>, _: &mut O, _: &mut Meter| None;
+    answer_after(problem, oracle, kept, as_found, search)
 }
 
 /// Like [`answer`] for a search in any order: it may pass over a contact at the start, for which bodies
@@ -41,6 +36,22 @@ pub(crate) fn answer_in_any_order<O: DistanceOracle>(
     problem: &Problem<'_>,
     oracle: &mut O,
     kept: &mut Kept,
+    search: impl FnMut(&Problem<'_>, &mut O, &mut Meter) -> Outcome,
+) -> Answer {
+    let at_start = |problem: &Problem<'_>, oracle: &mut O, meter: &mut Meter| {
+        let beyond = problem.contact_distance().next_up();
+        at_start(problem, beyond, oracle, meter)
+    };
+    answer_after(problem, oracle, kept, at_start, search)
+}
+
+/// Searches as the policy demands; bodies that are to be let go have a `look` taken at them first, which may
+/// have the answer.
+fn answer_after<O: DistanceOracle>(
+    problem: &Problem<'_>,
+    oracle: &mut O,
+    kept: &mut Kept,
+    look: impl FnOnce(&Problem<'_>, &mut O, &mut Meter) -> Option<Outcome>,
     mut search: impl FnMut(&Problem<'_>, &mut O, &mut Meter) -> Outcome,
 ) -> Answer {
     metered(problem, oracle, kept, |oracle, meter| {
@@ -48,34 +59,21 @@ pub(crate) fn answer_in_any_order<O: DistanceOracle>(
             StartPolicy::Report => search(problem, oracle, meter),
             StartPolicy::Leave => {
                 let problem = problem.reporting();
-                let beyond = problem.contact_distance().next_up();
-                let at_start = at_start(&problem, beyond, oracle, meter);
-                at_start.unwrap_or_else(|| search(&problem, oracle, meter))
+                let seen = look(&problem, oracle, meter);
+                seen.unwrap_or_else(|| search(&problem, oracle, meter))
             }
         };
-        let_go(problem, oracle, meter, outcome, search)
+        let (outcome, tolerance) = match (problem.start, outcome) {
+            (StartPolicy::Leave, Outcome::Touching { contact }) => {
+                let problem = problem.leaving(contact.separation.lower - problem.margin);
+                let outcome = search(&problem, oracle, meter);
+                (outcome, shown(&problem, &outcome))
+            }
+            _ => (outcome, problem.tolerance),
+        };
+        let within = problem.margin + tolerance;
+        (of_given(problem, oracle, meter, outcome, within), tolerance)
     })
-}
-
-/// Returns the final outcome and its tolerance: bodies that are to be let go, and begin in contact, are
-/// searched again.
-fn let_go<O: DistanceOracle>(
-    problem: &Problem<'_>,
-    oracle: &mut O,
-    meter: &mut Meter,
-    outcome: Outcome,
-    mut search: impl FnMut(&Problem<'_>, &mut O, &mut Meter) -> Outcome,
-) -> (Outcome, f64) {
-    let (outcome, tolerance) = match (problem.start, outcome) {
-        (StartPolicy::Leave, Outcome::Touching { contact }) => {
-            let problem = problem.leaving(contact.separation.lower - problem.margin);
-            let outcome = search(&problem, oracle, meter);
-            (outcome, shown(&problem, &outcome))
-        }
-        _ => (outcome, problem.tolerance),
-    };
-    let within = problem.margin + tolerance;
-    (of_given(problem, oracle, meter, outcome, within), tolerance)
 }
 
 /// Adds up the work for an outcome and its tolerance.

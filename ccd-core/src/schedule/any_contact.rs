@@ -3,10 +3,8 @@
 use super::answer::answer_in_any_order;
 use super::depth_first::DepthFirst;
 use super::meter::Meter;
-use super::nodes::roots::keep_apart;
-use super::out_of_reach::out_of_reach;
 use super::pieces::pair::Step;
-use super::proven::Proven;
+use super::proven::{Proven, free_at_once};
 use super::search::{Question, Search};
 use super::start::overlapping;
 use crate::distance::oracle::DistanceOracle;
@@ -83,17 +81,12 @@ impl<O: DistanceOracle> DepthFirst<O> {
         });
         self.stack.clear();
         self.kept = kept;
-        Answer {
-            outcome: answer.outcome.into(),
-            tolerance: answer.tolerance,
-            stats: answer.stats,
-        }
+        answer.map(AnyContact::from)
     }
 
     fn contact(&mut self, problem: &Problem<'_>, oracle: &mut O, meter: &mut Meter) -> Outcome {
-        if out_of_reach(problem) || keep_apart(problem) {
-            let proven_gap = problem.proven_gap(f64::INFINITY);
-            return Outcome::Free { proven_gap };
+        if let Some(free) = free_at_once(problem) {
+            return free;
         }
         let mut search = Search {
             waiting: &mut self.stack,
@@ -140,10 +133,6 @@ impl Any {
 
 impl<O: DistanceOracle> Question<O> for Any {
     type Found = Outcome;
-
-    fn arrive(&mut self, _: &Problem<'_>, _: f64) -> ControlFlow<Outcome> {
-        ControlFlow::Continue(())
-    }
 
     #[inline]
     fn keep(&mut self, gap: f64) {

@@ -4,10 +4,8 @@ use super::answer::answer;
 use super::contract::Schedule;
 use super::memory::Kept;
 use super::meter::Meter;
-use super::nodes::roots::keep_apart;
-use super::out_of_reach::out_of_reach;
 use super::pieces::pair::Step;
-use super::proven::Proven;
+use super::proven::{Proven, free_at_once};
 use super::queue::Queue;
 use super::search::{Item, Question, Search};
 use crate::distance::oracle::DistanceOracle;
@@ -83,9 +81,8 @@ impl<O: DistanceOracle> BestFirst<O> {
         oracle: &mut O,
         meter: &mut Meter,
     ) -> Outcome {
-        if out_of_reach(problem) || keep_apart(problem) {
-            let proven_gap = problem.proven_gap(f64::INFINITY);
-            return Outcome::Free { proven_gap };
+        if let Some(free) = free_at_once(problem) {
+            return free;
         }
         let mut search = Search {
             waiting: &mut self.queue,

@@ -72,6 +72,14 @@ impl ClosestApproach {
         }
     }
 
+    /// The width of the bracket; 0 if there is none.
+    pub(super) fn width(&self) -> f64 {
+        match self {
+            ClosestApproach::Nearest { .. } => self.upper() - self.lower(),
+            ClosestApproach::Overlapping { .. } | ClosestApproach::Unresolved { .. } => 0.0,
+        }
+    }
+
     /// Compares the least distance to one that is required.
     pub fn clearance(&self, required: f64) -> Clearance {
         if self.lower() >= required {
@@ -108,16 +116,8 @@ impl<O: DistanceOracle> DepthFirst<O> {
         problem: &Problem<'_>,
         oracle: &mut O,
     ) -> Answer<ClosestApproach> {
-        let mut kept = self.kept.take();
-        let answer = metered(problem, oracle, &mut kept, |oracle, meter| {
-            let problem = problem.measuring();
-            let found = self.approach(&problem, f64::INFINITY, oracle, meter);
-            let found = found.unwrap_or_else(|Beyond { .. }| unresolved(Limit::OracleGaveUp));
-            let told = told(&problem, oracle, meter, found);
-            (told, tolerance(&problem, &told))
-        });
-        self.kept = kept;
-        answer
+        let answer = self.approach_below(problem, f64::INFINITY, oracle);
+        answer.map(|found| found.unwrap_or_else(|Beyond { .. }| unresolved(Limit::OracleGaveUp)))
     }
 
     /// Like [`DepthFirst::closest_approach`], if the bodies come nearer than `beyond`.
@@ -132,7 +132,9 @@ impl<O: DistanceOracle> DepthFirst<O> {
             let problem = problem.measuring();
             let found = self.approach(&problem, beyond, oracle, meter);
             let told = found.map(|found| told(&problem, oracle, meter, found));
-            (told, problem.tolerance)
+            let width = told.as_ref().map_or(0.0, ClosestApproach::width);
+            // Distances may not be known to the tolerance that is requested.
+            (told, greater(problem.tolerance, width))
         });
         self.kept = kept;
         answer
@@ -233,16 +235,6 @@ fn unresolved(reason: Limit) -> ClosestApproach {
     }
 }
 
-/// Returns the tolerance that an answer keeps: the requested one, unless distances are not known that
-/// well.
-fn tolerance(problem: &Problem<'_>, found: &ClosestApproach) -> f64 {
-    let width = match found {
-        ClosestApproach::Nearest { lower, contact, .. } => contact.separation.upper - lower,
-        _ => 0.0,
-    };
-    greater(problem.tolerance, width)
-}
-
 /// Returns the answer for the given bodies, if surfaces replaced them.
 fn told<O: DistanceOracle>(
     problem: &Problem<'_>,
@@ -323,10 +315,6 @@ impl Nearing {
 
 impl<O: DistanceOracle> Question<O> for Nearing {
     type Found = Result<ClosestApproach, Beyond>;
-
-    fn arrive(&mut self, _: &Problem<'_>, _: f64) -> ControlFlow<Self::Found> {
-        ControlFlow::Continue(())
-    }
 
     #[inline]
     fn keep(&mut self, gap: f64) {

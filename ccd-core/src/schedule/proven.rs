@@ -1,6 +1,8 @@
 //! Facts that are proven of two bodies on the way to an answer.
 
 use super::meter::Meter;
+use super::nodes::roots::keep_apart;
+use super::out_of_reach::out_of_reach;
 use super::pieces::pair::Step;
 use super::start::{contained, overlapping, touching};
 use crate::config::StartPolicy;
@@ -9,6 +11,13 @@ use crate::math::order::lesser;
 use crate::outcome::{Contact, Limit, Outcome};
 use crate::problem::Problem;
 use std::ops::ControlFlow;
+
+/// Returns the outcome if balls around the bodies, or boxes, tell them apart for good.
+pub(super) fn free_at_once(problem: &Problem<'_>) -> Option<Outcome> {
+    (out_of_reach(problem) || keep_apart(problem)).then(|| Outcome::Free {
+        proven_gap: problem.proven_gap(f64::INFINITY),
+    })
+}
 
 /// The facts proven of the bodies, independent of pairs that still wait.
 #[derive(Debug)]

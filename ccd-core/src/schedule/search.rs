@@ -33,8 +33,11 @@ pub(super) trait Question<O: DistanceOracle> {
     /// The answer.
     type Found;
 
-    /// Concludes from the clock of the pair to be looked at next.
-    fn arrive(&mut self, problem: &Problem<'_>, s: f64) -> ControlFlow<Self::Found>;
+    /// Concludes from the clock of the pair to be looked at next, if there is anything to conclude.
+    #[inline]
+    fn arrive(&mut self, _problem: &Problem<'_>, _s: f64) -> ControlFlow<Self::Found> {
+        ControlFlow::Continue(())
+    }
 
     /// Records a gap that pairs of nodes keep until their clocks.
     fn keep(&mut self, gap: f64);

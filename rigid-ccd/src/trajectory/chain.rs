@@ -1,8 +1,7 @@
 //! A serial chain of links.
 
 use super::joint::Joint;
-use super::link::Link;
-use ccd_core::{InputError, Pose, Trajectory};
+use ccd_core::Pose;
 
 /// A serial chain: joint `k` connects link `k` to link `k + 1`, and link 0 is the base.
 ///
@@ -40,31 +39,5 @@ impl Chain {
     /// The joints.
     pub fn joints(&self) -> &[Joint] {
         &self.joints
-    }
-
-    /// Returns the pose of a link at some positions of the joints.
-    ///
-    /// # Errors
-    /// Those of [`Chain::link`].
-    pub fn pose(&self, link: usize, positions: &[f64]) -> Result<Pose, InputError> {
-        let rests = self.link(link, positions, positions, 1.0)?;
-        Trajectory::pose(&rests, 0.0)
-    }
-
-    /// Returns the trajectory of a link while all joints move at constant rates from some positions to others.
-    ///
-    /// There is a position for each joint, fixed ones included.
-    ///
-    /// # Errors
-    /// [`InputError::OutOfRange`] for a link that does not exist, for another number of positions, for one
-    /// outside of its joint's limits, and for a duration that is not positive.
-    pub fn link<'c>(
-        &'c self,
-        link: usize,
-        from: &'c [f64],
-        to: &'c [f64],
-        duration: f64,
-    ) -> Result<Link<'c>, InputError> {
-        Link::new(self, link, from, to, duration)
     }
 }

@@ -1,6 +1,7 @@
 //! Curves in space: Bézier curves and B-splines.
 
 use super::U;
+use super::knots::{middle_knot, spread};
 use ccd_core::InputError;
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
@@ -103,14 +104,11 @@ impl Curve {
     /// Bounds the acceleration between two times. A velocity that jumps counts as one that changes in half of
     /// the time, by which a curve strays farther.
     pub(super) fn acceleration(&self, from: f64, to: f64) -> f64 {
-        let half = 0.5 * (to - from);
         let smooth = self.overlapping(from, to).map(|segment| {
             let [from, to] = [greater(from, segment.from), lesser(to, segment.to)];
             segment.most(2, from, to)
         });
-        let jumps: f64 = self.jumps(from, to).sum();
-        let jump = if jumps > 0.0 { 2.0 * jumps / half } else { 0.0 };
-        smooth.fold(0.0, greater) + jump
+        smooth.fold(0.0, greater) + spread(self.jumps(from, to), from, to)
     }
 
     /// Bounds the speed between two times.
@@ -124,11 +122,7 @@ impl Curve {
 
     /// Returns a time between two others at which two segments meet, about the middle.
     pub(super) fn corner(&self, from: f64, to: f64) -> Option<f64> {
-        let inner: Vec<f64> = self
-            .knots()
-            .filter(|&knot| knot > from && knot < to)
-            .collect();
-        inner.get(inner.len() / 2).copied()
+        middle_knot(self.knots(), from, to)
     }
 
     /// Bounds the rounding of a position.

@@ -6,7 +6,7 @@ use super::chain::Chain;
 use super::joint::{Joint, Kind};
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
-use ccd_core::{Accelerations, InputError, Motion, Pose, Smooth, Stray};
+use ccd_core::{Accelerations, InputError, Motion, Pose, Smooth, Stray, Trajectory};
 
 /// The trajectory of a link of a [`Chain`], in the world or as another link sees it.
 ///
@@ -28,8 +28,36 @@ pub struct Link<'c> {
     duration: f64,
 }
 
+impl Chain {
+    /// Returns the pose of a link at some positions of the joints.
+    ///
+    /// # Errors
+    /// Those of [`Chain::link`].
+    pub fn pose(&self, link: usize, positions: &[f64]) -> Result<Pose, InputError> {
+        let rests = self.link(link, positions, positions, 1.0)?;
+        Trajectory::pose(&rests, 0.0)
+    }
+
+    /// Returns the trajectory of a link while all joints move at constant rates from some positions to others.
+    ///
+    /// There is a position for each joint, fixed ones included.
+    ///
+    /// # Errors
+    /// [`InputError::OutOfRange`] for a link that does not exist, for another number of positions, for one
+    /// outside of its joint's limits, and for a duration that is not positive.
+    pub fn link<'c>(
+        &'c self,
+        link: usize,
+        from: &'c [f64],
+        to: &'c [f64],
+        duration: f64,
+    ) -> Result<Link<'c>, InputError> {
+        Link::new(self, link, from, to, duration)
+    }
+}
+
 impl<'c> Link<'c> {
-    pub(super) fn new(
+    fn new(
         chain: &'c Chain,
         link: usize,
         from: &'c [f64],

@@ -3,6 +3,7 @@
 mod squad;
 
 use super::U;
+use super::knots::{middle_knot, spread};
 use ccd_core::InputError;
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::order::{greater, lesser};
@@ -123,12 +124,7 @@ impl Turns {
             Turn::Slerp { .. } => 0.0,
             Turn::Squad(squad) => squad.acceleration(),
         });
-        let jumps: f64 = self.jumps(from, to).sum();
-        let jump = match jumps > 0.0 {
-            true => 2.0 * jumps / (0.5 * (to - from)),
-            false => 0.0,
-        };
-        smooth.fold(0.0, greater) + jump
+        smooth.fold(0.0, greater) + spread(self.jumps(from, to), from, to)
     }
 
     /// Bounds the angular speed between two times.
@@ -144,8 +140,7 @@ impl Turns {
     pub(super) fn corner(&self, from: f64, to: f64) -> Option<f64> {
         let last = self.pieces.last().map(|piece| piece.to);
         let knots = self.pieces.iter().map(|piece| piece.from).chain(last);
-        let inner: Vec<f64> = knots.filter(|&knot| knot > from && knot < to).collect();
-        inner.get(inner.len() / 2).copied()
+        middle_knot(knots, from, to)
     }
 
     /// Bounds the rounding of an orientation.

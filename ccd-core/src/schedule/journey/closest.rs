@@ -138,13 +138,9 @@ impl Found {
         stretches: &Stretches<'_, '_>,
         outcome: ClosestApproach,
     ) -> Answer<ClosestApproach> {
-        let width = match outcome {
-            ClosestApproach::Nearest { lower, contact, .. } => contact.separation.upper - lower,
-            _ => 0.0,
-        };
         Answer {
+            tolerance: greater(journey.config.tolerance, outcome.width()),
             outcome,
-            tolerance: greater(journey.config.tolerance, width),
             stats: stretches.stats,
         }
     }

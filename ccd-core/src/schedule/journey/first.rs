@@ -25,7 +25,7 @@ impl<O: DistanceOracle> BestFirst<O> {
         oracle: &mut O,
     ) -> Result<Answer, InputError> {
         let mut stretches = Stretches::new(journey);
-        let mut kept = Kept::new(journey);
+        let mut kept = SoFar::new(journey);
         while let Some(span) = stretches.next() {
             let config = match stretches.config() {
                 Ok(config) => config,
@@ -80,11 +80,12 @@ impl<O: DistanceOracle> DepthFirst<O> {
         oracle: &mut O,
     ) -> Result<Answer<AnyContact>, InputError> {
         let mut stretches = Stretches::new(journey);
-        let mut kept = Kept::new(journey);
+        let mut kept = SoFar::new(journey);
         while let Some(span) = stretches.next() {
-            let unresolved = |kept: &Kept, stretches: &Stretches<'_, '_>, until, reason| {
+            let unresolved = |kept: &SoFar, stretches: &Stretches<'_, '_>, until, reason| {
                 let until = lesser(until, stretches.first());
-                told(kept.unresolved(stretches, until, reason))
+                kept.unresolved(stretches, until, reason)
+                    .map(AnyContact::from)
             };
             let config = match stretches.config() {
                 Ok(config) => config,
@@ -105,35 +106,26 @@ impl<O: DistanceOracle> DepthFirst<O> {
                 AnyContact::Overlapping { overlap } => (0.0, Outcome::Overlapping { overlap }),
             };
             if stretches.is_fine(&leg)? {
-                return Ok(told(kept.found(&stretches, &leg, outcome)));
+                return Ok(kept.found(&stretches, &leg, outcome).map(AnyContact::from));
             }
             if !stretches.cut_about(leg.span, leg.time(s)) {
                 return Ok(unresolved(&kept, &stretches, leg.span.from, Limit::Stalled));
             }
         }
-        Ok(told(kept.free(&stretches)))
-    }
-}
-
-/// Forgets that a first contact is the first.
-fn told(answer: Answer) -> Answer<AnyContact> {
-    Answer {
-        outcome: answer.outcome.into(),
-        tolerance: answer.tolerance,
-        stats: answer.stats,
+        Ok(kept.free(&stretches).map(AnyContact::from))
     }
 }
 
 /// What is proven of the stretches so far.
-struct Kept {
+struct SoFar {
     gap: f64,
     margin: f64,
     tolerance: f64,
 }
 
-impl Kept {
+impl SoFar {
     fn new(journey: &Journey<'_>) -> Self {
-        Kept {
+        SoFar {
             gap: f64::INFINITY,
             margin: journey.config.margin,
             tolerance: journey.config.tolerance,

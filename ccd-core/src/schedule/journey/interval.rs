@@ -89,19 +89,14 @@ impl<O: DistanceOracle> BestFirst<O> {
                 return Ok(answer(unresolved, &first));
             }
         };
-        let [a, b] = [journey.a, journey.b].map(|travelling| Reversed {
+        let [a, b] = [&journey.a, &journey.b].map(|travelling| Reversed {
             of: travelling.trajectory,
             duration,
         });
-        let mut config = journey.config;
-        config.budget = config.budget.saturating_sub(first.stats.work());
-        let mut back = Journey::new(
-            (journey.a.body, &a),
-            (journey.b.body, &b),
-            duration,
-            &config,
-        )?;
-        back.stop.clone_from(&journey.stop);
+        let mut back = journey.clone();
+        back.a.trajectory = &a;
+        back.b.trajectory = &b;
+        back.config.budget = back.config.budget.saturating_sub(first.stats.work());
         let mut last = self.first_contact_along(&back, oracle)?;
         last.stats.add(&first.stats);
         // Rounded so that it is never early.
