@@ -8,6 +8,8 @@
 //! picture shows the roadmap from above; by default it is written to `target/planner.svg`.
 
 use plotters::prelude::*;
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64;
 use rigid_ccd::glam::{DQuat, DVec3};
 use rigid_ccd::{Body, Config, Error, Motion, Pose, Solver, load};
 use std::collections::VecDeque;
@@ -80,36 +82,22 @@ fn steps_are_free(
     Ok(true)
 }
 
-/// Numbers that look random: SplitMix64.
-struct Random(u64);
-
-impl Random {
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        let share = ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64;
-        low + share * (high - low)
-    }
-}
-
 /// Draws places at which the body is free: the first is the start, the second the goal.
 fn places(solver: &mut Solver, room: &Room, body: &Body) -> Result<Vec<Pose>, Error> {
-    let mut random = Random(7);
+    let mut random = Pcg64::seed_from_u64(7);
     let mut places = vec![Pose::at([-4.0, 0.0, 0.0])?, Pose::at([3.0, 0.0, 0.0])?];
     while places.len() < PLACES {
         // A third of them are in the slot or near it.
         let width = if places.len() % 3 == 0 { 1.2 } else { 4.0 };
         let at = DVec3::new(
-            random.between(-width, width),
-            random.between(-2.0, 2.0),
-            random.between(-2.0, 2.0),
+            random.random_range(-width..width),
+            random.random_range(-2.0..2.0),
+            random.random_range(-2.0..2.0),
         );
         let turned = DQuat::from_scaled_axis(DVec3::new(
-            random.between(-1.6, 1.6),
-            random.between(-1.6, 1.6),
-            random.between(-1.6, 1.6),
+            random.random_range(-1.6..1.6),
+            random.random_range(-1.6..1.6),
+            random.random_range(-1.6..1.6),
         ));
         let pose = Pose::new(at - turned * DVec3::from_array(MIDDLE), turned)?;
         if steps_are_free(solver, room, body, [pose, pose], 1)? {

@@ -9,8 +9,10 @@
 #[path = "scene.rs"]
 mod scene;
 
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64;
 use rigid_ccd::{Config, Error, Motion, Solver};
-use scene::{Random, Scene};
+use scene::Scene;
 use std::io::Write;
 use std::path::Path;
 use std::time::Instant;
@@ -80,7 +82,7 @@ fn steps_are_free(
 fn draw(
     scene: &Scene,
     solver: &mut Solver,
-    random: &mut Random,
+    random: &mut Pcg64,
     count: usize,
 ) -> Result<Vec<[Vec<f64>; 2]>, Error> {
     let mut edges = Vec::new();
@@ -88,13 +90,13 @@ fn draw(
         let joints = scene.chain.joints().iter();
         let from: Vec<f64> = joints
             .clone()
-            .map(|joint| random.between(*joint.limits().start(), *joint.limits().end()))
+            .map(|joint| random.random_range(*joint.limits().start()..*joint.limits().end()))
             .collect();
         let to = joints
             .zip(&from)
             .map(|(joint, at)| {
                 let limits = joint.limits();
-                (at + random.between(-0.6, 0.6)).clamp(*limits.start(), *limits.end())
+                (at + random.random_range(-0.6..0.6)).clamp(*limits.start(), *limits.end())
             })
             .collect();
         if steps_are_free(solver, scene, &from, &from, 1)? {
@@ -111,7 +113,7 @@ fn main() -> anyhow::Result<()> {
         .collect::<Result<_, _>>()?;
     let count = args.first().copied().unwrap_or(50);
     let most_steps = args.get(1).map_or(2_000, |&steps| steps as u32);
-    let mut random = Random(1);
+    let mut random = Pcg64::seed_from_u64(1);
     let urdf = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/arm/arm.urdf");
     let scene = Scene::load(&urdf, OBSTACLES, &mut random)?;
     let config = Config {

@@ -1,5 +1,7 @@
 //! The arm of a URDF file, among obstacles.
 
+use rand::RngExt;
+use rand_pcg::Pcg64;
 use rigid_ccd::glam::{DQuat, DVec3, EulerRot};
 use rigid_ccd::trajectory::{Chain, Joint};
 use rigid_ccd::{Body, Error, InputError, Motion, Pose, Solver, load};
@@ -18,7 +20,7 @@ pub(crate) struct Scene {
 
 impl Scene {
     /// Reads an arm, and puts it among obstacles that are drawn.
-    pub(crate) fn load(urdf: &Path, obstacles: usize, random: &mut Random) -> anyhow::Result<Self> {
+    pub(crate) fn load(urdf: &Path, obstacles: usize, random: &mut Pcg64) -> anyhow::Result<Self> {
         let robot = urdf_rs::read_file(urdf)?;
         let chain = Chain::new(
             Pose::IDENTITY,
@@ -35,12 +37,12 @@ impl Scene {
         };
         scene.pair_links()?;
         while scene.obstacles.len() < obstacles {
-            let size = [(); 3].map(|()| random.between(0.03, 0.12));
-            let at = [(); 3].map(|()| random.between(-1.6, 1.6));
+            let size = [(); 3].map(|()| random.random_range(0.03..0.12));
+            let at = [(); 3].map(|()| random.random_range(-1.6..1.6));
             let turned = DQuat::from_euler(
                 EulerRot::XYZ,
-                random.between(0.0, 3.0),
-                random.between(0.0, 3.0),
+                random.random_range(0.0..3.0),
+                random.random_range(0.0..3.0),
                 0.0,
             );
             // Nothing stands in the arm's foot.
@@ -94,19 +96,5 @@ fn body(robot: &Robot, link: usize, urdf: &Path) -> anyhow::Result<Body> {
     match collision.map(|collision| &collision.geometry) {
         Some(Geometry::Mesh { filename, .. }) => Ok(load(urdf.with_file_name(filename))?),
         other => anyhow::bail!("link {link}: {other:?} is no mesh"),
-    }
-}
-
-/// Numbers that look random: SplitMix64.
-pub(crate) struct Random(pub(crate) u64);
-
-impl Random {
-    pub(crate) fn between(&mut self, low: f64, high: f64) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        let share = ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64;
-        low + share * (high - low)
     }
 }
