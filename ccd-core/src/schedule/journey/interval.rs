@@ -11,6 +11,7 @@ use crate::motion::trajectory::{Stray, Stretch, Trajectory};
 use crate::outcome::{Answer, Contact, Limit, Outcome};
 use crate::schedule::BestFirst;
 use crate::tolerance::U64;
+use std::time::Instant;
 
 /// The answer to "from when until when are they in contact?".
 ///
@@ -69,6 +70,7 @@ impl<O: DistanceOracle> BestFirst<O> {
         oracle: &mut O,
     ) -> Result<Answer<ContactInterval>, InputError> {
         let duration = journey.duration;
+        let begun = journey.config.deadline.map(|_| Instant::now());
         let first = self.first_contact_along(journey, oracle)?;
         let answer = |outcome, of: &Answer| Answer {
             outcome,
@@ -97,6 +99,9 @@ impl<O: DistanceOracle> BestFirst<O> {
         back.a.trajectory = &a;
         back.b.trajectory = &b;
         back.config.budget = back.config.budget.saturating_sub(first.stats.work());
+        if let (Some(deadline), Some(begun)) = (&mut back.config.deadline, begun) {
+            *deadline = deadline.saturating_sub(begun.elapsed());
+        }
         let mut last = self.first_contact_along(&back, oracle)?;
         last.stats.add(&first.stats);
         // Rounded so that it is never early.
