@@ -224,7 +224,7 @@ pub struct Answer<T = Outcome> {
 
 impl<T> Answer<T> {
     /// Returns the answer with another form of its outcome.
-    pub(crate) fn map<U>(self, told: impl FnOnce(T) -> U) -> Answer<U> {
+    pub fn map<U>(self, told: impl FnOnce(T) -> U) -> Answer<U> {
         Answer {
             outcome: told(self.outcome),
             tolerance: self.tolerance,

@@ -3,13 +3,16 @@
 //! Public only because `ccd-bench` shares it; no stable interface. Use [`Solver`](crate::Solver) instead.
 
 mod batch_size;
+mod question;
 mod solver_kind;
 
 pub use batch_size::BatchSize;
+pub use question::{Found, Question, Questions};
 pub use solver_kind::{BoundKind, OracleKind, ScheduleKind, Solve, SolverKind};
 
 use crate::ParallelSolver;
-use crate::table::motions::Query;
+use crate::table::courses::Course;
+use crate::table::motions::{Query, RowProblem};
 use ccd_core::{Answer, Body, Config, InputError, Moving, Problem};
 use std::num::NonZeroUsize;
 use std::time::Instant;
@@ -23,9 +26,11 @@ pub struct Bodies<'a> {
     pub b: &'a Body,
 }
 
-/// The method, the accuracy and the number of repetitions.
+/// The question, the method, the accuracy and the number of repetitions.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Settings {
+    /// The question that every row answers.
+    pub(crate) question: Question,
     /// The schedule and the distance backend.
     pub(crate) method: SolverKind,
     /// The tolerance, the margin and the limits.
@@ -37,6 +42,7 @@ pub(crate) struct Settings {
 impl Default for Settings {
     fn default() -> Self {
         Settings {
+            question: Question::default(),
             method: SolverKind::default(),
             config: Config::default(),
             repeat: NonZeroUsize::MIN,
@@ -48,7 +54,7 @@ impl Default for Settings {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Timed {
     /// The answer.
-    pub(crate) answer: Answer,
+    pub(crate) answer: Answer<Found>,
     /// The time to pose and solve the query, in microseconds.
     pub(crate) micros: f64,
 }
@@ -67,22 +73,42 @@ pub fn on_threads<S>(threads: Option<u16>, solver: impl FnMut() -> S) -> Paralle
 /// caches and memory, and each may take longer.
 ///
 /// # Errors
-/// The query is not valid.
+/// The query is not valid, or the method does not answer the question.
 pub(crate) fn time(
     bodies: Bodies<'_>,
-    query: &Query,
+    course: &Course,
     settings: &Settings,
     solver: &mut dyn Solve,
-) -> Result<Timed, InputError> {
+) -> Result<Timed, RowProblem> {
     let mut micros = Vec::with_capacity(settings.repeat.get());
     loop {
         let start = Instant::now();
-        let answer = solve(bodies, query, &settings.config, solver)?;
+        let answer = answer(bodies, course, settings, solver)?;
         micros.push(start.elapsed().as_secs_f64() * 1e6);
         if micros.len() == settings.repeat.get() {
             let micros = median(&mut micros);
             return Ok(Timed { answer, micros });
         }
+    }
+}
+
+fn answer(
+    bodies: Bodies<'_>,
+    course: &Course,
+    settings: &Settings,
+    solver: &mut dyn Solve,
+) -> Result<Answer<Found>, RowProblem> {
+    let Settings {
+        question, config, ..
+    } = settings;
+    match (question, course) {
+        (Question::FirstContact, Course::Motions(query)) => {
+            Ok(solve(bodies, query, config, solver)?.map(Found::First))
+        }
+        _ => match solver.questions() {
+            Some(solver) => Ok(solver.ask(*question, bodies, course, config)?),
+            None => Err(RowProblem::NeedsBestFirst),
+        },
     }
 }
 

@@ -46,7 +46,7 @@ See `ccd help COMMAND` for the options, tables and exit codes of a command.";
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Find the first contact of two bodies for each row of a table of motions
+    /// Find the first contact of two bodies, or their least distance, for each row of a table of motions
     Query(Box<QueryArgs>),
     /// Split a mesh into convex pieces; print statistics, write the pieces or the prepared body
     Decompose(DecomposeArgs),

@@ -4,7 +4,7 @@ mod questions;
 
 use crate::{Error, Hit};
 use ccd_core::schedule::{BestFirst, DepthFirst, Schedule};
-use ccd_core::{Answer, Config, DistanceOracle, InputError, Moving};
+use ccd_core::{Answer, Config, DistanceOracle, InputError, Moving, Problem};
 use ccd_distance_gjk::Direct;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -150,6 +150,10 @@ impl<O: DistanceOracle> Solver<O> {
         duration: f64,
     ) -> Result<Answer, InputError> {
         let problem = self.problem(a, b, duration)?;
-        Ok(self.schedule.solve(&problem, &mut self.oracle))
+        Ok(self.solve(&problem))
+    }
+
+    pub(crate) fn solve(&mut self, problem: &Problem<'_>) -> Answer {
+        self.schedule.solve(problem, &mut self.oracle)
     }
 }

@@ -1,11 +1,14 @@
-//! Tables of the command, as CSV: motions are read; results and contacts are written.
+//! Tables of the command, as CSV: motions and paths are read; results and contacts are written.
 //!
 //! Public only because `ccd-bench` shares them; no stable interface.
 
 pub(crate) mod contacts;
+pub mod courses;
 mod lines;
 pub mod motions;
+pub mod paths;
 mod quotes;
+mod records;
 pub(crate) mod results;
 
 pub use lines::Lines;

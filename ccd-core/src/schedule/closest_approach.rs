@@ -81,10 +81,13 @@ impl ClosestApproach {
     }
 
     /// Compares the least distance to one that is required.
+    ///
+    /// Bodies that may touch keep no clearance, not even one of 0.
     pub fn clearance(&self, required: f64) -> Clearance {
-        if self.lower() >= required {
+        let (lower, upper) = (self.lower(), self.upper());
+        if lower >= required && lower > 0.0 {
             Clearance::Kept
-        } else if self.upper() < required {
+        } else if upper < required || upper <= 0.0 {
             Clearance::Violated
         } else {
             Clearance::Unverified

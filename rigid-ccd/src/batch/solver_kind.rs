@@ -1,6 +1,8 @@
 //! Schedules and distance backends chosen at run time.
 
-use ccd_core::schedule::{BestFirst, Fast, Naive};
+use super::Questions;
+use crate::Solver;
+use ccd_core::schedule::{Fast, Naive};
 use ccd_core::{Answer, Body, Bound, DistanceOracle, Instructions, OrElse, Problem, Schedule};
 use ccd_distance_gjk::{ClosedForm, Direct, Gjk};
 use ccd_distance_vmarch::Vmarch;
@@ -83,6 +85,11 @@ pub enum OracleKind {
 pub trait Solve: Send {
     /// Solves a problem, as [`Schedule::solve`].
     fn solve(&mut self, problem: &Problem<'_>) -> Answer;
+
+    /// Returns the solver as one that answers other questions; none if its schedule does not.
+    fn questions(&mut self) -> Option<&mut dyn Questions> {
+        None
+    }
 }
 
 impl SolverKind {
@@ -123,36 +130,50 @@ impl SolverKind {
         O::Cache: Send,
     {
         match self.schedule {
-            ScheduleKind::BestFirst => Box::new(Pairing {
-                schedule: BestFirst::<O>::default(),
-                oracle,
-            }),
-            ScheduleKind::Fast => Box::new(Pairing {
+            ScheduleKind::BestFirst => Box::new(OnLines(Solver::with_oracle(oracle))),
+            ScheduleKind::Fast => Box::new(OnLines(Pairing {
                 schedule: Fast::<O>::new(self.bound.into()),
                 oracle,
-            }),
-            ScheduleKind::Naive => Box::new(Pairing {
+            })),
+            ScheduleKind::Naive => Box::new(OnLines(Pairing {
                 schedule: Naive::<O>::new(self.bound.into()),
                 oracle,
-            }),
+            })),
         }
     }
 }
 
 /// Solvers of several threads are on cache lines of their own, as a [`crate::ParallelSolver`] has them.
 #[repr(align(128))]
+struct OnLines<S>(S);
+
+impl<O> Solve for OnLines<Solver<O>>
+where
+    O: DistanceOracle + Send,
+    O::Cache: Send,
+{
+    fn solve(&mut self, problem: &Problem<'_>) -> Answer {
+        self.0.solve(problem)
+    }
+
+    fn questions(&mut self) -> Option<&mut dyn Questions> {
+        Some(&mut self.0)
+    }
+}
+
 struct Pairing<S, O> {
     schedule: S,
     oracle: O,
 }
 
-impl<O, S> Solve for Pairing<S, O>
+impl<O, S> Solve for OnLines<Pairing<S, O>>
 where
     O: DistanceOracle + Send,
     S: Schedule<O> + Send,
 {
     fn solve(&mut self, problem: &Problem<'_>) -> Answer {
-        self.schedule.solve(problem, &mut self.oracle)
+        let Pairing { schedule, oracle } = &mut self.0;
+        schedule.solve(problem, oracle)
     }
 }
 
@@ -175,7 +196,7 @@ impl fmt::Display for OracleKind {
 }
 
 /// Writes the name of a value on the command line.
-fn write_value(value: &impl ValueEnum, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+pub(super) fn write_value(value: &impl ValueEnum, f: &mut fmt::Formatter<'_>) -> fmt::Result {
     match value.to_possible_value() {
         Some(value) => f.pad(value.get_name()),
         None => Ok(()),

@@ -1,6 +1,8 @@
 //! Tables read and written: files, or the standard streams.
 
+use crate::table::courses::Courses;
 use crate::table::motions::MotionRows;
+use crate::table::paths::Grouping;
 use anyhow::{Context, Result, anyhow, bail};
 use std::ffi::OsString;
 use std::fs::{self, File};
@@ -269,16 +271,31 @@ pub fn refuse_overwriting(
     Ok(())
 }
 
-/// The rows of a table of motions from any source.
-pub(super) type Motions = MotionRows<Box<dyn Read>>;
+/// The bytes of a table from any source.
+type Source = Box<dyn Read>;
 
 /// Opens the table of motions, and returns its length in bytes if known.
-pub fn open_motions(path: &Path) -> Result<(Motions, Option<u64>)> {
+pub fn open_motions(path: &Path) -> Result<(MotionRows<Source>, Option<u64>)> {
+    let (input, length) = open_table(path)?;
+    let rows = MotionRows::new(input).with_context(|| input_name(path))?;
+    Ok((rows, length))
+}
+
+/// The rows of a table of motions or paths from any source.
+pub(super) type Rows = Courses<Source>;
+
+/// Opens a table of motions or paths, and returns its length in bytes if known.
+pub(super) fn open_courses(path: &Path, grouping: Grouping) -> Result<(Rows, Option<u64>)> {
+    let (input, length) = open_table(path)?;
+    let rows = Courses::new(input, grouping).with_context(|| input_name(path))?;
+    Ok((rows, length))
+}
+
+fn open_table(path: &Path) -> Result<(Source, Option<u64>)> {
     let name = || input_name(path);
     let advice = "give --motions a CSV file, or - for standard input";
     if is_standard(path) {
-        let input: Box<dyn Read> = Box::new(io::stdin().lock());
-        return Ok((MotionRows::new(input).with_context(name)?, None));
+        return Ok((Box::new(io::stdin().lock()), None));
     }
     let open = || -> io::Result<_> {
         let file = File::open(path)?;
@@ -292,8 +309,7 @@ pub fn open_motions(path: &Path) -> Result<(Motions, Option<u64>)> {
         bail!("{}: is a folder; {advice}", name());
     }
     let length = about.is_file().then_some(about.len());
-    let input: Box<dyn Read> = Box::new(file);
-    Ok((MotionRows::new(input).with_context(name)?, length))
+    Ok((Box::new(file), length))
 }
 
 /// Returns the name of an input for messages.

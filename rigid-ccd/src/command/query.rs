@@ -13,14 +13,15 @@ mod summary;
 pub(super) use args::QueryArgs;
 
 use super::bad_rows::BadRows;
-use super::files::{input_name, is_standard, open_motions, refuse_overwriting};
+use super::files::{Rows, input_name, is_standard, open_courses, refuse_overwriting};
 use super::{Exit, complain};
-use crate::batch::{BatchSize, BoundKind, Settings, SolverKind, on_threads};
+use crate::batch::{
+    BatchSize, BoundKind, Question, ScheduleKind, Settings, SolverKind, on_threads,
+};
 use crate::command::progress::{Progress, Total};
-use crate::table::results::Extent;
 use answering::Answering;
 use anyhow::{Context, Result, bail};
-use ccd_core::Config;
+use ccd_core::{Config, StartPolicy};
 use ccd_decomp::BodySource;
 use journal::{CONTENT, Checkpoint, Recorded};
 use outputs::Opened;
@@ -33,7 +34,9 @@ use summary::Summary;
 pub(super) fn run(args: &QueryArgs) -> Result<Exit> {
     check_paths(args)?;
     check_bound(args)?;
-    let (mut rows, length) = open_motions(&args.motions)?;
+    check_question(args)?;
+    let (mut rows, length) = open_courses(&args.motions, args.ask.grouping())?;
+    check_rows(args, &rows)?;
     let pair = Pair::load(args)?;
     let (mut outputs, earlier) = match Opened::new(args, &recorded(args, &pair))? {
         Opened::New(outputs) => (outputs, None),
@@ -112,6 +115,52 @@ fn check_bound(args: &QueryArgs) -> Result<()> {
     }
 }
 
+/// Refuses options that the question has no use for.
+fn check_question(args: &QueryArgs) -> Result<()> {
+    let ask = args.ask;
+    if args.clearance.is_some() && !ask.is_for_a_distance() {
+        bail!(
+            "--clearance needs --ask closest-approach or distance; --margin keeps a distance otherwise"
+        );
+    }
+    if args.margin > 0.0 && ask.is_for_a_distance() {
+        bail!(
+            "--ask {ask} measures distances without a margin; use --clearance instead of --margin"
+        );
+    }
+    if args.contacts.is_some() && !ask.is_for_one_contact() {
+        bail!("--contacts needs --ask first-contact or is-free");
+    }
+    if ask != Question::FirstContact && args.schedule != ScheduleKind::BestFirst {
+        bail!("--ask {ask} needs --schedule best-first");
+    }
+    if leaves(args) && !ask.is_for_one_contact() {
+        bail!("--start leave needs --ask first-contact or is-free");
+    }
+    Ok(())
+}
+
+/// Refuses options that are for tables of motions, where the table is one of paths.
+fn check_rows(args: &QueryArgs, rows: &Rows) -> Result<()> {
+    match rows {
+        Rows::Motions(_) => Ok(()),
+        Rows::Paths(_) if args.schedule != ScheduleKind::BestFirst => {
+            bail!(
+                "--schedule {} needs a table of motions, not of paths",
+                args.schedule
+            )
+        }
+        Rows::Paths(_) if leaves(args) => {
+            bail!("--start leave needs a table of motions, not of paths")
+        }
+        Rows::Paths(_) => Ok(()),
+    }
+}
+
+fn leaves(args: &QueryArgs) -> bool {
+    StartPolicy::from(args.start) == StartPolicy::Leave
+}
+
 /// Returns everything that the tables depend on, except for the motions.
 fn recorded(args: &QueryArgs, pair: &Pair) -> Recorded {
     let owned = |(option, value): (&str, String)| (option.to_owned(), value);
@@ -133,6 +182,7 @@ fn method(args: &QueryArgs) -> SolverKind {
 
 fn settings(args: &QueryArgs) -> Settings {
     Settings {
+        question: args.ask,
         method: method(args),
         config: Config {
             tolerance: args.tolerance,
@@ -164,7 +214,7 @@ fn print_summary(args: &QueryArgs, summary: &Summary) {
         Some(BoundKind::Sound) | None => "",
     };
     let _ = writeln!(io::stderr(), "{prefix}{summary}");
-    if let (Extent::WithCounters, Some(means)) = (args.extent(), summary.means()) {
+    if let (true, Some(means)) = (args.counters, summary.means()) {
         let _ = writeln!(io::stderr(), "{means}");
     }
 }

@@ -124,11 +124,22 @@ impl<O: DistanceOracle> Solver<O> {
         b: impl Into<Travelling<'b>>,
         duration: f64,
     ) -> Result<Option<Hit>, Error> {
+        Hit::from_answer(&self.answer_along(a, b, duration)?)
+    }
+
+    /// Returns the full answer for two bodies on [trajectories](crate::trajectory), as [`Solver::answer`] does
+    /// for motions.
+    ///
+    /// # Errors
+    /// Those of [`Journey::new`], and those of the trajectories.
+    pub fn answer_along<'b>(
+        &mut self,
+        a: impl Into<Travelling<'b>>,
+        b: impl Into<Travelling<'b>>,
+        duration: f64,
+    ) -> Result<Answer, InputError> {
         let journey = self.journey(a, b, duration)?;
-        let answer = self
-            .schedule
-            .first_contact_along(&journey, &mut self.oracle);
-        Hit::from_answer(&answer?)
+        (self.schedule).first_contact_along(&journey, &mut self.oracle)
     }
 
     /// Returns whether two bodies on [trajectories](crate::trajectory) stay apart, by more than the margin.
@@ -141,8 +152,21 @@ impl<O: DistanceOracle> Solver<O> {
         b: impl Into<Travelling<'b>>,
         duration: f64,
     ) -> Result<bool, Error> {
+        is_free(&self.any_contact_along(a, b, duration)?)
+    }
+
+    /// Returns any contact of two bodies on [trajectories](crate::trajectory): perhaps not the first one.
+    ///
+    /// # Errors
+    /// Those of [`Journey::new`], and those of the trajectories.
+    pub fn any_contact_along<'b>(
+        &mut self,
+        a: impl Into<Travelling<'b>>,
+        b: impl Into<Travelling<'b>>,
+        duration: f64,
+    ) -> Result<Answer<AnyContact>, InputError> {
         let journey = self.journey(a, b, duration)?;
-        is_free(&(self.depth_first).any_contact_along(&journey, &mut self.oracle)?)
+        (self.depth_first).any_contact_along(&journey, &mut self.oracle)
     }
 
     /// Brackets the least distance of two bodies on [trajectories](crate::trajectory).

@@ -3,11 +3,12 @@
 #[cfg(test)]
 mod tests;
 
-use crate::batch::Bodies;
-use crate::table::motions::Query;
+use crate::batch::{Bodies, Found};
+use crate::table::courses::Course;
 use ccd_core::glam::DVec3;
+use ccd_core::schedule::AnyContact;
 use ccd_core::{
-    Config, ContactsError, FeaturePair, InputError, Moving, Outcome, Problem, Separation,
+    Answer, Config, ContactsError, FeaturePair, InputError, Motion, Outcome, Problem, Separation,
 };
 use serde::Serialize;
 
@@ -64,28 +65,42 @@ pub(crate) enum ListError {
     Contacts(#[from] ContactsError),
 }
 
-/// Lists all contacts at the time of a contact or touching, nearest first; none for other outcomes.
+/// Lists all contacts at the time of a contact or touching, nearest first; none for other answers.
 ///
 /// # Errors
 /// The query is not valid, or the contacts cannot be listed.
 pub(crate) fn rows(
     bodies: Bodies<'_>,
-    query: &Query,
+    course: &Course,
     config: &Config,
-    outcome: &Outcome,
+    answer: &Answer<Found>,
 ) -> Result<Vec<ContactRow>, ListError> {
-    let time = match *outcome {
-        Outcome::Contact { time, .. } => time,
-        Outcome::Touching { .. } => 0.0,
-        Outcome::Free { .. } | Outcome::Overlapping { .. } | Outcome::Unresolved { .. } => {
-            return Ok(Vec::new());
+    let Some(time) = time_of_contact(&answer.outcome) else {
+        return Ok(Vec::new());
+    };
+    let problem = |a: Motion, b: Motion, end| {
+        let (a, b) = ((bodies.a, a), (bodies.b, b));
+        Problem::new(a, b, end, config)
+    };
+    let pairs = match course {
+        Course::Motions(query) => problem(query.a, query.b, query.duration)?.contacts_at(time)?,
+        Course::Path(path) => {
+            let [a, b] = path.poses(time)?.map(Motion::still);
+            problem(a, b, 0.0)?.contacts_at(0.0)?
         }
     };
-    let moving = |body, motion| Moving { body, motion };
-    let (a, b) = (moving(bodies.a, query.a), moving(bodies.b, query.b));
-    let pairs = Problem::new(a, b, query.duration, config)?.contacts_at(time)?;
-    let row = |pair: &FeaturePair| ContactRow::new(&query.id, time, pair);
+    let row = |pair: &FeaturePair| ContactRow::new(course.id(), course.earliest(time), pair);
     Ok(pairs.iter().map(row).collect())
+}
+
+/// Returns the time of a contact or touching.
+fn time_of_contact(found: &Found) -> Option<f64> {
+    match *found {
+        Found::First(Outcome::Contact { time, .. })
+        | Found::Any(AnyContact::Contact { time, .. }) => Some(time),
+        Found::First(Outcome::Touching { .. }) => Some(0.0),
+        Found::First(_) | Found::Any(_) | Found::Interval(_) | Found::Distance(_) => None,
+    }
 }
 
 impl ContactRow {

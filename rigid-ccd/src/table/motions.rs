@@ -1,9 +1,9 @@
 //! The table of motions: CSV read as motions of two bodies, and written.
 
-mod columns;
+pub(in crate::table) mod columns;
 mod error;
 mod foreign;
-mod row;
+pub(in crate::table) mod row;
 #[cfg(test)]
 mod tests;
 mod write;
@@ -11,11 +11,10 @@ mod write;
 pub use error::{RowError, RowProblem, TableError};
 pub use write::write;
 
-use crate::table::lines::Lines;
-use crate::table::quotes::Quotes;
+use crate::table::records::Records;
 use ccd_core::Motion;
-use columns::Columns;
-use std::io::{self, Read};
+use columns::{Columns, Form};
+use std::io;
 
 /// The motions of two bodies over one duration.
 #[derive(Clone, Debug, PartialEq)]
@@ -72,12 +71,8 @@ impl MotionTable {
 /// counted. A quoted cell may hold line ends, and must be closed.
 #[derive(Debug)]
 pub struct MotionRows<R> {
-    reader: Reader<R>,
+    records: Records<R>,
     columns: Columns,
-    raw: csv::ByteRecord,
-    /// The number of rows read.
-    rows: usize,
-    checksum: crc32fast::Hasher,
 }
 
 /// A valid row, or the error of a bad one.
@@ -89,35 +84,22 @@ impl<R: io::Read> MotionRows<R> {
     /// # Errors
     /// The header cannot be read, or has columns that cannot be used.
     pub fn new(input: R) -> Result<Self, TableError> {
-        let mut reader = csv::ReaderBuilder::new()
-            .flexible(true)
-            .has_headers(false)
-            // Every line needs an end, the last one too: the line of a row is computed from its end.
-            .from_reader(Quotes::new(Lines::new(input)).chain(&b"\n"[..]));
-        let mut raw = csv::ByteRecord::new();
-        reader.read_byte_record(&mut raw)?;
-        if let Some(line) = unclosed(&reader) {
-            return Err(TableError::UnclosedQuote { row: None, line });
-        }
-        let columns = Columns::from_header(&raw)?;
-        let mut checksum = crc32fast::Hasher::new();
-        checksum.update(raw.as_slice());
-        Ok(MotionRows {
-            reader,
-            columns,
-            raw,
-            rows: 0,
-            checksum,
-        })
+        MotionRows::after_header(Records::new(input)?)
+    }
+
+    /// Continues after the header, which is the current record.
+    pub(in crate::table) fn after_header(records: Records<R>) -> Result<Self, TableError> {
+        let columns = Columns::from_header(records.current(), Form::Motions)?;
+        Ok(MotionRows { records, columns })
     }
 
     /// Skips rows without parsing them, and returns the number skipped.
     ///
     /// # Errors
     /// [`TableError::Unreadable`], [`TableError::UnclosedQuote`].
-    pub fn skip_rows(&mut self, rows: usize) -> Result<usize, TableError> {
+    pub(crate) fn skip_rows(&mut self, rows: usize) -> Result<usize, TableError> {
         for skipped in 0..rows {
-            if self.advance()?.is_none() {
+            if self.records.advance()?.is_none() {
                 return Ok(skipped);
             }
         }
@@ -126,60 +108,29 @@ impl<R: io::Read> MotionRows<R> {
 
     /// Returns the number of bytes read from the input, with those that wait in a buffer.
     pub fn bytes(&self) -> u64 {
-        self.reader.get_ref().get_ref().0.input().bytes
+        self.records.bytes()
     }
 
     /// Returns a checksum of the header and of all rows so far.
-    pub fn checksum(&self) -> u32 {
-        self.checksum.clone().finalize()
+    pub(crate) fn checksum(&self) -> u32 {
+        self.records.checksum()
     }
-
-    /// Reads the next row, and returns its position.
-    fn advance(&mut self) -> Result<Option<RowPosition>, TableError> {
-        let before = self.reader.position().line();
-        if !self.reader.read_byte_record(&mut self.raw)? {
-            return Ok(None);
-        }
-        if let Some(line) = unclosed(&self.reader) {
-            let row = Some(self.rows);
-            return Err(TableError::UnclosedQuote { row, line });
-        }
-        self.checksum.update(self.raw.as_slice());
-        let row = self.rows;
-        self.rows += 1;
-        // Empty lines before the row have been read as well: its line is computed from its end.
-        let ends = |cell: &[u8]| cell.iter().filter(|&&byte| byte == b'\n').count() as u64;
-        let within: u64 = self.raw.iter().map(ends).sum();
-        let after = self.reader.position().line();
-        Ok(Some(RowPosition {
-            row,
-            line: after.saturating_sub(within + 1).max(before),
-        }))
-    }
-}
-
-type Reader<R> = csv::Reader<io::Chain<Quotes<Lines<R>>, &'static [u8]>>;
-
-/// Returns the line of an unclosed quote in the record that was read last.
-fn unclosed<R: io::Read>(reader: &Reader<R>) -> Option<u64> {
-    let (quotes, _) = reader.get_ref().get_ref();
-    quotes.unclosed(reader.position().line())
 }
 
 impl<R: io::Read> Iterator for MotionRows<R> {
     type Item = Result<MotionRow, TableError>;
 
     fn next(&mut self) -> Option<Self::Item> {
-        let position = match self.advance() {
+        let position = match self.records.advance() {
             Ok(position) => position?,
             Err(error) => return Some(Err(error)),
         };
-        let query = row::query(&self.columns, &self.raw, position.row);
-        Some(Ok(match query {
+        let raw = self.records.current();
+        Some(Ok(match row::query(&self.columns, raw, position.row) {
             Ok(query) => Ok((position, query)),
             Err(problem) => Err(RowError {
                 position,
-                id: row::id(&self.columns, &self.raw, position.row),
+                id: row::id(&self.columns, raw).unwrap_or_else(|| position.row.to_string()),
                 problem,
             }),
         }))

@@ -3,8 +3,15 @@
 #[cfg(test)]
 mod tests;
 
+mod status;
+
+pub(crate) use status::Status;
+
+use crate::batch::Found;
+use crate::table::courses::Course;
 use crate::table::motions::RowProblem;
 use ccd_core::glam::DVec3;
+use ccd_core::schedule::{AnyContact, ClosestApproach, ContactInterval};
 use ccd_core::{Answer, Contact, Outcome, Overlap, Stats};
 use serde::Serialize;
 use std::io;
@@ -33,7 +40,10 @@ pub(crate) const COLUMNS: [&str; 20] = [
     "reason",
 ];
 
-/// The columns of the counters, in order; they follow [`COLUMNS`].
+/// The column of the interval of contact; it follows [`COLUMNS`].
+pub(crate) const LAST_TIME: &str = "last_time";
+
+/// The columns of the counters, in order; they follow all others.
 pub(crate) const COUNTER_COLUMNS: [&str; 5] = [
     "advancements",
     "oracle_steps",
@@ -42,14 +52,16 @@ pub(crate) const COUNTER_COLUMNS: [&str; 5] = [
     "front",
 ];
 
-/// The set of columns of a table.
+/// The reason of a clearance that is not verified.
+const WITHIN_BOUNDS: &str = "--clearance is within the bounds of the distance";
+
+/// The columns of a table beside [`COLUMNS`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) enum Extent {
-    /// [`COLUMNS`].
-    #[default]
-    Results,
-    /// [`COLUMNS`] and [`COUNTER_COLUMNS`].
-    WithCounters,
+pub(crate) struct Extent {
+    /// Whether there is a column [`LAST_TIME`].
+    pub(crate) last_time: bool,
+    /// Whether there are [`COUNTER_COLUMNS`].
+    pub(crate) counters: bool,
 }
 
 /// One row, in the order of [`COLUMNS`]; cells that do not apply are empty.
@@ -84,100 +96,12 @@ pub(crate) struct ResultRow {
     pub(crate) micros: Option<f64>,
     /// The problem of an error, or the limit of an unresolved query.
     pub(crate) reason: Option<String>,
+    /// The time after which there is no contact.
+    #[serde(skip)]
+    pub(crate) last_time: Option<f64>,
     /// The counters.
     #[serde(skip)]
-    pub(crate) counters: Counters,
-}
-
-/// More counters of a query, in the order of [`COUNTER_COLUMNS`].
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
-pub(crate) struct Counters {
-    /// The number of steps that advanced all pairs together.
-    pub(crate) advancements: Option<u64>,
-    /// The number of steps of the distance backend's search; 0 where it does not count them.
-    pub(crate) oracle_steps: Option<u64>,
-    /// The number of returns of the search to an earlier step.
-    pub(crate) cycles: Option<u64>,
-    /// The number of pairs that a distance backend gave up on and another one answered.
-    pub(crate) fallbacks: Option<u64>,
-    /// The largest number of pairs that waited at one time.
-    pub(crate) front: Option<u64>,
-}
-
-impl From<&Stats> for Counters {
-    fn from(stats: &Stats) -> Self {
-        Counters {
-            advancements: Some(stats.advancements),
-            oracle_steps: Some(stats.effort.steps),
-            cycles: Some(stats.effort.cycles),
-            fallbacks: Some(stats.effort.fallbacks),
-            front: Some(stats.peak_front),
-        }
-    }
-}
-
-/// The kind of an [`Outcome`], or an error.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub(crate) enum Status {
-    /// The bodies come into contact.
-    Contact,
-    /// The bodies stay apart.
-    Free,
-    /// The bodies touch at the start.
-    Touching,
-    /// The bodies overlap at the start.
-    Overlapping,
-    /// A limit was reached first.
-    Unresolved,
-    /// The row is not a valid query.
-    Error,
-}
-
-impl Status {
-    /// All statuses, in the order in which they are reported.
-    pub(crate) const ALL: [Status; 6] = [
-        Status::Contact,
-        Status::Free,
-        Status::Touching,
-        Status::Overlapping,
-        Status::Unresolved,
-        Status::Error,
-    ];
-
-    /// Returns the name in the table.
-    pub(crate) fn name(self) -> &'static str {
-        match self {
-            Status::Contact => "contact",
-            Status::Free => "free",
-            Status::Touching => "touching",
-            Status::Overlapping => "overlapping",
-            Status::Unresolved => "unresolved",
-            Status::Error => "error",
-        }
-    }
-}
-
-impl From<&Outcome> for Status {
-    fn from(outcome: &Outcome) -> Self {
-        match outcome {
-            Outcome::Contact { .. } => Status::Contact,
-            Outcome::Free { .. } => Status::Free,
-            Outcome::Touching { .. } => Status::Touching,
-            Outcome::Overlapping { .. } => Status::Overlapping,
-            Outcome::Unresolved { .. } => Status::Unresolved,
-        }
-    }
-}
-
-/// Returns the time before which there is no contact.
-fn safe_time(outcome: &Outcome, duration: f64) -> f64 {
-    match *outcome {
-        Outcome::Contact { time, .. } => time,
-        Outcome::Free { .. } => duration,
-        Outcome::Touching { .. } | Outcome::Overlapping { .. } => 0.0,
-        Outcome::Unresolved { safe_until, .. } => safe_until,
-    }
+    pub(crate) counters: Option<Stats>,
 }
 
 impl ResultRow {
@@ -206,41 +130,126 @@ impl ResultRow {
             oracle_calls: None,
             micros: None,
             reason: None,
-            counters: Counters::default(),
+            last_time: None,
+            counters: None,
         }
     }
 
-    /// Creates the row of an answer.
-    pub(crate) fn new(id: &str, duration: f64, answer: &Answer, micros: f64) -> Self {
+    /// Creates the row of an answer; distances are compared to `clearance`, if there is one.
+    pub(crate) fn new(
+        course: &Course,
+        answer: &Answer<Found>,
+        micros: f64,
+        clearance: Option<f64>,
+    ) -> Self {
+        let found = &answer.outcome;
+        let status = Status::of(found, clearance);
         let row = ResultRow {
-            time: Some(safe_time(&answer.outcome, duration)),
             iterations: Some(answer.stats.iterations),
             oracle_calls: Some(answer.stats.oracle_calls),
             micros: Some(micros),
-            counters: Counters::from(&answer.stats),
-            ..ResultRow::empty(id, Status::from(&answer.outcome))
+            reason: match (found.limit(), status) {
+                (Some(limit), _) => Some(limit.to_string()),
+                (None, Status::Unverified) => Some(WITHIN_BOUNDS.to_owned()),
+                (None, _) => None,
+            },
+            counters: Some(answer.stats),
+            ..ResultRow::empty(course.id(), status)
         };
-        match answer.outcome {
-            Outcome::Contact { contact, .. }
-            | Outcome::Touching { contact }
-            | Outcome::Overlapping {
-                overlap: Overlap::Pieces(contact),
-            } => row.with_contact(&contact),
-            // The point lies in both bodies.
-            Outcome::Overlapping {
-                overlap: Overlap::AInsideB(point) | Overlap::BInsideA(point),
+        let row = match found {
+            Found::First(outcome) => row.with_outcome(outcome, course.duration()),
+            Found::Any(any) => row.with_any(any, course.duration()),
+            Found::Interval(interval) => row.with_interval(interval, course.duration()),
+            Found::Distance(closest) => row.with_distance(closest),
+        };
+        ResultRow {
+            time: row.time.map(|time| course.earliest(time)),
+            last_time: row.last_time.map(|time| course.latest(time)),
+            ..row
+        }
+    }
+
+    fn with_outcome(self, outcome: &Outcome, duration: f64) -> Self {
+        match *outcome {
+            Outcome::Contact { time, contact } => self.at(time).with_contact(&contact),
+            Outcome::Touching { contact } => self.at(0.0).with_contact(&contact),
+            Outcome::Overlapping { overlap } => self.at(0.0).with_overlap(&overlap),
+            Outcome::Free { proven_gap } => self.at(duration).with_gap(proven_gap),
+            Outcome::Unresolved { safe_until, .. } => self.at(safe_until),
+        }
+    }
+
+    fn with_any(self, any: &AnyContact, duration: f64) -> Self {
+        match *any {
+            AnyContact::Contact { time, contact } => self.at(time).with_contact(&contact),
+            AnyContact::Overlapping { overlap } => self.at(0.0).with_overlap(&overlap),
+            AnyContact::Free { proven_gap } => self.at(duration).with_gap(proven_gap),
+            AnyContact::Unresolved { safe_until, .. } => self.at(safe_until),
+        }
+    }
+
+    fn with_interval(self, interval: &ContactInterval, duration: f64) -> Self {
+        let (row, last_time) = match *interval {
+            ContactInterval::Free { proven_gap } => {
+                return self.at(duration).with_gap(proven_gap);
+            }
+            ContactInterval::Within { first, last } => {
+                let row = self.at(first.time);
+                let row = match &first.contact {
+                    Some(contact) => row.with_contact(contact),
+                    None => row,
+                };
+                (row, last.time)
+            }
+            ContactInterval::Unresolved {
+                safe_until,
+                safe_from,
+                ..
+            } => (self.at(safe_until), safe_from),
+        };
+        ResultRow {
+            last_time: Some(last_time),
+            ..row
+        }
+    }
+
+    fn with_distance(self, closest: &ClosestApproach) -> Self {
+        match closest {
+            ClosestApproach::Overlapping { overlap } => self.at(0.0).with_overlap(overlap),
+            ClosestApproach::Nearest { time, contact, .. }
+            | ClosestApproach::Unresolved {
+                nearest: Some((time, contact)),
+                ..
             } => ResultRow {
-                witness_a: cells(point),
-                witness_b: cells(point),
-                ..row
+                distance_lower: Some(closest.lower()),
+                ..self.at(*time).with_contact(contact)
             },
-            Outcome::Free { proven_gap } => ResultRow {
-                distance_lower: Some(proven_gap),
-                ..row
-            },
-            Outcome::Unresolved { reason, .. } => ResultRow {
-                reason: Some(reason.to_string()),
-                ..row
+            ClosestApproach::Unresolved { nearest: None, .. } => self,
+        }
+    }
+
+    fn at(self, time: f64) -> Self {
+        ResultRow {
+            time: Some(time),
+            ..self
+        }
+    }
+
+    fn with_gap(self, proven_gap: f64) -> Self {
+        ResultRow {
+            distance_lower: Some(proven_gap),
+            ..self
+        }
+    }
+
+    fn with_overlap(self, overlap: &Overlap) -> Self {
+        match overlap {
+            Overlap::Pieces(contact) => self.with_contact(contact),
+            // The point lies in both bodies.
+            Overlap::AInsideB(point) | Overlap::BInsideA(point) => ResultRow {
+                witness_a: cells(*point),
+                witness_b: cells(*point),
+                ..self
             },
         }
     }
@@ -262,11 +271,10 @@ impl ResultRow {
 
 /// Returns the columns of a table.
 pub(crate) fn columns(extent: Extent) -> Vec<&'static str> {
-    let more: &[&str] = match extent {
-        Extent::Results => &[],
-        Extent::WithCounters => &COUNTER_COLUMNS,
-    };
-    [&COLUMNS, more].concat()
+    let mut columns = COLUMNS.to_vec();
+    columns.extend(extent.last_time.then_some(LAST_TIME));
+    columns.extend(COUNTER_COLUMNS.iter().filter(|_| extent.counters));
+    columns
 }
 
 /// Writes a row; numbers read back to the same bits.
@@ -278,10 +286,26 @@ pub(crate) fn write(
     extent: Extent,
     row: &ResultRow,
 ) -> Result<(), csv::Error> {
-    match extent {
-        Extent::Results => writer.serialize(row),
-        Extent::WithCounters => writer.serialize((row, row.counters)),
-    }
+    let last_time = if extent.last_time {
+        &[row.last_time][..]
+    } else {
+        &[]
+    };
+    let counters = counters(row.counters.as_ref());
+    let counters = if extent.counters { &counters[..] } else { &[] };
+    writer.serialize((row, last_time, counters))
+}
+
+/// Returns the cells of the counters, in the order of [`COUNTER_COLUMNS`].
+fn counters(stats: Option<&Stats>) -> [Option<u64>; COUNTER_COLUMNS.len()] {
+    let counter = |of: fn(&Stats) -> u64| stats.map(of);
+    [
+        counter(|stats| stats.advancements),
+        counter(|stats| stats.effort.steps),
+        counter(|stats| stats.effort.cycles),
+        counter(|stats| stats.effort.fallbacks),
+        counter(|stats| stats.peak_front),
+    ]
 }
 
 fn cells(v: DVec3) -> [Option<f64>; 3] {

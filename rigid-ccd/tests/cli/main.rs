@@ -5,6 +5,7 @@ mod contacts;
 mod decompose;
 mod manual;
 mod messages;
+mod questions;
 mod refusals;
 mod resume;
 

@@ -7,10 +7,11 @@ use super::summary::Summary;
 use crate::ParallelSolver;
 use crate::batch::{BatchSize, Bodies, Settings, Solve, Timed, time};
 use crate::command::bad_rows::BadRows;
-use crate::command::files::{CannotWrite, Motions, input_name};
+use crate::command::files::{CannotWrite, Rows, input_name};
 use crate::command::progress::Progress;
 use crate::table::contacts;
-use crate::table::motions::{MotionRow, Query, RowError, RowPosition, RowProblem, TableError};
+use crate::table::courses::{Course, CourseRow};
+use crate::table::motions::{RowError, RowPosition, TableError};
 use crate::table::results::{self, ResultRow};
 use anyhow::{Context, Result};
 use std::time::Instant;
@@ -30,11 +31,7 @@ pub(super) struct Answering<'a> {
 
 impl Answering<'_> {
     /// Answers the selected rows from `start` on, and returns where they end.
-    pub(super) fn answer_all(
-        &mut self,
-        rows: &mut Motions,
-        start: Checkpoint,
-    ) -> Result<Checkpoint> {
+    pub(super) fn answer_all(&mut self, rows: &mut Rows, start: Checkpoint) -> Result<Checkpoint> {
         let mut done = start;
         loop {
             let end = self.args.rows.end;
@@ -61,14 +58,12 @@ impl Answering<'_> {
     }
 
     /// Answers a batch of rows, and writes their results and contacts.
-    fn answer(&mut self, batch: &[MotionRow]) -> Result<(), CannotWrite> {
+    fn answer(&mut self, batch: &[CourseRow]) -> Result<(), CannotWrite> {
         let (bodies, settings, progress) = (self.bodies, &self.settings, &self.progress);
         let start = Instant::now();
         let answers = self.solver.map(batch, |solver, row| {
             let answer = match row {
-                Ok((_, query)) => {
-                    time(bodies, query, settings, solver.as_mut()).map_err(RowProblem::from)
-                }
+                Ok((_, course)) => time(bodies, course, settings, solver.as_mut()),
                 Err(error) => Err(error.problem.clone()),
             };
             progress.step();
@@ -78,14 +73,15 @@ impl Answering<'_> {
         let mut answered = Vec::new();
         for (row, answer) in batch.iter().zip(&answers) {
             let (position, id) = match row {
-                Ok((position, query)) => (*position, &query.id),
-                Err(error) => (error.position, &error.id),
+                Ok((position, course)) => (*position, course.id()),
+                Err(error) => (error.position, error.id.as_str()),
             };
             let row = match (row, answer) {
-                (Ok((_, query)), Ok(timed)) => {
-                    self.summary.add(timed);
-                    answered.push((position, query, timed));
-                    self.result(query, timed)
+                (Ok((_, course)), Ok(timed)) => {
+                    let row = self.result(course, timed);
+                    self.summary.add(row.status, timed);
+                    answered.push((position, course, timed));
+                    row
                 }
                 (_, Err(problem)) | (Err(RowError { problem, .. }), _) => {
                     self.summary.add_error();
@@ -101,8 +97,9 @@ impl Answering<'_> {
     }
 
     /// Returns the row of the results for an answer.
-    fn result(&self, query: &Query, timed: &Timed) -> ResultRow {
-        let row = ResultRow::new(&query.id, query.duration, &timed.answer, timed.micros);
+    fn result(&self, course: &Course, timed: &Timed) -> ResultRow {
+        let Timed { answer, micros } = timed;
+        let row = ResultRow::new(course, answer, *micros, self.args.clearance);
         ResultRow {
             micros: row.micros.filter(|_| !self.args.no_micros),
             ..row
@@ -112,7 +109,7 @@ impl Answering<'_> {
     /// Writes the contacts of rows that are answered; rows with too many contacts are bad rows.
     fn write_contacts(
         &mut self,
-        answered: &[(RowPosition, &Query, &Timed)],
+        answered: &[(RowPosition, &Course, &Timed)],
     ) -> Result<(), CannotWrite> {
         let Some(table) = &mut self.outputs.contacts else {
             return Ok(());
@@ -120,8 +117,8 @@ impl Answering<'_> {
         let (bodies, config) = (self.bodies, &self.settings.config);
         // A row may have very many contacts.
         for few in answered.chunks(ROWS_OF_CONTACTS) {
-            let all = self.solver.map(few, |_, (_, query, timed)| {
-                contacts::rows(bodies, query, config, &timed.answer.outcome)
+            let all = self.solver.map(few, |_, (_, course, timed)| {
+                contacts::rows(bodies, course, config, &timed.answer)
             });
             for ((position, ..), rows) in few.iter().zip(all) {
                 match rows {
@@ -145,7 +142,7 @@ impl Answering<'_> {
 const ROWS_OF_CONTACTS: usize = 64;
 
 /// Reads up to `count` rows, and the error that ended the table early, if any.
-fn read_batch(rows: &mut Motions, count: usize) -> (Vec<MotionRow>, Option<TableError>) {
+fn read_batch(rows: &mut Rows, count: usize) -> (Vec<CourseRow>, Option<TableError>) {
     let mut batch = Vec::new();
     for row in rows.take(count) {
         match row {

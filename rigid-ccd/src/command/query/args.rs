@@ -1,7 +1,7 @@
 //! The options of `ccd query`.
 
 use super::help::{AFTER_HELP, AFTER_LONG_HELP};
-use crate::batch::{BoundKind, OracleKind, ScheduleKind};
+use crate::batch::{BoundKind, OracleKind, Question, ScheduleKind};
 use crate::command::pieces::{NOT_GIVEN, PiecesArgs, value_name};
 use crate::table::results::Extent;
 use crate::text::Number;
@@ -13,7 +13,7 @@ use std::path::PathBuf;
 use std::str::FromStr;
 use std::time::Duration;
 
-/// Find the first contact of two bodies for each row of a table of motions
+/// Find the first contact of two bodies, or their least distance, for each row of a table of motions
 #[derive(Clone, Debug, Args)]
 #[command(after_help = AFTER_HELP, after_long_help = AFTER_LONG_HELP)]
 pub(in crate::command) struct QueryArgs {
@@ -24,9 +24,16 @@ pub(in crate::command) struct QueryArgs {
     /// Body B, in the same forms as body A; a file given for both is loaded once
     #[arg(long, value_name = "BODY")]
     pub(super) b: String,
-    /// Table of motions to read, CSV; - reads standard input
+    /// Table of motions to read, CSV, or of paths if it has a column `t`; - reads standard input
     #[arg(long, value_name = "CSV")]
     pub(super) motions: PathBuf,
+    /// Question that every row answers; all but the first need --schedule best-first
+    #[arg(long, value_enum, default_value_t)]
+    pub(super) ask: Question,
+    /// Distance to compare with, of --ask closest-approach or distance: rows are `kept`, `violated` or
+    /// `unverified`, in the scene's unit of length
+    #[arg(long, value_name = "LENGTH", value_parser = not_negative, allow_hyphen_values = true)]
+    pub(super) clearance: Option<f64>,
     /// Distance backend: how the distance between two pieces is computed
     #[arg(long, value_enum, default_value_t)]
     pub(super) oracle: OracleKind,
@@ -99,9 +106,9 @@ pub(in crate::command) struct QueryArgs {
 impl QueryArgs {
     /// Returns the set of columns that the table of results has.
     pub(super) fn extent(&self) -> Extent {
-        match self.counters {
-            true => Extent::WithCounters,
-            false => Extent::Results,
+        Extent {
+            last_time: self.ask == Question::ContactInterval,
+            counters: self.counters,
         }
     }
 
@@ -112,6 +119,8 @@ impl QueryArgs {
             a,
             b,
             motions: _,
+            ask,
+            clearance,
             oracle,
             schedule,
             bound,
@@ -133,6 +142,7 @@ impl QueryArgs {
             quiet: _,
         } = self;
         let flag = |given| if given { "given" } else { NOT_GIVEN }.to_owned();
+        let clearance = clearance.map(|length| Number(length).to_string());
         let bound = bound.map(|bound| bound.to_string());
         let deadline = deadline.map(|time| Number(time.as_secs_f64()).to_string());
         let contacts = contacts.as_ref().map(|path| path.display().to_string());
@@ -140,6 +150,8 @@ impl QueryArgs {
         let mut recorded = vec![
             ("--a", a.clone()),
             ("--b", b.clone()),
+            ("--ask", ask.to_string()),
+            ("--clearance", or_not(clearance)),
             ("--oracle", oracle.to_string()),
             ("--schedule", schedule.to_string()),
             ("--bound", or_not(bound)),

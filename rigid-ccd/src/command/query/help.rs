@@ -4,6 +4,7 @@
 pub(super) const AFTER_HELP: &str = "\
 Examples:
   ccd query --a knot.obj --b knot.obj --motions motions.csv --out results.csv
+  ccd query --a gripper.stl --b shelf.stl --motions paths.csv --ask closest-approach --clearance .01
   printf 'a_pz,a_vz\\n3,-4\\n' | ccd query --a box:.5,.5,.5 --b box:9,9,1 --motions -
 
 See `ccd query --help` for the columns of all tables and the exit codes.";
@@ -34,18 +35,38 @@ Table of motions:
   distance from B's position at the start to either centre, at all times, are at most 1e12. Rotations
   are at most 1e6 radians. A row outside these ranges has status `error`.
 
+Table of paths:
+  A table with a column `t` has a row for each pose of a path, and a path for each id. Rows of one id
+  follow each other. Each body moves as from a start to an end pose, from row to row.
+  id                        name of the path in the results [default: all rows are one path]
+  t                         time of the row, later than that of the row before
+  a_px ... a_qz, b_px, ...  poses of A and B at that time, as above
+  The results have a row for each path, and --rows counts paths. Times are those of column `t`.
+
+Questions (--ask):
+  first-contact             when do they first touch?
+  is-free                   do they touch at all? `time` is that of any contact, found sooner
+  contact-interval          when do they first touch, when last? Column `last_time` follows the others
+  closest-approach          how close do they come, and when? Bounds to within --tolerance
+  distance                  how far apart are they at the start; of paths, in each row?
+
 Table of results:
   id                        as in the table of motions
   status    contact         within margin + tolerance at `time`, no contact before
             free            no contact during the whole duration
             touching        within margin + tolerance at the start
             overlapping     intersecting at the start, or one body inside the other, which is a solid
+            measured        the distance is between distance_lower and distance_upper
+            kept            it is at least --clearance
+            violated        it is less than --clearance
+            unverified      --clearance is between both bounds, or a limit was reached
             unresolved      a limit was reached; no contact before `time`, not known after
             error           the row is not a valid query; most cells are empty
-  time                      certified: no contact before it; from 0 to the duration
+  time                      certified: no contact before it; from 0 to the duration; of a distance,
+                            when the bodies are nearest
   distance_lower, distance_upper
-                            bounds of the distance at `time`; of `free`: distance_lower holds at all
-                            times
+                            bounds of the distance at `time`; of `free` and of a distance:
+                            distance_lower holds at all times
   normal_x ... normal_z     unit vector from A to B, world frame, at `time`
   witness_a_x ... witness_b_z
                             a pair of nearest points, world frame, at `time`
@@ -55,6 +76,8 @@ Table of results:
   micros                    time of this query in microseconds; for accurate times use --threads 1
   reason                    of `error`: what is wrong; of `unresolved`: the limit, one of budget,
                             deadline, stalled, oracle gave up, undecided
+  With --ask contact-interval also:
+  last_time                 certified: no contact after it
   With --counters also:
   advancements              steps that advanced all pairs together; 0 for best-first
   oracle_steps, cycles      steps of the distance backend's search; returns to an earlier step

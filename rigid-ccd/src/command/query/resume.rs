@@ -4,7 +4,7 @@ use super::args::QueryArgs;
 use super::journal::Checkpoint;
 use super::summary::Summary;
 use super::{exit, print_summary};
-use crate::command::files::{Motions, input_name};
+use crate::command::files::{Rows, input_name};
 use crate::command::{Exit, complain};
 use anyhow::{Context, Result, bail};
 
@@ -22,7 +22,7 @@ pub(super) fn report(args: &QueryArgs, earlier: Option<Checkpoint>) {
 /// Skips the rows that are answered or not selected, and returns where the run starts.
 pub(super) fn skip_rows(
     args: &QueryArgs,
-    rows: &mut Motions,
+    rows: &mut Rows,
     earlier: Option<Checkpoint>,
 ) -> Result<Checkpoint> {
     let input = || input_name(&args.motions);
@@ -46,11 +46,7 @@ pub(super) fn skip_rows(
 }
 
 /// Leaves the tables of a finished run unchanged, if the motions are those of that run.
-pub(super) fn leave_finished(
-    args: &QueryArgs,
-    rows: &mut Motions,
-    end: Checkpoint,
-) -> Result<Exit> {
+pub(super) fn leave_finished(args: &QueryArgs, rows: &mut Rows, end: Checkpoint) -> Result<Exit> {
     let (input, out) = (input_name(&args.motions), args.out.display());
     let skipped = rows.skip_rows(end.rows).with_context(|| input.clone())?;
     let same = (skipped, rows.checksum()) == (end.rows, end.checksum);

@@ -6,7 +6,6 @@ mod tests;
 use super::limits::Reached;
 use crate::batch::Timed;
 use crate::table::results::Status;
-use ccd_core::Outcome;
 use ccd_core::order::greater;
 use std::collections::BTreeMap;
 use std::fmt;
@@ -63,12 +62,12 @@ impl Summary {
         self
     }
 
-    /// Adds an answer.
-    pub(super) fn add(&mut self, timed: &Timed) {
+    /// Adds an answer of that status.
+    pub(super) fn add(&mut self, status: Status, timed: &Timed) {
         let answer = &timed.answer;
-        self.counts[Status::from(&answer.outcome) as usize] += 1;
-        if let Outcome::Unresolved { reason, .. } = answer.outcome {
-            self.limits.add(reason);
+        self.counts[status as usize] += 1;
+        if let Some(limit) = answer.outcome.limit() {
+            self.limits.add(limit);
         }
         self.iterations += answer.stats.iterations;
         self.oracle_calls += answer.stats.oracle_calls;

@@ -1,5 +1,6 @@
 use super::*;
-use ccd_core::{Feature, Limit};
+use crate::table::motions::Query;
+use ccd_core::{Feature, Limit, Stats};
 
 fn pair() -> FeaturePair {
     FeaturePair {
@@ -42,18 +43,23 @@ fn outcomes_without_a_contact_have_no_rows() {
     let body = ccd_core::Body::ball(1.0).unwrap();
     let bodies = Bodies { a: &body, b: &body };
     let still = ccd_core::Motion::still(ccd_core::Pose::IDENTITY);
-    let query = Query {
+    let course = Course::Motions(Query {
         id: String::new(),
         a: still,
         b: still,
         duration: 1.0,
-    };
+    });
     let unresolved = Outcome::Unresolved {
         safe_until: 0.5,
         reason: Limit::Budget,
     };
     for outcome in [Outcome::Free { proven_gap: 1.0 }, unresolved] {
-        let rows = rows(bodies, &query, &Config::default(), &outcome);
+        let answer = Answer {
+            outcome: Found::First(outcome),
+            tolerance: 1e-3,
+            stats: Stats::default(),
+        };
+        let rows = rows(bodies, &course, &Config::default(), &answer);
         assert_eq!(rows, Ok(Vec::new()));
     }
 }

@@ -6,7 +6,7 @@ use std::ops::Range;
 
 /// One of the two bodies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Side {
+pub(in crate::table) enum Side {
     A,
     B,
 }
@@ -23,25 +23,104 @@ pub(super) enum Quantity {
     Centre,
 }
 
-/// The columns of a body, without its prefix.
+/// What a line of a table is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::table) enum Form {
+    /// The motions of both bodies.
+    Motions,
+    /// The poses of both bodies at a time.
+    Paths,
+}
+
+/// The columns of a body, without its prefix; a line of a path has those of a pose.
 const OF_BODY: [&str; 23] = [
     "px", "py", "pz", "qw", "qx", "qy", "qz", "end_px", "end_py", "end_pz", "end_qw", "end_qx",
     "end_qy", "end_qz", "vx", "vy", "vz", "wx", "wy", "wz", "cx", "cy", "cz",
 ];
+const OF_POSE: usize = 7;
 
-/// Returns all columns in order: the id, A's, B's, the duration.
-pub(super) fn known() -> Vec<String> {
-    let of = |letter| OF_BODY.iter().map(move |name| format!("{letter}_{name}"));
-    std::iter::once("id".to_owned())
-        .chain(of('a'))
-        .chain(of('b'))
-        .chain(std::iter::once("duration".to_owned()))
-        .collect()
+impl Form {
+    /// Recognises a table by its header: those of paths have a column `t`.
+    pub(in crate::table) fn of(header: &csv::ByteRecord) -> Self {
+        match header
+            .iter()
+            .any(|cell| cell.trim_ascii() == TIME_NAME.as_bytes())
+        {
+            true => Form::Paths,
+            false => Form::Motions,
+        }
+    }
+
+    /// Returns all columns in order.
+    pub(super) fn names(self) -> Vec<String> {
+        let bodies = ['a', 'b'].into_iter().flat_map(|letter| {
+            let of_body = OF_BODY.iter().take(self.of_body());
+            of_body.map(move |name| format!("{letter}_{name}"))
+        });
+        let (before, after): (&[&str], &[&str]) = match self {
+            Form::Motions => (&["id"], &["duration"]),
+            Form::Paths => (&["id", TIME_NAME], &[]),
+        };
+        let owned = |names: &[&str]| {
+            names
+                .iter()
+                .map(|&name| name.to_owned())
+                .collect::<Vec<_>>()
+        };
+        let (before, after) = (owned(before), owned(after));
+        before.into_iter().chain(bodies).chain(after).collect()
+    }
+
+    /// The slots of a quantity.
+    pub(super) fn slots(self, side: Side, quantity: Quantity) -> Range<usize> {
+        let within = match quantity {
+            Quantity::Position => 0..3,
+            Quantity::Orientation => 3..7,
+            Quantity::EndPosition => 7..10,
+            Quantity::EndOrientation => 10..14,
+            Quantity::Velocity => 14..17,
+            Quantity::Spin => 17..20,
+            Quantity::Centre => 20..23,
+        };
+        let first_of_a = match self {
+            Form::Motions => 1,
+            Form::Paths => 2,
+        };
+        let first = match side {
+            Side::A => first_of_a,
+            Side::B => first_of_a + self.of_body(),
+        };
+        first + within.start..first + within.end
+    }
+
+    /// The number of columns of a body.
+    fn of_body(self) -> usize {
+        match self {
+            Form::Motions => OF_BODY.len(),
+            Form::Paths => OF_POSE,
+        }
+    }
+
+    /// Lists the columns for messages.
+    pub(super) fn listed(self) -> &'static str {
+        match self {
+            Form::Motions => {
+                "known columns are id, duration, and with the prefix a_ or b_: px py pz, qw qx qy qz, vx vy vz, \
+                 wx wy wz, end_px end_py end_pz, end_qw end_qx end_qy end_qz, cx cy cz; or, for paths with \
+                 several poses, id, t and the first seven"
+            }
+            Form::Paths => {
+                "a table with a column t holds the poses of paths: known columns are id, t, and with the prefix \
+                 a_ or b_: px py pz, qw qx qy qz"
+            }
+        }
+    }
 }
 
 /// The columns of a table.
 #[derive(Debug)]
-pub(super) struct Columns {
+pub(in crate::table) struct Columns {
+    form: Form,
     names: Vec<String>,
     /// The cell of each known column.
     cells: Vec<Option<usize>>,
@@ -49,7 +128,10 @@ pub(super) struct Columns {
 }
 
 impl Columns {
-    pub(super) fn from_header(header: &csv::ByteRecord) -> Result<Self, TableError> {
+    pub(in crate::table) fn from_header(
+        header: &csv::ByteRecord,
+        form: Form,
+    ) -> Result<Self, TableError> {
         if let Some(format) = foreign::format(header) {
             return Err(TableError::NotCsv { format });
         }
@@ -63,14 +145,15 @@ impl Columns {
         if header.iter().all(|column| column.is_empty()) {
             return Err(TableError::Empty);
         }
-        let names = known();
+        let names = form.names();
         if let Some(number) = number_without_names(&header, &names) {
-            return Err(TableError::NoHeader { number });
+            let known = form.listed();
+            return Err(TableError::NoHeader { number, known });
         }
         let mut cells = vec![None; names.len()];
         for (cell, &column) in header.iter().enumerate() {
             let Some(slot) = names.iter().position(|name| name == column) else {
-                return Err(unknown(&header, column, &names));
+                return Err(unknown(&header, column, form));
             };
             if cells[slot].replace(cell).is_some() {
                 return Err(TableError::RepeatedColumn {
@@ -79,10 +162,16 @@ impl Columns {
             }
         }
         Ok(Columns {
+            form,
             names,
             cells,
             len: header.len(),
         })
+    }
+
+    /// The slots of a quantity.
+    pub(super) fn slots(&self, side: Side, quantity: Quantity) -> Range<usize> {
+        self.form.slots(side, quantity)
     }
 
     /// Returns the number of columns of the table.
@@ -129,7 +218,7 @@ fn number_without_names(header: &[&str], names: &[String]) -> Option<String> {
 }
 
 /// Returns the error of a header with an unknown column.
-fn unknown(header: &[&str], column: &str, names: &[String]) -> TableError {
+fn unknown(header: &[&str], column: &str, form: Form) -> TableError {
     if let ([only], Some(separator)) = (header, foreign::separator(column)) {
         return TableError::Separator {
             found: separator,
@@ -138,35 +227,25 @@ fn unknown(header: &[&str], column: &str, names: &[String]) -> TableError {
     }
     let lower = column.to_ascii_lowercase();
     let edit_distance = |name: &&String| strsim::damerau_levenshtein(name, &lower);
+    let names = form.names();
     let nearest = names.iter().min_by_key(edit_distance);
+    // A velocity in a table of paths is no misspelt position.
+    let of_other_form = Form::Motions.names().contains(&lower);
     TableError::UnknownColumn {
         column: column.to_owned(),
+        known: form.listed(),
         // Names are short: a larger distance means another name.
         nearest: nearest
             .filter(|name| edit_distance(name) <= 2 && edit_distance(name) < lower.chars().count())
+            .filter(|name| **name == lower || !of_other_form)
             .cloned(),
     }
 }
 
 /// The slot of the id.
 pub(super) const ID: usize = 0;
-/// The slot of the duration.
+/// The slot of the duration of motions.
 pub(super) const DURATION: usize = 2 * OF_BODY.len() + 1;
-
-/// The slots of a quantity.
-pub(super) fn slots(side: Side, quantity: Quantity) -> Range<usize> {
-    let within = match quantity {
-        Quantity::Position => 0..3,
-        Quantity::Orientation => 3..7,
-        Quantity::EndPosition => 7..10,
-        Quantity::EndOrientation => 10..14,
-        Quantity::Velocity => 14..17,
-        Quantity::Spin => 17..20,
-        Quantity::Centre => 20..23,
-    };
-    let first = match side {
-        Side::A => 1,
-        Side::B => 1 + OF_BODY.len(),
-    };
-    first + within.start..first + within.end
-}
+/// The slot of the time of poses.
+pub(super) const TIME: usize = 1;
+const TIME_NAME: &str = "t";

@@ -31,12 +31,13 @@ pub enum TableError {
     },
     /// The first line has numbers instead of names.
     #[error(
-        "header: `{number}` is a number: the first line must name the columns, such as id,a_px,a_vx; {}",
-        Known(None)
+        "header: `{number}` is a number: the first line must name the columns, such as id,a_px,a_vx; {known}"
     )]
     NoHeader {
         /// The first number.
         number: String,
+        /// The known columns, as text.
+        known: &'static str,
     },
     /// The header is not text.
     #[error("is not text in UTF-8; export it as CSV, in UTF-8")]
@@ -52,10 +53,12 @@ pub enum TableError {
         header: String,
     },
     /// A column is unknown. To ignore it could silently drop a motion.
-    #[error("header: unknown column `{column}`; {}", Known(.nearest.as_deref()))]
+    #[error("header: unknown column `{column}`; {}", Known(.nearest.as_deref(), .known))]
     UnknownColumn {
         /// The name of the column.
         column: String,
+        /// The known columns, as text.
+        known: &'static str,
         /// The known column with the most similar name.
         nearest: Option<String>,
     },
@@ -88,17 +91,13 @@ impl fmt::Display for RowOrHeader<'_> {
 }
 
 /// The most similar column, or a list of all columns.
-struct Known<'a>(Option<&'a str>);
+struct Known<'a>(Option<&'a str>, &'a str);
 
 impl fmt::Display for Known<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.0 {
             Some(nearest) => write!(f, "did you mean `{nearest}`?"),
-            None => write!(
-                f,
-                "known columns are id, duration, and with the prefix a_ or b_: px py pz, qw qx qy qz, vx vy vz, wx wy wz, \
-                 end_px end_py end_pz, end_qw end_qx end_qy end_qz, cx cy cz"
-            ),
+            None => f.write_str(self.1),
         }
     }
 }
@@ -166,6 +165,22 @@ pub enum RowProblem {
         /// The allowed values.
         allowed: &'static str,
     },
+    /// The times of a path do not increase.
+    NotLater {
+        /// The time of the row.
+        time: f64,
+        /// The time of the row before.
+        before: f64,
+    },
+    /// A path has no time in a row.
+    NoTime,
+    /// A path goes on after rows of other paths.
+    PathApart {
+        /// The id of the path.
+        id: String,
+    },
+    /// Only the default schedule answers this question.
+    NeedsBestFirst,
     /// The numbers are valid, the query is not.
     Input(InputError),
 }
@@ -199,6 +214,18 @@ impl fmt::Display for RowProblem {
             Self::BadDuration { value, allowed } => {
                 write!(f, "column duration: {} is not {allowed}", Number(*value))
             }
+            Self::NotLater { time, before } => write!(
+                f,
+                "column t: {} is not later than {}, the time of the row before; sort the rows of each id by t",
+                Number(*time),
+                Number(*before)
+            ),
+            Self::NoTime => write!(f, "column t: no value; each row of a path needs its time"),
+            Self::PathApart { id } => write!(
+                f,
+                "path `{id}` goes on here after rows of other paths; sort the table by id, then by t"
+            ),
+            Self::NeedsBestFirst => write!(f, "needs --schedule best-first"),
             Self::Input(error) => write!(f, "{error}"),
         }
     }

@@ -1,7 +1,7 @@
 //! One row of the table, parsed as the motions of two bodies.
 
 use super::Query;
-use super::columns::{Columns, DURATION, ID, Quantity, Side, slots};
+use super::columns::{Columns, DURATION, ID, Quantity, Side, TIME};
 use super::error::RowProblem;
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{InputError, Motion, Pose};
@@ -13,15 +13,10 @@ pub(super) fn query(
     record: &csv::ByteRecord,
     index: usize,
 ) -> Result<Query, RowProblem> {
-    if record.len() != columns.len() {
-        return Err(RowProblem::WrongLength {
-            cells: record.len(),
-            columns: columns.len(),
-        });
-    }
+    let cells = texts(columns, record)?;
     let row = Row {
         columns,
-        cells: &texts(columns, record)?,
+        cells: &cells,
     };
     // A negative zero is a zero.
     let duration = row.number(DURATION)?.unwrap_or(1.0) + 0.0;
@@ -41,18 +36,48 @@ pub(super) fn query(
     })
 }
 
-/// Returns the id of a row, which may be unreadable otherwise.
-pub(super) fn id(columns: &Columns, record: &csv::ByteRecord, index: usize) -> String {
+/// The poses of both bodies at a time.
+pub(in crate::table) struct Poses {
+    pub(in crate::table) time: f64,
+    pub(in crate::table) a: Pose,
+    pub(in crate::table) b: Pose,
+}
+
+/// Parses a row of a path.
+pub(in crate::table) fn poses(
+    columns: &Columns,
+    record: &csv::ByteRecord,
+) -> Result<Poses, RowProblem> {
+    let cells = texts(columns, record)?;
+    let row = Row {
+        columns,
+        cells: &cells,
+    };
+    Ok(Poses {
+        time: row.number(TIME)?.ok_or(RowProblem::NoTime)?,
+        a: row.start(Side::A)?,
+        b: row.start(Side::B)?,
+    })
+}
+
+/// Returns the id of a row, which may be unreadable otherwise; none where it has none.
+pub(in crate::table) fn id(columns: &Columns, record: &csv::ByteRecord) -> Option<String> {
     let cell = columns.index(ID).and_then(|index| record.get(index));
-    let id = String::from_utf8_lossy(cell.unwrap_or_default());
+    let id = String::from_utf8_lossy(cell?);
     match id.trim() {
-        "" => index.to_string(),
-        id => id.to_owned(),
+        "" => None,
+        id => Some(id.to_owned()),
     }
 }
 
 /// Returns the cells, trimmed.
 fn texts<'r>(columns: &Columns, record: &'r csv::ByteRecord) -> Result<Vec<&'r str>, RowProblem> {
+    if record.len() != columns.len() {
+        return Err(RowProblem::WrongLength {
+            cells: record.len(),
+            columns: columns.len(),
+        });
+    }
     let text = |(index, cell)| match str::from_utf8(cell) {
         Ok(text) => Ok(text.trim()),
         Err(_) => Err(RowProblem::NotText {
@@ -68,13 +93,18 @@ struct Row<'a> {
 }
 
 impl Row<'_> {
-    fn motion(&self, side: Side, duration: f64) -> Result<Motion, RowProblem> {
+    /// Returns the pose at the start.
+    fn start(&self, side: Side) -> Result<Pose, RowProblem> {
         let position = self.vector(side, Quantity::Position)?;
         let orientation = self.quaternion(side, Quantity::Orientation)?;
-        let start = Pose::new(
+        Ok(Pose::new(
             position.unwrap_or(DVec3::ZERO),
             orientation.unwrap_or(DQuat::IDENTITY),
-        )?;
+        )?)
+    }
+
+    fn motion(&self, side: Side, duration: f64) -> Result<Motion, RowProblem> {
+        let start = self.start(side)?;
         let velocity = self.vector(side, Quantity::Velocity)?;
         let spin = self.vector(side, Quantity::Spin)?;
         let centre = self.vector(side, Quantity::Centre)?.unwrap_or(DVec3::ZERO);
@@ -103,28 +133,29 @@ impl Row<'_> {
     }
 
     fn first_given(&self, side: Side, first: Quantity, second: Quantity) -> Option<String> {
-        slots(side, first)
-            .chain(slots(side, second))
+        self.columns
+            .slots(side, first)
+            .chain(self.columns.slots(side, second))
             .find(|&slot| self.columns.cell(self.cells, slot).is_some())
             .map(|slot| self.columns.name(slot).to_owned())
     }
 
     /// Returns a vector whose missing components are 0; none when all are missing.
     fn vector(&self, side: Side, quantity: Quantity) -> Result<Option<DVec3>, RowProblem> {
-        let parts = self.numbers::<3>(slots(side, quantity))?;
+        let parts = self.numbers::<3>(self.columns.slots(side, quantity))?;
         let given = parts.iter().any(Option::is_some);
         Ok(given.then(|| DVec3::from(parts.map(Option::unwrap_or_default))))
     }
 
     /// Returns a vector with all components or none: 0 is no natural default for an end position.
     fn full_vector(&self, side: Side, quantity: Quantity) -> Result<Option<DVec3>, RowProblem> {
-        let parts = self.all_or_none::<3>(slots(side, quantity))?;
+        let parts = self.all_or_none::<3>(self.columns.slots(side, quantity))?;
         Ok(parts.map(DVec3::from))
     }
 
     /// Returns a quaternion that is not normalised yet, but can be; all four components or none.
     fn quaternion(&self, side: Side, quantity: Quantity) -> Result<Option<DQuat>, RowProblem> {
-        let slots = slots(side, quantity);
+        let slots = self.columns.slots(side, quantity);
         let Some([w, x, y, z]) = self.all_or_none(slots.clone())? else {
             return Ok(None);
         };

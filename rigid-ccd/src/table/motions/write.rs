@@ -1,7 +1,7 @@
 //! The table of motions, written.
 
 use super::Query;
-use super::columns::{DURATION, ID, Quantity, Side, known, slots};
+use super::columns::{DURATION, Form, ID, Quantity, Side};
 use ccd_core::Motion;
 use std::io;
 
@@ -12,7 +12,7 @@ use std::io;
 /// # Errors
 /// `output` cannot be written to.
 pub fn write(output: impl io::Write, queries: &[Query]) -> Result<(), csv::Error> {
-    let names = known();
+    let names = Form::Motions.names();
     let defaults = cells(&Query {
         id: String::new(),
         a: Motion::still(ccd_core::Pose::IDENTITY),
@@ -22,7 +22,7 @@ pub fn write(output: impl io::Write, queries: &[Query]) -> Result<(), csv::Error
     let rows: Vec<Vec<String>> = queries.iter().map(cells).collect();
     // The parts of an orientation are kept or omitted together.
     let differs = |slot: usize| rows.iter().any(|row| row[slot] != defaults[slot]);
-    let orientation = |side| slots(side, Quantity::Orientation);
+    let orientation = |side| Form::Motions.slots(side, Quantity::Orientation);
     let kept: Vec<usize> = (0..names.len())
         .filter(|&slot| {
             let whole = [Side::A, Side::B]
@@ -43,13 +43,13 @@ pub fn write(output: impl io::Write, queries: &[Query]) -> Result<(), csv::Error
 
 /// Returns a cell for every known column.
 fn cells(query: &Query) -> Vec<String> {
-    let mut cells = vec![String::new(); known().len()];
+    let mut cells = vec![String::new(); Form::Motions.names().len()];
     cells[ID].clone_from(&query.id);
     cells[DURATION] = query.duration.to_string();
     for (side, motion) in [(Side::A, &query.a), (Side::B, &query.b)] {
         let rotation = motion.start().rotation();
         let mut put = |quantity, values: &[f64]| {
-            for (slot, value) in slots(side, quantity).zip(values) {
+            for (slot, value) in Form::Motions.slots(side, quantity).zip(values) {
                 cells[slot] = value.to_string();
             }
         };

@@ -1,7 +1,9 @@
 use super::*;
-use ccd_core::{Effort, Feature, Limit, Separation};
+use crate::table::motions::Query;
+use ccd_core::schedule::Touch;
+use ccd_core::{Effort, Feature, Limit, Motion, Separation};
 
-fn answer(outcome: Outcome) -> Answer {
+fn answer(outcome: Found) -> Answer<Found> {
     Answer {
         outcome,
         tolerance: 1e-3,
@@ -29,6 +31,16 @@ fn contact() -> Contact {
     }
 }
 
+/// A query of that duration.
+fn course(duration: f64) -> Course {
+    Course::Motions(Query {
+        id: "a,b".into(),
+        a: Motion::STILL,
+        b: Motion::STILL,
+        duration,
+    })
+}
+
 /// A table of one row.
 fn table(extent: Extent, row: &ResultRow) -> String {
     let mut writer = csv::WriterBuilder::new()
@@ -41,18 +53,22 @@ fn table(extent: Extent, row: &ResultRow) -> String {
 
 /// The cells of a row as written, by column.
 fn written(outcome: Outcome) -> Vec<(&'static str, String)> {
-    let row = ResultRow::new("a,b", 2.5, &answer(outcome), 12.75);
-    let text = table(Extent::Results, &row);
+    cells_of(Found::First(outcome), None, Extent::default())
+}
+
+/// The cells of a row of any answer as written, by column.
+fn cells_of(found: Found, clearance: Option<f64>, extent: Extent) -> Vec<(&'static str, String)> {
+    let row = ResultRow::new(&course(2.5), &answer(found), 12.75, clearance);
+    let text = table(extent, &row);
     let mut reader = csv::Reader::from_reader(text.as_bytes());
+    let columns = columns(extent);
     assert_eq!(
         reader.headers().unwrap(),
-        &csv::StringRecord::from(COLUMNS.to_vec())
+        &csv::StringRecord::from(columns.clone())
     );
     let record = reader.records().next().unwrap().unwrap();
-    COLUMNS
-        .into_iter()
-        .zip(record.iter().map(str::to_owned))
-        .collect()
+    let cells = record.iter().map(str::to_owned);
+    columns.into_iter().zip(cells).collect()
 }
 
 fn cell(row: &[(&str, String)], column: &str) -> String {
@@ -62,6 +78,11 @@ fn cell(row: &[(&str, String)], column: &str) -> String {
         .1
         .clone()
 }
+
+const COUNTED: Extent = Extent {
+    last_time: false,
+    counters: true,
+};
 
 #[test]
 fn a_contact_fills_every_cell() {
@@ -141,7 +162,7 @@ fn an_error_row_has_only_its_reason() {
         value: "x".into(),
     };
     let row = ResultRow::error("bad", &problem);
-    let text = table(Extent::WithCounters, &row);
+    let text = table(COUNTED, &row);
     let cells = text.lines().nth(1).unwrap();
     let reason = "column a_px: `x` is not a finite number";
     assert_eq!(cells, format!("bad,error{},{reason},,,,,", ",".repeat(17)));
@@ -160,11 +181,11 @@ fn counters_follow_the_other_columns() {
             },
             ..Stats::default()
         },
-        ..answer(Outcome::Free { proven_gap: 0.25 })
+        ..answer(Found::First(Outcome::Free { proven_gap: 0.25 }))
     };
-    let row = ResultRow::new("a", 2.5, &answer, 12.75);
+    let row = ResultRow::new(&course(2.5), &answer, 12.75, None);
     let text = |extent| table(extent, &row);
-    let (plain, counted) = (text(Extent::Results), text(Extent::WithCounters));
+    let (plain, counted) = (text(Extent::default()), text(COUNTED));
     for (line, (with, more)) in plain.lines().zip(counted.lines().zip([
         "advancements,oracle_steps,cycles,fallbacks,front",
         "12,13,14,15,11",
@@ -172,4 +193,62 @@ fn counters_follow_the_other_columns() {
         assert_eq!(format!("{line},{more}"), with);
     }
     assert_eq!((plain.lines().count(), counted.lines().count()), (2, 2));
+}
+
+#[test]
+fn an_interval_has_its_last_time_after_the_other_columns() {
+    let extent = Extent {
+        last_time: true,
+        ..COUNTED
+    };
+    let touch = |time| Touch {
+        time,
+        contact: Some(contact()),
+    };
+    let within = Found::Interval(ContactInterval::Within {
+        first: touch(0.5),
+        last: touch(2.0),
+    });
+    let row = cells_of(within, None, extent);
+    let [status, time, last] = ["status", "time", "last_time"].map(|name| cell(&row, name));
+    assert_eq!([&*status, &*time, &*last], ["contact", "0.5", "2.0"]);
+    assert_eq!(row[COLUMNS.len()].0, "last_time");
+    assert_eq!(row.len(), COLUMNS.len() + 1 + COUNTER_COLUMNS.len());
+    let free = Found::Interval(ContactInterval::Free { proven_gap: 0.25 });
+    let row = cells_of(free, None, extent);
+    assert_eq!(
+        (cell(&row, "time"), cell(&row, "last_time")),
+        ("2.5".into(), String::new())
+    );
+}
+
+#[test]
+fn distances_are_compared_to_the_clearance() {
+    let nearest = Found::Distance(ClosestApproach::Nearest {
+        lower: 0.05,
+        time: 1.5,
+        contact: contact(),
+    });
+    let unresolved = Found::Distance(ClosestApproach::Unresolved {
+        nearest: Some((1.5, contact())),
+        reason: Limit::Budget,
+    });
+    let overlapping = Found::Distance(ClosestApproach::Overlapping {
+        overlap: Overlap::AInsideB(DVec3::ZERO),
+    });
+    for (found, clearance, status, lower, reason) in [
+        (nearest, None, "measured", "0.05", ""),
+        (nearest, Some(0.05), "kept", "0.05", ""),
+        (nearest, Some(0.1), "unverified", "0.05", WITHIN_BOUNDS),
+        (nearest, Some(0.25), "violated", "0.05", ""),
+        (unresolved, None, "unresolved", "0.0", "budget"),
+        (unresolved, Some(0.0), "unverified", "0.0", "budget"),
+        (unresolved, Some(0.25), "violated", "0.0", "budget"),
+        (overlapping, None, "overlapping", "", ""),
+        (overlapping, Some(0.0), "violated", "", ""),
+    ] {
+        let row = cells_of(found, clearance, Extent::default());
+        let cells = ["status", "distance_lower", "reason"].map(|name| cell(&row, name));
+        assert_eq!(cells, [status, lower, reason].map(str::to_owned));
+    }
 }

@@ -1,17 +1,19 @@
 use super::*;
-use crate::batch::median;
+use crate::batch::{Found, median};
 use ccd_core::{Answer, Effort, Outcome, Stats};
 
 fn sum<'t>(answers: impl IntoIterator<Item = &'t Timed>, tolerance: f64) -> Summary {
     let mut summary = Summary::new(tolerance);
-    answers.into_iter().for_each(|timed| summary.add(timed));
+    answers
+        .into_iter()
+        .for_each(|timed| summary.add(Status::Free, timed));
     summary
 }
 
 fn timed(micros: f64, tolerance: f64) -> Timed {
     Timed {
         answer: Answer {
-            outcome: Outcome::Free { proven_gap: 1.0 },
+            outcome: Found::First(Outcome::Free { proven_gap: 1.0 }),
             tolerance,
             stats: Stats {
                 iterations: 10,
@@ -104,7 +106,7 @@ fn rows_of_earlier_runs_are_counted_separately() {
         "2 rows: 1 free, 1 error; 0 in this run"
     );
     assert_eq!(summary.means(), None);
-    summary.add(&timed(5.0, 1e-3));
+    summary.add(Status::Free, &timed(5.0, 1e-3));
     assert_eq!((summary.rows(), summary.median_micros()), (3, 5.0));
     let text = summary.to_string();
     let begin = "3 rows: 2 free, 1 error; 1 in this run; median 5.0";

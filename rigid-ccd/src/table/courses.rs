@@ -1,0 +1,120 @@
+//! The rows of a query: motions, or paths.
+
+use super::motions::columns::Form;
+use super::motions::{MotionRows, Query, RowError, RowPosition, TableError};
+use super::paths::{Grouping, Path, PathRows};
+use super::records::Records;
+use std::io;
+
+/// How both bodies of a query move.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Course {
+    /// At constant velocities.
+    Motions(Query),
+    /// From pose to pose.
+    Path(Path),
+}
+
+impl Course {
+    /// Returns the id of the row in the results.
+    pub fn id(&self) -> &str {
+        match self {
+            Course::Motions(Query { id, .. }) | Course::Path(Path { id, .. }) => id,
+        }
+    }
+
+    /// Returns the end, as a time from the start.
+    pub fn duration(&self) -> f64 {
+        match *self {
+            Course::Motions(Query { duration, .. }) | Course::Path(Path { duration, .. }) => {
+                duration
+            }
+        }
+    }
+
+    /// Returns the time of the table at a time from the start, rounded down: no later than it is.
+    pub fn earliest(&self, time: f64) -> f64 {
+        match self {
+            Course::Motions(_) => time,
+            Course::Path(path) => path.earliest(time),
+        }
+    }
+
+    /// Returns the time of the table at a time from the start, rounded up: no earlier than it is.
+    pub fn latest(&self, time: f64) -> f64 {
+        match self {
+            Course::Motions(_) => time,
+            Course::Path(path) => path.latest(time),
+        }
+    }
+}
+
+/// An iterator over the rows of a table of motions or paths.
+#[derive(Debug)]
+pub enum Courses<R> {
+    /// Each row is a query.
+    Motions(MotionRows<R>),
+    /// All rows of an id are a query.
+    Paths(PathRows<R>),
+}
+
+/// A valid row, or the error of a bad one.
+pub type CourseRow = Result<(RowPosition, Course), RowError>;
+
+impl<R: io::Read> Courses<R> {
+    /// Reads the header: a table with a column `t` is one of paths.
+    ///
+    /// # Errors
+    /// The header cannot be read, or has columns that cannot be used.
+    pub fn new(input: R, grouping: Grouping) -> Result<Self, TableError> {
+        let records = Records::new(input)?;
+        Ok(match Form::of(records.current()) {
+            Form::Motions => Courses::Motions(MotionRows::after_header(records)?),
+            Form::Paths => Courses::Paths(PathRows::after_header(records, grouping)?),
+        })
+    }
+
+    /// Skips rows without parsing them, and returns the number skipped.
+    ///
+    /// # Errors
+    /// [`TableError::Unreadable`], [`TableError::UnclosedQuote`].
+    pub fn skip_rows(&mut self, rows: usize) -> Result<usize, TableError> {
+        match self {
+            Courses::Motions(table) => table.skip_rows(rows),
+            Courses::Paths(table) => table.skip_rows(rows),
+        }
+    }
+
+    /// Returns the number of bytes read from the input, with those that wait in a buffer.
+    pub fn bytes(&self) -> u64 {
+        match self {
+            Courses::Motions(table) => table.bytes(),
+            Courses::Paths(table) => table.bytes(),
+        }
+    }
+
+    /// Returns a checksum of the header and of all rows so far.
+    pub fn checksum(&self) -> u32 {
+        match self {
+            Courses::Motions(table) => table.checksum(),
+            Courses::Paths(table) => table.checksum(),
+        }
+    }
+}
+
+impl<R: io::Read> Iterator for Courses<R> {
+    type Item = Result<CourseRow, TableError>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        fn valid<T>(
+            row: Result<(RowPosition, T), RowError>,
+            course: impl Fn(T) -> Course,
+        ) -> CourseRow {
+            row.map(|(position, row)| (position, course(row)))
+        }
+        match self {
+            Courses::Motions(table) => Some(table.next()?.map(|row| valid(row, Course::Motions))),
+            Courses::Paths(table) => Some(table.next()?.map(|row| valid(row, Course::Path))),
+        }
+    }
+}

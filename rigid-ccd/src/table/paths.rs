@@ -1,0 +1,259 @@
+//! The table of paths: CSV with a row for each pose of two bodies, grouped by id.
+
+#[cfg(test)]
+mod tests;
+
+use super::motions::columns::{Columns, Form};
+use super::motions::row::{self, Poses};
+use super::motions::{RowError, RowPosition, RowProblem, TableError};
+use super::records::Records;
+use crate::trajectory;
+use ccd_core::{InputError, Pose, Trajectory};
+use std::collections::HashSet;
+use std::hash::{BuildHasher, RandomState};
+use std::io;
+
+/// The paths of two bodies over one duration.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Path {
+    /// The id of the row in the results.
+    pub id: String,
+    /// The path of body A, from time 0.
+    pub a: trajectory::Poses,
+    /// The path of body B, from time 0.
+    pub b: trajectory::Poses,
+    /// The time of the table at time 0.
+    pub start: f64,
+    /// The time of the table at the end.
+    pub end: f64,
+    /// The end of the paths.
+    pub duration: f64,
+}
+
+/// The rows of a table that make one path.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Grouping {
+    /// All consecutive rows of an id.
+    ById,
+    /// Each row, at rest.
+    EachRow,
+}
+
+/// An iterator over the paths of a table.
+///
+/// Columns go by name, in any order: `id`, `t`, and poses as in a table of motions. Rows of one path follow
+/// each other, in the order of their times.
+#[derive(Debug)]
+pub struct PathRows<R> {
+    records: Records<R>,
+    columns: Columns,
+    grouping: Grouping,
+    /// The number of paths read.
+    paths: usize,
+    /// The position of the current record, if it begins the next path.
+    next: Option<RowPosition>,
+    /// The checksum of the header and of all rows of the paths read.
+    checksum: u32,
+    /// Hashes of the ids of the paths read.
+    known: HashSet<u64>,
+    hasher: RandomState,
+}
+
+/// A valid path, or the error of a bad one.
+type PathRow = Result<(RowPosition, Path), RowError>;
+
+impl<R: io::Read> PathRows<R> {
+    /// Continues after the header, which is the current record.
+    ///
+    /// # Errors
+    /// The header has columns that cannot be used, or there is no row.
+    pub(super) fn after_header(
+        mut records: Records<R>,
+        grouping: Grouping,
+    ) -> Result<Self, TableError> {
+        let columns = Columns::from_header(records.current(), Form::Paths)?;
+        let checksum = records.checksum();
+        Ok(PathRows {
+            next: records.advance()?,
+            records,
+            columns,
+            grouping,
+            paths: 0,
+            checksum,
+            known: HashSet::new(),
+            hasher: RandomState::new(),
+        })
+    }
+
+    /// Skips paths without parsing their poses, and returns the number skipped.
+    ///
+    /// # Errors
+    /// [`TableError::Unreadable`], [`TableError::UnclosedQuote`].
+    pub fn skip_rows(&mut self, paths: usize) -> Result<usize, TableError> {
+        for skipped in 0..paths {
+            if self.read(|_, _, _| ())?.is_none() {
+                return Ok(skipped);
+            }
+        }
+        Ok(paths)
+    }
+
+    /// Returns the number of bytes read from the input, with those that wait in a buffer.
+    pub fn bytes(&self) -> u64 {
+        self.records.bytes()
+    }
+
+    /// Returns a checksum of the header and of all rows of the paths so far.
+    pub fn checksum(&self) -> u32 {
+        self.checksum
+    }
+
+    /// Reads the rows of a path, and returns its id and the position of its first row; none at the end.
+    fn read(
+        &mut self,
+        mut row: impl FnMut(RowPosition, &Columns, &csv::ByteRecord),
+    ) -> Result<Option<Beginning>, TableError> {
+        let Some(position) = self.next.take() else {
+            return Ok(None);
+        };
+        let id = row::id(&self.columns, self.records.current());
+        let seen = match (self.grouping, &id) {
+            (Grouping::ById, Some(id)) => !self.known.insert(self.hasher.hash_one(id)),
+            // Rows without an id are one path with those that follow.
+            (Grouping::ById, None) | (Grouping::EachRow, _) => false,
+        };
+        let mut at = position;
+        loop {
+            row(at, &self.columns, self.records.current());
+            self.checksum = self.records.checksum();
+            self.next = self.records.advance()?;
+            let same = |next| match self.grouping {
+                Grouping::ById => row::id(&self.columns, next) == id,
+                Grouping::EachRow => false,
+            };
+            match self.next {
+                Some(next) if same(self.records.current()) => at = next,
+                _ => break,
+            }
+        }
+        let index = self.paths;
+        self.paths += 1;
+        Ok(Some(Beginning {
+            position,
+            id: id.unwrap_or_else(|| index.to_string()),
+            seen,
+        }))
+    }
+
+    fn path(&mut self) -> Result<Option<PathRow>, TableError> {
+        let mut poses: Vec<Poses> = Vec::new();
+        let mut bad: Option<(RowPosition, RowProblem)> = None;
+        let read = self.read(|position, columns, record| {
+            if bad.is_none() {
+                let found = row::poses(columns, record).and_then(|row| after(poses.last(), row));
+                match found {
+                    Ok(row) => poses.push(row),
+                    Err(problem) => bad = Some((position, problem)),
+                }
+            }
+        })?;
+        let Some(Beginning { position, id, seen }) = read else {
+            return Ok(None);
+        };
+        if seen {
+            let problem = RowProblem::PathApart { id: id.clone() };
+            bad = Some((position, problem));
+        }
+        let path = match bad {
+            None => Path::new(&id, &poses).map_err(|problem| (position, problem)),
+            Some(bad) => Err(bad),
+        };
+        Ok(Some(match path {
+            Ok(path) => Ok((position, path)),
+            Err((position, problem)) => Err(RowError {
+                position,
+                id,
+                problem,
+            }),
+        }))
+    }
+}
+
+/// The first row of a path.
+struct Beginning {
+    position: RowPosition,
+    id: String,
+    /// Whether the id is that of a path further up.
+    seen: bool,
+}
+
+/// Refuses a row that is not later than the one before.
+fn after(before: Option<&Poses>, row: Poses) -> Result<Poses, RowProblem> {
+    match before {
+        Some(before) if row.time <= before.time => Err(RowProblem::NotLater {
+            time: row.time,
+            before: before.time,
+        }),
+        _ => Ok(row),
+    }
+}
+
+impl Path {
+    /// Creates a path through poses, of which there is at least one.
+    fn new(id: &str, rows: &[Poses]) -> Result<Self, RowProblem> {
+        let start = rows[0].time;
+        let of = |pose: fn(&Poses) -> Pose| {
+            let timed = rows.iter().map(|row| (row.time - start, pose(row)));
+            trajectory::Poses::new(timed.collect())
+        };
+        let (a, b) = (of(|row| row.a)?, of(|row| row.b)?);
+        Ok(Path {
+            id: id.to_owned(),
+            duration: a.end(),
+            a,
+            b,
+            start,
+            end: rows[rows.len() - 1].time,
+        })
+    }
+
+    /// Returns the poses of both bodies at a time from the start.
+    ///
+    /// # Errors
+    /// [`InputError`]: a pose is out of range.
+    pub fn poses(&self, time: f64) -> Result<[Pose; 2], InputError> {
+        Ok([self.a.pose(time)?, self.b.pose(time)?])
+    }
+
+    /// Returns the time of the table at a time from the start, rounded down: no later than it is.
+    pub fn earliest(&self, time: f64) -> f64 {
+        self.in_table(time, -1.0)
+    }
+
+    /// Returns the time of the table at a time from the start, rounded up: no earlier than it is.
+    pub fn latest(&self, time: f64) -> f64 {
+        self.in_table(time, 1.0)
+    }
+
+    fn in_table(&self, time: f64, direction: f64) -> f64 {
+        if self.start == 0.0 {
+            return time;
+        }
+        // Times of rows less the first are rounded, and so is this sum.
+        let rounding = 4.0 * f64::EPSILON * (self.start.abs() + self.duration);
+        match self.start + time + direction * rounding {
+            _ if time >= self.duration => self.end,
+            early if early < self.start => self.start,
+            late if late > self.end => self.end,
+            within => within,
+        }
+    }
+}
+
+impl<R: io::Read> Iterator for PathRows<R> {
+    type Item = Result<PathRow, TableError>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        self.path().transpose()
+    }
+}

@@ -1,0 +1,153 @@
+use super::*;
+use crate::table::courses::{Course, CourseRow, Courses};
+use ccd_core::glam::DVec3;
+
+fn rows(text: &str, grouping: Grouping) -> Vec<CourseRow> {
+    let rows = Courses::new(text.as_bytes(), grouping).expect("a header that can be used");
+    assert!(matches!(rows, Courses::Paths(_)));
+    rows.map(|row| row.expect("a table that can be read"))
+        .collect()
+}
+
+fn paths(text: &str) -> Vec<Path> {
+    let rows = rows(text, Grouping::ById).into_iter();
+    rows.map(|row| match row {
+        Ok((_, Course::Path(path))) => path,
+        other => panic!("no path: {other:?}"),
+    })
+    .collect()
+}
+
+/// The row of the only error, and its message.
+fn only_problem(text: &str) -> (usize, String) {
+    let rows = rows(text, Grouping::ById);
+    let mut errors = rows.into_iter().filter_map(Result::err);
+    let error = errors.next().expect("an error");
+    assert_eq!(errors.next(), None);
+    (error.position.row, error.problem.to_string())
+}
+
+fn places(path: &Path, times: &[f64]) -> Vec<[f64; 3]> {
+    let place = |&time| path.poses(time).unwrap()[0].translation().to_array();
+    times.iter().map(place).collect()
+}
+
+#[test]
+fn rows_of_an_id_are_one_path() {
+    let read = paths(
+        "t,id,a_px,b_py\n\
+         0,one,0,7\n\
+         2,one,4,7\n\
+         4,one,0,7\n\
+         0,two,1,\n",
+    );
+    let [one, two] = &read[..] else {
+        panic!("two paths, not {read:?}")
+    };
+    assert_eq!((one.id.as_str(), one.duration), ("one", 4.0));
+    let expected = [[0.0; 3], [2.0, 0.0, 0.0], [4.0, 0.0, 0.0], [2.0, 0.0, 0.0]];
+    assert_eq!(places(one, &[0.0, 1.0, 2.0, 3.0]), expected);
+    assert_eq!(one.poses(3.0).unwrap()[1].translation(), 7.0 * DVec3::Y);
+    assert_eq!((two.id.as_str(), two.duration), ("two", 0.0));
+}
+
+#[test]
+fn a_table_without_ids_is_one_path() {
+    let read = paths("t,a_px\n0,0\n1,1\n");
+    assert_eq!(read.len(), 1);
+    assert_eq!((read[0].id.as_str(), read[0].duration), ("0", 1.0));
+}
+
+#[test]
+fn each_row_may_be_a_pose_at_rest() {
+    let rows = rows("id,t,a_px\nx,0,1\nx,5,2\ny,7,3\n", Grouping::EachRow);
+    let read: Vec<(usize, String, f64, f64)> = rows
+        .into_iter()
+        .map(|row| match row {
+            Ok((position, Course::Path(path))) => {
+                let x = path.poses(0.0).unwrap()[0].translation().x;
+                (position.row, path.id.clone(), path.earliest(0.0), x)
+            }
+            other => panic!("no pose: {other:?}"),
+        })
+        .collect();
+    let expected = [(0, "x", 0.0, 1.0), (1, "x", 5.0, 2.0), (2, "y", 7.0, 3.0)];
+    let expected = expected.map(|(row, id, time, x)| (row, id.to_owned(), time, x));
+    assert_eq!(read, expected);
+}
+
+#[test]
+fn times_may_begin_anywhere() {
+    let read = paths("t,a_px\n1e9,0\n1000000000.5,1\n");
+    let path = &read[0];
+    assert_eq!((path.start, path.duration), (1e9, 0.5));
+    assert_eq!((path.earliest(0.0), path.earliest(0.5)), (1e9, 1e9 + 0.5));
+    let (early, late) = (path.earliest(0.25), path.latest(0.25));
+    assert!(early < 1e9 + 0.25 && late > 1e9 + 0.25 && late - early < 1e-5);
+    let from_zero = &paths("t\n0\n1\n")[0];
+    assert_eq!((from_zero.earliest(0.1), from_zero.latest(0.1)), (0.1, 0.1));
+}
+
+#[test]
+fn a_path_that_cannot_be_followed_is_an_error() {
+    for (text, row, problem) in [
+        (
+            "id,t\na,0\na,2\na,2\na,3\n",
+            2,
+            "column t: 2 is not later than 2",
+        ),
+        ("id,t\na,0\na,\n", 1, "column t: no value"),
+        (
+            "id,t\na,0\nb,0\na,1\n",
+            2,
+            "path `a` goes on here after rows of other paths",
+        ),
+        ("id,t,a_px\na,0,1\na,1,x\n", 1, "column a_px: `x`"),
+        (
+            "id,t,a_px\na,0,1\na,1\n",
+            1,
+            "has 2 cells, but the header has 3",
+        ),
+        (
+            "t,a_qw,a_qx,a_qy,a_qz\n0,0,0,0,0\n",
+            0,
+            "columns a_qw a_qx a_qy a_qz",
+        ),
+    ] {
+        let (at, message) = only_problem(text);
+        assert_eq!(at, row, "{text}");
+        assert!(message.starts_with(problem), "{message}");
+    }
+}
+
+#[test]
+fn columns_of_motions_are_no_columns_of_paths() {
+    let message = |header: &str| {
+        let rows = Courses::new(header.as_bytes(), Grouping::ById);
+        rows.map(|_| ()).unwrap_err().to_string()
+    };
+    let refused = message("id,t,a_vx\n");
+    let expected = "unknown column `a_vx`; a table with a column t";
+    assert!(refused.contains(expected), "{refused}");
+    assert!(message("id,t,a_pX\n").ends_with("did you mean `a_px`?"));
+}
+
+#[test]
+fn checksums_are_of_the_paths_that_are_read() {
+    let text = "id,t\na,0\na,1\nb,0\nb,1\n";
+    let other = "id,t\na,0\na,1\nb,0\nb,2\n";
+    let open = |text: &'static str| Courses::new(text.as_bytes(), Grouping::ById).unwrap();
+    let sum = |text, skipped: usize| {
+        let mut rows = open(text);
+        assert_eq!(rows.skip_rows(skipped).unwrap(), skipped);
+        rows.checksum()
+    };
+    for skipped in [0, 1] {
+        assert_eq!(sum(text, skipped), sum(other, skipped));
+    }
+    assert_ne!(sum(text, 2), sum(other, 2));
+    let mut rows = open(text);
+    rows.next().unwrap().unwrap().unwrap();
+    assert_eq!(rows.checksum(), sum(text, 1));
+    assert_eq!(rows.skip_rows(5).unwrap(), 1);
+}

@@ -1,0 +1,95 @@
+//! The records of a CSV table, with their positions and a checksum.
+
+use crate::table::lines::Lines;
+use crate::table::motions::{RowPosition, TableError};
+use crate::table::quotes::Quotes;
+use std::io::{self, Read};
+
+/// A table that is read record by record.
+///
+/// Lines may end in `\n`, `\r\n` or `\r`. Empty lines are skipped, but counted. A quoted cell may hold line
+/// ends, and must be closed.
+#[derive(Debug)]
+pub(crate) struct Records<R> {
+    reader: Reader<R>,
+    raw: csv::ByteRecord,
+    /// The number of records read, without the header.
+    rows: usize,
+    checksum: crc32fast::Hasher,
+}
+
+type Reader<R> = csv::Reader<io::Chain<Quotes<Lines<R>>, &'static [u8]>>;
+
+impl<R: Read> Records<R> {
+    /// Reads the header, which is the current record then.
+    ///
+    /// # Errors
+    /// [`TableError::Unreadable`], [`TableError::UnclosedQuote`].
+    pub(crate) fn new(input: R) -> Result<Self, TableError> {
+        let mut reader = csv::ReaderBuilder::new()
+            .flexible(true)
+            .has_headers(false)
+            // Every line needs an end, the last one too: the line of a row is computed from its end.
+            .from_reader(Quotes::new(Lines::new(input)).chain(&b"\n"[..]));
+        let mut raw = csv::ByteRecord::new();
+        reader.read_byte_record(&mut raw)?;
+        if let Some(line) = unclosed(&reader) {
+            return Err(TableError::UnclosedQuote { row: None, line });
+        }
+        let mut checksum = crc32fast::Hasher::new();
+        checksum.update(raw.as_slice());
+        Ok(Records {
+            reader,
+            raw,
+            rows: 0,
+            checksum,
+        })
+    }
+
+    /// Returns the current record.
+    pub(crate) fn current(&self) -> &csv::ByteRecord {
+        &self.raw
+    }
+
+    /// Returns the number of bytes read from the input, with those that wait in a buffer.
+    pub(crate) fn bytes(&self) -> u64 {
+        self.reader.get_ref().get_ref().0.input().bytes
+    }
+
+    /// Returns a checksum of the header and of all records so far.
+    pub(crate) fn checksum(&self) -> u32 {
+        self.checksum.clone().finalize()
+    }
+
+    /// Reads the next record, and returns its position; none at the end.
+    ///
+    /// # Errors
+    /// [`TableError::Unreadable`], [`TableError::UnclosedQuote`].
+    pub(crate) fn advance(&mut self) -> Result<Option<RowPosition>, TableError> {
+        let before = self.reader.position().line();
+        if !self.reader.read_byte_record(&mut self.raw)? {
+            return Ok(None);
+        }
+        if let Some(line) = unclosed(&self.reader) {
+            let row = Some(self.rows);
+            return Err(TableError::UnclosedQuote { row, line });
+        }
+        self.checksum.update(self.raw.as_slice());
+        let row = self.rows;
+        self.rows += 1;
+        // Empty lines before the row have been read as well: its line is computed from its end.
+        let ends = |cell: &[u8]| cell.iter().filter(|&&byte| byte == b'\n').count() as u64;
+        let within: u64 = self.raw.iter().map(ends).sum();
+        let after = self.reader.position().line();
+        Ok(Some(RowPosition {
+            row,
+            line: after.saturating_sub(within + 1).max(before),
+        }))
+    }
+}
+
+/// Returns the line of an unclosed quote in the record that was read last.
+fn unclosed<R: Read>(reader: &Reader<R>) -> Option<u64> {
+    let (quotes, _) = reader.get_ref().get_ref();
+    quotes.unclosed(reader.position().line())
+}

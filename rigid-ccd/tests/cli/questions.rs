@@ -1,0 +1,244 @@
+//! `ccd query --ask`, of motions and of paths.
+
+use crate::command::{Row, Run, Scene, parse, stderr};
+use crate::{DROP, DROP_TIME, FALLING_CUBE};
+use std::fs;
+
+/// A ball that passes another one at a distance of 0.2, nearest at time 0.5.
+const BALLS: [&str; 4] = ["--a", "sphere:.5", "--b", "sphere:.5"];
+const PASSES: &str = "id,a_px,a_py,a_vx\npasses,-3,1.2,6\n";
+
+/// A cube that comes down onto a slab, stays for a unit of time and leaves: from pose to pose, at times that
+/// begin at 10. It touches from 12.5 to 15.
+const VISIT: &str = "id,t,a_px,a_pz\n\
+                     visit,10,0,4\n\
+                     visit,13,0,1\n\
+                     visit,14,5,1\n\
+                     visit,18,5,3\n";
+const VISIT_BEGINS: f64 = 12.5;
+const VISIT_ENDS: f64 = 15.0;
+
+fn ask(question: &str, bodies: &[&str], table: &str) -> Run {
+    Run::query(bodies).args(&["--ask", question]).stdin(table)
+}
+
+fn only(run: &Run) -> Row {
+    let mut rows = run.succeeds();
+    assert_eq!(rows.len(), 1);
+    rows.remove(0)
+}
+
+#[test]
+fn a_contact_is_found_at_any_time() {
+    let row = only(&ask("is-free", &FALLING_CUBE, DROP));
+    assert_eq!(row.text("status"), "contact");
+    let time = row.number("time");
+    assert!((DROP_TIME - 1e-3..=1.0).contains(&time), "{time}");
+    assert!(row.number("distance_upper") <= 1e-3);
+    let row = only(&ask("is-free", &BALLS, PASSES));
+    assert_eq!((row.text("status"), row.text("time")), ("free", "1.0"));
+    assert!(row.number("distance_lower") > 0.0);
+}
+
+#[test]
+fn an_interval_holds_the_contact() {
+    let through = "a_pz,a_vz,duration\n4,-4,3\n";
+    let row = only(&ask("contact-interval", &FALLING_CUBE, through));
+    assert_eq!(row.text("status"), "contact");
+    row.assert_in_time(DROP_TIME, 4.0);
+    let late = row.number("last_time") - 5.5 / 4.0;
+    assert!((0.0..=1e-3 / 4.0).contains(&late), "{late} late");
+}
+
+#[test]
+fn the_least_distance_is_bracketed_and_compared() {
+    let row = only(&ask("closest-approach", &BALLS, PASSES));
+    assert_eq!(row.text("status"), "measured");
+    let [lower, upper] = ["distance_lower", "distance_upper"].map(|name| row.number(name));
+    assert!(lower <= 0.2 && 0.2 <= upper && upper - lower <= 1e-3);
+    assert!((row.number("time") - 0.5).abs() < 0.05);
+    for (clearance, status) in [("0", "kept"), ("0.19", "kept"), ("0.21", "violated")] {
+        let run = ask("closest-approach", &BALLS, PASSES).args(&["--clearance", clearance]);
+        assert_eq!(only(&run).text("status"), status, "{clearance}");
+    }
+    let run = ask("closest-approach", &FALLING_CUBE, DROP).args(&["--clearance", "0.002"]);
+    assert_eq!(only(&run).text("status"), "violated");
+    let run =
+        ask("closest-approach", &BALLS, PASSES).args(&["--clearance", "0.2", "--tolerance", "0.1"]);
+    let row = only(&run);
+    assert_eq!(row.text("status"), "unverified");
+    assert!(
+        row.text("reason").contains("--clearance"),
+        "{}",
+        row.text("reason")
+    );
+}
+
+#[test]
+fn the_distance_is_that_of_the_start() {
+    let row = only(&ask("distance", &FALLING_CUBE, DROP));
+    assert_eq!((row.text("status"), row.text("time")), ("measured", "0.0"));
+    assert!((row.number("distance_lower") - 2.5).abs() < 1e-3);
+    assert!((row.number("distance_upper") - 2.5).abs() < 1e-12);
+    assert!((row.number("witness_b_z") - 1.0).abs() < 1e-12);
+    let inside = "a_px\n0.1\n";
+    let row = only(&ask("distance", &FALLING_CUBE, inside));
+    assert_eq!(row.text("status"), "overlapping");
+}
+
+#[test]
+fn paths_answer_every_question() {
+    let row = only(&ask("first-contact", &FALLING_CUBE, VISIT));
+    assert_eq!((row.text("id"), row.text("status")), ("visit", "contact"));
+    row.assert_in_time(VISIT_BEGINS, 1.0);
+
+    let row = only(&ask("is-free", &FALLING_CUBE, VISIT));
+    assert_eq!(row.text("status"), "contact");
+    let time = row.number("time");
+    assert!(
+        (VISIT_BEGINS - 1e-3..=VISIT_ENDS + 2e-3).contains(&time),
+        "{time}"
+    );
+
+    let row = only(&ask("contact-interval", &FALLING_CUBE, VISIT));
+    row.assert_in_time(VISIT_BEGINS, 1.0);
+    let late = row.number("last_time") - VISIT_ENDS;
+    assert!((-1e-9..=2e-3).contains(&late), "{late} late");
+
+    let over = VISIT.replace(",1\n", ",2\n");
+    let row = only(&ask("closest-approach", &FALLING_CUBE, &over));
+    let [lower, upper] = ["distance_lower", "distance_upper"].map(|name| row.number(name));
+    assert!(
+        lower <= 0.5 && 0.5 <= upper && upper - lower <= 1e-3,
+        "{lower} {upper}"
+    );
+    let time = row.number("time");
+    assert!((12.9..=14.1).contains(&time), "{time}");
+    let row = only(&ask("first-contact", &FALLING_CUBE, &over));
+    assert_eq!((row.text("status"), row.text("time")), ("free", "18.0"));
+}
+
+#[test]
+fn distances_are_those_of_every_row_of_a_path() {
+    let rows = ask("distance", &FALLING_CUBE, VISIT).succeeds();
+    let times: Vec<f64> = rows.iter().map(|row| row.number("time")).collect();
+    assert_eq!(times, [10.0, 13.0, 14.0, 18.0]);
+    let statuses: Vec<&str> = rows.iter().map(|row| row.text("status")).collect();
+    assert_eq!(
+        statuses,
+        ["measured", "overlapping", "overlapping", "measured"]
+    );
+    for (row, expected) in [(&rows[0], 2.5), (&rows[3], 1.5)] {
+        assert!((row.number("distance_upper") - expected).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn contacts_of_a_path_are_listed() {
+    let scene = Scene::new("contacts-of-a-path");
+    let contacts = scene.directory.join("contacts.csv");
+    let contacts_name = contacts.to_str().unwrap();
+    let run = ask("first-contact", &FALLING_CUBE, VISIT).args(&["--contacts", contacts_name]);
+    let found = only(&run);
+    let rows = parse(&fs::read(&contacts).unwrap());
+    assert_eq!(rows.len(), 4, "the corners of the cube");
+    for row in rows {
+        assert_eq!(row.text("time"), found.text("time"));
+        assert!(row.number("distance_upper") <= 1e-3);
+    }
+}
+
+#[test]
+fn paths_are_resumed_and_cut_into_rows() {
+    let scene = Scene::new("rows-of-paths");
+    let out = scene.directory.join("results.csv");
+    let table: String = (0..40)
+        .map(|k| format!("p{k},0,0,4\np{k},1,{k},1.{k}\np{k},2,0,{k}\n"))
+        .collect();
+    let table = format!("id,t,a_px,a_pz\n{table}");
+    let run = |more: &[&str]| {
+        ask("is-free", &FALLING_CUBE, &table)
+            .args(&["--no-micros"])
+            .args(more)
+    };
+    let whole = run(&[]).output().stdout;
+    let rows = parse(&whole);
+    let of = |status: &str| {
+        rows.iter()
+            .filter(|row| row.text("status") == status)
+            .count()
+    };
+    assert_eq!(of("contact") + of("free"), 40);
+    assert!(
+        of("contact") > 5 && of("free") > 5,
+        "{} in contact",
+        of("contact")
+    );
+    let part = run(&["--rows", "10..30"]).output().stdout;
+    let lines = |table: &[u8]| {
+        String::from_utf8(table.to_vec())
+            .unwrap()
+            .lines()
+            .map(str::to_owned)
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(lines(&part)[1..], lines(&whole)[11..31]);
+    let out_name = out.to_str().unwrap();
+    run(&["--out", out_name]).succeeds();
+    let again = run(&["--out", out_name, "--resume"]).output();
+    assert!(
+        stderr(&again).contains("already has all rows"),
+        "{}",
+        stderr(&again)
+    );
+    assert_eq!(fs::read(&out).unwrap(), whole);
+}
+
+#[test]
+fn options_without_a_use_are_refused() {
+    for (options, refusal) in [
+        (
+            &["--clearance", "1"][..],
+            "--clearance needs --ask closest-approach or distance",
+        ),
+        (
+            &["--ask", "distance", "--margin", "1"],
+            "use --clearance instead of --margin",
+        ),
+        (
+            &["--ask", "closest-approach", "--contacts", "c.csv"],
+            "--contacts needs --ask first-contact or is-free",
+        ),
+        (
+            &["--ask", "is-free", "--schedule", "fast"],
+            "--ask is-free needs --schedule best-first",
+        ),
+        (
+            &["--ask", "distance", "--start", "leave"],
+            "--start leave needs --ask first-contact",
+        ),
+        (
+            &["--schedule", "naive"],
+            "--schedule naive needs a table of motions, not of paths",
+        ),
+        (
+            &["--start", "leave"],
+            "--start leave needs a table of motions, not of paths",
+        ),
+        (
+            &["--ask", "nothing"],
+            "first-contact, is-free, contact-interval, closest-approach, distance",
+        ),
+    ] {
+        let output = Run::query(&FALLING_CUBE)
+            .args(options)
+            .stdin(VISIT)
+            .output();
+        assert_eq!(output.status.code(), Some(2), "{options:?}");
+        assert!(
+            stderr(&output).contains(refusal),
+            "{options:?}: {}",
+            stderr(&output)
+        );
+    }
+}
