@@ -26,6 +26,7 @@ mod never_late;
 mod oracle_contract;
 mod patch_liars;
 mod published_bound;
+mod questions;
 mod referee;
 mod regressions;
 mod same_names;

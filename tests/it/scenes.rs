@@ -1,12 +1,15 @@
 //! Every scene with a closed-form answer, over every setup and tolerance, in both orders.
 
 use ccd_core::order::lesser;
+use ccd_core::schedule::AnyContact;
 use ccd_core::{Answer, Config, Outcome};
 use ccd_tests::analytic::{Expect, Scene, scenes_named};
-use ccd_tests::backends::{Setup, for_each_setup};
+use ccd_tests::backends::for_each_setup;
 use ccd_tests::checks::{Judge, Law, check_contact};
 use ccd_tests::query::Bodies;
+use ccd_tests::questions::{AnswersAlong, for_each_answers_along};
 use ccd_tests::tolerance::CLOSED_FORM;
+use std::fmt::Debug;
 
 /// Defines one test per group of scenes, by the beginning of their names.
 macro_rules! groups {
@@ -76,13 +79,18 @@ fn check_scene(scene: &Scene, expect: &Expect) {
         };
         for_each_setup(&scene.query, &config, |bodies, setup, answer| {
             if let Err(why) = check_answer(&judge, scene, expect, (bodies, &answer)) {
-                fail(scene, setup, &answer, &why);
+                fail(scene, &setup, &answer, &why);
+            }
+        });
+        for_each_answers_along(&scene.query, &config, |bodies, asked, answers| {
+            if let Err(why) = check_along(&judge, scene, expect, (bodies, &answers)) {
+                fail(scene, &asked, &answers, &why);
             }
         });
     }
 }
 
-fn fail(scene: &Scene, setup: Setup, answer: &Answer, why: &str) -> ! {
+fn fail(scene: &Scene, setup: &dyn Debug, answer: &dyn Debug, why: &str) -> ! {
     let (a, b) = (&scene.query.a.motion, &scene.query.b.motion);
     panic!("{}: {why}\n{setup:?}\n{answer:?}\n{a:?}\n{b:?}", scene.name);
 }
@@ -127,4 +135,42 @@ fn check_answer(
         (Expect::Overlap, _) => return Err("the bodies overlap".into()),
     }
     Ok(())
+}
+
+/// Checks answers along the same motions, given as a user's own.
+fn check_along(
+    judge: &Judge<'_>,
+    scene: &Scene,
+    expect: &Expect,
+    (bodies, answers): (&Bodies, &AnswersAlong),
+) -> Law {
+    check_answer(judge, scene, expect, (bodies, &answers.first))?;
+    let AnswersAlong {
+        any,
+        closest,
+        interval,
+        ..
+    } = answers;
+    if !scene.query.a.shape.mesh.faces.is_empty() {
+        judge.check_any(any, bodies)?;
+        judge.check_closest(closest, bodies)?;
+        judge.check_interval(interval, bodies)?;
+    }
+    let (lower, upper) = (closest.outcome.lower(), closest.outcome.upper());
+    let rounding = scene.query.rounding();
+    let (least, is_free) = match expect {
+        Expect::Hit { .. } | Expect::Overlap => (0.0, false),
+        Expect::Free { gap } => (*gap, *gap > any.tolerance),
+        Expect::Unknown => return Ok(()),
+    };
+    if lower > least + rounding || upper < least - rounding {
+        return Err(format!(
+            "the least distance {least} is not from {lower} to {upper}"
+        ));
+    }
+    match &any.outcome {
+        AnyContact::Free { .. } if !is_free && least == 0.0 => Err("missed by any contact".into()),
+        AnyContact::Contact { .. } if is_free => Err("a false contact".into()),
+        _ => Ok(()),
+    }
 }

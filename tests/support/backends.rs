@@ -31,6 +31,14 @@ pub enum Oracle {
     Vmarch,
 }
 
+impl Oracle {
+    /// Returns true if the oracle supports all pieces.
+    pub fn suits(self, bodies: &Bodies) -> bool {
+        let small = |body: &Body| body.pieces().iter().all(|piece| piece.points.len() <= 3);
+        self != Oracle::ClosedForm || small(bodies.a()) && small(bodies.b())
+    }
+}
+
 /// A schedule with an oracle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Backend {
@@ -77,11 +85,7 @@ impl Backend {
             Order::Fast => bodies.pairs() > 1 && [bodies.a(), bodies.b()].iter().all(has_tree),
             Order::Naive => bodies.pairs() <= NAIVE_PAIRS,
         };
-        let small = self.oracle != Oracle::ClosedForm
-            || [bodies.a(), bodies.b()]
-                .iter()
-                .all(|body| body.pieces().iter().all(|piece| piece.points.len() <= 3));
-        fit && small
+        fit && self.oracle.suits(bodies)
     }
 
     /// Answers with a fresh schedule and a fresh oracle.

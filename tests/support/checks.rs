@@ -1,5 +1,7 @@
 //! The laws of every answer, checked against the referee and against the bodies themselves.
 
+mod questions;
+
 use crate::distances::{
     distance_to_mesh, distance_to_mesh_feature, distance_to_part_feature, distance_to_piece,
 };
@@ -33,6 +35,8 @@ macro_rules! law {
         }
     }};
 }
+
+use law;
 
 impl<'a> Judge<'a> {
     /// Runs the referee on a query.

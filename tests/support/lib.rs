@@ -14,6 +14,7 @@ pub mod mixed;
 pub mod models;
 pub mod patches;
 pub mod query;
+pub mod questions;
 pub mod referee;
 pub mod strategies;
 pub mod tolerance;

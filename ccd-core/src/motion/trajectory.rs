@@ -3,6 +3,7 @@
 use super::Motion;
 use super::pose::Pose;
 use crate::error::InputError;
+use crate::math::order::greater;
 use crate::math::vector::length;
 use crate::tolerance::STRETCH_F64;
 
@@ -180,17 +181,29 @@ pub struct Accelerations {
     pub angular: f64,
 }
 
+impl Accelerations {
+    /// Bounds what they add up to in a time, from a tangent on.
+    fn over(self, time: f64) -> Stray {
+        // The time and the products are rounded.
+        let square = 0.5 * time * time * (1.0 + STRETCH_F64);
+        Stray {
+            shift: self.linear * square,
+            turn: self.angular * square,
+        }
+    }
+}
+
 impl<S: Smooth + ?Sized> Trajectory for S {
     fn stretch(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
-        let half = 0.5 * (to - from);
-        let tangent = self.tangent(from + half)?;
-        let Accelerations { linear, angular } = self.accelerations(from, to);
-        let motion = tangent.started(-half)?;
-        // Twice the half is rounded, and so are the products.
-        let square = 0.5 * half * half * (1.0 + STRETCH_F64);
-        let curved = Stray {
-            shift: linear * square,
-            turn: angular * square,
+        // Times far from 0 have no middle: the halves differ.
+        let middle = from + 0.5 * (to - from);
+        let [before, after] = [middle - from, to - middle];
+        let motion = self.tangent(middle)?.started(-before)?;
+        let half = greater(before, after);
+        // Bounds of a stretch of no length may be infinite.
+        let curved = match half > 0.0 {
+            true => self.accelerations(from, to).over(half),
+            false => Stray::NONE,
         };
         let rounding = motion.rounding_of_start(half) + self.rounding(from, to);
         Ok(Stretch {

@@ -5,7 +5,7 @@ use super::depth_first::DepthFirst;
 use super::meter::Meter;
 use super::pieces::pair::Step;
 use super::proven::{Proven, free_at_once};
-use super::search::{Question, Search};
+use super::search::{Advance, Question, Search};
 use super::start::overlapping;
 use crate::distance::oracle::DistanceOracle;
 use crate::math::order::lesser;
@@ -144,9 +144,9 @@ impl<O: DistanceOracle> Question<O> for Any {
         problem: &Problem<'_>,
         _: &mut O,
         _: &mut Meter,
-        step: Step,
-        s: f64,
+        advance: Advance,
     ) -> ControlFlow<Outcome, f64> {
+        let Advance { clock: s, step, .. } = advance;
         ControlFlow::Break(match step {
             Step::FreeUntil(clock) => return ControlFlow::Continue(clock),
             // A pair that keeps its distance bounds none of the others.

@@ -4,10 +4,9 @@ use super::answer::answer;
 use super::contract::Schedule;
 use super::memory::Kept;
 use super::meter::Meter;
-use super::pieces::pair::Step;
 use super::proven::{Proven, free_at_once};
 use super::queue::Queue;
-use super::search::{Item, Question, Search};
+use super::search::{Advance, Item, Question, Search};
 use crate::distance::oracle::DistanceOracle;
 use crate::outcome::{Answer, Limit, Outcome};
 use crate::problem::Problem;
@@ -117,10 +116,10 @@ impl<O: DistanceOracle> Question<O> for Proven {
         problem: &Problem<'_>,
         oracle: &mut O,
         meter: &mut Meter,
-        step: Step,
-        s: f64,
+        advance: Advance,
     ) -> ControlFlow<Outcome, f64> {
-        Proven::conclude(self, problem, oracle, meter, step, s)
+        let Advance { clock, step, .. } = advance;
+        Proven::conclude(self, problem, oracle, meter, step, clock)
     }
 
     fn stopped(&mut self, problem: &Problem<'_>, s: f64, reason: Limit) -> Outcome {

@@ -10,7 +10,7 @@ use super::nodes::closer_look::CloserLook;
 use super::nodes::common::Common;
 use super::pieces::pair::Step;
 use super::proven::Proven;
-use super::search::{Question, Search};
+use super::search::{Advance, Question, Search};
 use super::start::at_start;
 use crate::distance::oracle::DistanceOracle;
 use crate::math::order::greater;
@@ -276,6 +276,8 @@ fn told<O: DistanceOracle>(
 #[derive(Clone, Copy, Debug)]
 struct Best {
     clock: f64,
+    /// The pieces, as the problem numbers them.
+    pieces: [u32; 2],
     contact: Contact,
 }
 
@@ -329,16 +331,24 @@ impl<O: DistanceOracle> Question<O> for Nearing {
         problem: &Problem<'_>,
         oracle: &mut O,
         meter: &mut Meter,
-        step: Step,
-        s: f64,
+        advance: Advance,
     ) -> ControlFlow<Self::Found, f64> {
+        let Advance {
+            pieces,
+            clock,
+            step,
+        } = advance;
         match step {
             Step::FreeUntil(clock) => ControlFlow::Continue(clock),
             Step::Contact(contact) => {
-                let seen = Best { clock: s, contact };
+                let seen = Best {
+                    clock,
+                    pieces,
+                    contact,
+                };
                 self.best = Some(follow(problem, oracle, meter, seen));
                 // The pair is looked at again: it keeps a lesser distance.
-                ControlFlow::Continue(s)
+                ControlFlow::Continue(clock)
             }
             Step::Overlap(contact) => ControlFlow::Break(Ok(ClosestApproach::Overlapping {
                 overlap: Overlap::Pieces(contact),

@@ -29,8 +29,8 @@ pub(super) struct Nearest<'p> {
     lists: &'p mut Lists,
     /// Pairs at least this far apart are of no interest.
     beyond: f64,
-    /// The pieces of least upper bound.
-    nearest: Option<Contact>,
+    /// The pieces of least upper bound, as the problem numbers them.
+    nearest: Option<([u32; 2], Contact)>,
     /// Bounds the distance of all pieces that were measured or given up.
     lower: f64,
     /// True if some pair could not be shown to intersect or not.
@@ -41,7 +41,7 @@ pub(super) struct Nearest<'p> {
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Stop {
     /// These pieces intersect.
-    Overlap(Contact),
+    Overlap([u32; 2], Contact),
     /// A limit was reached.
     Limit(Limit),
 }
@@ -164,7 +164,7 @@ impl<'p> Nearest<'p> {
         let inner = &mut meter.memory().inner;
         match overlap::intersects(&snapshot.pieces, &checked, problem.rounding, inner) {
             Intersection::Certain => {
-                return ControlFlow::Break(Stop::Overlap(contact(&snapshot, ids, &checked)));
+                return ControlFlow::Break(Stop::Overlap(ids, contact(&snapshot, ids, &checked)));
             }
             Intersection::Undecided => self.undecided = true,
             Intersection::None => {}
@@ -175,14 +175,14 @@ impl<'p> Nearest<'p> {
         }
         self.lower = lesser(self.lower, checked.lower);
         if checked.upper < self.upper() {
-            self.nearest = Some(contact(&snapshot, ids, &checked));
+            self.nearest = Some((ids, contact(&snapshot, ids, &checked)));
         }
         ControlFlow::Continue(())
     }
 
     /// Bounds the distances of interest from above.
     fn upper(&self) -> f64 {
-        let upper = |contact: Contact| contact.separation.upper;
+        let upper = |(_, contact): ([u32; 2], Contact)| contact.separation.upper;
         self.nearest.map_or(self.beyond, upper)
     }
 
@@ -198,8 +198,13 @@ impl<'p> Nearest<'p> {
     /// Returns the nearest pieces, with a lower bound that holds for all; none if there are none of
     /// interest.
     pub(super) fn nearest(&self) -> Option<Contact> {
+        self.pieces().map(|(_, contact)| contact)
+    }
+
+    /// Like [`Nearest::nearest`], with the pieces as the problem numbers them.
+    pub(super) fn pieces(&self) -> Option<([u32; 2], Contact)> {
         self.nearest
-            .map(|contact| contact.no_nearer_than(self.lower))
+            .map(|(pieces, contact)| (pieces, contact.no_nearer_than(self.lower)))
     }
 
     /// Returns the nearest pieces, with a lower bound that holds for all; those `seen` in contact if a
@@ -207,8 +212,8 @@ impl<'p> Nearest<'p> {
     pub(super) fn contact(&self, seen: Contact) -> Contact {
         let within = self.problem.contact_distance();
         let nearest = self
-            .nearest
+            .nearest()
             .filter(|nearest| nearest.separation.upper <= within);
-        nearest.unwrap_or(seen).no_nearer_than(self.lower)
+        nearest.unwrap_or(seen.no_nearer_than(self.lower))
     }
 }

@@ -42,15 +42,13 @@ pub(super) trait Question<O: DistanceOracle> {
     /// Records a gap that pairs of nodes keep until their clocks.
     fn keep(&mut self, gap: f64);
 
-    /// Concludes from the advance of a pair of pieces at clock `s`: returns the clock to wait for, or
-    /// the answer.
+    /// Concludes from the advance of a pair of pieces: returns the clock to wait for, or the answer.
     fn conclude(
         &mut self,
         problem: &Problem<'_>,
         oracle: &mut O,
         meter: &mut Meter,
-        step: Step,
-        s: f64,
+        advance: Advance,
     ) -> ControlFlow<Self::Found, f64>;
 
     /// Returns the answer if a limit is reached at clock `s`.
@@ -58,6 +56,16 @@ pub(super) trait Question<O: DistanceOracle> {
 
     /// Returns the answer if all pairs are proven to the end.
     fn done(&mut self, problem: &Problem<'_>) -> Self::Found;
+}
+
+/// The advance of a pair of pieces.
+pub(super) struct Advance {
+    /// The pieces, as the problem numbers them.
+    pub(super) pieces: [u32; 2],
+    /// The clock at which they were examined.
+    pub(super) clock: f64,
+    /// What came of it.
+    pub(super) step: Step,
 }
 
 /// A search, with what it works with.
@@ -118,8 +126,8 @@ impl<O: DistanceOracle, W: Waiting<Item<O::Cache>>> Search<'_, O, W> {
         }
         let (next, rest) = match item {
             Item::Pieces(pair) => {
-                let step = pair.advance(problem, *oracle, meter, s);
-                match question.conclude(problem, *oracle, meter, step, s)? {
+                let advance = advance(problem, *oracle, meter, pair, s);
+                match question.conclude(problem, *oracle, meter, advance)? {
                     clock if clock >= 1.0 => waiting.remove(),
                     clock => waiting.renew(clock, Rank::PiecePair),
                 }
@@ -145,8 +153,8 @@ impl<O: DistanceOracle, W: Waiting<Item<O::Cache>>> Search<'_, O, W> {
             }
             Next::Ask(a, b) => {
                 let mut pair = Pair::new(a, b);
-                let step = pair.advance(problem, *oracle, meter, s);
-                let clock = question.conclude(problem, *oracle, meter, step, s)?;
+                let advance = advance(problem, *oracle, meter, &mut pair, s);
+                let clock = question.conclude(problem, *oracle, meter, advance)?;
                 (clock, Item::Pieces(pair))
             }
         };
@@ -169,6 +177,21 @@ impl<O: DistanceOracle, W: Waiting<Item<O::Cache>>> Search<'_, O, W> {
             (true, true) => self.waiting.remove(),
         }
         Ok(())
+    }
+}
+
+#[inline(always)]
+fn advance<O: DistanceOracle>(
+    problem: &Problem<'_>,
+    oracle: &mut O,
+    meter: &mut Meter,
+    pair: &mut Pair<O::Cache>,
+    clock: f64,
+) -> Advance {
+    Advance {
+        pieces: [pair.a, pair.b],
+        clock,
+        step: pair.advance(problem, oracle, meter, clock),
     }
 }
 

@@ -53,7 +53,7 @@ fn measured<O: DistanceOracle>(
     let mut lists = std::mem::take(&mut meter.memory().nearest);
     let mut nearest = Nearest::new(problem, 0.0, &mut lists).nearer_than(beyond);
     let outcome = match nearest.search(oracle, meter) {
-        Some(Stop::Overlap(contact)) => Some(overlapping(contact)),
+        Some(Stop::Overlap(_, contact)) => Some(overlapping(contact)),
         Some(Stop::Limit(limit)) => Some(unresolved(limit)),
         None if nearest.undecided => Some(unresolved(Limit::Undecided)),
         None => {

@@ -247,3 +247,6 @@ fn is_free(answer: &Answer<AnyContact>) -> Result<bool, Error> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -97,7 +97,7 @@ impl<R: io::Read> MotionRows<R> {
     ///
     /// # Errors
     /// [`TableError::Unreadable`], [`TableError::UnclosedQuote`].
-    pub(crate) fn skip_rows(&mut self, rows: usize) -> Result<usize, TableError> {
+    pub fn skip_rows(&mut self, rows: usize) -> Result<usize, TableError> {
         for skipped in 0..rows {
             if self.records.advance()?.is_none() {
                 return Ok(skipped);
@@ -112,7 +112,7 @@ impl<R: io::Read> MotionRows<R> {
     }
 
     /// Returns a checksum of the header and of all rows so far.
-    pub(crate) fn checksum(&self) -> u32 {
+    pub fn checksum(&self) -> u32 {
         self.records.checksum()
     }
 }

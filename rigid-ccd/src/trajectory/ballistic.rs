@@ -66,13 +66,14 @@ impl Smooth for Ballistic {
     }
 
     /// The turn since the throw is rounded, and so is the way.
-    fn rounding(&self, _: f64, to: f64) -> Stray {
+    fn rounding(&self, from: f64, to: f64) -> Stray {
         let Ballistic {
             thrown,
             acceleration,
         } = self;
-        let turned = thrown.spin().length() * to;
-        let way = (thrown.velocity().length() + 0.5 * to * acceleration.length()) * to;
+        let time = greater(from.abs(), to.abs());
+        let turned = thrown.spin().length() * time;
+        let way = (thrown.velocity().length() + 0.5 * time * acceleration.length()) * time;
         Stray {
             shift: 16.0 * U * (thrown.start().translation().length() + way),
             turn: 8.0 * U * turned,

@@ -1,6 +1,7 @@
 //! A body that moves in the frame of a moving one.
 
 use super::bounded::{Bounded, Speeds, of_origin, speeds};
+use ccd_core::order::greater;
 use ccd_core::{Accelerations, InputError, Motion, Smooth, Stray};
 
 /// A trajectory in the frame of another one: a tool in a hand, a load on a ship.
@@ -48,12 +49,13 @@ impl Smooth for Steady {
     }
 
     /// The turn since time 0 is rounded, and so is the way.
-    fn rounding(&self, _: f64, to: f64) -> Stray {
+    fn rounding(&self, from: f64, to: f64) -> Stray {
         let Speeds { linear, angular } = speeds(&self.0);
+        let time = greater(from.abs(), to.abs());
         let place = self.0.start().translation().length() + self.0.centre().length();
         Stray {
-            shift: 16.0 * super::U * (place + linear * to),
-            turn: 8.0 * super::U * angular * to,
+            shift: 16.0 * super::U * (place + linear * time),
+            turn: 8.0 * super::U * angular * time,
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Curves in space: Bézier curves and B-splines.
 
 use super::U;
-use super::knots::{middle_knot, spread};
+use super::knots::{middle_knot, overlapping, spread};
 use ccd_core::InputError;
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
@@ -104,7 +104,7 @@ impl Curve {
     /// Bounds the acceleration between two times. A velocity that jumps counts as one that changes in half of
     /// the time, by which a curve strays farther.
     pub(super) fn acceleration(&self, from: f64, to: f64) -> f64 {
-        let smooth = self.overlapping(from, to).map(|segment| {
+        let smooth = self.overlapping(from, to).iter().map(|segment| {
             let [from, to] = [greater(from, segment.from), lesser(to, segment.to)];
             segment.most(2, from, to)
         });
@@ -113,7 +113,7 @@ impl Curve {
 
     /// Bounds the speed between two times.
     pub(super) fn speed(&self, from: f64, to: f64) -> f64 {
-        let speeds = self.overlapping(from, to).map(|segment| {
+        let speeds = self.overlapping(from, to).iter().map(|segment| {
             let [from, to] = [greater(from, segment.from), lesser(to, segment.to)];
             segment.most(1, from, to)
         });
@@ -122,7 +122,8 @@ impl Curve {
 
     /// Returns a time between two others at which two segments meet, about the middle.
     pub(super) fn corner(&self, from: f64, to: f64) -> Option<f64> {
-        middle_knot(self.knots(), from, to)
+        let times = |segment: &Segment| [segment.from, segment.to];
+        middle_knot(self.overlapping(from, to), times, from, to)
     }
 
     /// Bounds the rounding of a position.
@@ -134,28 +135,30 @@ impl Curve {
         8.0 * U * lengths.fold(0.0, greater)
     }
 
-    fn knots(&self) -> impl Iterator<Item = f64> {
-        let starts = self.segments.iter().map(|segment| segment.from);
-        starts.chain([self.duration()])
-    }
-
-    fn overlapping(&self, from: f64, to: f64) -> impl Iterator<Item = &Segment> {
-        (self.segments.iter()).filter(move |segment| segment.from <= to && segment.to >= from)
+    fn overlapping(&self, from: f64, to: f64) -> &[Segment] {
+        overlapping(
+            &self.segments,
+            |segment| [segment.from, segment.to],
+            from,
+            to,
+        )
     }
 
     /// The lengths of the changes of velocity strictly between two times.
     fn jumps(&self, from: f64, to: f64) -> impl Iterator<Item = f64> {
-        let ends = self.segments.iter().enumerate().map(|(k, segment)| {
-            let before = k
-                .checked_sub(1)
-                .map_or(DVec3::ZERO, |k| self.segments[k].derivative(1, 1.0));
-            (segment.from, before.distance(segment.derivative(1, 0.0)))
-        });
-        let last = &self.segments[self.segments.len() - 1];
-        let end = (last.to, last.derivative(1, 1.0).length());
-        ends.chain([end])
-            .filter(move |&(knot, _)| knot > from && knot < to)
-            .map(|(_, jump)| jump)
+        let segments = self.overlapping(from, to);
+        // Before the first segment and after the last there is no velocity.
+        let before = segments
+            .iter()
+            .map(|segment| Some(segment.derivative(1, 1.0)));
+        let after = segments
+            .iter()
+            .map(|segment| (segment.from, segment.derivative(1, 0.0)));
+        let end = segments.last().map(|segment| (segment.to, DVec3::ZERO));
+        let starts = std::iter::once(None).chain(before).zip(after.chain(end));
+        starts
+            .filter(move |&(_, (knot, _))| knot > from && knot < to)
+            .map(|(before, (_, velocity))| before.unwrap_or(DVec3::ZERO).distance(velocity))
     }
 }
 

@@ -1,6 +1,6 @@
 //! A joint, and the motion of a body that hangs on it.
 
-use super::screw::turn;
+use super::screw::{turn, unit_axis};
 use ccd_core::glam::DVec3;
 use ccd_core::{InputError, Motion, Pose};
 use std::ops::RangeInclusive;
@@ -49,7 +49,7 @@ impl Joint {
     /// [`InputError::NotFinite`] for an axis that is not finite, or has no length.
     pub fn revolute(origin: Pose, axis: impl Into<[f64; 3]>) -> Result<Self, InputError> {
         Ok(Joint {
-            kind: Kind::Revolute(unit(axis)?),
+            kind: Kind::Revolute(unit_axis(axis)?),
             ..Joint::fixed(origin)
         })
     }
@@ -60,7 +60,7 @@ impl Joint {
     /// [`InputError::NotFinite`] for an axis that is not finite, or has no length.
     pub fn prismatic(origin: Pose, axis: impl Into<[f64; 3]>) -> Result<Self, InputError> {
         Ok(Joint {
-            kind: Kind::Prismatic(unit(axis)?),
+            kind: Kind::Prismatic(unit_axis(axis)?),
             ..Joint::fixed(origin)
         })
     }
@@ -139,13 +139,5 @@ impl Joint {
 
     pub(super) fn origin(&self) -> &Pose {
         &self.origin
-    }
-}
-
-fn unit(axis: impl Into<[f64; 3]>) -> Result<DVec3, InputError> {
-    let axis = DVec3::from_array(axis.into()).normalize();
-    match axis.is_finite() {
-        true => Ok(axis),
-        false => Err(InputError::NotFinite { what: "axis" }),
     }
 }

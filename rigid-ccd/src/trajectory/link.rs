@@ -4,6 +4,7 @@ use super::U;
 use super::bounded::{Bounded, Speeds};
 use super::chain::Chain;
 use super::joint::{Joint, Kind};
+use super::screw::turn;
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 use ccd_core::{Accelerations, InputError, Motion, Pose, Smooth, Stray, Trajectory};
@@ -17,6 +18,8 @@ use ccd_core::{Accelerations, InputError, Motion, Pose, Smooth, Stray, Trajector
 /// it, only the joints in between count.
 ///
 /// Axes that are parallel add no `ω̇`.
+///
+/// The rates hold at all times: before time 0 and after the duration the link moves on, without regard to limits.
 #[derive(Clone, Copy, Debug)]
 pub struct Link<'c> {
     chain: &'c Chain,
@@ -131,15 +134,24 @@ impl<'c> Link<'c> {
     /// The bounds of the link's velocities and accelerations between two times.
     fn moved(&self, from: f64, to: f64) -> Moved {
         let mut moved = Moved::default();
-        let starts = self.joints(from);
-        for ((joint, first, rate), (_, last, _)) in starts.zip(self.joints(to)) {
-            moved.pass(
-                joint,
-                lesser(first, last)..=greater(first, last),
-                rate.abs(),
-            );
+        let starts = self.joints(0.0);
+        for ((joint, start, rate), (first, last)) in starts.zip(self.positions(from, to)) {
+            let largest = greater(first.abs(), last.abs());
+            let positions = Positions {
+                largest,
+                ever: greater(largest, start.abs()),
+                first,
+                rate: rate.abs(),
+            };
+            moved.pass(joint, &positions);
         }
         moved
+    }
+
+    /// The positions of all joints at two times.
+    fn positions(&self, from: f64, to: f64) -> impl Iterator<Item = (f64, f64)> {
+        let at = |time| self.joints(time).map(|(_, position, _)| position);
+        at(from).zip(at(to))
     }
 }
 
@@ -204,25 +216,46 @@ struct Moved {
     angles: f64,
 }
 
+/// The positions of a joint in a stretch of time.
+struct Positions {
+    /// The largest absolute value.
+    largest: f64,
+    /// The same with the position at time 0, from which all others are computed.
+    ever: f64,
+    first: f64,
+    /// The absolute value of the rate.
+    rate: f64,
+}
+
 impl Moved {
     /// Goes on to the link after a joint.
-    fn pass(&mut self, joint: &Joint, positions: std::ops::RangeInclusive<f64>, rate: f64) {
+    fn pass(&mut self, joint: &Joint, positions: &Positions) {
         self.joints += 1.0;
-        self.arm(joint.origin().translation().length());
+        let length = joint.origin().translation().length();
+        self.arms += length;
+        self.arm(length);
         // Turned into the joint's frame.
         let into = joint.origin().rotation().conjugate();
         self.axis = self.axis.map(|axis| into * axis);
-        let largest = greater(positions.start().abs(), positions.end().abs());
+        let Positions { rate, .. } = *positions;
         match joint.kind() {
             Kind::Fixed => {}
             Kind::Prismatic(_) => {
-                self.arm(largest);
+                self.arms += positions.ever;
+                self.arm(positions.largest);
                 self.accelerations.linear += 2.0 * self.speeds.angular * rate;
                 self.speeds.linear += rate;
             }
             Kind::Revolute(axis) => {
-                self.angles += largest;
-                self.turn(axis, rate);
+                self.angles += positions.ever;
+                match rate > 0.0 {
+                    true => self.turn(axis, rate),
+                    // Axes before a joint that is held are turned by it.
+                    false => {
+                        let held = turn(axis, -positions.first);
+                        self.axis = self.axis.map(|before| held * before);
+                    }
+                }
             }
         }
     }
@@ -230,12 +263,11 @@ impl Moved {
     /// Adds an arm that turns with the link.
     fn arm(&mut self, length: f64) {
         let Speeds { angular, .. } = self.speeds;
-        self.arms += length;
         self.accelerations.linear += (self.accelerations.angular + angular * angular) * length;
         self.speeds.linear += angular * length;
     }
 
-    /// Adds a turn about an axis of the joint's frame.
+    /// Adds a turn about an axis of the joint's frame, at a rate that is not 0.
     fn turn(&mut self, axis: DVec3, rate: f64) {
         let (across, common) = match (self.speeds.angular > 0.0, self.axis) {
             (false, _) => (0.0, Some(axis)),
@@ -247,11 +279,9 @@ impl Moved {
             }
             (true, None) => (1.0, None),
         };
-        if rate > 0.0 {
-            self.accelerations.angular += rate * self.speeds.angular * lesser(across, 1.0);
-            self.speeds.angular += rate;
-            self.axis = common;
-        }
+        self.accelerations.angular += rate * self.speeds.angular * lesser(across, 1.0);
+        self.speeds.angular += rate;
+        self.axis = common;
     }
 }
 

@@ -76,20 +76,25 @@ impl Poses {
         self.poses[self.poses.len() - 1].0
     }
 
-    /// Returns the motion that holds at a time, with the time at which it begins: that of the earlier one at
-    /// a pose.
-    fn at(&self, time: f64) -> Result<(f64, Motion), InputError> {
-        let next = self.poses.partition_point(|&(at, _)| at < time);
+    /// Returns the motion between the poses that a time is between, as it is at that time: that before a pose
+    /// where `to` is not later, else that after it.
+    fn at(&self, time: f64, to: f64) -> Result<Motion, InputError> {
+        let next = match to > time {
+            true => self.poses.partition_point(|&(at, _)| at <= time),
+            false => self.poses.partition_point(|&(at, _)| at < time),
+        };
         match (next.checked_sub(1), self.poses.get(next)) {
-            (Some(k), Some(&(end, to))) => {
+            (Some(k), Some(&(end, pose))) => {
                 let (begin, from) = self.poses[k];
-                Ok((begin, Motion::between(from, to, self.centre, end - begin)?))
+                let whole = Motion::between(from, pose, self.centre, end - begin)?;
+                match time > begin {
+                    true => self.moving(whole.pose(time - begin), &whole),
+                    false => Ok(whole),
+                }
             }
-            (None, Some(&(begin, pose))) => Ok((begin, self.still(pose)?)),
-            (_, None) => {
-                let (begin, pose) = self.poses[self.poses.len() - 1];
-                Ok((begin, self.still(pose)?))
-            }
+            // The body rests before the first pose and after the last.
+            (None, Some(&(_, pose))) => self.still(pose),
+            (_, None) => self.still(self.poses[self.poses.len() - 1].1),
         }
     }
 
@@ -97,35 +102,47 @@ impl Poses {
         Motion::about(pose, DVec3::ZERO, DVec3::ZERO, self.centre)
     }
 
-    /// Returns the pose at a time.
-    fn pose_at(&self, time: f64) -> Result<Pose, InputError> {
-        let (begin, motion) = self.at(time)?;
-        // The body rests before the first time.
-        Ok(motion.pose(greater(0.0, time - begin)))
+    /// Returns a motion from a pose on, at the velocities of another one.
+    fn moving(&self, start: Pose, as_in: &Motion) -> Result<Motion, InputError> {
+        Motion::about(start, as_in.velocity(), as_in.spin(), self.centre)
     }
 
     /// The poses strictly between two times.
     fn between(&self, from: f64, to: f64) -> &[(f64, Pose)] {
         let first = self.poses.partition_point(|&(at, _)| at <= from);
         let last = self.poses.partition_point(|&(at, _)| at < to);
-        &self.poses[first..greater(first as f64, last as f64) as usize]
+        &self.poses[first..last.max(first)]
     }
 
-    /// Returns a motion from the pose at one time to that at another.
-    fn chord(&self, from: f64, to: f64) -> Result<Motion, InputError> {
-        let start = self.pose_at(from)?;
-        match to > from {
-            true => Motion::between(start, self.pose_at(to)?, self.centre, to - from),
-            false => self.still(start),
+    /// Returns a motion from the pose at one time to that at another, and how far the path strays from it.
+    fn chord(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
+        let end = self.at(to, to)?.start();
+        let motion = Motion::between(self.at(from, to)?.start(), end, self.centre, to - from)?;
+        let mut stray = Stray::NONE;
+        // The turn by which the chord is off at a pose, and that pose's time.
+        let mut last = (from, Off::default());
+        for &(time, pose) in self.between(from, to).iter().chain(&[(to, end)]) {
+            let off = Off::new(&motion, &pose, self.centre, time - from);
+            // The motion that ends at this pose.
+            let change = self.at(time, time)?.spin().distance(motion.spin());
+            let between = 0.5 * (off.turn + last.1.turn + change * (time - last.0));
+            stray.shift = greater(stray.shift, off.shift);
+            stray.turn = greater(stray.turn, between);
+            last = (time, off);
         }
+        Ok(Stretch { motion, stray })
     }
 
-    /// Bounds the rounding of poses.
-    fn rounding(&self, motion: &Motion, time: f64) -> Stray {
-        let place = motion.start().translation().length() + 2.0 * self.centre.length();
-        let travel = motion.velocity().length() * time;
+    /// Bounds the rounding of poses from one time to another: they are computed from those given before.
+    fn rounding(&self, from: f64, to: f64) -> Stray {
+        let first = self.poses.partition_point(|&(at, _)| at <= from);
+        let last = self.poses.partition_point(|&(at, _)| at < to);
+        let given = &self.poses[first.saturating_sub(1)..(last + 1).min(self.poses.len())];
+        let lengths = given.iter().map(|(_, pose)| pose.translation().length());
+        // The way from one to the next is at most twice as long.
+        let place = 3.0 * lengths.fold(0.0, greater) + 4.0 * self.centre.length();
         Stray {
-            shift: 64.0 * U * (place + travel),
+            shift: 64.0 * U * place,
             turn: 64.0 * U,
         }
     }
@@ -133,44 +150,20 @@ impl Poses {
 
 impl Trajectory for Poses {
     fn stretch(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
-        let inner = self.between(from, to);
-        let motion = self.chord(from, to)?;
-        let rounding = self.rounding(&motion, to - from);
-        let mut stray = Stray::NONE;
-        // The turn by which the chord is off at a pose, and that pose's time.
-        let mut last = (from, Off::default());
-        let ends = [(to, self.pose_at(to)?)];
-        for &(time, pose) in inner.iter().chain(&ends) {
-            let off = Off::new(&motion, &pose, self.centre, time - from);
-            let change = self.spin_at(time)?.distance(motion.spin());
-            let between = 0.5 * (off.turn + last.1.turn + change * (time - last.0));
-            stray.shift = greater(stray.shift, off.shift);
-            stray.turn = greater(stray.turn, between);
-            last = (time, off);
-        }
-        // A single motion is off by nothing but rounding.
-        Ok(match inner.is_empty() {
-            true => Stretch {
-                motion,
-                stray: rounding,
-            },
-            false => Stretch {
-                motion,
-                stray: stray + rounding,
-            },
+        let Stretch { motion, stray } = match self.between(from, to).is_empty() {
+            // The motion itself: one from pose to pose might turn the other way.
+            true => Stretch::exact(self.at(from, to)?),
+            false => self.chord(from, to)?,
+        };
+        Ok(Stretch {
+            motion,
+            stray: stray + self.rounding(from, to),
         })
     }
 
     fn corner(&self, from: f64, to: f64) -> Option<f64> {
         let inner = self.between(from, to);
         inner.get(inner.len() / 2).map(|&(time, _)| time)
-    }
-}
-
-impl Poses {
-    /// Returns the spin of the motion that ends at a time, or holds then.
-    fn spin_at(&self, time: f64) -> Result<DVec3, InputError> {
-        Ok(self.at(time)?.1.spin())
     }
 }
 

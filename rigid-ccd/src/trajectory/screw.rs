@@ -1,6 +1,7 @@
 //! A screw.
 
 use ccd_core::glam::{DQuat, DVec3};
+use ccd_core::vector::unit;
 use ccd_core::{InputError, Motion, Pose};
 
 /// Creates the motion of a body that turns about an axis in the world and advances along it, at constant rates:
@@ -28,10 +29,16 @@ pub fn screw(
     turn: f64,
     advance: f64,
 ) -> Result<Motion, InputError> {
-    let [point, direction] = [point.into(), direction.into()].map(DVec3::from_array);
-    let axis = direction.normalize();
-    let centre = start.inverse().transform_point(point);
+    let axis = unit_axis(direction)?;
+    let centre = start
+        .inverse()
+        .transform_point(DVec3::from_array(point.into()));
     Motion::about(start, axis * advance, axis * turn, centre)
+}
+
+/// Returns an axis of unit length.
+pub(super) fn unit_axis(axis: impl Into<[f64; 3]>) -> Result<DVec3, InputError> {
+    unit(DVec3::from_array(axis.into())).ok_or(InputError::NotFinite { what: "axis" })
 }
 
 /// Returns a turn by an angle about an axis of unit length.

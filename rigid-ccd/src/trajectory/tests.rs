@@ -70,16 +70,29 @@ fn keys(rng: &mut Rng, count: usize) -> Vec<(f64, [f64; 4])> {
     (0..count).map(key).collect()
 }
 
-fn arm(rng: &mut Rng, count: usize, parallel: bool) -> Chain {
+/// The axes of the joints of a chain.
+#[derive(Clone, Copy, PartialEq)]
+enum Axes {
+    Any,
+    Parallel,
+    /// Along x, y or z: parallel again when joints in between are back.
+    Across,
+}
+
+fn arm(rng: &mut Rng, count: usize, axes: Axes) -> Chain {
     let joint = |k: usize| {
-        let axis = if parallel { DVec3::Z } else { vector(rng, 1.0) };
-        let origin = match parallel {
-            true => Pose::at(vector(rng, 1.0)).unwrap(),
-            false => pose(rng, 1.0),
+        let axis = match axes {
+            Axes::Any => vector(rng, 1.0),
+            Axes::Parallel => DVec3::Z,
+            Axes::Across => DVec3::AXES[rng.random_range(0..3)],
+        };
+        let origin = match axes {
+            Axes::Any => pose(rng, 1.0),
+            Axes::Parallel | Axes::Across => Pose::at(vector(rng, 1.0)).unwrap(),
         };
         match k % 4 {
             3 => Joint::prismatic(origin, vector(rng, 1.0)),
-            2 if !parallel => Ok(Joint::fixed(origin)),
+            2 if axes == Axes::Any => Ok(Joint::fixed(origin)),
             _ => Joint::revolute(origin, axis),
         }
     };
@@ -107,6 +120,45 @@ fn poses() {
             (time, pose(rng, 3.0))
         });
         Poses::new(stops.collect())?.about(vector(rng, 1.0))
+    });
+}
+
+/// Half turns, up to rounding: the way that they go is that from pose to pose.
+#[test]
+fn poses_of_half_turns() {
+    check("poses, half turns", 0.3, |rng| {
+        let start = orientation(rng);
+        let turned = |k: usize, rng: &mut Rng| {
+            let axis = vector(rng, 1.0).normalize();
+            match k % 2 {
+                0 => start,
+                _ => DQuat::from_xyzw(axis.x, axis.y, axis.z, 0.0) * start,
+            }
+        };
+        let stops = (0..4).map(|k| Ok((k as f64, Pose::new(vector(rng, 3.0), turned(k, rng))?)));
+        Poses::new(stops.collect::<Result<_, InputError>>()?)
+    });
+}
+
+#[test]
+fn slerp_of_tiny_turns() {
+    check("slerp, tiny turns", 0.0, |rng| {
+        let count = 1_000;
+        let spin = vector(rng, 1e-8);
+        let key = |k: usize| {
+            let turn = if k < count / 2 {
+                k as f64 * spin
+            } else {
+                (count - k) as f64 * spin
+            };
+            let exact = DQuat::from_xyzw(0.5 * turn.x, 0.5 * turn.y, 0.5 * turn.z, 1.0);
+            (2.0 * k as f64 / count as f64, exact.to_array())
+        };
+        let keys: Vec<_> = (0..=count).map(key).collect();
+        Ok(Spline::new(
+            Curve::bezier(&[[0.0; 3]], 2.0)?,
+            Turns::slerp(&keys)?,
+        ))
     });
 }
 
@@ -145,6 +197,24 @@ fn squad_alone() {
     });
 }
 
+/// Axes before a joint that is held are not parallel to those behind it, whatever its origin says.
+#[test]
+fn links_behind_joints_that_are_held() {
+    check("link, held joint", 0.1, |rng| {
+        let joint = |axis: DVec3| Joint::revolute(Pose::at(vector(rng, 0.3))?, axis);
+        let joints = [DVec3::Z, DVec3::X, DVec3::Z].map(joint);
+        let joints: Result<Vec<_>, InputError> = joints.into_iter().collect();
+        let mut angle = || rng.random_range(-2.0..2.0);
+        let (first, held, last) = (angle(), angle(), angle());
+        Ok(Owned {
+            chain: Chain::new(Pose::IDENTITY, joints?),
+            positions: [vec![0.0, held, 0.0], vec![first, held, last]],
+            link: 3,
+            seen_from: None,
+        })
+    });
+}
+
 /// A link that owns its chain.
 struct Owned {
     chain: Chain,
@@ -154,10 +224,16 @@ struct Owned {
 }
 
 impl Owned {
-    fn draw(rng: &mut Rng, parallel: bool) -> Result<Self, InputError> {
+    fn draw(rng: &mut Rng, axes: Axes) -> Result<Self, InputError> {
         let count = rng.random_range(1..8);
-        let chain = arm(rng, count, parallel);
-        let positions = [(); 2].map(|()| (0..count).map(|_| rng.random_range(-2.0..2.0)).collect());
+        let chain = arm(rng, count, axes);
+        let first: Vec<f64> = (0..count).map(|_| rng.random_range(-2.0..2.0)).collect();
+        // Some joints are held.
+        let last = first.iter().map(|&first| match rng.random_bool(0.3) {
+            true => first,
+            false => rng.random_range(-2.0..2.0),
+        });
+        let positions = [first.clone(), last.collect()];
         let link = rng.random_range(0..=count);
         Ok(Owned {
             chain,
@@ -181,12 +257,21 @@ impl Trajectory for Owned {
 
 #[test]
 fn links() {
-    check("link of a chain", 0.2, |rng| Owned::draw(rng, false));
+    check("link of a chain", 0.2, |rng| Owned::draw(rng, Axes::Any));
 }
 
 #[test]
 fn links_with_parallel_axes() {
-    check("link, parallel axes", 0.5, |rng| Owned::draw(rng, true));
+    check("link, parallel axes", 0.5, |rng| {
+        Owned::draw(rng, Axes::Parallel)
+    });
+}
+
+#[test]
+fn links_with_axes_across() {
+    check("link, axes across", 0.5, |rng| {
+        Owned::draw(rng, Axes::Across)
+    });
 }
 
 #[test]
@@ -230,7 +315,7 @@ fn a_false_bound_is_found() {
 fn links_seen_from_links_are_where_they_are_in_the_world() {
     let mut rng = Rng::seed_from_u64(3);
     for _ in 0..200 {
-        let owned = Owned::draw(&mut rng, false).unwrap();
+        let owned = Owned::draw(&mut rng, Axes::Any).unwrap();
         let other = owned.link / 2;
         let [first, last] = &owned.positions;
         let of = |link| owned.chain.link(link, first, last, 2.0).unwrap();
@@ -249,7 +334,7 @@ fn tangents_have_the_velocities_of_poses() {
     let step = 1e-6;
     for _ in 0..100 {
         let [first, last] = [(); 2].map(|()| [(); 5].map(|()| rng.random_range(-2.0..2.0)));
-        let chain = arm(&mut rng, 5, false);
+        let chain = arm(&mut rng, 5, Axes::Any);
         let link = chain.link(5, &first, &last, 2.0).unwrap();
         let squad = Turns::squad(&keys(&mut rng, 6)).unwrap();
         let spline = Spline::new(Curve::b_spline(&points(&mut rng, 9), 2.0).unwrap(), squad);
@@ -273,4 +358,106 @@ fn tangents_have_the_velocities_of_poses() {
             );
         }
     }
+}
+
+/// Checks the bounds of stretches between two times, far from 0 or of large coordinates, up to what poses are off.
+fn check_between(name: &str, trajectory: &impl Trajectory, from: f64, to: f64, rng: &mut Rng) {
+    for _ in 0..1_000 {
+        let [a, b] = [(); 2].map(|()| rng.random_range(from..to));
+        let (a, b) = if a < b { (a, b) } else { (b, a) };
+        let stretch = trajectory.stretch(a, b).unwrap();
+        assert!(
+            stretch.stray.shift >= 0.0 && stretch.stray.turn >= 0.0,
+            "{name}"
+        );
+        let time = rng.random_range(a..=b);
+        let exact = trajectory.stretch(time, time).unwrap();
+        let allowed = stretch.stray + exact.stray;
+        let near = stretch.motion.pose(time - a);
+        let there = exact.motion.start();
+        let centre = stretch.motion.centre();
+        let shift = near
+            .transform_point(centre)
+            .distance(there.transform_point(centre));
+        let turned = near.rotation().conjugate() * there.rotation();
+        let turn = 2.0 * turned.xyz().length().atan2(turned.w.abs());
+        assert!(shift <= allowed.shift, "{name}: {shift:e} {allowed:?}");
+        assert!(turn <= allowed.turn, "{name}: {turn:e} {allowed:?}");
+    }
+}
+
+#[test]
+fn times_may_be_far_from_0() {
+    let mut rng = Rng::seed_from_u64(5);
+    let epoch = 1.7e9;
+    for _ in 0..20 {
+        let mut at = orientation(&mut rng);
+        let mut key = |k: usize| {
+            at = DQuat::from_scaled_axis(vector(&mut rng, 0.5)) * at;
+            (epoch + 0.01 * k as f64, at.to_array())
+        };
+        let keys: Vec<_> = (0..50).map(&mut key).collect();
+        let point = || Curve::bezier(&[[0.0; 3]], 2.0).unwrap();
+        let slerp = Spline::new(point(), Turns::slerp(&keys).unwrap());
+        let squad = Spline::new(point(), Turns::squad(&keys).unwrap());
+        check_between("slerp", &slerp, epoch, epoch + 0.49, &mut rng);
+        check_between("squad", &squad, epoch, epoch + 0.49, &mut rng);
+        let thrown = ballistic(&mut rng).unwrap();
+        check_between("ballistic", &thrown, -1e3, -999.0, &mut rng);
+        let steady = Steady(motion(&mut rng).unwrap());
+        check_between("steady", &steady, -1e3, -999.0, &mut rng);
+    }
+}
+
+#[test]
+fn places_may_come_from_afar() {
+    let mut rng = Rng::seed_from_u64(6);
+    let joint = Joint::prismatic(Pose::IDENTITY, [1.0, 2.0, 3.0]).unwrap();
+    let chain = Chain::new(Pose::IDENTITY, vec![joint]);
+    let link = chain.link(1, &[1e9], &[0.0], 1.0).unwrap();
+    check_between("link", &link, 0.9, 1.0, &mut rng);
+    let stops = vec![
+        (0.0, Pose::at([1e9, 0.1, 0.2]).unwrap()),
+        (1.0, Pose::IDENTITY),
+    ];
+    let poses = Poses::new(stops).unwrap();
+    check_between("poses", &poses, 0.9, 1.0, &mut rng);
+}
+
+/// What rests has a stretch, of no length or after the end.
+#[test]
+fn trajectories_rest_after_their_end() {
+    let mut rng = Rng::seed_from_u64(7);
+    let thrown = ballistic(&mut rng).unwrap();
+    let once = Timed::new(thrown, 0.0..1.0, 1.0, Pace::Even).unwrap();
+    let twice = Timed::new(once.clone(), 1.5..1.5, 1.0, Pace::Even).unwrap();
+    for time in [0.0, 0.5, 1.0, 1.5, 3.0] {
+        let strays = [
+            once.stretch(time, time),
+            twice.stretch(time, time),
+            once.stretch(1.0, 1.0 + time),
+        ];
+        for stretch in strays {
+            let Stray { shift, turn } = stretch.unwrap().stray;
+            assert!(shift < 1e-10 && turn < 1e-10, "{time}: {shift:e} {turn:e}");
+        }
+    }
+}
+
+#[test]
+fn axes_have_any_length_but_0() {
+    for length in [1e-300, 1e-161, 1e155, 1e300] {
+        let axis = [0.0, 0.0, length];
+        let joint = Joint::revolute(Pose::IDENTITY, axis).unwrap();
+        assert_eq!(joint.motion(0.0, 1.0, 1.0).unwrap().spin(), DVec3::Z);
+        let screw = screw(Pose::IDENTITY, [0.0; 3], axis, 2.0, 3.0).unwrap();
+        assert_eq!(
+            (screw.spin(), screw.velocity()),
+            (2.0 * DVec3::Z, 3.0 * DVec3::Z)
+        );
+        let keys = [(0.0, [0.0, 0.0, 0.0, length])];
+        assert_eq!(Turns::slerp(&keys).unwrap().at(0.0).0, DQuat::IDENTITY);
+    }
+    assert!(Joint::prismatic(Pose::IDENTITY, [0.0; 3]).is_err());
+    assert!(screw(Pose::IDENTITY, [0.0; 3], [f64::NAN, 0.0, 0.0], 1.0, 1.0).is_err());
 }

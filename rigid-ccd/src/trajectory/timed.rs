@@ -138,12 +138,16 @@ impl<T: Bounded> Smooth for Timed<T> {
     }
 
     fn accelerations(&self, from: f64, to: f64) -> Accelerations {
+        if to <= 0.0 || from >= self.duration {
+            return Accelerations::default();
+        }
         let [first, last] = self.times(from, to);
         let [rate, change] = self.rates();
         let speeds = self.inner.speeds(first, last);
         let inner = self.inner.accelerations(first, last);
         // An even pace jumps to rest at both ends.
-        let jump = match self.pace == Pace::Even && (from < 0.0 || to > self.duration) {
+        let jumps = |end: f64| from < end && end < to;
+        let jump = match self.pace == Pace::Even && (jumps(0.0) || jumps(self.duration)) {
             true => 2.0 * rate / (0.5 * (to - from)),
             false => change,
         };

@@ -3,11 +3,11 @@
 mod squad;
 
 use super::U;
-use super::knots::{middle_knot, spread};
-use ccd_core::InputError;
+use super::knots::{middle_knot, overlapping, spread};
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::order::{greater, lesser};
-use squad::Squad;
+use ccd_core::{InputError, Pose};
+use squad::{Squad, logarithm};
 
 /// Orientations through given ones at given times. The body does not turn before the first and after the last.
 ///
@@ -64,7 +64,7 @@ impl Turns {
             let [(from, start), (to, end)] = [keys[k], keys[k + 1]];
             Turn::Slerp {
                 start,
-                spin: (end * start.conjugate()).to_scaled_axis() / (to - from),
+                spin: logarithm(end * start.conjugate()) / (to - from),
             }
         }))
     }
@@ -120,27 +120,36 @@ impl Turns {
     /// Bounds the angular acceleration between two times. A spin that jumps counts as one that changes in half
     /// of the time, by which the orientation strays farther.
     pub(super) fn acceleration(&self, from: f64, to: f64) -> f64 {
-        let smooth = self.overlapping(from, to).map(|piece| match &piece.turn {
-            Turn::Slerp { .. } => 0.0,
-            Turn::Squad(squad) => squad.acceleration(),
-        });
+        let smooth = self
+            .overlapping(from, to)
+            .iter()
+            .map(|piece| match &piece.turn {
+                Turn::Slerp { .. } => 0.0,
+                Turn::Squad(squad) => squad.acceleration(),
+            });
         smooth.fold(0.0, greater) + spread(self.jumps(from, to), from, to)
     }
 
     /// Bounds the angular speed between two times.
     pub(super) fn speed(&self, from: f64, to: f64) -> f64 {
-        let speeds = self.overlapping(from, to).map(|piece| match &piece.turn {
-            Turn::Slerp { spin, .. } => spin.length(),
-            Turn::Squad(squad) => squad.speed(),
-        });
+        let speeds = self
+            .overlapping(from, to)
+            .iter()
+            .map(|piece| match &piece.turn {
+                Turn::Slerp { spin, .. } => spin.length(),
+                Turn::Squad(squad) => squad.speed(),
+            });
         speeds.fold(0.0, greater)
     }
 
     /// Returns a time between two others at which two turns meet, about the middle.
     pub(super) fn corner(&self, from: f64, to: f64) -> Option<f64> {
-        let last = self.pieces.last().map(|piece| piece.to);
-        let knots = self.pieces.iter().map(|piece| piece.from).chain(last);
-        middle_knot(knots, from, to)
+        middle_knot(
+            self.overlapping(from, to),
+            |piece| [piece.from, piece.to],
+            from,
+            to,
+        )
     }
 
     /// Bounds the rounding of an orientation.
@@ -148,24 +157,23 @@ impl Turns {
         128.0 * U
     }
 
-    fn overlapping(&self, from: f64, to: f64) -> impl Iterator<Item = &Piece> {
-        (self.pieces.iter()).filter(move |piece| piece.from <= to && piece.to >= from)
+    fn overlapping(&self, from: f64, to: f64) -> &[Piece] {
+        overlapping(&self.pieces, |piece| [piece.from, piece.to], from, to)
     }
 
     /// The lengths of the changes of spin strictly between two times.
     fn jumps(&self, from: f64, to: f64) -> impl Iterator<Item = f64> {
-        let starts = self.pieces.iter().enumerate().map(|(k, piece)| {
-            let before = k.checked_sub(1).map_or(DVec3::ZERO, |k| {
-                let before = &self.pieces[k];
-                before.at(before.to).1
-            });
-            (piece.from, before.distance(piece.at(piece.from).1))
-        });
-        let end = (self.pieces.last()).map(|piece| (piece.to, piece.at(piece.to).1.length()));
+        let pieces = self.overlapping(from, to);
+        // Before the first piece and after the last there is no spin.
+        let before = pieces.iter().map(|piece| Some(piece.at(piece.to).1));
+        let after = pieces
+            .iter()
+            .map(|piece| (piece.from, piece.at(piece.from).1));
+        let end = pieces.last().map(|piece| (piece.to, DVec3::ZERO));
+        let starts = std::iter::once(None).chain(before).zip(after.chain(end));
         starts
-            .chain(end)
-            .filter(move |&(knot, _)| knot > from && knot < to)
-            .map(|(_, jump)| jump)
+            .filter(move |&(_, (knot, _))| knot > from && knot < to)
+            .map(|(before, (_, spin))| before.unwrap_or(DVec3::ZERO).distance(spin))
     }
 }
 
@@ -193,16 +201,7 @@ fn checked(keys: &[(f64, [f64; 4])]) -> Result<Vec<(f64, DQuat)>, InputError> {
     };
     let mut units: Vec<(f64, DQuat)> = Vec::new();
     for &(time, key) in keys {
-        let key = DQuat::from_array(key);
-        if !key.is_finite() {
-            return Err(InputError::NotFinite {
-                what: "orientation",
-            });
-        }
-        let unit = key.normalize();
-        if !unit.is_finite() {
-            return Err(InputError::ZeroQuaternion);
-        }
+        let unit = Pose::new(DVec3::ZERO, DQuat::from_array(key))?.rotation();
         let last = units.last().copied();
         // Written so that NaN is refused.
         if !(time.is_finite() && last.is_none_or(|(before, _)| time > before)) {

@@ -17,12 +17,10 @@ pub(super) fn follow<O: DistanceOracle>(
     meter: &mut Meter,
     seen: Best,
 ) -> Best {
-    let ids = [seen.contact.piece_a, seen.contact.piece_b];
     let mut descent = Descent {
         problem,
         oracle,
         meter,
-        ids,
         cache: O::Cache::default(),
         best: seen,
     };
@@ -36,7 +34,6 @@ struct Descent<'d, O: DistanceOracle> {
     problem: &'d Problem<'d>,
     oracle: &'d mut O,
     meter: &'d mut Meter,
-    ids: [u32; 2],
     cache: O::Cache,
     best: Best,
 }
@@ -56,12 +53,15 @@ impl<O: DistanceOracle> Descent<'_, O> {
         if self.best.contact.separation.upper <= self.problem.tolerance {
             return None;
         }
-        let [a, b] = self.ids;
+        let pieces @ [a, b] = self.best.pieces;
         let snapshot = Snapshot::new(self.problem, a, b, clock);
         let checked = snapshot.ask(self.oracle, &mut self.cache, self.meter)?;
         if checked.upper < self.best.contact.separation.upper {
-            let contact = pair::contact(&snapshot, self.ids, &checked);
-            self.best = Best { clock, contact };
+            self.best = Best {
+                clock,
+                pieces,
+                contact: pair::contact(&snapshot, pieces, &checked),
+            };
         }
         let frame = &snapshot.frames[0];
         let [on_a, on_b] = [checked.witness_a, checked.witness_b].map(|w| frame.point(w));

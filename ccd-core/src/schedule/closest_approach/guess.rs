@@ -55,22 +55,28 @@ fn nearest_at<O: DistanceOracle>(
     let mut lists = std::mem::take(&mut meter.memory().nearest);
     let mut nearest = Nearest::new(problem, clock, &mut lists).nearer_than(beyond);
     let stopped = nearest.search(oracle, meter);
-    let found = nearest.nearest();
+    let found = nearest.pieces();
     lists.clear();
     meter.memory().nearest = lists;
-    let contact = match stopped {
-        // They meet before.
-        Some(Stop::Overlap(contact)) if clock > 0.0 => Some(contact),
-        Some(stop) => return ControlFlow::Break(stop),
-        None => found,
+    let best = |(pieces, contact)| Best {
+        clock,
+        pieces,
+        contact,
     };
-    ControlFlow::Continue(contact.map(|contact| Best { clock, contact }))
+    match stopped {
+        // They meet before.
+        Some(Stop::Overlap(pieces, contact)) if clock > 0.0 => {
+            ControlFlow::Continue(Some(best((pieces, contact))))
+        }
+        Some(stop) => ControlFlow::Break(stop),
+        None => ControlFlow::Continue(found.map(best)),
+    }
 }
 
 /// Returns the answer for bodies that overlap at the start, or when a limit is reached.
 fn stopped(problem: &Problem<'_>, best: Option<Best>, stop: Stop) -> ClosestApproach {
     match stop {
-        Stop::Overlap(contact) => ClosestApproach::Overlapping {
+        Stop::Overlap(_, contact) => ClosestApproach::Overlapping {
             overlap: Overlap::Pieces(contact),
         },
         Stop::Limit(reason) => ClosestApproach::Unresolved {

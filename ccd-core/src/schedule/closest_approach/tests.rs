@@ -110,8 +110,13 @@ fn a_clearance_is_kept_violated_or_unknown() {
         let scene = scene(&mut rng, KINDS[number % 3], 8);
         let outcome = approach(&scene.problem()).outcome;
         let (lower, upper) = (outcome.lower(), outcome.upper());
-        assert_eq!(outcome.clearance(lower), Clearance::Kept);
         assert_eq!(outcome.clearance(upper.next_up()), Clearance::Violated);
+        assert_ne!(outcome.clearance(f64::NAN), Clearance::Kept);
+        // Bodies that may touch keep no clearance.
+        match lower > 0.0 {
+            true => assert_eq!(outcome.clearance(lower), Clearance::Kept),
+            false => assert_ne!(outcome.clearance(0.0), Clearance::Kept),
+        }
         if lower < upper {
             let between = 0.5 * (lower + upper);
             assert_eq!(outcome.clearance(between), Clearance::Unverified);

@@ -23,6 +23,15 @@ impl<O: DistanceOracle> DepthFirst<O> {
         journey: &Journey<'_>,
         oracle: &mut O,
     ) -> Result<Answer<ClosestApproach>, InputError> {
+        // The margin plays no role.
+        let config = Config {
+            margin: 0.0,
+            ..journey.config
+        };
+        let journey = &Journey {
+            config,
+            ..journey.clone()
+        };
         let mut stretches = Stretches::new(journey);
         let mut found = Found {
             lower: f64::INFINITY,
@@ -30,10 +39,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
         };
         while let Some(span) = stretches.next() {
             let config = match stretches.config() {
-                Ok(config) => Config {
-                    margin: 0.0,
-                    ..config
-                },
+                Ok(config) => config,
                 Err(reason) => return Ok(found.unresolved(journey, &stretches, reason)),
             };
             let leg = stretches.leg(span)?;
@@ -51,7 +57,10 @@ impl<O: DistanceOracle> DepthFirst<O> {
                     (lower, time)
                 }
                 Ok(ClosestApproach::Overlapping { overlap }) => {
-                    if leg.span.from == 0.0 && stretches.is_fine(&leg)? {
+                    if stretches.look_at_start(&leg) {
+                        continue;
+                    }
+                    if leg.begins_at_start() {
                         let overlapping = ClosestApproach::Overlapping { overlap };
                         return Ok(found.answer(journey, &stretches, overlapping));
                     }

@@ -44,7 +44,12 @@ impl<O: DistanceOracle> BestFirst<O> {
                 }
                 Outcome::Contact { time, contact } => (time, Some(contact)),
                 Outcome::Touching { contact } => (0.0, Some(contact)),
-                Outcome::Overlapping { overlap } => (0.0, contact_of(&overlap)),
+                Outcome::Overlapping { overlap } => {
+                    if stretches.look_at_start(&leg) {
+                        continue;
+                    }
+                    (0.0, contact_of(&overlap))
+                }
             };
             if stretches.is_fine(&leg)? {
                 return Ok(kept.found(&stretches, &leg, answer.outcome));
@@ -81,9 +86,11 @@ impl<O: DistanceOracle> DepthFirst<O> {
     ) -> Result<Answer<AnyContact>, InputError> {
         let mut stretches = Stretches::new(journey);
         let mut kept = SoFar::new(journey);
+        // The first time at which one body is inside the other.
+        let mut undecided = f64::INFINITY;
         while let Some(span) = stretches.next() {
             let unresolved = |kept: &SoFar, stretches: &Stretches<'_, '_>, until, reason| {
-                let until = lesser(until, stretches.first());
+                let until = lesser(lesser(until, undecided), stretches.first());
                 kept.unresolved(stretches, until, reason)
                     .map(AnyContact::from)
             };
@@ -103,16 +110,31 @@ impl<O: DistanceOracle> DepthFirst<O> {
                     return Ok(unresolved(&kept, &stretches, leg.time(safe_until), reason));
                 }
                 AnyContact::Contact { time, contact } => (time, Outcome::Contact { time, contact }),
-                AnyContact::Overlapping { overlap } => (0.0, Outcome::Overlapping { overlap }),
+                AnyContact::Overlapping { overlap } => {
+                    if stretches.look_at_start(&leg) {
+                        continue;
+                    }
+                    (0.0, Outcome::Overlapping { overlap })
+                }
             };
             if stretches.is_fine(&leg)? {
-                return Ok(kept.found(&stretches, &leg, outcome).map(AnyContact::from));
+                let found = kept.found(&stretches, &leg, outcome);
+                // One is inside the other: they have met before, or overlap at the start.
+                if let Outcome::Unresolved { safe_until, .. } = found.outcome {
+                    undecided = lesser(undecided, safe_until);
+                    continue;
+                }
+                return Ok(found.map(AnyContact::from));
             }
             if !stretches.cut_about(leg.span, leg.time(s)) {
                 return Ok(unresolved(&kept, &stretches, leg.span.from, Limit::Stalled));
             }
         }
-        Ok(kept.free(&stretches).map(AnyContact::from))
+        Ok(match undecided.is_finite() {
+            true => kept.unresolved(&stretches, undecided, Limit::Undecided),
+            false => kept.free(&stretches),
+        }
+        .map(AnyContact::from))
     }
 }
 
@@ -154,7 +176,7 @@ impl SoFar {
     }
 
     /// Returns the answer for a contact of the motions of a leg.
-    fn found(mut self, stretches: &Stretches<'_, '_>, leg: &Leg, outcome: Outcome) -> Answer {
+    fn found(&mut self, stretches: &Stretches<'_, '_>, leg: &Leg, outcome: Outcome) -> Answer {
         let at = |time: f64, contact: Contact| {
             let contact = leg.contact(contact);
             match time > 0.0 {
@@ -165,7 +187,7 @@ impl SoFar {
         let outcome = match outcome {
             Outcome::Contact { time, contact } => at(leg.time(time), contact),
             Outcome::Touching { contact } => at(leg.span.from, contact),
-            Outcome::Overlapping { overlap } if leg.span.from == 0.0 => {
+            Outcome::Overlapping { overlap } if leg.begins_at_start() => {
                 Outcome::Overlapping { overlap }
             }
             // Bodies that were apart until then overlap by no more than they stray.

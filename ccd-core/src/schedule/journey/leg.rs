@@ -4,6 +4,7 @@ use super::Journey;
 use super::Travelling;
 use crate::config::{Config, StartPolicy};
 use crate::error::InputError;
+use crate::limits::LEAST_TOLERANCE;
 use crate::math::order::{greater, lesser};
 use crate::motion::trajectory::Stretch;
 use crate::outcome::{Contact, Separation};
@@ -46,7 +47,10 @@ impl Leg {
         config: &Config,
     ) -> Result<Problem<'a>, InputError> {
         let tolerance = match self.stray > 0.0 {
-            true => (1.0 - 2.0 * STRAY_SHARE) * config.tolerance,
+            true => greater(
+                (1.0 - 2.0 * STRAY_SHARE) * config.tolerance,
+                LEAST_TOLERANCE,
+            ),
             false => config.tolerance,
         };
         let config = Config {
@@ -66,6 +70,11 @@ impl Leg {
             Some(stop) => problem.stopped_by(stop),
             None => problem,
         })
+    }
+
+    /// Returns true if the poses at the start of the motions are those of the bodies at the start.
+    pub(super) fn begins_at_start(&self) -> bool {
+        self.span.from == 0.0 && (self.span.to == 0.0 || self.stray == 0.0)
     }
 
     /// Returns what a distance of the motions says of the bodies where they stray.

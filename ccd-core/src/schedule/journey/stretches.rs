@@ -15,6 +15,7 @@ pub(super) struct Stretches<'j, 'a> {
     journey: &'j Journey<'a>,
     waiting: Vec<Span>,
     pub(super) stats: Stats,
+    looked_at_start: bool,
     /// None if there is no deadline; then no clock is read.
     begun: Option<Instant>,
 }
@@ -29,6 +30,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
                 to: journey.duration,
             }],
             stats: Stats::default(),
+            looked_at_start: false,
             begun: journey.config.deadline.map(|_| Instant::now()),
         }
     }
@@ -91,6 +93,19 @@ impl<'j, 'a> Stretches<'j, 'a> {
         let from = leg.span.from;
         let least = Leg::new(self.journey, Span { from, to: from })?;
         Ok(leg.stray <= 2.0 * least.stray)
+    }
+
+    /// Lets the pose at the start be next, and then the leg again, if the leg's motions begin beside it: where
+    /// they overlap at the start, the bodies need not. Returns false once the start was looked at, and for legs
+    /// that begin later.
+    pub(super) fn look_at_start(&mut self, leg: &Leg) -> bool {
+        let Span { from, .. } = leg.span;
+        if from > 0.0 || leg.begins_at_start() || self.looked_at_start {
+            return false;
+        }
+        self.looked_at_start = true;
+        self.waiting.extend([leg.span, Span { from, to: from }]);
+        true
     }
 
     /// Lets a stretch be next.

@@ -193,7 +193,7 @@ impl Function {
 }
 
 /// The rotation vector of a unit quaternion, the shortest way.
-fn logarithm(q: DQuat) -> DVec3 {
+pub(super) fn logarithm(q: DQuat) -> DVec3 {
     let q = if q.w < 0.0 { -q } else { q };
     let sine = q.xyz().length();
     match sine > 0.0 {

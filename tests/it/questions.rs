@@ -1,0 +1,70 @@
+//! Random cases asked every question, against the independent referee, and against each other.
+
+use ccd_core::Outcome;
+use ccd_core::schedule::ClosestApproach;
+use ccd_tests::backends::default_answer;
+use ccd_tests::case::Case;
+use ccd_tests::checks::{Judge, Law};
+use ccd_tests::questions::{for_each_answers, for_each_answers_along};
+use ccd_tests::strategies::{cases, check_cases, convex_cases, crowded_cases, remote_cases};
+
+#[test]
+fn every_question_of_any_shape() {
+    check_cases(200, cases(), every_question);
+}
+
+#[test]
+fn every_question_of_convex_shapes() {
+    check_cases(200, convex_cases(), every_question);
+}
+
+#[test]
+fn every_question_near_and_overlapping() {
+    check_cases(200, crowded_cases(), every_question);
+}
+
+#[test]
+fn every_question_far_away_tiny_and_huge() {
+    check_cases(200, remote_cases(), every_question);
+}
+
+fn every_question(case: &Case) -> Law {
+    let (query, config) = (case.query(), case.config());
+    let judge = Judge::new(&query, &config);
+    let first = default_answer(&query, &config);
+    let mut law = Ok(());
+    for_each_answers(&query, &config, |bodies, asked, answers| {
+        if law.is_ok() {
+            law = (judge.check_any(&answers.any, bodies))
+                .and_then(|()| judge.check_closest(&answers.closest, bodies))
+                .and_then(|()| agree(&first.outcome, &answers.closest.outcome))
+                .map_err(|why| format!("{why}\n{asked:?}\n{answers:?}\n{first:?}"));
+        }
+    });
+    for_each_answers_along(&query, &config, |bodies, asked, answers| {
+        if law.is_ok() {
+            law = (judge.check(&answers.first, bodies))
+                .and_then(|()| judge.check_any(&answers.any, bodies))
+                .and_then(|()| judge.check_closest(&answers.closest, bodies))
+                .and_then(|()| judge.check_interval(&answers.interval, bodies))
+                .map_err(|why| format!("along: {why}\n{asked:?}\n{answers:?}\n{first:?}"));
+        }
+    });
+    law
+}
+
+/// Checks that the bounds of the least distance do not contradict a first contact.
+fn agree(first: &Outcome, closest: &ClosestApproach) -> Law {
+    let upper = closest.upper();
+    match first {
+        Outcome::Free { proven_gap } if upper < *proven_gap => {
+            Err(format!("{upper} is below the proven gap {proven_gap}"))
+        }
+        Outcome::Contact { contact, .. } | Outcome::Touching { contact }
+            if closest.lower() > contact.separation.upper =>
+        {
+            Err("the bounds are above the distance of the contact".into())
+        }
+        _ => Ok(()),
+    }
+}

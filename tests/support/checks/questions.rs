@@ -1,0 +1,157 @@
+//! The laws of answers to other questions.
+
+use super::{Judge, Law, check_contact, law};
+use crate::query::Bodies;
+use crate::referee::Finding;
+use ccd_core::order::lesser;
+use ccd_core::schedule::{AnyContact, ClosestApproach, ContactInterval, Touch};
+use ccd_core::{Answer, Contact, Outcome};
+
+impl Judge<'_> {
+    /// Checks an answer to "do they touch at all?": never missed, never false, its contact as claimed.
+    ///
+    /// # Errors
+    /// The law that the answer breaks.
+    pub fn check_any(&self, answer: &Answer<AnyContact>, bodies: &Bodies) -> Law {
+        match answer.outcome {
+            AnyContact::Contact { time, contact } => {
+                self.within_reach(time, answer.tolerance, &contact)?;
+                check_contact(
+                    self.query,
+                    time,
+                    &contact,
+                    bodies,
+                    self.reach(time, answer.tolerance, &contact),
+                )
+            }
+            AnyContact::Free { proven_gap } => {
+                self.check(&answer.map(|_| Outcome::Free { proven_gap }), bodies)
+            }
+            AnyContact::Overlapping { overlap } => {
+                self.check(&answer.map(|_| Outcome::Overlapping { overlap }), bodies)
+            }
+            AnyContact::Unresolved { .. } => Err("unresolved".into()),
+        }
+    }
+
+    /// Checks the bounds of a least distance: never above it, never below the distance at the time given, no
+    /// farther apart than the tolerance.
+    ///
+    /// # Errors
+    /// The law that the answer breaks.
+    pub fn check_closest(&self, answer: &Answer<ClosestApproach>, bodies: &Bodies) -> Law {
+        let rounding = self.query.rounding();
+        let (lower, upper) = (answer.outcome.lower(), answer.outcome.upper());
+        match answer.outcome {
+            ClosestApproach::Nearest { time, contact, .. } => {
+                let least = self.least();
+                law!(
+                    lower <= least + rounding,
+                    "lower {lower} is above the least distance {least}"
+                );
+                let gap = self.referee.gap(time);
+                law!(
+                    gap <= upper + rounding || self.may_overlap(time, &contact),
+                    "upper {upper} is below the distance {gap} at {time}"
+                );
+                law!(
+                    upper - lower <= answer.tolerance,
+                    "{lower} and {upper} are more than {} apart",
+                    answer.tolerance
+                );
+                law!(
+                    !self.nested || lower <= rounding,
+                    "lower {lower}, but one body is inside the other"
+                );
+                check_contact(self.query, time, &contact, bodies, f64::INFINITY)
+            }
+            ClosestApproach::Overlapping { overlap } => {
+                self.check(&answer.map(|_| Outcome::Overlapping { overlap }), bodies)
+            }
+            ClosestApproach::Unresolved { .. } => Err("unresolved".into()),
+        }
+    }
+
+    /// Checks the first and the last contact: no contact before and after, both within reach.
+    ///
+    /// # Errors
+    /// The law that the answer breaks.
+    pub fn check_interval(&self, answer: &Answer<ContactInterval>, bodies: &Bodies) -> Law {
+        match answer.outcome {
+            ContactInterval::Within { first, last } => {
+                self.never_late(first.time)?;
+                let reach = self.config.margin;
+                let after = |&&(time, gap): &&(f64, f64)| time > last.time && gap < reach;
+                let late = self.samples.iter().find(after);
+                law!(
+                    late.is_none(),
+                    "in contact at {late:?}, after the last contact"
+                );
+                if let Finding::Hit { hi, .. } = self.finding {
+                    law!(
+                        hi <= last.time,
+                        "in contact at {hi}, after the last contact"
+                    );
+                }
+                for Touch { time, contact } in [first, last] {
+                    // Else one body is inside the other.
+                    if let Some(contact) = contact {
+                        self.within_reach(time, answer.tolerance, &contact)?;
+                    }
+                }
+                law!(
+                    first.time <= last.time,
+                    "the last contact is before the first"
+                );
+                Ok(())
+            }
+            ContactInterval::Free { proven_gap } => {
+                self.check(&answer.map(|_| Outcome::Free { proven_gap }), bodies)
+            }
+            ContactInterval::Unresolved { .. } => Err("unresolved".into()),
+        }
+    }
+
+    /// Checks that the bodies are in contact at a time.
+    fn within_reach(&self, time: f64, tolerance: f64, contact: &Contact) -> Law {
+        let reach = self.config.margin + tolerance + self.query.rounding();
+        let in_range = (0.0..=self.query.duration).contains(&time);
+        law!(in_range, "the time {time} is not within the duration");
+        let gap = self.referee.gap(time);
+        law!(
+            gap <= reach || self.may_overlap(time, contact),
+            "false: the distance at {time} is {gap}"
+        );
+        Ok(())
+    }
+
+    /// Bounds the distance of two pieces in contact at a time; there is no bound for bodies that overlap, whose
+    /// pieces may meet anywhere in a solid.
+    fn reach(&self, time: f64, tolerance: f64, contact: &Contact) -> f64 {
+        match self.may_overlap(time, contact) {
+            false => self.config.margin + tolerance + self.query.rounding(),
+            true => f64::INFINITY,
+        }
+    }
+
+    /// Returns true if two pieces overlap, or the bodies touched before: their surfaces may be far apart then.
+    fn may_overlap(&self, time: f64, contact: &Contact) -> bool {
+        let touched = match self.finding {
+            Finding::Hit { lo, .. } | Finding::Near { lo } => time >= lo,
+            Finding::Start => true,
+            Finding::Free { .. } | Finding::Undecided { .. } => false,
+        };
+        touched || self.nested || contact.separation.lower < -self.query.rounding()
+    }
+
+    /// The least distance seen.
+    fn least(&self) -> f64 {
+        let sampled = self.samples.iter().map(|sample| sample.1);
+        let least = sampled.fold(f64::INFINITY, lesser);
+        match self.finding {
+            Finding::Hit { .. } => 0.0,
+            Finding::Free { gap } => lesser(gap, least),
+            Finding::Start | Finding::Near { .. } | Finding::Undecided { .. } => least,
+        }
+    }
+}

@@ -1,0 +1,149 @@
+//! Questions other than that for the first contact, over every backend and kind of piece, and over motions as
+//! users give their own.
+
+use crate::backends::Oracle;
+use crate::models::Kind;
+use crate::query::{Bodies, Query};
+use ccd_core::schedule::{AnyContact, BestFirst, ClosestApproach, ContactInterval, DepthFirst};
+use ccd_core::{
+    Accelerations, Answer, Config, DistanceOracle, InputError, Journey, Motion, Smooth,
+};
+use ccd_distance_gjk::{ClosedForm, Direct, Gjk};
+use ccd_distance_vmarch::Vmarch;
+
+/// A motion of a user's own: its tangents, without accelerations.
+#[derive(Clone, Copy, Debug)]
+pub struct Own(pub Motion);
+
+impl Smooth for Own {
+    fn tangent(&self, time: f64) -> Result<Motion, InputError> {
+        let Own(motion) = self;
+        let (velocity, spin) = (motion.velocity(), motion.spin());
+        Motion::about(motion.pose(time), velocity, spin, motion.centre())
+    }
+
+    fn accelerations(&self, _from: f64, _to: f64) -> Accelerations {
+        Accelerations::default()
+    }
+}
+
+/// The backend and the pieces of answers, to print if an assertion fails.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Asked {
+    /// The oracle.
+    pub oracle: Oracle,
+    /// The kinds of pieces of the bodies.
+    pub kinds: [Kind; 2],
+}
+
+/// The answers to every question about motions.
+#[derive(Clone, Copy, Debug)]
+pub struct Answers {
+    /// Whether they touch at all.
+    pub any: Answer<AnyContact>,
+    /// How close they come.
+    pub closest: Answer<ClosestApproach>,
+}
+
+/// The answers to every question about the same motions, given as a user's own.
+#[derive(Clone, Copy, Debug)]
+pub struct AnswersAlong {
+    /// When they first touch.
+    pub first: Answer,
+    /// Whether they touch at all.
+    pub any: Answer<AnyContact>,
+    /// How close they come.
+    pub closest: Answer<ClosestApproach>,
+    /// When they first touch, and when last.
+    pub interval: Answer<ContactInterval>,
+}
+
+impl Oracle {
+    /// All oracles.
+    pub const ALL: [Oracle; 4] = [
+        Oracle::ClosedForm,
+        Oracle::Gjk,
+        Oracle::Direct,
+        Oracle::Vmarch,
+    ];
+}
+
+/// Calls `check` with the answers of every oracle that suits the bodies, for all bodies of the query.
+pub fn for_each_answers(
+    query: &Query,
+    config: &Config,
+    mut check: impl FnMut(&Bodies, Asked, Answers),
+) {
+    for_each_oracle(query, |bodies, asked| {
+        let answers = match asked.oracle {
+            Oracle::ClosedForm => ask(query, bodies, config, ClosedForm::default()),
+            Oracle::Gjk => ask(query, bodies, config, Gjk),
+            Oracle::Direct => ask(query, bodies, config, Direct::default()),
+            Oracle::Vmarch => ask(query, bodies, config, Vmarch::default().or_else(Gjk)),
+        };
+        check(bodies, asked, answers);
+    });
+}
+
+/// Calls `check` with the answers along motions that are a user's own, as [`for_each_answers`] does.
+pub fn for_each_answers_along(
+    query: &Query,
+    config: &Config,
+    mut check: impl FnMut(&Bodies, Asked, AnswersAlong),
+) {
+    for_each_oracle(query, |bodies, asked| {
+        let answers = match asked.oracle {
+            Oracle::ClosedForm => ask_along(query, bodies, config, ClosedForm::default()),
+            Oracle::Gjk => ask_along(query, bodies, config, Gjk),
+            Oracle::Direct => ask_along(query, bodies, config, Direct::default()),
+            Oracle::Vmarch => ask_along(query, bodies, config, Vmarch::default().or_else(Gjk)),
+        };
+        check(bodies, asked, answers);
+    });
+}
+
+fn for_each_oracle(query: &Query, mut call: impl FnMut(&Bodies, Asked)) {
+    for bodies in query.all_bodies() {
+        for oracle in Oracle::ALL
+            .into_iter()
+            .filter(|oracle| oracle.suits(&bodies))
+        {
+            let kinds = bodies.kinds;
+            call(&bodies, Asked { oracle, kinds });
+        }
+    }
+}
+
+fn ask<O: DistanceOracle>(
+    query: &Query,
+    bodies: &Bodies,
+    config: &Config,
+    mut oracle: O,
+) -> Answers {
+    let problem = query.problem(bodies, config);
+    let mut schedule = DepthFirst::<O>::default();
+    Answers {
+        any: schedule.any_contact(&problem, &mut oracle),
+        closest: schedule.closest_approach(&problem, &mut oracle),
+    }
+}
+
+fn ask_along<O: DistanceOracle>(
+    query: &Query,
+    bodies: &Bodies,
+    config: &Config,
+    mut oracle: O,
+) -> AnswersAlong {
+    let (a, b) = (Own(query.a.motion), Own(query.b.motion));
+    let (a, b) = ((bodies.a(), &a), (bodies.b(), &b));
+    let journey = Journey::new(a, b, query.duration, config).expect("a well-posed journey");
+    let mut best_first = BestFirst::<O>::default();
+    let mut depth_first = DepthFirst::<O>::default();
+    let well_posed = "motions within range";
+    AnswersAlong {
+        first: (best_first.first_contact_along(&journey, &mut oracle)).expect(well_posed),
+        any: (depth_first.any_contact_along(&journey, &mut oracle)).expect(well_posed),
+        closest: (depth_first.closest_approach_along(&journey, &mut oracle)).expect(well_posed),
+        interval: (best_first.contact_interval_along(&journey, &mut oracle)).expect(well_posed),
+    }
+}
