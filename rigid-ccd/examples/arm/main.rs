@@ -3,8 +3,9 @@
 //! ```sh
 //! cargo run --release -p rigid-ccd --example arm -- [EDGES [STEPS]]
 //! ```
-//! It checks 50 edges, or as many as are given, with a clearance of 5 mm, and counts what checks at 100, 1,000
-//! and `STEPS` steps accept wrongly, or what a proof does.
+//! It checks 50 edges, or as many as are given, with a clearance of 5 mm. Beside the proofs it shows checks at 5 to
+//! 1,000 equal steps: how many edges they accept, how fast, and how many of these come nearer than the clearance at
+//! one of `STEPS` steps (2,000 by default).
 
 #[path = "scene.rs"]
 mod scene;
@@ -135,7 +136,13 @@ fn main() -> anyhow::Result<()> {
     writeln!(out, "check            free  edges/s  wrongly accepted")?;
     let rate = count as f64 / taken;
 
-    // Only steps can prove a proof wrong.
+    // Only steps can prove a proof wrong. They measure without a tolerance: with one, they would reject what keeps
+    // the clearance barely.
+    let sharp = Config {
+        tolerance: 1e-9,
+        ..config
+    };
+    solver.set_config(sharp);
     let mut wrong = 0;
     let mut contact = vec![false; count];
     for (k, [from, to]) in edges.iter().enumerate() {
@@ -143,7 +150,7 @@ fn main() -> anyhow::Result<()> {
         wrong += u32::from(free[k] && contact[k]);
     }
     writeln!(out, "certified  {accepted:>10}  {rate:>7.0}  {wrong:>16}")?;
-    for steps in [100, 1_000] {
+    for steps in [5, 20, 100, 300, 1_000] {
         let begin = Instant::now();
         let (mut accepted, mut wrong) = (0, 0);
         for (k, [from, to]) in edges.iter().enumerate() {

@@ -51,6 +51,11 @@ fn motions() {
 }
 
 #[test]
+fn paths() {
+    replay(targets::PATHS);
+}
+
+#[test]
 fn every_corpus_has_a_target() {
     let mut names: Vec<String> = files(&folder())
         .iter()

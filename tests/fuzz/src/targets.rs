@@ -3,6 +3,7 @@
 mod bodies;
 mod mesh;
 mod motions;
+mod paths;
 mod query;
 mod stored;
 
@@ -17,7 +18,7 @@ pub struct Target {
 }
 
 /// All targets.
-pub const ALL: [Target; 7] = [QUERY, STORED, OBJ, STL, PLY, OFF, MOTIONS];
+pub const ALL: [Target; 8] = [QUERY, STORED, OBJ, STL, PLY, OFF, MOTIONS, PATHS];
 
 /// A query in bytes, asked of several methods and judged by the referee.
 pub const QUERY: Target = Target {
@@ -59,4 +60,10 @@ pub const OFF: Target = Target {
 pub const MOTIONS: Target = Target {
     name: "motions",
     run: motions::run,
+};
+
+/// A table of paths.
+pub const PATHS: Target = Target {
+    name: "paths",
+    run: paths::run,
 };

@@ -44,17 +44,19 @@ impl<O: DistanceOracle> DepthFirst<O> {
             };
             let leg = stretches.leg(span)?;
             let problem = leg.problem(journey, &config)?;
-            let answer = self.approach_below(&problem, found.upper() + leg.stray, oracle);
+            let beyond = found.upper() + leg.stray;
+            let answer = self.approach_below(&problem, beyond, oracle);
             stretches.add(&answer.stats);
-            let (lower, time) = match answer.outcome {
-                Err(Beyond { lower }) => (lower, 0.0),
+            let is_beyond = answer.outcome.is_err();
+            let (lower, upper, time) = match answer.outcome {
+                Err(Beyond { lower }) => (lower, beyond, 0.0),
                 Ok(ClosestApproach::Nearest {
                     lower,
                     time,
                     contact,
                 }) => {
                     found.take(leg.time(time), leg.contact(contact));
-                    (lower, time)
+                    (lower, contact.separation.upper, time)
                 }
                 Ok(ClosestApproach::Overlapping { overlap }) => {
                     if stretches.look_at_start(&leg) {
@@ -67,7 +69,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
                     if let Overlap::Pieces(contact) = overlap {
                         found.take(leg.span.from, leg.contact(contact));
                     }
-                    (0.0, 0.0)
+                    (0.0, 0.0, 0.0)
                 }
                 Ok(ClosestApproach::Unresolved { nearest, reason }) => {
                     if let Some((time, contact)) = nearest {
@@ -76,9 +78,13 @@ impl<O: DistanceOracle> DepthFirst<O> {
                     return Ok(found.unresolved(journey, &stretches, reason));
                 }
             };
+            let width = upper - lower;
             let lower = greater(0.0, leg.at_least(lower));
             let (upper, tolerance) = (found.upper(), journey.config.tolerance);
-            if lower >= upper - tolerance || stretches.is_fine(&leg)? {
+            // Where f64 does not certify the tolerance for the motions, cutting does not help. Bodies beyond the
+            // least distance so far are so with their strays.
+            let is_loose = width > tolerance && (is_beyond || leg.stray <= width);
+            if lower >= upper - tolerance || is_loose || stretches.is_fine(&leg)? {
                 found.lower = lesser(found.lower, lower);
             } else if !stretches.cut_about(leg.span, leg.time(time)) {
                 return Ok(found.unresolved(journey, &stretches, Limit::Stalled));

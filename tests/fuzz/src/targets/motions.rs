@@ -30,7 +30,7 @@ pub(super) fn run(bytes: &[u8]) {
 }
 
 /// A reader that hands out one byte at a time.
-struct Dripping<'a>(&'a [u8]);
+pub(super) struct Dripping<'a>(pub(super) &'a [u8]);
 
 impl Read for Dripping<'_> {
     fn read(&mut self, out: &mut [u8]) -> io::Result<usize> {

@@ -1,0 +1,83 @@
+//! Tables of paths.
+
+use super::motions::Dripping;
+use crate::memory;
+use rigid_ccd::table::courses::{Course, CourseRow, Courses};
+use rigid_ccd::table::motions::{RowPosition, TableError};
+use rigid_ccd::table::paths::Grouping;
+use std::io::Read;
+
+/// The most bytes that are tried.
+const MOST_BYTES: usize = 1 << 14;
+
+/// The memory that is allowed, and some for each byte: a row of two bytes is a pose of both bodies.
+const MEMORY: usize = 1 << 24;
+const MEMORY_PER_BYTE: usize = 1 << 11;
+
+pub(super) fn run(bytes: &[u8]) {
+    if bytes.len() > MOST_BYTES {
+        return;
+    }
+    // Most headers are those of motions: a column more makes them paths.
+    let paths = [b"t,", bytes].concat();
+    memory::within(MEMORY + MEMORY_PER_BYTE * bytes.len(), || {
+        for bytes in [bytes, &paths] {
+            for grouping in [Grouping::ById, Grouping::EachRow] {
+                check(bytes, grouping);
+            }
+        }
+    });
+}
+
+/// Checks that a table is the same at once, byte by byte, and after rows that are skipped.
+fn check(bytes: &[u8], grouping: Grouping) {
+    let (whole, slow) = (read(bytes, grouping), read(Dripping(bytes), grouping));
+    match (whole, slow) {
+        (Ok(whole), Ok(slow)) => {
+            assert_eq!(whole, slow, "read byte by byte, it differs");
+            let (rows, checksum) = whole;
+            rows.iter().for_each(check_row);
+            skipped(bytes, grouping, &rows, checksum);
+        }
+        (Err(one), Err(other)) => assert_eq!(one.to_string(), other.to_string()),
+        (one, other) => panic!("at once {one:?}, byte by byte {other:?}"),
+    }
+}
+
+/// Reads all rows, and the checksum at the end.
+fn read(input: impl Read, grouping: Grouping) -> Result<(Vec<CourseRow>, u32), TableError> {
+    let mut rows = Courses::new(input, grouping)?;
+    let all: Result<_, _> = rows.by_ref().collect();
+    Ok((all?, rows.checksum()))
+}
+
+fn check_row(row: &CourseRow) {
+    match row {
+        Ok((_, course)) => {
+            assert!(course.duration() >= 0.0 && course.duration().is_finite());
+            let [first, last] = [course.earliest(0.0), course.latest(course.duration())];
+            // Written so that NaN fails.
+            assert!(first <= last, "{first} {last}");
+            if let Course::Path(path) = course {
+                assert!(path.poses(path.duration).is_ok());
+            }
+        }
+        Err(error) => assert!(!error.to_string().is_empty()),
+    }
+}
+
+/// Checks that skipped rows change nothing of those after them, but what they are called without an id.
+fn skipped(bytes: &[u8], grouping: Grouping, rows: &[CourseRow], checksum: u32) {
+    let half = rows.len() / 2;
+    let mut rest = Courses::new(bytes, grouping).expect("a header that was read");
+    assert_eq!(rest.skip_rows(half).ok(), Some(half));
+    let place = |row: &CourseRow| -> RowPosition {
+        match row {
+            Ok((position, _)) => *position,
+            Err(error) => error.position,
+        }
+    };
+    let found: Vec<_> = rest.by_ref().filter_map(Result::ok).collect();
+    assert!(found.iter().map(place).eq(rows[half..].iter().map(place)));
+    assert_eq!(rest.checksum(), checksum);
+}
