@@ -200,11 +200,14 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         writeln!(print, "{angle:>7}  {lower:.4} to {upper:.4}")?;
     }
     let (least, most) = range(&windows);
-    writeln!(print, "over the full turn {least:.4} to {most:.4}")?;
+    writeln!(
+        print,
+        "windows of a degree: the least bound is {least:.4}, the largest {most:.4}"
+    )?;
     if let Some(folder) = out.parent() {
         std::fs::create_dir_all(folder)?;
     }
     draw(&windows, &out)?;
-    writeln!(print, "{}", out.display())?;
+    writeln!(print, "picture: {}", out.display())?;
     Ok(())
 }

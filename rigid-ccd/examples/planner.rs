@@ -223,6 +223,6 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         std::fs::create_dir_all(folder)?;
     }
     draw(&places, &free, &path, &out)?;
-    writeln!(print, "{}", out.display())?;
+    writeln!(print, "picture: {}", out.display())?;
     Ok(())
 }

@@ -36,7 +36,7 @@ fn edge_is_free(
             }
         }
         for &other in &scene.others[k] {
-            let (seen, other) = (moves.seen_from(other), &scene.links[other]);
+            let (seen, other) = (moves.seen_from(other)?, &scene.links[other]);
             if !solver.is_free_along((link, &seen), (other, &Motion::STILL), 1.0)? {
                 return Ok(false);
             }
@@ -133,6 +133,10 @@ fn main() -> anyhow::Result<()> {
     }
     let taken = begin.elapsed().as_secs_f64();
     let accepted = free.iter().filter(|&&free| free).count();
+    writeln!(
+        out,
+        "{count} edges, clearance {CLEARANCE} m, {OBSTACLES} obstacles"
+    )?;
     writeln!(out, "check            free  edges/s  wrongly accepted")?;
     let rate = count as f64 / taken;
 

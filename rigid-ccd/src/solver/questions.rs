@@ -52,6 +52,8 @@ impl<O: DistanceOracle> Solver<O> {
     /// Brackets the least distance of two moving bodies, to within the tolerance, with its time and the nearest
     /// pieces.
     ///
+    /// The margin and the start policy play no role.
+    ///
     /// # Guarantee
     /// The bodies are never nearer than the lower bound, and at that time at most the upper bound apart.
     ///
@@ -102,7 +104,10 @@ impl<O: DistanceOracle> Solver<O> {
         self.closest_approach(a, b, 0.0)
     }
 
-    /// Finds the first contact of two bodies on [trajectories](crate::trajectory).
+    /// Finds the first contact of two bodies on [trajectories](crate::trajectory), from their time 0 to the time
+    /// `duration`.
+    ///
+    /// Contacts at the start are reported: a start policy to leave them plays no role.
     ///
     /// # Errors
     /// Those of [`first_contact`](crate::first_contact), and those of the trajectories.

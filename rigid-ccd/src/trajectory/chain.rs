@@ -5,6 +5,9 @@ use ccd_core::Pose;
 
 /// A serial chain: joint `k` connects link `k` to link `k + 1`, and link 0 is the base.
 ///
+/// A body that hangs on a link has its origin at the joint. Where its own origin is elsewhere, such as the middle of
+/// a box, a [fixed](Joint::fixed) joint more takes it there.
+///
 /// ```
 /// use rigid_ccd::trajectory::{Chain, Joint, Trajectory};
 /// use rigid_ccd::Pose;
@@ -15,7 +18,7 @@ use ccd_core::Pose;
 /// let forearm = arm.link(2, &[0.0, 0.0], &[1.0, -2.0], 1.0)?;
 /// assert!((forearm.pose(0.7)?.translation().length() - 1.0).abs() < 1e-15);
 /// // As the upper arm sees it, it only turns.
-/// let bends = arm.link(2, &[0.0, 0.0], &[1.0, -2.0], 1.0)?.seen_from(1);
+/// let bends = arm.link(2, &[0.0, 0.0], &[1.0, -2.0], 1.0)?.seen_from(1)?;
 /// assert!(bends.pose(0.7)?.translation().x == 1.0);
 /// # Ok::<(), rigid_ccd::InputError>(())
 /// ```

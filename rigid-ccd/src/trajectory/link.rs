@@ -100,19 +100,22 @@ impl<'c> Link<'c> {
         })
     }
 
-    /// Returns the trajectory in the frame of another link, to be asked against that link at rest. What both
-    /// links have in common costs nothing then.
+    /// Returns the trajectory in the frame of another link, nearer to the base or the same. A query asks for it
+    /// against that link at rest, [`Motion::STILL`]: what moves both links costs nothing then.
     ///
-    /// The other link is one below it in the chain. In the order of a query, the lower link comes to rest.
-    ///
-    /// # Panics
-    /// When the other link is above.
-    #[must_use]
-    pub fn seen_from(self, link: usize) -> Self {
-        assert!(link <= self.link, "link {link} is above link {}", self.link);
-        Link {
-            seen_from: Some(link),
-            ..self
+    /// # Errors
+    /// [`InputError::OutOfRange`] if the other link is farther from the base.
+    pub fn seen_from(self, link: usize) -> Result<Self, InputError> {
+        match link <= self.link {
+            true => Ok(Link {
+                seen_from: Some(link),
+                ..self
+            }),
+            false => Err(InputError::OutOfRange {
+                what: "link to see from",
+                value: link as f64,
+                allowed: "no farther from the base than the link that is seen",
+            }),
         }
     }
 

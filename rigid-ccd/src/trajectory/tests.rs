@@ -249,7 +249,7 @@ impl Trajectory for Owned {
         let [first, last] = &self.positions;
         let link = self.chain.link(self.link, first, last, 2.0)?;
         match self.seen_from {
-            Some(other) => link.seen_from(other).stretch(from, to),
+            Some(other) => link.seen_from(other)?.stretch(from, to),
             None => link.stretch(from, to),
         }
     }
@@ -321,7 +321,7 @@ fn links_seen_from_links_are_where_they_are_in_the_world() {
         let of = |link| owned.chain.link(link, first, last, 2.0).unwrap();
         let time = rng.random_range(0.0..2.0);
         let [tip, base] = [owned.link, other].map(|link| of(link).pose(time).unwrap());
-        let seen = of(owned.link).seen_from(other).pose(time).unwrap();
+        let seen = of(owned.link).seen_from(other).unwrap().pose(time).unwrap();
         let x = vector(&mut rng, 1.0);
         let twice = base.compose(&seen).transform_point(x);
         assert!(twice.distance(tip.transform_point(x)) < 1e-13);

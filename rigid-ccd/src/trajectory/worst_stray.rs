@@ -25,6 +25,8 @@ pub struct Worst {
 /// changes the worst draw a little, again and again. The same seed makes the same draws. Poses are those of
 /// [`Trajectory::pose`], which have to be exact to a few units in the last place.
 ///
+/// Give the reach of your largest body: bounds of turns count by it, and a false one shows where it is large.
+///
 /// A ratio above 1 is a fault of the trajectory, at the place that is returned. A ratio far below 1 over all
 /// draws says that the bounds could be tighter.
 ///

@@ -59,10 +59,10 @@ impl<O: DistanceOracle> DepthFirst<O> {
                     (lower, contact.separation.upper, time)
                 }
                 Ok(ClosestApproach::Overlapping { overlap }) => {
-                    if stretches.look_at_start(&leg) {
+                    if stretches.look_at_start(&leg)? {
                         continue;
                     }
-                    if leg.begins_at_start() {
+                    if stretches.begins_at_start(&leg)? {
                         let overlapping = ClosestApproach::Overlapping { overlap };
                         return Ok(found.answer(journey, &stretches, overlapping));
                     }

@@ -45,14 +45,14 @@ impl<O: DistanceOracle> BestFirst<O> {
                 Outcome::Contact { time, contact } => (time, Some(contact)),
                 Outcome::Touching { contact } => (0.0, Some(contact)),
                 Outcome::Overlapping { overlap } => {
-                    if stretches.look_at_start(&leg) {
+                    if stretches.look_at_start(&leg)? {
                         continue;
                     }
                     (0.0, contact_of(&overlap))
                 }
             };
             if stretches.is_fine(&leg)? {
-                return Ok(kept.found(&stretches, &leg, answer.outcome));
+                return kept.found(&stretches, &leg, answer.outcome);
             }
             let rest = Span {
                 from: leg.time(s),
@@ -111,14 +111,14 @@ impl<O: DistanceOracle> DepthFirst<O> {
                 }
                 AnyContact::Contact { time, contact } => (time, Outcome::Contact { time, contact }),
                 AnyContact::Overlapping { overlap } => {
-                    if stretches.look_at_start(&leg) {
+                    if stretches.look_at_start(&leg)? {
                         continue;
                     }
                     (0.0, Outcome::Overlapping { overlap })
                 }
             };
             if stretches.is_fine(&leg)? {
-                let found = kept.found(&stretches, &leg, outcome);
+                let found = kept.found(&stretches, &leg, outcome)?;
                 // One is inside the other: they have met before, or overlap at the start.
                 if let Outcome::Unresolved { safe_until, .. } = found.outcome {
                     undecided = lesser(undecided, safe_until);
@@ -176,7 +176,12 @@ impl SoFar {
     }
 
     /// Returns the answer for a contact of the motions of a leg.
-    fn found(&mut self, stretches: &Stretches<'_, '_>, leg: &Leg, outcome: Outcome) -> Answer {
+    fn found(
+        &mut self,
+        stretches: &Stretches<'_, '_>,
+        leg: &Leg,
+        outcome: Outcome,
+    ) -> Result<Answer, InputError> {
         let at = |time: f64, contact: Contact| {
             let contact = leg.contact(contact);
             match time > 0.0 {
@@ -187,7 +192,7 @@ impl SoFar {
         let outcome = match outcome {
             Outcome::Contact { time, contact } => at(leg.time(time), contact),
             Outcome::Touching { contact } => at(leg.span.from, contact),
-            Outcome::Overlapping { overlap } if leg.begins_at_start() => {
+            Outcome::Overlapping { overlap } if stretches.begins_at_start(leg)? => {
                 Outcome::Overlapping { overlap }
             }
             // Bodies that were apart until then overlap by no more than they stray.
@@ -204,7 +209,7 @@ impl SoFar {
             let shown = (contact.separation.upper - self.margin).next_up();
             self.tolerance = greater(self.tolerance, shown);
         }
-        self.answer(stretches, outcome)
+        Ok(self.answer(stretches, outcome))
     }
 }
 

@@ -46,10 +46,12 @@ impl Leg {
         journey: &Journey<'a>,
         config: &Config,
     ) -> Result<Problem<'a>, InputError> {
+        // A contact of the motions is one of the bodies where both stray towards each other.
+        let least = (1.0 - 2.0 * STRAY_SHARE) * config.tolerance;
         let tolerance = match self.stray > 0.0 {
             true => greater(
-                (1.0 - 2.0 * STRAY_SHARE) * config.tolerance,
-                LEAST_TOLERANCE,
+                config.tolerance - 2.0 * self.stray,
+                greater(least, LEAST_TOLERANCE),
             ),
             false => config.tolerance,
         };
@@ -70,11 +72,6 @@ impl Leg {
             Some(stop) => problem.stopped_by(stop),
             None => problem,
         })
-    }
-
-    /// Returns true if the poses at the start of the motions are those of the bodies at the start.
-    pub(super) fn begins_at_start(&self) -> bool {
-        self.span.from == 0.0 && (self.span.to == 0.0 || self.stray == 0.0)
     }
 
     /// Returns what a distance of the motions says of the bodies where they stray.

@@ -87,25 +87,33 @@ impl<'j, 'a> Stretches<'j, 'a> {
     /// Returns true if a contact of a leg's motions is one of the bodies, as well as can be told: within the
     /// tolerance, or cutting does not make it any better.
     pub(super) fn is_fine(&self, leg: &Leg) -> Result<bool, InputError> {
-        if leg.stray <= STRAY_SHARE * self.journey.config.tolerance {
-            return Ok(true);
-        }
+        Ok(leg.stray <= STRAY_SHARE * self.journey.config.tolerance || self.is_shortest(leg)?)
+    }
+
+    /// Returns true if the bodies stray hardly farther than in a stretch of no length: by rounding.
+    fn is_shortest(&self, leg: &Leg) -> Result<bool, InputError> {
         let from = leg.span.from;
         let least = Leg::new(self.journey, Span { from, to: from })?;
         Ok(leg.stray <= 2.0 * least.stray)
     }
 
+    /// Returns true if the poses at the start of a leg's motions are those of the bodies at the start, up to
+    /// rounding.
+    pub(super) fn begins_at_start(&self, leg: &Leg) -> Result<bool, InputError> {
+        Ok(leg.span.from == 0.0 && (leg.stray == 0.0 || self.is_shortest(leg)?))
+    }
+
     /// Lets the pose at the start be next, and then the leg again, if the leg's motions begin beside it: where
     /// they overlap at the start, the bodies need not. Returns false once the start was looked at, and for legs
     /// that begin later.
-    pub(super) fn look_at_start(&mut self, leg: &Leg) -> bool {
+    pub(super) fn look_at_start(&mut self, leg: &Leg) -> Result<bool, InputError> {
         let Span { from, .. } = leg.span;
-        if from > 0.0 || leg.begins_at_start() || self.looked_at_start {
-            return false;
+        if from > 0.0 || self.looked_at_start || self.begins_at_start(leg)? {
+            return Ok(false);
         }
         self.looked_at_start = true;
         self.waiting.extend([leg.span, Span { from, to: from }]);
-        true
+        Ok(true)
     }
 
     /// Lets a stretch be next.

@@ -41,7 +41,8 @@ Table of paths:
   id                        name of the path in the results [default: all rows are one path]
   t                         time of the row, later than that of the row before
   a_px ... a_qz, b_px, ...  poses of A and B at that time, as above
-  The results have a row for each path, and --rows counts paths. Times are those of column `t`.
+  The results have a row for each path, and --rows counts paths; with --ask distance, a row for each
+  row. Times are those of column `t`.
 
 Questions (--ask):
   first-contact             when do they first touch?
@@ -65,7 +66,7 @@ Table of results:
   time                      certified: no contact before it; from 0 to the duration; of a distance,
                             when the bodies are nearest
   distance_lower, distance_upper
-                            bounds of the distance at `time`; of `free` and of a distance:
+                            bounds of the distance at `time`; of `free` and of closest-approach:
                             distance_lower holds at all times
   normal_x ... normal_z     unit vector from A to B, world frame, at `time`
   witness_a_x ... witness_b_z

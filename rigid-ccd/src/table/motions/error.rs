@@ -174,6 +174,8 @@ pub enum RowProblem {
     },
     /// A path has no time in a row.
     NoTime,
+    /// A path has no name, in a table that names them.
+    NoId,
     /// A path goes on after rows of other paths.
     PathApart {
         /// The id of the path.
@@ -220,6 +222,7 @@ impl fmt::Display for RowProblem {
                 Number(*time),
                 Number(*before)
             ),
+            Self::NoId => write!(f, "column id: no value; each row of a path needs its name"),
             Self::NoTime => write!(f, "column t: no value; each row of a path needs its time"),
             Self::PathApart { id } => write!(
                 f,

@@ -53,6 +53,9 @@ pub(in crate::table) fn poses(
         columns,
         cells: &cells,
     };
+    if columns.index(ID).is_some() && columns.cell(&cells, ID).is_none() {
+        return Err(RowProblem::NoId);
+    }
     Ok(Poses {
         time: row.number(TIME)?.ok_or(RowProblem::NoTime)?,
         a: row.start(Side::A)?,

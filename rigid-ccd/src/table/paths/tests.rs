@@ -97,6 +97,7 @@ fn a_path_that_cannot_be_followed_is_an_error() {
             "column t: 2 is not later than 2",
         ),
         ("id,t\na,0\na,\n", 1, "column t: no value"),
+        ("id,t\na,0\n,1\n", 1, "column id: no value"),
         (
             "id,t\na,0\nb,0\na,1\n",
             2,
