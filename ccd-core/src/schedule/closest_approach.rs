@@ -72,6 +72,16 @@ impl ClosestApproach {
         }
     }
 
+    /// Returns true if the bodies come to no distance after the start.
+    pub(super) fn meets_later(&self, tolerance: f64) -> bool {
+        match *self {
+            ClosestApproach::Nearest { time, contact, .. } => {
+                time > 0.0 && contact.separation.upper <= tolerance
+            }
+            ClosestApproach::Overlapping { .. } | ClosestApproach::Unresolved { .. } => false,
+        }
+    }
+
     /// The width of the bracket; 0 if there is none.
     pub(super) fn width(&self) -> f64 {
         match self {
@@ -120,7 +130,37 @@ impl<O: DistanceOracle> DepthFirst<O> {
         oracle: &mut O,
     ) -> Answer<ClosestApproach> {
         let answer = self.approach_below(problem, f64::INFINITY, oracle);
-        answer.map(|found| found.unwrap_or_else(|Beyond { .. }| unresolved(Limit::OracleGaveUp)))
+        let answer = answer
+            .map(|found| found.unwrap_or_else(|Beyond { .. }| unresolved(Limit::OracleGaveUp)));
+        match answer.outcome.meets_later(problem.tolerance) {
+            true => self.or_overlap(problem, oracle, answer),
+            false => answer,
+        }
+    }
+
+    /// Returns the answer for bodies that meet, unless they overlap at the start as well.
+    fn or_overlap(
+        &mut self,
+        problem: &Problem<'_>,
+        oracle: &mut O,
+        answer: Answer<ClosestApproach>,
+    ) -> Answer<ClosestApproach> {
+        let mut kept = self.kept.take();
+        let start = metered(problem, oracle, &mut kept, |oracle, meter| {
+            let problem = problem.measuring();
+            let outcome = match at_start(&problem, f64::MIN_POSITIVE, oracle, meter) {
+                Some(Outcome::Overlapping { overlap }) => {
+                    let overlapping = ClosestApproach::Overlapping { overlap };
+                    told(&problem, oracle, meter, overlapping)
+                }
+                _ => answer.outcome,
+            };
+            (outcome, answer.tolerance)
+        });
+        self.kept = kept;
+        let mut stats = answer.stats;
+        stats.add(&start.stats);
+        Answer { stats, ..start }
     }
 
     /// Like [`DepthFirst::closest_approach`], if the bodies come nearer than `beyond`.

@@ -150,7 +150,7 @@ impl<R: io::Read> PathRows<R> {
         let mut bad: Option<(RowPosition, RowProblem)> = None;
         let read = self.read(|position, columns, record| {
             if bad.is_none() {
-                let found = row::poses(columns, record).and_then(|row| after(poses.last(), row));
+                let found = row::poses(columns, record).and_then(|row| after(&poses, row));
                 match found {
                     Ok(row) => poses.push(row),
                     Err(problem) => bad = Some((position, problem)),
@@ -187,14 +187,25 @@ struct Beginning {
     seen: bool,
 }
 
-/// Refuses a row that is not later than the one before.
-fn after(before: Option<&Poses>, row: Poses) -> Result<Poses, RowProblem> {
-    match before {
-        Some(before) if row.time <= before.time => Err(RowProblem::NotLater {
-            time: row.time,
+/// Refuses a row that is not later than the one before, also once the first time is taken from both.
+fn after(poses: &[Poses], row: Poses) -> Result<Poses, RowProblem> {
+    let (time, Some(first), Some(before)) = (row.time, poses.first(), poses.last()) else {
+        return Ok(row);
+    };
+    let [since, since_before] = [time, before.time].map(|time| time - first.time);
+    if time <= before.time {
+        return Err(RowProblem::NotLater {
+            time,
             before: before.time,
+        });
+    }
+    // Written so that NaN is refused.
+    match since > since_before && since.is_finite() {
+        true => Ok(row),
+        false => Err(RowProblem::TooLate {
+            time,
+            first: first.time,
         }),
-        _ => Ok(row),
     }
 }
 

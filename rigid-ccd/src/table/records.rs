@@ -37,7 +37,7 @@ impl<R: Read> Records<R> {
             return Err(TableError::UnclosedQuote { row: None, line });
         }
         let mut checksum = crc32fast::Hasher::new();
-        checksum.update(raw.as_slice());
+        add(&mut checksum, &raw);
         Ok(Records {
             reader,
             raw,
@@ -74,7 +74,7 @@ impl<R: Read> Records<R> {
             let row = Some(self.rows);
             return Err(TableError::UnclosedQuote { row, line });
         }
-        self.checksum.update(self.raw.as_slice());
+        add(&mut self.checksum, &self.raw);
         let row = self.rows;
         self.rows += 1;
         // Empty lines before the row have been read as well: its line is computed from its end.
@@ -85,6 +85,14 @@ impl<R: Read> Records<R> {
             row,
             line: after.saturating_sub(within + 1).max(before),
         }))
+    }
+}
+
+/// Adds the cells of a record to a checksum, and where they end.
+fn add(checksum: &mut crc32fast::Hasher, record: &csv::ByteRecord) {
+    checksum.update(record.as_slice());
+    for cell in record {
+        checksum.update(&(cell.len() as u64).to_le_bytes());
     }
 }
 

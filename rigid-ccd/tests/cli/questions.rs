@@ -242,3 +242,20 @@ fn options_without_a_use_are_refused() {
         );
     }
 }
+
+/// They are nearest later, as deep as they are then.
+#[test]
+fn bodies_that_overlap_at_the_start_are_overlapping() {
+    let deeper = "a_px,a_vx\n0.9,-1.9\n";
+    let row = only(&ask("closest-approach", &BALLS, deeper));
+    assert_eq!(
+        (row.text("status"), row.text("time")),
+        ("overlapping", "0.0")
+    );
+    let path = "t,a_px\n0,0.9\n1,-1\n2,3\n";
+    let row = only(&ask("closest-approach", &BALLS, path));
+    assert_eq!(
+        (row.text("status"), row.text("time")),
+        ("overlapping", "0.0")
+    );
+}

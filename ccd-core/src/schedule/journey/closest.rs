@@ -1,6 +1,7 @@
 //! The closest approach along trajectories.
 
 use super::Journey;
+use super::leg::{Leg, Span};
 use super::stretches::Stretches;
 use crate::config::Config;
 use crate::distance::oracle::DistanceOracle;
@@ -94,7 +95,34 @@ impl<O: DistanceOracle> DepthFirst<O> {
                 break;
             }
         }
-        Ok(found.nearest(journey, &stretches))
+        let nearest = found.nearest(journey, &stretches);
+        if nearest.outcome.meets_later(journey.config.tolerance) {
+            return self.or_overlap_along(journey, oracle, nearest);
+        }
+        Ok(nearest)
+    }
+
+    /// Returns the answer for bodies that meet, unless they overlap at the start as well.
+    fn or_overlap_along(
+        &mut self,
+        journey: &Journey<'_>,
+        oracle: &mut O,
+        answer: Answer<ClosestApproach>,
+    ) -> Result<Answer<ClosestApproach>, InputError> {
+        let leg = Leg::new(journey, Span { from: 0.0, to: 0.0 })?;
+        let problem = leg.problem(journey, &journey.config)?;
+        let start = self.closest_approach(&problem, oracle);
+        let mut stats = answer.stats;
+        stats.add(&start.stats);
+        let outcome = match start.outcome {
+            ClosestApproach::Overlapping { .. } => start.outcome,
+            ClosestApproach::Nearest { .. } | ClosestApproach::Unresolved { .. } => answer.outcome,
+        };
+        Ok(Answer {
+            outcome,
+            stats,
+            ..answer
+        })
     }
 }
 

@@ -172,6 +172,13 @@ pub enum RowProblem {
         /// The time of the row before.
         before: f64,
     },
+    /// A time is so long after the first of its path that it cannot be told from the row before.
+    TooLate {
+        /// The time of the row.
+        time: f64,
+        /// The first time of the path.
+        first: f64,
+    },
     /// A path has no time in a row.
     NoTime,
     /// A path has no name, in a table that names them.
@@ -221,6 +228,12 @@ impl fmt::Display for RowProblem {
                 "column t: {} is not later than {}, the time of the row before; sort the rows of each id by t",
                 Number(*time),
                 Number(*before)
+            ),
+            Self::TooLate { time, first } => write!(
+                f,
+                "column t: {} is so long after {}, where the path begins, that times cannot be told apart",
+                Number(*time),
+                Number(*first)
             ),
             Self::NoId => write!(f, "column id: no value; each row of a path needs its name"),
             Self::NoTime => write!(f, "column t: no value; each row of a path needs its time"),

@@ -99,6 +99,12 @@ fn a_path_that_cannot_be_followed_is_an_error() {
         ("id,t\na,0\na,\n", 1, "column t: no value"),
         ("id,t\na,0\n,1\n", 1, "column id: no value"),
         (
+            "t\n-1e17\n0.1\n0.2\n",
+            2,
+            "column t: 0.2 is so long after -1e17",
+        ),
+        ("t\n-1e308\n1e308\n", 1, "column t: 1e308 is so long after"),
+        (
             "id,t\na,0\nb,0\na,1\n",
             2,
             "path `a` goes on here after rows of other paths",
@@ -131,6 +137,21 @@ fn columns_of_motions_are_no_columns_of_paths() {
     let expected = "unknown column `a_vx`; a table with a column t";
     assert!(refused.contains(expected), "{refused}");
     assert!(message("id,t,a_pX\n").ends_with("did you mean `a_px`?"));
+}
+
+/// The same digits in other cells are another path.
+#[test]
+fn checksums_tell_cells_apart() {
+    let sum = |row: &str| {
+        let table = format!("id,t,a_px,a_py\n{row}\n");
+        let mut rows = Courses::new(table.as_bytes(), Grouping::ById).unwrap();
+        rows.skip_rows(1).unwrap();
+        rows.checksum()
+    };
+    let sums = ["p,0,4,", "p,0,,4", "p,04,,", "p0,4,,"].map(sum);
+    for (k, one) in sums.iter().enumerate() {
+        assert!(!sums[..k].contains(one), "{k}");
+    }
 }
 
 #[test]
