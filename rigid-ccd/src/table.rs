@@ -4,9 +4,11 @@
 
 pub(crate) mod contacts;
 pub mod courses;
+mod error;
 mod lines;
 pub mod motions;
 pub mod paths;
+mod position;
 mod quotes;
 mod records;
 pub(crate) mod results;

@@ -1,8 +1,10 @@
 //! The rows of a query: motions, or paths.
 
+use super::error::{RowError, TableError};
 use super::motions::columns::Form;
-use super::motions::{MotionRows, Query, RowError, RowPosition, TableError};
+use super::motions::{MotionRows, Query};
 use super::paths::{Grouping, Path, PathRows};
+use super::position::RowPosition;
 use super::records::Records;
 use std::io;
 

@@ -1,14 +1,14 @@
 //! The table of motions: CSV read as motions of two bodies, and written.
 
 pub(in crate::table) mod columns;
-mod error;
 mod foreign;
 pub(in crate::table) mod row;
 #[cfg(test)]
 mod tests;
 mod write;
 
-pub use error::{RowError, RowProblem, TableError};
+pub use super::error::{RowError, RowProblem, TableError};
+pub use super::position::RowPosition;
 pub use write::write;
 
 use crate::table::records::Records;
@@ -27,15 +27,6 @@ pub struct Query {
     pub b: Motion,
     /// The end of the motions, in their unit of time.
     pub duration: f64,
-}
-
-/// The position of a row in a table.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct RowPosition {
-    /// The number of the row, counted from 0 after the header, as `--rows` counts.
-    pub row: usize,
-    /// The line of the file, counted from 1.
-    pub line: u64,
 }
 
 /// A table of motions, with its bad rows listed separately.

@@ -3,9 +3,10 @@
 #[cfg(test)]
 mod tests;
 
+use super::error::{RowError, RowProblem, TableError};
 use super::motions::columns::{Columns, Form};
 use super::motions::row::{self, Poses};
-use super::motions::{RowError, RowPosition, RowProblem, TableError};
+use super::position::RowPosition;
 use super::records::Records;
 use crate::trajectory;
 use ccd_core::{InputError, Pose, Trajectory};

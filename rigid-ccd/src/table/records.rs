@@ -1,7 +1,8 @@
 //! The records of a CSV table, with their positions and a checksum.
 
+use crate::table::error::TableError;
 use crate::table::lines::Lines;
-use crate::table::motions::{RowPosition, TableError};
+use crate::table::position::RowPosition;
 use crate::table::quotes::Quotes;
 use std::io::{self, Read};
 

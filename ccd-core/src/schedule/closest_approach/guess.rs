@@ -1,6 +1,7 @@
 //! The least distance at a few times, to begin with.
 
-use super::{Best, ClosestApproach, follow};
+use super::follow::follow;
+use super::{Best, ClosestApproach};
 use crate::distance::oracle::DistanceOracle;
 use crate::outcome::{Limit, Overlap};
 use crate::problem::Problem;

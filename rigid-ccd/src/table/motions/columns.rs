@@ -1,7 +1,7 @@
 //! The columns of the table of motions.
 
-use super::error::TableError;
 use super::foreign;
+use crate::table::error::TableError;
 use std::ops::Range;
 
 /// One of the two bodies.

@@ -2,7 +2,7 @@
 
 use super::Query;
 use super::columns::{Columns, DURATION, ID, Quantity, Side, TIME};
-use super::error::RowProblem;
+use crate::table::error::RowProblem;
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{InputError, Motion, Pose};
 use std::ops::Range;

@@ -1,6 +1,6 @@
-//! Errors of a table of motions.
+//! Errors of a table of motions or paths.
 
-use super::RowPosition;
+use super::position::RowPosition;
 use crate::text::Number;
 use ccd_core::InputError;
 use std::fmt;

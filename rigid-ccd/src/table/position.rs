@@ -1,0 +1,10 @@
+//! Where a row stands.
+
+/// The position of a row in a table.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RowPosition {
+    /// The number of the row, counted from 0 after the header, as `--rows` counts.
+    pub row: usize,
+    /// The line of the file, counted from 1.
+    pub line: u64,
+}

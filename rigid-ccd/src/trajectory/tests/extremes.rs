@@ -1,0 +1,105 @@
+//! Far times and places, ends, and lengths of axes.
+
+use super::*;
+
+/// Checks the bounds of stretches between two times, far from 0 or of large coordinates, up to what poses are off.
+fn check_between(name: &str, trajectory: &impl Trajectory, from: f64, to: f64, rng: &mut Rng) {
+    for _ in 0..1_000 {
+        let [a, b] = [(); 2].map(|()| rng.random_range(from..to));
+        let (a, b) = if a < b { (a, b) } else { (b, a) };
+        let stretch = trajectory.stretch(a, b).unwrap();
+        assert!(
+            stretch.stray.shift >= 0.0 && stretch.stray.turn >= 0.0,
+            "{name}"
+        );
+        let time = rng.random_range(a..=b);
+        let exact = trajectory.stretch(time, time).unwrap();
+        let allowed = stretch.stray + exact.stray;
+        let near = stretch.motion.pose(time - a);
+        let there = exact.motion.start();
+        let centre = stretch.motion.centre();
+        let shift = near
+            .transform_point(centre)
+            .distance(there.transform_point(centre));
+        let turned = near.rotation().conjugate() * there.rotation();
+        let turn = 2.0 * turned.xyz().length().atan2(turned.w.abs());
+        assert!(shift <= allowed.shift, "{name}: {shift:e} {allowed:?}");
+        assert!(turn <= allowed.turn, "{name}: {turn:e} {allowed:?}");
+    }
+}
+
+#[test]
+fn times_may_be_far_from_0() {
+    let mut rng = Rng::seed_from_u64(5);
+    let epoch = 1.7e9;
+    for _ in 0..20 {
+        let mut at = orientation(&mut rng);
+        let mut key = |k: usize| {
+            at = DQuat::from_scaled_axis(vector(&mut rng, 0.5)) * at;
+            (epoch + 0.01 * k as f64, at.to_array())
+        };
+        let keys: Vec<_> = (0..50).map(&mut key).collect();
+        let point = || Curve::bezier(&[[0.0; 3]], 2.0).unwrap();
+        let slerp = Spline::new(point(), Turns::slerp(&keys).unwrap());
+        let squad = Spline::new(point(), Turns::squad(&keys).unwrap());
+        check_between("slerp", &slerp, epoch, epoch + 0.49, &mut rng);
+        check_between("squad", &squad, epoch, epoch + 0.49, &mut rng);
+        let thrown = ballistic(&mut rng).unwrap();
+        check_between("ballistic", &thrown, -1e3, -999.0, &mut rng);
+        let steady = Steady(motion(&mut rng).unwrap());
+        check_between("steady", &steady, -1e3, -999.0, &mut rng);
+    }
+}
+
+#[test]
+fn places_may_come_from_afar() {
+    let mut rng = Rng::seed_from_u64(6);
+    let joint = Joint::prismatic(Pose::IDENTITY, [1.0, 2.0, 3.0]).unwrap();
+    let chain = Chain::new(Pose::IDENTITY, vec![joint]);
+    let link = chain.link(1, &[1e9], &[0.0], 1.0).unwrap();
+    check_between("link", &link, 0.9, 1.0, &mut rng);
+    let stops = vec![
+        (0.0, Pose::at([1e9, 0.1, 0.2]).unwrap()),
+        (1.0, Pose::IDENTITY),
+    ];
+    let poses = Poses::new(stops).unwrap();
+    check_between("poses", &poses, 0.9, 1.0, &mut rng);
+}
+
+/// What rests has a stretch, of no length or after the end.
+#[test]
+fn trajectories_rest_after_their_end() {
+    let mut rng = Rng::seed_from_u64(7);
+    let thrown = ballistic(&mut rng).unwrap();
+    let once = Timed::new(thrown, 0.0..1.0, 1.0, Pace::Even).unwrap();
+    let twice = Timed::new(once.clone(), 1.5..1.5, 1.0, Pace::Even).unwrap();
+    for time in [0.0, 0.5, 1.0, 1.5, 3.0] {
+        let strays = [
+            once.stretch(time, time),
+            twice.stretch(time, time),
+            once.stretch(1.0, 1.0 + time),
+        ];
+        for stretch in strays {
+            let Stray { shift, turn } = stretch.unwrap().stray;
+            assert!(shift < 1e-10 && turn < 1e-10, "{time}: {shift:e} {turn:e}");
+        }
+    }
+}
+
+#[test]
+fn axes_have_any_length_but_0() {
+    for length in [1e-300, 1e-161, 1e155, 1e300] {
+        let axis = [0.0, 0.0, length];
+        let joint = Joint::revolute(Pose::IDENTITY, axis).unwrap();
+        assert_eq!(joint.motion(0.0, 1.0, 1.0).unwrap().spin(), DVec3::Z);
+        let screw = screw(Pose::IDENTITY, [0.0; 3], axis, 2.0, 3.0).unwrap();
+        assert_eq!(
+            (screw.spin(), screw.velocity()),
+            (2.0 * DVec3::Z, 3.0 * DVec3::Z)
+        );
+        let keys = [(0.0, [0.0, 0.0, 0.0, length])];
+        assert_eq!(Turns::slerp(&keys).unwrap().at(0.0).0, DQuat::IDENTITY);
+    }
+    assert!(Joint::prismatic(Pose::IDENTITY, [0.0; 3]).is_err());
+    assert!(screw(Pose::IDENTITY, [0.0; 3], [f64::NAN, 0.0, 0.0], 1.0, 1.0).is_err());
+}
