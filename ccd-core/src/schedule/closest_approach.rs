@@ -129,52 +129,37 @@ impl<O: DistanceOracle> DepthFirst<O> {
         problem: &Problem<'_>,
         oracle: &mut O,
     ) -> Answer<ClosestApproach> {
-        let answer = self.approach_below(problem, f64::INFINITY, oracle);
-        let answer = answer
-            .map(|found| found.unwrap_or_else(|Beyond { .. }| unresolved(Limit::OracleGaveUp)));
-        match answer.outcome.meets_later(problem.tolerance) {
-            true => self.or_overlap(problem, oracle, answer),
-            false => answer,
-        }
+        let answer = self.measured(problem, f64::INFINITY, oracle, or_overlap);
+        answer.map(|found| found.unwrap_or_else(|Beyond { .. }| unresolved(Limit::OracleGaveUp)))
     }
 
-    /// Returns the answer for bodies that meet, unless they overlap at the start as well.
-    fn or_overlap(
-        &mut self,
-        problem: &Problem<'_>,
-        oracle: &mut O,
-        answer: Answer<ClosestApproach>,
-    ) -> Answer<ClosestApproach> {
-        let mut kept = self.kept.take();
-        let start = metered(problem, oracle, &mut kept, |oracle, meter| {
-            let problem = problem.measuring();
-            let outcome = match at_start(&problem, f64::MIN_POSITIVE, oracle, meter) {
-                Some(Outcome::Overlapping { overlap }) => {
-                    let overlapping = ClosestApproach::Overlapping { overlap };
-                    told(&problem, oracle, meter, overlapping)
-                }
-                _ => answer.outcome,
-            };
-            (outcome, answer.tolerance)
-        });
-        self.kept = kept;
-        let mut stats = answer.stats;
-        stats.add(&start.stats);
-        Answer { stats, ..start }
-    }
-
-    /// Like [`DepthFirst::closest_approach`], if the bodies come nearer than `beyond`.
+    /// Like [`DepthFirst::closest_approach`], if the bodies come nearer than `beyond`; where they meet, it does
+    /// not tell whether they overlap at the start.
     pub(super) fn approach_below(
         &mut self,
         problem: &Problem<'_>,
         beyond: f64,
         oracle: &mut O,
     ) -> Answer<Result<ClosestApproach, Beyond>> {
+        self.measured(problem, beyond, oracle, |_, _, _, found| found)
+    }
+
+    /// Searches for distances below `beyond`, and takes a last look at what it finds.
+    fn measured(
+        &mut self,
+        problem: &Problem<'_>,
+        beyond: f64,
+        oracle: &mut O,
+        last_look: impl FnOnce(&Problem<'_>, &mut O, &mut Meter, ClosestApproach) -> ClosestApproach,
+    ) -> Answer<Result<ClosestApproach, Beyond>> {
         let mut kept = self.kept.take();
         let answer = metered(problem, oracle, &mut kept, |oracle, meter| {
             let problem = problem.measuring();
             let found = self.approach(&problem, beyond, oracle, meter);
-            let told = found.map(|found| told(&problem, oracle, meter, found));
+            let told = found.map(|found| {
+                let found = last_look(&problem, oracle, meter, found);
+                told(&problem, oracle, meter, found)
+            });
             let width = told.as_ref().map_or(0.0, ClosestApproach::width);
             // Distances may not be known to the tolerance that is requested.
             (told, greater(problem.tolerance, width))
@@ -242,6 +227,22 @@ impl<O: DistanceOracle> DepthFirst<O> {
                 }
             }
         }
+    }
+}
+
+/// Returns the answer for bodies that meet, unless they overlap at the start as well.
+fn or_overlap<O: DistanceOracle>(
+    problem: &Problem<'_>,
+    oracle: &mut O,
+    meter: &mut Meter,
+    found: ClosestApproach,
+) -> ClosestApproach {
+    if !found.meets_later(problem.tolerance) {
+        return found;
+    }
+    match at_start(problem, f64::MIN_POSITIVE, oracle, meter) {
+        Some(Outcome::Overlapping { overlap }) => ClosestApproach::Overlapping { overlap },
+        _ => found,
     }
 }
 

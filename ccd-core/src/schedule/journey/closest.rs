@@ -3,7 +3,6 @@
 use super::Journey;
 use super::leg::{Leg, Span};
 use super::stretches::Stretches;
-use crate::config::Config;
 use crate::distance::oracle::DistanceOracle;
 use crate::error::InputError;
 use crate::math::order::{greater, lesser};
@@ -24,15 +23,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
         journey: &Journey<'_>,
         oracle: &mut O,
     ) -> Result<Answer<ClosestApproach>, InputError> {
-        // The margin plays no role.
-        let config = Config {
-            margin: 0.0,
-            ..journey.config
-        };
-        let journey = &Journey {
-            config,
-            ..journey.clone()
-        };
+        let journey = &journey.measuring();
         let mut stretches = Stretches::new(journey);
         let mut found = Found {
             lower: f64::INFINITY,
@@ -48,46 +39,33 @@ impl<O: DistanceOracle> DepthFirst<O> {
             let beyond = found.upper() + leg.stray;
             let answer = self.approach_below(&problem, beyond, oracle);
             stretches.add(&answer.stats);
-            let is_beyond = answer.outcome.is_err();
-            let (lower, upper, time) = match answer.outcome {
-                Err(Beyond { lower }) => (lower, beyond, 0.0),
-                Ok(ClosestApproach::Nearest {
+            let seen = match answer.outcome {
+                Err(Beyond { lower }) => Seen {
                     lower,
-                    time,
-                    contact,
-                }) => {
-                    found.take(leg.time(time), leg.contact(contact));
-                    (lower, contact.separation.upper, time)
+                    upper: beyond,
+                    // Bodies beyond the least distance so far are so with their strays.
+                    blur: 0.0,
+                    time: 0.0,
+                },
+                Ok(ClosestApproach::Overlapping { .. }) if stretches.look_at_start(&leg)? => {
+                    continue;
                 }
-                Ok(ClosestApproach::Overlapping { overlap }) => {
-                    if stretches.look_at_start(&leg)? {
-                        continue;
-                    }
-                    if stretches.begins_at_start(&leg)? {
-                        let overlapping = ClosestApproach::Overlapping { overlap };
-                        return Ok(found.answer(journey, &stretches, overlapping));
-                    }
-                    if let Overlap::Pieces(contact) = overlap {
-                        found.take(leg.span.from, leg.contact(contact));
-                    }
-                    (0.0, 0.0, 0.0)
+                Ok(outcome @ ClosestApproach::Overlapping { .. })
+                    if stretches.begins_at_start(&leg)? =>
+                {
+                    return Ok(found.answer(journey, &stretches, outcome));
                 }
-                Ok(ClosestApproach::Unresolved { nearest, reason }) => {
-                    if let Some((time, contact)) = nearest {
-                        found.take(leg.time(time), leg.contact(contact));
-                    }
-                    return Ok(found.unresolved(journey, &stretches, reason));
-                }
+                Ok(outcome) => match found.see(&leg, &outcome) {
+                    Ok(seen) => seen,
+                    Err(reason) => return Ok(found.unresolved(journey, &stretches, reason)),
+                },
             };
-            let width = upper - lower;
-            let lower = greater(0.0, leg.at_least(lower));
+            let lower = greater(0.0, leg.at_least(seen.lower));
             let (upper, tolerance) = (found.upper(), journey.config.tolerance);
-            // Where f64 does not certify the tolerance for the motions, cutting does not help. Bodies beyond the
-            // least distance so far are so with their strays.
-            let is_loose = width > tolerance && (is_beyond || leg.stray <= width);
+            let is_loose = seen.is_loose(tolerance);
             if lower >= upper - tolerance || is_loose || stretches.is_fine(&leg)? {
                 found.lower = lesser(found.lower, lower);
-            } else if !stretches.cut_about(leg.span, leg.time(time)) {
+            } else if !stretches.cut_about(leg.span, leg.time(seen.time)) {
                 return Ok(found.unresolved(journey, &stretches, Limit::Stalled));
             }
             if upper <= tolerance {
@@ -96,10 +74,10 @@ impl<O: DistanceOracle> DepthFirst<O> {
             }
         }
         let nearest = found.nearest(journey, &stretches);
-        if nearest.outcome.meets_later(journey.config.tolerance) {
-            return self.or_overlap_along(journey, oracle, nearest);
+        match nearest.outcome.meets_later(journey.config.tolerance) {
+            true => self.or_overlap_along(journey, oracle, nearest, &mut stretches),
+            false => Ok(nearest),
         }
-        Ok(nearest)
     }
 
     /// Returns the answer for bodies that meet, unless they overlap at the start as well.
@@ -107,22 +85,52 @@ impl<O: DistanceOracle> DepthFirst<O> {
         &mut self,
         journey: &Journey<'_>,
         oracle: &mut O,
-        answer: Answer<ClosestApproach>,
+        nearest: Answer<ClosestApproach>,
+        stretches: &mut Stretches<'_, '_>,
     ) -> Result<Answer<ClosestApproach>, InputError> {
-        let leg = Leg::new(journey, Span { from: 0.0, to: 0.0 })?;
-        let problem = leg.problem(journey, &journey.config)?;
-        let start = self.closest_approach(&problem, oracle);
-        let mut stats = answer.stats;
-        stats.add(&start.stats);
-        let outcome = match start.outcome {
-            ClosestApproach::Overlapping { .. } => start.outcome,
-            ClosestApproach::Nearest { .. } | ClosestApproach::Unresolved { .. } => answer.outcome,
+        let Ok(config) = stretches.config() else {
+            return Ok(nearest);
         };
+        let leg = Leg::new(journey, Span { from: 0.0, to: 0.0 })?;
+        let start = self.closest_approach(&leg.problem(journey, &config)?, oracle);
+        stretches.add(&start.stats);
         Ok(Answer {
-            outcome,
-            stats,
-            ..answer
+            outcome: match start.outcome {
+                ClosestApproach::Overlapping { .. } => start.outcome,
+                ClosestApproach::Nearest { .. } | ClosestApproach::Unresolved { .. } => {
+                    nearest.outcome
+                }
+            },
+            stats: stretches.stats,
+            ..nearest
         })
+    }
+}
+
+impl Journey<'_> {
+    /// Returns the journey that asks for distances: the margin plays no role.
+    fn measuring(&self) -> Self {
+        let mut measuring = self.clone();
+        measuring.config.margin = 0.0;
+        measuring
+    }
+}
+
+/// What a stretch shows: bounds of the distance of its motions.
+struct Seen {
+    lower: f64,
+    upper: f64,
+    /// By how much strays widen these bounds.
+    blur: f64,
+    /// The time in the stretch at which they are nearest.
+    time: f64,
+}
+
+impl Seen {
+    /// Returns true if f64 does not certify the tolerance for the motions: then cutting does not help.
+    fn is_loose(&self, tolerance: f64) -> bool {
+        let width = self.upper - self.lower;
+        width > tolerance && self.blur <= width
     }
 }
 
@@ -137,6 +145,43 @@ impl Found {
     fn upper(&self) -> f64 {
         let upper = |(_, contact): (f64, Contact)| contact.separation.upper;
         self.best.map_or(f64::INFINITY, upper)
+    }
+
+    /// Takes what the motions of a leg show.
+    ///
+    /// # Errors
+    /// The limit that was reached.
+    fn see(&mut self, leg: &Leg, outcome: &ClosestApproach) -> Result<Seen, Limit> {
+        let mut seen = Seen {
+            lower: 0.0,
+            upper: 0.0,
+            blur: leg.stray,
+            time: 0.0,
+        };
+        match *outcome {
+            ClosestApproach::Nearest {
+                lower,
+                time,
+                contact,
+            } => {
+                self.take(leg.time(time), leg.contact(contact));
+                seen.lower = lower;
+                seen.upper = contact.separation.upper;
+                seen.time = time;
+            }
+            ClosestApproach::Overlapping { overlap } => {
+                if let Overlap::Pieces(contact) = overlap {
+                    self.take(leg.span.from, leg.contact(contact));
+                }
+            }
+            ClosestApproach::Unresolved { nearest, reason } => {
+                if let Some((time, contact)) = nearest {
+                    self.take(leg.time(time), leg.contact(contact));
+                }
+                return Err(reason);
+            }
+        }
+        Ok(seen)
     }
 
     fn take(&mut self, time: f64, contact: Contact) {

@@ -12,10 +12,7 @@ const MEMORY: usize = 1 << 24;
 const MEMORY_PER_BYTE: usize = 1 << 11;
 
 pub(super) fn run(bytes: &[u8]) {
-    if bytes.len() > MOST_BYTES {
-        return;
-    }
-    memory::within(MEMORY + MEMORY_PER_BYTE * bytes.len(), || {
+    within_limits(bytes, || {
         let whole = MotionTable::read(bytes);
         let slow = MotionTable::read(Dripping(bytes));
         match (whole, slow) {
@@ -27,6 +24,13 @@ pub(super) fn run(bytes: &[u8]) {
             (one, other) => panic!("at once {one:?}, byte by byte {other:?}"),
         }
     });
+}
+
+/// Runs a check of a table of few bytes, in limited memory.
+pub(super) fn within_limits(bytes: &[u8], check: impl FnOnce()) {
+    if bytes.len() <= MOST_BYTES {
+        memory::within(MEMORY + MEMORY_PER_BYTE * bytes.len(), check);
+    }
 }
 
 /// A reader that hands out one byte at a time.

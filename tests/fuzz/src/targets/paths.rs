@@ -1,26 +1,15 @@
 //! Tables of paths.
 
-use super::motions::Dripping;
-use crate::memory;
+use super::motions::{Dripping, within_limits};
 use rigid_ccd::table::courses::{Course, CourseRow, Courses};
 use rigid_ccd::table::motions::{RowPosition, TableError};
 use rigid_ccd::table::paths::Grouping;
 use std::io::Read;
 
-/// The most bytes that are tried.
-const MOST_BYTES: usize = 1 << 14;
-
-/// The memory that is allowed, and some for each byte: a row of two bytes is a pose of both bodies.
-const MEMORY: usize = 1 << 24;
-const MEMORY_PER_BYTE: usize = 1 << 11;
-
 pub(super) fn run(bytes: &[u8]) {
-    if bytes.len() > MOST_BYTES {
-        return;
-    }
     // Most headers are those of motions: a column more makes them paths.
     let paths = [b"t,", bytes].concat();
-    memory::within(MEMORY + MEMORY_PER_BYTE * bytes.len(), || {
+    within_limits(bytes, || {
         for bytes in [bytes, &paths] {
             for grouping in [Grouping::ById, Grouping::EachRow] {
                 check(bytes, grouping);
