@@ -129,7 +129,7 @@ pub use math::{order, point_tree, vector};
 pub use motion::Motion;
 pub use motion::bound::Bound;
 pub use motion::pose::{Frame, Pose};
-pub use motion::trajectory::{Accelerations, Smooth, Stray, Stretch, Trajectory};
+pub use motion::trajectory::{Acceleration, Accelerations, Smooth, Stray, Stretch, Trajectory};
 pub use outcome::{Answer, Contact, Limit, Outcome, Overlap, Separation, Stats};
 pub use problem::{Moving, Problem};
 pub use schedule::{Journey, Schedule, Travelling};

@@ -118,22 +118,34 @@ impl<'a> Problem<'a> {
         duration: f64,
         config: &Config,
     ) -> Result<Self, InputError> {
-        let (a, b) = (a.into(), b.into());
+        Problem::accelerated([a.into(), b.into()], [DVec3::ZERO; 2], duration, config)
+    }
+
+    /// Like [`Problem::new`] for bodies whose centres accelerate, for the schedules that answer
+    /// questions along trajectories: others do not know of accelerations.
+    pub(crate) fn accelerated(
+        [a, b]: [Moving<'a>; 2],
+        accelerations: [DVec3; 2],
+        duration: f64,
+        config: &Config,
+    ) -> Result<Self, InputError> {
         check_config(duration, config)?;
         let origin = b.motion.start().translation();
-        let side = |moving: Moving<'a>, other: Moving<'a>| {
+        let side = |moving: Moving<'a>, other: Moving<'a>, acceleration: DVec3| {
             let body = moving.body.against(other.body);
+            let path = Path::new(&moving.motion, origin, duration);
             Side {
                 body,
                 given: (!std::ptr::eq(body, moving.body)).then_some(moving.body),
-                path: Path::new(&moving.motion, origin, duration),
+                path: path.accelerated(acceleration * duration * duration),
             }
         };
         for moving in [&a, &b] {
             check_coordinates("position", moving.motion.start().translation())?;
             check_coordinates("centre", moving.motion.centre())?;
         }
-        let (a, b) = (side(a, b), side(b, a));
+        let [pull_a, pull_b] = accelerations;
+        let (a, b) = (side(a, b, pull_a), side(b, a, pull_b));
         for side in [&a, &b] {
             side.check()?;
         }
@@ -141,8 +153,8 @@ impl<'a> Problem<'a> {
             [a.span(), b.span()],
             [a.path.rate, b.path.rate],
             distance(a.path.centre_at(0.0), b.path.centre_at(0.0))
-                + length(a.path.velocity)
-                + length(b.path.velocity)
+                + a.path.speed()
+                + b.path.speed()
                 + config.margin,
         );
         Ok(Problem {
@@ -326,7 +338,7 @@ impl Side<'_> {
     }
 
     fn check(&self) -> Result<(), InputError> {
-        let travel = length(self.path.velocity) + length(self.path.centre_at(0.0));
+        let travel = self.path.speed() + length(self.path.centre_at(0.0));
         check(
             "travel",
             travel,

@@ -2,7 +2,8 @@
 
 use crate::tolerance::{RATE_F64, WORTHWHILE};
 
-/// A gap that closes by at most `rate τ + bend τ²/2` within `τ`.
+/// A gap that closes by at most `rate τ + bend τ²/2` within `τ`. Where bodies accelerate away from each other
+/// the bend is negative.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Gap {
     pub(crate) gap: f64,
@@ -17,6 +18,9 @@ impl Gap {
         let (gap, rate, bend) = (self.gap, self.rate, self.bend);
         if rate.is_nan() {
             return 0.0;
+        }
+        if bend < 0.0 {
+            return self.free_time_of_parting();
         }
         let root = (rate * rate + 2.0 * bend * gap).sqrt();
         // If the squares underflow, the root is still at least the rate; NaN stays NaN.
@@ -33,6 +37,24 @@ impl Gap {
             tau * (1.0 - RATE_F64)
         } else {
             0.0
+        }
+    }
+
+    /// A gap that closes ever slower may stay open for good.
+    #[cold]
+    fn free_time_of_parting(&self) -> f64 {
+        let (gap, rate, bend) = (self.gap, self.rate, self.bend);
+        let (square, lost) = (rate * rate, -2.0 * bend * gap);
+        // A sum that is lost to rounding, or to underflow, counts as none.
+        let left = (square - lost) + RATE_F64 * (square + lost) + f64::MIN_POSITIVE;
+        let tau = match rate > 0.0 && left >= 0.0 {
+            true => 2.0 * gap / (rate + left.sqrt()),
+            false => f64::INFINITY,
+        };
+        // Written so that NaN gives no time.
+        match gap > 0.0 && tau > 0.0 && lost <= f64::MAX && square <= f64::MAX {
+            true => tau * (1.0 - RATE_F64),
+            false => 0.0,
         }
     }
 }

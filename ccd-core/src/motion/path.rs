@@ -9,7 +9,8 @@ use crate::math::order::greater;
 use crate::math::vector::{length, unit};
 use glam::{DMat3, DVec3};
 
-/// `R(s) = cos(ω s) A + sin(ω s) B + C` about a centre at `start + s · velocity` `[FAST06 §4.1]`.
+/// `R(s) = cos(ω s) A + sin(ω s) B + C` about a centre at `start + s · velocity` `[FAST06 §4.1]`, and
+/// `s²/2 · acceleration` further on a stretch of a trajectory.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Path {
     /// `A = R₀ − C`
@@ -22,8 +23,10 @@ pub(crate) struct Path {
     pub(crate) centre: DVec3,
     /// The centre's position at `s = 0`.
     start: DVec3,
-    /// The centre's velocity, per unit of `s`.
+    /// The centre's velocity at `s = 0`, per unit of `s`.
     pub(crate) velocity: DVec3,
+    /// The centre's acceleration, which is constant; zero but on stretches of trajectories.
+    pub(crate) acceleration: DVec3,
     /// The angular velocity along the world's axes, per unit of `s`.
     pub(crate) spin: DVec3,
     /// The angular velocity along the body's axes; it is constant.
@@ -57,10 +60,19 @@ impl Path {
             centre: motion.centre(),
             start: (start.translation - origin) + start.rotation * motion.centre(),
             velocity,
+            acceleration: DVec3::ZERO,
             spin,
             spin_local: start.inverse_vector(spin),
             rate,
             axis,
+        }
+    }
+
+    /// Lets the centre accelerate by this much per unit of `s`.
+    pub(crate) fn accelerated(self, acceleration: DVec3) -> Self {
+        Path {
+            acceleration,
+            ..self
         }
     }
 
@@ -92,16 +104,27 @@ impl Path {
     /// Returns the position of the centre of rotation at `s`.
     #[inline(always)]
     pub(crate) fn centre_at(&self, s: f64) -> DVec3 {
-        self.start + self.velocity * s
+        self.start + (self.velocity + self.acceleration * (0.5 * s)) * s
+    }
+
+    /// Returns the velocity of the centre of rotation at `s`.
+    #[inline(always)]
+    pub(crate) fn centre_velocity_at(&self, s: f64) -> DVec3 {
+        self.velocity + self.acceleration * s
+    }
+
+    /// Bounds the speed of the centre of rotation at any time.
+    pub(crate) fn speed(&self) -> f64 {
+        length(self.velocity) + length(self.acceleration)
     }
 
     /// Returns the velocity of the body's point at `x`.
     #[inline]
     pub(crate) fn velocity_at(&self, x: DVec3, s: f64) -> DVec3 {
-        self.velocity + self.spin.cross(x - self.centre_at(s))
+        self.centre_velocity_at(s) + self.spin.cross(x - self.centre_at(s))
     }
 
-    /// Returns the velocities per unit of `s`.
+    /// Returns the velocities per unit of `s`, if they are constant.
     pub(crate) fn velocities(&self) -> Velocities {
         Velocities {
             linear: self.velocity,
@@ -127,7 +150,11 @@ impl Path {
     }
 
     pub(crate) fn moves(&self) -> bool {
-        self.turns() || self.velocity != DVec3::ZERO
+        self.turns() || self.velocity != DVec3::ZERO || self.accelerates()
+    }
+
+    pub(crate) fn accelerates(&self) -> bool {
+        self.acceleration != DVec3::ZERO
     }
 }
 

@@ -96,6 +96,11 @@ impl Pose {
         Pose::from_unit(rotation * -self.translation, rotation)
     }
 
+    /// Returns the pose further on by a vector.
+    pub(crate) fn moved(&self, by: DVec3) -> Pose {
+        Pose::from_unit(self.translation + by, self.rotation)
+    }
+
     /// Returns a point of the body in world coordinates.
     pub fn transform_point(&self, point: DVec3) -> DVec3 {
         self.rotation * point + self.translation

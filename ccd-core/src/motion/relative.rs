@@ -25,6 +25,7 @@ enum Parts {
         /// From centre to centre at the start, and the change per unit of time.
         way: Turning<Row>,
         change: Turning<Row>,
+        acceleration: Option<Turning<Row>>,
         spin: Row,
     },
     /// Along the axes of the world.
@@ -34,6 +35,7 @@ enum Parts {
         other: Turning<[Row; 3]>,
         way: Row,
         change: Row,
+        acceleration: Option<Row>,
         spin: Row,
     },
 }
@@ -54,6 +56,8 @@ pub(crate) struct Seen<L: Simd> {
     pub(crate) way: Packed<L>,
     /// The velocity of the seeing body's centre minus that of the seen one's.
     pub(crate) velocity: Packed<L>,
+    /// Its derivative, if the centres accelerate differently.
+    pub(crate) acceleration: Option<Packed<L>>,
     /// The angular velocity of the seen body.
     pub(crate) spin: Packed<L>,
 }
@@ -63,6 +67,8 @@ impl View {
     pub(crate) fn new(own: &Path, other: &Path) -> Self {
         let way = other.centre_at(0.0) - own.centre_at(0.0);
         let change = other.velocity - own.velocity;
+        let acceleration = other.acceleration - own.acceleration;
+        let acceleration = (acceleration != DVec3::ZERO).then_some(acceleration);
         let inverse = own.rotations().map(|part| part.transpose());
         let seen = match own.turns() && other.turns() {
             true => Parts::BothTurn {
@@ -70,9 +76,10 @@ impl View {
                 other: Turning::new(other.rate, other.rotations()),
                 way: row(way),
                 change: row(change),
+                acceleration: acceleration.map(row),
                 spin: row(other.spin),
             },
-            false => Parts::one_turns(own, other, inverse, [way, change]),
+            false => Parts::one_turns(own, other, inverse, [way, change], acceleration),
         };
         View {
             seen,
@@ -88,14 +95,17 @@ impl View {
                 rotation,
                 way,
                 change,
+                acceleration,
                 spin,
             } => {
                 let angle = sin_cos(rotation.rate * s);
-                let change = change.vector(level, angle);
+                let acceleration = acceleration.map(|change| change.vector(level, angle));
+                let [travel, change] = accelerated(change.vector(level, angle), acceleration, s);
                 Seen {
                     rotation: rotation.matrix(level, angle),
-                    way: way.vector(level, angle) + change * s,
+                    way: way.vector(level, angle) + travel,
                     velocity: -change,
+                    acceleration: acceleration.map(|acceleration| -acceleration),
                     spin: Packed::load(level, spin),
                 }
             }
@@ -104,15 +114,18 @@ impl View {
                 other,
                 way,
                 change,
+                acceleration,
                 spin,
             } => {
                 let inverse = inverse.matrix(level, sin_cos(inverse.rate * s));
                 let other = other.matrix(level, sin_cos(other.rate * s));
-                let change = Packed::load(level, change);
+                let acceleration = acceleration.map(|change| Packed::load(level, &change));
+                let [travel, change] = accelerated(Packed::load(level, change), acceleration, s);
                 Seen {
                     rotation: inverse * other,
-                    way: inverse * (Packed::load(level, way) + change * s),
+                    way: inverse * (Packed::load(level, way) + travel),
                     velocity: inverse * -change,
+                    acceleration: acceleration.map(|acceleration| inverse * -acceleration),
                     spin: inverse * Packed::load(level, spin),
                 }
             }
@@ -134,21 +147,29 @@ impl View {
 
 impl Parts {
     /// At most one of the two turns: of the other one's rotation there is only the constant part.
-    fn one_turns(own: &Path, other: &Path, inverse: [DMat3; 3], way: [DVec3; 2]) -> Self {
+    fn one_turns(
+        own: &Path,
+        other: &Path,
+        inverse: [DMat3; 3],
+        way: [DVec3; 2],
+        acceleration: Option<DVec3>,
+    ) -> Self {
         let others = other.rotations();
         let rate = if other.turns() { other.rate } else { own.rate };
         let rotation = [0, 1, 2].map(|k| match other.turns() {
             true => inverse[2] * others[k],
             false => inverse[k] * others[2],
         });
-        let [way, change] = way.map(|v| Turning {
+        let seen = |v: DVec3| Turning {
             rate,
             parts: inverse.map(|part| row(part * v)),
-        });
+        };
+        let [way, change] = way.map(seen);
         Parts::OneTurns {
             rotation: Turning::new(rate, rotation),
             way,
             change,
+            acceleration: acceleration.map(seen),
             spin: row(inverse[2] * other.spin),
         }
     }
@@ -175,6 +196,22 @@ impl Turning<Row> {
     fn vector<L: Simd>(&self, level: L, angle: (f64, f64)) -> Packed<L> {
         let [p, q, k] = &self.parts;
         sum(level, [p, q, k], angle)
+    }
+}
+
+/// Returns the change of a way until `s`, and its rate then, from the rate at 0.
+#[inline(always)]
+fn accelerated<L: Simd>(
+    change: Packed<L>,
+    acceleration: Option<Packed<L>>,
+    s: f64,
+) -> [Packed<L>; 2] {
+    match acceleration {
+        Some(acceleration) => [
+            (change + acceleration * (0.5 * s)) * s,
+            change + acceleration * s,
+        ],
+        None => [change * s, change],
     }
 }
 

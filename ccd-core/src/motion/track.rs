@@ -7,11 +7,12 @@ use glam::DVec3;
 use std::f64::consts::{PI, TAU};
 
 /// The height of one moving point along a fixed axis:
-/// `height + drift τ + (cos ωτ − 1) p + sin ωτ q`.
+/// `height + drift τ + pull τ²/2 + (cos ωτ − 1) p + sin ωτ q`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Track {
     height: f64,
     drift: f64,
+    pull: f64,
     p: f64,
     q: f64,
     omega: f64,
@@ -20,16 +21,17 @@ pub(crate) struct Track {
 impl Track {
     #[inline]
     pub(crate) fn height_at(&self, tau: f64, angle: Angle) -> f64 {
-        self.height + self.drift * tau + angle.cos_minus_one * self.p + angle.sin * self.q
+        let rise = (self.drift + 0.5 * self.pull * tau) * tau;
+        self.height + rise + angle.cos_minus_one * self.p + angle.sin * self.q
     }
 
     #[inline]
-    pub(crate) fn rate_at(&self, angle: Angle) -> f64 {
-        self.drift + self.omega * (angle.cos * self.q - angle.sin * self.p)
+    pub(crate) fn rate_at(&self, tau: f64, angle: Angle) -> f64 {
+        self.drift + self.pull * tau + self.omega * (angle.cos * self.q - angle.sin * self.p)
     }
 
-    /// Returns the least height up to `horizon`, at which the body has turned by `end`, but for the drift that
-    /// all points of a body share; rounded down.
+    /// Returns the least height up to `horizon`, at which the body has turned by `end`, but for drift and pull,
+    /// which all points of a body share; rounded down.
     pub(crate) fn least_until(&self, horizon: f64, end: Angle) -> f64 {
         let swing = (self.p * self.p + self.q * self.q).sqrt();
         let turn = self.omega * horizon;
@@ -52,7 +54,7 @@ impl Track {
         }
     }
 
-    /// Returns a bound of the second derivative.
+    /// Returns a bound of what the turning adds to the second derivative.
     #[inline]
     pub(crate) fn bend(&self) -> f64 {
         self.omega * self.omega * (self.p * self.p + self.q * self.q).sqrt()
@@ -63,6 +65,7 @@ impl Track {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct AxisMotion {
     drift: f64,
+    pull: f64,
     /// `n` less its part along the axis of rotation.
     across: DVec3,
     /// `n × u`
@@ -76,19 +79,37 @@ impl AxisMotion {
     pub(crate) fn new(linear: DVec3, unit: DVec3, omega: f64, n: DVec3) -> Self {
         AxisMotion {
             drift: linear.dot(n),
+            pull: 0.0,
             across: n - n.dot(unit) * unit,
             beside: n.cross(unit),
             omega,
         }
     }
 
-    /// The rate of points that move straight.
+    /// Lets the rate of all points change by this much per unit of time.
+    pub(crate) fn pulled(self, pull: f64) -> Self {
+        AxisMotion { pull, ..self }
+    }
+
+    /// The rate of points of a body that does not turn, now.
     #[inline]
     pub(crate) fn drift(&self) -> f64 {
         self.drift
     }
 
-    /// Returns a bound of the second derivative of heights, for points at most `distance` from the
+    /// Its derivative.
+    #[inline]
+    pub(crate) fn pull(&self) -> f64 {
+        self.pull
+    }
+
+    /// The way of such points after some time.
+    #[inline]
+    pub(crate) fn rise(&self, tau: f64) -> f64 {
+        (self.drift + 0.5 * self.pull * tau) * tau
+    }
+
+    /// Returns a bound of what turning adds to the second derivative of heights, for points at most `distance` from the
     /// axis of rotation.
     #[inline]
     pub(crate) fn bend(&self, distance: f64) -> f64 {
@@ -100,6 +121,7 @@ impl AxisMotion {
         Track {
             height,
             drift: self.drift,
+            pull: self.pull,
             p: self.across.dot(arm),
             q: self.beside.dot(arm),
             omega: self.omega,

@@ -6,6 +6,7 @@ use crate::error::InputError;
 use crate::math::order::greater;
 use crate::math::vector::length;
 use crate::tolerance::STRETCH_F64;
+use glam::DVec3;
 
 /// A motion of any kind: between any two times it is near a [`Motion`], by a bound that it knows.
 ///
@@ -30,7 +31,7 @@ use crate::tolerance::STRETCH_F64;
 ///         };
 ///         // A chord is off by at most an eighth of the square of its time, times the acceleration.
 ///         let stray = Stray { shift: time * time / 8.0 + 1e-15, turn: 0.0 };
-///         Ok(Stretch { motion, stray })
+///         Ok(Stretch { stray, ..Stretch::exact(motion) })
 ///     }
 /// }
 ///
@@ -62,12 +63,15 @@ pub trait Trajectory {
     }
 }
 
-/// A motion near a trajectory between two times.
+/// A motion near a trajectory between two times, with an acceleration of its centre.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stretch {
     /// The motion; its time 0 is the first of the two.
     pub motion: Motion,
-    /// How far the trajectory strays from it.
+    /// The constant acceleration of the motion's centre, added to the motion: after a time `t` all points are
+    /// `acceleration · t²/2` further on.
+    pub acceleration: DVec3,
+    /// How far the trajectory strays from that.
     pub stray: Stray,
 }
 
@@ -76,7 +80,56 @@ impl Stretch {
     pub fn exact(motion: Motion) -> Self {
         Stretch {
             motion,
+            acceleration: DVec3::ZERO,
             stray: Stray::NONE,
+        }
+    }
+
+    /// Returns the pose after a time, up to the stray.
+    pub fn pose(&self, time: f64) -> Pose {
+        let pose = self.motion.pose(time);
+        match self.acceleration == DVec3::ZERO {
+            true => pose,
+            false => pose.moved(0.5 * time * time * self.acceleration),
+        }
+    }
+
+    /// Returns the velocity of the body's point at `x` after a time, but for the stray.
+    pub(crate) fn velocity_at(&self, x: DVec3, time: f64) -> DVec3 {
+        let motion = &self.motion;
+        let arm = x - self.pose(time).transform_point(motion.centre());
+        motion.velocity() + time * self.acceleration + motion.spin().cross(arm)
+    }
+
+    /// Returns the stretch with another time as its time 0, but for rounding.
+    ///
+    /// # Errors
+    /// [`InputError::NotFinite`].
+    pub(crate) fn started(&self, at: f64) -> Result<Stretch, InputError> {
+        let pose = self.pose(at);
+        // Checked, and normalised once more.
+        let start = Pose::new(pose.translation(), pose.rotation())?;
+        let Stretch {
+            motion,
+            acceleration,
+            ..
+        } = *self;
+        let velocity = motion.velocity() + at * acceleration;
+        Ok(Stretch {
+            motion: Motion::about(start, velocity, motion.spin(), motion.centre())?,
+            ..*self
+        })
+    }
+
+    /// Bounds the error of a start that was computed for another time.
+    pub(crate) fn rounding_of_start(&self, time: f64) -> Stray {
+        let Stretch { motion, .. } = self;
+        let turned = length(motion.spin()) * time.abs();
+        let speed = length(motion.velocity()) + length(self.acceleration) * time.abs();
+        let place = length(motion.start().translation()) + 2.0 * length(motion.centre());
+        Stray {
+            shift: STRETCH_F64 * (place + speed * time.abs()),
+            turn: STRETCH_F64 * (1.0 + turned),
         }
     }
 }
@@ -121,10 +174,14 @@ impl std::ops::Add for Stray {
 
 /// A trajectory without jumps of its velocities, known by bounds of its accelerations.
 ///
-/// Between two times it is near the motion with the velocities of the middle. With bounds `a` and `α` of the
+/// Between two times it is near the motion with the velocities of the middle, `m`. With bounds `a` and `α` of the
 /// accelerations, `|x(t) − x(m) − v(m) (t − m)| ≤ a (t − m)²/2`, and the angle between both orientations is at
 /// most `∫ |ω(s) − ω(m)| ds ≤ α (t − m)²/2`: the rotation that takes one to the other turns at the
 /// difference of their angular velocities.
+///
+/// Where the linear acceleration of the middle is known as well, and a bound `j` of how fast it changes, the centre
+/// strays by at most `j |t − m|³/6` from the motion with that acceleration. That shrinks faster with the time:
+/// bodies that pass each other closely take no more stretches than others do.
 ///
 /// ```
 /// use ccd_core::{glam::DVec3, Accelerations, InputError, Motion, Pose, Smooth, Trajectory};
@@ -157,6 +214,13 @@ pub trait Smooth {
     /// Bounds the lengths of the accelerations from a time to a later one.
     fn accelerations(&self, from: f64, to: f64) -> Accelerations;
 
+    /// Returns the acceleration of the tangent's centre at a time, with a bound of how fast it changes from a time to
+    /// a later one; none where that is not known, or has no bound.
+    fn acceleration(&self, time: f64, from: f64, to: f64) -> Option<Acceleration> {
+        let _ = (time, from, to);
+        None
+    }
+
     /// Bounds the errors of the poses of tangents from a time to a later one, if they are off by more than
     /// about 40 units in the last place, of their lengths and of a radian.
     fn rounding(&self, from: f64, to: f64) -> Stray {
@@ -181,6 +245,24 @@ pub struct Accelerations {
     pub angular: f64,
 }
 
+/// A linear acceleration, and how much it changes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Acceleration {
+    /// The acceleration, in the scene's unit of length per unit of time squared.
+    pub vector: DVec3,
+    /// A bound of the length of its derivative, per unit of time.
+    pub jerk: f64,
+}
+
+impl Acceleration {
+    /// Bounds what its changes add up to in a time, from the tangent on.
+    fn over(self, time: f64) -> f64 {
+        // The vector, the time and the products are rounded.
+        let rounding = STRETCH_F64 * time * time * length(self.vector);
+        self.jerk * (time * time * time / 6.0) * (1.0 + STRETCH_F64) + rounding
+    }
+}
+
 impl Accelerations {
     /// Bounds what they add up to in a time, from a tangent on.
     fn over(self, time: f64) -> Stray {
@@ -198,17 +280,23 @@ impl<S: Smooth + ?Sized> Trajectory for S {
         // Times far from 0 have no middle: the halves differ.
         let middle = from + 0.5 * (to - from);
         let [before, after] = [middle - from, to - middle];
-        let motion = self.tangent(middle)?.started(-before)?;
         let half = greater(before, after);
+        let mut tangent = Stretch::exact(self.tangent(middle)?);
         // Bounds of a stretch of no length may be infinite.
-        let curved = match half > 0.0 {
-            true => self.accelerations(from, to).over(half),
-            false => Stray::NONE,
-        };
-        let rounding = motion.rounding_of_start(half) + self.rounding(from, to);
+        if half > 0.0 {
+            tangent.stray = self.accelerations(from, to).over(half);
+            if let Some(acceleration) = self.acceleration(middle, from, to)
+                && acceleration.over(half) < tangent.stray.shift
+            {
+                tangent.acceleration = acceleration.vector;
+                tangent.stray.shift = acceleration.over(half);
+            }
+        }
+        let stretch = tangent.started(-before)?;
+        let rounding = stretch.rounding_of_start(half) + self.rounding(from, to);
         Ok(Stretch {
-            motion,
-            stray: curved + rounding,
+            stray: stretch.stray + rounding,
+            ..stretch
         })
     }
 
@@ -223,33 +311,9 @@ impl Trajectory for Motion {
         if from == 0.0 {
             return Ok(Stretch::exact(*self));
         }
-        let motion = self.started(from)?;
-        let stray = motion.rounding_of_start(from);
-        Ok(Stretch { motion, stray })
-    }
-}
-
-impl Motion {
-    /// Returns the motion with another time as its time 0.
-    ///
-    /// # Errors
-    /// [`InputError::NotFinite`].
-    pub(crate) fn started(&self, at: f64) -> Result<Motion, InputError> {
-        let pose = self.pose(at);
-        // Checked, and normalised once more.
-        let start = Pose::new(pose.translation(), pose.rotation())?;
-        Motion::about(start, self.velocity(), self.spin(), self.centre())
-    }
-
-    /// Bounds the error of a start that was computed for another time.
-    pub(crate) fn rounding_of_start(&self, time: f64) -> Stray {
-        let turned = length(self.spin()) * time.abs();
-        let travel = length(self.velocity()) * time.abs();
-        let place = length(self.start().translation()) + 2.0 * length(self.centre());
-        Stray {
-            shift: STRETCH_F64 * (place + travel),
-            turn: STRETCH_F64 * (1.0 + turned),
-        }
+        let stretch = Stretch::exact(*self).started(from)?;
+        let stray = stretch.rounding_of_start(from);
+        Ok(Stretch { stray, ..stretch })
     }
 }
 

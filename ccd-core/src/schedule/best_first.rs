@@ -45,7 +45,7 @@ use std::ops::ControlFlow;
 #[derive(Debug)]
 pub struct BestFirst<O: DistanceOracle> {
     queue: Queue<Item<O::Cache>>,
-    kept: Kept,
+    pub(super) kept: Kept,
 }
 
 impl<O: DistanceOracle> Default for BestFirst<O> {

@@ -1,7 +1,10 @@
 //! Bodies that are far from each other all the time: two balls on straight paths tell.
+//!
+//! A path with a constant acceleration is within an eighth of it from the straight one between its ends.
 
 use crate::math::vector::length;
 use crate::problem::{Problem, Side};
+use crate::tolerance::RATE_F64;
 use glam::DVec3;
 
 /// Returns whether the bodies stay farther apart than a contact is, by more than rounding, because
@@ -13,10 +16,15 @@ use glam::DVec3;
 /// Only bodies that are never in contact, up to the tolerance, are out of reach.
 pub(super) fn out_of_reach(problem: &Problem<'_>) -> bool {
     let (a, b) = (Ball::of(&problem.a), Ball::of(&problem.b));
-    let distance = least_length(b.centre - a.centre, b.velocity - a.velocity);
+    let distance = least_length(b.centre - a.centre, b.velocity - a.velocity) - bow(problem);
     // The rounding of a distance of bodies is more than that of the places of their balls; twice
     // of it is more than that of this distance, too. Written so that NaN is within reach.
     distance - a.radius - b.radius > problem.contact_distance() + 2.0 * problem.rounding
+}
+
+/// Bounds how far the way from ball to ball is from its straight change, rounded up.
+fn bow(problem: &Problem<'_>) -> f64 {
+    0.125 * length(problem.b.path.acceleration - problem.a.path.acceleration) * (1.0 + RATE_F64)
 }
 
 /// Returns the clock at which the balls are nearest.
@@ -44,7 +52,7 @@ impl Ball {
         };
         Ball {
             centre: path.start_of(centre),
-            velocity: path.velocity,
+            velocity: path.velocity + 0.5 * path.acceleration,
             radius: radius + turned * centre.distance(path.centre),
         }
     }

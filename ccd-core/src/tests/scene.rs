@@ -180,6 +180,7 @@ impl Passage {
 pub(crate) struct Scene {
     pub(crate) bodies: [Body; 2],
     pub(crate) motions: [Motion; 2],
+    pub(crate) accelerations: [DVec3; 2],
     pub(crate) config: Config,
     /// The clock at which they are near each other.
     pub(crate) clock: f64,
@@ -193,7 +194,36 @@ impl Scene {
             body: &self.bodies[k],
             motion: self.motions[k],
         };
-        Problem::new(moving(0), moving(1), 1.0, &self.config).unwrap()
+        let bodies = [moving(0), moving(1)];
+        Problem::accelerated(bodies, self.accelerations, 1.0, &self.config).unwrap()
+    }
+
+    /// Lets the bodies of every third scene accelerate.
+    pub(crate) fn at_times_accelerating(self, rng: &mut Pcg64) -> Self {
+        match rng.random_range(0..3) {
+            0 => self.accelerating(rng),
+            _ => self,
+        }
+    }
+
+    /// Lets the bodies accelerate, in the scene's sizes or in those of their ways: they have the same poses and
+    /// velocities at the clock.
+    pub(crate) fn accelerating(mut self, rng: &mut Pcg64) -> Self {
+        let clock = self.clock;
+        let size = self.bodies[0].tree().span() + self.bodies[1].tree().span();
+        for (motion, acceleration) in self.motions.iter_mut().zip(&mut self.accelerations) {
+            let speed = match rng.random_bool(0.5) {
+                true => size,
+                false => motion.velocity().length(),
+            };
+            *acceleration = direction(rng) * speed * magnitude(rng, -3.0, 1.5);
+            let (pose, change) = (motion.start(), clock * *acceleration);
+            let start = Pose::new(pose.translation() + 0.5 * clock * change, pose.rotation());
+            let velocity = motion.velocity() - change;
+            *motion =
+                Motion::about(start.unwrap(), velocity, motion.spin(), motion.centre()).unwrap();
+        }
+        self
     }
 }
 
@@ -271,6 +301,7 @@ pub(crate) fn scene(rng: &mut Pcg64, kind: Kind, most: usize) -> Scene {
     Scene {
         bodies: bodies.try_into().unwrap(),
         motions: motions.try_into().unwrap(),
+        accelerations: [DVec3::ZERO; 2],
         config: Config {
             tolerance: lesser(sizes[0], sizes[1]) * magnitude(rng, -6.0, -2.0),
             ..Config::default()

@@ -4,12 +4,12 @@ use super::U;
 use super::bounded::{Bounded, Speeds};
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
-use ccd_core::{Accelerations, InputError, Motion, Pose, Smooth, Stray};
+use ccd_core::{Acceleration, Accelerations, InputError, Motion, Pose, Smooth, Stray};
 
 /// A thrown body: constant acceleration of its centre, and constant spin about it.
 ///
-/// The centre's place is `C + v t + a t²/2`. Its acceleration is constant, so that a stretch of time `h` strays
-/// by `|a| h²/8`.
+/// The centre's place is `C + v t + a t²/2`. Its acceleration is constant: a stretch of any length is the
+/// trajectory itself.
 ///
 /// ```
 /// use rigid_ccd::trajectory::{Ballistic, Trajectory};
@@ -63,6 +63,13 @@ impl Smooth for Ballistic {
             linear: self.acceleration.length(),
             angular: 0.0,
         }
+    }
+
+    fn acceleration(&self, _: f64, _: f64, _: f64) -> Option<Acceleration> {
+        Some(Acceleration {
+            vector: self.acceleration,
+            jerk: 0.0,
+        })
     }
 
     /// The turn since the throw is rounded, and so is the way.

@@ -2,15 +2,15 @@
 
 use super::U;
 use super::knots::{middle_knot, overlapping, spread};
-use ccd_core::InputError;
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
+use ccd_core::{Acceleration, InputError};
 
 /// A curve of Bézier segments, from time 0 to its [duration](Curve::duration). It rests before and after.
 ///
 /// A Bézier curve is within the convex hull of its points, and its derivatives are Bézier curves of the
 /// differences of its points. On a part of a segment, the second derivative is that of the middle, give or take
-/// the third derivative times half of the part's time.
+/// the third derivative times half of the part's time, and so on.
 ///
 /// ```
 /// use rigid_ccd::trajectory::Curve;
@@ -109,6 +109,19 @@ impl Curve {
             segment.most(2, from, to)
         });
         smooth.fold(0.0, greater) + spread(self.jumps(from, to), from, to)
+    }
+
+    /// Returns the acceleration at a time, with a bound of how fast it changes between two times; none if several
+    /// segments are between them.
+    pub(super) fn acceleration_at(&self, time: f64, from: f64, to: f64) -> Option<Acceleration> {
+        let [segment] = self.overlapping(from, to) else {
+            return None;
+        };
+        let is_within = from >= segment.from && to <= segment.to;
+        is_within.then(|| Acceleration {
+            vector: segment.derivative(2, segment.share(time)),
+            jerk: segment.most(3, from, to),
+        })
     }
 
     /// Bounds the speed between two times.

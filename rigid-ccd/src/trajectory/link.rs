@@ -7,7 +7,7 @@ use super::joint::{Joint, Kind};
 use super::screw::turn;
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
-use ccd_core::{Accelerations, InputError, Motion, Pose, Smooth, Stray, Trajectory};
+use ccd_core::{Acceleration, Accelerations, InputError, Motion, Pose, Smooth, Stray, Trajectory};
 
 /// The trajectory of a link of a [`Chain`], in the world or as another link sees it.
 ///
@@ -18,6 +18,9 @@ use ccd_core::{Accelerations, InputError, Motion, Pose, Smooth, Stray, Trajector
 /// it, only the joints in between count.
 ///
 /// Axes that are parallel add no `ω̇`.
+///
+/// The acceleration of the link's origin is known at each time. It changes at most at `(|ω̈| + 3 |ω̇| |ω| + |ω|³) |r|`
+/// for each arm, and by `3 |ṡ| (|ω̇| + |ω|²)` more for one that slides, with `|ω̈| ≤ Σ |q̇| (|ω̇| + |ω| |ω × z|)`.
 ///
 /// The rates hold at all times: before time 0 and after the duration the link moves on, without regard to limits.
 #[derive(Clone, Copy, Debug)]
@@ -134,6 +137,18 @@ impl<'c> Link<'c> {
         })
     }
 
+    /// Returns the pose and the velocities of the link at a time.
+    fn state(&self, time: f64) -> Result<State, InputError> {
+        let mut state = State::at(match self.seen_from {
+            Some(_) => Pose::IDENTITY,
+            None => self.chain.base(),
+        });
+        for (joint, position, rate) in self.joints(time) {
+            state.pass(joint, position, rate)?;
+        }
+        Ok(state)
+    }
+
     /// The bounds of the link's velocities and accelerations between two times.
     fn moved(&self, from: f64, to: f64) -> Moved {
         let mut moved = Moved::default();
@@ -160,27 +175,24 @@ impl<'c> Link<'c> {
 
 impl Smooth for Link<'_> {
     fn tangent(&self, time: f64) -> Result<Motion, InputError> {
-        let mut pose = match self.seen_from {
-            Some(_) => Pose::IDENTITY,
-            None => self.chain.base(),
-        };
-        let (mut velocity, mut spin) = (DVec3::ZERO, DVec3::ZERO);
-        for (joint, position, rate) in self.joints(time) {
-            let before = pose.translation();
-            let held = pose.compose(joint.origin());
-            pose = pose.compose(&joint.placed(position)?);
-            velocity += spin.cross(pose.translation() - before);
-            match joint.kind() {
-                Kind::Fixed => {}
-                Kind::Revolute(axis) => spin += held.rotation() * axis * rate,
-                Kind::Prismatic(axis) => velocity += held.rotation() * axis * rate,
-            }
-        }
+        let State {
+            pose,
+            velocity,
+            spin,
+            ..
+        } = self.state(time)?;
         Motion::new(pose, velocity, spin)
     }
 
     fn accelerations(&self, from: f64, to: f64) -> Accelerations {
         self.moved(from, to).accelerations
+    }
+
+    fn acceleration(&self, time: f64, from: f64, to: f64) -> Option<Acceleration> {
+        Some(Acceleration {
+            vector: self.state(time).ok()?.acceleration,
+            jerk: self.moved(from, to).jerks.linear,
+        })
     }
 
     /// Each joint adds the rounding of a product of poses, and of its angle.
@@ -206,11 +218,61 @@ impl Bounded for Link<'_> {
     }
 }
 
-/// Bounds of the velocities and accelerations of a link, joint by joint.
+/// The pose of a link and its derivatives, joint by joint.
+struct State {
+    pose: Pose,
+    velocity: DVec3,
+    spin: DVec3,
+    acceleration: DVec3,
+    /// `ω̇`
+    angular: DVec3,
+}
+
+impl State {
+    /// A link at rest.
+    fn at(pose: Pose) -> Self {
+        State {
+            pose,
+            velocity: DVec3::ZERO,
+            spin: DVec3::ZERO,
+            acceleration: DVec3::ZERO,
+            angular: DVec3::ZERO,
+        }
+    }
+
+    /// Goes on to the link after a joint.
+    fn pass(&mut self, joint: &Joint, position: f64, rate: f64) -> Result<(), InputError> {
+        let before = self.pose.translation();
+        let held = self.pose.compose(joint.origin());
+        self.pose = self.pose.compose(&joint.placed(position)?);
+        let arm = self.pose.translation() - before;
+        let turning = self.spin.cross(arm);
+        self.velocity += turning;
+        self.acceleration += self.angular.cross(arm) + self.spin.cross(turning);
+        match joint.kind() {
+            Kind::Fixed => {}
+            Kind::Revolute(axis) => {
+                let turn = held.rotation() * axis * rate;
+                self.angular += self.spin.cross(turn);
+                self.spin += turn;
+            }
+            Kind::Prismatic(axis) => {
+                let slide = held.rotation() * axis * rate;
+                self.acceleration += 2.0 * self.spin.cross(slide);
+                self.velocity += slide;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Bounds of the derivatives of a link's pose, joint by joint.
 #[derive(Clone, Copy, Debug, Default)]
 struct Moved {
     speeds: Speeds,
     accelerations: Accelerations,
+    /// The bounds of their derivatives.
+    jerks: Accelerations,
     /// The axis of all turns so far in the link's frame, if they have a common one.
     axis: Option<DVec3>,
     /// The number of joints, the sum of the lengths of all arms, and of all angles.
@@ -246,7 +308,9 @@ impl Moved {
             Kind::Prismatic(_) => {
                 self.arms += positions.ever;
                 self.arm(positions.largest);
-                self.accelerations.linear += 2.0 * self.speeds.angular * rate;
+                let (turn, turning) = (self.speeds.angular, self.accelerations.angular);
+                self.jerks.linear += 3.0 * rate * (turning + turn * turn);
+                self.accelerations.linear += 2.0 * turn * rate;
                 self.speeds.linear += rate;
             }
             Kind::Revolute(axis) => {
@@ -266,7 +330,10 @@ impl Moved {
     /// Adds an arm that turns with the link.
     fn arm(&mut self, length: f64) {
         let Speeds { angular, .. } = self.speeds;
-        self.accelerations.linear += (self.accelerations.angular + angular * angular) * length;
+        let turning = self.accelerations.angular;
+        self.jerks.linear +=
+            (self.jerks.angular + (3.0 * turning + angular * angular) * angular) * length;
+        self.accelerations.linear += (turning + angular * angular) * length;
         self.speeds.linear += angular * length;
     }
 
@@ -282,7 +349,9 @@ impl Moved {
             }
             (true, None) => (1.0, None),
         };
-        self.accelerations.angular += rate * self.speeds.angular * lesser(across, 1.0);
+        let swept = self.speeds.angular * lesser(across, 1.0);
+        self.jerks.angular += rate * (self.accelerations.angular + self.speeds.angular * swept);
+        self.accelerations.angular += rate * swept;
         self.speeds.angular += rate;
         self.axis = common;
     }

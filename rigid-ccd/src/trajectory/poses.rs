@@ -130,7 +130,10 @@ impl Poses {
             stray.turn = greater(stray.turn, between);
             last = (time, off);
         }
-        Ok(Stretch { motion, stray })
+        Ok(Stretch {
+            stray,
+            ..Stretch::exact(motion)
+        })
     }
 
     /// Bounds the rounding of poses from one time to another: they are computed from those given before.
@@ -150,14 +153,14 @@ impl Poses {
 
 impl Trajectory for Poses {
     fn stretch(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
-        let Stretch { motion, stray } = match self.between(from, to).is_empty() {
+        let stretch = match self.between(from, to).is_empty() {
             // The motion itself: one from pose to pose might turn the other way.
             true => Stretch::exact(self.at(from, to)?),
             false => self.chord(from, to)?,
         };
         Ok(Stretch {
-            motion,
-            stray: stray + self.rounding(from, to),
+            stray: stretch.stray + self.rounding(from, to),
+            ..stretch
         })
     }
 

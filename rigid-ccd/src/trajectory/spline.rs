@@ -4,7 +4,7 @@ use super::bounded::{Bounded, Speeds};
 use super::curve::Curve;
 use super::turns::Turns;
 use ccd_core::glam::DVec3;
-use ccd_core::{Accelerations, InputError, Motion, Pose, Smooth, Stray};
+use ccd_core::{Acceleration, Accelerations, InputError, Motion, Pose, Smooth, Stray};
 
 /// A body whose origin follows a [`Curve`], and which [turns](Turns) about it.
 ///
@@ -58,6 +58,10 @@ impl Smooth for Spline {
             linear: self.curve.acceleration(from, to),
             angular: self.turns.acceleration(from, to),
         }
+    }
+
+    fn acceleration(&self, time: f64, from: f64, to: f64) -> Option<Acceleration> {
+        self.curve.acceleration_at(time, from, to)
     }
 
     fn rounding(&self, _: f64, _: f64) -> Stray {

@@ -2,7 +2,7 @@
 
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
-use ccd_core::{InputError, Stretch, Trajectory};
+use ccd_core::{InputError, Trajectory};
 
 /// The place at which a trajectory strays farthest from a stretch, in units of its bound.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -115,14 +115,14 @@ impl Search<'_> {
         let from = from * (self.duration - length);
         let to = lesser(from + length, self.duration);
         let time = lesser(from + time * length, to);
-        let Stretch { motion, stray } = self.trajectory.stretch(from, to)?;
+        let stretch = self.trajectory.stretch(from, to)?;
         let z = 2.0 * height - 1.0;
         let (sin, cos) = (std::f64::consts::TAU * azimuth).sin_cos();
         let across = greater(0.0, 1.0 - z * z).sqrt();
         let reach = self.reach * arm;
         let arm = reach * DVec3::new(across * cos, across * sin, z);
-        let point = motion.centre() + arm;
-        let [pose, near] = [self.trajectory.pose(time)?, motion.pose(time - from)];
+        let point = stretch.motion.centre() + arm;
+        let [pose, near] = [self.trajectory.pose(time)?, stretch.pose(time - from)];
         let off = pose
             .transform_point(point)
             .distance(near.transform_point(point));
@@ -130,7 +130,7 @@ impl Search<'_> {
         let places = pose.translation().length() + point.length();
         let rounding = 8.0 * f64::EPSILON * places;
         Ok(Worst {
-            ratio: (off - rounding) / stray.at(reach),
+            ratio: (off - rounding) / stretch.stray.at(reach),
             from,
             to,
             time,

@@ -1,5 +1,6 @@
 use super::Gap;
 use crate::tests::double::Double;
+use crate::tests::scene::{RngExt, magnitude, rng};
 use crate::tests::worst::{Worst, share};
 use crate::tolerance::RATE_F64;
 
@@ -23,4 +24,65 @@ fn worst_free_time() {
         Some(share((free / exact - Double::from(1.0)).get(), RATE_F64))
     });
     found.is_within(8.0);
+}
+
+/// The same for a gap that closes ever slower: where it closes at all, the squares may all but cancel.
+#[test]
+fn a_free_time_of_parting_is_never_late_and_near() {
+    let mut rng = rng(1);
+    let (mut closes, mut near, mut stays) = (0, 0, 0);
+    for _ in 0..100_000 {
+        let [gap, rate] = [0; 2].map(|_| magnitude(&mut rng, -12.0, 6.0));
+        // The bend at which the gap just closes, or any other.
+        let just = rate * rate / (2.0 * gap);
+        let bend = match rng.random_bool(0.5) {
+            true => just * (1.0 + magnitude(&mut rng, -16.0, 0.0) * rng.random_range(-1.0..1.0)),
+            false => magnitude(&mut rng, -12.0, 6.0),
+        };
+        let found = Gap {
+            gap,
+            rate,
+            bend: -bend,
+        };
+        let free = found.free_time();
+        let [gap, rate, bend] = [gap, rate, -bend].map(Double::from);
+        let two = Double::from(2.0);
+        let left = rate * rate + two * bend * gap;
+        if left.get() < 0.0 {
+            stays += u32::from(free == f64::INFINITY);
+            continue;
+        }
+        closes += 1;
+        let exact = two * gap / (rate + left.sqrt());
+        let share = (Double::from(free) / exact).get();
+        assert!(share <= 1.0, "{found:?}: {share}");
+        let kept = (left / (rate * rate)).get();
+        near += u32::from(kept < 1e-6 || share >= 1.0 - 1e-7);
+    }
+    assert_eq!(near, closes);
+    assert!(closes > 20_000 && stays > 20_000, "{closes} {stays}");
+}
+
+#[test]
+fn a_gap_that_never_closes_is_free_for_good() {
+    let time = |gap: f64, rate: f64, bend: f64| Gap { gap, rate, bend }.free_time();
+    let forever = f64::INFINITY;
+    assert_eq!(time(1.0, -1.0, -1.0), forever);
+    assert_eq!(time(1.0, 0.0, -1.0), forever);
+    assert_eq!(time(1.0, 1.0, -0.501), forever);
+    // It touches after 2, slower and slower.
+    assert!((1.99..=2.0).contains(&time(1.0, 1.0, -0.5)));
+    // What is no number, or overflows, has no time.
+    for gap in [0.0, -1.0, f64::NAN] {
+        assert_eq!(time(gap, 1.0, -1.0), 0.0);
+        assert_eq!(time(gap, -1.0, -1.0), 0.0);
+    }
+    assert_eq!(time(1.0, f64::NAN, -1.0), 0.0);
+    assert_eq!(time(1.0, 1e200, -1.0), 0.0);
+    assert_eq!(time(1.0, -1e200, -1.0), 0.0);
+    assert_eq!(time(1.0, 1.0, f64::NEG_INFINITY), 0.0);
+    assert_eq!(time(f64::INFINITY, 1.0, -1.0), 0.0);
+    // Lost squares promise no more than the rate does.
+    let lost = time(1e-170, 1e-170, -1e-300);
+    assert!((0.0..=1.0).contains(&lost), "{lost}");
 }

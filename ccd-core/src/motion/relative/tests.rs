@@ -20,27 +20,39 @@ fn path(rng: &mut Pcg64) -> Path {
     };
     let spin = direction(rng) * turn;
     let motion = Motion::about(start, within(rng, 5.0), spin, within(rng, 3.0)).unwrap();
-    Path::new(&motion, within(rng, 9.0), 1.0)
+    let path = Path::new(&motion, within(rng, 9.0), 1.0);
+    match rng.random_bool(0.5) {
+        true => path.accelerated(within(rng, 5.0)),
+        false => path,
+    }
 }
 
-/// A body as seen from another: where it sees a point, its velocity and its spin.
+/// A body as seen from another: where it sees a point, its velocity, its acceleration and its spin.
 #[inline(always)]
-fn look<L: Simd>(level: L, view: &View, s: f64, point: DVec3) -> [DVec3; 3] {
+fn look<L: Simd>(level: L, view: &View, s: f64, point: DVec3) -> [DVec3; 4] {
     let Seen {
         rotation,
         way,
         velocity,
+        acceleration,
         spin,
     } = view.at(level, s);
     let point = rotation * (Packed::new(level, point) - view.other_centre(level));
-    [way + point + view.centre(level), velocity, spin].map(Packed::unpacked)
+    let acceleration = acceleration.unwrap_or(Packed::new(level, DVec3::ZERO));
+    [
+        way + point + view.centre(level),
+        velocity,
+        acceleration,
+        spin,
+    ]
+    .map(Packed::unpacked)
 }
 
 #[test]
 fn each_body_sees_what_the_frames_of_both_say() {
     let mut rng = rng(3);
     let mut counts = [0; 3];
-    for _ in 0..2_000 {
+    for _ in 0..4_000 {
         let paths = (path(&mut rng), path(&mut rng));
         counts[usize::from(paths.0.turns()) + usize::from(paths.1.turns())] += 1;
         for (own, other) in [(&paths.0, &paths.1), (&paths.1, &paths.0)] {
@@ -53,12 +65,13 @@ fn each_body_sees_what_the_frames_of_both_say() {
                 let frame = own.frame(s);
                 let expected = [
                     frame.from_frame(&other.frame(s)).point(x),
-                    frame.inverse_vector(own.velocity - other.velocity),
+                    frame.inverse_vector(own.centre_velocity_at(s) - other.centre_velocity_at(s)),
+                    frame.inverse_vector(own.acceleration - other.acceleration),
                     frame.inverse_vector(other.spin),
                 ];
                 let scale = 1e-14 * (30.0 + own.rate + other.rate);
-                let scales = [scale, scale, scale * (1.0 + other.rate)];
-                for k in 0..3 {
+                let scales = [scale, scale, scale, scale * (1.0 + other.rate)];
+                for k in 0..4 {
                     let off = best[k].distance(expected[k]);
                     assert!(off < scales[k], "{k}: {off:e} {own:?} {other:?}");
                 }

@@ -87,7 +87,7 @@ fn crossing(track: &Track, limit: f64) -> Option<f64> {
         let angle = Angle::new(track.omega * tau);
         Gap {
             gap: limit - track.height_at(tau, angle),
-            rate: track.rate_at(angle),
+            rate: track.rate_at(tau, angle),
             bend: track.bend(),
         }
         .free_time()
@@ -275,6 +275,7 @@ fn worst_least_until() {
         let track = Track {
             height: 0.0,
             drift: 0.0,
+            pull: 0.0,
             p: tape.any(-60..=10),
             q: tape.any(-60..=10),
             omega: tape.size(-40..=4),
@@ -313,6 +314,7 @@ fn worst_bend() {
         let track = Track {
             height: 0.0,
             drift: 0.0,
+            pull: 0.0,
             p: tape.any(-100..=20),
             q: tape.any(-100..=20),
             omega: tape.size(-100..=20),

@@ -25,7 +25,7 @@ fn there_is_any_contact_where_there_is_a_first_one() {
     let mut rng = rng(1);
     let (mut hits, mut misses, mut starts, mut later, mut grazes) = (0, 0, 0, 0, 0);
     for number in 0..4_000 {
-        let scene = scene(&mut rng, KINDS[number % 4], 12);
+        let scene = scene(&mut rng, KINDS[number % 4], 12).at_times_accelerating(&mut rng);
         let problem = scene.problem();
         let within = problem.contact_distance();
         match (any(&problem), first(&problem)) {

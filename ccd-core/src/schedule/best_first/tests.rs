@@ -88,6 +88,52 @@ fn answers_hold_at_sampled_times_and_are_those_of_the_naive_twin() {
     assert!(grazes < 10, "{grazes}");
 }
 
+#[test]
+fn answers_hold_at_sampled_times_where_bodies_accelerate() {
+    let mut rng = rng(11);
+    let (mut hits, mut misses, mut later) = (0, 0, 0);
+    for number in 0..2_000 {
+        let scene = apart(&mut rng).accelerating(&mut rng);
+        let problem = scene.problem();
+        if distance(&problem, 0.0) <= 2.0 * problem.tolerance() {
+            continue;
+        }
+        let within = problem.contact_distance() + problem.rounding;
+        let (until, least) = match solve(&problem).outcome {
+            Outcome::Contact { time, contact } => {
+                hits += 1;
+                assert!(distance(&problem, time) <= within, "{number}");
+                holds(&problem, time, &contact);
+                (time, problem.margin)
+            }
+            Outcome::Free { proven_gap } => {
+                misses += 1;
+                (1.0, proven_gap)
+            }
+            outcome => panic!("{number}: {outcome:?}"),
+        };
+        for k in 0..256 {
+            let found = distance(&problem, until * f64::from(k) / 256.0);
+            assert!(
+                found >= least - problem.rounding,
+                "{number}: {found:e} before {until}"
+            );
+        }
+        // The straight motions of the start say something else.
+        let straight = Scene {
+            accelerations: [DVec3::ZERO; 2],
+            ..scene
+        };
+        let other = match solve(&straight.problem()).outcome {
+            Outcome::Contact { time, .. } => time,
+            _ => 1.0,
+        };
+        later += usize::from((until - other).abs() > 0.1);
+    }
+    assert!(hits > 100 && misses > 300, "{hits} {misses}");
+    assert!(later > 30, "{later}");
+}
+
 /// Checks that the named pieces are as far apart as claimed.
 fn holds(problem: &Problem<'_>, s: f64, contact: &Contact) {
     let placed = |side: &Side<'_>, piece: u32| {

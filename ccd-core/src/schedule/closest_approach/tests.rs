@@ -26,7 +26,7 @@ fn brackets_hold_the_least_of_sampled_distances_and_are_narrow() {
     let mut rng = rng(1);
     let (mut apart, mut touching, mut overlapping) = (0, 0, 0);
     for number in 0..2_500 {
-        let mut scene = scene(&mut rng, KINDS[number % 4], 12);
+        let mut scene = scene(&mut rng, KINDS[number % 4], 12).at_times_accelerating(&mut rng);
         scene.config.tolerance *= magnitude(&mut rng, -4.0, 0.0);
         let problem = scene.problem();
         let Answer {

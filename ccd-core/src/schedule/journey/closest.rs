@@ -9,6 +9,7 @@ use crate::math::order::{greater, lesser};
 use crate::outcome::{Answer, Contact, Limit, Overlap};
 use crate::schedule::DepthFirst;
 use crate::schedule::closest_approach::{Beyond, ClosestApproach};
+use crate::tolerance::STRAY_SHARE;
 
 impl<O: DistanceOracle> DepthFirst<O> {
     /// Brackets the least distance of the bodies along their trajectories, to within the tolerance.
@@ -35,6 +36,13 @@ impl<O: DistanceOracle> DepthFirst<O> {
                 Err(reason) => return Ok(found.unresolved(journey, &stretches, reason)),
             };
             let leg = stretches.leg(span)?;
+            if let Some(time) = stretches.looks_too_long(&leg) {
+                let length =
+                    self.worthwhile(journey, oracle, &leg, time, &mut found, &mut stretches)?;
+                if stretches.cut_about(leg.span, time, 2.0 * length) {
+                    continue;
+                }
+            }
             let problem = leg.problem(journey, &config)?;
             let beyond = found.upper() + leg.stray;
             let answer = self.approach_below(&problem, beyond, oracle);
@@ -65,10 +73,16 @@ impl<O: DistanceOracle> DepthFirst<O> {
             let is_loose = seen.is_loose(tolerance);
             if lower >= upper - tolerance || is_loose || stretches.is_fine(&leg)? {
                 found.lower = lesser(found.lower, lower);
-            } else if !stretches.cut_about(leg.span, leg.time(seen.time)) {
-                return Ok(found.unresolved(journey, &stretches, Limit::Stalled));
+                stretches.prove(&leg);
+            } else {
+                let time = leg.time(seen.time);
+                let length =
+                    self.worthwhile(journey, oracle, &leg, time, &mut found, &mut stretches)?;
+                if !stretches.cut_about(leg.span, time, length) {
+                    return Ok(found.unresolved(journey, &stretches, Limit::Stalled));
+                }
             }
-            if upper <= tolerance {
+            if found.upper() <= tolerance {
                 found.lower = 0.0;
                 break;
             }
@@ -88,22 +102,69 @@ impl<O: DistanceOracle> DepthFirst<O> {
         nearest: Answer<ClosestApproach>,
         stretches: &mut Stretches<'_, '_>,
     ) -> Result<Answer<ClosestApproach>, InputError> {
-        let Ok(config) = stretches.config() else {
-            return Ok(nearest);
-        };
-        let leg = Leg::new(journey, Span { from: 0.0, to: 0.0 })?;
-        let start = self.closest_approach(&leg.problem(journey, &config)?, oracle);
-        stretches.add(&start.stats);
+        let start = self.measure(journey, oracle, 0.0, stretches)?;
         Ok(Answer {
-            outcome: match start.outcome {
-                ClosestApproach::Overlapping { .. } => start.outcome,
-                ClosestApproach::Nearest { .. } | ClosestApproach::Unresolved { .. } => {
-                    nearest.outcome
-                }
+            outcome: match start {
+                Some(overlapping @ ClosestApproach::Overlapping { .. }) => overlapping,
+                _ => nearest.outcome,
             },
             stats: stretches.stats,
             ..nearest
         })
+    }
+
+    /// Measures the bodies at a time of a leg, and returns the length of a stretch whose strays leave no doubt there.
+    fn worthwhile(
+        &mut self,
+        journey: &Journey<'_>,
+        oracle: &mut O,
+        leg: &Leg,
+        time: f64,
+        found: &mut Found,
+        stretches: &mut Stretches<'_, '_>,
+    ) -> Result<f64, InputError> {
+        let distance = match self.measure(journey, oracle, time, stretches)? {
+            Some(ClosestApproach::Nearest { contact, .. }) => {
+                found.take(time, contact);
+                contact.separation.upper
+            }
+            _ => 0.0,
+        };
+        let beyond = greater(journey.config.tolerance, distance - found.upper());
+        Ok(leg.length_for(STRAY_SHARE * beyond))
+    }
+
+    /// Measures the bodies at a time, with bounds that hold where they stray from their poses by rounding; none if
+    /// no work is left.
+    fn measure(
+        &mut self,
+        journey: &Journey<'_>,
+        oracle: &mut O,
+        time: f64,
+        stretches: &mut Stretches<'_, '_>,
+    ) -> Result<Option<ClosestApproach>, InputError> {
+        let Ok(config) = stretches.config() else {
+            return Ok(None);
+        };
+        let span = Span {
+            from: time,
+            to: time,
+        };
+        let leg = Leg::new(journey, span)?;
+        let answer = self.closest_approach(&leg.problem(journey, &config)?, oracle);
+        stretches.stats.add(&answer.stats);
+        Ok(Some(match answer.outcome {
+            ClosestApproach::Nearest {
+                lower,
+                time,
+                contact,
+            } => ClosestApproach::Nearest {
+                lower,
+                time,
+                contact: leg.contact(contact),
+            },
+            other => other,
+        }))
     }
 }
 

@@ -3,11 +3,13 @@
 use super::Journey;
 use super::leg::{Leg, Span};
 use super::stretches::Stretches;
+use crate::config::Config;
 use crate::distance::oracle::DistanceOracle;
 use crate::error::InputError;
 use crate::math::order::{greater, lesser};
 use crate::outcome::{Answer, Contact, Limit, Outcome, Overlap};
 use crate::schedule::any_contact::AnyContact;
+use crate::schedule::memory::Kept;
 use crate::schedule::{BestFirst, DepthFirst, Schedule};
 use crate::tolerance::STRAY_SHARE;
 
@@ -32,11 +34,18 @@ impl<O: DistanceOracle> BestFirst<O> {
                 Err(reason) => return Ok(kept.unresolved(&stretches, span.from, reason)),
             };
             let leg = stretches.leg(span)?;
+            if let Some(time) = stretches.looks_too_long(&leg)
+                && let Some(seen) = stretches.measure(time, oracle, &mut self.kept)?
+                && stretches.cut(leg.span, worthwhile(journey, &leg, seen))
+            {
+                continue;
+            }
             let answer = self.solve(&leg.problem(journey, &config)?, oracle);
             stretches.add(&answer.stats);
             let (s, contact) = match answer.outcome {
                 Outcome::Free { proven_gap } => {
                     kept.keep(&leg, proven_gap);
+                    stretches.prove(&leg);
                     continue;
                 }
                 Outcome::Unresolved { safe_until, reason } => {
@@ -58,7 +67,11 @@ impl<O: DistanceOracle> BestFirst<O> {
                 from: leg.time(s),
                 to: leg.span.to,
             };
-            if stretches.cut(rest, share(journey, &leg, contact)) {
+            let seen = (s, contact);
+            let length = length(&mut stretches, &leg, seen, oracle, &mut self.kept)?;
+            // Much shorter than before, its strays are as well.
+            let is_short = rest.length() <= lesser(length, 0.5 * leg.span.length());
+            if !is_short && stretches.cut(rest, length) {
                 continue;
             }
             if rest.from > leg.span.from {
@@ -99,22 +112,41 @@ impl<O: DistanceOracle> DepthFirst<O> {
                 Err(reason) => return Ok(unresolved(&kept, &stretches, span.from, reason)),
             };
             let leg = stretches.leg(span)?;
+            if let Some(time) = stretches.looks_too_long(&leg)
+                && let Some((contact, approach)) =
+                    stretches.measure(time, oracle, &mut self.kept)?
+            {
+                // Backwards in time, rates have the other sign.
+                let rate = if time > leg.span.from {
+                    -approach
+                } else {
+                    approach
+                };
+                let length = 2.0 * worthwhile(journey, &leg, (contact, rate));
+                if stretches.cut_about(leg.span, time, length) {
+                    continue;
+                }
+            }
             let answer = self.any_contact(&leg.problem(journey, &config)?, oracle);
             stretches.add(&answer.stats);
-            let (s, outcome) = match answer.outcome {
+            let (s, contact, outcome) = match answer.outcome {
                 AnyContact::Free { proven_gap } => {
                     kept.keep(&leg, proven_gap);
+                    stretches.prove(&leg);
                     continue;
                 }
                 AnyContact::Unresolved { safe_until, reason } => {
                     return Ok(unresolved(&kept, &stretches, leg.time(safe_until), reason));
                 }
-                AnyContact::Contact { time, contact } => (time, Outcome::Contact { time, contact }),
+                AnyContact::Contact { time, contact } => {
+                    (time, Some(contact), Outcome::Contact { time, contact })
+                }
                 AnyContact::Overlapping { overlap } => {
                     if stretches.look_at_start(&leg)? {
                         continue;
                     }
-                    (0.0, Outcome::Overlapping { overlap })
+                    let contact = contact_of(&overlap);
+                    (0.0, contact, Outcome::Overlapping { overlap })
                 }
             };
             if stretches.is_fine(&leg)? {
@@ -126,7 +158,9 @@ impl<O: DistanceOracle> DepthFirst<O> {
                 }
                 return Ok(found.map(AnyContact::from));
             }
-            if !stretches.cut_about(leg.span, leg.time(s)) {
+            let seen = (s, contact);
+            let length = 2.0 * length(&mut stretches, &leg, seen, oracle, &mut self.kept)?;
+            if !stretches.cut_about(leg.span, leg.time(s), length) {
                 return Ok(unresolved(&kept, &stretches, leg.span.from, Limit::Stalled));
             }
         }
@@ -220,10 +254,40 @@ pub(super) fn contact_of(overlap: &Overlap) -> Option<Contact> {
     }
 }
 
-/// Returns the share of a stretch in which the bodies stray by about a quarter of the distance that they have
-/// at a contact of the motions: strays shrink with the square of the time.
-fn share(journey: &Journey<'_>, leg: &Leg, contact: Option<Contact>) -> f64 {
-    let upper = contact.map_or(0.0, |contact| contact.separation.upper);
-    let gap = greater(upper - journey.config.margin, journey.config.tolerance);
-    (STRAY_SHARE * gap / leg.stray).sqrt()
+/// Returns the length of a stretch worth a look after a contact of the motions at a time of a leg.
+fn length<O: DistanceOracle>(
+    stretches: &mut Stretches<'_, '_>,
+    leg: &Leg,
+    (time, seen): (f64, Option<Contact>),
+    oracle: &mut O,
+    kept: &mut Kept,
+) -> Result<f64, InputError> {
+    let seen = match time > 0.0 {
+        true => seen.map(|contact| (contact, leg.approach(time, &contact))),
+        // The motions begin beside the bodies: how near these are is not seen.
+        false => stretches.measure(leg.span.from, oracle, kept)?,
+    };
+    let journey = stretches.journey();
+    Ok(match seen {
+        Some(seen) => worthwhile(journey, leg, seen),
+        None => leg.length_for(STRAY_SHARE * journey.config.tolerance),
+    })
+}
+
+/// Returns the length of a stretch worth a look where the bodies are as near as a contact shows, and approach each
+/// other at a rate: they stray by a part of their distance, and get where they meet, or where they are nearest.
+///
+/// Bodies at a distance `d` that approach each other at a rate `r` meet after `d/r`. If they approach ever slower,
+/// and pass each other closely, they are nearest after about `2 d/r`.
+fn worthwhile(journey: &Journey<'_>, leg: &Leg, (contact, approach): (Contact, f64)) -> f64 {
+    let Config {
+        margin, tolerance, ..
+    } = journey.config;
+    let gap = greater(contact.separation.upper - margin, tolerance);
+    let nearest = 2.0 * gap / approach;
+    // Written so that NaN is no time.
+    match nearest > 0.0 {
+        true => lesser(leg.length_for(STRAY_SHARE * gap), nearest),
+        false => leg.length_for((1.0 - STRAY_SHARE) * gap),
+    }
 }

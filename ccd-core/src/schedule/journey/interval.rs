@@ -162,19 +162,23 @@ impl Reversed<'_> {
 impl Trajectory for Reversed<'_> {
     fn stretch(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
         let (first, last) = (self.time(to), self.time(from));
-        let Stretch { motion, stray } = self.of.stretch(first, last)?;
-        let end = motion.started(last - first)?;
+        let stretch = self.of.stretch(first, last)?;
+        let end = stretch.started(last - first)?;
         // Times are rounded, by as much as the bodies move in that.
         let off = 2.0 * U64 * self.duration;
+        let [before, after] = [stretch, end].map(|stretch| length(stretch.motion.velocity()));
         let moved = Stray {
-            shift: length(motion.velocity()) * off,
-            turn: length(motion.spin()) * off,
+            // The speed is largest at an end.
+            shift: greater(before, after) * off,
+            turn: length(stretch.motion.spin()) * off,
         };
         let rounding = end.rounding_of_start(last - first);
-        let back = Motion::about(end.start(), -end.velocity(), -end.spin(), end.centre())?;
+        let Stretch { motion, .. } = end;
+        let [velocity, spin] = [-motion.velocity(), -motion.spin()];
         Ok(Stretch {
-            motion: back,
-            stray: stray + moved + rounding,
+            motion: Motion::about(motion.start(), velocity, spin, motion.centre())?,
+            stray: end.stray + moved + rounding,
+            ..end
         })
     }
 

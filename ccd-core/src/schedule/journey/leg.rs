@@ -4,18 +4,31 @@ use super::Journey;
 use super::Travelling;
 use crate::config::{Config, StartPolicy};
 use crate::error::InputError;
-use crate::limits::LEAST_TOLERANCE;
+use crate::limits::{LEAST_TOLERANCE, MAX_COORDINATE};
 use crate::math::order::{greater, lesser};
+use crate::math::vector::length;
 use crate::motion::trajectory::Stretch;
 use crate::outcome::{Contact, Separation};
 use crate::problem::Problem;
 use crate::tolerance::STRAY_SHARE;
+use glam::DVec3;
 
 /// A stretch of time.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Span {
     pub(super) from: f64,
     pub(super) to: f64,
+}
+
+impl Span {
+    pub(super) fn length(&self) -> f64 {
+        self.to - self.from
+    }
+
+    /// The time at which it is cut in halves.
+    pub(super) fn middle(&self) -> f64 {
+        self.from + 0.5 * self.length()
+    }
 }
 
 /// The motions of both bodies in a stretch of time, and how far the bodies stray from them.
@@ -40,6 +53,38 @@ impl Leg {
         })
     }
 
+    /// Returns true if queries take the lengths by which the bodies stray and accelerate.
+    pub(super) fn is_in_range(&self, journey: &Journey<'_>) -> bool {
+        let time = self.span.length();
+        let far = |stretch: &Stretch| time * time * length(stretch.acceleration);
+        let [a, b] = &self.motions;
+        let most = MAX_COORDINATE - journey.config.margin;
+        // Written so that NaN is too much.
+        self.stray <= most && far(a) <= most && far(b) <= most
+    }
+
+    /// Guesses the length of a stretch in which the bodies stray by that much: strays shrink with a power of it.
+    pub(super) fn length_for(&self, stray: f64) -> f64 {
+        let accelerates = |stretch: &Stretch| stretch.acceleration != DVec3::ZERO;
+        let order = match self.motions.iter().any(accelerates) {
+            true => 3.0,
+            false => 2.0,
+        };
+        self.span.length() * (stray / self.stray).powf(1.0 / order)
+    }
+
+    /// Returns the rate at which the bodies approach each other in a contact of the motions.
+    pub(super) fn approach(&self, time: f64, contact: &Contact) -> f64 {
+        let Separation {
+            witness_a,
+            witness_b,
+            normal,
+            ..
+        } = contact.separation;
+        let [a, b] = &self.motions;
+        normal.dot(a.velocity_at(witness_a, time) - b.velocity_at(witness_b, time))
+    }
+
     /// Poses the problem of the motions: bodies that keep `margin` apart do so wherever they stray.
     pub(super) fn problem<'a>(
         &self,
@@ -62,10 +107,13 @@ impl Leg {
             ..*config
         };
         let [a, b] = &self.motions;
-        let problem = Problem::new(
-            (journey.a.body, a.motion),
-            (journey.b.body, b.motion),
-            self.span.to - self.span.from,
+        let problem = Problem::accelerated(
+            [
+                (journey.a.body, a.motion).into(),
+                (journey.b.body, b.motion).into(),
+            ],
+            [a.acceleration, b.acceleration],
+            self.span.length(),
             &config,
         )?;
         Ok(match &journey.stop {

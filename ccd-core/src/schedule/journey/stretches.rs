@@ -3,11 +3,14 @@
 use super::leg::{Leg, Span};
 use super::{Journey, Travelling};
 use crate::config::Config;
+use crate::distance::oracle::DistanceOracle;
 use crate::error::InputError;
-use crate::limits::MAX_COORDINATE;
 use crate::math::order::{greater, lesser};
-use crate::outcome::{Limit, Stats};
-use crate::tolerance::{LEAST_CUT, STRAY_SHARE};
+use crate::outcome::{Contact, Limit, Outcome, Stats};
+use crate::schedule::answer::metered;
+use crate::schedule::memory::Kept;
+use crate::schedule::start::at_start;
+use crate::tolerance::{LEAST_CUT, MUCH_LONGER, STRAY_SHARE};
 use std::time::Instant;
 
 /// The stretches that wait, the next one last, and the work so far.
@@ -16,6 +19,8 @@ pub(super) struct Stretches<'j, 'a> {
     waiting: Vec<Span>,
     pub(super) stats: Stats,
     looked_at_start: bool,
+    /// The last stretch that was proven, and its strays.
+    proven: Option<(Span, f64)>,
     /// None if there is no deadline; then no clock is read.
     begun: Option<Instant>,
 }
@@ -31,8 +36,13 @@ impl<'j, 'a> Stretches<'j, 'a> {
             }],
             stats: Stats::default(),
             looked_at_start: false,
+            proven: None,
             begun: journey.config.deadline.map(|_| Instant::now()),
         }
+    }
+
+    pub(super) fn journey(&self) -> &'j Journey<'a> {
+        self.journey
     }
 
     pub(super) fn next(&mut self) -> Option<Span> {
@@ -75,9 +85,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
     pub(super) fn leg(&mut self, mut span: Span) -> Result<Leg, InputError> {
         loop {
             let leg = Leg::new(self.journey, span)?;
-            let most = MAX_COORDINATE - self.journey.config.margin;
-            // Written so that NaN is too much.
-            if leg.stray <= most || !self.cut(span, 0.5) {
+            if leg.is_in_range(self.journey) || !self.cut(span, 0.5 * span.length()) {
                 return Ok(leg);
             }
             span = self.waiting.pop().unwrap_or(span);
@@ -116,44 +124,105 @@ impl<'j, 'a> Stretches<'j, 'a> {
         Ok(true)
     }
 
+    /// Records that the bodies are apart in a stretch.
+    pub(super) fn prove(&mut self, leg: &Leg) {
+        self.proven = Some((leg.span, leg.stray));
+    }
+
+    /// Returns the time at which a stretch begins or ends beside the one that was proven last, if its strays are
+    /// much larger: they likely are too large.
+    pub(super) fn looks_too_long(&mut self, leg: &Leg) -> Option<f64> {
+        let (proven, stray) = self.proven.take()?;
+        let Span { from, to } = leg.span;
+        let beside = [(from, proven.to), (to, proven.from)];
+        let (time, _) = beside.into_iter().find(|(time, other)| time == other)?;
+        (leg.stray > MUCH_LONGER * stray).then_some(time)
+    }
+
+    /// Measures the bodies at a time, up to rounding: returns the contact and the rate at which they approach; none if
+    /// they overlap, or no work is left.
+    pub(super) fn measure<O: DistanceOracle>(
+        &mut self,
+        time: f64,
+        oracle: &mut O,
+        kept: &mut Kept,
+    ) -> Result<Option<(Contact, f64)>, InputError> {
+        let Ok(config) = self.config() else {
+            return Ok(None);
+        };
+        let span = Span {
+            from: time,
+            to: time,
+        };
+        let leg = Leg::new(self.journey, span)?;
+        let problem = leg.problem(self.journey, &config)?.measuring();
+        let answer = metered(&problem, oracle, kept, |oracle, meter| {
+            (at_start(&problem, f64::INFINITY, oracle, meter), 0.0)
+        });
+        self.stats.add(&answer.stats);
+        Ok(match answer.outcome {
+            Some(Outcome::Touching { contact }) => Some((contact, leg.approach(0.0, &contact))),
+            _ => None,
+        })
+    }
+
     /// Lets a stretch be next.
     pub(super) fn push(&mut self, span: Span) {
         self.waiting.push(span);
     }
 
-    /// Cuts a stretch in two, at a corner or after a share of it, and lets the earlier part be next. Returns
+    /// Cuts a stretch in two, at a corner or after about that length, and lets the earlier part be next. Returns
     /// false if it cannot be cut.
-    pub(super) fn cut(&mut self, span: Span, share: f64) -> bool {
-        let Some([early, late]) = self.parts(span, share) else {
+    pub(super) fn cut(&mut self, span: Span, length: f64) -> bool {
+        let Some([early, late]) = self.parts(span, length) else {
             return false;
         };
         self.waiting.extend([late, early]);
         true
     }
 
-    /// Cuts a stretch in two, and lets the part with a time be next. Returns false if it cannot be cut.
-    pub(super) fn cut_about(&mut self, span: Span, time: f64) -> bool {
-        let Some([early, late]) = self.parts(span, 0.5) else {
+    /// Cuts a part of about that length, about a time, out of a stretch, and lets it be next; or the part with that
+    /// time, at a corner. Returns false if it cannot be cut.
+    pub(super) fn cut_about(&mut self, span: Span, time: f64, length: f64) -> bool {
+        let whole = span.length();
+        let Some([early, late]) = self.parts(span, 0.5 * whole) else {
             return false;
         };
-        match time < late.from {
-            true => self.waiting.extend([late, early]),
-            false => self.waiting.extend([early, late]),
+        let half = 0.5 * greater(length, LEAST_CUT * whole);
+        let [first, last] = [time - half, time + half];
+        // Written so that NaN is a half of the stretch, and so is a length that is lost to rounding.
+        let is_part = length < 0.5 * whole && first < time && last > time;
+        if !is_part || early.to != span.middle() {
+            match time < late.from {
+                true => self.waiting.extend([late, early]),
+                false => self.waiting.extend([early, late]),
+            }
+            return true;
         }
+        let mut middle = span;
+        // What would be left beside it is hardly longer.
+        if last + half < span.to {
+            self.waiting.push(Span { from: last, ..span });
+            middle.to = last;
+        }
+        if first - half > span.from {
+            self.waiting.push(Span { to: first, ..span });
+            middle.from = first;
+        }
+        self.waiting.push(middle);
         true
     }
 
-    fn parts(&self, span: Span, share: f64) -> Option<[Span; 2]> {
+    fn parts(&self, span: Span, length: f64) -> Option<[Span; 2]> {
         let Span { from, to } = span;
         let Journey { a, b, .. } = self.journey;
         let corner = |body: &Travelling<'_>| {
             let corner = body.trajectory.corner(from, to)?;
             (corner > from && corner < to).then_some(corner)
         };
-        let share = greater(LEAST_CUT, lesser(share, 0.5));
-        let at = corner(a)
-            .or_else(|| corner(b))
-            .unwrap_or(from + share * (to - from));
+        let whole = span.length();
+        let length = greater(LEAST_CUT * whole, lesser(length, 0.5 * whole));
+        let at = corner(a).or_else(|| corner(b)).unwrap_or(from + length);
         (at > from && at < to).then_some([Span { from, to: at }, Span { from: at, to }])
     }
 }

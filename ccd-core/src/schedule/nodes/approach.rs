@@ -14,7 +14,7 @@ pub(super) struct Approach {
     pub(super) straight: f64,
     /// The rate at which any two of their points do.
     rate: f64,
-    /// The second derivative.
+    /// The second derivative; negative where they accelerate away from each other.
     bend: f64,
 }
 
@@ -32,7 +32,8 @@ impl Approach {
             let from_axis = length(path.axis.cross(arm)) + radius + RATE_F64 * length(arm);
             let across = length(across) + RATE_F64 * path.rate;
             bend += across * path.rate * from_axis * (1.0 + RATE_F64);
-            speed += length(path.velocity) + path.rate * (length(arm) + radius);
+            bend += n.dot(path.acceleration) + RATE_F64 * length(path.acceleration);
+            speed += path.speed() + path.rate * (length(arm) + radius);
         }
         Approach {
             straight,

@@ -34,7 +34,8 @@ pub(crate) struct Common<'p> {
 /// Bounds the speeds that a rate is the difference of, with the share that the places of arms have in
 /// its rounding.
 fn speed(a: &Side<'_>, b: &Side<'_>) -> f64 {
-    let straight = length(b.path.velocity - a.path.velocity);
+    let straight = length(b.path.velocity - a.path.velocity)
+        + length(b.path.acceleration - a.path.acceleration);
     let turning = |own: &Side<'_>, other: &Side<'_>| {
         // An arm is the difference of two positions, each rounded in its place, as seen from a group
         // of the other body. That is in a ball which moves straight, and turns with its body.

@@ -5,7 +5,7 @@ use super::clock;
 use super::lanes::{Vec3x8, splat};
 use super::shape::{Children, OtherNode};
 use super::turn::Turn;
-use crate::tolerance::{ACROSS_F32, BEND_F32, LEAST_BEND_F32};
+use crate::tolerance::{ACROSS_F32, BEND_F32, LEAST_BEND_F32, RATE_F32};
 use fearless_simd::{Simd, f32x8};
 use glam::Vec3;
 
@@ -14,6 +14,8 @@ use glam::Vec3;
 pub(crate) struct RelativeMotionF32 {
     /// The velocity of the split side's centre minus that of the other side's.
     pub(crate) velocity: Vec3,
+    /// Its derivative, if the centres accelerate differently.
+    pub(crate) acceleration: Option<Vec3>,
     pub(crate) split: Turn,
     pub(crate) other: Turn,
     /// The time left.
@@ -105,7 +107,11 @@ impl<'a, L: Simd, C: Children, P: OtherNode> EightPairs<'a, L, C, P> {
             bend += bending(m, motion.other.rate, self.other_speed);
         }
         let apart = axis.gap - motion.slack;
-        if motion.split.turns || motion.other.turns {
+        if let Some(acceleration) = motion.acceleration {
+            let along = axis.n.dot(Vec3x8::splat(axis.n.level(), acceleration));
+            let rounding = splat(axis.n.level(), RATE_F32 * acceleration.length());
+            clock::parting_free_time(apart, motion.closed, rate, bend + along + rounding)
+        } else if motion.split.turns || motion.other.turns {
             clock::free_time(apart, motion.closed, rate, bend)
         } else {
             clock::straight_free_time(apart, motion.closed, rate)

@@ -271,6 +271,7 @@ impl<L: Simd> GroupView<'_, L> {
         let slack = greater((common.margin + rounding).next_up(), common.node_gap);
         RelativeMotionF32 {
             velocity: self.motion.seen.velocity.as_vec3(),
+            acceleration: self.motion.seen.acceleration.map(|change| change.as_vec3()),
             split,
             other,
             horizon: self.motion.horizon,
@@ -293,6 +294,7 @@ impl<L: Simd> GroupView<'_, L> {
     fn at_unit_rate(&self, centre: Vec3, radius: f32) -> RelativeMotionF32 {
         RelativeMotionF32 {
             velocity: Vec3::ZERO,
+            acceleration: None,
             split: Turn::NONE,
             other: Turn::NONE,
             horizon: 0.0,

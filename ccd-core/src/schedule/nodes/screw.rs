@@ -45,8 +45,11 @@ const UNKNOWN: u32 = u32::MAX;
 const NONE: u32 = u32::MAX - 1;
 
 impl Screw {
-    /// Returns none unless one body turns, and the axis hardly moves for the other. Forgets all profiles.
+    /// Returns none unless one body turns, none accelerates, and the axis hardly moves for the other. Forgets all profiles.
     pub(super) fn of(problem: &Problem<'_>, profiles: &mut Profiles) -> Option<Self> {
+        if problem.a.path.accelerates() || problem.b.path.accelerates() {
+            return None;
+        }
         let turning = match (problem.a.path.turns(), problem.b.path.turns()) {
             (true, false) => Which::A,
             (false, true) => Which::B,

@@ -6,7 +6,7 @@
 //!
 //! With `n' = ω×n` and `d` from the turning body's centre to a point of the other node, the height
 //! `f = n·d` has `f' = n·ḋ − (n×ω)·d` and, over a time of at most `H`, `|f''| ≤ |n×ω|(|ω|(|d| + |ḋ|
-//! H) + 2|ḋ|) + |d̈|`.
+//! H) + 2|ḋ|) + |d̈|`. Where the centres accelerate, that is part of `d̈`.
 
 use super::axis::Axis;
 use super::clock;
@@ -85,10 +85,14 @@ impl<L: Simd, C: Children, P: OtherNode> EightPairs<'_, L, C, P> {
         sweep: &SweepingNode<L>,
     ) -> f32x8<L> {
         let motion = self.motion;
-        let straight = motion.velocity.length() + motion.rate_slack;
+        let change = match motion.acceleration {
+            Some(acceleration) => acceleration.length() * BEND_F32,
+            None => 0.0,
+        };
+        let straight = motion.velocity.length() + change + motion.rate_slack;
         let speed = sweep.speed + straight;
         let far = sweep.distance + speed * ATTACHED_TIME;
-        let bend = across * (far * spin + speed * 2.0) + sweep.speed * sweep.own_rate;
+        let bend = across * (far * spin + speed * 2.0) + sweep.speed * sweep.own_rate + change;
         // The sweep happens at its own distance from the turning body's centre.
         let rate_slack = sweep.distance * (RATE_F32 * spin) + motion.rate_slack;
         let free = clock::free_time(

@@ -25,6 +25,8 @@ pub(super) struct Heights<'a> {
     along: AxisMotion,
     omega: f64,
     speed: f64,
+    /// The length of the centre's acceleration.
+    acceleration: f64,
     least: f64,
     few: Few,
     /// The bound for all points, if there are many.
@@ -33,7 +35,7 @@ pub(super) struct Heights<'a> {
     missed: f64,
 }
 
-/// One point's height, its rate, and a bound of the second derivative; or bounds of these over all
+/// One point's height, its rate, and a bound of what its turning adds to the second derivative; or bounds of these over all
 /// points from below, and from above.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Point {
@@ -55,7 +57,7 @@ impl Few {
     pub(super) fn at(&self, angle: Angle, tau: f64) -> [Point; FEW] {
         self.0.map(|(track, bend)| Point {
             height: track.height_at(tau, angle),
-            rate: track.rate_at(angle),
+            rate: track.rate_at(tau, angle),
             bend,
         })
     }
@@ -67,17 +69,21 @@ impl<'a> Heights<'a> {
         piece: &'a Piece<'a>,
         frame: &'a Frame,
         normal: DVec3,
+        clock: f64,
     ) -> Self {
         let path = &side.path;
+        let velocity = path.centre_velocity_at(clock);
         let mut heights = Heights {
             piece,
             frame,
             centre: path.centre,
             normal,
             axis: path.axis,
-            along: AxisMotion::new(path.velocity, path.axis, path.rate, normal),
+            along: AxisMotion::new(velocity, path.axis, path.rate, normal)
+                .pulled(path.acceleration.dot(normal)),
             omega: path.rate,
-            speed: length(path.velocity),
+            speed: length(velocity) + length(path.acceleration),
+            acceleration: length(path.acceleration),
             least: f64::INFINITY,
             few: Few([(Track::default(), 0.0); FEW]),
             bend: 0.0,
@@ -115,7 +121,7 @@ impl<'a> Heights<'a> {
         self.missed = TURNED_SUPPORT * (farthest + length(middle) + radius);
     }
 
-    /// Returns the fastest speed of any point, in any direction.
+    /// Returns the fastest speed of any point, in any direction, at any time.
     pub(super) fn speed(&self) -> f64 {
         self.speed
     }
@@ -171,9 +177,19 @@ impl<'a> Heights<'a> {
         Some(self.least - least)
     }
 
-    /// Returns the rate at which all points rise, apart from what their turning does.
+    /// Returns the rate at which all points rise now, apart from what their turning does.
     pub(super) fn drift(&self) -> f64 {
         self.along.drift()
+    }
+
+    /// Returns its derivative.
+    pub(super) fn pull(&self) -> f64 {
+        self.along.pull()
+    }
+
+    /// Returns a lower bound of its derivative.
+    pub(super) fn least_pull(&self) -> f64 {
+        self.along.pull() - RATE_F64 * self.acceleration
     }
 
     /// Returns the least value of a function of the points after `tau`: of each by itself, or of the bound if
@@ -192,17 +208,16 @@ impl<'a> Heights<'a> {
         let angle = self.angle(tau);
         self.tracks().map(move |(track, _)| Point {
             height: track.height_at(tau, angle),
-            rate: track.rate_at(angle),
+            rate: track.rate_at(tau, angle),
             bend: track.bend(),
         })
     }
 
     fn bound_of_many(&self, angle: Angle, tau: f64) -> Point {
         if self.straight() {
-            let height = self.least + self.along.drift() * tau;
             return Point {
-                height,
-                rate: self.along.drift(),
+                height: self.least + self.along.rise(tau),
+                rate: self.along.drift() + self.along.pull() * tau,
                 bend: 0.0,
             };
         }
@@ -211,7 +226,7 @@ impl<'a> Heights<'a> {
         let (axis, slope) = (seen.at(angle), seen.slope_at(angle));
         Point {
             height: self.lowest_of(axis).height_at(tau, angle) - self.missed,
-            rate: self.lowest_of(slope).rate_at(angle) - self.omega * self.missed,
+            rate: self.lowest_of(slope).rate_at(tau, angle) - self.omega * self.missed,
             bend: self.bend,
         }
     }

@@ -280,8 +280,8 @@ impl<'p> Snapshot<'p> {
         let Problem { a, b, .. } = self.problem;
         let [frame_a, frame_b] = &self.frames;
         [
-            Member::new(a, frame_a, self.pieces.a),
-            Member::new(b, frame_b, self.pieces.b),
+            Member::new(a, frame_a, self.pieces.a, self.clock),
+            Member::new(b, frame_b, self.pieces.b, self.clock),
         ]
     }
 
@@ -307,9 +307,11 @@ impl<'p> Snapshot<'p> {
     pub(super) fn free_along(&self, normal: DVec3, slack: f64) -> Option<f64> {
         let (problem, [frame_a, frame_b]) = (self.problem, &self.frames);
         // The highest point along an axis is the lowest along its opposite.
-        let a = Heights::new(&problem.a, &self.pieces.a, frame_a, -normal);
-        let b = Heights::new(&problem.b, &self.pieces.b, frame_b, normal);
+        let clock = self.clock;
+        let a = Heights::new(&problem.a, &self.pieces.a, frame_a, -normal, clock);
+        let b = Heights::new(&problem.b, &self.pieces.b, frame_b, normal, clock);
         let rounding = RATE_F64 * (a.speed() + b.speed());
+        let pull = a.least_pull() + b.least_pull();
         let rounds = match a.straight() && b.straight() {
             true => 1,
             false => AXIS_ROUNDS,
@@ -319,7 +321,7 @@ impl<'p> Snapshot<'p> {
             let gap = Gap {
                 gap: slack + (above.height - b.least()) + (below.height - a.least()),
                 rate: -below.rate - above.rate + rounding,
-                bend: (above.bend + below.bend) * (1.0 + RATE_F64),
+                bend: (above.bend + below.bend) * (1.0 + RATE_F64) - pull,
             };
             gap.free_time()
         };
@@ -349,8 +351,8 @@ impl<'p> Snapshot<'p> {
     /// they are nearest become ever shorter.
     fn turn_past(&self, a: &Heights<'_>, b: &Heights<'_>, slack: f64) -> bool {
         let horizon = self.horizon();
-        let drift = (a.drift() + b.drift()) * horizon;
-        let left = slack + lesser(0.0, drift) - RATE_F64 * (a.speed() + b.speed()) * horizon;
+        let drift = least_drift(a.drift() + b.drift(), a.pull() + b.pull(), horizon);
+        let left = slack + drift - RATE_F64 * (a.speed() + b.speed()) * horizon;
         // Written so that NaN is not past.
         if (a.straight() && b.straight()) || !(left > 0.0) {
             return false;
@@ -366,6 +368,16 @@ pub(super) struct Plane {
     pub(super) normal: DVec3,
     /// The excess over the gap that it must keep, now.
     pub(super) slack: f64,
+}
+
+/// Returns the least of `rate τ + pull τ²/2` up to a horizon.
+fn least_drift(rate: f64, pull: f64, horizon: f64) -> f64 {
+    let nearest = -rate / pull;
+    // Written so that NaN is none.
+    match pull > 0.0 && nearest > 0.0 && nearest < horizon {
+        true => 0.5 * rate * nearest,
+        false => lesser(0.0, (rate + 0.5 * pull * horizon) * horizon),
+    }
 }
 
 /// Returns the longer of two free times; none is for good.

@@ -5,9 +5,9 @@
 //! are constant, and only the other piece sweeps towards it.
 //!
 //! A point of the other piece is at `D + r` from the turning body's centre: `D` leads to a point of
-//! reference that moves straight at `V`, and `r` turns about that point at `ω_s`. With `n' = ω×n`
+//! reference that moves at `V`, and `r` turns about that point at `ω_s`. With `n' = ω×n`
 //! and `Δ = ω − ω_s`, the height `f = n·(D + r)` has `f' = (ω×n)·D + n·V + (Δ×n)·r` and `|f''| ≤
-//! |ω×n|(|ω||u×D| + 2|V|) + |Δ|(|ω×n| + |ω_s|)|r|`, where `u` is the direction of `ω`.
+//! |ω×n|(|ω||u×D| + 2|V|) + |Δ|(|ω×n| + |ω_s|)|r| + |V'|`, where `u` is the direction of `ω`.
 
 use crate::body::piece::Piece;
 use crate::math::order::lesser;
@@ -19,17 +19,18 @@ use crate::tolerance::{ATTACHED_TIME, AXIS_ROUNDS, RATE_F64, attached_rounding};
 use glam::DVec3;
 use std::cell::Cell;
 
-/// A piece of a body, and the body's position.
+/// A piece of a body, and the body's position at a clock.
 pub(super) struct Member<'p> {
     pub(super) side: &'p Side<'p>,
     pub(super) frame: &'p Frame,
     pub(super) piece: Piece<'p>,
+    pub(super) clock: f64,
     /// An upper bound of how fast any point rises relative to the first one, along any fixed axis.
     pub(super) swing: f64,
 }
 
 impl<'p> Member<'p> {
-    pub(super) fn new(side: &'p Side<'p>, frame: &'p Frame, piece: Piece<'p>) -> Self {
+    pub(super) fn new(side: &'p Side<'p>, frame: &'p Frame, piece: Piece<'p>, clock: f64) -> Self {
         let swing = match side.path.turns() {
             true => side.path.rate * piece.farthest_from(piece.points[0]),
             false => 0.0,
@@ -38,6 +39,7 @@ impl<'p> Member<'p> {
             side,
             frame,
             piece,
+            clock,
             swing,
         }
     }
@@ -55,10 +57,12 @@ pub(super) struct SweepingPiece<'p> {
     normal: Spinning,
     unit: DVec3,
     omega: f64,
-    /// `D`, `V` and `|V|`
+    /// `D` and `V` now, and a bound of `|V|` at all times.
     way: DVec3,
     velocity: DVec3,
     speed: f64,
+    /// `V'`, which is constant.
+    acceleration: DVec3,
     /// `ω_s`
     own_unit: DVec3,
     own_omega: f64,
@@ -102,7 +106,9 @@ impl<'p> SweepingPiece<'p> {
             false => other.piece.points[0],
         };
         let way = other.frame.point(reference) - holder.frame.point(path.centre);
-        let velocity = own.velocity - path.velocity;
+        let velocity = own.centre_velocity_at(other.clock) - path.centre_velocity_at(other.clock);
+        let acceleration = own.acceleration - path.acceleration;
+        let speed = velocity.length() + acceleration.length();
         let radius = other.piece.farthest_from(reference);
         SweepingPiece {
             normal: Spinning::new(path.axis, normal),
@@ -110,7 +116,8 @@ impl<'p> SweepingPiece<'p> {
             omega: path.rate,
             way,
             velocity,
-            speed: velocity.length(),
+            speed,
+            acceleration,
             own_unit: own.axis,
             own_omega: own.rate,
             relative: path.spin - own.spin,
@@ -118,7 +125,7 @@ impl<'p> SweepingPiece<'p> {
             frame: other.frame,
             reference,
             radius,
-            reach: way.length() + velocity.length() + radius,
+            reach: way.length() + speed + radius,
             misplaced: rounding,
             looks: Cell::new(0),
         }
@@ -190,7 +197,7 @@ impl<'p> SweepingPiece<'p> {
         let angle = Angle::new(self.omega * tau);
         let own = Angle::new(self.own_omega * tau);
         let axis = self.normal.at(angle);
-        let way = self.way + self.velocity * tau;
+        let (way, velocity) = self.moved(tau);
         let turning = self.normal.slope_at(angle) * self.omega;
         // Turns the vectors that the arms are multiplied with backwards, rather than every arm.
         let back = |v| {
@@ -200,19 +207,29 @@ impl<'p> SweepingPiece<'p> {
         Turned {
             height: axis.dot(way),
             axis: back(axis),
-            rate: turning.dot(way) + axis.dot(self.velocity),
+            rate: turning.dot(way) + axis.dot(velocity),
             closing: back(self.relative.cross(axis)),
         }
     }
 
+    /// Returns `D` and `V` after some time.
+    fn moved(&self, tau: f64) -> (DVec3, DVec3) {
+        let velocity = self.velocity + self.acceleration * (0.5 * tau);
+        (
+            self.way + velocity * tau,
+            self.velocity + self.acceleration * tau,
+        )
+    }
+
     /// Bounds the second derivative of heights, for [`ATTACHED_TIME`] from `tau` on.
     fn bend(&self, tau: f64) -> f64 {
-        let way = self.way + self.velocity * tau;
+        let (way, _) = self.moved(tau);
         let arm = self.unit.cross(way).length() + self.speed * f64::from(ATTACHED_TIME);
         let across = self.omega * (self.normal.slope() + RATE_F64);
         let relative = self.relative.length() + RATE_F64 * (self.omega + self.own_omega);
         let bend = across * (self.omega * (arm + RATE_F64 * self.reach) + 2.0 * self.speed)
-            + relative * (across + self.own_omega) * self.radius;
+            + relative * (across + self.own_omega) * self.radius
+            + self.acceleration.length();
         bend * (1.0 + RATE_F64)
     }
 }

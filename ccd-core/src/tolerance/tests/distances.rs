@@ -19,6 +19,7 @@ use glam::DVec3;
 struct Scene {
     bodies: [Body; 2],
     motions: [Motion; 2],
+    accelerations: [DVec3; 2],
     duration: f64,
 }
 
@@ -34,6 +35,7 @@ impl Scene {
         Scene {
             bodies: [(); 2].map(|()| far_body(tape, 1, size)),
             motions: [(); 2].map(|()| motion(tape, world, size, duration)),
+            accelerations: [DVec3::ZERO; 2],
             duration,
         }
     }
@@ -52,7 +54,27 @@ impl Scene {
             body: &self.bodies[k],
             motion: self.motions[k],
         };
-        Problem::new(moving(0), moving(1), self.duration, &Config::default()).ok()
+        let (bodies, pulls) = ([moving(0), moving(1)], self.accelerations);
+        Problem::accelerated(bodies, pulls, self.duration, &Config::default()).ok()
+    }
+
+    /// The same with accelerations, which move the bodies about as far as their velocities do.
+    fn accelerating(self, tape: &mut Tape) -> Self {
+        let pull = |motion: Motion| {
+            let speed = motion.velocity().length() * magnitude(tape, -2.0, 2.0);
+            direction(tape) * (speed / self.duration)
+        };
+        Scene {
+            accelerations: self.motions.map(pull),
+            ..self
+        }
+    }
+
+    /// The exact place of a body's point at a share of the duration.
+    fn place(&self, body: usize, s: f64, point: DVec3) -> Double3 {
+        let time = Double::from(self.duration) * Double::from(s);
+        let fall = Double3::from(self.accelerations[body]).scale(time * time * Double::from(0.5));
+        place(&self.motions[body], self.duration, s, point) + fall
     }
 }
 
@@ -133,6 +155,7 @@ fn worst_places_between_poses() {
         let scene = Scene {
             bodies,
             motions,
+            accelerations: [DVec3::ZERO; 2],
             duration,
         };
         let problem = scene.problem()?;
@@ -150,13 +173,35 @@ fn worst_places_between_poses() {
     found.is_within(100.0);
 }
 
+#[test]
+fn worst_places_of_accelerating_bodies() {
+    let found = Worst::of("distance_rounding, accelerating", 8_000).search(|tape| {
+        let scene = Scene::new(tape).accelerating(tape);
+        let problem = scene.problem()?;
+        let origin = Double3::from(scene.motions[1].start().translation());
+        let s = tape.random_range(0.0..1.0);
+        let k = tape.pick(2);
+        let frame = [&problem.a, &problem.b][k].path.frame(s);
+        let off = |p: &DVec3| {
+            let exact = scene.place(k, s, *p) - origin;
+            (Double3::from(frame.point(*p)) - exact).length().get()
+        };
+        let off = scene.bodies[k].pieces().points().iter().map(off);
+        Some(share(off.fold(0.0, greater), problem.rounding))
+    });
+    found.is_within(100.0);
+}
+
 /// One body as nodes of the other one see it.
 #[test]
 fn worst_views() {
     let found = Worst::of("distance_rounding, views", 8_000).search(|tape| {
-        let scene = Scene::new(tape);
+        let mut scene = Scene::new(tape);
+        if tape.pick(2) == 0 {
+            scene = scene.accelerating(tape);
+        }
         let problem = scene.problem()?;
-        let (s, time) = (tape.random_range(0.0..1.0), scene.duration);
+        let s = tape.random_range(0.0..1.0);
         let own = tape.pick(2);
         let sides = [&problem.a, &problem.b];
         let (from, to) = (sides[own], sides[1 - own]);
@@ -170,9 +215,7 @@ fn worst_views() {
             (seen.rotation * arm + seen.way).unpacked()
         });
         let found = Double3::from(found) - (Double3::from(x) - Double3::from(from.path.centre));
-        let [at, there] = [(own, x), (1 - own, y)];
-        let exact = place(&scene.motions[there.0], time, s, there.1)
-            - place(&scene.motions[at.0], time, s, at.1);
+        let exact = scene.place(1 - own, s, y) - scene.place(own, s, x);
         let off = (found.length() - exact.length()).get().abs();
         Some(share(off, problem.rounding))
     });

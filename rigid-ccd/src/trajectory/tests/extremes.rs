@@ -15,7 +15,7 @@ fn check_between(name: &str, trajectory: &impl Trajectory, from: f64, to: f64, r
         let time = rng.random_range(a..=b);
         let exact = trajectory.stretch(time, time).unwrap();
         let allowed = stretch.stray + exact.stray;
-        let near = stretch.motion.pose(time - a);
+        let near = stretch.pose(time - a);
         let there = exact.motion.start();
         let centre = stretch.motion.centre();
         let shift = near

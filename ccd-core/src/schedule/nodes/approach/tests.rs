@@ -56,18 +56,22 @@ impl Sums {
             .into_iter()
             .reduce(Double::max)
             .expect("three corners");
-        self.rate = self.rate + axis.dot(Double3::from(motion.velocity())) + fastest;
+        let velocity = Double3::from(motion.velocity());
+        let velocity = velocity + Double3::from(path.acceleration).scale(Double::from(s));
+        self.rate = self.rate + axis.dot(velocity) + fastest;
         let turning = arms.map(|arm| spin.cross(arm).length());
         let farthest = turning
             .into_iter()
             .reduce(Double::max)
             .expect("three corners");
         self.bend = self.bend + axis.cross(spin).length() * farthest;
+        self.bend = self.bend + axis.dot(Double3::from(path.acceleration));
         let arm = node.centre - path.centre_at(s);
-        self.speed += length(path.velocity) + path.rate * (length(arm) + node.radius);
+        self.speed += path.speed() + path.rate * (length(arm) + node.radius);
         self.size += path.rate * node.radius;
         let from_axis = length(path.axis.cross(arm)) + node.radius;
         self.plain_bend += length(n.cross(path.spin)) * path.rate * from_axis;
+        self.plain_bend += n.dot(path.acceleration);
     }
 }
 
@@ -77,7 +81,12 @@ fn shares(tape: &mut Tape) -> Option<[f64; 2]> {
     let bodies = triangles.map(|triangle| body(&[triangle]));
     let motions = [motion(tape)?, motion(tape)?];
     let [a, b] = [0, 1].map(|k| (&bodies[k], motions[k]));
-    let problem = Problem::new(a, b, 1.0, &Config::default()).ok()?;
+    let pulls = [(); 2].map(|()| match tape.pick(2) {
+        0 => DVec3::ZERO,
+        _ => DVec3::from(tape.vector(-20..=6)),
+    });
+    let bodies = [a.into(), b.into()];
+    let problem = Problem::accelerated(bodies, pulls, 1.0, &Config::default()).ok()?;
     let (n, s) = (unit(tape.vector(-40..=0).into())?, tape.fraction());
     let sides = [&problem.a, &problem.b];
     let nodes = sides.map(|side| Placed::new(side, side.body.tree().nodes() as u32, s));

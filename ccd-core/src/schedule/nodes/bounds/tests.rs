@@ -63,8 +63,9 @@ struct Sample<C, P> {
     allowed: f32,
     children: Vec<Solid>,
     far: Solid,
-    /// The velocity of the children's centre of rotation relative to the other's.
+    /// The velocity of the children's centre of rotation relative to the other's, and its derivative.
     velocity: DVec3,
+    acceleration: DVec3,
 }
 
 /// The largest error among the samples, as a share of its allowance.
@@ -80,6 +81,9 @@ struct Worst {
     /// The number of free times of fixed planes, and of turning ones.
     still: usize,
     attached: usize,
+    /// Those of them beside bodies that accelerate, and the ones for good.
+    accelerating: usize,
+    for_good: usize,
 }
 
 #[test]
@@ -154,6 +158,7 @@ impl Worst {
         // Samples that are nowhere near the bounds would prove nothing.
         assert!(self.tightest < 0.01, "{self:?}");
         assert!(self.still > 20_000 && self.attached > 2_000, "{self:?}");
+        assert!(self.accelerating > 5_000 && self.for_good > 500, "{self:?}");
     }
 }
 
@@ -291,13 +296,17 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
         }
     }
 
+    fn travel(&self, tau: f64) -> DVec3 {
+        (self.velocity + self.acceleration * (0.5 * tau)) * tau
+    }
+
     /// A fixed plane keeps the pair apart for its whole free time.
     fn check_still(&self, found: &Found, worst: &mut Worst) {
         let [free, ..] = found.free;
         for (lane, free) in free.into_iter().enumerate() {
             let n = found.normal(lane);
             let gap = |tau: f64| {
-                let child = self.children[lane].highest(n, tau) + n.dot(self.velocity) * tau;
+                let child = self.children[lane].highest(n, tau) + n.dot(self.travel(tau));
                 (-self.far.highest(-n, tau) - child) / n.length()
             };
             worst.still += usize::from(self.check(lane, free, gap, worst));
@@ -319,7 +328,7 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
             };
             let gap = |tau: f64| {
                 let n = DQuat::from_scaled_axis(spin * tau) * found.normal(lane);
-                let top = child.highest(n, tau) + n.dot(self.velocity) * tau;
+                let top = child.highest(n, tau) + n.dot(self.travel(tau));
                 (-self.far.highest(-n, tau) - top) / n.length()
             };
             worst.attached += usize::from(self.check(lane, free[lane], gap, worst));
@@ -333,7 +342,8 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
             return false;
         }
         let kept = f64::from(self.motion.kept);
-        let size = self.children[lane].far() + self.far.far() + self.velocity.length();
+        let travel = self.velocity.length() + self.acceleration.length();
+        let size = self.children[lane].far() + self.far.far() + travel;
         let until = lesser(1.0, f64::from(free));
         for k in 0..=16 {
             let tau = until * f64::from(k) / 16.0;
@@ -344,6 +354,8 @@ impl<C: Children, P: OtherNode> Sample<C, P> {
                 self.motion,
             );
         }
+        worst.accelerating += usize::from(self.motion.acceleration.is_some());
+        worst.for_good += usize::from(free == f32::INFINITY);
         let rest = (gap(until) - kept) / (gap(0.0) - kept);
         worst.tightest = lesser(worst.tightest, rest);
         true

@@ -76,7 +76,7 @@ fn audit(kind: Kind, seed: u64, lanes: usize) -> Tally {
         if tally.free >= lanes {
             break;
         }
-        let scene = scene(&mut rng, kind, 200);
+        let scene = scene(&mut rng, kind, 200).at_times_accelerating(&mut rng);
         let audit = Audit {
             problem: &scene.problem(),
             scene: &scene,

@@ -52,17 +52,21 @@ fn many_points_are_bounded_like_all_of_them() {
                 motion: Motion::still(Pose::IDENTITY),
             },
         );
-        let problem = Problem::new(moving, still, 1.0, &Config::default()).unwrap();
+        let pull =
+            direction(&mut rng) * [0.0, magnitude(&mut rng, -3.0, 2.0) * size][number / 2 % 2];
+        let (bodies, pulls) = ([moving, still], [pull, DVec3::ZERO]);
+        let problem = Problem::accelerated(bodies, pulls, 1.0, &Config::default()).unwrap();
         let side = &problem.a;
-        let frame = side.path.frame(rng.random_range(0.0..1.0));
+        let clock = rng.random_range(0.0..1.0);
+        let frame = side.path.frame(clock);
         let normal = direction(&mut rng);
         let piece = body.piece(0);
         let bare = Piece {
             support: None,
             ..piece
         };
-        let heights = Heights::new(side, &piece, &frame, normal);
-        let twin = Heights::new(side, &bare, &frame, normal);
+        let heights = Heights::new(side, &piece, &frame, normal, clock);
+        let twin = Heights::new(side, &bare, &frame, normal, clock);
         many += usize::from(piece.ball().is_some());
         assert!(heights.speed() >= twin.speed() * (1.0 - 1e-15));
         // A ball about the points reaches no farther than that, except by its own slack.
@@ -74,7 +78,7 @@ fn many_points_are_bounded_like_all_of_them() {
         );
         // Rounding of heights about the centre, and of the positions that they are computed from.
         let span = problem.a.body.tree().span() + side.path.centre.length();
-        let slack = 128.0 * crate::tolerance::U64 * (span + velocity.length());
+        let slack = 128.0 * crate::tolerance::U64 * (span + velocity.length() + pull.length());
         assert!((heights.least() - twin.least()).abs() <= slack);
         for tau in [0.0, 1e-9, 0.01, 0.3, 1.0] {
             let (bound, all) = (heights.bound(tau), twin.bound(tau));
@@ -125,10 +129,15 @@ fn points_rise_and_sink_as_their_body_turns() {
             body: &body,
             motion,
         };
-        let problem =
-            Problem::new(moving, (&ball, Motion::STILL), 1.0, &Config::default()).unwrap();
+        let acceleration = within(&mut rng, [0.0, 1.0][number / 10 % 2]);
+        let (bodies, pulls) = (
+            [moving, (&ball, Motion::STILL).into()],
+            [acceleration, DVec3::ZERO],
+        );
+        let problem = Problem::accelerated(bodies, pulls, 1.0, &Config::default()).unwrap();
         let side = &problem.a;
-        let frame = side.path.frame(rng.random_range(0.0..1.0));
+        let clock = rng.random_range(0.0..1.0);
+        let frame = side.path.frame(clock);
         let (piece, normal) = (body.piece(0), direction(&mut rng));
         let twin = Twin {
             arms: piece
@@ -137,10 +146,11 @@ fn points_rise_and_sink_as_their_body_turns() {
                 .map(|&x| frame.rotation * (x - side.path.centre))
                 .collect(),
             normal,
-            velocity,
+            velocity: velocity + clock * acceleration,
+            acceleration,
             spin,
         };
-        twin.check(&Heights::new(side, &piece, &frame, normal));
+        twin.check(&Heights::new(side, &piece, &frame, normal, clock));
         many += usize::from(piece.ball().is_some());
     }
     assert!(many > 50, "{many}");
@@ -151,19 +161,28 @@ struct Twin {
     arms: Vec<DVec3>,
     normal: DVec3,
     velocity: DVec3,
+    acceleration: DVec3,
     spin: DVec3,
 }
 
 impl Twin {
-    /// The height of a point, its rate, and its second derivative.
+    /// The height of a point, its rate, and what its turning adds to the second derivative.
     fn point(&self, k: usize, tau: f64) -> Point {
         let arm = DQuat::from_scaled_axis(self.spin * tau) * self.arms[k];
         let turning = self.spin.cross(arm);
         Point {
-            height: self.normal.dot(arm + self.velocity * tau),
-            rate: self.normal.dot(self.velocity + turning),
+            height: self.normal.dot(arm) + self.drift(tau),
+            rate: self
+                .normal
+                .dot(self.velocity + self.acceleration * tau + turning),
             bend: self.normal.dot(self.spin.cross(turning)).abs(),
         }
+    }
+
+    /// How far all points rise, apart from their turning.
+    fn drift(&self, tau: f64) -> f64 {
+        self.normal
+            .dot(self.velocity * tau + self.acceleration * (0.5 * tau * tau))
     }
 
     fn least(&self, tau: f64, of: impl Fn(&Point) -> f64) -> f64 {
@@ -176,6 +195,9 @@ impl Twin {
         let is = |one: f64, other: f64| (one - other).abs() < 1e-11 * (1.0 + rate * rate);
         assert_eq!(heights.straight(), rate == 0.0);
         assert!(is(heights.drift(), self.normal.dot(self.velocity)));
+        let pull = self.normal.dot(self.acceleration);
+        assert!(is(heights.pull(), pull) && is(heights.least_pull(), pull));
+        assert!(heights.least_pull() <= heights.pull());
         assert!(is(heights.least(), self.least(0.0, |p| p.height)));
         let farthest = self.arms.iter().map(|arm| arm.length()).fold(0.0, greater);
         assert!(heights.speed() >= (self.velocity.length() + rate * farthest) * (1.0 - 1e-14));
@@ -208,9 +230,8 @@ impl Twin {
         };
         assert!(!many);
         let samples = (0..=1_000).map(|k| horizon * f64::from(k) / 1e3);
-        let drift = self.normal.dot(self.velocity);
         let lowest = samples
-            .map(|tau| self.least(tau, |p| p.height) - drift * tau)
+            .map(|tau| self.least(tau, |p| p.height) - self.drift(tau))
             .fold(f64::INFINITY, lesser);
         let sampled = self.least(0.0, |p| p.height) - lowest;
         assert!(

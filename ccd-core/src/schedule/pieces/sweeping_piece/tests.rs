@@ -38,7 +38,7 @@ fn a_plane_that_turns_separates_for_as_long_as_it_says() {
     let mut seen = Seen::default();
     for number in 0..12_000 {
         let kind = [Kind::Any, Kind::Rim][number % 2];
-        let scene = crowded(&mut rng, kind);
+        let scene = crowded(&mut rng, kind).at_times_accelerating(&mut rng);
         let problem = scene.problem();
         let clock = scene.clock * rng.random_range(0.0..1.0);
         for holder in [0, 1] {

@@ -92,6 +92,7 @@ pub(super) struct Setting {
     size: f64,
     origin: DVec3,
     velocity: DVec3,
+    acceleration: Option<DVec3>,
     spins: [DVec3; 2],
     centres: [DVec3; 2],
 }
@@ -118,6 +119,9 @@ impl Setting {
                 true => direction(rng) * fast,
                 false => DVec3::ZERO,
             },
+            acceleration: rng
+                .random_bool(0.4)
+                .then(|| direction(rng) * far * magnitude(rng, -3.0, 2.0)),
             spins: [spin(rng), spin(rng)],
             centres: [centre(rng, DVec3::ZERO, size), centre(rng, place, radius)],
         }
@@ -240,13 +244,16 @@ impl Setting {
         let allowed = WAY_F32 * (x + y + z) + REACH_F32 * (other.radius() + reach);
         let places = other.centre().length() + turning_far.arm(Vec3::ZERO);
         let far_arm = turning_far.arm(other.centre()) + PLACES as f32 * places;
+        let change = self.acceleration.unwrap_or(DVec3::ZERO).as_vec3();
         let speed = velocity.length()
+            + change.length()
             + split.rate * (reach + split.arm(Vec3::ZERO))
             + turning_far.rate * (other.radius() + far_arm);
         let kept = 1e-3 * other.radius();
         Sample {
             motion: RelativeMotionF32 {
                 velocity,
+                acceleration: self.acceleration.map(|change| change.as_vec3()),
                 split,
                 other: turning_far,
                 horizon: 1.0,
@@ -262,6 +269,7 @@ impl Setting {
             children,
             far,
             velocity: self.velocity,
+            acceleration: self.acceleration.unwrap_or(DVec3::ZERO),
         }
     }
 }

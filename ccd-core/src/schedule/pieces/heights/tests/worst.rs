@@ -60,7 +60,7 @@ fn share_of_rates(tape: &mut Tape) -> Option<f64> {
         centre: Double3::from(motion.centre()),
     };
     let piece = body.piece(0);
-    let heights = Heights::new(side, &piece, &turning.frame, normal);
+    let heights = Heights::new(side, &piece, &turning.frame, normal, clock);
     let share_of = |(point, found): (&DVec3, Point)| {
         let arm = turning.arm(*point, side.path.rate * tau);
         let velocity = Double3::from(motion.velocity()) + turning.spin.cross(arm);
@@ -99,10 +99,8 @@ fn missed(tape: &mut Tape) -> Option<[f64; 2]> {
     let still = Motion::still(Pose::IDENTITY);
     let alone = Problem::new((&ball, motion), (&ball, still), 1.0, &Config::default()).ok()?;
     let path = alone.a.path;
-    let (frame, normal) = (
-        path.frame(tape.fraction()),
-        unit(tape.vector(-40..=0).into())?,
-    );
+    let clock = tape.fraction();
+    let (frame, normal) = (path.frame(clock), unit(tape.vector(-40..=0).into())?);
     let turn = path.rate * tau;
     let angle = (Angle::new(turn), turn);
     let seen = Spinning::new(-path.axis, normal);
@@ -139,7 +137,7 @@ fn missed(tape: &mut Tape) -> Option<[f64; 2]> {
         spin: Double3::from(motion.spin()),
         centre: Double3::from(motion.centre()),
     };
-    let heights = Heights::new(side, &piece, &frame, normal);
+    let heights = Heights::new(side, &piece, &frame, normal, clock);
     let (middle, radius) = piece.ball()?;
     let farthest = length(frame.rotation * (middle - path.centre)) + radius;
     let allowed = TURNED_SUPPORT * (farthest + length(middle) + radius);

@@ -9,7 +9,9 @@ use crate::distance::oracle::{Claim, Effort, GiveUp};
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::tests::oracle::Exhaustive;
-use crate::tests::scene::{Kind, RngExt, body, direction, rng, rotation, scene, within};
+use crate::tests::scene::{
+    Kind, Pcg64, RngExt, body, direction, magnitude, rng, rotation, scene, within,
+};
 use glam::DQuat;
 
 /// An oracle that tells its steps.
@@ -75,7 +77,7 @@ fn the_plane_of_the_longest_time_counts() {
     let (mut turning, mut passes, mut at_once) = (0, 0, [0; 2]);
     for number in 0..6_000 {
         let kind = [Kind::Any, Kind::Rim, Kind::Sliding][number % 3];
-        let scene = scene(&mut rng, kind, 2);
+        let scene = scene(&mut rng, kind, 2).at_times_accelerating(&mut rng);
         let problem = scene.problem();
         let clock = scene.clock * rng.random_range(0.9..1.0);
         let snapshot = Snapshot::new(&problem, 0, 0, clock);
@@ -183,8 +185,20 @@ fn points_that_turn_pass_with_all_the_slack_they_need() {
         let problem = scene.problem();
         let snapshot = Snapshot::new(&problem, 0, 0, scene.clock * rng.random_range(0.0..1.0));
         let (horizon, normal) = (snapshot.horizon(), direction(&mut rng));
-        let a = Heights::new(&problem.a, &snapshot.pieces.a, &snapshot.frames[0], -normal);
-        let b = Heights::new(&problem.b, &snapshot.pieces.b, &snapshot.frames[1], normal);
+        let a = Heights::new(
+            &problem.a,
+            &snapshot.pieces.a,
+            &snapshot.frames[0],
+            -normal,
+            snapshot.clock,
+        );
+        let b = Heights::new(
+            &problem.b,
+            &snapshot.pieces.b,
+            &snapshot.frames[1],
+            normal,
+            snapshot.clock,
+        );
         let passes = |slack: f64| snapshot.turn_past(&a, &b, slack);
         let descents = a.descent_until(horizon).zip(b.descent_until(horizon));
         let Some(descents) = descents.filter(|_| !(a.straight() && b.straight())) else {
@@ -214,12 +228,34 @@ fn points_that_turn_pass_with_all_the_slack_they_need() {
     assert!(counts.iter().all(|&count| count > 100), "{counts:?}");
 }
 
+/// What a drift that changes takes most of a slack, against samples.
+#[test]
+fn a_drift_is_least_at_an_end_or_where_it_turns() {
+    let mut rng = rng(14);
+    let mut within = [0; 2];
+    for _ in 0..4_000 {
+        let any = |rng: &mut Pcg64| magnitude(rng, -3.0, 3.0) * rng.random_range(-1.0..1.0);
+        let (rate, pull) = (any(&mut rng), any(&mut rng));
+        let horizon = magnitude(&mut rng, -2.0, 0.0);
+        let way = |tau: f64| (rate + 0.5 * pull * tau) * tau;
+        let samples = (0..=2_000).map(|k| way(horizon * f64::from(k) / 2e3));
+        let sampled = samples.fold(0.0, lesser);
+        let least = least_drift(rate, pull, horizon);
+        // Next to the least, a sample is off by half of a step at most.
+        let missed = pull.abs() * (horizon / 2e3) * (horizon / 2e3);
+        let rounding = 1e-15 * (rate.abs() + pull.abs());
+        assert!((-rounding..=missed + rounding).contains(&(sampled - least)));
+        within[usize::from(least < lesser(0.0, way(horizon)))] += 1;
+    }
+    assert!(within.iter().all(|&count| count > 200), "{within:?}");
+}
+
 /// The plane between the witnesses, as they are nearest on straight ways.
 fn check_passing(snapshot: &Snapshot<'_>, checked: &Checked, kept: f64, plane: Option<&Plane>) {
     let Problem { a, b, .. } = snapshot.problem;
     let [x, y] = [checked.witness_a, checked.witness_b].map(|p| snapshot.frames[0].point(p));
     let [v, w] = [(a, x), (b, y)].map(|(side, p)| side.path.velocity_at(p, snapshot.clock));
-    let way = |tau: f64| (y + w * tau) - (x + v * tau);
+    let way = |tau: f64| (y - x) + (w - v) * tau;
     // The distance of two points on straight ways falls, and then rises.
     let (mut low, mut high) = (0.0, 1.0 - snapshot.clock);
     for _ in 0..200 {
