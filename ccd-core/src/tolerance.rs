@@ -221,7 +221,13 @@ pub const STRAY_SHARE: f64 = 0.25;
 
 /// The ratio of strays from which on a stretch beside one that is proven is cut before it is tried: the bodies are
 /// measured where both meet, which costs less than a failure.
-pub const MUCH_LONGER: f64 = 8.0;
+pub const MUCH_LONGER: f64 = 16.0;
+
+/// The part of the duration above which stretches are halved, without a look at how near the bodies are.
+pub const COARSE: f64 = 0.125;
+
+/// The part of a stretch below which it is cut before it is tried.
+pub const WORTH_A_CUT: f64 = 0.75;
 
 /// The least part of a stretch that is cut off. Fewer cuts make it shorter than many halves do, but what they
 /// go by is a guess.

@@ -154,9 +154,12 @@ impl Stray {
     /// Bounds the distance between the two places of a point that is no farther than `reach` from the motion's
     /// centre.
     pub fn at(&self, reach: f64) -> f64 {
-        match self.turn > 0.0 {
-            true => self.shift + self.turn * reach,
-            false => self.shift,
+        let Stray { shift, turn } = *self;
+        match turn > 0.0 {
+            true => shift + turn * reach,
+            // No turn is exact at any reach. What is no bound is NaN.
+            false if turn == 0.0 => shift,
+            false => f64::NAN,
         }
     }
 }
@@ -214,11 +217,19 @@ pub trait Smooth {
     /// Bounds the lengths of the accelerations from a time to a later one.
     fn accelerations(&self, from: f64, to: f64) -> Accelerations;
 
-    /// Returns the acceleration of the tangent's centre at a time, with a bound of how fast it changes from a time to
-    /// a later one; none where that is not known, or has no bound.
-    fn acceleration(&self, time: f64, from: f64, to: f64) -> Option<Acceleration> {
-        let _ = (time, from, to);
-        None
+    /// Returns the tangent at a time with the acceleration of its centre, and a bound of how fast that changes from a
+    /// time to a later one; none where it is not known, or has no bound.
+    ///
+    /// # Errors
+    /// That of the motion.
+    fn osculating(
+        &self,
+        time: f64,
+        from: f64,
+        to: f64,
+    ) -> Result<(Motion, Option<Acceleration>), InputError> {
+        let _ = (from, to);
+        Ok((self.tangent(time)?, None))
     }
 
     /// Bounds the errors of the poses of tangents from a time to a later one, if they are off by more than
@@ -258,8 +269,8 @@ impl Acceleration {
     /// Bounds what its changes add up to in a time, from the tangent on.
     fn over(self, time: f64) -> f64 {
         // The vector, the time and the products are rounded.
-        let rounding = STRETCH_F64 * time * time * length(self.vector);
-        self.jerk * (time * time * time / 6.0) * (1.0 + STRETCH_F64) + rounding
+        let rounding = STRETCH_F64 * (time * (time * length(self.vector)));
+        time * (time * (time * (self.jerk / 6.0))) * (1.0 + STRETCH_F64) + rounding
     }
 }
 
@@ -281,11 +292,12 @@ impl<S: Smooth + ?Sized> Trajectory for S {
         let middle = from + 0.5 * (to - from);
         let [before, after] = [middle - from, to - middle];
         let half = greater(before, after);
-        let mut tangent = Stretch::exact(self.tangent(middle)?);
+        let (motion, acceleration) = self.osculating(middle, from, to)?;
+        let mut tangent = Stretch::exact(motion);
         // Bounds of a stretch of no length may be infinite.
         if half > 0.0 {
             tangent.stray = self.accelerations(from, to).over(half);
-            if let Some(acceleration) = self.acceleration(middle, from, to)
+            if let Some(acceleration) = acceleration
                 && acceleration.over(half) < tangent.stray.shift
             {
                 tangent.acceleration = acceleration.vector;

@@ -4,10 +4,12 @@
 //! motions takes both strays for a margin: bodies that keep them are apart. A contact within the strays proves
 //! nothing, and the stretch is cut.
 
+mod any;
 mod closest;
 mod first;
 mod interval;
 mod leg;
+mod lengths;
 mod stretches;
 
 use crate::body::Body;

@@ -65,11 +65,17 @@ impl Smooth for Ballistic {
         }
     }
 
-    fn acceleration(&self, _: f64, _: f64, _: f64) -> Option<Acceleration> {
-        Some(Acceleration {
+    fn osculating(
+        &self,
+        time: f64,
+        _: f64,
+        _: f64,
+    ) -> Result<(Motion, Option<Acceleration>), InputError> {
+        let acceleration = Acceleration {
             vector: self.acceleration,
             jerk: 0.0,
-        })
+        };
+        Ok((self.tangent(time)?, Some(acceleration)))
     }
 
     /// The turn since the throw is rounded, and so is the way.

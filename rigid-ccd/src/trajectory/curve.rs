@@ -114,11 +114,10 @@ impl Curve {
     /// Returns the acceleration at a time, with a bound of how fast it changes between two times; none if several
     /// segments are between them.
     pub(super) fn acceleration_at(&self, time: f64, from: f64, to: f64) -> Option<Acceleration> {
-        let [segment] = self.overlapping(from, to) else {
-            return None;
-        };
-        let is_within = from >= segment.from && to <= segment.to;
-        is_within.then(|| Acceleration {
+        // One that the stretch only touches overlaps it, too.
+        let mut overlapping = self.overlapping(from, to).iter();
+        let segment = overlapping.find(|segment| from >= segment.from && to <= segment.to)?;
+        Some(Acceleration {
             vector: segment.derivative(2, segment.share(time)),
             jerk: segment.most(3, from, to),
         })

@@ -175,24 +175,25 @@ impl<'c> Link<'c> {
 
 impl Smooth for Link<'_> {
     fn tangent(&self, time: f64) -> Result<Motion, InputError> {
-        let State {
-            pose,
-            velocity,
-            spin,
-            ..
-        } = self.state(time)?;
-        Motion::new(pose, velocity, spin)
+        self.state(time)?.tangent()
     }
 
     fn accelerations(&self, from: f64, to: f64) -> Accelerations {
         self.moved(from, to).accelerations
     }
 
-    fn acceleration(&self, time: f64, from: f64, to: f64) -> Option<Acceleration> {
-        Some(Acceleration {
-            vector: self.state(time).ok()?.acceleration,
+    fn osculating(
+        &self,
+        time: f64,
+        from: f64,
+        to: f64,
+    ) -> Result<(Motion, Option<Acceleration>), InputError> {
+        let state = self.state(time)?;
+        let acceleration = Acceleration {
+            vector: state.acceleration,
             jerk: self.moved(from, to).jerks.linear,
-        })
+        };
+        Ok((state.tangent()?, Some(acceleration)))
     }
 
     /// Each joint adds the rounding of a product of poses, and of its angle.
@@ -238,6 +239,10 @@ impl State {
             acceleration: DVec3::ZERO,
             angular: DVec3::ZERO,
         }
+    }
+
+    fn tangent(&self) -> Result<Motion, InputError> {
+        Motion::new(self.pose, self.velocity, self.spin)
     }
 
     /// Goes on to the link after a joint.

@@ -60,8 +60,14 @@ impl Smooth for Spline {
         }
     }
 
-    fn acceleration(&self, time: f64, from: f64, to: f64) -> Option<Acceleration> {
-        self.curve.acceleration_at(time, from, to)
+    fn osculating(
+        &self,
+        time: f64,
+        from: f64,
+        to: f64,
+    ) -> Result<(Motion, Option<Acceleration>), InputError> {
+        let acceleration = self.curve.acceleration_at(time, from, to);
+        Ok((self.tangent(time)?, acceleration))
     }
 
     fn rounding(&self, _: f64, _: f64) -> Stray {

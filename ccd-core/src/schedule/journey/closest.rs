@@ -9,7 +9,7 @@ use crate::math::order::{greater, lesser};
 use crate::outcome::{Answer, Contact, Limit, Overlap};
 use crate::schedule::DepthFirst;
 use crate::schedule::closest_approach::{Beyond, ClosestApproach};
-use crate::tolerance::STRAY_SHARE;
+use crate::tolerance::{COARSE, LEAST_CUT, STRAY_SHARE};
 
 impl<O: DistanceOracle> DepthFirst<O> {
     /// Brackets the least distance of the bodies along their trajectories, to within the tolerance.
@@ -31,15 +31,16 @@ impl<O: DistanceOracle> DepthFirst<O> {
             best: None,
         };
         while let Some(span) = stretches.next() {
-            let config = match stretches.config() {
-                Ok(config) => config,
+            let (leg, config) = match stretches.leg(span)? {
+                Ok(leg) => leg,
                 Err(reason) => return Ok(found.unresolved(journey, &stretches, reason)),
             };
-            let leg = stretches.leg(span)?;
-            if let Some(time) = stretches.looks_too_long(&leg) {
-                let length =
-                    self.worthwhile(journey, oracle, &leg, time, &mut found, &mut stretches)?;
-                if stretches.cut_about(leg.span, time, 2.0 * length) {
+            if let Some(time) = stretches.looks_too_long(&leg)
+                && let Some(doubt) = self.doubt(oracle, time, &mut found, &mut stretches)?
+                && doubt.rises_into(&leg, time)
+            {
+                let length = doubt.length(&leg);
+                if leg.is_worth_a_cut(length) && stretches.cut_about(leg.span, time, 2.0 * length) {
                     continue;
                 }
             }
@@ -54,6 +55,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
                     // Bodies beyond the least distance so far are so with their strays.
                     blur: 0.0,
                     time: 0.0,
+                    approach: 0.0,
                 },
                 Ok(ClosestApproach::Overlapping { .. }) if stretches.look_at_start(&leg)? => {
                     continue;
@@ -75,10 +77,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
                 found.lower = lesser(found.lower, lower);
                 stretches.prove(&leg);
             } else {
-                let time = leg.time(seen.time);
-                let length =
-                    self.worthwhile(journey, oracle, &leg, time, &mut found, &mut stretches)?;
-                if !stretches.cut_about(leg.span, time, length) {
+                if !self.cut_where_nearest(oracle, &leg, &seen, &mut found, &mut stretches)? {
                     return Ok(found.unresolved(journey, &stretches, Limit::Stalled));
                 }
             }
@@ -88,7 +87,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
             }
         }
         let nearest = found.nearest(journey, &stretches);
-        match nearest.outcome.meets_later(journey.config.tolerance) {
+        match nearest.outcome.meets_later(nearest.tolerance) {
             true => self.or_overlap_along(journey, oracle, nearest, &mut stretches),
             false => Ok(nearest),
         }
@@ -102,10 +101,14 @@ impl<O: DistanceOracle> DepthFirst<O> {
         nearest: Answer<ClosestApproach>,
         stretches: &mut Stretches<'_, '_>,
     ) -> Result<Answer<ClosestApproach>, InputError> {
-        let start = self.measure(journey, oracle, 0.0, stretches)?;
+        let Some((pose, config)) = stretches.pose(0.0)? else {
+            return Ok(nearest);
+        };
+        let start = self.closest_approach(&pose.problem(journey, &config)?, oracle);
+        stretches.add(&start.stats);
         Ok(Answer {
-            outcome: match start {
-                Some(overlapping @ ClosestApproach::Overlapping { .. }) => overlapping,
+            outcome: match start.outcome {
+                overlapping @ ClosestApproach::Overlapping { .. } => overlapping,
                 _ => nearest.outcome,
             },
             stats: stretches.stats,
@@ -113,58 +116,83 @@ impl<O: DistanceOracle> DepthFirst<O> {
         })
     }
 
-    /// Measures the bodies at a time of a leg, and returns the length of a stretch whose strays leave no doubt there.
-    fn worthwhile(
+    /// Cuts a stretch where its motions are nearest; returns false if it cannot be cut.
+    fn cut_where_nearest(
         &mut self,
-        journey: &Journey<'_>,
         oracle: &mut O,
         leg: &Leg,
+        seen: &Seen,
+        found: &mut Found,
+        stretches: &mut Stretches<'_, '_>,
+    ) -> Result<bool, InputError> {
+        let time = leg.time(seen.time);
+        let Journey {
+            config, duration, ..
+        } = stretches.journey();
+        // Halves will do, mostly, and cost less than a look.
+        if leg.span.length() > COARSE * duration {
+            return Ok(stretches.cut_about(leg.span, time, f64::INFINITY));
+        }
+        // Where they are nearest at an end, and still approach, they get nearer beyond it.
+        if let Some(end) = seen.falls_beyond(leg)
+            && let Some(beyond) = stretches.take_beside(end)
+        {
+            let is_cut = stretches.cut_about(leg.span, time, f64::INFINITY);
+            stretches.push(beyond);
+            return Ok(is_cut);
+        }
+        let length = match self.doubt(oracle, time, found, stretches)? {
+            Some(doubt) => greater(doubt.length(leg), leg.length_for_rate(doubt.rate.abs())),
+            None => leg.length_for(STRAY_SHARE * config.tolerance),
+        };
+        Ok(stretches.cut_about(leg.span, time, length))
+    }
+
+    /// Measures the bodies at a time; none if they overlap, or no work is left.
+    fn doubt(
+        &mut self,
+        oracle: &mut O,
         time: f64,
         found: &mut Found,
         stretches: &mut Stretches<'_, '_>,
-    ) -> Result<f64, InputError> {
-        let distance = match self.measure(journey, oracle, time, stretches)? {
-            Some(ClosestApproach::Nearest { contact, .. }) => {
-                found.take(time, contact);
-                contact.separation.upper
-            }
-            _ => 0.0,
-        };
-        let beyond = greater(journey.config.tolerance, distance - found.upper());
-        Ok(leg.length_for(STRAY_SHARE * beyond))
-    }
-
-    /// Measures the bodies at a time, with bounds that hold where they stray from their poses by rounding; none if
-    /// no work is left.
-    fn measure(
-        &mut self,
-        journey: &Journey<'_>,
-        oracle: &mut O,
-        time: f64,
-        stretches: &mut Stretches<'_, '_>,
-    ) -> Result<Option<ClosestApproach>, InputError> {
-        let Ok(config) = stretches.config() else {
+    ) -> Result<Option<Doubt>, InputError> {
+        let Some((pose, config)) = stretches.pose(time)? else {
             return Ok(None);
         };
-        let span = Span {
-            from: time,
-            to: time,
-        };
-        let leg = Leg::new(journey, span)?;
-        let answer = self.closest_approach(&leg.problem(journey, &config)?, oracle);
+        let answer = self.closest_approach(&pose.problem(stretches.journey(), &config)?, oracle);
         stretches.stats.add(&answer.stats);
-        Ok(Some(match answer.outcome {
-            ClosestApproach::Nearest {
-                lower,
-                time,
-                contact,
-            } => ClosestApproach::Nearest {
-                lower,
-                time,
-                contact: leg.contact(contact),
-            },
-            other => other,
+        let ClosestApproach::Nearest { contact, .. } = answer.outcome else {
+            return Ok(None);
+        };
+        found.take(time, pose.contact(contact));
+        let rounding = 2.0 * pose.stray;
+        let least = greater(config.tolerance, rounding);
+        Ok(Some(Doubt {
+            stray: greater(least, contact.separation.upper - found.upper()),
+            rate: -pose.approach(0.0, &contact),
         }))
+    }
+}
+
+/// What the bodies' distance at a time says of stretches there.
+struct Doubt {
+    /// Strays below that leave none.
+    stray: f64,
+    /// The rate at which the distance grows.
+    rate: f64,
+}
+
+impl Doubt {
+    fn length(&self, leg: &Leg) -> f64 {
+        leg.length_for(STRAY_SHARE * self.stray)
+    }
+
+    /// Returns true if the distance grows from an end of a leg on.
+    fn rises_into(&self, leg: &Leg, end: f64) -> bool {
+        match end > leg.span.from {
+            true => self.rate <= 0.0,
+            false => self.rate >= 0.0,
+        }
     }
 }
 
@@ -185,6 +213,8 @@ struct Seen {
     blur: f64,
     /// The time in the stretch at which they are nearest.
     time: f64,
+    /// The rate at which they approach then.
+    approach: f64,
 }
 
 impl Seen {
@@ -192,6 +222,23 @@ impl Seen {
     fn is_loose(&self, tolerance: f64) -> bool {
         let width = self.upper - self.lower;
         width > tolerance && self.blur <= width
+    }
+
+    /// Returns the end of the leg beyond which they get nearer by more than they stray.
+    fn falls_beyond(&self, leg: &Leg) -> Option<f64> {
+        let Span { from, to } = leg.span;
+        let (near, falls) = (
+            LEAST_CUT * leg.span.length(),
+            self.approach * leg.span.length(),
+        );
+        let time = leg.time(self.time);
+        if time - from <= near && -falls > leg.stray {
+            Some(from)
+        } else if to - time <= near && falls > leg.stray {
+            Some(to)
+        } else {
+            None
+        }
     }
 }
 
@@ -218,6 +265,7 @@ impl Found {
             upper: 0.0,
             blur: leg.stray,
             time: 0.0,
+            approach: 0.0,
         };
         match *outcome {
             ClosestApproach::Nearest {
@@ -229,6 +277,7 @@ impl Found {
                 seen.lower = lower;
                 seen.upper = contact.separation.upper;
                 seen.time = time;
+                seen.approach = leg.approach(time, &contact);
             }
             ClosestApproach::Overlapping { overlap } => {
                 if let Overlap::Pieces(contact) = overlap {

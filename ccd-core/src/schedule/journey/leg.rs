@@ -10,7 +10,7 @@ use crate::math::vector::length;
 use crate::motion::trajectory::Stretch;
 use crate::outcome::{Contact, Separation};
 use crate::problem::Problem;
-use crate::tolerance::STRAY_SHARE;
+use crate::tolerance::{STRAY_SHARE, WORTH_A_CUT};
 use glam::DVec3;
 
 /// A stretch of time.
@@ -56,21 +56,37 @@ impl Leg {
     /// Returns true if queries take the lengths by which the bodies stray and accelerate.
     pub(super) fn is_in_range(&self, journey: &Journey<'_>) -> bool {
         let time = self.span.length();
-        let far = |stretch: &Stretch| time * time * length(stretch.acceleration);
+        let far = |stretch: &Stretch| time * (time * length(stretch.acceleration));
         let [a, b] = &self.motions;
         let most = MAX_COORDINATE - journey.config.margin;
         // Written so that NaN is too much.
-        self.stray <= most && far(a) <= most && far(b) <= most
+        self.stray >= 0.0 && self.stray <= most && far(a) <= most && far(b) <= most
     }
 
     /// Guesses the length of a stretch in which the bodies stray by that much: strays shrink with a power of it.
     pub(super) fn length_for(&self, stray: f64) -> f64 {
+        self.span.length() * (stray / self.stray).powf(1.0 / self.order())
+    }
+
+    /// Guesses the length of a stretch in which the bodies stray by a share of what their distance changes by at a
+    /// rate.
+    pub(super) fn length_for_rate(&self, rate: f64) -> f64 {
+        let whole = self.span.length();
+        whole * (STRAY_SHARE * rate * whole / self.stray).powf(1.0 / (self.order() - 1.0))
+    }
+
+    /// The power of the time with which strays grow.
+    fn order(&self) -> f64 {
         let accelerates = |stretch: &Stretch| stretch.acceleration != DVec3::ZERO;
-        let order = match self.motions.iter().any(accelerates) {
+        match self.motions.iter().any(accelerates) {
             true => 3.0,
             false => 2.0,
-        };
-        self.span.length() * (stray / self.stray).powf(1.0 / order)
+        }
+    }
+
+    /// Returns true if a part of that length is much shorter.
+    pub(super) fn is_worth_a_cut(&self, length: f64) -> bool {
+        length < WORTH_A_CUT * self.span.length()
     }
 
     /// Returns the rate at which the bodies approach each other in a contact of the motions.

@@ -56,7 +56,7 @@ impl<'j, 'a> Stretches<'j, 'a> {
     }
 
     /// Returns the settings with what is left of budget and deadline.
-    pub(super) fn config(&self) -> Result<Config, Limit> {
+    fn config(&self) -> Result<Config, Limit> {
         let config = &self.journey.config;
         let budget = config.budget.checked_sub(self.stats.work());
         let deadline = match (config.deadline, self.begun) {
@@ -81,13 +81,21 @@ impl<'j, 'a> Stretches<'j, 'a> {
     }
 
     /// Returns the motions in a stretch, cut until the bodies stray from them by a length that queries
-    /// take.
-    pub(super) fn leg(&mut self, mut span: Span) -> Result<Leg, InputError> {
+    /// take, with the settings; or the limit that was reached.
+    pub(super) fn leg(
+        &mut self,
+        mut span: Span,
+    ) -> Result<Result<(Leg, Config), Limit>, InputError> {
         loop {
+            let config = match self.config() {
+                Ok(config) => config,
+                Err(reason) => return Ok(Err(reason)),
+            };
             let leg = Leg::new(self.journey, span)?;
             if leg.is_in_range(self.journey) || !self.cut(span, 0.5 * span.length()) {
-                return Ok(leg);
+                return Ok(Ok((leg, config)));
             }
+            self.stats.iterations += 1;
             span = self.waiting.pop().unwrap_or(span);
         }
     }
@@ -139,6 +147,18 @@ impl<'j, 'a> Stretches<'j, 'a> {
         (leg.stray > MUCH_LONGER * stray).then_some(time)
     }
 
+    /// Returns the pose at a time, with the settings; none if no work is left.
+    pub(super) fn pose(&self, time: f64) -> Result<Option<(Leg, Config)>, InputError> {
+        let Ok(config) = self.config() else {
+            return Ok(None);
+        };
+        let span = Span {
+            from: time,
+            to: time,
+        };
+        Ok(Some((Leg::new(self.journey, span)?, config)))
+    }
+
     /// Measures the bodies at a time, up to rounding: returns the contact and the rate at which they approach; none if
     /// they overlap, or no work is left.
     pub(super) fn measure<O: DistanceOracle>(
@@ -147,14 +167,9 @@ impl<'j, 'a> Stretches<'j, 'a> {
         oracle: &mut O,
         kept: &mut Kept,
     ) -> Result<Option<(Contact, f64)>, InputError> {
-        let Ok(config) = self.config() else {
+        let Some((leg, config)) = self.pose(time)? else {
             return Ok(None);
         };
-        let span = Span {
-            from: time,
-            to: time,
-        };
-        let leg = Leg::new(self.journey, span)?;
         let problem = leg.problem(self.journey, &config)?.measuring();
         let answer = metered(&problem, oracle, kept, |oracle, meter| {
             (at_start(&problem, f64::INFINITY, oracle, meter), 0.0)
@@ -164,6 +179,13 @@ impl<'j, 'a> Stretches<'j, 'a> {
             Some(Outcome::Touching { contact }) => Some((contact, leg.approach(0.0, &contact))),
             _ => None,
         })
+    }
+
+    /// Takes out the stretch that waits beside a time; none if all there is proven.
+    pub(super) fn take_beside(&mut self, time: f64) -> Option<Span> {
+        let is_beside = |span: &Span| span.from == time || span.to == time;
+        let index = self.waiting.iter().rposition(is_beside)?;
+        Some(self.waiting.remove(index))
     }
 
     /// Lets a stretch be next.

@@ -45,11 +45,8 @@ const UNKNOWN: u32 = u32::MAX;
 const NONE: u32 = u32::MAX - 1;
 
 impl Screw {
-    /// Returns none unless one body turns, none accelerates, and the axis hardly moves for the other. Forgets all profiles.
+    /// Returns none unless one body turns, and the axis hardly moves for the other. Forgets all profiles.
     pub(super) fn of(problem: &Problem<'_>, profiles: &mut Profiles) -> Option<Self> {
-        if problem.a.path.accelerates() || problem.b.path.accelerates() {
-            return None;
-        }
         let turning = match (problem.a.path.turns(), problem.b.path.turns()) {
             (true, false) => Which::A,
             (false, true) => Which::B,
@@ -68,6 +65,9 @@ impl Screw {
         };
         // The advance is off by a few units in the last place, which counts as drift too.
         let drift = length(velocity - along * unit) + ADVANCE_F64 * length(velocity);
+        // Bodies that fall alike do not accelerate for each other.
+        let acceleration = side.path.acceleration - other.path.acceleration;
+        let drift = drift + 0.5 * length(acceleration);
         // Written so that NaN is no screw.
         if !(drift <= SCREW_DRIFT * size) {
             return None;
