@@ -220,13 +220,15 @@ pub const FOLLOWING_LOOKS: usize = 16;
 pub const STRAY_SHARE: f64 = 0.25;
 
 /// The ratio of strays from which on a stretch beside one that is proven is cut before it is tried: the bodies are
-/// measured where both meet, which costs less than a failure.
+/// measured where both meet, which costs less than a failure. Twice the length is at most 8 times the stray.
 pub const MUCH_LONGER: f64 = 16.0;
 
-/// The part of the duration above which stretches are halved, without a look at how near the bodies are.
+/// The part of the duration above which stretches are halved, without a look at how near the bodies are. Measured:
+/// over 90 scenes of curves and links the closest approach takes 0.77 of the visits of halves alone; with looks
+/// at long stretches as well it takes 1.02 of them, in the worst scene 51 times as many.
 pub const COARSE: f64 = 0.125;
 
-/// The part of a stretch below which it is cut before it is tried.
+/// The part of a stretch below which a length is worth a cut before the stretch is tried.
 pub const WORTH_A_CUT: f64 = 0.75;
 
 /// The least part of a stretch that is cut off. Fewer cuts make it shorter than many halves do, but what they

@@ -109,8 +109,8 @@ impl AxisMotion {
         (self.drift + 0.5 * self.pull * tau) * tau
     }
 
-    /// Returns a bound of what turning adds to the second derivative of heights, for points at most `distance` from the
-    /// axis of rotation.
+    /// Returns a bound of what turning adds to the second derivative of heights, for points at most `distance` from
+    /// the axis of rotation.
     #[inline]
     pub(crate) fn bend(&self, distance: f64) -> f64 {
         self.omega * self.omega * length(self.across) * distance

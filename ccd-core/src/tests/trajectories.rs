@@ -3,7 +3,7 @@
 use crate::error::InputError;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
-use crate::motion::trajectory::{Accelerations, Smooth};
+use crate::motion::trajectory::{Acceleration, Accelerations, Smooth};
 use crate::tests::scene::{Pcg64, RngExt, direction, rotation, within};
 use glam::{DQuat, DVec3};
 
@@ -20,6 +20,8 @@ pub(crate) struct Swing {
     turn: f64,
     start: DQuat,
     centre: DVec3,
+    /// Whether it tells its acceleration.
+    tells: bool,
 }
 
 impl Swing {
@@ -35,6 +37,7 @@ impl Swing {
             turn: rng.random_range(0.0..3.0),
             start: rotation(rng),
             centre: within(rng, 1.0),
+            tells: rng.random_bool(0.5),
         }
     }
 }
@@ -61,5 +64,21 @@ impl Smooth for Swing {
             linear: linear(0) + linear(1),
             angular: self.turn * self.rates[2] * self.rates[2],
         }
+    }
+
+    fn osculating(
+        &self,
+        t: f64,
+        _: f64,
+        _: f64,
+    ) -> Result<(Motion, Option<Acceleration>), InputError> {
+        let (mut vector, mut jerk) = (DVec3::ZERO, 0.0);
+        for k in 0..2 {
+            let (rate, along) = (self.rates[k], self.along[k]);
+            vector -= along * (rate * rate * (rate * t + self.phases[k]).sin());
+            jerk += along.length() * rate * rate * rate;
+        }
+        let acceleration = Acceleration { vector, jerk };
+        Ok((self.tangent(t)?, self.tells.then_some(acceleration)))
     }
 }

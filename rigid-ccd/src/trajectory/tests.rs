@@ -316,6 +316,19 @@ fn a_false_bound_is_found() {
     assert!(worst.ratio > 1.05, "{worst:?}");
 }
 
+/// Cuts are at corners: a stretch that only touches the next segment knows its acceleration.
+#[test]
+fn stretches_between_knots_accelerate() {
+    let mut rng = Rng::seed_from_u64(4);
+    let curve = Curve::b_spline(&points(&mut rng, 7), 2.0).unwrap();
+    let spline = Spline::new(curve, Turns::NONE);
+    for [from, to] in [[0.0, 0.5], [0.25, 0.5], [0.5, 1.0], [0.5, 0.75], [1.5, 2.0]] {
+        let stretch = spline.stretch(from, to).unwrap();
+        assert!(stretch.acceleration != DVec3::ZERO, "{from} {to}");
+    }
+    assert_eq!(spline.stretch(0.4, 0.6).unwrap().acceleration, DVec3::ZERO);
+}
+
 #[test]
 fn links_seen_from_links_are_where_they_are_in_the_world() {
     let mut rng = Rng::seed_from_u64(3);

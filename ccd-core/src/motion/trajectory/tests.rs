@@ -15,7 +15,7 @@ fn worst(trajectory: &dyn Trajectory, from: f64, to: f64, reach: f64) -> f64 {
     let mut worst = 0.0;
     for k in 0..=16 {
         let t = from + (to - from) * f64::from(k) / 16.0;
-        let [true_pose, near] = [trajectory.pose(t).unwrap(), stretch.motion.pose(t - from)];
+        let [true_pose, near] = [trajectory.pose(t).unwrap(), stretch.pose(t - from)];
         let x = centre + reach * direction(&mut rng);
         let off = true_pose.transform_point(x) - near.transform_point(x);
         worst = greater(worst, off.length() / bound);
@@ -72,6 +72,17 @@ fn no_turn_is_no_stray_at_any_reach() {
         ..shifted
     };
     assert_eq!(turned.at(4.0), 4.0);
+}
+
+#[test]
+fn what_is_no_bound_bounds_nothing() {
+    for no_bound in [f64::NAN, -1e-300, -1.0] {
+        let turned = Stray {
+            shift: 1.0,
+            turn: no_bound,
+        };
+        assert!(turned.at(2.0).is_nan());
+    }
 }
 
 #[test]

@@ -4,7 +4,7 @@
 use super::*;
 use crate::math::order::lesser;
 use crate::motion::Motion;
-use crate::motion::trajectory::{Accelerations, Smooth};
+use crate::motion::trajectory::{Accelerations, Smooth, Stray, Stretch};
 use crate::outcome::{Limit, Outcome};
 use crate::schedule::{AnyContact, BestFirst, ClosestApproach, DepthFirst, Schedule};
 use crate::tests::nearest::{Triangle, nearest};
@@ -309,6 +309,71 @@ fn budgets_end_a_journey_with_a_time_that_is_safe() {
         }
     }
     assert!(ended > 300, "{ended}");
+}
+
+/// Strays without bounds, and has a corner near the end of all times, or bounds that are none.
+struct Hostile {
+    stray: Stray,
+    step: f64,
+}
+
+impl Trajectory for Hostile {
+    fn stretch(&self, _: f64, _: f64) -> Result<Stretch, InputError> {
+        Ok(Stretch {
+            stray: self.stray,
+            ..Stretch::exact(Motion::STILL)
+        })
+    }
+
+    fn corner(&self, _: f64, to: f64) -> Option<f64> {
+        Some(to - self.step)
+    }
+}
+
+#[test]
+fn budgets_end_cuts_where_there_is_no_bound() {
+    let ball = Body::ball(0.5).unwrap();
+    let far = Motion::still(crate::Pose::at(9.0 * DVec3::X).unwrap());
+    let ask = |shift: f64, turn: f64, step: f64| {
+        let hostile = Hostile {
+            stray: Stray { shift, turn },
+            step,
+        };
+        let config = Config {
+            budget: 1_000,
+            ..Config::default()
+        };
+        let journey = Journey::new((&ball, &hostile), (&ball, &far), 1.0, &config).unwrap();
+        BestFirst::default().first_contact_along(&journey, &mut Exhaustive)
+    };
+    let unresolved = Outcome::Unresolved {
+        safe_until: 0.0,
+        reason: Limit::Budget,
+    };
+    assert_eq!(ask(f64::INFINITY, 0.0, 1e-9).unwrap().outcome, unresolved);
+    for no_bound in [f64::NAN, -1.0] {
+        assert_eq!(ask(no_bound, 0.0, 2.0).unwrap().outcome, unresolved);
+        assert_eq!(ask(0.0, no_bound, 2.0).unwrap().outcome, unresolved);
+    }
+    let free = ask(0.1, 0.1, 2.0).unwrap().outcome;
+    assert!(matches!(free, Outcome::Free { proven_gap } if proven_gap > 0.0));
+}
+
+#[test]
+fn durations_may_be_very_long() {
+    let ball = Body::ball(0.5).unwrap();
+    let slow = Motion::new(
+        crate::Pose::at(9.0 * DVec3::X).unwrap(),
+        1e-180 * DVec3::Y,
+        DVec3::ZERO,
+    );
+    let (slow, config) = (slow.unwrap(), Config::default());
+    let journey = Journey::new((&ball, &slow), (&ball, &Motion::STILL), 1e160, &config).unwrap();
+    let answer = BestFirst::default().first_contact_along(&journey, &mut Exhaustive);
+    assert!(matches!(
+        answer.unwrap().outcome,
+        Outcome::Free { proven_gap } if proven_gap > 0.0
+    ));
 }
 
 #[test]

@@ -35,8 +35,8 @@ pub(super) struct Heights<'a> {
     missed: f64,
 }
 
-/// One point's height, its rate, and a bound of what its turning adds to the second derivative; or bounds of these over all
-/// points from below, and from above.
+/// One point's height, its rate, and a bound of what its turning adds to the second derivative; or bounds of these
+/// over all points from below, and from above.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Point {
     pub(super) height: f64,

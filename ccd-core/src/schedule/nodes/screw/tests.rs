@@ -109,7 +109,11 @@ fn nodes_said_to_stay_apart_do_so_at_sampled_times() {
         if number % 2 == 1 {
             std::mem::swap(&mut first, &mut second);
         }
-        let problem = Problem::new(first, second, 1.0, &config).unwrap();
+        // Both fall alike, or nearly.
+        let pull = direction(&mut rng) * [0.0, 3.0][number / 2 % 2];
+        let pulls = [pull, pull * (1.0 + [0.0, 1e-3][number / 4 % 2])];
+        let bodies = [first.into(), second.into()];
+        let problem = Problem::accelerated(bodies, pulls, 1.0, &config).unwrap();
         // The axis may move too fast for small bodies.
         let mut profiles = Profiles::default();
         let Some(screw) = Screw::of(&problem, &mut profiles) else {
@@ -182,6 +186,14 @@ fn what_is_no_screw_has_no_profiles() {
         motion(DVec3::Z, DVec3::Z),
         motion(DVec3::ZERO, DVec3::Z)
     ));
+    let falls = |pulls: [DVec3; 2]| {
+        let bodies = [(&cube, motion(DVec3::Z, DVec3::Z)), (&cube, still)];
+        let problem = Problem::accelerated(bodies.map(Into::into), pulls, 1.0, &config).unwrap();
+        Screw::of(&problem, &mut Profiles::default()).is_some()
+    };
+    assert!(falls([9.8 * DVec3::X; 2]));
+    assert!(!falls([9.8 * DVec3::X, DVec3::ZERO]));
+    assert!(!falls([DVec3::ZERO, 9.8 * DVec3::Z]));
 }
 
 /// Rounding of the height of nodes far up an oblique axis must not tilt tall ones.
