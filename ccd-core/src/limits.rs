@@ -22,6 +22,12 @@ pub const MAX_COORDINATE: f64 = 1e12;
 /// multiples of the product of three such bits, which must not underflow: (2⁻⁵³ · 1e-90)³ > 2⁻¹⁰⁷⁴.
 pub const LEAST_COORDINATE: f64 = 1e-90;
 
+/// The longest duration of bodies on trajectories, in the scene's unit of time.
+///
+/// Derivatives of the fourth order are bounded. What of them underflows, 5e-324, moves a point by less than the
+/// [least tolerance](LEAST_TOLERANCE) in that time: `5e-324 · (1e50)⁴ < 1e-100`.
+pub const MAX_DURATION: f64 = 1e50;
+
 /// The largest turn of one motion, in radians. Beyond it the rounding of the angle alone moves a
 /// point by 1e-10 of its arm.
 pub const MAX_TURN: f64 = 1e6;

@@ -388,7 +388,7 @@ fn check_coordinates(what: &'static str, point: DVec3) -> Result<(), InputError>
 }
 
 /// `allowed` must be computed so that NaN makes it false.
-fn check(
+pub(crate) fn check(
     what: &'static str,
     value: f64,
     allowed: bool,

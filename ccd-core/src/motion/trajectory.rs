@@ -90,7 +90,7 @@ impl Stretch {
         let pose = self.motion.pose(time);
         match self.acceleration == DVec3::ZERO {
             true => pose,
-            false => pose.moved(0.5 * time * time * self.acceleration),
+            false => pose.moved(0.5 * time * (time * self.acceleration)),
         }
     }
 
@@ -270,7 +270,7 @@ impl Acceleration {
     fn over(self, time: f64) -> f64 {
         // The vector, the time and the products are rounded.
         let rounding = STRETCH_F64 * (time * (time * length(self.vector)));
-        time * (time * (time * (self.jerk / 6.0))) * (1.0 + STRETCH_F64) + rounding
+        time * (time * (time * self.jerk)) / 6.0 * (1.0 + STRETCH_F64) + rounding
     }
 }
 

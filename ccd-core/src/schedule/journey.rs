@@ -15,8 +15,9 @@ mod stretches;
 use crate::body::Body;
 use crate::config::Config;
 use crate::error::InputError;
+use crate::limits::MAX_DURATION;
 use crate::motion::trajectory::Trajectory;
-use crate::problem::check_config;
+use crate::problem::{check, check_config};
 use std::fmt;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -76,7 +77,8 @@ impl<'a> Journey<'a> {
     /// Poses a query over two bodies on trajectories.
     ///
     /// # Errors
-    /// [`InputError::OutOfRange`] for a negative duration or margin, and for a tolerance that is not positive.
+    /// [`InputError::OutOfRange`] for a negative duration or margin, for a duration above
+    /// [`MAX_DURATION`](crate::limits::MAX_DURATION), and for a tolerance that is not positive.
     pub fn new(
         a: impl Into<Travelling<'a>>,
         b: impl Into<Travelling<'a>>,
@@ -84,6 +86,12 @@ impl<'a> Journey<'a> {
         config: &Config,
     ) -> Result<Self, InputError> {
         check_config(duration, config)?;
+        check(
+            "duration",
+            duration,
+            duration <= MAX_DURATION,
+            "at most 1e50 along trajectories",
+        )?;
         Ok(Journey {
             a: a.into(),
             b: b.into(),

@@ -4,6 +4,7 @@ use super::U;
 use super::bounded::{Bounded, Speeds};
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
+use ccd_core::vector::length;
 use ccd_core::{Acceleration, Accelerations, InputError, Motion, Pose, Smooth, Stray};
 
 /// A thrown body: constant acceleration of its centre, and constant spin about it.
@@ -52,7 +53,7 @@ impl Smooth for Ballistic {
             acceleration,
         } = self;
         let pose = thrown.pose(time);
-        let fallen = pose.translation() + 0.5 * time * time * *acceleration;
+        let fallen = pose.translation() + 0.5 * time * (time * *acceleration);
         let start = Pose::new(fallen, pose.rotation())?;
         let velocity = thrown.velocity() + time * *acceleration;
         Motion::about(start, velocity, thrown.spin(), thrown.centre())
@@ -60,7 +61,7 @@ impl Smooth for Ballistic {
 
     fn accelerations(&self, _: f64, _: f64) -> Accelerations {
         Accelerations {
-            linear: self.acceleration.length(),
+            linear: length(self.acceleration),
             angular: 0.0,
         }
     }
@@ -85,10 +86,10 @@ impl Smooth for Ballistic {
             acceleration,
         } = self;
         let time = greater(from.abs(), to.abs());
-        let turned = thrown.spin().length() * time;
-        let way = (thrown.velocity().length() + 0.5 * time * acceleration.length()) * time;
+        let turned = length(thrown.spin()) * time;
+        let way = (length(thrown.velocity()) + 0.5 * time * length(*acceleration)) * time;
         Stray {
-            shift: 16.0 * U * (thrown.start().translation().length() + way),
+            shift: 16.0 * U * (length(thrown.start().translation()) + way),
             turn: 8.0 * U * turned,
         }
     }
@@ -96,11 +97,11 @@ impl Smooth for Ballistic {
 
 impl Bounded for Ballistic {
     fn speeds(&self, from: f64, to: f64) -> Speeds {
-        let at = |time: f64| (self.thrown.velocity() + time * self.acceleration).length();
+        let at = |time: f64| length(self.thrown.velocity() + time * self.acceleration);
         Speeds {
             // The length of a vector that changes linearly is largest at an end.
             linear: greater(at(from), at(to)),
-            angular: self.thrown.spin().length(),
+            angular: length(self.thrown.spin()),
         }
     }
 }

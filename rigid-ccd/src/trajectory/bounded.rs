@@ -1,5 +1,6 @@
 //! Trajectories with bounds of their speeds, which others are made of.
 
+use ccd_core::vector::length;
 use ccd_core::{Accelerations, Motion, Smooth};
 
 /// A smooth trajectory with bounds of its speeds: one that can [carry](super::Carried) a body that moves itself,
@@ -21,8 +22,8 @@ pub struct Speeds {
 /// A motion has constant velocities.
 pub(super) fn speeds(motion: &Motion) -> Speeds {
     Speeds {
-        linear: motion.velocity().length(),
-        angular: motion.spin().length(),
+        linear: length(motion.velocity()),
+        angular: length(motion.spin()),
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::bounded::{Bounded, Speeds, of_origin, speeds};
 use ccd_core::order::greater;
+use ccd_core::vector::length;
 use ccd_core::{Accelerations, InputError, Motion, Smooth, Stray};
 
 /// A trajectory in the frame of another one: a tool in a hand, a load on a ship.
@@ -52,7 +53,7 @@ impl Smooth for Steady {
     fn rounding(&self, from: f64, to: f64) -> Stray {
         let Speeds { linear, angular } = speeds(&self.0);
         let time = greater(from.abs(), to.abs());
-        let place = self.0.start().translation().length() + self.0.centre().length();
+        let place = length(self.0.start().translation()) + length(self.0.centre());
         Stray {
             shift: 16.0 * super::U * (place + linear * time),
             turn: 8.0 * super::U * angular * time,
@@ -80,12 +81,12 @@ impl Origin {
     fn of<T: Bounded>(trajectory: &T, from: f64, to: f64) -> Result<Self, InputError> {
         let half = 0.5 * (to - from);
         let tangent = trajectory.tangent(from + half)?;
-        let arm = tangent.centre().length();
+        let arm = length(tangent.centre());
         let speeds = trajectory.speeds(from, to);
         let origin = speeds.of_origin(arm);
         Ok(Origin {
             accelerations: of_origin(trajectory.accelerations(from, to), speeds, arm),
-            way: tangent.start().translation().length() + origin.linear * half,
+            way: length(tangent.start().translation()) + origin.linear * half,
             speeds: origin,
             tangent,
         })
@@ -144,9 +145,8 @@ impl<C: Bounded, T: Bounded> Smooth for Carried<C, T> {
         let Some([carrier_at, inner_at]) = self.parts(from, to) else {
             return Stray::NONE;
         };
-        let arms = inner_at.way
-            + carrier_at.tangent.centre().length()
-            + inner_at.tangent.centre().length();
+        let arms =
+            inner_at.way + length(carrier_at.tangent.centre()) + length(inner_at.tangent.centre());
         Stray {
             shift: carrier.shift
                 + inner.shift

@@ -4,6 +4,7 @@ use super::U;
 use super::knots::{middle_knot, overlapping, spread};
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
+use ccd_core::vector::length;
 use ccd_core::{Acceleration, InputError};
 
 /// A curve of Bézier segments, from time 0 to its [duration](Curve::duration). It rests before and after.
@@ -142,7 +143,7 @@ impl Curve {
     pub(super) fn rounding(&self) -> f64 {
         let lengths = self.segments.iter().flat_map(|segment| {
             let degree = segment.points.len() as f64;
-            segment.points.iter().map(move |p| p.length() * degree)
+            segment.points.iter().map(move |&p| length(p) * degree)
         });
         8.0 * U * lengths.fold(0.0, greater)
     }
@@ -203,10 +204,10 @@ impl Segment {
     fn most(&self, order: usize, from: f64, to: f64) -> f64 {
         let hull = |order| {
             let points = self.differences(order).into_iter();
-            points.map(DVec3::length).fold(0.0, greater)
+            points.map(length).fold(0.0, greater)
         };
         let half = 0.5 * (to - from);
-        let middle = self.derivative(order, self.share(from + half)).length();
+        let middle = length(self.derivative(order, self.share(from + half)));
         // Products and sums are rounded.
         lesser(hull(order), middle + half * hull(order + 1)) * (1.0 + 1e-12)
     }

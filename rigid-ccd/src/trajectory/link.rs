@@ -7,6 +7,7 @@ use super::joint::{Joint, Kind};
 use super::screw::turn;
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
+use ccd_core::vector::length;
 use ccd_core::{Acceleration, Accelerations, InputError, Motion, Pose, Smooth, Stray, Trajectory};
 
 /// The trajectory of a link of a [`Chain`], in the world or as another link sees it.
@@ -204,7 +205,7 @@ impl Smooth for Link<'_> {
             angles,
             ..
         } = self.moved(from, to);
-        let base = self.chain.base().translation().length();
+        let base = length(self.chain.base().translation());
         let turn = U * (24.0 * joints + 4.0 * angles);
         Stray {
             shift: turn * arms + 8.0 * U * (base + arms),
@@ -301,7 +302,7 @@ impl Moved {
     /// Goes on to the link after a joint.
     fn pass(&mut self, joint: &Joint, positions: &Positions) {
         self.joints += 1.0;
-        let length = joint.origin().translation().length();
+        let length = length(joint.origin().translation());
         self.arms += length;
         self.arm(length);
         // Turned into the joint's frame.
@@ -347,7 +348,7 @@ impl Moved {
         let (across, common) = match (self.speeds.angular > 0.0, self.axis) {
             (false, _) => (0.0, Some(axis)),
             (true, Some(common)) => {
-                let across = common.cross(axis).length();
+                let across = length(common.cross(axis));
                 // Axes that count as parallel are off by as much each.
                 let most = across + PARALLEL * self.joints;
                 (most, (across < PARALLEL).then_some(common))

@@ -3,6 +3,7 @@
 use super::U;
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::order::greater;
+use ccd_core::vector::length;
 use ccd_core::{InputError, Motion, Pose, Stray, Stretch, Trajectory};
 
 /// A path through poses at given times: of a planner, or of a simulator's log.
@@ -141,9 +142,9 @@ impl Poses {
         let first = self.poses.partition_point(|&(at, _)| at <= from);
         let last = self.poses.partition_point(|&(at, _)| at < to);
         let given = &self.poses[first.saturating_sub(1)..(last + 1).min(self.poses.len())];
-        let lengths = given.iter().map(|(_, pose)| pose.translation().length());
+        let lengths = given.iter().map(|(_, pose)| length(pose.translation()));
         // The way from one to the next is at most twice as long.
-        let place = 3.0 * lengths.fold(0.0, greater) + 4.0 * self.centre.length();
+        let place = 3.0 * lengths.fold(0.0, greater) + 4.0 * length(self.centre);
         Stray {
             shift: 64.0 * U * place,
             turn: 64.0 * U,

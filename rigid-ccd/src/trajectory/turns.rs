@@ -6,6 +6,7 @@ use super::U;
 use super::knots::{middle_knot, overlapping, spread};
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::order::{greater, lesser};
+use ccd_core::vector::length;
 use ccd_core::{InputError, Pose};
 use squad::{Squad, logarithm};
 
@@ -136,7 +137,7 @@ impl Turns {
             .overlapping(from, to)
             .iter()
             .map(|piece| match &piece.turn {
-                Turn::Slerp { spin, .. } => spin.length(),
+                Turn::Slerp { spin, .. } => length(*spin),
                 Turn::Squad(squad) => squad.speed(),
             });
         speeds.fold(0.0, greater)

@@ -11,6 +11,7 @@ use crate::schedule::answer::metered;
 use crate::schedule::memory::Kept;
 use crate::schedule::start::at_start;
 use crate::tolerance::{LEAST_CUT, MUCH_LONGER, STRAY_SHARE};
+use std::sync::atomic::Ordering;
 use std::time::Instant;
 
 /// The stretches that wait, the next one last, and the work so far.
@@ -57,7 +58,13 @@ impl<'j, 'a> Stretches<'j, 'a> {
 
     /// Returns the settings with what is left of budget and deadline.
     fn config(&self) -> Result<Config, Limit> {
-        let config = &self.journey.config;
+        let Journey { config, stop, .. } = self.journey;
+        if stop
+            .as_ref()
+            .is_some_and(|stop| stop.load(Ordering::Relaxed))
+        {
+            return Err(Limit::Stopped);
+        }
         let budget = config.budget.checked_sub(self.stats.work());
         let deadline = match (config.deadline, self.begun) {
             (Some(deadline), Some(begun)) => match deadline.checked_sub(begun.elapsed()) {

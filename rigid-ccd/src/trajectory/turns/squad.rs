@@ -24,6 +24,7 @@
 
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::order::greater;
+use ccd_core::vector::length;
 use std::f64::consts::PI;
 
 /// Returns the inner orientation of the quadrangles that meet at the middle one of three.
@@ -64,7 +65,7 @@ impl Arc {
 
     /// The speed on the sphere of quaternions.
     fn speed(&self) -> f64 {
-        0.5 * self.spin.length()
+        0.5 * length(self.spin)
     }
 }
 
