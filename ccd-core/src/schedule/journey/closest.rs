@@ -45,13 +45,14 @@ impl<O: DistanceOracle> DepthFirst<O> {
                 }
             }
             let problem = leg.problem(journey, &config)?;
-            let beyond = found.upper() + leg.stray;
+            // As much farther as the motions' distance is not known.
+            let beyond = found.upper() + leg.stray + 2.0 * problem.tolerance();
             let answer = self.approach_below(&problem, beyond, oracle);
             stretches.add(&answer.stats);
             let seen = match answer.outcome {
                 Err(Beyond { lower }) => Seen {
                     lower,
-                    upper: beyond,
+                    upper: lower,
                     // Bodies beyond the least distance so far are so with their strays.
                     blur: 0.0,
                     time: 0.0,

@@ -107,11 +107,15 @@ impl Leg {
         journey: &Journey<'a>,
         config: &Config,
     ) -> Result<Problem<'a>, InputError> {
-        // A contact of the motions is one of the bodies where both stray towards each other.
+        // A contact of the motions is one of the bodies where both stray towards each other. Distances that strays
+        // blur need not be known better.
         let least = (1.0 - 2.0 * STRAY_SHARE) * config.tolerance;
         let tolerance = match self.stray > 0.0 {
             true => greater(
-                config.tolerance - 2.0 * self.stray,
+                greater(
+                    config.tolerance - 2.0 * self.stray,
+                    STRAY_SHARE * STRAY_SHARE * self.stray,
+                ),
                 greater(least, LEAST_TOLERANCE),
             ),
             false => config.tolerance,
