@@ -65,6 +65,8 @@
 //! | the steps that all searches take | `schedule/search.rs` |
 //! | any contact, the closest approach | `schedule/depth_first.rs`, `schedule/any_contact.rs`, `schedule/closest_approach.rs` |
 //! | motions of any kind, stretch by stretch | `motion/trajectory.rs`, `schedule/journey.rs` |
+//! | the same in steps, for many pairs of bodies side by side | `schedule/first_contact.rs` |
+//! | boxes about moving bodies, for a broad phase | `swept_box.rs` |
 //! | conservative advancement, all pairs `[FAST06 Alg. 1]` | `schedule/naive.rs` |
 //! | conservative advancement over hull trees `[FAST06 Alg. 2, §5.1]` | `schedule/fast.rs` |
 //! | eight pairs of nodes at once | `schedule/nodes/expand.rs`, `schedule/nodes/bounds.rs` |
@@ -101,6 +103,7 @@ mod motion;
 mod outcome;
 mod problem;
 pub mod schedule;
+mod swept_box;
 #[cfg(test)]
 mod tests;
 pub mod tolerance;
@@ -133,3 +136,4 @@ pub use motion::trajectory::{Acceleration, Accelerations, Smooth, Stray, Stretch
 pub use outcome::{Answer, Contact, Limit, Outcome, Overlap, Separation, Stats};
 pub use problem::{Moving, Problem};
 pub use schedule::{Journey, Schedule, Travelling};
+pub use swept_box::SweptBox;

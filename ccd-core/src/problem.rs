@@ -333,11 +333,11 @@ impl Side<'_> {
 
     /// Returns the span of the body plus twice the length of its centre of rotation, in the body's
     /// frame.
-    fn span(&self) -> f64 {
+    pub(crate) fn span(&self) -> f64 {
         self.body.tree().span() + 2.0 * length(self.path.centre)
     }
 
-    fn check(&self) -> Result<(), InputError> {
+    pub(crate) fn check(&self) -> Result<(), InputError> {
         let travel = self.path.speed() + length(self.path.centre_at(0.0));
         check(
             "travel",
@@ -372,7 +372,7 @@ pub(crate) fn check_config(duration: f64, config: &Config) -> Result<(), InputEr
 }
 
 /// Refuses a point with a coordinate that is too large.
-fn check_coordinates(what: &'static str, point: DVec3) -> Result<(), InputError> {
+pub(crate) fn check_coordinates(what: &'static str, point: DVec3) -> Result<(), InputError> {
     let largest = point
         .to_array()
         .map(f64::abs)

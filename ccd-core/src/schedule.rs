@@ -3,7 +3,7 @@
 //! A pair consists of two nodes (`nodes/`: eight at once, in f32) or of two pieces (`pieces/`: one
 //! at a time, in f64). A schedule keeps the waiting pairs (`queue.rs`, `stack.rs`, `fast/front.rs`) and
 //! the proven facts (`proven.rs`). `search.rs` has the steps, and each question draws its own conclusions
-//! from them: the first contact (`best_first.rs`), any contact (`any_contact.rs`), the closest approach
+//! from them: the first contact (`best_first.rs`, in steps `first_contact.rs`), any contact (`any_contact.rs`), the closest approach
 //! (`closest_approach.rs`). `nearest.rs` measures bodies at one clock, `start.rs` those in contact at the
 //! start; `answer.rs` runs the schedule as the policy for the start demands. `journey.rs` asks along
 //! trajectories. `out_of_reach.rs` tells bodies apart that are far
@@ -17,6 +17,7 @@ mod contract;
 mod depth_first;
 #[cfg(feature = "hull-tree")]
 mod fast;
+mod first_contact;
 mod journey;
 mod memory;
 mod meter;
@@ -39,5 +40,6 @@ pub use contract::Schedule;
 pub use depth_first::DepthFirst;
 #[cfg(feature = "hull-tree")]
 pub use fast::Fast;
+pub use first_contact::{FirstContact, Progress};
 pub use journey::{ContactInterval, Journey, Touch, Travelling};
 pub use naive::Naive;

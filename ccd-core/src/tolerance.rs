@@ -89,6 +89,12 @@ pub fn distance_rounding(spans: [f64; 2], turns: [f64; 2], way: f64) -> f64 {
     U64 * (body(0) + body(1) + of_way * way) + LEAST_ROUNDING
 }
 
+/// Bounds the share of one body in [`distance_rounding`], whatever the other one does: the shares of two bodies,
+/// with the ways of their centres from the world's origin, are no less than the rounding of their distance.
+pub fn share_of_rounding(span: f64, turn: f64, way: f64) -> f64 {
+    U64 * ((300.0 + 5.0 * turn) * span + 96.0 * way) + LEAST_ROUNDING
+}
+
 /// The part of [`distance_rounding`] that a margin adds, which counts as a way.
 pub fn margin_rounding(margin: f64) -> f64 {
     96.0 * U64 * margin

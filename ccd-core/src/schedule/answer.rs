@@ -10,8 +10,7 @@ use crate::distance::oracle::DistanceOracle;
 use crate::math::order::greater;
 use crate::outcome::{Answer, Outcome, Stats};
 use crate::problem::Problem;
-pub(super) use given::contact_of_given;
-use given::of_given;
+pub(super) use given::{contact_of_given, of_given};
 
 /// Searches as the problem's policy for the start demands, in the order of time.
 ///
@@ -63,17 +62,30 @@ fn answer_after<O: DistanceOracle>(
                 seen.unwrap_or_else(|| search(&problem, oracle, meter))
             }
         };
-        let (outcome, tolerance) = match (problem.start, outcome) {
-            (StartPolicy::Leave, Outcome::Touching { contact }) => {
-                let problem = problem.leaving(contact.separation.lower - problem.margin);
+        let (outcome, tolerance) = match let_go(problem, problem.start, &outcome) {
+            Some(problem) => {
                 let outcome = search(&problem, oracle, meter);
                 (outcome, shown(&problem, &outcome))
             }
-            _ => (outcome, problem.tolerance),
+            None => (outcome, problem.tolerance),
         };
         let within = problem.margin + tolerance;
         (of_given(problem, oracle, meter, outcome, within), tolerance)
     })
+}
+
+/// Returns the problem of bodies that touch at the start and are to be let go; none of others.
+pub(super) fn let_go<'a>(
+    problem: &Problem<'a>,
+    start: StartPolicy,
+    outcome: &Outcome,
+) -> Option<Problem<'a>> {
+    match (start, outcome) {
+        (StartPolicy::Leave, Outcome::Touching { contact }) => {
+            Some(problem.leaving(contact.separation.lower - problem.margin))
+        }
+        _ => None,
+    }
 }
 
 /// Adds up the work for an outcome and its tolerance.
@@ -101,7 +113,7 @@ pub(super) fn metered<O: DistanceOracle, T>(
 /// Returns the tolerance that the outcome of bodies let go shows. Pieces that rest on each other are in
 /// contact again once they cannot be proven apart, even if their distance is known less exactly than the
 /// least tolerance asks.
-fn shown(problem: &Problem<'_>, outcome: &Outcome) -> f64 {
+pub(super) fn shown(problem: &Problem<'_>, outcome: &Outcome) -> f64 {
     match outcome {
         Outcome::Contact { contact, .. } => {
             let shown = (contact.separation.upper - problem.margin).next_up();

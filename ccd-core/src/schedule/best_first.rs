@@ -44,7 +44,7 @@ use std::ops::ControlFlow;
 /// ```
 #[derive(Debug)]
 pub struct BestFirst<O: DistanceOracle> {
-    queue: Queue<Item<O::Cache>>,
+    pub(super) queue: Queue<Item<O::Cache>>,
     pub(super) kept: Kept,
 }
 

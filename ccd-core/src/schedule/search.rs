@@ -94,6 +94,23 @@ impl<O: DistanceOracle, W: Waiting<Item<O::Cache>>> Search<'_, O, W> {
         }
     }
 
+    /// Searches on until all pairs are proven apart to a clock, and returns the clock of the next one.
+    pub(super) fn until<Q: Question<O>>(
+        &mut self,
+        problem: &Problem<'_>,
+        look: &mut CloserLook,
+        question: &mut Q,
+        until: f64,
+    ) -> ControlFlow<Q::Found, f64> {
+        let common = Common::new(problem);
+        loop {
+            if let Some((s, _)) = self.waiting.next().filter(|&(s, _)| s >= until) {
+                return ControlFlow::Continue(s);
+            }
+            self.visit(&common, look, question)?;
+        }
+    }
+
     /// Lets the pair of both roots wait.
     pub(super) fn open(&mut self, problem: &Problem<'_>) -> Result<(), Full> {
         let item = match Next::roots(problem) {

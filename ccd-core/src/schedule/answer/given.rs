@@ -12,7 +12,7 @@ use crate::schedule::pieces::snapshot::Snapshot;
 /// are those of the pieces that it names.
 ///
 /// Here `within` is the distance at which a contact was to be found.
-pub(super) fn of_given<O: DistanceOracle>(
+pub(in crate::schedule) fn of_given<O: DistanceOracle>(
     problem: &Problem<'_>,
     oracle: &mut O,
     meter: &mut Meter,

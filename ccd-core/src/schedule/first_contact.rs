@@ -1,0 +1,188 @@
+//! The first contact, asked in steps: a search that stops at a time, and goes on later.
+
+use super::BestFirst;
+use super::answer::{let_go, of_given, shown};
+use super::meter::Meter;
+use super::nodes::closer_look::CloserLook;
+use super::proven::{Proven, free_at_once};
+use super::search::{Question, Search};
+use crate::config::StartPolicy;
+use crate::distance::oracle::DistanceOracle;
+use crate::outcome::{Answer, Limit, Outcome};
+use crate::problem::Problem;
+use std::ops::ControlFlow;
+
+/// A search for the first contact that goes as far in time as it is asked to.
+///
+/// Where many pairs of bodies are asked for the first contact of all, none is proven further than the
+/// answer needs: the pair that is proven least far goes on next.
+///
+/// ```
+/// use ccd_core::{schedule::{BestFirst, FirstContact, Progress}, *};
+/// # struct Balls;
+/// # impl DistanceOracle for Balls {
+/// #     type Cache = ();
+/// #     fn separation(&mut self, pair: &PiecePair<'_>, _: &mut ()) -> Result<Claim, GiveUp> {
+/// #         let axis = pair.b_to_a.point(pair.b.points[0]) - pair.a.points[0];
+/// #         Ok(Claim { axis, a: Combination::point(0), b: Combination::point(0) })
+/// #     }
+/// # }
+/// let ball = Body::ball(0.5)?;
+/// let flying = Motion::new(Pose::at([-3.0, 0.0, 0.0])?, [1.0, 0.0, 0.0], [0.0; 3])?;
+/// let problem = Problem::new((&ball, flying), (&ball, Motion::STILL), 4.0, &Config::default())?;
+/// let mut search = FirstContact::new(problem, BestFirst::default());
+/// let Progress::ApartUntil(time) = search.advance(&mut Balls, 0.5) else { panic!("they are far apart") };
+/// assert!(time >= 0.5 && time <= 2.0);
+/// let Progress::Answered(answer) = search.advance(&mut Balls, 4.0) else { panic!("all time is up") };
+/// assert!(matches!(answer.outcome, Outcome::Contact { .. }));
+/// # Ok::<(), InputError>(())
+/// ```
+pub struct FirstContact<'a, O: DistanceOracle> {
+    problem: Problem<'a>,
+    /// What is searched now: the problem with a contact at the start as an answer, or bodies let go.
+    current: Problem<'a>,
+    /// What is still to be done about a contact at the start.
+    start: StartPolicy,
+    memory: BestFirst<O>,
+    meter: Meter,
+    /// None before the first step.
+    begun: Option<Begun>,
+    answer: Option<Answer>,
+}
+
+/// What a search knows besides the pairs that wait.
+#[derive(Debug)]
+struct Begun {
+    look: CloserLook,
+    proven: Proven,
+}
+
+/// How far a search for the first contact is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Progress {
+    /// The bodies stay apart until this time, certified.
+    ApartUntil(f64),
+    /// The answer.
+    Answered(Answer),
+}
+
+impl<'a, O: DistanceOracle> FirstContact<'a, O> {
+    /// Takes up a problem, with the memory of a schedule. A [deadline](crate::Config::deadline) counts from now.
+    pub fn new(problem: Problem<'a>, mut memory: BestFirst<O>) -> Self {
+        let mut meter = Meter::new(&problem);
+        meter.kept = memory.kept.take();
+        memory.queue.clear();
+        FirstContact {
+            current: problem.reporting(),
+            start: problem.start,
+            problem,
+            memory,
+            meter,
+            begun: None,
+            answer: None,
+        }
+    }
+
+    /// Returns the memory, for another search.
+    pub fn into_memory(mut self) -> BestFirst<O> {
+        self.memory.queue.clear();
+        self.memory.kept = self.meter.kept;
+        self.memory
+    }
+
+    /// Goes on until the bodies are proven apart until a time, or later, or there is an answer.
+    ///
+    /// # Guarantee
+    /// [Never late](crate#guarantee); ends on every input. The answer is the same bits as that of [`BestFirst`], in
+    /// whatever steps it is asked for, unless a deadline ends the search.
+    pub fn advance(&mut self, oracle: &mut O, until: f64) -> Progress {
+        if let Some(answer) = self.answer {
+            return Progress::Answered(answer);
+        }
+        let before = oracle.effort();
+        let progress = match self.search(oracle, until) {
+            ControlFlow::Continue(s) => Progress::ApartUntil(self.problem.time(s)),
+            ControlFlow::Break((outcome, tolerance)) => {
+                let within = self.problem.margin + tolerance;
+                let meter = &mut self.meter;
+                let outcome = of_given(&self.problem, oracle, meter, outcome, within);
+                Progress::Answered(Answer {
+                    outcome,
+                    tolerance,
+                    stats: meter.stats,
+                })
+            }
+        };
+        let stats = &mut self.meter.stats;
+        stats.effort = stats.effort + (oracle.effort() - before);
+        match progress {
+            Progress::ApartUntil(_) => progress,
+            Progress::Answered(answer) => Progress::Answered(*self.answer.insert(Answer {
+                stats: *stats,
+                ..answer
+            })),
+        }
+    }
+
+    /// Searches to the end of a time, and returns the clock that is reached, or the outcome with its tolerance.
+    fn search(&mut self, oracle: &mut O, until: f64) -> ControlFlow<(Outcome, f64), f64> {
+        // Rounded up, so that the time of the clock that is reached is not before it.
+        let until = (self.problem.clock(until) * (1.0 + 4.0 * f64::EPSILON)).next_up();
+        loop {
+            let outcome = match self.run(oracle, until) {
+                ControlFlow::Continue(s) => return ControlFlow::Continue(s),
+                ControlFlow::Break(outcome) => outcome,
+            };
+            let stats = &mut self.meter.stats;
+            stats.peak_front = stats.peak_front.max(self.memory.queue.peak());
+            self.memory.queue.clear();
+            match let_go(&self.current, self.start, &outcome) {
+                Some(parting) => {
+                    self.current = parting;
+                    self.start = StartPolicy::Report;
+                    self.begun = None;
+                }
+                None => {
+                    let tolerance = match self.start == self.problem.start {
+                        true => self.problem.tolerance,
+                        false => shown(&self.current, &outcome),
+                    };
+                    return ControlFlow::Break((outcome, tolerance));
+                }
+            }
+        }
+    }
+
+    /// Searches until a clock, and returns the clock that is reached, or the outcome.
+    fn run(&mut self, oracle: &mut O, until: f64) -> ControlFlow<Outcome, f64> {
+        let problem = &self.current;
+        let mut search = Search {
+            waiting: &mut self.memory.queue,
+            oracle,
+            meter: &mut self.meter,
+        };
+        let Begun { look, proven } = match &mut self.begun {
+            Some(begun) => begun,
+            begun => {
+                if let Some(free) = free_at_once(problem) {
+                    return ControlFlow::Break(free);
+                }
+                let mut proven = Proven::default();
+                if search.open(problem).is_err() {
+                    return ControlFlow::Break(Question::<O>::stopped(
+                        &mut proven,
+                        problem,
+                        0.0,
+                        Limit::Budget,
+                    ));
+                }
+                let look = CloserLook::new(problem);
+                begun.insert(Begun { look, proven })
+            }
+        };
+        search.until(problem, look, proven, until)
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,117 @@
+//! In whatever steps: the answer of the best-first schedule.
+
+use super::*;
+use crate::motion::Motion;
+use crate::schedule::Schedule;
+use crate::tests::oracle::Exhaustive;
+use crate::tests::scene::{Kind, Pcg64, RngExt, Scene, distance, rng, scene};
+use glam::DVec3;
+
+/// Answers in steps of random lengths, and counts them.
+fn in_steps(
+    problem: &Problem<'_>,
+    memory: &mut BestFirst<Exhaustive>,
+    rng: &mut Pcg64,
+) -> (Answer, u32) {
+    let mut search = FirstContact::new(problem.clone(), std::mem::take(memory));
+    let (mut until, mut steps) = (0.0, 0);
+    let answer = loop {
+        match search.advance(&mut Exhaustive, until) {
+            Progress::ApartUntil(time) => {
+                assert!(time >= until, "{time:e} {until:e}");
+                // Often no more than has to be.
+                until = match rng.random_range(0..3) {
+                    0 => time.next_up(),
+                    _ => time + rng.random_range(0.0..0.3),
+                };
+                steps += 1;
+            }
+            Progress::Answered(answer) => break answer,
+        }
+    };
+    assert_eq!(
+        search.advance(&mut Exhaustive, 0.0),
+        Progress::Answered(answer)
+    );
+    *memory = search.into_memory();
+    (answer, steps)
+}
+
+#[test]
+fn steps_do_not_change_the_answer() {
+    let mut rng = rng(1);
+    let mut memory = BestFirst::default();
+    let (mut hits, mut misses, mut starts, mut limits, mut steps) = (0, 0, 0, 0, 0);
+    for number in 0..3_000 {
+        let kind = [Kind::Any, Kind::Sliding, Kind::Rim, Kind::Receding][rng.random_range(0..4)];
+        let mut scene: Scene = scene(&mut rng, kind, 12);
+        if rng.random_range(0..3) == 0 {
+            // In contact at the start, unless they overlap.
+            scene.config.tolerance = 2.0 * distance(&scene.problem(), 0.0) + 1e-9;
+        }
+        scene.config.start = [StartPolicy::Report, StartPolicy::Leave][rng.random_range(0..2)];
+        if rng.random_range(0..4) == 0 {
+            scene.config.budget = rng.random_range(0..60);
+        }
+        let problem = scene.problem();
+        let whole = BestFirst::default().solve(&problem, &mut Exhaustive);
+        let (answer, taken) = in_steps(&problem, &mut memory, &mut rng);
+        assert_eq!(answer, whole, "{number}");
+        steps += taken;
+        match answer.outcome {
+            Outcome::Contact { .. } => hits += 1,
+            Outcome::Free { .. } => misses += 1,
+            Outcome::Touching { .. } | Outcome::Overlapping { .. } => starts += 1,
+            Outcome::Unresolved { .. } => limits += 1,
+        }
+    }
+    assert!(
+        hits > 200 && misses > 200 && starts > 50 && limits > 100,
+        "{hits} {misses} {starts} {limits}"
+    );
+    assert!(steps > 4_000, "{steps}");
+}
+
+#[test]
+fn a_search_goes_no_further_than_it_is_asked() {
+    let mut rng = rng(2);
+    let (mut less, mut all) = (0, 0);
+    for _ in 0..300 {
+        let scene = scene(&mut rng, Kind::Sliding, 12);
+        let problem = scene.problem();
+        let mut search = FirstContact::new(problem.clone(), BestFirst::default());
+        search.advance(&mut Exhaustive, 0.05);
+        less += search.meter.stats.iterations;
+        search.advance(&mut Exhaustive, 1.0);
+        all += search.meter.stats.iterations;
+    }
+    assert!(less > 0 && 2 * less < all, "{less} of {all}");
+}
+
+/// Times whose clocks round, down to the least numbers.
+#[test]
+fn a_time_that_is_reached_is_not_before_the_one_asked_for() {
+    let mut rng = rng(3);
+    let mut reached = 0;
+    for duration in [1e-290, 1e-9, 0.3, 7.0, 1e200] {
+        for _ in 0..100 {
+            let scene = scene(&mut rng, Kind::Sliding, 12);
+            let slowed = |k: usize| {
+                let motion = scene.motions[k];
+                let velocity = motion.velocity() / duration;
+                let slow = Motion::about(motion.start(), velocity, DVec3::ZERO, motion.centre());
+                (&scene.bodies[k], slow.unwrap())
+            };
+            let problem = Problem::new(slowed(0), slowed(1), duration, &scene.config).unwrap();
+            let mut search = FirstContact::new(problem, BestFirst::default());
+            for exponent in [-320, -17, -9, -3, -1] {
+                let until = duration * rng.random_range(0.5..1.5) * 10f64.powi(exponent);
+                if let Progress::ApartUntil(time) = search.advance(&mut Exhaustive, until) {
+                    assert!(time >= until, "{time:e} {until:e} {duration:e}");
+                    reached += 1;
+                }
+            }
+        }
+    }
+    assert!(reached > 500, "{reached}");
+}

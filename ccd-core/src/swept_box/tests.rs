@@ -1,0 +1,166 @@
+//! Boxes hold sampled points, bodies whose boxes are apart are free, and boxes are not much larger than they must be.
+
+use super::*;
+use crate::schedule::{BestFirst, Schedule};
+use crate::tests::oracle::Exhaustive;
+use crate::tests::scene::{Kind, RngExt, Scene, direction, magnitude, rng, scene};
+use crate::{Motion, Outcome, Pose};
+
+fn boxes(scene: &Scene) -> [SweptBox; 2] {
+    [0, 1].map(|k| moving(scene, k).swept_box(1.0, &scene.config).unwrap())
+}
+
+fn moving(scene: &Scene, k: usize) -> Moving<'_> {
+    Moving {
+        body: &scene.bodies[k],
+        motion: scene.motions[k],
+    }
+}
+
+#[test]
+fn points_stay_in_their_box() {
+    let mut rng = rng(1);
+    let (mut tightest, mut turning) = (f64::INFINITY, 0);
+    for _ in 0..2_000 {
+        let kind = [Kind::Any, Kind::Sliding, Kind::Rim][rng.random_range(0..3)];
+        let scene = scene(&mut rng, kind, 8);
+        for (k, swept) in boxes(&scene).iter().enumerate() {
+            let path = Path::new(&scene.motions[k], DVec3::ZERO, 1.0);
+            turning += usize::from(path.turns());
+            let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+            for step in 0..=128 {
+                let frame = path.frame(f64::from(step) / 128.0);
+                let pieces = scene.bodies[k].pieces();
+                for x in (0..pieces.len()).flat_map(|piece| pieces.triangle(piece)) {
+                    let point = frame.point(x);
+                    (low, high) = (least(low, point), most(high, point));
+                }
+            }
+            assert!(swept.min.cmple(low).all() && swept.max.cmpge(high).all());
+            let size = high - low;
+            let excess = (swept.max - swept.min - size).max_element() / size.max_element();
+            tightest = lesser(tightest, excess);
+            // At worst it is about a ball.
+            let whole = scene.bodies[k].tree().whole();
+            let ball = distance(whole.centre, path.centre) + whole.radius;
+            let worst = path.velocity.abs() + 2.0 * (ball + room_of(&scene, k));
+            // Coordinates round where they are.
+            let rounding = 4.0 * f64::EPSILON * (swept.max.abs() + swept.min.abs());
+            assert!(
+                (swept.max - swept.min)
+                    .cmple(worst * (1.0 + 1e-9) + rounding)
+                    .all()
+            );
+        }
+    }
+    assert!(tightest < 1e-3 && turning > 500, "{tightest:e} {turning}");
+}
+
+fn room_of(scene: &Scene, k: usize) -> f64 {
+    let side = Side {
+        body: &scene.bodies[k],
+        given: None,
+        path: Path::new(&scene.motions[k], DVec3::ZERO, 1.0),
+    };
+    room(&side, &scene.config)
+}
+
+/// Bodies move apart by what lies between their boxes, and a little less.
+#[test]
+fn bodies_whose_boxes_are_apart_are_free() {
+    let mut rng = rng(2);
+    let (mut apart, mut others, mut contacts) = (0, 0, 0);
+    for number in 0..4_000 {
+        let kind = [Kind::Any, Kind::Sliding, Kind::Rim][rng.random_range(0..3)];
+        let mut scene = scene(&mut rng, kind, 8);
+        scene.config.margin = match rng.random_range(0..3) {
+            0 => scene.config.tolerance * magnitude(&mut rng, -2.0, 5.0),
+            _ => 0.0,
+        };
+        let [a, b] = boxes(&scene);
+        // The way along an axis that parts the boxes.
+        let axis = rng.random_range(0..3);
+        let overlap = a.max[axis] - b.min[axis];
+        let share = [1.0 + 1e-12, 1.0, 0.999, 0.2, 0.0][rng.random_range(0..5)];
+        let mut way = DVec3::ZERO;
+        way[axis] = overlap * share + [0.0, 1e-15 * overlap.abs()][rng.random_range(0..2)];
+        let motion = scene.motions[1];
+        let start = motion.start();
+        let start = Pose::new(start.translation() + way, start.rotation()).unwrap();
+        scene.motions[1] =
+            Motion::about(start, motion.velocity(), motion.spin(), motion.centre()).unwrap();
+        let [a, b] = boxes(&scene);
+        let outcome = BestFirst::default()
+            .solve(&scene.problem(), &mut Exhaustive)
+            .outcome;
+        let is_free = matches!(outcome, Outcome::Free { .. });
+        match a.meets(&b) {
+            true => others += 1,
+            false => {
+                apart += 1;
+                assert!(is_free, "{number}: {outcome:?}");
+            }
+        }
+        contacts += usize::from(!is_free);
+    }
+    assert!(
+        apart > 500 && others > 500 && contacts > 50,
+        "{apart} {others} {contacts}"
+    );
+}
+
+#[test]
+fn the_shares_of_two_bodies_are_no_less_than_the_rounding_of_their_distance() {
+    let mut rng = rng(3);
+    for _ in 0..10_000 {
+        let scene = scene(&mut rng, Kind::Any, 2);
+        let problem = scene.problem();
+        let shares: f64 = [&problem.a, &problem.b]
+            .iter()
+            .zip(&scene.motions)
+            .map(|(side, motion)| {
+                let path = Path::new(motion, DVec3::ZERO, 1.0);
+                let way = length(path.centre_at(0.0)) + path.speed() + scene.config.margin;
+                share_of_rounding(side.span(), path.rate, way)
+            })
+            .sum();
+        assert!(shares * (1.0 + 1e-12) >= problem.rounding);
+    }
+}
+
+#[test]
+fn a_ball_that_flies_has_the_box_of_its_way() {
+    let ball = crate::Body::ball(0.5).unwrap();
+    let mut rng = rng(4);
+    let spin = 10.0 * direction(&mut rng);
+    let flies = Motion::new(Pose::at([1.0, 2.0, 3.0]).unwrap(), [4.0, -2.0, 0.0], spin).unwrap();
+    let config = Config {
+        tolerance: 1e-9,
+        ..Config::default()
+    };
+    let swept = Moving::from((&ball, flies))
+        .swept_box(1.0, &config)
+        .unwrap();
+    let (min, max) = (DVec3::new(0.5, -0.5, 2.5), DVec3::new(5.5, 2.5, 3.5));
+    assert!((swept.min - min).abs().max_element() < 1e-9);
+    assert!((swept.max - max).abs().max_element() < 1e-9);
+}
+
+#[test]
+fn what_a_problem_refuses_has_no_box() {
+    let ball = crate::Body::ball(0.5).unwrap();
+    let far = Motion::new(Pose::IDENTITY, [2e12, 0.0, 0.0], [0.0; 3]).unwrap();
+    let (config, still) = (Config::default(), Motion::STILL);
+    assert!(Moving::from((&ball, far)).swept_box(1.0, &config).is_err());
+    assert!(Moving::from((&ball, far)).swept_box(0.1, &config).is_ok());
+    assert!(
+        Moving::from((&ball, still))
+            .swept_box(-1.0, &config)
+            .is_err()
+    );
+    assert!(
+        Moving::from((&ball, still))
+            .swept_box(f64::NAN, &config)
+            .is_err()
+    );
+}
