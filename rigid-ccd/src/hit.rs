@@ -51,6 +51,16 @@ pub enum HitKind {
 impl Hit {
     /// Returns the hit of an answer; none when the bodies stay apart.
     pub(crate) fn from_answer(answer: &Answer) -> Result<Option<Hit>, Error> {
+        match answer.outcome {
+            Outcome::Unresolved { safe_until, reason } => {
+                Err(Error::Unresolved { safe_until, reason })
+            }
+            _ => Ok(Hit::from_outcome(&answer.outcome)),
+        }
+    }
+
+    /// Returns the hit of an outcome; none when the bodies stay apart, or that is not known.
+    pub(crate) fn from_outcome(outcome: &Outcome) -> Option<Hit> {
         let at = |time, kind, contact: Contact| Hit {
             time,
             kind,
@@ -58,23 +68,23 @@ impl Hit {
             witness_b: contact.separation.witness_b,
             contact: Some(contact),
         };
-        Ok(Some(match answer.outcome {
-            Outcome::Free { .. } => return Ok(None),
-            Outcome::Contact { time, contact } => at(time, HitKind::Contact, contact),
-            Outcome::Touching { contact } => at(0.0, HitKind::Touching, contact),
-            Outcome::Overlapping { overlap } => match overlap {
-                Overlap::Pieces(contact) => at(0.0, HitKind::Overlapping(overlap), contact),
-                Overlap::AInsideB(point) | Overlap::BInsideA(point) => Hit {
-                    time: 0.0,
-                    kind: HitKind::Overlapping(overlap),
-                    witness_a: point,
-                    witness_b: point,
-                    contact: None,
-                },
-            },
-            Outcome::Unresolved { safe_until, reason } => {
-                return Err(Error::Unresolved { safe_until, reason });
+        match *outcome {
+            Outcome::Free { .. } | Outcome::Unresolved { .. } => None,
+            Outcome::Contact { time, contact } => Some(at(time, HitKind::Contact, contact)),
+            Outcome::Touching { contact } => Some(at(0.0, HitKind::Touching, contact)),
+            Outcome::Overlapping { overlap } => {
+                let kind = HitKind::Overlapping(overlap);
+                Some(match overlap {
+                    Overlap::Pieces(contact) => at(0.0, kind, contact),
+                    Overlap::AInsideB(point) | Overlap::BInsideA(point) => Hit {
+                        time: 0.0,
+                        kind,
+                        witness_a: point,
+                        witness_b: point,
+                        contact: None,
+                    },
+                })
             }
-        }))
+        }
     }
 }

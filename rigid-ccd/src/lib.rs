@@ -24,6 +24,7 @@
 //! | follow a spline, a path of poses, a throw, an arm's link | [`trajectory`], [`Solver::first_contact_along`] |
 //! | answer many on all cores, in order | [`first_contacts`], [`ParallelSolver`] |
 //! | answer many one after another | [`Solver`] |
+//! | move many bodies, and find who touches whom first, or at all | `Scene` |
 //! | set a tolerance, a margin, a budget or a deadline | [`Solver::with_config`] |
 //! | make a body | [`Body::ball`], [`Body::capsule`], [`Body::cuboid`], `load` for a file |
 //! | make a body from vertices and faces in memory | `mesh::TriangleMesh::new`, then `mesh::body_from_mesh`; or [`Pieces::triangles`] |
@@ -56,6 +57,7 @@
 //! # Features
 //! - `meshes` (default): `load`, and `mesh` for everything that `ccd-decomp` does with meshes.
 //! - `command` (default): the command `ccd`. Libraries switch it off: `default-features = false`.
+//! - `scenes` (default): `Scene`, many moving bodies.
 //! - `vmarch`: the distance backend `Vmarch`.
 //! - `nalgebra`: conversions between [`Pose`] and `nalgebra::Isometry3<f64>`.
 //!
@@ -70,6 +72,8 @@ mod hit;
 #[cfg(feature = "meshes")]
 mod load;
 mod parallel;
+#[cfg(feature = "scenes")]
+mod scene;
 mod solver;
 #[cfg(feature = "command")]
 pub mod table;
@@ -83,7 +87,8 @@ pub use ccd_core::{
     Answer, Body, Claim, Combination, Config, Contact, ContactsError, DistanceOracle, Effort, Face,
     Facet, Feature, FeaturePair, Frame, GiveUp, Hierarchy, HierarchyNode, InputError, Instructions,
     Journey, Limit, Motion, Moving, OrElse, Origin, Outcome, Overlap, Piece, PiecePair, Pieces,
-    Polytope, Pose, Problem, Schedule, Separation, StartPolicy, Stats, Travelling, Volume,
+    Polytope, Pose, Problem, Schedule, Separation, StartPolicy, Stats, SweptBox, Travelling,
+    Volume,
 };
 /// Meshes, and bodies made from them.
 #[cfg(feature = "meshes")]
@@ -98,6 +103,8 @@ pub use hit::{Hit, HitKind};
 #[cfg(feature = "meshes")]
 pub use load::load;
 pub use parallel::{ParallelSolver, QueryError, first_contacts};
+#[cfg(feature = "scenes")]
+pub use scene::{Groups, Impact, PairError, Scene};
 pub use solver::{Solver, first_contact};
 
 /// The example in the README.

@@ -58,6 +58,7 @@ struct Begun {
 }
 
 /// How far a search for the first contact is.
+#[allow(clippy::large_enum_variant, reason = "it is returned, not kept")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Progress {
     /// The bodies stay apart until this time, certified.

@@ -1,0 +1,287 @@
+//! Many moving bodies: which of them touch, and in which order.
+
+mod event;
+mod goal;
+mod groups;
+mod pairs;
+mod race;
+
+use crate::ParallelSolver;
+use ccd_core::glam::DVec3;
+use ccd_core::{Body, Config, InputError, Motion, Moving, Pose, Problem, SweptBox};
+use event::Event;
+pub use event::{Impact, PairError};
+use goal::Goal;
+pub use groups::Groups;
+use race::{Race, Worker};
+use std::num::NonZeroUsize;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+use std::time::Instant;
+
+/// Many bodies, each with its motion: which of them touch first, or at all.
+///
+/// Only bodies whose ways meet are examined, and the pair that is proven least far goes on next: no pair is proven
+/// much further than the answer needs. Keep a scene from step to step: it reuses its memory.
+///
+/// # Guarantee
+/// That of [`first_contact`](crate::first_contact), for all pairs together. The answers are those of the pairs
+/// asked one by one, the same bits on any number of threads, unless a [deadline](Config::deadline) or a stop flag
+/// ends a search.
+///
+/// ```
+/// use rigid_ccd::{Body, Motion, Pose, Scene};
+/// let (ball, level) = (Body::ball(0.5)?, Body::cuboid([50.0, 50.0, 1.0])?);
+/// let mut scene = Scene::new();
+/// let ground = scene.add_fixed(&level, Pose::at([0.0, 0.0, -1.0])?);
+/// for k in 0..100 {
+///     let [x, y] = [k % 10, k / 10].map(|number| 2.0 * f64::from(number));
+///     let above = Pose::at([x, y, 2.0 + 0.01 * f64::from(k)])?;
+///     scene.add(&ball, Motion::new(above, [0.0, 0.0, -3.0], [0.0; 3])?);
+/// }
+/// let first = scene.first_contact(1.0)?.expect("all of them fall to the ground");
+/// assert_eq!(first.bodies, [ground, 1]);
+/// assert!(first.hit.time <= 0.5 && first.hit.time > 0.499);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub struct Scene<'a> {
+    members: Vec<Member<'a>>,
+    config: Config,
+    asked: Option<Box<dyn Fn(usize, usize) -> bool + 'a>>,
+    stop: Option<Arc<AtomicBool>>,
+    workers: ParallelSolver<Worker>,
+}
+
+#[derive(Clone, Copy)]
+struct Member<'a> {
+    body: &'a Body,
+    motion: Motion,
+    mobility: Mobility,
+    groups: Groups,
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum Mobility {
+    Fixed,
+    Moving,
+}
+
+/// The pairs that are worth another thread. To start one takes as long as a few tens of pairs do.
+const PAIRS_A_THREAD: usize = 32;
+
+/// A box that meets all that can be asked for: coordinates are up to 1e12, and travels as much.
+const EVERYWHERE: SweptBox = SweptBox {
+    min: DVec3::splat(-1e15),
+    max: DVec3::splat(1e15),
+};
+
+impl<'a> Scene<'a> {
+    /// Creates a scene without bodies, which uses all cores.
+    pub fn new() -> Self {
+        Scene::from(ParallelSolver::new(Worker::default))
+    }
+
+    /// Creates a scene that uses that many threads.
+    pub fn with_threads(threads: NonZeroUsize) -> Self {
+        Scene::from(ParallelSolver::with_threads(threads, Worker::default))
+    }
+
+    fn from(workers: ParallelSolver<Worker>) -> Self {
+        Scene {
+            members: Vec::new(),
+            config: Config::default(),
+            asked: None,
+            stop: None,
+            workers,
+        }
+    }
+
+    /// Sets tolerance, margin, start policy and the budget of each pair. A deadline is for all pairs together.
+    #[must_use]
+    pub fn with_config(self, config: Config) -> Self {
+        Scene { config, ..self }
+    }
+
+    /// Asks only for pairs that a function of both indices, the lower one first, returns true for.
+    ///
+    /// Most filters are [`Groups`]; a function suits a list of parts that are fitted to each other.
+    #[must_use]
+    pub fn with_filter(self, asked: impl Fn(usize, usize) -> bool + 'a) -> Self {
+        Scene {
+            asked: Some(Box::new(asked)),
+            ..self
+        }
+    }
+
+    /// Lets other threads stop the search: pairs that are under way then are unresolved, with a certified time.
+    #[must_use]
+    pub fn with_stop(self, stop: &Arc<AtomicBool>) -> Self {
+        Scene {
+            stop: Some(Arc::clone(stop)),
+            ..self
+        }
+    }
+
+    /// Adds a body, and returns its index. Indices count from 0.
+    pub fn add(&mut self, body: &'a Body, motion: Motion) -> usize {
+        self.push(body, motion, Mobility::Moving)
+    }
+
+    /// Adds a body that never moves, such as a level or a workpiece. Two fixed bodies are no pair.
+    pub fn add_fixed(&mut self, body: &'a Body, pose: Pose) -> usize {
+        self.push(body, Motion::still(pose), Mobility::Fixed)
+    }
+
+    fn push(&mut self, body: &'a Body, motion: Motion, mobility: Mobility) -> usize {
+        self.members.push(Member {
+            body,
+            motion,
+            mobility,
+            groups: Groups::ALL,
+        });
+        self.members.len() - 1
+    }
+
+    /// Changes the motion of a body, for the next step.
+    ///
+    /// # Panics
+    /// No body has the index.
+    pub fn set_motion(&mut self, index: usize, motion: Motion) {
+        self.members[index].motion = motion;
+    }
+
+    /// Changes the groups of a body.
+    ///
+    /// # Panics
+    /// No body has the index.
+    pub fn set_groups(&mut self, index: usize, groups: Groups) {
+        self.members[index].groups = groups;
+    }
+
+    /// Returns the number of bodies.
+    pub fn len(&self) -> usize {
+        self.members.len()
+    }
+
+    /// Returns whether there are no bodies.
+    pub fn is_empty(&self) -> bool {
+        self.members.is_empty()
+    }
+
+    /// Removes all bodies, and keeps the settings and the memory.
+    pub fn clear(&mut self) {
+        self.members.clear();
+    }
+
+    /// Finds the first contact of any two bodies, from time 0 to `duration`; none if all stay apart.
+    ///
+    /// Of contacts at the same time, that of the lowest indices is the first.
+    ///
+    /// # Errors
+    /// What is wrong with a pair, if there is no earlier contact: a limit is reached, or a motion or the duration
+    /// is out of range.
+    pub fn first_contact(&mut self, duration: f64) -> Result<Option<Impact>, PairError> {
+        let events = self.events(duration, &Goal::first());
+        let first = events.iter().min_by(|a, b| a.order(b));
+        first.map(Event::impact).transpose()
+    }
+
+    /// Finds the first contact of each body with any other one, by index; none for those that touch no other.
+    ///
+    /// # Errors
+    /// Each body has a result of its own; its error is what is wrong with a pair, if it has no earlier contact.
+    pub fn first_contact_of_each(
+        &mut self,
+        duration: f64,
+    ) -> Vec<Result<Option<Impact>, PairError>> {
+        let mut events = self.events(duration, &Goal::of_each(self.len()));
+        events.sort_unstable_by(Event::order);
+        let mut firsts: Vec<Option<&Event>> = vec![None; self.len()];
+        for event in &events {
+            for index in event.bodies {
+                firsts[index].get_or_insert(event);
+            }
+        }
+        let impact = |first: Option<&Event>| first.map(Event::impact).transpose();
+        firsts.into_iter().map(impact).collect()
+    }
+
+    /// Finds the first contact of each pair of bodies that touch, in order of time.
+    ///
+    /// # Errors
+    /// Each pair has a result of its own. A pair that is unresolved is in the place of the time until which it is
+    /// known to be apart, and one that is refused comes at time 0.
+    pub fn contacts(&mut self, duration: f64) -> Vec<Result<Impact, PairError>> {
+        let mut events = self.events(duration, &Goal::All);
+        events.sort_unstable_by(Event::order);
+        events.iter().map(Event::impact).collect()
+    }
+
+    /// Returns what happens to the pairs, as far as the goal needs it, in any order.
+    fn events(&mut self, duration: f64, goal: &Goal) -> Vec<Event> {
+        let pairs = self.pairs(duration);
+        let begun = self
+            .config
+            .deadline
+            .map(|deadline| (deadline, Instant::now()));
+        let (members, config, stop) = (&self.members, &self.config, &self.stop);
+        let problem = |[a, b]: [usize; 2]| -> Result<Problem<'a>, InputError> {
+            let moving = |index: usize| members[index].moving();
+            let config = Config {
+                deadline: begun.map(|(deadline, begun)| deadline.saturating_sub(begun.elapsed())),
+                ..*config
+            };
+            let problem = Problem::new(moving(a), moving(b), duration, &config)?;
+            Ok(match stop {
+                Some(stop) => problem.stopped_by(stop),
+                None => problem,
+            })
+        };
+        let race = Race::new(&pairs, &problem, duration, goal);
+        let threads = self
+            .workers
+            .threads()
+            .min(pairs.len().div_ceil(PAIRS_A_THREAD));
+        let events = self
+            .workers
+            .map(&vec![(); threads], |worker, ()| worker.run(&race));
+        events.into_iter().flatten().collect()
+    }
+
+    /// Returns the pairs that are asked for and whose ways meet.
+    fn pairs(&self, duration: f64) -> Vec<[usize; 2]> {
+        let swept = |member: &Member<'_>| {
+            let swept = member.moving().swept_box(duration, &self.config);
+            // Each of its pairs tells what is wrong.
+            swept.unwrap_or(EVERYWHERE)
+        };
+        let boxes: Vec<SweptBox> = self.members.iter().map(swept).collect();
+        let mut pairs = pairs::meeting(&boxes);
+        pairs.retain(|&[a, b]| {
+            let pair = [&self.members[a], &self.members[b]];
+            pair.iter()
+                .any(|member| member.mobility == Mobility::Moving)
+                && pair[0].groups.pairs_with(pair[1].groups)
+                && self.asked.as_ref().is_none_or(|asked| asked(a, b))
+        });
+        pairs
+    }
+}
+
+impl Default for Scene<'_> {
+    fn default() -> Self {
+        Scene::new()
+    }
+}
+
+impl<'a> Member<'a> {
+    fn moving(&self) -> Moving<'a> {
+        Moving {
+            body: self.body,
+            motion: self.motion,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,89 @@
+//! What happens to two bodies of a scene.
+
+use crate::{Error, Hit};
+use ccd_core::{Answer, InputError, Limit, Outcome};
+use std::cmp::Ordering;
+
+/// The first contact of two bodies of a scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Impact {
+    /// The indices of the bodies, the lower one first: A and B of the hit.
+    pub bodies: [usize; 2],
+    /// Their first contact.
+    pub hit: Hit,
+}
+
+/// The error of two bodies of a scene.
+#[derive(Debug, thiserror::Error)]
+#[error("bodies {} and {}: {error}", bodies[0], bodies[1])]
+pub struct PairError {
+    /// The indices of the bodies, the lower one first.
+    pub bodies: [usize; 2],
+    /// What is wrong with them; that they are unresolved has a time before which they do not touch.
+    #[source]
+    pub error: Error,
+}
+
+/// A contact of two bodies, or what ended its search.
+#[derive(Clone, Debug)]
+pub(super) struct Event {
+    /// The time before which they do not touch.
+    pub(super) time: f64,
+    pub(super) bodies: [usize; 2],
+    what: What,
+}
+
+#[allow(clippy::large_enum_variant, reason = "most events are hits")]
+#[derive(Clone, Debug)]
+enum What {
+    Hit(Hit),
+    Unresolved(Limit),
+    Refused(InputError),
+}
+
+impl Event {
+    /// Returns none for bodies that stay apart.
+    pub(super) fn answered(bodies: [usize; 2], answer: &Answer) -> Option<Self> {
+        let (time, what) = match Hit::from_outcome(&answer.outcome) {
+            Some(hit) => (hit.time, What::Hit(hit)),
+            None => match answer.outcome {
+                Outcome::Unresolved { safe_until, reason } => {
+                    (safe_until, What::Unresolved(reason))
+                }
+                _ => return None,
+            },
+        };
+        Some(Event {
+            // Bits of times are compared, and those of a negative zero are no time.
+            time: time + 0.0,
+            bodies,
+            what,
+        })
+    }
+
+    pub(super) fn refused(bodies: [usize; 2], error: InputError) -> Self {
+        Event {
+            time: 0.0,
+            bodies,
+            what: What::Refused(error),
+        }
+    }
+
+    /// Compares by time, and then by indices.
+    pub(super) fn order(&self, other: &Event) -> Ordering {
+        (self.time.total_cmp(&other.time)).then(self.bodies.cmp(&other.bodies))
+    }
+
+    pub(super) fn impact(&self) -> Result<Impact, PairError> {
+        let bodies = self.bodies;
+        let error = match &self.what {
+            What::Hit(hit) => return Ok(Impact { bodies, hit: *hit }),
+            What::Refused(error) => error.clone().into(),
+            &What::Unresolved(reason) => Error::Unresolved {
+                safe_until: self.time,
+                reason,
+            },
+        };
+        Err(PairError { bodies, error })
+    }
+}

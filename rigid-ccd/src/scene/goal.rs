@@ -1,0 +1,65 @@
+//! What is asked of a scene, and so until when a pair matters.
+
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// What is asked, with the times of the earliest events so far.
+pub(super) enum Goal {
+    /// The first contact of all.
+    First(Earliest),
+    /// The first contact of each body.
+    OfEach(Vec<Earliest>),
+    /// The first contact of each pair.
+    All,
+}
+
+impl Goal {
+    pub(super) fn first() -> Self {
+        Goal::First(Earliest::default())
+    }
+
+    pub(super) fn of_each(bodies: usize) -> Self {
+        Goal::OfEach((0..bodies).map(|_| Earliest::default()).collect())
+    }
+
+    /// Returns the time until which the pair may matter, itself included.
+    pub(super) fn limit(&self, [a, b]: [usize; 2]) -> f64 {
+        match self {
+            Goal::First(earliest) => earliest.time(),
+            Goal::OfEach(earliest) => {
+                let [a, b] = [earliest[a].time(), earliest[b].time()];
+                if a > b { a } else { b }
+            }
+            Goal::All => f64::INFINITY,
+        }
+    }
+
+    pub(super) fn record(&self, [a, b]: [usize; 2], time: f64) {
+        match self {
+            Goal::First(earliest) => earliest.record(time),
+            Goal::OfEach(earliest) => [a, b].iter().for_each(|&k| earliest[k].record(time)),
+            Goal::All => {}
+        }
+    }
+}
+
+/// The earliest time that any thread recorded; infinite if none did.
+///
+/// It only saves work: what a thread does not see yet is proven further than needed.
+pub(super) struct Earliest(AtomicU64);
+
+impl Earliest {
+    fn time(&self) -> f64 {
+        f64::from_bits(self.0.load(Ordering::Relaxed))
+    }
+
+    /// Times are not negative: their bits order as they do.
+    fn record(&self, time: f64) {
+        self.0.fetch_min(time.to_bits(), Ordering::Relaxed);
+    }
+}
+
+impl Default for Earliest {
+    fn default() -> Self {
+        Earliest(AtomicU64::new(f64::INFINITY.to_bits()))
+    }
+}

@@ -1,0 +1,46 @@
+//! The pairs of bodies that may touch: those whose boxes meet.
+
+use ccd_core::SweptBox;
+use parry3d_f64::bounding_volume::Aabb;
+use parry3d_f64::math::Vector;
+use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy, BvhWorkspace};
+
+/// Returns the pairs of boxes that meet, in order, each with the lower index first.
+///
+/// # Guarantee
+/// All pairs, whatever the tree is like: a box that it does not hold is compared with all others.
+pub(super) fn meeting(boxes: &[SweptBox]) -> Vec<[usize; 2]> {
+    let corner = |point: ccd_core::glam::DVec3| Vector::from_array(point.to_array());
+    let leaves = boxes
+        .iter()
+        .map(|swept| Aabb::new(corner(swept.min), corner(swept.max)));
+    let leaves: Vec<Aabb> = leaves.collect();
+    let tree = Bvh::from_leaves(BvhBuildStrategy::Binned, &leaves);
+    let mut pairs = Vec::new();
+    tree.traverse_bvtt_single_tree::<false>(&mut BvhWorkspace::default(), &mut |a, b| {
+        pairs.push(ordered(a as usize, b as usize));
+    });
+    for (lost, leaf) in leaves.iter().enumerate() {
+        if !holds(&tree, lost, leaf) {
+            let others = (0..boxes.len()).filter(|&other| other != lost);
+            pairs.extend(others.map(|other| ordered(lost, other)));
+        }
+    }
+    pairs.retain(|&[a, b]| boxes[a].meets(&boxes[b]));
+    pairs.sort_unstable();
+    pairs.dedup();
+    pairs
+}
+
+/// Returns whether all nodes above a leaf contain its box. A search for boxes that meet it does not pass it by then.
+fn holds(tree: &Bvh, index: usize, leaf: &Aabb) -> bool {
+    let mut leaves = tree.leaves(|node| node.contains_aabb(leaf));
+    leaves.any(|held| held as usize == index)
+}
+
+fn ordered(a: usize, b: usize) -> [usize; 2] {
+    if a < b { [a, b] } else { [b, a] }
+}
+
+#[cfg(test)]
+mod tests;

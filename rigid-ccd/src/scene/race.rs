@@ -1,0 +1,161 @@
+//! The pairs of a scene, side by side in time: the one that is proven least far goes on next.
+
+use super::event::Event;
+use super::goal::Goal;
+use ccd_core::order::{greater, lesser};
+use ccd_core::schedule::{BestFirst, FirstContact, Progress};
+use ccd_core::{InputError, Problem};
+use ccd_distance_gjk::Direct;
+use std::cmp::{Ordering, Reverse};
+use std::collections::BinaryHeap;
+use std::sync::{Mutex, PoisonError};
+
+/// The share of the duration that a pair is proven for at a time, unless all others are ahead by more. Shares so
+/// large that pairs are seldom put aside, and so small that little is proven beyond the answer.
+const SLICE: f64 = 1.0 / 16.0;
+
+/// The searches whose memory a worker keeps; scenes with more pairs under way at a time are rare.
+const MOST_SPARE: usize = 1024;
+
+/// Some pairs of bodies, and those of them that wait for their turn.
+pub(super) struct Race<'r, 'a> {
+    problem: &'r (dyn Fn([usize; 2]) -> Result<Problem<'a>, InputError> + Sync),
+    duration: f64,
+    goal: &'r Goal,
+    waiting: Mutex<BinaryHeap<Reverse<Runner<'a>>>>,
+}
+
+/// A pair that is proven apart until a time.
+struct Runner<'a> {
+    time: f64,
+    pair: [usize; 2],
+    /// None before the first step.
+    search: Option<Box<FirstContact<'a, Direct>>>,
+}
+
+impl<'r, 'a> Race<'r, 'a> {
+    pub(super) fn new(
+        pairs: &[[usize; 2]],
+        problem: &'r (dyn Fn([usize; 2]) -> Result<Problem<'a>, InputError> + Sync),
+        duration: f64,
+        goal: &'r Goal,
+    ) -> Self {
+        let runner = |&pair| {
+            Reverse(Runner {
+                time: 0.0,
+                pair,
+                search: None,
+            })
+        };
+        Race {
+            problem,
+            duration,
+            goal,
+            waiting: Mutex::new(pairs.iter().map(runner).collect()),
+        }
+    }
+
+    /// Returns the pair that is proven least far, and the time until which all others are proven.
+    fn next(&self) -> Option<(Runner<'a>, f64)> {
+        let mut waiting = self.waiting.lock().unwrap_or_else(PoisonError::into_inner);
+        let Reverse(runner) = waiting.pop()?;
+        let others = waiting.peek().map_or(f64::INFINITY, |other| other.0.time);
+        Some((runner, others))
+    }
+
+    fn put_back(&self, runner: Runner<'a>) {
+        let mut waiting = self.waiting.lock().unwrap_or_else(PoisonError::into_inner);
+        waiting.push(Reverse(runner));
+    }
+
+    /// Returns how far to prove a pair that is to be followed until `limit`; later than its time.
+    fn until(&self, time: f64, others: f64, limit: f64) -> f64 {
+        let slice = greater(others, time + SLICE * self.duration);
+        let until = match self.goal {
+            Goal::All => f64::INFINITY,
+            Goal::First(_) | Goal::OfEach(_) => lesser(slice, limit.next_up()),
+        };
+        // Durations may be too short for slices.
+        if until > time { until } else { f64::INFINITY }
+    }
+}
+
+/// What a thread keeps from call to call.
+#[derive(Default)]
+pub(super) struct Worker {
+    oracle: Direct,
+    spare: Vec<BestFirst<Direct>>,
+}
+
+impl Worker {
+    /// Takes one pair after another, until none waits, and returns what was found.
+    pub(super) fn run(&mut self, race: &Race<'_, '_>) -> Vec<Event> {
+        let mut events = Vec::new();
+        while let Some((runner, others)) = race.next() {
+            let Runner { time, pair, search } = runner;
+            let limit = race.goal.limit(pair);
+            // What comes later is not asked for.
+            if time > limit {
+                self.keep(search);
+                continue;
+            }
+            let mut search = match search {
+                Some(search) => search,
+                None => match (race.problem)(pair) {
+                    Ok(problem) => Box::new(FirstContact::new(
+                        problem,
+                        self.spare.pop().unwrap_or_default(),
+                    )),
+                    Err(error) => {
+                        race.goal.record(pair, 0.0);
+                        events.push(Event::refused(pair, error));
+                        continue;
+                    }
+                },
+            };
+            match search.advance(&mut self.oracle, race.until(time, others, limit)) {
+                Progress::ApartUntil(time) => race.put_back(Runner {
+                    time,
+                    pair,
+                    search: Some(search),
+                }),
+                Progress::Answered(answer) => {
+                    self.keep(Some(search));
+                    if let Some(event) = Event::answered(pair, &answer) {
+                        race.goal.record(pair, event.time);
+                        events.push(event);
+                    }
+                }
+            }
+        }
+        events
+    }
+
+    fn keep(&mut self, search: Option<Box<FirstContact<'_, Direct>>>) {
+        if let Some(search) = search
+            && self.spare.len() < MOST_SPARE
+        {
+            self.spare.push(search.into_memory());
+        }
+    }
+}
+
+impl Ord for Runner<'_> {
+    fn cmp(&self, other: &Self) -> Ordering {
+        (self.time.total_cmp(&other.time)).then(self.pair.cmp(&other.pair))
+    }
+}
+
+impl PartialOrd for Runner<'_> {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Eq for Runner<'_> {}
+
+impl PartialEq for Runner<'_> {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other).is_eq()
+    }
+}

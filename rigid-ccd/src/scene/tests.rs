@@ -1,0 +1,348 @@
+//! Scenes against all pairs asked one by one.
+
+use super::*;
+use crate::{Error, Hit, HitKind, Limit, Pieces, Solver, StartPolicy, Volume};
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64;
+use std::collections::BTreeMap;
+use std::sync::atomic::Ordering;
+use std::time::Duration;
+
+/// A body, its motion, whether it is fixed, and its groups.
+type Part = (usize, Motion, Mobility, Groups);
+
+/// Bodies of all kinds; the last one is a wide terrain.
+fn bodies(rng: &mut Pcg64) -> Vec<Body> {
+    let mut bodies = vec![
+        Body::ball(0.4).unwrap(),
+        Body::cuboid([0.3, 0.5, 0.2]).unwrap(),
+        Body::capsule(0.1, 0.9).unwrap(),
+    ];
+    let mut soup = |triangles: usize, size: f64, spread: f64| {
+        let mut any =
+            |size: f64| DVec3::from_array(std::array::from_fn(|_| rng.random_range(-size..size)));
+        let points: Vec<DVec3> = (0..triangles)
+            .flat_map(|_| {
+                let middle = any(spread) * DVec3::new(1.0, 1.0, 0.05);
+                [(); 3].map(|()| middle + any(size))
+            })
+            .collect();
+        let faces: Vec<[u32; 3]> = (0..triangles as u32)
+            .map(|k| [3 * k, 3 * k + 1, 3 * k + 2])
+            .collect();
+        let ids: Vec<u32> = (0..triangles as u32).collect();
+        Body::new(
+            &Pieces::triangles(&points, &faces, &ids).unwrap(),
+            Volume::Surface,
+        )
+        .unwrap()
+    };
+    bodies.push(soup(20, 0.3, 0.4));
+    bodies.push(soup(200, 0.5, 8.0));
+    bodies
+}
+
+fn parts(rng: &mut Pcg64, kinds: usize, count: usize) -> Vec<Part> {
+    let any = |rng: &mut Pcg64, size: f64| {
+        DVec3::from_array(std::array::from_fn(|_| rng.random_range(-size..=size)))
+    };
+    (0..count)
+        .map(|k| {
+            let mobility = match k % 7 {
+                0 => Mobility::Fixed,
+                _ => Mobility::Moving,
+            };
+            let kind = if k == 0 {
+                kinds - 1
+            } else {
+                rng.random_range(0..kinds - 1)
+            };
+            let pose = Pose::at(any(rng, 4.0)).unwrap();
+            let speed = [0.0, 3.0, 20.0][rng.random_range(0..3)];
+            let motion = match mobility {
+                Mobility::Fixed => Motion::still(pose),
+                Mobility::Moving => {
+                    Motion::new(pose, any(rng, speed), any(rng, 0.5 * speed)).unwrap()
+                }
+            };
+            let groups = match rng.random_range(0..5) {
+                0 => Groups {
+                    memberships: rng.random_range(0..4),
+                    filter: rng.random_range(0..4),
+                },
+                _ => Groups::ALL,
+            };
+            (kind, motion, mobility, groups)
+        })
+        .collect()
+}
+
+fn scene<'a>(bodies: &'a [Body], parts: &[Part], threads: usize, config: Config) -> Scene<'a> {
+    let mut scene = Scene::with_threads(NonZeroUsize::new(threads).unwrap())
+        .with_config(config)
+        .with_filter(|a, b| (a + b) % 11 != 3);
+    for &(kind, motion, mobility, groups) in parts {
+        let index = match mobility {
+            Mobility::Fixed => scene.add_fixed(&bodies[kind], motion.start()),
+            Mobility::Moving => scene.add(&bodies[kind], motion),
+        };
+        scene.set_groups(index, groups);
+    }
+    scene
+}
+
+/// All pairs that are asked for, one by one: the time, the pair, and the result.
+fn one_by_one(
+    bodies: &[Body],
+    parts: &[Part],
+    config: Config,
+    duration: f64,
+) -> Vec<(f64, [usize; 2], Result<Hit, Limit>)> {
+    let mut solver = Solver::new().with_config(config);
+    let mut found = Vec::new();
+    let boxes_meet = |a: usize, b: usize| {
+        let swept = |k: usize| {
+            let (body, motion, ..) = parts[k];
+            let moving = Moving::from((&bodies[body], motion));
+            moving.swept_box(duration, &config).unwrap()
+        };
+        swept(a).meets(&swept(b))
+    };
+    for b in 0..parts.len() {
+        for a in 0..b {
+            let [
+                (of_a, motion_a, fixed_a, groups_a),
+                (of_b, motion_b, fixed_b, groups_b),
+            ] = [parts[a], parts[b]];
+            let shares = |x: Groups, y: Groups| x.memberships & y.filter != 0;
+            let asked = (fixed_a, fixed_b) != (Mobility::Fixed, Mobility::Fixed)
+                && shares(groups_a, groups_b)
+                && shares(groups_b, groups_a)
+                && (a + b) % 11 != 3;
+            if asked {
+                match solver.first_contact(
+                    (&bodies[of_a], motion_a),
+                    (&bodies[of_b], motion_b),
+                    duration,
+                ) {
+                    Ok(None) => {}
+                    Ok(Some(hit)) => found.push((hit.time, [a, b], Ok(hit))),
+                    // Boxes tell bodies apart without a budget.
+                    Err(Error::Unresolved { .. }) if !boxes_meet(a, b) => {}
+                    Err(Error::Unresolved { safe_until, reason }) => {
+                        found.push((safe_until, [a, b], Err(reason)));
+                    }
+                    Err(error) => panic!("{error}"),
+                }
+            }
+        }
+    }
+    found.sort_by(|x, y| x.0.total_cmp(&y.0).then(x.1.cmp(&y.1)));
+    found
+}
+
+fn same(
+    found: &Result<Impact, PairError>,
+    expected: &(f64, [usize; 2], Result<Hit, Limit>),
+) -> bool {
+    let (time, bodies, what) = expected;
+    match (found, what) {
+        (Ok(impact), Ok(hit)) => impact.bodies == *bodies && impact.hit == *hit,
+        (
+            Err(PairError {
+                bodies: pair,
+                error: Error::Unresolved { safe_until, reason },
+            }),
+            Err(limit),
+        ) => pair == bodies && safe_until == time && reason == limit,
+        _ => false,
+    }
+}
+
+#[test]
+fn answers_are_those_of_all_pairs_one_by_one_on_any_number_of_threads() {
+    let mut rng = Pcg64::seed_from_u64(1);
+    let (mut contacts, mut starts, mut limits, mut none) = (0, 0, 0, 0);
+    for round in 0..240 {
+        let bodies = bodies(&mut rng);
+        let parts = parts(&mut rng, bodies.len(), 2 + round % 50);
+        let config = Config {
+            tolerance: 1e-4,
+            margin: [0.0, 0.0, 0.2][round % 3],
+            start: [StartPolicy::Report, StartPolicy::Leave][round % 2],
+            budget: [u64::MAX, 30][usize::from(round % 5 == 4)],
+            ..Config::default()
+        };
+        let duration = [1.0, 0.02, 1.0, 1.0][round % 4];
+        let expected = one_by_one(&bodies, &parts, config, duration);
+        for threads in [1, 2, 5] {
+            let mut scene = scene(&bodies, &parts, threads, config);
+            // Twice: nothing is left of the last call.
+            for _ in 0..2 {
+                let all = scene.contacts(duration);
+                assert_eq!(all.len(), expected.len(), "{round}");
+                assert!(
+                    all.iter()
+                        .zip(&expected)
+                        .all(|(found, expected)| same(found, expected)),
+                    "{round}"
+                );
+
+                match (scene.first_contact(duration).transpose(), expected.first()) {
+                    (Some(first), Some(expected)) => assert!(same(&first, expected), "{round}"),
+                    (first, expected) => assert!(first.is_none() && expected.is_none(), "{round}"),
+                }
+
+                let mut firsts = BTreeMap::new();
+                for event in &expected {
+                    for index in event.1 {
+                        firsts.entry(index).or_insert(event);
+                    }
+                }
+                let each = scene.first_contact_of_each(duration);
+                assert_eq!(each.len(), parts.len());
+                for (index, found) in each.into_iter().enumerate() {
+                    match (found.transpose(), firsts.get(&index)) {
+                        (Some(found), Some(expected)) => {
+                            assert!(same(&found, expected), "{round} {index}")
+                        }
+                        (found, expected) => {
+                            assert!(found.is_none() && expected.is_none(), "{round} {index}");
+                            none += 1;
+                        }
+                    }
+                }
+            }
+        }
+        for (_, _, what) in &expected {
+            match what {
+                Ok(Hit {
+                    kind: HitKind::Contact,
+                    ..
+                }) => contacts += 1,
+                Ok(_) => starts += 1,
+                Err(_) => limits += 1,
+            }
+        }
+    }
+    assert!(
+        contacts > 500 && starts > 100 && limits > 10 && none > 100,
+        "{contacts} {starts} {limits} {none}"
+    );
+}
+
+#[test]
+fn a_step_begins_where_the_last_one_ended() {
+    let ball = Body::ball(0.5).unwrap();
+    let mut scene = Scene::new();
+    scene.add_fixed(&ball, Pose::IDENTITY);
+    let falls = |height: f64| {
+        Motion::new(
+            Pose::at([0.0, 0.0, height]).unwrap(),
+            [0.0, 0.0, -1.0],
+            [0.0; 3],
+        )
+        .unwrap()
+    };
+    let falling = scene.add(&ball, falls(3.0));
+    assert!(scene.first_contact(1.0).unwrap().is_none());
+    scene.set_motion(falling, falls(2.0));
+    assert!(scene.first_contact(0.5).unwrap().is_none());
+    let time = scene.first_contact(1.0).unwrap().unwrap().hit.time;
+    assert!(time <= 1.0 && time > 0.998, "{time}");
+    scene.clear();
+    assert!(scene.is_empty() && scene.first_contact(1.0).unwrap().is_none());
+    assert!(scene.first_contact_of_each(1.0).is_empty() && scene.contacts(1.0).is_empty());
+}
+
+#[test]
+fn what_is_out_of_range_is_told_of_its_pairs_alone() {
+    let ball = Body::ball(0.5).unwrap();
+    let mut scene = Scene::new();
+    let flies = |x: f64, speed: f64| {
+        Motion::new(
+            Pose::at([x, 0.0, 0.0]).unwrap(),
+            [speed, 0.0, 0.0],
+            [0.0; 3],
+        )
+        .unwrap()
+    };
+    scene.add(&ball, flies(0.0, 2.0));
+    scene.add(&ball, flies(2.0, 0.0));
+    let too_fast = scene.add(&ball, flies(9.0, 1e13));
+    let contacts = scene.contacts(1.0);
+    let (wrong, right): (Vec<_>, Vec<_>) = contacts.into_iter().partition(Result::is_err);
+    assert_eq!((wrong.len(), right.len()), (2, 1));
+    for error in wrong.into_iter().filter_map(Result::err) {
+        assert!(
+            error.bodies.contains(&too_fast) && matches!(error.error, Error::Input(_)),
+            "{error}"
+        );
+        assert!(
+            error.to_string().contains("bodies") && error.to_string().contains("travel"),
+            "{error}"
+        );
+    }
+    assert!(scene.first_contact(-1.0).is_err() && scene.first_contact(f64::NAN).is_err());
+    // Of a duration of 0 only the start is asked.
+    assert!(scene.first_contact(0.0).unwrap().is_none());
+    scene.add(&ball, flies(2.5, 0.0));
+    assert_eq!(scene.first_contact(0.0).unwrap().unwrap().bodies, [1, 3]);
+}
+
+#[test]
+fn durations_of_any_length_end() {
+    let (ball, wall) = (
+        Body::ball(0.5).unwrap(),
+        Body::cuboid([0.1, 99.0, 99.0]).unwrap(),
+    );
+    for duration in [5e-324, 1e-300, 1e-9, 1.0, 1e9, 1e300] {
+        let mut scene = Scene::new();
+        scene.add_fixed(&wall, Pose::IDENTITY);
+        for k in 0..40 {
+            let pose = Pose::at([-3.0, 0.0, f64::from(k) * 1.5]).unwrap();
+            let velocity = [4.0 / duration, 0.0, 0.0].map(|x: f64| x.clamp(-1e300, 1e300));
+            scene.add(&ball, Motion::new(pose, velocity, [0.0; 3]).unwrap());
+        }
+        // Velocities are finite: in the shortest durations nothing gets there.
+        let gets_there = duration > 1e-290;
+        let first = scene.first_contact(duration).unwrap();
+        assert_eq!(first.is_some(), gets_there, "{duration:e}");
+    }
+}
+
+#[test]
+fn deadlines_and_flags_end_scenes_with_safe_times() {
+    let mut rng = Pcg64::seed_from_u64(3);
+    let bodies = bodies(&mut rng);
+    let parts = parts(&mut rng, bodies.len(), 60);
+    let config = Config {
+        deadline: Some(Duration::ZERO),
+        ..Config::default()
+    };
+    let whole = one_by_one(&bodies, &parts, Config::default(), 1.0);
+    let first = whole[0].0;
+    for error in scene(&bodies, &parts, 2, config)
+        .contacts(1.0)
+        .into_iter()
+        .filter_map(Result::err)
+    {
+        let Error::Unresolved { safe_until, reason } = error.error else {
+            panic!("{error}")
+        };
+        assert!(
+            reason == Limit::Deadline
+                && whole
+                    .iter()
+                    .all(|(time, pair, _)| *pair != error.bodies || safe_until <= *time)
+        );
+    }
+    let stop = Arc::new(AtomicBool::new(true));
+    let mut stopped = scene(&bodies, &parts, 2, Config::default()).with_stop(&stop);
+    let error = stopped.first_contact(1.0).expect_err("stopped at once");
+    assert!(
+        matches!(error.error, Error::Unresolved { safe_until, reason: Limit::Stopped } if safe_until <= first)
+    );
+    stop.store(false, Ordering::Relaxed);
+    assert!(stopped.first_contact(1.0).is_ok());
+}
