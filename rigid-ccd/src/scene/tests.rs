@@ -204,7 +204,7 @@ fn answers_are_those_of_all_pairs_one_by_one_on_any_number_of_threads() {
                 for (index, found) in each.into_iter().enumerate() {
                     match (found.transpose(), firsts.get(&index)) {
                         (Some(found), Some(expected)) => {
-                            assert!(same(&found, expected), "{round} {index}")
+                            assert!(same(&found, expected), "{round} {index}");
                         }
                         (found, expected) => {
                             assert!(found.is_none() && expected.is_none(), "{round} {index}");
