@@ -1,0 +1,87 @@
+//! The peer's nonlinear casts of the same pairs, and what they are worth.
+
+use crate::flight::{STEP, Shape};
+use ccd_bench::method::peer::parry::double::shapes::{pose, rigid_motion};
+use ccd_core::Motion;
+use parry3d_f64::query::{cast_shapes_nonlinear, distance};
+use parry3d_f64::shape::SharedShape;
+use rigid_ccd::Impact;
+use std::sync::mpsc::channel;
+use std::time::{Duration, Instant};
+
+/// The time after which the peer is taken not to return.
+const PATIENCE: Duration = Duration::from_millis(500);
+
+/// What came of the casts of many pairs.
+#[derive(Default)]
+pub(crate) struct Tally {
+    pub(crate) pairs: usize,
+    pub(crate) agree: usize,
+    /// The peer's time is later than that of a contact that its own distance confirms.
+    pub(crate) late: usize,
+    /// The peer has no contact, or nothing to say, where its own distance confirms one.
+    pub(crate) missed: usize,
+    /// The peer has a contact where its own distance is more than the tolerance.
+    pub(crate) early: usize,
+    /// A contact of ours that the peer's distance does not confirm.
+    pub(crate) unconfirmed: usize,
+    /// A contact of the peer's, confirmed by its own distance, before which we say nothing.
+    pub(crate) later_than_peer: usize,
+    pub(crate) hung: usize,
+    pub(crate) time: Duration,
+}
+
+/// Casts a pair, in a thread of its own: some casts do not return. Returns the time of the contact, if there is one.
+fn cast(motions: [&Motion; 2], shapes: [&SharedShape; 2]) -> Option<(Duration, Option<f64>)> {
+    let (sender, receiver) = channel();
+    let motions = motions.map(rigid_motion);
+    let shapes = shapes.map(SharedShape::clone);
+    std::thread::spawn(move || {
+        let begun = Instant::now();
+        let [a, b] = &shapes;
+        let hit = cast_shapes_nonlinear(&motions[0], &**a, &motions[1], &**b, 0.0, STEP, true);
+        let time = hit.ok().flatten().map(|hit| hit.time_of_impact);
+        // Nobody waits for an answer that is too late.
+        let _ = sender.send((begun.elapsed(), time));
+    });
+    receiver.recv_timeout(PATIENCE).ok()
+}
+
+impl Tally {
+    /// Casts a pair, and compares the answer with ours. Contacts are within `tolerance`.
+    pub(crate) fn add(
+        &mut self,
+        motions: [&Motion; 2],
+        shapes: [&Shape; 2],
+        ours: Option<&Impact>,
+        tolerance: f64,
+    ) {
+        self.pairs += 1;
+        let Some((time, theirs)) = cast(motions, shapes.map(|shape| &shape.peer)) else {
+            self.hung += 1;
+            return;
+        };
+        self.time += time;
+        let gap = |time: f64| {
+            let [a, b] = [0, 1].map(|k| (pose(motions[k], time), &*shapes[k].peer));
+            distance(&a.0, a.1, &b.0, b.1).map_or(f64::INFINITY, |found| found.distance)
+        };
+        // Its distances are rounded.
+        let confirmed = |time: f64| gap(time) <= tolerance + 1e-7;
+        let ours = ours.map(|impact| impact.hit.time);
+        // Bodies approach by at most the tolerance between the two times.
+        let near = |x: f64, y: f64| (x - y).abs() <= 1e-3 * STEP || (confirmed(x) && confirmed(y));
+        match (ours, theirs) {
+            (None, None) => self.agree += 1,
+            (Some(ours), Some(theirs)) if near(ours, theirs) => self.agree += 1,
+            (Some(ours), theirs) if !confirmed(ours) => {
+                self.unconfirmed += 1;
+                let _ = theirs;
+            }
+            (Some(_), None) => self.missed += 1,
+            (Some(ours), Some(theirs)) if theirs > ours => self.late += 1,
+            (_, Some(theirs)) if confirmed(theirs) => self.later_than_peer += 1,
+            (_, Some(_)) => self.early += 1,
+        }
+    }
+}
